@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "reference/configuration.hpp"
+
+namespace touchstone {
+
+/// The name of one sampled configuration: "cylinder-box/near-parallel-1e-6/42/137".
+struct Identity {
+  Pair pair;
+  std::string pose_class;
+  std::uint64_t seed;
+  std::uint64_t index;
+
+  bool operator==(const Identity&) const = default;
+};
+
+std::string to_string(const Identity& identity);
+
+/// Reads what to_string wrote. Throws InvalidInput that names the part, its value and, for pairs
+/// and classes, those there are.
+Identity parse_identity(std::string_view text);
+
+/// Names of the pose classes of a pair, in report order.
+const std::vector<std::string>& pose_classes(Pair pair);
+
+/// One sentence: which geometry the class makes and why it is hard.
+std::string_view describe_pose_class(Pair pair, std::string_view pose_class);
+
+/// The configuration of that identity: the same bits on every call, alone, in constant time.
+Configuration make_configuration(const Identity& identity);
+
+}  // namespace touchstone

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <array>
+#include <cassert>
+#include <span>
+
+#include "shape.hpp"
+
+namespace touchstone {
+
+/// One point of a contact manifold, in the world frame.
+struct ContactPoint {
+  Vec3 position;  ///< Halfway between the two surfaces along the contact normal, metres.
+  double depth;   ///< Penetration at this point, metres; negative when the surfaces are apart.
+};
+
+/// A routine's answer for one configuration.
+class Contact {
+ public:
+  static constexpr int max_points = 8;
+
+  Vec3 normal;             ///< Unit, from B to A: the way A moves to come free.
+  double signed_distance;  ///< Metres; positive apart, negative inside (minus the depth).
+
+  /// Empty when the bodies are further apart than the contact threshold.
+  std::span<const ContactPoint> points() const { return {points_.data(), count_}; }
+  void add_point(const Vec3& position, double depth) {
+    assert(count_ < max_points);
+    points_[count_++] = {position, depth};
+  }
+
+ private:
+  std::array<ContactPoint, max_points> points_;
+  std::size_t count_ = 0;
+};
+
+}  // namespace touchstone
