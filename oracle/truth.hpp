@@ -1,20 +1,12 @@
 #pragma once
 
 #include <gmpxx.h>
-#include <string>
 #include <vector>
 
+#include "oracle/enclosure.hpp"
 #include "reference/configuration.hpp"
 
 namespace touchstone::oracle {
-
-/// A proven enclosure of a real number; both ends are exact rationals.
-struct Enclosure {
-  mpq_class lo, hi;
-
-  double midpoint() const;  ///< Nearest double to the middle.
-  double width() const;     ///< hi − lo, rounded up.
-};
 
 /// How many directions reach the signed distance, as far as the enclosure can tell them apart.
 enum class Ties { unique, finite, continuum };
@@ -43,9 +35,5 @@ Enclosure gap(const Configuration& configuration, const Vec3& n, double width = 
 /// Normal regret σ − g(n) >= 0 in metres, to within `width` times the larger size, rounded to a
 /// double not below zero.
 double normal_regret(const Configuration& configuration, const Truth& truth, const Vec3& n);
-
-/// Decimal that is not above (below) the exact value, with the given number of significant digits.
-std::string decimal_below(const mpq_class& value, int digits);
-std::string decimal_above(const mpq_class& value, int digits);
 
 }  // namespace touchstone::oracle

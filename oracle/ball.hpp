@@ -1,0 +1,117 @@
+#pragma once
+
+#include <arb.h>
+#include <gmpxx.h>
+
+#include "oracle/vector3.hpp"
+
+namespace touchstone::oracle {
+
+/// A real number known to lie within a radius of a midpoint: FLINT/arb's ball arithmetic, in which
+/// every operation encloses the exact result. Johansson, "Arb: efficient arbitrary-precision
+/// midpoint-radius interval arithmetic", IEEE Trans. Computers 66(8), 2017.
+class Ball {
+ public:
+  Ball() { arb_init(value_); }
+  Ball(const Ball& other) : Ball() { arb_set(value_, other.value_); }
+  Ball(Ball&& other) noexcept : Ball() { arb_swap(value_, other.value_); }
+  Ball& operator=(const Ball& other) {
+    arb_set(value_, other.value_);
+    return *this;
+  }
+  Ball& operator=(Ball&& other) noexcept {
+    arb_swap(value_, other.value_);
+    return *this;
+  }
+  ~Ball() { arb_clear(value_); }
+
+  Ball(int exact) : Ball() { arb_set_si(value_, exact); }
+  explicit Ball(const mpz_class& exact);
+  explicit Ball(const mpq_class& exact);
+  /// The smallest ball found around [lo, hi].
+  Ball(const mpq_class& lo, const mpq_class& hi);
+
+  arb_ptr get() { return value_; }
+  arb_srcptr get() const { return value_; }
+
+  /// Exact ends of the enclosure; the ball must be finite.
+  mpq_class lower() const;
+  mpq_class upper() const;
+  double midpoint() const;
+
+  bool is_finite() const { return arb_is_finite(value_); }
+  bool contains_zero() const { return arb_contains_zero(value_); }
+  bool is_positive() const { return arb_is_positive(value_); }
+  bool is_negative() const { return arb_is_negative(value_); }
+  /// Is the width at most 2^exponent?
+  bool is_narrower_than_two_to(long exponent) const;
+
+ private:
+  arb_t value_;
+};
+
+/// Working precision in bits of every operation on balls in this thread, for the life of the
+/// object; 64 where none is alive.
+class WorkingPrecision {
+ public:
+  explicit WorkingPrecision(long bits) : previous_(current_) { current_ = bits; }
+  ~WorkingPrecision() { current_ = previous_; }
+  WorkingPrecision(const WorkingPrecision&) = delete;
+  WorkingPrecision& operator=(const WorkingPrecision&) = delete;
+
+  static long bits() { return current_; }
+
+ private:
+  static thread_local long current_;
+  long previous_;
+};
+
+inline Ball operator+(const Ball& a, const Ball& b) {
+  Ball r;
+  arb_add(r.get(), a.get(), b.get(), WorkingPrecision::bits());
+  return r;
+}
+inline Ball operator-(const Ball& a, const Ball& b) {
+  Ball r;
+  arb_sub(r.get(), a.get(), b.get(), WorkingPrecision::bits());
+  return r;
+}
+inline Ball operator-(const Ball& a) {
+  Ball r;
+  arb_neg(r.get(), a.get());
+  return r;
+}
+inline Ball operator*(const Ball& a, const Ball& b) {
+  Ball r;
+  arb_mul(r.get(), a.get(), b.get(), WorkingPrecision::bits());
+  return r;
+}
+/// Not finite when b contains zero.
+inline Ball operator/(const Ball& a, const Ball& b) {
+  Ball r;
+  arb_div(r.get(), a.get(), b.get(), WorkingPrecision::bits());
+  return r;
+}
+inline Ball abs(const Ball& a) {
+  Ball r;
+  arb_abs(r.get(), a.get());
+  return r;
+}
+/// Root of a number known to be non-negative: what the ball holds below zero is cut off.
+inline Ball sqrt(const Ball& a) {
+  Ball r;
+  arb_sqrtpos(r.get(), a.get(), WorkingPrecision::bits());
+  return r;
+}
+inline Ball square(const Ball& a) {
+  Ball r;
+  arb_sqr(r.get(), a.get(), WorkingPrecision::bits());
+  return r;
+}
+
+using BallVector = Vector3<Ball>;
+
+inline Ball norm(const BallVector& v) { return sqrt(square(v.x) + square(v.y) + square(v.z)); }
+BallVector to_balls(const Vector3<mpz_class>& v);
+
+}  // namespace touchstone::oracle

@@ -1,0 +1,236 @@
+#include "oracle/difference.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "reference/invalid_input.hpp"
+
+namespace touchstone::oracle {
+namespace {
+
+/// The power of two that makes every one of these doubles an integer.
+class DyadicScale {
+ public:
+  void include(double value) {
+    const mpz_class denominator = mpq_class(value).get_den();
+    bits_ = std::max(bits_, mpz_scan1(denominator.get_mpz_t(), 0));
+  }
+  void include(const Vec3& v) {
+    for (int i = 0; i < 3; ++i) include(v[i]);
+  }
+  Integer operator()(double value) const {
+    const mpq_class q(value);
+    return (q.get_num() << bits_) / q.get_den();
+  }
+  IntegerVector operator()(const Vec3& v) const {
+    return {(*this)(v.x()), (*this)(v.y()), (*this)(v.z())};
+  }
+  mpz_class factor() const { return mpz_class(1) << bits_; }
+
+ private:
+  mp_bitcnt_t bits_ = 0;
+};
+
+/// An exact rotation times `norm`.
+struct IntegerRotation {
+  std::array<IntegerVector, 3> columns;
+  Integer norm;
+
+  IntegerVector apply(const IntegerVector& v) const {
+    return v.x * columns[0] + v.y * columns[1] + v.z * columns[2];
+  }
+  IntegerVector apply_inverse(const IntegerVector& v) const {
+    return {dot(columns[0], v), dot(columns[1], v), dot(columns[2], v)};
+  }
+};
+
+// Euler–Rodrigues, without the division by |q|².
+IntegerRotation exact_rotation(const Eigen::Quaterniond& q) {
+  DyadicScale scale;
+  for (const double c : {q.w(), q.x(), q.y(), q.z()}) scale.include(c);
+  const Integer w = scale(q.w()), x = scale(q.x()), y = scale(q.y()), z = scale(q.z());
+  const Integer ww = w * w, xx = x * x, yy = y * y, zz = z * z;
+  const Integer wx = w * x, wy = w * y, wz = w * z, xy = x * y, xz = x * z, yz = y * z;
+  return {{IntegerVector{ww + xx - yy - zz, 2 * (xy + wz), 2 * (xz - wy)},
+           IntegerVector{2 * (xy - wz), ww - xx + yy - zz, 2 * (yz + wx)},
+           IntegerVector{2 * (xz + wy), 2 * (yz - wx), ww - xx - yy + zz}},
+          ww + xx + yy + zz};
+}
+
+Frame scaled(const Integer& factor, const Frame& frame) {
+  return {factor * frame.axis, factor * frame.e, factor * frame.f};
+}
+
+bool parallel(const IntegerVector& a, const IntegerVector& b) {
+  const IntegerVector c = cross(a, b);
+  return c.x == 0 && c.y == 0 && c.z == 0;
+}
+
+void add_segment(Difference& difference, const Frame& frame, const Integer& half_length) {
+  for (auto& s : difference.segments) {
+    if (parallel(s.frame.axis, frame.axis)) {
+      s.half_length += half_length;
+      return;
+    }
+  }
+  difference.segments.push_back({frame, half_length});
+}
+
+void add_disc(Difference& difference, const Frame& frame, const Integer& radius) {
+  for (auto& disc : difference.discs) {
+    if (parallel(disc.frame.axis, frame.axis)) {
+      disc.radius += radius;
+      return;
+    }
+  }
+  difference.discs.push_back({frame, radius});
+}
+
+/// Divides out what all directions have in common; for equal orientations that is nearly all.
+void reduce(Integer& norm, std::array<IntegerVector, 3>& columns) {
+  Integer g = norm;
+  for (const auto& c : columns) {
+    g = gcd(g, gcd(c.x, gcd(c.y, c.z)));
+  }
+  norm /= g;
+  for (auto& c : columns) c = {c.x / g, c.y / g, c.z / g};
+}
+
+struct Lengths {
+  DyadicScale scale;
+
+  void include(const Cylinder& s) { scale.include(Vec3(s.radius(), s.half_length(), 0)); }
+  void include(const Capsule& s) { scale.include(Vec3(s.radius(), s.half_length(), 0)); }
+  void include(const Sphere& s) { scale.include(s.radius()); }
+  void include(const Box& s) { scale.include(s.half_extents()); }
+  void include(const Plane& s) { scale.include(s.displacement()); }
+};
+
+}  // namespace
+
+Difference make_difference(const Configuration& c) {
+  Lengths lengths;
+  lengths.include(c.a);
+  std::visit([&](const auto& shape) { lengths.include(shape); }, c.b);
+  lengths.scale.include(c.pose_a.position());
+  lengths.scale.include(c.pose_b.position());
+  const DyadicScale& length = lengths.scale;
+
+  const IntegerRotation a = exact_rotation(c.pose_a.orientation());
+  const IntegerRotation b = exact_rotation(c.pose_b.orientation());
+
+  Difference difference;
+  difference.unit = mpq_class(mpz_class(1), length.factor());
+  for (int row = 0; row < 3; ++row) {
+    const auto entry = [row](const IntegerVector& v) {
+      return row == 0 ? v.x : row == 1 ? v.y : v.z;
+    };
+    difference.world_rows[row] = {entry(a.columns[0]), entry(a.columns[1]), entry(a.columns[2])};
+  }
+
+  // B's axes in A's frame, times norm.
+  Integer norm = a.norm * b.norm;
+  std::array<IntegerVector, 3> axes_b;
+  for (int i = 0; i < 3; ++i) axes_b[i] = a.apply_inverse(b.columns[i]);
+  reduce(norm, axes_b);
+  difference.norm = norm;
+
+  // D = A^T (cA − cB) / |qA|² in units; times norm it need not be an integer after the reduction,
+  // so the unit takes up what is missing.
+  const IntegerVector centre_world = length(c.pose_a.position()) - length(c.pose_b.position());
+  IntegerVector centre = a.apply_inverse(centre_world);
+  Integer centre_denominator = a.norm;
+  Integer finer = 1;  // integer lengths are multiplied by this, the unit divided
+
+  if (const auto* plane = std::get_if<Plane>(&c.b)) {
+    DyadicScale normal_scale;
+    normal_scale.include(plane->normal());
+    const IntegerVector n = normal_scale(plane->normal());
+    const IntegerVector normal_a = a.apply_inverse(b.apply(n));
+    difference.is_plane = true;
+    difference.plane_normal = normal_a;
+    // The plane's point nearest to B's origin, displacement · n / |n|², becomes B's centre. With
+    // n scaled by F to integers it is displacement · F · n_F / |n_F|²; in A's frame n_F turns into
+    // normal_a / (|qA|² |qB|²).
+    const Integer squared = dot(n, n);
+    const Integer offset = length(plane->displacement()) * normal_scale.factor();
+    const Integer plane_denominator = a.norm * b.norm * squared;
+    centre = (b.norm * squared) * centre - offset * normal_a;
+    centre_denominator = plane_denominator;
+  }
+  const Integer g = gcd(centre_denominator, norm);
+  finer = centre_denominator / g;
+  const Integer multiplier = norm / g;
+  difference.d = multiplier * centre;
+  difference.unit /= finer;
+
+  const auto size = [&](double value) { return Integer(length(value) * finer); };
+  const Frame frame_a = scaled(norm, {{0, 0, 1}, {1, 0, 0}, {0, 1, 0}});
+  add_segment(difference, frame_a, size(c.a.half_length()));
+  add_disc(difference, frame_a, size(c.a.radius()));
+
+  const Frame frame_b{axes_b[2], axes_b[0], axes_b[1]};
+  if (const auto* sphere = std::get_if<Sphere>(&c.b)) {
+    difference.inflation = size(sphere->radius());
+  } else if (const auto* capsule = std::get_if<Capsule>(&c.b)) {
+    add_segment(difference, frame_b, size(capsule->half_length()));
+    difference.inflation = size(capsule->radius());
+  } else if (const auto* cylinder = std::get_if<Cylinder>(&c.b)) {
+    add_segment(difference, frame_b, size(cylinder->half_length()));
+    add_disc(difference, frame_b, size(cylinder->radius()));
+  } else if (const auto* box = std::get_if<Box>(&c.b)) {
+    for (int i = 0; i < 3; ++i) {
+      const Frame edge{axes_b[i], axes_b[(i + 1) % 3], axes_b[(i + 2) % 3]};
+      add_segment(difference, edge, size(box->half_extents()[i]));
+    }
+  }
+  return difference;
+}
+
+IntegerVector in_frame_of_a(const Difference& difference, const Vec3& world) {
+  DyadicScale scale;
+  scale.include(world);
+  const IntegerVector v = scale(world);
+  const auto& rows = difference.world_rows;
+  return v.x * rows[0] + v.y * rows[1] + v.z * rows[2];
+}
+
+mpq_class width_in_units(const Difference& difference, const Configuration& configuration,
+                         double width) {
+  if (!(std::isfinite(width) && width > 0)) {
+    throw InvalidInput("width", std::to_string(width), "must be positive and finite");
+  }
+  return mpq_class(width) * mpq_class(larger_size(configuration)) / difference.unit;
+}
+
+BallDifference::BallDifference(const Difference& difference) : inflation_(difference.inflation) {
+  const Ball norm(difference.norm);
+  const auto divided = [&](const IntegerVector& v) {
+    return BallVector{Ball(v.x) / norm, Ball(v.y) / norm, Ball(v.z) / norm};
+  };
+  d_ = divided(difference.d);
+  for (const auto& s : difference.segments) {
+    segments_.push_back({divided(s.frame.axis), Ball(s.half_length)});
+  }
+  for (const auto& disc : difference.discs) {
+    discs_.push_back({divided(disc.frame.axis), Ball(disc.radius)});
+  }
+}
+
+BallDifference::Along BallDifference::along(const BallVector& n) const {
+  Ball half_width = inflation_ * oracle::norm(n);
+  for (const auto& s : segments_) half_width = half_width + s.length * abs(dot(s.axis, n));
+  for (const auto& disc : discs_) {
+    half_width = half_width + disc.length * oracle::norm(cross(disc.axis, n));
+  }
+  return {dot(d_, n), half_width};
+}
+
+Ball BallDifference::gap(const BallVector& n) const {
+  const Along a = along(n);
+  return (a.centre_distance - a.half_width) / norm(n);
+}
+
+}  // namespace touchstone::oracle
