@@ -13,7 +13,7 @@ constexpr long first_bits = 128;
 constexpr long last_bits = 1L << 16;
 
 /// The gap against the column of the half-space beneath the cylinder's circumsphere (see
-/// oracle::gap). With α between n and the plane's normal, D the centre's height and ρ the
+/// oracle::certified_gap). With α between n and the plane's normal, D the centre's height and ρ the
 /// circumradius: D cos α − h_A(n) − ρ sin α − 2ρ max(0, −cos α).
 Ball gap_above_column(const Difference& difference, const BallDifference& balls,
                       const BallVector& n) {
@@ -31,7 +31,7 @@ Ball gap_above_column(const Difference& difference, const BallDifference& balls,
 
 }  // namespace
 
-Enclosure gap(const Configuration& configuration, const Vec3& n, double width) {
+Enclosure certified_gap(const Configuration& configuration, const Vec3& n, double width) {
   if (!n.allFinite() || n.isZero(0)) {
     throw InvalidInput("n", "not a direction", "must be finite and not zero");
   }
@@ -52,7 +52,7 @@ Enclosure gap(const Configuration& configuration, const Vec3& n, double width) {
 }
 
 double normal_regret(const Configuration& configuration, const Truth& truth, const Vec3& n) {
-  const Enclosure g = gap(configuration, n);
+  const Enclosure g = certified_gap(configuration, n);
   const mpq_class middle = (truth.signed_distance.lo + truth.signed_distance.hi) / 2;
   const mpq_class regret = middle - (g.lo + g.hi) / 2;
   return std::max(0.0, regret.get_d());

@@ -30,7 +30,7 @@ Truth truth(const Configuration& configuration, double width = 1e-15);
 /// gap except along its own normal, and no engine can answer that to the last bit: for a plane, g
 /// is taken against the column of the half-space beneath the cylinder's circumsphere, two
 /// circumradii deep, so that a tilted answer costs what it is worth to this cylinder.
-Enclosure gap(const Configuration& configuration, const Vec3& n, double width = 1e-15);
+Enclosure certified_gap(const Configuration& configuration, const Vec3& n, double width = 1e-15);
 
 /// Normal regret σ − g(n) >= 0 in metres, to within `width` times the larger size, rounded to a
 /// double not below zero.

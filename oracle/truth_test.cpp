@@ -1,0 +1,212 @@
+#include "oracle/truth.hpp"
+
+#include <cmath>
+#include <random>
+#include <string>
+
+#include "oracle/expect_truth.hpp"
+#include "reference/invalid_input.hpp"
+
+namespace touchstone::oracle {
+namespace {
+
+using Quaternion = Eigen::Quaterniond;
+
+const Quaternion upright(1, 0, 0, 0);
+const Quaternion along_x(1, 0, 1, 0);  // turns z to x; its norm² is 2, not 1
+const Quaternion along_y(1, -1, 0, 0);
+
+/// Turns by arctan(24/7) about y: 2·atan(3/4), exactly, since only the ratio of an integer
+/// quaternion's entries matters.
+const Quaternion tilted_7_24(4, 0, 3, 0);
+
+bool encloses(const Truth& t, const mpq_class& exact) {
+  return t.signed_distance.lo <= exact && exact <= t.signed_distance.hi;
+}
+
+mpq_class q(const char* text) { return mpq_class(text); }
+
+// Closed forms.
+
+TEST(Truth, TiltedCylinderOverPlaneHasTheRimsHeight) {
+  // sin = 24/25, cos = 7/25: height 3 − 2·7/25 − 1·24/25.
+  const Configuration c{Cylinder(1, 2), Pose({0, 0, 3}, tilted_7_24), Plane({0, 0, 1}, 0), Pose()};
+  const Truth t = truth(c);
+  EXPECT_TRUE(encloses(t, q("37/25")));
+  EXPECT_EQ(t.ties, Ties::unique);
+  EXPECT_TRUE(t.normals.at(0).isApprox(Vec3(0, 0, 1)));
+}
+
+TEST(Truth, PlaneIsTheHalfSpaceItsNumbersSayWhateverTheNormalsLength) {
+  // 4 z <= 6 after a shift of the plane's frame by 1/2 along z: z <= 2.
+  const Configuration c{Cylinder(1, 1), Pose({5, 6, 4}, upright), Plane({0, 0, 4}, 6),
+                        Pose({7, 8, 0.5}, upright)};
+  EXPECT_TRUE(encloses(truth(c), q("1")));
+}
+
+TEST(Truth, SphereOutsideTheRimHasTheDistanceToTheRim) {
+  // 3-4-5 from the rim point (1, 0, 1), less the radius.
+  const Configuration c{Cylinder(1, 1), Pose(), Sphere(2), Pose({4, 0, 5}, upright)};
+  const Truth t = truth(c);
+  EXPECT_TRUE(encloses(t, q("3")));
+  EXPECT_TRUE(t.normals.at(0).isApprox(Vec3(-0.6, 0, -0.8)));
+}
+
+TEST(Truth, SphereCentreOnTheAxisTiesTheWholeCircleOfRadialNormals) {
+  const Configuration c{Cylinder(1, 8), Pose(), Sphere(0.5), Pose({0, 0, 1}, upright)};
+  const Truth t = truth(c);
+  EXPECT_TRUE(encloses(t, q("-3/2")));
+  EXPECT_EQ(t.ties, Ties::continuum);
+}
+
+TEST(Truth, SphereCentreAtTheMiddleOfACoinTiesBothCaps) {
+  const Configuration c{Cylinder(4, 1), Pose(), Sphere(0.5), Pose()};
+  const Truth t = truth(c);
+  EXPECT_TRUE(encloses(t, q("-3/2")));
+  EXPECT_EQ(t.ties, Ties::finite);
+  EXPECT_EQ(t.normals.size(), 2u);
+}
+
+TEST(Truth, ParallelCylindersSideBySide) {
+  const Configuration c{Cylinder(1, 2), Pose({3, 4, 1}, along_x), Cylinder(0.5, 1),
+                        Pose({3, 1, 5}, along_x)};
+  // Across x the axes are 3-4-5 apart.
+  const Truth t = truth(c);
+  EXPECT_TRUE(encloses(t, q("7/2")));
+  EXPECT_EQ(t.ties, Ties::unique);
+}
+
+TEST(Truth, CrossedCylindersTouchExactly) {
+  const Configuration c{Cylinder(1, 5), Pose({0, 0, 1.5}, along_x), Cylinder(0.5, 5),
+                        Pose({0, 0, 0}, along_y)};
+  const Truth t = truth(c);
+  EXPECT_TRUE(encloses(t, 0));
+  EXPECT_EQ(t.ties, Ties::unique);
+  EXPECT_TRUE(t.normals.at(0).isApprox(Vec3(0, 0, 1)));
+}
+
+TEST(Truth, CapInsideCapPenetratesByTheOverlapOfLengths) {
+  const Configuration c{Cylinder(1, 1), Pose({0.25, 0, 2.75}, upright), Cylinder(2, 2), Pose()};
+  EXPECT_TRUE(encloses(truth(c), q("-1/4")));
+}
+
+TEST(Truth, CapsuleEndOverTheRim) {
+  // Segment end at (4, 0, 5), 3-4-5 from the rim; the capsule points away.
+  const Configuration c{Cylinder(1, 1), Pose(), Capsule(0.5, 1), Pose({4, 0, 6}, upright)};
+  EXPECT_TRUE(encloses(truth(c), q("9/2")));
+}
+
+TEST(Truth, BoxCornerAgainstSide) {
+  // The box's edge at x = 3, y = 4 from the axis.
+  const Configuration c{Cylinder(1, 3), Pose(), Box({1, 1, 1}), Pose({4, 5, 0}, upright)};
+  const Truth t = truth(c);
+  EXPECT_TRUE(encloses(t, q("4")));
+  EXPECT_TRUE(t.normals.at(0).isApprox(Vec3(-0.6, -0.8, 0)));
+}
+
+TEST(Truth, ExactWhateverTheQuaternionsLength) {
+  const Configuration one{Cylinder(0.3, 0.7), Pose({1, 0, 0}, Quaternion(1, 2, 3, 4)),
+                          Box({0.2, 0.3, 0.4}), Pose({0, 0, 0}, Quaternion(5, -1, 2, 2))};
+  const Configuration other{
+      Cylinder(0.3, 0.7), Pose({1, 0, 0}, Quaternion(-1024, -2048, -3072, -4096)),
+      Box({0.2, 0.3, 0.4}), Pose({0, 0, 0}, Quaternion(0.625, -0.125, 0.25, 0.25))};
+  const Enclosure x = truth(one).signed_distance, y = truth(other).signed_distance;
+  EXPECT_EQ(x.lo, y.lo);
+  EXPECT_EQ(x.hi, y.hi);
+}
+
+TEST(Truth, PowerOfTwoScalingScalesTheEnclosureExactly) {
+  const double s = std::ldexp(1, -40);
+  const Quaternion tilt(3, 1, 2, 1);
+  const Configuration one{Cylinder(0.3, 0.7), Pose({0.5, 0.25, 0.1}, tilt), Cylinder(0.4, 0.2),
+                          Pose()};
+  const Configuration small{Cylinder(0.3 * s, 0.7 * s), Pose(s * Vec3(0.5, 0.25, 0.1), tilt),
+                            Cylinder(0.4 * s, 0.2 * s), Pose()};
+  const Enclosure x = truth(one).signed_distance, y = truth(small).signed_distance;
+  EXPECT_EQ(mpq_class(x.lo * mpq_class(s)), y.lo);
+  EXPECT_EQ(mpq_class(x.hi * mpq_class(s)), y.hi);
+}
+
+TEST(Truth, WidthIsKeptDownToTenToTheMinusSixty) {
+  const Configuration c{Cylinder(0.3, 0.7), Pose({0.5, 0.25, 0.1}, Quaternion(3, 1, 2, 1)),
+                        Cylinder(0.4, 0.2), Pose()};
+  const Truth t = truth(c, 1e-60);
+  EXPECT_LE(t.signed_distance.hi - t.signed_distance.lo, mpq_class(1e-60));
+  const Truth coarse = truth(c, 1e-6);
+  EXPECT_LE(coarse.signed_distance.lo, t.signed_distance.lo);
+  EXPECT_GE(coarse.signed_distance.hi, t.signed_distance.hi);
+}
+
+TEST(Truth, RefusesAWidthThatIsNone) {
+  const Configuration c{Cylinder(1, 1), Pose(), Sphere(1), Pose()};
+  EXPECT_THROW(truth(c, 0), InvalidInput);
+  EXPECT_THROW(truth(c, std::nan("")), InvalidInput);
+}
+
+TEST(Truth, SurvivesTheEndsOfTheDoubleRange) {
+  const Configuration c{
+      Cylinder(1e-300, 1e300), Pose({1e308, 0, 0}, Quaternion(1e-300, 1e300, 1, 0)),
+      Box({5e-324, 1, 1e300}), Pose({-1e308, 1e-308, 0}, Quaternion(1, 1e-160, 0, 0))};
+  const Truth t = truth(c);
+  EXPECT_GT(t.signed_distance.lo, 0);
+}
+
+// Gap and regret.
+
+TEST(Gap, AlongTheOptimalNormalIsTheSignedDistance) {
+  const Configuration c{Cylinder(1, 1), Pose(), Sphere(2), Pose({4, 0, 5}, upright)};
+  const Enclosure g = certified_gap(c, Vec3(-3, 0, -4));  // any length
+  EXPECT_LE(g.lo, 3);
+  EXPECT_GE(g.hi, 3);
+  EXPECT_EQ(normal_regret(c, truth(c), Vec3(-3, 0, -4)), 0);
+}
+
+TEST(Gap, ReversedNormalRegretsTwiceTheCentresDistanceAlongIt) {
+  const Configuration c{Cylinder(1, 1), Pose({0, 0, 4}, upright), Sphere(1), Pose()};
+  EXPECT_NEAR(normal_regret(c, truth(c), Vec3(0, 0, -1)), 8, 1e-14);
+}
+
+TEST(Gap, TiltedNormalOnAPlaneCostsToFirstOrderInTheAngle) {
+  const Configuration c{Cylinder(3, 4), Pose({0, 0, 4}, upright), Plane({0, 0, 1}, 0), Pose()};
+  // D = 4, circumradius 5: regret is h_A(n) − h_A(N) + 5 sin α + D (1 − cos α), h_A = 4 cos + 3
+  // sin.
+  const double s = 0.6, co = 0.8;
+  EXPECT_NEAR(normal_regret(c, truth(c), Vec3(s, 0, co)),
+              (4 * co + 3 * s) - 4 + 5 * s + 4 * (1 - co), 1e-14);
+  EXPECT_EQ(normal_regret(c, truth(c), Vec3(0, 0, 1)), 0);
+  EXPECT_GT(normal_regret(c, truth(c), Vec3(0, 0, -1)), 8);
+}
+
+TEST(Gap, RefusesWhatIsNoDirection) {
+  const Configuration c{Cylinder(1, 1), Pose(), Sphere(1), Pose()};
+  EXPECT_THROW(certified_gap(c, Vec3::Zero()), InvalidInput);
+  EXPECT_THROW(certified_gap(c, Vec3(0, std::nan(""), 1)), InvalidInput);
+}
+
+// Random poses against brute force; the pose classes have a test of their own.
+
+TEST(Truth, NoDirectionBeatsItOnRandomPoses) {
+  std::mt19937_64 random(20261121);
+  const auto uniform = [&](double lo, double hi) {
+    return std::uniform_real_distribution<double>(lo, hi)(random);
+  };
+  const auto orientation = [&] {
+    return Quaternion(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1), uniform(-1, 1));
+  };
+  const auto size = [&] { return uniform(0.2, 1); };
+  for (int i = 0; i < 100; ++i) {
+    const Pose pose_a(Vec3(uniform(-1.5, 1.5), uniform(-1.5, 1.5), uniform(-1.5, 1.5)),
+                      orientation());
+    const Pose pose_b(Vec3::Zero(), orientation());
+    const Cylinder a(size(), size());
+    for (const Shape& b : {Shape(Sphere(size())), Shape(Capsule(size(), size())),
+                           Shape(Cylinder(size(), size())), Shape(Box({size(), size(), size()}))}) {
+      SCOPED_TRACE(std::string(shape_name(b)) + " " + std::to_string(i));
+      const Configuration c{a, pose_a, b, pose_b};
+      expect_brute_force_agrees(c, truth(c), 300);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace touchstone::oracle
