@@ -3,8 +3,8 @@
  *
  * A candidate prepares two shapes once and is then asked for many poses. Body A is the cylinder.
  * Lengths are in metres; poses map body frame to world frame; normals are unit vectors from B to A
- * in the world frame. No function may keep a pointer that it was given. One prepared pair is used by
- * one thread at a time; different pairs may be used by different threads. */
+ * in the world frame. No function may keep a pointer that it was given. One prepared pair is used
+ * by one thread at a time; different pairs may be used by different threads. */
 #ifndef TOUCHSTONE_CANDIDATE_H
 #define TOUCHSTONE_CANDIDATE_H
 

@@ -1,0 +1,106 @@
+// Our own routines (reference/), called through their public headers.
+//
+// Calls        touchstone::contact, one overload for each pair.
+// Conventions  those of candidate.h: normal from B to A, points halfway between the surfaces.
+// Threshold    handed on; a distance beyond it is answered with none.
+#include <optional>
+#include <utility>
+
+#include "candidates/entry_points.h"
+#include "reference/cylinder_box.hpp"
+#include "reference/cylinder_capsule.hpp"
+#include "reference/cylinder_cylinder.hpp"
+#include "reference/cylinder_plane.hpp"
+#include "reference/cylinder_sphere.hpp"
+
+using touchstone::Contact;
+using touchstone::Cylinder;
+using touchstone::Pose;
+using touchstone::Vec3;
+
+/// One class per pair, so that a query knows its routine without asking for the shape's kind again.
+struct ts_prepared {
+  virtual ~ts_prepared() = default;
+  virtual Contact contact(const Pose& a, const Pose& b) const = 0;
+  double threshold = 0;
+};
+
+namespace {
+
+template <class Other>
+struct Prepared : ts_prepared {
+  Prepared(const Cylinder& cylinder, Other shape) : a(cylinder), b(std::move(shape)) {}
+  Contact contact(const Pose& pose_a, const Pose& pose_b) const override {
+    return touchstone::contact(a, pose_a, b, pose_b, threshold);
+  }
+  Cylinder a;
+  Other b;
+};
+
+Pose to_pose(const ts_pose& p) {
+  const double* q = p.orientation;
+  return Pose(Vec3(p.position[0], p.position[1], p.position[2]),
+              Eigen::Quaterniond(q[0], q[1], q[2], q[3]));
+}
+
+void copy(const Vec3& from, double (&to)[3]) {
+  for (int i = 0; i < 3; ++i) to[i] = from[i];
+}
+
+int supports(ts_shape_kind) { return 1; }
+
+ts_prepared* prepare(const ts_shape* a, const ts_shape* b, double threshold) {
+  const Cylinder cylinder(a->size[0], a->size[1]);
+  const double* s = b->size;
+  ts_prepared* prepared = nullptr;
+  switch (b->kind) {
+    case TS_PLANE:
+      prepared = new Prepared(cylinder, touchstone::Plane(Vec3(s[0], s[1], s[2]), s[3]));
+      break;
+    case TS_SPHERE:
+      prepared = new Prepared(cylinder, touchstone::Sphere(s[0]));
+      break;
+    case TS_CAPSULE:
+      prepared = new Prepared(cylinder, touchstone::Capsule(s[0], s[1]));
+      break;
+    case TS_CYLINDER:
+      prepared = new Prepared(cylinder, Cylinder(s[0], s[1]));
+      break;
+    case TS_BOX:
+      prepared = new Prepared(cylinder, touchstone::Box(Vec3(s[0], s[1], s[2])));
+      break;
+  }
+  if (prepared) prepared->threshold = threshold;
+  return prepared;
+}
+
+void query(ts_prepared* prepared, const ts_pose* a, const ts_pose* b, ts_answer* answer) {
+  const Contact contact = prepared->contact(to_pose(*a), to_pose(*b));
+  answer->status = contact.signed_distance <= prepared->threshold ? TS_CONTACT : TS_NONE;
+  copy(contact.normal, answer->normal);
+  answer->signed_distance = contact.signed_distance;
+  answer->point_count = 0;
+  for (const auto& point : contact.points()) {
+    ts_point& out = answer->points[answer->point_count++];
+    copy(point.position, out.position);
+    copy(contact.normal, out.normal);
+    out.depth = point.depth;
+  }
+}
+
+void release(ts_prepared* prepared) { delete prepared; }
+
+}  // namespace
+
+extern "C" const ts_candidate* touchstone_reference(void) {
+  static const ts_candidate candidate = {
+      TOUCHSTONE_CANDIDATE_VERSION,
+      "reference",
+      TOUCHSTONE_VERSION,
+      "Touchstone's own routines, double precision; points halfway between the surfaces",
+      supports,
+      prepare,
+      query,
+      release};
+  return &candidate;
+}

@@ -1,0 +1,69 @@
+#include "cylinder_plane.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace touchstone {
+namespace {
+
+/// The plane in the world: unit normal, and the height of a point above it.
+struct WorldPlane {
+  Vec3 normal;
+  Vec3 origin;
+  double displacement;
+  WorldPlane(const Plane& plane, const Pose& pose)
+      : normal((pose.rotation() * plane.normal()).normalized()),
+        origin(pose.position()),
+        displacement(plane.displacement() / plane.normal().norm()) {}
+  double height(const Vec3& x) const { return normal.dot(x - origin) - displacement; }
+};
+
+void add_point(Contact& contact, const WorldPlane& plane, const Vec3& on_cylinder) {
+  const double height = plane.height(on_cylinder);
+  contact.add_point(on_cylinder - (height / 2) * plane.normal, -height);
+}
+
+}  // namespace
+
+// The deepest point is on the lower cap's rim. A cap stands, and a generator lies, when the rise
+// over its whole length is lost in rounding or within what the threshold leaves above the deepest
+// point.
+Contact contact(const Cylinder& a, const Pose& pose_a, const Plane& b, const Pose& pose_b,
+                double contact_threshold) {
+  const WorldPlane plane(b, pose_b);
+  const Eigen::Matrix3d rotation = pose_a.rotation();
+  const Vec3 axis = rotation.col(2);
+  const double cosine = axis.dot(plane.normal);
+  const Vec3 across = plane.normal - cosine * axis;
+  const double sine = across.norm();
+  const Vec3 down = sine > 0 ? Vec3(-across / sine) : Vec3(rotation.col(0));  // within the caps
+  const Vec3 lower_axis = cosine > 0 ? Vec3(-axis) : axis;
+
+  Contact result;
+  result.normal = plane.normal;
+  const double centre_height = plane.height(pose_a.position());
+  result.signed_distance = centre_height - a.half_length() * std::abs(cosine) - a.radius() * sine;
+  if (result.signed_distance > contact_threshold) return result;
+
+  const Vec3 cap = pose_a.position() + a.half_length() * lower_axis;
+  const Vec3 deepest = cap + a.radius() * down;
+  add_point(result, plane, deepest);
+
+  const double rounding = 16 * std::numeric_limits<double>::epsilon() *
+                          (largest_half_extent(a) + std::abs(centre_height));
+  const double slack =
+      std::max(contact_threshold - std::max(result.signed_distance, 0.0), rounding);
+  if (2 * a.radius() * sine <= slack) {
+    const Vec3 side = lower_axis.cross(down);
+    const double half = 0.5, height = std::numbers::sqrt3 / 2;  // cos 60°, sin 60°
+    add_point(result, plane, cap + a.radius() * (-half * down + height * side));
+    add_point(result, plane, cap + a.radius() * (-half * down - height * side));
+  } else if (2 * a.half_length() * std::abs(cosine) <= slack) {
+    add_point(result, plane, deepest - 2 * a.half_length() * lower_axis);
+  }
+  return result;
+}
+
+}  // namespace touchstone
