@@ -25,6 +25,9 @@ std::string to_string(const Identity& identity);
 /// and classes, those there are.
 Identity parse_identity(std::string_view text);
 
+/// Reads a pair's name; throws InvalidInput that lists those there are.
+Pair parse_pair(std::string_view name);
+
 /// Names of the pose classes of a pair, in report order.
 const std::vector<std::string>& pose_classes(Pair pair);
 

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <rapidcheck/Random.h>
+
+#include "reference/configuration.hpp"
+
+namespace touchstone {
+
+/// Numbers and directions from one of rapidcheck's random streams. Only + − × ÷ and square roots
+/// are used, each rounded once as IEEE 754 says (no contraction, no libm), so that a stream gives
+/// the same bits on every machine.
+class Draw {
+ public:
+  explicit Draw(const rc::Random& random) : random_(random) {}
+
+  std::int64_t integer(std::int64_t lo, std::int64_t hi);  ///< both ends included
+  bool coin() { return integer(0, 1) == 1; }
+  double sign() { return coin() ? 1 : -1; }
+  double uniform(double lo, double hi);
+  /// Every octave from lo upwards is equally likely, within an octave it is uniform.
+  double log_uniform(double lo, double hi);
+
+  Vec3 direction();  ///< unit, evenly on the sphere
+  Vec3 direction_across(const Vec3& unit);
+  /// Evenly over all orientations (Marsaglia 1972), unit up to rounding.
+  Eigen::Quaterniond orientation();
+
+ private:
+  rc::Random random_;
+};
+
+// Eigen may add in another order on another instruction set; these never do.
+double dot(const Vec3& a, const Vec3& b);
+Vec3 cross(const Vec3& a, const Vec3& b);
+Vec3 normalized(const Vec3& v);
+/// Hamilton product; exact for small integers.
+Eigen::Quaterniond product(const Eigen::Quaterniond& p, const Eigen::Quaterniond& q);
+/// R(q) times |q|²: exact for small integers, unit columns for unit quaternions.
+struct Axes {
+  Vec3 x, y, z;
+};
+Axes axes(const Eigen::Quaterniond& q);
+
+}  // namespace touchstone

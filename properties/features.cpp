@@ -1,0 +1,200 @@
+#include "properties/features.hpp"
+
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+namespace touchstone {
+namespace {
+
+/// Parts of a feature's extent at which contact is made; the outer tenth is left to the rim
+/// classes.
+constexpr double inner = 0.9;
+
+Vec3 in_world(const Axes& a, const Vec3& local) {
+  return local.x() * a.x + local.y() * a.y + local.z() * a.z;
+}
+Vec3 in_body(const Axes& a, const Vec3& world) {
+  return Vec3(dot(a.x, world), dot(a.y, world), dot(a.z, world));
+}
+
+/// A contact point on a round body (radius, half length about z) that supports the local direction
+/// n.
+Vec3 point_on_round(Draw& draw, double radius, double half_length, Feature feature, const Vec3& n) {
+  const double z = feature == Feature::side ? half_length * draw.uniform(-inner, inner)
+                                            : std::copysign(half_length, n.z());
+  if (feature == Feature::cap) {
+    double x, y;
+    do {
+      x = draw.uniform(-1, 1);
+      y = draw.uniform(-1, 1);
+    } while (x * x + y * y > 1);
+    return Vec3(inner * radius * x, inner * radius * y, z);
+  }
+  const double across = std::sqrt(n.x() * n.x() + n.y() * n.y());
+  return across > 0 ? Vec3(radius * n.x() / across, radius * n.y() / across, z)
+                    : Vec3(radius, 0, z);
+}
+
+/// The frame's axis nearest to a direction.
+int nearest_axis(const Vec3& local) {
+  int best = 0;
+  for (int i = 1; i < 3; ++i) {
+    if (std::abs(local[i]) > std::abs(local[best])) best = i;
+  }
+  return best;
+}
+
+Vec3 point_on_box(Draw& draw, const Vec3& half, Feature feature, const Vec3& n, int edge) {
+  Vec3 p;
+  for (int i = 0; i < 3; ++i) {
+    const bool along = (feature == Feature::edge && i == edge) ||
+                       (feature == Feature::cap && i != nearest_axis(n));
+    p[i] = along ? half[i] * draw.uniform(-inner, inner) : std::copysign(half[i], n[i]);
+  }
+  return p;
+}
+
+struct PointOnB {
+  Draw& draw;
+  Feature feature;
+  const Axes& axes;
+  const Vec3& n;  // world, towards A
+  int edge;
+
+  Vec3 operator()(const Cylinder& s) const {
+    return in_world(axes,
+                    point_on_round(draw, s.radius(), s.half_length(), feature, in_body(axes, n)));
+  }
+  Vec3 operator()(const Capsule& s) const {
+    const Feature part = feature == Feature::side ? Feature::side : Feature::rim;
+    return in_world(axes, point_on_round(draw, 0, s.half_length(), part, in_body(axes, n))) +
+           s.radius() * n;
+  }
+  Vec3 operator()(const Sphere& s) const { return s.radius() * n; }
+  Vec3 operator()(const Box& s) const {
+    return in_world(axes, point_on_box(draw, s.half_extents(), feature, in_body(axes, n), edge));
+  }
+  Vec3 operator()(const Plane& s) const {
+    // n is the plane's unit normal here.
+    const double length = std::sqrt(dot(s.normal(), s.normal()));
+    const Vec3 e = draw.direction_across(n);
+    return (s.displacement() / length) * n + draw.uniform(-1, 1) * e;
+  }
+};
+
+Vec3 box_axis(const Axes& a, int i) { return i == 0 ? a.x : i == 1 ? a.y : a.z; }
+
+/// Which directions a feature allows: one, all across a line, or any.
+struct Directions {
+  enum Kind { one, across, any } kind;
+  Vec3 axis;
+};
+
+Directions directions_of_a(Draw& draw, const Axes& axes, Feature feature) {
+  if (feature == Feature::cap) return {Directions::one, draw.sign() * axes.z};
+  if (feature == Feature::side) return {Directions::across, axes.z};
+  return {Directions::any, axes.z};
+}
+
+Directions directions_of_b(Draw& draw, const Bodies& bodies, const Axes& axes, Feature feature,
+                           int edge) {
+  if (const auto* plane = std::get_if<Plane>(&bodies.b)) {
+    return {Directions::one, normalized(in_world(axes, plane->normal()))};
+  }
+  if (std::holds_alternative<Box>(bodies.b)) {
+    if (feature == Feature::cap) return {Directions::one, draw.sign() * box_axis(axes, edge)};
+    if (feature == Feature::edge) return {Directions::across, box_axis(axes, edge)};
+    return {Directions::any, axes.z};
+  }
+  return directions_of_a(draw, axes, feature);
+}
+
+/// Towards A. A plane decides alone; otherwise A's cap before B's face.
+Vec3 common_normal(Draw& draw, const Directions& a, const Directions& b, bool b_is_plane) {
+  if (b_is_plane) return b.axis;
+  if (a.kind == Directions::one) return a.axis;
+  if (b.kind == Directions::one) return b.axis;
+  if (a.kind == Directions::across && b.kind == Directions::across) {
+    const Vec3 n = cross(a.axis, b.axis);
+    if (dot(n, n) > 0) return draw.sign() * normalized(n);
+  }
+  if (a.kind == Directions::across) return draw.direction_across(a.axis);
+  if (b.kind == Directions::across) return draw.direction_across(b.axis);
+  return draw.direction();
+}
+
+}  // namespace
+
+Cylinder draw_cylinder(Draw& draw) {
+  const double radius = draw.log_uniform(0.2, 1);
+  return Cylinder(radius, draw.log_uniform(0.2, 1));
+}
+
+Shape draw_other(Draw& draw, Pair pair) {
+  const auto size = [&] { return draw.log_uniform(0.2, 1); };
+  switch (pair) {
+    case Pair::plane: {
+      const Vec3 normal = draw.direction();
+      return Plane(normal, draw.uniform(-1, 1));
+    }
+    case Pair::sphere:
+      return Sphere(size());
+    case Pair::capsule: {
+      const double radius = size();
+      return Capsule(radius, size());
+    }
+    case Pair::cylinder:
+      return draw_cylinder(draw);
+    case Pair::box: {
+      const double x = size(), y = size(), z = size();
+      return Box(Vec3(x, y, z));
+    }
+  }
+  throw std::logic_error("no such pair");
+}
+
+Bodies draw_bodies(Draw& draw, Pair pair) {
+  const Cylinder a = draw_cylinder(draw);
+  const Eigen::Quaterniond orientation_a = draw.orientation();
+  const Shape b = draw_other(draw, pair);
+  return {a, orientation_a, b, draw.orientation()};
+}
+
+Configuration meet(Draw& draw, const Bodies& bodies, Feature on_a, Feature on_b, double distance) {
+  const Axes axes_a = axes(bodies.orientation_a), axes_b = axes(bodies.orientation_b);
+  const int edge = static_cast<int>(draw.integer(0, 2));
+  const Directions of_a = directions_of_a(draw, axes_a, on_a);
+  const Directions of_b = directions_of_b(draw, bodies, axes_b, on_b, edge);
+  const bool b_is_plane = std::holds_alternative<Plane>(bodies.b);
+  const Vec3 n = common_normal(draw, of_a, of_b, b_is_plane);
+
+  const Vec3 point_a =
+      in_world(axes_a, point_on_round(draw, bodies.a.radius(), bodies.a.half_length(), on_a,
+                                      in_body(axes_a, Vec3(-n))));
+  const Vec3 point_b = std::visit(PointOnB{draw, on_b, axes_b, n, edge}, bodies.b);
+  const Vec3 centre_b{draw.uniform(-1, 1), draw.uniform(-1, 1), draw.uniform(-1, 1)};
+  return {bodies.a, Pose(centre_b + ((point_b - point_a) + distance * n), bodies.orientation_a),
+          bodies.b, Pose(centre_b, bodies.orientation_b)};
+}
+
+FeaturePair draw_feature_pair(Draw& draw, Pair pair) {
+  using enum Feature;
+  static const std::vector<FeaturePair> plane = {{rim, cap}};
+  static const std::vector<FeaturePair> sphere = {{cap, end}, {side, end}};
+  static const std::vector<FeaturePair> capsule = {
+      {cap, end}, {side, end}, {side, side}, {rim, side}};
+  static const std::vector<FeaturePair> cylinder = {{cap, rim}, {side, rim}, {side, side},
+                                                    {rim, cap}, {rim, side}, {rim, rim}};
+  static const std::vector<FeaturePair> box = {
+      {cap, vertex}, {rim, cap}, {side, edge}, {rim, edge}, {side, vertex}};
+  const auto& pairs = pair == Pair::plane      ? plane
+                      : pair == Pair::sphere   ? sphere
+                      : pair == Pair::capsule  ? capsule
+                      : pair == Pair::cylinder ? cylinder
+                                               : box;
+  return pairs[static_cast<std::size_t>(
+      draw.integer(0, static_cast<std::int64_t>(pairs.size()) - 1))];
+}
+
+}  // namespace touchstone

@@ -1,0 +1,131 @@
+#include "properties/identity.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+
+#include "properties/arbitrary.hpp"
+#include "properties/pose_class.hpp"
+#include "reference/invalid_input.hpp"
+
+namespace touchstone {
+namespace {
+
+/// FNV-1a, 64 bits: turns a class name into a part of the random key, the same everywhere.
+std::uint64_t stable_hash(std::string_view text) {
+  std::uint64_t hash = 0xcbf29ce484222325U;
+  for (const char c : text) {
+    hash ^= static_cast<unsigned char>(c);
+    hash *= 0x100000001b3U;
+  }
+  return hash;
+}
+
+std::string quoted(std::string_view text) { return '"' + std::string(text) + '"'; }
+
+template <class Range>
+std::string joined(const Range& names) {
+  std::string all;
+  for (const auto& name : names) all += (all.empty() ? "" : ", ") + std::string(name);
+  return all;
+}
+
+std::uint64_t parse_number(const char* field, std::string_view text) {
+  std::uint64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) {
+    throw InvalidInput(field, quoted(text), "must be a whole number from 0 to 2^64 - 1");
+  }
+  return value;
+}
+
+const PoseClass& find_class(Pair pair, std::string_view name) {
+  for (const PoseClass& c : pose_class_table(pair)) {
+    if (c.name == name) return c;
+  }
+  throw InvalidInput("identity.class", quoted(name),
+                     std::string("must be a pose class of ") + pair_name(pair) + ": " +
+                         joined(pose_classes(pair)));
+}
+
+}  // namespace
+
+const std::vector<PoseClass>& pose_class_table(Pair pair) {
+  static const auto tables = [] {
+    std::array<std::vector<PoseClass>, std::size(all_pairs)> result;
+    for (const Pair p : all_pairs) {
+      auto& table = result[static_cast<std::size_t>(p)];
+      for (auto part : {feature_classes(p), lattice_classes(p), limit_classes(p)}) {
+        table.insert(table.end(), part.begin(), part.end());
+      }
+    }
+    return result;
+  }();
+  return tables[static_cast<std::size_t>(pair)];
+}
+
+Pair parse_pair(std::string_view name) {
+  std::vector<std::string> names;
+  for (const Pair pair : all_pairs) {
+    if (name == pair_name(pair)) return pair;
+    names.emplace_back(pair_name(pair));
+  }
+  throw InvalidInput("identity.pair", quoted(name), "must be one of " + joined(names));
+}
+
+std::string to_string(const Identity& identity) {
+  return std::string(pair_name(identity.pair)) + "/" + identity.pose_class + "/" +
+         std::to_string(identity.seed) + "/" + std::to_string(identity.index);
+}
+
+Identity parse_identity(std::string_view text) {
+  std::array<std::string_view, 4> parts;
+  std::string_view rest = text;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::size_t slash = i < 3 ? rest.find('/') : rest.size();
+    if (slash == std::string_view::npos) {
+      throw InvalidInput("identity", quoted(text),
+                         "must read pair/class/seed/index, as in "
+                         "cylinder-box/near-parallel-1e-6/42/137");
+    }
+    parts[i] = rest.substr(0, slash);
+    rest = i < 3 ? rest.substr(slash + 1) : rest;
+  }
+  const Pair pair = parse_pair(parts[0]);
+  const PoseClass& pose_class = find_class(pair, parts[1]);
+  return {pair, pose_class.name, parse_number("identity.seed", parts[2]),
+          parse_number("identity.index", parts[3])};
+}
+
+const std::vector<std::string>& pose_classes(Pair pair) {
+  static const auto names = [] {
+    std::array<std::vector<std::string>, std::size(all_pairs)> result;
+    for (const Pair p : all_pairs) {
+      for (const PoseClass& c : pose_class_table(p)) {
+        result[static_cast<std::size_t>(p)].push_back(c.name);
+      }
+    }
+    return result;
+  }();
+  return names[static_cast<std::size_t>(pair)];
+}
+
+std::string_view describe_pose_class(Pair pair, std::string_view pose_class) {
+  return find_class(pair, pose_class).description;
+}
+
+rc::Gen<Configuration> configurations(Pair pair, std::string_view pose_class) {
+  const PoseClass& c = find_class(pair, pose_class);
+  return rc::Gen<Configuration>([&c](const rc::Random& random, int) {
+    Draw draw(random);
+    return rc::shrinkable::just(c.generate(draw));
+  });
+}
+
+Configuration make_configuration(const Identity& identity) {
+  const std::string name = std::string(pair_name(identity.pair)) + "/" + identity.pose_class;
+  const rc::Random::Key key = {identity.seed, identity.index, stable_hash(name), 0};
+  return configurations(identity.pair, identity.pose_class)(rc::Random(key)).value();
+}
+
+}  // namespace touchstone

@@ -1,0 +1,155 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+#include "properties/features.hpp"
+#include "properties/pose_class.hpp"
+
+namespace touchstone {
+namespace {
+
+using enum Feature;
+using Quaternion = Eigen::Quaterniond;
+
+constexpr std::array<double, 16> power_of_ten = {1,     1e-1,  1e-2,  1e-3, 1e-4,  1e-5,
+                                                 1e-6,  1e-7,  1e-8,  1e-9, 1e-10, 1e-11,
+                                                 1e-12, 1e-13, 1e-14, 1e-15};
+
+/// Turns about a random axis across local z by `tilt` radians (to second order in it).
+Quaternion tilt_about_random(Draw& draw, double tilt) {
+  const Vec3 axis = draw.direction_across(Vec3(0, 0, 1));
+  return Quaternion(1, tilt / 2 * axis.x(), tilt / 2 * axis.y(), tilt / 2 * axis.z());
+}
+
+/// Turns about the local z axis by a random angle: a random quaternion without its x and y.
+Quaternion random_roll(Draw& draw) {
+  for (;;) {
+    const double w = draw.uniform(-1, 1), z = draw.uniform(-1, 1);
+    const double squared = w * w + z * z;
+    if (squared > 1 || squared < 1e-4) continue;
+    const double length = std::sqrt(squared);
+    return Quaternion(w / length, 0, 0, z / length);
+  }
+}
+
+const Quaternion upright(1, 0, 0, 0);
+const Quaternion along_x(0.5, 0.5, 0.5, 0.5);  // z to x, x to y, y to z
+
+double size_of(const Bodies& bodies) {
+  return std::min(smallest_half_extent(bodies.a), smallest_half_extent(bodies.b));
+}
+
+/// Cap or side of A against B turned to it by `base`, placed as if the tilt were zero.
+Configuration nearly(Draw& draw, Pair pair, const Quaternion& base, double tilt) {
+  Bodies bodies = draw_bodies(draw, pair);
+  if (pair == Pair::plane) bodies.b = Plane(Vec3(0, 0, 1), draw.uniform(-1, 1));
+  bodies.orientation_b = product(product(bodies.orientation_a, base), random_roll(draw));
+  const double distance = draw_near(draw, size_of(bodies));
+  const bool cap_first = draw.coin();
+  const Feature on_a = pair == Pair::plane ? rim : cap_first ? cap : side;
+  const Feature on_b = pair == Pair::plane      ? cap
+                       : pair == Pair::capsule  ? (draw.coin() ? side : end)
+                       : pair == Pair::cylinder ? (draw.coin() ? side : rim)
+                                                : (draw.coin() ? edge : vertex);
+  const Configuration straight = meet(draw, bodies, on_a, on_b, distance);
+  const Quaternion tilted = product(bodies.orientation_a, tilt_about_random(draw, tilt));
+  return {straight.a, Pose(straight.pose_a.position(), tilted), straight.b, straight.pose_b};
+}
+
+/// Bodies whose long half extent is 1000 times the short one.
+Bodies draw_extreme(Draw& draw, Pair pair, bool needle) {
+  Bodies bodies = draw_bodies(draw, pair);
+  constexpr double ratio = 1000;
+  const double size = bodies.a.radius();
+  bodies.a = needle ? Cylinder(size / ratio, size) : Cylinder(size, size / ratio);
+  return bodies;
+}
+
+Configuration extreme_aspect(Draw& draw, Pair pair, bool needle) {
+  const Bodies bodies = draw_extreme(draw, pair, needle);
+  const FeaturePair features = draw_feature_pair(draw, pair);
+  const double distance = draw_near(draw, size_of(bodies));
+  return meet(draw, bodies, features.on_a, features.on_b, distance);
+}
+
+Configuration general_near(Draw& draw, Pair pair) {
+  const Bodies bodies = draw_bodies(draw, pair);
+  const FeaturePair features = draw_feature_pair(draw, pair);
+  const double distance = draw_near(draw, size_of(bodies));
+  return meet(draw, bodies, features.on_a, features.on_b, distance);
+}
+
+struct Scaled {
+  double factor;
+  Shape operator()(const Cylinder& s) const { return cylinder(s); }
+  Shape operator()(const Plane& s) const { return Plane(s.normal(), factor * s.displacement()); }
+  Shape operator()(const Sphere& s) const { return Sphere(factor * s.radius()); }
+  Shape operator()(const Capsule& s) const {
+    return Capsule(factor * s.radius(), factor * s.half_length());
+  }
+  Shape operator()(const Box& s) const { return Box(factor * s.half_extents()); }
+  Cylinder cylinder(const Cylinder& s) const {
+    return Cylinder(factor * s.radius(), factor * s.half_length());
+  }
+  Pose pose(const Pose& p) const { return Pose(factor * p.position(), p.orientation()); }
+};
+
+Configuration scaled(const Configuration& c, double factor) {
+  const Scaled by{factor};
+  return {by.cylinder(c.a), by.pose(c.pose_a), std::visit(by, c.b), by.pose(c.pose_b)};
+}
+
+Configuration far_away(Draw& draw, const Configuration& c) {
+  const Vec3 offset = 1e6 * draw.direction();
+  const auto moved = [&](const Pose& p) { return Pose(p.position() + offset, p.orientation()); };
+  return {c.a, moved(c.pose_a), c.b, moved(c.pose_b)};
+}
+
+void add_tilts(Pair pair, std::vector<PoseClass>& out) {
+  const bool plane = pair == Pair::plane;
+  for (std::size_t k = 1; k <= 15; ++k) {
+    const double tilt = power_of_ten[k];
+    // The plane's normal is B's z axis, so a lying cylinder is parallel to the plane's surface.
+    out.push_back({"near-parallel-1e-" + std::to_string(k),
+                   plane ? "The axis is tilted by 1e-" + std::to_string(k) + " rad from lying."
+                         : "The axes (or the axis and a box edge) are 1e-" + std::to_string(k) +
+                               " rad from parallel: cross products lose their digits.",
+                   [pair, tilt, plane](Draw& draw) {
+                     return nearly(draw, pair, plane ? along_x : upright, tilt);
+                   }});
+  }
+  for (std::size_t k = 1; k <= 15; ++k) {
+    const double tilt = power_of_ten[k];
+    out.push_back({"near-perpendicular-1e-" + std::to_string(k),
+                   plane ? "The axis is tilted by 1e-" + std::to_string(k) + " rad from standing."
+                         : "The axes (or the axis and two box edges) are 1e-" + std::to_string(k) +
+                               " rad from perpendicular: discs are seen edge on.",
+                   [pair, tilt, plane](Draw& draw) {
+                     return nearly(draw, pair, plane ? upright : along_x, tilt);
+                   }});
+  }
+}
+
+}  // namespace
+
+std::vector<PoseClass> limit_classes(Pair pair) {
+  std::vector<PoseClass> out;
+  if (pair != Pair::sphere) add_tilts(pair, out);
+  out.push_back({"aspect-needle", "A is a needle, 1000 times longer than wide.",
+                 [pair](Draw& draw) { return extreme_aspect(draw, pair, true); }});
+  out.push_back({"aspect-coin", "A is a coin, 1000 times wider than thick.",
+                 [pair](Draw& draw) { return extreme_aspect(draw, pair, false); }});
+  out.push_back({"scale-tiny", "All lengths are times 1e-6: absolute tolerances show.",
+                 [pair](Draw& draw) { return scaled(general_near(draw, pair), 1e-6); }});
+  out.push_back({"scale-huge", "All lengths are times 1e6: absolute tolerances show.",
+                 [pair](Draw& draw) { return scaled(general_near(draw, pair), 1e6); }});
+  out.push_back(
+      {"far-from-origin",
+       "Both bodies are a million metres away: positions must be subtracted before anything "
+       "else.",
+       [pair](Draw& draw) { return far_away(draw, general_near(draw, pair)); }});
+  return out;
+}
+
+}  // namespace touchstone
