@@ -65,11 +65,20 @@ void copy(const btVector3& from, double (&to)[3]) {
   for (int i = 0; i < 3; ++i) to[i] = from[i];
 }
 
+/// The default configuration keeps pools for thousands of pairs; ours has one.
+btDefaultCollisionConstructionInfo small_pools() {
+  btDefaultCollisionConstructionInfo info;
+  info.m_defaultMaxPersistentManifoldPoolSize = 1;
+  info.m_defaultMaxCollisionAlgorithmPoolSize = 1;
+  return info;
+}
+
 /// A dispatcher with the pair's own algorithm; released in reverse order.
 class Pair {
  public:
   Pair(const ts_shape& a, const ts_shape& b, double threshold)
       : threshold_(threshold),
+        configuration_(small_pools()),
         dispatcher_(&configuration_),
         shape_a_(make_shape(a)),
         shape_b_(make_shape(b)) {

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <stdexcept>
 #include <vector>
 
 namespace touchstone::oracle {
@@ -35,8 +37,7 @@ class Gap {
     }
     if (const auto* s = std::get_if<Cylinder>(&b_)) return cylinder(*s, n);
     if (const auto* s = std::get_if<Box>(&b_)) return s->half_extents().dot(n.cwiseAbs());
-    // A half-space has a finite support along its own normal only.
-    return std::numeric_limits<double>::infinity();
+    throw std::logic_error("a half-space has no finite gap but along its normal");
   }
 
   Cylinder a_;
@@ -91,6 +92,34 @@ BruteForce brute_force_maximum(const Configuration& configuration, int direction
     if (found.gap > best.gap) best = found;
   }
   return best;
+}
+
+double lowest_point_over_plane(const Configuration& c) {
+  const auto& plane = std::get<Plane>(c.b);
+  const Eigen::Matrix3d rotation_a = c.pose_a.rotation();
+  const Vec3 normal = c.pose_b.rotation() * plane.normal();
+  const Vec3 centre = c.pose_a.position() - c.pose_b.position();
+  const auto height = [&](double angle, double z) {
+    const Vec3 on_rim(c.a.radius() * std::cos(angle), c.a.radius() * std::sin(angle), z);
+    return (normal.dot(rotation_a * on_rim) + (normal.dot(centre) - plane.displacement())) /
+           normal.norm();
+  };
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const double z : {-c.a.half_length(), c.a.half_length()}) {
+    constexpr int count = 64;
+    double best = 0;
+    for (int i = 0; i < count; ++i) {
+      const double angle = 2 * std::numbers::pi * i / count;
+      if (height(angle, z) < height(best, z)) best = angle;
+    }
+    for (double step = 0.1; step > 1e-9; step /= 2) {
+      for (const double angle : {best - step, best + step}) {
+        if (height(angle, z) < height(best, z)) best = angle;
+      }
+    }
+    lowest = std::min(lowest, height(best, z));
+  }
+  return lowest;
 }
 
 }  // namespace touchstone::oracle

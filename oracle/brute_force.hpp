@@ -11,6 +11,10 @@ struct BruteForce {
   double gap;
   Vec3 normal;
 };
+/// B must not be a plane.
 BruteForce brute_force_maximum(const Configuration& configuration, int directions);
+
+/// Height over the plane of the lowest of many points around both rims, refined.
+double lowest_point_over_plane(const Configuration& configuration);
 
 }  // namespace touchstone::oracle

@@ -8,7 +8,7 @@ namespace touchstone {
 /// Contact of a cylinder with a box: signed distance and normal for every pose, one contact point
 /// at the deepest place. Lengths in metres, world frame; the normal points from B to A. Signed
 /// distance and normal are always set, points where the signed distance is at most
-/// `contact_threshold`. Accuracy: 1e-9 of the larger size (the tests hold it).
+/// `contact_threshold`. Accuracy: 1e-9 of the larger size, held by accuracy_test.cpp.
 Contact contact(const Cylinder& a, const Pose& pose_a, const Box& b, const Pose& pose_b,
                 double contact_threshold);
 

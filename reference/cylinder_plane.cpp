@@ -35,10 +35,12 @@ Contact contact(const Cylinder& a, const Pose& pose_a, const Plane& b, const Pos
   const WorldPlane plane(b, pose_b);
   const Eigen::Matrix3d rotation = pose_a.rotation();
   const Vec3 axis = rotation.col(2);
-  const double cosine = axis.dot(plane.normal);
-  const Vec3 across = plane.normal - cosine * axis;
-  const double sine = across.norm();
-  const Vec3 down = sine > 0 ? Vec3(-across / sine) : Vec3(rotation.col(0));  // within the caps
+  // In the body frame, where the part across the axis keeps its digits however small it is.
+  const Vec3 local = rotation.transpose() * plane.normal;
+  const double cosine = local.z();
+  const double sine = std::hypot(local.x(), local.y());
+  const Vec3 down = rotation * (sine > 0 ? Vec3(-local.x() / sine, -local.y() / sine, 0)
+                                         : Vec3(Vec3::UnitX()));  // within the caps
   const Vec3 lower_axis = cosine > 0 ? Vec3(-axis) : axis;
 
   Contact result;

@@ -10,7 +10,7 @@ Contact with_deepest_point(const Configuration& c, const BestNormal& best,
   contact.normal = best.normal;
   contact.signed_distance = best.gap;
   if (best.gap <= contact_threshold) {
-    const Witness w = witness(c.a, c.pose_a, c.b, c.pose_b, best.normal);
+    const Witness w = witness(c.a, c.pose_a, c.b, c.pose_b, best.normal, best.gap);
     contact.add_point((w.on_a + w.on_b) / 2, -best.gap);
   }
   return contact;

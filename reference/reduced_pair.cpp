@@ -34,7 +34,12 @@ void offer_axial_normals(const ReducedPair& pair, BestNormal& best) {
   for (int j = 0; j < pair.disc_count; ++j) offer_normal(pair, pair.discs[j].axis, best);
   for (int i = 0; i < pair.segment_count; ++i) {
     for (int j = 0; j < i; ++j) {
-      offer_normal(pair, pair.segments[j].axis.cross(pair.segments[i].axis), best);
+      const Vec3& s = pair.segments[i].axis;
+      const Vec3 n = pair.segments[j].axis.cross(s);
+      if (n.isZero(0)) continue;
+      // The product of nearly parallel axes has few digits left; across them it must stay.
+      const Vec3 unit = n.normalized();
+      offer_normal(pair, unit - unit.dot(s) * s, best);
     }
   }
 }
@@ -62,10 +67,15 @@ void offer_line_normals(const ReducedPair& pair, int line, unsigned signs, BestN
     const auto& disc = pair.discs[j];
     const Vec3 tilt = s.cross(disc.axis);
     if (tilt.isZero(0)) {
-      if (q.norm() - flat_radius - pair.inflation > best.gap) offer_normal(pair, q, best);
+      if (q.norm() - flat_radius - pair.inflation <= best.gap) continue;
+      offer_normal(pair, q, best);
+      // On the axis every radial direction is as good as another.
+      offer_normal(pair, s.unitOrthogonal(), best);
       continue;
     }
-    const Vec3 major = tilt.normalized();
+    // The product of nearly parallel axes has few digits left; across the line it must stay.
+    Vec3 major = tilt.normalized();
+    major = (major - major.dot(s) * s).normalized();
     const Vec3 minor = s.cross(major).normalized();
     const double a = disc.radius, b = disc.radius * std::abs(s.dot(disc.axis));
     // The ellipse holds a disc of radius b, so no direction across the line is better than this.

@@ -10,8 +10,9 @@ namespace {
 
 /// A point of rim 1 with the point of rim 2 that is nearest (side +1) or farthest (−1).
 struct Sample {
-  double slope;  ///< derivative of half the squared distance along rim 1, over radius 1
-  Vec3 apart;    ///< point of rim 1 − point of rim 2
+  double slope;      ///< derivative of half the squared distance along rim 1, over radius 1
+  double curvature;  ///< derivative of the slope
+  Vec3 apart;        ///< point of rim 1 − point of rim 2
   Vec3 radial1, tangent1, tangent2;
 };
 
@@ -38,6 +39,10 @@ class Rims {
     sample.tangent2 = axis2_.cross(across);
     sample.apart = w - (side * radius2_) * across;
     sample.slope = sample.apart.dot(sample.tangent1);
+    // Rim 2's point moves by radius1 · radius2 / |w⊥| times the part of tangent1 along tangent2.
+    const double follow = sample.tangent1.dot(sample.tangent2);
+    const double moved = length > 0 ? side * radius2_ * follow * follow / length : 0;
+    sample.curvature = radius1_ * (1 - moved) - sample.apart.dot(sample.radial1);
     return sample;
   }
   Sample at(double angle, double side) const { return at(std::cos(angle), std::sin(angle), side); }
@@ -97,6 +102,35 @@ void offer(const ReducedPair& pair, const Sample& sample, BestNormal& best) {
   offer_normal(pair, sample.tangent1.cross(sample.tangent2), best);
 }
 
+/// The slope keeps its sign but turns towards zero and away again in between: two roots may hide
+/// there.
+bool turns_back(const Sample& x, const Sample& y) {
+  const double sign = x.slope < 0 ? -1 : 1;
+  return sign * x.curvature < 0 && sign * y.curvature > 0;
+}
+
+/// Bisects the curvature for the turn, and where the slope has the other sign on the way, finds the
+/// roots on both sides. At most 24 steps; a double root is met to rounding.
+void offer_close_roots(const ReducedPair& pair, const Rims& rims, double side, double lo, double hi,
+                       BestNormal& best) {
+  const double start = lo, end = hi;
+  const double slope_start = rims.at(start, side).slope, slope_end = rims.at(end, side).slope;
+  const double sign = slope_start < 0 ? -1 : 1;
+  for (int i = 0; i < 24; ++i) {
+    const double middle = (lo + hi) / 2;
+    const Sample sample = rims.at(middle, side);
+    if (sign * sample.slope < 0) {
+      offer(pair, rims.at(root_between(rims, side, start, slope_start, middle, sample.slope), side),
+            best);
+      offer(pair, rims.at(root_between(rims, side, middle, sample.slope, end, slope_end), side),
+            best);
+      return;
+    }
+    (sign * sample.curvature < 0 ? lo : hi) = middle;
+  }
+  offer(pair, rims.at((lo + hi) / 2, side), best);
+}
+
 /// Inside, rim 1's point is in contact along +apart and the gap minus the distance. Where that
 /// holds on the whole arc and the arc stays further away than the best depth, it has nothing to
 /// offer. The distance changes by at most radius 1 per radian.
@@ -118,11 +152,16 @@ void offer_rim_rim_normals(const ReducedPair& pair, const Vec3& q, BestNormal& b
     Sample previous = rims.at(circle.cosine[0], circle.sine[0], side);
     for (int i = 1; i <= samples; ++i) {
       const Sample next = rims.at(circle.cosine[i], circle.sine[i], side);
-      if ((previous.slope < 0) != (next.slope < 0) &&
-          !stays_too_deep(previous, next, reach, -best.gap)) {
-        const double angle =
-            root_between(rims, side, (i - 1) * step, previous.slope, i * step, next.slope);
-        offer(pair, rims.at(angle, side), best);
+      const double angle = i * step;
+      if (!stays_too_deep(previous, next, reach, -best.gap)) {
+        if ((previous.slope < 0) != (next.slope < 0)) {
+          offer(pair,
+                rims.at(root_between(rims, side, angle - step, previous.slope, angle, next.slope),
+                        side),
+                best);
+        } else if (turns_back(previous, next)) {
+          offer_close_roots(pair, rims, side, angle - step, angle, best);
+        }
       }
       previous = next;
     }

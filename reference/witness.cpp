@@ -43,6 +43,12 @@ class Feature {
     }
   }
 
+  /// For a segment, half of it as a vector; zero for everything else.
+  Vec3 half_segment() const {
+    const bool is_segment = disc_radius_ == 0 && (free_.array() != 0).count() == 1;
+    return is_segment ? Vec3(rotation_ * free_) : Vec3(Vec3::Zero());
+  }
+
   Vec3 middle() const { return centre_ + rotation_ * local_; }
 
   /// The feature's point nearest to x.
@@ -65,6 +71,56 @@ class Feature {
   double disc_radius_ = 0;    // of a cap
 };
 
+/// Nearest points of two segments that are not parallel. Ericson, "Real-Time Collision
+/// Detection", 5.1.9, with both parameters in [−1, 1].
+Witness nearest_on_segments(const Vec3& middle_a, const Vec3& half_a, const Vec3& middle_b,
+                            const Vec3& half_b) {
+  const Vec3 apart = middle_a - middle_b;
+  const double aa = half_a.squaredNorm(), bb = half_b.squaredNorm(), ab = half_a.dot(half_b);
+  const double a = half_a.dot(apart), b = half_b.dot(apart);
+  const double determinant = half_a.cross(half_b).squaredNorm();
+  double s = std::clamp((ab * b - bb * a) / determinant, -1.0, 1.0);
+  const double t = std::clamp((ab * s + b) / bb, -1.0, 1.0);
+  s = std::clamp((ab * t - a) / aa, -1.0, 1.0);
+  return {middle_a + s * half_a, middle_b + t * half_b};
+}
+
+/// The point of a body nearest to x; x itself inside.
+struct NearestInBody {
+  const Pose& pose;
+  Vec3 x;
+  Vec3 operator()(const Cylinder& s) const {
+    return from_local([&](Vec3 local) {
+      const double reach = std::hypot(local.x(), local.y());
+      if (reach > s.radius()) local.head<2>() *= s.radius() / reach;
+      local.z() = std::clamp(local.z(), -s.half_length(), s.half_length());
+      return local;
+    });
+  }
+  Vec3 operator()(const Capsule& s) const {
+    return from_local([&](const Vec3& local) {
+      const Vec3 on_segment(0, 0, std::clamp(local.z(), -s.half_length(), s.half_length()));
+      const double reach = (local - on_segment).norm();
+      return reach > s.radius() ? Vec3(on_segment + s.radius() / reach * (local - on_segment))
+                                : local;
+    });
+  }
+  Vec3 operator()(const Box& s) const {
+    return from_local([&](const Vec3& local) {
+      return Vec3(local.cwiseMax(-s.half_extents()).cwiseMin(s.half_extents()));
+    });
+  }
+  Vec3 operator()(const Sphere&) const { return x; }
+  Vec3 operator()(const Plane&) const { return x; }
+
+ private:
+  template <class Clamp>
+  Vec3 from_local(Clamp clamp) const {
+    const Eigen::Matrix3d rotation = pose.rotation();
+    return pose.position() + rotation * clamp(rotation.transpose() * (x - pose.position()));
+  }
+};
+
 struct FeatureOfB {
   const Pose& pose;
   const Vec3& n;
@@ -78,20 +134,34 @@ struct FeatureOfB {
 }  // namespace
 
 Witness witness(const Cylinder& a, const Pose& pose_a, const Shape& b, const Pose& pose_b,
-                const Vec3& normal) {
+                const Vec3& normal, double signed_distance) {
   const Feature feature_a(a.radius(), a.half_length(), pose_a, -normal);
   const Feature feature_b = std::visit(FeatureOfB{pose_b, normal}, b);
-  // Both features lie across the normal (flat ones) or are points, so that alternating projections
-  // onto the two convex sets meet where they overlap.
-  constexpr int projections = 20;
+  const Vec3 half_a = feature_a.half_segment(), half_b = feature_b.half_segment();
   Witness w{feature_a.nearest(feature_b.middle()), feature_b.middle()};
-  for (int i = 0; i < projections; ++i) {
-    const Vec3 on_b = feature_b.nearest(w.on_a);
-    const Vec3 on_a = feature_a.nearest(on_b);
-    if (on_b == w.on_b && on_a == w.on_a) break;
-    w = {on_a, on_b};
+  if (half_a.cross(half_b).squaredNorm() > 1e-24 * half_a.squaredNorm() * half_b.squaredNorm()) {
+    w = nearest_on_segments(feature_a.middle(), half_a, feature_b.middle(), half_b);
+  } else {
+    // Flat features across the normal, parallel segments or points: alternating projections onto
+    // two convex sets meet where these overlap.
+    constexpr int projections = 20;
+    for (int i = 0; i < projections; ++i) {
+      const Vec3 on_b = feature_b.nearest(w.on_a);
+      const Vec3 on_a = feature_a.nearest(on_b);
+      if (on_b == w.on_b && on_a == w.on_a) break;
+      w = {on_a, on_b};
+    }
   }
   if (const auto* capsule = std::get_if<Capsule>(&b)) w.on_b += capsule->radius() * normal;
+
+  // Nearly flat features leave the two a little aside of each other. A and B moved by the signed
+  // distance touch, so a point of both is near: projections onto the bodies themselves find it.
+  const Vec3 shift = signed_distance * normal;
+  constexpr int polish = 100;
+  for (int i = 0; i < polish && !(w.on_a - w.on_b).isApprox(shift, 1e-14); ++i) {
+    w.on_b = std::visit(NearestInBody{pose_b, w.on_a - shift}, b);
+    w.on_a = NearestInBody{pose_a, w.on_b + shift}(a);
+  }
   return w;
 }
 

@@ -14,6 +14,6 @@ struct Witness {
 /// `normal` must be optimal to about 1e-8 rad for the two points to lie opposite each other. B is a
 /// capsule, cylinder or box.
 Witness witness(const Cylinder& a, const Pose& pose_a, const Shape& b, const Pose& pose_b,
-                const Vec3& normal);
+                const Vec3& normal, double signed_distance);
 
 }  // namespace touchstone

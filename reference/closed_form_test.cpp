@@ -1,0 +1,134 @@
+#include <cmath>
+#include <gtest/gtest.h>
+#include <string>
+#include <vector>
+
+#include "reference/contact_of.hpp"
+
+namespace touchstone {
+namespace {
+
+using Quaternion = Eigen::Quaterniond;
+
+const Quaternion upright(1, 0, 0, 0);
+const Quaternion along_x(1, 0, 1, 0);
+const Quaternion along_y(1, -1, 0, 0);
+
+struct Case {
+  const char* name;
+  Configuration configuration;
+  double signed_distance;
+  Vec3 normal;
+};
+
+std::vector<Case> closed_forms() {
+  const Cylinder unit(1, 1);
+  return {
+      {"sphere off the rim, 3-4-5",
+       {unit, Pose(), Sphere(2), Pose({4, 0, 5}, upright)},
+       3,
+       {-0.6, 0, -0.8}},
+      {"sphere centre inside, nearer to the cap",
+       {unit, Pose(), Sphere(0.5), Pose({0.25, 0, 0.75}, upright)},
+       -0.75,
+       {0, 0, -1}},
+      {"sphere centre inside, nearer to the side",
+       {unit, Pose(), Sphere(0.5), Pose({0.75, 0, 0.25}, upright)},
+       -0.75,
+       {-1, 0, 0}},
+      {"capsule end off the rim",
+       {unit, Pose(), Capsule(0.5, 1), Pose({4, 0, 6}, upright)},
+       4.5,
+       {-0.6, 0, -0.8}},
+      {"capsule across the cap",
+       {unit, Pose({0, 0, 2}, upright), Capsule(0.5, 3), Pose({0, 0, 0}, along_x)},
+       0.5,
+       {0, 0, 1}},
+      {"crossed cylinders",
+       {Cylinder(1, 5), Pose({0, 0, 1.25}, along_x), Cylinder(0.5, 5), Pose({0, 0, 0}, along_y)},
+       -0.25,
+       {0, 0, 1}},
+      {"parallel cylinders",
+       {unit, Pose({3, 4, 0.5}, upright), Cylinder(2, 1), Pose()},
+       2,
+       {0.6, 0.8, 0}},
+      {"cap on cap", {unit, Pose({0.5, 0, 1.75}, upright), unit, Pose()}, -0.25, {0, 0, 1}},
+      {"box edge at the side, 3-4-5",
+       {Cylinder(1, 3), Pose(), Box({1, 1, 1}), Pose({4, 5, 0}, upright)},
+       4,
+       {-0.6, -0.8, 0}},
+      {"cap on box face",
+       {unit, Pose({1, 1, 1.75}, upright), Box({2, 2, 1}), Pose()},
+       -0.25,
+       {0, 0, 1}},
+      {"cylinder off the box's vertex",
+       {unit, Pose({0, 0, 3}, upright), Box({1, 1, 1}), Pose()},
+       1,
+       {0, 0, 1}},
+  };
+}
+
+TEST(Contact, HasTheDistanceAndNormalOfTheClosedForm) {
+  for (const Case& c : closed_forms()) {
+    SCOPED_TRACE(c.name);
+    const Contact answer = contact(c.configuration, 0);
+    EXPECT_NEAR(answer.signed_distance, c.signed_distance, 1e-14);
+    EXPECT_LT((answer.normal - c.normal).norm(), 1e-7);
+    EXPECT_EQ(answer.points().empty(), c.signed_distance > 0);
+  }
+}
+
+TEST(Contact, ThresholdAdmitsPointsBetweenBodiesApart) {
+  const Configuration apart{Cylinder(1, 1), Pose({0, 0, 2.5}, upright), Box({2, 2, 1}), Pose()};
+  EXPECT_TRUE(contact(apart, 0.25).points().empty());
+  const Contact near = contact(apart, 0.75);
+  ASSERT_EQ(near.points().size(), 1u);
+  EXPECT_NEAR(near.points()[0].position.z(), 1.25, 1e-15);
+  EXPECT_NEAR(near.points()[0].depth, -0.5, 1e-15);
+}
+
+// Contact points on a plane, as the thesis counts them.
+
+TEST(CylinderOnPlane, TiltedHasOnePoint) {
+  // sin 3/5, cos 4/5: the rim is 1·4/5 + 1·3/5 below the centre.
+  const Configuration c{Cylinder(1, 1), Pose({0, 0, 1.25}, Quaternion(3, 1, 0, 0)),
+                        Plane({0, 0, 1}, 0), Pose()};
+  const Contact answer = contact(c, 0);
+  ASSERT_EQ(answer.points().size(), 1u);
+  EXPECT_NEAR(answer.points()[0].depth, 0.15, 1e-15);
+  EXPECT_NEAR(answer.points()[0].position.z(), -0.075, 1e-15);
+}
+
+TEST(CylinderOnPlane, LyingHasTheTwoEndsOfItsGenerator) {
+  const Configuration c{Cylinder(1, 2), Pose({5, 6, 0.75}, along_x), Plane({0, 0, 1}, 0), Pose()};
+  const Contact answer = contact(c, 0);
+  ASSERT_EQ(answer.points().size(), 2u);
+  EXPECT_NEAR(std::abs(answer.points()[0].position.x() - answer.points()[1].position.x()), 4,
+              1e-14);
+  for (const auto& p : answer.points()) {
+    EXPECT_NEAR(p.depth, 0.25, 1e-15);
+    EXPECT_NEAR(p.position.y(), 6, 1e-14);
+    EXPECT_NEAR(p.position.z(), -0.125, 1e-15);
+  }
+}
+
+TEST(CylinderOnPlane, StandingHasThreePoints120DegreesApart) {
+  const Configuration c{Cylinder(1, 2), Pose({5, 6, 1.75}, upright), Plane({0, 0, 1}, 0), Pose()};
+  const Contact answer = contact(c, 0);
+  ASSERT_EQ(answer.points().size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3 p = answer.points()[i].position, q = answer.points()[(i + 1) % 3].position;
+    EXPECT_NEAR((p - q).norm(), std::sqrt(3.0), 1e-14);
+    EXPECT_NEAR((p - Vec3(5, 6, p.z())).norm(), 1, 1e-14);
+    EXPECT_NEAR(answer.points()[i].depth, 0.25, 1e-15);
+  }
+}
+
+TEST(CylinderOnPlane, PosedPlaneWithALongNormalIsTheSameHalfSpace) {
+  const Configuration c{Cylinder(1, 2), Pose({5, 6, 4}, upright), Plane({0, 0, 8}, 4),
+                        Pose({1, 2, 1}, upright)};  // 8 (z − 1) <= 4
+  EXPECT_NEAR(contact(c, 0).signed_distance, 0.5, 1e-15);
+}
+
+}  // namespace
+}  // namespace touchstone

@@ -1,0 +1,101 @@
+#include <cmath>
+#include <functional>
+#include <gtest/gtest.h>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "reference/configuration.hpp"
+#include "reference/invalid_input.hpp"
+#include "reference/support.hpp"
+
+namespace touchstone {
+namespace {
+
+using Quaternion = Eigen::Quaterniond;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+TEST(Vocabulary, RefusesWhatIsNoShapeOrPoseAndNamesTheField) {
+  const struct {
+    std::function<void()> make;
+    const char* field;
+    const char* value;
+  } table[] = {
+      {[] { Sphere(0); }, "radius", "0"},
+      {[] { Sphere(-1); }, "radius", "-1"},
+      {[] { Sphere{nan}; }, "radius", "nan"},
+      {[] { Sphere{infinite}; }, "radius", "inf"},
+      {[] { Cylinder(0, 1); }, "radius", "0"},
+      {[] { Cylinder(1, 0); }, "half_length", "0"},
+      {[] { Cylinder(1, -0.5); }, "half_length", "-0.5"},
+      {[] { Capsule(nan, 1); }, "radius", "nan"},
+      {[] { Capsule(1, infinite); }, "half_length", "inf"},
+      {[] { Box(Vec3(1, 0, 1)); }, "half_extents[1]", "0"},
+      {[] { Box(Vec3(1, 1, nan)); }, "half_extents[2]", "nan"},
+      {[] { Plane(Vec3(0, 0, 0), 1); }, "normal", "[0, 0, 0]"},
+      {[] { Plane(Vec3(0, nan, 0), 1); }, "normal[1]", "nan"},
+      {[] { Plane(Vec3(0, 0, 1), infinite); }, "displacement", "inf"},
+      {[] { Pose(Vec3(0, 0, nan), Quaternion(1, 0, 0, 0)); }, "position[2]", "nan"},
+      {[] { Pose(Vec3::Zero(), Quaternion(0, 0, 0, 0)); }, "orientation", "[0, 0, 0, 0]"},
+      {[] { Pose(Vec3::Zero(), Quaternion(1, infinite, 0, 0)); }, "orientation[1]", "inf"},
+  };
+  for (const auto& row : table) {
+    try {
+      row.make();
+      ADD_FAILURE() << "accepted " << row.field << " " << row.value;
+    } catch (const InvalidInput& e) {
+      EXPECT_EQ(e.field(), row.field);
+      EXPECT_EQ(e.value(), row.value);
+      EXPECT_NE(std::string(e.what()).find("must"), std::string::npos);
+    }
+  }
+}
+
+TEST(Vocabulary, FieldsAreNamedFromOutsideIn) {
+  EXPECT_EQ(InvalidInput("radius", "-1", "must be positive").within("a").field(), "a.radius");
+}
+
+TEST(Vocabulary, KeepsTheOrientationAsGiven) {
+  const Pose pose(Vec3::Zero(), Quaternion(2, 0, 0, 2));
+  EXPECT_EQ(pose.orientation().w(), 2);
+  EXPECT_TRUE(pose.rotation().isApprox(
+      Eigen::AngleAxisd(std::acos(-1.0) / 2, Vec3::UnitZ()).toRotationMatrix()));
+}
+
+TEST(Vocabulary, SizesAreThoseOfTheSmallestAndLargestHalfExtent) {
+  const Configuration c{Cylinder(0.5, 2), Pose(), Capsule(0.25, 3), Pose()};
+  EXPECT_EQ(smaller_size(c), 0.25);
+  EXPECT_EQ(larger_size(c), 3.25);
+  const Configuration on_plane{Cylinder(0.5, 2), Pose(), Plane(Vec3(0, 0, 1), 1e9), Pose()};
+  EXPECT_EQ(smaller_size(on_plane), 0.5);
+  EXPECT_EQ(larger_size(on_plane), 2);
+}
+
+TEST(Vocabulary, PairsAreNamedAfterBothShapes) {
+  EXPECT_STREQ(pair_name(pair_of({Cylinder(1, 1), Pose(), Box(Vec3(1, 1, 1)), Pose()})),
+               "cylinder-box");
+  EXPECT_STREQ(pair_name(pair_of({Cylinder(1, 1), Pose(), Cylinder(1, 1), Pose()})),
+               "cylinder-cylinder");
+}
+
+TEST(Support, IsTheFarthestExtentAlongADirection) {
+  const Pose pose(Vec3(1, 2, 3), Quaternion(1, 0, 1, 0));  // local z along world x
+  EXPECT_NEAR(support(Cylinder(0.5, 2), pose, Vec3(1, 0, 0)), 3, 1e-15);
+  EXPECT_NEAR(support(Cylinder(0.5, 2), pose, Vec3(0, 1, 0)), 2.5, 1e-15);
+  EXPECT_NEAR(support(Cylinder(3, 4), pose, Vec3(0.6, 0.8, 0)), 2.2 + 4 * 0.6 + 3 * 0.8, 1e-14);
+  EXPECT_NEAR(support(Capsule(0.5, 2), pose, Vec3(1, 0, 0)), 3.5, 1e-15);
+  EXPECT_NEAR(support(Sphere(0.5), pose, Vec3(0, 0, -1)), -2.5, 1e-15);
+  EXPECT_NEAR(support(Box(Vec3(1, 2, 3)), pose, Vec3(1, 0, 0)), 4, 1e-15);
+}
+
+TEST(Gap, IsTheClearanceAlongTheNormalFromBToA) {
+  const Configuration c{Cylinder(0.5, 1), Pose(Vec3(0, 0, 5), Quaternion::Identity()), Sphere(1),
+                        Pose()};
+  EXPECT_EQ(gap(c, Vec3(0, 0, 1)), 3);
+  EXPECT_EQ(gap(c, Vec3(0, 0, -1)), -7);
+}
+
+}  // namespace
+}  // namespace touchstone
