@@ -1,0 +1,15 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace touchstone {
+
+// One file each. A subcommand adds itself to the program; when it was given it runs in a callback
+// and leaves its exit code in `exit_code`.
+
+void add_report(CLI::App& program, int& exit_code);
+void add_replay(CLI::App& program, int& exit_code);
+void add_solve(CLI::App& program, int& exit_code);
+void add_candidates(CLI::App& program, int& exit_code);
+
+}  // namespace touchstone

@@ -1,0 +1,46 @@
+#include "reports/replay.hpp"
+
+#include <fmt/format.h>
+#include <memory>
+
+#include "cli/commands.hpp"
+#include "cli/options.hpp"
+#include "reports/worst.hpp"
+
+namespace touchstone {
+namespace {
+
+struct Options {
+  explicit Options(CLI::App& command) : candidates(command), bar(command) {}
+  CandidateOption candidates;
+  BarOption bar;
+  std::string identity;
+  bool json = false;
+};
+
+}  // namespace
+
+void add_replay(CLI::App& program, int&) {
+  CLI::App* command = program.add_subcommand(
+      "replay", "Show one configuration again: its numbers, the truth, every answer");
+  const auto options = std::make_shared<Options>(*command);
+  command->add_option("identity", options->identity, "pair/class/seed/index, as a report prints it")
+      ->required();
+  command->add_flag("--json", options->json, "Print one JSON object");
+  command->footer(
+      "Examples:\n"
+      "  touchstone replay cylinder-box/near-parallel-1e-6/42/137\n"
+      "  touchstone replay cylinder-cylinder/rim-rim/1/0 --candidates bullet --json");
+  command->callback([options] {
+    const Identity identity = parse_identity(options->identity);
+    const auto candidates = options->candidates.get();
+    const Bar bar = options->bar.get();
+    if (options->json) {
+      fmt::print("{}\n", examined(identity, candidates, bar, 1e-30).dump());
+    } else {
+      fmt::print("{}", replay_text(identity, candidates, bar));
+    }
+  });
+}
+
+}  // namespace touchstone

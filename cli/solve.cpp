@@ -1,0 +1,57 @@
+#include "reports/solve.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <fstream>
+#include <iostream>
+#include <memory>
+
+#include "cli/commands.hpp"
+#include "cli/options.hpp"
+#include "reference/invalid_input.hpp"
+
+namespace touchstone {
+namespace {
+
+struct Options {
+  explicit Options(CLI::App& command) : candidates(command), bar(command) {}
+  CandidateOption candidates;
+  BarOption bar;
+  std::string file = "-";
+  double width = 1e-15;
+};
+
+/// Bad lines make exit code 2, after all of them are answered.
+int run(const Options& options) {
+  if (!(std::isfinite(options.width) && options.width > 0)) {
+    throw InvalidInput("--width", fmt::format("{}", options.width), "must be positive and finite");
+  }
+  const SolveOptions solving{options.candidates.get(), options.width, options.bar.get()};
+  if (options.file == "-") return solve(std::cin, std::cout, solving) ? 0 : 2;
+  std::ifstream in(options.file);
+  if (!in) throw InvalidInput("file", '"' + options.file + '"', "could not be opened for reading");
+  return solve(in, std::cout, solving) ? 0 : 2;
+}
+
+}  // namespace
+
+void add_solve(CLI::App& program, int& exit_code) {
+  CLI::App* command = program.add_subcommand(
+      "solve", "Truth, answers and scores for your own configurations, one JSON object a line");
+  const auto options = std::make_shared<Options>(*command);
+  command->add_option("file", options->file, "JSON Lines; - is standard input")
+      ->capture_default_str();
+  command->add_option("--width", options->width, "Width of the truth, relative to the larger size")
+      ->capture_default_str();
+  command->footer(
+      "Examples:\n"
+      "  touchstone solve poses.jsonl > answers.jsonl\n"
+      "  echo '{\"a\":{\"shape\":\"cylinder\",\"radius\":0.5,\"half_length\":1},\n"
+      "         \"b\":{\"shape\":\"sphere\",\"radius\":1}}' | tr -d '\\n' | touchstone solve\n"
+      "  touchstone solve --candidates bullet --width 1e-30 poses.jsonl\n"
+      "Shapes: cylinder and capsule (radius, half_length), sphere (radius), box (half_extents),\n"
+      "plane (normal, displacement). A pose has position and orientation (w, x, y, z).");
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace touchstone

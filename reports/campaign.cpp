@@ -1,0 +1,131 @@
+#include "reports/campaign.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+#include <stdexcept>
+
+#include "candidates/candidates.hpp"
+#include "oracle/truth.hpp"
+#include "reference/invalid_input.hpp"
+#include "reports/progress.hpp"
+#include "reports/worker_processes.hpp"
+
+namespace touchstone {
+namespace {
+
+/// A Score in fixed-size form for the pipe between two processes of the same program.
+struct Record {
+  Outcome outcome;
+  int points;
+  double severity;
+  double values[3];
+  bool present[3];
+};
+
+Record to_record(const Score& s) {
+  Record r{};
+  r.outcome = s.outcome;
+  r.points = s.points;
+  r.severity = s.severity;
+  const std::optional<double>* values[] = {&s.depth_error, &s.normal_regret, &s.normal_angle};
+  for (int i = 0; i < 3; ++i) {
+    r.present[i] = values[i]->has_value();
+    r.values[i] = values[i]->value_or(0);
+  }
+  return r;
+}
+
+Score from_record(const Record& r) {
+  const auto value = [&](int i) {
+    return r.present[i] ? std::optional<double>(r.values[i]) : std::nullopt;
+  };
+  return {r.outcome, value(0), value(1), value(2), r.points, r.severity};
+}
+
+/// Per configuration: the oracle's time, then one record per candidate.
+std::string score_cell(const Campaign& campaign, const Cell& cell) {
+  std::string bytes;
+  const auto append = [&](const auto& value) {
+    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+  };
+  for (std::uint64_t i = 0; i < campaign.count; ++i) {
+    const Identity id{cell.pair, cell.pose_class, campaign.seed, i};
+    try {
+      const Configuration c = make_configuration(id);
+      const auto start = std::chrono::steady_clock::now();
+      const oracle::Truth truth = oracle::truth(c);
+      append(std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start)
+                 .count());
+      for (const ts_candidate* candidate : campaign.candidates) {
+        const ts_answer a = answer(*candidate, c, campaign.bar.threshold);
+        append(to_record(score(c, truth, a, campaign.bar)));
+      }
+    } catch (const std::exception& e) {
+      throw std::runtime_error(to_string(id) + ": " + e.what());
+    }
+  }
+  return bytes;
+}
+
+CellScores parse_cell(const Campaign& campaign, const std::string& bytes) {
+  CellScores result;
+  result.scores.resize(campaign.candidates.size());
+  const char* at = bytes.data();
+  const auto take = [&](auto& value) {
+    std::memcpy(&value, at, sizeof value);
+    at += sizeof value;
+  };
+  for (std::uint64_t i = 0; i < campaign.count; ++i) {
+    take(result.oracle_microseconds.emplace_back());
+    for (auto& scores : result.scores) {
+      Record record;
+      take(record);
+      scores.push_back(from_record(record));
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<Cell> cells(const Campaign& campaign) {
+  std::vector<Cell> result;
+  for (const std::string& wanted : campaign.classes) {
+    const bool known = std::any_of(campaign.pairs.begin(), campaign.pairs.end(), [&](Pair pair) {
+      const auto& names = pose_classes(pair);
+      return std::find(names.begin(), names.end(), wanted) != names.end();
+    });
+    if (known) continue;
+    std::string names;
+    for (const Pair pair : campaign.pairs) {
+      for (const auto& name : pose_classes(pair)) {
+        if (names.find(name) == std::string::npos) names += (names.empty() ? "" : ", ") + name;
+      }
+    }
+    throw InvalidInput("--class", '"' + wanted + '"', "must be one of " + names);
+  }
+  for (const Pair pair : campaign.pairs) {
+    for (const auto& name : pose_classes(pair)) {
+      const auto& wanted = campaign.classes;
+      if (wanted.empty() || std::find(wanted.begin(), wanted.end(), name) != wanted.end()) {
+        result.push_back({pair, name});
+      }
+    }
+  }
+  return result;
+}
+
+std::vector<CellScores> run(const Campaign& campaign) {
+  const std::vector<Cell> all = cells(campaign);
+  Progress progress("configurations", all.size() * campaign.count);
+  const auto results = run_in_processes(
+      all.size(), campaign.workers, [&](std::size_t i) { return score_cell(campaign, all[i]); },
+      [&](std::size_t i) { return std::string(pair_name(all[i].pair)) + "/" + all[i].pose_class; },
+      [&](std::size_t done) { progress.update(done * campaign.count); });
+  std::vector<CellScores> scores;
+  for (const std::string& bytes : results) scores.push_back(parse_cell(campaign, bytes));
+  return scores;
+}
+
+}  // namespace touchstone

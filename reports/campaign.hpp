@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "candidates/candidate.h"
+#include "properties/identity.hpp"
+#include "reports/score.hpp"
+
+namespace touchstone {
+
+/// Which configurations are scored, by whom, and how strictly.
+struct Campaign {
+  std::vector<Pair> pairs;
+  std::vector<std::string> classes;  ///< empty: all; else each must be a class of one of the pairs
+  std::vector<const ts_candidate*> candidates;
+  std::uint64_t count = 100;  ///< configurations of each pair × class
+  std::uint64_t seed = 1;
+  unsigned workers = 1;
+  Bar bar;
+};
+
+/// One pair × class.
+struct Cell {
+  Pair pair;
+  std::string pose_class;
+};
+/// In report order. Throws InvalidInput when a class belongs to none of the pairs.
+std::vector<Cell> cells(const Campaign& campaign);
+
+/// The scores of one cell: scores[candidate][index].
+struct CellScores {
+  std::vector<std::vector<Score>> scores;
+  std::vector<double> oracle_microseconds;
+};
+
+/// Scores every cell, spread over worker processes; the result does not depend on how many.
+/// Progress goes to standard error. Throws std::runtime_error naming the cell if a worker dies.
+std::vector<CellScores> run(const Campaign& campaign);
+
+}  // namespace touchstone

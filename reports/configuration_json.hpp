@@ -1,0 +1,28 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "reference/configuration.hpp"
+
+namespace touchstone {
+
+/// A configuration as a person writes it (DESIGN: the bodies may come in either order).
+struct GivenConfiguration {
+  Configuration configuration;
+  /// The person's body a is our body B: normals are to be reversed before they are shown.
+  bool swapped = false;
+};
+
+/// Reads {"a": shape, "pose_a": pose, "b": shape, "pose_b": pose}; other members than "id" are
+/// refused. Numbers are JSON numbers or strings with a decimal or hexadecimal float. A missing pose
+/// is the identity. Throws InvalidInput with the full path of the field ("b.half_extents[1]").
+GivenConfiguration configuration_from_json(const nlohmann::json& json);
+
+/// Shortest decimals that give the same doubles back.
+nlohmann::json to_json(const Configuration& configuration);
+/// The same with every number as a hexadecimal float string.
+nlohmann::json to_hex_json(const Configuration& configuration);
+
+nlohmann::json to_json(const Vec3& v);
+
+}  // namespace touchstone

@@ -1,0 +1,17 @@
+# cmake -DOUT=… -DFOLDER=… -P embed.cmake: the page's sources as string constants. Raw strings hold up to
+# 16000 characters each; adjacent ones are one.
+set(text "#include <string_view>\n\nnamespace touchstone {\n\n")
+foreach(kind html css js)
+  file(READ ${FOLDER}/report.${kind} content)
+  string(LENGTH "${content}" length)
+  string(APPEND text "extern const std::string_view report_${kind};\nconst std::string_view report_${kind} =\n")
+  set(at 0)
+  while(at LESS length)
+    string(SUBSTRING "${content}" ${at} 16000 piece)
+    string(APPEND text "R\"page~(${piece})page~\"\n")
+    math(EXPR at "${at} + 16000")
+  endwhile()
+  string(APPEND text ";\n\n")
+endforeach()
+string(APPEND text "}  // namespace touchstone\n")
+file(WRITE ${OUT} "${text}")

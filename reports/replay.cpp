@@ -1,0 +1,69 @@
+#include "reports/replay.hpp"
+
+#include <fmt/format.h>
+
+#include "reports/configuration_json.hpp"
+#include "reports/worst.hpp"
+
+namespace touchstone {
+namespace {
+
+using nlohmann::json;
+
+std::string vector(const json& v) {
+  if (v.is_null()) return "-";
+  const auto coordinate = [&](int i) {
+    return v[i].is_null() ? std::string("nan") : fmt::format("{:.17g}", v[i].get<double>());
+  };
+  return fmt::format("({}, {}, {})", coordinate(0), coordinate(1), coordinate(2));
+}
+
+std::string number(const json& v) {
+  return v.is_null() ? "-" : fmt::format("{:.17g}", v.get<double>());
+}
+
+std::string short_number(const json& v) {
+  return v.is_null() ? "-" : fmt::format("{:.3g}", v.get<double>());
+}
+
+std::string answer_text(const std::string& name, const json& a) {
+  const json& score = a["score"];
+  std::string text = fmt::format("{}: {}, {}\n", name, a["status"].get<std::string>(),
+                                 score["outcome"].get<std::string>());
+  if (a["status"] != "contact") return text;
+  text += fmt::format("  signed distance {}\n  normal          {}\n", number(a["signed_distance"]),
+                      vector(a["normal"]));
+  text += fmt::format("  depth error {}, normal regret {} (of the smaller size), angle {} deg\n",
+                      short_number(score["depth_error"]), short_number(score["normal_regret"]),
+                      short_number(score["normal_angle"]));
+  for (const json& p : a["points"]) {
+    text += fmt::format("  point {}\n    depth {}\n", vector(p["position"]), number(p["depth"]));
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string replay_text(const Identity& identity,
+                        const std::vector<const ts_candidate*>& candidates, const Bar& bar) {
+  const json e = examined(identity, candidates, bar, 1e-30);
+  json line = e["configuration"];
+  line["id"] = to_string(identity);
+  std::string text = fmt::format("{}\n{}\n\n", to_string(identity),
+                                 describe_pose_class(identity.pair, identity.pose_class));
+  text +=
+      fmt::format("configuration (a line for touchstone solve, then in hexadecimal):\n{}\n{}\n\n",
+                  line.dump(), to_hex_json(make_configuration(identity)).dump());
+  const json& truth = e["truth"];
+  text += fmt::format("truth: signed distance between\n  {}\n  {}\n",
+                      truth["signed_distance"][0].get<std::string>(),
+                      truth["signed_distance"][1].get<std::string>());
+  for (const json& n : truth["normals"]) text += fmt::format("  normal {}\n", vector(n));
+  text += fmt::format("  ties: {}\n\n", truth["ties"].get<std::string>());
+  for (const ts_candidate* candidate : candidates) {
+    text += answer_text(candidate->name, e["answers"][candidate->name]);
+  }
+  return text;
+}
+
+}  // namespace touchstone

@@ -1,0 +1,175 @@
+#include "reports/report.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <fmt/format.h>
+#include <fstream>
+#include <system_error>
+#include <unistd.h>
+
+#include "properties/identity.hpp"
+#include "reference/invalid_input.hpp"
+#include "reports/html/html.hpp"
+#include "reports/machine.hpp"
+#include "reports/statistics.hpp"
+#include "reports/timing.hpp"
+#include "reports/worst.hpp"
+
+namespace touchstone {
+namespace {
+
+using nlohmann::json;
+using Times = std::vector<std::vector<std::optional<QueryTime>>>;
+
+json to_json(const std::optional<Quantiles>& q) {
+  if (!q) return nullptr;
+  return {{"median", q->median}, {"p99", q->p99}, {"max", q->max}};
+}
+
+json to_json(const Statistics& s) {
+  json outcomes = json::object(), points = json::object();
+  for (const Outcome outcome : all_outcomes) {
+    if (s.of(outcome) > 0) outcomes[outcome_name(outcome)] = s.of(outcome);
+  }
+  for (const auto& [number, count] : s.points) points[std::to_string(number)] = count;
+  return {{"count", s.count},
+          {"outcomes", outcomes},
+          {"depth_error", to_json(s.depth_error)},
+          {"normal_regret", to_json(s.normal_regret)},
+          {"normal_angle", to_json(s.normal_angle)},
+          {"points", points},
+          {"coverage", nullptr}};
+}
+
+/// The same scores and times under one heading: a cell, all of a pair, everything.
+struct Group {
+  std::vector<std::size_t> cells;
+  std::string pair, pose_class;
+};
+
+/// Over several cells: the median of their medians, and of their spreads.
+std::optional<QueryTime> median_time(const Times& times, const Group& group, std::size_t k) {
+  std::vector<double> medians, spreads;
+  for (const std::size_t cell : group.cells) {
+    if (!times[cell][k]) continue;
+    medians.push_back(times[cell][k]->median);
+    spreads.push_back(times[cell][k]->spread);
+  }
+  const auto median = quantiles(medians), spread = quantiles(spreads);
+  if (!median) return std::nullopt;
+  return QueryTime{median->median, spread->median};
+}
+
+json entry(const Campaign& campaign, const std::vector<CellScores>& scores, const Times& times,
+           const Group& group, std::size_t k) {
+  std::vector<Score> all;
+  for (const std::size_t cell : group.cells) {
+    all.insert(all.end(), scores[cell].scores[k].begin(), scores[cell].scores[k].end());
+  }
+  json result = to_json(statistics(all));
+  result["pair"] = group.pair;
+  result["class"] = group.pose_class;
+  result["candidate"] = campaign.candidates[k]->name;
+  result["nanoseconds"] = nullptr;
+  if (const auto time = median_time(times, group, k)) {
+    result["nanoseconds"] = {
+        {"median", time->median}, {"spread", time->spread}, {"ratio_to_bullet", nullptr}};
+    for (std::size_t b = 0; b < campaign.candidates.size(); ++b) {
+      if (campaign.candidates[b]->name != std::string_view("bullet")) continue;
+      if (const auto bullet = median_time(times, group, b)) {
+        result["nanoseconds"]["ratio_to_bullet"] = time->median / bullet->median;
+      }
+    }
+  }
+  return result;
+}
+
+json entries(const Campaign& campaign, const std::vector<CellScores>& scores, const Times& times,
+             const std::vector<Group>& groups) {
+  json result = json::array();
+  for (const Group& group : groups) {
+    for (std::size_t k = 0; k < campaign.candidates.size(); ++k) {
+      result.push_back(entry(campaign, scores, times, group, k));
+    }
+  }
+  return result;
+}
+
+void write_whole(const std::filesystem::path& file, const std::string& text) {
+  const std::filesystem::path partial = file.string() + ".partial";
+  {
+    std::ofstream out(partial, std::ios::binary);
+    out << text;
+    out.close();
+    if (!out) throw InvalidInput("--out", file.string(), "could not be written; is the disk full?");
+  }
+  std::filesystem::rename(partial, file);
+}
+
+}  // namespace
+
+json make_report(const Campaign& campaign, const std::string& command) {
+  const auto start = std::chrono::steady_clock::now();
+  const std::vector<Cell> all = cells(campaign);
+  const std::vector<CellScores> scores = run(campaign);
+  const Times times = time_queries(campaign);
+
+  std::vector<Group> single, summary;
+  Group everything{{}, "all", "all"};
+  json classes = json::array();
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const char* pair = pair_name(all[i].pair);
+    single.push_back({{i}, pair, all[i].pose_class});
+    if (summary.empty() || summary.back().pair != pair) summary.push_back({{}, pair, "all"});
+    summary.back().cells.push_back(i);
+    everything.cells.push_back(i);
+    classes.push_back({{"pair", pair},
+                       {"class", all[i].pose_class},
+                       {"description", describe_pose_class(all[i].pair, all[i].pose_class)}});
+  }
+  if (summary.size() > 1) summary.push_back(everything);
+
+  json candidates = json::array();
+  for (const ts_candidate* c : campaign.candidates) {
+    candidates.push_back({{"name", c->name}, {"version", c->version}, {"settings", c->settings}});
+  }
+  std::vector<double> oracle_times;
+  for (const CellScores& s : scores) {
+    oracle_times.insert(oracle_times.end(), s.oracle_microseconds.begin(),
+                        s.oracle_microseconds.end());
+  }
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return {{"schema", 1},
+          {"version", TOUCHSTONE_VERSION},
+          {"command", command},
+          {"seed", campaign.seed},
+          {"tolerance", campaign.bar.tolerance},
+          {"threshold", campaign.bar.threshold},
+          {"machine", describe_machine()},
+          {"configurations", all.size() * campaign.count},
+          {"wall_seconds", seconds},
+          {"oracle_microseconds", to_json(quantiles(oracle_times))},
+          {"candidates", candidates},
+          {"classes", classes},
+          {"results", entries(campaign, scores, times, single)},
+          {"summary", entries(campaign, scores, times, summary)},
+          {"worst", worst_cases(campaign, scores)}};
+}
+
+void check_writable(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error || access(folder.c_str(), W_OK | X_OK) != 0) {
+    throw InvalidInput("--out", '"' + folder.string() + '"',
+                       "must be a folder that can be written to");
+  }
+}
+
+void write_report(const json& report, const std::filesystem::path& folder) {
+  check_writable(folder);
+  write_whole(folder / "report.json", report.dump(1) + "\n");
+  write_whole(folder / "report.html", render_html(report));
+}
+
+}  // namespace touchstone

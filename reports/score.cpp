@@ -1,0 +1,123 @@
+#include "reports/score.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace touchstone {
+namespace {
+
+/// A normal of another length than one is the candidate's error; rounding in single precision is
+/// not.
+constexpr double unit_slack = 1e-6;
+
+Vec3 vector(const double (&v)[3]) { return Vec3(v[0], v[1], v[2]); }
+
+bool is_finite(const ts_answer& answer) {
+  if (!std::isfinite(answer.signed_distance) || !vector(answer.normal).allFinite()) return false;
+  return std::all_of(answer.points, answer.points + answer.point_count, [](const ts_point& p) {
+    return std::isfinite(p.depth) && vector(p.position).allFinite() && vector(p.normal).allFinite();
+  });
+}
+
+double angle_to_nearest(const Vec3& n, const std::vector<Vec3>& normals) {
+  double least = std::numbers::pi;
+  for (const Vec3& m : normals) least = std::min(least, std::atan2(n.cross(m).norm(), n.dot(m)));
+  return least * 180 / std::numbers::pi;
+}
+
+Score only(Outcome outcome) {
+  Score s;
+  s.outcome = outcome;
+  return s;
+}
+
+Score without_contact(double distance, const Bar& bar) {
+  Score s;
+  if (distance < -bar.tolerance) {
+    s.outcome = Outcome::missed;
+    s.severity = -distance;
+  }
+  return s;
+}
+
+}  // namespace
+
+const char* outcome_name(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::agree:
+      return "agree";
+    case Outcome::missed:
+      return "missed";
+    case Outcome::phantom:
+      return "phantom";
+    case Outcome::shallow:
+      return "shallow";
+    case Outcome::overdeep:
+      return "overdeep";
+    case Outcome::wrong_normal:
+      return "wrong-normal";
+    case Outcome::not_finite:
+      return "not-finite";
+    case Outcome::failed:
+      return "failed";
+    case Outcome::unsupported:
+      return "unsupported";
+  }
+  return "";
+}
+
+const char* status_name(ts_status status) {
+  switch (status) {
+    case TS_CONTACT:
+      return "contact";
+    case TS_NONE:
+      return "none";
+    case TS_UNSUPPORTED:
+      return "unsupported";
+    case TS_FAILED:
+      return "failed";
+  }
+  return "failed";
+}
+
+Score score(const Configuration& c, const oracle::Truth& truth, const ts_answer& answer,
+            const Bar& bar) {
+  const double size = smaller_size(c);
+  const double distance = truth.signed_distance.midpoint() / size;
+  switch (answer.status) {
+    case TS_NONE:
+      return without_contact(distance, bar);
+    case TS_CONTACT:
+      break;
+    case TS_UNSUPPORTED:
+      return only(Outcome::unsupported);
+    default:
+      return only(Outcome::failed);
+  }
+  if (!is_finite(answer)) return only(Outcome::not_finite);
+
+  Score s;
+  s.points = answer.point_count;
+  const Vec3 n = vector(answer.normal);
+  const bool unit = std::abs(n.norm() - 1) <= unit_slack;
+  s.depth_error = (answer.signed_distance - truth.signed_distance.midpoint()) / size;
+  s.severity = std::abs(*s.depth_error);
+  if (!n.isZero(0)) {
+    s.normal_regret = oracle::normal_regret(c, truth, n) / size;
+    s.normal_angle = angle_to_nearest(n, truth.normals);
+    s.severity = std::max(s.severity, *s.normal_regret);
+  }
+  if (distance > bar.threshold / size + bar.tolerance) {
+    s.outcome = Outcome::phantom;
+  } else if (*s.depth_error > bar.tolerance) {
+    s.outcome = Outcome::shallow;
+  } else if (*s.depth_error < -bar.tolerance) {
+    s.outcome = Outcome::overdeep;
+  } else if (!unit || !s.normal_regret || *s.normal_regret > bar.tolerance) {
+    s.outcome = Outcome::wrong_normal;
+  }
+  return s;
+}
+
+}  // namespace touchstone

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "candidates/candidate.h"
+#include "oracle/truth.hpp"
+
+namespace touchstone {
+
+/// What became of one answer, named after the symptom.
+enum class Outcome {
+  agree,         ///< within the bar in every respect
+  missed,        ///< no contact where the bodies overlap
+  phantom,       ///< a contact where they are apart
+  shallow,       ///< depth too small
+  overdeep,      ///< depth too large
+  wrong_normal,  ///< a direction along which the bodies are deeper than need be
+  not_finite,    ///< a NaN or an infinity in the answer
+  failed,        ///< the candidate says that it could not answer
+  unsupported    ///< the candidate has no routine for the pair
+};
+inline constexpr std::array all_outcomes = {
+    Outcome::agree,      Outcome::missed,   Outcome::phantom,
+    Outcome::shallow,    Outcome::overdeep, Outcome::wrong_normal,
+    Outcome::not_finite, Outcome::failed,   Outcome::unsupported};
+/// "agree", "missed", "wrong-normal", …
+const char* outcome_name(Outcome outcome);
+const char* status_name(ts_status status);
+
+/// Where an answer stops agreeing with the truth.
+struct Bar {
+  /// Relative to the smaller size. Drake's published protocol for contact queries overlaps bodies
+  /// of 20 cm by 2 mm; 1e-4 of their half extent is one two-hundredth of that overlap.
+  double tolerance = 1e-4;
+  /// Contacts up to this distance apart are asked for, metres.
+  double threshold = 0;
+};
+
+/// One answer held against the truth. Errors are relative to the smaller size; those that the
+/// answer does not define are absent.
+struct Score {
+  Outcome outcome = Outcome::agree;
+  std::optional<double> depth_error;  ///< answer's signed distance − true: positive is too shallow
+  std::optional<double> normal_regret;  ///< σ − g(n)
+  std::optional<double> normal_angle;   ///< degrees to the nearest optimal normal
+  int points = 0;
+  /// How bad the failure is: the depth or gap that was got wrong, or the regret. Zero: perfect.
+  double severity = 0;
+};
+
+Score score(const Configuration& configuration, const oracle::Truth& truth, const ts_answer& answer,
+            const Bar& bar);
+
+}  // namespace touchstone

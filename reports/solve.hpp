@@ -1,0 +1,21 @@
+#pragma once
+
+#include <iosfwd>
+#include <vector>
+
+#include "candidates/candidate.h"
+#include "reports/score.hpp"
+
+namespace touchstone {
+
+struct SolveOptions {
+  std::vector<const ts_candidate*> candidates;
+  double width = 1e-15;  ///< of the truth, relative to the larger size
+  Bar bar;
+};
+
+/// One JSON object a line in, one a line out (docs/solve.md). A bad line is answered with an error
+/// object and the rest go on; returns false if there was any.
+bool solve(std::istream& in, std::ostream& out, const SolveOptions& options);
+
+}  // namespace touchstone

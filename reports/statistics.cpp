@@ -1,0 +1,32 @@
+#include "reports/statistics.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace touchstone {
+
+std::optional<Quantiles> quantiles(std::vector<double> values) {
+  if (values.empty()) return std::nullopt;
+  std::sort(values.begin(), values.end());
+  const std::size_t n = values.size();
+  return Quantiles{values[(n + 1) / 2 - 1], values[(99 * n + 99) / 100 - 1], values[n - 1]};
+}
+
+Statistics statistics(const std::vector<Score>& scores) {
+  Statistics result;
+  result.count = scores.size();
+  std::vector<double> depth_error, normal_regret, normal_angle;
+  for (const Score& s : scores) {
+    ++result.outcomes[static_cast<std::size_t>(s.outcome)];
+    if (s.points > 0) ++result.points[s.points];
+    if (s.depth_error) depth_error.push_back(std::abs(*s.depth_error));
+    if (s.normal_regret) normal_regret.push_back(*s.normal_regret);
+    if (s.normal_angle) normal_angle.push_back(*s.normal_angle);
+  }
+  result.depth_error = quantiles(std::move(depth_error));
+  result.normal_regret = quantiles(std::move(normal_regret));
+  result.normal_angle = quantiles(std::move(normal_angle));
+  return result;
+}
+
+}  // namespace touchstone

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "reports/score.hpp"
+
+namespace touchstone {
+
+/// Nearest-rank quantiles: the median of n values is the ⌈n/2⌉-th smallest, p99 the ⌈0.99 n⌉-th.
+struct Quantiles {
+  double median, p99, max;
+};
+std::optional<Quantiles> quantiles(std::vector<double> values);
+
+/// Scores of one candidate on any set of configurations.
+struct Statistics {
+  std::size_t count = 0;
+  std::array<std::size_t, all_outcomes.size()> outcomes{};  ///< in the order of all_outcomes
+  std::map<int, std::size_t> points;                        ///< contacts by their number of points
+  std::optional<Quantiles> depth_error, normal_regret, normal_angle;  ///< of magnitudes
+
+  std::size_t of(Outcome outcome) const { return outcomes[static_cast<std::size_t>(outcome)]; }
+};
+Statistics statistics(const std::vector<Score>& scores);
+
+}  // namespace touchstone

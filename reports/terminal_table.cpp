@@ -1,0 +1,72 @@
+#include "reports/terminal_table.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace touchstone {
+namespace {
+
+using nlohmann::json;
+
+std::string scientific(const json& quantiles, const char* which) {
+  if (quantiles.is_null()) return "-";
+  const double value = quantiles[which];
+  return value == 0 ? "0" : fmt::format("{:.1e}", value);
+}
+
+std::string nanoseconds(const json& time) {
+  return time.is_null() ? "-" : fmt::format("{:.0f}", time["median"].get<double>());
+}
+
+std::string ratio(const json& time) {
+  if (time.is_null() || time["ratio_to_bullet"].is_null()) return "-";
+  return fmt::format("{:.2f}", time["ratio_to_bullet"].get<double>());
+}
+
+/// Cut downwards, so that only a candidate without a failure shows 100%.
+std::string agreement(const json& row) {
+  const double count = row["count"];
+  const double agree = row["outcomes"].value("agree", 0);
+  const double percent = 100 * agree / count;
+  return fmt::format("{:.1f}", agree == count ? 100.0 : std::min(percent, 99.9));
+}
+
+}  // namespace
+
+std::string terminal_table(const json& report) {
+  std::string text =
+      fmt::format("{:<18}{:<11}{:>7} {:>7} {:>8} {:>8} {:>8} {:>8}\n", "pair", "candidate",
+                  "agree%", "missed", "err p99", "err max", "ns/query", "x bullet");
+  std::string last_pair;
+  for (const json& row : report["summary"]) {
+    const std::string pair = row["pair"];
+    if (pair != last_pair) text += '\n';
+    text += fmt::format(
+        "{:<18}{:<11}{:>7} {:>7} {:>8} {:>8} {:>8} {:>8}\n", pair == last_pair ? "" : pair,
+        row["candidate"].get<std::string>(), agreement(row), row["outcomes"].value("missed", 0),
+        scientific(row["depth_error"], "p99"), scientific(row["depth_error"], "max"),
+        nanoseconds(row["nanoseconds"]), ratio(row["nanoseconds"]));
+    last_pair = pair;
+  }
+  text += fmt::format(
+      "\nagree: within {:g} of the smaller shape's size in depth and normal regret; err: depth\n"
+      "error of the reported contacts, same unit.\n",
+      report["tolerance"].get<double>());
+
+  std::string failures;
+  for (const json& candidate : report["candidates"]) {
+    const json* worst = nullptr;
+    for (const json& w : report["worst"]) {
+      if (w["candidate"] != candidate["name"] || w["outcome"] == "agree") continue;
+      if (!worst || w["severity"] > (*worst)["severity"]) worst = &w;
+    }
+    if (!worst) continue;
+    failures +=
+        fmt::format("  {} {}\n    {}\n", candidate["name"].get<std::string>(),
+                    (*worst)["outcome"].get<std::string>(), (*worst)["replay"].get<std::string>());
+  }
+  if (!failures.empty()) text += "\nWorst failure of each candidate:\n" + failures;
+  return text;
+}
+
+}  // namespace touchstone
