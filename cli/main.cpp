@@ -1,6 +1,6 @@
 #include <exception>
 #include <fmt/format.h>
-#include <stdexcept>
+#include <string>
 
 #include <CLI/CLI.hpp>
 
@@ -11,6 +11,18 @@ namespace {
 
 constexpr int bad_input = 2;
 constexpr int contradiction = 3;
+
+/// CLI11 would only say that a subcommand is required.
+void refuse_unknown_subcommand(const CLI::App& program, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return;
+  std::string names;
+  for (const CLI::App* command : program.get_subcommands({})) {
+    if (command->get_name() == argv[1]) return;
+    names += (names.empty() ? "" : ", ") + command->get_name();
+  }
+  throw touchstone::InvalidInput("subcommand", '"' + std::string(argv[1]) + '"',
+                                 "must be one of " + names);
+}
 
 }  // namespace
 
@@ -33,6 +45,7 @@ int main(int argc, char** argv) {
   touchstone::add_solve(program, exit_code);
   touchstone::add_candidates(program, exit_code);
   try {
+    refuse_unknown_subcommand(program, argc, argv);
     program.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
     // Zero for --help and --version.

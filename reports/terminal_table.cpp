@@ -49,8 +49,8 @@ std::string terminal_table(const json& report) {
     last_pair = pair;
   }
   text += fmt::format(
-      "\nagree: within {:g} of the smaller shape's size in depth and normal regret; err: depth\n"
-      "error of the reported contacts, same unit.\n",
+      "\nagree: depth and normal regret within {:g} of the smaller shape's size\n"
+      "err: depth error of the contacts that were reported, in the same unit\n",
       report["tolerance"].get<double>());
 
   std::string failures;

@@ -1,0 +1,53 @@
+#!/usr/bin/env bash
+# Runs the program as a person does: cli_test.sh PROGRAM.
+set -u
+program=$1
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+failures=0
+
+# expect CODE PATTERN ARGUMENTS…: exit code, and a pattern in what is printed.
+expect() {
+  local code=$1 pattern=$2 printed actual
+  shift 2
+  printed=$("$program" "$@" 2>&1 </dev/null)
+  actual=$?
+  if [ "$actual" -ne "$code" ] || ! grep -q -e "$pattern" <<<"$printed"; then
+    echo "FAILED: touchstone $*: exit code $actual, expected $code with \"$pattern\":"
+    echo "$printed" | head -n 5
+    failures=$((failures + 1))
+  fi
+}
+
+expect 0 'touchstone report' --help
+expect 0 'Examples' report --help
+expect 0 '^touchstone [0-9]' --version
+expect 0 'bullet 3' candidates
+expect 2 'subcommand is required'
+expect 2 'report, replay, solve, candidates' nonsense
+expect 2 'identity.pair' replay cylinder-cone/rim/1/2
+expect 2 'identity.class' replay cylinder-box/none/1/2
+expect 2 'identity is required' replay
+expect 2 'must be one of reference, bullet, ode' replay cylinder-box/rim-face/1/2 --candidates havok
+expect 2 -- '--tolerance' replay cylinder-box/rim-face/1/2 --tolerance=-1
+expect 0 'reference: contact, agree' replay cylinder-box/rim-face/1/2
+expect 0 '"id":"cylinder-box/rim-face/1/2"' replay cylinder-box/rim-face/1/2 --json
+expect 2 'could not be opened' solve "$folder/none.jsonl"
+expect 2 -- '--width' solve --width 0
+expect 2 -- '--count' report --count 0
+expect 2 -- '--class' report --class nowhere --out "$folder/r"
+expect 2 -- '--out' report --out /proc/none
+expect 0 'report.html' report --pair cylinder-plane --count 1 --out "$folder/a b"
+[ -s "$folder/a b/report.html" ] || { echo "FAILED: no report.html"; failures=$((failures + 1)); }
+
+# A replayed configuration goes through solve to the same truth.
+truth_of() { sed 's/.*"truth":\({[^}]*}\).*/\1/'; }
+replayed=$("$program" replay cylinder-capsule/general-deep/3/4 --json | truth_of)
+line=$("$program" replay cylinder-capsule/general-deep/3/4 | grep '^{' | tail -n 1)
+solved=$("$program" solve --width 1e-30 <<<"$line" | truth_of)
+if [ -z "$solved" ] || [ "$solved" != "$replayed" ]; then
+  echo "FAILED: solve gives another truth than replay: $solved instead of $replayed"
+  failures=$((failures + 1))
+fi
+
+exit "$failures"

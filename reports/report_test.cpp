@@ -1,0 +1,175 @@
+#include "reports/report.hpp"
+
+#include <fstream>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sstream>
+
+#include "candidates/candidates.hpp"
+#include "reference/invalid_input.hpp"
+#include "reports/replay.hpp"
+#include "reports/solve.hpp"
+#include "reports/terminal_table.hpp"
+#include "reports/worst.hpp"
+
+namespace touchstone {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+std::vector<const ts_candidate*> everybody() {
+  const auto all = all_candidates();
+  return {all.begin(), all.end()};
+}
+
+Campaign small_campaign(unsigned workers = 2) {
+  Campaign c;
+  c.pairs = {Pair::plane, Pair::box};
+  c.classes = {"general-shallow", "touching", "concentric"};
+  c.candidates = everybody();
+  c.count = 4;
+  c.seed = 5;
+  c.workers = workers;
+  return c;
+}
+
+json without_timing(json report) {
+  for (const char* list : {"results", "summary"}) {
+    for (json& row : report[list]) row.erase("nanoseconds");
+  }
+  report.erase("wall_seconds");
+  report.erase("oracle_microseconds");
+  return report;
+}
+
+TEST(Report, DoesNotDependOnTheNumberOfWorkers) {
+  EXPECT_EQ(without_timing(make_report(small_campaign(1), "x")),
+            without_timing(make_report(small_campaign(3), "x")));
+}
+
+TEST(Report, HasARowForEveryPairClassAndCandidate) {
+  const json report = make_report(small_campaign(), "x");
+  // Plane has no concentric poses.
+  EXPECT_EQ(report["classes"].size(), 5u);
+  EXPECT_EQ(report["results"].size(), 15u);
+  EXPECT_EQ(report["summary"].size(), 9u);
+  EXPECT_EQ(report["configurations"], 20);
+  for (const json& row : report["results"]) {
+    EXPECT_EQ(row["count"], 4);
+    EXPECT_GT(row["nanoseconds"]["median"], 0);
+    std::size_t outcomes = 0;
+    for (const json& n : row["outcomes"]) outcomes += n.get<std::size_t>();
+    EXPECT_EQ(outcomes, 4u);
+  }
+}
+
+TEST(Report, EveryWorstCaseReplaysToTheSameAnswers) {
+  const json report = make_report(small_campaign(), "x");
+  ASSERT_FALSE(report["worst"].empty());
+  for (const json& w : report["worst"]) {
+    const Identity id = parse_identity(w["id"].get<std::string>());
+    const json again = examined(id, everybody(), Bar());
+    EXPECT_EQ(again["answers"], w["answers"]);
+    EXPECT_EQ(again["configuration"], w["configuration"]);
+    EXPECT_EQ(again["truth"], w["truth"]);
+  }
+}
+
+TEST(Report, TableFitsIntoEightyColumns) {
+  std::istringstream table(terminal_table(make_report(small_campaign(), "x")));
+  for (std::string line; std::getline(table, line);) EXPECT_LE(line.size(), 80u) << line;
+}
+
+TEST(Report, IsWrittenAsAWhole) {
+  const std::filesystem::path folder = testing::TempDir() + "touchstone report test";
+  write_report(make_report(small_campaign(), "x"), folder);
+  std::ifstream file(folder / "report.json");
+  EXPECT_EQ(json::parse(file)["schema"], 1);
+  EXPECT_TRUE(std::filesystem::exists(folder / "report.html"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "report.json.partial"));
+  std::filesystem::remove_all(folder);
+}
+
+TEST(Report, RefusesAnUnknownClassBeforeAnyWork) {
+  Campaign c = small_campaign();
+  c.classes = {"rim-rimm"};
+  EXPECT_THAT([&] { cells(c); }, testing::ThrowsMessage<InvalidInput>(testing::AllOf(
+                                     HasSubstr("rim-rimm"), HasSubstr("general-deep"))));
+}
+
+TEST(Report, RefusesAFolderThatIsAFile) {
+  const std::filesystem::path file = testing::TempDir() + "touchstone_is_a_file";
+  std::ofstream(file) << "x";
+  EXPECT_THROW(check_writable(file), InvalidInput);
+  std::filesystem::remove(file);
+}
+
+TEST(Replay, IsTheSameOnEveryCall) {
+  const Identity id{Pair::cylinder, "rim-rim", 1, 2};
+  const std::string text = replay_text(id, everybody(), Bar());
+  EXPECT_EQ(replay_text(id, everybody(), Bar()), text);
+  EXPECT_THAT(text, HasSubstr("cylinder-cylinder/rim-rim/1/2"));
+  EXPECT_THAT(text, HasSubstr("0x1."));
+}
+
+// solve
+
+std::vector<json> solved(const std::string& input, bool& good) {
+  std::istringstream in(input);
+  std::stringstream out;
+  good = solve(in, out, {everybody(), 1e-15, Bar()});
+  std::vector<json> lines;
+  for (std::string line; std::getline(out, line);) lines.push_back(json::parse(line));
+  return lines;
+}
+
+const std::string on_sphere =
+    R"({"id":"c1","a":{"shape":"cylinder","radius":0.5,"half_length":1},"pose_a":{"position":[0,0,1.5]},"b":{"shape":"sphere","radius":1}})";
+
+TEST(Solve, AnswersOneLineWithOne) {
+  bool good = false;
+  const auto lines = solved(on_sphere, good);  // no newline at the end
+  EXPECT_TRUE(good);
+  ASSERT_EQ(lines.size(), 1u);
+  EXPECT_EQ(lines[0]["id"], "c1");
+  EXPECT_EQ(lines[0]["truth"]["signed_distance"], json::array({"-0.5", "-0.5"}));
+  EXPECT_EQ(lines[0]["truth"]["normals"], json::array({{0.0, 0.0, 1.0}}));
+  EXPECT_EQ(lines[0]["answers"]["bullet"]["status"], "contact");
+  EXPECT_EQ(lines[0]["answers"]["reference"]["score"]["outcome"], "agree");
+}
+
+TEST(Solve, NormalsPointFromTheUsersBToTheUsersA) {
+  json line = json::parse(on_sphere);
+  std::swap(line["a"], line["b"]);
+  line["pose_b"] = line["pose_a"];
+  line.erase("pose_a");
+  bool good = false;
+  const auto lines = solved(line.dump(), good);
+  EXPECT_EQ(lines[0]["truth"]["normals"][0][2], -1.0);
+  EXPECT_EQ(lines[0]["answers"]["reference"]["normal"][2], -1.0);
+  EXPECT_EQ(lines[0]["answers"]["reference"]["points"][0]["normal"][2], -1.0);
+  EXPECT_EQ(lines[0]["answers"]["reference"]["score"]["outcome"], "agree");
+}
+
+TEST(Solve, ABadLineIsNamedAndTheRestGoOn) {
+  bool good = true;
+  const std::string bad =
+      R"({"id":7,"a":{"shape":"cylinder","radius":-1,"half_length":1},"b":{"shape":"sphere","radius":1}})";
+  const auto lines =
+      solved(on_sphere + "\r\n\n" + bad + "\nnonsense\n\xff\n[]\n" + on_sphere + "\n", good);
+  EXPECT_FALSE(good);
+  ASSERT_EQ(lines.size(), 6u);
+  EXPECT_TRUE(lines[0].contains("truth"));
+  EXPECT_EQ(lines[1]["line"], 3);
+  EXPECT_EQ(lines[1]["id"], 7);
+  EXPECT_EQ(lines[1]["field"], "a.radius");
+  EXPECT_THAT(lines[1]["error"].get<std::string>(), HasSubstr("-1"));
+  EXPECT_EQ(lines[2]["line"], 4);
+  EXPECT_EQ(lines[3]["line"], 5);
+  EXPECT_EQ(lines[4]["line"], 6);
+  EXPECT_EQ(lines[5]["truth"], lines[0]["truth"]);
+}
+
+}  // namespace
+}  // namespace touchstone

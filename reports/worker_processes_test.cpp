@@ -1,0 +1,56 @@
+#include "reports/worker_processes.hpp"
+
+#include <csignal>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <stdexcept>
+
+namespace touchstone {
+namespace {
+
+using testing::HasSubstr;
+
+std::string name(std::size_t i) { return "task " + std::to_string(i); }
+void ignore(std::size_t) {}
+
+TEST(WorkerProcesses, ReturnResultsInOrderWhateverTheirNumber) {
+  const auto square = [](std::size_t i) {
+    return std::string(i * 1000, 'x') + std::to_string(i * i);
+  };
+  const auto alone = run_in_processes(30, 1, square, name, ignore);
+  ASSERT_EQ(alone.size(), 30u);
+  EXPECT_EQ(alone[7].substr(7000), "49");
+  EXPECT_EQ(run_in_processes(30, 4, square, name, ignore), alone);
+  EXPECT_EQ(run_in_processes(30, 64, square, name, ignore), alone);
+  EXPECT_TRUE(run_in_processes(0, 2, square, name, ignore).empty());
+}
+
+TEST(WorkerProcesses, ReportProgress) {
+  std::size_t last = 0;
+  run_in_processes(
+      5, 2, [](std::size_t) { return std::string(); }, name,
+      [&](std::size_t done) { last = done; });
+  EXPECT_EQ(last, 5u);
+}
+
+TEST(WorkerProcesses, AnExceptionNamesItsTask) {
+  const auto bad = [](std::size_t i) -> std::string {
+    if (i == 3) throw std::runtime_error("no truth");
+    return "";
+  };
+  EXPECT_THAT([&] { run_in_processes(6, 2, bad, name, ignore); },
+              testing::ThrowsMessage<std::runtime_error>(HasSubstr("task 3: no truth")));
+}
+
+TEST(WorkerProcesses, ADeadWorkerNamesItsTaskAndSignal) {
+  const auto deadly = [](std::size_t i) -> std::string {
+    if (i == 2) raise(SIGKILL);
+    return "";
+  };
+  EXPECT_THAT([&] { run_in_processes(6, 2, deadly, name, ignore); },
+              testing::ThrowsMessage<std::runtime_error>(
+                  testing::AllOf(HasSubstr("task 2"), HasSubstr("Killed"))));
+}
+
+}  // namespace
+}  // namespace touchstone
