@@ -1,6 +1,9 @@
 #include "reduced_pair.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "point_ellipse.hpp"
 #include "rim_rim.hpp"
@@ -50,6 +53,19 @@ void offer_rim_vertex_normal(const ReducedPair& pair, const Vec3& q, BestNormal&
   const Vec3 across = q - q.dot(disc.axis) * disc.axis;
   const double length = across.norm();
   if (length > disc.radius) offer_normal(pair, q - (disc.radius / length) * across, best);
+}
+
+/// Is a contact of two rims possible at these ends? Its normal n has u·n >= 0 for both axes u
+/// towards the ends, and q differs from a sum of rim points by at most the depth against n, so that
+/// q·u cannot lie further back than the other rim reaches.
+bool rims_may_meet(const ReducedPair& pair, unsigned signs, const Vec3& q, const BestNormal& best) {
+  const double depth = std::max(0.0, -best.gap);
+  const double sine = pair.discs[0].axis.cross(pair.discs[1].axis).norm();
+  for (int i = 0; i < 2; ++i) {
+    const double along = q.dot(pair.discs[i].axis) * ((signs >> i & 1U) ? 1 : -1);
+    if (along < -(pair.discs[1 - i].radius * sine + depth)) return false;
+  }
+  return true;
 }
 
 /// Normals across segment `line`: every disc is projected along it to an ellipse (or, seen flat on,
@@ -179,7 +195,7 @@ BestNormal largest_gap(const ReducedPair& pair) {
     const Vec3 q = reduced_point(pair, signs, -1);
     if (pair.disc_count == 1) {
       offer_rim_vertex_normal(pair, q, best);
-    } else {
+    } else if (rims_may_meet(pair, signs, q, best)) {
       offer_rim_rim_normals(pair, q, best);
     }
   }
