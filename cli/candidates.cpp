@@ -20,8 +20,7 @@ std::string supported_pairs(const ts_candidate& candidate) {
 }  // namespace
 
 void add_candidates(CLI::App& program, int&) {
-  CLI::App* command =
-      program.add_subcommand("candidates", "List the contact routines that can be scored");
+  CLI::App* command = program.add_subcommand("candidates", "List the contact routines there are");
   command->callback([] {
     for (const ts_candidate* c : all_candidates()) {
       fmt::print("{} {}\n  cylinder against {}\n  {}\n", c->name, c->version, supported_pairs(*c),

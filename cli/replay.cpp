@@ -21,8 +21,8 @@ struct Options {
 }  // namespace
 
 void add_replay(CLI::App& program, int&) {
-  CLI::App* command = program.add_subcommand(
-      "replay", "Show one configuration again: its numbers, the truth, every answer");
+  CLI::App* command =
+      program.add_subcommand("replay", "Show one configuration again: truth and answers");
   const auto options = std::make_shared<Options>(*command);
   command->add_option("identity", options->identity, "pair/class/seed/index, as a report prints it")
       ->required();

@@ -64,8 +64,8 @@ void run(const Options& options) {
 }  // namespace
 
 void add_report(CLI::App& program, int&) {
-  CLI::App* command = program.add_subcommand(
-      "report", "Score all candidates on every pair and pose class; write out/report.html");
+  CLI::App* command =
+      program.add_subcommand("report", "Score all candidates; write out/report.html");
   const auto options = std::make_shared<Options>(*command);
   command->add_option("--pair", options->pairs, "Only these pairs, as in cylinder-box")
       ->delimiter(',');

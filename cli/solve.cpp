@@ -36,8 +36,8 @@ int run(const Options& options) {
 }  // namespace
 
 void add_solve(CLI::App& program, int& exit_code) {
-  CLI::App* command = program.add_subcommand(
-      "solve", "Truth, answers and scores for your own configurations, one JSON object a line");
+  CLI::App* command =
+      program.add_subcommand("solve", "Truth, answers and scores for your own configurations");
   const auto options = std::make_shared<Options>(*command);
   command->add_option("file", options->file, "JSON Lines; - is standard input")
       ->capture_default_str();

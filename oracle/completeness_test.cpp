@@ -14,8 +14,7 @@ using Quaternion = Eigen::Quaterniond;
 /// The integer quaternion of a rotation matrix with entries integer / denominator, exactly.
 Quaternion exact_quaternion(const Eigen::Matrix3d& m, double denominator) {
   // Shepperd's first case, times 4w times the denominator; w must not be zero.
-  const Quaternion q(denominator + m.trace(), m(2, 1) - m(1, 2), m(0, 2) - m(2, 0),
-                     m(1, 0) - m(0, 1));
+  Quaternion q(denominator + m.trace(), m(2, 1) - m(1, 2), m(0, 2) - m(2, 0), m(1, 0) - m(0, 1));
   EXPECT_GT(q.w(), 0);
   return q;
 }

@@ -12,7 +12,7 @@ namespace {
 
 mpq_class value_at(const Polynomial& p, const mpq_class& x) {
   // Homogenised Horner: Σ c_i n^i m^(k−i) over m^k, without a gcd at every step.
-  const mpz_class n = x.get_num(), m = x.get_den();
+  const mpz_class &n = x.get_num(), &m = x.get_den();
   mpz_class value = 0, power = 1;
   for (std::size_t i = p.size(); i-- > 0;) {
     value = value * n + p[i] * power;
