@@ -106,36 +106,39 @@ Configuration far_away(Draw& draw, const Configuration& c) {
   return {c.a, moved(c.pose_a), c.b, moved(c.pose_b)};
 }
 
-void add_tilts(Pair pair, std::vector<PoseClass>& out) {
-  const bool plane = pair == Pair::plane;
+/// One class for each tilt of 10^-k rad, k = 1..15, away from the exact pose `base`.
+void add_tilts(Pair pair, const std::string& name, const Quaternion& base, const std::string& what,
+               std::vector<PoseClass>& out) {
   for (std::size_t k = 1; k <= 15; ++k) {
-    const double tilt = power_of_ten[k];
+    const std::string tilt = "1e-" + std::to_string(k);
+    out.push_back({name + "-" + tilt, what + " by " + tilt + " rad.", [pair, base, k](Draw& draw) {
+                     return nearly(draw, pair, base, power_of_ten[k]);
+                   }});
+  }
+}
+
+void add_all_tilts(Pair pair, std::vector<PoseClass>& out) {
+  if (pair == Pair::plane) {
     // The plane's normal is B's z axis, so a lying cylinder is parallel to the plane's surface.
-    out.push_back({"near-parallel-1e-" + std::to_string(k),
-                   plane ? "The axis is tilted by 1e-" + std::to_string(k) + " rad from lying."
-                         : "The axes (or the axis and a box edge) are 1e-" + std::to_string(k) +
-                               " rad from parallel: cross products lose their digits.",
-                   [pair, tilt, plane](Draw& draw) {
-                     return nearly(draw, pair, plane ? along_x : upright, tilt);
-                   }});
+    add_tilts(pair, "near-parallel", along_x, "The axis is tilted from lying", out);
+    add_tilts(pair, "near-perpendicular", upright, "The axis is tilted from standing", out);
+    return;
   }
-  for (std::size_t k = 1; k <= 15; ++k) {
-    const double tilt = power_of_ten[k];
-    out.push_back({"near-perpendicular-1e-" + std::to_string(k),
-                   plane ? "The axis is tilted by 1e-" + std::to_string(k) + " rad from standing."
-                         : "The axes (or the axis and two box edges) are 1e-" + std::to_string(k) +
-                               " rad from perpendicular: discs are seen edge on.",
-                   [pair, tilt, plane](Draw& draw) {
-                     return nearly(draw, pair, plane ? upright : along_x, tilt);
-                   }});
-  }
+  add_tilts(pair, "near-parallel", upright,
+            "Cross products lose their digits: the axes (or the axis and a box edge) miss being "
+            "parallel",
+            out);
+  add_tilts(pair, "near-perpendicular", along_x,
+            "Discs are seen edge on: the axes (or the axis and two box edges) miss being "
+            "perpendicular",
+            out);
 }
 
 }  // namespace
 
 std::vector<PoseClass> limit_classes(Pair pair) {
   std::vector<PoseClass> out;
-  if (pair != Pair::sphere) add_tilts(pair, out);
+  if (pair != Pair::sphere) add_all_tilts(pair, out);
   out.push_back({"aspect-needle", "A is a needle, 1000 times longer than wide.",
                  [pair](Draw& draw) { return extreme_aspect(draw, pair, true); }});
   out.push_back({"aspect-coin", "A is a coin, 1000 times wider than thick.",
