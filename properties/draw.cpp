@@ -21,7 +21,8 @@ double Draw::log_uniform(double lo, double hi) {
   int octaves = 1;
   for (double x = lo; 2 * x < hi; x *= 2) ++octaves;
   for (;;) {
-    const double x = std::ldexp(lo, static_cast<int>(integer(0, octaves - 1))) * uniform(1, 2);
+    const double octave = std::ldexp(lo, static_cast<int>(integer(0, octaves - 1)));
+    const double x = octave * uniform(1, 2);  // C++ does not order the draws within one product
     if (x <= hi) return x;
   }
 }
