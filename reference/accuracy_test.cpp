@@ -68,7 +68,7 @@ TEST_P(Accuracy, PointsLieHalfwayBetweenTheSurfaces) {
         const bool nearly_flat = name.starts_with("near-");
         const double position_rounding =
             4e-16 * (c.pose_a.position().norm() + c.pose_b.position().norm());
-        const double aside = (nearly_flat ? 3e-3 : 1e-8) * larger_size(c) + position_rounding;
+        const double aside = (nearly_flat ? 1e-5 : 1e-8) * larger_size(c) + position_rounding;
         EXPECT_NEAR(outside, 0, aside);
         EXPECT_LE(p.depth, -answer.signed_distance + 1e-14 * larger_size(c) + position_rounding);
       }

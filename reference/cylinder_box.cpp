@@ -7,8 +7,8 @@ namespace touchstone {
 
 Contact contact(const Cylinder& a, const Pose& pose_a, const Box& b, const Pose& pose_b,
                 double contact_threshold) {
-  const BestNormal best = largest_gap(reduce(a, pose_a, b, pose_b));
-  return with_deepest_point({a, pose_a, b, pose_b}, best, contact_threshold);
+  const ReducedPair pair = reduce(a, pose_a, b, pose_b);
+  return with_deepest_point(pair, pose_b.position(), largest_gap(pair), contact_threshold);
 }
 
 }  // namespace touchstone

@@ -20,9 +20,11 @@ struct WorldPlane {
   double height(const Vec3& x) const { return normal.dot(x - origin) - displacement; }
 };
 
-void add_point(Contact& contact, const WorldPlane& plane, const Vec3& on_cylinder) {
-  const double height = plane.height(on_cylinder);
-  contact.add_point(on_cylinder - (height / 2) * plane.normal, -height);
+/// `arm` is the surface point less the centre: heights far from the origin keep their digits.
+void add_point(Contact& contact, const WorldPlane& plane, const Vec3& centre, double centre_height,
+               const Vec3& arm) {
+  const double height = centre_height + plane.normal.dot(arm);
+  contact.add_point(centre + (arm - (height / 2) * plane.normal), -height);
 }
 
 }  // namespace
@@ -49,9 +51,12 @@ Contact contact(const Cylinder& a, const Pose& pose_a, const Plane& b, const Pos
   result.signed_distance = centre_height - a.half_length() * std::abs(cosine) - a.radius() * sine;
   if (result.signed_distance > contact_threshold) return result;
 
-  const Vec3 cap = pose_a.position() + a.half_length() * lower_axis;
+  const Vec3 cap = a.half_length() * lower_axis;
   const Vec3 deepest = cap + a.radius() * down;
-  add_point(result, plane, deepest);
+  const auto add = [&](const Vec3& arm) {
+    add_point(result, plane, pose_a.position(), centre_height, arm);
+  };
+  add(deepest);
 
   const double rounding = 16 * std::numeric_limits<double>::epsilon() *
                           (largest_half_extent(a) + std::abs(centre_height));
@@ -60,10 +65,10 @@ Contact contact(const Cylinder& a, const Pose& pose_a, const Plane& b, const Pos
   if (2 * a.radius() * sine <= slack) {
     const Vec3 side = lower_axis.cross(down);
     const double half = 0.5, height = std::numbers::sqrt3 / 2;  // cos 60°, sin 60°
-    add_point(result, plane, cap + a.radius() * (-half * down + height * side));
-    add_point(result, plane, cap + a.radius() * (-half * down - height * side));
+    add(cap + a.radius() * (-half * down + height * side));
+    add(cap + a.radius() * (-half * down - height * side));
   } else if (2 * a.half_length() * std::abs(cosine) <= slack) {
-    add_point(result, plane, deepest - 2 * a.half_length() * lower_axis);
+    add(deepest - 2 * a.half_length() * lower_axis);
   }
   return result;
 }

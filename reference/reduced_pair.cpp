@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
-#include "point_ellipse.hpp"
+#include "line_normals.hpp"
 #include "rim_rim.hpp"
 
 namespace touchstone {
@@ -22,15 +21,23 @@ ReducedPair with_cylinder(const Cylinder& a, const Pose& pose_a, const Pose& pos
   return pair;
 }
 
-/// d less the ends of all segments but one; bit i of `signs` chooses the end of segment i.
-Vec3 reduced_point(const ReducedPair& pair, unsigned signs, int skipped) {
+/// d less the ends of all segments; bit i of `signs` chooses the end of segment i.
+Vec3 reduced_point(const ReducedPair& pair, unsigned signs) {
   Vec3 q = pair.d;
   for (int i = 0; i < pair.segment_count; ++i) {
-    if (i == skipped) continue;
     const auto& s = pair.segments[i];
     q -= ((signs >> i & 1U) ? s.half_length : -s.half_length) * s.axis;
   }
   return q;
+}
+
+/// The ends of the segments that n selects.
+unsigned ends_along(const ReducedPair& pair, const Vec3& n) {
+  unsigned signs = 0;
+  for (int i = 0; i < pair.segment_count; ++i) {
+    if (pair.segments[i].axis.dot(n) > 0) signs |= 1U << i;
+  }
+  return signs;
 }
 
 void offer_axial_normals(const ReducedPair& pair, BestNormal& best) {
@@ -47,12 +54,40 @@ void offer_axial_normals(const ReducedPair& pair, BestNormal& best) {
   }
 }
 
-/// Nearest point of one disc's rim to the vertex q, when q lies beyond the rim.
-void offer_rim_vertex_normal(const ReducedPair& pair, const Vec3& q, BestNormal& best) {
+/// The normal between one disc's rim and the vertex that is nearest to it. Only bodies apart can
+/// meet so, and no vertex is nearer to the disc than the bodies to each other.
+void offer_rim_vertex_normal(const ReducedPair& pair, BestNormal& best) {
   const auto& disc = pair.discs[0];
-  const Vec3 across = q - q.dot(disc.axis) * disc.axis;
-  const double length = across.norm();
-  if (length > disc.radius) offer_normal(pair, q - (disc.radius / length) * across, best);
+  Vec3 nearest = Vec3::Zero();
+  double nearest_distance = std::numeric_limits<double>::infinity();
+  for (unsigned signs = 0; signs < 1U << pair.segment_count; ++signs) {
+    const Vec3 q = reduced_point(pair, signs);
+    const double height = q.dot(disc.axis);
+    const Vec3 across = q - height * disc.axis;
+    const double length = across.norm();
+    const double distance = std::hypot(height, std::max(length - disc.radius, 0.0));
+    if (distance < nearest_distance) {
+      nearest_distance = distance;
+      nearest = length > disc.radius ? Vec3(q - (disc.radius / length) * across)
+                                     : Vec3(height * disc.axis);
+    }
+  }
+  best.limit = std::min(best.limit, std::max(nearest_distance - pair.inflation, 0.0));
+  offer_normal(pair, nearest, best);
+}
+
+/// With parallel axes the sum of two cylinders is a cylinder; its rim has this normal.
+void offer_parallel_rim_normal(const ReducedPair& pair, BestNormal& best) {
+  const Vec3& axis = pair.discs[0].axis;
+  const double height = pair.d.dot(axis);
+  const Vec3 across = pair.d - height * axis;
+  const double beyond_cap =
+      std::abs(height) - pair.segments[0].half_length - pair.segments[1].half_length;
+  const double beyond_side = across.norm() - pair.discs[0].radius - pair.discs[1].radius;
+  if (beyond_cap > 0 && beyond_side > 0) {
+    offer_normal(pair, std::copysign(beyond_cap, height) * axis + beyond_side * across.normalized(),
+                 best);
+  }
 }
 
 /// Is a contact of two rims possible at these ends? Its normal n has u·n >= 0 for both axes u
@@ -68,70 +103,27 @@ bool rims_may_meet(const ReducedPair& pair, unsigned signs, const Vec3& q, const
   return true;
 }
 
-/// Normals across segment `line`: every disc is projected along it to an ellipse (or, seen flat on,
-/// to itself).
-void offer_line_normals(const ReducedPair& pair, int line, unsigned signs, BestNormal& best) {
-  const Vec3& s = pair.segments[line].axis;
-  Vec3 q = reduced_point(pair, signs, line);
-  q -= q.dot(s) * s;
-  // A disc seen flat on is the same circle in every direction.
-  double flat_radius = 0;
-  for (int j = 0; j < pair.disc_count; ++j) {
-    if (s.cross(pair.discs[j].axis).isZero(0)) flat_radius += pair.discs[j].radius;
-  }
-  for (int j = 0; j < pair.disc_count; ++j) {
-    const auto& disc = pair.discs[j];
-    const Vec3 tilt = s.cross(disc.axis);
-    if (tilt.isZero(0)) {
-      if (q.norm() - flat_radius - pair.inflation <= best.gap) continue;
-      offer_normal(pair, q, best);
-      // On the axis every radial direction is as good as another.
-      offer_normal(pair, s.unitOrthogonal(), best);
-      continue;
-    }
-    // The product of nearly parallel axes has few digits left; across the line it must stay.
-    Vec3 major = tilt.normalized();
-    major = (major - major.dot(s) * s).normalized();
-    const Vec3 minor = s.cross(major).normalized();
-    const double a = disc.radius, b = disc.radius * std::abs(s.dot(disc.axis));
-    // The ellipse holds a disc of radius b, so no direction across the line is better than this.
-    if (q.norm() - b - flat_radius - pair.inflation <= best.gap) continue;
-    const EllipseFeet feet = feet_on_ellipse(a, std::min(a, b), q.dot(major), q.dot(minor));
-    for (int k = 0; k < feet.count; ++k) {
-      const double c = std::cos(feet.angle[k]), t = std::sin(feet.angle[k]);
-      offer_normal(pair, (b * c) * major + (a * t) * minor, best);
-      // The point itself where the ellipse ends in a vertex.
-      offer_normal(pair, q - (a * c) * major - (b * t) * minor, best);
-    }
-  }
-}
-
-/// Eight neighbours at a shrinking angle: takes off what rounding and a missed narrow well leave
-/// over.
-void climb(const ReducedPair& pair, BestNormal& best) {
-  constexpr int evaluations = 400;
-  double step = 1e-3;
-  for (int count = 0; count < evaluations / 8 && step > 1e-9; ++count) {
-    const Vec3 e = best.normal.unitOrthogonal(), f = best.normal.cross(e);
-    const double before = best.gap;
-    const Vec3 centre = best.normal;
-    for (const auto& [x, y] : {std::pair(1.0, 0.0),
-                               {-1.0, 0.0},
-                               {0.0, 1.0},
-                               {0.0, -1.0},
-                               {0.7, 0.7},
-                               {-0.7, 0.7},
-                               {0.7, -0.7},
-                               {-0.7, -0.7}}) {
-      const Vec3 n = (centre + step * (x * e + y * f)).normalized();
-      const double g = pair.gap(n);
-      if (g > best.gap) best = {g, n};
-    }
-    if (!(best.gap > before)) step /= 4;
+void offer_all_rim_rim_normals(const ReducedPair& pair, BestNormal& best) {
+  // Tilts that only rounding makes cost no more than rounding.
+  constexpr double parallel = 2e-16;
+  offer_parallel_rim_normal(pair, best);
+  if (pair.discs[0].axis.cross(pair.discs[1].axis).norm() <= parallel) return;
+  const unsigned likely = ends_along(pair, best.normal);
+  for (unsigned other = 0; other < 4 && !best.proven(); ++other) {
+    const unsigned signs = likely ^ other;
+    const Vec3 q = reduced_point(pair, signs);
+    if (rims_may_meet(pair, signs, q, best)) offer_rim_rim_normals(pair, q, best);
   }
 }
 
 }  // namespace
+
+double ReducedPair::size() const {
+  double sum = d.norm() + inflation;
+  for (int i = 0; i < segment_count; ++i) sum += segments[i].half_length;
+  for (int j = 0; j < disc_count; ++j) sum += discs[j].radius;
+  return sum;
+}
 
 double ReducedPair::gap(const Vec3& n) const {
   double g = d.dot(n) - inflation;
@@ -148,7 +140,10 @@ void offer_normal(const ReducedPair& pair, const Vec3& direction, BestNormal& be
   // Of ±n the one towards A has the larger gap.
   const Vec3 n = direction / (direction.dot(pair.d) < 0 ? -length : length);
   const double g = pair.gap(n);
-  if (g > best.gap) best = {g, n};
+  if (g > best.gap + best.rounding) {
+    best.gap = g;
+    best.normal = n;
+  }
 }
 
 ReducedPair reduce(const Cylinder& a, const Pose& pose_a, const Capsule& b, const Pose& pose_b) {
@@ -175,31 +170,18 @@ ReducedPair reduce(const Cylinder& a, const Pose& pose_a, const Box& b, const Po
 }
 
 BestNormal largest_gap(const ReducedPair& pair) {
-  BestNormal best{-std::numeric_limits<double>::infinity(), Vec3::UnitZ()};
+  BestNormal best;
+  best.rounding = 2e-16 * pair.size();
   offer_axial_normals(pair, best);
-  // The segments' ends that the best direction so far selects come first: they are mostly the right
-  // ones, and a good gap dismisses the others.
-  unsigned likely = 0;
-  for (int i = 0; i < pair.segment_count; ++i) {
-    if (pair.segments[i].axis.dot(best.normal) > 0) likely |= 1U << i;
+  for (int line = 0; line < pair.segment_count && !best.proven(); ++line) {
+    offer_line_normals(pair, line, best);
   }
-  const unsigned vertices = 1U << pair.segment_count;
-  for (unsigned other = 0; other < vertices; ++other) {
-    for (int line = 0; line < pair.segment_count; ++line) {
-      // Either end of the line's own segment gives the same problem.
-      if (!(other >> line & 1U)) offer_line_normals(pair, line, likely ^ other, best);
-    }
+  if (best.proven()) return best;
+  if (pair.disc_count == 1) {
+    offer_rim_vertex_normal(pair, best);
+  } else {
+    offer_all_rim_rim_normals(pair, best);
   }
-  for (unsigned other = 0; other < vertices; ++other) {
-    const unsigned signs = likely ^ other;
-    const Vec3 q = reduced_point(pair, signs, -1);
-    if (pair.disc_count == 1) {
-      offer_rim_vertex_normal(pair, q, best);
-    } else if (rims_may_meet(pair, signs, q, best)) {
-      offer_rim_rim_normals(pair, q, best);
-    }
-  }
-  climb(pair, best);
   return best;
 }
 

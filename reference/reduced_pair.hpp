@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 
 #include "configuration.hpp"
 
@@ -35,23 +36,33 @@ struct ReducedPair {
   void add(const Disc& disc) { discs[disc_count++] = disc; }
 
   double gap(const Vec3& n) const;
+  /// Sum of all lengths: what rounding is relative to.
+  double size() const;
 };
 
 ReducedPair reduce(const Cylinder& a, const Pose& pose_a, const Capsule& b, const Pose& pose_b);
 ReducedPair reduce(const Cylinder& a, const Pose& pose_a, const Cylinder& b, const Pose& pose_b);
 ReducedPair reduce(const Cylinder& a, const Pose& pose_a, const Box& b, const Pose& pose_b);
 
-/// The best direction met so far.
+/// The best direction met so far, and a bound for what better ones can reach. Metres.
 struct BestNormal {
-  double gap;
-  Vec3 normal;  ///< unit
+  double gap = -std::numeric_limits<double>::infinity();
+  Vec3 normal = Vec3::UnitZ();  ///< unit
+  /// Distance of d from some point of the sum: the signed distance is not larger.
+  double limit = std::numeric_limits<double>::infinity();
+  double rounding = 0;  ///< gaps that differ by less are the same
+
+  /// Bodies apart by `gap` with points no further apart than that: nothing is better.
+  bool proven() const { return gap >= limit - rounding; }
 };
 
-/// Keeps ±direction, of any length, if its gap is larger. A zero vector offers nothing.
+/// Keeps ±direction, of any length, if its gap is larger by more than rounding: of directions that
+/// tie the first one stays. A zero vector offers nothing.
 void offer_normal(const ReducedPair& pair, const Vec3& direction, BestNormal& best);
 
 /// Signed distance and one optimal normal. Evaluates the gap itself at every direction that may be
-/// optimal (see oracle/README.md for why these are all), so that an imprecise direction costs its
+/// optimal: ± the discs' axes, across two segments, across one segment (line_normals.hpp), and
+/// between a rim and a vertex or two rims (rim_rim.hpp). So that an imprecise direction costs its
 /// regret, which is of second order, and nothing is ever overestimated.
 BestNormal largest_gap(const ReducedPair& pair);
 

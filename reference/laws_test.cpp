@@ -1,0 +1,123 @@
+// What holds for every answer; only the last test asks the oracle for the truth.
+#include <cmath>
+#include <gtest/gtest.h>
+#include <random>
+#include <vector>
+
+#include "oracle/truth.hpp"
+#include "properties/identity.hpp"
+#include "reference/contact_of.hpp"
+#include "reference/support.hpp"
+
+namespace touchstone {
+namespace {
+
+constexpr int per_class = 5;
+
+std::vector<Identity> some_identities(Pair pair) {
+  std::vector<Identity> identities;
+  for (const auto& name : pose_classes(pair)) {
+    for (std::uint64_t i = 0; i < per_class; ++i) identities.push_back({pair, name, 3, i});
+  }
+  return identities;
+}
+
+double position_rounding(const Configuration& c) {
+  return 1e-15 * (c.pose_a.position().norm() + c.pose_b.position().norm());
+}
+
+class Law : public testing::TestWithParam<Pair> {};
+
+TEST_P(Law, SignedDistanceIsTheGapAlongTheNormal) {
+  if (GetParam() == Pair::plane) GTEST_SKIP() << "a half-space has no gap off its own normal";
+  for (const Identity& id : some_identities(GetParam())) {
+    const Configuration c = make_configuration(id);
+    const Contact answer = contact(c, 0);
+    EXPECT_NEAR(gap(c, answer.normal), answer.signed_distance,
+                1e-14 * larger_size(c) + position_rounding(c))
+        << to_string(id);
+  }
+}
+
+TEST_P(Law, NoSampledDirectionHasALargerGap) {
+  if (GetParam() == Pair::plane) GTEST_SKIP() << "a half-space has no gap off its own normal";
+  std::mt19937 random(1);
+  std::normal_distribution<double> coordinate;
+  for (const Identity& id : some_identities(GetParam())) {
+    const Configuration c = make_configuration(id);
+    const Contact answer = contact(c, 0);
+    const double most = answer.signed_distance + 1e-9 * larger_size(c) + position_rounding(c);
+    for (int i = 0; i < 300; ++i) {
+      const Vec3 offset(coordinate(random), coordinate(random), coordinate(random));
+      // Everywhere, and ever closer to the answer.
+      const Vec3 n = (i < 100 ? offset : answer.normal + std::pow(10, -(i % 10)) * offset);
+      ASSERT_LE(gap(c, n.normalized()), most) << to_string(id);
+    }
+  }
+}
+
+TEST_P(Law, MovingBothBodiesMovesTheAnswer) {
+  const Eigen::Quaterniond turn = Eigen::Quaterniond(3, -1, 2, 0.5).normalized();
+  for (const Identity& id : some_identities(GetParam())) {
+    const Configuration c = make_configuration(id);
+    const Vec3 shift = larger_size(c) * Vec3(1, -2, 3);
+    const auto moved = [&](const Pose& pose) {
+      return Pose(turn * pose.position() + shift, turn * pose.orientation().normalized());
+    };
+    const Configuration other{c.a, moved(c.pose_a), c.b, moved(c.pose_b)};
+    EXPECT_NEAR(contact(other, 0).signed_distance, contact(c, 0).signed_distance,
+                1e-9 * larger_size(c) + 10 * position_rounding(c))
+        << to_string(id);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(, Law, testing::ValuesIn(all_pairs), [](const auto& pair) {
+  return std::string(pair_name(pair.param)).substr(std::string("cylinder-").size());
+});
+
+TEST(CylinderCylinder, ExchangedBodiesHaveTheSameDistance) {
+  for (const Identity& id : some_identities(Pair::cylinder)) {
+    const Configuration c = make_configuration(id);
+    const Configuration exchanged{std::get<Cylinder>(c.b), c.pose_b, c.a, c.pose_a};
+    EXPECT_NEAR(contact(exchanged, 0).signed_distance, contact(c, 0).signed_distance,
+                1e-9 * larger_size(c))
+        << to_string(id);
+  }
+}
+
+// Three stationary rim pairs within 0.05 rad, of which an even scan of the rim sees one.
+TEST(CylinderCylinder, RimsWithCloseStationaryPointsAreResolved) {
+  const Configuration table[] = {
+      {Cylinder(0x1.f2e4caacfc2c5p-1, 0x1.0dd948c0ef4ddp-1),
+       Pose({-0x1.82289cad9876dp+0, -0x1.94049c7dff1f4p-2, 0x1.e7ee04bcd3eecp+0},
+            {0x1.b1b26a2079e21p-1, 0x1.0837601a5133ap-1, 0x1.9ed64bcf10519p-4,
+             0x1.3b24e35c7f6c3p-4}),
+       Cylinder(0x1.9245f5498b488p-2, 0x1.1cc5a1038fc0dp-2),
+       Pose({-0x1.6c0aa813bec08p-1, -0x1.be948a8aaf07p-4, 0x1.2735efe02a156p-1},
+            {-0x1.ca37b7de55afap-1, -0x1.90e10560b005cp-2, 0x1.908db562dd6b9p-4,
+             -0x1.85d2f0335978dp-3})},
+      {Cylinder(0x1.0bec94ef482d2p-2, 0x1.343e5c00f1858p-1),
+       Pose({0x1.26a07d7f3ac2p-7, -0x1.ceebe9af60534p+0, -0x1.948ed7f2f8904p+0},
+            {-0x1.8e7661f79a4p-1, 0x1.4eb5b2cc8ef13p-2, 0x1.bab83b8119c54p-4,
+             -0x1.0ce3b16a291a2p-1}),
+       Cylinder(0x1.0f906c30a55cp-1, 0x1.9dc7584dd7c27p-2),
+       Pose({-0x1.599899706fdd8p-2, -0x1.95e3ecae1a4d4p-1, -0x1.a0a657753d5bap-1},
+            {0x1.b59c1a30c3d2cp-4, -0x1.4afc639824473p-2, -0x1.088e329d4865fp-8,
+             0x1.e16a06143e42dp-1})},
+      {Cylinder(0x1.57841717dca2cp-2, 0x1.149818bd62499p-1),
+       Pose({0x1.0ed4a470d8d87p-2, 0x1.4a21dc4da2b0cp+0, 0x1.240127bef85efp-1},
+            {0x1.3b7aed69dbd7dp-2, 0x1.99998732aa354p-3, -0x1.59c6d2a88a2a9p-1,
+             0x1.476fcec7e1c75p-1}),
+       Cylinder(0x1.9d145b7a5b6b7p-1, 0x1.662b86a746fcfp-1),
+       Pose({-0x1.6422273a3a5bp-3, -0x1.15003852556a8p-2, 0x1.22c150b4030bcp-2},
+            {0x1.cf60662390becp-1, -0x1.416543242f94bp-2, 0x1.25b26d06fa9e4p-2,
+             0x1.8a0f182177713p-7})},
+  };
+  for (const Configuration& c : table) {
+    EXPECT_NEAR(contact(c, 0).signed_distance, oracle::truth(c).signed_distance.midpoint(),
+                1e-12 * larger_size(c));
+  }
+}
+
+}  // namespace
+}  // namespace touchstone
