@@ -84,7 +84,7 @@ class Scan {
 
   Sample at(double angle) {
     ++samples_;
-    const Sample sample = rims_.at(angle, side_);
+    Sample sample = rims_.at(angle, side_);
     best_.limit = std::min(best_.limit, sample.distance);
     return sample;
   }
@@ -163,7 +163,7 @@ class Scan {
     if (!(angle > lo && angle < hi)) angle = (lo + hi) / 2;
     double previous = hi - lo;
     for (int i = 0;; ++i) {
-      const Sample sample = at(angle);
+      Sample sample = at(angle);
       if (sample.slope == 0 || i == 50) return sample;
       ((sample.slope < 0) == (x.slope < 0) ? lo : hi) = angle;
       double next = angle - sample.slope / sample.curvature;
