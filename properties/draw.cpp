@@ -53,6 +53,16 @@ Eigen::Quaterniond Draw::orientation() {
   }
 }
 
+Eigen::Quaterniond Draw::turn_about_z() {
+  for (;;) {
+    const double w = uniform(-1, 1), z = uniform(-1, 1);
+    const double squared = w * w + z * z;
+    if (squared > 1 || squared < 1e-4) continue;
+    const double length = std::sqrt(squared);
+    return Eigen::Quaterniond(w / length, 0, 0, z / length);
+  }
+}
+
 double dot(const Vec3& a, const Vec3& b) { return (a.x() * b.x() + a.y() * b.y()) + a.z() * b.z(); }
 
 Vec3 cross(const Vec3& a, const Vec3& b) {

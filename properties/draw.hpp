@@ -24,6 +24,7 @@ class Draw {
   Vec3 direction_across(const Vec3& unit);
   /// Evenly over all orientations (Marsaglia 1972), unit up to rounding.
   Eigen::Quaterniond orientation();
+  Eigen::Quaterniond turn_about_z();  ///< by an angle evenly on the circle
 
  private:
   rc::Random random_;

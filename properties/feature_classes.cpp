@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include "properties/features.hpp"
 #include "properties/pose_class.hpp"
 
@@ -8,16 +6,12 @@ namespace {
 
 using enum Feature;
 
-double size_of(const Bodies& bodies) {
-  return std::min(smallest_half_extent(bodies.a), smallest_half_extent(bodies.b));
-}
-
 /// Random bodies whose given features meet at a drawn clearance.
 PoseClass meeting(Pair pair, std::string name, std::string description, Feature on_a, Feature on_b,
                   double (*draw_distance)(Draw&, double) = draw_near) {
   return {std::move(name), std::move(description), [pair, on_a, on_b, draw_distance](Draw& draw) {
             const Bodies bodies = draw_bodies(draw, pair);
-            const double distance = draw_distance(draw, size_of(bodies));
+            const double distance = draw_distance(draw, smaller_size(bodies));
             return meet(draw, bodies, on_a, on_b, distance);
           }};
 }
@@ -25,24 +19,16 @@ PoseClass meeting(Pair pair, std::string name, std::string description, Feature 
 Configuration general(Draw& draw, Pair pair, double (*draw_distance)(Draw&, double)) {
   const Bodies bodies = draw_bodies(draw, pair);
   const FeaturePair features = draw_feature_pair(draw, pair);
-  const double distance = draw_distance(draw, size_of(bodies));
+  const double distance = draw_distance(draw, smaller_size(bodies));
   return meet(draw, bodies, features.on_a, features.on_b, distance);
 }
 
 double draw_apart(Draw& draw, double size) { return size * draw.log_uniform(1e-6, 1); }
 double draw_touching(Draw&, double) { return 0; }
 
-/// Centres closer than the smaller size, or for a plane below its surface.
 Configuration deep(Draw& draw, Pair pair) {
   const Bodies bodies = draw_bodies(draw, pair);
-  if (pair == Pair::plane) {
-    return meet(draw, bodies, rim, cap, -bodies.a.half_length() * draw.uniform(0.1, 2));
-  }
-  const Vec3 centre_b{draw.uniform(-1, 1), draw.uniform(-1, 1), draw.uniform(-1, 1)};
-  const double distance = size_of(bodies) * draw.uniform(0, 1);
-  const Vec3 centre_a = centre_b + distance * draw.direction();
-  return {bodies.a, Pose(centre_a, bodies.orientation_a), bodies.b,
-          Pose(centre_b, bodies.orientation_b)};
+  return overlap_deeply(draw, bodies, smaller_size(bodies));
 }
 
 Configuration concentric(Draw& draw, Pair pair) {
@@ -50,6 +36,17 @@ Configuration concentric(Draw& draw, Pair pair) {
   const Vec3 centre{draw.uniform(-1, 1), draw.uniform(-1, 1), draw.uniform(-1, 1)};
   return {bodies.a, Pose(centre, bodies.orientation_a), bodies.b,
           Pose(centre, bodies.orientation_b)};
+}
+
+/// The box's z edge lies across the cap, in its plane but for rounding.
+Configuration edge_in_cap(Draw& draw) {
+  Bodies bodies = draw_bodies(draw, Pair::box);
+  const Eigen::Quaterniond z_to_x(0.5, 0.5, 0.5, 0.5);
+  const Eigen::Quaterniond heading = draw.turn_about_z();
+  bodies.orientation_b =
+      product(product(product(bodies.orientation_a, heading), z_to_x), draw.turn_about_z());
+  const double distance = draw_near(draw, smaller_size(bodies));
+  return meet_at(draw, bodies, cap, edge, distance, 2);
 }
 
 void add_cylinder_features(std::vector<PoseClass>& out) {
@@ -86,8 +83,8 @@ void add_sphere_features(std::vector<PoseClass>& out) {
   out.push_back(meeting(Pair::sphere, "cap", "The sphere meets the cap.", cap, end));
   out.push_back(
       meeting(Pair::sphere, "rim",
-              "The sphere meets the rim: its centre lies in the rim's fan of normals, or, "
-              "overlapping, moves to the nearer of cap and side.",
+              "The sphere meets the rim, its centre in the rim's fan of normals: neither the cap's "
+              "nor the side's normal is right.",
               rim, end));
 }
 
@@ -97,7 +94,10 @@ void add_box_features(std::vector<PoseClass>& out) {
   };
   add("rim-face", "The rim meets a face of the box in one point.", rim, cap);
   add("edge-side", "An edge of the box crosses the side.", side, edge);
-  add("edge-cap", "An edge of the box lies across the cap, nearly in it.", cap, edge);
+  out.push_back({"edge-cap",
+                 "An edge of the box lies across the cap, parallel to it but for rounding: a line "
+                 "of contact that ends at the edge's ends or at the rim.",
+                 edge_in_cap});
   add("edge-rim", "An edge of the box meets the rim; the nearest point is the root of a quartic.",
       rim, edge);
   add("vertex-side", "A vertex of the box meets the side.", side, vertex);

@@ -1,5 +1,6 @@
 #include "properties/features.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <vector>
@@ -161,9 +162,18 @@ Bodies draw_bodies(Draw& draw, Pair pair) {
   return {a, orientation_a, b, draw.orientation()};
 }
 
+double smaller_size(const Bodies& bodies) {
+  return std::min(smallest_half_extent(bodies.a), smallest_half_extent(bodies.b));
+}
+
 Configuration meet(Draw& draw, const Bodies& bodies, Feature on_a, Feature on_b, double distance) {
+  const int axis = static_cast<int>(draw.integer(0, 2));
+  return meet_at(draw, bodies, on_a, on_b, distance, axis);
+}
+
+Configuration meet_at(Draw& draw, const Bodies& bodies, Feature on_a, Feature on_b, double distance,
+                      int edge) {
   const Axes axes_a = axes(bodies.orientation_a), axes_b = axes(bodies.orientation_b);
-  const int edge = static_cast<int>(draw.integer(0, 2));
   const Directions of_a = directions_of_a(draw, axes_a, on_a);
   const Directions of_b = directions_of_b(draw, bodies, axes_b, on_b, edge);
   const bool b_is_plane = std::holds_alternative<Plane>(bodies.b);
@@ -176,6 +186,18 @@ Configuration meet(Draw& draw, const Bodies& bodies, Feature on_a, Feature on_b,
   const Vec3 centre_b{draw.uniform(-1, 1), draw.uniform(-1, 1), draw.uniform(-1, 1)};
   return {bodies.a, Pose(centre_b + ((point_b - point_a) + distance * n), bodies.orientation_a),
           bodies.b, Pose(centre_b, bodies.orientation_b)};
+}
+
+Configuration overlap_deeply(Draw& draw, const Bodies& bodies, double most) {
+  if (std::holds_alternative<Plane>(bodies.b)) {
+    const double distance = -bodies.a.half_length() * draw.uniform(0.1, 2);
+    return meet(draw, bodies, Feature::rim, Feature::cap, distance);
+  }
+  const Vec3 centre_b{draw.uniform(-1, 1), draw.uniform(-1, 1), draw.uniform(-1, 1)};
+  const double distance = most * draw.uniform(0, 1);
+  const Vec3 centre_a = centre_b + distance * draw.direction();
+  return {bodies.a, Pose(centre_a, bodies.orientation_a), bodies.b,
+          Pose(centre_b, bodies.orientation_b)};
 }
 
 FeaturePair draw_feature_pair(Draw& draw, Pair pair) {

@@ -16,6 +16,9 @@ struct Bodies {
   Eigen::Quaterniond orientation_b;
 };
 
+/// The length to which drawn clearances are relative: the smallest half extent of both.
+double smaller_size(const Bodies& bodies);
+
 /// Sizes log-uniform in [0.2, 1] metres.
 Cylinder draw_cylinder(Draw& draw);
 Shape draw_other(Draw& draw, Pair pair);
@@ -27,6 +30,15 @@ Bodies draw_bodies(Draw& draw, Pair pair);
 /// is nearer. Two vertices, or a rim and a vertex, have no common normal of their own: a random one
 /// between their neighbours is taken, and overlapping them makes a depth of at most −distance.
 Configuration meet(Draw& draw, const Bodies& bodies, Feature on_a, Feature on_b, double distance);
+
+/// The same at the box's edge or face number `axis`, the local axis along or across which it lies.
+/// Other shapes have no choice.
+Configuration meet_at(Draw& draw, const Bodies& bodies, Feature on_a, Feature on_b, double distance,
+                      int axis);
+
+/// A's centre less than `most` from B's, in a random direction; over a plane, A's lowest point 0.1
+/// to 2 half lengths below the surface.
+Configuration overlap_deeply(Draw& draw, const Bodies& bodies, double most);
 
 /// A random pair of features with a common normal of their own.
 struct FeaturePair {

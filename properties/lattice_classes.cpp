@@ -1,31 +1,13 @@
 // Configurations whose degeneracy is exact: all lengths and offsets are integer steps of one
 // Lattice.
 #include <algorithm>
-#include <stdexcept>
 
-#include "properties/lattice.hpp"
+#include "properties/lattice_bodies.hpp"
 #include "properties/pose_class.hpp"
+#include "properties/touching_tilted.hpp"
 
 namespace touchstone {
 namespace {
-
-using Steps = std::int64_t;
-using Quaternion = Eigen::Quaterniond;
-
-const Quaternion upright(1, 0, 0, 0);
-const Quaternion along_x(1, 0, 1, 0);  // z axis to x, exactly
-
-/// Sizes in steps. For a box radius_b, other_b and half_b are the half extents; for a sphere only
-/// radius_b counts.
-struct Sizes {
-  Steps radius_a, half_a;
-  Steps radius_b, half_b, other_b;
-};
-
-Sizes draw_sizes(Draw& draw, const Lattice& lattice) {
-  const auto size = [&] { return lattice.draw_size(draw); };
-  return {size(), size(), size(), size(), size()};
-}
 
 Steps smallest(const Sizes& s) {
   return std::min({s.radius_a, s.half_a, s.radius_b, s.half_b, s.other_b});
@@ -36,47 +18,6 @@ Steps draw_depth(Draw& draw, const Sizes& s) {
   const double size = static_cast<double>(smallest(s));
   return std::max<Steps>(1, static_cast<Steps>(size * draw.log_uniform(1e-6, 0.05)));
 }
-/// Zero to `most` in both directions.
-Steps draw_offset(Draw& draw, Steps most) { return draw.integer(-most, most); }
-
-/// Where A's centre lies from B's, and how B is turned against A.
-struct Placement {
-  Steps x, y, z;
-  Quaternion turn_b = upright;
-};
-
-Shape other_shape(Pair pair, const Lattice& l, const Sizes& s) {
-  switch (pair) {
-    case Pair::plane:
-      return Plane(Vec3(0, 0, 1), 0);
-    case Pair::sphere:
-      return Sphere(l.length(s.radius_b));
-    case Pair::capsule:
-      return Capsule(l.length(s.radius_b), l.length(s.half_b));
-    case Pair::cylinder:
-      return Cylinder(l.length(s.radius_b), l.length(s.half_b));
-    case Pair::box:
-      return Box(Vec3(l.length(s.radius_b), l.length(s.other_b), l.length(s.half_b)));
-  }
-  throw std::logic_error("no such pair");
-}
-
-/// B sits at the lattice's origin shifted by whole steps, so that positions are exact and not zero.
-Configuration place(Draw& draw, Pair pair, const Lattice& l, const Sizes& s, const Placement& p,
-                    const Quaternion& turn_a = upright) {
-  const Steps x = draw_offset(draw, Lattice::metre), y = draw_offset(draw, Lattice::metre),
-              z = draw_offset(draw, Lattice::metre);
-  return {Cylinder(l.length(s.radius_a), l.length(s.half_a)),
-          Pose(l.at(x + p.x, y + p.y, z + p.z), l.orientation(turn_a)), other_shape(pair, l, s),
-          Pose(l.at(x, y, z), l.orientation(p.turn_b))};
-}
-
-/// B's reach along its own z beyond its centre.
-Steps reach_b(Pair pair, const Sizes& s) {
-  if (pair == Pair::capsule) return s.half_b + s.radius_b;
-  return pair == Pair::sphere ? s.radius_b : s.half_b;
-}
-
 using Place = Placement (*)(Draw&, Pair, const Sizes&, Steps depth);
 
 PoseClass exactly(Pair pair, const char* name, const char* description, Place where) {
@@ -124,15 +65,17 @@ Placement cap_on_side(Draw& draw, Pair, const Sizes& s, Steps depth) {
 }
 /// A's side on a face of the box: the box is turned so that its z face looks along x.
 Placement side_on_face(Draw& draw, Pair, const Sizes& s, Steps depth) {
-  return {s.radius_a + s.half_b - depth, draw_offset(draw, s.radius_b / 2),
+  return {s.radius_a + s.half_b - depth, draw_offset(draw, s.other_b / 2),
           draw_offset(draw, s.half_a / 2), along_x};
 }
 /// A box's edge, its faces at 3-4-5, across the side at a right angle: the box is turned about y by
-/// arctan(3/4), then lies under A. The edge is (4 radius_b + 3 half_b)/5 from the box's centre.
+/// arctan(3/4), which puts its edge at ((4 radius_b + 3 half_b)/5, (4 half_b - 3 radius_b)/5) in
+/// the x-z plane through the box's centre.
 Placement edge_across_side(Draw& draw, Pair, const Sizes& s, Steps depth) {
-  const Steps reach = (4 * s.radius_b + 3 * s.half_b) / 5;
-  return {s.radius_a + reach - depth, draw_offset(draw, s.other_b / 2),
-          draw_offset(draw, s.half_a / 2), Quaternion(3, 0, 1, 0)};
+  const Steps edge_x = (4 * s.radius_b + 3 * s.half_b) / 5;
+  const Steps edge_z = (4 * s.half_b - 3 * s.radius_b) / 5;
+  return {s.radius_a + edge_x - depth, draw_offset(draw, s.other_b / 2),
+          edge_z + draw_offset(draw, s.half_a / 2), Quaternion(3, 0, 1, 0)};
 }
 Placement same_centre(Draw&, Pair, const Sizes&, Steps) { return {0, 0, 0}; }
 
@@ -161,8 +104,8 @@ Configuration on_plane(Draw& draw, bool standing, Steps (*draw_overlap)(Draw&, c
   const Steps overlap = draw_overlap(draw, s);
   const Steps height = (standing ? s.half_a : s.radius_a) - overlap;
   return place(draw, Pair::plane, lattice, s,
-               {draw_offset(draw, Lattice::metre), draw_offset(draw, Lattice::metre), height},
-               standing ? upright : along_x);
+               {draw_offset(draw, Lattice::metre), draw_offset(draw, Lattice::metre), height,
+                upright, standing ? upright : along_x});
 }
 
 void add_plane_classes(std::vector<PoseClass>& out) {
@@ -174,6 +117,7 @@ void add_plane_classes(std::vector<PoseClass>& out) {
       {"touching", "Standing or lying with distance zero to the last bit.", [](Draw& draw) {
          return on_plane(draw, draw.coin(), [](Draw&, const Sizes&) -> Steps { return 0; });
        }});
+  out.push_back(touching_tilted(Pair::plane));
 }
 
 }  // namespace
@@ -226,6 +170,7 @@ std::vector<PoseClass> lattice_classes(Pair pair) {
        "Exactly parallel or perpendicular bodies touch: the signed distance is zero to the "
        "last bit.",
        [pair](Draw& draw) { return touching(draw, pair); }});
+  out.push_back(touching_tilted(pair));
   return out;
 }
 

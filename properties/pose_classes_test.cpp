@@ -1,0 +1,313 @@
+// What each pose class promises: relations of axes in rational arithmetic, distances by the oracle.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <gmpxx.h>
+#include <gtest/gtest.h>
+#include <set>
+
+#include "oracle/truth.hpp"
+#include "properties/identity.hpp"
+
+namespace touchstone {
+namespace {
+
+TEST(PoseClasses, AreNamedOnceAndDescribedInASentence) {
+  for (const Pair pair : all_pairs) {
+    std::set<std::string> names;
+    for (const auto& name : pose_classes(pair)) {
+      EXPECT_TRUE(names.insert(name).second) << name;
+      const auto text = describe_pose_class(pair, name);
+      EXPECT_GT(text.size(), 20u);
+      EXPECT_EQ(text.back(), '.') << name;
+    }
+  }
+}
+
+// Shapes and poses refuse what is not finite, so that making one is the test.
+TEST(PoseClasses, MakeValidConfigurationsOfTheirPair) {
+  for (const Pair pair : all_pairs) {
+    for (const auto& name : pose_classes(pair)) {
+      for (std::uint64_t i = 0; i < 200; ++i) {
+        const Identity id{pair, name, 1, i};
+        ASSERT_NO_THROW(ASSERT_EQ(pair_of(make_configuration(id)), pair)) << to_string(id);
+      }
+    }
+  }
+}
+
+bool has_class(Pair pair, std::string_view name) {
+  const auto& names = pose_classes(pair);
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+constexpr std::uint64_t samples = 40;
+
+TEST(PoseClasses, TouchingIsZeroToTheLastBit) {
+  constexpr double width = 1e-40;  // no clearance of two doubles is as small as that
+  for (const Pair pair : all_pairs) {
+    for (const char* name : {"touching", "touching-tilted"}) {
+      for (std::uint64_t i = 0; i < 2 * samples; ++i) {
+        const Identity id{pair, name, 1, i};
+        const auto t = oracle::truth(make_configuration(id), width);
+        EXPECT_LE(t.signed_distance.lo, 0) << to_string(id);
+        EXPECT_GE(t.signed_distance.hi, 0) << to_string(id);
+      }
+    }
+  }
+}
+
+/// Signed distance over the smaller size.
+struct Range {
+  const char* name;
+  double lo, hi;
+};
+
+// Coordinates of a few metres against sizes of 0.2 m lose 1e-15 of a size, and needles and coins a
+// thousand times more; 1e-9 covers them and is far below the smallest clearance, 1e-6.
+constexpr double rounding = 1e-9;
+constexpr double most_shallow = -0.05 - rounding;
+constexpr double most_apart = 1 + rounding;
+
+class DistanceOfClass : public testing::TestWithParam<Range> {};
+
+TEST_P(DistanceOfClass, IsWhatTheClassSays) {
+  const auto& [name, lo, hi] = GetParam();
+  int pairs = 0;
+  for (const Pair pair : all_pairs) {
+    if (!has_class(pair, name)) continue;
+    ++pairs;
+    for (std::uint64_t i = 0; i < samples; ++i) {
+      const Identity id{pair, name, 1, i};
+      const Configuration c = make_configuration(id);
+      const double relative = oracle::truth(c).signed_distance.midpoint() / smaller_size(c);
+      EXPECT_GE(relative, lo) << to_string(id);
+      EXPECT_LE(relative, hi) << to_string(id);
+    }
+  }
+  EXPECT_GT(pairs, 0) << "no pair has this class";
+}
+
+constexpr double any_depth = -1e6;
+
+constexpr Range ranges[] = {
+    {"general-separated", 1e-6 - rounding, most_apart},
+    {"general-shallow", most_shallow, -1e-6 + rounding},
+    {"general-deep", any_depth, -0.05},
+    {"touching-rounded", -1e-13, 1e-13},
+    {"concentric", any_depth, -1},
+    {"concentric-aligned", any_depth, -1},
+    {"coaxial", any_depth, 0},
+    // Features that meet, three in four overlapping.
+    {"rim-rim", most_shallow, most_apart},
+    {"rim-side", most_shallow, most_apart},
+    {"rim-face", most_shallow, most_apart},
+    {"rim-end", 1e-6 - rounding, most_apart},
+    {"cap-end", most_shallow, most_apart},
+    {"side-end", most_shallow, most_apart},
+    {"side-side", most_shallow, most_apart},
+    {"side", most_shallow, most_apart},
+    {"cap", most_shallow, most_apart},
+    {"rim", most_shallow, most_apart},
+    {"edge-side", most_shallow, most_apart},
+    {"edge-cap", most_shallow, most_apart},
+    {"edge-rim", most_shallow, most_apart},
+    {"vertex-side", most_shallow, most_apart},
+    {"vertex-cap", most_shallow, most_apart},
+    {"vertex-rim", most_shallow, most_apart},
+    // Exactly aligned bodies always overlap, by at least a step of their lattice.
+    {"parallel-side", most_shallow, -1e-8},
+    {"perpendicular-t", most_shallow, -1e-8},
+    {"perpendicular-x", most_shallow, -1e-8},
+    {"cap-on-side", most_shallow, -1e-8},
+    {"cap-on-axis", most_shallow, -1e-8},
+    {"cap-on-end-centred", most_shallow, -1e-8},
+    {"cap-on-end-offset", most_shallow, -1e-8},
+    {"cap-on-cap-centred", most_shallow, -1e-8},
+    {"cap-on-cap-offset", most_shallow, -1e-8},
+    {"cap-on-face-centred", most_shallow, -1e-8},
+    {"cap-on-face-offset", most_shallow, -1e-8},
+    {"side-on-face", most_shallow, -1e-8},
+    {"standing", most_shallow, -1e-8},
+    {"lying", most_shallow, -1e-8},
+    {"aspect-needle", most_shallow, most_apart},
+    {"aspect-coin", most_shallow, most_apart},
+    {"aspect-needle-deep", any_depth, -0.05},
+    {"aspect-coin-deep", any_depth, -0.05},
+    {"scale-tiny", most_shallow, most_apart},
+    {"scale-huge", most_shallow, most_apart},
+    // Positions of 1e6 m have a spacing of 1e-10 m.
+    {"far-from-origin", most_shallow - 1e-8, most_apart + 1e-8},
+};
+
+INSTANTIATE_TEST_SUITE_P(, DistanceOfClass, testing::ValuesIn(ranges), [](const auto& range) {
+  std::string name = range.param.name;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+});
+
+// Every class is in the table above or has a test of its own, so that a new one is not forgotten.
+TEST(PoseClasses, AllHaveATest) {
+  std::set<std::string> tested = {"touching", "touching-tilted"};
+  for (const Range& range : ranges) tested.insert(range.name);
+  for (const Pair pair : all_pairs) {
+    for (const auto& name : pose_classes(pair)) {
+      const bool tilt = name.starts_with("near-");
+      EXPECT_TRUE(tilt || tested.contains(name)) << pair_name(pair) << " " << name;
+    }
+  }
+}
+
+/// R(q) z times |q|², exactly.
+std::array<mpq_class, 3> exact_axis(const Pose& pose) {
+  const auto& q = pose.orientation();
+  const mpq_class w(q.w()), x(q.x()), y(q.y()), z(q.z());
+  return {2 * (x * z + w * y), 2 * (y * z - w * x), w * w - x * x - y * y + z * z};
+}
+
+bool exactly_parallel(const Configuration& c) {
+  const auto a = exact_axis(c.pose_a), b = exact_axis(c.pose_b);
+  return a[1] * b[2] == a[2] * b[1] && a[2] * b[0] == a[0] * b[2] && a[0] * b[1] == a[1] * b[0];
+}
+
+bool exactly_perpendicular(const Configuration& c) {
+  const auto a = exact_axis(c.pose_a), b = exact_axis(c.pose_b);
+  return mpq_class(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) == 0;
+}
+
+TEST(PoseClasses, ParallelIsExact) {
+  for (const Pair pair : {Pair::capsule, Pair::cylinder, Pair::box}) {
+    for (const char* name : {"parallel-side", "coaxial", "concentric-aligned", "cap-on-end-centred",
+                             "cap-on-end-offset", "cap-on-cap-centred", "cap-on-cap-offset",
+                             "cap-on-face-centred", "cap-on-face-offset"}) {
+      if (!has_class(pair, name)) continue;
+      for (std::uint64_t i = 0; i < samples; ++i) {
+        EXPECT_TRUE(exactly_parallel(make_configuration({pair, name, 1, i}))) << name << i;
+      }
+    }
+  }
+}
+
+TEST(PoseClasses, PerpendicularIsExact) {
+  for (const Pair pair : {Pair::capsule, Pair::cylinder, Pair::box}) {
+    for (const char* name : {"perpendicular-t", "perpendicular-x", "cap-on-side", "side-on-face"}) {
+      // The box's crossing edge is its y axis; its z axis is not perpendicular to A.
+      if (!has_class(pair, name) || (pair == Pair::box && name == std::string("perpendicular-x"))) {
+        continue;
+      }
+      for (std::uint64_t i = 0; i < samples; ++i) {
+        EXPECT_TRUE(exactly_perpendicular(make_configuration({pair, name, 1, i}))) << name << i;
+      }
+    }
+  }
+}
+
+TEST(PoseClasses, StandingAndLyingTieTheirPointsExactly) {
+  for (std::uint64_t i = 0; i < samples; ++i) {
+    EXPECT_TRUE(exactly_parallel(make_configuration({Pair::plane, "standing", 1, i})));
+    EXPECT_TRUE(exactly_perpendicular(make_configuration({Pair::plane, "lying", 1, i})));
+  }
+}
+
+/// Sine and cosine of the angle between the axes, each without cancellation.
+struct AxisAngle {
+  double sine, cosine;
+};
+AxisAngle axis_angle(const Configuration& c) {
+  const auto a = exact_axis(c.pose_a), b = exact_axis(c.pose_b);
+  const auto squared = [](const mpq_class& x, const mpq_class& y, const mpq_class& z) {
+    return mpq_class(x * x + y * y + z * z);
+  };
+  const mpq_class lengths = squared(a[0], a[1], a[2]) * squared(b[0], b[1], b[2]);
+  const mpq_class cosine = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+  const mpq_class sine_squared =
+      squared(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]) /
+      lengths;
+  const mpq_class cosine_squared = cosine * cosine / lengths;
+  return {std::sqrt(sine_squared.get_d()), std::sqrt(cosine_squared.get_d())};
+}
+
+TEST(PoseClasses, TiltsAreWhatTheirNamesSay) {
+  // Rounding of unit quaternions: 2 % of the smallest tilt that is tested, 1e-14.
+  constexpr double rounding_of_axes = 1e-15;
+  const auto expect_tilt = [](double actual, double tilt, double least, const Identity& id) {
+    EXPECT_GE(actual, least * tilt - rounding_of_axes) << to_string(id);
+    // The tilt's tangent is drawn, not its sine: 1e-1 is off by its third power.
+    EXPECT_LE(actual, 1.01 * tilt + rounding_of_axes) << to_string(id);
+  };
+  for (const Pair pair : {Pair::plane, Pair::capsule, Pair::cylinder, Pair::box}) {
+    for (int k = 1; k <= 14; ++k) {
+      const double tilt = std::pow(10, -k);
+      const std::string digits = "1e-" + std::to_string(k);
+      for (std::uint64_t i = 0; i < samples; ++i) {
+        // The plane's normal is the z axis of its body: lying is perpendicular to it.
+        const bool plane = pair == Pair::plane;
+        const Identity along{
+            pair, plane ? "near-perpendicular-" + digits : "near-parallel-" + digits, 1, i};
+        const Identity across{
+            pair, plane ? "near-parallel-" + digits : "near-perpendicular-" + digits, 1, i};
+        expect_tilt(axis_angle(make_configuration(along)).sine, tilt, 0.99, along);
+        expect_tilt(axis_angle(make_configuration(across)).cosine, tilt, 0.49, across);
+      }
+    }
+  }
+}
+
+TEST(PoseClasses, NearParallelAndNearPerpendicularMeet) {
+  for (const Pair pair : {Pair::plane, Pair::capsule, Pair::cylinder, Pair::box}) {
+    for (const char* name : {"near-parallel-1e-6", "near-perpendicular-1e-6"}) {
+      int overlapping = 0;
+      for (std::uint64_t i = 0; i < samples; ++i) {
+        const Identity id{pair, name, 1, i};
+        const Configuration c = make_configuration(id);
+        const double relative = oracle::truth(c).signed_distance.midpoint() / smaller_size(c);
+        EXPECT_LE(relative, most_apart + 1e-4) << to_string(id);  // the tilt lifts far ends
+        overlapping += relative < 0;
+      }
+      EXPECT_GE(overlapping, static_cast<int>(samples) / 2) << pair_name(pair) << " " << name;
+    }
+  }
+}
+
+/// Local axis number i of a pose times |q|², exactly.
+std::array<mpq_class, 3> exact_column(const Pose& pose, int i) {
+  const auto& q = pose.orientation();
+  const mpq_class w(q.w()), x(q.x()), y(q.y()), z(q.z());
+  if (i == 0) return {w * w + x * x - y * y - z * z, 2 * (x * y + w * z), 2 * (x * z - w * y)};
+  if (i == 1) return {2 * (x * y - w * z), w * w - x * x + y * y - z * z, 2 * (y * z + w * x)};
+  return exact_axis(pose);
+}
+
+TEST(PoseClasses, CentredAndCoaxialCentresLieOnTheAxisExactly) {
+  for (const Pair pair : {Pair::sphere, Pair::capsule, Pair::cylinder, Pair::box}) {
+    for (const char* name : {"coaxial", "cap-on-axis", "cap-on-end-centred", "cap-on-cap-centred",
+                             "cap-on-face-centred"}) {
+      if (!has_class(pair, name)) continue;
+      for (std::uint64_t i = 0; i < samples; ++i) {
+        const Configuration c = make_configuration({pair, name, 1, i});
+        for (int across = 0; across < 2; ++across) {
+          const auto e = exact_column(c.pose_a, across);
+          mpq_class offset = 0;
+          for (std::size_t k = 0; k < 3; ++k) {
+            const auto j = static_cast<Eigen::Index>(k);
+            offset +=
+                e[k] * (mpq_class(c.pose_a.position()[j]) - mpq_class(c.pose_b.position()[j]));
+          }
+          EXPECT_EQ(offset, 0) << pair_name(pair) << " " << name << " " << i;
+        }
+      }
+    }
+  }
+}
+
+TEST(PoseClasses, ExtremeAspectIsOneToAThousand) {
+  for (std::uint64_t i = 0; i < samples; ++i) {
+    const Cylinder needle = make_configuration({Pair::box, "aspect-needle", 1, i}).a;
+    EXPECT_NEAR(needle.half_length() / needle.radius(), 1000, 1e-9);
+    const Cylinder coin = make_configuration({Pair::box, "aspect-coin", 1, i}).a;
+    EXPECT_NEAR(coin.radius() / coin.half_length(), 1000, 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace touchstone

@@ -1,0 +1,42 @@
+#include <fmt/core.h>
+#include <ostream>
+
+#include "properties/arbitrary.hpp"
+
+namespace touchstone {
+namespace {
+
+std::string shown(const Vec3& v) { return fmt::format("({:a}, {:a}, {:a})", v.x(), v.y(), v.z()); }
+
+std::string shown(const Pose& pose) {
+  const auto& q = pose.orientation();
+  return fmt::format("position {} orientation ({:a}, {:a}, {:a}, {:a})", shown(pose.position()),
+                     q.w(), q.x(), q.y(), q.z());
+}
+
+struct ShownShape {
+  std::string operator()(const Cylinder& s) const {
+    return fmt::format("cylinder radius {:a} half_length {:a}", s.radius(), s.half_length());
+  }
+  std::string operator()(const Plane& s) const {
+    return fmt::format("plane normal {} displacement {:a}", shown(s.normal()), s.displacement());
+  }
+  std::string operator()(const Sphere& s) const {
+    return fmt::format("sphere radius {:a}", s.radius());
+  }
+  std::string operator()(const Capsule& s) const {
+    return fmt::format("capsule radius {:a} half_length {:a}", s.radius(), s.half_length());
+  }
+  std::string operator()(const Box& s) const {
+    return fmt::format("box half_extents {}", shown(s.half_extents()));
+  }
+};
+
+}  // namespace
+
+void showValue(const Configuration& c, std::ostream& out) {
+  out << "a: " << ShownShape{}(c.a) << ' ' << shown(c.pose_a)
+      << "; b: " << std::visit(ShownShape{}, c.b) << ' ' << shown(c.pose_b);
+}
+
+}  // namespace touchstone
