@@ -46,7 +46,9 @@ json to_json(const oracle::Truth& truth, Order order) {
   const auto& [lo, hi] = truth.signed_distance;
   const int digits = digits_for(truth.signed_distance);
   json normals = json::array();
-  for (const Vec3& n : truth.normals) normals.push_back(to_json(Vec3(sign(order) * n)));
+  for (const auto& normal : truth.normals) {
+    normals.push_back(to_json(Vec3(sign(order) * normal.n)));
+  }
   return {
       {"signed_distance", {oracle::decimal_below(lo, digits), oracle::decimal_above(hi, digits)}},
       {"normals", normals},
