@@ -29,17 +29,18 @@ bool gap_is_zero(const Difference& difference, const IntegerVector& n) {
 /// Both ±n are tried.
 class RationalDirection : public CriticalDirection {
  public:
-  explicit RationalDirection(IntegerVector n, std::optional<DirectionFamily> family = {})
+  RationalDirection(IntegerVector n, std::optional<DirectionFamily> family)
       : n_(std::move(n)), family_(std::move(family)) {}
 
-  void enclose(const BallDifference& difference, std::vector<DirectionBound>& out) override {
+  void enclose(const Difference&, const BallDifference& balls,
+               std::vector<DirectionBound>& out) override {
     const BallVector n = to_balls(n_);
-    const auto [centre_distance, half_width] = difference.along(n);
+    const auto [centre_distance, half_width] = balls.along(n);
     const Ball gap = (abs(centre_distance) - half_width) / norm(n);
     if (!centre_distance.is_negative()) out.push_back({gap, n});
     if (!centre_distance.is_positive()) out.push_back({gap, -n});
   }
-  ZeroGap zero_gap(const Difference& difference, const BallDifference&) override {
+  ZeroGap zero_gap(const Difference& difference) override {
     const bool forth = dot(difference.d, n_) >= 0;
     return gap_is_zero(difference, forth ? n_ : -n_) ? ZeroGap::zero : ZeroGap::unknown;
   }
@@ -55,11 +56,12 @@ class PlaneDirection : public CriticalDirection {
  public:
   explicit PlaneDirection(IntegerVector normal) : normal_(std::move(normal)) {}
 
-  void enclose(const BallDifference& difference, std::vector<DirectionBound>& out) override {
+  void enclose(const Difference&, const BallDifference& balls,
+               std::vector<DirectionBound>& out) override {
     const BallVector n = to_balls(normal_);
-    out.push_back({difference.gap(n), n});
+    out.push_back({balls.gap(n), n});
   }
-  ZeroGap zero_gap(const Difference& difference, const BallDifference&) override {
+  ZeroGap zero_gap(const Difference& difference) override {
     return gap_is_zero(difference, normal_) ? ZeroGap::zero : ZeroGap::unknown;
   }
   bool is_across(const IntegerVector& v) const override { return dot(normal_, v) == 0; }
@@ -75,14 +77,15 @@ class RimVertexDirection : public CriticalDirection {
                      IntegerVector across)
       : q_(std::move(q)), signs_(signs), radius_(radius_times_norm), across_(std::move(across)) {}
 
-  void enclose(const BallDifference& difference, std::vector<DirectionBound>& out) override {
+  void enclose(const Difference& difference, const BallDifference& balls,
+               std::vector<DirectionBound>& out) override {
     const BallVector n = direction();
     // Beyond the rim no direction is zero; at this precision it may look so.
-    out.push_back({difference.gap(n), n});
+    if (at_vertex(difference, signs_, n) != Side::no) out.push_back({balls.gap(n), n});
   }
 
   // |n| = inflation, that is |q|² + radius² − inflation² = 2 radius |q⊥|.
-  ZeroGap zero_gap(const Difference& difference, const BallDifference&) override {
+  ZeroGap zero_gap(const Difference& difference) override {
     const Integer inflation = difference.inflation * difference.norm;
     const Integer rest = dot(q_, q_) + radius_ * radius_ - inflation * inflation;
     const Integer norm_squared = difference.norm * difference.norm;
@@ -90,7 +93,8 @@ class RimVertexDirection : public CriticalDirection {
                         4 * radius_ * radius_ * dot(across_, across_)) {
       return ZeroGap::unknown;
     }
-    return is_at_vertex(difference, signs_, direction()) ? ZeroGap::zero : ZeroGap::at_most_zero;
+    return at_vertex(difference, signs_, direction()) == Side::yes ? ZeroGap::zero
+                                                                   : ZeroGap::at_most_zero;
   }
 
   // n·v = q·v − radius (across·v) / |across|
@@ -111,35 +115,11 @@ class RimVertexDirection : public CriticalDirection {
   IntegerVector across_;  // norm² q⊥, not zero
 };
 
-/// A vertex on the axis: every radial direction of its sector has the same gap.
-DirectionFamily sector(const Difference& difference, const CriticalSite& site) {
-  const auto& segments = difference.segments;
-  const Frame& frame = segments[site.first].frame;
-  if (segments.size() == 1) return {NormalFamily::Kind::circle, frame.axis, {}};
-  DirectionFamily family{NormalFamily::Kind::arc, {0, 0, 0}, {}};
-  const auto in_sector = [&](const IntegerVector& n) {
-    for (std::size_t i = 0; i < segments.size(); ++i) {
-      if (i == site.first) continue;
-      const int side = sgn(dot(segments[i].frame.axis, n));
-      if (side != 0 && (side > 0) != ((site.signs >> i & 1U) != 0)) return false;
-    }
-    return true;
-  };
-  for (std::size_t i = 0; i < segments.size(); ++i) {
-    if (i == site.first) continue;
-    const IntegerVector end = cross(frame.axis, segments[i].frame.axis);
-    for (const IntegerVector& n : {end, -end}) {
-      if (in_sector(n)) family.ends.push_back(n);
-    }
-  }
-  return family;
-}
+}  // namespace
 
 IntegerVector off_axis(const IntegerVector& q, const Frame& frame) {
   return dot(q, frame.e) * frame.e + dot(q, frame.f) * frame.f;
 }
-
-}  // namespace
 
 IntegerVector reduced_point(const Difference& difference, unsigned signs,
                             const Difference::Segment* skipped) {
@@ -153,26 +133,69 @@ IntegerVector reduced_point(const Difference& difference, unsigned signs,
   return q;
 }
 
-bool is_at_vertex(const Difference& difference, unsigned signs, const BallVector& n,
-                  const Difference::Segment* skipped) {
+std::vector<IntegerVector> signed_axes(const Difference& difference, unsigned signs,
+                                       const Difference::Segment* skipped) {
+  std::vector<IntegerVector> result;
+  for (std::size_t i = 0; i < difference.segments.size(); ++i) {
+    const auto& segment = difference.segments[i];
+    if (&segment == skipped) continue;
+    result.push_back((signs >> i & 1U) ? segment.frame.axis : -segment.frame.axis);
+  }
+  return result;
+}
+
+DirectionFamily sector(const IntegerVector& line, const std::vector<IntegerVector>& inward) {
+  if (inward.empty()) return {NormalFamily::Kind::circle, line, {}};
+  const auto inside = [&](const IntegerVector& n) {
+    return std::all_of(inward.begin(), inward.end(),
+                       [&](const IntegerVector& v) { return dot(v, n) >= 0; });
+  };
+  DirectionFamily arc{NormalFamily::Kind::arc, line, {}};
+  for (const IntegerVector& border : inward) {
+    const IntegerVector end = cross(line, border);
+    if (is_zero(end)) continue;
+    for (const IntegerVector& n : {end, -end}) {
+      const bool known =
+          std::any_of(arc.ends.begin(), arc.ends.end(), [&](const IntegerVector& m) {
+            return is_zero(cross(m, n)) && dot(m, n) > 0;
+          });
+      if (!known && inside(n)) arc.ends.push_back(n);
+    }
+  }
+  if (arc.ends.size() != 2) return {NormalFamily::Kind::arc, line, {}};
+  const int turn = sgn(dot(cross(arc.ends[0], arc.ends[1]), line));
+  const bool forth = turn == 0 ? inside(cross(line, arc.ends[0])) : turn > 0;
+  if (!forth) std::swap(arc.ends[0], arc.ends[1]);
+  return arc;
+}
+
+std::unique_ptr<CriticalDirection> rational_direction(IntegerVector n,
+                                                      std::optional<DirectionFamily> family) {
+  return std::make_unique<RationalDirection>(std::move(n), std::move(family));
+}
+
+Side at_vertex(const Difference& difference, unsigned signs, const BallVector& n,
+               const Difference::Segment* skipped) {
+  Side result = Side::yes;
   for (std::size_t i = 0; i < difference.segments.size(); ++i) {
     if (&difference.segments[i] == skipped) continue;
-    const Ball side = dot(to_balls(difference.segments[i].frame.axis), n);
-    if (!((signs >> i & 1U) ? side.is_positive() : side.is_negative())) return false;
+    const Ball along = dot(to_balls(difference.segments[i].frame.axis), n);
+    const Ball side = (signs >> i & 1U) ? along : -along;
+    if (side.is_negative()) return Side::no;
+    if (!side.is_positive()) result = Side::undecided;
   }
-  return true;
+  return result;
 }
 
 void append_disc_axis(const Difference& difference, const CriticalSite& site,
                       CriticalDirections& out) {
-  out.push_back(std::make_unique<RationalDirection>(difference.discs[site.first].frame.axis));
+  out.push_back(rational_direction(difference.discs[site.first].frame.axis));
 }
 
 void append_crossing(const Difference& difference, const CriticalSite& site,
                      CriticalDirections& out) {
-  out.push_back(std::make_unique<RationalDirection>(
-      cross(difference.segments[site.first].frame.axis,
-            difference.segments[site.second].frame.axis)));
+  out.push_back(rational_direction(cross(difference.segments[site.first].frame.axis,
+                                         difference.segments[site.second].frame.axis)));
 }
 
 void append_radial(const Difference& difference, const CriticalSite& site,
@@ -181,12 +204,19 @@ void append_radial(const Difference& difference, const CriticalSite& site,
   const IntegerVector n =
       off_axis(reduced_point(difference, site.signs, &segment), segment.frame);
   if (!is_zero(n)) {
-    out.push_back(std::make_unique<RationalDirection>(n));
+    out.push_back(rational_direction(n));
     return;
   }
-  DirectionFamily family = sector(difference, site);
-  const IntegerVector sample = family.ends.empty() ? segment.frame.e : family.ends.front();
-  out.push_back(std::make_unique<RationalDirection>(sample, std::move(family)));
+  // A vertex on the axis: every radial direction of its sector has the same gap. The sector may be
+  // a single direction, or none.
+  DirectionFamily family =
+      sector(segment.frame.axis, signed_axes(difference, site.signs, &segment));
+  if (family.kind == NormalFamily::Kind::circle) {
+    out.push_back(rational_direction(segment.frame.e, std::move(family)));
+  } else if (!family.ends.empty()) {
+    const IntegerVector end = family.ends.front();
+    out.push_back(rational_direction(end, std::move(family)));
+  }
 }
 
 void append_rim_vertex(const Difference& difference, const CriticalSite& site,
@@ -195,10 +225,20 @@ void append_rim_vertex(const Difference& difference, const CriticalSite& site,
   const Integer radius = disc.radius * difference.norm;
   const IntegerVector q = reduced_point(difference, site.signs);
   IntegerVector across = off_axis(q, disc.frame);
-  // Only a vertex beyond the rim has a maximum here; across is norm² q⊥. One on the rim touches,
-  // and the ends of its fan of normals are directions of their own.
+  // across is norm² q⊥.
   const Integer reach = difference.norm * difference.norm * radius;
-  if (dot(across, across) <= reach * reach) return;
+  const int beyond = cmp(dot(across, across), reach * reach);
+  if (beyond == 0 && dot(q, disc.frame.axis) == 0) {
+    // On the rim, all normals of the rim's point have the gap −inflation.
+    std::vector<IntegerVector> inward = signed_axes(difference, site.signs);
+    inward.push_back(across);
+    DirectionFamily arc = sector(cross(disc.frame.axis, across), inward);
+    if (arc.ends.empty()) return;
+    const IntegerVector end = arc.ends.front();
+    out.push_back(rational_direction(end, std::move(arc)));
+  }
+  // Only a vertex beyond the rim has a maximum of its own.
+  if (beyond <= 0) return;
   out.push_back(
       std::make_unique<RimVertexDirection>(q, site.signs, radius, std::move(across)));
 }

@@ -23,7 +23,7 @@ struct OptimalNormal {
 struct NormalFamily {
   enum class Kind {
     circle,  ///< all normals across `axis`
-    arc,     ///< of the great circle through both `ends`, from one to the other
+    arc,     ///< of that circle, right-handed about `axis` from ends[0] to ends[1]
     curve    ///< of a pair of rims whose points keep their distance; no closed form is given
   };
   Kind kind;

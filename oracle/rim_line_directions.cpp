@@ -62,27 +62,22 @@ class RimLineDirection : public CriticalDirection {
  public:
   RimLineDirection(Profile profile, RealRoot t) : profile_(std::move(profile)), t_(std::move(t)) {}
 
-  void enclose(const BallDifference& difference, std::vector<DirectionBound>& out) override {
+  void enclose(const Difference& difference, const BallDifference& balls,
+               std::vector<DirectionBound>& out) override {
     const BallVector n = direction();
-    out.push_back({difference.gap(n), n});
+    if (at_vertex(difference, profile_.signs, n, profile_.segment) == Side::no) return;
+    out.push_back({balls.gap(n), n});
   }
 
   // q·n − radius |u × n| − flat |n|, times norm².
-  ZeroGap zero_gap(const Difference& difference, const BallDifference&) override {
+  ZeroGap zero_gap(const Difference& difference) override {
     const Polynomial a = profile_.along(profile_.q);
     const Polynomial u_n = profile_.along(profile_.disc.axis);
     const Polynomial n_n = length_squared(difference.norm);
     const Polynomial b = Integer(profile_.radius * profile_.radius) * (n_n - u_n * u_n);
-    const Polynomial c = profile_.flat == 0
-                             ? Polynomial{}
-                             : Integer(profile_.flat * profile_.flat) * n_n;
-    if (!t_.is_root_of(root_sum_norm(a, b, c))) return ZeroGap::unknown;
-    const Ball t = t_.enclose();
-    const Ball c_at = c.empty() ? Ball(0) : value_at(c, t);
-    if (!has_no_other_zero(value_at(a, t), value_at(b, t), c.empty() ? nullptr : &c_at)) {
-      return ZeroGap::unknown;
-    }
-    return is_at_vertex(difference, profile_.signs, direction(), profile_.segment)
+    const Polynomial c = Integer(profile_.flat * profile_.flat) * n_n;
+    if (!is_zero_here(a, b, c)) return ZeroGap::unknown;
+    return at_vertex(difference, profile_.signs, direction(), profile_.segment) == Side::yes
                ? ZeroGap::zero
                : ZeroGap::at_most_zero;
   }
@@ -96,6 +91,17 @@ class RimLineDirection : public CriticalDirection {
   }
 
  private:
+  /// Is a − √b − √c zero at this root?
+  bool is_zero_here(const Polynomial& a, const Polynomial& b, const Polynomial& c) {
+    if (t_.is_root_of(b)) {
+      // The disc is seen flat on.
+      return is_zero(c) ? t_.is_root_of(a) : is_zero_here(a, c, {0});
+    }
+    if (!t_.is_root_of(root_sum_norm(a, b, c))) return false;
+    const Ball t = t_.enclose();
+    return has_no_other_zero(value_at(a, t), value_at(b, t), value_at(c, t));
+  }
+
   BallVector direction() {
     return to_balls(profile_.line.e) + t_.enclose() * to_balls(profile_.line.f);
   }
@@ -122,8 +128,18 @@ void append_rim_line(const Difference& difference, const CriticalSite& site,
                   disc.radius,
                   std::move(flat)};
   const Polynomial quartic = stationary_quartic(profile, difference.norm);
-  // The gap is then constant between its kinks, which are axial directions.
-  if (is_zero(quartic)) return;
+  if (is_zero(quartic)) {
+    // The disc is seen edge on and its corner coincides with the reduced point (or their mirror
+    // images do): for all directions between the corner's sides the gap is that of what is flat on.
+    std::vector<IntegerVector> inward = signed_axes(difference, site.signs, &segment);
+    inward.push_back(off_axis(profile.q, profile.line));
+    DirectionFamily arc = sector(profile.line.axis, inward);
+    if (!arc.ends.empty()) {
+      const IntegerVector end = arc.ends.front();
+      out.push_back(rational_direction(end, std::move(arc)));
+    }
+    return;
+  }
   for (auto& root : real_roots(quartic, mpq_class(site.lo), mpq_class(site.hi))) {
     out.push_back(std::make_unique<RimLineDirection>(profile, std::move(root)));
   }

@@ -10,6 +10,7 @@
 //
 // of degree 8 in t = tan(θ/2). F also vanishes where p lies on circle 2's axis (w⊥ = 0); there y
 // follows from y·t1 = w·t1, which every stationary pair satisfies.
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -28,8 +29,6 @@ struct RimPair {
   Integer norm;
   std::array<IntegerVector, 2> up;  // signed segment axes: up·n >= 0 in the cell
 };
-
-enum class Side { no, undecided, yes };
 
 /// The rims at one angle, in balls; lengths in units.
 class StationaryPair {
@@ -215,12 +214,13 @@ class RimRimDirection : public CriticalDirection {
   RimRimDirection(const RimPair& rims, RealRoot t, bool of_a_family)
       : rims_(rims), t_(std::move(t)), of_a_family_(of_a_family) {}
 
-  void enclose(const BallDifference& difference, std::vector<DirectionBound>& out) override {
-    pair().enclose(difference, out);
+  void enclose(const Difference&, const BallDifference& balls,
+               std::vector<DirectionBound>& out) override {
+    pair().enclose(balls, out);
   }
 
   // The points of rims that touch are points of both bodies, so that no gap is above zero.
-  ZeroGap zero_gap(const Difference&, const BallDifference&) override {
+  ZeroGap zero_gap(const Difference&) override {
     const OnRim2 on = on_rim2(rims_);
     if (!t_.is_root_of(on.in_plane) || !t_.is_root_of(on.at_radius)) return ZeroGap::unknown;
     return pair().touches_outward() ? ZeroGap::zero : ZeroGap::at_most_zero;
@@ -270,18 +270,19 @@ void append_rim_rim(const Difference& difference, const CriticalSite& site,
   }
   const mpq_class lo(site.lo), hi(site.hi);
   const Polynomial octic = stationary_octic(rims);
+  const std::vector<mpq_class> spurious = spurious_points(rims);
   if (is_zero(octic)) {
     // A continuous family of stationary pairs, on which the distance is constant. Where it leaves
     // the cell it meets a direction of another kind; if it never does, any sample stands for it. At
-    // most two points of rim 1 lie on rim 2's axis, so one of three samples shows both of rim 2's
-    // points.
-    const mpq_class middle = (lo + hi) / 2;
-    for (const mpq_class& t : {lo, middle, hi}) {
+    // most two points of rim 1 lie on rim 2's axis, so that one sample of several shows both of
+    // rim 2's points.
+    for (int i = 1; i <= 5; ++i) {
+      const mpq_class t = lo + mpq_class(i, 6) * (hi - lo);
+      if (std::find(spurious.begin(), spurious.end(), t) != spurious.end()) continue;
       out.push_back(std::make_unique<RimRimDirection>(rims, rational_root(t), true));
     }
     return;
   }
-  const std::vector<mpq_class> spurious = spurious_points(rims);
   for (auto& root : real_roots(octic, lo, hi)) {
     bool is_spurious = false;
     for (const auto& t : spurious) is_spurious = is_spurious || root.is(t);

@@ -9,15 +9,15 @@ bool is_root_sum(const mpz_class& a, const mpz_class& b, const mpz_class& c) {
 }
 
 Polynomial root_sum_norm(const Polynomial& a, const Polynomial& b, const Polynomial& c) {
-  if (c.empty()) return a * a - b;
+  if (is_zero(c)) return a * a - b;
   const Polynomial rest = a * a - b - c;
   return rest * rest - mpz_class(4) * (b * c);
 }
 
-bool has_no_other_zero(const Ball& a, const Ball& b, const Ball* c) {
+bool has_no_other_zero(const Ball& a, const Ball& b, const Ball& c) {
   const Ball root_b = sqrt(b);
-  if (!c) return !(a + root_b).contains_zero();
-  const Ball root_c = sqrt(*c);
+  if (c.is_zero()) return !(a + root_b).contains_zero();
+  const Ball root_c = sqrt(c);
   return !(a + root_b + root_c).contains_zero() && !(a + root_b - root_c).contains_zero() &&
          !(a - root_b + root_c).contains_zero();
 }

@@ -18,6 +18,9 @@ namespace {
 constexpr long zero_bits = 1000;
 constexpr long last_bits = 1L << 13;
 
+/// Normals no further apart are one in double.
+constexpr double same_normal = 1e-14;
+
 struct Survivor {
   std::unique_ptr<CriticalDirection> direction;
   std::vector<DirectionBound> bounds;
@@ -62,47 +65,18 @@ void drop_below(std::vector<Survivor>& survivors, const mpq_class& bar) {
 
 /// Is the signed distance proven to be zero? Every gap that may reach zero must be known not to
 /// exceed it, and one to be zero.
-bool is_exactly_zero(const std::vector<Survivor>& survivors, const Difference& difference,
-                     const BallDifference& balls) {
+bool is_exactly_zero(const std::vector<Survivor>& survivors, const Difference& difference) {
   bool zero = false;
   for (const auto& survivor : survivors) {
     const bool may_reach_zero =
         std::any_of(survivor.bounds.begin(), survivor.bounds.end(),
                     [](const DirectionBound& bound) { return !bound.gap.is_negative(); });
     if (!may_reach_zero) continue;
-    const ZeroGap gap = survivor.direction->zero_gap(difference, balls);
+    const ZeroGap gap = survivor.direction->zero_gap(difference);
     if (gap == ZeroGap::unknown) return false;
     zero = zero || gap == ZeroGap::zero;
   }
   return zero;
-}
-
-/// An optimal direction in body A's frame, while its neighbours can still be told from it.
-struct Direction {
-  const CriticalDirection* critical;
-  BallVector n;
-};
-
-bool may_be_equal(const BallVector& a, const BallVector& b) {
-  const BallVector c = cross(a, b);
-  return c.x.contains_zero() && c.y.contains_zero() && c.z.contains_zero() &&
-         !dot(a, b).is_negative();
-}
-
-/// The directions of all surviving bounds, each once. Sites come simplest first, so that a
-/// direction that several make is known by its simplest.
-std::vector<Direction> distinct_directions(const std::vector<Survivor>& survivors) {
-  std::vector<Direction> result;
-  for (const auto& survivor : survivors) {
-    for (const auto& bound : survivor.bounds) {
-      if (!bound.normal) continue;
-      const bool known = std::any_of(result.begin(), result.end(), [&](const Direction& d) {
-        return may_be_equal(d.n, *bound.normal);
-      });
-      if (!known) result.push_back({survivor.direction.get(), *bound.normal});
-    }
-  }
-  return result;
 }
 
 Vec3 in_world(const Difference& difference, const BallVector& n) {
@@ -123,13 +97,13 @@ Alignment alignment(const CriticalDirection& direction, const IntegerVector& axi
 }
 
 OptimalNormal optimal_normal(const Difference& difference, const Shape& b,
-                             const Direction& direction) {
+                             const CriticalDirection& direction, const Vec3& n) {
   OptimalNormal result;
-  result.n = in_world(difference, direction.n);
-  result.to_a = alignment(*direction.critical, {0, 0, 1}, {1, 0, 0}, {0, 1, 0});
+  result.n = n;
+  result.to_a = alignment(direction, {0, 0, 1}, {1, 0, 0}, {0, 1, 0});
   const auto& axes = difference.axes_b;
   const auto to_b = [&](int i) {
-    return alignment(*direction.critical, axes[i], axes[(i + 1) % 3], axes[(i + 2) % 3]);
+    return alignment(direction, axes[i], axes[(i + 1) % 3], axes[(i + 2) % 3]);
   };
   if (std::holds_alternative<Box>(b)) {
     result.to_b = {to_b(0), to_b(1), to_b(2)};
@@ -142,7 +116,7 @@ OptimalNormal optimal_normal(const Difference& difference, const Shape& b,
 NormalFamily in_world(const Difference& difference, const DirectionFamily& family) {
   NormalFamily result{family.kind, Vec3::Zero(), {}};
   const auto world = [&](const IntegerVector& v) { return in_world(difference, to_balls(v)); };
-  if (family.kind == NormalFamily::Kind::circle) result.axis = world(family.axis);
+  if (family.kind != NormalFamily::Kind::curve) result.axis = world(family.axis);
   for (const IntegerVector& end : family.ends) result.ends.push_back(world(end));
   return result;
 }
@@ -155,15 +129,25 @@ NormalFamily arc_between(const std::vector<OptimalNormal>& normals) {
       if (a.n.dot(b.n) < arc.ends[0].dot(arc.ends[1])) arc.ends = {a.n, b.n};
     }
   }
+  arc.axis = arc.ends[0].cross(arc.ends[1]).normalized();
   return arc;
 }
 
+/// Sites come simplest first, so that a direction that several make is known by its simplest.
 void set_normals(const Difference& difference, const Shape& b,
                  const std::vector<Survivor>& survivors, Truth& truth) {
-  for (const Direction& direction : distinct_directions(survivors)) {
-    truth.normals.push_back(optimal_normal(difference, b, direction));
-    if (const auto family = direction.critical->family()) {
+  for (const auto& [direction, bounds] : survivors) {
+    const auto family = direction->family();
+    if (family && (family->kind != NormalFamily::Kind::curve || truth.families.empty())) {
       truth.families.push_back(in_world(difference, *family));
+    }
+    for (const auto& bound : bounds) {
+      if (!bound.normal) continue;
+      const Vec3 n = in_world(difference, *bound.normal);
+      const bool known =
+          std::any_of(truth.normals.begin(), truth.normals.end(),
+                      [&](const OptimalNormal& m) { return (m.n - n).norm() < same_normal; });
+      if (!known) truth.normals.push_back(optimal_normal(difference, b, *direction, n));
     }
   }
   // g is concave as a function of vectors of any length, so two normals of gap zero make the whole
@@ -211,7 +195,7 @@ Truth truth(const Configuration& configuration, double width, double tie) {
     const BallDifference balls(difference);
     for (auto& survivor : survivors) {
       survivor.bounds.clear();
-      survivor.direction->enclose(balls, survivor.bounds);
+      survivor.direction->enclose(difference, balls, survivor.bounds);
     }
     const Maximum best = maximum(survivors);
     if (!best.lo) continue;
@@ -222,7 +206,7 @@ Truth truth(const Configuration& configuration, double width, double tie) {
     std::optional<Enclosure> signed_distance = wanted.around(lo, hi);
     if (!signed_distance && lo <= 0 && 0 <= hi) {
       const Enclosure nearly_zero = wanted.nearly_zero(zero_bits);
-      if (is_exactly_zero(survivors, difference, balls)) {
+      if (is_exactly_zero(survivors, difference)) {
         signed_distance = {0, 0};
       } else if (nearly_zero.lo <= lo && hi <= nearly_zero.hi) {
         signed_distance = nearly_zero;
