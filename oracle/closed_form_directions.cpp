@@ -26,7 +26,7 @@ bool gap_is_zero(const Difference& difference, const IntegerVector& n) {
   return is_root_sum(a, squares[0], squares[1]);
 }
 
-/// Both ±n are tried.
+/// Both ±n.
 class RationalDirection : public CriticalDirection {
  public:
   RationalDirection(IntegerVector n, std::optional<DirectionFamily> family)
@@ -36,9 +36,9 @@ class RationalDirection : public CriticalDirection {
                std::vector<DirectionBound>& out) override {
     const BallVector n = to_balls(n_);
     const auto [centre_distance, half_width] = balls.along(n);
-    const Ball gap = (abs(centre_distance) - half_width) / norm(n);
-    if (!centre_distance.is_negative()) out.push_back({gap, n});
-    if (!centre_distance.is_positive()) out.push_back({gap, -n});
+    const Ball length = norm(n);
+    out.push_back({(centre_distance - half_width) / length, n});
+    out.push_back({(-centre_distance - half_width) / length, -n});
   }
   ZeroGap zero_gap(const Difference& difference) override {
     const bool forth = dot(difference.d, n_) >= 0;

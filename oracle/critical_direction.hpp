@@ -74,7 +74,7 @@ void append_rim_rim(const Difference& difference, const CriticalSite& site,
 /// A half-space has one direction.
 std::unique_ptr<CriticalDirection> plane_direction(const Difference& difference);
 
-/// A direction with integer coordinates; of ±n the one towards A.
+/// Both directions ±n with integer coordinates.
 std::unique_ptr<CriticalDirection> rational_direction(IntegerVector n,
                                                       std::optional<DirectionFamily> family = {});
 

@@ -3,8 +3,9 @@
 namespace touchstone::oracle {
 namespace {
 
-/// A prime, 2^61 − 1; a number on the border of two cells would have it in its denominator.
-const mpq_class shift(mpz_class(1), (mpz_class(1) << 61U) - 1);
+/// Over a prime, 2^61 − 1: a number on the border of two cells has it in its denominator. Far from
+/// 0, 1/2 and 1, where numbers of few digits lie.
+const mpq_class shift(mpz_class("880753656798294016"), (mpz_class(1) << 61U) - 1);
 
 mpz_class floor(const mpq_class& x) {
   mpz_class result;
