@@ -40,6 +40,10 @@ expect 2 -- '--out' report --out /proc/none
 expect 0 'report.html' report --pair cylinder-plane --count 1 --out "$folder/a b"
 [ -s "$folder/a b/report.html" ] || { echo "FAILED: no report.html"; failures=$((failures + 1)); }
 
+line=$("$program" replay cylinder-box/general-deep/3/4 | grep '^{' | tail -n 1)
+"$program" solve --audit <<<"$line" | grep -q '"audit":{"primal_dual_gap":null,"signed_distance":\["-' ||
+  { echo "FAILED: solve --audit shows no enclosure of the second oracle"; failures=$((failures + 1)); }
+
 # A replayed configuration goes through solve to the same truth.
 truth_of() { sed 's/.*"truth":\({[^}]*}\).*/\1/'; }
 replayed=$("$program" replay cylinder-capsule/general-deep/3/4 --json | truth_of)

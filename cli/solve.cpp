@@ -19,14 +19,16 @@ struct Options {
   BarOption bar;
   std::string file = "-";
   double width = 1e-15;
+  bool audit = false;
 };
 
-/// Bad lines make exit code 2, after all of them are answered.
+/// Bad lines make exit code 2, after all of them are answered; a contradiction ends all.
 int run(const Options& options) {
   if (!(std::isfinite(options.width) && options.width > 0)) {
     throw InvalidInput("--width", fmt::format("{}", options.width), "must be positive and finite");
   }
-  const SolveOptions solving{options.candidates.get(), options.width, options.bar.get()};
+  const SolveOptions solving{options.candidates.get(), options.width, options.bar.get(),
+                             options.audit};
   if (options.file == "-") return solve(std::cin, std::cout, solving) ? 0 : 2;
   std::ifstream in(options.file);
   if (!in) throw InvalidInput("file", '"' + options.file + '"', "could not be opened for reading");
@@ -43,6 +45,7 @@ void add_solve(CLI::App& program, int& exit_code) {
       ->capture_default_str();
   command->add_option("--width", options->width, "Width of the truth, relative to the larger size")
       ->capture_default_str();
+  command->add_flag("--audit", options->audit, "Let the second oracle check every truth");
   command->footer(
       "Examples:\n"
       "  touchstone solve poses.jsonl > answers.jsonl\n"

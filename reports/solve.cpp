@@ -7,6 +7,7 @@
 
 #include "candidates/candidates.hpp"
 #include "reference/invalid_input.hpp"
+#include "reports/agreement.hpp"
 #include "reports/answer_json.hpp"
 #include "reports/configuration_json.hpp"
 
@@ -22,6 +23,11 @@ json solved(const json& line, const SolveOptions& options) {
   json result;
   if (line.contains("id")) result["id"] = line["id"];
   result["truth"] = to_json(truth, order);
+  if (options.audit) {
+    const audit::Enclosure enclosure = audit::enclose(c);
+    check_agreement(c, truth.signed_distance, enclosure);
+    result["audit"] = to_json(enclosure);
+  }
   result["answers"] = json::object();
   for (const ts_candidate* candidate : options.candidates) {
     const ts_answer a = answer(*candidate, c, options.bar.threshold);
@@ -48,6 +54,8 @@ bool solve(std::istream& in, std::ostream& out, const SolveOptions& options) {
     try {
       line = json::parse(text);
       result = solved(line, options);
+    } catch (const Contradiction&) {
+      throw;
     } catch (const InvalidInput& e) {
       result = error(number, line, e.field(), e.what());
     } catch (const json::exception& e) {
