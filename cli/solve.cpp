@@ -18,7 +18,7 @@ struct Options {
   CandidateOption candidates;
   BarOption bar;
   std::string file = "-";
-  double width = 1e-15;
+  double width = 1e-30;
   bool audit = false;
 };
 
@@ -51,7 +51,7 @@ void add_solve(CLI::App& program, int& exit_code) {
       "  touchstone solve poses.jsonl > answers.jsonl\n"
       "  echo '{\"a\":{\"shape\":\"cylinder\",\"radius\":0.5,\"half_length\":1},\n"
       "         \"b\":{\"shape\":\"sphere\",\"radius\":1}}' | tr -d '\\n' | touchstone solve\n"
-      "  touchstone solve --candidates bullet --width 1e-30 poses.jsonl\n"
+      "  touchstone solve --candidates bullet --width 1e-50 poses.jsonl\n"
       "Shapes: cylinder and capsule (radius, half_length), sphere (radius), box (half_extents),\n"
       "plane (normal, displacement). A pose has position and orientation (w, x, y, z).");
   command->callback([options, &exit_code] { exit_code = run(*options); });

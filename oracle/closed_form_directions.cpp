@@ -155,10 +155,9 @@ DirectionFamily sector(const IntegerVector& line, const std::vector<IntegerVecto
     const IntegerVector end = cross(line, border);
     if (is_zero(end)) continue;
     for (const IntegerVector& n : {end, -end}) {
-      const bool known =
-          std::any_of(arc.ends.begin(), arc.ends.end(), [&](const IntegerVector& m) {
-            return is_zero(cross(m, n)) && dot(m, n) > 0;
-          });
+      const bool known = std::any_of(arc.ends.begin(), arc.ends.end(), [&](const IntegerVector& m) {
+        return is_zero(cross(m, n)) && dot(m, n) > 0;
+      });
       if (!known && inside(n)) arc.ends.push_back(n);
     }
   }
@@ -201,8 +200,7 @@ void append_crossing(const Difference& difference, const CriticalSite& site,
 void append_radial(const Difference& difference, const CriticalSite& site,
                    CriticalDirections& out) {
   const auto& segment = difference.segments[site.first];
-  const IntegerVector n =
-      off_axis(reduced_point(difference, site.signs, &segment), segment.frame);
+  const IntegerVector n = off_axis(reduced_point(difference, site.signs, &segment), segment.frame);
   if (!is_zero(n)) {
     out.push_back(rational_direction(n));
     return;
@@ -239,8 +237,7 @@ void append_rim_vertex(const Difference& difference, const CriticalSite& site,
   }
   // Only a vertex beyond the rim has a maximum of its own.
   if (beyond <= 0) return;
-  out.push_back(
-      std::make_unique<RimVertexDirection>(q, site.signs, radius, std::move(across)));
+  out.push_back(std::make_unique<RimVertexDirection>(q, site.signs, radius, std::move(across)));
 }
 
 std::unique_ptr<CriticalDirection> plane_direction(const Difference& difference) {
@@ -250,12 +247,18 @@ std::unique_ptr<CriticalDirection> plane_direction(const Difference& difference)
 void append_directions(const Difference& difference, const CriticalSite& site,
                        CriticalDirections& out) {
   switch (site.kind) {
-    case CriticalSite::Kind::disc_axis: return append_disc_axis(difference, site, out);
-    case CriticalSite::Kind::crossing: return append_crossing(difference, site, out);
-    case CriticalSite::Kind::radial: return append_radial(difference, site, out);
-    case CriticalSite::Kind::rim_vertex: return append_rim_vertex(difference, site, out);
-    case CriticalSite::Kind::rim_line: return append_rim_line(difference, site, out);
-    case CriticalSite::Kind::rim_rim: return append_rim_rim(difference, site, out);
+    case CriticalSite::Kind::disc_axis:
+      return append_disc_axis(difference, site, out);
+    case CriticalSite::Kind::crossing:
+      return append_crossing(difference, site, out);
+    case CriticalSite::Kind::radial:
+      return append_radial(difference, site, out);
+    case CriticalSite::Kind::rim_vertex:
+      return append_rim_vertex(difference, site, out);
+    case CriticalSite::Kind::rim_line:
+      return append_rim_line(difference, site, out);
+    case CriticalSite::Kind::rim_rim:
+      return append_rim_rim(difference, site, out);
   }
 }
 

@@ -14,8 +14,8 @@ struct CriticalSite {
     crossing,    ///< ± the cross product of segments `first` and `second`
     radial,      ///< across segment `first`, towards the vertex `signs`; the one disc is flat on
     rim_vertex,  ///< from the one disc's rim to the vertex `signs`
-    rim_line,    ///< across segment `first`, disc `second` seen as an ellipse, at the vertex `signs`
-    rim_rim      ///< between the rims of both discs, at the vertex `signs`
+    rim_line,  ///< across segment `first`, disc `second` seen as an ellipse, at the vertex `signs`
+    rim_rim    ///< between the rims of both discs, at the vertex `signs`
   };
   Kind kind;
   unsigned first = 0, second = 0;

@@ -48,7 +48,8 @@ TEST(GridCell, NeverReachesZero) {
 
 TEST(GridCell, ScalesWithPowersOfTwo) {
   const mpq_class x(-37, 100);
-  const auto one = GridCell(1.5, 1e-3).around(x, x), eight = GridCell(12, 1e-3).around(8 * x, 8 * x);
+  const auto one = GridCell(1.5, 1e-3).around(x, x),
+             eight = GridCell(12, 1e-3).around(8 * x, 8 * x);
   ASSERT_TRUE(one && eight);
   EXPECT_EQ(8 * one->lo, eight->lo);
   EXPECT_EQ(8 * one->hi, eight->hi);

@@ -18,8 +18,8 @@ Scaled scaled(const Integer& value) {
   if (towards_zero == 0) return result;
   const double away = std::nextafter(towards_zero, towards_zero > 0 ? 1 : -1);
   result.mantissa = mpz_sizeinbase(value.get_mpz_t(), 2) <= 53 ? Interval(towards_zero)
-                    : towards_zero > 0 ? Interval(towards_zero, away)
-                                       : Interval(away, towards_zero);
+                    : towards_zero > 0                         ? Interval(towards_zero, away)
+                                                               : Interval(away, towards_zero);
   return result;
 }
 
@@ -50,8 +50,7 @@ IntervalDifference::IntervalFrame unit(const Frame& frame, const Scaled& norm) {
 
 }  // namespace
 
-IntervalDifference::IntervalDifference(const Difference& difference)
-    : scale(difference.inflation) {
+IntervalDifference::IntervalDifference(const Difference& difference) : scale(difference.inflation) {
   for (const auto& s : difference.segments) scale += s.half_length;
   for (const auto& disc : difference.discs) scale += disc.radius;
   const Scaled norm = scaled(difference.norm);

@@ -49,8 +49,8 @@ TEST(Invariance, ExactRotationAndTranslation) {
     for (const std::string& name : pose_classes(pair)) {
       for (std::uint64_t i = 0; i < 4; ++i) {
         SCOPED_TRACE(to_string(Identity{pair, name, 5, i}));
-        const auto [before, after] = turned(make_configuration({pair, name, 5, i}), turns[i % 4],
-                                            {0.5, -3, 1024});
+        const auto [before, after] =
+            turned(make_configuration({pair, name, 5, i}), turns[i % 4], {0.5, -3, 1024});
         const Truth was = truth(before), is = truth(after);
         expect_equal(was.signed_distance, is.signed_distance);
         ASSERT_EQ(was.normals.size(), is.normals.size());

@@ -24,10 +24,14 @@ class LatticePoses {
   Cylinder cylinder() { return {length(), length()}; }
   Shape other_body(int kind) {
     switch (kind % 4) {
-      case 0: return Sphere(length());
-      case 1: return Capsule(length(), length());
-      case 2: return cylinder();
-      default: return Box({length(), length(), length()});
+      case 0:
+        return Sphere(length());
+      case 1:
+        return Capsule(length(), length());
+      case 2:
+        return cylinder();
+      default:
+        return Box({length(), length(), length()});
     }
   }
   Configuration next() {

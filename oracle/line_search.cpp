@@ -20,10 +20,14 @@ LineSearch::LineSearch(const IntervalDifference& difference, unsigned segment)
 LineSearch::At LineSearch::at(const Piece& piece, const Interval& t) {
   const Interval length = sqrt(Interval(1) + square(t));
   switch (piece.turn) {
-    case 0: return {1, t, length};
-    case 1: return {-t, 1, length};
-    case 2: return {-1, -t, length};
-    default: return {t, -1, length};
+    case 0:
+      return {1, t, length};
+    case 1:
+      return {-t, 1, length};
+    case 2:
+      return {-1, -t, length};
+    default:
+      return {t, -1, length};
   }
 }
 

@@ -48,8 +48,7 @@ TEST(Alignment, IsExactNotATolerance) {
 }
 
 TEST(Families, CoaxialCylindersHaveTheWholeCircle) {
-  const Truth t =
-      truth({Cylinder(1, 8), Pose({0, 0, 1}, upright), Cylinder(0.5, 8), Pose()});
+  const Truth t = truth({Cylinder(1, 8), Pose({0, 0, 1}, upright), Cylinder(0.5, 8), Pose()});
   ASSERT_EQ(t.families.size(), 1u);
   EXPECT_EQ(t.families[0].kind, NormalFamily::Kind::circle);
   EXPECT_NEAR(std::abs(t.families[0].axis.z()), 1, 1e-15);

@@ -43,9 +43,9 @@ class RealRoot {
   int sign_at_lo_;
 };
 
-/// The real roots in [lo, hi] of a polynomial that is not zero, each once whatever its multiplicity,
-/// and perhaps some just outside. Where Descartes' rule of signs allows none or one root in the
-/// interval, that settles it; else they are isolated by CGAL's algebraic kernel.
+/// The real roots in [lo, hi] of a polynomial that is not zero, each once whatever its
+/// multiplicity, and perhaps some just outside. Where Descartes' rule of signs allows none or one
+/// root in the interval, that settles it; else they are isolated by CGAL's algebraic kernel.
 std::vector<RealRoot> real_roots(const Polynomial& polynomial, const mpq_class& lo,
                                  const mpq_class& hi);
 

@@ -17,10 +17,14 @@ namespace {
 /// The frame whose e, f are turned by that many quarters about its axis.
 Frame turned(const Frame& frame, unsigned quarters) {
   switch (quarters) {
-    case 0: return frame;
-    case 1: return {frame.axis, frame.f, -frame.e};
-    case 2: return {frame.axis, -frame.e, -frame.f};
-    default: return {frame.axis, -frame.f, frame.e};
+    case 0:
+      return frame;
+    case 1:
+      return {frame.axis, frame.f, -frame.e};
+    case 2:
+      return {frame.axis, -frame.e, -frame.f};
+    default:
+      return {frame.axis, -frame.f, frame.e};
   }
 }
 

@@ -257,8 +257,12 @@ void append_rim_rim(const Difference& difference, const CriticalSite& site,
                     CriticalDirections& out) {
   // Two discs come with exactly the two segments of the same axes.
   const auto& [disc1, disc2] = std::pair(difference.discs[0], difference.discs[1]);
-  RimPair rims{disc1.frame,  disc2.frame,     reduced_point(difference, site.signs),
-               disc1.radius, disc2.radius,    difference.norm,
+  RimPair rims{disc1.frame,
+               disc2.frame,
+               reduced_point(difference, site.signs),
+               disc1.radius,
+               disc2.radius,
+               difference.norm,
                {}};
   if (site.turn == 1) {
     rims.rim1.e = -rims.rim1.e;

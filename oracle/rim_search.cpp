@@ -5,9 +5,7 @@
 namespace touchstone::oracle {
 namespace {
 
-Interval length(const IntervalVector& v) {
-  return sqrt(square(v.x) + square(v.y) + square(v.z));
-}
+Interval length(const IntervalVector& v) { return sqrt(square(v.x) + square(v.y) + square(v.z)); }
 
 struct Angle {
   Interval cosine, sine;
@@ -20,7 +18,9 @@ Angle angle(double lo, double hi) {
     const Interval square_t = square(Interval(t));
     return (Interval(1) - square_t) / (Interval(1) + square_t);
   };
-  const auto sine = [](double t) { return Interval(2) * Interval(t) / (Interval(1) + square(Interval(t))); };
+  const auto sine = [](double t) {
+    return Interval(2) * Interval(t) / (Interval(1) + square(Interval(t)));
+  };
   const double near = lo <= 0 && 0 <= hi ? 0 : std::min(std::abs(lo), std::abs(hi));
   const double far = std::max(std::abs(lo), std::abs(hi));
   return {{cosine(far).inf(), cosine(near).sup()}, {sine(lo).inf(), sine(hi).sup()}};

@@ -3,9 +3,8 @@
 //   build/release/oracle/oracle_benchmark
 //
 // One iteration is a pass over all configurations, its reported time that of the median one.
-#include <benchmark/benchmark.h>
-
 #include <algorithm>
+#include <benchmark/benchmark.h>
 #include <chrono>
 #include <numeric>
 #include <string>
@@ -41,8 +40,8 @@ void median_time(benchmark::State& state, Pair pair, const std::string& pose_cla
 }
 
 void add(Pair pair, const std::string& pose_class, double width) {
-  const std::string name = std::string(pair_name(pair)) + "/" + pose_class +
-                           (width == 1e-30 ? "/1e-30" : "/1e-13");
+  const std::string name =
+      std::string(pair_name(pair)) + "/" + pose_class + (width == 1e-30 ? "/1e-30" : "/1e-13");
   benchmark::RegisterBenchmark(name.c_str(), median_time, pair, pose_class, width)
       ->UseManualTime()
       ->Unit(benchmark::kMicrosecond)

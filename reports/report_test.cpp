@@ -133,7 +133,12 @@ TEST(Solve, AnswersOneLineWithOne) {
   EXPECT_TRUE(good);
   ASSERT_EQ(lines.size(), 1u);
   EXPECT_EQ(lines[0]["id"], "c1");
-  EXPECT_EQ(lines[0]["truth"]["signed_distance"], json::array({"-0.5", "-0.5"}));
+  const auto end = [&](int i) {
+    return std::stod(lines[0]["truth"]["signed_distance"][i].get<std::string>());
+  };
+  EXPECT_LE(end(0), -0.5);
+  EXPECT_GE(end(1), -0.5);
+  EXPECT_NEAR(end(0), end(1), 1e-15);
   EXPECT_EQ(lines[0]["truth"]["normals"], json::array({{0.0, 0.0, 1.0}}));
   EXPECT_EQ(lines[0]["answers"]["bullet"]["status"], "contact");
   EXPECT_EQ(lines[0]["answers"]["reference"]["score"]["outcome"], "agree");

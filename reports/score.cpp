@@ -22,7 +22,8 @@ bool is_finite(const ts_answer& answer) {
 
 double angle_to_nearest(const Vec3& n, const std::vector<oracle::OptimalNormal>& normals) {
   double least = std::numbers::pi;
-  for (const auto& [m, to_a, to_b] : normals) least = std::min(least, std::atan2(n.cross(m).norm(), n.dot(m)));
+  for (const auto& [m, to_a, to_b] : normals)
+    least = std::min(least, std::atan2(n.cross(m).norm(), n.dot(m)));
   return least * 180 / std::numbers::pi;
 }
 

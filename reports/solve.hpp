@@ -10,7 +10,7 @@ namespace touchstone {
 
 struct SolveOptions {
   std::vector<const ts_candidate*> candidates;
-  double width = 1e-15;  ///< of the truth, relative to the larger size
+  double width = 1e-30;  ///< of the truth, relative to the larger size
   Bar bar;
   bool audit = false;  ///< let the second oracle check every truth
 };
