@@ -36,6 +36,15 @@ struct SearchNumber<Interval> {
 template <class T>
 using Real = typename SearchNumber<T>::type;
 
+/// What a value in T is certainly not below (above). Of anything but intervals: the value itself.
+template <class T>
+const T& lower(const T& x) {
+  return x;
+}
+template <class T>
+const T& upper(const T& x) {
+  return x;
+}
 inline double lower(const Interval& x) { return x.inf(); }
 inline double upper(const Interval& x) { return x.sup(); }
 

@@ -2,20 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 
 #include "audit/branch_and_bound.hpp"
-#include "reference/invalid_input.hpp"
+#include "audit/unit.hpp"
 
 namespace touchstone::audit {
 namespace {
-
-/// A power of two near the largest length, so that nothing overflows.
-double unit_of(const Configuration& c) {
-  const Vec3 apart = c.pose_a.position() / 4 - c.pose_b.position() / 4;
-  const double length = std::max(larger_size(c), apart.cwiseAbs().maxCoeff());
-  return std::ldexp(1.0, std::clamp(std::ilogb(length), -1000, 1000));
-}
 
 /// A half-space bounds the gap only along its own normal N, by the height of a point of A.
 Enclosure over_plane(const Configuration& c, const Plane& plane, double unit) {
@@ -63,9 +55,7 @@ ClosestPair<double> closest_pair(const Configuration& c, const Bodies<double>& s
 }  // namespace
 
 Enclosure enclose(const Configuration& configuration, const Budget& budget) {
-  if (!(std::isfinite(budget.width) && budget.width > 0)) {
-    throw InvalidInput("width", std::to_string(budget.width), "must be positive and finite");
-  }
+  check_width(budget.width);
   const CGAL::Protect_FPU_rounding<true> rounding_outward;
   const double unit = unit_of(configuration);
   if (const auto* plane = std::get_if<Plane>(&configuration.b)) {
