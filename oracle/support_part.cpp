@@ -119,7 +119,43 @@ struct Part {
   void add(const Plane&, const Vec3&, const Eigen::Matrix3d&) {}
 };
 
+/// Along an axis of half length h whose cosine to n is c: unless all of it lies in the part.
+double width_along(double h, double c, double epsilon) {
+  return 2 * h * c > epsilon ? epsilon / c : 0;
+}
+
+double ball_width(double r, double epsilon) {
+  return epsilon < r ? 2 * std::sqrt(epsilon * (2 * r - epsilon)) : 2 * r;
+}
+
+double width(const Cylinder& shape, const Vec3& n, double epsilon) {
+  const double r = shape.radius(), s = std::hypot(n.x(), n.y());
+  const double along = width_along(shape.half_length(), std::abs(n.z()), epsilon);
+  if (2 * r * s <= epsilon) return along;
+  return std::max(along, 2 * r * std::sin(std::min(reach(r * s, epsilon), std::numbers::pi / 2)));
+}
+double width(const Sphere& shape, const Vec3&, double epsilon) {
+  return ball_width(shape.radius(), epsilon);
+}
+double width(const Capsule& shape, const Vec3& n, double epsilon) {
+  return ball_width(shape.radius(), epsilon) +
+         width_along(shape.half_length(), std::abs(n.z()), epsilon);
+}
+double width(const Box& shape, const Vec3& n, double epsilon) {
+  double most = 0;
+  for (int i = 0; i < 3; ++i) {
+    most = std::max(most, width_along(shape.half_extents()[i], std::abs(n[i]), epsilon));
+  }
+  return most;
+}
+double width(const Plane&, const Vec3&, double) { return 0; }
+
 }  // namespace
+
+double width_from_epsilon(const Shape& shape, const Pose& pose, const Vec3& n, double epsilon) {
+  const Vec3 local = pose.rotation().transpose() * n;
+  return std::visit([&](const auto& s) { return width(s, local, epsilon); }, shape);
+}
 
 std::vector<Vec3> support_part(const Shape& shape, const Pose& pose, const Vec3& n, double epsilon,
                                const Vec3& origin) {

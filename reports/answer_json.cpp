@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "oracle/patch.hpp"
 #include "reports/configuration_json.hpp"
+#include "reports/rounded_alignment.hpp"
 
 namespace touchstone {
 namespace {
@@ -40,17 +42,43 @@ int digits_for(const oracle::Enclosure& e) {
                     400);
 }
 
+const char* kind_name(oracle::ContactPatch::Kind kind) {
+  switch (kind) {
+    case oracle::ContactPatch::Kind::point:
+      return "point";
+    case oracle::ContactPatch::Kind::segment:
+      return "segment";
+    case oracle::ContactPatch::Kind::region:
+      return "region";
+  }
+  return "";
+}
+
+json patch_json(const oracle::ContactPatch& patch) {
+  json outline = json::array();
+  for (const Vec3& p : patch.outline()) outline.push_back(to_json(p));
+  return {{"kind", kind_name(patch.kind())},
+          {"area", patch.area()},
+          {"perimeter", patch.perimeter()},
+          {"centroid", to_json(patch.centroid())},
+          {"outline", outline}};
+}
+
 }  // namespace
 
-json to_json(const oracle::Truth& truth, Order order) {
+json to_json(const Configuration& c, const oracle::Truth& truth, Order order) {
   const auto& [lo, hi] = truth.signed_distance;
   const int digits = digits_for(truth.signed_distance);
-  json normals = json::array();
-  for (const Vec3& n : truth.normals) normals.push_back(to_json(Vec3(sign(order) * n)));
+  json normals = json::array(), patch = json::array();
+  for (const Vec3& n : truth.normals) {
+    normals.push_back(to_json(Vec3(sign(order) * n)));
+    patch.push_back(patch_json(oracle::contact_patch(c, with_rounded_alignment(c, n))));
+  }
   return {
       {"signed_distance", {oracle::decimal_below(lo, digits), oracle::decimal_above(hi, digits)}},
       {"normals", normals},
-      {"ties", ties_name(truth.ties)}};
+      {"ties", ties_name(truth.ties)},
+      {"patch", patch}};
 }
 
 json to_json(const ts_answer& answer, const Score& score, Order order) {
@@ -71,7 +99,7 @@ json to_json(const ts_answer& answer, const Score& score, Order order) {
             {"depth_error", number(score.depth_error)},
             {"normal_regret", number(score.normal_regret)},
             {"normal_angle", number(score.normal_angle)},
-            {"coverage", nullptr}}}};
+            {"coverage", number(score.coverage)}}}};
 }
 
 }  // namespace touchstone

@@ -21,7 +21,7 @@ json solved(const json& line, const SolveOptions& options) {
   const oracle::Truth truth = oracle::truth(c, options.width);
   json result;
   if (line.contains("id")) result["id"] = line["id"];
-  result["truth"] = to_json(truth, order);
+  result["truth"] = to_json(c, truth, order);
   result["answers"] = json::object();
   for (const ts_candidate* candidate : options.candidates) {
     const ts_answer a = answer(*candidate, c, options.bar.threshold);
