@@ -19,8 +19,8 @@ struct Record {
   Outcome outcome;
   int points;
   double severity;
-  double values[3];
-  bool present[3];
+  double values[4];
+  bool present[4];
 };
 
 Record to_record(const Score& s) {
@@ -28,8 +28,9 @@ Record to_record(const Score& s) {
   r.outcome = s.outcome;
   r.points = s.points;
   r.severity = s.severity;
-  const std::optional<double>* values[] = {&s.depth_error, &s.normal_regret, &s.normal_angle};
-  for (int i = 0; i < 3; ++i) {
+  const std::optional<double>* values[] = {&s.depth_error, &s.normal_regret, &s.normal_angle,
+                                           &s.coverage};
+  for (int i = 0; i < 4; ++i) {
     r.present[i] = values[i]->has_value();
     r.values[i] = values[i]->value_or(0);
   }
@@ -40,7 +41,7 @@ Score from_record(const Record& r) {
   const auto value = [&](int i) {
     return r.present[i] ? std::optional<double>(r.values[i]) : std::nullopt;
   };
-  return {r.outcome, value(0), value(1), value(2), r.points, r.severity};
+  return {r.outcome, value(0), value(1), value(2), value(3), r.points, r.severity};
 }
 
 /// Per configuration: the oracle's time, then one record per candidate.

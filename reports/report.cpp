@@ -26,6 +26,11 @@ json to_json(const std::optional<Quantiles>& q) {
   return {{"median", q->median}, {"p99", q->p99}, {"max", q->max}};
 }
 
+json to_json(const std::optional<Shares>& s) {
+  if (!s) return nullptr;
+  return {{"mean", s->mean}, {"median", s->median}, {"p1", s->p1}, {"min", s->min}};
+}
+
 json to_json(const Statistics& s) {
   json outcomes = json::object(), points = json::object();
   for (const Outcome outcome : all_outcomes) {
@@ -38,7 +43,7 @@ json to_json(const Statistics& s) {
           {"normal_regret", to_json(s.normal_regret)},
           {"normal_angle", to_json(s.normal_angle)},
           {"points", points},
-          {"coverage", nullptr}};
+          {"coverage", to_json(s.coverage)}};
 }
 
 /// The same scores and times under one heading: a cell, all of a pair, everything.

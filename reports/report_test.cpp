@@ -144,6 +144,19 @@ TEST(Solve, AnswersOneLineWithOne) {
   EXPECT_EQ(lines[0]["answers"]["reference"]["score"]["outcome"], "agree");
 }
 
+TEST(Solve, GivesAPatchForEveryNormal) {
+  bool good = false;
+  json line = json::parse(on_sphere);
+  EXPECT_EQ(solved(on_sphere, good)[0]["truth"]["patch"][0]["kind"], "point");
+  line["b"] = json::parse(R"({"shape":"box","half_extents":[2,2,0.75]})");
+  const json truth = solved(line.dump(), good)[0]["truth"];
+  ASSERT_EQ(truth["patch"].size(), truth["normals"].size());
+  EXPECT_EQ(truth["patch"][0]["kind"], "region");
+  EXPECT_NEAR(truth["patch"][0]["area"].get<double>(), 0.7853981633974483, 1e-14);
+  EXPECT_NEAR(truth["patch"][0]["centroid"][2].get<double>(), 0.625, 1e-14);
+  EXPECT_EQ(truth["patch"][0]["outline"].size(), 32u);
+}
+
 TEST(Solve, NormalsPointFromTheUsersBToTheUsersA) {
   json line = json::parse(on_sphere);
   std::swap(line["a"], line["b"]);

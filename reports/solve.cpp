@@ -22,7 +22,7 @@ json solved(const json& line, const SolveOptions& options) {
   const oracle::Truth truth = oracle::truth(c, options.width);
   json result;
   if (line.contains("id")) result["id"] = line["id"];
-  result["truth"] = to_json(truth, order);
+  result["truth"] = to_json(c, truth, order);
   if (options.audit) {
     const audit::Enclosure enclosure = audit::enclose(c);
     check_agreement(c, truth.signed_distance, enclosure);

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <vector>
+
+#include "reference/configuration.hpp"
+
+namespace touchstone::oracle {
+
+/// Points whose convex hull, seen along the unit vector n, is the part of a posed body (no plane)
+/// within `epsilon` > 0 metres of its support plane along n. They lie on the body and within the
+/// part; curves are sampled, so the hull is inscribed. Positions relative to `origin`.
+std::vector<Vec3> support_part(const Shape& shape, const Pose& pose, const Vec3& n, double epsilon,
+                               const Vec3& origin);
+
+/// The largest width that the part has only because epsilon is not zero: across a round side, a
+/// tilted cap, an edge. Zero where n is so nearly aligned that a flat face lies in the part whole.
+double width_from_epsilon(const Shape& shape, const Pose& pose, const Vec3& n, double epsilon);
+
+}  // namespace touchstone::oracle
