@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <optional>
 #include <vector>
 
 #include "audit/cell_program.hpp"
@@ -29,10 +28,10 @@ struct Bounds {
   Real<T> lo;              ///< The gap along `normal`.
   Vector<Real<T>> normal;  ///< World, any length.
   Real<T> hi;
-  std::optional<PointPair<Real<T>>> closest;  ///< Points of both bodies, close together.
-  Real<T> distance;                           ///< Of `closest`, rounded up.
-  std::vector<BoundedCell<Real<T>>> cells;    ///< Of the whole sphere, if `closest` is no proof.
-  int programs = 0;                           ///< Cells that were bounded, split ones included.
+  PointPair<Real<T>> closest;               ///< Points of both bodies, close together.
+  Real<T> distance;                         ///< Of `closest`, rounded up.
+  std::vector<BoundedCell<Real<T>>> cells;  ///< Of the whole sphere, if `closest` is no proof.
+  int programs = 0;                         ///< Cells that were bounded, split ones included.
 };
 
 /// Branch and bound over the sphere of directions. The largest gap is the signed distance; the
@@ -46,7 +45,7 @@ class BranchAndBound {
       : certain_(certain), search_(search) {}
 
   /// Starts from a closest pair, of whatever quality. Stops when hi − lo <= `width`, or before
-  /// `most_programs` cells are exceeded.
+  /// `most_programs` cells are exceeded, beyond the six faces of the cube.
   Bounds<T> run(const ClosestPair<R>& closest, const R& width, int most_programs) {
     bound_by(closest);
     if (found_.distance - found_.lo <= width || found_.lo > 0) {
@@ -55,7 +54,7 @@ class BranchAndBound {
     }
     for (int face = 0; face < 6; ++face) {
       const R unknown(0);
-      bound_cell({DirectionCell<R>::whole_face(face), *found_.closest, found_.distance, unknown},
+      bound_cell({DirectionCell<R>::whole_face(face), found_.closest, found_.distance, unknown},
                  width);
     }
     std::vector<BoundedCell<R>>& open = found_.cells;  // a heap

@@ -112,7 +112,7 @@ class Prover {
       return Rational(w.squaredNorm()) <= hi * hi;
     };
     const PointPair<Rational> pair =
-        shortest(exact_, *found_.closest, [&](const auto& w) { return closer(w, goal); });
+        shortest(exact_, found_.closest, [&](const auto& w) { return closer(w, goal); });
     const Vector<Rational> w = difference(exact_, pair);
     const Rational hi =
         tight_above(distance_above(bodies_, as_reals(pair)), grain_,

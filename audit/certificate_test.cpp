@@ -87,6 +87,15 @@ TEST(Certificate, SurvivesTheEndsOfTheDoubleRange) {
   EXPECT_GE(proof.hi, proof.lo);
 }
 
+TEST(Certificate, OfAPlaneFarFromItsOrigin) {
+  const Configuration c{Cylinder(1, 1), Pose({0, 0, 1e300}, upright), Plane({0, 0, 1e-5}, 1e295),
+                        Pose()};
+  const Certificate proof = certify(c, {1e-30, 4000});
+  const mpq_class exact = mpq_class(1e300) - 1 - mpq_class(1e295) / mpq_class(1e-5);
+  EXPECT_LE(proof.lo, exact);
+  EXPECT_GE(proof.hi, exact);
+}
+
 TEST(Certificate, RefusesAWidthThatIsNone) {
   EXPECT_THROW(certify(overlapping, {0, 100}), InvalidInput);
   EXPECT_THROW(certify(overlapping, {HUGE_VAL, 100}), InvalidInput);

@@ -9,7 +9,8 @@ namespace touchstone::audit {
 /// What may be spent on an enclosure.
 struct Budget {
   double width = 1e-9;  ///< Wanted hi − lo, relative to the larger size.
-  int cells = 20000;    ///< At most so many cells of directions are bounded.
+  int cells =
+      20000;  ///< At most so many cells of directions are bounded, but the cube's six faces.
 };
 
 /// The signed distance (metres; positive apart) lies in [lo, hi]: certain, whatever the width.
