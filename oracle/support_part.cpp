@@ -119,9 +119,10 @@ struct Part {
   void add(const Plane&, const Vec3&, const Eigen::Matrix3d&) {}
 };
 
-/// Along an axis of half length h whose cosine to n is c: unless all of it lies in the part.
+/// Along an axis of half length h whose cosine to n is c: unless all of it lies in the part, what
+/// is within epsilon, seen along n.
 double width_along(double h, double c, double epsilon) {
-  return 2 * h * c > epsilon ? epsilon / c : 0;
+  return 2 * h * c > epsilon ? epsilon / c * std::sqrt(std::max(0.0, 1 - c * c)) : 0;
 }
 
 double ball_width(double r, double epsilon) {

@@ -7,8 +7,8 @@
 namespace touchstone::oracle {
 
 /// Points whose convex hull, seen along the unit vector n, is the part of a posed body (no plane)
-/// within `epsilon` > 0 metres of its support plane along n. They lie on the body and within the
-/// part; curves are sampled, so the hull is inscribed. Positions relative to `origin`.
+/// within `epsilon` > 0 metres of its support plane along n. Curves are sampled, so the hull is
+/// inscribed. Positions relative to `origin`; along n, those of spheres and capsules mean nothing.
 std::vector<Vec3> support_part(const Shape& shape, const Pose& pose, const Vec3& n, double epsilon,
                                const Vec3& origin);
 
