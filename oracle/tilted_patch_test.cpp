@@ -229,17 +229,29 @@ TEST(TiltedPatch, PartsThatDoNotMeetGiveThePointBetweenThem) {
   EXPECT_NEAR(p.centroid().x(), 2, 1e-12);
 }
 
+constexpr double e = 1e-6;
+WidthFromEpsilon width(const Shape& shape, const Eigen::Quaterniond& q) {
+  return width_from_epsilon(shape, Pose(Vec3::Zero(), q), up, e);
+}
+
 TEST(WidthFromEpsilon, IsThatOfWhatIsNotFlat) {
-  const double e = 1e-6;
-  EXPECT_EQ(width_from_epsilon(Cylinder(0.5, 1), Pose(), up, e), 0);
-  EXPECT_NEAR(width_from_epsilon(Cylinder(0.5, 1), Pose(Vec3::Zero(), leaning(1e-7)), up, e), 0,
-              1e-12);
-  EXPECT_NEAR(width_from_epsilon(Cylinder(0.5, 1), Pose(Vec3::Zero(), lying_along_x), up, e),
-              2 * std::sqrt(e * (1 - e)), 1e-15);
-  EXPECT_NEAR(width_from_epsilon(Sphere(0.5), Pose(), up, e), 2 * std::sqrt(e * (1 - e)), 1e-15);
-  EXPECT_EQ(width_from_epsilon(Box(Vec3(1, 1, 1)), Pose(), up, e), 0);
-  EXPECT_NEAR(width_from_epsilon(Box(Vec3(1, 1, 1)), Pose(Vec3::Zero(), leaning(1e-4)), up, e),
-              1e-2, 1e-6);
+  EXPECT_EQ(width(Cylinder(0.5, 1), upright).largest, 0);
+  EXPECT_NEAR(width(Cylinder(0.5, 1), leaning(1e-7)).largest, 0, 1e-12);
+  EXPECT_NEAR(width(Cylinder(0.5, 1), lying_along_x).largest, 2 * std::sqrt(e * (1 - e)), 1e-15);
+  EXPECT_NEAR(width(Sphere(0.5), upright).largest, 2 * std::sqrt(e * (1 - e)), 1e-15);
+  EXPECT_EQ(width(Box(Vec3(1, 1, 1)), upright).largest, 0);
+  EXPECT_NEAR(width(Box(Vec3(1, 1, 1)), leaning(1e-4)).largest, 1e-2, 1e-6);
+}
+
+TEST(WidthFromEpsilon, CornersHaveNoOther) {
+  EXPECT_TRUE(width(Sphere(0.5), upright).is_a_corner);
+  EXPECT_TRUE(width(Cylinder(0.5, 1), leaning(0.5)).is_a_corner);
+  EXPECT_FALSE(width(Cylinder(0.5, 1), leaning(1e-7)).is_a_corner);
+  EXPECT_FALSE(width(Cylinder(0.5, 1), lying_along_x).is_a_corner);
+  EXPECT_TRUE(width(Capsule(0.5, 1), upright).is_a_corner);
+  EXPECT_FALSE(width(Capsule(0.5, 1), lying_along_x).is_a_corner);
+  EXPECT_FALSE(width(Box(Vec3(1, 1, 1)), leaning(0.5)).is_a_corner);  // an edge
+  EXPECT_TRUE(width(Box(Vec3(1, 1, 1)), Eigen::Quaterniond(1, 0.3, 0.2, 0)).is_a_corner);
 }
 
 }  // namespace
