@@ -80,8 +80,12 @@ ConvexSet overlap_of_discs(const mpq_class& r, const mpq_class& s, const mpq_cla
   const double y = root(4 * distance2 * square(r) - square(from_first));
   const double angle = std::atan2(y, from_first.get_d());
   const double other_angle = std::atan2(y, from_other.get_d());
-  return ConvexSet::region({Side::arc(Vec2::Zero(), radius, -angle, 2 * angle),
-                            Side::arc({distance, 0}, other, pi - other_angle, 2 * other_angle)});
+  Side first = Side::arc(Vec2::Zero(), radius, -angle, 2 * angle);
+  Side second = Side::arc({distance, 0}, other, pi - other_angle, 2 * other_angle);
+  // The same ends to both, lest the boundary of a thin lens cross itself.
+  first.to = second.from = Vec2(from_first.get_d(), y) / (2 * distance);
+  first.from = second.to = Vec2(from_first.get_d(), -y) / (2 * distance);
+  return ConvexSet::region({first, second});
 }
 
 ConvexSet overlap_of_disc_and_rectangle(const mpq_class& x, const mpq_class& y, const mpq_class& r,

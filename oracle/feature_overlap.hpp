@@ -13,8 +13,7 @@ namespace touchstone::oracle {
 // nearest to the first.
 //
 // CGAL's polygons of circles and lines (Gps_circle_segment_traits_2) find the same regions, but
-// drop points and segments and take a hundred times as long; the tests hold these functions to
-// them.
+// drop points and segments and take fifteen times as long; the tests hold these functions to them.
 
 /// Two discs, the first about the origin, the second about (distance, 0).
 ConvexSet overlap_of_discs(const mpq_class& radius, const mpq_class& other_radius,

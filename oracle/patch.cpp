@@ -1,5 +1,8 @@
 #include "oracle/patch.hpp"
 
+#include <algorithm>
+#include <optional>
+
 #include "oracle/feature_overlap.hpp"
 #include "oracle/patch_plane.hpp"
 #include "oracle/support_feature.hpp"
@@ -64,35 +67,35 @@ Placement segment_and_rectangle(const SupportFeature& segment, const SupportFeat
           rounded(face.centre), e1};
 }
 
-/// Where two lines cross, seen along their common perpendicular.
-Placement crossing(const SupportFeature& first, const SupportFeature& second,
-                   const RationalVector& perpendicular, const Vec3& n) {
-  const auto clamped = [](const mpq_class& q, const mpq_class& limit) {
-    return q > limit ? limit : q < -limit ? mpq_class(-limit) : q;
-  };
+/// Where two segments that are not parallel cross, seen along their common perpendicular; none if
+/// they do not.
+std::optional<Placement> crossing(const SupportFeature& first, const SupportFeature& second,
+                                  const RationalVector& perpendicular, const Vec3& n) {
   const RationalVector w = second.centre - first.centre;
   const mpq_class square = dot(perpendicular, perpendicular);
   const mpq_class s = dot(cross(w, second.u), perpendicular) / square;
   const mpq_class t = dot(cross(w, first.u), perpendicular) / square;
-  const RationalVector p = first.centre + clamped(s, first.half_u / first.norm) * first.u;
-  const RationalVector q = second.centre + clamped(t, second.half_u / second.norm) * second.u;
-  return at_point(rounded(mpq_class(1, 2) * (p + q)), n);
+  if (abs(s) * first.norm > first.half_u || abs(t) * second.norm > second.half_u) {
+    return std::nullopt;
+  }
+  return at_point(rounded(first.centre + s * first.u), n);
 }
 
-Placement segments(const SupportFeature& first, const SupportFeature& second, const Vec3& n) {
+std::optional<Placement> segments(const SupportFeature& first, const SupportFeature& second,
+                                  const Vec3& n) {
   const RationalVector perpendicular = cross(first.u, second.u);
   if (dot(perpendicular, perpendicular) != 0) return crossing(first, second, perpendicular, n);
   const RationalVector w = second.centre - first.centre;
-  return {overlap_of_segments(first.half_u, along(w, first.u, first.norm), second.half_u),
-          rounded(first.centre), rounded(first.u)};
+  return Placement{overlap_of_segments(first.half_u, along(w, first.u, first.norm), second.half_u),
+                   rounded(first.centre), rounded(first.u)};
 }
 
-Placement alone(const SupportFeature& f, const Vec3& n) {
+std::optional<Placement> alone(const SupportFeature& f, const Vec3& n) {
   if (f.kind == Kind::disc) return discs(f, f, n);
   return segments(f, f, n);
 }
 
-Placement overlap(const SupportFeature& a, const SupportFeature& b, const Vec3& n) {
+std::optional<Placement> overlap(const SupportFeature& a, const SupportFeature& b, const Vec3& n) {
   if (a.kind == Kind::point && b.kind == Kind::point) return at_point((a.point + b.point) / 2, n);
   if (a.kind == Kind::point) return at_point(a.point, n);
   if (b.kind == Kind::point) return at_point(b.point, n);
@@ -103,6 +106,30 @@ Placement overlap(const SupportFeature& a, const SupportFeature& b, const Vec3& 
   }
   if (b.kind == Kind::segment) return segment_and_disc(b, a);
   return b.kind == Kind::disc ? discs(a, b, n) : disc_and_rectangle(a, b, n);
+}
+
+/// How far a point is beside a feature, seen along n, in double.
+double distance_beside(const SupportFeature& f, const Vec3& p, const Vec3& n) {
+  if (f.kind == Kind::plane) return 0;
+  const Vec3 w = p - (f.kind == Kind::point ? f.point : rounded(f.centre));
+  const Vec3 across = w - w.dot(n) * n;
+  if (f.kind == Kind::point) return across.norm();
+  if (f.kind == Kind::disc) return std::max(0.0, across.norm() - f.radius.get_d());
+  const auto without = [&](const Vec3& v, const RationalVector& axis, const mpq_class& half) {
+    const Vec3 unit = rounded(axis) / f.norm.get_d();
+    const double limit = half.get_d();
+    return Vec3(v - std::clamp(v.dot(unit), -limit, limit) * unit);
+  };
+  const Vec3 beside_u = without(across, f.u, f.half_u);
+  return (f.kind == Kind::segment ? beside_u : without(beside_u, f.v, f.half_v)).norm();
+}
+
+/// Whether a point feature is where its doubles say, and on the other feature.
+bool points_are_right(const SupportFeatures& features, const Vec3& n, double tolerance) {
+  const auto& [a, b] = features;
+  if (!a.point_is_certain || !b.point_is_certain) return false;
+  if (a.kind == Kind::point) return distance_beside(b, a.point, n) <= tolerance;
+  return b.kind != Kind::point || distance_beside(a, b.point, n) <= tolerance;
 }
 
 }  // namespace
@@ -124,16 +151,18 @@ std::vector<Vec3> ContactPatch::outline(int per_quarter) const {
 }
 
 ContactPatch contact_patch(const Configuration& c, const OptimalNormal& normal) {
-  const auto [a, b] = support_features(c, normal);
-  if (!a.point_is_certain || !b.point_is_certain) {
-    // A few ulp of the lengths that the support planes are computed from.
-    const double lengths = larger_size(c) + (c.pose_a.position() - c.pose_b.position()).norm();
-    const ContactPatch within_rounding = contact_patch(c, normal.n, 1e-15 * lengths);
-    return {patch_plane(c, normal.n, within_rounding.centroid(), normal.n.unitOrthogonal()),
-            ConvexSet::point(Vec2::Zero())};
+  const SupportFeatures features = support_features(c, normal);
+  const double lengths = larger_size(c) + (c.pose_a.position() - c.pose_b.position()).norm();
+  constexpr double beside = 1e-9;     // a normal off by an ulp moves no certain point that far
+  constexpr double rounding = 1e-15;  // of the support planes
+  if (points_are_right(features, normal.n, beside * lengths)) {
+    if (auto found = overlap(features.a, features.b, normal.n)) {
+      return {patch_plane(c, normal.n, found->origin, found->e1), std::move(found->shape)};
+    }
   }
-  Placement found = overlap(a, b, normal.n);
-  return {patch_plane(c, normal.n, found.origin, found.e1), std::move(found.shape)};
+  const Vec3 middle = contact_patch(c, normal.n, rounding * lengths).centroid();
+  return {patch_plane(c, normal.n, middle, normal.n.unitOrthogonal()),
+          ConvexSet::point(Vec2::Zero())};
 }
 
 }  // namespace touchstone::oracle

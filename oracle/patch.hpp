@@ -54,9 +54,9 @@ class ContactPatch {
 /// points are then rounded to double.
 ///
 /// A point feature's patch is that point (between two, their middle), also where it lies beside the
-/// other feature by rounding. Where the normal is irrational, and so nearly aligned with an axis
-/// that its doubles cannot tell the end of the feature, the patch is the middle of all that both
-/// bodies have within rounding of their support planes.
+/// other feature by rounding. Where its doubles cannot tell the point, the patch is the middle of
+/// what both bodies have within rounding of their support planes: a normal that is irrational and
+/// all but aligned with an axis, or one that is aligned only to rounding.
 ContactPatch contact_patch(const Configuration& configuration, const OptimalNormal& normal);
 
 /// The patch of a tilted pose: those parts of both bodies that are within `epsilon` metres of their

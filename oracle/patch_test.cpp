@@ -302,6 +302,23 @@ TEST(Patch, SphereMeetsInAPoint) {
   expect_near(p.centroid(), Vec3(0.25, 0.5, 0));
 }
 
+TEST(Patch, TangentCapsStayTangentInAnyOrientationAndAnywhere) {
+  // |q|² = 25, so that every vector of multiples of 25 turns into integers: the circles touch
+  // exactly although no direction is along a coordinate.
+  const Eigen::Quaterniond q(1, 2, 2, 4);
+  const auto turned = [&](const Vec3& v) {
+    return Vec3((q.normalized() * v).array().round() + Vec3(1000, -300, 7).array());
+  };
+  for (const double more : {0.0, 1e-14}) {
+    const Configuration c{Cylinder(75 + more, 25), Pose(turned(Vec3(75, 100, 25)), q),
+                          Cylinder(50, 25), Pose(turned(Vec3(0, 0, -25)), q)};
+    const ContactPatch p = contact_patch(
+        c, {(q.normalized() * up).normalized(), parallel, {oblique, oblique, parallel}});
+    EXPECT_EQ(p.kind(), more > 0 ? Kind::region : Kind::point);
+    expect_near(p.centroid(), q.normalized() * Vec3(30, 40, 0) + Vec3(1000, -300, 7), 1e-12);
+  }
+}
+
 TEST(Patch, FeaturesThatDoNotMeetGiveTheNearestPoint) {
   EXPECT_EQ(standing_on_disc(1, 1, Vec3(5, 0, 0)).kind(), Kind::point);
   const ContactPatch p = standing_on_box(1, Vec3(5, 0, 0), Vec3(3, 3, 1));

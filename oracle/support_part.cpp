@@ -119,40 +119,46 @@ struct Part {
   void add(const Plane&, const Vec3&, const Eigen::Matrix3d&) {}
 };
 
-/// Along an axis of half length h whose cosine to n is c: unless all of it lies in the part.
+/// Along an axis of half length h whose cosine to n is c: unless all of it lies in the part, what
+/// is within epsilon, seen along n.
 double width_along(double h, double c, double epsilon) {
-  return 2 * h * c > epsilon ? epsilon / c : 0;
+  return 2 * h * c > epsilon ? epsilon / c * std::sqrt(std::max(0.0, 1 - c * c)) : 0;
 }
 
 double ball_width(double r, double epsilon) {
   return epsilon < r ? 2 * std::sqrt(epsilon * (2 * r - epsilon)) : 2 * r;
 }
 
-double width(const Cylinder& shape, const Vec3& n, double epsilon) {
-  const double r = shape.radius(), s = std::hypot(n.x(), n.y());
-  const double along = width_along(shape.half_length(), std::abs(n.z()), epsilon);
-  if (2 * r * s <= epsilon) return along;
-  return std::max(along, 2 * r * std::sin(std::min(reach(r * s, epsilon), std::numbers::pi / 2)));
+WidthFromEpsilon width(const Cylinder& shape, const Vec3& n, double epsilon) {
+  const double r = shape.radius(), h = shape.half_length();
+  const double s = std::hypot(n.x(), n.y()), c = std::abs(n.z());
+  const double along = width_along(h, c, epsilon);
+  if (2 * r * s <= epsilon) return {along, false};
+  const double round = 2 * r * std::sin(std::min(reach(r * s, epsilon), std::numbers::pi / 2));
+  return {std::max(along, round), 2 * h * c > epsilon};
 }
-double width(const Sphere& shape, const Vec3&, double epsilon) {
-  return ball_width(shape.radius(), epsilon);
+WidthFromEpsilon width(const Sphere& shape, const Vec3&, double epsilon) {
+  return {ball_width(shape.radius(), epsilon), true};
 }
-double width(const Capsule& shape, const Vec3& n, double epsilon) {
-  return ball_width(shape.radius(), epsilon) +
-         width_along(shape.half_length(), std::abs(n.z()), epsilon);
+WidthFromEpsilon width(const Capsule& shape, const Vec3& n, double epsilon) {
+  const double h = shape.half_length(), c = std::abs(n.z());
+  return {ball_width(shape.radius(), epsilon) + width_along(h, c, epsilon), 2 * h * c > epsilon};
 }
-double width(const Box& shape, const Vec3& n, double epsilon) {
-  double most = 0;
+WidthFromEpsilon width(const Box& shape, const Vec3& n, double epsilon) {
+  WidthFromEpsilon result{0, true};
   for (int i = 0; i < 3; ++i) {
-    most = std::max(most, width_along(shape.half_extents()[i], std::abs(n[i]), epsilon));
+    const double h = shape.half_extents()[i], c = std::abs(n[i]);
+    result.largest = std::max(result.largest, width_along(h, c, epsilon));
+    result.is_a_corner = result.is_a_corner && 2 * h * c > epsilon;
   }
-  return most;
+  return result;
 }
-double width(const Plane&, const Vec3&, double) { return 0; }
+WidthFromEpsilon width(const Plane&, const Vec3&, double) { return {0, false}; }
 
 }  // namespace
 
-double width_from_epsilon(const Shape& shape, const Pose& pose, const Vec3& n, double epsilon) {
+WidthFromEpsilon width_from_epsilon(const Shape& shape, const Pose& pose, const Vec3& n,
+                                    double epsilon) {
   const Vec3 local = pose.rotation().transpose() * n;
   return std::visit([&](const auto& s) { return width(s, local, epsilon); }, shape);
 }

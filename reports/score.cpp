@@ -47,12 +47,13 @@ double coverage_by(const ts_answer& answer, const Configuration& c, const oracle
   for (int i = 0; i < answer.point_count; ++i) points.push_back(vector(answer.points[i].position));
   const double size = smaller_size(c), depth = patch_depth * size;
   const Vec3 n = patch_normal(truth, vector(answer.normal));
+  const auto of_a = oracle::width_from_epsilon(c.a, c.pose_a, n, depth);
+  const auto of_b = oracle::width_from_epsilon(c.b, c.pose_b, n, depth);
+  // Most poses: any point at all covers a corner.
+  if (of_a.is_a_corner || of_b.is_a_corner) return points.empty() ? 0 : 1;
   // A hundredth more than the width itself, so that rounding does not decide.
-  const auto width = [&](const Shape& shape, const Pose& pose) {
-    return 1.01 * oracle::width_from_epsilon(shape, pose, n, depth);
-  };
   const double resolution =
-      std::max({patch_resolution * size, width(c.a, c.pose_a), width(c.b, c.pose_b)});
+      std::max({patch_resolution * size, 1.01 * of_a.largest, 1.01 * of_b.largest});
   return coverage(oracle::contact_patch(c, n, depth), points, resolution);
 }
 

@@ -49,7 +49,7 @@ function headline() {
 }
 
 function summaryTable() {
-  const columns = ['agrees', 'missed', 'depth error, p99', 'depth error, worst', 'regret, worst',
+  const columns = ['agrees', 'missed', 'depth error, p99', 'depth error, max', 'regret, max',
                    'coverage', 'ns per query', '× Bullet'];
   const head = element('tr', {}, element('th', {class: 'text', scope: 'col'}, 'pair'),
       element('th', {class: 'text', scope: 'col'}, 'candidate'),
