@@ -1,23 +1,24 @@
-// Bullet 3.24, double precision (the -float64 libraries of Debian).
+// Bullet 3.24, compiled twice: in double precision (Debian's -float64 libraries) and in single.
 //
 // Calls        The narrow phase that a world runs: the dispatcher's algorithm for the pair
 //              (btConvexConvexAlgorithm with GJK and EPA's btGjkEpaPenetrationDepthSolver;
 //              btConvexPlaneCollisionAlgorithm for the plane), kept with the pair as a world keeps
 //              it, then processCollision into its manifold.
 // Shapes       btCylinderShapeZ, btCapsuleShapeZ, btSphereShape, btBoxShape, btStaticPlaneShape.
-// Margin       As Bullet makes them: min(0.04, a tenth of the smallest half extent) on cylinder and
-// box,
-//              taken from the inside, which keeps the faces where they are and rounds the edges;
-//              for capsule and sphere the radius is the margin.
+// Margin       bullet: as Bullet makes them, min(0.04, a tenth of the smallest half extent) on
+//              cylinder and box, taken from the inside, which keeps the faces where they are and
+//              rounds the edges; for capsule and sphere the radius is the margin.
+//              bullet-margin-0: setMargin(0) on cylinder and box, for sharp edges.
 // Conventions  m_normalWorldOnB points from B to A of the manifold; its order is checked. A point
-// is
-//              midway between Bullet's positions on A and on B.
+//              is midway between Bullet's positions on A and on B.
 // Threshold    Bullet also reports points up to its contact breaking threshold apart (0.02 at
-// most);
-//              those beyond ours are left out.
-// History      The manifold is emptied before every query. A world keeps up to four points over
-// several
-//              steps of motion; a single query gives one for most pairs.
+//              most); those beyond ours are left out.
+// History      The manifold is emptied before every query: one query gives one point for most
+//              pairs. bullet-persistent is what a world has after some steps: the pose is queried
+//              four times rocked by 1 mrad about the world's x and y axes, then as it is, and the
+//              manifold's points, up to four, are refreshed as Bullet does; its time is that of all
+//              five queries.
+// Precision    Single precision is given the poses rounded to float, as an engine would hold them.
 #include <BulletCollision/BroadphaseCollision/btCollisionAlgorithm.h>
 #include <BulletCollision/CollisionDispatch/btCollisionDispatcher.h>
 #include <BulletCollision/CollisionDispatch/btCollisionObject.h>
@@ -32,17 +33,30 @@
 #include <algorithm>
 #include <memory>
 
-#include "candidates/entry_points.h"
-
-static_assert(sizeof(btScalar) == sizeof(double), "built against single-precision Bullet");
+#include "candidates/candidate.h"
 
 namespace {
 
-std::unique_ptr<btCollisionShape> make_shape(const ts_shape& shape) {
-  const double* s = shape.size;
+constexpr bool single_precision = sizeof(btScalar) == sizeof(float);
+
+/// How one of this file's candidates calls Bullet.
+struct Setting {
+  bool sharp = false;   ///< margin 0
+  bool rocked = false;  ///< several steps into one manifold
+};
+
+constexpr btScalar to_scalar(double value) { return static_cast<btScalar>(value); }
+
+std::unique_ptr<btCollisionShape> make_shape(const ts_shape& shape, const Setting& setting) {
+  btScalar s[4];
+  std::transform(shape.size, shape.size + 4, s, to_scalar);
+  const auto with_margin = [&](auto made) -> std::unique_ptr<btCollisionShape> {
+    if (setting.sharp) made->setMargin(0);
+    return made;
+  };
   switch (shape.kind) {
     case TS_CYLINDER:
-      return std::make_unique<btCylinderShapeZ>(btVector3(s[0], s[0], s[1]));
+      return with_margin(std::make_unique<btCylinderShapeZ>(btVector3(s[0], s[0], s[1])));
     case TS_PLANE:
       return std::make_unique<btStaticPlaneShape>(btVector3(s[0], s[1], s[2]), s[3]);
     case TS_SPHERE:
@@ -50,15 +64,16 @@ std::unique_ptr<btCollisionShape> make_shape(const ts_shape& shape) {
     case TS_CAPSULE:
       return std::make_unique<btCapsuleShapeZ>(s[0], 2 * s[1]);
     case TS_BOX:
-      return std::make_unique<btBoxShape>(btVector3(s[0], s[1], s[2]));
+      return with_margin(std::make_unique<btBoxShape>(btVector3(s[0], s[1], s[2])));
   }
   return nullptr;
 }
 
 btTransform to_transform(const ts_pose& p) {
-  const double* q = p.orientation;
-  return btTransform(btQuaternion(q[1], q[2], q[3], q[0]),
-                     btVector3(p.position[0], p.position[1], p.position[2]));
+  btScalar q[4], x[3];
+  std::transform(p.orientation, p.orientation + 4, q, to_scalar);
+  std::transform(p.position, p.position + 3, x, to_scalar);
+  return btTransform(btQuaternion(q[1], q[2], q[3], q[0]), btVector3(x[0], x[1], x[2]));
 }
 
 void copy(const btVector3& from, double (&to)[3]) {
@@ -76,12 +91,13 @@ btDefaultCollisionConstructionInfo small_pools() {
 /// A dispatcher with the pair's own algorithm; released in reverse order.
 class Pair {
  public:
-  Pair(const ts_shape& a, const ts_shape& b, double threshold)
+  Pair(const ts_shape& a, const ts_shape& b, double threshold, const Setting& setting)
       : threshold_(threshold),
+        rocked_(setting.rocked),
         configuration_(small_pools()),
         dispatcher_(&configuration_),
-        shape_a_(make_shape(a)),
-        shape_b_(make_shape(b)) {
+        shape_a_(make_shape(a, setting)),
+        shape_b_(make_shape(b, setting)) {
     object_a_.setCollisionShape(shape_a_.get());
     object_b_.setCollisionShape(shape_b_.get());
     const btCollisionObjectWrapper wrap_a = wrap(object_a_), wrap_b = wrap(object_b_);
@@ -95,14 +111,19 @@ class Pair {
   Pair& operator=(const Pair&) = delete;
 
   void query(const ts_pose& a, const ts_pose& b, ts_answer& answer) {
-    object_a_.setWorldTransform(to_transform(a));
-    object_b_.setWorldTransform(to_transform(b));
     for (int i = 0; i < dispatcher_.getNumManifolds(); ++i) {
       dispatcher_.getManifoldByIndexInternal(i)->clearManifold();
     }
-    const btCollisionObjectWrapper wrap_a = wrap(object_a_), wrap_b = wrap(object_b_);
-    btManifoldResult result(&wrap_a, &wrap_b);
-    algorithm_->processCollision(&wrap_a, &wrap_b, info_, &result);
+    const btTransform at_a = to_transform(a);
+    object_b_.setWorldTransform(to_transform(b));
+    if (rocked_) {
+      for (const btVector3& axis :
+           {btVector3(1, 0, 0), btVector3(-1, 0, 0), btVector3(0, 1, 0), btVector3(0, -1, 0)}) {
+        const btQuaternion rock(axis, to_scalar(1e-3));
+        process(btTransform(rock * at_a.getRotation(), at_a.getOrigin()));
+      }
+    }
+    process(at_a);
     answer.status = TS_NONE;
     answer.point_count = 0;
     for (int i = 0; i < dispatcher_.getNumManifolds(); ++i) {
@@ -111,12 +132,19 @@ class Pair {
   }
 
  private:
+  void process(const btTransform& a) {
+    object_a_.setWorldTransform(a);
+    const btCollisionObjectWrapper wrap_a = wrap(object_a_), wrap_b = wrap(object_b_);
+    btManifoldResult result(&wrap_a, &wrap_b);
+    algorithm_->processCollision(&wrap_a, &wrap_b, info_, &result);
+  }
+
   static btCollisionObjectWrapper wrap(const btCollisionObject& object) {
     return {nullptr, object.getCollisionShape(), &object, object.getWorldTransform(), -1, -1};
   }
 
   void read(const btPersistentManifold& manifold, ts_answer& answer) const {
-    const double sign = manifold.getBody0() == &object_a_ ? 1 : -1;
+    const btScalar sign = manifold.getBody0() == &object_a_ ? 1 : -1;
     for (int k = 0; k < manifold.getNumContacts(); ++k) {
       const btManifoldPoint& point = manifold.getContactPoint(k);
       // Written so that a distance that is not a number is reported, not dropped.
@@ -135,6 +163,7 @@ class Pair {
   }
 
   double threshold_;
+  bool rocked_;
   btDefaultCollisionConfiguration configuration_;
   btCollisionDispatcher dispatcher_;
   btDispatcherInfo info_;
@@ -145,8 +174,9 @@ class Pair {
 
 int supports(ts_shape_kind) { return 1; }
 
-ts_prepared* prepare(const ts_shape* a, const ts_shape* b, double threshold) {
-  return reinterpret_cast<ts_prepared*>(new Pair(*a, *b, threshold));
+template <Setting setting>
+ts_prepared* prepare(const ts_shape* a, const ts_shape* b, double threshold, double) {
+  return reinterpret_cast<ts_prepared*>(new Pair(*a, *b, threshold, setting));
 }
 
 void query(ts_prepared* prepared, const ts_pose* a, const ts_pose* b, ts_answer* answer) {
@@ -155,20 +185,29 @@ void query(ts_prepared* prepared, const ts_pose* a, const ts_pose* b, ts_answer*
 
 void release(ts_prepared* prepared) { delete reinterpret_cast<Pair*>(prepared); }
 
+#define NAME(rest) (single_precision ? "bullet-float" rest : "bullet" rest)
+#define SETTINGS(rest) (single_precision ? "single precision; " rest : "double precision; " rest)
+#define CALLS \
+  "the world's narrow phase (GJK/EPA, plane analytic); points midway between the two surfaces; "
+
+constexpr Setting usual, sharp{true, false}, rocked{false, true};
+
+const ts_candidate candidates[] = {
+    {NAME(""), TOUCHSTONE_BULLET_VERSION,
+     SETTINGS(CALLS "one query with an empty manifold; default margins: edges of cylinder and box "
+                    "rounded by min(0.04 m, a tenth of the smallest half extent)"),
+     nullptr, nullptr, supports, prepare<usual>, query, release, nullptr},
+    {NAME("-margin-0"), TOUCHSTONE_BULLET_VERSION,
+     SETTINGS(CALLS "one query with an empty manifold; margin 0 on cylinder and box"), nullptr,
+     nullptr, supports, prepare<sharp>, query, release, nullptr},
+    {NAME("-persistent"), TOUCHSTONE_BULLET_VERSION,
+     SETTINGS(CALLS "the manifold after five queries, four of them rocked by 1 mrad; default "
+                    "margins; the time is that of all five"),
+     nullptr, nullptr, supports, prepare<rocked>, query, release, nullptr}};
+
+// Rocking tells nothing new in single precision.
+const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, single_precision ? 2 : 3, candidates};
+
 }  // namespace
 
-extern "C" const ts_candidate* touchstone_bullet(void) {
-  static const ts_candidate candidate = {
-      TOUCHSTONE_CANDIDATE_VERSION,
-      "bullet",
-      TOUCHSTONE_BULLET_VERSION,
-      "double precision; the world's narrow phase (GJK/EPA, plane analytic), one query with an "
-      "empty "
-      "manifold; default margins: edges of cylinder and box rounded by min(0.04 m, a tenth of the "
-      "smallest half extent); points midway between the two surfaces",
-      supports,
-      prepare,
-      query,
-      release};
-  return &candidate;
-}
+const ts_plugin* touchstone_plugin() { return &plugin; }

@@ -6,19 +6,16 @@
 //              code for nearly parallel axes and otherwise libccd's MPR.
 // Shapes       Full lengths; a capsule's length is without its caps; a plane is a·x = d.
 // Conventions  The normal points into the first geom, hence from B to A for a call with A first;
-// depth
-//              is positive inside. Positions are where ODE puts them (on the cylinder for a plane,
-//              inside both bodies for MPR).
+//              depth is positive inside. Positions are where ODE puts them (on the cylinder for a
+//              plane, inside both bodies for MPR).
 // Threshold    ODE has none: it answers only when it finds the bodies touching.
 // Planes       A plane geom cannot be placed, so a posed plane is turned into world coordinates at
-// every
-//              query.
+//              every query.
 #include <algorithm>
 #include <cmath>
-#include <mutex>
 #include <ode/ode.h>
 
-#include "candidates/entry_points.h"
+#include "candidates/candidate.h"
 
 static_assert(sizeof(dReal) == sizeof(double), "built against single-precision ODE");
 
@@ -27,14 +24,14 @@ namespace {
 /// ODE's default handlers print and, for errors of its own, end the process.
 void ignore_message(int, const char*, va_list) {}
 
-void initialise_thread() {
-  static std::once_flag once;
-  std::call_once(once, [] {
+void initialise() {
+  static const bool done = [] {
     dInitODE2(0);
     dSetMessageHandler(ignore_message);
-  });
-  thread_local const int allocated = dAllocateODEDataForThread(dAllocateMaskAll);
-  (void)allocated;
+    dAllocateODEDataForThread(dAllocateMaskAll);
+    return true;
+  }();
+  (void)done;
 }
 
 dGeomID make_geom(const ts_shape& shape) {
@@ -108,8 +105,8 @@ class Pair {
 
 int supports(ts_shape_kind) { return 1; }
 
-ts_prepared* prepare(const ts_shape* a, const ts_shape* b, double) {
-  initialise_thread();
+ts_prepared* prepare(const ts_shape* a, const ts_shape* b, double, double) {
+  initialise();
   return reinterpret_cast<ts_prepared*>(new Pair(*a, *b));
 }
 
@@ -119,19 +116,13 @@ void query(ts_prepared* prepared, const ts_pose* a, const ts_pose* b, ts_answer*
 
 void release(ts_prepared* prepared) { delete reinterpret_cast<Pair*>(prepared); }
 
+const ts_candidate candidates[] = {
+    {"ode", TOUCHSTONE_ODE_VERSION,
+     "double precision; dCollide asked for 16 contacts; cylinder and capsule through libccd's MPR, "
+     "box by separating axes and clipping, plane and sphere analytic; positions as ODE gives them",
+     nullptr, nullptr, supports, prepare, query, release, nullptr}};
+const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 1, candidates};
+
 }  // namespace
 
-extern "C" const ts_candidate* touchstone_ode(void) {
-  static const ts_candidate candidate = {
-      TOUCHSTONE_CANDIDATE_VERSION,
-      "ode",
-      TOUCHSTONE_ODE_VERSION,
-      "double precision; dCollide asked for 16 contacts; cylinder and capsule through libccd's "
-      "MPR, "
-      "box by separating axes and clipping, plane and sphere analytic; positions as ODE gives them",
-      supports,
-      prepare,
-      query,
-      release};
-  return &candidate;
-}
+const ts_plugin* touchstone_plugin() { return &plugin; }

@@ -26,7 +26,8 @@ int run(const Options& options) {
   if (!(std::isfinite(options.width) && options.width > 0)) {
     throw InvalidInput("--width", fmt::format("{}", options.width), "must be positive and finite");
   }
-  const SolveOptions solving{options.candidates.get(), options.width, options.bar.get()};
+  const SolveOptions solving{options.candidates.get(), options.width, options.bar.get(),
+                             options.candidates.limits()};
   if (options.file == "-") return solve(std::cin, std::cout, solving) ? 0 : 2;
   std::ifstream in(options.file);
   if (!in) throw InvalidInput("file", '"' + options.file + '"', "could not be opened for reading");

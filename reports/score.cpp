@@ -61,6 +61,10 @@ const char* outcome_name(Outcome outcome) {
       return "not-finite";
     case Outcome::failed:
       return "failed";
+    case Outcome::crashed:
+      return "crashed";
+    case Outcome::timed_out:
+      return "timed-out";
     case Outcome::unsupported:
       return "unsupported";
   }
@@ -77,6 +81,10 @@ const char* status_name(ts_status status) {
       return "unsupported";
     case TS_FAILED:
       return "failed";
+    case TS_CRASHED:
+      return "crashed";
+    case TS_TIMED_OUT:
+      return "timed-out";
   }
   return "failed";
 }
@@ -92,6 +100,10 @@ Score score(const Configuration& c, const oracle::Truth& truth, const ts_answer&
       break;
     case TS_UNSUPPORTED:
       return only(Outcome::unsupported);
+    case TS_CRASHED:
+      return only(Outcome::crashed);
+    case TS_TIMED_OUT:
+      return only(Outcome::timed_out);
     default:
       return only(Outcome::failed);
   }
@@ -116,6 +128,16 @@ Score score(const Configuration& c, const oracle::Truth& truth, const ts_answer&
     s.outcome = Outcome::overdeep;
   } else if (!unit || !s.normal_regret || *s.normal_regret > bar.tolerance) {
     s.outcome = Outcome::wrong_normal;
+  }
+  return s;
+}
+
+Score score(const Configuration& c, const oracle::Truth& truth, const Answer& answer,
+            const Bar& bar) {
+  Score s = score(c, truth, static_cast<const ts_answer&>(answer), bar);
+  if (s.depth_error && answer.model_distance) {
+    s.model_error = (*answer.model_distance - truth.signed_distance.midpoint()) / smaller_size(c);
+    s.solver_error = (answer.signed_distance - *answer.model_distance) / smaller_size(c);
   }
   return s;
 }

@@ -15,17 +15,21 @@ std::optional<Quantiles> quantiles(std::vector<double> values) {
 Statistics statistics(const std::vector<Score>& scores) {
   Statistics result;
   result.count = scores.size();
-  std::vector<double> depth_error, normal_regret, normal_angle;
+  std::vector<double> depth_error, normal_regret, normal_angle, model_error, solver_error;
   for (const Score& s : scores) {
     ++result.outcomes[static_cast<std::size_t>(s.outcome)];
     if (s.points > 0) ++result.points[s.points];
     if (s.depth_error) depth_error.push_back(std::abs(*s.depth_error));
     if (s.normal_regret) normal_regret.push_back(*s.normal_regret);
     if (s.normal_angle) normal_angle.push_back(*s.normal_angle);
+    if (s.model_error) model_error.push_back(std::abs(*s.model_error));
+    if (s.solver_error) solver_error.push_back(std::abs(*s.solver_error));
   }
   result.depth_error = quantiles(std::move(depth_error));
   result.normal_regret = quantiles(std::move(normal_regret));
   result.normal_angle = quantiles(std::move(normal_angle));
+  result.model_error = quantiles(std::move(model_error));
+  result.solver_error = quantiles(std::move(solver_error));
   return result;
 }
 

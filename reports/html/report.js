@@ -31,13 +31,15 @@ function exponent(x) {
 const whole = x => x === null ? '–' : Math.round(x).toLocaleString('en');
 const quantile = (q, which) => q === null ? null : q[which];
 const time = r => r.nanoseconds === null ? null : r.nanoseconds.median;
-const agreeing = r => (r.outcomes.agree || 0) / r.count;
+// Of what a candidate has a routine for.
+const supported = r => r.count - (r.outcomes.unsupported || 0);
+const agreeing = r => (r.outcomes.agree || 0) / supported(r);
 // Cut downwards: only a candidate without a failure shows 100%.
 const percent = share => share === 1 ? '100%' : (Math.floor(share * 1000 + 1e-6) / 10).toFixed(1) + '%';
 
 function headline() {
   const all = report.summary.filter(r => r.pair === 'all');
-  const rows = all.length ? all : report.summary;
+  const rows = (all.length ? all : report.summary).filter(supported);
   const parts = rows.map(r => `${r.candidate} ${all.length ? '' : `(${r.pair}) `}on ${percent(agreeing(r))}`);
   byId('headline').textContent =
       `${whole(report.configurations)} configurations, each with a truth certified to 1e-15 of the larger ` +
@@ -55,6 +57,7 @@ function summaryTable() {
   const body = element('tbody');
   let last = null;
   for (const r of report.summary) {
+    if (supported(r) === 0) continue;
     const share = agreeing(r), ratio = r.nanoseconds && r.nanoseconds.ratio_to_bullet;
     body.append(element('tr', r.pair !== last ? {class: 'first'} : {},
         element('th', {scope: 'row'}, r.pair !== last ? r.pair : ''),
@@ -193,7 +196,7 @@ function classTable() {
           ...candidates.map(c => element('th', {scope: 'col'}, swatch(c), c)))), body));
 }
 function classCell(c, r, quantity) {
-  if (!r) return element('td', {class: 'heat'}, '–');
+  if (!r || supported(r) === 0) return element('td', {class: 'heat'}, '–');
   const value = quantity.value(r);
   const level = value === null ? 0 : quantity.level(value);
   const cell = element('td', {class: 'heat', tabindex: 0,
@@ -206,13 +209,13 @@ function classCell(c, r, quantity) {
 }
 
 const outcomeColours = {agree: 'var(--good)', missed: 'var(--c1)', phantom: 'var(--c3)', shallow: 'var(--c4)',
-  overdeep: 'var(--c6)', 'wrong-normal': 'var(--c0)', 'not-finite': 'var(--ink)', failed: 'var(--c7)',
+  overdeep: 'var(--c6)', 'wrong-normal': 'var(--c0)', 'not-finite': 'var(--ink)', failed: 'var(--c7)', crashed: 'var(--c2)', 'timed-out': 'var(--c5)',
   unsupported: 'var(--line)'};
 function outcomeBars() {
   const seen = Object.keys(outcomeColours).filter(o => report.summary.some(r => r.outcomes[o]));
   const legend = element('div', {class: 'legend'}, ...seen.map(o => element('span', {},
       element('span', {class: 'swatch', style: `background:${outcomeColours[o]}`, 'aria-hidden': 'true'}), o)));
-  const rows = report.summary.map(r => {
+  const rows = report.summary.filter(supported).map(r => {
     const bar = element('div', {class: 'bar', role: 'img',
         'aria-label': seen.map(o => `${o} ${r.outcomes[o] || 0}`).join(', ')});
     for (const o of seen) {
@@ -239,6 +242,7 @@ function worstCase(w) {
   const copy = element('button', {type: 'button'}, 'Copy');
   copy.addEventListener('click', () => navigator.clipboard.writeText(w.replay).then(
       () => { copy.textContent = 'Copied'; }, () => { copy.textContent = 'Select and copy'; }));
+  const reasons = Object.entries(w.answers).filter(([, a]) => a.reason);
   const rows = Object.entries(w.answers).map(([name, a]) => element('tr', {},
       element('td', {class: 'text'}, swatch(name), name), element('td', {class: 'text'}, a.score.outcome),
       element('td', {}, a.signed_distance === null ? a.status : String(a.signed_distance)),
@@ -254,6 +258,7 @@ function worstCase(w) {
       element('div', {class: 'scroll'}, element('table', {}, element('thead', {}, element('tr', {},
           ...heads.map((h, i) => element('th', {scope: 'col', class: [0, 1, 3].includes(i) ? 'text' : ''}, h)))),
           element('tbody', {}, ...rows))),
+      ...reasons.map(([name, a]) => element('p', {class: 'quiet'}, `${name}: ${a.reason}`)),
       element('details', {}, element('summary', {}, 'Configuration'),
           element('pre', {}, JSON.stringify(w.configuration))));
 }
@@ -271,7 +276,8 @@ function definitions(id, entries) {
   byId(id).append(...entries.flatMap(([term, text]) => [element('dt', {}, term), element('dd', {}, text)]));
 }
 function method() {
-  definitions('settings', report.candidates.map(c => [`${c.name} ${c.version}`, c.settings]));
+  definitions('settings', report.candidates.map(c =>
+      [`${c.name} ${c.version}`, c.settings + (c.models ? `; models ${c.models}` : '')]));
   const bar = report.tolerance;
   definitions('words', [
     ['size', 'Half of the smallest width of the smaller shape; errors are relative to it.'],
@@ -282,8 +288,10 @@ function method() {
     ['phantom', `A contact, though they are more than ${bar} of the size further apart than was asked for.`],
     ['shallow, overdeep', 'The depth is too small, too large.'],
     ['wrong-normal', 'The depth is right; the normal is of no unit length or its regret is beyond the bar.'],
-    ['not-finite, failed, unsupported', 'A NaN or infinity in the answer; the candidate says that it could not answer; it has no routine for the pair.'],
-    ['time', 'Narrow phase alone, one thread, shapes prepared beforehand, candidates in turns on the same configurations: the median of nine rounds, and over classes the median of their medians.'],
+    ['not-finite, failed, unsupported', 'A NaN or infinity in the answer; the candidate says that it could not answer; it has no routine for the pair, which does not count against it.'],
+    ['crashed, timed-out', 'The candidate ended its process (a signal, an exception, too much memory), or took longer than a tenth of a second, unless asked otherwise. Each candidate has a process of its own.'],
+    ['model error, solver error', 'Of a simplified model: the true signed distance of what it models against that of the cylinder, and its answer against that of what it models.'],
+    ['time', 'Narrow phase alone, one thread, shapes prepared beforehand, candidates in turns on the same configurations, each in its own process, which reads the clock itself: the median of nine rounds, and over classes the median of their medians.'],
   ]);
   const m = report.machine, o = report.oracle_microseconds;
   definitions('machine', [
