@@ -283,7 +283,7 @@ bool CandidateProcess::prepare_timing(std::span<const Configuration> configurati
     const auto batch = configurations.subspan(
         at, std::min<std::size_t>(Exchange::batch, configurations.size() - at));
     for (std::uint32_t i = 0; i < batch.size(); ++i) put(i, batch[i]);
-    if (obey(Command::prepare, 0, static_cast<std::uint32_t>(batch.size()))) return false;
+    if (obey(Command::keep, 0, static_cast<std::uint32_t>(batch.size()))) return false;
   }
   return !configurations.empty() && !obey(Command::warm_up, 0, 0);
 }
@@ -299,6 +299,12 @@ std::vector<CandidateProcess> start(const std::vector<const Candidate*>& candida
   std::vector<CandidateProcess> processes;
   for (const Candidate* c : candidates) processes.emplace_back(*c, threshold, limits);
   return processes;
+}
+
+std::vector<CandidateProcess*> pointers(std::vector<CandidateProcess>& processes) {
+  std::vector<CandidateProcess*> result;
+  for (CandidateProcess& p : processes) result.push_back(&p);
+  return result;
 }
 
 }  // namespace touchstone

@@ -13,9 +13,9 @@ namespace touchstone {
 
 /// What one configuration may cost a candidate before its process is ended.
 struct Limits {
-  /// Of processor time, ten thousand times what a slow query takes; a hundred times as long by the
-  /// clock, for one that waits.
-  double seconds = 0.1;
+  /// Of processor time: three frames of a simulation, thousands of times what a query takes. A
+  /// hundred times as long by the clock, for one that waits.
+  double seconds = 0.05;
   double mebibytes = 1024;  ///< that its memory may grow by
 };
 
@@ -82,5 +82,6 @@ class CandidateProcess {
 /// One process for each.
 std::vector<CandidateProcess> start(const std::vector<const Candidate*>& candidates,
                                     double threshold, const Limits& limits = {});
+std::vector<CandidateProcess*> pointers(std::vector<CandidateProcess>& processes);
 
 }  // namespace touchstone

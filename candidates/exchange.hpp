@@ -37,8 +37,8 @@ struct Command {
   enum Kind : std::uint32_t {
     begin,    ///< fork a session for the candidate `index` with `threshold` and `parameter`
     answer,   ///< answer slots first … count − 1
-    prepare,  ///< keep slots 0 … count − 1 for timing
-    warm_up,  ///< query all that is kept once, untimed; drop those beyond the time of one round
+    keep,     ///< keep the questions of slots 0 … count − 1 for timing
+    warm_up,  ///< prepare and query them once, as many as fit into the time of one round
     time,     ///< one timed round
     finish    ///< end the session
   };

@@ -153,6 +153,7 @@ class Session {
   }
 
  private:
+  /// Ready for timing.
   struct Kept {
     ts_prepared* prepared;
     ts_pose a, b;
@@ -163,8 +164,10 @@ class Session {
       case Command::answer:
         for (std::uint32_t i = command.first; i < command.count; ++i) answer(i);
         return;
-      case Command::prepare:
-        for (std::uint32_t i = 0; i < command.count; ++i) keep(exchange_.slots[i].question);
+      case Command::keep:
+        for (std::uint32_t i = 0; i < command.count; ++i) {
+          questions_.push_back(exchange_.slots[i].question);
+        }
         return;
       case Command::warm_up:
         return warm_up();
@@ -199,20 +202,17 @@ class Session {
     exchange_.done.store(i + 1);
   }
 
-  void keep(const Question& q) {
-    if (ts_prepared* const prepared = prepare(q)) kept_.push_back({prepared, q.pose_a, q.pose_b});
-  }
-
-  /// Those that were queried before the time of a round was over; at least `fewest_timed`.
   void warm_up() {
-    const auto end = std::chrono::steady_clock::now() + round_time;
-    std::size_t queried = 0;
-    for (const Kept& k : kept_) {
-      if (queried >= fewest_timed && std::chrono::steady_clock::now() > end) break;
-      candidate_.query(k.prepared, &k.a, &k.b, answer_);
-      ++queried;
+    std::chrono::steady_clock::duration used{};
+    for (const Question& q : questions_) {
+      if (kept_.size() >= fewest_timed && used > round_time) break;
+      ts_prepared* const prepared = prepare(q);
+      if (!prepared) continue;
+      const auto start = std::chrono::steady_clock::now();
+      candidate_.query(prepared, &q.pose_a, &q.pose_b, answer_);
+      used += std::chrono::steady_clock::now() - start;
+      kept_.push_back({prepared, q.pose_a, q.pose_b});
     }
-    kept_.resize(queried);
   }
 
   void time() {
@@ -233,6 +233,7 @@ class Session {
   int socket_;
   Exchange& exchange_;
   ts_answer* answer_;
+  std::vector<Question> questions_;
   std::vector<Kept> kept_;
 };
 

@@ -36,7 +36,7 @@ void add_replay(CLI::App& program, int&) {
     const Bar bar = options->bar.get();
     auto candidates = start(options->candidates.get(), bar.threshold, options->candidates.limits());
     if (options->json) {
-      fmt::print("{}\n", examined(identity, candidates, bar, 1e-30).dump());
+      fmt::print("{}\n", examined(identity, pointers(candidates), bar, 1e-30).dump());
     } else {
       fmt::print("{}", replay_text(identity, candidates, bar));
     }

@@ -47,7 +47,7 @@ std::string answer_text(const std::string& name, const json& a) {
 
 std::string replay_text(const Identity& identity, std::vector<CandidateProcess>& candidates,
                         const Bar& bar) {
-  const json e = examined(identity, candidates, bar, 1e-30);
+  const json e = examined(identity, pointers(candidates), bar, 1e-30);
   json line = e["configuration"];
   line["id"] = to_string(identity);
   std::string text = fmt::format("{}\n{}\n\n", to_string(identity),

@@ -109,7 +109,8 @@ TEST(Report, IsCompleteWhateverACandidateDoes) {
   for (const json& w : together["worst"]) {
     if (w["candidate"] != "sabotage") continue;
     ++shown[w["outcome"]];
-    const json again = examined(parse_identity(w["id"].get<std::string>()), processes, Bar());
+    const json again =
+        examined(parse_identity(w["id"].get<std::string>()), pointers(processes), Bar());
     EXPECT_EQ(again["answers"]["sabotage"], w["answers"]["sabotage"]);
     EXPECT_THAT(w["replay"].get<std::string>(), HasSubstr("--candidate"));
   }
@@ -144,8 +145,11 @@ TEST(Report, EveryWorstCaseReplaysToTheSameAnswers) {
   auto candidates = start(some(), 0);
   for (const json& w : report["worst"]) {
     const Identity id = parse_identity(w["id"].get<std::string>());
-    const json again = examined(id, candidates, Bar());
-    EXPECT_EQ(again["answers"], w["answers"]);
+    const json again = examined(id, pointers(candidates), Bar());
+    EXPECT_TRUE(w["answers"].contains(w["candidate"]));
+    for (const auto& [name, answer] : w["answers"].items()) {
+      EXPECT_EQ(again["answers"][name], answer) << name;
+    }
     EXPECT_EQ(again["configuration"], w["configuration"]);
     EXPECT_EQ(again["truth"], w["truth"]);
   }

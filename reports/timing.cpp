@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t rounds = 9;
 /// More configurations than this of one cell would not change its median.
-constexpr std::uint64_t most_configurations = 200;
+constexpr std::uint64_t most_configurations = 50;
 
 /// Those that a candidate survived, in order; all are asked of it within one process.
 std::vector<Configuration> survived(const Campaign& campaign, const Cell& cell,

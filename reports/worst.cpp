@@ -86,14 +86,14 @@ std::string replay_command(const Identity& identity) {
   return program_name() + " replay " + to_string(identity);
 }
 
-json examined(const Identity& identity, std::vector<CandidateProcess>& candidates, const Bar& bar,
-              double width) {
+json examined(const Identity& identity, const std::vector<CandidateProcess*>& candidates,
+              const Bar& bar, double width) {
   const Configuration c = make_configuration(identity);
   const oracle::Truth truth = oracle::truth(c, width);
   json answers = json::object();
-  for (CandidateProcess& process : candidates) {
-    const Answer a = process.answer(c);
-    json& entry = answers[process.candidate().name] = to_json(a, score(c, truth, a, bar));
+  for (CandidateProcess* const process : candidates) {
+    const Answer a = process->answer(c);
+    json& entry = answers[process->candidate().name] = to_json(a, score(c, truth, a, bar));
     if (!a.reason.empty()) entry["reason"] = a.reason;
   }
   return {{"id", to_string(identity)},
@@ -111,7 +111,9 @@ json worst_cases(const Campaign& campaign, const std::vector<CellScores>& scores
     for (std::size_t k = 0; k < campaign.candidates.size(); ++k) {
       for (const Case& w : worst_of(all, scores, pair, k)) {
         const Identity id{pair, all[w.cell].pose_class, campaign.seed, w.index};
-        json entry = examined(id, processes, campaign.bar);
+        std::vector<CandidateProcess*> shown = {&processes[k]};
+        if (k > 0) shown.push_back(&processes[0]);
+        json entry = examined(id, shown, campaign.bar);
         entry["pair"] = pair_name(pair);
         entry["class"] = id.pose_class;
         entry["candidate"] = campaign.candidates[k]->name;
