@@ -1,174 +1,98 @@
-// Bullet 3.24, double precision (the -float64 libraries of Debian).
+// Bullet 3.24, compiled twice: in double precision (Debian's -float64 libraries) and in single.
 //
 // Calls        The narrow phase that a world runs: the dispatcher's algorithm for the pair
 //              (btConvexConvexAlgorithm with GJK and EPA's btGjkEpaPenetrationDepthSolver;
 //              btConvexPlaneCollisionAlgorithm for the plane), kept with the pair as a world keeps
 //              it, then processCollision into its manifold.
 // Shapes       btCylinderShapeZ, btCapsuleShapeZ, btSphereShape, btBoxShape, btStaticPlaneShape.
-// Margin       As Bullet makes them: min(0.04, a tenth of the smallest half extent) on cylinder and
-// box,
-//              taken from the inside, which keeps the faces where they are and rounds the edges;
-//              for capsule and sphere the radius is the margin.
+// Margin       bullet: as Bullet makes them, min(0.04, a tenth of the smallest half extent) on
+//              cylinder and box, taken from the inside, which keeps the faces where they are and
+//              rounds the edges; for capsule and sphere the radius is the margin.
+//              bullet-margin-0: setMargin(0) on cylinder and box, for sharp edges.
+//              bullet-hull:N: btConvexHullShape of the prism's corners with margin 0; Bullet's own
+//              0.04 would be put around the hull.
 // Conventions  m_normalWorldOnB points from B to A of the manifold; its order is checked. A point
-// is
-//              midway between Bullet's positions on A and on B.
+//              is midway between Bullet's positions on A and on B.
 // Threshold    Bullet also reports points up to its contact breaking threshold apart (0.02 at
-// most);
-//              those beyond ours are left out.
-// History      The manifold is emptied before every query. A world keeps up to four points over
-// several
-//              steps of motion; a single query gives one for most pairs.
-#include <BulletCollision/BroadphaseCollision/btCollisionAlgorithm.h>
-#include <BulletCollision/CollisionDispatch/btCollisionDispatcher.h>
-#include <BulletCollision/CollisionDispatch/btCollisionObject.h>
-#include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
-#include <BulletCollision/CollisionDispatch/btDefaultCollisionConfiguration.h>
-#include <BulletCollision/CollisionDispatch/btManifoldResult.h>
-#include <BulletCollision/CollisionShapes/btBoxShape.h>
-#include <BulletCollision/CollisionShapes/btCapsuleShape.h>
-#include <BulletCollision/CollisionShapes/btCylinderShape.h>
-#include <BulletCollision/CollisionShapes/btSphereShape.h>
-#include <BulletCollision/CollisionShapes/btStaticPlaneShape.h>
-#include <algorithm>
+//              most); those beyond ours are left out.
+// History      The manifold is emptied before every query: one query gives one point for most
+//              pairs. bullet-persistent is what a world has after some steps: the pose is queried
+//              four times rocked by 1 mrad about the world's x and y axes, then as it is, and the
+//              manifold's points, up to four, are refreshed as Bullet does; its time is that of all
+//              five queries.
+// Precision    Single precision is given the poses rounded to float, as an engine would hold them.
 #include <memory>
 
-#include "candidates/entry_points.h"
+#include "candidates/bullet_pair.hpp"
+#include "candidates/candidate.h"
+#include "candidates/model.hpp"
 
-static_assert(sizeof(btScalar) == sizeof(double), "built against single-precision Bullet");
+using touchstone::bullet::Setting;
+
+struct ts_prepared {
+  touchstone::bullet::Pair pair;
+  std::unique_ptr<touchstone::ModelPair> model;  ///< of bullet-hull
+};
 
 namespace {
 
-std::unique_ptr<btCollisionShape> make_shape(const ts_shape& shape) {
-  const double* s = shape.size;
-  switch (shape.kind) {
-    case TS_CYLINDER:
-      return std::make_unique<btCylinderShapeZ>(btVector3(s[0], s[0], s[1]));
-    case TS_PLANE:
-      return std::make_unique<btStaticPlaneShape>(btVector3(s[0], s[1], s[2]), s[3]);
-    case TS_SPHERE:
-      return std::make_unique<btSphereShape>(s[0]);
-    case TS_CAPSULE:
-      return std::make_unique<btCapsuleShapeZ>(s[0], 2 * s[1]);
-    case TS_BOX:
-      return std::make_unique<btBoxShape>(btVector3(s[0], s[1], s[2]));
-  }
-  return nullptr;
-}
-
-btTransform to_transform(const ts_pose& p) {
-  const double* q = p.orientation;
-  return btTransform(btQuaternion(q[1], q[2], q[3], q[0]),
-                     btVector3(p.position[0], p.position[1], p.position[2]));
-}
-
-void copy(const btVector3& from, double (&to)[3]) {
-  for (int i = 0; i < 3; ++i) to[i] = from[i];
-}
-
-/// The default configuration keeps pools for thousands of pairs; ours has one.
-btDefaultCollisionConstructionInfo small_pools() {
-  btDefaultCollisionConstructionInfo info;
-  info.m_defaultMaxPersistentManifoldPoolSize = 1;
-  info.m_defaultMaxCollisionAlgorithmPoolSize = 1;
-  return info;
-}
-
-/// A dispatcher with the pair's own algorithm; released in reverse order.
-class Pair {
- public:
-  Pair(const ts_shape& a, const ts_shape& b, double threshold)
-      : threshold_(threshold),
-        configuration_(small_pools()),
-        dispatcher_(&configuration_),
-        shape_a_(make_shape(a)),
-        shape_b_(make_shape(b)) {
-    object_a_.setCollisionShape(shape_a_.get());
-    object_b_.setCollisionShape(shape_b_.get());
-    const btCollisionObjectWrapper wrap_a = wrap(object_a_), wrap_b = wrap(object_b_);
-    algorithm_ = dispatcher_.findAlgorithm(&wrap_a, &wrap_b, nullptr, BT_CONTACT_POINT_ALGORITHMS);
-  }
-  ~Pair() {
-    algorithm_->~btCollisionAlgorithm();
-    dispatcher_.freeCollisionAlgorithm(algorithm_);
-  }
-  Pair(const Pair&) = delete;
-  Pair& operator=(const Pair&) = delete;
-
-  void query(const ts_pose& a, const ts_pose& b, ts_answer& answer) {
-    object_a_.setWorldTransform(to_transform(a));
-    object_b_.setWorldTransform(to_transform(b));
-    for (int i = 0; i < dispatcher_.getNumManifolds(); ++i) {
-      dispatcher_.getManifoldByIndexInternal(i)->clearManifold();
-    }
-    const btCollisionObjectWrapper wrap_a = wrap(object_a_), wrap_b = wrap(object_b_);
-    btManifoldResult result(&wrap_a, &wrap_b);
-    algorithm_->processCollision(&wrap_a, &wrap_b, info_, &result);
-    answer.status = TS_NONE;
-    answer.point_count = 0;
-    for (int i = 0; i < dispatcher_.getNumManifolds(); ++i) {
-      read(*dispatcher_.getManifoldByIndexInternal(i), answer);
-    }
-  }
-
- private:
-  static btCollisionObjectWrapper wrap(const btCollisionObject& object) {
-    return {nullptr, object.getCollisionShape(), &object, object.getWorldTransform(), -1, -1};
-  }
-
-  void read(const btPersistentManifold& manifold, ts_answer& answer) const {
-    const double sign = manifold.getBody0() == &object_a_ ? 1 : -1;
-    for (int k = 0; k < manifold.getNumContacts(); ++k) {
-      const btManifoldPoint& point = manifold.getContactPoint(k);
-      // Written so that a distance that is not a number is reported, not dropped.
-      if (point.getDistance() > threshold_) continue;
-      if (answer.point_count == TOUCHSTONE_MAX_POINTS) break;
-      ts_point& out = answer.points[answer.point_count++];
-      copy((point.getPositionWorldOnA() + point.getPositionWorldOnB()) / 2, out.position);
-      copy(sign * point.m_normalWorldOnB, out.normal);
-      out.depth = -point.getDistance();
-      if (answer.status == TS_NONE || point.getDistance() < answer.signed_distance) {
-        answer.status = TS_CONTACT;
-        answer.signed_distance = point.getDistance();
-        std::copy(out.normal, out.normal + 3, answer.normal);
-      }
-    }
-  }
-
-  double threshold_;
-  btDefaultCollisionConfiguration configuration_;
-  btCollisionDispatcher dispatcher_;
-  btDispatcherInfo info_;
-  std::unique_ptr<btCollisionShape> shape_a_, shape_b_;
-  btCollisionObject object_a_, object_b_;
-  btCollisionAlgorithm* algorithm_ = nullptr;
-};
+constexpr bool single_precision = sizeof(btScalar) == sizeof(float);
 
 int supports(ts_shape_kind) { return 1; }
 
-ts_prepared* prepare(const ts_shape* a, const ts_shape* b, double threshold) {
-  return reinterpret_cast<ts_prepared*>(new Pair(*a, *b, threshold));
+constexpr Setting usual, sharp{true, false}, rocked{false, true};
+
+template <Setting setting>
+ts_prepared* prepare(const ts_shape* a, const ts_shape* b, double threshold, double) {
+  return new ts_prepared{{*a, *b, threshold, setting}, nullptr};
+}
+
+ts_prepared* prepare_hull(const ts_shape* a, const ts_shape* b, double threshold, double sides) {
+  const int n = static_cast<int>(sides);
+  const auto prism = [n](double radius, double half_length) {
+    return touchstone::inscribed_prism(n, radius, half_length);
+  };
+  return new ts_prepared{{*a, *b, threshold, {true, false, n}},
+                         std::make_unique<touchstone::ModelPair>(*a, *b, prism)};
 }
 
 void query(ts_prepared* prepared, const ts_pose* a, const ts_pose* b, ts_answer* answer) {
-  reinterpret_cast<Pair*>(prepared)->query(*a, *b, *answer);
+  prepared->pair.query(*a, *b, *answer);
 }
 
-void release(ts_prepared* prepared) { delete reinterpret_cast<Pair*>(prepared); }
+double hull_distance(ts_prepared* prepared, const ts_pose* a, const ts_pose* b) {
+  return prepared->model->separation(*a, *b).distance;
+}
+
+void release(ts_prepared* prepared) { delete prepared; }
+
+#define NAME(rest) (single_precision ? "bullet-float" rest : "bullet" rest)
+#define SETTINGS(rest) (single_precision ? "single precision; " rest : "double precision; " rest)
+#define CALLS \
+  "the world's narrow phase (GJK/EPA, plane analytic); points midway between the two surfaces; "
+
+const ts_parameter sides = {"number of sides", 3, 128, 16, 1, 0};
+
+const ts_candidate candidates[] = {
+    {NAME(""), TOUCHSTONE_BULLET_VERSION,
+     SETTINGS(CALLS "one query with an empty manifold; default margins: edges of cylinder and box "
+                    "rounded by min(0.04 m, a tenth of the smallest half extent)"),
+     nullptr, nullptr, supports, prepare<usual>, query, release, nullptr},
+    {NAME("-margin-0"), TOUCHSTONE_BULLET_VERSION,
+     SETTINGS(CALLS "one query with an empty manifold; margin 0 on cylinder and box"), nullptr,
+     nullptr, supports, prepare<sharp>, query, release, nullptr},
+    {NAME("-persistent"), TOUCHSTONE_BULLET_VERSION,
+     SETTINGS(CALLS "the manifold after five queries, four of them rocked by 1 mrad; default "
+                    "margins; the time is that of all five"),
+     nullptr, nullptr, supports, prepare<rocked>, query, release, nullptr},
+    {NAME("-hull"), TOUCHSTONE_BULLET_VERSION,
+     SETTINGS(CALLS "one query with an empty manifold; btConvexHullShape and box with margin 0"),
+     "every cylinder as the regular prism with its corners on the rims", &sides, supports,
+     prepare_hull, query, release, hull_distance}};
+
+// The last two tell nothing new in single precision.
+const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, single_precision ? 2 : 4, candidates};
 
 }  // namespace
 
-extern "C" const ts_candidate* touchstone_bullet(void) {
-  static const ts_candidate candidate = {
-      TOUCHSTONE_CANDIDATE_VERSION,
-      "bullet",
-      TOUCHSTONE_BULLET_VERSION,
-      "double precision; the world's narrow phase (GJK/EPA, plane analytic), one query with an "
-      "empty "
-      "manifold; default margins: edges of cylinder and box rounded by min(0.04 m, a tenth of the "
-      "smallest half extent); points midway between the two surfaces",
-      supports,
-      prepare,
-      query,
-      release};
-  return &candidate;
-}
+const ts_plugin* touchstone_plugin() { return &plugin; }

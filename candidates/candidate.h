@@ -1,10 +1,16 @@
 /* A contact routine as Touchstone sees it: the one interface between the harness and every
  * candidate, in C so that any engine can implement it.
  *
+ * A plug-in is a shared object that exports `touchstone_plugin`. It is loaded with dlopen in a
+ * process of its own, with local symbols, so that it may bring any version of any library; it may
+ * crash, hang or throw, which is counted against the configuration that it was asked for.
+ *
  * A candidate prepares two shapes once and is then asked for many poses. Body A is the cylinder.
  * Lengths are in metres; poses map body frame to world frame; normals are unit vectors from B to A
- * in the world frame. No function may keep a pointer that it was given. One prepared pair is used
- * by one thread at a time; different pairs may be used by different threads. */
+ * in the world frame. No function may keep a pointer that it was given. A process has one thread.
+ *
+ *   cc -shared -fPIC -I PREFIX/include my_engine.c -o my_engine.so -lm
+ *   touchstone --candidate ./my_engine.so report */
 #ifndef TOUCHSTONE_CANDIDATE_H
 #define TOUCHSTONE_CANDIDATE_H
 
@@ -12,8 +18,10 @@
 extern "C" {
 #endif
 
-#define TOUCHSTONE_CANDIDATE_VERSION 1
+/* Of this header. A plug-in made for another version is refused. */
+#define TOUCHSTONE_INTERFACE_VERSION 2
 #define TOUCHSTONE_MAX_POINTS 16
+#define TOUCHSTONE_EXPORT __attribute__((visibility("default")))
 
 /* Shapes about their own centre; cylinder and capsule along local z. */
 typedef enum ts_shape_kind {
@@ -44,7 +52,9 @@ typedef enum ts_status {
   TS_CONTACT,     /* normal, signed_distance and points are set */
   TS_NONE,        /* the bodies are further apart than the threshold */
   TS_UNSUPPORTED, /* the candidate has no routine for this pair */
-  TS_FAILED       /* the candidate itself reports that it could not answer */
+  TS_FAILED,      /* the candidate itself reports that it could not answer */
+  TS_CRASHED,     /* set by Touchstone alone: the candidate's process ended */
+  TS_TIMED_OUT    /* set by Touchstone alone: the candidate was ended for taking too long */
 } ts_status;
 
 typedef struct ts_answer {
@@ -55,27 +65,55 @@ typedef struct ts_answer {
   ts_point points[TOUCHSTONE_MAX_POINTS];
 } ts_answer;
 
+/* A number that a family of candidates takes, as 16 in "prism:16". */
+typedef struct ts_parameter {
+  const char* meaning; /* "number of sides" */
+  double least, most;  /* inclusive */
+  double usual;        /* of the member that a default report shows */
+  int whole;           /* non-zero: only whole numbers */
+  int bare;            /* non-zero: the usual member is called by the family's name alone */
+} ts_parameter;
+
 /* A pair of shapes made ready by the candidate; only the candidate looks inside. */
 typedef struct ts_prepared ts_prepared;
 
 typedef struct ts_candidate {
-  int interface_version; /* TOUCHSTONE_CANDIDATE_VERSION */
-  const char* name;      /* as on the command line: "bullet" */
-  const char* version;   /* of the engine: "3.24" */
-  const char* settings;  /* how it is called: precision, margin, algorithm, conventions */
+  const char* name;     /* as on the command line: "bullet"; no colon, comma or space */
+  const char* version;  /* of the engine: "3.24" */
+  const char* settings; /* how it is called: precision, margin, algorithm, conventions */
+
+  /* What stands for the shapes in a simplified model ("capsules for cylinders"); NULL when the
+   * shapes are taken as they are. */
+  const char* models;
+
+  const ts_parameter* parameter; /* NULL: takes none */
 
   /* Non-zero when the candidate has a routine for a cylinder against this kind of shape. */
   int (*supports)(ts_shape_kind other);
 
-  /* Makes both shapes ready. `threshold` >= 0: report contacts up to this distance apart. Returns
-   * NULL when the pair is not supported. */
-  ts_prepared* (*prepare)(const ts_shape* a, const ts_shape* b, double threshold);
+  /* Makes both shapes ready. `threshold` >= 0: report contacts up to this distance apart.
+   * `parameter` is zero without one. Returns NULL when the pair is not supported. */
+  ts_prepared* (*prepare)(const ts_shape* a, const ts_shape* b, double threshold, double parameter);
 
-  /* One narrow-phase query. The answer depends on nothing that was queried before. */
+  /* One narrow-phase query; only this is timed. The answer depends on nothing that was queried
+   * before. `answer` comes uncleared: set its status, and for TS_CONTACT everything. */
   void (*query)(ts_prepared* prepared, const ts_pose* a, const ts_pose* b, ts_answer* answer);
 
   void (*release)(ts_prepared* prepared);
+
+  /* Of a simplified model: the signed distance of what it models, exact but for rounding, so that
+   * the report can tell the model's error from the solver's. NULL, or a NaN: not known. */
+  double (*model_distance)(ts_prepared* prepared, const ts_pose* a, const ts_pose* b);
 } ts_candidate;
+
+typedef struct ts_plugin {
+  int interface_version; /* TOUCHSTONE_INTERFACE_VERSION */
+  int count;
+  const ts_candidate* candidates; /* `count` of them, in report order */
+} ts_plugin;
+
+/* The one symbol that a plug-in exports. What it returns stays valid. */
+TOUCHSTONE_EXPORT const ts_plugin* touchstone_plugin(void);
 
 #ifdef __cplusplus
 }

@@ -1,15 +1,149 @@
 #include "candidates/candidates.hpp"
 
 #include <algorithm>
-#include <string>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <deque>
+#include <system_error>
 
-#include "candidates/entry_points.h"
+#include "candidates/candidate_process.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone {
 namespace {
 
-void release_nothing(ts_prepared*) {}
+/// In report order, with the Debian package of the engine; empty: always built.
+constexpr struct {
+  const char* name;
+  const char* package;
+} standard_plugins[] = {
+    {"reference", ""},           {"bullet", "libbullet-dev"}, {"bullet-float", "libbullet-dev"},
+    {"ode", "libode-dev"},       {"fcl", "libfcl-dev"},       {"libccd", "libccd-dev"},
+    {"mujoco", "libmujoco-dev"}, {"simplified", ""}};
+
+/// Beside the program as it is built, or under its prefix as it is installed.
+std::filesystem::path standard_folder() {
+  const auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path();
+  for (const char* folder : {"candidates", "../candidates", "../lib/touchstone"}) {
+    const auto path = program / folder;
+    if (std::filesystem::exists(path / "touchstone-reference.so")) return path.lexically_normal();
+  }
+  return program;
+}
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.17g", value);
+  // The shortest that reads back the same.
+  for (int digits = 1; digits < 17; ++digits) {
+    char shorter[32];
+    std::snprintf(shorter, sizeof shorter, "%.*g", digits, value);
+    if (std::strtod(shorter, nullptr) == value) return shorter;
+  }
+  return text;
+}
+
+std::optional<double> to_number(std::string_view text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+Candidate member(const Candidate& family, double value) {
+  Candidate c = family;
+  const bool bare = family.parameter->bare && value == family.parameter->usual;
+  c.name = bare ? family.family : family.family + ':' + number(value);
+  c.value = value;
+  return c;
+}
+
+class Registry {
+ public:
+  static Registry& get() {
+    static Registry registry;
+    return registry;
+  }
+
+  void add(const std::filesystem::path& file) {
+    const PluginProcess plugin(file);
+    for (const Candidate& c : plugin.candidates()) {
+      const auto same = [&](const Candidate& other) { return other.family == c.family; };
+      if (std::any_of(known_.begin(), known_.end(), same)) {
+        throw InvalidInput("--candidate", '"' + file.string() + '"',
+                           "must not bring \"" + c.family + "\", a name that is taken");
+      }
+    }
+    for (const Candidate& c : plugin.candidates()) {
+      known_.push_back(c.parameter ? member(c, c.parameter->usual) : c);
+      listed_.push_back(&known_.back());
+    }
+  }
+
+  const std::vector<const Candidate*>& listed() const { return listed_; }
+  const std::vector<Skipped>& skipped() const { return skipped_; }
+  std::vector<std::filesystem::path> added;
+
+  const Candidate& find(std::string_view name) {
+    for (const Candidate& c : known_) {
+      if (c.name == name) return c;
+    }
+    const auto colon = name.find(':');
+    for (const Candidate& c : known_) {
+      if (c.family != name.substr(0, colon)) continue;
+      if (colon == std::string_view::npos) return c;
+      return find_member(c, name, name.substr(colon + 1));
+    }
+    std::string names;
+    for (const Candidate* c : listed_) names += (names.empty() ? "" : ", ") + c->name;
+    throw InvalidInput("--candidates", '"' + std::string(name) + '"', "must be one of " + names);
+  }
+
+ private:
+  Registry() {
+    const auto folder = standard_folder();
+    for (const auto& [name, package] : standard_plugins) {
+      const auto file = folder / ("touchstone-" + std::string(name) + ".so");
+      if (!std::filesystem::exists(file)) {
+        skipped_.push_back(
+            {name, std::string("was not built; install Debian's ") + package + " and build again"});
+        continue;
+      }
+      try {
+        add(file);
+      } catch (const InvalidInput& e) {
+        skipped_.push_back({name, e.what()});
+      }
+    }
+  }
+
+  const Candidate& find_member(const Candidate& family, std::string_view name,
+                               std::string_view parameter) {
+    const auto& p = family.parameter;
+    const std::optional<double> value = to_number(parameter);
+    if (!p) {
+      throw InvalidInput("--candidates", '"' + std::string(name) + '"',
+                         "must be \"" + family.family + "\", which takes no number");
+    }
+    if (!value || !(*value >= p->least && *value <= p->most) ||
+        (p->whole && *value != std::floor(*value))) {
+      throw InvalidInput("--candidates", '"' + std::string(name) + '"',
+                         "must be \"" + family.family + ":\" and the " + p->meaning + ", " +
+                             (p->whole ? "a whole number" : "a number") + " from " +
+                             number(p->least) + " to " + number(p->most));
+    }
+    const Candidate c = member(family, *value);
+    for (const Candidate& k : known_) {
+      if (k.name == c.name) return k;
+    }
+    return known_.emplace_back(c);
+  }
+
+  std::deque<Candidate> known_;  // whose members stay where they are
+  std::vector<const Candidate*> listed_;
+  std::vector<Skipped> skipped_;
+};
 
 struct ToTsShape {
   ts_shape operator()(const Cylinder& s) const {
@@ -30,22 +164,67 @@ struct ToTsShape {
   }
 };
 
+/// Numbers from "8", or from "1..64".
+std::vector<double> sweep(const Candidate& family, std::string_view text) {
+  const auto dots = text.find("..");
+  if (dots == std::string_view::npos) return {};
+  const auto first = to_number(text.substr(0, dots)), last = to_number(text.substr(dots + 2));
+  if (!first || !last || !(*first > 0) || !(*last >= *first)) {
+    throw InvalidInput("--candidates", '"' + family.family + ':' + std::string(text) + '"',
+                       "must be two positive numbers in rising order, as in 1..64");
+  }
+  const double factor = family.parameter && family.parameter->whole ? 2 : 10;
+  std::vector<double> values;
+  for (double power = 1; *first * power <= *last * (1 + 1e-12); power *= factor) {
+    // Of 15 digits, so that 1e-6 · 10 is 1e-5.
+    char text_of_value[32];
+    std::snprintf(text_of_value, sizeof text_of_value, "%.15g", *first * power);
+    values.push_back(std::min(*to_number(text_of_value), *last));
+  }
+  return values;
+}
+
 }  // namespace
 
-std::span<const ts_candidate* const> all_candidates() {
-  static const ts_candidate* const candidates[] = {touchstone_reference(), touchstone_bullet(),
-                                                   touchstone_ode()};
-  return candidates;
+std::vector<const Candidate*> all_candidates() { return Registry::get().listed(); }
+
+const Candidate& find_candidate(std::string_view name) { return Registry::get().find(name); }
+
+std::vector<const Candidate*> find_candidates(const std::vector<std::string>& names) {
+  std::vector<const Candidate*> result;
+  std::string family;
+  const auto add = [&](const Candidate& c) {
+    if (std::find(result.begin(), result.end(), &c) == result.end()) result.push_back(&c);
+  };
+  for (const std::string& text : names) {
+    // A number alone is another member of the family before it.
+    const bool goes_on = !family.empty() && !text.empty() &&
+                         (std::isdigit(static_cast<unsigned char>(text[0])) || text[0] == '.');
+    const std::string name = goes_on ? family + ':' + text : text;
+    const auto colon = name.find(':');
+    family = colon == std::string::npos ? "" : name.substr(0, colon);
+    if (colon != std::string::npos && name.find("..") != std::string::npos) {
+      for (const double v : sweep(find_candidate(family), name.substr(colon + 1))) {
+        add(find_candidate(family + ':' + number(v)));
+      }
+    } else {
+      add(find_candidate(name));
+    }
+  }
+  return result;
 }
 
-const ts_candidate& find_candidate(std::string_view name) {
-  std::string names;
-  for (const ts_candidate* candidate : all_candidates()) {
-    if (candidate->name == name) return *candidate;
-    names += (names.empty() ? "" : ", ") + std::string(candidate->name);
-  }
-  throw InvalidInput("--candidates", '"' + std::string(name) + '"', "must be one of " + names);
+void add_plugin(const std::filesystem::path& file) {
+  std::error_code error;
+  const auto path = std::filesystem::canonical(file, error);
+  if (error) throw InvalidInput("--candidate", '"' + file.string() + '"', "must be a file");
+  Registry::get().add(path);
+  Registry::get().added.push_back(path);
 }
+
+const std::vector<std::filesystem::path>& added_plugins() { return Registry::get().added; }
+
+const std::vector<Skipped>& skipped_plugins() { return Registry::get().skipped(); }
 
 ts_shape to_ts_shape(const Shape& shape) { return std::visit(ToTsShape{}, shape); }
 
@@ -53,34 +232,6 @@ ts_pose to_ts_pose(const Pose& pose) {
   const Vec3& p = pose.position();
   const Eigen::Quaterniond q = pose.orientation().normalized();
   return {{p.x(), p.y(), p.z()}, {q.w(), q.x(), q.y(), q.z()}};
-}
-
-PreparedPair::PreparedPair(const ts_candidate& candidate, const Cylinder& a, const Shape& b,
-                           double threshold)
-    : candidate_(&candidate), prepared_(nullptr, release_nothing) {
-  const ts_shape shape_a = to_ts_shape(a), shape_b = to_ts_shape(b);
-  if (!candidate.supports(shape_b.kind)) return;
-  prepared_ = {candidate.prepare(&shape_a, &shape_b, threshold), candidate.release};
-}
-
-ts_answer PreparedPair::query(const ts_pose& a, const ts_pose& b) const {
-  ts_answer answer{};
-  if (!prepared_) {
-    answer.status = TS_UNSUPPORTED;
-    return answer;
-  }
-  candidate_->query(prepared_.get(), &a, &b, &answer);
-  if (answer.point_count < 0 || answer.point_count > TOUCHSTONE_MAX_POINTS) {
-    answer = {};
-    answer.status = TS_FAILED;
-  }
-  return answer;
-}
-
-ts_answer answer(const ts_candidate& candidate, const Configuration& configuration,
-                 double threshold) {
-  const PreparedPair pair(candidate, configuration.a, configuration.b, threshold);
-  return pair.query(to_ts_pose(configuration.pose_a), to_ts_pose(configuration.pose_b));
 }
 
 }  // namespace touchstone

@@ -6,19 +6,23 @@
 //              code for nearly parallel axes and otherwise libccd's MPR.
 // Shapes       Full lengths; a capsule's length is without its caps; a plane is a·x = d.
 // Conventions  The normal points into the first geom, hence from B to A for a call with A first;
-// depth
-//              is positive inside. Positions are where ODE puts them (on the cylinder for a plane,
-//              inside both bodies for MPR).
+//              depth is positive inside. Positions are where ODE puts them (on the cylinder for a
+//              plane, inside both bodies for MPR).
+// Meshes       ode-mesh:N is the cylinder A as the triangle mesh of the prism with N sides, against
+//              B's own geom. A mesh is a surface: what lies wholly inside is not in contact.
 // Threshold    ODE has none: it answers only when it finds the bodies touching.
 // Planes       A plane geom cannot be placed, so a posed plane is turned into world coordinates at
-// every
-//              query.
+//              every query.
 #include <algorithm>
 #include <cmath>
-#include <mutex>
+#include <limits>
+#include <memory>
 #include <ode/ode.h>
+#include <optional>
+#include <vector>
 
-#include "candidates/entry_points.h"
+#include "candidates/candidate.h"
+#include "candidates/model.hpp"
 
 static_assert(sizeof(dReal) == sizeof(double), "built against single-precision ODE");
 
@@ -27,14 +31,14 @@ namespace {
 /// ODE's default handlers print and, for errors of its own, end the process.
 void ignore_message(int, const char*, va_list) {}
 
-void initialise_thread() {
-  static std::once_flag once;
-  std::call_once(once, [] {
+void initialise() {
+  static const bool done = [] {
     dInitODE2(0);
     dSetMessageHandler(ignore_message);
-  });
-  thread_local const int allocated = dAllocateODEDataForThread(dAllocateMaskAll);
-  (void)allocated;
+    dAllocateODEDataForThread(dAllocateMaskAll);
+    return true;
+  }();
+  (void)done;
 }
 
 dGeomID make_geom(const ts_shape& shape) {
@@ -54,15 +58,62 @@ dGeomID make_geom(const ts_shape& shape) {
   return nullptr;
 }
 
-class Pair {
+/// The surface of a prism; ODE keeps pointers to the corners and indices.
+class Mesh {
  public:
-  Pair(const ts_shape& a, const ts_shape& b) : shape_b_(b), a_(make_geom(a)), b_(make_geom(b)) {}
-  ~Pair() {
+  Mesh(int sides, double radius, double half_length)
+      : corners_(touchstone::RoundedPolytope::prism(sides, radius, half_length).vertices()),
+        data_(dGeomTriMeshDataCreate()) {
+    const auto n = static_cast<dTriIndex>(sides);
+    const auto add = [this](dTriIndex i, dTriIndex j, dTriIndex k) {
+      indices_.insert(indices_.end(), {i, j, k});
+    };
+    for (dTriIndex i = 0; i < n; ++i) {  // outside: counterclockwise
+      const dTriIndex next = (i + 1) % n;
+      add(i, next, next + n);
+      add(i, next + n, i + n);
+      if (i > 0 && next > 0) {
+        add(0, next, i);
+        add(n, i + n, next + n);
+      }
+    }
+    dGeomTriMeshDataBuildDouble(data_, corners_.data(), sizeof(touchstone::Vec3),
+                                static_cast<int>(corners_.size()), indices_.data(),
+                                static_cast<int>(indices_.size()), 3 * sizeof(dTriIndex));
+  }
+  ~Mesh() { dGeomTriMeshDataDestroy(data_); }
+  Mesh(const Mesh&) = delete;
+  Mesh& operator=(const Mesh&) = delete;
+  dGeomID make_geom() const { return dCreateTriMesh(nullptr, data_, nullptr, nullptr, nullptr); }
+
+ private:
+  std::vector<touchstone::Vec3> corners_;
+  std::vector<dTriIndex> indices_;
+  dTriMeshDataID data_;
+};
+
+}  // namespace
+
+struct ts_prepared {
+ public:
+  ts_prepared(const ts_shape& a, const ts_shape& b)
+      : shape_b_(b), a_(make_geom(a)), b_(make_geom(b)) {}
+  /// A as a mesh.
+  ts_prepared(const ts_shape& a, const ts_shape& b, int sides)
+      : shape_b_(b),
+        mesh_(std::make_unique<Mesh>(sides, a.size[0], a.size[1])),
+        model_(std::in_place, a, b,
+               [sides](double radius, double half_length) {
+                 return touchstone::inscribed_prism(sides, radius, half_length);
+               }),
+        a_(mesh_->make_geom()),
+        b_(make_geom(b)) {}
+  ~ts_prepared() {
     dGeomDestroy(a_);
     dGeomDestroy(b_);
   }
-  Pair(const Pair&) = delete;
-  Pair& operator=(const Pair&) = delete;
+  ts_prepared(const ts_prepared&) = delete;
+  ts_prepared& operator=(const ts_prepared&) = delete;
 
   void query(const ts_pose& a, const ts_pose& b, ts_answer& answer) {
     place(a_, a);
@@ -71,8 +122,17 @@ class Pair {
     } else {
       place(b_, b);
     }
-    dContactGeom contacts[TOUCHSTONE_MAX_POINTS];
-    answer.point_count = dCollide(a_, b_, TOUCHSTONE_MAX_POINTS, contacts, sizeof(dContactGeom));
+    // A mesh has points on every triangle, and the deepest may come last.
+    constexpr int most = 64;
+    dContactGeom contacts[most];
+    const int count =
+        dCollide(a_, b_, mesh_ ? most : TOUCHSTONE_MAX_POINTS, contacts, sizeof(dContactGeom));
+    if (count > TOUCHSTONE_MAX_POINTS) {
+      std::partial_sort(
+          contacts, contacts + TOUCHSTONE_MAX_POINTS, contacts + count,
+          [](const dContactGeom& x, const dContactGeom& y) { return x.depth > y.depth; });
+    }
+    answer.point_count = std::min(count, TOUCHSTONE_MAX_POINTS);
     answer.status = answer.point_count > 0 ? TS_CONTACT : TS_NONE;
     for (int i = 0; i < answer.point_count; ++i) {
       ts_point& out = answer.points[i];
@@ -84,6 +144,12 @@ class Pair {
         std::copy(out.normal, out.normal + 3, answer.normal);
       }
     }
+  }
+
+  /// Of the mesh's prism; not known where B is a cylinder, which stays one here.
+  double model_distance(const ts_pose& a, const ts_pose& b) {
+    if (shape_b_.kind == TS_CYLINDER) return std::numeric_limits<double>::quiet_NaN();
+    return model_->separation(a, b).distance;
   }
 
  private:
@@ -103,35 +169,50 @@ class Pair {
   }
 
   ts_shape shape_b_;
+  std::unique_ptr<Mesh> mesh_;
+  std::optional<touchstone::ModelPair> model_;
   dGeomID a_, b_;
 };
 
+namespace {
+
 int supports(ts_shape_kind) { return 1; }
 
-ts_prepared* prepare(const ts_shape* a, const ts_shape* b, double) {
-  initialise_thread();
-  return reinterpret_cast<ts_prepared*>(new Pair(*a, *b));
+ts_prepared* prepare(const ts_shape* a, const ts_shape* b, double, double) {
+  initialise();
+  return new ts_prepared(*a, *b);
+}
+
+ts_prepared* prepare_mesh(const ts_shape* a, const ts_shape* b, double, double sides) {
+  initialise();
+  return new ts_prepared(*a, *b, static_cast<int>(sides));
 }
 
 void query(ts_prepared* prepared, const ts_pose* a, const ts_pose* b, ts_answer* answer) {
-  reinterpret_cast<Pair*>(prepared)->query(*a, *b, *answer);
+  prepared->query(*a, *b, *answer);
 }
 
-void release(ts_prepared* prepared) { delete reinterpret_cast<Pair*>(prepared); }
+double model_distance(ts_prepared* prepared, const ts_pose* a, const ts_pose* b) {
+  return prepared->model_distance(*a, *b);
+}
+
+void release(ts_prepared* prepared) { delete prepared; }
+
+const ts_parameter sides = {"number of sides", 3, 128, 16, 1, 0};
+
+const ts_candidate candidates[] = {
+    {"ode", TOUCHSTONE_ODE_VERSION,
+     "double precision; dCollide asked for 16 contacts; cylinder and capsule through libccd's MPR, "
+     "box by separating axes and clipping, plane and sphere analytic; positions as ODE gives them",
+     nullptr, nullptr, supports, prepare, query, release, nullptr},
+    {"ode-mesh", TOUCHSTONE_ODE_VERSION,
+     "double precision; dCollide of a triangle mesh and a primitive, asked for 64 contacts of "
+     "which "
+     "the 16 deepest are kept",
+     "the cylinder A as the triangle mesh of the regular prism with its corners on the rims",
+     &sides, supports, prepare_mesh, query, release, model_distance}};
+const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 2, candidates};
 
 }  // namespace
 
-extern "C" const ts_candidate* touchstone_ode(void) {
-  static const ts_candidate candidate = {
-      TOUCHSTONE_CANDIDATE_VERSION,
-      "ode",
-      TOUCHSTONE_ODE_VERSION,
-      "double precision; dCollide asked for 16 contacts; cylinder and capsule through libccd's "
-      "MPR, "
-      "box by separating axes and clipping, plane and sphere analytic; positions as ODE gives them",
-      supports,
-      prepare,
-      query,
-      release};
-  return &candidate;
-}
+const ts_plugin* touchstone_plugin() { return &plugin; }

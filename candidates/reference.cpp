@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "candidates/entry_points.h"
+#include "candidates/candidate.h"
 #include "reference/cylinder_box.hpp"
 #include "reference/cylinder_capsule.hpp"
 #include "reference/cylinder_cylinder.hpp"
@@ -49,7 +49,7 @@ void copy(const Vec3& from, double (&to)[3]) {
 
 int supports(ts_shape_kind) { return 1; }
 
-ts_prepared* prepare(const ts_shape* a, const ts_shape* b, double threshold) {
+ts_prepared* prepare(const ts_shape* a, const ts_shape* b, double threshold, double) {
   const Cylinder cylinder(a->size[0], a->size[1]);
   const double* s = b->size;
   ts_prepared* prepared = nullptr;
@@ -90,17 +90,12 @@ void query(ts_prepared* prepared, const ts_pose* a, const ts_pose* b, ts_answer*
 
 void release(ts_prepared* prepared) { delete prepared; }
 
+const ts_candidate candidates[] = {
+    {"reference", TOUCHSTONE_VERSION,
+     "Touchstone's own routines, double precision; points halfway between the surfaces", nullptr,
+     nullptr, supports, prepare, query, release, nullptr}};
+const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 1, candidates};
+
 }  // namespace
 
-extern "C" const ts_candidate* touchstone_reference(void) {
-  static const ts_candidate candidate = {
-      TOUCHSTONE_CANDIDATE_VERSION,
-      "reference",
-      TOUCHSTONE_VERSION,
-      "Touchstone's own routines, double precision; points halfway between the surfaces",
-      supports,
-      prepare,
-      query,
-      release};
-  return &candidate;
-}
+const ts_plugin* touchstone_plugin() { return &plugin; }

@@ -8,13 +8,23 @@
 namespace touchstone {
 namespace {
 
-std::string supported_pairs(const ts_candidate& candidate) {
+std::string supported_pairs(const Candidate& candidate) {
   constexpr const char* names[] = {"cylinder", "plane", "sphere", "capsule", "box"};
   std::string text;
   for (const ts_shape_kind kind : {TS_PLANE, TS_SPHERE, TS_CAPSULE, TS_CYLINDER, TS_BOX}) {
-    if (candidate.supports(kind)) text += (text.empty() ? "" : ", ") + std::string(names[kind]);
+    if (candidate.supports[kind]) text += (text.empty() ? "" : ", ") + std::string(names[kind]);
   }
   return text;
+}
+
+void print(const Candidate& c) {
+  fmt::print("{} {}\n  cylinder against {}\n  {}\n", c.name, c.version, supported_pairs(c),
+             c.settings);
+  if (!c.models.empty()) fmt::print("  models {}\n", c.models);
+  if (c.parameter) {
+    fmt::print("  {}:N with N the {}, {} to {}\n", c.family, c.parameter->meaning,
+               c.parameter->least, c.parameter->most);
+  }
 }
 
 }  // namespace
@@ -22,10 +32,8 @@ std::string supported_pairs(const ts_candidate& candidate) {
 void add_candidates(CLI::App& program, int&) {
   CLI::App* command = program.add_subcommand("candidates", "List the contact routines there are");
   command->callback([] {
-    for (const ts_candidate* c : all_candidates()) {
-      fmt::print("{} {}\n  cylinder against {}\n  {}\n", c->name, c->version, supported_pairs(*c),
-                 c->settings);
-    }
+    for (const Candidate* c : all_candidates()) print(*c);
+    for (const Skipped& s : skipped_plugins()) fmt::print("{}: skipped; {}\n", s.name, s.reason);
   });
 }
 

@@ -28,7 +28,11 @@ expect 2 'report, replay, solve, certify, candidates' nonsense
 expect 2 'identity.pair' replay cylinder-cone/rim/1/2
 expect 2 'identity.class' replay cylinder-box/none/1/2
 expect 2 'identity is required' replay
-expect 2 'must be one of reference, bullet, ode' replay cylinder-box/rim-face/1/2 --candidates havok
+expect 2 'must be one of reference, bullet, ' replay cylinder-box/rim-face/1/2 --candidates havok
+expect 2 'prism:1.* must be' replay cylinder-box/rim-face/1/2 --candidates prism:1
+expect 0 'prism:32: ' replay cylinder-box/rim-face/1/2 --candidates prism:8,16,32
+expect 2 'must be a plug-in' --candidate /etc/passwd candidates
+expect 2 '--time-limit' solve --time-limit 0
 expect 2 -- '--tolerance' replay cylinder-box/rim-face/1/2 --tolerance=-1
 expect 0 'reference: contact, agree' replay cylinder-box/rim-face/1/2
 expect 0 '"id":"cylinder-box/rim-face/1/2"' replay cylinder-box/rim-face/1/2 --json

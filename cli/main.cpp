@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/commands.hpp"
+#include "cli/options.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace {
@@ -40,6 +41,8 @@ int main(int argc, char** argv) {
       "  touchstone solve poses.jsonl                        your own configurations\n"
       "  touchstone certify cylinder-box/rim-face/1/17       a proof that others can check\n"
       "Exit codes: 0 done; 2 bad input or usage; 3 an internal contradiction.");
+  program.fallthrough();  // --candidate may also stand after the subcommand
+  touchstone::add_plugin_option(program);
   int exit_code = 0;
   touchstone::add_report(program, exit_code);
   touchstone::add_replay(program, exit_code);

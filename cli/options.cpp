@@ -8,17 +8,47 @@
 
 namespace touchstone {
 
-CandidateOption::CandidateOption(CLI::App& command) {
-  command.add_option("--candidates", names_, "Only these, separated by commas (default: all)")
-      ->delimiter(',');
+void add_plugin_option(CLI::App& program) {
+  program
+      .add_option_function<std::vector<std::string>>(
+          "--candidate",
+          [](const std::vector<std::string>& files) {
+            for (const auto& file : files) add_plugin(file);
+          },
+          "A plug-in with candidates of your own (candidates/candidate.h); may be repeated")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
 }
 
-std::vector<const ts_candidate*> CandidateOption::get() const {
-  const auto all = all_candidates();
-  if (names_.empty()) return {all.begin(), all.end()};
-  std::vector<const ts_candidate*> chosen;
-  for (const auto& name : names_) chosen.push_back(&find_candidate(name));
-  return chosen;
+CandidateOption::CandidateOption(CLI::App& command) {
+  command
+      .add_option("--candidates", names_,
+                  "Only these, separated by commas (default: all); families by several numbers, as "
+                  "in prism:8,16,32 or spheres:1..64")
+      ->delimiter(',');
+  command
+      .add_option("--time-limit", limits_.seconds,
+                  "Processor time that a candidate may take for one configuration, seconds")
+      ->capture_default_str();
+  command
+      .add_option("--memory-limit", limits_.mebibytes,
+                  "What a candidate's memory may grow by, mebibytes")
+      ->capture_default_str();
+}
+
+std::vector<const Candidate*> CandidateOption::get() const {
+  return names_.empty() ? all_candidates() : find_candidates(names_);
+}
+
+Limits CandidateOption::limits() const {
+  const auto check = [](const char* field, double value) {
+    if (!(std::isfinite(value) && value > 0)) {
+      throw InvalidInput(field, fmt::format("{}", value), "must be positive and finite");
+    }
+  };
+  check("--time-limit", limits_.seconds);
+  check("--memory-limit", limits_.mebibytes);
+  return limits_;
 }
 
 BarOption::BarOption(CLI::App& command) {

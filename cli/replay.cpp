@@ -33,10 +33,10 @@ void add_replay(CLI::App& program, int&) {
       "  touchstone replay cylinder-cylinder/rim-rim/1/0 --candidates bullet --json");
   command->callback([options] {
     const Identity identity = parse_identity(options->identity);
-    const auto candidates = options->candidates.get();
     const Bar bar = options->bar.get();
+    auto candidates = start(options->candidates.get(), bar.threshold, options->candidates.limits());
     if (options->json) {
-      fmt::print("{}\n", examined(identity, candidates, bar, 1e-30).dump());
+      fmt::print("{}\n", examined(identity, pointers(candidates), bar, 1e-30).dump());
     } else {
       fmt::print("{}", replay_text(identity, candidates, bar));
     }

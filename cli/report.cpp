@@ -8,6 +8,7 @@
 #include "cli/options.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/terminal_table.hpp"
+#include "reports/worst.hpp"
 
 namespace touchstone {
 namespace {
@@ -31,6 +32,7 @@ struct Options {
     c.seed = seed;
     c.workers = workers;
     c.bar = bar.get();
+    c.limits = candidates.limits();
     if (count == 0) throw InvalidInput("--count", "0", "must be at least 1");
     if (workers == 0) throw InvalidInput("--workers", "0", "must be at least 1");
     return c;
@@ -38,14 +40,18 @@ struct Options {
 
   /// The command that gives the same report again.
   std::string command_line() const {
-    std::string line = fmt::format("./touchstone report --seed {} --count {}", seed, count);
+    std::string line = fmt::format("{} report --seed {} --count {}", program_name(), seed, count);
     if (!pairs.empty()) line += fmt::format(" --pair {}", fmt::join(pairs, ","));
     if (!classes.empty()) line += fmt::format(" --class {}", fmt::join(classes, ","));
     std::vector<std::string> names;
-    for (const ts_candidate* c : candidates.get()) names.emplace_back(c->name);
+    for (const Candidate* c : candidates.get()) names.emplace_back(c->name);
     const Bar used = bar.get();
-    return line + fmt::format(" --candidates {} --tolerance {} --threshold {}",
-                              fmt::join(names, ","), used.tolerance, used.threshold);
+    const Limits limits = candidates.limits();
+    return line + fmt::format(
+                      " --candidates {} --tolerance {} --threshold {} --time-limit {} "
+                      "--memory-limit {}",
+                      fmt::join(names, ","), used.tolerance, used.threshold, limits.seconds,
+                      limits.mebibytes);
   }
 };
 

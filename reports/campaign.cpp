@@ -5,7 +5,7 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "candidates/candidates.hpp"
+#include "candidates/candidate_process.hpp"
 #include "oracle/truth.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/progress.hpp"
@@ -19,8 +19,8 @@ struct Record {
   Outcome outcome;
   int points;
   double severity;
-  double values[4];
-  bool present[4];
+  double values[6];
+  bool present[6];
 };
 
 Record to_record(const Score& s) {
@@ -29,8 +29,8 @@ Record to_record(const Score& s) {
   r.points = s.points;
   r.severity = s.severity;
   const std::optional<double>* values[] = {&s.depth_error, &s.normal_regret, &s.normal_angle,
-                                           &s.coverage};
-  for (int i = 0; i < 4; ++i) {
+                                           &s.coverage,    &s.model_error,   &s.solver_error};
+  for (int i = 0; i < 6; ++i) {
     r.present[i] = values[i]->has_value();
     r.values[i] = values[i]->value_or(0);
   }
@@ -41,29 +41,47 @@ Score from_record(const Record& r) {
   const auto value = [&](int i) {
     return r.present[i] ? std::optional<double>(r.values[i]) : std::nullopt;
   };
-  return {r.outcome, value(0), value(1), value(2), value(3), r.points, r.severity};
+  Score s;
+  s.outcome = r.outcome;
+  s.depth_error = value(0);
+  s.normal_regret = value(1);
+  s.normal_angle = value(2);
+  s.coverage = value(3);
+  s.model_error = value(4);
+  s.solver_error = value(5);
+  s.points = r.points;
+  s.severity = r.severity;
+  return s;
 }
 
 /// Per configuration: the oracle's time, then one record per candidate.
-std::string score_cell(const Campaign& campaign, const Cell& cell) {
+std::string score_cell(const Campaign& campaign, std::vector<CandidateProcess>& candidates,
+                       const Cell& cell) {
+  std::vector<Configuration> configurations;
+  for (std::uint64_t i = 0; i < campaign.count; ++i) {
+    configurations.push_back(make_configuration({cell.pair, cell.pose_class, campaign.seed, i}));
+  }
+  std::vector<std::vector<Answer>> answers;
+  for (CandidateProcess& candidate : candidates) {
+    answers.push_back(candidate.answers(configurations));
+  }
   std::string bytes;
   const auto append = [&](const auto& value) {
     bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
   };
   for (std::uint64_t i = 0; i < campaign.count; ++i) {
-    const Identity id{cell.pair, cell.pose_class, campaign.seed, i};
+    const Configuration& c = configurations[i];
     try {
-      const Configuration c = make_configuration(id);
       const auto start = std::chrono::steady_clock::now();
       const oracle::Truth truth = oracle::truth(c);
       append(std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start)
                  .count());
-      for (const ts_candidate* candidate : campaign.candidates) {
-        const ts_answer a = answer(*candidate, c, campaign.bar.threshold);
-        append(to_record(score(c, truth, a, campaign.bar)));
+      for (const auto& of_candidate : answers) {
+        append(to_record(score(c, truth, of_candidate[i], campaign.bar)));
       }
     } catch (const std::exception& e) {
-      throw std::runtime_error(to_string(id) + ": " + e.what());
+      throw std::runtime_error(to_string({cell.pair, cell.pose_class, campaign.seed, i}) + ": " +
+                               e.what());
     }
   }
   return bytes;
@@ -120,8 +138,15 @@ std::vector<Cell> cells(const Campaign& campaign) {
 std::vector<CellScores> run(const Campaign& campaign) {
   const std::vector<Cell> all = cells(campaign);
   Progress progress("configurations", all.size() * campaign.count);
+  std::vector<CandidateProcess> candidates;  // each worker starts its own
   const auto results = run_in_processes(
-      all.size(), campaign.workers, [&](std::size_t i) { return score_cell(campaign, all[i]); },
+      all.size(), campaign.workers,
+      [&](std::size_t i) {
+        if (candidates.empty()) {
+          candidates = start(campaign.candidates, campaign.bar.threshold, campaign.limits);
+        }
+        return score_cell(campaign, candidates, all[i]);
+      },
       [&](std::size_t i) { return std::string(pair_name(all[i].pair)) + "/" + all[i].pose_class; },
       [&](std::size_t done) { progress.update(done * campaign.count); });
   std::vector<CellScores> scores;

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "candidates/candidate.h"
+#include "candidates/candidate_process.hpp"
 #include "properties/identity.hpp"
 #include "reports/score.hpp"
 
@@ -14,11 +14,12 @@ namespace touchstone {
 struct Campaign {
   std::vector<Pair> pairs;
   std::vector<std::string> classes;  ///< empty: all; else each must be a class of one of the pairs
-  std::vector<const ts_candidate*> candidates;
+  std::vector<const Candidate*> candidates;
   std::uint64_t count = 100;  ///< configurations of each pair × class
   std::uint64_t seed = 1;
   unsigned workers = 1;
   Bar bar;
+  Limits limits;  ///< of each candidate on one configuration
 };
 
 /// One pair × class.
@@ -35,8 +36,10 @@ struct CellScores {
   std::vector<double> oracle_microseconds;
 };
 
-/// Scores every cell, spread over worker processes; the result does not depend on how many.
-/// Progress goes to standard error. Throws std::runtime_error naming the cell if a worker dies.
+/// Scores every cell, spread over worker processes, in each of which every candidate has a process
+/// of its own and a new session for each cell: the result does not depend on how many there are,
+/// nor on what other candidates do. Progress goes to standard error. Throws std::runtime_error
+/// naming the cell if a worker itself dies.
 std::vector<CellScores> run(const Campaign& campaign);
 
 }  // namespace touchstone

@@ -37,6 +37,7 @@ std::string answer_text(const std::string& name, const json& a) {
   const json& score = a["score"];
   std::string text = fmt::format("{}: {}, {}\n", name, a["status"].get<std::string>(),
                                  score["outcome"].get<std::string>());
+  if (a.contains("reason")) text += fmt::format("  {}\n", a["reason"].get<std::string>());
   if (a["status"] != "contact") return text;
   text += fmt::format("  signed distance {}\n  normal          {}\n", number(a["signed_distance"]),
                       vector(a["normal"]));
@@ -52,9 +53,9 @@ std::string answer_text(const std::string& name, const json& a) {
 
 }  // namespace
 
-std::string replay_text(const Identity& identity,
-                        const std::vector<const ts_candidate*>& candidates, const Bar& bar) {
-  const json e = examined(identity, candidates, bar, 1e-30);
+std::string replay_text(const Identity& identity, std::vector<CandidateProcess>& candidates,
+                        const Bar& bar) {
+  const json e = examined(identity, pointers(candidates), bar, 1e-30);
   json line = e["configuration"];
   line["id"] = to_string(identity);
   std::string text = fmt::format("{}\n{}\n\n", to_string(identity),
@@ -71,8 +72,9 @@ std::string replay_text(const Identity& identity,
                         patch_text(truth["patch"][i]));
   }
   text += fmt::format("  ties: {}\n\n", truth["ties"].get<std::string>());
-  for (const ts_candidate* candidate : candidates) {
-    text += answer_text(candidate->name, e["answers"][candidate->name]);
+  for (const CandidateProcess& process : candidates) {
+    const std::string& name = process.candidate().name;
+    text += answer_text(name, e["answers"][name]);
   }
   return text;
 }

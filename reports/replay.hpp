@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "candidates/candidate.h"
+#include "candidates/candidate_process.hpp"
 #include "properties/identity.hpp"
 #include "reports/score.hpp"
 
@@ -12,7 +12,7 @@ namespace touchstone {
 /// Everything about one configuration as text: its class, its numbers (as a line for `solve`, and
 /// in hexadecimal floats), the truth, and each candidate's answer and score. The same on every
 /// call.
-std::string replay_text(const Identity& identity,
-                        const std::vector<const ts_candidate*>& candidates, const Bar& bar);
+std::string replay_text(const Identity& identity, std::vector<CandidateProcess>& candidates,
+                        const Bar& bar);
 
 }  // namespace touchstone

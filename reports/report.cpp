@@ -42,6 +42,8 @@ json to_json(const Statistics& s) {
           {"depth_error", to_json(s.depth_error)},
           {"normal_regret", to_json(s.normal_regret)},
           {"normal_angle", to_json(s.normal_angle)},
+          {"model_error", to_json(s.model_error)},
+          {"solver_error", to_json(s.solver_error)},
           {"points", points},
           {"coverage", to_json(s.coverage)}};
 }
@@ -80,7 +82,7 @@ json entry(const Campaign& campaign, const std::vector<CellScores>& scores, cons
     result["nanoseconds"] = {
         {"median", time->median}, {"spread", time->spread}, {"ratio_to_bullet", nullptr}};
     for (std::size_t b = 0; b < campaign.candidates.size(); ++b) {
-      if (campaign.candidates[b]->name != std::string_view("bullet")) continue;
+      if (campaign.candidates[b]->name != "bullet") continue;
       if (const auto bullet = median_time(times, group, b)) {
         result["nanoseconds"]["ratio_to_bullet"] = time->median / bullet->median;
       }
@@ -117,7 +119,7 @@ json make_report(const Campaign& campaign, const std::string& command) {
   const auto start = std::chrono::steady_clock::now();
   const std::vector<Cell> all = cells(campaign);
   const std::vector<CellScores> scores = run(campaign);
-  const Times times = time_queries(campaign);
+  const Times times = time_queries(campaign, scores);
 
   std::vector<Group> single, summary;
   Group everything{{}, "all", "all"};
@@ -135,8 +137,12 @@ json make_report(const Campaign& campaign, const std::string& command) {
   if (summary.size() > 1) summary.push_back(everything);
 
   json candidates = json::array();
-  for (const ts_candidate* c : campaign.candidates) {
-    candidates.push_back({{"name", c->name}, {"version", c->version}, {"settings", c->settings}});
+  for (const Candidate* c : campaign.candidates) {
+    candidates.push_back({{"name", c->name},
+                          {"family", c->family},
+                          {"version", c->version},
+                          {"settings", c->settings},
+                          {"models", c->models}});
   }
   std::vector<double> oracle_times;
   for (const CellScores& s : scores) {

@@ -18,16 +18,16 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-std::vector<const ts_candidate*> everybody() {
-  const auto all = all_candidates();
-  return {all.begin(), all.end()};
+/// Our own routines and three engines; the others differ in nothing that is tested here.
+std::vector<const Candidate*> some() {
+  return find_candidates({"reference", "bullet", "ode", "prism:8"});
 }
 
 Campaign small_campaign(unsigned workers = 2) {
   Campaign c;
   c.pairs = {Pair::plane, Pair::box};
   c.classes = {"general-shallow", "touching", "concentric"};
-  c.candidates = everybody();
+  c.candidates = some();
   c.count = 4;
   c.seed = 5;
   c.workers = workers;
@@ -52,8 +52,8 @@ TEST(Report, HasARowForEveryPairClassAndCandidate) {
   const json report = make_report(small_campaign(), "x");
   // Plane has no concentric poses.
   EXPECT_EQ(report["classes"].size(), 5u);
-  EXPECT_EQ(report["results"].size(), 15u);
-  EXPECT_EQ(report["summary"].size(), 9u);
+  EXPECT_EQ(report["results"].size(), 20u);
+  EXPECT_EQ(report["summary"].size(), 12u);
   EXPECT_EQ(report["configurations"], 20);
   for (const json& row : report["results"]) {
     EXPECT_EQ(row["count"], 4);
@@ -64,13 +64,92 @@ TEST(Report, HasARowForEveryPairClassAndCandidate) {
   }
 }
 
+TEST(Report, TellsAModelsErrorFromItsSolvers) {
+  const json report = make_report(small_campaign(), "x");
+  for (const json& row : report["results"]) {
+    const bool is_model = row["candidate"] == "prism:8";
+    EXPECT_EQ(row["model_error"].is_null(), !is_model || row["depth_error"].is_null());
+    if (!is_model || row["model_error"].is_null()) continue;
+    // The prism is answered exactly: its error is the model's.
+    EXPECT_LE(row["solver_error"]["max"], 0);
+    EXPECT_EQ(row["model_error"]["max"], row["depth_error"]["max"]);
+  }
+}
+
+/// A candidate that crashes, aborts, throws, allocates 10 GiB, answers NaN, long normals and a
+/// million points on one configuration in three.
+const Candidate& sabotage() {
+  static const bool added = (add_plugin(TOUCHSTONE_TEST_PLUGINS "/touchstone-sabotage.so"), true);
+  (void)added;
+  return find_candidate("sabotage");
+}
+
+TEST(Report, IsCompleteWhateverACandidateDoes) {
+  Campaign c = small_campaign();
+  c.count = 40;
+  c.pairs = {Pair::plane, Pair::cylinder};
+  const json alone = without_timing(make_report(c, "x"));
+  c.candidates.push_back(&sabotage());
+  const json together = without_timing(make_report(c, "x"));
+  // Each misdeed is counted …
+  std::map<std::string, int> outcomes;
+  std::size_t sum = 0;
+  for (const json& row : together["results"]) {
+    if (row["candidate"] != "sabotage") continue;
+    for (const auto& [name, count] : row["outcomes"].items()) {
+      outcomes[name] += count.get<int>();
+      sum += count.get<std::size_t>();
+    }
+  }
+  EXPECT_EQ(sum, together["configurations"]);
+  for (const char* name : {"crashed", "not-finite", "failed"}) EXPECT_GT(outcomes[name], 3) << name;
+  // … and can be replayed: its identity stands among the worst, and gives the same again.
+  std::map<std::string, int> shown;
+  auto processes = start({&sabotage()}, 0);
+  for (const json& w : together["worst"]) {
+    if (w["candidate"] != "sabotage") continue;
+    ++shown[w["outcome"]];
+    const json again =
+        examined(parse_identity(w["id"].get<std::string>()), pointers(processes), Bar());
+    EXPECT_EQ(again["answers"]["sabotage"], w["answers"]["sabotage"]);
+    EXPECT_THAT(w["replay"].get<std::string>(), HasSubstr("--candidate"));
+  }
+  for (const char* name : {"crashed", "not-finite", "failed"}) EXPECT_GT(shown[name], 0) << name;
+  // The others lose nothing.
+  json others = json::array();
+  for (const json& row : together["results"]) {
+    if (row["candidate"] != "sabotage") others.push_back(row);
+  }
+  EXPECT_EQ(others, alone["results"]);
+  // And it is the same whatever the number of workers.
+  c.workers = 1;
+  EXPECT_EQ(without_timing(make_report(c, "x")), together);
+}
+
+TEST(Report, AHangCostsOneConfigurationEach) {
+  sabotage();
+  Campaign c = small_campaign();
+  c.classes = {"touching"};
+  c.pairs = {Pair::plane};
+  c.limits.seconds = 0.05;
+  c.candidates = find_candidates({"reference", "misdeed:5"});
+  const json report = make_report(c, "x");
+  EXPECT_EQ(report["results"][0]["outcomes"], json({{"agree", 4}}));
+  EXPECT_EQ(report["results"][1]["outcomes"], json({{"timed-out", 4}}));
+  EXPECT_TRUE(report["results"][1]["nanoseconds"].is_null());
+}
+
 TEST(Report, EveryWorstCaseReplaysToTheSameAnswers) {
   const json report = make_report(small_campaign(), "x");
   ASSERT_FALSE(report["worst"].empty());
+  auto candidates = start(some(), 0);
   for (const json& w : report["worst"]) {
     const Identity id = parse_identity(w["id"].get<std::string>());
-    const json again = examined(id, everybody(), Bar());
-    EXPECT_EQ(again["answers"], w["answers"]);
+    const json again = examined(id, pointers(candidates), Bar());
+    EXPECT_TRUE(w["answers"].contains(w["candidate"]));
+    for (const auto& [name, answer] : w["answers"].items()) {
+      EXPECT_EQ(again["answers"][name], answer) << name;
+    }
     EXPECT_EQ(again["configuration"], w["configuration"]);
     EXPECT_EQ(again["truth"], w["truth"]);
   }
@@ -78,7 +157,11 @@ TEST(Report, EveryWorstCaseReplaysToTheSameAnswers) {
 
 TEST(Report, TableFitsIntoEightyColumns) {
   std::istringstream table(terminal_table(make_report(small_campaign(), "x")));
-  for (std::string line; std::getline(table, line);) EXPECT_LE(line.size(), 80u) << line;
+  for (std::string line; std::getline(table, line);) {
+    if (line.find("./touchstone") == std::string::npos) {  // a command is not broken
+      EXPECT_LE(line.size(), 80u) << line;
+    }
+  }
 }
 
 TEST(Report, IsWrittenAsAWhole) {
@@ -107,8 +190,9 @@ TEST(Report, RefusesAFolderThatIsAFile) {
 
 TEST(Replay, IsTheSameOnEveryCall) {
   const Identity id{Pair::cylinder, "rim-rim", 1, 2};
-  const std::string text = replay_text(id, everybody(), Bar());
-  EXPECT_EQ(replay_text(id, everybody(), Bar()), text);
+  auto candidates = start(some(), 0), again = start(some(), 0);
+  const std::string text = replay_text(id, candidates, Bar());
+  EXPECT_EQ(replay_text(id, again, Bar()), text);
   EXPECT_THAT(text, HasSubstr("cylinder-cylinder/rim-rim/1/2"));
   EXPECT_THAT(text, HasSubstr("0x1."));
 }
@@ -118,7 +202,7 @@ TEST(Replay, IsTheSameOnEveryCall) {
 std::vector<json> solved(const std::string& input, bool& good) {
   std::istringstream in(input);
   std::stringstream out;
-  good = solve(in, out, {everybody(), 1e-15, Bar()});
+  good = solve(in, out, {some(), 1e-15, Bar()});
   std::vector<json> lines;
   for (std::string line; std::getline(out, line);) lines.push_back(json::parse(line));
   return lines;

@@ -92,6 +92,10 @@ const char* outcome_name(Outcome outcome) {
       return "not-finite";
     case Outcome::failed:
       return "failed";
+    case Outcome::crashed:
+      return "crashed";
+    case Outcome::timed_out:
+      return "timed-out";
     case Outcome::unsupported:
       return "unsupported";
   }
@@ -108,6 +112,10 @@ const char* status_name(ts_status status) {
       return "unsupported";
     case TS_FAILED:
       return "failed";
+    case TS_CRASHED:
+      return "crashed";
+    case TS_TIMED_OUT:
+      return "timed-out";
   }
   return "failed";
 }
@@ -123,6 +131,10 @@ Score score(const Configuration& c, const oracle::Truth& truth, const ts_answer&
       break;
     case TS_UNSUPPORTED:
       return only(Outcome::unsupported);
+    case TS_CRASHED:
+      return only(Outcome::crashed);
+    case TS_TIMED_OUT:
+      return only(Outcome::timed_out);
     default:
       return only(Outcome::failed);
   }
@@ -150,6 +162,16 @@ Score score(const Configuration& c, const oracle::Truth& truth, const ts_answer&
   }
   const bool right_normal = unit && s.normal_regret && *s.normal_regret <= bar.tolerance;
   if (s.outcome != Outcome::phantom && right_normal) s.coverage = coverage_by(answer, c, truth);
+  return s;
+}
+
+Score score(const Configuration& c, const oracle::Truth& truth, const Answer& answer,
+            const Bar& bar) {
+  Score s = score(c, truth, static_cast<const ts_answer&>(answer), bar);
+  if (s.depth_error && answer.model_distance) {
+    s.model_error = (*answer.model_distance - truth.signed_distance.midpoint()) / smaller_size(c);
+    s.solver_error = (answer.signed_distance - *answer.model_distance) / smaller_size(c);
+  }
   return s;
 }
 

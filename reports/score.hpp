@@ -3,7 +3,7 @@
 #include <array>
 #include <optional>
 
-#include "candidates/candidate.h"
+#include "candidates/candidate_process.hpp"
 #include "oracle/truth.hpp"
 
 namespace touchstone {
@@ -18,12 +18,14 @@ enum class Outcome {
   wrong_normal,  ///< a direction along which the bodies are deeper than need be
   not_finite,    ///< a NaN or an infinity in the answer
   failed,        ///< the candidate says that it could not answer
+  crashed,       ///< its process ended: a signal, an exception, too much memory
+  timed_out,     ///< it was ended for taking too long
   unsupported    ///< the candidate has no routine for the pair
 };
 inline constexpr std::array all_outcomes = {
-    Outcome::agree,      Outcome::missed,   Outcome::phantom,
-    Outcome::shallow,    Outcome::overdeep, Outcome::wrong_normal,
-    Outcome::not_finite, Outcome::failed,   Outcome::unsupported};
+    Outcome::agree,    Outcome::missed,       Outcome::phantom,    Outcome::shallow,
+    Outcome::overdeep, Outcome::wrong_normal, Outcome::not_finite, Outcome::failed,
+    Outcome::crashed,  Outcome::timed_out,    Outcome::unsupported};
 /// "agree", "missed", "wrong-normal", …
 const char* outcome_name(Outcome outcome);
 const char* status_name(ts_status status);
@@ -47,6 +49,9 @@ struct Score {
   /// How much of the contact patch the points span, where the bodies are in contact and the normal
   /// is within the bar.
   std::optional<double> coverage;
+  /// Of a simplified model that knows the signed distance of what it models: that distance − true,
+  /// and the answer's − that distance. They add up to the depth error.
+  std::optional<double> model_error, solver_error;
   int points = 0;
   /// How bad the failure is: the depth or gap that was got wrong, or the regret. Zero: perfect.
   double severity = 0;
@@ -61,6 +66,9 @@ inline constexpr double patch_depth = 1e-6;
 inline constexpr double patch_resolution = 0.1;
 
 Score score(const Configuration& configuration, const oracle::Truth& truth, const ts_answer& answer,
+            const Bar& bar);
+/// The same, with the errors of model and solver.
+Score score(const Configuration& configuration, const oracle::Truth& truth, const Answer& answer,
             const Bar& bar);
 
 }  // namespace touchstone

@@ -5,7 +5,6 @@
 #include <ostream>
 #include <string>
 
-#include "candidates/candidates.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/agreement.hpp"
 #include "reports/answer_json.hpp"
@@ -16,7 +15,8 @@ namespace {
 
 using nlohmann::json;
 
-json solved(const json& line, const SolveOptions& options) {
+json solved(const json& line, const SolveOptions& options,
+            std::vector<CandidateProcess>& candidates) {
   const auto [c, swapped] = configuration_from_json(line);
   const Order order = swapped ? Order::swapped : Order::as_ours;
   const oracle::Truth truth = oracle::truth(c, options.width);
@@ -29,9 +29,11 @@ json solved(const json& line, const SolveOptions& options) {
     result["audit"] = to_json(enclosure);
   }
   result["answers"] = json::object();
-  for (const ts_candidate* candidate : options.candidates) {
-    const ts_answer a = answer(*candidate, c, options.bar.threshold);
-    result["answers"][candidate->name] = to_json(a, score(c, truth, a, options.bar), order);
+  for (CandidateProcess& process : candidates) {
+    const Answer a = process.answer(c);
+    json& entry = result["answers"][process.candidate().name] =
+        to_json(a, score(c, truth, a, options.bar), order);
+    if (!a.reason.empty()) entry["reason"] = a.reason;
   }
   return result;
 }
@@ -46,6 +48,7 @@ json error(std::size_t number, const json& line, const std::string& field,
 }  // namespace
 
 bool solve(std::istream& in, std::ostream& out, const SolveOptions& options) {
+  auto candidates = start(options.candidates, options.bar.threshold, options.limits);
   bool good = true;
   std::string text;
   for (std::size_t number = 1; std::getline(in, text); ++number) {
@@ -53,7 +56,7 @@ bool solve(std::istream& in, std::ostream& out, const SolveOptions& options) {
     json line, result;
     try {
       line = json::parse(text);
-      result = solved(line, options);
+      result = solved(line, options, candidates);
     } catch (const Contradiction&) {
       throw;
     } catch (const InvalidInput& e) {

@@ -3,15 +3,16 @@
 #include <iosfwd>
 #include <vector>
 
-#include "candidates/candidate.h"
+#include "candidates/candidate_process.hpp"
 #include "reports/score.hpp"
 
 namespace touchstone {
 
 struct SolveOptions {
-  std::vector<const ts_candidate*> candidates;
+  std::vector<const Candidate*> candidates;
   double width = 1e-30;  ///< of the truth, relative to the larger size
   Bar bar;
+  Limits limits = {};  ///< of each candidate on one configuration
   bool audit = false;  ///< let the second oracle check every truth
 };
 

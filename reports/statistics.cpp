@@ -27,7 +27,7 @@ std::optional<Shares> shares(const std::vector<double>& values) {
 Statistics statistics(const std::vector<Score>& scores) {
   Statistics result;
   result.count = scores.size();
-  std::vector<double> depth_error, normal_regret, normal_angle, coverage;
+  std::vector<double> depth_error, normal_regret, normal_angle, coverage, model_error, solver_error;
   for (const Score& s : scores) {
     ++result.outcomes[static_cast<std::size_t>(s.outcome)];
     if (s.points > 0) ++result.points[s.points];
@@ -35,11 +35,15 @@ Statistics statistics(const std::vector<Score>& scores) {
     if (s.normal_regret) normal_regret.push_back(*s.normal_regret);
     if (s.normal_angle) normal_angle.push_back(*s.normal_angle);
     if (s.coverage) coverage.push_back(*s.coverage);
+    if (s.model_error) model_error.push_back(std::abs(*s.model_error));
+    if (s.solver_error) solver_error.push_back(std::abs(*s.solver_error));
   }
   result.coverage = shares(coverage);
   result.depth_error = quantiles(std::move(depth_error));
   result.normal_regret = quantiles(std::move(normal_regret));
   result.normal_angle = quantiles(std::move(normal_angle));
+  result.model_error = quantiles(std::move(model_error));
+  result.solver_error = quantiles(std::move(solver_error));
   return result;
 }
 

@@ -26,7 +26,8 @@ struct Statistics {
   std::size_t count = 0;
   std::array<std::size_t, all_outcomes.size()> outcomes{};  ///< in the order of all_outcomes
   std::map<int, std::size_t> points;                        ///< contacts by their number of points
-  std::optional<Quantiles> depth_error, normal_regret, normal_angle;  ///< of magnitudes
+  std::optional<Quantiles> depth_error, normal_regret, normal_angle, model_error,
+      solver_error;  ///< of magnitudes
   std::optional<Shares> coverage;
 
   std::size_t of(Outcome outcome) const { return outcomes[static_cast<std::size_t>(outcome)]; }

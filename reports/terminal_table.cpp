@@ -31,9 +31,10 @@ std::string mean_coverage(const json& row) {
                      std::floor(100 * row["coverage"]["mean"].get<double>() + 1e-6) / 100);
 }
 
-/// Cut downwards, so that only a candidate without a failure shows 100%.
+/// Of the configurations that it has a routine for; cut downwards, so that only a candidate without
+/// a failure shows 100%.
 std::string agreement(const json& row) {
-  const double count = row["count"];
+  const double count = row["count"].get<double>() - row["outcomes"].value("unsupported", 0);
   const double agree = row["outcomes"].value("agree", 0);
   const double percent = 100 * agree / count;
   return fmt::format("{:.1f}", agree == count ? 100.0 : std::min(percent, 99.9));
@@ -43,17 +44,18 @@ std::string agreement(const json& row) {
 
 std::string terminal_table(const json& report) {
   std::string text =
-      fmt::format("{:<18}{:<11}{:>6} {:>6} {:>7} {:>7} {:>5} {:>6} {:>8}\n", "pair", "candidate",
-                  "agree%", "missed", "err p99", "err max", "cover", "ns", "x bullet");
+      fmt::format("{:<22}{:>7} {:>6} {:>8} {:>8} {:>6} {:>8} {:>8}\n", "candidate", "agree%",
+                  "missed", "err p99", "err max", "cover", "ns/query", "x bullet");
   std::string last_pair;
   for (const json& row : report["summary"]) {
+    if (row["outcomes"].value("unsupported", 0) == row["count"]) continue;
     const std::string pair = row["pair"];
-    if (pair != last_pair) text += '\n';
-    text += fmt::format(
-        "{:<18}{:<11}{:>6} {:>6} {:>7} {:>7} {:>5} {:>6} {:>8}\n", pair == last_pair ? "" : pair,
-        row["candidate"].get<std::string>(), agreement(row), row["outcomes"].value("missed", 0),
-        scientific(row["depth_error"], "p99"), scientific(row["depth_error"], "max"),
-        mean_coverage(row), nanoseconds(row["nanoseconds"]), ratio(row["nanoseconds"]));
+    if (pair != last_pair) text += '\n' + pair + '\n';
+    text += fmt::format("  {:<20}{:>7} {:>6} {:>8} {:>8} {:>6} {:>8} {:>8}\n",
+                        row["candidate"].get<std::string>(), agreement(row),
+                        row["outcomes"].value("missed", 0), scientific(row["depth_error"], "p99"),
+                        scientific(row["depth_error"], "max"), mean_coverage(row),
+                        nanoseconds(row["nanoseconds"]), ratio(row["nanoseconds"]));
     last_pair = pair;
   }
   text += fmt::format(

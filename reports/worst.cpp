@@ -1,6 +1,8 @@
 #include "reports/worst.hpp"
 
 #include <algorithm>
+#include <cctype>
+#include <cstring>
 #include <map>
 #include <tuple>
 
@@ -13,7 +15,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t kept = 4;           // of each pair × candidate
+constexpr std::size_t kept = 4;           // of each pair × candidate, or one of each outcome
 constexpr std::size_t kept_of_class = 2;  // among them
 
 struct Case {
@@ -21,10 +23,14 @@ struct Case {
   std::uint64_t index;
   Score score;
 
-  /// Worse cases first; equal ones in report order.
+  /// Worse cases first, without an answer at the top; equal ones in report order.
   auto rank() const {
-    return std::tuple(score.outcome == Outcome::agree, -score.severity, cell, index);
+    const Outcome o = score.outcome;
+    const bool answered = o != Outcome::crashed && o != Outcome::timed_out &&
+                          o != Outcome::failed && o != Outcome::not_finite;
+    return std::tuple(o == Outcome::agree, answered, -score.severity, cell, index);
   }
+  bool operator<(const Case& other) const { return rank() < other.rank(); }
 };
 
 std::vector<Case> worst_of(const std::vector<Cell>& all, const std::vector<CellScores>& scores,
@@ -37,35 +43,58 @@ std::vector<Case> worst_of(const std::vector<Cell>& all, const std::vector<CellS
     for (std::uint64_t i = 0; i < row.size(); ++i) {
       if (row[i].outcome != Outcome::unsupported) of_class.push_back({cell, i, row[i]});
     }
-    const std::size_t count = std::min(kept_of_class, of_class.size());
-    std::partial_sort(of_class.begin(), of_class.begin() + static_cast<std::ptrdiff_t>(count),
-                      of_class.end(),
-                      [](const Case& x, const Case& y) { return x.rank() < y.rank(); });
-    cases.insert(cases.end(), of_class.begin(),
-                 of_class.begin() + static_cast<std::ptrdiff_t>(count));
+    std::sort(of_class.begin(), of_class.end());
+    std::map<Outcome, std::size_t> seen;
+    std::size_t taken = 0;
+    for (const Case& c : of_class) {
+      if (taken < kept_of_class || seen[c.score.outcome] == 0) cases.push_back(c);
+      ++taken;
+      ++seen[c.score.outcome];
+    }
   }
-  std::sort(cases.begin(), cases.end(),
-            [](const Case& x, const Case& y) { return x.rank() < y.rank(); });
-  cases.resize(std::min(kept, cases.size()));
+  std::sort(cases.begin(), cases.end());
+  // The worst of each outcome stay, then what else is worst.
+  std::map<Outcome, std::size_t> seen;
+  const auto others = std::stable_partition(
+      cases.begin(), cases.end(), [&](const Case& c) { return seen[c.score.outcome]++ == 0; });
+  const auto first = static_cast<std::size_t>(others - cases.begin());
+  cases.resize(std::min(std::max(kept, first), cases.size()));
+  std::sort(cases.begin(), cases.end());
   return cases;
+}
+
+/// For a shell; left alone where it needs no quotes.
+std::string quoted(const std::string& text) {
+  const auto plain = [](unsigned char c) { return std::isalnum(c) || std::strchr("/._-+", c); };
+  if (std::all_of(text.begin(), text.end(), plain)) return text;
+  std::string result = "'";
+  for (const char c : text) result += c == '\'' ? "'\\''" : std::string(1, c);
+  return result + "'";
 }
 
 json or_null(const std::optional<double>& value) { return value ? json(*value) : json(nullptr); }
 
 }  // namespace
 
-std::string replay_command(const Identity& identity) {
-  return "./touchstone replay " + to_string(identity);
+std::string program_name() {
+  std::string name = "./touchstone";
+  for (const auto& file : added_plugins()) name += " --candidate " + quoted(file.string());
+  return name;
 }
 
-json examined(const Identity& identity, const std::vector<const ts_candidate*>& candidates,
+std::string replay_command(const Identity& identity) {
+  return program_name() + " replay " + to_string(identity);
+}
+
+json examined(const Identity& identity, const std::vector<CandidateProcess*>& candidates,
               const Bar& bar, double width) {
   const Configuration c = make_configuration(identity);
   const oracle::Truth truth = oracle::truth(c, width);
   json answers = json::object();
-  for (const ts_candidate* candidate : candidates) {
-    const ts_answer a = answer(*candidate, c, bar.threshold);
-    answers[candidate->name] = to_json(a, score(c, truth, a, bar));
+  for (CandidateProcess* const process : candidates) {
+    const Answer a = process->answer(c);
+    json& entry = answers[process->candidate().name] = to_json(a, score(c, truth, a, bar));
+    if (!a.reason.empty()) entry["reason"] = a.reason;
   }
   return {{"id", to_string(identity)},
           {"configuration", to_json(c)},
@@ -77,11 +106,14 @@ json examined(const Identity& identity, const std::vector<const ts_candidate*>& 
 json worst_cases(const Campaign& campaign, const std::vector<CellScores>& scores) {
   const std::vector<Cell> all = cells(campaign);
   json result = json::array();
+  auto processes = start(campaign.candidates, campaign.bar.threshold, campaign.limits);
   for (const Pair pair : campaign.pairs) {
     for (std::size_t k = 0; k < campaign.candidates.size(); ++k) {
       for (const Case& w : worst_of(all, scores, pair, k)) {
         const Identity id{pair, all[w.cell].pose_class, campaign.seed, w.index};
-        json entry = examined(id, campaign.candidates, campaign.bar);
+        std::vector<CandidateProcess*> shown = {&processes[k]};
+        if (k > 0) shown.push_back(&processes[0]);
+        json entry = examined(id, shown, campaign.bar);
         entry["pair"] = pair_name(pair);
         entry["class"] = id.pose_class;
         entry["candidate"] = campaign.candidates[k]->name;

@@ -6,15 +6,17 @@
 
 namespace touchstone {
 
-/// The worst configurations of every pair × candidate, each with truth, every candidate's answer
-/// and the command that replays it: failures before mere errors, by severity, at most two of one
-/// class.
+/// The worst configurations of every pair × candidate, each with truth, the candidate's answer and
+/// that of the campaign's first, and the command that replays it: one of each kind of failure
+/// first, then failures before mere errors, by severity, at most two of one class.
 nlohmann::json worst_cases(const Campaign& campaign, const std::vector<CellScores>& scores);
 
 /// One configuration with its truth and the candidates' answers, as in worst_cases and `replay`.
-nlohmann::json examined(const Identity& identity,
-                        const std::vector<const ts_candidate*>& candidates, const Bar& bar,
-                        double width = 1e-15);
+nlohmann::json examined(const Identity& identity, const std::vector<CandidateProcess*>& candidates,
+                        const Bar& bar, double width = 1e-15);
+
+/// "./touchstone", with the plug-ins that were added to it.
+std::string program_name();
 
 /// "./touchstone replay cylinder-box/rim-face/1/17".
 std::string replay_command(const Identity& identity);

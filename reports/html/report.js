@@ -31,7 +31,9 @@ function exponent(x) {
 const whole = x => x === null ? '–' : Math.round(x).toLocaleString('en');
 const quantile = (q, which) => q === null ? null : q[which];
 const time = r => r.nanoseconds === null ? null : r.nanoseconds.median;
-const agreeing = r => (r.outcomes.agree || 0) / r.count;
+// Of what a candidate has a routine for.
+const supported = r => r.count - (r.outcomes.unsupported || 0);
+const agreeing = r => (r.outcomes.agree || 0) / supported(r);
 // Cut downwards: only a candidate without a failure shows 100%.
 const percent = share => share === 1 ? '100%' : (Math.floor(share * 1000 + 1e-6) / 10).toFixed(1) + '%';
 
@@ -39,7 +41,7 @@ const cutShare = share => share === null ? '–' : (Math.floor(share * 100 + 1e-
 
 function headline() {
   const all = report.summary.filter(r => r.pair === 'all');
-  const rows = all.length ? all : report.summary;
+  const rows = (all.length ? all : report.summary).filter(supported);
   const parts = rows.map(r => `${r.candidate} ${all.length ? '' : `(${r.pair}) `}on ${percent(agreeing(r))}`);
   byId('headline').textContent =
       `${whole(report.configurations)} configurations, each with a truth certified to 1e-15 of the larger ` +
@@ -57,6 +59,7 @@ function summaryTable() {
   const body = element('tbody');
   let last = null;
   for (const r of report.summary) {
+    if (supported(r) === 0) continue;
     const share = agreeing(r), ratio = r.nanoseconds && r.nanoseconds.ratio_to_bullet;
     body.append(element('tr', r.pair !== last ? {class: 'first'} : {},
         element('th', {scope: 'row'}, r.pair !== last ? r.pair : ''),
@@ -75,6 +78,31 @@ function summaryTable() {
       element('caption', {}, 'Agreement, errors and speed'), element('thead', {}, head), body));
 }
 
+// What is wrong with a simplified model, and with its solver.
+function modelTable() {
+  const models = new Map(report.candidates.filter(c => c.models).map(c => [c.name, c.models]));
+  const rows = report.summary.filter(r => r.model_error !== null && models.has(r.candidate));
+  if (rows.length === 0) return;
+  byId('models').hidden = false;
+  const columns = ['missed', 'model error, median', 'p99', 'solver error, median', 'p99'];
+  const body = element('tbody');
+  let last = null;
+  for (const r of rows) {
+    const name = element('td', {class: 'text', tabindex: 0}, swatch(r.candidate), r.candidate);
+    explain(name, models.get(r.candidate));
+    body.append(element('tr', r.pair !== last ? {class: 'first'} : {},
+        element('th', {scope: 'row'}, r.pair !== last ? r.pair : ''), name,
+        element('td', {}, whole(r.outcomes.missed || 0)),
+        ...[r.model_error, r.solver_error].flatMap(q => ['median', 'p99'].map(which =>
+            element('td', {}, exponent(quantile(q, which)))))));
+    last = r.pair;
+  }
+  byId('model-table').append(element('table', {},
+      element('caption', {}, 'Errors of model and solver'), element('thead', {}, element('tr', {},
+          element('th', {class: 'text', scope: 'col'}, 'pair'), element('th', {class: 'text', scope: 'col'}, 'candidate'),
+          ...columns.map(c => element('th', {scope: 'col'}, c)))), body));
+}
+
 // Speed and accuracy: small multiples on common axes.
 const floor = 1e-17;
 const symbols = ['circle', 'square', 'triangle', 'diamond'];
@@ -86,6 +114,7 @@ function symbolPath(kind, x, y, s) {
     default: return `M${x - s},${y}a${s},${s} 0 1,0 ${2 * s},0a${s},${s} 0 1,0 ${-2 * s},0`;
   }
 }
+const symbolOf = name => symbols[Math.floor(candidates.indexOf(name) / 8) % symbols.length];
 function chart() {
   const rows = report.summary.filter(r => time(r) !== null && r.depth_error !== null);
   if (rows.length === 0) return byId('chart-panels').append('No candidate was timed.');
@@ -94,6 +123,12 @@ function chart() {
   const widen = ([lo, hi]) => [lo, Math.max(hi, lo + 1)];
   const [x0, x1] = widen(decades(rows.map(time)));
   const [y0, y1] = widen(decades(rows.map(clipped)));
+  const shown = candidates.filter(name => rows.some(r => r.candidate === name));
+  byId('chart-panels').before(element('div', {class: 'legend'}, ...shown.map(name => {
+    const svg = shape('svg', {viewBox: '-8 -8 16 16', width: 14, height: 14, 'aria-hidden': 'true'});
+    svg.append(shape('path', {fill: colour(name), d: symbolPath(symbolOf(name), 0, 0, 5.5)}));
+    return element('span', {}, svg, name);
+  })));
   const panels = [...new Set(report.summary.map(r => r.pair))];
   for (const pair of panels) {
     const here = rows.filter(r => r.pair === pair);
@@ -123,13 +158,20 @@ function panel(pair, rows, {x0, x1, y0, y1, clipped}) {
   // The front: sorted by time, each point lower than all before it.
   const sorted = [...rows].sort((a, b) => time(a) - time(b));
   const front = sorted.filter((r, i) => sorted.slice(0, i).every(s => clipped(s) > clipped(r)));
-  svg.append(shape('polyline', {class: 'front', points: front.map(r => `${x(time(r))},${y(clipped(r))}`).join(' ')}));
-  // Labels that would lie on each other are moved down.
+  const line = rows => rows.map(r => `${x(time(r))},${y(clipped(r))}`).join(' ');
+  // The members of a family, in the order of their parameter.
+  for (const family of new Set(report.candidates.map(c => c.family))) {
+    const members = report.candidates.filter(c => c.family === family)
+        .map(c => rows.find(r => r.candidate === c.name)).filter(Boolean);
+    if (members.length > 1) svg.append(shape('polyline', {class: 'sweep', points: line(members)}));
+  }
+  svg.append(shape('polyline', {class: 'front', points: line(front)}));
+  // Named are those on the front; labels that would lie on each other are moved down.
   let lowest = -Infinity;
   for (const r of [...rows].sort((a, b) => clipped(b) - clipped(a))) {
     const at = y(clipped(r));
-    const labelAt = Math.max(at + 4, lowest + 13);
-    lowest = labelAt;
+    let labelAt = null;
+    if (front.includes(r)) lowest = labelAt = Math.max(at + 4, lowest + 13);
     svg.append(...mark(pair, r, x(time(r)), at, labelAt, width));
   }
   return element('figure', {}, element('figcaption', {}, pair === 'all' ? 'all pairs' : pair), svg);
@@ -139,9 +181,10 @@ function mark(pair, r, x, y, labelY, width) {
       `depth error p99 ${exponent(r.depth_error.p99)}, worst ${exponent(r.depth_error.max)}\n` +
       `${whole(time(r))} ns per query (spread ${whole(r.nanoseconds.spread)})`;
   const symbol = shape('path', {class: 'mark', tabindex: 0, fill: colour(r.candidate), 'aria-label': text,
-      d: symbolPath(symbols[candidates.indexOf(r.candidate) % symbols.length], x, y, 5.5)});
+      d: symbolPath(symbolOf(r.candidate), x, y, 5.5)});
   explain(symbol, text);
   symbol.addEventListener('click', () => showWorst(pair, r.candidate));
+  if (labelY === null) return [symbol];
   const leftwards = x > width * 0.62;
   const label = shape('text', {x: leftwards ? x - 10 : x + 10, y: labelY, 'text-anchor': leftwards ? 'end' : 'start'},
       `${r.candidate} ${percent(agreeing(r))}`);
@@ -198,7 +241,7 @@ function classTable() {
           ...candidates.map(c => element('th', {scope: 'col'}, swatch(c), c)))), body));
 }
 function classCell(c, r, quantity) {
-  if (!r) return element('td', {class: 'heat'}, '–');
+  if (!r || supported(r) === 0) return element('td', {class: 'heat'}, '–');
   const value = quantity.value(r);
   const level = value === null ? 0 : quantity.level(value);
   const cell = element('td', {class: 'heat', tabindex: 0,
@@ -212,13 +255,13 @@ function classCell(c, r, quantity) {
 }
 
 const outcomeColours = {agree: 'var(--good)', missed: 'var(--c1)', phantom: 'var(--c3)', shallow: 'var(--c4)',
-  overdeep: 'var(--c6)', 'wrong-normal': 'var(--c0)', 'not-finite': 'var(--ink)', failed: 'var(--c7)',
+  overdeep: 'var(--c6)', 'wrong-normal': 'var(--c0)', 'not-finite': 'var(--ink)', failed: 'var(--c7)', crashed: 'var(--c2)', 'timed-out': 'var(--c5)',
   unsupported: 'var(--line)'};
 function outcomeBars() {
   const seen = Object.keys(outcomeColours).filter(o => report.summary.some(r => r.outcomes[o]));
   const legend = element('div', {class: 'legend'}, ...seen.map(o => element('span', {},
       element('span', {class: 'swatch', style: `background:${outcomeColours[o]}`, 'aria-hidden': 'true'}), o)));
-  const rows = report.summary.map(r => {
+  const rows = report.summary.filter(supported).map(r => {
     const bar = element('div', {class: 'bar', role: 'img',
         'aria-label': seen.map(o => `${o} ${r.outcomes[o] || 0}`).join(', ')});
     for (const o of seen) {
@@ -245,6 +288,7 @@ function worstCase(w) {
   const copy = element('button', {type: 'button'}, 'Copy');
   copy.addEventListener('click', () => navigator.clipboard.writeText(w.replay).then(
       () => { copy.textContent = 'Copied'; }, () => { copy.textContent = 'Select and copy'; }));
+  const reasons = Object.entries(w.answers).filter(([, a]) => a.reason);
   const rows = Object.entries(w.answers).map(([name, a]) => element('tr', {},
       element('td', {class: 'text'}, swatch(name), name), element('td', {class: 'text'}, a.score.outcome),
       element('td', {}, a.signed_distance === null ? a.status : String(a.signed_distance)),
@@ -262,6 +306,7 @@ function worstCase(w) {
       element('div', {class: 'scroll'}, element('table', {}, element('thead', {}, element('tr', {},
           ...heads.map((h, i) => element('th', {scope: 'col', class: [0, 1, 3].includes(i) ? 'text' : ''}, h)))),
           element('tbody', {}, ...rows))),
+      ...reasons.map(([name, a]) => element('p', {class: 'quiet'}, `${name}: ${a.reason}`)),
       element('details', {}, element('summary', {}, 'Configuration'),
           element('pre', {}, JSON.stringify(w.configuration))));
 }
@@ -279,7 +324,8 @@ function definitions(id, entries) {
   byId(id).append(...entries.flatMap(([term, text]) => [element('dt', {}, term), element('dd', {}, text)]));
 }
 function method() {
-  definitions('settings', report.candidates.map(c => [`${c.name} ${c.version}`, c.settings]));
+  definitions('settings', report.candidates.map(c =>
+      [`${c.name} ${c.version}`, c.settings + (c.models ? `; models ${c.models}` : '')]));
   const bar = report.tolerance;
   definitions('words', [
     ['size', 'Half of the smallest width of the smaller shape; errors are relative to it.'],
@@ -291,8 +337,10 @@ function method() {
     ['phantom', `A contact, though they are more than ${bar} of the size further apart than was asked for.`],
     ['shallow, overdeep', 'The depth is too small, too large.'],
     ['wrong-normal', 'The depth is right; the normal is of no unit length or its regret is beyond the bar.'],
-    ['not-finite, failed, unsupported', 'A NaN or infinity in the answer; the candidate says that it could not answer; it has no routine for the pair.'],
-    ['time', 'Narrow phase alone, one thread, shapes prepared beforehand, candidates in turns on the same configurations: the median of nine rounds, and over classes the median of their medians.'],
+    ['not-finite, failed, unsupported', 'A NaN or infinity in the answer; the candidate says that it could not answer; it has no routine for the pair, which does not count against it.'],
+    ['crashed, timed-out', 'The candidate ended its process (a signal, an exception, too much memory), or took longer than 50 ms of processor time, unless asked otherwise. Each candidate has a process of its own.'],
+    ['model error, solver error', 'Of a simplified model: the true signed distance of what it models against that of the cylinder, and its answer against that of what it models.'],
+    ['time', 'Narrow phase alone, one thread, shapes prepared beforehand, candidates in turns on the same configurations, each in its own process, which reads the clock itself: the median of nine rounds, and over classes the median of their medians.'],
   ]);
   const m = report.machine, o = report.oracle_microseconds;
   definitions('machine', [
@@ -309,6 +357,7 @@ function choices(id, values, change) {
 }
 headline();
 summaryTable();
+modelTable();
 chart();
 choices('class-pair', pairs, classTable);
 byId('class-quantity').addEventListener('change', classTable);

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "candidates/candidate.hpp"
+#include "reference/configuration.hpp"
+
+namespace touchstone {
+
+/// What one configuration may cost a candidate before its process is ended.
+struct Limits {
+  /// Of processor time: three frames of a simulation, thousands of times what a query takes. A
+  /// hundred times as long by the clock, for one that waits.
+  double seconds = 0.05;
+  double mebibytes = 1024;  ///< that its memory may grow by
+};
+
+/// A candidate's answer, or how it came that there is none.
+struct Answer : ts_answer {
+  std::string reason;  ///< of TS_CRASHED and TS_TIMED_OUT: "Segmentation fault", "threw …"
+  std::optional<double> model_distance;  ///< of what a simplified model stands for, metres
+};
+
+/// A plug-in, loaded in a process of its own: symbols, global state and misdeeds of one plug-in
+/// cannot reach another, nor this process. Throws InvalidInput (field "--candidate") when it cannot
+/// be loaded.
+class PluginProcess {
+ public:
+  explicit PluginProcess(const std::filesystem::path& file);
+  ~PluginProcess();
+  PluginProcess(PluginProcess&&) noexcept;
+  PluginProcess& operator=(PluginProcess&&) noexcept;
+
+  const std::vector<Candidate>& candidates() const;
+
+ private:
+  friend class CandidateProcess;
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// One candidate, answering in sessions: forks of its plug-in's process, which has loaded the
+/// plug-in and done nothing else. A configuration that ends its session is answered with TS_CRASHED
+/// or TS_TIMED_OUT, and the next one gets a new session.
+class CandidateProcess {
+ public:
+  CandidateProcess(const Candidate& candidate, double threshold, const Limits& limits = {});
+
+  const Candidate& candidate() const { return candidate_; }
+
+  /// In a new session, so that the answers depend on these configurations alone.
+  std::vector<Answer> answers(std::span<const Configuration> configurations);
+  /// In the session of the last call, if there is one.
+  Answer answer(const Configuration& configuration);
+
+  /// Prepares shapes for timing in a new session and queries them once, untimed. Of slow candidates
+  /// only as many as take about half a millisecond are kept, at least ten. False if it died of it.
+  bool prepare_timing(std::span<const Configuration> configurations);
+  /// One round over what was prepared: the clock is read by the candidate's process around a loop
+  /// of calls and nothing else. Absent if it died.
+  std::optional<double> nanoseconds_per_query();
+
+ private:
+  void begin();
+  void end();
+  void put(std::uint32_t slot, const Configuration& configuration);
+  void answer_batch(std::uint32_t count, std::vector<Answer>& answers);
+  /// Sends a command and waits; absent when done, otherwise TS_CRASHED or TS_TIMED_OUT.
+  std::optional<Answer> obey(std::uint32_t kind, std::uint32_t first, std::uint32_t count);
+
+  Candidate candidate_;
+  double threshold_;
+  Limits limits_;
+  PluginProcess plugin_;
+  int session_ = -1;  ///< process, or -1
+};
+
+/// One process for each.
+std::vector<CandidateProcess> start(const std::vector<const Candidate*>& candidates,
+                                    double threshold, const Limits& limits = {});
+std::vector<CandidateProcess*> pointers(std::vector<CandidateProcess>& processes);
+
+}  // namespace touchstone

@@ -1,0 +1,145 @@
+// FCL 0.7.0 in double precision, on libccd 2.1.
+//
+// Calls        fcl          fcl::collide as its request is made by default (GST_LIBCCD: libccd's
+// MPR
+//                           where FCL has no routine of its own), asked for 16 contacts.
+//              fcl-indep    the same with GST_INDEP, FCL's own GJK and EPA.
+//              fcl-distance fcl::distance with enable_signed_distance (GST_LIBCCD: FCL's GJK and
+//              EPA
+//                           over libccd), tolerances as they are by default.
+// Routes       Half-space and sphere are FCL's own closed forms in collide.
+// Shapes       Cylinder and Capsule by full length, the capsule's without its caps; Box by full
+//              lengths; a plane is a Halfspace, solid where n·x <= d.
+// Conventions  collide's normal points from object 1 to object 2 and is turned round. fcl::distance
+//              gives no normal: it is the line between the two nearest points, of which FCL puts
+//              each on its own body; at exact touch there is none, and it is left zero.
+// Corrected    With GST_INDEP, pairs without a closed form come with a negative depth and a normal
+//              in object 1's local frame (gjk_solver_indep-inl.h, ShapeIntersectIndepImpl): both
+//              are put right here, so that the solver is judged and not this slip.
+// Points       collide: one at mid-depth, or inside both bodies where MPR answers. distance: the
+//              middle of the two nearest points.
+// Threshold    collide has none. distance reports up to it.
+// Asserts      Debian's libfcl keeps them: a failed one ends the process and is counted as a crash.
+#include <algorithm>
+#include <fcl/fcl.h>
+#include <memory>
+
+#include "candidates/candidate.h"
+
+namespace {
+
+using Vector = fcl::Vector3d;
+using Transform = fcl::Transform3d;
+using Geometry = std::unique_ptr<fcl::CollisionGeometryd>;
+
+Geometry make_geometry(const ts_shape& shape) {
+  const double* s = shape.size;
+  switch (shape.kind) {
+    case TS_CYLINDER:
+      return std::make_unique<fcl::Cylinderd>(s[0], 2 * s[1]);
+    case TS_PLANE:
+      return std::make_unique<fcl::Halfspaced>(Vector(s[0], s[1], s[2]), s[3]);
+    case TS_SPHERE:
+      return std::make_unique<fcl::Sphered>(s[0]);
+    case TS_CAPSULE:
+      return std::make_unique<fcl::Capsuled>(s[0], 2 * s[1]);
+    case TS_BOX:
+      return std::make_unique<fcl::Boxd>(2 * s[0], 2 * s[1], 2 * s[2]);
+  }
+  return nullptr;
+}
+
+Transform to_transform(const ts_pose& p) {
+  Transform t = Transform::Identity();
+  const double* q = p.orientation;
+  t.linear() = fcl::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
+  t.translation() = Vector(p.position[0], p.position[1], p.position[2]);
+  return t;
+}
+
+void copy(const Vector& from, double (&to)[3]) { std::copy(from.data(), from.data() + 3, to); }
+
+}  // namespace
+
+struct ts_prepared {
+  Geometry a, b;
+  double threshold;
+  bool own_routine;  ///< FCL has a closed form for the pair
+};
+
+namespace {
+
+ts_prepared* prepare(const ts_shape* a, const ts_shape* b, double threshold, double) {
+  return new ts_prepared{make_geometry(*a), make_geometry(*b), threshold,
+                         b->kind == TS_PLANE || b->kind == TS_SPHERE};
+}
+
+void release(ts_prepared* prepared) { delete prepared; }
+
+void add(const Vector& position, const Vector& normal, double depth, ts_answer& answer) {
+  ts_point& point = answer.points[answer.point_count++];
+  copy(position, point.position);
+  copy(normal, point.normal);
+  point.depth = depth;
+  if (answer.point_count == 1 || -depth < answer.signed_distance) {
+    answer.signed_distance = -depth;
+    copy(normal, answer.normal);
+  }
+}
+
+template <fcl::GJKSolverType solver>
+void collide(ts_prepared* prepared, const ts_pose* a, const ts_pose* b, ts_answer* answer) {
+  fcl::CollisionRequestd request(TOUCHSTONE_MAX_POINTS, true);
+  request.gjk_solver_type = solver;
+  fcl::CollisionResultd result;
+  const Transform at_a = to_transform(*a);
+  fcl::collide(prepared->a.get(), at_a, prepared->b.get(), to_transform(*b), request, result);
+  answer->status = result.numContacts() > 0 ? TS_CONTACT : TS_NONE;
+  answer->point_count = 0;
+  const bool wrong_frame = solver == fcl::GST_INDEP && !prepared->own_routine;
+  for (std::size_t i = 0; i < result.numContacts(); ++i) {
+    const fcl::Contactd& c = result.getContact(i);
+    if (wrong_frame) {
+      add(c.pos, -(at_a.linear() * c.normal), -c.penetration_depth, *answer);
+    } else {
+      add(c.pos, -c.normal, c.penetration_depth, *answer);
+    }
+  }
+}
+
+void distance(ts_prepared* prepared, const ts_pose* a, const ts_pose* b, ts_answer* answer) {
+  const fcl::DistanceRequestd request(true, true);
+  fcl::DistanceResultd result;
+  const double d = fcl::distance(prepared->a.get(), to_transform(*a), prepared->b.get(),
+                                 to_transform(*b), request, result);
+  answer->point_count = 0;
+  // Written so that a distance that is not a number is reported, not dropped.
+  answer->status = d > prepared->threshold ? TS_NONE : TS_CONTACT;
+  const Vector& on_a = result.nearest_points[0];
+  const Vector& on_b = result.nearest_points[1];
+  const Vector line = d < 0 ? Vector(on_b - on_a) : Vector(on_a - on_b);
+  const double length = line.norm();
+  add((on_a + on_b) / 2, length == 0 ? Vector::Zero() : Vector(line / length), -d, *answer);
+}
+
+int supports_all(ts_shape_kind) { return 1; }
+int supports_bounded(ts_shape_kind kind) { return kind != TS_PLANE; }
+
+const ts_candidate candidates[] = {
+    {"fcl", TOUCHSTONE_FCL_VERSION,
+     "double precision; collide with default settings (GST_LIBCCD: libccd's MPR; half-space and "
+     "sphere analytic), asked for 16 contacts",
+     nullptr, nullptr, supports_all, prepare, collide<fcl::GST_LIBCCD>, release, nullptr},
+    {"fcl-indep", TOUCHSTONE_FCL_VERSION,
+     "double precision; collide with GST_INDEP (FCL's own GJK and EPA; half-space and sphere "
+     "analytic); its negative depths and local normals are put right",
+     nullptr, nullptr, supports_all, prepare, collide<fcl::GST_INDEP>, release, nullptr},
+    {"fcl-distance", TOUCHSTONE_FCL_VERSION,
+     "double precision; distance with enable_signed_distance, default tolerances (GJK and EPA); "
+     "normal along the two nearest points; no half-space",
+     nullptr, nullptr, supports_bounded, prepare, distance, release, nullptr}};
+const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 3, candidates};
+
+}  // namespace
+
+const ts_plugin* touchstone_plugin() { return &plugin; }

@@ -1,0 +1,158 @@
+// MuJoCo 2.2.2, double precision.
+//
+// Calls        The collision function that mj_collision takes from mjCOLLISIONFUNC for the two geom
+//              types. One model per pair of types is made from XML; sizes and poses are then set in
+//              mjModel and mjData, as users do.
+// Routes       Plane and sphere are MuJoCo's own closed forms; capsule, cylinder and box go through
+//              libccd's MPR (mpr_tolerance 1e-6, mpr_iterations 50, both default). Several contacts
+//              by mjENBL_MULTICCD are off, as by default.
+// Shapes       Half lengths, a capsule's without its caps. A plane is solid below its frame's
+//              xy-plane; ours is given such a frame.
+// Conventions  The lower geom type comes first; the normal points from it to the other one, and is
+//              turned round when the cylinder is first.
+// Points       Midway between the two surfaces.
+// Threshold    The function's margin. Only routines with a closed form answer beyond touch.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <map>
+#include <memory>
+#include <mujoco/mujoco.h>
+#include <stdexcept>
+#include <string>
+
+#include "candidates/candidate.h"
+
+namespace {
+
+mjtGeom geom_type(ts_shape_kind kind) {
+  switch (kind) {
+    case TS_CYLINDER:
+      return mjGEOM_CYLINDER;
+    case TS_PLANE:
+      return mjGEOM_PLANE;
+    case TS_SPHERE:
+      return mjGEOM_SPHERE;
+    case TS_CAPSULE:
+      return mjGEOM_CAPSULE;
+    case TS_BOX:
+      return mjGEOM_BOX;
+  }
+  return mjGEOM_NONE;
+}
+
+const char* type_name(ts_shape_kind kind) {
+  constexpr const char* names[] = {"cylinder", "plane", "sphere", "capsule", "box"};
+  return names[kind];
+}
+
+/// A model with a free cylinder and another geom in the world, both of size one.
+mjModel* make_model(ts_shape_kind other) {
+  const std::string xml = std::string("<mujoco><worldbody><geom type='") + type_name(other) +
+                          "' size='1 1 1'/><body><freejoint/><geom type='cylinder' size='1 1'/>"
+                          "</body></worldbody></mujoco>";
+  const auto files = std::make_unique<mjVFS>();
+  mj_defaultVFS(files.get());
+  mj_makeEmptyFileVFS(files.get(), "pair.xml", static_cast<int>(xml.size()));
+  std::memcpy(files->filedata[0], xml.data(), xml.size());
+  char error[512] = "";
+  mjModel* const model = mj_loadXML("pair.xml", files.get(), error, sizeof error);
+  mj_deleteVFS(files.get());
+  if (!model) throw std::runtime_error(error);
+  return model;
+}
+
+struct Scene {
+  mjModel* model;
+  mjData* data;
+};
+
+/// Made once for each kind of shape and kept.
+Scene scene_for(ts_shape_kind other) {
+  static std::map<ts_shape_kind, Scene> scenes;
+  const auto [at, is_new] = scenes.try_emplace(other);
+  if (is_new) {
+    at->second.model = make_model(other);
+    at->second.data = mj_makeData(at->second.model);
+  }
+  return at->second;
+}
+
+constexpr int geom_b = 0, geom_a = 1;  // as in the XML
+
+}  // namespace
+
+struct ts_prepared {
+  Scene scene;
+  ts_shape a, b;
+  double threshold;
+  mjfCollision collide;
+  bool cylinder_first;
+  double plane_frame[4];  // quaternion that turns z to the plane's normal
+};
+
+namespace {
+
+ts_prepared* prepare(const ts_shape* a, const ts_shape* b, double threshold, double) {
+  const mjtGeom type = geom_type(b->kind);
+  const bool cylinder_first = type >= mjGEOM_CYLINDER;
+  const mjfCollision collide = cylinder_first ? mjCOLLISIONFUNC[mjGEOM_CYLINDER][type]
+                                              : mjCOLLISIONFUNC[type][mjGEOM_CYLINDER];
+  if (!collide) return nullptr;
+  auto* const p =
+      new ts_prepared{scene_for(b->kind), *a, *b, threshold, collide, cylinder_first, {1, 0, 0, 0}};
+  if (b->kind == TS_PLANE) mju_quatZ2Vec(p->plane_frame, b->size);
+  return p;
+}
+
+void place(const Scene& scene, int geom, const double* position, const double* orientation) {
+  mju_copy3(scene.data->geom_xpos + 3 * geom, position);
+  mju_quat2Mat(scene.data->geom_xmat + 9 * geom, orientation);
+}
+
+void query(ts_prepared* p, const ts_pose* a, const ts_pose* b, ts_answer* answer) {
+  // A model serves all pairs of its kinds, so its sizes are set with every query.
+  mju_copy3(p->scene.model->geom_size + 3 * geom_a, p->a.size);
+  place(p->scene, geom_a, a->position, a->orientation);
+  if (p->b.kind == TS_PLANE) {
+    double orientation[4], normal[3], position[3];
+    mju_mulQuat(orientation, b->orientation, p->plane_frame);
+    mju_rotVecQuat(normal, p->b.size, b->orientation);
+    mju_addScl3(position, b->position, normal, p->b.size[3]);
+    place(p->scene, geom_b, position, orientation);
+  } else {
+    mju_copy3(p->scene.model->geom_size + 3 * geom_b, p->b.size);
+    place(p->scene, geom_b, b->position, b->orientation);
+  }
+  mjContact contacts[mjMAXCONPAIR];
+  const int count =
+      p->collide(p->scene.model, p->scene.data, contacts, p->cylinder_first ? geom_a : geom_b,
+                 p->cylinder_first ? geom_b : geom_a, p->threshold);
+  answer->point_count = std::min(count, TOUCHSTONE_MAX_POINTS);
+  answer->status = count > 0 ? TS_CONTACT : TS_NONE;
+  for (int i = 0; i < answer->point_count; ++i) {
+    ts_point& point = answer->points[i];
+    mju_copy3(point.position, contacts[i].pos);
+    mju_scl3(point.normal, contacts[i].frame, p->cylinder_first ? -1 : 1);
+    point.depth = -contacts[i].dist;
+    if (i == 0 || contacts[i].dist < answer->signed_distance) {
+      answer->signed_distance = contacts[i].dist;
+      mju_copy3(answer->normal, point.normal);
+    }
+  }
+}
+
+int supports(ts_shape_kind) { return 1; }
+void release(ts_prepared* prepared) { delete prepared; }
+
+const ts_candidate candidates[] = {
+    {"mujoco", mj_versionString(),
+     "double precision; the pair's function in mjCOLLISIONFUNC; plane and sphere analytic, others "
+     "by libccd's MPR with MuJoCo's tolerance 1e-6; multiccd off",
+     nullptr, nullptr, supports, prepare, query, release, nullptr}};
+const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 1, candidates};
+
+}  // namespace
+
+const ts_plugin* touchstone_plugin() { return &plugin; }

@@ -1,0 +1,103 @@
+// Simplified models of the cylinder, answered exactly (but for rounding): what is wrong with an
+// answer is the model.
+//
+// Models       Every cylinder of the pair, A and also B, is replaced; other shapes are themselves.
+//              capsule, capsule-circumscribed, spheres:N and prism:N are described in model.hpp.
+// Calls        rounded_polytope.hpp: closest points of cores, or separating axes where they
+// overlap.
+//              Straightforward rather than fast: a prism's cost grows with the square of N against
+//              another one.
+// Conventions  Those of candidate.h.
+// Points       Halfway between the surfaces: one, or of spheres one for each that touches.
+// Threshold    Handed on. Prism and box apart are answered with the largest gap, which is less than
+//              their distance where vertices are closest.
+#include <algorithm>
+
+#include "candidates/model.hpp"
+
+using touchstone::ModelPair;
+using touchstone::Separation;
+using touchstone::Vec3;
+
+struct ts_prepared {
+  ModelPair pair;
+  double threshold;
+  std::vector<Separation> parts;
+};
+
+namespace {
+
+using Make = std::vector<touchstone::RoundedPolytope> (*)(double, double);
+using MakeMany = std::vector<touchstone::RoundedPolytope> (*)(int, double, double);
+
+template <Make make>
+ts_prepared* prepare(const ts_shape* a, const ts_shape* b, double threshold, double) {
+  return new ts_prepared{ModelPair(*a, *b, make), threshold, {}};
+}
+
+template <MakeMany make>
+ts_prepared* prepare_many(const ts_shape* a, const ts_shape* b, double threshold, double number) {
+  const auto model = [number](double radius, double half_length) {
+    return make(static_cast<int>(number), radius, half_length);
+  };
+  return new ts_prepared{ModelPair(*a, *b, model), threshold, {}};
+}
+
+void copy(const Vec3& from, double (&to)[3]) { std::copy(from.data(), from.data() + 3, to); }
+
+void query(ts_prepared* p, const ts_pose* a, const ts_pose* b, ts_answer* answer) {
+  p->parts.clear();
+  const Separation least = p->pair.separation(*a, *b, &p->parts);
+  answer->status = least.distance <= p->threshold ? TS_CONTACT : TS_NONE;
+  answer->point_count = 0;
+  if (answer->status == TS_NONE) return;
+  answer->signed_distance = least.distance;
+  copy(least.normal, answer->normal);
+  const auto deeper = [](const Separation& x, const Separation& y) {
+    return x.distance < y.distance;
+  };
+  if (p->parts.size() > TOUCHSTONE_MAX_POINTS) {
+    std::nth_element(p->parts.begin(), p->parts.begin() + TOUCHSTONE_MAX_POINTS, p->parts.end(),
+                     deeper);
+    p->parts.resize(TOUCHSTONE_MAX_POINTS);
+  }
+  for (const Separation& s : p->parts) {
+    if (s.distance > p->threshold) continue;
+    ts_point& point = answer->points[answer->point_count++];
+    copy((s.on_a + s.on_b) / 2, point.position);
+    copy(s.normal, point.normal);
+    point.depth = -s.distance;
+  }
+}
+
+double model_distance(ts_prepared* p, const ts_pose* a, const ts_pose* b) {
+  return p->pair.separation(*a, *b).distance;
+}
+
+int supports(ts_shape_kind) { return 1; }
+void release(ts_prepared* prepared) { delete prepared; }
+
+const ts_parameter spheres = {"number of spheres", 1, 256, 8, 1, 0};
+const ts_parameter sides = {"number of sides", 3, 128, 16, 1, 0};
+
+const ts_candidate candidates[] = {
+    {"capsule", TOUCHSTONE_VERSION, "double precision; exact for its model",
+     "every cylinder as the largest capsule of its length inside it", nullptr, supports,
+     prepare<touchstone::inscribed_capsule>, query, release, model_distance},
+    {"capsule-circumscribed", TOUCHSTONE_VERSION, "double precision; exact for its model",
+     "every cylinder as a capsule of its radius around it, round ends on top", nullptr, supports,
+     prepare<touchstone::circumscribed_capsule>, query, release, model_distance},
+    {"spheres", TOUCHSTONE_VERSION, "double precision; exact for its model",
+     "every cylinder as spheres inside it, in a row along the axis, or in a ring when it is flat",
+     &spheres, supports, prepare_many<touchstone::inscribed_spheres>, query, release,
+     model_distance},
+    {"prism", TOUCHSTONE_VERSION,
+     "double precision; separating axes, closest features where a sphere or capsule is apart; "
+     "exact for its model; one point",
+     "every cylinder as the regular prism with its corners on the rims", &sides, supports,
+     prepare_many<touchstone::inscribed_prism>, query, release, model_distance}};
+const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 4, candidates};
+
+}  // namespace
+
+const ts_plugin* touchstone_plugin() { return &plugin; }
