@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "oracle/convex_polygon.hpp"
+#include "oracle/patch/convex_polygon.hpp"
 
 namespace touchstone {
 namespace {

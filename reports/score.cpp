@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "oracle/support_part.hpp"
+#include "oracle/patch/support_part.hpp"
 #include "reports/coverage.hpp"
 
 namespace touchstone {

@@ -3,9 +3,9 @@
 #include <numbers>
 #include <random>
 
-#include "oracle/convex_polygon.hpp"
-#include "oracle/patch.hpp"
-#include "oracle/support_part.hpp"
+#include "oracle/patch/contact_patch.hpp"
+#include "oracle/patch/convex_polygon.hpp"
+#include "oracle/patch/support_part.hpp"
 
 namespace touchstone::oracle {
 namespace {

@@ -1,11 +1,11 @@
-#include "oracle/patch.hpp"
+#include "oracle/patch/contact_patch.hpp"
 
 #include <algorithm>
 #include <optional>
 
-#include "oracle/feature_overlap.hpp"
-#include "oracle/patch_plane.hpp"
-#include "oracle/support_feature.hpp"
+#include "oracle/patch/feature_overlap.hpp"
+#include "oracle/patch/patch_plane.hpp"
+#include "oracle/patch/support_feature.hpp"
 
 namespace touchstone::oracle {
 namespace {
