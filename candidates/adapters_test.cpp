@@ -175,7 +175,7 @@ TEST(Adapters, GenericShallowDepthsAreAsExactAsDocumented) {
     std::vector<double> truth;
     for (std::uint64_t i = 0; i < count; ++i) {
       configurations.push_back(make_configuration({pair, "general-shallow", 9, i}));
-      truth.push_back(oracle::truth(configurations.back(), 1e-12).signed_distance.midpoint() /
+      truth.push_back(oracle::truth(configurations.back()).signed_distance.midpoint() /
                       smaller_size(configurations.back()));
     }
     for (const Fairness& f : documented) {

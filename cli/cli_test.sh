@@ -24,7 +24,7 @@ expect 0 'Examples' report --help
 expect 0 '^touchstone [0-9]' --version
 expect 0 'bullet 3' candidates
 expect 2 'subcommand is required'
-expect 2 'report, replay, solve, candidates' nonsense
+expect 2 'report, replay, solve, certify, candidates' nonsense
 expect 2 'identity.pair' replay cylinder-cone/rim/1/2
 expect 2 'identity.class' replay cylinder-box/none/1/2
 expect 2 'identity is required' replay
@@ -52,6 +52,20 @@ rm -f "$folder/part/candidates/touchstone-fcl.so"
 listed=$("$folder/part/touchstone" candidates)
 if ! grep -q "^fcl: skipped; .*libfcl-dev" <<<"$listed" || ! grep -q "^bullet 3" <<<"$listed"; then
   echo "FAILED: an engine that is not there is not skipped with a line"
+  failures=$((failures + 1))
+fi
+
+line=$("$program" replay cylinder-box/general-deep/3/4 | grep '^{' | tail -n 1)
+"$program" solve --audit <<<"$line" | grep -q '"audit":{"primal_dual_gap":null,"signed_distance":\["-' ||
+  { echo "FAILED: solve --audit shows no enclosure of the second oracle"; failures=$((failures + 1)); }
+
+expect 2 'identity.class' certify cylinder-box/none/1/2
+expect 2 -- '--width' certify cylinder-box/rim-face/1/2 --width 0
+expect 2 -- '--cells' certify cylinder-box/rim-face/1/2 --cells -1
+expect 2 'must be a JSON object' certify -
+expect 0 '"schema":"touchstone-certificate-1"' certify cylinder-box/rim-face/1/2
+if [ "$("$program" certify - <<<"$line")" != "$("$program" certify cylinder-box/general-deep/3/4)" ]; then
+  echo "FAILED: certify proves something else of a line than of its identity"
   failures=$((failures + 1))
 fi
 

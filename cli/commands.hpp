@@ -10,6 +10,7 @@ namespace touchstone {
 void add_report(CLI::App& program, int& exit_code);
 void add_replay(CLI::App& program, int& exit_code);
 void add_solve(CLI::App& program, int& exit_code);
+void add_certify(CLI::App& program, int& exit_code);
 void add_candidates(CLI::App& program, int& exit_code);
 
 }  // namespace touchstone

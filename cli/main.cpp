@@ -39,6 +39,7 @@ int main(int argc, char** argv) {
       "  touchstone report                                   the report: out/report.html\n"
       "  touchstone replay cylinder-box/rim-face/1/17        one configuration again\n"
       "  touchstone solve poses.jsonl                        your own configurations\n"
+      "  touchstone certify cylinder-box/rim-face/1/17       a proof that others can check\n"
       "Exit codes: 0 done; 2 bad input or usage; 3 an internal contradiction.");
   program.fallthrough();  // --candidate may also stand after the subcommand
   touchstone::add_plugin_option(program);
@@ -46,6 +47,7 @@ int main(int argc, char** argv) {
   touchstone::add_report(program, exit_code);
   touchstone::add_replay(program, exit_code);
   touchstone::add_solve(program, exit_code);
+  touchstone::add_certify(program, exit_code);
   touchstone::add_candidates(program, exit_code);
   try {
     refuse_unknown_subcommand(program, argc, argv);

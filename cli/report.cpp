@@ -61,7 +61,7 @@ void run(const Options& options) {
   check_writable(options.out);
   const nlohmann::json report = make_report(campaign, options.command_line());
   write_report(report, options.out);
-  fmt::print("{}\n{} configurations, truth certified to 1e-15 of the larger size, {:.0f} s.\n",
+  fmt::print("{}\n{} configurations, truth certified to 1e-30 of the larger size, {:.0f} s.\n",
              terminal_table(report), report["configurations"].get<std::uint64_t>(),
              report["wall_seconds"].get<double>());
   fmt::print("Report: {}/report.html, {}/report.json\n", options.out, options.out);

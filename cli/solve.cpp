@@ -18,16 +18,17 @@ struct Options {
   CandidateOption candidates;
   BarOption bar;
   std::string file = "-";
-  double width = 1e-15;
+  double width = 1e-30;
+  bool audit = false;
 };
 
-/// Bad lines make exit code 2, after all of them are answered.
+/// Bad lines make exit code 2, after all of them are answered; a contradiction ends all.
 int run(const Options& options) {
   if (!(std::isfinite(options.width) && options.width > 0)) {
     throw InvalidInput("--width", fmt::format("{}", options.width), "must be positive and finite");
   }
   const SolveOptions solving{options.candidates.get(), options.width, options.bar.get(),
-                             options.candidates.limits()};
+                             options.audit, options.candidates.limits()};
   if (options.file == "-") return solve(std::cin, std::cout, solving) ? 0 : 2;
   std::ifstream in(options.file);
   if (!in) throw InvalidInput("file", '"' + options.file + '"', "could not be opened for reading");
@@ -44,12 +45,13 @@ void add_solve(CLI::App& program, int& exit_code) {
       ->capture_default_str();
   command->add_option("--width", options->width, "Width of the truth, relative to the larger size")
       ->capture_default_str();
+  command->add_flag("--audit", options->audit, "Let the second oracle check every truth");
   command->footer(
       "Examples:\n"
       "  touchstone solve poses.jsonl > answers.jsonl\n"
       "  echo '{\"a\":{\"shape\":\"cylinder\",\"radius\":0.5,\"half_length\":1},\n"
       "         \"b\":{\"shape\":\"sphere\",\"radius\":1}}' | tr -d '\\n' | touchstone solve\n"
-      "  touchstone solve --candidates bullet --width 1e-30 poses.jsonl\n"
+      "  touchstone solve --candidates bullet --width 1e-50 poses.jsonl\n"
       "Shapes: cylinder and capsule (radius, half_length), sphere (radius), box (half_extents),\n"
       "plane (normal, displacement). A pose has position and orientation (w, x, y, z).");
   command->callback([options, &exit_code] { exit_code = run(*options); });

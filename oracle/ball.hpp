@@ -40,6 +40,7 @@ class Ball {
   double midpoint() const;
 
   bool is_finite() const { return arb_is_finite(value_); }
+  bool is_zero() const { return arb_is_zero(value_); }  ///< Exactly zero?
   bool contains_zero() const { return arb_contains_zero(value_); }
   bool is_positive() const { return arb_is_positive(value_); }
   bool is_negative() const { return arb_is_negative(value_); }

@@ -53,7 +53,7 @@ TEST(Completeness, TouchingRimsWithCrossedTangentsHaveTheTangentsNormal) {
   ASSERT_TRUE((frame.array() == frame.array().round()).all());
   const Configuration c = rims_meet_at({100, 0, 100}, frame);
   expect_zero(c);
-  EXPECT_LT((truth(c).normals.at(0) + n).norm(), 1e-6);
+  EXPECT_LT((truth(c).normals.at(0).n + n).norm(), 1e-6);
 }
 
 // Rule 3: nor do the tangents help.

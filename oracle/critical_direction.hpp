@@ -4,7 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "oracle/difference.hpp"
+#include "oracle/critical_site.hpp"
+#include "oracle/optimal_normal.hpp"
 
 namespace touchstone::oracle {
 
@@ -16,6 +17,17 @@ struct DirectionBound {
   std::optional<BallVector> normal;
 };
 
+/// What can be proven, exactly, of a gap that no precision has told from zero.
+enum class ZeroGap { unknown, at_most_zero, zero };
+
+/// A continuous family of directions with the same gap: a NormalFamily in A's frame, with vectors
+/// of any length.
+struct DirectionFamily {
+  NormalFamily::Kind kind;
+  IntegerVector axis{0, 0, 0};
+  std::vector<IntegerVector> ends;
+};
+
 /// A direction at which the gap may have its maximum: exactly determined, to be enclosed at any
 /// precision. Since g(n) <= σ for every n, one that is no maximum does no harm; only completeness
 /// matters (oracle/README.md).
@@ -25,17 +37,54 @@ class CriticalDirection {
 
   /// Appends what is known at the working precision of `difference`. Nothing when the direction is
   /// proven not to lie where its features are in contact.
-  virtual void enclose(const BallDifference& difference, std::vector<DirectionBound>& out) = 0;
+  virtual void enclose(const Difference& difference, const BallDifference& balls,
+                       std::vector<DirectionBound>& out) = 0;
 
-  /// A member of a continuous family along which the gap is constant.
-  virtual bool of_a_continuum() const { return false; }
+  /// To be asked where the gap's ball contains zero; decided with exact algebra, for which balls
+  /// at the working precision only tell apart what is apart.
+  virtual ZeroGap zero_gap(const Difference& difference) = 0;
+
+  /// Is the direction exactly perpendicular to this vector? May be false where the same direction
+  /// has another site of a simpler kind.
+  virtual bool is_across(const IntegerVector& v) const = 0;
+
+  /// The family that this direction stands for.
+  virtual std::optional<DirectionFamily> family() const { return std::nullopt; }
 };
 
 using CriticalDirections = std::vector<std::unique_ptr<CriticalDirection>>;
 
-/// Bound of ±n, whichever of the two has the larger gap (both where that is not decided).
-void append_bounds(const BallDifference& difference, const BallVector& n,
-                   std::vector<DirectionBound>& out);
+/// Appends all critical directions of one site.
+void append_directions(const Difference& difference, const CriticalSite& site,
+                       CriticalDirections& out);
+
+// Its parts, by kind.
+
+void append_disc_axis(const Difference& difference, const CriticalSite& site,
+                      CriticalDirections& out);
+void append_crossing(const Difference& difference, const CriticalSite& site,
+                     CriticalDirections& out);
+void append_radial(const Difference& difference, const CriticalSite& site, CriticalDirections& out);
+void append_rim_vertex(const Difference& difference, const CriticalSite& site,
+                       CriticalDirections& out);
+void append_rim_line(const Difference& difference, const CriticalSite& site,
+                     CriticalDirections& out);
+void append_rim_rim(const Difference& difference, const CriticalSite& site,
+                    CriticalDirections& out);
+/// A half-space has one direction.
+std::unique_ptr<CriticalDirection> plane_direction(const Difference& difference);
+
+/// Both directions ±n with integer coordinates.
+std::unique_ptr<CriticalDirection> rational_direction(IntegerVector n,
+                                                      std::optional<DirectionFamily> family = {});
+
+/// The segments' axes, turned to the side that `signs` says.
+std::vector<IntegerVector> signed_axes(const Difference& difference, unsigned signs,
+                                       const Difference::Segment* skipped = nullptr);
+
+/// All directions across a line that are not behind any of `inward`: a circle, or an arc.
+/// Without ends there is no arc.
+DirectionFamily sector(const IntegerVector& line, const std::vector<IntegerVector>& inward);
 
 /// d − Σ sign·half_length·axis over the segments other than `skipped`: where the reduced point lies
 /// once these segments have shrunk to their ends. Bit i of `signs` is the sign of segment i. Times
@@ -43,20 +92,13 @@ void append_bounds(const BallDifference& difference, const BallVector& n,
 IntegerVector reduced_point(const Difference& difference, unsigned signs,
                             const Difference::Segment* skipped = nullptr);
 
-/// Caps, box faces, planes, crossed sides and edges: ±axis of each disc, ±axis × axis of two
-/// segments.
-void add_axial_directions(const Difference& difference, CriticalDirections& out);
+/// The part of q across a frame's axis, times norm².
+IntegerVector off_axis(const IntegerVector& q, const Frame& frame);
 
-/// Across one segment, where every disc is seen flat on: from the segment's line to a vertex.
-void add_radial_directions(const Difference& difference, CriticalDirections& out);
+enum class Side { no, undecided, yes };
 
-/// A single disc's rim against a vertex.
-void add_rim_vertex_directions(const Difference& difference, CriticalDirections& out);
-
-/// Across one segment, where one disc is seen as an ellipse: rim against side, rim against edge.
-void add_rim_line_directions(const Difference& difference, CriticalDirections& out);
-
-/// Two discs' rims.
-void add_rim_rim_directions(const Difference& difference, CriticalDirections& out);
+/// Is a direction on the side of every segment's axis that `signs` says, as far as balls can tell?
+Side at_vertex(const Difference& difference, unsigned signs, const BallVector& n,
+               const Difference::Segment* skipped = nullptr);
 
 }  // namespace touchstone::oracle

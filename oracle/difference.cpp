@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <string>
 
 #include "reference/invalid_input.hpp"
@@ -10,27 +13,41 @@
 namespace touchstone::oracle {
 namespace {
 
+/// A double as an odd integer times a power of two; zero as zero.
+struct Dyadic {
+  explicit Dyadic(double value) {
+    constexpr int mantissa_bits = std::numeric_limits<double>::digits;
+    int binary_exponent = 0;
+    const double fraction = std::frexp(value, &binary_exponent);
+    mantissa = static_cast<std::int64_t>(std::ldexp(fraction, mantissa_bits));
+    if (mantissa == 0) return;
+    const int zeros = std::countr_zero(static_cast<std::uint64_t>(mantissa));
+    mantissa >>= zeros;
+    exponent = binary_exponent - mantissa_bits + zeros;
+  }
+  std::int64_t mantissa;
+  int exponent = 0;
+};
+
 /// The power of two that makes every one of these doubles an integer.
 class DyadicScale {
  public:
-  void include(double value) {
-    const mpz_class denominator = mpq_class(value).get_den();
-    bits_ = std::max(bits_, mpz_scan1(denominator.get_mpz_t(), 0));
-  }
+  void include(double value) { bits_ = std::max(bits_, -Dyadic(value).exponent); }
   void include(const Vec3& v) {
     for (int i = 0; i < 3; ++i) include(v[i]);
   }
   Integer operator()(double value) const {
-    const mpq_class q(value);
-    return (q.get_num() << bits_) / q.get_den();
+    const Dyadic dyadic(value);
+    return Integer(static_cast<long>(dyadic.mantissa))
+           << static_cast<mp_bitcnt_t>(dyadic.exponent + bits_);
   }
   IntegerVector operator()(const Vec3& v) const {
     return {(*this)(v.x()), (*this)(v.y()), (*this)(v.z())};
   }
-  mpz_class factor() const { return mpz_class(1) << bits_; }
+  mpz_class factor() const { return mpz_class(1) << static_cast<mp_bitcnt_t>(bits_); }
 
  private:
-  mp_bitcnt_t bits_ = 0;
+  int bits_ = 0;
 };
 
 /// An exact rotation times `norm`.
@@ -63,10 +80,7 @@ Frame scaled(const Integer& factor, const Frame& frame) {
   return {factor * frame.axis, factor * frame.e, factor * frame.f};
 }
 
-bool parallel(const IntegerVector& a, const IntegerVector& b) {
-  const IntegerVector c = cross(a, b);
-  return c.x == 0 && c.y == 0 && c.z == 0;
-}
+bool parallel(const IntegerVector& a, const IntegerVector& b) { return is_zero(cross(a, b)); }
 
 void add_segment(Difference& difference, const Frame& frame, const Integer& half_length) {
   for (auto& s : difference.segments) {
@@ -131,11 +145,16 @@ Difference make_difference(const Configuration& c) {
   }
 
   // B's axes in A's frame, times norm.
-  Integer norm = a.norm * b.norm;
+  Integer norm = 1;
   std::array<IntegerVector, 3> axes_b;
-  for (int i = 0; i < 3; ++i) axes_b[i] = a.apply_inverse(b.columns[i]);
-  reduce(norm, axes_b);
+  const bool has_axes = !std::holds_alternative<Sphere>(c.b) && !std::holds_alternative<Plane>(c.b);
+  if (has_axes) {
+    norm = a.norm * b.norm;
+    for (int i = 0; i < 3; ++i) axes_b[i] = a.apply_inverse(b.columns[i]);
+    reduce(norm, axes_b);
+  }
   difference.norm = norm;
+  std::copy(axes_b.begin(), axes_b.end(), difference.axes_b);
 
   // D = A^T (cA − cB) / |qA|² in units; times norm it need not be an integer after the reduction,
   // so the unit takes up what is missing.

@@ -43,6 +43,8 @@ struct Difference {
   std::vector<Segment> segments;
   std::vector<Disc> discs;
   Integer inflation = 0;
+  /// Body B's axes, each of the exact length `norm`; zero for a sphere or a plane.
+  IntegerVector axes_b[3];
   /// For a plane: its normal, of any length; the origin of B is then a point of the plane.
   IntegerVector plane_normal{0, 0, 0};
   bool is_plane = false;

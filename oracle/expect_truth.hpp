@@ -18,8 +18,8 @@ inline void expect_brute_force_agrees(const Configuration& c, const Truth& t,
   const double sigma = t.signed_distance.midpoint();
   EXPECT_LE(t.signed_distance.width(), 1e-15 * larger_size(c));
   ASSERT_FALSE(t.normals.empty());
-  for (const Vec3& n : t.normals) {
-    EXPECT_NEAR(touchstone::gap(c, n), sigma, rounding) << "normal " << n.transpose();
+  for (const OptimalNormal& normal : t.normals) {
+    EXPECT_NEAR(touchstone::gap(c, normal.n), sigma, rounding) << "normal " << normal.n.transpose();
   }
   const BruteForce found = brute_force_maximum(c, directions);
   EXPECT_LE(found.gap, sigma + rounding) << "along " << found.normal.transpose();

@@ -23,17 +23,53 @@ mpq_class value_at(const Polynomial& p, const mpq_class& x) {
 
 int sign_at(const Polynomial& p, const mpq_class& x) { return sgn(value_at(p, x)); }
 
-Ball value_at(const Polynomial& p, const Ball& x) {
-  Ball value(0);
-  for (std::size_t i = p.size(); i-- > 0;) value = value * x + Ball(p[i]);
-  return value;
-}
-
 Polynomial derivative(const Polynomial& p) {
   Polynomial result;
   for (std::size_t i = 1; i < p.size(); ++i) {
     result.push_back(p[i] * static_cast<unsigned long>(i));
   }
+  return result;
+}
+
+/// Upper bound of the number of roots between lo and hi, ends excluded, with multiplicities; of the
+/// same parity: Descartes' rule of signs on (1 + x)^k p((lo + hi x)/(1 + x)). Collins and Akritas,
+/// "Polynomial real root isolation using Descartes' rule of signs", SYMSAC 1976.
+int sign_variations(const Polynomial& p, const mpq_class& lo, const mpq_class& hi) {
+  // Over a common denominator m, Σ c_i (a + b x)^i (m + m x)^(k−i), by Horner's scheme.
+  mpz_class m = lcm(lo.get_den(), hi.get_den());
+  const Polynomial top{mpz_class(lo * m), mpz_class(hi * m)}, bottom{m, m};
+  Polynomial value{0}, power{1};
+  for (std::size_t i = p.size(); i-- > 0;) {
+    value = value * top + p[i] * power;
+    power = power * bottom;
+  }
+  int variations = 0, last = 0;
+  for (const auto& c : value) {
+    const int sign = sgn(c);
+    if (sign == 0) continue;
+    if (sign == -last) ++variations;
+    last = sign;
+  }
+  return variations;
+}
+
+using Kernel = CGAL::Algebraic_kernel_d_1<CGAL::Gmpz>;
+
+/// The primitive part.
+Kernel::Polynomial_1 to_kernel(const Polynomial& polynomial) {
+  mpz_class content = 0;
+  for (const auto& c : polynomial) content = gcd(content, c);
+  std::vector<CGAL::Gmpz> coefficients;
+  for (const auto& c : polynomial) {
+    const mpz_class primitive = c / content;
+    coefficients.emplace_back(primitive.get_mpz_t());
+  }
+  return {coefficients.begin(), coefficients.end()};
+}
+
+Polynomial from_kernel(const Kernel::Polynomial_1& polynomial) {
+  Polynomial result;
+  for (int i = 0; i <= polynomial.degree(); ++i) result.emplace_back(polynomial[i].mpz());
   return result;
 }
 
@@ -76,12 +112,18 @@ Polynomial operator*(const mpz_class& a, const Polynomial& b) {
   return product;
 }
 
+Ball value_at(const Polynomial& p, const Ball& x) {
+  Ball value(0);
+  for (std::size_t i = p.size(); i-- > 0;) value = value * x + Ball(p[i]);
+  return value;
+}
+
 bool is_zero(const Polynomial& p) {
   return std::all_of(p.begin(), p.end(), [](const mpz_class& c) { return c == 0; });
 }
 
-RealRoot::RealRoot(Polynomial square_free, mpq_class lo, mpq_class hi)
-    : polynomial_(std::move(square_free)),
+RealRoot::RealRoot(Polynomial polynomial, mpq_class lo, mpq_class hi)
+    : polynomial_(std::move(polynomial)),
       derivative_(derivative(polynomial_)),
       lo_(std::move(lo)),
       hi_(std::move(hi)),
@@ -149,28 +191,31 @@ Ball RealRoot::enclose() {
   return Ball(lo_, hi_);
 }
 
-std::vector<RealRoot> real_roots(const Polynomial& polynomial) {
-  using Kernel = CGAL::Algebraic_kernel_d_1<CGAL::Gmpz>;
-  mpz_class content = 0;
-  for (const auto& c : polynomial) content = gcd(content, c);
-  std::vector<CGAL::Gmpz> coefficients;
-  for (const auto& c : polynomial) {
-    const mpz_class primitive = c / content;
-    coefficients.emplace_back(primitive.get_mpz_t());
-  }
-  const Kernel::Polynomial_1 p(coefficients.begin(), coefficients.end());
+bool RealRoot::is_root_of(const Polynomial& other) const {
+  if (is_zero(other)) return true;
+  if (lo_ == hi_) return sign_at(other, lo_) == 0;
+  // The common factor has at most this one root in the interval, a simple one.
+  const Polynomial common = from_kernel(CGAL::gcd(to_kernel(polynomial_), to_kernel(other)));
+  return sign_at(common, lo_) * sign_at(common, hi_) < 0;
+}
 
-  std::vector<Kernel::Algebraic_real_1> roots;
-  Kernel().solve_1_object()(p, false, std::back_inserter(roots));
-
-  const auto rational = [](const auto& bound) { return mpq_class(bound.mpq()); };
+std::vector<RealRoot> real_roots(const Polynomial& polynomial, const mpq_class& lo,
+                                 const mpq_class& hi) {
   std::vector<RealRoot> result;
-  result.reserve(roots.size());
+  if (sign_at(polynomial, lo) != 0 && sign_at(polynomial, hi) != 0) {
+    const int variations = sign_variations(polynomial, lo, hi);
+    if (variations == 0) return result;
+    if (variations == 1) {
+      result.emplace_back(polynomial, lo, hi);
+      return result;
+    }
+  }
+  std::vector<Kernel::Algebraic_real_1> roots;
+  Kernel().solve_1_object()(to_kernel(polynomial), false, std::back_inserter(roots));
   for (const auto& root : roots) {
-    const auto& factor = root.polynomial();
-    Polynomial square_free;
-    for (int i = 0; i <= factor.degree(); ++i) square_free.emplace_back(factor[i].mpz());
-    result.emplace_back(std::move(square_free), rational(root.low()), rational(root.high()));
+    const mpq_class low(root.low().mpq()), high(root.high().mpq());
+    if (high < lo || low > hi) continue;
+    result.emplace_back(from_kernel(root.polynomial()), low, high);
   }
   return result;
 }

@@ -9,74 +9,143 @@
 #include <utility>
 
 #include "oracle/critical_direction.hpp"
-#include "oracle/real_roots.hpp"
+#include "oracle/root_sum.hpp"
 
 namespace touchstone::oracle {
 namespace {
 
+/// The frame whose e, f are turned by that many quarters about its axis.
+Frame turned(const Frame& frame, unsigned quarters) {
+  switch (quarters) {
+    case 0:
+      return frame;
+    case 1:
+      return {frame.axis, frame.f, -frame.e};
+    case 2:
+      return {frame.axis, -frame.e, -frame.f};
+    default:
+      return {frame.axis, -frame.f, frame.e};
+  }
+}
+
+/// What the gap depends on across one line, at one vertex of the other segments.
+struct Profile {
+  Frame line;
+  const Difference::Segment* segment;
+  unsigned signs;
+  IntegerVector q;
+  Frame disc;
+  Integer radius;
+  Integer flat;  ///< the inflation, and the radius of a disc that is flat on
+
+  /// v·n as a polynomial in t.
+  Polynomial along(const IntegerVector& v) const { return {dot(v, line.e), dot(v, line.f)}; }
+  Polynomial across(const IntegerVector& v) const {
+    return {dot(v, line.f), Integer(-dot(v, line.e))};
+  }
+};
+
+/// norm⁴ n·n
+Polynomial length_squared(const Integer& norm) {
+  const Integer norm_squared = norm * norm;
+  const Integer norm_fourth = norm_squared * norm_squared;
+  return {norm_fourth, 0, norm_fourth};
+}
+
+// Scaled: q by norm², u·n by norm², both sides by norm⁴ · norm⁴.
+Polynomial stationary_quartic(const Profile& profile, const Integer& norm) {
+  const Polynomial q_slope = profile.across(profile.q);
+  const Polynomial u_n = profile.along(profile.disc.axis);
+  const Polynomial u_slope = profile.across(profile.disc.axis);
+  const Polynomial u_part = u_n * u_n;
+  return q_slope * q_slope * (length_squared(norm) - u_part) -
+         Integer(profile.radius * profile.radius) * (u_part * (u_slope * u_slope));
+}
+
 class RimLineDirection : public CriticalDirection {
  public:
-  RimLineDirection(const Frame& line, RealRoot t) : line_(line), t_(std::move(t)) {}
+  RimLineDirection(Profile profile, RealRoot t) : profile_(std::move(profile)), t_(std::move(t)) {}
 
-  void enclose(const BallDifference& difference, std::vector<DirectionBound>& out) override {
-    append_bounds(difference, to_balls(line_.e) + t_.enclose() * to_balls(line_.f), out);
+  void enclose(const Difference& difference, const BallDifference& balls,
+               std::vector<DirectionBound>& out) override {
+    const BallVector n = direction();
+    if (at_vertex(difference, profile_.signs, n, profile_.segment) == Side::no) return;
+    out.push_back({balls.gap(n), n});
+  }
+
+  // q·n − radius |u × n| − flat |n|, times norm².
+  ZeroGap zero_gap(const Difference& difference) override {
+    const Polynomial a = profile_.along(profile_.q);
+    const Polynomial u_n = profile_.along(profile_.disc.axis);
+    const Polynomial n_n = length_squared(difference.norm);
+    const Polynomial b = Integer(profile_.radius * profile_.radius) * (n_n - u_n * u_n);
+    const Polynomial c = Integer(profile_.flat * profile_.flat) * n_n;
+    if (!is_zero_here(a, b, c)) return ZeroGap::unknown;
+    return at_vertex(difference, profile_.signs, direction(), profile_.segment) == Side::yes
+               ? ZeroGap::zero
+               : ZeroGap::at_most_zero;
+  }
+
+  bool is_across(const IntegerVector& v) const override {
+    const Integer constant = dot(v, profile_.line.e), slope = dot(v, profile_.line.f);
+    if (slope == 0) return constant == 0;
+    mpq_class t(Integer(-constant), slope);
+    t.canonicalize();
+    return t_.is(t);
   }
 
  private:
-  Frame line_;
+  /// Is a − √b − √c zero at this root?
+  bool is_zero_here(const Polynomial& a, const Polynomial& b, const Polynomial& c) {
+    if (t_.is_root_of(b)) {
+      // The disc is seen flat on.
+      return is_zero(c) ? t_.is_root_of(a) : is_zero_here(a, c, {0});
+    }
+    if (!t_.is_root_of(root_sum_norm(a, b, c))) return false;
+    const Ball t = t_.enclose();
+    return has_no_other_zero(value_at(a, t), value_at(b, t), value_at(c, t));
+  }
+
+  BallVector direction() {
+    return to_balls(profile_.line.e) + t_.enclose() * to_balls(profile_.line.f);
+  }
+
+  Profile profile_;
   RealRoot t_;
 };
 
-/// t = ∞: a root where the degree drops, and harmless elsewhere.
-class RimLineEnd : public CriticalDirection {
- public:
-  explicit RimLineEnd(IntegerVector n) : n_(std::move(n)) {}
-  void enclose(const BallDifference& difference, std::vector<DirectionBound>& out) override {
-    append_bounds(difference, to_balls(n_), out);
-  }
-
- private:
-  IntegerVector n_;
-};
-
-// Scaled: q by norm², u·n by norm², both sides by norm⁴ · norm⁴.
-Polynomial stationary_quartic(const Difference& difference, const Frame& line,
-                              const Difference::Disc& disc, const IntegerVector& q) {
-  const Integer q_e = dot(q, line.e), q_f = dot(q, line.f);
-  const Integer u_e = dot(disc.frame.axis, line.e), u_f = dot(disc.frame.axis, line.f);
-  const Integer norm_squared = difference.norm * difference.norm;
-  const Integer norm_fourth = norm_squared * norm_squared;
-
-  const Polynomial q_slope{q_f, Integer(-q_e)};
-  const Polynomial u_n{u_e, u_f};
-  const Polynomial u_slope{u_f, Integer(-u_e)};
-  const Polynomial n_n{norm_fourth, 0, norm_fourth};
-  const Polynomial u_part = u_n * u_n;
-  return q_slope * q_slope * (n_n - u_part) -
-         Integer(disc.radius * disc.radius) * (u_part * (u_slope * u_slope));
-}
-
 }  // namespace
 
-void add_rim_line_directions(const Difference& difference, CriticalDirections& out) {
-  const auto& segments = difference.segments;
-  for (std::size_t i = 0; i < segments.size(); ++i) {
-    const Frame& line = segments[i].frame;
-    for (const auto& disc : difference.discs) {
-      const IntegerVector tilt = cross(line.axis, disc.frame.axis);
-      if (tilt.x == 0 && tilt.y == 0 && tilt.z == 0) continue;
-      out.push_back(std::make_unique<RimLineEnd>(line.f));
-      for (unsigned signs = 0; signs < 1U << segments.size(); ++signs) {
-        if (signs >> i & 1U) continue;
-        const IntegerVector q = reduced_point(difference, signs, &segments[i]);
-        const Polynomial quartic = stationary_quartic(difference, line, disc, q);
-        // The gap is then constant between its kinks, which are axial directions.
-        if (is_zero(quartic)) continue;
-        for (auto& root : real_roots(quartic)) {
-          out.push_back(std::make_unique<RimLineDirection>(line, std::move(root)));
-        }
-      }
+void append_rim_line(const Difference& difference, const CriticalSite& site,
+                     CriticalDirections& out) {
+  const auto& segment = difference.segments[site.first];
+  const auto& disc = difference.discs[site.second];
+  Integer flat = difference.inflation;
+  for (const auto& other : difference.discs) {
+    if (&other != &disc) flat += other.radius;
+  }
+  Profile profile{turned(segment.frame, site.turn),
+                  &segment,
+                  site.signs,
+                  reduced_point(difference, site.signs, &segment),
+                  disc.frame,
+                  disc.radius,
+                  std::move(flat)};
+  const Polynomial quartic = stationary_quartic(profile, difference.norm);
+  if (is_zero(quartic)) {
+    // The disc is seen edge on and its corner coincides with the reduced point (or their mirror
+    // images do): for all directions between the corner's sides the gap is that of what is flat on.
+    std::vector<IntegerVector> inward = signed_axes(difference, site.signs, &segment);
+    inward.push_back(off_axis(profile.q, profile.line));
+    DirectionFamily arc = sector(profile.line.axis, inward);
+    if (!arc.ends.empty()) {
+      const IntegerVector end = arc.ends.front();
+      out.push_back(rational_direction(end, std::move(arc)));
     }
+    return;
+  }
+  for (auto& root : real_roots(quartic, mpq_class(site.lo), mpq_class(site.hi))) {
+    out.push_back(std::make_unique<RimLineDirection>(profile, std::move(root)));
   }
 }
 

@@ -10,6 +10,7 @@
 //
 // of degree 8 in t = tan(θ/2). F also vanishes where p lies on circle 2's axis (w⊥ = 0); there y
 // follows from y·t1 = w·t1, which every stationary pair satisfies.
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -37,11 +38,15 @@ class StationaryPair {
   /// Appends the direction of every stationary point of rim 2 that rim 1's point has here.
   void enclose(const BallDifference& difference, std::vector<DirectionBound>& out) const;
 
+  /// If rim 1's point lies on rim 2 and their tangents cross: is the normal of both outward?
+  bool touches_outward() const;
+
  private:
   std::vector<BallVector> points_of_rim2(bool& undecided) const;
   void enclose(const BallVector& y, const BallDifference& difference,
                std::vector<DirectionBound>& out) const;
-  bool may_be_in_cell(const BallVector& n, const BallVector& y) const;
+  /// Is n an outward normal of both rims' contacts?
+  Side is_outward(const BallVector& n, const BallVector& y) const;
 
   BallVector radial_, tangent_, w_, axis2_;
   Ball radius1_, radius2_;
@@ -94,15 +99,14 @@ std::vector<BallVector> StationaryPair::points_of_rim2(bool& undecided) const {
   return points;
 }
 
-/// False when it is certain that neither n nor −n is an outward normal of both rims' contacts.
-bool StationaryPair::may_be_in_cell(const BallVector& n, const BallVector& y) const {
+Side StationaryPair::is_outward(const BallVector& n, const BallVector& y) const {
   const Ball signs[] = {dot(n, radial_), -dot(n, y), dot(n, up_[0]), dot(n, up_[1])};
-  bool plus = true, minus = true;
+  Side side = Side::yes;
   for (const Ball& s : signs) {
-    if (s.is_negative()) plus = false;
-    if (s.is_positive()) minus = false;
+    if (s.is_negative()) return Side::no;
+    if (!s.is_positive()) side = Side::undecided;
   }
-  return plus || minus;
+  return side;
 }
 
 void StationaryPair::enclose(const BallVector& y, const BallDifference& difference,
@@ -115,16 +119,16 @@ void StationaryPair::enclose(const BallVector& y, const BallDifference& differen
     const BallVector across = cross(tangent_, cross(axis2_, y));
     if (!norm(across).contains_zero()) n = across;
   }
-  if (!norm(n).contains_zero()) {
-    if (may_be_in_cell(n, y)) append_bounds(difference, n, out);
+  if (norm(n).contains_zero()) {
+    // The rims touch with parallel tangents, as far as this precision can tell: the gap is at most
+    // their distance, if the two quarter circles of outward normals across the tangent meet at all.
+    const BallVector inner = radial_ + up_[0];
+    const BallVector outer = up_[1] - (Ball(1) / radius2_) * y;
+    if (!dot(inner, outer).is_negative()) out.push_back({distance, std::nullopt});
     return;
   }
-  // The rims touch with parallel tangents, as far as this precision can tell: the gap is at most
-  // their distance, if the two quarter circles of outward normals across the tangent meet at all.
-  const BallVector inner = radial_ + up_[0];
-  const BallVector outer = up_[1] - (Ball(1) / radius2_) * y;
-  if (dot(inner, outer).is_negative()) return;
-  out.push_back({distance - difference.inflation(), std::nullopt});
+  if (is_outward(n, y) != Side::no) out.push_back({difference.gap(n), n});
+  if (is_outward(-n, y) != Side::no) out.push_back({difference.gap(-n), -n});
 }
 
 void StationaryPair::enclose(const BallDifference& difference,
@@ -134,41 +138,10 @@ void StationaryPair::enclose(const BallDifference& difference,
   if (undecided) out.push_back({Ball(1) / Ball(0), std::nullopt});
 }
 
-class RimRimDirection : public CriticalDirection {
- public:
-  RimRimDirection(const RimPair& rims, RealRoot t) : rims_(rims), t_(std::move(t)) {}
-
-  void enclose(const BallDifference& difference, std::vector<DirectionBound>& out) override {
-    const Ball t = t_.enclose();
-    const Ball scale = Ball(1) / (Ball(1) + square(t));
-    StationaryPair(rims_, (Ball(1) - square(t)) * scale, Ball(2) * t * scale)
-        .enclose(difference, out);
-  }
-
- private:
-  RimPair rims_;
-  RealRoot t_;
-};
-
-/// A rational point of rim 1: θ = π, or a sample of a whole family of stationary pairs.
-class RimRimPoint : public CriticalDirection {
- public:
-  RimRimPoint(const RimPair& rims, mpq_class cosine, mpq_class sine, bool of_a_continuum)
-      : rims_(rims),
-        cosine_(std::move(cosine)),
-        sine_(std::move(sine)),
-        of_a_continuum_(of_a_continuum) {}
-
-  void enclose(const BallDifference& difference, std::vector<DirectionBound>& out) override {
-    StationaryPair(rims_, Ball(cosine_), Ball(sine_)).enclose(difference, out);
-  }
-  bool of_a_continuum() const override { return of_a_continuum_; }
-
- private:
-  RimPair rims_;
-  mpq_class cosine_, sine_;
-  bool of_a_continuum_;
-};
+bool StationaryPair::touches_outward() const {
+  const BallVector n = cross(tangent_, cross(axis2_, w_));
+  return is_outward(n, w_) == Side::yes || is_outward(-n, w_) == Side::yes;
+}
 
 /// α + β cos θ + γ sin θ times 1 + t².
 Polynomial in_half_angle(const Integer& constant, const Integer& cosine, const Integer& sine) {
@@ -199,10 +172,9 @@ Polynomial stationary_octic(const RimPair& rims) {
 
 /// Where rim 1's tangent is parallel to u2 and its point on rim 2's axis, F has a root without a
 /// stationary pair of its own: either (w·t1 ≠ 0) none at all, or the whole of rim 2, whose normals
-/// are all across u2 and belong to the line directions. Such points as t = tan(θ/2), exactly;
-/// θ = π is reported by `at_infinity`.
-std::vector<mpq_class> spurious_points(const RimPair& rims, bool& at_infinity) {
-  at_infinity = false;
+/// are all across u2 and belong to the line directions. Such points as t = tan(θ/2), exactly; none
+/// for θ = π, where no site lies.
+std::vector<mpq_class> spurious_points(const RimPair& rims) {
   std::vector<mpq_class> result;
   if (dot(rims.rim1.axis, rims.rim2.axis) != 0) return result;
   const IntegerVector radial = cross(rims.rim2.axis, rims.rim1.axis);  // of length norm²
@@ -214,58 +186,113 @@ std::vector<mpq_class> spurious_points(const RimPair& rims, bool& at_infinity) {
     if (off_axis.x != 0 || off_axis.y != 0 || off_axis.z != 0) continue;
     const Integer cosine = sign * dot(radial, rims.rim1.e);
     const Integer sine = sign * dot(radial, rims.rim1.f);
-    if (cosine == -norm_cubed) {
-      at_infinity = true;
-    } else {
-      mpq_class t(sine, norm_cubed + cosine);
-      t.canonicalize();
-      result.push_back(t);
-    }
+    if (cosine == -norm_cubed) continue;
+    mpq_class t(sine, norm_cubed + cosine);
+    t.canonicalize();
+    result.push_back(t);
   }
   return result;
 }
 
-void add_directions(const RimPair& rims, CriticalDirections& out) {
-  const Polynomial octic = stationary_octic(rims);
-  if (is_zero(octic)) {
-    // A continuous family of stationary pairs, on which the distance is constant. Where it leaves
-    // the cell it meets a direction of another kind; if it never does, any sample stands for it. At
-    // most two points of rim 1 lie on rim 2's axis, so one of three samples shows both of rim 2's
-    // points.
-    const std::pair<mpq_class, mpq_class> samples[] = {
-        {1, 0}, {mpq_class(3, 5), mpq_class(4, 5)}, {mpq_class(-5, 13), mpq_class(12, 13)}};
-    for (const auto& [cosine, sine] : samples) {
-      out.push_back(std::make_unique<RimRimPoint>(rims, cosine, sine, true));
-    }
-    return;
+/// Where rim 1's point is on rim 2: in its plane, and at its radius from its centre.
+struct OnRim2 {
+  Polynomial in_plane, at_radius;
+};
+
+OnRim2 on_rim2(const RimPair& rims) {
+  const Integer n2 = rims.norm * rims.norm;
+  const Integer& r1 = rims.radius1;
+  const Integer q_e = dot(rims.q, rims.rim1.e), q_f = dot(rims.q, rims.rim1.f);
+  const Integer u_e = dot(rims.rim2.axis, rims.rim1.e), u_f = dot(rims.rim2.axis, rims.rim1.f);
+  return {in_half_angle(Integer(-dot(rims.q, rims.rim2.axis)), r1 * u_e, r1 * u_f),
+          in_half_angle((r1 * r1 - rims.radius2 * rims.radius2) * n2 + dot(rims.q, rims.q),
+                        Integer(-2 * r1 * q_e), Integer(-2 * r1 * q_f))};
+}
+
+class RimRimDirection : public CriticalDirection {
+ public:
+  RimRimDirection(const RimPair& rims, RealRoot t, bool of_a_family)
+      : rims_(rims), t_(std::move(t)), of_a_family_(of_a_family) {}
+
+  void enclose(const Difference&, const BallDifference& balls,
+               std::vector<DirectionBound>& out) override {
+    pair().enclose(balls, out);
   }
-  bool spurious_at_infinity = false;
-  const std::vector<mpq_class> spurious = spurious_points(rims, spurious_at_infinity);
-  if (octic.back() == 0 && !spurious_at_infinity) {
-    out.push_back(std::make_unique<RimRimPoint>(rims, -1, 0, false));
+
+  // The points of rims that touch are points of both bodies, so that no gap is above zero.
+  ZeroGap zero_gap(const Difference&) override {
+    const OnRim2 on = on_rim2(rims_);
+    if (!t_.is_root_of(on.in_plane) || !t_.is_root_of(on.at_radius)) return ZeroGap::unknown;
+    return pair().touches_outward() ? ZeroGap::zero : ZeroGap::at_most_zero;
   }
-  for (auto& root : real_roots(octic)) {
-    bool is_spurious = false;
-    for (const auto& t : spurious) is_spurious = is_spurious || root.is(t);
-    if (!is_spurious) out.push_back(std::make_unique<RimRimDirection>(rims, std::move(root)));
+
+  // Across an axis it is a direction of that axis's line too.
+  bool is_across(const IntegerVector&) const override { return false; }
+
+  std::optional<DirectionFamily> family() const override {
+    if (!of_a_family_) return std::nullopt;
+    return DirectionFamily{NormalFamily::Kind::curve, {0, 0, 0}, {}};
   }
+
+ private:
+  StationaryPair pair() {
+    const Ball t = t_.enclose();
+    const Ball scale = Ball(1) / (Ball(1) + square(t));
+    return {rims_, (Ball(1) - square(t)) * scale, Ball(2) * t * scale};
+  }
+
+  RimPair rims_;
+  RealRoot t_;
+  bool of_a_family_;
+};
+
+/// A root that is known.
+RealRoot rational_root(const mpq_class& t) {
+  return RealRoot({Integer(-t.get_num()), t.get_den()}, t, t);
 }
 
 }  // namespace
 
-void add_rim_rim_directions(const Difference& difference, CriticalDirections& out) {
-  if (difference.discs.size() != 2) return;
+void append_rim_rim(const Difference& difference, const CriticalSite& site,
+                    CriticalDirections& out) {
   // Two discs come with exactly the two segments of the same axes.
   const auto& [disc1, disc2] = std::pair(difference.discs[0], difference.discs[1]);
-  for (unsigned signs = 0; signs < 4; ++signs) {
-    RimPair rims{
-        disc1.frame,     disc2.frame, reduced_point(difference, signs), disc1.radius, disc2.radius,
-        difference.norm, {}};
-    for (unsigned i = 0; i < 2; ++i) {
-      const IntegerVector& axis = difference.segments[i].frame.axis;
-      rims.up[i] = (signs >> i & 1U) ? axis : -axis;
+  RimPair rims{disc1.frame,
+               disc2.frame,
+               reduced_point(difference, site.signs),
+               disc1.radius,
+               disc2.radius,
+               difference.norm,
+               {}};
+  if (site.turn == 1) {
+    rims.rim1.e = -rims.rim1.e;
+    rims.rim1.f = -rims.rim1.f;
+  }
+  for (unsigned i = 0; i < 2; ++i) {
+    const IntegerVector& axis = difference.segments[i].frame.axis;
+    rims.up[i] = (site.signs >> i & 1U) ? axis : -axis;
+  }
+  const mpq_class lo(site.lo), hi(site.hi);
+  const Polynomial octic = stationary_octic(rims);
+  const std::vector<mpq_class> spurious = spurious_points(rims);
+  if (is_zero(octic)) {
+    // A continuous family of stationary pairs, on which the distance is constant. Where it leaves
+    // the cell it meets a direction of another kind; if it never does, any sample stands for it. At
+    // most two points of rim 1 lie on rim 2's axis, so that one sample of several shows both of
+    // rim 2's points.
+    for (int i = 1; i <= 5; ++i) {
+      const mpq_class t = lo + mpq_class(i, 6) * (hi - lo);
+      if (std::find(spurious.begin(), spurious.end(), t) != spurious.end()) continue;
+      out.push_back(std::make_unique<RimRimDirection>(rims, rational_root(t), true));
     }
-    add_directions(rims, out);
+    return;
+  }
+  for (auto& root : real_roots(octic, lo, hi)) {
+    bool is_spurious = false;
+    for (const auto& t : spurious) is_spurious = is_spurious || root.is(t);
+    if (!is_spurious) {
+      out.push_back(std::make_unique<RimRimDirection>(rims, std::move(root), false));
+    }
   }
 }
 

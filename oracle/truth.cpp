@@ -4,16 +4,22 @@
 #include <cmath>
 #include <optional>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "oracle/critical_direction.hpp"
+#include "oracle/grid_cell.hpp"
+#include "reference/invalid_input.hpp"
 
 namespace touchstone::oracle {
 namespace {
 
-/// Enough for every double configuration by a wide margin; beyond it something is wrong with us.
-constexpr long first_bits = 64;
-constexpr long last_bits = 1L << 16;
+/// Zero is told from the least gap that is not zero up to here.
+constexpr long zero_bits = 1000;
+constexpr long last_bits = 1L << 13;
+
+/// Normals no further apart are one in double.
+constexpr double same_normal = 1e-14;
 
 struct Survivor {
   std::unique_ptr<CriticalDirection> direction;
@@ -47,19 +53,34 @@ Maximum maximum(const std::vector<Survivor>& survivors) {
   return result;
 }
 
-/// A direction whose every bound stays below the best lower end is no maximum.
-void drop_losers(std::vector<Survivor>& survivors, const mpq_class& best) {
+/// A direction whose every bound stays below the bar is no maximum, nor tied with it.
+void drop_below(std::vector<Survivor>& survivors, const mpq_class& bar) {
   std::erase_if(survivors, [&](Survivor& survivor) {
     std::erase_if(survivor.bounds, [&](const DirectionBound& bound) {
-      return bound.gap.is_finite() && bound.gap.upper() < best;
+      return bound.gap.is_finite() && bound.gap.upper() < bar;
     });
     return survivor.bounds.empty();
   });
 }
 
+/// Is the signed distance proven to be zero? Every gap that may reach zero must be known not to
+/// exceed it, and one to be zero.
+bool is_exactly_zero(const std::vector<Survivor>& survivors, const Difference& difference) {
+  bool zero = false;
+  for (const auto& survivor : survivors) {
+    const bool may_reach_zero =
+        std::any_of(survivor.bounds.begin(), survivor.bounds.end(),
+                    [](const DirectionBound& bound) { return !bound.gap.is_negative(); });
+    if (!may_reach_zero) continue;
+    const ZeroGap gap = survivor.direction->zero_gap(difference);
+    if (gap == ZeroGap::unknown) return false;
+    zero = zero || gap == ZeroGap::zero;
+  }
+  return zero;
+}
+
 Vec3 in_world(const Difference& difference, const BallVector& n) {
   // A double of each coordinate and one normalisation: within a few ulp.
-  const WorkingPrecision precision(128);
   const auto coordinate = [&](int row) { return dot(to_balls(difference.world_rows[row]), n); };
   const BallVector world{coordinate(0), coordinate(1), coordinate(2)};
   const Ball length = norm(world);
@@ -68,84 +89,135 @@ Vec3 in_world(const Difference& difference, const BallVector& n) {
       .normalized();
 }
 
-void set_normals(const Difference& difference, const std::vector<Survivor>& survivors,
-                 Truth& truth) {
-  // Directions of two kinds may coincide; doubles this close are one normal.
-  constexpr double same = 1e-9;
-  bool continuum = false;
-  for (const auto& survivor : survivors) {
-    for (const auto& bound : survivor.bounds) {
+Alignment alignment(const CriticalDirection& direction, const IntegerVector& axis,
+                    const IntegerVector& e, const IntegerVector& f) {
+  if (direction.is_across(axis)) return Alignment::perpendicular;
+  if (direction.is_across(e) && direction.is_across(f)) return Alignment::parallel;
+  return Alignment::oblique;
+}
+
+OptimalNormal optimal_normal(const Difference& difference, const Shape& b,
+                             const CriticalDirection& direction, const Vec3& n) {
+  OptimalNormal result;
+  result.n = n;
+  result.to_a = alignment(direction, {0, 0, 1}, {1, 0, 0}, {0, 1, 0});
+  const auto& axes = difference.axes_b;
+  const auto to_b = [&](int i) {
+    return alignment(direction, axes[i], axes[(i + 1) % 3], axes[(i + 2) % 3]);
+  };
+  if (std::holds_alternative<Box>(b)) {
+    result.to_b = {to_b(0), to_b(1), to_b(2)};
+  } else if (std::holds_alternative<Cylinder>(b) || std::holds_alternative<Capsule>(b)) {
+    result.to_b[2] = to_b(2);
+  }
+  return result;
+}
+
+NormalFamily in_world(const Difference& difference, const DirectionFamily& family) {
+  NormalFamily result{family.kind, Vec3::Zero(), {}};
+  const auto world = [&](const IntegerVector& v) { return in_world(difference, to_balls(v)); };
+  if (family.kind != NormalFamily::Kind::curve) result.axis = world(family.axis);
+  for (const IntegerVector& end : family.ends) result.ends.push_back(world(end));
+  return result;
+}
+
+/// The two of these directions with the largest angle between them.
+NormalFamily arc_between(const std::vector<OptimalNormal>& normals) {
+  NormalFamily arc{NormalFamily::Kind::arc, Vec3::Zero(), {normals[0].n, normals[1].n}};
+  for (const auto& a : normals) {
+    for (const auto& b : normals) {
+      if (a.n.dot(b.n) < arc.ends[0].dot(arc.ends[1])) arc.ends = {a.n, b.n};
+    }
+  }
+  arc.axis = arc.ends[0].cross(arc.ends[1]).normalized();
+  return arc;
+}
+
+/// Sites come simplest first, so that a direction that several make is known by its simplest.
+void set_normals(const Difference& difference, const Shape& b,
+                 const std::vector<Survivor>& survivors, Truth& truth) {
+  for (const auto& [direction, bounds] : survivors) {
+    const auto family = direction->family();
+    if (family && (family->kind != NormalFamily::Kind::curve || truth.families.empty())) {
+      truth.families.push_back(in_world(difference, *family));
+    }
+    for (const auto& bound : bounds) {
       if (!bound.normal) continue;
-      continuum = continuum || survivor.direction->of_a_continuum();
       const Vec3 n = in_world(difference, *bound.normal);
-      const bool known = std::any_of(truth.normals.begin(), truth.normals.end(),
-                                     [&](const Vec3& m) { return (m - n).norm() < same; });
-      if (!known) truth.normals.push_back(n);
+      const bool known =
+          std::any_of(truth.normals.begin(), truth.normals.end(),
+                      [&](const OptimalNormal& m) { return (m.n - n).norm() < same_normal; });
+      if (!known) truth.normals.push_back(optimal_normal(difference, b, *direction, n));
     }
   }
   // g is concave as a function of vectors of any length, so two normals of gap zero make the whole
   // arc between them optimal.
-  const auto& [lo, hi] = truth.signed_distance;
-  const bool touching = lo <= 0 && 0 <= hi;
-  const bool several = truth.normals.size() > 1;
-  truth.ties = continuum || (several && touching) ? Ties::continuum
-               : several                          ? Ties::finite
-                                                  : Ties::unique;
+  const bool touching = truth.signed_distance.lo <= 0 && 0 <= truth.signed_distance.hi;
+  if (touching && truth.normals.size() > 1) truth.families = {arc_between(truth.normals)};
+  truth.ties = !truth.families.empty()    ? Ties::continuum
+               : truth.normals.size() > 1 ? Ties::finite
+                                          : Ties::unique;
 }
 
-CriticalDirections critical_directions(const Difference& difference) {
+std::vector<Survivor> all_directions(const Difference& difference, double slack) {
   CriticalDirections directions;
-  add_axial_directions(difference, directions);
-  add_radial_directions(difference, directions);
-  add_rim_vertex_directions(difference, directions);
-  add_rim_line_directions(difference, directions);
-  add_rim_rim_directions(difference, directions);
-  return directions;
+  if (difference.is_plane) {
+    directions.push_back(plane_direction(difference));
+  } else {
+    for (const auto& site : critical_sites(difference, slack)) {
+      append_directions(difference, site, directions);
+    }
+  }
+  std::vector<Survivor> survivors;
+  survivors.reserve(directions.size());
+  for (auto& direction : directions) survivors.push_back({std::move(direction), {}});
+  return survivors;
 }
 
-/// A half-space has one direction.
-class PlaneDirection : public CriticalDirection {
- public:
-  explicit PlaneDirection(IntegerVector normal) : normal_(std::move(normal)) {}
-  void enclose(const BallDifference& difference, std::vector<DirectionBound>& out) override {
-    const BallVector n = to_balls(normal_);
-    out.push_back({difference.gap(n), n});
-  }
-
- private:
-  IntegerVector normal_;
-};
+void check(const char* field, double value, bool good, const char* remedy) {
+  if (!good) throw InvalidInput(field, std::to_string(value), remedy);
+}
 
 }  // namespace
 
-Truth truth(const Configuration& configuration, double width) {
+Truth truth(const Configuration& configuration, double width, double tie) {
+  check("width", width, std::isfinite(width) && width > 0, "must be positive and finite");
+  check("tie", tie, std::isfinite(tie) && tie >= 0, "must not be negative, and finite");
   const Difference difference = make_difference(configuration);
-  const mpq_class wanted = width_in_units(difference, configuration, width);
+  const double size = larger_size(configuration);
+  const GridCell wanted(size, width);
+  const mpq_class slack = mpq_class(std::max(width, tie)) * mpq_class(size) / difference.unit;
 
-  CriticalDirections directions;
-  if (difference.is_plane) {
-    directions.push_back(std::make_unique<PlaneDirection>(difference.plane_normal));
-  } else {
-    directions = critical_directions(difference);
-  }
-  std::vector<Survivor> survivors;
-  for (auto& direction : directions) survivors.push_back({std::move(direction), {}});
-
-  for (long bits = first_bits; bits <= last_bits; bits *= 2) {
+  std::vector<Survivor> survivors = all_directions(difference, std::max(width, tie) * size);
+  const long wanted_bits = 64 + std::max(0L, static_cast<long>(-std::log2(width)) - 53);
+  for (long bits = wanted_bits; bits <= last_bits; bits *= 2) {
     const WorkingPrecision precision(bits);
     const BallDifference balls(difference);
     for (auto& survivor : survivors) {
       survivor.bounds.clear();
-      survivor.direction->enclose(balls, survivor.bounds);
+      survivor.direction->enclose(difference, balls, survivor.bounds);
     }
     const Maximum best = maximum(survivors);
     if (!best.lo) continue;
-    drop_losers(survivors, *best.lo);
-    if (!best.hi || *best.hi - *best.lo > wanted) continue;
+    drop_below(survivors, *best.lo - slack);
+    if (!best.hi) continue;
 
-    Truth result;
-    result.signed_distance = {*best.lo * difference.unit, *best.hi * difference.unit};
-    set_normals(difference, survivors, result);
+    const mpq_class lo = *best.lo * difference.unit, hi = *best.hi * difference.unit;
+    std::optional<Enclosure> signed_distance = wanted.around(lo, hi);
+    if (!signed_distance && lo <= 0 && 0 <= hi) {
+      const Enclosure nearly_zero = wanted.nearly_zero(zero_bits);
+      if (is_exactly_zero(survivors, difference)) {
+        signed_distance = {0, 0};
+      } else if (nearly_zero.lo <= lo && hi <= nearly_zero.hi) {
+        signed_distance = nearly_zero;
+      }
+    }
+    if (!signed_distance) continue;
+
+    Truth result{*signed_distance, {}, Ties::unique, {}};
+    // Normals whose gap is only now known to be too low.
+    drop_below(survivors, *best.lo - mpq_class(tie) * mpq_class(size) / difference.unit);
+    set_normals(difference, configuration.b, survivors, result);
     return result;
   }
   throw std::logic_error("oracle: the signed distance could not be enclosed");

@@ -1,29 +1,39 @@
 #pragma once
 
 #include <gmpxx.h>
+#include <optional>
 #include <vector>
 
 #include "oracle/enclosure.hpp"
+#include "oracle/optimal_normal.hpp"
 #include "reference/configuration.hpp"
 
 namespace touchstone::oracle {
 
-/// How many directions reach the signed distance, as far as the enclosure can tell them apart.
+/// How many directions reach the signed distance.
 enum class Ties { unique, finite, continuum };
 
 /// What is true of one configuration.
 struct Truth {
-  Enclosure signed_distance;  ///< Metres; positive apart, negative inside.
-  /// Unit vectors from B to A that reach the signed distance, in double, without duplicates. Of a
-  /// continuum only the critical ones that were met: at least one.
-  std::vector<Vec3> normals;
+  /// Metres; positive apart, negative inside. Zero lies in it only when the bodies touch exactly,
+  /// and then both ends are zero; unless neither that nor the sign could be proven: it is then
+  /// ±2^-1000 of the larger size.
+  Enclosure signed_distance;
+  /// The critical directions that reach it, each once. Of a family at least one.
+  std::vector<OptimalNormal> normals;
   Ties ties;
+  /// The families of which some of `normals` are members.
+  std::vector<NormalFamily> families;
 };
 
 /// Signed distance and optimal normals by exact critical directions (see oracle/README.md). The
-/// enclosure is no wider than `width` times the larger size. Never guesses: throws
-/// std::logic_error if its own bounds contradict each other.
-Truth truth(const Configuration& configuration, double width = 1e-15);
+/// enclosure is no wider than `width` times the larger size, and its sign is decided. It depends on
+/// the geometry alone: exactly the same rotation, translation, exchange or scaling by a power of
+/// two of both bodies leaves or scales it exactly. `normals` are those whose gap is within
+/// `tie` >= 0 times the larger size of the signed distance, as far as the enclosures can tell.
+///
+/// Throws InvalidInput unless 0 < width; std::logic_error if its own bounds contradict each other.
+Truth truth(const Configuration& configuration, double width = 1e-30, double tie = 0);
 
 /// Enclosure of the clearance g(n/|n|) of the exact configuration along a vector n of doubles,
 /// finite and not zero, no wider than `width` times the larger size. A half-space has no finite

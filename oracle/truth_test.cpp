@@ -34,7 +34,7 @@ TEST(Truth, TiltedCylinderOverPlaneHasTheRimsHeight) {
   const Truth t = truth(c);
   EXPECT_TRUE(encloses(t, q("37/25")));
   EXPECT_EQ(t.ties, Ties::unique);
-  EXPECT_TRUE(t.normals.at(0).isApprox(Vec3(0, 0, 1)));
+  EXPECT_TRUE(t.normals.at(0).n.isApprox(Vec3(0, 0, 1)));
 }
 
 TEST(Truth, PlaneIsTheHalfSpaceItsNumbersSayWhateverTheNormalsLength) {
@@ -49,7 +49,7 @@ TEST(Truth, SphereOutsideTheRimHasTheDistanceToTheRim) {
   const Configuration c{Cylinder(1, 1), Pose(), Sphere(2), Pose({4, 0, 5}, upright)};
   const Truth t = truth(c);
   EXPECT_TRUE(encloses(t, q("3")));
-  EXPECT_TRUE(t.normals.at(0).isApprox(Vec3(-0.6, 0, -0.8)));
+  EXPECT_TRUE(t.normals.at(0).n.isApprox(Vec3(-0.6, 0, -0.8)));
 }
 
 TEST(Truth, SphereCentreOnTheAxisTiesTheWholeCircleOfRadialNormals) {
@@ -82,7 +82,7 @@ TEST(Truth, CrossedCylindersTouchExactly) {
   const Truth t = truth(c);
   EXPECT_TRUE(encloses(t, 0));
   EXPECT_EQ(t.ties, Ties::unique);
-  EXPECT_TRUE(t.normals.at(0).isApprox(Vec3(0, 0, 1)));
+  EXPECT_TRUE(t.normals.at(0).n.isApprox(Vec3(0, 0, 1)));
 }
 
 TEST(Truth, CapInsideCapPenetratesByTheOverlapOfLengths) {
@@ -101,7 +101,7 @@ TEST(Truth, BoxCornerAgainstSide) {
   const Configuration c{Cylinder(1, 3), Pose(), Box({1, 1, 1}), Pose({4, 5, 0}, upright)};
   const Truth t = truth(c);
   EXPECT_TRUE(encloses(t, q("4")));
-  EXPECT_TRUE(t.normals.at(0).isApprox(Vec3(-0.6, -0.8, 0)));
+  EXPECT_TRUE(t.normals.at(0).n.isApprox(Vec3(-0.6, -0.8, 0)));
 }
 
 TEST(Truth, ExactWhateverTheQuaternionsLength) {

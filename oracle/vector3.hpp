@@ -36,4 +36,9 @@ Vector3<T> cross(const Vector3<T>& a, const Vector3<T>& b) {
   return {T(a.y * b.z - a.z * b.y), T(a.z * b.x - a.x * b.z), T(a.x * b.y - a.y * b.x)};
 }
 
+template <class T>
+bool is_zero(const Vector3<T>& a) {
+  return a.x == 0 && a.y == 0 && a.z == 0;
+}
+
 }  // namespace touchstone::oracle

@@ -11,8 +11,10 @@ namespace touchstone {
 /// Turns every normal round: for a person whose body a is our body B.
 enum class Order { as_ours, swapped };
 
-/// {"signed_distance": [lo, hi] as decimals rounded outward, "normals": […], "ties": "unique"}.
-nlohmann::json to_json(const oracle::Truth& truth, Order order = Order::as_ours);
+/// {"signed_distance": [lo, hi] as decimals rounded outward, "normals": […], "ties": "unique",
+/// "patch": [{"kind", "area", "perimeter", "centroid", "outline"}, …] for each of the normals}.
+nlohmann::json to_json(const Configuration& configuration, const oracle::Truth& truth,
+                       Order order = Order::as_ours);
 
 /// {"status", "signed_distance", "normal", "points": [{"position", "normal", "depth"}], "score":
 /// {…}}; what the answer does not define is null.

@@ -19,8 +19,8 @@ struct Record {
   Outcome outcome;
   int points;
   double severity;
-  double values[5];
-  bool present[5];
+  double values[6];
+  bool present[6];
 };
 
 Record to_record(const Score& s) {
@@ -29,8 +29,8 @@ Record to_record(const Score& s) {
   r.points = s.points;
   r.severity = s.severity;
   const std::optional<double>* values[] = {&s.depth_error, &s.normal_regret, &s.normal_angle,
-                                           &s.model_error, &s.solver_error};
-  for (int i = 0; i < 5; ++i) {
+                                           &s.coverage,    &s.model_error,   &s.solver_error};
+  for (int i = 0; i < 6; ++i) {
     r.present[i] = values[i]->has_value();
     r.values[i] = values[i]->value_or(0);
   }
@@ -46,8 +46,9 @@ Score from_record(const Record& r) {
   s.depth_error = value(0);
   s.normal_regret = value(1);
   s.normal_angle = value(2);
-  s.model_error = value(3);
-  s.solver_error = value(4);
+  s.coverage = value(3);
+  s.model_error = value(4);
+  s.solver_error = value(5);
   s.points = r.points;
   s.severity = r.severity;
   return s;

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <fmt/format.h>
 #include <functional>
+#include <gmpxx.h>
 #include <initializer_list>
 #include <string>
 #include <utility>
@@ -208,6 +209,10 @@ json to_json(const Configuration& c) {
 
 json to_hex_json(const Configuration& c) {
   return write_configuration(c, [](double x) { return json(fmt::format("{:a}", x)); });
+}
+
+json to_exact_json(const Configuration& c) {
+  return write_configuration(c, [](double x) { return json(mpq_class(x).get_str()); });
 }
 
 json to_json(const Vec3& v) {

@@ -23,6 +23,9 @@ nlohmann::json to_json(const Configuration& configuration);
 /// The same with every number as a hexadecimal float string.
 nlohmann::json to_hex_json(const Configuration& configuration);
 
+/// The same with every number as a string of a fraction in lowest terms, as in "-3/8".
+nlohmann::json to_exact_json(const Configuration& configuration);
+
 nlohmann::json to_json(const Vec3& v);
 
 }  // namespace touchstone

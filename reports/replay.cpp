@@ -26,6 +26,13 @@ std::string short_number(const json& v) {
   return v.is_null() ? "-" : fmt::format("{:.3g}", v.get<double>());
 }
 
+std::string patch_text(const json& patch) {
+  std::string text = patch["kind"];
+  if (text == "segment") text += " of length " + short_number(patch["perimeter"]);
+  if (text == "region") text += " of area " + short_number(patch["area"]);
+  return text + " about " + vector(patch["centroid"]);
+}
+
 std::string answer_text(const std::string& name, const json& a) {
   const json& score = a["score"];
   std::string text = fmt::format("{}: {}, {}\n", name, a["status"].get<std::string>(),
@@ -37,6 +44,7 @@ std::string answer_text(const std::string& name, const json& a) {
   text += fmt::format("  depth error {}, normal regret {} (of the smaller size), angle {} deg\n",
                       short_number(score["depth_error"]), short_number(score["normal_regret"]),
                       short_number(score["normal_angle"]));
+  text += fmt::format("  coverage {} of the contact patch\n", short_number(score["coverage"]));
   for (const json& p : a["points"]) {
     text += fmt::format("  point {}\n    depth {}\n", vector(p["position"]), number(p["depth"]));
   }
@@ -59,7 +67,10 @@ std::string replay_text(const Identity& identity, std::vector<CandidateProcess>&
   text += fmt::format("truth: signed distance between\n  {}\n  {}\n",
                       truth["signed_distance"][0].get<std::string>(),
                       truth["signed_distance"][1].get<std::string>());
-  for (const json& n : truth["normals"]) text += fmt::format("  normal {}\n", vector(n));
+  for (std::size_t i = 0; i < truth["normals"].size(); ++i) {
+    text += fmt::format("  normal {}\n    patch: {}\n", vector(truth["normals"][i]),
+                        patch_text(truth["patch"][i]));
+  }
   text += fmt::format("  ties: {}\n\n", truth["ties"].get<std::string>());
   for (const CandidateProcess& process : candidates) {
     const std::string& name = process.candidate().name;

@@ -26,6 +26,11 @@ json to_json(const std::optional<Quantiles>& q) {
   return {{"median", q->median}, {"p99", q->p99}, {"max", q->max}};
 }
 
+json to_json(const std::optional<Shares>& s) {
+  if (!s) return nullptr;
+  return {{"mean", s->mean}, {"median", s->median}, {"p1", s->p1}, {"min", s->min}};
+}
+
 json to_json(const Statistics& s) {
   json outcomes = json::object(), points = json::object();
   for (const Outcome outcome : all_outcomes) {
@@ -40,7 +45,7 @@ json to_json(const Statistics& s) {
           {"model_error", to_json(s.model_error)},
           {"solver_error", to_json(s.solver_error)},
           {"points", points},
-          {"coverage", nullptr}};
+          {"coverage", to_json(s.coverage)}};
 }
 
 /// The same scores and times under one heading: a cell, all of a pair, everything.

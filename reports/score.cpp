@@ -4,6 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "oracle/support_part.hpp"
+#include "reports/coverage.hpp"
+
 namespace touchstone {
 namespace {
 
@@ -20,10 +23,38 @@ bool is_finite(const ts_answer& answer) {
   });
 }
 
-double angle_to_nearest(const Vec3& n, const std::vector<Vec3>& normals) {
-  double least = std::numbers::pi;
-  for (const Vec3& m : normals) least = std::min(least, std::atan2(n.cross(m).norm(), n.dot(m)));
-  return least * 180 / std::numbers::pi;
+double angle(const Vec3& n, const Vec3& m) {
+  return std::atan2(n.cross(m).norm(), n.dot(m)) * 180 / std::numbers::pi;
+}
+
+Vec3 nearest(const Vec3& n, const std::vector<oracle::OptimalNormal>& normals) {
+  return std::min_element(
+             normals.begin(), normals.end(),
+             [&](const auto& l, const auto& r) { return angle(n, l.n) < angle(n, r.n); })
+      ->n;
+}
+
+/// Of a continuum not every member is listed: an answer that is far from all of those stands for
+/// itself.
+Vec3 patch_normal(const oracle::Truth& truth, const Vec3& n) {
+  constexpr double far = 1;  // degrees
+  const Vec3 listed = nearest(n, truth.normals);
+  return truth.ties == oracle::Ties::continuum && angle(n, listed) > far ? n.normalized() : listed;
+}
+
+double coverage_by(const ts_answer& answer, const Configuration& c, const oracle::Truth& truth) {
+  std::vector<Vec3> points;
+  for (int i = 0; i < answer.point_count; ++i) points.push_back(vector(answer.points[i].position));
+  const double size = smaller_size(c), depth = patch_depth * size;
+  const Vec3 n = patch_normal(truth, vector(answer.normal));
+  const auto of_a = oracle::width_from_epsilon(c.a, c.pose_a, n, depth);
+  const auto of_b = oracle::width_from_epsilon(c.b, c.pose_b, n, depth);
+  // Most poses: any point at all covers a corner.
+  if (of_a.is_a_corner || of_b.is_a_corner) return points.empty() ? 0 : 1;
+  // A hundredth more than the width itself, so that rounding does not decide.
+  const double resolution =
+      std::max({patch_resolution * size, 1.01 * of_a.largest, 1.01 * of_b.largest});
+  return coverage(oracle::contact_patch(c, n, depth), points, resolution);
 }
 
 Score only(Outcome outcome) {
@@ -117,7 +148,7 @@ Score score(const Configuration& c, const oracle::Truth& truth, const ts_answer&
   s.severity = std::abs(*s.depth_error);
   if (!n.isZero(0)) {
     s.normal_regret = oracle::normal_regret(c, truth, n) / size;
-    s.normal_angle = angle_to_nearest(n, truth.normals);
+    s.normal_angle = angle(n, nearest(n, truth.normals));
     s.severity = std::max(s.severity, *s.normal_regret);
   }
   if (distance > bar.threshold / size + bar.tolerance) {
@@ -129,6 +160,8 @@ Score score(const Configuration& c, const oracle::Truth& truth, const ts_answer&
   } else if (!unit || !s.normal_regret || *s.normal_regret > bar.tolerance) {
     s.outcome = Outcome::wrong_normal;
   }
+  const bool right_normal = unit && s.normal_regret && *s.normal_regret <= bar.tolerance;
+  if (s.outcome != Outcome::phantom && right_normal) s.coverage = coverage_by(answer, c, truth);
   return s;
 }
 

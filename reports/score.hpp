@@ -46,6 +46,9 @@ struct Score {
   std::optional<double> depth_error;  ///< answer's signed distance − true: positive is too shallow
   std::optional<double> normal_regret;  ///< σ − g(n)
   std::optional<double> normal_angle;   ///< degrees to the nearest optimal normal
+  /// How much of the contact patch the points span, where the bodies are in contact and the normal
+  /// is within the bar.
+  std::optional<double> coverage;
   /// Of a simplified model that knows the signed distance of what it models: that distance − true,
   /// and the answer's − that distance. They add up to the depth error.
   std::optional<double> model_error, solver_error;
@@ -53,6 +56,14 @@ struct Score {
   /// How bad the failure is: the depth or gap that was got wrong, or the regret. Zero: perfect.
   double severity = 0;
 };
+
+/// Coverage is of the patch within `patch_depth` of the bodies' support planes along the nearest
+/// optimal normal. Where it is narrower than `patch_resolution`, or only as wide as a rounded,
+/// tilted or sharp feature is within that depth, it counts as a point or a segment. Both are
+/// relative to the smaller size. The depth is what engines make contact points within: pe's contact
+/// threshold is 1e-6.
+inline constexpr double patch_depth = 1e-6;
+inline constexpr double patch_resolution = 0.1;
 
 Score score(const Configuration& configuration, const oracle::Truth& truth, const ts_answer& answer,
             const Bar& bar);

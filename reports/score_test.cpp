@@ -3,6 +3,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
+#include <numbers>
 
 #include "reports/statistics.hpp"
 
@@ -98,6 +99,91 @@ TEST(Score, ThresholdAllowsContactsThatFarApart) {
   EXPECT_EQ(scored(apart, contact(0.01, up)).outcome, Outcome::phantom);
   EXPECT_EQ(scored(apart, contact(0.01, up), {.tolerance = 1e-4, .threshold = 0.02}).outcome,
             Outcome::agree);
+}
+
+ts_answer contact_at(const std::vector<Vec3>& positions, const Vec3& normal = up) {
+  ts_answer a = contact(-1e-3, normal);
+  a.point_count = static_cast<int>(positions.size());
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    a.points[i] = a.points[0];
+    for (int k = 0; k < 3; ++k) a.points[i].position[k] = positions[i][k];
+  }
+  return a;
+}
+
+std::vector<Vec3> on_rim(int count) {
+  std::vector<Vec3> points;
+  for (int i = 0; i < count; ++i) {
+    const double angle = 2 * std::numbers::pi * i / count;
+    points.push_back(Vec3(0.5 * std::cos(angle), 0.5 * std::sin(angle), 1));
+  }
+  return points;
+}
+
+/// `standing`, leaning by an angle.
+Configuration leaning(double angle) {
+  return {standing.a, Pose(standing.pose_a.position(), Eigen::Quaterniond(1, 0, angle / 2, 0)),
+          standing.b, standing.pose_b};
+}
+
+TEST(Coverage, OfAStandingCylinderGrowsWithItsPoints) {
+  constexpr double inscribed = 1e-3;  // the patch is a polygon in the disc
+  for (const int count : {3, 4, 8}) {
+    EXPECT_NEAR(*scored(standing, contact_at(on_rim(count))).coverage,
+                std::cos(std::numbers::pi / count), inscribed);
+  }
+  EXPECT_EQ(*scored(standing, contact(-1e-3, up)).coverage, 0);
+}
+
+TEST(Coverage, HairTiltedCylindersStillStandAndTiltedOnesTouchInAPoint) {
+  const Bar loose{.tolerance = 0.1, .threshold = 0};
+  EXPECT_NEAR(*scored(leaning(1e-9), contact_at(on_rim(3)), loose).coverage, 0.5, 1e-3);
+  EXPECT_EQ(*scored(leaning(1e-9), contact(-1e-3, up), loose).coverage, 0);
+  EXPECT_EQ(*scored(leaning(0.017), contact(-1e-3, up), loose).coverage, 1);
+}
+
+TEST(Coverage, OfALyingCylinderNeedsBothEnds) {
+  const Configuration lying{Cylinder(0.5, 1),
+                            Pose(Vec3(0, 0, 0.499), Eigen::Quaterniond(1, 0, 1, 0)), Plane(up, 0),
+                            Pose()};
+  EXPECT_NEAR(*scored(lying, contact_at({Vec3(-1, 0, 0), Vec3(1, 0, 0)})).coverage, 1, 1e-9);
+  EXPECT_NEAR(*scored(lying, contact_at({Vec3(-0.5, 0, 0), Vec3(1, 0, 0)})).coverage, 0.5, 1e-9);
+  EXPECT_EQ(*scored(lying, contact_at({Vec3(0, 0, 0)})).coverage, 0);
+}
+
+TEST(Coverage, OfARoundContactIsOneWithOnePointHoweverLargeTheSphere) {
+  for (const double radius : {0.5, 5e3}) {
+    const Configuration c{Cylinder(0.5, 1), Pose(Vec3(0, 0, 0.999), Eigen::Quaterniond::Identity()),
+                          Sphere(radius),
+                          Pose(Vec3(0, 0, -radius), Eigen::Quaterniond::Identity())};
+    EXPECT_EQ(*scored(c, contact_at({Vec3::Zero()})).coverage, 1);
+  }
+}
+
+TEST(Coverage, OfAContinuumIsThatOfTheAnswersOwnNormal) {
+  // Coaxial: a ring of radial normals, each with a segment across the shared length.
+  const Configuration coaxial{Cylinder(0.5, 1), Pose(), Cylinder(0.25, 4), Pose()};
+  const Vec3 n = Vec3(3, 4, 0) / 5;
+  ts_answer a = contact_at({-0.5 * n + Vec3(0, 0, -1), -0.5 * n + Vec3(0, 0, 1)}, n);
+  a.signed_distance = -0.75;
+  EXPECT_NEAR(*scored(coaxial, a).coverage, 1, 1e-9);
+}
+
+TEST(Coverage, IsUndefinedWithoutARightContact) {
+  EXPECT_FALSE(scored(standing, none()).coverage);
+  EXPECT_FALSE(scored(standing, contact(-1e-3, Vec3(1, 0, 0))).coverage);
+  EXPECT_FALSE(scored(lifted(0.1), contact(-1e-3, up)).coverage);
+}
+
+TEST(Statistics, SharesCountFromBelow) {
+  std::vector<double> values;
+  for (int i = 0; i <= 200; ++i) values.push_back(i / 200.0);
+  const Shares s = *shares(values);
+  EXPECT_NEAR(s.mean, 0.5, 1e-12);
+  EXPECT_NEAR(s.median, 0.5, 1e-12);
+  EXPECT_NEAR(s.p1, 0.01, 1e-12);
+  EXPECT_EQ(s.min, 0);
+  EXPECT_FALSE(shares({}));
 }
 
 TEST(Statistics, QuantilesAreNearestRank) {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "reference/invalid_input.hpp"
+#include "reports/agreement.hpp"
 #include "reports/answer_json.hpp"
 #include "reports/configuration_json.hpp"
 
@@ -21,7 +22,12 @@ json solved(const json& line, const SolveOptions& options,
   const oracle::Truth truth = oracle::truth(c, options.width);
   json result;
   if (line.contains("id")) result["id"] = line["id"];
-  result["truth"] = to_json(truth, order);
+  result["truth"] = to_json(c, truth, order);
+  if (options.audit) {
+    const audit::Enclosure enclosure = audit::enclose(c);
+    check_agreement(c, truth.signed_distance, enclosure);
+    result["audit"] = to_json(enclosure);
+  }
   result["answers"] = json::object();
   for (CandidateProcess& process : candidates) {
     const Answer a = process.answer(c);
@@ -51,6 +57,8 @@ bool solve(std::istream& in, std::ostream& out, const SolveOptions& options) {
     try {
       line = json::parse(text);
       result = solved(line, options, candidates);
+    } catch (const Contradiction&) {
+      throw;
     } catch (const InvalidInput& e) {
       result = error(number, line, e.field(), e.what());
     } catch (const json::exception& e) {

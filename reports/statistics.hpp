@@ -15,6 +15,12 @@ struct Quantiles {
 };
 std::optional<Quantiles> quantiles(std::vector<double> values);
 
+/// Shares of which more is better: the 1st percentile is that of which 99% are no less.
+struct Shares {
+  double mean, median, p1, min;
+};
+std::optional<Shares> shares(const std::vector<double>& values);
+
 /// Scores of one candidate on any set of configurations.
 struct Statistics {
   std::size_t count = 0;
@@ -22,6 +28,7 @@ struct Statistics {
   std::map<int, std::size_t> points;                        ///< contacts by their number of points
   std::optional<Quantiles> depth_error, normal_regret, normal_angle, model_error,
       solver_error;  ///< of magnitudes
+  std::optional<Shares> coverage;
 
   std::size_t of(Outcome outcome) const { return outcomes[static_cast<std::size_t>(outcome)]; }
 };

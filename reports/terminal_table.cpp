@@ -1,6 +1,7 @@
 #include "reports/terminal_table.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace touchstone {
@@ -23,6 +24,13 @@ std::string ratio(const json& time) {
   return fmt::format("{:.2f}", time["ratio_to_bullet"].get<double>());
 }
 
+/// Cut downwards like agreement: 1.00 covers every patch.
+std::string mean_coverage(const json& row) {
+  if (row["coverage"].is_null()) return "-";
+  return fmt::format("{:.2f}",
+                     std::floor(100 * row["coverage"]["mean"].get<double>() + 1e-6) / 100);
+}
+
 /// Of the configurations that it has a routine for; cut downwards, so that only a candidate without
 /// a failure shows 100%.
 std::string agreement(const json& row) {
@@ -35,23 +43,26 @@ std::string agreement(const json& row) {
 }  // namespace
 
 std::string terminal_table(const json& report) {
-  std::string text = fmt::format("{:<23}{:>7} {:>7} {:>8} {:>8} {:>8} {:>8}\n", "candidate",
-                                 "agree%", "missed", "err p99", "err max", "ns/query", "x bullet");
+  std::string text =
+      fmt::format("{:<23}{:>6} {:>7} {:>7} {:>7} {:>5} {:>7} {:>8}\n", "candidate", "agree%",
+                  "missed", "err p99", "err max", "cover", "ns", "x bullet");
   std::string last_pair;
   for (const json& row : report["summary"]) {
     if (row["outcomes"].value("unsupported", 0) == row["count"]) continue;
     const std::string pair = row["pair"];
     if (pair != last_pair) text += '\n' + pair + '\n';
-    text += fmt::format("  {:<21}{:>7} {:>7} {:>8} {:>8} {:>8} {:>8}\n",
+    text += fmt::format("  {:<21}{:>6} {:>7} {:>7} {:>7} {:>5} {:>7} {:>8}\n",
                         row["candidate"].get<std::string>(), agreement(row),
                         row["outcomes"].value("missed", 0), scientific(row["depth_error"], "p99"),
-                        scientific(row["depth_error"], "max"), nanoseconds(row["nanoseconds"]),
-                        ratio(row["nanoseconds"]));
+                        scientific(row["depth_error"], "max"), mean_coverage(row),
+                        nanoseconds(row["nanoseconds"]), ratio(row["nanoseconds"]));
     last_pair = pair;
   }
   text += fmt::format(
       "\nagree: depth and normal regret within {:g} of the smaller shape's size\n"
-      "err: depth error of the contacts that were reported, in the same unit\n",
+      "err: depth error of the contacts that were reported, in the same unit\n"
+      "cover: mean share of the contact patch that the contact points span\n"
+      "ns: median of one query\n",
       report["tolerance"].get<double>());
 
   std::string failures;

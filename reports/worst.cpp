@@ -98,7 +98,7 @@ json examined(const Identity& identity, const std::vector<CandidateProcess*>& ca
   }
   return {{"id", to_string(identity)},
           {"configuration", to_json(c)},
-          {"truth", to_json(truth)},
+          {"truth", to_json(c, truth)},
           {"answers", answers},
           {"replay", replay_command(identity)}};
 }

@@ -37,6 +37,8 @@ const agreeing = r => (r.outcomes.agree || 0) / supported(r);
 // Cut downwards: only a candidate without a failure shows 100%.
 const percent = share => share === 1 ? '100%' : (Math.floor(share * 1000 + 1e-6) / 10).toFixed(1) + '%';
 
+const cutShare = share => share === null ? '–' : (Math.floor(share * 100 + 1e-6) / 100).toFixed(2);
+
 function headline() {
   const all = report.summary.filter(r => r.pair === 'all');
   const rows = (all.length ? all : report.summary).filter(supported);
@@ -51,8 +53,8 @@ function headline() {
 }
 
 function summaryTable() {
-  const columns = ['agrees', 'missed', 'depth error, p99', 'depth error, worst', 'regret, worst',
-                   'ns per query', '× Bullet'];
+  const columns = ['agrees', 'missed', 'depth error, p99', 'depth error, max', 'regret, max',
+                   'coverage', 'ns per query', '× Bullet'];
   const head = element('tr', {}, element('th', {class: 'text', scope: 'col'}, 'pair'),
       element('th', {class: 'text', scope: 'col'}, 'candidate'),
       ...columns.map(c => element('th', {scope: 'col'}, c)));
@@ -69,6 +71,7 @@ function summaryTable() {
         element('td', {}, exponent(quantile(r.depth_error, 'p99'))),
         element('td', {}, exponent(quantile(r.depth_error, 'max'))),
         element('td', {}, exponent(quantile(r.normal_regret, 'max'))),
+        element('td', {}, cutShare(quantile(r.coverage, 'mean'))),
         element('td', {}, whole(time(r))),
         element('td', {}, ratio ? ratio.toFixed(2) : '–')));
     last = r.pair;
@@ -215,6 +218,8 @@ const quantities = {
           level: v => decade(v)},
   regret: {value: r => quantile(r.normal_regret, 'p99'), text: r => exponent(quantile(r.normal_regret, 'p99')),
            level: v => decade(v)},
+  coverage: {value: r => quantile(r.coverage, 'mean'), text: r => cutShare(quantile(r.coverage, 'mean')),
+             level: v => 1 - v},
   time: {value: time, text: r => whole(time(r)), level: v => Math.min(1, Math.max(0, (Math.log10(v) - 1) / 4))},
 };
 // 1e-10 and less is white, 1 and more is full.
@@ -246,7 +251,8 @@ function classCell(c, r, quantity) {
   const outcomes = Object.entries(r.outcomes).map(([name, n]) => `${name} ${n}`).join(', ');
   explain(cell, `${r.candidate}, ${c.class}\n${c.description}\n${outcomes}\n` +
       `depth error median ${exponent(quantile(r.depth_error, 'median'))}, worst ${exponent(quantile(r.depth_error, 'max'))}\n` +
-      `normal angle p99 ${r.normal_angle === null ? '–' : r.normal_angle.p99.toPrecision(2) + '°'}, ${whole(time(r))} ns`);
+      `normal angle p99 ${r.normal_angle === null ? '–' : r.normal_angle.p99.toPrecision(2) + '°'}, ${whole(time(r))} ns\n` +
+      `patch covered: mean ${cutShare(quantile(r.coverage, 'mean'))}, least ${cutShare(quantile(r.coverage, 'min'))}`);
   return cell;
 }
 
@@ -289,14 +295,16 @@ function worstCase(w) {
       element('td', {class: 'text'}, swatch(name), name), element('td', {class: 'text'}, a.score.outcome),
       element('td', {}, a.signed_distance === null ? a.status : String(a.signed_distance)),
       element('td', {class: 'text'}, vector(a.normal)), element('td', {}, String(a.points.length)),
+      element('td', {}, cutShare(a.score.coverage)),
       element('td', {}, exponent(a.score.depth_error)), element('td', {}, exponent(a.score.normal_regret))));
-  const heads = ['candidate', 'outcome', 'signed distance', 'normal', 'points', 'depth error', 'normal regret'];
+  const heads = ['candidate', 'outcome', 'signed distance', 'normal', 'points', 'coverage', 'depth error', 'normal regret'];
   return element('article', {},
       element('h3', {}, `${w.candidate}: ${w.outcome} `, element('code', {}, w.id)),
       element('div', {class: 'command'}, element('code', {}, w.replay), copy),
       element('p', {class: 'quiet'}, `Truth: signed distance within [${w.truth.signed_distance.join(', ')}], ` +
           `${w.truth.ties === 'unique' ? 'one optimal normal' : `optimal normals: ${w.truth.ties}`}, ` +
-          w.truth.normals.slice(0, 3).map(vector).join(', ') + (w.truth.normals.length > 3 ? ', …' : '')),
+          w.truth.normals.slice(0, 3).map((n, i) => `${vector(n)} (contact patch: ${w.truth.patch[i].kind})`).join(', ') +
+          (w.truth.normals.length > 3 ? ', …' : '')),
       element('div', {class: 'scroll'}, element('table', {}, element('thead', {}, element('tr', {},
           ...heads.map((h, i) => element('th', {scope: 'col', class: [0, 1, 3].includes(i) ? 'text' : ''}, h)))),
           element('tbody', {}, ...rows))),
@@ -325,6 +333,7 @@ function method() {
     ['size', 'Half of the smallest width of the smaller shape; errors are relative to it.'],
     ['normal', 'Unit vector from B to A (the cylinder): the way A moves to come free.'],
     ['normal regret', 'How much deeper the bodies are along the reported normal than along the best one. It is well defined where several normals tie.'],
+    ['coverage', 'The largest factor by which the contact patch (where the bodies\u2019 flat and straight parts meet) may be shrunk about its centroid to lie within the hull of the contact points: 0.5 for three points evenly on a disc\u2019s rim, 0.7 for four. Of a point contact 1. Means are over contacts with a normal within the bar.'],
     ['agree', `Depth and normal regret within ${bar} of the size; contacts shallower than that may be missed.`],
     ['missed', `No contact, though the bodies overlap by more than ${bar} of the size.`],
     ['phantom', `A contact, though they are more than ${bar} of the size further apart than was asked for.`],

@@ -1,0 +1,151 @@
+#include "oracle/convex_set.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace touchstone::oracle {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+Vec2 polar(double angle) { return {std::cos(angle), std::sin(angle)}; }
+
+/// x − sin x, also where the two nearly cancel. The series' first omitted term is 1e-17 of its
+/// first.
+double minus_sine(double x) {
+  if (x > 0.1) return x - std::sin(x);
+  const double y = x * x;
+  return x * y / 6 * (1 - y / 20 * (1 - y / 42 * (1 - y / 72 * (1 - y / 110))));
+}
+
+/// Between an arc and its chord.
+double segment_area(const Side& s) { return s.radius * s.radius * minus_sine(s.sweep) / 2; }
+
+/// ∫ (x − centre) over the same: (2/3) r³ sin³(sweep/2) towards the middle of the arc.
+Vec2 segment_moment(const Side& s) {
+  const double sine = s.radius * std::sin(s.sweep / 2);
+  return 2.0 / 3 * sine * sine * sine * polar(s.start + s.sweep / 2);
+}
+
+bool arc_sees(const Side& s, const Vec2& direction) {
+  double turn = std::atan2(direction.y(), direction.x()) - s.start;
+  turn -= 2 * pi * std::floor(turn / (2 * pi));
+  return turn <= s.sweep;
+}
+
+double distance_to_line(const Side& s, const Vec2& p) {
+  const Vec2 along = s.to - s.from;
+  const double length2 = along.squaredNorm();
+  const double t = length2 > 0 ? std::clamp((p - s.from).dot(along) / length2, 0.0, 1.0) : 0;
+  return (p - s.from - t * along).norm();
+}
+
+double distance_to_side(const Side& s, const Vec2& p) {
+  if (s.is_line()) return distance_to_line(s, p);
+  if (arc_sees(s, p - s.centre)) return std::abs((p - s.centre).norm() - s.radius);
+  return std::min((p - s.from).norm(), (p - s.to).norm());
+}
+
+}  // namespace
+
+Side Side::arc(const Vec2& centre, double radius, double start, double sweep) {
+  return {centre + radius * polar(start),
+          centre + radius * polar(start + sweep),
+          centre,
+          radius,
+          start,
+          sweep};
+}
+
+ConvexSet ConvexSet::point(const Vec2& p) { return {Kind::point, {Side::line(p, p)}}; }
+ConvexSet ConvexSet::segment(const Vec2& from, const Vec2& to) {
+  return {Kind::segment, {Side::line(from, to)}};
+}
+ConvexSet ConvexSet::region(std::vector<Side> sides) { return {Kind::region, std::move(sides)}; }
+
+ConvexSet ConvexSet::polygon(const std::vector<Vec2>& vertices) {
+  if (vertices.size() == 1) return point(vertices[0]);
+  if (vertices.size() == 2) return segment(vertices[0], vertices[1]);
+  std::vector<Side> sides;
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    sides.push_back(Side::line(vertices[i], vertices[(i + 1) % vertices.size()]));
+  }
+  return region(std::move(sides));
+}
+
+double ConvexSet::area() const {
+  if (kind_ != Kind::region) return 0;
+  // From a corner of the set, so that its distance from the origin costs no digits.
+  const Vec2 corner = sides_[0].from;
+  double sum = 0;
+  for (const Side& s : sides_) {
+    sum += cross(s.from - corner, s.to - corner) / 2 + segment_area(s);
+  }
+  return sum;
+}
+
+double ConvexSet::perimeter() const {
+  double sum = 0;
+  for (const Side& s : sides_) sum += s.is_line() ? (s.to - s.from).norm() : s.radius * s.sweep;
+  return sum;
+}
+
+Vec2 ConvexSet::centroid() const {
+  if (kind_ != Kind::region) return (sides_[0].from + sides_[0].to) / 2;
+  const Vec2 corner = sides_[0].from;
+  double area = 0;
+  Vec2 moment = Vec2::Zero(), mean = Vec2::Zero();
+  for (const Side& s : sides_) {
+    const Vec2 a = s.from - corner, b = s.to - corner;
+    const double triangle = cross(a, b) / 2, segment = segment_area(s);
+    area += triangle + segment;
+    moment += triangle * (a + b) / 3 + segment * (s.centre - corner) + segment_moment(s);
+    mean += a / static_cast<double>(sides_.size());
+  }
+  // A region so thin that its area drowns in rounding.
+  return corner + (area > 0 ? Vec2(moment / area) : mean);
+}
+
+double ConvexSet::support(const Vec2& direction) const {
+  double most = -std::numeric_limits<double>::infinity();
+  for (const Side& s : sides_) {
+    most = std::max({most, s.from.dot(direction), s.to.dot(direction)});
+    if (!s.is_line() && arc_sees(s, direction)) {
+      most = std::max(most, s.centre.dot(direction) + s.radius * direction.norm());
+    }
+  }
+  return most;
+}
+
+bool ConvexSet::contains(const Vec2& p) const {
+  return kind_ == Kind::region && std::all_of(sides_.begin(), sides_.end(), [&](const Side& s) {
+           return s.is_line() ? cross(s.to - s.from, p - s.from) >= 0
+                              : (p - s.centre).norm() <= s.radius;
+         });
+}
+
+double ConvexSet::distance(const Vec2& p) const {
+  if (contains(p)) return 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Side& s : sides_) least = std::min(least, distance_to_side(s, p));
+  return least;
+}
+
+std::vector<Vec2> ConvexSet::outline(int per_quarter) const {
+  if (kind_ == Kind::point) return {sides_[0].from};
+  if (kind_ == Kind::segment) return {sides_[0].from, sides_[0].to};
+  std::vector<Vec2> points;
+  for (const Side& s : sides_) {
+    points.push_back(s.from);
+    const int chords = static_cast<int>(std::ceil(s.sweep / (pi / 2) * per_quarter));
+    for (int i = 1; i < chords; ++i) {
+      points.push_back(s.centre + s.radius * polar(s.start + s.sweep * i / chords));
+    }
+  }
+  return points;
+}
+
+}  // namespace touchstone::oracle

@@ -1,0 +1,218 @@
+// All sites of critical directions, less those that double intervals exclude.
+#include "oracle/critical_site.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "oracle/line_search.hpp"
+#include "oracle/rim_search.hpp"
+
+namespace touchstone::oracle {
+namespace {
+
+using Kind = CriticalSite::Kind;
+
+bool parallel(const IntegerVector& a, const IntegerVector& b) { return is_zero(cross(a, b)); }
+
+/// Index of the one disc that is not flat on along this segment's line.
+std::optional<unsigned> tilted_disc(const Difference& difference, unsigned segment) {
+  for (unsigned i = 0; i < difference.discs.size(); ++i) {
+    if (!parallel(difference.discs[i].frame.axis, difference.segments[segment].frame.axis)) {
+      return i;
+    }
+  }
+  return std::nullopt;
+}
+
+class Search {
+ public:
+  Search(const Difference& difference, double slack);
+  std::vector<CriticalSite> run();
+
+ private:
+  void search_directions();
+  void search_rim_vertices();
+  void search_curves();
+  bool split_and_test(bool last);
+  void add_line_pieces(unsigned segment);
+  void add_rim_pieces();
+  IntervalVector vertex(unsigned signs) const;
+
+  const Difference& exact_;
+  CGAL::Protect_FPU_rounding<true> rounding_;
+  IntervalDifference difference_;
+  Bar bar_;
+  struct Direction {
+    CriticalSite site;
+    Interval gap;
+  };
+  std::vector<Direction> directions_;
+
+  // Curves: first the circles across each segment, then the rims' vertices.
+  std::vector<LineSearch> lines_;
+  std::vector<RimSearch> rims_;
+  struct OpenPiece {
+    Piece piece;
+    unsigned long vertices;  // of a line
+  };
+  std::vector<OpenPiece> pieces_, next_;
+};
+
+double relative(double metres, const Difference& difference, const Integer& scale) {
+  return mpq_class(mpq_class(metres) / (difference.unit * scale)).get_d();
+}
+
+Search::Search(const Difference& difference, double slack)
+    : exact_(difference),
+      difference_(difference),
+      bar_(relative(slack, difference, difference_.scale)) {}
+
+/// d less the segments' ends.
+IntervalVector Search::vertex(unsigned signs) const {
+  IntervalVector q = difference_.d;
+  for (std::size_t i = 0; i < difference_.segments.size(); ++i) {
+    const auto& s = difference_.segments[i];
+    const IntervalVector half = s.half_length * s.frame.axis;
+    q = (signs >> i & 1U) ? q - half : q + half;
+  }
+  return q;
+}
+
+void Search::search_directions() {
+  const auto add = [&](const CriticalSite& site, const IntervalVector& n) {
+    const Interval forth = difference_.gap(n), back = difference_.gap(-n);
+    bar_.raise(forth);
+    bar_.raise(back);
+    directions_.push_back({site, max(forth, back)});
+  };
+  for (unsigned i = 0; i < difference_.discs.size(); ++i) {
+    add({Kind::disc_axis, i}, difference_.discs[i].frame.axis);
+  }
+  const auto& segments = difference_.segments;
+  for (unsigned i = 0; i < segments.size(); ++i) {
+    for (unsigned j = 0; j < i; ++j) {
+      add({Kind::crossing, j, i}, cross(segments[j].frame.axis, segments[i].frame.axis));
+    }
+  }
+}
+
+void Search::search_rim_vertices() {
+  if (difference_.discs.size() != 1) return;
+  const auto& disc = difference_.discs.front();
+  for (unsigned signs = 0; signs < 1U << difference_.segments.size(); ++signs) {
+    const IntervalVector q = vertex(signs);
+    const IntervalVector off_axis =
+        dot(q, disc.frame.e) * disc.frame.e + dot(q, disc.frame.f) * disc.frame.f;
+    const Interval length = sqrt(square(off_axis.x) + square(off_axis.y) + square(off_axis.z));
+    if ((length - disc.radius).sup() < 0) continue;
+    const IntervalVector n = q - (disc.radius / length) * off_axis;
+    const Interval gap = difference_.gap(n);
+    bar_.raise(gap);
+    directions_.push_back({{Kind::rim_vertex, 0, 0, signs}, gap});
+  }
+}
+
+constexpr int first_pieces = 4;  // per turn of a curve
+constexpr int most_splits = 5;
+
+void Search::search_curves() {
+  for (unsigned i = 0; i < difference_.segments.size(); ++i) {
+    lines_.emplace_back(difference_, i);
+  }
+  if (difference_.discs.size() == 2) {
+    for (unsigned signs = 0; signs < 4; ++signs) rims_.emplace_back(difference_, signs);
+  }
+  const auto add = [&](unsigned curve, unsigned turns) {
+    for (unsigned turn = 0; turn < turns; ++turn) {
+      for (int i = 0; i < first_pieces; ++i) {
+        constexpr double width = 2.0 / first_pieces;
+        pieces_.push_back({{curve, turn, -1 + i * width, -1 + (i + 1) * width}, 0});
+      }
+    }
+  };
+  for (unsigned i = 0; i < lines_.size(); ++i) add(i, 4);
+  for (unsigned i = 0; i < rims_.size(); ++i) {
+    add(static_cast<unsigned>(lines_.size()) + i, 2);
+  }
+  for (int split = 0;; ++split) {
+    next_.clear();
+    for (OpenPiece& open : pieces_) {
+      const Piece& piece = open.piece;
+      if (piece.curve < lines_.size()) {
+        open.vertices = lines_[piece.curve].open_vertices(piece, bar_);
+        if (open.vertices == 0) continue;
+      } else if (!rims_[piece.curve - lines_.size()].is_open(piece, bar_)) {
+        continue;
+      }
+      next_.push_back(open);
+    }
+    pieces_.clear();
+    if (split == most_splits) break;
+    for (const OpenPiece& open : next_) {
+      const auto& [curve, turn, lo, hi] = open.piece;
+      const double middle = (lo + hi) / 2;
+      pieces_.push_back({{curve, turn, lo, middle}, 0});
+      pieces_.push_back({{curve, turn, middle, hi}, 0});
+    }
+  }
+}
+
+/// Bits of `vertices` of the other segments, as signs of all.
+unsigned all_signs(unsigned others, unsigned segment) {
+  const unsigned below = others & ((1U << segment) - 1);
+  return below | (others & ~((1U << segment) - 1)) << 1;
+}
+
+std::vector<CriticalSite> Search::run() {
+  search_directions();
+  search_rim_vertices();
+  search_curves();
+
+  std::vector<CriticalSite> sites;
+  for (const auto& [site, gap] : directions_) {
+    if (!bar_.is_above(gap)) sites.push_back(site);
+  }
+  // Pieces of one curve at one vertex that lie side by side become one site.
+  const auto extend = [&](const CriticalSite& site) {
+    for (auto& known : sites) {
+      if (known.kind == site.kind && known.first == site.first && known.signs == site.signs &&
+          known.turn == site.turn && known.hi == site.lo) {
+        known.hi = site.hi;
+        return;
+      }
+    }
+    sites.push_back(site);
+  };
+  for (const OpenPiece& open : next_) {
+    const auto& [curve, turn, lo, hi] = open.piece;
+    if (curve >= lines_.size()) {
+      const auto signs = static_cast<unsigned>(curve - lines_.size());
+      extend({Kind::rim_rim, 0, 1, signs, turn, lo, hi});
+      continue;
+    }
+    const auto tilted = tilted_disc(exact_, curve);
+    for (unsigned v = 0; v < 1U << lines_[curve].others(); ++v) {
+      if (!(open.vertices >> v & 1UL)) continue;
+      const unsigned signs = all_signs(v, curve);
+      if (tilted) {
+        extend({Kind::rim_line, curve, *tilted, signs, turn, lo, hi});
+      } else {
+        // One rational direction for the whole circle.
+        const CriticalSite site{Kind::radial, curve, 0, signs};
+        const bool known = std::any_of(sites.begin(), sites.end(), [&](const auto& s) {
+          return s.kind == site.kind && s.first == curve && s.signs == signs;
+        });
+        if (!known) sites.push_back(site);
+      }
+    }
+  }
+  return sites;
+}
+
+}  // namespace
+
+std::vector<CriticalSite> critical_sites(const Difference& difference, double slack) {
+  return Search(difference, slack).run();
+}
+
+}  // namespace touchstone::oracle

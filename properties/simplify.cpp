@@ -1,0 +1,237 @@
+#include "properties/simplify.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+
+#include "reference/invalid_input.hpp"
+
+namespace touchstone {
+namespace {
+
+/// A configuration as its numbers, in groups that are simplified in different ways.
+struct Numbers {
+  std::vector<double> sizes;  ///< all > 0
+  Vec3 position_a, position_b;
+  Eigen::Quaterniond orientation_a, orientation_b;
+  Vec3 normal = Vec3::Zero();  ///< of a plane
+  double displacement = 0;
+  Pair pair;
+};
+
+Numbers numbers_of(const Configuration& c) {
+  Numbers n{{c.a.radius(), c.a.half_length()},
+            c.pose_a.position(),
+            c.pose_b.position(),
+            c.pose_a.orientation(),
+            c.pose_b.orientation(),
+            Vec3::Zero(),
+            0,
+            pair_of(c)};
+  const auto add = [&](std::initializer_list<double> sizes) {
+    n.sizes.insert(n.sizes.end(), sizes);
+  };
+  if (const auto* sphere = std::get_if<Sphere>(&c.b)) add({sphere->radius()});
+  if (const auto* s = std::get_if<Capsule>(&c.b)) add({s->radius(), s->half_length()});
+  if (const auto* s = std::get_if<Cylinder>(&c.b)) add({s->radius(), s->half_length()});
+  if (const auto* s = std::get_if<Box>(&c.b)) {
+    add({s->half_extents().x(), s->half_extents().y(), s->half_extents().z()});
+  }
+  if (const auto* s = std::get_if<Plane>(&c.b)) {
+    n.normal = s->normal();
+    n.displacement = s->displacement();
+  }
+  return n;
+}
+
+Shape body_b(const Numbers& n) {
+  const auto& s = n.sizes;
+  switch (n.pair) {
+    case Pair::plane:
+      return Plane(n.normal, n.displacement);
+    case Pair::sphere:
+      return Sphere(s[2]);
+    case Pair::capsule:
+      return Capsule(s[2], s[3]);
+    case Pair::cylinder:
+      return Cylinder(s[2], s[3]);
+    case Pair::box:
+      break;
+  }
+  return Box({s[2], s[3], s[4]});
+}
+
+Configuration configuration_of(const Numbers& n) {
+  return {Cylinder(n.sizes[0], n.sizes[1]), Pose(n.position_a, n.orientation_a), body_b(n),
+          Pose(n.position_b, n.orientation_b)};
+}
+
+int complexity(double x) {
+  if (x == 0) return 0;
+  if (std::abs(x) == 1) return 1;
+  constexpr int mantissa_bits = 53;
+  int exponent = 0;
+  const auto mantissa =
+      static_cast<std::uint64_t>(std::ldexp(std::frexp(std::abs(x), &exponent), mantissa_bits));
+  const int bits = mantissa_bits - std::countr_zero(mantissa);
+  return 2 + bits + std::abs(exponent) / 4 + (x < 0 ? 1 : 0);
+}
+
+template <class Coordinates>
+int total(const Coordinates& v) {
+  int sum = 0;
+  for (int i = 0; i < v.size(); ++i) sum += complexity(v[i]);
+  return sum;
+}
+
+int complexity(const Eigen::Quaterniond& q) {
+  const bool is_identity = q.vec().isZero(0);
+  return is_identity ? complexity(q.w()) : 4 + total(q.coeffs());
+}
+
+/// To so many significant bits.
+double rounded(double x, int bits) {
+  int exponent = 0;
+  const double mantissa = std::frexp(x, &exponent);
+  return std::ldexp(std::round(std::ldexp(mantissa, bits)), exponent - bits);
+}
+
+constexpr int bit_steps[] = {1, 2, 3, 4, 6, 8, 12, 16, 24, 36};
+
+/// Simpler values of one number, the simplest first.
+std::vector<double> simpler_numbers(double x, bool positive) {
+  std::vector<double> result;
+  if (!positive) result.push_back(0);
+  result.push_back(1);
+  if (!positive) result.push_back(-1);
+  if (std::abs(x) < 0x1p53) result.push_back(std::round(x));
+  for (const int bits : bit_steps) result.push_back(rounded(x, bits));
+  std::erase_if(result, [&](double y) {
+    return !(std::isfinite(y) && complexity(y) < complexity(x)) || (positive && !(y > 0));
+  });
+  return result;
+}
+
+std::vector<Eigen::Quaterniond> simpler_orientations(const Eigen::Quaterniond& q) {
+  std::vector<Eigen::Quaterniond> result{Eigen::Quaterniond(1, 0, 0, 0)};
+  // The largest coordinate becomes 1, 2, 4, …, the others integers.
+  const double largest = q.coeffs().cwiseAbs().maxCoeff();
+  for (const double scale : {1.0, 2.0, 4.0, 8.0, 16.0, 64.0, 256.0, 0x1p16, 0x1p24, 0x1p32}) {
+    Eigen::Quaterniond r;
+    r.coeffs() = (q.coeffs() * (scale / largest)).array().round().matrix();
+    result.push_back(r);
+  }
+  for (int i = 0; i < 4; ++i) {
+    for (const double y : simpler_numbers(q.coeffs()[i], false)) {
+      Eigen::Quaterniond r = q;
+      r.coeffs()[i] = y;
+      result.push_back(r);
+    }
+  }
+  std::erase_if(result, [&](const auto& r) {
+    return r.coeffs().isZero(0) || complexity(r) >= complexity(q);
+  });
+  return result;
+}
+
+class Steps {
+ public:
+  explicit Steps(const Configuration& c) : start_(numbers_of(c)), complexity_(complexity(c)) {}
+
+  /// A step that changes the numbers in place.
+  template <class Change>
+  void add(const Change& change) {
+    Numbers next = start_;
+    change(next);
+    try {
+      Configuration c = configuration_of(next);
+      if (complexity(c) < complexity_) result_.push_back(std::move(c));
+    } catch (const InvalidInput&) {
+      // Rounding may leave the range of valid numbers: not a step.
+    }
+  }
+
+  const Numbers& start() const { return start_; }
+  std::vector<Configuration> take() { return std::move(result_); }
+
+ private:
+  Numbers start_;
+  int complexity_;
+  std::vector<Configuration> result_;
+};
+
+void move_to_the_origin(Steps& steps) {
+  steps.add([](Numbers& n) {
+    // Both bodies in B's frame.
+    const Eigen::Quaterniond back = n.orientation_b.normalized().conjugate();
+    n.position_a = back * (n.position_a - n.position_b);
+    n.orientation_a = back * n.orientation_a.normalized();
+    n.position_b.setZero();
+    n.orientation_b.setIdentity();
+  });
+  steps.add([](Numbers& n) {
+    n.position_a -= n.position_b;
+    n.position_b.setZero();
+  });
+  steps.add([](Numbers& n) { n.position_a.setZero(); });
+  steps.add([](Numbers& n) { n.position_b.setZero(); });
+}
+
+}  // namespace
+
+int complexity(const Configuration& c) {
+  const Numbers n = numbers_of(c);
+  int sum = 0;
+  for (const double size : n.sizes) sum += complexity(size);
+  return sum + total(n.position_a) + total(n.position_b) + complexity(n.orientation_a) +
+         complexity(n.orientation_b) + total(n.normal) + complexity(n.displacement);
+}
+
+std::vector<Configuration> simpler(const Configuration& configuration) {
+  Steps steps(configuration);
+  const Numbers& start = steps.start();
+  move_to_the_origin(steps);
+  steps.add([](Numbers& n) { n.sizes.assign(n.sizes.size(), 1); });
+  for (const auto orientation : {&Numbers::orientation_a, &Numbers::orientation_b}) {
+    for (const auto& q : simpler_orientations(start.*orientation)) {
+      steps.add([&](Numbers& n) { n.*orientation = q; });
+    }
+  }
+  for (std::size_t i = 0; i < start.sizes.size(); ++i) {
+    for (const double x : simpler_numbers(start.sizes[i], true)) {
+      steps.add([&](Numbers& n) { n.sizes[i] = x; });
+    }
+  }
+  for (const auto vector : {&Numbers::position_a, &Numbers::position_b, &Numbers::normal}) {
+    for (int i = 0; i < 3; ++i) {
+      for (const double x : simpler_numbers((start.*vector)[i], false)) {
+        steps.add([&](Numbers& n) { (n.*vector)[i] = x; });
+      }
+    }
+  }
+  for (const double x : simpler_numbers(start.displacement, false)) {
+    steps.add([&](Numbers& n) { n.displacement = x; });
+  }
+  return steps.take();
+}
+
+Configuration simplified(const Configuration& configuration,
+                         const std::function<bool(const Configuration&)>& still_fails,
+                         int most_trials) {
+  Configuration best = configuration;
+  for (int trials = 0;;) {
+    bool found = false;
+    for (const Configuration& next : simpler(best)) {
+      if (trials++ == most_trials) return best;
+      if (!still_fails(next)) continue;
+      best = next;
+      found = true;
+      break;
+    }
+    if (!found) return best;
+  }
+}
+
+}  // namespace touchstone

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <stdexcept>
+
+#include <nlohmann/json.hpp>
+
+#include "audit/enclose.hpp"
+#include "oracle/truth.hpp"
+
+namespace touchstone {
+
+/// The two oracles exclude each other: one of them is wrong. `what()` holds both answers and the
+/// configuration, every number as a hexadecimal float.
+class Contradiction : public std::logic_error {
+ public:
+  using std::logic_error::logic_error;
+};
+
+/// Throws Contradiction unless the two enclosures have a point in common and no pair of points is
+/// closer than the bodies are said to be.
+void check_agreement(const Configuration& configuration, const oracle::Enclosure& truth,
+                     const audit::Enclosure& audit);
+
+/// {"signed_distance": [lo, hi] as decimals rounded outward, "primal_dual_gap": by how much a pair
+/// of points is farther apart than the gap along one direction, null unless the bodies are apart}.
+nlohmann::json to_json(const audit::Enclosure& audit);
+
+}  // namespace touchstone
