@@ -106,13 +106,13 @@ std::optional<Answer> CandidateProcess::obey(std::uint32_t kind, std::uint32_t f
   } else if (WIFEXITED(status) && WEXITSTATUS(status) == exit_thrown) {
     answer.reason = "threw " + std::string(s.exchange->thrown,
                                            strnlen(s.exchange->thrown, sizeof s.exchange->thrown));
-    std::replace(answer.reason.begin(), answer.reason.end(), '\n', ' ');
   } else {
     answer.reason = how_it_ended(status);
     if (WIFSIGNALED(status) && WTERMSIG(status) == SIGABRT && !s.last_line().empty()) {
       answer.reason += ": " + s.last_line();
     }
   }
+  answer.reason = readable(answer.reason);
   return answer;
 }
 

@@ -27,6 +27,42 @@ constexpr int loading_milliseconds = 30000;
 
 void fail(const char* call) { throw std::system_error(errno, std::generic_category(), call); }
 
+std::string readable(const std::string& text) {
+  std::string result;
+  for (std::size_t i = 0; i < text.size();) {
+    const auto lead = static_cast<unsigned char>(text[i]);
+    const std::size_t length = lead < 0x80                    ? 1
+                               : lead >= 0xc2 && lead <= 0xdf ? 2
+                               : lead >= 0xe0 && lead <= 0xef ? 3
+                               : lead >= 0xf0 && lead <= 0xf4 ? 4
+                                                              : 0;
+    bool good = length > 0 && i + length <= text.size();
+    for (std::size_t k = 1; good && k < length; ++k) {
+      good = (static_cast<unsigned char>(text[i + k]) & 0xc0) == 0x80;
+    }
+    if (good && length == 3) {  // neither an overlong form nor a surrogate
+      const auto second = static_cast<unsigned char>(text[i + 1]);
+      good = !(lead == 0xe0 && second < 0xa0) && !(lead == 0xed && second > 0x9f);
+    }
+    if (good && length == 4) {  // neither an overlong form nor beyond U+10FFFF
+      const auto second = static_cast<unsigned char>(text[i + 1]);
+      good = !(lead == 0xf0 && second < 0x90) && !(lead == 0xf4 && second > 0x8f);
+    }
+    if (!good) {
+      result += '?';
+      ++i;
+      continue;
+    }
+    if (length == 1) {
+      result += lead < 0x20 || lead == 0x7f ? ' ' : static_cast<char>(lead);
+    } else {
+      result.append(text, i, length);
+    }
+    i += length;
+  }
+  return result;
+}
+
 std::string how_it_ended(int status) {
   if (WIFSIGNALED(status)) return strsignal(WTERMSIG(status));
   return "ended with exit code " + std::to_string(WEXITSTATUS(status));
@@ -108,13 +144,16 @@ PluginProcess::PluginProcess(const std::filesystem::path& file) : state_(new Sta
     waitpid(std::exchange(s.pid, -1), &status, 0);
     refuse("its process was not there after loading: " + how_it_ended(status));
   }
-  if (report.kind == Report::refused) refuse("it " + std::string(report.text));
+  if (report.kind == Report::refused) refuse("it " + readable(report.text));
   for (int i = 0; i < report.value; ++i) {
     Description d;
     if (!s.receive(&d, sizeof d, loading_milliseconds)) refuse("it could not be described");
-    Candidate c{d.name, d.name, d.version, d.settings, d.models, {}, 0, {}, file, i};
+    Candidate c{
+        d.name, d.name, readable(d.version), readable(d.settings), readable(d.models), {}, 0, {},
+        file,   i};
     std::copy(std::begin(d.supports), std::end(d.supports), c.supports.begin());
-    if (d.has_parameter) c.parameter = {d.meaning, d.least, d.most, d.usual, d.whole, d.bare};
+    if (d.has_parameter)
+      c.parameter = {readable(d.meaning), d.least, d.most, d.usual, d.whole, d.bare};
     s.candidates.push_back(std::move(c));
   }
 }

@@ -1,4 +1,6 @@
 // The plug-in's side: loads it, describes it, and forks sessions of it.
+#include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -42,8 +44,11 @@ void copy(const char* from, char (&to)[size]) {
 }
 
 Description describe(const ts_candidate& c) {
-  if (!c.name || !*c.name || std::strpbrk(c.name, ":, \t\n")) {
-    throw std::runtime_error("has a candidate whose name is empty or has a colon, comma or space");
+  const std::string name = c.name ? c.name : "";
+  const auto plain = [](unsigned char x) { return std::isgraph(x) && x != ':' && x != ','; };
+  if (name.empty() || !std::all_of(name.begin(), name.end(), plain)) {
+    throw std::runtime_error(
+        "has a candidate whose name is not of printable ASCII without colon, comma or space");
   }
   if (!c.version || !c.settings || !c.supports || !c.prepare || !c.query || !c.release) {
     throw std::runtime_error(std::string("leaves something out in the candidate ") + c.name);

@@ -30,6 +30,9 @@ struct PluginProcess::State {
   std::string last_line() const;  ///< that the candidate printed
 };
 
+/// Text of a plug-in as it may stand in a report: what is no UTF-8 (a text that was cut may end in
+/// the middle of a character) becomes "?", control characters become spaces.
+std::string readable(const std::string& text);
 /// "Segmentation fault", "ended with exit code 3".
 std::string how_it_ended(int wait_status);
 /// Throws std::system_error of errno.
