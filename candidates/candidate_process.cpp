@@ -1,48 +1,30 @@
-// The harness's side; the candidate's is plugin_server.cpp, what goes between them exchange.hpp.
+// Asks one candidate in sessions of its plug-in's process; exchange.hpp says what goes between
+// them.
 #include "candidates/candidate_process.hpp"
 
 #include <algorithm>
-#include <cerrno>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <ctime>
-#include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
 #include <stdexcept>
-#include <sys/mman.h>
-#include <sys/prctl.h>
-#include <sys/socket.h>
 #include <sys/wait.h>
-#include <system_error>
 #include <unistd.h>
-#include <utility>
 
 #include "candidates/candidates.hpp"
 #include "candidates/exchange.hpp"
-#include "reference/invalid_input.hpp"
+#include "candidates/plugin_state.hpp"
 
 namespace touchstone {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Loading a plug-in may read libraries from a cold disk.
-constexpr int loading_milliseconds = 30000;
 /// How often a candidate's use of time is looked at.
 constexpr int poll_milliseconds = 20;
-
-[[noreturn]] void fail(const char* call) {
-  throw std::system_error(errno, std::generic_category(), call);
-}
-
-std::string how_it_ended(int status) {
-  if (WIFSIGNALED(status)) return strsignal(WTERMSIG(status));
-  return "ended with exit code " + std::to_string(WEXITSTATUS(status));
-}
 
 /// Seconds of processor time that a process has used; zero when it is gone.
 double processor_seconds(pid_t pid) {
@@ -53,112 +35,6 @@ double processor_seconds(pid_t pid) {
 }
 
 }  // namespace
-
-struct PluginProcess::State {
-  std::vector<Candidate> candidates;
-  /// A candidate that calls exit runs our destructors in its own process: they must do nothing
-  /// there.
-  const pid_t owner = getpid();
-  pid_t pid = -1;
-  int socket = -1;
-  int text = -1;  ///< what the plug-in prints
-  Exchange* exchange = nullptr;
-
-  ~State() {
-    if (socket >= 0) close(socket);
-    if (text >= 0) close(text);
-    if (pid > 0 && owner == getpid()) {
-      kill(pid, SIGKILL);  // its sessions go with it
-      waitpid(pid, nullptr, 0);
-    }
-    if (exchange) munmap(exchange, sizeof(Exchange));
-  }
-
-  /// False when the other end is closed or nothing came in time.
-  bool receive(void* message, std::size_t size, int milliseconds) const {
-    pollfd polled{socket, POLLIN, 0};
-    int ready;
-    while ((ready = poll(&polled, 1, milliseconds)) < 0 && errno == EINTR) {
-    }
-    if (ready <= 0) return false;
-    ssize_t got;
-    while ((got = recv(socket, message, size, 0)) < 0 && errno == EINTR) {
-    }
-    return got == static_cast<ssize_t>(size);
-  }
-
-  Report receive() const {
-    Report report;
-    if (!receive(&report, sizeof report, -1)) throw std::runtime_error("a plug-in's process ended");
-    return report;
-  }
-
-  void send(const Command& command) const {
-    if (::send(socket, &command, sizeof command, MSG_NOSIGNAL) < 0) fail("send");
-  }
-
-  /// The last line that the candidate printed.
-  std::string last_line() const {
-    char buffer[4096];
-    const off_t size = lseek(text, 0, SEEK_END);
-    const ssize_t got = pread(text, buffer, sizeof buffer, std::max<off_t>(0, size - 4096));
-    std::string line(buffer, static_cast<std::size_t>(std::max<ssize_t>(0, got)));
-    while (!line.empty() && line.back() == '\n') line.pop_back();
-    return line.substr(line.rfind('\n') + 1);
-  }
-};
-
-PluginProcess::PluginProcess(const std::filesystem::path& file) : state_(new State) {
-  State& s = *state_;
-  void* const memory =
-      mmap(nullptr, sizeof(Exchange), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-  if (memory == MAP_FAILED) fail("mmap");
-  s.exchange = new (memory) Exchange{};
-  s.text = memfd_create("candidate", MFD_CLOEXEC);
-  if (s.text < 0 || fcntl(s.text, F_SETFL, O_APPEND) < 0) fail("memfd_create");
-  int ends[2];
-  if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) fail("socketpair");
-  s.socket = ends[0];
-  s.pid = fork();
-  if (s.pid < 0) fail("fork");
-  if (s.pid == 0) {
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
-    close(ends[0]);
-    const int nothing = open("/dev/null", O_RDONLY);
-    dup2(nothing, STDIN_FILENO);
-    dup2(s.text, STDOUT_FILENO);
-    dup2(s.text, STDERR_FILENO);
-    serve_plugin(file.c_str(), ends[1], *s.exchange);
-  }
-  close(ends[1]);
-
-  const auto refuse = [&](const std::string& why) {
-    throw InvalidInput("--candidate", '"' + file.string() + '"',
-                       "must be a plug-in made with candidate.h, but " + why);
-  };
-  Report report;
-  if (!s.receive(&report, sizeof report, loading_milliseconds)) {
-    kill(s.pid, SIGKILL);
-    int status = 0;
-    waitpid(std::exchange(s.pid, -1), &status, 0);
-    refuse("its process was not there after loading: " + how_it_ended(status));
-  }
-  if (report.kind == Report::refused) refuse("it " + std::string(report.text));
-  for (int i = 0; i < report.value; ++i) {
-    Description d;
-    if (!s.receive(&d, sizeof d, loading_milliseconds)) refuse("it could not be described");
-    Candidate c{d.name, d.name, d.version, d.settings, d.models, {}, 0, {}, file, i};
-    std::copy(std::begin(d.supports), std::end(d.supports), c.supports.begin());
-    if (d.has_parameter) c.parameter = {d.meaning, d.least, d.most, d.usual, d.whole, d.bare};
-    s.candidates.push_back(std::move(c));
-  }
-}
-
-PluginProcess::~PluginProcess() = default;
-PluginProcess::PluginProcess(PluginProcess&&) noexcept = default;
-PluginProcess& PluginProcess::operator=(PluginProcess&&) noexcept = default;
-
-const std::vector<Candidate>& PluginProcess::candidates() const { return state_->candidates; }
 
 CandidateProcess::CandidateProcess(const Candidate& candidate, double threshold,
                                    const Limits& limits)
@@ -192,14 +68,14 @@ std::optional<Answer> CandidateProcess::obey(std::uint32_t kind, std::uint32_t f
   s.exchange->done = first;
   s.send({static_cast<Command::Kind>(kind), first, count, 0, 0, 0, 0});
 
-  std::uint32_t done = first;
-  double used = processor_seconds(session_);
-  auto since = Clock::now();
+  // Most commands are done before anyone looks; the watch begins when the first look is over.
+  std::optional<std::uint32_t> done;
+  double used = 0;
+  Clock::time_point since;
   bool killed = false;
-  Report report;
   pollfd polled{s.socket, POLLIN, 0};
-  while (poll(&polled, 1, poll_milliseconds) == 0) {
-    if (s.exchange->done != done) {
+  while (poll(&polled, 1, poll_milliseconds) <= 0) {  // nothing yet, or a signal
+    if (done != s.exchange->done) {
       done = s.exchange->done;
       used = processor_seconds(session_);
       since = Clock::now();
@@ -210,8 +86,14 @@ std::optional<Answer> CandidateProcess::obey(std::uint32_t kind, std::uint32_t f
       killed = true;
     }
   }
-  report = s.receive();
-  if (report.kind == Report::finished) return std::nullopt;
+  Report report = s.receive();
+  if (report.kind == Report::finished) {
+    if (killed) {  // just too late: the work is done, the session is not
+      s.receive();
+      session_ = -1;
+    }
+    return std::nullopt;
+  }
   session_ = -1;
 
   Answer answer{};
@@ -224,13 +106,13 @@ std::optional<Answer> CandidateProcess::obey(std::uint32_t kind, std::uint32_t f
   } else if (WIFEXITED(status) && WEXITSTATUS(status) == exit_thrown) {
     answer.reason = "threw " + std::string(s.exchange->thrown,
                                            strnlen(s.exchange->thrown, sizeof s.exchange->thrown));
-    std::replace(answer.reason.begin(), answer.reason.end(), '\n', ' ');
   } else {
     answer.reason = how_it_ended(status);
     if (WIFSIGNALED(status) && WTERMSIG(status) == SIGABRT && !s.last_line().empty()) {
       answer.reason += ": " + s.last_line();
     }
   }
+  answer.reason = readable(answer.reason);
   return answer;
 }
 

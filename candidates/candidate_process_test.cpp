@@ -50,12 +50,16 @@ TEST(CandidateProcess, CatchesExceptionsOfEveryType) {
   EXPECT_EQ(after_misdeed(4).reason, "threw something that is no exception");
 }
 
+TEST(CandidateProcess, WhatACandidateSaysIsMadeReadable) {
+  EXPECT_EQ(after_misdeed(15).reason, "threw no text ??");
+}
+
 TEST(CandidateProcess, EndsALoopAfterItsProcessorTime) {
   const auto start = std::chrono::steady_clock::now();
   const Answer a = after_misdeed(5);
   EXPECT_EQ(a.status, TS_TIMED_OUT);
   EXPECT_EQ(a.reason, "no answer within 0.1 s");
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(30));
 }
 
 TEST(CandidateProcess, EndsASleepByTheClock) {
@@ -129,16 +133,16 @@ TEST(CandidateProcess, LeavesNoFileOpen) {
     }
     return count;
   };
-  after_misdeed(15);
+  after_misdeed(16);
   const int before = open_files();
-  for (int deed : {1, 3, 5, 15}) after_misdeed(deed);
+  for (int deed : {1, 3, 5, 16}) after_misdeed(deed);
   EXPECT_EQ(open_files(), before);
 }
 
 TEST(CandidateProcess, TimesTheQueriesAndNothingElse) {
   // An answer made by a few stores: what a round trip between processes costs, some microseconds,
   // would be seen.
-  CandidateProcess process(sabotage("misdeed:15"), 0);
+  CandidateProcess process(sabotage("misdeed:16"), 0);
   const std::vector<Configuration> many(200, standing);
   ASSERT_TRUE(process.prepare_timing(many));
   double least = 1e9;

@@ -20,7 +20,7 @@ constexpr struct {
 } standard_plugins[] = {
     {"reference", ""},           {"bullet", "libbullet-dev"}, {"bullet-float", "libbullet-dev"},
     {"ode", "libode-dev"},       {"fcl", "libfcl-dev"},       {"libccd", "libccd-dev"},
-    {"mujoco", "libmujoco-dev"}, {"simplified", ""}};
+    {"mujoco", "libmujoco-dev"}, {"simplified", ""},          {"box-parts", ""}};
 
 /// Beside the program as it is built, or under its prefix as it is installed.
 std::filesystem::path standard_folder() {

@@ -149,6 +149,29 @@ TEST(Models, NoDirectionHasALargerGapThanTheAnswer) {
   }
 }
 
+TEST(Models, ABoxOfPartsReachesItsFacesAndLosesItsEdges) {
+  const Box plank({0.2, 1, 3});
+  const Cylinder rod(0.1, 0.5);
+  for (const char* name : {"box-spheres:8", "box-capsules:4"}) {
+    // Across the plank at its faces' middles, where there is a part: parts are exact there.
+    for (const double x : {0.299, -0.299}) {
+      const Answer a = answer(name, {rod, Pose({x, 0.8, 3 - 0.2}, along_y), plank, Pose()});
+      ASSERT_EQ(a.status, TS_CONTACT) << name;
+      EXPECT_NEAR(a.signed_distance, -0.001, rounding) << name;
+      EXPECT_NEAR(std::abs(a.normal[0]), 1, rounding) << name;
+    }
+    // Beside a long edge of the plank, 45° off its corner: the round is a corner's distance away.
+    const double beyond = 0.07;
+    const Configuration edge{rod, Pose({0.2 + beyond, 1 + beyond, 3 - 0.2}, upright), plank,
+                             Pose()};
+    EXPECT_NEAR(answer("reference", edge).signed_distance, std::sqrt(2.0) * beyond - 0.1, 1e-9);
+    const Answer a = answer(name, edge);
+    EXPECT_EQ(a.status, TS_NONE) << name;
+    ASSERT_TRUE(a.model_distance);
+    EXPECT_NEAR(*a.model_distance, std::sqrt(2.0) * (0.2 + beyond) - 0.2 - 0.1, rounding) << name;
+  }
+}
+
 TEST(Models, ManySidesComeToTheCylinder) {
   for (const Pair pair : all_pairs) {
     for (std::uint64_t i = 0; i < 10; ++i) {

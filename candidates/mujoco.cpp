@@ -3,15 +3,16 @@
 // Calls        The collision function that mj_collision takes from mjCOLLISIONFUNC for the two geom
 //              types. One model per pair of types is made from XML; sizes and poses are then set in
 //              mjModel and mjData, as users do.
-// Routes       Plane and sphere are MuJoCo's own closed forms; capsule, cylinder and box go through
-//              libccd's MPR (mpr_tolerance 1e-6, mpr_iterations 50, both default). Several contacts
-//              by mjENBL_MULTICCD are off, as by default.
+// Routes       The plane is MuJoCo's own closed form; all others, the sphere too in this version,
+// go
+//              through libccd's MPR (mpr_tolerance 1e-6, mpr_iterations 50, both default). Several
+//              contacts by mjENBL_MULTICCD are off, as by default.
 // Shapes       Half lengths, a capsule's without its caps. A plane is solid below its frame's
 //              xy-plane; ours is given such a frame.
 // Conventions  The lower geom type comes first; the normal points from it to the other one, and is
 //              turned round when the cylinder is first.
 // Points       Midway between the two surfaces.
-// Threshold    The function's margin. Only routines with a closed form answer beyond touch.
+// Threshold    The function's margin. Only the plane answers beyond touch.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -148,7 +149,7 @@ void release(ts_prepared* prepared) { delete prepared; }
 
 const ts_candidate candidates[] = {
     {"mujoco", mj_versionString(),
-     "double precision; the pair's function in mjCOLLISIONFUNC; plane and sphere analytic, others "
+     "double precision; the pair's function in mjCOLLISIONFUNC; plane analytic, others "
      "by libccd's MPR with MuJoCo's tolerance 1e-6; multiccd off",
      nullptr, nullptr, supports, prepare, query, release, nullptr}};
 const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 1, candidates};

@@ -44,6 +44,17 @@ expect 2 -- '--out' report --out /proc/none
 expect 0 'report.html' report --pair cylinder-plane --count 1 --out "$folder/a b"
 [ -s "$folder/a b/report.html" ] || { echo "FAILED: no report.html"; failures=$((failures + 1)); }
 
+# Installed without an engine: a line says so, and the rest is there.
+mkdir "$folder/part" "$folder/part/candidates"
+cp "$program" "$folder/part/"
+cp "$(dirname "$program")"/candidates/touchstone-*.so "$folder/part/candidates/"
+rm -f "$folder/part/candidates/touchstone-fcl.so"
+listed=$("$folder/part/touchstone" candidates)
+if ! grep -q "^fcl: skipped; .*libfcl-dev" <<<"$listed" || ! grep -q "^bullet 3" <<<"$listed"; then
+  echo "FAILED: an engine that is not there is not skipped with a line"
+  failures=$((failures + 1))
+fi
+
 line=$("$program" replay cylinder-box/general-deep/3/4 | grep '^{' | tail -n 1)
 "$program" solve --audit <<<"$line" | grep -q '"audit":{"primal_dual_gap":null,"signed_distance":\["-' ||
   { echo "FAILED: solve --audit shows no enclosure of the second oracle"; failures=$((failures + 1)); }

@@ -37,7 +37,13 @@ CandidateOption::CandidateOption(CLI::App& command) {
 }
 
 std::vector<const Candidate*> CandidateOption::get() const {
-  return names_.empty() ? all_candidates() : find_candidates(names_);
+  const auto candidates = names_.empty() ? all_candidates() : find_candidates(names_);
+  if (candidates.empty()) {
+    throw InvalidInput("--candidates", "empty",
+                       "no plug-ins are where the program looks for them; touchstone candidates "
+                       "says why");
+  }
+  return candidates;
 }
 
 Limits CandidateOption::limits() const {

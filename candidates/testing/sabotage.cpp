@@ -34,6 +34,7 @@ void behave(ts_answer& answer) {
 void segfault(ts_answer&) { *reinterpret_cast<volatile int*>(nowhere) = 1; }
 void abort_it(ts_answer&) { std::abort(); }
 void throw_it(ts_answer&) { throw std::runtime_error("no convergence"); }
+void throw_no_text(ts_answer&) { throw std::runtime_error("no\ntext \xff\xc3"); }
 void throw_number(ts_answer&) { throw 42; }
 void loop(ts_answer&) {
   while (nowhere == 0) {
@@ -72,7 +73,8 @@ void leak(ts_answer& answer) {
 constexpr void (*deeds[])(ts_answer&) = {
     segfault,     abort_it,    throw_it,    throw_number,   loop,
     sleep_long,   allocate,    leave,       million_points, claim_million_points,
-    not_a_number, long_normal, claim_crash, leak,           behave};
+    not_a_number, long_normal, claim_crash, leak,           throw_no_text,
+    behave};
 constexpr int count = sizeof deeds / sizeof *deeds;
 
 const ts_parameter which = {"number of the deed", 1, count, count, 1, 0};

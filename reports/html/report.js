@@ -42,10 +42,12 @@ const cutShare = share => share === null ? '–' : (Math.floor(share * 100 + 1e-
 function headline() {
   const all = report.summary.filter(r => r.pair === 'all');
   const rows = (all.length ? all : report.summary).filter(supported);
-  const parts = rows.map(r => `${r.candidate} ${all.length ? '' : `(${r.pair}) `}on ${percent(agreeing(r))}`);
+  const best = [...rows].sort((a, b) => agreeing(b) - agreeing(a)).slice(0, 5);
+  const parts = best.map(r => `${r.candidate} ${all.length ? '' : `(${r.pair}) `}on ${percent(agreeing(r))}`);
   byId('headline').textContent =
       `${whole(report.configurations)} configurations, each with a truth certified to 1e-15 of the larger ` +
-      `size. Agreement with the truth within ${report.tolerance} of the smaller size: ${parts.join(', ')}.`;
+      `size. Agreement with the truth within ${report.tolerance} of the smaller size: ${parts.join(', ')}` +
+      (rows.length > best.length ? `; ${rows.length - best.length} more below.` : '.');
   byId('provenance').append(`Touchstone ${report.version}, seed ${report.seed}. Same configurations again: `,
       element('code', {}, report.command));
 }
@@ -125,7 +127,7 @@ function chart() {
   const [y0, y1] = widen(decades(rows.map(clipped)));
   const shown = candidates.filter(name => rows.some(r => r.candidate === name));
   byId('chart-panels').before(element('div', {class: 'legend'}, ...shown.map(name => {
-    const svg = shape('svg', {viewBox: '-8 -8 16 16', width: 14, height: 14, 'aria-hidden': 'true'});
+    const svg = shape('svg', {viewBox: '-8 -8 16 16', style: 'width:14px;height:14px', 'aria-hidden': 'true'});
     svg.append(shape('path', {fill: colour(name), d: symbolPath(symbolOf(name), 0, 0, 5.5)}));
     return element('span', {}, svg, name);
   })));

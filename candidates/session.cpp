@@ -1,0 +1,149 @@
+#include "candidates/session.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstdio>
+#include <exception>
+#include <limits>
+#include <sys/mman.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+namespace touchstone {
+namespace {
+
+/// A round of timing takes about this long, so that slow candidates do not take minutes.
+constexpr std::chrono::microseconds round_time(500);
+constexpr std::size_t fewest_timed = 10;
+
+/// Where a candidate writes its answer: the page behind is out of bounds, so that one point too
+/// many is a crash wherever it is written, and the same one on every run.
+ts_answer* make_answer() {
+  const std::size_t page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+  void* const memory =
+      mmap(nullptr, 2 * page, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (memory == MAP_FAILED) _exit(1);
+  char* const end = static_cast<char*>(memory) + page;
+  mprotect(end, page, PROT_NONE);
+  return reinterpret_cast<ts_answer*>(end - sizeof(ts_answer));
+}
+
+}  // namespace
+
+void send(int socket, const void* message, std::size_t size) {
+  while (::send(socket, message, size, MSG_NOSIGNAL) < 0) {
+    if (errno != EINTR) _exit(0);  // the harness is gone
+  }
+}
+
+void report(int socket, Report::Kind kind, int value, const char* text) {
+  Report r{kind, value, {}};
+  std::snprintf(r.text, sizeof r.text, "%s", text);
+  send(socket, &r, sizeof r);
+}
+
+Command receive(int socket) {
+  Command command;
+  for (;;) {
+    const ssize_t size = recv(socket, &command, sizeof command, 0);
+    if (size == sizeof command) return command;
+    if (size < 0 && errno == EINTR) continue;
+    _exit(0);
+  }
+}
+
+Session::Session(const ts_candidate& candidate, const Command& begin, int socket,
+                 Exchange& exchange)
+    : candidate_(candidate),
+      threshold_(begin.threshold),
+      parameter_(begin.parameter),
+      socket_(socket),
+      exchange_(exchange),
+      answer_(make_answer()) {}
+
+void Session::serve() {
+  for (;;) {
+    const Command command = receive(socket_);
+    try {
+      obey(command);
+    } catch (const std::exception& e) {
+      std::snprintf(exchange_.thrown, sizeof exchange_.thrown, "%s", e.what());
+      _exit(exit_thrown);
+    } catch (...) {
+      std::snprintf(exchange_.thrown, sizeof exchange_.thrown, "something that is no exception");
+      _exit(exit_thrown);
+    }
+    report(socket_, Report::finished, 0);
+  }
+}
+
+void Session::obey(const Command& command) {
+  switch (command.kind) {
+    case Command::answer:
+      for (std::uint32_t i = command.first; i < command.count; ++i) answer(i);
+      return;
+    case Command::keep:
+      for (std::uint32_t i = 0; i < command.count; ++i) {
+        questions_.push_back(exchange_.slots[i].question);
+      }
+      return;
+    case Command::warm_up:
+      return warm_up();
+    case Command::time:
+      return time();
+    case Command::begin:
+    case Command::finish:
+      _exit(0);
+  }
+}
+
+ts_prepared* Session::prepare(const Question& q) {
+  if (!candidate_.supports(q.b.kind)) return nullptr;
+  return candidate_.prepare(&q.a, &q.b, threshold_, parameter_);
+}
+
+void Session::answer(std::uint32_t i) {
+  Slot& slot = exchange_.slots[i];
+  const Question question = slot.question;
+  slot.model_distance = std::numeric_limits<double>::quiet_NaN();
+  *answer_ = {};
+  answer_->status = TS_UNSUPPORTED;
+  if (ts_prepared* const prepared = prepare(question)) {
+    candidate_.query(prepared, &question.pose_a, &question.pose_b, answer_);
+    if (candidate_.model_distance) {
+      slot.model_distance = candidate_.model_distance(prepared, &question.pose_a, &question.pose_b);
+    }
+    candidate_.release(prepared);
+  }
+  slot.answer = *answer_;
+  exchange_.done.store(i + 1);
+}
+
+void Session::warm_up() {
+  std::chrono::steady_clock::duration used{};
+  for (const Question& q : questions_) {
+    if (kept_.size() >= fewest_timed && used > round_time) break;
+    ts_prepared* const prepared = prepare(q);
+    if (!prepared) continue;
+    const auto start = std::chrono::steady_clock::now();
+    candidate_.query(prepared, &q.pose_a, &q.pose_b, answer_);
+    used += std::chrono::steady_clock::now() - start;
+    kept_.push_back({prepared, q.pose_a, q.pose_b});
+  }
+}
+
+void Session::time() {
+  // The process has slept since the last round: its first queries find cold caches.
+  for (std::size_t i = 0; i < std::min(fewest_timed, kept_.size()); ++i) {
+    candidate_.query(kept_[i].prepared, &kept_[i].a, &kept_[i].b, answer_);
+  }
+  const auto start = std::chrono::steady_clock::now();
+  // The call goes through a function pointer, which no optimiser removes.
+  for (const Kept& k : kept_) candidate_.query(k.prepared, &k.a, &k.b, answer_);
+  const auto end = std::chrono::steady_clock::now();
+  exchange_.nanoseconds = std::chrono::duration<double, std::nano>(end - start).count() /
+                          static_cast<double>(kept_.size());
+}
+
+}  // namespace touchstone

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <vector>
+
+#include "candidates/exchange.hpp"
+
+namespace touchstone {
+
+// Messages on the candidate's side; they end the process when the harness is gone.
+void send(int socket, const void* message, std::size_t size);
+void report(int socket, Report::Kind kind, int value, const char* text = "");
+Command receive(int socket);
+
+/// One candidate in a process of its own, which obeys commands until it is told to finish, or dies.
+class Session {
+ public:
+  Session(const ts_candidate& candidate, const Command& begin, int socket, Exchange& exchange);
+  [[noreturn]] void serve();
+
+ private:
+  /// Ready for timing.
+  struct Kept {
+    ts_prepared* prepared;
+    ts_pose a, b;
+  };
+
+  void obey(const Command& command);
+  ts_prepared* prepare(const Question& question);
+  void answer(std::uint32_t slot);
+  void warm_up();
+  void time();
+
+  const ts_candidate& candidate_;
+  double threshold_, parameter_;
+  int socket_;
+  Exchange& exchange_;
+  ts_answer* answer_;
+  std::vector<Question> questions_;
+  std::vector<Kept> kept_;
+};
+
+}  // namespace touchstone
