@@ -16,13 +16,6 @@ constexpr double unit_slack = 1e-6;
 
 Vec3 vector(const double (&v)[3]) { return Vec3(v[0], v[1], v[2]); }
 
-bool is_finite(const ts_answer& answer) {
-  if (!std::isfinite(answer.signed_distance) || !vector(answer.normal).allFinite()) return false;
-  return std::all_of(answer.points, answer.points + answer.point_count, [](const ts_point& p) {
-    return std::isfinite(p.depth) && vector(p.position).allFinite() && vector(p.normal).allFinite();
-  });
-}
-
 double angle(const Vec3& n, const Vec3& m) {
   return std::atan2(n.cross(m).norm(), n.dot(m)) * 180 / std::numbers::pi;
 }
@@ -74,6 +67,13 @@ Score without_contact(double distance, const Bar& bar) {
 }
 
 }  // namespace
+
+bool is_finite(const ts_answer& answer) {
+  if (!std::isfinite(answer.signed_distance) || !vector(answer.normal).allFinite()) return false;
+  return std::all_of(answer.points, answer.points + answer.point_count, [](const ts_point& p) {
+    return std::isfinite(p.depth) && vector(p.position).allFinite() && vector(p.normal).allFinite();
+  });
+}
 
 const char* outcome_name(Outcome outcome) {
   switch (outcome) {

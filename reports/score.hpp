@@ -30,6 +30,9 @@ inline constexpr std::array all_outcomes = {
 const char* outcome_name(Outcome outcome);
 const char* status_name(ts_status status);
 
+/// Are all numbers that belong to a contact finite?
+bool is_finite(const ts_answer& answer);
+
 /// Where an answer stops agreeing with the truth.
 struct Bar {
   /// Relative to the smaller size. Drake's published protocol for contact queries overlaps bodies

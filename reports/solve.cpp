@@ -57,15 +57,12 @@ bool solve(std::istream& in, std::ostream& out, const SolveOptions& options) {
     try {
       line = json::parse(text);
       result = solved(line, options, candidates);
-    } catch (const Contradiction&) {
-      throw;
     } catch (const InvalidInput& e) {
       result = error(number, line, e.field(), e.what());
     } catch (const json::exception& e) {
       result = error(number, line, "line", std::string("is no JSON object: ") + e.what());
-    } catch (const std::exception& e) {
-      result = error(number, line, "configuration", e.what());
     }
+    // Anything else is our own contradiction and ends the program.
     good = good && !result.contains("error");
     out << result.dump(-1, ' ', false, json::error_handler_t::replace) << std::endl;
   }

@@ -1,0 +1,158 @@
+#include "laws/check.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fstream>
+#include <memory>
+
+#include "candidates/candidates.hpp"
+#include "cli/commands.hpp"
+#include "cli/options.hpp"
+#include "laws/check_report.hpp"
+#include "laws/failure_file.hpp"
+#include "reference/invalid_input.hpp"
+#include "reports/progress.hpp"
+
+namespace touchstone {
+namespace {
+
+constexpr int something_failed = 1;
+
+struct Options {
+  explicit Options(CLI::App& command) : bar(command) {}
+  BarOption bar;
+  std::string candidate;
+  std::vector<std::string> laws, pairs, classes;
+  std::uint64_t count = 10, seed = 1;
+  std::string save, corpus, junit, json;
+
+  CheckOptions check() const {
+    CheckOptions c;
+    for (const auto& name : laws) c.laws.push_back(&find_law(name));
+    if (laws.empty()) {
+      for (const Law& law : all_laws()) c.laws.push_back(&law);
+    }
+    for (const auto& name : pairs) c.pairs.push_back(parse_pair(name));
+    if (pairs.empty()) c.pairs.assign(std::begin(all_pairs), std::end(all_pairs));
+    for (const auto& name : classes) {
+      const bool known = std::any_of(c.pairs.begin(), c.pairs.end(), [&](Pair pair) {
+        const auto& names = pose_classes(pair);
+        return std::find(names.begin(), names.end(), name) != names.end();
+      });
+      if (!known) throw InvalidInput("--class", '"' + name + '"', "is no class of these pairs");
+    }
+    if (count == 0) throw InvalidInput("--count", "0", "must be at least 1");
+    c.classes = classes;
+    c.count = count;
+    c.seed = seed;
+    c.bar = bar.get();
+    return c;
+  }
+};
+
+/// By name, or the first of a plug-in's own.
+const Candidate& candidate(const std::string& name) {
+  if (!std::filesystem::is_regular_file(name)) return find_candidate(name);
+  add_plugin(name);
+  return *all_candidates().back();
+}
+
+void write(const std::string& file, const std::string& text, const char* field) {
+  std::ofstream out(file);
+  out << text << std::flush;
+  if (!out) throw InvalidInput(field, '"' + file + '"', "could not be written");
+}
+
+std::vector<Replayed> replay_corpus(const Options& options) {
+  if (options.corpus.empty()) return {};
+  std::vector<Failure> corpus = read_corpus(options.corpus);
+  if (!options.candidate.empty()) {
+    std::erase_if(corpus, [&](const Failure& f) { return f.candidate != options.candidate; });
+  }
+  const std::vector<Replayed> replayed = replay(corpus, {});
+  fmt::print("{}:\n{}", options.corpus, corpus_text(replayed));
+  return replayed;
+}
+
+std::vector<LawResult> check_laws(const Options& options, const CheckOptions& checks) {
+  if (options.candidate.empty()) return {};
+  CandidateProcess process(candidate(options.candidate), checks.bar.threshold);
+  fmt::print("{} {}, seed {}, {} configurations of each pair and pose class, tolerance {}\n",
+             process.candidate().name, process.candidate().version, checks.seed, checks.count,
+             checks.bar.tolerance);
+  std::unique_ptr<Progress> progress;
+  const auto results = check(process, checks, [&](std::uint64_t done, std::uint64_t all) {
+    if (!progress) progress = std::make_unique<Progress>("configurations", all);
+    progress->update(done);
+  });
+  progress.reset();
+  fmt::print("{}", check_text(results));
+  return results;
+}
+
+int run(const Options& options) {
+  if (options.candidate.empty() && options.corpus.empty()) {
+    throw InvalidInput("--candidate", "nothing", "must name what to check, or --corpus a folder");
+  }
+  const CheckOptions checks = options.check();
+  const auto corpus = replay_corpus(options);
+  const auto results = check_laws(options, checks);
+  if (!options.save.empty()) {
+    for (const LawResult& result : results) {
+      for (const Failure& failure : result.failures) {
+        fmt::print("saved {}\n", save(failure, options.save).string());
+      }
+    }
+  }
+  if (!options.junit.empty()) {
+    write(options.junit, junit_xml(options.candidate, results, corpus), "--junit");
+  }
+  if (!options.json.empty()) {
+    write(options.json, to_json(options.candidate, checks, results, corpus).dump(2) + '\n',
+          "--json");
+  }
+  const bool broken =
+      std::any_of(results.begin(), results.end(), [](const LawResult& r) { return r.broken > 0; });
+  const bool changed = std::any_of(corpus.begin(), corpus.end(), [](const Replayed& r) {
+    return r.result == Replayed::Result::fixed || r.result == Replayed::Result::changed;
+  });
+  return broken || changed ? something_failed : 0;
+}
+
+std::string law_list() {
+  std::string text = "Laws:\n";
+  for (const Law& law : all_laws()) text += fmt::format("  {:<12} {}\n", law.name, law.statement);
+  return text;
+}
+
+}  // namespace
+
+void add_check(CLI::App& program, int& exit_code) {
+  CLI::App* command = program.add_subcommand(
+      "check", "Hold one candidate to the laws of contacts; shrink and save what fails");
+  const auto options = std::make_shared<Options>(*command);
+  command->add_option("--candidate", options->candidate, "Its name, or a plug-in's file");
+  command->add_option("--law", options->laws, "Only these laws")->delimiter(',');
+  command->add_option("--pair", options->pairs, "Only these pairs, as in cylinder-box")
+      ->delimiter(',');
+  command->add_option("--class", options->classes, "Only these pose classes")->delimiter(',');
+  command->add_option("--count", options->count, "Configurations of each pair and pose class")
+      ->capture_default_str();
+  command->add_option("--seed", options->seed, "Same seed, same configurations")
+      ->capture_default_str();
+  command->add_option("--corpus", options->corpus,
+                      "First replay the failures saved in this folder: each must fail as it did");
+  command->add_option("--save", options->save, "Save failures into this folder, one file each");
+  command->add_option("--junit", options->junit, "Write the result as JUnit XML");
+  command->add_option("--json", options->json, "Write the result as JSON");
+  command->footer(
+      "Examples:\n"
+      "  touchstone check --candidate bullet\n"
+      "  touchstone check --candidate ./my_engine.so --pair cylinder-box --save failures\n"
+      "  touchstone check --corpus properties/corpus\n" +
+      law_list() + "Exit code 1: a law was broken, or a saved failure has changed.");
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace touchstone

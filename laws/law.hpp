@@ -1,0 +1,51 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "reports/score.hpp"
+
+namespace touchstone {
+
+/// How one law was broken.
+struct Violation {
+  /// Named after the symptom, as in reports: "missed", "wrong-normal", "not-invariant", "jump", …
+  std::string failure;
+  double amount = 0;   ///< By how much, relative to the smaller size.
+  std::string detail;  ///< One sentence with the numbers.
+};
+
+/// What every correct contact routine satisfies, whatever its method. A law is a pure function: it
+/// asks a fixed list of questions about a configuration, and judges the answers.
+struct Law {
+  std::string name;
+  std::string statement;  ///< One sentence, with the tolerance it is judged at.
+
+  bool (*applies)(const Configuration& configuration);
+
+  /// What to ask besides the configuration itself, in one session and in this order.
+  std::vector<Configuration> (*questions)(const Configuration& configuration, const Bar& bar);
+
+  /// `answers` belong to the configuration and then to the questions. Never called with answers
+  /// that are neither a contact nor none, or not finite: that is the law "answers".
+  std::optional<Violation> (*judge)(const Configuration& configuration,
+                                    std::span<const Answer> answers, const Bar& bar);
+};
+
+/// All laws, the law "answers" first.
+const std::vector<Law>& all_laws();
+
+/// Throws InvalidInput (field "--law") naming those there are.
+const Law& find_law(std::string_view name);
+
+/// Every failure that a law or a score can report.
+const std::vector<std::string>& all_failures();
+
+/// Asks one candidate and judges. Nothing where the law does not apply or the candidate has no
+/// routine for the pair.
+std::optional<Violation> broken(const Law& law, const Configuration& configuration,
+                                CandidateProcess& candidate, const Bar& bar);
+
+}  // namespace touchstone
