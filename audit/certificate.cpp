@@ -39,9 +39,9 @@ Rational grain_of(int bits) { return rounded(ldexp(Real400(1), -bits), bits, MPF
 /// The smallest multiple of 2^−bits that `holds`, exactly; it is not above `bound` by more.
 template <class Holds>
 Rational tight_above(const Real400& bound, int bits, const Holds& holds) {
-  const Rational first = rounded(bound - rounding(), bits, MPFR_RNDU);
+  Rational first = rounded(bound - rounding(), bits, MPFR_RNDU);
   if (holds(first)) return first;
-  const Rational second = rounded(bound + rounding(), bits, MPFR_RNDU);
+  Rational second = rounded(bound + rounding(), bits, MPFR_RNDU);
   if (!holds(second)) fail();
   return second;
 }
@@ -51,7 +51,7 @@ template <class Proves>
 PointPair<Rational> shortest(const Bodies<Rational>& bodies, const PointPair<Real400>& pair,
                              const Proves& proves) {
   for (int bits = bits_step; bits <= most_bits; bits += bits_step) {
-    const PointPair<Rational> candidate = truncated(pair, bits);
+    PointPair<Rational> candidate = truncated(pair, bits);
     if (certainly_contain(bodies, candidate) && proves(difference(bodies, candidate))) {
       return candidate;
     }
@@ -64,7 +64,7 @@ Vector<Rational> shortest_normal(const Bodies<Real400>& bodies, const Vector<Rea
                                  const Real400& wanted) {
   const Vector<Real400> unit_normal = normal / Real400(sqrt(Real400(normal.squaredNorm())));
   for (int bits = bits_step; bits <= most_bits; bits += bits_step) {
-    const Vector<Rational> n = truncated(unit_normal, bits);
+    Vector<Rational> n = truncated(unit_normal, bits);
     if (n != Vector<Rational>::Zero() && gap_below(bodies, as_reals(n)) >= wanted) return n;
   }
   fail();

@@ -39,7 +39,7 @@ constexpr int most_steps = 200;
 ClosestPair<double> closest_pair(const Configuration& c, const Bodies<double>& search,
                                  double unit) {
   constexpr double tolerance = 1e-15, all_but_touching = 1e-6;
-  const auto found = ClosestPairSearch<double>(search).run(tolerance, most_steps);
+  auto found = ClosestPairSearch<double>(search).run(tolerance, most_steps);
   const double distance = difference(search, found.pair).norm();
   if (distance - found.gap < 1e-13 || distance > all_but_touching ||
       found.gap < -all_but_touching) {

@@ -2,6 +2,8 @@
 #include "oracle/critical_site.hpp"
 
 #include <algorithm>
+#include <boost/container/small_vector.hpp>
+#include <boost/container/static_vector.hpp>
 #include <optional>
 
 #include "oracle/line_search.hpp"
@@ -32,10 +34,8 @@ class Search {
  private:
   void search_directions();
   void search_rim_vertices();
+  void search_radial();
   void search_curves();
-  bool split_and_test(bool last);
-  void add_line_pieces(unsigned segment);
-  void add_rim_pieces();
   IntervalVector vertex(unsigned signs) const;
 
   const Difference& exact_;
@@ -46,16 +46,18 @@ class Search {
     CriticalSite site;
     Interval gap;
   };
-  std::vector<Direction> directions_;
+  // Two discs and six crossings of four segments, or one disc with them and its sixteen vertices.
+  boost::container::static_vector<Direction, 24> directions_;
 
   // Curves: first the circles across each segment, then the rims' vertices.
-  std::vector<LineSearch> lines_;
-  std::vector<RimSearch> rims_;
+  boost::container::static_vector<LineSearch, most_segments> lines_;
+  boost::container::static_vector<RimSearch, 4> rims_;
   struct OpenPiece {
     Piece piece;
     unsigned long vertices;  // of a line
   };
-  std::vector<OpenPiece> pieces_, next_;
+  // Poses without a degeneracy need no more than this.
+  boost::container::small_vector<OpenPiece, 256> pieces_, next_;
 };
 
 double relative(double metres, const Difference& difference, const Integer& scale) {
@@ -115,6 +117,16 @@ void Search::search_rim_vertices() {
 constexpr int first_pieces = 4;  // per turn of a curve
 constexpr int most_splits = 5;
 
+/// A single segment, and so a single disc flat on: no curve needs to be searched.
+void Search::search_radial() {
+  const auto& frame = difference_.segments.front().frame;
+  const IntervalVector n =
+      dot(difference_.d, frame.e) * frame.e + dot(difference_.d, frame.f) * frame.f;
+  const Interval gap = difference_.gap(n);
+  bar_.raise(gap);
+  directions_.push_back({{Kind::radial, 0}, gap});
+}
+
 void Search::search_curves() {
   for (unsigned i = 0; i < difference_.segments.size(); ++i) {
     lines_.emplace_back(difference_, i);
@@ -166,7 +178,11 @@ unsigned all_signs(unsigned others, unsigned segment) {
 std::vector<CriticalSite> Search::run() {
   search_directions();
   search_rim_vertices();
-  search_curves();
+  if (difference_.segments.size() == 1) {
+    search_radial();
+  } else {
+    search_curves();
+  }
 
   std::vector<CriticalSite> sites;
   for (const auto& [site, gap] : directions_) {

@@ -16,6 +16,11 @@ struct Frame {
   IntegerVector axis, e, f;
 };
 
+/// Of a cylinder and a box.
+inline constexpr std::size_t most_segments = 4;
+/// Of two cylinders.
+inline constexpr std::size_t most_discs = 2;
+
 /// The Minkowski difference B − A of a configuration, exactly. Up to the ball of radius
 /// `inflation` it is a sum of segments [−s, s] and discs about the origin, all with rational data,
 /// so that the gap along a unit direction n is

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <CGAL/Interval_nt.h>
-#include <vector>
+#include <boost/container/static_vector.hpp>
 
 #include "oracle/difference.hpp"
 
@@ -33,8 +33,8 @@ struct IntervalDifference {
 
   Integer scale;  ///< units: the sum of all half lengths, radii and the inflation
   IntervalVector d;
-  std::vector<Segment> segments;
-  std::vector<Disc> discs;
+  boost::container::static_vector<Segment, most_segments> segments;
+  boost::container::static_vector<Disc, most_discs> discs;
   Interval inflation;
 };
 

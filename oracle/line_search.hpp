@@ -69,8 +69,8 @@ class LineSearch {
   Interval gap(const At& n) const;
 
   Planar d_;
-  std::vector<Segment> segments_;
-  std::vector<Disc> discs_;
+  boost::container::static_vector<Segment, most_segments - 1> segments_;
+  boost::container::static_vector<Disc, most_discs> discs_;
   Interval inflation_;
 };
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "oracle/patch.hpp"
+#include "oracle/patch/contact_patch.hpp"
 #include "reports/configuration_json.hpp"
 
 namespace touchstone {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "oracle/convex_polygon.hpp"
+#include "oracle/patch/convex_polygon.hpp"
 
 namespace touchstone {
 namespace {
@@ -50,6 +50,7 @@ double coverage(const oracle::ContactPatch& patch, const std::vector<Vec3>& poin
   const ConvexSet& set = patch.shape();
   const Vec2 centre = set.centroid();
   std::vector<Vec2> flat;
+  flat.reserve(points.size());
   for (const Vec3& p : points) flat.push_back(patch.in_plane(p));
 
   std::vector<Vec2> directions;

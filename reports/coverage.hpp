@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "oracle/patch.hpp"
+#include "oracle/patch/contact_patch.hpp"
 
 namespace touchstone {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "oracle/support_part.hpp"
+#include "oracle/patch/support_part.hpp"
 #include "reports/coverage.hpp"
 
 namespace touchstone {
@@ -44,6 +44,7 @@ Vec3 patch_normal(const oracle::Truth& truth, const Vec3& n) {
 
 double coverage_by(const ts_answer& answer, const Configuration& c, const oracle::Truth& truth) {
   std::vector<Vec3> points;
+  points.reserve(static_cast<std::size_t>(answer.point_count));
   for (int i = 0; i < answer.point_count; ++i) points.push_back(vector(answer.points[i].position));
   const double size = smaller_size(c), depth = patch_depth * size;
   const Vec3 n = patch_normal(truth, vector(answer.normal));

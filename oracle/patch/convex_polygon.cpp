@@ -1,4 +1,4 @@
-#include "oracle/convex_polygon.hpp"
+#include "oracle/patch/convex_polygon.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/convex_hull_2.h>

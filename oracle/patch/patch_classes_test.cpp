@@ -3,7 +3,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-#include "oracle/patch.hpp"
+#include "oracle/patch/contact_patch.hpp"
 #include "oracle/truth.hpp"
 #include "properties/identity.hpp"
 

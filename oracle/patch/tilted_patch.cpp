@@ -1,7 +1,7 @@
-#include "oracle/convex_polygon.hpp"
-#include "oracle/patch.hpp"
-#include "oracle/patch_plane.hpp"
-#include "oracle/support_part.hpp"
+#include "oracle/patch/contact_patch.hpp"
+#include "oracle/patch/convex_polygon.hpp"
+#include "oracle/patch/patch_plane.hpp"
+#include "oracle/patch/support_part.hpp"
 
 namespace touchstone::oracle {
 

@@ -1,4 +1,4 @@
-#include "oracle/support_feature.hpp"
+#include "oracle/patch/support_feature.hpp"
 
 #include <algorithm>
 #include <cmath>

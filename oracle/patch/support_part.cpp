@@ -1,4 +1,4 @@
-#include "oracle/support_part.hpp"
+#include "oracle/patch/support_part.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,9 +3,9 @@
 #include <numbers>
 #include <random>
 
-#include "oracle/convex_polygon.hpp"
-#include "oracle/patch.hpp"
-#include "oracle/support_part.hpp"
+#include "oracle/patch/contact_patch.hpp"
+#include "oracle/patch/convex_polygon.hpp"
+#include "oracle/patch/support_part.hpp"
 
 namespace touchstone::oracle {
 namespace {
@@ -218,6 +218,28 @@ TEST(TiltedPatch, TendsToTheExactPatchWithEpsilonAtAnyScale) {
         EXPECT_LE((wider.centroid() - exact.centroid()).norm(), band + 1e-3 * s);
       }
     }
+  }
+}
+
+TEST(TiltedPatch, AnyNormalAndEpsilonGiveAFinitePatch) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> symmetric(-1, 1), exponent(-18, 3);
+  const auto length = [&] { return std::pow(10, exponent(random) / 3); };
+  const auto pose = [&] {
+    const double lean = std::pow(10, exponent(random));
+    return Pose(Vec3(symmetric(random), symmetric(random), symmetric(random)),
+                Eigen::Quaterniond(1, lean * symmetric(random), lean * symmetric(random), 0));
+  };
+  for (int i = 0; i < 4000; ++i) {
+    const Shape others[] = {Cylinder(length(), length()), Plane(up, length()), Sphere(length()),
+                            Capsule(length(), length()), Box(Vec3(length(), length(), length()))};
+    const Configuration c{Cylinder(length(), length()), pose(), others[i % 5], pose()};
+    const double tilt = std::pow(10, exponent(random));
+    const Vec3 n = (up + tilt * Vec3(symmetric(random), symmetric(random), 0)).normalized();
+    const ContactPatch p = contact_patch(c, n, std::pow(10, exponent(random)));
+    EXPECT_TRUE(p.centroid().allFinite());
+    EXPECT_GE(p.area(), -1e-12 * p.perimeter() * p.perimeter());
+    EXPECT_LE(p.distance(p.centroid()), 1e-9 * (1 + p.perimeter()));
   }
 }
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "oracle/convex_set.hpp"
+#include "oracle/patch/convex_set.hpp"
 
 namespace touchstone::oracle {
 

@@ -1,4 +1,4 @@
-#include "oracle/convex_set.hpp"
+#include "oracle/patch/convex_set.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "oracle/patch_plane.hpp"
+#include "oracle/patch/patch_plane.hpp"
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 // Overlaps of discs, rectangles and segments against CGAL's exact polygons of circles and lines, on
 // small integers, where tangent discs and circles through corners are frequent.
-#include "oracle/feature_overlap.hpp"
+#include "oracle/patch/feature_overlap.hpp"
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/General_polygon_set_2.h>

@@ -1,4 +1,4 @@
-#include "oracle/patch.hpp"
+#include "oracle/patch/contact_patch.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>

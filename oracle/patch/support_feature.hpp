@@ -1,7 +1,7 @@
 #pragma once
 
-#include "oracle/exact_pose.hpp"
 #include "oracle/optimal_normal.hpp"
+#include "oracle/patch/exact_pose.hpp"
 
 namespace touchstone::oracle {
 

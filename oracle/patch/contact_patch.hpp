@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "oracle/convex_set.hpp"
 #include "oracle/optimal_normal.hpp"
+#include "oracle/patch/convex_set.hpp"
 
 namespace touchstone::oracle {
 

@@ -1,10 +1,10 @@
-#include "oracle/convex_set.hpp"
+#include "oracle/patch/convex_set.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
 
-#include "oracle/convex_polygon.hpp"
+#include "oracle/patch/convex_polygon.hpp"
 
 namespace touchstone::oracle {
 namespace {

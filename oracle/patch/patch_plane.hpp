@@ -1,6 +1,6 @@
 #pragma once
 
-#include "oracle/patch.hpp"
+#include "oracle/patch/contact_patch.hpp"
 
 namespace touchstone::oracle {
 

@@ -1,11 +1,11 @@
-#include "oracle/patch.hpp"
+#include "oracle/patch/contact_patch.hpp"
 
 #include <algorithm>
 #include <optional>
 
-#include "oracle/feature_overlap.hpp"
-#include "oracle/patch_plane.hpp"
-#include "oracle/support_feature.hpp"
+#include "oracle/patch/feature_overlap.hpp"
+#include "oracle/patch/patch_plane.hpp"
+#include "oracle/patch/support_feature.hpp"
 
 namespace touchstone::oracle {
 namespace {
@@ -153,7 +153,7 @@ std::vector<Vec3> ContactPatch::outline(int per_quarter) const {
 ContactPatch contact_patch(const Configuration& c, const OptimalNormal& normal) {
   const SupportFeatures features = support_features(c, normal);
   const double lengths = larger_size(c) + (c.pose_a.position() - c.pose_b.position()).norm();
-  constexpr double beside = 1e-9;     // a normal off by an ulp moves no certain point that far
+  constexpr double beside = 1e-9;     // further off, a point was decided by rounding
   constexpr double rounding = 1e-15;  // of the support planes
   if (points_are_right(features, normal.n, beside * lengths)) {
     if (auto found = overlap(features.a, features.b, normal.n)) {

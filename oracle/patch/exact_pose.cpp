@@ -1,4 +1,4 @@
-#include "oracle/exact_pose.hpp"
+#include "oracle/patch/exact_pose.hpp"
 
 namespace touchstone::oracle {
 

@@ -1,4 +1,4 @@
-#include "oracle/feature_overlap.hpp"
+#include "oracle/patch/feature_overlap.hpp"
 
 #include <algorithm>
 #include <array>
