@@ -28,7 +28,7 @@ int run(const Options& options) {
     throw InvalidInput("--width", fmt::format("{}", options.width), "must be positive and finite");
   }
   const SolveOptions solving{options.candidates.get(), options.width, options.bar.get(),
-                             options.candidates.limits(), options.audit};
+                             options.audit, options.candidates.limits()};
   if (options.file == "-") return solve(std::cin, std::cout, solving) ? 0 : 2;
   std::ifstream in(options.file);
   if (!in) throw InvalidInput("file", '"' + options.file + '"', "could not be opened for reading");

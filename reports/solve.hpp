@@ -12,8 +12,8 @@ struct SolveOptions {
   std::vector<const Candidate*> candidates;
   double width = 1e-30;  ///< of the truth, relative to the larger size
   Bar bar;
-  Limits limits = {};  ///< of each candidate on one configuration
   bool audit = false;  ///< let the second oracle check every truth
+  Limits limits = {};  ///< of each candidate on one configuration
 };
 
 /// One JSON object a line in, one a line out (docs/solve.md). A bad line is answered with an error
