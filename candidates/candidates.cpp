@@ -32,16 +32,10 @@ std::filesystem::path standard_folder() {
   return program;
 }
 
+/// The shortest text that reads back the same.
 std::string number(double value) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.17g", value);
-  // The shortest that reads back the same.
-  for (int digits = 1; digits < 17; ++digits) {
-    char shorter[32];
-    std::snprintf(shorter, sizeof shorter, "%.*g", digits, value);
-    if (std::strtod(shorter, nullptr) == value) return shorter;
-  }
-  return text;
+  return std::string(text, std::to_chars(text, text + sizeof text, value).ptr);
 }
 
 std::optional<double> to_number(std::string_view text) {
@@ -164,12 +158,11 @@ struct ToTsShape {
   }
 };
 
-/// Numbers from "8", or from "1..64".
+/// The numbers of "1..64".
 std::vector<double> sweep(const Candidate& family, std::string_view text) {
   const auto dots = text.find("..");
-  if (dots == std::string_view::npos) return {};
   const auto first = to_number(text.substr(0, dots)), last = to_number(text.substr(dots + 2));
-  if (!first || !last || !(*first > 0) || !(*last >= *first)) {
+  if (!first || !last || !(*first > 0) || !(*last >= *first) || !std::isfinite(*last)) {
     throw InvalidInput("--candidates", '"' + family.family + ':' + std::string(text) + '"',
                        "must be two positive numbers in rising order, as in 1..64");
   }

@@ -46,6 +46,9 @@ TEST(FindCandidates, ReadSweeps) {
                                                              "libccd-gjk", "libccd-gjk:0.001"));
   EXPECT_THAT(names({"bullet", "bullet"}), ElementsAre("bullet"));
   EXPECT_THROW(names({"spheres:8..1"}), InvalidInput);
+  EXPECT_THROW(names({"spheres:1..inf"}), InvalidInput);
+  EXPECT_THROW(names({"spheres:1..1e6"}), InvalidInput);
+  EXPECT_THROW(names({"spheres:.."}), InvalidInput);
   EXPECT_THROW(names({"8"}), InvalidInput);
 }
 

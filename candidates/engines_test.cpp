@@ -70,6 +70,16 @@ TEST(Ode, AThinDiscOnABoxHasAllItsPointsAtOneDepth) {  // webots #2947
   for (int i = 0; i < a.point_count; ++i) EXPECT_NEAR(a.points[i].depth, 1e-4, 1e-12);
 }
 
+/// A sphere whose centre lies on the axis, nearer to the side than to a cap: 0.7 deep.
+const Configuration sphere_on_axis{Cylinder(0.3, 0.76), Pose({0, 0, 0.1}, upright), Sphere(0.4),
+                                   Pose()};
+
+TEST(Ode, HasNoNormalForASphereOnTheAxis) {  // found here
+  const Answer a = answer("ode", sphere_on_axis);
+  EXPECT_NEAR(a.signed_distance, -0.7, 1e-12);
+  EXPECT_TRUE(normal_of(a).hasNaN());
+}
+
 // FCL
 
 /// The numbers of fcl #375: a disc that sits on a plate exactly.
@@ -104,6 +114,11 @@ TEST(Fcl, NoLongerThrowsInsideACube) {  // fcl #324
   EXPECT_NEAR(answer("fcl-distance", c).signed_distance, -0.55, 1e-5);
 }
 
+TEST(Fcl, TakesLongForASphereOnTheAxis) {  // found here
+  EXPECT_EQ(answer("fcl-distance", sphere_on_axis).status, TS_TIMED_OUT);
+  EXPECT_NEAR(answer("fcl", sphere_on_axis).signed_distance, -0.7, 1e-12);
+}
+
 TEST(Fcl, AnswersTheSameUpsideDown) {  // drake #8049, as it was mended
   for (const Quaternion& turn : {upright, Quaternion(0, 1, 0, 0)}) {
     const Configuration c{Cylinder(0.5, 1), Pose({0, 0, 0.949}, turn), Plane({0, 0, 1}, 0), Pose()};
@@ -129,6 +144,10 @@ TEST(Libccd, CannotTellTouchFromApart) {  // drake #21673
   const Answer a = answer("libccd-gjk", barely_apart);
   ASSERT_EQ(a.status, TS_CONTACT);
   EXPECT_LT(normal_of(a).dot(normal_of(answer("reference", barely_apart, 1))), -0.99);
+}
+
+TEST(Libccd, EpaFindsNoDepthForASphereOnTheAxis) {  // found here
+  EXPECT_LT(std::abs(answer("libccd-gjk", sphere_on_axis).signed_distance), 1e-12);
 }
 
 TEST(Libccd, AgreesOnStackedAlignedBodies) {  // libccd #25, which is about two cubes

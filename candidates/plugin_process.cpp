@@ -124,6 +124,7 @@ PluginProcess::PluginProcess(const std::filesystem::path& file) : state_(new Sta
   if (s.pid < 0) fail("fork");
   if (s.pid == 0) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != s.owner) _exit(0);  // it died before that
     close(ends[0]);
     const int nothing = open("/dev/null", O_RDONLY);
     dup2(nothing, STDIN_FILENO);

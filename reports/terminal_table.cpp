@@ -44,14 +44,14 @@ std::string agreement(const json& row) {
 
 std::string terminal_table(const json& report) {
   std::string text =
-      fmt::format("{:<23}{:>6} {:>7} {:>7} {:>7} {:>5} {:>7} {:>8}\n", "candidate", "agree%",
-                  "missed", "err p99", "err max", "cover", "ns", "x bullet");
+      fmt::format("{:<23}{:>6} {:>6} {:>8} {:>8} {:>6} {:>8} {:>8}\n", "candidate", "agree%",
+                  "missed", "err p99", "err max", "cover", "ns/query", "x bullet");
   std::string last_pair;
   for (const json& row : report["summary"]) {
     if (row["outcomes"].value("unsupported", 0) == row["count"]) continue;
     const std::string pair = row["pair"];
     if (pair != last_pair) text += '\n' + pair + '\n';
-    text += fmt::format("  {:<21}{:>6} {:>7} {:>7} {:>7} {:>5} {:>7} {:>8}\n",
+    text += fmt::format("  {:<21}{:>6} {:>6} {:>8} {:>8} {:>6} {:>8} {:>8}\n",
                         row["candidate"].get<std::string>(), agreement(row),
                         row["outcomes"].value("missed", 0), scientific(row["depth_error"], "p99"),
                         scientific(row["depth_error"], "max"), mean_coverage(row),

@@ -127,7 +127,7 @@ function chart() {
   const [y0, y1] = widen(decades(rows.map(clipped)));
   const shown = candidates.filter(name => rows.some(r => r.candidate === name));
   byId('chart-panels').before(element('div', {class: 'legend'}, ...shown.map(name => {
-    const svg = shape('svg', {viewBox: '-8 -8 16 16', style: 'width:14px;height:14px', 'aria-hidden': 'true'});
+    const svg = shape('svg', {viewBox: '-8 -8 16 16', style: 'display:inline;width:14px;height:14px;margin-right:.3em;vertical-align:middle', 'aria-hidden': 'true'});
     svg.append(shape('path', {fill: colour(name), d: symbolPath(symbolOf(name), 0, 0, 5.5)}));
     return element('span', {}, svg, name);
   })));
@@ -170,12 +170,16 @@ function panel(pair, rows, {x0, x1, y0, y1, clipped}) {
   svg.append(shape('polyline', {class: 'front', points: line(front)}));
   // Named are those on the front; labels that would lie on each other are moved down.
   let lowest = -Infinity;
+  const labels = [];
   for (const r of [...rows].sort((a, b) => clipped(b) - clipped(a))) {
     const at = y(clipped(r));
     let labelAt = null;
     if (front.includes(r)) lowest = labelAt = Math.max(at + 4, lowest + 13);
-    svg.append(...mark(pair, r, x(time(r)), at, labelAt, width));
+    const [symbol, label] = mark(pair, r, x(time(r)), at, labelAt, width);
+    svg.append(symbol);
+    if (label) labels.push(label);
   }
+  svg.append(...labels);
   return element('figure', {}, element('figcaption', {}, pair === 'all' ? 'all pairs' : pair), svg);
 }
 function mark(pair, r, x, y, labelY, width) {
@@ -188,7 +192,7 @@ function mark(pair, r, x, y, labelY, width) {
   symbol.addEventListener('click', () => showWorst(pair, r.candidate));
   if (labelY === null) return [symbol];
   const leftwards = x > width * 0.62;
-  const label = shape('text', {x: leftwards ? x - 10 : x + 10, y: labelY, 'text-anchor': leftwards ? 'end' : 'start'},
+  const label = shape('text', {class: 'label', x: leftwards ? x - 10 : x + 10, y: labelY, 'text-anchor': leftwards ? 'end' : 'start'},
       `${r.candidate} ${percent(agreeing(r))}`);
   return [symbol, label];
 }
