@@ -24,7 +24,7 @@ expect 0 'Examples' report --help
 expect 0 '^touchstone [0-9]' --version
 expect 0 'bullet 3' candidates
 expect 2 'subcommand is required'
-expect 2 'report, replay, solve, certify, candidates' nonsense
+expect 2 'report, replay, solve, certify, check, candidates' nonsense
 expect 2 'identity.pair' replay cylinder-cone/rim/1/2
 expect 2 'identity.class' replay cylinder-box/none/1/2
 expect 2 'identity is required' replay
@@ -43,6 +43,26 @@ expect 2 -- '--class' report --class nowhere --out "$folder/r"
 expect 2 -- '--out' report --out /proc/none
 expect 0 'report.html' report --pair cylinder-plane --count 1 --out "$folder/a b"
 [ -s "$folder/a b/report.html" ] || { echo "FAILED: no report.html"; failures=$((failures + 1)); }
+
+
+expect 2 -- '--candidate' check
+expect 2 -- '--law.*agreement' check --candidate bullet --law gravity
+expect 2 -- '--class' check --candidate bullet --class nowhere
+expect 2 -- '--corpus.*must be a folder' check --corpus "$folder/none"
+expect 0 'agreement .* passed' check --candidate reference --pair cylinder-sphere --count 1
+expect 1 'broken by' check --candidate bullet --pair cylinder-box --class edge-cap --count 1 \
+  --law agreement --save "$folder/corpus" --junit "$folder/junit.xml" --json "$folder/check.json"
+expect 0 'as expected' check --corpus "$folder/corpus"
+sed -i 's/"missed"/"overdeep"/; s/"shallow"/"overdeep"/' "$folder"/corpus/*.json
+expect 1 'changed' check --corpus "$folder/corpus"
+echo '{' > "$folder/corpus/broken.json"
+expect 2 'broken.json' check --corpus "$folder/corpus"
+python3 - "$folder" <<'END' || { echo "FAILED: JUnit XML or JSON of check"; failures=$((failures + 1)); }
+import json, sys, xml.etree.ElementTree as tree
+suite = tree.parse(sys.argv[1] + "/junit.xml").getroot()[0]
+assert suite.get("failures") == "1" and suite[0][0].tag == "failure"
+assert json.load(open(sys.argv[1] + "/check.json"))["laws"][0]["broken"] == 1
+END
 
 # Installed without an engine: a line says so, and the rest is there.
 mkdir "$folder/part" "$folder/part/candidates"

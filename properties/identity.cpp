@@ -6,6 +6,7 @@
 
 #include "properties/arbitrary.hpp"
 #include "properties/pose_class.hpp"
+#include "properties/simplify.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone {
@@ -118,7 +119,9 @@ rc::Gen<Configuration> configurations(Pair pair, std::string_view pose_class) {
   const PoseClass& c = find_class(pair, pose_class);
   return rc::Gen<Configuration>([&c](const rc::Random& random, int) {
     Draw draw(random);
-    return rc::shrinkable::just(c.generate(draw));
+    return rc::shrinkable::shrinkRecur(c.generate(draw), [](const Configuration& configuration) {
+      return rc::seq::fromContainer(simpler(configuration));
+    });
   });
 }
 

@@ -1,0 +1,184 @@
+// The laws themselves: what they accept, and that each sees the fault it is there for.
+#include <cmath>
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include "candidates/candidates.hpp"
+#include "laws/check.hpp"
+#include "laws/moves.hpp"
+#include "laws/point_distance.hpp"
+#include "properties/arbitrary.hpp"
+#include "properties/simplify.hpp"
+#include "reference/contact_of.hpp"
+#include "reference/invalid_input.hpp"
+
+namespace touchstone {
+namespace {
+
+/// A standing cylinder 0.1 deep in a box's top, and an answer that is right.
+Configuration standing() {
+  return {Cylinder(1, 1), Pose({0, 0, 1.9}, {1, 0, 0, 0}), Box({2, 2, 1}), Pose()};
+}
+
+Answer contact(double distance, const Vec3& n = Vec3(0, 0, 1),
+               const std::vector<Vec3>& points = {}) {
+  Answer a{};
+  a.status = TS_CONTACT;
+  a.signed_distance = distance;
+  Eigen::Map<Vec3>(a.normal) = n;
+  for (const Vec3& p : points) {
+    ts_point& point = a.points[a.point_count++];
+    Eigen::Map<Vec3>(point.position) = p;
+    Eigen::Map<Vec3>(point.normal) = n;
+    point.depth = -distance;
+  }
+  return a;
+}
+
+Answer none() {
+  Answer a{};
+  a.status = TS_NONE;
+  return a;
+}
+
+std::string failure(const char* law, const std::vector<Answer>& answers) {
+  const auto v = find_law(law).judge(standing(), answers, {});
+  return v ? v->failure : "";
+}
+
+const std::vector<Vec3> triangle = {{1, 0, 0.95}, {-0.5, 0.8, 0.95}, {-0.5, -0.8, 0.95}};
+
+TEST(Laws, SeeWhatTheyAreThereFor) {
+  const Answer good = contact(-0.1, {0, 0, 1}, triangle);
+  EXPECT_EQ(failure("answers", {good}), "");
+  EXPECT_EQ(failure("answers", {contact(NAN)}), "not-finite");
+  EXPECT_EQ(failure("answers", {contact(-0.1, {0, 0, 2})}), "wrong-normal");
+
+  EXPECT_EQ(failure("agreement", {good}), "");
+  EXPECT_EQ(failure("agreement", {none()}), "missed");
+  EXPECT_EQ(failure("agreement", {contact(-0.09)}), "shallow");
+  EXPECT_EQ(failure("agreement", {contact(-0.11)}), "overdeep");
+  EXPECT_EQ(failure("agreement", {contact(-0.1, {1, 0, 0})}), "wrong-normal");
+
+  EXPECT_EQ(failure("flip", {good, contact(-0.1)}), "");
+  EXPECT_EQ(failure("flip", {good, contact(-0.101)}), "not-invariant");
+  EXPECT_EQ(failure("flip", {good, contact(-0.1, {0, 0.6, 0.8})}), "not-invariant");
+  EXPECT_EQ(failure("flip", {good, none()}), "not-invariant");
+  EXPECT_EQ(failure("scale", {good, contact(-0.0125), contact(-0.8)}), "");
+  EXPECT_EQ(failure("scale", {good, contact(-0.1), contact(-0.1)}), "not-invariant");
+
+  std::vector<Answer> steps(7, good);
+  EXPECT_EQ(failure("small-steps", steps), "");
+  steps[4] = contact(-0.12);
+  EXPECT_EQ(failure("small-steps", steps), "jump");
+
+  EXPECT_EQ(failure("growth", {good, good, contact(-0.11)}), "");
+  EXPECT_EQ(failure("growth", {good, contact(-0.09), good}), "shallow");
+  EXPECT_EQ(failure("growth", {good, contact(-0.2), good}), "overdeep");
+
+  EXPECT_EQ(failure("way-out", {good}), "");
+  EXPECT_EQ(failure("way-out", {contact(-0.05)}), "shallow");
+  EXPECT_EQ(failure("way-out", {contact(-0.2)}), "overdeep");
+
+  EXPECT_EQ(failure("apart", {good, none()}), "");
+  EXPECT_EQ(failure("apart", {good, contact(-0.01)}), "phantom");
+
+  EXPECT_EQ(failure("points", {good}), "");
+  EXPECT_EQ(failure("points", {contact(-0.1, {0, 0, 1}, {{3, 0, 0.95}})}), "off-body");
+
+  EXPECT_EQ(failure("manifold", {good}), "");
+  EXPECT_EQ(failure("manifold", {contact(-0.1, {0, 0, 1}, {{0, 0, 0.95}})}), "few-points");
+
+  EXPECT_EQ(failure("memory", {good, good, good, good, good}), "");
+  EXPECT_EQ(failure("memory", {good, good, good, good, contact(std::nextafter(-0.1, 0))}),
+            "not-invariant");
+}
+
+TEST(Laws, HaveNamesThatAreFound) {
+  for (const Law& law : all_laws()) EXPECT_EQ(&find_law(law.name), &law);
+  EXPECT_THROW(find_law("gravity"), InvalidInput);
+}
+
+// As a rapidcheck property: RC_PARAMS sets the number of tries and the seed, failures shrink.
+class ReferenceKeeps : public testing::TestWithParam<Pair> {};
+
+TEST_P(ReferenceKeeps, EveryLaw) {
+  CandidateProcess reference(find_candidate("reference"), 0);
+  const auto& classes = pose_classes(GetParam());
+  EXPECT_TRUE(rc::check([&](unsigned number) {
+    const Configuration c = *configurations(GetParam(), classes[number % classes.size()]);
+    for (const Law& law : all_laws()) {
+      const auto violation = broken(law, c, reference, {});
+      if (violation) RC_FAIL(law.name + ", " + violation->failure + ": " + violation->detail);
+    }
+  }));
+}
+
+INSTANTIATE_TEST_SUITE_P(, ReferenceKeeps, testing::ValuesIn(all_pairs), [](const auto& pair) {
+  return std::string(pair_name(pair.param)).substr(std::string("cylinder-").size());
+});
+
+TEST(Check, SimplifiesAFailureToOneThatFailsAlike) {
+  CandidateProcess bullet(find_candidate("bullet"), 0);
+  CheckOptions options;
+  options.laws = {&find_law("agreement")};
+  options.pairs = {Pair::box};
+  options.classes = {"edge-cap"};
+  options.count = 3;
+  const auto results = check(bullet, options, [](auto, auto) {});
+  ASSERT_EQ(results.size(), 1u);
+  ASSERT_FALSE(results[0].failures.empty());
+  for (const Failure& f : results[0].failures) {
+    const Configuration met = make_configuration(parse_identity(f.identity));
+    EXPECT_LT(complexity(f.configuration), complexity(met) / 4);
+    const auto v = broken(find_law(f.law), f.configuration, bullet, options.bar);
+    ASSERT_TRUE(v);
+    EXPECT_EQ(v->failure, f.violation.failure);
+  }
+}
+
+TEST(Check, ACrashIsAFailureOfTheLawAnswersAlone) {
+  add_plugin(TOUCHSTONE_TEST_PLUGINS "/touchstone-sabotage.so");
+  CandidateProcess crashing(find_candidate("misdeed:2"), 0, {10, 256});
+  const Configuration c = standing();
+  for (const Law& law : all_laws()) {
+    const auto v = broken(law, c, crashing, {});
+    EXPECT_EQ(v.has_value(), law.name == "answers") << law.name;
+    EXPECT_TRUE(!v || v->failure == "crashed");
+  }
+}
+
+TEST(Moves, LeaveTheGeometryAsTheySay) {
+  for (const Pair pair : all_pairs) {
+    const Configuration c = make_configuration({pair, "general-shallow", 4, 1});
+    const double distance = oracle::truth(c).signed_distance.midpoint();
+    const auto near = [&](const Configuration& other, double expected) {
+      EXPECT_NEAR(oracle::truth(other).signed_distance.midpoint(), expected,
+                  1e-13 * larger_size(c));
+    };
+    near(rotated(c, Eigen::Quaterniond(1, 2, 3, 4).normalized()), distance);
+    near(translated(c, {1, -2, 3}), distance);
+    near(spun(c, 1.3), distance);
+    near(flipped(c), distance);
+    near(scaled(c, 4), 4 * distance);
+    if (pair == Pair::cylinder) near(exchanged(c), distance);
+  }
+}
+
+TEST(PointDistance, OfEveryShape) {
+  const Pose at({1, 2, 3}, {1, 0, 0, 0});
+  const auto distance = [&](const Shape& s, const Vec3& p) { return point_distance(s, at, p); };
+  EXPECT_DOUBLE_EQ(distance(Cylinder(1, 2), {4, 2, 3}), 2);
+  EXPECT_DOUBLE_EQ(distance(Cylinder(1, 2), {5, 2, 9}), 5);
+  EXPECT_DOUBLE_EQ(distance(Cylinder(1, 2), {1.25, 2, 3}), -0.75);
+  EXPECT_DOUBLE_EQ(distance(Cylinder(1, 2), {1, 2, 4.5}), -0.5);
+  EXPECT_DOUBLE_EQ(distance(Capsule(1, 2), {1, 2, 7}), 1);
+  EXPECT_DOUBLE_EQ(distance(Capsule(1, 2), {1, 2, 3}), -1);
+  EXPECT_DOUBLE_EQ(distance(Sphere(1), {1, 2, 5}), 1);
+  EXPECT_DOUBLE_EQ(distance(Box({1, 1, 1}), {5, 2, 7}), std::hypot(3, 3));
+  EXPECT_DOUBLE_EQ(distance(Box({1, 2, 3}), {1, 2, 3}), -1);
+  EXPECT_DOUBLE_EQ(distance(Plane({0, 0, 2}, 2), {0, 0, 5}), 1);
+}
+
+}  // namespace
+}  // namespace touchstone
