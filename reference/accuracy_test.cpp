@@ -20,8 +20,8 @@ std::uint64_t count_per_class() {
 
 class Accuracy : public testing::TestWithParam<Pair> {};
 
-TEST_P(Accuracy, IsWithinOneBillionthOfTheLargerSize) {
-  constexpr double promised = 1e-9;
+TEST_P(Accuracy, IsWithinRoundingOfTheLargerSize) {
+  constexpr double promised = 1e-13;
   double worst_distance = 0, worst_regret = 0;
   std::string worst_distance_id, worst_regret_id;
   for (const auto& name : pose_classes(GetParam())) {
@@ -46,34 +46,6 @@ TEST_P(Accuracy, IsWithinOneBillionthOfTheLargerSize) {
   RecordProperty("worst_distance", std::to_string(worst_distance) + " " + worst_distance_id);
   std::printf("worst distance %.2g at %s, worst regret %.2g at %s\n", worst_distance,
               worst_distance_id.c_str(), worst_regret, worst_regret_id.c_str());
-}
-
-TEST_P(Accuracy, PointsLieHalfwayBetweenTheSurfaces) {
-  for (const auto& name : pose_classes(GetParam())) {
-    for (std::uint64_t i = 0; i < count_per_class(); ++i) {
-      const Identity id{GetParam(), name, 7, i};
-      const Configuration c = make_configuration(id);
-      const Contact answer = contact(c, 0);
-      SCOPED_TRACE(to_string(id));
-      ASSERT_EQ(answer.points().empty(), answer.signed_distance > 0);
-      for (const ContactPoint& p : answer.points()) {
-        // Moved by half of its depth along the normal, the point must lie on A's supporting plane
-        // towards B; A's own support at that place is checked through its body frame.
-        const Vec3 on_a = p.position - (p.depth / 2) * answer.normal;
-        const Vec3 local = c.pose_a.rotation().transpose() * (on_a - c.pose_a.position());
-        const double outside = std::max(std::hypot(local.x(), local.y()) - c.a.radius(),
-                                        std::abs(local.z()) - c.a.half_length());
-        // Within a hair of a flat contact the normal's own rounding decides which of its points
-        // face each other; their depth is right all the same.
-        const bool nearly_flat = name.starts_with("near-");
-        const double position_rounding =
-            4e-16 * (c.pose_a.position().norm() + c.pose_b.position().norm());
-        const double aside = (nearly_flat ? 1e-5 : 1e-8) * larger_size(c) + position_rounding;
-        EXPECT_NEAR(outside, 0, aside);
-        EXPECT_LE(p.depth, -answer.signed_distance + 1e-14 * larger_size(c) + position_rounding);
-      }
-    }
-  }
 }
 
 INSTANTIATE_TEST_SUITE_P(, Accuracy, testing::ValuesIn(all_pairs), [](const auto& pair) {

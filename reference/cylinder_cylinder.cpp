@@ -1,6 +1,6 @@
 #include "cylinder_cylinder.hpp"
 
-#include "deepest_point.hpp"
+#include "manifold.hpp"
 #include "reduced_pair.hpp"
 
 namespace touchstone {
@@ -8,7 +8,19 @@ namespace touchstone {
 Contact contact(const Cylinder& a, const Pose& pose_a, const Cylinder& b, const Pose& pose_b,
                 double contact_threshold) {
   const ReducedPair pair = reduce(a, pose_a, b, pose_b);
-  return with_deepest_point(pair, pose_b.position(), largest_gap(pair), contact_threshold);
+  const BestNormal best = largest_gap(pair);
+  Contact result;
+  result.normal = best.normal;
+  result.signed_distance = best.gap;
+  if (best.gap > contact_threshold) return result;
+
+  const ManifoldRule rule(largest_half_extent(a), largest_half_extent(b), pair.d.norm(), best.gap,
+                          contact_threshold);
+  const PosedCylinder posed_a{pair.d, pose_a.axis(), a.radius(), a.half_length()};
+  const PosedCylinder posed_b{Vec3::Zero(), pose_b.axis(), b.radius(), b.half_length()};
+  add_manifold(result, facing(posed_a, -best.normal, rule.slack),
+               facing(posed_b, best.normal, rule.slack), pose_b.position(), rule);
+  return result;
 }
 
 }  // namespace touchstone

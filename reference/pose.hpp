@@ -18,12 +18,15 @@ class Pose {
   const Vec3& position() const { return position_; }
   /// As given; Eigen's constructor order is (w, x, y, z).
   const Eigen::Quaterniond& orientation() const { return orientation_; }
-  /// Body frame to world frame.
-  Eigen::Matrix3d rotation() const { return orientation_.normalized().toRotationMatrix(); }
+  /// Body frame to world frame, made once for each pose.
+  const Eigen::Matrix3d& rotation() const { return rotation_; }
+  /// The body's local z in the world: the axis of a cylinder or capsule.
+  Vec3 axis() const { return rotation_.col(2); }
 
  private:
   Vec3 position_ = Vec3::Zero();
   Eigen::Quaterniond orientation_ = Eigen::Quaterniond::Identity();
+  Eigen::Matrix3d rotation_ = Eigen::Matrix3d::Identity();
 };
 
 }  // namespace touchstone

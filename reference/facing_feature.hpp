@@ -1,0 +1,51 @@
+#pragma once
+
+#include <array>
+
+#include "pose.hpp"
+#include "shape.hpp"
+
+namespace touchstone {
+
+/// Bodies in one frame, which has the world's axes and any origin that is near them.
+struct PosedCylinder {
+  Vec3 centre, axis;
+  double radius, half_length;
+};
+struct PosedCapsule {
+  Vec3 centre, axis;
+  double radius, half_length;
+};
+struct PosedBox {
+  Vec3 centre;
+  Eigen::Matrix3d axes;
+  Vec3 half_extents;
+};
+
+/// What a body turns towards the other across a known normal.
+struct FacingFeature {
+  enum class Kind {
+    point,
+    segment,  ///< a generator or an edge: middle, axis, half_length; radius of curvature across it
+    disc,     ///< a cap: middle, axis (its normal), radius
+    rectangle,  ///< a face: middle, axis (its normal), two sides with their half lengths
+    half_space  ///< middle, axis
+  };
+  Kind kind;
+  Vec3 middle;  ///< The point itself; on the surface.
+  Vec3 axis = Vec3::UnitZ();
+  double half_length = 0;
+  double radius = 0;
+  /// Of a point on a rim, how much of the normal tells where on the rim it lies; else 1.
+  double sine = 1;
+  std::array<Vec3, 2> side = {Vec3::Zero(), Vec3::Zero()};
+  std::array<double, 2> half_side = {0, 0};
+};
+
+/// The feature of the body that is farthest along `outward`. A cap, generator, edge or face counts
+/// as facing when at least a tenth of it lies within `slack` metres of its farthest point.
+FacingFeature facing(const PosedCylinder& body, const Vec3& outward, double slack);
+FacingFeature facing(const PosedCapsule& body, const Vec3& outward, double slack);
+FacingFeature facing(const PosedBox& body, const Vec3& outward, double slack);
+
+}  // namespace touchstone
