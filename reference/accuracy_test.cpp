@@ -29,9 +29,9 @@ TEST_P(Accuracy, IsWithinRoundingOfTheLargerSize) {
       const Identity id{GetParam(), name, 7, i};
       const Configuration c = make_configuration(id);
       const oracle::Truth t = oracle::truth(c);
-      const Contact answer = contact(c, 0);
+      const SignedDistance answer = signed_distance(c);
       const double distance =
-          std::abs(answer.signed_distance - t.signed_distance.midpoint()) / larger_size(c);
+          std::abs(answer.value - t.signed_distance.midpoint()) / larger_size(c);
       const double regret = oracle::normal_regret(c, t, answer.normal) / larger_size(c);
       // Far from the origin and for planes the positions' own rounding counts.
       const double rounding =

@@ -71,10 +71,11 @@ std::vector<Case> closed_forms() {
 TEST(Contact, HasTheDistanceAndNormalOfTheClosedForm) {
   for (const Case& c : closed_forms()) {
     SCOPED_TRACE(c.name);
-    const Contact answer = contact(c.configuration, 0);
-    EXPECT_NEAR(answer.signed_distance, c.signed_distance, 1e-14);
+    const SignedDistance answer = signed_distance(c.configuration);
+    EXPECT_NEAR(answer.value, c.signed_distance, 1e-14);
     EXPECT_LT((answer.normal - c.normal).norm(), 1e-7);
-    EXPECT_EQ(answer.points().empty(), c.signed_distance > 0);
+    EXPECT_EQ(overlaps(c.configuration), c.signed_distance <= 0);
+    EXPECT_EQ(contact(c.configuration, 0).points().empty(), c.signed_distance > 0);
   }
 }
 
@@ -125,7 +126,7 @@ TEST(CylinderOnPlane, StandingHasThreePoints120DegreesApart) {
 TEST(CylinderOnPlane, PosedPlaneWithALongNormalIsTheSameHalfSpace) {
   const Configuration c{Cylinder(1, 2), Pose({5, 6, 4}, upright), Plane({0, 0, 8}, 4),
                         Pose({1, 2, 1}, upright)};  // 8 (z − 1) <= 4
-  EXPECT_NEAR(contact(c, 0).signed_distance, 0.5, 1e-15);
+  EXPECT_NEAR(signed_distance(c).value, 0.5, 1e-15);
 }
 
 }  // namespace

@@ -1,26 +1,128 @@
 #include "cylinder_capsule.hpp"
 
+#include <cmath>
+#include <limits>
+
+#include "ellipse_normal.hpp"
+#include "folded_axes.hpp"
+#include "largest_gap.hpp"
 #include "manifold.hpp"
-#include "reduced_pair.hpp"
+#include "quick_separation.hpp"
 
 namespace touchstone {
+namespace {
+
+// The capsule less its radius is a segment, so the bodies touch at a cap (its end above it), where
+// the sides cross, at the side (an end beside it), where the segment crosses a rim, or where an end
+// is off the rim. In the folded frame each of these has one candidate, in closed form but for the
+// segment over the rim, which is a point against an ellipse.
+class Solver {
+ public:
+  Solver(const Cylinder& a, const Capsule& b, const FoldedAxes& f)
+      : r1_(a.radius()), h1_(a.half_length()), h2_(b.half_length()), f_(f) {}
+
+  /// Clearance to the segment; stops as soon as it exceeds `enough`.
+  LargestGap solve(double enough) {
+    cap();
+    sides_crossing();
+    end_beside_side();
+    if (best_.gap > enough) return best_;
+    segment_over_rim();
+    end_off_rim();
+    return best_;
+  }
+
+ private:
+  void cap() {
+    best_.offer(std::abs(f_.d1) - h1_ - h2_ * f_.c, Vec3(std::copysign(1, f_.d1), 0, 0));
+  }
+
+  void sides_crossing() { best_.offer(f_.d3 - r1_, Vec3(0, 0, 1)); }
+
+  /// n ⟂ u1: the end towards A lies at (0, h2 s) across A's axis.
+  void end_beside_side() {
+    const double y = std::abs(f_.d2) - h2_ * f_.s;
+    if (!(y > 0)) return;
+    const double length = std::sqrt(y * y + f_.d3 * f_.d3);
+    best_.offer(length - r1_, Vec3(0, std::copysign(y, f_.d2) / length, f_.d3 / length));
+  }
+
+  /// n ⟂ u2: seen along the segment the cap is an ellipse about the end of A's axis.
+  void segment_over_rim() {
+    const double along_k2 = f_.along_k2(f_.d());
+    const double y = std::abs(along_k2) - h1_ * f_.s;
+    const double b = r1_ * f_.c;
+    // No direction is better than the distance from the ellipse's inscribed disc.
+    if (f_.d3 * f_.d3 + y * y <= (best_.gap + b) * (best_.gap + b) && best_.gap + b > 0) return;
+    const auto n = ellipse_normal(r1_, b, f_.d3, y);
+    if (!n) return;
+    const double side = std::copysign(n->y(), along_k2);
+    const double gap = n->x() * f_.d3 + n->y() * y -
+                       std::sqrt(r1_ * r1_ * n->x() * n->x() + b * b * n->y() * n->y());
+    best_.offer(gap, Vec3(-f_.s * side, f_.c * side, n->x()));
+  }
+
+  /// Only apart: the end that is nearest to the cylinder, beyond both cap and side.
+  void end_off_rim() {
+    for (const double end : {-h2_, h2_}) {
+      const Vec3 q = f_.d() - end * Vec3(f_.c, f_.s, 0);
+      const double above = std::abs(q.x()) - h1_;
+      const double radial = std::sqrt(q.y() * q.y() + q.z() * q.z());
+      const double beside = radial - r1_;
+      if (!(above > 0 && beside > 0)) continue;
+      const double distance = std::sqrt(above * above + beside * beside);
+      if (distance <= best_.gap) continue;
+      const Vec3 n =
+          Vec3(std::copysign(above, q.x()), beside * q.y() / radial, beside * q.z() / radial) /
+          distance;
+      // The gap itself: the other end may be further along n.
+      best_.offer(n.dot(f_.d()) - h2_ * std::abs(f_.along_u2(n)) - h1_ * std::abs(n.x()) -
+                      r1_ * std::sqrt(n.y() * n.y() + n.z() * n.z()),
+                  n);
+    }
+  }
+
+  double r1_, h1_, h2_;
+  const FoldedAxes& f_;
+  LargestGap best_;
+};
+
+SignedDistance solve(const Cylinder& a, const Capsule& b, const PosedCylinder& posed_a,
+                     const PosedCapsule& posed_b, double enough) {
+  const FoldedAxes f(posed_a.axis, posed_b.axis, posed_a.centre);
+  const LargestGap best = Solver(a, b, f).solve(enough + b.radius());
+  return {best.gap - b.radius(), f.to_world(best.normal)};
+}
+
+constexpr double never = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+SignedDistance signed_distance(const Cylinder& a, const Pose& pose_a, const Capsule& b,
+                               const Pose& pose_b) {
+  const Vec3& origin = pose_b.position();
+  return solve(a, b, posed(a, pose_a, origin), posed(b, pose_b, origin), never);
+}
+
+bool overlaps(const Cylinder& a, const Pose& pose_a, const Capsule& b, const Pose& pose_b) {
+  const Vec3& origin = pose_b.position();
+  const PosedCylinder posed_a = posed(a, pose_a, origin);
+  const PosedCapsule posed_b = posed(b, pose_b, origin);
+  SignedDistance clearance;
+  if (quickly_separated(posed_a, posed_b, 0, clearance)) return false;
+  return solve(a, b, posed_a, posed_b, 0).value <= 0;
+}
 
 Contact contact(const Cylinder& a, const Pose& pose_a, const Capsule& b, const Pose& pose_b,
-                double contact_threshold) {
-  const ReducedPair pair = reduce(a, pose_a, b, pose_b);
-  const BestNormal best = largest_gap(pair);
-  Contact result;
-  result.normal = best.normal;
-  result.signed_distance = best.gap;
-  if (best.gap > contact_threshold) return result;
-
-  const ManifoldRule rule(largest_half_extent(a), largest_half_extent(b), pair.d.norm(), best.gap,
-                          contact_threshold);
-  const PosedCylinder posed_a{pair.d, pose_a.axis(), a.radius(), a.half_length()};
-  const PosedCapsule posed_b{Vec3::Zero(), pose_b.axis(), b.radius(), b.half_length()};
-  add_manifold(result, facing(posed_a, -best.normal, rule.slack),
-               facing(posed_b, best.normal, rule.slack), pose_b.position(), rule);
-  return result;
+                double contact_threshold, const Vec3* previous_normal) {
+  const Vec3& origin = pose_b.position();
+  const PosedCylinder posed_a = posed(a, pose_a, origin);
+  const PosedCapsule posed_b = posed(b, pose_b, origin);
+  SignedDistance found;
+  if (!quickly_separated(posed_a, posed_b, contact_threshold, found)) {
+    found = solve(a, b, posed_a, posed_b, contact_threshold);
+  }
+  return with_manifold(posed_a, posed_b, found, contact_threshold, origin, previous_normal);
 }
 
 }  // namespace touchstone

@@ -7,45 +7,61 @@
 namespace touchstone {
 namespace {
 
-/// The plane in the world: unit normal, and the height of a point above it.
-struct WorldPlane {
-  Vec3 normal, side;
-  double displacement;
-  WorldPlane(const Plane& plane, const Pose& pose) {
-    const double length = plane.normal().norm();
-    normal = pose.rotation() * (plane.normal() / length);
-    side = pose.rotation().col(0);
-    displacement = plane.displacement() / length;
+/// The plane in the world, and how the cylinder stands to it.
+struct Stance {
+  Vec3 normal;           ///< the plane's, unit
+  double centre_height;  ///< of the cylinder's centre above the plane
+  double signed_distance;
+
+  Stance(const Cylinder& a, const Pose& pose_a, const Plane& b, const Pose& pose_b) {
+    const double squared = b.normal().squaredNorm();
+    // Most callers give a unit normal.
+    const double length = squared == 1 ? 1 : b.normal().stableNorm();
+    normal = pose_b.rotation() * (b.normal() / length);
+    centre_height = normal.dot(pose_a.position() - pose_b.position()) - b.displacement() / length;
+    const Vec3 axis = pose_a.axis();
+    // The deepest point is on the lower cap's rim. The sine is not taken from the cosine, which
+    // hides a small tilt.
+    signed_distance = centre_height - a.half_length() * std::abs(axis.dot(normal)) -
+                      a.radius() * axis.cross(normal).norm();
   }
 };
 
 }  // namespace
 
-// The deepest point is on the lower cap's rim.
-Contact contact(const Cylinder& a, const Pose& pose_a, const Plane& b, const Pose& pose_b,
-                double contact_threshold) {
-  const WorldPlane plane(b, pose_b);
-  const Vec3 axis = pose_a.axis();
-  const double cosine = axis.dot(plane.normal);
-  // Not from the cosine, which hides a small tilt.
-  const double sine = axis.cross(plane.normal).norm();
-  const double centre_height =
-      plane.normal.dot(pose_a.position() - pose_b.position()) - plane.displacement;
+SignedDistance signed_distance(const Cylinder& a, const Pose& pose_a, const Plane& b,
+                               const Pose& pose_b) {
+  const Stance stance(a, pose_a, b, pose_b);
+  return {stance.signed_distance, stance.normal};
+}
 
+bool overlaps(const Cylinder& a, const Pose& pose_a, const Plane& b, const Pose& pose_b) {
+  return Stance(a, pose_a, b, pose_b).signed_distance <= 0;
+}
+
+Contact contact(const Cylinder& a, const Pose& pose_a, const Plane& b, const Pose& pose_b,
+                double contact_threshold, const Vec3*) {
+  const Stance stance(a, pose_a, b, pose_b);
   Contact result;
-  result.normal = plane.normal;
-  result.signed_distance = centre_height - a.half_length() * std::abs(cosine) - a.radius() * sine;
-  if (result.signed_distance > contact_threshold) return result;
+  result.normal = stance.normal;
+  result.signed_distance = stance.signed_distance;
+  if (stance.signed_distance > contact_threshold) return result;
 
   const double size = largest_half_extent(a);
-  const ManifoldRule rule(size, size, std::abs(centre_height), result.signed_distance,
+  const ManifoldRule rule(size, size, std::abs(stance.centre_height), stance.signed_distance,
                           contact_threshold);
-  const PosedCylinder posed{Vec3::Zero(), axis, a.radius(), a.half_length()};
+  const Vec3& origin = pose_a.position();
+  const FacingFeature lower = facing(posed(a, pose_a, origin), -stance.normal, rule.slack);
+  if (lower.kind == FacingFeature::Kind::point) {
+    result.add_point(origin + (lower.middle - stance.signed_distance / 2 * stance.normal),
+                     -stance.signed_distance);
+    return result;
+  }
   FacingFeature ground{.kind = FacingFeature::Kind::half_space,
-                       .middle = -centre_height * plane.normal,
-                       .axis = plane.normal};
-  ground.side[0] = plane.side;
-  add_manifold(result, facing(posed, -plane.normal, rule.slack), ground, pose_a.position(), rule);
+                       .middle = -stance.centre_height * stance.normal,
+                       .axis = stance.normal};
+  ground.side[0] = pose_b.rotation().col(0);
+  add_manifold(result, lower, ground, origin, rule);
   return result;
 }
 

@@ -2,25 +2,9 @@
 
 #include <array>
 
-#include "pose.hpp"
-#include "shape.hpp"
+#include "posed_body.hpp"
 
 namespace touchstone {
-
-/// Bodies in one frame, which has the world's axes and any origin that is near them.
-struct PosedCylinder {
-  Vec3 centre, axis;
-  double radius, half_length;
-};
-struct PosedCapsule {
-  Vec3 centre, axis;
-  double radius, half_length;
-};
-struct PosedBox {
-  Vec3 centre;
-  Eigen::Matrix3d axes;
-  Vec3 half_extents;
-};
 
 /// What a body turns towards the other across a known normal.
 struct FacingFeature {

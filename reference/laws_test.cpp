@@ -32,9 +32,8 @@ TEST_P(Law, SignedDistanceIsTheGapAlongTheNormal) {
   if (GetParam() == Pair::plane) GTEST_SKIP() << "a half-space has no gap off its own normal";
   for (const Identity& id : some_identities(GetParam())) {
     const Configuration c = make_configuration(id);
-    const Contact answer = contact(c, 0);
-    EXPECT_NEAR(gap(c, answer.normal), answer.signed_distance,
-                1e-14 * larger_size(c) + position_rounding(c))
+    const SignedDistance answer = signed_distance(c);
+    EXPECT_NEAR(gap(c, answer.normal), answer.value, 1e-14 * larger_size(c) + position_rounding(c))
         << to_string(id);
   }
 }
@@ -45,8 +44,8 @@ TEST_P(Law, NoSampledDirectionHasALargerGap) {
   std::normal_distribution<double> coordinate;
   for (const Identity& id : some_identities(GetParam())) {
     const Configuration c = make_configuration(id);
-    const Contact answer = contact(c, 0);
-    const double most = answer.signed_distance + 1e-9 * larger_size(c) + position_rounding(c);
+    const SignedDistance answer = signed_distance(c);
+    const double most = answer.value + 1e-13 * larger_size(c) + position_rounding(c);
     for (int i = 0; i < 300; ++i) {
       const Vec3 offset(coordinate(random), coordinate(random), coordinate(random));
       // Everywhere, and ever closer to the answer.
@@ -65,8 +64,8 @@ TEST_P(Law, MovingBothBodiesMovesTheAnswer) {
       return Pose(turn * pose.position() + shift, turn * pose.orientation().normalized());
     };
     const Configuration other{c.a, moved(c.pose_a), c.b, moved(c.pose_b)};
-    EXPECT_NEAR(contact(other, 0).signed_distance, contact(c, 0).signed_distance,
-                1e-9 * larger_size(c) + 10 * position_rounding(c))
+    EXPECT_NEAR(signed_distance(other).value, signed_distance(c).value,
+                1e-13 * larger_size(c) + 10 * position_rounding(c))
         << to_string(id);
   }
 }
@@ -79,8 +78,7 @@ TEST(CylinderCylinder, ExchangedBodiesHaveTheSameDistance) {
   for (const Identity& id : some_identities(Pair::cylinder)) {
     const Configuration c = make_configuration(id);
     const Configuration exchanged{std::get<Cylinder>(c.b), c.pose_b, c.a, c.pose_a};
-    EXPECT_NEAR(contact(exchanged, 0).signed_distance, contact(c, 0).signed_distance,
-                1e-9 * larger_size(c))
+    EXPECT_NEAR(signed_distance(exchanged).value, signed_distance(c).value, 1e-13 * larger_size(c))
         << to_string(id);
   }
 }
@@ -114,7 +112,7 @@ TEST(CylinderCylinder, RimsWithCloseStationaryPointsAreResolved) {
              0x1.8a0f182177713p-7})},
   };
   for (const Configuration& c : table) {
-    EXPECT_NEAR(contact(c, 0).signed_distance, oracle::truth(c).signed_distance.midpoint(),
+    EXPECT_NEAR(signed_distance(c).value, oracle::truth(c).signed_distance.midpoint(),
                 1e-12 * larger_size(c));
   }
 }

@@ -45,10 +45,14 @@ void add(Pair pair, const std::string& pose_class) {
   const auto name = [&](const char* question) {
     return std::string(pair_name(pair)) + "/" + pose_class + "/" + question;
   };
-  benchmark::RegisterBenchmark(name("contact").c_str(), [=](benchmark::State& state) {
-    stream(state, configurations(pair, pose_class),
-           [](const auto&... bodies) { return contact(bodies..., 0); });
-  });
+  const auto add_question = [&](const char* question, auto ask) {
+    benchmark::RegisterBenchmark(name(question).c_str(), [=](benchmark::State& state) {
+      stream(state, configurations(pair, pose_class), ask);
+    });
+  };
+  add_question("contact", [](const auto&... bodies) { return contact(bodies..., 0); });
+  add_question("signed_distance", [](const auto&... bodies) { return signed_distance(bodies...); });
+  add_question("overlaps", [](const auto&... bodies) { return overlaps(bodies...); });
 }
 
 void add_all() {
