@@ -27,24 +27,23 @@ class Solver {
     }
   }
 
-  /// Stops as soon as the gap exceeds `enough`.
-  LargestGap solve(double enough) {
+  /// Seven directions. True if they say it all, or one of them has a gap of more than `enough`.
+  bool closed_forms(double enough) {
     const int face = faces();
     const double face_gap = best_.gap;
     const bool cap_wins = cap();
     const double cap_gap = best_.gap;
     const int edge = edges_across_side();
-    if (best_.gap > enough) return best_;
-    if (best_.gap > cap_gap ? edge_is_final(edge)
-        : cap_wins          ? cap_is_final()
-                            : face_gap == best_.gap && face_is_final(face)) {
-      return best_;
-    }
-    vertices();
-    if (best_.gap > enough || final_) return best_;
-    for (int i = 0; i < 3; ++i) edge_over_rim(i);
-    return best_;
+    if (best_.gap > enough) return true;
+    if (best_.gap > cap_gap) return edge_is_final(edge);
+    return cap_wins ? cap_is_final() : face_gap == best_.gap && face_is_final(face);
   }
+  void search() {
+    vertices();
+    if (final_) return;
+    for (int i = 0; i < 3; ++i) edge_over_rim(i);
+  }
+  const LargestGap& best() const { return best_; }
 
  private:
   double depth() const { return std::max(0.0, -best_.gap); }
@@ -183,10 +182,15 @@ class Solver {
         const Vec2 out = q.cwiseProduct(sign).cwiseMax(0.0);
         const double bound = best_.gap + b;
         if (bound >= 0 && out.squaredNorm() <= bound * bound) continue;
-        const double x = across.dot(q), y = end * along.dot(q);
-        const auto foot = ellipse_normal(r_, b, std::abs(x), y);
+        const double x = std::abs(across.dot(q)), y = end * along.dot(q);
+        const Vec2 x_axis = std::copysign(1, across.dot(q)) * across, y_axis = end * along;
+        // The corner's quadrant of normals and the ellipse's must overlap.
+        if (!((x_axis + y_axis).dot(sign) > 0)) continue;
+        // A point inside may be too far behind the chord of the ellipse's quadrant.
+        if (r_ * b - b * x - r_ * y >= std::max(0.0, -best_.gap) * (r_ + b)) continue;
+        const auto foot = ellipse_normal(r_, b, x, y);
         if (!foot) continue;
-        const Vec2 n2 = std::copysign(foot->x(), x) * across + end * foot->y() * along;
+        const Vec2 n2 = foot->x() * x_axis + foot->y() * y_axis;
         Vec3 n;
         n[i] = 0, n[j] = n2.x(), n[k] = n2.y();
         const double value =
@@ -208,13 +212,17 @@ class Solver {
   bool final_ = false;
 };
 
+/// Stops at the first direction with a clearance of more than `enough`.
 SignedDistance solve(const Cylinder& a, const Box& b, const PosedCylinder& posed_a,
                      const PosedBox& posed_b, double enough) {
   const Eigen::Matrix3d& axes = posed_b.axes;
-  const LargestGap best =
-      Solver(a, b, axes.transpose() * posed_a.centre, axes.transpose() * posed_a.axis)
-          .solve(enough);
-  return {best.gap, axes * best.normal};
+  Solver solver(a, b, axes.transpose() * posed_a.centre, axes.transpose() * posed_a.axis);
+  if (!solver.closed_forms(enough)) {
+    SignedDistance clearance;
+    if (quickly_separated(posed_a, posed_b, enough, clearance)) return clearance;
+    solver.search();
+  }
+  return {solver.best().gap, axes * solver.best().normal};
 }
 
 constexpr double never = std::numeric_limits<double>::infinity();
@@ -231,8 +239,6 @@ bool overlaps(const Cylinder& a, const Pose& pose_a, const Box& b, const Pose& p
   const Vec3& origin = pose_b.position();
   const PosedCylinder posed_a = posed(a, pose_a, origin);
   const PosedBox posed_b = posed(b, pose_b, origin);
-  SignedDistance clearance;
-  if (quickly_separated(posed_a, posed_b, 0, clearance)) return false;
   return solve(a, b, posed_a, posed_b, 0).value <= 0;
 }
 
@@ -241,10 +247,7 @@ Contact contact(const Cylinder& a, const Pose& pose_a, const Box& b, const Pose&
   const Vec3& origin = pose_b.position();
   const PosedCylinder posed_a = posed(a, pose_a, origin);
   const PosedBox posed_b = posed(b, pose_b, origin);
-  SignedDistance found;
-  if (!quickly_separated(posed_a, posed_b, contact_threshold, found)) {
-    found = solve(a, b, posed_a, posed_b, contact_threshold);
-  }
+  const SignedDistance found = solve(a, b, posed_a, posed_b, contact_threshold);
   return with_manifold(posed_a, posed_b, found, contact_threshold, origin, previous_normal);
 }
 

@@ -7,7 +7,6 @@
 #include "folded_axes.hpp"
 #include "largest_gap.hpp"
 #include "manifold.hpp"
-#include "quick_separation.hpp"
 
 namespace touchstone {
 namespace {
@@ -21,16 +20,18 @@ class Solver {
   Solver(const Cylinder& a, const Capsule& b, const FoldedAxes& f)
       : r1_(a.radius()), h1_(a.half_length()), h2_(b.half_length()), f_(f) {}
 
-  /// Clearance to the segment; stops as soon as it exceeds `enough`.
-  LargestGap solve(double enough) {
+  /// Clearance to the segment, as far as closed forms tell it. True if it is more than `enough`.
+  bool closed_forms(double enough) {
     cap();
     sides_crossing();
     end_beside_side();
-    if (best_.gap > enough) return best_;
+    return best_.gap > enough;
+  }
+  void search() {
     segment_over_rim();
     end_off_rim();
-    return best_;
   }
+  const LargestGap& best() const { return best_; }
 
  private:
   void cap() {
@@ -54,6 +55,8 @@ class Solver {
     const double b = r1_ * f_.c;
     // No direction is better than the distance from the ellipse's inscribed disc.
     if (f_.d3 * f_.d3 + y * y <= (best_.gap + b) * (best_.gap + b) && best_.gap + b > 0) return;
+    // A point inside may be too far behind the chord of the ellipse's quadrant.
+    if (r1_ * b - b * f_.d3 - r1_ * y >= std::max(0.0, -best_.gap) * (r1_ + b)) return;
     const auto n = ellipse_normal(r1_, b, f_.d3, y);
     if (!n) return;
     const double side = std::copysign(n->y(), along_k2);
@@ -87,11 +90,13 @@ class Solver {
   LargestGap best_;
 };
 
-SignedDistance solve(const Cylinder& a, const Capsule& b, const PosedCylinder& posed_a,
-                     const PosedCapsule& posed_b, double enough) {
-  const FoldedAxes f(posed_a.axis, posed_b.axis, posed_a.centre);
-  const LargestGap best = Solver(a, b, f).solve(enough + b.radius());
-  return {best.gap - b.radius(), f.to_world(best.normal)};
+/// Stops at the first direction with a clearance of more than `enough`.
+SignedDistance solve(const Cylinder& a, const Pose& pose_a, const Capsule& b, const Pose& pose_b,
+                     double enough) {
+  const FoldedAxes f(pose_a.axis(), pose_b.axis(), pose_a.position() - pose_b.position());
+  Solver solver(a, b, f);
+  if (!solver.closed_forms(enough + b.radius())) solver.search();
+  return {solver.best().gap - b.radius(), f.to_world(solver.best().normal)};
 }
 
 constexpr double never = std::numeric_limits<double>::infinity();
@@ -100,29 +105,19 @@ constexpr double never = std::numeric_limits<double>::infinity();
 
 SignedDistance signed_distance(const Cylinder& a, const Pose& pose_a, const Capsule& b,
                                const Pose& pose_b) {
-  const Vec3& origin = pose_b.position();
-  return solve(a, b, posed(a, pose_a, origin), posed(b, pose_b, origin), never);
+  return solve(a, pose_a, b, pose_b, never);
 }
 
 bool overlaps(const Cylinder& a, const Pose& pose_a, const Capsule& b, const Pose& pose_b) {
-  const Vec3& origin = pose_b.position();
-  const PosedCylinder posed_a = posed(a, pose_a, origin);
-  const PosedCapsule posed_b = posed(b, pose_b, origin);
-  SignedDistance clearance;
-  if (quickly_separated(posed_a, posed_b, 0, clearance)) return false;
-  return solve(a, b, posed_a, posed_b, 0).value <= 0;
+  return solve(a, pose_a, b, pose_b, 0).value <= 0;
 }
 
 Contact contact(const Cylinder& a, const Pose& pose_a, const Capsule& b, const Pose& pose_b,
                 double contact_threshold, const Vec3* previous_normal) {
   const Vec3& origin = pose_b.position();
-  const PosedCylinder posed_a = posed(a, pose_a, origin);
-  const PosedCapsule posed_b = posed(b, pose_b, origin);
-  SignedDistance found;
-  if (!quickly_separated(posed_a, posed_b, contact_threshold, found)) {
-    found = solve(a, b, posed_a, posed_b, contact_threshold);
-  }
-  return with_manifold(posed_a, posed_b, found, contact_threshold, origin, previous_normal);
+  return with_manifold(posed(a, pose_a, origin), posed(b, pose_b, origin),
+                       solve(a, pose_a, b, pose_b, contact_threshold), contact_threshold, origin,
+                       previous_normal);
 }
 
 }  // namespace touchstone

@@ -24,27 +24,32 @@ class Solver {
   Solver(const Cylinder& a, const Cylinder& b, const FoldedAxes& f)
       : pair_{f, a.radius(), a.half_length(), b.radius(), b.half_length()}, f_(pair_.axes) {}
 
-  /// Stops as soon as the gap exceeds `enough`.
-  LargestGap solve(double enough) {
-    bool (Solver::*is_final)() const = &Solver::cap1_is_final;
-    const auto better = [&](void (Solver::*candidate)(), bool (Solver::*certificate)() const) {
-      const double before = best_.gap;
-      (this->*candidate)();
-      if (best_.gap > before) is_final = certificate;
-    };
+  /// Caps and crossing sides. True if they say it all, or one of them has a gap of more than
+  /// `enough`.
+  bool closed_forms(double enough) {
     better(&Solver::cap1, &Solver::cap1_is_final);
     better(&Solver::cap2, &Solver::cap2_is_final);
     better(&Solver::sides_crossing, &Solver::crossing_is_final);
-    if (best_.gap > enough || (this->*is_final)()) return best_;
+    return best_.gap > enough || (this->*is_final_)();
+  }
+  void search() {
     better(&Solver::rim2_beside_side1, &Solver::side1_is_final);
     better(&Solver::rim1_beside_side2, &Solver::side2_is_final);
-    if (best_.gap > enough || (this->*is_final)()) return best_;
-    offer_rim_rim_normals(pair_, best_);
-    return best_;
+    if (!(this->*is_final_)()) offer_rim_rim_normals(pair_, best_);
   }
+  const LargestGap& best() const { return best_; }
 
  private:
+  using Certificate = bool (Solver::*)() const;
+
   double depth() const { return std::max(0.0, -best_.gap); }
+
+  /// Offers a candidate; if it is the best, its certificate counts.
+  void better(void (Solver::*candidate)(), Certificate certificate) {
+    const double before = best_.gap;
+    (this->*candidate)();
+    if (best_.gap > before) is_final_ = certificate;
+  }
 
   void cap1() {
     best_.offer(std::abs(f_.d1) - pair_.h1 - pair_.h2 * f_.c - pair_.r2 * f_.s,
@@ -114,6 +119,9 @@ class Solver {
     // No direction is better than the distance from the ellipse's inscribed disc.
     const double b = rim * f_.c, bound = best_.gap + side + b;
     if (bound > 0 && f_.d3 * f_.d3 + y * y <= bound * bound) return std::nullopt;
+    // A point inside may be too far behind the chord of the ellipse's quadrant.
+    if (rim * b - b * f_.d3 - rim * y >= std::max(0.0, -best_.gap - side) * (rim + b))
+      return std::nullopt;
     return ellipse_normal(rim, b, f_.d3, y);
   }
   void offer(const Vec3& n) { best_.offer(pair_.gap(n), n); }
@@ -138,14 +146,20 @@ class Solver {
   FoldedCylinders pair_;
   const FoldedAxes& f_;
   LargestGap best_;
+  Certificate is_final_ = &Solver::cap1_is_final;
 };
 
 /// `a` has the smaller radius or the same.
 SignedDistance solve(const Cylinder& a, const Cylinder& b, const PosedCylinder& posed_a,
                      const PosedCylinder& posed_b, double enough) {
   const FoldedAxes f(posed_a.axis, posed_b.axis, posed_a.centre);
-  const LargestGap best = Solver(a, b, f).solve(enough);
-  return {best.gap, f.to_world(best.normal)};
+  Solver solver(a, b, f);
+  if (!solver.closed_forms(enough)) {
+    SignedDistance clearance;
+    if (quickly_separated(posed_a, posed_b, enough, clearance)) return clearance;
+    solver.search();
+  }
+  return {solver.best().gap, f.to_world(solver.best().normal)};
 }
 
 constexpr double never = std::numeric_limits<double>::infinity();
@@ -179,8 +193,6 @@ bool overlaps(const Cylinder& a, const Pose& pose_a, const Cylinder& b, const Po
   const Vec3& origin = pose_b.position();
   const PosedCylinder posed_a = posed(a, pose_a, origin);
   const PosedCylinder posed_b = posed(b, pose_b, origin);
-  SignedDistance clearance;
-  if (quickly_separated(posed_a, posed_b, 0, clearance)) return false;
   return solve(a, b, posed_a, posed_b, 0).value <= 0;
 }
 
@@ -196,10 +208,7 @@ Contact contact(const Cylinder& a, const Pose& pose_a, const Cylinder& b, const 
   const Vec3& origin = pose_b.position();
   const PosedCylinder posed_a = posed(a, pose_a, origin);
   const PosedCylinder posed_b = posed(b, pose_b, origin);
-  SignedDistance found;
-  if (!quickly_separated(posed_a, posed_b, contact_threshold, found)) {
-    found = solve(a, b, posed_a, posed_b, contact_threshold);
-  }
+  const SignedDistance found = solve(a, b, posed_a, posed_b, contact_threshold);
   return with_manifold(posed_a, posed_b, found, contact_threshold, origin, previous_normal);
 }
 

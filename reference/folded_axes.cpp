@@ -21,7 +21,8 @@ FoldedAxes::FoldedAxes(const Vec3& axis1, const Vec3& axis2, const Vec3& differe
     // Parallel: the plane of the axes is that which holds the centres.
     const Vec3 across = difference - difference.dot(e1) * e1;
     length = across.norm();
-    e3 = length > 0 ? Vec3(across / length) : e1.unitOrthogonal();
+    constexpr double digits = 1e-12;
+    e3 = length > digits * difference.norm() ? Vec3(across / length) : e1.unitOrthogonal();
     e3 = (e3 - e3.dot(e1) * e1).normalized();
   }
   e2 = e3.cross(e1);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "contact.hpp"
 #include "posed_body.hpp"
 
@@ -15,6 +17,7 @@ bool quickly_separated(const PosedCylinder& a, const Body& b, double threshold,
                        SignedDistance& clearance) {
   const Vec3 d = a.centre - b.centre;
   Vec3 on_b = nearest(b, a.centre);
+  if (threshold == std::numeric_limits<double>::infinity()) return false;
   constexpr double small_part = 0.02;
   const double least = threshold + small_part * a.radius;
   constexpr int rounds = 2;

@@ -9,7 +9,7 @@
 namespace touchstone {
 namespace {
 
-/// A point of rim 1 with the point of rim 2 that is nearest (side +1) or farthest (−1).
+/// A point of rim 1 with the nearest point of rim 2.
 struct Sample {
   double angle;
   double slope;      ///< derivative of half the squared distance along rim 1, over its radius
@@ -29,7 +29,7 @@ class Rims {
     size_ = pair.r1 + pair.r2 + q_.norm();
   }
 
-  Sample at(double angle, double side) const {
+  Sample at(double angle) const {
     const double c = pair_.axes.c, s = pair_.axes.s, r1 = pair_.r1, r2 = pair_.r2;
     Sample x;
     x.angle = angle;
@@ -40,14 +40,14 @@ class Rims {
     const double radial = std::sqrt(k * k + v3 * v3);
     x.cos2 = radial > 0 ? k / radial : 1;
     x.sin2 = radial > 0 ? v3 / radial : 0;
-    const double beside = radial - side * r2;
+    const double beside = radial - r2;
     const double a_k = beside * x.cos2, a3 = beside * x.sin2;
     x.apart = Vec3(c * height - s * a_k, s * height + c * a_k, a3);
     x.distance = std::sqrt(height * height + beside * beside);
     x.slope = x.apart.y() * x.sin1 - a3 * x.cos1;
     // Rim 2's point moves by r1 r2 / radial times the part of rim 1's tangent along its own.
     const double follow = c * x.sin1 * x.sin2 + x.cos1 * x.cos2;
-    const double moved = radial > 0 ? side * r2 * follow * follow / radial : 0;
+    const double moved = radial > 0 ? r2 * follow * follow / radial : 0;
     x.curvature = r1 * (1 - moved) + (x.apart.y() * x.cos1 + a3 * x.sin1);
     return x;
   }
@@ -100,6 +100,9 @@ class Rims {
     return n;
   }
 
+  /// Does any normal n with n·u >= 0 towards both ends have n2 of this sign?
+  bool reaches_quarter(double sign) const { return end1_ == end2_ || sign == end2_; }
+
   double radius1() const { return pair_.r1; }
   /// What rounding leaves of a slope.
   double noise() const { return 2e-16 * size_; }
@@ -113,15 +116,17 @@ class Rims {
 
 class Scan {
  public:
-  Scan(const FoldedCylinders& pair, const Rims& rims, double side, double& limit, LargestGap& best)
-      : pair_(pair), rims_(rims), side_(side), limit_(limit), best_(best), noise_(rims.noise()) {}
+  Scan(const FoldedCylinders& pair, const Rims& rims, double& limit, LargestGap& best)
+      : pair_(pair), rims_(rims), limit_(limit), best_(best), noise_(rims.noise()) {}
 
+  /// A little more than half, because roots on the plane of the axes itself must lie inside. Where
+  /// the ends' cones of normals share only one quarter, that quarter.
   void half_rim() {
-    // A little more than half, because roots on the plane of the axes itself must lie inside.
     constexpr double beyond = 0.02, pi = std::numbers::pi;
-    const Sample middle = at(pi / 2);
-    arc(at(-beyond), middle, 0);
-    arc(middle, at(pi + beyond), 0);
+    const bool first = rims_.reaches_quarter(1), second = rims_.reaches_quarter(-1);
+    const Sample middle = at(first && second ? pi / 2 : first ? pi / 2 + beyond : pi / 2 - beyond);
+    if (first) arc(at(-beyond), middle, 0);
+    if (second) arc(middle, at(pi + beyond), 0);
   }
 
  private:
@@ -131,7 +136,7 @@ class Scan {
 
   Sample at(double angle) {
     ++samples_;
-    Sample sample = rims_.at(angle, side_);
+    Sample sample = rims_.at(angle);
     limit_ = std::min(limit_, sample.distance);
     return sample;
   }
@@ -196,9 +201,10 @@ class Scan {
 
   void roots(const Sample& x, const Sample& y) {
     if (too_far(x, y)) return;
-    if ((x.slope < 0) != (y.slope < 0)) {
+    // Only where the distance has a minimum can the sum's surface be nearest to d.
+    if (x.slope < 0 && y.slope >= 0) {
       offer(root(x, y));
-    } else if (turns_back(x, y)) {
+    } else if ((x.slope < 0) == (y.slope < 0) && turns_back(x, y)) {
       close_roots(x, y);
     }
   }
@@ -273,7 +279,6 @@ class Scan {
 
   const FoldedCylinders& pair_;
   const Rims& rims_;
-  double side_;
   double& limit_;
   LargestGap& best_;
   double noise_;
@@ -312,15 +317,10 @@ void offer_rim_rim_normals(const FoldedCylinders& pair, LargestGap& best) {
   const double rounding = 2e-16 * (pair.axes.d().norm() + pair.h1 + pair.h2 + pair.r1 + pair.r2);
   for (int other = 0; other < 4; ++other) {
     const Rims rims(pair, (other & 1) ? -likely1 : likely1, (other & 2) ? -likely2 : likely2);
-    for (const double side : {1.0, -1.0}) {
-      const double depth = std::max(0.0, -best.gap);
-      if (!rims.may_meet(depth, limit)) continue;
-      // Rim 2's far side is in contact only beyond the depth of its radius.
-      if (side < 0 && depth <= pair.r2) continue;
-      Scan(pair, rims, side, limit, best).half_rim();
-      // Apart by the gap, with points no further apart: nothing is better.
-      if (best.gap >= limit - rounding) return;
-    }
+    if (!rims.may_meet(std::max(0.0, -best.gap), limit)) continue;
+    Scan(pair, rims, limit, best).half_rim();
+    // Apart by the gap, with points no further apart: nothing is better.
+    if (best.gap >= limit - rounding) return;
   }
 }
 
