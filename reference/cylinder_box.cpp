@@ -7,6 +7,7 @@
 #include "largest_gap.hpp"
 #include "manifold.hpp"
 #include "quick_separation.hpp"
+#include "scaled.hpp"
 
 namespace touchstone {
 namespace {
@@ -24,6 +25,8 @@ class Solver {
     for (int i = 0; i < 3; ++i) {
       const double y = u_[(i + 1) % 3], z = u_[(i + 2) % 3];
       s_[i] = std::sqrt(y * y + z * z);
+      constexpr double vanishing = 1e-140;  // its square has lost digits
+      if (s_[i] < vanishing) s_[i] = 0;
     }
   }
 
@@ -231,11 +234,20 @@ constexpr double never = std::numeric_limits<double>::infinity();
 
 SignedDistance signed_distance(const Cylinder& a, const Pose& pose_a, const Box& b,
                                const Pose& pose_b) {
+  if (!ordinary(a, pose_a, b, pose_b)) {
+    const ScaledBodies scaled(a, pose_a, b, pose_b);
+    return scaled.back(
+        scaled.ask([](const auto&... bodies) { return signed_distance(bodies...); }));
+  }
   const Vec3& origin = pose_b.position();
   return solve(a, b, posed(a, pose_a, origin), posed(b, pose_b, origin), never);
 }
 
 bool overlaps(const Cylinder& a, const Pose& pose_a, const Box& b, const Pose& pose_b) {
+  if (!ordinary(a, pose_a, b, pose_b)) {
+    const ScaledBodies scaled(a, pose_a, b, pose_b);
+    return scaled.ask([](const auto&... bodies) { return overlaps(bodies...); });
+  }
   const Vec3& origin = pose_b.position();
   const PosedCylinder posed_a = posed(a, pose_a, origin);
   const PosedBox posed_b = posed(b, pose_b, origin);
@@ -244,6 +256,12 @@ bool overlaps(const Cylinder& a, const Pose& pose_a, const Box& b, const Pose& p
 
 Contact contact(const Cylinder& a, const Pose& pose_a, const Box& b, const Pose& pose_b,
                 double contact_threshold, const Vec3* previous_normal) {
+  if (!ordinary(a, pose_a, b, pose_b)) {
+    const ScaledBodies scaled(a, pose_a, b, pose_b);
+    return scaled.back(scaled.ask([&](const auto&... bodies) {
+      return contact(bodies..., scaled.scaled(contact_threshold), previous_normal);
+    }));
+  }
   const Vec3& origin = pose_b.position();
   const PosedCylinder posed_a = posed(a, pose_a, origin);
   const PosedBox posed_b = posed(b, pose_b, origin);

@@ -7,6 +7,7 @@
 #include "folded_axes.hpp"
 #include "largest_gap.hpp"
 #include "manifold.hpp"
+#include "scaled.hpp"
 
 namespace touchstone {
 namespace {
@@ -105,15 +106,30 @@ constexpr double never = std::numeric_limits<double>::infinity();
 
 SignedDistance signed_distance(const Cylinder& a, const Pose& pose_a, const Capsule& b,
                                const Pose& pose_b) {
+  if (!ordinary(a, pose_a, b, pose_b)) {
+    const ScaledBodies scaled(a, pose_a, b, pose_b);
+    return scaled.back(
+        scaled.ask([](const auto&... bodies) { return signed_distance(bodies...); }));
+  }
   return solve(a, pose_a, b, pose_b, never);
 }
 
 bool overlaps(const Cylinder& a, const Pose& pose_a, const Capsule& b, const Pose& pose_b) {
+  if (!ordinary(a, pose_a, b, pose_b)) {
+    const ScaledBodies scaled(a, pose_a, b, pose_b);
+    return scaled.ask([](const auto&... bodies) { return overlaps(bodies...); });
+  }
   return solve(a, pose_a, b, pose_b, 0).value <= 0;
 }
 
 Contact contact(const Cylinder& a, const Pose& pose_a, const Capsule& b, const Pose& pose_b,
                 double contact_threshold, const Vec3* previous_normal) {
+  if (!ordinary(a, pose_a, b, pose_b)) {
+    const ScaledBodies scaled(a, pose_a, b, pose_b);
+    return scaled.back(scaled.ask([&](const auto&... bodies) {
+      return contact(bodies..., scaled.scaled(contact_threshold), previous_normal);
+    }));
+  }
   const Vec3& origin = pose_b.position();
   return with_manifold(posed(a, pose_a, origin), posed(b, pose_b, origin),
                        solve(a, pose_a, b, pose_b, contact_threshold), contact_threshold, origin,

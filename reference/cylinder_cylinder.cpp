@@ -10,6 +10,7 @@
 #include "manifold.hpp"
 #include "quick_separation.hpp"
 #include "rim_rim.hpp"
+#include "scaled.hpp"
 
 namespace touchstone {
 namespace {
@@ -180,6 +181,11 @@ bool in_order(const Cylinder& a, const Pose& pose_a, const Cylinder& b, const Po
 
 SignedDistance signed_distance(const Cylinder& a, const Pose& pose_a, const Cylinder& b,
                                const Pose& pose_b) {
+  if (!ordinary(a, pose_a, b, pose_b)) {
+    const ScaledBodies scaled(a, pose_a, b, pose_b);
+    return scaled.back(
+        scaled.ask([](const auto&... bodies) { return signed_distance(bodies...); }));
+  }
   if (!in_order(a, pose_a, b, pose_b)) {
     const SignedDistance mirrored = signed_distance(b, pose_b, a, pose_a);
     return {mirrored.value, -mirrored.normal};
@@ -189,6 +195,10 @@ SignedDistance signed_distance(const Cylinder& a, const Pose& pose_a, const Cyli
 }
 
 bool overlaps(const Cylinder& a, const Pose& pose_a, const Cylinder& b, const Pose& pose_b) {
+  if (!ordinary(a, pose_a, b, pose_b)) {
+    const ScaledBodies scaled(a, pose_a, b, pose_b);
+    return scaled.ask([](const auto&... bodies) { return overlaps(bodies...); });
+  }
   if (!in_order(a, pose_a, b, pose_b)) return overlaps(b, pose_b, a, pose_a);
   const Vec3& origin = pose_b.position();
   const PosedCylinder posed_a = posed(a, pose_a, origin);
@@ -198,6 +208,12 @@ bool overlaps(const Cylinder& a, const Pose& pose_a, const Cylinder& b, const Po
 
 Contact contact(const Cylinder& a, const Pose& pose_a, const Cylinder& b, const Pose& pose_b,
                 double contact_threshold, const Vec3* previous_normal) {
+  if (!ordinary(a, pose_a, b, pose_b)) {
+    const ScaledBodies scaled(a, pose_a, b, pose_b);
+    return scaled.back(scaled.ask([&](const auto&... bodies) {
+      return contact(bodies..., scaled.scaled(contact_threshold), previous_normal);
+    }));
+  }
   if (!in_order(a, pose_a, b, pose_b)) {
     const Vec3 reversed = previous_normal ? Vec3(-*previous_normal) : Vec3(Vec3::Zero());
     Contact mirrored =

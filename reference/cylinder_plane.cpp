@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "manifold.hpp"
+#include "scaled.hpp"
 
 namespace touchstone {
 namespace {
@@ -16,7 +17,7 @@ struct Stance {
   Stance(const Cylinder& a, const Pose& pose_a, const Plane& b, const Pose& pose_b) {
     const double squared = b.normal().squaredNorm();
     // Most callers give a unit normal.
-    const double length = squared == 1 ? 1 : b.normal().stableNorm();
+    const double length = squared == 1 ? 1 : std::sqrt(squared);
     normal = pose_b.rotation() * (b.normal() / length);
     centre_height = normal.dot(pose_a.position() - pose_b.position()) - b.displacement() / length;
     const Vec3 axis = pose_a.axis();
@@ -31,16 +32,31 @@ struct Stance {
 
 SignedDistance signed_distance(const Cylinder& a, const Pose& pose_a, const Plane& b,
                                const Pose& pose_b) {
+  if (!ordinary(a, pose_a, b, pose_b)) {
+    const ScaledBodies scaled(a, pose_a, b, pose_b);
+    return scaled.back(
+        scaled.ask([](const auto&... bodies) { return signed_distance(bodies...); }));
+  }
   const Stance stance(a, pose_a, b, pose_b);
   return {stance.signed_distance, stance.normal};
 }
 
 bool overlaps(const Cylinder& a, const Pose& pose_a, const Plane& b, const Pose& pose_b) {
+  if (!ordinary(a, pose_a, b, pose_b)) {
+    const ScaledBodies scaled(a, pose_a, b, pose_b);
+    return scaled.ask([](const auto&... bodies) { return overlaps(bodies...); });
+  }
   return Stance(a, pose_a, b, pose_b).signed_distance <= 0;
 }
 
 Contact contact(const Cylinder& a, const Pose& pose_a, const Plane& b, const Pose& pose_b,
                 double contact_threshold, const Vec3*) {
+  if (!ordinary(a, pose_a, b, pose_b)) {
+    const ScaledBodies scaled(a, pose_a, b, pose_b);
+    return scaled.back(scaled.ask([&](const auto&... bodies) {
+      return contact(bodies..., scaled.scaled(contact_threshold));
+    }));
+  }
   const Stance stance(a, pose_a, b, pose_b);
   Contact result;
   result.normal = stance.normal;

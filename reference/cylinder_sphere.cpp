@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scaled.hpp"
+
 namespace touchstone {
 namespace {
 
@@ -11,6 +13,8 @@ struct Centre {
   Vec3 axial;   ///< unit, along the axis, towards the centre
   Vec3 radial;  ///< unit, off the axis, towards the centre
   double beyond_cap, beyond_side;
+  /// Squares of what is all but zero lose their digits.
+  static constexpr double vanishing = 1e-140;
 
   Centre(const Cylinder& a, const Pose& pose_a, const Pose& pose_b) {
     const Vec3 arm = pose_b.position() - pose_a.position();
@@ -19,7 +23,7 @@ struct Centre {
     const Vec3 across = arm - z * axis;
     const double rho = across.norm();
     axial = z < 0 ? Vec3(-axis) : axis;
-    radial = rho > 0 ? Vec3(across / rho) : Vec3(pose_a.rotation().col(0));
+    radial = rho > vanishing ? Vec3(across / rho) : Vec3(pose_a.rotation().col(0));
     constexpr double few_digits = 1e-3;
     if (rho < few_digits * std::abs(z)) {  // what rounding leaves along the axis counts
       radial -= radial.dot(axis) * axis;
@@ -33,8 +37,7 @@ struct Centre {
   SignedDistance nearest() const {
     if (beyond_cap > 0 && beyond_side > 0) {
       const double distance = std::sqrt(beyond_cap * beyond_cap + beyond_side * beyond_side);
-      // Squares of what is all but zero vanish.
-      if (!(distance > 0)) return {std::max(beyond_cap, beyond_side), -axial};
+      if (!(distance > vanishing)) return {std::max(beyond_cap, beyond_side), -axial};
       return {distance, (-beyond_cap / distance) * axial - (beyond_side / distance) * radial};
     }
     return beyond_cap >= beyond_side ? SignedDistance{beyond_cap, -axial}
@@ -46,17 +49,32 @@ struct Centre {
 
 SignedDistance signed_distance(const Cylinder& a, const Pose& pose_a, const Sphere& b,
                                const Pose& pose_b) {
+  if (!ordinary(a, pose_a, b, pose_b)) {
+    const ScaledBodies scaled(a, pose_a, b, pose_b);
+    return scaled.back(
+        scaled.ask([](const auto&... bodies) { return signed_distance(bodies...); }));
+  }
   SignedDistance result = Centre(a, pose_a, pose_b).nearest();
   result.value -= b.radius();
   return result;
 }
 
 bool overlaps(const Cylinder& a, const Pose& pose_a, const Sphere& b, const Pose& pose_b) {
+  if (!ordinary(a, pose_a, b, pose_b)) {
+    const ScaledBodies scaled(a, pose_a, b, pose_b);
+    return scaled.ask([](const auto&... bodies) { return overlaps(bodies...); });
+  }
   return signed_distance(a, pose_a, b, pose_b).value <= 0;
 }
 
 Contact contact(const Cylinder& a, const Pose& pose_a, const Sphere& b, const Pose& pose_b,
                 double contact_threshold, const Vec3* previous_normal) {
+  if (!ordinary(a, pose_a, b, pose_b)) {
+    const ScaledBodies scaled(a, pose_a, b, pose_b);
+    return scaled.back(scaled.ask([&](const auto&... bodies) {
+      return contact(bodies..., scaled.scaled(contact_threshold), previous_normal);
+    }));
+  }
   const Centre centre(a, pose_a, pose_b);
   SignedDistance found = centre.nearest();
   if (previous_normal && centre.beyond_cap <= 0 && centre.beyond_side <= 0) {

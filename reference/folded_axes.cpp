@@ -13,7 +13,7 @@ FoldedAxes::FoldedAxes(const Vec3& axis1, const Vec3& axis2, const Vec3& differe
   double length = e3.norm();
   // The product of nearly parallel axes has few digits left; across the first it must stay. What
   // is then left along the second is lost in the second's own rounding.
-  constexpr double few_digits = 1e-3, none = 1e-15;
+  constexpr double few_digits = 0.1, none = 1e-15;
   if (length > none) {
     e3 /= length;
     if (length < few_digits) e3 = (e3 - e3.dot(e1) * e1).normalized();

@@ -319,7 +319,10 @@ template <class Revolved, class Offer>
 void offer_normals(const Revolved& s, const Vec3& v, Offer offer) {
   offer(s.axis);
   const Vec3 radial = v - v.dot(s.axis) * s.axis;
-  if (const double length = radial.norm(); length > 0) offer(radial / length);
+  constexpr double noise = 1e-12, vanishing = 1e-100;
+  if (const double length = radial.norm(); length > noise * v.norm() + vanishing) {
+    offer(radial / length);
+  }
 }
 template <class Offer>
 void offer_normals(const PosedBox& s, const Vec3&, Offer offer) {
