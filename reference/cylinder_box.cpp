@@ -21,7 +21,11 @@ namespace {
 class Solver {
  public:
   Solver(const Cylinder& a, const Box& b, const Vec3& d, const Vec3& u)
-      : r_(a.radius()), h_(a.half_length()), e_(b.half_extents()), d_(d), u_(u) {
+      : r_(a.radius()),
+        h_(a.half_length()),
+        e_(b.half_extents()),
+        d_(d.unaryExpr(&without_vanishing)),
+        u_(u.unaryExpr(&without_vanishing)) {
     for (int i = 0; i < 3; ++i) {
       const double y = u_[(i + 1) % 3], z = u_[(i + 2) % 3];
       s_[i] = std::sqrt(y * y + z * z);

@@ -4,6 +4,8 @@
 
 #include <Eigen/Geometry>
 
+#include "largest_gap.hpp"
+
 namespace touchstone {
 
 FoldedAxes::FoldedAxes(const Vec3& axis1, const Vec3& axis2, const Vec3& difference) {
@@ -29,9 +31,9 @@ FoldedAxes::FoldedAxes(const Vec3& axis1, const Vec3& axis2, const Vec3& differe
   c = u2.dot(e1);
   s = u2.dot(e2);
   if (s < 0) s = -s, e2 = -e2;
-  d1 = difference.dot(e1);
-  d2 = difference.dot(e2);
-  d3 = difference.dot(e3);
+  d1 = without_vanishing(difference.dot(e1));
+  d2 = without_vanishing(difference.dot(e2));
+  d3 = without_vanishing(difference.dot(e3));
   if (d3 < 0) d3 = -d3, e3 = -e3;
   if (d1 * (1 + c) + d2 * s < 0) {
     d1 = -d1;
