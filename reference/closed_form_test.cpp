@@ -88,6 +88,28 @@ TEST(Contact, ThresholdAdmitsPointsBetweenBodiesApart) {
   EXPECT_NEAR(near.points()[0].depth, -0.5, 1e-15);
 }
 
+// The thesis's figure 20: did the body come from the side or from above? Both ways out are as long.
+TEST(Contact, PreviousNormalDecidesBetweenSideAndTop) {
+  const Cylinder can(1, 2);
+  const Vec3 side(1, 0, 0), top(0, 0, 1);
+  const struct {
+    const char* name;
+    Configuration configuration;
+  } table[] = {
+      {"cylinder", {can, Pose({1.75, 0, 3.75}, upright), can, Pose()}},
+      {"box", {can, Pose({1.75, 0, 3.75}, upright), Box({1, 1, 2}), Pose()}},
+      {"sphere", {can, Pose({0.75, 0, 1.75}, upright), Sphere(0.5), Pose()}},
+  };
+  for (const auto& row : table) {
+    SCOPED_TRACE(row.name);
+    for (const Vec3& previous : {side, top}) {
+      const Contact answer = contact(row.configuration, 1e-6, &previous);
+      EXPECT_NEAR(answer.normal.dot(previous), 1, 1e-15);
+      EXPECT_NEAR(answer.signed_distance, signed_distance(row.configuration).value, 1e-15);
+    }
+  }
+}
+
 TEST(CylinderOnPlane, TiltedHasOnePoint) {
   // sin 3/5, cos 4/5: the rim is 1·4/5 + 1·3/5 below the centre.
   const Configuration c{Cylinder(1, 1), Pose({0, 0, 1.25}, Quaternion(3, 1, 0, 0)),

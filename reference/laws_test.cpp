@@ -70,18 +70,63 @@ TEST_P(Law, MovingBothBodiesMovesTheAnswer) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(, Law, testing::ValuesIn(all_pairs), [](const auto& pair) {
-  return std::string(pair_name(pair.param)).substr(std::string("cylinder-").size());
-});
-
-TEST(CylinderCylinder, ExchangedBodiesHaveTheSameDistance) {
+TEST(CylinderCylinder, ExchangedBodiesAnswerBitForBitAlike) {
   for (const Identity& id : some_identities(Pair::cylinder)) {
     const Configuration c = make_configuration(id);
     const Configuration exchanged{std::get<Cylinder>(c.b), c.pose_b, c.a, c.pose_a};
-    EXPECT_NEAR(signed_distance(exchanged).value, signed_distance(c).value, 1e-13 * larger_size(c))
-        << to_string(id);
+    SCOPED_TRACE(to_string(id));
+    const SignedDistance one = signed_distance(c), other = signed_distance(exchanged);
+    EXPECT_EQ(one.value, other.value);
+    EXPECT_EQ(one.normal, Vec3(-other.normal));
+    EXPECT_EQ(overlaps(c), overlaps(exchanged));
+    const Contact contact1 = contact(c, 0), contact2 = contact(exchanged, 0);
+    EXPECT_EQ(contact1.normal, Vec3(-contact2.normal));
+    ASSERT_EQ(contact1.points().size(), contact2.points().size());
+    for (std::size_t i = 0; i < contact1.points().size(); ++i) {
+      EXPECT_EQ(contact1.points()[i].position, contact2.points()[i].position);
+      EXPECT_EQ(contact1.points()[i].depth, contact2.points()[i].depth);
+    }
   }
 }
+
+TEST_P(Law, ContactAgreesWithSignedDistanceAndOverlaps) {
+  for (const Identity& id : some_identities(GetParam())) {
+    const Configuration c = make_configuration(id);
+    const double distance = signed_distance(c).value;
+    SCOPED_TRACE(to_string(id));
+    EXPECT_EQ(overlaps(c), distance <= 0);
+    for (const double threshold : {0.0, 0.01 * smaller_size(c), 10 * larger_size(c)}) {
+      const Contact answer = contact(c, threshold);
+      EXPECT_EQ(answer.points().empty(), distance > threshold);
+      if (answer.points().empty()) {
+        EXPECT_GT(answer.signed_distance, threshold);
+        EXPECT_LE(answer.signed_distance, distance + 1e-13 * larger_size(c) + position_rounding(c));
+      } else {
+        EXPECT_EQ(answer.signed_distance, distance);
+      }
+    }
+  }
+}
+
+TEST_P(Law, APreviousNormalNeverCostsMoreThanTheThreshold) {
+  std::mt19937 random(2);
+  std::normal_distribution<double> coordinate;
+  for (const Identity& id : some_identities(GetParam())) {
+    const Configuration c = make_configuration(id);
+    const double threshold = 0.01 * smaller_size(c);
+    const Vec3 previous =
+        Vec3(coordinate(random), coordinate(random), coordinate(random)).normalized();
+    const Contact plain = contact(c, threshold), hinted = contact(c, threshold, &previous);
+    SCOPED_TRACE(to_string(id));
+    EXPECT_EQ(plain.points().empty(), hinted.points().empty());
+    EXPECT_LE(std::abs(plain.signed_distance - hinted.signed_distance), threshold);
+    EXPECT_GE(hinted.normal.dot(previous), plain.normal.dot(previous) - 1e-15);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(, Law, testing::ValuesIn(all_pairs), [](const auto& pair) {
+  return std::string(pair_name(pair.param)).substr(std::string("cylinder-").size());
+});
 
 // Three stationary rim pairs within 0.05 rad, of which an even scan of the rim sees one.
 TEST(CylinderCylinder, RimsWithCloseStationaryPointsAreResolved) {

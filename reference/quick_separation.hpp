@@ -30,8 +30,10 @@ bool quickly_separated(const PosedCylinder& a, const Body& b, double threshold,
     // bodies.
     if (!(squared > least * least)) return false;
     const Vec3 n = apart / std::sqrt(squared);
-    const double gap = d.dot(n) - reach(a, n) - reach(b, n);
-    if (gap > threshold) {
+    const double along = d.dot(n), reaches = reach(a, n) + reach(b, n), gap = along - reaches;
+    // No answer may hang on what rounding makes of a touch.
+    constexpr double rounding = 1e-14;
+    if (gap > threshold + rounding * (std::abs(along) + reaches)) {
       clearance = {gap, n};
       return true;
     }
