@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -100,8 +100,22 @@ class Rims {
     return n;
   }
 
-  /// Does any normal n with n·u >= 0 towards both ends have n2 of this sign?
-  bool reaches_quarter(double sign) const { return end1_ == end2_ || sign == end2_; }
+  /// The angles of rim 1 at which the rims may meet. Rim 1's point lies above rim 2's plane by a
+  /// height that its angle alone gives, at most the distance of the rims: on the far side of the
+  /// plane where the bodies are apart, on the near side where they overlap.
+  std::pair<double, double> useful_arc(double depth, double limit) const {
+    const double lean = pair_.axes.s * pair_.r1, height = pair_.axes.along_u2(q_);
+    const double lowest = end2_ > 0 ? -depth : -limit, highest = end2_ > 0 ? limit : depth;
+    const double margin = 4 * noise();
+    const double least = (height - highest - margin) / lean;
+    const double most = (height - lowest + margin) / lean;
+    // Where the ends' cones of normals share only one quarter, that quarter.
+    const double from = end1_ != end2_ && end2_ < 0 ? 0.0 : 1.0;
+    const double to = end1_ != end2_ && end2_ > 0 ? 0.0 : -1.0;
+    const double first = std::min(most, from), last = std::max(least, to);
+    if (first < last) return {1, 0};
+    return {std::acos(std::max(first, -1.0)), std::acos(std::min(last, 1.0))};
+  }
 
   double radius1() const { return pair_.r1; }
   /// What rounding leaves of a slope.
@@ -119,19 +133,20 @@ class Scan {
   Scan(const FoldedCylinders& pair, const Rims& rims, double& limit, LargestGap& best)
       : pair_(pair), rims_(rims), limit_(limit), best_(best), noise_(rims.noise()) {}
 
-  /// A little more than half, because roots on the plane of the axes itself must lie inside. Where
-  /// the ends' cones of normals share only one quarter, that quarter.
-  void half_rim() {
-    constexpr double beyond = 0.02, pi = std::numbers::pi;
-    const bool first = rims_.reaches_quarter(1), second = rims_.reaches_quarter(-1);
-    const Sample middle = at(first && second ? pi / 2 : first ? pi / 2 + beyond : pi / 2 - beyond);
-    if (first) arc(at(-beyond), middle, 0);
-    if (second) arc(middle, at(pi + beyond), 0);
+  /// The arc of half the rim that can matter, and a little more, because roots at its ends must lie
+  /// inside.
+  void useful_arc() {
+    constexpr double beyond = 0.02;
+    const auto [from, to] = rims_.useful_arc(std::max(0.0, -best_.gap), limit_);
+    if (!(from <= to)) return;
+    arc(at(from - beyond), at(to + beyond));
   }
+  /// Tries one place, to begin with a good bound.
+  void guess(double angle) { offer(at(angle)); }
 
  private:
-  static constexpr int coarse_depth = 2;  // halvings that are always made
-  static constexpr int finest_depth = 24;
+  static constexpr double coarse = 0.5;   // rad; longer arcs are always halved
+  static constexpr double finest = 1e-7;  // rad; shorter ones never
   static constexpr int most_samples = 400;
 
   Sample at(double angle) {
@@ -148,14 +163,13 @@ class Scan {
     return nearest > std::max(limit_, -best_.gap);
   }
 
-  void arc(const Sample& x, const Sample& y, int depth) {
+  void arc(const Sample& x, const Sample& y) {
     if (too_far(x, y)) return;
     const double width = y.angle - x.angle;
     const Sample middle = at(x.angle + width / 2);
-    if (depth < coarse_depth ||
-        (!even(x, middle, y) && depth < finest_depth && samples_ < most_samples)) {
-      arc(x, middle, depth + 1);
-      arc(middle, y, depth + 1);
+    if (width > coarse || (!even(x, middle, y) && width > finest && samples_ < most_samples)) {
+      arc(x, middle);
+      arc(middle, y);
     } else {
       roots(x, middle);
       roots(middle, y);
@@ -209,7 +223,7 @@ class Scan {
     }
   }
 
-  /// Newton kept inside the bracket; at most 50 steps.
+  /// Newton kept inside the bracket; at most 50 steps. What is left is for `polished`.
   Sample root(const Sample& x, const Sample& y) {
     double lo = x.angle, hi = y.angle;
     double angle = (lo * y.slope - hi * x.slope) / (y.slope - x.slope);
@@ -224,7 +238,7 @@ class Scan {
         next = (lo + hi) / 2;
       }
       previous = std::abs(next - angle);
-      if (previous <= 1e-15 || next == lo || next == hi) return sample;
+      if (previous <= 1e-9 || next == lo || next == hi) return sample;
       angle = next;
     }
   }
@@ -318,7 +332,9 @@ void offer_rim_rim_normals(const FoldedCylinders& pair, LargestGap& best) {
   for (int other = 0; other < 4; ++other) {
     const Rims rims(pair, (other & 1) ? -likely1 : likely1, (other & 2) ? -likely2 : likely2);
     if (!rims.may_meet(std::max(0.0, -best.gap), limit)) continue;
-    Scan(pair, rims, limit, best).half_rim();
+    Scan scan(pair, rims, limit, best);
+    if (other == 0) scan.guess(std::atan2(best.normal.z(), best.normal.y()));
+    scan.useful_arc();
     // Apart by the gap, with points no further apart: nothing is better.
     if (best.gap >= limit - rounding) return;
   }
