@@ -130,8 +130,14 @@ class Rims {
 
 class Scan {
  public:
-  Scan(const FoldedCylinders& pair, const Rims& rims, double& limit, LargestGap& best)
-      : pair_(pair), rims_(rims), limit_(limit), best_(best), noise_(rims.noise()) {}
+  Scan(const FoldedCylinders& pair, const Rims& rims, double& limit, double least_depth,
+       LargestGap& best)
+      : pair_(pair),
+        rims_(rims),
+        limit_(limit),
+        least_depth_(least_depth),
+        best_(best),
+        noise_(rims.noise()) {}
 
   /// The arc of half the rim that can matter, and a little more, because roots at its ends must lie
   /// inside.
@@ -158,13 +164,15 @@ class Scan {
 
   /// The distance changes by at most radius 1 per radian. Further away than the depth, or than the
   /// bodies can be apart, no point of the arc is in contact.
-  bool too_far(const Sample& x, const Sample& y) const {
-    const double nearest = (x.distance + y.distance - rims_.radius1() * (y.angle - x.angle)) / 2;
-    return nearest > std::max(limit_, -best_.gap);
+  /// Nor nearer than the depth is at least: those points lie within the sum.
+  bool useless(const Sample& x, const Sample& y) const {
+    const double middle = (x.distance + y.distance) / 2;
+    const double reach = rims_.radius1() * (y.angle - x.angle) / 2;
+    return middle - reach > std::max(limit_, -best_.gap) || middle + reach < least_depth_;
   }
 
   void arc(const Sample& x, const Sample& y) {
-    if (too_far(x, y)) return;
+    if (useless(x, y)) return;
     const double width = y.angle - x.angle;
     const Sample middle = at(x.angle + width / 2);
     if (width > coarse || (!even(x, middle, y) && width > finest && samples_ < most_samples)) {
@@ -190,12 +198,13 @@ class Scan {
     const double error = std::max(std::abs(middle.slope - cubic(0.5)) - noise_, 0.0);
     const auto same_sign = [](double p, double q) { return (p < 0) == (q < 0); };
 
-    const double vertex = b != 0 ? -a / (3 * b) : -1;  // of its derivative
+    const double vertex = b != 0 ? -a / (3 * b) : -1;  // of its derivative t + 2 a u + 3 b u²
+    const bool turns = vertex > 0 && vertex < 1;
     const double discriminant = a * a - 3 * b * t;
-    if (same_sign(t, t_end) && (discriminant < 0 || !(vertex > 0 && vertex < 1))) {
+    if (same_sign(t, t_end) && (!turns || same_sign(t, t + vertex * a))) {
       if (same_sign(s, y.slope)) return error <= trust * std::min(std::abs(s), std::abs(y.slope));
       double steady = std::min(std::abs(t), std::abs(t_end));
-      if (vertex > 0 && vertex < 1) steady = std::min(steady, std::abs(t + vertex * a));
+      if (turns) steady = std::min(steady, std::abs(t + vertex * a));
       // An error e at the middle means up to 3.1 e in the derivative, off the middle.
       return 4 * error <= trust * steady;
     }
@@ -214,7 +223,7 @@ class Scan {
   }
 
   void roots(const Sample& x, const Sample& y) {
-    if (too_far(x, y)) return;
+    if (useless(x, y)) return;
     // Only where the distance has a minimum can the sum's surface be nearest to d.
     if (x.slope < 0 && y.slope >= 0) {
       offer(root(x, y));
@@ -294,10 +303,34 @@ class Scan {
   const FoldedCylinders& pair_;
   const Rims& rims_;
   double& limit_;
+  double least_depth_;
   LargestGap& best_;
   double noise_;
   int samples_ = 0;
 };
+
+/// The largest balls within a cylinder are as wide as it; their centres fill a segment or a disc.
+/// How far two such balls, near each other, overlap: the bodies do so no less. Negative if they do
+/// not.
+double overlap_of_balls(const FoldedCylinders& pair) {
+  const FoldedAxes& f = pair.axes;
+  const Vec3 u1(1, 0, 0), u2(f.c, f.s, 0);
+  const auto nearest_centre = [](const Vec3& u, double r, double h, const Vec3& x) -> Vec3 {
+    const double along = x.dot(u);
+    if (h >= r) return std::clamp(along, r - h, h - r) * u;
+    const Vec3 across = x - along * u;
+    const double length = across.norm();
+    return length > r - h ? Vec3((r - h) / length * across) : across;
+  };
+  Vec3 x = f.d();  // A's ball, about B's centre
+  Vec3 y = Vec3::Zero();
+  constexpr int rounds = 3;
+  for (int i = 0; i < rounds; ++i) {
+    y = nearest_centre(u2, pair.r2, pair.h2, x);
+    x = f.d() + nearest_centre(u1, pair.r1, pair.h1, y - f.d());
+  }
+  return std::min(pair.r1, pair.h1) + std::min(pair.r2, pair.h2) - (x - y).norm();
+}
 
 /// With parallel axes the sum of two cylinders is a cylinder; its rim has this normal.
 void offer_parallel_rim_normal(const FoldedCylinders& pair, LargestGap& best) {
@@ -325,14 +358,16 @@ void offer_rim_rim_normals(const FoldedCylinders& pair, LargestGap& best) {
   constexpr double parallel = 2e-16;
   offer_parallel_rim_normal(pair, best);
   if (pair.axes.s <= parallel) return;
+  const double rounding = 2e-16 * (pair.axes.d().norm() + pair.h1 + pair.h2 + pair.r1 + pair.r2);
+  const double least_depth = overlap_of_balls(pair) - rounding;
+  if (-best.gap <= least_depth) return;
   double limit = std::numeric_limits<double>::infinity();
   const double likely1 = best.normal.x() < 0 ? -1 : 1;
   const double likely2 = pair.axes.along_u2(best.normal) < 0 ? -1 : 1;
-  const double rounding = 2e-16 * (pair.axes.d().norm() + pair.h1 + pair.h2 + pair.r1 + pair.r2);
   for (int other = 0; other < 4; ++other) {
     const Rims rims(pair, (other & 1) ? -likely1 : likely1, (other & 2) ? -likely2 : likely2);
     if (!rims.may_meet(std::max(0.0, -best.gap), limit)) continue;
-    Scan scan(pair, rims, limit, best);
+    Scan scan(pair, rims, limit, least_depth, best);
     if (other == 0) scan.guess(std::atan2(best.normal.z(), best.normal.y()));
     scan.useful_arc();
     // Apart by the gap, with points no further apart: nothing is better.
