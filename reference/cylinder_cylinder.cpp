@@ -33,10 +33,11 @@ class Solver {
     better(&Solver::sides_crossing, &Solver::crossing_is_final);
     return best_.gap > enough || (this->*is_final_)();
   }
-  void search() {
+  void search(double enough) {
     better(&Solver::rim2_beside_side1, &Solver::side1_is_final);
     better(&Solver::rim1_beside_side2, &Solver::side2_is_final);
-    if (!(this->*is_final_)()) offer_rim_rim_normals(pair_, best_);
+    if (best_.gap > enough || (this->*is_final_)()) return;
+    offer_rim_rim_normals(pair_, facing_points(), enough, best_);
   }
   const LargestGap& best() const { return best_; }
 
@@ -50,6 +51,20 @@ class Solver {
     const double before = best_.gap;
     (this->*candidate)();
     if (best_.gap > before) is_final_ = certificate;
+  }
+
+  /// Two points of the bodies that are near each other, by alternating projections, in the folded
+  /// frame: from B's to A's.
+  Vec3 facing_points() const {
+    const PosedCylinder a{f_.d(), Vec3(1, 0, 0), pair_.r1, pair_.h1};
+    const PosedCylinder b{Vec3::Zero(), Vec3(f_.c, f_.s, 0), pair_.r2, pair_.h2};
+    Vec3 on_b = nearest(b, a.centre), on_a = nearest(a, on_b);
+    constexpr int rounds = 3;
+    for (int i = 0; i < rounds; ++i) {
+      on_b = nearest(b, on_a);
+      on_a = nearest(a, on_b);
+    }
+    return on_a - on_b;
   }
 
   void cap1() {
@@ -158,7 +173,7 @@ SignedDistance solve(const Cylinder& a, const Cylinder& b, const PosedCylinder& 
   if (!solver.closed_forms(enough)) {
     SignedDistance clearance;
     if (quickly_separated(posed_a, posed_b, enough, clearance)) return clearance;
-    solver.search();
+    solver.search(enough);
   }
   return {solver.best().gap, f.to_world(solver.best().normal)};
 }

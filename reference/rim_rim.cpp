@@ -70,7 +70,7 @@ class Rims {
   /// components of n that are small keep their digits.
   Vec3 polished(Vec3 n) const {
     const double c = pair_.axes.c, s = pair_.axes.s;
-    constexpr int steps = 3;
+    constexpr int steps = 6;
     for (int i = 0; i < steps; ++i) {
       n /= n.norm();
       const double m = c * n.y() - s * n.x();  // n along k2
@@ -147,8 +147,13 @@ class Scan {
     if (!(from <= to)) return;
     arc(at(from - beyond), at(to + beyond));
   }
-  /// Tries one place, to begin with a good bound.
-  void guess(double angle) { offer(at(angle)); }
+  /// Begins with a good bound: the rims' stationary normal near n, and the points that it leads to.
+  void guess(const Vec3& n) {
+    const Vec3 better = rims_.polished(n).normalized();
+    if (!(better.z() >= 0)) return;
+    best_.offer(pair_.gap(better), better);
+    at(std::atan2(better.z(), better.y()));
+  }
 
  private:
   static constexpr double coarse = 0.5;   // rad; longer arcs are always halved
@@ -353,7 +358,8 @@ double FoldedCylinders::gap(const Vec3& n) const {
          r1 * std::sqrt(n.y() * n.y() + n.z() * n.z()) - r2 * std::sqrt(m * m + n.z() * n.z());
 }
 
-void offer_rim_rim_normals(const FoldedCylinders& pair, LargestGap& best) {
+void offer_rim_rim_normals(const FoldedCylinders& pair, const Vec3& apart, double enough,
+                           LargestGap& best) {
   // Tilts that only rounding makes cost no more than rounding.
   constexpr double parallel = 2e-16;
   offer_parallel_rim_normal(pair, best);
@@ -361,17 +367,21 @@ void offer_rim_rim_normals(const FoldedCylinders& pair, LargestGap& best) {
   const double rounding = 2e-16 * (pair.axes.d().norm() + pair.h1 + pair.h2 + pair.r1 + pair.r2);
   const double least_depth = overlap_of_balls(pair) - rounding;
   if (-best.gap <= least_depth) return;
-  double limit = std::numeric_limits<double>::infinity();
-  const double likely1 = best.normal.x() < 0 ? -1 : 1;
-  const double likely2 = pair.axes.along_u2(best.normal) < 0 ? -1 : 1;
+
+  double limit = apart.norm();  // of points of both bodies: they are not further apart
+  const Vec3 likely = limit > 0 ? Vec3(apart / limit) : best.normal;
+  const double likely1 = likely.x() < 0 ? -1 : 1;
+  const double likely2 = pair.axes.along_u2(likely) < 0 ? -1 : 1;
   for (int other = 0; other < 4; ++other) {
     const Rims rims(pair, (other & 1) ? -likely1 : likely1, (other & 2) ? -likely2 : likely2);
     if (!rims.may_meet(std::max(0.0, -best.gap), limit)) continue;
     Scan scan(pair, rims, limit, least_depth, best);
-    if (other == 0) scan.guess(std::atan2(best.normal.z(), best.normal.y()));
-    scan.useful_arc();
     // Apart by the gap, with points no further apart: nothing is better.
-    if (best.gap >= limit - rounding) return;
+    const auto done = [&] { return best.gap > enough || best.gap >= limit - rounding; };
+    if (other == 0) scan.guess(likely);
+    if (done()) return;
+    scan.useful_arc();
+    if (done()) return;
   }
 }
 
