@@ -2,16 +2,14 @@
 //
 // Calls        touchstone::contact, one overload for each pair.
 // Conventions  those of candidate.h: normal from B to A, points halfway between the surfaces.
-// Threshold    handed on; a distance beyond it is answered with none.
+// Threshold    handed on; a distance beyond it is answered with none, and then signed_distance is
+// the
+//              clearance along the first direction that proves it.
 #include <optional>
 #include <utility>
 
 #include "candidates/entry_points.h"
-#include "reference/cylinder_box.hpp"
-#include "reference/cylinder_capsule.hpp"
-#include "reference/cylinder_cylinder.hpp"
-#include "reference/cylinder_plane.hpp"
-#include "reference/cylinder_sphere.hpp"
+#include "reference/touchstone.hpp"
 
 using touchstone::Contact;
 using touchstone::Cylinder;

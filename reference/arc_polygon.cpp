@@ -151,6 +151,12 @@ void ArcPolygon::mark_farthest(const Vec2& direction) {
   }
 }
 
+std::array<Vec2, 3> ArcPolygon::three_arms(double radius, const Vec2& unit) {
+  const double half = 0.5, height = std::numbers::sqrt3 / 2;  // cos 60°, sin 60°
+  const Vec2 arm = radius * unit;
+  return {arm, height * turned_left(arm) - half * arm, -height * turned_left(arm) - half * arm};
+}
+
 int ArcPolygon::spread(const Vec2& first, std::array<Vec2, 8>& points) const {
   int start = -1;
   for (int i = 0; i < count_; ++i) {
@@ -159,11 +165,8 @@ int ArcPolygon::spread(const Vec2& first, std::array<Vec2, 8>& points) const {
   }
   if (start < 0) {
     const auto& [centre, radius] = circles_[0];
-    const Vec2 arm = radius * first.normalized();
-    const double half = 0.5, height = std::numbers::sqrt3 / 2;  // cos 60°, sin 60°
-    points[0] = centre + arm;
-    points[1] = centre - half * arm + height * turned_left(arm);
-    points[2] = centre - half * arm - height * turned_left(arm);
+    const auto arms = three_arms(radius, first.normalized());
+    for (std::size_t i = 0; i < arms.size(); ++i) points[i] = centre + arms[i];
     return 3;
   }
 

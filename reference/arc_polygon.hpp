@@ -24,6 +24,12 @@ class ArcPolygon {
  public:
   static constexpr int max_vertices = 24;
 
+  /// Copies the vertices there are.
+  ArcPolygon(const ArcPolygon& other) : circles_(other.circles_), count_(other.count_) {
+    std::copy_n(other.vertices_.begin(), count_, vertices_.begin());
+  }
+  ArcPolygon& operator=(const ArcPolygon&) = delete;
+
   /// The disc within `circle`.
   explicit ArcPolygon(const Circle& circle);
   /// What two discs share when neither holds the other: two corners and an arc of each.
@@ -45,6 +51,9 @@ class ArcPolygon {
   /// Makes the point that is farthest along a direction a corner, so that `spread` keeps it.
   void mark_farthest(const Vec2& direction);
 
+  /// Three arms of this length, 120° apart, the first along a unit vector.
+  static std::array<Vec2, 3> three_arms(double radius, const Vec2& unit);
+
   /// Points whose hull covers the region well: the corners; on arcs as many more as leave no piece
   /// above 72°; at least four where there is an arc. A full disc gives three, 120°
   /// apart. The first is the farthest along `first`. Never more than eight. Returns how many.
@@ -63,7 +72,7 @@ class ArcPolygon {
   /// Divides the arc from `from` to `to` so that no piece exceeds a quarter turn; leaves `to` out.
   void add_arc(int circle, const Vec2& from, const Vec2& to);
 
-  std::array<Circle, 2> circles_;
+  std::array<Circle, 2> circles_ = {Circle{Vec2::Zero(), 0}, Circle{Vec2::Zero(), 0}};
   std::array<Vertex, max_vertices> vertices_;
   int count_ = 0;
 };

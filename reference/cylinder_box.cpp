@@ -24,8 +24,8 @@ class Solver {
       : r_(a.radius()),
         h_(a.half_length()),
         e_(b.half_extents()),
-        d_(d.unaryExpr(&without_vanishing)),
-        u_(u.unaryExpr(&without_vanishing)) {
+        d_(d.unaryExpr([](double x) { return without_vanishing(x); })),
+        u_(u.unaryExpr([](double x) { return without_vanishing(x); })) {
     for (int i = 0; i < 3; ++i) {
       const double y = u_[(i + 1) % 3], z = u_[(i + 2) % 3];
       s_[i] = std::sqrt(y * y + z * z);

@@ -109,8 +109,13 @@ class Solver {
 
   /// The generators cross within both, one of them further from its ends than the depth.
   bool crossing_is_final() const {
-    if (!(f_.s > 0)) return false;
     const double delta = depth();
+    constexpr double flat = 1e-15;
+    if (f_.s <=
+        flat) {  // side by side, e3 through both axes: any generator's point that they share
+      return std::abs(f_.d2) <= flat * f_.d3 &&
+             on_side(std::max(0.0, std::abs(f_.d1) - pair_.h2), pair_.r1, pair_.h1);
+    }
     const double t2 = f_.d2 / f_.s, t1 = f_.d1 - f_.c * t2;
     if (std::abs(t1) > pair_.h1 || std::abs(t2) > pair_.h2) return false;
     return (std::abs(t1) <= pair_.h1 - delta && delta <= pair_.r1) ||

@@ -12,6 +12,10 @@ namespace {
 struct Stance {
   Vec3 normal;           ///< the plane's, unit
   double centre_height;  ///< of the cylinder's centre above the plane
+  Vec3 axis;             ///< the cylinder's
+  double cosine;         ///< axis·normal
+  Vec3 across;           ///< the normal less its part along the axis
+  double sine;           ///< length of `across`; not from the cosine, which hides a small tilt
   double signed_distance;
 
   Stance(const Cylinder& a, const Pose& pose_a, const Plane& b, const Pose& pose_b) {
@@ -20,11 +24,12 @@ struct Stance {
     const double length = squared == 1 ? 1 : std::sqrt(squared);
     normal = pose_b.rotation() * (b.normal() / length);
     centre_height = normal.dot(pose_a.position() - pose_b.position()) - b.displacement() / length;
-    const Vec3 axis = pose_a.axis();
-    // The deepest point is on the lower cap's rim. The sine is not taken from the cosine, which
-    // hides a small tilt.
-    signed_distance = centre_height - a.half_length() * std::abs(axis.dot(normal)) -
-                      a.radius() * axis.cross(normal).norm();
+    axis = pose_a.axis();
+    cosine = axis.dot(normal);
+    across = normal - cosine * axis;
+    sine = across.norm();
+    // The deepest point is on the lower cap's rim.
+    signed_distance = centre_height - a.half_length() * std::abs(cosine) - a.radius() * sine;
   }
 };
 
@@ -67,12 +72,15 @@ Contact contact(const Cylinder& a, const Pose& pose_a, const Plane& b, const Pos
   const ManifoldRule rule(size, size, std::abs(stance.centre_height), stance.signed_distance,
                           contact_threshold);
   const Vec3& origin = pose_a.position();
-  const FacingFeature lower = facing(posed(a, pose_a, origin), -stance.normal, rule.slack);
-  if (lower.kind == FacingFeature::Kind::point) {
-    result.add_point(origin + (lower.middle - stance.signed_distance / 2 * stance.normal),
-                     -stance.signed_distance);
+  if (!lies_flat(a.radius(), stance.sine, rule.slack) &&
+      !lies_flat(a.half_length(), stance.cosine, rule.slack)) {
+    const Vec3 deepest = -std::copysign(a.half_length(), stance.cosine) * stance.axis -
+                         (a.radius() / stance.sine) * stance.across -
+                         (stance.signed_distance / 2) * stance.normal;
+    result.add_point(origin + deepest, -stance.signed_distance);
     return result;
   }
+  const FacingFeature lower = facing(posed(a, pose_a, origin), -stance.normal, rule.slack);
   FacingFeature ground{.kind = FacingFeature::Kind::half_space,
                        .middle = -stance.centre_height * stance.normal,
                        .axis = stance.normal};

@@ -7,13 +7,6 @@ namespace {
 
 using Kind = FacingFeature::Kind;
 
-/// Does a tenth of a feature of this half length, leaning by `sine`, rise by no more than `slack`?
-/// Features smaller than the slack may lean by a tenth.
-bool lies_flat(double half_length, double sine, double slack) {
-  constexpr double most = 0.1;
-  return 0.2 * half_length * std::abs(sine) <= slack && std::abs(sine) <= most;
-}
-
 }  // namespace
 
 FacingFeature facing(const PosedCylinder& body, const Vec3& outward, double slack) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 
 #include "posed_body.hpp"
 
@@ -25,6 +26,13 @@ struct FacingFeature {
   std::array<Vec3, 2> side = {Vec3::Zero(), Vec3::Zero()};
   std::array<double, 2> half_side = {0, 0};
 };
+
+/// Does a tenth of a feature of this half length, leaning by `sine`, rise by no more than `slack`?
+/// Features smaller than the slack may lean by a tenth.
+inline bool lies_flat(double half_length, double sine, double slack) {
+  constexpr double most = 0.1;
+  return 0.2 * half_length * std::abs(sine) <= slack && std::abs(sine) <= most;
+}
 
 /// The feature of the body that is farthest along `outward`. A cap, generator, edge or face counts
 /// as facing when at least a tenth of it lies within `slack` metres of its farthest point.

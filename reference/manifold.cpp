@@ -88,6 +88,7 @@ class Manifold {
     contact_.add_point(origin_ + p.x() * x_ + p.y() * y_ + (height_a + height_b) / 2 * n_,
                        height_b - height_a);
   }
+  bool add_whole_disc(const Circle& disc, const Vec2& aside, const Incline& a, const Incline& b);
   void add_spread(ArcPolygon region, const Vec2& aside, const Incline& a, const Incline& b);
 
   Contact& contact_;
@@ -96,6 +97,20 @@ class Manifold {
   const double slack_;
   Vec3 x_, y_;
 };
+
+/// Three points of a disc that rises nowhere above the slack, the deepest first.
+bool Manifold::add_whole_disc(const Circle& disc, const Vec2& aside, const Incline& a,
+                              const Incline& b) {
+  const Vec2 rise = a.slope - b.slope;  // of the clearance
+  const double steepness = rise.norm();
+  if (steepness * 2 * disc.radius > slack_) return false;
+  const Vec2 first = steepness > level_slope ? Vec2(-rise / steepness) : aside;
+  for (const Vec2& arm : ArcPolygon::three_arms(disc.radius, first)) {
+    const Vec2 p = disc.centre + arm;
+    add(p, a.at(p), b.at(p));
+  }
+  return true;
+}
 
 /// Cuts off what rises above the slack and adds the points of the rest, the deepest first.
 void Manifold::add_spread(ArcPolygon region, const Vec2& aside, const Incline& a,
@@ -120,11 +135,18 @@ void Manifold::flat_on_flat(const FacingFeature& a, const FacingFeature& b) {
   const Incline on_a = incline(a), on_b = incline(b);
   const Circle disc = circle(a);
   if (b.kind == Kind::half_space) {
+    if (add_whole_disc(disc, to_plane(b.side[0]), on_a, on_b)) return;
     add_spread(ArcPolygon(disc), to_plane(b.side[0]), on_a, on_b);
     return;
   }
   if (b.kind == Kind::rectangle) {
     const Vec2 middle = to_plane(b.middle);
+    bool whole = true;
+    for (int i = 0; i < 2; ++i) {
+      const double offset = std::abs(to_plane(b.side[i]).dot(disc.centre - middle));
+      whole = whole && offset + disc.radius <= b.half_side[i];
+    }
+    if (whole && add_whole_disc(disc, to_plane(b.side[0]).normalized(), on_a, on_b)) return;
     ArcPolygon region(disc);
     for (int i = 0; i < 2; ++i) {
       const Vec2 side = to_plane(b.side[i]).normalized();
@@ -149,8 +171,10 @@ void Manifold::flat_on_flat(const FacingFeature& a, const FacingFeature& b) {
   constexpr double rounding = 1e-12;
   if (distance <= std::abs(disc.radius - other.radius) + rounding * (disc.radius + other.radius)) {
     const bool a_is_inside = disc.radius <= other.radius;
-    const ArcPolygon region(a_is_inside ? disc : other);
-    return add_spread(region, a_is_inside ? aside : Vec2(-aside), on_a, on_b);
+    const Circle& inner = a_is_inside ? disc : other;
+    const Vec2 first = a_is_inside ? aside : Vec2(-aside);
+    if (add_whole_disc(inner, first, on_a, on_b)) return;
+    return add_spread(ArcPolygon(inner), first, on_a, on_b);
   }
   if (distance >= disc.radius + other.radius) {  // the rims only touch
     const Vec2 p = disc.centre + disc.radius / (disc.radius + other.radius) * between;
