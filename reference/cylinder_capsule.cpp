@@ -21,12 +21,13 @@ class Solver {
   Solver(const Cylinder& a, const Capsule& b, const FoldedAxes& f)
       : r1_(a.radius()), h1_(a.half_length()), h2_(b.half_length()), f_(f) {}
 
-  /// Clearance to the segment, as far as closed forms tell it. True if it is more than `enough`.
+  /// Clearance to the segment, as far as closed forms tell it. True if they say it all, or it is
+  /// more than `enough`.
   bool closed_forms(double enough) {
     cap();
     sides_crossing();
-    end_beside_side();
-    return best_.gap > enough;
+    if (!final_ && best_.gap <= enough) end_beside_side();
+    return final_ || best_.gap > enough;
   }
   void search() {
     segment_over_rim();
@@ -35,18 +36,42 @@ class Solver {
   const LargestGap& best() const { return best_; }
 
  private:
+  // Each says whether its normal is final: the segment meets a smooth place of the cylinder, its
+  // depth away from the rims, so that a ball of that radius fits behind it.
+
   void cap() {
-    best_.offer(std::abs(f_.d1) - h1_ - h2_ * f_.c, Vec3(std::copysign(1, f_.d1), 0, 0));
+    const double side = std::copysign(1, f_.d1);
+    best_.offer(std::abs(f_.d1) - h1_ - h2_ * f_.c, Vec3(side, 0, 0));
+    const double y = f_.d2 - side * h2_ * f_.s, reach = r1_ - depth();
+    final_ = depth() <= h1_ && reach >= 0 && y * y + f_.d3 * f_.d3 <= reach * reach;
   }
 
-  void sides_crossing() { best_.offer(f_.d3 - r1_, Vec3(0, 0, 1)); }
+  void sides_crossing() {
+    if (f_.d3 - r1_ <= best_.gap) return;
+    best_.offer(f_.d3 - r1_, Vec3(0, 0, 1));
+    constexpr double flat = 1e-15;
+    if (f_.s <= flat) {  // side by side, e3 through both axes
+      final_ = std::abs(f_.d2) <= flat * f_.d3 && on_side(std::max(0.0, std::abs(f_.d1) - h2_));
+    } else {
+      const double along = f_.d2 / f_.s;
+      final_ = std::abs(along) <= h2_ && on_side(f_.d1 - f_.c * along);
+    }
+  }
 
   /// n ⟂ u1: the end towards A lies at (0, h2 s) across A's axis.
   void end_beside_side() {
     const double y = std::abs(f_.d2) - h2_ * f_.s;
     if (!(y > 0)) return;
     const double length = std::sqrt(y * y + f_.d3 * f_.d3);
+    if (length - r1_ <= best_.gap) return;
     best_.offer(length - r1_, Vec3(0, std::copysign(y, f_.d2) / length, f_.d3 / length));
+    final_ = on_side(f_.d1 - std::copysign(h2_, f_.d2) * f_.c);
+  }
+
+  double depth() const { return std::max(0.0, -best_.gap); }
+  bool on_side(double along) const {
+    const double delta = depth();
+    return std::abs(along) <= h1_ - delta && delta <= r1_;
   }
 
   /// n ⟂ u2: seen along the segment the cap is an ellipse about the end of A's axis.
@@ -89,6 +114,7 @@ class Solver {
   double r1_, h1_, h2_;
   const FoldedAxes& f_;
   LargestGap best_;
+  bool final_ = false;
 };
 
 /// Stops at the first direction with a clearance of more than `enough`.
