@@ -141,26 +141,35 @@ class Solver {
 
   /// Beside the side (n ⟂ u) and, for the nearest vertex only, off the rim.
   void vertices() {
+    // A vertex is a sum of half edges, so are its place along the axis and that across.
+    const double d_along = d_.dot(u_);
+    const Vec3 d_across = d_ - d_along * u_;
+    const Vec3 along = e_.cwiseProduct(u_);
+    Eigen::Matrix3d across_of;
+    for (int i = 0; i < 3; ++i) across_of.col(i) = e_[i] * Vec3::Unit(i) - along[i] * u_;
+
     double nearest = std::numeric_limits<double>::infinity();
     Vec3 off_rim = Vec3::Zero();
     for (int corner = 0; corner < 8; ++corner) {
-      const Vec3 v((corner & 1) ? e_[0] : -e_[0], (corner & 2) ? e_[1] : -e_[1],
-                   (corner & 4) ? e_[2] : -e_[2]);
-      const Vec3 q = d_ - v;
-      const double z = q.dot(u_);
-      const Vec3 across = q - z * u_;
-      const double radial = across.norm();
-      const double beside = radial - r_, above = std::abs(z) - h_;
-      if (beside > best_.gap && radial > 0 && across[0] * v[0] >= 0 && across[1] * v[1] >= 0 &&
-          across[2] * v[2] >= 0) {
+      const double x = (corner & 1) ? 1 : -1, y = (corner & 2) ? 1 : -1, z = (corner & 4) ? 1 : -1;
+      const double height = d_along - x * along[0] - y * along[1] - z * along[2];
+      const Vec3 across =
+          d_across - x * across_of.col(0) - y * across_of.col(1) - z * across_of.col(2);
+      const double squared = across.squaredNorm(), above = std::abs(height) - h_;
+      const double bound = best_.gap + r_;
+      if (x * across[0] >= 0 && y * across[1] >= 0 && z * across[2] >= 0 && squared > 0 &&
+          !(bound > 0 && squared <= bound * bound)) {
         // What rounding leaves along the axis counts over its whole length.
+        const double radial = std::sqrt(squared);
         const Vec3 n = across / radial;
-        best_.offer(beside, (n - n.dot(u_) * u_).normalized());
-        final_ = std::abs(z) <= h_ - depth() && depth() <= r_;
+        best_.offer(radial - r_, (n - n.dot(u_) * u_).normalized());
+        final_ = std::abs(height) <= h_ - depth() && depth() <= r_;
       }
-      if (above > 0 && beside > 0 && above * above + beside * beside < nearest) {
+      if (above > 0 && squared > r_ * r_ && above * above < nearest) {
+        const double radial = std::sqrt(squared), beside = radial - r_;
+        if (above * above + beside * beside >= nearest) continue;
         nearest = above * above + beside * beside;
-        off_rim = std::copysign(above, z) * u_ + (beside / radial) * across;
+        off_rim = std::copysign(above, height) * u_ + (beside / radial) * across;
       }
     }
     if (nearest < std::numeric_limits<double>::infinity() && !final_) {
