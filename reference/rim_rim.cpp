@@ -67,10 +67,12 @@ class Rims {
   /// Newton's method for the stationary normal of these ends, in whose neighbourhood
   /// G(n) = q·n − r1 |n − n·u1 u1| − r2 |n − n·u2 u2| is smooth. On the sphere G has the gradient
   /// q − p1 − p2 less its part along n, and the Hessian −(r1/ρ1) t1 t1ᵀ − (r2/ρ2) t2 t2ᵀ − G. The
-  /// components of n that are small keep their digits.
+  /// components of n that are small keep their digits. A step is at most half of n's distance from
+  /// an axis, where G has its kinks; few steps are taken but where rims nearly touch along nearly
+  /// parallel axes, in a valley that n has to go down by orders of magnitude.
   Vec3 polished(Vec3 n) const {
     const double c = pair_.axes.c, s = pair_.axes.s;
-    constexpr int steps = 6;
+    constexpr int steps = 40;
     for (int i = 0; i < steps; ++i) {
       n /= n.norm();
       const double m = c * n.y() - s * n.x();  // n along k2
@@ -92,10 +94,11 @@ class Rims {
       const double step1 = (e * g1 - b * g2) / determinant;
       const double step2 = (a * g2 - b * g1) / determinant;
       const double length = std::sqrt(step1 * step1 + step2 * step2);
-      constexpr double near = 0.1;  // rad; a longer step is not Newton's to trust
-      if (!(length < near)) break;
-      n += step1 * t1 + step2 * other;
-      if (length < 1e-9) break;
+      const double most = std::min(rho1, rho2) / 2;
+      const double scale = length > most ? most / length : 1;
+      n += scale * step1 * t1 + scale * step2 * other;
+      constexpr double small_part = 1e-8;
+      if (length <= small_part * most) break;
     }
     return n;
   }
@@ -297,8 +300,10 @@ class Scan {
   void offer(Vec3 n) {
     const double length = n.norm();
     if (!(length > 0)) return;
-    // Of ±n the one towards A has the larger gap.
+    // Of ±n the one towards A has the larger gap, and of mirror images the one on A's side of the
+    // plane of the axes. Rims that overlap by a hair show the other.
     if (n.dot(pair_.axes.d()) < 0) n = -n;
+    n.z() = std::abs(n.z());
     n /= length;
     best_.offer(pair_.gap(n), n);
     const Vec3 better = rims_.polished(n).normalized();
