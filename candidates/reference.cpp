@@ -2,16 +2,14 @@
 //
 // Calls        touchstone::contact, one overload for each pair.
 // Conventions  those of candidate.h: normal from B to A, points halfway between the surfaces.
-// Threshold    handed on; a distance beyond it is answered with none.
+// Threshold    handed on; a distance beyond it is answered with none, and then signed_distance is
+// the
+//              clearance along the first direction that proves it.
 #include <optional>
 #include <utility>
 
 #include "candidates/candidate.h"
-#include "reference/cylinder_box.hpp"
-#include "reference/cylinder_capsule.hpp"
-#include "reference/cylinder_cylinder.hpp"
-#include "reference/cylinder_plane.hpp"
-#include "reference/cylinder_sphere.hpp"
+#include "reference/touchstone.hpp"
 
 using touchstone::Contact;
 using touchstone::Cylinder;
@@ -21,21 +19,11 @@ using touchstone::Vec3;
 /// One class per pair, so that a query knows its routine without asking for the shape's kind again.
 struct ts_prepared {
   virtual ~ts_prepared() = default;
-  virtual Contact contact(const Pose& a, const Pose& b) const = 0;
+  virtual void query(const Pose& a, const Pose& b, ts_answer& answer) const = 0;
   double threshold = 0;
 };
 
 namespace {
-
-template <class Other>
-struct Prepared : ts_prepared {
-  Prepared(const Cylinder& cylinder, Other shape) : a(cylinder), b(std::move(shape)) {}
-  Contact contact(const Pose& pose_a, const Pose& pose_b) const override {
-    return touchstone::contact(a, pose_a, b, pose_b, threshold);
-  }
-  Cylinder a;
-  Other b;
-};
 
 Pose to_pose(const ts_pose& p) {
   const double* q = p.orientation;
@@ -46,6 +34,29 @@ Pose to_pose(const ts_pose& p) {
 void copy(const Vec3& from, double (&to)[3]) {
   for (int i = 0; i < 3; ++i) to[i] = from[i];
 }
+
+void copy(const Contact& contact, double threshold, ts_answer& answer) {
+  answer.status = contact.signed_distance <= threshold ? TS_CONTACT : TS_NONE;
+  copy(contact.normal, answer.normal);
+  answer.signed_distance = contact.signed_distance;
+  answer.point_count = 0;
+  for (const auto& point : contact.points()) {
+    ts_point& out = answer.points[answer.point_count++];
+    copy(point.position, out.position);
+    copy(contact.normal, out.normal);
+    out.depth = point.depth;
+  }
+}
+
+template <class Other>
+struct Prepared : ts_prepared {
+  Prepared(const Cylinder& cylinder, Other shape) : a(cylinder), b(std::move(shape)) {}
+  void query(const Pose& pose_a, const Pose& pose_b, ts_answer& answer) const override {
+    copy(contact(a, pose_a, b, pose_b, threshold), threshold, answer);
+  }
+  Cylinder a;
+  Other b;
+};
 
 int supports(ts_shape_kind) { return 1; }
 
@@ -75,17 +86,7 @@ ts_prepared* prepare(const ts_shape* a, const ts_shape* b, double threshold, dou
 }
 
 void query(ts_prepared* prepared, const ts_pose* a, const ts_pose* b, ts_answer* answer) {
-  const Contact contact = prepared->contact(to_pose(*a), to_pose(*b));
-  answer->status = contact.signed_distance <= prepared->threshold ? TS_CONTACT : TS_NONE;
-  copy(contact.normal, answer->normal);
-  answer->signed_distance = contact.signed_distance;
-  answer->point_count = 0;
-  for (const auto& point : contact.points()) {
-    ts_point& out = answer->points[answer->point_count++];
-    copy(point.position, out.position);
-    copy(contact.normal, out.normal);
-    out.depth = point.depth;
-  }
+  prepared->query(to_pose(*a), to_pose(*b), *answer);
 }
 
 void release(ts_prepared* prepared) { delete prepared; }

@@ -140,7 +140,7 @@ TEST(Check, SimplifiesAFailureToOneThatFailsAlike) {
 TEST(Check, ACrashIsAFailureOfTheLawAnswersAlone) {
   add_plugin(TOUCHSTONE_TEST_PLUGINS "/touchstone-sabotage.so");
   CandidateProcess crashing(find_candidate("misdeed:2"), 0, {10, 256});
-  const Configuration c = standing();
+  const Configuration c = make_configuration({Pair::sphere, "general-shallow", 1, 0});
   for (const Law& law : all_laws()) {
     const auto v = broken(law, c, crashing, {});
     EXPECT_EQ(v.has_value(), law.name == "answers") << law.name;

@@ -1,9 +1,11 @@
 // The promise of the headers, held on every pair and pose class against the oracle.
 //
-// TOUCHSTONE_COUNT sets how many configurations of each class are tried (20 by default, for CI).
+// TOUCHSTONE_COUNT sets how many configurations of each class are tried (100 by default, for CI).
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <gtest/gtest.h>
+#include <random>
 #include <string>
 
 #include "oracle/truth.hpp"
@@ -15,30 +17,39 @@ namespace {
 
 std::uint64_t count_per_class() {
   const char* text = std::getenv("TOUCHSTONE_COUNT");
-  return text ? std::strtoull(text, nullptr, 10) : 20;
+  return text ? std::strtoull(text, nullptr, 10) : 100;
 }
+
+/// Errors of one answer, relative to the larger size.
+struct Errors {
+  double distance, regret;
+  explicit Errors(const Configuration& c) {
+    const oracle::Truth t = oracle::truth(c);
+    const SignedDistance answer = signed_distance(c);
+    // A plane may be far from its own origin; its offset then counts as a size.
+    const auto* plane = std::get_if<Plane>(&c.b);
+    const double size = std::max(
+        larger_size(c), plane ? std::abs(plane->displacement()) / plane->normal().norm() : 0);
+    distance = std::abs(answer.value - t.signed_distance.midpoint()) / size;
+    regret = oracle::normal_regret(c, t, answer.normal) / size;
+  }
+};
 
 class Accuracy : public testing::TestWithParam<Pair> {};
 
-TEST_P(Accuracy, IsWithinOneBillionthOfTheLargerSize) {
-  constexpr double promised = 1e-9;
+TEST_P(Accuracy, IsWithinRoundingOfTheLargerSize) {
+  constexpr double promised = 1e-13;
   double worst_distance = 0, worst_regret = 0;
   std::string worst_distance_id, worst_regret_id;
   for (const auto& name : pose_classes(GetParam())) {
     for (std::uint64_t i = 0; i < count_per_class(); ++i) {
       const Identity id{GetParam(), name, 7, i};
       const Configuration c = make_configuration(id);
-      const oracle::Truth t = oracle::truth(c);
-      const Contact answer = contact(c, 0);
-      const double distance =
-          std::abs(answer.signed_distance - t.signed_distance.midpoint()) / larger_size(c);
-      const double regret = oracle::normal_regret(c, t, answer.normal) / larger_size(c);
-      // Far from the origin and for planes the positions' own rounding counts.
-      const double rounding =
-          4e-16 * (c.pose_a.position().norm() + c.pose_b.position().norm()) / larger_size(c);
-      EXPECT_LE(distance, promised + rounding) << to_string(id);
+      const Errors errors(c);
+      const double distance = errors.distance, regret = errors.regret;
+      EXPECT_LE(distance, promised) << to_string(id);
       EXPECT_LE(regret, promised) << to_string(id);
-      EXPECT_NEAR(answer.normal.norm(), 1, 1e-15) << to_string(id);
+      EXPECT_NEAR(signed_distance(c).normal.norm(), 1, 2e-15) << to_string(id);
       if (distance > worst_distance) worst_distance = distance, worst_distance_id = to_string(id);
       if (regret > worst_regret) worst_regret = regret, worst_regret_id = to_string(id);
     }
@@ -48,32 +59,38 @@ TEST_P(Accuracy, IsWithinOneBillionthOfTheLargerSize) {
               worst_distance_id.c_str(), worst_regret, worst_regret_id.c_str());
 }
 
-TEST_P(Accuracy, PointsLieHalfwayBetweenTheSurfaces) {
-  for (const auto& name : pose_classes(GetParam())) {
-    for (std::uint64_t i = 0; i < count_per_class(); ++i) {
-      const Identity id{GetParam(), name, 7, i};
-      const Configuration c = make_configuration(id);
-      const Contact answer = contact(c, 0);
-      SCOPED_TRACE(to_string(id));
-      ASSERT_EQ(answer.points().empty(), answer.signed_distance > 0);
-      for (const ContactPoint& p : answer.points()) {
-        // Moved by half of its depth along the normal, the point must lie on A's supporting plane
-        // towards B; A's own support at that place is checked through its body frame.
-        const Vec3 on_a = p.position - (p.depth / 2) * answer.normal;
-        const Vec3 local = c.pose_a.rotation().transpose() * (on_a - c.pose_a.position());
-        const double outside = std::max(std::hypot(local.x(), local.y()) - c.a.radius(),
-                                        std::abs(local.z()) - c.a.half_length());
-        // Within a hair of a flat contact the normal's own rounding decides which of its points
-        // face each other; their depth is right all the same.
-        const bool nearly_flat = name.starts_with("near-");
-        const double position_rounding =
-            4e-16 * (c.pose_a.position().norm() + c.pose_b.position().norm());
-        const double aside = (nearly_flat ? 1e-5 : 1e-8) * larger_size(c) + position_rounding;
-        EXPECT_NEAR(outside, 0, aside);
-        EXPECT_LE(p.depth, -answer.signed_distance + 1e-14 * larger_size(c) + position_rounding);
-      }
-    }
+// Rims that are all but tangent, from outside or from within, on axes that are all but parallel:
+// two stationary points lie close together in a valley that is flat to rounding.
+TEST(CylinderCylinder, RimsThatNearlyTouchOnNearlyParallelAxesAreExact) {
+  std::mt19937_64 random(1);
+  const auto uniform = [&](double lo, double hi) {
+    return std::uniform_real_distribution(lo, hi)(random);
+  };
+  const auto sign = [&] { return uniform(-1, 1) < 0 ? -1.0 : 1.0; };
+  const auto power_of_ten = [&](double lo, double hi) { return std::pow(10, uniform(lo, hi)); };
+  const std::uint64_t count = 10 * count_per_class();
+  double worst = 0;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    const Cylinder a(uniform(0.2, 1), uniform(0.2, 1)), b(uniform(0.2, 1), uniform(0.2, 1));
+    const double hair = power_of_ten(-12, -5), tilt = power_of_ten(-13, -2);
+    const double heading = uniform(0, 6.3),
+                 leaning = heading + uniform(-1, 1) * power_of_ten(-9, 0.5);
+    const double beside =
+        (uniform(0, 1) < 0.5 ? a.radius() + b.radius() : std::abs(a.radius() - b.radius())) +
+        sign() * hair * uniform(0, 1);
+    const double above = a.half_length() + b.half_length() +
+                         (uniform(0, 1) < 0.5 ? 1 : tilt) * sign() * hair * uniform(0, 1) +
+                         sign() * tilt * a.radius();
+    const Eigen::Quaterniond turn(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1), uniform(-1, 1));
+    const Eigen::Quaterniond lean(1, tilt / 2 * std::cos(leaning), tilt / 2 * std::sin(leaning), 0);
+    const Vec3 d(beside * std::cos(heading), beside * std::sin(heading), above);
+    const Configuration c{a, Pose(turn.normalized() * d, turn * lean), b, Pose(Vec3::Zero(), turn)};
+    const Errors errors(c);
+    EXPECT_LE(errors.distance, 1e-13) << i;
+    EXPECT_LE(errors.regret, 1e-13) << i;
+    worst = std::max({worst, errors.distance, errors.regret});
   }
+  std::printf("worst %.2g\n", worst);
 }
 
 INSTANTIATE_TEST_SUITE_P(, Accuracy, testing::ValuesIn(all_pairs), [](const auto& pair) {

@@ -71,10 +71,11 @@ std::vector<Case> closed_forms() {
 TEST(Contact, HasTheDistanceAndNormalOfTheClosedForm) {
   for (const Case& c : closed_forms()) {
     SCOPED_TRACE(c.name);
-    const Contact answer = contact(c.configuration, 0);
-    EXPECT_NEAR(answer.signed_distance, c.signed_distance, 1e-14);
+    const SignedDistance answer = signed_distance(c.configuration);
+    EXPECT_NEAR(answer.value, c.signed_distance, 1e-14);
     EXPECT_LT((answer.normal - c.normal).norm(), 1e-7);
-    EXPECT_EQ(answer.points().empty(), c.signed_distance > 0);
+    EXPECT_EQ(overlaps(c.configuration), c.signed_distance <= 0);
+    EXPECT_EQ(contact(c.configuration, 0).points().empty(), c.signed_distance > 0);
   }
 }
 
@@ -82,12 +83,32 @@ TEST(Contact, ThresholdAdmitsPointsBetweenBodiesApart) {
   const Configuration apart{Cylinder(1, 1), Pose({0, 0, 2.5}, upright), Box({2, 2, 1}), Pose()};
   EXPECT_TRUE(contact(apart, 0.25).points().empty());
   const Contact near = contact(apart, 0.75);
-  ASSERT_EQ(near.points().size(), 1u);
+  ASSERT_EQ(near.points().size(), 3u);
   EXPECT_NEAR(near.points()[0].position.z(), 1.25, 1e-15);
   EXPECT_NEAR(near.points()[0].depth, -0.5, 1e-15);
 }
 
-// Contact points on a plane, as the thesis counts them.
+// The thesis's figure 20: did the body come from the side or from above? Both ways out are as long.
+TEST(Contact, PreviousNormalDecidesBetweenSideAndTop) {
+  const Cylinder can(1, 2);
+  const Vec3 side(1, 0, 0), top(0, 0, 1);
+  const struct {
+    const char* name;
+    Configuration configuration;
+  } table[] = {
+      {"cylinder", {can, Pose({1.75, 0, 3.75}, upright), can, Pose()}},
+      {"box", {can, Pose({1.75, 0, 3.75}, upright), Box({1, 1, 2}), Pose()}},
+      {"sphere", {can, Pose({0.75, 0, 1.75}, upright), Sphere(0.5), Pose()}},
+  };
+  for (const auto& row : table) {
+    SCOPED_TRACE(row.name);
+    for (const Vec3& previous : {side, top}) {
+      const Contact answer = contact(row.configuration, 1e-6, &previous);
+      EXPECT_NEAR(answer.normal.dot(previous), 1, 1e-15);
+      EXPECT_NEAR(answer.signed_distance, signed_distance(row.configuration).value, 1e-15);
+    }
+  }
+}
 
 TEST(CylinderOnPlane, TiltedHasOnePoint) {
   // sin 3/5, cos 4/5: the rim is 1·4/5 + 1·3/5 below the centre.
@@ -127,7 +148,7 @@ TEST(CylinderOnPlane, StandingHasThreePoints120DegreesApart) {
 TEST(CylinderOnPlane, PosedPlaneWithALongNormalIsTheSameHalfSpace) {
   const Configuration c{Cylinder(1, 2), Pose({5, 6, 4}, upright), Plane({0, 0, 8}, 4),
                         Pose({1, 2, 1}, upright)};  // 8 (z − 1) <= 4
-  EXPECT_NEAR(contact(c, 0).signed_distance, 0.5, 1e-15);
+  EXPECT_NEAR(signed_distance(c).value, 0.5, 1e-15);
 }
 
 }  // namespace

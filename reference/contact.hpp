@@ -14,13 +14,22 @@ struct ContactPoint {
   double depth;   ///< Penetration at this point, metres; negative when the surfaces are apart.
 };
 
+/// How far two bodies are apart, and along what.
+struct SignedDistance {
+  double value;  ///< Metres; positive apart, negative inside (minus the penetration depth).
+  Vec3 normal;   ///< Unit, from B to A: the way A moves to come free.
+};
+
 /// A routine's answer for one configuration.
 class Contact {
  public:
   static constexpr int max_points = 8;
 
-  Vec3 normal;             ///< Unit, from B to A: the way A moves to come free.
-  double signed_distance;  ///< Metres; positive apart, negative inside (minus the depth).
+  Vec3 normal;  ///< Unit, from B to A: the way A moves to come free.
+  /// Metres; positive apart, negative inside (minus the penetration depth). Where there are no
+  /// points it is the clearance along `normal`: above the contact threshold, and not above the
+  /// distance.
+  double signed_distance;
 
   /// Empty when the bodies are further apart than the contact threshold.
   std::span<const ContactPoint> points() const { return {points_.data(), count_}; }

@@ -8,9 +8,21 @@
 
 namespace touchstone {
 
-Contact contact(const Configuration& c, double contact_threshold) {
+SignedDistance signed_distance(const Configuration& c) {
+  return std::visit([&](const auto& b) { return signed_distance(c.a, c.pose_a, b, c.pose_b); },
+                    c.b);
+}
+
+bool overlaps(const Configuration& c) {
+  return std::visit([&](const auto& b) { return overlaps(c.a, c.pose_a, b, c.pose_b); }, c.b);
+}
+
+Contact contact(const Configuration& c, double contact_threshold, const Vec3* previous_normal) {
   return std::visit(
-      [&](const auto& b) { return contact(c.a, c.pose_a, b, c.pose_b, contact_threshold); }, c.b);
+      [&](const auto& b) {
+        return contact(c.a, c.pose_a, b, c.pose_b, contact_threshold, previous_normal);
+      },
+      c.b);
 }
 
 }  // namespace touchstone

@@ -5,11 +5,21 @@
 
 namespace touchstone {
 
-/// Contact of a cylinder with a capsule: signed distance and normal for every pose, one contact
-/// point at the deepest place. Lengths in metres, world frame; the normal points from B to A.
-/// Signed distance and normal are always set, points where the signed distance is at most
-/// `contact_threshold`. Accuracy: 1e-9 of the larger size, held by accuracy_test.cpp.
+// A cylinder against a capsule: exact for every pose (largest error 1e-13 of the larger size, held
+// by accuracy_test.cpp). Lengths in metres, world frame, normals from B to A.
+
+/// Signed distance and normal, however far apart.
+SignedDistance signed_distance(const Cylinder& a, const Pose& pose_a, const Capsule& b,
+                               const Pose& pose_b);
+
+/// Do they share a point?
+bool overlaps(const Cylinder& a, const Pose& pose_a, const Capsule& b, const Pose& pose_b);
+
+/// Signed distance, normal and points where the distance is at most `contact_threshold`; returns at
+/// once, without points, when a direction proves it larger. One point, or two where the capsule
+/// lies along the side or across a cap. Where normals tie the first in a fixed order is taken, or,
+/// given `previous_normal`, the one nearest to it of those within the threshold.
 Contact contact(const Cylinder& a, const Pose& pose_a, const Capsule& b, const Pose& pose_b,
-                double contact_threshold);
+                double contact_threshold, const Vec3* previous_normal = nullptr);
 
 }  // namespace touchstone

@@ -1,14 +1,251 @@
 #include "cylinder_cylinder.hpp"
 
-#include "deepest_point.hpp"
-#include "reduced_pair.hpp"
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <tuple>
+
+#include "ellipse_normal.hpp"
+#include "largest_gap.hpp"
+#include "manifold.hpp"
+#include "quick_separation.hpp"
+#include "rim_rim.hpp"
+#include "scaled.hpp"
 
 namespace touchstone {
+namespace {
+
+// In the folded frame the bodies touch at a cap, where the sides cross, at a side (the other's rim
+// beside it: a point against an ellipse, seen along the side), or rim to rim. All but the last have
+// one candidate each, and the best of them is mostly final, because a smooth place of one body is
+// met well within its bounds: where the bodies overlap by δ, a ball of radius δ fits into that body
+// behind the place, so that no way out is shorter than δ. Else the rims are scanned (rim_rim.hpp).
+class Solver {
+ public:
+  Solver(const Cylinder& a, const Cylinder& b, const FoldedAxes& f)
+      : pair_{f, a.radius(), a.half_length(), b.radius(), b.half_length()}, f_(pair_.axes) {}
+
+  /// Caps and crossing sides. True if they say it all, or one of them has a gap of more than
+  /// `enough`.
+  bool closed_forms(double enough) {
+    better(&Solver::cap1, &Solver::cap1_is_final);
+    better(&Solver::cap2, &Solver::cap2_is_final);
+    better(&Solver::sides_crossing, &Solver::crossing_is_final);
+    return best_.gap > enough || (this->*is_final_)();
+  }
+  void search(double enough) {
+    better(&Solver::rim2_beside_side1, &Solver::side1_is_final);
+    better(&Solver::rim1_beside_side2, &Solver::side2_is_final);
+    if (best_.gap > enough || (this->*is_final_)()) return;
+    offer_rim_rim_normals(pair_, facing_points(), enough, best_);
+  }
+  const LargestGap& best() const { return best_; }
+
+ private:
+  using Certificate = bool (Solver::*)() const;
+
+  double depth() const { return std::max(0.0, -best_.gap); }
+
+  /// Offers a candidate; if it is the best, its certificate counts.
+  void better(void (Solver::*candidate)(), Certificate certificate) {
+    const double before = best_.gap;
+    (this->*candidate)();
+    if (best_.gap > before) is_final_ = certificate;
+  }
+
+  /// Two points of the bodies that are near each other, by alternating projections, in the folded
+  /// frame: from B's to A's.
+  Vec3 facing_points() const {
+    const PosedCylinder a{f_.d(), Vec3(1, 0, 0), pair_.r1, pair_.h1};
+    const PosedCylinder b{Vec3::Zero(), Vec3(f_.c, f_.s, 0), pair_.r2, pair_.h2};
+    Vec3 on_b = nearest(b, a.centre), on_a = nearest(a, on_b);
+    constexpr int rounds = 3;
+    for (int i = 0; i < rounds; ++i) {
+      on_b = nearest(b, on_a);
+      on_a = nearest(a, on_b);
+    }
+    return on_a - on_b;
+  }
+
+  void cap1() {
+    best_.offer(std::abs(f_.d1) - pair_.h1 - pair_.h2 * f_.c - pair_.r2 * f_.s,
+                Vec3(std::copysign(1, f_.d1), 0, 0));
+  }
+  void cap2() {
+    const double along = f_.along_u2(f_.d());
+    const double side = std::copysign(1, along);
+    best_.offer(std::abs(along) - pair_.h2 - pair_.h1 * f_.c - pair_.r1 * f_.s,
+                Vec3(side * f_.c, side * f_.s, 0));
+  }
+  void sides_crossing() { best_.offer(f_.d3 - pair_.r1 - pair_.r2, Vec3(0, 0, 1)); }
+
+  /// A point of cylinder 2 that faces cap 1 lies on it, its depth away from the rim.
+  bool cap1_is_final() const {
+    const double side = best_.normal.x();
+    return on_cap(f_.d2, side * pair_.h2, side * pair_.r2, pair_.r1, pair_.h1);
+  }
+  bool cap2_is_final() const {
+    const double side = f_.along_u2(best_.normal);
+    // Seen from u2, u1 leans the other way.
+    return on_cap(-f_.along_k2(f_.d()), side * pair_.h1, side * pair_.r1, pair_.r2, pair_.h2);
+  }
+  /// The other's centre lies at `offset` across the cap's axis, its facing rim's middle at `half` s
+  /// and rim point at another −`radius` c from there.
+  bool on_cap(double offset, double half, double radius, double r, double h) const {
+    const double delta = depth();
+    if (delta > h || delta > r) return false;
+    constexpr double flat = 1e-15;
+    double across = 0, reach = r - delta;
+    if (f_.s <= flat) {  // cap on cap: any shared point
+      across = offset;
+      reach += std::abs(radius);
+    } else if (f_.c <= flat) {  // a generator on the cap: any of its points
+      across = std::max(0.0, std::abs(offset) - std::abs(half));
+    } else {
+      across = offset - (half * f_.s - radius * f_.c);
+    }
+    return across * across + f_.d3 * f_.d3 <= reach * reach;
+  }
+
+  /// The generators cross within both, one of them further from its ends than the depth.
+  bool crossing_is_final() const {
+    const double delta = depth();
+    constexpr double flat = 1e-15;
+    if (f_.s <=
+        flat) {  // side by side, e3 through both axes: any generator's point that they share
+      return std::abs(f_.d2) <= flat * f_.d3 &&
+             on_side(std::max(0.0, std::abs(f_.d1) - pair_.h2), pair_.r1, pair_.h1);
+    }
+    const double t2 = f_.d2 / f_.s, t1 = f_.d1 - f_.c * t2;
+    if (std::abs(t1) > pair_.h1 || std::abs(t2) > pair_.h2) return false;
+    return (std::abs(t1) <= pair_.h1 - delta && delta <= pair_.r1) ||
+           (std::abs(t2) <= pair_.h2 - delta && delta <= pair_.r2);
+  }
+
+  /// n = (0, n_y, n_x): across side 1, seen along u1.
+  void rim2_beside_side1() {
+    const double y = std::abs(f_.d2) - pair_.h2 * f_.s;
+    const auto n = beside(y, pair_.r2, pair_.r1);
+    if (n) offer(Vec3(0, std::copysign(n->y(), f_.d2), n->x()));
+  }
+  void rim1_beside_side2() {
+    const double along = f_.along_k2(f_.d());
+    const double y = std::abs(along) - pair_.h1 * f_.s;
+    const auto n = beside(y, pair_.r1, pair_.r2);
+    if (!n) return;
+    const double side = std::copysign(n->y(), along);
+    offer(Vec3(-f_.s * side, f_.c * side, n->x()));
+  }
+  std::optional<Eigen::Vector2d> beside(double y, double rim, double side) const {
+    // No direction is better than the distance from the ellipse's inscribed disc.
+    const double b = rim * f_.c, bound = best_.gap + side + b;
+    if (bound > 0 && f_.d3 * f_.d3 + y * y <= bound * bound) return std::nullopt;
+    // A point inside may be too far behind the chord of the ellipse's quadrant.
+    if (rim * b - b * f_.d3 - rim * y >= std::max(0.0, -best_.gap - side) * (rim + b))
+      return std::nullopt;
+    return ellipse_normal(rim, b, f_.d3, y);
+  }
+  void offer(const Vec3& n) { best_.offer(pair_.gap(n), n); }
+
+  /// The rim's point lies on the side, its depth away from the ends.
+  bool side1_is_final() const {
+    const double nu = f_.along_u2(best_.normal);
+    const double rim = -pair_.r2 * nu * f_.c / std::sqrt((1 - nu) * (1 + nu));
+    return on_side(std::copysign(pair_.h2, nu) * f_.c + rim - f_.d1, pair_.r1, pair_.h1);
+  }
+  bool side2_is_final() const {
+    const double nu = best_.normal.x();
+    const double rim = -pair_.r1 * nu * f_.c / std::sqrt((1 - nu) * (1 + nu));
+    return on_side(f_.along_u2(f_.d()) - std::copysign(pair_.h1, nu) * f_.c - rim, pair_.r2,
+                   pair_.h2);
+  }
+  bool on_side(double along, double r, double h) const {
+    const double delta = depth();
+    return std::abs(along) <= h - delta && delta <= r;
+  }
+
+  FoldedCylinders pair_;
+  const FoldedAxes& f_;
+  LargestGap best_;
+  Certificate is_final_ = &Solver::cap1_is_final;
+};
+
+/// `a` has the smaller radius or the same.
+SignedDistance solve(const Cylinder& a, const Cylinder& b, const PosedCylinder& posed_a,
+                     const PosedCylinder& posed_b, double enough) {
+  const FoldedAxes f(posed_a.axis, posed_b.axis, posed_a.centre);
+  Solver solver(a, b, f);
+  if (!solver.closed_forms(enough)) {
+    SignedDistance clearance;
+    if (quickly_separated(posed_a, posed_b, enough, clearance)) return clearance;
+    solver.search(enough);
+  }
+  return {solver.best().gap, f.to_world(solver.best().normal)};
+}
+
+constexpr double never = std::numeric_limits<double>::infinity();
+
+/// A fixed order of bodies, so that the answer does not depend on which comes first.
+bool in_order(const Cylinder& a, const Pose& pose_a, const Cylinder& b, const Pose& pose_b) {
+  if (a.radius() != b.radius()) return a.radius() < b.radius();
+  if (a.half_length() != b.half_length()) return a.half_length() < b.half_length();
+  const auto key = [](const Pose& p) {
+    const auto& q = p.orientation();
+    return std::make_tuple(p.position().x(), p.position().y(), p.position().z(), q.w(), q.x(),
+                           q.y(), q.z());
+  };
+  return key(pose_a) <= key(pose_b);
+}
+
+}  // namespace
+
+SignedDistance signed_distance(const Cylinder& a, const Pose& pose_a, const Cylinder& b,
+                               const Pose& pose_b) {
+  if (!ordinary(a, pose_a, b, pose_b)) {
+    const ScaledBodies scaled(a, pose_a, b, pose_b);
+    return scaled.back(
+        scaled.ask([](const auto&... bodies) { return signed_distance(bodies...); }));
+  }
+  if (!in_order(a, pose_a, b, pose_b)) {
+    const SignedDistance mirrored = signed_distance(b, pose_b, a, pose_a);
+    return {mirrored.value, -mirrored.normal};
+  }
+  const Vec3& origin = pose_b.position();
+  return solve(a, b, posed(a, pose_a, origin), posed(b, pose_b, origin), never);
+}
+
+bool overlaps(const Cylinder& a, const Pose& pose_a, const Cylinder& b, const Pose& pose_b) {
+  if (!ordinary(a, pose_a, b, pose_b)) {
+    const ScaledBodies scaled(a, pose_a, b, pose_b);
+    return scaled.ask([](const auto&... bodies) { return overlaps(bodies...); });
+  }
+  if (!in_order(a, pose_a, b, pose_b)) return overlaps(b, pose_b, a, pose_a);
+  const Vec3& origin = pose_b.position();
+  const PosedCylinder posed_a = posed(a, pose_a, origin);
+  const PosedCylinder posed_b = posed(b, pose_b, origin);
+  return solve(a, b, posed_a, posed_b, 0).value <= 0;
+}
 
 Contact contact(const Cylinder& a, const Pose& pose_a, const Cylinder& b, const Pose& pose_b,
-                double contact_threshold) {
-  const ReducedPair pair = reduce(a, pose_a, b, pose_b);
-  return with_deepest_point(pair, pose_b.position(), largest_gap(pair), contact_threshold);
+                double contact_threshold, const Vec3* previous_normal) {
+  if (!ordinary(a, pose_a, b, pose_b)) {
+    const ScaledBodies scaled(a, pose_a, b, pose_b);
+    return scaled.back(scaled.ask([&](const auto&... bodies) {
+      return contact(bodies..., scaled.scaled(contact_threshold), previous_normal);
+    }));
+  }
+  if (!in_order(a, pose_a, b, pose_b)) {
+    const Vec3 reversed = previous_normal ? Vec3(-*previous_normal) : Vec3(Vec3::Zero());
+    Contact mirrored =
+        contact(b, pose_b, a, pose_a, contact_threshold, previous_normal ? &reversed : nullptr);
+    mirrored.normal = -mirrored.normal;
+    return mirrored;
+  }
+  const Vec3& origin = pose_b.position();
+  const PosedCylinder posed_a = posed(a, pose_a, origin);
+  const PosedCylinder posed_b = posed(b, pose_b, origin);
+  const SignedDistance found = solve(a, b, posed_a, posed_b, contact_threshold);
+  return with_manifold(posed_a, posed_b, found, contact_threshold, origin, previous_normal);
 }
 
 }  // namespace touchstone

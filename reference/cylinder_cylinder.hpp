@@ -5,13 +5,23 @@
 
 namespace touchstone {
 
-/// Contact of two cylinders: signed distance and normal for every pose, one contact point at the
-/// deepest place (within 1e-8 of the larger size; 1e-5 where the axes are within 1e-4 rad). Lengths
-/// in metres, world frame; the normal points from B to A. Signed distance and normal are always
-/// set, points where the signed distance is at most `contact_threshold`. Accuracy: 1e-9 of the
-/// larger size, held by accuracy_test.cpp; known to reach 1.6e-9 where rims nearly touch on nearly
-/// parallel axes.
+// Two cylinders: exact for every pose (largest error 1e-13 of the larger size, held by
+// accuracy_test.cpp). Lengths in metres, world frame, normals from B to A. Exchanged bodies have
+// the same distance and points and the opposite normal, bit for bit.
+
+/// Signed distance and normal, however far apart.
+SignedDistance signed_distance(const Cylinder& a, const Pose& pose_a, const Cylinder& b,
+                               const Pose& pose_b);
+
+/// Do they share a point?
+bool overlaps(const Cylinder& a, const Pose& pose_a, const Cylinder& b, const Pose& pose_b);
+
+/// Signed distance, normal and points where the distance is at most `contact_threshold`; returns at
+/// once, without points, when a direction proves it larger. One point; two where sides are parallel
+/// or a side lies across a cap; three for a cap within a cap; four for caps that overlap in part.
+/// Where normals tie the first in a fixed order is taken, or, given `previous_normal`, the one
+/// nearest to it of those within the threshold.
 Contact contact(const Cylinder& a, const Pose& pose_a, const Cylinder& b, const Pose& pose_b,
-                double contact_threshold);
+                double contact_threshold, const Vec3* previous_normal = nullptr);
 
 }  // namespace touchstone

@@ -1,75 +1,91 @@
 #include "cylinder_plane.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
+
+#include "manifold.hpp"
+#include "scaled.hpp"
 
 namespace touchstone {
 namespace {
 
-/// The plane in the world: unit normal, and the height of a point above it.
-struct WorldPlane {
-  Vec3 normal;
-  Vec3 origin;
-  double displacement;
-  WorldPlane(const Plane& plane, const Pose& pose)
-      : normal((pose.rotation() * plane.normal()).normalized()),
-        origin(pose.position()),
-        displacement(plane.displacement() / plane.normal().norm()) {}
-  double height(const Vec3& x) const { return normal.dot(x - origin) - displacement; }
-};
+/// The plane in the world, and how the cylinder stands to it.
+struct Stance {
+  Vec3 normal;           ///< the plane's, unit
+  double centre_height;  ///< of the cylinder's centre above the plane
+  Vec3 axis;             ///< the cylinder's
+  double cosine;         ///< axis·normal
+  Vec3 across;           ///< the normal less its part along the axis
+  double sine;           ///< length of `across`; not from the cosine, which hides a small tilt
+  double signed_distance;
 
-/// `arm` is the surface point less the centre: heights far from the origin keep their digits.
-void add_point(Contact& contact, const WorldPlane& plane, const Vec3& centre, double centre_height,
-               const Vec3& arm) {
-  const double height = centre_height + plane.normal.dot(arm);
-  contact.add_point(centre + (arm - (height / 2) * plane.normal), -height);
-}
+  Stance(const Cylinder& a, const Pose& pose_a, const Plane& b, const Pose& pose_b) {
+    const double squared = b.normal().squaredNorm();
+    // Most callers give a unit normal.
+    const double length = squared == 1 ? 1 : std::sqrt(squared);
+    normal = pose_b.rotation() * (b.normal() / length);
+    centre_height = normal.dot(pose_a.position() - pose_b.position()) - b.displacement() / length;
+    axis = pose_a.axis();
+    cosine = axis.dot(normal);
+    across = normal - cosine * axis;
+    sine = across.norm();
+    // The deepest point is on the lower cap's rim.
+    signed_distance = centre_height - a.half_length() * std::abs(cosine) - a.radius() * sine;
+  }
+};
 
 }  // namespace
 
-// The deepest point is on the lower cap's rim. A cap stands, and a generator lies, when the rise
-// over its whole length is lost in rounding or within what the threshold leaves above the deepest
-// point.
-Contact contact(const Cylinder& a, const Pose& pose_a, const Plane& b, const Pose& pose_b,
-                double contact_threshold) {
-  const WorldPlane plane(b, pose_b);
-  const Eigen::Matrix3d rotation = pose_a.rotation();
-  const Vec3 axis = rotation.col(2);
-  // In the body frame, where the part across the axis keeps its digits however small it is.
-  const Vec3 local = rotation.transpose() * plane.normal;
-  const double cosine = local.z();
-  const double sine = std::hypot(local.x(), local.y());
-  const Vec3 down = rotation * (sine > 0 ? Vec3(-local.x() / sine, -local.y() / sine, 0)
-                                         : Vec3(Vec3::UnitX()));  // within the caps
-  const Vec3 lower_axis = cosine > 0 ? Vec3(-axis) : axis;
-
-  Contact result;
-  result.normal = plane.normal;
-  const double centre_height = plane.height(pose_a.position());
-  result.signed_distance = centre_height - a.half_length() * std::abs(cosine) - a.radius() * sine;
-  if (result.signed_distance > contact_threshold) return result;
-
-  const Vec3 cap = a.half_length() * lower_axis;
-  const Vec3 deepest = cap + a.radius() * down;
-  const auto add = [&](const Vec3& arm) {
-    add_point(result, plane, pose_a.position(), centre_height, arm);
-  };
-  add(deepest);
-
-  const double rounding = 16 * std::numeric_limits<double>::epsilon() *
-                          (largest_half_extent(a) + std::abs(centre_height));
-  const double slack =
-      std::max(contact_threshold - std::max(result.signed_distance, 0.0), rounding);
-  if (2 * a.radius() * sine <= slack) {
-    const Vec3 side = lower_axis.cross(down);
-    const double half = 0.5, height = std::numbers::sqrt3 / 2;  // cos 60°, sin 60°
-    add(cap + a.radius() * (-half * down + height * side));
-    add(cap + a.radius() * (-half * down - height * side));
-  } else if (2 * a.half_length() * std::abs(cosine) <= slack) {
-    add(deepest - 2 * a.half_length() * lower_axis);
+SignedDistance signed_distance(const Cylinder& a, const Pose& pose_a, const Plane& b,
+                               const Pose& pose_b) {
+  if (!ordinary(a, pose_a, b, pose_b)) {
+    const ScaledBodies scaled(a, pose_a, b, pose_b);
+    return scaled.back(
+        scaled.ask([](const auto&... bodies) { return signed_distance(bodies...); }));
   }
+  const Stance stance(a, pose_a, b, pose_b);
+  return {stance.signed_distance, stance.normal};
+}
+
+bool overlaps(const Cylinder& a, const Pose& pose_a, const Plane& b, const Pose& pose_b) {
+  if (!ordinary(a, pose_a, b, pose_b)) {
+    const ScaledBodies scaled(a, pose_a, b, pose_b);
+    return scaled.ask([](const auto&... bodies) { return overlaps(bodies...); });
+  }
+  return Stance(a, pose_a, b, pose_b).signed_distance <= 0;
+}
+
+Contact contact(const Cylinder& a, const Pose& pose_a, const Plane& b, const Pose& pose_b,
+                double contact_threshold, const Vec3*) {
+  if (!ordinary(a, pose_a, b, pose_b)) {
+    const ScaledBodies scaled(a, pose_a, b, pose_b);
+    return scaled.back(scaled.ask([&](const auto&... bodies) {
+      return contact(bodies..., scaled.scaled(contact_threshold));
+    }));
+  }
+  const Stance stance(a, pose_a, b, pose_b);
+  Contact result;
+  result.normal = stance.normal;
+  result.signed_distance = stance.signed_distance;
+  if (stance.signed_distance > contact_threshold) return result;
+
+  const double size = largest_half_extent(a);
+  const ManifoldRule rule(size, size, std::abs(stance.centre_height), stance.signed_distance,
+                          contact_threshold);
+  const Vec3& origin = pose_a.position();
+  if (!lies_flat(a.radius(), stance.sine, rule.slack) &&
+      !lies_flat(a.half_length(), stance.cosine, rule.slack)) {
+    const Vec3 deepest = -std::copysign(a.half_length(), stance.cosine) * stance.axis -
+                         (a.radius() / stance.sine) * stance.across -
+                         (stance.signed_distance / 2) * stance.normal;
+    result.add_point(origin + deepest, -stance.signed_distance);
+    return result;
+  }
+  const FacingFeature lower = facing(posed(a, pose_a, origin), -stance.normal, rule.slack);
+  FacingFeature ground{.kind = FacingFeature::Kind::half_space,
+                       .middle = -stance.centre_height * stance.normal,
+                       .axis = stance.normal};
+  ground.side[0] = pose_b.rotation().col(0);
+  add_manifold(result, lower, ground, origin, rule);
   return result;
 }
 

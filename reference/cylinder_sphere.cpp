@@ -1,38 +1,96 @@
 #include "cylinder_sphere.hpp"
 
+#include <algorithm>
 #include <cmath>
 
+#include "scaled.hpp"
+
 namespace touchstone {
+namespace {
 
-// In the cylinder's frame the sphere's centre has a height z and a distance ρ from the axis.
-// Outside, the nearest point of the cylinder is found by clamping both; inside, the nearer of cap
-// and side. With both z and ρ beyond their bounds it lies on the rim.
-Contact contact(const Cylinder& a, const Pose& pose_a, const Sphere& b, const Pose& pose_b,
-                double contact_threshold) {
-  const Eigen::Matrix3d rotation = pose_a.rotation();
-  const Vec3 centre = rotation.transpose() * (pose_b.position() - pose_a.position());
-  const double rho = std::hypot(centre.x(), centre.y());
-  const Vec3 radial = rho > 0 ? Vec3(centre.x() / rho, centre.y() / rho, 0) : Vec3::UnitX();
-  const Vec3 axial(0, 0, std::copysign(1, centre.z()));
-  const double beyond_cap = std::abs(centre.z()) - a.half_length();
-  const double beyond_side = rho - a.radius();
+/// The sphere's centre about the cylinder.
+struct Centre {
+  Vec3 axial;   ///< unit, along the axis, towards the centre
+  Vec3 radial;  ///< unit, off the axis, towards the centre
+  double beyond_cap, beyond_side;
+  /// Squares of what is all but zero lose their digits.
+  static constexpr double vanishing = 1e-140;
 
-  double distance;  // of the centre from the cylinder's surface, negative inside
-  Vec3 outward;     // of the cylinder, its own frame
-  if (beyond_cap > 0 && beyond_side > 0) {
-    distance = std::hypot(beyond_cap, beyond_side);
-    outward = (beyond_cap * axial + beyond_side * radial) / distance;
-  } else if (beyond_cap >= beyond_side) {
-    distance = beyond_cap;
-    outward = axial;
-  } else {
-    distance = beyond_side;
-    outward = radial;
+  Centre(const Cylinder& a, const Pose& pose_a, const Pose& pose_b) {
+    const Vec3 arm = pose_b.position() - pose_a.position();
+    const Vec3 axis = pose_a.axis();
+    const double z = axis.dot(arm);
+    const Vec3 across = arm - z * axis;
+    const double rho = across.norm();
+    axial = z < 0 ? Vec3(-axis) : axis;
+    radial = rho > vanishing ? Vec3(across / rho) : Vec3(pose_a.rotation().col(0));
+    constexpr double few_digits = 1e-3;
+    if (rho < few_digits * std::abs(z)) {  // what rounding leaves along the axis counts
+      radial -= radial.dot(axis) * axis;
+      const double length = radial.norm();
+      radial = length > 0.5 ? Vec3(radial / length) : Vec3(pose_a.rotation().col(0));
+    }
+    beyond_cap = std::abs(z) - a.half_length();
+    beyond_side = rho - a.radius();
   }
 
+  SignedDistance nearest() const {
+    if (beyond_cap > 0 && beyond_side > 0) {
+      const double distance = std::sqrt(beyond_cap * beyond_cap + beyond_side * beyond_side);
+      if (!(distance > vanishing)) return {std::max(beyond_cap, beyond_side), -axial};
+      return {distance, (-beyond_cap / distance) * axial - (beyond_side / distance) * radial};
+    }
+    return beyond_cap >= beyond_side ? SignedDistance{beyond_cap, -axial}
+                                     : SignedDistance{beyond_side, -radial};
+  }
+};
+
+}  // namespace
+
+SignedDistance signed_distance(const Cylinder& a, const Pose& pose_a, const Sphere& b,
+                               const Pose& pose_b) {
+  if (!ordinary(a, pose_a, b, pose_b)) {
+    const ScaledBodies scaled(a, pose_a, b, pose_b);
+    return scaled.back(
+        scaled.ask([](const auto&... bodies) { return signed_distance(bodies...); }));
+  }
+  SignedDistance result = Centre(a, pose_a, pose_b).nearest();
+  result.value -= b.radius();
+  return result;
+}
+
+bool overlaps(const Cylinder& a, const Pose& pose_a, const Sphere& b, const Pose& pose_b) {
+  if (!ordinary(a, pose_a, b, pose_b)) {
+    const ScaledBodies scaled(a, pose_a, b, pose_b);
+    return scaled.ask([](const auto&... bodies) { return overlaps(bodies...); });
+  }
+  return signed_distance(a, pose_a, b, pose_b).value <= 0;
+}
+
+Contact contact(const Cylinder& a, const Pose& pose_a, const Sphere& b, const Pose& pose_b,
+                double contact_threshold, const Vec3* previous_normal) {
+  if (!ordinary(a, pose_a, b, pose_b)) {
+    const ScaledBodies scaled(a, pose_a, b, pose_b);
+    return scaled.back(scaled.ask([&](const auto&... bodies) {
+      return contact(bodies..., scaled.scaled(contact_threshold), previous_normal);
+    }));
+  }
+  const Centre centre(a, pose_a, pose_b);
+  SignedDistance found = centre.nearest();
+  if (previous_normal && centre.beyond_cap <= 0 && centre.beyond_side <= 0) {
+    // Side or cap, whichever was left before.
+    const SignedDistance cap{centre.beyond_cap, -centre.axial};
+    const SignedDistance side{centre.beyond_side, -centre.radial};
+    for (const SignedDistance& other : {cap, side}) {
+      if (other.value >= found.value - contact_threshold &&
+          other.normal.dot(*previous_normal) > found.normal.dot(*previous_normal)) {
+        found = other;
+      }
+    }
+  }
   Contact result;
-  result.normal = -(rotation * outward);
-  result.signed_distance = distance - b.radius();
+  result.normal = found.normal;
+  result.signed_distance = found.value - b.radius();
   if (result.signed_distance <= contact_threshold) {
     // From the centre towards the cylinder: the sphere's surface, then half of the way between.
     result.add_point(pose_b.position() + (b.radius() + result.signed_distance / 2) * result.normal,

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include <Eigen/Geometry>
 
 #include "shape.hpp"
@@ -13,17 +15,47 @@ class Pose {
  public:
   Pose() = default;
   /// Throws InvalidInput on NaN, infinity or a zero quaternion.
-  Pose(const Vec3& position, const Eigen::Quaterniond& orientation);
+  Pose(const Vec3& position, const Eigen::Quaterniond& orientation)
+      : position_(position), orientation_(orientation) {
+    // One by one: Eigen would load in pairs what was just stored singly, which stalls.
+    const double w = orientation.w(), x = orientation.x(), y = orientation.y();
+    const double z = orientation.z(), squared = w * w + x * x + y * y + z * z;
+    // NaN and infinity survive a sum of absolute values; of finite positions it may overflow.
+    constexpr double least = 1e-280, most = 1e280;
+    if (squared > least && squared < most &&
+        std::abs(position.x()) + std::abs(position.y()) + std::abs(position.z()) < most) {
+      rotate_by(orientation, squared);
+    } else {
+      check_and_rotate();
+    }
+  }
 
   const Vec3& position() const { return position_; }
   /// As given; Eigen's constructor order is (w, x, y, z).
   const Eigen::Quaterniond& orientation() const { return orientation_; }
-  /// Body frame to world frame.
-  Eigen::Matrix3d rotation() const { return orientation_.normalized().toRotationMatrix(); }
+  /// Body frame to world frame, made once for each pose.
+  const Eigen::Matrix3d& rotation() const { return rotation_; }
+  /// The body's local z in the world: the axis of a cylinder or capsule.
+  Vec3 axis() const { return rotation_.col(2); }
 
  private:
+  /// R(q) of a quaternion of any length: dividing by |q|² once needs no square root.
+  void rotate_by(const Eigen::Quaterniond& q, double squared) {
+    const double s = 2 / squared;
+    const double w = s * q.w(), x = s * q.x(), y = s * q.y(), z = s * q.z();
+    const double wx = w * q.x(), wy = w * q.y(), wz = w * q.z();
+    const double xx = x * q.x(), xy = x * q.y(), xz = x * q.z();
+    const double yy = y * q.y(), yz = y * q.z(), zz = z * q.z();
+    rotation_.col(0) = Vec3(1 - (yy + zz), xy + wz, xz - wy);
+    rotation_.col(1) = Vec3(xy - wz, 1 - (xx + zz), yz + wx);
+    rotation_.col(2) = Vec3(xz + wy, yz - wx, 1 - (xx + yy));
+  }
+  /// Throws InvalidInput, or rotates by a quaternion whose square overflows or vanishes.
+  void check_and_rotate();
+
   Vec3 position_ = Vec3::Zero();
   Eigen::Quaterniond orientation_ = Eigen::Quaterniond::Identity();
+  Eigen::Matrix3d rotation_ = Eigen::Matrix3d::Identity();
 };
 
 }  // namespace touchstone

@@ -1,14 +1,29 @@
 #pragma once
 
-#include "reduced_pair.hpp"
+#include "folded_axes.hpp"
+#include "largest_gap.hpp"
 
 namespace touchstone {
 
-/// Offers `best` the normals at which a point of rim 1 (about the origin) and a point of rim 2
-/// (about q, q = d less the segments' chosen ends) are stationary for each other, and lowers its
-/// limit by the points met. Scans the smaller rim with the closed-form nearest and farthest points
-/// of the larger one and brackets the sign changes of the slope; the arcs are as short as the slope
-/// is uneven, and those too far away to matter are left out.
-void offer_rim_rim_normals(const ReducedPair& pair, const Vec3& q, BestNormal& best);
+/// Two cylinders in their folded frame; the first has the smaller radius or the same.
+struct FoldedCylinders {
+  FoldedAxes axes;
+  double r1, h1, r2, h2;
+
+  /// g(n) of any n, divided by its length.
+  double gap(const Vec3& n) const;
+};
+
+/// Offers `best` the normals at which the rims of two cylinders meet, wherever one of them may have
+/// a larger gap; stops as soon as the gap exceeds `enough`. `apart` goes from a point of B to one
+/// of A, not far from each other if possible.
+///
+/// Newton's method along `apart` finds the normal of rims that face each other; where bodies are
+/// apart that is all. Else, for each pair of ends that can meet, half of the smaller rim (the other
+/// half is its mirror image) is scanned with the nearest points of the larger rim. Arcs that are
+/// too far away to matter are left out, sign changes of the slope are bracketed, and arcs are as
+/// short as the slope is uneven. At most 400 samples for each pair of ends.
+void offer_rim_rim_normals(const FoldedCylinders& pair, const Vec3& apart, double enough,
+                           LargestGap& best);
 
 }  // namespace touchstone

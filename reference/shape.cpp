@@ -75,12 +75,9 @@ double smallest_half_extent(const Shape& shape) {
 }
 
 double largest_half_extent(const Shape& shape) {
-  return std::visit(
-      Overloaded{[](const Cylinder& s) { return std::max(s.radius(), s.half_length()); },
-                 [](const Plane&) { return 0.0; }, [](const Sphere& s) { return s.radius(); },
-                 [](const Capsule& s) { return s.half_length() + s.radius(); },
-                 [](const Box& s) { return s.half_extents().maxCoeff(); }},
-      shape);
+  return std::visit(Overloaded{[](const Plane&) { return 0.0; },
+                               [](const auto& s) { return largest_half_extent(s); }},
+                    shape);
 }
 
 }  // namespace touchstone

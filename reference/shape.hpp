@@ -77,5 +77,11 @@ const char* shape_name(const Shape& shape);
 /// the smallest is infinite and the largest zero, so that it never decides a minimum or maximum.
 double smallest_half_extent(const Shape& shape);
 double largest_half_extent(const Shape& shape);
+inline double largest_half_extent(const Sphere& s) { return s.radius(); }
+inline double largest_half_extent(const Capsule& s) { return s.half_length() + s.radius(); }
+inline double largest_half_extent(const Cylinder& s) {
+  return s.radius() > s.half_length() ? s.radius() : s.half_length();
+}
+inline double largest_half_extent(const Box& s) { return s.half_extents().maxCoeff(); }
 
 }  // namespace touchstone

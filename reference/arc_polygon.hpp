@@ -1,0 +1,80 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+#include <Eigen/Core>
+
+namespace touchstone {
+
+using Vec2 = Eigen::Vector2d;
+
+/// Counter-clockwise product x × y of two vectors of a plane.
+inline double cross2(const Vec2& x, const Vec2& y) { return x.x() * y.y() - x.y() * y.x(); }
+
+struct Circle {
+  Vec2 centre;
+  double radius;
+};
+
+/// A convex region of a plane, bounded counter-clockwise by straight edges and by arcs of at most
+/// two circles: a contact patch. Empty when it has no vertices. Fixed size, no allocation.
+class ArcPolygon {
+ public:
+  static constexpr int max_vertices = 24;
+
+  /// Copies the vertices there are.
+  ArcPolygon(const ArcPolygon& other) : circles_(other.circles_), count_(other.count_) {
+    std::copy_n(other.vertices_.begin(), count_, vertices_.begin());
+  }
+  ArcPolygon& operator=(const ArcPolygon&) = delete;
+
+  /// The disc within `circle`.
+  explicit ArcPolygon(const Circle& circle);
+  /// What two discs share when neither holds the other: two corners and an arc of each.
+  static ArcPolygon lens(const Circle& circle1, const Circle& circle2);
+
+  /// Keeps the points with normal·x <= bound; `normal` is a unit vector. A sliver thinner than
+  /// 1e-12 of an arc's radius is not cut off.
+  void clip(const Vec2& normal, double bound);
+
+  bool empty() const { return count_ == 0; }
+  /// Has nothing been cut off the disc?
+  bool is_disc() const {
+    return std::none_of(vertices_.begin(), vertices_.begin() + count_,
+                        [](const Vertex& v) { return v.corner; });
+  }
+  /// The point that is farthest along a direction (of any length, not zero).
+  Vec2 farthest(const Vec2& direction) const;
+
+  /// Makes the point that is farthest along a direction a corner, so that `spread` keeps it.
+  void mark_farthest(const Vec2& direction);
+
+  /// Three arms of this length, 120° apart, the first along a unit vector.
+  static std::array<Vec2, 3> three_arms(double radius, const Vec2& unit);
+
+  /// Points whose hull covers the region well: the corners; on arcs as many more as leave no piece
+  /// above 72°; at least four where there is an arc. A full disc gives three, 120°
+  /// apart. The first is the farthest along `first`. Never more than eight. Returns how many.
+  int spread(const Vec2& first, std::array<Vec2, 8>& points) const;
+
+ private:
+  static constexpr int straight = -1;
+  struct Vertex {
+    Vec2 at;
+    int circle;   ///< of the edge that leaves it, or `straight`
+    bool corner;  ///< false where an arc was only divided
+  };
+
+  ArcPolygon() = default;
+  void add(const Vec2& at, int circle, bool corner) { vertices_[count_++] = {at, circle, corner}; }
+  /// Divides the arc from `from` to `to` so that no piece exceeds a quarter turn; leaves `to` out.
+  void add_arc(int circle, const Vec2& from, const Vec2& to);
+
+  std::array<Circle, 2> circles_ = {Circle{Vec2::Zero(), 0}, Circle{Vec2::Zero(), 0}};
+  std::array<Vertex, max_vertices> vertices_;
+  int count_ = 0;
+};
+
+}  // namespace touchstone

@@ -1,0 +1,112 @@
+#include "arc_polygon.hpp"
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <numbers>
+#include <rapidcheck.h>
+#include <vector>
+
+namespace touchstone {
+namespace {
+
+const Circle unit{Vec2(0, 0), 1};
+
+Vec2 direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
+
+/// min over directions of (support of the points)/(support of the region), about its centroid.
+double coverage(const ArcPolygon& region) {
+  std::array<Vec2, 8> points;
+  const int count = region.spread(Vec2(1, 0), points);
+  constexpr int directions = 720;
+  Vec2 centroid(0, 0);
+  double area = 0;
+  for (int i = 0; i < directions; ++i) {  // of the polygon of support points
+    const Vec2 p = region.farthest(direction(2 * std::numbers::pi * i / directions));
+    const Vec2 q = region.farthest(direction(2 * std::numbers::pi * (i + 1) / directions));
+    area += cross2(p, q) / 2;
+    centroid += cross2(p, q) / 6 * (p + q);
+  }
+  centroid /= area;
+  double least = 1;
+  for (int i = 0; i < directions; ++i) {
+    const Vec2 n = direction(2 * std::numbers::pi * (i + 0.5) / directions);
+    double most = -1;
+    for (int k = 0; k < count; ++k) most = std::max(most, n.dot(points[k] - centroid));
+    least = std::min(least, most / n.dot(region.farthest(n) - centroid));
+  }
+  return least;
+}
+
+TEST(ArcPolygon, HalfDiscHasItsTwoCornersAndTwoPointsOnTheArc) {
+  ArcPolygon region(unit);
+  region.clip(Vec2(1, 0), 0);
+  std::array<Vec2, 8> points;
+  ASSERT_EQ(region.spread(Vec2(1, 0), points), 4);
+  int corners = 0;
+  for (int i = 0; i < 4; ++i) {
+    EXPECT_NEAR(points[i].norm(), 1, 1e-15);
+    corners += std::abs(points[i].x()) < 1e-15;
+  }
+  EXPECT_EQ(corners, 2);
+  EXPECT_GT(coverage(region), 0.75);
+}
+
+TEST(ArcPolygon, DiscCutByAllFourEdgesOfASquareHasEightCorners) {
+  ArcPolygon region(unit);
+  for (const Vec2& n : {Vec2(1, 0), Vec2(0, 1), Vec2(-1, 0), Vec2(0, -1)}) region.clip(n, 0.9);
+  std::array<Vec2, 8> points;
+  ASSERT_EQ(region.spread(Vec2(1, 0), points), 8);
+  for (int i = 0; i < 8; ++i) {
+    EXPECT_NEAR(points[i].norm(), 1, 1e-14);
+    EXPECT_NEAR(points[i].cwiseAbs().maxCoeff(), 0.9, 1e-15);
+  }
+  EXPECT_GT(coverage(region), 0.9);
+}
+
+TEST(ArcPolygon, SquareWithinTheDiscHasItsCorners) {
+  ArcPolygon region(unit);
+  for (const Vec2& n : {Vec2(1, 0), Vec2(0, 1), Vec2(-1, 0), Vec2(0, -1)}) region.clip(n, 0.5);
+  std::array<Vec2, 8> points;
+  ASSERT_EQ(region.spread(Vec2(1, 0), points), 4);
+  for (int i = 0; i < 4; ++i) EXPECT_NEAR((points[i].cwiseAbs() - Vec2(0.5, 0.5)).norm(), 0, 1e-15);
+}
+
+TEST(ArcPolygon, CutBeyondTheDiscLeavesNothing) {
+  ArcPolygon region(unit);
+  region.clip(Vec2(0, 1), -1.5);
+  EXPECT_TRUE(region.empty());
+}
+
+TEST(ArcPolygon, LensEndsWhereTheCirclesCross) {
+  const ArcPolygon region = ArcPolygon::lens(unit, {Vec2(1, 0), 1});
+  EXPECT_NEAR((region.farthest(Vec2(0, 1)) - Vec2(0.5, std::sqrt(0.75))).norm(), 0, 1e-15);
+  EXPECT_NEAR((region.farthest(Vec2(1, 0)) - Vec2(1, 0)).norm(), 0, 1e-15);
+  EXPECT_NEAR((region.farthest(Vec2(-1, 0)) - Vec2(0, 0)).norm(), 0, 1e-15);
+}
+
+TEST(ArcPolygon, PointsOfADiscInARectangleLieInBothAndCoverHalfOfIt) {
+  const auto thousandths = [](int lo, int hi) { return 1e-3 * *rc::gen::inRange(lo, hi); };
+  EXPECT_TRUE(rc::check([&] {
+    ArcPolygon region(unit);
+    std::array<std::pair<Vec2, double>, 4> cuts;
+    const double turn = thousandths(0, 1571);
+    for (int i = 0; i < 4; ++i) {
+      // Opposite sides are at least 0.05 apart.
+      const double bound =
+          i < 2 ? thousandths(-300, 1500) : -cuts[i - 2].second + thousandths(50, 2000);
+      cuts[i] = {direction(turn + i * std::numbers::pi / 2), bound};
+    }
+    for (const auto& [normal, bound] : cuts) region.clip(normal, bound);
+    RC_PRE(!region.empty());
+    std::array<Vec2, 8> points;
+    const int count = region.spread(Vec2(1, 0), points);
+    for (int i = 0; i < count; ++i) {
+      RC_ASSERT(points[i].norm() <= 1 + 1e-12);
+      for (const auto& [normal, bound] : cuts) RC_ASSERT(normal.dot(points[i]) <= bound + 1e-12);
+    }
+    RC_ASSERT(coverage(region) >= 0.499);
+  }));
+}
+
+}  // namespace
+}  // namespace touchstone

@@ -1,0 +1,58 @@
+#include "ellipse_normal.hpp"
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <numbers>
+#include <rapidcheck.h>
+
+namespace touchstone {
+namespace {
+
+double gap(double a, double b, double x, double y, const Eigen::Vector2d& n) {
+  return n.dot(Eigen::Vector2d(x, y)) - std::hypot(a * n.x(), b * n.y());
+}
+
+void expect_largest_in_quadrant(double b, double x, double y) {
+  const auto n = ellipse_normal(1, b, x, y);
+  double found = std::max(gap(1, b, x, y, {1, 0}), gap(1, b, x, y, {0, 1}));
+  if (n) {
+    ASSERT_NEAR(n->norm(), 1, 1e-15);
+    ASSERT_GE(n->x(), 0);
+    ASSERT_GE(n->y(), 0);
+    found = std::max(found, gap(1, b, x, y, *n));
+  }
+  for (int i = 0; i <= 10000; ++i) {
+    const double t = std::numbers::pi / 2 * i / 10000;
+    ASSERT_LE(gap(1, b, x, y, {std::cos(t), std::sin(t)}), found + 1e-15)
+        << b << " " << x << " " << y;
+  }
+}
+
+TEST(EllipseNormal, HasTheLargestGapOfItsQuadrant) {
+  for (const double b : {1.0, 0.9, 0.5, 1e-3, 1e-9, 0.0}) {
+    for (const double x : {0.0, 1e-12, 0.1, 0.75, 1.0, 3.0, 1e3, -0.3}) {
+      for (const double y : {0.0, 1e-12, 0.05, 0.5, 1e-3, 2.0, 1e3, -1e-12, -1e-3, -0.2, -3.0}) {
+        expect_largest_in_quadrant(b, x, y);
+      }
+    }
+  }
+}
+
+TEST(EllipseNormal, OfAnyPointHasTheLargestGapOfItsQuadrant) {
+  EXPECT_TRUE(rc::check([] {
+    const auto magnitude = [] { return std::pow(10, -1e-2 * *rc::gen::inRange(0, 800)); };
+    const double sign = *rc::gen::element(-1.0, 1.0);
+    expect_largest_in_quadrant(magnitude(), 3 * magnitude(), sign * 3 * magnitude());
+    RC_ASSERT(!testing::Test::HasFatalFailure());
+  }));
+}
+
+TEST(EllipseNormal, OnTheMajorAxisBetweenTheCentresOfCurvatureLeansToTheFlatSide) {
+  const auto n = ellipse_normal(2, 1, 0.75, 0);
+  ASSERT_TRUE(n);
+  // The foot is at cos t = a x/(a² − b²) = 1/2.
+  EXPECT_NEAR(n->x() / n->y(), std::tan(std::numbers::pi / 6) / 2, 1e-14);
+}
+
+}  // namespace
+}  // namespace touchstone

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <limits>
+
+#include "shape.hpp"
+
+namespace touchstone {
+
+/// An offset whose square would lose its digits is nothing against any body's size (scaled.hpp).
+inline double without_vanishing(double offset) {
+  constexpr double vanishing = 1e-100;
+  return offset < vanishing && offset > -vanishing ? 0.0 : offset;
+}
+
+/// The largest clearance met so far and its normal, in whatever frame the pair is solved in.
+struct LargestGap {
+  double gap = -std::numeric_limits<double>::infinity();
+  Vec3 normal = Vec3::UnitZ();
+
+  /// Of normals that tie the first one stays.
+  void offer(double other, const Vec3& n) {
+    if (other > gap) gap = other, normal = n;
+  }
+};
+
+}  // namespace touchstone

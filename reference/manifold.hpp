@@ -1,0 +1,37 @@
+#pragma once
+
+#include "contact.hpp"
+#include "facing_feature.hpp"
+
+namespace touchstone {
+
+/// Which points are made for a known normal and signed distance. Metres.
+struct ManifoldRule {
+  /// How far above the deepest point a surface may lie and still carry a point.
+  double slack;
+
+  /// A millionth of the smaller body's largest half extent, so that a standing or lying body keeps
+  /// its points when it is tilted by a hair; no more than the contact threshold leaves above the
+  /// deepest point; never less than rounding. `distance` is that of the bodies' centres.
+  ManifoldRule(double largest_a, double largest_b, double distance, double signed_distance,
+               double contact_threshold);
+};
+
+/// Adds to `contact`, whose normal and signed distance are set, the points where two features face
+/// each other, and to each of them `origin`, where the features' frame lies in the world.
+///
+/// The features' overlap across the normal is a point (one contact point), a segment (its two ends)
+/// or a region bounded by lines and arcs (its corners and points on long arcs, at most eight; three
+/// where it is a whole disc). Of features that lean, the part within the slack of the deepest point
+/// counts, so that the points draw together as the tilt grows. Each lies halfway between the
+/// surfaces along the normal.
+void add_manifold(Contact& contact, const FacingFeature& a, const FacingFeature& b,
+                  const Vec3& origin, const ManifoldRule& rule);
+
+/// The whole answer for a known signed distance. `origin` is where the bodies' frame lies in the
+/// world; `previous_normal` may be null.
+template <class Body>
+Contact with_manifold(const PosedCylinder& a, const Body& b, SignedDistance found,
+                      double contact_threshold, const Vec3& origin, const Vec3* previous_normal);
+
+}  // namespace touchstone

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+#include "pose.hpp"
+#include "shape.hpp"
+
+namespace touchstone {
+
+// Bodies in one frame, which has the world's axes and its origin at B's centre: positions are
+// subtracted before anything else, so that they keep their digits far from the world's origin.
+
+struct PosedCylinder {
+  Vec3 centre, axis;
+  double radius, half_length;
+};
+struct PosedCapsule {
+  Vec3 centre, axis;
+  double radius, half_length;
+};
+struct PosedBox {
+  Vec3 centre;
+  const Eigen::Matrix3d& axes;
+  Vec3 half_extents;
+};
+
+inline PosedCylinder posed(const Cylinder& s, const Pose& pose, const Vec3& origin) {
+  return {pose.position() - origin, pose.axis(), s.radius(), s.half_length()};
+}
+inline PosedCapsule posed(const Capsule& s, const Pose& pose, const Vec3& origin) {
+  return {pose.position() - origin, pose.axis(), s.radius(), s.half_length()};
+}
+inline PosedBox posed(const Box& s, const Pose& pose, const Vec3& origin) {
+  return {pose.position() - origin, pose.rotation(), s.half_extents()};
+}
+
+/// max over the body of (x − centre)·n for a unit n.
+inline double reach(const PosedCylinder& s, const Vec3& n) {
+  return s.half_length * std::abs(s.axis.dot(n)) + s.radius * s.axis.cross(n).norm();
+}
+inline double reach(const PosedCapsule& s, const Vec3& n) {
+  return s.half_length * std::abs(s.axis.dot(n)) + s.radius;
+}
+inline double reach(const PosedBox& s, const Vec3& n) {
+  return s.half_extents.dot((s.axes.transpose() * n).cwiseAbs());
+}
+
+/// The point of the body (of a capsule's segment) that is nearest to x; x itself inside.
+inline Vec3 nearest(const PosedCylinder& s, const Vec3& x) {
+  const Vec3 arm = x - s.centre;
+  const double z = s.axis.dot(arm);
+  const Vec3 across = arm - z * s.axis;
+  const double squared = across.squaredNorm();
+  const double scale = squared > s.radius * s.radius ? s.radius / std::sqrt(squared) : 1;
+  return s.centre + std::clamp(z, -s.half_length, s.half_length) * s.axis + scale * across;
+}
+inline Vec3 nearest(const PosedCapsule& s, const Vec3& x) {
+  const double z = s.axis.dot(x - s.centre);
+  return s.centre + std::clamp(z, -s.half_length, s.half_length) * s.axis;
+}
+inline Vec3 nearest(const PosedBox& s, const Vec3& x) {
+  const Vec3 local = s.axes.transpose() * (x - s.centre);
+  return s.centre + s.axes * local.cwiseMax(-s.half_extents).cwiseMin(s.half_extents);
+}
+
+}  // namespace touchstone

@@ -1,0 +1,117 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "contact.hpp"
+#include "pose.hpp"
+#include "shape.hpp"
+
+namespace touchstone {
+
+// Lengths so large or small that their squares overflow or vanish are brought into range by a power
+// of two, which rounds nothing, and the answer back. Nobody simulates such bodies, but a body that
+// has flown off must be answered with a number, not with NaN.
+
+inline constexpr double least_length = 1e-50, most_length = 1e50;
+
+inline bool ordinary(double length) { return length > least_length && length < most_length; }
+inline bool ordinary(const Sphere& s) { return ordinary(s.radius()); }
+inline bool ordinary(const Cylinder& s) {
+  return ordinary(s.radius()) && ordinary(s.half_length());
+}
+inline bool ordinary(const Capsule& s) { return ordinary(s.radius()) && ordinary(s.half_length()); }
+inline bool ordinary(const Box& s) {
+  return ordinary(s.half_extents().minCoeff()) && ordinary(s.half_extents().maxCoeff());
+}
+inline bool ordinary(const Plane& s) {
+  return ordinary(s.normal().cwiseAbs().maxCoeff()) && std::abs(s.displacement()) < most_length;
+}
+inline bool ordinary(const Pose& p) { return p.position().cwiseAbs().maxCoeff() < most_length; }
+
+/// Are all lengths such that their squares and fourth powers are ordinary doubles?
+template <class Other>
+bool ordinary(const Cylinder& a, const Pose& pose_a, const Other& b, const Pose& pose_b) {
+  return ordinary(a) && ordinary(b) && ordinary(pose_a) && ordinary(pose_b);
+}
+
+/// The bodies with all lengths times a power of two so that the largest is about one; lengths that
+/// vanish against it are made 1e-45 of it.
+template <class Other>
+class ScaledBodies {
+ public:
+  ScaledBodies(const Cylinder& a, const Pose& pose_a, const Other& b, const Pose& pose_b)
+      : exponent_(std::ilogb(std::max({largest(a), largest(b), largest(pose_a), largest(pose_b)}))),
+        a_(scaled(a)),
+        b_(scaled(b)),
+        pose_a_(scaled(pose_a)),
+        pose_b_(scaled(pose_b)) {}
+
+  /// Calls question(a, pose_a, b, pose_b) for the scaled bodies.
+  template <class Question>
+  auto ask(Question question) const {
+    return question(a_, pose_a_, b_, pose_b_);
+  }
+  double scaled(double length) const { return std::scalbn(length, -exponent_); }
+
+  /// The answers in the world's lengths; what overflows is the largest double.
+  SignedDistance back(SignedDistance answer) const {
+    answer.value = back(answer.value);
+    return answer;
+  }
+  Contact back(const Contact& answer) const {
+    Contact result;
+    result.normal = answer.normal;
+    result.signed_distance = back(answer.signed_distance);
+    for (const ContactPoint& p : answer.points()) {
+      const Vec3 position = p.position.unaryExpr([&](double x) { return back(x); });
+      result.add_point(position, back(p.depth));
+    }
+    return result;
+  }
+
+ private:
+  static constexpr double vanishing = 1e-45;
+
+  static double largest(const Pose& p) { return p.position().cwiseAbs().maxCoeff(); }
+  template <class Body>
+  static double largest(const Body& s) {
+    // A capsule's two lengths may only overflow when they are added.
+    return std::min(largest_half_extent(s), std::numeric_limits<double>::max());
+  }
+  static double largest(const Plane& s) {
+    return std::max(least_length, std::abs(offset(s, s.normal().stableNorm())));
+  }
+  static double offset(const Plane& s, double length) {
+    constexpr double most = std::numeric_limits<double>::max();
+    return std::clamp(s.displacement() / length, -most, most);
+  }
+  double size(double length) const { return std::max(scaled(length), vanishing); }
+  Plane scaled(const Plane& s) const {
+    const double length = s.normal().stableNorm();
+    return Plane((s.normal() / length).normalized(), scaled(offset(s, length)));
+  }
+  Sphere scaled(const Sphere& s) const { return Sphere(size(s.radius())); }
+  Cylinder scaled(const Cylinder& s) const { return {size(s.radius()), size(s.half_length())}; }
+  Capsule scaled(const Capsule& s) const { return {size(s.radius()), size(s.half_length())}; }
+  Box scaled(const Box& s) const {
+    const Vec3& e = s.half_extents();
+    return Box(Vec3(size(e.x()), size(e.y()), size(e.z())));
+  }
+  Pose scaled(const Pose& p) const {
+    const Vec3& x = p.position();
+    return Pose(Vec3(scaled(x.x()), scaled(x.y()), scaled(x.z())), p.orientation());
+  }
+  double back(double length) const {
+    constexpr double most = std::numeric_limits<double>::max();
+    return std::clamp(std::scalbn(length, exponent_), -most, most);
+  }
+
+  int exponent_;
+  Cylinder a_;
+  Other b_;
+  Pose pose_a_, pose_b_;
+};
+
+}  // namespace touchstone

@@ -1,0 +1,15 @@
+#pragma once
+
+// Everything a user needs: shapes, poses, and for a cylinder against each other shape the three
+// questions `overlaps`, `contact` and `signed_distance`.
+
+#include "aabb.hpp"
+#include "contact.hpp"
+#include "cylinder_box.hpp"
+#include "cylinder_capsule.hpp"
+#include "cylinder_cylinder.hpp"
+#include "cylinder_plane.hpp"
+#include "cylinder_sphere.hpp"
+#include "invalid_input.hpp"
+#include "pose.hpp"
+#include "shape.hpp"
