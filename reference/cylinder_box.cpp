@@ -173,7 +173,7 @@ class Solver {
       }
     }
     if (nearest < std::numeric_limits<double>::infinity() && !final_) {
-      const Vec3 n = off_rim / std::sqrt(nearest);
+      const Vec3 n = off_rim.normalized();
       best_.offer(gap(n), n);
     }
   }

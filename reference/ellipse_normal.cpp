@@ -20,7 +20,13 @@ struct Anomaly {
 };
 
 Anomaly towards(double c, double s) {
-  const double length = std::sqrt(c * c + s * s);
+  const double squared = c * c + s * s;
+  constexpr double vanishing = 1e-250;  // digits are lost
+  if (squared < vanishing && (c != 0 || s != 0)) {
+    const double largest = std::max(std::abs(c), std::abs(s));
+    return towards(c / largest, s / largest);
+  }
+  const double length = std::sqrt(squared);
   return {c / length, s / length};
 }
 
