@@ -82,7 +82,7 @@ std::vector<Row> rows() {
        4},
       {"box, cap over a corner of the face",
        {can, Pose({2.9, 2.9, 2.9}, upright), slab, Pose()},
-       4},
+       5},
       {"box, cap cut by two opposite edges",
        {can, Pose({0, 0, 2.9}, upright), Box({0.6, 3, 1}), Pose()},
        6},
