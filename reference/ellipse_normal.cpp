@@ -52,8 +52,9 @@ Anomaly same_side_foot(double ax, double by, double focal, Anomaly t) {
     (slope < 0 ? lo : hi) = t;
     const double step = -slope / rise;
     Anomaly next = t.turned(step);
+    // A step that small may leave the bracket by rounding.
+    if (rise > 0 && std::abs(step) < small_step) return next;
     const bool good = std::abs(step) <= previous && after(next, lo) && after(hi, next);
-    if (good && std::abs(step) < small_step) return next;
     if (!good) next = between(lo, hi);
     previous = good ? std::abs(step) / 2 : 1;
     t = next;
