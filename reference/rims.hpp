@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <Eigen/Geometry>
@@ -87,6 +88,7 @@ class Rims {
   Vec3 polished(Vec3 n) const {
     const double c = pair_.axes.c, s = pair_.axes.s;
     constexpr int steps = 40;
+    double previous = std::numeric_limits<double>::infinity();
     for (int i = 0; i < steps; ++i) {
       n /= n.norm();
       const double m = c * n.y() - s * n.x();  // n along k2
@@ -111,8 +113,10 @@ class Rims {
       const double most = std::min(rho1, rho2) / 2;
       const double scale = length > most ? most / length : 1;
       n += scale * step1 * t1 + scale * step2 * other;
+      // Converged, or as far as rounding lets it.
       constexpr double small_part = 1e-8;
-      if (length <= small_part * most) break;
+      if (length <= small_part * most || length >= previous / 2) break;
+      previous = scale < 1 ? std::numeric_limits<double>::infinity() : length;
     }
     return n;
   }
