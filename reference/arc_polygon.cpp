@@ -11,6 +11,11 @@ namespace {
 constexpr double quarter = std::numbers::pi / 2;
 /// An arc that is not longer than this is covered well by its ends.
 constexpr double long_arc = quarter * 0.8;
+/// An arc's piece that stands out by less than this part of the region's width is covered by its
+/// ends.
+constexpr double flat_part = 0.14;
+/// With so many points an arc need not be divided for that.
+constexpr int enough = 6;
 
 Vec2 turned_left(const Vec2& v) { return {-v.y(), v.x()}; }
 
@@ -187,20 +192,35 @@ int ArcPolygon::spread(const Vec2& first, std::array<Vec2, 8>& points) const {
     edges[edge_count - 1].angle +=
         angle_between(vertex.at - centre, vertices_[(start + i + 1) % count_].at - centre);
   }
-  Edge* longest = nullptr;
-  const auto piece = [](const Edge& e) { return e.angle / (e.inside + 1); };
   for (int i = 0; i < edge_count; ++i) {
     Edge& e = edges[i];
     e.inside = std::max(0, static_cast<int>(std::ceil(e.angle / long_arc - 1e-9)) - 1);
     total += 1 + e.inside;
-    if (e.circle != straight && (!longest || piece(e) > piece(*longest))) longest = &e;
   }
-  while (longest && total < 4) {
-    ++longest->inside;
-    ++total;
-    for (int i = 0; i < edge_count; ++i) {
-      if (edges[i].circle != straight && piece(edges[i]) > piece(*longest)) longest = &edges[i];
+  const auto piece = [](const Edge& e) { return e.angle / (e.inside + 1); };
+  const auto rise = [&](const Edge& e, double angle) {  // of an arc above its chord
+    return circles_[e.circle].radius * (1 - std::cos(angle / 2));
+  };
+  /// How far the edge's pieces stand out, as a part of the region's width there.
+  const auto standing_out = [&](int i) {
+    const Edge& e = edges[i];
+    if (e.circle == straight) return 0.0;
+    const Vec2 chord = edges[(i + 1) % edge_count].from - e.from;
+    const double length = chord.norm();
+    double width = 0;
+    for (int k = 0; k < edge_count && length > 0; ++k) {
+      width = std::max(width, cross2(chord, edges[k].from - e.from) / length);
     }
+    return rise(e, piece(e)) / (width + rise(e, e.angle));
+  };
+  while (total < enough) {
+    int most = 0;
+    for (int i = 1; i < edge_count; ++i) {
+      if (standing_out(i) > standing_out(most)) most = i;
+    }
+    if (!(standing_out(most) > flat_part)) break;
+    ++edges[most].inside;
+    ++total;
   }
 
   std::array<Vec2, 2 * max_vertices> all;

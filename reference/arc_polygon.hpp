@@ -54,9 +54,10 @@ class ArcPolygon {
   /// Three arms of this length, 120° apart, the first along a unit vector.
   static std::array<Vec2, 3> three_arms(double radius, const Vec2& unit);
 
-  /// Points whose hull covers the region well: the corners; on arcs as many more as leave no piece
-  /// above 72°; at least four where there is an arc. A full disc gives three, 120°
-  /// apart. The first is the farthest along `first`. Never more than eight. Returns how many.
+  /// Points whose hull covers the region well: the corners, and on arcs as many more as leave no
+  /// piece above 72° and, while there are fewer than six, none that stands out by more than a
+  /// seventh of the region's width. A full disc gives three, 120° apart. The first is the farthest
+  /// along `first`. Never more than eight. Returns how many.
   int spread(const Vec2& first, std::array<Vec2, 8>& points) const;
 
  private:

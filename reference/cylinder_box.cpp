@@ -5,7 +5,7 @@
 
 #include "ellipse_normal.hpp"
 #include "largest_gap.hpp"
-#include "manifold.hpp"
+#include "pair_contact.hpp"
 #include "quick_separation.hpp"
 #include "scaled.hpp"
 
@@ -173,7 +173,7 @@ class Solver {
       }
     }
     if (nearest < std::numeric_limits<double>::infinity() && !final_) {
-      const Vec3 n = off_rim / std::sqrt(nearest);
+      const Vec3 n = off_rim.normalized();
       best_.offer(gap(n), n);
     }
   }

@@ -6,7 +6,7 @@
 #include "ellipse_normal.hpp"
 #include "folded_axes.hpp"
 #include "largest_gap.hpp"
-#include "manifold.hpp"
+#include "pair_contact.hpp"
 #include "scaled.hpp"
 
 namespace touchstone {

@@ -7,7 +7,7 @@
 
 #include "ellipse_normal.hpp"
 #include "largest_gap.hpp"
-#include "manifold.hpp"
+#include "pair_contact.hpp"
 #include "quick_separation.hpp"
 #include "rim_rim.hpp"
 #include "scaled.hpp"

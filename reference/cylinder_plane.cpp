@@ -22,7 +22,8 @@ struct Stance {
     const double squared = b.normal().squaredNorm();
     // Most callers give a unit normal.
     const double length = squared == 1 ? 1 : std::sqrt(squared);
-    normal = pose_b.rotation() * (b.normal() / length);
+    normal = pose_b.rotation() * b.normal();
+    if (length != 1) normal /= length;
     centre_height = normal.dot(pose_a.position() - pose_b.position()) - b.displacement() / length;
     axis = pose_a.axis();
     cosine = axis.dot(normal);

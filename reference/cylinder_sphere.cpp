@@ -23,7 +23,7 @@ struct Centre {
     const Vec3 across = arm - z * axis;
     const double rho = across.norm();
     axial = z < 0 ? Vec3(-axis) : axis;
-    radial = rho > vanishing ? Vec3(across / rho) : Vec3(pose_a.rotation().col(0));
+    radial = rho > vanishing ? Vec3((1 / rho) * across) : Vec3(pose_a.rotation().col(0));
     constexpr double few_digits = 1e-3;
     if (rho < few_digits * std::abs(z)) {  // what rounding leaves along the axis counts
       radial -= radial.dot(axis) * axis;
@@ -60,10 +60,6 @@ SignedDistance signed_distance(const Cylinder& a, const Pose& pose_a, const Sphe
 }
 
 bool overlaps(const Cylinder& a, const Pose& pose_a, const Sphere& b, const Pose& pose_b) {
-  if (!ordinary(a, pose_a, b, pose_b)) {
-    const ScaledBodies scaled(a, pose_a, b, pose_b);
-    return scaled.ask([](const auto&... bodies) { return overlaps(bodies...); });
-  }
   return signed_distance(a, pose_a, b, pose_b).value <= 0;
 }
 

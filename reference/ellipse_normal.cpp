@@ -20,7 +20,13 @@ struct Anomaly {
 };
 
 Anomaly towards(double c, double s) {
-  const double length = std::sqrt(c * c + s * s);
+  const double squared = c * c + s * s;
+  constexpr double vanishing = 1e-250;  // digits are lost
+  if (squared < vanishing && (c != 0 || s != 0)) {
+    const double largest = std::max(std::abs(c), std::abs(s));
+    return towards(c / largest, s / largest);
+  }
+  const double length = std::sqrt(squared);
   return {c / length, s / length};
 }
 
@@ -46,8 +52,9 @@ Anomaly same_side_foot(double ax, double by, double focal, Anomaly t) {
     (slope < 0 ? lo : hi) = t;
     const double step = -slope / rise;
     Anomaly next = t.turned(step);
+    // A step that small may leave the bracket by rounding.
+    if (rise > 0 && std::abs(step) < small_step) return next;
     const bool good = std::abs(step) <= previous && after(next, lo) && after(hi, next);
-    if (good && std::abs(step) < small_step) return next;
     if (!good) next = between(lo, hi);
     previous = good ? std::abs(step) / 2 : 1;
     t = next;

@@ -17,7 +17,7 @@ FoldedAxes::FoldedAxes(const Vec3& axis1, const Vec3& axis2, const Vec3& differe
   // is then left along the second is lost in the second's own rounding.
   constexpr double few_digits = 0.1, none = 1e-15;
   if (length > none) {
-    e3 /= length;
+    e3 *= 1 / length;
     if (length < few_digits) e3 = (e3 - e3.dot(e1) * e1).normalized();
   } else {
     // Parallel: the plane of the axes is that which holds the centres.

@@ -28,10 +28,4 @@ struct ManifoldRule {
 void add_manifold(Contact& contact, const FacingFeature& a, const FacingFeature& b,
                   const Vec3& origin, const ManifoldRule& rule);
 
-/// The whole answer for a known signed distance. `origin` is where the bodies' frame lies in the
-/// world; `previous_normal` may be null.
-template <class Body>
-Contact with_manifold(const PosedCylinder& a, const Body& b, SignedDistance found,
-                      double contact_threshold, const Vec3& origin, const Vec3* previous_normal);
-
 }  // namespace touchstone

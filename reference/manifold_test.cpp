@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "properties/identity.hpp"
+#include "reference/arc_polygon.hpp"
 #include "reference/contact_of.hpp"
 
 namespace touchstone {
@@ -76,7 +77,7 @@ std::vector<Row> rows() {
        {can, Pose({2, 0, 1.9}, along_x), slab, Pose()},
        2},
       {"box, cap within a face (figure 23)", {can, Pose({0, 0, 2.9}, upright), slab, Pose()}, 3},
-      {"box, cap cut by one edge", {can, Pose({2.7, 0, 2.9}, upright), slab, Pose()}, 4},
+      {"box, cap cut by one edge", {can, Pose({2.7, 0, 2.9}, upright), slab, Pose()}, 5},
       {"box, face within the cap (figure 24)",
        {can, Pose({0, 0, 2.9}, upright), Box({0.5, 0.5, 1}), Pose()},
        4},
@@ -173,6 +174,32 @@ TEST(Manifold, SideEndingWithinTheCapHasItsEndAndTheRim) {
   const double x0 = answer.points()[0].position.x(), x1 = answer.points()[1].position.x();
   EXPECT_NEAR(std::min(x0, x1), 0.2, 1e-14);
   EXPECT_NEAR(std::max(x0, x1), 0.8, 1e-14);
+}
+
+// About the lens's middle, the hull of the points reaches at least half as far as the lens does, in
+// every direction.
+TEST(Manifold, FourPointsCoverCapsThatPartlyOverlap) {
+  for (const double radius : {0.3, 0.8, 1.0, 2.5}) {
+    for (const double part : {0.01, 0.1, 0.3, 0.5, 0.7, 0.9, 0.99}) {
+      // From nearly apart to nearly within.
+      const double distance = std::abs(radius - 1) + part * 2 * std::min(radius, 1.0);
+      const Configuration c{Cylinder(1, 1), Pose({distance, 0, 1.999}, upright),
+                            Cylinder(radius, 1), Pose()};
+      const Contact answer = contact(c, 0);
+      ASSERT_EQ(answer.points().size(), 4u);
+      const ArcPolygon lens = ArcPolygon::lens({Vec2(distance, 0), 1}, {Vec2(0, 0), radius});
+      const double left = lens.farthest(Vec2(-1, 0)).x(), right = lens.farthest(Vec2(1, 0)).x();
+      const Vec2 middle((left + right) / 2, 0);
+      for (double angle = 0; angle < 6.3; angle += 0.01) {
+        const Vec2 n(std::cos(angle), std::sin(angle));
+        double most = 0;
+        for (const auto& p : answer.points()) {
+          most = std::max(most, n.dot(Vec2(p.position.x(), p.position.y()) - middle));
+        }
+        EXPECT_GE(most, 0.5 * n.dot(lens.farthest(n) - middle)) << radius << " " << part;
+      }
+    }
+  }
 }
 
 // A tilt of a hair keeps the manifold, a degree leaves the deepest point.

@@ -23,7 +23,7 @@ bool quickly_separated(const PosedCylinder& a, const Body& b, double threshold,
   constexpr double small_part = 0.02;
   const double least = threshold + small_part * a.radius;
   if (!(squared > least * least)) return false;
-  const Vec3 n = apart / std::sqrt(squared);
+  const Vec3 n = (1 / std::sqrt(squared)) * apart;
   const double along = n.dot(a.centre - b.centre), reaches = reach(a, n) + reach(b, n);
   // No answer may hang on what rounding makes of a touch.
   constexpr double rounding = 1e-14;

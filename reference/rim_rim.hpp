@@ -1,18 +1,9 @@
 #pragma once
 
-#include "folded_axes.hpp"
 #include "largest_gap.hpp"
+#include "rims.hpp"
 
 namespace touchstone {
-
-/// Two cylinders in their folded frame; the first has the smaller radius or the same.
-struct FoldedCylinders {
-  FoldedAxes axes;
-  double r1, h1, r2, h2;
-
-  /// g(n) of any n, divided by its length.
-  double gap(const Vec3& n) const;
-};
 
 /// Offers `best` the normals at which the rims of two cylinders meet, wherever one of them may have
 /// a larger gap; stops as soon as the gap exceeds `enough`. `apart` goes from a point of B to one

@@ -16,24 +16,34 @@ namespace touchstone {
 
 inline constexpr double least_length = 1e-50, most_length = 1e50;
 
-inline bool ordinary(double length) { return length > least_length && length < most_length; }
-inline bool ordinary(const Sphere& s) { return ordinary(s.radius()); }
-inline bool ordinary(const Cylinder& s) {
-  return ordinary(s.radius()) && ordinary(s.half_length());
+/// The smallest of a body's lengths, and their sum with the offsets.
+struct Lengths {
+  double least, sum;
+};
+inline Lengths lengths(double x, double y) { return {std::min(x, y), x + y}; }
+inline Lengths lengths(const Sphere& s) { return {s.radius(), s.radius()}; }
+inline Lengths lengths(const Cylinder& s) { return lengths(s.radius(), s.half_length()); }
+inline Lengths lengths(const Capsule& s) { return lengths(s.radius(), s.half_length()); }
+inline Lengths lengths(const Box& s) {
+  const Vec3& e = s.half_extents();
+  return {std::min({e.x(), e.y(), e.z()}), e.x() + e.y() + e.z()};
 }
-inline bool ordinary(const Capsule& s) { return ordinary(s.radius()) && ordinary(s.half_length()); }
-inline bool ordinary(const Box& s) {
-  return ordinary(s.half_extents().minCoeff()) && ordinary(s.half_extents().maxCoeff());
+inline Lengths lengths(const Plane& s) {
+  const Vec3& n = s.normal();
+  const double size = std::abs(n.x()) + std::abs(n.y()) + std::abs(n.z());
+  return {size, size + std::abs(s.displacement())};
 }
-inline bool ordinary(const Plane& s) {
-  return ordinary(s.normal().cwiseAbs().maxCoeff()) && std::abs(s.displacement()) < most_length;
+inline double offset(const Pose& p) {
+  const Vec3& x = p.position();
+  return std::abs(x.x()) + std::abs(x.y()) + std::abs(x.z());
 }
-inline bool ordinary(const Pose& p) { return p.position().cwiseAbs().maxCoeff() < most_length; }
 
 /// Are all lengths such that their squares and fourth powers are ordinary doubles?
 template <class Other>
 bool ordinary(const Cylinder& a, const Pose& pose_a, const Other& b, const Pose& pose_b) {
-  return ordinary(a) && ordinary(b) && ordinary(pose_a) && ordinary(pose_b);
+  const Lengths of_a = lengths(a), of_b = lengths(b);
+  return std::min(of_a.least, of_b.least) > least_length &&
+         of_a.sum + of_b.sum + offset(pose_a) + offset(pose_b) < most_length;
 }
 
 /// The bodies with all lengths times a power of two so that the largest is about one; lengths that
