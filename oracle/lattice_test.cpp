@@ -44,7 +44,7 @@ TEST(Lattice, NoDirectionBeatsTheOracleAndEveryMemberOfAFamilyReachesIt) {
       }
     }
   }
-  EXPECT_GT(families, count() / 200);
+  EXPECT_GT(families, count() / 400);
 }
 
 TEST(Lattice, TouchingIsProvenNotGuessed) {

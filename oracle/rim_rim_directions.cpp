@@ -115,7 +115,8 @@ void StationaryPair::enclose(const BallVector& y, const BallDifference& differen
   const Ball distance = norm(apart);
   // The tangents' cross product survives rims that touch, the difference parallel tangents.
   BallVector n = apart;
-  if (arb_rel_accuracy_bits(distance.get()) < WorkingPrecision::bits() / 2) {
+  if (distance.contains_zero() ||
+      arb_rel_accuracy_bits(distance.get()) < WorkingPrecision::bits() / 2) {
     const BallVector across = cross(tangent_, cross(axis2_, y));
     if (!norm(across).contains_zero()) n = across;
   }
