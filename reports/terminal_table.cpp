@@ -36,7 +36,7 @@ std::string mean_coverage(const json& row) {
 std::string agreement(const json& row) {
   const double count = row["count"].get<double>() - row["outcomes"].value("unsupported", 0);
   const double agree = row["outcomes"].value("agree", 0);
-  const double percent = 100 * agree / count;
+  const double percent = std::floor(1000 * agree / count + 1e-6) / 10;
   return fmt::format("{:.1f}", agree == count ? 100.0 : std::min(percent, 99.9));
 }
 

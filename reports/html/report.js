@@ -45,7 +45,7 @@ function headline() {
   const best = [...rows].sort((a, b) => agreeing(b) - agreeing(a)).slice(0, 5);
   const parts = best.map(r => `${r.candidate} ${all.length ? '' : `(${r.pair}) `}on ${percent(agreeing(r))}`);
   byId('headline').textContent =
-      `${whole(report.configurations)} configurations, each with a truth certified to 1e-15 of the larger ` +
+      `${whole(report.configurations)} configurations, each with a truth certified to 1e-30 of the larger ` +
       `size. Agreement with the truth within ${report.tolerance} of the smaller size: ${parts.join(', ')}` +
       (rows.length > best.length ? `; ${rows.length - best.length} more below.` : '.');
   byId('provenance').append(`Touchstone ${report.version}, seed ${report.seed}. Same configurations again: `,
