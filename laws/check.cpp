@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "properties/simplify.hpp"
+#include "reports/answer_json.hpp"
 
 namespace touchstone {
 namespace {
@@ -20,6 +21,11 @@ std::vector<Identity> identities(const CheckOptions& options, Pair pair) {
   return result;
 }
 
+nlohmann::json answer_of(CandidateProcess& candidate, const Configuration& c, const Bar& bar) {
+  const Answer answer = candidate.answers({&c, 1}).front();
+  return to_json(answer, score(c, oracle::truth(c), answer, bar));
+}
+
 Failure simplest(const Law& law, const Identity& identity, const Violation& violation,
                  CandidateProcess& candidate, const Bar& bar) {
   constexpr int most_trials = 500;
@@ -34,7 +40,8 @@ Failure simplest(const Law& law, const Identity& identity, const Violation& viol
           to_string(identity),
           c,
           broken(law, c, candidate, bar).value_or(violation),
-          bar};
+          bar,
+          answer_of(candidate, c, bar)};
 }
 
 }  // namespace

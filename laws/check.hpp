@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
 #include "laws/law.hpp"
 #include "properties/identity.hpp"
 
@@ -28,6 +30,7 @@ struct Failure {
   Configuration configuration;
   Violation violation;  ///< Of the simpler one.
   Bar bar;
+  nlohmann::json answer;  ///< Of the candidate to it (docs/solve.md); null where it is not known.
 };
 
 /// One law on one pair.

@@ -19,6 +19,12 @@ std::string counts_text(const LawResult& result) {
   return text;
 }
 
+std::string answer_text(const json& answer) {
+  if (answer.is_null() || answer["status"] != "contact") return answer.value("status", "-");
+  return fmt::format("signed distance {} m, normal {}, {} points", answer["signed_distance"].dump(),
+                     answer["normal"].dump(), answer["points"].size());
+}
+
 std::string failure_text(const Failure& f) {
   const oracle::Enclosure truth = oracle::truth(f.configuration).signed_distance;
   std::string text = fmt::format("{}, {}: {}\n", f.law, f.violation.failure, f.violation.detail);
@@ -27,6 +33,7 @@ std::string failure_text(const Failure& f) {
   text += fmt::format("  {}\n  {}\n", to_json(f.configuration).dump(),
                       to_hex_json(f.configuration).dump());
   text += fmt::format("  truth: signed distance {} m\n", oracle::decimal_below(truth.lo, 17));
+  text += fmt::format("  answer: {}\n", answer_text(f.answer));
   text += fmt::format("  echo '{}' | ./touchstone solve --candidates {} --threshold {}\n",
                       to_hex_json(f.configuration).dump(), f.candidate, f.bar.threshold);
   return text;

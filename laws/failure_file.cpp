@@ -57,7 +57,8 @@ json to_json(const Failure& f) {
           {"threshold", f.bar.threshold},
           {"found", f.identity},
           {"configuration", to_hex_json(f.configuration)},
-          {"decimal", to_json(f.configuration)}};
+          {"decimal", to_json(f.configuration)},
+          {"answer", f.answer}};
 }
 
 Failure failure_from_json(const json& object) {
@@ -79,7 +80,8 @@ Failure failure_from_json(const json& object) {
           text(object, "found"),
           configuration_from_json(object.value("configuration", json())).configuration,
           {failure, 0, text(object, "detail")},
-          {number(object, "tolerance"), number(object, "threshold")}};
+          {number(object, "tolerance"), number(object, "threshold")},
+          object.value("answer", json())};
 }
 
 std::filesystem::path save(const Failure& f, const std::filesystem::path& folder) {

@@ -21,7 +21,8 @@ Failure failure() {
           "cylinder-box/edge-cap/1/0",
           make_configuration({Pair::box, "edge-cap", 1, 0}),
           {"missed", 0.5, "far off"},
-          {1e-4, 0.25}};
+          {1e-4, 0.25},
+          nullptr};
 }
 
 TEST(FailureFile, ComesBackBitForBit) {
