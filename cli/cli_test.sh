@@ -89,6 +89,17 @@ if [ "$("$program" certify - <<<"$line")" != "$("$program" certify cylinder-box/
   failures=$((failures + 1))
 fi
 
+expect 2 -- '--emit.*havok.*must be one of bullet, ode, fcl, libccd, mujoco' \
+  replay cylinder-box/rim-face/1/2 --emit havok
+expect 2 -- '--emit.*libccd.*half-space' replay cylinder-plane/general-deep/1/2 --emit libccd
+expect 2 'identity.class' replay cylinder-box/none/1/2 --emit bullet
+expect 2 'must be a JSON object' replay - --emit bullet
+expect 2 'excludes' replay cylinder-box/rim-face/1/2 --emit bullet --json
+expect 0 '#include <BulletCollision' replay cylinder-box/rim-face/1/2 --emit bullet
+echo '{"configuration":{"a":{"shape":"cylinder","radius":1,"half_length":1},"b":{"shape":"sphere","radius":1}}}' \
+  >"$folder/saved.json"
+expect 0 'btSphereShape shape_b' replay "$folder/saved.json" --emit bullet
+
 # A replayed configuration goes through solve to the same truth.
 truth_of() { sed 's/.*"truth":\({[^}]*}\).*/\1/'; }
 replayed=$("$program" replay cylinder-capsule/general-deep/3/4 --json | truth_of)

@@ -4,8 +4,10 @@
 #include <memory>
 
 #include "cli/commands.hpp"
+#include "cli/given.hpp"
 #include "cli/options.hpp"
 #include "reports/worst.hpp"
+#include "reproducers/reproducer.hpp"
 
 namespace touchstone {
 namespace {
@@ -14,7 +16,7 @@ struct Options {
   explicit Options(CLI::App& command) : candidates(command), bar(command) {}
   CandidateOption candidates;
   BarOption bar;
-  std::string identity;
+  std::string input, engine;
   bool json = false;
 };
 
@@ -24,16 +26,32 @@ void add_replay(CLI::App& program, int&) {
   CLI::App* command =
       program.add_subcommand("replay", "Show one configuration again: truth and answers");
   const auto options = std::make_shared<Options>(*command);
-  command->add_option("identity", options->identity, "pair/class/seed/index, as a report prints it")
+  command
+      ->add_option("identity", options->input,
+                   "pair/class/seed/index, as a report prints it; with --emit also a file with a "
+                   "line as for solve or with a saved failure, or - for standard input")
       ->required();
-  command->add_flag("--json", options->json, "Print one JSON object");
+  CLI::Option* json = command->add_flag("--json", options->json, "Print one JSON object");
+  CLI::Option* emit =
+      command->add_option("--emit", options->engine,
+                          fmt::format("Write a C++ program that asks this engine alone: {}",
+                                      fmt::join(reproducer_engines(), ", ")));
+  emit->excludes(json);
   command->footer(
       "Examples:\n"
       "  touchstone replay cylinder-box/near-parallel-1e-6/42/137\n"
-      "  touchstone replay cylinder-cylinder/rim-rim/1/0 --candidates bullet --json");
-  command->callback([options] {
-    const Identity identity = parse_identity(options->identity);
+      "  touchstone replay cylinder-cylinder/rim-rim/1/0 --candidates bullet --json\n"
+      "  touchstone replay cylinder-box/rim-face/1/0 --emit bullet > reproducer.cpp\n"
+      "  touchstone replay failures/ode-cylinder-box-agreement-missed.json --emit ode");
+  command->callback([options, emit] {
     const Bar bar = options->bar.get();
+    if (emit->count() > 0) {
+      const Given given = given_configuration(options->input);
+      fmt::print("{}", reproducer(options->engine, given.configuration, given.name, bar,
+                                  options->candidates.limits()));
+      return;
+    }
+    const Identity identity = parse_identity(options->input);
     auto candidates = start(options->candidates.get(), bar.threshold, options->candidates.limits());
     if (options->json) {
       fmt::print("{}\n", examined(identity, pointers(candidates), bar, 1e-30).dump());

@@ -1,0 +1,48 @@
+#include "cli/given.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+
+#include "properties/identity.hpp"
+#include "reference/invalid_input.hpp"
+#include "reports/configuration_json.hpp"
+
+namespace touchstone {
+namespace {
+
+using nlohmann::json;
+
+/// All of the text, or its first line that is not blank.
+json first_object(const std::string& text) {
+  json whole = json::parse(text, nullptr, false);
+  if (whole.is_object()) return whole;
+  const auto start = std::min(text.find_first_not_of(" \t\r\n"), text.size());
+  const std::string line = text.substr(start, text.find('\n', start) - start);
+  json object = json::parse(line, nullptr, false);
+  if (object.is_object()) return object;
+  throw InvalidInput("line", '"' + line.substr(0, 60) + '"', "must be a JSON object");
+}
+
+Configuration read_configuration(std::istream& in) {
+  const json object = first_object({std::istreambuf_iterator<char>(in), {}});
+  const bool wrapped = object.contains("configuration");
+  return configuration_from_json(wrapped ? object["configuration"] : object).configuration;
+}
+
+}  // namespace
+
+Given given_configuration(const std::string& input) {
+  if (input == "-") return {read_configuration(std::cin), "standard input"};
+  const std::filesystem::path path(input);
+  if (!std::filesystem::is_regular_file(path)) {
+    return {make_configuration(parse_identity(input)), input};
+  }
+  std::ifstream file(path);
+  if (!file) throw InvalidInput("input", '"' + input + '"', "could not be opened for reading");
+  return {read_configuration(file), path.filename()};
+}
+
+}  // namespace touchstone

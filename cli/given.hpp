@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+
+#include "reference/configuration.hpp"
+
+namespace touchstone {
+
+/// A configuration that a person names on the command line.
+struct Given {
+  Configuration configuration;
+  std::string name;  ///< its identity, or the file's name
+};
+
+/// What the option's help says of it.
+inline constexpr const char* given_help =
+    "pair/class/seed/index, a file with a line as for solve or with a saved failure, or - for "
+    "standard input";
+
+/// Reads an identity, or where there is such a file, the file; "-" is standard input. A file holds
+/// one JSON object, or JSON Lines, of which the first that is not blank counts: a configuration as
+/// for `solve`, or an object with one as its member "configuration", as saved failures,
+/// certificates and a report's worst cases have. Throws InvalidInput.
+Given given_configuration(const std::string& input);
+
+}  // namespace touchstone
