@@ -145,7 +145,9 @@ std::string reproducer(std::string_view name, const Configuration& c, const std:
                        const Bar& bar, const Limits& limits) {
   const Engine& engine = find_engine(name, pair_of(c) == Pair::plane);
   const oracle::Truth truth = oracle::truth(c);
-  const auto bounds = to_json(c, truth)["signed_distance"];
+  const nlohmann::json shown = to_json(c, truth);
+  const nlohmann::json& bounds = shown["signed_distance"];
+  const auto middle = shown["patch"][0]["centroid"].get<std::array<double, 3>>();
   const Vec3 n = truth.normals.front().n;
   Texts texts = question(c);
   texts.insert({{"engine", engine.title},
@@ -154,6 +156,7 @@ std::string reproducer(std::string_view name, const Configuration& c, const std:
                 {"truth_high", bounds[1].get<std::string>()},
                 {"true_distance", hex(truth.signed_distance.midpoint())},
                 {"true_normal", hex(std::span(n.data(), 3))},
+                {"middle", hex(middle)},
                 {"tolerance", fmt::format("{}", bar.tolerance)},
                 {"allowed", hex(bar.tolerance * smaller_size(c))},
                 {"threshold", hex(bar.threshold)},

@@ -38,12 +38,14 @@ while [ $# -gt 0 ]; do
   if grep -q ', signed distance ' <<<"$seen" && ! grep -qF "signed distance $answer," <<<"$printed"; then
     fail "the candidate answers $answer: $printed"
   fi
-  # The sum of the two supports, in plain double arithmetic, is the certified distance.
+  # Both bounds of the proof, in plain double arithmetic, agree with the certified distance.
   python3 - "$printed" <<'END' || fail "the proof does not prove the distance: $printed"
 import re, sys
 number = lambda pattern: float(re.search(pattern, sys.argv[1]).group(1))
 truth = number(r"signed distance (\S+) = ")
 assert abs(number(r"Their difference is +(\S+)") - truth) < 1e-12 * max(1, abs(truth))
+if "no less than" in sys.argv[1]:
+    assert 0 <= number(r"no less than (\S+)\.\n") <= -truth + 1e-12
 END
 done
 exit "$failures"
