@@ -27,7 +27,7 @@ expect 2 'subcommand is required'
 expect 2 'report, replay, solve, certify, check, candidates' nonsense
 expect 2 'identity.pair' replay cylinder-cone/rim/1/2
 expect 2 'identity.class' replay cylinder-box/none/1/2
-expect 2 'identity is required' replay
+expect 2 'input is required' replay
 expect 2 'must be one of reference, bullet, ' replay cylinder-box/rim-face/1/2 --candidates havok
 expect 2 'prism:1.* must be' replay cylinder-box/rim-face/1/2 --candidates prism:1
 expect 0 'prism:32: ' replay cylinder-box/rim-face/1/2 --candidates prism:8,16,32
@@ -53,6 +53,7 @@ expect 0 'agreement .* passed' check --candidate reference --pair cylinder-spher
 expect 1 'broken by' check --candidate bullet --pair cylinder-box --class edge-cap --count 1 \
   --law agreement --save "$folder/corpus" --junit "$folder/junit.xml" --json "$folder/check.json"
 expect 0 'as expected' check --corpus "$folder/corpus"
+expect 0 'bullet: .*missed\|bullet: contact, shallow' replay "$(ls "$folder"/corpus/*.json | head -n 1)" --candidates bullet
 sed -i 's/"missed"/"overdeep"/; s/"shallow"/"overdeep"/' "$folder"/corpus/*.json
 expect 1 'changed' check --corpus "$folder/corpus"
 echo '{' > "$folder/corpus/broken.json"

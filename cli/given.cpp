@@ -34,15 +34,12 @@ Configuration read_configuration(std::istream& in) {
 
 }  // namespace
 
-Given given_configuration(const std::string& input) {
-  if (input == "-") return {read_configuration(std::cin), "standard input"};
-  const std::filesystem::path path(input);
-  if (!std::filesystem::is_regular_file(path)) {
-    return {make_configuration(parse_identity(input)), input};
-  }
-  std::ifstream file(path);
+Subject given_configuration(const std::string& input) {
+  if (input == "-") return {"standard input", "", read_configuration(std::cin)};
+  if (!std::filesystem::is_regular_file(input)) return subject(parse_identity(input));
+  std::ifstream file(input);
   if (!file) throw InvalidInput("input", '"' + input + '"', "could not be opened for reading");
-  return {read_configuration(file), path.filename()};
+  return {input, "", read_configuration(file)};
 }
 
 }  // namespace touchstone

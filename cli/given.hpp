@@ -2,15 +2,9 @@
 
 #include <string>
 
-#include "reference/configuration.hpp"
+#include "reports/worst.hpp"
 
 namespace touchstone {
-
-/// A configuration that a person names on the command line.
-struct Given {
-  Configuration configuration;
-  std::string name;  ///< its identity, or the file's name
-};
 
 /// What the option's help says of it.
 inline constexpr const char* given_help =
@@ -21,6 +15,6 @@ inline constexpr const char* given_help =
 /// one JSON object, or JSON Lines, of which the first that is not blank counts: a configuration as
 /// for `solve`, or an object with one as its member "configuration", as saved failures,
 /// certificates and a report's worst cases have. Throws InvalidInput.
-Given given_configuration(const std::string& input);
+Subject given_configuration(const std::string& input);
 
 }  // namespace touchstone

@@ -37,7 +37,7 @@ int main(int argc, char** argv) {
   program.footer(
       "Examples:\n"
       "  touchstone report                                   the report: out/report.html\n"
-      "  touchstone replay cylinder-box/rim-face/1/17        one configuration again\n"
+      "  touchstone replay cylinder-box/rim-face/1/0         one configuration again\n"
       "  touchstone solve poses.jsonl                        your own configurations\n"
       "  touchstone certify cylinder-box/rim-face/1/17       a proof that others can check\n"
       "  touchstone check --candidate bullet                 laws, and the smallest failures\n"

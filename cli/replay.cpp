@@ -26,11 +26,7 @@ void add_replay(CLI::App& program, int&) {
   CLI::App* command =
       program.add_subcommand("replay", "Show one configuration again: truth and answers");
   const auto options = std::make_shared<Options>(*command);
-  command
-      ->add_option("identity", options->input,
-                   "pair/class/seed/index, as a report prints it; with --emit also a file with a "
-                   "line as for solve or with a saved failure, or - for standard input")
-      ->required();
+  command->add_option("input", options->input, given_help)->required();
   CLI::Option* json = command->add_flag("--json", options->json, "Print one JSON object");
   CLI::Option* emit =
       command->add_option("--emit", options->engine,
@@ -45,18 +41,17 @@ void add_replay(CLI::App& program, int&) {
       "  touchstone replay failures/ode-cylinder-box-agreement-missed.json --emit ode");
   command->callback([options, emit] {
     const Bar bar = options->bar.get();
+    const Subject given = given_configuration(options->input);
     if (emit->count() > 0) {
-      const Given given = given_configuration(options->input);
       fmt::print("{}", reproducer(options->engine, given.configuration, given.name, bar,
                                   options->candidates.limits()));
       return;
     }
-    const Identity identity = parse_identity(options->input);
     auto candidates = start(options->candidates.get(), bar.threshold, options->candidates.limits());
     if (options->json) {
-      fmt::print("{}\n", examined(identity, pointers(candidates), bar, 1e-30).dump());
+      fmt::print("{}\n", examined(given, pointers(candidates), bar, 1e-30).dump());
     } else {
-      fmt::print("{}", replay_text(identity, candidates, bar));
+      fmt::print("{}", replay_text(given, candidates, bar));
     }
   });
 }

@@ -34,7 +34,7 @@ std::string failure_text(const Failure& f) {
                       to_hex_json(f.configuration).dump());
   text += fmt::format("  truth: signed distance {} m\n", oracle::decimal_below(truth.lo, 17));
   text += fmt::format("  answer: {}\n", answer_text(f.answer));
-  text += fmt::format("  echo '{}' | ./touchstone solve --candidates {} --threshold {}\n",
+  text += fmt::format("  echo '{}' | ./touchstone replay - --candidates {} --threshold {}\n",
                       to_hex_json(f.configuration).dump(), f.candidate, f.bar.threshold);
   return text;
 }

@@ -53,16 +53,17 @@ std::string answer_text(const std::string& name, const json& a) {
 
 }  // namespace
 
-std::string replay_text(const Identity& identity, std::vector<CandidateProcess>& candidates,
+std::string replay_text(const Subject& subject, std::vector<CandidateProcess>& candidates,
                         const Bar& bar) {
-  const json e = examined(identity, pointers(candidates), bar, 1e-30);
+  const json e = examined(subject, pointers(candidates), bar, 1e-30);
   json line = e["configuration"];
-  line["id"] = to_string(identity);
-  std::string text = fmt::format("{}\n{}\n\n", to_string(identity),
-                                 describe_pose_class(identity.pair, identity.pose_class));
+  line["id"] = subject.name;
+  std::string text = subject.name + '\n';
+  if (!subject.description.empty()) text += subject.description + '\n';
+  text += '\n';
   text +=
       fmt::format("configuration (a line for touchstone solve, then in hexadecimal):\n{}\n{}\n\n",
-                  line.dump(), to_hex_json(make_configuration(identity)).dump());
+                  line.dump(), to_hex_json(subject.configuration).dump());
   const json& truth = e["truth"];
   text += fmt::format("truth: signed distance between\n  {}\n  {}\n",
                       truth["signed_distance"][0].get<std::string>(),

@@ -111,7 +111,7 @@ TEST(Report, IsCompleteWhateverACandidateDoes) {
     if (w["candidate"] != "sabotage") continue;
     ++shown[w["outcome"]];
     const json again =
-        examined(parse_identity(w["id"].get<std::string>()), pointers(processes), Bar());
+        examined(subject(parse_identity(w["id"].get<std::string>())), pointers(processes), Bar());
     EXPECT_EQ(again["answers"]["sabotage"], w["answers"]["sabotage"]);
     EXPECT_THAT(w["replay"].get<std::string>(), HasSubstr("--candidate"));
   }
@@ -146,7 +146,7 @@ TEST(Report, EveryWorstCaseReplaysToTheSameAnswers) {
   auto candidates = start(some(), 0);
   for (const json& w : report["worst"]) {
     const Identity id = parse_identity(w["id"].get<std::string>());
-    const json again = examined(id, pointers(candidates), Bar());
+    const json again = examined(subject(id), pointers(candidates), Bar());
     EXPECT_TRUE(w["answers"].contains(w["candidate"]));
     for (const auto& [name, answer] : w["answers"].items()) {
       EXPECT_EQ(again["answers"][name], answer) << name;
@@ -192,8 +192,8 @@ TEST(Report, RefusesAFolderThatIsAFile) {
 TEST(Replay, IsTheSameOnEveryCall) {
   const Identity id{Pair::cylinder, "rim-rim", 1, 2};
   auto candidates = start(some(), 0), again = start(some(), 0);
-  const std::string text = replay_text(id, candidates, Bar());
-  EXPECT_EQ(replay_text(id, again, Bar()), text);
+  const std::string text = replay_text(subject(id), candidates, Bar());
+  EXPECT_EQ(replay_text(subject(id), again, Bar()), text);
   EXPECT_THAT(text, HasSubstr("cylinder-cylinder/rim-rim/1/2"));
   EXPECT_THAT(text, HasSubstr("0x1."));
 }

@@ -82,13 +82,18 @@ std::string program_name() {
   return name;
 }
 
-std::string replay_command(const Identity& identity) {
-  return program_name() + " replay " + to_string(identity);
+std::string replay_command(const std::string& name) {
+  return program_name() + " replay " + quoted(name);
 }
 
-json examined(const Identity& identity, const std::vector<CandidateProcess*>& candidates,
+Subject subject(const Identity& identity) {
+  return {to_string(identity), std::string(describe_pose_class(identity.pair, identity.pose_class)),
+          make_configuration(identity)};
+}
+
+json examined(const Subject& subject, const std::vector<CandidateProcess*>& candidates,
               const Bar& bar, double width) {
-  const Configuration c = make_configuration(identity);
+  const Configuration& c = subject.configuration;
   const oracle::Truth truth = oracle::truth(c, width);
   json answers = json::object();
   for (CandidateProcess* const process : candidates) {
@@ -96,11 +101,11 @@ json examined(const Identity& identity, const std::vector<CandidateProcess*>& ca
     json& entry = answers[process->candidate().name] = to_json(a, score(c, truth, a, bar));
     if (!a.reason.empty()) entry["reason"] = a.reason;
   }
-  return {{"id", to_string(identity)},
+  return {{"id", subject.name},
           {"configuration", to_json(c)},
           {"truth", to_json(c, truth)},
           {"answers", answers},
-          {"replay", replay_command(identity)}};
+          {"replay", replay_command(subject.name)}};
 }
 
 json worst_cases(const Campaign& campaign, const std::vector<CellScores>& scores) {
@@ -113,7 +118,7 @@ json worst_cases(const Campaign& campaign, const std::vector<CellScores>& scores
         const Identity id{pair, all[w.cell].pose_class, campaign.seed, w.index};
         std::vector<CandidateProcess*> shown = {&processes[k]};
         if (k > 0) shown.push_back(&processes[0]);
-        json entry = examined(id, shown, campaign.bar);
+        json entry = examined(subject(id), shown, campaign.bar);
         entry["pair"] = pair_name(pair);
         entry["class"] = id.pose_class;
         entry["candidate"] = campaign.candidates[k]->name;

@@ -11,14 +11,22 @@ namespace touchstone {
 /// first, then failures before mere errors, by severity, at most two of one class.
 nlohmann::json worst_cases(const Campaign& campaign, const std::vector<CellScores>& scores);
 
+/// A configuration to be shown, and what to call it.
+struct Subject {
+  std::string name;         ///< An identity, or a file.
+  std::string description;  ///< Of its pose class; empty without one.
+  Configuration configuration;
+};
+Subject subject(const Identity& identity);
+
 /// One configuration with its truth and the candidates' answers, as in worst_cases and `replay`.
-nlohmann::json examined(const Identity& identity, const std::vector<CandidateProcess*>& candidates,
+nlohmann::json examined(const Subject& subject, const std::vector<CandidateProcess*>& candidates,
                         const Bar& bar, double width = 1e-15);
 
 /// "./touchstone", with the plug-ins that were added to it.
 std::string program_name();
 
 /// "./touchstone replay cylinder-box/rim-face/1/17".
-std::string replay_command(const Identity& identity);
+std::string replay_command(const std::string& name);
 
 }  // namespace touchstone
