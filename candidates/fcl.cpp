@@ -1,12 +1,10 @@
 // FCL 0.7.0 in double precision, on libccd 2.1.
 //
-// Calls        fcl          fcl::collide as its request is made by default (GST_LIBCCD: libccd's
-// MPR
-//                           where FCL has no routine of its own), asked for 16 contacts.
+// Calls        fcl          fcl::collide as its request is made by default (GST_LIBCCD: the MPR of
+//                           libccd where FCL has no routine of its own), asked for 16 contacts.
 //              fcl-indep    the same with GST_INDEP, FCL's own GJK and EPA.
-//              fcl-distance fcl::distance with enable_signed_distance (GST_LIBCCD: FCL's GJK and
-//              EPA
-//                           over libccd), tolerances as they are by default.
+//              fcl-distance fcl::distance with enable_signed_distance (GST_LIBCCD: FCL's GJK
+//                           and EPA over libccd), tolerances as they are by default.
 // Routes       Half-space and sphere are FCL's own closed forms in collide.
 // Shapes       Cylinder and Capsule by full length, the capsule's without its caps; Box by full
 //              lengths; a plane is a Halfspace, solid where n·x <= d.

@@ -3,10 +3,9 @@
 // Calls        The collision function that mj_collision takes from mjCOLLISIONFUNC for the two geom
 //              types. One model per pair of types is made from XML; sizes and poses are then set in
 //              mjModel and mjData, as users do.
-// Routes       The plane is MuJoCo's own closed form; all others, the sphere too in this version,
-// go
-//              through libccd's MPR (mpr_tolerance 1e-6, mpr_iterations 50, both default). Several
-//              contacts by mjENBL_MULTICCD are off, as by default.
+// Routes       The plane is MuJoCo's own closed form; all others, in this version the sphere too,
+//              go through libccd's MPR (mpr_tolerance 1e-6, mpr_iterations 50, both default).
+//              Several contacts by mjENBL_MULTICCD are off, as by default.
 // Shapes       Half lengths, a capsule's without its caps. A plane is solid below its frame's
 //              xy-plane; ours is given such a frame.
 // Conventions  The lower geom type comes first; the normal points from it to the other one, and is

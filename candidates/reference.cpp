@@ -3,8 +3,7 @@
 // Calls        touchstone::contact, one overload for each pair.
 // Conventions  those of candidate.h: normal from B to A, points halfway between the surfaces.
 // Threshold    handed on; a distance beyond it is answered with none, and then signed_distance is
-// the
-//              clearance along the first direction that proves it.
+//              the clearance along the first direction that proves it.
 #include <optional>
 #include <utility>
 
