@@ -89,7 +89,7 @@ std::filesystem::path save(const Failure& f, const std::filesystem::path& folder
   std::string name = fmt::format("{}-{}-{}-{}.json", f.candidate,
                                  pair_name(pair_of(f.configuration)), f.law, f.violation.failure);
   std::replace(name.begin(), name.end(), ':', '-');
-  const auto path = folder / name;
+  auto path = folder / name;
   std::ofstream out(path);
   out << to_json(f).dump(2) << '\n';
   if (!out.flush()) {
@@ -123,6 +123,7 @@ std::vector<Failure> read_corpus(const std::filesystem::path& folder) {
 
 std::vector<Replayed> replay(const std::vector<Failure>& corpus, const Limits& limits) {
   std::vector<Replayed> result;
+  result.reserve(corpus.size());
   for (const Failure& failure : corpus) result.push_back(replayed(failure, limits));
   return result;
 }

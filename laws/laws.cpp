@@ -2,7 +2,6 @@
 // otherwise.
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <fmt/format.h>
 
 #include "laws/law.hpp"
@@ -264,15 +263,18 @@ Questions ask_again(const Configuration& c, const Bar&) {
   return {with_a_moved(c, smaller_size(c) * Vec3(0.01, 0.02, -0.01)), spun(flipped(c), 0.4),
           translated(c, larger_size(c) * Vec3(-30, 20, 10)), c};
 }
+bool are_equal(const ts_point& p, const ts_point& q) {
+  return vector(p.position) == vector(q.position) && vector(p.normal) == vector(q.normal) &&
+         p.depth == q.depth;
+}
+
 std::optional<Violation> judge_again(const Configuration&, Answers answers, const Bar&) {
   const Answer &first = answers.front(), &last = answers.back();
   bool same = first.status == last.status;
   if (same && first.status == TS_CONTACT) {
     same = first.point_count == last.point_count && first.signed_distance == last.signed_distance &&
-           vector(first.normal) == vector(last.normal);
-    for (int i = 0; same && i < first.point_count; ++i) {
-      same = std::memcmp(&first.points[i], &last.points[i], sizeof first.points[i]) == 0;
-    }
+           vector(first.normal) == vector(last.normal) &&
+           std::equal(first.points, first.points + first.point_count, last.points, are_equal);
   }
   if (same) return std::nullopt;
   return Violation{"not-invariant", 1, "the same question has another answer after other ones"};

@@ -216,7 +216,7 @@ std::vector<CriticalSite> Search::run() {
         // One rational direction for the whole circle.
         const CriticalSite site{Kind::radial, curve, 0, signs};
         const bool known = std::any_of(sites.begin(), sites.end(), [&](const auto& s) {
-          return s.kind == site.kind && s.first == curve && s.signs == signs;
+          return s.kind == site.kind && s.first == site.first && s.signs == site.signs;
         });
         if (!known) sites.push_back(site);
       }

@@ -38,8 +38,8 @@ class DyadicScale {
   }
   Integer operator()(double value) const {
     const Dyadic dyadic(value);
-    return Integer(static_cast<long>(dyadic.mantissa))
-           << static_cast<mp_bitcnt_t>(dyadic.exponent + bits_);
+    const int shift = dyadic.exponent + bits_;
+    return Integer(static_cast<long>(dyadic.mantissa)) << static_cast<mp_bitcnt_t>(shift);
   }
   IntegerVector operator()(const Vec3& v) const {
     return {(*this)(v.x()), (*this)(v.y()), (*this)(v.z())};
