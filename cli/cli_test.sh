@@ -36,6 +36,9 @@ expect 2 '--time-limit' solve --time-limit 0
 expect 2 -- '--tolerance' replay cylinder-box/rim-face/1/2 --tolerance=-1
 expect 0 'reference: contact, agree' replay cylinder-box/rim-face/1/2
 expect 0 '"id":"cylinder-box/rim-face/1/2"' replay cylinder-box/rim-face/1/2 --json
+expect 0 'reference: contact' replay cylinder-box/rim-face/1/2 --html "$folder/page.html"
+grep -q 'cylinder-box/rim-face/1/2' "$folder/page.html" || { echo "FAILED: no page"; failures=$((failures + 1)); }
+expect 2 -- '--html' replay cylinder-box/rim-face/1/2 --html "$folder/none/page.html"
 expect 2 'could not be opened' solve "$folder/none.jsonl"
 expect 2 -- '--width' solve --width 0
 expect 2 -- '--count' report --count 0

@@ -6,6 +6,8 @@
 #include "cli/commands.hpp"
 #include "cli/given.hpp"
 #include "cli/options.hpp"
+#include "reports/configuration_json.hpp"
+#include "reports/replay_page/replay_page.hpp"
 #include "reports/worst.hpp"
 #include "reproducers/reproducer.hpp"
 
@@ -18,6 +20,7 @@ struct Options {
   BarOption bar;
   std::string input, engine;
   bool json = false;
+  std::string html;
 };
 
 }  // namespace
@@ -32,12 +35,16 @@ void add_replay(CLI::App& program, int&) {
       command->add_option("--emit", options->engine,
                           fmt::format("Write a C++ program that asks this engine alone: {}",
                                       fmt::join(reproducer_engines(), ", ")));
+  CLI::Option* html = command->add_option(
+      "--html", options->html, "Write a page too: both bodies in 3-D, a slice, and all numbers");
   emit->excludes(json);
+  emit->excludes(html);
   command->footer(
       "Examples:\n"
       "  touchstone replay cylinder-box/near-parallel-1e-6/42/137\n"
       "  touchstone replay cylinder-cylinder/rim-rim/1/0 --candidates bullet --json\n"
       "  touchstone replay cylinder-box/rim-face/1/0 --emit bullet > reproducer.cpp\n"
+      "  touchstone replay cylinder-box/rim-face/1/0 --html page.html\n"
       "  touchstone replay failures/ode-cylinder-box-agreement-missed.json --emit ode");
   command->callback([options, emit] {
     const Bar bar = options->bar.get();
@@ -48,6 +55,12 @@ void add_replay(CLI::App& program, int&) {
       return;
     }
     auto candidates = start(options->candidates.get(), bar.threshold, options->candidates.limits());
+    if (!options->html.empty()) {
+      const Configuration& c = given.configuration;
+      write_replay_page(replay_page(examined(given, pointers(candidates), bar, 1e-30),
+                                    to_hex_json(c), to_exact_json(c), given.description),
+                        options->html);
+    }
     if (options->json) {
       fmt::print("{}\n", examined(given, pointers(candidates), bar, 1e-30).dump());
     } else {

@@ -1,10 +1,13 @@
-# cmake -DOUT=… -DFOLDER=… -P embed.cmake: the page's sources as string constants. Raw strings hold up to
-# 16000 characters each; adjacent ones are one.
+# cmake -DOUT=… -DFILES=a.html,b.js -P embed.cmake: a page's sources as string constants a_html, b_js.
+# Raw strings hold up to 16000 characters each; adjacent ones are one.
+string(REPLACE "," ";" FILES "${FILES}")
 set(text "#include <string_view>\n\nnamespace touchstone {\n\n")
-foreach(kind html css js)
-  file(READ ${FOLDER}/report.${kind} content)
+foreach(file IN LISTS FILES)
+  get_filename_component(name ${file} NAME)
+  string(REPLACE "." "_" name ${name})
+  file(READ ${file} content)
   string(LENGTH "${content}" length)
-  string(APPEND text "extern const std::string_view report_${kind};\nconst std::string_view report_${kind} =\n")
+  string(APPEND text "extern const std::string_view ${name};\nconst std::string_view ${name} =\n")
   set(at 0)
   while(at LESS length)
     string(SUBSTRING "${content}" ${at} 16000 piece)

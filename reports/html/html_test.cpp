@@ -42,7 +42,9 @@ TEST(Html, LoadsNothingFromElsewhere) {
 }
 
 TEST(Html, HasNoPlaceholderLeft) {
-  EXPECT_THAT(render_html(json::object()), Not(HasSubstr("/* report.")));
+  for (const char* placeholder : {"/* report.", "/* elements."}) {
+    EXPECT_THAT(render_html(json::object()), Not(HasSubstr(placeholder)));
+  }
 }
 
 }  // namespace

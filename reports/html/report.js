@@ -1,33 +1,12 @@
-'use strict';
 const report = JSON.parse(document.getElementById('data').textContent);
 const candidates = report.candidates.map(c => c.name);
 const pairs = [...new Set(report.results.map(r => r.pair))];
-const byId = id => document.getElementById(id);
-
-// Small builders; text always goes in as text.
-function element(name, attributes = {}, ...children) {
-  const e = document.createElement(name);
-  for (const [key, value] of Object.entries(attributes)) e.setAttribute(key, value);
-  e.append(...children.filter(c => c !== null && c !== undefined));
-  return e;
-}
-function shape(name, attributes = {}, text) {
-  const e = document.createElementNS('http://www.w3.org/2000/svg', name);
-  for (const [key, value] of Object.entries(attributes)) e.setAttribute(key, value);
-  if (text !== undefined) e.textContent = text;
-  return e;
-}
 const colour = name => `var(--c${candidates.indexOf(name) % 8})`;
 function swatch(name) {
   return element('span', {class: 'swatch', style: `background:${colour(name)}`, 'aria-hidden': 'true'});
 }
 
-// Numbers as a person reads them. null: not measured.
-function exponent(x) {
-  if (x === null) return '–';
-  if (x === 0) return '0';
-  return Math.abs(x) >= 0.1 && Math.abs(x) < 1000 ? x.toPrecision(2) : x.toExponential(1).replace('+', '');
-}
+// null: not measured.
 const whole = x => x === null ? '–' : Math.round(x).toLocaleString('en');
 const quantile = (q, which) => q === null ? null : q[which];
 const time = r => r.nanoseconds === null ? null : r.nanoseconds.median;
@@ -36,8 +15,6 @@ const supported = r => r.count - (r.outcomes.unsupported || 0);
 const agreeing = r => (r.outcomes.agree || 0) / supported(r);
 // Cut downwards: only a candidate without a failure shows 100%.
 const percent = share => share === 1 ? '100%' : (Math.floor(share * 1000 + 1e-6) / 10).toFixed(1) + '%';
-
-const cutShare = share => share === null ? '–' : (Math.floor(share * 100 + 1e-6) / 100).toFixed(2);
 
 function headline() {
   const all = report.summary.filter(r => r.pair === 'all');
@@ -107,15 +84,6 @@ function modelTable() {
 
 // Speed and accuracy: small multiples on common axes.
 const floor = 1e-17;
-const symbols = ['circle', 'square', 'triangle', 'diamond'];
-function symbolPath(kind, x, y, s) {
-  switch (kind) {
-    case 'square': return `M${x - s},${y - s}h${2 * s}v${2 * s}h${-2 * s}z`;
-    case 'triangle': return `M${x},${y - 1.2 * s}l${1.2 * s},${2.1 * s}h${-2.4 * s}z`;
-    case 'diamond': return `M${x},${y - 1.4 * s}l${1.4 * s},${1.4 * s}l${-1.4 * s},${1.4 * s}l${-1.4 * s},${-1.4 * s}z`;
-    default: return `M${x - s},${y}a${s},${s} 0 1,0 ${2 * s},0a${s},${s} 0 1,0 ${-2 * s},0`;
-  }
-}
 const symbolOf = name => symbols[Math.floor(candidates.indexOf(name) / 8) % symbols.length];
 function chart() {
   const rows = report.summary.filter(r => time(r) !== null && r.depth_error !== null);
@@ -326,9 +294,6 @@ function showWorst(pair, candidate) {
   byId('worst').scrollIntoView();
 }
 
-function definitions(id, entries) {
-  byId(id).append(...entries.flatMap(([term, text]) => [element('dt', {}, term), element('dd', {}, text)]));
-}
 function method() {
   definitions('settings', report.candidates.map(c =>
       [`${c.name} ${c.version}`, c.settings + (c.models ? `; models ${c.models}` : '')]));
