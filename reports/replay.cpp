@@ -61,9 +61,11 @@ std::string replay_text(const Subject& subject, std::vector<CandidateProcess>& c
   std::string text = subject.name + '\n';
   if (!subject.description.empty()) text += subject.description + '\n';
   text += '\n';
-  text +=
-      fmt::format("configuration (a line for touchstone solve, then in hexadecimal):\n{}\n{}\n\n",
-                  line.dump(), to_hex_json(subject.configuration).dump());
+  text += fmt::format(
+      "configuration (a line for touchstone solve, as exact fractions, in hexadecimal):\n"
+      "{}\n{}\n{}\n\n",
+      line.dump(), to_exact_json(subject.configuration).dump(),
+      to_hex_json(subject.configuration).dump());
   const json& truth = e["truth"];
   text += fmt::format("truth: signed distance between\n  {}\n  {}\n",
                       truth["signed_distance"][0].get<std::string>(),
