@@ -55,17 +55,13 @@ void add_replay(CLI::App& program, int&) {
       return;
     }
     auto candidates = start(options->candidates.get(), bar.threshold, options->candidates.limits());
+    const nlohmann::json e = examined(given, pointers(candidates), bar, 1e-30);
     if (!options->html.empty()) {
       const Configuration& c = given.configuration;
-      write_replay_page(replay_page(examined(given, pointers(candidates), bar, 1e-30),
-                                    to_hex_json(c), to_exact_json(c), given.description),
+      write_replay_page(replay_page(e, to_hex_json(c), to_exact_json(c), given.description),
                         options->html);
     }
-    if (options->json) {
-      fmt::print("{}\n", examined(given, pointers(candidates), bar, 1e-30).dump());
-    } else {
-      fmt::print("{}", replay_text(given, candidates, bar));
-    }
+    fmt::print("{}", options->json ? e.dump() + '\n' : replay_text(given, e, candidates));
   });
 }
 

@@ -74,11 +74,6 @@ mpq_class Ball::upper() const {
 
 double Ball::midpoint() const { return arf_get_d(arb_midref(value_), ARF_RND_NEAR); }
 
-bool Ball::is_narrower_than_two_to(long exponent) const {
-  // Width is twice the radius.
-  return mag_cmp_2exp_si(arb_radref(value_), exponent - 1) <= 0;
-}
-
 BallVector to_balls(const Vector3<mpz_class>& v) { return {Ball(v.x), Ball(v.y), Ball(v.z)}; }
 
 }  // namespace touchstone::oracle

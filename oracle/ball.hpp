@@ -44,8 +44,6 @@ class Ball {
   bool contains_zero() const { return arb_contains_zero(value_); }
   bool is_positive() const { return arb_is_positive(value_); }
   bool is_negative() const { return arb_is_negative(value_); }
-  /// Is the width at most 2^exponent?
-  bool is_narrower_than_two_to(long exponent) const;
 
  private:
   arb_t value_;

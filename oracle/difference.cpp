@@ -8,6 +8,7 @@
 #include <limits>
 #include <string>
 
+#include "oracle/exact_rotation.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone::oracle {
@@ -50,30 +51,12 @@ class DyadicScale {
   int bits_ = 0;
 };
 
-/// An exact rotation times `norm`.
-struct IntegerRotation {
-  std::array<IntegerVector, 3> columns;
-  Integer norm;
+using IntegerRotation = ExactRotation<Integer>;
 
-  IntegerVector apply(const IntegerVector& v) const {
-    return v.x * columns[0] + v.y * columns[1] + v.z * columns[2];
-  }
-  IntegerVector apply_inverse(const IntegerVector& v) const {
-    return {dot(columns[0], v), dot(columns[1], v), dot(columns[2], v)};
-  }
-};
-
-// Euler–Rodrigues, without the division by |q|².
 IntegerRotation exact_rotation(const Eigen::Quaterniond& q) {
   DyadicScale scale;
   for (const double c : {q.w(), q.x(), q.y(), q.z()}) scale.include(c);
-  const Integer w = scale(q.w()), x = scale(q.x()), y = scale(q.y()), z = scale(q.z());
-  const Integer ww = w * w, xx = x * x, yy = y * y, zz = z * z;
-  const Integer wx = w * x, wy = w * y, wz = w * z, xy = x * y, xz = x * z, yz = y * z;
-  return {{IntegerVector{ww + xx - yy - zz, 2 * (xy + wz), 2 * (xz - wy)},
-           IntegerVector{2 * (xy - wz), ww - xx + yy - zz, 2 * (yz + wx)},
-           IntegerVector{2 * (xz + wy), 2 * (yz - wx), ww - xx - yy + zz}},
-          ww + xx + yy + zz};
+  return {scale(q.w()), scale(q.x()), scale(q.y()), scale(q.z())};
 }
 
 Frame scaled(const Integer& factor, const Frame& frame) {

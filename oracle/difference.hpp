@@ -82,8 +82,6 @@ class BallDifference {
   /// g(n/|n|) in units; not finite if n may be zero.
   Ball gap(const BallVector& n) const;
 
-  const Ball& inflation() const { return inflation_; }
-
  private:
   struct Part {
     BallVector axis;  // unit

@@ -53,10 +53,9 @@ std::string answer_text(const std::string& name, const json& a) {
 
 }  // namespace
 
-std::string replay_text(const Subject& subject, std::vector<CandidateProcess>& candidates,
-                        const Bar& bar) {
-  const json e = examined(subject, pointers(candidates), bar, 1e-30);
-  json line = e["configuration"];
+std::string replay_text(const Subject& subject, const json& examined,
+                        const std::vector<CandidateProcess>& candidates) {
+  json line = examined["configuration"];
   line["id"] = subject.name;
   std::string text = subject.name + '\n';
   if (!subject.description.empty()) text += subject.description + '\n';
@@ -66,7 +65,7 @@ std::string replay_text(const Subject& subject, std::vector<CandidateProcess>& c
       "{}\n{}\n{}\n\n",
       line.dump(), to_exact_json(subject.configuration).dump(),
       to_hex_json(subject.configuration).dump());
-  const json& truth = e["truth"];
+  const json& truth = examined["truth"];
   text += fmt::format("truth: signed distance between\n  {}\n  {}\n",
                       truth["signed_distance"][0].get<std::string>(),
                       truth["signed_distance"][1].get<std::string>());
@@ -77,7 +76,7 @@ std::string replay_text(const Subject& subject, std::vector<CandidateProcess>& c
   text += fmt::format("  ties: {}\n\n", truth["ties"].get<std::string>());
   for (const CandidateProcess& process : candidates) {
     const std::string& name = process.candidate().name;
-    text += answer_text(name, e["answers"][name]);
+    text += answer_text(name, examined["answers"][name]);
   }
   return text;
 }

@@ -9,9 +9,9 @@
 namespace touchstone {
 
 /// Everything about one configuration as text: its class, its numbers (as a line for `solve`, and
-/// in hexadecimal floats), the truth, and each candidate's answer and score. The same on every
-/// call.
-std::string replay_text(const Subject& subject, std::vector<CandidateProcess>& candidates,
-                        const Bar& bar);
+/// in hexadecimal floats), the truth, and each candidate's answer and score in the order of
+/// `candidates`. `examined` is what examined() gives of the subject and these candidates.
+std::string replay_text(const Subject& subject, const nlohmann::json& examined,
+                        const std::vector<CandidateProcess>& candidates);
 
 }  // namespace touchstone
