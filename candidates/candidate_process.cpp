@@ -142,6 +142,10 @@ void CandidateProcess::answer_batch(std::uint32_t count, std::vector<Answer>& an
 
 std::vector<Answer> CandidateProcess::answers(std::span<const Configuration> configurations) {
   end();
+  return answer(configurations);
+}
+
+std::vector<Answer> CandidateProcess::answer(std::span<const Configuration> configurations) {
   std::vector<Answer> result;
   for (std::size_t at = 0; at < configurations.size(); at += Exchange::batch) {
     const auto batch = configurations.subspan(
@@ -153,10 +157,7 @@ std::vector<Answer> CandidateProcess::answers(std::span<const Configuration> con
 }
 
 Answer CandidateProcess::answer(const Configuration& configuration) {
-  std::vector<Answer> result;
-  put(0, configuration);
-  answer_batch(1, result);
-  return result.front();
+  return answer({&configuration, 1}).front();
 }
 
 bool CandidateProcess::prepare_timing(std::span<const Configuration> configurations) {

@@ -56,6 +56,10 @@ class CandidateProcess {
   std::vector<Answer> answers(std::span<const Configuration> configurations);
   /// In the session of the last call, if there is one.
   Answer answer(const Configuration& configuration);
+  /// Likewise, all of them at once.
+  std::vector<Answer> answer(std::span<const Configuration> configurations);
+  /// Ends the session, so that the next call begins a new one.
+  void restart() { end(); }
 
   /// Prepares shapes for timing in a new session and queries them once, untimed. Of slow candidates
   /// only as many as take about half a millisecond are kept, at least ten. False if it died of it.
