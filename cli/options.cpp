@@ -78,4 +78,42 @@ Bar BarOption::get() const {
   return bar_;
 }
 
+SampleOption::SampleOption(CLI::App& command, std::uint64_t count) : count_(count) {
+  command.add_option("--pair", pairs_, "Only these pairs, as in cylinder-box")->delimiter(',');
+  command.add_option("--class", classes_, "Only these pose classes")->delimiter(',');
+  command.add_option("--count", count_, "Configurations of each pair and pose class")
+      ->capture_default_str();
+  command.add_option("--seed", seed_, "Same seed, same configurations")->capture_default_str();
+}
+
+std::vector<Pair> SampleOption::pairs() const {
+  if (pairs_.empty()) return {std::begin(all_pairs), std::end(all_pairs)};
+  std::vector<Pair> result;
+  for (const auto& name : pairs_) {
+    try {
+      result.push_back(parse_pair(name));
+    } catch (const InvalidInput& e) {
+      throw InvalidInput("--pair", e.value(), e.remedy());
+    }
+  }
+  return result;
+}
+
+const std::vector<std::string>& SampleOption::classes() const {
+  check_pose_classes(pairs(), classes_);
+  return classes_;
+}
+
+std::uint64_t SampleOption::count() const {
+  if (count_ == 0) throw InvalidInput("--count", "0", "must be at least 1");
+  return count_;
+}
+
+std::string SampleOption::command_line() const {
+  std::string line = fmt::format(" --seed {} --count {}", seed_, count_);
+  if (!pairs_.empty()) line += fmt::format(" --pair {}", fmt::join(pairs_, ","));
+  if (!classes_.empty()) line += fmt::format(" --class {}", fmt::join(classes_, ","));
+  return line;
+}
+
 }  // namespace touchstone

@@ -7,7 +7,6 @@
 
 #include "candidates/candidate_process.hpp"
 #include "oracle/truth.hpp"
-#include "reference/invalid_input.hpp"
 #include "reports/progress.hpp"
 #include "reports/worker_processes.hpp"
 
@@ -110,20 +109,7 @@ CellScores parse_cell(const Campaign& campaign, const std::string& bytes) {
 
 std::vector<Cell> cells(const Campaign& campaign) {
   std::vector<Cell> result;
-  for (const std::string& wanted : campaign.classes) {
-    const bool known = std::any_of(campaign.pairs.begin(), campaign.pairs.end(), [&](Pair pair) {
-      const auto& names = pose_classes(pair);
-      return std::find(names.begin(), names.end(), wanted) != names.end();
-    });
-    if (known) continue;
-    std::string names;
-    for (const Pair pair : campaign.pairs) {
-      for (const auto& name : pose_classes(pair)) {
-        if (names.find(name) == std::string::npos) names += (names.empty() ? "" : ", ") + name;
-      }
-    }
-    throw InvalidInput("--class", '"' + wanted + '"', "must be one of " + names);
-  }
+  check_pose_classes(campaign.pairs, campaign.classes);
   for (const Pair pair : campaign.pairs) {
     for (const auto& name : pose_classes(pair)) {
       const auto& wanted = campaign.classes;
