@@ -54,7 +54,7 @@ Score from_record(const Record& r) {
   return s;
 }
 
-/// Per configuration: the oracle's time, then one record per candidate.
+/// Per configuration: the oracle's time and the signed distance, then one record per candidate.
 std::string score_cell(const Campaign& campaign, std::vector<CandidateProcess>& candidates,
                        const Cell& cell) {
   std::vector<Configuration> configurations;
@@ -76,6 +76,7 @@ std::string score_cell(const Campaign& campaign, std::vector<CandidateProcess>& 
       const oracle::Truth truth = oracle::truth(c);
       append(std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start)
                  .count());
+      append(truth.signed_distance.midpoint());
       for (const auto& of_candidate : answers) {
         append(to_record(score(c, truth, of_candidate[i], campaign.bar)));
       }
@@ -97,6 +98,7 @@ CellScores parse_cell(const Campaign& campaign, const std::string& bytes) {
   };
   for (std::uint64_t i = 0; i < campaign.count; ++i) {
     take(result.oracle_microseconds.emplace_back());
+    take(result.signed_distance.emplace_back());
     for (auto& scores : result.scores) {
       Record record;
       take(record);

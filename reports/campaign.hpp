@@ -34,6 +34,7 @@ std::vector<Cell> cells(const Campaign& campaign);
 struct CellScores {
   std::vector<std::vector<Score>> scores;
   std::vector<double> oracle_microseconds;
+  std::vector<double> signed_distance;  ///< true, metres
 };
 
 /// Scores every cell, spread over worker processes, in each of which every candidate has a process
