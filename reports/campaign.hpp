@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,14 @@ struct CellScores {
   std::vector<std::vector<Score>> scores;
   std::vector<double> oracle_microseconds;
 };
+
+/// Scores the configurations first … last − 1 of a cell, each candidate in a new session: the
+/// scores depend on these configurations alone. Hands over each index with the oracle's time (µs)
+/// and the scores in the order of the candidates. Throws std::runtime_error naming the
+/// configuration whose truth contradicts itself.
+void score_range(const Campaign& campaign, std::vector<CandidateProcess>& candidates,
+                 const Cell& cell, std::uint64_t first, std::uint64_t last,
+                 const std::function<void(std::uint64_t, double, const std::vector<Score>&)>& take);
 
 /// Scores every cell, spread over worker processes, in each of which every candidate has a process
 /// of its own and a new session for each cell: the result does not depend on how many there are,
