@@ -83,6 +83,7 @@ int main(int argc, char** argv) {
   touchstone::add_campaign(program, exit_code);
   touchstone::add_merge(program, exit_code);
   touchstone::add_simulate(program, exit_code);
+  touchstone::add_choose(program, exit_code);
   touchstone::add_candidates(program, exit_code);
   try {
     refuse_unknown_subcommand(program, argc, argv);
