@@ -7,6 +7,7 @@
 #include "cli/commands.hpp"
 #include "cli/options.hpp"
 #include "reference/invalid_input.hpp"
+#include "reports/figures/figures.hpp"
 #include "reports/terminal_table.hpp"
 #include "reports/worst.hpp"
 
@@ -20,7 +21,7 @@ struct Options {
   std::vector<std::string> pairs, classes;
   std::uint64_t count = 100, seed = 1;
   unsigned workers = std::max(1U, std::thread::hardware_concurrency());
-  std::string out = "out";
+  std::string out = "out", figures;
 
   Campaign campaign() const {
     Campaign c;
@@ -59,12 +60,16 @@ void run(const Options& options) {
   const Campaign campaign = options.campaign();
   cells(campaign);  // refuses unknown classes before any work
   check_writable(options.out);
+  if (!options.figures.empty()) check_figures(options.figures);
   const nlohmann::json report = make_report(campaign, options.command_line());
   write_report(report, options.out);
   fmt::print("{}\n{} configurations, truth certified to 1e-30 of the larger size, {:.0f} s.\n",
              terminal_table(report), report["configurations"].get<std::uint64_t>(),
              report["wall_seconds"].get<double>());
   fmt::print("Report: {}/report.html, {}/report.json\n", options.out, options.out);
+  if (options.figures.empty()) return;
+  write_figures(report, options.figures);
+  fmt::print("Figures: {}\n", options.figures);
 }
 
 }  // namespace
@@ -85,11 +90,14 @@ void add_report(CLI::App& program, int&) {
       ->capture_default_str();
   command->add_option("--out", options->out, "Folder for report.json and report.html")
       ->capture_default_str();
+  command->add_option("--figures", options->figures,
+                      "Folder for figures as SVG, PNG and CSV, made by gnuplot");
   command->footer(
       "Examples:\n"
       "  touchstone report\n"
       "  touchstone report --pair cylinder-box --count 1000 --seed 7\n"
-      "  touchstone report --candidates reference,bullet --class rim-rim,touching");
+      "  touchstone report --candidates reference,bullet --class rim-rim,touching\n"
+      "  touchstone report --figures figures");
   command->callback([options] { run(*options); });
 }
 
