@@ -52,6 +52,7 @@ int main(int argc, char** argv) {
   touchstone::add_check(program, exit_code);
   touchstone::add_campaign(program, exit_code);
   touchstone::add_merge(program, exit_code);
+  touchstone::add_search(program, exit_code);
   touchstone::add_candidates(program, exit_code);
   try {
     refuse_unknown_subcommand(program, argc, argv);
