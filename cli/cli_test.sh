@@ -53,6 +53,19 @@ expect 0 'report.html' report --pair cylinder-plane --count 1 --out "$folder/a b
 [ -s "$folder/a b/report.html" ] || { echo "FAILED: no report.html"; failures=$((failures + 1)); }
 
 
+expect 2 '--count' campaign --count 1.5e0 --out "$folder/c"
+expect 2 '--shard.*3/7' campaign --shard 8/7 --out "$folder/c"
+expect 0 '^4 configurations' campaign --pair cylinder-sphere --class cap,side --count 2e0 \
+  --candidates reference --out "$folder/c"
+expect 2 'already holds a campaign' campaign --out "$folder/c"
+expect 0 '^4 configurations' merge "$folder/c" --out "$folder/m"
+expect 2 'could not be read' merge "$folder/none" --out "$folder/n"
+expect 2 'candidate is required' search
+expect 1 'shallow\|overdeep\|missed' search --candidate capsule --pair cylinder-sphere \
+  --class general-deep --count 40 --save "$folder/found"
+expect 0 'as expected' check --corpus "$folder/found"
+expect 0 'capsule: contact, \|capsule: none, ' replay "$(ls "$folder"/found/*.json | head -n 1)" --candidates capsule
+
 expect 2 '--candidate' check
 expect 2 '--law.*agreement' check --candidate bullet --law gravity
 expect 2 '--class' check --candidate bullet --class nowhere
