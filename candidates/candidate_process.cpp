@@ -56,6 +56,11 @@ void CandidateProcess::end() {
   session_ = -1;
 }
 
+void CandidateProcess::ask_within(double threshold) {
+  end();
+  threshold_ = threshold;
+}
+
 void CandidateProcess::put(std::uint32_t slot, const Configuration& c,
                            const Vec3* previous_normal) {
   const Vec3 hint = previous_normal ? *previous_normal : Vec3(Vec3::Zero());

@@ -52,6 +52,9 @@ class CandidateProcess {
 
   const Candidate& candidate() const { return candidate_; }
 
+  /// Ends the session; the next one reports contacts up to `threshold` metres apart.
+  void ask_within(double threshold);
+
   /// In a new session, so that the answers depend on these configurations alone.
   std::vector<Answer> answers(std::span<const Configuration> configurations);
   /// In the session of the last call, if there is one. `previous_normal`, unit, world frame, from B

@@ -22,6 +22,10 @@ expect() {
 expect 0 'touchstone report' --help
 expect 0 'Examples' report --help
 expect 0 '^touchstone [0-9]' --version
+expect 0 '^engines: .*bullet 3' --version
+expect 0 '^libraries: CGAL 5.*, GMP .*, MPFR .*, FLINT .*, Arb .*, Eigen 3' --version
+expect 2 '--completion.*bash or zsh' --completion fish
+expect 0 '^\.TH touchstone 1' --manual
 expect 0 'bullet 3' candidates
 expect 2 'subcommand is required'
 expect 2 'report, replay, solve, certify, check, simulate, candidates' nonsense

@@ -24,6 +24,8 @@ struct CandidateOption {
   std::vector<const Candidate*> get() const;
   /// Throws InvalidInput unless both are positive and finite.
   Limits limits() const;
+  /// The same options as text, to be repeated, with every candidate's name.
+  std::string command_line() const;
 
  private:
   std::vector<std::string> names_;
@@ -33,6 +35,7 @@ struct CandidateOption {
 struct BarOption {
   explicit BarOption(CLI::App& command);
   Bar get() const;  ///< throws InvalidInput unless both are finite and not negative
+  std::string command_line() const;
 
  private:
   Bar bar_;

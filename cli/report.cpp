@@ -51,16 +51,8 @@ struct Options {
 
   /// The command that gives the same report again.
   std::string command_line() const {
-    std::vector<std::string> names;
-    for (const Candidate* c : candidates.get()) names.emplace_back(c->name);
-    const Bar used = bar.get();
-    const Limits limits = candidates.limits();
-    return program_name() + " report" + sample.command_line() +
-           fmt::format(
-               " --candidates {} --tolerance {} --threshold {} --time-limit {} "
-               "--memory-limit {}",
-               fmt::join(names, ","), used.tolerance, used.threshold, limits.seconds,
-               limits.mebibytes);
+    return program_name() + " report" + sample.command_line() + candidates.command_line() +
+           bar.command_line();
   }
 };
 
