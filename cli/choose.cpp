@@ -1,6 +1,7 @@
 #include "scenes/choose.hpp"
 
 #include <fmt/format.h>
+#include <fstream>
 #include <memory>
 #include <thread>
 
@@ -9,6 +10,7 @@
 #include "reference/invalid_input.hpp"
 #include "reports/report.hpp"
 #include "scenes/choice_json.hpp"
+#include "scenes/choice_page.hpp"
 #include "scenes/choice_text.hpp"
 
 namespace touchstone {
@@ -22,6 +24,12 @@ struct Options {
   bool json = false;
 };
 
+void write(const std::string& file, const std::string& text) {
+  std::ofstream out(file);
+  out << text << std::flush;
+  if (!out) throw InvalidInput("--out", '"' + file + '"', "could not be written");
+}
+
 int run(const Options& options) {
   const SceneFile file = read_scene(options.scene);
   check_writable(options.out);
@@ -29,8 +37,12 @@ int run(const Options& options) {
       choose(file, {swept_candidates(), options.workers, options.candidates.limits()});
   const std::string folder = options.out + "/choose";
   write_evidence(choice, file, folder);
-  const nlohmann::json result = to_json(choice, file, "touchstone choose " + options.scene, folder);
+  nlohmann::json result = to_json(choice, file, "touchstone choose " + options.scene, folder);
+  write(options.out + "/choose.json", result.dump(1) + '\n');
   fmt::print("{}", options.json ? result.dump() + '\n' : choice_text(result));
+  result["motion"] = motion_json(choice, file, options.candidates.limits());
+  write(options.out + "/choose.html", choice_page(result));
+  if (!options.json) fmt::print("Page: {0}/choose.html; data: {0}/choose.json\n", options.out);
   return choice.impossible ? 1 : 0;
 }
 
