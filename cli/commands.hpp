@@ -13,6 +13,7 @@ void add_solve(CLI::App& program, int& exit_code);
 void add_certify(CLI::App& program, int& exit_code);
 void add_check(CLI::App& program, int& exit_code);
 void add_choose(CLI::App& program, int& exit_code);
+void add_render(CLI::App& program, int& exit_code);
 void add_candidates(CLI::App& program, int& exit_code);
 
 }  // namespace touchstone

@@ -51,6 +51,7 @@ int main(int argc, char** argv) {
   touchstone::add_certify(program, exit_code);
   touchstone::add_check(program, exit_code);
   touchstone::add_choose(program, exit_code);
+  touchstone::add_render(program, exit_code);
   touchstone::add_candidates(program, exit_code);
   try {
     refuse_unknown_subcommand(program, argc, argv);

@@ -63,7 +63,8 @@ std::string poses(const Scene& scene, const Trajectory& run, std::size_t every) 
 
 /// The answer, each kind's next cheaper model, and well-known models for all pairs that fail.
 std::vector<std::size_t> worth_showing(const Choice& choice) {
-  std::vector<std::size_t> result = {choice.answer};
+  std::vector<std::size_t> result;
+  if (choice.answer != 0) result.push_back(choice.answer);
   for (const auto& cheaper : choice.cheaper) {
     if (cheaper && result.size() < 4) result.push_back(*cheaper);
   }
@@ -76,7 +77,6 @@ std::vector<std::size_t> worth_showing(const Choice& choice) {
 
 std::string note(const Choice& choice, const SceneFile& file, std::size_t index) {
   const SceneRun& run = choice.runs[index];
-  if (index == 0) return "The exact cylinder for all pairs: nothing cheaper meets the needs.";
   if (run.holds()) return "All needs hold.";
   const int broken = run.first_broken();
   return fmt::format("Breaks at {:.2f} s: {}.", run.verdicts[broken].time,
@@ -101,8 +101,9 @@ json motion_json(const Choice& choice, const SceneFile& file, const Limits& limi
   const auto every = std::max<std::size_t>(
       1, static_cast<std::size_t>(1 / (frames_per_second * scene.step) + 0.5));
   json runs = json::array();
-  runs.push_back(
-      {{"name", "exact"}, {"note", ""}, {"poses", poses(scene, choice.exact_run, every)}});
+  runs.push_back({{"name", "exact"},
+                  {"note", "The exact cylinder for all pairs."},
+                  {"poses", poses(scene, choice.exact_run, every)}});
   Processes processes(limits);
   for (const std::size_t i : worth_showing(choice)) {
     const Trajectory went =

@@ -68,9 +68,10 @@ def thesis_knock():
     """Figure 30: five cylinders fall, stand, and four are knocked away by a sphere from above."""
     bodies = [fixed("ground", GROUND, "ground")]
     h, z = 0.35, 0.5
-    bodies.append(body("centre", cylinder(0.15, 0.25), "steel", (0, 0, 0.4)))
+    bodies.append(body("centre", cylinder(0.15, 0.25), "steel", (0, 0, 0.4), turned([1, 0, 0], 0.3)))
     for i, (x, y) in enumerate([(1, 1), (-1, 1), (-1, -1), (1, -1)]):
-        bodies.append(body(f"outer-{i + 1}", cylinder(0.12, h), "steel", (0.25 * x, 0.25 * y, z)))
+        bodies.append(body(f"outer-{i + 1}", cylinder(0.12, h), "steel", (0.25 * x, 0.25 * y, z),
+                           turned([y, x, 0], 0.2)))
     bodies.append(body("ball", {"shape": "sphere", "radius": 0.3}, "ball", (0.004, 0.002, 3.9)))
     outer = [f"outer-{i}" for i in range(1, 5)]
     return {
@@ -80,7 +81,7 @@ def thesis_knock():
         "materials": {"ground": {"friction": 0.5}, "ball": {"friction": 0.5, "density": 600},
                       "steel": {"friction": 0.5, "density": 1500}},
         "bodies": bodies,
-        "needs": [{"need": "stands", "body": b, "degrees": 0.5, "until": 0.7}
+        "needs": [{"need": "stands", "body": b, "degrees": 0.5, "from": 0.4, "until": 0.7}
                   for b in ["centre"] + outer]
                  + [{"need": "falls-in-order", "bodies": [b]} for b in outer]
                  + [{"need": "stands", "body": "centre", "degrees": 2, "from": 3},
@@ -220,7 +221,7 @@ def conveyor():
                       "can": {"friction": 0.1, "density": 900}},
         "bodies": bodies,
         "needs": [{"need": "stands", "body": c, "degrees": 3} for c in cans]
-                 + [{"need": "rests", "bodies": cans, "speed": 0.02, "by": 1.8},
+                 + [{"need": "rests", "bodies": cans, "speed": 0.05, "by": 1.9},
                     {"need": "penetration", "metres": 0.004}]
                  + [{"need": "ends-near", "body": c, "metres": 0.005} for c in cans],
         "camera": {"position": [0.75, -1.1, 0.6], "look_at": [0.15, 0, 0.03]},

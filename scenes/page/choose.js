@@ -68,15 +68,17 @@ function runTable() {
 
 function chart() {
   const svg = byId('front'), left = 58, right = 740, top = 14, bottom = 372;
-  const least = 1e-3, most = 1e3, cost = data.runs.map(r => r.microseconds_per_step);
+  const errors = data.runs.map(r => r.error).filter(e => e > 0 && e < 1e4).concat(1);
+  const least = 10 ** Math.floor(Math.log10(Math.max(1e-3, Math.min(...errors)))), most = 10 ** Math.ceil(Math.log10(2 * Math.max(...errors)));
+  const cost = data.runs.map(r => r.microseconds_per_step);
   const low = Math.log10(Math.min(...cost) * 0.8), high = Math.log10(Math.max(...cost) * 1.3);
   const x = c => left + (Math.log10(c) - low) / (high - low) * (right - left);
   const clamped = e => Math.min(most, Math.max(least, e === null ? most : e));
   const y = e => bottom - (Math.log10(clamped(e)) - Math.log10(least)) / Math.log10(most / least) * (bottom - top);
-  for (let p = Math.log10(least); p <= Math.log10(most); ++p) {
+  for (let p = Math.round(Math.log10(least)); p <= Math.round(Math.log10(most)); ++p) {
     const at = y(10 ** p);
     svg.append(shape('line', {x1: left, x2: right, y1: at, y2: at, class: p === 0 ? 'limit' : 'grid'}),
-               shape('text', {x: left - 6, y: at + 4, 'text-anchor': 'end', class: 'tick'}, String(10 ** p)));
+               shape('text', {x: left - 6, y: at + 4, 'text-anchor': 'end', class: 'tick'}, String(Number((10 ** p).toPrecision(1)))));
   }
   for (let p = Math.ceil(low); p <= high; ++p) {
     svg.append(shape('line', {x1: x(10 ** p), x2: x(10 ** p), y1: top, y2: bottom, class: 'grid'}),

@@ -165,7 +165,8 @@ function startMotion(motion) {
     before = performance.now();
     if (on) requestAnimationFrame(tick);
   };
-  runs.slice(1).forEach((r, i) => select.append(element('option', {value: i + 1}, r.name)));
+  const others = runs.length > 1 ? runs.slice(1) : runs;
+  others.forEach(r => select.append(element('option', {value: runs.indexOf(r)}, r.name)));
   const note = () => { byId('other-note').textContent = runs[select.value].note; };
   select.addEventListener('change', () => { note(); draw(); });
   byId('scrub').max = motion.duration;
