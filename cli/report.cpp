@@ -7,64 +7,70 @@
 #include "cli/commands.hpp"
 #include "cli/options.hpp"
 #include "reference/invalid_input.hpp"
+#include "reports/figures/figures.hpp"
 #include "reports/terminal_table.hpp"
 #include "reports/worst.hpp"
+#include "simulation/run_experiments.hpp"
 
 namespace touchstone {
 namespace {
 
 struct Options {
-  explicit Options(CLI::App& command) : candidates(command), bar(command) {}
+  explicit Options(CLI::App& command) : sample(command, 100), candidates(command), bar(command) {}
+  SampleOption sample;
   CandidateOption candidates;
   BarOption bar;
-  std::vector<std::string> pairs, classes;
-  std::uint64_t count = 100, seed = 1;
   unsigned workers = std::max(1U, std::thread::hardware_concurrency());
-  std::string out = "out";
+  std::string out = "out", figures;
 
   Campaign campaign() const {
     Campaign c;
-    for (const auto& name : pairs) c.pairs.push_back(parse_pair(name));
-    if (pairs.empty()) c.pairs.assign(std::begin(all_pairs), std::end(all_pairs));
-    c.classes = classes;
+    c.pairs = sample.pairs();
+    c.classes = sample.classes();
     c.candidates = candidates.get();
-    c.count = count;
-    c.seed = seed;
+    c.count = sample.count();
+    c.seed = sample.seed();
     c.workers = workers;
     c.bar = bar.get();
     c.limits = candidates.limits();
-    if (count == 0) throw InvalidInput("--count", "0", "must be at least 1");
     if (workers == 0) throw InvalidInput("--workers", "0", "must be at least 1");
     return c;
   }
 
+  /// Of all pairs and pose classes: then experiments belong to it too.
+  bool is_whole() const {
+    return sample.pairs().size() == std::size(all_pairs) && sample.classes().empty();
+  }
+  ExperimentOptions experiments() const {
+    ExperimentOptions e;
+    for (const Experiment& each : all_experiments()) e.experiments.push_back(&each);
+    e.candidates = candidates.get();
+    e.workers = workers;
+    e.limits = candidates.limits();
+    return e;
+  }
+
   /// The command that gives the same report again.
   std::string command_line() const {
-    std::string line = fmt::format("{} report --seed {} --count {}", program_name(), seed, count);
-    if (!pairs.empty()) line += fmt::format(" --pair {}", fmt::join(pairs, ","));
-    if (!classes.empty()) line += fmt::format(" --class {}", fmt::join(classes, ","));
-    std::vector<std::string> names;
-    for (const Candidate* c : candidates.get()) names.emplace_back(c->name);
-    const Bar used = bar.get();
-    const Limits limits = candidates.limits();
-    return line + fmt::format(
-                      " --candidates {} --tolerance {} --threshold {} --time-limit {} "
-                      "--memory-limit {}",
-                      fmt::join(names, ","), used.tolerance, used.threshold, limits.seconds,
-                      limits.mebibytes);
+    return program_name() + " report" + sample.command_line() + candidates.command_line() +
+           bar.command_line();
   }
 };
 
 void run(const Options& options) {
   const Campaign campaign = options.campaign();
-  cells(campaign);  // refuses unknown classes before any work
   check_writable(options.out);
-  const nlohmann::json report = make_report(campaign, options.command_line());
+  if (!options.figures.empty()) check_figures(options.figures);
+  nlohmann::json report = make_report(campaign, options.command_line());
+  if (options.is_whole()) report["experiments"] = run_experiments(options.experiments());
   write_report(report, options.out);
   fmt::print("{}\n{} configurations, truth certified to 1e-30 of the larger size, {:.0f} s.\n",
              terminal_table(report), report["configurations"].get<std::uint64_t>(),
              report["wall_seconds"].get<double>());
   fmt::print("Report: {}/report.html, {}/report.json\n", options.out, options.out);
+  if (options.figures.empty()) return;
+  write_figures(report, options.figures);
+  fmt::print("Figures: {}\n", options.figures);
 }
 
 }  // namespace
@@ -73,23 +79,19 @@ void add_report(CLI::App& program, int&) {
   CLI::App* command =
       program.add_subcommand("report", "Score all candidates; write out/report.html");
   const auto options = std::make_shared<Options>(*command);
-  command->add_option("--pair", options->pairs, "Only these pairs, as in cylinder-box")
-      ->delimiter(',');
-  command->add_option("--class", options->classes, "Only these pose classes")->delimiter(',');
-  command->add_option("--count", options->count, "Configurations of each pair and pose class")
-      ->capture_default_str();
-  command->add_option("--seed", options->seed, "Same seed, same configurations")
-      ->capture_default_str();
   command
       ->add_option("--workers", options->workers, "Worker processes; they do not change the result")
       ->capture_default_str();
   command->add_option("--out", options->out, "Folder for report.json and report.html")
       ->capture_default_str();
+  command->add_option("--figures", options->figures,
+                      "Folder for figures as SVG, PNG and CSV, made by gnuplot");
   command->footer(
       "Examples:\n"
       "  touchstone report\n"
       "  touchstone report --pair cylinder-box --count 1000 --seed 7\n"
-      "  touchstone report --candidates reference,bullet --class rim-rim,touching");
+      "  touchstone report --candidates reference,bullet --class rim-rim,touching\n"
+      "  touchstone report --figures figures");
   command->callback([options] { run(*options); });
 }
 
