@@ -17,6 +17,7 @@ void add_merge(CLI::App& program, int& exit_code);
 void add_simulate(CLI::App& program, int& exit_code);
 void add_choose(CLI::App& program, int& exit_code);
 void add_search(CLI::App& program, int& exit_code);
+void add_render(CLI::App& program, int& exit_code);
 void add_candidates(CLI::App& program, int& exit_code);
 
 }  // namespace touchstone

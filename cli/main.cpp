@@ -85,6 +85,7 @@ int main(int argc, char** argv) {
   touchstone::add_simulate(program, exit_code);
   touchstone::add_choose(program, exit_code);
   touchstone::add_search(program, exit_code);
+  touchstone::add_render(program, exit_code);
   touchstone::add_candidates(program, exit_code);
   try {
     refuse_unknown_subcommand(program, argc, argv);
