@@ -41,6 +41,7 @@ int main(int argc, char** argv) {
       "  touchstone solve poses.jsonl                        your own configurations\n"
       "  touchstone certify cylinder-box/rim-face/1/17       a proof that others can check\n"
       "  touchstone check --candidate bullet                 laws, and the smallest failures\n"
+      "  touchstone stability                                tiny steps near degenerate poses\n"
       "Exit codes: 0 done; 1 a law was broken; 2 bad input or usage; 3 an internal contradiction.");
   program.fallthrough();  // --candidate may also stand after the subcommand
   touchstone::add_plugin_option(program);
@@ -50,6 +51,7 @@ int main(int argc, char** argv) {
   touchstone::add_solve(program, exit_code);
   touchstone::add_certify(program, exit_code);
   touchstone::add_check(program, exit_code);
+  touchstone::add_stability(program, exit_code);
   touchstone::add_candidates(program, exit_code);
   try {
     refuse_unknown_subcommand(program, argc, argv);

@@ -9,6 +9,7 @@
 #include "reference/invalid_input.hpp"
 #include "reports/terminal_table.hpp"
 #include "reports/worst.hpp"
+#include "stability/stability.hpp"
 
 namespace touchstone {
 namespace {
@@ -59,7 +60,9 @@ void run(const Options& options) {
   const Campaign campaign = options.campaign();
   cells(campaign);  // refuses unknown classes before any work
   check_writable(options.out);
-  const nlohmann::json report = make_report(campaign, options.command_line());
+  nlohmann::json report = make_report(campaign, options.command_line());
+  const Study study{campaign.candidates, campaign.bar, campaign.limits, campaign.workers};
+  report["stability"] = stability(brief(study, campaign.pairs, campaign.seed));
   write_report(report, options.out);
   fmt::print("{}\n{} configurations, truth certified to 1e-30 of the larger size, {:.0f} s.\n",
              terminal_table(report), report["configurations"].get<std::uint64_t>(),

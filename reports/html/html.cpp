@@ -14,6 +14,7 @@ std::string render_html(const nlohmann::json& report) {
   std::string page(report_html);
   fill(page, "/* report.css */", report_css);
   fill(page, "/* elements.js */", elements_js);
+  fill(page, "/* stability.js */", stability_js);
   fill(page, "/* report.js */", report_js);
   fill(page, "/* report.json */", script_safe(report));
   return page;

@@ -338,3 +338,5 @@ choices('worst-pair', ['all', ...pairs], worstCases);
 choices('worst-candidate', ['all', ...candidates], worstCases);
 worstCases();
 method();
+if (report.stability) drawStability(byId('stability'), report.stability);
+byId('stability').hidden = !report.stability;
