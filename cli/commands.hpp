@@ -18,6 +18,7 @@ void add_simulate(CLI::App& program, int& exit_code);
 void add_choose(CLI::App& program, int& exit_code);
 void add_search(CLI::App& program, int& exit_code);
 void add_render(CLI::App& program, int& exit_code);
+void add_stability(CLI::App& program, int& exit_code);
 void add_candidates(CLI::App& program, int& exit_code);
 
 }  // namespace touchstone

@@ -11,6 +11,7 @@
 #include "reports/terminal_table.hpp"
 #include "reports/worst.hpp"
 #include "simulation/run_experiments.hpp"
+#include "stability/stability.hpp"
 
 namespace touchstone {
 namespace {
@@ -62,7 +63,11 @@ void run(const Options& options) {
   check_writable(options.out);
   if (!options.figures.empty()) check_figures(options.figures);
   nlohmann::json report = make_report(campaign, options.command_line());
-  if (options.is_whole()) report["experiments"] = run_experiments(options.experiments());
+  if (options.is_whole()) {
+    const Study study{campaign.candidates, campaign.bar, campaign.limits, campaign.workers};
+    report["stability"] = stability(brief(study, campaign.pairs, campaign.seed));
+    report["experiments"] = run_experiments(options.experiments());
+  }
   write_report(report, options.out);
   fmt::print("{}\n{} configurations, truth certified to 1e-30 of the larger size, {:.0f} s.\n",
              terminal_table(report), report["configurations"].get<std::uint64_t>(),
