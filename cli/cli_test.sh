@@ -24,7 +24,7 @@ expect 0 'Examples' report --help
 expect 0 '^touchstone [0-9]' --version
 expect 0 'bullet 3' candidates
 expect 2 'subcommand is required'
-expect 2 'report, replay, solve, certify, check, candidates' nonsense
+expect 2 'report, replay, solve, certify, check, ' nonsense
 expect 2 'identity.pair' replay cylinder-cone/rim/1/2
 expect 2 'identity.class' replay cylinder-box/none/1/2
 expect 2 'input is required' replay

@@ -41,7 +41,9 @@ int main(int argc, char** argv) {
       "  touchstone solve poses.jsonl                        your own configurations\n"
       "  touchstone certify cylinder-box/rim-face/1/17       a proof that others can check\n"
       "  touchstone check --candidate bullet                 laws, and the smallest failures\n"
-      "Exit codes: 0 done; 1 a law was broken; 2 bad input or usage; 3 an internal contradiction.");
+      "Exit codes: 0 done; 1 a law was broken; 2 bad input or usage; 3 an "
+      "internal "
+      "contradiction;\n130 interrupted.");
   program.fallthrough();  // --candidate may also stand after the subcommand
   touchstone::add_plugin_option(program);
   int exit_code = 0;

@@ -7,6 +7,7 @@
 #include "cli/commands.hpp"
 #include "cli/options.hpp"
 #include "reference/invalid_input.hpp"
+#include "reports/interruption.hpp"
 #include "reports/terminal_table.hpp"
 #include "reports/worst.hpp"
 
@@ -42,20 +43,26 @@ struct Options {
   }
 };
 
-void run(const Options& options) {
+int run(const Options& options) {
   const Campaign campaign = options.campaign();
   check_writable(options.out);
+  const Interruption interruption;
   const nlohmann::json report = make_report(campaign, options.command_line());
+  if (report["results"].empty()) {
+    fmt::print(stderr, "Interrupted before any pose class was done: there is no report.\n");
+    return interrupted_exit_code();
+  }
   write_report(report, options.out);
   fmt::print("{}\n{} configurations, truth certified to 1e-30 of the larger size, {:.0f} s.\n",
              terminal_table(report), report["configurations"].get<std::uint64_t>(),
              report["wall_seconds"].get<double>());
   fmt::print("Report: {}/report.html, {}/report.json\n", options.out, options.out);
+  return report["partial"].get<bool>() ? interrupted_exit_code() : 0;
 }
 
 }  // namespace
 
-void add_report(CLI::App& program, int&) {
+void add_report(CLI::App& program, int& exit_code) {
   CLI::App* command =
       program.add_subcommand("report", "Score all candidates; write out/report.html");
   const auto options = std::make_shared<Options>(*command);
@@ -68,8 +75,9 @@ void add_report(CLI::App& program, int&) {
       "Examples:\n"
       "  touchstone report\n"
       "  touchstone report --pair cylinder-box --count 1000 --seed 7\n"
-      "  touchstone report --candidates reference,bullet --class rim-rim,touching");
-  command->callback([options] { run(*options); });
+      "  touchstone report --candidates reference,bullet --class rim-rim,touching\n"
+      "Ctrl-C ends with a report of what is done by then, marked partial (exit code 130).");
+  command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 
 }  // namespace touchstone

@@ -17,6 +17,11 @@ const agreeing = r => (r.outcomes.agree || 0) / supported(r);
 const percent = share => share === 1 ? '100%' : (Math.floor(share * 1000 + 1e-6) / 10).toFixed(1) + '%';
 
 function headline() {
+  if (report.partial) {
+    byId('partial').hidden = false;
+    byId('partial').textContent = `Partial: interrupted when ${report.completed.classes} of ` +
+        `${report.planned.classes} pose classes were scored and ${report.completed.timed_classes} timed.`;
+  }
   const all = report.summary.filter(r => r.pair === 'all');
   const rows = (all.length ? all : report.summary).filter(supported);
   const best = [...rows].sort((a, b) => agreeing(b) - agreeing(a)).slice(0, 5);
@@ -125,9 +130,9 @@ function panel(pair, rows, {x0, x1, y0, y1, clipped}) {
   }
   svg.append(shape('text', {class: 'tick', x: (left + width - right) / 2, y: height - 6, 'text-anchor': 'middle'},
       'time per query'));
-  // The front: sorted by time, each point lower than all before it.
+  // The front, which treats overlapping spreads of time as a tie (reports/pareto.hpp).
   const sorted = [...rows].sort((a, b) => time(a) - time(b));
-  const front = sorted.filter((r, i) => sorted.slice(0, i).every(s => clipped(s) > clipped(r)));
+  const front = sorted.filter(r => r.pareto);
   const line = rows => rows.map(r => `${x(time(r))},${y(clipped(r))}`).join(' ');
   // The members of a family, in the order of their parameter.
   for (const family of new Set(report.candidates.map(c => c.family))) {
@@ -153,7 +158,8 @@ function panel(pair, rows, {x0, x1, y0, y1, clipped}) {
 function mark(pair, r, x, y, labelY, width) {
   const text = `${r.candidate}, ${pair}\nagrees on ${percent(agreeing(r))}, missed ${r.outcomes.missed || 0}\n` +
       `depth error p99 ${exponent(r.depth_error.p99)}, worst ${exponent(r.depth_error.max)}\n` +
-      `${whole(time(r))} ns per query (spread ${whole(r.nanoseconds.spread)})`;
+      `${whole(time(r))} ns per query (quartiles ${whole(r.nanoseconds.low)} to ${whole(r.nanoseconds.high)})` +
+      (r.tied_with.length ? `\nno faster or slower, within the spreads, than ${r.tied_with.join(', ')}` : '');
   const symbol = shape('path', {class: 'mark', tabindex: 0, fill: colour(r.candidate), 'aria-label': text,
       d: symbolPath(symbolOf(r.candidate), x, y, 5.5)});
   explain(symbol, text);
@@ -311,7 +317,7 @@ function method() {
     ['not-finite, failed, unsupported', 'A NaN or infinity in the answer; the candidate says that it could not answer; it has no routine for the pair, which does not count against it.'],
     ['crashed, timed-out', 'The candidate ended its process (a signal, an exception, too much memory), or took longer than 50 ms of processor time, unless asked otherwise. Each candidate has a process of its own.'],
     ['model error, solver error', 'Of a simplified model: the true signed distance of what it models against that of the cylinder, and its answer against that of what it models.'],
-    ['time', 'Narrow phase alone, one thread, shapes prepared beforehand, candidates in turns on the same configurations, each in its own process, which reads the clock itself: the median of nine rounds, and over classes the median of their medians.'],
+    ['time', 'Narrow phase alone, one thread, shapes prepared beforehand, candidates in random turns on the same configurations, each in its own process, which reads the clock itself: median and quartiles of repeated measurements, in each of which the classes’ median counts. Candidates whose quartiles overlap tie.'],
   ]);
   const m = report.machine, o = report.oracle_microseconds;
   definitions('machine', [
