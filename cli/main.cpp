@@ -41,7 +41,8 @@ int main(int argc, char** argv) {
       "  touchstone solve poses.jsonl                        your own configurations\n"
       "  touchstone certify cylinder-box/rim-face/1/17       a proof that others can check\n"
       "  touchstone check --candidate bullet                 laws, and the smallest failures\n"
-      "Exit codes: 0 done; 1 a law was broken; 2 bad input or usage; 3 an "
+      "  touchstone compare old.json out/report.json         better, worse, slower\n"
+      "Exit codes: 0 done; 1 a law was broken or a result is worse; 2 bad input or usage; 3 an "
       "internal "
       "contradiction;\n130 interrupted.");
   program.fallthrough();  // --candidate may also stand after the subcommand
@@ -52,6 +53,7 @@ int main(int argc, char** argv) {
   touchstone::add_solve(program, exit_code);
   touchstone::add_certify(program, exit_code);
   touchstone::add_check(program, exit_code);
+  touchstone::add_compare(program, exit_code);
   touchstone::add_campaign(program, exit_code);
   touchstone::add_merge(program, exit_code);
   touchstone::add_candidates(program, exit_code);

@@ -13,6 +13,7 @@
 #include "reports/interruption.hpp"
 #include "reports/machine.hpp"
 #include "reports/pareto.hpp"
+#include "reports/report_file.hpp"
 #include "reports/statistics.hpp"
 #include "reports/timing.hpp"
 #include "reports/worst.hpp"
@@ -191,7 +192,7 @@ json make_report(const Campaign& campaign, const std::string& command) {
   const json worst = worst_cases(campaign, scores);
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return {{"schema", 1},
+  return {{"schema", report_schema},
           {"version", TOUCHSTONE_VERSION},
           {"command", command},
           {"seed", campaign.seed},
