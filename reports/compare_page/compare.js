@@ -1,8 +1,8 @@
 const {comparison, before, after} = JSON.parse(document.getElementById('data').textContent);
 const limits = comparison.limits;
 const names = [...new Set([...before, ...after].map(r => r.candidate))];
-const colour = name => `var(--c${names.indexOf(name) % 8})`;
-const symbolOf = name => symbols[Math.floor(names.indexOf(name) / 8) % symbols.length];
+const colour = name => `var(${markOf(name).colour})`;
+const symbolOf = name => markOf(name).symbol;
 
 // Words and table.
 const beyond = comparison.changes.filter(c => c.beyond_limits);
