@@ -76,13 +76,13 @@ function panel(pair, [x0, x1], [y0, y1]) {
   }
   for (const name of names) {
     const [was, is] = sides.map(([here]) => here.find(p => p.name === name));
-    const moved = was && is && Math.hypot(x(is) - x(was), y(is) - y(was)) > 3;
+    const way = was && is ? Math.hypot(x(is) - x(was), y(is) - y(was)) : 0, moved = way > 3;
     if (moved) svg.append(shape('line', {class: 'move', x1: x(was), y1: y(was), x2: x(is), y2: y(is)}));
     const mark = (p, fill) => svg.append(shape('path', {...fill, d: symbolPath(symbolOf(name), x(p), y(p), 4.5)}));
     if (was && (moved || !is)) mark(was, {class: 'hollow', stroke: colour(name)});
     if (is) mark(is, {fill: colour(name)});
     const shown = is || was;
-    if (shown && (moved || !was || !is || shown.front)) {
+    if (shown && (way > 20 || !was || !is || shown.front)) {
       const leftwards = x(shown) > width * 0.62;
       svg.append(shape('text', {class: 'label', x: x(shown) + (leftwards ? -8 : 8), y: y(shown) + 4,
           'text-anchor': leftwards ? 'end' : 'start'}, name));
