@@ -73,7 +73,7 @@ def processes_of_session(session):
 
 def ctrl_c_while_scoring(program, folder):
     run = Run(program, folder)
-    run.wait_for(r"\b[1-9]\d* of 23600 configurations, .*/s, .* left")
+    run.wait_for(r"(?<!\d)[1-9]\d* of 23600 configurations, .*/s, .* left")
     assert len(processes_of_session(run.pid)) > 3  # workers, and engines in processes of their own
     run.ctrl_c()
     status = run.end()
@@ -90,7 +90,7 @@ def ctrl_c_while_scoring(program, folder):
 
 def termination_while_timing(program, folder):
     run = Run(program, folder, "--count", "2")
-    run.wait_for(r"\b[1-9]\d* of 236 pose classes timed")
+    run.wait_for(r"(?<!\d)[1-9]\d* of 236 pose classes timed")
     os.kill(run.pid, signal.SIGTERM)
     status = run.end()
     assert os.WEXITSTATUS(status) == 143, status
