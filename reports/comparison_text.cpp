@@ -88,7 +88,7 @@ std::string comparison_text(const json& comparison) {
                                     [](const json& c) { return !c["beyond_limits"].get<bool>(); });
   text += '\n';
   if (changes.empty()) text += "No change. ";
-  if (within > 0) text += fmt::format("{} smaller changes, within the limits. ", within);
+  if (within > 0) text += fmt::format("{} smaller changes, within the limits.\n", within);
   text += fmt::format(
       "{} rows of pair, class and candidate compared.\n"
       "Limits: errors {:g} times; times {:g} times, as multiples of {}'s and by the\n"
