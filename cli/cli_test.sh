@@ -143,10 +143,10 @@ echo '{"configuration":{"a":{"shape":"cylinder","radius":1,"half_length":1},"b":
   >"$folder/saved.json"
 expect 0 'btSphereShape shape_b' replay "$folder/saved.json" --emit bullet
 
-expect 2 -- '--part.*amplification, maps, sequences' stability --part nothing --out "$folder/s"
-expect 2 -- '--count' stability --count 0
-expect 2 -- '--class' stability --class nowhere
-expect 2 -- '--part' stability cylinder-box/rim-face/1/2 --part maps
+expect 2 '--part.*amplification, maps, sequences' stability --part nothing --out "$folder/s"
+expect 2 '--count' stability --count 0
+expect 2 '--class' stability --class nowhere
+expect 2 '--part' stability cylinder-box/rim-face/1/2 --part maps
 expect 2 'leaves no choice' stability cylinder-box/rim-face/1/2 --pair cylinder-box
 expect 2 'identity.class' stability cylinder-box/none/1/2
 expect 0 'depth x' stability cylinder-plane/standing/1/0 --candidates reference,ode --count 2 --out "$folder/s"
