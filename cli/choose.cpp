@@ -44,7 +44,7 @@ void add_choose(CLI::App& program, int& exit_code) {
   command->add_option("--out", options->out, "Folder for choose.json and choose.html")
       ->capture_default_str();
   command->add_flag("--json", options->json, "Print choose.json instead of text");
-  command->add_option("--workers", options->workers, "Worker processes")->capture_default_str();
+  command->add_option("--workers", options->workers, "Worker processes")->default_str("one a core");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 
