@@ -64,7 +64,7 @@ json nanoseconds(CandidateProcess& process, const std::vector<Configuration>& co
   if (configurations.empty() || !process.prepare_timing(configurations)) return nullptr;
   std::vector<double> samples;
   for (int i = 0; i < rounds; ++i) {
-    if (const auto time = process.nanoseconds_per_query()) samples.push_back(*time);
+    if (const auto cost = process.cost_per_query()) samples.push_back(cost->nanoseconds);
   }
   const auto q = quantiles(samples);
   return q ? json(q->median) : json(nullptr);
