@@ -94,7 +94,7 @@ void add_report(CLI::App& program, int& exit_code) {
   const auto options = std::make_shared<Options>(*command);
   command
       ->add_option("--workers", options->workers, "Worker processes; they do not change the result")
-      ->capture_default_str();
+      ->default_str("one a core");
   command->add_option("--out", options->out, "Folder for report.json and report.html")
       ->capture_default_str();
   command->add_option("--figures", options->figures,

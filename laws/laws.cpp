@@ -315,8 +315,9 @@ const std::vector<Law>& all_laws() {
       {"manifold", "Of exactly aligned bodies the points cover at least 0.3 of the contact patch.",
        always, nothing_else, judge_manifold},
       {"hint",
-       "Pressed in by a tenth of the tolerance, and told its normal, it keeps to it within 10 "
-       "degrees unless another one has become better by more; no hint makes it wrong.",
+       "With the normal as hint, and A pressed in along it by a tenth of the tolerance, the "
+       "normal turns by more than 10 degrees only where another is better; no hint makes a right "
+       "answer wrong.",
        always, nothing_else, judge_hint, hinted_frames, hint_threshold},
       {"memory", "The answer does not depend on what was asked before, to the last bit.", always,
        ask_again, judge_again},

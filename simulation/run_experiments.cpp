@@ -77,7 +77,7 @@ json run(const Trial& trial, const Limits& limits) {
   CandidateModel model(process);
   SamplingModel sampling(model);
   const Measurement m = trial.experiment->run(sampling, trial.step);
-  const Tally& t = m.tally;
+  const RunTally& t = m.tally;
   const double steps = static_cast<double>(std::max<std::uint64_t>(t.steps, 1));
   const auto share = [&](std::uint64_t count) { return static_cast<double>(count) / steps; };
 
