@@ -71,6 +71,7 @@ int main(int argc, char** argv) {
       "  touchstone certify cylinder-box/rim-face/1/17       a proof that others can check\n"
       "  touchstone check --candidate bullet                 laws, and the smallest failures\n"
       "  touchstone simulate rolling                         contacts at work, against paper\n"
+      "  touchstone stability                                tiny steps near degenerate poses\n"
       "Exit codes: 0 done; 1 a law was broken; 2 bad input or usage; 3 an internal contradiction.");
   program.fallthrough();  // --candidate may also stand after the subcommand
   touchstone::add_plugin_option(program);
@@ -83,6 +84,10 @@ int main(int argc, char** argv) {
   touchstone::add_campaign(program, exit_code);
   touchstone::add_merge(program, exit_code);
   touchstone::add_simulate(program, exit_code);
+  touchstone::add_choose(program, exit_code);
+  touchstone::add_search(program, exit_code);
+  touchstone::add_render(program, exit_code);
+  touchstone::add_stability(program, exit_code);
   touchstone::add_candidates(program, exit_code);
   try {
     refuse_unknown_subcommand(program, argc, argv);
