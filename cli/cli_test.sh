@@ -66,6 +66,13 @@ expect 1 'shallow\|overdeep\|missed' search --candidate capsule --pair cylinder-
 expect 0 'as expected' check --corpus "$folder/found"
 expect 0 'capsule: contact, \|capsule: none, ' replay "$(ls "$folder"/found/*.json | head -n 1)" --candidates capsule
 
+expect 2 'must be one of standing, ' simulate juggling
+expect 2 '--step.*0.1 s' simulate rolling --step 0
+expect 2 '--workers' simulate rolling --workers 0
+expect 2 '--out' simulate rolling --out /proc/none
+expect 0 'reference  *=' simulate rolling --candidates reference --step 0.01
+expect 0 '"exact":true' simulate rolling --candidates reference --step 0.01 --json --out "$folder/simulated"
+grep -q '"rolling"' "$folder/simulated/experiments.json" || { echo "FAILED: no experiments.json"; failures=$((failures + 1)); }
 expect 2 '--candidate' check
 expect 2 '--law.*agreement' check --candidate bullet --law gravity
 expect 2 '--class' check --candidate bullet --class nowhere
