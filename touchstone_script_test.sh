@@ -23,7 +23,7 @@ new_machine() {
   rm -rf "$folder/a b" "$folder/moved" "$tools" "$calls"
   mkdir -p "$folder/a b" "$tools"
   : >"$calls"
-  cp "$source_folder/touchstone" "$source_folder/packages.txt" "$folder/a b/"
+  cp "$source_folder/touchstone" "$source_folder"/packages*.txt "$folder/a b/"
   local tool
   for tool in $machine_tools; do ln -s "$(command -v "$tool")" "$tools/$tool"; done
   export CALLS=$calls MISSING=none USER_ID=0 APT_CODE=0 BUILD_CODE=0
@@ -119,6 +119,21 @@ has "$folder/err" "installing libode-dev ninja-build"
 times 1 "apt-get update"
 times 1 "apt-get install -q -y --no-install-recommends libode-dev ninja-build"
 has_not "$calls" "sudo"
+
+fact="what only tests need is installed for tests"
+new_machine
+MISSING="libode-dev chromium-driver" call 7 x
+times 1 "apt-get install -q -y --no-install-recommends libode-dev"
+has_not "$calls" "chromium"
+MISSING="chromium-driver" call 0 test
+times 1 "apt-get install -q -y --no-install-recommends chromium-driver"
+has "$calls" "ctest"
+
+fact="tests run without what only some of them need"
+new_machine
+MISSING="chromium" APT_CODE=100 call 0 test
+has "$folder/err" "tests that need them are skipped"
+has "$calls" "ctest"
 
 fact="a failed installation ends the call"
 new_machine

@@ -30,9 +30,9 @@ std::vector<Tally> tally_unit(const Campaign& campaign, std::vector<CandidatePro
                               const Cell& cell, const Unit& unit) {
   std::vector<Tally> tallies(candidates.size());
   score_range(campaign, candidates, cell, unit.first, unit.last,
-              [&](std::uint64_t index, double, const std::vector<Score>& scores) {
-                for (std::size_t k = 0; k < scores.size(); ++k) {
-                  tallies[k].add(unit.cell, index, scores[k]);
+              [&](const ScoredConfiguration& scored) {
+                for (std::size_t k = 0; k < scored.scores.size(); ++k) {
+                  tallies[k].add(unit.cell, scored.index, scored.scores[k]);
                 }
               });
   return tallies;

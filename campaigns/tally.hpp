@@ -53,6 +53,7 @@ class Tally {
   std::array<std::uint64_t, all_outcomes.size()> outcomes_{};
   std::map<int, std::uint64_t> points_;
   std::array<Magnitudes, quantities.size()> errors_;
+  Magnitudes severity_;            ///< Of all that is judged, missed contacts included.
   Magnitudes uncovered_;           ///< One minus coverage.
   std::uint64_t covered_sum_ = 0;  ///< Of coverage, in units of 2^-24.
   std::vector<Case> worst_;

@@ -80,6 +80,10 @@ TEST(Tally, BoundsTheExactQuantilesOfTheReport) {
       EXPECT_EQ(found["depth_error"]["max"], exact.depth_error->max);
       EXPECT_GE(found["depth_error"]["median"], exact.depth_error->median);
     }
+    if (exact.severity) {
+      expect_within(found["severity"]["median_bounds"], exact.severity->median);
+      EXPECT_EQ(found["severity"]["max"], exact.severity->max);
+    }
     if (exact.coverage) {
       EXPECT_NEAR(found["coverage"]["mean"], exact.coverage->mean, 1e-7);
       EXPECT_LE(found["coverage"]["p1"], exact.coverage->p1);

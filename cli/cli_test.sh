@@ -22,9 +22,13 @@ expect() {
 expect 0 'touchstone report' --help
 expect 0 'Examples' report --help
 expect 0 '^touchstone [0-9]' --version
+expect 0 '^engines: .*bullet 3' --version
+expect 0 '^libraries: CGAL 5.*, GMP .*, MPFR .*, FLINT .*, Arb .*, Eigen 3' --version
+expect 2 '--completion.*bash or zsh' --completion fish
+expect 0 '^\.TH touchstone 1' --manual
 expect 0 'bullet 3' candidates
 expect 2 'subcommand is required'
-expect 2 'report, replay, solve, certify, check, candidates' nonsense
+expect 2 'report, replay, solve, certify, check, .*candidates' nonsense
 expect 2 'identity.pair' replay cylinder-cone/rim/1/2
 expect 2 'identity.class' replay cylinder-box/none/1/2
 expect 2 'input is required' replay

@@ -7,8 +7,10 @@
 #include "cli/commands.hpp"
 #include "cli/options.hpp"
 #include "reference/invalid_input.hpp"
+#include "reports/figures/figures.hpp"
 #include "reports/terminal_table.hpp"
 #include "reports/worst.hpp"
+#include "simulation/run_experiments.hpp"
 
 namespace touchstone {
 namespace {
@@ -19,7 +21,7 @@ struct Options {
   CandidateOption candidates;
   BarOption bar;
   unsigned workers = std::max(1U, std::thread::hardware_concurrency());
-  std::string out = "out";
+  std::string out = "out", figures;
 
   Campaign campaign() const {
     Campaign c;
@@ -35,6 +37,19 @@ struct Options {
     return c;
   }
 
+  /// Of all pairs and pose classes: then experiments belong to it too.
+  bool is_whole() const {
+    return sample.pairs().size() == std::size(all_pairs) && sample.classes().empty();
+  }
+  ExperimentOptions experiments() const {
+    ExperimentOptions e;
+    for (const Experiment& each : all_experiments()) e.experiments.push_back(&each);
+    e.candidates = candidates.get();
+    e.workers = workers;
+    e.limits = candidates.limits();
+    return e;
+  }
+
   /// The command that gives the same report again.
   std::string command_line() const {
     return program_name() + " report" + sample.command_line() + candidates.command_line() +
@@ -45,12 +60,17 @@ struct Options {
 void run(const Options& options) {
   const Campaign campaign = options.campaign();
   check_writable(options.out);
-  const nlohmann::json report = make_report(campaign, options.command_line());
+  if (!options.figures.empty()) check_figures(options.figures);
+  nlohmann::json report = make_report(campaign, options.command_line());
+  if (options.is_whole()) report["experiments"] = run_experiments(options.experiments());
   write_report(report, options.out);
   fmt::print("{}\n{} configurations, truth certified to 1e-30 of the larger size, {:.0f} s.\n",
              terminal_table(report), report["configurations"].get<std::uint64_t>(),
              report["wall_seconds"].get<double>());
   fmt::print("Report: {}/report.html, {}/report.json\n", options.out, options.out);
+  if (options.figures.empty()) return;
+  write_figures(report, options.figures);
+  fmt::print("Figures: {}\n", options.figures);
 }
 
 }  // namespace
@@ -64,11 +84,14 @@ void add_report(CLI::App& program, int&) {
       ->capture_default_str();
   command->add_option("--out", options->out, "Folder for report.json and report.html")
       ->capture_default_str();
+  command->add_option("--figures", options->figures,
+                      "Folder for figures as SVG, PNG and CSV, made by gnuplot");
   command->footer(
       "Examples:\n"
       "  touchstone report\n"
       "  touchstone report --pair cylinder-box --count 1000 --seed 7\n"
-      "  touchstone report --candidates reference,bullet --class rim-rim,touching");
+      "  touchstone report --candidates reference,bullet --class rim-rim,touching\n"
+      "  touchstone report --figures figures");
   command->callback([options] { run(*options); });
 }
 

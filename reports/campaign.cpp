@@ -53,18 +53,18 @@ Score from_record(const Record& r) {
   return s;
 }
 
-/// Per configuration: the oracle's time, then one record per candidate.
+/// Per configuration: the oracle's time and the signed distance, then one record per candidate.
 std::string score_cell(const Campaign& campaign, std::vector<CandidateProcess>& candidates,
                        const Cell& cell) {
   std::string bytes;
   const auto append = [&](const auto& value) {
     bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
   };
-  score_range(campaign, candidates, cell, 0, campaign.count,
-              [&](std::uint64_t, double microseconds, const std::vector<Score>& scores) {
-                append(microseconds);
-                for (const Score& s : scores) append(to_record(s));
-              });
+  score_range(campaign, candidates, cell, 0, campaign.count, [&](const ScoredConfiguration& s) {
+    append(s.oracle_microseconds);
+    append(s.signed_distance);
+    for (const Score& of_candidate : s.scores) append(to_record(of_candidate));
+  });
   return bytes;
 }
 
@@ -78,6 +78,7 @@ CellScores parse_cell(const Campaign& campaign, const std::string& bytes) {
   };
   for (std::uint64_t i = 0; i < campaign.count; ++i) {
     take(result.oracle_microseconds.emplace_back());
+    take(result.signed_distance.emplace_back());
     for (auto& scores : result.scores) {
       Record record;
       take(record);
@@ -103,10 +104,9 @@ std::vector<Cell> cells(const Campaign& campaign) {
   return result;
 }
 
-void score_range(
-    const Campaign& campaign, std::vector<CandidateProcess>& candidates, const Cell& cell,
-    std::uint64_t first, std::uint64_t last,
-    const std::function<void(std::uint64_t, double, const std::vector<Score>&)>& take) {
+void score_range(const Campaign& campaign, std::vector<CandidateProcess>& candidates,
+                 const Cell& cell, std::uint64_t first, std::uint64_t last,
+                 const std::function<void(const ScoredConfiguration&)>& take) {
   const auto identity = [&](std::uint64_t i) {
     return Identity{cell.pair, cell.pose_class, campaign.seed, i};
   };
@@ -123,14 +123,16 @@ void score_range(
     try {
       const auto start = std::chrono::steady_clock::now();
       const oracle::Truth truth = oracle::truth(c);
-      const double microseconds =
+      ScoredConfiguration result;
+      result.index = i;
+      result.oracle_microseconds =
           std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start)
               .count();
-      std::vector<Score> scores;
+      result.signed_distance = truth.signed_distance.midpoint();
       for (const auto& of_candidate : answers) {
-        scores.push_back(score(c, truth, of_candidate[i - first], campaign.bar));
+        result.scores.push_back(score(c, truth, of_candidate[i - first], campaign.bar));
       }
-      take(i, microseconds, scores);
+      take(result);
     } catch (const std::exception& e) {
       throw std::runtime_error(to_string(identity(i)) + ": " + e.what());
     }

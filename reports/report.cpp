@@ -9,10 +9,12 @@
 
 #include "properties/identity.hpp"
 #include "reference/invalid_input.hpp"
+#include "reports/drake_protocol.hpp"
 #include "reports/html/html.hpp"
 #include "reports/machine.hpp"
 #include "reports/statistics.hpp"
 #include "reports/timing.hpp"
+#include "reports/trends.hpp"
 #include "reports/worst.hpp"
 
 namespace touchstone {
@@ -24,6 +26,12 @@ using Times = std::vector<std::vector<std::optional<QueryTime>>>;
 json to_json(const std::optional<Quantiles>& q) {
   if (!q) return nullptr;
   return {{"median", q->median}, {"p99", q->p99}, {"max", q->max}};
+}
+
+json to_json(const std::optional<Quantiles>& q, const LogHistogram& h) {
+  json result = to_json(q);
+  if (q) result["histogram"] = {{"zero", h.zero}, {"first", h.first}, {"counts", h.counts}};
+  return result;
 }
 
 json to_json(const std::optional<Shares>& s) {
@@ -39,8 +47,9 @@ json to_json(const Statistics& s) {
   for (const auto& [number, count] : s.points) points[std::to_string(number)] = count;
   return {{"count", s.count},
           {"outcomes", outcomes},
-          {"depth_error", to_json(s.depth_error)},
-          {"normal_regret", to_json(s.normal_regret)},
+          {"severity", to_json(s.severity)},
+          {"depth_error", to_json(s.depth_error, s.depth_histogram)},
+          {"normal_regret", to_json(s.normal_regret, s.regret_histogram)},
           {"normal_angle", to_json(s.normal_angle)},
           {"model_error", to_json(s.model_error)},
           {"solver_error", to_json(s.solver_error)},
@@ -165,6 +174,8 @@ json make_report(const Campaign& campaign, const std::string& command) {
           {"classes", classes},
           {"results", entries(campaign, scores, times, single)},
           {"summary", entries(campaign, scores, times, summary)},
+          {"trends", trends(campaign, scores)},
+          {"drake_protocol", drake_protocol(campaign)},
           {"worst", worst_cases(campaign, scores)}};
 }
 

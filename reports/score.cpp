@@ -103,6 +103,19 @@ const char* outcome_name(Outcome outcome) {
   return "";
 }
 
+bool is_judged(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::not_finite:
+    case Outcome::failed:
+    case Outcome::crashed:
+    case Outcome::timed_out:
+    case Outcome::unsupported:
+      return false;
+    default:
+      return true;
+  }
+}
+
 const char* status_name(ts_status status) {
   switch (status) {
     case TS_CONTACT:

@@ -29,6 +29,8 @@ inline constexpr std::array all_outcomes = {
 /// "agree", "missed", "wrong-normal", …
 const char* outcome_name(Outcome outcome);
 const char* status_name(ts_status status);
+/// Has an answer of that outcome a severity: was there an answer to be judged?
+bool is_judged(Outcome outcome);
 
 /// Are all numbers that belong to a contact finite?
 bool is_finite(const ts_answer& answer);

@@ -27,9 +27,11 @@ std::optional<Shares> shares(const std::vector<double>& values) {
 Statistics statistics(const std::vector<Score>& scores) {
   Statistics result;
   result.count = scores.size();
-  std::vector<double> depth_error, normal_regret, normal_angle, coverage, model_error, solver_error;
+  std::vector<double> depth_error, normal_regret, normal_angle, coverage, model_error, solver_error,
+      severity;
   for (const Score& s : scores) {
     ++result.outcomes[static_cast<std::size_t>(s.outcome)];
+    if (is_judged(s.outcome)) severity.push_back(s.severity);
     if (s.points > 0) ++result.points[s.points];
     if (s.depth_error) depth_error.push_back(std::abs(*s.depth_error));
     if (s.normal_regret) normal_regret.push_back(*s.normal_regret);
@@ -39,6 +41,9 @@ Statistics statistics(const std::vector<Score>& scores) {
     if (s.solver_error) solver_error.push_back(std::abs(*s.solver_error));
   }
   result.coverage = shares(coverage);
+  result.severity = quantiles(std::move(severity));
+  result.depth_histogram = log_histogram(depth_error);
+  result.regret_histogram = log_histogram(normal_regret);
   result.depth_error = quantiles(std::move(depth_error));
   result.normal_regret = quantiles(std::move(normal_regret));
   result.normal_angle = quantiles(std::move(normal_angle));

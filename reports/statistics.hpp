@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "reports/log_histogram.hpp"
 #include "reports/score.hpp"
 
 namespace touchstone {
@@ -27,7 +28,9 @@ struct Statistics {
   std::array<std::size_t, all_outcomes.size()> outcomes{};  ///< in the order of all_outcomes
   std::map<int, std::size_t> points;                        ///< contacts by their number of points
   std::optional<Quantiles> depth_error, normal_regret, normal_angle, model_error,
-      solver_error;  ///< of magnitudes
+      solver_error;                                ///< of magnitudes
+  std::optional<Quantiles> severity;               ///< of all that is judged, missed ones included
+  LogHistogram depth_histogram, regret_histogram;  ///< of what depth_error, normal_regret hold
   std::optional<Shares> coverage;
 
   std::size_t of(Outcome outcome) const { return outcomes[static_cast<std::size_t>(outcome)]; }

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <ode/ode.h>
+#include <utility>
 
 #include "reference/aabb.hpp"
 #include "simulation/inertia.hpp"
@@ -14,6 +16,7 @@ namespace {
 
 constexpr double error_reduction = 0.2;      // ERP
 constexpr double constraint_mixing = 1e-10;  // CFM times the heaviest body's mass
+constexpr int spin_iterations = 5;
 /// Slower impacts do not bounce, m/s.
 constexpr double least_bounce = 0.01;
 /// Below this the direction of slip is rounding, m/s; any will do.
@@ -81,6 +84,7 @@ struct World::State {
   void add_others(int a, int b);
   void add_joint(int a, int b, dContactGeom geom);
   void read_states();
+  void conserve_spin();
   Vec3 slip_to_come(int a, int b, const Vec3& position) const;
 
   Scene scene;
@@ -106,6 +110,7 @@ World::State::State(const Scene& given, ContactModel& contact_model)
   dWorldSetERP(world, error_reduction);
   dWorldSetContactSurfaceLayer(world, scene.surface_layer);
   dWorldSetAutoDisableFlag(world, 0);
+  dWorldSetQuickStepNumIterations(world, scene.solver_iterations);
   for (const Body& body : scene.bodies) make_body(body);
   double heaviest = 0;
   for (const Inertia& i : inertias) heaviest = std::max(heaviest, i.mass);
@@ -139,6 +144,7 @@ void World::State::make_body(const Body& body) {
     dBodySetAngularVel(made, body.angular_velocity.x(), body.angular_velocity.y(),
                        body.angular_velocity.z());
     dBodySetFiniteRotationMode(made, 1);  // turns by the whole angle, not by its tangent
+    dBodySetGyroscopicMode(made, 0);      // see conserve_spin
   }
   dGeomID geom = nullptr;
   if (const auto* plane = std::get_if<Plane>(&body.shape)) {
@@ -164,6 +170,14 @@ void World::State::find_contacts() {
   std::vector<Aabb> boxes;
   for (int i = 0; i < count; ++i) boxes.push_back(reach(scene.bodies[i].shape, states[i].pose));
 
+  std::map<std::pair<int, int>, Vec3> previous;
+  for (const PairContact& c : contacts) {
+    const Vec3 normal(c.answer.normal);
+    if (c.answer.status == TS_CONTACT && std::abs(normal.squaredNorm() - 1) < 1e-6) {
+      previous.insert({{c.a, c.b}, normal});
+    }
+  }
+
   // Every pair is looked at: scenes have few bodies, and a look costs a nanosecond.
   std::vector<PairQuestion> questions;
   for (int i = 0; i < count; ++i) {
@@ -179,6 +193,9 @@ void World::State::find_contacts() {
                            b,
                            {std::get<Cylinder>(scene.bodies[a].shape), states[a].pose,
                             scene.bodies[b].shape, states[b].pose}});
+      if (const auto found = previous.find({a, b}); found != previous.end()) {
+        questions.back().previous_normal = found->second;
+      }
     }
   }
   contacts.clear();
@@ -250,6 +267,28 @@ void World::State::add_joint(int a, int b, dContactGeom geom) {
   dJointAttach(joint, bodies[a], bodies[b]);
 }
 
+/// Without torque the angular momentum L stays and the angular velocity turns with the body: the
+/// next one is ω' = R' I⁻¹ R'ᵀ L, where R' is the body turned by ω' for a step. ODE's own
+/// gyroscopic torque loses energy.
+void World::State::conserve_spin() {
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (!bodies[i]) continue;
+    const Eigen::Matrix3d& r = states[i].pose.rotation();
+    const Vec3& principal = inertias[i].principal;
+    const Vec3& spin = states[i].angular_velocity;
+    const Vec3 momentum = r * principal.cwiseProduct(r.transpose() * spin);
+    Vec3 next = spin;
+    for (int k = 0; k < spin_iterations; ++k) {
+      const double angle = scene.step * next.norm();
+      if (angle == 0) break;
+      const Eigen::Matrix3d turned = Eigen::AngleAxisd(angle, next.normalized()) * r;
+      next = turned * (turned.transpose() * momentum).cwiseQuotient(principal);
+    }
+    const Vec3 torque = r * principal.cwiseProduct(r.transpose() * (next - spin)) / scene.step;
+    dBodyAddTorque(bodies[i], torque.x(), torque.y(), torque.z());
+  }
+}
+
 void World::State::read_states() {
   std::vector<BodyState> read = states;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
@@ -280,7 +319,8 @@ void World::step() {
   if (!s.sound) return;
   s.find_contacts();
   dRandSetSeed(s.steps);
-  dWorldStep(s.world, s.scene.step);
+  s.conserve_spin();
+  dWorldQuickStep(s.world, s.scene.step);
   s.read_states();
 }
 

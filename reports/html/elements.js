@@ -19,12 +19,30 @@ function definitions(id, entries) {
   byId(id).append(...entries.flatMap(([term, text]) => [element('dt', {}, term), element('dd', {}, text)]));
 }
 
-// Marks of candidates: a colour of eight, then another symbol.
-const symbols = ['circle', 'square', 'triangle', 'diamond'];
+// Marks of candidates, the same on every page: a colour for each engine, a symbol for each of its
+// settings. What is not known here shares a colour and gets a symbol by its name.
+const symbols = ['circle', 'square', 'triangle', 'diamond', 'cross', 'wedge'];
+const engines = [
+  ['reference'],
+  ['bullet', 'bullet-margin-0', 'bullet-persistent', 'bullet-hull', 'bullet-float', 'bullet-float-margin-0'],
+  ['ode', 'ode-mesh'],
+  ['fcl', 'fcl-indep', 'fcl-distance'],
+  ['libccd-gjk', 'libccd-mpr'],
+  ['mujoco'],
+  ['capsule', 'capsule-circumscribed', 'spheres', 'prism', 'box-spheres', 'box-capsules'],
+];
+const truthMark = {colour: '--ink', symbol: 'diamond'};
+function markOf(name) {
+  const family = name.split(':')[0], engine = engines.findIndex(names => names.includes(family));
+  const place = engine >= 0 ? engines[engine].indexOf(family) : [...name].reduce((sum, c) => sum + c.charCodeAt(0), 0);
+  return {colour: `--c${engine >= 0 ? engine : engines.length}`, symbol: symbols[place % symbols.length]};
+}
 function symbolPath(kind, x, y, s) {
   switch (kind) {
     case 'square': return `M${x - s},${y - s}h${2 * s}v${2 * s}h${-2 * s}z`;
     case 'triangle': return `M${x},${y - 1.2 * s}l${1.2 * s},${2.1 * s}h${-2.4 * s}z`;
+    case 'wedge': return `M${x},${y + 1.2 * s}l${1.2 * s},${-2.1 * s}h${-2.4 * s}z`;
+    case 'cross': return `M${x - s},${y - .35 * s}h${.65 * s}v${-.65 * s}h${.7 * s}v${.65 * s}h${.65 * s}v${.7 * s}h${-.65 * s}v${.65 * s}h${-.7 * s}v${-.65 * s}h${-.65 * s}z`;
     case 'diamond': return `M${x},${y - 1.4 * s}l${1.4 * s},${1.4 * s}l${-1.4 * s},${1.4 * s}l${-1.4 * s},${-1.4 * s}z`;
     default: return `M${x - s},${y}a${s},${s} 0 1,0 ${2 * s},0a${s},${s} 0 1,0 ${-2 * s},0`;
   }

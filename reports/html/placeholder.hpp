@@ -10,6 +10,7 @@ namespace touchstone {
 // What all pages share; made by the build from the files of the same names.
 extern const std::string_view report_css;
 extern const std::string_view elements_js;
+extern const std::string_view bodies_js, view_js, scene_js;  ///< a configuration in 3-D
 
 /// Puts `text` where `placeholder`, as in "/* report.css */", first stands; it must be there. Data
 /// goes in last, so that nothing in it is taken for a placeholder.

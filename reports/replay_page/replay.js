@@ -1,10 +1,6 @@
 // The page: its legend, its tables, and what the two views show.
+const data = JSON.parse(byId('data').textContent), view = makeView(byId('view'));
 const truth = data.truth, given = data.configuration, answers = Object.entries(data.answers);
-const style = name => {
-  const i = answers.findIndex(([other]) => other === name);
-  return {colour: i < 0 ? '--ink' : `--c${i % 8}`, symbol: i < 0 ? 'diamond' : symbols[Math.floor(i / 8) % symbols.length]};
-};
-const finite = v => v !== null && v.every(c => c !== null);
 const whole = v => v === null ? '–' : v !== 0 && Math.abs(v) < 1e-3 ? v.toExponential() : String(v);
 const vector = v => v === null ? '–' : `(${v.map(c => c === null ? 'nan' : String(c)).join(', ')})`;
 const table = (heads, rows, text = []) => element('table', {}, element('thead', {}, element('tr', {},
@@ -12,40 +8,25 @@ const table = (heads, rows, text = []) => element('table', {}, element('thead', 
     element('tbody', {}, ...rows.map(r => element('tr', {}, ...r.map((c, i) =>
         c instanceof HTMLTableCellElement ? c : element('td', {class: text.includes(i) ? 'text' : ''}, c))))));
 function sign(name, size = 14) {
+  const mark = name === null ? truthMark : markOf(name);
   const svg = shape('svg', {viewBox: '-8 -8 16 16', width: size, height: size, style: 'display:inline-block;width:14px;margin-right:.4em', 'aria-hidden': 'true'});
-  svg.append(shape('path', {fill: `var(${style(name).colour})`, d: symbolPath(style(name).symbol, 0, 0, 5.5)}));
+  svg.append(shape('path', {fill: `var(${mark.colour})`, d: symbolPath(mark.symbol, 0, 0, 5.5)}));
   return svg;
 }
 
 // What is shown: of the candidates at first those that fail, and our own.
 const shown = new Set(answers.filter(([name, a]) => a.status === 'contact' && (name === 'reference' || a.score.outcome !== 'agree'))
     .map(([name]) => name));
-let scene, shows, reaches;
+let scene, shows;
 
 // Puts the origin of everything into the contact of one of the true normals.
 function aim(index) {
-  const n = unit(truth.normals[index]), contact = truth.patch[index].centroid;
-  const largest = s => s.shape === 'plane' ? 0 : Math.max(s.radius || 0, (s.half_length || 0) +
-      (s.shape === 'capsule' ? s.radius : 0), ...(s.half_extents || []));
-  const reach = 1.5 * largest(given.a);
-  const bodies = [makeBody(given.a, given.pose_a, contact, reach), makeBody(given.b, given.pose_b, contact, reach)];
-  const radii = bodies.map(b => { const all = b.faces.flat(); const c = bounds(all, b.axes).centre; return Math.max(...all.map(p => length(add(p, c, -1)))); });
-  const outline = truth.patch[index].outline.map(p => add(p, contact, -1));
-  const distance = Math.abs(Number(truth.signed_distance[0])), most = Math.max(...radii);
-  // Rounding shows below a few units in the last place of the position.
-  const depth = Math.min(most, Math.max(5 * distance, 1e-14 * Math.max(most, length(contact))));
-  reaches = {depth, contact: Math.min(most, Math.max(depth, 1.3 * Math.max(0, ...outline.map(length))))};
-  const u = combine(axesOf(given.pose_a.orientation), [0, 0, 1]);
-  scene = {bodies, normal: n, contact, outlines: outline.length > 1 ? [outline] : [],
-           across: across(n, u, add(bodies[1].centre, bodies[0].centre, -1)),
-           signedDistance: Number(truth.signed_distance[0])};
-  aimView(n, scene.across);
+  scene = makeScene(given, truth, index);
+  aimView(view, scene.normal, scene.across);
   slice.across = scene.across;
-  const smaller = bodies[radii[0] < radii[1] ? 0 : 1];
-  shows = {contact: [], smaller: [smaller], whole: bodies};
-  const first = Math.min(...radii) > most / 20 ? bodies : [smaller];
-  fitView(first);
-  fitSlice(first, n);
+  shows = {contact: [], smaller: [smallerBody(scene)], whole: scene.bodies};
+  fitView(view, mainBodies(scene));
+  fitSlice(mainBodies(scene), scene.normal);
   turnSlice();
 }
 function turnSlice() {
@@ -53,23 +34,9 @@ function turnSlice() {
   slice.across = add(times(scene.across, Math.cos(angle)), cross(scene.normal, scene.across), Math.sin(angle));
   redraw();
 }
-function marks() {
-  const result = [];
-  for (const [name, a] of answers) {
-    if (!shown.has(name) || a.status !== 'contact') continue;
-    for (const p of a.points) {
-      const normal = finite(p.normal) ? p.normal : a.normal;
-      if (!finite(p.position) || !finite(normal)) continue;
-      result.push({...style(name), position: add(p.position, scene.contact, -1), normal, large: false});
-    }
-  }
-  truth.normals.forEach((normal, i) => result.push({...style(null), normal, large: true,
-      position: add(truth.patch[i].centroid, scene.contact, -1)}));
-  return result;
-}
 function redraw() {
-  scene.marks = marks();
-  drawView(scene);
+  scene.marks = marksOf(scene, truth, answers.filter(([name]) => shown.has(name)));
+  drawView(view, scene);
   drawSlice(scene);
 }
 
@@ -136,12 +103,12 @@ function configuration() {
 function controls() {
   const onClick = (id, act) => byId(id).addEventListener('click', () => { act(); redraw(); });
   for (const which of ['contact', 'smaller', 'whole']) {
-    onClick(`view-${which}`, () => fitView(shows[which], reaches.contact));
+    onClick(`view-${which}`, () => fitView(view, shows[which], scene.reaches.contact));
     // In the slice the depth itself is to be seen, however long the patch is.
-    onClick(`slice-${which}`, () => fitSlice(shows[which], scene.normal, reaches.depth));
+    onClick(`slice-${which}`, () => fitSlice(shows[which], scene.normal, scene.reaches.depth));
   }
-  onClick('view-in', () => zoomView(2));
-  onClick('view-out', () => zoomView(0.5));
+  onClick('view-in', () => zoomView(view, 2));
+  onClick('view-out', () => zoomView(view, 0.5));
   onClick('slice-in', () => zoomSlice(2));
   onClick('slice-out', () => zoomSlice(0.5));
   slice.svg.addEventListener('wheel', e => { e.preventDefault(); zoomSlice(Math.exp(-0.0015 * e.deltaY)); redraw(); }, {passive: false});
@@ -152,7 +119,7 @@ function controls() {
   byId('slice-normal-label').hidden = truth.normals.length === 1;
   byId('show-all').addEventListener('click', () => showAll(true));
   byId('show-none').addEventListener('click', () => showAll(false));
-  steerView(redraw);
+  steerView(view, redraw);
   addEventListener('resize', redraw);
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', redraw);
 }

@@ -8,7 +8,7 @@
 namespace touchstone {
 
 // Made by the build from the files of the same names.
-extern const std::string_view replay_html, replay_css, bodies_js, view_js, slice_js, replay_js;
+extern const std::string_view replay_html, replay_css, slice_js, replay_js;
 
 std::string replay_page(nlohmann::json examined, const nlohmann::json& hexadecimal,
                         const nlohmann::json& exact, std::string_view description) {
@@ -21,6 +21,7 @@ std::string replay_page(nlohmann::json examined, const nlohmann::json& hexadecim
   fill(page, "/* elements.js */", elements_js);
   fill(page, "/* bodies.js */", bodies_js);
   fill(page, "/* view.js */", view_js);
+  fill(page, "/* scene.js */", scene_js);
   fill(page, "/* slice.js */", slice_js);
   fill(page, "/* replay.js */", replay_js);
   fill(page, "/* replay.json */", script_safe(examined));

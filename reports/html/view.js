@@ -1,14 +1,14 @@
 // The 3-D view: an orthographic camera about the contact, on a 2-D canvas. Of a convex body only the
 // faces towards the viewer are drawn, which never hide each other; the true normal says which of the
 // two bodies is behind. So nothing needs sorting. The one in front is translucent.
-const view = {canvas: document.getElementById('view'), right: [1, 0, 0], up: [0, 1, 0], towards: [0, 0, 1], zoom: 1, pan: [0, 0, 0]};
+const makeView = canvas => ({canvas, right: [1, 0, 0], up: [0, 1, 0], towards: [0, 0, 1], zoom: 1, pan: [0, 0, 0]});
 
 // Looks along the slice plane's normal, a little from the side and from above.
-function aimView(n, t) {
+function aimView(view, n, t) {
   view.up = n; view.right = t; view.towards = cross(t, n);
-  turnView(0.5, 0.35);
+  turnView(view, 0.5, 0.35);
 }
-function turnView(sideways, upwards) {
+function turnView(view, sideways, upwards) {
   const mix = (a, b, angle) => [add(times(a, Math.cos(angle)), b, Math.sin(angle)), add(times(b, Math.cos(angle)), a, -Math.sin(angle))];
   [view.right, view.towards] = mix(view.right, view.towards, sideways);
   [view.up, view.towards] = mix(view.up, view.towards, -upwards);
@@ -23,13 +23,13 @@ function bounds(points, axes) {
   return {centre: combine(axes, ends.map(([lo, hi]) => (lo + hi) / 2)), half: ends.map(([lo, hi]) => (hi - lo) / 2)};
 }
 // All of these bodies; without any, `reach` metres about the contact.
-function fitView(bodies, reach) {
+function fitView(view, bodies, reach) {
   const points = bodies.flatMap(b => b.faces.flat());
   view.pan = points.length ? bounds(points, [view.right, view.up, view.towards]).centre : [0, 0, 0];
   view.zoom = 0.9 / (points.length ? Math.max(...points.map(p => length(add(p, view.pan, -1)))) : reach);
 }
 // The contact stays where it is on the screen.
-function zoomView(factor) {
+function zoomView(view, factor) {
   view.zoom *= factor;
   view.pan = times(view.pan, 1 / factor);
 }
@@ -56,7 +56,7 @@ function tracePath(context, points) {
 }
 
 // `scene`: {bodies: [A, B], normal, marks: [{colour, symbol, position, normal, large}], outlines}.
-function drawView(scene) {
+function drawView(view, scene) {
   const {canvas} = view, ratio = devicePixelRatio || 1;
   const width = canvas.clientWidth, height = canvas.clientHeight;
   canvas.width = Math.round(width * ratio);
@@ -72,7 +72,7 @@ function drawView(scene) {
   order.forEach((which, rank) => {
     const tint = style.getPropertyValue(names[which]).trim().split(/\s+/).map(Number);
     context.globalAlpha = rank === 0 ? 0.92 : 0.6;
-    context.drawImage(paintBody(scene.bodies[which], tint, project, width, height, ratio), 0, 0, width, height);
+    context.drawImage(paintBody(view, scene.bodies[which], tint, project, width, height, ratio), 0, 0, width, height);
   });
   context.globalAlpha = 1;
   for (const outline of scene.outlines) {
@@ -82,12 +82,12 @@ function drawView(scene) {
     context.strokeStyle = style.getPropertyValue('--ink');
     context.stroke();
   }
-  for (const mark of scene.marks) drawMark(context, mark, project, style, width, height);
+  for (const mark of scene.marks) drawMark(view, context, mark, project, style, width, height);
   drawScale(context, scale, height, style);
 }
 
 // On a canvas of its own, so that it is translucent as a whole.
-function paintBody(body, tint, project, width, height, ratio) {
+function paintBody(view, body, tint, project, width, height, ratio) {
   const layer = document.createElement('canvas');
   layer.width = Math.round(width * ratio);
   layer.height = Math.round(height * ratio);
@@ -119,7 +119,7 @@ function paintBody(body, tint, project, width, height, ratio) {
 }
 
 // A point, and an arrow along its normal of a fixed length on the screen.
-function drawMark(context, mark, project, style, width, height) {
+function drawMark(view, context, mark, project, style, width, height) {
   const [x, y] = project(mark.position);
   if (!(x > -50 && x < width + 50 && y > -50 && y < height + 50)) return;
   const size = mark.large ? 72 : 54;
@@ -158,7 +158,7 @@ function drawScale(context, scale, height, style) {
 }
 
 // Drag, wheel, pinch and keys; `redraw` after each.
-function steerView(redraw) {
+function steerView(view, redraw) {
   const {canvas} = view, held = new Map();
   const spread = () => { const [a, b] = [...held.values()]; return Math.hypot(a[0] - b[0], a[1] - b[1]); };
   canvas.addEventListener('pointerdown', e => { held.set(e.pointerId, [e.clientX, e.clientY]); canvas.setPointerCapture(e.pointerId); });
@@ -166,17 +166,17 @@ function steerView(redraw) {
     if (!held.has(e.pointerId)) return;
     const [x, y] = held.get(e.pointerId), before = held.size === 2 ? spread() : 0;
     held.set(e.pointerId, [e.clientX, e.clientY]);
-    if (held.size === 2) zoomView(spread() / Math.max(1, before));
-    else turnView((x - e.clientX) * 0.01, (e.clientY - y) * 0.01);
+    if (held.size === 2) zoomView(view, spread() / Math.max(1, before));
+    else turnView(view, (x - e.clientX) * 0.01, (e.clientY - y) * 0.01);
     redraw();
   });
   for (const end of ['pointerup', 'pointercancel']) canvas.addEventListener(end, e => held.delete(e.pointerId));
-  canvas.addEventListener('wheel', e => { e.preventDefault(); zoomView(Math.exp(-0.0015 * e.deltaY)); redraw(); }, {passive: false});
+  canvas.addEventListener('wheel', e => { e.preventDefault(); zoomView(view, Math.exp(-0.0015 * e.deltaY)); redraw(); }, {passive: false});
   const keys = {ArrowLeft: [0.1, 0], ArrowRight: [-0.1, 0], ArrowUp: [0, -0.1], ArrowDown: [0, 0.1]};
   canvas.addEventListener('keydown', e => {
     if (!keys[e.key]) return;
     e.preventDefault();
-    turnView(...keys[e.key]);
+    turnView(view, ...keys[e.key]);
     redraw();
   });
 }

@@ -1,7 +1,5 @@
 // Vectors and the two bodies, in coordinates whose origin is the contact, so that a view may be
 // enlarged until the rounding of the doubles shows.
-const data = JSON.parse(document.getElementById('data').textContent);
-
 const add = (a, b, s = 1) => a.map((x, i) => x + s * b[i]);
 const times = (a, s) => a.map(x => s * x);
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];

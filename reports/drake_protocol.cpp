@@ -1,0 +1,189 @@
+#include "reports/drake_protocol.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "reports/configuration_json.hpp"
+
+namespace touchstone {
+namespace {
+
+using nlohmann::json;
+
+constexpr double depth = 2e-3;  // metres; Drake's kDistance, in which its sizes are given
+
+/// A point of a surface with an outward normal there, in the body's frame.
+struct Site {
+  std::string name;
+  Vec3 point, normal;
+  double room;  ///< how far another body may sink in there before another way out is shorter
+};
+
+std::vector<Site> sites(const Cylinder& c) {
+  const double r = c.radius(), h = c.half_length(), from_edge = 1.01 * depth;
+  const Vec3 z = Vec3::UnitZ(), side = Vec3(-1.5, 3, 0).normalized();
+  return {{"cap", Vec3(1.3, -0.25, 0).normalized() * (r - from_edge) + z * h, z, from_edge},
+          {"edge", Vec3(1, 1.5, 0).normalized() * r + z * h, Vec3(1, 1.5, 1).normalized(), 0},
+          {"side", side * r - z * (h - from_edge), side, r}};
+}
+
+std::vector<Site> sites(const Plane&) {
+  return {{"plane", Vec3(0.3, 0.7, 0), Vec3::UnitZ(), std::numeric_limits<double>::infinity()}};
+}
+
+std::vector<Site> sites(const Sphere& s) {
+  const Vec3 one = Vec3(-1, 1, 1.5).normalized(), other = Vec3(1, -2, 0.3).normalized();
+  return {{"sphere", one * s.radius(), one, s.radius()},
+          {"sphere's other side", other * s.radius(), other, s.radius()}};
+}
+
+std::vector<Site> sites(const Capsule& c) {
+  const double angle = 6 * std::numbers::pi / 7;
+  const Vec3 side(std::cos(angle), std::sin(angle), 0), end = Vec3(2, 0.3, 1.1).normalized();
+  return {{"capsule side", c.radius() * side + Vec3(0, 0, 0.6 * c.half_length()), side, c.radius()},
+          {"capsule end", c.radius() * end + Vec3(0, 0, c.half_length()), end, c.radius()}};
+}
+
+std::vector<Site> sites(const Box& b) {
+  const Vec3 h = b.half_extents();
+  const double from_edge = 1.01 * std::max(0.25 * h.minCoeff(), depth);
+  return {{"box vertex", h.cwiseProduct(Vec3(1, -1, 1)), Vec3(0.5, -2, 1).normalized(), 0},
+          {"box edge", h.cwiseProduct(Vec3(1, -1, 0.75)), Vec3(2, -2, 0).normalized(), 0},
+          {"box face", Vec3(from_edge, from_edge, 0) - h, -Vec3::UnitZ(), from_edge}};
+}
+
+std::vector<Site> sites(const Shape& shape) {
+  return std::visit([](const auto& s) { return sites(s); }, shape);
+}
+
+struct World {
+  const char* name;
+  Eigen::Quaterniond rotation;
+  Vec3 translation;
+};
+
+/// Near the origin and some metres away.
+std::vector<World> worlds() {
+  const auto turn = [](double angle, const Vec3& axis) {
+    return Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis.normalized()));
+  };
+  return {{"near", turn(5 * std::numbers::pi / 9, Vec3(-1, -1, 1)), Vec3(-0.2, 0.15, -0.3)},
+          {"far", turn(22 * std::numbers::pi / 9, Vec3(-1, 1, -1)), Vec3(-10, 20.2, -12.3)}};
+}
+
+/// The second body, in the frame of the first: site on site, `depth` deep, normals opposite.
+Pose placed(const Site& first, const Site& second) {
+  const auto r = Eigen::Quaterniond::FromTwoVectors(second.normal, -first.normal);
+  return Pose(first.point - depth * first.normal - r * second.point, r);
+}
+
+Shape other(Pair pair) {
+  switch (pair) {
+    case Pair::plane:
+      return Plane(Vec3::UnitZ(), 0);
+    case Pair::sphere:
+      return Sphere(100 * depth);
+    case Pair::capsule:
+      return Capsule(100 * depth, 51 * depth / 2);
+    case Pair::cylinder:
+      return Cylinder(19 * depth, 100 * depth / 2);
+    case Pair::box:
+      break;
+  }
+  return Box(Vec3(37, 100, 43) * depth / 2);
+}
+
+/// From RobotLocomotion/drake, geometry/query_object.h: table 1 (ComputePointPairPenetration) and
+/// table 3 (ComputeSignedDistancePairwiseClosestPoints, which refuses half-spaces), of double.
+json published(Pair pair) {
+  switch (pair) {
+    case Pair::plane:
+      return {{"penetration", 4e-15}, {"signed_distance", nullptr}};
+    case Pair::sphere:
+      return {{"penetration", 5e-15}, {"signed_distance", 5e-15}};
+    case Pair::capsule:
+      return {{"penetration", 4e-5}, {"signed_distance", 1e-5}};
+    case Pair::cylinder:
+      return {{"penetration", 2e-3}, {"signed_distance", 2e-5}};
+    case Pair::box:
+      break;
+  }
+  return {{"penetration", 1e-3}, {"signed_distance", 6e-6}};
+}
+
+/// One candidate on one pair.
+json judged(CandidateProcess& candidate, const std::vector<DrakeCase>& cases, const Bar& bar) {
+  std::vector<Configuration> configurations;
+  for (const DrakeCase& c : cases) configurations.push_back(c.configuration);
+  const std::vector<Answer> answers = candidate.answers(configurations);
+  json outcomes = json::object(), max_error = nullptr, worst = nullptr;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    const Configuration& c = configurations[i];
+    const oracle::Truth truth = oracle::truth(c);
+    const Score s = score(c, truth, answers[i], bar);
+    auto& count = outcomes[outcome_name(s.outcome)];
+    count = count.is_null() ? 1 : count.get<int>() + 1;
+    if (!s.depth_error) continue;
+    const double error = std::abs(answers[i].signed_distance - truth.signed_distance.midpoint());
+    if (!worst.is_null() && error <= max_error.get<double>()) continue;
+    max_error = error;
+    worst = i;
+  }
+  return {
+      {"count", cases.size()}, {"outcomes", outcomes}, {"max_error", max_error}, {"worst", worst}};
+}
+
+}  // namespace
+
+std::vector<DrakeCase> drake_cases(Pair pair) {
+  const Shape cylinder = Cylinder(100 * depth, 71 * depth / 2), second = other(pair);
+  // Drake names the pairs with a box or a capsule the other way round.
+  const bool cylinder_first = pair != Pair::box && pair != Pair::capsule;
+  std::vector<DrakeCase> result;
+  for (const World& world : worlds()) {
+    for (const Site& on_cylinder : sites(cylinder)) {
+      for (const Site& on_other : sites(second)) {
+        if (std::max(on_cylinder.room, on_other.room) < depth) continue;
+        const Pose first(world.translation, world.rotation);
+        const Pose relative =
+            cylinder_first ? placed(on_cylinder, on_other) : placed(on_other, on_cylinder);
+        const Pose then(world.translation + world.rotation * relative.position(),
+                        world.rotation * relative.orientation());
+        const Pose &a = cylinder_first ? first : then, &b = cylinder_first ? then : first;
+        const std::string name =
+            "cylinder " + on_cylinder.name + " against " + on_other.name + ", " + world.name;
+        result.push_back({name, {std::get<Cylinder>(cylinder), a, second, b}});
+        if (pair != Pair::cylinder) continue;
+        result.push_back({name + ", exchanged", {std::get<Cylinder>(second), b, cylinder, a}});
+      }
+    }
+  }
+  return result;
+}
+
+json drake_protocol(const Campaign& campaign) {
+  json pairs = json::array(), results = json::array();
+  auto candidates = start(campaign.candidates, campaign.bar.threshold, campaign.limits);
+  for (const Pair pair : campaign.pairs) {
+    const std::vector<DrakeCase> cases = drake_cases(pair);
+    json configurations = json::array();
+    for (const DrakeCase& c : cases) {
+      configurations.push_back(
+          {{"description", c.description}, {"configuration", to_json(c.configuration)}});
+    }
+    pairs.push_back({{"pair", pair_name(pair)},
+                     {"published", published(pair)},
+                     {"configurations", configurations}});
+    for (CandidateProcess& candidate : candidates) {
+      json row = judged(candidate, cases, campaign.bar);
+      row["pair"] = pair_name(pair);
+      row["candidate"] = candidate.candidate().name;
+      results.push_back(std::move(row));
+    }
+  }
+  return {{"depth", depth}, {"pairs", pairs}, {"results", results}};
+}
+
+}  // namespace touchstone

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "reports/campaign.hpp"
+
+namespace touchstone {
+
+/// One pose of Drake's characterisation of its contact queries.
+struct DrakeCase {
+  std::string description;  ///< "cylinder edge against box face, far"
+  Configuration configuration;
+};
+
+/// Drake publishes the worst error of its queries for pairs of bodies of about 20 cm that overlap
+/// by 2 mm: at chosen points of both surfaces (on a face, an edge, a vertex) the outward normals
+/// are made opposite and the points brought 2 mm past each other, in two poses of the whole. These
+/// are the same shapes, points and poses, for the pairs with a cylinder; two cylinders in both
+/// orders. Source: RobotLocomotion/drake, geometry/proximity/test/characterization_utilities.cc
+/// (ShapeConfigurations, AlignPlanes, X_WAs).
+std::vector<DrakeCase> drake_cases(Pair pair);
+
+/// The worst absolute error of every candidate in signed distance, metres, beside those that Drake
+/// publishes of itself: `drake_protocol` in report.json.
+nlohmann::json drake_protocol(const Campaign& campaign);
+
+}  // namespace touchstone

@@ -1,0 +1,45 @@
+#include "reports/figures/figures.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <string>
+#include <system_error>
+#include <unistd.h>
+#include <vector>
+
+#include "reference/invalid_input.hpp"
+#include "reports/figures/gnuplot.hpp"
+
+namespace touchstone {
+
+using nlohmann::json;
+using std::filesystem::path;
+
+void check_figures(const path& folder) {
+  if (std::system("command -v gnuplot >/dev/null 2>&1") != 0) {
+    throw InvalidInput("--figures", '"' + folder.string() + '"',
+                       "needs gnuplot, which is not installed (Debian: gnuplot-nox)");
+  }
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error || access(folder.c_str(), W_OK | X_OK) != 0) {
+    throw InvalidInput("--figures", '"' + folder.string() + '"',
+                       "must be a folder that can be written to");
+  }
+}
+
+void write_figures(const json& report, const path& folder) {
+  check_figures(folder);
+  std::vector<std::string> pairs;
+  for (const json& row : report["summary"]) {
+    const std::string pair = row["pair"];
+    if (std::find(pairs.begin(), pairs.end(), pair) == pairs.end()) pairs.push_back(pair);
+  }
+  std::string script = speed_figures(report, pairs, folder);
+  for (const auto& pair : pairs) {
+    script += error_figure(report, pair, folder) + class_figure(report, pair, folder);
+  }
+  run_gnuplot(script, folder);
+}
+
+}  // namespace touchstone

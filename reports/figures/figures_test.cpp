@@ -1,0 +1,91 @@
+#include "reports/figures/figures.hpp"
+
+#include <cstdlib>
+#include <fstream>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "candidates/candidates.hpp"
+#include "reference/invalid_input.hpp"
+#include "reports/figures/label_places.hpp"
+#include "reports/report.hpp"
+
+namespace touchstone {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+std::string text_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return std::string((std::istreambuf_iterator<char>(in)), {});
+}
+
+TEST(Figures, EachComesAsPictureTwiceAndAsData) {
+  if (std::system("command -v gnuplot >/dev/null 2>&1") != 0) GTEST_SKIP() << "no gnuplot here";
+  Campaign c;
+  c.pairs = {Pair::plane, Pair::box};
+  c.classes = {"general-shallow", "touching"};
+  c.candidates = find_candidates({"reference", "bullet", "prism:8"});
+  c.count = 3;
+  json report = make_report(c, "x");
+  // A plug-in may be called anything.
+  for (const char* list : {"summary", "results"}) {
+    for (json& row : report[list]) {
+      if (row["candidate"] == "prism:8") row["candidate"] = "a\"b,{c}\\";
+    }
+  }
+  const std::filesystem::path folder = testing::TempDir() + "touchstone figures's test";
+  write_figures(report, folder);
+  for (const char* name : {"speed-accuracy", "speed-accuracy-cylinder-box", "errors-all",
+                           "errors-cylinder-plane", "classes-cylinder-box"}) {
+    EXPECT_THAT(text_of(folder / (std::string(name) + ".svg")), HasSubstr("</svg>")) << name;
+    EXPECT_THAT(text_of(folder / (std::string(name) + ".png")), StartsWith("\x89PNG")) << name;
+    EXPECT_THAT(text_of(folder / (std::string(name) + ".csv")), HasSubstr("reference,")) << name;
+  }
+  EXPECT_THAT(text_of(folder / "errors-all.csv"), HasSubstr("\"a\"\"b,{c}\\\""));
+  EXPECT_FALSE(std::filesystem::exists(folder / "figures.gnuplot"));
+  std::filesystem::remove_all(folder);
+}
+
+TEST(Figures, RefuseAFolderThatIsAFile) {
+  const std::filesystem::path file = testing::TempDir() + "touchstone_figures_is_a_file";
+  std::ofstream(file) << "x";
+  EXPECT_THROW(check_figures(file), InvalidInput);
+  std::filesystem::remove(file);
+}
+
+TEST(LabelPlaces, ALabelStandsToTheRightWhereThereIsRoom) {
+  const auto places = label_places({{10, 5, 6, false}}, 40, 10);
+  ASSERT_TRUE(places[0]);
+  EXPECT_TRUE(places[0]->rightwards);
+  EXPECT_FALSE(label_places({{38, 5, 6, false}}, 40, 10)[0]->rightwards);
+}
+
+TEST(LabelPlaces, NoTwoLabelsMeet) {
+  std::vector<Label> labels;
+  for (int i = 0; i < 8; ++i) labels.push_back({20 + 0.1 * i, 5 + 0.1 * i, 9, false});
+  const auto places = label_places(labels, 40, 10);
+  int shown = 0;
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (!places[i]) continue;
+    ++shown;
+    for (std::size_t k = 0; k < i; ++k) {
+      if (!places[k] || places[i]->rightwards != places[k]->rightwards) continue;
+      EXPECT_GE(std::abs(labels[i].y + places[i]->dy - labels[k].y - places[k]->dy), 1);
+    }
+  }
+  EXPECT_GE(shown, 2);
+  EXPECT_LT(shown, 8);
+}
+
+TEST(LabelPlaces, AnImportantLabelIsAlwaysShown) {
+  const std::vector<Label> labels = {{1, 1, 30, false}, {1, 1, 30, true}};
+  const auto places = label_places(labels, 10, 2);
+  EXPECT_FALSE(places[0]);
+  EXPECT_TRUE(places[1]);
+}
+
+}  // namespace
+}  // namespace touchstone

@@ -1,0 +1,89 @@
+#include "reports/figures/gnuplot.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <fmt/format.h>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <vector>
+
+namespace touchstone {
+
+Mark mark_of(const std::string& candidate) {
+  constexpr int symbols[] = {7, 5, 9, 13, 1, 11};
+  static const std::vector<std::pair<const char*, std::vector<std::string>>> engines = {
+      {"#0072b2", {"reference"}},
+      {"#d55e00",
+       {"bullet", "bullet-margin-0", "bullet-persistent", "bullet-hull", "bullet-float",
+        "bullet-float-margin-0"}},
+      {"#009e73", {"ode", "ode-mesh"}},
+      {"#cc79a7", {"fcl", "fcl-indep", "fcl-distance"}},
+      {"#a67c00", {"libccd-gjk", "libccd-mpr"}},
+      {"#3a9bdc", {"mujoco"}},
+      {"#7a5195",
+       {"capsule", "capsule-circumscribed", "spheres", "prism", "box-spheres", "box-capsules"}}};
+  const std::string family = candidate.substr(0, candidate.find(':'));
+  for (const auto& [colour, names] : engines) {
+    const auto at = std::find(names.begin(), names.end(), family);
+    if (at != names.end()) return {colour, symbols[at - names.begin()]};
+  }
+  return {"#555555", symbols[family.size() % std::size(symbols)]};
+}
+
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    result += c;
+  }
+  return result + '"';
+}
+
+std::string csv_cell(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string result = "\"";
+  for (const char c : text) result += c == '"' ? "\"\"" : std::string(1, c);
+  return result + '"';
+}
+
+void write_text(const std::filesystem::path& file, const std::string& text) {
+  std::ofstream out(file, std::ios::binary);
+  out << text;
+  out.close();
+  if (!out) throw std::runtime_error(file.string() + " could not be written");
+}
+
+void run_gnuplot(const std::string& script, const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / "figures.gnuplot", said = folder / "figures.log";
+  write_text(file, script);
+  const std::string command =
+      fmt::format("cd {} && gnuplot figures.gnuplot >figures.log 2>&1", "\"$TOUCHSTONE_FIGURES\"");
+  setenv("TOUCHSTONE_FIGURES", folder.c_str(), 1);
+  const int code = std::system(command.c_str());
+  unsetenv("TOUCHSTONE_FIGURES");
+  std::ifstream log(said);
+  const std::string words((std::istreambuf_iterator<char>(log)), {});
+  std::filesystem::remove(said);
+  if (code != 0) throw std::runtime_error("gnuplot failed on " + file.string() + ": " + words);
+  std::filesystem::remove(file);
+}
+
+std::string in_both_forms(const std::string& name, int width, int height,
+                          const std::string& commands) {
+  const std::string reset = "\nreset\n";
+  return fmt::format(
+      "set terminal svg size {0},{1} noenhanced font 'DejaVu Sans,11' "
+      "background '#ffffff'\nset output {2}\n{3}{4}"
+      "set terminal pngcairo size {5},{6} noenhanced font 'DejaVu Sans,22' "
+      "linewidth 2 pointscale 1.6\nset output {7}\n{3}{4}",
+      width, height, quoted(name + ".svg"), commands, reset, 2 * width, 2 * height,
+      quoted(name + ".png"));
+}
+
+double agreement(const nlohmann::json& row) {
+  return row["outcomes"].value("agree", 0.0) /
+         (row["count"].get<double>() - row["outcomes"].value("unsupported", 0.0));
+}
+
+}  // namespace touchstone

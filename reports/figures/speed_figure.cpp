@@ -1,0 +1,158 @@
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <vector>
+
+#include "reports/figures/gnuplot.hpp"
+#include "reports/figures/label_places.hpp"
+
+namespace touchstone {
+namespace {
+
+using nlohmann::json;
+
+struct Point {
+  std::string candidate;
+  double time, error, agreement;
+  bool front = false;
+};
+
+/// Timed candidates with contacts; those that no other beats in both are the front.
+std::vector<Point> points_of(const json& report, const std::string& pair) {
+  constexpr double least = 1e-17;  // a logarithmic axis has no zero
+  std::vector<Point> result;
+  for (const json& row : report["summary"]) {
+    if (row["pair"] != pair || row["nanoseconds"].is_null() || row["depth_error"].is_null())
+      continue;
+    result.push_back({row["candidate"], row["nanoseconds"]["median"],
+                      std::max(row["depth_error"]["p99"].get<double>(), least), agreement(row)});
+  }
+  for (Point& p : result) {
+    p.front = std::none_of(result.begin(), result.end(), [&](const Point& q) {
+      return q.time <= p.time && q.error <= p.error && (q.time < p.time || q.error < p.error);
+    });
+  }
+  return result;
+}
+
+struct Range {
+  double low, high;  ///< powers of ten
+};
+Range decades(const std::vector<double>& values) {
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  const double first = std::floor(std::log10(*low));
+  return {first, std::max(first + 1, std::ceil(std::log10(*high)))};
+}
+
+/// The panel's commands; `width` and `height` are of its axes, in characters of its labels.
+std::string speed_panel(const std::string& pair, const std::vector<Point>& points, const Range& x,
+                        const Range& y, double width, double height) {
+  std::string text = fmt::format(
+      "set title {} noenhanced\nset logscale xy\nset xrange [0.999e{}:1.001e{}]\nset yrange "
+      "[1e{}:1e{}]\n"
+      "set grid xtics ytics linecolor '#d9dee5'\nset border 3\nset tics nomirror\n"
+      "set xtics ('10 ns' 10, '100 ns' 100, '1 µs' 1e3, '10 µs' 1e4, '100 µs' 1e5, '1 ms' 1e6)\n"
+      "set ytics 1e{} format '%.0e'\nset xlabel 'time per query'\n"
+      "set ylabel 'depth error, p99 (sizes)'\nset key off\nunset label\nunset mxtics\nunset "
+      "mytics\n",
+      quoted(pair == "all" ? "all pairs" : pair), x.low, x.high, y.low, y.high,
+      std::max(1.0, std::ceil((y.high - y.low) / 6)));
+  std::vector<Label> labels;
+  for (const Point& p : points) {
+    labels.push_back({(std::log10(p.time) - x.low) / (x.high - x.low) * width,
+                      (std::log10(p.error) - y.low) / (y.high - y.low) * height,
+                      static_cast<double>(p.candidate.size()), p.front});
+  }
+  const auto places = label_places(labels, width, height);
+  std::string marks;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Point& p = points[i];
+    const Mark mark = mark_of(p.candidate);
+    marks += fmt::format("{}'-' with points pointtype {} pointsize 0.8 linecolor '{}'",
+                         i ? ", " : "plot '-' with lines dashtype 2 linecolor '#5a6472', ",
+                         mark.symbol, mark.colour);
+    if (!places[i]) continue;
+    text +=
+        fmt::format("set label {} at {:.6g},{:.6g} {} offset character {:.2f},{:.2f} front{}\n",
+                    quoted(p.candidate), p.time, p.error, places[i]->rightwards ? "left" : "right",
+                    places[i]->dx, places[i]->dy, p.front ? "" : " textcolor '#5a6472'");
+  }
+  std::vector<Point> front;
+  for (const Point& p : points) {
+    if (p.front) front.push_back(p);
+  }
+  std::sort(front.begin(), front.end(),
+            [](const Point& a, const Point& b) { return a.time < b.time; });
+  text += marks + '\n';
+  for (const Point& p : front) text += fmt::format("{:.6g} {:.6g}\n", p.time, p.error);
+  text += "e\n";
+  for (const Point& p : points) text += fmt::format("{:.6g} {:.6g}\ne\n", p.time, p.error);
+  return text;
+}
+
+/// All marks with their names, at the bottom of a page of panels.
+std::string key_panel(const std::vector<std::string>& candidates, double share) {
+  std::string text = fmt::format(
+      "set size 1,{}\nset origin 0,0\nunset title\nunset label\nunset border\nunset tics\n"
+      "unset xlabel\nunset ylabel\nunset grid\nset key center center horizontal Left reverse "
+      "samplen 1 width 1 font ',9'\n",
+      share);
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const Mark mark = mark_of(candidates[i]);
+    text += fmt::format("{}1/0 with points title {} pointtype {} pointsize 0.8 linecolor '{}'",
+                        i ? ", " : "plot ", quoted(candidates[i]), mark.symbol, mark.colour);
+  }
+  return text + '\n';
+}
+
+}  // namespace
+
+std::string speed_figures(const json& report, const std::vector<std::string>& pairs,
+                          const std::filesystem::path& folder) {
+  std::vector<double> times, errors;
+  std::vector<std::string> drawn;
+  std::string all_data = "pair,candidate,nanoseconds,depth_error_p99,agreement,on_front\n";
+  for (const auto& pair : pairs) {
+    const auto points = points_of(report, pair);
+    if (!points.empty()) drawn.push_back(pair);
+    for (const Point& p : points) {
+      times.push_back(p.time);
+      errors.push_back(p.error);
+      all_data += fmt::format("{},{},{},{},{},{}\n", pair, csv_cell(p.candidate), p.time, p.error,
+                              p.agreement, p.front ? 1 : 0);
+    }
+  }
+  if (drawn.empty()) return "";
+  write_text(folder / "speed-accuracy.csv", all_data);
+  const Range x = decades(times), y = decades(errors);
+  std::string script, panels;
+  // Two columns of panels above a key of all marks.
+  const int columns = drawn.size() > 1 ? 2 : 1;
+  const int rows = static_cast<int>(drawn.size() + 1) / 2;
+  constexpr int key_height = 90;
+  const double share = 1.0 * key_height / (340 * rows + key_height);
+  std::vector<std::string> candidates;
+  for (const json& c : report["candidates"]) candidates.push_back(c["name"]);
+  int panel = 0;
+  for (const auto& pair : drawn) {
+    const auto points = points_of(report, pair);
+    script +=
+        in_both_forms("speed-accuracy-" + pair, 640, 440, speed_panel(pair, points, x, y, 74, 21));
+    panels += fmt::format("set size {},{}\nset origin {},{}\n", 1.0 / columns, (1 - share) / rows,
+                          1.0 / columns * (panel % columns),
+                          1 - (1 - share) / rows * (panel / columns + 1)) +
+              speed_panel(pair, points, x, y, 60, 17);
+    ++panel;
+    std::string data = "candidate,nanoseconds,depth_error_p99,agreement,on_front\n";
+    for (const Point& p : points) {
+      data += fmt::format("{},{},{},{},{}\n", csv_cell(p.candidate), p.time, p.error, p.agreement,
+                          p.front ? 1 : 0);
+    }
+    write_text(folder / ("speed-accuracy-" + pair + ".csv"), data);
+  }
+  return script + in_both_forms("speed-accuracy", 1080, 340 * rows + key_height,
+                                "set multiplot\n" + panels + key_panel(candidates, share) +
+                                    "unset multiplot\n");
+}
+
+}  // namespace touchstone

@@ -1,0 +1,60 @@
+// What most readers ask first, answered from the data.
+function findings() {
+  const all = report.summary.filter(r => r.pair === 'all'), rows = (all.length ? all : report.summary).filter(supported);
+  byId('headline').textContent = `${whole(report.configurations)} configurations of ${pairs.length} ` +
+      `${pairs.length === 1 ? 'pair' : 'pairs'} of shapes, ${new Set(rows.map(r => r.candidate)).size} contact routines, ` +
+      `each answer held against a truth certified to 1e-30 of the larger size.`;
+  byId('provenance').append(`Touchstone ${report.version}, seed ${report.seed}, ${report.machine.cpu}.`);
+  byId('finding-accuracy').append(...pairs.map(pair => element('li', {}, ...accuracyOf(pair))));
+  byId('finding-cost').append(...pairs.map(pair => element('li', {}, ...costOf(pair))));
+  choices('finding-candidate', candidates, failuresOf, candidates.find(c => c !== 'reference'));
+  failuresOf();
+}
+
+// First those that answer everything, then by agreement, then by the worst error.
+function ranked(pair) {
+  const worst = r => r.severity === null ? Infinity : r.severity.max;
+  return report.summary.filter(r => r.pair === pair && supported(r))
+      .sort((a, b) => agreeing(b) - agreeing(a) || worst(a) - worst(b));
+}
+const brief = r => `agrees on ${percent(agreeing(r))}, worst error ${exponent(quantile(r.severity, 'max'))}`;
+const link = (text, act) => {
+  const button = element('button', {type: 'button', class: 'link'}, text);
+  button.addEventListener('click', act);
+  return button;
+};
+
+function accuracyOf(pair) {
+  const [first, second] = ranked(pair);
+  return [element('b', {}, dashed(pair)), ': ', named(first.candidate), ` (${brief(first)})`,
+          ...(second ? ['; next ', named(second.candidate), ` (${brief(second)})`] : []), '.'];
+}
+
+function costOf(pair) {
+  const timed = ranked(pair).filter(r => time(r) !== null), [first, second] = timed;
+  if (!first) return [element('b', {}, dashed(pair)), ': not timed.'];
+  const fastest = [...timed].sort((a, b) => time(a) - time(b))[0];
+  const against = (words, r) => [`; ${words}, `, named(r.candidate), `, ${whole(time(r))} ns (${(time(r) / time(first)).toPrecision(2)} times that, ` +
+      `agrees on ${percent(agreeing(r))})`];
+  return [element('b', {}, dashed(pair)), ': ', named(first.candidate), ` takes ${whole(time(first))} ns`,
+          ...(second ? against('the next most accurate', second) : []),
+          ...(fastest === first ? ['; none is faster'] : fastest === second ? ['; none is faster than that'] : against('the fastest', fastest)), '.'];
+}
+
+function failuresOf() {
+  const candidate = byId('finding-candidate').value;
+  const failing = report.results.filter(r => r.candidate === candidate && supported(r) && agreeing(r) < 1)
+      .sort((a, b) => agreeing(a) - agreeing(b) || quantile(b.severity, 'max') - quantile(a.severity, 'max'));
+  const classes = pair => report.classes.filter(c => c.pair === pair).length;
+  byId('finding-failures').replaceChildren(...(failing.length === 0
+      ? [element('li', {}, `${candidate} agrees with the truth on every configuration that it has a routine for.`)]
+      : pairs.map(pair => {
+        const here = failing.filter(r => r.pair === pair);
+        if (here.length === 0) return null;
+        const main = r => Object.entries(r.outcomes).filter(([o]) => o !== 'agree').sort((a, b) => b[1] - a[1])[0][0];
+        return element('li', {}, element('b', {}, dashed(pair)), `: disagrees in ${here.length} of ${classes(pair)} pose classes, most in `,
+            ...here.slice(0, 3).flatMap((r, i) => [i ? ', ' : '', `${r.class} (${percent(1 - agreeing(r))}, ${main(r)})`]),
+            '. ', link('See its worst cases', () => showWorst(pair, candidate)));
+      }).filter(Boolean)));
+}
+findings();
