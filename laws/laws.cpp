@@ -7,10 +7,10 @@
 #include "laws/hint_law.hpp"
 #include "laws/law.hpp"
 #include "laws/moves.hpp"
-#include "laws/point_distance.hpp"
 #include "oracle/patch/contact_patch.hpp"
 #include "oracle/truth.hpp"
 #include "reference/invalid_input.hpp"
+#include "reports/point_distance.hpp"
 
 namespace touchstone {
 namespace {
@@ -226,11 +226,7 @@ std::optional<Violation> judge_points(const Configuration& c, Answers answers, c
   const Answer& a = answers[0];
   const double size = smaller_size(c);
   for (int i = 0; a.status == TS_CONTACT && i < a.point_count; ++i) {
-    const Vec3 p = vector(a.points[i].position);
-    const double depth = std::abs(a.points[i].depth);
-    const double off = std::max(std::abs(point_distance(c.a, c.pose_a, p)),
-                                std::abs(point_distance(c.b, c.pose_b, p)));
-    const double excess = (off - depth) / size;
+    const double excess = point_excess(c, a.points[i]) / size;
     if (excess <= bar.tolerance) continue;
     return Violation{"off-body", excess,
                      fmt::format("point {} is {:.3g} of the smaller size farther from a surface "

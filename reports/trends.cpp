@@ -104,7 +104,7 @@ json trends(const Campaign& campaign, const std::vector<CellScores>& scores) {
   for (const Pair pair : campaign.pairs) {
     std::map<std::pair<std::size_t, Variable>, Bins> bins;
     for (std::size_t i = 0; i < all.size(); ++i) {
-      if (all[i].pair != pair) continue;
+      if (all[i].pair != pair || !scores[i].done()) continue;
       for (std::uint64_t index = 0; index < campaign.count; ++index) {
         const Configuration c = make_configuration({pair, all[i].pose_class, campaign.seed, index});
         for (const Variable variable : all_variables) {

@@ -67,7 +67,8 @@ json kind_json(const Choice& choice, std::size_t k) {
                           {"nanoseconds", r.nanoseconds ? json(*r.nanoseconds) : json(nullptr)},
                           {"count", r.count},
                           {"agree", r.agree},
-                          {"depth_error", r.depth_error}});
+                          {"depth_error", finite(r.depth_error)},
+                          {"normal_angle", r.normal_angle}});
   }
   json result = {{"name", kind.name},
                  {"bodies", kind.bodies},

@@ -59,7 +59,7 @@ std::string answer(const json& choice) {
                  ? fmt::format("    {:.0f} ns a query\n", ns)
                  : fmt::format("    {:.0f} ns a query instead of {:.0f} ns exactly\n", ns, exact);
     if (kind["next_cheaper"].is_null()) {
-      lines += "    nothing cheaper there is\n";
+      lines += "    nothing is cheaper\n";
       continue;
     }
     const json& cheaper = kind["next_cheaper"];
@@ -96,9 +96,11 @@ std::string choice_text(const json& choice) {
   lines += needs_of(choice, run);
   if (choice["possible"] == false) return lines;
   const double exact = choice["runs"][0]["microseconds_per_step"].get<double>();
+  const double chosen = run["microseconds_per_step"].get<double>();
   lines += fmt::format(
-      "Contacts take {:.1f} µs of a step, exactly {:.1f} µs; the rest of it takes {:.0f} µs.\n\n{}",
-      run["microseconds_per_step"].get<double>(), exact,
+      "Contacts take {:.2g} µs of a step{}; the rest of it takes {:.0f} µs.\n\n{}", chosen,
+      choice["exact_is_cheapest"] == true ? ""
+                                          : fmt::format(" instead of {:.2g} µs exactly", exact),
       choice["rest_of_step_microseconds"].get<double>(), answer(choice));
 
   lines += "\nOne model for all pairs      µs/step   error/limit  breaks first\n";

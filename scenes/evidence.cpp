@@ -47,13 +47,16 @@ std::vector<Asked> worth_scoring(std::vector<Asked> all) {
   return result;
 }
 
+/// Points that span less of the patch are worth a word.
+constexpr double poor_coverage = 0.5;
+
 std::string in_words(const Score& s, const Configuration& c) {
   const double size = smaller_size(c);
-  const std::string outcome = outcome_name(s.outcome);
+  std::string text = outcome_name(s.outcome);
   switch (s.outcome) {
     case Outcome::agree:
-      return fmt::format("depth and normal are right, but {} point{} {:.2f} of the contact patch",
-                         s.points, s.points == 1 ? " spans" : "s span", s.coverage.value_or(1));
+      text = "depth and normal are right";
+      break;
     case Outcome::missed:
       return fmt::format("missed, {:.2g} m deep", s.severity * size);
     case Outcome::wrong_normal:
@@ -61,18 +64,23 @@ std::string in_words(const Score& s, const Configuration& c) {
     case Outcome::phantom:
     case Outcome::shallow:
     case Outcome::overdeep:
-      return fmt::format("{} by {:.2g} m", outcome, std::abs(*s.depth_error) * size);
+      text += fmt::format(" by {:.2g} m", std::abs(*s.depth_error) * size);
+      break;
     default:
-      return outcome;
+      return text;
   }
+  if (s.coverage.value_or(1) >= poor_coverage) return text;
+  return text + fmt::format(", but {} {:.2f} of the contact patch",
+                            s.points == 1 ? "its 1 point spans"
+                                          : fmt::format("its {} points span", s.points),
+                            *s.coverage);
 }
 
-/// First those that disagree, by how much; then those that cover the patch least.
-std::pair<double, double> badness(const Score& s) {
-  return {s.outcome == Outcome::agree ? 0
-          : s.severity > 0            ? s.severity
-                                      : std::numeric_limits<double>::infinity(),
-          1 - s.coverage.value_or(1)};
+/// Points that span nothing of the patch weigh as much as a tenth of the size in depth or normal.
+double badness(const Score& s) {
+  const bool no_answer = s.outcome != Outcome::agree && s.severity == 0;
+  if (no_answer) return std::numeric_limits<double>::infinity();
+  return 10 * s.severity + 1 - s.coverage.value_or(1);
 }
 
 }  // namespace
@@ -88,7 +96,7 @@ std::optional<Evidence> find_evidence(const SceneRun& run, const SceneFile& file
   const auto all = before_break(went, run.verdicts[broken].time, bodies_of(file.needs[broken]),
                                 [&](const Asked& a) { return model_of(a) == &exact; });
   std::optional<Evidence> worst;
-  std::pair<double, double> most = {-1, -1};
+  double most = -1;
   for (const Asked& a : worth_scoring(all)) {
     const Candidate& model = *model_of(a);
     const Configuration c = went.configuration(file.scene, a);

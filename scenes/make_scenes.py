@@ -20,7 +20,8 @@ def box(x, y, z):
 
 def turned(axis, degrees):
     half = math.radians(degrees) / 2
-    return [round(math.cos(half), 9)] + [round(a * math.sin(half), 9) for a in axis]
+    norm = math.hypot(*axis)
+    return [round(math.cos(half), 9)] + [round(a / norm * math.sin(half), 9) for a in axis]
 
 
 def body(name, shape, material, position=(0, 0, 0), orientation=None, **more):
@@ -67,9 +68,10 @@ def thesis_knock():
     """Figure 30: five cylinders fall, stand, and four are knocked away by a sphere from above."""
     bodies = [fixed("ground", GROUND, "ground")]
     h, z = 0.35, 0.5
-    bodies.append(body("centre", cylinder(0.15, 0.25), "steel", (0, 0, 0.4)))
+    bodies.append(body("centre", cylinder(0.15, 0.25), "steel", (0, 0, 0.4), turned([1, 0, 0], 0.3)))
     for i, (x, y) in enumerate([(1, 1), (-1, 1), (-1, -1), (1, -1)]):
-        bodies.append(body(f"outer-{i + 1}", cylinder(0.12, h), "steel", (0.25 * x, 0.25 * y, z)))
+        bodies.append(body(f"outer-{i + 1}", cylinder(0.12, h), "steel", (0.25 * x, 0.25 * y, z),
+                           turned([y, x, 0], 0.2)))
     bodies.append(body("ball", {"shape": "sphere", "radius": 0.3}, "ball", (0.004, 0.002, 3.9)))
     outer = [f"outer-{i}" for i in range(1, 5)]
     return {
@@ -79,7 +81,7 @@ def thesis_knock():
         "materials": {"ground": {"friction": 0.5}, "ball": {"friction": 0.5, "density": 600},
                       "steel": {"friction": 0.5, "density": 1500}},
         "bodies": bodies,
-        "needs": [{"need": "stands", "body": b, "degrees": 0.5, "until": 0.7}
+        "needs": [{"need": "stands", "body": b, "degrees": 0.5, "from": 0.4, "until": 0.7}
                   for b in ["centre"] + outer]
                  + [{"need": "falls-in-order", "bodies": [b]} for b in outer]
                  + [{"need": "stands", "body": "centre", "degrees": 2, "from": 3},
@@ -90,10 +92,9 @@ def thesis_knock():
 
 def wheel_on_road():
     bodies = [fixed("ground", GROUND, "road")]
-    heights = [4, 9, 14, 6, 11, 16, 5, 8, 12, 3, 10, 7, 13, 5]  # millimetres
-    for i, mm in enumerate(heights):
-        half = mm / 1000
-        bodies.append(fixed(f"bump-{i + 1}", box(0.04 + 0.01 * (i % 3), 0.5, half), "road",
+    sizes = [(0.04, 0.005), (0.06, 0.009), (0.05, 0.014)]  # half width and half height
+    for i, size in enumerate([0, 1, 2, 0, 1, 2, 2, 0, 1, 0, 1, 2, 1, 0]):
+        bodies.append(fixed(f"bump-{i + 1}", box(sizes[size][0], 0.5, sizes[size][1]), "road",
                             (0.5 + 0.28 * i, 0, 0)))
     bodies.append(body("wheel", cylinder(0.3, 0.06), "rubber", (0, 0, 0.3), ALONG_Y,
                        velocity=[3, 0, 0], angular_velocity=[0, 10, 0]))
@@ -186,7 +187,7 @@ def pill_dispenser():
     tablets = [p for p in pills if p.startswith("tablet")]
     return {
         "description": "Capsules and long tablets slide down a chute into a tray.",
-        "step": 0.002,
+        "step": 0.001,
         "surface_layer": 2e-5,
         "duration": 1.5,
         "materials": {"plastic": {"friction": 0.25}, "pill": {"friction": 0.25, "density": 1200}},
@@ -210,16 +211,17 @@ def conveyor():
     for i in range(6):
         cans.append(f"can-{i + 1}")
         bodies.append(body(cans[-1], cylinder(r, half), "can", (0.3 - 0.13 * i, 0.004 * (i % 3 - 1), half),
-                           velocity=[0.75, 0, 0]))
+                           velocity=[1, 0, 0]))
     return {
-        "description": "Six cans stand on a conveyor and run up against a gate and each other.",
-        "gravity": [2.2, 0, -9.81],
+        "description": "Six cans slide upright down the run-out of a conveyor, up to a gate and "
+                       "against each other.",
+        "step": 0.002,
         "duration": 2.0,
-        "materials": {"belt": {"friction": 0.15}, "rail": {"friction": 0.02},
+        "materials": {"belt": {"friction": 0.05}, "rail": {"friction": 0.02},
                       "can": {"friction": 0.1, "density": 900}},
         "bodies": bodies,
         "needs": [{"need": "stands", "body": c, "degrees": 3} for c in cans]
-                 + [{"need": "rests", "bodies": cans, "speed": 0.02, "by": 1.8},
+                 + [{"need": "rests", "bodies": cans, "speed": 0.05, "by": 1.9},
                     {"need": "penetration", "metres": 0.004}]
                  + [{"need": "ends-near", "body": c, "metres": 0.005} for c in cans],
         "camera": {"position": [0.75, -1.1, 0.6], "look_at": [0.15, 0, 0.03]},

@@ -177,6 +177,7 @@ struct Describe {
         n.by);
   }
   std::string operator()(const FallsInOrder& n) const {
+    if (n.bodies.size() == 1) return name(n.bodies[0]) + " falls";
     return fmt::format("fall in the order {}", names(n.bodies));
   }
   std::string operator()(const Penetration& n) const {

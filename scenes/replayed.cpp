@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "candidates/candidates.hpp"
 #include "reports/progress.hpp"
@@ -20,6 +21,16 @@ std::vector<Configuration> sample(const Scene& scene, const Trajectory& run, con
   return result;
 }
 
+/// Regrets below this share of the smaller size are those of a normal that is as good.
+constexpr double as_good = 1e-6;
+
+/// Metres.
+double depth_error(const Score& s, double size) {
+  if (s.depth_error) return std::abs(*s.depth_error) * size;
+  if (s.outcome == Outcome::agree || s.outcome == Outcome::missed) return s.severity * size;
+  return std::numeric_limits<double>::infinity();
+}
+
 Replayed scored(const std::vector<Configuration>& configurations,
                 const std::vector<oracle::Truth>& truths, const std::vector<Answer>& answers) {
   Replayed result;
@@ -27,16 +38,18 @@ Replayed scored(const std::vector<Configuration>& configurations,
     const Score s = score(configurations[i], truths[i], answers[i], Bar{});
     ++result.count;
     if (s.outcome == Outcome::agree) ++result.agree;
-    if (s.outcome == Outcome::missed) {
-      result.depth_error = std::max(result.depth_error, s.severity);
-    }
-    result.depth_error = std::max(result.depth_error, std::abs(s.depth_error.value_or(0)));
+    const double error = depth_error(s, smaller_size(configurations[i]));
+    if (error > result.depth_error) result.depth_error = error, result.deepest_error = i;
+    const double angle = s.normal_regret.value_or(0) > as_good ? s.normal_angle.value_or(0) : 0;
+    if (angle > result.normal_angle) result.normal_angle = angle, result.widest_angle = i;
   }
   return result;
 }
 
-std::vector<Replayed> replay_kind(const std::vector<Configuration>& configurations,
-                                  std::vector<CandidateProcess>& candidates) {
+}  // namespace
+
+std::vector<Replayed> replay(const std::vector<Configuration>& configurations,
+                             std::vector<CandidateProcess>& candidates) {
   std::vector<oracle::Truth> truths;
   for (const Configuration& c : configurations) truths.push_back(oracle::truth(c));
   std::vector<Replayed> result(candidates.size());
@@ -63,8 +76,6 @@ std::vector<Replayed> replay_kind(const std::vector<Configuration>& configuratio
   return result;
 }
 
-}  // namespace
-
 std::vector<std::vector<Replayed>> replay(const Scene& scene, const Trajectory& run,
                                           const std::vector<PairKind>& kinds,
                                           const std::vector<const Candidate*>& candidates,
@@ -73,7 +84,7 @@ std::vector<std::vector<Replayed>> replay(const Scene& scene, const Trajectory& 
   auto processes = start(candidates, simulation_threshold, limits);
   std::vector<std::vector<Replayed>> result;
   for (const PairKind& kind : kinds) {
-    result.push_back(replay_kind(sample(scene, run, kind), processes));
+    result.push_back(replay(sample(scene, run, kind), processes));
     progress.update(result.size());
   }
   return result;

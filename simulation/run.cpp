@@ -4,7 +4,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "simulation/inertia.hpp"
+#include "simulation/motion.hpp"
 
 namespace touchstone {
 

@@ -1,5 +1,10 @@
 // What most readers ask first, answered from the data.
 function findings() {
+  if (report.partial) {
+    byId('partial').hidden = false;
+    byId('partial').textContent = `Partial: interrupted when ${report.completed.classes} of ` +
+        `${report.planned.classes} pose classes were scored and ${report.completed.timed_classes} timed.`;
+  }
   const all = report.summary.filter(r => r.pair === 'all'), rows = (all.length ? all : report.summary).filter(supported);
   byId('headline').textContent = `${whole(report.configurations)} configurations of ${pairs.length} ` +
       `${pairs.length === 1 ? 'pair' : 'pairs'} of shapes, ${new Set(rows.map(r => r.candidate)).size} contact routines, ` +

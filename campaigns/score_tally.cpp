@@ -1,4 +1,4 @@
-#include "campaigns/tally.hpp"
+#include "campaigns/score_tally.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -89,7 +89,7 @@ Score essence(const Score& s) {
 
 }  // namespace
 
-void Tally::add(std::size_t cell, std::uint64_t index, const Score& s) {
+void ScoreTally::add(std::size_t cell, std::uint64_t index, const Score& s) {
   ++count_;
   ++outcomes_[static_cast<std::size_t>(s.outcome)];
   if (s.points > 0) ++points_[s.points];
@@ -106,7 +106,7 @@ void Tally::add(std::size_t cell, std::uint64_t index, const Score& s) {
   select_worst();
 }
 
-void Tally::add(const Tally& other) {
+void ScoreTally::add(const ScoreTally& other) {
   count_ += other.count_;
   for (std::size_t i = 0; i < outcomes_.size(); ++i) outcomes_[i] += other.outcomes_[i];
   for (const auto& [number, count] : other.points_) points_[number] += count;
@@ -118,9 +118,9 @@ void Tally::add(const Tally& other) {
   select_worst();
 }
 
-void Tally::select_worst() { worst_ = worst_of_class(std::move(worst_)); }
+void ScoreTally::select_worst() { worst_ = worst_of_class(std::move(worst_)); }
 
-json Tally::summary() const {
+json ScoreTally::summary() const {
   json outcomes = json::object(), points = json::object();
   for (const Outcome outcome : all_outcomes) {
     const std::uint64_t count = outcomes_[static_cast<std::size_t>(outcome)];
@@ -138,7 +138,7 @@ json Tally::summary() const {
   return result;
 }
 
-json Tally::to_json() const {
+json ScoreTally::to_json() const {
   json outcomes = json::object(), points = json::array(), worst = json::array();
   for (const Outcome outcome : all_outcomes) {
     outcomes[outcome_name(outcome)] = outcomes_[static_cast<std::size_t>(outcome)];
@@ -158,8 +158,8 @@ json Tally::to_json() const {
   return result;
 }
 
-Tally Tally::from_json(const json& j, std::size_t cell) {
-  Tally t;
+ScoreTally ScoreTally::from_json(const json& j, std::size_t cell) {
+  ScoreTally t;
   t.count_ = j.at("count");
   for (const auto& [name, count] : j.at("outcomes").items()) {
     t.outcomes_[static_cast<std::size_t>(parse_outcome(name))] = count;
