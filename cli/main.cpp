@@ -70,6 +70,7 @@ int main(int argc, char** argv) {
       "  touchstone solve poses.jsonl                        your own configurations\n"
       "  touchstone certify cylinder-box/rim-face/1/17       a proof that others can check\n"
       "  touchstone check --candidate bullet                 laws, and the smallest failures\n"
+      "  touchstone campaign --count 1e6 --out run            any number, on many machines\n"
       "  touchstone simulate rolling                         contacts at work, against paper\n"
       "  touchstone stability                                tiny steps near degenerate poses\n"
       "  touchstone compare old.json out/report.json         better, worse, slower\n"
