@@ -71,7 +71,9 @@ int main(int argc, char** argv) {
       "  touchstone certify cylinder-box/rim-face/1/17       a proof that others can check\n"
       "  touchstone check --candidate bullet                 laws, and the smallest failures\n"
       "  touchstone simulate rolling                         contacts at work, against paper\n"
-      "Exit codes: 0 done; 1 a law was broken; 2 bad input or usage; 3 an internal contradiction.");
+      "  touchstone choose scenes/log-pile.json              the cheapest model that serves\n"
+      "Exit codes: 0 done; 1 a law was broken or needs not met; 2 bad input or usage; 3 an "
+      "internal contradiction.");
   program.fallthrough();  // --candidate may also stand after the subcommand
   touchstone::add_plugin_option(program);
   int exit_code = 0;
