@@ -43,6 +43,17 @@ grep -q '^  bullet ' table || fail "no table is printed"
 campaign --workers 2 --out two >/dev/null 2>&1
 same two "two workers"
 
+# Ten times as many configurations take no more memory, in whichever process takes most.
+python3 - "$program" "${settings[@]}" <<'END' || fail "memory grows with the count"
+import resource, subprocess, sys
+def peak(count):
+    subprocess.run([*sys.argv[1:], "--count", count, "--out", "memory" + count], check=True,
+                   capture_output=True)
+    return resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss  # KiB, of the largest so far
+few, many = peak("2500"), peak("25000")
+sys.exit(many > few + 2048)
+END
+
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 for ranks in 2 3 5; do
   mpirun --oversubscribe -n "$ranks" "$program" "${settings[@]}" --count 2500 --out "mpi$ranks" \

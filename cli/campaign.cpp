@@ -8,10 +8,10 @@
 #include "campaigns/result.hpp"
 #include "campaigns/run.hpp"
 #include "campaigns/shard_place.hpp"
-#include "campaigns/stop_signals.hpp"
 #include "cli/commands.hpp"
 #include "cli/options.hpp"
 #include "reference/invalid_input.hpp"
+#include "reports/interruption.hpp"
 #include "reports/terminal_table.hpp"
 #include "reports/worst.hpp"
 
@@ -95,15 +95,15 @@ int run(const Options& options) {
   const bool speaks = !under_mpirun() || shard.number == 1;
   if (speaks) print_plan(options, progressed);
 
-  const StopSignals signals;
+  const Interruption interruption;
   const bool done = run_shard(campaign, progressed, place.file(), {options.interval, speaks},
-                              [&] { return signals.caught() == 0; });
+                              [] { return !interrupted(); });
   if (!done) {
     if (speaks) {
       fmt::print(stderr, "Stopped ({}); all that was done is in {}. To go on:\n  {}\n",
-                 strsignal(signals.caught()), place.file().string(), options.resuming());
+                 strsignal(interrupting_signal()), place.file().string(), options.resuming());
     }
-    return 128 + signals.caught();
+    return interrupted_exit_code();
   }
   Merge merge;
   if (under_mpirun()) {

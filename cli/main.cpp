@@ -72,8 +72,11 @@ int main(int argc, char** argv) {
       "  touchstone check --candidate bullet                 laws, and the smallest failures\n"
       "  touchstone simulate rolling                         contacts at work, against paper\n"
       "  touchstone choose scenes/log-pile.json              the cheapest model that serves\n"
-      "Exit codes: 0 done; 1 a law was broken or needs not met; 2 bad input or usage; 3 an "
-      "internal contradiction.");
+      "  touchstone stability                                tiny steps near degenerate poses\n"
+      "  touchstone compare old.json out/report.json         better, worse, slower\n"
+      "Exit codes: 0 done; 1 a law was broken, a result is worse, needs not met; 2 bad input or "
+      "usage; 3 an "
+      "internal contradiction;\n130 interrupted.");
   program.fallthrough();  // --candidate may also stand after the subcommand
   touchstone::add_plugin_option(program);
   int exit_code = 0;
@@ -82,11 +85,14 @@ int main(int argc, char** argv) {
   touchstone::add_solve(program, exit_code);
   touchstone::add_certify(program, exit_code);
   touchstone::add_check(program, exit_code);
+  touchstone::add_compare(program, exit_code);
   touchstone::add_campaign(program, exit_code);
   touchstone::add_merge(program, exit_code);
   touchstone::add_simulate(program, exit_code);
   touchstone::add_choose(program, exit_code);
+  touchstone::add_search(program, exit_code);
   touchstone::add_render(program, exit_code);
+  touchstone::add_stability(program, exit_code);
   touchstone::add_candidates(program, exit_code);
   try {
     refuse_unknown_subcommand(program, argc, argv);

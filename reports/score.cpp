@@ -6,6 +6,7 @@
 
 #include "oracle/patch/support_part.hpp"
 #include "reports/coverage.hpp"
+#include "reports/point_distance.hpp"
 
 namespace touchstone {
 namespace {
@@ -27,14 +28,6 @@ Vec3 nearest(const Vec3& n, const std::vector<oracle::OptimalNormal>& normals) {
       ->n;
 }
 
-/// Of a continuum not every member is listed: an answer that is far from all of those stands for
-/// itself.
-Vec3 patch_normal(const oracle::Truth& truth, const Vec3& n) {
-  constexpr double far = 1;  // degrees
-  const Vec3 listed = nearest(n, truth.normals);
-  return truth.ties == oracle::Ties::continuum && angle(n, listed) > far ? n.normalized() : listed;
-}
-
 double coverage_by(const ts_answer& answer, const Configuration& c, const oracle::Truth& truth) {
   std::vector<Vec3> points;
   points.reserve(static_cast<std::size_t>(answer.point_count));
@@ -49,6 +42,14 @@ double coverage_by(const ts_answer& answer, const Configuration& c, const oracle
   const double resolution =
       std::max({patch_resolution * size, 1.01 * of_a.largest, 1.01 * of_b.largest});
   return coverage(oracle::contact_patch(c, n, depth), points, resolution);
+}
+
+double worst_point_error(const ts_answer& answer, const Configuration& c) {
+  double worst = 0;
+  for (int i = 0; i < answer.point_count; ++i) {
+    worst = std::max(worst, point_excess(c, answer.points[i]));
+  }
+  return worst;
 }
 
 Score only(Outcome outcome) {
@@ -67,6 +68,12 @@ Score without_contact(double distance, const Bar& bar) {
 }
 
 }  // namespace
+
+Vec3 patch_normal(const oracle::Truth& truth, const Vec3& n) {
+  constexpr double far = 1;  // degrees
+  const Vec3 listed = nearest(n, truth.normals);
+  return truth.ties == oracle::Ties::continuum && angle(n, listed) > far ? n.normalized() : listed;
+}
 
 bool is_finite(const ts_answer& answer) {
   if (!std::isfinite(answer.signed_distance) || !vector(answer.normal).allFinite()) return false;
@@ -160,6 +167,7 @@ Score score(const Configuration& c, const oracle::Truth& truth, const ts_answer&
   const bool unit = std::abs(n.norm() - 1) <= unit_slack;
   s.depth_error = (answer.signed_distance - truth.signed_distance.midpoint()) / size;
   s.severity = std::abs(*s.depth_error);
+  if (answer.point_count > 0) s.point_error = worst_point_error(answer, c) / size;
   if (!n.isZero(0)) {
     s.normal_regret = oracle::normal_regret(c, truth, n) / size;
     s.normal_angle = angle(n, nearest(n, truth.normals));

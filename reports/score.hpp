@@ -51,6 +51,9 @@ struct Score {
   std::optional<double> depth_error;  ///< answer's signed distance − true: positive is too shallow
   std::optional<double> normal_regret;  ///< σ − g(n)
   std::optional<double> normal_angle;   ///< degrees to the nearest optimal normal
+  /// By how much the worst of the contact points is farther from a body's surface than its own
+  /// depth; zero when none is. It does not decide the outcome.
+  std::optional<double> point_error;
   /// How much of the contact patch the points span, where the bodies are in contact and the normal
   /// is within the bar.
   std::optional<double> coverage;
@@ -69,6 +72,11 @@ struct Score {
 /// threshold is 1e-6.
 inline constexpr double patch_depth = 1e-6;
 inline constexpr double patch_resolution = 0.1;
+
+/// The optimal normal along which an answer's contact points are judged: the nearest one to its
+/// normal. Of a continuum not every member is listed: an answer that is far from all of those
+/// stands for itself.
+Vec3 patch_normal(const oracle::Truth& truth, const Vec3& n);
 
 Score score(const Configuration& configuration, const oracle::Truth& truth, const ts_answer& answer,
             const Bar& bar);

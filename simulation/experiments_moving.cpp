@@ -4,7 +4,7 @@
 
 #include "simulation/experiment.hpp"
 #include "simulation/experiment_bodies.hpp"
-#include "simulation/inertia.hpp"
+#include "simulation/motion.hpp"
 
 namespace touchstone {
 namespace {

@@ -4,11 +4,11 @@
 #include <chrono>
 #include <cmath>
 
-#include "simulation/inertia.hpp"
+#include "simulation/motion.hpp"
 
 namespace touchstone {
 
-void Tally::add(const Tally& other) {
+void RunTally::add(const RunTally& other) {
   steps += other.steps;
   points += other.points;
   flickers += other.flickers;

@@ -1,18 +1,13 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "simulation/contact_model.hpp"
+#include "simulation/motion.hpp"
 #include "simulation/scene.hpp"
 
 namespace touchstone {
-
-struct BodyState {
-  Pose pose;
-  Vec3 velocity, angular_velocity;  ///< of the centre, world frame; m/s, rad/s
-};
 
 /// What the contact model answered for two bodies in the last step; bodies as in PairQuestion.
 struct PairContact {

@@ -1,4 +1,4 @@
-#include "simulation/inertia.hpp"
+#include "simulation/motion.hpp"
 
 #include <numbers>
 
@@ -38,5 +38,34 @@ struct OfShape {
 }  // namespace
 
 Inertia inertia(const Shape& shape, double density) { return std::visit(OfShape{density}, shape); }
+
+double kinetic_energy(const BodyState& state, const Inertia& inertia) {
+  return (inertia.mass * state.velocity.squaredNorm() +
+          state.angular_velocity.dot(spin_of(state.pose, inertia, state.angular_velocity))) /
+         2;
+}
+
+Vec3 angular_velocity(const Pose& pose, const Inertia& inertia, const Vec3& spin) {
+  const Eigen::Matrix3d& r = pose.rotation();
+  return r * (r.transpose() * spin).cwiseQuotient(inertia.principal);
+}
+
+Vec3 free_angular_velocity(const Pose& pose, const Inertia& inertia, const Vec3& spin,
+                           double step) {
+  constexpr int iterations = 6;  // each gains the digits of half an angle of a step
+  Vec3 mean = angular_velocity(pose, inertia, spin);
+  for (int i = 0; i < iterations; ++i) {
+    const double angle = step / 2 * mean.norm();
+    if (angle == 0) break;
+    const Eigen::Matrix3d half_way = Eigen::AngleAxisd(angle, mean.normalized()) * pose.rotation();
+    mean = half_way * (half_way.transpose() * spin).cwiseQuotient(inertia.principal);
+  }
+  return mean;
+}
+
+Vec3 spin_of(const Pose& pose, const Inertia& inertia, const Vec3& angular_velocity) {
+  const Eigen::Matrix3d& r = pose.rotation();
+  return r * inertia.principal.cwiseProduct(r.transpose() * angular_velocity);
+}
 
 }  // namespace touchstone

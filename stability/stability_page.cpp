@@ -1,0 +1,21 @@
+#include "stability/stability_page.hpp"
+
+#include <string_view>
+
+#include "reports/html/placeholder.hpp"
+
+namespace touchstone {
+
+// Made by the build from the file of the same name.
+extern const std::string_view stability_html;
+
+std::string stability_page(const nlohmann::json& stability) {
+  std::string page(stability_html);
+  fill(page, "/* report.css */", report_css);
+  fill(page, "/* elements.js */", elements_js);
+  fill(page, "/* stability.js */", stability_js);
+  fill(page, "/* stability.json */", script_safe(stability));
+  return page;
+}
+
+}  // namespace touchstone
