@@ -204,5 +204,17 @@ TEST(Adapters, GenericShallowDepthsAreAsExactAsDocumented) {
   }
 }
 
+TEST(Adapters, ReferenceLetsThePreviousNormalDecideATie) {
+  const Configuration concentric{Cylinder(1, 1), Pose(), Box({1, 1, 1}), Pose()};
+  CandidateProcess& reference = process(find_candidate("reference"), 1e-6);
+  for (const Vec3& n : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)}) {
+    for (const Vec3& previous : {Vec3(n), Vec3(-n)}) {
+      const Answer a = reference.answer(concentric, &previous);
+      EXPECT_EQ(a.signed_distance, -2);
+      EXPECT_EQ(normal_of(a), previous);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace touchstone

@@ -97,7 +97,7 @@ ts_prepared* prepare(const ts_shape* a, const ts_shape* b, double threshold, dou
                          parts_of(*b, static_cast<int>(count), as_capsules), threshold};
 }
 
-void query(ts_prepared* p, const ts_pose* a, const ts_pose* b, ts_answer* answer) {
+void query(ts_prepared* p, const ts_pose* a, const ts_pose* b, const double*, ts_answer* answer) {
   const Pose pose_a = to_pose(*a), pose_b = to_pose(*b);
   answer->status = TS_NONE;
   answer->point_count = 0;

@@ -56,7 +56,8 @@ ts_prepared* prepare_hull(const ts_shape* a, const ts_shape* b, double threshold
                          std::make_unique<touchstone::ModelPair>(*a, *b, prism)};
 }
 
-void query(ts_prepared* prepared, const ts_pose* a, const ts_pose* b, ts_answer* answer) {
+void query(ts_prepared* prepared, const ts_pose* a, const ts_pose* b, const double*,
+           ts_answer* answer) {
   prepared->pair.query(*a, *b, *answer);
 }
 

@@ -19,7 +19,7 @@ extern "C" {
 #endif
 
 /* Of this header. A plug-in made for another version is refused. */
-#define TOUCHSTONE_INTERFACE_VERSION 2
+#define TOUCHSTONE_INTERFACE_VERSION 3
 #define TOUCHSTONE_MAX_POINTS 16
 #define TOUCHSTONE_EXPORT __attribute__((visibility("default")))
 
@@ -95,9 +95,13 @@ typedef struct ts_candidate {
    * `parameter` is zero without one. Returns NULL when the pair is not supported. */
   ts_prepared* (*prepare)(const ts_shape* a, const ts_shape* b, double threshold, double parameter);
 
-  /* One narrow-phase query; only this is timed. The answer depends on nothing that was queried
-   * before. `answer` comes uncleared: set its status, and for TS_CONTACT everything. */
-  void (*query)(ts_prepared* prepared, const ts_pose* a, const ts_pose* b, ts_answer* answer);
+  /* One narrow-phase query; only this is timed. `previous_normal` is a hint: the normal of these
+   * bodies' contact in the frame before, unit, world frame, from B to A, or NULL when there was
+   * none. It may decide between normals that are equally good to within the threshold and nothing
+   * else; a routine without warm start ignores it. The answer depends on nothing else that was
+   * queried before. `answer` comes uncleared: set its status, and for TS_CONTACT everything. */
+  void (*query)(ts_prepared* prepared, const ts_pose* a, const ts_pose* b,
+                const double* previous_normal, ts_answer* answer);
 
   void (*release)(ts_prepared* prepared);
 

@@ -56,9 +56,17 @@ void CandidateProcess::end() {
   session_ = -1;
 }
 
-void CandidateProcess::put(std::uint32_t slot, const Configuration& c) {
-  plugin_.state_->exchange->slots[slot].question = {to_ts_shape(c.a), to_ts_shape(c.b),
-                                                    to_ts_pose(c.pose_a), to_ts_pose(c.pose_b)};
+void CandidateProcess::ask_within(double threshold) {
+  end();
+  threshold_ = threshold;
+}
+
+void CandidateProcess::put(std::uint32_t slot, const Configuration& c,
+                           const Vec3* previous_normal) {
+  const Vec3 hint = previous_normal ? *previous_normal : Vec3(Vec3::Zero());
+  plugin_.state_->exchange->slots[slot].question = {
+      to_ts_shape(c.a),     to_ts_shape(c.b),           to_ts_pose(c.pose_a),
+      to_ts_pose(c.pose_b), previous_normal != nullptr, {hint.x(), hint.y(), hint.z()}};
 }
 
 std::optional<Answer> CandidateProcess::obey(std::uint32_t kind, std::uint32_t first,
@@ -142,19 +150,26 @@ void CandidateProcess::answer_batch(std::uint32_t count, std::vector<Answer>& an
 
 std::vector<Answer> CandidateProcess::answers(std::span<const Configuration> configurations) {
   end();
+  return answer(configurations);
+}
+
+std::vector<Answer> CandidateProcess::answer(std::span<const Configuration> configurations,
+                                             std::span<const Vec3* const> previous_normals) {
   std::vector<Answer> result;
   for (std::size_t at = 0; at < configurations.size(); at += Exchange::batch) {
     const auto batch = configurations.subspan(
         at, std::min<std::size_t>(Exchange::batch, configurations.size() - at));
-    for (std::uint32_t i = 0; i < batch.size(); ++i) put(i, batch[i]);
+    for (std::uint32_t i = 0; i < batch.size(); ++i) {
+      put(i, batch[i], previous_normals.empty() ? nullptr : previous_normals[at + i]);
+    }
     answer_batch(static_cast<std::uint32_t>(batch.size()), result);
   }
   return result;
 }
 
-Answer CandidateProcess::answer(const Configuration& configuration) {
+Answer CandidateProcess::answer(const Configuration& configuration, const Vec3* previous_normal) {
   std::vector<Answer> result;
-  put(0, configuration);
+  put(0, configuration, previous_normal);
   answer_batch(1, result);
   return result.front();
 }

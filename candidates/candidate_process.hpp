@@ -52,10 +52,19 @@ class CandidateProcess {
 
   const Candidate& candidate() const { return candidate_; }
 
+  /// Ends the session; the next one reports contacts up to `threshold` metres apart.
+  void ask_within(double threshold);
+
   /// In a new session, so that the answers depend on these configurations alone.
   std::vector<Answer> answers(std::span<const Configuration> configurations);
-  /// In the session of the last call, if there is one.
-  Answer answer(const Configuration& configuration);
+  /// In the session of the last call, if there is one. `previous_normal`, unit, world frame, from B
+  /// to A, is the candidate's hint; null: there was no contact before.
+  Answer answer(const Configuration& configuration, const Vec3* previous_normal = nullptr);
+  /// Likewise, all of them at once; `previous_normals` is empty or has one for each.
+  std::vector<Answer> answer(std::span<const Configuration> configurations,
+                             std::span<const Vec3* const> previous_normals = {});
+  /// Ends the session, so that the next call begins a new one.
+  void restart() { end(); }
 
   /// Prepares shapes for timing in a new session and queries them once, untimed. Of slow candidates
   /// only as many as take about half a millisecond are kept, at least ten. False if it died of it.
@@ -67,7 +76,8 @@ class CandidateProcess {
  private:
   void begin();
   void end();
-  void put(std::uint32_t slot, const Configuration& configuration);
+  void put(std::uint32_t slot, const Configuration& configuration,
+           const Vec3* previous_normal = nullptr);
   void answer_batch(std::uint32_t count, std::vector<Answer>& answers);
   /// Sends a command and waits; absent when done, otherwise TS_CRASHED or TS_TIMED_OUT.
   std::optional<Answer> obey(std::uint32_t kind, std::uint32_t first, std::uint32_t count);

@@ -126,6 +126,16 @@ TEST(CandidateProcess, AMisdeedCostsOneConfigurationOfABatch) {
   EXPECT_LT(crashed, 60);
 }
 
+TEST(CandidateProcess, HandsThePreviousNormalOnOnce) {
+  CandidateProcess process(sabotage("obedient"), 0);
+  const Vec3 previous(0, 0.6, -0.8);
+  EXPECT_EQ(normal_of(process.answer(standing)), Vec3::UnitZ());
+  EXPECT_EQ(normal_of(process.answer(standing, &previous)), previous);
+  EXPECT_EQ(normal_of(process.answer(standing)), Vec3::UnitZ());
+  const auto answers = process.answers({&standing, 1});
+  EXPECT_EQ(normal_of(answers.at(0)), Vec3::UnitZ());
+}
+
 TEST(CandidateProcess, LeavesNoFileOpen) {
   const auto open_files = [] {
     int count = 0;
@@ -167,7 +177,7 @@ TEST(PluginProcess, RefusesWhatIsNoPlugin) {
   const std::string folder = TOUCHSTONE_TEST_PLUGINS;
   refused("nowhere.so", "must be a file");
   refused("/etc/passwd", "invalid ELF header");
-  refused(folder + "/touchstone-old.so", "version 1 of candidate.h; this is version 2");
+  refused(folder + "/touchstone-old.so", "version 2 of candidate.h; this is version 3");
   refused(folder + "/touchstone-deadly.so", "Aborted");
   sabotage("sabotage");
   refused(folder + "/touchstone-sabotage.so", "a name that is taken");

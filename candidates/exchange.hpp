@@ -11,10 +11,12 @@ namespace touchstone {
 // What the harness and a candidate's process say to each other: plain bytes through shared memory
 // and a socket that keeps messages apart.
 
-/// Shapes and poses of one configuration.
+/// Shapes and poses of one configuration, and the hint.
 struct Question {
   ts_shape a, b;
   ts_pose pose_a, pose_b;
+  bool has_previous_normal;
+  double previous_normal[3];
 };
 
 struct Slot {

@@ -86,7 +86,8 @@ void add(const Vector& position, const Vector& normal, double depth, ts_answer& 
 }
 
 template <fcl::GJKSolverType solver>
-void collide(ts_prepared* prepared, const ts_pose* a, const ts_pose* b, ts_answer* answer) {
+void collide(ts_prepared* prepared, const ts_pose* a, const ts_pose* b, const double*,
+             ts_answer* answer) {
   fcl::CollisionRequestd request(TOUCHSTONE_MAX_POINTS, true);
   request.gjk_solver_type = solver;
   fcl::CollisionResultd result;
@@ -105,7 +106,8 @@ void collide(ts_prepared* prepared, const ts_pose* a, const ts_pose* b, ts_answe
   }
 }
 
-void distance(ts_prepared* prepared, const ts_pose* a, const ts_pose* b, ts_answer* answer) {
+void distance(ts_prepared* prepared, const ts_pose* a, const ts_pose* b, const double*,
+              ts_answer* answer) {
   const fcl::DistanceRequestd request(true, true);
   fcl::DistanceResultd result;
   const double d = fcl::distance(prepared->a.get(), to_transform(*a), prepared->b.get(),

@@ -101,7 +101,7 @@ ts_prepared* prepare(const ts_shape* a, const ts_shape* b, double, double tolera
 using Penetration = decltype(ccdGJKPenetration);
 
 template <Penetration* penetration>
-void query(ts_prepared* p, const ts_pose* a, const ts_pose* b, ts_answer* answer) {
+void query(ts_prepared* p, const ts_pose* a, const ts_pose* b, const double*, ts_answer* answer) {
   p->a.place(*a);
   p->b.place(*b);
   double depth = 0;

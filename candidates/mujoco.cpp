@@ -111,7 +111,7 @@ void place(const Scene& scene, int geom, const double* position, const double* o
   mju_quat2Mat(scene.data->geom_xmat + 9 * geom, orientation);
 }
 
-void query(ts_prepared* p, const ts_pose* a, const ts_pose* b, ts_answer* answer) {
+void query(ts_prepared* p, const ts_pose* a, const ts_pose* b, const double*, ts_answer* answer) {
   // A model serves all pairs of its kinds, so its sizes are set with every query.
   mju_copy3(p->scene.model->geom_size + 3 * geom_a, p->a.size);
   place(p->scene, geom_a, a->position, a->orientation);

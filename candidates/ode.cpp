@@ -188,7 +188,8 @@ ts_prepared* prepare_mesh(const ts_shape* a, const ts_shape* b, double, double s
   return new ts_prepared(*a, *b, static_cast<int>(sides));
 }
 
-void query(ts_prepared* prepared, const ts_pose* a, const ts_pose* b, ts_answer* answer) {
+void query(ts_prepared* prepared, const ts_pose* a, const ts_pose* b, const double*,
+           ts_answer* answer) {
   prepared->query(*a, *b, *answer);
 }
 

@@ -4,6 +4,7 @@
 // Conventions  those of candidate.h: normal from B to A, points halfway between the surfaces.
 // Threshold    handed on; a distance beyond it is answered with none, and then signed_distance is
 //              the clearance along the first direction that proves it.
+// Hint         handed on; it decides between normals whose gaps are within the threshold.
 #include <optional>
 #include <utility>
 
@@ -18,7 +19,8 @@ using touchstone::Vec3;
 /// One class per pair, so that a query knows its routine without asking for the shape's kind again.
 struct ts_prepared {
   virtual ~ts_prepared() = default;
-  virtual void query(const Pose& a, const Pose& b, ts_answer& answer) const = 0;
+  virtual void query(const Pose& a, const Pose& b, const Vec3* previous_normal,
+                     ts_answer& answer) const = 0;
   double threshold = 0;
 };
 
@@ -50,8 +52,9 @@ void copy(const Contact& contact, double threshold, ts_answer& answer) {
 template <class Other>
 struct Prepared : ts_prepared {
   Prepared(const Cylinder& cylinder, Other shape) : a(cylinder), b(std::move(shape)) {}
-  void query(const Pose& pose_a, const Pose& pose_b, ts_answer& answer) const override {
-    copy(contact(a, pose_a, b, pose_b, threshold), threshold, answer);
+  void query(const Pose& pose_a, const Pose& pose_b, const Vec3* previous_normal,
+             ts_answer& answer) const override {
+    copy(contact(a, pose_a, b, pose_b, threshold, previous_normal), threshold, answer);
   }
   Cylinder a;
   Other b;
@@ -84,8 +87,14 @@ ts_prepared* prepare(const ts_shape* a, const ts_shape* b, double threshold, dou
   return prepared;
 }
 
-void query(ts_prepared* prepared, const ts_pose* a, const ts_pose* b, ts_answer* answer) {
-  prepared->query(to_pose(*a), to_pose(*b), *answer);
+void query(ts_prepared* prepared, const ts_pose* a, const ts_pose* b, const double* previous_normal,
+           ts_answer* answer) {
+  if (previous_normal) {
+    const Vec3 previous(previous_normal[0], previous_normal[1], previous_normal[2]);
+    prepared->query(to_pose(*a), to_pose(*b), &previous, *answer);
+  } else {
+    prepared->query(to_pose(*a), to_pose(*b), nullptr, *answer);
+  }
 }
 
 void release(ts_prepared* prepared) { delete prepared; }

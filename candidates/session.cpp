@@ -110,7 +110,8 @@ void Session::answer(std::uint32_t i) {
   *answer_ = {};
   answer_->status = TS_UNSUPPORTED;
   if (ts_prepared* const prepared = prepare(question)) {
-    candidate_.query(prepared, &question.pose_a, &question.pose_b, answer_);
+    const double* const hint = question.has_previous_normal ? question.previous_normal : nullptr;
+    candidate_.query(prepared, &question.pose_a, &question.pose_b, hint, answer_);
     if (candidate_.model_distance) {
       slot.model_distance = candidate_.model_distance(prepared, &question.pose_a, &question.pose_b);
     }
@@ -127,7 +128,7 @@ void Session::warm_up() {
     ts_prepared* const prepared = prepare(q);
     if (!prepared) continue;
     const auto start = std::chrono::steady_clock::now();
-    candidate_.query(prepared, &q.pose_a, &q.pose_b, answer_);
+    candidate_.query(prepared, &q.pose_a, &q.pose_b, nullptr, answer_);
     used += std::chrono::steady_clock::now() - start;
     kept_.push_back({prepared, q.pose_a, q.pose_b});
   }
@@ -136,11 +137,11 @@ void Session::warm_up() {
 void Session::time() {
   // The process has slept since the last round: its first queries find cold caches.
   for (std::size_t i = 0; i < std::min(fewest_timed, kept_.size()); ++i) {
-    candidate_.query(kept_[i].prepared, &kept_[i].a, &kept_[i].b, answer_);
+    candidate_.query(kept_[i].prepared, &kept_[i].a, &kept_[i].b, nullptr, answer_);
   }
   const auto start = std::chrono::steady_clock::now();
   // The call goes through a function pointer, which no optimiser removes.
-  for (const Kept& k : kept_) candidate_.query(k.prepared, &k.a, &k.b, answer_);
+  for (const Kept& k : kept_) candidate_.query(k.prepared, &k.a, &k.b, nullptr, answer_);
   const auto end = std::chrono::steady_clock::now();
   exchange_.nanoseconds = std::chrono::duration<double, std::nano>(end - start).count() /
                           static_cast<double>(kept_.size());

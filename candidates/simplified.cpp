@@ -45,7 +45,7 @@ ts_prepared* prepare_many(const ts_shape* a, const ts_shape* b, double threshold
 
 void copy(const Vec3& from, double (&to)[3]) { std::copy(from.data(), from.data() + 3, to); }
 
-void query(ts_prepared* p, const ts_pose* a, const ts_pose* b, ts_answer* answer) {
+void query(ts_prepared* p, const ts_pose* a, const ts_pose* b, const double*, ts_answer* answer) {
   p->parts.clear();
   const Separation least = p->pair.separation(*a, *b, &p->parts);
   answer->status = least.distance <= p->threshold ? TS_CONTACT : TS_NONE;

@@ -20,11 +20,11 @@ namespace {
 constexpr int something_failed = 1;
 
 struct Options {
-  explicit Options(CLI::App& command) : bar(command) {}
+  explicit Options(CLI::App& command) : sample(command, 10), bar(command) {}
+  SampleOption sample;
   BarOption bar;
   std::string candidate;
-  std::vector<std::string> laws, pairs, classes;
-  std::uint64_t count = 10, seed = 1;
+  std::vector<std::string> laws;
   std::string save, corpus, junit, json;
 
   CheckOptions check() const {
@@ -33,19 +33,10 @@ struct Options {
     if (laws.empty()) {
       for (const Law& law : all_laws()) c.laws.push_back(&law);
     }
-    for (const auto& name : pairs) c.pairs.push_back(parse_pair(name));
-    if (pairs.empty()) c.pairs.assign(std::begin(all_pairs), std::end(all_pairs));
-    for (const auto& name : classes) {
-      const bool known = std::any_of(c.pairs.begin(), c.pairs.end(), [&](Pair pair) {
-        const auto& names = pose_classes(pair);
-        return std::find(names.begin(), names.end(), name) != names.end();
-      });
-      if (!known) throw InvalidInput("--class", '"' + name + '"', "is no class of these pairs");
-    }
-    if (count == 0) throw InvalidInput("--count", "0", "must be at least 1");
-    c.classes = classes;
-    c.count = count;
-    c.seed = seed;
+    c.pairs = sample.pairs();
+    c.classes = sample.classes();
+    c.count = sample.count();
+    c.seed = sample.seed();
     c.bar = bar.get();
     return c;
   }
@@ -134,13 +125,6 @@ void add_check(CLI::App& program, int& exit_code) {
   const auto options = std::make_shared<Options>(*command);
   command->add_option("--candidate", options->candidate, "Its name, or a plug-in's file");
   command->add_option("--law", options->laws, "Only these laws")->delimiter(',');
-  command->add_option("--pair", options->pairs, "Only these pairs, as in cylinder-box")
-      ->delimiter(',');
-  command->add_option("--class", options->classes, "Only these pose classes")->delimiter(',');
-  command->add_option("--count", options->count, "Configurations of each pair and pose class")
-      ->capture_default_str();
-  command->add_option("--seed", options->seed, "Same seed, same configurations")
-      ->capture_default_str();
   command->add_option("--corpus", options->corpus,
                       "First replay the failures saved in this folder: each must fail as it did");
   command->add_option("--save", options->save, "Save failures into this folder, one file each");

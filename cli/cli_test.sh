@@ -33,25 +33,26 @@ expect 2 'prism:1.* must be' replay cylinder-box/rim-face/1/2 --candidates prism
 expect 0 'prism:32: ' replay cylinder-box/rim-face/1/2 --candidates prism:8,16,32
 expect 2 'must be a plug-in' --candidate /etc/passwd candidates
 expect 2 '--time-limit' solve --time-limit 0
-expect 2 -- '--tolerance' replay cylinder-box/rim-face/1/2 --tolerance=-1
+expect 2 '--tolerance' replay cylinder-box/rim-face/1/2 --tolerance=-1
 expect 0 'reference: contact, agree' replay cylinder-box/rim-face/1/2
 expect 0 '"id":"cylinder-box/rim-face/1/2"' replay cylinder-box/rim-face/1/2 --json
 expect 0 'reference: contact' replay cylinder-box/rim-face/1/2 --html "$folder/page.html"
 grep -q 'cylinder-box/rim-face/1/2' "$folder/page.html" || { echo "FAILED: no page"; failures=$((failures + 1)); }
-expect 2 -- '--html' replay cylinder-box/rim-face/1/2 --html "$folder/none/page.html"
+expect 2 '--html' replay cylinder-box/rim-face/1/2 --html "$folder/none/page.html"
 expect 2 'could not be opened' solve "$folder/none.jsonl"
-expect 2 -- '--width' solve --width 0
-expect 2 -- '--count' report --count 0
-expect 2 -- '--class' report --class nowhere --out "$folder/r"
-expect 2 -- '--out' report --out /proc/none
+expect 2 '--width' solve --width 0
+expect 2 '--count' report --count 0
+expect 2 '--pair.*cylinder-box' report --pair cylinder-cone
+expect 2 '--class' report --class nowhere --out "$folder/r"
+expect 2 '--out' report --out /proc/none
 expect 0 'report.html' report --pair cylinder-plane --count 1 --out "$folder/a b"
 [ -s "$folder/a b/report.html" ] || { echo "FAILED: no report.html"; failures=$((failures + 1)); }
 
 
-expect 2 -- '--candidate' check
-expect 2 -- '--law.*agreement' check --candidate bullet --law gravity
-expect 2 -- '--class' check --candidate bullet --class nowhere
-expect 2 -- '--corpus.*must be a folder' check --corpus "$folder/none"
+expect 2 '--candidate' check
+expect 2 '--law.*agreement' check --candidate bullet --law gravity
+expect 2 '--class' check --candidate bullet --class nowhere
+expect 2 '--corpus.*must be a folder' check --corpus "$folder/none"
 expect 0 'agreement .* passed' check --candidate reference --pair cylinder-sphere --count 1
 expect 1 'broken by' check --candidate bullet --pair cylinder-box --class edge-cap --count 1 \
   --law agreement --save "$folder/corpus" --junit "$folder/junit.xml" --json "$folder/check.json"
@@ -84,8 +85,8 @@ line=$("$program" replay cylinder-box/general-deep/3/4 | grep '^{' | tail -n 1)
   { echo "FAILED: solve --audit shows no enclosure of the second oracle"; failures=$((failures + 1)); }
 
 expect 2 'identity.class' certify cylinder-box/none/1/2
-expect 2 -- '--width' certify cylinder-box/rim-face/1/2 --width 0
-expect 2 -- '--cells' certify cylinder-box/rim-face/1/2 --cells -1
+expect 2 '--width' certify cylinder-box/rim-face/1/2 --width 0
+expect 2 '--cells' certify cylinder-box/rim-face/1/2 --cells -1
 expect 2 'must be a JSON object' certify -
 expect 0 '"schema":"touchstone-certificate-1"' certify cylinder-box/rim-face/1/2
 if [ "$("$program" certify - <<<"$line")" != "$("$program" certify cylinder-box/general-deep/3/4)" ]; then
@@ -93,9 +94,9 @@ if [ "$("$program" certify - <<<"$line")" != "$("$program" certify cylinder-box/
   failures=$((failures + 1))
 fi
 
-expect 2 -- '--emit.*havok.*must be one of bullet, ode, fcl, libccd, mujoco' \
+expect 2 '--emit.*havok.*must be one of bullet, ode, fcl, libccd, mujoco' \
   replay cylinder-box/rim-face/1/2 --emit havok
-expect 2 -- '--emit.*libccd.*half-space' replay cylinder-plane/general-deep/1/2 --emit libccd
+expect 2 '--emit.*libccd.*half-space' replay cylinder-plane/general-deep/1/2 --emit libccd
 expect 2 'identity.class' replay cylinder-box/none/1/2 --emit bullet
 expect 2 'must be a JSON object' replay - --emit bullet
 expect 2 'excludes' replay cylinder-box/rim-face/1/2 --emit bullet --json

@@ -12,6 +12,8 @@ void add_replay(CLI::App& program, int& exit_code);
 void add_solve(CLI::App& program, int& exit_code);
 void add_certify(CLI::App& program, int& exit_code);
 void add_check(CLI::App& program, int& exit_code);
+void add_campaign(CLI::App& program, int& exit_code);
+void add_merge(CLI::App& program, int& exit_code);
 void add_candidates(CLI::App& program, int& exit_code);
 
 }  // namespace touchstone

@@ -50,6 +50,8 @@ int main(int argc, char** argv) {
   touchstone::add_solve(program, exit_code);
   touchstone::add_certify(program, exit_code);
   touchstone::add_check(program, exit_code);
+  touchstone::add_campaign(program, exit_code);
+  touchstone::add_merge(program, exit_code);
   touchstone::add_candidates(program, exit_code);
   try {
     refuse_unknown_subcommand(program, argc, argv);

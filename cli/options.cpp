@@ -1,6 +1,7 @@
 #include "cli/options.hpp"
 
 #include <cmath>
+#include <cstdlib>
 #include <fmt/format.h>
 
 #include "candidates/candidates.hpp"
@@ -57,6 +58,13 @@ Limits CandidateOption::limits() const {
   return limits_;
 }
 
+std::string CandidateOption::command_line() const {
+  std::vector<std::string> names;
+  for (const Candidate* c : get()) names.emplace_back(c->name);
+  return fmt::format(" --candidates {} --time-limit {} --memory-limit {}", fmt::join(names, ","),
+                     limits_.seconds, limits_.mebibytes);
+}
+
 BarOption::BarOption(CLI::App& command) {
   command
       .add_option("--tolerance", bar_.tolerance,
@@ -76,6 +84,67 @@ Bar BarOption::get() const {
   check("--tolerance", bar_.tolerance);
   check("--threshold", bar_.threshold);
   return bar_;
+}
+
+std::string BarOption::command_line() const {
+  return fmt::format(" --tolerance {} --threshold {}", bar_.tolerance, bar_.threshold);
+}
+
+namespace {
+
+/// Writes "1e6" as CLI11 reads a whole number, and leaves what is none to it to refuse.
+std::string whole_number(std::string& text) {
+  constexpr double most = 0x1p53;  // doubles know every whole number up to here
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  const bool scientific = text.find_first_of("eE") != std::string::npos && *end == '\0';
+  if (scientific && value >= 0 && value <= most && value == std::floor(value)) {
+    text = fmt::format("{:.0f}", value);
+  }
+  return {};
+}
+
+}  // namespace
+
+SampleOption::SampleOption(CLI::App& command, std::uint64_t count) : count_(count) {
+  command.add_option("--pair", pairs_, "Only these pairs, as in cylinder-box")->delimiter(',');
+  command.add_option("--class", classes_, "Only these pose classes")->delimiter(',');
+  command
+      .add_option("--count", count_,
+                  "Configurations of each pair and pose class; 1e6 is understood too")
+      ->transform(CLI::Validator(whole_number, ""))
+      ->capture_default_str();
+  command.add_option("--seed", seed_, "Same seed, same configurations")->capture_default_str();
+}
+
+std::vector<Pair> SampleOption::pairs() const {
+  if (pairs_.empty()) return {std::begin(all_pairs), std::end(all_pairs)};
+  std::vector<Pair> result;
+  for (const auto& name : pairs_) {
+    try {
+      result.push_back(parse_pair(name));
+    } catch (const InvalidInput& e) {
+      throw InvalidInput("--pair", e.value(), e.remedy());
+    }
+  }
+  return result;
+}
+
+const std::vector<std::string>& SampleOption::classes() const {
+  check_pose_classes(pairs(), classes_);
+  return classes_;
+}
+
+std::uint64_t SampleOption::count() const {
+  if (count_ == 0) throw InvalidInput("--count", "0", "must be at least 1");
+  return count_;
+}
+
+std::string SampleOption::command_line() const {
+  std::string line = fmt::format(" --seed {} --count {}", seed_, count_);
+  if (!pairs_.empty()) line += fmt::format(" --pair {}", fmt::join(pairs_, ","));
+  if (!classes_.empty()) line += fmt::format(" --class {}", fmt::join(classes_, ","));
+  return line;
 }
 
 }  // namespace touchstone

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,8 @@ struct CandidateOption {
   std::vector<const Candidate*> get() const;
   /// Throws InvalidInput unless both are positive and finite.
   Limits limits() const;
+  /// The same options as text, to be repeated, with every candidate's name.
+  std::string command_line() const;
 
  private:
   std::vector<std::string> names_;
@@ -32,9 +35,28 @@ struct CandidateOption {
 struct BarOption {
   explicit BarOption(CLI::App& command);
   Bar get() const;  ///< throws InvalidInput unless both are finite and not negative
+  std::string command_line() const;
 
  private:
   Bar bar_;
+};
+
+/// --pair, --class, --count, --seed: which sampled configurations a command is about.
+struct SampleOption {
+  /// `count`: of each pair and pose class, by default.
+  SampleOption(CLI::App& command, std::uint64_t count);
+  /// All of them by default. Throws InvalidInput on an unknown name.
+  std::vector<Pair> pairs() const;
+  /// As given; empty means all. Throws InvalidInput on a class that none of the pairs has.
+  const std::vector<std::string>& classes() const;
+  std::uint64_t count() const;  ///< throws InvalidInput when zero
+  std::uint64_t seed() const { return seed_; }
+  /// The same options as text, to be repeated: " --seed 1 --count 100 --pair cylinder-box".
+  std::string command_line() const;
+
+ private:
+  std::vector<std::string> pairs_, classes_;
+  std::uint64_t count_, seed_ = 1;
 };
 
 }  // namespace touchstone

@@ -15,50 +15,36 @@ namespace touchstone {
 namespace {
 
 struct Options {
-  explicit Options(CLI::App& command) : candidates(command), bar(command) {}
+  explicit Options(CLI::App& command) : sample(command, 100), candidates(command), bar(command) {}
+  SampleOption sample;
   CandidateOption candidates;
   BarOption bar;
-  std::vector<std::string> pairs, classes;
-  std::uint64_t count = 100, seed = 1;
   unsigned workers = std::max(1U, std::thread::hardware_concurrency());
   std::string out = "out", figures;
 
   Campaign campaign() const {
     Campaign c;
-    for (const auto& name : pairs) c.pairs.push_back(parse_pair(name));
-    if (pairs.empty()) c.pairs.assign(std::begin(all_pairs), std::end(all_pairs));
-    c.classes = classes;
+    c.pairs = sample.pairs();
+    c.classes = sample.classes();
     c.candidates = candidates.get();
-    c.count = count;
-    c.seed = seed;
+    c.count = sample.count();
+    c.seed = sample.seed();
     c.workers = workers;
     c.bar = bar.get();
     c.limits = candidates.limits();
-    if (count == 0) throw InvalidInput("--count", "0", "must be at least 1");
     if (workers == 0) throw InvalidInput("--workers", "0", "must be at least 1");
     return c;
   }
 
   /// The command that gives the same report again.
   std::string command_line() const {
-    std::string line = fmt::format("{} report --seed {} --count {}", program_name(), seed, count);
-    if (!pairs.empty()) line += fmt::format(" --pair {}", fmt::join(pairs, ","));
-    if (!classes.empty()) line += fmt::format(" --class {}", fmt::join(classes, ","));
-    std::vector<std::string> names;
-    for (const Candidate* c : candidates.get()) names.emplace_back(c->name);
-    const Bar used = bar.get();
-    const Limits limits = candidates.limits();
-    return line + fmt::format(
-                      " --candidates {} --tolerance {} --threshold {} --time-limit {} "
-                      "--memory-limit {}",
-                      fmt::join(names, ","), used.tolerance, used.threshold, limits.seconds,
-                      limits.mebibytes);
+    return program_name() + " report" + sample.command_line() + candidates.command_line() +
+           bar.command_line();
   }
 };
 
 void run(const Options& options) {
   const Campaign campaign = options.campaign();
-  cells(campaign);  // refuses unknown classes before any work
   check_writable(options.out);
   if (!options.figures.empty()) check_figures(options.figures);
   const nlohmann::json report = make_report(campaign, options.command_line());
@@ -78,13 +64,6 @@ void add_report(CLI::App& program, int&) {
   CLI::App* command =
       program.add_subcommand("report", "Score all candidates; write out/report.html");
   const auto options = std::make_shared<Options>(*command);
-  command->add_option("--pair", options->pairs, "Only these pairs, as in cylinder-box")
-      ->delimiter(',');
-  command->add_option("--class", options->classes, "Only these pose classes")->delimiter(',');
-  command->add_option("--count", options->count, "Configurations of each pair and pose class")
-      ->capture_default_str();
-  command->add_option("--seed", options->seed, "Same seed, same configurations")
-      ->capture_default_str();
   command
       ->add_option("--workers", options->workers, "Worker processes; they do not change the result")
       ->capture_default_str();

@@ -22,6 +22,7 @@ std::vector<Identity> identities(const CheckOptions& options, Pair pair) {
 }
 
 nlohmann::json answer_of(CandidateProcess& candidate, const Configuration& c, const Bar& bar) {
+  candidate.ask_within(bar.threshold);
   const Answer answer = candidate.answers({&c, 1}).front();
   return to_json(answer, score(c, oracle::truth(c), answer, bar));
 }

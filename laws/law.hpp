@@ -17,6 +17,12 @@ struct Violation {
   std::string detail;  ///< One sentence with the numbers.
 };
 
+/// What is asked with a hint, or as if there were none.
+struct Frame {
+  Configuration configuration;
+  std::optional<Vec3> previous_normal;
+};
+
 /// What every correct contact routine satisfies, whatever its method. A law is a pure function: it
 /// asks a fixed list of questions about a configuration, and judges the answers.
 struct Law {
@@ -28,10 +34,17 @@ struct Law {
   /// What to ask besides the configuration itself, in one session and in this order.
   std::vector<Configuration> (*questions)(const Configuration& configuration, const Bar& bar);
 
-  /// `answers` belong to the configuration and then to the questions. Never called with answers
-  /// that are neither a contact nor none, or not finite: that is the law "answers".
+  /// `answers` belong to the configuration, then to the questions, then to the frames. Never called
+  /// with answers that are neither a contact nor none, or not finite: that is the law "answers".
   std::optional<Violation> (*judge)(const Configuration& configuration,
                                     std::span<const Answer> answers, const Bar& bar);
+
+  /// What to ask last, which may depend on the answer to the configuration itself; null: nothing.
+  std::vector<Frame> (*frames)(const Configuration& configuration, const Answer& first,
+                               const Bar& bar) = nullptr;
+
+  /// In metres, where the law asks within another threshold than the bar's; null: the bar's.
+  double (*threshold)(const Configuration& configuration, const Bar& bar) = nullptr;
 };
 
 /// All laws, the law "answers" first.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "laws/hint_law.hpp"
 #include "laws/law.hpp"
 #include "laws/moves.hpp"
 #include "laws/point_distance.hpp"
@@ -317,6 +318,10 @@ const std::vector<Law>& all_laws() {
        nothing_else, judge_points},
       {"manifold", "Of exactly aligned bodies the points cover at least 0.3 of the contact patch.",
        always, nothing_else, judge_manifold},
+      {"hint",
+       "Pressed in by a tenth of the tolerance, and told its normal, it keeps to it within 10 "
+       "degrees unless another one has become better by more; no hint makes it wrong.",
+       always, nothing_else, judge_hint, hinted_frames, hint_threshold},
       {"memory", "The answer does not depend on what was asked before, to the last bit.", always,
        ask_again, judge_again},
   };
@@ -340,12 +345,21 @@ const std::vector<std::string>& all_failures() {
 }
 
 std::optional<Violation> broken(const Law& law, const Configuration& c, CandidateProcess& candidate,
-                                const Bar& bar) {
+                                const Bar& given) {
   if (!law.applies(c)) return std::nullopt;
+  Bar bar = given;
+  if (law.threshold) bar.threshold = law.threshold(c, given);
   std::vector<Configuration> asked{c};
   for (Configuration& question : law.questions(c, bar)) asked.push_back(std::move(question));
-  const std::vector<Answer> answers = candidate.answers(asked);
+  candidate.ask_within(bar.threshold);
+  std::vector<Answer> answers = candidate.answers(asked);
   if (answers[0].status == TS_UNSUPPORTED) return std::nullopt;
+  if (law.frames && !judge_answers(c, {&answers[0], 1}, bar)) {
+    for (const Frame& frame : law.frames(c, answers[0], bar)) {
+      const auto& hint = frame.previous_normal;
+      answers.push_back(candidate.answer(frame.configuration, hint ? &*hint : nullptr));
+    }
+  }
   if (law.judge != judge_answers) {
     for (const Answer& a : answers) {
       if (judge_answers(c, {&a, 1}, bar)) return std::nullopt;

@@ -94,6 +94,51 @@ TEST(Laws, SeeWhatTheyAreThereFor) {
             "not-invariant");
 }
 
+TEST(Laws, HintSeesAFlickerAndAHintThatMisleads) {
+  const Law& law = find_law("hint");
+  // Every face of the cube is as near as the cylinder's caps.
+  const Configuration tied{Cylinder(1, 1), Pose(), Box({1, 1, 1}), Pose()};
+  const auto judged = [&](const Configuration& c, const std::vector<Answer>& answers) {
+    Bar bar;
+    bar.threshold = law.threshold(c, bar);
+    const auto v = law.judge(c, answers, bar);
+    return v ? v->failure : "";
+  };
+  const Vec3 x = Vec3::UnitX(), z = Vec3::UnitZ();
+  const Answer up = contact(-2, z), down = contact(-2, -z), side = contact(-2, x);
+  EXPECT_EQ(judged(tied, {up, up, up, up}), "");
+  EXPECT_EQ(judged(tied, {up, side, up, down}), "");
+  EXPECT_EQ(judged(tied, {up, up, side, up}), "jump");
+  EXPECT_EQ(judged(tied, {up, up, none(), up}), "missed");
+  EXPECT_EQ(judged(tied, {up, up, up, contact(-2.1, -z)}), "overdeep");
+  // What is wrong without a hint is for other laws to say.
+  EXPECT_EQ(judged(tied, {up, none(), none(), none()}), "");
+  EXPECT_EQ(judged(tied, {none()}), "");
+
+  // One normal is the best: the hint decides nothing.
+  const Answer good = contact(-0.1, z), wrong = contact(-0.1, x);
+  EXPECT_EQ(judged(standing(), {good, good, good, good}), "");
+  EXPECT_EQ(judged(standing(), {good, good, good, wrong}), "wrong-normal");
+  EXPECT_EQ(judged(standing(), {good, good, wrong, good}), "wrong-normal");
+  EXPECT_EQ(judged(standing(), {wrong, good, good, good}), "");
+}
+
+TEST(Laws, HintIsAskedOfTheNextFrameWithTheNormalAndItsOpposite) {
+  const Law& law = find_law("hint");
+  Bar bar;
+  bar.threshold = law.threshold(standing(), bar);
+  EXPECT_DOUBLE_EQ(bar.threshold, 0.5e-4);
+  const auto frames = law.frames(standing(), contact(-0.1, {0, 0, 1}), bar);
+  ASSERT_EQ(frames.size(), 3u);
+  for (const Frame& f : frames) {
+    EXPECT_DOUBLE_EQ(f.configuration.pose_a.position().z(), 1.9 - 1e-5);
+  }
+  EXPECT_FALSE(frames[0].previous_normal);
+  EXPECT_EQ(*frames[1].previous_normal, Vec3(0, 0, 1));
+  EXPECT_EQ(*frames[2].previous_normal, Vec3(0, 0, -1));
+  EXPECT_TRUE(law.frames(standing(), none(), bar).empty());
+}
+
 TEST(Laws, HaveNamesThatAreFound) {
   for (const Law& law : all_laws()) EXPECT_EQ(&find_law(law.name), &law);
   EXPECT_THROW(find_law("gravity"), InvalidInput);

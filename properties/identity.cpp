@@ -111,6 +111,19 @@ const std::vector<std::string>& pose_classes(Pair pair) {
   return names[static_cast<std::size_t>(pair)];
 }
 
+void check_pose_classes(const std::vector<Pair>& pairs, const std::vector<std::string>& classes) {
+  std::vector<std::string> known;  // in report order, each once
+  for (const Pair pair : pairs) {
+    for (const auto& name : pose_classes(pair)) {
+      if (std::find(known.begin(), known.end(), name) == known.end()) known.push_back(name);
+    }
+  }
+  for (const auto& name : classes) {
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    throw InvalidInput("--class", quoted(name), "must be one of " + joined(known));
+  }
+}
+
 std::string_view describe_pose_class(Pair pair, std::string_view pose_class) {
   return find_class(pair, pose_class).description;
 }

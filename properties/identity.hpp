@@ -31,6 +31,10 @@ Pair parse_pair(std::string_view name);
 /// Names of the pose classes of a pair, in report order.
 const std::vector<std::string>& pose_classes(Pair pair);
 
+/// Throws InvalidInput (field "--class") that lists those there are, unless each class is one of at
+/// least one of the pairs.
+void check_pose_classes(const std::vector<Pair>& pairs, const std::vector<std::string>& classes);
+
 /// One sentence: which geometry the class makes and why it is hard.
 std::string_view describe_pose_class(Pair pair, std::string_view pose_class);
 

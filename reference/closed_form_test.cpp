@@ -151,5 +151,27 @@ TEST(CylinderOnPlane, PosedPlaneWithALongNormalIsTheSameHalfSpace) {
   EXPECT_NEAR(signed_distance(c).value, 0.5, 1e-15);
 }
 
+TEST(PreviousNormal, IsKeptAsLongAsItIsAsGood) {
+  const Pose centre;
+  const auto hinted = [](const Pose& pose_b, const Vec3& previous, double threshold) {
+    return contact({Cylinder(1, 1), Pose(), Sphere(0.5), pose_b}, threshold, &previous);
+  };
+  // A sphere in the middle of a square can: every way out along the axis or off it is as short.
+  for (const Vec3& n : {Vec3(0, 0, 1), Vec3(0, 0, -1), Vec3(0.6, 0.8, 0), Vec3(-1, 0, 0)}) {
+    const Contact c = hinted(centre, n, 1e-6);
+    EXPECT_LE((c.normal - n).norm(), 1e-15);
+    EXPECT_NEAR(c.signed_distance, -1.5, 1e-15);
+  }
+  EXPECT_NEAR(hinted(centre, Vec3(0.6, 0, 0.8), 1e-6).signed_distance, -1.5, 1e-15);
+
+  // A centre 1e-7 beyond the rim: oblique, but along the axis is no worse than that.
+  const Pose beyond_rim({1 + 1e-7, 0, 1 + 1e-7}, {1, 0, 0, 0});
+  EXPECT_EQ(hinted(beyond_rim, Vec3(0, 0, -1), 1e-6).normal, Vec3(0, 0, -1));
+  EXPECT_NEAR(hinted(beyond_rim, Vec3(0, 0, -1), 1e-9).normal.z(), -std::sqrt(0.5), 1e-6);
+  // Nor is any oblique one, of no axis or face.
+  const Vec3 oblique = Vec3(-0.3, 0, -1).normalized();
+  EXPECT_EQ(hinted(beyond_rim, oblique, 1e-6).normal, oblique);
+}
+
 }  // namespace
 }  // namespace touchstone

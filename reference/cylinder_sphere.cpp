@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "nearest_tie.hpp"
 #include "scaled.hpp"
 
 namespace touchstone {
@@ -71,22 +72,16 @@ Contact contact(const Cylinder& a, const Pose& pose_a, const Sphere& b, const Po
       return contact(bodies..., scaled.scaled(contact_threshold), previous_normal);
     }));
   }
-  const Centre centre(a, pose_a, pose_b);
-  SignedDistance found = centre.nearest();
-  if (previous_normal && centre.beyond_cap <= 0 && centre.beyond_side <= 0) {
-    // Side or cap, whichever was left before.
-    const SignedDistance cap{centre.beyond_cap, -centre.axial};
-    const SignedDistance side{centre.beyond_side, -centre.radial};
-    for (const SignedDistance& other : {cap, side}) {
-      if (other.value >= found.value - contact_threshold &&
-          other.normal.dot(*previous_normal) > found.normal.dot(*previous_normal)) {
-        found = other;
-      }
-    }
+  SignedDistance found = Centre(a, pose_a, pose_b).nearest();
+  found.value -= b.radius();
+  if (previous_normal && found.value <= contact_threshold) {
+    const Vec3 origin = pose_b.position();
+    found = nearest_tie(posed(a, pose_a, origin), posed(b, pose_b, origin), found,
+                        contact_threshold, *previous_normal);
   }
   Contact result;
   result.normal = found.normal;
-  result.signed_distance = found.value - b.radius();
+  result.signed_distance = found.value;
   if (result.signed_distance <= contact_threshold) {
     // From the centre towards the cylinder: the sphere's surface, then half of the way between.
     result.add_point(pose_b.position() + (b.radius() + result.signed_distance / 2) * result.normal,

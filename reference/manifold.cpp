@@ -305,7 +305,7 @@ void Manifold::line_on_line(const FacingFeature& f, const FacingFeature& g) {
 
 ManifoldRule::ManifoldRule(double largest_a, double largest_b, double distance,
                            double signed_distance, double contact_threshold) {
-  constexpr double hair = 1e-6;
+  constexpr double hair = 1e-3;
   const double rounding =
       16 * std::numeric_limits<double>::epsilon() * (std::max(largest_a, largest_b) + distance);
   slack = std::max(rounding, std::min(hair * std::min(largest_a, largest_b),

@@ -10,9 +10,10 @@ struct ManifoldRule {
   /// How far above the deepest point a surface may lie and still carry a point.
   double slack;
 
-  /// A millionth of the smaller body's largest half extent, so that a standing or lying body keeps
-  /// its points when it is tilted by a hair; no more than the contact threshold leaves above the
-  /// deepest point; never less than rounding. `distance` is that of the bodies' centres.
+  /// A thousandth of the smaller body's largest half extent, so that a standing or lying body keeps
+  /// its points when a step of a simulation tilts it, as long as they overlap: no more than the
+  /// contact threshold leaves above the deepest point; never less than rounding. `distance` is that
+  /// of the bodies' centres.
   ManifoldRule(double largest_a, double largest_b, double distance, double signed_distance,
                double contact_threshold);
 };

@@ -17,6 +17,10 @@ struct PosedCylinder {
   Vec3 centre, axis;
   double radius, half_length;
 };
+struct PosedSphere {
+  Vec3 centre;
+  double radius;
+};
 struct PosedCapsule {
   Vec3 centre, axis;
   double radius, half_length;
@@ -30,6 +34,9 @@ struct PosedBox {
 inline PosedCylinder posed(const Cylinder& s, const Pose& pose, const Vec3& origin) {
   return {pose.position() - origin, pose.axis(), s.radius(), s.half_length()};
 }
+inline PosedSphere posed(const Sphere& s, const Pose& pose, const Vec3& origin) {
+  return {pose.position() - origin, s.radius()};
+}
 inline PosedCapsule posed(const Capsule& s, const Pose& pose, const Vec3& origin) {
   return {pose.position() - origin, pose.axis(), s.radius(), s.half_length()};
 }
@@ -41,6 +48,7 @@ inline PosedBox posed(const Box& s, const Pose& pose, const Vec3& origin) {
 inline double reach(const PosedCylinder& s, const Vec3& n) {
   return s.half_length * std::abs(s.axis.dot(n)) + s.radius * s.axis.cross(n).norm();
 }
+inline double reach(const PosedSphere& s, const Vec3&) { return s.radius; }
 inline double reach(const PosedCapsule& s, const Vec3& n) {
   return s.half_length * std::abs(s.axis.dot(n)) + s.radius;
 }

@@ -7,7 +7,6 @@
 
 #include "candidates/candidate_process.hpp"
 #include "oracle/truth.hpp"
-#include "reference/invalid_input.hpp"
 #include "reports/progress.hpp"
 #include "reports/worker_processes.hpp"
 
@@ -57,34 +56,15 @@ Score from_record(const Record& r) {
 /// Per configuration: the oracle's time and the signed distance, then one record per candidate.
 std::string score_cell(const Campaign& campaign, std::vector<CandidateProcess>& candidates,
                        const Cell& cell) {
-  std::vector<Configuration> configurations;
-  for (std::uint64_t i = 0; i < campaign.count; ++i) {
-    configurations.push_back(make_configuration({cell.pair, cell.pose_class, campaign.seed, i}));
-  }
-  std::vector<std::vector<Answer>> answers;
-  for (CandidateProcess& candidate : candidates) {
-    answers.push_back(candidate.answers(configurations));
-  }
   std::string bytes;
   const auto append = [&](const auto& value) {
     bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
   };
-  for (std::uint64_t i = 0; i < campaign.count; ++i) {
-    const Configuration& c = configurations[i];
-    try {
-      const auto start = std::chrono::steady_clock::now();
-      const oracle::Truth truth = oracle::truth(c);
-      append(std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start)
-                 .count());
-      append(truth.signed_distance.midpoint());
-      for (const auto& of_candidate : answers) {
-        append(to_record(score(c, truth, of_candidate[i], campaign.bar)));
-      }
-    } catch (const std::exception& e) {
-      throw std::runtime_error(to_string({cell.pair, cell.pose_class, campaign.seed, i}) + ": " +
-                               e.what());
-    }
-  }
+  score_range(campaign, candidates, cell, 0, campaign.count, [&](const Scored& scored) {
+    append(scored.oracle_microseconds);
+    append(scored.signed_distance);
+    for (const Score& s : scored.scores) append(to_record(s));
+  });
   return bytes;
 }
 
@@ -112,20 +92,7 @@ CellScores parse_cell(const Campaign& campaign, const std::string& bytes) {
 
 std::vector<Cell> cells(const Campaign& campaign) {
   std::vector<Cell> result;
-  for (const std::string& wanted : campaign.classes) {
-    const bool known = std::any_of(campaign.pairs.begin(), campaign.pairs.end(), [&](Pair pair) {
-      const auto& names = pose_classes(pair);
-      return std::find(names.begin(), names.end(), wanted) != names.end();
-    });
-    if (known) continue;
-    std::string names;
-    for (const Pair pair : campaign.pairs) {
-      for (const auto& name : pose_classes(pair)) {
-        if (names.find(name) == std::string::npos) names += (names.empty() ? "" : ", ") + name;
-      }
-    }
-    throw InvalidInput("--class", '"' + wanted + '"', "must be one of " + names);
-  }
+  check_pose_classes(campaign.pairs, campaign.classes);
   for (const Pair pair : campaign.pairs) {
     for (const auto& name : pose_classes(pair)) {
       const auto& wanted = campaign.classes;
@@ -135,6 +102,39 @@ std::vector<Cell> cells(const Campaign& campaign) {
     }
   }
   return result;
+}
+
+void score_range(const Campaign& campaign, std::vector<CandidateProcess>& candidates,
+                 const Cell& cell, std::uint64_t first, std::uint64_t last,
+                 const std::function<void(const Scored&)>& take) {
+  const auto identity = [&](std::uint64_t i) {
+    return Identity{cell.pair, cell.pose_class, campaign.seed, i};
+  };
+  std::vector<Configuration> configurations;
+  for (std::uint64_t i = first; i < last; ++i) {
+    configurations.push_back(make_configuration(identity(i)));
+  }
+  std::vector<std::vector<Answer>> answers;
+  for (CandidateProcess& candidate : candidates) {
+    answers.push_back(candidate.answers(configurations));
+  }
+  for (std::uint64_t i = first; i < last; ++i) {
+    const Configuration& c = configurations[i - first];
+    try {
+      const auto start = std::chrono::steady_clock::now();
+      const oracle::Truth truth = oracle::truth(c);
+      const double microseconds =
+          std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start)
+              .count();
+      Scored scored{i, microseconds, truth.signed_distance.midpoint(), {}};
+      for (const auto& of_candidate : answers) {
+        scored.scores.push_back(score(c, truth, of_candidate[i - first], campaign.bar));
+      }
+      take(scored);
+    } catch (const std::exception& e) {
+      throw std::runtime_error(to_string(identity(i)) + ": " + e.what());
+    }
+  }
 }
 
 std::vector<CellScores> run(const Campaign& campaign) {

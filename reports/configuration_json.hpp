@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include <nlohmann/json.hpp>
 
 #include "reference/configuration.hpp"
@@ -18,6 +20,11 @@ struct GivenConfiguration {
 /// is the identity. Throws InvalidInput with the full path of the field ("b.half_extents[1]").
 GivenConfiguration configuration_from_json(const nlohmann::json& json);
 
+/// {"shape": "cylinder", "radius": …}. `path` names the object in errors, which are InvalidInput.
+Shape shape_from_json(const nlohmann::json& value, const std::string& path);
+/// {"position": …, "orientation": …}; either may be missing.
+Pose pose_from_json(const nlohmann::json& value, const std::string& path);
+
 /// Shortest decimals that give the same doubles back.
 nlohmann::json to_json(const Configuration& configuration);
 /// The same with every number as a hexadecimal float string.
@@ -26,6 +33,7 @@ nlohmann::json to_hex_json(const Configuration& configuration);
 /// The same with every number as a string of a fraction in lowest terms, as in "-3/8".
 nlohmann::json to_exact_json(const Configuration& configuration);
 
+nlohmann::json to_json(const Shape& shape);
 nlohmann::json to_json(const Vec3& v);
 
 }  // namespace touchstone

@@ -11,6 +11,7 @@
 #include <signal.h>
 #include <stdexcept>
 #include <sys/mman.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <system_error>
 #include <unistd.h>
@@ -23,22 +24,22 @@ namespace {
 class Shared {
  public:
   explicit Shared(unsigned workers)
-      : bytes_(sizeof(std::atomic<std::size_t>) * (workers + 1)),
+      : bytes_(sizeof(std::atomic<std::uint64_t>) * (workers + 1)),
         memory_(mmap(nullptr, bytes_, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0)) {
     if (memory_ == MAP_FAILED) throw std::system_error(errno, std::generic_category(), "mmap");
-    for (unsigned i = 0; i <= workers; ++i) new (&at(i)) std::atomic<std::size_t>(0);
+    for (unsigned i = 0; i <= workers; ++i) new (&at(i)) std::atomic<std::uint64_t>(0);
   }
   ~Shared() { munmap(memory_, bytes_); }
   Shared(const Shared&) = delete;
   Shared& operator=(const Shared&) = delete;
 
-  std::atomic<std::size_t>& next() { return at(0); }
+  std::atomic<std::uint64_t>& next() { return at(0); }
   /// One more than the task that this worker is at; zero between tasks.
-  std::atomic<std::size_t>& current(unsigned worker) { return at(worker + 1); }
+  std::atomic<std::uint64_t>& current(unsigned worker) { return at(worker + 1); }
 
  private:
-  std::atomic<std::size_t>& at(unsigned i) {
-    return static_cast<std::atomic<std::size_t>*>(memory_)[i];
+  std::atomic<std::uint64_t>& at(unsigned i) {
+    return static_cast<std::atomic<std::uint64_t>*>(memory_)[i];
   }
   std::size_t bytes_;
   void* memory_;
@@ -61,10 +62,19 @@ void write_all(int fd, const void* data, std::size_t size) {
   }
 }
 
-[[noreturn]] void work(Shared& shared, unsigned worker, std::size_t count, int fd,
-                       const std::function<std::string(std::size_t)>& task) {
+/// Ends with the parent, whatever ends that, and leaves it alone to obey a terminal's Ctrl-C or a
+/// scheduler's SIGTERM: a candidate that dies of those would be counted as crashed.
+void follow(pid_t parent) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) _exit(0);  // it died before that
+  signal(SIGINT, SIG_IGN);
+  signal(SIGTERM, SIG_IGN);
+}
+
+[[noreturn]] void work(Shared& shared, unsigned worker, std::uint64_t count, int fd,
+                       const std::function<std::string(std::uint64_t)>& task) {
   for (;;) {
-    const std::size_t index = shared.next().fetch_add(1);
+    const std::uint64_t index = shared.next().fetch_add(1);
     if (index >= count) break;
     shared.current(worker) = index + 1;
     std::string result;
@@ -121,15 +131,36 @@ std::vector<std::string> run_in_processes(std::size_t count, unsigned workers,
                                           const std::function<std::string(std::size_t)>& task,
                                           const std::function<std::string(std::size_t)>& name,
                                           const std::function<void(std::size_t)>& done) {
-  workers = std::max(1U, std::min(workers, static_cast<unsigned>(std::max<std::size_t>(count, 1))));
+  std::vector<std::string> results(count);
+  std::size_t finished = 0;
+  stream_from_processes(
+      count, workers, task, name,
+      [&](std::uint64_t index, std::string result) {
+        results[index] = std::move(result);
+        done(++finished);
+      },
+      [] { return true; });
+  return results;
+}
+
+bool stream_from_processes(std::uint64_t count, unsigned workers,
+                           const std::function<std::string(std::uint64_t)>& task,
+                           const std::function<std::string(std::uint64_t)>& name,
+                           const std::function<void(std::uint64_t, std::string)>& take,
+                           const std::function<bool()>& go_on) {
+  constexpr int most_milliseconds = 100;
+  workers = static_cast<unsigned>(
+      std::clamp<std::uint64_t>(workers, 1, std::max<std::uint64_t>(count, 1)));
   Shared shared(workers);
   Workers pool(workers);
+  const pid_t parent = getpid();
   for (unsigned i = 0; i < workers; ++i) {
     int ends[2];
     if (pipe(ends) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
     const pid_t pid = fork();
     if (pid < 0) throw std::system_error(errno, std::generic_category(), "fork");
     if (pid == 0) {
+      follow(parent);
       close(ends[0]);
       work(shared, i, count, ends[1], task);
     }
@@ -137,8 +168,7 @@ std::vector<std::string> run_in_processes(std::size_t count, unsigned workers,
     pool.all()[i] = {pid, ends[0], {}};
   }
 
-  std::vector<std::string> results(count);
-  std::size_t finished = 0, open = workers;
+  std::size_t open = workers;
   const auto take_records = [&](std::string& buffer) {
     Header header;
     while (buffer.size() >= sizeof header) {
@@ -147,14 +177,15 @@ std::vector<std::string> run_in_processes(std::size_t count, unsigned workers,
       std::string result = buffer.substr(sizeof header, header.size);
       buffer.erase(0, sizeof header + header.size);
       if (header.failed) throw std::runtime_error(name(header.index) + ": " + result);
-      results[header.index] = std::move(result);
-      done(++finished);
+      take(header.index, std::move(result));
     }
   };
   while (open > 0) {
+    if (!go_on()) return false;
     std::vector<pollfd> polled;
     for (const Worker& w : pool.all()) polled.push_back({w.fd, POLLIN, 0});
-    if (poll(polled.data(), polled.size(), -1) < 0 && errno != EINTR) {
+    if (poll(polled.data(), polled.size(), most_milliseconds) < 0) {
+      if (errno == EINTR) continue;
       throw std::system_error(errno, std::generic_category(), "poll");
     }
     for (unsigned i = 0; i < workers; ++i) {
@@ -171,13 +202,13 @@ std::vector<std::string> run_in_processes(std::size_t count, unsigned workers,
         --open;
         int status = 0;
         waitpid(std::exchange(w.pid, -1), &status, 0);
-        const std::size_t at = shared.current(i);
+        const std::uint64_t at = shared.current(i);
         if (at != 0)
           throw std::runtime_error(name(at - 1) + ": the worker " + how_it_ended(status));
       }
     }
   }
-  return results;
+  return true;
 }
 
 }  // namespace touchstone

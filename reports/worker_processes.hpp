@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -14,5 +15,14 @@ std::vector<std::string> run_in_processes(std::size_t count, unsigned workers,
                                           const std::function<std::string(std::size_t)>& task,
                                           const std::function<std::string(std::size_t)>& name,
                                           const std::function<void(std::size_t)>& done);
+
+/// The same for runs longer than memory: hands each result over as it comes, in no certain order,
+/// and keeps none. Ends early, without the tasks in hand, once `go_on` says no; it is asked at
+/// least every 100 ms. Returns whether all tasks were done.
+bool stream_from_processes(std::uint64_t count, unsigned workers,
+                           const std::function<std::string(std::uint64_t)>& task,
+                           const std::function<std::string(std::uint64_t)>& name,
+                           const std::function<void(std::uint64_t, std::string)>& take,
+                           const std::function<bool()>& go_on);
 
 }  // namespace touchstone

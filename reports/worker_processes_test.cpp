@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <stdexcept>
+#include <unistd.h>
 
 namespace touchstone {
 namespace {
@@ -50,6 +51,31 @@ TEST(WorkerProcesses, ADeadWorkerNamesItsTaskAndSignal) {
   EXPECT_THAT([&] { run_in_processes(6, 2, deadly, name, ignore); },
               testing::ThrowsMessage<std::runtime_error>(
                   testing::AllOf(HasSubstr("task 2"), HasSubstr("Killed"))));
+}
+
+TEST(WorkerProcesses, EndEarlyWithoutTheTasksInHand) {
+  std::size_t taken = 0;
+  const bool all = stream_from_processes(
+      1000, 2, [](std::uint64_t) { return std::string(100, 'x'); }, name,
+      [&](std::uint64_t, const std::string&) { ++taken; }, [&] { return taken < 3; });
+  EXPECT_FALSE(all);
+  EXPECT_GE(taken, 3u);
+
+  const auto endless = [](std::uint64_t) -> std::string {
+    for (;;) pause();
+  };
+  int asked = 0;
+  EXPECT_FALSE(stream_from_processes(
+      2, 2, endless, name, [](std::uint64_t, const std::string&) {}, [&] { return ++asked < 3; }));
+}
+
+TEST(WorkerProcesses, DoNotObeyWhatIsMeantForTheirParent) {
+  const auto hit = [](std::size_t) -> std::string {
+    raise(SIGINT);
+    raise(SIGTERM);
+    return "alive";
+  };
+  EXPECT_EQ(run_in_processes(1, 1, hit, name, ignore).front(), "alive");
 }
 
 }  // namespace

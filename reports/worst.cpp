@@ -3,35 +3,17 @@
 #include <algorithm>
 #include <cctype>
 #include <cstring>
-#include <map>
-#include <tuple>
+#include <utility>
 
 #include "candidates/candidates.hpp"
 #include "reports/answer_json.hpp"
 #include "reports/configuration_json.hpp"
+#include "reports/worst_selection.hpp"
 
 namespace touchstone {
 namespace {
 
 using nlohmann::json;
-
-constexpr std::size_t kept = 4;           // of each pair × candidate, or one of each outcome
-constexpr std::size_t kept_of_class = 2;  // among them
-
-struct Case {
-  std::size_t cell;
-  std::uint64_t index;
-  Score score;
-
-  /// Worse cases first, without an answer at the top; equal ones in report order.
-  auto rank() const {
-    const Outcome o = score.outcome;
-    const bool answered = o != Outcome::crashed && o != Outcome::timed_out &&
-                          o != Outcome::failed && o != Outcome::not_finite;
-    return std::tuple(o == Outcome::agree, answered, -score.severity, cell, index);
-  }
-  bool operator<(const Case& other) const { return rank() < other.rank(); }
-};
 
 std::vector<Case> worst_of(const std::vector<Cell>& all, const std::vector<CellScores>& scores,
                            Pair pair, std::size_t candidate) {
@@ -40,27 +22,11 @@ std::vector<Case> worst_of(const std::vector<Cell>& all, const std::vector<CellS
     if (all[cell].pair != pair) continue;
     std::vector<Case> of_class;
     const auto& row = scores[cell].scores[candidate];
-    for (std::uint64_t i = 0; i < row.size(); ++i) {
-      if (row[i].outcome != Outcome::unsupported) of_class.push_back({cell, i, row[i]});
-    }
-    std::sort(of_class.begin(), of_class.end());
-    std::map<Outcome, std::size_t> seen;
-    std::size_t taken = 0;
-    for (const Case& c : of_class) {
-      if (taken < kept_of_class || seen[c.score.outcome] == 0) cases.push_back(c);
-      ++taken;
-      ++seen[c.score.outcome];
-    }
+    for (std::uint64_t i = 0; i < row.size(); ++i) of_class.push_back({cell, i, row[i]});
+    const auto worst = worst_of_class(std::move(of_class));
+    cases.insert(cases.end(), worst.begin(), worst.end());
   }
-  std::sort(cases.begin(), cases.end());
-  // The worst of each outcome stay, then what else is worst.
-  std::map<Outcome, std::size_t> seen;
-  const auto others = std::stable_partition(
-      cases.begin(), cases.end(), [&](const Case& c) { return seen[c.score.outcome]++ == 0; });
-  const auto first = static_cast<std::size_t>(others - cases.begin());
-  cases.resize(std::min(std::max(kept, first), cases.size()));
-  std::sort(cases.begin(), cases.end());
-  return cases;
+  return worst_of_pair(std::move(cases));
 }
 
 /// For a shell; left alone where it needs no quotes.

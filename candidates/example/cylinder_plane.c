@@ -39,9 +39,11 @@ static void turn(const double q[4], const double v[3], double out[3]) {
   }
 }
 
-static void query(ts_prepared* p, const ts_pose* a, const ts_pose* b, ts_answer* answer) {
+static void query(ts_prepared* p, const ts_pose* a, const ts_pose* b, const double* previous_normal,
+                  ts_answer* answer) {
   const double z[3] = {0, 0, 1}, x[3] = {1, 0, 0};
   double n[3], axis[3], down[3];
+  (void)previous_normal; /* there is but one normal */
   turn(b->orientation, p->normal, n);
   turn(a->orientation, z, axis);
   for (int i = 0; i < 3; ++i) down[i] = dot(n, axis) * axis[i] - n[i]; /* across the axis */

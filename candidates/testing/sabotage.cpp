@@ -1,7 +1,8 @@
 // A plug-in that does on purpose what engines do by accident; for tests.
 //
 // misdeed:N does the N-th deed of the list below on every configuration. sabotage does one of them,
-// or none, as the bits of A's position decide: the same one for the same configuration.
+// or none, as the bits of A's position decide: the same one for the same configuration. obedient
+// answers whatever previous normal it is given.
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -83,11 +84,12 @@ int supports(ts_shape_kind kind) { return kind != TS_BOX; }
 ts_prepared* prepare(const ts_shape*, const ts_shape*, double, double parameter) {
   return new ts_prepared{static_cast<int>(parameter) - 1};
 }
-void query(ts_prepared* prepared, const ts_pose*, const ts_pose*, ts_answer* answer) {
+void query(ts_prepared* prepared, const ts_pose*, const ts_pose*, const double*,
+           ts_answer* answer) {
   deeds[prepared->deed](*answer);
 }
 /// Of those that need no waiting; two in three configurations are answered.
-void query_some(ts_prepared*, const ts_pose* a, const ts_pose*, ts_answer* answer) {
+void query_some(ts_prepared*, const ts_pose* a, const ts_pose*, const double*, ts_answer* answer) {
   constexpr void (*quick[])(ts_answer&) = {
       segfault,     abort_it,    throw_it,       allocate,
       not_a_number, long_normal, million_points, claim_million_points};
@@ -97,13 +99,20 @@ void query_some(ts_prepared*, const ts_pose* a, const ts_pose*, ts_answer* answe
   const std::uint64_t deed = bits % 24;
   deed < 8 ? quick[deed](*answer) : behave(*answer);
 }
+void query_obedient(ts_prepared*, const ts_pose*, const ts_pose*, const double* previous_normal,
+                    ts_answer* answer) {
+  behave(*answer);
+  if (previous_normal) std::memcpy(answer->normal, previous_normal, sizeof answer->normal);
+}
 void release(ts_prepared* prepared) { delete prepared; }
 
 const ts_candidate candidates[] = {
     {"misdeed", "1", "does one deed", nullptr, &which, supports, prepare, query, release, nullptr},
     {"sabotage", "1", "does many deeds", nullptr, nullptr, supports, prepare, query_some, release,
-     nullptr}};
-const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 2, candidates};
+     nullptr},
+    {"obedient", "1", "answers the previous normal", nullptr, nullptr, supports, prepare,
+     query_obedient, release, nullptr}};
+const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 3, candidates};
 
 }  // namespace
 

@@ -67,10 +67,9 @@ std::string speed_panel(const std::string& pair, const std::vector<Point>& point
   std::string marks;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Point& p = points[i];
-    const Mark mark = mark_of(p.candidate);
-    marks += fmt::format("{}'-' with points pointtype {} pointsize 0.8 linecolor '{}'",
+    marks += fmt::format("{}'-' with points pointsize 1 {}",
                          i ? ", " : "plot '-' with lines dashtype 2 linecolor '#5a6472', ",
-                         mark.symbol, mark.colour);
+                         style_of(p.candidate));
     if (!places[i]) continue;
     text +=
         fmt::format("set label {} at {:.6g},{:.6g} {} offset character {:.2f},{:.2f} front{}\n",
@@ -98,9 +97,8 @@ std::string key_panel(const std::vector<std::string>& candidates, double share) 
       "samplen 1 width 1 font ',9'\n",
       share);
   for (std::size_t i = 0; i < candidates.size(); ++i) {
-    const Mark mark = mark_of(candidates[i]);
-    text += fmt::format("{}1/0 with points title {} pointtype {} pointsize 0.8 linecolor '{}'",
-                        i ? ", " : "plot ", quoted(candidates[i]), mark.symbol, mark.colour);
+    text += fmt::format("{}1/0 with points title {} pointsize 1 {}", i ? ", " : "plot ",
+                        quoted(candidates[i]), style_of(candidates[i]));
   }
   return text + '\n';
 }
@@ -124,7 +122,9 @@ std::string speed_figures(const json& report, const std::vector<std::string>& pa
   }
   if (drawn.empty()) return "";
   write_text(folder / "speed-accuracy.csv", all_data);
-  const Range x = decades(times), y = decades(errors);
+  const Range x = decades(times);
+  Range y = decades(errors);
+  y.low -= 1;  // room for labels above the axis
   std::string script, panels;
   // Two columns of panels above a key of all marks.
   const int columns = drawn.size() > 1 ? 2 : 1;

@@ -168,6 +168,15 @@ class Report(unittest.TestCase):
         self.all("#drake-table tbody tr:nth-child(4) td")[-1].click()
         self.assertIn("./touchstone replay -", self.find("#drake-command code").text)
 
+    def test_y_a_page_without_contacts_or_times_loads_too(self):
+        small = Path(self.folder.name) / "small"
+        subprocess.run([program, "report", "--count", "1", "--pair", "cylinder-plane", "--class",
+                        "standing", "--candidates", "fcl-distance", "--out", small], check=True,
+                       capture_output=True)
+        self.driver.get((small / "report.html").as_uri())
+        self.assertEqual(self.console(), [])
+        self.assertIn("no candidate has a routine", self.find("#finding-accuracy").text)
+
     def test_z_a_phone_needs_no_sideways_scrolling(self):
         self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {
             "width": 390, "height": 844, "deviceScaleFactor": 2, "mobile": True})

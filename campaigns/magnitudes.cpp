@@ -1,0 +1,72 @@
+#include "campaigns/magnitudes.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "reference/invalid_input.hpp"
+
+namespace touchstone {
+namespace {
+
+// The bits of a double that is not negative grow with it, so that its first ones number bins in
+// order: eleven of the exponent, three of the mantissa.
+constexpr int dropped_bits = 64 - 14;
+
+std::uint16_t bin_of(double magnitude) {
+  return static_cast<std::uint16_t>(std::bit_cast<std::uint64_t>(magnitude) >> dropped_bits);
+}
+
+double lower_end(std::uint64_t bin) { return std::bit_cast<double>(bin << dropped_bits); }
+
+}  // namespace
+
+void Magnitudes::add(double value) {
+  constexpr double largest = std::numeric_limits<double>::max();
+  const double magnitude = std::isfinite(value) ? std::abs(value) : largest;
+  ++bins_[bin_of(magnitude)];
+  ++count_;
+  max_ = std::max(max_, magnitude);
+}
+
+void Magnitudes::add(const Magnitudes& other) {
+  for (const auto& [bin, count] : other.bins_) bins_[bin] += count;
+  count_ += other.count_;
+  max_ = std::max(max_, other.max_);
+}
+
+std::optional<Magnitudes::Bounds> Magnitudes::percentile(std::uint64_t percent) const {
+  if (count_ == 0) return std::nullopt;
+  const std::uint64_t rank = (percent * count_ + 99) / 100;
+  std::uint64_t seen = 0;
+  for (const auto& [bin, count] : bins_) {
+    seen += count;
+    if (seen >= rank) return Bounds{lower_end(bin), std::min(lower_end(bin + 1U), max_)};
+  }
+  return Bounds{max_, max_};
+}
+
+nlohmann::json Magnitudes::to_json() const {
+  nlohmann::json bins = nlohmann::json::array();
+  for (const auto& [bin, count] : bins_) {
+    bins.push_back(bin);
+    bins.push_back(count);
+  }
+  return {{"max", max_}, {"bins", bins}};
+}
+
+Magnitudes Magnitudes::from_json(const nlohmann::json& json) {
+  Magnitudes result;
+  result.max_ = json.at("max");
+  const nlohmann::json& bins = json.at("bins");
+  if (bins.size() % 2 != 0) throw InvalidInput("bins", "an odd list", "must be pairs");
+  for (std::size_t i = 0; i < bins.size(); i += 2) {
+    const std::uint64_t count = bins[i + 1];
+    result.bins_[bins[i].get<std::uint16_t>()] += count;
+    result.count_ += count;
+  }
+  return result;
+}
+
+}  // namespace touchstone

@@ -1,0 +1,99 @@
+#include "campaigns/plan.hpp"
+
+#include <fmt/format.h>
+
+#include "campaigns/durable_file.hpp"
+#include "reference/invalid_input.hpp"
+#include "reports/configuration_json.hpp"
+#include "reports/worst.hpp"
+
+namespace touchstone {
+namespace {
+
+using nlohmann::json;
+
+/// Short enough for an error message.
+std::string shown(const json& value) {
+  const std::string text = value.dump();
+  return text.size() <= 60 ? text : text.substr(0, 57) + "...";
+}
+
+/// "candidates[1].version is 3.24, not 3.25"; lists by the first entry that differs.
+std::string difference(const std::string& name, const json& expected, const json& found) {
+  if (expected.is_object() && found.is_object()) {
+    for (const auto& [key, value] : expected.items()) {
+      const json other = found.value(key, json());
+      if (other != value) return difference(name.empty() ? key : name + "." + key, value, other);
+    }
+  }
+  if (expected.is_array() && found.is_array() && expected.size() == found.size()) {
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      if (found[i] != expected[i]) {
+        return difference(fmt::format("{}[{}]", name, i), expected[i], found[i]);
+      }
+    }
+  }
+  return fmt::format("{} is {}, not {}", name, shown(found), shown(expected));
+}
+
+}  // namespace
+
+json make_plan(const Campaign& campaign, const std::string& command) {
+  json classes = json::array(), candidates = json::array();
+  std::string first_configurations;
+  for (const Cell& cell : cells(campaign)) {
+    classes.push_back({{"pair", pair_name(cell.pair)},
+                       {"class", cell.pose_class},
+                       {"description", describe_pose_class(cell.pair, cell.pose_class)}});
+    first_configurations +=
+        to_hex_json(make_configuration({cell.pair, cell.pose_class, campaign.seed, 0})).dump();
+  }
+  for (const Candidate* c : campaign.candidates) {
+    candidates.push_back({{"name", c->name},
+                          {"family", c->family},
+                          {"version", c->version},
+                          {"settings", c->settings},
+                          {"models", c->models},
+                          {"plugin_checksum", checksum(read_whole(c->plugin, "--candidate"))}});
+  }
+  return {{"version", TOUCHSTONE_VERSION},
+          {"command", command},
+          {"program", program_name()},
+          {"seed", campaign.seed},
+          {"count", campaign.count},
+          {"unit_size", Cut::unit_size},
+          {"tolerance", campaign.bar.tolerance},
+          {"threshold", campaign.bar.threshold},
+          {"time_limit", campaign.limits.seconds},
+          {"memory_limit", campaign.limits.mebibytes},
+          {"classes", classes},
+          {"first_configurations_checksum", checksum(first_configurations)},
+          {"candidates", candidates}};
+}
+
+PlanView::PlanView(const json& plan) : cut{0, plan.at("count")}, seed(plan.at("seed")) {
+  for (const json& c : plan.at("classes")) {
+    cells.push_back({parse_pair(c.at("pair").get<std::string>()), c.at("class")});
+  }
+  for (const json& c : plan.at("candidates")) candidates.push_back(c.at("name"));
+  cut.cells = cells.size();
+  if (cells.empty() || cut.count == 0) {
+    throw InvalidInput("campaign", "empty", "must have classes and a count");
+  }
+}
+
+void require_same_plan(const json& expected, const json& found, const std::string& file) {
+  if (expected == found) return;
+  // The command repeats the settings: it tells less than what differs besides.
+  json most = expected, others = found.is_object() ? found : json::object();
+  most.erase("command");
+  others.erase("command");
+  const bool only_command = most == others;
+  throw InvalidInput(
+      '"' + file + '"', "of another campaign",
+      (only_command ? difference("", expected, found) : difference("", most, others)) +
+          "; parts of different campaigns are never "
+          "put together");
+}
+
+}  // namespace touchstone

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "campaigns/units.hpp"
+#include "reports/campaign.hpp"
+
+namespace touchstone {
+
+/// Everything that decides what a campaign's result is, as its files say it: version, command,
+/// seed, count, bar, limits, classes, candidates with the checksums of their plug-ins, and a
+/// checksum of the first configuration of each class, which changes when a generator does. Parts
+/// with the same plan belong together. `command` gives the same result in one process; it names
+/// every setting.
+nlohmann::json make_plan(const Campaign& campaign, const std::string& command);
+
+/// What a file needs to know of its plan. Throws nlohmann::json::exception or InvalidInput on
+/// anything else than make_plan gives.
+struct PlanView {
+  explicit PlanView(const nlohmann::json& plan);
+
+  std::vector<Cell> cells;
+  std::vector<std::string> candidates;
+  Cut cut;
+  std::uint64_t seed;
+};
+
+/// Throws InvalidInput (field `file`) naming what differs and how, unless both plans are the same.
+void require_same_plan(const nlohmann::json& expected, const nlohmann::json& found,
+                       const std::string& file);
+
+}  // namespace touchstone

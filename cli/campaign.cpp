@@ -1,0 +1,153 @@
+#include <cmath>
+#include <cstring>
+#include <fmt/format.h>
+#include <memory>
+#include <thread>
+
+#include "campaigns/ranks.hpp"
+#include "campaigns/result.hpp"
+#include "campaigns/run.hpp"
+#include "campaigns/shard_place.hpp"
+#include "campaigns/stop_signals.hpp"
+#include "cli/commands.hpp"
+#include "cli/options.hpp"
+#include "reference/invalid_input.hpp"
+#include "reports/terminal_table.hpp"
+#include "reports/worst.hpp"
+
+namespace touchstone {
+namespace {
+
+/// Ranks share a machine as mpirun says.
+unsigned usual_workers() {
+  return under_mpirun() ? 1 : std::max(1U, std::thread::hardware_concurrency());
+}
+
+struct Options {
+  explicit Options(CLI::App& command) : sample(command, 1000), candidates(command), bar(command) {}
+  SampleOption sample;
+  CandidateOption candidates;
+  BarOption bar;
+  unsigned workers = usual_workers();
+  std::string out = "out", shard_text;
+  bool resume = false;
+  double interval = Running{}.interval;
+
+  Campaign campaign() const {
+    Campaign c;
+    c.pairs = sample.pairs();
+    c.classes = sample.classes();
+    c.candidates = candidates.get();
+    c.count = sample.count();
+    c.seed = sample.seed();
+    c.workers = workers;
+    c.bar = bar.get();
+    c.limits = candidates.limits();
+    if (workers == 0) throw InvalidInput("--workers", "0", "must be at least 1");
+    return c;
+  }
+
+  Shard shard() const {
+    if (shard_text.empty()) return shard_of_rank();
+    if (under_mpirun()) {
+      throw InvalidInput("--shard", '"' + shard_text + '"',
+                         "must not be given with mpirun, whose ranks are the shards");
+    }
+    return parse_shard(shard_text);
+  }
+
+  /// The command that gives the same result again, in one process.
+  std::string command_line() const {
+    return program_name() + " campaign" + sample.command_line() + candidates.command_line() +
+           bar.command_line();
+  }
+
+  /// What goes on where this was stopped.
+  std::string resuming() const {
+    return command_line() + (shard_text.empty() ? "" : " --shard " + shard_text) +
+           fmt::format(" --workers {} --out {} --resume", workers, out);
+  }
+};
+
+void print_plan(const Options& options, const Progressed& progressed) {
+  const PlanView& view = progressed.view;
+  const Shard& shard = progressed.shard;
+  const UnitSet all = shard.units(view.cut), done = progressed.done;
+  std::string text =
+      fmt::format("{} pose classes × {} = {} configurations, {} candidates", view.cells.size(),
+                  view.cut.count, view.cells.size() * view.cut.count, view.candidates.size());
+  if (shard.of > 1) {
+    text += fmt::format("; shard {}: {}", to_string(shard), configurations(view.cut, all));
+  }
+  if (!done.empty()) text += fmt::format("; {} done before", configurations(view.cut, done));
+  fmt::print(stderr, "{}; workers: {}\n", text, options.workers);
+}
+
+int run(const Options& options) {
+  if (!(std::isfinite(options.interval) && options.interval > 0)) {
+    throw InvalidInput("--checkpoint", fmt::format("{}", options.interval),
+                       "must be positive and finite");
+  }
+  const Shard shard = options.shard();
+  const Campaign campaign = options.campaign();
+  const ShardPlace place(options.out, shard);
+  Progressed progressed = place.begin(make_plan(campaign, options.command_line()), options.resume);
+  const bool speaks = !under_mpirun() || shard.number == 1;
+  if (speaks) print_plan(options, progressed);
+
+  const StopSignals signals;
+  const bool done = run_shard(campaign, progressed, place.file(), {options.interval, speaks},
+                              [&] { return signals.caught() == 0; });
+  if (!done) {
+    if (speaks) {
+      fmt::print(stderr, "Stopped ({}); all that was done is in {}. To go on:\n  {}\n",
+                 strsignal(signals.caught()), place.file().string(), options.resuming());
+    }
+    return 128 + signals.caught();
+  }
+  Merge merge;
+  if (under_mpirun()) {
+    if (!gather(progressed, merge)) return 0;
+  } else if (shard.of > 1) {
+    fmt::print("Shard {} is done: {}\nWith the others: {} merge FOLDER... --out FOLDER\n",
+               to_string(shard), place.file().string(), program_name());
+    return 0;
+  } else {
+    merge.add(progressed, place.file().string());
+  }
+  const nlohmann::json result = campaign_result(merge.whole(false));
+  const auto file = write_result(result, options.out);
+  fmt::print("{}\n{} configurations, truth certified to 1e-30 of the larger size.\nResult: {}\n",
+             terminal_table(result), result["configurations"].get<std::uint64_t>(), file.string());
+  return 0;
+}
+
+}  // namespace
+
+void add_campaign(CLI::App& program, int& exit_code) {
+  CLI::App* command = program.add_subcommand(
+      "campaign", "Score as many configurations as you like, on one or many machines");
+  const auto options = std::make_shared<Options>(*command);
+  command->add_option(
+      "--workers", options->workers,
+      "Worker processes (default: one a core, or one a rank under mpirun); they do not "
+      "change the result");
+  command->add_option("--out", options->out, "Folder for the checkpoints and campaign.json")
+      ->capture_default_str();
+  command->add_option("--shard", options->shard_text,
+                      "Only this part, as in 3/7; put together by touchstone merge");
+  command->add_flag("--resume", options->resume,
+                    "Go on where the folder's checkpoint ends, or begin where there is none");
+  command->add_option("--checkpoint", options->interval, "Seconds between checkpoints")
+      ->capture_default_str();
+  command->footer(
+      "Examples:\n"
+      "  touchstone campaign --candidates reference --count 1e6 --out run\n"
+      "  touchstone campaign --candidates reference --count 1e6 --out run --resume\n"
+      "  mpirun -n 64 touchstone campaign --count 1e6 --out run\n"
+      "  touchstone campaign --count 1e6 --shard 3/7 --out run   then: touchstone merge run\n"
+      "Exit codes: 130 and 143 when stopped by Ctrl-C or SIGTERM, with all that was done saved.");
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace touchstone

@@ -1,0 +1,54 @@
+#include "campaigns/merge.hpp"
+
+#include <fmt/format.h>
+#include <memory>
+
+#include "campaigns/result.hpp"
+#include "campaigns/shard_place.hpp"
+#include "cli/commands.hpp"
+#include "reference/invalid_input.hpp"
+#include "reports/terminal_table.hpp"
+
+namespace touchstone {
+namespace {
+
+struct Options {
+  std::vector<std::string> inputs;
+  std::string out = "out";
+  bool partial = false;
+};
+
+void run(const Options& options) {
+  const Progressed whole = merge({options.inputs.begin(), options.inputs.end()}, options.partial);
+  const ShardPlace place(options.out, whole.shard);
+  if (std::filesystem::exists(place.file())) {
+    throw InvalidInput("--out", '"' + options.out + '"',
+                       "already holds a campaign; choose another folder");
+  }
+  write_durably(place.file(), to_text(whole));
+  const nlohmann::json result = campaign_result(whole);
+  const auto file = write_result(result, options.out);
+  fmt::print("{}\n{} configurations{}.\nResult: {}\n", terminal_table(result),
+             result["configurations"].get<std::uint64_t>(),
+             result["complete"] ? "" : ", which is not all of the campaign", file.string());
+}
+
+}  // namespace
+
+void add_merge(CLI::App& program, int&) {
+  CLI::App* command = program.add_subcommand("merge", "Put the parts of a campaign together");
+  const auto options = std::make_shared<Options>();
+  command->add_option("inputs", options->inputs, "Shard files, or folders that hold some")
+      ->required();
+  command->add_option("--out", options->out, "Folder for campaign.json and the merged shard file")
+      ->capture_default_str();
+  command->add_flag("--partial", options->partial, "Even if parts are missing");
+  command->footer(
+      "Examples:\n"
+      "  touchstone merge run --out merged\n"
+      "  touchstone merge node-*/shard-*.jsonl --out merged\n"
+      "Parts of different campaigns, parts that overlap and damaged files are refused.");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace touchstone

@@ -1,0 +1,48 @@
+#include "reports/worst_selection.hpp"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+namespace touchstone {
+namespace {
+
+constexpr std::size_t kept_of_pair = 4;
+constexpr std::size_t kept_of_class = 2;
+
+auto rank(const Case& c) {
+  const Outcome o = c.score.outcome;
+  const bool answered = o != Outcome::crashed && o != Outcome::timed_out && o != Outcome::failed &&
+                        o != Outcome::not_finite;
+  return std::tuple(o == Outcome::agree, answered, -c.score.severity, c.cell, c.index);
+}
+
+}  // namespace
+
+bool Case::operator<(const Case& other) const { return rank(*this) < rank(other); }
+
+std::vector<Case> worst_of_class(std::vector<Case> cases) {
+  std::erase_if(cases, [](const Case& c) { return c.score.outcome == Outcome::unsupported; });
+  std::sort(cases.begin(), cases.end());
+  std::map<Outcome, std::size_t> seen;
+  std::size_t at = 0;
+  std::erase_if(cases, [&](const Case& c) {
+    const bool first_of_outcome = seen[c.score.outcome]++ == 0;
+    return at++ >= kept_of_class && !first_of_outcome;
+  });
+  return cases;
+}
+
+std::vector<Case> worst_of_pair(std::vector<Case> cases) {
+  std::sort(cases.begin(), cases.end());
+  // The worst of each outcome stay, then what else is worst.
+  std::map<Outcome, std::size_t> seen;
+  const auto others = std::stable_partition(
+      cases.begin(), cases.end(), [&](const Case& c) { return seen[c.score.outcome]++ == 0; });
+  const auto first = static_cast<std::size_t>(others - cases.begin());
+  cases.resize(std::min(std::max(kept_of_pair, first), cases.size()));
+  std::sort(cases.begin(), cases.end());
+  return cases;
+}
+
+}  // namespace touchstone

@@ -1,0 +1,144 @@
+#include "simulation/world.hpp"
+
+#include <cmath>
+#include <gmock/gmock.h>
+#include <limits>
+
+#include "candidates/candidates.hpp"
+#include "reference/invalid_input.hpp"
+
+namespace touchstone {
+namespace {
+
+using testing::HasSubstr;
+
+Pose at(double x, double y, double z) { return {Vec3(x, y, z), Eigen::Quaterniond::Identity()}; }
+Body ground() { return {"ground", Plane(Vec3::UnitZ(), 0), 1000, {}, {}, {}, {}, true}; }
+
+/// With our own contacts.
+struct WorldTest : testing::Test {
+  World run(const Scene& scene) {
+    World world(scene, model);
+    while (world.time() < scene.duration - scene.step / 2) world.step();
+    return world;
+  }
+  CandidateProcess process{find_candidate("reference"), simulation_threshold};
+  CandidateModel model{process};
+};
+
+TEST_F(WorldTest, FreeFlightKeepsMomentumAndStraightLines) {
+  Scene scene;
+  scene.gravity = Vec3::Zero();
+  Body stick{"stick", Cylinder(0.2, 0.7)};
+  stick.velocity = Vec3(1, -2, 0.5);
+  stick.angular_velocity = Vec3(2, 1, 3);
+  scene.bodies = {stick};
+  World world(scene, model);
+  const Vec3 before = world.momentum();
+  for (int i = 0; i < 240; ++i) world.step();
+  EXPECT_LT((world.momentum() - before).norm(), 1e-12 * before.norm());
+  EXPECT_LT((world.states()[0].pose.position() - stick.velocity).norm(), 1e-12);
+}
+
+TEST_F(WorldTest, SpinAboutAPrincipalAxisKeepsItsEnergyAndMomentum) {
+  Scene scene;
+  scene.gravity = Vec3::Zero();
+  Body wheel{"wheel", Cylinder(0.5, 0.1)};
+  wheel.angular_velocity = Vec3(0, 0, 7);
+  scene.bodies = {wheel};
+  World world(scene, model);
+  const Vec3 spin = world.angular_momentum();
+  const double energy = world.kinetic_energy();
+  for (int i = 0; i < 240; ++i) world.step();
+  EXPECT_LT((world.angular_momentum() - spin).norm(), 1e-10 * spin.norm());
+  EXPECT_NEAR(world.kinetic_energy(), energy, 1e-10 * energy);
+}
+
+// Semi-implicit Euler: after n steps v = -g h n and z = -g h² n (n + 1) / 2.
+TEST_F(WorldTest, FallIsThatOfSemiImplicitEuler) {
+  Scene scene;
+  scene.bodies = {{"can", Cylinder(0.2, 0.3)}};
+  const World world = run(scene);
+  const double h = scene.step, n = 240;
+  EXPECT_NEAR(world.states()[0].velocity.z(), -9.81 * h * n, 1e-10);
+  EXPECT_NEAR(world.states()[0].pose.position().z(), -9.81 * h * h * n * (n + 1) / 2, 1e-10);
+}
+
+TEST_F(WorldTest, SphereBouncesWithItsRestitution) {
+  Scene scene;
+  scene.step = 1e-3;
+  Body ball{"ball", Sphere(0.1), 1000, {0.5, 0.8}, at(0, 0, 0.6)};
+  scene.bodies = {ground(), ball};
+  World world(scene, model);
+  double before = 0;
+  while (world.states()[1].velocity.z() <= 0) {
+    before = world.states()[1].velocity.z();
+    world.step();
+    ASSERT_LT(world.time(), 1);
+  }
+  EXPECT_NEAR(world.states()[1].velocity.z(), -0.8 * before, 1e-6);
+}
+
+TEST_F(WorldTest, StandingCylinderStays) {
+  Scene scene;
+  scene.duration = 10;
+  scene.bodies = {ground(), {"can", Cylinder(0.3, 0.5), 1000, {}, at(0, 0, 0.49995)}};
+  const BodyState end = run(scene).states()[1];
+  EXPECT_LT((end.pose.position() - scene.bodies[1].pose.position()).norm(), 1e-6);
+  EXPECT_LT((end.pose.axis() - Vec3::UnitZ()).norm(), 1e-6);
+}
+
+TEST_F(WorldTest, ContactsNameTheCylinderFirst) {
+  Scene scene;
+  scene.bodies = {ground(), {"can", Cylinder(0.3, 0.5), 1000, {}, at(0, 0, 0.4999)}};
+  World world(scene, model);
+  world.step();
+  ASSERT_EQ(world.contacts().size(), 1U);
+  EXPECT_EQ(world.contacts()[0].a, 1);
+  EXPECT_EQ(world.contacts()[0].b, 0);
+  EXPECT_EQ(world.contacts()[0].answer.point_count, 3);
+}
+
+TEST_F(WorldTest, SameSceneGivesTheSameBits) {
+  Scene scene;
+  scene.duration = 1;
+  scene.bodies = {ground(),
+                  {"can", Cylinder(0.2, 0.3), 1000, {}, at(0, 0, 0.7)},
+                  {"box", Box(Vec3(0.2, 0.1, 0.1)), 1000, {}, at(0.1, 0.05, 0.2)}};
+  const World first = run(scene), second = run(scene);
+  for (int i = 1; i < 3; ++i) {
+    EXPECT_EQ(first.states()[i].pose.position(), second.states()[i].pose.position());
+    EXPECT_EQ(first.states()[i].angular_velocity, second.states()[i].angular_velocity);
+  }
+}
+
+TEST_F(WorldTest, BadScenesAreRefusedByTheirField) {
+  const auto refusal = [&](auto spoil) {
+    Scene scene;
+    scene.bodies = {ground(), {"can", Cylinder(0.2, 0.3)}};
+    spoil(scene);
+    try {
+      const World world(scene, model);
+    } catch (const InvalidInput& e) {
+      return std::string(e.what());
+    }
+    return std::string("accepted");
+  };
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THAT(refusal([](Scene& s) { s.bodies.clear(); }), HasSubstr("bodies is empty"));
+  EXPECT_THAT(refusal([](Scene& s) { s.bodies[1].density = 0; }), HasSubstr("bodies[1].density"));
+  EXPECT_THAT(refusal([](Scene& s) { s.bodies[0].fixed = false; }), HasSubstr("bodies[0].fixed"));
+  EXPECT_THAT(refusal([](Scene& s) { s.bodies[1].name = "ground"; }), HasSubstr("bodies[1].name"));
+  EXPECT_THAT(refusal([](Scene& s) { s.bodies[1].velocity.y() = nan; }),
+              HasSubstr("bodies[1].velocity[1] is nan"));
+  EXPECT_THAT(refusal([](Scene& s) { s.bodies[1].material.friction = -1; }),
+              HasSubstr("bodies[1].friction is -1"));
+  EXPECT_THAT(refusal([](Scene& s) { s.bodies[1].material.restitution = 1.5; }),
+              HasSubstr("bodies[1].restitution is 1.5"));
+  EXPECT_THAT(refusal([](Scene& s) { s.gravity.x() = nan; }), HasSubstr("gravity[0] is nan"));
+  EXPECT_THAT(refusal([](Scene& s) { s.step = 0; }), HasSubstr("step is 0"));
+  EXPECT_THAT(refusal([](Scene& s) { s.duration = -1; }), HasSubstr("duration is -1"));
+}
+
+}  // namespace
+}  // namespace touchstone
