@@ -11,8 +11,8 @@ namespace touchstone {
 namespace {
 
 // The bits of a double that is not negative grow with it, so that its first ones number bins in
-// order: eleven of the exponent, three of the mantissa.
-constexpr int dropped_bits = 64 - 14;
+// order: the sign, eleven of the exponent, three of the mantissa.
+constexpr int dropped_bits = 64 - 15;
 
 std::uint16_t bin_of(double magnitude) {
   return static_cast<std::uint16_t>(std::bit_cast<std::uint64_t>(magnitude) >> dropped_bits);

@@ -84,16 +84,16 @@ PlanView::PlanView(const json& plan) : cut{0, plan.at("count")}, seed(plan.at("s
 
 void require_same_plan(const json& expected, const json& found, const std::string& file) {
   if (expected == found) return;
-  // The command repeats the settings: it tells less than what differs besides.
-  json most = expected, others = found.is_object() ? found : json::object();
-  most.erase("command");
-  others.erase("command");
-  const bool only_command = most == others;
-  throw InvalidInput(
-      '"' + file + '"', "of another campaign",
-      (only_command ? difference("", expected, found) : difference("", most, others)) +
-          "; parts of different campaigns are never "
-          "put together");
+  // Members that follow from others tell less than those.
+  json settings = expected, other_settings = found.is_object() ? found : json::object();
+  for (const char* derived : {"command", "first_configurations_checksum"}) {
+    settings.erase(derived);
+    other_settings.erase(derived);
+  }
+  const std::string what = settings == other_settings ? difference("", expected, found)
+                                                      : difference("", settings, other_settings);
+  throw InvalidInput('"' + file + '"', "of another campaign",
+                     what + "; parts of different campaigns are never put together");
 }
 
 }  // namespace touchstone

@@ -29,11 +29,12 @@ void add(Progressed& progressed, std::uint64_t number, const std::string& text) 
 std::vector<Tally> tally_unit(const Campaign& campaign, std::vector<CandidateProcess>& candidates,
                               const Cell& cell, const Unit& unit) {
   std::vector<Tally> tallies(candidates.size());
-  score_range(campaign, candidates, cell, unit.first, unit.last, [&](const Scored& scored) {
-    for (std::size_t k = 0; k < scored.scores.size(); ++k) {
-      tallies[k].add(unit.cell, scored.index, scored.scores[k]);
-    }
-  });
+  score_range(campaign, candidates, cell, unit.first, unit.last,
+              [&](const ScoredConfiguration& scored) {
+                for (std::size_t k = 0; k < scored.scores.size(); ++k) {
+                  tallies[k].add(unit.cell, scored.index, scored.scores[k]);
+                }
+              });
   return tallies;
 }
 

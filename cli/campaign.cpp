@@ -83,6 +83,15 @@ void print_plan(const Options& options, const Progressed& progressed) {
   fmt::print(stderr, "{}; workers: {}\n", text, options.workers);
 }
 
+/// Returns the signal that stopped it, or zero when all is done.
+int run_until_stopped(const Campaign& campaign, Progressed& progressed, const ShardPlace& place,
+                      const Options& options, bool speaks) {
+  const StopSignals signals;
+  const bool done = run_shard(campaign, progressed, place.file(), {options.interval, speaks},
+                              [&] { return signals.caught() == 0; });
+  return done ? 0 : signals.caught();
+}
+
 int run(const Options& options) {
   if (!(std::isfinite(options.interval) && options.interval > 0)) {
     throw InvalidInput("--checkpoint", fmt::format("{}", options.interval),
@@ -95,15 +104,12 @@ int run(const Options& options) {
   const bool speaks = !under_mpirun() || shard.number == 1;
   if (speaks) print_plan(options, progressed);
 
-  const StopSignals signals;
-  const bool done = run_shard(campaign, progressed, place.file(), {options.interval, speaks},
-                              [&] { return signals.caught() == 0; });
-  if (!done) {
+  if (const int signal = run_until_stopped(campaign, progressed, place, options, speaks)) {
     if (speaks) {
       fmt::print(stderr, "Stopped ({}); all that was done is in {}. To go on:\n  {}\n",
-                 strsignal(signals.caught()), place.file().string(), options.resuming());
+                 strsignal(signal), place.file().string(), options.resuming());
     }
-    return 128 + signals.caught();
+    return 128 + signal;
   }
   Merge merge;
   if (under_mpirun()) {

@@ -1,12 +1,9 @@
 #include "laws/check.hpp"
 
 #include <algorithm>
-#include <filesystem>
 #include <fmt/format.h>
-#include <fstream>
 #include <memory>
 
-#include "candidates/candidates.hpp"
 #include "cli/commands.hpp"
 #include "cli/options.hpp"
 #include "laws/check_report.hpp"
@@ -42,19 +39,6 @@ struct Options {
   }
 };
 
-/// By name, or the first of a plug-in's own.
-const Candidate& candidate(const std::string& name) {
-  if (!std::filesystem::is_regular_file(name)) return find_candidate(name);
-  add_plugin(name);
-  return *all_candidates().back();
-}
-
-void write(const std::string& file, const std::string& text, const char* field) {
-  std::ofstream out(file);
-  out << text << std::flush;
-  if (!out) throw InvalidInput(field, '"' + file + '"', "could not be written");
-}
-
 std::vector<Replayed> replay_corpus(const Options& options) {
   if (options.corpus.empty()) return {};
   std::vector<Failure> corpus = read_corpus(options.corpus);
@@ -68,7 +52,7 @@ std::vector<Replayed> replay_corpus(const Options& options) {
 
 std::vector<LawResult> check_laws(const Options& options, const CheckOptions& checks) {
   if (options.candidate.empty()) return {};
-  CandidateProcess process(candidate(options.candidate), checks.bar.threshold);
+  CandidateProcess process(named_candidate(options.candidate), checks.bar.threshold);
   fmt::print("{} {}, seed {}, {} configurations of each pair and pose class, tolerance {}\n",
              process.candidate().name, process.candidate().version, checks.seed, checks.count,
              checks.bar.tolerance);
@@ -97,11 +81,11 @@ int run(const Options& options) {
     }
   }
   if (!options.junit.empty()) {
-    write(options.junit, junit_xml(options.candidate, results, corpus), "--junit");
+    write_file(options.junit, junit_xml(options.candidate, results, corpus), "--junit");
   }
   if (!options.json.empty()) {
-    write(options.json, to_json(options.candidate, checks, results, corpus).dump(2) + '\n',
-          "--json");
+    write_file(options.json, to_json(options.candidate, checks, results, corpus).dump(2) + '\n',
+               "--json");
   }
   const bool broken =
       std::any_of(results.begin(), results.end(), [](const LawResult& r) { return r.broken > 0; });

@@ -22,9 +22,13 @@ expect() {
 expect 0 'touchstone report' --help
 expect 0 'Examples' report --help
 expect 0 '^touchstone [0-9]' --version
+expect 0 '^engines: .*bullet 3' --version
+expect 0 '^libraries: CGAL 5.*, GMP .*, MPFR .*, FLINT .*, Arb .*, Eigen 3' --version
+expect 2 '--completion.*bash or zsh' --completion fish
+expect 0 '^\.TH touchstone 1' --manual
 expect 0 'bullet 3' candidates
 expect 2 'subcommand is required'
-expect 2 'report, replay, solve, certify, check, candidates' nonsense
+expect 2 'report, replay, solve, certify, check' nonsense
 expect 2 'identity.pair' replay cylinder-cone/rim/1/2
 expect 2 'identity.class' replay cylinder-box/none/1/2
 expect 2 'input is required' replay
@@ -48,6 +52,19 @@ expect 2 '--out' report --out /proc/none
 expect 0 'report.html' report --pair cylinder-plane --count 1 --out "$folder/a b"
 [ -s "$folder/a b/report.html" ] || { echo "FAILED: no report.html"; failures=$((failures + 1)); }
 
+
+expect 2 '--count' campaign --count 1.5e0 --out "$folder/c"
+expect 2 '--shard.*3/7' campaign --shard 8/7 --out "$folder/c"
+expect 0 '^4 configurations' campaign --pair cylinder-sphere --class cap,side --count 2e0 \
+  --candidates reference --out "$folder/c"
+expect 2 'already holds a campaign' campaign --out "$folder/c"
+expect 0 '^4 configurations' merge "$folder/c" --out "$folder/m"
+expect 2 'could not be read' merge "$folder/none" --out "$folder/n"
+expect 2 'candidate is required' search
+expect 1 'shallow\|overdeep\|missed' search --candidate capsule --pair cylinder-sphere \
+  --class general-deep --count 40 --save "$folder/found"
+expect 0 'as expected' check --corpus "$folder/found"
+expect 0 'capsule: contact, \|capsule: none, ' replay "$(ls "$folder"/found/*.json | head -n 1)" --candidates capsule
 
 expect 2 '--candidate' check
 expect 2 '--law.*agreement' check --candidate bullet --law gravity
@@ -104,6 +121,23 @@ expect 0 '#include <BulletCollision' replay cylinder-box/rim-face/1/2 --emit bul
 echo '{"configuration":{"a":{"shape":"cylinder","radius":1,"half_length":1},"b":{"shape":"sphere","radius":1}}}' \
   >"$folder/saved.json"
 expect 0 'btSphereShape shape_b' replay "$folder/saved.json" --emit bullet
+
+expect 2 -- '--part.*amplification, maps, sequences' stability --part nothing --out "$folder/s"
+expect 2 -- '--count' stability --count 0
+expect 2 -- '--class' stability --class nowhere
+expect 2 -- '--part' stability cylinder-box/rim-face/1/2 --part maps
+expect 2 'leaves no choice' stability cylinder-box/rim-face/1/2 --pair cylinder-box
+expect 2 'identity.class' stability cylinder-box/none/1/2
+expect 0 'depth x' stability cylinder-plane/standing/1/0 --candidates reference,ode --count 2 --out "$folder/s"
+[ -s "$folder/s/stability.html" ] || { echo "FAILED: no stability.html"; failures=$((failures + 1)); }
+expect 0 'touchstone stability' stability --help
+expect 2 'perturbation.amplitude' replay cylinder-box/rim-face/1/2@1e-99/1/1
+expect 2 'map.pose.*standing' replay map/none/1e-8/0/0
+expect 2 'sequence.motion.*roll-over-edge' replay sequence/none/0/1
+expect 0 'reference: contact, agree' replay map/standing/1e-12/-3/16
+expect 0 'reference: contact, agree' replay sequence/roll-over-edge/113/200
+expect 0 'reference: contact, agree' replay cylinder-box/side-on-face/1/0@1e-8/1/4
+expect 0 'reference: contact' replay "$folder/saved.json@1e-2/1/0"
 
 # A replayed configuration goes through solve to the same truth.
 truth_of() { sed 's/.*"truth":\({[^}]*}\).*/\1/'; }

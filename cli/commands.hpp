@@ -14,6 +14,11 @@ void add_certify(CLI::App& program, int& exit_code);
 void add_check(CLI::App& program, int& exit_code);
 void add_campaign(CLI::App& program, int& exit_code);
 void add_merge(CLI::App& program, int& exit_code);
+void add_simulate(CLI::App& program, int& exit_code);
+void add_choose(CLI::App& program, int& exit_code);
+void add_search(CLI::App& program, int& exit_code);
+void add_render(CLI::App& program, int& exit_code);
+void add_stability(CLI::App& program, int& exit_code);
 void add_candidates(CLI::App& program, int& exit_code);
 
 }  // namespace touchstone

@@ -9,6 +9,8 @@
 #include "properties/identity.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/configuration_json.hpp"
+#include "stability/name.hpp"
+#include "stability/perturbation.hpp"
 
 namespace touchstone {
 namespace {
@@ -32,11 +34,22 @@ Configuration read_configuration(std::istream& in) {
   return configuration_from_json(wrapped ? object["configuration"] : object).configuration;
 }
 
+/// An identity, a name of the stability room, or either and a perturbation.
+Subject named(const std::string& name) {
+  if (const auto at = name.rfind('@'); at != std::string::npos) {
+    const Perturbation perturbation = parse_perturbation(name.substr(at + 1));
+    const Subject base = given_configuration(name.substr(0, at));
+    return {name, base.description, perturbed(base.configuration, perturbation)};
+  }
+  if (const auto stability = named_configuration(name)) return *stability;
+  return subject(parse_identity(name));
+}
+
 }  // namespace
 
 Subject given_configuration(const std::string& input) {
   if (input == "-") return {"standard input", "", read_configuration(std::cin)};
-  if (!std::filesystem::is_regular_file(input)) return subject(parse_identity(input));
+  if (!std::filesystem::is_regular_file(input)) return named(input);
   std::ifstream file(input);
   if (!file) throw InvalidInput("input", '"' + input + '"', "could not be opened for reading");
   return {input, "", read_configuration(file)};

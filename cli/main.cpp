@@ -5,7 +5,10 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/commands.hpp"
+#include "cli/completion.hpp"
+#include "cli/manual.hpp"
 #include "cli/options.hpp"
+#include "cli/version.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace {
@@ -25,6 +28,31 @@ void refuse_unknown_subcommand(const CLI::App& program, int argc, char** argv) {
                                  "must be one of " + names);
 }
 
+/// What packages are made with, and whoever installs none.
+void add_descriptions(CLI::App& program) {
+  program.add_flag_callback(
+      "--manual",
+      [&program] {
+        fmt::print("{}", touchstone::manual(program));
+        throw CLI::Success();
+      },
+      "Print the manual page in troff, as for man -l -");
+  program
+      .add_option_function<std::string>(
+          "--completion",
+          [&program](const std::string& shell) {
+            if (shell != "bash" && shell != "zsh") {
+              throw touchstone::InvalidInput("--completion", '"' + shell + '"',
+                                             "must be bash or zsh");
+            }
+            fmt::print("{}", shell == "bash" ? touchstone::bash_completion(program)
+                                             : touchstone::zsh_completion(program));
+            throw CLI::Success();
+          },
+          "Print what bash or zsh completes this program with")
+      ->type_name("SHELL");
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -32,7 +60,8 @@ int main(int argc, char** argv) {
       "Touchstone: verification and validation of cylinder contacts.\n"
       "Scores contact routines against an exact oracle.",
       "touchstone");
-  program.set_version_flag("--version", "touchstone " TOUCHSTONE_VERSION);
+  program.set_version_flag("--version", touchstone::version_text);
+  add_descriptions(program);
   program.require_subcommand(1);
   program.footer(
       "Examples:\n"
@@ -41,6 +70,8 @@ int main(int argc, char** argv) {
       "  touchstone solve poses.jsonl                        your own configurations\n"
       "  touchstone certify cylinder-box/rim-face/1/17       a proof that others can check\n"
       "  touchstone check --candidate bullet                 laws, and the smallest failures\n"
+      "  touchstone simulate rolling                         contacts at work, against paper\n"
+      "  touchstone stability                                tiny steps near degenerate poses\n"
       "Exit codes: 0 done; 1 a law was broken; 2 bad input or usage; 3 an internal contradiction.");
   program.fallthrough();  // --candidate may also stand after the subcommand
   touchstone::add_plugin_option(program);
@@ -52,6 +83,11 @@ int main(int argc, char** argv) {
   touchstone::add_check(program, exit_code);
   touchstone::add_campaign(program, exit_code);
   touchstone::add_merge(program, exit_code);
+  touchstone::add_simulate(program, exit_code);
+  touchstone::add_choose(program, exit_code);
+  touchstone::add_search(program, exit_code);
+  touchstone::add_render(program, exit_code);
+  touchstone::add_stability(program, exit_code);
   touchstone::add_candidates(program, exit_code);
   try {
     refuse_unknown_subcommand(program, argc, argv);

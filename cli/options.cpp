@@ -2,7 +2,9 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <fmt/format.h>
+#include <fstream>
 
 #include "candidates/candidates.hpp"
 #include "reference/invalid_input.hpp"
@@ -63,6 +65,18 @@ std::string CandidateOption::command_line() const {
   for (const Candidate* c : get()) names.emplace_back(c->name);
   return fmt::format(" --candidates {} --time-limit {} --memory-limit {}", fmt::join(names, ","),
                      limits_.seconds, limits_.mebibytes);
+}
+
+const Candidate& named_candidate(const std::string& name) {
+  if (!std::filesystem::is_regular_file(name)) return find_candidate(name);
+  add_plugin(name);
+  return *all_candidates().back();
+}
+
+void write_file(const std::string& file, const std::string& text, const char* field) {
+  std::ofstream out(file);
+  out << text << std::flush;
+  if (!out) throw InvalidInput(field, '"' + file + '"', "could not be written");
 }
 
 BarOption::BarOption(CLI::App& command) {

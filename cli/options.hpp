@@ -32,6 +32,10 @@ struct CandidateOption {
   Limits limits_;
 };
 
+/// The candidate of that name, or the first of the plug-in in that file, which is added. Throws
+/// InvalidInput.
+const Candidate& named_candidate(const std::string& name);
+
 struct BarOption {
   explicit BarOption(CLI::App& command);
   Bar get() const;  ///< throws InvalidInput unless both are finite and not negative
@@ -58,5 +62,8 @@ struct SampleOption {
   std::vector<std::string> pairs_, classes_;
   std::uint64_t count_, seed_ = 1;
 };
+
+/// Throws InvalidInput (with this field) where the file cannot be written.
+void write_file(const std::string& file, const std::string& text, const char* field);
 
 }  // namespace touchstone

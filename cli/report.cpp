@@ -10,6 +10,8 @@
 #include "reports/figures/figures.hpp"
 #include "reports/terminal_table.hpp"
 #include "reports/worst.hpp"
+#include "simulation/run_experiments.hpp"
+#include "stability/stability.hpp"
 
 namespace touchstone {
 namespace {
@@ -36,6 +38,19 @@ struct Options {
     return c;
   }
 
+  /// Of all pairs and pose classes: then experiments belong to it too.
+  bool is_whole() const {
+    return sample.pairs().size() == std::size(all_pairs) && sample.classes().empty();
+  }
+  ExperimentOptions experiments() const {
+    ExperimentOptions e;
+    for (const Experiment& each : all_experiments()) e.experiments.push_back(&each);
+    e.candidates = candidates.get();
+    e.workers = workers;
+    e.limits = candidates.limits();
+    return e;
+  }
+
   /// The command that gives the same report again.
   std::string command_line() const {
     return program_name() + " report" + sample.command_line() + candidates.command_line() +
@@ -47,7 +62,12 @@ void run(const Options& options) {
   const Campaign campaign = options.campaign();
   check_writable(options.out);
   if (!options.figures.empty()) check_figures(options.figures);
-  const nlohmann::json report = make_report(campaign, options.command_line());
+  nlohmann::json report = make_report(campaign, options.command_line());
+  if (options.is_whole()) {
+    const Study study{campaign.candidates, campaign.bar, campaign.limits, campaign.workers};
+    report["stability"] = stability(brief(study, campaign.pairs, campaign.seed));
+    report["experiments"] = run_experiments(options.experiments());
+  }
   write_report(report, options.out);
   fmt::print("{}\n{} configurations, truth certified to 1e-30 of the larger size, {:.0f} s.\n",
              terminal_table(report), report["configurations"].get<std::uint64_t>(),

@@ -5,15 +5,21 @@
 
 namespace touchstone {
 
+std::uint64_t Draw::next() {
+  if (!tape_) return random_.next();
+  if (at_ == tape_->size()) tape_->push_back(random_.next());
+  return (*tape_)[at_++];
+}
+
 std::int64_t Draw::integer(std::int64_t lo, std::int64_t hi) {
   assert(lo <= hi);
   const std::uint64_t count = static_cast<std::uint64_t>(hi - lo) + 1;
   // The bias of the remainder is below 2^-32 for the ranges in use.
-  return lo + static_cast<std::int64_t>(random_.next() % count);
+  return lo + static_cast<std::int64_t>(next() % count);
 }
 
 double Draw::uniform(double lo, double hi) {
-  const double unit = static_cast<double>(random_.next() >> 11) * 0x1p-53;
+  const double unit = static_cast<double>(next() >> 11) * 0x1p-53;
   return lo + (hi - lo) * unit;
 }
 

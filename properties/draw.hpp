@@ -1,10 +1,15 @@
 #pragma once
 
+#include <cstdint>
 #include <rapidcheck/Random.h>
+#include <vector>
 
 #include "reference/configuration.hpp"
 
 namespace touchstone {
+
+/// The random numbers that went into one configuration, in the order in which they were drawn.
+using Tape = std::vector<std::uint64_t>;
 
 /// Numbers and directions from one of rapidcheck's random streams. Only + − × ÷ and square roots
 /// are used, each rounded once as IEEE 754 says (no contraction, no libm), so that a stream gives
@@ -12,6 +17,9 @@ namespace touchstone {
 class Draw {
  public:
   explicit Draw(const rc::Random& random) : random_(random) {}
+  /// Draws what is on the tape; where that ends, it is prolonged with the stream. The tape must
+  /// outlive this.
+  Draw(const rc::Random& random, Tape& tape) : random_(random), tape_(&tape) {}
 
   std::int64_t integer(std::int64_t lo, std::int64_t hi);  ///< both ends included
   bool coin() { return integer(0, 1) == 1; }
@@ -27,7 +35,11 @@ class Draw {
   Eigen::Quaterniond turn_about_z();  ///< by an angle evenly on the circle
 
  private:
+  std::uint64_t next();
+
   rc::Random random_;
+  Tape* tape_ = nullptr;
+  std::size_t at_ = 0;  ///< on the tape
 };
 
 // Eigen may add in another order on another instruction set; these never do.

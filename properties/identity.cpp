@@ -49,6 +49,11 @@ const PoseClass& find_class(Pair pair, std::string_view name) {
                          joined(pose_classes(pair)));
 }
 
+rc::Random stream_of(const Identity& identity) {
+  const std::string name = std::string(pair_name(identity.pair)) + "/" + identity.pose_class;
+  return rc::Random(rc::Random::Key{identity.seed, identity.index, stable_hash(name), 0});
+}
+
 }  // namespace
 
 const std::vector<PoseClass>& pose_class_table(Pair pair) {
@@ -139,9 +144,12 @@ rc::Gen<Configuration> configurations(Pair pair, std::string_view pose_class) {
 }
 
 Configuration make_configuration(const Identity& identity) {
-  const std::string name = std::string(pair_name(identity.pair)) + "/" + identity.pose_class;
-  const rc::Random::Key key = {identity.seed, identity.index, stable_hash(name), 0};
-  return configurations(identity.pair, identity.pose_class)(rc::Random(key)).value();
+  return configurations(identity.pair, identity.pose_class)(stream_of(identity)).value();
+}
+
+Configuration make_configuration(const Identity& identity, std::vector<std::uint64_t>& tape) {
+  Draw draw(stream_of(identity), tape);
+  return find_class(identity.pair, identity.pose_class).generate(draw);
 }
 
 }  // namespace touchstone

@@ -41,4 +41,8 @@ std::string_view describe_pose_class(Pair pair, std::string_view pose_class);
 /// The configuration of that identity: the same bits on every call, alone, in constant time.
 Configuration make_configuration(const Identity& identity);
 
+/// The same from the random numbers on the tape, which is prolonged as need be: an empty one
+/// becomes the identity's own, and a changed one gives another configuration of the same class.
+Configuration make_configuration(const Identity& identity, std::vector<std::uint64_t>& tape);
+
 }  // namespace touchstone

@@ -196,5 +196,37 @@ RC_GTEST_PROP(Arbitrary, EveryIdentityIsReadBackAndRebuildsItsBits, ()) {
             shown(make_configuration(id)));
 }
 
+TEST(Tape, HoldsWhatAnIdentityDrew) {
+  for (const Class& c : every_class()) {
+    const Identity id{c.pair, c.name, 7, 11};
+    std::vector<std::uint64_t> tape;
+    EXPECT_EQ(shown(make_configuration(id, tape)), shown(make_configuration(id)));
+    EXPECT_FALSE(tape.empty());
+    const auto recorded = tape;
+    // Whatever the stream is, the tape says it all.
+    EXPECT_EQ(shown(make_configuration({c.pair, c.name, 8, 12}, tape)),
+              shown(make_configuration(id)));
+    EXPECT_EQ(tape, recorded);
+    tape.resize(tape.size() / 2);
+    EXPECT_EQ(shown(make_configuration(id, tape)).empty(), false);
+    EXPECT_GE(tape.size(), recorded.size() / 2);
+  }
+}
+
+TEST(Tape, ASmallChangeMovesAConfigurationALittle) {
+  const Identity id{Pair::sphere, "general-deep", 1, 0};
+  std::vector<std::uint64_t> tape;
+  const Configuration before = make_configuration(id, tape);
+  int changed = 0;
+  for (std::uint64_t& number : tape) {
+    number ^= std::uint64_t{1} << 20;
+    const Configuration after = make_configuration(id, tape);
+    changed += shown(after) != shown(before);
+    EXPECT_LT((after.pose_a.position() - before.pose_a.position()).norm(), 1e-9);
+    number ^= std::uint64_t{1} << 20;
+  }
+  EXPECT_GT(changed, 5);
+}
+
 }  // namespace
 }  // namespace touchstone

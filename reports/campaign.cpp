@@ -60,10 +60,10 @@ std::string score_cell(const Campaign& campaign, std::vector<CandidateProcess>& 
   const auto append = [&](const auto& value) {
     bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
   };
-  score_range(campaign, candidates, cell, 0, campaign.count, [&](const Scored& scored) {
-    append(scored.oracle_microseconds);
-    append(scored.signed_distance);
-    for (const Score& s : scored.scores) append(to_record(s));
+  score_range(campaign, candidates, cell, 0, campaign.count, [&](const ScoredConfiguration& s) {
+    append(s.oracle_microseconds);
+    append(s.signed_distance);
+    for (const Score& of_candidate : s.scores) append(to_record(of_candidate));
   });
   return bytes;
 }
@@ -106,7 +106,7 @@ std::vector<Cell> cells(const Campaign& campaign) {
 
 void score_range(const Campaign& campaign, std::vector<CandidateProcess>& candidates,
                  const Cell& cell, std::uint64_t first, std::uint64_t last,
-                 const std::function<void(const Scored&)>& take) {
+                 const std::function<void(const ScoredConfiguration&)>& take) {
   const auto identity = [&](std::uint64_t i) {
     return Identity{cell.pair, cell.pose_class, campaign.seed, i};
   };
@@ -123,14 +123,16 @@ void score_range(const Campaign& campaign, std::vector<CandidateProcess>& candid
     try {
       const auto start = std::chrono::steady_clock::now();
       const oracle::Truth truth = oracle::truth(c);
-      const double microseconds =
+      ScoredConfiguration result;
+      result.index = i;
+      result.oracle_microseconds =
           std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start)
               .count();
-      Scored scored{i, microseconds, truth.signed_distance.midpoint(), {}};
+      result.signed_distance = truth.signed_distance.midpoint();
       for (const auto& of_candidate : answers) {
-        scored.scores.push_back(score(c, truth, of_candidate[i - first], campaign.bar));
+        result.scores.push_back(score(c, truth, of_candidate[i - first], campaign.bar));
       }
-      take(scored);
+      take(result);
     } catch (const std::exception& e) {
       throw std::runtime_error(to_string(identity(i)) + ": " + e.what());
     }

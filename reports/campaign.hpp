@@ -38,20 +38,20 @@ struct CellScores {
   std::vector<double> signed_distance;  ///< true, metres
 };
 
-/// One configuration of a cell.
-struct Scored {
+/// One configuration's scores, in the order of the candidates.
+struct ScoredConfiguration {
   std::uint64_t index;
   double oracle_microseconds;
-  double signed_distance;     ///< true, metres
-  std::vector<Score> scores;  ///< in the order of the candidates
+  double signed_distance;  ///< true, metres
+  std::vector<Score> scores;
 };
 
-/// Scores the configurations first … last − 1 of a cell, each candidate in a new session: the
-/// scores depend on these configurations alone. Hands over one after the other. Throws
+/// Scores the configurations first … last − 1 of a cell and hands them over in order. Each
+/// candidate has a new session: the scores depend on these configurations alone. Throws
 /// std::runtime_error naming the configuration whose truth contradicts itself.
 void score_range(const Campaign& campaign, std::vector<CandidateProcess>& candidates,
                  const Cell& cell, std::uint64_t first, std::uint64_t last,
-                 const std::function<void(const Scored&)>& take);
+                 const std::function<void(const ScoredConfiguration&)>& take);
 
 /// Scores every cell, spread over worker processes, in each of which every candidate has a process
 /// of its own and a new session for each cell: the result does not depend on how many there are,

@@ -27,14 +27,6 @@ Vec3 nearest(const Vec3& n, const std::vector<oracle::OptimalNormal>& normals) {
       ->n;
 }
 
-/// Of a continuum not every member is listed: an answer that is far from all of those stands for
-/// itself.
-Vec3 patch_normal(const oracle::Truth& truth, const Vec3& n) {
-  constexpr double far = 1;  // degrees
-  const Vec3 listed = nearest(n, truth.normals);
-  return truth.ties == oracle::Ties::continuum && angle(n, listed) > far ? n.normalized() : listed;
-}
-
 double coverage_by(const ts_answer& answer, const Configuration& c, const oracle::Truth& truth) {
   std::vector<Vec3> points;
   points.reserve(static_cast<std::size_t>(answer.point_count));
@@ -67,6 +59,12 @@ Score without_contact(double distance, const Bar& bar) {
 }
 
 }  // namespace
+
+Vec3 patch_normal(const oracle::Truth& truth, const Vec3& n) {
+  constexpr double far = 1;  // degrees
+  const Vec3 listed = nearest(n, truth.normals);
+  return truth.ties == oracle::Ties::continuum && angle(n, listed) > far ? n.normalized() : listed;
+}
 
 bool is_finite(const ts_answer& answer) {
   if (!std::isfinite(answer.signed_distance) || !vector(answer.normal).allFinite()) return false;

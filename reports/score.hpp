@@ -70,6 +70,11 @@ struct Score {
 inline constexpr double patch_depth = 1e-6;
 inline constexpr double patch_resolution = 0.1;
 
+/// The optimal normal along which an answer's contact points are judged: the nearest one to its
+/// normal. Of a continuum not every member is listed: an answer that is far from all of those
+/// stands for itself.
+Vec3 patch_normal(const oracle::Truth& truth, const Vec3& n);
+
 Score score(const Configuration& configuration, const oracle::Truth& truth, const ts_answer& answer,
             const Bar& bar);
 /// The same, with the errors of model and solver.

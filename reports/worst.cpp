@@ -29,27 +29,26 @@ std::vector<Case> worst_of(const std::vector<Cell>& all, const std::vector<CellS
   return worst_of_pair(std::move(cases));
 }
 
-/// For a shell; left alone where it needs no quotes.
-std::string quoted(const std::string& text) {
-  const auto plain = [](unsigned char c) { return std::isalnum(c) || std::strchr("/._-+", c); };
+json or_null(const std::optional<double>& value) { return value ? json(*value) : json(nullptr); }
+
+}  // namespace
+
+std::string shell_quoted(const std::string& text) {
+  const auto plain = [](unsigned char c) { return std::isalnum(c) || std::strchr("/._-+@", c); };
   if (std::all_of(text.begin(), text.end(), plain)) return text;
   std::string result = "'";
   for (const char c : text) result += c == '\'' ? "'\\''" : std::string(1, c);
   return result + "'";
 }
 
-json or_null(const std::optional<double>& value) { return value ? json(*value) : json(nullptr); }
-
-}  // namespace
-
 std::string program_name() {
   std::string name = "./touchstone";
-  for (const auto& file : added_plugins()) name += " --candidate " + quoted(file.string());
+  for (const auto& file : added_plugins()) name += " --candidate " + shell_quoted(file.string());
   return name;
 }
 
 std::string replay_command(const std::string& name) {
-  return program_name() + " replay " + quoted(name);
+  return program_name() + " replay " + shell_quoted(name);
 }
 
 Subject subject(const Identity& identity) {

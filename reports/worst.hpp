@@ -23,6 +23,9 @@ Subject subject(const Identity& identity);
 nlohmann::json examined(const Subject& subject, const std::vector<CandidateProcess*>& candidates,
                         const Bar& bar, double width = 1e-15);
 
+/// For a shell; left alone where it needs no quotes.
+std::string shell_quoted(const std::string& text);
+
 /// "./touchstone", with the plug-ins that were added to it.
 std::string program_name();
 

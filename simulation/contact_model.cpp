@@ -4,11 +4,31 @@
 
 namespace touchstone {
 
+namespace {
+
+/// What is asked of one process in a step, in one batch.
+class Batch {
+ public:
+  void add(const PairQuestion& q) {
+    configurations_.push_back(q.configuration);
+    previous_normals_.push_back(q.previous_normal ? &*q.previous_normal : nullptr);
+  }
+  bool empty() const { return configurations_.empty(); }
+  std::vector<Answer> ask(CandidateProcess& process) const {
+    return process.answer(configurations_, previous_normals_);
+  }
+
+ private:
+  std::vector<Configuration> configurations_;
+  std::vector<const Vec3*> previous_normals_;
+};
+
+}  // namespace
+
 std::vector<Answer> CandidateModel::answers(std::span<const PairQuestion> questions) {
-  std::vector<Configuration> configurations;
-  configurations.reserve(questions.size());
-  for (const PairQuestion& q : questions) configurations.push_back(q.configuration);
-  return process_.answer(configurations);
+  Batch batch;
+  for (const PairQuestion& q : questions) batch.add(q);
+  return batch.ask(process_);
 }
 
 void PairwiseModel::begin() { begun_.clear(); }
@@ -23,12 +43,12 @@ std::vector<Answer> PairwiseModel::answers(std::span<const PairQuestion> questio
   }
   std::vector<Answer> result(questions.size());
   for (CandidateProcess* process : begun_) {
-    std::vector<Configuration> configurations;
+    Batch batch;
     for (std::size_t i = 0; i < questions.size(); ++i) {
-      if (chosen[i] == process) configurations.push_back(questions[i].configuration);
+      if (chosen[i] == process) batch.add(questions[i]);
     }
-    if (configurations.empty()) continue;
-    auto answer = process->answer(configurations);
+    if (batch.empty()) continue;
+    auto answer = batch.ask(*process);
     auto next = answer.begin();
     for (std::size_t i = 0; i < questions.size(); ++i) {
       if (chosen[i] == process) result[i] = std::move(*next++);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,6 +14,8 @@ namespace touchstone {
 struct PairQuestion {
   int a, b;
   Configuration configuration;
+  /// Of the same bodies in the step before, where they had a contact: the candidate's hint.
+  std::optional<Vec3> previous_normal = {};
 };
 
 /// Who finds the contacts of pairs with a cylinder.

@@ -60,6 +60,10 @@ void check_scene(const Scene& scene) {
   if (!(std::isfinite(scene.surface_layer) && scene.surface_layer >= 0)) {
     refuse("surface_layer", scene.surface_layer, "must be finite and not negative");
   }
+  if (scene.solver_iterations < 1) {
+    throw InvalidInput("solver_iterations", fmt::format("{}", scene.solver_iterations),
+                       "must be at least 1");
+  }
 }
 
 }  // namespace touchstone

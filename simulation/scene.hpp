@@ -33,6 +33,7 @@ struct Scene {
   double duration = 1;               ///< s
   /// Metres that resting bodies may overlap by: only what is deeper is pushed apart.
   double surface_layer = 1e-4;
+  int solver_iterations = 100;  ///< of ODE's solver in a step; stacks need more
 };
 
 /// Throws InvalidInput with the path of the field ("bodies[2].density") unless the scene can be

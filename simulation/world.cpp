@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <ode/ode.h>
+#include <utility>
 
 #include "reference/aabb.hpp"
-#include "simulation/inertia.hpp"
-
-static_assert(sizeof(dReal) == sizeof(double), "built against single-precision ODE");
+#include "reference/invalid_input.hpp"
+#include "simulation/ode_shapes.hpp"
 
 namespace touchstone {
 namespace {
@@ -19,45 +20,6 @@ constexpr double least_bounce = 0.01;
 /// Below this the direction of slip is rounding, m/s; any will do.
 constexpr double least_slip = 1e-12;
 constexpr double absurd = 1e6;
-
-/// ODE's default handlers print and, for errors of its own, end the process.
-void ignore_message(int, const char*, va_list) {}
-
-void initialise() {
-  static const bool done = [] {
-    dInitODE2(0);
-    dSetErrorHandler(nullptr);
-    dSetMessageHandler(ignore_message);
-    dAllocateODEDataForThread(dAllocateMaskAll);
-    return true;
-  }();
-  (void)done;
-}
-
-Vec3 vector(const dReal* v) { return {v[0], v[1], v[2]}; }
-
-struct MakeGeom {
-  dGeomID operator()(const Cylinder&) const { return nullptr; }  // the contact model's
-  dGeomID operator()(const Plane& s) const {
-    return dCreatePlane(nullptr, s.normal().x(), s.normal().y(), s.normal().z(), s.displacement());
-  }
-  dGeomID operator()(const Sphere& s) const { return dCreateSphere(nullptr, s.radius()); }
-  dGeomID operator()(const Capsule& s) const {
-    return dCreateCapsule(nullptr, s.radius(), 2 * s.half_length());
-  }
-  dGeomID operator()(const Box& s) const {
-    const Vec3 side = 2 * s.half_extents();
-    return dCreateBox(nullptr, side.x(), side.y(), side.z());
-  }
-};
-
-/// The posed plane as a shape of the world.
-Plane in_world(const Plane& plane, const Pose& pose) {
-  const Vec3 unit = plane.normal().stableNormalized();
-  const Vec3 normal = (pose.rotation() * unit).normalized();
-  return Plane(normal,
-               plane.displacement() / plane.normal().stableNorm() + normal.dot(pose.position()));
-}
 
 /// What a cylinder may reach by any candidate: simplified models put round ends on top.
 Aabb reach(const Shape& shape, const Pose& pose) {
@@ -81,6 +43,7 @@ struct World::State {
   void add_others(int a, int b);
   void add_joint(int a, int b, dContactGeom geom);
   void read_states();
+  void conserve_spin();
   Vec3 slip_to_come(int a, int b, const Vec3& position) const;
 
   Scene scene;
@@ -100,12 +63,13 @@ struct World::State {
 World::State::State(const Scene& given, ContactModel& contact_model)
     : scene(given),
       model(contact_model),
-      world((check_scene(given), initialise(), dWorldCreate())),
+      world((check_scene(given), initialise_ode(), dWorldCreate())),
       joints(dJointGroupCreate(0)) {
   dWorldSetGravity(world, scene.gravity.x(), scene.gravity.y(), scene.gravity.z());
   dWorldSetERP(world, error_reduction);
   dWorldSetContactSurfaceLayer(world, scene.surface_layer);
   dWorldSetAutoDisableFlag(world, 0);
+  dWorldSetQuickStepNumIterations(world, scene.solver_iterations);
   for (const Body& body : scene.bodies) make_body(body);
   double heaviest = 0;
   for (const Inertia& i : inertias) heaviest = std::max(heaviest, i.mass);
@@ -122,40 +86,12 @@ World::State::~State() {
 }
 
 void World::State::make_body(const Body& body) {
-  const Eigen::Quaterniond unit = body.pose.orientation().normalized();
-  const dQuaternion q = {unit.w(), unit.x(), unit.y(), unit.z()};
-  const Vec3& p = body.pose.position();
-  dBodyID made = nullptr;
-  if (!body.fixed) {
-    made = dBodyCreate(world);
-    const Inertia i = inertia(body.shape, body.density);
-    dMass mass;
-    dMassSetParameters(&mass, i.mass, 0, 0, 0, i.principal.x(), i.principal.y(), i.principal.z(), 0,
-                       0, 0);
-    dBodySetMass(made, &mass);
-    dBodySetPosition(made, p.x(), p.y(), p.z());
-    dBodySetQuaternion(made, q);
-    dBodySetLinearVel(made, body.velocity.x(), body.velocity.y(), body.velocity.z());
-    dBodySetAngularVel(made, body.angular_velocity.x(), body.angular_velocity.y(),
-                       body.angular_velocity.z());
-    dBodySetFiniteRotationMode(made, 1);  // turns by the whole angle, not by its tangent
-  }
-  dGeomID geom = nullptr;
-  if (const auto* plane = std::get_if<Plane>(&body.shape)) {
-    geom = MakeGeom{}(in_world(*plane, body.pose));
-  } else {
-    geom = std::visit(MakeGeom{}, body.shape);
-    if (geom && made) dGeomSetBody(geom, made);
-    if (geom && !made) {
-      dGeomSetPosition(geom, p.x(), p.y(), p.z());
-      dGeomSetQuaternion(geom, q);
-    }
-  }
-  bodies.push_back(made);
-  geoms.push_back(geom);
-  inertias.push_back(body.fixed ? Inertia{0, Vec3::Zero()} : inertia(body.shape, body.density));
-  states.push_back({body.pose, body.fixed ? Vec3(Vec3::Zero()) : body.velocity,
-                    body.fixed ? Vec3(Vec3::Zero()) : body.angular_velocity});
+  const Vec3 zero = Vec3::Zero();
+  inertias.push_back(body.fixed ? Inertia{0, zero} : inertia(body.shape, body.density));
+  bodies.push_back(body.fixed ? nullptr : make_ode_body(world, body, inertias.back()));
+  geoms.push_back(make_ode_geom(body, bodies.back()));
+  states.push_back(
+      {body.pose, body.fixed ? zero : body.velocity, body.fixed ? zero : body.angular_velocity});
 }
 
 void World::State::find_contacts() {
@@ -163,6 +99,14 @@ void World::State::find_contacts() {
   const int count = static_cast<int>(bodies.size());
   std::vector<Aabb> boxes;
   for (int i = 0; i < count; ++i) boxes.push_back(reach(scene.bodies[i].shape, states[i].pose));
+
+  std::map<std::pair<int, int>, Vec3> previous;
+  for (const PairContact& c : contacts) {
+    const Vec3 normal(c.answer.normal);
+    if (c.answer.status == TS_CONTACT && std::abs(normal.squaredNorm() - 1) < 1e-6) {
+      previous.insert({{c.a, c.b}, normal});
+    }
+  }
 
   // Every pair is looked at: scenes have few bodies, and a look costs a nanosecond.
   std::vector<PairQuestion> questions;
@@ -179,6 +123,9 @@ void World::State::find_contacts() {
                            b,
                            {std::get<Cylinder>(scene.bodies[a].shape), states[a].pose,
                             scene.bodies[b].shape, states[b].pose}});
+      if (const auto found = previous.find({a, b}); found != previous.end()) {
+        questions.back().previous_normal = found->second;
+      }
     }
   }
   contacts.clear();
@@ -240,7 +187,7 @@ void World::State::add_joint(int a, int b, dContactGeom geom) {
     contact.surface.bounce = bounce;
     contact.surface.bounce_vel = least_bounce;
   }
-  const Vec3 normal = vector(geom.normal), slip = slip_to_come(a, b, vector(geom.pos));
+  const Vec3 normal(geom.normal), slip = slip_to_come(a, b, Vec3(geom.pos));
   const Vec3 along = slip - slip.dot(normal) * normal;
   if (const double speed = along.norm(); speed > least_slip) {
     contact.surface.mode |= dContactFDir1;
@@ -250,22 +197,32 @@ void World::State::add_joint(int a, int b, dContactGeom geom) {
   dJointAttach(joint, bodies[a], bodies[b]);
 }
 
+/// ODE's own gyroscopic torque loses energy.
+void World::State::conserve_spin() {
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (!bodies[i]) continue;
+    const Vec3 change =
+        free_angular_velocity(states[i], inertias[i], scene.step) - states[i].angular_velocity;
+    const Vec3 t = torque(states[i], inertias[i], change, scene.step);
+    dBodyAddTorque(bodies[i], t.x(), t.y(), t.z());
+  }
+}
+
 void World::State::read_states() {
   std::vector<BodyState> read = states;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (!bodies[i]) continue;
-    const Vec3 p = vector(dBodyGetPosition(bodies[i]));
-    const Vec3 v = vector(dBodyGetLinearVel(bodies[i]));
-    const Vec3 w = vector(dBodyGetAngularVel(bodies[i]));
-    const dReal* q = dBodyGetQuaternion(bodies[i]);
-    const Eigen::Quaterniond orientation(q[0], q[1], q[2], q[3]);
-    for (const double x : {p.norm(), v.norm(), w.norm(), orientation.norm()}) {
-      if (!(x < absurd)) sound = false;  // also when it is no number
+    try {
+      read[i] = state_of(bodies[i]);
+    } catch (const InvalidInput&) {  // no number
+      sound = false;
+      return;
     }
-    if (!sound) return;
-    read[i] = {Pose(p, orientation), v, w};
+    for (const Vec3& v : {read[i].pose.position(), read[i].velocity, read[i].angular_velocity}) {
+      if (!(v.norm() < absurd)) sound = false;
+    }
   }
-  states = std::move(read);
+  if (sound) states = std::move(read);
 }
 
 World::World(const Scene& scene, ContactModel& model)
@@ -280,7 +237,8 @@ void World::step() {
   if (!s.sound) return;
   s.find_contacts();
   dRandSetSeed(s.steps);
-  dWorldStep(s.world, s.scene.step);
+  s.conserve_spin();
+  dWorldQuickStep(s.world, s.scene.step);
   s.read_states();
 }
 
@@ -293,10 +251,7 @@ std::size_t World::unusable_points() const { return state_->unusable; }
 double World::kinetic_energy() const {
   double sum = 0;
   for (std::size_t i = 0; i < state_->states.size(); ++i) {
-    const BodyState& s = state_->states[i];
-    const Inertia& m = state_->inertias[i];
-    const Vec3 w = s.pose.rotation().transpose() * s.angular_velocity;
-    sum += (m.mass * s.velocity.squaredNorm() + w.dot(m.principal.cwiseProduct(w))) / 2;
+    sum += touchstone::kinetic_energy(state_->states[i], state_->inertias[i]);
   }
   return sum;
 }
@@ -321,10 +276,8 @@ Vec3 World::angular_momentum() const {
   Vec3 sum = Vec3::Zero();
   for (std::size_t i = 0; i < state_->states.size(); ++i) {
     const BodyState& s = state_->states[i];
-    const Inertia& m = state_->inertias[i];
-    const auto& r = s.pose.rotation();
-    sum += m.mass * s.pose.position().cross(s.velocity) +
-           r * m.principal.cwiseProduct(r.transpose() * s.angular_velocity);
+    const Inertia& inertia = state_->inertias[i];
+    sum += inertia.mass * s.pose.position().cross(s.velocity) + spin(s, inertia);
   }
   return sum;
 }

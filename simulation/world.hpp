@@ -1,18 +1,13 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "simulation/contact_model.hpp"
+#include "simulation/motion.hpp"
 #include "simulation/scene.hpp"
 
 namespace touchstone {
-
-struct BodyState {
-  Pose pose;
-  Vec3 velocity, angular_velocity;  ///< of the centre, world frame; m/s, rad/s
-};
 
 /// What the contact model answered for two bodies in the last step; bodies as in PairQuestion.
 struct PairContact {
@@ -23,11 +18,11 @@ struct PairContact {
 /// A scene in motion: ODE moves the bodies; contacts of pairs with a cylinder come from the contact
 /// model, those of all other pairs from ODE's own routines.
 ///
-/// A step finds contacts, solves for velocities (dWorldStep: the direct solver, Coulomb's cone as a
-/// pyramid along the slip to come), and moves the bodies by them: semi-implicit Euler. Contacts are
+/// A step finds contacts, solves for velocities (dWorldQuickStep; Coulomb's cone as a pyramid along
+/// the slip to come), and moves the bodies by them: semi-implicit Euler. Contacts are
 /// hard (CFM 1e-10 by the heaviest body's mass); a fifth of the depth beyond the scene's surface
 /// layer is taken back in a step (ERP 0.2). All candidates get the same settings. What it does
-/// depends on the scene and the answers alone.
+/// depends on the scene and the answers alone. docs/simulation.md says why.
 class World {
  public:
   /// Throws InvalidInput as check_scene does. The model must outlive the world.

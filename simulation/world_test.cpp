@@ -54,6 +54,22 @@ TEST_F(WorldTest, SpinAboutAPrincipalAxisKeepsItsEnergyAndMomentum) {
   EXPECT_NEAR(world.kinetic_energy(), energy, 1e-10 * energy);
 }
 
+// ODE's own gyroscopic term loses a thousandth of the energy here.
+TEST_F(WorldTest, TumblingKeepsItsAngularMomentumAndNearlyItsEnergy) {
+  Scene scene;
+  scene.gravity = Vec3::Zero();
+  scene.step = 1e-3;
+  Body stick{"stick", Cylinder(0.2, 0.7)};
+  stick.angular_velocity = Vec3(2, 1, 3);
+  scene.bodies = {stick};
+  World world(scene, model);
+  const Vec3 spin = world.angular_momentum();
+  const double energy = world.kinetic_energy();
+  for (int i = 0; i < 1000; ++i) world.step();
+  EXPECT_LT((world.angular_momentum() - spin).norm(), 1e-9 * spin.norm());
+  EXPECT_NEAR(world.kinetic_energy(), energy, 1e-9 * energy);
+}
+
 // Semi-implicit Euler: after n steps v = -g h n and z = -g h² n (n + 1) / 2.
 TEST_F(WorldTest, FallIsThatOfSemiImplicitEuler) {
   Scene scene;
@@ -138,6 +154,9 @@ TEST_F(WorldTest, BadScenesAreRefusedByTheirField) {
   EXPECT_THAT(refusal([](Scene& s) { s.gravity.x() = nan; }), HasSubstr("gravity[0] is nan"));
   EXPECT_THAT(refusal([](Scene& s) { s.step = 0; }), HasSubstr("step is 0"));
   EXPECT_THAT(refusal([](Scene& s) { s.duration = -1; }), HasSubstr("duration is -1"));
+  EXPECT_THAT(refusal([](Scene& s) { s.surface_layer = -1; }), HasSubstr("surface_layer is -1"));
+  EXPECT_THAT(refusal([](Scene& s) { s.solver_iterations = 0; }),
+              HasSubstr("solver_iterations is 0"));
 }
 
 }  // namespace

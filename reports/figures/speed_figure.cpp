@@ -137,11 +137,11 @@ std::string speed_figures(const json& report, const std::vector<std::string>& pa
   for (const auto& pair : drawn) {
     const auto points = points_of(report, pair);
     script +=
-        in_both_forms("speed-accuracy-" + pair, 640, 440, speed_panel(pair, points, x, y, 74, 21));
+        in_both_forms("speed-accuracy-" + pair, 640, 440, speed_panel(pair, points, x, y, 64, 18));
     panels += fmt::format("set size {},{}\nset origin {},{}\n", 1.0 / columns, (1 - share) / rows,
                           1.0 / columns * (panel % columns),
                           1 - (1 - share) / rows * (panel / columns + 1)) +
-              speed_panel(pair, points, x, y, 60, 17);
+              speed_panel(pair, points, x, y, 50, 13);
     ++panel;
     std::string data = "candidate,nanoseconds,depth_error_p99,agreement,on_front\n";
     for (const Point& p : points) {

@@ -60,6 +60,7 @@ class Report(unittest.TestCase):
     @classmethod
     def load(cls):
         """The addresses that loading the page asks for, itself excepted."""
+        cls.driver.get_log("performance")  # of pages before
         cls.driver.get(cls.page.as_uri())
         time.sleep(0.5)
         events = [json.loads(e["message"])["message"] for e in cls.driver.get_log("performance")]

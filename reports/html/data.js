@@ -9,7 +9,7 @@ function unpackReport(packed) {
     return Object.fromEntries(Object.keys(schema).map((key, i) => [key, unpack(cell[i], schema[key])]));
   };
   return Object.fromEntries(Object.entries(packed).map(([key, value]) =>
-      [key, value !== null && value.schema && value.rows ? value.rows.map(row => unpack(row, value.schema)) : value]));
+      [key, value !== null && value.rows ? value.rows.map(row => unpack(row, value.schema)) : value]));
 }
 
 const candidates = report.candidates.map(c => c.name);

@@ -20,6 +20,7 @@ std::string render_html(const nlohmann::json& report) {
   fill(page, "/* bodies.js */", bodies_js);
   fill(page, "/* view.js */", view_js);
   fill(page, "/* scene.js */", scene_js);
+  fill(page, "/* stability.js */", stability_js);
   fill(page, "/* report.js */", report_js);
   fill(page, "/* report.json */", script_safe(page_data(report)));
   return page;

@@ -11,6 +11,7 @@ namespace touchstone {
 extern const std::string_view report_css;
 extern const std::string_view elements_js;
 extern const std::string_view bodies_js, view_js, scene_js;  ///< a configuration in 3-D
+extern const std::string_view stability_js;
 
 /// Puts `text` where `placeholder`, as in "/* report.css */", first stands; it must be there. Data
 /// goes in last, so that nothing in it is taken for a placeholder.

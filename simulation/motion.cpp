@@ -1,4 +1,4 @@
-#include "simulation/inertia.hpp"
+#include "simulation/motion.hpp"
 
 #include <numbers>
 
@@ -35,8 +35,42 @@ struct OfShape {
   }
 };
 
+/// I v in the world frame.
+Vec3 times(const BodyState& state, const Inertia& inertia, const Vec3& v) {
+  const Eigen::Matrix3d& r = state.pose.rotation();
+  return r * inertia.principal.cwiseProduct(r.transpose() * v);
+}
+
 }  // namespace
 
 Inertia inertia(const Shape& shape, double density) { return std::visit(OfShape{density}, shape); }
+
+double kinetic_energy(const BodyState& state, const Inertia& inertia) {
+  return (inertia.mass * state.velocity.squaredNorm() +
+          state.angular_velocity.dot(spin(state, inertia))) /
+         2;
+}
+
+Vec3 spin(const BodyState& state, const Inertia& inertia) {
+  return times(state, inertia, state.angular_velocity);
+}
+
+Vec3 free_angular_velocity(const BodyState& state, const Inertia& inertia, double step) {
+  constexpr int iterations = 5;  // each gains the digits of one angle of a step
+  const Vec3 momentum = spin(state, inertia);
+  Vec3 next = state.angular_velocity;
+  for (int i = 0; i < iterations; ++i) {
+    const double angle = step * next.norm();
+    if (angle == 0) break;
+    const Eigen::Matrix3d turned =
+        Eigen::AngleAxisd(angle, next.normalized()) * state.pose.rotation();
+    next = turned * (turned.transpose() * momentum).cwiseQuotient(inertia.principal);
+  }
+  return next;
+}
+
+Vec3 torque(const BodyState& state, const Inertia& inertia, const Vec3& change, double step) {
+  return times(state, inertia, change) / step;
+}
 
 }  // namespace touchstone

@@ -1,0 +1,135 @@
+#include "scenes/choose.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <fstream>
+#include <memory>
+#include <thread>
+
+#include "cli/commands.hpp"
+#include "cli/options.hpp"
+#include "reference/invalid_input.hpp"
+#include "reports/report.hpp"
+#include "scenes/choice_json.hpp"
+#include "scenes/choice_page.hpp"
+#include "scenes/choice_text.hpp"
+#include "scenes/shape_pairs.hpp"
+
+namespace touchstone {
+namespace {
+
+constexpr int not_served = 1;
+
+struct Options {
+  explicit Options(CLI::App& command) : candidates(command) {}
+  CandidateOption candidates;
+  CLI::Option* names = nullptr;
+  std::string scene, out = "out";
+  unsigned workers = std::max(1U, std::thread::hardware_concurrency());
+  bool json = false;
+  PairNeeds pairs;
+
+  std::vector<const Candidate*> contestants() const {
+    return names->count() > 0 ? candidates.get() : swept_candidates();
+  }
+  std::string folder() const { return out + "/choose"; }
+};
+
+void write(const std::string& file, const std::string& text) {
+  std::ofstream out(file);
+  out << text << std::flush;
+  if (!out) throw InvalidInput("--out", '"' + file + '"', "could not be written");
+}
+
+int choose_scene(const Options& options, const std::string& command) {
+  const SceneFile file = read_scene(options.scene);
+  const Limits limits = options.candidates.limits();
+  const Choice choice = choose(file, {options.contestants(), options.workers, limits});
+  write_evidence(choice, file, options.folder());
+  nlohmann::json result = to_json(choice, file, command, options.folder());
+  write(options.out + "/choose.json", result.dump(1) + '\n');
+  fmt::print("{}", options.json ? result.dump() + '\n' : choice_text(result));
+  result["motion"] = motion_json(choice, file, limits);
+  write(options.out + "/choose.html", choice_page(result));
+  if (!options.json) fmt::print("\nPage: {0}/choose.html; data: {0}/choose.json\n", options.out);
+  return choice.impossible ? not_served : 0;
+}
+
+int choose_pairs(const Options& options, const std::string& command) {
+  const ShapesFile file = read_shapes(options.scene);
+  for (const std::string& ignored : file.ignored) {
+    fmt::print(stderr, "warning: {}: {}\n", options.scene, ignored);
+  }
+  const nlohmann::json result =
+      choose_for_pairs(file, options.pairs, options.contestants(), options.candidates.limits(),
+                       command, options.folder());
+  write_pair_evidence(result);
+  write(options.out + "/choose.json", result.dump(1) + '\n');
+  fmt::print("{}", options.json ? result.dump() + '\n' : pairs_text(result));
+  for (const auto& pair : result["pairs"]) {
+    if (pair["chosen"].is_null()) return not_served;
+  }
+  return 0;
+}
+
+int run(const Options& options) {
+  const auto check = [](const char* field, double value) {
+    if (!(std::isfinite(value) && value > 0)) {
+      throw InvalidInput(field, fmt::format("{}", value), "must be positive and finite");
+    }
+  };
+  check("--depth", options.pairs.depth);
+  check("--angle", options.pairs.angle);
+  check("--count", static_cast<double>(options.pairs.count));
+  check("--workers", options.workers);
+  check_writable(options.out);
+  if (!is_shapes_file(options.scene)) {
+    return choose_scene(options, "touchstone choose " + options.scene);
+  }
+  const PairNeeds& n = options.pairs;
+  return choose_pairs(options,
+                      fmt::format("touchstone choose {} --depth {} --angle {} --count {} --seed {}",
+                                  options.scene, n.depth, n.angle, n.count, n.seed));
+}
+
+}  // namespace
+
+void add_choose(CLI::App& program, int& exit_code) {
+  CLI::App* command =
+      program.add_subcommand("choose", "The cheapest contact models that a scene needs");
+  const auto options = std::make_shared<Options>(*command);
+  options->names = command->get_option("--candidates");
+  command
+      ->add_option("scene", options->scene,
+                   "A scene file (docs/scenes.md), or a robot or world (.urdf, .sdf)")
+      ->required();
+  command->add_option("--out", options->out, "Folder for choose.json and choose.html")
+      ->capture_default_str();
+  command->add_flag("--json", options->json, "Print choose.json instead of text");
+  command
+      ->add_option("--workers", options->workers, "Worker processes; they do not change the runs")
+      ->capture_default_str();
+  const char* robots = "Of a robot or world";
+  PairNeeds& pairs = options->pairs;
+  command->add_option("--depth", pairs.depth, "Largest depth error, metres")
+      ->capture_default_str()
+      ->group(robots);
+  command->add_option("--angle", pairs.angle, "Largest error of a normal, degrees")
+      ->capture_default_str()
+      ->group(robots);
+  command->add_option("--count", pairs.count, "Sampled poses of each pair of shapes")
+      ->capture_default_str()
+      ->group(robots);
+  command->add_option("--seed", pairs.seed, "Same seed, same poses")
+      ->capture_default_str()
+      ->group(robots);
+  command->footer(
+      "Examples:\n"
+      "  touchstone choose scenes/log-pile.json\n"
+      "  touchstone choose scenes/conveyor.json --candidates capsule,spheres:1..16,ode\n"
+      "  touchstone choose scenes/gripper.urdf --depth 0.002 --angle 10\n"
+      "Exit code 1: not even exact contacts meet the needs.");
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace touchstone

@@ -1,0 +1,60 @@
+#include <cmath>
+#include <filesystem>
+#include <fmt/format.h>
+#include <memory>
+
+#include "candidates/candidates.hpp"
+#include "cli/commands.hpp"
+#include "reference/invalid_input.hpp"
+#include "reports/report.hpp"
+#include "scenes/povray.hpp"
+#include "scenes/shapes_file.hpp"
+
+namespace touchstone {
+namespace {
+
+struct Options {
+  std::string scene, out = "out/render", contacts = "reference";
+  double every = 0.04;
+};
+
+SceneFile read(const std::string& file) {
+  return is_shapes_file(file) ? still_scene(read_shapes(file)) : read_scene(file);
+}
+
+void run(const Options& options) {
+  if (!(std::isfinite(options.every) && options.every > 0)) {
+    throw InvalidInput("--every", fmt::format("{}", options.every), "must be positive and finite");
+  }
+  const Candidate& candidate = find_candidate(options.contacts);
+  const SceneFile file = read(options.scene);
+  check_writable(options.out);
+  CandidateProcess process(candidate, simulation_threshold);
+  CandidateModel model(process);
+  const int frames = write_povray(file, run_scene(file.scene, model), options.every, options.out);
+  fmt::print("{} frames. To draw them with Debian's povray:\n  cd {} && povray scene.ini\n", frames,
+             options.out);
+}
+
+}  // namespace
+
+void add_render(CLI::App& program, int&) {
+  CLI::App* command =
+      program.add_subcommand("render", "Run a scene and write it for POV-Ray, frame by frame");
+  const auto options = std::make_shared<Options>();
+  command->add_option("scene", options->scene, "A scene file, or a robot or world (.urdf, .sdf)")
+      ->required();
+  command->add_option("--every", options->every, "Seconds between frames")->capture_default_str();
+  command->add_option("--contacts", options->contacts, "The candidate that contacts come from")
+      ->capture_default_str();
+  command->add_option("--out", options->out, "Folder for scene.pov, scene.ini and the frames")
+      ->capture_default_str();
+  command->footer(
+      "Examples:\n"
+      "  touchstone render scenes/thesis-knock.json\n"
+      "  touchstone render scenes/log-pile.json --contacts capsule --every 0.1\n"
+      "  touchstone render scenes/gripper.urdf");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace touchstone

@@ -1,0 +1,90 @@
+#include "campaigns/search.hpp"
+
+#include <fmt/format.h>
+#include <map>
+#include <memory>
+#include <utility>
+
+#include "cli/commands.hpp"
+#include "cli/options.hpp"
+#include "laws/failure_file.hpp"
+#include "reports/progress.hpp"
+
+namespace touchstone {
+namespace {
+
+constexpr int something_failed = 1;
+
+struct Options {
+  explicit Options(CLI::App& command) : sample(command, 1000), bar(command) {}
+  SampleOption sample;
+  BarOption bar;
+  std::string candidate, save, json;
+};
+
+int run(const Options& options) {
+  Campaign where;
+  where.pairs = options.sample.pairs();
+  where.classes = options.sample.classes();
+  const std::vector<Cell> all = cells(where);
+  const Bar bar = options.bar.get();
+  const std::uint64_t budget = options.sample.count();
+  CandidateProcess process(named_candidate(options.candidate), bar.threshold);
+
+  std::map<std::pair<Pair, std::string>, std::pair<double, Failure>> failures;  // the worst alike
+  nlohmann::json found_json = nlohmann::json::array();
+  std::string table =
+      fmt::format("{:<46} {:>13} {:>9} {:>9}\n", "class", "outcome", "severity", "sampled");
+  {
+    Progress progress("configurations", all.size() * budget);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const Found found = search(process, {all[i], options.sample.seed(), budget, bar},
+                                 [&](std::uint64_t asked) { progress.update(i * budget + asked); });
+      found_json.push_back(to_json(found, all[i]));
+      table += fmt::format("{:<46} {:>13} {:>9.1e} {:>9.1e}\n",
+                           fmt::format("{}/{}", pair_name(all[i].pair), all[i].pose_class),
+                           outcome_name(found.score.outcome), found.score.severity,
+                           found.sampled.severity);
+      const auto failure = failure_of(found, process, bar);
+      if (!failure) continue;
+      const auto [at, is_new] = failures.try_emplace({all[i].pair, failure->violation.failure},
+                                                     found.score.severity, *failure);
+      if (!is_new && at->second.first < found.score.severity) {
+        at->second = {found.score.severity, *failure};
+      }
+    }
+  }
+  fmt::print(
+      "{}\nseverity: the worst found, relative to the smaller size; sampled: the worst of "
+      "the\nfirst quarter, which were drawn and not changed\n",
+      table);
+  if (!options.save.empty()) {
+    for (const auto& [name, failure] : failures) {
+      fmt::print("saved {}\n", save(failure.second, options.save).string());
+    }
+  }
+  if (!options.json.empty()) write_file(options.json, found_json.dump(1) + '\n', "--json");
+  return failures.empty() ? 0 : something_failed;
+}
+
+}  // namespace
+
+void add_search(CLI::App& program, int& exit_code) {
+  CLI::App* command = program.add_subcommand(
+      "search", "Look for one candidate's worst configurations by changing bad ones");
+  const auto options = std::make_shared<Options>(*command);
+  command->add_option("--candidate", options->candidate, "Its name, or a plug-in's file")
+      ->required();
+  command->add_option("--save", options->save,
+                      "Save the worst failure of each kind and pair into this folder");
+  command->add_option("--json", options->json, "Write all that was found as JSON");
+  command->footer(
+      "Examples:\n"
+      "  touchstone search --candidate bullet --pair cylinder-box --save failures\n"
+      "  touchstone search --candidate reference --tolerance 1e-12 --count 1e5\n"
+      "  touchstone replay failures/bullet-cylinder-box-agreement-shallow.json\n"
+      "Exit code 1: something was beyond the tolerance.");
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace touchstone

@@ -1,0 +1,91 @@
+#include <cmath>
+#include <fmt/format.h>
+#include <fstream>
+#include <memory>
+#include <thread>
+
+#include "cli/commands.hpp"
+#include "cli/options.hpp"
+#include "reference/invalid_input.hpp"
+#include "reports/report.hpp"
+#include "simulation/run_experiments.hpp"
+
+namespace touchstone {
+namespace {
+
+struct Options {
+  explicit Options(CLI::App& command) : candidates(command) {}
+  CandidateOption candidates;
+  std::vector<std::string> names;
+  std::vector<double> steps = {1.0 / 60, 1.0 / 240, 1.0 / 960};
+  unsigned workers = std::max(1U, std::thread::hardware_concurrency());
+  std::string out;
+  bool json = false;
+
+  ExperimentOptions experiments() const {
+    ExperimentOptions e;
+    for (const auto& name : names) e.experiments.push_back(&find_experiment(name));
+    if (names.empty()) {
+      for (const Experiment& each : all_experiments()) e.experiments.push_back(&each);
+    }
+    e.candidates = candidates.get();
+    e.limits = candidates.limits();
+    e.steps = steps;
+    e.workers = workers;
+    for (const double step : steps) {
+      if (!(step >= 1e-5 && step <= 0.1)) {
+        throw InvalidInput("--step", fmt::format("{}", step), "must lie between 1e-5 and 0.1 s");
+      }
+    }
+    if (workers == 0) throw InvalidInput("--workers", "0", "must be at least 1");
+    return e;
+  }
+};
+
+void run(const Options& options) {
+  const ExperimentOptions experiments = options.experiments();
+  if (!options.out.empty()) check_writable(options.out);
+  const nlohmann::json result = run_experiments(experiments);
+  fmt::print("{}", options.json ? result.dump() + '\n' : experiments_table(result));
+  if (options.out.empty()) return;
+  const std::string file = options.out + "/experiments.json";
+  std::ofstream written(file);
+  written << result.dump(1) << '\n' << std::flush;
+  if (!written) throw InvalidInput("--out", '"' + file + '"', "could not be written");
+}
+
+std::string experiment_list() {
+  std::string text = "Experiments:\n";
+  for (const Experiment& e : all_experiments()) {
+    text += fmt::format("  {:<16} {}\n", e.name, e.statement);
+  }
+  return text;
+}
+
+}  // namespace
+
+void add_simulate(CLI::App& program, int&) {
+  CLI::App* command = program.add_subcommand(
+      "simulate",
+      "Rigid-body experiments with an answer on paper, with every candidate's contacts");
+  const auto options = std::make_shared<Options>(*command);
+  command->add_option("experiments", options->names, "Only these experiments");
+  command
+      ->add_option("--step", options->steps,
+                   "Steps of time, seconds, separated by commas (default: 1/60, 1/240, 1/960)")
+      ->delimiter(',');
+  command
+      ->add_option("--workers", options->workers, "Worker processes; they do not change the result")
+      ->capture_default_str();
+  command->add_option("--out", options->out, "Folder for experiments.json");
+  command->add_flag("--json", options->json, "Print one JSON object");
+  command->footer(
+      "Examples:\n"
+      "  touchstone simulate rolling\n"
+      "  touchstone simulate standing lying --candidates reference,bullet,ode --step 0.004\n"
+      "  touchstone simulate --out out\n" +
+      experiment_list());
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace touchstone

@@ -1,0 +1,23 @@
+# cpack --config build/release/CPackConfig.cmake: a Debian package of the program, its plug-ins and
+# the reference library. It depends on what the files are linked with, as dpkg-shlibdeps says.
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME touchstone)
+set(CPACK_PACKAGE_CONTACT "Touchstone maintainers")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+# For those who compile against the library or plug-ins of their own, or check a certificate.
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "g++, libeigen3-dev, python3")
+include(CPack)
+
+install(FILES LICENSE DESTINATION share/doc/touchstone RENAME copyright)
+install(FILES reference/LICENSE DESTINATION share/doc/touchstone RENAME copyright.reference)
+install(PROGRAMS oracle/check_certificate.py DESTINATION share/touchstone)
+
+# The package as a user gets it. Without dpkg-dev there is none to be made.
+find_program(DPKG_SHLIBDEPS dpkg-shlibdeps)
+if(TOUCHSTONE_TESTS AND DPKG_SHLIBDEPS)
+  add_test(NAME package COMMAND ${CMAKE_CURRENT_LIST_DIR}/package_test.sh ${PROJECT_BINARY_DIR})
+endif()

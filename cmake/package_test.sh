@@ -1,0 +1,43 @@
+#!/usr/bin/env bash
+# Makes the Debian package, unpacks it elsewhere and uses it from there: package_test.sh BUILD-FOLDER
+set -euo pipefail
+here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+fail() { echo "FAILED: $*"; exit 1; }
+
+(cd "$folder" && cpack --config "$1/CPackConfig.cmake" -B "$folder/made" >log 2>&1) ||
+  { cat "$folder/log"; fail "cpack"; }
+package=("$folder"/made/*.deb)
+dpkg-deb -c "${package[0]}" | awk '{print $6}' >"$folder/files"
+for file in bin/touchstone lib/touchstone/touchstone-reference.so include/touchstone/candidate.h \
+  include/touchstone/touchstone.hpp lib/libtouchstone_reference.a \
+  lib/cmake/touchstone/touchstoneConfig.cmake share/man/man1/touchstone.1 \
+  share/bash-completion/completions/touchstone share/zsh/vendor-completions/_touchstone \
+  share/doc/touchstone/copyright share/touchstone/check_certificate.py; do
+  grep -qx "./usr/$file" "$folder/files" || fail "the package lacks $file"
+done
+for plugin in "$1"/candidates/touchstone-*.so; do
+  grep -qx "./usr/lib/touchstone/${plugin##*/}" "$folder/files" || fail "the package lacks ${plugin##*/}"
+done
+! grep -E '_test|sabotage|\.o$' "$folder/files" || fail "the package holds what is ours alone"
+depends=$(dpkg-deb -f "${package[0]}" Depends)
+for library in libc6 libgmp10 libmpfr6 libflint; do
+  [[ $depends == *$library* ]] || fail "the package does not depend on $library: $depends"
+done
+
+dpkg-deb -x "${package[0]}" "$folder/root"
+cd /
+prefix=$folder/root/usr
+touchstone=$prefix/bin/touchstone
+[ "$("$touchstone" candidates | grep -c '^[a-z]')" = "$("$1/touchstone" candidates | grep -c '^[a-z]')" ] ||
+  fail "the unpacked program finds other candidates"
+(cd "$folder" && "$touchstone" report --pair cylinder-plane --count 1 >table 2>messages) ||
+  { cat "$folder/messages"; fail "report"; }
+[ -s "$folder/out/report.html" ] || fail "no report.html"
+"$touchstone" certify cylinder-box/rim-face/1/0 >"$folder/proof.json"
+python3 "$prefix/share/touchstone/check_certificate.py" "$folder/proof.json" >/dev/null
+
+cmake -S "$here/../reference/example" -B "$folder/example" -DCMAKE_PREFIX_PATH="$prefix" >/dev/null
+cmake --build "$folder/example" >/dev/null
+"$folder/example/standing_can" | grep -q 'depth 0.001' || fail "the package's library"

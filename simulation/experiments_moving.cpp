@@ -1,0 +1,143 @@
+// What rolls and spins keeps to its law of motion.
+#include <algorithm>
+#include <cmath>
+
+#include "simulation/experiment.hpp"
+#include "simulation/experiment_bodies.hpp"
+#include "simulation/motion.hpp"
+
+namespace touchstone {
+namespace {
+
+// Down a slope θ without slip: acceleration 2/3 g sin θ. Semi-implicit Euler's distance after n
+// steps h from rest is a h² n (n + 1) / 2, which is what contacts are held to.
+const double slope = radians(10);
+constexpr double rolling_time = 3;  // s
+
+double rolling_distance(double step) {
+  const double n = std::round(rolling_time / step);
+  return 2.0 / 3 * gravity * std::sin(slope) * step * step * n * (n + 1) / 2;
+}
+
+/// How far the speed departs from even acceleration, as a share of the last speed.
+double ripple(const std::vector<double>& speeds) {
+  double most = 0;
+  for (std::size_t i = 0; i < speeds.size(); ++i) {
+    const double even =
+        speeds.back() * static_cast<double>(i + 1) / static_cast<double>(speeds.size());
+    most = std::max(most, std::abs(speeds[i] - even));
+  }
+  return speeds.empty() || speeds.back() == 0 ? 0 : most / std::abs(speeds.back());
+}
+
+Measurement rolling(ContactModel& model, double step) {
+  Scene scene;
+  scene.step = step;
+  scene.duration = rolling_time;
+  // x is down the slope, z its normal, the axis along y.
+  const Eigen::Quaterniond turn = about(Vec3::UnitZ(), 0.4) * about(Vec3::UnitY(), slope);
+  const Vec3 down = turn * Vec3::UnitX();
+  const Eigen::Quaterniond across = about(Vec3::UnitX(), std::numbers::pi / 2);
+  const Vec3 start = (can_radius - resting_depth(scene)) * (turn * Vec3::UnitZ());
+  scene.bodies = {fixed_body("slope", Plane(Vec3::UnitZ(), 0), 0.5, Pose(Vec3::Zero(), turn)),
+                  moving_body("can", Cylinder(can_radius, can_half_length), 0.5,
+                              Pose(start, turn * across * about(Vec3::UnitZ(), 0.7)))};
+  Run run(scene, model, can_radius);
+  std::vector<double> speeds;
+  while (run.step()) speeds.push_back(down.dot(run.world().states()[1].velocity));
+  const Vec3 way = run.world().states()[1].pose.position() - start;
+  const double expected = rolling_distance(step), found = down.dot(way);
+  return {
+      found, (way - expected * down).norm() / expected, run.tally(), {{"ripple", ripple(speeds)}}};
+}
+
+// A disc that rolls on its rim about a resting centre, leaning by α from lying flat, goes round at
+// Ω with Ω² sin α (Iₜ cos α − Iₐ h/r sin α) = m g (r cos α − h sin α): torque of the support equals
+// the change of angular momentum; the angular velocity is along the line to the contact, as rolling
+// without slip about a resting centre needs.
+const Cylinder coin(0.5, 0.02);
+const double coin_lean = radians(25);
+
+double coin_rate(double lean) {
+  const Inertia i = inertia(coin, steel);
+  const double r = coin.radius(), h = coin.half_length(), s = std::sin(lean), c = std::cos(lean);
+  return std::sqrt(i.mass * gravity * (r * c - h * s) /
+                   (s * (i.principal.x() * c - i.principal.z() * h / r * s)));
+}
+
+/// Finer than the other experiments: the coin goes round in less than half a second.
+constexpr int coin_substeps = 8;
+constexpr double coin_time = 2;  // s
+
+Measurement spinning_coin(ContactModel& model, double step) {
+  Scene scene;
+  scene.step = step / coin_substeps;
+  scene.duration = coin_time;
+  const double r = coin.radius(), h = coin.half_length(), rate = coin_rate(coin_lean);
+  const Eigen::Quaterniond lean = about(Vec3::UnitY(), coin_lean);
+  const Vec3 axis = lean * Vec3::UnitZ(), low = lean * Vec3::UnitX();  // of the rim's lowest point
+  const double height = h * std::cos(coin_lean) + r * std::sin(coin_lean) - resting_depth(scene);
+  Body body = moving_body("coin", coin, 1, Pose(height * Vec3::UnitZ(), lean));
+  body.angular_velocity = -rate * std::sin(coin_lean) / r * (r * low - h * axis);
+  scene.bodies = {ground(1), body};
+
+  Run run(scene, model, r);
+  double angle = 0;
+  Vec3 last = axis;
+  while (run.step()) {
+    const Vec3 now = run.world().states()[1].pose.axis();
+    angle += std::atan2(last.x() * now.y() - last.y() * now.x(),
+                        last.x() * now.x() + last.y() * now.y());
+    last = now;
+  }
+  const double expected = rate * coin_time;
+  return {angle,
+          std::abs(angle / expected - 1),
+          run.tally(),
+          {{"lean", std::acos(std::clamp(last.z(), -1.0, 1.0)) / coin_lean - 1}}};
+}
+
+/// The one contact of a leaning cylinder and the ground z = 0, on paper.
+class LowestPoint : public ContactModel {
+ public:
+  void begin() override {}
+  std::vector<Answer> answers(std::span<const PairQuestion> questions) override {
+    std::vector<Answer> result;
+    for (const PairQuestion& q : questions) {
+      const Configuration& c = q.configuration;
+      const Vec3 u = c.pose_a.axis(), down = -Vec3::UnitZ();
+      const Vec3 low = c.pose_a.position() + (u.dot(down) > 0 ? 1 : -1) * c.a.half_length() * u +
+                       c.a.radius() * (down - u.dot(down) * u).normalized();
+      Answer answer{};
+      answer.status = low.z() <= 0 ? TS_CONTACT : TS_NONE;
+      answer.normal[2] = 1;
+      answer.signed_distance = low.z();
+      answer.point_count = 1;
+      answer.points[0] = {{low.x(), low.y(), low.z() / 2}, {0, 0, 1}, -low.z()};
+      result.push_back(answer);
+    }
+    return result;
+  }
+};
+
+/// What the integrator makes of exact contacts, and as much again.
+double coin_resolution(double step) {
+  LowestPoint exact;
+  return 2 * spinning_coin(exact, step).error;
+}
+
+}  // namespace
+
+std::vector<Experiment> moving_experiments() {
+  return {{"rolling", "Down a slope of 10° it rolls with 2/3 g sin θ, straight, for 3 s.",
+           "distance, m", "relative", rolling, rolling_distance,
+           // The contact point may be anywhere in the overlap, which changes the lever.
+           [](double) { return 3e-4; }},
+          {"coin",
+           "A leaning coin rolls on its rim about a resting centre at the rate that gravity sets; "
+           "its energy never grows.",
+           "angle gone round in 2 s, radians", "relative", spinning_coin,
+           [](double) { return coin_rate(coin_lean) * coin_time; }, coin_resolution}};
+}
+
+}  // namespace touchstone

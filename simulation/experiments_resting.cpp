@@ -1,0 +1,131 @@
+// What is supported stays where it is, also when it is let go leaning by a hair.
+#include <algorithm>
+
+#include "simulation/experiment.hpp"
+#include "simulation/experiment_bodies.hpp"
+
+namespace touchstone {
+namespace {
+
+/// One side is lifted before it is let go: a single contact point straight below the centre of mass
+/// would otherwise do.
+constexpr double lean = 0.01;  // rad
+
+/// Turned about a point of the world that stays where it is.
+Pose turned_about(const Pose& pose, const Vec3& pivot, const Vec3& axis, double angle) {
+  const Eigen::Quaterniond turn = about(axis, angle);
+  return Pose(pivot + turn * (pose.position() - pivot), turn * pose.orientation());
+}
+
+/// The largest way of any point of a body from where it would be at home, metres.
+double astray(const Pose& now, const Pose& home, double reach) {
+  const double angle = Eigen::AngleAxisd(now.rotation() * home.rotation().transpose()).angle();
+  return (now.position() - home.position()).norm() + reach * angle;
+}
+
+/// Runs to the end. In the second half the rocking must be over: the value is the mean kinetic
+/// energy that is left, the error how far any body is from its home at the most, in radii. `homes`
+/// are those of the last bodies.
+Measurement stay(const Scene& scene, const std::vector<Pose>& homes, ContactModel& model) {
+  const std::size_t first = scene.bodies.size() - homes.size();
+  Run run(scene, model, can_radius);
+  double most = 0, jitter = 0;
+  std::uint64_t counted = 0;
+  while (run.step()) {
+    if (run.world().time() < scene.duration / 2) continue;
+    for (std::size_t i = 0; i < homes.size(); ++i) {
+      most =
+          std::max(most, astray(run.world().states()[first + i].pose, homes[i], can_half_length));
+    }
+    jitter += run.kinetic_energy();
+    ++counted;
+  }
+  return {counted > 0 ? jitter / static_cast<double>(counted) : 0, most / can_radius, run.tally()};
+}
+
+Scene resting(double step) {
+  Scene scene;
+  scene.step = step;
+  scene.duration = 10;
+  return scene;
+}
+
+const Cylinder can(can_radius, can_half_length);
+
+Measurement standing(ContactModel& model, double step) {
+  Scene scene = resting(step);
+  const Vec3 centre(0.1, -0.2, can_half_length - resting_depth(scene));
+  const Pose home(centre, about(Vec3::UnitZ(), 0.3));
+  const Vec3 pivot = centre + Vec3(0.6 * can_radius, 0.8 * can_radius, -can_half_length);
+  const Pose start = turned_about(home, pivot, Vec3(-0.8, 0.6, 0), lean);
+  scene.bodies = {ground(0.5), moving_body("can", can, 0.5, start)};
+  return stay(scene, {home}, model);
+}
+
+/// A quarter of the cap's width hangs over an edge, to which the box slopes, well within friction.
+/// Lifted on that side: it rocks in one plane, and without slip it comes back to its place.
+Measurement standing_on_box(ContactModel& model, double step) {
+  Scene scene = resting(step);
+  const Eigen::Quaterniond turn = about(Vec3::UnitZ(), 0.4) * about(Vec3::UnitY(), radians(3));
+  const Vec3 half(0.4, 0.4, 0.3);
+  const Vec3 on_box(half.x() - can_radius / 2, 0,
+                    half.z() + can_half_length - resting_depth(scene));
+  const Pose home(turn * on_box, turn * about(Vec3::UnitZ(), 0.3));
+  const Vec3 pivot = turn * (on_box + Vec3(-can_radius, 0, -can_half_length));
+  const Pose start = turned_about(home, pivot, turn * Vec3::UnitY(), -lean);
+  scene.bodies = {fixed_body("box", Box(half), 0.5, Pose(Vec3::Zero(), turn)),
+                  moving_body("can", can, 0.5, start)};
+  return stay(scene, {home}, model);
+}
+
+/// One end is lifted.
+Measurement lying(ContactModel& model, double step) {
+  Scene scene = resting(step);
+  const Vec3 centre(0.1, -0.2, can_radius - resting_depth(scene));
+  const Eigen::Quaterniond turn = about(Vec3::UnitZ(), 0.4);
+  const Pose home(centre, turn * along_x() * about(Vec3::UnitZ(), 0.7));
+  const Vec3 pivot = centre + turn * Vec3(can_half_length, 0, -can_radius);
+  const Pose start = turned_about(home, pivot, turn * Vec3::UnitY(), lean);
+  scene.bodies = {ground(0.5), moving_body("can", can, 0.5, start)};
+  return stay(scene, {home}, model);
+}
+
+Measurement stack(ContactModel& model, double step) {
+  Scene scene = resting(step);
+  scene.solver_iterations = 200;
+  const double half = can_radius;  // as high as wide
+  scene.bodies = {ground(0.5)};
+  const char* names[] = {"lowest", "middle", "highest"};
+  const Vec3 aside[] = {Vec3::Zero(), Vec3(0.08, 0.03, 0), Vec3(0.02, -0.05, 0)};
+  std::vector<Pose> homes;
+  for (int i = 0; i < 3; ++i) {
+    const double height = (2 * i + 1) * half - (i + 1) * resting_depth(scene);
+    homes.emplace_back(aside[i] + height * Vec3::UnitZ(), about(Vec3::UnitZ(), 0.3 + i));
+    scene.bodies.push_back(moving_body(names[i], Cylinder(can_radius, half), 0.5, homes.back()));
+  }
+  return stay(scene, homes, model);
+}
+
+}  // namespace
+
+std::vector<Experiment> resting_experiments() {
+  const auto zero = [](double) { return 0.0; };
+  // A few surface layers, and what a body walks while it rocks.
+  const auto few_layers = [](double) { return 0.01; };
+  const char* const left = "kinetic energy that stays, in weight x radius";
+  const char* const way = "radii from its place";
+  return {
+      {"standing", "Let go on end on a plane, leaning by 0.6°, it comes to stand where it was.",
+       left, way, standing, zero, few_layers, true},
+      {"standing-on-box",
+       "A nudged cylinder on end, partly over the edges of a box tilted by 3°, stands still "
+       "again.",
+       left, way, standing_on_box, zero, few_layers, true},
+      {"lying",
+       "On its side on a plane, let go with one end lifted by 0.6°, it comes to lie where it was.",
+       left, way, lying, zero, few_layers, true},
+      {"stack", "Three cylinders on end, one upon another and not quite in line, stay for 10 s.",
+       left, way, stack, zero, few_layers, true}};
+}
+
+}  // namespace touchstone

@@ -1,0 +1,178 @@
+// Up to where does it hold? Each threshold is known on paper and found by bisection.
+#include <algorithm>
+#include <cmath>
+
+#include "simulation/experiment.hpp"
+#include "simulation/experiment_bodies.hpp"
+
+namespace touchstone {
+namespace {
+
+const Cylinder can(can_radius, can_half_length);
+
+constexpr int halvings = 12;
+
+/// The last value from `holds` towards `fails` at which `test` holds; what it is at the ends is
+/// taken for granted.
+template <class Test>
+double threshold(double holds, double fails, const Test& test) {
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = (holds + fails) / 2;
+    (test(middle) ? holds : fails) = middle;
+  }
+  return (holds + fails) / 2;
+}
+
+/// Runs until `still` fails; true if it never did.
+template <class Still>
+bool lasts(const Scene& scene, ContactModel& model, Tally& tally, const Still& still) {
+  Run run(scene, model, can_radius);
+  bool held = true;
+  while (held && run.step()) held = still(run.world());
+  tally.add(run.tally());
+  return held && !run.tally().unsound && !run.tally().unsupported;
+}
+
+double angle_between(const Vec3& a, const Vec3& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+// The centre of mass is above the rim where tan θ = r / h.
+double tipping_angle(double) { return std::atan2(can_radius, can_half_length); }
+
+Measurement tipping(ContactModel& model, double step) {
+  Tally tally;
+  const auto stands = [&](double slope) {
+    Scene scene;
+    scene.step = step;
+    scene.duration = 2;
+    constexpr double friction = 2;  // so that it tips before it slides
+    const Eigen::Quaterniond turn = about(Vec3::UnitZ(), 0.4) * about(Vec3::UnitY(), slope);
+    const Vec3 up = turn * Vec3::UnitZ();
+    const Vec3 centre = (can_half_length - resting_depth(scene)) * up;
+    scene.bodies = {
+        fixed_body("slope", Plane(Vec3::UnitZ(), 0), friction, Pose(Vec3::Zero(), turn)),
+        moving_body("can", can, friction, Pose(centre, turn * about(Vec3::UnitZ(), 0.3)))};
+    return lasts(scene, model, tally, [&](const World& world) {
+      const Pose& pose = world.states()[1].pose;
+      return angle_between(pose.axis(), up) < radians(3) &&
+             (pose.position() - centre).norm() < can_radius / 4;
+    });
+  };
+  const double expected = tipping_angle(step);
+  const double found = threshold(0, 2 * expected, stands);
+  return {found, std::abs(found / expected - 1), tally};
+}
+
+// Two logs a little apart and one upon them: each lower one is in balance if the friction at its
+// two contacts is the normal force times tan(φ/2), φ being the angle of the line of centres to the
+// vertical. The ground's friction is the same with a larger normal force.
+constexpr double half_spacing = 1.1 * can_radius;
+double pile_friction(double) { return std::tan(std::asin(half_spacing / (2 * can_radius)) / 2); }
+
+Measurement log_pile(ContactModel& model, double step) {
+  Tally tally;
+  const auto holds = [&](double friction) {
+    Scene scene;
+    scene.step = step;
+    scene.duration = 1;
+    const double depth = resting_depth(scene), low = can_radius - depth;
+    const double between = 2 * can_radius - depth;
+    const double high = low + std::sqrt(between * between - half_spacing * half_spacing);
+    const auto log = [&](const char* name, double y, double z) {
+      return moving_body(name, can, friction, Pose(Vec3(0, y, z), along_x()));
+    };
+    scene.bodies = {ground(friction), log("left", -half_spacing, low),
+                    log("right", half_spacing, low), log("top", 0, high)};
+    return lasts(scene, model, tally, [&](const World& world) {
+      constexpr double still = 0.02 * can_radius;
+      for (int i = 1; i <= 3; ++i) {
+        if ((world.states()[i].pose.position() - scene.bodies[i].pose.position()).norm() > still) {
+          return false;
+        }
+      }
+      return true;
+    });
+  };
+  const double expected = pile_friction(step);
+  const double found = threshold(4 * expected, 0, holds);
+  return {found, std::abs(found / expected - 1), tally};
+}
+
+// On its side across a box's edge it stays as long as its centre is above the box.
+Measurement across_edge(ContactModel& model, double step) {
+  Tally tally;
+  const auto stays = [&](double overhang) {
+    Scene scene;
+    scene.step = step;
+    scene.duration = 2;
+    const Vec3 half(0.6, 0.5, 0.3);
+    const Eigen::Quaterniond turn = about(Vec3::UnitZ(), 0.4);
+    const Vec3 centre(half.x() + overhang, 0, half.z() + can_radius - resting_depth(scene));
+    scene.bodies = {fixed_body("box", Box(half), 0.5, Pose(Vec3::Zero(), turn)),
+                    moving_body("can", can, 0.5, Pose(turn * centre, turn * along_x()))};
+    return lasts(scene, model, tally, [&](const World& world) {
+      return std::abs(world.states()[1].pose.axis().z()) < std::sin(radians(3));
+    });
+  };
+  const double found = threshold(-can_half_length, can_half_length, stays);
+  return {found / can_half_length, std::abs(found) / can_half_length, tally};
+}
+
+// A can that flies end first at a plate is found in it at least once while its centre is on the
+// near side, however its steps fall, up to one way through per step.
+constexpr double plate_half_thickness = 0.01;
+double tunnelling_speed(double step) { return (can_half_length + plate_half_thickness) / step; }
+
+Measurement tunnelling(ContactModel& model, double step) {
+  Tally tally;
+  const double expected = tunnelling_speed(step);
+  const auto is_stopped = [&](double speed) {
+    for (const double phase : {0.001, 0.25, 0.5, 0.75}) {
+      Scene scene;
+      scene.step = step;
+      scene.gravity = Vec3::Zero();
+      const double ahead = can_half_length + plate_half_thickness + phase * speed * step;
+      scene.duration = 3 * ahead / speed + 4 * step;
+      const Eigen::Quaterniond turn = about(Vec3(1, 2, 0.5).normalized(), 0.7);
+      Body flying = moving_body("can", can, 0.5, Pose(turn * Vec3(0.1, 0.2, ahead), turn));
+      flying.velocity = turn * Vec3(0, 0, -speed);
+      scene.bodies = {
+          fixed_body("plate", Box(Vec3(2, 2, plate_half_thickness)), 0.5, Pose(Vec3::Zero(), turn)),
+          flying};
+      if (!lasts(scene, model, tally, [&](const World& world) {
+            return world.states()[1].pose.position().dot(turn * Vec3::UnitZ()) > -can_half_length;
+          })) {
+        return false;
+      }
+    }
+    return true;
+  };
+  const double found = threshold(0, 2 * expected, is_stopped);
+  return {found, std::max(0.0, 1 - found / expected), tally};
+}
+
+}  // namespace
+
+std::vector<Experiment> threshold_experiments() {
+  return {{"tipping", "On a rising slope a cylinder on end tips where tan θ = r / h.",
+           "angle at which it tips, radians", "relative", tipping, tipping_angle,
+           // The layer lets it lean, and what a step gives it of speed adds to that.
+           [](double step) { return 0.004 + 2 * step; }},
+          {"log-pile",
+           "Two logs carry a third if friction is at least tan(φ/2), φ being the slope of the line "
+           "of centres to the vertical.",
+           "least friction that holds", "relative", log_pile, pile_friction,
+           // What slides less than the bar in a second counts as holding.
+           [](double) { return 0.01; }},
+          {"across-edge", "On its side across a box's edge it topples once its centre is beyond.",
+           "overhang of the centre at which it topples, in half lengths", "half lengths",
+           across_edge, [](double) { return 0.0; }, [](double) { return 0.002; }},
+          {"tunnelling",
+           "A cylinder that flies end first at a thin plate is stopped up to (half length + half "
+           "thickness) / step.",
+           "speed at which it passes through, m/s", "relative, slower only", tunnelling,
+           tunnelling_speed, [](double) { return 0.001; }}};
+}
+
+}  // namespace touchstone
