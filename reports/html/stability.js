@@ -1,7 +1,7 @@
 // Draws a "stability" object (docs/stability.md) into an element: charts of small steps, maps of
 // failure, motions.
 function drawStability(into, data) {
-  const colour = name => `var(--c${data.candidates.indexOf(name) % 8})`;
+  const colour = name => `var(${markOf(name).colour})`;
   const mark = name => element('span', {class: 'swatch', style: `background:${colour(name)}`, 'aria-hidden': 'true'});
   const select = (label, options, change) => {
     const list = element('select', {}, ...options.map(([value, text]) => element('option', {value}, text)));
