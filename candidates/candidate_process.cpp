@@ -185,10 +185,13 @@ bool CandidateProcess::prepare_timing(std::span<const Configuration> configurati
   return !configurations.empty() && !obey(Command::warm_up, 0, 0);
 }
 
-std::optional<double> CandidateProcess::nanoseconds_per_query() {
+std::optional<QueryCost> CandidateProcess::cost_per_query() {
   if (session_ < 0 || obey(Command::time, 0, 0)) return std::nullopt;
-  const double nanoseconds = plugin_.state_->exchange->nanoseconds;
-  return std::isfinite(nanoseconds) ? std::optional(nanoseconds) : std::nullopt;
+  const Exchange& exchange = *plugin_.state_->exchange;
+  if (!std::isfinite(exchange.nanoseconds)) return std::nullopt;
+  QueryCost cost{exchange.nanoseconds, std::nullopt};
+  if (std::isfinite(exchange.instructions)) cost.instructions = exchange.instructions;
+  return cost;
 }
 
 std::vector<CandidateProcess> start(const std::vector<const Candidate*>& candidates,

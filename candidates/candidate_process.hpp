@@ -25,6 +25,12 @@ struct Answer : ts_answer {
   std::optional<double> model_distance;  ///< of what a simplified model stands for, metres
 };
 
+/// What one query costs.
+struct QueryCost {
+  double nanoseconds;
+  std::optional<double> instructions;  ///< in user space; absent where they cannot be counted
+};
+
 /// A plug-in, loaded in a process of its own: symbols, global state and misdeeds of one plug-in
 /// cannot reach another, nor this process. Throws InvalidInput (field "--candidate") when it cannot
 /// be loaded.
@@ -71,7 +77,7 @@ class CandidateProcess {
   bool prepare_timing(std::span<const Configuration> configurations);
   /// One round over what was prepared: the clock is read by the candidate's process around a loop
   /// of calls and nothing else. Absent if it died.
-  std::optional<double> nanoseconds_per_query();
+  std::optional<QueryCost> cost_per_query();
 
  private:
   void begin();

@@ -128,6 +128,10 @@ TEST(Fcl, AnswersTheSameUpsideDown) {  // drake #8049, as it was mended
 
 // libccd
 
+TEST(Libccd, IsNamedByDebiansVersionNotByItsPkgConfigFiles) {
+  EXPECT_EQ(find_candidate("libccd-mpr").version, "2.1");
+}
+
 TEST(Libccd, MprAnswersExactTouchWithAZeroNormal) {  // fcl #375, of libccd 2.1
   const Answer a = answer("libccd-mpr", disc_on_plate);
   ASSERT_EQ(a.status, TS_CONTACT);

@@ -31,6 +31,7 @@ struct Exchange {
   std::atomic<std::uint32_t> done;  ///< slots of this batch that are finished
   char thrown[240];                 ///< what an uncaught exception said
   double nanoseconds;               ///< per query, of the last timed round
+  double instructions;              ///< likewise; NaN where they cannot be counted
   Slot slots[batch];
 };
 

@@ -1,4 +1,4 @@
-// libccd 2.1 by itself, in double precision; its pkg-config file calls it 2.0.
+// libccd 2.1 by itself, in double precision.
 //
 // Calls        libccd-gjk: ccdGJKPenetration (GJK, then EPA). libccd-mpr: ccdMPRPenetration.
 // Shapes       Exact support functions, as in libccd's own test suite; a half-space has none and is

@@ -125,6 +125,9 @@ PluginProcess::PluginProcess(const std::filesystem::path& file) : state_(new Sta
   if (s.pid == 0) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != s.owner) _exit(0);  // it died before that
+    // A terminal's Ctrl-C goes to all of its processes; this one ends with its parent.
+    signal(SIGINT, SIG_IGN);
+    signal(SIGTERM, SIG_IGN);
     close(ends[0]);
     const int nothing = open("/dev/null", O_RDONLY);
     dup2(nothing, STDIN_FILENO);

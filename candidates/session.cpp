@@ -13,9 +13,11 @@
 namespace touchstone {
 namespace {
 
-/// A round of timing takes about this long, so that slow candidates do not take minutes.
+/// A round of timing takes at most about this long, so that slow candidates do not take minutes …
 constexpr std::chrono::microseconds round_time(500);
 constexpr std::size_t fewest_timed = 10;
+/// … and at least this long, so that what another process left in the caches does not count.
+constexpr std::chrono::microseconds least_round_time(200);
 
 /// Where a candidate writes its answer: the page behind is out of bounds, so that one point too
 /// many is a crash wherever it is written, and the same one on every run.
@@ -132,19 +134,29 @@ void Session::warm_up() {
     used += std::chrono::steady_clock::now() - start;
     kept_.push_back({prepared, q.pose_a, q.pose_b});
   }
+  const auto start = std::chrono::steady_clock::now();
+  query_all();
+  const auto once = std::max<std::chrono::steady_clock::duration>(
+      std::chrono::steady_clock::now() - start, std::chrono::nanoseconds(1));
+  passes_ = 1 + static_cast<std::size_t>(least_round_time / once);
+}
+
+void Session::query_all() {
+  // The call goes through a function pointer, which no optimiser removes.
+  for (const Kept& k : kept_) candidate_.query(k.prepared, &k.a, &k.b, nullptr, answer_);
 }
 
 void Session::time() {
-  // The process has slept since the last round: its first queries find cold caches.
-  for (std::size_t i = 0; i < std::min(fewest_timed, kept_.size()); ++i) {
-    candidate_.query(kept_[i].prepared, &kept_[i].a, &kept_[i].b, nullptr, answer_);
-  }
+  query_all();  // the process has slept since the last round: its caches are cold
+  counter_.start();
   const auto start = std::chrono::steady_clock::now();
-  // The call goes through a function pointer, which no optimiser removes.
-  for (const Kept& k : kept_) candidate_.query(k.prepared, &k.a, &k.b, nullptr, answer_);
+  for (std::size_t pass = 0; pass < passes_; ++pass) query_all();
   const auto end = std::chrono::steady_clock::now();
-  exchange_.nanoseconds = std::chrono::duration<double, std::nano>(end - start).count() /
-                          static_cast<double>(kept_.size());
+  const auto instructions = counter_.stop();
+  const auto queries = static_cast<double>(passes_ * kept_.size());
+  exchange_.nanoseconds = std::chrono::duration<double, std::nano>(end - start).count() / queries;
+  exchange_.instructions = instructions ? static_cast<double>(*instructions) / queries
+                                        : std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace touchstone

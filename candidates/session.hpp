@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "candidates/exchange.hpp"
+#include "candidates/instruction_counter.hpp"
 
 namespace touchstone {
 
@@ -28,6 +29,7 @@ class Session {
   ts_prepared* prepare(const Question& question);
   void answer(std::uint32_t slot);
   void warm_up();
+  void query_all();  ///< that is kept for timing, once
   void time();
 
   const ts_candidate& candidate_;
@@ -37,6 +39,8 @@ class Session {
   ts_answer* answer_;
   std::vector<Question> questions_;
   std::vector<Kept> kept_;
+  std::size_t passes_ = 1;  ///< over them in one timed round
+  InstructionCounter counter_;
 };
 
 }  // namespace touchstone

@@ -8,10 +8,10 @@
 #include "campaigns/result.hpp"
 #include "campaigns/run.hpp"
 #include "campaigns/shard_place.hpp"
-#include "campaigns/stop_signals.hpp"
 #include "cli/commands.hpp"
 #include "cli/options.hpp"
 #include "reference/invalid_input.hpp"
+#include "reports/interruption.hpp"
 #include "reports/terminal_table.hpp"
 #include "reports/worst.hpp"
 
@@ -83,15 +83,6 @@ void print_plan(const Options& options, const Progressed& progressed) {
   fmt::print(stderr, "{}; workers: {}\n", text, options.workers);
 }
 
-/// Returns the signal that stopped it, or zero when all is done.
-int run_until_stopped(const Campaign& campaign, Progressed& progressed, const ShardPlace& place,
-                      const Options& options, bool speaks) {
-  const StopSignals signals;
-  const bool done = run_shard(campaign, progressed, place.file(), {options.interval, speaks},
-                              [&] { return signals.caught() == 0; });
-  return done ? 0 : signals.caught();
-}
-
 int run(const Options& options) {
   if (!(std::isfinite(options.interval) && options.interval > 0)) {
     throw InvalidInput("--checkpoint", fmt::format("{}", options.interval),
@@ -104,12 +95,15 @@ int run(const Options& options) {
   const bool speaks = !under_mpirun() || shard.number == 1;
   if (speaks) print_plan(options, progressed);
 
-  if (const int signal = run_until_stopped(campaign, progressed, place, options, speaks)) {
+  const Interruption interruption;
+  const bool done = run_shard(campaign, progressed, place.file(), {options.interval, speaks},
+                              [] { return !interrupted(); });
+  if (!done) {
     if (speaks) {
       fmt::print(stderr, "Stopped ({}); all that was done is in {}. To go on:\n  {}\n",
-                 strsignal(signal), place.file().string(), options.resuming());
+                 strsignal(interrupting_signal()), place.file().string(), options.resuming());
     }
-    return 128 + signal;
+    return interrupted_exit_code();
   }
   Merge merge;
   if (under_mpirun()) {

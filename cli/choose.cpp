@@ -108,7 +108,7 @@ void add_choose(CLI::App& program, int& exit_code) {
   command->add_flag("--json", options->json, "Print choose.json instead of text");
   command
       ->add_option("--workers", options->workers, "Worker processes; they do not change the runs")
-      ->capture_default_str();
+      ->default_str("one a core");
   const char* robots = "Of a robot or world";
   PairNeeds& pairs = options->pairs;
   command->add_option("--depth", pairs.depth, "Largest depth error, metres")

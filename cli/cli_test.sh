@@ -28,7 +28,7 @@ expect 2 '--completion.*bash or zsh' --completion fish
 expect 0 '^\.TH touchstone 1' --manual
 expect 0 'bullet 3' candidates
 expect 2 'subcommand is required'
-expect 2 'report, replay, solve, certify, check' nonsense
+expect 2 'report, replay, solve, certify, check, compare, ' nonsense
 expect 2 'identity.pair' replay cylinder-cone/rim/1/2
 expect 2 'identity.class' replay cylinder-box/none/1/2
 expect 2 'input is required' replay
@@ -66,6 +66,13 @@ expect 1 'shallow\|overdeep\|missed' search --candidate capsule --pair cylinder-
 expect 0 'as expected' check --corpus "$folder/found"
 expect 0 'capsule: contact, \|capsule: none, ' replay "$(ls "$folder"/found/*.json | head -n 1)" --candidates capsule
 
+expect 2 'must be one of standing, ' simulate juggling
+expect 2 '--step.*0.1 s' simulate rolling --step 0
+expect 2 '--workers' simulate rolling --workers 0
+expect 2 '--out' simulate rolling --out /proc/none
+expect 0 'reference  *=' simulate rolling --candidates reference --step 0.01
+expect 0 '"exact":true' simulate rolling --candidates reference --step 0.01 --json --out "$folder/simulated"
+grep -q '"rolling"' "$folder/simulated/experiments.json" || { echo "FAILED: no experiments.json"; failures=$((failures + 1)); }
 expect 2 '--candidate' check
 expect 2 '--law.*agreement' check --candidate bullet --law gravity
 expect 2 '--class' check --candidate bullet --class nowhere
@@ -111,6 +118,27 @@ if [ "$("$program" certify - <<<"$line")" != "$("$program" certify cylinder-box/
   failures=$((failures + 1))
 fi
 
+"$program" certify cylinder-box/rim-face/1/2 >"$folder/proof.json"
+r="$folder/a b/report.json"
+expect 0 'No change' compare "$r" "$r" --html "$folder/compare.html"
+grep -q 'cylinder-plane' "$folder/compare.html" || { echo "FAILED: no page of compare"; failures=$((failures + 1)); }
+expect 0 '"changes":\[\]' compare "$r" "$r" --json
+python3 - "$r" "$folder/worse.json" <<'END'
+import json, sys
+report = json.load(open(sys.argv[1]))
+row = next(r for r in report["results"] if r["class"] == "lying" and r["candidate"] == "bullet")
+row["depth_error"] = {q: 3 * v + 1e-3 for q, v in row["depth_error"].items()}
+json.dump(report, open(sys.argv[2], "w"))
+END
+expect 1 'cylinder-plane/lying  bullet' compare "$r" "$folder/worse.json"
+expect 0 'smaller changes' compare "$r" "$folder/worse.json" --max-error-factor 1e300
+expect 0 'Better: 1' compare "$folder/worse.json" "$r"
+expect 2 'none.json.*could not be opened' compare "$r" "$folder/none.json"
+expect 2 'junit.xml.*is no JSON' compare "$folder/junit.xml" "$r"
+expect 2 'proof.json: schema is .* must be 1' compare "$folder/proof.json" "$r"
+expect 2 '--max-error-factor is 0.5' compare "$r" "$r" --max-error-factor 0.5
+expect 2 '--html' compare "$r" "$r" --html "$folder/none/compare.html"
+
 expect 2 '--emit.*havok.*must be one of bullet, ode, fcl, libccd, mujoco' \
   replay cylinder-box/rim-face/1/2 --emit havok
 expect 2 '--emit.*libccd.*half-space' replay cylinder-plane/general-deep/1/2 --emit libccd
@@ -122,10 +150,10 @@ echo '{"configuration":{"a":{"shape":"cylinder","radius":1,"half_length":1},"b":
   >"$folder/saved.json"
 expect 0 'btSphereShape shape_b' replay "$folder/saved.json" --emit bullet
 
-expect 2 -- '--part.*amplification, maps, sequences' stability --part nothing --out "$folder/s"
-expect 2 -- '--count' stability --count 0
-expect 2 -- '--class' stability --class nowhere
-expect 2 -- '--part' stability cylinder-box/rim-face/1/2 --part maps
+expect 2 '--part.*amplification, maps, sequences' stability --part nothing --out "$folder/s"
+expect 2 '--count' stability --count 0
+expect 2 '--class' stability --class nowhere
+expect 2 '--part' stability cylinder-box/rim-face/1/2 --part maps
 expect 2 'leaves no choice' stability cylinder-box/rim-face/1/2 --pair cylinder-box
 expect 2 'identity.class' stability cylinder-box/none/1/2
 expect 0 'depth x' stability cylinder-plane/standing/1/0 --candidates reference,ode --count 2 --out "$folder/s"

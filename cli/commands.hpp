@@ -12,6 +12,7 @@ void add_replay(CLI::App& program, int& exit_code);
 void add_solve(CLI::App& program, int& exit_code);
 void add_certify(CLI::App& program, int& exit_code);
 void add_check(CLI::App& program, int& exit_code);
+void add_compare(CLI::App& program, int& exit_code);
 void add_campaign(CLI::App& program, int& exit_code);
 void add_merge(CLI::App& program, int& exit_code);
 void add_simulate(CLI::App& program, int& exit_code);

@@ -72,7 +72,9 @@ int main(int argc, char** argv) {
       "  touchstone check --candidate bullet                 laws, and the smallest failures\n"
       "  touchstone simulate rolling                         contacts at work, against paper\n"
       "  touchstone stability                                tiny steps near degenerate poses\n"
-      "Exit codes: 0 done; 1 a law was broken; 2 bad input or usage; 3 an internal contradiction.");
+      "  touchstone compare old.json out/report.json         better, worse, slower\n"
+      "Exit codes: 0 done; 1 a law was broken or a result is worse; 2 bad input or usage; 3 an "
+      "internal contradiction;\n130 interrupted.");
   program.fallthrough();  // --candidate may also stand after the subcommand
   touchstone::add_plugin_option(program);
   int exit_code = 0;
@@ -81,6 +83,7 @@ int main(int argc, char** argv) {
   touchstone::add_solve(program, exit_code);
   touchstone::add_certify(program, exit_code);
   touchstone::add_check(program, exit_code);
+  touchstone::add_compare(program, exit_code);
   touchstone::add_campaign(program, exit_code);
   touchstone::add_merge(program, exit_code);
   touchstone::add_simulate(program, exit_code);

@@ -8,6 +8,7 @@
 #include "cli/options.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/figures/figures.hpp"
+#include "reports/interruption.hpp"
 #include "reports/terminal_table.hpp"
 #include "reports/worst.hpp"
 #include "simulation/run_experiments.hpp"
@@ -58,12 +59,17 @@ struct Options {
   }
 };
 
-void run(const Options& options) {
+int run(const Options& options) {
   const Campaign campaign = options.campaign();
   check_writable(options.out);
   if (!options.figures.empty()) check_figures(options.figures);
+  const Interruption interruption;
   nlohmann::json report = make_report(campaign, options.command_line());
-  if (options.is_whole()) {
+  if (report["results"].empty()) {
+    fmt::print(stderr, "Interrupted before any pose class was done: there is no report.\n");
+    return interrupted_exit_code();
+  }
+  if (options.is_whole() && !interrupted()) {
     const Study study{campaign.candidates, campaign.bar, campaign.limits, campaign.workers};
     report["stability"] = stability(brief(study, campaign.pairs, campaign.seed));
     report["experiments"] = run_experiments(options.experiments());
@@ -73,20 +79,22 @@ void run(const Options& options) {
              terminal_table(report), report["configurations"].get<std::uint64_t>(),
              report["wall_seconds"].get<double>());
   fmt::print("Report: {}/report.html, {}/report.json\n", options.out, options.out);
-  if (options.figures.empty()) return;
-  write_figures(report, options.figures);
-  fmt::print("Figures: {}\n", options.figures);
+  if (!options.figures.empty()) {
+    write_figures(report, options.figures);
+    fmt::print("Figures: {}\n", options.figures);
+  }
+  return report["partial"].get<bool>() ? interrupted_exit_code() : 0;
 }
 
 }  // namespace
 
-void add_report(CLI::App& program, int&) {
+void add_report(CLI::App& program, int& exit_code) {
   CLI::App* command =
       program.add_subcommand("report", "Score all candidates; write out/report.html");
   const auto options = std::make_shared<Options>(*command);
   command
       ->add_option("--workers", options->workers, "Worker processes; they do not change the result")
-      ->capture_default_str();
+      ->default_str("one a core");
   command->add_option("--out", options->out, "Folder for report.json and report.html")
       ->capture_default_str();
   command->add_option("--figures", options->figures,
@@ -96,8 +104,9 @@ void add_report(CLI::App& program, int&) {
       "  touchstone report\n"
       "  touchstone report --pair cylinder-box --count 1000 --seed 7\n"
       "  touchstone report --candidates reference,bullet --class rim-rim,touching\n"
-      "  touchstone report --figures figures");
-  command->callback([options] { run(*options); });
+      "  touchstone report --figures figures\n"
+      "Ctrl-C ends with a report of what is done by then, marked partial (exit code 130).");
+  command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 
 }  // namespace touchstone

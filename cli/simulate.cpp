@@ -76,7 +76,7 @@ void add_simulate(CLI::App& program, int&) {
       ->delimiter(',');
   command
       ->add_option("--workers", options->workers, "Worker processes; they do not change the result")
-      ->capture_default_str();
+      ->default_str("one a core");
   command->add_option("--out", options->out, "Folder for experiments.json");
   command->add_flag("--json", options->json, "Print one JSON object");
   command->footer(

@@ -114,7 +114,7 @@ void add_stability(CLI::App& program, int&) {
       ->capture_default_str();
   command
       ->add_option("--workers", options->workers, "Worker processes; they do not change the result")
-      ->capture_default_str();
+      ->default_str("one a core");
   command->add_option("--out", options->out, "Folder for stability.json and stability.html")
       ->capture_default_str();
   command->add_flag("--json", options->json, "Print the result as one JSON object");

@@ -14,7 +14,8 @@ for file in bin/touchstone lib/touchstone/touchstone-reference.so include/touchs
   include/touchstone/touchstone.hpp lib/libtouchstone_reference.a \
   lib/cmake/touchstone/touchstoneConfig.cmake share/man/man1/touchstone.1 \
   share/bash-completion/completions/touchstone share/zsh/vendor-completions/_touchstone \
-  share/doc/touchstone/copyright share/touchstone/check_certificate.py; do
+  share/doc/touchstone/copyright share/touchstone/check_certificate.py \
+  share/touchstone/scenes/wheel-on-road.json; do
   grep -qx "./usr/$file" "$folder/files" || fail "the package lacks $file"
 done
 for plugin in "$1"/candidates/touchstone-*.so; do

@@ -7,10 +7,10 @@
 #include "laws/hint_law.hpp"
 #include "laws/law.hpp"
 #include "laws/moves.hpp"
-#include "laws/point_distance.hpp"
 #include "oracle/patch/contact_patch.hpp"
 #include "oracle/truth.hpp"
 #include "reference/invalid_input.hpp"
+#include "reports/point_distance.hpp"
 
 namespace touchstone {
 namespace {
@@ -226,11 +226,7 @@ std::optional<Violation> judge_points(const Configuration& c, Answers answers, c
   const Answer& a = answers[0];
   const double size = smaller_size(c);
   for (int i = 0; a.status == TS_CONTACT && i < a.point_count; ++i) {
-    const Vec3 p = vector(a.points[i].position);
-    const double depth = std::abs(a.points[i].depth);
-    const double off = std::max(std::abs(point_distance(c.a, c.pose_a, p)),
-                                std::abs(point_distance(c.b, c.pose_b, p)));
-    const double excess = (off - depth) / size;
+    const double excess = point_excess(c, a.points[i]) / size;
     if (excess <= bar.tolerance) continue;
     return Violation{"off-body", excess,
                      fmt::format("point {} is {:.3g} of the smaller size farther from a surface "
@@ -319,8 +315,9 @@ const std::vector<Law>& all_laws() {
       {"manifold", "Of exactly aligned bodies the points cover at least 0.3 of the contact patch.",
        always, nothing_else, judge_manifold},
       {"hint",
-       "Pressed in by a tenth of the tolerance, and told its normal, it keeps to it within 10 "
-       "degrees unless another one has become better by more; no hint makes it wrong.",
+       "With the normal as hint, and A pressed in along it by a tenth of the tolerance, the "
+       "normal turns by more than 10 degrees only where another is better; no hint makes a right "
+       "answer wrong.",
        always, nothing_else, judge_hint, hinted_frames, hint_threshold},
       {"memory", "The answer does not depend on what was asked before, to the last bit.", always,
        ask_again, judge_again},

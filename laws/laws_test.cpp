@@ -6,7 +6,6 @@
 #include "candidates/candidates.hpp"
 #include "laws/check.hpp"
 #include "laws/moves.hpp"
-#include "laws/point_distance.hpp"
 #include "properties/arbitrary.hpp"
 #include "properties/simplify.hpp"
 #include "reference/contact_of.hpp"
@@ -208,21 +207,6 @@ TEST(Moves, LeaveTheGeometryAsTheySay) {
     near(scaled(c, 4), 4 * distance);
     if (pair == Pair::cylinder) near(exchanged(c), distance);
   }
-}
-
-TEST(PointDistance, OfEveryShape) {
-  const Pose at({1, 2, 3}, {1, 0, 0, 0});
-  const auto distance = [&](const Shape& s, const Vec3& p) { return point_distance(s, at, p); };
-  EXPECT_DOUBLE_EQ(distance(Cylinder(1, 2), {4, 2, 3}), 2);
-  EXPECT_DOUBLE_EQ(distance(Cylinder(1, 2), {5, 2, 9}), 5);
-  EXPECT_DOUBLE_EQ(distance(Cylinder(1, 2), {1.25, 2, 3}), -0.75);
-  EXPECT_DOUBLE_EQ(distance(Cylinder(1, 2), {1, 2, 4.5}), -0.5);
-  EXPECT_DOUBLE_EQ(distance(Capsule(1, 2), {1, 2, 7}), 1);
-  EXPECT_DOUBLE_EQ(distance(Capsule(1, 2), {1, 2, 3}), -1);
-  EXPECT_DOUBLE_EQ(distance(Sphere(1), {1, 2, 5}), 1);
-  EXPECT_DOUBLE_EQ(distance(Box({1, 1, 1}), {5, 2, 7}), std::hypot(3, 3));
-  EXPECT_DOUBLE_EQ(distance(Box({1, 2, 3}), {1, 2, 3}), -1);
-  EXPECT_DOUBLE_EQ(distance(Plane({0, 0, 2}, 2), {0, 0, 5}), 1);
 }
 
 }  // namespace

@@ -123,6 +123,7 @@ json to_json(const ts_answer& answer, const Score& score, Order order) {
             {"depth_error", number(score.depth_error)},
             {"normal_regret", number(score.normal_regret)},
             {"normal_angle", number(score.normal_angle)},
+            {"point_error", number(score.point_error)},
             {"coverage", number(score.coverage)}}}};
 }
 

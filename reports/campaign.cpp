@@ -18,8 +18,8 @@ struct Record {
   Outcome outcome;
   int points;
   double severity;
-  double values[6];
-  bool present[6];
+  double values[7];
+  bool present[7];
 };
 
 Record to_record(const Score& s) {
@@ -28,8 +28,9 @@ Record to_record(const Score& s) {
   r.points = s.points;
   r.severity = s.severity;
   const std::optional<double>* values[] = {&s.depth_error, &s.normal_regret, &s.normal_angle,
-                                           &s.coverage,    &s.model_error,   &s.solver_error};
-  for (int i = 0; i < 6; ++i) {
+                                           &s.coverage,    &s.model_error,   &s.solver_error,
+                                           &s.point_error};
+  for (int i = 0; i < std::ssize(values); ++i) {
     r.present[i] = values[i]->has_value();
     r.values[i] = values[i]->value_or(0);
   }
@@ -48,6 +49,7 @@ Score from_record(const Record& r) {
   s.coverage = value(3);
   s.model_error = value(4);
   s.solver_error = value(5);
+  s.point_error = value(6);
   s.points = r.points;
   s.severity = r.severity;
   return s;
@@ -76,7 +78,7 @@ CellScores parse_cell(const Campaign& campaign, const std::string& bytes) {
     std::memcpy(&value, at, sizeof value);
     at += sizeof value;
   };
-  for (std::uint64_t i = 0; i < campaign.count; ++i) {
+  for (std::uint64_t i = 0; i < campaign.count && !bytes.empty(); ++i) {
     take(result.oracle_microseconds.emplace_back());
     take(result.signed_distance.emplace_back());
     for (auto& scores : result.scores) {

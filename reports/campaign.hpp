@@ -31,11 +31,14 @@ struct Cell {
 /// In report order. Throws InvalidInput when a class belongs to none of the pairs.
 std::vector<Cell> cells(const Campaign& campaign);
 
-/// The scores of one cell: scores[candidate][index].
+/// The scores of one cell: scores[candidate][index]; none if the campaign was interrupted before it
+/// was done.
 struct CellScores {
   std::vector<std::vector<Score>> scores;
   std::vector<double> oracle_microseconds;
   std::vector<double> signed_distance;  ///< true, metres
+
+  bool done() const { return !oracle_microseconds.empty(); }
 };
 
 /// One configuration's scores, in the order of the candidates.
@@ -56,7 +59,8 @@ void score_range(const Campaign& campaign, std::vector<CandidateProcess>& candid
 /// Scores every cell, spread over worker processes, in each of which every candidate has a process
 /// of its own and a new session for each cell: the result does not depend on how many there are,
 /// nor on what other candidates do. Progress goes to standard error. Throws std::runtime_error
-/// naming the cell if a worker itself dies.
+/// naming the cell if a worker itself dies. When an end is asked for (interruption.hpp), cells that
+/// are not done by then have no scores.
 std::vector<CellScores> run(const Campaign& campaign);
 
 }  // namespace touchstone

@@ -44,7 +44,8 @@ std::string answer_text(const std::string& name, const json& a) {
   text += fmt::format("  depth error {}, normal regret {} (of the smaller size), angle {} deg\n",
                       short_number(score["depth_error"]), short_number(score["normal_regret"]),
                       short_number(score["normal_angle"]));
-  text += fmt::format("  coverage {} of the contact patch\n", short_number(score["coverage"]));
+  text += fmt::format("  coverage {} of the contact patch, points off the bodies by {}\n",
+                      short_number(score["coverage"]), short_number(score["point_error"]));
   for (const json& p : a["points"]) {
     text += fmt::format("  point {}\n    depth {}\n", vector(p["position"]), number(p["depth"]));
   }

@@ -11,7 +11,10 @@
 #include "reference/invalid_input.hpp"
 #include "reports/drake_protocol.hpp"
 #include "reports/html/html.hpp"
+#include "reports/interruption.hpp"
 #include "reports/machine.hpp"
+#include "reports/pareto.hpp"
+#include "reports/report_file.hpp"
 #include "reports/statistics.hpp"
 #include "reports/timing.hpp"
 #include "reports/trends.hpp"
@@ -21,7 +24,6 @@ namespace touchstone {
 namespace {
 
 using nlohmann::json;
-using Times = std::vector<std::vector<std::optional<QueryTime>>>;
 
 json to_json(const std::optional<Quantiles>& q) {
   if (!q) return nullptr;
@@ -51,6 +53,7 @@ json to_json(const Statistics& s) {
           {"depth_error", to_json(s.depth_error, s.depth_histogram)},
           {"normal_regret", to_json(s.normal_regret, s.regret_histogram)},
           {"normal_angle", to_json(s.normal_angle)},
+          {"point_error", to_json(s.point_error)},
           {"model_error", to_json(s.model_error)},
           {"solver_error", to_json(s.solver_error)},
           {"points", points},
@@ -63,17 +66,29 @@ struct Group {
   std::string pair, pose_class;
 };
 
-/// Over several cells: the median of their medians, and of their spreads.
-std::optional<QueryTime> median_time(const Times& times, const Group& group, std::size_t k) {
-  std::vector<double> medians, spreads;
-  for (const std::size_t cell : group.cells) {
-    if (!times[cell][k]) continue;
-    medians.push_back(times[cell][k]->median);
-    spreads.push_back(times[cell][k]->spread);
+json time_json(const Campaign& campaign, const Times& times, const Group& group, std::size_t k) {
+  const auto time = query_time(times, group.cells, k);
+  if (!time) return nullptr;
+  const auto& [median, low, high] = time->nanoseconds;
+  json result = {{"median", median},
+                 {"low", low},
+                 {"high", high},
+                 {"spread", high - low},
+                 {"repetitions", timing_repetitions},
+                 {"instructions", nullptr},
+                 {"ratio_to_bullet", nullptr},
+                 {"ratio_low", nullptr},
+                 {"ratio_high", nullptr}};
+  if (time->instructions) result["instructions"] = *time->instructions;
+  for (std::size_t b = 0; b < campaign.candidates.size(); ++b) {
+    if (campaign.candidates[b]->name != "bullet") continue;
+    if (const auto ratio = time_ratio(times, group.cells, k, b)) {
+      result["ratio_to_bullet"] = ratio->median;
+      result["ratio_low"] = ratio->low;
+      result["ratio_high"] = ratio->high;
+    }
   }
-  const auto median = quantiles(medians), spread = quantiles(spreads);
-  if (!median) return std::nullopt;
-  return QueryTime{median->median, spread->median};
+  return result;
 }
 
 json entry(const Campaign& campaign, const std::vector<CellScores>& scores, const Times& times,
@@ -86,17 +101,7 @@ json entry(const Campaign& campaign, const std::vector<CellScores>& scores, cons
   result["pair"] = group.pair;
   result["class"] = group.pose_class;
   result["candidate"] = campaign.candidates[k]->name;
-  result["nanoseconds"] = nullptr;
-  if (const auto time = median_time(times, group, k)) {
-    result["nanoseconds"] = {
-        {"median", time->median}, {"spread", time->spread}, {"ratio_to_bullet", nullptr}};
-    for (std::size_t b = 0; b < campaign.candidates.size(); ++b) {
-      if (campaign.candidates[b]->name != "bullet") continue;
-      if (const auto bullet = median_time(times, group, b)) {
-        result["nanoseconds"]["ratio_to_bullet"] = time->median / bullet->median;
-      }
-    }
-  }
+  result["nanoseconds"] = time_json(campaign, times, group, k);
   return result;
 }
 
@@ -109,6 +114,32 @@ json entries(const Campaign& campaign, const std::vector<CellScores>& scores, co
     }
   }
   return result;
+}
+
+/// Adds to the rows of one group of candidates which are on the front of speed and accuracy, and
+/// whose times tie.
+void rank(json& rows, std::size_t first, std::size_t count) {
+  /// Half an ulp of the size or less: no difference in accuracy.
+  constexpr double no_error = 1e-17;
+  std::vector<std::size_t> placed;
+  std::vector<SpeedAccuracy> places;
+  for (std::size_t i = first; i < first + count; ++i) {
+    json& row = rows[i];
+    row["pareto"] = nullptr;
+    row["tied_with"] = json::array();
+    const json &time = row["nanoseconds"], &error = row["depth_error"];
+    if (time.is_null() || error.is_null()) continue;
+    placed.push_back(i);
+    places.push_back({time["low"], time["high"], std::max(error["p99"].get<double>(), no_error)});
+  }
+  const std::vector<bool> front = pareto_front(places);
+  for (std::size_t i = 0; i < placed.size(); ++i) {
+    rows[placed[i]]["pareto"] = static_cast<bool>(front[i]);
+    for (std::size_t k = 0; k < placed.size(); ++k) {
+      if (k == i || !tied_in_time(places[i], places[k])) continue;
+      rows[placed[i]]["tied_with"].push_back(rows[placed[k]]["candidate"]);
+    }
+  }
 }
 
 void write_whole(const std::filesystem::path& file, const std::string& text) {
@@ -129,11 +160,16 @@ json make_report(const Campaign& campaign, const std::string& command) {
   const std::vector<Cell> all = cells(campaign);
   const std::vector<CellScores> scores = run(campaign);
   const Times times = time_queries(campaign, scores);
+  const bool partial = interrupted();
 
   std::vector<Group> single, summary;
   Group everything{{}, "all", "all"};
   json classes = json::array();
+  std::size_t timed = 0;
   for (std::size_t i = 0; i < all.size(); ++i) {
+    if (!scores[i].done()) continue;
+    const auto has_times = [](const Repetitions& r) { return !r.empty(); };
+    timed += std::any_of(times[i].begin(), times[i].end(), has_times);
     const char* pair = pair_name(all[i].pair);
     single.push_back({{i}, pair, all[i].pose_class});
     if (summary.empty() || summary.back().pair != pair) summary.push_back({{}, pair, "all"});
@@ -158,25 +194,36 @@ json make_report(const Campaign& campaign, const std::string& command) {
     oracle_times.insert(oracle_times.end(), s.oracle_microseconds.begin(),
                         s.oracle_microseconds.end());
   }
+  json rows = entries(campaign, scores, times, summary);
+  for (std::size_t i = 0; i < rows.size(); i += campaign.candidates.size()) {
+    rank(rows, i, campaign.candidates.size());
+  }
+  const json worst = worst_cases(campaign, scores);
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return {{"schema", 1},
+  return {{"schema", report_schema},
           {"version", TOUCHSTONE_VERSION},
           {"command", command},
           {"seed", campaign.seed},
           {"tolerance", campaign.bar.tolerance},
           {"threshold", campaign.bar.threshold},
           {"machine", describe_machine()},
-          {"configurations", all.size() * campaign.count},
+          {"configurations", single.size() * campaign.count},
+          {"partial", partial},
+          {"planned", {{"classes", all.size()}, {"configurations", all.size() * campaign.count}}},
+          {"completed",
+           {{"classes", single.size()},
+            {"configurations", single.size() * campaign.count},
+            {"timed_classes", timed}}},
           {"wall_seconds", seconds},
           {"oracle_microseconds", to_json(quantiles(oracle_times))},
           {"candidates", candidates},
           {"classes", classes},
           {"results", entries(campaign, scores, times, single)},
-          {"summary", entries(campaign, scores, times, summary)},
+          {"summary", rows},
           {"trends", trends(campaign, scores)},
-          {"drake_protocol", drake_protocol(campaign)},
-          {"worst", worst_cases(campaign, scores)}};
+          {"drake_protocol", partial ? json(nullptr) : drake_protocol(campaign)},
+          {"worst", worst}};
 }
 
 void check_writable(const std::filesystem::path& folder) {

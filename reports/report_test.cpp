@@ -1,5 +1,6 @@
 #include "reports/report.hpp"
 
+#include <csignal>
 #include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,6 +8,7 @@
 
 #include "candidates/candidates.hpp"
 #include "reference/invalid_input.hpp"
+#include "reports/interruption.hpp"
 #include "reports/replay.hpp"
 #include "reports/solve.hpp"
 #include "reports/terminal_table.hpp"
@@ -36,7 +38,9 @@ Campaign small_campaign(unsigned workers = 2) {
 
 json without_timing(json report) {
   for (const char* list : {"results", "summary"}) {
-    for (json& row : report[list]) row.erase("nanoseconds");
+    for (json& row : report[list]) {
+      for (const char* timed : {"nanoseconds", "pareto", "tied_with"}) row.erase(timed);
+    }
   }
   report.erase("wall_seconds");
   report.erase("oracle_microseconds");
@@ -64,6 +68,47 @@ TEST(Report, HasARowForEveryPairClassAndCandidate) {
   }
 }
 
+TEST(Report, RanksNobodyWithinTheSpreads) {
+  const json report = make_report(small_campaign(), "x");
+  for (const json& row : report["summary"]) {
+    const json& time = row["nanoseconds"];
+    ASSERT_EQ(time["repetitions"], 11);
+    EXPECT_LE(time["low"], time["median"]);
+    EXPECT_LE(time["median"], time["high"]);
+    EXPECT_LE(time["ratio_low"], time["ratio_to_bullet"]);
+    EXPECT_LE(time["ratio_to_bullet"], time["ratio_high"]);
+    if (row["candidate"] == "bullet") {
+      EXPECT_EQ(time["ratio_high"], 1);
+    }
+    for (const json& other : report["summary"]) {
+      if (other["pair"] != row["pair"] || other["candidate"] == row["candidate"]) continue;
+      const json& theirs = other["nanoseconds"];
+      const bool overlap = time["low"] <= theirs["high"] && theirs["low"] <= time["high"];
+      const json& ties = row["tied_with"];
+      EXPECT_EQ(std::find(ties.begin(), ties.end(), other["candidate"]) != ties.end(), overlap);
+    }
+    // The most accurate one is on the front.
+    if (row["candidate"] == "reference") {
+      EXPECT_EQ(row["pareto"], true);
+    }
+  }
+}
+
+TEST(Report, InterruptedBeforeTheEndIsOfWhatIsDone) {
+  Campaign c = small_campaign(1);
+  const Interruption interruption;
+  testing::internal::CaptureStderr();
+  raise(SIGTERM);
+  const json report = make_report(c, "x");
+  testing::internal::GetCapturedStderr();
+  EXPECT_EQ(report["partial"], true);
+  EXPECT_TRUE(report["results"].empty());
+  EXPECT_EQ(report["completed"],
+            json({{"classes", 0}, {"configurations", 0}, {"timed_classes", 0}}));
+  EXPECT_EQ(report["planned"], json({{"classes", 5}, {"configurations", 20}}));
+  EXPECT_THAT(terminal_table(report), HasSubstr("PARTIAL: interrupted when 0 of 5"));
+}
+
 TEST(Report, TellsAModelsErrorFromItsSolvers) {
   const json report = make_report(small_campaign(), "x");
   for (const json& row : report["results"]) {
@@ -79,8 +124,7 @@ TEST(Report, TellsAModelsErrorFromItsSolvers) {
 /// A candidate that crashes, aborts, throws, allocates 10 GiB, answers NaN, long normals and a
 /// million points on one configuration in three.
 const Candidate& sabotage() {
-  static const bool added = (add_plugin(TOUCHSTONE_TEST_PLUGINS "/touchstone-sabotage.so"), true);
-  (void)added;
+  if (added_plugins().empty()) add_plugin(TOUCHSTONE_TEST_PLUGINS "/touchstone-sabotage.so");
   return find_candidate("sabotage");
 }
 

@@ -6,6 +6,7 @@
 
 #include "oracle/patch/support_part.hpp"
 #include "reports/coverage.hpp"
+#include "reports/point_distance.hpp"
 
 namespace touchstone {
 namespace {
@@ -41,6 +42,14 @@ double coverage_by(const ts_answer& answer, const Configuration& c, const oracle
   const double resolution =
       std::max({patch_resolution * size, 1.01 * of_a.largest, 1.01 * of_b.largest});
   return coverage(oracle::contact_patch(c, n, depth), points, resolution);
+}
+
+double worst_point_error(const ts_answer& answer, const Configuration& c) {
+  double worst = 0;
+  for (int i = 0; i < answer.point_count; ++i) {
+    worst = std::max(worst, point_excess(c, answer.points[i]));
+  }
+  return worst;
 }
 
 Score only(Outcome outcome) {
@@ -158,6 +167,7 @@ Score score(const Configuration& c, const oracle::Truth& truth, const ts_answer&
   const bool unit = std::abs(n.norm() - 1) <= unit_slack;
   s.depth_error = (answer.signed_distance - truth.signed_distance.midpoint()) / size;
   s.severity = std::abs(*s.depth_error);
+  if (answer.point_count > 0) s.point_error = worst_point_error(answer, c) / size;
   if (!n.isZero(0)) {
     s.normal_regret = oracle::normal_regret(c, truth, n) / size;
     s.normal_angle = angle(n, nearest(n, truth.normals));

@@ -51,6 +51,9 @@ struct Score {
   std::optional<double> depth_error;  ///< answer's signed distance − true: positive is too shallow
   std::optional<double> normal_regret;  ///< σ − g(n)
   std::optional<double> normal_angle;   ///< degrees to the nearest optimal normal
+  /// By how much the worst of the contact points is farther from a body's surface than its own
+  /// depth; zero when none is. It does not decide the outcome.
+  std::optional<double> point_error;
   /// How much of the contact patch the points span, where the bodies are in contact and the normal
   /// is within the bar.
   std::optional<double> coverage;

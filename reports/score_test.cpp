@@ -52,6 +52,19 @@ TEST(Score, TheRightAnswerAgreesWithNoError) {
   EXPECT_EQ(s.points, 1);
 }
 
+TEST(Score, SaysHowFarPointsAreOffTheBodies) {
+  EXPECT_EQ(*scored(standing, contact(-1e-3, up)).point_error, 0);
+  ts_answer off = contact(-1e-3, up);
+  off.point_count = 2;
+  off.points[1] = {{0, 0, 1.1}, {0, 0, 1}, 1e-3};  // 0.101 from the cap, 1e-3 of it allowed
+  const Score s = scored(standing, off);
+  EXPECT_NEAR(*s.point_error, 0.1 / 0.5, 1e-12);
+  EXPECT_EQ(s.outcome, Outcome::agree);
+  off.point_count = 0;
+  EXPECT_FALSE(scored(standing, off).point_error);
+  EXPECT_FALSE(scored(standing, none()).point_error);
+}
+
 TEST(Score, OutcomesAreNamedAfterTheSymptom) {
   EXPECT_EQ(scored(standing, none()).outcome, Outcome::missed);
   EXPECT_EQ(scored(standing, contact(-0.5e-3, up)).outcome, Outcome::shallow);

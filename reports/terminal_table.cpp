@@ -4,6 +4,8 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "reports/timing.hpp"
+
 namespace touchstone {
 namespace {
 
@@ -19,9 +21,27 @@ std::string nanoseconds(const json& time) {
   return time.is_null() ? "-" : fmt::format("{:.0f}", time["median"].get<double>());
 }
 
-std::string ratio(const json& time) {
+std::string half_spread(const json& time) {
+  if (time.is_null()) return "-";
+  const double percent = 50 * time["spread"].get<double>() / time["median"].get<double>();
+  return fmt::format("{:.0f}", std::ceil(percent));
+}
+
+std::string ratio(const json& row) {
+  const json& time = row["nanoseconds"];
   if (time.is_null() || time["ratio_to_bullet"].is_null()) return "-";
-  return fmt::format("{:.2f}", time["ratio_to_bullet"].get<double>());
+  const json ties = row.value("tied_with", json::array());
+  const bool tied = std::find(ties.begin(), ties.end(), "bullet") != ties.end();
+  return fmt::format("{}{:.2f}", tied ? "~" : "", time["ratio_to_bullet"].get<double>());
+}
+
+std::string partial_text(const json& report) {
+  if (!report.value("partial", false)) return "";
+  const json &done = report["completed"], &planned = report["planned"];
+  return fmt::format(
+      "PARTIAL: interrupted when {} of {} pose classes were scored and {} timed.\n\n",
+      done["classes"].get<std::size_t>(), planned["classes"].get<std::size_t>(),
+      done["timed_classes"].get<std::size_t>());
 }
 
 /// Cut downwards like agreement: 1.00 covers every patch.
@@ -43,27 +63,29 @@ std::string agreement(const json& row) {
 }  // namespace
 
 std::string terminal_table(const json& report) {
-  std::string text =
-      fmt::format("{:<23}{:>6} {:>6} {:>8} {:>8} {:>6} {:>8} {:>8}\n", "candidate", "agree%",
-                  "missed", "err p99", "err max", "cover", "ns/query", "x bullet");
+  std::string text = partial_text(report);
+  text += fmt::format("{:<23}{:>6} {:>6} {:>7} {:>7} {:>5} {:>6} {:>4} {:>8}\n", "candidate",
+                      "agree%", "missed", "err p99", "err max", "cover", "ns", "+-%", "x bullet");
   std::string last_pair;
   for (const json& row : report["summary"]) {
     if (row["outcomes"].value("unsupported", 0) == row["count"]) continue;
     const std::string pair = row["pair"];
     if (pair != last_pair) text += '\n' + pair + '\n';
-    text += fmt::format("  {:<21}{:>6} {:>6} {:>8} {:>8} {:>6} {:>8} {:>8}\n",
-                        row["candidate"].get<std::string>(), agreement(row),
-                        row["outcomes"].value("missed", 0), scientific(row["depth_error"], "p99"),
-                        scientific(row["depth_error"], "max"), mean_coverage(row),
-                        nanoseconds(row["nanoseconds"]), ratio(row["nanoseconds"]));
+    text +=
+        fmt::format("  {:<21}{:>6} {:>6} {:>7} {:>7} {:>5} {:>6} {:>4} {:>8}\n",
+                    row["candidate"].get<std::string>(), agreement(row),
+                    row["outcomes"].value("missed", 0), scientific(row["depth_error"], "p99"),
+                    scientific(row["depth_error"], "max"), mean_coverage(row),
+                    nanoseconds(row["nanoseconds"]), half_spread(row["nanoseconds"]), ratio(row));
     last_pair = pair;
   }
   text += fmt::format(
       "\nagree: depth and normal regret within {:g} of the smaller shape's size\n"
       "err: depth error of the contacts that were reported, in the same unit\n"
       "cover: mean share of the contact patch that the contact points span\n"
-      "ns: median of one query\n",
-      report["tolerance"].get<double>());
+      "ns, +-%: median of one query, half the spread of {} repetitions (quartiles)\n"
+      "x bullet: time as a multiple of Bullet's; ~ where their spreads overlap: a tie\n",
+      report["tolerance"].get<double>(), timing_repetitions);
 
   std::string failures;
   for (const json& candidate : report["candidates"]) {

@@ -1,14 +1,15 @@
 #include "reports/timing.hpp"
 
 #include <algorithm>
+#include <numeric>
+#include <random>
 
-#include "candidates/candidate_process.hpp"
+#include "reports/interruption.hpp"
 #include "reports/progress.hpp"
 
 namespace touchstone {
 namespace {
 
-constexpr std::size_t rounds = 9;
 /// More configurations than this of one cell would not change its median.
 constexpr std::uint64_t most_configurations = 50;
 
@@ -16,7 +17,7 @@ constexpr std::uint64_t most_configurations = 50;
 std::vector<Configuration> survived(const Campaign& campaign, const Cell& cell,
                                     const std::vector<Score>& scores) {
   std::vector<Configuration> result;
-  for (std::uint64_t i = 0; i < std::min(campaign.count, most_configurations); ++i) {
+  for (std::uint64_t i = 0; i < std::min<std::uint64_t>(scores.size(), most_configurations); ++i) {
     const Outcome outcome = scores[i].outcome;
     if (outcome == Outcome::unsupported) return {};
     if (outcome == Outcome::crashed || outcome == Outcome::timed_out) continue;
@@ -25,45 +26,105 @@ std::vector<Configuration> survived(const Campaign& campaign, const Cell& cell,
   return result;
 }
 
-std::vector<std::optional<QueryTime>> time_cell(const Campaign& campaign, const Cell& cell,
-                                                std::vector<CandidateProcess>& candidates,
-                                                const CellScores& scores) {
-  std::vector<bool> ready;
+std::vector<Repetitions> time_cell(const Campaign& campaign, const Cell& cell,
+                                   std::vector<CandidateProcess>& candidates,
+                                   const CellScores& scores, std::mt19937_64& random) {
+  std::vector<std::size_t> order;  // of those that are ready
   for (std::size_t k = 0; k < candidates.size(); ++k) {
     const auto configurations = survived(campaign, cell, scores.scores[k]);
-    ready.push_back(!configurations.empty() && candidates[k].prepare_timing(configurations));
+    if (!configurations.empty() && candidates[k].prepare_timing(configurations)) order.push_back(k);
   }
-  std::vector<std::vector<double>> samples(candidates.size());
-  for (std::size_t round = 0; round < rounds; ++round) {
-    for (std::size_t turn = 0; turn < candidates.size(); ++turn) {
-      const std::size_t k = (round + turn) % candidates.size();
-      if (!ready[k]) continue;
-      if (const auto time = candidates[k].nanoseconds_per_query()) samples[k].push_back(*time);
+  std::vector<Repetitions> result(candidates.size());
+  for (std::size_t repetition = 0; repetition < timing_repetitions; ++repetition) {
+    std::shuffle(order.begin(), order.end(), random);
+    for (const std::size_t k : order) {
+      if (const auto cost = candidates[k].cost_per_query()) result[k].push_back(*cost);
     }
   }
-  std::vector<std::optional<QueryTime>> result(candidates.size());
-  for (std::size_t k = 0; k < candidates.size(); ++k) {
-    auto& s = samples[k];
-    if (s.size() < rounds) continue;  // it died in between
-    std::sort(s.begin(), s.end());
-    result[k] = {s[rounds / 2], s[3 * rounds / 4] - s[rounds / 4]};
+  for (Repetitions& r : result) {
+    if (r.size() < timing_repetitions) r.clear();  // it died in between
   }
   return result;
 }
 
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+bool all_counted(const Repetitions& repetitions) {
+  return std::all_of(repetitions.begin(), repetitions.end(),
+                     [](const QueryCost& c) { return c.instructions.has_value(); });
+}
+
+/// Of each repetition the median over the cells.
+template <class Value>
+std::vector<double> over_cells(const Times& times, const std::vector<std::size_t>& cells,
+                               std::size_t candidate, const Value& value) {
+  std::vector<double> result;
+  for (std::size_t r = 0; r < timing_repetitions && !cells.empty(); ++r) {
+    std::vector<double> values;
+    for (const std::size_t cell : cells) values.push_back(value(times[cell][candidate][r]));
+    result.push_back(median(std::move(values)));
+  }
+  return result;
+}
+
+double nanoseconds(const QueryCost& cost) { return cost.nanoseconds; }
+
 }  // namespace
 
-std::vector<std::vector<std::optional<QueryTime>>> time_queries(
-    const Campaign& campaign, const std::vector<CellScores>& scores) {
+Times time_queries(const Campaign& campaign, const std::vector<CellScores>& scores) {
   const std::vector<Cell> all = cells(campaign);
+  Times times(all.size(), std::vector<Repetitions>(campaign.candidates.size()));
+  if (interrupted()) return times;
   Progress progress("pose classes timed", all.size());
-  std::vector<std::vector<std::optional<QueryTime>>> times;
+  std::mt19937_64 random(campaign.seed);
   auto candidates = start(campaign.candidates, campaign.bar.threshold, campaign.limits);
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    times.push_back(time_cell(campaign, all[i], candidates, scores[i]));
-    progress.update(times.size());
+  for (std::size_t i = 0; i < all.size() && !interrupted(); ++i) {
+    times[i] = time_cell(campaign, all[i], candidates, scores[i], random);
+    progress.update(i + 1);
   }
   return times;
+}
+
+std::optional<Spread> spread(std::vector<double> values) {
+  if (values.empty()) return std::nullopt;
+  std::sort(values.begin(), values.end());
+  const std::size_t last = values.size() - 1;
+  return Spread{values[last / 2], values[last / 4], values[last - last / 4]};
+}
+
+std::optional<QueryTime> query_time(const Times& times, const std::vector<std::size_t>& cells,
+                                    std::size_t candidate) {
+  std::vector<std::size_t> timed, counted;
+  for (const std::size_t cell : cells) {
+    const Repetitions& r = times[cell][candidate];
+    if (r.empty()) continue;
+    timed.push_back(cell);
+    if (all_counted(r)) counted.push_back(cell);
+  }
+  const auto time = spread(over_cells(times, timed, candidate, nanoseconds));
+  if (!time) return std::nullopt;
+  QueryTime result{*time, std::nullopt};
+  if (counted == timed) {
+    const auto instructions = [](const QueryCost& c) { return *c.instructions; };
+    result.instructions = spread(over_cells(times, timed, candidate, instructions))->median;
+  }
+  return result;
+}
+
+std::optional<Spread> time_ratio(const Times& times, const std::vector<std::size_t>& cells,
+                                 std::size_t candidate, std::size_t other) {
+  std::vector<std::size_t> both;
+  for (const std::size_t cell : cells) {
+    if (!times[cell][candidate].empty() && !times[cell][other].empty()) both.push_back(cell);
+  }
+  std::vector<double> ratios = over_cells(times, both, candidate, nanoseconds);
+  const std::vector<double> others = over_cells(times, both, other, nanoseconds);
+  for (std::size_t r = 0; r < ratios.size(); ++r) ratios[r] /= others[r];
+  return spread(std::move(ratios));
 }
 
 }  // namespace touchstone

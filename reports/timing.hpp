@@ -7,18 +7,37 @@
 
 namespace touchstone {
 
-/// Nanoseconds per query of one candidate on the configurations of one cell.
-struct QueryTime {
-  double median;  ///< over the rounds
-  double spread;  ///< interquartile range over the rounds
-};
+/// What one candidate's queries on the configurations of one cell cost, in each repetition; empty
+/// where the pair is unsupported, the candidate died of it, or an end was asked for before.
+using Repetitions = std::vector<QueryCost>;
+using Times = std::vector<std::vector<Repetitions>>;  ///< [cell][candidate][repetition]
 
-/// Times the narrow phase alone: shapes are prepared beforehand, a cell's configurations are
-/// queried one after the other, and candidates take turns within every round in rotating order, one
-/// at a time. Each reads the clock in its own process around the loop of its queries; what
-/// isolation costs lies outside. Configurations that ended a candidate's process, as `scores` say,
-/// are not asked of it. times[cell][candidate]; absent where the pair is unsupported.
-std::vector<std::vector<std::optional<QueryTime>>> time_queries(
-    const Campaign& campaign, const std::vector<CellScores>& scores);
+inline constexpr std::size_t timing_repetitions = 11;
+
+/// Times the narrow phase alone, as Google Benchmark does it: warm-up, repetitions, candidates in
+/// random order within each (drawn from the campaign's seed), one at a time. Shapes are prepared
+/// beforehand, a cell's configurations are queried one after the other. Each candidate reads the
+/// clock in its own process around the loop of its queries; what isolation costs lies outside.
+/// Configurations that ended a candidate's process, as `scores` say, are not asked of it.
+Times time_queries(const Campaign& campaign, const std::vector<CellScores>& scores);
+
+/// Median and quartiles over the repetitions.
+struct Spread {
+  double median, low, high;
+};
+std::optional<Spread> spread(std::vector<double> values);
+
+/// Of one candidate over several cells. A repetition's value is the median over the cells.
+struct QueryTime {
+  Spread nanoseconds;
+  std::optional<double> instructions;  ///< median; absent where they cannot be counted
+};
+std::optional<QueryTime> query_time(const Times& times, const std::vector<std::size_t>& cells,
+                                    std::size_t candidate);
+
+/// How much longer a candidate takes than another, on the cells where both were timed. Both values
+/// of a repetition were measured at nearly the same moment, so that most disturbances cancel.
+std::optional<Spread> time_ratio(const Times& times, const std::vector<std::size_t>& cells,
+                                 std::size_t candidate, std::size_t other);
 
 }  // namespace touchstone

@@ -104,8 +104,9 @@ json trends(const Campaign& campaign, const std::vector<CellScores>& scores) {
   for (const Pair pair : campaign.pairs) {
     std::map<std::pair<std::size_t, Variable>, Bins> bins;
     for (std::size_t i = 0; i < all.size(); ++i) {
-      if (all[i].pair != pair) continue;
-      for (std::uint64_t index = 0; index < campaign.count; ++index) {
+      if (all[i].pair != pair || !scores[i].done()) continue;
+      const std::uint64_t done = scores[i].signed_distance.size();  // none if it was interrupted
+      for (std::uint64_t index = 0; index < done; ++index) {
         const Configuration c = make_configuration({pair, all[i].pose_class, campaign.seed, index});
         for (const Variable variable : all_variables) {
           const auto value = value_of(variable, c, scores[i].signed_distance[index]);

@@ -17,6 +17,8 @@
 #include <unistd.h>
 #include <utility>
 
+#include "reports/interruption.hpp"
+
 namespace touchstone {
 namespace {
 
@@ -139,7 +141,7 @@ std::vector<std::string> run_in_processes(std::size_t count, unsigned workers,
         results[index] = std::move(result);
         done(++finished);
       },
-      [] { return true; });
+      [] { return !interrupted(); });
   return results;
 }
 

@@ -8,6 +8,7 @@
 #include "candidates/candidates.hpp"
 #include "reports/answer_json.hpp"
 #include "reports/configuration_json.hpp"
+#include "reports/progress.hpp"
 #include "reports/worst_selection.hpp"
 
 namespace touchstone {
@@ -77,8 +78,11 @@ json worst_cases(const Campaign& campaign, const std::vector<CellScores>& scores
   const std::vector<Cell> all = cells(campaign);
   json result = json::array();
   auto processes = start(campaign.candidates, campaign.bar.threshold, campaign.limits);
+  Progress progress("candidates' worst cases", campaign.pairs.size() * campaign.candidates.size());
+  std::size_t done = 0;
   for (const Pair pair : campaign.pairs) {
     for (std::size_t k = 0; k < campaign.candidates.size(); ++k) {
+      progress.update(done++);
       for (const Case& w : worst_of(all, scores, pair, k)) {
         const Identity id{pair, all[w.cell].pose_class, campaign.seed, w.index};
         std::vector<CandidateProcess*> shown = {&processes[k]};

@@ -65,7 +65,7 @@ std::vector<Replayed> replay(const std::vector<Configuration>& configurations,
     for (std::size_t turn = 0; turn < candidates.size(); ++turn) {
       const std::size_t k = (round + turn) % candidates.size();
       if (!ready[k]) continue;
-      if (const auto time = candidates[k].nanoseconds_per_query()) times[k].push_back(*time);
+      if (const auto cost = candidates[k].cost_per_query()) times[k].push_back(cost->nanoseconds);
     }
   }
   for (std::size_t k = 0; k < candidates.size(); ++k) {

@@ -11,9 +11,9 @@ namespace touchstone {
 
 /// What came of an experiment with one contact model at one step.
 struct Measurement {
-  double value;  ///< the experiment's quantity
-  double error;  ///< from the value on paper, as the experiment's unit says
-  Tally tally;   ///< of all its runs
+  double value;    ///< the experiment's quantity
+  double error;    ///< from the value on paper, as the experiment's unit says
+  RunTally tally;  ///< of all its runs
   std::vector<std::pair<std::string, double>> details = {};  ///< by name, as in docs/simulation.md
 };
 
@@ -25,7 +25,8 @@ struct Experiment {
   std::string statement;  ///< what must happen, in one sentence
   std::string quantity;   ///< that is measured, with its unit
   std::string unit;       ///< of the error
-  /// Runs it with a step in seconds. A model that lacks a pair ends it early (Tally::unsupported).
+  /// Runs it with a step in seconds. A model that lacks a pair ends it early
+  /// (RunTally::unsupported).
   std::function<Measurement(ContactModel& model, double step)> run;
   OfStep expected;  ///< the value on paper at that step
   /// Exact contacts may have an error up to this: of the integrator, the solver, the surface layer,

@@ -25,7 +25,7 @@ double threshold(double holds, double fails, const Test& test) {
 
 /// Runs until `still` fails; true if it never did.
 template <class Still>
-bool lasts(const Scene& scene, ContactModel& model, Tally& tally, const Still& still) {
+bool lasts(const Scene& scene, ContactModel& model, RunTally& tally, const Still& still) {
   Run run(scene, model, can_radius);
   bool held = true;
   while (held && run.step()) held = still(run.world());
@@ -41,7 +41,7 @@ double angle_between(const Vec3& a, const Vec3& b) {
 double tipping_angle(double) { return std::atan2(can_radius, can_half_length); }
 
 Measurement tipping(ContactModel& model, double step) {
-  Tally tally;
+  RunTally tally;
   const auto stands = [&](double slope) {
     Scene scene;
     scene.step = step;
@@ -71,7 +71,7 @@ constexpr double half_spacing = 1.1 * can_radius;
 double pile_friction(double) { return std::tan(std::asin(half_spacing / (2 * can_radius)) / 2); }
 
 Measurement log_pile(ContactModel& model, double step) {
-  Tally tally;
+  RunTally tally;
   const auto holds = [&](double friction) {
     Scene scene;
     scene.step = step;
@@ -101,7 +101,7 @@ Measurement log_pile(ContactModel& model, double step) {
 
 // On its side across a box's edge it stays as long as its centre is above the box.
 Measurement across_edge(ContactModel& model, double step) {
-  Tally tally;
+  RunTally tally;
   const auto stays = [&](double overhang) {
     Scene scene;
     scene.step = step;
@@ -125,7 +125,7 @@ constexpr double plate_half_thickness = 0.01;
 double tunnelling_speed(double step) { return (can_half_length + plate_half_thickness) / step; }
 
 Measurement tunnelling(ContactModel& model, double step) {
-  Tally tally;
+  RunTally tally;
   const double expected = tunnelling_speed(step);
   const auto is_stopped = [&](double speed) {
     for (const double phase : {0.001, 0.25, 0.5, 0.75}) {

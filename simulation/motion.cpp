@@ -35,42 +35,37 @@ struct OfShape {
   }
 };
 
-/// I v in the world frame.
-Vec3 times(const BodyState& state, const Inertia& inertia, const Vec3& v) {
-  const Eigen::Matrix3d& r = state.pose.rotation();
-  return r * inertia.principal.cwiseProduct(r.transpose() * v);
-}
-
 }  // namespace
 
 Inertia inertia(const Shape& shape, double density) { return std::visit(OfShape{density}, shape); }
 
 double kinetic_energy(const BodyState& state, const Inertia& inertia) {
   return (inertia.mass * state.velocity.squaredNorm() +
-          state.angular_velocity.dot(spin(state, inertia))) /
+          state.angular_velocity.dot(spin_of(state.pose, inertia, state.angular_velocity))) /
          2;
 }
 
-Vec3 spin(const BodyState& state, const Inertia& inertia) {
-  return times(state, inertia, state.angular_velocity);
+Vec3 angular_velocity(const Pose& pose, const Inertia& inertia, const Vec3& spin) {
+  const Eigen::Matrix3d& r = pose.rotation();
+  return r * (r.transpose() * spin).cwiseQuotient(inertia.principal);
 }
 
-Vec3 free_angular_velocity(const BodyState& state, const Inertia& inertia, double step) {
-  constexpr int iterations = 5;  // each gains the digits of one angle of a step
-  const Vec3 momentum = spin(state, inertia);
-  Vec3 next = state.angular_velocity;
+Vec3 free_angular_velocity(const Pose& pose, const Inertia& inertia, const Vec3& spin,
+                           double step) {
+  constexpr int iterations = 6;  // each gains the digits of half an angle of a step
+  Vec3 mean = angular_velocity(pose, inertia, spin);
   for (int i = 0; i < iterations; ++i) {
-    const double angle = step * next.norm();
+    const double angle = step / 2 * mean.norm();
     if (angle == 0) break;
-    const Eigen::Matrix3d turned =
-        Eigen::AngleAxisd(angle, next.normalized()) * state.pose.rotation();
-    next = turned * (turned.transpose() * momentum).cwiseQuotient(inertia.principal);
+    const Eigen::Matrix3d half_way = Eigen::AngleAxisd(angle, mean.normalized()) * pose.rotation();
+    mean = half_way * (half_way.transpose() * spin).cwiseQuotient(inertia.principal);
   }
-  return next;
+  return mean;
 }
 
-Vec3 torque(const BodyState& state, const Inertia& inertia, const Vec3& change, double step) {
-  return times(state, inertia, change) / step;
+Vec3 spin_of(const Pose& pose, const Inertia& inertia, const Vec3& angular_velocity) {
+  const Eigen::Matrix3d& r = pose.rotation();
+  return r * inertia.principal.cwiseProduct(r.transpose() * angular_velocity);
 }
 
 }  // namespace touchstone

@@ -21,12 +21,13 @@ struct BodyState {
 };
 
 double kinetic_energy(const BodyState& state, const Inertia& inertia);  ///< J
-Vec3 spin(const BodyState& state, const Inertia& inertia);  ///< angular momentum about the centre
 
-/// The angular velocity after a step without torque. The angular momentum L stays, and the angular
-/// velocity turns with the body: ω' = R' I⁻¹ R'ᵀ L, where R' is the body turned by ω' for a step.
-Vec3 free_angular_velocity(const BodyState& state, const Inertia& inertia, double step);
-/// The torque that changes the angular velocity by so much in a step, the body being as it is.
-Vec3 torque(const BodyState& state, const Inertia& inertia, const Vec3& change, double step);
+/// The angular velocity of a body with this angular momentum about its centre.
+Vec3 angular_velocity(const Pose& pose, const Inertia& inertia, const Vec3& spin);
+/// Its mean over a step without torque: the angular momentum stays, and the angular velocity is
+/// that at the orientation half way (implicit midpoint rule, of second order).
+Vec3 free_angular_velocity(const Pose& pose, const Inertia& inertia, const Vec3& spin, double step);
+/// The angular momentum of an angular velocity.
+Vec3 spin_of(const Pose& pose, const Inertia& inertia, const Vec3& angular_velocity);
 
 }  // namespace touchstone

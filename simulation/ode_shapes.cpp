@@ -59,7 +59,7 @@ dBodyID make_ode_body(dWorldID world, const Body& body, const Inertia& inertia) 
   dBodySetLinearVel(made, v.x(), v.y(), v.z());
   dBodySetAngularVel(made, w.x(), w.y(), w.z());
   dBodySetFiniteRotationMode(made, 1);  // turns by the whole angle, not by its tangent
-  dBodySetGyroscopicMode(made, 0);      // the world applies its own, which loses no energy
+  dBodySetGyroscopicMode(made, 0);      // see World::State::move
   return made;
 }
 

@@ -8,7 +8,7 @@
 
 namespace touchstone {
 
-void Tally::add(const Tally& other) {
+void RunTally::add(const RunTally& other) {
   steps += other.steps;
   points += other.points;
   flickers += other.flickers;

@@ -8,7 +8,7 @@
 namespace touchstone {
 
 /// What is counted while scenes run.
-struct Tally {
+struct RunTally {
   std::uint64_t steps = 0;
   std::uint64_t points = 0;       ///< contact points, summed over the steps
   std::uint64_t flickers = 0;     ///< steps with another number of points than the step before
@@ -20,7 +20,7 @@ struct Tally {
   std::optional<double> unsound;  ///< s, when a motion became absurd
   double seconds = 0;             ///< of the clock, for all steps
 
-  void add(const Tally& other);
+  void add(const RunTally& other);
 };
 
 /// A scene that runs, with what happens counted.
@@ -32,7 +32,7 @@ class Run {
   /// False when the duration is over or the motion has become absurd.
   bool step();
   const World& world() const { return world_; }
-  const Tally& tally() const { return tally_; }
+  const RunTally& tally() const { return tally_; }
   /// Of all moving bodies, in weight × size.
   double kinetic_energy() const { return world_.kinetic_energy() / energy_unit_; }
 
@@ -43,7 +43,7 @@ class Run {
   std::uint64_t steps_;  ///< of the whole duration
   double energy_unit_, least_energy_;
   std::optional<int> last_points_;
-  Tally tally_;
+  RunTally tally_;
 };
 
 }  // namespace touchstone

@@ -64,7 +64,7 @@ json nanoseconds(CandidateProcess& process, const std::vector<Configuration>& co
   if (configurations.empty() || !process.prepare_timing(configurations)) return nullptr;
   std::vector<double> samples;
   for (int i = 0; i < rounds; ++i) {
-    if (const auto time = process.nanoseconds_per_query()) samples.push_back(*time);
+    if (const auto cost = process.cost_per_query()) samples.push_back(cost->nanoseconds);
   }
   const auto q = quantiles(samples);
   return q ? json(q->median) : json(nullptr);
@@ -77,7 +77,7 @@ json run(const Trial& trial, const Limits& limits) {
   CandidateModel model(process);
   SamplingModel sampling(model);
   const Measurement m = trial.experiment->run(sampling, trial.step);
-  const Tally& t = m.tally;
+  const RunTally& t = m.tally;
   const double steps = static_cast<double>(std::max<std::uint64_t>(t.steps, 1));
   const auto share = [&](std::uint64_t count) { return static_cast<double>(count) / steps; };
 

@@ -42,8 +42,8 @@ struct World::State {
   void add_contacts(const PairContact& contact);
   void add_others(int a, int b);
   void add_joint(int a, int b, dContactGeom geom);
-  void read_states();
-  void conserve_spin();
+  void move();
+  void read_states(const std::vector<Vec3>& free);
   Vec3 slip_to_come(int a, int b, const Vec3& position) const;
 
   Scene scene;
@@ -54,6 +54,7 @@ struct World::State {
   std::vector<dGeomID> geoms;   ///< null where it is a cylinder
   std::vector<Inertia> inertias;
   std::vector<BodyState> states;
+  std::vector<Vec3> spins;  ///< angular momenta about the bodies' centres
   std::vector<PairContact> contacts;
   std::uint64_t steps = 0;
   std::size_t unusable = 0;
@@ -92,6 +93,7 @@ void World::State::make_body(const Body& body) {
   geoms.push_back(make_ode_geom(body, bodies.back()));
   states.push_back(
       {body.pose, body.fixed ? zero : body.velocity, body.fixed ? zero : body.angular_velocity});
+  spins.push_back(spin_of(body.pose, inertias.back(), states.back().angular_velocity));
 }
 
 void World::State::find_contacts() {
@@ -197,18 +199,21 @@ void World::State::add_joint(int a, int b, dContactGeom geom) {
   dJointAttach(joint, bodies[a], bodies[b]);
 }
 
-/// ODE's own gyroscopic torque loses energy.
-void World::State::conserve_spin() {
+/// ODE is given the mean angular velocity of the free step, adds to it what contacts change, and
+/// turns the body by the sum. Its own gyroscopic torque loses energy and angular momentum.
+void World::State::move() {
+  std::vector<Vec3> free(bodies.size(), Vec3::Zero());
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (!bodies[i]) continue;
-    const Vec3 change =
-        free_angular_velocity(states[i], inertias[i], scene.step) - states[i].angular_velocity;
-    const Vec3 t = torque(states[i], inertias[i], change, scene.step);
-    dBodyAddTorque(bodies[i], t.x(), t.y(), t.z());
+    free[i] = free_angular_velocity(states[i].pose, inertias[i], spins[i], scene.step);
+    dBodySetAngularVel(bodies[i], free[i].x(), free[i].y(), free[i].z());
   }
+  dRandSetSeed(steps);
+  dWorldQuickStep(world, scene.step);
+  read_states(free);
 }
 
-void World::State::read_states() {
+void World::State::read_states(const std::vector<Vec3>& free) {
   std::vector<BodyState> read = states;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (!bodies[i]) continue;
@@ -222,7 +227,13 @@ void World::State::read_states() {
       if (!(v.norm() < absurd)) sound = false;
     }
   }
-  if (sound) states = std::move(read);
+  if (!sound) return;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (!bodies[i]) continue;
+    spins[i] += spin_of(states[i].pose, inertias[i], read[i].angular_velocity - free[i]);
+    read[i].angular_velocity = angular_velocity(read[i].pose, inertias[i], spins[i]);
+  }
+  states = std::move(read);
 }
 
 World::World(const Scene& scene, ContactModel& model)
@@ -236,10 +247,7 @@ void World::step() {
   ++s.steps;
   if (!s.sound) return;
   s.find_contacts();
-  dRandSetSeed(s.steps);
-  s.conserve_spin();
-  dWorldQuickStep(s.world, s.scene.step);
-  s.read_states();
+  s.move();
 }
 
 double World::time() const { return static_cast<double>(state_->steps) * state_->scene.step; }
@@ -276,8 +284,7 @@ Vec3 World::angular_momentum() const {
   Vec3 sum = Vec3::Zero();
   for (std::size_t i = 0; i < state_->states.size(); ++i) {
     const BodyState& s = state_->states[i];
-    const Inertia& inertia = state_->inertias[i];
-    sum += inertia.mass * s.pose.position().cross(s.velocity) + spin(s, inertia);
+    sum += state_->inertias[i].mass * s.pose.position().cross(s.velocity) + state_->spins[i];
   }
   return sum;
 }

@@ -2,7 +2,9 @@
 //
 // misdeed:N does the N-th deed of the list below on every configuration. sabotage does one of them,
 // or none, as the bits of A's position decide: the same one for the same configuration. obedient
-// answers whatever previous normal it is given.
+// answers whatever previous normal it is given. declining answers planes, with a relative error of
+// 1e-6 in the depth where the axis lies in the plane: TOUCHSTONE_DECLINE, a number in the
+// environment, multiplies that error, and slows down all queries where it is negative.
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -106,13 +108,61 @@ void query_obedient(ts_prepared*, const ts_pose*, const ts_pose*, const double* 
 }
 void release(ts_prepared* prepared) { delete prepared; }
 
+// declining
+
+double dot(const double* n, const double* v) { return n[0] * v[0] + n[1] * v[1] + n[2] * v[2]; }
+
+/// A unit quaternion's image of `v`.
+void rotate(const double* q, const double* v, double* out) {
+  const double w = q[0], x = q[1], y = q[2], z = q[3];
+  const double t[3] = {2 * (y * v[2] - z * v[1]), 2 * (z * v[0] - x * v[2]),
+                       2 * (x * v[1] - y * v[0])};
+  out[0] = v[0] + w * t[0] + y * t[2] - z * t[1];
+  out[1] = v[1] + w * t[1] + z * t[0] - x * t[2];
+  out[2] = v[2] + w * t[2] + x * t[1] - y * t[0];
+}
+
+struct Declining {
+  ts_shape a, plane;
+  double factor;
+};
+int supports_planes(ts_shape_kind kind) { return kind == TS_PLANE; }
+ts_prepared* prepare_declining(const ts_shape* a, const ts_shape* b, double, double) {
+  const char* const factor = std::getenv("TOUCHSTONE_DECLINE");
+  return reinterpret_cast<ts_prepared*>(new Declining{*a, *b, factor ? std::atof(factor) : 1});
+}
+void query_declining(ts_prepared* prepared, const ts_pose* a, const ts_pose* b, const double*,
+                     ts_answer* answer) {
+  const auto& d = *reinterpret_cast<const Declining*>(prepared);
+  const double z[3] = {0, 0, 1};
+  double n[3], u[3], from_plane[3];
+  for (int repeated = 0; repeated < (d.factor < 0 ? 500 : 1); ++repeated) {
+    rotate(b->orientation, d.plane.size, n);
+    rotate(a->orientation, z, u);
+    nowhere = nowhere + 0;  // nor is the loop removed
+  }
+  for (int i = 0; i < 3; ++i) from_plane[i] = a->position[i] - b->position[i];
+  const double along = std::fabs(dot(n, u));
+  const double across = std::sqrt(std::fmax(0, 1 - along * along));
+  double distance =
+      dot(n, from_plane) - d.plane.size[3] - d.a.size[1] * along - d.a.size[0] * across;
+  answer->status = distance > 0 ? TS_NONE : TS_CONTACT;
+  if (along < 1e-9) distance *= 1 + 1e-6 * std::fabs(d.factor);
+  answer->signed_distance = distance;
+  answer->point_count = 0;
+  std::memcpy(answer->normal, n, sizeof n);
+}
+void release_declining(ts_prepared* p) { delete reinterpret_cast<Declining*>(p); }
+
 const ts_candidate candidates[] = {
     {"misdeed", "1", "does one deed", nullptr, &which, supports, prepare, query, release, nullptr},
     {"sabotage", "1", "does many deeds", nullptr, nullptr, supports, prepare, query_some, release,
      nullptr},
     {"obedient", "1", "answers the previous normal", nullptr, nullptr, supports, prepare,
-     query_obedient, release, nullptr}};
-const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 3, candidates};
+     query_obedient, release, nullptr},
+    {"declining", "1", "exact for planes but where a cylinder lies", nullptr, nullptr,
+     supports_planes, prepare_declining, query_declining, release_declining, nullptr}};
+const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 4, candidates};
 
 }  // namespace
 

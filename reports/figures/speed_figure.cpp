@@ -17,7 +17,7 @@ struct Point {
   bool front = false;
 };
 
-/// Timed candidates with contacts; those that no other beats in both are the front.
+/// Timed candidates with contacts.
 std::vector<Point> points_of(const json& report, const std::string& pair) {
   constexpr double least = 1e-17;  // a logarithmic axis has no zero
   std::vector<Point> result;
@@ -25,12 +25,8 @@ std::vector<Point> points_of(const json& report, const std::string& pair) {
     if (row["pair"] != pair || row["nanoseconds"].is_null() || row["depth_error"].is_null())
       continue;
     result.push_back({row["candidate"], row["nanoseconds"]["median"],
-                      std::max(row["depth_error"]["p99"].get<double>(), least), agreement(row)});
-  }
-  for (Point& p : result) {
-    p.front = std::none_of(result.begin(), result.end(), [&](const Point& q) {
-      return q.time <= p.time && q.error <= p.error && (q.time < p.time || q.error < p.error);
-    });
+                      std::max(row["depth_error"]["p99"].get<double>(), least), agreement(row),
+                      row["pareto"].get<bool>()});
   }
   return result;
 }

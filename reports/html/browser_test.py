@@ -139,6 +139,7 @@ class Report(unittest.TestCase):
                 ("#distribution-pair", "cylinder-box", "#distribution-cumulative"),
                 ("#trend-variable", "depth", "#trend-chart"),
                 ("#class-candidate", "fcl", "#class-table"),
+                ("#experiment-name", "rolling", "#experiment-table"),
                 ("#class-quantity", "worst", "#class-table"),
                 ("#manifold-candidate", "ode", "#manifold-table"),
                 ("#outcome-pair", "cylinder-box", "#outcome-bars")):

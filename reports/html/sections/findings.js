@@ -1,5 +1,10 @@
 // What most readers ask first, answered from the data.
 function findings() {
+  if (report.partial) {
+    byId('partial').hidden = false;
+    byId('partial').textContent = `Partial: interrupted when ${report.completed.classes} of ` +
+        `${report.planned.classes} pose classes were scored and ${report.completed.timed_classes} timed.`;
+  }
   const all = report.summary.filter(r => r.pair === 'all'), rows = (all.length ? all : report.summary).filter(supported);
   byId('headline').textContent = `${whole(report.configurations)} configurations of ${pairs.length} ` +
       `${pairs.length === 1 ? 'pair' : 'pairs'} of shapes, ${new Set(rows.map(r => r.candidate)).size} contact routines, ` +
@@ -35,11 +40,12 @@ function costOf(pair) {
   const timed = ranked(pair).filter(r => time(r) !== null), [first, second] = timed;
   if (!first) return [element('b', {}, dashed(pair)), ': not timed.'];
   const fastest = [...timed].sort((a, b) => time(a) - time(b))[0];
+  const asFast = r => r === fastest || fastest.tied_with.includes(r.candidate);  // within the spreads
   const against = (words, r) => [`; ${words}, `, named(r.candidate), `, ${whole(time(r))} ns (${(time(r) / time(first)).toPrecision(2)} times that, ` +
       `agrees on ${percent(agreeing(r))})`];
   return [element('b', {}, dashed(pair)), ': ', named(first.candidate), ` takes ${whole(time(first))} ns`,
           ...(second ? against('the next most accurate', second) : []),
-          ...(fastest === first ? ['; none is faster'] : fastest === second ? ['; none is faster than that'] : against('the fastest', fastest)), '.'];
+          ...(asFast(first) ? ['; none is faster'] : second && asFast(second) ? ['; none is faster than that'] : against('the fastest', fastest)), '.'];
 }
 
 function failuresOf() {

@@ -3,11 +3,8 @@ const floor = 1e-17;
 const shownError = r => Math.max(r.depth_error.p99, floor);
 const chartable = r => time(r) !== null && r.depth_error !== null;
 
-// Sorted by time, each lower than all before it.
-function paretoFront(rows) {
-  const sorted = [...rows].sort((a, b) => time(a) - time(b) || shownError(a) - shownError(b));
-  return sorted.filter((r, i) => sorted.slice(0, i).every(s => shownError(s) > shownError(r)));
-}
+// Overlapping spreads of time are a tie (reports/pareto.hpp).
+const paretoFront = rows => rows.filter(r => r.pareto).sort((a, b) => time(a) - time(b));
 
 function speedAccuracy() {
   const rows = report.summary.filter(chartable), host = byId('chart-panels');
@@ -26,7 +23,9 @@ function speedSpec(rows, {x, y}) {
       label: `${r.candidate} ${percent(agreeing(r))}`, weight: front.includes(r) ? 'bold' : 'normal',
       tip: `${r.candidate}, ${dashed(r.pair)}\nagrees on ${percent(agreeing(r))}, missed ${r.outcomes.missed || 0}\n` +
            `depth error p99 ${exponent(r.depth_error.p99)}, worst ${exponent(r.depth_error.max)}\n` +
-           `${whole(time(r))} ns per query (spread ${whole(r.nanoseconds.spread)})\nClick for its worst cases`});
+           `${whole(time(r))} ns per query (quartiles ${whole(r.nanoseconds.low)} to ${whole(r.nanoseconds.high)})` +
+           (r.tied_with.length ? `\nno faster or slower, within the spreads, than ${r.tied_with.join(', ')}` : '') +
+           `\nClick for its worst cases`});
   // The members of a family, in the order of their parameter.
   const members = report.candidates.map(c => ({family: c.family, row: rows.find(r => r.candidate === c.name)})).filter(m => m.row);
   const line = {x: {scale: 'x', field: 'x'}, y: {scale: 'y', field: 'y'}};

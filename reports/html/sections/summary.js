@@ -14,7 +14,7 @@ function summaryTable() {
         element('td', {class: 'wide'}, exponent(quantile(r.normal_regret, 'max'))),
         element('td', {class: 'wide'}, cutShare(quantile(r.coverage, 'mean'))),
         element('td', {}, whole(time(r))),
-        element('td', {class: 'wide'}, ratio ? ratio.toFixed(2) : '–'));
+        element('td', {class: 'wide'}, ratio ? (r.tied_with.includes('bullet') ? '~' : '') + ratio.toFixed(2) : '–'));
   });
   byId('summary-table').replaceChildren(table('Agreement, depth error of the reported contacts, nanoseconds per query', heads, rows));
 }

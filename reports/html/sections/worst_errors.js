@@ -19,6 +19,7 @@ function worstErrorCell(r) {
 const millimetres = metres => metres === null ? 'refuses' : `${exponent(1000 * metres)}`;
 function drakeProtocol() {
   const protocol = report.drake_protocol;
+  if (!protocol) return byId('drake-table').append('Not measured: the run was interrupted.');
   const published = query => element('tr', {class: 'published'}, element('th', {scope: 'row'}, `Drake, ${query === 'penetration' ? 'point pair' : 'signed distance'}`),
       ...protocol.pairs.map(p => element('td', {}, millimetres(p.published[query]))));
   const rows = candidates.map(name => element('tr', {}, element('th', {scope: 'row'}, named(name)),

@@ -1,4 +1,4 @@
-#include "laws/point_distance.hpp"
+#include "reports/point_distance.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -41,6 +41,13 @@ struct Distance {
 double point_distance(const Shape& shape, const Pose& pose, const Vec3& point) {
   const Vec3 local = pose.orientation().normalized().conjugate() * (point - pose.position());
   return std::visit(Distance{local}, shape);
+}
+
+double point_excess(const Configuration& c, const ts_point& point) {
+  const Vec3 p(point.position[0], point.position[1], point.position[2]);
+  return std::max(std::abs(point_distance(c.a, c.pose_a, p)),
+                  std::abs(point_distance(c.b, c.pose_b, p))) -
+         std::abs(point.depth);
 }
 
 }  // namespace touchstone

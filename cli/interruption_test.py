@@ -1,0 +1,117 @@
+#!/usr/bin/env python3
+"""Ends the program as a person does, on a terminal: interruption_test.py PROGRAM."""
+import json
+import os
+import pty
+import re
+import signal
+import sys
+import tempfile
+import time
+
+PATIENCE = 60  # seconds, for a busy machine
+
+
+class Run:
+    """`touchstone report` on a terminal of its own."""
+
+    def __init__(self, program, folder, *options):
+        self.folder = folder
+        self.printed = ""
+        self.pid, self.terminal = pty.fork()
+        if self.pid == 0:
+            os.execv(program, [program, "report", "--out", folder, "--candidates",
+                               "reference,bullet", *options])
+
+    def read(self):
+        try:
+            part = os.read(self.terminal, 4096).decode(errors="replace")
+        except OSError:  # the terminal is gone
+            part = ""
+        self.printed += part
+        return part
+
+    def wait_for(self, pattern):
+        end = time.time() + PATIENCE
+        while not re.search(pattern, self.printed):
+            assert self.read(), f"ended before it printed {pattern}: {self.printed}"
+            assert time.time() < end, f"no {pattern} in {self.printed}"
+
+    def ctrl_c(self):
+        os.write(self.terminal, b"\x03")  # a signal for all of the terminal's processes
+
+    def end(self):
+        """Its wait status, when nothing of it is left."""
+        while self.read():
+            pass
+        _, status = os.waitpid(self.pid, 0)
+        end = time.time() + PATIENCE
+        while left := processes_of_session(self.pid):
+            assert time.time() < end, f"orphans: {left}"
+            time.sleep(0.05)
+        return status
+
+    def report(self):
+        with open(f"{self.folder}/report.json") as file:
+            return json.load(file)
+
+
+def processes_of_session(session):
+    found = []
+    for entry in os.listdir("/proc"):
+        if not entry.isdigit():
+            continue
+        try:
+            with open(f"/proc/{entry}/stat") as file:
+                state, _, _, its_session = file.read().rsplit(")", 1)[1].split()[:4]
+        except OSError:  # it has just ended
+            continue
+        if int(its_session) == session and state != "Z":
+            found.append(int(entry))
+    return found
+
+
+def ctrl_c_while_scoring(program, folder):
+    run = Run(program, folder)
+    run.wait_for(r"(?<!\d)[1-9]\d* of 23600 configurations, .*/s, .* left")
+    assert len(processes_of_session(run.pid)) > 3  # workers, and engines in processes of their own
+    run.ctrl_c()
+    status = run.end()
+    assert os.WEXITSTATUS(status) == 130, status
+    report = run.report()
+    done, planned = report["completed"], report["planned"]
+    assert report["partial"] is True
+    assert 0 < done["classes"] < planned["classes"] == 236, done
+    assert report["configurations"] == done["configurations"] == 100 * done["classes"]
+    assert len(report["results"]) == 2 * done["classes"]
+    assert "PARTIAL" in run.printed and "once more" in run.printed
+    assert os.path.exists(f"{folder}/report.html")
+
+
+def termination_while_timing(program, folder):
+    run = Run(program, folder, "--count", "2")
+    run.wait_for(r"(?<!\d)[1-9]\d* of 236 pose classes timed")
+    os.kill(run.pid, signal.SIGTERM)
+    status = run.end()
+    assert os.WEXITSTATUS(status) == 143, status
+    report = run.report()
+    assert report["partial"] is True
+    assert report["completed"]["classes"] == 236
+    assert 0 < report["completed"]["timed_classes"] < 236
+
+
+def ctrl_c_twice(program, folder):
+    run = Run(program, folder)
+    run.wait_for(r"of 23600 configurations")
+    run.ctrl_c()
+    run.wait_for("once more")
+    os.kill(run.pid, signal.SIGINT)
+    status = run.end()
+    assert os.WIFSIGNALED(status) and os.WTERMSIG(status) == signal.SIGINT, status
+    assert not os.path.exists(f"{folder}/report.json")
+
+
+for case in (ctrl_c_while_scoring, termination_while_timing, ctrl_c_twice):
+    with tempfile.TemporaryDirectory() as folder:
+        case(sys.argv[1], folder)
+        print("passed:", case.__name__)

@@ -1,0 +1,275 @@
+#include "reports/compare.hpp"
+
+#include <cstdlib>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sstream>
+
+#include "candidates/candidates.hpp"
+#include "reference/invalid_input.hpp"
+#include "reports/report.hpp"
+
+namespace touchstone {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::Not;
+
+/// A row with an agreement of `agree` in 100, a 99th percentile of `error`, a time of `time` ns
+/// give or take 1% and Bullet at 100 ns.
+json row(const char* pose_class, const char* candidate, int agree, double error, double time) {
+  const json errors = {{"median", error / 10}, {"p99", error}, {"max", 2 * error}};
+  return {{"pair", "cylinder-box"},
+          {"class", pose_class},
+          {"candidate", candidate},
+          {"count", 100},
+          {"outcomes", {{"agree", agree}, {"shallow", 100 - agree}}},
+          {"depth_error", errors},
+          {"normal_regret", nullptr},
+          {"point_error", nullptr},
+          {"coverage", {{"mean", 0.5}}},
+          {"pareto", true},
+          {"nanoseconds",
+           {{"median", time},
+            {"low", 0.99 * time},
+            {"high", 1.01 * time},
+            {"instructions", nullptr},
+            {"ratio_to_bullet", time / 100},
+            {"ratio_low", 0.99 * time / 100},
+            {"ratio_high", 1.01 * time / 100}}}};
+}
+
+json small_report() {
+  return {{"schema", 1},
+          {"version", "0.1.0"},
+          {"seed", 1},
+          {"tolerance", 1e-4},
+          {"threshold", 0.0},
+          {"configurations", 200},
+          {"partial", false},
+          {"machine", {{"cpu", "one"}, {"compiler", "g++"}}},
+          {"candidates",
+           {{{"name", "bullet"}, {"version", "3.24"}, {"settings", "as it is"}},
+            {{"name", "mine"}, {"version", "1"}, {"settings", "as it is"}}}},
+          {"results",
+           {row("rim-face", "bullet", 90, 1e-3, 100), row("rim-face", "mine", 80, 1e-6, 200),
+            row("touching", "bullet", 90, 1e-3, 100), row("touching", "mine", 80, 1e-6, 200)}},
+          {"summary", {row("all", "bullet", 90, 1e-3, 100), row("all", "mine", 80, 1e-6, 200)}}};
+}
+
+std::vector<std::string> changes(const json& comparison, bool beyond = true) {
+  std::vector<std::string> result;
+  for (const json& c : comparison["changes"]) {
+    if (c["beyond_limits"] != beyond) continue;
+    std::ostringstream text;
+    text << c["verdict"].get<std::string>() << ' ' << c["class"].get<std::string>() << ' '
+         << c["candidate"].get<std::string>() << ' ' << c["measure"].get<std::string>();
+    result.push_back(text.str());
+  }
+  return result;
+}
+
+std::string remarks(const json& comparison) { return comparison["remarks"].dump(); }
+
+TEST(Compare, OfAReportWithItselfFindsNothing) {
+  const json c = compare(small_report(), small_report(), {});
+  EXPECT_TRUE(c["changes"].empty());
+  EXPECT_TRUE(c["remarks"].empty());
+  EXPECT_FALSE(has_regressed(c));
+  EXPECT_THAT(comparison_text(c), HasSubstr("No change."));
+}
+
+TEST(Compare, NamesPairClassCandidateAndFactorOfALargerError) {
+  json now = small_report();
+  now["results"][1] = row("rim-face", "mine", 80, 3e-6, 200);
+  const json c = compare(small_report(), now, {});
+  EXPECT_THAT(changes(c), testing::UnorderedElementsAre("worse rim-face mine depth error, median",
+                                                        "worse rim-face mine depth error, p99",
+                                                        "worse rim-face mine depth error, max"));
+  EXPECT_TRUE(has_regressed(c));
+  EXPECT_THAT(comparison_text(c), HasSubstr("Worse: 1\n  cylinder-box/rim-face  mine\n"));
+  EXPECT_THAT(comparison_text(c), HasSubstr("x 3\n"));
+  // The other way round it is better, and within wider limits nothing to report.
+  const json back = compare(now, small_report(), {});
+  EXPECT_EQ(changes(back).front().substr(0, 6), "better");
+  EXPECT_FALSE(has_regressed(back));
+  CompareLimits wide;
+  wide.error_factor = 3.5;
+  EXPECT_FALSE(has_regressed(compare(small_report(), now, wide)));
+  EXPECT_THAT(comparison_text(compare(small_report(), now, wide)), HasSubstr("3 smaller changes"));
+}
+
+TEST(Compare, RoundingIsNoChange) {
+  json old = small_report(), now = small_report();
+  old["results"][1] = row("rim-face", "mine", 80, 0, 200);
+  now["results"][1] = row("rim-face", "mine", 80, 4e-15, 200);
+  EXPECT_TRUE(compare(old, now, {})["changes"].empty());
+  now["results"][1] = row("rim-face", "mine", 80, 4e-13, 200);
+  EXPECT_TRUE(has_regressed(compare(old, now, {})));
+}
+
+TEST(Compare, LostAgreementIsARegressionUnlessAllowed) {
+  json now = small_report();
+  now["results"][1] = row("rim-face", "mine", 79, 1e-6, 200);
+  const json c = compare(small_report(), now, {});
+  EXPECT_THAT(changes(c), testing::ElementsAre("worse rim-face mine agreement"));
+  CompareLimits limits;
+  limits.agreement = 0.98;
+  EXPECT_FALSE(has_regressed(compare(small_report(), now, limits)));
+  // None before, some now.
+  json none = small_report();
+  none["results"][1] = row("rim-face", "mine", 0, 1e-6, 200);
+  EXPECT_THAT(changes(compare(none, now, {})),
+              testing::ElementsAre("better rim-face mine agreement"));
+  EXPECT_TRUE(has_regressed(compare(now, none, {})));
+}
+
+TEST(Compare, ALostRoutineIsARegression) {
+  json now = small_report();
+  now["results"][1]["outcomes"] = {{"unsupported", 100}};
+  const json c = compare(small_report(), now, {});
+  EXPECT_THAT(changes(c), testing::ElementsAre("worse rim-face mine has a routine"));
+  EXPECT_TRUE(has_regressed(c));
+  EXPECT_THAT(comparison_text(c), HasSubstr("yes ->         no"));
+  EXPECT_FALSE(has_regressed(compare(now, small_report(), {})));
+}
+
+TEST(Compare, TimesCountAsMultiplesOfTheBaseline) {
+  json now = small_report();
+  // A machine at half the speed: all times double, no ratio changes.
+  for (const char* list : {"results", "summary"}) {
+    for (json& r : now[list]) {
+      for (const char* name : {"median", "low", "high"}) {
+        r["nanoseconds"][name] = 2 * r["nanoseconds"][name].get<double>();
+      }
+    }
+  }
+  EXPECT_TRUE(compare(small_report(), now, {})["changes"].empty());
+  CompareLimits other;
+  other.baseline = "mine";
+  EXPECT_TRUE(compare(small_report(), now, other)["changes"].empty());
+  now["results"][1] = row("rim-face", "mine", 80, 1e-6, 400);
+  EXPECT_THAT(changes(compare(small_report(), now, {})),
+              testing::ElementsAre("slower rim-face mine time"));
+  EXPECT_TRUE(has_regressed(compare(small_report(), now, {})));
+}
+
+TEST(Compare, TimesWhoseSpreadsReachWithinTheFactorAreNoChange) {
+  json now = small_report();
+  now["results"][1] = row("rim-face", "mine", 80, 1e-6, 400);
+  now["results"][1]["nanoseconds"]["ratio_low"] = 3;  // before: 1.98 to 2.02
+  EXPECT_TRUE(compare(small_report(), now, {})["changes"].empty());
+}
+
+TEST(Compare, WithoutTheBaselineTimesAreNotCompared) {
+  CompareLimits limits;
+  limits.baseline = "havok";
+  const json c = compare(small_report(), small_report(), limits);
+  EXPECT_THAT(remarks(c), HasSubstr("havok is not in both"));
+}
+
+TEST(Compare, CountsInstructionsWhereBothHaveThem) {
+  json old = small_report(), now = small_report();
+  old["results"][1]["nanoseconds"]["instructions"] = 1000;
+  now["results"][1]["nanoseconds"]["instructions"] = 1600;
+  EXPECT_THAT(changes(compare(old, now, {})),
+              testing::ElementsAre("slower rim-face mine instructions"));
+  EXPECT_TRUE(compare(small_report(), now, {})["changes"].empty());
+}
+
+TEST(Compare, SaysWhatIsOnlyInOne) {
+  json now = small_report();
+  now["candidates"][1]["name"] = "yours";
+  now["results"] = {row("rim-face", "bullet", 90, 1e-3, 100), row("lying", "yours", 1, 1, 1)};
+  const std::string said = remarks(compare(small_report(), now, {}));
+  EXPECT_THAT(said, HasSubstr("old report, not compared: candidates mine."));
+  EXPECT_THAT(said, HasSubstr("new report, not compared: candidates yours."));
+  EXPECT_THAT(said, HasSubstr("old report, not compared: classes cylinder-box/touching."));
+  EXPECT_THAT(said, HasSubstr("new report, not compared: classes cylinder-box/lying."));
+}
+
+TEST(Compare, SaysWhatElseDiffers) {
+  json now = small_report();
+  now["seed"] = 2;
+  now["tolerance"] = 1e-3;
+  now["partial"] = true;
+  now["machine"]["cpu"] = "two";
+  now["candidates"][1]["version"] = "2";
+  const std::string said = remarks(compare(small_report(), now, {}));
+  EXPECT_THAT(said, HasSubstr("seed 1 and 2"));
+  EXPECT_THAT(said, HasSubstr("tolerance 0.0001 and 0.001"));
+  EXPECT_THAT(said, HasSubstr("new report is partial"));
+  EXPECT_THAT(said, HasSubstr("Another cpu: one before, two now."));
+  EXPECT_THAT(said, HasSubstr("mine: version 1 before, 2 now."));
+}
+
+TEST(Compare, OfOtherConfigurationsTakesPairsAsAWholeBeyondChance) {
+  json now = small_report();
+  now["seed"] = 2;
+  now["results"][1] = row("rim-face", "mine", 10, 1, 200);  // no matter
+  now["summary"][1] = row("all", "mine", 70, 1e-6, 200);    // 80 of 100 or 70: chance
+  EXPECT_TRUE(compare(small_report(), now, {})["changes"].empty());
+  now["summary"][1] = row("all", "mine", 50, 1e-6, 200);
+  EXPECT_THAT(changes(compare(small_report(), now, {})),
+              testing::ElementsAre("worse all mine agreement"));
+}
+
+TEST(Compare, RefusesReportsWithNothingInCommon) {
+  json now = small_report();
+  now["results"] = now["summary"] = json::array();
+  EXPECT_THROW(compare(small_report(), now, {}), InvalidInput);
+}
+
+TEST(Compare, TextFitsIntoEightyColumns) {
+  json now = small_report();
+  now["seed"] = 2;
+  now["machine"]["compiler"] = std::string(30, 'x') + ' ' + std::string(40, 'y');
+  now["summary"][1] = row("near-perpendicular-1e-15", "capsule-circumscribed", 10, 1, 500);
+  now["summary"][1]["pair"] = "cylinder-cylinder";
+  json old = small_report();
+  old["summary"][1] = row("near-perpendicular-1e-15", "capsule-circumscribed", 80, 1e-9, 200);
+  old["summary"][1]["pair"] = "cylinder-cylinder";
+  std::istringstream text(comparison_text(compare(old, now, {})));
+  for (std::string line; std::getline(text, line);) EXPECT_LE(line.size(), 80u) << line;
+}
+
+/// The plug-in of testing/sabotage.cpp, worse than it is by this number.
+json report_of_declining(const char* by) {
+  if (added_plugins().empty()) add_plugin(TOUCHSTONE_TEST_PLUGINS "/touchstone-sabotage.so");
+  setenv("TOUCHSTONE_DECLINE", by, 1);
+  Campaign c;
+  c.pairs = {Pair::plane};
+  c.classes = {"lying", "standing", "general-shallow"};
+  c.candidates = find_candidates({"bullet", "declining"});
+  c.count = 20;
+  const json report = make_report(c, "x");
+  unsetenv("TOUCHSTONE_DECLINE");
+  return report;
+}
+
+TEST(Compare, TwoRunsOfTheSameCodeShowNoChange) {
+  const json c = compare(report_of_declining("1"), report_of_declining("1"), {});
+  EXPECT_TRUE(c["changes"].empty()) << c["changes"];
+  EXPECT_TRUE(c["remarks"].empty()) << c["remarks"];
+}
+
+TEST(Compare, FindsADegradedPluginByPairClassAndFactor) {
+  const json before = report_of_declining("1");
+  const json c = compare(before, report_of_declining("8"), {});
+  const auto worse = changes(c);
+  EXPECT_THAT(worse, testing::Contains("worse lying declining depth error, p99"));
+  for (const std::string& change : worse) EXPECT_THAT(change, HasSubstr(" lying declining "));
+  for (const json& change : c["changes"]) {
+    EXPECT_EQ(change["pair"], "cylinder-plane");
+    EXPECT_NEAR(change["factor"].get<double>(), 8, 0.01);
+  }
+  const json slow = compare(before, report_of_declining("-1"), {});
+  EXPECT_THAT(changes(slow), testing::Contains("slower all declining time"));
+  for (const std::string& change : changes(slow)) {
+    EXPECT_THAT(change, testing::AllOf(testing::StartsWith("slower "), HasSubstr(" declining ")));
+  }
+}
+
+}  // namespace
+}  // namespace touchstone

@@ -1,0 +1,87 @@
+#include "reports/report_file.hpp"
+
+#include <fstream>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <limits>
+
+#include "candidates/candidates.hpp"
+#include "reference/invalid_input.hpp"
+#include "reports/report.hpp"
+
+namespace touchstone {
+namespace {
+
+using nlohmann::json;
+using testing::AllOf;
+using testing::HasSubstr;
+
+class ReportFile : public testing::Test {
+ protected:
+  void TearDown() override { std::filesystem::remove(file); }
+  void write(const std::string& text) const { std::ofstream(file) << text; }
+  void expect_refusal(const std::string& field, const std::string& why) const {
+    EXPECT_THAT([&] { read_report(file); },
+                testing::ThrowsMessage<InvalidInput>(
+                    AllOf(HasSubstr(file.string()), HasSubstr(field), HasSubstr(why))));
+  }
+  static json good() {
+    static const json report = [] {
+      Campaign c;
+      c.pairs = {Pair::plane};
+      c.classes = {"lying"};
+      c.candidates = find_candidates({"reference", "bullet", "libccd-mpr"});
+      c.count = 2;
+      return make_report(c, "x");
+    }();
+    return report;
+  }
+  const std::filesystem::path file = testing::TempDir() + "touchstone_report_file_test.json";
+};
+
+TEST_F(ReportFile, IsReadAsItWasWritten) {
+  write(good().dump());
+  EXPECT_EQ(read_report(file), good());
+}
+
+TEST_F(ReportFile, NamesTheFileThatIsNone) {
+  expect_refusal("file", "could not be opened");
+  write("{\"schema\": 1,");
+  expect_refusal("file", "is no JSON");
+  write("[]");
+  expect_refusal("file", "an object");
+}
+
+TEST_F(ReportFile, NamesTheFieldAndTheRemedy) {
+  json report = good();
+  report["schema"] = 99;
+  write(report.dump());
+  expect_refusal("schema is 99", "must be 1; make the report again");
+  report = good();
+  report["results"][1]["depth_error"]["p99"] = "small";
+  write(report.dump());
+  expect_refusal("results[1].depth_error.p99 is \"small\"", "must be a number");
+  report = good();
+  report["results"][0]["nanoseconds"]["low"] = 0;
+  write(report.dump());
+  expect_refusal("results[0].nanoseconds.low is 0", "positive");
+  report = good();
+  report["results"][0].erase("point_error");
+  write(report.dump());
+  expect_refusal("results[0].point_error", "is missing");
+  report = good();
+  report["results"][0]["outcomes"] = 3;
+  write(report.dump());
+  expect_refusal("results[0].outcomes", "must be");
+  report = good();
+  report["results"] = 3;
+  write(report.dump());
+  expect_refusal("results is 3", "must be an array");
+  report = good();
+  report["results"][0]["count"] = std::numeric_limits<double>::infinity();  // JSON has null for it
+  write(report.dump());
+  expect_refusal("results[0].count", "positive");
+}
+
+}  // namespace
+}  // namespace touchstone
