@@ -1,8 +1,11 @@
 #include "reports/compare_page/compare_page.hpp"
 
 #include <fstream>
+#include <string>
+#include <vector>
 
 #include "reference/invalid_input.hpp"
+#include "reports/html/marks.hpp"
 #include "reports/html/placeholder.hpp"
 
 namespace touchstone {
@@ -12,6 +15,10 @@ extern const std::string_view compare_html, compare_css, compare_js;
 
 void write_compare_page(const nlohmann::json& comparison, const nlohmann::json& before,
                         const nlohmann::json& after, const std::filesystem::path& file) {
+  std::vector<std::string> names;
+  for (const auto* summary : {&before["summary"], &after["summary"]}) {
+    for (const auto& row : *summary) names.push_back(row["candidate"]);
+  }
   std::string page(compare_html);
   fill(page, "/* report.css */", report_css);
   fill(page, "/* compare.css */", compare_css);
@@ -20,7 +27,8 @@ void write_compare_page(const nlohmann::json& comparison, const nlohmann::json& 
   fill(page, "/* comparison.json */",
        script_safe({{"comparison", comparison},
                     {"before", before["summary"]},
-                    {"after", after["summary"]}}));
+                    {"after", after["summary"]},
+                    {"marks", marks(names)}}));
   std::ofstream out(file, std::ios::binary);
   out << page;
   out.close();
