@@ -38,7 +38,7 @@ Progressed part(std::uint64_t first, std::uint64_t last, std::uint64_t seed = 1)
   Progressed p(plan(seed), Shard{});
   for (std::uint64_t number = first; number < last; ++number) {
     const Unit unit = p.view.cut.unit(number);
-    std::vector<Tally> tallies(p.tallies.size());
+    std::vector<ScoreTally> tallies(p.tallies.size());
     for (std::uint64_t i = unit.first; i < unit.last; ++i) {
       for (std::size_t k = 0; k < 2; ++k) {
         Score s;

@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::json;
 
-json row(const Tally& tally, const std::string& pair, const std::string& pose_class,
+json row(const ScoreTally& tally, const std::string& pair, const std::string& pose_class,
          const std::string& candidate) {
   json result = tally.summary();
   result["pair"] = pair;
@@ -45,7 +45,7 @@ json campaign_result(const Progressed& whole) {
   const PlanView& view = whole.view;
   const std::size_t candidates = view.candidates.size();
   json results = json::array(), summary = json::array(), worst = json::array();
-  std::vector<Tally> everything(candidates);
+  std::vector<ScoreTally> everything(candidates);
   std::size_t pairs = 0;
   for (std::size_t first = 0, last = 0; first < view.cells.size(); first = last, ++pairs) {
     const Pair pair = view.cells[first].pair;
@@ -57,10 +57,10 @@ json campaign_result(const Progressed& whole) {
       }
     }
     for (std::size_t k = 0; k < candidates; ++k) {
-      Tally of_pair;
+      ScoreTally of_pair;
       std::vector<Case> cases;
       for (std::size_t cell = first; cell < last; ++cell) {
-        const Tally& tally = whole.tally(cell, k);
+        const ScoreTally& tally = whole.tally(cell, k);
         of_pair.add(tally);
         cases.insert(cases.end(), tally.worst().begin(), tally.worst().end());
       }

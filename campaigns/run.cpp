@@ -19,16 +19,17 @@ void add(Progressed& progressed, std::uint64_t number, const std::string& text) 
   const std::size_t cell = progressed.view.cut.unit(number).cell;
   std::size_t k = 0;
   for (const json& tally : json::parse(text)) {
-    progressed.tally(cell, k++).add(Tally::from_json(tally, cell));
+    progressed.tally(cell, k++).add(ScoreTally::from_json(tally, cell));
   }
   progressed.done += UnitSet::interval_type(number, number + 1);
 }
 
 }  // namespace
 
-std::vector<Tally> tally_unit(const Campaign& campaign, std::vector<CandidateProcess>& candidates,
-                              const Cell& cell, const Unit& unit) {
-  std::vector<Tally> tallies(candidates.size());
+std::vector<ScoreTally> tally_unit(const Campaign& campaign,
+                                   std::vector<CandidateProcess>& candidates, const Cell& cell,
+                                   const Unit& unit) {
+  std::vector<ScoreTally> tallies(candidates.size());
   score_range(campaign, candidates, cell, unit.first, unit.last,
               [&](const ScoredConfiguration& scored) {
                 for (std::size_t k = 0; k < scored.scores.size(); ++k) {
@@ -65,7 +66,7 @@ bool run_shard(const Campaign& campaign, Progressed& progressed, const std::file
           }
           const Unit unit = cut.unit(nth(left, task));
           json tallies = json::array();
-          for (const Tally& t : tally_unit(campaign, candidates, cells[unit.cell], unit)) {
+          for (const ScoreTally& t : tally_unit(campaign, candidates, cells[unit.cell], unit)) {
             tallies.push_back(t.to_json());
           }
           return tallies.dump();

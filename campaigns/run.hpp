@@ -21,7 +21,8 @@ bool run_shard(const Campaign& campaign, Progressed& progressed, const std::file
                const Running& running, const std::function<bool()>& go_on);
 
 /// Tallies of one unit, for every candidate, each in a new session.
-std::vector<Tally> tally_unit(const Campaign& campaign, std::vector<CandidateProcess>& candidates,
-                              const Cell& cell, const Unit& unit);
+std::vector<ScoreTally> tally_unit(const Campaign& campaign,
+                                   std::vector<CandidateProcess>& candidates, const Cell& cell,
+                                   const Unit& unit);
 
 }  // namespace touchstone

@@ -128,14 +128,12 @@ Found search(CandidateProcess& candidate, const Search& s,
 }
 
 std::optional<Failure> failure_of(const Found& found, CandidateProcess& candidate, const Bar& bar) {
-  const Law& law = find_law("agreement");
   const Configuration& c = found.configuration;
-  const Law& answers = find_law("answers");
-  for (const Law* broken_law : {&answers, &law}) {
-    const auto violation = broken(*broken_law, c, candidate, bar);
+  for (const char* name : {"answers", "agreement"}) {
+    const auto violation = broken(find_law(name), c, candidate, bar);
     if (!violation) continue;
     const Answer answer = candidate.answers({&c, 1}).front();
-    return Failure{broken_law->name,
+    return Failure{name,
                    candidate.candidate().name,
                    candidate.candidate().version,
                    found.identity,

@@ -36,7 +36,8 @@ struct Found {
 Found search(CandidateProcess& candidate, const Search& search,
              const std::function<void(std::uint64_t)>& progress);
 
-/// As `check` would have met it, of the law "agreement"; absent where the candidate agrees.
+/// As `check` would have met it, of the law "answers" or "agreement"; absent where the candidate
+/// agrees.
 std::optional<Failure> failure_of(const Found& found, CandidateProcess& candidate, const Bar& bar);
 
 /// {"pair", "class", "outcome", "depth_error", "normal_regret", "severity", "sampled_severity",

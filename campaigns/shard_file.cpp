@@ -46,10 +46,11 @@ Progressed parsed(const std::string& text, const std::string& file) {
   if (head.at("schema") != schema) refuse(file, "of schema " + head.at("schema").dump());
   Progressed result(head.at("campaign"), {head.at("shard").at(0), head.at("shard").at(1)});
   result.done = unit_set_from_json(head.at("done"));
-  for (Tally& tally : result.tallies) {
+  for (ScoreTally& tally : result.tallies) {
     if (!std::getline(lines, line)) refuse(file, "without some of its tallies");
     const auto number = static_cast<std::size_t>(&tally - result.tallies.data());
-    tally = Tally::from_json(json::parse(line).at("tally"), number / result.view.candidates.size());
+    tally = ScoreTally::from_json(json::parse(line).at("tally"),
+                                  number / result.view.candidates.size());
   }
   return result;
 }
@@ -62,7 +63,7 @@ Progressed::Progressed(json made, Shard of)
       shard(of),
       tallies(view.cells.size() * view.candidates.size()) {}
 
-void Progressed::add(const UnitSet& units, const std::vector<Tally>& added) {
+void Progressed::add(const UnitSet& units, const std::vector<ScoreTally>& added) {
   if (boost::icl::intersects(done, units)) throw std::logic_error("a unit was counted twice");
   for (std::size_t i = 0; i < tallies.size(); ++i) tallies[i].add(added[i]);
   done += units;

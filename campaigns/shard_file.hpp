@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "campaigns/plan.hpp"
-#include "campaigns/tally.hpp"
+#include "campaigns/score_tally.hpp"
 
 namespace touchstone {
 
@@ -16,11 +16,11 @@ struct Progressed {
   Progressed(nlohmann::json plan, Shard shard);
 
   /// Adds the tallies of some units, in the order of `tallies`. The units must not be done yet.
-  void add(const UnitSet& units, const std::vector<Tally>& added);
-  Tally& tally(std::size_t cell, std::size_t candidate) {
+  void add(const UnitSet& units, const std::vector<ScoreTally>& added);
+  ScoreTally& tally(std::size_t cell, std::size_t candidate) {
     return tallies[cell * view.candidates.size() + candidate];
   }
-  const Tally& tally(std::size_t cell, std::size_t candidate) const {
+  const ScoreTally& tally(std::size_t cell, std::size_t candidate) const {
     return tallies[cell * view.candidates.size() + candidate];
   }
 
@@ -28,7 +28,7 @@ struct Progressed {
   PlanView view;
   Shard shard;
   UnitSet done;
-  std::vector<Tally> tallies;  ///< Cell by cell, of every candidate.
+  std::vector<ScoreTally> tallies;  ///< Cell by cell, of every candidate.
 };
 
 // A shard file is JSON Lines: what it is (schema, shard, done, plan), a line for each tally, and a

@@ -93,6 +93,25 @@ assert suite.get("failures") == "1" and suite[0][0].tag == "failure"
 assert json.load(open(sys.argv[1] + "/check.json"))["laws"][0]["broken"] == 1
 END
 
+expect 2 'scene.*could not be opened' choose "$folder/none.json"
+echo '{"duration":1,"bodies":[{"name":"a","shape":{"shape":"sphere","radius":-1}}]}' > "$folder/bad.json"
+expect 2 'bodies\[0\].shape.radius is -1' choose "$folder/bad.json"
+expect 2 -- '--depth' choose "$folder/bad.json" --depth 0
+expect 2 -- '--every' render "$folder/bad.json" --every 0
+expect 2 -- '--contacts\|must be one of reference' render "$folder/bad.json" --contacts havok
+cat > "$folder/can.json" <<'END'
+{"duration":0.3,"bodies":[
+ {"name":"ground","shape":{"shape":"plane","normal":[0,0,1],"displacement":0},"fixed":true},
+ {"name":"can","shape":{"shape":"cylinder","radius":0.1,"half_length":0.2},"pose":{"position":[0,0,0.2]}}],
+ "needs":[{"need":"stands","body":"can","degrees":1}]}
+END
+expect 0 'can stands within 1' choose "$folder/can.json" --candidates capsule --out "$folder/choice"
+[ -s "$folder/choice/choose.html" ] || { echo "FAILED: no choose.html"; failures=$((failures + 1)); }
+sed 's/"degrees":1/"degrees":1e-30/; s/0.2\]}/0.2],"orientation":[1,0.1,0,0]}/' "$folder/can.json" > "$folder/fall.json"
+expect 1 'Not even exact contacts' choose "$folder/fall.json" --candidates capsule --out "$folder/choice"
+expect 0 '4 frames' render "$folder/can.json" --every 0.1 --out "$folder/frames"
+[ -s "$folder/frames/frame-00004.inc" ] || { echo "FAILED: no frame"; failures=$((failures + 1)); }
+
 # Installed without an engine: a line says so, and the rest is there.
 mkdir "$folder/part" "$folder/part/candidates"
 cp "$program" "$folder/part/"

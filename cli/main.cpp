@@ -70,10 +70,13 @@ int main(int argc, char** argv) {
       "  touchstone solve poses.jsonl                        your own configurations\n"
       "  touchstone certify cylinder-box/rim-face/1/17       a proof that others can check\n"
       "  touchstone check --candidate bullet                 laws, and the smallest failures\n"
+      "  touchstone campaign --count 1e6 --out run            any number, on many machines\n"
       "  touchstone simulate rolling                         contacts at work, against paper\n"
+      "  touchstone choose scenes/log-pile.json              the cheapest model that serves\n"
       "  touchstone stability                                tiny steps near degenerate poses\n"
       "  touchstone compare old.json out/report.json         better, worse, slower\n"
-      "Exit codes: 0 done; 1 a law was broken or a result is worse; 2 bad input or usage; 3 an "
+      "Exit codes: 0 done; 1 a law was broken, a result is worse, needs not met; 2 bad input or "
+      "usage; 3 an "
       "internal contradiction;\n130 interrupted.");
   program.fallthrough();  // --candidate may also stand after the subcommand
   touchstone::add_plugin_option(program);

@@ -16,7 +16,7 @@ extern const std::string_view choose_html;
 extern const std::string_view choose_css;
 extern const std::string_view choose_js;
 extern const std::string_view motion_js;
-extern const std::string_view three_min_js;
+extern const std::string_view three_js;
 
 namespace {
 
@@ -125,7 +125,7 @@ std::string choice_page(const json& choice) {
   std::string page(choose_html);
   fill(page, "/* report.css */", report_css);
   fill(page, "/* choose.css */", choose_css);
-  fill(page, "/* three.min.js */", three_min_js);
+  fill(page, "/* three.js */", three_js);
   fill(page, "/* elements.js */", elements_js);
   fill(page, "/* motion.js */", motion_js);
   fill(page, "/* choose.js */", choose_js);

@@ -61,10 +61,13 @@ TEST(Choose, TheAnswerHoldsAndNothingCheaperThatWasRunDoes) {
     const SceneRun& answer = choice.runs[choice.answer];
     EXPECT_TRUE(answer.holds());
     for (const SceneRun& run : choice.runs) {
-      if (run.holds()) EXPECT_GE(run.nanoseconds, cheaper_share * answer.nanoseconds) << run.name;
+      if (!run.holds()) continue;
+      EXPECT_GE(run.nanoseconds, cheaper_share * answer.nanoseconds) << run.name;
     }
     ASSERT_EQ(choice.cheaper.size(), 1U);
-    if (choice.cheaper[0]) EXPECT_FALSE(choice.runs[*choice.cheaper[0]].holds());
+    if (choice.cheaper[0]) {
+      EXPECT_FALSE(choice.runs[*choice.cheaper[0]].holds());
+    }
   }
 }
 

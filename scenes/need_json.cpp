@@ -66,6 +66,14 @@ class Fields {
     }
     return result;
   }
+  /// Two, of which one is a cylinder: only of such pairs contacts are looked at.
+  std::vector<int> pair() const {
+    const auto two = bodies(2, 2);
+    for (const int b : two) {
+      if (std::holds_alternative<Cylinder>(scene_.bodies[b].shape)) return two;
+    }
+    throw InvalidInput(at("bodies"), shown(value_["bodies"]), "one of them must be a cylinder");
+  }
   /// All that can move, if none are named.
   std::vector<int> moving_bodies() const {
     if (has("bodies")) return bodies(1, scene_.bodies.size());
@@ -129,13 +137,13 @@ const std::map<std::string, Read>& readers() {
       {"penetration",
        [](const Fields& f) -> Need {
          f.known({"need", "bodies", "metres", "from"});
-         return Penetration{f.has("bodies") ? f.bodies(2, 2) : std::vector<int>(), f.size("metres"),
+         return Penetration{f.has("bodies") ? f.pair() : std::vector<int>(), f.size("metres"),
                             f.time("from", 0)};
        }},
       {"normals",
        [](const Fields& f) -> Need {
          f.known({"need", "bodies", "degrees"});
-         return Normals{f.bodies(2, 2), f.size("degrees")};
+         return Normals{f.pair(), f.size("degrees")};
        }},
       {"ends-near",
        [](const Fields& f) -> Need {

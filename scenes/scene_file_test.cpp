@@ -93,6 +93,9 @@ TEST(SceneFile, ErrorsOfNeedsNameThePathOfTheField) {
               HasSubstr("needs[0].by is 9: must lie within the scene's duration"));
   EXPECT_THAT(refusal(need({{"need", "normals"}, {"bodies", {"can"}}, {"degrees", 9}})),
               HasSubstr("needs[0].bodies"));
+  EXPECT_THAT(
+      refusal(need({{"need", "penetration"}, {"bodies", {"ground", "ground"}}, {"metres", 1}})),
+      HasSubstr("needs[0].bodies is [\"ground\",\"ground\"]: one of them"));
   EXPECT_THAT(refusal(need({{"need", "rolls"}, {"body", "can"}, {"distance", 0}, {"share", 1}})),
               HasSubstr("needs[0].distance is 0"));
   EXPECT_THAT(

@@ -113,7 +113,9 @@ TEST(RobotFiles, HaveTheirPairsScored) {
                  example.find("ground") < example.size());
     EXPECT_FALSE(pair["chosen"].is_null()) << example;
     for (const auto& c : pair["candidates"]) {
-      if (c["name"] == "reference") EXPECT_LT(c["depth_error"].get<double>(), 1e-12);
+      if (c["name"] == "reference") {
+        EXPECT_LT(c["depth_error"].get<double>(), 1e-12);
+      }
     }
   }
   const nlohmann::json again = choose();

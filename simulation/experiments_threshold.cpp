@@ -166,8 +166,8 @@ std::vector<Experiment> threshold_experiments() {
            // What slides less than the bar in a second counts as holding.
            [](double) { return 0.01; }},
           {"across-edge", "On its side across a box's edge it topples once its centre is beyond.",
-           "overhang of the centre at which it topples, in half lengths", "half lengths",
-           across_edge, [](double) { return 0.0; }, [](double) { return 0.002; }},
+           "overhang at which it topples, half lengths", "half lengths", across_edge,
+           [](double) { return 0.0; }, [](double) { return 0.002; }},
           {"tunnelling",
            "A cylinder that flies end first at a thin plate is stopped up to (half length + half "
            "thickness) / step.",

@@ -22,9 +22,8 @@ std::string error_figure(const json& report, const std::string& pair,
       owed += row["outcomes"].value(lost, 0.0);
     }
     const std::string candidate = row["candidate"];
-    const Mark mark = mark_of(candidate);
-    plot += fmt::format("{}'-' with linespoints title {} pointtype {} pointsize 0.5 linecolor '{}'",
-                        plot.empty() ? "plot " : ", ", quoted(candidate), mark.symbol, mark.colour);
+    plot += fmt::format("{}'-' with linespoints title {} pointsize 0.5 {}",
+                        plot.empty() ? "plot " : ", ", quoted(candidate), style_of(candidate));
     int bin = histogram["first"];
     const auto add = [&](double error) {
       data += fmt::format("{},{:.4g},{:.6g}\n", csv_cell(candidate), error, sum / owed);

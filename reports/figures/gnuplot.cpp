@@ -8,27 +8,16 @@
 #include <stdexcept>
 #include <vector>
 
+#include "reports/html/marks.hpp"
+
 namespace touchstone {
 
-Mark mark_of(const std::string& candidate) {
-  constexpr int symbols[] = {7, 5, 9, 13, 1, 11};
-  static const std::vector<std::pair<const char*, std::vector<std::string>>> engines = {
-      {"#0072b2", {"reference"}},
-      {"#d55e00",
-       {"bullet", "bullet-margin-0", "bullet-persistent", "bullet-hull", "bullet-float",
-        "bullet-float-margin-0"}},
-      {"#009e73", {"ode", "ode-mesh"}},
-      {"#cc79a7", {"fcl", "fcl-indep", "fcl-distance"}},
-      {"#a67c00", {"libccd-gjk", "libccd-mpr"}},
-      {"#3a9bdc", {"mujoco"}},
-      {"#7a5195",
-       {"capsule", "capsule-circumscribed", "spheres", "prism", "box-spheres", "box-capsules"}}};
-  const std::string family = candidate.substr(0, candidate.find(':'));
-  for (const auto& [colour, names] : engines) {
-    const auto at = std::find(names.begin(), names.end(), family);
-    if (at != names.end()) return {colour, symbols[at - names.begin()]};
-  }
-  return {"#555555", symbols[family.size() % std::size(symbols)]};
+std::string style_of(const std::string& candidate) {
+  constexpr const char* colours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
+                                     "#a67c00", "#3a9bdc", "#7a5195", "#555555"};
+  constexpr int symbols[] = {7, 5, 9, 13, 1, 11};  // gnuplot's circle, square, triangle, …
+  const Mark mark = mark_of(candidate);
+  return fmt::format("pointtype {} linecolor '{}'", symbols[mark.symbol], colours[mark.colour]);
 }
 
 std::string quoted(const std::string& text) {
@@ -75,8 +64,8 @@ std::string in_both_forms(const std::string& name, int width, int height,
   return fmt::format(
       "set terminal svg size {0},{1} noenhanced font 'DejaVu Sans,11' "
       "background '#ffffff'\nset output {2}\n{3}{4}"
-      "set terminal pngcairo size {5},{6} noenhanced font 'DejaVu Sans,22' "
-      "linewidth 2 pointscale 1.6\nset output {7}\n{3}{4}",
+      "set terminal pngcairo size {5},{6} noenhanced font 'DejaVu Sans,11' "
+      "fontscale 2 linewidth 2 pointscale 1.6\nset output {7}\n{3}{4}",
       width, height, quoted(name + ".svg"), commands, reset, 2 * width, 2 * height,
       quoted(name + ".png"));
 }

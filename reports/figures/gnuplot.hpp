@@ -7,13 +7,8 @@
 
 namespace touchstone {
 
-/// How gnuplot shows a candidate: colours of the report's page, by engine, and symbols (gnuplot's
-/// numbers) by an engine's settings.
-struct Mark {
-  const char* colour;
-  int symbol;
-};
-Mark mark_of(const std::string& candidate);
+/// "pointtype 7 linecolor '#0072b2'": a candidate's mark, coloured as on the report's page.
+std::string style_of(const std::string& candidate);
 
 /// Text within double quotes, for gnuplot.
 std::string quoted(const std::string& text);

@@ -25,7 +25,7 @@ Rectangle text_at(const Label& l, const LabelPlace& p) {
 
 std::vector<std::optional<LabelPlace>> label_places(const std::vector<Label>& labels, double width,
                                                     double height) {
-  const Rectangle chart{0, -0.5, width, height + 0.5};
+  const Rectangle chart{0, -0.5, width, height + 1.5};  // a line more, below the title
   std::vector<Rectangle> taken;
   for (const Label& l : labels) taken.push_back({l.x - 0.7, l.y - 0.35, l.x + 0.7, l.y + 0.35});
   std::vector<std::size_t> order(labels.size());

@@ -63,10 +63,9 @@ std::string speed_panel(const std::string& pair, const std::vector<Point>& point
   std::string marks;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Point& p = points[i];
-    const Mark mark = mark_of(p.candidate);
-    marks += fmt::format("{}'-' with points pointtype {} pointsize 0.8 linecolor '{}'",
+    marks += fmt::format("{}'-' with points pointsize 1 {}",
                          i ? ", " : "plot '-' with lines dashtype 2 linecolor '#5a6472', ",
-                         mark.symbol, mark.colour);
+                         style_of(p.candidate));
     if (!places[i]) continue;
     text +=
         fmt::format("set label {} at {:.6g},{:.6g} {} offset character {:.2f},{:.2f} front{}\n",
@@ -94,9 +93,8 @@ std::string key_panel(const std::vector<std::string>& candidates, double share) 
       "samplen 1 width 1 font ',9'\n",
       share);
   for (std::size_t i = 0; i < candidates.size(); ++i) {
-    const Mark mark = mark_of(candidates[i]);
-    text += fmt::format("{}1/0 with points title {} pointtype {} pointsize 0.8 linecolor '{}'",
-                        i ? ", " : "plot ", quoted(candidates[i]), mark.symbol, mark.colour);
+    text += fmt::format("{}1/0 with points title {} pointsize 1 {}", i ? ", " : "plot ",
+                        quoted(candidates[i]), style_of(candidates[i]));
   }
   return text + '\n';
 }
@@ -120,7 +118,9 @@ std::string speed_figures(const json& report, const std::vector<std::string>& pa
   }
   if (drawn.empty()) return "";
   write_text(folder / "speed-accuracy.csv", all_data);
-  const Range x = decades(times), y = decades(errors);
+  const Range x = decades(times);
+  Range y = decades(errors);
+  y.low -= 1;  // room for labels above the axis
   std::string script, panels;
   // Two columns of panels above a key of all marks.
   const int columns = drawn.size() > 1 ? 2 : 1;
@@ -133,11 +133,11 @@ std::string speed_figures(const json& report, const std::vector<std::string>& pa
   for (const auto& pair : drawn) {
     const auto points = points_of(report, pair);
     script +=
-        in_both_forms("speed-accuracy-" + pair, 640, 440, speed_panel(pair, points, x, y, 74, 21));
+        in_both_forms("speed-accuracy-" + pair, 640, 440, speed_panel(pair, points, x, y, 64, 18));
     panels += fmt::format("set size {},{}\nset origin {},{}\n", 1.0 / columns, (1 - share) / rows,
                           1.0 / columns * (panel % columns),
                           1 - (1 - share) / rows * (panel / columns + 1)) +
-              speed_panel(pair, points, x, y, 60, 17);
+              speed_panel(pair, points, x, y, 50, 13);
     ++panel;
     std::string data = "candidate,nanoseconds,depth_error_p99,agreement,on_front\n";
     for (const Point& p : points) {

@@ -60,6 +60,7 @@ class Report(unittest.TestCase):
     @classmethod
     def load(cls):
         """The addresses that loading the page asks for, itself excepted."""
+        cls.driver.get_log("performance")  # of pages before
         cls.driver.get(cls.page.as_uri())
         time.sleep(0.5)
         events = [json.loads(e["message"])["message"] for e in cls.driver.get_log("performance")]
@@ -168,6 +169,15 @@ class Report(unittest.TestCase):
         self.hover(self.all("#drake-table tbody tr:nth-child(4) td")[-1]).is_displayed()
         self.all("#drake-table tbody tr:nth-child(4) td")[-1].click()
         self.assertIn("./touchstone replay -", self.find("#drake-command code").text)
+
+    def test_y_a_page_without_contacts_or_times_loads_too(self):
+        small = Path(self.folder.name) / "small"
+        subprocess.run([program, "report", "--count", "1", "--pair", "cylinder-plane", "--class",
+                        "standing", "--candidates", "fcl-distance", "--out", small], check=True,
+                       capture_output=True)
+        self.driver.get((small / "report.html").as_uri())
+        self.assertEqual(self.console(), [])
+        self.assertIn("no candidate has a routine", self.find("#finding-accuracy").text)
 
     def test_z_a_phone_needs_no_sideways_scrolling(self):
         self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {

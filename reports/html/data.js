@@ -1,5 +1,5 @@
 // The report's data, and what all sections ask of it.
-const report = unpackReport(JSON.parse(byId('data').textContent));
+const report = unpackReport(JSON.parse(byId('data').textContent)), {marks} = report;
 
 // Lists of like objects come as a schema and rows of their values (page_data.cpp).
 function unpackReport(packed) {
@@ -9,7 +9,7 @@ function unpackReport(packed) {
     return Object.fromEntries(Object.keys(schema).map((key, i) => [key, unpack(cell[i], schema[key])]));
   };
   return Object.fromEntries(Object.entries(packed).map(([key, value]) =>
-      [key, value !== null && value.schema && value.rows ? value.rows.map(row => unpack(row, value.schema)) : value]));
+      [key, value !== null && value.rows ? value.rows.map(row => unpack(row, value.schema)) : value]));
 }
 
 const candidates = report.candidates.map(c => c.name);
@@ -41,7 +41,7 @@ function sign(name) {
 }
 const named = (name, ...rest) => element('span', {class: 'named'}, sign(name), name, ...rest);
 
-// Families of tables, select boxes and copied commands.
+// Tables, select boxes, cells to press and commands to copy.
 const column = (text, attributes = {}) => element('th', {scope: 'col', ...attributes}, text);
 const table = (caption, heads, rows) => element('table', {}, element('caption', {}, caption),
     element('thead', {}, element('tr', {}, ...heads)), element('tbody', {}, ...rows));
@@ -49,6 +49,11 @@ function choices(id, values, change, selected) {
   byId(id).append(...values.map(v => element('option', {value: v}, v)));
   if (selected !== undefined) byId(id).value = selected;
   byId(id).addEventListener('change', change);
+}
+// By pointer or keyboard.
+function whenPressed(target, act) {
+  target.addEventListener('click', act);
+  target.addEventListener('keydown', e => { if (e.key === 'Enter') act(); });
 }
 function command(text) {
   const copy = element('button', {type: 'button'}, 'Copy');

@@ -19,24 +19,10 @@ function definitions(id, entries) {
   byId(id).append(...entries.flatMap(([term, text]) => [element('dt', {}, term), element('dd', {}, text)]));
 }
 
-// Marks of candidates, the same on every page: a colour for each engine, a symbol for each of its
-// settings. What is not known here shares a colour and gets a symbol by its name.
+// Marks of candidates, the same on every page: what marks.cpp says of each name, as the page's `marks`.
 const symbols = ['circle', 'square', 'triangle', 'diamond', 'cross', 'wedge'];
-const engines = [
-  ['reference'],
-  ['bullet', 'bullet-margin-0', 'bullet-persistent', 'bullet-hull', 'bullet-float', 'bullet-float-margin-0'],
-  ['ode', 'ode-mesh'],
-  ['fcl', 'fcl-indep', 'fcl-distance'],
-  ['libccd-gjk', 'libccd-mpr'],
-  ['mujoco'],
-  ['capsule', 'capsule-circumscribed', 'spheres', 'prism', 'box-spheres', 'box-capsules'],
-];
 const truthMark = {colour: '--ink', symbol: 'diamond'};
-function markOf(name) {
-  const family = name.split(':')[0], engine = engines.findIndex(names => names.includes(family));
-  const place = engine >= 0 ? engines[engine].indexOf(family) : [...name].reduce((sum, c) => sum + c.charCodeAt(0), 0);
-  return {colour: `--c${engine >= 0 ? engine : engines.length}`, symbol: symbols[place % symbols.length]};
-}
+const markOf = name => ({colour: `--c${marks[name][0]}`, symbol: symbols[marks[name][1]]});
 function symbolPath(kind, x, y, s) {
   switch (kind) {
     case 'square': return `M${x - s},${y - s}h${2 * s}v${2 * s}h${-2 * s}z`;

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "reports/html/marks.hpp"
+
 namespace touchstone {
 namespace {
 
@@ -32,8 +34,10 @@ json unpacked(const json& cell, const json& schema, const json& strings) {
 TEST(Html, CarriesTheReport) {
   const json report = {{"schema", 1}, {"x", 0.1}, {"text", "é ≤ /* report.js */ $& \\u003c"}};
   json data = data_of(render_html(report));
-  EXPECT_EQ(data["strings"], json::array());
-  data.erase("strings");
+  for (const char* added : {"strings", "marks"}) {
+    EXPECT_TRUE(data[added].empty());
+    data.erase(added);
+  }
   EXPECT_EQ(data, report);
 }
 
@@ -60,6 +64,15 @@ TEST(Html, PacksRowsWithoutLoss) {
 TEST(Html, RoundsRowsToFourDigits) {
   const json data = data_of(render_html({{"summary", {{{"median", 1.0 / 3}}}}}));
   EXPECT_EQ(data["summary"]["rows"], json({{0.3333}}));
+}
+
+TEST(Marks, AreAnEnginesColourAndASettingsSymbol) {
+  EXPECT_EQ(mark_of("bullet-float").colour, mark_of("bullet").colour);
+  EXPECT_NE(mark_of("bullet-float").symbol, mark_of("bullet").symbol);
+  EXPECT_NE(mark_of("ode").colour, mark_of("bullet").colour);
+  EXPECT_EQ(mark_of("prism:8").symbol, mark_of("prism:64").symbol);
+  EXPECT_EQ(mark_of("my-engine").colour, 7u);
+  EXPECT_LT(mark_of("").symbol, 6u);
 }
 
 TEST(Html, HostileStringsStayData) {

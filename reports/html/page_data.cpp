@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "reports/html/marks.hpp"
+
 namespace touchstone {
 namespace {
 
@@ -90,6 +92,9 @@ json page_data(const json& report) {
     if (report.contains(list)) result[list] = packer.list(report[list]);
   }
   result["strings"] = packer.strings();
+  std::vector<std::string> names;
+  for (const json& c : report.value("candidates", json::array())) names.push_back(c["name"]);
+  result["marks"] = marks(names);
   return result;
 }
 

@@ -5,8 +5,9 @@
 namespace touchstone {
 
 /// A report as its page carries it, at a fifth of the size: `results`, `summary` and `trends` as
-/// {schema, rows} with their numbers to four digits, and the `strings` that rows name by number. A
-/// schema is "string", null (as it is) or an object, whose values a row gives in its order.
+/// {schema, rows} with their numbers to four digits, the `strings` that rows name by number, and
+/// the candidates' `marks`. A schema is "string", null (as it is) or an object, whose values a row
+/// gives in its order.
 nlohmann::json page_data(const nlohmann::json& report);
 
 }  // namespace touchstone

@@ -1,5 +1,5 @@
 // The page: its legend, its tables, and what the two views show.
-const data = JSON.parse(byId('data').textContent), view = makeView(byId('view'));
+const data = JSON.parse(byId('data').textContent), {marks} = data, view = makeView(byId('view'));
 const truth = data.truth, given = data.configuration, answers = Object.entries(data.answers);
 const whole = v => v === null ? '–' : v !== 0 && Math.abs(v) < 1e-3 ? v.toExponential() : String(v);
 const vector = v => v === null ? '–' : `(${v.map(c => c === null ? 'nan' : String(c)).join(', ')})`;

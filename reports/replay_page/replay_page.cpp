@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include "reference/invalid_input.hpp"
+#include "reports/html/marks.hpp"
 #include "reports/html/placeholder.hpp"
 
 namespace touchstone {
@@ -15,6 +16,9 @@ std::string replay_page(nlohmann::json examined, const nlohmann::json& hexadecim
   examined["hexadecimal"] = hexadecimal;
   examined["exact"] = exact;
   examined["description"] = description;
+  std::vector<std::string> names;
+  for (const auto& [name, unused] : examined["answers"].items()) names.push_back(name);
+  examined["marks"] = marks(names);
   std::string page(replay_html);
   fill(page, "/* report.css */", report_css);
   fill(page, "/* replay.css */", replay_css);

@@ -34,7 +34,7 @@ function classCell(c, r, quantity) {
       `depth error median ${exponent(quantile(r.depth_error, 'median'))}, worst ${exponent(quantile(r.depth_error, 'max'))}\n` +
       `normal angle p99 ${r.normal_angle === null ? '–' : r.normal_angle.p99.toPrecision(2) + '°'}, ${whole(time(r))} ns\n` +
       `patch covered: mean ${cutShare(quantile(r.coverage, 'mean'))}, least ${cutShare(quantile(r.coverage, 'min'))}`);
-  cell.addEventListener('click', () => showWorst(r.pair, r.candidate));
+  whenPressed(cell, () => showWorst(r.pair, r.candidate));
   return cell;
 }
 choices('class-pair', pairs, classTable, pairs[pairs.length - 1]);

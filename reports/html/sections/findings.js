@@ -31,6 +31,7 @@ const link = (text, act) => {
 
 function accuracyOf(pair) {
   const [first, second] = ranked(pair);
+  if (!first) return [element('b', {}, dashed(pair)), ': no candidate has a routine for it.'];
   return [element('b', {}, dashed(pair)), ': ', named(first.candidate), ` (${brief(first)})`,
           ...(second ? ['; next ', named(second.candidate), ` (${brief(second)})`] : []), '.'];
 }

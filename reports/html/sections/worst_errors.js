@@ -12,7 +12,7 @@ function worstErrorCell(r) {
       exponent(worst), r.outcomes.missed || lost(r) ? element('small', {}, `${whole((r.outcomes.missed || 0) + lost(r))} lost`) : null);
   explain(cell, `${r.candidate}, ${dashed(r.pair)}\n${outcomesText(r)}\nworst error ${exponent(worst)}, 99th percentile ` +
       `${exponent(quantile(r.severity, 'p99'))}\nClick for its worst cases`);
-  cell.addEventListener('click', () => showWorst(r.pair, r.candidate));
+  whenPressed(cell, () => showWorst(r.pair, r.candidate));
   return cell;
 }
 
@@ -35,7 +35,7 @@ function drakeCell(pair, r) {
   const worst = r.worst === null ? null : pair.configurations[r.worst];
   explain(cell, `${r.candidate}, ${dashed(r.pair)}, ${r.count} poses\n${outcomesText(r)}` + (worst ? `\nworst: ${worst.description}\nClick for the command` : ''));
   if (worst) {
-    cell.addEventListener('click', () => byId('drake-command').replaceChildren(
+    whenPressed(cell, () => byId('drake-command').replaceChildren(
         element('p', {}, `${r.candidate}, ${worst.description}:`),
         command(`echo '${JSON.stringify(worst.configuration)}' | ./touchstone replay - --candidates ${r.candidate}`)));
   }

@@ -1,4 +1,4 @@
-#include "campaigns/tally.hpp"
+#include "campaigns/score_tally.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -89,13 +89,14 @@ Score essence(const Score& s) {
 
 }  // namespace
 
-void Tally::add(std::size_t cell, std::uint64_t index, const Score& s) {
+void ScoreTally::add(std::size_t cell, std::uint64_t index, const Score& s) {
   ++count_;
   ++outcomes_[static_cast<std::size_t>(s.outcome)];
   if (s.points > 0) ++points_[s.points];
   for (std::size_t i = 0; i < quantities.size(); ++i) {
     if (const auto& error = s.*quantities[i].value) errors_[i].add(*error);
   }
+  if (is_judged(s.outcome)) severity_.add(s.severity);
   if (s.coverage) {
     const double covered = std::clamp(*s.coverage, 0.0, 1.0);
     uncovered_.add(1 - covered);
@@ -105,20 +106,21 @@ void Tally::add(std::size_t cell, std::uint64_t index, const Score& s) {
   select_worst();
 }
 
-void Tally::add(const Tally& other) {
+void ScoreTally::add(const ScoreTally& other) {
   count_ += other.count_;
   for (std::size_t i = 0; i < outcomes_.size(); ++i) outcomes_[i] += other.outcomes_[i];
   for (const auto& [number, count] : other.points_) points_[number] += count;
   for (std::size_t i = 0; i < errors_.size(); ++i) errors_[i].add(other.errors_[i]);
+  severity_.add(other.severity_);
   uncovered_.add(other.uncovered_);
   covered_sum_ += other.covered_sum_;
   worst_.insert(worst_.end(), other.worst_.begin(), other.worst_.end());
   select_worst();
 }
 
-void Tally::select_worst() { worst_ = worst_of_class(std::move(worst_)); }
+void ScoreTally::select_worst() { worst_ = worst_of_class(std::move(worst_)); }
 
-json Tally::summary() const {
+json ScoreTally::summary() const {
   json outcomes = json::object(), points = json::object();
   for (const Outcome outcome : all_outcomes) {
     const std::uint64_t count = outcomes_[static_cast<std::size_t>(outcome)];
@@ -128,6 +130,7 @@ json Tally::summary() const {
   json result = {{"count", count_},
                  {"outcomes", outcomes},
                  {"points", points},
+                 {"severity", quantiles(severity_)},
                  {"coverage", shares(uncovered_, covered_sum_)}};
   for (std::size_t i = 0; i < errors_.size(); ++i) {
     result[quantities[i].name] = quantiles(errors_[i]);
@@ -135,7 +138,7 @@ json Tally::summary() const {
   return result;
 }
 
-json Tally::to_json() const {
+json ScoreTally::to_json() const {
   json outcomes = json::object(), points = json::array(), worst = json::array();
   for (const Outcome outcome : all_outcomes) {
     outcomes[outcome_name(outcome)] = outcomes_[static_cast<std::size_t>(outcome)];
@@ -145,6 +148,7 @@ json Tally::to_json() const {
   json result = {{"count", count_},
                  {"outcomes", outcomes},
                  {"points", points},
+                 {"severity", severity_.to_json()},
                  {"uncovered", uncovered_.to_json()},
                  {"covered_sum", covered_sum_},
                  {"worst", worst}};
@@ -154,8 +158,8 @@ json Tally::to_json() const {
   return result;
 }
 
-Tally Tally::from_json(const json& j, std::size_t cell) {
-  Tally t;
+ScoreTally ScoreTally::from_json(const json& j, std::size_t cell) {
+  ScoreTally t;
   t.count_ = j.at("count");
   for (const auto& [name, count] : j.at("outcomes").items()) {
     t.outcomes_[static_cast<std::size_t>(parse_outcome(name))] = count;
@@ -164,6 +168,7 @@ Tally Tally::from_json(const json& j, std::size_t cell) {
   for (std::size_t i = 0; i < quantities.size(); ++i) {
     t.errors_[i] = Magnitudes::from_json(j.at(quantities[i].name));
   }
+  t.severity_ = Magnitudes::from_json(j.at("severity"));
   t.uncovered_ = Magnitudes::from_json(j.at("uncovered"));
   t.covered_sum_ = j.at("covered_sum");
   for (const json& entry : j.at("worst")) t.worst_.push_back(case_from_json(entry, cell));

@@ -1,4 +1,4 @@
-#include "campaigns/tally.hpp"
+#include "campaigns/score_tally.hpp"
 
 #include <cmath>
 #include <gmock/gmock.h>
@@ -28,6 +28,7 @@ Score arbitrary_score() {
   s.depth_error = maybe((*rc::gen::arbitrary<bool>() ? -1 : 1) * magnitude());
   s.normal_regret = maybe(magnitude());
   s.normal_angle = maybe(magnitude());
+  s.point_error = maybe(magnitude());
   s.coverage = maybe(*rc::gen::inRange(0, 101) / 100.0);
   s.model_error = maybe(magnitude());
   s.solver_error = maybe(-magnitude());
@@ -36,25 +37,25 @@ Score arbitrary_score() {
   return s;
 }
 
-Tally tally_of(const std::vector<Score>& scores) {
-  Tally tally;
+ScoreTally tally_of(const std::vector<Score>& scores) {
+  ScoreTally tally;
   for (std::size_t i = 0; i < scores.size(); ++i) tally.add(3, i, scores[i]);
   return tally;
 }
 
-TEST(Tally, OfPartsInAnyOrderIsThatOfTheWhole) {
+TEST(ScoreTally, OfPartsInAnyOrderIsThatOfTheWhole) {
   EXPECT_TRUE(rc::check([] {
     std::vector<Score> scores(static_cast<std::size_t>(*rc::gen::inRange(1, 40)));
     for (Score& s : scores) s = arbitrary_score();
-    std::vector<Tally> parts(4);
+    std::vector<ScoreTally> parts(4);
     for (std::size_t i = 0; i < scores.size(); ++i) {
       parts[*rc::gen::inRange<std::size_t>(0, 4)].add(3, i, scores[i]);
     }
-    Tally sum;
+    ScoreTally sum;
     const auto orders =
         std::vector<std::vector<std::size_t>>{{0, 1, 2, 3}, {3, 2, 1, 0}, {2, 0, 3, 1}};
     for (const std::size_t i : *rc::gen::elementOf(orders)) {
-      sum.add(Tally::from_json(json::parse(parts[i].to_json().dump()), 3));
+      sum.add(ScoreTally::from_json(json::parse(parts[i].to_json().dump()), 3));
     }
     RC_ASSERT(sum.to_json().dump() == tally_of(scores).to_json().dump());
   }));
@@ -66,7 +67,7 @@ void expect_within(const json& bounds, double value) {
   EXPECT_LE(bounds[1].get<double>() - bounds[0].get<double>(), value / 8 + 1e-300);
 }
 
-TEST(Tally, BoundsTheExactQuantilesOfTheReport) {
+TEST(ScoreTally, BoundsTheExactQuantilesOfTheReport) {
   EXPECT_TRUE(rc::check([] {
     std::vector<Score> scores(static_cast<std::size_t>(*rc::gen::inRange(1, 200)));
     for (Score& s : scores) s = arbitrary_score();
@@ -80,6 +81,10 @@ TEST(Tally, BoundsTheExactQuantilesOfTheReport) {
       EXPECT_EQ(found["depth_error"]["max"], exact.depth_error->max);
       EXPECT_GE(found["depth_error"]["median"], exact.depth_error->median);
     }
+    if (exact.severity) {
+      expect_within(found["severity"]["median_bounds"], exact.severity->median);
+      EXPECT_EQ(found["severity"]["max"], exact.severity->max);
+    }
     if (exact.coverage) {
       EXPECT_NEAR(found["coverage"]["mean"], exact.coverage->mean, 1e-7);
       EXPECT_LE(found["coverage"]["p1"], exact.coverage->p1);
@@ -89,14 +94,14 @@ TEST(Tally, BoundsTheExactQuantilesOfTheReport) {
   }));
 }
 
-TEST(Tally, KeepsTheTwoWorstAndTheWorstOfEachOutcome) {
+TEST(ScoreTally, KeepsTheTwoWorstAndTheWorstOfEachOutcome) {
   const auto score = [](Outcome outcome, double severity) {
     Score s;
     s.outcome = outcome;
     s.severity = severity;
     return s;
   };
-  const Tally tally =
+  const ScoreTally tally =
       tally_of({score(Outcome::agree, 1e-9), score(Outcome::missed, 5), score(Outcome::shallow, 2),
                 score(Outcome::missed, 5), score(Outcome::missed, 7),
                 score(Outcome::unsupported, 0), score(Outcome::crashed, 0)});
@@ -105,18 +110,18 @@ TEST(Tally, KeepsTheTwoWorstAndTheWorstOfEachOutcome) {
   EXPECT_THAT(indices, testing::ElementsAre(6, 4, 2, 0));  // of equal ones, 1 and 3, neither
 }
 
-TEST(Tally, KeepsTheFirstOfEquallyBadCases) {
+TEST(ScoreTally, KeepsTheFirstOfEquallyBadCases) {
   Score s;
   s.outcome = Outcome::missed;
   s.severity = 1;
-  Tally tally;
+  ScoreTally tally;
   for (const std::uint64_t index : {7U, 9U, 2U, 5U}) tally.add(0, index, s);
   std::vector<std::uint64_t> indices;
   for (const Case& c : tally.worst()) indices.push_back(c.index);
   EXPECT_THAT(indices, testing::ElementsAre(2, 5));
 }
 
-TEST(Tally, WritesWhatIsBeyondAllDoublesAsTheLargest) {
+TEST(ScoreTally, WritesWhatIsBeyondAllDoublesAsTheLargest) {
   Score s;
   s.outcome = Outcome::overdeep;
   s.depth_error = -std::numeric_limits<double>::infinity();

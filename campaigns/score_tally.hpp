@@ -16,10 +16,10 @@ namespace touchstone {
 /// The scores of one candidate on any number of configurations, in constant memory. Everything in
 /// it is an integer, a maximum or a selection under a total order: tallies of the parts, added in
 /// any order, are the tally of the whole to the last bit.
-class Tally {
+class ScoreTally {
  public:
   void add(std::size_t cell, std::uint64_t index, const Score& score);
-  void add(const Tally& other);
+  void add(const ScoreTally& other);
 
   std::uint64_t count() const { return count_; }
   /// Of a tally of one class: its worst_of_class.
@@ -33,7 +33,7 @@ class Tally {
   nlohmann::json to_json() const;
   /// Of a tally whose cases are all of this cell. Throws nlohmann::json::exception or InvalidInput
   /// on anything else than to_json gives.
-  static Tally from_json(const nlohmann::json& json, std::size_t cell);
+  static ScoreTally from_json(const nlohmann::json& json, std::size_t cell);
 
  private:
   void select_worst();
@@ -43,9 +43,10 @@ class Tally {
     const char* name;
     std::optional<double> Score::*value;
   };
-  static constexpr std::array<Quantity, 5> quantities = {{{"depth_error", &Score::depth_error},
+  static constexpr std::array<Quantity, 6> quantities = {{{"depth_error", &Score::depth_error},
                                                           {"normal_regret", &Score::normal_regret},
                                                           {"normal_angle", &Score::normal_angle},
+                                                          {"point_error", &Score::point_error},
                                                           {"model_error", &Score::model_error},
                                                           {"solver_error", &Score::solver_error}}};
 
@@ -53,6 +54,7 @@ class Tally {
   std::array<std::uint64_t, all_outcomes.size()> outcomes_{};
   std::map<int, std::uint64_t> points_;
   std::array<Magnitudes, quantities.size()> errors_;
+  Magnitudes severity_;            ///< Of all that is judged, missed contacts included.
   Magnitudes uncovered_;           ///< One minus coverage.
   std::uint64_t covered_sum_ = 0;  ///< Of coverage, in units of 2^-24.
   std::vector<Case> worst_;
