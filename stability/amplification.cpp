@@ -201,7 +201,9 @@ json amplification(const Ladder& ladder, const Study& study) {
       },
       [&](std::size_t done) { progress.update(done * of_cell); });
   std::vector<json> cells;
-  for (const std::string& text : results) cells.push_back(json::parse(text));
+  for (const std::string& text : results) {
+    if (!text.empty()) cells.push_back(json::parse(text));  // empty: interrupted before
+  }
   return collected(cells, ladder.seed, ladder.count);
 }
 

@@ -120,8 +120,11 @@ json maps(const std::vector<const CriticalPose*>& poses, const MapGrid& grid, co
   for (const MapLetter& l : map_letters) letters[std::string(1, l.letter)] = l.meaning;
   for (std::size_t p = 0; p < poses.size(); ++p) {
     std::vector<json> of_zooms;
-    for (std::size_t z = 0; z < zooms; ++z) of_zooms.push_back(json::parse(results[p * zooms + z]));
-    list.push_back(of_pose(*poses[p], of_zooms, study.candidates));
+    for (std::size_t z = 0; z < zooms; ++z) {
+      const std::string& text = results[p * zooms + z];
+      if (!text.empty()) of_zooms.push_back(json::parse(text));  // empty: interrupted before
+    }
+    if (of_zooms.size() == zooms) list.push_back(of_pose(*poses[p], of_zooms, study.candidates));
   }
   return {{"reach", map_reach},
           {"stride", grid.stride},

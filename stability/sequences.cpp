@@ -104,7 +104,9 @@ json sequences(const std::vector<const Motion*>& motions, int steps, const Study
       [&](std::size_t i) { return "sequence/" + motions[i]->name; },
       [&](std::size_t done) { progress.update(done * of_motion); });
   json list = json::array();
-  for (const std::string& text : results) list.push_back(json::parse(text));
+  for (const std::string& text : results) {
+    if (!text.empty()) list.push_back(json::parse(text));  // empty: interrupted before
+  }
   return {{"steps", steps}, {"motions", list}};
 }
 

@@ -2,11 +2,19 @@
 // failure, motions.
 function drawStability(into, data) {
   const colour = name => `var(${markOf(name).colour})`;
-  const mark = name => element('span', {class: 'swatch', style: `background:${colour(name)}`, 'aria-hidden': 'true'});
+  const dashes = ['', '7 3', '2 3', '9 3 2 3', '4 2', '1 4'];
+  // As its line is drawn.
+  const stroke = name => ({stroke: colour(name), fill: 'none', 'stroke-width': name === 'reference' ? 3 : 1.5,
+    'stroke-dasharray': dashes[symbols.indexOf(markOf(name).symbol)]});
+  const mark = name => {
+    const svg = shape('svg', {viewBox: '0 0 26 8', style: 'display:inline;width:26px;height:8px;margin-right:.35em;vertical-align:middle', 'aria-hidden': 'true'});
+    svg.append(shape('path', {d: 'M0,4h26', ...stroke(name)}));
+    return svg;
+  };
   const select = (label, options, change) => {
-    const list = element('select', {}, ...options.map(([value, text]) => element('option', {value}, text)));
+    const list = element('select', {style: 'max-width:100%'}, ...options.map(([value, text]) => element('option', {value}, text)));
     list.addEventListener('change', change);
-    return [element('label', {}, `${label} `, list), list];
+    return [element('label', {style: 'max-width:100%'}, `${label} `, list), list];
   };
   const command = name => `./touchstone replay ${name}`;
   const heat = share => `color-mix(in srgb, var(--bad) ${Math.round(70 * Math.min(1, Math.max(0, share)))}%, var(--panel))`;
@@ -62,7 +70,7 @@ function drawStability(into, data) {
       }));
     }
     function chart(pair, lines) {
-      const width = 380, height = 250, left = 46, right = 8, top = 8, bottom = 34;
+      const width = 380, height = 250, left = 46, right = 18, top = 8, bottom = 34;
       const share = measure.value === 'points_changed' || measure.value === 'missed';
       const least = share ? -3 : -17;
       const all = lines.flatMap(l => l[1]).filter(v => v !== null && v > 0).map(Math.log10);
@@ -83,11 +91,9 @@ function drawStability(into, data) {
       }
       svg.append(shape('text', {class: 'tick', x: (left + width - right) / 2, y: height - 6, 'text-anchor': 'middle'}, 'amplitude of the step'));
       if (measures[measure.value][1]) svg.append(shape('line', {class: 'front', x1: left, x2: width - right, y1: y(1), y2: y(1)}));
-      for (const [name, line] of lines) {
+      for (const [name, line] of lines.reverse()) {  // the first on top
         const points = line.flatMap((v, i) => v === null ? [] : [`${x(ladder.amplitudes[i]).toFixed(1)},${y(v).toFixed(1)}`]);
-        const path = shape('polyline', {points: points.join(' '), fill: 'none', stroke: colour(name),
-            'stroke-width': name === 'reference' ? 3 : 1.4,
-            'stroke-dasharray': ['', '6 3', '2 3'][Math.floor(data.candidates.indexOf(name) / 8) % 3]});
+        const path = shape('polyline', {points: points.join(' '), ...stroke(name)});
         path.append(shape('title', {}, `${name}: largest ${exponent(Math.max(...line.filter(v => v !== null)))}`));
         svg.append(path);
       }
