@@ -50,20 +50,76 @@ ArcPolygon::ArcPolygon(const Circle& circle) {
   }
 }
 
-ArcPolygon ArcPolygon::lens(const Circle& circle1, const Circle& circle2) {
-  const Vec2 between = circle2.centre - circle1.centre;
+Lens::Lens(const Circle& c1, const Circle& c2) : circle1(c1), circle2(c2) {
+  const Vec2 between = c2.centre - c1.centre;
   const double distance = between.norm();
   const Vec2 towards = between / distance;
-  const double r1 = circle1.radius, r2 = circle2.radius;
   // Where the common chord crosses the line of centres, and half its length.
-  const double x = (distance + (r1 - r2) * (r1 + r2) / distance) / 2;
-  const double half = std::sqrt(std::max(0.0, (r1 - x) * (r1 + x)));
-  const Vec2 left = circle1.centre + x * towards + half * turned_left(towards);
-  const Vec2 right = circle1.centre + x * towards - half * turned_left(towards);
+  const double x = (distance + (c1.radius - c2.radius) * (c1.radius + c2.radius) / distance) / 2;
+  const double half = std::sqrt(std::max(0.0, (c1.radius - x) * (c1.radius + x)));
+  left = c1.centre + x * towards + half * turned_left(towards);
+  right = c1.centre + x * towards - half * turned_left(towards);
+}
+
+Vec2 Lens::farthest(const Vec2& unit) const {
+  const auto within = [](const Circle& c, const Vec2& p) {
+    return (p - c.centre).squaredNorm() <= c.radius * c.radius;
+  };
+  const Vec2 top1 = circle1.centre + circle1.radius * unit;
+  if (within(circle2, top1)) return top1;
+  const Vec2 top2 = circle2.centre + circle2.radius * unit;
+  if (within(circle1, top2)) return top2;
+  return unit.dot(left) > unit.dot(right) ? left : right;
+}
+
+std::array<Vec2, 4> Lens::spread() const {
+  const Vec2 towards = (circle2.centre - circle1.centre).normalized();
+  const Vec2 end1 = circle1.centre + circle1.radius * towards;
+  const Vec2 end2 = circle2.centre - circle2.radius * towards;
+  const double rise1 = (end1 - left).dot(towards), rise2 = (left - end2).dot(towards);
+  // Arcs that stand out alike: their middles and the lens's widest places.
+  constexpr double alike = 0.45, all_but_flat = 0.15;
+  if (std::min(rise1, rise2) > alike * std::max(rise1, rise2)) {
+    const Vec2 aside = turned_left(towards);
+    return {end1, farthest(aside), end2, farthest(-aside)};
+  }
+  // Else two points of each; those of the flatter arc near the corners or, where the other circle
+  // is nearly whole, on that one.
+  const bool first_is_flatter = rise1 < rise2;
+  const Circle& round = first_is_flatter ? circle2 : circle1;
+  const Circle& flat = first_is_flatter ? circle1 : circle2;
+  const Vec2 out = first_is_flatter ? Vec2(-towards) : towards;
+  const auto on = [](const Circle& c, const Vec2& direction) -> Vec2 {
+    return c.centre + c.radius * direction.normalized();
+  };
+  const auto mirrored = [&](const Vec2& p) -> Vec2 {
+    const Vec2 arm = p - round.centre;
+    return round.centre + 2 * arm.dot(out) * out - arm;
+  };
+  const Vec2 corner = (left - round.centre) / round.radius;
+  constexpr double diagonal = 0.7071067811865476, third = 1.7;
+  const double sign = cross2(out, corner) < 0 ? -1 : 1;
+  const Vec2 aside = sign * turned_left(out);
+  Vec2 front, rear;
+  if (corner.dot(out) < -diagonal) {
+    front = on(round, out + 0.9 * aside);
+    rear = on(round, aside - out);
+  } else {
+    front = on(round, third * out + corner);  // near a third of the arc's half
+    rear = left;
+    if (std::min(rise1, rise2) > all_but_flat * std::max(rise1, rise2)) {
+      rear = on(flat, 3 * (left - flat.centre) / flat.radius - out);
+    }
+  }
+  return {front, rear, mirrored(rear), mirrored(front)};
+}
+
+ArcPolygon ArcPolygon::lens(const Circle& circle1, const Circle& circle2) {
+  const Lens lens(circle1, circle2);
   ArcPolygon result;
   result.circles_ = {circle1, circle2};
-  result.add_arc(0, right, left);
-  result.add_arc(1, left, right);
+  result.add_arc(0, lens.right, lens.left);
+  result.add_arc(1, lens.left, lens.right);
   return result;
 }
 
@@ -180,13 +236,14 @@ int ArcPolygon::spread(const Vec2& first, std::array<Vec2, 8>& points) const {
     Vec2 from;
     int circle;
     double angle;
-    int inside;  // points on it, ends not counted
+    int inside;           // points on it, ends not counted
+    double standing_out;  // how far its pieces do, as a part of the region's width there
   };
   std::array<Edge, max_vertices> edges;
   int edge_count = 0, total = 0;
   for (int i = 0; i < count_; ++i) {
     const Vertex& vertex = vertices_[(start + i) % count_];
-    if (vertex.corner) edges[edge_count++] = {vertex.at, vertex.circle, 0, 0};
+    if (vertex.corner) edges[edge_count++] = {vertex.at, vertex.circle, 0, 0, 0};
     if (vertex.circle == straight) continue;
     const Vec2& centre = circles_[vertex.circle].centre;
     edges[edge_count - 1].angle +=
@@ -201,26 +258,27 @@ int ArcPolygon::spread(const Vec2& first, std::array<Vec2, 8>& points) const {
   const auto rise = [&](const Edge& e, double angle) {  // of an arc above its chord
     return circles_[e.circle].radius * (1 - std::cos(angle / 2));
   };
-  /// How far the edge's pieces stand out, as a part of the region's width there.
-  const auto standing_out = [&](int i) {
-    const Edge& e = edges[i];
-    if (e.circle == straight) return 0.0;
+  const auto measure = [&](int i) {
+    Edge& e = edges[i];
+    if (e.circle == straight) return;
     const Vec2 chord = edges[(i + 1) % edge_count].from - e.from;
     const double length = chord.norm();
     double width = 0;
     for (int k = 0; k < edge_count && length > 0; ++k) {
       width = std::max(width, cross2(chord, edges[k].from - e.from) / length);
     }
-    return rise(e, piece(e)) / (width + rise(e, e.angle));
+    e.standing_out = rise(e, piece(e)) / (width + rise(e, e.angle));
   };
+  for (int i = 0; i < edge_count && total < enough; ++i) measure(i);
   while (total < enough) {
     int most = 0;
     for (int i = 1; i < edge_count; ++i) {
-      if (standing_out(i) > standing_out(most)) most = i;
+      if (edges[i].standing_out > edges[most].standing_out) most = i;
     }
-    if (!(standing_out(most) > flat_part)) break;
+    if (!(edges[most].standing_out > flat_part)) break;
     ++edges[most].inside;
     ++total;
+    measure(most);
   }
 
   std::array<Vec2, 2 * max_vertices> all;

@@ -18,6 +18,18 @@ struct Circle {
   double radius;
 };
 
+/// What two discs share when neither holds the other.
+struct Lens {
+  Circle circle1, circle2;
+  Vec2 left, right;  ///< its corners, as seen from circle 1's centre towards circle 2's
+
+  Lens(const Circle& c1, const Circle& c2);
+  /// The point that is farthest along a unit vector.
+  Vec2 farthest(const Vec2& unit) const;
+  /// Four points whose hull covers two thirds of the lens in every direction from its centroid.
+  std::array<Vec2, 4> spread() const;
+};
+
 /// A convex region of a plane, bounded counter-clockwise by straight edges and by arcs of at most
 /// two circles: a contact patch. Empty when it has no vertices. Fixed size, no allocation.
 class ArcPolygon {
@@ -32,7 +44,7 @@ class ArcPolygon {
 
   /// The disc within `circle`.
   explicit ArcPolygon(const Circle& circle);
-  /// What two discs share when neither holds the other: two corners and an arc of each.
+  /// Two corners and an arc of each circle.
   static ArcPolygon lens(const Circle& circle1, const Circle& circle2);
 
   /// Keeps the points with normal·x <= bound; `normal` is a unit vector. A sliver thinner than

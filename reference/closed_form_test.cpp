@@ -151,6 +151,22 @@ TEST(CylinderOnPlane, PosedPlaneWithALongNormalIsTheSameHalfSpace) {
   EXPECT_NEAR(signed_distance(c).value, 0.5, 1e-15);
 }
 
+// The axis is parallel to an edge, in rounded rotations all but parallel, which must not hide that
+// the edge touches the side.
+TEST(CylinderBox, EdgeParallelToTheAxisTouchesTheSide) {
+  const Configuration table[] = {
+      {Cylinder(0x1.294ce49p-1, 0x1.e5debd4p-3),
+       Pose({0x1.d8af52f8p-1, -0x1.3bb5decp+0, 0x1.96086e2p-2}, {-1, 4, -1, 1}),
+       Box({0x1.2bc5c818p-1, 0x1.8a87e3ep-3, 0x1.cb6c224p-2}),
+       Pose({-0x1.4ef983p-4, -0x1.1b484ab8p-1, 0x1.6ab93f1p-2}, {-4, 11, -7, 2})},
+      {Cylinder(0x1.e93abfcp-3, 0x1.38e7232p-3),
+       Pose({-0x1.e927938p-2, -0x1.35e8b2fp-1, -0x1.57ee448p-3}, {1, -1, -4, -1}),
+       Box({0x1.36f5a3cp-3, 0x1.9b85399p-2, 0x1.2966a33p-1}),
+       Pose({0x1.d4e5f2cp-4, -0x1.36a9988p-1, -0x1.afb913bp-2}, {4, -7, -11, -2})},
+  };
+  for (const Configuration& c : table) EXPECT_NEAR(signed_distance(c).value, 0, 1e-15);
+}
+
 TEST(PreviousNormal, IsKeptAsLongAsItIsAsGood) {
   const Pose centre;
   const auto hinted = [](const Pose& pose_b, const Vec3& previous, double threshold) {

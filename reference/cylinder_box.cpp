@@ -148,6 +148,8 @@ class Solver {
     Eigen::Matrix3d across_of;
     for (int i = 0; i < 3; ++i) across_of.col(i) = e_[i] * Vec3::Unit(i) - along[i] * u_;
 
+    // Along an edge that is parallel to the axis, what is across is rounding of either sign.
+    const double noise = -1e-15 * (d_.cwiseAbs().sum() + e_.sum());
     double nearest = std::numeric_limits<double>::infinity();
     Vec3 off_rim = Vec3::Zero();
     for (int corner = 0; corner < 8; ++corner) {
@@ -157,13 +159,15 @@ class Solver {
           d_across - x * across_of.col(0) - y * across_of.col(1) - z * across_of.col(2);
       const double squared = across.squaredNorm(), above = std::abs(height) - h_;
       const double bound = best_.gap + r_;
-      if (x * across[0] >= 0 && y * across[1] >= 0 && z * across[2] >= 0 && squared > 0 &&
-          !(bound > 0 && squared <= bound * bound)) {
+      if (x * across[0] >= noise && y * across[1] >= noise && z * across[2] >= noise &&
+          squared > 0 && !(bound > 0 && squared <= bound * bound)) {
         // What rounding leaves along the axis counts over its whole length.
         const double radial = std::sqrt(squared);
-        const Vec3 n = across / radial;
-        best_.offer(radial - r_, (n - n.dot(u_) * u_).normalized());
-        final_ = std::abs(height) <= h_ - depth() && depth() <= r_;
+        Vec3 n = across / radial;
+        n = (n - n.dot(u_) * u_).normalized();
+        const bool pointed = x * n[0] >= 0 && y * n[1] >= 0 && z * n[2] >= 0;
+        best_.offer(pointed ? radial - r_ : gap(n), n);
+        final_ = pointed && std::abs(height) <= h_ - depth() && depth() <= r_;
       }
       if (above > 0 && squared > r_ * r_ && above * above < nearest) {
         const double radial = std::sqrt(squared), beside = radial - r_;
@@ -189,6 +193,13 @@ class Solver {
     const int j = (i + 1) % 3, k = (i + 2) % 3;
     const Vec2 along(u_[j] / s_[i], u_[k] / s_[i]), across(-along.y(), along.x());
     const double lean = h_ * s_[i], b = r_ * std::abs(u_[i]);
+    // Inside the polygon, no direction is better than its edges less the ellipse's inscribed disc.
+    const double aside = across.x() * d_[j] + across.y() * d_[k];
+    const double polygon =
+        std::max({std::abs(d_[j]) - e_[j] - h_ * std::abs(u_[j]),
+                  std::abs(d_[k]) - e_[k] - h_ * std::abs(u_[k]),
+                  std::abs(aside) - e_[j] * std::abs(across.x()) - e_[k] * std::abs(across.y())});
+    if (polygon <= 0 && polygon - b <= best_.gap) return;
     for (int corner = 0; corner < 4; ++corner) {
       const Vec2 sign((corner & 1) ? 1 : -1, (corner & 2) ? 1 : -1);
       const Vec2 p(d_[j] - sign.x() * e_[j], d_[k] - sign.y() * e_[k]);
@@ -269,17 +280,20 @@ bool overlaps(const Cylinder& a, const Pose& pose_a, const Box& b, const Pose& p
 
 Contact contact(const Cylinder& a, const Pose& pose_a, const Box& b, const Pose& pose_b,
                 double contact_threshold, const Vec3* previous_normal) {
+  Contact result;
   if (!ordinary(a, pose_a, b, pose_b)) {
     const ScaledBodies scaled(a, pose_a, b, pose_b);
-    return scaled.back(scaled.ask([&](const auto&... bodies) {
+    result = scaled.back(scaled.ask([&](const auto&... bodies) {
       return contact(bodies..., scaled.scaled(contact_threshold), previous_normal);
     }));
+    return result;
   }
   const Vec3& origin = pose_b.position();
   const PosedCylinder posed_a = posed(a, pose_a, origin);
   const PosedBox posed_b = posed(b, pose_b, origin);
   const SignedDistance found = solve(a, b, posed_a, posed_b, contact_threshold);
-  return with_manifold(posed_a, posed_b, found, contact_threshold, origin, previous_normal);
+  make_contact(result, posed_a, posed_b, found, contact_threshold, origin, previous_normal);
+  return result;
 }
 
 }  // namespace touchstone

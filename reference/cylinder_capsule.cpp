@@ -150,16 +150,19 @@ bool overlaps(const Cylinder& a, const Pose& pose_a, const Capsule& b, const Pos
 
 Contact contact(const Cylinder& a, const Pose& pose_a, const Capsule& b, const Pose& pose_b,
                 double contact_threshold, const Vec3* previous_normal) {
+  Contact result;
   if (!ordinary(a, pose_a, b, pose_b)) {
     const ScaledBodies scaled(a, pose_a, b, pose_b);
-    return scaled.back(scaled.ask([&](const auto&... bodies) {
+    result = scaled.back(scaled.ask([&](const auto&... bodies) {
       return contact(bodies..., scaled.scaled(contact_threshold), previous_normal);
     }));
+    return result;
   }
   const Vec3& origin = pose_b.position();
-  return with_manifold(posed(a, pose_a, origin), posed(b, pose_b, origin),
-                       solve(a, pose_a, b, pose_b, contact_threshold), contact_threshold, origin,
-                       previous_normal);
+  make_contact(result, posed(a, pose_a, origin), posed(b, pose_b, origin),
+               solve(a, pose_a, b, pose_b, contact_threshold), contact_threshold, origin,
+               previous_normal);
+  return result;
 }
 
 }  // namespace touchstone

@@ -37,7 +37,7 @@ class Solver {
     better(&Solver::rim2_beside_side1, &Solver::side1_is_final);
     better(&Solver::rim1_beside_side2, &Solver::side2_is_final);
     if (best_.gap > enough || (this->*is_final_)()) return;
-    offer_rim_rim_normals(pair_, facing_points(), enough, best_);
+    offer_rim_rim_normals(pair_, enough, best_);
   }
   const LargestGap& best() const { return best_; }
 
@@ -51,20 +51,6 @@ class Solver {
     const double before = best_.gap;
     (this->*candidate)();
     if (best_.gap > before) is_final_ = certificate;
-  }
-
-  /// Two points of the bodies that are near each other, by alternating projections, in the folded
-  /// frame: from B's to A's.
-  Vec3 facing_points() const {
-    const PosedCylinder a{f_.d(), Vec3(1, 0, 0), pair_.r1, pair_.h1};
-    const PosedCylinder b{Vec3::Zero(), Vec3(f_.c, f_.s, 0), pair_.r2, pair_.h2};
-    Vec3 on_b = nearest(b, a.centre), on_a = nearest(a, on_b);
-    constexpr int rounds = 3;
-    for (int i = 0; i < rounds; ++i) {
-      on_b = nearest(b, on_a);
-      on_a = nearest(a, on_b);
-    }
-    return on_a - on_b;
   }
 
   void cap1() {
@@ -170,7 +156,8 @@ class Solver {
   Certificate is_final_ = &Solver::cap1_is_final;
 };
 
-/// `a` has the smaller radius or the same.
+/// Stops at the first direction with a clearance of more than `enough`. `a` has the smaller radius
+/// or the same.
 SignedDistance solve(const Cylinder& a, const Cylinder& b, const PosedCylinder& posed_a,
                      const PosedCylinder& posed_b, double enough) {
   const FoldedAxes f(posed_a.axis, posed_b.axis, posed_a.centre);
@@ -197,6 +184,28 @@ bool in_order(const Cylinder& a, const Pose& pose_a, const Cylinder& b, const Po
   return key(pose_a) <= key(pose_b);
 }
 
+/// The bodies in that order, in a frame about the second one.
+struct Ordered {
+  bool swapped;
+  const Cylinder &a, &b;
+  const Vec3& origin;
+  PosedCylinder posed_a, posed_b;
+
+  Ordered(const Cylinder& first, const Pose& pose1, const Cylinder& second, const Pose& pose2)
+      : swapped(!in_order(first, pose1, second, pose2)),
+        a(swapped ? second : first),
+        b(swapped ? first : second),
+        origin(swapped ? pose1.position() : pose2.position()),
+        posed_a(posed(a, swapped ? pose2 : pose1, origin)),
+        posed_b(posed(b, swapped ? pose1 : pose2, origin)) {}
+
+  SignedDistance solve(double enough) const {
+    return touchstone::solve(a, b, posed_a, posed_b, enough);
+  }
+  /// Of a normal between the bodies as they were given.
+  double sign() const { return swapped ? -1 : 1; }
+};
+
 }  // namespace
 
 SignedDistance signed_distance(const Cylinder& a, const Pose& pose_a, const Cylinder& b,
@@ -206,12 +215,10 @@ SignedDistance signed_distance(const Cylinder& a, const Pose& pose_a, const Cyli
     return scaled.back(
         scaled.ask([](const auto&... bodies) { return signed_distance(bodies...); }));
   }
-  if (!in_order(a, pose_a, b, pose_b)) {
-    const SignedDistance mirrored = signed_distance(b, pose_b, a, pose_a);
-    return {mirrored.value, -mirrored.normal};
-  }
-  const Vec3& origin = pose_b.position();
-  return solve(a, b, posed(a, pose_a, origin), posed(b, pose_b, origin), never);
+  const Ordered bodies(a, pose_a, b, pose_b);
+  SignedDistance found = bodies.solve(never);
+  found.normal *= bodies.sign();
+  return found;
 }
 
 bool overlaps(const Cylinder& a, const Pose& pose_a, const Cylinder& b, const Pose& pose_b) {
@@ -219,33 +226,26 @@ bool overlaps(const Cylinder& a, const Pose& pose_a, const Cylinder& b, const Po
     const ScaledBodies scaled(a, pose_a, b, pose_b);
     return scaled.ask([](const auto&... bodies) { return overlaps(bodies...); });
   }
-  if (!in_order(a, pose_a, b, pose_b)) return overlaps(b, pose_b, a, pose_a);
-  const Vec3& origin = pose_b.position();
-  const PosedCylinder posed_a = posed(a, pose_a, origin);
-  const PosedCylinder posed_b = posed(b, pose_b, origin);
-  return solve(a, b, posed_a, posed_b, 0).value <= 0;
+  return Ordered(a, pose_a, b, pose_b).solve(0).value <= 0;
 }
 
 Contact contact(const Cylinder& a, const Pose& pose_a, const Cylinder& b, const Pose& pose_b,
                 double contact_threshold, const Vec3* previous_normal) {
+  Contact result;
   if (!ordinary(a, pose_a, b, pose_b)) {
     const ScaledBodies scaled(a, pose_a, b, pose_b);
-    return scaled.back(scaled.ask([&](const auto&... bodies) {
+    result = scaled.back(scaled.ask([&](const auto&... bodies) {
       return contact(bodies..., scaled.scaled(contact_threshold), previous_normal);
     }));
+    return result;
   }
-  if (!in_order(a, pose_a, b, pose_b)) {
-    const Vec3 reversed = previous_normal ? Vec3(-*previous_normal) : Vec3(Vec3::Zero());
-    Contact mirrored =
-        contact(b, pose_b, a, pose_a, contact_threshold, previous_normal ? &reversed : nullptr);
-    mirrored.normal = -mirrored.normal;
-    return mirrored;
-  }
-  const Vec3& origin = pose_b.position();
-  const PosedCylinder posed_a = posed(a, pose_a, origin);
-  const PosedCylinder posed_b = posed(b, pose_b, origin);
-  const SignedDistance found = solve(a, b, posed_a, posed_b, contact_threshold);
-  return with_manifold(posed_a, posed_b, found, contact_threshold, origin, previous_normal);
+  const Ordered bodies(a, pose_a, b, pose_b);
+  Vec3 previous;
+  if (previous_normal) previous = bodies.sign() * *previous_normal;
+  make_contact(result, bodies.posed_a, bodies.posed_b, bodies.solve(contact_threshold),
+               contact_threshold, bodies.origin, previous_normal ? &previous : nullptr);
+  result.normal *= bodies.sign();
+  return result;
 }
 
 }  // namespace touchstone

@@ -1,6 +1,7 @@
 #include "cylinder_plane.hpp"
 
 #include <cmath>
+#include <numbers>
 
 #include "manifold.hpp"
 #include "scaled.hpp"
@@ -12,27 +13,95 @@ namespace {
 struct Stance {
   Vec3 normal;           ///< the plane's, unit
   double centre_height;  ///< of the cylinder's centre above the plane
-  Vec3 axis;             ///< the cylinder's
-  double cosine;         ///< axis·normal
-  Vec3 across;           ///< the normal less its part along the axis
-  double sine;           ///< length of `across`; not from the cosine, which hides a small tilt
+  double x, y, cosine;   ///< the normal in the cylinder's frame
+  double sine;           ///< not from the cosine, which hides a small tilt
   double signed_distance;
 
   Stance(const Cylinder& a, const Pose& pose_a, const Plane& b, const Pose& pose_b) {
-    const double squared = b.normal().squaredNorm();
-    // Most callers give a unit normal.
-    const double length = squared == 1 ? 1 : std::sqrt(squared);
-    normal = pose_b.rotation() * b.normal();
-    if (length != 1) normal /= length;
-    centre_height = normal.dot(pose_a.position() - pose_b.position()) - b.displacement() / length;
-    axis = pose_a.axis();
-    cosine = axis.dot(normal);
-    across = normal - cosine * axis;
-    sine = across.norm();
+    normal = pose_b.rotation() * b.unit_normal();
+    const Eigen::Matrix3d& axes = pose_a.rotation();
+    x = axes.col(0).dot(normal);
+    y = axes.col(1).dot(normal);
+    cosine = axes.col(2).dot(normal);
+    sine = std::sqrt(x * x + y * y);
+    centre_height = normal.dot(pose_a.position() - pose_b.position()) - b.unit_displacement();
     // The deepest point is on the lower cap's rim.
     signed_distance = centre_height - a.half_length() * std::abs(cosine) - a.radius() * sine;
   }
 };
+
+/// Adds points of the cylinder's surface, each halfway to the plane below it.
+class Points {
+ public:
+  Points(Contact& contact, const Stance& stance, const Pose& pose_a)
+      : contact_(contact), stance_(stance), pose_(pose_a) {}
+
+  /// The point (x, y, z) of the cylinder's frame.
+  void add(double x, double y, double z) {
+    const double height =
+        stance_.centre_height + x * stance_.x + y * stance_.y + z * stance_.cosine;
+    add(x, y, z, height);
+  }
+  void add(double x, double y, double z, double height) {
+    const Eigen::Matrix3d& axes = pose_.rotation();
+    const Vec3 arm = x * axes.col(0) + y * axes.col(1) + z * axes.col(2);
+    contact_.add_point(pose_.position() + (arm - height / 2 * stance_.normal), -height);
+  }
+
+ private:
+  Contact& contact_;
+  const Stance& stance_;
+  const Pose& pose_;
+};
+
+/// Three points of the lower cap's rim, the lowest and one to either side, 120° off or where the
+/// rim rises above the slack.
+void add_cap(Points& points, const Cylinder& a, const Stance& s, double slack) {
+  const double z = -std::copysign(a.half_length(), s.cosine), r = a.radius();
+  constexpr double level = 1e-15;  // the rest of the normal is rounding: any direction is lowest
+  const double x = s.sine > level ? -s.x / s.sine : 1, y = s.sine > level ? -s.y / s.sine : 0;
+  double cosine = -0.5, sine = std::numbers::sqrt3 / 2;
+  if (s.sine * r * (1 - cosine) > slack) {
+    cosine = 1 - slack / (s.sine * r);
+    sine = std::sqrt((1 - cosine) * (1 + cosine));
+  }
+  points.add(r * x, r * y, z);
+  points.add(r * (cosine * x - sine * y), r * (cosine * y + sine * x), z);
+  points.add(r * (cosine * x + sine * y), r * (cosine * y - sine * x), z);
+}
+
+/// The lowest generator's lower end and its other one, or where it rises above the slack.
+void add_generator(Points& points, const Cylinder& a, const Stance& s, double slack) {
+  const double scale = -a.radius() / s.sine;
+  const double low = -std::copysign(a.half_length(), s.cosine);
+  const double rise = 2 * a.half_length() * std::abs(s.cosine);
+  points.add(scale * s.x, scale * s.y, low, s.signed_distance);
+  points.add(scale * s.x, scale * s.y, rise > slack ? low * (1 - 2 * slack / rise) : -low);
+}
+
+Contact contact_in_range(const Cylinder& a, const Pose& pose_a, const Plane& b, const Pose& pose_b,
+                         double contact_threshold) {
+  const Stance stance(a, pose_a, b, pose_b);
+  Contact result;
+  result.normal = stance.normal;
+  result.signed_distance = stance.signed_distance;
+  if (stance.signed_distance > contact_threshold) return result;
+
+  const double size = largest_half_extent(a);
+  const double slack = manifold_slack(size, size, std::abs(stance.centre_height),
+                                      stance.signed_distance, contact_threshold);
+  Points points(result, stance, pose_a);
+  if (lies_flat(a.radius(), stance.sine, slack)) {
+    add_cap(points, a, stance, slack);
+  } else if (lies_flat(a.half_length(), stance.cosine, slack)) {
+    add_generator(points, a, stance, slack);
+  } else {
+    const double scale = -a.radius() / stance.sine;
+    points.add(scale * stance.x, scale * stance.y, -std::copysign(a.half_length(), stance.cosine),
+               stance.signed_distance);
+  }
+  return result;
+}
 
 }  // namespace
 
@@ -48,11 +117,7 @@ SignedDistance signed_distance(const Cylinder& a, const Pose& pose_a, const Plan
 }
 
 bool overlaps(const Cylinder& a, const Pose& pose_a, const Plane& b, const Pose& pose_b) {
-  if (!ordinary(a, pose_a, b, pose_b)) {
-    const ScaledBodies scaled(a, pose_a, b, pose_b);
-    return scaled.ask([](const auto&... bodies) { return overlaps(bodies...); });
-  }
-  return Stance(a, pose_a, b, pose_b).signed_distance <= 0;
+  return signed_distance(a, pose_a, b, pose_b).value <= 0;
 }
 
 Contact contact(const Cylinder& a, const Pose& pose_a, const Plane& b, const Pose& pose_b,
@@ -63,31 +128,7 @@ Contact contact(const Cylinder& a, const Pose& pose_a, const Plane& b, const Pos
       return contact(bodies..., scaled.scaled(contact_threshold));
     }));
   }
-  const Stance stance(a, pose_a, b, pose_b);
-  Contact result;
-  result.normal = stance.normal;
-  result.signed_distance = stance.signed_distance;
-  if (stance.signed_distance > contact_threshold) return result;
-
-  const double size = largest_half_extent(a);
-  const ManifoldRule rule(size, size, std::abs(stance.centre_height), stance.signed_distance,
-                          contact_threshold);
-  const Vec3& origin = pose_a.position();
-  if (!lies_flat(a.radius(), stance.sine, rule.slack) &&
-      !lies_flat(a.half_length(), stance.cosine, rule.slack)) {
-    const Vec3 deepest = -std::copysign(a.half_length(), stance.cosine) * stance.axis -
-                         (a.radius() / stance.sine) * stance.across -
-                         (stance.signed_distance / 2) * stance.normal;
-    result.add_point(origin + deepest, -stance.signed_distance);
-    return result;
-  }
-  const FacingFeature lower = facing(posed(a, pose_a, origin), -stance.normal, rule.slack);
-  FacingFeature ground{.kind = FacingFeature::Kind::half_space,
-                       .middle = -stance.centre_height * stance.normal,
-                       .axis = stance.normal};
-  ground.side[0] = pose_b.rotation().col(0);
-  add_manifold(result, lower, ground, origin, rule);
-  return result;
+  return contact_in_range(a, pose_a, b, pose_b, contact_threshold);
 }
 
 }  // namespace touchstone

@@ -23,9 +23,9 @@ struct Centre {
     const double z = axis.dot(arm);
     const Vec3 across = arm - z * axis;
     const double rho = across.norm();
-    axial = z < 0 ? Vec3(-axis) : axis;
+    axial = std::copysign(1, z) * axis;
     radial = rho > vanishing ? Vec3((1 / rho) * across) : Vec3(pose_a.rotation().col(0));
-    constexpr double few_digits = 1e-3;
+    constexpr double few_digits = 0.1;
     if (rho < few_digits * std::abs(z)) {  // what rounding leaves along the axis counts
       radial -= radial.dot(axis) * axis;
       const double length = radial.norm();
@@ -45,6 +45,26 @@ struct Centre {
                                      : SignedDistance{beyond_side, -radial};
   }
 };
+
+Contact contact_in_range(const Cylinder& a, const Pose& pose_a, const Sphere& b, const Pose& pose_b,
+                         double contact_threshold, const Vec3* previous_normal) {
+  SignedDistance found = Centre(a, pose_a, pose_b).nearest();
+  found.value -= b.radius();
+  if (previous_normal && found.value <= contact_threshold) {
+    const Vec3& origin = pose_b.position();
+    found = nearest_tie(posed(a, pose_a, origin), posed(b, pose_b, origin), found,
+                        contact_threshold, *previous_normal);
+  }
+  Contact result;
+  result.normal = found.normal;
+  result.signed_distance = found.value;
+  if (result.signed_distance <= contact_threshold) {
+    // From the centre towards the cylinder: the sphere's surface, then half of the way between.
+    result.add_point(pose_b.position() + (b.radius() + result.signed_distance / 2) * result.normal,
+                     -result.signed_distance);
+  }
+  return result;
+}
 
 }  // namespace
 
@@ -72,22 +92,7 @@ Contact contact(const Cylinder& a, const Pose& pose_a, const Sphere& b, const Po
       return contact(bodies..., scaled.scaled(contact_threshold), previous_normal);
     }));
   }
-  SignedDistance found = Centre(a, pose_a, pose_b).nearest();
-  found.value -= b.radius();
-  if (previous_normal && found.value <= contact_threshold) {
-    const Vec3 origin = pose_b.position();
-    found = nearest_tie(posed(a, pose_a, origin), posed(b, pose_b, origin), found,
-                        contact_threshold, *previous_normal);
-  }
-  Contact result;
-  result.normal = found.normal;
-  result.signed_distance = found.value;
-  if (result.signed_distance <= contact_threshold) {
-    // From the centre towards the cylinder: the sphere's surface, then half of the way between.
-    result.add_point(pose_b.position() + (b.radius() + result.signed_distance / 2) * result.normal,
-                     -result.signed_distance);
-  }
-  return result;
+  return contact_in_range(a, pose_a, b, pose_b, contact_threshold, previous_normal);
 }
 
 }  // namespace touchstone

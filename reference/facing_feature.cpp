@@ -3,50 +3,57 @@
 #include <cmath>
 
 namespace touchstone {
-namespace {
 
 using Kind = FacingFeature::Kind;
 
-}  // namespace
-
 FacingFeature facing(const PosedCylinder& body, const Vec3& outward, double slack) {
+  FacingFeature feature;
   const double along = body.axis.dot(outward);
   const Vec3 across = outward - along * body.axis;
-  const double sine = across.norm();
-  const Vec3 cap = body.centre + std::copysign(body.half_length, along) * body.axis;
-  if (lies_flat(body.radius, sine, slack)) {
-    return {.kind = Kind::disc,
-            .middle = cap,
-            .axis = along < 0 ? Vec3(-body.axis) : body.axis,
-            .radius = body.radius};
+  feature.sine = across.norm();
+  if (lies_flat(body.radius, feature.sine, slack)) {
+    feature.kind = Kind::disc;
+    feature.axis = std::copysign(1, along) * body.axis;
+    feature.middle = body.centre + body.half_length * feature.axis;
+    feature.radius = body.radius;
+    return feature;
   }
-  const Vec3 arm = (body.radius / sine) * across;
+  const Vec3 arm = (body.radius / feature.sine) * across;
   if (lies_flat(body.half_length, along, slack)) {
-    return {.kind = Kind::segment,
-            .middle = body.centre + arm,
-            .axis = body.axis,
-            .half_length = body.half_length,
-            .radius = body.radius};
+    feature.kind = Kind::segment;
+    feature.middle = body.centre + arm;
+    feature.axis = body.axis;
+    feature.half_length = body.half_length;
+    feature.radius = body.radius;
+    return feature;
   }
-  return {.kind = Kind::point, .middle = cap + arm, .sine = sine};
+  feature.kind = Kind::point;
+  feature.middle = body.centre + (std::copysign(body.half_length, along) * body.axis + arm);
+  return feature;
 }
 
 FacingFeature facing(const PosedCapsule& body, const Vec3& outward, double slack) {
+  FacingFeature feature;
+  feature.sine = 1;
+  feature.middle = body.centre + body.radius * outward;
   const double along = body.axis.dot(outward);
-  const Vec3 arm = body.radius * outward;
   if (lies_flat(body.half_length, along, slack)) {
-    return {.kind = Kind::segment,
-            .middle = body.centre + arm,
-            .axis = body.axis,
-            .half_length = body.half_length,
-            .radius = body.radius};
+    feature.kind = Kind::segment;
+    feature.axis = body.axis;
+    feature.half_length = body.half_length;
+    feature.radius = body.radius;
+    return feature;
   }
-  const Vec3 end = std::copysign(body.half_length, along) * body.axis;
-  return {.kind = Kind::point, .middle = body.centre + end + arm};
+  feature.kind = Kind::point;
+  feature.middle += std::copysign(body.half_length, along) * body.axis;
+  return feature;
 }
 
 FacingFeature facing(const PosedBox& body, const Vec3& outward, double slack) {
-  FacingFeature feature{.kind = Kind::point, .middle = body.centre};
+  FacingFeature feature;
+  feature.kind = Kind::point;
+  feature.sine = 1;
+  feature.middle = body.centre;
   int free = 0;
   double steepest = 0;
   for (int i = 0; i < 3; ++i) {
@@ -60,13 +67,14 @@ FacingFeature facing(const PosedBox& body, const Vec3& outward, double slack) {
     feature.middle += std::copysign(body.half_extents[i], along) * axis;
     if (std::abs(along) > std::abs(steepest)) {
       steepest = along;
-      feature.axis = along < 0 ? Vec3(-axis) : axis;
+      feature.axis = std::copysign(1, along) * axis;
     }
   }
   if (free == 1) {
     feature.kind = Kind::segment;
     feature.axis = feature.side[0];
     feature.half_length = feature.half_side[0];
+    feature.radius = 0;
   } else if (free == 2) {
     feature.kind = Kind::rectangle;
   }

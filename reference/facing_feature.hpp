@@ -11,20 +11,19 @@ namespace touchstone {
 struct FacingFeature {
   enum class Kind {
     point,
-    segment,  ///< a generator or an edge: middle, axis, half_length; radius of curvature across it
-    disc,     ///< a cap: middle, axis (its normal), radius
-    rectangle,  ///< a face: middle, axis (its normal), two sides with their half lengths
-    half_space  ///< middle, axis
+    segment,   ///< a generator or an edge: middle, axis, half_length; radius of curvature across it
+    disc,      ///< a cap: middle, axis (its normal), radius
+    rectangle  ///< a face: middle, axis (its normal), two sides with their half lengths
   };
   Kind kind;
   Vec3 middle;  ///< The point itself; on the surface.
-  Vec3 axis = Vec3::UnitZ();
-  double half_length = 0;
-  double radius = 0;
   /// Of a point on a rim, how much of the normal tells where on the rim it lies; else 1.
-  double sine = 1;
-  std::array<Vec3, 2> side = {Vec3::Zero(), Vec3::Zero()};
-  std::array<double, 2> half_side = {0, 0};
+  double sine;
+  // What the kind has not stays unset.
+  Vec3 axis;
+  double half_length, radius;
+  std::array<Vec3, 2> side;
+  std::array<double, 2> half_side;
 };
 
 /// Does a tenth of a feature of this half length, leaning by `sine`, rise by no more than `slack`?

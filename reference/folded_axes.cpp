@@ -9,7 +9,8 @@
 namespace touchstone {
 
 FoldedAxes::FoldedAxes(const Vec3& axis1, const Vec3& axis2, const Vec3& difference) {
-  const Vec3 u2 = axis1.dot(axis2) < 0 ? Vec3(-axis2) : axis2;
+  // Signs by multiplication: whether a pose needs them is anybody's guess, a branch would be too.
+  const Vec3 u2 = std::copysign(1, axis1.dot(axis2)) * axis2;
   e1 = axis1;
   e3 = e1.cross(u2);
   double length = e3.norm();
@@ -34,13 +35,13 @@ FoldedAxes::FoldedAxes(const Vec3& axis1, const Vec3& axis2, const Vec3& differe
   d1 = without_vanishing(difference.dot(e1));
   d2 = without_vanishing(difference.dot(e2));
   d3 = without_vanishing(difference.dot(e3));
-  if (d3 < 0) d3 = -d3, e3 = -e3;
-  if (d1 * (1 + c) + d2 * s < 0) {
-    d1 = -d1;
-    d2 = -d2;
-    e1 = -e1;
-    e2 = -e2;
-  }
+  e3 *= std::copysign(1, d3);
+  d3 = std::abs(d3);
+  const double flip = std::copysign(1, d1 * (1 + c) + d2 * s);
+  d1 *= flip;
+  d2 *= flip;
+  e1 *= flip;
+  e2 *= flip;
 }
 
 }  // namespace touchstone

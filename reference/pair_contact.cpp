@@ -15,27 +15,25 @@ double largest(const PosedBox& s) { return s.half_extents.maxCoeff(); }
 }  // namespace
 
 template <class Body>
-Contact with_manifold(const PosedCylinder& a, const Body& b, SignedDistance found,
-                      double contact_threshold, const Vec3& origin, const Vec3* previous_normal) {
-  Contact result;
+void make_contact(Contact& result, const PosedCylinder& a, const Body& b, SignedDistance found,
+                  double contact_threshold, const Vec3& origin, const Vec3* previous_normal) {
   if (previous_normal && found.value <= contact_threshold) {
     found = nearest_tie(a, b, found, contact_threshold, *previous_normal);
   }
   result.normal = found.normal;
   result.signed_distance = found.value;
-  if (found.value > contact_threshold) return result;
-  const ManifoldRule rule(largest(a), largest(b), (a.centre - b.centre).norm(), found.value,
-                          contact_threshold);
-  add_manifold(result, facing(a, -found.normal, rule.slack), facing(b, found.normal, rule.slack),
-               origin, rule);
-  return result;
+  if (found.value > contact_threshold) return;
+  const double slack = manifold_slack(largest(a), largest(b), (a.centre - b.centre).norm(),
+                                      found.value, contact_threshold);
+  add_manifold(result, facing(a, -found.normal, slack), facing(b, found.normal, slack), origin,
+               slack);
 }
 
-template Contact with_manifold(const PosedCylinder&, const PosedCapsule&, SignedDistance, double,
-                               const Vec3&, const Vec3*);
-template Contact with_manifold(const PosedCylinder&, const PosedCylinder&, SignedDistance, double,
-                               const Vec3&, const Vec3*);
-template Contact with_manifold(const PosedCylinder&, const PosedBox&, SignedDistance, double,
-                               const Vec3&, const Vec3*);
+template void make_contact(Contact&, const PosedCylinder&, const PosedCapsule&, SignedDistance,
+                           double, const Vec3&, const Vec3*);
+template void make_contact(Contact&, const PosedCylinder&, const PosedCylinder&, SignedDistance,
+                           double, const Vec3&, const Vec3*);
+template void make_contact(Contact&, const PosedCylinder&, const PosedBox&, SignedDistance, double,
+                           const Vec3&, const Vec3*);
 
 }  // namespace touchstone

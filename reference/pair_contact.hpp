@@ -5,10 +5,10 @@
 
 namespace touchstone {
 
-/// The whole answer for a known signed distance. `origin` is where the bodies' frame lies in the
-/// world; `previous_normal` may be null.
+/// Sets an empty contact to the whole answer for a known signed distance. `origin` is where the
+/// bodies' frame lies in the world; `previous_normal` may be null.
 template <class Body>
-Contact with_manifold(const PosedCylinder& a, const Body& b, SignedDistance found,
-                      double contact_threshold, const Vec3& origin, const Vec3* previous_normal);
+void make_contact(Contact& result, const PosedCylinder& a, const Body& b, SignedDistance found,
+                  double contact_threshold, const Vec3& origin, const Vec3* previous_normal);
 
 }  // namespace touchstone

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -34,6 +33,17 @@ struct RimSample {
   double cos1, sin1, cos2, sin2;  ///< where on the rims, from e2 and k2 to e3
 };
 
+struct Range {
+  double lo, hi;
+  bool empty() const { return !(lo <= hi); }
+};
+
+/// Where Newton's method for a normal of two rims ended.
+struct Stationary {
+  Vec3 normal;
+  bool maximum;  ///< It converged, to a normal that points outward at both ends.
+};
+
 /// Rim 1 about the origin and rim 2 about q: their sum's surface is where d lies in contact.
 class Rims {
  public:
@@ -44,12 +54,13 @@ class Rims {
     size_ = pair.r1 + pair.r2 + q_.norm();
   }
 
-  RimSample at(double angle) const {
+  RimSample at(double angle) const { return at(angle, std::cos(angle), std::sin(angle)); }
+  RimSample at(double angle, double cosine, double sine) const {
     const double c = pair_.axes.c, s = pair_.axes.s, r1 = pair_.r1, r2 = pair_.r2;
     RimSample x;
     x.angle = angle;
-    x.cos1 = std::cos(angle);
-    x.sin1 = std::sin(angle);
+    x.cos1 = cosine;
+    x.sin1 = sine;
     const double v2 = q_.y() - r1 * x.cos1, v3 = q_.z() - r1 * x.sin1;
     const double height = c * q_.x() + s * v2, k = c * v2 - s * q_.x();
     const double radial = std::sqrt(k * k + v3 * v3);
@@ -67,82 +78,68 @@ class Rims {
     return x;
   }
 
-  /// Can these ends meet at a gap above −depth? A normal has n·u >= 0 towards both ends, and q is a
-  /// sum of rim points to within the depth against it. So q lies no further back along an axis than
-  /// the other rim reaches and, as the rims' planes cross, no further off.
-  bool may_meet(double depth, double limit) const {
-    const FoldedAxes& f = pair_.axes;
-    const double along1 = end1_ * q_.x(), along2 = end2_ * f.along_u2(q_);
-    if (along1 < -(pair_.r2 * f.s + depth) || along2 < -(pair_.r1 * f.s + depth)) return false;
-    const double nearest = std::max(
-        {along1 - pair_.r2 * f.s, along2 - pair_.r1 * f.s, q_.norm() - pair_.r1 - pair_.r2});
-    return nearest <= std::max(limit, depth);
-  }
-
   /// Newton's method for the stationary normal of these ends, in whose neighbourhood
   /// G(n) = q·n − r1 |n − n·u1 u1| − r2 |n − n·u2 u2| is smooth. On the sphere G has the gradient
   /// q − p1 − p2 less its part along n, and the Hessian −(r1/ρ1) t1 t1ᵀ − (r2/ρ2) t2 t2ᵀ − G. The
   /// components of n that are small keep their digits. A step is at most half of n's distance from
   /// an axis, where G has its kinks; few steps are taken but where rims nearly touch along nearly
   /// parallel axes, in a valley that n has to go down by orders of magnitude.
-  Vec3 polished(Vec3 n) const {
+  Stationary polished(Vec3 n) const {
     const double c = pair_.axes.c, s = pair_.axes.s;
     constexpr int steps = 40;
     double previous = std::numeric_limits<double>::infinity();
+    bool converged = false;
     for (int i = 0; i < steps; ++i) {
-      n /= n.norm();
+      n *= 1 / n.norm();
       const double m = c * n.y() - s * n.x();  // n along k2
       const double rho1 = std::sqrt(n.y() * n.y() + n.z() * n.z());
       const double rho2 = std::sqrt(m * m + n.z() * n.z());
       if (!(rho1 > 0 && rho2 > 0)) break;
-      const double k1 = pair_.r1 / rho1, k2 = pair_.r2 / rho2;
+      const double inverse1 = 1 / rho1, inverse2 = 1 / rho2;
+      const double k1 = pair_.r1 * inverse1, k2 = pair_.r2 * inverse2;
       const Vec3 residual(q_.x() + k2 * s * m, q_.y() - k1 * n.y() - k2 * c * m,
                           q_.z() - (k1 + k2) * n.z());
       const double value = residual.dot(n);
-      const Vec3 t1 = Vec3(0, -n.z(), n.y()) / rho1;
-      const Vec3 other = n.cross(t1);
-      const Vec3 t2 = Vec3(s * n.z(), -c * n.z(), m) / rho2;
+      const double y1 = -inverse1 * n.z(), z1 = inverse1 * n.y();
+      const Vec3 t1(0, y1, z1), other(n.y() * z1 - n.z() * y1, -n.x() * z1, n.x() * y1);
+      const Vec3 t2(inverse2 * s * n.z(), -inverse2 * c * n.z(), inverse2 * m);
       const double x = t2.dot(t1), y = t2.dot(other);
       const double a = k1 + k2 * x * x + value, b = k2 * x * y, e = k2 * y * y + value;
       const double determinant = a * e - b * b;
       if (!(a > 0 && determinant > 0)) break;
-      const double g1 = residual.dot(t1), g2 = residual.dot(other);
-      const double step1 = (e * g1 - b * g2) / determinant;
-      const double step2 = (a * g2 - b * g1) / determinant;
+      const double g1 = residual.dot(t1), g2 = residual.dot(other), inverse = 1 / determinant;
+      double step1 = (e * g1 - b * g2) * inverse, step2 = (a * g2 - b * g1) * inverse;
       const double length = std::sqrt(step1 * step1 + step2 * step2);
       const double most = std::min(rho1, rho2) / 2;
-      const double scale = length > most ? most / length : 1;
-      n += scale * step1 * t1 + scale * step2 * other;
+      const bool too_long = length > most;
+      if (too_long) step1 *= most / length, step2 *= most / length;
+      n += step1 * t1 + step2 * other;
       // Converged, or as far as rounding lets it.
       constexpr double small_part = 1e-8;
-      if (length <= small_part * most || length >= previous / 2) break;
-      previous = scale < 1 ? std::numeric_limits<double>::infinity() : length;
+      converged = length <= small_part * most;
+      if (converged || length >= previous / 2) break;
+      previous = too_long ? std::numeric_limits<double>::infinity() : length;
     }
-    return n;
+    n.normalize();
+    const bool outward = end1_ * n.x() >= 0 && end2_ * pair_.axes.along_u2(n) >= 0;
+    return {n, converged && outward};
   }
 
-  /// The angles of rim 1 at which the rims may meet. Rim 1's point lies above rim 2's plane by a
-  /// height that its angle alone gives, at most the distance of the rims: on the far side of the
-  /// plane where the bodies are apart, on the near side where they overlap.
-  std::pair<double, double> useful_arc(double depth, double limit) const {
-    const double lean = pair_.axes.s * pair_.r1, height = pair_.axes.along_u2(q_);
-    const double lowest = end2_ > 0 ? -depth : -limit, highest = end2_ > 0 ? limit : depth;
-    const double margin = 4 * noise();
-    const double least = (height - highest - margin) / lean;
-    const double most = (height - lowest + margin) / lean;
-    // Where the ends' cones of normals share only one quarter, that quarter.
-    const double from = end1_ != end2_ && end2_ < 0 ? 0.0 : 1.0;
-    const double to = end1_ != end2_ && end2_ > 0 ? 0.0 : -1.0;
-    const double first = std::min(most, from), last = std::max(least, to);
-    if (first < last) return {1, 0};
-    return {std::acos(std::max(first, -1.0)), std::acos(std::min(last, 1.0))};
-  }
+  /// The cosines of rim 1's angles at which these ends may have a local maximum of the gap between
+  /// `lowest` and `highest`; an empty range if they have none.
+  Range useful_cosines(double lowest, double highest) const;
 
   double radius1() const { return pair_.r1; }
   /// What rounding leaves of a slope.
   double noise() const { return 2e-16 * size_; }
 
  private:
+  /// Likewise, from one coordinate alone, which is all that rounding leaves of them along nearly
+  /// parallel axes: rim 1's point lies above rim 2's plane by a height that its angle gives, at
+  /// most the distance of the rims, on the far side of the plane where the bodies are apart, on the
+  /// near side where they overlap.
+  Range cosines_at_height(double depth, double limit) const;
+
   const FoldedCylinders& pair_;
   double end1_, end2_;
   Vec3 q_;

@@ -28,22 +28,15 @@ inline Lengths lengths(const Box& s) {
   const Vec3& e = s.half_extents();
   return {std::min({e.x(), e.y(), e.z()}), e.x() + e.y() + e.z()};
 }
-inline Lengths lengths(const Plane& s) {
-  const Vec3& n = s.normal();
-  const double size = std::abs(n.x()) + std::abs(n.y()) + std::abs(n.z());
-  return {size, size + std::abs(s.displacement())};
-}
-inline double offset(const Pose& p) {
-  const Vec3& x = p.position();
-  return std::abs(x.x()) + std::abs(x.y()) + std::abs(x.z());
-}
+inline Lengths lengths(const Plane& s) { return {most_length, std::abs(s.unit_displacement())}; }
 
 /// Are all lengths such that their squares and fourth powers are ordinary doubles?
 template <class Other>
 bool ordinary(const Cylinder& a, const Pose& pose_a, const Other& b, const Pose& pose_b) {
   const Lengths of_a = lengths(a), of_b = lengths(b);
-  return std::min(of_a.least, of_b.least) > least_length &&
-         of_a.sum + of_b.sum + offset(pose_a) + offset(pose_b) < most_length;
+  const Vec3 d = pose_a.position() - pose_b.position();
+  return std::min(of_a.least, of_b.least) > least_length && of_a.sum + of_b.sum < most_length &&
+         d.x() * d.x() + d.y() * d.y() + d.z() * d.z() < most_length * most_length;
 }
 
 /// The bodies with all lengths times a power of two so that the largest is about one; lengths that
@@ -90,17 +83,10 @@ class ScaledBodies {
     // A capsule's two lengths may only overflow when they are added.
     return std::min(largest_half_extent(s), std::numeric_limits<double>::max());
   }
-  static double largest(const Plane& s) {
-    return std::max(least_length, std::abs(offset(s, s.normal().stableNorm())));
-  }
-  static double offset(const Plane& s, double length) {
-    constexpr double most = std::numeric_limits<double>::max();
-    return std::clamp(s.displacement() / length, -most, most);
-  }
+  static double largest(const Plane& s) { return std::abs(s.unit_displacement()); }
   double size(double length) const { return std::max(scaled(length), vanishing); }
   Plane scaled(const Plane& s) const {
-    const double length = s.normal().stableNorm();
-    return Plane((s.normal() / length).normalized(), scaled(offset(s, length)));
+    return Plane(s.unit_normal(), scaled(s.unit_displacement()));
   }
   Sphere scaled(const Sphere& s) const { return Sphere(size(s.radius())); }
   Cylinder scaled(const Cylinder& s) const { return {size(s.radius()), size(s.half_length())}; }

@@ -19,10 +19,14 @@ class Plane {
   Plane(const Vec3& normal, double displacement);
   const Vec3& normal() const { return normal_; }
   double displacement() const { return displacement_; }
+  /// The same in double precision with a normal of unit length; what overflows is the largest
+  /// double.
+  const Vec3& unit_normal() const { return unit_normal_; }
+  double unit_displacement() const { return unit_displacement_; }
 
  private:
-  Vec3 normal_;
-  double displacement_;
+  Vec3 normal_, unit_normal_;
+  double displacement_, unit_displacement_;
 };
 
 class Sphere {

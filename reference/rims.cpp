@@ -1,0 +1,110 @@
+#include "rims.hpp"
+
+namespace touchstone {
+namespace {
+
+double sine_of(double cosine) { return std::sqrt(std::max(0.0, (1 - cosine) * (1 + cosine))); }
+
+/// A quarter of a rim: |cos| within a range, and sin accordingly.
+struct Quarter {
+  Range cosine, sine;
+
+  explicit Quarter(const Range& c) : cosine(c), sine{sine_of(c.hi), sine_of(c.lo)} {}
+  /// Keeps what has a sine within these bounds.
+  void keep(double least, double most) {
+    if (sine.hi > most) sine.hi = std::max(most, 0.0), cosine.lo = sine_of(sine.hi);
+    if (sine.lo < least) sine.lo = std::min(least, 1.0), cosine.hi = sine_of(sine.lo);
+  }
+};
+
+/// G x for a gap between `lowest` and `highest` and an x within a range of positive numbers.
+Range product(double lowest, double highest, const Range& x) {
+  return {lowest * (lowest < 0 ? x.hi : x.lo), highest * (highest < 0 ? x.lo : x.hi)};
+}
+
+/// |cos| where sign * cos = offset + end * x, x within a range, and cos has this sign.
+Range cosines(double offset, double end, const Range& x, double sign) {
+  const double at_lo = sign * (offset + end * x.lo), at_hi = sign * (offset + end * x.hi);
+  return {std::max(0.0, std::min(at_lo, at_hi)), std::min(1.0, std::max(at_lo, at_hi))};
+}
+
+}  // namespace
+
+Range Rims::cosines_at_height(double depth, double limit) const {
+  const double lean = pair_.axes.s * pair_.r1, height = pair_.axes.along_u2(q_);
+  const double lowest = end2_ > 0 ? -depth : -limit, highest = end2_ > 0 ? limit : depth;
+  const double margin = 4 * noise();
+  // Where the ends' cones of normals share only one quarter, that quarter.
+  const double most = end1_ != end2_ && end2_ < 0 ? 0.0 : 1.0;
+  const double least = end1_ != end2_ && end2_ > 0 ? 0.0 : -1.0;
+  return {std::max(least, (height - highest - margin) / lean),
+          std::min(most, (height - lowest + margin) / lean)};
+}
+
+// Where the rims meet at a normal n with gap G, rim 1's point r1 (cos α e2 + sin α e3) and rim 2's
+// r2 (cos β k2 + sin β e3) add up to q − G n. Along u2, e1 and e3 that is
+//
+//   s r1 cos α = q·u2 − G n·u2      s r2 cos β = G n·e1 − q·e1      r1 sin α + r2 sin β = d3 − G n3
+//
+// where n points outward at both ends, and n3 <= d3 / (r1 + r2 + G) because a rim's point is n's
+// part across its axis, scaled up to the radius. At a maximum of depth δ = −G the tangents enclose
+// an angle φ with cos² φ <= (1 − δ ρ1 / r1) (1 − δ ρ2 / r2), else the sum of the rims is less round
+// than the sphere of that radius (the Hessian at `polished`; ρi is the sine of the angle between n
+// and axis i). As ρ1 + ρ2 >= s, that product is at most what it is for the best such pair.
+//
+// Seen along e3, with e1 at 0 and u2 at γ, the signs of n·e2 and n·k2 and the ends say in which of
+// the sectors between 0, γ, 90° and 90° + γ (or opposite ones) n lies, and so bound n·e1 and n·u2.
+Range Rims::useful_cosines(double lowest, double highest) const {
+  const FoldedAxes& f = pair_.axes;
+  const double s = f.s, c = f.c, r1 = pair_.r1, r2 = pair_.r2;
+  constexpr double parallel = 1e-2;
+  if (s < parallel) return cosines_at_height(std::max(0.0, -lowest), std::max(0.0, highest));
+  const double margin = 5e4 * noise(), inward = std::min(lowest, 0.0);
+  const double outward = std::max(highest, 0.0);
+  const double inverse1 = 1 / (s * r1), inverse2 = 1 / (s * r2);
+  const double offset1 = f.along_u2(q_) * inverse1, offset2 = -q_.x() * inverse2;
+
+  const double radii = r1 + r2;
+  const double most_n3 = radii + lowest > 0 ? std::min(1.0, f.d3 / (radii + lowest)) : 1;
+  const double in_plane = std::sqrt((1 - most_n3) * (1 + most_n3));
+  const double bend = -std::min(highest, 0.0) * s;
+  constexpr double rounding = 1e-12;
+  const double most_squared_cosine =
+      rounding +
+      (r2 - bend >= r1 ? 1 - bend / r2 : (radii - bend) * (radii - bend) / (4 * r1 * r2));
+
+  Range useful{2, -2};
+  const auto keep_sector = [&](double sign1, double sign2, const Range& along1,
+                               const Range& along2) {
+    const Range gap1 = product(lowest, highest, along1), gap2 = product(lowest, highest, along2);
+    const Range cosine1 =
+        cosines(offset1, -end2_ * inverse1, {gap2.lo - margin, gap2.hi + margin}, sign1);
+    const Range cosine2 =
+        cosines(offset2, end1_ * inverse2, {gap1.lo - margin, gap1.hi + margin}, sign2);
+    if (cosine1.empty() || cosine2.empty()) return;
+    Quarter one(cosine1), two(cosine2);
+    const double n3 = std::min({most_n3, one.sine.hi, two.sine.hi});
+    const Range sines{f.d3 - outward * n3 - margin, f.d3 - inward * n3 + margin};
+    one.keep((sines.lo - r2 * two.sine.hi) / r1, (sines.hi - r2 * two.sine.lo) / r1);
+    two.keep((sines.lo - r1 * one.sine.hi) / r2, (sines.hi - r1 * one.sine.lo) / r2);
+    if (one.sine.empty() || two.sine.empty()) return;
+    const double sines_lo = c * one.sine.lo * two.sine.lo;
+    const double sines_hi = c * one.sine.hi * two.sine.hi;
+    const double cosines_lo = one.cosine.lo * two.cosine.lo;
+    const double cosine = sign1 == sign2 ? cosines_lo + sines_lo : cosines_lo - sines_hi;
+    if (cosine > 0 && cosine * cosine > most_squared_cosine) return;
+    useful.lo = std::min(useful.lo, sign1 > 0 ? one.cosine.lo : -one.cosine.hi);
+    useful.hi = std::max(useful.hi, sign1 > 0 ? one.cosine.hi : -one.cosine.lo);
+  };
+  if (end1_ != end2_) {
+    keep_sector(end2_, end2_, {0, s}, {0, s});
+  } else {
+    const Range near{c * in_plane, 1};  // between the axes
+    keep_sector(end1_, end1_, {0, c}, {s * in_plane, 1});
+    keep_sector(end1_, -end1_, near, near);
+    keep_sector(-end1_, -end1_, {s * in_plane, 1}, {0, c});
+  }
+  return useful;
+}
+
+}  // namespace touchstone
