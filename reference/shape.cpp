@@ -42,11 +42,15 @@ Plane::Plane(const Vec3& normal, double displacement)
     : normal_(normal), displacement_(checked_finite("displacement", displacement)) {
   for (int i = 0; i < 3; ++i) checked_finite("normal[" + std::to_string(i) + "]", normal[i]);
   if (normal.isZero(0)) throw InvalidInput("normal", "[0, 0, 0]", "must not be zero");
-  const double length = normal.stableNorm();
+  // Times a power of two, so that no square overflows or vanishes.
+  int exponent;
+  std::frexp(normal.cwiseAbs().maxCoeff(), &exponent);
+  const Vec3 direction =
+      normal.unaryExpr([exponent](double x) { return std::ldexp(x, -exponent); });
   constexpr double most = std::numeric_limits<double>::max();
-  // Twice, because the shortest doubles leave few digits in the first quotient.
-  unit_normal_ = (normal / length).normalized();
-  unit_displacement_ = std::clamp(displacement / length, -most, most);
+  unit_normal_ = direction.normalized();
+  unit_displacement_ =
+      std::clamp(std::ldexp(displacement, -exponent) / direction.norm(), -most, most);
 }
 
 Sphere::Sphere(double radius) : radius_(checked_size("radius", radius)) {}
