@@ -39,13 +39,13 @@ struct Options {
   }
 };
 
-std::vector<Replayed> replay_corpus(const Options& options) {
+std::vector<ReplayedFailure> replay_corpus(const Options& options) {
   if (options.corpus.empty()) return {};
   std::vector<Failure> corpus = read_corpus(options.corpus);
   if (!options.candidate.empty()) {
     std::erase_if(corpus, [&](const Failure& f) { return f.candidate != options.candidate; });
   }
-  const std::vector<Replayed> replayed = replay(corpus, {});
+  const std::vector<ReplayedFailure> replayed = replay(corpus, {});
   fmt::print("{}:\n{}", options.corpus, corpus_text(replayed));
   return replayed;
 }
@@ -89,8 +89,9 @@ int run(const Options& options) {
   }
   const bool broken =
       std::any_of(results.begin(), results.end(), [](const LawResult& r) { return r.broken > 0; });
-  const bool changed = std::any_of(corpus.begin(), corpus.end(), [](const Replayed& r) {
-    return r.result == Replayed::Result::fixed || r.result == Replayed::Result::changed;
+  const bool changed = std::any_of(corpus.begin(), corpus.end(), [](const ReplayedFailure& r) {
+    return r.result == ReplayedFailure::Result::fixed ||
+           r.result == ReplayedFailure::Result::changed;
   });
   return broken || changed ? something_failed : 0;
 }

@@ -62,15 +62,15 @@ std::string escaped(const std::string& text) {
   return result;
 }
 
-const char* result_name(Replayed::Result result) {
+const char* result_name(ReplayedFailure::Result result) {
   switch (result) {
-    case Replayed::Result::as_expected:
+    case ReplayedFailure::Result::as_expected:
       return "as expected";
-    case Replayed::Result::fixed:
+    case ReplayedFailure::Result::fixed:
       return "fixed";
-    case Replayed::Result::changed:
+    case ReplayedFailure::Result::changed:
       return "changed";
-    case Replayed::Result::skipped:
+    case ReplayedFailure::Result::skipped:
       return "skipped";
   }
   return "";
@@ -101,11 +101,11 @@ std::string check_text(const std::vector<LawResult>& results) {
   return text;
 }
 
-std::string corpus_text(const std::vector<Replayed>& corpus) {
+std::string corpus_text(const std::vector<ReplayedFailure>& corpus) {
   std::string text;
-  for (const Replayed& r : corpus) {
+  for (const ReplayedFailure& r : corpus) {
     text += fmt::format("  {:<12} {}{}\n", result_name(r.result), corpus_name(r.expected),
-                        r.now.empty() || r.result == Replayed::Result::as_expected
+                        r.now.empty() || r.result == ReplayedFailure::Result::as_expected
                             ? ""
                             : fmt::format(" ({})", r.now));
   }
@@ -113,7 +113,7 @@ std::string corpus_text(const std::vector<Replayed>& corpus) {
 }
 
 std::string junit_xml(const std::string& candidate, const std::vector<LawResult>& results,
-                      const std::vector<Replayed>& corpus) {
+                      const std::vector<ReplayedFailure>& corpus) {
   std::string cases;
   int failures = 0, skipped = 0;
   for (const LawResult& r : results) {
@@ -127,13 +127,13 @@ std::string junit_xml(const std::string& candidate, const std::vector<LawResult>
     }
     cases += "</testcase>\n";
   }
-  for (const Replayed& r : corpus) {
+  for (const ReplayedFailure& r : corpus) {
     cases += fmt::format("    <testcase classname=\"{}.corpus\" name=\"{}\">",
                          escaped(r.expected.candidate), escaped(corpus_name(r.expected)));
-    if (r.result == Replayed::Result::skipped) {
+    if (r.result == ReplayedFailure::Result::skipped) {
       ++skipped;
       cases += "<skipped/>";
-    } else if (r.result != Replayed::Result::as_expected) {
+    } else if (r.result != ReplayedFailure::Result::as_expected) {
       ++failures;
       cases +=
           fmt::format("<failure type=\"{}\">{}</failure>", result_name(r.result), escaped(r.now));
@@ -148,7 +148,7 @@ std::string junit_xml(const std::string& candidate, const std::vector<LawResult>
 }
 
 json to_json(const std::string& candidate, const CheckOptions& options,
-             const std::vector<LawResult>& results, const std::vector<Replayed>& corpus) {
+             const std::vector<LawResult>& results, const std::vector<ReplayedFailure>& corpus) {
   json laws = json::array(), saved = json::array();
   for (const LawResult& r : results) {
     json failures = json::array();
@@ -160,7 +160,7 @@ json to_json(const std::string& candidate, const CheckOptions& options,
                     {"outcomes", r.counts},
                     {"failures", failures}});
   }
-  for (const Replayed& r : corpus) {
+  for (const ReplayedFailure& r : corpus) {
     json entry = to_json(r.expected);
     entry["result"] = result_name(r.result);
     entry["now"] = r.now;

@@ -30,18 +30,19 @@ double number(const json& object, const char* member) {
   return object[member];
 }
 
-Replayed replayed(const Failure& expected, const Limits& limits) {
+ReplayedFailure replayed(const Failure& expected, const Limits& limits) {
   std::unique_ptr<CandidateProcess> process;
   try {
     process = std::make_unique<CandidateProcess>(find_candidate(expected.candidate),
                                                  expected.bar.threshold, limits);
   } catch (const InvalidInput&) {
-    return {expected, Replayed::Result::skipped, "the candidate is not installed"};
+    return {expected, ReplayedFailure::Result::skipped, "the candidate is not installed"};
   }
   const auto v = broken(find_law(expected.law), expected.configuration, *process, expected.bar);
-  if (!v) return {expected, Replayed::Result::fixed, ""};
+  if (!v) return {expected, ReplayedFailure::Result::fixed, ""};
   const bool same = v->failure == expected.violation.failure;
-  return {expected, same ? Replayed::Result::as_expected : Replayed::Result::changed, v->failure};
+  return {expected, same ? ReplayedFailure::Result::as_expected : ReplayedFailure::Result::changed,
+          v->failure};
 }
 
 }  // namespace
@@ -121,8 +122,8 @@ std::vector<Failure> read_corpus(const std::filesystem::path& folder) {
   return corpus;
 }
 
-std::vector<Replayed> replay(const std::vector<Failure>& corpus, const Limits& limits) {
-  std::vector<Replayed> result;
+std::vector<ReplayedFailure> replay(const std::vector<Failure>& corpus, const Limits& limits) {
+  std::vector<ReplayedFailure> result;
   result.reserve(corpus.size());
   for (const Failure& failure : corpus) result.push_back(replayed(failure, limits));
   return result;

@@ -24,7 +24,7 @@ std::filesystem::path save(const Failure& failure, const std::filesystem::path& 
 std::vector<Failure> read_corpus(const std::filesystem::path& folder);
 
 /// What became of a saved failure.
-struct Replayed {
+struct ReplayedFailure {
   enum class Result { as_expected, fixed, changed, skipped };
   Failure expected;
   Result result;
@@ -32,6 +32,6 @@ struct Replayed {
 };
 
 /// Asks again, every failure's own candidate; one that is not installed is skipped.
-std::vector<Replayed> replay(const std::vector<Failure>& corpus, const Limits& limits);
+std::vector<ReplayedFailure> replay(const std::vector<Failure>& corpus, const Limits& limits);
 
 }  // namespace touchstone

@@ -64,21 +64,22 @@ TEST(Corpus, ACandidateThatIsNotInstalledIsSkipped) {
   Failure f = failure();
   f.candidate = "havok";
   const auto replayed = replay({f}, {});
-  EXPECT_EQ(replayed.at(0).result, Replayed::Result::skipped);
+  EXPECT_EQ(replayed.at(0).result, ReplayedFailure::Result::skipped);
 }
 
 TEST(Corpus, SeesWhatIsFixedAndWhatHasChanged) {
   Failure kept = failure();
   kept.candidate = "reference";
-  EXPECT_EQ(replay({kept}, {}).at(0).result, Replayed::Result::fixed);
+  EXPECT_EQ(replay({kept}, {}).at(0).result, ReplayedFailure::Result::fixed);
 }
 
 // A new version of an engine that mends or breaks one of these is to be noticed.
 TEST(Corpus, KnownFailuresFailAsTheyDid) {
   const auto corpus = read_corpus(TOUCHSTONE_CORPUS);
   EXPECT_GE(corpus.size(), 10u);
-  for (const Replayed& r : replay(corpus, {})) {
-    EXPECT_TRUE(r.result == Replayed::Result::as_expected || r.result == Replayed::Result::skipped)
+  for (const ReplayedFailure& r : replay(corpus, {})) {
+    EXPECT_TRUE(r.result == ReplayedFailure::Result::as_expected ||
+                r.result == ReplayedFailure::Result::skipped)
         << r.expected.candidate << ", " << r.expected.law << ", " << r.expected.violation.failure
         << ": now \"" << r.now << '"';
   }
