@@ -67,11 +67,11 @@ def thesis_spheres():
 def thesis_knock():
     """Figure 30: five cylinders fall, stand, and four are knocked away by a sphere from above."""
     bodies = [fixed("ground", GROUND, "ground")]
-    h, z = 0.35, 0.5
-    bodies.append(body("centre", cylinder(0.15, 0.25), "steel", (0, 0, 0.4), turned([1, 0, 0], 0.3)))
+    h, z = 0.35, 0.38
+    bodies.append(body("centre", cylinder(0.15, 0.25), "steel", (0, 0, 0.28), turned([1, 0, 0], 0.1)))
     for i, (x, y) in enumerate([(1, 1), (-1, 1), (-1, -1), (1, -1)]):
         bodies.append(body(f"outer-{i + 1}", cylinder(0.12, h), "steel", (0.25 * x, 0.25 * y, z),
-                           turned([y, x, 0], 0.2)))
+                           turned([y, x, 0], 0.1)))
     bodies.append(body("ball", {"shape": "sphere", "radius": 0.3}, "ball", (0.004, 0.002, 3.9)))
     outer = [f"outer-{i}" for i in range(1, 5)]
     return {

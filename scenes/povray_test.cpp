@@ -73,7 +73,7 @@ TEST_F(PovrayTest, PovrayDrawsAFrame) {
   const std::string command =
       "cd " + folder.string() + " && povray scene.ini +W64 +H48 >povray.log 2>&1";
   EXPECT_EQ(std::system(command.c_str()), 0) << text("povray.log");
-  EXPECT_TRUE(std::filesystem::exists(folder / "scene1.png")) << text("povray.log");
+  EXPECT_TRUE(std::filesystem::exists(folder / "scene.png")) << text("povray.log");
 }
 
 }  // namespace
