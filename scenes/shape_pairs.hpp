@@ -20,8 +20,9 @@ struct PairNeeds {
 /// Every cylinder of the file against everything that it can touch: shapes of other links without a
 /// joint between them, not both of them fixed. Pairs of the same shapes and sizes count once. Poses
 /// near contact are sampled (any orientation, any two features, up to a twentieth of the smaller
-/// size deep), all candidates are scored on them against the oracle and timed; the cheapest one
-/// with all errors below the needs serves. Throws InvalidInput when no cylinder can touch anything.
+/// size or four times the depth needed), all candidates are scored on them against the oracle and
+/// timed; the cheapest one with all errors below the needs serves. Throws InvalidInput when no
+/// cylinder can touch anything.
 nlohmann::json choose_for_pairs(const ShapesFile& file, const PairNeeds& needs,
                                 const std::vector<const Candidate*>& candidates,
                                 const Limits& limits, const std::string& command,
