@@ -146,7 +146,7 @@ python3 - "$r" "$folder/worse.json" <<'END'
 import json, sys
 report = json.load(open(sys.argv[1]))
 row = next(r for r in report["results"] if r["class"] == "lying" and r["candidate"] == "bullet")
-row["depth_error"] = {q: 3 * v + 1e-3 for q, v in row["depth_error"].items()}
+row["depth_error"] = {q: v if q == "histogram" else 3 * v + 1e-3 for q, v in row["depth_error"].items()}
 json.dump(report, open(sys.argv[2], "w"))
 END
 expect 1 'cylinder-plane/lying  bullet' compare "$r" "$folder/worse.json"

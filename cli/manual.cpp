@@ -5,10 +5,24 @@
 namespace touchstone {
 namespace {
 
+/// troff's name of the UTF-8 character that begins at `at`, which is left on its last byte.
+std::string named_character(const std::string& text, std::size_t& at) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const int following = byte(at) >= 0xF0 ? 3 : byte(at) >= 0xE0 ? 2 : 1;
+  unsigned code = byte(at) & (0x3FU >> following);
+  for (int i = 0; i < following; ++i) code = code << 6 | (byte(++at) & 0x3FU);
+  return fmt::format("\\[u{:04X}]", code);
+}
+
 /// As it stands, whatever it starts with; quotes and hyphens as they are typed in a shell.
 std::string literal(const std::string& text) {
   std::string result = text.starts_with('.') || text.starts_with('\'') ? "\\&" : "";
-  for (const char c : text) {
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    const char c = text[at];
+    if (static_cast<unsigned char>(c) >= 0x80) {
+      result += named_character(text, at);
+      continue;
+    }
     switch (c) {
       case '\\':
         result += "\\e";
