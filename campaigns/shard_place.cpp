@@ -6,6 +6,7 @@
 
 #include "reference/invalid_input.hpp"
 #include "reports/report.hpp"
+#include "reports/write_file.hpp"
 
 namespace touchstone {
 namespace {

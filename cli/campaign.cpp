@@ -18,32 +18,21 @@
 namespace touchstone {
 namespace {
 
-/// Ranks share a machine as mpirun says.
-unsigned usual_workers() {
-  return under_mpirun() ? 1 : std::max(1U, std::thread::hardware_concurrency());
-}
-
 struct Options {
-  explicit Options(CLI::App& command) : sample(command, 1000), candidates(command), bar(command) {}
-  SampleOption sample;
-  CandidateOption candidates;
-  BarOption bar;
-  unsigned workers = usual_workers();
+  /// Ranks share a machine as mpirun says.
+  explicit Options(CLI::App& command)
+      : scored(command, 1000),
+        workers(command, under_mpirun() ? 1 : std::max(1U, std::thread::hardware_concurrency()),
+                "one a core, or one a rank under mpirun") {}
+  CampaignOption scored;
+  WorkersOption workers;
   std::string out = "out", shard_text;
   bool resume = false;
   double interval = Running{}.interval;
 
   Campaign campaign() const {
-    Campaign c;
-    c.pairs = sample.pairs();
-    c.classes = sample.classes();
-    c.candidates = candidates.get();
-    c.count = sample.count();
-    c.seed = sample.seed();
-    c.workers = workers;
-    c.bar = bar.get();
-    c.limits = candidates.limits();
-    if (workers == 0) throw InvalidInput("--workers", "0", "must be at least 1");
+    Campaign c = scored.get();
+    c.workers = workers.get();
     return c;
   }
 
@@ -57,15 +46,12 @@ struct Options {
   }
 
   /// The command that gives the same result again, in one process.
-  std::string command_line() const {
-    return program_name() + " campaign" + sample.command_line() + candidates.command_line() +
-           bar.command_line();
-  }
+  std::string command_line() const { return program_name() + " campaign" + scored.command_line(); }
 
   /// What goes on where this was stopped.
   std::string resuming() const {
     return command_line() + (shard_text.empty() ? "" : " --shard " + shard_text) +
-           fmt::format(" --workers {} --out {} --resume", workers, out);
+           fmt::format(" --workers {} --out {} --resume", workers.get(), out);
   }
 };
 
@@ -80,7 +66,7 @@ void print_plan(const Options& options, const Progressed& progressed) {
     text += fmt::format("; shard {}: {}", to_string(shard), configurations(view.cut, all));
   }
   if (!done.empty()) text += fmt::format("; {} done before", configurations(view.cut, done));
-  fmt::print(stderr, "{}; workers: {}\n", text, options.workers);
+  fmt::print(stderr, "{}; workers: {}\n", text, options.workers.get());
 }
 
 int run(const Options& options) {
@@ -128,10 +114,6 @@ void add_campaign(CLI::App& program, int& exit_code) {
   CLI::App* command = program.add_subcommand(
       "campaign", "Score as many configurations as you like, on one or many machines");
   const auto options = std::make_shared<Options>(*command);
-  command->add_option(
-      "--workers", options->workers,
-      "Worker processes (default: one a core, or one a rank under mpirun); they do not "
-      "change the result");
   command->add_option("--out", options->out, "Folder for the checkpoints and campaign.json")
       ->capture_default_str();
   command->add_option("--shard", options->shard_text,

@@ -10,6 +10,7 @@
 #include "laws/failure_file.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/progress.hpp"
+#include "reports/write_file.hpp"
 
 namespace touchstone {
 namespace {

@@ -2,14 +2,13 @@
 
 #include <cmath>
 #include <fmt/format.h>
-#include <fstream>
 #include <memory>
-#include <thread>
 
 #include "cli/commands.hpp"
 #include "cli/options.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/report.hpp"
+#include "reports/write_file.hpp"
 #include "scenes/choice_json.hpp"
 #include "scenes/choice_page.hpp"
 #include "scenes/choice_text.hpp"
@@ -21,11 +20,11 @@ namespace {
 constexpr int not_served = 1;
 
 struct Options {
-  explicit Options(CLI::App& command) : candidates(command) {}
+  explicit Options(CLI::App& command) : candidates(command), workers(command) {}
   CandidateOption candidates;
+  WorkersOption workers;
   CLI::Option* names = nullptr;
   std::string scene, out = "out";
-  unsigned workers = std::max(1U, std::thread::hardware_concurrency());
   bool json = false;
   PairNeeds pairs;
 
@@ -35,22 +34,16 @@ struct Options {
   std::string folder() const { return out + "/choose"; }
 };
 
-void write(const std::string& file, const std::string& text) {
-  std::ofstream out(file);
-  out << text << std::flush;
-  if (!out) throw InvalidInput("--out", '"' + file + '"', "could not be written");
-}
-
 int choose_scene(const Options& options, const std::string& command) {
   const SceneFile file = read_scene(options.scene);
   const Limits limits = options.candidates.limits();
-  const Choice choice = choose(file, {options.contestants(), options.workers, limits});
+  const Choice choice = choose(file, {options.contestants(), options.workers.get(), limits});
   write_evidence(choice, file, options.folder());
   nlohmann::json result = to_json(choice, file, command, options.folder());
-  write(options.out + "/choose.json", result.dump(1) + '\n');
+  write_file(options.out + "/choose.json", result.dump(1) + '\n', "--out");
   fmt::print("{}", options.json ? result.dump() + '\n' : choice_text(result));
   result["motion"] = motion_json(choice, file, limits);
-  write(options.out + "/choose.html", choice_page(result));
+  write_file(options.out + "/choose.html", choice_page(result), "--out");
   if (!options.json) fmt::print("\nPage: {0}/choose.html; data: {0}/choose.json\n", options.out);
   return choice.impossible ? not_served : 0;
 }
@@ -64,7 +57,7 @@ int choose_pairs(const Options& options, const std::string& command) {
       choose_for_pairs(file, options.pairs, options.contestants(), options.candidates.limits(),
                        command, options.folder());
   write_pair_evidence(result);
-  write(options.out + "/choose.json", result.dump(1) + '\n');
+  write_file(options.out + "/choose.json", result.dump(1) + '\n', "--out");
   fmt::print("{}", options.json ? result.dump() + '\n' : pairs_text(result));
   for (const auto& pair : result["pairs"]) {
     if (pair["chosen"].is_null()) return not_served;
@@ -81,7 +74,6 @@ int run(const Options& options) {
   check("--depth", options.pairs.depth);
   check("--angle", options.pairs.angle);
   check("--count", static_cast<double>(options.pairs.count));
-  check("--workers", options.workers);
   check_writable(options.out);
   if (!is_shapes_file(options.scene)) {
     return choose_scene(options, "touchstone choose " + options.scene);
@@ -106,9 +98,6 @@ void add_choose(CLI::App& program, int& exit_code) {
   command->add_option("--out", options->out, "Folder for choose.json and choose.html")
       ->capture_default_str();
   command->add_flag("--json", options->json, "Print choose.json instead of text");
-  command
-      ->add_option("--workers", options->workers, "Worker processes; they do not change the runs")
-      ->default_str("one a core");
   const char* robots = "Of a robot or world";
   PairNeeds& pairs = options->pairs;
   command->add_option("--depth", pairs.depth, "Largest depth error, metres")

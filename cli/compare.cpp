@@ -8,6 +8,7 @@
 #include "reference/invalid_input.hpp"
 #include "reports/compare_page/compare_page.hpp"
 #include "reports/report_file.hpp"
+#include "reports/write_file.hpp"
 
 namespace touchstone {
 namespace {
@@ -34,7 +35,9 @@ int run(const Options& options) {
   options.check();
   const nlohmann::json before = read_report(options.before), after = read_report(options.after);
   const nlohmann::json comparison = compare(before, after, options.limits);
-  if (!options.html.empty()) write_compare_page(comparison, before, after, options.html);
+  if (!options.html.empty()) {
+    write_file(options.html, compare_page(comparison, before, after), "--html");
+  }
   fmt::print("{}", options.json ? comparison.dump() + '\n' : comparison_text(comparison));
   return has_regressed(comparison) ? 1 : 0;
 }

@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fmt/format.h>
-#include <fstream>
+#include <thread>
 
 #include "candidates/candidates.hpp"
 #include "reference/invalid_input.hpp"
@@ -71,12 +71,6 @@ const Candidate& named_candidate(const std::string& name) {
   if (!std::filesystem::is_regular_file(name)) return find_candidate(name);
   add_plugin(name);
   return *all_candidates().back();
-}
-
-void write_file(const std::string& file, const std::string& text, const char* field) {
-  std::ofstream out(file);
-  out << text << std::flush;
-  if (!out) throw InvalidInput(field, '"' + file + '"', "could not be written");
 }
 
 BarOption::BarOption(CLI::App& command) {
@@ -159,6 +153,39 @@ std::string SampleOption::command_line() const {
   if (!pairs_.empty()) line += fmt::format(" --pair {}", fmt::join(pairs_, ","));
   if (!classes_.empty()) line += fmt::format(" --class {}", fmt::join(classes_, ","));
   return line;
+}
+
+WorkersOption::WorkersOption(CLI::App& command)
+    : WorkersOption(command, std::max(1U, std::thread::hardware_concurrency()), "one a core") {}
+
+WorkersOption::WorkersOption(CLI::App& command, unsigned usual, const std::string& meaning)
+    : workers_(usual) {
+  command.add_option("--workers", workers_, "Worker processes; they do not change the result")
+      ->default_str(meaning);
+}
+
+unsigned WorkersOption::get() const {
+  if (workers_ == 0) throw InvalidInput("--workers", "0", "must be at least 1");
+  return workers_;
+}
+
+CampaignOption::CampaignOption(CLI::App& command, std::uint64_t count)
+    : sample(command, count), candidates(command), bar(command) {}
+
+Campaign CampaignOption::get() const {
+  Campaign c;
+  c.pairs = sample.pairs();
+  c.classes = sample.classes();
+  c.candidates = candidates.get();
+  c.count = sample.count();
+  c.seed = sample.seed();
+  c.bar = bar.get();
+  c.limits = candidates.limits();
+  return c;
+}
+
+std::string CampaignOption::command_line() const {
+  return sample.command_line() + candidates.command_line() + bar.command_line();
 }
 
 }  // namespace touchstone

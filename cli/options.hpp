@@ -8,7 +8,7 @@
 
 #include "candidates/candidate_process.hpp"
 #include "properties/identity.hpp"
-#include "reports/score.hpp"
+#include "reports/campaign.hpp"
 
 namespace touchstone {
 
@@ -55,6 +55,9 @@ struct SampleOption {
   const std::vector<std::string>& classes() const;
   std::uint64_t count() const;  ///< throws InvalidInput when zero
   std::uint64_t seed() const { return seed_; }
+  bool is_narrowed() const {
+    return !(pairs_.empty() && classes_.empty());
+  }  ///< by --pair, --class
   /// The same options as text, to be repeated: " --seed 1 --count 100 --pair cylinder-box".
   std::string command_line() const;
 
@@ -63,7 +66,28 @@ struct SampleOption {
   std::uint64_t count_, seed_ = 1;
 };
 
-/// Throws InvalidInput (with this field) where the file cannot be written.
-void write_file(const std::string& file, const std::string& text, const char* field);
+/// --workers
+struct WorkersOption {
+  /// One a core by default, or as many as `usual` says, which `meaning` explains.
+  explicit WorkersOption(CLI::App& command);
+  WorkersOption(CLI::App& command, unsigned usual, const std::string& meaning);
+  unsigned get() const;  ///< throws InvalidInput when zero
+
+ private:
+  unsigned workers_;
+};
+
+/// What is scored, by whom, and how strictly.
+struct CampaignOption {
+  /// `count`: of each pair and pose class, by default.
+  CampaignOption(CLI::App& command, std::uint64_t count);
+  /// With one worker. Throws InvalidInput.
+  Campaign get() const;
+  std::string command_line() const;
+
+  SampleOption sample;
+  CandidateOption candidates;
+  BarOption bar;
+};
 
 }  // namespace touchstone

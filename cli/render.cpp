@@ -7,6 +7,7 @@
 #include "cli/commands.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/report.hpp"
+#include "reports/write_file.hpp"
 #include "scenes/povray.hpp"
 #include "scenes/shapes_file.hpp"
 

@@ -9,6 +9,7 @@
 #include "reports/configuration_json.hpp"
 #include "reports/replay_page/replay_page.hpp"
 #include "reports/worst.hpp"
+#include "reports/write_file.hpp"
 #include "reproducers/reproducer.hpp"
 
 namespace touchstone {
@@ -58,8 +59,8 @@ void add_replay(CLI::App& program, int&) {
     const nlohmann::json e = examined(given, pointers(candidates), bar, 1e-30);
     if (!options->html.empty()) {
       const Configuration& c = given.configuration;
-      write_replay_page(replay_page(e, to_hex_json(c), to_exact_json(c), given.description),
-                        options->html);
+      write_file(options->html, replay_page(e, to_hex_json(c), to_exact_json(c), given.description),
+                 "--html");
     }
     fmt::print("{}", options->json ? e.dump() + '\n' : replay_text(given, e, candidates));
   });

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <memory>
-#include <thread>
 
 #include "cli/commands.hpp"
 #include "cli/options.hpp"
@@ -11,6 +10,7 @@
 #include "reports/interruption.hpp"
 #include "reports/terminal_table.hpp"
 #include "reports/worst.hpp"
+#include "reports/write_file.hpp"
 #include "simulation/run_experiments.hpp"
 #include "stability/stability.hpp"
 
@@ -18,45 +18,28 @@ namespace touchstone {
 namespace {
 
 struct Options {
-  explicit Options(CLI::App& command) : sample(command, 100), candidates(command), bar(command) {}
-  SampleOption sample;
-  CandidateOption candidates;
-  BarOption bar;
-  unsigned workers = std::max(1U, std::thread::hardware_concurrency());
+  explicit Options(CLI::App& command) : scored(command, 100), workers(command) {}
+  CampaignOption scored;
+  WorkersOption workers;
   std::string out = "out", figures;
 
   Campaign campaign() const {
-    Campaign c;
-    c.pairs = sample.pairs();
-    c.classes = sample.classes();
-    c.candidates = candidates.get();
-    c.count = sample.count();
-    c.seed = sample.seed();
-    c.workers = workers;
-    c.bar = bar.get();
-    c.limits = candidates.limits();
-    if (workers == 0) throw InvalidInput("--workers", "0", "must be at least 1");
+    Campaign c = scored.get();
+    c.workers = workers.get();
     return c;
   }
 
-  /// Of all pairs and pose classes: then experiments belong to it too.
-  bool is_whole() const {
-    return sample.pairs().size() == std::size(all_pairs) && sample.classes().empty();
-  }
   ExperimentOptions experiments() const {
     ExperimentOptions e;
     for (const Experiment& each : all_experiments()) e.experiments.push_back(&each);
-    e.candidates = candidates.get();
-    e.workers = workers;
-    e.limits = candidates.limits();
+    e.candidates = scored.candidates.get();
+    e.workers = workers.get();
+    e.limits = scored.candidates.limits();
     return e;
   }
 
   /// The command that gives the same report again.
-  std::string command_line() const {
-    return program_name() + " report" + sample.command_line() + candidates.command_line() +
-           bar.command_line();
-  }
+  std::string command_line() const { return program_name() + " report" + scored.command_line(); }
 };
 
 int run(const Options& options) {
@@ -69,7 +52,7 @@ int run(const Options& options) {
     fmt::print(stderr, "Interrupted before any pose class was done: there is no report.\n");
     return interrupted_exit_code();
   }
-  if (options.is_whole() && !interrupted()) {
+  if (!options.scored.sample.is_narrowed() && !interrupted()) {
     const Study study{campaign.candidates, campaign.bar, campaign.limits, campaign.workers};
     report["stability"] = stability(brief(study, campaign.pairs, campaign.seed));
     report["experiments"] = run_experiments(options.experiments());
@@ -92,9 +75,6 @@ void add_report(CLI::App& program, int& exit_code) {
   CLI::App* command =
       program.add_subcommand("report", "Score all candidates; write out/report.html");
   const auto options = std::make_shared<Options>(*command);
-  command
-      ->add_option("--workers", options->workers, "Worker processes; they do not change the result")
-      ->default_str("one a core");
   command->add_option("--out", options->out, "Folder for report.json and report.html")
       ->capture_default_str();
   command->add_option("--figures", options->figures,

@@ -9,6 +9,7 @@
 #include "cli/options.hpp"
 #include "laws/failure_file.hpp"
 #include "reports/progress.hpp"
+#include "reports/write_file.hpp"
 
 namespace touchstone {
 namespace {

@@ -1,24 +1,23 @@
 #include <cmath>
 #include <fmt/format.h>
-#include <fstream>
 #include <memory>
-#include <thread>
 
 #include "cli/commands.hpp"
 #include "cli/options.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/report.hpp"
+#include "reports/write_file.hpp"
 #include "simulation/run_experiments.hpp"
 
 namespace touchstone {
 namespace {
 
 struct Options {
-  explicit Options(CLI::App& command) : candidates(command) {}
+  explicit Options(CLI::App& command) : candidates(command), workers(command) {}
   CandidateOption candidates;
+  WorkersOption workers;
   std::vector<std::string> names;
   std::vector<double> steps = {1.0 / 60, 1.0 / 240, 1.0 / 960};
-  unsigned workers = std::max(1U, std::thread::hardware_concurrency());
   std::string out;
   bool json = false;
 
@@ -31,13 +30,12 @@ struct Options {
     e.candidates = candidates.get();
     e.limits = candidates.limits();
     e.steps = steps;
-    e.workers = workers;
+    e.workers = workers.get();
     for (const double step : steps) {
       if (!(step >= 1e-5 && step <= 0.1)) {
         throw InvalidInput("--step", fmt::format("{}", step), "must lie between 1e-5 and 0.1 s");
       }
     }
-    if (workers == 0) throw InvalidInput("--workers", "0", "must be at least 1");
     return e;
   }
 };
@@ -48,10 +46,7 @@ void run(const Options& options) {
   const nlohmann::json result = run_experiments(experiments);
   fmt::print("{}", options.json ? result.dump() + '\n' : experiments_table(result));
   if (options.out.empty()) return;
-  const std::string file = options.out + "/experiments.json";
-  std::ofstream written(file);
-  written << result.dump(1) << '\n' << std::flush;
-  if (!written) throw InvalidInput("--out", '"' + file + '"', "could not be written");
+  write_file(options.out + "/experiments.json", result.dump(1) + '\n', "--out");
 }
 
 std::string experiment_list() {
@@ -74,9 +69,6 @@ void add_simulate(CLI::App& program, int&) {
       ->add_option("--step", options->steps,
                    "Steps of time, seconds, separated by commas (default: 1/60, 1/240, 1/960)")
       ->delimiter(',');
-  command
-      ->add_option("--workers", options->workers, "Worker processes; they do not change the result")
-      ->default_str("one a core");
   command->add_option("--out", options->out, "Folder for experiments.json");
   command->add_flag("--json", options->json, "Print one JSON object");
   command->footer(

@@ -2,44 +2,40 @@
 
 #include <fmt/format.h>
 #include <memory>
-#include <thread>
 
 #include "cli/commands.hpp"
 #include "cli/given.hpp"
 #include "cli/options.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/report.hpp"
+#include "reports/write_file.hpp"
 
 namespace touchstone {
 namespace {
 
 struct Options {
-  explicit Options(CLI::App& command) : candidates(command), bar(command) {}
+  explicit Options(CLI::App& command)
+      : sample(command, 6), candidates(command), bar(command), workers(command) {}
+  SampleOption sample;
   CandidateOption candidates;
   BarOption bar;
+  WorkersOption workers;
   std::string input;
-  std::vector<std::string> parts, pairs, classes;
-  std::uint64_t count = 6, seed = 1;
-  unsigned workers = std::max(1U, std::thread::hardware_concurrency());
+  std::vector<std::string> parts;
   std::string out = "out";
   bool json = false;
 
   StabilityOptions stability() const {
-    if (count == 0) throw InvalidInput("--count", "0", "must be at least 1");
-    if (workers == 0) throw InvalidInput("--workers", "0", "must be at least 1");
     StabilityOptions s =
-        thorough({candidates.get(), bar.get(), candidates.limits(), workers}, seed);
-    if (!pairs.empty()) {
-      s.pairs.clear();
-      for (const auto& name : pairs) s.pairs.push_back(parse_pair(name));
-    }
-    s.ladder = {degenerate_cells(s.pairs), seed, count};
-    const bool ladder_only = !input.empty() || !classes.empty();
+        thorough({candidates.get(), bar.get(), candidates.limits(), workers.get()}, sample.seed());
+    s.pairs = sample.pairs();
+    s.ladder = {degenerate_cells(s.pairs), sample.seed(), sample.count()};
+    const bool ladder_only = !input.empty() || !sample.classes().empty();
     if (ladder_only) s.parts = {StabilityPart::amplification};
-    if (!classes.empty()) {
+    if (!sample.classes().empty()) {
       Campaign wanted;
       wanted.pairs = s.pairs;
-      wanted.classes = classes;
+      wanted.classes = sample.classes();
       s.ladder.cells = cells(wanted);
     }
     if (!parts.empty()) s.parts.clear();
@@ -52,7 +48,7 @@ struct Options {
       s.parts.insert(part);
     }
     if (!input.empty()) {
-      if (!classes.empty() || !pairs.empty()) {
+      if (sample.is_narrowed()) {
         throw InvalidInput("input", '"' + input + '"', "leaves no choice of --pair or --class");
       }
       s.base = given_configuration(input);
@@ -61,19 +57,11 @@ struct Options {
   }
 
   /// The command that gives the same result again.
-  std::string command_line(const StabilityOptions& s) const {
+  std::string command_line() const {
     std::string line = program_name() + " stability";
     if (!input.empty()) line += ' ' + shell_quoted(input);
     if (!parts.empty()) line += fmt::format(" --part {}", fmt::join(parts, ","));
-    if (!pairs.empty()) line += fmt::format(" --pair {}", fmt::join(pairs, ","));
-    if (!classes.empty()) line += fmt::format(" --class {}", fmt::join(classes, ","));
-    std::vector<std::string> names;
-    for (const Candidate* c : s.study.candidates) names.emplace_back(c->name);
-    return line + fmt::format(
-                      " --count {} --seed {} --candidates {} --tolerance {} --threshold {} "
-                      "--time-limit {} --memory-limit {}",
-                      count, seed, fmt::join(names, ","), s.study.bar.tolerance,
-                      s.study.bar.threshold, s.study.limits.seconds, s.study.limits.mebibytes);
+    return line + sample.command_line() + candidates.command_line() + bar.command_line();
   }
 };
 
@@ -81,7 +69,7 @@ void run(const Options& options) {
   const StabilityOptions chosen = options.stability();
   check_writable(options.out);
   const nlohmann::json result = stability(chosen);
-  write_stability(result, options.command_line(chosen), options.out);
+  write_stability(result, options.command_line(), options.out);
   if (options.json) {
     fmt::print("{}\n", result.dump());
     return;
@@ -100,25 +88,11 @@ void add_stability(CLI::App& program, int&) {
                       std::string("Small steps around this configuration alone: ") + given_help);
   command->add_option("--part", options->parts, "Only these of amplification, maps, sequences")
       ->delimiter(',');
-  command->add_option("--pair", options->pairs, "Only these pairs, as in cylinder-box")
-      ->delimiter(',');
-  command
-      ->add_option("--class", options->classes,
-                   "Small steps in these pose classes (default: the exactly degenerate ones)")
-      ->delimiter(',');
-  command
-      ->add_option("--count", options->count,
-                   "Small steps at each amplitude, around as many configurations of each class")
-      ->capture_default_str();
-  command->add_option("--seed", options->seed, "Same seed, same configurations and steps")
-      ->capture_default_str();
-  command
-      ->add_option("--workers", options->workers, "Worker processes; they do not change the result")
-      ->default_str("one a core");
   command->add_option("--out", options->out, "Folder for stability.json and stability.html")
       ->capture_default_str();
   command->add_flag("--json", options->json, "Print the result as one JSON object");
   command->footer(
+      "Small steps start in the exactly degenerate pose classes unless --class names others.\n"
       "Examples:\n"
       "  touchstone stability\n"
       "  touchstone stability --part maps --pair cylinder-plane --candidates reference,bullet\n"

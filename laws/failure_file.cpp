@@ -8,6 +8,7 @@
 #include "candidates/candidates.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/configuration_json.hpp"
+#include "reports/write_file.hpp"
 
 namespace touchstone {
 namespace {
@@ -91,11 +92,7 @@ std::filesystem::path save(const Failure& f, const std::filesystem::path& folder
                                  pair_name(pair_of(f.configuration)), f.law, f.violation.failure);
   std::replace(name.begin(), name.end(), ':', '-');
   auto path = folder / name;
-  std::ofstream out(path);
-  out << to_json(f).dump(2) << '\n';
-  if (!out.flush()) {
-    throw InvalidInput("--save", '"' + path.string() + '"', "could not be written");
-  }
+  write_file(path, to_json(f).dump(2) + '\n', "--save");
   return path;
 }
 

@@ -9,6 +9,7 @@
 #include "laws/moves.hpp"
 #include "oracle/patch/contact_patch.hpp"
 #include "oracle/truth.hpp"
+#include "properties/named.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/point_distance.hpp"
 
@@ -325,14 +326,7 @@ const std::vector<Law>& all_laws() {
   return laws;
 }
 
-const Law& find_law(std::string_view name) {
-  std::string names;
-  for (const Law& law : all_laws()) {
-    if (law.name == name) return law;
-    names += (names.empty() ? "" : ", ") + law.name;
-  }
-  throw InvalidInput("--law", '"' + std::string(name) + '"', "must be one of " + names);
-}
+const Law& find_law(std::string_view name) { return named(all_laws(), name, "--law"); }
 
 const std::vector<std::string>& all_failures() {
   static const std::vector<std::string> failures = {

@@ -31,15 +31,6 @@ std::string joined(const Range& names) {
   return all;
 }
 
-std::uint64_t parse_number(const char* field, std::string_view text) {
-  std::uint64_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) {
-    throw InvalidInput(field, quoted(text), "must be a whole number from 0 to 2^64 - 1");
-  }
-  return value;
-}
-
 const PoseClass& find_class(Pair pair, std::string_view name) {
   for (const PoseClass& c : pose_class_table(pair)) {
     if (c.name == name) return c;
@@ -150,6 +141,15 @@ Configuration make_configuration(const Identity& identity) {
 Configuration make_configuration(const Identity& identity, std::vector<std::uint64_t>& tape) {
   Draw draw(stream_of(identity), tape);
   return find_class(identity.pair, identity.pose_class).generate(draw);
+}
+
+std::uint64_t parse_number(const char* field, std::string_view text) {
+  std::uint64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) {
+    throw InvalidInput(field, quoted(text), "must be a whole number from 0 to 2^64 - 1");
+  }
+  return value;
 }
 
 }  // namespace touchstone

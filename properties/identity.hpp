@@ -45,4 +45,7 @@ Configuration make_configuration(const Identity& identity);
 /// becomes the identity's own, and a changed one gives another configuration of the same class.
 Configuration make_configuration(const Identity& identity, std::vector<std::uint64_t>& tape);
 
+/// A whole number in a name. Throws InvalidInput (with this field).
+std::uint64_t parse_number(const char* field, std::string_view text);
+
 }  // namespace touchstone

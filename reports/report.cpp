@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <fmt/format.h>
-#include <fstream>
 #include <system_error>
-#include <unistd.h>
 
 #include "properties/identity.hpp"
 #include "reference/invalid_input.hpp"
@@ -19,6 +17,7 @@
 #include "reports/timing.hpp"
 #include "reports/trends.hpp"
 #include "reports/worst.hpp"
+#include "reports/write_file.hpp"
 
 namespace touchstone {
 namespace {
@@ -142,17 +141,6 @@ void rank(json& rows, std::size_t first, std::size_t count) {
   }
 }
 
-void write_whole(const std::filesystem::path& file, const std::string& text) {
-  const std::filesystem::path partial = file.string() + ".partial";
-  {
-    std::ofstream out(partial, std::ios::binary);
-    out << text;
-    out.close();
-    if (!out) throw InvalidInput("--out", file.string(), "could not be written; is the disk full?");
-  }
-  std::filesystem::rename(partial, file);
-}
-
 }  // namespace
 
 json make_report(const Campaign& campaign, const std::string& command) {
@@ -226,19 +214,10 @@ json make_report(const Campaign& campaign, const std::string& command) {
           {"worst", worst}};
 }
 
-void check_writable(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error || access(folder.c_str(), W_OK | X_OK) != 0) {
-    throw InvalidInput("--out", '"' + folder.string() + '"',
-                       "must be a folder that can be written to");
-  }
-}
-
 void write_report(const json& report, const std::filesystem::path& folder) {
   check_writable(folder);
-  write_whole(folder / "report.json", report.dump(1) + "\n");
-  write_whole(folder / "report.html", render_html(report));
+  write_file(folder / "report.json", report.dump(1) + "\n", "--out");
+  write_file(folder / "report.html", render_html(report), "--out");
 }
 
 }  // namespace touchstone

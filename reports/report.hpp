@@ -18,7 +18,4 @@ nlohmann::json make_report(const Campaign& campaign, const std::string& command)
 /// InvalidInput (field "--out") where that cannot be done.
 void write_report(const nlohmann::json& report, const std::filesystem::path& folder);
 
-/// Throws InvalidInput (field "--out") if files could not be written there; makes the folder.
-void check_writable(const std::filesystem::path& folder);
-
 }  // namespace touchstone

@@ -13,6 +13,7 @@
 #include "reports/solve.hpp"
 #include "reports/terminal_table.hpp"
 #include "reports/worst.hpp"
+#include "reports/write_file.hpp"
 
 namespace touchstone {
 namespace {

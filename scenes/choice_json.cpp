@@ -4,11 +4,11 @@
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
-#include <fstream>
 
 #include "reference/invalid_input.hpp"
 #include "reports/configuration_json.hpp"
 #include "reports/machine.hpp"
+#include "reports/write_file.hpp"
 
 namespace touchstone {
 namespace {
@@ -150,9 +150,7 @@ void write_evidence(const Choice& choice, const SceneFile& file, const std::stri
   for (std::size_t i = 0; i < choice.runs.size(); ++i) {
     if (!choice.runs[i].evidence) continue;
     const std::string at = evidence_file(file, i, folder);
-    std::ofstream out(at);
-    out << to_json(choice.runs[i].evidence->configuration).dump() << '\n' << std::flush;
-    if (!out) throw InvalidInput("--out", '"' + at + '"', "could not be written");
+    write_file(at, to_json(choice.runs[i].evidence->configuration).dump() + '\n', "--out");
   }
 }
 

@@ -5,18 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <fstream>
 
 #include "reference/invalid_input.hpp"
+#include "reports/write_file.hpp"
 
 namespace touchstone {
 namespace {
-
-void write(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream out(file);
-  out << text << std::flush;
-  if (!out) throw InvalidInput("--out", '"' + file.string() + '"', "could not be written");
-}
 
 std::string vector(const Vec3& v) {
   return fmt::format("<{:.9g},{:.9g},{:.9g}>", v.x(), v.y(), v.z());
@@ -94,7 +88,7 @@ int write_povray(const SceneFile& file, const Trajectory& run, double every,
                  const std::filesystem::path& folder) {
   const auto stride =
       std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(every / run.step)));
-  write(folder / "scene.pov", view(file.camera));
+  write_file(folder / "scene.pov", view(file.camera), "--out");
   int count = 0;
   for (std::size_t i = 0; i < run.frames.size(); i += stride) {
     std::string text =
@@ -104,12 +98,13 @@ int write_povray(const SceneFile& file, const Trajectory& run, double every,
       text +=
           std::visit(Object{body.fixed}, body.shape) + ' ' + placed(run.frames[i][b].pose) + '\n';
     }
-    write(folder / fmt::format("frame-{:05}.inc", ++count), text);
+    write_file(folder / fmt::format("frame-{:05}.inc", ++count), text, "--out");
   }
-  write(folder / "scene.ini",
-        fmt::format("Input_File_Name=scene.pov\nOutput_File_Type=N\nWidth=800\nHeight=600\n"
-                    "Antialias=On\nQuality=9\nDisplay=Off\nInitial_Frame=1\nFinal_Frame={}\n",
-                    count));
+  write_file(folder / "scene.ini",
+             fmt::format("Input_File_Name=scene.pov\nOutput_File_Type=N\nWidth=800\nHeight=600\n"
+                         "Antialias=On\nQuality=9\nDisplay=Off\nInitial_Frame=1\nFinal_Frame={}\n",
+                         count),
+             "--out");
   return count;
 }
 

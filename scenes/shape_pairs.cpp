@@ -4,7 +4,6 @@
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
-#include <fstream>
 #include <limits>
 
 #include "candidates/candidates.hpp"
@@ -13,6 +12,7 @@
 #include "reports/configuration_json.hpp"
 #include "reports/machine.hpp"
 #include "reports/progress.hpp"
+#include "reports/write_file.hpp"
 #include "scenes/choose.hpp"
 #include "scenes/replayed.hpp"
 
@@ -188,9 +188,7 @@ void write_pair_evidence(const json& choice) {
       if (c["worst"].is_null()) continue;
       const std::filesystem::path at = c["worst"]["file"].get<std::string>();
       std::filesystem::create_directories(at.parent_path());
-      std::ofstream out(at);
-      out << c["worst"]["configuration"].dump() << '\n' << std::flush;
-      if (!out) throw InvalidInput("--out", '"' + at.string() + '"', "could not be written");
+      write_file(at, c["worst"]["configuration"].dump() + '\n', "--out");
     }
   }
 }

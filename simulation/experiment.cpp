@@ -1,5 +1,6 @@
 #include "simulation/experiment.hpp"
 
+#include "properties/named.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone {
@@ -16,12 +17,7 @@ const std::vector<Experiment>& all_experiments() {
 }
 
 const Experiment& find_experiment(const std::string& name) {
-  std::string names;
-  for (const Experiment& e : all_experiments()) {
-    if (e.name == name) return e;
-    names += (names.empty() ? "" : ", ") + e.name;
-  }
-  throw InvalidInput("experiment", '"' + name + '"', "must be one of " + names);
+  return named(all_experiments(), name, "experiment");
 }
 
 }  // namespace touchstone

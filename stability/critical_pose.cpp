@@ -1,5 +1,6 @@
 #include "stability/critical_pose.hpp"
 
+#include "properties/named.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone {
@@ -85,12 +86,7 @@ const std::vector<CriticalPose>& critical_poses() {
 }
 
 const CriticalPose& find_critical_pose(std::string_view name) {
-  std::string names;
-  for (const CriticalPose& pose : critical_poses()) {
-    if (pose.name == name) return pose;
-    names += (names.empty() ? "" : ", ") + pose.name;
-  }
-  throw InvalidInput("map.pose", '"' + std::string(name) + '"', "must be one of " + names);
+  return named(critical_poses(), name, "map.pose");
 }
 
 Configuration map_pixel(const CriticalPose& pose, Decade zoom, int column, int row) {

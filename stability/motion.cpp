@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "properties/draw.hpp"
+#include "properties/named.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone {
@@ -135,12 +136,7 @@ const std::vector<Motion>& motions() {
 }
 
 const Motion& find_motion(std::string_view name) {
-  std::string names;
-  for (const Motion& motion : motions()) {
-    if (motion.name == name) return motion;
-    names += (names.empty() ? "" : ", ") + motion.name;
-  }
-  throw InvalidInput("sequence.motion", '"' + std::string(name) + '"', "must be one of " + names);
+  return named(motions(), name, "sequence.motion");
 }
 
 Configuration pose_at(const Motion& motion, int step, int steps) {

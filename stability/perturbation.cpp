@@ -1,10 +1,10 @@
 #include "stability/perturbation.hpp"
 
 #include <array>
-#include <charconv>
 #include <cmath>
 
 #include "properties/draw.hpp"
+#include "properties/identity.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone {
@@ -18,15 +18,6 @@ constexpr std::array<double, 17> powers = {1,     1e-1,  1e-2,  1e-3,  1e-4,  1e
 constexpr std::uint64_t stream = 0x706572747572622eU;
 
 std::string quoted(std::string_view text) { return '"' + std::string(text) + '"'; }
-
-std::uint64_t parse_number(const char* field, std::string_view text) {
-  std::uint64_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) {
-    throw InvalidInput(field, quoted(text), "must be a whole number from 0 to 2^64 - 1");
-  }
-  return value;
-}
 
 }  // namespace
 

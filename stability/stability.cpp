@@ -1,10 +1,10 @@
 #include "stability/stability.hpp"
 
 #include <algorithm>
-#include <fstream>
 
 #include "reference/invalid_input.hpp"
 #include "reports/report.hpp"
+#include "reports/write_file.hpp"
 #include "stability/stability_page.hpp"
 
 namespace touchstone {
@@ -21,13 +21,6 @@ std::vector<const Thing*> of_pairs(const std::vector<Thing>& all, const std::vec
     if (std::find(pairs.begin(), pairs.end(), pair) != pairs.end()) result.push_back(&thing);
   }
   return result;
-}
-
-void write(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream out(file, std::ios::binary);
-  out << text;
-  out.close();
-  if (!out) throw InvalidInput("--out", file.string(), "could not be written; is the disk full?");
 }
 
 }  // namespace
@@ -92,8 +85,8 @@ void write_stability(const json& stability, const std::string& command,
   whole["schema"] = "touchstone-stability-1";
   whole["version"] = TOUCHSTONE_VERSION;
   whole["command"] = command;
-  write(folder / "stability.json", whole.dump() + "\n");
-  write(folder / "stability.html", stability_page(whole));
+  write_file(folder / "stability.json", whole.dump() + "\n", "--out");
+  write_file(folder / "stability.html", stability_page(whole), "--out");
 }
 
 }  // namespace touchstone

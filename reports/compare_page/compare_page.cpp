@@ -1,6 +1,5 @@
 #include "reports/compare_page/compare_page.hpp"
 
-#include <fstream>
 #include <string>
 #include <vector>
 
@@ -13,8 +12,8 @@ namespace touchstone {
 // Made by the build from the files of the same names.
 extern const std::string_view compare_html, compare_css, compare_js;
 
-void write_compare_page(const nlohmann::json& comparison, const nlohmann::json& before,
-                        const nlohmann::json& after, const std::filesystem::path& file) {
+std::string compare_page(const nlohmann::json& comparison, const nlohmann::json& before,
+                         const nlohmann::json& after) {
   std::vector<std::string> names;
   for (const auto* summary : {&before["summary"], &after["summary"]}) {
     for (const auto& row : *summary) names.push_back(row["candidate"]);
@@ -29,12 +28,7 @@ void write_compare_page(const nlohmann::json& comparison, const nlohmann::json& 
                     {"before", before["summary"]},
                     {"after", after["summary"]},
                     {"marks", marks(names)}}));
-  std::ofstream out(file, std::ios::binary);
-  out << page;
-  out.close();
-  if (!out) {
-    throw InvalidInput("--html", '"' + file.string() + '"', "must be a file that can be written");
-  }
+  return page;
 }
 
 }  // namespace touchstone

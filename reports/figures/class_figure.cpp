@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "reports/figures/gnuplot.hpp"
+#include "reports/write_file.hpp"
 
 namespace touchstone {
 
@@ -27,7 +28,7 @@ std::string class_figure(const json& report, const std::string& pair,
     cells += fmt::format("{} {} {:.6g}\n", x, y, share);
   }
   if (cells.empty()) return "";
-  write_text(folder / ("classes-" + pair + ".csv"), data);
+  write_file(folder / ("classes-" + pair + ".csv"), data, "--figures");
   const auto tics = [](const std::vector<std::string>& names) {
     std::string text;
     for (std::size_t i = 0; i < names.size(); ++i) {

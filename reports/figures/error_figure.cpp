@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "reports/figures/gnuplot.hpp"
+#include "reports/write_file.hpp"
 
 namespace touchstone {
 
@@ -37,7 +38,7 @@ std::string error_figure(const json& report, const std::string& pair,
     points += "e\n";
   }
   if (plot.empty()) return "";
-  write_text(folder / ("errors-" + pair + ".csv"), data);
+  write_file(folder / ("errors-" + pair + ".csv"), data, "--figures");
   return in_both_forms(
       "errors-" + pair, 900, 520,
       fmt::format("set title {}\nset logscale x\nset xtics 1e4 format '%.0e'\nunset mxtics\n"

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "reports/html/marks.hpp"
+#include "reports/write_file.hpp"
 
 namespace touchstone {
 
@@ -36,16 +37,9 @@ std::string csv_cell(const std::string& text) {
   return result + '"';
 }
 
-void write_text(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream out(file, std::ios::binary);
-  out << text;
-  out.close();
-  if (!out) throw std::runtime_error(file.string() + " could not be written");
-}
-
 void run_gnuplot(const std::string& script, const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / "figures.gnuplot", said = folder / "figures.log";
-  write_text(file, script);
+  write_file(file, script, "--figures");
   const std::string command =
       fmt::format("cd {} && gnuplot figures.gnuplot >figures.log 2>&1", "\"$TOUCHSTONE_FIGURES\"");
   setenv("TOUCHSTONE_FIGURES", folder.c_str(), 1);

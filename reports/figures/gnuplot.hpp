@@ -15,9 +15,6 @@ std::string quoted(const std::string& text);
 /// A cell of CSV.
 std::string csv_cell(const std::string& text);
 
-/// Throws std::runtime_error if it cannot be written.
-void write_text(const std::filesystem::path& file, const std::string& text);
-
 /// A figure's commands, once for NAME.svg and once for NAME.png of twice as many pixels.
 std::string in_both_forms(const std::string& name, int width, int height,
                           const std::string& commands);

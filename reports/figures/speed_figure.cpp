@@ -5,6 +5,7 @@
 
 #include "reports/figures/gnuplot.hpp"
 #include "reports/figures/label_places.hpp"
+#include "reports/write_file.hpp"
 
 namespace touchstone {
 namespace {
@@ -117,7 +118,7 @@ std::string speed_figures(const json& report, const std::vector<std::string>& pa
     }
   }
   if (drawn.empty()) return "";
-  write_text(folder / "speed-accuracy.csv", all_data);
+  write_file(folder / "speed-accuracy.csv", all_data, "--figures");
   const Range x = decades(times);
   Range y = decades(errors);
   y.low -= 1;  // room for labels above the axis
@@ -144,7 +145,7 @@ std::string speed_figures(const json& report, const std::vector<std::string>& pa
       data += fmt::format("{},{},{},{},{}\n", csv_cell(p.candidate), p.time, p.error, p.agreement,
                           p.front ? 1 : 0);
     }
-    write_text(folder / ("speed-accuracy-" + pair + ".csv"), data);
+    write_file(folder / ("speed-accuracy-" + pair + ".csv"), data, "--figures");
   }
   return script + in_both_forms("speed-accuracy", 1080, 340 * rows + key_height,
                                 "set multiplot\n" + panels + key_panel(candidates, share) +

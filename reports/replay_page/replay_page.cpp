@@ -1,7 +1,5 @@
 #include "reports/replay_page/replay_page.hpp"
 
-#include <fstream>
-
 #include "reference/invalid_input.hpp"
 #include "reports/html/marks.hpp"
 #include "reports/html/placeholder.hpp"
@@ -30,15 +28,6 @@ std::string replay_page(nlohmann::json examined, const nlohmann::json& hexadecim
   fill(page, "/* replay.js */", replay_js);
   fill(page, "/* replay.json */", script_safe(examined));
   return page;
-}
-
-void write_replay_page(const std::string& page, const std::filesystem::path& file) {
-  std::ofstream out(file, std::ios::binary);
-  out << page;
-  out.close();
-  if (!out) {
-    throw InvalidInput("--html", '"' + file.string() + '"', "must be a file that can be written");
-  }
 }
 
 }  // namespace touchstone

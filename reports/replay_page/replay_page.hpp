@@ -15,7 +15,4 @@ namespace touchstone {
 std::string replay_page(nlohmann::json examined, const nlohmann::json& hexadecimal,
                         const nlohmann::json& exact, std::string_view description);
 
-/// Writes the page. Throws InvalidInput that names --html when the file cannot be written.
-void write_replay_page(const std::string& page, const std::filesystem::path& file);
-
 }  // namespace touchstone

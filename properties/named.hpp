@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "reference/invalid_input.hpp"
+
+namespace touchstone {
+
+/// The element of `all` with that member `name`. Throws InvalidInput (with this field) that lists
+/// the names there are.
+template <class Range>
+const auto& named(const Range& all, std::string_view name, const char* field) {
+  std::string names;
+  for (const auto& each : all) {
+    if (each.name == name) return each;
+    names += (names.empty() ? "" : ", ") + each.name;
+  }
+  throw InvalidInput(field, '"' + std::string(name) + '"', "must be one of " + names);
+}
+
+}  // namespace touchstone
