@@ -6,6 +6,7 @@
 //              the clearance along the first direction that proves it.
 // Hint         handed on; it decides between normals whose gaps are within the threshold.
 #include <optional>
+#include <type_traits>
 #include <utility>
 
 #include "candidates/candidate.h"
@@ -14,22 +15,27 @@
 using touchstone::Contact;
 using touchstone::Cylinder;
 using touchstone::Pose;
+using touchstone::Sphere;
 using touchstone::Vec3;
 
 /// One class per pair, so that a query knows its routine without asking for the shape's kind again.
 struct ts_prepared {
   virtual ~ts_prepared() = default;
-  virtual void query(const Pose& a, const Pose& b, const Vec3* previous_normal,
+  virtual void query(const ts_pose& a, const ts_pose& b, const Vec3* previous_normal,
                      ts_answer& answer) const = 0;
   double threshold = 0;
 };
 
 namespace {
 
+template <class Shape>
 Pose to_pose(const ts_pose& p) {
+  const Vec3 position(p.position[0], p.position[1], p.position[2]);
+  if constexpr (std::is_same_v<Shape, Sphere>) {  // looks the same however it is turned
+    return Pose(position);
+  }
   const double* q = p.orientation;
-  return Pose(Vec3(p.position[0], p.position[1], p.position[2]),
-              Eigen::Quaterniond(q[0], q[1], q[2], q[3]));
+  return Pose(position, Eigen::Quaterniond(q[0], q[1], q[2], q[3]));
 }
 
 void copy(const Vec3& from, double (&to)[3]) {
@@ -52,9 +58,11 @@ void copy(const Contact& contact, double threshold, ts_answer& answer) {
 template <class Other>
 struct Prepared : ts_prepared {
   Prepared(const Cylinder& cylinder, Other shape) : a(cylinder), b(std::move(shape)) {}
-  void query(const Pose& pose_a, const Pose& pose_b, const Vec3* previous_normal,
+  void query(const ts_pose& pose_a, const ts_pose& pose_b, const Vec3* previous_normal,
              ts_answer& answer) const override {
-    copy(contact(a, pose_a, b, pose_b, threshold, previous_normal), threshold, answer);
+    copy(contact(a, to_pose<Cylinder>(pose_a), b, to_pose<Other>(pose_b), threshold,
+                 previous_normal),
+         threshold, answer);
   }
   Cylinder a;
   Other b;
@@ -71,7 +79,7 @@ ts_prepared* prepare(const ts_shape* a, const ts_shape* b, double threshold, dou
       prepared = new Prepared(cylinder, touchstone::Plane(Vec3(s[0], s[1], s[2]), s[3]));
       break;
     case TS_SPHERE:
-      prepared = new Prepared(cylinder, touchstone::Sphere(s[0]));
+      prepared = new Prepared(cylinder, Sphere(s[0]));
       break;
     case TS_CAPSULE:
       prepared = new Prepared(cylinder, touchstone::Capsule(s[0], s[1]));
@@ -91,9 +99,9 @@ void query(ts_prepared* prepared, const ts_pose* a, const ts_pose* b, const doub
            ts_answer* answer) {
   if (previous_normal) {
     const Vec3 previous(previous_normal[0], previous_normal[1], previous_normal[2]);
-    prepared->query(to_pose(*a), to_pose(*b), &previous, *answer);
+    prepared->query(*a, *b, &previous, *answer);
   } else {
-    prepared->query(to_pose(*a), to_pose(*b), nullptr, *answer);
+    prepared->query(*a, *b, nullptr, *answer);
   }
 }
 

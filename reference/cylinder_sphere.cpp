@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "nearest_tie.hpp"
 #include "scaled.hpp"
@@ -9,47 +10,53 @@
 namespace touchstone {
 namespace {
 
-/// The sphere's centre about the cylinder.
-struct Centre {
-  Vec3 axial;   ///< unit, along the axis, towards the centre
-  Vec3 radial;  ///< unit, off the axis, towards the centre
-  double beyond_cap, beyond_side;
-  /// Squares of what is all but zero lose their digits.
-  static constexpr double vanishing = 1e-140;
+/// Squares of what is all but zero lose their digits.
+constexpr double vanishing = 1e-140;
 
-  Centre(const Cylinder& a, const Pose& pose_a, const Pose& pose_b) {
-    const Vec3 arm = pose_b.position() - pose_a.position();
-    const Vec3 axis = pose_a.axis();
-    const double z = axis.dot(arm);
-    const Vec3 across = arm - z * axis;
-    const double rho = across.norm();
-    axial = std::copysign(1, z) * axis;
-    radial = rho > vanishing ? Vec3((1 / rho) * across) : Vec3(pose_a.rotation().col(0));
-    constexpr double few_digits = 0.1;
-    if (rho < few_digits * std::abs(z)) {  // what rounding leaves along the axis counts
-      radial -= radial.dot(axis) * axis;
-      const double length = radial.norm();
-      radial = length > 0.5 ? Vec3(radial / length) : Vec3(pose_a.rotation().col(0));
-    }
-    beyond_cap = std::abs(z) - a.half_length();
-    beyond_side = rho - a.radius();
-  }
+/// The unit vector along what of `across`, of length rho, is across the cylinder's axis.
+Vec3 radial_direction(const Pose& cylinder, const Vec3& across, double rho, double z) {
+  if (!(rho > vanishing)) return cylinder.rotation().col(0);
+  const Vec3 radial = (1 / rho) * across;
+  constexpr double few_digits = 0.1;
+  if (rho >= few_digits * std::abs(z)) return radial;
+  // What rounding leaves along the axis counts.
+  const Vec3 axis = cylinder.axis(), upright = radial - radial.dot(axis) * axis;
+  const double length = upright.norm();
+  return length > 0.5 ? Vec3(upright / length) : Vec3(cylinder.rotation().col(0));
+}
 
-  SignedDistance nearest() const {
-    if (beyond_cap > 0 && beyond_side > 0) {
-      const double distance = std::sqrt(beyond_cap * beyond_cap + beyond_side * beyond_side);
-      if (!(distance > vanishing)) return {std::max(beyond_cap, beyond_side), -axial};
-      return {distance, (-beyond_cap / distance) * axial - (beyond_side / distance) * radial};
-    }
-    return beyond_cap >= beyond_side ? SignedDistance{beyond_cap, -axial}
-                                     : SignedDistance{beyond_side, -radial};
-  }
-};
+/// From the cylinder to the sphere's centre, or the first clearance of more than `enough`.
+SignedDistance to_centre(const Cylinder& a, const Pose& pose_a, const Pose& pose_b, double enough) {
+  const Vec3 arm = pose_b.position() - pose_a.position();
+  const Vec3 axis = pose_a.axis();
+  const double z = axis.dot(arm);
+  const double outwards = std::copysign(1, z);  // along the axis, towards the centre
+  const double beyond_cap = std::abs(z) - a.half_length();
+  if (beyond_cap > enough) return {beyond_cap, -outwards * axis};
+  const Vec3 across = arm - z * axis;
+  const double rho = across.norm(), beyond_side = rho - a.radius();
+  const bool off_the_rim = beyond_cap > 0 && beyond_side > 0;
+  if (!off_the_rim && beyond_cap >= beyond_side) return {beyond_cap, -outwards * axis};
+  const Vec3 radial = radial_direction(pose_a, across, rho, z);
+  if (!off_the_rim) return {beyond_side, -radial};
+  const double distance = std::sqrt(beyond_cap * beyond_cap + beyond_side * beyond_side);
+  if (!(distance > vanishing)) return {std::max(beyond_cap, beyond_side), -outwards * axis};
+  return {distance, (-beyond_cap / distance * outwards) * axis - (beyond_side / distance) * radial};
+}
+
+/// Or the first clearance of more than `enough`.
+SignedDistance distance(const Cylinder& a, const Pose& pose_a, const Sphere& b, const Pose& pose_b,
+                        double enough) {
+  SignedDistance result = to_centre(a, pose_a, pose_b, enough + b.radius());
+  result.value -= b.radius();
+  return result;
+}
+
+constexpr double never = std::numeric_limits<double>::infinity();
 
 Contact contact_in_range(const Cylinder& a, const Pose& pose_a, const Sphere& b, const Pose& pose_b,
                          double contact_threshold, const Vec3* previous_normal) {
-  SignedDistance found = Centre(a, pose_a, pose_b).nearest();
-  found.value -= b.radius();
+  SignedDistance found = distance(a, pose_a, b, pose_b, contact_threshold);
   if (previous_normal && found.value <= contact_threshold) {
     const Vec3& origin = pose_b.position();
     found = nearest_tie(posed(a, pose_a, origin), posed(b, pose_b, origin), found,
@@ -75,13 +82,15 @@ SignedDistance signed_distance(const Cylinder& a, const Pose& pose_a, const Sphe
     return scaled.back(
         scaled.ask([](const auto&... bodies) { return signed_distance(bodies...); }));
   }
-  SignedDistance result = Centre(a, pose_a, pose_b).nearest();
-  result.value -= b.radius();
-  return result;
+  return distance(a, pose_a, b, pose_b, never);
 }
 
 bool overlaps(const Cylinder& a, const Pose& pose_a, const Sphere& b, const Pose& pose_b) {
-  return signed_distance(a, pose_a, b, pose_b).value <= 0;
+  if (!ordinary(a, pose_a, b, pose_b)) {
+    const ScaledBodies scaled(a, pose_a, b, pose_b);
+    return scaled.ask([](const auto&... bodies) { return overlaps(bodies...); });
+  }
+  return distance(a, pose_a, b, pose_b, 0).value <= 0;
 }
 
 Contact contact(const Cylinder& a, const Pose& pose_a, const Sphere& b, const Pose& pose_b,

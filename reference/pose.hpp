@@ -20,14 +20,17 @@ class Pose {
     // One by one: Eigen would load in pairs what was just stored singly, which stalls.
     const double w = orientation.w(), x = orientation.x(), y = orientation.y();
     const double z = orientation.z(), squared = w * w + x * x + y * y + z * z;
-    // NaN and infinity survive a sum of absolute values; of finite positions it may overflow.
-    constexpr double least = 1e-280, most = 1e280;
-    if (squared > least && squared < most &&
-        std::abs(position.x()) + std::abs(position.y()) + std::abs(position.z()) < most) {
+    constexpr double least = 1e-280;
+    if (squared > least && squared < most && is_moderate(position)) {
       rotate_by(orientation, squared);
     } else {
       check_and_rotate();
     }
+  }
+
+  /// Not turned; of a sphere that is all there is to know. Throws InvalidInput on NaN or infinity.
+  explicit Pose(const Vec3& position) : position_(position) {
+    if (!is_moderate(position)) check_and_rotate();
   }
 
   const Vec3& position() const { return position_; }
@@ -39,6 +42,11 @@ class Pose {
   Vec3 axis() const { return rotation_.col(2); }
 
  private:
+  static constexpr double most = 1e280;
+  /// NaN and infinity survive a sum of absolute values; of finite positions it may overflow.
+  static bool is_moderate(const Vec3& x) {
+    return std::abs(x.x()) + std::abs(x.y()) + std::abs(x.z()) < most;
+  }
   /// R(q) of a quaternion of any length: dividing by |q|² once needs no square root.
   void rotate_by(const Eigen::Quaterniond& q, double squared) {
     const double s = 2 / squared;
@@ -46,9 +54,10 @@ class Pose {
     const double wx = w * q.x(), wy = w * q.y(), wz = w * q.z();
     const double xx = x * q.x(), xy = x * q.y(), xz = x * q.z();
     const double yy = y * q.y(), yz = y * q.z(), zz = z * q.z();
-    rotation_.col(0) = Vec3(1 - (yy + zz), xy + wz, xz - wy);
-    rotation_.col(1) = Vec3(xy - wz, 1 - (xx + zz), yz + wx);
-    rotation_.col(2) = Vec3(xz + wy, yz - wx, 1 - (xx + yy));
+    // Coefficient by coefficient: of columns, the compiler stores two and loads them as one.
+    rotation_(0, 0) = 1 - (yy + zz), rotation_(0, 1) = xy - wz, rotation_(0, 2) = xz + wy;
+    rotation_(1, 0) = xy + wz, rotation_(1, 1) = 1 - (xx + zz), rotation_(1, 2) = yz - wx;
+    rotation_(2, 0) = xz - wy, rotation_(2, 1) = yz + wx, rotation_(2, 2) = 1 - (xx + yy);
   }
   /// Throws InvalidInput, or rotates by a quaternion whose square overflows or vanishes.
   void check_and_rotate();

@@ -38,6 +38,8 @@ TEST(Vocabulary, RefusesWhatIsNoShapeOrPoseAndNamesTheField) {
       {[] { Plane(Vec3(0, nan, 0), 1); }, "normal[1]", "nan"},
       {[] { Plane(Vec3(0, 0, 1), infinite); }, "displacement", "inf"},
       {[] { Pose(Vec3(0, 0, nan), Quaternion(1, 0, 0, 0)); }, "position[2]", "nan"},
+      {[] { Pose(Vec3(0, nan, 0)); }, "position[1]", "nan"},
+      {[] { Pose(Vec3(infinite, 0, 0)); }, "position[0]", "inf"},
       {[] { Pose(Vec3::Zero(), Quaternion(0, 0, 0, 0)); }, "orientation", "[0, 0, 0, 0]"},
       {[] { Pose(Vec3::Zero(), Quaternion(1, infinite, 0, 0)); }, "orientation[1]", "inf"},
   };
@@ -50,6 +52,14 @@ TEST(Vocabulary, RefusesWhatIsNoShapeOrPoseAndNamesTheField) {
       EXPECT_EQ(e.value(), row.value);
       EXPECT_NE(std::string(e.what()).find("must"), std::string::npos);
     }
+  }
+}
+
+TEST(Vocabulary, APoseOfAPositionAloneIsNotTurned) {
+  for (const Vec3& position : {Vec3(1, 2, 3), Vec3(1e300, -1e308, 1e308)}) {
+    const Pose pose(position);
+    EXPECT_EQ(pose.position(), position);
+    EXPECT_EQ(pose.rotation(), Eigen::Matrix3d::Identity());
   }
 }
 
