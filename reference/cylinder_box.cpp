@@ -2,11 +2,12 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
+#include "box_sides.hpp"
 #include "ellipse_normal.hpp"
-#include "largest_gap.hpp"
 #include "pair_contact.hpp"
-#include "quick_separation.hpp"
+#include "posed_body.hpp"
 #include "scaled.hpp"
 
 namespace touchstone {
@@ -14,176 +15,117 @@ namespace {
 
 // In the box's frame. The bodies touch at a face, at a cap, where an edge crosses the side, at the
 // side (a vertex beside it), where an edge crosses a rim (a point against an ellipse, seen along
-// the edge) or, only apart, with a vertex off the rim. The first three kinds, seven directions, are
-// tried first. Most of the time their best is final, because a smooth place of one body is met well
-// within its bounds: where the bodies overlap by δ, a ball of radius δ fits into the cylinder or
-// box behind that place, so that no way out is shorter than δ.
-class Solver {
+// the edge) or, only apart, with a vertex off the rim. The first three kinds are BoxSides', which
+// mostly prove themselves; here are the others.
+class Solver : public BoxSides {
  public:
-  Solver(const Cylinder& a, const Box& b, const Vec3& d, const Vec3& u)
-      : r_(a.radius()),
-        h_(a.half_length()),
-        e_(b.half_extents()),
-        d_(d.unaryExpr([](double x) { return without_vanishing(x); })),
-        u_(u.unaryExpr([](double x) { return without_vanishing(x); })) {
-    for (int i = 0; i < 3; ++i) {
-      const double y = u_[(i + 1) % 3], z = u_[(i + 2) % 3];
-      s_[i] = std::sqrt(y * y + z * z);
-      constexpr double vanishing = 1e-140;  // its square has lost digits
-      if (s_[i] < vanishing) s_[i] = 0;
-    }
-  }
+  using BoxSides::BoxSides;
 
-  /// Seven directions. True if they say it all, or one of them has a gap of more than `enough`.
-  bool closed_forms(double enough) {
-    const int face = faces();
-    const double face_gap = best_.gap;
-    const bool cap_wins = cap();
-    const double cap_gap = best_.gap;
-    const int edge = edges_across_side();
-    if (best_.gap > enough) return true;
-    if (best_.gap > cap_gap) return edge_is_final(edge);
-    return cap_wins ? cap_is_final() : face_gap == best_.gap && face_is_final(face);
+  /// The other directions, up to one that has a gap of more than `enough`.
+  void search(double enough) {
+    vertices_beside_side();
+    if (final_ || best_.gap > enough) return;
+    const bool meet = meet_between();
+    if (best_.gap > enough) return;
+    if (!meet) vertex_off_rim();
+    for (int i = 0; i < 3 && best_.gap <= enough; ++i) edge_over_rim(i);
   }
-  void search() {
-    vertices();
-    if (final_) return;
-    for (int i = 0; i < 3; ++i) edge_over_rim(i);
-  }
-  const LargestGap& best() const { return best_; }
 
  private:
-  double depth() const { return std::max(0.0, -best_.gap); }
-
-  int faces() {
-    int best = 0;
-    for (int i = 0; i < 3; ++i) {
-      const double gap = std::abs(d_[i]) - e_[i] - h_ * std::abs(u_[i]) - r_ * s_[i];
-      if (gap <= best_.gap) continue;
-      best_.gap = gap;
-      best = i;
+  /// n ⟂ u. Seen along the axis the box is a polygon, and where one of its corners is the nearest
+  /// to the axis, one of the two sides there is the furthest away: a corner's clearance times the
+  /// cosine of the angle to it is that of a side there, and no other side has a smaller angle.
+  void vertices_beside_side() {
+    // Sides of about one direction, or of no length, cannot be told apart.
+    constexpr double flat = 0.01;
+    if (u_.cwiseAbs().minCoeff() > flat) {
+      if (!(side_gap_ + r_ > 0)) return;  // the axis passes through the polygon
+      const Crossing c = crossing();
+      if (std::abs(c.along_edge) > e_[side_]) vertex_beside_side(c.corner);
+    } else {
+      for (int i = 0; i < 8; ++i) vertex_beside_side(corner(i));
     }
-    best_.normal = std::copysign(1, d_[best]) * Vec3::Unit(best);
-    return best;
   }
-
-  bool cap() {
-    const double along = d_.dot(u_);
-    const double gap = std::abs(along) - h_ - e_.dot(u_.cwiseAbs());
-    if (gap <= best_.gap) return false;
-    best_.offer(gap, std::copysign(1, along) * u_);
-    return true;
-  }
-
-  /// n = e × u. Returns the edge's direction if it is the best.
-  int edges_across_side() {
-    int best = -1;
-    for (int i = 0; i < 3; ++i) {
-      if (!(s_[i] > 0)) continue;
-      const int j = (i + 1) % 3, k = (i + 2) % 3;
-      const double along = d_[k] * u_[j] - d_[j] * u_[k];
-      const double gap =
-          (std::abs(along) - e_[j] * std::abs(u_[k]) - e_[k] * std::abs(u_[j])) / s_[i] - r_;
-      if (gap <= best_.gap) continue;
-      const double scale = std::copysign(1 / s_[i], along);
-      Vec3 n;
-      n[i] = 0, n[j] = -u_[k] * scale, n[k] = u_[j] * scale;
-      best_.offer(gap, n);
-      best = i;
-    }
-    return best;
-  }
-
-  /// A point of A that faces the box lies on the face, its depth away from the edges.
-  bool face_is_final(int i) const {
-    const double delta = depth();
-    if (delta > e_[i]) return false;
-    const double side = std::copysign(1, d_[i]);
-    // A generator or cap that lies on the face offers its middle.
-    constexpr double flat = 1e-15;
-    const double along = side * u_[i];
-    const double end = std::abs(along) > flat ? -std::copysign(h_, along) : 0;
-    const double rim = s_[i] > flat ? r_ / s_[i] : 0;
-    for (int m = 1; m < 3; ++m) {
-      const int j = (i + m) % 3;
-      const double x = d_[j] + end * u_[j] + rim * along * u_[j];
-      if (std::abs(x) > e_[j] - delta) return false;
-    }
-    return true;
-  }
-
-  /// A point of B that faces the cap lies on it, its depth away from the rim.
-  bool cap_is_final() const {
-    const double delta = depth();
-    if (delta > h_ || delta > r_) return false;
-    Vec3 across;  // from B's point to A's centre
-    constexpr double flat = 1e-15;
-    for (int i = 0; i < 3; ++i) {
-      const double n = best_.normal[i];
-      across[i] =
-          d_[i] - (std::abs(n) > flat ? std::copysign(e_[i], n) : std::clamp(d_[i], -e_[i], e_[i]));
-    }
-    across -= across.dot(u_) * u_;
-    return across.squaredNorm() <= (r_ - delta) * (r_ - delta);
-  }
-
-  /// The edge and the generator cross within both, the generator's ends further than the depth.
-  bool edge_is_final(int i) const {
-    const double delta = depth();
-    if (delta > r_) return false;
-    const int j = (i + 1) % 3, k = (i + 2) % 3;
-    const Vec3& n = best_.normal;
-    const double y = std::copysign(e_[j], n[j]) - d_[j], z = std::copysign(e_[k], n[k]) - d_[k];
-    // Along m = (u_j, u_k)/s, across n and the edge.
-    const double alpha = (y * u_[j] + z * u_[k]) / (s_[i] * s_[i]);
-    return std::abs(alpha) <= h_ - delta && std::abs(d_[i] + alpha * u_[i]) <= e_[i];
-  }
-
-  /// Beside the side (n ⟂ u) and, for the nearest vertex only, off the rim.
-  void vertices() {
-    // A vertex is a sum of half edges, so are its place along the axis and that across.
-    const double d_along = d_.dot(u_);
-    const Vec3 d_across = d_ - d_along * u_;
-    const Vec3 along = e_.cwiseProduct(u_);
-    Eigen::Matrix3d across_of;
-    for (int i = 0; i < 3; ++i) across_of.col(i) = e_[i] * Vec3::Unit(i) - along[i] * u_;
-
+  void vertex_beside_side(const Vec3& v) {
+    const Vec3 arm = d_ - v;
+    const double height = arm.dot(u_);
+    const Vec3 across = arm - height * u_;
+    const double squared = across.squaredNorm(), bound = best_.gap + r_;
+    if (!(squared > 0) || (bound > 0 && squared <= bound * bound)) return;
     // Along an edge that is parallel to the axis, what is across is rounding of either sign.
     const double noise = -1e-15 * (d_.cwiseAbs().sum() + e_.sum());
-    double nearest = std::numeric_limits<double>::infinity();
-    Vec3 off_rim = Vec3::Zero();
-    for (int corner = 0; corner < 8; ++corner) {
-      const double x = (corner & 1) ? 1 : -1, y = (corner & 2) ? 1 : -1, z = (corner & 4) ? 1 : -1;
-      const double height = d_along - x * along[0] - y * along[1] - z * along[2];
-      const Vec3 across =
-          d_across - x * across_of.col(0) - y * across_of.col(1) - z * across_of.col(2);
-      const double squared = across.squaredNorm(), above = std::abs(height) - h_;
-      const double bound = best_.gap + r_;
-      if (x * across[0] >= noise && y * across[1] >= noise && z * across[2] >= noise &&
-          squared > 0 && !(bound > 0 && squared <= bound * bound)) {
-        // What rounding leaves along the axis counts over its whole length.
-        const double radial = std::sqrt(squared);
-        Vec3 n = across / radial;
-        n = (n - n.dot(u_) * u_).normalized();
-        const bool pointed = x * n[0] >= 0 && y * n[1] >= 0 && z * n[2] >= 0;
-        best_.offer(pointed ? radial - r_ : gap(n), n);
-        final_ = pointed && std::abs(height) <= h_ - depth() && depth() <= r_;
-      }
-      if (above > 0 && squared > r_ * r_ && above * above < nearest) {
-        const double radial = std::sqrt(squared), beside = radial - r_;
-        if (above * above + beside * beside >= nearest) continue;
-        nearest = above * above + beside * beside;
-        off_rim = std::copysign(above, height) * u_ + (beside / radial) * across;
-      }
-    }
-    if (nearest < std::numeric_limits<double>::infinity() && !final_) {
-      const Vec3 n = off_rim.normalized();
-      best_.offer(gap(n), n);
-    }
+    if ((v.cwiseProduct(across).array() < noise * e_.array()).any()) return;
+    // What rounding leaves along the axis counts over its whole length.
+    const double radial = std::sqrt(squared);
+    Vec3 n = across / radial;
+    n = (n - n.dot(u_) * u_).normalized();
+    const bool pointed = (v.cwiseProduct(n).array() >= 0).all();
+    best_.offer(pointed ? radial - r_ : gap(n), n);
+    final_ = pointed && std::abs(height) <= h_ - depth() && depth() <= r_;
+  }
+  Vec3 corner(int i) const {
+    return {(i & 1) ? e_[0] : -e_[0], (i & 2) ? e_[1] : -e_[1], (i & 4) ? e_[2] : -e_[2]};
   }
 
-  double gap(const Vec3& n) const {
-    return d_.dot(n) - e_.dot(n.cwiseAbs()) - h_ * std::abs(u_.dot(n)) - r_ * u_.cross(n).norm();
+  /// Projects A's centre onto the box, that point onto A and that onto the box again (von Neumann's
+  /// alternating projections; more seldom help). True if the bodies meet there; otherwise the
+  /// direction between the last two points is tried.
+  bool meet_between() {
+    const Vec3 arm = d_ - d_.cwiseMax(-e_).cwiseMin(e_);
+    const double height = arm.dot(u_);
+    const Vec3 across = arm - height * u_;
+    const double squared = across.squaredNorm();
+    const double scale = squared > r_ * r_ ? r_ / std::sqrt(squared) : 1;
+    const Vec3 on_a = d_ - std::clamp(height, -h_, h_) * u_ - scale * across;
+    const Vec3 apart = on_a - on_a.cwiseMax(-e_).cwiseMin(e_);
+    const double distance = apart.norm();
+    if (!(distance > 0)) return true;
+    // These points may still be far from the nearest ones, but if they are close, so are the
+    // bodies.
+    constexpr double small_part = 0.02;
+    if (distance > small_part * r_) {
+      const Vec3 n = (1 / distance) * apart;
+      best_.offer(gap(n), n);
+    }
+    return false;
+  }
+
+  /// Between bodies that are apart: the nearest vertex that is off the rim.
+  void vertex_off_rim() {
+    const Vec3 along = e_.cwiseProduct(u_);
+    const double centre = d_.dot(u_), middle = d_.squaredNorm() + e_.squaredNorm();
+    const Vec3 twice = 2 * d_.cwiseProduct(e_);
+    double nearest = std::numeric_limits<double>::infinity();
+    int best = -1;
+    for (int i = 0; i < 8; ++i) {  // without branches, which nobody can predict
+      const double x = (i & 1) ? 1 : -1, y = (i & 2) ? 1 : -1, z = (i & 4) ? 1 : -1;
+      const double height = centre - x * along[0] - y * along[1] - z * along[2];
+      const double squared = middle - x * twice[0] - y * twice[1] - z * twice[2] - height * height;
+      const double above = std::abs(height) - h_, beside = std::sqrt(squared) - r_;
+      const double distance = above * above + beside * beside;
+      const bool better = (above > 0) & (beside > 0) & (distance < nearest);
+      nearest = better ? distance : nearest;
+      best = better ? i : best;
+    }
+    if (best < 0) return;
+    const Vec3 arm = d_ - corner(best);
+    const double height = arm.dot(u_);
+    const Vec3 across = arm - height * u_;
+    const double radial = across.norm();
+    const Vec3 off_rim =
+        std::copysign(std::abs(height) - h_, height) * u_ + ((radial - r_) / radial) * across;
+    const Vec3 n = off_rim.normalized();
+    best_.offer(gap(n), n);
+  }
+
+  /// Two chords of the ellipse's quadrant meet at (r, b)/√2: is the point (x, y) further behind
+  /// both than the best depth?
+  bool is_behind_chords(double b, double x, double y) const {
+    constexpr double mid = std::numbers::sqrt2 - 1;
+    const double across = r_ * b - b * x - r_ * mid * y, along = r_ * b - b * mid * x - r_ * y;
+    const double squared = depth() * depth();
+    return across > 0 && across * across >= squared * (b * b + mid * mid * r_ * r_) && along > 0 &&
+           along * along >= squared * (r_ * r_ + mid * mid * b * b);
   }
 
   /// n ⟂ edge i. Seen along the edge, the sum of box and axis is a polygon; on each of its corners
@@ -213,8 +155,7 @@ class Solver {
         const Vec2 x_axis = std::copysign(1, across.dot(q)) * across, y_axis = end * along;
         // The corner's quadrant of normals and the ellipse's must overlap.
         if (!((x_axis + y_axis).dot(sign) > 0)) continue;
-        // A point inside may be too far behind the chord of the ellipse's quadrant.
-        if (r_ * b - b * x - r_ * y >= std::max(0.0, -best_.gap) * (r_ + b)) continue;
+        if (is_behind_chords(b, x, y)) continue;
         const auto foot = ellipse_normal(r_, b, x, y);
         if (!foot) continue;
         const Vec2 n2 = foot->x() * x_axis + foot->y() * y_axis;
@@ -231,11 +172,6 @@ class Solver {
 
   using Vec2 = Eigen::Vector2d;
 
-  double r_, h_;
-  const Vec3& e_;
-  const Vec3 d_, u_;
-  Vec3 s_;  ///< sines of the angles between u and the edges
-  LargestGap best_;
   bool final_ = false;
 };
 
@@ -244,11 +180,7 @@ SignedDistance solve(const Cylinder& a, const Box& b, const PosedCylinder& posed
                      const PosedBox& posed_b, double enough) {
   const Eigen::Matrix3d& axes = posed_b.axes;
   Solver solver(a, b, axes.transpose() * posed_a.centre, axes.transpose() * posed_a.axis);
-  if (!solver.closed_forms(enough)) {
-    SignedDistance clearance;
-    if (quickly_separated(posed_a, posed_b, enough, clearance)) return clearance;
-    solver.search();
-  }
+  if (!solver.closed_forms(enough)) solver.search(enough);
   return {solver.best().gap, axes * solver.best().normal};
 }
 
