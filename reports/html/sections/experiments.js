@@ -4,7 +4,7 @@ const experimentCell = {
   text: r => r.outcome === 'unsupported' ? '–' : r.exact ? 'held' : r.error === null || r.outcome === 'unsound' ? 'lost' : exponent(r.error),
   // From what the experiment resolves (pale) to wrong by all (full).
   style: (r, resolution) => r.exact ? '' : heated(r.error === null ? 1
-      : Math.min(1, 0.2 + 0.4 * Math.max(0, Math.log10(r.error / resolution)))),
+      : Math.min(1, 0.2 + 0.8 * Math.max(0, 1 - Math.log(r.error) / Math.log(resolution)))),
 };
 function experimentTip(r, experiment, k) {
   if (r.outcome === 'unsupported') return `${r.candidate} has no routine for a pair in it`;
