@@ -34,7 +34,7 @@ inline Body ground(double friction) {
 }
 
 /// Metres. Bodies upon one another begin in the middle of the surface layer, so that what the
-/// solver leaves of their weights in a step opens no contact; of this overlap nothing depends.
+/// solver leaves of their weights in a step opens no contact; on this overlap nothing depends.
 inline double middle_of_layer(const Scene& scene) { return scene.surface_layer / 2; }
 
 /// The can's radius of gyration, metres, about a level line across its axis that passes the axis at

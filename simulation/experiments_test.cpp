@@ -4,6 +4,7 @@
 
 #include "candidates/candidates.hpp"
 #include "reference/invalid_input.hpp"
+#include "simulation/resolution.hpp"
 #include "simulation/run_experiments.hpp"
 
 namespace touchstone {
@@ -98,6 +99,14 @@ TEST(Experiments, DoNotJudgeDepthsWithinTheSurfaceLayer) {
     for (int i = 0; i < answer.point_count; ++i) answer.points[i].depth += wrong;
   });
   EXPECT_LT(experiment.run(model, usual_step).error, experiment.resolution(usual_step));
+}
+
+// What is left is the contacts', not the solver's: it has converged, and nothing slips.
+TEST(Experiments, LeaveExactContactsNoMoreThanCfmAndTheLayerDo) {
+  const double radius = 0.25, weights = 3 + 2 + 1;  // on the three supports of the stack
+  EXPECT_LT(run_one("stack", "reference")["error"], weights * sinking(10) / radius);
+  EXPECT_LT(run_one("lying", "reference")["error"],
+            way_within_layer(1e-4, 1, radius, 0.5) / radius);
 }
 
 TEST(Experiments, JudgeALeverThatIsWrong) {
