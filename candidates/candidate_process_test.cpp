@@ -136,6 +136,21 @@ TEST(CandidateProcess, HandsThePreviousNormalOnOnce) {
   EXPECT_EQ(normal_of(answers.at(0)), Vec3::UnitZ());
 }
 
+TEST(CandidateProcess, PreparesShapesOnceForManyPosesAndKeepsFewOfThem) {
+  CandidateProcess process(sabotage("counting"), 0);
+  const auto ask = [&](double radius, double height) {
+    return process.answer({Cylinder(radius, 1), Pose({0, 0, height}, upright), standing.b, {}});
+  };
+  for (const double height : {0.9, 0.8, 0.7}) {  // two bodies in turn, as in a world
+    ask(0.5, height);
+    EXPECT_EQ(ask(0.25, height).signed_distance, -2);
+  }
+  for (int i = 1; i <= 100; ++i) ask(i, 0.9);
+  const Answer last = ask(0.5, 0.9);
+  EXPECT_EQ(last.signed_distance, -103);  // so long ago that it was prepared anew
+  EXPECT_LT(last.points[0].depth, 20);    // pairs that are not released
+}
+
 TEST(CandidateProcess, LeavesNoFileOpen) {
   const auto open_files = [] {
     int count = 0;

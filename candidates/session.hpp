@@ -19,6 +19,11 @@ class Session {
   [[noreturn]] void serve();
 
  private:
+  /// Two shapes made ready, for one pose after another.
+  struct Ready {
+    ts_shape a, b;
+    ts_prepared* prepared;  ///< null where the pair is not supported
+  };
   /// Ready for timing.
   struct Kept {
     ts_prepared* prepared;
@@ -27,6 +32,7 @@ class Session {
 
   void obey(const Command& command);
   ts_prepared* prepare(const Question& question);
+  ts_prepared* ready(const Question& question);
   void answer(std::uint32_t slot);
   void warm_up();
   void query_all();  ///< that is kept for timing, once
@@ -37,6 +43,7 @@ class Session {
   int socket_;
   Exchange& exchange_;
   ts_answer* answer_;
+  std::vector<Ready> ready_;  ///< the last pairs of shapes that were asked for, oldest first
   std::vector<Question> questions_;
   std::vector<Kept> kept_;
   std::size_t passes_ = 1;  ///< over them in one timed round

@@ -29,8 +29,9 @@ struct Experiment {
   /// (RunTally::unsupported).
   std::function<Measurement(ContactModel& model, double step)> run;
   OfStep expected;  ///< the value on paper at that step
-  /// Exact contacts may have an error up to this: of the integrator, the solver, the surface layer,
-  /// the bisection. Smaller errors say nothing about contacts.
+  /// Exact contacts may have an error up to this, whichever points they consist of: of the
+  /// integrator, the solver, the surface layer, the bisection (resolution.hpp). Candidates with
+  /// smaller errors are equal.
   OfStep resolution;
   bool rests = false;  ///< the value is a motion that must die away
 };

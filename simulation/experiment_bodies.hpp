@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <numbers>
 
 #include "simulation/scene.hpp"
@@ -32,8 +33,15 @@ inline Body ground(double friction) {
   return fixed_body("ground", Plane(Vec3::UnitZ(), 0), friction);
 }
 
-/// Bodies at rest begin in the middle of the surface layer, so that contacts may be wrong by half
-/// of it either way before anything moves.
-inline double resting_depth(const Scene& scene) { return scene.surface_layer / 2; }
+/// Metres. Bodies upon one another begin in the middle of the surface layer, so that what the
+/// solver leaves of their weights in a step opens no contact; on this overlap nothing depends.
+inline double middle_of_layer(const Scene& scene) { return scene.surface_layer / 2; }
+
+/// The can's radius of gyration, metres, about a level line across its axis that passes the axis at
+/// one distance and the centre, along the axis, at the other.
+inline double can_gyration(double from_axis, double from_middle) {
+  return std::sqrt(can_radius * can_radius / 4 + can_half_length * can_half_length / 3 +
+                   from_axis * from_axis + from_middle * from_middle);
+}
 
 }  // namespace touchstone

@@ -48,7 +48,8 @@ std::string experiments_table(const json& result) {
     }
   }
   return text +
-         "\n=: as close as exact contacts come; value and error as the headings say\n"
+         "\n=: held: within what the experiment resolves, where all are equal\n"
+         "value and error: as the headings say\n"
          "points: mean number of contact points; flicker: % of steps in which it changed\n"
          "gained: largest rise of energy, in weight x size\n"
          "ns: median of one query; us: of a whole step, the way to the candidate included\n";

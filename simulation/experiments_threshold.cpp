@@ -4,6 +4,7 @@
 
 #include "simulation/experiment.hpp"
 #include "simulation/experiment_bodies.hpp"
+#include "simulation/resolution.hpp"
 
 namespace touchstone {
 namespace {
@@ -49,7 +50,7 @@ Measurement tipping(ContactModel& model, double step) {
     constexpr double friction = 2;  // so that it tips before it slides
     const Eigen::Quaterniond turn = about(Vec3::UnitZ(), 0.4) * about(Vec3::UnitY(), slope);
     const Vec3 up = turn * Vec3::UnitZ();
-    const Vec3 centre = (can_half_length - resting_depth(scene)) * up;
+    const Vec3 centre = (can_half_length - touching) * up;
     scene.bodies = {
         fixed_body("slope", Plane(Vec3::UnitZ(), 0), friction, Pose(Vec3::Zero(), turn)),
         moving_body("can", can, friction, Pose(centre, turn * about(Vec3::UnitZ(), 0.3)))};
@@ -64,10 +65,28 @@ Measurement tipping(ContactModel& model, double step) {
   return {found, std::abs(found / expected - 1), tally};
 }
 
+/// Any three points on the rim are an exact answer. Where the rim is lowest between two of them,
+/// the can turns with an acceleration α about the line through both, half a radius nearer to its
+/// middle, for the step that it takes to find the rim there; that speed carries it over if by
+/// energy it has no more than (gyration × α × step)² / 2 left to climb. It may also lean on the
+/// layer.
+double tipping_resolution(double step) {
+  const double angle = tipping_angle(step), to_rim = std::hypot(can_radius, can_half_length);
+  const double about_line = can_gyration(can_radius / 2, can_half_length);
+  const double acceleration =
+      gravity * std::cos(angle) * can_radius / 2 / (about_line * about_line);
+  const double gyration = can_gyration(can_radius, can_half_length);
+  const double carried = acceleration * step * gyration / std::sqrt(gravity * to_rim);
+  const double leaning = lean_within_layer(Scene{}.surface_layer, 1.5 * can_radius);
+  return (carried + leaning) / angle + 2 * bisected(halvings);
+}
+
 // Two logs a little apart and one upon them: each lower one is in balance if the friction at its
 // two contacts is the normal force times tan(φ/2), φ being the angle of the line of centres to the
 // vertical. The ground's friction is the same with a larger normal force.
 constexpr double half_spacing = 1.1 * can_radius;
+constexpr double pile_time = 1;                 // s
+constexpr double pile_way = 0.02 * can_radius;  // m, beyond which it does not hold
 double pile_friction(double) { return std::tan(std::asin(half_spacing / (2 * can_radius)) / 2); }
 
 Measurement log_pile(ContactModel& model, double step) {
@@ -75,8 +94,9 @@ Measurement log_pile(ContactModel& model, double step) {
   const auto holds = [&](double friction) {
     Scene scene;
     scene.step = step;
-    scene.duration = 1;
-    const double depth = resting_depth(scene), low = can_radius - depth;
+    scene.duration = pile_time;
+    scene.solver_iterations = 500;
+    const double depth = middle_of_layer(scene), low = can_radius - depth;
     const double between = 2 * can_radius - depth;
     const double high = low + std::sqrt(between * between - half_spacing * half_spacing);
     const auto log = [&](const char* name, double y, double z) {
@@ -85,9 +105,9 @@ Measurement log_pile(ContactModel& model, double step) {
     scene.bodies = {ground(friction), log("left", -half_spacing, low),
                     log("right", half_spacing, low), log("top", 0, high)};
     return lasts(scene, model, tally, [&](const World& world) {
-      constexpr double still = 0.02 * can_radius;
       for (int i = 1; i <= 3; ++i) {
-        if ((world.states()[i].pose.position() - scene.bodies[i].pose.position()).norm() > still) {
+        if ((world.states()[i].pose.position() - scene.bodies[i].pose.position()).norm() >
+            pile_way) {
           return false;
         }
       }
@@ -99,20 +119,38 @@ Measurement log_pile(ContactModel& model, double step) {
   return {found, std::abs(found / expected - 1), tally};
 }
 
+/// What slides less than the bar within the time counts as holding. Where friction lacks Δμ a lower
+/// log rolls away with g (1 + cos φ) Δμ / 3.
+double pile_resolution(double step) {
+  const double cosine = std::cos(std::asin(half_spacing / (2 * can_radius)));
+  const double lacking = 6 * pile_way / (pile_time * pile_time * gravity * (1 + cosine));
+  return lacking / pile_friction(step) + 4 * bisected(halvings);
+}
+
 // On its side across a box's edge it stays as long as its centre is above the box.
+constexpr double edge_time = 2;     // s
+const double toppled = radians(3);  // of lean
+
+/// In half lengths. Beyond by x it leans by g x t² / (2 gyration²), which has to be seen in time.
+double edge_resolution(double) {
+  const double gyration = can_gyration(can_radius, 0);
+  const double unseen = 2 * toppled * gyration * gyration / (gravity * edge_time * edge_time);
+  return unseen / can_half_length + 2 * bisected(halvings);
+}
+
 Measurement across_edge(ContactModel& model, double step) {
   RunTally tally;
   const auto stays = [&](double overhang) {
     Scene scene;
     scene.step = step;
-    scene.duration = 2;
+    scene.duration = edge_time;
     const Vec3 half(0.6, 0.5, 0.3);
     const Eigen::Quaterniond turn = about(Vec3::UnitZ(), 0.4);
-    const Vec3 centre(half.x() + overhang, 0, half.z() + can_radius - resting_depth(scene));
+    const Vec3 centre(half.x() + overhang, 0, half.z() + can_radius - touching);
     scene.bodies = {fixed_body("box", Box(half), 0.5, Pose(Vec3::Zero(), turn)),
                     moving_body("can", can, 0.5, Pose(turn * centre, turn * along_x()))};
     return lasts(scene, model, tally, [&](const World& world) {
-      return std::abs(world.states()[1].pose.axis().z()) < std::sin(radians(3));
+      return std::abs(world.states()[1].pose.axis().z()) < std::sin(toppled);
     });
   };
   const double found = threshold(-can_half_length, can_half_length, stays);
@@ -122,13 +160,14 @@ Measurement across_edge(ContactModel& model, double step) {
 // A can that flies end first at a plate is found in it at least once while its centre is on the
 // near side, however its steps fall, up to one way through per step.
 constexpr double plate_half_thickness = 0.01;
+constexpr double least_phase = 0.001;  // of a step's way that it is ahead of touching, at first
 double tunnelling_speed(double step) { return (can_half_length + plate_half_thickness) / step; }
 
 Measurement tunnelling(ContactModel& model, double step) {
   RunTally tally;
   const double expected = tunnelling_speed(step);
   const auto is_stopped = [&](double speed) {
-    for (const double phase : {0.001, 0.25, 0.5, 0.75}) {
+    for (const double phase : {least_phase, 0.25, 0.5, 0.75}) {
       Scene scene;
       scene.step = step;
       scene.gravity = Vec3::Zero();
@@ -155,24 +194,21 @@ Measurement tunnelling(ContactModel& model, double step) {
 }  // namespace
 
 std::vector<Experiment> threshold_experiments() {
-  return {{"tipping", "On a rising slope a cylinder on end tips where tan θ = r / h.",
-           "angle at which it tips, radians", "relative", tipping, tipping_angle,
-           // The layer lets it lean, and what a step gives it of speed adds to that.
-           [](double step) { return 0.004 + 2 * step; }},
-          {"log-pile",
-           "Two logs carry a third if friction is at least tan(φ/2), φ being the slope of the line "
-           "of centres to the vertical.",
-           "least friction that holds", "relative", log_pile, pile_friction,
-           // What slides less than the bar in a second counts as holding.
-           [](double) { return 0.01; }},
-          {"across-edge", "On its side across a box's edge it topples once its centre is beyond.",
-           "overhang at which it topples, half lengths", "half lengths", across_edge,
-           [](double) { return 0.0; }, [](double) { return 0.002; }},
-          {"tunnelling",
-           "A cylinder that flies end first at a thin plate is stopped up to (half length + half "
-           "thickness) / step.",
-           "speed at which it passes through, m/s", "relative, slower only", tunnelling,
-           tunnelling_speed, [](double) { return 0.001; }}};
+  return {
+      {"tipping", "On a rising slope a cylinder on end tips where tan θ = r / h.",
+       "angle at which it tips, radians", "relative", tipping, tipping_angle, tipping_resolution},
+      {"log-pile",
+       "Two logs carry a third if friction is at least tan(φ/2), φ being the slope of the line "
+       "of centres to the vertical.",
+       "least friction that holds", "relative", log_pile, pile_friction, pile_resolution},
+      {"across-edge", "On its side across a box's edge it topples once its centre is beyond.",
+       "overhang at which it topples, half lengths", "half lengths", across_edge,
+       [](double) { return 0.0; }, edge_resolution},
+      {"tunnelling",
+       "A cylinder that flies end first at a thin plate is stopped up to (half length + half "
+       "thickness) / step.",
+       "speed at which it passes through, m/s", "relative, slower only", tunnelling,
+       tunnelling_speed, [](double) { return least_phase + 2 * bisected(halvings); }}};
 }
 
 }  // namespace touchstone

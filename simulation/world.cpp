@@ -13,8 +13,7 @@
 namespace touchstone {
 namespace {
 
-constexpr double error_reduction = 0.2;      // ERP
-constexpr double constraint_mixing = 1e-10;  // CFM times the heaviest body's mass
+constexpr double error_reduction = 0.2;  // ERP
 /// Slower impacts do not bounce, m/s.
 constexpr double least_bounce = 0.01;
 /// Below this the direction of slip is rounding, m/s; any will do.

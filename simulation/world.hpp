@@ -9,6 +9,9 @@
 
 namespace touchstone {
 
+/// CFM times the heaviest body's mass, s⁻¹ (ODE's CFM is a speed for a force).
+inline constexpr double constraint_mixing = 1e-10;
+
 /// What the contact model answered for two bodies in the last step; bodies as in PairQuestion.
 struct PairContact {
   int a, b;
@@ -20,7 +23,7 @@ struct PairContact {
 ///
 /// A step finds contacts, solves for velocities (dWorldQuickStep; Coulomb's cone as a pyramid along
 /// the slip to come), and moves the bodies by them: semi-implicit Euler. Contacts are
-/// hard (CFM 1e-10 by the heaviest body's mass); a fifth of the depth beyond the scene's surface
+/// hard (`constraint_mixing`); a fifth of the depth beyond the scene's surface
 /// layer is taken back in a step (ERP 0.2). All candidates get the same settings. What it does
 /// depends on the scene and the answers alone. docs/simulation.md says why.
 class World {

@@ -64,6 +64,30 @@ TEST(Perturbation, GoesAnotherWayForEveryNumberSeedAndAmplitude) {
   EXPECT_LT(p.dot(perturbed(c, {Decade(-4), 1, 0}).pose_a.position().normalized()), 0.999);
 }
 
+// A changed step breaks every name with an @ that anybody has noted down. One that moves, one that
+// turns by a unit in the last place, one that does both.
+TEST(Perturbation, KeepsItsBitsFromVersionToVersion) {
+  const struct {
+    const char* perturbation;
+    const char* pose;
+  } golden[] = {{"1e-8/1/0",
+                 "position (-0x1.1217ab1d1cfa4p-1, -0x1.bc085ef93110bp-1, -0x1.ca64626f7f4ccp-4) "
+                 "orientation (-0x1.8p+1, -0x1p+0, -0x1p+0, 0x1.8p+1)"},
+                {"1e-16/1/4",
+                 "position (-0x1.1217ab2p-1, -0x1.bc085fp-1, -0x1.ca6463p-4) orientation "
+                 "(-0x1.8p+1, -0x1p+0, -0x1.ffffffffffffep-1, 0x1.8p+1)"},
+                {"1e-2/7/5",
+                 "position (-0x1.12d5cfc4a7fcbp-1, -0x1.bce8919491472p-1, -0x1.cbe244cdd979ep-4) "
+                 "orientation (-0x1.814c045063111p+1, -0x1.f8e78b32c881p-1, -0x1.02d0ee2ea2a06p+0, "
+                 "0x1.7ed3330e46743p+1)"}};
+  const Configuration c = make_configuration(parse_identity("cylinder-box/side-on-face/1/4"));
+  for (const auto& row : golden) {
+    EXPECT_THAT(rc::toString(perturbed(c, parse_perturbation(row.perturbation))),
+                HasSubstr(row.pose))
+        << row.perturbation;
+  }
+}
+
 TEST(Perturbation, PrintsAndParsesBack) {
   const Perturbation p = parse_perturbation("1e-8/3/18446744073709551615");
   EXPECT_EQ(p.amplitude.value(), 1e-8);

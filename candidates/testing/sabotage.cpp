@@ -4,7 +4,8 @@
 // or none, as the bits of A's position decide: the same one for the same configuration. obedient
 // answers whatever previous normal it is given. declining answers planes, with a relative error of
 // 1e-6 in the depth where the axis lies in the plane: TOUCHSTONE_DECLINE, a number in the
-// environment, multiplies that error, and slows down all queries where it is negative.
+// environment, multiplies that error, and slows down all queries where it is negative. counting
+// answers with how many pairs it has prepared, and how many of them are not released.
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -154,6 +155,23 @@ void query_declining(ts_prepared* prepared, const ts_pose* a, const ts_pose* b, 
 }
 void release_declining(ts_prepared* p) { delete reinterpret_cast<Declining*>(p); }
 
+// counting
+
+int prepared_pairs = 0, released_pairs = 0;
+ts_prepared* prepare_counted(const ts_shape*, const ts_shape*, double, double) {
+  ++prepared_pairs;
+  return new ts_prepared{0};
+}
+void query_counted(ts_prepared*, const ts_pose*, const ts_pose*, const double*, ts_answer* answer) {
+  behave(*answer);
+  answer->signed_distance = -prepared_pairs;
+  answer->points[0].depth = prepared_pairs - released_pairs;
+}
+void release_counted(ts_prepared* prepared) {
+  ++released_pairs;
+  delete prepared;
+}
+
 const ts_candidate candidates[] = {
     {"misdeed", "1", "does one deed", nullptr, &which, supports, prepare, query, release, nullptr},
     {"sabotage", "1", "does many deeds", nullptr, nullptr, supports, prepare, query_some, release,
@@ -161,8 +179,10 @@ const ts_candidate candidates[] = {
     {"obedient", "1", "answers the previous normal", nullptr, nullptr, supports, prepare,
      query_obedient, release, nullptr},
     {"declining", "1", "exact for planes but where a cylinder lies", nullptr, nullptr,
-     supports_planes, prepare_declining, query_declining, release_declining, nullptr}};
-const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 4, candidates};
+     supports_planes, prepare_declining, query_declining, release_declining, nullptr},
+    {"counting", "1", "answers how many pairs it has prepared", nullptr, nullptr, supports,
+     prepare_counted, query_counted, release_counted, nullptr}};
+const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 5, candidates};
 
 }  // namespace
 

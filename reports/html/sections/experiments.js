@@ -1,10 +1,10 @@
 // Rigid-body experiments with an answer on paper: the error of every candidate in every experiment,
-// and the numbers of one experiment.
+// and the numbers of one experiment. Errors below what an experiment resolves are equal.
 const experimentCell = {
-  text: r => r.outcome === 'unsupported' ? '–' : r.error === null || r.outcome === 'unsound' ? 'lost' : exponent(r.error),
+  text: r => r.outcome === 'unsupported' ? '–' : r.exact ? 'held' : r.error === null || r.outcome === 'unsound' ? 'lost' : exponent(r.error),
   // From what the experiment resolves (pale) to wrong by all (full).
   style: (r, resolution) => r.exact ? '' : heated(r.error === null ? 1
-      : Math.min(1, 0.2 + 0.4 * Math.max(0, Math.log10(r.error / resolution)))),
+      : Math.min(1, 0.2 + 0.8 * Math.max(0, 1 - Math.log(r.error) / Math.log(resolution)))),
 };
 function experimentTip(r, experiment, k) {
   if (r.outcome === 'unsupported') return `${r.candidate} has no routine for a pair in it`;
@@ -25,18 +25,20 @@ function experimentTables(data) {
         cell.addEventListener('click', () => { byId('experiment-name').value = e.name; one(); });
         return cell;
       })));
-  byId('experiment-errors').append(table('Error of each experiment in its own unit; green: as close as exact contacts come',
-      [column('candidate', {class: 'text'}), ...data.experiments.map(e => column(e.name))], rows));
+  const resolved = element('tr', {class: 'quiet'}, element('th', {scope: 'row'}, 'resolves'),
+      ...data.experiments.map(e => element('td', {}, exponent(e.resolution[0]))));
+  byId('experiment-errors').append(table('Error of each experiment in its own unit; held: below what the experiment resolves, where all are equal',
+      [column('candidate', {class: 'text'}), ...data.experiments.map(e => column(e.name))], [resolved, ...rows]));
 
   function one() {
     const e = data.experiments.find(x => x.name === byId('experiment-name').value);
     byId('experiment-statement').textContent = `${e.statement} Value: ${e.quantity}; on paper ${exponent(e.expected[0])}. ` +
-        `Error in ${e.unit}; what is below ${exponent(e.resolution[0])} says nothing about contacts.`;
+        `Error in ${e.unit}; errors below ${exponent(e.resolution[0])} are equal: the experiment resolves no more.`;
     const measured = candidates.map(name => of(e, name)).filter(r => r.outcome !== 'unsupported');
     byId('experiment-table').replaceChildren(table('One experiment', [column('candidate', {class: 'text'}), column('value'), column('error'),
       column('points'), column('flicker'), column('one point', {class: 'wide'}), column('energy gained', {class: 'wide'}), column('ns per query'), column('µs per step')],
       measured.map(r => element('tr', {}, element('th', {scope: 'row'}, named(r.candidate)),
-          element('td', {}, exponent(r.value)), element('td', {class: r.exact ? 'good' : ''}, experimentCell.text(r)),
+          element('td', {}, exponent(r.value)), element('td', {class: r.exact ? 'good' : ''}, r.exact ? `held (${exponent(r.error)})` : experimentCell.text(r)),
           element('td', {}, r.points.toFixed(1)), element('td', {}, percent(r.flicker)),
           element('td', {class: 'wide'}, percent(r.single)), element('td', {class: 'wide'}, exponent(r.energy_gained)),
           element('td', {}, whole(r.nanoseconds)), element('td', {}, whole(r.microseconds_per_step))))));
