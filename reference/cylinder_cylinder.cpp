@@ -5,6 +5,7 @@
 #include <optional>
 #include <tuple>
 
+#include "deep_normals.hpp"
 #include "ellipse_normal.hpp"
 #include "largest_gap.hpp"
 #include "pair_contact.hpp"
@@ -68,12 +69,17 @@ class Solver {
   /// A point of cylinder 2 that faces cap 1 lies on it, its depth away from the rim.
   bool cap1_is_final() const {
     const double side = best_.normal.x();
-    return on_cap(f_.d2, side * pair_.h2, side * pair_.r2, pair_.r1, pair_.h1);
+    return on_cap(f_.d2, side * pair_.h2, side * pair_.r2, pair_.r1, pair_.h1) ||
+           no_normal_beats_cap(depth(), pair_.r1, pair_.h1, pair_.r2, pair_.h2, f_.c, f_.s,
+                               std::abs(f_.d1), std::sqrt(f_.d2 * f_.d2 + f_.d3 * f_.d3));
   }
   bool cap2_is_final() const {
     const double side = f_.along_u2(best_.normal);
     // Seen from u2, u1 leans the other way.
-    return on_cap(-f_.along_k2(f_.d()), side * pair_.h1, side * pair_.r1, pair_.r2, pair_.h2);
+    const double along = f_.along_u2(f_.d()), across = f_.along_k2(f_.d());
+    return on_cap(-across, side * pair_.h1, side * pair_.r1, pair_.r2, pair_.h2) ||
+           no_normal_beats_cap(depth(), pair_.r2, pair_.h2, pair_.r1, pair_.h1, f_.c, f_.s,
+                               std::abs(along), std::sqrt(across * across + f_.d3 * f_.d3));
   }
   /// The other's centre lies at `offset` across the cap's axis, its facing rim's middle at `half` s
   /// and rim point at another −`radius` c from there.
@@ -105,7 +111,8 @@ class Solver {
     const double t2 = f_.d2 / f_.s, t1 = f_.d1 - f_.c * t2;
     if (std::abs(t1) > pair_.h1 || std::abs(t2) > pair_.h2) return false;
     return (std::abs(t1) <= pair_.h1 - delta && delta <= pair_.r1) ||
-           (std::abs(t2) <= pair_.h2 - delta && delta <= pair_.r2);
+           (std::abs(t2) <= pair_.h2 - delta && delta <= pair_.r2) ||
+           no_normal_beats_crossing(pair_);
   }
 
   /// n = (0, n_y, n_x): across side 1, seen along u1.

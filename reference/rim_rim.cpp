@@ -77,11 +77,7 @@ bool is_largest(const FoldedCylinders& pair, const LargestGap& maximum) {
   if (!(delta < r1)) return false;
   const double kappa = std::sqrt(1 - round) / f.s * (1 + f.c) / (1 + std::sqrt(round));
   if (!(kappa < 1 && maximum.normal.z() > kappa)) return false;
-  const double shadows = std::max({std::abs(f.d1) - pair.h1 - pair.h2 * f.c - r2 * f.s,
-                                   std::abs(f.along_u2(f.d())) - pair.h2 - pair.h1 * f.c - r1 * f.s,
-                                   std::abs(f.d2) - r1 - pair.h2 * f.s - r2 * f.c,
-                                   std::abs(f.along_k2(f.d())) - r2 - pair.h1 * f.s - r1 * f.c});
-  return f.d3 * kappa + delta < -shadows * std::sqrt(1 - kappa * kappa);
+  return f.d3 * kappa + delta < -pair.gap_of_shadows() * std::sqrt(1 - kappa * kappa);
 }
 
 }  // namespace

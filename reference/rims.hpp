@@ -21,6 +21,15 @@ struct FoldedCylinders {
     return axes.d().dot(n) - h1 * std::abs(n.x()) - h2 * std::abs(axes.along_u2(n)) -
            r1 * std::sqrt(n.y() * n.y() + n.z() * n.z()) - r2 * std::sqrt(m * m + n.z() * n.z());
   }
+  /// The largest gap between their shadows in the plane of the axes, which are rectangles.
+  double gap_of_shadows() const {
+    const double along_u2 = axes.c * axes.d1 + axes.s * axes.d2;
+    const double along_k2 = axes.c * axes.d2 - axes.s * axes.d1;
+    return std::max({std::abs(axes.d1) - h1 - h2 * axes.c - r2 * axes.s,
+                     std::abs(along_u2) - h2 - h1 * axes.c - r1 * axes.s,
+                     std::abs(axes.d2) - r1 - h2 * axes.s - r2 * axes.c,
+                     std::abs(along_k2) - r2 - h1 * axes.s - r1 * axes.c});
+  }
 };
 
 /// A point of rim 1 with the nearest point of rim 2.
