@@ -20,7 +20,8 @@ namespace {
 // beside it: a point against an ellipse, seen along the side), or rim to rim. All but the last have
 // one candidate each, and the best of them is mostly final, because a smooth place of one body is
 // met well within its bounds: where the bodies overlap by δ, a ball of radius δ fits into that body
-// behind the place, so that no way out is shorter than δ. Else the rims are scanned (rim_rim.hpp).
+// behind the place, so that no way out is shorter than δ; deeper ones are bounded in
+// deep_normals.hpp. Else the rims are scanned (rim_rim.hpp).
 class Solver {
  public:
   Solver(const Cylinder& a, const Cylinder& b, const FoldedAxes& f)
@@ -66,37 +67,45 @@ class Solver {
   }
   void sides_crossing() { best_.offer(f_.d3 - pair_.r1 - pair_.r2, Vec3(0, 0, 1)); }
 
-  /// A point of cylinder 2 that faces cap 1 lies on it, its depth away from the rim.
+  /// A point of cylinder 2 that faces cap 1 lies on it.
   bool cap1_is_final() const {
     const double side = best_.normal.x();
-    return on_cap(f_.d2, side * pair_.h2, side * pair_.r2, pair_.r1, pair_.h1) ||
-           no_normal_beats_cap(depth(), pair_.r1, pair_.h1, pair_.r2, pair_.h2, f_.c, f_.s,
-                               std::abs(f_.d1), std::sqrt(f_.d2 * f_.d2 + f_.d3 * f_.d3));
+    const AboutAxis about{
+        pair_.r1, pair_.h1, pair_.r2,        pair_.h2,
+        f_.c,     f_.s,     std::abs(f_.d1), std::sqrt(f_.d2 * f_.d2 + f_.d3 * f_.d3)};
+    return on_cap(f_.d2, side, about);
   }
   bool cap2_is_final() const {
     const double side = f_.along_u2(best_.normal);
     // Seen from u2, u1 leans the other way.
     const double along = f_.along_u2(f_.d()), across = f_.along_k2(f_.d());
-    return on_cap(-across, side * pair_.h1, side * pair_.r1, pair_.r2, pair_.h2) ||
-           no_normal_beats_cap(depth(), pair_.r2, pair_.h2, pair_.r1, pair_.h1, f_.c, f_.s,
-                               std::abs(along), std::sqrt(across * across + f_.d3 * f_.d3));
+    const AboutAxis about{
+        pair_.r2, pair_.h2, pair_.r1,        pair_.h1,
+        f_.c,     f_.s,     std::abs(along), std::sqrt(across * across + f_.d3 * f_.d3)};
+    return on_cap(-across, side, about);
   }
-  /// The other's centre lies at `offset` across the cap's axis, its facing rim's middle at `half` s
-  /// and rim point at another −`radius` c from there.
-  bool on_cap(double offset, double half, double radius, double r, double h) const {
+  /// The other's centre lies at `offset` across the cap's axis, the middle of its rim towards the
+  /// cap's `side` at H s from there, and the rim's point at another −R c.
+  bool on_cap(double offset, double side, const AboutAxis& x) const {
     const double delta = depth();
-    if (delta > h || delta > r) return false;
     constexpr double flat = 1e-15;
-    double across = 0, reach = r - delta;
-    if (f_.s <= flat) {  // cap on cap: any shared point
+    double across = 0, reach = x.r - delta;
+    if (x.s <= flat) {  // cap on cap: any shared point
       across = offset;
-      reach += std::abs(radius);
-    } else if (f_.c <= flat) {  // a generator on the cap: any of its points
-      across = std::max(0.0, std::abs(offset) - std::abs(half));
+      reach += x.R;
+    } else if (x.c <= flat) {  // a generator on the cap: any of its points
+      across = std::max(0.0, std::abs(offset) - x.H);
     } else {
-      across = offset - (half * f_.s - radius * f_.c);
+      across = offset - side * (x.H * x.s - x.R * x.c);
     }
-    return across * across + f_.d3 * f_.d3 <= reach * reach;
+    const double squared = across * across + f_.d3 * f_.d3;
+    // Its depth away from the cap's rim.
+    if (delta <= x.h && delta <= x.r && squared <= reach * reach) return true;
+    if (best_.gap > 0) return false;
+    if (no_normal_beats_cap(x, delta)) return true;
+    return squared <= x.r * x.r && x.s > flat &&
+           bends_away_near_axis({x.R, x.H, x.c, x.s}, {x.r, x.h, 1, 0}, f_.d3 * f_.d3 / squared,
+                                delta, 0, x);
   }
 
   /// The generators cross within both, one of them further from its ends than the depth.

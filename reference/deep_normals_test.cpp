@@ -42,8 +42,9 @@ TEST(DeepNormals, AreProvenOnlyWhereNoNormalHasALargerGap) {
       const FoldedCylinders pair{f, x.a.radius(), x.a.half_length(), b.radius(), b.half_length()};
       const Vec3 u1(f.d1 < 0 ? -1 : 1, 0, 0), e3(0, 0, 1);
       count(pair, u1,
-            no_normal_beats_cap(-pair.gap(u1), pair.r1, pair.h1, pair.r2, pair.h2, f.c, f.s,
-                                std::abs(f.d1), std::hypot(f.d2, f.d3)),
+            no_normal_beats_cap({pair.r1, pair.h1, pair.r2, pair.h2, f.c, f.s, std::abs(f.d1),
+                                 std::hypot(f.d2, f.d3)},
+                                -pair.gap(u1)),
             random, cap);
       count(pair, e3, no_normal_beats_crossing(pair), random, crossing);
     }
