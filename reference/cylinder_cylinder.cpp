@@ -1,5 +1,6 @@
 #include "cylinder_cylinder.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -30,11 +31,37 @@ class Solver {
   /// Caps and crossing sides. True if they say it all, or one of them has a gap of more than
   /// `enough`.
   bool closed_forms(double enough) {
-    better(&Solver::cap1, &Solver::cap1_is_final);
-    better(&Solver::cap2, &Solver::cap2_is_final);
-    better(&Solver::sides_crossing, &Solver::crossing_is_final);
+    const double along2 = f_.along_u2(f_.d());
+    const double cap1 = std::abs(f_.d1) - pair_.h1 - pair_.h2 * f_.c - pair_.r2 * f_.s;
+    const double cap2 = std::abs(along2) - pair_.h2 - pair_.h1 * f_.c - pair_.r1 * f_.s;
+    const double crossing = f_.d3 - pair_.r1 - pair_.r2;
+    // One branch that nobody can foretell, not three.
+    best_.gap = std::max(std::max(cap1, cap2), crossing);
+    if (best_.gap == cap1) {
+      best_.normal = Vec3(std::copysign(1, f_.d1), 0, 0);
+      is_final_ = &Solver::cap1_is_final;
+    } else if (best_.gap == cap2) {
+      const double side = std::copysign(1, along2);
+      best_.normal = Vec3(side * f_.c, side * f_.s, 0);
+      is_final_ = &Solver::cap2_is_final;
+    } else {
+      best_.normal = Vec3(0, 0, 1);
+      is_final_ = &Solver::crossing_is_final;
+    }
     return best_.gap > enough || (this->*is_final_)();
   }
+  /// Whether a normal from one side to the nearest end of the other axis has a gap of more than
+  /// `enough`: mostly, where bodies are apart by more than a little.
+  bool apart_beside(double enough) {
+    const double y1 = std::abs(f_.d2) - pair_.h2 * f_.s;
+    if (apart_along(y1, Vec3(0, std::copysign(y1, f_.d2), f_.d3), pair_.r1, pair_.r2, enough)) {
+      return true;
+    }
+    const double along = f_.along_k2(f_.d()), y2 = std::abs(along) - pair_.h1 * f_.s;
+    const double side = std::copysign(y2, along);
+    return apart_along(y2, Vec3(-f_.s * side, f_.c * side, f_.d3), pair_.r2, pair_.r1, enough);
+  }
+  /// Rims beside sides, and rims.
   void search(double enough) {
     better(&Solver::rim2_beside_side1, &Solver::side1_is_final);
     better(&Solver::rim1_beside_side2, &Solver::side2_is_final);
@@ -46,6 +73,19 @@ class Solver {
  private:
   using Certificate = bool (Solver::*)() const;
 
+  /// `way` is y across the other's end within the plane of the axes and d3 off it.
+  bool apart_along(double y, const Vec3& way, double side, double rim, double enough) {
+    // No answer may hang on what rounding makes of a touch.
+    constexpr double small_part = 0.01;
+    const double more = enough + small_part * side, least = more + side + rim * f_.c;
+    const double squared = y * y + f_.d3 * f_.d3;
+    if (!(y > 0 && squared > least * least)) return false;
+    const Vec3 n = (1 / std::sqrt(squared)) * way;
+    const double gap = pair_.gap(n);
+    if (gap > more) best_.offer(gap, n);
+    return gap > more;
+  }
+
   double depth() const { return std::max(0.0, -best_.gap); }
 
   /// Offers a candidate; if it is the best, its certificate counts.
@@ -54,18 +94,6 @@ class Solver {
     (this->*candidate)();
     if (best_.gap > before) is_final_ = certificate;
   }
-
-  void cap1() {
-    best_.offer(std::abs(f_.d1) - pair_.h1 - pair_.h2 * f_.c - pair_.r2 * f_.s,
-                Vec3(std::copysign(1, f_.d1), 0, 0));
-  }
-  void cap2() {
-    const double along = f_.along_u2(f_.d());
-    const double side = std::copysign(1, along);
-    best_.offer(std::abs(along) - pair_.h2 - pair_.h1 * f_.c - pair_.r1 * f_.s,
-                Vec3(side * f_.c, side * f_.s, 0));
-  }
-  void sides_crossing() { best_.offer(f_.d3 - pair_.r1 - pair_.r2, Vec3(0, 0, 1)); }
 
   /// A point of cylinder 2 that faces cap 1 lies on it.
   bool cap1_is_final() const {
@@ -172,6 +200,8 @@ class Solver {
   Certificate is_final_ = &Solver::cap1_is_final;
 };
 
+constexpr double never = std::numeric_limits<double>::infinity();
+
 /// Stops at the first direction with a clearance of more than `enough`. `a` has the smaller radius
 /// or the same.
 SignedDistance solve(const Cylinder& a, const Cylinder& b, const PosedCylinder& posed_a,
@@ -180,13 +210,13 @@ SignedDistance solve(const Cylinder& a, const Cylinder& b, const PosedCylinder& 
   Solver solver(a, b, f);
   if (!solver.closed_forms(enough)) {
     SignedDistance clearance;
-    if (quickly_separated(posed_a, posed_b, enough, clearance)) return clearance;
-    solver.search(enough);
+    if (!(enough < never && solver.apart_beside(enough))) {
+      if (quickly_separated(posed_a, posed_b, enough, clearance)) return clearance;
+      solver.search(enough);
+    }
   }
   return {solver.best().gap, f.to_world(solver.best().normal)};
 }
-
-constexpr double never = std::numeric_limits<double>::infinity();
 
 /// A fixed order of bodies, so that the answer does not depend on which comes first.
 bool in_order(const Cylinder& a, const Pose& pose_a, const Cylinder& b, const Pose& pose_b) {

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "properties/identity.hpp"
+#include "reference/contact_of.hpp"
 
 namespace touchstone {
 namespace {
@@ -53,6 +54,50 @@ TEST(DeepNormals, AreProvenOnlyWhereNoNormalHasALargerGap) {
   EXPECT_GT(crossing.proven, 600);
   EXPECT_EQ(cap.contradicted, 0);
   EXPECT_EQ(crossing.contradicted, 0);
+}
+
+/// The largest gap's normal in the folded frame.
+Vec3 best_normal(const Configuration& x, const FoldedAxes& f) {
+  const Vec3 n = signed_distance(x).normal;
+  return {n.dot(f.e1), n.dot(f.e2), n.dot(f.e3)};
+}
+
+TEST(DeepNormals, OfRimsThatBendAwayHaveTheLargestGap) {
+  std::mt19937_64 random(1);
+  Counts shallow, near_axis;
+  for (const char* name : {"rim-rim", "near-parallel-1e-2", "near-parallel-1e-6"}) {
+    for (std::uint64_t i = 0; i < 1000; ++i) {
+      const Configuration x = make_configuration({Pair::cylinder, name, 3, i});
+      const auto& b = std::get<Cylinder>(x.b);
+      const FoldedAxes f(x.pose_a.axis(), x.pose_b.axis(),
+                         x.pose_a.position() - x.pose_b.position());
+      const FoldedCylinders pair{f, x.a.radius(), x.a.half_length(), b.radius(), b.half_length()};
+      const Vec3 n = best_normal(x, f), d = f.d();
+      const double across1 = std::hypot(n.y(), n.z()), along2 = f.along_u2(n);
+      const double across2 = std::hypot(f.along_k2(n), n.z());
+      if (!(across1 > 0 && across2 > 0 && pair.gap(n) <= 0)) continue;
+      const double sine = f.s * n.z() / (across1 * across2);
+      const Leaning on_a{pair.r1, pair.h1, std::abs(n.x()), across1};
+      const Leaning on_b{pair.r2, pair.h2, std::abs(along2), across2};
+      const AboutAxis about{pair.r2,
+                            pair.h2,
+                            pair.r1,
+                            pair.h1,
+                            f.c,
+                            f.s,
+                            std::abs(f.along_u2(d)),
+                            std::hypot(f.along_k2(d), f.d3)};
+      count(pair, n, bends_away(on_a, on_b, sine * sine, -pair.gap(n), 0), random, shallow);
+      count(pair, n,
+            along2 * f.along_u2(d) >= 0 &&
+                bends_away_near_axis(on_a, on_b, sine * sine, -pair.gap(n), 0, about),
+            random, near_axis);
+    }
+  }
+  EXPECT_GT(shallow.proven, 100);
+  EXPECT_GT(near_axis.proven, 50);
+  EXPECT_EQ(shallow.contradicted, 0);
+  EXPECT_EQ(near_axis.contradicted, 0);
 }
 
 TEST(DeepNormals, OfCrossedCylindersIsAcrossBothSides) {
