@@ -10,7 +10,6 @@
 #include "ellipse_normal.hpp"
 #include "largest_gap.hpp"
 #include "pair_contact.hpp"
-#include "quick_separation.hpp"
 #include "rim_rim.hpp"
 #include "scaled.hpp"
 
@@ -208,12 +207,8 @@ SignedDistance solve(const Cylinder& a, const Cylinder& b, const PosedCylinder& 
                      const PosedCylinder& posed_b, double enough) {
   const FoldedAxes f(posed_a.axis, posed_b.axis, posed_a.centre);
   Solver solver(a, b, f);
-  if (!solver.closed_forms(enough)) {
-    SignedDistance clearance;
-    if (!(enough < never && solver.apart_beside(enough))) {
-      if (quickly_separated(posed_a, posed_b, enough, clearance)) return clearance;
-      solver.search(enough);
-    }
+  if (!solver.closed_forms(enough) && !(enough < never && solver.apart_beside(enough))) {
+    solver.search(enough);
   }
   return {solver.best().gap, f.to_world(solver.best().normal)};
 }
