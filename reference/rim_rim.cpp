@@ -136,7 +136,7 @@ void offer_rim_rim_normals(const FoldedCylinders& pair, double enough, LargestGa
     const auto done = [&] { return best.gap > enough || best.gap >= limit - rounding; };
     const double before = best.gap;
     constexpr double narrow = 0.2, shallow = 0.1;
-    std::optional<Vec3> start;
+    std::optional<Vec3> start;  // of Newton's method
     if (other == 0 && pair.axes.s < nearly_parallel) start = rims.crossing_normal();
     if (!start &&
         (useful.hi - useful.lo < narrow || (!(limit > 0) && -best.gap < shallow * pair.r1))) {
