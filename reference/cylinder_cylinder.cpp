@@ -1,14 +1,15 @@
 #include "cylinder_cylinder.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <tuple>
 
+#include "deep_normals.hpp"
 #include "ellipse_normal.hpp"
 #include "largest_gap.hpp"
 #include "pair_contact.hpp"
-#include "quick_separation.hpp"
 #include "rim_rim.hpp"
 #include "scaled.hpp"
 
@@ -19,7 +20,8 @@ namespace {
 // beside it: a point against an ellipse, seen along the side), or rim to rim. All but the last have
 // one candidate each, and the best of them is mostly final, because a smooth place of one body is
 // met well within its bounds: where the bodies overlap by δ, a ball of radius δ fits into that body
-// behind the place, so that no way out is shorter than δ. Else the rims are scanned (rim_rim.hpp).
+// behind the place, so that no way out is shorter than δ; deeper ones are bounded in
+// deep_normals.hpp. Else the rims are scanned (rim_rim.hpp).
 class Solver {
  public:
   Solver(const Cylinder& a, const Cylinder& b, const FoldedAxes& f)
@@ -28,11 +30,37 @@ class Solver {
   /// Caps and crossing sides. True if they say it all, or one of them has a gap of more than
   /// `enough`.
   bool closed_forms(double enough) {
-    better(&Solver::cap1, &Solver::cap1_is_final);
-    better(&Solver::cap2, &Solver::cap2_is_final);
-    better(&Solver::sides_crossing, &Solver::crossing_is_final);
+    const double along2 = f_.along_u2(f_.d());
+    const double cap1 = std::abs(f_.d1) - pair_.h1 - pair_.h2 * f_.c - pair_.r2 * f_.s;
+    const double cap2 = std::abs(along2) - pair_.h2 - pair_.h1 * f_.c - pair_.r1 * f_.s;
+    const double crossing = f_.d3 - pair_.r1 - pair_.r2;
+    // One branch that nobody can foretell, not three.
+    best_.gap = std::max(std::max(cap1, cap2), crossing);
+    if (best_.gap == cap1) {
+      best_.normal = Vec3(std::copysign(1, f_.d1), 0, 0);
+      is_final_ = &Solver::cap1_is_final;
+    } else if (best_.gap == cap2) {
+      const double side = std::copysign(1, along2);
+      best_.normal = Vec3(side * f_.c, side * f_.s, 0);
+      is_final_ = &Solver::cap2_is_final;
+    } else {
+      best_.normal = Vec3(0, 0, 1);
+      is_final_ = &Solver::crossing_is_final;
+    }
     return best_.gap > enough || (this->*is_final_)();
   }
+  /// Whether a normal from one side to the nearest end of the other axis has a gap of more than
+  /// `enough`: mostly, where bodies are apart by more than a little.
+  bool apart_beside(double enough) {
+    const double y1 = std::abs(f_.d2) - pair_.h2 * f_.s;
+    if (apart_along(y1, Vec3(0, std::copysign(y1, f_.d2), f_.d3), pair_.r1, pair_.r2, enough)) {
+      return true;
+    }
+    const double along = f_.along_k2(f_.d()), y2 = std::abs(along) - pair_.h1 * f_.s;
+    const double side = std::copysign(y2, along);
+    return apart_along(y2, Vec3(-f_.s * side, f_.c * side, f_.d3), pair_.r2, pair_.r1, enough);
+  }
+  /// Rims beside sides, and rims.
   void search(double enough) {
     better(&Solver::rim2_beside_side1, &Solver::side1_is_final);
     better(&Solver::rim1_beside_side2, &Solver::side2_is_final);
@@ -44,6 +72,19 @@ class Solver {
  private:
   using Certificate = bool (Solver::*)() const;
 
+  /// `way` is y across the other's end within the plane of the axes and d3 off it.
+  bool apart_along(double y, const Vec3& way, double side, double rim, double enough) {
+    // No answer may hang on what rounding makes of a touch.
+    constexpr double small_part = 0.01;
+    const double more = enough + small_part * side, least = more + side + rim * f_.c;
+    const double squared = y * y + f_.d3 * f_.d3;
+    if (!(y > 0 && squared > least * least)) return false;
+    const Vec3 n = (1 / std::sqrt(squared)) * way;
+    const double gap = pair_.gap(n);
+    if (gap > more) best_.offer(gap, n);
+    return gap > more;
+  }
+
   double depth() const { return std::max(0.0, -best_.gap); }
 
   /// Offers a candidate; if it is the best, its certificate counts.
@@ -53,44 +94,45 @@ class Solver {
     if (best_.gap > before) is_final_ = certificate;
   }
 
-  void cap1() {
-    best_.offer(std::abs(f_.d1) - pair_.h1 - pair_.h2 * f_.c - pair_.r2 * f_.s,
-                Vec3(std::copysign(1, f_.d1), 0, 0));
-  }
-  void cap2() {
-    const double along = f_.along_u2(f_.d());
-    const double side = std::copysign(1, along);
-    best_.offer(std::abs(along) - pair_.h2 - pair_.h1 * f_.c - pair_.r1 * f_.s,
-                Vec3(side * f_.c, side * f_.s, 0));
-  }
-  void sides_crossing() { best_.offer(f_.d3 - pair_.r1 - pair_.r2, Vec3(0, 0, 1)); }
-
-  /// A point of cylinder 2 that faces cap 1 lies on it, its depth away from the rim.
+  /// A point of cylinder 2 that faces cap 1 lies on it.
   bool cap1_is_final() const {
     const double side = best_.normal.x();
-    return on_cap(f_.d2, side * pair_.h2, side * pair_.r2, pair_.r1, pair_.h1);
+    const AboutAxis about{
+        pair_.r1, pair_.h1, pair_.r2,        pair_.h2,
+        f_.c,     f_.s,     std::abs(f_.d1), std::sqrt(f_.d2 * f_.d2 + f_.d3 * f_.d3)};
+    return on_cap(f_.d2, side, about);
   }
   bool cap2_is_final() const {
     const double side = f_.along_u2(best_.normal);
     // Seen from u2, u1 leans the other way.
-    return on_cap(-f_.along_k2(f_.d()), side * pair_.h1, side * pair_.r1, pair_.r2, pair_.h2);
+    const double along = f_.along_u2(f_.d()), across = f_.along_k2(f_.d());
+    const AboutAxis about{
+        pair_.r2, pair_.h2, pair_.r1,        pair_.h1,
+        f_.c,     f_.s,     std::abs(along), std::sqrt(across * across + f_.d3 * f_.d3)};
+    return on_cap(-across, side, about);
   }
-  /// The other's centre lies at `offset` across the cap's axis, its facing rim's middle at `half` s
-  /// and rim point at another −`radius` c from there.
-  bool on_cap(double offset, double half, double radius, double r, double h) const {
+  /// The other's centre lies at `offset` across the cap's axis, the middle of its rim towards the
+  /// cap's `side` at H s from there, and the rim's point at another −R c.
+  bool on_cap(double offset, double side, const AboutAxis& x) const {
     const double delta = depth();
-    if (delta > h || delta > r) return false;
     constexpr double flat = 1e-15;
-    double across = 0, reach = r - delta;
-    if (f_.s <= flat) {  // cap on cap: any shared point
+    double across = 0, reach = x.r - delta;
+    if (x.s <= flat) {  // cap on cap: any shared point
       across = offset;
-      reach += std::abs(radius);
-    } else if (f_.c <= flat) {  // a generator on the cap: any of its points
-      across = std::max(0.0, std::abs(offset) - std::abs(half));
+      reach += x.R;
+    } else if (x.c <= flat) {  // a generator on the cap: any of its points
+      across = std::max(0.0, std::abs(offset) - x.H);
     } else {
-      across = offset - (half * f_.s - radius * f_.c);
+      across = offset - side * (x.H * x.s - x.R * x.c);
     }
-    return across * across + f_.d3 * f_.d3 <= reach * reach;
+    const double squared = across * across + f_.d3 * f_.d3;
+    // Its depth away from the cap's rim.
+    if (delta <= x.h && delta <= x.r && squared <= reach * reach) return true;
+    if (best_.gap > 0) return false;
+    if (no_normal_beats_cap(x, delta)) return true;
+    return squared <= x.r * x.r && x.s > flat &&
+           bends_away_near_axis({x.R, x.H, x.c, x.s}, {x.r, x.h, 1, 0}, f_.d3 * f_.d3 / squared,
+                                delta, 0, x);
   }
 
   /// The generators cross within both, one of them further from its ends than the depth.
@@ -105,7 +147,8 @@ class Solver {
     const double t2 = f_.d2 / f_.s, t1 = f_.d1 - f_.c * t2;
     if (std::abs(t1) > pair_.h1 || std::abs(t2) > pair_.h2) return false;
     return (std::abs(t1) <= pair_.h1 - delta && delta <= pair_.r1) ||
-           (std::abs(t2) <= pair_.h2 - delta && delta <= pair_.r2);
+           (std::abs(t2) <= pair_.h2 - delta && delta <= pair_.r2) ||
+           no_normal_beats_crossing(pair_);
   }
 
   /// n = (0, n_y, n_x): across side 1, seen along u1.
@@ -156,21 +199,19 @@ class Solver {
   Certificate is_final_ = &Solver::cap1_is_final;
 };
 
+constexpr double never = std::numeric_limits<double>::infinity();
+
 /// Stops at the first direction with a clearance of more than `enough`. `a` has the smaller radius
 /// or the same.
 SignedDistance solve(const Cylinder& a, const Cylinder& b, const PosedCylinder& posed_a,
                      const PosedCylinder& posed_b, double enough) {
   const FoldedAxes f(posed_a.axis, posed_b.axis, posed_a.centre);
   Solver solver(a, b, f);
-  if (!solver.closed_forms(enough)) {
-    SignedDistance clearance;
-    if (quickly_separated(posed_a, posed_b, enough, clearance)) return clearance;
+  if (!solver.closed_forms(enough) && !(enough < never && solver.apart_beside(enough))) {
     solver.search(enough);
   }
   return {solver.best().gap, f.to_world(solver.best().normal)};
 }
-
-constexpr double never = std::numeric_limits<double>::infinity();
 
 /// A fixed order of bodies, so that the answer does not depend on which comes first.
 bool in_order(const Cylinder& a, const Pose& pose_a, const Cylinder& b, const Pose& pose_b) {

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "deep_normals.hpp"
 #include "rim_scan.hpp"
 
 namespace touchstone {
@@ -66,7 +68,7 @@ void offer_parallel_rim_normal(const FoldedCylinders& pair, LargestGap& best) {
 /// at n3 >= κ (the Hessian at `Rims::polished`; ρ1 ρ2 is at most (ρ1² + ρ2²) / 2). So no other
 /// normal there has more. With a smaller n3 the gap is at most that of the bodies' shadows in the
 /// plane of the axes, which are rectangles, and n3 d3.
-bool is_largest(const FoldedCylinders& pair, const LargestGap& maximum) {
+bool is_largest_where_round(const FoldedCylinders& pair, const LargestGap& maximum) {
   const FoldedAxes& f = pair.axes;
   // Along nearly parallel axes the gap is flat, and Newton's last step small anywhere.
   constexpr double parallel = 1e-2;
@@ -77,18 +79,37 @@ bool is_largest(const FoldedCylinders& pair, const LargestGap& maximum) {
   if (!(delta < r1)) return false;
   const double kappa = std::sqrt(1 - round) / f.s * (1 + f.c) / (1 + std::sqrt(round));
   if (!(kappa < 1 && maximum.normal.z() > kappa)) return false;
-  const double shadows = std::max({std::abs(f.d1) - pair.h1 - pair.h2 * f.c - r2 * f.s,
-                                   std::abs(f.along_u2(f.d())) - pair.h2 - pair.h1 * f.c - r1 * f.s,
-                                   std::abs(f.d2) - r1 - pair.h2 * f.s - r2 * f.c,
-                                   std::abs(f.along_k2(f.d())) - r2 - pair.h1 * f.s - r1 * f.c});
-  return f.d3 * kappa + delta < -shadows * std::sqrt(1 - kappa * kappa);
+  return f.d3 * kappa + delta < -pair.gap_of_shadows() * std::sqrt(1 - kappa * kappa);
+}
+
+/// The proofs of `bends_away` for a stationary normal of two rims.
+bool is_largest_at_shallow_depth(const FoldedCylinders& pair, const Stationary& found, double gap) {
+  const Vec3& n = found.normal;
+  const double c = pair.axes.c, s = pair.axes.s, m = pair.axes.along_k2(n);
+  const double across1 = std::sqrt(n.y() * n.y() + n.z() * n.z());
+  const double across2 = std::sqrt(m * m + n.z() * n.z());
+  const double sine = s * n.z() / (across1 * across2);
+  const Leaning a{pair.r1, pair.h1, std::abs(n.x()), across1};
+  const Leaning b{pair.r2, pair.h2, std::abs(c * n.x() + s * n.y()), across2};
+  const double delta = std::max(0.0, -gap), slope = found.slope;
+  if (bends_away(a, b, sine * sine, delta, slope)) return true;
+  const Vec3 d = pair.axes.d();
+  const double along = pair.axes.along_u2(d), across = pair.axes.along_k2(d);
+  return pair.axes.along_u2(n) * along >= 0 &&
+         bends_away_near_axis(a, b, sine * sine, delta, slope,
+                              {pair.r2, pair.h2, pair.r1, pair.h1, c, s, std::abs(along),
+                               std::sqrt(across * across + d.z() * d.z())});
+}
+
+bool is_largest(const FoldedCylinders& pair, const Stationary& found, const LargestGap& best) {
+  return is_largest_at_shallow_depth(pair, found, best.gap) || is_largest_where_round(pair, best);
 }
 
 }  // namespace
 
 void offer_rim_rim_normals(const FoldedCylinders& pair, double enough, LargestGap& best) {
   // Tilts that only rounding makes cost no more than rounding.
-  constexpr double parallel = 2e-16;
+  constexpr double parallel = 2e-16, nearly_parallel = 0.1;
   offer_parallel_rim_normal(pair, best);
   if (pair.axes.s <= parallel) return;
   const double rounding = 2e-16 * (pair.axes.d().norm() + pair.h1 + pair.h2 + pair.r1 + pair.r2);
@@ -114,14 +135,22 @@ void offer_rim_rim_normals(const FoldedCylinders& pair, double enough, LargestGa
     // Apart by the gap, with points no further apart: nothing is better.
     const auto done = [&] { return best.gap > enough || best.gap >= limit - rounding; };
     const double before = best.gap;
-    constexpr double narrow = 0.2;
-    bool maximum = false;
-    if (useful.hi - useful.lo < narrow) {
-      maximum = scan.guess((useful.lo + useful.hi) / 2);
-    } else if (other == 0 && limit > 0) {
-      maximum = scan.guess(likely);
+    constexpr double narrow = 0.2, shallow = 0.1;
+    std::optional<Vec3> start;  // of Newton's method
+    if (other == 0 && pair.axes.s < nearly_parallel) start = rims.crossing_normal();
+    if (!start &&
+        (useful.hi - useful.lo < narrow || (!(limit > 0) && -best.gap < shallow * pair.r1))) {
+      start = scan.normal_at((useful.lo + useful.hi) / 2);
+      // Nowhere near: the maximum, if there is one, is left to the scan.
+      if (!(pair.gap(*start) > best.gap - std::abs(best.gap))) start.reset();
+    } else if (!start && other == 0 && limit > 0) {
+      start = likely;
     }
-    if (done() || (maximum && best.gap > before && is_largest(pair, best))) return;
+    if (start) {
+      const Stationary found = scan.guess(*start);
+      if (done()) return;
+      if (found.maximum && best.gap > before && is_largest(pair, found, best)) return;
+    }
     if (best.gap > before) useful = useful_cosines();
     if (!useful.empty()) scan.scan(useful);
     if (done()) return;

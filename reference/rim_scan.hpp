@@ -31,20 +31,17 @@ class RimScan {
     if (useless(middle.distance, (to - from) / 2)) return;
     arc(at(from), middle, at(to));
   }
-  /// The rims' stationary normal near n. True if that is a maximum.
-  bool guess(const Vec3& n) {
-    const Stationary found = rims_.polished(n);
-    if (!(found.normal.z() >= 0)) return false;
-    best_.offer(pair_.gap(found.normal), found.normal);
-    return found.maximum;
+  /// The rims' stationary normal near n, and its gap, which is offered.
+  Stationary guess(const Vec3& n) {
+    constexpr int few_steps = 8;
+    const Stationary found = rims_.polished(n, few_steps);
+    if (found.normal.z() >= 0) best_.offer(pair_.gap(found.normal), found.normal);
+    return found;
   }
-  /// The same from the rims' points near an angle of this cosine.
-  bool guess(double cosine) {
+  /// Where the rims' points near an angle of this cosine are to start with.
+  Vec3 normal_at(double cosine) const {
     const double sine = std::sqrt(std::max(0.0, (1 - cosine) * (1 + cosine)));
-    const Vec3 n = across_tangents(rims_.at(0, cosine, sine)).normalized();
-    // Nowhere near: the maximum, if there is one, is left to the scan.
-    if (!(pair_.gap(n) > best_.gap - std::abs(best_.gap))) return false;
-    return guess(n);
+    return across_tangents(rims_.at(0, cosine, sine)).normalized();
   }
 
  private:

@@ -41,6 +41,21 @@ Range Rims::cosines_at_height(double depth, double limit) const {
           std::min(most, (height - lowest + margin) / lean)};
 }
 
+std::optional<Vec3> Rims::crossing_normal() const {
+  const double r1 = pair_.r1, r2 = pair_.r2, y = q_.y(), z = q_.z();
+  const double squared = y * y + z * z, length = std::sqrt(squared);
+  const double along1 = (squared + (r1 - r2) * (r1 + r2)) / (2 * length);  // of r1 a, along q
+  const double across_squared = (r1 - along1) * (r1 + along1);
+  if (end1_ != end2_ || !(length > 0 && across_squared > 0)) return std::nullopt;
+  // Of the two triangles the one with n3 > 0 on both ways.
+  const double across = -end1_ * std::sqrt(across_squared), inverse = 1 / length;
+  const double a2 = (along1 * y - across * z) * inverse, a3 = (along1 * z + across * y) * inverse;
+  const double b3 = z - a3;
+  if (!(a3 > 0 && b3 > 0)) return std::nullopt;
+  const double way = pair_.axes.s * b3 / (std::abs(across) * length);
+  return Vec3(end1_, way * a2, way * a3);
+}
+
 // Where the rims meet at a normal n with gap G, rim 1's point r1 (cos α e2 + sin α e3) and rim 2's
 // r2 (cos β k2 + sin β e3) add up to q − G n. Along u2, e1 and e3 that is
 //

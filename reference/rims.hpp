@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include <Eigen/Geometry>
 
@@ -20,6 +21,15 @@ struct FoldedCylinders {
     const double m = axes.along_k2(n);
     return axes.d().dot(n) - h1 * std::abs(n.x()) - h2 * std::abs(axes.along_u2(n)) -
            r1 * std::sqrt(n.y() * n.y() + n.z() * n.z()) - r2 * std::sqrt(m * m + n.z() * n.z());
+  }
+  /// The largest gap between their shadows in the plane of the axes, which are rectangles.
+  double gap_of_shadows() const {
+    const double along_u2 = axes.c * axes.d1 + axes.s * axes.d2;
+    const double along_k2 = axes.c * axes.d2 - axes.s * axes.d1;
+    return std::max({std::abs(axes.d1) - h1 - h2 * axes.c - r2 * axes.s,
+                     std::abs(along_u2) - h2 - h1 * axes.c - r1 * axes.s,
+                     std::abs(axes.d2) - r1 - h2 * axes.s - r2 * axes.c,
+                     std::abs(along_k2) - r2 - h1 * axes.s - r1 * axes.c});
   }
 };
 
@@ -42,6 +52,7 @@ struct Range {
 struct Stationary {
   Vec3 normal;
   bool maximum;  ///< It converged, to a normal that points outward at both ends.
+  double slope;  ///< The gap's derivative along the sphere there, at most.
 };
 
 /// Rim 1 about the origin and rim 2 about q: their sum's surface is where d lies in contact.
@@ -84,11 +95,11 @@ class Rims {
   /// components of n that are small keep their digits. A step is at most half of n's distance from
   /// an axis, where G has its kinks; few steps are taken but where rims nearly touch along nearly
   /// parallel axes, in a valley that n has to go down by orders of magnitude.
-  Stationary polished(Vec3 n) const {
+  Stationary polished(Vec3 n, int steps = 40) const {
     const double c = pair_.axes.c, s = pair_.axes.s;
-    constexpr int steps = 40;
     double previous = std::numeric_limits<double>::infinity();
     bool converged = false;
+    double slope = std::numeric_limits<double>::infinity();
     for (int i = 0; i < steps; ++i) {
       n *= 1 / n.norm();
       const double m = c * n.y() - s * n.x();  // n along k2
@@ -108,6 +119,7 @@ class Rims {
       const double determinant = a * e - b * b;
       if (!(a > 0 && determinant > 0)) break;
       const double g1 = residual.dot(t1), g2 = residual.dot(other), inverse = 1 / determinant;
+      slope = std::sqrt(g1 * g1 + g2 * g2);
       double step1 = (e * g1 - b * g2) * inverse, step2 = (a * g2 - b * g1) * inverse;
       const double length = std::sqrt(step1 * step1 + step2 * step2);
       const double most = std::min(rho1, rho2) / 2;
@@ -122,8 +134,15 @@ class Rims {
     }
     n.normalize();
     const bool outward = end1_ * n.x() >= 0 && end2_ * pair_.axes.along_u2(n) >= 0;
-    return {n, converged && outward};
+    return {n, converged && outward, slope};
   }
+
+  /// Of nearly parallel axes: where these rims are a cap's each, and cross as seen along the axes,
+  /// their normal but for parts of the order of the sine of the axes' angle.
+  ///
+  /// Across the axes the rims' points r1 a and r2 b then add up to q, two unit vectors of a
+  /// triangle with known sides; and n lies from u1 in the direction of a, from u2 in that of b.
+  std::optional<Vec3> crossing_normal() const;
 
   /// The cosines of rim 1's angles at which these ends may have a local maximum of the gap between
   /// `lowest` and `highest`; an empty range if they have none.

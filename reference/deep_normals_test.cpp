@@ -1,0 +1,111 @@
+#include "deep_normals.hpp"
+
+#include <gtest/gtest.h>
+#include <random>
+
+#include "properties/identity.hpp"
+#include "reference/contact_of.hpp"
+
+namespace touchstone {
+namespace {
+
+struct Counts {
+  int proven = 0, contradicted = 0;
+};
+
+/// Along how many random normals is the gap larger than along one that is said to have the largest?
+int larger_gaps(const FoldedCylinders& pair, double gap, std::mt19937_64& random) {
+  std::normal_distribution<double> normal;
+  int count = 0;
+  for (int i = 0; i < 500; ++i) {
+    const Vec3 n = Vec3(normal(random), normal(random), normal(random)).normalized();
+    count += pair.gap(n) > gap + 1e-13;
+  }
+  return count;
+}
+
+void count(const FoldedCylinders& pair, const Vec3& n, bool proven, std::mt19937_64& random,
+           Counts& counts) {
+  if (!proven) return;
+  ++counts.proven;
+  counts.contradicted += larger_gaps(pair, pair.gap(n), random) > 0;
+}
+
+TEST(DeepNormals, AreProvenOnlyWhereNoNormalHasALargerGap) {
+  std::mt19937_64 random(1);
+  Counts cap, crossing;
+  for (const char* name : {"general-deep", "concentric", "aspect-coin-deep"}) {
+    for (std::uint64_t i = 0; i < 1000; ++i) {
+      const Configuration x = make_configuration({Pair::cylinder, name, 3, i});
+      const auto& b = std::get<Cylinder>(x.b);
+      const FoldedAxes f(x.pose_a.axis(), x.pose_b.axis(),
+                         x.pose_a.position() - x.pose_b.position());
+      const FoldedCylinders pair{f, x.a.radius(), x.a.half_length(), b.radius(), b.half_length()};
+      const Vec3 u1(f.d1 < 0 ? -1 : 1, 0, 0), e3(0, 0, 1);
+      count(pair, u1,
+            no_normal_beats_cap({pair.r1, pair.h1, pair.r2, pair.h2, f.c, f.s, std::abs(f.d1),
+                                 std::hypot(f.d2, f.d3)},
+                                -pair.gap(u1)),
+            random, cap);
+      count(pair, e3, no_normal_beats_crossing(pair), random, crossing);
+    }
+  }
+  EXPECT_GT(cap.proven, 300);
+  EXPECT_GT(crossing.proven, 600);
+  EXPECT_EQ(cap.contradicted, 0);
+  EXPECT_EQ(crossing.contradicted, 0);
+}
+
+/// The largest gap's normal in the folded frame.
+Vec3 best_normal(const Configuration& x, const FoldedAxes& f) {
+  const Vec3 n = signed_distance(x).normal;
+  return {n.dot(f.e1), n.dot(f.e2), n.dot(f.e3)};
+}
+
+TEST(DeepNormals, OfRimsThatBendAwayHaveTheLargestGap) {
+  std::mt19937_64 random(1);
+  Counts shallow, near_axis;
+  for (const char* name : {"rim-rim", "near-parallel-1e-2", "near-parallel-1e-6"}) {
+    for (std::uint64_t i = 0; i < 1000; ++i) {
+      const Configuration x = make_configuration({Pair::cylinder, name, 3, i});
+      const auto& b = std::get<Cylinder>(x.b);
+      const FoldedAxes f(x.pose_a.axis(), x.pose_b.axis(),
+                         x.pose_a.position() - x.pose_b.position());
+      const FoldedCylinders pair{f, x.a.radius(), x.a.half_length(), b.radius(), b.half_length()};
+      const Vec3 n = best_normal(x, f), d = f.d();
+      const double across1 = std::hypot(n.y(), n.z()), along2 = f.along_u2(n);
+      const double across2 = std::hypot(f.along_k2(n), n.z());
+      if (!(across1 > 0 && across2 > 0 && pair.gap(n) <= 0)) continue;
+      const double sine = f.s * n.z() / (across1 * across2);
+      const Leaning on_a{pair.r1, pair.h1, std::abs(n.x()), across1};
+      const Leaning on_b{pair.r2, pair.h2, std::abs(along2), across2};
+      const AboutAxis about{pair.r2,
+                            pair.h2,
+                            pair.r1,
+                            pair.h1,
+                            f.c,
+                            f.s,
+                            std::abs(f.along_u2(d)),
+                            std::hypot(f.along_k2(d), f.d3)};
+      count(pair, n, bends_away(on_a, on_b, sine * sine, -pair.gap(n), 0), random, shallow);
+      count(pair, n,
+            along2 * f.along_u2(d) >= 0 &&
+                bends_away_near_axis(on_a, on_b, sine * sine, -pair.gap(n), 0, about),
+            random, near_axis);
+    }
+  }
+  EXPECT_GT(shallow.proven, 100);
+  EXPECT_GT(near_axis.proven, 50);
+  EXPECT_EQ(shallow.contradicted, 0);
+  EXPECT_EQ(near_axis.contradicted, 0);
+}
+
+TEST(DeepNormals, OfCrossedCylindersIsAcrossBothSides) {
+  const FoldedAxes f(Vec3::UnitX(), Vec3::UnitY(), Vec3(0, 0, 0.25));
+  EXPECT_TRUE(no_normal_beats_crossing({f, 1, 2, 1, 2}));
+  // Discs as thin as these are nearer to the way out along an axis.
+  EXPECT_FALSE(no_normal_beats_crossing({f, 1, 0.25, 1, 2}));
+}
+
+}  // namespace
+}  // namespace touchstone
