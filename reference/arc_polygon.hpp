@@ -2,33 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <span>
 
-#include <Eigen/Core>
+#include "circle.hpp"
 
 namespace touchstone {
-
-using Vec2 = Eigen::Vector2d;
-
-/// Counter-clockwise product x × y of two vectors of a plane.
-inline double cross2(const Vec2& x, const Vec2& y) { return x.x() * y.y() - x.y() * y.x(); }
-
-struct Circle {
-  Vec2 centre;
-  double radius;
-};
-
-/// What two discs share when neither holds the other.
-struct Lens {
-  Circle circle1, circle2;
-  Vec2 left, right;  ///< its corners, as seen from circle 1's centre towards circle 2's
-
-  Lens(const Circle& c1, const Circle& c2);
-  /// The point that is farthest along a unit vector.
-  Vec2 farthest(const Vec2& unit) const;
-  /// Four points whose hull covers two thirds of the lens in every direction from its centroid.
-  std::array<Vec2, 4> spread() const;
-};
 
 /// A convex region of a plane, bounded counter-clockwise by straight edges and by arcs of at most
 /// two circles: a contact patch. Empty when it has no vertices. Fixed size, no allocation.
@@ -52,19 +29,11 @@ class ArcPolygon {
   void clip(const Vec2& normal, double bound);
 
   bool empty() const { return count_ == 0; }
-  /// Has nothing been cut off the disc?
-  bool is_disc() const {
-    return std::none_of(vertices_.begin(), vertices_.begin() + count_,
-                        [](const Vertex& v) { return v.corner; });
-  }
   /// The point that is farthest along a direction (of any length, not zero).
   Vec2 farthest(const Vec2& direction) const;
 
   /// Makes the point that is farthest along a direction a corner, so that `spread` keeps it.
   void mark_farthest(const Vec2& direction);
-
-  /// Three arms of this length, 120° apart, the first along a unit vector.
-  static std::array<Vec2, 3> three_arms(double radius, const Vec2& unit);
 
   /// Points whose hull covers the region well: the corners, and on arcs as many more as leave no
   /// piece above 72° and, while there are fewer than six, none that stands out by more than a

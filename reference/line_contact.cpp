@@ -69,9 +69,8 @@ void ContactPlane::line_on_flat(const FacingFeature& f, const FacingFeature& fla
     const double on_line = l.height + t * l.rise, on_flat = surface.at(p);
     line_is_a ? add(p, on_line, on_flat) : add(p, on_flat, on_line);
   };
-  const double deepest = at_lo <= at_hi ? range.lo : range.hi;
-  add_at(deepest);
-  if (range.hi > range.lo) add_at(range.lo + range.hi - deepest);
+  add_at(range.lo);
+  if (range.hi > range.lo) add_at(range.hi);
 }
 
 // Both lines are across the normal but for the slack. They cross, or run side by side: then the
@@ -95,8 +94,8 @@ void ContactPlane::line_on_line(const FacingFeature& f, const FacingFeature& g) 
         b.height + s * b.rise - b.radius * bend);
   };
 
-  constexpr double clearly = 0.05;  // rad
-  if (std::abs(turn) > clearly) {
+  constexpr double crossed = 0.1;  // rad
+  if (std::abs(turn) > crossed) {
     const double t = std::clamp(cross2(from_a, b.along) / turn, -a.half_length, a.half_length);
     return add_at(t, std::clamp(s0 + s1 * t, -b.half_length, b.half_length));
   }
@@ -116,21 +115,26 @@ void ContactPlane::line_on_line(const FacingFeature& f, const FacingFeature& g) 
   const double lowest = c2 > 0 ? std::clamp(-c1 / (2 * c2), range.lo, range.hi) : bottom;
   const double deepest = clearance(lowest) <= clearance(bottom) ? lowest : bottom;
   const double whole = range.hi - range.lo;
-  const double level = clearance(deepest) + slack_;
+  // Less of the slack as the lines come to be crossed, so that the points have drawn together then.
+  const double slack = slack_ * std::min(1.0, 2 - 2 * std::abs(turn) / crossed);
+  const double level = clearance(deepest) + slack;
   // How far from the deepest point the clearance stays below the level.
   const auto reach = [&](double end) {
     if (clearance(end) <= level) return end;
     const double way = end < deepest ? -1 : 1;
     const double slope = way * (c1 + 2 * c2 * deepest);  // >= 0 but for rounding
     const double grow = std::max(slope, 0.0);
-    return deepest + way * 2 * slack_ / (grow + std::sqrt(grow * grow + 4 * c2 * slack_));
+    return deepest + way * 2 * slack / (grow + std::sqrt(grow * grow + 4 * c2 * slack));
   };
   const double lo = reach(range.lo), hi = reach(range.hi);
   constexpr double least_part = 0.1;
-  if (hi - lo <= least_part * whole) return add_at(deepest, s0 + s1 * deepest);
-  const double first = deepest - lo <= hi - deepest ? lo : hi;
-  add_at(first, s0 + s1 * first);
-  add_at(lo + hi - first, s0 + s1 * (lo + hi - first));
+  const double part = (hi - lo) / whole;
+  if (!(part > least_part)) return add_at(deepest, s0 + s1 * deepest);
+  const double fade = std::min(1.0, part / least_part - 1);
+  for (const double end : {lo, hi}) {
+    const double t = deepest + fade * (end - deepest);
+    add_at(t, s0 + s1 * t);
+  }
 }
 
 }  // namespace touchstone

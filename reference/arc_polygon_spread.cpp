@@ -1,0 +1,114 @@
+// Points whose hull covers an ArcPolygon well.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "arc_polygon.hpp"
+#include "disc_layout.hpp"
+
+namespace touchstone {
+namespace {
+
+/// An arc that is not longer than this is covered well by its ends.
+constexpr double long_arc = 0.4 * std::numbers::pi;
+/// An arc's piece that stands out by less than this part of the region's width is covered by its
+/// ends.
+constexpr double flat_part = 0.14;
+/// With so many points an arc need not be divided for that.
+constexpr int enough = 6;
+
+double twice_area(const Vec2& p, const Vec2& q, const Vec2& r) {
+  return std::abs(cross2(q - p, r - p));
+}
+
+}  // namespace
+
+int ArcPolygon::spread(const Vec2& first, std::array<Vec2, 8>& points) const {
+  int start = -1;
+  for (int i = 0; i < count_; ++i) {
+    if (!vertices_[i].corner) continue;
+    if (start < 0 || first.dot(vertices_[i].at - vertices_[start].at) > 0) start = i;
+  }
+  if (start < 0) {
+    const auto& [centre, radius] = circles_[0];
+    int count = 0;
+    for (const Vec2& arm : three_arms(radius, first.normalized())) points[count++] = centre + arm;
+    return count;
+  }
+
+  // From corner to corner; an arc that was divided is one edge again.
+  struct Edge {
+    Vec2 from;
+    int circle;
+    double angle;
+    int inside;           // points on it, ends not counted
+    double standing_out;  // how far its pieces do, as a part of the region's width there
+  };
+  std::array<Edge, max_vertices> edges;
+  int edge_count = 0, total = 0;
+  for (int i = 0; i < count_; ++i) {
+    const Vertex& vertex = vertices_[(start + i) % count_];
+    if (vertex.corner) edges[edge_count++] = {vertex.at, vertex.circle, 0, 0, 0};
+    if (vertex.circle == straight) continue;
+    const Vec2& centre = circles_[vertex.circle].centre;
+    edges[edge_count - 1].angle +=
+        angle_between(vertex.at - centre, vertices_[(start + i + 1) % count_].at - centre);
+  }
+  for (int i = 0; i < edge_count; ++i) {
+    Edge& e = edges[i];
+    e.inside = std::max(0, static_cast<int>(std::ceil(e.angle / long_arc - 1e-9)) - 1);
+    total += 1 + e.inside;
+  }
+  const auto piece = [](const Edge& e) { return e.angle / (e.inside + 1); };
+  const auto rise = [&](const Edge& e, double angle) {  // of an arc above its chord
+    return circles_[e.circle].radius * (1 - std::cos(angle / 2));
+  };
+  const auto measure = [&](int i) {
+    Edge& e = edges[i];
+    if (e.circle == straight) return;
+    const Vec2 chord = edges[(i + 1) % edge_count].from - e.from;
+    const double length = chord.norm();
+    double width = 0;
+    for (int k = 0; k < edge_count && length > 0; ++k) {
+      width = std::max(width, cross2(chord, edges[k].from - e.from) / length);
+    }
+    e.standing_out = rise(e, piece(e)) / (width + rise(e, e.angle));
+  };
+  for (int i = 0; i < edge_count && total < enough; ++i) measure(i);
+  while (total < enough) {
+    int most = 0;
+    for (int i = 1; i < edge_count; ++i) {
+      if (edges[i].standing_out > edges[most].standing_out) most = i;
+    }
+    if (!(edges[most].standing_out > flat_part)) break;
+    ++edges[most].inside;
+    ++total;
+    measure(most);
+  }
+
+  std::array<Vec2, 2 * max_vertices> all;
+  int count = 0;
+  for (int i = 0; i < edge_count; ++i) {
+    const Edge& e = edges[i];
+    all[count++] = e.from;
+    for (int k = 1; k <= e.inside; ++k) {
+      const Vec2& centre = circles_[e.circle].centre;
+      all[count++] = centre + rotated(e.from - centre, k * piece(e));
+    }
+  }
+  while (count > static_cast<int>(points.size())) {  // but the first, the one that spans the least
+    int least = 1;
+    double least_area = std::numeric_limits<double>::infinity();
+    for (int i = 1; i < count; ++i) {
+      const double area = twice_area(all[(i + count - 1) % count], all[i], all[(i + 1) % count]);
+      if (area < least_area) least_area = area, least = i;
+    }
+    std::copy(all.begin() + least + 1, all.begin() + count, all.begin() + least);
+    --count;
+  }
+  std::copy(all.begin(), all.begin() + count, points.begin());
+  return count;
+}
+
+}  // namespace touchstone
