@@ -8,19 +8,20 @@
 namespace touchstone {
 
 /// A convex region of a plane, bounded counter-clockwise by straight edges and by arcs of at most
-/// two circles: a contact patch. Empty when it has no vertices. Fixed size, no allocation.
+/// two circles: a contact patch. Fixed size, no allocation.
 class ArcPolygon {
  public:
-  static constexpr int max_vertices = 24;
+  static constexpr int max_vertices = 16;
 
   /// Copies the vertices there are.
-  ArcPolygon(const ArcPolygon& other) : circles_(other.circles_), count_(other.count_) {
+  ArcPolygon(const ArcPolygon& other)
+      : circles_(other.circles_), count_(other.count_), is_disc_(other.is_disc_) {
     std::copy_n(other.vertices_.begin(), count_, vertices_.begin());
   }
   ArcPolygon& operator=(const ArcPolygon&) = delete;
 
   /// The disc within `circle`.
-  explicit ArcPolygon(const Circle& circle);
+  explicit ArcPolygon(const Circle& circle) : is_disc_(true) { circles_[0] = circle; }
   /// Two corners and an arc of each circle.
   static ArcPolygon lens(const Circle& circle1, const Circle& circle2);
 
@@ -28,11 +29,12 @@ class ArcPolygon {
   /// 1e-12 of an arc's radius is not cut off.
   void clip(const Vec2& normal, double bound);
 
-  bool empty() const { return count_ == 0; }
+  bool empty() const { return count_ == 0 && !is_disc_; }
   /// The point that is farthest along a direction (of any length, not zero).
   Vec2 farthest(const Vec2& direction) const;
 
-  /// Makes the point that is farthest along a direction a corner, so that `spread` keeps it.
+  /// Makes the point that is farthest along a direction a corner, so that `spread` keeps it; not of
+  /// a whole disc, of which it is the first one anyway.
   void mark_farthest(const Vec2& direction);
 
   /// Points whose hull covers the region well: the corners, and on arcs as many more as leave no
@@ -45,18 +47,17 @@ class ArcPolygon {
   static constexpr int straight = -1;
   struct Vertex {
     Vec2 at;
-    int circle;   ///< of the edge that leaves it, or `straight`
-    bool corner;  ///< false where an arc was only divided
+    int circle;  ///< of the edge that leaves it, or `straight`
   };
 
   ArcPolygon() = default;
-  void add(const Vec2& at, int circle, bool corner) { vertices_[count_++] = {at, circle, corner}; }
-  /// Divides the arc from `from` to `to` so that no piece exceeds a quarter turn; leaves `to` out.
-  void add_arc(int circle, const Vec2& from, const Vec2& to);
+  int next(int i) const { return i + 1 < count_ ? i + 1 : 0; }
+  void add(const Vec2& at, int circle) { vertices_[count_++] = {at, circle}; }
 
   std::array<Circle, 2> circles_ = {Circle{Vec2::Zero(), 0}, Circle{Vec2::Zero(), 0}};
   std::array<Vertex, max_vertices> vertices_;
   int count_ = 0;
+  bool is_disc_ = false;  ///< then it has no vertices
 };
 
 }  // namespace touchstone

@@ -25,19 +25,13 @@ double twice_area(const Vec2& p, const Vec2& q, const Vec2& r) {
 }  // namespace
 
 int ArcPolygon::spread(const Vec2& first, std::array<Vec2, 8>& points) const {
-  int start = -1;
-  for (int i = 0; i < count_; ++i) {
-    if (!vertices_[i].corner) continue;
-    if (start < 0 || first.dot(vertices_[i].at - vertices_[start].at) > 0) start = i;
-  }
-  if (start < 0) {
+  if (is_disc_) {
     const auto& [centre, radius] = circles_[0];
     int count = 0;
     for (const Vec2& arm : three_arms(radius, first.normalized())) points[count++] = centre + arm;
     return count;
   }
 
-  // From corner to corner; an arc that was divided is one edge again.
   struct Edge {
     Vec2 from;
     int circle;
@@ -46,16 +40,21 @@ int ArcPolygon::spread(const Vec2& first, std::array<Vec2, 8>& points) const {
     double standing_out;  // how far its pieces do, as a part of the region's width there
   };
   std::array<Edge, max_vertices> edges;
-  int edge_count = 0, total = 0;
-  for (int i = 0; i < count_; ++i) {
-    const Vertex& vertex = vertices_[(start + i) % count_];
-    if (vertex.corner) edges[edge_count++] = {vertex.at, vertex.circle, 0, 0, 0};
-    if (vertex.circle == straight) continue;
-    const Vec2& centre = circles_[vertex.circle].centre;
-    edges[edge_count - 1].angle +=
-        angle_between(vertex.at - centre, vertices_[(start + i + 1) % count_].at - centre);
+  int total = 0;
+  int corner = 0;
+  for (int i = 1; i < count_; ++i) {
+    if (first.dot(vertices_[i].at - vertices_[corner].at) > 0) corner = i;
   }
-  for (int i = 0; i < edge_count; ++i) {
+  for (int i = 0; i < count_; ++i, corner = next(corner)) {
+    const auto& [from, circle] = vertices_[corner];
+    double angle = 0;
+    if (circle != straight) {
+      const Vec2& centre = circles_[circle].centre;
+      angle = angle_between(from - centre, vertices_[next(corner)].at - centre);
+    }
+    edges[i] = {from, circle, angle, 0, 0};
+  }
+  for (int i = 0; i < count_; ++i) {
     Edge& e = edges[i];
     e.inside = std::max(0, static_cast<int>(std::ceil(e.angle / long_arc - 1e-9)) - 1);
     total += 1 + e.inside;
@@ -67,18 +66,18 @@ int ArcPolygon::spread(const Vec2& first, std::array<Vec2, 8>& points) const {
   const auto measure = [&](int i) {
     Edge& e = edges[i];
     if (e.circle == straight) return;
-    const Vec2 chord = edges[(i + 1) % edge_count].from - e.from;
+    const Vec2 chord = edges[i + 1 < count_ ? i + 1 : 0].from - e.from;
     const double length = chord.norm();
     double width = 0;
-    for (int k = 0; k < edge_count && length > 0; ++k) {
+    for (int k = 0; k < count_ && length > 0; ++k) {
       width = std::max(width, cross2(chord, edges[k].from - e.from) / length);
     }
     e.standing_out = rise(e, piece(e)) / (width + rise(e, e.angle));
   };
-  for (int i = 0; i < edge_count && total < enough; ++i) measure(i);
+  for (int i = 0; i < count_ && total < enough; ++i) measure(i);
   while (total < enough) {
     int most = 0;
-    for (int i = 1; i < edge_count; ++i) {
+    for (int i = 1; i < count_; ++i) {
       if (edges[i].standing_out > edges[most].standing_out) most = i;
     }
     if (!(edges[most].standing_out > flat_part)) break;
@@ -89,12 +88,16 @@ int ArcPolygon::spread(const Vec2& first, std::array<Vec2, 8>& points) const {
 
   std::array<Vec2, 2 * max_vertices> all;
   int count = 0;
-  for (int i = 0; i < edge_count; ++i) {
+  for (int i = 0; i < count_; ++i) {
     const Edge& e = edges[i];
     all[count++] = e.from;
+    if (e.inside == 0) continue;
+    const Vec2& centre = circles_[e.circle].centre;
+    const double c = std::cos(piece(e)), s = std::sin(piece(e));
+    Vec2 arm = e.from - centre;
     for (int k = 1; k <= e.inside; ++k) {
-      const Vec2& centre = circles_[e.circle].centre;
-      all[count++] = centre + rotated(e.from - centre, k * piece(e));
+      arm = Vec2(c * arm.x() - s * arm.y(), s * arm.x() + c * arm.y());
+      all[count++] = centre + arm;
     }
   }
   while (count > static_cast<int>(points.size())) {  // but the first, the one that spans the least

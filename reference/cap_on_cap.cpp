@@ -19,7 +19,7 @@ Circle largest_shared(const Circle& c1, const Circle& c2, double apart, const Ve
 }  // namespace
 
 void ContactPlane::cap_on_cap(const FacingFeature& a, const FacingFeature& b, const Surfaces& s) {
-  const bool a_is_first = a.radius != b.radius ? a.radius < b.radius : n_.dot(arbitrary) > 0;
+  const bool a_is_first = a.radius != b.radius ? a.radius < b.radius : points_onward(n_);
   const FacingFeature &first = a_is_first ? a : b, &second = a_is_first ? b : a;
   const Circle c1 = circle(first), c2 = circle(second);
   const Vec2 between = c2.centre - c1.centre;

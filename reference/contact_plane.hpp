@@ -28,6 +28,11 @@ struct Line {
   Vec2 at(double t) const { return middle + t * along; }
 };
 
+/// Does a normal point onward along an arbitrary direction that no axis of the world is across?
+/// Which of two like bodies comes first must not matter; where one has to be chosen, no motion of a
+/// hair's breadth may change which it is.
+inline bool points_onward(const Vec3& n) { return 0.27 * n.x() + 0.53 * n.y() + 0.8 * n.z() > 0; }
+
 /// The plane across the normal of a contact, to which it adds the points where two features face
 /// each other (manifold.hpp).
 class ContactPlane {
@@ -69,11 +74,6 @@ class ContactPlane {
   /// A layout of so many points, and the deepest point, that part of the way from their middle.
   void add_layout(std::array<Vec2, 8>& layout, int count, double part, const Vec2& deepest,
                   const Surfaces& s);
-
-  /// No normal along an axis of the world is across it. Which of two like bodies comes first must
-  /// not matter; where one has to be chosen it is the one that lies farther along this direction,
-  /// because no motion of a hair's breadth changes that.
-  static inline const Vec3 arbitrary{0.27, 0.53, 0.80};
 
   Contact& contact_;
   const Vec3 n_;
