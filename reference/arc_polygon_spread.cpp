@@ -72,7 +72,8 @@ int ArcPolygon::spread(const Vec2& first, std::array<Vec2, 8>& points) const {
     for (int k = 0; k < count_ && length > 0; ++k) {
       width = std::max(width, cross2(chord, edges[k].from - e.from) / length);
     }
-    e.standing_out = rise(e, piece(e)) / (width + rise(e, e.angle));
+    const double whole = rise(e, e.angle);
+    e.standing_out = (e.inside == 0 ? whole : rise(e, piece(e))) / (width + whole);
   };
   for (int i = 0; i < count_ && total < enough; ++i) measure(i);
   while (total < enough) {

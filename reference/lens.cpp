@@ -8,7 +8,7 @@ namespace touchstone {
 Lens::Lens(const Circle& c1, const Circle& c2) : circle1(c1), circle2(c2) {
   const Vec2 between = c2.centre - c1.centre;
   const double distance = between.norm();
-  const Vec2 towards = between / distance;
+  towards = between / distance;
   // Where the common chord crosses the line of centres, and half its length.
   const double x = (distance + (c1.radius - c2.radius) * (c1.radius + c2.radius) / distance) / 2;
   const double half = std::sqrt(std::max(0.0, (c1.radius - x) * (c1.radius + x)));
@@ -28,7 +28,6 @@ Vec2 Lens::farthest(const Vec2& unit) const {
 }
 
 std::array<Vec2, 4> Lens::spread() const {
-  const Vec2 towards = (circle2.centre - circle1.centre).normalized();
   const Vec2 end1 = circle1.centre + circle1.radius * towards;
   const Vec2 end2 = circle2.centre - circle2.radius * towards;
   const double rise1 = (end1 - left).dot(towards), rise2 = (left - end2).dot(towards);

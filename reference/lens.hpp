@@ -9,7 +9,8 @@ namespace touchstone {
 /// What two discs share when neither holds the other.
 struct Lens {
   Circle circle1, circle2;
-  Vec2 left, right;  ///< its corners, as seen from circle 1's centre towards circle 2's
+  Vec2 towards;      ///< unit, from circle 1's centre to circle 2's
+  Vec2 left, right;  ///< its corners, as seen that way
 
   Lens(const Circle& c1, const Circle& c2);
   /// The point that is farthest along a unit vector.

@@ -79,17 +79,16 @@ void ContactPlane::line_on_line(const FacingFeature& f, const FacingFeature& g) 
   const Line a = line(f), b = line(g);
   const double turn = cross2(a.along, b.along);
   const Vec2 from_a = b.middle - a.middle;
-  const double curvature_radius = a.radius + b.radius;
+  const bool is_round = a.radius + b.radius > 0;
+  const double curvature = is_round ? 1 / (a.radius + b.radius) : 0;
+  const double share = is_round ? a.radius * curvature : 0.5;
 
   // Points of both lines that face each other: s = s0 + s1 t.
-  const double squared = b.along.squaredNorm();
-  const double s0 = -from_a.dot(b.along) / squared, s1 = a.along.dot(b.along) / squared;
+  const double inverse = 1 / b.along.squaredNorm();
+  const double s0 = -from_a.dot(b.along) * inverse, s1 = a.along.dot(b.along) * inverse;
   const auto add_at = [&](double t, double s) {
-    const Vec2 p = a.at(t), q = b.at(s);
-    const Vec2 y = q - p;
-    const double share = curvature_radius > 0 ? a.radius / curvature_radius : 0.5;
-    const double bend =
-        curvature_radius > 0 ? y.squaredNorm() / (2 * curvature_radius * curvature_radius) : 0;
+    const Vec2 p = a.at(t), y = b.at(s) - p;
+    const double bend = y.squaredNorm() * curvature * curvature / 2;
     add(p + share * y, a.height + t * a.rise + a.radius * bend,
         b.height + s * b.rise - b.radius * bend);
   };
@@ -107,7 +106,7 @@ void ContactPlane::line_on_line(const FacingFeature& f, const FacingFeature& g) 
   }
   // The clearance is c0 + c1 t + c2 t² up to a constant.
   const double y0 = -cross2(b.along, from_a + s0 * b.along), y1 = -cross2(b.along, a.along);
-  const double bend = curvature_radius > 0 ? 1 / (2 * curvature_radius) : 0;
+  const double bend = curvature / 2;
   const double c2 = bend * y1 * y1;
   const double c1 = a.rise - s1 * b.rise - 2 * bend * y0 * y1;
   const auto clearance = [&](double t) { return t * (c1 + c2 * t); };
