@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lens.hpp"
-
 namespace touchstone {
 namespace {
 
@@ -20,13 +18,9 @@ bool on_arc(const Vec2& centre, const Vec2& p, const Vec2& q, const Vec2& x) {
 
 }  // namespace
 
-ArcPolygon ArcPolygon::lens(const Circle& circle1, const Circle& circle2) {
-  const Lens lens(circle1, circle2);
-  ArcPolygon result;
-  result.circles_ = {circle1, circle2};
-  result.add(lens.right, 0);
-  result.add(lens.left, 1);
-  return result;
+ArcPolygon::ArcPolygon(const Lens& lens) : circles_{lens.circle1, lens.circle2} {
+  add(lens.right, 0);
+  add(lens.left, 1);
 }
 
 void ArcPolygon::clip(const Vec2& normal, double bound) {

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "circle.hpp"
+#include "lens.hpp"
 
 namespace touchstone {
 
@@ -23,7 +24,7 @@ class ArcPolygon {
   /// The disc within `circle`.
   explicit ArcPolygon(const Circle& circle) : is_disc_(true) { circles_[0] = circle; }
   /// Two corners and an arc of each circle.
-  static ArcPolygon lens(const Circle& circle1, const Circle& circle2);
+  explicit ArcPolygon(const Lens& lens);
 
   /// Keeps the points with normal·x <= bound; `normal` is a unit vector. A sliver thinner than
   /// 1e-12 of an arc's radius is not cut off.
@@ -50,7 +51,6 @@ class ArcPolygon {
     int circle;  ///< of the edge that leaves it, or `straight`
   };
 
-  ArcPolygon() = default;
   int next(int i) const { return i + 1 < count_ ? i + 1 : 0; }
   void add(const Vec2& at, int circle) { vertices_[count_++] = {at, circle}; }
 

@@ -111,7 +111,7 @@ TEST(ArcPolygon, CutBeyondTheDiscLeavesNothing) {
 }
 
 TEST(ArcPolygon, LensEndsWhereTheCirclesCross) {
-  const ArcPolygon region = ArcPolygon::lens(unit, {Vec2(1, 0), 1});
+  const ArcPolygon region(Lens(unit, {Vec2(1, 0), 1}, 1, Vec2(1, 0)));
   EXPECT_NEAR((region.farthest(Vec2(0, 1)) - Vec2(0.5, std::sqrt(0.75))).norm(), 0, 1e-15);
   EXPECT_NEAR((region.farthest(Vec2(1, 0)) - Vec2(1, 0)).norm(), 0, 1e-15);
   EXPECT_NEAR((region.farthest(Vec2(-1, 0)) - Vec2(0, 0)).norm(), 0, 1e-15);

@@ -2,7 +2,6 @@
 
 #include "contact_plane.hpp"
 #include "disc_layout.hpp"
-#include "lens.hpp"
 
 namespace touchstone {
 namespace {
@@ -38,8 +37,8 @@ void ContactPlane::cap_on_cap(const FacingFeature& a, const FacingFeature& b, co
 
   const Vec2 slope = s.slope();
   const double steepness = slope.norm(), most_rise = 2 * smaller * steepness;
-  if (most_rise > slack_ && add_leaning(ArcPolygon::lens(c1, c2), s)) return;
-  const Lens lens(c1, c2);
+  const Lens lens(c1, c2, apart, towards);
+  if (most_rise > slack_ && add_leaning(ArcPolygon(lens), s)) return;
   std::array<Vec2, 8> points;
   int count = 0;
   for (const Vec2& p : lens.spread()) {

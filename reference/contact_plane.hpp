@@ -47,8 +47,8 @@ class ContactPlane {
  private:
   Vec2 to_plane(const Vec3& v) const { return {v.dot(x_), v.dot(y_)}; }
   Incline incline(const FacingFeature& f) const {
-    const double up = f.axis.dot(n_);
-    return {f.axis.dot(f.middle) / up, to_plane(f.axis) / -up};
+    const double inverse = 1 / f.axis.dot(n_);
+    return {f.axis.dot(f.middle) * inverse, to_plane(f.axis) * -inverse};
   }
   Line line(const FacingFeature& f) const {
     return {to_plane(f.middle), to_plane(f.axis), f.middle.dot(n_),

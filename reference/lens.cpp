@@ -5,15 +5,14 @@
 
 namespace touchstone {
 
-Lens::Lens(const Circle& c1, const Circle& c2) : circle1(c1), circle2(c2) {
-  const Vec2 between = c2.centre - c1.centre;
-  const double distance = between.norm();
-  towards = between / distance;
+Lens::Lens(const Circle& c1, const Circle& c2, double apart, const Vec2& direction)
+    : circle1(c1), circle2(c2), towards(direction) {
   // Where the common chord crosses the line of centres, and half its length.
-  const double x = (distance + (c1.radius - c2.radius) * (c1.radius + c2.radius) / distance) / 2;
+  const double x = (apart + (c1.radius - c2.radius) * (c1.radius + c2.radius) / apart) / 2;
   const double half = std::sqrt(std::max(0.0, (c1.radius - x) * (c1.radius + x)));
-  left = c1.centre + x * towards + half * turned_left(towards);
-  right = c1.centre + x * towards - half * turned_left(towards);
+  const Vec2 foot = c1.centre + x * towards, aside = half * turned_left(towards);
+  left = foot + aside;
+  right = foot - aside;
 }
 
 Vec2 Lens::farthest(const Vec2& unit) const {
