@@ -20,19 +20,22 @@ void ContactPlane::add_disc(const Circle& disc, const Vec2& anchor, const Surfac
 void ContactPlane::add_layout(std::array<Vec2, 8>& layout, int count, double part,
                               const Vec2& deepest, const Surfaces& s) {
   if (part > 0) {
-    Vec2 middle = layout[0];
-    for (int i = 1; i < count; ++i) middle += layout[i];
-    middle /= count;
-    if (count < Contact::max_points) {
-      layout[count++] = middle + part * (deepest - middle);
-    } else {  // then there is a point near it, which moves there
-      int nearest = 0;
-      for (int i = 1; i < count; ++i) {
-        if ((layout[i] - deepest).squaredNorm() < (layout[nearest] - deepest).squaredNorm()) {
-          nearest = i;
-        }
+    Vec2 middle = Vec2::Zero();
+    int nearest = 0;
+    for (int i = 0; i < count; ++i) {
+      middle += layout[i] / count;
+      if ((layout[i] - deepest).squaredNorm() < (layout[nearest] - deepest).squaredNorm()) {
+        nearest = i;
       }
-      layout[nearest] += part * (deepest - layout[nearest]);
+    }
+    // The same point twice would tell a solver that the body stands more firmly there.
+    constexpr double same = 1e-6;
+    if ((layout[nearest] - deepest).norm() > same * (middle - deepest).norm()) {
+      if (count < Contact::max_points) {
+        layout[count++] = middle + part * (deepest - middle);
+      } else {
+        layout[nearest] += part * (deepest - layout[nearest]);
+      }
     }
   }
   for (int i = 0; i < count; ++i) add(layout[i], s);
