@@ -28,9 +28,9 @@ struct Line {
   Vec2 at(double t) const { return middle + t * along; }
 };
 
-/// Does a normal point onward along an arbitrary direction that no axis of the world is across?
-/// Which of two like bodies comes first must not matter; where one has to be chosen, no motion of a
-/// hair's breadth may change which it is.
+/// Does a normal point onward along an arbitrary direction, perpendicular to no axis of the world?
+/// Where one of two like bodies has to be chosen, neither their order nor a hair's motion may
+/// change which it is.
 inline bool points_onward(const Vec3& n) { return 0.27 * n.x() + 0.53 * n.y() + 0.8 * n.z() > 0; }
 
 /// The plane across the normal of a contact, to which it adds the points where two features face
