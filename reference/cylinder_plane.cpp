@@ -16,8 +16,7 @@ struct Stance {
   Vec3 normal;           ///< the plane's, unit
   double centre_height;  ///< of the cylinder's centre above the plane
   double x, y, cosine;   ///< the normal in the cylinder's frame
-  double squared_sine;   ///< not from the cosine, which hides a small tilt
-  double sine;
+  double sine;           ///< not from the cosine, which hides a small tilt
   double signed_distance;
 
   Stance(const Cylinder& a, const Pose& pose_a, const Plane& b, const Pose& pose_b) {
@@ -26,15 +25,11 @@ struct Stance {
     x = axes.col(0).dot(normal);
     y = axes.col(1).dot(normal);
     cosine = axes.col(2).dot(normal);
-    squared_sine = x * x + y * y;
-    sine = std::sqrt(squared_sine);
+    sine = std::sqrt(x * x + y * y);
     centre_height = normal.dot(pose_a.position() - pose_b.position()) - b.unit_displacement();
     // The deepest point is on the lower cap's rim.
     signed_distance = centre_height - a.half_length() * std::abs(cosine) - a.radius() * sine;
   }
-  /// (x, y) times this is the arm to the lowest place of the rim. The quotient need not wait for
-  /// the root.
-  double to_lowest(double radius) const { return -(radius / squared_sine) * sine; }
 };
 
 /// Adds points of the cylinder's surface, each halfway to the plane below it.
@@ -49,11 +44,8 @@ class Points {
   }
   void add(double x, double y, double z, double height) {
     const Eigen::Matrix3d& axes = pose_.rotation();
-    const auto coordinate = [&](int i) {
-      const double arm = x * axes(i, 0) + y * axes(i, 1) + z * axes(i, 2);
-      return pose_.position()[i] + (arm - height / 2 * stance_.normal[i]);
-    };
-    contact_.add_point(Vec3(coordinate(0), coordinate(1), coordinate(2)), -height);
+    const Vec3 arm = x * axes.col(0) + y * axes.col(1) + z * axes.col(2);
+    contact_.add_point(pose_.position() + (arm - height / 2 * stance_.normal), -height);
   }
 
  private:
@@ -74,7 +66,7 @@ void add_cap(Points& points, const Cylinder& a, const Stance& s, double slack) {
 /// The lowest generator's ends in the order of its axis, or instead of the higher one where the
 /// generator rises above the slack.
 void add_generator(Points& points, const Cylinder& a, const Stance& s, double slack) {
-  const double scale = s.to_lowest(a.radius()), x = scale * s.x, y = scale * s.y;
+  const double scale = -a.radius() / s.sine, x = scale * s.x, y = scale * s.y;
   const double low = -std::copysign(a.half_length(), s.cosine);
   const double rise = 2 * a.half_length() * std::abs(s.cosine);
   const double high = rise > slack ? low * (1 - 2 * slack / rise) : -low;
@@ -99,7 +91,7 @@ Contact contact_in_range(const Cylinder& a, const Pose& pose_a, const Plane& b, 
   } else if (lies_flat(a.half_length(), stance.cosine, slack)) {
     add_generator(points, a, stance, slack);
   } else {
-    const double scale = stance.to_lowest(a.radius());
+    const double scale = -a.radius() / stance.sine;
     points.add(scale * stance.x, scale * stance.y, -std::copysign(a.half_length(), stance.cosine),
                stance.signed_distance);
   }
