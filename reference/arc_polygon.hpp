@@ -2,69 +2,41 @@
 
 #include <algorithm>
 #include <array>
-#include <span>
 
-#include <Eigen/Core>
+#include "circle.hpp"
+#include "lens.hpp"
 
 namespace touchstone {
 
-using Vec2 = Eigen::Vector2d;
-
-/// Counter-clockwise product x × y of two vectors of a plane.
-inline double cross2(const Vec2& x, const Vec2& y) { return x.x() * y.y() - x.y() * y.x(); }
-
-struct Circle {
-  Vec2 centre;
-  double radius;
-};
-
-/// What two discs share when neither holds the other.
-struct Lens {
-  Circle circle1, circle2;
-  Vec2 left, right;  ///< its corners, as seen from circle 1's centre towards circle 2's
-
-  Lens(const Circle& c1, const Circle& c2);
-  /// The point that is farthest along a unit vector.
-  Vec2 farthest(const Vec2& unit) const;
-  /// Four points whose hull covers two thirds of the lens in every direction from its centroid.
-  std::array<Vec2, 4> spread() const;
-};
-
 /// A convex region of a plane, bounded counter-clockwise by straight edges and by arcs of at most
-/// two circles: a contact patch. Empty when it has no vertices. Fixed size, no allocation.
+/// two circles: a contact patch. Fixed size, no allocation.
 class ArcPolygon {
  public:
-  static constexpr int max_vertices = 24;
+  static constexpr int max_vertices = 16;
 
   /// Copies the vertices there are.
-  ArcPolygon(const ArcPolygon& other) : circles_(other.circles_), count_(other.count_) {
+  ArcPolygon(const ArcPolygon& other)
+      : circles_(other.circles_), count_(other.count_), is_disc_(other.is_disc_) {
     std::copy_n(other.vertices_.begin(), count_, vertices_.begin());
   }
   ArcPolygon& operator=(const ArcPolygon&) = delete;
 
   /// The disc within `circle`.
-  explicit ArcPolygon(const Circle& circle);
+  explicit ArcPolygon(const Circle& circle) : is_disc_(true) { circles_[0] = circle; }
   /// Two corners and an arc of each circle.
-  static ArcPolygon lens(const Circle& circle1, const Circle& circle2);
+  explicit ArcPolygon(const Lens& lens);
 
   /// Keeps the points with normal·x <= bound; `normal` is a unit vector. A sliver thinner than
   /// 1e-12 of an arc's radius is not cut off.
   void clip(const Vec2& normal, double bound);
 
-  bool empty() const { return count_ == 0; }
-  /// Has nothing been cut off the disc?
-  bool is_disc() const {
-    return std::none_of(vertices_.begin(), vertices_.begin() + count_,
-                        [](const Vertex& v) { return v.corner; });
-  }
+  bool empty() const { return count_ == 0 && !is_disc_; }
   /// The point that is farthest along a direction (of any length, not zero).
   Vec2 farthest(const Vec2& direction) const;
 
-  /// Makes the point that is farthest along a direction a corner, so that `spread` keeps it.
+  /// Makes the point that is farthest along a direction a corner, so that `spread` keeps it; not of
+  /// a whole disc, of which it is the first one anyway.
   void mark_farthest(const Vec2& direction);
-
-  /// Three arms of this length, 120° apart, the first along a unit vector.
-  static std::array<Vec2, 3> three_arms(double radius, const Vec2& unit);
 
   /// Points whose hull covers the region well: the corners, and on arcs as many more as leave no
   /// piece above 72° and, while there are fewer than six, none that stands out by more than a
@@ -76,18 +48,16 @@ class ArcPolygon {
   static constexpr int straight = -1;
   struct Vertex {
     Vec2 at;
-    int circle;   ///< of the edge that leaves it, or `straight`
-    bool corner;  ///< false where an arc was only divided
+    int circle;  ///< of the edge that leaves it, or `straight`
   };
 
-  ArcPolygon() = default;
-  void add(const Vec2& at, int circle, bool corner) { vertices_[count_++] = {at, circle, corner}; }
-  /// Divides the arc from `from` to `to` so that no piece exceeds a quarter turn; leaves `to` out.
-  void add_arc(int circle, const Vec2& from, const Vec2& to);
+  int next(int i) const { return i + 1 < count_ ? i + 1 : 0; }
+  void add(const Vec2& at, int circle) { vertices_[count_++] = {at, circle}; }
 
   std::array<Circle, 2> circles_ = {Circle{Vec2::Zero(), 0}, Circle{Vec2::Zero(), 0}};
   std::array<Vertex, max_vertices> vertices_;
   int count_ = 0;
+  bool is_disc_ = false;  ///< then it has no vertices
 };
 
 }  // namespace touchstone

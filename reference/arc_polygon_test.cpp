@@ -51,6 +51,39 @@ TEST(ArcPolygon, HalfDiscHasItsTwoCornersAndTwoPointsOnTheArc) {
   EXPECT_GT(coverage(region), 0.75);
 }
 
+TEST(ArcPolygon, CutThatLeavesMostOfTheDiscKeepsItsLongArc) {
+  for (const double left : {0.9, 1 - 1e-6, 1 - 1e-11}) {
+    ArcPolygon region(unit);
+    region.clip(Vec2(1, 0), left);
+    EXPECT_NEAR(region.farthest(Vec2(1, 0)).x(), left, 1e-15);
+    EXPECT_NEAR((region.farthest(Vec2(-1, 0)) - Vec2(-1, 0)).norm(), 0, 1e-15);
+    EXPECT_GT(coverage(region), 0.7) << left;
+    region.clip(Vec2(-1, 0), left);  // both crossings lie on that arc
+    EXPECT_NEAR(region.farthest(Vec2(-1, 0)).x(), -left, 1e-15);
+    EXPECT_NEAR((region.farthest(Vec2(0, 1)) - Vec2(0, 1)).norm(), 0, 1e-15);
+    EXPECT_GT(coverage(region), 0.7) << left;
+  }
+}
+
+TEST(ArcPolygon, CutThatLeavesASliverHasItsTop) {
+  ArcPolygon region(unit);
+  region.clip(Vec2(1, 0), -0.99);
+  EXPECT_NEAR((region.farthest(Vec2(-1, 0)) - Vec2(-1, 0)).norm(), 0, 1e-15);
+  region.mark_farthest(Vec2(-1, 0));
+  std::array<Vec2, 8> points;
+  const int count = region.spread(Vec2(-1, 0), points);
+  EXPECT_GE(count, 3);
+  EXPECT_NEAR((points[0] - Vec2(-1, 0)).norm(), 0, 1e-15);
+}
+
+TEST(ArcPolygon, DiscThatNothingIsCutOffHasThreePoints) {
+  ArcPolygon region(unit);
+  region.clip(Vec2(1, 0), 1);
+  std::array<Vec2, 8> points;
+  ASSERT_EQ(region.spread(Vec2(0, 2), points), 3);
+  EXPECT_NEAR((points[0] - Vec2(0, 1)).norm(), 0, 1e-15);
+}
+
 TEST(ArcPolygon, DiscCutByAllFourEdgesOfASquareHasEightCorners) {
   ArcPolygon region(unit);
   for (const Vec2& n : {Vec2(1, 0), Vec2(0, 1), Vec2(-1, 0), Vec2(0, -1)}) region.clip(n, 0.9);
@@ -78,7 +111,7 @@ TEST(ArcPolygon, CutBeyondTheDiscLeavesNothing) {
 }
 
 TEST(ArcPolygon, LensEndsWhereTheCirclesCross) {
-  const ArcPolygon region = ArcPolygon::lens(unit, {Vec2(1, 0), 1});
+  const ArcPolygon region(Lens(unit, {Vec2(1, 0), 1}, 1, Vec2(1, 0)));
   EXPECT_NEAR((region.farthest(Vec2(0, 1)) - Vec2(0.5, std::sqrt(0.75))).norm(), 0, 1e-15);
   EXPECT_NEAR((region.farthest(Vec2(1, 0)) - Vec2(1, 0)).norm(), 0, 1e-15);
   EXPECT_NEAR((region.farthest(Vec2(-1, 0)) - Vec2(0, 0)).norm(), 0, 1e-15);

@@ -1,8 +1,10 @@
 #include "cylinder_plane.hpp"
 
+#include <array>
 #include <cmath>
-#include <numbers>
 
+#include "disc_layout.hpp"
+#include "facing_feature.hpp"
 #include "manifold.hpp"
 #include "scaled.hpp"
 
@@ -38,9 +40,7 @@ class Points {
 
   /// The point (x, y, z) of the cylinder's frame.
   void add(double x, double y, double z) {
-    const double height =
-        stance_.centre_height + x * stance_.x + y * stance_.y + z * stance_.cosine;
-    add(x, y, z, height);
+    add(x, y, z, stance_.centre_height + x * stance_.x + y * stance_.y + z * stance_.cosine);
   }
   void add(double x, double y, double z, double height) {
     const Eigen::Matrix3d& axes = pose_.rotation();
@@ -54,29 +54,24 @@ class Points {
   const Pose& pose_;
 };
 
-/// Three points of the lower cap's rim, the lowest and one to either side, 120° off or where the
-/// rim rises above the slack.
+/// Points of the lower cap (disc_layout.hpp), the first where the cylinder's own x axis meets its
+/// rim: the plane looks alike all around.
 void add_cap(Points& points, const Cylinder& a, const Stance& s, double slack) {
   const double z = -std::copysign(a.half_length(), s.cosine), r = a.radius();
-  constexpr double level = 1e-15;  // the rest of the normal is rounding: any direction is lowest
-  const double x = s.sine > level ? -s.x / s.sine : 1, y = s.sine > level ? -s.y / s.sine : 0;
-  double cosine = -0.5, sine = std::numbers::sqrt3 / 2;
-  if (s.sine * r * (1 - cosine) > slack) {
-    cosine = 1 - slack / (s.sine * r);
-    sine = std::sqrt((1 - cosine) * (1 + cosine));
-  }
-  points.add(r * x, r * y, z);
-  points.add(r * (cosine * x - sine * y), r * (cosine * y + sine * x), z);
-  points.add(r * (cosine * x + sine * y), r * (cosine * y - sine * x), z);
+  std::array<Vec2, 6> arms;
+  const int count = spread_disc(r, Vec2(s.x, s.y), Vec2(1, 0), slack, arms);
+  for (int i = 0; i < count; ++i) points.add(arms[i].x(), arms[i].y(), z);
 }
 
-/// The lowest generator's lower end and its other one, or where it rises above the slack.
+/// The lowest generator's ends in the order of its axis, or instead of the higher one where the
+/// generator rises above the slack.
 void add_generator(Points& points, const Cylinder& a, const Stance& s, double slack) {
-  const double scale = -a.radius() / s.sine;
+  const double scale = -a.radius() / s.sine, x = scale * s.x, y = scale * s.y;
   const double low = -std::copysign(a.half_length(), s.cosine);
   const double rise = 2 * a.half_length() * std::abs(s.cosine);
-  points.add(scale * s.x, scale * s.y, low, s.signed_distance);
-  points.add(scale * s.x, scale * s.y, rise > slack ? low * (1 - 2 * slack / rise) : -low);
+  const double high = rise > slack ? low * (1 - 2 * slack / rise) : -low;
+  points.add(x, y, low < 0 ? low : high);
+  points.add(x, y, low < 0 ? high : low);
 }
 
 Contact contact_in_range(const Cylinder& a, const Pose& pose_a, const Plane& b, const Pose& pose_b,

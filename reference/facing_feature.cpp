@@ -15,6 +15,7 @@ FacingFeature facing(const PosedCylinder& body, const Vec3& outward, double slac
     feature.kind = Kind::disc;
     feature.axis = std::copysign(1, along) * body.axis;
     feature.middle = body.centre + body.half_length * feature.axis;
+    feature.mark = body.axes.col(0);
     feature.radius = body.radius;
     return feature;
   }

@@ -21,6 +21,7 @@ struct FacingFeature {
   double sine;
   // What the kind has not stays unset.
   Vec3 axis;
+  Vec3 mark;  ///< of a disc, across its axis: a direction that turns with the body
   double half_length, radius;
   std::array<Vec3, 2> side;
   std::array<double, 2> half_side;

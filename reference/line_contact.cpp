@@ -69,9 +69,8 @@ void ContactPlane::line_on_flat(const FacingFeature& f, const FacingFeature& fla
     const double on_line = l.height + t * l.rise, on_flat = surface.at(p);
     line_is_a ? add(p, on_line, on_flat) : add(p, on_flat, on_line);
   };
-  const double deepest = at_lo <= at_hi ? range.lo : range.hi;
-  add_at(deepest);
-  if (range.hi > range.lo) add_at(range.lo + range.hi - deepest);
+  add_at(range.lo);
+  if (range.hi > range.lo) add_at(range.hi);
 }
 
 // Both lines are across the normal but for the slack. They cross, or run side by side: then the
@@ -80,23 +79,22 @@ void ContactPlane::line_on_line(const FacingFeature& f, const FacingFeature& g) 
   const Line a = line(f), b = line(g);
   const double turn = cross2(a.along, b.along);
   const Vec2 from_a = b.middle - a.middle;
-  const double curvature_radius = a.radius + b.radius;
+  const bool is_round = a.radius + b.radius > 0;
+  const double curvature = is_round ? 1 / (a.radius + b.radius) : 0;
+  const double share = is_round ? a.radius * curvature : 0.5;
 
   // Points of both lines that face each other: s = s0 + s1 t.
-  const double squared = b.along.squaredNorm();
-  const double s0 = -from_a.dot(b.along) / squared, s1 = a.along.dot(b.along) / squared;
+  const double inverse = 1 / b.along.squaredNorm();
+  const double s0 = -from_a.dot(b.along) * inverse, s1 = a.along.dot(b.along) * inverse;
   const auto add_at = [&](double t, double s) {
-    const Vec2 p = a.at(t), q = b.at(s);
-    const Vec2 y = q - p;
-    const double share = curvature_radius > 0 ? a.radius / curvature_radius : 0.5;
-    const double bend =
-        curvature_radius > 0 ? y.squaredNorm() / (2 * curvature_radius * curvature_radius) : 0;
+    const Vec2 p = a.at(t), y = b.at(s) - p;
+    const double bend = y.squaredNorm() * curvature * curvature / 2;
     add(p + share * y, a.height + t * a.rise + a.radius * bend,
         b.height + s * b.rise - b.radius * bend);
   };
 
-  constexpr double clearly = 0.05;  // rad
-  if (std::abs(turn) > clearly) {
+  constexpr double crossed = 0.1;  // rad
+  if (std::abs(turn) > crossed) {
     const double t = std::clamp(cross2(from_a, b.along) / turn, -a.half_length, a.half_length);
     return add_at(t, std::clamp(s0 + s1 * t, -b.half_length, b.half_length));
   }
@@ -108,7 +106,7 @@ void ContactPlane::line_on_line(const FacingFeature& f, const FacingFeature& g) 
   }
   // The clearance is c0 + c1 t + c2 t² up to a constant.
   const double y0 = -cross2(b.along, from_a + s0 * b.along), y1 = -cross2(b.along, a.along);
-  const double bend = curvature_radius > 0 ? 1 / (2 * curvature_radius) : 0;
+  const double bend = curvature / 2;
   const double c2 = bend * y1 * y1;
   const double c1 = a.rise - s1 * b.rise - 2 * bend * y0 * y1;
   const auto clearance = [&](double t) { return t * (c1 + c2 * t); };
@@ -116,21 +114,26 @@ void ContactPlane::line_on_line(const FacingFeature& f, const FacingFeature& g) 
   const double lowest = c2 > 0 ? std::clamp(-c1 / (2 * c2), range.lo, range.hi) : bottom;
   const double deepest = clearance(lowest) <= clearance(bottom) ? lowest : bottom;
   const double whole = range.hi - range.lo;
-  const double level = clearance(deepest) + slack_;
+  // Less of the slack as the lines come to be crossed, so that the points have drawn together then.
+  const double slack = slack_ * std::min(1.0, 2 - 2 * std::abs(turn) / crossed);
+  const double level = clearance(deepest) + slack;
   // How far from the deepest point the clearance stays below the level.
   const auto reach = [&](double end) {
     if (clearance(end) <= level) return end;
     const double way = end < deepest ? -1 : 1;
     const double slope = way * (c1 + 2 * c2 * deepest);  // >= 0 but for rounding
     const double grow = std::max(slope, 0.0);
-    return deepest + way * 2 * slack_ / (grow + std::sqrt(grow * grow + 4 * c2 * slack_));
+    return deepest + way * 2 * slack / (grow + std::sqrt(grow * grow + 4 * c2 * slack));
   };
   const double lo = reach(range.lo), hi = reach(range.hi);
   constexpr double least_part = 0.1;
-  if (hi - lo <= least_part * whole) return add_at(deepest, s0 + s1 * deepest);
-  const double first = deepest - lo <= hi - deepest ? lo : hi;
-  add_at(first, s0 + s1 * first);
-  add_at(lo + hi - first, s0 + s1 * (lo + hi - first));
+  const double part = (hi - lo) / whole;
+  if (!(part > least_part)) return add_at(deepest, s0 + s1 * deepest);
+  const double fade = std::min(1.0, part / least_part - 1);
+  for (const double end : {lo, hi}) {
+    const double t = deepest + fade * (end - deepest);
+    add_at(t, s0 + s1 * t);
+  }
 }
 
 }  // namespace touchstone

@@ -27,7 +27,7 @@ std::pair<Vec3, Vec3> across(const Vec3& n) {
 
 ContactPlane::ContactPlane(Contact& contact, const Vec3& origin, double slack)
     : contact_(contact), n_(contact.normal), origin_(origin), slack_(slack) {
-  std::tie(x_, y_) = across(n_);
+  std::tie(x_, y_) = across(points_onward(n_) ? n_ : Vec3(-n_));
 }
 
 void add_manifold(Contact& contact, const FacingFeature& a, const FacingFeature& b,

@@ -11,13 +11,13 @@ namespace touchstone {
 /// How far above the deepest point a surface may lie and still carry a point, metres: a thousandth
 /// of the smaller body's largest half extent, so that a standing or lying body keeps its points
 /// when a step of a simulation tilts it, as long as they overlap: no more than the contact
-/// threshold leaves above the deepest point; never less than rounding. `distance` is that of the
-/// bodies' centres.
-inline double manifold_slack(double largest_a, double largest_b, double distance,
+/// threshold leaves above the deepest point; never less than rounding. `offset` is how far the
+/// bodies' centres are apart, or somewhat more.
+inline double manifold_slack(double largest_a, double largest_b, double offset,
                              double signed_distance, double contact_threshold) {
   constexpr double hair = 1e-3, rounding = 16 * std::numeric_limits<double>::epsilon();
   return std::max(
-      rounding * (std::max(largest_a, largest_b) + distance),
+      rounding * (std::max(largest_a, largest_b) + offset),
       std::min(hair * std::min(largest_a, largest_b), contact_threshold - signed_distance));
 }
 

@@ -23,8 +23,9 @@ void make_contact(Contact& result, const PosedCylinder& a, const Body& b, Signed
   result.normal = found.normal;
   result.signed_distance = found.value;
   if (found.value > contact_threshold) return;
-  const double slack = manifold_slack(largest(a), largest(b), (a.centre - b.centre).norm(),
-                                      found.value, contact_threshold);
+  const Vec3 between = a.centre - b.centre;
+  const double slack = manifold_slack(largest(a), largest(b), between.cwiseAbs().sum(), found.value,
+                                      contact_threshold);
   add_manifold(result, facing(a, -found.normal, slack), facing(b, found.normal, slack), origin,
                slack);
 }

@@ -16,6 +16,7 @@ namespace touchstone {
 struct PosedCylinder {
   Vec3 centre, axis;
   double radius, half_length;
+  const Eigen::Matrix3d& axes;
 };
 struct PosedSphere {
   Vec3 centre;
@@ -32,7 +33,7 @@ struct PosedBox {
 };
 
 inline PosedCylinder posed(const Cylinder& s, const Pose& pose, const Vec3& origin) {
-  return {pose.position() - origin, pose.axis(), s.radius(), s.half_length()};
+  return {pose.position() - origin, pose.axis(), s.radius(), s.half_length(), pose.rotation()};
 }
 inline PosedSphere posed(const Sphere& s, const Pose& pose, const Vec3& origin) {
   return {pose.position() - origin, s.radius()};

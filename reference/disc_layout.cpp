@@ -1,0 +1,53 @@
+#include "disc_layout.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace touchstone {
+namespace {
+
+constexpr double half = 0.5, height = std::numbers::sqrt3 / 2;  // cos 60°, sin 60°
+
+/// A tilt is clear from here on: the contact threshold that engines use, a millionth of the size.
+double clear_rise(double radius, double slack) { return std::min(1e-6 * radius, slack / 8); }
+
+}  // namespace
+
+double part_of_the_way_to_the_deepest(double rise, double radius, double slack) {
+  const double clear = clear_rise(radius, slack);
+  return rise <= clear ? 0 : std::min((rise - clear) / clear, 1.0);
+}
+
+std::array<Vec2, 3> three_arms(double radius, const Vec2& unit) {
+  const Vec2 arm = radius * unit, across = height * Vec2(-arm.y(), arm.x());
+  return {arm, across - half * arm, -across - half * arm};
+}
+
+int spread_disc(double radius, const Vec2& slope, const Vec2& anchor, double slack,
+                std::array<Vec2, 6>& arms) {
+  int count = 0;
+  const double steepness = slope.norm(), rise = 2 * radius * steepness;
+  // From half the slack to three quarters of it, so that nothing of the old layout is above it.
+  const HandOver over{8 * rise / slack - 4};
+  if (!over.is_over()) {
+    for (const Vec2& arm : three_arms(over.old_size() * radius, anchor)) arms[count++] = arm;
+  }
+  const double way = part_of_the_way_to_the_deepest(rise, radius, slack);
+  if (way == 0) return count;
+  const Vec2 lowest = (-radius / steepness) * slope;
+  arms[count++] = way * lowest;
+  if (!over.has_begun()) return count;
+  double cosine = -half, sine = height;
+  if (steepness * radius * (1 + half) > slack) {
+    cosine = 1 - slack / (steepness * radius);
+    sine = std::sqrt((1 - cosine) * (1 + cosine));
+  }
+  const double size = over.new_size();
+  const Vec2 ahead = size * cosine * lowest, across = size * sine * Vec2(-lowest.y(), lowest.x());
+  arms[count++] = ahead + across;
+  arms[count++] = ahead - across;
+  return count;
+}
+
+}  // namespace touchstone

@@ -1,0 +1,174 @@
+// How much of the contact patch the points' hull covers.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <gtest/gtest.h>
+#include <limits>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "reference/circle.hpp"
+#include "reference/contact_of.hpp"
+#include "reference/points_on_both.hpp"
+
+namespace touchstone {
+namespace {
+
+/// A contact patch in the plane z = 0 about a point within it: how far it reaches along a unit
+/// vector.
+struct Patch {
+  Vec2 within;
+  std::function<double(const Vec2&)> reach;
+};
+
+double reach_in_disc(const Vec2& from, const Vec2& unit, const Vec2& centre, double radius) {
+  const Vec2 arm = from - centre;
+  const double along = arm.dot(unit);
+  return -along + std::sqrt(along * along + radius * radius - arm.squaredNorm());
+}
+double reach_in_rectangle(const Vec2& from, const Vec2& unit, const Vec2& half_sides) {
+  double reach = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 2; ++i) {
+    if (unit[i] != 0)
+      reach = std::min(reach, (std::copysign(half_sides[i], unit[i]) - from[i]) / unit[i]);
+  }
+  return reach;
+}
+
+/// By what factor, at most 1, the patch may be shrunk about its centroid to lie within the hull of
+/// the points.
+double coverage(const Patch& patch, const Contact& answer) {
+  constexpr int directions = 240;
+  std::vector<Vec2> outline;
+  for (int i = 0; i < directions; ++i) {
+    const double angle = 2 * std::numbers::pi * i / directions;
+    const Vec2 unit(std::cos(angle), std::sin(angle));
+    outline.push_back(patch.within + patch.reach(unit) * unit);
+  }
+  double area = 0;
+  Vec2 centroid(0, 0);
+  for (int i = 0; i < directions; ++i) {
+    const Vec2 p = outline[i] - patch.within, q = outline[(i + 1) % directions] - patch.within;
+    area += cross2(p, q);
+    centroid += cross2(p, q) / 3 * (p + q);
+  }
+  centroid = patch.within + centroid / area;
+
+  double least = 1;
+  for (int i = 0; i < directions; ++i) {
+    const double angle = 2 * std::numbers::pi * (i + 0.5) / directions;
+    const Vec2 n(std::cos(angle), std::sin(angle));
+    double hull = 0, whole = 0;
+    for (const Vec2& p : outline) whole = std::max(whole, n.dot(p - centroid));
+    for (const auto& p : answer.points()) {
+      hull = std::max(hull, n.dot(Vec2(p.position.x(), p.position.y()) - centroid));
+    }
+    least = std::min(least, hull / whole);
+  }
+  return least;
+}
+
+/// What so many points cover at least. The most that three of a full disc's rim can is 0.5, four
+/// 0.707, eight 0.924; fewer are left where edges cut off next to nothing, so that corners
+/// coincide.
+double bar(std::size_t points) { return points < 4 ? 0.495 : points < 8 ? 0.65 : 0.85; }
+
+TEST(Manifold, CoversTheDiscsThatCapsShare) {
+  for (const double radius : {0.3, 0.8, 1.0, 2.5}) {
+    for (const double part : {0.0, 0.01, 0.1, 0.3, 0.5, 0.7, 0.9, 0.99}) {
+      // From one within the other to nearly apart.
+      const double distance = std::abs(radius - 1) + part * 2 * std::min(radius, 1.0);
+      const Configuration c{Cylinder(1, 1), Pose({distance, 0, 1.999}, upright),
+                            Cylinder(radius, 1), Pose()};
+      const Contact answer = contact(c, 0);
+      EXPECT_EQ(answer.points().size(), part > 0 ? 4u : 3u);
+      const Vec2 other(distance, 0),
+          middle((std::max(distance - 1, -radius) + std::min(distance + 1, radius)) / 2, 0);
+      const Patch patch{middle, [&](const Vec2& unit) {
+                          return std::min(reach_in_disc(middle, unit, other, 1),
+                                          reach_in_disc(middle, unit, {0, 0}, radius));
+                        }};
+      // No two pairs of points, mirrored across the line of centres, have more than 0.68 of some.
+      EXPECT_GE(coverage(patch, answer), part > 0 ? 0.65 : bar(3)) << radius << " " << part;
+    }
+  }
+}
+
+// The lens keeps its four points, whichever way it leans by a hair, and has the deepest with them.
+TEST(Manifold, CoversTheDiscsThatLeaningCapsShare) {
+  for (const double radius : {0.3, 1.0, 2.5}) {
+    for (const double part : {0.1, 0.5, 0.9}) {
+      const double distance = std::abs(radius - 1) + part * 2 * std::min(radius, 1.0);
+      const Vec2 other(distance, 0);
+      const Vec2 middle((std::max(distance - 1, -radius) + std::min(distance + 1, radius)) / 2, 0);
+      const Patch patch{middle, [&](const Vec2& unit) {
+                          return std::min(reach_in_disc(middle, unit, other, 1),
+                                          reach_in_disc(middle, unit, {0, 0}, radius));
+                        }};
+      for (double heading = 0.1; heading < 6.3; heading += 0.3) {
+        // The deepest point is one of them when the tilt is clear.
+        const double tilt = std::fmod(heading, 0.6) < 0.3 ? 1e-9 : 1e-5;
+        const Vec3 axis(std::cos(heading), std::sin(heading), 0);
+        const Configuration c{Cylinder(1, 1),
+                              Pose({distance, 0, 1.999}, Quaternion(Eigen::AngleAxisd(tilt, axis))),
+                              Cylinder(radius, 1), Pose()};
+        const Contact answer = contact(c, 0);
+        EXPECT_GE(answer.points().size(), 4u);
+        EXPECT_LE(answer.points().size(), tilt < 1e-6 ? 4u : 5u);
+        EXPECT_GE(coverage(patch, answer), 0.5) << radius << " " << part << " " << heading;
+        double deepest = -1;
+        for (const auto& p : answer.points()) deepest = std::max(deepest, p.depth);
+        EXPECT_NEAR(deepest, -answer.signed_distance, tilt < 1e-6 ? tilt : 1e-14);
+      }
+    }
+  }
+}
+
+TEST(Manifold, CoversTheOctagonThatFourEdgesCut) {
+  const Configuration c{Cylinder(1, 2), Pose({0, 0, 2.9}, upright), Box({0.9, 0.9, 1}), Pose()};
+  const Patch patch{Vec2(0, 0), [](const Vec2& unit) {
+                      return std::min(reach_in_disc({0, 0}, unit, {0, 0}, 1),
+                                      reach_in_rectangle({0, 0}, unit, {0.9, 0.9}));
+                    }};
+  EXPECT_GE(coverage(patch, contact(c, 0)), 0.9);
+}
+
+TEST(Manifold, CoversTheDiscThatAFaceCuts) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  std::array<int, 9> met{};
+  for (int i = 0; i < 600; ++i) {
+    const Vec2 half_sides(0.3 + 1.2 * uniform(random), 0.3 + 1.2 * uniform(random));
+    // The face's nearest point lies within 0.9 of the disc's radius; a third are centred.
+    const Vec2 most = half_sides + Vec2(0.9, 0.9);
+    const double x = (2 * uniform(random) - 1) * most.x(), y = (2 * uniform(random) - 1) * most.y();
+    const Vec2 centre = i % 3 == 0 ? Vec2(0, 0) : Vec2(x, y);
+    const Vec2 nearest = centre.cwiseMax(-half_sides).cwiseMin(half_sides);
+    if ((nearest - centre).norm() > 0.9) continue;
+    const Configuration c{Cylinder(1, 1), Pose({centre.x(), centre.y(), 1.999}, upright),
+                          Box({half_sides.x(), half_sides.y(), 1}), Pose()};
+    const Contact answer = contact(c, 0);
+    // The mean of points within both is within.
+    Vec2 within(0, 0);
+    int inside = 0;
+    for (int k = 0; k < 41 * 41; ++k) {
+      const Vec2 p = half_sides.cwiseProduct(Vec2(k % 41 - 20, k / 41 - 20)) / 20.0;
+      if ((p - centre).norm() < 1) within += p, ++inside;
+    }
+    within /= inside;
+    const Patch patch{within, [&](const Vec2& unit) {
+                        return std::min(reach_in_disc(within, unit, centre, 1),
+                                        reach_in_rectangle(within, unit, half_sides));
+                      }};
+    const std::size_t count = answer.points().size();
+    ++met[count];
+    EXPECT_GE(coverage(patch, answer), bar(count))
+        << count << " " << centre.transpose() << " in " << half_sides.transpose();
+  }
+  for (const int count : {3, 4, 5, 6, 7, 8}) EXPECT_GT(met[count], 0) << count;
+}
+
+}  // namespace
+}  // namespace touchstone

@@ -1,0 +1,272 @@
+// How contact points move when a body is tilted, turned or shifted: not at all while that cannot be
+// seen, then together, until one is left.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <gtest/gtest.h>
+#include <numbers>
+#include <random>
+#include <rapidcheck.h>
+#include <string>
+#include <vector>
+
+#include "reference/contact_of.hpp"
+#include "reference/points_on_both.hpp"
+
+namespace touchstone {
+namespace {
+
+// A tilt of a hair keeps the manifold, a degree leaves the deepest point.
+TEST(Manifold, FadesAsTheTiltGrows) {
+  const struct {
+    const char* name;
+    Cylinder a;
+    Vec3 position;
+    Quaternion base;
+    Shape b;
+    std::size_t straight;
+  } table[] = {
+      {"standing on a plane", Cylinder(1, 2), {0, 0, 1.9}, upright, Plane({0, 0, 1}, 0), 3},
+      {"lying on a plane", Cylinder(1, 2), {0, 0, 0.9}, along_x, Plane({0, 0, 1}, 0), 2},
+      {"standing on a cylinder", Cylinder(1, 2), {0.3, 0, 3.9}, upright, Cylinder(2, 2), 3},
+      {"standing on a box", Cylinder(1, 2), {0, 0, 2.9}, upright, Box({3, 3, 1}), 3},
+      {"standing on a box's corner", Cylinder(1, 2), {3, 3, 2.9}, upright, Box({3, 3, 1}), 4},
+      {"lying on a box", Cylinder(1, 2), {0, 0, 1.9}, along_x, Box({3, 3, 1}), 2},
+      {"beside a capsule", Cylinder(1, 2), {1.4, 0, 0}, upright, Capsule(0.5, 2), 2},
+      {"beside a cylinder", Cylinder(1, 2), {1.9, 0, 0}, upright, Cylinder(1, 2), 2},
+  };
+  for (const auto& row : table) {
+    SCOPED_TRACE(row.name);
+    const auto tilted = [&](double tilt) {
+      const Quaternion turn(1, tilt / 2 * 0.6, tilt / 2 * 0.8, 0);
+      return Configuration{row.a, Pose(row.position, turn * row.base), row.b, Pose()};
+    };
+    for (const double tilt : {0.0, 1e-15, 1e-12, 1e-9}) {
+      EXPECT_EQ(contact(tilted(tilt), 0).points().size(), row.straight) << tilt;
+    }
+    EXPECT_EQ(contact(tilted(0.0175), 0).points().size(), 1u);
+    // Points that stay are always on both bodies and never far above the deepest.
+    for (double tilt = 1e-15; tilt < 0.1; tilt *= 1.1) {
+      const Configuration c = tilted(tilt);
+      const Contact answer = contact(c, 0);
+      SCOPED_TRACE(tilt);
+      expect_points_on_both(c, answer, 1e-8);
+      for (const auto& p : answer.points()) EXPECT_GE(p.depth, -answer.signed_distance - 3e-3);
+    }
+  }
+}
+
+// However a body is turned by a step, the points that it had and those that it has then belong to
+// the part of its surface that lies within the slack of the deepest point, before and after, but
+// for what the step itself lifts.
+TEST(Manifold, MovesNoFurtherThanThePatchInAStep) {
+  constexpr double size = 1, slack = 1e-3 * size, depth = 0.01;
+  const Shape grounds[] = {Plane({0, 0, 1}, 1), Box({3, 3, 1}), Cylinder(3, 1)};
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for (const Shape& ground : grounds) {
+    for (const Quaternion& base : {upright, along_x}) {
+      for (int i = 0; i < 3000; ++i) {
+        const auto axis_angle = [&](double angle) {
+          const Vec3 axis(uniform(random), uniform(random), 0.1 * uniform(random));
+          return Quaternion(Eigen::AngleAxisd(angle, axis.normalized()));
+        };
+        const double step = std::pow(10, -2 - 8 * std::abs(uniform(random)));
+        const Quaternion before =
+            axis_angle(std::pow(10, -1 - 11 * std::abs(uniform(random)))) * base.normalized();
+        const Quaternion after = axis_angle(step) * before;
+        const Cylinder can(size, size);
+        // As high as leaves the depth.
+        const auto posed_at = [&](const Quaternion& turn) {
+          const double z = (turn * Vec3::UnitZ()).z();
+          return Pose({0.3, 0.2, 1 + size * (std::abs(z) + std::sqrt((1 - z) * (1 + z))) - depth},
+                      turn);
+        };
+        const Pose pose_before = posed_at(before), pose_after = posed_at(after);
+        const auto expect_within = [&](const Pose& of, const Pose& at) {
+          const Contact answer = contact({can, of, ground, Pose()}, 0);
+          ASSERT_GT(answer.points().size(), 0u);
+          for (const auto& p : answer.points()) {
+            const Vec3 on_can = p.position - p.depth / 2 * answer.normal;
+            const Vec3 local = of.rotation().transpose() * (on_can - of.position());
+            const double height = (at.position() + at.rotation() * local).z() - (1 - depth);
+            EXPECT_LE(height, slack + 4 * size * step) << step;
+          }
+        };
+        expect_within(pose_before, pose_after);
+        expect_within(pose_after, pose_before);
+      }
+    }
+  }
+}
+
+// A tilt of a few 1e-4 is what one step of a simulation makes of a body that lost its support on
+// one side: as long as that side overlaps it must keep a point.
+TEST(Manifold, StandsOnAllSidesThatOverlap) {
+  const Cylinder can(1, 1);
+  const Plane ground({0, 0, 1}, 0);
+  const auto standing = [&](double tilt, double depth) {
+    const double height = std::cos(tilt) + std::sin(tilt) - depth;
+    return contact({can, Pose({0, 0, height}, Quaternion(Eigen::AngleAxisd(tilt, Vec3::UnitY()))),
+                    ground, Pose()},
+                   0);
+  };
+  EXPECT_EQ(standing(4e-4, 1e-3).points().size(), 3u);  // all of the cap overlaps
+  const Contact half = standing(4e-4, 4e-4);            // half of it does
+  EXPECT_GT(half.points().size(), 2u);
+  double least = 1;
+  for (const auto& p : half.points()) least = std::min(least, p.position.x());
+  EXPECT_NEAR(least, 0, 1e-3);
+  EXPECT_EQ(standing(4e-4, 0).points().size(), 1u);
+}
+
+/// A contact, and what its tilts may turn about and its shifts run along without changing what is
+/// seen.
+struct Rest {
+  std::string name;
+  Cylinder a;
+  Vec3 position;
+  Quaternion base;
+  Shape b;
+  std::size_t points;
+};
+const std::vector<Rest>& rests() {
+  const Cylinder can(1, 2);
+  const Quaternion flipped(0, 1, 0, 0);
+  const Box slab({3, 3, 1});
+  static const std::vector<Rest> all = {
+      {"standing on a plane", can, {0, 0, 1.9}, upright, Plane({0, 0, 1}, 0), 3},
+      {"lying on a plane", can, {0, 0, 0.9}, along_x, Plane({0, 0, 1}, 0), 2},
+      {"standing on a box", can, {0.1, 0.2, 2.9}, upright, slab, 3},
+      {"over a box's edge", can, {2.7, 0.1, 2.9}, upright, slab, 5},
+      {"lying on a box", can, {0, 0.1, 1.9}, along_x, slab, 2},
+      {"cap within cap", can, {0.3, 0, 3.9}, upright, Cylinder(2, 2), 3},
+      {"cap on the same cap, coaxial", can, {0, 0, 3.9}, upright, can, 3},
+      {"upside down on the same cap", can, {0, 0, 3.9}, flipped, can, 3},
+      {"caps partly overlapping", can, {0.7, 0.2, 3.9}, upright, can, 4},
+      {"beside a capsule", can, {1.4, 0, 0.3}, upright, Capsule(0.5, 2), 2},
+      {"beside a cylinder", can, {1.9, 0, 0.3}, upright, Cylinder(1.1, 2), 2},
+  };
+  return all;
+}
+
+Contact contact_at(const Rest& rest, const Vec3& turn, const Vec3& shift) {
+  const Quaternion small(1, turn.x() / 2, turn.y() / 2, turn.z() / 2);
+  return contact({rest.a, Pose(rest.position + shift, small * rest.base), rest.b, Pose()}, 0);
+}
+
+// Rounding decides which way a body at rest leans, and where the line of two caps' centres runs.
+TEST(ManifoldMotion, PointsStayWhenNothingVisibleChanges) {
+  const auto decade = [](int lo, int hi) { return std::pow(10, *rc::gen::inRange(lo, hi)); };
+  const auto direction = [] {
+    const auto coordinate = [] { return *rc::gen::inRange(-100, 101); };
+    const Vec3 v(coordinate(), coordinate(), coordinate());
+    return Vec3(v / std::max(v.norm(), 1.0));
+  };
+  for (const Rest& rest : rests()) {
+    const Contact before = contact_at(rest, Vec3::Zero(), Vec3::Zero());
+    ASSERT_EQ(before.points().size(), rest.points) << rest.name;
+    EXPECT_TRUE(rc::check(rest.name, [&] {
+      const double angle = decade(-16, -8), length = decade(-16, -8);
+      const Contact after = contact_at(rest, angle * direction(), length * direction());
+      RC_ASSERT(after.points().size() == before.points().size());
+      constexpr double rounding = 2e-14;  // each point by its number
+      for (std::size_t i = 0; i < after.points().size(); ++i) {
+        const Vec3 way = after.points()[i].position - before.points()[i].position;
+        RC_ASSERT(way.norm() <= 4 * (angle * 2 + length) + rounding);
+      }
+    }));
+  }
+}
+
+/// How far the hull moves across the vertical, metres: the largest change of its reach.
+double hull_movement(const Contact& from, const Contact& to) {
+  double most = 0;
+  for (int i = 0; i < 90; ++i) {
+    const double angle = 2 * std::numbers::pi * i / 90;
+    const Vec3 n(std::cos(angle), std::sin(angle), 0);
+    const auto reach = [&](const Contact& c) {
+      double farthest = -std::numeric_limits<double>::infinity();
+      for (const auto& p : c.points()) farthest = std::max(farthest, n.dot(p.position));
+      return farthest;
+    };
+    most = std::max(most, std::abs(reach(to) - reach(from)));
+  }
+  return most;
+}
+
+// From level to a tilt of which a tenth of the cap lies within the slack, and all around at each:
+// no jump. Beyond, one point is left.
+TEST(ManifoldMotion, HullOfAWholeCapNeverJumpsAsTheTiltGrowsOrTurns) {
+  for (const Rest& rest : rests()) {
+    // Of equal caps a tilt makes a lens.
+    if (rest.points != 3 || rest.name.ends_with("same cap, coaxial") ||
+        rest.name.ends_with("same cap")) {
+      continue;
+    }
+    SCOPED_TRACE(rest.name);
+    for (double heading = 0.05; heading < 6.3; heading += 0.7) {
+      const auto leaning = [&](double tilt, double turned) {
+        return contact_at(rest,
+                          tilt * Vec3(std::cos(heading + turned), std::sin(heading + turned), 0),
+                          {0, 0, 0});
+      };
+      Contact before = leaning(0, 0);
+      for (double tilt = 1e-8; tilt < 0.0098; tilt *= 1.02) {
+        const Contact after = leaning(tilt, 0);
+        EXPECT_LE(hull_movement(before, after), 0.08) << tilt;
+        EXPECT_LE(hull_movement(after, leaning(tilt, 0.01)), 0.04) << tilt;
+        before = after;
+      }
+      EXPECT_EQ(leaning(0.0102, 0).points().size(), 1u);
+    }
+  }
+}
+
+TEST(ManifoldMotion, HullNeverJumpsAsParallelSidesAreCrossed) {
+  const Shape grounds[] = {Cylinder(1, 2), Capsule(1, 2)};
+  for (const Shape& ground : grounds) {
+    const auto turned = [&](double angle) {
+      const Quaternion turn(Eigen::AngleAxisd(angle, Vec3::UnitZ()));
+      return contact(
+          {Cylinder(1, 2), Pose({0.1, 0, 1.99}, turn * along_x), ground, Pose({0, 0, 0}, along_x)},
+          0);
+    };
+    Contact before = turned(0);
+    EXPECT_EQ(before.points().size(), 2u);
+    for (double angle = 1e-4; angle < 0.3; angle += 1e-4) {
+      const Contact after = turned(angle);
+      // The patch of two sides that cross shrinks as 1 / angle.
+      EXPECT_LE(hull_movement(before, after), 0.03) << angle;
+      before = after;
+    }
+    EXPECT_EQ(before.points().size(), 1u);
+  }
+}
+
+// Four points take over from three as caps leave each other. Which four changes at three shapes of
+// an uneven lens.
+TEST(ManifoldMotion, HullNeverJumpsAsOneCapSlidesOffAnother) {
+  const struct { double radius, most; } table[] = {{1.0, 0.05}, {1.4, 0.25}};
+  for (const auto& row : table) {
+    for (const double tilt : {0.0, 1e-9, 1e-5}) {
+      const auto slid = [&](double way) {
+        const Quaternion turn(1, tilt / 2, 0, 0);
+        return contact({Cylinder(1, 1), Pose({0.6 * way, 0.8 * way, 1.99}, turn),
+                        Cylinder(row.radius, 1), Pose()},
+                       0);
+      };
+      Contact before = slid(0);
+      for (double way = 2e-4; way < row.radius + 0.5; way += 2e-4) {
+        const Contact after = slid(way);
+        EXPECT_LE(hull_movement(before, after), row.most)
+            << row.radius << " " << tilt << " " << way;
+        before = after;
+      }
+      EXPECT_EQ(before.points().size(), tilt > 1e-6 ? 5u : 4u);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace touchstone
