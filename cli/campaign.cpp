@@ -111,8 +111,8 @@ int run(const Options& options) {
 }  // namespace
 
 void add_campaign(CLI::App& program, int& exit_code) {
-  CLI::App* command = program.add_subcommand(
-      "campaign", "Score as many configurations as you like, on one or many machines");
+  CLI::App* command =
+      program.add_subcommand("campaign", "Score any number of configurations, on many machines");
   const auto options = std::make_shared<Options>(*command);
   command->add_option("--out", options->out, "Folder for the checkpoints and campaign.json")
       ->capture_default_str();
@@ -127,8 +127,8 @@ void add_campaign(CLI::App& program, int& exit_code) {
       "  touchstone campaign --candidates reference --count 1e6 --out run\n"
       "  touchstone campaign --candidates reference --count 1e6 --out run --resume\n"
       "  mpirun -n 64 touchstone campaign --count 1e6 --out run\n"
-      "  touchstone campaign --count 1e6 --shard 3/7 --out run   then: touchstone merge run\n"
-      "Exit codes: 130 and 143 when stopped by Ctrl-C or SIGTERM, with all that was done saved.");
+      "  touchstone campaign --count 1e6 --shard 3/7 --out run   then merge\n"
+      "Exit codes: 130, 143 when stopped by Ctrl-C, SIGTERM; what was done is saved.");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

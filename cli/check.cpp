@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "cli/commands.hpp"
+#include "cli/help.hpp"
 #include "cli/options.hpp"
 #include "laws/check_report.hpp"
 #include "laws/failure_file.hpp"
@@ -99,15 +100,14 @@ int run(const Options& options) {
 
 std::string law_list() {
   std::string text = "Laws:\n";
-  for (const Law& law : all_laws()) text += fmt::format("  {:<12} {}\n", law.name, law.statement);
+  for (const Law& law : all_laws()) text += list_entry(law.name, 11, law.statement);
   return text;
 }
 
 }  // namespace
 
 void add_check(CLI::App& program, int& exit_code) {
-  CLI::App* command = program.add_subcommand(
-      "check", "Hold one candidate to the laws of contacts; shrink and save what fails");
+  CLI::App* command = program.add_subcommand("check", "Hold one candidate to the laws of contacts");
   const auto options = std::make_shared<Options>(*command);
   command->add_option("--candidate", options->candidate, "Its name, or a plug-in's file");
   command->add_option("--law", options->laws, "Only these laws")->delimiter(',');
@@ -119,7 +119,7 @@ void add_check(CLI::App& program, int& exit_code) {
   command->footer(
       "Examples:\n"
       "  touchstone check --candidate bullet\n"
-      "  touchstone check --candidate ./my_engine.so --pair cylinder-box --save failures\n"
+      "  touchstone check --candidate ./my_engine.so --save failures\n"
       "  touchstone check --corpus properties/corpus\n" +
       law_list() + "Exit code 1: a law was broken, or a saved failure has changed.");
   command->callback([options, &exit_code] { exit_code = run(*options); });

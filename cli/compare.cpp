@@ -45,8 +45,8 @@ int run(const Options& options) {
 }  // namespace
 
 void add_compare(CLI::App& program, int& exit_code) {
-  CLI::App* command = program.add_subcommand(
-      "compare", "What is better, worse or slower in one report than in an earlier one");
+  CLI::App* command =
+      program.add_subcommand("compare", "What is better, worse or slower than in another report");
   const auto options = std::make_shared<Options>();
   command->add_option("OLD", options->before, "report.json to compare with")->required();
   command->add_option("NEW", options->after, "report.json that may be worse")->required();

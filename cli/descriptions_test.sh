@@ -32,6 +32,11 @@ commands=$("$program" --help | sed -n '/^Subcommands/,/^Examples/s/^  \([a-z]*\)
 [ "$(wc -l <<<"$commands")" -ge 6 ] || failed "--help lists no subcommands"
 [ "$(completed '')" = "$commands" ] || failed "subcommands: $(completed '')"
 [ "$(completed rep)" = "$(grep '^rep' <<<"$commands")" ] || failed "rep: $(completed rep)"
+for command in "" $commands; do
+  # shellcheck disable=SC2086
+  long=$("$program" $command --help | LC_ALL=C.UTF-8 awk 'length($0) > 80')
+  [ -z "$long" ] || failed "$command --help is wider than 80 columns: $long"
+done
 for command in $commands; do
   grep -q "^\.SS \"touchstone $command\"" "$folder/touchstone.1" || failed "no manual of $command"
   offered=$(completed "$command" -)

@@ -6,6 +6,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/completion.hpp"
+#include "cli/help.hpp"
 #include "cli/manual.hpp"
 #include "cli/options.hpp"
 #include "cli/version.hpp"
@@ -63,21 +64,25 @@ int main(int argc, char** argv) {
   program.set_version_flag("--version", touchstone::version_text);
   add_descriptions(program);
   program.require_subcommand(1);
+  program.formatter(touchstone::help_format());
   program.footer(
       "Examples:\n"
-      "  touchstone report                                   the report: out/report.html\n"
-      "  touchstone replay cylinder-box/rim-face/1/0         one configuration again\n"
-      "  touchstone solve poses.jsonl                        your own configurations\n"
-      "  touchstone certify cylinder-box/rim-face/1/17       a proof that others can check\n"
-      "  touchstone check --candidate bullet                 laws, and the smallest failures\n"
-      "  touchstone campaign --count 1e6 --out run            any number, on many machines\n"
-      "  touchstone simulate rolling                         contacts at work, against paper\n"
-      "  touchstone choose scenes/log-pile.json              the cheapest model that serves\n"
-      "  touchstone stability                                tiny steps near degenerate poses\n"
-      "  touchstone compare old.json out/report.json         better, worse, slower\n"
-      "Exit codes: 0 done; 1 a law was broken, a result is worse, needs not met; 2 bad input or "
-      "usage; 3 an "
-      "internal contradiction;\n130 interrupted.");
+      "  touchstone report                               the report: out/report.html\n"
+      "  touchstone replay cylinder-box/rim-face/1/0     one configuration again\n"
+      "  touchstone solve poses.jsonl                    your own configurations\n"
+      "  touchstone certify cylinder-box/rim-face/1/17   a proof that others can check\n"
+      "  touchstone check --candidate bullet             laws, smallest failures\n"
+      "  touchstone campaign --count 1e6 --out run       any number, on many machines\n"
+      "  touchstone simulate rolling                     contacts against paper\n"
+      "  touchstone choose scenes/log-pile.json          the cheapest model that serves\n"
+      "  touchstone stability                            tiny steps, slow motions\n"
+      "  touchstone compare old.json out/report.json     better, worse, slower\n"
+      "Exit codes:\n"
+      "  0    done\n"
+      "  1    a law was broken, a result is worse, or needs are not met\n"
+      "  2    bad input or usage\n"
+      "  3    an internal contradiction\n"
+      "  130  interrupted");
   program.fallthrough();  // --candidate may also stand after the subcommand
   touchstone::add_plugin_option(program);
   int exit_code = 0;

@@ -18,7 +18,7 @@ void add_plugin_option(CLI::App& program) {
           [](const std::vector<std::string>& files) {
             for (const auto& file : files) add_plugin(file);
           },
-          "A plug-in with candidates of your own (candidates/candidate.h); may be repeated")
+          "A plug-in with candidates of your own; may be repeated")
       ->type_name("FILE")
       ->allow_extra_args(false);
 }

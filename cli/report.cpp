@@ -85,7 +85,7 @@ void add_report(CLI::App& program, int& exit_code) {
       "  touchstone report --pair cylinder-box --count 1000 --seed 7\n"
       "  touchstone report --candidates reference,bullet --class rim-rim,touching\n"
       "  touchstone report --figures figures\n"
-      "Ctrl-C ends with a report of what is done by then, marked partial (exit code 130).");
+      "Ctrl-C ends with a report of what is done, marked partial (exit code 130).");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

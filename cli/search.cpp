@@ -71,8 +71,8 @@ int run(const Options& options) {
 }  // namespace
 
 void add_search(CLI::App& program, int& exit_code) {
-  CLI::App* command = program.add_subcommand(
-      "search", "Look for one candidate's worst configurations by changing bad ones");
+  CLI::App* command =
+      program.add_subcommand("search", "Look for one candidate's worst configurations");
   const auto options = std::make_shared<Options>(*command);
   command->add_option("--candidate", options->candidate, "Its name, or a plug-in's file")
       ->required();

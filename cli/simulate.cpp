@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "cli/commands.hpp"
+#include "cli/help.hpp"
 #include "cli/options.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/report.hpp"
@@ -52,7 +53,7 @@ void run(const Options& options) {
 std::string experiment_list() {
   std::string text = "Experiments:\n";
   for (const Experiment& e : all_experiments()) {
-    text += fmt::format("  {:<16} {}\n", e.name, e.statement);
+    text += list_entry(e.name, 15, e.statement);
   }
   return text;
 }
@@ -60,9 +61,8 @@ std::string experiment_list() {
 }  // namespace
 
 void add_simulate(CLI::App& program, int&) {
-  CLI::App* command = program.add_subcommand(
-      "simulate",
-      "Rigid-body experiments with an answer on paper, with every candidate's contacts");
+  CLI::App* command =
+      program.add_subcommand("simulate", "Rigid-body experiments with an answer on paper");
   const auto options = std::make_shared<Options>(*command);
   command->add_option("experiments", options->names, "Only these experiments");
   command
@@ -74,7 +74,7 @@ void add_simulate(CLI::App& program, int&) {
   command->footer(
       "Examples:\n"
       "  touchstone simulate rolling\n"
-      "  touchstone simulate standing lying --candidates reference,bullet,ode --step 0.004\n"
+      "  touchstone simulate standing --candidates reference,bullet --step 0.004\n"
       "  touchstone simulate --out out\n" +
       experiment_list());
   command->callback([options] { run(*options); });

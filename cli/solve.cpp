@@ -52,8 +52,9 @@ void add_solve(CLI::App& program, int& exit_code) {
       "  echo '{\"a\":{\"shape\":\"cylinder\",\"radius\":0.5,\"half_length\":1},\n"
       "         \"b\":{\"shape\":\"sphere\",\"radius\":1}}' | tr -d '\\n' | touchstone solve\n"
       "  touchstone solve --candidates bullet --width 1e-50 poses.jsonl\n"
-      "Shapes: cylinder and capsule (radius, half_length), sphere (radius), box (half_extents),\n"
-      "plane (normal, displacement). A pose has position and orientation (w, x, y, z).");
+      "Shapes: cylinder and capsule (radius, half_length), sphere (radius),\n"
+      "box (half_extents), plane (normal, displacement).\n"
+      "A pose has position and orientation (w, x, y, z).");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

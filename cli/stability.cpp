@@ -81,8 +81,8 @@ void run(const Options& options) {
 }  // namespace
 
 void add_stability(CLI::App& program, int&) {
-  CLI::App* command = program.add_subcommand(
-      "stability", "How answers change at tiny steps, near degenerate poses and along motions");
+  CLI::App* command =
+      program.add_subcommand("stability", "How answers change at tiny steps and along motions");
   const auto options = std::make_shared<Options>(*command);
   command->add_option("input", options->input,
                       std::string("Small steps around this configuration alone: ") + given_help);
@@ -92,10 +92,10 @@ void add_stability(CLI::App& program, int&) {
       ->capture_default_str();
   command->add_flag("--json", options->json, "Print the result as one JSON object");
   command->footer(
-      "Small steps start in the exactly degenerate pose classes unless --class names others.\n"
+      "Small steps start in exactly degenerate pose classes, or in those of --class.\n"
       "Examples:\n"
       "  touchstone stability\n"
-      "  touchstone stability --part maps --pair cylinder-plane --candidates reference,bullet\n"
+      "  touchstone stability --part maps --candidates reference,bullet\n"
       "  touchstone stability cylinder-box/side-on-face/1/0 --count 100\n"
       "A step's two ends, a map's pixel and a motion's step can be replayed:\n"
       "  touchstone replay cylinder-box/side-on-face/1/0@1e-8/1/4\n"

@@ -60,32 +60,49 @@ std::string agreement(const json& row) {
   return fmt::format("{:.1f}", agree == count ? 100.0 : std::min(percent, 99.9));
 }
 
+/// A campaign is not timed.
+bool is_timed(const json& summary) {
+  return std::any_of(summary.begin(), summary.end(),
+                     [](const json& row) { return !row["nanoseconds"].is_null(); });
+}
+
+std::string time_columns(const std::string& time, const std::string& spread,
+                         const std::string& times_bullet) {
+  return fmt::format(" {:>6} {:>4} {:>8}", time, spread, times_bullet);
+}
+
 }  // namespace
 
 std::string terminal_table(const json& report) {
+  const bool timed = is_timed(report["summary"]);
   std::string text = partial_text(report);
-  text += fmt::format("{:<23}{:>6} {:>6} {:>7} {:>7} {:>5} {:>6} {:>4} {:>8}\n", "candidate",
-                      "agree%", "missed", "err p99", "err max", "cover", "ns", "+-%", "x bullet");
+  text += fmt::format("{:<23}{:>6} {:>6} {:>7} {:>7} {:>5}", "candidate", "agree%", "missed",
+                      "err p99", "err max", "cover");
+  text += (timed ? time_columns("ns", "+-%", "x bullet") : "") + '\n';
   std::string last_pair;
   for (const json& row : report["summary"]) {
     if (row["outcomes"].value("unsupported", 0) == row["count"]) continue;
     const std::string pair = row["pair"];
     if (pair != last_pair) text += '\n' + pair + '\n';
-    text +=
-        fmt::format("  {:<21}{:>6} {:>6} {:>7} {:>7} {:>5} {:>6} {:>4} {:>8}\n",
-                    row["candidate"].get<std::string>(), agreement(row),
-                    row["outcomes"].value("missed", 0), scientific(row["depth_error"], "p99"),
-                    scientific(row["depth_error"], "max"), mean_coverage(row),
-                    nanoseconds(row["nanoseconds"]), half_spread(row["nanoseconds"]), ratio(row));
+    text += fmt::format("  {:<21}{:>6} {:>6} {:>7} {:>7} {:>5}",
+                        row["candidate"].get<std::string>(), agreement(row),
+                        row["outcomes"].value("missed", 0), scientific(row["depth_error"], "p99"),
+                        scientific(row["depth_error"], "max"), mean_coverage(row));
+    const json& time = row["nanoseconds"];
+    text += (timed ? time_columns(nanoseconds(time), half_spread(time), ratio(row)) : "") + '\n';
     last_pair = pair;
   }
   text += fmt::format(
       "\nagree: depth and normal regret within {:g} of the smaller shape's size\n"
       "err: depth error of the contacts that were reported, in the same unit\n"
-      "cover: mean share of the contact patch that the contact points span\n"
-      "ns, +-%: median of one query, half the spread of {} repetitions (quartiles)\n"
-      "x bullet: time as a multiple of Bullet's; ~ where their spreads overlap: a tie\n",
-      report["tolerance"].get<double>(), timing_repetitions);
+      "cover: mean share of the contact patch that the contact points span\n",
+      report["tolerance"].get<double>());
+  if (timed) {
+    text += fmt::format(
+        "ns, +-%: median of one query, half the spread of {} repetitions (quartiles)\n"
+        "x bullet: time as a multiple of Bullet's; ~ where their spreads overlap: a tie\n",
+        timing_repetitions);
+  }
 
   std::string failures;
   for (const json& candidate : report["candidates"]) {
