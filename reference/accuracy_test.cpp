@@ -60,6 +60,26 @@ TEST_P(Accuracy, IsWithinRoundingOfTheLargerSize) {
               worst_distance_id.c_str(), worst_regret, worst_regret_id.c_str());
 }
 
+// Of ten million configurations (touchstone campaign --candidates reference --count 42373) those
+// with the largest errors, relative to the smaller size: all of extreme aspect.
+TEST(AccuracyOfTheWorst, IsWithinRoundingOfTheLargerSize) {
+  for (const char* id :
+       {"cylinder-sphere/aspect-needle-deep/1/18013", "cylinder-sphere/aspect-needle-deep/1/7553",
+        "cylinder-cylinder/aspect-coin-deep/1/27067", "cylinder-sphere/aspect-needle/1/17514",
+        "cylinder-cylinder/aspect-coin/1/41393",      "cylinder-cylinder/aspect-coin/1/2798",
+        "cylinder-cylinder/aspect-needle/1/15061",    "cylinder-sphere/aspect-needle/1/23949",
+        "cylinder-capsule/aspect-coin/1/18475",       "cylinder-box/aspect-needle/1/18623",
+        "cylinder-capsule/aspect-needle/1/32780",     "cylinder-capsule/aspect-needle/1/830",
+        "cylinder-capsule/aspect-coin/1/24641",       "cylinder-box/aspect-coin/1/9003",
+        "cylinder-box/aspect-needle/1/33844",         "cylinder-plane/aspect-needle-deep/1/19335",
+        "cylinder-plane/aspect-needle-deep/1/1848",   "cylinder-box/aspect-coin/1/27023",
+        "cylinder-plane/aspect-needle/1/4270",        "cylinder-plane/aspect-coin/1/21195"}) {
+    const Errors errors(make_configuration(parse_identity(id)));
+    EXPECT_LE(errors.distance, 1e-13) << id;
+    EXPECT_LE(errors.regret, 1e-13) << id;
+  }
+}
+
 // Rims that are all but tangent, from outside or from within, on axes that are all but parallel:
 // two stationary points lie close together in a valley that is flat to rounding.
 TEST(CylinderCylinder, RimsThatNearlyTouchOnNearlyParallelAxesAreExact) {
