@@ -1,10 +1,11 @@
 #include "candidates/session.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cerrno>
 #include <chrono>
 #include <cstdio>
-#include <cstring>
 #include <exception>
 #include <limits>
 #include <sys/mman.h>
@@ -26,7 +27,8 @@ constexpr std::size_t most_ready = 8;
 
 /// To the bit.
 bool same(const ts_shape& x, const ts_shape& y) {
-  return x.kind == y.kind && std::memcmp(x.size, y.size, sizeof x.size) == 0;
+  using Bits = std::array<std::uint64_t, 4>;
+  return x.kind == y.kind && std::bit_cast<Bits>(x.size) == std::bit_cast<Bits>(y.size);
 }
 
 /// Where a candidate writes its answer: the page behind is out of bounds, so that one point too

@@ -40,7 +40,7 @@ CandidateOption::CandidateOption(CLI::App& command) {
 }
 
 std::vector<const Candidate*> CandidateOption::get() const {
-  const auto candidates = names_.empty() ? all_candidates() : find_candidates(names_);
+  auto candidates = names_.empty() ? all_candidates() : find_candidates(names_);
   if (candidates.empty()) {
     throw InvalidInput("--candidates", "empty",
                        "no plug-ins are where the program looks for them; touchstone candidates "

@@ -87,7 +87,7 @@ int ArcPolygon::spread(const Vec2& first, std::array<Vec2, 8>& points) const {
     measure(most);
   }
 
-  std::array<Vec2, 2 * max_vertices> all;
+  std::array<Vec2, std::size_t{2} * max_vertices> all;
   int count = 0;
   for (int i = 0; i < count_; ++i) {
     const Edge& e = edges[i];

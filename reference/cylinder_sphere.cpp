@@ -16,7 +16,7 @@ constexpr double vanishing = 1e-140;
 /// The unit vector along what of `across`, of length rho, is across the cylinder's axis.
 Vec3 radial_direction(const Pose& cylinder, const Vec3& across, double rho, double z) {
   if (!(rho > vanishing)) return cylinder.rotation().col(0);
-  const Vec3 radial = (1 / rho) * across;
+  Vec3 radial = (1 / rho) * across;
   constexpr double few_digits = 0.1;
   if (rho >= few_digits * std::abs(z)) return radial;
   // What rounding leaves along the axis counts.

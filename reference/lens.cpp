@@ -19,9 +19,9 @@ Vec2 Lens::farthest(const Vec2& unit) const {
   const auto within = [](const Circle& c, const Vec2& p) {
     return (p - c.centre).squaredNorm() <= c.radius * c.radius;
   };
-  const Vec2 top1 = circle1.centre + circle1.radius * unit;
+  Vec2 top1 = circle1.centre + circle1.radius * unit;
   if (within(circle2, top1)) return top1;
-  const Vec2 top2 = circle2.centre + circle2.radius * unit;
+  Vec2 top2 = circle2.centre + circle2.radius * unit;
   if (within(circle1, top2)) return top2;
   return unit.dot(left) > unit.dot(right) ? left : right;
 }
