@@ -24,6 +24,12 @@ int larger_gaps(const FoldedCylinders& pair, double gap, std::mt19937_64& random
   return count;
 }
 
+FoldedCylinders folded(const Configuration& x) {
+  const auto& b = std::get<Cylinder>(x.b);
+  const FoldedAxes f(x.pose_a.axis(), x.pose_b.axis(), x.pose_a.position() - x.pose_b.position());
+  return {f, x.a.radius(), x.a.half_length(), b.radius(), b.half_length()};
+}
+
 void count(const FoldedCylinders& pair, const Vec3& n, bool proven, std::mt19937_64& random,
            Counts& counts) {
   if (!proven) return;
@@ -37,10 +43,8 @@ TEST(DeepNormals, AreProvenOnlyWhereNoNormalHasALargerGap) {
   for (const char* name : {"general-deep", "concentric", "aspect-coin-deep"}) {
     for (std::uint64_t i = 0; i < 1000; ++i) {
       const Configuration x = make_configuration({Pair::cylinder, name, 3, i});
-      const auto& b = std::get<Cylinder>(x.b);
-      const FoldedAxes f(x.pose_a.axis(), x.pose_b.axis(),
-                         x.pose_a.position() - x.pose_b.position());
-      const FoldedCylinders pair{f, x.a.radius(), x.a.half_length(), b.radius(), b.half_length()};
+      const FoldedCylinders pair = folded(x);
+      const FoldedAxes& f = pair.axes;
       const Vec3 u1(f.d1 < 0 ? -1 : 1, 0, 0), e3(0, 0, 1);
       count(pair, u1,
             no_normal_beats_cap({pair.r1, pair.h1, pair.r2, pair.h2, f.c, f.s, std::abs(f.d1),
@@ -68,10 +72,8 @@ TEST(DeepNormals, OfRimsThatBendAwayHaveTheLargestGap) {
   for (const char* name : {"rim-rim", "near-parallel-1e-2", "near-parallel-1e-6"}) {
     for (std::uint64_t i = 0; i < 1000; ++i) {
       const Configuration x = make_configuration({Pair::cylinder, name, 3, i});
-      const auto& b = std::get<Cylinder>(x.b);
-      const FoldedAxes f(x.pose_a.axis(), x.pose_b.axis(),
-                         x.pose_a.position() - x.pose_b.position());
-      const FoldedCylinders pair{f, x.a.radius(), x.a.half_length(), b.radius(), b.half_length()};
+      const FoldedCylinders pair = folded(x);
+      const FoldedAxes& f = pair.axes;
       const Vec3 n = best_normal(x, f), d = f.d();
       const double across1 = std::hypot(n.y(), n.z()), along2 = f.along_u2(n);
       const double across2 = std::hypot(f.along_k2(n), n.z());

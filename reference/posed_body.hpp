@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Geometry>
@@ -55,24 +54,6 @@ inline double reach(const PosedCapsule& s, const Vec3& n) {
 }
 inline double reach(const PosedBox& s, const Vec3& n) {
   return s.half_extents.dot((s.axes.transpose() * n).cwiseAbs());
-}
-
-/// The point of the body (of a capsule's segment) that is nearest to x; x itself inside.
-inline Vec3 nearest(const PosedCylinder& s, const Vec3& x) {
-  const Vec3 arm = x - s.centre;
-  const double z = s.axis.dot(arm);
-  const Vec3 across = arm - z * s.axis;
-  const double squared = across.squaredNorm();
-  const double scale = squared > s.radius * s.radius ? s.radius / std::sqrt(squared) : 1;
-  return s.centre + std::clamp(z, -s.half_length, s.half_length) * s.axis + scale * across;
-}
-inline Vec3 nearest(const PosedCapsule& s, const Vec3& x) {
-  const double z = s.axis.dot(x - s.centre);
-  return s.centre + std::clamp(z, -s.half_length, s.half_length) * s.axis;
-}
-inline Vec3 nearest(const PosedBox& s, const Vec3& x) {
-  const Vec3 local = s.axes.transpose() * (x - s.centre);
-  return s.centre + s.axes * local.cwiseMax(-s.half_extents).cwiseMin(s.half_extents);
 }
 
 }  // namespace touchstone

@@ -72,7 +72,7 @@ void add_all() {
     for (const std::string& pose_class : pose_classes(pair)) {
       for (const char* regime :
            {"general-separated", "general-shallow", "general-deep", "concentric", "parallel-side",
-            "cap-on-cap-offset", "cap-on-face-offset", "near-parallel-1e-6"}) {
+            "cap-on-cap-offset", "cap-on-face-offset", "near-parallel-1e-6", "rim-rim"}) {
         if (pose_class == regime) add(pair, pose_class);
       }
     }
