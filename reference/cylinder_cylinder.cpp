@@ -131,8 +131,8 @@ class Solver {
     if (best_.gap > 0) return false;
     if (no_normal_beats_cap(x, delta)) return true;
     return squared <= x.r * x.r && x.s > flat &&
-           bends_away_near_axis({x.R, x.H, x.c, x.s}, {x.r, x.h, 1, 0}, f_.d3 * f_.d3 / squared,
-                                delta, 0, x);
+           bends_away_near_axis({x.R, x.H, x.s}, {x.r, x.h, 0}, f_.d3 * f_.d3 / squared, delta, 0,
+                                x);
   }
 
   /// The generators cross within both, one of them further from its ends than the depth.

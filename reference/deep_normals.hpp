@@ -76,7 +76,7 @@ inline bool no_normal_beats_crossing(const FoldedCylinders& pair) {
 /// A cylinder and how a normal leans to its axis.
 struct Leaning {
   double r, h;
-  double cosine, sine;  ///< of the angle between normal and axis
+  double sine;  ///< of the angle between normal and axis
 };
 
 /// No normal has less depth than a stationary one, n, at which two rims meet whose tangents enclose
@@ -87,17 +87,19 @@ struct Leaning {
 /// F is the support function of a convex body, so at other normals m at an angle θ from n,
 /// F(m) >= x·m with the point x = δ n + slope of that body; and by more for each disc,
 /// r (ρ(m) − a·m) >= r (t·m)² / 2 with its tangent t and ρ <= 1, together λ sin² θ / 2 with
-/// λ >= r1 r2 sin² φ / (r1 + r2); and for each half length of which m points to the other end. With
-/// δ <= λ / 5 what is left over is 0.1 λ sin² θ − slope sin θ >= −2.5 slope² / λ up to θ = 120°;
-/// further on the other ends must make up for 2 δ.
+/// λ >= r1 r2 sin² φ / (r1 + r2). With δ <= 2 λ / 5 what is left over is λ sin² θ / 18 −
+/// slope sin θ >= −4.5 slope² / λ up to cos θ = −0.1.
+///
+/// Further on n·m = −κ. Of a cylinder n is A u + B a, with u towards its end and a towards its
+/// rim's point, so that x = max(0, −u·m) and y = max(0, −a·m) have A x + B y >= κ. Its reach along
+/// m exceeds that of this point by h (|u·m| − u·m) + r (ρ(m) − a·m) >= 2 (h x + r y), which is not
+/// less than 2 κ min(h, r). That must make up for δ (1 + κ), and does so if it does at κ = 0.1.
 inline bool bends_away(const Leaning& a, const Leaning& b, double squared_sine, double depth,
                        double slope) {
   const double lambda = a.r * b.r * squared_sine / (a.r + b.r);
-  constexpr double rounding = 1e-16, root_of_3 = 1.7320508;
-  return 5 * depth <= lambda && 2.5 * slope * slope <= rounding * (a.r + b.r) * lambda &&
-         a.h * std::max(0.0, a.cosine - root_of_3 * a.sine) +
-                 b.h * std::max(0.0, b.cosine - root_of_3 * b.sine) >=
-             2 * depth + slope;
+  constexpr double rounding = 1e-16;
+  return 5 * depth <= 2 * lambda && 5 * slope * slope <= rounding * (a.r + b.r) * lambda &&
+         0.2 * (std::min(a.r, a.h) + std::min(b.r, b.h)) >= 1.1 * depth + slope;
 }
 
 /// The same for nearly parallel axes, `about` the second one, along which n lies. Up to an angle θ

@@ -1,5 +1,6 @@
 #include "deep_normals.hpp"
 
+#include <cmath>
 #include <gtest/gtest.h>
 #include <random>
 
@@ -79,8 +80,7 @@ TEST(DeepNormals, OfRimsThatBendAwayHaveTheLargestGap) {
       const double across2 = std::hypot(f.along_k2(n), n.z());
       if (!(across1 > 0 && across2 > 0 && pair.gap(n) <= 0)) continue;
       const double sine = f.s * n.z() / (across1 * across2);
-      const Leaning on_a{pair.r1, pair.h1, std::abs(n.x()), across1};
-      const Leaning on_b{pair.r2, pair.h2, std::abs(along2), across2};
+      const Leaning on_a{pair.r1, pair.h1, across1}, on_b{pair.r2, pair.h2, across2};
       const AboutAxis about{pair.r2,
                             pair.h2,
                             pair.r1,
@@ -100,6 +100,42 @@ TEST(DeepNormals, OfRimsThatBendAwayHaveTheLargestGap) {
   EXPECT_GT(near_axis.proven, 50);
   EXPECT_EQ(shallow.contradicted, 0);
   EXPECT_EQ(near_axis.contradicted, 0);
+}
+
+/// Cylinders of any sizes and axes whose rims meet at a normal, at depths that can be proven and
+/// such as cannot.
+TEST(DeepNormals, OfRimsThatBendAwayAreProvenUpToTheirDepth) {
+  std::mt19937_64 random(2);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> exponent(-1, 1), up_to_two(0, 2);
+  const auto unit = [&] {
+    return Vec3(normal(random), normal(random), normal(random)).normalized();
+  };
+  const auto size = [&] { return std::pow(10, exponent(random)); };
+  Counts counts;
+  int deeper = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const Vec3 n = unit(), u1 = unit(), u2 = unit();
+    const double r1 = size(), h1 = size(), r2 = std::max(r1, size()), h2 = size();
+    const auto rim = [&](const Vec3& u, double r, double h) {
+      return Vec3(std::copysign(h, u.dot(n)) * u + r * (n - n.dot(u) * u).normalized());
+    };
+    const Vec3 t1 = u1.cross(n).normalized(), t2 = u2.cross(n).normalized();
+    const double squared = t1.cross(t2).squaredNorm();
+    const double depth = up_to_two(random) * r1 * r2 / (r1 + r2) * squared;
+    const FoldedAxes axes(u1, u2, rim(u1, r1, h1) + rim(u2, r2, h2) - depth * n);
+    const FoldedCylinders pair{axes, r1, h1, r2, h2};
+    const Vec3 folded(n.dot(axes.e1), n.dot(axes.e2), n.dot(axes.e3));
+    EXPECT_NEAR(pair.gap(folded), -depth, 1e-13 * (r1 + r2 + h1 + h2));
+    const Leaning a{r1, h1, u1.cross(n).norm()}, b{r2, h2, u2.cross(n).norm()};
+    count(pair, folded, bends_away(a, b, squared, depth, 0), random, counts);
+    if (!bends_away(a, b, squared, depth, 0)) {
+      deeper += larger_gaps(pair, -depth, random) > 0;
+    }
+  }
+  EXPECT_GT(counts.proven, 500);
+  EXPECT_EQ(counts.contradicted, 0);
+  EXPECT_GT(deeper, 100);
 }
 
 TEST(DeepNormals, OfCrossedCylindersIsAcrossBothSides) {

@@ -89,8 +89,7 @@ bool is_largest_at_shallow_depth(const FoldedCylinders& pair, const Stationary& 
   const double across1 = std::sqrt(n.y() * n.y() + n.z() * n.z());
   const double across2 = std::sqrt(m * m + n.z() * n.z());
   const double sine = s * n.z() / (across1 * across2);
-  const Leaning a{pair.r1, pair.h1, std::abs(n.x()), across1};
-  const Leaning b{pair.r2, pair.h2, std::abs(c * n.x() + s * n.y()), across2};
+  const Leaning a{pair.r1, pair.h1, across1}, b{pair.r2, pair.h2, across2};
   const double delta = std::max(0.0, -gap), slope = found.slope;
   if (bends_away(a, b, sine * sine, delta, slope)) return true;
   const Vec3 d = pair.axes.d();
@@ -105,55 +104,77 @@ bool is_largest(const FoldedCylinders& pair, const Stationary& found, const Larg
   return is_largest_at_shallow_depth(pair, found, best.gap) || is_largest_where_round(pair, best);
 }
 
+/// Which ends' rims meet: +1 or -1 along each axis, as seen from B to A.
+struct Ends {
+  double one, two;
+};
+
+/// Those that a normal points to. Along an axis that it is across, the end beyond which the bodies
+/// meet along it.
+Ends likely_ends(const FoldedCylinders& pair, const Vec3& n) {
+  const FoldedAxes& f = pair.axes;
+  constexpr double across = 1e-15;
+  const double along1 = n.x(), along2 = f.along_u2(n);
+  Ends ends{std::copysign(1, along1), std::copysign(1, along2)};
+  if (std::abs(along1) <= across && std::abs(along2) <= across) {  // the sides cross
+    const double t2 = f.d2 / f.s;
+    ends = {std::copysign(1, f.d1 - f.c * t2), std::copysign(1, t2)};
+  } else if (std::abs(along1) <= across) {
+    const double rim = -pair.r2 * along2 * f.c / std::sqrt((1 - along2) * (1 + along2));
+    ends.one = std::copysign(1, f.d1 - ends.two * pair.h2 * f.c - rim);
+  } else if (std::abs(along2) <= across) {
+    const double rim = -pair.r1 * along1 * f.c / std::sqrt((1 - along1) * (1 + along1));
+    ends.two = std::copysign(1, f.along_u2(f.d()) - ends.one * pair.h1 * f.c - rim);
+  }
+  return ends;
+}
+
+/// Offers the normal at which these rims meet. True if it is the largest gap of all or exceeds
+/// `enough`.
+bool offer_where_likely(const FoldedCylinders& pair, const Rims& rims, double enough,
+                        LargestGap& best) {
+  // As deep in each other as this, bodies hardly ever come free where rims meet.
+  constexpr double deep = 0.3;
+  if (-best.gap > deep * (std::min(pair.r1, pair.h1) + std::min(pair.r2, pair.h2))) return false;
+  Vec3 start;
+  if (const auto crossing = rims.crossing_normal()) {
+    start = *crossing;
+  } else {
+    start = facing_points(pair.axes, {pair.r1, pair.h1}, {pair.r2, pair.h2});
+    if (!(start.squaredNorm() > 0)) return false;
+  }
+  constexpr int few_steps = 8;
+  const double before = best.gap;
+  const Stationary found = rims.polished(start, few_steps);
+  if (found.normal.z() >= 0) best.offer(pair.gap(found.normal), found.normal);
+  return best.gap > enough || (found.maximum && best.gap > before && is_largest(pair, found, best));
+}
+
 }  // namespace
 
 void offer_rim_rim_normals(const FoldedCylinders& pair, double enough, LargestGap& best) {
   // Tilts that only rounding makes cost no more than rounding.
-  constexpr double parallel = 2e-16, nearly_parallel = 0.1;
+  constexpr double parallel = 2e-16;
+  if (pair.axes.s <= parallel) return offer_parallel_rim_normal(pair, best);
+  const Ends likely = likely_ends(pair, best.normal);
+  if (offer_where_likely(pair, Rims(pair, likely.one, likely.two), enough, best)) return;
+
   offer_parallel_rim_normal(pair, best);
-  if (pair.axes.s <= parallel) return;
   const double rounding = 2e-16 * (pair.axes.d().norm() + pair.h1 + pair.h2 + pair.r1 + pair.r2);
   const double least_depth = overlap_of_balls(pair) - rounding;
   if (-best.gap <= least_depth) return;
-
   // Points of both bodies: they are not further apart.
-  const Vec3 apart = least_depth > 0
-                         ? Vec3(Vec3::Zero())
-                         : facing_points(pair.axes, {pair.r1, pair.h1}, {pair.r2, pair.h2});
-  double limit = apart.norm();
-  const Vec3 likely = limit > 0 ? Vec3(apart / limit) : best.normal;
-  const double likely1 = likely.x() < 0 ? -1 : 1;
-  const double likely2 = pair.axes.along_u2(likely) < 0 ? -1 : 1;
-  for (int other = 0; other < 4; ++other) {
-    const Rims rims(pair, (other & 1) ? -likely1 : likely1, (other & 2) ? -likely2 : likely2);
-    const auto useful_cosines = [&] {
-      return rims.useful_cosines(best.gap, least_depth > 0 ? -least_depth : limit);
-    };
-    Range useful = useful_cosines();
-    if (useful.empty()) continue;
-    RimScan scan(pair, rims, limit, least_depth, best);
-    // Apart by the gap, with points no further apart: nothing is better.
-    const auto done = [&] { return best.gap > enough || best.gap >= limit - rounding; };
-    const double before = best.gap;
-    constexpr double narrow = 0.2, shallow = 0.1;
-    std::optional<Vec3> start;  // of Newton's method
-    if (other == 0 && pair.axes.s < nearly_parallel) start = rims.crossing_normal();
-    if (!start &&
-        (useful.hi - useful.lo < narrow || (!(limit > 0) && -best.gap < shallow * pair.r1))) {
-      start = scan.normal_at((useful.lo + useful.hi) / 2);
-      // Nowhere near: the maximum, if there is one, is left to the scan.
-      if (!(pair.gap(*start) > best.gap - std::abs(best.gap))) start.reset();
-    } else if (!start && other == 0 && limit > 0) {
-      start = likely;
+  double limit =
+      least_depth > 0 ? 0 : facing_points(pair.axes, {pair.r1, pair.h1}, {pair.r2, pair.h2}).norm();
+  for (const double end1 : {likely.one, -likely.one}) {
+    for (const double end2 : {likely.two, -likely.two}) {
+      const Rims rims(pair, end1, end2);
+      const Range useful = rims.useful_cosines(best.gap, least_depth > 0 ? -least_depth : limit);
+      if (useful.empty()) continue;
+      RimScan(pair, rims, limit, least_depth, best).scan(useful);
+      // Apart by the gap, with points no further apart: nothing is better.
+      if (best.gap > enough || best.gap >= limit - rounding) return;
     }
-    if (start) {
-      const Stationary found = scan.guess(*start);
-      if (done()) return;
-      if (found.maximum && best.gap > before && is_largest(pair, found, best)) return;
-    }
-    if (best.gap > before) useful = useful_cosines();
-    if (!useful.empty()) scan.scan(useful);
-    if (done()) return;
   }
 }
 

@@ -31,18 +31,6 @@ class RimScan {
     if (useless(middle.distance, (to - from) / 2)) return;
     arc(at(from), middle, at(to));
   }
-  /// The rims' stationary normal near n, and its gap, which is offered.
-  Stationary guess(const Vec3& n) {
-    constexpr int few_steps = 8;
-    const Stationary found = rims_.polished(n, few_steps);
-    if (found.normal.z() >= 0) best_.offer(pair_.gap(found.normal), found.normal);
-    return found;
-  }
-  /// Where the rims' points near an angle of this cosine are to start with.
-  Vec3 normal_at(double cosine) const {
-    const double sine = std::sqrt(std::max(0.0, (1 - cosine) * (1 + cosine)));
-    return across_tangents(rims_.at(0, cosine, sine)).normalized();
-  }
 
  private:
   static constexpr double coarse = 0.5;   // rad; longer arcs are always halved

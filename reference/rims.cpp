@@ -42,6 +42,19 @@ Range Rims::cosines_at_height(double depth, double limit) const {
 }
 
 std::optional<Vec3> Rims::crossing_normal() const {
+  constexpr double nearly_parallel = 0.1;
+  const FoldedAxes& f = pair_.axes;
+  if (f.s < nearly_parallel) return crossing_along_axes();
+  // The equations at `useful_cosines` without the gap.
+  const double c1 = f.along_u2(q_) / (f.s * pair_.r1), c2 = -q_.x() / (f.s * pair_.r2);
+  if (!(std::abs(c1) <= 1 && std::abs(c2) <= 1)) return std::nullopt;
+  const double s1 = sine_of(c1), s2 = sine_of(c2);
+  return Vec3(f.c * c1 * s2 - s1 * c2, f.s * c1 * s2, f.s * s1 * s2);
+}
+
+// Across the axes the rims' points r1 a and r2 b then add up to q, two unit vectors of a triangle
+// with known sides; and n lies from u1 in the direction of a, from u2 in that of b.
+std::optional<Vec3> Rims::crossing_along_axes() const {
   const double r1 = pair_.r1, r2 = pair_.r2, y = q_.y(), z = q_.z();
   const double squared = y * y + z * z, length = std::sqrt(squared);
   const double along1 = (squared + (r1 - r2) * (r1 + r2)) / (2 * length);  // of r1 a, along q

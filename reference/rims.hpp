@@ -137,11 +137,8 @@ class Rims {
     return {n, converged && outward, slope};
   }
 
-  /// Of nearly parallel axes: where these rims are a cap's each, and cross as seen along the axes,
-  /// their normal but for parts of the order of the sine of the axes' angle.
-  ///
-  /// Across the axes the rims' points r1 a and r2 b then add up to q, two unit vectors of a
-  /// triangle with known sides; and n lies from u1 in the direction of a, from u2 in that of b.
+  /// Where each of these rims crosses the other's cap, the normal across both rims' tangents, of
+  /// any length: at which they meet but for parts of the order of the gap.
   std::optional<Vec3> crossing_normal() const;
 
   /// The cosines of rim 1's angles at which these ends may have a local maximum of the gap between
@@ -153,6 +150,8 @@ class Rims {
   double noise() const { return 2e-16 * size_; }
 
  private:
+  /// The same of nearly parallel axes, where these rims cross as seen along the axes.
+  std::optional<Vec3> crossing_along_axes() const;
   /// Likewise, from one coordinate alone, which is all that rounding leaves of them along nearly
   /// parallel axes: rim 1's point lies above rim 2's plane by a height that its angle gives, at
   /// most the distance of the rims, on the far side of the plane where the bodies are apart, on the
