@@ -24,8 +24,9 @@ namespace {
 // deep_normals.hpp. Else the rims are scanned (rim_rim.hpp).
 class Solver {
  public:
-  Solver(const Cylinder& a, const Cylinder& b, const FoldedAxes& f)
-      : pair_{f, a.radius(), a.half_length(), b.radius(), b.half_length()}, f_(pair_.axes) {}
+  Solver(const PosedCylinder& a, const PosedCylinder& b)
+      : pair_{FoldedAxes(a.axis, b.axis, a.centre), a.radius, a.half_length, b.radius,
+              b.half_length} {}
 
   /// Caps and crossing sides. True if they say it all, or one of them has a gap of more than
   /// `enough`.
@@ -68,6 +69,7 @@ class Solver {
     offer_rim_rim_normals(pair_, enough, best_);
   }
   const LargestGap& best() const { return best_; }
+  Vec3 to_world(const Vec3& n) const { return f_.to_world(n); }
 
  private:
   using Certificate = bool (Solver::*)() const;
@@ -194,7 +196,7 @@ class Solver {
   }
 
   FoldedCylinders pair_;
-  const FoldedAxes& f_;
+  const FoldedAxes& f_ = pair_.axes;
   LargestGap best_;
   Certificate is_final_ = &Solver::cap1_is_final;
 };
@@ -203,14 +205,12 @@ constexpr double never = std::numeric_limits<double>::infinity();
 
 /// Stops at the first direction with a clearance of more than `enough`. `a` has the smaller radius
 /// or the same.
-SignedDistance solve(const Cylinder& a, const Cylinder& b, const PosedCylinder& posed_a,
-                     const PosedCylinder& posed_b, double enough) {
-  const FoldedAxes f(posed_a.axis, posed_b.axis, posed_a.centre);
-  Solver solver(a, b, f);
+SignedDistance solve(const PosedCylinder& a, const PosedCylinder& b, double enough) {
+  Solver solver(a, b);
   if (!solver.closed_forms(enough) && !(enough < never && solver.apart_beside(enough))) {
     solver.search(enough);
   }
-  return {solver.best().gap, f.to_world(solver.best().normal)};
+  return {solver.best().gap, solver.to_world(solver.best().normal)};
 }
 
 /// A fixed order of bodies, so that the answer does not depend on which comes first.
@@ -228,21 +228,16 @@ bool in_order(const Cylinder& a, const Pose& pose_a, const Cylinder& b, const Po
 /// The bodies in that order, in a frame about the second one.
 struct Ordered {
   bool swapped;
-  const Cylinder &a, &b;
   const Vec3& origin;
-  PosedCylinder posed_a, posed_b;
+  PosedCylinder a, b;
 
   Ordered(const Cylinder& first, const Pose& pose1, const Cylinder& second, const Pose& pose2)
       : swapped(!in_order(first, pose1, second, pose2)),
-        a(swapped ? second : first),
-        b(swapped ? first : second),
         origin(swapped ? pose1.position() : pose2.position()),
-        posed_a(posed(a, swapped ? pose2 : pose1, origin)),
-        posed_b(posed(b, swapped ? pose1 : pose2, origin)) {}
+        a(posed(swapped ? second : first, swapped ? pose2 : pose1, origin)),
+        b(posed(swapped ? first : second, swapped ? pose1 : pose2, origin)) {}
 
-  SignedDistance solve(double enough) const {
-    return touchstone::solve(a, b, posed_a, posed_b, enough);
-  }
+  SignedDistance solve(double enough) const { return touchstone::solve(a, b, enough); }
   /// Of a normal between the bodies as they were given.
   double sign() const { return swapped ? -1 : 1; }
 };
@@ -283,7 +278,7 @@ Contact contact(const Cylinder& a, const Pose& pose_a, const Cylinder& b, const 
   const Ordered bodies(a, pose_a, b, pose_b);
   Vec3 previous;
   if (previous_normal) previous = bodies.sign() * *previous_normal;
-  make_contact(result, bodies.posed_a, bodies.posed_b, bodies.solve(contact_threshold),
+  make_contact(result, bodies.a, bodies.b, bodies.solve(contact_threshold),
                contact_threshold, bodies.origin, previous_normal ? &previous : nullptr);
   result.normal *= bodies.sign();
   return result;

@@ -22,6 +22,10 @@ struct FoldedAxes {
   /// Along u2, and across it within the plane of the axes (k2 = −s e1 + c e2).
   double along_u2(const Vec3& v) const { return c * v.x() + s * v.y(); }
   double along_k2(const Vec3& v) const { return c * v.y() - s * v.x(); }
+
+ private:
+  /// Sets s, e2 and e3 = scale e1 × u2, u2 being on e1's side.
+  void find_plane_of_nearly_parallel(double scale, const Vec3& u2, const Vec3& difference);
 };
 
 }  // namespace touchstone
