@@ -1,7 +1,9 @@
 #include "cylinder_capsule.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "ellipse_normal.hpp"
 #include "folded_axes.hpp"
@@ -117,16 +119,44 @@ class Solver {
   bool final_ = false;
 };
 
+constexpr double never = std::numeric_limits<double>::infinity();
+
+/// A normal with a clearance of more than `enough`, of those along one axis and across both: what
+/// most bodies that are apart need, before they are folded. `d` is A's centre less B's.
+std::optional<SignedDistance> separation(const Cylinder& a, const Vec3& axis1, const Capsule& b,
+                                         const Vec3& axis2, const Vec3& d, double enough) {
+  const Vec3 cross = axis1.cross(axis2);
+  const double c = std::abs(axis1.dot(axis2)), s = cross.norm();
+  const double along1 = d.dot(axis1), along2 = d.dot(axis2);
+  const double gap1 = std::abs(along1) - a.half_length() - b.half_length() * c - b.radius();
+  const double gap2 =
+      std::abs(along2) - a.half_length() * c - a.radius() * s - b.half_length() - b.radius();
+  if (std::max(gap1, gap2) > enough) {
+    if (gap1 > gap2) return SignedDistance{gap1, std::copysign(1, along1) * axis1};
+    return SignedDistance{gap2, std::copysign(1, along2) * axis2};
+  }
+  // The product of nearly parallel axes has few digits left.
+  constexpr double few_digits = 0.1;
+  const double across = d.dot(cross), radii = a.radius() + b.radius();
+  if (s > few_digits && std::abs(across) > (radii + enough) * s) {
+    return SignedDistance{std::abs(across) / s - radii, (std::copysign(1, across) / s) * cross};
+  }
+  return std::nullopt;
+}
+
 /// Stops at the first direction with a clearance of more than `enough`.
 SignedDistance solve(const Cylinder& a, const Pose& pose_a, const Capsule& b, const Pose& pose_b,
                      double enough) {
-  const FoldedAxes f(pose_a.axis(), pose_b.axis(), pose_a.position() - pose_b.position());
+  const Vec3 axis1 = pose_a.axis(), axis2 = pose_b.axis();
+  const Vec3 d = pose_a.position() - pose_b.position();
+  if (enough < never) {
+    if (const auto apart = separation(a, axis1, b, axis2, d, enough)) return *apart;
+  }
+  const FoldedAxes f(axis1, axis2, d);
   Solver solver(a, b, f);
   if (!solver.closed_forms(enough + b.radius())) solver.search();
   return {solver.best().gap - b.radius(), f.to_world(solver.best().normal)};
 }
-
-constexpr double never = std::numeric_limits<double>::infinity();
 
 }  // namespace
 

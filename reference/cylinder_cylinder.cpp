@@ -16,6 +16,8 @@
 namespace touchstone {
 namespace {
 
+constexpr double never = std::numeric_limits<double>::infinity();
+
 // In the folded frame the bodies touch at a cap, where the sides cross, at a side (the other's rim
 // beside it: a point against an ellipse, seen along the side), or rim to rim. All but the last have
 // one candidate each, and the best of them is mostly final, because a smooth place of one body is
@@ -28,42 +30,37 @@ class Solver {
       : pair_{FoldedAxes(a.axis, b.axis, a.centre), a.radius, a.half_length, b.radius,
               b.half_length} {}
 
-  /// Caps and crossing sides. True if they say it all, or one of them has a gap of more than
-  /// `enough`.
+  /// Caps and crossing sides. True if they say it all, or a gap of more than `enough` is found.
   bool closed_forms(double enough) {
     const double along2 = f_.along_u2(f_.d());
     const double cap1 = std::abs(f_.d1) - pair_.h1 - pair_.h2 * f_.c - pair_.r2 * f_.s;
     const double cap2 = std::abs(along2) - pair_.h2 - pair_.h1 * f_.c - pair_.r1 * f_.s;
     const double crossing = f_.d3 - pair_.r1 - pair_.r2;
-    // One branch that nobody can foretell, not three.
     best_.gap = std::max(std::max(cap1, cap2), crossing);
+    const double side = std::copysign(1, along2);
+    if (best_.gap > enough) {
+      // Which it is nobody can foretell, so a branch would cost more.
+      const double is1 = best_.gap == cap1 ? 1 : 0, is3 = best_.gap == crossing ? 1 - is1 : 0;
+      const double is2 = side * (1 - is1 - is3);
+      best_.normal = Vec3(std::copysign(is1, f_.d1) + is2 * f_.c, is2 * f_.s, is3);
+      return true;
+    }
     if (best_.gap == cap1) {
       best_.normal = Vec3(std::copysign(1, f_.d1), 0, 0);
       is_final_ = &Solver::cap1_is_final;
     } else if (best_.gap == cap2) {
-      const double side = std::copysign(1, along2);
       best_.normal = Vec3(side * f_.c, side * f_.s, 0);
       is_final_ = &Solver::cap2_is_final;
     } else {
       best_.normal = Vec3(0, 0, 1);
       is_final_ = &Solver::crossing_is_final;
     }
-    return best_.gap > enough || (this->*is_final_)();
-  }
-  /// Whether a normal from one side to the nearest end of the other axis has a gap of more than
-  /// `enough`: mostly, where bodies are apart by more than a little.
-  bool apart_beside(double enough) {
-    const double y1 = std::abs(f_.d2) - pair_.h2 * f_.s;
-    if (apart_along(y1, Vec3(0, std::copysign(y1, f_.d2), f_.d3), pair_.r1, pair_.r2, enough)) {
-      return true;
-    }
-    const double along = f_.along_k2(f_.d()), y2 = std::abs(along) - pair_.h1 * f_.s;
-    const double side = std::copysign(y2, along);
-    return apart_along(y2, Vec3(-f_.s * side, f_.c * side, f_.d3), pair_.r2, pair_.r1, enough);
+    return (this->*is_final_)() || (enough < never && apart_beside(enough));
   }
   /// Rims beside sides, and rims.
   void search(double enough) {
     better(&Solver::rim2_beside_side1, &Solver::side1_is_final);
+    if (best_.gap > enough) return;
     better(&Solver::rim1_beside_side2, &Solver::side2_is_final);
     if (best_.gap > enough || (this->*is_final_)()) return;
     offer_rim_rim_normals(pair_, enough, best_);
@@ -74,17 +71,41 @@ class Solver {
  private:
   using Certificate = bool (Solver::*)() const;
 
-  /// `way` is y across the other's end within the plane of the axes and d3 off it.
-  bool apart_along(double y, const Vec3& way, double side, double rim, double enough) {
-    // No answer may hang on what rounding makes of a touch.
-    constexpr double small_part = 0.01;
-    const double more = enough + small_part * side, least = more + side + rim * f_.c;
-    const double squared = y * y + f_.d3 * f_.d3;
-    if (!(y > 0 && squared > least * least)) return false;
-    const Vec3 n = (1 / std::sqrt(squared)) * way;
+  /// Whether a normal from one side to the nearest end of the other axis has a gap of more than
+  /// `enough`: mostly, where bodies are apart by more than a little.
+  bool apart_beside(double enough) {
+    const double y1 = std::abs(f_.d2) - pair_.h2 * f_.s;
+    const double along = f_.along_k2(f_.d()), y2 = std::abs(along) - pair_.h1 * f_.s;
+    if (far_beside(y1, pair_.r1, pair_.r2, enough)) {
+      const Eigen::Vector2d n = towards(y1, pair_.r2);
+      if (is_apart(Vec3(0, std::copysign(n.y(), f_.d2), n.x()), pair_.r1, enough)) return true;
+    }
+    if (far_beside(y2, pair_.r2, pair_.r1, enough)) {
+      const Eigen::Vector2d n = towards(y2, pair_.r1);
+      const double side = std::copysign(n.y(), along);
+      return is_apart(Vec3(-f_.s * side, f_.c * side, n.x()), pair_.r2, enough);
+    }
+    return false;
+  }
+  // No answer may hang on what rounding makes of a touch.
+  static constexpr double small_part = 0.01;
+  /// The other's end lies y across the side within the plane of the axes, and d3 off it.
+  bool far_beside(double y, double side, double rim, double enough) const {
+    const double least = enough + (1 + small_part) * side + rim * f_.c;
+    return y > 0 && y * y + f_.d3 * f_.d3 > least * least;
+  }
+  /// About the way to the nearest point of the end, which is an ellipse as seen along the side.
+  Eigen::Vector2d towards(double y, double rim) const {
+    const double distance = std::sqrt(y * y + f_.d3 * f_.d3);
+    const double b = rim * f_.c, tau = rim * (distance - rim);
+    const Eigen::Vector2d n((b * b + tau) * f_.d3, (rim * rim + tau) * y);
+    return (1 / n.norm()) * n;
+  }
+  bool is_apart(const Vec3& n, double side, double enough) {
     const double gap = pair_.gap(n);
-    if (gap > more) best_.offer(gap, n);
-    return gap > more;
+    if (!(gap > enough + small_part * side)) return false;
+    best_ = {gap, n};
+    return true;
   }
 
   double depth() const { return std::max(0.0, -best_.gap); }
@@ -201,15 +222,11 @@ class Solver {
   Certificate is_final_ = &Solver::cap1_is_final;
 };
 
-constexpr double never = std::numeric_limits<double>::infinity();
-
 /// Stops at the first direction with a clearance of more than `enough`. `a` has the smaller radius
 /// or the same.
 SignedDistance solve(const PosedCylinder& a, const PosedCylinder& b, double enough) {
   Solver solver(a, b);
-  if (!solver.closed_forms(enough) && !(enough < never && solver.apart_beside(enough))) {
-    solver.search(enough);
-  }
+  if (!solver.closed_forms(enough)) solver.search(enough);
   return {solver.best().gap, solver.to_world(solver.best().normal)};
 }
 
@@ -278,8 +295,8 @@ Contact contact(const Cylinder& a, const Pose& pose_a, const Cylinder& b, const 
   const Ordered bodies(a, pose_a, b, pose_b);
   Vec3 previous;
   if (previous_normal) previous = bodies.sign() * *previous_normal;
-  make_contact(result, bodies.a, bodies.b, bodies.solve(contact_threshold),
-               contact_threshold, bodies.origin, previous_normal ? &previous : nullptr);
+  make_contact(result, bodies.a, bodies.b, bodies.solve(contact_threshold), contact_threshold,
+               bodies.origin, previous_normal ? &previous : nullptr);
   result.normal *= bodies.sign();
   return result;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "deep_normals.hpp"
@@ -143,8 +144,17 @@ bool offer_where_likely(const FoldedCylinders& pair, const Rims& rims, double en
     start = facing_points(pair.axes, {pair.r1, pair.h1}, {pair.r2, pair.h2});
     if (!(start.squaredNorm() > 0)) return false;
   }
-  constexpr int few_steps = 8;
+  if (enough < std::numeric_limits<double>::infinity()) {
+    // Bodies that are clearly apart are so along it, too.
+    const Vec3 n = start.normalized();
+    const double gap = pair.gap(n);
+    if (gap > enough) {
+      best.offer(gap, n);
+      return true;
+    }
+  }
   const double before = best.gap;
+  constexpr int few_steps = 8;
   const Stationary found = rims.polished(start, few_steps);
   if (found.normal.z() >= 0) best.offer(pair.gap(found.normal), found.normal);
   return best.gap > enough || (found.maximum && best.gap > before && is_largest(pair, found, best));
