@@ -32,20 +32,22 @@ class BoxSides {
 
   /// Seven directions. True if they say it all, or one of them has a gap of more than `enough`.
   bool closed_forms(double enough) {
-    const int face = largest_face();
+    face_ = largest_face();
     const double along = d_.dot(u_);
     const double cap_gap = std::abs(along) - h_ - e_.dot(u_.cwiseAbs());
     find_side();
     if (side_gap_ > best_.gap && side_gap_ > cap_gap) {
+      kind_ = Kind::side;
       best_ = {side_gap_, side_normal()};
       return best_.gap > enough || side_is_final();
     }
     if (cap_gap > best_.gap) {
+      kind_ = Kind::cap;
       best_ = {cap_gap, std::copysign(1, along) * u_};
       return best_.gap > enough || cap_is_final();
     }
-    best_.normal = std::copysign(1, d_[face]) * Vec3::Unit(face);
-    return best_.gap > enough || face_is_final(face);
+    best_.normal = std::copysign(1, d_[face_]) * Vec3::Unit(face_);
+    return best_.gap > enough || face_is_final();
   }
   const LargestGap& best() const { return best_; }
 
@@ -80,7 +82,18 @@ class BoxSides {
   Vec3 s_;  ///< sines of the angles between u and the edges
   LargestGap best_;
   double side_gap_ = -std::numeric_limits<double>::infinity(), outwards_ = 0;
-  int side_ = 0;
+  int side_ = 0, face_ = 0;  ///< the edge of the best side, the axis of the best face
+  enum class Kind { face, side, cap } kind_ = Kind::face;  ///< of the best of the seven
+
+  /// The point of A that faces that face. A generator or cap that lies on it offers its middle.
+  Vec3 facing_face() const {
+    const int i = face_;
+    constexpr double flat = 1e-15;
+    const double along = std::copysign(1, d_[i]) * u_[i];
+    const double end = std::abs(along) > flat ? -std::copysign(h_, along) : 0;
+    const double rim = s_[i] > flat ? r_ / s_[i] : 0;
+    return d_ + (end + rim * along) * u_;
+  }
 
  private:
   int largest_face() {
@@ -114,21 +127,11 @@ class BoxSides {
   }
 
   /// A point of A that faces the box lies on the face, its depth away from the edges.
-  bool face_is_final(int i) const {
+  bool face_is_final() const {
     const double delta = depth();
-    if (delta > e_[i]) return false;
-    const double side = std::copysign(1, d_[i]);
-    // A generator or cap that lies on the face offers its middle.
-    constexpr double flat = 1e-15;
-    const double along = side * u_[i];
-    const double end = std::abs(along) > flat ? -std::copysign(h_, along) : 0;
-    const double rim = s_[i] > flat ? r_ / s_[i] : 0;
-    for (int m = 1; m < 3; ++m) {
-      const int j = (i + m) % 3;
-      const double x = d_[j] + end * u_[j] + rim * along * u_[j];
-      if (std::abs(x) > e_[j] - delta) return false;
-    }
-    return true;
+    const int i = face_, j = (i + 1) % 3, k = (i + 2) % 3;
+    const Vec3 x = facing_face();
+    return delta <= e_[i] && std::abs(x[j]) <= e_[j] - delta && std::abs(x[k]) <= e_[k] - delta;
   }
 
   /// A point of B that faces the cap lies on it, its depth away from the rim.

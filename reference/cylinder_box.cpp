@@ -1,10 +1,12 @@
 #include "cylinder_box.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
 #include "box_sides.hpp"
+#include "deep_normals.hpp"
 #include "ellipse_normal.hpp"
 #include "pair_contact.hpp"
 #include "posed_body.hpp"
@@ -25,13 +27,20 @@ class Solver : public BoxSides {
   void search(double enough) {
     vertices_beside_side();
     if (final_ || best_.gap > enough) return;
+    // As deep in each other as this, bodies hardly ever come free where a rim meets an edge.
+    constexpr double deep = 0.3;
+    if (depth() < deep * (std::min(r_, h_) + e_.minCoeff())) likely_edge_over_rim();
+    if (final_ || best_.gap > enough) return;
     const bool meet = meet_between();
     if (best_.gap > enough) return;
     if (!meet) vertex_off_rim();
-    for (int i = 0; i < 3 && best_.gap <= enough; ++i) edge_over_rim(i);
+    for (int i = 0; i < 3 && !final_ && best_.gap <= enough; ++i) edge_over_rim(i);
   }
 
  private:
+  using Vec2 = Eigen::Vector2d;
+  static double cross2(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+
   /// n ⟂ u. Seen along the axis the box is a polygon, and where one of its corners is the nearest
   /// to the axis, one of the two sides there is the furthest away: a corner's clearance times the
   /// cosine of the angle to it is that of a side there, and no other side has a smaller angle.
@@ -128,12 +137,15 @@ class Solver : public BoxSides {
            along * along >= squared * (r_ * r_ + mid * mid * b * b);
   }
 
+  /// The axis as seen along edge i; unit.
+  Vec2 seen_along(int i) const { return Vec2(u_[(i + 1) % 3], u_[(i + 2) % 3]) / s_[i]; }
+
   /// n ⟂ edge i. Seen along the edge, the sum of box and axis is a polygon; on each of its corners
   /// sits the cap's ellipse, with half axes r across the axis and r |u_i| along it.
   void edge_over_rim(int i) {
     if (!(s_[i] > 0)) return;
     const int j = (i + 1) % 3, k = (i + 2) % 3;
-    const Vec2 along(u_[j] / s_[i], u_[k] / s_[i]), across(-along.y(), along.x());
+    const Vec2 along = seen_along(i), across(-along.y(), along.x());
     const double lean = h_ * s_[i], b = r_ * std::abs(u_[i]);
     // Inside the polygon, no direction is better than its edges less the ellipse's inscribed disc.
     const double aside = across.x() * d_[j] + across.y() * d_[k];
@@ -156,21 +168,73 @@ class Solver : public BoxSides {
         // The corner's quadrant of normals and the ellipse's must overlap.
         if (!((x_axis + y_axis).dot(sign) > 0)) continue;
         if (is_behind_chords(b, x, y)) continue;
-        const auto foot = ellipse_normal(r_, b, x, y);
-        if (!foot) continue;
-        const Vec2 n2 = foot->x() * x_axis + foot->y() * y_axis;
-        Vec3 n;
-        n[i] = 0, n[j] = n2.x(), n[k] = n2.y();
-        const double value =
-            d_[j] * n2.x() + d_[k] * n2.y() - e_[j] * std::abs(n2.x()) - e_[k] * std::abs(n2.y()) -
-            lean * foot->y() -
-            std::sqrt(r_ * r_ * foot->x() * foot->x() + b * b * foot->y() * foot->y());
-        best_.offer(value, n);
+        corner_over_rim(i, along, sign, end, q);
       }
     }
   }
+  /// The edge at that corner of the box, seen along it, and the rim at that end, +1 or -1 along the
+  /// axis as seen from the box, about which the corner lies at q.
+  void corner_over_rim(int i, const Vec2& along, const Vec2& sign, double end, const Vec2& q) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    const double b = r_ * std::abs(u_[i]), lean = h_ * s_[i];
+    const double aside = cross2(along, q);
+    const auto foot = ellipse_normal(r_, b, std::abs(aside), end * along.dot(q));
+    if (!foot) return;
+    const double x = foot->x(), y = foot->y(), x_side = std::copysign(x, aside);
+    const Vec2 n(end * y * along.x() - x_side * along.y(),
+                 end * y * along.y() + x_side * along.x());
+    const double gap = d_[j] * n.x() + d_[k] * n.y() - e_[j] * std::abs(n.x()) -
+                       e_[k] * std::abs(n.y()) - lean * y -
+                       std::sqrt(r_ * r_ * x * x + b * b * y * y);
+    if (!(gap > best_.gap)) return;
+    best_.gap = gap;
+    best_.normal[i] = 0, best_.normal[j] = n.x(), best_.normal[k] = n.y();
+    final_ = n.x() * sign.x() >= 0 && n.y() * sign.y() >= 0 && is_largest(i, *foot, end);
+  }
 
-  using Vec2 = Eigen::Vector2d;
+  /// The proof of `bends_away` for a normal at which a rim and edge i meet.
+  bool is_largest(int i, const Vec2& foot, double end) const {
+    const double nu = end * s_[i] * foot.y();                                          // n·u
+    const double squared = foot.x() * foot.x() + u_[i] * u_[i] * foot.y() * foot.y();  // 1 − nu²
+    const double at = d_[i] - end * h_ * u_[i] + r_ * nu * u_[i] / std::sqrt(squared);
+    const double beyond = e_[i] - std::abs(at);
+    return beyond > 0 &&
+           bends_away({r_, h_, 0}, {2 * beyond, std::min(e_[(i + 1) % 3], e_[(i + 2) % 3]), 0},
+                      u_[i] * u_[i] / squared, depth(), 0);
+  }
+
+  /// Where the best of the seven directions fails to prove itself, because the point or the line at
+  /// which the bodies would meet lies beyond an edge or a rim.
+  void likely_edge_over_rim() {
+    Vec3 sign;  // of a vertex
+    int i;
+    double end;
+    if (kind_ == Kind::face) {
+      const Vec3 point = facing_face();
+      const int j = (face_ + 1) % 3, k = (face_ + 2) % 3;
+      i = std::abs(point[j]) - e_[j] > std::abs(point[k]) - e_[k] ? k : j;
+      sign = point;
+      sign[face_] = d_[face_];
+      end = std::copysign(1, d_[face_] * u_[face_]);
+    } else if (kind_ == Kind::side) {
+      const Crossing c = crossing();
+      const double along = std::clamp(c.along_axis, -h_, h_);
+      const int j = (side_ + 1) % 3, k = (side_ + 2) % 3;
+      sign = c.corner;
+      sign[side_] = d_[side_] + along * u_[side_];
+      i = std::abs(sign[side_]) <= e_[side_] ? side_ : std::abs(u_[k]) < std::abs(u_[j]) ? j : k;
+      end = -std::copysign(1, along);
+    } else {
+      return;
+    }
+    // Along an edge across the axis the proof fails.
+    constexpr double across = 1e-12;
+    if (!(s_[i] > 0 && std::abs(u_[i]) > across)) return;
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    const Vec2 along = seen_along(i);
+    const Vec2 corner(std::copysign(e_[j], sign[j]), std::copysign(e_[k], sign[k]));
+    corner_over_rim(i, along, corner, end, Vec2(d_[j], d_[k]) - corner - end * h_ * s_[i] * along);
+  }
 
   bool final_ = false;
 };

@@ -94,6 +94,10 @@ struct Leaning {
 /// rim's point, so that x = max(0, −u·m) and y = max(0, −a·m) have A x + B y >= κ. Its reach along
 /// m exceeds that of this point by h (|u·m| − u·m) + r (ρ(m) − a·m) >= 2 (h x + r y), which is not
 /// less than 2 κ min(h, r). That must make up for δ (1 + κ), and does so if it does at κ = 0.1.
+///
+/// An edge of a box instead of one rim, if it goes on for L beyond the point where they meet,
+/// counts as a disc of radius 2 L, because there the box reaches further by at least
+/// L |e·m| >= L (e·m)²; and with the smaller half extent across the edge for h.
 inline bool bends_away(const Leaning& a, const Leaning& b, double squared_sine, double depth,
                        double slope) {
   const double lambda = a.r * b.r * squared_sine / (a.r + b.r);

@@ -15,7 +15,8 @@ struct Counts {
 };
 
 /// Along how many random normals is the gap larger than along one that is said to have the largest?
-int larger_gaps(const FoldedCylinders& pair, double gap, std::mt19937_64& random) {
+template <class Pair>
+int larger_gaps(const Pair& pair, double gap, std::mt19937_64& random) {
   std::normal_distribution<double> normal;
   int count = 0;
   for (int i = 0; i < 500; ++i) {
@@ -31,8 +32,8 @@ FoldedCylinders folded(const Configuration& x) {
   return {f, x.a.radius(), x.a.half_length(), b.radius(), b.half_length()};
 }
 
-void count(const FoldedCylinders& pair, const Vec3& n, bool proven, std::mt19937_64& random,
-           Counts& counts) {
+template <class Pair>
+void count(const Pair& pair, const Vec3& n, bool proven, std::mt19937_64& random, Counts& counts) {
   if (!proven) return;
   ++counts.proven;
   counts.contradicted += larger_gaps(pair, pair.gap(n), random) > 0;
@@ -132,6 +133,46 @@ TEST(DeepNormals, OfRimsThatBendAwayAreProvenUpToTheirDepth) {
     if (!bends_away(a, b, squared, depth, 0)) {
       deeper += larger_gaps(pair, -depth, random) > 0;
     }
+  }
+  EXPECT_GT(counts.proven, 500);
+  EXPECT_EQ(counts.contradicted, 0);
+  EXPECT_GT(deeper, 100);
+}
+
+/// A cylinder, and a box along the axes about the origin.
+struct CylinderAndBox {
+  double r, h;
+  Vec3 u, e, d;
+  double gap(const Vec3& n) const {
+    return d.dot(n) - e.dot(n.cwiseAbs()) - h * std::abs(u.dot(n)) - r * u.cross(n).norm();
+  }
+};
+
+/// An edge that goes on for L beyond the point where it meets a rim counts as a disc of radius 2 L.
+TEST(DeepNormals, OfRimsOnEdgesAreProvenUpToTheirDepth) {
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> exponent(-1, 1), up_to_two(0, 2), within(-1, 1);
+  const auto size = [&] { return std::pow(10, exponent(random)); };
+  Counts counts;
+  int deeper = 0;
+  for (int i = 0; i < 6000; ++i) {
+    CylinderAndBox pair{size(), size(), {}, {size(), size(), size()}, {}};
+    pair.u = Vec3(normal(random), normal(random), normal(random)).normalized();
+    const Vec3 n = Vec3(normal(random), normal(random), 0).normalized();  // the edge is along z
+    const Vec3 on_edge(std::copysign(pair.e.x(), n.x()), std::copysign(pair.e.y(), n.y()),
+                       within(random) * pair.e.z());
+    const double sine = pair.u.cross(n).norm(), beyond = pair.e.z() - std::abs(on_edge.z());
+    const double squared = pair.u.z() * pair.u.z() / (sine * sine);
+    const double depth = up_to_two(random) * pair.r * 2 * beyond / (pair.r + 2 * beyond) * squared;
+    pair.d = on_edge - depth * n + std::copysign(pair.h, pair.u.dot(n)) * pair.u +
+             pair.r / sine * (n - n.dot(pair.u) * pair.u);
+    EXPECT_NEAR(pair.gap(n), -depth, 1e-13 * (pair.r + pair.h + pair.e.sum()));
+    const bool proven =
+        bends_away({pair.r, pair.h, sine}, {2 * beyond, std::min(pair.e.x(), pair.e.y()), 1},
+                   squared, depth, 0);
+    count(pair, n, proven, random, counts);
+    if (!proven) deeper += larger_gaps(pair, -depth, random) > 0;
   }
   EXPECT_GT(counts.proven, 500);
   EXPECT_EQ(counts.contradicted, 0);
