@@ -37,6 +37,8 @@ inline bool points_onward(const Vec3& n) { return 0.27 * n.x() + 0.53 * n.y() + 
 /// each other (manifold.hpp).
 class ContactPlane {
  public:
+  static constexpr double crossed = 0.1;  ///< rad; lines that turn by more cross in a point
+
   ContactPlane(Contact& contact, const Vec3& origin, double slack);
 
   // In flat_contact.cpp, cap_on_face.cpp, cap_on_cap.cpp and line_contact.cpp.

@@ -93,7 +93,6 @@ void ContactPlane::line_on_line(const FacingFeature& f, const FacingFeature& g) 
         b.height + s * b.rise - b.radius * bend);
   };
 
-  constexpr double crossed = 0.1;  // rad
   if (std::abs(turn) > crossed) {
     const double t = std::clamp(cross2(from_a, b.along) / turn, -a.half_length, a.half_length);
     return add_at(t, std::clamp(s0 + s1 * t, -b.half_length, b.half_length));

@@ -23,6 +23,20 @@ std::pair<Vec3, Vec3> across(const Vec3& n) {
           Vec3(b, sign + n.y() * n.y() * a, -n.y())};
 }
 
+/// Adds the point where two lines cross within both: most often there is no more to it.
+bool cross_within(Contact& contact, const FacingFeature& a, const FacingFeature& b,
+                  const Vec3& origin) {
+  const Vec3& n = contact.normal;
+  const double turn = a.axis.cross(b.axis).dot(n);
+  if (!(std::abs(turn) > ContactPlane::crossed)) return false;
+  const Vec3 from_a = b.middle - a.middle;
+  const double t = from_a.cross(b.axis).dot(n) / turn, s = from_a.cross(a.axis).dot(n) / turn;
+  if (!(std::abs(t) <= a.half_length && std::abs(s) <= b.half_length)) return false;
+  const Vec3 on_a = a.middle + t * a.axis, on_b = b.middle + s * b.axis;
+  contact.add_point(origin + (on_a + on_b) / 2, (on_b - on_a).dot(n));
+  return true;
+}
+
 }  // namespace
 
 ContactPlane::ContactPlane(Contact& contact, const Vec3& origin, double slack)
@@ -34,11 +48,14 @@ void add_manifold(Contact& contact, const FacingFeature& a, const FacingFeature&
                   const Vec3& origin, double slack) {
   const bool a_is_point = a.kind == Kind::point, b_is_point = b.kind == Kind::point;
   if (a_is_point || b_is_point) {
-    const Vec3 half = contact.signed_distance / 2 * contact.normal;
     // Of two points, the one that the normal's rounding moves less.
     const bool take_a = a_is_point && (!b_is_point || a.sine >= b.sine);
-    const Vec3 p = take_a ? Vec3(a.middle - half) : Vec3(b.middle + half);
-    contact.add_point(origin + p, -contact.signed_distance);
+    const Vec3 half = contact.signed_distance / 2 * contact.normal;
+    contact.add_point(origin + (take_a ? Vec3(a.middle - half) : Vec3(b.middle + half)),
+                      -contact.signed_distance);
+    return;
+  }
+  if (a.kind == Kind::segment && b.kind == Kind::segment && cross_within(contact, a, b, origin)) {
     return;
   }
   ContactPlane plane(contact, origin, slack);
