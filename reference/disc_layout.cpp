@@ -26,15 +26,18 @@ std::array<Vec2, 3> three_arms(double radius, const Vec2& unit) {
 
 int spread_disc(double radius, const Vec2& slope, const Vec2& anchor, double slack,
                 std::array<Vec2, 6>& arms) {
-  int count = 0;
   const double steepness = slope.norm(), rise = 2 * radius * steepness;
+  int count = 0;
+  const double way = part_of_the_way_to_the_deepest(rise, radius, slack);
+  if (way == 0) {
+    for (const Vec2& arm : three_arms(radius, anchor)) arms[count++] = arm;
+    return count;
+  }
   // From half the slack to three quarters of it, so that nothing of the old layout is above it.
   const HandOver over{8 * rise / slack - 4};
   if (!over.is_over()) {
     for (const Vec2& arm : three_arms(over.old_size() * radius, anchor)) arms[count++] = arm;
   }
-  const double way = part_of_the_way_to_the_deepest(rise, radius, slack);
-  if (way == 0) return count;
   const Vec2 lowest = (-radius / steepness) * slope;
   arms[count++] = way * lowest;
   if (!over.has_begun()) return count;
