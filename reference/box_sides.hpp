@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "deep_normals.hpp"
 #include "largest_gap.hpp"
 #include "shape.hpp"
 
@@ -126,12 +127,20 @@ class BoxSides {
     return n;
   }
 
-  /// A point of A that faces the box lies on the face, its depth away from the edges.
+  /// A point of A that faces the box lies on the face, its depth away from the edges; or a cylinder
+  /// about the face's axis is proven for the box, as wide as the centre's distance from the nearest
+  /// edge: from there the box reaches at least as far in every direction.
   bool face_is_final() const {
     const double delta = depth();
     const int i = face_, j = (i + 1) % 3, k = (i + 2) % 3;
     const Vec3 x = facing_face();
-    return delta <= e_[i] && std::abs(x[j]) <= e_[j] - delta && std::abs(x[k]) <= e_[k] - delta;
+    if (delta <= e_[i] && std::abs(x[j]) <= e_[j] - delta && std::abs(x[k]) <= e_[k] - delta) {
+      return true;
+    }
+    const double beside = std::min(e_[j] - std::abs(d_[j]), e_[k] - std::abs(d_[k]));
+    return best_.gap < 0 && beside >= 0 &&
+           no_normal_beats_cap({beside, e_[i], r_, h_, std::abs(u_[i]), s_[i], std::abs(d_[i]), 0},
+                               delta);
   }
 
   /// A point of B that faces the cap lies on it, its depth away from the rim.

@@ -2,9 +2,11 @@
 
 #include <cmath>
 #include <gtest/gtest.h>
+#include <limits>
 #include <random>
 
 #include "properties/identity.hpp"
+#include "reference/box_sides.hpp"
 #include "reference/contact_of.hpp"
 
 namespace touchstone {
@@ -177,6 +179,30 @@ TEST(DeepNormals, OfRimsOnEdgesAreProvenUpToTheirDepth) {
   EXPECT_GT(counts.proven, 500);
   EXPECT_EQ(counts.contradicted, 0);
   EXPECT_GT(deeper, 100);
+}
+
+TEST(DeepNormals, OfBoxesThatProveThemselvesHaveTheLargestGap) {
+  std::mt19937_64 random(4);
+  Counts counts;
+  int deep = 0;
+  for (const char* name : {"general-shallow", "general-deep", "concentric"}) {
+    for (std::uint64_t i = 0; i < 1000; ++i) {
+      const Configuration x = make_configuration({Pair::box, name, 3, i});
+      const auto& b = std::get<Box>(x.b);
+      const Eigen::Matrix3d to_box = x.pose_b.rotation().transpose();
+      const Vec3 d = to_box * (x.pose_a.position() - x.pose_b.position());
+      const Vec3 u = to_box * x.pose_a.axis();
+      BoxSides sides(x.a, b, d, u);
+      const bool proven = sides.closed_forms(std::numeric_limits<double>::infinity());
+      const CylinderAndBox pair{x.a.radius(), x.a.half_length(), u, b.half_extents(), d};
+      EXPECT_NEAR(sides.best().gap, pair.gap(sides.best().normal), 1e-14);
+      count(pair, sides.best().normal, proven, random, counts);
+      deep += proven && -sides.best().gap > x.a.radius();
+    }
+  }
+  EXPECT_GT(counts.proven, 900);
+  EXPECT_GT(deep, 100);
+  EXPECT_EQ(counts.contradicted, 0);
 }
 
 TEST(DeepNormals, OfCrossedCylindersIsAcrossBothSides) {
