@@ -97,7 +97,7 @@ class Solver {
   /// About the way to the nearest point of the end, which is an ellipse as seen along the side.
   Eigen::Vector2d towards(double y, double rim) const {
     const double distance = std::sqrt(y * y + f_.d3 * f_.d3);
-    const double b = rim * f_.c, tau = rim * (distance - rim);
+    const double b = rim * f_.c, tau = rim * std::max(0.0, distance - rim);
     const Eigen::Vector2d n((b * b + tau) * f_.d3, (rim * rim + tau) * y);
     return (1 / n.norm()) * n;
   }

@@ -16,7 +16,7 @@ class Pose {
   Pose() = default;
   /// Throws InvalidInput on NaN, infinity or a zero quaternion.
   Pose(const Vec3& position, const Eigen::Quaterniond& orientation)
-      : position_(position), orientation_(orientation) {
+      : position_(position), orientation_(orientation), rotation_() {  // set below
     // One by one: Eigen would load in pairs what was just stored singly, which stalls.
     const double w = orientation.w(), x = orientation.x(), y = orientation.y();
     const double z = orientation.z(), squared = w * w + x * x + y * y + z * z;
