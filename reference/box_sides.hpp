@@ -13,7 +13,8 @@ namespace touchstone {
 /// A cylinder and a box in the box's frame, touching at a face, at a cap, or where an edge crosses
 /// the side: seven directions. Most of the time their best is final, because a smooth place of one
 /// body is met well within its bounds: where the bodies overlap by δ, a ball of radius δ fits into
-/// the cylinder or box behind that place, so that no way out is shorter than δ.
+/// the cylinder or box behind that place, so that no way out is shorter than δ; deeper ones are
+/// bounded in deep_normals.hpp.
 class BoxSides {
  public:
   /// `d` is the cylinder's centre, `u` its axis.
@@ -86,7 +87,8 @@ class BoxSides {
   int side_ = 0, face_ = 0;  ///< the edge of the best side, the axis of the best face
   enum class Kind { face, side, cap } kind_ = Kind::face;  ///< of the best of the seven
 
-  /// The point of A that faces that face. A generator or cap that lies on it offers its middle.
+  /// Where the point of A that faces that face lies, across it. A generator or cap that lies on it
+  /// offers its middle.
   Vec3 facing_face() const {
     const int i = face_;
     constexpr double flat = 1e-15;

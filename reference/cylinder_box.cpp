@@ -8,6 +8,7 @@
 #include "box_sides.hpp"
 #include "deep_normals.hpp"
 #include "ellipse_normal.hpp"
+#include "largest_gap.hpp"
 #include "pair_contact.hpp"
 #include "posed_body.hpp"
 #include "scaled.hpp"
@@ -18,7 +19,8 @@ namespace {
 // In the box's frame. The bodies touch at a face, at a cap, where an edge crosses the side, at the
 // side (a vertex beside it), where an edge crosses a rim (a point against an ellipse, seen along
 // the edge) or, only apart, with a vertex off the rim. The first three kinds are BoxSides', which
-// mostly prove themselves; here are the others.
+// mostly prove themselves; here are the others. Of edges and rims the likely one is tried first,
+// and mostly proves itself, too.
 class Solver : public BoxSides {
  public:
   using BoxSides::BoxSides;
@@ -199,7 +201,7 @@ class Solver : public BoxSides {
     const double at = d_[i] - end * h_ * u_[i] + r_ * nu * u_[i] / std::sqrt(squared);
     const double beyond = e_[i] - std::abs(at);
     return beyond > 0 &&
-           bends_away({r_, h_, 0}, {2 * beyond, std::min(e_[(i + 1) % 3], e_[(i + 2) % 3]), 0},
+           bends_away({r_, h_}, {2 * beyond, std::min(e_[(i + 1) % 3], e_[(i + 2) % 3])},
                       u_[i] * u_[i] / squared, depth(), 0);
   }
 
@@ -247,8 +249,6 @@ SignedDistance solve(const Cylinder& a, const Box& b, const PosedCylinder& posed
   if (!solver.closed_forms(enough)) solver.search(enough);
   return {solver.best().gap, axes * solver.best().normal};
 }
-
-constexpr double never = std::numeric_limits<double>::infinity();
 
 }  // namespace
 

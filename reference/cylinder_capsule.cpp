@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "ellipse_normal.hpp"
@@ -119,26 +118,28 @@ class Solver {
   bool final_ = false;
 };
 
-constexpr double never = std::numeric_limits<double>::infinity();
-
-/// A normal with a clearance of more than `enough`, of those along one axis and across both: what
-/// most bodies that are apart need, before they are folded. `d` is A's centre less B's.
+/// A normal with a clearance of clearly more than `enough`, of those along one axis and across
+/// both: what most bodies that are apart need, before they are folded. `d` is A's centre less B's.
 std::optional<SignedDistance> separation(const Cylinder& a, const Vec3& axis1, const Capsule& b,
                                          const Vec3& axis2, const Vec3& d, double enough) {
   const Vec3 cross = axis1.cross(axis2);
   const double c = std::abs(axis1.dot(axis2)), s = cross.norm();
-  const double along1 = d.dot(axis1), along2 = d.dot(axis2);
+  const double along1 = d.dot(axis1), along2 = d.dot(axis2), radii = a.radius() + b.radius();
+  // No answer may hang on what rounding makes of a touch.
+  constexpr double rounding = 1e-9;
+  const double more =
+      enough + rounding * (d.cwiseAbs().sum() + a.half_length() + b.half_length() + radii);
   const double gap1 = std::abs(along1) - a.half_length() - b.half_length() * c - b.radius();
   const double gap2 =
       std::abs(along2) - a.half_length() * c - a.radius() * s - b.half_length() - b.radius();
-  if (std::max(gap1, gap2) > enough) {
+  if (std::max(gap1, gap2) > more) {
     if (gap1 > gap2) return SignedDistance{gap1, std::copysign(1, along1) * axis1};
     return SignedDistance{gap2, std::copysign(1, along2) * axis2};
   }
   // The product of nearly parallel axes has few digits left.
   constexpr double few_digits = 0.1;
-  const double across = d.dot(cross), radii = a.radius() + b.radius();
-  if (s > few_digits && std::abs(across) > (radii + enough) * s) {
+  const double across = d.dot(cross);
+  if (s > few_digits && std::abs(across) > (radii + more) * s) {
     return SignedDistance{std::abs(across) / s - radii, (std::copysign(1, across) / s) * cross};
   }
   return std::nullopt;

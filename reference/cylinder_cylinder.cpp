@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <tuple>
 
@@ -15,8 +14,6 @@
 
 namespace touchstone {
 namespace {
-
-constexpr double never = std::numeric_limits<double>::infinity();
 
 // In the folded frame the bodies touch at a cap, where the sides cross, at a side (the other's rim
 // beside it: a point against an ellipse, seen along the side), or rim to rim. All but the last have
@@ -78,20 +75,18 @@ class Solver {
     const double along = f_.along_k2(f_.d()), y2 = std::abs(along) - pair_.h1 * f_.s;
     if (far_beside(y1, pair_.r1, pair_.r2, enough)) {
       const Eigen::Vector2d n = towards(y1, pair_.r2);
-      if (is_apart(Vec3(0, std::copysign(n.y(), f_.d2), n.x()), pair_.r1, enough)) return true;
+      if (is_apart(Vec3(0, std::copysign(n.y(), f_.d2), n.x()), enough)) return true;
     }
     if (far_beside(y2, pair_.r2, pair_.r1, enough)) {
       const Eigen::Vector2d n = towards(y2, pair_.r1);
       const double side = std::copysign(n.y(), along);
-      return is_apart(Vec3(-f_.s * side, f_.c * side, n.x()), pair_.r2, enough);
+      return is_apart(Vec3(-f_.s * side, f_.c * side, n.x()), enough);
     }
     return false;
   }
-  // No answer may hang on what rounding makes of a touch.
-  static constexpr double small_part = 0.01;
   /// The other's end lies y across the side within the plane of the axes, and d3 off it.
   bool far_beside(double y, double side, double rim, double enough) const {
-    const double least = enough + (1 + small_part) * side + rim * f_.c;
+    const double least = enough + side + rim * f_.c;
     return y > 0 && y * y + f_.d3 * f_.d3 > least * least;
   }
   /// About the way to the nearest point of the end, which is an ellipse as seen along the side.
@@ -101,9 +96,9 @@ class Solver {
     const Eigen::Vector2d n((b * b + tau) * f_.d3, (rim * rim + tau) * y);
     return (1 / n.norm()) * n;
   }
-  bool is_apart(const Vec3& n, double side, double enough) {
+  bool is_apart(const Vec3& n, double enough) {
     const double gap = pair_.gap(n);
-    if (!(gap > enough + small_part * side)) return false;
+    if (!(gap > enough + pair_.rounding())) return false;
     best_ = {gap, n};
     return true;
   }
@@ -154,8 +149,7 @@ class Solver {
     if (best_.gap > 0) return false;
     if (no_normal_beats_cap(x, delta)) return true;
     return squared <= x.r * x.r && x.s > flat &&
-           bends_away_near_axis({x.R, x.H, x.s}, {x.r, x.h, 0}, f_.d3 * f_.d3 / squared, delta, 0,
-                                x);
+           bends_away_near_axis({x.R, x.H}, {x.r, x.h}, x.s, f_.d3 * f_.d3 / squared, delta, 0, x);
   }
 
   /// The generators cross within both, one of them further from its ends than the depth.
@@ -167,7 +161,7 @@ class Solver {
       return std::abs(f_.d2) <= flat * f_.d3 &&
              on_side(std::max(0.0, std::abs(f_.d1) - pair_.h2), pair_.r1, pair_.h1);
     }
-    const double t2 = f_.d2 / f_.s, t1 = f_.d1 - f_.c * t2;
+    const auto [t1, t2] = f_.crossing();
     if (std::abs(t1) > pair_.h1 || std::abs(t2) > pair_.h2) return false;
     return (std::abs(t1) <= pair_.h1 - delta && delta <= pair_.r1) ||
            (std::abs(t2) <= pair_.h2 - delta && delta <= pair_.r2) ||
@@ -201,15 +195,10 @@ class Solver {
 
   /// The rim's point lies on the side, its depth away from the ends.
   bool side1_is_final() const {
-    const double nu = f_.along_u2(best_.normal);
-    const double rim = -pair_.r2 * nu * f_.c / std::sqrt((1 - nu) * (1 + nu));
-    return on_side(std::copysign(pair_.h2, nu) * f_.c + rim - f_.d1, pair_.r1, pair_.h1);
+    return on_side(pair_.along_axis1(best_.normal), pair_.r1, pair_.h1);
   }
   bool side2_is_final() const {
-    const double nu = best_.normal.x();
-    const double rim = -pair_.r1 * nu * f_.c / std::sqrt((1 - nu) * (1 + nu));
-    return on_side(f_.along_u2(f_.d()) - std::copysign(pair_.h1, nu) * f_.c - rim, pair_.r2,
-                   pair_.h2);
+    return on_side(pair_.along_axis2(best_.normal), pair_.r2, pair_.h2);
   }
   bool on_side(double along, double r, double h) const {
     const double delta = depth();

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "largest_gap.hpp"
 #include "nearest_tie.hpp"
 #include "scaled.hpp"
 
@@ -51,8 +51,6 @@ SignedDistance distance(const Cylinder& a, const Pose& pose_a, const Sphere& b, 
   result.value -= b.radius();
   return result;
 }
-
-constexpr double never = std::numeric_limits<double>::infinity();
 
 Contact contact_in_range(const Cylinder& a, const Pose& pose_a, const Sphere& b, const Pose& pose_b,
                          double contact_threshold, const Vec3* previous_normal) {

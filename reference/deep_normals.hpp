@@ -68,15 +68,14 @@ inline bool no_normal_off_axis_beats(const AboutAxis& x, double depth) {
 /// L − Q = F(w) − r1 − r2. F(w) is least across an edge of the bodies' shadows in the plane.
 inline bool no_normal_beats_crossing(const FoldedCylinders& pair) {
   const FoldedAxes& f = pair.axes;
-  const double t2 = f.d2 / f.s, t1 = f.d1 - f.c * t2;
+  const auto [t1, t2] = f.crossing();
   return std::abs(t1) <= pair.h1 && std::abs(t2) <= pair.h2 &&
          pair.gap_of_shadows() <= f.d3 / 2 - pair.r1 - pair.r2;
 }
 
-/// A cylinder and how a normal leans to its axis.
-struct Leaning {
+/// A rim of this radius at the end of a body of this half length.
+struct Rim {
   double r, h;
-  double sine;  ///< of the angle between normal and axis
 };
 
 /// No normal has less depth than a stationary one, n, at which two rims meet whose tangents enclose
@@ -98,7 +97,7 @@ struct Leaning {
 /// An edge of a box instead of one rim, if it goes on for L beyond the point where they meet,
 /// counts as a disc of radius 2 L, because there the box reaches further by at least
 /// L |e·m| >= L (e·m)²; and with the smaller half extent across the edge for h.
-inline bool bends_away(const Leaning& a, const Leaning& b, double squared_sine, double depth,
+inline bool bends_away(const Rim& a, const Rim& b, double squared_sine, double depth,
                        double slope) {
   const double lambda = a.r * b.r * squared_sine / (a.r + b.r);
   constexpr double rounding = 1e-16;
@@ -106,14 +105,14 @@ inline bool bends_away(const Leaning& a, const Leaning& b, double squared_sine, 
          0.2 * (std::min(a.r, a.h) + std::min(b.r, b.h)) >= 1.1 * depth + slope;
 }
 
-/// The same for nearly parallel axes, `about` the second one, along which n lies. Up to an angle θ
-/// of 0.1 from n the discs' ρ is no more than the sine of that and of how n leans, so that λ counts
-/// that much more, and n is proven there if δ <= λ / 2 over this sine.
-inline bool bends_away_near_axis(const Leaning& a, const Leaning& b, double squared_sine,
+/// The same for nearly parallel axes, `about` the second one, along which n lies; `lean` is the
+/// larger sine of the angles between n and the axes. Up to an angle θ of 0.1 from n the discs' ρ is
+/// no more than the sine of that and of how n leans, so that λ counts that much more, and n is
+/// proven there if δ <= λ / 2 over this sine.
+inline bool bends_away_near_axis(const Rim& a, const Rim& b, double lean, double squared_sine,
                                  double depth, double slope, const AboutAxis& about) {
   const double lambda = a.r * b.r * squared_sine / (a.r + b.r);
   constexpr double rounding = 1e-16, angle = 0.1, most_lean = 0.05;
-  const double lean = std::max(a.sine, b.sine);
   return lean <= most_lean && 2 * depth * (angle + lean) <= lambda &&
          slope * slope <= rounding * (a.r + b.r) * lambda && no_normal_off_axis_beats(about, depth);
 }

@@ -1,5 +1,6 @@
 #include "deep_normals.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
@@ -83,7 +84,7 @@ TEST(DeepNormals, OfRimsThatBendAwayHaveTheLargestGap) {
       const double across2 = std::hypot(f.along_k2(n), n.z());
       if (!(across1 > 0 && across2 > 0 && pair.gap(n) <= 0)) continue;
       const double sine = f.s * n.z() / (across1 * across2);
-      const Leaning on_a{pair.r1, pair.h1, across1}, on_b{pair.r2, pair.h2, across2};
+      const Rim on_a{pair.r1, pair.h1}, on_b{pair.r2, pair.h2};
       const AboutAxis about{pair.r2,
                             pair.h2,
                             pair.r1,
@@ -95,7 +96,8 @@ TEST(DeepNormals, OfRimsThatBendAwayHaveTheLargestGap) {
       count(pair, n, bends_away(on_a, on_b, sine * sine, -pair.gap(n), 0), random, shallow);
       count(pair, n,
             along2 * f.along_u2(d) >= 0 &&
-                bends_away_near_axis(on_a, on_b, sine * sine, -pair.gap(n), 0, about),
+                bends_away_near_axis(on_a, on_b, std::max(across1, across2), sine * sine,
+                                     -pair.gap(n), 0, about),
             random, near_axis);
     }
   }
@@ -130,7 +132,7 @@ TEST(DeepNormals, OfRimsThatBendAwayAreProvenUpToTheirDepth) {
     const FoldedCylinders pair{axes, r1, h1, r2, h2};
     const Vec3 folded(n.dot(axes.e1), n.dot(axes.e2), n.dot(axes.e3));
     EXPECT_NEAR(pair.gap(folded), -depth, 1e-13 * (r1 + r2 + h1 + h2));
-    const Leaning a{r1, h1, u1.cross(n).norm()}, b{r2, h2, u2.cross(n).norm()};
+    const Rim a{r1, h1}, b{r2, h2};
     count(pair, folded, bends_away(a, b, squared, depth, 0), random, counts);
     if (!bends_away(a, b, squared, depth, 0)) {
       deeper += larger_gaps(pair, -depth, random) > 0;
@@ -170,9 +172,8 @@ TEST(DeepNormals, OfRimsOnEdgesAreProvenUpToTheirDepth) {
     pair.d = on_edge - depth * n + std::copysign(pair.h, pair.u.dot(n)) * pair.u +
              pair.r / sine * (n - n.dot(pair.u) * pair.u);
     EXPECT_NEAR(pair.gap(n), -depth, 1e-13 * (pair.r + pair.h + pair.e.sum()));
-    const bool proven =
-        bends_away({pair.r, pair.h, sine}, {2 * beyond, std::min(pair.e.x(), pair.e.y()), 1},
-                   squared, depth, 0);
+    const bool proven = bends_away({pair.r, pair.h}, {2 * beyond, std::min(pair.e.x(), pair.e.y())},
+                                   squared, depth, 0);
     count(pair, n, proven, random, counts);
     if (!proven) deeper += larger_gaps(pair, -depth, random) > 0;
   }

@@ -23,8 +23,19 @@ struct FoldedAxes {
   double along_u2(const Vec3& v) const { return c * v.x() + s * v.y(); }
   double along_k2(const Vec3& v) const { return c * v.y() - s * v.x(); }
 
+  /// Where the line across both axes meets them, from the bodies' centres; infinite or NaN where
+  /// the axes are parallel.
+  struct Crossing {
+    double t1, t2;
+  };
+  Crossing crossing() const {
+    const double t2 = d2 / s;
+    return {d1 - c * t2, t2};
+  }
+
  private:
-  /// Sets s, e2 and e3 = scale e1 × u2, u2 being on e1's side.
+  /// Sets s, e2 and e3 for u2, which is on e1's side; s is the length of e1 × u2 and e3 a multiple
+  /// of it, of unit length when multiplied by `scale`.
   void find_plane_of_nearly_parallel(double scale, const Vec3& u2, const Vec3& difference);
 };
 

@@ -12,6 +12,9 @@ inline double without_vanishing(double offset) {
   return offset < vanishing && offset > -vanishing ? 0.0 : offset;
 }
 
+/// A clearance that is never enough: the largest is wanted.
+inline constexpr double never = std::numeric_limits<double>::infinity();
+
 /// The largest clearance met so far and its normal, in whatever frame the pair is solved in.
 struct LargestGap {
   double gap = -std::numeric_limits<double>::infinity();

@@ -89,6 +89,18 @@ TEST(CylinderCylinder, ExchangedBodiesAnswerBitForBitAlike) {
   }
 }
 
+void expect_agreement(const Configuration& c, double threshold) {
+  const double distance = signed_distance(c).value;
+  const Contact answer = contact(c, threshold);
+  EXPECT_EQ(answer.points().empty(), distance > threshold);
+  if (answer.points().empty()) {
+    EXPECT_GT(answer.signed_distance, threshold);
+    EXPECT_LE(answer.signed_distance, distance + 1e-13 * larger_size(c) + position_rounding(c));
+  } else {
+    EXPECT_EQ(answer.signed_distance, distance);
+  }
+}
+
 TEST_P(Law, ContactAgreesWithSignedDistanceAndOverlaps) {
   for (const Identity& id : some_identities(GetParam())) {
     const Configuration c = make_configuration(id);
@@ -96,16 +108,48 @@ TEST_P(Law, ContactAgreesWithSignedDistanceAndOverlaps) {
     SCOPED_TRACE(to_string(id));
     EXPECT_EQ(overlaps(c), distance <= 0);
     for (const double threshold : {0.0, 0.01 * smaller_size(c), 10 * larger_size(c)}) {
-      const Contact answer = contact(c, threshold);
-      EXPECT_EQ(answer.points().empty(), distance > threshold);
-      if (answer.points().empty()) {
-        EXPECT_GT(answer.signed_distance, threshold);
-        EXPECT_LE(answer.signed_distance, distance + 1e-13 * larger_size(c) + position_rounding(c));
-      } else {
-        EXPECT_EQ(answer.signed_distance, distance);
+      expect_agreement(c, threshold);
+    }
+    if (distance > 0) expect_agreement(c, distance);
+  }
+}
+
+/// The lines of the axes, or a cap and the other axis' end, are as far apart as bodies that touch,
+/// but for rounding, or rims meet; the bodies themselves touch or are far apart.
+TEST(Touch, ThatRoundingDecidesIsDecidedAlike) {
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> size(0.1, 1), along(-2, 2);
+  const auto unit = [&] {
+    return Vec3(normal(random), normal(random), normal(random)).normalized();
+  };
+  const auto pose = [](const Vec3& position, const Vec3& axis) {
+    return Pose(position, Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), axis));
+  };
+  int touching = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Vec3 u1 = unit(), u2 = unit(), across = u1.cross(u2).normalized();
+    const double r1 = size(random), r2 = size(random), h1 = size(random), h2 = size(random);
+    const Vec3 beside = (r1 + r2) * across + along(random) * u1 + along(random) * u2;
+    // A capsule's end above the cap.
+    const Vec3 above = (h1 + r2) * u1 + size(random) * r1 * across - h2 * u2;
+    const Vec3 n = unit();
+    const auto rim = [&](const Vec3& u, double r, double h) {
+      return Vec3(std::copysign(h, u.dot(n)) * u + r * (n - n.dot(u) * u).normalized());
+    };
+    const Vec3 rims = rim(u1, r1, h1) + rim(u2, r2, h2);
+    for (const Vec3& d : {beside, above, rims}) {
+      for (const Shape& b : {Shape(Cylinder(r2, h2)), Shape(Capsule(r2, h2))}) {
+        const Configuration c{Cylinder(r1, h1), pose(d, u1), b, pose(Vec3::Zero(), u2)};
+        const double distance = signed_distance(c).value;
+        SCOPED_TRACE(i);
+        EXPECT_EQ(overlaps(c), distance <= 0);
+        expect_agreement(c, 0);
+        touching += std::abs(distance) < 1e-14;
       }
     }
   }
+  EXPECT_GT(touching, 1000);
 }
 
 TEST_P(Law, APreviousNormalNeverCostsMoreThanTheThreshold) {

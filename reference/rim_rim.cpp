@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "deep_normals.hpp"
@@ -90,13 +89,13 @@ bool is_largest_at_shallow_depth(const FoldedCylinders& pair, const Stationary& 
   const double across1 = std::sqrt(n.y() * n.y() + n.z() * n.z());
   const double across2 = std::sqrt(m * m + n.z() * n.z());
   const double sine = s * n.z() / (across1 * across2);
-  const Leaning a{pair.r1, pair.h1, across1}, b{pair.r2, pair.h2, across2};
+  const Rim a{pair.r1, pair.h1}, b{pair.r2, pair.h2};
   const double delta = std::max(0.0, -gap), slope = found.slope;
   if (bends_away(a, b, sine * sine, delta, slope)) return true;
   const Vec3 d = pair.axes.d();
   const double along = pair.axes.along_u2(d), across = pair.axes.along_k2(d);
   return pair.axes.along_u2(n) * along >= 0 &&
-         bends_away_near_axis(a, b, sine * sine, delta, slope,
+         bends_away_near_axis(a, b, std::max(across1, across2), sine * sine, delta, slope,
                               {pair.r2, pair.h2, pair.r1, pair.h1, c, s, std::abs(along),
                                std::sqrt(across * across + d.z() * d.z())});
 }
@@ -118,14 +117,12 @@ Ends likely_ends(const FoldedCylinders& pair, const Vec3& n) {
   const double along1 = n.x(), along2 = f.along_u2(n);
   Ends ends{std::copysign(1, along1), std::copysign(1, along2)};
   if (std::abs(along1) <= across && std::abs(along2) <= across) {  // the sides cross
-    const double t2 = f.d2 / f.s;
-    ends = {std::copysign(1, f.d1 - f.c * t2), std::copysign(1, t2)};
+    const auto [t1, t2] = f.crossing();
+    ends = {std::copysign(1, t1), std::copysign(1, t2)};
   } else if (std::abs(along1) <= across) {
-    const double rim = -pair.r2 * along2 * f.c / std::sqrt((1 - along2) * (1 + along2));
-    ends.one = std::copysign(1, f.d1 - ends.two * pair.h2 * f.c - rim);
+    ends.one = -std::copysign(1, pair.along_axis1(n));
   } else if (std::abs(along2) <= across) {
-    const double rim = -pair.r1 * along1 * f.c / std::sqrt((1 - along1) * (1 + along1));
-    ends.two = std::copysign(1, f.along_u2(f.d()) - ends.one * pair.h1 * f.c - rim);
+    ends.two = std::copysign(1, pair.along_axis2(n));
   }
   return ends;
 }
@@ -142,13 +139,13 @@ bool offer_where_likely(const FoldedCylinders& pair, const Rims& rims, double en
     start = *crossing;
   } else {
     start = facing_points(pair.axes, {pair.r1, pair.h1}, {pair.r2, pair.h2});
-    if (!(start.squaredNorm() > 0)) return false;
   }
-  if (enough < std::numeric_limits<double>::infinity()) {
+  if (!(start.squaredNorm() > 0)) return false;
+  if (enough < never) {
     // Bodies that are clearly apart are so along it, too.
     const Vec3 n = start.normalized();
     const double gap = pair.gap(n);
-    if (gap > enough) {
+    if (gap > enough + pair.rounding()) {
       best.offer(gap, n);
       return true;
     }

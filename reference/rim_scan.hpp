@@ -166,16 +166,10 @@ class RimScan {
     offer(lo);
   }
 
-  /// Across both rims' tangents.
-  Vec3 across_tangents(const RimSample& x) const {
-    const double c = pair_.axes.c, s = pair_.axes.s;
-    return {c * x.cos1 * x.sin2 - x.sin1 * x.cos2, s * x.cos1 * x.sin2, s * x.sin1 * x.sin2};
-  }
-
   /// Where the rims nearly touch their difference is noise, where tangents are parallel their
   /// product.
   void offer(const RimSample& x) {
-    for (Vec3 n : {x.apart, across_tangents(x)}) {
+    for (Vec3 n : {x.apart, rims_.across_tangents(x.cos1, x.sin1, x.cos2, x.sin2)}) {
       const double length = n.norm();
       if (!(length > 0)) continue;
       // Of ±n the one towards A has the larger gap, and of mirror images the one on A's side of

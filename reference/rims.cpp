@@ -48,8 +48,7 @@ std::optional<Vec3> Rims::crossing_normal() const {
   // The equations at `useful_cosines` without the gap.
   const double c1 = f.along_u2(q_) / (f.s * pair_.r1), c2 = -q_.x() / (f.s * pair_.r2);
   if (!(std::abs(c1) <= 1 && std::abs(c2) <= 1)) return std::nullopt;
-  const double s1 = sine_of(c1), s2 = sine_of(c2);
-  return Vec3(f.c * c1 * s2 - s1 * c2, f.s * c1 * s2, f.s * s1 * s2);
+  return across_tangents(c1, sine_of(c1), c2, sine_of(c2));
 }
 
 // Across the axes the rims' points r1 a and r2 b then add up to q, two unit vectors of a triangle

@@ -22,6 +22,24 @@ struct FoldedCylinders {
     return axes.d().dot(n) - h1 * std::abs(n.x()) - h2 * std::abs(axes.along_u2(n)) -
            r1 * std::sqrt(n.y() * n.y() + n.z() * n.z()) - r2 * std::sqrt(m * m + n.z() * n.z());
   }
+  /// More than rounding leaves of a clearance. No answer may hang on what it makes of a touch, so a
+  /// normal that is not always tried must part the bodies by more than that.
+  double rounding() const {
+    constexpr double part = 1e-9;
+    return part * (axes.d3 + std::abs(axes.d2) + std::abs(axes.d1) + r1 + h1 + r2 + h2);
+  }
+  /// Of a normal across axis 1, where along it from A's centre lies the point of B; likewise the
+  /// point of A along axis 2.
+  double along_axis1(const Vec3& n) const {
+    const double nu = axes.along_u2(n);
+    const double rim = -r2 * nu * axes.c / std::sqrt((1 - nu) * (1 + nu));
+    return std::copysign(h2, nu) * axes.c + rim - axes.d1;
+  }
+  double along_axis2(const Vec3& n) const {
+    const double nu = n.x();
+    const double rim = -r1 * nu * axes.c / std::sqrt((1 - nu) * (1 + nu));
+    return axes.along_u2(axes.d()) - std::copysign(h1, nu) * axes.c - rim;
+  }
   /// The largest gap between their shadows in the plane of the axes, which are rectangles.
   double gap_of_shadows() const {
     const double along_u2 = axes.c * axes.d1 + axes.s * axes.d2;
@@ -65,13 +83,12 @@ class Rims {
     size_ = pair.r1 + pair.r2 + q_.norm();
   }
 
-  RimSample at(double angle) const { return at(angle, std::cos(angle), std::sin(angle)); }
-  RimSample at(double angle, double cosine, double sine) const {
+  RimSample at(double angle) const {
     const double c = pair_.axes.c, s = pair_.axes.s, r1 = pair_.r1, r2 = pair_.r2;
     RimSample x;
     x.angle = angle;
-    x.cos1 = cosine;
-    x.sin1 = sine;
+    x.cos1 = std::cos(angle);
+    x.sin1 = std::sin(angle);
     const double v2 = q_.y() - r1 * x.cos1, v3 = q_.z() - r1 * x.sin1;
     const double height = c * q_.x() + s * v2, k = c * v2 - s * q_.x();
     const double radial = std::sqrt(k * k + v3 * v3);
@@ -144,6 +161,12 @@ class Rims {
   /// The cosines of rim 1's angles at which these ends may have a local maximum of the gap between
   /// `lowest` and `highest`; an empty range if they have none.
   Range useful_cosines(double lowest, double highest) const;
+
+  /// Across both rims' tangents at these places.
+  Vec3 across_tangents(double cos1, double sin1, double cos2, double sin2) const {
+    const double c = pair_.axes.c, s = pair_.axes.s;
+    return {c * cos1 * sin2 - sin1 * cos2, s * cos1 * sin2, s * sin1 * sin2};
+  }
 
   double radius1() const { return pair_.r1; }
   /// What rounding leaves of a slope.
