@@ -2,6 +2,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <random>
+#include <string>
 #include <vector>
 
 #include "oracle/truth.hpp"
@@ -114,8 +115,8 @@ TEST_P(Law, ContactAgreesWithSignedDistanceAndOverlaps) {
   }
 }
 
-/// The lines of the axes, or a cap and the other axis' end, are as far apart as bodies that touch,
-/// but for rounding, or rims meet; the bodies themselves touch or are far apart.
+/// The lines of the axes, or a cap and the other axis' end, are as far apart as the threshold, but
+/// for rounding, or rims meet; the bodies themselves are that far apart or much farther.
 TEST(Touch, ThatRoundingDecidesIsDecidedAlike) {
   std::mt19937_64 random(5);
   std::normal_distribution<double> normal;
@@ -126,30 +127,31 @@ TEST(Touch, ThatRoundingDecidesIsDecidedAlike) {
   const auto pose = [](const Vec3& position, const Vec3& axis) {
     return Pose(position, Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), axis));
   };
-  int touching = 0;
-  for (int i = 0; i < 20000; ++i) {
-    const Vec3 u1 = unit(), u2 = unit(), across = u1.cross(u2).normalized();
+  int touching = 0, apart = 0;
+  for (int i = 0; i < 10000; ++i) {
+    const Vec3 u1 = unit(), u2 = unit(), across = u1.cross(u2).normalized(), n = unit();
     const double r1 = size(random), r2 = size(random), h1 = size(random), h2 = size(random);
-    const Vec3 beside = (r1 + r2) * across + along(random) * u1 + along(random) * u2;
-    // A capsule's end above the cap.
-    const Vec3 above = (h1 + r2) * u1 + size(random) * r1 * across - h2 * u2;
-    const Vec3 n = unit();
+    const double threshold = i % 2 == 0 ? 0 : 0.1 * size(random);
+    const Vec3 beside = (r1 + r2 + threshold) * across + along(random) * u1 + along(random) * u2;
+    const Vec3 above = (h1 + r2 + threshold) * u1 + along(random) * r1 * across;
     const auto rim = [&](const Vec3& u, double r, double h) {
       return Vec3(std::copysign(h, u.dot(n)) * u + r * (n - n.dot(u) * u).normalized());
     };
-    const Vec3 rims = rim(u1, r1, h1) + rim(u2, r2, h2);
-    for (const Vec3& d : {beside, above, rims}) {
-      for (const Shape& b : {Shape(Cylinder(r2, h2)), Shape(Capsule(r2, h2))}) {
+    const Vec3 rims = rim(u1, r1, h1) + rim(u2, r2, h2) + threshold * n;
+    for (const Vec3& d : {beside, above, Vec3(above - h2 * u2), Vec3(above + h2 * u2), rims}) {
+      for (const Shape& b : {Shape(Cylinder(r2, h2)), Shape(Capsule(r2, h2)), Shape(Sphere(r2))}) {
         const Configuration c{Cylinder(r1, h1), pose(d, u1), b, pose(Vec3::Zero(), u2)};
         const double distance = signed_distance(c).value;
-        SCOPED_TRACE(i);
+        SCOPED_TRACE(std::string(shape_name(b)) + " " + std::to_string(i));
         EXPECT_EQ(overlaps(c), distance <= 0);
-        expect_agreement(c, 0);
-        touching += std::abs(distance) < 1e-14;
+        expect_agreement(c, threshold);
+        touching += std::abs(distance - threshold) < 1e-14;
+        apart += distance > threshold + 0.1;
       }
     }
   }
   EXPECT_GT(touching, 1000);
+  EXPECT_GT(apart, 1000);
 }
 
 TEST_P(Law, APreviousNormalNeverCostsMoreThanTheThreshold) {
