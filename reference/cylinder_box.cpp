@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "box_sides.hpp"
+#include "circle.hpp"
 #include "deep_normals.hpp"
 #include "ellipse_normal.hpp"
 #include "largest_gap.hpp"
@@ -40,9 +41,6 @@ class Solver : public BoxSides {
   }
 
  private:
-  using Vec2 = Eigen::Vector2d;
-  static double cross2(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
   /// n ⟂ u. Seen along the axis the box is a polygon, and where one of its corners is the nearest
   /// to the axis, one of the two sides there is the furthest away: a corner's clearance times the
   /// cosine of the angle to it is that of a side there, and no other side has a smaller angle.

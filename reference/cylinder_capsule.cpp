@@ -125,10 +125,8 @@ std::optional<SignedDistance> separation(const Cylinder& a, const Vec3& axis1, c
   const Vec3 cross = axis1.cross(axis2);
   const double c = std::abs(axis1.dot(axis2)), s = cross.norm();
   const double along1 = d.dot(axis1), along2 = d.dot(axis2), radii = a.radius() + b.radius();
-  // No answer may hang on what rounding makes of a touch.
-  constexpr double rounding = 1e-9;
   const double more =
-      enough + rounding * (d.cwiseAbs().sum() + a.half_length() + b.half_length() + radii);
+      enough + clear_part * (d.cwiseAbs().sum() + a.half_length() + b.half_length() + radii);
   const double gap1 = std::abs(along1) - a.half_length() - b.half_length() * c - b.radius();
   const double gap2 =
       std::abs(along2) - a.half_length() * c - a.radius() * s - b.half_length() - b.radius();

@@ -98,7 +98,7 @@ class Solver {
   }
   bool is_apart(const Vec3& n, double enough) {
     const double gap = pair_.gap(n);
-    if (!(gap > enough + pair_.rounding())) return false;
+    if (!(gap > enough + pair_.clear_gap())) return false;
     best_ = {gap, n};
     return true;
   }

@@ -15,6 +15,11 @@ inline double without_vanishing(double offset) {
 /// A clearance that is never enough: the largest is wanted.
 inline constexpr double never = std::numeric_limits<double>::infinity();
 
+/// What rounding leaves of a clearance is far less than this part of all lengths together. No
+/// answer may hang on what it makes of a touch, so a normal that is not always tried must part the
+/// bodies by more than that.
+inline constexpr double clear_part = 1e-9;
+
 /// The largest clearance met so far and its normal, in whatever frame the pair is solved in.
 struct LargestGap {
   double gap = -std::numeric_limits<double>::infinity();

@@ -145,7 +145,7 @@ bool offer_where_likely(const FoldedCylinders& pair, const Rims& rims, double en
     // Bodies that are clearly apart are so along it, too.
     const Vec3 n = start.normalized();
     const double gap = pair.gap(n);
-    if (gap > enough + pair.rounding()) {
+    if (gap > enough + pair.clear_gap()) {
       best.offer(gap, n);
       return true;
     }

@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include "folded_axes.hpp"
+#include "largest_gap.hpp"
 
 namespace touchstone {
 
@@ -22,11 +23,9 @@ struct FoldedCylinders {
     return axes.d().dot(n) - h1 * std::abs(n.x()) - h2 * std::abs(axes.along_u2(n)) -
            r1 * std::sqrt(n.y() * n.y() + n.z() * n.z()) - r2 * std::sqrt(m * m + n.z() * n.z());
   }
-  /// More than rounding leaves of a clearance. No answer may hang on what it makes of a touch, so a
-  /// normal that is not always tried must part the bodies by more than that.
-  double rounding() const {
-    constexpr double part = 1e-9;
-    return part * (axes.d3 + std::abs(axes.d2) + std::abs(axes.d1) + r1 + h1 + r2 + h2);
+  /// A clearance that no rounding makes.
+  double clear_gap() const {
+    return clear_part * (axes.d3 + std::abs(axes.d2) + std::abs(axes.d1) + r1 + h1 + r2 + h2);
   }
   /// Of a normal across axis 1, where along it from A's centre lies the point of B; likewise the
   /// point of A along axis 2.
@@ -175,10 +174,10 @@ class Rims {
  private:
   /// The same of nearly parallel axes, where these rims cross as seen along the axes.
   std::optional<Vec3> crossing_along_axes() const;
-  /// Likewise, from one coordinate alone, which is all that rounding leaves of them along nearly
-  /// parallel axes: rim 1's point lies above rim 2's plane by a height that its angle gives, at
-  /// most the distance of the rims, on the far side of the plane where the bodies are apart, on the
-  /// near side where they overlap.
+  /// Useful cosines from one coordinate alone, which is all that rounding leaves of them along
+  /// nearly parallel axes: rim 1's point lies above rim 2's plane by a height that its angle gives,
+  /// at most the distance of the rims, on the far side of the plane where the bodies are apart, on
+  /// the near side where they overlap.
   Range cosines_at_height(double depth, double limit) const;
 
   const FoldedCylinders& pair_;
