@@ -33,12 +33,16 @@ struct Line {
 /// change which it is.
 inline bool points_onward(const Vec3& n) { return 0.27 * n.x() + 0.53 * n.y() + 0.8 * n.z() > 0; }
 
+/// Adds the point at which two lines cross, or come nearest to each other within both; it needs no
+/// frame. False for lines that run side by side, of which the plane knows more. In
+/// line_contact.cpp.
+bool add_crossing(Contact& contact, const FacingFeature& a, const FacingFeature& b,
+                  const Vec3& origin);
+
 /// The plane across the normal of a contact, to which it adds the points where two features face
 /// each other (manifold.hpp).
 class ContactPlane {
  public:
-  static constexpr double crossed = 0.1;  ///< rad; lines that turn by more cross in a point
-
   ContactPlane(Contact& contact, const Vec3& origin, double slack);
 
   // In flat_contact.cpp, cap_on_face.cpp, cap_on_cap.cpp and line_contact.cpp.

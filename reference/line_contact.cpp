@@ -26,7 +26,45 @@ void keep_within(Range& range, double a, double b, double bound) {
   range.hi = std::min(range.hi, std::max(t, u));
 }
 
+constexpr double crossed = 0.1;  // rad; lines that turn by more cross in a point
+
+/// At a distance y across two lines the clearance grows by y² / 2R, R being the sum of the radii
+/// across them; they share y by their radii.
+struct Roundness {
+  double curvature, share_of_a;
+};
+Roundness roundness(double radius_a, double radius_b) {
+  const double sum = radius_a + radius_b;
+  return sum > 0 ? Roundness{1 / sum, radius_a / sum} : Roundness{0, 0.5};
+}
+
 }  // namespace
+
+bool add_crossing(Contact& contact, const FacingFeature& a, const FacingFeature& b,
+                  const Vec3& origin) {
+  const Vec3& n = contact.normal;
+  const double turn = a.axis.cross(b.axis).dot(n);
+  if (!(std::abs(turn) > crossed)) return false;
+  const Vec3 from_a = b.middle - a.middle;
+  const double t = from_a.cross(b.axis).dot(n) / turn, s = from_a.cross(a.axis).dot(n) / turn;
+  if (std::abs(t) <= a.half_length && std::abs(s) <= b.half_length) {
+    const Vec3 on_a = a.middle + t * a.axis, on_b = b.middle + s * b.axis;
+    contact.add_point(origin + (on_a + on_b) / 2, (on_b - on_a).dot(n));
+    return true;
+  }
+  const Vec3 on_a = a.middle + std::clamp(t, -a.half_length, a.half_length) * a.axis;
+  const Vec3 along_b = b.axis - b.axis.dot(n) * n;
+  const double foot = (on_a - b.middle).dot(along_b) / along_b.squaredNorm();
+  const Vec3 on_b = b.middle + std::clamp(foot, -b.half_length, b.half_length) * b.axis;
+  const double between = (on_b - on_a).dot(n);
+  const Vec3 y = on_b - on_a - between * n;
+  const auto [curvature, share] = roundness(a.radius, b.radius);
+  const double bend = y.squaredNorm() * curvature * curvature / 2;
+  const double middle = (between + (a.radius - b.radius) * bend) / 2;
+  contact.add_point(origin + (on_a + share * y + middle * n),
+                    between - (a.radius + b.radius) * bend);
+  return true;
+}
 
 void ContactPlane::line_on_flat(const FacingFeature& f, const FacingFeature& flat, bool line_is_a) {
   const Line l = line(f);
@@ -73,15 +111,12 @@ void ContactPlane::line_on_flat(const FacingFeature& f, const FacingFeature& fla
   if (range.hi > range.lo) add_at(range.hi);
 }
 
-// Both lines are across the normal but for the slack. They cross, or run side by side: then the
-// clearance grows by y²/2R with their distance y, R being the sum of the radii across them.
+// Both lines are across the normal but for the slack, and run side by side.
 void ContactPlane::line_on_line(const FacingFeature& f, const FacingFeature& g) {
   const Line a = line(f), b = line(g);
   const double turn = cross2(a.along, b.along);
   const Vec2 from_a = b.middle - a.middle;
-  const bool is_round = a.radius + b.radius > 0;
-  const double curvature = is_round ? 1 / (a.radius + b.radius) : 0;
-  const double share = is_round ? a.radius * curvature : 0.5;
+  const auto [curvature, share] = roundness(a.radius, b.radius);
 
   // Points of both lines that face each other: s = s0 + s1 t.
   const double inverse = 1 / b.along.squaredNorm();
@@ -93,10 +128,6 @@ void ContactPlane::line_on_line(const FacingFeature& f, const FacingFeature& g) 
         b.height + s * b.rise - b.radius * bend);
   };
 
-  if (std::abs(turn) > crossed) {
-    const double t = std::clamp(cross2(from_a, b.along) / turn, -a.half_length, a.half_length);
-    return add_at(t, std::clamp(s0 + s1 * t, -b.half_length, b.half_length));
-  }
   Range range{-a.half_length, a.half_length};
   keep_within(range, s0, s1, b.half_length);
   if (range.empty()) {  // end to end

@@ -23,20 +23,6 @@ std::pair<Vec3, Vec3> across(const Vec3& n) {
           Vec3(b, sign + n.y() * n.y() * a, -n.y())};
 }
 
-/// Adds the point where two lines cross within both: most often there is no more to it.
-bool cross_within(Contact& contact, const FacingFeature& a, const FacingFeature& b,
-                  const Vec3& origin) {
-  const Vec3& n = contact.normal;
-  const double turn = a.axis.cross(b.axis).dot(n);
-  if (!(std::abs(turn) > ContactPlane::crossed)) return false;
-  const Vec3 from_a = b.middle - a.middle;
-  const double t = from_a.cross(b.axis).dot(n) / turn, s = from_a.cross(a.axis).dot(n) / turn;
-  if (!(std::abs(t) <= a.half_length && std::abs(s) <= b.half_length)) return false;
-  const Vec3 on_a = a.middle + t * a.axis, on_b = b.middle + s * b.axis;
-  contact.add_point(origin + (on_a + on_b) / 2, (on_b - on_a).dot(n));
-  return true;
-}
-
 }  // namespace
 
 ContactPlane::ContactPlane(Contact& contact, const Vec3& origin, double slack)
@@ -55,9 +41,7 @@ void add_manifold(Contact& contact, const FacingFeature& a, const FacingFeature&
                       -contact.signed_distance);
     return;
   }
-  if (a.kind == Kind::segment && b.kind == Kind::segment && cross_within(contact, a, b, origin)) {
-    return;
-  }
+  if (!is_flat(a) && !is_flat(b) && add_crossing(contact, a, b, origin)) return;
   ContactPlane plane(contact, origin, slack);
   if (is_flat(a)) {
     is_flat(b) ? plane.flat_on_flat(a, b) : plane.line_on_flat(b, a, false);
