@@ -114,6 +114,38 @@ TEST(CylinderCylinder, RimsThatNearlyTouchOnNearlyParallelAxesAreExact) {
   std::printf("worst %.2g\n", worst);
 }
 
+// Along normals nearly parallel to an axis, 1 - (n·u)² has no digits left where the axes are
+// perpendicular to within the square root of rounding.
+TEST(CylinderCylinder, RimsThatFaceEachOtherOnNearlyPerpendicularAxesAreExact) {
+  const Configuration facing{Cylinder(1, 2), Pose({-0.48, -3.38, 2.66}, {1, 1.000000022, 0, 0}),
+                             Cylinder(1, 1), Pose()};
+  EXPECT_LE(Errors(facing).distance, 1e-13);
+  EXPECT_LE(Errors(facing).regret, 1e-13);
+
+  std::mt19937_64 random(1);
+  const auto uniform = [&](double lo, double hi) {
+    return std::uniform_real_distribution(lo, hi)(random);
+  };
+  const auto sign = [&] { return uniform(-1, 1) < 0 ? -1.0 : 1.0; };
+  const std::uint64_t count = 4 * count_per_class();
+  for (std::uint64_t i = 0; i < count; ++i) {
+    const auto size = [&] { return std::exp2(uniform(-2, 2)); };
+    const Cylinder a(size(), size()), b(size(), size());
+    const double tilt = sign() * std::pow(10, uniform(-9, -7));
+    const double at_a = uniform(0, 6.3), at_b = uniform(0, 6.3);
+    const Vec3 rim_a(a.radius() * std::cos(at_a), sign() * a.half_length(),
+                     a.radius() * std::sin(at_a));
+    const Vec3 rim_b(b.radius() * std::cos(at_b), b.radius() * std::sin(at_b),
+                     sign() * b.half_length());
+    const Vec3 apart = std::pow(10, uniform(-4, 0)) * std::min(a.radius(), b.radius()) *
+                       Vec3(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1));
+    const Configuration c{a, Pose(rim_b - rim_a + apart, {1, 1 + tilt, 0, 0}), b, Pose()};
+    const Errors errors(c);
+    EXPECT_LE(errors.distance, 1e-13) << i;
+    EXPECT_LE(errors.regret, 1e-13) << i;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(, Accuracy, testing::ValuesIn(all_pairs), [](const auto& pair) {
   return std::string(pair_name(pair.param)).substr(std::string("cylinder-").size());
 });

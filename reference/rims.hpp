@@ -30,13 +30,13 @@ struct FoldedCylinders {
   /// Of a normal across axis 1, where along it from A's centre lies the point of B; likewise the
   /// point of A along axis 2.
   double along_axis1(const Vec3& n) const {
-    const double nu = axes.along_u2(n);
-    const double rim = -r2 * nu * axes.c / std::sqrt((1 - nu) * (1 + nu));
+    const double nu = axes.along_u2(n), m = axes.along_k2(n);
+    const double rim = -r2 * nu * axes.c / std::sqrt(m * m + n.z() * n.z());
     return std::copysign(h2, nu) * axes.c + rim - axes.d1;
   }
   double along_axis2(const Vec3& n) const {
     const double nu = n.x();
-    const double rim = -r1 * nu * axes.c / std::sqrt((1 - nu) * (1 + nu));
+    const double rim = -r1 * nu * axes.c / std::sqrt(n.y() * n.y() + n.z() * n.z());
     return axes.along_u2(axes.d()) - std::copysign(h1, nu) * axes.c - rim;
   }
   /// The largest gap between their shadows in the plane of the axes, which are rectangles.
