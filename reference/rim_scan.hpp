@@ -8,10 +8,16 @@
 
 namespace touchstone {
 
-/// Searches one pair of rims for the normals at which they meet, and offers them to `best`.
+/// Searches one pair of rims for every normal at which they meet, and offers them to `best`.
 ///
-/// `limit` is how far apart the bodies can be at most, and is lowered on the way; `least_depth` how
-/// far they overlap at least, not positive where nothing is known.
+/// At a largest gap where these rims meet, their distance along rim 1, to the nearest point of rim
+/// 2, has a local minimum. Arcs of rim 1 are bisected until one of four bounds proves of each arc
+/// that it holds none that matters, or that it holds at most one, which is then found (proofs.md,
+/// "The search of rims"). An arc for which all bounds fail down to `min_half_width` counts as
+/// unproven.
+///
+/// `limit` is an upper bound of the bodies' distance, and is lowered on the way; `least_depth` a
+/// lower bound of their depth, not positive where nothing is known.
 class RimScan {
  public:
   RimScan(const FoldedCylinders& pair, const Rims& rims, double& limit, double least_depth,
@@ -21,21 +27,22 @@ class RimScan {
         limit_(limit),
         least_depth_(least_depth),
         best_(best),
-        noise_(rims.noise()) {}
+        noise_(8 * rims.noise()) {}
 
-  /// An arc of half the rim, and a little more, because roots at its ends must lie inside.
   void scan(const Range& cosines) {
-    constexpr double beyond = 0.02;
+    // The ends of the range are rounded, and a minimum may lie at one of them.
+    constexpr double beyond = 0.01;
     const double from = std::acos(cosines.hi) - beyond, to = std::acos(cosines.lo) + beyond;
-    const RimSample middle = at((from + to) / 2);
-    if (useless(middle.distance, (to - from) / 2)) return;
-    arc(at(from), middle, at(to));
+    arc((from + to) / 2, (to - from) / 2);
   }
 
+  /// By how much the largest gap where these rims meet may exceed the best one at most, but for
+  /// rounding; zero where the search is proven complete.
+  double unproven() const { return unproven_; }
+
  private:
-  static constexpr double coarse = 0.5;   // rad; longer arcs are always halved
-  static constexpr double finest = 1e-7;  // rad; shorter ones never
-  static constexpr int most_samples = 400;
+  static constexpr double min_half_width = 1e-8;  // rad
+  static constexpr int max_samples = 1000;
 
   RimSample at(double angle) {
     ++samples_;
@@ -44,126 +51,61 @@ class RimScan {
     return sample;
   }
 
-  /// The distance changes by at most radius 1 per radian. Further away than the depth, or than the
-  /// bodies can be apart, no point of the arc is in contact.
-  /// Nor nearer than the depth is at least: those points lie within the sum.
-  bool useless(double distance, double half_width) const {
+  /// Distances that a largest gap can have: its bodies overlap by less than the best depth or are
+  /// no further apart than `limit_`, and lie deeper than `least_depth_`.
+  bool matters(double min_distance, double max_distance) const {
+    return min_distance <= std::max(limit_, -best_.gap) && max_distance >= least_depth_;
+  }
+
+  void arc(double angle, double half_width) {
+    const RimSample middle = at(angle);
     const double reach = rims_.radius1() * half_width;
-    return distance - reach > std::max(limit_, -best_.gap) || distance + reach < least_depth_;
-  }
-  bool useless(const RimSample& x, const RimSample& y) const {
-    return useless((x.distance + y.distance) / 2, (y.angle - x.angle) / 2);
-  }
-
-  void arc(const RimSample& x, const RimSample& y) {
-    if (!useless(x, y)) arc(x, at((x.angle + y.angle) / 2), y);
-  }
-  void arc(const RimSample& x, const RimSample& middle, const RimSample& y) {
-    const double width = y.angle - x.angle;
-    if (width > coarse || (!even(x, middle, y) && width > finest && samples_ < most_samples)) {
-      arc(x, middle);
-      arc(middle, y);
-    } else {
-      roots(x, middle);
-      roots(middle, y);
+    if (!matters(middle.distance - reach, middle.distance + reach)) return;
+    const double radial = middle.radial - reach;  // a lower bound on the arc
+    if (radial > 0) {
+      const double bend = rims_.max_bend(middle, half_width, radial) * half_width;
+      const double curvature_noise = noise_ * rims_.conditioning(radial);
+      const double change = (std::abs(middle.curvature) + bend / 2 + curvature_noise) * half_width;
+      if (std::abs(middle.slope) > change + noise_) return;  // no stationary distance
+      if (std::abs(middle.slope) + change <= noise_) return leave(middle, noise_);  // constant
+      if (middle.curvature + bend + curvature_noise < 0) return;                    // only maxima
+      if (least_depth_ > 0 && rims_.points_inward(middle, half_width, radial)) return;
+      const double min_curvature = middle.curvature - bend - curvature_noise;
+      if (min_curvature > 0) return steady(middle, half_width, min_curvature);
     }
+    if (half_width <= min_half_width || samples_ > max_samples) return leave(middle, reach);
+    arc(angle - half_width / 2, half_width / 2);
+    arc(angle + half_width / 2, half_width / 2);
   }
 
-  /// Whether the cubic through the ends (Hermite) foretells the middle so well that it can be
-  /// trusted between them, and shows no root or a single one that it crosses steadily.
-  bool even(const RimSample& x, const RimSample& middle, const RimSample& y) const {
-    constexpr double trust = 0.1;
-    // s + t u + a u² + b u³ for u in [0, 1]
-    const double width = y.angle - x.angle;
-    const double s = x.slope, t = width * x.curvature, t_end = width * y.curvature;
-    const double a = 3 * (y.slope - s) - 2 * t - t_end, b = 2 * (s - y.slope) + t + t_end;
-    const auto cubic = [&](double u) { return s + u * (t + u * (a + u * b)); };
-    // Flat to rounding, as where bodies are concentric: there is nothing to find.
-    if (std::max({std::abs(s), std::abs(y.slope), std::abs(middle.slope)}) <= noise_) return true;
-    const double error = std::max(std::abs(middle.slope - cubic(0.5)) - noise_, 0.0);
-    const auto same_sign = [](double p, double q) { return (p < 0) == (q < 0); };
-
-    const double vertex = b != 0 ? -a / (3 * b) : -1;  // of its derivative t + 2 a u + 3 b u²
-    const bool turns = vertex > 0 && vertex < 1;
-    const double discriminant = a * a - 3 * b * t;
-    if (same_sign(t, t_end) && (!turns || same_sign(t, t + vertex * a))) {
-      if (same_sign(s, y.slope)) return error <= trust * std::min(std::abs(s), std::abs(y.slope));
-      double steady = std::min(std::abs(t), std::abs(t_end));
-      if (turns) steady = std::min(steady, std::abs(t + vertex * a));
-      // An error e at the middle means up to 3.1 e in the derivative, off the middle.
-      return 4 * error <= trust * steady;
+  /// The distance is convex on the arc: Newton's method finds the one minimum or leaves the arc.
+  void steady(const RimSample& middle, double half_width, double min_curvature) {
+    const double fall = rims_.radius1() * middle.slope * middle.slope / min_curvature;
+    const double squared = middle.distance * middle.distance - fall;
+    if (squared > 0 && !matters(std::sqrt(squared) - noise_, middle.distance)) return;
+    double lo = middle.angle - half_width, hi = middle.angle + half_width;
+    RimSample x = middle;
+    constexpr int max_steps = 50;
+    for (int i = 0; i < max_steps && std::abs(x.slope) > noise_ / 8; ++i) {
+      const double next = x.angle - x.slope / x.curvature;
+      const double inside = next > lo && next < hi ? next : x.slope < 0 ? hi : lo;
+      (x.slope < 0 ? lo : hi) = x.angle;
+      if (inside == x.angle) break;
+      x = at(inside);
     }
-    double least = std::min(std::abs(s), std::abs(y.slope));
-    if (!same_sign(s, y.slope)) return false;
-    const double root = std::sqrt(std::max(discriminant, 0.0));
-    for (const double sign : {1.0, -1.0}) {
-      // The derivative's roots, without cancellation.
-      const double sum = -(a + std::copysign(root, a));
-      const double u = sign > 0 ? sum / (3 * b) : t / sum;
-      if (!(u > 0 && u < 1)) continue;
-      if (!same_sign(cubic(u), s)) return false;
-      least = std::min(least, std::abs(cubic(u)));
-    }
-    return error <= trust * least;
+    // The neighbouring arc holds the minimum.
+    if (std::abs(x.slope) > noise_ && (x.angle == lo || x.angle == hi)) return;
+    offer(x);
   }
 
-  void roots(const RimSample& x, const RimSample& y) {
-    if (useless(x, y)) return;
-    // Only where the distance has a minimum can the sum's surface be nearest to d.
-    if (x.slope < 0 && y.slope >= 0) {
-      offer(root(x, y));
-    } else if ((x.slope < 0) == (y.slope < 0) && turns_back(x, y)) {
-      close_roots(x, y);
-    }
-  }
-
-  /// Newton kept inside the bracket; at most 50 steps. What is left is for `polished`.
-  RimSample root(const RimSample& x, const RimSample& y) {
-    double lo = x.angle, hi = y.angle;
-    double angle = (lo * y.slope - hi * x.slope) / (y.slope - x.slope);
-    if (!(angle > lo && angle < hi)) angle = (lo + hi) / 2;
-    double previous = hi - lo;
-    for (int i = 0;; ++i) {
-      RimSample sample = at(angle);
-      if (sample.slope == 0 || i == 50) return sample;
-      ((sample.slope < 0) == (x.slope < 0) ? lo : hi) = angle;
-      double next = angle - sample.slope / sample.curvature;
-      if (!(next > lo && next < hi) || std::abs(next - angle) > previous / 2) {
-        next = (lo + hi) / 2;
-      }
-      previous = std::abs(next - angle);
-      if (previous <= 1e-9 || next == lo || next == hi) return sample;
-      angle = next;
-    }
-  }
-
-  /// The slope keeps its sign but turns towards zero and away again in between, and its tangents
-  /// meet beyond zero: two roots may hide there.
-  static bool turns_back(const RimSample& x, const RimSample& y) {
-    const double sign = x.slope < 0 ? -1 : 1;
-    const double fall = -sign * x.curvature, rise = sign * y.curvature;
-    if (!(fall > 0 && rise > 0)) return false;
-    const double width = y.angle - x.angle;
-    const double meet = (sign * (x.slope - y.slope) + rise * width) / (fall + rise);
-    return sign * x.slope - fall * meet <= 0;
-  }
-
-  /// Bisects the curvature for the turn, and where the slope has the other sign on the way, finds
-  /// the roots on both sides. At most 24 steps; a double root is met to rounding.
-  void close_roots(const RimSample& x, const RimSample& y) {
-    const double sign = x.slope < 0 ? -1 : 1;
-    RimSample lo = x, hi = y;
-    for (int i = 0; i < 24; ++i) {
-      const RimSample middle = at((lo.angle + hi.angle) / 2);
-      if (sign * middle.slope < 0) {
-        offer(root(lo, middle));
-        offer(root(middle, hi));
-        return;
-      }
-      (sign * middle.curvature < 0 ? lo : hi) = middle;
-      if (!turns_back(lo, hi)) return;
-    }
-    offer(lo);
+  /// What remains of an arc on which no bound holds: its distances are within `reach`.
+  void leave(const RimSample& x, double reach) {
+    // No better than the best one, whether the bodies overlap by that distance or are that far
+    // apart.
+    const double enough = best_.gap + noise_, farthest = std::min(limit_, x.distance + reach);
+    if (reach - x.distance <= enough && (least_depth_ > 0 || farthest <= enough)) return;
+    offer(x);
+    unproven_ = std::max(unproven_, -best_.gap - std::max(x.distance - reach, least_depth_));
   }
 
   /// Where the rims nearly touch their difference is noise, where tangents are parallel their
@@ -189,6 +131,7 @@ class RimScan {
   LargestGap& best_;
   double noise_;
   int samples_ = 0;
+  double unproven_ = 0;
 };
 
 }  // namespace touchstone

@@ -56,6 +56,7 @@ struct RimSample {
   double slope;      ///< derivative of half the squared distance along rim 1, over its radius
   double curvature;  ///< derivative of the slope
   double distance;
+  double radial, height;          ///< of rim 1's point: distance from axis 2, from rim 2's plane
   Vec3 apart;                     ///< from rim 1's point to rim 2's
   double cos1, sin1, cos2, sin2;  ///< where on the rims, from e2 and k2 to e3
 };
@@ -80,6 +81,8 @@ class Rims {
     const FoldedAxes& f = pair.axes;
     q_ = f.d() - end1 * pair.h1 * Vec3(1, 0, 0) - end2 * pair.h2 * Vec3(f.c, f.s, 0);
     size_ = pair.r1 + pair.r2 + q_.norm();
+    const double k = f.along_k2(q_), lean = f.s * pair.r1;
+    amplitude_ = 2 * pair.r1 * std::sqrt(k * k + q_.z() * q_.z()) + 4 * lean * lean;
   }
 
   RimSample at(double angle) const {
@@ -97,6 +100,8 @@ class Rims {
     const double a_k = beside * x.cos2, a3 = beside * x.sin2;
     x.apart = Vec3(c * height - s * a_k, s * height + c * a_k, a3);
     x.distance = std::sqrt(height * height + beside * beside);
+    x.radial = radial;
+    x.height = height;
     x.slope = x.apart.y() * x.sin1 - a3 * x.cos1;
     // Rim 2's point moves by r1 r2 / radial times the part of rim 1's tangent along its own.
     const double follow = c * x.sin1 * x.sin2 + x.cos1 * x.cos2;
@@ -168,6 +173,34 @@ class Rims {
   }
 
   double radius1() const { return pair_.r1; }
+
+  /// A bound of the slope's second derivative up to `half_width` from a sample, where rim 1 stays
+  /// at least `radial` from axis 2 (proofs.md, "The search of rims").
+  double max_bend(const RimSample& x, double half_width, double radial) const {
+    const double c = pair_.axes.c, s = pair_.axes.s, r1 = pair_.r1;
+    const double part = r1 / radial, wave = amplitude_ / (radial * radial);
+    const double second = std::min(r1 * (1 + part), radial * wave * (0.5 + 0.25 * wave));
+    const double third = std::min(r1 * (1 + part * (3 + 1.155 * part)),
+                                  radial * wave * (0.5 + wave * (0.75 + 0.375 * wave)));
+    const double rate =
+        std::min({r1, radial * wave / 2,
+                  r1 * std::abs(c * x.cos2 * x.sin1 - x.sin2 * x.cos1) + second * half_width});
+    const double sine = std::min(0.5, std::abs(x.sin1) + half_width);
+    const double height = std::abs(x.height) + s * r1 * half_width;
+    const double beside = std::abs(x.radial - pair_.r2) + rate * half_width;
+    return s * (height + 3 * s * r1 * sine) + (beside * third + 3 * rate * second) / r1;
+  }
+  /// By how much more than lengths a curvature is rounded there.
+  double conditioning(double radial) const {
+    return 1 + pair_.r1 / radial + pair_.r1 * pair_.r2 / (radial * radial);
+  }
+  /// Does n point inward at end 1 wherever the rims meet on that arc, the bodies overlapping? There
+  /// `apart` is −δ n. Of its points only rim 2's moves along axis 1, by s r2 dβ, dβ <= r1 dα / R.
+  bool points_inward(const RimSample& middle, double half_width, double radial) const {
+    const double change = pair_.axes.s * pair_.r1 * pair_.r2 / radial * half_width;
+    return end1_ * middle.apart.x() > change + 4 * noise();
+  }
+
   /// What rounding leaves of a slope.
   double noise() const { return 2e-16 * size_; }
 
@@ -184,6 +217,7 @@ class Rims {
   double end1_, end2_;
   Vec3 q_;
   double size_;
+  double amplitude_;  ///< bounds each derivative of the squared distance of rim 1 from axis 2
 };
 
 }  // namespace touchstone
