@@ -31,13 +31,20 @@ std::string joined(const Range& names) {
   return all;
 }
 
+/// Those by name only too.
+std::vector<std::string> all_names(Pair pair) {
+  std::vector<std::string> names;
+  for (const PoseClass& c : pose_class_table(pair)) names.push_back(c.name);
+  return names;
+}
+
 const PoseClass& find_class(Pair pair, std::string_view name) {
   for (const PoseClass& c : pose_class_table(pair)) {
     if (c.name == name) return c;
   }
-  throw InvalidInput("identity.class", quoted(name),
-                     std::string("must be a pose class of ") + pair_name(pair) + ": " +
-                         joined(pose_classes(pair)));
+  throw InvalidInput(
+      "identity.class", quoted(name),
+      std::string("must be a pose class of ") + pair_name(pair) + ": " + joined(all_names(pair)));
 }
 
 rc::Random stream_of(const Identity& identity) {
@@ -52,7 +59,8 @@ const std::vector<PoseClass>& pose_class_table(Pair pair) {
     std::array<std::vector<PoseClass>, std::size(all_pairs)> result;
     for (const Pair p : all_pairs) {
       auto& table = result[static_cast<std::size_t>(p)];
-      for (auto part : {feature_classes(p), lattice_classes(p), limit_classes(p)}) {
+      for (auto part :
+           {feature_classes(p), lattice_classes(p), limit_classes(p), hostile_class(p)}) {
         table.insert(table.end(), part.begin(), part.end());
       }
     }
@@ -99,7 +107,7 @@ const std::vector<std::string>& pose_classes(Pair pair) {
     std::array<std::vector<std::string>, std::size(all_pairs)> result;
     for (const Pair p : all_pairs) {
       for (const PoseClass& c : pose_class_table(p)) {
-        result[static_cast<std::size_t>(p)].push_back(c.name);
+        if (!c.by_name_only) result[static_cast<std::size_t>(p)].push_back(c.name);
       }
     }
     return result;
@@ -107,10 +115,19 @@ const std::vector<std::string>& pose_classes(Pair pair) {
   return names[static_cast<std::size_t>(pair)];
 }
 
+std::vector<std::string> pose_classes(Pair pair, const std::vector<std::string>& wanted) {
+  if (wanted.empty()) return pose_classes(pair);
+  std::vector<std::string> names = all_names(pair);
+  std::erase_if(names, [&](const std::string& name) {
+    return std::find(wanted.begin(), wanted.end(), name) == wanted.end();
+  });
+  return names;
+}
+
 void check_pose_classes(const std::vector<Pair>& pairs, const std::vector<std::string>& classes) {
   std::vector<std::string> known;  // in report order, each once
   for (const Pair pair : pairs) {
-    for (const auto& name : pose_classes(pair)) {
+    for (const auto& name : all_names(pair)) {
       if (std::find(known.begin(), known.end(), name) == known.end()) known.push_back(name);
     }
   }

@@ -28,8 +28,13 @@ Identity parse_identity(std::string_view text);
 /// Reads a pair's name; throws InvalidInput that lists those there are.
 Pair parse_pair(std::string_view name);
 
-/// Names of the pose classes of a pair, in report order.
+/// Names of the pose classes of a pair, in report order, without those that are asked for by name
+/// only ("hostile").
 const std::vector<std::string>& pose_classes(Pair pair);
+
+/// Those of a pair's pose classes that are wanted, in report order; of none wanted, the same as
+/// without.
+std::vector<std::string> pose_classes(Pair pair, const std::vector<std::string>& wanted);
 
 /// Throws InvalidInput (field "--class") that lists those there are, unless each class is one of at
 /// least one of the pairs.

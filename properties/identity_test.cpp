@@ -5,6 +5,7 @@
 #include <rapidcheck/gtest.h>
 
 #include "properties/arbitrary.hpp"
+#include "properties/pose_class.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone {
@@ -22,7 +23,7 @@ struct Class {
 std::vector<Class> every_class() {
   std::vector<Class> all;
   for (const Pair pair : all_pairs) {
-    for (const auto& name : pose_classes(pair)) all.push_back({pair, name});
+    for (const PoseClass& c : pose_class_table(pair)) all.push_back({pair, c.name});
   }
   return all;
 }
@@ -62,6 +63,19 @@ TEST(Identity, RefusesWhatItIsNotAndNamesThePart) {
       EXPECT_THAT(e.remedy(), HasSubstr(row.remedy));
     }
   }
+}
+
+TEST(Identity, HostileIsKnownByNameButNotAmongAllClasses) {
+  for (const Pair pair : all_pairs) {
+    EXPECT_THAT(pose_classes(pair), testing::Not(testing::Contains("hostile")));
+    EXPECT_EQ(pose_classes(pair, {}), pose_classes(pair));
+    EXPECT_THAT(pose_classes(pair, {"hostile", "general-deep", "no-such"}),
+                testing::ElementsAre("general-deep", "hostile"));
+    const Identity id{pair, "hostile", 42, 137};
+    EXPECT_EQ(describe_pose_class(pair, "hostile").back(), '.');
+    EXPECT_EQ(parse_identity(to_string(id)), id);
+  }
+  EXPECT_NO_THROW(check_pose_classes({Pair::box}, {"hostile"}));
 }
 
 TEST(Identity, RebuildsTheSameBitsInAnyOrder) {
@@ -156,6 +170,34 @@ TEST(Identity, KeepsItsBitsFromVersionToVersion) {
        "position (-0x1.49598736cd922p+19, 0x1.073f26026df98p+19, 0x1.ec89df645539dp+18) "
        "orientation (0x1.9610103c3090fp-1, -0x1.1e64075e95d9cp-1, -0x1.5a476af52ac35p-4, "
        "-0x1.ce6864edcd25ep-3)"},
+      {"cylinder-capsule/hostile/1/0",
+       "a: cylinder radius 0x1.72287a7098369p-3 half_length 0x1.e0b4498442d4p-3 position "
+       "(0x1.a9da10de0cbc5p-1, 0x1.5f9546aaacd7p-3, -0x1.55df56c97ebd6p+0) orientation "
+       "(-0x1.fffffff1871eep-1, -0x1.fffffff1871e7p-1, 0x1.000000073c70dp+0, "
+       "0x1.000000073c70ap+0); b: capsule radius 0x1.9e418af0a0b1cp-1 half_length "
+       "0x1.a06d308dca1c7p-3 position (0x1.7e3b0f7ff01e9p-3, -0x1.3f2393c596406p-1, "
+       "-0x1.84cc03098676dp-1) orientation (0x1p+0, 0x0p+0, 0x0p+0, 0x0p+0)"},
+      {"cylinder-cylinder/hostile/1/0",
+       "a: cylinder radius 0x1.15e522b88d72bp+178 half_length 0x1.eb2d3e85af24fp+179 position "
+       "(-0x1.2db9e413b8758p+179, -0x1.48822e13bfdfp+180, 0x1.fac90d7cd27dp+178) orientation "
+       "(-0x1.7f714c0352995p-1, 0x1.64ae4d07bb253p-2, -0x1.0b7134ead74e9p-1, "
+       "-0x1.b23cdd04380d1p-3); b: cylinder radius 0x1.3bd946f382abcp+180 half_length "
+       "0x1.0e030e9391e5fp+178 position (0x0p+0, 0x0p+0, 0x0p+0) orientation "
+       "(0x1.0b7134ead74e6p-1, 0x1.b23cdd04380c9p-3, -0x1.7f714c0352992p-1, 0x1.64ae4d07bb252p-2)"},
+      {"cylinder-box/hostile/42/137",
+       "a: cylinder radius 0x1.8p+0 half_length 0x1.8p+0 position (0x1.3f96f3406479p-4, "
+       "-0x1.90d0387a70b5ep+1, 0x1.24516062babb1p+2) orientation (-0x1.71c77f174dcebp-1, "
+       "-0x1.80edf2c0625f3p-3, 0x1.53440cdbdd529p-1, 0x1.02a6922d007c4p-4); b: box half_extents "
+       "(0x1.ap+1, 0x1p+1, 0x1.8p+1) position (-0x0.0000000000007p-1022, 0x0p+0, 0x0p+0) "
+       "orientation (-0x1.33f197f896182p-1, 0x1.dd39351ea0c01p-2, -0x1.1c55cbfa7efc2p-1, "
+       "0x1.57b381e75717ap-2)"},
+      {"cylinder-sphere/hostile/42/137",
+       "a: cylinder radius 0x1.68853e3af5537p-4 half_length 0x1.1ee7174b89dbdp+0 position "
+       "(-0x1.2b7ed52fec6e7p+1, -0x1.d266e1f609eeap+0, -0x1.30d3141c56933p+0) orientation "
+       "(0x1.3a7e5abdd2d25p-2, -0x1.2b243e55d9994p-3, 0x1.32d14c89d635bp-2, "
+       "-0x1.c8636bb4c3022p-1); b: sphere radius 0x1.8c0be431ef43ap-3 position "
+       "(0x1.90fcf2a2ed67bp-8, -0x1.ffbbbb5b1cfb1p-1, 0x1.0391a24d29612p-5) orientation (0x0p+0, "
+       "-0x1p+1, 0x1p+1, 0x1p+0)"},
   };
   for (const auto& row : golden) {
     EXPECT_EQ(shown(make_configuration(parse_identity(row.identity))), row.shown) << row.identity;

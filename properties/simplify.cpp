@@ -6,67 +6,11 @@
 #include <cstdint>
 #include <cstdlib>
 
+#include "properties/numbers.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone {
 namespace {
-
-/// A configuration as its numbers, in groups that are simplified in different ways.
-struct Numbers {
-  std::vector<double> sizes;  ///< all > 0
-  Vec3 position_a, position_b;
-  Eigen::Quaterniond orientation_a, orientation_b;
-  Vec3 normal = Vec3::Zero();  ///< of a plane
-  double displacement = 0;
-  Pair pair;
-};
-
-Numbers numbers_of(const Configuration& c) {
-  Numbers n{{c.a.radius(), c.a.half_length()},
-            c.pose_a.position(),
-            c.pose_b.position(),
-            c.pose_a.orientation(),
-            c.pose_b.orientation(),
-            Vec3::Zero(),
-            0,
-            pair_of(c)};
-  const auto add = [&](std::initializer_list<double> sizes) {
-    n.sizes.insert(n.sizes.end(), sizes);
-  };
-  if (const auto* sphere = std::get_if<Sphere>(&c.b)) add({sphere->radius()});
-  if (const auto* s = std::get_if<Capsule>(&c.b)) add({s->radius(), s->half_length()});
-  if (const auto* s = std::get_if<Cylinder>(&c.b)) add({s->radius(), s->half_length()});
-  if (const auto* s = std::get_if<Box>(&c.b)) {
-    add({s->half_extents().x(), s->half_extents().y(), s->half_extents().z()});
-  }
-  if (const auto* s = std::get_if<Plane>(&c.b)) {
-    n.normal = s->normal();
-    n.displacement = s->displacement();
-  }
-  return n;
-}
-
-Shape body_b(const Numbers& n) {
-  const auto& s = n.sizes;
-  switch (n.pair) {
-    case Pair::plane:
-      return Plane(n.normal, n.displacement);
-    case Pair::sphere:
-      return Sphere(s[2]);
-    case Pair::capsule:
-      return Capsule(s[2], s[3]);
-    case Pair::cylinder:
-      return Cylinder(s[2], s[3]);
-    case Pair::box:
-      break;
-  }
-  return Box({s[2], s[3], s[4]});
-}
-
-Configuration configuration_of(const Numbers& n) {
-  return {Cylinder(n.sizes[0], n.sizes[1]), Pose(n.position_a, n.orientation_a), body_b(n),
-          Pose(n.position_b, n.orientation_b)};
-}
 
 int complexity(double x) {
   if (x == 0) return 0;

@@ -1,6 +1,5 @@
 #include "reports/campaign.hpp"
 
-#include <algorithm>
 #include <chrono>
 #include <cstring>
 #include <stdexcept>
@@ -96,12 +95,7 @@ std::vector<Cell> cells(const Campaign& campaign) {
   std::vector<Cell> result;
   check_pose_classes(campaign.pairs, campaign.classes);
   for (const Pair pair : campaign.pairs) {
-    for (const auto& name : pose_classes(pair)) {
-      const auto& wanted = campaign.classes;
-      if (wanted.empty() || std::find(wanted.begin(), wanted.end(), name) != wanted.end()) {
-        result.push_back({pair, name});
-      }
-    }
+    for (const auto& name : pose_classes(pair, campaign.classes)) result.push_back({pair, name});
   }
   return result;
 }

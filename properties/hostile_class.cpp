@@ -1,0 +1,441 @@
+// One class that mixes everything: where the other classes each hold one difficulty, faults of
+// contact routines sit where several meet. A configuration is made in four steps, each of which
+// often does nothing: bodies near an alignment whose features nearly meet (or a known failure, or a
+// member of another class); moved, turned and scaled as one; some of its numbers changed; and what
+// no double can hold put back into range.
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <utility>
+
+#include "properties/features.hpp"
+#include "properties/known_failures.hpp"
+#include "properties/pose_class.hpp"
+
+namespace touchstone {
+namespace {
+
+using Quaternion = Eigen::Quaterniond;
+
+/// No length, and no number of a quaternion, is larger: sums of a few, and laws that scale by 8 or
+/// move a body by 30 sizes, stay within double.
+constexpr double max_number = 0x1p1000;
+
+bool one_in(Draw& draw, std::int64_t count) { return draw.integer(0, count - 1) == 0; }
+
+template <class Range>
+auto& any_of(Draw& draw, Range& range) {
+  return range[static_cast<std::size_t>(
+      draw.integer(0, static_cast<std::int64_t>(std::size(range)) - 1))];
+}
+
+/// Of any exponent that leaves room for a few sums and products.
+double draw_magnitude(Draw& draw) {
+  const int exponent = static_cast<int>(draw.integer(-1000, 999));
+  return std::ldexp(draw.uniform(1, 2), exponent);
+}
+
+/// A relative tilt, clearance or change from 1e-17 to 1. More of them lie about an ulp and its
+/// square root: there a term and its square drop below rounding.
+double draw_small(Draw& draw) {
+  switch (draw.integer(0, 3)) {
+    case 0:
+      return draw.log_uniform(1e-16, 1e-13);
+    case 1:
+      return draw.log_uniform(1e-9, 1e-6);
+    default:
+      return draw.log_uniform(1e-17, 1);
+  }
+}
+
+/// One in four is zero exactly.
+double draw_small_or_zero(Draw& draw) {
+  if (one_in(draw, 4)) return 0;
+  const double sign = draw.sign();
+  return sign * draw_small(draw);
+}
+
+// Sizes
+
+enum class Sizes { ordinary, dyadic, extreme_aspect, any_exponent };
+
+Sizes draw_kind_of_sizes(Draw& draw) {
+  const std::int64_t kind = draw.integer(0, 31);
+  return kind < 22   ? Sizes::ordinary
+         : kind < 27 ? Sizes::dyadic
+         : kind < 31 ? Sizes::extreme_aspect
+                     : Sizes::any_exponent;
+}
+
+double draw_size(Draw& draw, Sizes kind) {
+  switch (kind) {
+    case Sizes::ordinary:
+      return draw.log_uniform(0.05, 2);
+    case Sizes::dyadic:
+      return static_cast<double>(draw.integer(1, 16)) / 4;
+    case Sizes::extreme_aspect:
+      return draw.log_uniform(1e-8, 1);
+    case Sizes::any_exponent:
+      break;
+  }
+  return draw.coin() ? draw_magnitude(draw) : 1;
+}
+
+std::vector<double> draw_sizes(Draw& draw, Pair pair) {
+  const Sizes kind = draw_kind_of_sizes(draw);
+  std::vector<double> sizes(size_count(pair));
+  for (double& size : sizes) size = draw_size(draw, kind);
+  // Equal, or of a simple ratio: tangent rims, congruent caps, capsules as long as the cylinder.
+  for (int i = 0; i < 4 && draw.coin(); ++i) {
+    const double from = any_of(draw, sizes);
+    constexpr double ratios[] = {1, 1, 2, 0.5};
+    any_of(draw, sizes) = from * any_of(draw, ratios);
+  }
+  return sizes;
+}
+
+// Orientations, as quaternions of any length
+
+Quaternion draw_integer_quaternion(Draw& draw) {
+  for (;;) {
+    double v[4];
+    for (double& x : v) x = static_cast<double>(draw.integer(-4, 4));
+    if (v[0] != 0 || v[1] != 0 || v[2] != 0 || v[3] != 0) {
+      return Quaternion(v[0], v[1], v[2], v[3]);
+    }
+  }
+}
+
+/// About z: by nothing, quarters of a turn, or any angle, and off these by a little.
+Quaternion draw_turn_about_z(Draw& draw) {
+  const Quaternion turns[] = {Quaternion(1, 0, 0, 0), Quaternion(1, 0, 0, 1),
+                              Quaternion(1, 0, 0, -1), Quaternion(0, 0, 0, 1)};
+  const Quaternion turn = one_in(draw, 3) ? draw.turn_about_z() : any_of(draw, turns);
+  const double off = draw.coin() ? 0 : draw_small_or_zero(draw);
+  return product(turn, Quaternion(1, 0, 0, off));
+}
+
+/// About x or y, about any axis across z, or about all three axes by angles of their own.
+Quaternion draw_tilt(Draw& draw) {
+  const double angle = draw_small_or_zero(draw);
+  switch (draw.integer(0, 3)) {
+    case 0:
+      return Quaternion(1, angle / 2, 0, 0);
+    case 1:
+      return Quaternion(1, 0, angle / 2, 0);
+    case 2: {
+      const Vec3 axis = draw.direction_across(Vec3(0, 0, 1));
+      return Quaternion(1, angle / 2 * axis.x(), angle / 2 * axis.y(), 0);
+    }
+    default: {
+      const double about_y = draw_small_or_zero(draw), about_z = draw_small_or_zero(draw);
+      return Quaternion(1, angle / 2, about_y / 2, about_z / 2);
+    }
+  }
+}
+
+/// How A is turned in B's frame: near parallel, opposite or perpendicular, or in general.
+Quaternion draw_relative_orientation(Draw& draw) {
+  const std::int64_t kind = draw.integer(0, 15);
+  if (kind == 0) return draw.orientation();
+  if (kind == 1) return draw_integer_quaternion(draw);
+  const Quaternion parallel[] = {Quaternion(1, 0, 0, 0), Quaternion(0, 1, 0, 0)};
+  const Quaternion perpendicular[] = {Quaternion(1, 0, 1, 0), Quaternion(1, 1, 0, 0)};
+  const Quaternion base = kind < 9 ? any_of(draw, parallel) : any_of(draw, perpendicular);
+  const Quaternion heading = draw_turn_about_z(draw), tilt = draw_tilt(draw);
+  return product(product(product(heading, base), tilt), draw_turn_about_z(draw));
+}
+
+Quaternion normalized(const Quaternion& q) {
+  const double length =
+      std::sqrt(((q.w() * q.w() + q.x() * q.x()) + q.y() * q.y()) + q.z() * q.z());
+  return Quaternion(q.w() / length, q.x() / length, q.y() / length, q.z() / length);
+}
+
+Quaternion times(const Quaternion& q, double factor) {
+  return Quaternion(q.w() * factor, q.x() * factor, q.y() * factor, q.z() * factor);
+}
+
+/// The same orientation with a length that is one, nearly one, or far from it.
+Quaternion with_a_length(Draw& draw, const Quaternion& q) {
+  switch (draw.integer(0, 7)) {
+    case 0:
+    case 1:
+      return q;
+    case 2:
+      return times(normalized(q), 1 + draw_small_or_zero(draw));
+    case 3: {
+      const int exponent = static_cast<int>(one_in(draw, 8) ? draw.integer(-900, 900) : 1);
+      return times(normalized(q), std::ldexp(1, exponent));
+    }
+    default:
+      return normalized(q);
+  }
+}
+
+/// R(q)v for a quaternion of moderate length.
+Vec3 rotated(const Quaternion& q, const Vec3& v) {
+  const Axes a = axes(normalized(q));
+  return (v.x() * a.x + v.y() * a.y) + v.z() * a.z;
+}
+
+// Positions
+
+/// A coordinate at which something of the two shapes coincides, or any within their reach; off by a
+/// little.
+double draw_coordinate(Draw& draw, const std::vector<double>& sizes) {
+  const double one = any_of(draw, sizes), other = any_of(draw, sizes);
+  double at = 0;
+  switch (draw.integer(0, 7)) {
+    case 0:
+      break;
+    case 1:
+      at = draw.sign() * one;
+      break;
+    case 2:
+    case 3:
+      at = draw.sign() * (one + other);
+      break;
+    case 4:
+      at = draw.sign() * (one - other);
+      break;
+    default:
+      at = 2 * draw.uniform(-1, 1) * (one + other);
+  }
+  const double clearance = draw.coin() ? 0 : draw_small_or_zero(draw);
+  return at + clearance * one;
+}
+
+/// Distances along and across one of the bodies' axes, or three coordinates.
+Vec3 draw_aligned_offset(Draw& draw, const Numbers& n) {
+  const auto& sizes = n.sizes;
+  const double across = draw_coordinate(draw, sizes), along = draw_coordinate(draw, sizes);
+  const double aside = draw.coin() ? 0 : draw_coordinate(draw, sizes);
+  const Vec3 headings[] = {Vec3(1, 0, 0), Vec3(0, 1, 0), draw.direction_across(Vec3(0, 0, 1))};
+  const Vec3 e = any_of(draw, headings);
+  const Vec3 offset(across * e.x() - aside * e.y(), across * e.y() + aside * e.x(), along);
+  return rotated(draw.coin() ? n.orientation_b : n.orientation_a, offset);
+}
+
+std::vector<Feature> features_of_b(Pair pair) {
+  using enum Feature;
+  switch (pair) {
+    case Pair::plane:
+      return {cap};
+    case Pair::sphere:
+      return {end};
+    case Pair::capsule:
+      return {side, end};
+    case Pair::cylinder:
+      return {cap, side, rim, rim};
+    case Pair::box:
+      break;
+  }
+  return {cap, edge, vertex};
+}
+
+/// Drawn features meet, or miss each other by a clearance of either sign, or none.
+Vec3 draw_meeting_offset(Draw& draw, const Numbers& n) {
+  using enum Feature;
+  const Configuration shapes = configuration_of(n);
+  const Quaternion turn_a = normalized(n.orientation_a), turn_b = normalized(n.orientation_b);
+  constexpr Feature of_a[] = {cap, side, rim, rim};
+  const std::vector<Feature> of_b = features_of_b(n.pair);
+  const Feature on_a = any_of(draw, of_a), on_b = any_of(draw, of_b);
+  const double size = any_of(draw, n.sizes), clearance = size * draw_small_or_zero(draw);
+  const Configuration met = meet(draw, {shapes.a, turn_a, shapes.b, turn_b}, on_a, on_b, clearance);
+  return met.pose_a.position() - met.pose_b.position();
+}
+
+/// From B's centre to A's.
+Vec3 draw_offset(Draw& draw, const Numbers& n) {
+  return draw.coin() ? draw_meeting_offset(draw, n) : draw_aligned_offset(draw, n);
+}
+
+/// Where B is: mostly at the origin or near it, at times far away, or at a distance from it that
+/// vanishes against all else.
+Vec3 draw_place(Draw& draw) {
+  const std::int64_t kind = draw.integer(0, 15);
+  if (kind < 8) return Vec3::Zero();
+  const Vec3 direction = draw.direction();
+  if (kind < 13) return direction;
+  if (kind < 15) return draw.log_uniform(1e-17, 1e17) * direction;
+  return Vec3(std::ldexp(direction.x(), -1070), 0, 0);
+}
+
+Numbers draw_bodies_near_contact(Draw& draw, Pair pair) {
+  Numbers n;
+  n.pair = pair;
+  n.sizes = draw_sizes(draw, pair);
+  if (pair == Pair::plane) {
+    n.normal = draw.coin() ? Vec3(0, 0, 1) : draw.direction();
+    n.displacement = draw.coin() ? 0 : draw_coordinate(draw, n.sizes);
+  }
+  const Quaternion frames[] = {Quaternion(1, 0, 0, 0), draw_integer_quaternion(draw),
+                               draw.orientation()};
+  n.orientation_b = any_of(draw, frames);
+  n.orientation_a = product(n.orientation_b, draw_relative_orientation(draw));
+  n.position_b = draw_place(draw);
+  n.position_a = n.position_b + draw_offset(draw, n);
+  return n;
+}
+
+Numbers draw_known_failure(Draw& draw, Pair pair) {
+  const auto& known = known_failures(pair);
+  return draw.coin() ? known.front() : any_of(draw, known);  // the first is of our own routines
+}
+
+Numbers draw_from_another_class(Draw& draw, Pair pair) {
+  std::vector<const PoseClass*> others;
+  for (const PoseClass& c : pose_class_table(pair)) {
+    if (!c.by_name_only) others.push_back(&c);
+  }
+  return numbers_of(any_of(draw, others)->generate(draw));
+}
+
+// Both bodies as one
+
+void turn(Numbers& n, const Quaternion& by) {
+  n.position_a = rotated(by, n.position_a);
+  n.position_b = rotated(by, n.position_b);
+  n.orientation_a = product(by, n.orientation_a);
+  n.orientation_b = product(by, n.orientation_b);
+}
+
+void scale(Numbers& n, int exponent) {
+  const auto scaled = [&](double& x) { x = std::ldexp(x, exponent); };
+  for (double& size : n.sizes) scaled(size);
+  for (int i = 0; i < 3; ++i) scaled(n.position_a[i]), scaled(n.position_b[i]);
+  scaled(n.displacement);
+}
+
+int draw_exponent(Draw& draw) {
+  constexpr std::int64_t reaches[] = {20, 200, 1000};
+  const std::int64_t reach = any_of(draw, reaches);
+  return static_cast<int>(draw.integer(-reach, reach));
+}
+
+// Single numbers
+
+/// The double so many places further in the order of all doubles of its sign.
+double neighbour(double x, std::int64_t places) {
+  const auto magnitude = std::bit_cast<std::int64_t>(std::abs(x)) + places;
+  return magnitude < 0 ? 0 : std::copysign(std::bit_cast<double>(magnitude), x);
+}
+
+double to_a_dyadic(Draw& draw, double x) {
+  const int digits = static_cast<int>(draw.integer(0, 8));
+  return std::ldexp(std::floor(std::ldexp(x, digits)), -digits);
+}
+
+void change_one(Draw& draw, const std::vector<double*>& numbers) {
+  double& x = *any_of(draw, numbers);
+  double& other = *any_of(draw, numbers);
+  switch (draw.integer(0, 15)) {
+    case 0:
+    case 1:
+    case 2:
+      x = neighbour(x, draw.integer(-4, 4));
+      break;
+    case 3:
+    case 4:
+    case 5:
+      x += x * draw_small_or_zero(draw);
+      break;
+    case 6:
+    case 7:
+      x += draw_small_or_zero(draw);
+      break;
+    case 8:
+      x = -x;
+      break;
+    case 9:
+      std::swap(x, other);
+      break;
+    case 10: {
+      constexpr double ratios[] = {1, 1, -1, 2, 0.5};
+      x = other * any_of(draw, ratios);
+      break;
+    }
+    case 11:
+      x = 0;
+      break;
+    case 12:
+      x = to_a_dyadic(draw, x);
+      break;
+    case 13:
+      x = static_cast<double>(draw.integer(-4, 4));
+      break;
+    case 14:
+      x = draw_small_or_zero(draw);
+      break;
+    default: {
+      const double sign = draw.sign();
+      if (one_in(draw, 4)) x = sign * draw_magnitude(draw);
+      if (one_in(draw, 4)) x = sign * neighbour(0, draw.integer(1, 1000));
+    }
+  }
+}
+
+// Into range
+
+double in_range(double x) {
+  if (std::isnan(x)) return 0;
+  return std::abs(x) <= max_number ? x : std::copysign(max_number, x);
+}
+
+bool is_zero(const Quaternion& q) { return q.w() == 0 && q.x() == 0 && q.y() == 0 && q.z() == 0; }
+
+/// Sizes positive, quaternions and normals not zero, and a plane's distance from its origin within
+/// max_number too.
+void make_valid(Numbers& n) {
+  for (double* x : every_number(n)) *x = in_range(*x);
+  for (double& size : n.sizes) size = size == 0 ? 1 : std::abs(size);
+  if (is_zero(n.orientation_a)) n.orientation_a.w() = 1;
+  if (is_zero(n.orientation_b)) n.orientation_b.w() = 1;
+  if (n.pair != Pair::plane) return;
+  if (n.normal.x() == 0 && n.normal.y() == 0 && n.normal.z() == 0) n.normal.z() = 1;
+  const double length =
+      std::max({std::abs(n.normal.x()), std::abs(n.normal.y()), std::abs(n.normal.z())});
+  if (!(std::abs(n.displacement) / length <= max_number)) n.displacement = 0;
+}
+
+/// One in so many of what a source gives has one more number changed, up to `max_changes`.
+struct Source {
+  Numbers numbers;
+  int min_changes;
+  std::int64_t one_more_in;
+};
+
+Source draw_source(Draw& draw, Pair pair) {
+  const std::int64_t kind = draw.integer(0, 7);
+  if (kind == 0 && !known_failures(pair).empty()) return {draw_known_failure(draw, pair), 1, 2};
+  if (kind == 1) return {draw_from_another_class(draw, pair), 1, 2};
+  Numbers n = draw_bodies_near_contact(draw, pair);
+  n.orientation_a = with_a_length(draw, n.orientation_a);
+  n.orientation_b = with_a_length(draw, n.orientation_b);
+  return {std::move(n), 0, 4};
+}
+
+Configuration hostile(Draw& draw, Pair pair) {
+  auto [n, changes, one_more_in] = draw_source(draw, pair);
+  if (one_in(draw, 4)) turn(n, draw.coin() ? draw.orientation() : draw_integer_quaternion(draw));
+  if (one_in(draw, 8)) scale(n, draw_exponent(draw));
+  constexpr int max_changes = 5;
+  while (changes < max_changes && one_in(draw, one_more_in)) ++changes;
+  for (const auto numbers = every_number(n); changes > 0; --changes) change_one(draw, numbers);
+  make_valid(n);
+  return configuration_of(n);
+}
+
+}  // namespace
+
+std::vector<PoseClass> hostile_class(Pair pair) {
+  return {{"hostile",
+           "Everything at once: tilts and clearances of any size about alignments and meeting "
+           "features, exact coincidences, neighbours of doubles, any exponent, and known failures "
+           "with a few numbers changed.",
+           [pair](Draw& draw) { return hostile(draw, pair); }, true}};
+}
+
+}  // namespace touchstone
