@@ -20,6 +20,14 @@ struct SignedDistance {
   Vec3 normal;   ///< Unit, from B to A: the way A moves to come free.
 };
 
+/// A signed distance that says how certain it is.
+struct CertifiedDistance : SignedDistance {
+  /// Metres: the true signed distance of the shapes and poses as they are stored in double
+  /// precision lies within `value` ± `error_bound`. It is rounding, some 1e-15 of all lengths,
+  /// where the search is proven complete, and larger where it is not.
+  double error_bound;
+};
+
 /// A routine's answer for one configuration.
 class Contact {
  public:

@@ -62,6 +62,13 @@ class Solver {
     if (best_.gap > enough || (this->*is_final_)()) return;
     offer_rim_rim_normals(pair_, enough, best_);
   }
+  /// Tries every normal, and returns by how much the largest gap may exceed the best one.
+  double exhaust() {
+    closed_forms(never);
+    rim2_beside_side1();
+    rim1_beside_side2();
+    return search_all_rims(pair_, best_) + rounding_part * pair_.lengths();
+  }
   const LargestGap& best() const { return best_; }
   Vec3 to_world(const Vec3& n) const { return f_.to_world(n); }
 
@@ -261,6 +268,19 @@ SignedDistance signed_distance(const Cylinder& a, const Pose& pose_a, const Cyli
   SignedDistance found = bodies.solve(never);
   found.normal *= bodies.sign();
   return found;
+}
+
+CertifiedDistance certified_distance(const Cylinder& a, const Pose& pose_a, const Cylinder& b,
+                                     const Pose& pose_b) {
+  if (!ordinary(a, pose_a, b, pose_b)) {
+    const ScaledBodies scaled(a, pose_a, b, pose_b);
+    return scaled.back(
+        scaled.ask([](const auto&... bodies) { return certified_distance(bodies...); }));
+  }
+  const Ordered bodies(a, pose_a, b, pose_b);
+  Solver solver(bodies.a, bodies.b);
+  const double error_bound = solver.exhaust();
+  return {{solver.best().gap, bodies.sign() * solver.to_world(solver.best().normal)}, error_bound};
 }
 
 bool overlaps(const Cylinder& a, const Pose& pose_a, const Cylinder& b, const Pose& pose_b) {

@@ -15,6 +15,10 @@ inline double without_vanishing(double offset) {
 /// A clearance that is never enough: the largest is wanted.
 inline constexpr double never = std::numeric_limits<double>::infinity();
 
+/// Rounding moves a clearance, of bodies as they are stored, by less than this part of all lengths
+/// together: each of its terms is rounded by a few units in the last place.
+inline constexpr double rounding_part = 16 * std::numeric_limits<double>::epsilon();
+
 /// What rounding leaves of a clearance is far less than this part of all lengths together. No
 /// answer may hang on what it makes of a touch, so a normal that is not always tried must part the
 /// bodies by more than that.

@@ -157,32 +157,61 @@ bool offer_where_likely(const FoldedCylinders& pair, const Rims& rims, double en
   return best.gap > enough || (found.maximum && best.gap > before && is_largest(pair, found, best));
 }
 
+/// What is known of the bodies' distance before their rims are searched.
+struct DistanceBounds {
+  double rounding;
+  double least_depth;  ///< They overlap by no less; not positive where nothing is known.
+  double limit;        ///< They are no further apart.
+
+  explicit DistanceBounds(const FoldedCylinders& pair)
+      : rounding(2e-16 * (pair.axes.d().norm() + pair.h1 + pair.h2 + pair.r1 + pair.r2)),
+        least_depth(overlap_of_balls(pair) - rounding),
+        limit(least_depth > 0
+                  ? 0
+                  : facing_points(pair.axes, {pair.r1, pair.h1}, {pair.r2, pair.h2}).norm()) {}
+  double highest_gap() const { return least_depth > 0 ? -least_depth : limit; }
+};
+
+// Tilts that only rounding makes cost no more than rounding.
+constexpr double parallel = 2e-16;
+
 }  // namespace
 
 void offer_rim_rim_normals(const FoldedCylinders& pair, double enough, LargestGap& best) {
-  // Tilts that only rounding makes cost no more than rounding.
-  constexpr double parallel = 2e-16;
   if (pair.axes.s <= parallel) return offer_parallel_rim_normal(pair, best);
   const Ends likely = likely_ends(pair, best.normal);
   if (offer_where_likely(pair, Rims(pair, likely.one, likely.two), enough, best)) return;
 
   offer_parallel_rim_normal(pair, best);
-  const double rounding = 2e-16 * (pair.axes.d().norm() + pair.h1 + pair.h2 + pair.r1 + pair.r2);
-  const double least_depth = overlap_of_balls(pair) - rounding;
-  if (-best.gap <= least_depth) return;
-  // Points of both bodies: they are not further apart.
-  double limit =
-      least_depth > 0 ? 0 : facing_points(pair.axes, {pair.r1, pair.h1}, {pair.r2, pair.h2}).norm();
+  DistanceBounds bounds(pair);
+  if (-best.gap <= bounds.least_depth) return;
   for (const double end1 : {likely.one, -likely.one}) {
     for (const double end2 : {likely.two, -likely.two}) {
       const Rims rims(pair, end1, end2);
-      const Range useful = rims.useful_cosines(best.gap, least_depth > 0 ? -least_depth : limit);
+      const Range useful = rims.useful_cosines(best.gap, bounds.highest_gap());
       if (useful.empty()) continue;
-      RimScan(pair, rims, limit, least_depth, best).scan(useful);
+      RimScan(pair, rims, bounds.limit, bounds.least_depth, best).scan(useful);
       // Apart by the gap, with points no further apart: nothing is better.
-      if (best.gap > enough || best.gap >= limit - rounding) return;
+      if (best.gap > enough || best.gap >= bounds.limit - bounds.rounding) return;
     }
   }
+}
+
+double search_all_rims(const FoldedCylinders& pair, LargestGap& best) {
+  offer_parallel_rim_normal(pair, best);
+  if (pair.axes.s <= parallel) return 0;
+  DistanceBounds bounds(pair);
+  double unproven = 0;
+  for (const double end1 : {1.0, -1.0}) {
+    for (const double end2 : {1.0, -1.0}) {
+      const Rims rims(pair, end1, end2);
+      RimScan scan(pair, rims, bounds.limit, bounds.least_depth, best);
+      scan.scan({-1, 1});
+      unproven = std::max(unproven, scan.unproven());
+    }
+  }
+  if (bounds.least_depth > 0) return unproven;
+  return std::max(0.0, std::min(unproven, bounds.limit - best.gap));
 }
 
 }  // namespace touchstone

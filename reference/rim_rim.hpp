@@ -11,11 +11,13 @@ namespace touchstone {
 /// The best normal so far tells which ends' rims are likely to meet. Newton's method from where
 /// these cross, or along two points that face each other, mostly ends at a maximum that proves
 /// itself the largest (deep_normals.hpp). Else, of each pair of ends, the arc of the smaller rim is
-/// found where a local maximum can lie at all (Rims::useful_cosines); mostly there is none. Half of
-/// the rim (the other half is its mirror image) is scanned on that arc with the nearest points of
-/// the larger rim (RimScan): parts that are too far away to matter are left out, sign changes of
-/// the slope are bracketed, and arcs are as short as the slope is uneven. At most 400 samples for
-/// each pair of ends.
+/// found where a maximum can lie at all (Rims::useful_cosines); mostly there is none. That arc is
+/// searched to the end (RimScan).
 void offer_rim_rim_normals(const FoldedCylinders& pair, double enough, LargestGap& best);
+
+/// Searches the rims of all four pairs of ends, whatever is known of them. Returns by how much the
+/// largest gap where rims meet may exceed the best one, but for rounding: zero where the search is
+/// proven complete.
+double search_all_rims(const FoldedCylinders& pair, LargestGap& best);
 
 }  // namespace touchstone

@@ -36,12 +36,13 @@ class RimScan {
     arc((from + to) / 2, (to - from) / 2);
   }
 
-  /// By how much the largest gap where these rims meet may exceed the best one at most, but for
-  /// rounding; zero where the search is proven complete.
+  /// By how much the largest gap where these rims meet may exceed the best one, but for rounding,
+  /// where the bodies overlap; zero where the search is proven complete.
   double unproven() const { return unproven_; }
 
  private:
   static constexpr double min_half_width = 1e-8;  // rad
+  static constexpr double small_step = 1e-9;      // rad; its square is below rounding
   static constexpr int max_samples = 1000;
 
   RimSample at(double angle) {
@@ -54,7 +55,8 @@ class RimScan {
   /// Distances that a largest gap can have: its bodies overlap by less than the best depth or are
   /// no further apart than `limit_`, and lie deeper than `least_depth_`.
   bool matters(double min_distance, double max_distance) const {
-    return min_distance <= std::max(limit_, -best_.gap) && max_distance >= least_depth_;
+    return min_distance - noise_ <= std::max(limit_, -best_.gap) &&
+           max_distance + noise_ >= least_depth_;
   }
 
   void arc(double angle, double half_width) {
@@ -67,13 +69,15 @@ class RimScan {
       const double curvature_noise = noise_ * rims_.conditioning(radial);
       const double change = (std::abs(middle.curvature) + bend / 2 + curvature_noise) * half_width;
       if (std::abs(middle.slope) > change + noise_) return;  // no stationary distance
-      if (std::abs(middle.slope) + change <= noise_) return leave(middle, noise_);  // constant
-      if (middle.curvature + bend + curvature_noise < 0) return;                    // only maxima
+      if (std::abs(middle.slope) + change <= noise_)
+        return leave(middle, noise_, half_width);                 // constant
+      if (middle.curvature + bend + curvature_noise < 0) return;  // only maxima
       if (least_depth_ > 0 && rims_.points_inward(middle, half_width, radial)) return;
       const double min_curvature = middle.curvature - bend - curvature_noise;
       if (min_curvature > 0) return steady(middle, half_width, min_curvature);
     }
-    if (half_width <= min_half_width || samples_ > max_samples) return leave(middle, reach);
+    if (half_width <= min_half_width || samples_ > max_samples)
+      return leave(middle, reach, half_width);
     arc(angle - half_width / 2, half_width / 2);
     arc(angle + half_width / 2, half_width / 2);
   }
@@ -82,30 +86,35 @@ class RimScan {
   void steady(const RimSample& middle, double half_width, double min_curvature) {
     const double fall = rims_.radius1() * middle.slope * middle.slope / min_curvature;
     const double squared = middle.distance * middle.distance - fall;
-    if (squared > 0 && !matters(std::sqrt(squared) - noise_, middle.distance)) return;
+    if (squared > 0 && !matters(std::sqrt(squared), middle.distance)) return;
     double lo = middle.angle - half_width, hi = middle.angle + half_width;
     RimSample x = middle;
-    constexpr int max_steps = 50;
-    for (int i = 0; i < max_steps && std::abs(x.slope) > noise_ / 8; ++i) {
-      const double next = x.angle - x.slope / x.curvature;
-      const double inside = next > lo && next < hi ? next : x.slope < 0 ? hi : lo;
+    double previous = 4 * half_width;
+    constexpr int max_steps = 60;
+    for (int i = 0; i < max_steps; ++i) {
       (x.slope < 0 ? lo : hi) = x.angle;
-      if (inside == x.angle) break;
-      x = at(inside);
+      double next = std::clamp(x.angle - x.slope / x.curvature, lo, hi);
+      if (std::abs(next - x.angle) > previous / 2) next = (lo + hi) / 2;
+      previous = std::abs(next - x.angle);
+      if (previous <= small_step) break;
+      x = at(next);
     }
-    // The neighbouring arc holds the minimum.
-    if (std::abs(x.slope) > noise_ && (x.angle == lo || x.angle == hi)) return;
-    offer(x);
+    // Beyond an end of the arc the minimum is the neighbouring arc's.
+    if (!(lo < hi) && std::abs(x.slope) > noise_) return;
+    leave(x, 0, small_step);
   }
 
-  /// What remains of an arc on which no bound holds: its distances are within `reach`.
-  void leave(const RimSample& x, double reach) {
+  /// Offers the normal of an arc whose distances are within `reach` of this one and whose ends are
+  /// within the angle `turn`, and counts what it may have missed.
+  void leave(const RimSample& x, double reach, double turn) {
     // No better than the best one, whether the bodies overlap by that distance or are that far
     // apart.
     const double enough = best_.gap + noise_, farthest = std::min(limit_, x.distance + reach);
     if (reach - x.distance <= enough && (least_depth_ > 0 || farthest <= enough)) return;
     offer(x);
-    unproven_ = std::max(unproven_, -best_.gap - std::max(x.distance - reach, least_depth_));
+    if (rims_.may_meet(x, reach + noise_, turn)) {
+      unproven_ = std::max(unproven_, reach - x.distance - best_.gap - noise_);
+    }
   }
 
   /// Where the rims nearly touch their difference is noise, where tangents are parallel their

@@ -24,8 +24,10 @@ struct FoldedCylinders {
            r1 * std::sqrt(n.y() * n.y() + n.z() * n.z()) - r2 * std::sqrt(m * m + n.z() * n.z());
   }
   /// A clearance that no rounding makes.
-  double clear_gap() const {
-    return clear_part * (axes.d3 + std::abs(axes.d2) + std::abs(axes.d1) + r1 + h1 + r2 + h2);
+  double clear_gap() const { return clear_part * lengths(); }
+  /// All lengths together.
+  double lengths() const {
+    return axes.d3 + std::abs(axes.d2) + std::abs(axes.d1) + r1 + h1 + r2 + h2;
   }
   /// Of a normal across axis 1, where along it from A's centre lies the point of B; likewise the
   /// point of A along axis 2.
@@ -165,6 +167,19 @@ class Rims {
   /// The cosines of rim 1's angles at which these ends may have a local maximum of the gap between
   /// `lowest` and `highest`; an empty range if they have none.
   Range useful_cosines(double lowest, double highest) const;
+
+  /// May overlapping bodies meet at a sample whose `apart` is known to within `error` and whose
+  /// angle to within `turn`? There n, across both tangents and −`apart` / δ, has n3 >= 0 and points
+  /// outward from both ends and both rims. Along nearly parallel axes only the tangents tell.
+  bool may_meet(const RimSample& x, double error, double turn) const {
+    const double c = pair_.axes.c, slack = turn * (2 + pair_.r1 / x.radial);
+    const double along1 = c * x.cos1 * x.sin2 - x.sin1 * x.cos2;
+    const double along2 = x.cos1 * x.sin2 - c * x.sin1 * x.cos2;
+    const double outward1 = x.apart.y() * x.cos1 + x.apart.z() * x.sin1;
+    return x.sin2 >= -slack && end1_ * along1 >= -slack && end2_ * along2 >= -slack &&
+           end1_ * x.apart.x() <= error && end2_ * x.height <= error && x.apart.z() <= error &&
+           outward1 <= error && x.radial - pair_.r2 <= error;
+  }
 
   /// Across both rims' tangents at these places.
   Vec3 across_tangents(double cos1, double sin1, double cos2, double sin2) const {

@@ -63,6 +63,11 @@ class ScaledBodies {
     answer.value = back(answer.value);
     return answer;
   }
+  CertifiedDistance back(CertifiedDistance answer) const {
+    answer.value = back(answer.value);
+    answer.error_bound = back(answer.error_bound + vanishing);
+    return answer;
+  }
   Contact back(const Contact& answer) const {
     Contact result;
     result.normal = answer.normal;
