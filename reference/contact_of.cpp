@@ -13,6 +13,11 @@ SignedDistance signed_distance(const Configuration& c) {
                     c.b);
 }
 
+CertifiedDistance certified_distance(const Configuration& c) {
+  return std::visit([&](const auto& b) { return certified_distance(c.a, c.pose_a, b, c.pose_b); },
+                    c.b);
+}
+
 bool overlaps(const Configuration& c) {
   return std::visit([&](const auto& b) { return overlaps(c.a, c.pose_a, b, c.pose_b); }, c.b);
 }

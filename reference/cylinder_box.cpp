@@ -40,6 +40,15 @@ class Solver : public BoxSides {
     for (int i = 0; i < 3 && !final_ && best_.gap <= enough; ++i) edge_over_rim(i);
   }
 
+  /// Tries every normal.
+  void exhaust() {
+    closed_forms(never);
+    for (int i = 0; i < 8; ++i) vertex_beside_side(corner(i));
+    meet_between();
+    vertex_off_rim();
+    for (int i = 0; i < 3; ++i) edge_over_rim(i);
+  }
+
  private:
   /// n ⟂ u. Seen along the axis the box is a polygon, and where one of its corners is the nearest
   /// to the axis, one of the two sides there is the furthest away: a corner's clearance times the
@@ -259,6 +268,21 @@ SignedDistance signed_distance(const Cylinder& a, const Pose& pose_a, const Box&
   }
   const Vec3& origin = pose_b.position();
   return solve(a, b, posed(a, pose_a, origin), posed(b, pose_b, origin), never);
+}
+
+CertifiedDistance certified_distance(const Cylinder& a, const Pose& pose_a, const Box& b,
+                                     const Pose& pose_b) {
+  if (!ordinary(a, pose_a, b, pose_b)) {
+    const ScaledBodies scaled(a, pose_a, b, pose_b);
+    return scaled.back(
+        scaled.ask([](const auto&... bodies) { return certified_distance(bodies...); }));
+  }
+  const Vec3 d = pose_a.position() - pose_b.position();
+  const Eigen::Matrix3d& axes = pose_b.rotation();
+  Solver solver(a, b, axes.transpose() * d, axes.transpose() * pose_a.axis());
+  solver.exhaust();
+  const double lengths = d.cwiseAbs().sum() + a.radius() + a.half_length() + b.half_extents().sum();
+  return {{solver.best().gap, axes * solver.best().normal}, rounding_part * lengths};
 }
 
 bool overlaps(const Cylinder& a, const Pose& pose_a, const Box& b, const Pose& pose_b) {

@@ -34,6 +34,13 @@ class Solver {
     segment_over_rim();
     end_off_rim();
   }
+  /// Tries every normal.
+  void exhaust() {
+    cap();
+    sides_crossing();
+    end_beside_side();
+    search();
+  }
   const LargestGap& best() const { return best_; }
 
  private:
@@ -167,6 +174,22 @@ SignedDistance signed_distance(const Cylinder& a, const Pose& pose_a, const Caps
         scaled.ask([](const auto&... bodies) { return signed_distance(bodies...); }));
   }
   return solve(a, pose_a, b, pose_b, never);
+}
+
+CertifiedDistance certified_distance(const Cylinder& a, const Pose& pose_a, const Capsule& b,
+                                     const Pose& pose_b) {
+  if (!ordinary(a, pose_a, b, pose_b)) {
+    const ScaledBodies scaled(a, pose_a, b, pose_b);
+    return scaled.back(
+        scaled.ask([](const auto&... bodies) { return certified_distance(bodies...); }));
+  }
+  const FoldedAxes f(pose_a.axis(), pose_b.axis(), pose_a.position() - pose_b.position());
+  Solver solver(a, b, f);
+  solver.exhaust();
+  const double lengths =
+      f.d().cwiseAbs().sum() + a.radius() + a.half_length() + b.radius() + b.half_length();
+  return {{solver.best().gap - b.radius(), f.to_world(solver.best().normal)},
+          rounding_part * lengths};
 }
 
 bool overlaps(const Cylinder& a, const Pose& pose_a, const Capsule& b, const Pose& pose_b) {

@@ -12,6 +12,11 @@ namespace touchstone {
 SignedDistance signed_distance(const Cylinder& a, const Pose& pose_a, const Capsule& b,
                                const Pose& pose_b);
 
+/// The same with a bound of its error: tries every kind of normal, whatever proves itself on the
+/// way.
+CertifiedDistance certified_distance(const Cylinder& a, const Pose& pose_a, const Capsule& b,
+                                     const Pose& pose_b);
+
 /// Do they share a point?
 bool overlaps(const Cylinder& a, const Pose& pose_a, const Capsule& b, const Pose& pose_b);
 

@@ -5,6 +5,7 @@
 
 #include "disc_layout.hpp"
 #include "facing_feature.hpp"
+#include "largest_gap.hpp"
 #include "manifold.hpp"
 #include "scaled.hpp"
 
@@ -109,6 +110,20 @@ SignedDistance signed_distance(const Cylinder& a, const Pose& pose_a, const Plan
   }
   const Stance stance(a, pose_a, b, pose_b);
   return {stance.signed_distance, stance.normal};
+}
+
+CertifiedDistance certified_distance(const Cylinder& a, const Pose& pose_a, const Plane& b,
+                                     const Pose& pose_b) {
+  if (!ordinary(a, pose_a, b, pose_b)) {
+    const ScaledBodies scaled(a, pose_a, b, pose_b);
+    return scaled.back(
+        scaled.ask([](const auto&... bodies) { return certified_distance(bodies...); }));
+  }
+  const Stance stance(a, pose_a, b, pose_b);
+  const double lengths = std::abs(b.unit_displacement()) +
+                         (pose_a.position() - pose_b.position()).cwiseAbs().sum() + a.radius() +
+                         a.half_length();
+  return {{stance.signed_distance, stance.normal}, rounding_part * lengths};
 }
 
 bool overlaps(const Cylinder& a, const Pose& pose_a, const Plane& b, const Pose& pose_b) {

@@ -13,6 +13,10 @@ namespace touchstone {
 SignedDistance signed_distance(const Cylinder& a, const Pose& pose_a, const Plane& b,
                                const Pose& pose_b);
 
+/// The same with a bound of its error.
+CertifiedDistance certified_distance(const Cylinder& a, const Pose& pose_a, const Plane& b,
+                                     const Pose& pose_b);
+
 /// Do they share a point?
 bool overlaps(const Cylinder& a, const Pose& pose_a, const Plane& b, const Pose& pose_b);
 

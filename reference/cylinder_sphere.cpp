@@ -83,6 +83,18 @@ SignedDistance signed_distance(const Cylinder& a, const Pose& pose_a, const Sphe
   return distance(a, pose_a, b, pose_b, never);
 }
 
+CertifiedDistance certified_distance(const Cylinder& a, const Pose& pose_a, const Sphere& b,
+                                     const Pose& pose_b) {
+  if (!ordinary(a, pose_a, b, pose_b)) {
+    const ScaledBodies scaled(a, pose_a, b, pose_b);
+    return scaled.back(
+        scaled.ask([](const auto&... bodies) { return certified_distance(bodies...); }));
+  }
+  const double lengths = (pose_a.position() - pose_b.position()).cwiseAbs().sum() + a.radius() +
+                         a.half_length() + b.radius();
+  return {distance(a, pose_a, b, pose_b, never), rounding_part * lengths};
+}
+
 bool overlaps(const Cylinder& a, const Pose& pose_a, const Sphere& b, const Pose& pose_b) {
   if (!ordinary(a, pose_a, b, pose_b)) {
     const ScaledBodies scaled(a, pose_a, b, pose_b);
