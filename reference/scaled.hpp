@@ -14,7 +14,10 @@ namespace touchstone {
 // of two, which rounds nothing, and the answer back. Nobody simulates such bodies, but a body that
 // has flown off must be answered with a number, not with NaN.
 
-inline constexpr double least_length = 1e-50, most_length = 1e50;
+// Largest powers are the eighth (`ellipse_normal` and `towards` take lengths of fourth powers):
+// with all lengths within these bounds none leaves 1e-200 to 1e200, whichever lengths it
+// multiplies.
+inline constexpr double least_length = 1e-25, most_length = 1e25;
 
 /// The smallest of a body's lengths, and their sum with the offsets.
 struct Lengths {
@@ -30,7 +33,7 @@ inline Lengths lengths(const Box& s) {
 }
 inline Lengths lengths(const Plane& s) { return {most_length, std::abs(s.unit_displacement())}; }
 
-/// Are all lengths such that their squares and fourth powers are ordinary doubles?
+/// Are all lengths such that their eighth powers are ordinary doubles?
 template <class Other>
 bool ordinary(const Cylinder& a, const Pose& pose_a, const Other& b, const Pose& pose_b) {
   const Lengths of_a = lengths(a), of_b = lengths(b);
@@ -40,7 +43,7 @@ bool ordinary(const Cylinder& a, const Pose& pose_a, const Other& b, const Pose&
 }
 
 /// The bodies with all lengths times a power of two so that the largest is about one; lengths that
-/// vanish against it are made 1e-45 of it.
+/// vanish against it are made 1e-24 of it.
 template <class Other>
 class ScaledBodies {
  public:
@@ -75,7 +78,7 @@ class ScaledBodies {
   }
 
  private:
-  static constexpr double vanishing = 1e-45;
+  static constexpr double vanishing = 1e-24;
 
   static double largest(const Pose& p) { return p.position().cwiseAbs().maxCoeff(); }
   template <class Body>
