@@ -12,6 +12,7 @@
 #include "oracle/truth.hpp"
 #include "properties/identity.hpp"
 #include "reference/contact_of.hpp"
+#include "reference/support.hpp"
 
 namespace touchstone {
 namespace {
@@ -77,6 +78,106 @@ TEST(AccuracyOfTheWorst, IsWithinRoundingOfTheLargerSize) {
     const Errors errors(make_configuration(parse_identity(id)));
     EXPECT_LE(errors.distance, 1e-13) << id;
     EXPECT_LE(errors.regret, 1e-13) << id;
+  }
+}
+
+// Configurations that generators of another make found wrong.
+TEST(AccuracyOfTheHostile, IsWithinRoundingOfTheLargerSize) {
+  const struct {
+    const char* name;
+    Configuration configuration;
+  } table[] = {
+      // Projections left a gap of one ulp of bodies that overlap deeply; the vertex off the rim lay
+      // on the rim, the normal to it vanished, and no gap is as large as that of no normal.
+      {"a box's vertex on the rim",
+       {Cylinder(0x1.97c35abda3eebp-1, 0x1.93973dd550fddp-1),
+        Pose({-0x1.81d3ed9e3d37ap-3, 0x1.da6972f3aa68cp-1, -0x1.68700f31523a4p-1},
+             {0x1p+0, 0x1.11baa155417aap-47, -0x1.0bb9b6876a42ap-48, 0x1.b171ba7780121p-19}),
+        Box({0x1.2867f0a3b4efbp-2, 0x1.2867f0a3b4efbp-2, 0x1.5939751ff6014p-4}),
+        Pose({0x0.0000000000001p-1022, 0, 0}, {1, 0, 0, 0})}},
+      // Squares that cancelled took a vertex of a box 4e-7 thin for one beside a cap 4e-8 wide.
+      {"a thin box's vertex beside a thin cylinder",
+       {Cylinder(0x1.5adf1e53b58cbp-25, 0x1.04c51b27cc453p-10),
+        Pose({0x1.50af5789b637ep+1, 0x1.facfbc323149ap+0, 0x1.7328118884318p-1},
+             {-0x1.ed71d80335651p-3, 0x1.444e46af34d6bp-1, 0x1.6b6a28280ca2cp-1,
+              -0x1.89946b3c4a0b1p-3}),
+        Box({0x1.9796486b56d28p-22, 0x1.63e41bbd6b875p-4, 0x1.e96fb2e83a3b5p-1}),
+        Pose({0x1p+1, 0x1p+1, 0x0p+0}, {-0x1.ed71d80335652p-3, 0x1.444e46af34d6bp-1,
+                                        0x1.6b6a28280ca2cp-1, -0x1.89946b3c4a0b1p-3})}},
+      // The cosine between the axes is a denormal, and with it half axis and products of the
+      // ellipse.
+      {"a capsule across the axis but for a denormal",
+       {Cylinder(0x1p-2, 0x1.e4ba4a59350b6p-1),
+        Pose({-0x1.9c0c06b22fabcp+0, -0x1.b29ea3cba369fp-2, 0x1.1e4ba9d1425bcp-2},
+             {0x1p+0, -0x1.6a09e667f3bcdp-1, 0x1p+0, -0x1.6a09e667f3bcdp-1}),
+        Capsule(0x1.e4ba4a59350b7p-1, 0x1.480423537100cp-1),
+        Pose({0x0p+0, 0x0p+0, 0x0p+0},
+             {0x1p+0, -0x1.6a09e667f3bcdp-1, -0x0.0000000000002p-1022, 0x0p+0})}},
+  };
+  for (const auto& row : table) {
+    const SignedDistance answer = signed_distance(row.configuration);
+    EXPECT_NEAR(answer.normal.norm(), 1, 4e-15) << row.name;
+    ASSERT_GT(answer.normal.norm(), 0) << row.name;
+    const Errors errors(row.configuration);
+    EXPECT_LE(errors.distance, 1e-13) << row.name;
+    EXPECT_LE(errors.regret, 1e-13) << row.name;
+  }
+}
+
+Shape scaled(const Shape& shape, double by) {
+  if (const auto* s = std::get_if<Plane>(&shape)) return Plane(s->normal(), by * s->displacement());
+  if (const auto* s = std::get_if<Sphere>(&shape)) return Sphere(by * s->radius());
+  if (const auto* s = std::get_if<Box>(&shape)) return Box(by * s->half_extents());
+  if (const auto* s = std::get_if<Capsule>(&shape)) {
+    return Capsule(by * s->radius(), by * s->half_length());
+  }
+  const auto& s = std::get<Cylinder>(shape);
+  return Cylinder(by * s.radius(), by * s.half_length());
+}
+Configuration scaled(const Configuration& c, double by) {
+  const auto posed = [by](const Pose& p) { return Pose(by * p.position(), p.orientation()); };
+  return {std::get<Cylinder>(scaled(Shape(c.a), by)), posed(c.pose_a), scaled(c.b, by),
+          posed(c.pose_b)};
+}
+
+// No power of a length may overflow or vanish, of any length that a double holds.
+TEST_P(Accuracy, IsTheSameAtEveryScale) {
+  for (const auto& name : pose_classes(GetParam())) {
+    for (std::uint64_t i = 0; i < 10; ++i) {
+      const Identity id{GetParam(), name, 7, i};
+      const Configuration c = make_configuration(id);
+      const SignedDistance answer = signed_distance(c);
+      for (const int exponent : {-700, -170, -130, -100, -82, 82, 100, 128, 140, 166, 400, 900}) {
+        const double by = std::ldexp(1, exponent);
+        const SignedDistance at_scale = signed_distance(scaled(c, by));
+        SCOPED_TRACE(to_string(id) + " times 2^" + std::to_string(exponent));
+        const double rounding = 1e-13 * larger_size(c) + 1e-15 * c.pose_a.position().norm();
+        ASSERT_NEAR(at_scale.value / by, answer.value, rounding);
+        ASSERT_NEAR(at_scale.normal.norm(), 1, 4e-15);
+        if (GetParam() == Pair::plane) continue;  // a half-space has a gap along its normal only
+        ASSERT_GE(gap(c, at_scale.normal), answer.value - rounding);
+      }
+    }
+  }
+}
+
+// Lengths of both ends beside each other.
+TEST(AccuracyOfTheHostile, HoldsForLengthsFarApart) {
+  const Eigen::Quaterniond turn(0.9, 0.3, 0.2, 0.1);
+  for (const double tiny : {1e-40, 1e-24, 1e-9}) {
+    for (const double huge : {1e9, 1e24, 1e40}) {
+      const Shape others[] = {Sphere(huge),         Sphere(tiny),         Capsule(tiny, huge),
+                              Capsule(huge, tiny),  Cylinder(tiny, huge), Cylinder(huge, tiny),
+                              Box({tiny, 1, huge}), Box({huge, tiny, 1})};
+      for (const Shape& b : others) {
+        for (const Cylinder& a : {Cylinder(tiny, huge), Cylinder(huge, tiny), Cylinder(1, 1)}) {
+          const double size = std::max(largest_half_extent(a), largest_half_extent(b));
+          const Errors errors({a, Pose(size * Vec3(0.3, -0.4, 0.9), turn), b, Pose()});
+          EXPECT_LE(errors.distance, 1e-13) << shape_name(b) << " " << tiny << " " << huge;
+          EXPECT_LE(errors.regret, 1e-13) << shape_name(b) << " " << tiny << " " << huge;
+        }
+      }
+    }
   }
 }
 

@@ -66,18 +66,20 @@ void ArcPolygon::clip(const Vec2& normal, double bound) {
       continue;
     }
     if (at.cosine <= -1) continue;
-    const Vec2& centre = circles_[vertex.circle].centre;
+    const auto& [centre, radius] = circles_[vertex.circle];
     if (p_stays && !q_stays) {
       add(at.leaves, straight);
     } else if (!p_stays && q_stays) {
       add(at.returns, vertex.circle);
-    } else if (on_arc(centre, p, q, at.leaves) && on_arc(centre, p, q, at.returns)) {
+    } else if (on_arc(centre, p, q, centre + (p_stays ? radius : -radius) * normal)) {
+      // The arc passes the place that is the farthest along the normal, or the least far. (Where
+      // the line meets an end of the arc, rounding may put a crossing beyond it.)
       if (p_stays) {
-        add(at.leaves, straight);
-        add(at.returns, vertex.circle);
+        add(on_arc(centre, p, q, at.leaves) ? at.leaves : p, straight);
+        add(on_arc(centre, p, q, at.returns) ? at.returns : q, vertex.circle);
       } else {
-        add(at.returns, vertex.circle);
-        add(at.leaves, straight);
+        add(on_arc(centre, p, q, at.returns) ? at.returns : p, vertex.circle);
+        add(on_arc(centre, p, q, at.leaves) ? at.leaves : q, straight);
       }
     }
   }

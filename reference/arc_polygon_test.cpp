@@ -51,6 +51,25 @@ TEST(ArcPolygon, HalfDiscHasItsTwoCornersAndTwoPointsOnTheArc) {
   EXPECT_GT(coverage(region), 0.75);
 }
 
+// Rounding puts the second line's crossing of the circle before or behind the corner; what lies
+// beyond the line is cut off all the same.
+TEST(ArcPolygon, TwoLinesThatMeetOnTheCircleCutBothCapsOff) {
+  for (int i = 0; i < 1000; ++i) {
+    const double angle = 0.1 + 1.3 * i / 1000;
+    const Vec2 corner = direction(angle);
+    for (const double hair : {-1e-16, 0.0, 1e-16}) {
+      ArcPolygon region(unit);
+      region.clip(Vec2(1, 0), corner.x());
+      region.clip(Vec2(0, 1), corner.y() + hair);
+      EXPECT_LE(region.farthest(Vec2(1, 0)).x(), corner.x() + 1e-15) << angle;
+      EXPECT_LE(region.farthest(Vec2(0, 1)).y(), corner.y() + 1e-15) << angle;
+      std::array<Vec2, 8> points;
+      const int count = region.spread(Vec2(1, 0.37), points);
+      for (int k = 0; k < count; ++k) EXPECT_LE(points[k].y(), corner.y() + 1e-15) << angle;
+    }
+  }
+}
+
 TEST(ArcPolygon, CutThatLeavesMostOfTheDiscKeepsItsLongArc) {
   for (const double left : {0.9, 1 - 1e-6, 1 - 1e-11}) {
     ArcPolygon region(unit);

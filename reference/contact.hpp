@@ -45,6 +45,7 @@ class Contact {
     assert(count_ < max_points);
     points_[count_++] = {position, depth};
   }
+  void clear_points() { count_ = 0; }
 
  private:
   std::array<ContactPoint, max_points> points_;

@@ -1,6 +1,7 @@
 #include "cylinder_box.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -76,7 +77,10 @@ class Solver : public BoxSides {
     // What rounding leaves along the axis counts over its whole length.
     const double radial = std::sqrt(squared);
     Vec3 n = across / radial;
-    n = (n - n.dot(u_) * u_).normalized();
+    n -= n.dot(u_) * u_;
+    const double length = n.norm();
+    if (!(length > 0.5)) return;  // the vertex is on the axis, but for rounding
+    n /= length;
     const bool pointed = (v.cwiseProduct(n).array() >= 0).all();
     best_.offer(pointed ? radial - r_ : gap(n), n);
     final_ = pointed && std::abs(height) <= h_ - depth() && depth() <= r_;
@@ -110,16 +114,19 @@ class Solver : public BoxSides {
 
   /// Between bodies that are apart: the nearest vertex that is off the rim.
   void vertex_off_rim() {
-    const Vec3 along = e_.cwiseProduct(u_);
-    const double centre = d_.dot(u_), middle = d_.squaredNorm() + e_.squaredNorm();
-    const Vec3 twice = 2 * d_.cwiseProduct(e_);
+    // Across the axis and along it, from the vertices to A's centre: the centre's part less that of
+    // each half extent. (Squares that cancel would hide a thin body's radius.)
+    const double along = d_.dot(u_);
+    const Vec3 across = d_ - along * u_;
+    std::array<Vec3, 3> side;
+    for (int i = 0; i < 3; ++i) side[i] = e_[i] * (Vec3::Unit(i) - u_[i] * u_);
     double nearest = std::numeric_limits<double>::infinity();
     int best = -1;
     for (int i = 0; i < 8; ++i) {  // without branches, which nobody can predict
       const double x = (i & 1) ? 1 : -1, y = (i & 2) ? 1 : -1, z = (i & 4) ? 1 : -1;
-      const double height = centre - x * along[0] - y * along[1] - z * along[2];
-      const double squared = middle - x * twice[0] - y * twice[1] - z * twice[2] - height * height;
-      const double above = std::abs(height) - h_, beside = std::sqrt(squared) - r_;
+      const double height = along - x * e_[0] * u_[0] - y * e_[1] * u_[1] - z * e_[2] * u_[2];
+      const double radial = (across - x * side[0] - y * side[1] - z * side[2]).norm();
+      const double above = std::abs(height) - h_, beside = radial - r_;
       const double distance = above * above + beside * beside;
       const bool better = (above > 0) & (beside > 0) & (distance < nearest);
       nearest = better ? distance : nearest;
@@ -128,10 +135,13 @@ class Solver : public BoxSides {
     if (best < 0) return;
     const Vec3 arm = d_ - corner(best);
     const double height = arm.dot(u_);
-    const Vec3 across = arm - height * u_;
-    const double radial = across.norm();
-    const Vec3 off_rim =
-        std::copysign(std::abs(height) - h_, height) * u_ + ((radial - r_) / radial) * across;
+    const Vec3 off_axis = arm - height * u_;
+    const double radial = off_axis.norm();
+    // Computed anew, what was above or beside by rounding alone may not be so.
+    const double above = std::max(std::abs(height) - h_, 0.0), beside = std::max(radial - r_, 0.0);
+    if (!(above > 0 || beside > 0)) return;
+    Vec3 off_rim = std::copysign(above, height) * u_;
+    if (beside > 0) off_rim += (beside / radial) * off_axis;
     const Vec3 n = off_rim.normalized();
     best_.offer(gap(n), n);
   }

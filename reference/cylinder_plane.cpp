@@ -1,12 +1,13 @@
 #include "cylinder_plane.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "disc_layout.hpp"
 #include "facing_feature.hpp"
 #include "largest_gap.hpp"
-#include "manifold.hpp"
+#include "margins.hpp"
 #include "scaled.hpp"
 
 namespace touchstone {
@@ -57,10 +58,11 @@ class Points {
 
 /// Points of the lower cap (disc_layout.hpp), the first where the cylinder's own x axis meets its
 /// rim: the plane looks alike all around.
-void add_cap(Points& points, const Cylinder& a, const Stance& s, double slack) {
+void add_cap(Points& points, const Cylinder& a, const Stance& s, const Margins& margins) {
   const double z = -std::copysign(a.half_length(), s.cosine), r = a.radius();
   std::array<Vec2, 6> arms;
-  const int count = spread_disc(r, Vec2(s.x, s.y), Vec2(1, 0), slack, arms);
+  const int count =
+      spread_disc(r, Vec2(s.x, s.y), Vec2(1, 0), margins.slack, margins.clear_rise, arms);
   for (int i = 0; i < count; ++i) points.add(arms[i].x(), arms[i].y(), z);
 }
 
@@ -83,12 +85,13 @@ Contact contact_in_range(const Cylinder& a, const Pose& pose_a, const Plane& b, 
   result.signed_distance = stance.signed_distance;
   if (stance.signed_distance > contact_threshold) return result;
 
-  const double size = largest_half_extent(a);
-  const double slack = manifold_slack(size, size, std::abs(stance.centre_height),
-                                      stance.signed_distance, contact_threshold);
+  const Extents extents{std::min(a.radius(), a.half_length()), largest_half_extent(a)};
+  const Margins margins(extents, extents, std::abs(stance.centre_height), stance.signed_distance,
+                        contact_threshold);
+  const double slack = margins.slack;
   Points points(result, stance, pose_a);
   if (lies_flat(a.radius(), stance.sine, slack)) {
-    add_cap(points, a, stance, slack);
+    add_cap(points, a, stance, margins);
   } else if (lies_flat(a.half_length(), stance.cosine, slack)) {
     add_generator(points, a, stance, slack);
   } else {

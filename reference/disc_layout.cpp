@@ -9,14 +9,10 @@ namespace {
 
 constexpr double half = 0.5, height = std::numbers::sqrt3 / 2;  // cos 60°, sin 60°
 
-/// A tilt is clear from here on: the contact threshold that engines use, a millionth of the size.
-double clear_rise(double radius, double slack) { return std::min(1e-6 * radius, slack / 8); }
-
 }  // namespace
 
-double part_of_the_way_to_the_deepest(double rise, double radius, double slack) {
-  const double clear = clear_rise(radius, slack);
-  return rise <= clear ? 0 : std::min((rise - clear) / clear, 1.0);
+double part_of_the_way_to_the_deepest(double rise, double clear_rise) {
+  return rise <= clear_rise ? 0 : std::min((rise - clear_rise) / clear_rise, 1.0);
 }
 
 std::array<Vec2, 3> three_arms(double radius, const Vec2& unit) {
@@ -25,10 +21,10 @@ std::array<Vec2, 3> three_arms(double radius, const Vec2& unit) {
 }
 
 int spread_disc(double radius, const Vec2& slope, const Vec2& anchor, double slack,
-                std::array<Vec2, 6>& arms) {
+                double clear_rise, std::array<Vec2, 6>& arms) {
   const double steepness = slope.norm(), rise = 2 * radius * steepness;
   int count = 0;
-  const double way = part_of_the_way_to_the_deepest(rise, radius, slack);
+  const double way = part_of_the_way_to_the_deepest(rise, clear_rise);
   if (way == 0) {
     for (const Vec2& arm : three_arms(radius, anchor)) arms[count++] = arm;
     return count;

@@ -13,10 +13,10 @@ namespace touchstone {
 // when there is none. So the deepest point is one more, which grows out of the layout's middle as
 // the tilt becomes clear; the hull moves, and never jumps.
 
-/// How much of the deepest point's way from the layout's middle to its place a disc of this radius
-/// takes whose clearance rises by `rise` metres across it: 0 while that is no more than a millionth
-/// of the radius, 1 from two millionths; less where there is less than that of slack.
-double part_of_the_way_to_the_deepest(double rise, double radius, double slack);
+/// How much of the deepest point's way from the layout's middle to its place a disc takes whose
+/// clearance rises by `rise` metres across it: 0 while that is no more than `clear_rise`
+/// (manifold.hpp), 1 from twice that on.
+double part_of_the_way_to_the_deepest(double rise, double clear_rise);
 
 /// One layout handed over to another about the same middle. First the new one grows from half its
 /// size, where it lies within the hull of the old; then the old one shrinks to half its size.
@@ -34,8 +34,9 @@ std::array<Vec2, 3> three_arms(double radius, const Vec2& unit);
 /// Points of a whole disc, as arms from its centre, over which the clearance has this slope: three
 /// of its rim, the first along the unit vector `anchor`, while it is level; then the deepest one
 /// too; and where nearly as much of it as the slack rises above the deepest, only that one and one
-/// to either side, 120° off or where the rim rises above the slack. Returns how many.
+/// to either side, 120° off or where the rim rises above the slack. `clear_rise` is at most an
+/// eighth of the slack. Returns how many.
 int spread_disc(double radius, const Vec2& slope, const Vec2& anchor, double slack,
-                std::array<Vec2, 6>& arms);
+                double clear_rise, std::array<Vec2, 6>& arms);
 
 }  // namespace touchstone

@@ -8,11 +8,11 @@
 namespace touchstone {
 namespace {
 
-constexpr double radius = 2, slack = 1e-3;
+constexpr double radius = 2, slack = 1e-3, clear_rise = 1e-6 * radius;
 
 std::vector<Vec2> layout(const Vec2& slope) {
   std::array<Vec2, 6> arms;
-  const int count = spread_disc(radius, slope, Vec2(0.6, 0.8), slack, arms);
+  const int count = spread_disc(radius, slope, Vec2(0.6, 0.8), slack, clear_rise, arms);
   return {arms.begin(), arms.begin() + count};
 }
 Vec2 direction(double angle) { return {std::cos(angle), std::sin(angle)}; }

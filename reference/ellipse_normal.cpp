@@ -84,6 +84,9 @@ std::optional<Anomaly> far_side_foot(double ax, double by, double focal) {
 
 std::optional<Eigen::Vector2d> ellipse_normal(double a, double b, double x, double y) {
   if (!(x >= 0)) return std::nullopt;
+  // A half axis whose products with the other would vanish is none.
+  constexpr double flat = 1e-60;
+  if (b < flat * a) b = 0;
   const double ax = a * x, by = b * y, focal = (a - b) * (a + b);
   std::optional<Anomaly> foot;
   if (y > 0) {

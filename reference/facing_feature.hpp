@@ -29,8 +29,7 @@ struct FacingFeature {
 
 /// Does a tenth of a feature of this half length, leaning by `sine`, rise by no more than `slack`?
 /// Features smaller than the slack may lean by a tenth.
-inline bool lies_flat(double half_length, double sine, double slack) {
-  constexpr double most = 0.1;
+inline bool lies_flat(double half_length, double sine, double slack, double most = 0.1) {
   return 0.2 * half_length * std::abs(sine) <= slack && std::abs(sine) <= most;
 }
 
@@ -39,5 +38,14 @@ inline bool lies_flat(double half_length, double sine, double slack) {
 FacingFeature facing(const PosedCylinder& body, const Vec3& outward, double slack);
 FacingFeature facing(const PosedCapsule& body, const Vec3& outward, double slack);
 FacingFeature facing(const PosedBox& body, const Vec3& outward, double slack);
+
+/// The one point of a body that is farthest along `outward`, as rounding has it.
+struct SupportPoint {
+  Vec3 position;
+  double sharpness;  ///< how far along `outward` it lies beyond the body's other points, metres
+};
+SupportPoint support_point(const PosedCylinder& body, const Vec3& outward);
+SupportPoint support_point(const PosedCapsule& body, const Vec3& outward);
+SupportPoint support_point(const PosedBox& body, const Vec3& outward);
 
 }  // namespace touchstone

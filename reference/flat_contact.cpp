@@ -1,19 +1,20 @@
 // A cap on a cap or face: what both have in common.
+#include <algorithm>
+
 #include "contact_plane.hpp"
 #include "disc_layout.hpp"
 
 namespace touchstone {
 
-using Kind = FacingFeature::Kind;
-
-void ContactPlane::flat_on_flat(const FacingFeature& a, const FacingFeature& b) {
-  const Surfaces surfaces{incline(a), incline(b)};
-  b.kind == Kind::rectangle ? cap_on_face(a, b, surfaces) : cap_on_cap(a, b, surfaces);
-}
-
 void ContactPlane::add_disc(const Circle& disc, const Vec2& anchor, const Surfaces& s) {
+  const Vec2 slope = s.slope();
+  const double steepness = slope.norm(), rise = 2 * disc.radius * steepness;
+  const double room = room_above(s.clearance(disc.centre) - rise / 2);
+  if (!(room > 0)) return;
+  if (is_one_point(room, rise)) return add(disc.centre - disc.radius / steepness * slope, s);
   std::array<Vec2, 6> arms;
-  const int count = spread_disc(disc.radius, s.slope(), anchor, slack_, arms);
+  const int count =
+      spread_disc(disc.radius, slope, anchor, room, std::min(margins_.clear_rise, room / 8), arms);
   for (int i = 0; i < count; ++i) add(disc.centre + arms[i], s);
 }
 
@@ -45,10 +46,16 @@ bool ContactPlane::add_leaning(ArcPolygon region, const Surfaces& s) {
   const Vec2 slope = s.slope();
   const double steepness = slope.norm();
   const Vec2 lowest = -slope / steepness;
-  const double bottom = -lowest.dot(region.farthest(lowest));
-  const double top = -lowest.dot(region.farthest(-lowest));
-  if (steepness * (top - bottom) <= slack_) return false;
-  region.clip(-lowest, bottom + slack_ / steepness);
+  const Vec2 deepest = region.farthest(lowest);
+  const double bottom = -lowest.dot(deepest), top = -lowest.dot(region.farthest(-lowest));
+  const double room = room_above(s.clearance(deepest));
+  if (steepness * (top - bottom) <= room) return false;
+  if (!(room > 0)) return true;
+  if (is_one_point(room, steepness * (top - bottom))) {
+    add(deepest, s);
+    return true;
+  }
+  region.clip(-lowest, bottom + room / steepness);
   region.mark_farthest(lowest);
   std::array<Vec2, 8> points;
   const int count = region.spread(lowest, points);

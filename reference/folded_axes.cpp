@@ -22,7 +22,7 @@ FoldedAxes::FoldedAxes(const Vec3& axis1, const Vec3& axis2, const Vec3& differe
     find_plane_of_nearly_parallel(scale, side * axis2, difference);
     scale = 1;
   }
-  c = std::abs(cosine);
+  c = without_vanishing(std::abs(cosine));
   d1 = without_vanishing(difference.dot(e1));
   d2 = without_vanishing(scale * difference.dot(e2));
   d3 = without_vanishing(scale * difference.dot(e3));

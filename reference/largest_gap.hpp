@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <limits>
 
 #include "shape.hpp"
@@ -29,9 +30,14 @@ struct LargestGap {
   double gap = -std::numeric_limits<double>::infinity();
   Vec3 normal = Vec3::UnitZ();
 
-  /// Of normals that tie the first one stays.
+  /// Of normals that tie the first one stays. What is not of unit length is no normal, whatever
+  /// its gap: a vector that vanished by cancellation has the gap 0.
   void offer(double other, const Vec3& n) {
-    if (other > gap) gap = other, normal = n;
+    if (other > gap && is_unit(n)) gap = other, normal = n;
+  }
+  static bool is_unit(const Vec3& n) {
+    constexpr double rounding = 1e-12;
+    return std::abs(n.squaredNorm() - 1) < rounding;
   }
 };
 

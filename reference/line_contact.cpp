@@ -1,5 +1,6 @@
 // A generator or edge on a cap or face, or on another one.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -28,15 +29,21 @@ void keep_within(Range& range, double a, double b, double bound) {
 
 constexpr double crossed = 0.1;  // rad; lines that turn by more cross in a point
 
-/// At a distance y across two lines the clearance grows by y² / 2R, R being the sum of the radii
-/// across them; they share y by their radii.
+/// Two lines whose bodies are round about them share the distance y between them, across b, by
+/// their radii, so that both surfaces fall off by the same part of these. Across a, which crosses b
+/// with this cosine, y is that much less.
 struct Roundness {
-  double curvature, share_of_a;
+  double radii, reach, share_of_a;
+  Roundness(double radius_a, double radius_b, double cosine)
+      : radii(radius_a + radius_b),
+        reach(radius_a / cosine + radius_b),
+        share_of_a(radius_a / cosine / reach) {}
+  /// 1 − √(1 − (y/reach)²), without cancellation.
+  double fall(double squared_y) const {
+    const double part = std::min(squared_y / (reach * reach), 1.0);
+    return part / (1 + std::sqrt(1 - part));
+  }
 };
-Roundness roundness(double radius_a, double radius_b) {
-  const double sum = radius_a + radius_b;
-  return sum > 0 ? Roundness{1 / sum, radius_a / sum} : Roundness{0, 0.5};
-}
 
 }  // namespace
 
@@ -58,11 +65,11 @@ bool add_crossing(Contact& contact, const FacingFeature& a, const FacingFeature&
   const Vec3 on_b = b.middle + std::clamp(foot, -b.half_length, b.half_length) * b.axis;
   const double between = (on_b - on_a).dot(n);
   const Vec3 y = on_b - on_a - between * n;
-  const auto [curvature, share] = roundness(a.radius, b.radius);
-  const double bend = y.squaredNorm() * curvature * curvature / 2;
-  const double middle = (between + (a.radius - b.radius) * bend) / 2;
-  contact.add_point(origin + (on_a + share * y + middle * n),
-                    between - (a.radius + b.radius) * bend);
+  const Roundness round(a.radius, b.radius, 1);
+  const double fall = round.fall(y.squaredNorm());
+  const double middle = (between + (a.radius - b.radius) * fall) / 2;
+  contact.add_point(origin + (on_a + round.share_of_a * y + middle * n),
+                    between - round.radii * fall);
   return true;
 }
 
@@ -71,7 +78,7 @@ void ContactPlane::line_on_flat(const FacingFeature& f, const FacingFeature& fla
   const Incline surface = incline(flat);
   Range range{-l.half_length, l.half_length};
   if (flat.kind == Kind::disc) {
-    const Circle disc = circle(flat);
+    const Circle disc{to_plane(flat.middle), flat.radius};
     const double squared = l.along.squaredNorm();
     const Vec2 arm = l.middle - disc.centre;
     const double foot = -arm.dot(l.along) / squared;
@@ -80,16 +87,26 @@ void ContactPlane::line_on_flat(const FacingFeature& f, const FacingFeature& fla
         std::sqrt(std::max(0.0, (disc.radius - offset) * (disc.radius + offset)) / squared);
     range = {std::max(range.lo, foot - half), std::min(range.hi, foot + half)};
   } else if (flat.kind == Kind::rectangle) {
-    const Vec2 arm = l.middle - to_plane(flat.middle);
-    for (int i = 0; i < 2; ++i) {
-      const Vec2 side = to_plane(flat.side[i]).normalized();
-      keep_within(range, arm.dot(side), l.along.dot(side), flat.half_side[i]);
+    // The edges that the line crosses first. One that runs along the others, but for a hair, does
+    // so within them or on one, whichever side of that rounding puts it on.
+    const std::array<Strip, 2> strips = {strip(flat, 0), strip(flat, 1)};
+    const double along[] = {strips[0].across.dot(l.along), strips[1].across.dot(l.along)};
+    const int first = std::abs(along[0]) >= std::abs(along[1]) ? 0 : 1;
+    for (const int i : {first, 1 - first}) {
+      const double hair = 4e3 * margins_.rounding;
+      if (std::abs(along[i]) * (range.hi - range.lo) <= hair) continue;
+      const double offset = strips[i].across.dot(l.middle) - strips[i].middle;
+      Range within = range;
+      keep_within(within, offset, along[i], strips[i].half_width);
+      if (within.empty()) {  // they only touch, at the nearer end
+        const double middle = offset + along[i] * (range.lo + range.hi) / 2;
+        within.lo = within.hi = middle * along[i] > 0 ? range.lo : range.hi;
+      }
+      range = within;
     }
   }
-  if (range.empty()) {  // they only touch, where the line comes nearest
-    const Vec2 arm = to_plane(flat.middle) - l.middle;
-    const double t =
-        std::clamp(arm.dot(l.along) / l.along.squaredNorm(), -l.half_length, l.half_length);
+  if (range.empty()) {  // beside the rim's nearest point
+    const double t = std::clamp((range.lo + range.hi) / 2, -l.half_length, l.half_length);
     range = {t, t};
   }
   const auto clearance = [&](double t) {
@@ -98,8 +115,10 @@ void ContactPlane::line_on_flat(const FacingFeature& f, const FacingFeature& fla
   };
   const double at_lo = clearance(range.lo), at_hi = clearance(range.hi);
   const double rise = std::abs(at_hi - at_lo);
-  if (rise > slack_) {
-    const double kept = slack_ / rise * (range.hi - range.lo);
+  const double room = std::max(0.0, room_above(std::min(at_lo, at_hi)));
+  if (rise > room) {
+    const double part = is_one_point(room, rise) ? 0 : room / rise;
+    const double kept = part * (range.hi - range.lo);
     (at_lo < at_hi ? range.hi = range.lo + kept : range.lo = range.hi - kept);
   }
   const auto add_at = [&](double t) {
@@ -116,16 +135,17 @@ void ContactPlane::line_on_line(const FacingFeature& f, const FacingFeature& g) 
   const Line a = line(f), b = line(g);
   const double turn = cross2(a.along, b.along);
   const Vec2 from_a = b.middle - a.middle;
-  const auto [curvature, share] = roundness(a.radius, b.radius);
 
   // Points of both lines that face each other: s = s0 + s1 t.
-  const double inverse = 1 / b.along.squaredNorm();
-  const double s0 = -from_a.dot(b.along) * inverse, s1 = a.along.dot(b.along) * inverse;
+  const double inverse = 1 / b.along.squaredNorm(), inverse_length = std::sqrt(inverse);
+  const double dot = a.along.dot(b.along);
+  const Roundness round(a.radius, b.radius, std::abs(dot) * inverse_length / a.along.norm());
+  const double s0 = -from_a.dot(b.along) * inverse, s1 = dot * inverse;
   const auto add_at = [&](double t, double s) {
     const Vec2 p = a.at(t), y = b.at(s) - p;
-    const double bend = y.squaredNorm() * curvature * curvature / 2;
-    add(p + share * y, a.height + t * a.rise + a.radius * bend,
-        b.height + s * b.rise - b.radius * bend);
+    const double fall = round.fall(y.squaredNorm());
+    add(p + round.share_of_a * y, a.height + t * a.rise + a.radius * fall,
+        b.height + s * b.rise - b.radius * fall);
   };
 
   Range range{-a.half_length, a.half_length};
@@ -134,36 +154,58 @@ void ContactPlane::line_on_line(const FacingFeature& f, const FacingFeature& g) 
     const double t = std::clamp(range.lo, -a.half_length, a.half_length);
     return add_at(t, std::clamp(s0 + s1 * t, -b.half_length, b.half_length));
   }
-  // The clearance is c0 + c1 t + c2 t² up to a constant.
-  const double y0 = -cross2(b.along, from_a + s0 * b.along), y1 = -cross2(b.along, a.along);
-  const double bend = curvature / 2;
-  const double c2 = bend * y1 * y1;
-  const double c1 = a.rise - s1 * b.rise - 2 * bend * y0 * y1;
-  const auto clearance = [&](double t) { return t * (c1 + c2 * t); };
+  // They are y = y0 + y1 t apart across b; the clearance is convex where |y| < R, their reach.
+  const double y0 = -cross2(b.along, from_a) * inverse_length, y1 = -turn * inverse_length;
+  const double level = a.height - b.height - s0 * b.rise, slope = a.rise - s1 * b.rise;
+  const auto clearance = [&](double t) {
+    const double y = y0 + y1 * t;
+    return level + slope * t + round.radii * round.fall(y * y);
+  };
   const double bottom = clearance(range.lo) <= clearance(range.hi) ? range.lo : range.hi;
-  const double lowest = c2 > 0 ? std::clamp(-c1 / (2 * c2), range.lo, range.hi) : bottom;
-  const double deepest = clearance(lowest) <= clearance(bottom) ? lowest : bottom;
-  const double whole = range.hi - range.lo;
+  double deepest = bottom;
+  const double bend = round.radii * y1 / round.reach;
+  if (y1 != 0) {  // where slope + bend (y/R) / √(1 − (y/R)²) = 0
+    const double y =
+        -std::copysign(round.reach, bend) * slope / std::sqrt(slope * slope + bend * bend);
+    const double lowest = std::clamp((y - y0) / y1, range.lo, range.hi);
+    if (clearance(lowest) <= clearance(bottom)) deepest = lowest;
+  }
+  const double whole = range.hi - range.lo, least = clearance(deepest);
   // Less of the slack as the lines come to be crossed, so that the points have drawn together then.
-  const double slack = slack_ * std::min(1.0, 2 - 2 * std::abs(turn) / crossed);
-  const double level = clearance(deepest) + slack;
-  // How far from the deepest point the clearance stays below the level.
+  const double room =
+      std::min(room_above(least), margins_.slack * (2 - 2 * std::abs(turn) / crossed));
+  // Surfaces that have fallen off further hardly face each other.
+  constexpr double facing = 0.75;
+  keep_within(range, y0, y1, facing * round.reach);
+  if (!(room > 0) || !(range.lo <= deepest && deepest <= range.hi)) {
+    return add_at(deepest, s0 + s1 * deepest);
+  }
+  // How far from the deepest point the clearance takes no more than the room: about as far as its
+  // second-order part does, and on the chord to there at most.
+  const double curvature = bend * y1 / round.reach;
+  const double grows = slope + bend * (y0 + y1 * deepest) / round.reach;
   const auto reach = [&](double end) {
-    if (clearance(end) <= level) return end;
-    const double way = end < deepest ? -1 : 1;
-    const double slope = way * (c1 + 2 * c2 * deepest);  // >= 0 but for rounding
-    const double grow = std::max(slope, 0.0);
-    return deepest + way * 2 * slack / (grow + std::sqrt(grow * grow + 4 * c2 * slack));
+    if (clearance(end) - least <= room) return end;
+    const double way = end < deepest ? -1 : 1, grow = std::max(way * grows, 0.0);
+    const double most = std::abs(end - deepest);
+    const double far =
+        std::min(most, 2 * room / (grow + std::sqrt(grow * grow + 2 * curvature * room)));
+    const double taken = clearance(deepest + way * far) - least;
+    return deepest + way * far * (taken > room ? room / taken : 1);
   };
   const double lo = reach(range.lo), hi = reach(range.hi);
   constexpr double least_part = 0.1;
   const double part = (hi - lo) / whole;
   if (!(part > least_part)) return add_at(deepest, s0 + s1 * deepest);
   const double fade = std::min(1.0, part / least_part - 1);
+  double higher = std::numeric_limits<double>::infinity();
   for (const double end : {lo, hi}) {
     const double t = deepest + fade * (end - deepest);
+    higher = std::min(higher, clearance(t) - least);
     add_at(t, s0 + s1 * t);
   }
+  // Of two lines that cross by a hair neither end has the depth.
+  if (higher > margins_.clear_rise / 2) add_at(deepest, s0 + s1 * deepest);
 }
 
 }  // namespace touchstone

@@ -25,13 +25,17 @@ std::pair<Vec3, Vec3> across(const Vec3& n) {
 
 }  // namespace
 
-ContactPlane::ContactPlane(Contact& contact, const Vec3& origin, double slack)
-    : contact_(contact), n_(contact.normal), origin_(origin), slack_(slack) {
-  std::tie(x_, y_) = across(points_onward(n_) ? n_ : Vec3(-n_));
+ContactPlane::ContactPlane(Contact& contact, const Vec3& origin, const Margins& margins,
+                           const Vec3& upright)
+    : contact_(contact), n_(contact.normal), origin_(origin), margins_(margins) {
+  std::tie(x_, y_) = across(points_onward(upright) ? upright : Vec3(-upright));
+  lift_ = upright / upright.dot(n_);
+  dual_x_ = x_ - x_.dot(n_) * lift_;
+  dual_y_ = y_ - y_.dot(n_) * lift_;
 }
 
 void add_manifold(Contact& contact, const FacingFeature& a, const FacingFeature& b,
-                  const Vec3& origin, double slack) {
+                  const Vec3& origin, const Margins& margins) {
   const bool a_is_point = a.kind == Kind::point, b_is_point = b.kind == Kind::point;
   if (a_is_point || b_is_point) {
     // Of two points, the one that the normal's rounding moves less.
@@ -42,12 +46,18 @@ void add_manifold(Contact& contact, const FacingFeature& a, const FacingFeature&
     return;
   }
   if (!is_flat(a) && !is_flat(b) && add_crossing(contact, a, b, origin)) return;
-  ContactPlane plane(contact, origin, slack);
-  if (is_flat(a)) {
-    is_flat(b) ? plane.flat_on_flat(a, b) : plane.line_on_flat(b, a, false);
-  } else {
-    is_flat(b) ? plane.line_on_flat(a, b, true) : plane.line_on_line(a, b);
+  const auto plane = [&](const Vec3& upright) {
+    return ContactPlane(contact, origin, margins, upright);
+  };
+  if (!is_flat(a)) {
+    return is_flat(b) ? plane(b.axis).line_on_flat(a, b, true)
+                      : plane(contact.normal).line_on_line(a, b);
   }
+  if (!is_flat(b)) return plane(a.axis).line_on_flat(b, a, false);
+  if (b.kind == Kind::rectangle) return plane(a.axis).cap_on_face(a, b);
+  const bool a_is_first =
+      a.radius != b.radius ? a.radius < b.radius : points_onward(contact.normal);
+  a_is_first ? plane(a.axis).cap_on_cap(a, b, true) : plane(b.axis).cap_on_cap(b, a, false);
 }
 
 }  // namespace touchstone

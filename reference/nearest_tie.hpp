@@ -26,9 +26,13 @@ void offer_normals(const PosedBox& s, const Vec3&, Offer offer) {
 /// Of the normals whose gap is within `threshold` of the largest, the one nearest to `previous`:
 /// an axis or face of a body, radially off one, or the one found; and where all of these are more
 /// than 5 degrees away, the previous one itself. Nearer ones are taken for its own motion.
+/// `previous_normal` may have any length; zero or not finite, it decides nothing.
 template <class Body>
 SignedDistance nearest_tie(const PosedCylinder& a, const Body& b, const SignedDistance& found,
-                           double threshold, const Vec3& previous) {
+                           double threshold, const Vec3& previous_normal) {
+  const double largest = previous_normal.cwiseAbs().maxCoeff();
+  if (!(largest > 0 && previous_normal.allFinite())) return found;
+  const Vec3 previous = (previous_normal / largest).normalized();
   const Vec3 d = a.centre - b.centre;
   SignedDistance chosen = found;
   double nearest = found.normal.dot(previous);

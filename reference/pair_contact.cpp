@@ -1,6 +1,7 @@
 #include "pair_contact.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <type_traits>
 
 #include "manifold.hpp"
@@ -9,9 +10,46 @@
 namespace touchstone {
 namespace {
 
-double largest(const PosedCylinder& s) { return std::max(s.radius, s.half_length); }
-double largest(const PosedCapsule& s) { return s.half_length + s.radius; }
-double largest(const PosedBox& s) { return s.half_extents.maxCoeff(); }
+Extents extents(const PosedCylinder& s) {
+  return {std::min(s.radius, s.half_length), std::max(s.radius, s.half_length)};
+}
+Extents extents(const PosedCapsule& s) { return {s.radius, s.half_length + s.radius}; }
+Extents extents(const PosedBox& s) {
+  return {s.half_extents.minCoeff(), s.half_extents.maxCoeff()};
+}
+
+/// Sees to a point of the whole depth where none of the features' points has it: features that lean
+/// are carried to each other with an error of the second order, which may part them. If it is their
+/// lean, one body has one deepest point; else rounding, in whose frame the deepest point that there
+/// is will do.
+template <class Body>
+void hold_depth(Contact& contact, const PosedCylinder& a, const Body& b, const Vec3& origin,
+                const Margins& margins) {
+  const double depth = -contact.signed_distance;
+  ContactPoint deepest{Vec3::Zero(), -std::numeric_limits<double>::infinity()};
+  for (const ContactPoint& p : contact.points()) {
+    if (p.depth > deepest.depth) deepest = p;
+  }
+  const double missing = depth - deepest.depth;
+  if (missing <= margins.unseen_depth()) return;
+  const SupportPoint on_a = support_point(a, -contact.normal);
+  const SupportPoint on_b = support_point(b, contact.normal);
+  Vec3 position = deepest.position;
+  if (contact.points().empty() || std::max(on_a.sharpness, on_b.sharpness) > missing) {
+    const Vec3 half = depth / 2 * contact.normal;
+    position = origin + (on_a.sharpness >= on_b.sharpness ? Vec3(on_a.position + half)
+                                                          : Vec3(on_b.position - half));
+  }
+  const Contact before = contact;
+  contact.clear_points();
+  contact.add_point(position, depth);
+  for (const ContactPoint& p : before.points()) {
+    const bool is_near = p.depth >= depth - margins.slack - margins.rounding;
+    if (is_near && p.position != position && contact.points().size() < Contact::max_points) {
+      contact.add_point(p.position, p.depth);
+    }
+  }
+}
 
 }  // namespace
 
@@ -25,8 +63,8 @@ void make_contact(Contact& result, const PosedCylinder& a, const Body& b, Signed
   result.signed_distance = found.value;
   if (found.value > contact_threshold) return;
   const Vec3 between = a.centre - b.centre;
-  const double slack = manifold_slack(largest(a), largest(b), between.cwiseAbs().sum(), found.value,
-                                      contact_threshold);
+  const Margins margins(extents(a), extents(b), between.cwiseAbs().sum(), found.value,
+                        contact_threshold);
   // A well-known point is all there is to say, whatever the other body turns towards it. Asked
   // first is the body that has one more often.
   const auto is_known = [](const FacingFeature& x) {
@@ -34,14 +72,15 @@ void make_contact(Contact& result, const PosedCylinder& a, const Body& b, Signed
   };
   const Vec3 half = found.value / 2 * found.normal;
   if constexpr (std::is_same_v<Body, PosedCapsule>) {
-    const FacingFeature on_b = facing(b, found.normal, slack);
+    const FacingFeature on_b = facing(b, found.normal, margins.flat);
     if (is_known(on_b)) return result.add_point(origin + (on_b.middle + half), -found.value);
-    add_manifold(result, facing(a, -found.normal, slack), on_b, origin, slack);
+    add_manifold(result, facing(a, -found.normal, margins.flat), on_b, origin, margins);
   } else {
-    const FacingFeature on_a = facing(a, -found.normal, slack);
+    const FacingFeature on_a = facing(a, -found.normal, margins.flat);
     if (is_known(on_a)) return result.add_point(origin + (on_a.middle - half), -found.value);
-    add_manifold(result, on_a, facing(b, found.normal, slack), origin, slack);
+    add_manifold(result, on_a, facing(b, found.normal, margins.flat), origin, margins);
   }
+  hold_depth(result, a, b, origin, margins);
 }
 
 template void make_contact(Contact&, const PosedCylinder&, const PosedCapsule&, SignedDistance,

@@ -205,13 +205,13 @@ double search_all_rims(const FoldedCylinders& pair, LargestGap& best) {
   for (const double end1 : {1.0, -1.0}) {
     for (const double end2 : {1.0, -1.0}) {
       const Rims rims(pair, end1, end2);
+      offer_where_likely(pair, rims, never, best);
       RimScan scan(pair, rims, bounds.limit, bounds.least_depth, best);
       scan.scan({-1, 1});
       unproven = std::max(unproven, scan.unproven());
     }
   }
-  if (bounds.least_depth > 0) return unproven;
-  return std::max(0.0, std::min(unproven, bounds.limit - best.gap));
+  return unproven;
 }
 
 }  // namespace touchstone

@@ -36,8 +36,8 @@ class RimScan {
     arc((from + to) / 2, (to - from) / 2);
   }
 
-  /// By how much the largest gap where these rims meet may exceed the best one, but for rounding,
-  /// where the bodies overlap; zero where the search is proven complete.
+  /// By how much the largest gap where these rims meet may exceed the best one, but for rounding;
+  /// zero where the search is proven complete.
   double unproven() const { return unproven_; }
 
  private:
@@ -69,15 +69,19 @@ class RimScan {
       const double curvature_noise = noise_ * rims_.conditioning(radial);
       const double change = (std::abs(middle.curvature) + bend / 2 + curvature_noise) * half_width;
       if (std::abs(middle.slope) > change + noise_) return;  // no stationary distance
-      if (std::abs(middle.slope) + change <= noise_)
-        return leave(middle, noise_, half_width);                 // constant
+      if (std::abs(middle.slope) + change <= noise_) {
+        const double wide =
+            reach_of_squares(middle.distance, rims_.radius1() * noise_ * half_width);
+        if (wide <= noise_) return leave(middle, wide, half_width);  // constant
+      }
       if (middle.curvature + bend + curvature_noise < 0) return;  // only maxima
       if (least_depth_ > 0 && rims_.points_inward(middle, half_width, radial)) return;
       const double min_curvature = middle.curvature - bend - curvature_noise;
       if (min_curvature > 0) return steady(middle, half_width, min_curvature);
     }
-    if (half_width <= min_half_width || samples_ > max_samples)
+    if (half_width <= min_half_width || samples_ > max_samples) {
       return leave(middle, reach, half_width);
+    }
     arc(angle - half_width / 2, half_width / 2);
     arc(angle + half_width / 2, half_width / 2);
   }
@@ -96,25 +100,35 @@ class RimScan {
       double next = std::clamp(x.angle - x.slope / x.curvature, lo, hi);
       if (std::abs(next - x.angle) > previous / 2) next = (lo + hi) / 2;
       previous = std::abs(next - x.angle);
-      if (previous <= small_step) break;
       x = at(next);
+      if (previous <= small_step) break;
     }
     // Beyond an end of the arc the minimum is the neighbouring arc's.
     if (!(lo < hi) && std::abs(x.slope) > noise_) return;
-    leave(x, 0, small_step);
+    const double noise = std::abs(x.slope) + noise_;
+    const double change = rims_.radius1() * noise * noise / (2 * min_curvature);
+    leave(x, reach_of_squares(x.distance, change), small_step);
   }
 
   /// Offers the normal of an arc whose distances are within `reach` of this one and whose ends are
   /// within the angle `turn`, and counts what it may have missed.
   void leave(const RimSample& x, double reach, double turn) {
+    const double nearest = std::max(x.distance - reach, least_depth_);
+    const double farthest = std::min(x.distance + reach, limit_);
     // No better than the best one, whether the bodies overlap by that distance or are that far
     // apart.
-    const double enough = best_.gap + noise_, farthest = std::min(limit_, x.distance + reach);
-    if (reach - x.distance <= enough && (least_depth_ > 0 || farthest <= enough)) return;
+    const double enough = best_.gap + noise_;
+    if (-nearest <= enough && (least_depth_ > 0 || farthest <= enough)) return;
     offer(x);
-    if (rims_.may_meet(x, reach + noise_, turn)) {
-      unproven_ = std::max(unproven_, reach - x.distance - best_.gap - noise_);
-    }
+    const double error = reach + noise_;
+    if (rims_.may_meet(x, -1, error, turn)) count_unproven(-nearest);
+    if (least_depth_ <= 0 && rims_.may_meet(x, 1, error, turn)) count_unproven(farthest);
+  }
+  void count_unproven(double gap) { unproven_ = std::max(unproven_, gap - best_.gap - noise_); }
+  /// How far distances lie from one of them if half their squares lie within `change` of its.
+  static double reach_of_squares(double distance, double change) {
+    const double least = std::max(0.0, distance * distance - 2 * change);
+    return 2 * change / (distance + std::sqrt(least));
   }
 
   /// Where the rims nearly touch their difference is noise, where tangents are parallel their

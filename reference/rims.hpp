@@ -168,17 +168,19 @@ class Rims {
   /// `lowest` and `highest`; an empty range if they have none.
   Range useful_cosines(double lowest, double highest) const;
 
-  /// May overlapping bodies meet at a sample whose `apart` is known to within `error` and whose
-  /// angle to within `turn`? There n, across both tangents and −`apart` / δ, has n3 >= 0 and points
-  /// outward from both ends and both rims. Along nearly parallel axes only the tangents tell.
-  bool may_meet(const RimSample& x, double error, double turn) const {
+  /// May the rims meet with a largest gap at a sample whose `apart` is known to within `error` and
+  /// whose angle to within `turn`? There n is `way` (+1 apart, −1 overlapping) times `apart`, up to
+  /// its length, has n3 >= 0, and points outward from both ends and both rims. It is across both
+  /// tangents, too, which tell more along nearly parallel axes.
+  bool may_meet(const RimSample& x, double way, double error, double turn) const {
     const double c = pair_.axes.c, slack = turn * (2 + pair_.r1 / x.radial);
     const double along1 = c * x.cos1 * x.sin2 - x.sin1 * x.cos2;
     const double along2 = x.cos1 * x.sin2 - c * x.sin1 * x.cos2;
     const double outward1 = x.apart.y() * x.cos1 + x.apart.z() * x.sin1;
     return x.sin2 >= -slack && end1_ * along1 >= -slack && end2_ * along2 >= -slack &&
-           end1_ * x.apart.x() <= error && end2_ * x.height <= error && x.apart.z() <= error &&
-           outward1 <= error && x.radial - pair_.r2 <= error;
+           way * end1_ * x.apart.x() >= -error && way * end2_ * x.height >= -error &&
+           way * x.apart.z() >= -error && way * outward1 >= -error &&
+           way * (x.radial - pair_.r2) >= -error;
   }
 
   /// Across both rims' tangents at these places.

@@ -14,7 +14,10 @@ namespace touchstone {
 // of two, which rounds nothing, and the answer back. Nobody simulates such bodies, but a body that
 // has flown off must be answered with a number, not with NaN.
 
-inline constexpr double least_length = 1e-50, most_length = 1e50;
+// Largest powers are the eighth (`ellipse_normal` and `towards` take lengths of fourth powers):
+// with all lengths within these bounds none leaves 1e-200 to 1e200, whichever lengths it
+// multiplies.
+inline constexpr double least_length = 1e-25, most_length = 1e25;
 
 /// The smallest of a body's lengths, and their sum with the offsets.
 struct Lengths {
@@ -30,7 +33,7 @@ inline Lengths lengths(const Box& s) {
 }
 inline Lengths lengths(const Plane& s) { return {most_length, std::abs(s.unit_displacement())}; }
 
-/// Are all lengths such that their squares and fourth powers are ordinary doubles?
+/// Are all lengths such that their eighth powers are ordinary doubles?
 template <class Other>
 bool ordinary(const Cylinder& a, const Pose& pose_a, const Other& b, const Pose& pose_b) {
   const Lengths of_a = lengths(a), of_b = lengths(b);
@@ -39,17 +42,19 @@ bool ordinary(const Cylinder& a, const Pose& pose_a, const Other& b, const Pose&
          d.x() * d.x() + d.y() * d.y() + d.z() * d.z() < most_length * most_length;
 }
 
-/// The bodies with all lengths times a power of two so that the largest is about one; lengths that
-/// vanish against it are made 1e-45 of it.
+/// The bodies about B's centre, with all lengths times a power of two so that the largest is about
+/// one; lengths that vanish against it are made 1e-24 of it.
 template <class Other>
 class ScaledBodies {
  public:
   ScaledBodies(const Cylinder& a, const Pose& pose_a, const Other& b, const Pose& pose_b)
-      : exponent_(std::ilogb(std::max({largest(a), largest(b), largest(pose_a), largest(pose_b)}))),
+      : origin_(pose_b.position()),
+        exponent_(std::ilogb(
+            std::max({largest(a), largest(b), largest(Vec3(pose_a.position() - origin_))}))),
         a_(scaled(a)),
         b_(scaled(b)),
-        pose_a_(scaled(pose_a)),
-        pose_b_(scaled(pose_b)) {}
+        pose_a_(scaled_difference(pose_a.position()), pose_a.orientation()),
+        pose_b_(Vec3::Zero(), pose_b.orientation()) {}
 
   /// Calls question(a, pose_a, b, pose_b) for the scaled bodies.
   template <class Question>
@@ -73,20 +78,22 @@ class ScaledBodies {
     result.normal = answer.normal;
     result.signed_distance = back(answer.signed_distance);
     for (const ContactPoint& p : answer.points()) {
-      const Vec3 position = p.position.unaryExpr([&](double x) { return back(x); });
-      result.add_point(position, back(p.depth));
+      const Vec3 arm = p.position.unaryExpr([&](double x) { return back(x); });
+      result.add_point((origin_ + arm).cwiseMax(-max_length).cwiseMin(max_length), back(p.depth));
     }
     return result;
   }
 
  private:
-  static constexpr double vanishing = 1e-45;
+  static constexpr double vanishing = 1e-24;
 
-  static double largest(const Pose& p) { return p.position().cwiseAbs().maxCoeff(); }
+  static constexpr double max_length = std::numeric_limits<double>::max();
+
+  static double largest(const Vec3& x) { return std::min(x.cwiseAbs().maxCoeff(), max_length); }
   template <class Body>
   static double largest(const Body& s) {
     // A capsule's two lengths may only overflow when they are added.
-    return std::min(largest_half_extent(s), std::numeric_limits<double>::max());
+    return std::min(largest_half_extent(s), max_length);
   }
   static double largest(const Plane& s) { return std::abs(s.unit_displacement()); }
   double size(double length) const { return std::max(scaled(length), vanishing); }
@@ -100,15 +107,18 @@ class ScaledBodies {
     const Vec3& e = s.half_extents();
     return Box(Vec3(size(e.x()), size(e.y()), size(e.z())));
   }
-  Pose scaled(const Pose& p) const {
-    const Vec3& x = p.position();
-    return Pose(Vec3(scaled(x.x()), scaled(x.y()), scaled(x.z())), p.orientation());
+  /// The position less the origin; a difference that overflows is scaled before it is taken.
+  Vec3 scaled_difference(const Vec3& position) const {
+    const Vec3 difference = position - origin_;
+    if (difference.allFinite()) return difference.unaryExpr([&](double x) { return scaled(x); });
+    return position.unaryExpr([&](double x) { return scaled(x); }) -
+           origin_.unaryExpr([&](double x) { return scaled(x); });
   }
   double back(double length) const {
-    constexpr double most = std::numeric_limits<double>::max();
-    return std::clamp(std::scalbn(length, exponent_), -most, most);
+    return std::clamp(std::scalbn(length, exponent_), -max_length, max_length);
   }
 
+  Vec3 origin_;
   int exponent_;
   Cylinder a_;
   Other b_;
