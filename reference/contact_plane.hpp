@@ -110,7 +110,7 @@ class ContactPlane {
   Contact& contact_;
   const Vec3 n_;
   const Vec3 origin_;
-  const Margins margins_;
+  const Margins& margins_;
   Vec3 x_, y_;                   ///< unit, in the plane; the same whichever body comes first
   Vec3 lift_, dual_x_, dual_y_;  ///< the dual basis of n_, x_ and y_
 };

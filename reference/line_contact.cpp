@@ -33,15 +33,18 @@ constexpr double crossed = 0.1;  // rad; lines that turn by more cross in a poin
 /// their radii, so that both surfaces fall off by the same part of these. Across a, which crosses b
 /// with this cosine, y is that much less.
 struct Roundness {
-  double radii, reach, share_of_a;
-  Roundness(double radius_a, double radius_b, double cosine)
-      : radii(radius_a + radius_b),
-        reach(radius_a / cosine + radius_b),
-        share_of_a(radius_a / cosine / reach) {}
+  double radii, reach, inverse, share_of_a;
+  Roundness(double radius_a, double radius_b, double cosine) : radii(radius_a + radius_b) {
+    const double a = radius_a / cosine;
+    reach = a + radius_b;
+    inverse = 1 / reach;
+    share_of_a = a * inverse;
+  }
   /// 1 − √(1 − (y/reach)²), without cancellation.
   double fall(double squared_y) const {
-    const double part = std::min(squared_y / (reach * reach), 1.0);
-    return part / (1 + std::sqrt(1 - part));
+    const double part = std::min(squared_y * inverse * inverse, 1.0);
+    constexpr double flat = 1e-8;  // whose square is rounding
+    return part < flat ? part / 2 : part / (1 + std::sqrt(1 - part));
   }
 };
 
@@ -161,29 +164,33 @@ void ContactPlane::line_on_line(const FacingFeature& f, const FacingFeature& g) 
     const double y = y0 + y1 * t;
     return level + slope * t + round.radii * round.fall(y * y);
   };
-  const double bottom = clearance(range.lo) <= clearance(range.hi) ? range.lo : range.hi;
-  double deepest = bottom;
-  const double bend = round.radii * y1 / round.reach;
-  if (y1 != 0) {  // where slope + bend (y/R) / √(1 − (y/R)²) = 0
+  const double whole = range.hi - range.lo;
+  const double at_lo = clearance(range.lo), at_hi = clearance(range.hi);
+  double deepest = at_lo <= at_hi ? range.lo : range.hi, least = std::min(at_lo, at_hi);
+  const double bend = round.radii * y1 * round.inverse, curvature = bend * y1 * round.inverse;
+  const bool curved = curvature * whole * whole > margins_.rounding;
+  if (curved) {
+    // Where slope + bend (y/R) / √(1 − (y/R)²) = 0.
     const double y =
         -std::copysign(round.reach, bend) * slope / std::sqrt(slope * slope + bend * bend);
     const double lowest = std::clamp((y - y0) / y1, range.lo, range.hi);
-    if (clearance(lowest) <= clearance(bottom)) deepest = lowest;
+    if (const double there = clearance(lowest); there <= least) deepest = lowest, least = there;
   }
-  const double whole = range.hi - range.lo, least = clearance(deepest);
   // Less of the slack as the lines come to be crossed, so that the points have drawn together then.
   const double room =
       std::min(room_above(least), margins_.slack * (2 - 2 * std::abs(turn) / crossed));
   // Surfaces that have fallen off further hardly face each other.
   constexpr double facing = 0.75;
-  keep_within(range, y0, y1, facing * round.reach);
+  const double beside = facing * round.reach;
+  if (std::max(std::abs(y0 + y1 * range.lo), std::abs(y0 + y1 * range.hi)) > beside) {
+    keep_within(range, y0, y1, beside);
+  }
   if (!(room > 0) || !(range.lo <= deepest && deepest <= range.hi)) {
     return add_at(deepest, s0 + s1 * deepest);
   }
   // How far from the deepest point the clearance takes no more than the room: about as far as its
   // second-order part does, and on the chord to there at most.
-  const double curvature = bend * y1 / round.reach;
-  const double grows = slope + bend * (y0 + y1 * deepest) / round.reach;
+  const double grows = slope + bend * (y0 + y1 * deepest) * round.inverse;
   const auto reach = [&](double end) {
     if (clearance(end) - least <= room) return end;
     const double way = end < deepest ? -1 : 1, grow = std::max(way * grows, 0.0);
@@ -198,14 +205,13 @@ void ContactPlane::line_on_line(const FacingFeature& f, const FacingFeature& g) 
   const double part = (hi - lo) / whole;
   if (!(part > least_part)) return add_at(deepest, s0 + s1 * deepest);
   const double fade = std::min(1.0, part / least_part - 1);
-  double higher = std::numeric_limits<double>::infinity();
-  for (const double end : {lo, hi}) {
-    const double t = deepest + fade * (end - deepest);
-    higher = std::min(higher, clearance(t) - least);
-    add_at(t, s0 + s1 * t);
-  }
+  const double t_lo = deepest + fade * (lo - deepest), t_hi = deepest + fade * (hi - deepest);
+  add_at(t_lo, s0 + s1 * t_lo);
+  add_at(t_hi, s0 + s1 * t_hi);
   // Of two lines that cross by a hair neither end has the depth.
-  if (higher > margins_.clear_rise / 2) add_at(deepest, s0 + s1 * deepest);
+  if (curved && std::min(clearance(t_lo), clearance(t_hi)) - least > margins_.clear_rise / 2) {
+    add_at(deepest, s0 + s1 * deepest);
+  }
 }
 
 }  // namespace touchstone

@@ -18,24 +18,19 @@ Extents extents(const PosedBox& s) {
   return {s.half_extents.minCoeff(), s.half_extents.maxCoeff()};
 }
 
-/// Sees to a point of the whole depth where none of the features' points has it: features that lean
-/// are carried to each other with an error of the second order, which may part them. If it is their
-/// lean, one body has one deepest point; else rounding, in whose frame the deepest point that there
-/// is will do.
+/// Adds a point of the whole depth to a contact whose `deepest` point misses some of it: features
+/// that lean are carried to each other with an error of the second order, which may part them. If
+/// it is their lean, one body has one deepest point; else rounding, in whose frame the deepest
+/// point that there is will do.
 template <class Body>
-void hold_depth(Contact& contact, const PosedCylinder& a, const Body& b, const Vec3& origin,
-                const Margins& margins) {
+void add_deepest(Contact& contact, const PosedCylinder& a, const Body& b, const Vec3& origin,
+                 const Margins& margins, const ContactPoint& deepest) {
   const double depth = -contact.signed_distance;
-  ContactPoint deepest{Vec3::Zero(), -std::numeric_limits<double>::infinity()};
-  for (const ContactPoint& p : contact.points()) {
-    if (p.depth > deepest.depth) deepest = p;
-  }
-  const double missing = depth - deepest.depth;
-  if (missing <= margins.unseen_depth()) return;
   const SupportPoint on_a = support_point(a, -contact.normal);
   const SupportPoint on_b = support_point(b, contact.normal);
   Vec3 position = deepest.position;
-  if (contact.points().empty() || std::max(on_a.sharpness, on_b.sharpness) > missing) {
+  if (contact.points().empty() ||
+      std::max(on_a.sharpness, on_b.sharpness) > depth - deepest.depth) {
     const Vec3 half = depth / 2 * contact.normal;
     position = origin + (on_a.sharpness >= on_b.sharpness ? Vec3(on_a.position + half)
                                                           : Vec3(on_b.position - half));
@@ -48,6 +43,21 @@ void hold_depth(Contact& contact, const PosedCylinder& a, const Body& b, const V
     if (is_near && p.position != position && contact.points().size() < Contact::max_points) {
       contact.add_point(p.position, p.depth);
     }
+  }
+}
+
+/// Sees to a point of the whole depth.
+template <class Body>
+void hold_depth(Contact& contact, const PosedCylinder& a, const Body& b, const Vec3& origin,
+                const Margins& margins) {
+  const ContactPoint* deepest = nullptr;
+  for (const ContactPoint& p : contact.points()) {
+    if (!deepest || p.depth > deepest->depth) deepest = &p;
+  }
+  constexpr double none = -std::numeric_limits<double>::infinity();
+  const ContactPoint there = deepest ? *deepest : ContactPoint{Vec3::Zero(), none};
+  if (!(-contact.signed_distance - there.depth <= margins.unseen_depth())) {
+    add_deepest(contact, a, b, origin, margins, there);
   }
 }
 
