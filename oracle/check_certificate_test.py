@@ -14,6 +14,7 @@ import tempfile
 import time
 import unittest
 from fractions import Fraction
+from math import isqrt
 
 sys.dont_write_bytecode = True
 import check_certificate as checker  # noqa: E402
@@ -280,6 +281,25 @@ class Proof(CheckerTest):
             value["signed_distance"][0] = str(lo)
             self.assert_rejected({**value, "grain": str(Fraction(1, 10**300))}, "is below lo")
 
+    def test_irrational_roots_are_rounded_to_the_safe_side(self):
+        # Along (3, 4, 1), of length root 26, a cylinder reaches 6, a box 8, a sphere 2 root 26.
+        grain, rounding = Fraction(1, 10**190), Fraction(1, 10**175)
+        box, sphere = {"half_extents": [1.0] * 3}, {"radius": 2.0}
+        for shape, size, apart_by, gap in (("box", box, 5, 1), ("box", box, 4, -2),
+                                           ("sphere", sphere, 5, 9)):
+            beyond = 2 if shape == "sphere" else 0
+            # Rounded up: above the gap by less than a grain, and by less than roots are rounded.
+            above = (isqrt(gap**2 * 10**380 // 26) + 1 if gap > 0 else -isqrt(4 * 10**380 // 26))
+            above = above * grain - beyond
+            value = certificate(cylinder(), pose([0.0, 0.0, 0.0]), {"shape": shape, **size},
+                                pose([-float(apart_by), 0.0, 0.0]), grain=str(grain),
+                                normal=["3", "4", "1"], signed_distance=[str(above), "3"],
+                                pair={"a": ["-1", "0", "0"], "b": ["1", "0", "0"]})
+            value["width"] = None
+            self.assert_rejected(value, "is below lo")
+            value["signed_distance"][0] = str(above - rounding)
+            self.assert_accepted(value)
+
     def test_an_upper_end_below_the_bound_is_rejected(self):
         for make, reason in ((apart, "farther"), (above_plane, "farther")):
             value = make()
@@ -374,7 +394,13 @@ class Proof(CheckerTest):
             other["cells"][k ^ 1]["cell"] = value["cells"][k]["cell"]
             self.assert_rejected(other, "does not bound")
 
-    def test_every_corner_of_a_cell_counts(self):
+    def test_a_bound_that_fails_at_one_corner_is_rejected(self):
+        for y in ("-1", "1"):  # each moves one corner's product from -2 to 0
+            for z in ("-1", "1"):
+                value = changed(overlap(), ("cells", 0, "b"), ["1", y, z])
+                self.assert_rejected(value, "does not bound cells.0.")
+
+    def test_a_bound_that_holds_at_a_cells_middle_alone_is_rejected(self):
         # Along the face's middle a.n - b.n = -2, at its corners -2/root 3: no better hi than that.
         for hi, holds in (("-1154/1000", True), ("-1155/1000", False)):
             value = {**overlap(), "signed_distance": ["-2", hi], "grain": "1/1000", "width": None}
