@@ -273,6 +273,18 @@ class Proof(CheckerTest):
             self.assert_accepted(make())
         wider = {**apart(), "signed_distance": ["-7", "7/2"], "grain": "1/2", "width": 5.25}
         self.assert_accepted(wider)
+        deeper = changed(above_plane(), ("configuration", "pose_a", "position", 2), -3.0)
+        deeper = changed(deeper, ("exact", "pose_a", "position", 2), "-3")
+        self.assert_accepted({**deeper, "signed_distance": ["-5", "1"], "width": 6.0})
+
+    def test_a_turned_body_is_turned_the_right_way(self):
+        turned = pose([0.0, 0.0, 0.0], [2.0, 2.0, 0.0, 0.0])  # its z is the world's -y
+        value = certificate(cylinder(1.0, 3.0), turned, {"shape": "sphere", "radius": 1.0},
+                            pose([0.0, -9.0, 0.0]), signed_distance=["5", "5"],
+                            normal=["0", "1", "0"],
+                            pair={"a": ["0", "0", "3"], "b": ["0", "1", "0"]})
+        self.assert_accepted(value)
+        self.assert_rejected(changed(value, ("pair", "a", 2), "-3"), "farther apart")
 
     def test_a_lower_end_above_the_gap_is_rejected(self):
         for make in (apart, above_plane, overlap):
@@ -328,6 +340,7 @@ class Proof(CheckerTest):
         for path, x in ((("a", 0), "2"), (("a", 2), "5/4"), (("b", 1), "9/2"),
                         (("a", 1), "1/" + "9" * 900)):
             self.assert_rejected(changed(apart(), ("pair", *path), x), "outside body")
+        self.assert_rejected(changed(apart(), ("pair", "a"), ["0", "0", "3/2"]), "outside body a")
         self.assert_rejected(changed(above_plane(), ("pair", "b", 2), "2"), "outside body b")
 
     def test_a_capsules_point_may_be_in_its_ends_and_not_beyond(self):
@@ -393,6 +406,29 @@ class Proof(CheckerTest):
             other = changed(value, ("cells", k, "cell"), value["cells"][k ^ 1]["cell"])
             other["cells"][k ^ 1]["cell"] = value["cells"][k]["cell"]
             self.assert_rejected(other, "does not bound")
+
+    def test_a_quarter_lies_where_its_number_says(self):
+        for face in range(6):
+            value = overlap()
+            quarters = split(value["cells"].pop(face))
+            for k, quarter in enumerate(quarters):  # one that holds in no other quarter
+                quarter["b"] = list(quarter["b"])
+                quarter["b"][(face // 2 + 1) % 3] = "1" if k % 2 else "-1"
+                quarter["b"][(face // 2 + 2) % 3] = "1" if k // 2 else "-1"
+            value["cells"] += quarters
+            self.assert_accepted(value)
+            for k in range(4):
+                other = changed(value, ("cells", 5 + k, "b"), quarters[(k + 1) % 4]["b"])
+                self.assert_rejected(other, f"does not bound cells.{5 + k}.")
+
+    def test_a_cells_points_may_be_fractions(self):
+        value = overlap()
+        for entry in value["cells"]:
+            for name in "ab":
+                entry[name] = [str(Fraction(x) / 2) for x in entry[name]]
+        self.assert_rejected(value, "does not bound cells.0.")
+        value.update(signed_distance=["-2", "-1/2"], grain="1/2", width=1.5)
+        self.assert_accepted(value)
 
     def test_a_bound_that_fails_at_one_corner_is_rejected(self):
         for y in ("-1", "1"):  # each moves one corner's product from -2 to 0
