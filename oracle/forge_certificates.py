@@ -92,6 +92,11 @@ TEXT_CHANGES = (other_byte, other_bit, other_digit, cut_off, left_out, put_in, t
 
 # Changes of values. They act on the parsed certificate.
 
+def rational(text):
+    """A number that may have been forged already: Fraction would never end with a huge exponent."""
+    return checker.rational(text, "number")
+
+
 def places(value, path=()):
     """All places of a value, those of cells no oftener than the rest."""
     if path:
@@ -194,18 +199,18 @@ def exchange_bodies(value, rng):
         if member in value:
             value[member] = {names[name]: x for name, x in value[member].items()}
     if rng.random() < 0.5:
-        value["normal"] = [str(-Fraction(x)) for x in value["normal"]]
+        value["normal"] = [str(-rational(x)) for x in value["normal"]]
 
 
 def move_end(value, rng):
     which = rng.randrange(2)
-    grain = Fraction(value["grain"])
+    grain = rational(value["grain"])
     steps = rng.choice((-1, 1)) * rng.choice((1, 1, 2, 3, 2**20, 2**40, 10**30))
     if rng.random() < 0.2:  # with a grain that allows it
         grain /= 10**6
         value["grain"] = str(grain)
     ends = value["signed_distance"]
-    ends[which] = str(Fraction(ends[which]) + steps * grain)
+    ends[which] = str(rational(ends[which]) + steps * grain)
     if rng.random() < 0.1:
         ends.reverse()
 
@@ -235,27 +240,27 @@ def change_cells(value, rng):
         lambda: cell.update(a=other["a"]),
         lambda: cell.update(b=other["b"]),
         lambda: cell.update(a=other["b"], b=other["a"]),
-        lambda: cell.update(a=[str(Fraction(x) * 2) for x in cell["a"]]),
-        lambda: cell.update(a=[str(-Fraction(x)) for x in cell["a"]]),
+        lambda: cell.update(a=[str(2 * rational(x)) for x in cell["a"]]),
+        lambda: cell.update(a=[str(-rational(x)) for x in cell["a"]]),
         lambda: cell["b"].__setitem__(rng.randrange(3), cell["b"][rng.randrange(3)]),
         lambda: rng.shuffle(cells)))()
 
 
 def narrow(value, rng):
     """What a hostile prover does: ends closer together than is true, and a proof bent to fit."""
-    lo, hi = map(Fraction, value["signed_distance"])
-    grain = Fraction(value["grain"])
+    lo, hi = map(rational, value["signed_distance"])
+    grain = rational(value["grain"])
     step = math.ceil(max(abs(hi), 1000 * grain) / rng.choice((1000, 10, 2)) / grain) * grain
     longer = 1 + rng.choice((Fraction(1, 500), Fraction(1, 5), Fraction(2)))
     if rng.random() < 0.2:
         lo, hi = lo + step, max(hi, lo + step)
-        value["normal"] = [str(longer * Fraction(x)) for x in value["normal"]]
+        value["normal"] = [str(longer * rational(x)) for x in value["normal"]]
     else:
         lo, hi = min(lo, hi - step), hi - step
         if "pair" in value or rng.random() < 0.5:  # points outside their bodies
             for entry in value.get("cells", [value.get("pair")]):
                 for name in "ab":
-                    entry[name] = [str(longer * Fraction(x)) for x in entry[name]]
+                    entry[name] = [str(longer * rational(x)) for x in entry[name]]
         else:  # cells that do not hold are left out, or replaced by some that do
             holding = [entry for entry in value["cells"] if holds(value, entry, hi)]
             missing = [len(entry["cell"]) for entry in value["cells"] if entry not in holding]
