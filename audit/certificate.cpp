@@ -3,6 +3,7 @@
 #include "audit/certificate.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 
 #include "audit/branch_and_bound.hpp"
@@ -36,12 +37,13 @@ const Real400& rounding() {
 
 Rational grain_of(int bits) { return rounded(ldexp(Real400(1), -bits), bits, MPFR_RNDZ); }
 
-/// The smallest multiple of 2^−bits that `holds`, exactly; it is not above `bound` by more.
+/// The smallest multiple of 2^−bits that `holds`, exactly; it is not above `bound` + `error` by
+/// more.
 template <class Holds>
-Rational tight_above(const Real400& bound, int bits, const Holds& holds) {
-  Rational first = rounded(bound - rounding(), bits, MPFR_RNDU);
+Rational tight_above(const Real400& bound, const Real400& error, int bits, const Holds& holds) {
+  Rational first = rounded(bound - error, bits, MPFR_RNDU);
   if (holds(first)) return first;
-  Rational second = rounded(bound + rounding(), bits, MPFR_RNDU);
+  Rational second = rounded(bound + error, bits, MPFR_RNDU);
   if (!holds(second)) fail();
   return second;
 }
@@ -88,7 +90,7 @@ class Prover {
         found_(BranchAndBound<Real400>(bodies_, bodies_)
                    .run(ClosestPairSearch<Real400>(bodies_).run(width / 8, most_closest_steps),
                         width / 2, cells)),
-        room_(std::max(Real400(width / 2), Real400(found_.hi - found_.lo)) / 4),
+        room_(std::max(Real400(width / 2), Real400(found_.hi - found_.lo)) / 4 + rounding()),
         grain_(tight_bits + std::max(bits_of(room_), found_.hi < 0 ? bits_of(-found_.hi) : 0)) {}
 
   Certificate certificate() const {
@@ -97,7 +99,7 @@ class Prover {
         rounded(gap_below(bodies_, as_reals(normal)) - rounding(), grain_, MPFR_RNDD);
     Certificate result{in_metres(lo, unit_), {},           in_metres(grain_of(grain_), unit_),
                        in_metres(normal, 1), std::nullopt, {}};
-    if (found_.hi < 0) {
+    if (found_.hi < -rounding()) {  // cells would have to prove less than what 400 bits lose
       prove_by_cells(result);
     } else {
       prove_by_pair(result);
@@ -115,7 +117,7 @@ class Prover {
         shortest(exact_, found_.closest, [&](const auto& w) { return closer(w, goal); });
     const Vector<Rational> w = difference(exact_, pair);
     const Rational hi =
-        tight_above(distance_above(bodies_, as_reals(pair)), grain_,
+        tight_above(distance_above(bodies_, as_reals(pair)), rounding(), grain_,
                     [&](const Rational& end) { return end >= 0 && closer(w, end); });
     result.hi = in_metres(hi, unit_);
     result.pair = in_metres(pair, unit_);
@@ -136,7 +138,7 @@ class Prover {
       bound = std::max(bound, corner_bound_above(bodies_, as_reals(short_pair), cell));
       result.cells.push_back({path_of(cell), in_metres(short_pair, unit_)});
     }
-    const Rational hi = tight_above(bound, grain_, [&](const Rational& end) {
+    const Rational hi = tight_above(bound, rounding(), grain_, [&](const Rational& end) {
       for (std::size_t i = 0; i < cells.size(); ++i) {
         if (!bounds_cell(differences[i], cells[i], end)) return false;
       }
@@ -172,9 +174,12 @@ Certificate certify_over_plane(const Configuration& c, const Plane& plane, const
   const Vector<Real400> toward = -(bodies.a.axes.transpose() * n);
   const Vector<Real400> lowest = pulled_inside(bodies.a, support_point(bodies.a, toward));
   const Real400 gap = (gap_times_length(bodies, n) - Real400(displacement)) / length;
+  // A short normal may put the plane farther away than any unit.
+  const Real400 far = abs(Real400(displacement)) / length;
+  const Real400 error = rounding() * std::max(Real400(1), far);
   const int grain = bits_of(width / 4) + tight_bits;
 
-  const Rational goal = rounded(gap + width / 4, grain, MPFR_RNDU);
+  const Rational goal = rounded(gap + width / 4 + error, grain, MPFR_RNDU);
   PointPair<Rational> pair;
   Rational along;  // the normal, times its length
   for (int bits = bits_step; bits <= most_bits; bits += bits_step) {
@@ -183,10 +188,10 @@ Certificate certify_over_plane(const Configuration& c, const Plane& plane, const
     if (certainly_contains(exact.a, pair.a) && at_most(along, goal, squared)) break;
   }
   if (!certainly_contains(exact.a, pair.a)) fail();
-  const Rational hi = tight_above(Real400(along) / length, grain, [&](const Rational& end) {
+  const Rational hi = tight_above(Real400(along) / length, error, grain, [&](const Rational& end) {
     return at_most(along, end, squared);
   });
-  const Rational lo = rounded(gap - rounding(), grain, MPFR_RNDD);
+  const Rational lo = rounded(gap - error, grain, MPFR_RNDD);
   return {in_metres(lo, unit),  in_metres(hi, unit),   in_metres(grain_of(grain), unit),
           in_metres(normal, 1), in_metres(pair, unit), {}};
 }
@@ -196,7 +201,9 @@ Certificate certify_over_plane(const Configuration& c, const Plane& plane, const
 Certificate certify(const Configuration& configuration, const Budget& budget) {
   check_width(budget.width);
   const double unit = unit_of(configuration);
-  const Real400 width = Real400(budget.width) * larger_size(configuration) / unit;
+  // A capsule of two finite sizes may be longer than all doubles.
+  const double size = std::min(larger_size(configuration), std::numeric_limits<double>::max());
+  const Real400 width = Real400(budget.width) * size / unit;
   if (const auto* plane = std::get_if<Plane>(&configuration.b)) {
     return certify_over_plane(configuration, *plane, width, unit);
   }

@@ -96,6 +96,37 @@ TEST(Certificate, OfAPlaneFarFromItsOrigin) {
   EXPECT_GE(proof.hi, exact);
 }
 
+TEST(Certificate, OfAPlaneBeyondAllDoubles) {
+  const double length = 5e-324;
+  const Configuration c{Cylinder(1, 2), Pose({0, 0, -7}, upright), Plane({0, 0, -length}, 0.5),
+                        Pose()};
+  const Certificate proof = certify(c, {1e-30, 4000});
+  const mpq_class exact = 7 - 2 - mpq_class(0.5) / mpq_class(length);
+  EXPECT_LE(proof.lo, exact);
+  EXPECT_GE(proof.hi, exact);
+}
+
+TEST(Certificate, OfBodiesWhoseDistanceHasMoreBitsThanTheSearch) {
+  for (int i = 1; i <= 8; ++i) {
+    const double x = std::ldexp(1, 600), y = i * x;
+    const Configuration c{Cylinder(0.3, 0.7), Pose({x, y, 0.1}, tilt), Sphere(1), Pose()};
+    const Certificate proof = certify(c, {1e-30, 4000});
+    EXPECT_NEAR(proof.lo.get_d() / x, std::hypot(1, i), 1e-14);
+    EXPECT_GE(proof.hi, proof.lo);
+    EXPECT_LE(proof.hi - proof.lo, mpq_class(x) * mpq_class(1e-98));
+  }
+}
+
+TEST(Certificate, OfACapsuleLongerThanAllDoubles) {
+  const double radius = 1.7e308, distance = 1.75e308;
+  const Configuration c{Cylinder(1, 1), Pose({distance, 0, 0}, upright), Capsule(radius, radius),
+                        Pose()};
+  const Certificate proof = certify(c, {1e-30, 4000});
+  const mpq_class exact = mpq_class(distance) - mpq_class(radius) - 1;
+  EXPECT_LE(proof.lo, exact);
+  EXPECT_GE(proof.hi, exact);
+}
+
 TEST(Certificate, RefusesAWidthThatIsNone) {
   EXPECT_THROW(certify(overlapping, {0, 100}), InvalidInput);
   EXPECT_THROW(certify(overlapping, {HUGE_VAL, 100}), InvalidInput);

@@ -1,94 +1,234 @@
 #!/usr/bin/env python3
-"""Checks a certificate of `touchstone certify`: check_certificate.py FILE...
+"""Checks certificates of `touchstone certify`: check_certificate.py FILE...
 
-A certificate proves lo <= signed distance <= hi of two bodies (format and proof are in
-docs/certificate.md). Rational arithmetic only; nothing is shared with the program that wrote it.
-Prints accepted or rejected with the reason for each file; exit code 1 unless all are accepted.
+A certificate proves lo <= signed distance <= hi of two bodies; docs/certificate.md has the format,
+the proof and the limits. All arithmetic is rational, and nothing is shared with the program that
+wrote the certificate. Prints what each file proves, or why it is rejected. Exit code: 0 all are
+accepted, 1 one is rejected, 2 one cannot be read.
 """
 
 import json
+import os
+import re
 import sys
+from decimal import Context, Decimal
 from fractions import Fraction
-from math import isqrt
+from math import inf, isfinite, isqrt, lcm
 
-ROOT_BITS = 600  # roots are bounded to a relative 2^-600 or better
+# Limits of time and memory; what `touchstone certify` writes stays far below them.
+MAX_BYTES = 16 * 2**20  # of a file
+MAX_DIGITS = 4000  # of a numerator or a denominator
+MAX_CELLS = 100_000
+MAX_LEVEL = 1000  # quarterings from a face of the cube down to a cell
+ROOT_BITS = 600  # roots are bounded to a relative 2^-600
+
+FRACTION = re.compile(rf"(-?[0-9]{{1,{MAX_DIGITS}}})(?:/([1-9][0-9]{{0,{MAX_DIGITS - 1}}}))?")
+CELL = re.compile(rf"[0-5][0-3]{{0,{MAX_LEVEL}}}")
+# What the C function strtod reads without leaving a rest: so does `touchstone solve`.
+DECIMAL = re.compile(r"[+-]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+-]?[0-9]+)?")
+HEXADECIMAL = re.compile(
+    r"[+-]?0[xX]([0-9a-fA-F]+(\.[0-9a-fA-F]*)?|\.[0-9a-fA-F]+)([pP][+-]?[0-9]+)?")
+
+SHAPES = {"cylinder": ("radius", "half_length"), "capsule": ("radius", "half_length"),
+          "sphere": ("radius",), "box": ("half_extents",), "plane": ("normal", "displacement")}
+LENGTHS = {"half_extents": 3, "normal": 3, "position": 3, "orientation": 4}  # the rest are numbers
+IDENTITY = {"position": [0.0, 0.0, 0.0], "orientation": [1.0, 0.0, 0.0, 0.0]}
 
 
 class Rejected(Exception):
     pass
 
 
-def require(condition, reason):
+def require(condition, *reason):
+    """`reason` is a sentence, or a field with its value and what it must be."""
     if not condition:
-        raise Rejected(reason)
+        field, *value = reason
+        raise Rejected(f"{field} is {shown(value[0])}: must be {value[1]}" if value else field)
 
 
-def vector(texts, length=3):
-    require(len(texts) == length, f"no vector of {length}: {texts}")
-    return [Fraction(text) for text in texts]
+def shown(value):
+    if isinstance(value, (dict, list)):
+        return "an object" if isinstance(value, dict) else f"an array of {len(value)}"
+    return json.dumps(value[:57] + "..." if isinstance(value, str) and len(value) > 60 else value)
 
+
+# Reading. `field` is the value's place in the file, for the reason of a rejection.
+
+def parse(data):
+    """The JSON value of a file's bytes. Every number in it is a finite float."""
+    def members_once(pairs):
+        names = set()
+        for name, _ in pairs:
+            require(name not in names, f"a member is given twice: {name[:60]!a}")
+            names.add(name)
+        return dict(pairs)
+
+    def finite(text):
+        number = float(text)
+        require(isfinite(number), "a number", text, "finite")
+        return number
+
+    require(len(data) <= MAX_BYTES, f"the file is longer than {MAX_BYTES} bytes")
+    try:
+        return json.loads(data.decode("utf-8"), object_pairs_hook=members_once, parse_int=finite,
+                          parse_float=finite, parse_constant=finite)
+    except (ValueError, RecursionError) as error:
+        raise Rejected(f"the file is not JSON: {error}") from None
+
+
+def members(value, field, required, optional=()):
+    """Requires an object with these members and no others."""
+    require(isinstance(value, dict), field, value, "an object")
+    for name in required:
+        require(name in value, f"{field}.{name} is missing")
+    for name in value:
+        require(name in required or name in optional,
+                f"{field} has a member that is not known: {name[:60]!a}")
+
+
+def array(value, field, length, read):
+    require(isinstance(value, list) and len(value) == length,
+            field, value, f"an array of {length} numbers")
+    return [read(x, f"{field}[{i}]") for i, x in enumerate(value)]
+
+
+def double(value, field):
+    """A number of the configuration: exactly the double that `touchstone solve` reads."""
+    result = value
+    if isinstance(value, str):
+        hexadecimal = HEXADECIMAL.fullmatch(value)
+        if hexadecimal or DECIMAL.fullmatch(value):
+            try:
+                result = float.fromhex(value) if hexadecimal else float(value)
+            except OverflowError:
+                result = inf
+    require(isinstance(result, float), field, value, "a number, decimal or hexadecimal")
+    require(isfinite(result), field, value, "finite")
+    return Fraction(result)
+
+
+def rational(value, field):
+    """A number of the proof: a string such as "-3/8" or "2"."""
+    match = FRACTION.fullmatch(value) if isinstance(value, str) else None
+    require(match, field, value, f"a string with a fraction, -3/8, of at most {MAX_DIGITS} digits")
+    return Fraction(int(match[1]), int(match[2] or 1))
+
+
+def vector(value, field):
+    return array(value, field, 3, rational)
+
+
+def doubles(value, field, names):
+    return {name: array(value[name], f"{field}.{name}", LENGTHS[name], double)
+            if name in LENGTHS else double(value[name], f"{field}.{name}") for name in names}
+
+
+def read_shape(value, field):
+    require(isinstance(value, dict), field, value, "an object")
+    kind = value.get("shape")
+    require(isinstance(kind, str) and kind in SHAPES, field + ".shape", kind, " or ".join(SHAPES))
+    members(value, field, ("shape", *SHAPES[kind]))
+    numbers = doubles(value, field, SHAPES[kind])
+    if kind == "plane":
+        require(any(numbers["normal"]), f"{field}.normal is zero")
+    else:
+        for name, x in numbers.items():
+            require((min(x) if name in LENGTHS else x) > 0, f"{field}.{name} is not positive")
+    return {"shape": kind, **numbers}
+
+
+def read_pose(value, field):
+    members(value, field, (), IDENTITY)
+    pose = doubles({**IDENTITY, **value}, field, IDENTITY)
+    require(any(pose["orientation"]), f"{field}.orientation is zero")
+    return pose
+
+
+def read_configuration(value):
+    """The configuration that `touchstone solve` reads; rejects what it refuses."""
+    members(value, "configuration", ("a", "b"), ("pose_a", "pose_b"))
+    result = {name: read_shape(value[name], f"configuration.{name}") for name in ("a", "b")}
+    for name in ("pose_a", "pose_b"):
+        result[name] = read_pose(value.get(name, {}), f"configuration.{name}")
+    require("cylinder" in (result["a"]["shape"], result["b"]["shape"]),
+            "configuration.a.shape", result["a"]["shape"], "cylinder, or configuration.b.shape")
+    return result
+
+
+def require_same(exact, read, field):
+    """Is `exact` what was read, with every number as a fraction in lowest terms?"""
+    if isinstance(read, dict):
+        members(exact, field, read)
+        for name in read:
+            require_same(exact[name], read[name], f"{field}.{name}")
+    elif isinstance(read, list):
+        array(exact, field, len(read), lambda x, path: x)
+        for i, x in enumerate(read):
+            require_same(exact[i], x, f"{field}[{i}]")
+    else:
+        require(exact == str(read), field, exact,
+                "as in the configuration: the two forms of the input differ")
+
+
+# Geometry. A vector is a list of three rational numbers.
 
 def dot(v, w):
     return sum(x * y for x, y in zip(v, w))
 
 
+def integers(v):
+    """Integers, and the least d > 0 with v = integers / d."""
+    d = lcm(*(x.denominator for x in v))
+    return [x.numerator * (d // x.denominator) for x in v], d
+
+
 def root(x, above=False):
     """The root of x >= 0, not less (above) or not more than exact."""
-    grains = isqrt(x.numerator * x.denominator << 2 * ROOT_BITS) + above
-    return Fraction(grains, x.denominator << ROOT_BITS)
-
-
-def same_numbers(floats, fractions):
-    """Is the input in hexadecimal floats, number by number, the one in fractions?"""
-    if isinstance(floats, dict):
-        return floats.keys() == fractions.keys() and all(
-            same_numbers(value, fractions[key]) for key, value in floats.items())
-    if isinstance(floats, list):
-        return len(floats) == len(fractions) and all(map(same_numbers, floats, fractions))
-    return floats == fractions or Fraction(float.fromhex(floats)) == Fraction(fractions)
+    square = x.numerator * x.denominator << 2 * ROOT_BITS
+    grains = isqrt(square)
+    return Fraction(grains + (above and grains**2 < square), x.denominator << ROOT_BITS)
 
 
 class Body:
     """A shape in its own frame, and the exact rotation R(q)/|q|^2 of its pose."""
 
-    def __init__(self, shape, pose):
-        self.kind = shape["shape"]
+    def __init__(self, name, configuration):
+        shape, pose = configuration[name], configuration["pose_" + name]
+        self.name, self.kind, self.centre = name, shape["shape"], pose["position"]
         if self.kind == "plane":
-            self.normal = vector(shape["normal"])
-            self.displacement = Fraction(shape["displacement"])
+            self.normal, self.displacement = shape["normal"], shape["displacement"]
+            self.size = Fraction(0)
         elif self.kind == "box":
-            self.half_extents = vector(shape["half_extents"])
-            require(min(self.half_extents) > 0, "a box without size")
+            self.half_extents = shape["half_extents"]
+            self.size = max(self.half_extents)
         else:  # a sphere is a capsule of half length zero
-            require(self.kind in ("cylinder", "capsule", "sphere"), f"no shape: {self.kind}")
-            self.radius = Fraction(shape["radius"])
-            self.half_length = Fraction(shape.get("half_length", 0))
-            require(self.radius > 0 and self.half_length >= 0, f"a {self.kind} without size")
-        self.centre = vector(pose["position"])
-        w, x, y, z = vector(pose["orientation"], 4)
-        s = w * w + x * x + y * y + z * z
-        columns = [[w * w + x * x - y * y - z * z, 2 * (x * y + w * z), 2 * (x * z - w * y)],
-                   [2 * (x * y - w * z), w * w - x * x + y * y - z * z, 2 * (y * z + w * x)],
-                   [2 * (x * z + w * y), 2 * (y * z - w * x), w * w - x * x - y * y + z * z]]
-        self.axes = [[c / s for c in column] for column in columns]
+            self.radius, self.half_length = shape["radius"], shape.get("half_length", Fraction(0))
+            self.size = (max(self.radius, self.half_length) if self.kind == "cylinder"
+                         else min(self.radius + self.half_length, Fraction(sys.float_info.max)))
+        w, x, y, z = integers(pose["orientation"])[0]
+        self.square = w * w + x * x + y * y + z * z
+        self.columns = [[w * w + x * x - y * y - z * z, 2 * (x * y + w * z), 2 * (x * z - w * y)],
+                        [2 * (x * y - w * z), w * w - x * x + y * y - z * z, 2 * (y * z + w * x)],
+                        [2 * (x * z + w * y), 2 * (y * z - w * x), w * w - x * x - y * y + z * z]]
 
     def to_world(self, v):
-        return [dot(row, v) for row in zip(*self.axes)]
+        """Integers, and their common denominator."""
+        local, d = integers(v)
+        return [dot(row, local) for row in zip(*self.columns)], d * self.square
 
     def to_local(self, v):
-        return [dot(axis, v) for axis in self.axes]
+        return [dot(column, v) / self.square for column in self.columns]
 
     def contains(self, p):
         x, y, z = p
-        across = x * x + y * y
-        if self.kind == "cylinder":
-            return abs(z) <= self.half_length and across <= self.radius**2
         if self.kind == "box":
             return all(abs(c) <= h for c, h in zip(p, self.half_extents))
         if self.kind == "plane":
             return dot(self.normal, p) <= self.displacement
         beyond = max(abs(z) - self.half_length, 0)
-        return across + beyond**2 <= self.radius**2
+        if self.kind == "cylinder" and beyond > 0:
+            return False
+        return x * x + y * y + beyond * beyond <= self.radius**2
 
     def support_above(self, n):
         """At least the largest p·n over the body's points p about its centre, n in the world."""
@@ -99,12 +239,18 @@ class Body:
         return self.half_length * abs(z) + self.radius * root(square, above=True)
 
 
-def difference(a, b, entry):
-    """w = a - b in the world for a point of each body, given in its frame."""
-    p, q = vector(entry["a"]), vector(entry["b"])
-    require(a.contains(p), "a point outside body a")
-    require(b.contains(q), "a point outside body b")
-    return [x + y - u - v for x, y, u, v in zip(a.centre, a.to_world(p), b.centre, b.to_world(q))]
+# The proof. Here body a is the cylinder and b the other body, whatever their names.
+
+def difference(a, b, entry, field):
+    """w = a - b in the world for a point of each body: integers, and their common denominator."""
+    terms = [integers([x - y for x, y in zip(a.centre, b.centre)])]
+    for body, sign in ((a, 1), (b, -1)):
+        point = vector(entry[body.name], f"{field}.{body.name}")
+        require(body.contains(point), f"{field}.{body.name} is a point outside body {body.name}")
+        rotated, d = body.to_world(point)
+        terms.append(([sign * x for x in rotated], d))
+    common = lcm(*(d for _, d in terms))
+    return [sum(v[i] * (common // d) for v, d in terms) for i in range(3)], common
 
 
 def product_at_most(product, bound, square):
@@ -115,27 +261,29 @@ def product_at_most(product, bound, square):
 
 def check_lower(a, b, n, lo):
     """One direction: lo <= g(n/|n|)."""
-    require(any(n), "the zero vector as normal")
-    square = dot(n, n)
+    require(any(n), "normal is the zero vector")
     gap = dot(n, [x - y for x, y in zip(a.centre, b.centre)]) - a.support_above(n)
-    if b.kind == "plane":
-        normal = b.to_world(b.normal)  # along any other direction there is no gap
+    if b.kind == "plane":  # along any other direction than its normal there is no gap
+        normal, d = b.to_world(b.normal)
         scale = dot(n, normal) / dot(normal, normal)
-        require(scale > 0 and n == [scale * x for x in normal], "not the plane's normal")
-        gap -= scale * b.displacement
+        require(scale > 0 and n == [scale * x for x in normal], "normal is not the plane's normal")
+        gap -= scale * d * b.displacement
     else:
         gap -= b.support_above(n)
-    require(lo * root(square, above=lo > 0) <= gap, "the gap along the normal is below lo")
+    require(lo * root(dot(n, n), above=lo > 0) <= gap, "the gap along the normal is below lo")
 
 
 def check_cover(paths):
     """Disjoint cells whose areas sum up to the cube's: six faces, quarters of quarters."""
+    for path in paths:
+        is_cell = isinstance(path, str) and CELL.fullmatch(path)
+        require(is_cell, "cell", path, f"a face, 0 to 5, then at most {MAX_LEVEL} quarters, 0 to 3")
     paths = sorted(paths)
-    for path, following in zip(paths, paths[1:] + [""]):
-        require(path and path[0] in "012345" and not path[1:].strip("0123"), f"no cell: {path}")
-        require(not following.startswith(path), f"cell {following} twice")
-    area = sum(Fraction(1, 4 ** (len(path) - 1)) for path in paths)
-    require(area == 6, "the cells do not cover all directions")
+    for path, following in zip(paths, paths[1:]):
+        require(not following.startswith(path), f"cell {following[:60]} twice")
+    deepest = max(map(len, paths), default=1)
+    area = sum(4 ** (deepest - len(path)) for path in paths)
+    require(area == 6 * 4 ** (deepest - 1), "the cells do not cover all directions")
 
 
 def corners(path):
@@ -152,48 +300,89 @@ def corners(path):
         yield m
 
 
-def check_upper(a, b, n, hi, certificate):
-    """Points of both bodies: g(m) <= (a - b)·m for every unit vector m."""
-    if "pair" in certificate:
-        w = difference(a, b, certificate["pair"])
-        along = product_at_most(dot(w, n), hi, dot(n, n)) if b.kind == "plane" else False
-        require(along or hi >= 0 and dot(w, w) <= hi**2, "the points are farther apart than hi")
-    else:
-        require(hi <= 0, "cells prove overlap only")
-        check_cover([entry["cell"] for entry in certificate["cells"]])
-        for entry in certificate["cells"]:
-            w = difference(a, b, entry)
-            for m in corners(entry["cell"]):
-                bounded = product_at_most(dot(w, m), hi, dot(m, m))
-                require(bounded, f"hi does not bound cell {entry['cell']}")
+def check_pair(a, b, n, hi, pair):
+    """One pair of points bounds g by hi: along n over a plane, else along all directions."""
+    members(pair, "pair", ("a", "b"))
+    w, d = difference(a, b, pair, "pair")
+    along = b.kind == "plane" and product_at_most(dot(w, n), hi * d, dot(n, n))
+    require(along or hi >= 0 and dot(w, w) <= (hi * d)**2, "the points are farther apart than hi")
+
+
+def check_cells(a, b, hi, cells):
+    """With a pair of points for each cell, w·m <= hi |m| for every m in it, as at its corners."""
+    require(hi <= 0, "cells prove overlap only")
+    require(isinstance(cells, list) and len(cells) <= MAX_CELLS,
+            "cells", cells, f"an array of at most {MAX_CELLS} cells")
+    for i, entry in enumerate(cells):
+        members(entry, f"cells[{i}]", ("cell", "a", "b"))
+    check_cover([entry["cell"] for entry in cells])
+    for i, entry in enumerate(cells):
+        w, d = difference(a, b, entry, f"cells[{i}]")
+        for m in corners(entry["cell"]):
+            require(product_at_most(dot(w, m) * hi.denominator, hi.numerator * d, dot(m, m)),
+                    f"hi does not bound cells[{i}]")
+
+
+def check_width(width, exact, size):
+    """Is it `exact` over the larger size, but for rounding? Null is said beyond all doubles."""
+    require(width is None or isinstance(width, float), "width", width, "a number")
+    error = abs(Fraction(width or 0) * size - exact)
+    require(width is None or error <= exact / 2**40 + size / 2**1074, "width is not hi - lo")
 
 
 def check(certificate):
     """The proven ends. Raises Rejected."""
-    require(certificate["schema"] == "touchstone-certificate-1", "another schema")
-    exact = certificate["exact"]
-    require(same_numbers(certificate["configuration"], exact), "the two forms of the input differ")
-    a, b = Body(exact["a"], exact["pose_a"]), Body(exact["b"], exact["pose_b"])
-    require(a.kind == "cylinder", "body a is no cylinder")
-    (lo, hi), n = vector(certificate["signed_distance"], 2), vector(certificate["normal"])
-    grain = Fraction(certificate["grain"])
-    require(lo % grain == 0 == hi % grain, "lo or hi is no multiple of the grain")
+    bound = "pair" if isinstance(certificate, dict) and "pair" in certificate else "cells"
+    members(certificate, "certificate", ("schema", "configuration", "exact", "signed_distance",
+                                         "grain", "width", "normal", bound))
+    schema = "touchstone-certificate-1"
+    require(certificate["schema"] == schema, "schema", certificate["schema"], schema)
+    configuration = read_configuration(certificate["configuration"])
+    require_same(certificate["exact"], configuration, "exact")
+    lo, hi = array(certificate["signed_distance"], "signed_distance", 2, rational)
+    grain = rational(certificate["grain"], "grain")
+    require(grain > 0 and lo % grain == 0 == hi % grain, "lo or hi is no multiple of the grain")
+    a, b = Body("a", configuration), Body("b", configuration)
+    n = vector(certificate["normal"], "normal")  # from b to a
+    if a.kind != "cylinder":
+        a, b, n = b, a, [-x for x in n]
     check_lower(a, b, n, lo)
-    check_upper(a, b, n, hi, certificate)
+    if bound == "pair":
+        check_pair(a, b, n, hi, certificate["pair"])
+    else:
+        check_cells(a, b, hi, certificate["cells"])
+    check_width(certificate["width"], hi - lo, max(a.size, b.size))
     return lo, hi
 
 
+def rounded(x, digits):
+    """Text of a rational of any size, beyond that of doubles too."""
+    return f"{Context(prec=digits).divide(Decimal(x.numerator), Decimal(x.denominator)):g}"
+
+
+def verdict(data):
+    """What a file's bytes prove, and whether they do."""
+    try:
+        lo, hi = check(parse(data))
+        return True, f"accepted: {rounded(lo, 17)} m, width {rounded(hi - lo, 2)} m"
+    except Rejected as reason:
+        return False, f"rejected: {reason}"
+
+
 def main(files):
-    good = bool(files)
+    code = 0 if files else 2
     for name in files:
         try:
-            with open(name, encoding="utf-8") as file:
-                lo, hi = check(json.load(file))
-            print(f"{name}: accepted: {float(lo):.17g} m, width {float(hi - lo):.2g} m")
-        except Exception as error:  # what cannot be read proves nothing either
-            good = False
-            print(f"{name}: rejected: {error if isinstance(error, Rejected) else repr(error)}")
-    return 0 if good else 1
+            with open(name, "rb") as file:
+                good, text = verdict(file.read(MAX_BYTES + 1))
+            os.write(1, os.fsencode(f"{name}: {text}\n"))  # at once, so that a failure is seen here
+            code = max(code, 0 if good else 1)
+        except OSError as error:
+            code = 2
+            print(f"{ascii(name)}: {error.strerror}", file=sys.stderr)
+    if not files:
+        print(__doc__, file=sys.stderr)
+    return code
 
 
 if __name__ == "__main__":

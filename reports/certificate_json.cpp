@@ -1,5 +1,8 @@
 #include "reports/certificate_json.hpp"
 
+#include <algorithm>
+#include <limits>
+
 #include "reports/configuration_json.hpp"
 
 namespace touchstone {
@@ -14,7 +17,9 @@ json exact(const audit::RationalVector& v) {
 }  // namespace
 
 json to_json(const audit::Certificate& certificate, const Configuration& configuration) {
-  const mpq_class width = (certificate.hi - certificate.lo) / mpq_class(larger_size(configuration));
+  // A capsule of two finite sizes may be longer than all doubles.
+  const double size = std::min(larger_size(configuration), std::numeric_limits<double>::max());
+  const mpq_class width = (certificate.hi - certificate.lo) / mpq_class(size);
   json result = {{"schema", "touchstone-certificate-1"},
                  {"configuration", to_hex_json(configuration)},
                  {"exact", to_exact_json(configuration)},

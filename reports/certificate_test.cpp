@@ -3,6 +3,7 @@
 //
 // TOUCHSTONE_COUNT sets how many configurations of each class are certified; by default, for CI,
 // one of every fourth class.
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -163,7 +164,7 @@ TEST_P(Certificates, AreAcceptedAndEveryChangeIsRejected) {
       {"pose", "two forms of the input"},
       {"lower", "gap along the normal is below lo|no multiple"},
       {"upper", "hi does not bound cell|farther apart than hi|no multiple"},
-      {"cell", "do not cover all directions|cells prove overlap only|KeyError"},
+      {"cell", "do not cover all directions|certificate.cells is missing"},
       {"point", "point outside body a"}};
   for (const auto& [name, verdict] : rejected) {
     EXPECT_THAT(verdict, testing::StartsWith("rejected: ")) << name;
@@ -188,6 +189,74 @@ TEST_P(Certificates, DoNotHoldForAPoseOneUlpAway) {
   EXPECT_EQ(verdicts.size(), count);
   for (const auto& [name, verdict] : verdicts) {
     EXPECT_THAT(verdict, testing::StartsWith("rejected: ")) << name;
+  }
+}
+
+/// The configuration with every length times 2^exponent.
+Configuration scaled(const Configuration& c, int exponent) {
+  const json unscaled = to_json(c);
+  json result = unscaled;
+  const auto scale = [&](const std::string& pointer) {
+    json& number = result.at(json::json_pointer(pointer));
+    number = std::ldexp(number.get<double>(), exponent);
+  };
+  for (const std::string body : {"a", "b"}) {
+    for (const auto& [name, value] : unscaled[body].items()) {
+      if (name == "shape" || name == "normal") continue;
+      for (std::size_t i = 0; i < value.size() && value.is_array(); ++i) {
+        scale("/" + body + "/" + name + "/" + std::to_string(i));
+      }
+      if (value.is_number()) scale("/" + body + "/" + name);
+    }
+    for (const char* i : {"0", "1", "2"}) scale("/pose_" + body + "/position/" + i);
+  }
+  return configuration_from_json(result).configuration;
+}
+
+TEST_P(Certificates, OfTheSmallestAndLargestLengthsAreAccepted) {
+  const Folder folder;
+  std::size_t count = 0;
+  for (const char* pose_class : {"general-deep", "general-shallow", "general-separated"}) {
+    // Lengths between 2^-8 and 2^4 become denormal, or reach the largest doubles.
+    for (const int exponent : {-1066, -1020, 1000, 1019}) {
+      const Configuration c =
+          scaled(make_configuration({GetParam(), pose_class, 20261122, 0}), exponent);
+      folder.write(pose_class + std::to_string(exponent), to_json(audit::certify(c, budget), c));
+      ++count;
+    }
+  }
+  const auto verdicts = folder.verdicts();
+  EXPECT_EQ(folder.exit_code(), 0);
+  EXPECT_EQ(verdicts.size(), count);
+  for (const auto& [name, verdict] : verdicts) {
+    EXPECT_THAT(verdict, testing::StartsWith("accepted: ")) << name;
+  }
+}
+
+TEST_P(Certificates, OfMixedExtremesAreAccepted) {
+  // 1e308 beside 5e-324 in every place, one after the other, and apart by more than all doubles.
+  const Folder folder;
+  std::size_t count = 0;
+  const json base = to_json(make_configuration({GetParam(), "general-deep", 20261122, 0}));
+  const json flat = base.flatten();
+  for (const auto& [pointer, value] : flat.items()) {
+    if (!value.is_number()) continue;
+    for (const double extreme : {5e-324, 1e308, 1.7e308}) {
+      json changed = flat;
+      changed[pointer] = extreme;
+      if (pointer == "/pose_a/position/0") changed["/pose_b/position/0"] = -extreme;
+      if (pointer == "/b/radius" && changed.contains("/b/half_length")) {
+        changed["/b/half_length"] = extreme;
+      }
+      const Configuration c = configuration_from_json(changed.unflatten()).configuration;
+      folder.write(std::to_string(count++), to_json(audit::certify(c, {1e-6, 400}), c));
+    }
+  }
+  const auto verdicts = folder.verdicts();
+  EXPECT_EQ(folder.exit_code(), 0);
+  EXPECT_EQ(verdicts.size(), count);
+  for (const auto& [name, verdict] : verdicts) {
+    EXPECT_THAT(verdict, testing::StartsWith("accepted: ")) << name;
   }
 }
 
