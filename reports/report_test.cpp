@@ -122,10 +122,17 @@ TEST(Report, TellsAModelsErrorFromItsSolvers) {
   }
 }
 
+/// Other tests may have added it.
+void add_test_plugin(const char* name) {
+  const auto file = std::filesystem::canonical(TOUCHSTONE_TEST_PLUGINS) / name;
+  const auto& added = added_plugins();
+  if (std::find(added.begin(), added.end(), file) == added.end()) add_plugin(file);
+}
+
 /// A candidate that crashes, aborts, throws, allocates 10 GiB, answers NaN, long normals and a
 /// million points on one configuration in three.
 const Candidate& sabotage() {
-  if (added_plugins().empty()) add_plugin(TOUCHSTONE_TEST_PLUGINS "/touchstone-sabotage.so");
+  add_test_plugin("touchstone-sabotage.so");
   return find_candidate("sabotage");
 }
 
@@ -170,6 +177,32 @@ TEST(Report, IsCompleteWhateverACandidateDoes) {
   // And it is the same whatever the number of workers.
   c.workers = 1;
   EXPECT_EQ(without_timing(make_report(c, "x")), together);
+}
+
+TEST(Report, IsCompleteWithEveryHostileCandidateAtOnce) {
+  add_test_plugin("touchstone-hostile.so");
+  setenv("TOUCHSTONE_HOSTILE_EVERYWHERE", "1", 1);
+  Campaign c = small_campaign();
+  c.count = 1;
+  c.pairs = {Pair::plane};
+  c.candidates = find_candidates({"reference", "hostile"});
+  const auto last = static_cast<int>(c.candidates.back()->parameter->most);
+  for (int deed = 2; deed <= last; ++deed) {
+    c.candidates.push_back(&find_candidate("hostile:" + std::to_string(deed)));
+  }
+  EXPECT_GE(last, 40);
+  const json report = make_report(c, "x");
+  unsetenv("TOUCHSTONE_HOSTILE_EVERYWHERE");
+  EXPECT_FALSE(report.value("partial", false));
+  EXPECT_EQ(report["results"].size(), report["classes"].size() * c.candidates.size());
+  for (const json& row : report["results"]) {
+    std::size_t outcomes = 0;
+    for (const json& n : row["outcomes"]) outcomes += n.get<std::size_t>();
+    EXPECT_EQ(outcomes, 1u) << row["candidate"];
+    if (row["candidate"] == "reference") {
+      EXPECT_EQ(row["outcomes"]["agree"], 1);
+    }
+  }
 }
 
 TEST(Report, AHangCostsOneConfigurationEach) {
