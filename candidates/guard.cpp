@@ -89,7 +89,7 @@ void fork_guarded(int socket) {
   if (child < 0) _exit(1);
   if (child > 0) guard(child, socket);
   prctl(PR_SET_PDEATHSIG, SIGTERM);
-  setsid();
+  setpgid(0, 0);
 }
 
 }  // namespace touchstone

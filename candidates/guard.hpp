@@ -13,7 +13,9 @@ bool begin_pid_namespace();
 /// is when its own parent ends, it kills all processes that descend from the child and ends. On
 /// `socket`, unless that is -1, it reports that the child is gone, with its wait status.
 ///
-/// The child leads a session of its own: signals for a group or a terminal stay on either side.
+/// The child leads a process group of its own: signals for a group or from a terminal stay on
+/// either side. (No session of its own: Linux hands out processors by turns of sessions,
+/// sched_autogroup in sched(7), and every answer would wait for such a turn.)
 void fork_guarded(int socket);
 
 }  // namespace touchstone

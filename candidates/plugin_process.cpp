@@ -95,6 +95,7 @@ std::string readable(const std::string& text) {
 
 std::string how_it_ended(int status) {
   if (WIFSIGNALED(status)) return strsignal(WTERMSIG(status));
+  if (WIFSTOPPED(status)) return "was stopped";
   return "ended with exit code " + std::to_string(WEXITSTATUS(status));
 }
 
@@ -201,7 +202,7 @@ void PluginProcess::State::serve(int other_end) const {
   constexpr int only = STDERR_FILENO + 1;  // descriptor besides those three
   dup2(other_end, only);
   close_range(only + 1, ~0u, 0);
-  setsid();
+  setpgid(0, 0);
   // The namespace begins with the next process; its first one must run no plug-in, because it is
   // spared the signals that others die of.
   if (begin_pid_namespace()) fork_guarded(-1);

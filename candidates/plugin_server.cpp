@@ -152,7 +152,7 @@ void serve_plugin(const char* file, int socket, const Questions& questions, Exch
     const pid_t pid = fork();
     if (pid == 0) {
       prctl(PR_SET_PDEATHSIG, SIGKILL);  // if this process dies first, receive() ends the session
-      setsid();
+      setpgid(0, 0);
       bound_memory(command.memory);
       Session(plugin->candidates[command.index], command, socket, questions, exchange).serve();
     }

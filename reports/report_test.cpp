@@ -185,6 +185,7 @@ TEST(Report, IsCompleteWithEveryHostileCandidateAtOnce) {
   Campaign c = small_campaign();
   c.count = 1;
   c.pairs = {Pair::plane};
+  c.classes = {"general-shallow", "touching"};
   c.candidates = find_candidates({"reference", "hostile"});
   const auto last = static_cast<int>(c.candidates.back()->parameter->most);
   for (int deed = 2; deed <= last; ++deed) {
