@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <memory>
 #include <optional>
 #include <span>
@@ -11,10 +12,14 @@
 
 namespace touchstone {
 
+struct Command;
+class Watch;
+
 /// What one configuration may cost a candidate before its process is ended.
 struct Limits {
-  /// Of processor time: three frames of a simulation, thousands of times what a query takes. A
-  /// hundred times as long by the clock, for one that waits.
+  /// Of processor time: three frames of a simulation, thousands of times what a query takes. For
+  /// one that waits, ten times as long, less and less for a candidate that does so again, down to
+  /// this; the time in which the machine keeps it waiting for a processor does not count.
   double seconds = 0.05;
   double mebibytes = 1024;  ///< that its memory may grow by
 };
@@ -36,7 +41,10 @@ struct QueryCost {
 /// be loaded.
 class PluginProcess {
  public:
-  explicit PluginProcess(const std::filesystem::path& file);
+  /// For loading it, which may read libraries from a cold disk.
+  static constexpr std::chrono::milliseconds loading_time = std::chrono::seconds(30);
+  explicit PluginProcess(const std::filesystem::path& file,
+                         std::chrono::milliseconds loading = loading_time);
   ~PluginProcess();
   PluginProcess(PluginProcess&&) noexcept;
   PluginProcess& operator=(PluginProcess&&) noexcept;
@@ -51,7 +59,8 @@ class PluginProcess {
 
 /// One candidate, answering in sessions: forks of its plug-in's process, which has loaded the
 /// plug-in and done nothing else. A configuration that ends its session is answered with TS_CRASHED
-/// or TS_TIMED_OUT, and the next one gets a new session.
+/// or TS_TIMED_OUT, and the next one gets a new session. What need not be its own doing (a signal
+/// that anyone may have sent, a timeout) counts only when it comes again in a session of its own.
 class CandidateProcess {
  public:
   CandidateProcess(const Candidate& candidate, double threshold, const Limits& limits = {});
@@ -80,19 +89,40 @@ class CandidateProcess {
   std::optional<QueryCost> cost_per_query();
 
  private:
-  void begin();
+  /// How a session came to its end without having done what it was told.
+  struct Misdeed {
+    ts_status status;
+    std::string reason;
+    bool certain;  ///< it is the doing of the configuration in hand
+  };
+
+  /// Absent when there is a session.
+  std::optional<Misdeed> begin();
   void end();
   void put(std::uint32_t slot, const Configuration& configuration,
            const Vec3* previous_normal = nullptr);
-  void answer_batch(std::uint32_t count, std::vector<Answer>& answers);
-  /// Sends a command and waits; absent when done, otherwise TS_CRASHED or TS_TIMED_OUT.
-  std::optional<Answer> obey(std::uint32_t kind, std::uint32_t first, std::uint32_t count);
+  std::vector<Answer> answer(std::span<const Configuration> configurations,
+                             std::span<const Vec3* const> previous_normals, bool release);
+  void answer_batch(std::uint32_t count, bool release, std::vector<Answer>& answers);
+  /// What stands in this slot, if it answers the last command.
+  std::optional<Answer> answer_in(std::uint32_t slot) const;
+  /// To this slot's question, in a session of its own.
+  Answer answer_alone(std::uint32_t slot);
+  static Answer answer_of(const Misdeed& misdeed);
+  /// Sends a command and waits; absent when it is done.
+  std::optional<Misdeed> obey(Command command);
+  Misdeed end_of_session(int wait_status) const;
+  /// Why it has taken too long; empty if it has not.
+  std::string judge(const Watch& watch);
 
   Candidate candidate_;
   double threshold_;
   Limits limits_;
   PluginProcess plugin_;
-  int session_ = -1;  ///< process, or -1
+  int session_ = -1;                  ///< process, or -1
+  std::uint64_t ticket_ = 0;          ///< of the last command
+  std::uint64_t session_ticket_ = 0;  ///< of the command that began the session
+  double patience_;                   ///< seconds that a query may wait
 };
 
 /// One process for each.

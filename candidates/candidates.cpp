@@ -211,6 +211,9 @@ void add_plugin(const std::filesystem::path& file) {
   std::error_code error;
   const auto path = std::filesystem::canonical(file, error);
   if (error) throw InvalidInput("--candidate", '"' + file.string() + '"', "must be a file");
+  if (!std::filesystem::is_regular_file(path)) {  // opening a FIFO would wait for a writer
+    throw InvalidInput("--candidate", '"' + file.string() + '"', "must be a regular file");
+  }
   Registry::get().add(path);
   Registry::get().added.push_back(path);
 }

@@ -1,27 +1,57 @@
 // The harness's side of a plug-in's process; the plug-in's own is plugin_server.cpp.
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
-#include <stdexcept>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/socket.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <system_error>
 #include <unistd.h>
 #include <utility>
 
+#include "candidates/guard.hpp"
 #include "candidates/plugin_state.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone {
 namespace {
 
-/// Loading a plug-in may read libraries from a cold disk.
-constexpr int loading_milliseconds = 30000;
+using Clock = std::chrono::steady_clock;
+
+/// For a guard to end what it guards.
+constexpr std::chrono::seconds stopping_time(10);
+
+/// A file in memory, for two processes to map.
+int shared_file(std::size_t size) {
+  const int file = memfd_create("exchange", MFD_CLOEXEC | MFD_ALLOW_SEALING);
+  if (file < 0 || ftruncate(file, static_cast<off_t>(size)) < 0) fail("memfd_create");
+  return file;
+}
+
+void* map(int file, std::size_t size, int protection) {
+  void* const memory = mmap(nullptr, size, protection, MAP_SHARED, file, 0);
+  if (memory == MAP_FAILED) fail("mmap");
+  return memory;
+}
+
+std::chrono::milliseconds until(Clock::time_point end) {
+  return std::max(std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now()),
+                  std::chrono::milliseconds(0));
+}
+
+/// poll, whatever signals come meanwhile.
+int poll_through(pollfd& polled, std::chrono::milliseconds time) {
+  int ready;
+  while ((ready = poll(&polled, 1, static_cast<int>(time.count()))) < 0 && errno == EINTR) {
+  }
+  return ready;
+}
 
 }  // namespace
 
@@ -65,39 +95,87 @@ std::string readable(const std::string& text) {
 
 std::string how_it_ended(int status) {
   if (WIFSIGNALED(status)) return strsignal(WTERMSIG(status));
+  if (WIFSTOPPED(status)) return "was stopped";
   return "ended with exit code " + std::to_string(WEXITSTATUS(status));
 }
 
+PluginProcess::State::State(const std::filesystem::path& f) : file(f) {
+  text = memfd_create("candidate", MFD_CLOEXEC);
+  if (text < 0 || fcntl(text, F_SETFL, O_APPEND) < 0) fail("memfd_create");
+  questions_file = shared_file(sizeof(Questions));
+  exchange_file = shared_file(sizeof(Exchange));
+  questions = new (map(questions_file, sizeof(Questions), PROT_READ | PROT_WRITE)) Questions{};
+  exchange = new (map(exchange_file, sizeof(Exchange), PROT_READ | PROT_WRITE)) Exchange{};
+  // Each plug-in maps its own memory; that of others is not to be found in its process.
+  madvise(questions, sizeof(Questions), MADV_DONTFORK);
+  madvise(exchange, sizeof(Exchange), MADV_DONTFORK);
+  // From here on nobody can map the questions to write them.
+  if (fcntl(questions_file, F_ADD_SEALS, F_SEAL_FUTURE_WRITE) < 0) fail("fcntl");
+}
+
 PluginProcess::State::~State() {
-  if (socket >= 0) close(socket);
-  if (text >= 0) close(text);
-  if (pid > 0 && owner == getpid()) {
-    kill(pid, SIGKILL);  // its sessions go with it
-    waitpid(pid, nullptr, 0);
-  }
-  if (exchange) munmap(exchange, sizeof(Exchange));
+  stop();
+  for (const int file_descriptor : {text, questions_file, exchange_file}) close(file_descriptor);
+  if (owner != getpid()) return;
+  munmap(questions, sizeof(Questions));
+  munmap(exchange, sizeof(Exchange));
 }
 
-bool PluginProcess::State::receive(void* message, std::size_t size, int milliseconds) const {
+void PluginProcess::State::stop() {
+  if (guard > 0 && owner == getpid()) {
+    kill(guard, SIGCONT);
+    kill(guard, SIGTERM);
+    const int handle = static_cast<int>(syscall(SYS_pidfd_open, guard, 0));
+    pollfd ended{handle, POLLIN, 0};
+    if (handle >= 0 && poll_through(ended, stopping_time) == 0) kill(guard, SIGKILL);
+    if (handle >= 0) close(handle);
+    while (waitpid(guard, nullptr, 0) < 0 && errno == EINTR) {
+    }
+    guard = -1;
+  }
+  // Not before, lest a routine that waits for it goes on.
+  if (socket >= 0) close(std::exchange(socket, -1));
+}
+
+PluginProcess::State::Received PluginProcess::State::receive(void* message, std::size_t size,
+                                                             std::chrono::milliseconds time,
+                                                             pid_t* sender) const {
   pollfd polled{socket, POLLIN, 0};
-  int ready;
-  while ((ready = poll(&polled, 1, milliseconds)) < 0 && errno == EINTR) {
+  if (poll_through(polled, time) <= 0) return Received::nothing;
+  iovec part{message, size};
+  alignas(cmsghdr) char control[CMSG_SPACE(sizeof(ucred))];
+  msghdr header{};
+  header.msg_iov = &part;
+  header.msg_iovlen = 1;
+  header.msg_control = control;
+  header.msg_controllen = sizeof control;
+  const ssize_t got = recvmsg(socket, &header, MSG_TRUNC | MSG_CMSG_CLOEXEC);
+  if (got <= 0 && (got < 0 || (polled.revents & POLLHUP))) {
+    return got < 0 && errno == EINTR ? Received::nothing : Received::end;
   }
-  if (ready <= 0) return false;
-  ssize_t got;
-  while ((got = recv(socket, message, size, 0)) < 0 && errno == EINTR) {
+  if (got != static_cast<ssize_t>(size)) return Received::noise;
+  const cmsghdr* const first = CMSG_FIRSTHDR(&header);
+  if (sender && first && first->cmsg_type == SCM_CREDENTIALS) {
+    ucred credentials;
+    std::memcpy(&credentials, CMSG_DATA(first), sizeof credentials);
+    *sender = credentials.pid;
   }
-  return got == static_cast<ssize_t>(size);
+  return Received::message;
 }
 
-Report PluginProcess::State::receive() const {
-  Report report;
-  if (!receive(&report, sizeof report, -1)) throw std::runtime_error("a plug-in's process ended");
-  return report;
+bool PluginProcess::State::wait_for(void* message, std::size_t size,
+                                    std::chrono::milliseconds time) const {
+  const auto end = Clock::now() + time;
+  while (Clock::now() <= end) {
+    const Received received = receive(message, size, until(end));
+    if (received == Received::message) return true;
+    if (received == Received::end) return false;
+  }
+  return false;
 }
 
-void PluginProcess::State::send(const Command& command) const {
-  if (::send(socket, &command, sizeof command, MSG_NOSIGNAL) < 0) fail("send");
+bool PluginProcess::State::send(const Command& command) const {
+  return ::send(socket, &command, sizeof command, MSG_NOSIGNAL) == sizeof command;
 }
 
 std::string PluginProcess::State::last_line() const {
@@ -109,57 +187,80 @@ std::string PluginProcess::State::last_line() const {
   return line.substr(line.rfind('\n') + 1);
 }
 
-PluginProcess::PluginProcess(const std::filesystem::path& file) : state_(new State) {
-  State& s = *state_;
-  void* const memory =
-      mmap(nullptr, sizeof(Exchange), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-  if (memory == MAP_FAILED) fail("mmap");
-  s.exchange = new (memory) Exchange{};
-  s.text = memfd_create("candidate", MFD_CLOEXEC);
-  if (s.text < 0 || fcntl(s.text, F_SETFL, O_APPEND) < 0) fail("memfd_create");
+/// Runs in the first process that is forked for the plug-in.
+void PluginProcess::State::serve(int other_end) const {
+  prctl(PR_SET_PDEATHSIG, SIGTERM);
+  if (getppid() != owner) _exit(0);  // it died before that
+  const Questions& asked =
+      *static_cast<Questions*>(map(questions_file, sizeof(Questions), PROT_READ));
+  Exchange& answered =
+      *static_cast<Exchange*>(map(exchange_file, sizeof(Exchange), PROT_READ | PROT_WRITE));
+  const int nothing = open("/dev/null", O_RDONLY);
+  dup2(nothing, STDIN_FILENO);
+  dup2(text, STDOUT_FILENO);
+  dup2(text, STDERR_FILENO);
+  constexpr int only = STDERR_FILENO + 1;  // descriptor besides those three
+  dup2(other_end, only);
+  close_range(only + 1, ~0u, 0);
+  setpgid(0, 0);
+  // The namespace begins with the next process; its first one must run no plug-in, because it is
+  // spared the signals that others die of.
+  if (begin_pid_namespace()) fork_guarded(-1);
+  fork_guarded(only);
+  serve_plugin(file.c_str(), only, asked, answered);
+}
+
+void PluginProcess::State::start(std::chrono::milliseconds loading) {
   int ends[2];
   if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) fail("socketpair");
-  s.socket = ends[0];
-  s.pid = fork();
-  if (s.pid < 0) fail("fork");
-  if (s.pid == 0) {
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (getppid() != s.owner) _exit(0);  // it died before that
-    // A terminal's Ctrl-C goes to all of its processes; this one ends with its parent.
-    signal(SIGINT, SIG_IGN);
-    signal(SIGTERM, SIG_IGN);
-    close(ends[0]);
-    const int nothing = open("/dev/null", O_RDONLY);
-    dup2(nothing, STDIN_FILENO);
-    dup2(s.text, STDOUT_FILENO);
-    dup2(s.text, STDERR_FILENO);
-    serve_plugin(file.c_str(), ends[1], *s.exchange);
-  }
+  socket = ends[0];
+  // Says who sent a message, in the numbers of our own PID namespace.
+  const int yes = 1;
+  setsockopt(socket, SOL_SOCKET, SO_PASSCRED, &yes, sizeof yes);
+  guard = fork();
+  if (guard == 0) serve(ends[1]);
   close(ends[1]);
+  if (guard < 0) fail("fork");
 
   const auto refuse = [&](const std::string& why) {
+    stop();
     throw InvalidInput("--candidate", '"' + file.string() + '"',
                        "must be a plug-in made with candidate.h, but " + why);
   };
+  const auto told = [](const Report& r) {
+    return r.kind == Report::described || r.kind == Report::refused || r.kind == Report::gone;
+  };
   Report report;
-  if (!s.receive(&report, sizeof report, loading_milliseconds)) {
-    kill(s.pid, SIGKILL);
-    int status = 0;
-    waitpid(std::exchange(s.pid, -1), &status, 0);
-    refuse("its process was not there after loading: " + how_it_ended(status));
+  const auto end = Clock::now() + loading;
+  bool heard;
+  do {
+    heard = wait_for(&report, sizeof report, until(end));
+  } while (heard && !told(report));
+  if (!heard && Clock::now() < end) refuse("its process was not there after loading");
+  if (!heard) {
+    refuse("nothing was heard of it within " + std::to_string(loading.count()) + " ms of loading");
   }
-  if (report.kind == Report::refused) refuse("it " + readable(report.text));
+  if (report.kind == Report::gone) {
+    refuse("its process was not there after loading: " + how_it_ended(report.value));
+  }
+  if (report.kind != Report::described) refuse("it " + readable(report.text));
+  candidates.clear();
   for (int i = 0; i < report.value; ++i) {
     Description d;
-    if (!s.receive(&d, sizeof d, loading_milliseconds)) refuse("it could not be described");
+    if (!wait_for(&d, sizeof d, until(end))) refuse("it could not be described");
     Candidate c{
         d.name, d.name, readable(d.version), readable(d.settings), readable(d.models), {}, 0, {},
         file,   i};
     std::copy(std::begin(d.supports), std::end(d.supports), c.supports.begin());
     if (d.has_parameter)
       c.parameter = {readable(d.meaning), d.least, d.most, d.usual, d.whole, d.bare};
-    s.candidates.push_back(std::move(c));
+    candidates.push_back(std::move(c));
   }
+}
+
+PluginProcess::PluginProcess(const std::filesystem::path& file, std::chrono::milliseconds loading)
+    : state_(new State(file)) {
+  state_->start(loading);
 }
 
 PluginProcess::~PluginProcess() = default;

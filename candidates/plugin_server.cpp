@@ -21,6 +21,9 @@
 namespace touchstone {
 namespace {
 
+/// More than anyone has, fewer than a number that is no count.
+constexpr int max_candidates = 1000;
+
 const ts_plugin& load(const char* file) {
   void* const library = dlopen(file, RTLD_NOW | RTLD_LOCAL);
   if (!library) throw std::runtime_error(dlerror());
@@ -35,6 +38,10 @@ const ts_plugin& load(const char* file) {
                              std::to_string(TOUCHSTONE_INTERFACE_VERSION));
   }
   if (plugin->count < 1 || !plugin->candidates) throw std::runtime_error("gives no candidates");
+  if (plugin->count > max_candidates) {
+    throw std::runtime_error("gives " + std::to_string(plugin->count) + " candidates, more than " +
+                             std::to_string(max_candidates));
+  }
   return *plugin;
 }
 
@@ -46,12 +53,21 @@ void copy(const char* from, char (&to)[size]) {
 Description describe(const ts_candidate& c) {
   const std::string name = c.name ? c.name : "";
   const auto plain = [](unsigned char x) { return std::isgraph(x) && x != ':' && x != ','; };
-  if (name.empty() || !std::all_of(name.begin(), name.end(), plain)) {
-    throw std::runtime_error(
-        "has a candidate whose name is not of printable ASCII without colon, comma or space");
+  if (name.empty() || name.size() >= sizeof Description::name ||
+      !std::all_of(name.begin(), name.end(), plain)) {
+    throw std::runtime_error("has a candidate whose name is not of up to " +
+                             std::to_string(sizeof Description::name - 1) +
+                             " characters of printable ASCII without colon, comma or space");
   }
   if (!c.version || !c.settings || !c.supports || !c.prepare || !c.query || !c.release) {
     throw std::runtime_error(std::string("leaves something out in the candidate ") + c.name);
+  }
+  if (const ts_parameter* const p = c.parameter) {
+    if (!p->meaning || !(p->least <= p->usual && p->usual <= p->most)) {
+      throw std::runtime_error("gives the candidate " + name +
+                               " a parameter without meaning or whose usual value is not between "
+                               "its least and most");
+    }
   }
   Description d{};
   copy(c.name, d.name);
@@ -80,25 +96,54 @@ void bound_memory(std::uint64_t growth) {
     std::fclose(file);
   }
   const rlim_t bytes = pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + growth;
-  const rlimit memory{bytes, bytes}, no_core{0, 0}, file_size{1 << 24, 1 << 24};
+  const rlimit memory{bytes, bytes};
   setrlimit(RLIMIT_AS, &memory);
-  setrlimit(RLIMIT_CORE, &no_core);
-  setrlimit(RLIMIT_FSIZE, &file_size);
-  signal(SIGXFSZ, SIG_IGN);
+}
+
+/// Its wait status when it has ended, which one that is only stopped, by ptrace, has to.
+int wait_for(pid_t pid) {
+  int status = 0;
+  while (waitpid(pid, &status, 0) < 0 ? errno == EINTR : WIFSTOPPED(status)) {
+    if (WIFSTOPPED(status)) kill(pid, SIGKILL);
+  }
+  return status;
+}
+
+/// Does any process that came from this one still run? Takes leave of those that have ended.
+bool others_run() {
+  pid_t pid;
+  while ((pid = waitpid(-1, nullptr, WNOHANG)) > 0) {
+  }
+  return pid == 0;
 }
 
 }  // namespace
 
-void serve_plugin(const char* file, int socket, Exchange& exchange) {
+void serve_plugin(const char* file, int socket, const Questions& questions, Exchange& exchange) {
+  for (const int signal : {SIGHUP, SIGINT, SIGPIPE, SIGTERM}) ::signal(signal, SIG_DFL);
+  sigset_t none;
+  sigemptyset(&none);
+  sigprocmask(SIG_SETMASK, &none, nullptr);
+  const rlimit no_core{0, 0}, file_size{1 << 24, 1 << 24};  // of what it prints, too
+  setrlimit(RLIMIT_CORE, &no_core);
+  setrlimit(RLIMIT_FSIZE, &file_size);
+  signal(SIGXFSZ, SIG_IGN);
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  // What a session leaves behind comes to this process, which so learns of it.
+  prctl(PR_SET_CHILD_SUBREAPER, 1);
+
   const ts_plugin* plugin = nullptr;
   try {
     plugin = &load(file);
     std::vector<Description> descriptions;
     for (int i = 0; i < plugin->count; ++i) descriptions.push_back(describe(plugin->candidates[i]));
-    report(socket, Report::described, plugin->count);
+    report(socket, Report::described, 0, plugin->count);
     for (const Description& d : descriptions) send(socket, &d, sizeof d);
   } catch (const std::exception& e) {
-    report(socket, Report::refused, 0, e.what());
+    report(socket, Report::refused, 0, 0, e.what());
+    _exit(1);
+  } catch (...) {
+    report(socket, Report::refused, 0, 0, "threw something that is no exception");
     _exit(1);
   }
   for (;;) {
@@ -107,14 +152,16 @@ void serve_plugin(const char* file, int socket, Exchange& exchange) {
     const pid_t pid = fork();
     if (pid == 0) {
       prctl(PR_SET_PDEATHSIG, SIGKILL);  // if this process dies first, receive() ends the session
+      setpgid(0, 0);
       bound_memory(command.memory);
-      Session(plugin->candidates[command.index], command, socket, exchange).serve();
+      Session(plugin->candidates[command.index], command, socket, questions, exchange).serve();
     }
-    report(socket, Report::began, pid);
-    int status = 0;
-    while (pid > 0 && waitpid(pid, &status, 0) < 0 && errno == EINTR) {
+    if (pid < 0) {
+      report(socket, Report::began, command.ticket, -1);
+      continue;
     }
-    if (pid > 0) report(socket, Report::ended, status);
+    const int status = wait_for(pid);
+    report(socket, Report::ended, command.ticket, status, "", others_run());
   }
 }
 

@@ -51,8 +51,9 @@ void send(int socket, const void* message, std::size_t size) {
   }
 }
 
-void report(int socket, Report::Kind kind, int value, const char* text) {
-  Report r{kind, value, {}};
+void report(int socket, Report::Kind kind, std::uint64_t ticket, int value, const char* text,
+            bool left_behind) {
+  Report r{kind, value, ticket, left_behind, {}};
   std::snprintf(r.text, sizeof r.text, "%s", text);
   send(socket, &r, sizeof r);
 }
@@ -68,15 +69,20 @@ Command receive(int socket) {
 }
 
 Session::Session(const ts_candidate& candidate, const Command& begin, int socket,
-                 Exchange& exchange)
+                 const Questions& questions, Exchange& exchange)
     : candidate_(candidate),
       threshold_(begin.threshold),
       parameter_(begin.parameter),
       socket_(socket),
+      asked_(questions),
       exchange_(exchange),
-      answer_(make_answer()) {}
+      answer_(make_answer()) {
+  std::fegetenv(&environment_);
+  report(socket_, Report::began, begin.ticket, 0);
+}
 
 void Session::serve() {
+  const pid_t own = getpid();
   for (;;) {
     const Command command = receive(socket_);
     try {
@@ -88,18 +94,24 @@ void Session::serve() {
       std::snprintf(exchange_.thrown, sizeof exchange_.thrown, "something that is no exception");
       _exit(exit_thrown);
     }
-    report(socket_, Report::finished, 0);
+    if (getpid() != own) _exit(0);  // forked by the candidate, and returned like its parent
+    report(socket_, Report::finished, command.ticket, 0);
   }
 }
 
 void Session::obey(const Command& command) {
   switch (command.kind) {
     case Command::answer:
-      for (std::uint32_t i = command.first; i < command.count; ++i) answer(i);
+      for (std::uint32_t i = command.first; i < command.count; ++i) {
+        answer(i);
+        if (command.release) release_all_but_of(command, i + 1);
+        exchange_.slots[i].seal = seal_of(exchange_.slots[i], command.ticket);
+        exchange_.progress = progress_of(command.ticket, i + 1);
+      }
       return;
     case Command::keep:
       for (std::uint32_t i = 0; i < command.count; ++i) {
-        questions_.push_back(exchange_.slots[i].question);
+        questions_.push_back(asked_.slots[i]);
       }
       return;
     case Command::warm_up:
@@ -133,12 +145,25 @@ ts_prepared* Session::ready(const Question& q) {
   return ready_.back().prepared;
 }
 
+/// Those that no question of this command from `first` on needs: here and now, so that whoever dies
+/// of it does so in the time of its own configuration.
+void Session::release_all_but_of(const Command& command, std::uint32_t first) {
+  std::erase_if(ready_, [&](const Ready& r) {
+    for (std::uint32_t i = first; i < command.count; ++i) {
+      if (same(r.a, asked_.slots[i].a) && same(r.b, asked_.slots[i].b)) return false;
+    }
+    if (r.prepared) candidate_.release(r.prepared);
+    return true;
+  });
+}
+
 void Session::answer(std::uint32_t i) {
   Slot& slot = exchange_.slots[i];
-  const Question question = slot.question;
+  const Question question = asked_.slots[i];
   slot.model_distance = std::numeric_limits<double>::quiet_NaN();
   *answer_ = {};
   answer_->status = TS_UNSUPPORTED;
+  std::fesetenv(&environment_);  // a rounding mode that a query left would spoil the next one
   if (ts_prepared* const prepared = ready(question)) {
     const double* const hint = question.has_previous_normal ? question.previous_normal : nullptr;
     candidate_.query(prepared, &question.pose_a, &question.pose_b, hint, answer_);
@@ -147,7 +172,6 @@ void Session::answer(std::uint32_t i) {
     }
   }
   slot.answer = *answer_;
-  exchange_.done.store(i + 1);
 }
 
 void Session::warm_up() {

@@ -1,6 +1,7 @@
 #include "reports/report.hpp"
 
 #include <csignal>
+#include <dlfcn.h>
 #include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -122,10 +123,17 @@ TEST(Report, TellsAModelsErrorFromItsSolvers) {
   }
 }
 
+/// Other tests may have added it.
+void add_test_plugin(const char* name) {
+  const auto file = std::filesystem::canonical(TOUCHSTONE_TEST_PLUGINS) / name;
+  const auto& added = added_plugins();
+  if (std::find(added.begin(), added.end(), file) == added.end()) add_plugin(file);
+}
+
 /// A candidate that crashes, aborts, throws, allocates 10 GiB, answers NaN, long normals and a
 /// million points on one configuration in three.
 const Candidate& sabotage() {
-  if (added_plugins().empty()) add_plugin(TOUCHSTONE_TEST_PLUGINS "/touchstone-sabotage.so");
+  add_test_plugin("touchstone-sabotage.so");
   return find_candidate("sabotage");
 }
 
@@ -170,6 +178,43 @@ TEST(Report, IsCompleteWhateverACandidateDoes) {
   // And it is the same whatever the number of workers.
   c.workers = 1;
   EXPECT_EQ(without_timing(make_report(c, "x")), together);
+}
+
+/// The candidate that does what testing/hostile.cpp calls by this name.
+const Candidate* hostile(const std::string& deed) {
+  static void* const library = dlopen(TOUCHSTONE_TEST_PLUGINS "/touchstone-hostile.so", RTLD_NOW);
+  const auto name = reinterpret_cast<const char* (*)(int)>(dlsym(library, "hostile_deed"));
+  int i = 0;
+  while (name(i) && name(i) != deed) ++i;
+  return &find_candidate("hostile:" + std::to_string(i + 1));
+}
+
+TEST(Report, IsCompleteWithHostileCandidates) {
+  add_test_plugin("touchstone-hostile.so");
+  setenv("TOUCHSTONE_HOSTILE_EVERYWHERE", "1", 1);
+  Campaign c = small_campaign();
+  c.count = 1;
+  c.pairs = {Pair::plane};
+  c.classes = {"general-shallow", "touching"};
+  c.candidates = find_candidates({"reference"});
+  for (const char* deed :
+       {"exit", "SIGSTOP", "fork, both pause", "fork, both return", "daemon",
+        "write to all descriptors", "close all descriptors", "interrupt the group",
+        "kill the parent", "stop the parent", "overwrite shared memory with zeros"}) {
+    c.candidates.push_back(hostile(deed));
+  }
+  const json report = make_report(c, "x");
+  unsetenv("TOUCHSTONE_HOSTILE_EVERYWHERE");
+  EXPECT_FALSE(report.value("partial", false));
+  EXPECT_EQ(report["results"].size(), report["classes"].size() * c.candidates.size());
+  for (const json& row : report["results"]) {
+    std::size_t outcomes = 0;
+    for (const json& n : row["outcomes"]) outcomes += n.get<std::size_t>();
+    EXPECT_EQ(outcomes, 1u) << row["candidate"];
+    if (row["candidate"] == "reference") {
+      EXPECT_EQ(row["outcomes"]["agree"], 1);
+    }
+  }
 }
 
 TEST(Report, AHangCostsOneConfigurationEach) {

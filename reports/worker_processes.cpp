@@ -35,6 +35,9 @@ class Shared {
   Shared(const Shared&) = delete;
   Shared& operator=(const Shared&) = delete;
 
+  /// From here on processes that this one forks, as those of plug-ins, have no part in it.
+  void withhold_from_children() { madvise(memory_, bytes_, MADV_DONTFORK); }
+
   std::atomic<std::uint64_t>& next() { return at(0); }
   /// One more than the task that this worker is at; zero between tasks.
   std::atomic<std::uint64_t>& current(unsigned worker) { return at(worker + 1); }
@@ -164,6 +167,7 @@ bool stream_from_processes(std::uint64_t count, unsigned workers,
     if (pid == 0) {
       follow(parent);
       close(ends[0]);
+      shared.withhold_from_children();
       work(shared, i, count, ends[1], task);
     }
     close(ends[1]);

@@ -1,9 +1,15 @@
 #include "reports/worker_processes.hpp"
 
 #include <csignal>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <stdexcept>
+#include <sys/wait.h>
+#include <unistd.h>
 
 namespace touchstone {
 namespace {
@@ -66,6 +72,27 @@ TEST(WorkerProcesses, EndEarlyWithoutTheTasksInHand) {
   int asked = 0;
   EXPECT_FALSE(stream_from_processes(
       2, 2, endless, name, [](std::uint64_t, const std::string&) {}, [&] { return ++asked < 3; }));
+}
+
+TEST(WorkerProcesses, ShareNothingWithTheirOwnChildren) {
+  // A plug-in that overwrote the number of the next task had tasks done twice.
+  const auto overwrite = [](std::size_t) -> std::string {
+    const pid_t child = fork();
+    if (child > 0) return std::to_string(waitpid(child, nullptr, 0) == child);
+    std::ifstream maps("/proc/self/maps");
+    for (std::string line; std::getline(maps, line);) {
+      std::uintptr_t from = 0, to = 0;
+      char rights[5] = "";
+      if (std::sscanf(line.c_str(), "%lx-%lx %4s", &from, &to, rights) == 3 &&
+          std::string(rights) == "rw-s") {
+        std::memset(reinterpret_cast<void*>(from), 0, to - from);
+      }
+    }
+    _exit(0);
+  };
+  std::size_t last = 0;
+  run_in_processes(6, 2, overwrite, name, [&](std::size_t done) { last = done; });
+  EXPECT_EQ(last, 6u);
 }
 
 TEST(WorkerProcesses, DoNotObeyWhatIsMeantForTheirParent) {

@@ -1,0 +1,531 @@
+// A plug-in that is its host's enemy; for tests.
+//
+// hostile:N does the N-th deed of the list below where A has the radius 7 (with
+// TOUCHSTONE_HOSTILE_EVERYWHERE in the environment: everywhere), and answers like any routine
+// elsewhere. TOUCHSTONE_HOSTILE_LOAD names one of the other list, which it does when it is asked
+// what it is. What would harm the machine is bounded.
+#include <cfenv>
+#include <clocale>
+#include <csetjmp>
+#include <csignal>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <fcntl.h>
+#include <limits>
+#include <new>
+#include <pthread.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/ptrace.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/time.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <vector>
+#include <xmmintrin.h>
+
+#include "candidates/candidate.h"
+
+namespace {
+
+/// Zero where the compiler cannot know it.
+volatile std::uintptr_t nowhere = 0;
+volatile double third = 0;
+
+/// 1/3 as arithmetic gives it here: another number once the rounding mode is changed.
+void behave(ts_answer& answer, double x) {
+  const double one = 1 + static_cast<double>(nowhere), three = 3 + static_cast<double>(nowhere);
+  third = one / three;
+  answer.status = TS_CONTACT;
+  answer.signed_distance = -third - x;
+  answer.point_count = 1;
+  answer.points[0] = {{x, 0, 0}, {0, 0, 1}, third + x};
+  std::memcpy(answer.normal, answer.points[0].normal, sizeof answer.normal);
+}
+
+/// Is this process in a PID namespace that the host has made? Then it has two numbers: that of the
+/// host's namespace and its own.
+bool confined() {
+  std::FILE* const status = std::fopen("/proc/self/status", "r");
+  if (!status) return false;
+  char line[256];
+  int outer = 0, inner = 0, numbers = 0;
+  while (numbers <= 0 && std::fgets(line, sizeof line, status)) {
+    numbers = std::sscanf(line, "NSpid: %d %d", &outer, &inner);
+  }
+  std::fclose(status);
+  return numbers == 2;
+}
+template <int number>
+void kill_everyone() {
+  if (confined()) kill(-1, number);  // or else it would be everyone on the machine
+}
+
+[[noreturn]] void wait_for_ever() {
+  for (;;) pause();
+}
+[[noreturn]] void work_for_ever() {
+  while (nowhere == 0) {
+  }
+  std::abort();
+}
+void on_signal(int) {}
+
+void crash() { *reinterpret_cast<volatile int*>(nowhere) = 1; }
+template <int number>
+void raise_it() {
+  raise(number);
+}
+void divide() {
+  volatile int dividend = 7, divisor = 0;
+  nowhere = static_cast<std::uintptr_t>(dividend / divisor);
+}
+void leave() { std::exit(0); }
+void leave_now() { _exit(0); }
+void leave_quickly() { std::quick_exit(0); }
+void leave_with_our_code() { _exit(97); }
+void leave_slowly() {
+  std::atexit(wait_for_ever);
+  std::exit(0);
+}
+void leave_to_child() {
+  if (fork() != 0) _exit(0);
+}
+void throw_number() { throw 7; }
+void sleep_long() { sleep(1000); }
+void doze() {
+  for (;;) usleep(1000);
+}
+void read_input() {
+  char byte;
+  if (read(0, &byte, 1) != 0) wait_for_ever();
+}
+void read_own_pipe() {
+  int ends[2];
+  char byte;
+  if (pipe(ends) != 0 || read(ends[0], &byte, 1) != 1) std::abort();
+}
+void take_lock_twice() {
+  pthread_mutex_t mutex = PTHREAD_MUTEX_INITIALIZER;
+  pthread_mutex_lock(&mutex);
+  pthread_mutex_lock(&mutex);
+}
+void fork_and_both_wait() {
+  fork();
+  wait_for_ever();
+}
+void fork_and_both_return() { fork(); }
+void fork_and_leave_one_waiting() {
+  if (fork() == 0) wait_for_ever();
+}
+void vfork_and_wait() {
+  if (vfork() == 0) wait_for_ever();
+}
+void daemon_that_waits() {
+  if (fork() == 0) {
+    setsid();
+    if (fork() == 0) wait_for_ever();
+    _exit(0);
+  }
+}
+/// Five generations of two children each, all of which stay.
+void multiply() {
+  for (int generation = 0; generation < 5; ++generation) fork();
+  wait_for_ever();
+}
+void daemon_that_kills_all() {
+  if (fork() == 0) {
+    setsid();
+    if (fork() == 0) {
+      usleep(2000);
+      kill_everyone<SIGKILL>();
+    }
+    _exit(0);
+  }
+}
+void* thread_that_works(void*) { work_for_ever(); }
+void leave_a_thread_working() {
+  pthread_t thread;
+  pthread_create(&thread, nullptr, thread_that_works, nullptr);
+}
+void scribble(int fd, bool good_size) {
+  char garbage[300];
+  std::memset(garbage, 0x5a, sizeof garbage);
+  // As our reports are sized, and not.
+  for (const std::size_t size : {std::size_t{1}, std::size_t{264}, sizeof garbage}) {
+    [[maybe_unused]] const ssize_t written = write(fd, garbage, good_size ? size : 1);
+  }
+  send(fd, garbage, 0, MSG_NOSIGNAL);
+}
+void write_everywhere() {
+  for (int fd = 0; fd < 1024; ++fd) scribble(fd, true);
+}
+void write_everywhere_for_ever() {
+  for (;;) write_everywhere();
+}
+void close_everything() { close_range(0, ~0u, 0); }
+void shut_everything() {
+  for (int fd = 0; fd < 1024; ++fd) shutdown(fd, SHUT_RDWR);
+}
+void read_everything() {
+  char bytes[4096];
+  for (int fd = 3; fd < 1024; ++fd)
+    [[maybe_unused]] const ssize_t got = read(fd, bytes, sizeof bytes);
+}
+void replace_everything() {
+  const int nothing = open("/dev/null", O_RDWR);
+  for (int fd = 0; fd < 64; ++fd) dup2(nothing, fd);
+}
+template <int number>
+void kill_group() {
+  kill(0, number);
+}
+template <int number>
+void kill_parent() {
+  kill(getppid(), number);
+}
+template <int number>
+void kill_parents_group() {
+  killpg(getpgid(getppid()), number);
+}
+void trace_me() {
+  ptrace(PTRACE_TRACEME, 0, nullptr, nullptr);
+  raise(SIGUSR1);
+}
+void trace_parent() { ptrace(PTRACE_ATTACH, getppid(), nullptr, nullptr); }
+void block_signals_and_work() {
+  sigset_t all;
+  sigfillset(&all);
+  sigprocmask(SIG_BLOCK, &all, nullptr);
+  work_for_ever();
+}
+void handle_signals_and_crash() {
+  for (int number = 1; number < 32; ++number) {
+    if (number != SIGSEGV) signal(number, on_signal);
+  }
+  crash();
+}
+void handle_crashes_and_crash() {  // the faulting instruction is done again and again
+  signal(SIGSEGV, on_signal);
+  crash();
+}
+void set_alarm() { alarm(1); }
+void set_timer() {
+  const itimerval soon{{0, 0}, {0, 300}};
+  setitimer(ITIMER_REAL, &soon, nullptr);
+}
+void lower_limits() {
+  for (const int resource : {RLIMIT_NOFILE, RLIMIT_FSIZE, RLIMIT_NPROC}) {
+    const rlimit none{0, 0};
+    setrlimit(static_cast<__rlimit_resource>(resource), &none);
+  }
+}
+void raise_limits() {
+  for (const int resource : {RLIMIT_AS, RLIMIT_FSIZE, RLIMIT_CORE}) {
+    const rlimit all{RLIM_INFINITY, RLIM_INFINITY};
+    setrlimit(static_cast<__rlimit_resource>(resource), &all);
+  }
+}
+void allocate() { nowhere = reinterpret_cast<std::uintptr_t>(new char[std::size_t{1} << 40]); }
+int recurse(int depth) {
+  volatile char page[4096];
+  page[0] = static_cast<char>(depth);
+  return nowhere == 0 ? recurse(depth + 1) + page[0] : 0;
+}
+void overflow_stack() { nowhere = static_cast<std::uintptr_t>(recurse(0)) * nowhere; }
+void change_surroundings() {
+  if (chdir("/proc/self/task") != 0) std::abort();
+  umask(0777);
+  setlocale(LC_ALL, "C.UTF-8");
+  setenv("LC_ALL", "tlh", 1);
+  clearenv();
+}
+void remove_folder() {
+  char name[] = "/tmp/touchstone-hostile-XXXXXX";
+  if (!mkdtemp(name) || chdir(name) != 0 || rmdir(name) != 0) std::abort();
+}
+void change_rounding() { std::fesetround(FE_UPWARD); }
+void flush_subnormals() { _mm_setcsr(_mm_getcsr() | 0x8040); }
+void unmask_exceptions() { feenableexcept(FE_ALL_EXCEPT); }
+/// Whatever memory is shared with anyone, as /proc tells it.
+void overwrite_shared(int byte) {
+  std::FILE* const maps = std::fopen("/proc/self/maps", "r");
+  if (!maps) return;
+  char line[512];
+  while (std::fgets(line, sizeof line, maps)) {
+    void *from = nullptr, *to = nullptr;
+    char rights[5] = "";
+    if (std::sscanf(line, "%p-%p %4s", &from, &to, rights) != 3 || rights[3] != 's') continue;
+    const auto size = static_cast<std::size_t>(static_cast<char*>(to) - static_cast<char*>(from));
+    mprotect(from, size, PROT_READ | PROT_WRITE);
+    if (mprotect(from, size, PROT_WRITE) == 0) {
+      mprotect(from, size, PROT_READ | PROT_WRITE);
+      std::memset(from, byte, size);
+    }
+  }
+  std::fclose(maps);
+}
+void overwrite_with_ones() { overwrite_shared(0xff); }
+void overwrite_with_zeros() { overwrite_shared(0); }
+void overwrite_and_crash() {
+  overwrite_shared(0xff);
+  crash();
+}
+void overwrite_and_wait() {
+  overwrite_shared(0);
+  wait_for_ever();
+}
+void unmap_shared() {
+  std::FILE* const maps = std::fopen("/proc/self/maps", "r");
+  char line[512];
+  while (maps && std::fgets(line, sizeof line, maps)) {
+    void *from = nullptr, *to = nullptr;
+    char rights[5] = "";
+    if (std::sscanf(line, "%p-%p %4s", &from, &to, rights) == 3 && rights[3] == 's') {
+      munmap(from, static_cast<std::size_t>(static_cast<char*>(to) - static_cast<char*>(from)));
+    }
+  }
+}
+void print_much() {
+  const std::vector<char> text(1 << 20, 'x');
+  for (int i = 0; i < 20; ++i) {
+    for (const int fd : {1, 2}) {
+      [[maybe_unused]] const ssize_t written = write(fd, text.data(), text.size());
+    }
+  }
+}
+std::jmp_buf never_set;
+void jump_nowhere() { std::longjmp(never_set, 1); }
+void cancel_thread() { pthread_exit(nullptr); }
+
+// Deeds that are in the answer.
+void billion_points(ts_answer& a) { a.point_count = 1000000000; }
+void minus_points(ts_answer& a) { a.point_count = -1; }
+void not_a_number(ts_answer& a) { a.signed_distance = std::numeric_limits<double>::quiet_NaN(); }
+void strange_status(ts_answer& a) { std::memset(&a.status, 0x77, sizeof a.status); }
+void claim_timeout(ts_answer& a) { a.status = TS_TIMED_OUT; }
+void write_beyond(ts_answer& a) { std::memset(&a.points[TOUCHSTONE_MAX_POINTS], 1, 4096); }
+void write_before(ts_answer& a) { std::memset(reinterpret_cast<char*>(&a) - 3000, 1, 3000); }
+
+enum class When { query, prepare, release, answer };
+struct Deed {
+  const char* name;
+  When when;
+  void (*plain)();
+  void (*to_answer)(ts_answer&);
+};
+constexpr Deed in_query(const char* name, void (*deed)()) {
+  return {name, When::query, deed, nullptr};
+}
+constexpr Deed in_prepare(const char* name, void (*deed)()) {
+  return {name, When::prepare, deed, nullptr};
+}
+constexpr Deed in_release(const char* name, void (*deed)()) {
+  return {name, When::release, deed, nullptr};
+}
+constexpr Deed in_answer(const char* name, void (*deed)(ts_answer&)) {
+  return {name, When::answer, nullptr, deed};
+}
+
+constexpr Deed deeds[] = {
+    in_query("nothing", [] {}),
+    in_query("segmentation fault", crash),
+    in_query("division", divide),
+    in_query("abort", std::abort),
+    in_query("SIGTERM", raise_it<SIGTERM>),
+    in_query("SIGINT", raise_it<SIGINT>),
+    in_query("SIGKILL", raise_it<SIGKILL>),
+    in_query("SIGSTOP", raise_it<SIGSTOP>),
+    in_query("SIGALRM", raise_it<SIGALRM>),
+    in_query("SIGBUS", raise_it<SIGBUS>),
+    in_query("exit", leave),
+    in_query("_exit", leave_now),
+    in_query("quick_exit", leave_quickly),
+    in_query("exit with the host's own code", leave_with_our_code),
+    in_query("exit with a handler that hangs", leave_slowly),
+    in_query("leave the session to a child", leave_to_child),
+    in_query("throw", throw_number),
+    in_query("endless loop", work_for_ever),
+    in_query("sleep", sleep_long),
+    in_query("pause", wait_for_ever),
+    in_query("doze", doze),
+    in_query("read standard input", read_input),
+    in_query("read a pipe of its own", read_own_pipe),
+    in_query("deadlock", take_lock_twice),
+    in_query("fork, both pause", fork_and_both_wait),
+    in_query("fork, both return", fork_and_both_return),
+    in_query("fork, the child pauses", fork_and_leave_one_waiting),
+    in_query("vfork, the child pauses", vfork_and_wait),
+    in_query("daemon", daemon_that_waits),
+    in_query("thirty-two processes", multiply),
+    in_query("daemon that kills all later", daemon_that_kills_all),
+    in_query("thread left working", leave_a_thread_working),
+    in_query("write to all descriptors", write_everywhere),
+    in_query("write to all descriptors for ever", write_everywhere_for_ever),
+    in_query("close all descriptors", close_everything),
+    in_query("shut all sockets", shut_everything),
+    in_query("read all descriptors", read_everything),
+    in_query("replace all descriptors", replace_everything),
+    in_query("interrupt the group", kill_group<SIGINT>),
+    in_query("kill the group", kill_group<SIGKILL>),
+    in_query("stop the group", kill_group<SIGSTOP>),
+    in_query("kill everyone", kill_everyone<SIGKILL>),
+    in_query("stop everyone", kill_everyone<SIGSTOP>),
+    in_query("kill the parent", kill_parent<SIGKILL>),
+    in_query("stop the parent", kill_parent<SIGSTOP>),
+    in_query("interrupt the parent", kill_parent<SIGINT>),
+    in_query("kill the parent's group", kill_parents_group<SIGKILL>),
+    in_query("be traced", trace_me),
+    in_query("trace the parent", trace_parent),
+    in_query("block all signals and loop", block_signals_and_work),
+    in_query("handle all signals and crash", handle_signals_and_crash),
+    in_query("handle crashes and crash", handle_crashes_and_crash),
+    in_query("alarm", set_alarm),
+    in_query("timer", set_timer),
+    in_query("lower limits", lower_limits),
+    in_query("raise limits", raise_limits),
+    in_query("allocate a tebibyte", allocate),
+    in_query("overflow the stack", overflow_stack),
+    in_query("change folder, mask, locale, environment", change_surroundings),
+    in_query("remove its folder", remove_folder),
+    in_query("round upward", change_rounding),
+    in_query("flush subnormals", flush_subnormals),
+    in_query("trap on inexact", unmask_exceptions),
+    in_query("overwrite shared memory with ones", overwrite_with_ones),
+    in_query("overwrite shared memory with zeros", overwrite_with_zeros),
+    in_query("overwrite shared memory and crash", overwrite_and_crash),
+    in_query("overwrite shared memory and pause", overwrite_and_wait),
+    in_query("unmap shared memory", unmap_shared),
+    in_query("print 40 MiB", print_much),
+    in_query("jump nowhere", jump_nowhere),
+    in_query("end the thread", cancel_thread),
+    in_prepare("crash in prepare", crash),
+    in_prepare("exit in prepare", leave),
+    in_prepare("throw in prepare", throw_number),
+    in_prepare("pause in prepare", wait_for_ever),
+    in_release("crash in release", crash),
+    in_release("exit in release", leave),
+    in_release("pause in release", wait_for_ever),
+    in_answer("a billion points", billion_points),
+    in_answer("minus one point", minus_points),
+    in_answer("not a number", not_a_number),
+    in_answer("unknown status", strange_status),
+    in_answer("claim a timeout", claim_timeout),
+    in_answer("write beyond the answer", write_beyond),
+    in_answer("write before the answer", write_before),
+};
+constexpr int count = sizeof deeds / sizeof *deeds;
+
+}  // namespace
+
+struct ts_prepared {
+  const Deed* deed;
+  bool culprit;
+};
+
+namespace {
+
+constexpr double culprits_radius = 7;
+const ts_parameter which = {"number of the deed", 1, count, 1, 1, 0};
+
+int supports(ts_shape_kind) { return 1; }
+bool is_culprit(const ts_shape* a) {
+  return a->size[0] == culprits_radius || std::getenv("TOUCHSTONE_HOSTILE_EVERYWHERE");
+}
+
+ts_prepared* prepare(const ts_shape* a, const ts_shape*, double, double parameter) {
+  const Deed* const deed = &deeds[static_cast<int>(parameter) - 1];
+  if (is_culprit(a) && deed->when == When::prepare) deed->plain();
+  return new ts_prepared{deed, is_culprit(a)};
+}
+void query(ts_prepared* prepared, const ts_pose* a, const ts_pose*, const double*,
+           ts_answer* answer) {
+  const Deed& deed = *prepared->deed;
+  if (prepared->culprit && deed.when == When::query) deed.plain();
+  behave(*answer, a->position[0]);
+  if (prepared->culprit && deed.when == When::answer) deed.to_answer(*answer);
+}
+void release(ts_prepared* prepared) {
+  if (prepared->culprit && prepared->deed->when == When::release) prepared->deed->plain();
+  delete prepared;
+}
+
+// While it is loaded
+
+ts_candidate candidate = {"hostile", "1",     "does one deed", nullptr, &which,
+                          supports,  prepare, query,           release, nullptr};
+ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 1, &candidate};
+
+/// Letters to the last byte of the memory that there is.
+const char* endless_text() {
+  const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+  void* const memory =
+      mmap(nullptr, 3 * page, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  std::memset(memory, 'x', 2 * page);
+  mprotect(static_cast<char*>(memory) + 2 * page, page, PROT_NONE);
+  return static_cast<const char*>(memory);
+}
+int supports_nothing_and_hangs(ts_shape_kind) { wait_for_ever(); }
+void set_timer_of_the_host() {
+  const itimerval later{{0, 0}, {0, 200000}};
+  setitimer(ITIMER_REAL, &later, nullptr);
+}
+
+constexpr struct {
+  const char* name;
+  void (*deed)();
+} loading_deeds[] = {
+    {"crash", crash},
+    {"abort", std::abort},
+    {"exit", leave},
+    {"throw", throw_number},
+    {"pause", wait_for_ever},
+    {"loop", work_for_ever},
+    {"fork, both pause", fork_and_both_wait},
+    {"daemon", daemon_that_waits},
+    {"stop", raise_it<SIGSTOP>},
+    {"write to all descriptors", write_everywhere},
+    {"close all descriptors", close_everything},
+    {"kill the group", kill_group<SIGKILL>},
+    {"kill the parent", kill_parent<SIGKILL>},
+    {"handle all signals",
+     [] {
+       for (int number = 1; number < 32; ++number) signal(number, SIG_IGN);
+     }},
+    {"timer", set_timer_of_the_host},
+    {"thread", leave_a_thread_working},
+    {"print 40 MiB", print_much},
+    {"wrong version", [] { plugin.interface_version = 77; }},
+    {"no candidates", [] { plugin.candidates = nullptr; }},
+    {"a billion candidates", [] { plugin.count = 1000000000; }},
+    {"minus one candidate", [] { plugin.count = -1; }},
+    {"no name", [] { candidate.name = nullptr; }},
+    {"endless name", [] { candidate.name = endless_text(); }},
+    {"endless settings", [] { candidate.settings = endless_text(); }},
+    {"no query", [] { candidate.query = nullptr; }},
+    {"no release", [] { candidate.release = nullptr; }},
+    {"supports hangs", [] { candidate.supports = supports_nothing_and_hangs; }},
+};
+
+void do_as_asked() {
+  const char* const asked = std::getenv("TOUCHSTONE_HOSTILE_LOAD");
+  for (const auto& [name, deed] : loading_deeds) {
+    if (asked && std::strcmp(asked, name) == 0) deed();
+  }
+}
+
+}  // namespace
+
+const ts_plugin* touchstone_plugin() {
+  do_as_asked();
+  return &plugin;
+}
+
+/// The names of the deeds in order, for the test, which runs none of them.
+extern "C" TOUCHSTONE_EXPORT const char* hostile_deed(int i) {
+  return i < count ? deeds[i].name : nullptr;
+}
