@@ -166,7 +166,10 @@ ScoreTally ScoreTally::from_json(const json& j, std::size_t cell) {
   }
   for (const json& entry : j.at("points")) t.points_[entry.at(0)] = entry.at(1);
   for (std::size_t i = 0; i < quantities.size(); ++i) {
-    t.errors_[i] = Magnitudes::from_json(j.at(quantities[i].name));
+    // Files of before the deepest point was measured do without it.
+    if (j.contains(quantities[i].name) || quantities[i].value != &Score::deepest_error) {
+      t.errors_[i] = Magnitudes::from_json(j.at(quantities[i].name));
+    }
   }
   t.severity_ = Magnitudes::from_json(j.at("severity"));
   t.uncovered_ = Magnitudes::from_json(j.at("uncovered"));

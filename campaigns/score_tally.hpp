@@ -43,10 +43,11 @@ class ScoreTally {
     const char* name;
     std::optional<double> Score::*value;
   };
-  static constexpr std::array<Quantity, 6> quantities = {{{"depth_error", &Score::depth_error},
+  static constexpr std::array<Quantity, 7> quantities = {{{"depth_error", &Score::depth_error},
                                                           {"normal_regret", &Score::normal_regret},
                                                           {"normal_angle", &Score::normal_angle},
                                                           {"point_error", &Score::point_error},
+                                                          {"deepest_error", &Score::deepest_error},
                                                           {"model_error", &Score::model_error},
                                                           {"solver_error", &Score::solver_error}}};
 

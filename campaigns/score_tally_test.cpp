@@ -29,6 +29,7 @@ Score arbitrary_score() {
   s.normal_regret = maybe(magnitude());
   s.normal_angle = maybe(magnitude());
   s.point_error = maybe(magnitude());
+  s.deepest_error = maybe((*rc::gen::arbitrary<bool>() ? -1 : 1) * magnitude());
   s.coverage = maybe(*rc::gen::inRange(0, 101) / 100.0);
   s.model_error = maybe(magnitude());
   s.solver_error = maybe(-magnitude());
@@ -59,6 +60,18 @@ TEST(ScoreTally, OfPartsInAnyOrderIsThatOfTheWhole) {
     }
     RC_ASSERT(sum.to_json().dump() == tally_of(scores).to_json().dump());
   }));
+}
+
+TEST(ScoreTally, OfAFileWithoutTheDeepestPointHasTheRest) {
+  Score s;
+  s.depth_error = 0.25;
+  json old = tally_of({s, s}).to_json();
+  old.erase("deepest_error");
+  const json summary = ScoreTally::from_json(old, 3).summary();
+  EXPECT_TRUE(summary["deepest_error"].is_null());
+  EXPECT_EQ(summary["depth_error"]["max"], 0.25);
+  old.erase("depth_error");
+  EXPECT_THROW(ScoreTally::from_json(old, 3), json::exception);
 }
 
 void expect_within(const json& bounds, double value) {

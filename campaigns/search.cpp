@@ -129,7 +129,7 @@ Found search(CandidateProcess& candidate, const Search& s,
 
 std::optional<Failure> failure_of(const Found& found, CandidateProcess& candidate, const Bar& bar) {
   const Configuration& c = found.configuration;
-  for (const char* name : {"answers", "agreement"}) {
+  for (const char* name : {"answers", "agreement", "points"}) {
     const auto violation = broken(find_law(name), c, candidate, bar);
     if (!violation) continue;
     const Answer answer = candidate.answers({&c, 1}).front();

@@ -18,12 +18,16 @@ namespace {
 
 constexpr int something_failed = 1;
 
+/// About as much work: there is one hostile class, and of others some fifty to a pair.
+constexpr std::uint64_t usual_count = 10, usual_count_of_hostile = 500;
+
 struct Options {
-  explicit Options(CLI::App& command) : sample(command, 10), bar(command) {}
+  explicit Options(CLI::App& command) : sample(command, usual_count), bar(command) {}
   SampleOption sample;
   BarOption bar;
   std::string candidate;
   std::vector<std::string> laws;
+  bool hostile = false, count_given = false;
   std::string save, corpus, junit, json;
 
   CheckOptions check() const {
@@ -33,8 +37,8 @@ struct Options {
       for (const Law& law : all_laws()) c.laws.push_back(&law);
     }
     c.pairs = sample.pairs();
-    c.classes = sample.classes();
-    c.count = sample.count();
+    c.classes = hostile ? std::vector<std::string>{"hostile"} : sample.classes();
+    c.count = hostile && !count_given ? usual_count_of_hostile : sample.count();
     c.seed = sample.seed();
     c.bar = bar.get();
     return c;
@@ -110,6 +114,12 @@ void add_check(CLI::App& program, int& exit_code) {
   CLI::App* command = program.add_subcommand("check", "Hold one candidate to the laws of contacts");
   const auto options = std::make_shared<Options>(*command);
   command->add_option("--candidate", options->candidate, "Its name, or a plug-in's file");
+  command
+      ->add_flag("--hostile", options->hostile,
+                 fmt::format("On the pose class hostile alone, {} configurations of each pair "
+                             "unless --count says otherwise",
+                             usual_count_of_hostile))
+      ->excludes("--class");
   command->add_option("--law", options->laws, "Only these laws")->delimiter(',');
   command->add_option("--corpus", options->corpus,
                       "First replay the failures saved in this folder: each must fail as it did");
@@ -120,9 +130,13 @@ void add_check(CLI::App& program, int& exit_code) {
       "Examples:\n"
       "  touchstone check --candidate bullet\n"
       "  touchstone check --candidate ./my_engine.so --save failures\n"
+      "  touchstone check --candidate ./my_engine.so --hostile\n"
       "  touchstone check --corpus properties/corpus\n" +
       law_list() + "Exit code 1: a law was broken, or a saved failure has changed.");
-  command->callback([options, &exit_code] { exit_code = run(*options); });
+  command->callback([options, command, &exit_code] {
+    options->count_given = command->count("--count") > 0;
+    exit_code = run(*options);
+  });
 }
 
 }  // namespace touchstone

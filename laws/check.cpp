@@ -55,14 +55,11 @@ std::vector<LawResult> check(CandidateProcess& candidate, const CheckOptions& op
     const std::vector<Identity> tried = identities(options, pair);
     if (tried.empty()) continue;
     const auto first = static_cast<std::ptrdiff_t>(results.size());
-    for (const Law* law : options.laws) {
-      if (law->applies(make_configuration(tried.front()))) {
-        results.push_back({law, pair, 0, 0, {}, {}});
-      }
-    }
+    for (const Law* law : options.laws) results.push_back({law, pair, 0, 0, {}, {}});
     for (const Identity& identity : tried) {
       const Configuration c = make_configuration(identity);
       for (auto result = results.begin() + first; result != results.end(); ++result) {
+        if (!result->law->applies(c)) continue;
         ++result->tried;
         const auto violation = broken(*result->law, c, candidate, options.bar);
         if (!violation) continue;
@@ -74,6 +71,7 @@ std::vector<LawResult> check(CandidateProcess& candidate, const CheckOptions& op
       progress(++done, all);
     }
   }
+  std::erase_if(results, [](const LawResult& result) { return result.tried == 0; });
   for (LawResult& result : results) {
     std::sort(result.failures.begin(), result.failures.end(), [](const auto& a, const auto& b) {
       return complexity(a.configuration) < complexity(b.configuration);

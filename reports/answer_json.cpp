@@ -124,6 +124,7 @@ json to_json(const ts_answer& answer, const Score& score, Order order) {
             {"normal_regret", number(score.normal_regret)},
             {"normal_angle", number(score.normal_angle)},
             {"point_error", number(score.point_error)},
+            {"deepest_error", number(score.deepest_error)},
             {"coverage", number(score.coverage)}}}};
 }
 

@@ -17,8 +17,8 @@ struct Record {
   Outcome outcome;
   int points;
   double severity;
-  double values[7];
-  bool present[7];
+  double values[8];
+  bool present[8];
 };
 
 Record to_record(const Score& s) {
@@ -28,7 +28,7 @@ Record to_record(const Score& s) {
   r.severity = s.severity;
   const std::optional<double>* values[] = {&s.depth_error, &s.normal_regret, &s.normal_angle,
                                            &s.coverage,    &s.model_error,   &s.solver_error,
-                                           &s.point_error};
+                                           &s.point_error, &s.deepest_error};
   for (int i = 0; i < std::ssize(values); ++i) {
     r.present[i] = values[i]->has_value();
     r.values[i] = values[i]->value_or(0);
@@ -49,6 +49,7 @@ Score from_record(const Record& r) {
   s.model_error = value(4);
   s.solver_error = value(5);
   s.point_error = value(6);
+  s.deepest_error = value(7);
   s.points = r.points;
   s.severity = r.severity;
   return s;

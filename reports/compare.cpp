@@ -91,9 +91,11 @@ void compare_errors(Changes& changes, const json& before, const json& after,
                   {"normal_regret", "p99", "normal regret, p99", true},
                   {"normal_regret", "max", "normal regret, max", false},
                   {"point_error", "p99", "point error, p99", true},
-                  {"point_error", "max", "point error, max", false}};
+                  {"point_error", "max", "point error, max", false},
+                  {"deepest_error", "p99", "deepest point's error, p99", true},
+                  {"deepest_error", "max", "deepest point's error, max", false}};
   for (const auto& m : measures) {
-    const json &old = before[m.member], &now = after[m.member];
+    const json old = before.value(m.member, json()), now = after.value(m.member, json());
     if (old.is_null() || now.is_null() || !(m.of_any_sample || basis.same_configurations)) continue;
     changes.smaller_is_better(m.measure, old[m.which], now[m.which], negligible_error,
                               limits.error_factor);

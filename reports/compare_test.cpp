@@ -100,6 +100,18 @@ TEST(Compare, NamesPairClassCandidateAndFactorOfALargerError) {
   EXPECT_THAT(comparison_text(compare(small_report(), now, wide)), HasSubstr("3 smaller changes"));
 }
 
+TEST(Compare, ADeepestPointThatLosesItsDepthIsARegressionWhereBothReportsKnowIt) {
+  const auto with_deepest = [](double max) {
+    json report = small_report();
+    report["results"][1]["deepest_error"] = {{"median", 0}, {"p99", 1e-9}, {"max", max}};
+    return report;
+  };
+  EXPECT_THAT(changes(compare(with_deepest(1e-9), with_deepest(1e-3), {})),
+              testing::ElementsAre("worse rim-face mine deepest point's error, max"));
+  EXPECT_TRUE(compare(small_report(), with_deepest(1e-3), {})["changes"].empty());
+  EXPECT_TRUE(compare(with_deepest(1e-3), small_report(), {})["changes"].empty());
+}
+
 TEST(Compare, RoundingIsNoChange) {
   json old = small_report(), now = small_report();
   old["results"][1] = row("rim-face", "mine", 80, 0, 200);

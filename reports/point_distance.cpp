@@ -26,20 +26,18 @@ struct Distance {
     const double beyond = std::max(std::abs(p.z()) - s.half_length(), 0.0);
     return std::hypot(across(), beyond) - s.radius();
   }
-  double operator()(const Sphere& s) const { return p.norm() - s.radius(); }
+  double operator()(const Sphere& s) const { return std::hypot(p.x(), p.y(), p.z()) - s.radius(); }
   double operator()(const Box& s) const {
     const Vec3 beyond = p.cwiseAbs() - s.half_extents();
     return outside_of_all(beyond.x(), beyond.y(), beyond.z());
   }
-  double operator()(const Plane& s) const {
-    return (s.normal().dot(p) - s.displacement()) / s.normal().norm();
-  }
+  double operator()(const Plane& s) const { return s.unit_normal().dot(p) - s.unit_displacement(); }
 };
 
 }  // namespace
 
 double point_distance(const Shape& shape, const Pose& pose, const Vec3& point) {
-  const Vec3 local = pose.orientation().normalized().conjugate() * (point - pose.position());
+  const Vec3 local = pose.rotation().transpose() * (point - pose.position());
   return std::visit(Distance{local}, shape);
 }
 

@@ -46,6 +46,7 @@ std::string answer_text(const std::string& name, const json& a) {
                       short_number(score["normal_angle"]));
   text += fmt::format("  coverage {} of the contact patch, points off the bodies by {}\n",
                       short_number(score["coverage"]), short_number(score["point_error"]));
+  text += fmt::format("  deepest point's error {}\n", short_number(score["deepest_error"]));
   for (const json& p : a["points"]) {
     text += fmt::format("  point {}\n    depth {}\n", vector(p["position"]), number(p["depth"]));
   }

@@ -53,6 +53,7 @@ json to_json(const Statistics& s) {
           {"normal_regret", to_json(s.normal_regret, s.regret_histogram)},
           {"normal_angle", to_json(s.normal_angle)},
           {"point_error", to_json(s.point_error)},
+          {"deepest_error", to_json(s.deepest_error)},
           {"model_error", to_json(s.model_error)},
           {"solver_error", to_json(s.solver_error)},
           {"points", points},

@@ -65,16 +65,21 @@ class Reader {
   std::string path_;
 };
 
+void check_quantiles(const Reader& q) {
+  if (q.is_null()) return;
+  for (const char* which : {"median", "p99", "max"}) q.at(which).number();
+}
+
 void check_row(const Reader& row) {
   for (const char* name : {"pair", "class", "candidate"}) row.at(name).text();
   row.at("count").positive();
   const Reader outcomes = row.at("outcomes");
   for (const auto& [name, count] : outcomes.value().items()) outcomes.at(name).whole();
   for (const char* name : {"depth_error", "normal_regret", "point_error"}) {
-    const Reader q = row.at(name);
-    if (q.is_null()) continue;
-    for (const char* which : {"median", "p99", "max"}) q.at(which).number();
+    check_quantiles(row.at(name));
   }
+  // Reports of before the deepest point was measured do without it.
+  if (row.value().contains("deepest_error")) check_quantiles(row.at("deepest_error"));
   if (const Reader c = row.at("coverage"); !c.is_null()) c.at("mean").number();
   const Reader time = row.at("nanoseconds");
   if (time.is_null()) return;

@@ -70,6 +70,10 @@ TEST_F(ReportFile, NamesTheFieldAndTheRemedy) {
   write(report.dump());
   expect_refusal("results[0].point_error", "is missing");
   report = good();
+  report["results"][0]["deepest_error"] = {{"median", 0}, {"p99", "small"}, {"max", 1}};
+  write(report.dump());
+  expect_refusal("results[0].deepest_error.p99", "must be a number");
+  report = good();
   report["results"][0]["outcomes"] = 3;
   write(report.dump());
   expect_refusal("results[0].outcomes", "must be");

@@ -52,6 +52,28 @@ double worst_point_error(const ts_answer& answer, const Configuration& c) {
   return worst;
 }
 
+struct Depths {
+  double least, largest;
+};
+/// Of the points, of which there must be one.
+Depths depths_of(const ts_answer& answer) {
+  const auto [least, largest] =
+      std::minmax_element(answer.points, answer.points + answer.point_count,
+                          [](const ts_point& p, const ts_point& q) { return p.depth < q.depth; });
+  return {least->depth, largest->depth};
+}
+
+/// Of an answer with the right depth and normal. `distance` and `beyond`, by which the farthest
+/// point is beyond the threshold, are relative to the smaller size. Bodies apart need no point.
+Outcome outcome_of_points(const Score& s, double distance, double beyond, const Bar& bar) {
+  if (s.points == 0) {
+    return distance < -bar.tolerance ? Outcome::shallow_points : Outcome::agree;
+  }
+  if (*s.deepest_error < -bar.tolerance) return Outcome::shallow_points;
+  if (*s.deepest_error > bar.tolerance) return Outcome::overdeep_points;
+  return beyond > bar.tolerance ? Outcome::phantom_points : Outcome::agree;
+}
+
 Score only(Outcome outcome) {
   Score s;
   s.outcome = outcome;
@@ -106,8 +128,19 @@ const char* outcome_name(Outcome outcome) {
       return "timed-out";
     case Outcome::unsupported:
       return "unsupported";
+    case Outcome::shallow_points:
+      return "shallow-points";
+    case Outcome::overdeep_points:
+      return "overdeep-points";
+    case Outcome::phantom_points:
+      return "phantom-points";
   }
   return "";
+}
+
+bool is_of_points(Outcome outcome) {
+  return outcome == Outcome::shallow_points || outcome == Outcome::overdeep_points ||
+         outcome == Outcome::phantom_points;
 }
 
 bool is_judged(Outcome outcome) {
@@ -141,9 +174,19 @@ const char* status_name(ts_status status) {
   return "failed";
 }
 
+double error_size(const Configuration& c, const Bar& bar) {
+  constexpr double resolved = 1e-13;
+  double larger = larger_size(c);
+  if (const auto* plane = std::get_if<Plane>(&c.b)) {
+    const double aside = (c.pose_a.position() - c.pose_b.position()).cwiseAbs().maxCoeff();
+    larger = std::max({larger, aside, std::abs(plane->unit_displacement())});
+  }
+  return std::max(smaller_size(c), std::min(1.0, resolved / bar.tolerance) * larger);
+}
+
 Score score(const Configuration& c, const oracle::Truth& truth, const ts_answer& answer,
             const Bar& bar) {
-  const double size = smaller_size(c);
+  const double size = error_size(c, bar);
   const double distance = truth.signed_distance.midpoint() / size;
   switch (answer.status) {
     case TS_NONE:
@@ -167,7 +210,14 @@ Score score(const Configuration& c, const oracle::Truth& truth, const ts_answer&
   const bool unit = std::abs(n.norm() - 1) <= unit_slack;
   s.depth_error = (answer.signed_distance - truth.signed_distance.midpoint()) / size;
   s.severity = std::abs(*s.depth_error);
-  if (answer.point_count > 0) s.point_error = worst_point_error(answer, c) / size;
+  double beyond = 0;
+  if (answer.point_count > 0) {
+    const Depths depths = depths_of(answer);
+    s.point_error = worst_point_error(answer, c) / size;
+    s.deepest_error = (depths.largest + truth.signed_distance.midpoint()) / size;
+    s.severity = std::max(s.severity, std::abs(*s.deepest_error));
+    beyond = (-depths.least - bar.threshold) / size;
+  }
   if (!n.isZero(0)) {
     s.normal_regret = oracle::normal_regret(c, truth, n) / size;
     s.normal_angle = angle(n, nearest(n, truth.normals));
@@ -181,6 +231,10 @@ Score score(const Configuration& c, const oracle::Truth& truth, const ts_answer&
     s.outcome = Outcome::overdeep;
   } else if (!unit || !s.normal_regret || *s.normal_regret > bar.tolerance) {
     s.outcome = Outcome::wrong_normal;
+  } else {
+    s.outcome = outcome_of_points(s, distance, beyond, bar);
+    if (s.points == 0) s.severity = std::max(s.severity, -distance);
+    if (s.outcome == Outcome::phantom_points) s.severity = std::max(s.severity, beyond);
   }
   const bool right_normal = unit && s.normal_regret && *s.normal_regret <= bar.tolerance;
   if (s.outcome != Outcome::phantom && right_normal) s.coverage = coverage_by(answer, c, truth);
@@ -191,8 +245,9 @@ Score score(const Configuration& c, const oracle::Truth& truth, const Answer& an
             const Bar& bar) {
   Score s = score(c, truth, static_cast<const ts_answer&>(answer), bar);
   if (s.depth_error && answer.model_distance) {
-    s.model_error = (*answer.model_distance - truth.signed_distance.midpoint()) / smaller_size(c);
-    s.solver_error = (answer.signed_distance - *answer.model_distance) / smaller_size(c);
+    const double size = error_size(c, bar);
+    s.model_error = (*answer.model_distance - truth.signed_distance.midpoint()) / size;
+    s.solver_error = (answer.signed_distance - *answer.model_distance) / size;
   }
   return s;
 }

@@ -20,17 +20,26 @@ enum class Outcome {
   failed,        ///< the candidate says that it could not answer
   crashed,       ///< its process ended: a signal, an exception, too much memory
   timed_out,     ///< it was ended for taking too long
-  unsupported    ///< the candidate has no routine for the pair
+  unsupported,   ///< the candidate has no routine for the pair
+  // Depth and normal are right, but not what a solver is given to act on:
+  shallow_points,   ///< no point as deep as the bodies are
+  overdeep_points,  ///< a point deeper than they are
+  phantom_points    ///< a point beyond the threshold
 };
+// Saved files know outcomes by name; a new one goes to the end all the same.
 inline constexpr std::array all_outcomes = {
-    Outcome::agree,    Outcome::missed,       Outcome::phantom,    Outcome::shallow,
-    Outcome::overdeep, Outcome::wrong_normal, Outcome::not_finite, Outcome::failed,
-    Outcome::crashed,  Outcome::timed_out,    Outcome::unsupported};
+    Outcome::agree,           Outcome::missed,        Outcome::phantom,     Outcome::shallow,
+    Outcome::overdeep,        Outcome::wrong_normal,  Outcome::not_finite,  Outcome::failed,
+    Outcome::crashed,         Outcome::timed_out,     Outcome::unsupported, Outcome::shallow_points,
+    Outcome::overdeep_points, Outcome::phantom_points};
 /// "agree", "missed", "wrong-normal", …
 const char* outcome_name(Outcome outcome);
 const char* status_name(ts_status status);
 /// Has an answer of that outcome a severity: was there an answer to be judged?
 bool is_judged(Outcome outcome);
+
+/// Are depth and normal right, and what is wrong are the points?
+bool is_of_points(Outcome outcome);
 
 /// Are all numbers that belong to a contact finite?
 bool is_finite(const ts_answer& answer);
@@ -44,13 +53,20 @@ struct Bar {
   double threshold = 0;
 };
 
-/// One answer held against the truth. Errors are relative to the smaller size; those that the
-/// answer does not define are absent.
+/// The length to which errors are relative, metres: the smaller size. Doubles place a body to some
+/// 1e-16 of the larger one, so that it is no less than what makes the tolerance 1e-13 of that: by
+/// default, 1e-9 of the larger size. Over a plane, distances from the origins are sizes too.
+double error_size(const Configuration& configuration, const Bar& bar);
+
+/// One answer held against the truth. Errors are relative to error_size; those that the answer does
+/// not define are absent.
 struct Score {
   Outcome outcome = Outcome::agree;
   std::optional<double> depth_error;  ///< answer's signed distance − true: positive is too shallow
   std::optional<double> normal_regret;  ///< σ − g(n)
   std::optional<double> normal_angle;   ///< degrees to the nearest optimal normal
+  /// The largest depth of a point − the true depth: negative where a solver sees too little of it.
+  std::optional<double> deepest_error;
   /// By how much the worst of the contact points is farther from a body's surface than its own
   /// depth; zero when none is. It does not decide the outcome.
   std::optional<double> point_error;
@@ -61,7 +77,8 @@ struct Score {
   /// and the answer's − that distance. They add up to the depth error.
   std::optional<double> model_error, solver_error;
   int points = 0;
-  /// How bad the failure is: the depth or gap that was got wrong, or the regret. Zero: perfect.
+  /// How bad the failure is: the depth or gap that was got wrong, by the answer or its points, or
+  /// the regret. Zero: perfect.
   double severity = 0;
 };
 

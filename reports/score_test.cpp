@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 #include <limits>
 #include <numbers>
+#include <set>
+#include <string>
 
 #include "reports/statistics.hpp"
 
@@ -65,6 +67,91 @@ TEST(Score, SaysHowFarPointsAreOffTheBodies) {
   EXPECT_FALSE(scored(standing, none()).point_error);
 }
 
+/// Bodies 1e-3 deep (2e-3 of the size) with points of these depths.
+ts_answer with_depths(const std::vector<double>& depths) {
+  ts_answer a = contact(-1e-3, up);
+  a.point_count = static_cast<int>(depths.size());
+  for (std::size_t i = 0; i < depths.size(); ++i) {
+    a.points[i] = {{0, 0, 1}, {0, 0, 1}, depths[i]};
+  }
+  return a;
+}
+
+TEST(DeepestPoint, WithTheDepthAgreesHoweverShallowTheOthersAre) {
+  const Score s = scored(standing, with_depths({0, 1e-3, 2e-4}));
+  EXPECT_EQ(s.outcome, Outcome::agree);
+  EXPECT_NEAR(*s.deepest_error, 0, 1e-12);
+}
+
+TEST(DeepestPoint, WithoutTheDepthIsShallowPointsByWhatIsLacking) {
+  const Score s = scored(standing, with_depths({0, 4e-4}));
+  EXPECT_EQ(s.outcome, Outcome::shallow_points);
+  EXPECT_NEAR(*s.depth_error, 0, 1e-12);
+  EXPECT_NEAR(*s.deepest_error, -0.6e-3 / 0.5, 1e-12);
+  EXPECT_NEAR(s.severity, 0.6e-3 / 0.5, 1e-12);
+}
+
+TEST(DeepestPoint, DeeperThanTheBodiesIsOverdeepPointsByTheExcess) {
+  const Score s = scored(standing, with_depths({1e-3, 3e-3}));
+  EXPECT_EQ(s.outcome, Outcome::overdeep_points);
+  EXPECT_NEAR(*s.deepest_error, 2e-3 / 0.5, 1e-12);
+  EXPECT_NEAR(s.severity, 2e-3 / 0.5, 1e-12);
+}
+
+TEST(DeepestPoint, IsJudgedAtTheBar) {
+  const ts_answer lacking = with_depths({1e-3 - 2e-5});  // 4e-5 of the size
+  EXPECT_EQ(scored(standing, lacking).outcome, Outcome::agree);
+  EXPECT_EQ(scored(standing, lacking, {.tolerance = 1e-5, .threshold = 0}).outcome,
+            Outcome::shallow_points);
+}
+
+TEST(DeepestPoint, OfAContactWithoutPointsIsLackingAltogether) {
+  const Score s = scored(standing, with_depths({}));
+  EXPECT_EQ(s.outcome, Outcome::shallow_points);
+  EXPECT_FALSE(s.deepest_error);
+  EXPECT_NEAR(s.severity, 1e-3 / 0.5, 1e-12);
+  ts_answer apart = with_depths({});
+  apart.signed_distance = 0.01;
+  EXPECT_EQ(scored(lifted(0.011), apart, {.tolerance = 1e-4, .threshold = 0.02}).outcome,
+            Outcome::agree);
+}
+
+TEST(DeepestPoint, IsNotSoughtWhereDepthOrNormalAreWrong) {
+  ts_answer shallow = with_depths({0});
+  shallow.signed_distance = -0.5e-3;
+  EXPECT_EQ(scored(standing, shallow).outcome, Outcome::shallow);
+  ts_answer sideways = with_depths({0});
+  sideways.normal[0] = 1, sideways.normal[2] = 0;
+  EXPECT_EQ(scored(standing, sideways).outcome, Outcome::wrong_normal);
+}
+
+TEST(Points, BeyondTheThresholdArePhantomPointsByTheGap) {
+  const ts_answer far = with_depths({1e-3, -2e-3});
+  const Score s = scored(standing, far);
+  EXPECT_EQ(s.outcome, Outcome::phantom_points);
+  EXPECT_NEAR(s.severity, 2e-3 / 0.5, 1e-12);
+  EXPECT_NEAR(*s.deepest_error, 0, 1e-12);
+  EXPECT_EQ(scored(standing, far, {.tolerance = 1e-4, .threshold = 2e-3}).outcome, Outcome::agree);
+}
+
+// Of parallel sides that a tilt of 0.03 makes cross: signed distance and normal are right to the
+// last digits, and a solver feels nothing.
+TEST(DeepestPoint, IsLackingWhereOurOwnCapsuleOnceHadPointsAtTheEndsOnly) {
+  const Configuration c{Cylinder(0x1p-2, 5),
+                        Pose(Vec3(0x1.1745d1745d174p-2, -0x1.ac37dac37dac4p-2, 0x1.bed61bed61bfp-6),
+                             Eigen::Quaterniond(0x1.041c6a547a96ep+1, -0x1.78c73ac4b8bf4p+1,
+                                                -0x1.1fa452869f12cp-7, -0x1.847b2902f586dp+1)),
+                        Capsule(0x1p-2, 5), Pose(Vec3::Zero(), Eigen::Quaterniond(2, -3, 0, -3))};
+  const oracle::Truth truth = oracle::truth(c);
+  ts_answer a = contact(truth.signed_distance.midpoint(), truth.normals.front().n);
+  EXPECT_EQ(score(c, truth, a, {}).outcome, Outcome::agree);
+  a.point_count = 2;
+  a.points[0].depth = a.points[1].depth = 3e-17;
+  const Score s = score(c, truth, a, {});
+  EXPECT_EQ(s.outcome, Outcome::shallow_points);
+  EXPECT_NEAR(*s.deepest_error, -0.00244 / 0.25, 1e-4);
+}
+
 TEST(Score, OutcomesAreNamedAfterTheSymptom) {
   EXPECT_EQ(scored(standing, none()).outcome, Outcome::missed);
   EXPECT_EQ(scored(standing, contact(-0.5e-3, up)).outcome, Outcome::shallow);
@@ -81,6 +168,14 @@ TEST(Score, OutcomesAreNamedAfterTheSymptom) {
   EXPECT_EQ(scored(standing, broken).outcome, Outcome::unsupported);
 }
 
+TEST(Score, EveryOutcomeIsListedOnceInItsPlaceWithANameOfItsOwn) {
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < all_outcomes.size(); ++i) {
+    EXPECT_EQ(static_cast<std::size_t>(all_outcomes[i]), i);  // statistics count by it
+    EXPECT_TRUE(names.insert(outcome_name(all_outcomes[i])).second);
+  }
+}
+
 TEST(Score, NotANumberAnywhereIsNotFinite) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(scored(standing, contact(nan, up)).outcome, Outcome::not_finite);
@@ -94,6 +189,17 @@ TEST(Score, ErrorsAreRelativeToTheSmallerSize) {
   const Score s = scored(standing, contact(-0.5e-3, up));
   EXPECT_NEAR(*s.depth_error, 0.5e-3 / 0.5, 1e-12);
   EXPECT_NEAR(s.severity, 1e-3, 1e-12);
+}
+
+TEST(Score, ErrorsAreRelativeToAShareOfTheLargerSizeWhereDoublesSayNoMore) {
+  const Configuration needle{Cylinder(1e-3, 1e9), Pose(), Sphere(1), Pose()};
+  EXPECT_EQ(error_size(needle, {}), 1);  // 1e-13 over the tolerance of 1e-4
+  EXPECT_EQ(error_size(needle, {.tolerance = 1e-13, .threshold = 0}), 1e9);
+  EXPECT_EQ(error_size(needle, {.tolerance = 0, .threshold = 0}), 1e9);
+  EXPECT_EQ(error_size(standing, {}), 0.5);
+  // A plane has no end: how far along it the cylinder lies counts.
+  const Configuration aside{Cylinder(0.5, 1), Pose(Vec3(1e12, 0, 0)), Plane(up, 0), Pose()};
+  EXPECT_DOUBLE_EQ(error_size(aside, {}), 1e3);
 }
 
 TEST(Score, ReversedNormalRegretsTheWholeWayThrough) {

@@ -27,8 +27,8 @@ std::optional<Shares> shares(const std::vector<double>& values) {
 Statistics statistics(const std::vector<Score>& scores) {
   Statistics result;
   result.count = scores.size();
-  std::vector<double> depth_error, normal_regret, normal_angle, point_error, coverage, model_error,
-      solver_error, severity;
+  std::vector<double> depth_error, normal_regret, normal_angle, point_error, deepest_error,
+      coverage, model_error, solver_error, severity;
   for (const Score& s : scores) {
     ++result.outcomes[static_cast<std::size_t>(s.outcome)];
     if (is_judged(s.outcome)) severity.push_back(s.severity);
@@ -37,6 +37,7 @@ Statistics statistics(const std::vector<Score>& scores) {
     if (s.normal_regret) normal_regret.push_back(*s.normal_regret);
     if (s.normal_angle) normal_angle.push_back(*s.normal_angle);
     if (s.point_error) point_error.push_back(*s.point_error);
+    if (s.deepest_error) deepest_error.push_back(std::abs(*s.deepest_error));
     if (s.coverage) coverage.push_back(*s.coverage);
     if (s.model_error) model_error.push_back(std::abs(*s.model_error));
     if (s.solver_error) solver_error.push_back(std::abs(*s.solver_error));
@@ -49,6 +50,7 @@ Statistics statistics(const std::vector<Score>& scores) {
   result.normal_regret = quantiles(std::move(normal_regret));
   result.normal_angle = quantiles(std::move(normal_angle));
   result.point_error = quantiles(std::move(point_error));
+  result.deepest_error = quantiles(std::move(deepest_error));
   result.model_error = quantiles(std::move(model_error));
   result.solver_error = quantiles(std::move(solver_error));
   return result;

@@ -27,8 +27,8 @@ struct Statistics {
   std::size_t count = 0;
   std::array<std::size_t, all_outcomes.size()> outcomes{};  ///< in the order of all_outcomes
   std::map<int, std::size_t> points;                        ///< contacts by their number of points
-  std::optional<Quantiles> depth_error, normal_regret, normal_angle, point_error, model_error,
-      solver_error;                                ///< of magnitudes
+  std::optional<Quantiles> depth_error, normal_regret, normal_angle, point_error, deepest_error,
+      model_error, solver_error;                   ///< of magnitudes
   std::optional<Quantiles> severity;               ///< of all that is judged, missed ones included
   LogHistogram depth_histogram, regret_histogram;  ///< of what depth_error, normal_regret hold
   std::optional<Shares> coverage;

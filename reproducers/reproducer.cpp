@@ -158,7 +158,7 @@ std::string reproducer(std::string_view name, const Configuration& c, const std:
                 {"true_normal", hex(std::span(n.data(), 3))},
                 {"middle", hex(middle)},
                 {"tolerance", fmt::format("{}", bar.tolerance)},
-                {"allowed", hex(bar.tolerance * smaller_size(c))},
+                {"allowed", hex(bar.tolerance * error_size(c, bar))},
                 {"threshold", hex(bar.threshold)},
                 {"seen", seen(engine, c, truth, bar, limits)}});
   const std::string_view shape = shape_name(c.b);

@@ -51,7 +51,7 @@ std::vector<Asked> worth_scoring(std::vector<Asked> all) {
 constexpr double poor_coverage = 0.5;
 
 std::string in_words(const Score& s, const Configuration& c) {
-  const double size = smaller_size(c);
+  const double size = error_size(c, Bar{});
   std::string text = outcome_name(s.outcome);
   switch (s.outcome) {
     case Outcome::agree:
@@ -66,6 +66,10 @@ std::string in_words(const Score& s, const Configuration& c) {
     case Outcome::overdeep:
       text += fmt::format(" by {:.2g} m", std::abs(*s.depth_error) * size);
       break;
+    case Outcome::shallow_points:
+    case Outcome::overdeep_points:
+    case Outcome::phantom_points:
+      return text + fmt::format(" by {:.2g} m", s.severity * size);
     default:
       return text;
   }

@@ -38,7 +38,7 @@ Replayed scored(const std::vector<Configuration>& configurations,
     const Score s = score(configurations[i], truths[i], answers[i], Bar{});
     ++result.count;
     if (s.outcome == Outcome::agree) ++result.agree;
-    const double error = depth_error(s, smaller_size(configurations[i]));
+    const double error = depth_error(s, error_size(configurations[i], Bar{}));
     if (error > result.depth_error) result.depth_error = error, result.deepest_error = i;
     const double angle = s.normal_regret.value_or(0) > as_good ? s.normal_angle.value_or(0) : 0;
     if (angle > result.normal_angle) result.normal_angle = angle, result.widest_angle = i;

@@ -20,9 +20,10 @@ struct MapLetter {
   const char* meaning;
 };
 inline constexpr MapLetter map_letters[] = {
-    {'.', "agree"},    {'m', "missed"},       {'p', "phantom"},    {'s', "shallow"},
-    {'o', "overdeep"}, {'n', "wrong-normal"}, {'f', "few-points"}, {'i', "not-finite"},
-    {'x', "failed"},   {'c', "crashed"},      {'t', "timed-out"}};
+    {'.', "agree"},           {'m', "missed"},        {'p', "phantom"},    {'s', "shallow"},
+    {'o', "overdeep"},        {'n', "wrong-normal"},  {'f', "few-points"}, {'i', "not-finite"},
+    {'x', "failed"},          {'c', "crashed"},       {'t', "timed-out"},  {'S', "shallow-points"},
+    {'O', "overdeep-points"}, {'P', "phantom-points"}};
 
 /// Contacts whose points cover less of the patch have too few (as the law "manifold" has it).
 inline constexpr double least_coverage = 0.3;

@@ -115,7 +115,7 @@ function drawStability(into, data) {
   // Maps: a row a candidate, a column a critical pose.
   function drawMaps(maps) {
     const colours = {agree: '#cfe8d8', missed: '#d55e00', phantom: '#cc79a7', shallow: '#e6c229', overdeep: '#7a5195',
-      'wrong-normal': '#0072b2', 'few-points': '#9ad0f0', 'not-finite': '#000000', failed: '#777777', crashed: '#009e73', 'timed-out': '#00c8b0'};
+      'wrong-normal': '#0072b2', 'shallow-points': '#a6761d', 'overdeep-points': '#66558c', 'phantom-points': '#e7a3c8', 'few-points': '#9ad0f0', 'not-finite': '#000000', failed: '#777777', crashed: '#009e73', 'timed-out': '#00c8b0'};
     const side = 2 * maps.reach / maps.stride + 1, scale = 4;
     const table = element('div', {class: 'scroll'});
     const shown = element('p', {class: 'command', role: 'status'}, 'Point at a pixel for its outcome; click for the command that replays it.');

@@ -5,7 +5,7 @@ function method() {
       [named(c.name, ` ${c.version}`), c.settings + (c.models ? `; models ${c.models}` : '')]));
   const bar = report.tolerance;
   definitions('words', [
-    ['size', 'Half of the smallest width of the smaller shape; errors are relative to it.'],
+    ['size', 'Half of the smallest width of the smaller shape; errors are relative to it (where the bar would be below 1e-13 of the larger shape, to a share of that).'],
     ['normal', 'Unit vector from B to A (the cylinder): the way A moves to come free.'],
     ['normal regret', 'How much deeper the bodies are along the reported normal than along the best one. It is well defined where several normals tie.'],
     ['error', 'Without more words: of an answer the larger of its depth error and its regret; of a missed contact its depth. Lost: missed, or no answer at all.'],
@@ -15,6 +15,7 @@ function method() {
     ['phantom', `A contact, though they are more than ${bar} of the size further apart than was asked for.`],
     ['shallow, overdeep', 'The depth is too small, too large.'],
     ['wrong-normal', 'The depth is right; the normal is of no unit length or its regret is beyond the bar.'],
+    ['shallow-points, overdeep-points, phantom-points', 'Depth and normal are right, but no contact point is as deep as the bodies are (a solver feels too little, or nothing); one is deeper; one is further apart than was asked for.'],
     ['not-finite, failed, unsupported', 'A NaN or infinity in the answer; the candidate says that it could not answer; it has no routine for the pair, which does not count against it.'],
     ['crashed, timed-out', 'The candidate ended its process (a signal, an exception, too much memory), or took longer than 50 ms of processor time, unless asked otherwise. Each candidate has a process of its own.'],
     ['model error, solver error', 'Of a simplified model: the true signed distance of what it models against that of the cylinder, and its answer against that of what it models.'],

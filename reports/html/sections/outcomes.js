@@ -1,6 +1,7 @@
 // What became of every configuration.
 const outcomeColours = {agree: 'var(--good)', missed: 'var(--c1)', phantom: 'var(--c3)', shallow: 'var(--c4)',
-  overdeep: 'var(--c6)', 'wrong-normal': 'var(--c0)', 'not-finite': 'var(--ink)', failed: 'var(--c7)', crashed: 'var(--c2)', 'timed-out': 'var(--c5)',
+  overdeep: 'var(--c6)', 'wrong-normal': 'var(--c0)', 'shallow-points': 'var(--c8)', 'overdeep-points': 'var(--c9)',
+  'phantom-points': 'var(--c10)', 'not-finite': 'var(--ink)', failed: 'var(--c7)', crashed: 'var(--c2)', 'timed-out': 'var(--c5)',
   unsupported: 'var(--line)'};
 function outcomeBars() {
   const pair = byId('outcome-pair').value, seen = Object.keys(outcomeColours).filter(o => report.summary.some(r => r.outcomes[o]));
