@@ -8,7 +8,7 @@ bool is_round(const Shape& shape) {
 }
 
 Pose turned_in_place(const Pose& pose, const Eigen::Quaterniond& local) {
-  return {pose.position(), pose.orientation().normalized() * local};
+  return {pose.position(), pose.unit_orientation() * local};
 }
 
 struct Scaled {
@@ -32,7 +32,7 @@ Configuration exchanged(const Configuration& c) {
 
 Configuration rotated(const Configuration& c, const Eigen::Quaterniond& turn) {
   const auto moved = [&](const Pose& pose) {
-    return Pose(turn * pose.position(), turn * pose.orientation().normalized());
+    return Pose(turn * pose.position(), turn * pose.unit_orientation());
   };
   return {c.a, moved(c.pose_a), c.b, moved(c.pose_b)};
 }

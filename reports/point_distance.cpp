@@ -31,15 +31,13 @@ struct Distance {
     const Vec3 beyond = p.cwiseAbs() - s.half_extents();
     return outside_of_all(beyond.x(), beyond.y(), beyond.z());
   }
-  double operator()(const Plane& s) const {
-    return (s.normal().dot(p) - s.displacement()) / s.normal().norm();
-  }
+  double operator()(const Plane& s) const { return s.unit_normal().dot(p) - s.unit_displacement(); }
 };
 
 }  // namespace
 
 double point_distance(const Shape& shape, const Pose& pose, const Vec3& point) {
-  const Vec3 local = pose.orientation().normalized().conjugate() * (point - pose.position());
+  const Vec3 local = pose.unit_orientation().conjugate() * (point - pose.position());
   return std::visit(Distance{local}, shape);
 }
 
