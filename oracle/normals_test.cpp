@@ -84,6 +84,20 @@ TEST(Normals, WithinATieAreAllTheCriticalOnes) {
   EXPECT_EQ(both.normals[0].n, -both.normals[1].n);
 }
 
+TEST(Normals, TieWhereTheirGapsDifferByLessThanAMillionthOfTheWidth) {
+  // A sphere beside a coin's middle by z: the gaps along the caps differ by 2 z.
+  const auto coin = [](double z, double width) {
+    return truth({Cylinder(1, 0.5), Pose(), Sphere(0.25), Pose({0, 0, z}, upright)}, width);
+  };
+  for (const double width : {1e-30, 1e-13, 1e-50}) {
+    const double tie = std::ldexp(width, -20);
+    EXPECT_EQ(coin(0.49 * tie, width).ties, Ties::finite) << width;
+    EXPECT_EQ(coin(-0.49 * tie, width).normals.size(), 2u) << width;
+    EXPECT_EQ(coin(0.51 * tie, width).ties, Ties::unique) << width;
+    EXPECT_EQ(coin(-0.51 * tie, width).normals.size(), 1u) << width;
+  }
+}
+
 TEST(Normals, RefuseATieThatIsNone) {
   const Configuration c{Cylinder(1, 1), Pose(), Sphere(1), Pose()};
   EXPECT_ANY_THROW(truth(c, 1e-30, -1));
