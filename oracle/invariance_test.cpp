@@ -97,7 +97,7 @@ TEST(Invariance, ExchangeKeepsTiesOfGapsThatAllButAgree) {
     return q;
   };
   int unique = 0, finite = 0;
-  for (int i = 0; i < 1500; ++i) {
+  for (int i = 0; i < 600; ++i) {
     SCOPED_TRACE(i);
     const double offset = std::ldexp(1, -90 - i % 46);
     const Vec3 d(offset * number(random), offset * number(random), offset * number(random));
@@ -114,8 +114,8 @@ TEST(Invariance, ExchangeKeepsTiesOfGapsThatAllButAgree) {
     unique += forth.ties == Ties::unique;
     finite += forth.ties == Ties::finite;
   }
-  EXPECT_GT(unique, 100);
-  EXPECT_GT(finite, 100);
+  EXPECT_GT(unique, 50);
+  EXPECT_GT(finite, 50);
 }
 
 TEST(Invariance, PowersOfTwo) {

@@ -91,10 +91,14 @@ TEST(Normals, TieWhereTheirGapsDifferByLessThanAMillionthOfTheWidth) {
   };
   for (const double width : {1e-30, 1e-13, 1e-50}) {
     const double tie = std::ldexp(width, -20);
-    EXPECT_EQ(coin(0.49 * tie, width).ties, Ties::finite) << width;
-    EXPECT_EQ(coin(-0.49 * tie, width).normals.size(), 2u) << width;
-    EXPECT_EQ(coin(0.51 * tie, width).ties, Ties::unique) << width;
-    EXPECT_EQ(coin(-0.51 * tie, width).normals.size(), 1u) << width;
+    // The last is less than the first working precision resolves.
+    for (const double beside : {0.02, 0x1p-20, 0x1p-45}) {
+      const double within = (1 - beside) / 2 * tie, beyond = (1 + beside) / 2 * tie;
+      EXPECT_EQ(coin(within, width).ties, Ties::finite) << width << ' ' << beside;
+      EXPECT_EQ(coin(-within, width).normals.size(), 2u) << width << ' ' << beside;
+      EXPECT_EQ(coin(beyond, width).ties, Ties::unique) << width << ' ' << beside;
+      EXPECT_EQ(coin(-beyond, width).normals.size(), 1u) << width << ' ' << beside;
+    }
   }
 }
 
