@@ -20,8 +20,6 @@ namespace {
 constexpr long zero_bits = 1000;
 constexpr long last_bits = 1L << 13;
 
-/// Where numbers were rounded, at least so many bits of them are kept to tell a sign.
-constexpr int sign_bits = 384;
 /// An enclosure of a number that rounding to 2^-bits of the size leaves on either side of zero ends
 /// less than 2^(8 − bits) of the size from it: eight lengths change by at most one multiple each,
 /// two orientations by 12 and 18 (resolved.hpp), and four times that is told by balls.
@@ -264,8 +262,7 @@ std::optional<Truth> truth_of(const Resolved& question, const Wanted& wanted) {
       }
       // What was rounded, not the precision, leaves the answer open.
       const bool needs_resolution = error != 0 && hi - lo <= 4 * error;
-      const bool last_resolution = may_be_zero && wanted.resolution >= sign_bits;
-      if (!signed_distance && needs_resolution && !last_resolution) return std::nullopt;
+      if (!signed_distance && needs_resolution && !may_be_zero) return std::nullopt;
       const Enclosure nearly_zero =
           cell.nearly_zero(error == 0 ? zero_bits : wanted.resolution - bits_below_resolution);
       if (!signed_distance && nearly_zero.lo <= lo && hi <= nearly_zero.hi) {

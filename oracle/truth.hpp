@@ -17,7 +17,7 @@ enum class Ties { unique, finite, continuum };
 struct Truth {
   /// Metres; positive apart, negative inside. Zero lies in it only when the bodies touch exactly,
   /// and then both ends are zero; unless neither that nor the sign could be proven: it is then
-  /// ±2^-1000 of the larger size, or ±2^-376 where numbers had to be rounded (see below).
+  /// ±2^-1000 of the larger size, or ±2^-184 where numbers had to be rounded (see below).
   Enclosure signed_distance;
   /// The critical directions that reach it or tie with one that does, each once. Of a family at
   /// least one.
@@ -38,7 +38,8 @@ struct Truth {
 /// Against a capsule, cylinder or box, lengths are rounded to multiples of 2^-192 of the larger
 /// size and orientations to as many bits (resolved.hpp); a narrower `width` keeps more. The
 /// enclosure holds for the exact configuration all the same; normals, ties and their alignment to
-/// the axes are those of the rounded one. So any finite numbers are answered within 50 ms at the
+/// the axes are those of the rounded one, and zero lies in the enclosure of bodies that touch to
+/// within 2^-184. So any finite numbers are answered within 50 ms at the
 /// width 1e-30.
 ///
 /// Throws InvalidInput unless 0 < width; std::logic_error if its own bounds contradict each other.
