@@ -39,8 +39,7 @@ struct Truth {
 /// size and orientations to as many bits (resolved.hpp); a narrower `width` keeps more. The
 /// enclosure holds for the exact configuration all the same; normals, ties and their alignment to
 /// the axes are those of the rounded one, and zero lies in the enclosure of bodies that touch to
-/// within 2^-184. So any finite numbers are answered within 50 ms at the
-/// width 1e-30.
+/// within 2^-184 of the size. So any finite numbers take about 50 ms at most at the width 1e-30.
 ///
 /// Throws InvalidInput unless 0 < width; std::logic_error if its own bounds contradict each other.
 Truth truth(const Configuration& configuration, double width = 1e-30, double tie = 0);
