@@ -144,9 +144,8 @@ struct ToTsShape {
     return {TS_CYLINDER, {s.radius(), s.half_length()}};
   }
   ts_shape operator()(const Plane& s) const {
-    const double length = s.normal().norm();
-    const Vec3 n = s.normal() / length;
-    return {TS_PLANE, {n.x(), n.y(), n.z(), s.displacement() / length}};
+    const Vec3& n = s.unit_normal();
+    return {TS_PLANE, {n.x(), n.y(), n.z(), s.unit_displacement()}};
   }
   ts_shape operator()(const Sphere& s) const { return {TS_SPHERE, {s.radius()}}; }
   ts_shape operator()(const Capsule& s) const {
@@ -226,7 +225,7 @@ ts_shape to_ts_shape(const Shape& shape) { return std::visit(ToTsShape{}, shape)
 
 ts_pose to_ts_pose(const Pose& pose) {
   const Vec3& p = pose.position();
-  const Eigen::Quaterniond q = pose.orientation().normalized();
+  const Eigen::Quaterniond q = pose.unit_orientation();
   return {{p.x(), p.y(), p.z()}, {q.w(), q.x(), q.y(), q.z()}};
 }
 

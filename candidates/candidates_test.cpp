@@ -1,5 +1,6 @@
 #include "candidates/candidates.hpp"
 
+#include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -63,6 +64,16 @@ TEST(Candidates, PlaneNormalIsPassedWithUnitLength) {
   EXPECT_EQ(plane.size[1], 0.6);
   EXPECT_EQ(plane.size[2], 0.8);
   EXPECT_EQ(plane.size[3], 2);
+}
+
+TEST(Candidates, QuaternionsAndNormalsThatOverflowWhenSquaredArePassedWithUnitLength) {
+  for (const double length : {5e-324, 1e-320, 1e-162, 1e154, 1e308}) {
+    const ts_pose pose = to_ts_pose(Pose(Vec3::Zero(), Eigen::Quaterniond(length, 0, -length, 0)));
+    EXPECT_DOUBLE_EQ(pose.orientation[0], std::sqrt(0.5)) << length;
+    EXPECT_DOUBLE_EQ(pose.orientation[2], -std::sqrt(0.5)) << length;
+    const ts_shape plane = to_ts_shape(Plane({0, 0, -length}, 0));
+    EXPECT_EQ(plane.size[2], -1) << length;
+  }
 }
 
 }  // namespace

@@ -7,15 +7,8 @@ bool is_round(const Shape& shape) {
   return !std::holds_alternative<Box>(shape) && !std::holds_alternative<Plane>(shape);
 }
 
-/// Of a quaternion of any length, even one whose square overflows or vanishes.
-Eigen::Quaterniond unit(const Eigen::Quaterniond& q) {
-  const double squared = q.squaredNorm();
-  if (squared > 1e-280 && squared < 1e280) return q.normalized();
-  return Eigen::Quaterniond(q.coeffs() / q.coeffs().cwiseAbs().maxCoeff()).normalized();
-}
-
 Pose turned_in_place(const Pose& pose, const Eigen::Quaterniond& local) {
-  return {pose.position(), unit(pose.orientation()) * local};
+  return {pose.position(), pose.unit_orientation() * local};
 }
 
 struct Scaled {
@@ -39,7 +32,7 @@ Configuration exchanged(const Configuration& c) {
 
 Configuration rotated(const Configuration& c, const Eigen::Quaterniond& turn) {
   const auto moved = [&](const Pose& pose) {
-    return Pose(turn * pose.position(), turn * unit(pose.orientation()));
+    return Pose(turn * pose.position(), turn * pose.unit_orientation());
   };
   return {c.a, moved(c.pose_a), c.b, moved(c.pose_b)};
 }

@@ -49,6 +49,11 @@ Ball::Ball(const mpz_class& exact) : Ball() {
   arb_set_fmpz(value_, z.value);
 }
 
+Ball::Ball(const mpz_class& value, long bits) : Ball() {
+  const Integer z(value);
+  arb_set_round_fmpz(value_, z.value, bits);
+}
+
 Ball::Ball(const mpq_class& exact) : Ball() {
   const Rational q(exact);
   arb_set_fmpq(value_, q.value, WorkingPrecision::bits());

@@ -27,6 +27,8 @@ class Ball {
 
   Ball(int exact) : Ball() { arb_set_si(value_, exact); }
   explicit Ball(const mpz_class& exact);
+  /// Rounded to that many bits.
+  Ball(const mpz_class& value, long bits);
   explicit Ball(const mpq_class& exact);
   /// The smallest ball found around [lo, hi].
   Ball(const mpq_class& lo, const mpq_class& hi);

@@ -1,5 +1,7 @@
 // What leaves the geometry alone leaves the enclosure alone: equal, not nearly equal.
+#include <array>
 #include <gtest/gtest.h>
+#include <random>
 
 #include "oracle/lattice_poses.hpp"
 #include "oracle/truth.hpp"
@@ -79,6 +81,41 @@ TEST(Invariance, ExchangeOfTheBodies) {
       }
     }
   }
+}
+
+// Two bodies about one centre are the same seen from both sides, so that every normal ties with its
+// opposite. An offset of 1e-27 to 1e-41 parts them by about as much.
+TEST(Invariance, ExchangeKeepsTiesOfGapsThatAllButAgree) {
+  LatticePoses poses(7);
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> number(-1, 1);
+  const auto orientation = [&] {
+    Eigen::Quaterniond q = poses.orientation();
+    // Exactly degenerate, nearly so, or any.
+    const double noise = std::array{0.0, 0x1p-30, 1.0}[random() % 3];
+    for (double& component : q.coeffs()) component += noise * number(random);
+    return q;
+  };
+  int unique = 0, finite = 0;
+  for (int i = 0; i < 600; ++i) {
+    SCOPED_TRACE(i);
+    const double offset = std::ldexp(1, -90 - i % 46);
+    const Vec3 d(offset * number(random), offset * number(random), offset * number(random));
+    const Configuration c{Cylinder(1 + 0.9 * number(random), 1 + 0.9 * number(random)),
+                          Pose(d, orientation()),
+                          Cylinder(1 + 0.9 * number(random), 1 + 0.9 * number(random)),
+                          Pose(Vec3::Zero(), orientation())};
+    const Truth forth = truth(c);
+    const Truth back = truth({std::get<Cylinder>(c.b), c.pose_b, c.a, c.pose_a});
+    EXPECT_EQ(forth.ties, back.ties);
+    if (forth.ties != Ties::continuum) {
+      EXPECT_EQ(forth.normals.size(), back.normals.size());
+    }
+    unique += forth.ties == Ties::unique;
+    finite += forth.ties == Ties::finite;
+  }
+  EXPECT_GT(unique, 50);
+  EXPECT_GT(finite, 50);
 }
 
 TEST(Invariance, PowersOfTwo) {

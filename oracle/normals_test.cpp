@@ -84,6 +84,24 @@ TEST(Normals, WithinATieAreAllTheCriticalOnes) {
   EXPECT_EQ(both.normals[0].n, -both.normals[1].n);
 }
 
+TEST(Normals, TieWhereTheirGapsDifferByLessThanAMillionthOfTheWidth) {
+  // A sphere beside a coin's middle by z: the gaps along the caps differ by 2 z.
+  const auto coin = [](double z, double width) {
+    return truth({Cylinder(1, 0.5), Pose(), Sphere(0.25), Pose({0, 0, z}, upright)}, width);
+  };
+  for (const double width : {1e-30, 1e-13, 1e-50}) {
+    const double tie = std::ldexp(width, -20);
+    // The last is less than the first working precision resolves.
+    for (const double beside : {0.02, 0x1p-20, 0x1p-45}) {
+      const double within = (1 - beside) / 2 * tie, beyond = (1 + beside) / 2 * tie;
+      EXPECT_EQ(coin(within, width).ties, Ties::finite) << width << ' ' << beside;
+      EXPECT_EQ(coin(-within, width).normals.size(), 2u) << width << ' ' << beside;
+      EXPECT_EQ(coin(beyond, width).ties, Ties::unique) << width << ' ' << beside;
+      EXPECT_EQ(coin(-beyond, width).normals.size(), 1u) << width << ' ' << beside;
+    }
+  }
+}
+
 TEST(Normals, RefuseATieThatIsNone) {
   const Configuration c{Cylinder(1, 1), Pose(), Sphere(1), Pose()};
   EXPECT_ANY_THROW(truth(c, 1e-30, -1));

@@ -1,94 +1,10 @@
 #include "oracle/real_roots.hpp"
 
-#include <CGAL/Algebraic_kernel_d_1.h>
-#include <CGAL/Gmpz.h>
 #include <algorithm>
 #include <cassert>
-#include <iterator>
 #include <utility>
 
 namespace touchstone::oracle {
-namespace {
-
-mpq_class value_at(const Polynomial& p, const mpq_class& x) {
-  // Homogenised Horner: Σ c_i n^i m^(k−i) over m^k, without a gcd at every step.
-  const mpz_class &n = x.get_num(), &m = x.get_den();
-  mpz_class value = 0, power = 1;
-  for (std::size_t i = p.size(); i-- > 0;) {
-    value = value * n + p[i] * power;
-    power *= m;
-  }
-  return mpq_class(value);  // times a positive power of the denominator: only its sign is used
-}
-
-int sign_at(const Polynomial& p, const mpq_class& x) { return sgn(value_at(p, x)); }
-
-Polynomial derivative(const Polynomial& p) {
-  Polynomial result;
-  for (std::size_t i = 1; i < p.size(); ++i) {
-    result.push_back(p[i] * static_cast<unsigned long>(i));
-  }
-  return result;
-}
-
-/// Upper bound of the number of roots between lo and hi, ends excluded, with multiplicities; of the
-/// same parity: Descartes' rule of signs on (1 + x)^k p((lo + hi x)/(1 + x)). Collins and Akritas,
-/// "Polynomial real root isolation using Descartes' rule of signs", SYMSAC 1976.
-int sign_variations(const Polynomial& p, const mpq_class& lo, const mpq_class& hi) {
-  // Over a common denominator m, Σ c_i (a + b x)^i (m + m x)^(k−i), by Horner's scheme.
-  mpz_class m = lcm(lo.get_den(), hi.get_den());
-  const Polynomial top{mpz_class(lo * m), mpz_class(hi * m)}, bottom{m, m};
-  Polynomial value{0}, power{1};
-  for (std::size_t i = p.size(); i-- > 0;) {
-    value = value * top + p[i] * power;
-    power = power * bottom;
-  }
-  int variations = 0, last = 0;
-  for (const auto& c : value) {
-    const int sign = sgn(c);
-    if (sign == 0) continue;
-    if (sign == -last) ++variations;
-    last = sign;
-  }
-  return variations;
-}
-
-using Kernel = CGAL::Algebraic_kernel_d_1<CGAL::Gmpz>;
-
-/// The primitive part.
-Kernel::Polynomial_1 to_kernel(const Polynomial& polynomial) {
-  mpz_class content = 0;
-  for (const auto& c : polynomial) content = gcd(content, c);
-  std::vector<CGAL::Gmpz> coefficients;
-  for (const auto& c : polynomial) {
-    const mpz_class primitive = c / content;
-    coefficients.emplace_back(primitive.get_mpz_t());
-  }
-  return {coefficients.begin(), coefficients.end()};
-}
-
-Polynomial from_kernel(const Kernel::Polynomial_1& polynomial) {
-  Polynomial result;
-  for (int i = 0; i <= polynomial.degree(); ++i) result.emplace_back(polynomial[i].mpz());
-  return result;
-}
-
-/// Cuts a number to the dyadic grid of spacing 2^-bits: down, or up.
-mpq_class on_grid(const mpq_class& x, long bits, bool up) {
-  const mpz_class numerator = x.get_num() << static_cast<mp_bitcnt_t>(bits);
-  mpz_class quotient;
-  if (up) {
-    mpz_cdiv_q(quotient.get_mpz_t(), numerator.get_mpz_t(), x.get_den_mpz_t());
-  } else {
-    mpz_fdiv_q(quotient.get_mpz_t(), numerator.get_mpz_t(), x.get_den_mpz_t());
-  }
-  mpq_class result(quotient, mpz_class(1) << static_cast<mp_bitcnt_t>(bits));
-  result.canonicalize();
-  return result;
-}
-
-}  // namespace
-
 Polynomial operator+(const Polynomial& a, const Polynomial& b) {
   Polynomial sum(std::max(a.size(), b.size()));
   for (std::size_t i = 0; i < a.size(); ++i) sum[i] += a[i];
@@ -195,7 +111,7 @@ bool RealRoot::is_root_of(const Polynomial& other) const {
   if (is_zero(other)) return true;
   if (lo_ == hi_) return sign_at(other, lo_) == 0;
   // The common factor has at most this one root in the interval, a simple one.
-  const Polynomial common = from_kernel(CGAL::gcd(to_kernel(polynomial_), to_kernel(other)));
+  const Polynomial common = common_divisor(polynomial_, other);
   return sign_at(common, lo_) * sign_at(common, hi_) < 0;
 }
 
@@ -210,12 +126,16 @@ std::vector<RealRoot> real_roots(const Polynomial& polynomial, const mpq_class& 
       return result;
     }
   }
-  std::vector<Kernel::Algebraic_real_1> roots;
-  Kernel().solve_1_object()(to_kernel(polynomial), false, std::back_inserter(roots));
-  for (const auto& root : roots) {
-    const mpq_class low(root.low().mpq()), high(root.high().mpq());
-    if (high < lo || low > hi) continue;
-    result.emplace_back(from_kernel(root.polynomial()), low, high);
+  Polynomial rest = square_free(polynomial);
+  const auto take_end = [&](const mpq_class& end) {
+    if (sign_at(rest, end) != 0) return;
+    result.emplace_back(rest, end, end);
+    rest = without_root(rest, end);
+  };
+  take_end(lo);
+  take_end(hi);
+  for (const RootInterval& root : isolate_roots(rest, lo, hi)) {
+    result.emplace_back(rest, root.lo, root.hi);
   }
   return result;
 }

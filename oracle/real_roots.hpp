@@ -4,11 +4,9 @@
 #include <vector>
 
 #include "oracle/ball.hpp"
+#include "oracle/root_isolation.hpp"
 
 namespace touchstone::oracle {
-
-/// Integer coefficients, constant term first.
-using Polynomial = std::vector<mpz_class>;
 
 Polynomial operator+(const Polynomial& a, const Polynomial& b);
 Polynomial operator-(const Polynomial& a, const Polynomial& b);
@@ -44,8 +42,8 @@ class RealRoot {
 };
 
 /// The real roots in [lo, hi] of a polynomial that is not zero, each once whatever its
-/// multiplicity, and perhaps some just outside. Where Descartes' rule of signs allows none or one
-/// root in the interval, that settles it; else they are isolated by CGAL's algebraic kernel.
+/// multiplicity. Where Descartes' rule of signs allows none or one root in the interval, that
+/// settles it.
 std::vector<RealRoot> real_roots(const Polynomial& polynomial, const mpq_class& lo,
                                  const mpq_class& hi);
 

@@ -8,15 +8,33 @@
 #include <utility>
 
 #include "oracle/critical_direction.hpp"
+#include "oracle/far_bodies.hpp"
 #include "oracle/grid_cell.hpp"
+#include "oracle/resolved.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone::oracle {
 namespace {
 
-/// Zero is told from the least gap that is not zero up to here.
+/// Bits below the larger size down to which a gap is separated from zero.
 constexpr long zero_bits = 1000;
 constexpr long last_bits = 1L << 13;
+
+/// An enclosure of a number that rounding to 2^-bits of the size leaves on either side of zero ends
+/// less than 2^(8 − bits) of the size from it: eight lengths change by at most one multiple each,
+/// two orientations by 12 and 18 (resolved.hpp), and four times that is told by balls.
+constexpr int bits_below_resolution = 8;
+
+/// What a gap may be below the largest and tie with it, relative to the larger size.
+mpq_class tie_of(double width) { return mpq_class(width) >> 20; }
+
+/// Working precision to begin with: a little more than ties at this width need.
+long first_bits(double width) {
+  return 112 + std::max(0L, static_cast<long>(-std::log2(width)) - 53);
+}
+
+/// Bits kept beyond the wanted width, so that hardly ever a rounded number lies between two cells.
+constexpr int bits_beyond_width = 92;
 
 /// Normals no further apart are one in double.
 constexpr double same_normal = 1e-14;
@@ -61,6 +79,21 @@ void drop_below(std::vector<Survivor>& survivors, const mpq_class& bar) {
     });
     return survivor.bounds.empty();
   });
+}
+
+/// Is it certain of every normal whether its gap is within `tie` of the largest?
+bool ties_are_decided(const std::vector<Survivor>& survivors, const Maximum& best,
+                      const mpq_class& tie) {
+  std::size_t undecided = 0, reaching = 0;
+  for (const auto& survivor : survivors) {
+    for (const auto& bound : survivor.bounds) {
+      if (!bound.normal || bound.gap.upper() < *best.lo - tie) continue;
+      ++reaching;
+      if (bound.gap.lower() < *best.hi - tie) ++undecided;
+    }
+  }
+  // One alone is the largest, however little is known of it.
+  return undecided == 0 || reaching == 1;
 }
 
 /// Is the signed distance proven to be zero? Every gap that may reach zero must be known not to
@@ -178,19 +211,35 @@ void check(const char* field, double value, bool good, const char* remedy) {
   if (!good) throw InvalidInput(field, std::to_string(value), remedy);
 }
 
-}  // namespace
+/// Bits after the binary point of a positive number.
+int bits_of(double x) { return std::max(0, -std::ilogb(x)); }
 
-Truth truth(const Configuration& configuration, double width, double tie) {
-  check("width", width, std::isfinite(width) && width > 0, "must be positive and finite");
-  check("tie", tie, std::isfinite(tie) && tie >= 0, "must not be negative, and finite");
-  const Difference difference = make_difference(configuration);
-  const double size = larger_size(configuration);
-  const GridCell wanted(size, width);
-  const mpq_class slack = mpq_class(std::max(width, tie)) * mpq_class(size) / difference.unit;
+/// What was asked for.
+struct Wanted {
+  const Configuration& configuration;
+  double width, tie;
+  int resolution;  ///< the bits that were kept (resolved.hpp)
+};
 
-  std::vector<Survivor> survivors = all_directions(difference, std::max(width, tie) * size);
-  const long wanted_bits = 64 + std::max(0L, static_cast<long>(-std::log2(width)) - 53);
-  for (long bits = wanted_bits; bits <= last_bits; bits *= 2) {
+/// None if what was rounded leaves the answer open.
+std::optional<Truth> truth_of(const Resolved& question, const Wanted& wanted) {
+  Difference difference = make_difference(question.configuration);
+  const auto far = FarBodies::brought_nearer(difference, wanted.resolution);
+  mpq_class error = question.error;
+  if (far) error += far->error() * difference.unit;
+  const double size = larger_size(wanted.configuration);
+  const GridCell cell(size, wanted.width);
+  const auto in_units = [&](const mpq_class& metres) {
+    return mpq_class(metres / difference.unit);
+  };
+  const double slack = std::max(wanted.width, wanted.tie);
+  const mpq_class slack_in_units = in_units(mpq_class(slack) * mpq_class(size));
+  const mpq_class tie =
+      in_units(std::max(mpq_class(wanted.tie), tie_of(wanted.width)) * mpq_class(size));
+
+  std::vector<Survivor> survivors = all_directions(difference, slack * size);
+  std::optional<Enclosure> signed_distance;
+  for (long bits = first_bits(wanted.width); bits <= last_bits; bits *= 2) {
     const WorkingPrecision precision(bits);
     const BallDifference balls(difference);
     for (auto& survivor : survivors) {
@@ -199,28 +248,48 @@ Truth truth(const Configuration& configuration, double width, double tie) {
     }
     const Maximum best = maximum(survivors);
     if (!best.lo) continue;
-    drop_below(survivors, *best.lo - slack);
+    drop_below(survivors, *best.lo - slack_in_units);
     if (!best.hi) continue;
 
-    const mpq_class lo = *best.lo * difference.unit, hi = *best.hi * difference.unit;
-    std::optional<Enclosure> signed_distance = wanted.around(lo, hi);
-    if (!signed_distance && lo <= 0 && 0 <= hi) {
-      const Enclosure nearly_zero = wanted.nearly_zero(zero_bits);
-      if (is_exactly_zero(survivors, difference)) {
+    if (!signed_distance) {
+      const Ball shift = far ? far->shift() : Ball(0);
+      const mpq_class lo = (*best.lo + shift.lower()) * difference.unit - error;
+      const mpq_class hi = (*best.hi + shift.upper()) * difference.unit + error;
+      signed_distance = cell.around(lo, hi);
+      const bool may_be_zero = lo <= 0 && 0 <= hi;
+      if (!signed_distance && may_be_zero && error == 0 && is_exactly_zero(survivors, difference)) {
         signed_distance = {0, 0};
-      } else if (nearly_zero.lo <= lo && hi <= nearly_zero.hi) {
+      }
+      // What was rounded, not the precision, leaves the answer open.
+      const bool needs_resolution = error != 0 && hi - lo <= 4 * error;
+      if (!signed_distance && needs_resolution && !may_be_zero) return std::nullopt;
+      const Enclosure nearly_zero =
+          cell.nearly_zero(error == 0 ? zero_bits : wanted.resolution - bits_below_resolution);
+      if (!signed_distance && nearly_zero.lo <= lo && hi <= nearly_zero.hi) {
         signed_distance = nearly_zero;
       }
+      if (!signed_distance) continue;
     }
-    if (!signed_distance) continue;
+    if (!ties_are_decided(survivors, best, tie) && 2 * bits <= last_bits) continue;
 
     Truth result{*signed_distance, {}, Ties::unique, {}};
-    // Normals whose gap is only now known to be too low.
-    drop_below(survivors, *best.lo - mpq_class(tie) * mpq_class(size) / difference.unit);
-    set_normals(difference, configuration.b, survivors, result);
+    drop_below(survivors, *best.lo - tie);
+    set_normals(difference, question.configuration.b, survivors, result);
     return result;
   }
   throw std::logic_error("oracle: the signed distance could not be enclosed");
+}
+
+}  // namespace
+
+Truth truth(const Configuration& configuration, double width, double tie) {
+  check("width", width, std::isfinite(width) && width > 0, "must be positive and finite");
+  check("tie", tie, std::isfinite(tie) && tie >= 0, "must not be negative, and finite");
+  const int least = std::max(resolved_bits, bits_of(width) + bits_beyond_width);
+  for (int bits = least;; bits *= 2) {
+    const Resolved question = resolved(configuration, bits);
+    if (auto answer = truth_of(question, {configuration, width, tie, bits})) return *answer;
+  }
 }
 
 }  // namespace touchstone::oracle

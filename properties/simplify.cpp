@@ -109,9 +109,12 @@ class Steps {
 void move_to_the_origin(Steps& steps) {
   steps.add([](Numbers& n) {
     // Both bodies in B's frame.
-    const Eigen::Quaterniond back = n.orientation_b.normalized().conjugate();
+    const auto unit = [](const Eigen::Quaterniond& q) {
+      return Pose(Vec3::Zero(), q).unit_orientation();
+    };
+    const Eigen::Quaterniond back = unit(n.orientation_b).conjugate();
     n.position_a = back * (n.position_a - n.position_b);
-    n.orientation_a = back * n.orientation_a.normalized();
+    n.orientation_a = back * unit(n.orientation_a);
     n.position_b.setZero();
     n.orientation_b.setIdentity();
   });

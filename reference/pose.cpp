@@ -25,6 +25,14 @@ void check_finite(const char* field, int index, double value) {
   throw InvalidInput("orientation", "[0, 0, 0, 0]", "must not be the zero quaternion");
 }
 
+/// The quaternion times the power of two that makes its largest component 1 to 2: exact, but for
+/// components that vanish against that one, and no square overflows or vanishes.
+Eigen::Quaterniond in_range(const Eigen::Quaterniond& q) {
+  const int exponent = std::ilogb(q.coeffs().cwiseAbs().maxCoeff());
+  return Eigen::Quaterniond(Eigen::Vector4d(
+      q.coeffs().unaryExpr([exponent](double x) { return std::scalbn(x, -exponent); })));
+}
+
 }  // namespace
 
 void Pose::check_and_rotate() {
@@ -32,9 +40,14 @@ void Pose::check_and_rotate() {
       orientation_.coeffs().isZero(0)) {
     refuse(position_, orientation_);
   }
-  const double largest = orientation_.coeffs().cwiseAbs().maxCoeff();
-  const Eigen::Quaterniond scaled(orientation_.coeffs() / largest);
-  rotate_by(scaled, scaled.squaredNorm());
+  const Eigen::Quaterniond q = in_range(orientation_);
+  rotate_by(q, q.squaredNorm());
+}
+
+Eigen::Quaterniond Pose::unit_orientation() const {
+  const double squared = orientation_.squaredNorm();
+  const bool squares_in_range = squared > min_squared && squared < max_squared;
+  return (squares_in_range ? orientation_ : in_range(orientation_)).normalized();
 }
 
 }  // namespace touchstone

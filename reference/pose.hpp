@@ -10,7 +10,7 @@ namespace touchstone {
 
 /// Position (metres) and orientation of a body in the world. The orientation is kept as given: it
 /// need not have unit length, only be finite and not zero. The oracle divides by its exact norm;
-/// everyone else uses `rotation()`, which normalises in double.
+/// everyone else uses `rotation()` or `unit_orientation()`, which normalise in double.
 class Pose {
  public:
   Pose() = default;
@@ -20,8 +20,7 @@ class Pose {
     // One by one: Eigen would load in pairs what was just stored singly, which stalls.
     const double w = orientation.w(), x = orientation.x(), y = orientation.y();
     const double z = orientation.z(), squared = w * w + x * x + y * y + z * z;
-    constexpr double least = 1e-280;
-    if (squared > least && squared < most && is_moderate(position)) {
+    if (squared > min_squared && squared < max_squared && is_moderate(position)) {
       rotate_by(orientation, squared);
     } else {
       check_and_rotate();
@@ -36,16 +35,19 @@ class Pose {
   const Vec3& position() const { return position_; }
   /// As given; Eigen's constructor order is (w, x, y, z).
   const Eigen::Quaterniond& orientation() const { return orientation_; }
+  /// The orientation with unit length, to within rounding, however long or short it was given.
+  Eigen::Quaterniond unit_orientation() const;
   /// Body frame to world frame, made once for each pose.
   const Eigen::Matrix3d& rotation() const { return rotation_; }
   /// The body's local z in the world: the axis of a cylinder or capsule.
   Vec3 axis() const { return rotation_.col(2); }
 
  private:
-  static constexpr double most = 1e280;
+  /// Between these, no digit of a quaternion's squared length is lost to overflow or underflow.
+  static constexpr double min_squared = 1e-280, max_squared = 1e280;
   /// NaN and infinity survive a sum of absolute values; of finite positions it may overflow.
   static bool is_moderate(const Vec3& x) {
-    return std::abs(x.x()) + std::abs(x.y()) + std::abs(x.z()) < most;
+    return std::abs(x.x()) + std::abs(x.y()) + std::abs(x.z()) < max_squared;
   }
   /// R(q) of a quaternion of any length: dividing by |q|² once needs no square root.
   void rotate_by(const Eigen::Quaterniond& q, double squared) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <limits>
 #include <variant>
 
 #include <Eigen/Core>
@@ -78,11 +80,14 @@ using Shape = std::variant<Cylinder, Plane, Sphere, Capsule, Box>;
 const char* shape_name(const Shape& shape);
 
 /// Half of the shape's smallest (largest) width over its own axes, in metres. A plane has none:
-/// the smallest is infinite and the largest zero, so that it never decides a minimum or maximum.
+/// the smallest is infinite and the largest zero, so that it never decides a minimum or maximum. A
+/// capsule's largest is the largest double where the sum of its two lengths overflows.
 double smallest_half_extent(const Shape& shape);
 double largest_half_extent(const Shape& shape);
 inline double largest_half_extent(const Sphere& s) { return s.radius(); }
-inline double largest_half_extent(const Capsule& s) { return s.half_length() + s.radius(); }
+inline double largest_half_extent(const Capsule& s) {
+  return std::min(s.half_length() + s.radius(), std::numeric_limits<double>::max());
+}
 inline double largest_half_extent(const Cylinder& s) {
   return s.radius() > s.half_length() ? s.radius() : s.half_length();
 }

@@ -74,6 +74,48 @@ TEST(Vocabulary, KeepsTheOrientationAsGiven) {
       Eigen::AngleAxisd(std::acos(-1.0) / 2, Vec3::UnitZ()).toRotationMatrix()));
 }
 
+constexpr double min_double = std::numeric_limits<double>::denorm_min();
+
+TEST(Vocabulary, QuaternionsOfAnyLengthGiveOneOrientation) {
+  const Quaternion q(0.5, -1.25, 3, 0.75);
+  const Pose pose(Vec3::Zero(), q);
+  // Of the last two the squared length overflows, or vanishes.
+  for (const int exponent : {-3, 300, 460, -500, 1000, -1000}) {
+    const auto times = [exponent](double x) { return std::scalbn(x, exponent); };
+    const Pose other(Vec3::Zero(),
+                     Quaternion(times(q.w()), times(q.x()), times(q.y()), times(q.z())));
+    EXPECT_EQ(other.unit_orientation().coeffs(), q.normalized().coeffs()) << exponent;
+    EXPECT_EQ(other.rotation(), pose.rotation()) << exponent;
+  }
+}
+
+TEST(Vocabulary, TheLongestAndTheShortestQuaternionHaveUnitLength) {
+  constexpr double max_double = std::numeric_limits<double>::max();
+  for (const double length :
+       {min_double, 1e-320, 1e-300, 1e-162, 1e-154, 1e154, 1e300, max_double}) {
+    for (const Quaternion& q :
+         {Quaternion(length, 0, 0, 0), Quaternion(0, length, -length, 0),
+          Quaternion(length, length, length, length), Quaternion(0, 0, length / 3, length)}) {
+      const Pose pose(Vec3::Zero(), q);
+      EXPECT_NEAR(pose.unit_orientation().norm(), 1, 4e-16) << length;
+      EXPECT_TRUE((pose.rotation() * pose.rotation().transpose()).isIdentity(1e-15)) << length;
+    }
+  }
+}
+
+TEST(Vocabulary, APlanesNormalOfAnyLengthGivesAUnitVector) {
+  for (const double length : {min_double, 1e-320, 1e-300, 1e-162, 1e154, 1e308}) {
+    EXPECT_EQ(Plane(Vec3(0, 0, -length), 0).unit_normal(), Vec3(0, 0, -1)) << length;
+    EXPECT_NEAR(Plane(Vec3(length, -length, length), 0).unit_normal().norm(), 1, 4e-16) << length;
+  }
+  EXPECT_EQ(Plane(Vec3(0, 0, 1e-320), 1e-320).unit_displacement(), 1);
+}
+
+TEST(Vocabulary, ACapsulesSizeDoesNotOverflow) {
+  constexpr double max_double = std::numeric_limits<double>::max();
+  EXPECT_EQ(largest_half_extent(Capsule(max_double, max_double)), max_double);
+}
+
 TEST(Vocabulary, SizesAreThoseOfTheSmallestAndLargestHalfExtent) {
   const Configuration c{Cylinder(0.5, 2), Pose(), Capsule(0.25, 3), Pose()};
   EXPECT_EQ(smaller_size(c), 0.25);

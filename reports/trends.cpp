@@ -15,7 +15,7 @@ using nlohmann::json;
 /// The directions that a body's features lie along, as unit vectors in the world.
 std::vector<Vec3> axes(const Shape& shape, const Pose& pose) {
   if (const auto* plane = std::get_if<Plane>(&shape)) {
-    return {pose.rotation() * plane->normal().normalized()};
+    return {pose.rotation() * plane->unit_normal()};
   }
   if (std::holds_alternative<Sphere>(shape)) return {};
   if (std::holds_alternative<Box>(shape)) {

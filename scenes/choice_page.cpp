@@ -51,7 +51,7 @@ std::string poses(const Scene& scene, const Trajectory& run, std::size_t every) 
     for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
       if (scene.bodies[b].fixed) continue;
       const Pose& pose = run.frames[i][b].pose;
-      const Eigen::Quaterniond q = pose.orientation().normalized();
+      const Eigen::Quaterniond q = pose.unit_orientation();
       for (const double x : {pose.position().x(), pose.position().y(), pose.position().z(), q.w(),
                              q.x(), q.y(), q.z()}) {
         append(x);

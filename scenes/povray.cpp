@@ -66,8 +66,8 @@ struct Object {
                        vector(s.half_extents()), fixed ? "<0.5,0.52,0.55>" : "<0.7,0.55,0.3>");
   }
   std::string operator()(const Plane& s) const {
-    return fmt::format("plane {{ {}, {:.9g} Plain(<0.62,0.64,0.6>)",
-                       vector(s.normal().normalized()), s.displacement() / s.normal().norm());
+    return fmt::format("plane {{ {}, {:.9g} Plain(<0.62,0.64,0.6>)", vector(s.unit_normal()),
+                       s.unit_displacement());
   }
 };
 

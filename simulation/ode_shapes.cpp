@@ -31,8 +31,6 @@ Plane in_world(const Plane& plane, const Pose& pose) {
                plane.displacement() / plane.normal().stableNorm() + normal.dot(pose.position()));
 }
 
-Eigen::Quaterniond unit_orientation(const Pose& pose) { return pose.orientation().normalized(); }
-
 }  // namespace
 
 void initialise_ode() {
@@ -48,7 +46,7 @@ void initialise_ode() {
 dBodyID make_ode_body(dWorldID world, const Body& body, const Inertia& inertia) {
   const dBodyID made = dBodyCreate(world);
   const Vec3 &p = body.pose.position(), &v = body.velocity, &w = body.angular_velocity;
-  const Eigen::Quaterniond unit = unit_orientation(body.pose);
+  const Eigen::Quaterniond unit = body.pose.unit_orientation();
   const dQuaternion q = {unit.w(), unit.x(), unit.y(), unit.z()};
   const Vec3& i = inertia.principal;
   dMass mass;
@@ -74,7 +72,7 @@ dGeomID make_ode_geom(const Body& body, dBodyID moving) {
     return made;
   }
   const Vec3& p = body.pose.position();
-  const Eigen::Quaterniond unit = unit_orientation(body.pose);
+  const Eigen::Quaterniond unit = body.pose.unit_orientation();
   const dQuaternion q = {unit.w(), unit.x(), unit.y(), unit.z()};
   dGeomSetPosition(made, p.x(), p.y(), p.z());
   dGeomSetQuaternion(made, q);

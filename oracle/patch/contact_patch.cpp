@@ -6,6 +6,7 @@
 #include "oracle/patch/feature_overlap.hpp"
 #include "oracle/patch/patch_plane.hpp"
 #include "oracle/patch/support_feature.hpp"
+#include "oracle/resolved.hpp"
 
 namespace touchstone::oracle {
 namespace {
@@ -150,7 +151,8 @@ std::vector<Vec3> ContactPatch::outline(int per_quarter) const {
   return points;
 }
 
-ContactPatch contact_patch(const Configuration& c, const OptimalNormal& normal) {
+ContactPatch contact_patch(const Configuration& configuration, const OptimalNormal& normal) {
+  const Configuration c = resolved(configuration).configuration;
   const SupportFeatures features = support_features(c, normal);
   const double lengths = larger_size(c) + (c.pose_a.position() - c.pose_b.position()).norm();
   constexpr double beside = 1e-9;     // further off, a point was decided by rounding

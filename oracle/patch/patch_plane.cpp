@@ -15,7 +15,7 @@ double reach(const Capsule& s, const Vec3& n) {
 }
 double reach(const Sphere& s, const Vec3&) { return s.radius(); }
 double reach(const Box& s, const Vec3& n) { return s.half_extents().dot(n.cwiseAbs()); }
-double reach(const Plane& s, const Vec3&) { return s.displacement() / s.normal().norm(); }
+double reach(const Plane& s, const Vec3&) { return s.unit_displacement(); }
 
 double reach(const Shape& shape, const Pose& pose, const Vec3& n) {
   const Vec3 local = pose.rotation().transpose() * n;

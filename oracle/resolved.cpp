@@ -1,0 +1,115 @@
+#include "oracle/resolved.hpp"
+
+#include <cmath>
+#include <limits>
+#include <variant>
+
+namespace touchstone::oracle {
+namespace {
+
+/// Multiples of a power of two. Rounding half away from zero keeps opposite numbers opposite.
+class Grid {
+ public:
+  /// Spacing: 2^-bits of the largest power of two that is not above `size`.
+  Grid(double size, int bits) : exponent_(std::ilogb(size) - bits) {}
+
+  double nearest(double x) const {
+    constexpr int min_exponent = std::numeric_limits<double>::min_exponent;
+    constexpr int digits = std::numeric_limits<double>::digits;
+    // A double that is a multiple as it is, like all where the spacing is below the smallest.
+    if (x == 0 || exponent_ <= min_exponent - digits || std::ilogb(x) - (digits - 1) >= exponent_) {
+      return x;
+    }
+    return std::scalbn(std::round(std::scalbn(x, -exponent_)), exponent_);
+  }
+  /// Not zero.
+  double nearest_size(double x) const {
+    const double rounded = nearest(x);
+    return rounded > 0 ? rounded : std::scalbn(1.0, exponent_);
+  }
+  Vec3 nearest(const Vec3& v) const {
+    return v.unaryExpr([this](double x) { return nearest(x); });
+  }
+
+ private:
+  int exponent_;
+};
+
+mpq_class change(double from, double to) { return abs(mpq_class(to) - mpq_class(from)); }
+
+/// Rounds a shape's sizes and adds up by how much they change.
+struct RoundedShape {
+  const Grid& grid;
+  mpq_class& error;
+
+  double size(double x) const {
+    const double rounded = grid.nearest_size(x);
+    if (rounded != x) error += change(x, rounded);
+    return rounded;
+  }
+  Cylinder operator()(const Cylinder& s) const { return {size(s.radius()), size(s.half_length())}; }
+  Capsule operator()(const Capsule& s) const { return {size(s.radius()), size(s.half_length())}; }
+  Box operator()(const Box& s) const {
+    const Vec3& h = s.half_extents();
+    return Box(Vec3(size(h.x()), size(h.y()), size(h.z())));
+  }
+  Sphere operator()(const Sphere& s) const { return Sphere(size(s.radius())); }
+  Plane operator()(const Plane& s) const { return s; }
+};
+
+/// A bound of how far a shape's points that an orientation moves lie from its centre.
+struct Reach {
+  mpq_class operator()(const Cylinder& s) const {
+    return mpq_class(s.radius()) + mpq_class(s.half_length());
+  }
+  mpq_class operator()(const Capsule& s) const { return s.half_length(); }
+  mpq_class operator()(const Box& s) const {
+    const Vec3& h = s.half_extents();
+    return mpq_class(h.x()) + mpq_class(h.y()) + mpq_class(h.z());
+  }
+  mpq_class operator()(const Sphere&) const { return 0; }
+  mpq_class operator()(const Plane&) const { return 0; }
+};
+
+/// Rounds an orientation and adds a bound of how far that moves a point at distance `reach`.
+Eigen::Quaterniond rounded(const Eigen::Quaterniond& q, int bits, const mpq_class& reach,
+                           mpq_class& error) {
+  const double largest = q.coeffs().cwiseAbs().maxCoeff();
+  const Grid grid(largest, bits);
+  Eigen::Quaterniond result = q;
+  mpq_class changes = 0;
+  for (int i = 0; i < 4; ++i) {
+    double& component = result.coeffs()[i];
+    component = grid.nearest(component);
+    if (component != q.coeffs()[i]) changes += change(q.coeffs()[i], component);
+  }
+  if (changes != 0) error += 2 * reach * changes / mpq_class(largest);
+  return result;
+}
+
+}  // namespace
+
+Resolved resolved(const Configuration& c, int bits) {
+  if (std::holds_alternative<Plane>(c.b) || std::holds_alternative<Sphere>(c.b)) return {c, 0};
+  mpq_class error = 0;
+  const Grid lengths(larger_size(c), bits);
+  const RoundedShape round_shape{lengths, error};
+  const Cylinder a = round_shape(c.a);
+  const Shape b = std::visit([&](const auto& s) -> Shape { return round_shape(s); }, c.b);
+
+  const Vec3 &from_a = c.pose_a.position(), &from_b = c.pose_b.position();
+  const Vec3 to_a = lengths.nearest(from_a), to_b = lengths.nearest(from_b);
+  if (to_a != from_a || to_b != from_b) {
+    for (int i = 0; i < 3; ++i) {
+      const mpq_class moved_a = mpq_class(to_a[i]) - mpq_class(from_a[i]);
+      const mpq_class moved_b = mpq_class(to_b[i]) - mpq_class(from_b[i]);
+      error += abs(moved_a - moved_b);
+    }
+  }
+  const Eigen::Quaterniond q_a = rounded(c.pose_a.orientation(), bits, Reach{}(a), error);
+  const Eigen::Quaterniond q_b =
+      rounded(c.pose_b.orientation(), bits, std::visit(Reach{}, b), error);
+  return {{a, Pose(to_a, q_a), b, Pose(to_b, q_b)}, error};
+}
+
+}  // namespace touchstone::oracle
