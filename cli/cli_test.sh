@@ -59,7 +59,7 @@ expect 0 '^4 configurations' campaign --pair cylinder-sphere --class cap,side --
   --candidates reference --out "$folder/c"
 expect 2 'already holds a campaign' campaign --out "$folder/c"
 expect 0 '^4 configurations' merge "$folder/c" --out "$folder/m"
-expect 2 'could not be read' merge "$folder/none" --out "$folder/n"
+expect 2 'could not be opened' merge "$folder/none" --out "$folder/n"
 expect 2 'candidate is required' search
 expect 1 'shallow\|overdeep\|missed' search --candidate capsule --pair cylinder-sphere \
   --class general-deep --count 40 --save "$folder/found"
@@ -130,7 +130,7 @@ line=$("$program" replay cylinder-box/general-deep/3/4 | grep '^{' | tail -n 1)
 expect 2 'identity.class' certify cylinder-box/none/1/2
 expect 2 '--width' certify cylinder-box/rim-face/1/2 --width 0
 expect 2 '--cells' certify cylinder-box/rim-face/1/2 --cells -1
-expect 2 'must be a JSON object' certify -
+expect 2 'standard input is no JSON' certify -
 expect 0 '"schema":"touchstone-certificate-1"' certify cylinder-box/rim-face/1/2
 if [ "$("$program" certify - <<<"$line")" != "$("$program" certify cylinder-box/general-deep/3/4)" ]; then
   echo "FAILED: certify proves something else of a line than of its identity"
@@ -162,7 +162,7 @@ expect 2 '--emit.*havok.*must be one of bullet, ode, fcl, libccd, mujoco' \
   replay cylinder-box/rim-face/1/2 --emit havok
 expect 2 '--emit.*libccd.*half-space' replay cylinder-plane/general-deep/1/2 --emit libccd
 expect 2 'identity.class' replay cylinder-box/none/1/2 --emit bullet
-expect 2 'must be a JSON object' replay - --emit bullet
+expect 2 'standard input is no JSON' replay - --emit bullet
 expect 2 'excludes' replay cylinder-box/rim-face/1/2 --emit bullet --json
 expect 0 '#include <BulletCollision' replay cylinder-box/rim-face/1/2 --emit bullet
 echo '{"configuration":{"a":{"shape":"cylinder","radius":1,"half_length":1},"b":{"shape":"sphere","radius":1}}}' \
