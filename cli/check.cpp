@@ -19,7 +19,7 @@ namespace {
 constexpr int something_failed = 1;
 
 struct Options {
-  explicit Options(CLI::App& command) : sample(command, 10), bar(command) {}
+  explicit Options(CLI::App& command) : sample(command, 10, 1000000000), bar(command) {}
   SampleOption sample;
   BarOption bar;
   std::string candidate;
