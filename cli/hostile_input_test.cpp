@@ -122,6 +122,11 @@ void require_numbers(const json& value) {
   for (const json& element : value) require_numbers(element);
 }
 
+/// A name that holds it is shown as it was given.
+bool shows_nan(const std::string& shown, const std::string& given) {
+  return shown.find("nan") != std::string::npos && given.find("nan") == std::string::npos;
+}
+
 std::vector<std::string> configuration_lines() {
   std::vector<std::string> lines;
   for (const Pair pair : all_pairs) {
@@ -135,8 +140,9 @@ std::vector<std::string> configuration_lines() {
 
 TEST(HostileInput, LinesOfSolve) {
   expect_answer_or_refusal(
-      "solve", 30, configuration_lines(), [](const std::string& text, std::uint64_t) {
+      "solve", 34, configuration_lines(), [](const std::string& text, std::uint64_t) {
         const auto given = configuration_from_json(parse_json(text, "line"));
+        if (text.find('\0') != text.npos) throw std::runtime_error("a NUL is accepted");
         for (const json& written :
              {to_json(given.configuration), to_hex_json(given.configuration)}) {
           const Configuration again =
@@ -175,7 +181,7 @@ TEST(HostileInput, ConfigurationFiles) {
   const auto lines = configuration_lines();
   files.push_back(lines[0] + '\n' + lines[1] + '\n');
   files.push_back("\n" + lines[2]);
-  expect_answer_or_refusal("given file", 8, files, [](const std::string& text, std::uint64_t) {
+  expect_answer_or_refusal("given file", 10, files, [](const std::string& text, std::uint64_t) {
     configuration_from_text(text, "file");
   });
 }
@@ -233,16 +239,28 @@ void step_through(const SceneFile& file) {
   }
 }
 
+/// Every member that a scene can have, in few numbers.
+const char* const dense_scene = R"({"duration":1,"step":0.01,"gravity":[0,0,-10],
+  "surface_layer":0.001,"materials":{"steel":{"density":7800,"friction":0.4,"restitution":0.1}},
+  "bodies":[
+    {"name":"ground","shape":{"shape":"plane","normal":[0,0,1],"displacement":0},"fixed":true},
+    {"name":"can","shape":{"shape":"cylinder","radius":1,"half_length":1},"material":"steel",
+     "pose":{"position":[0,0,1],"orientation":[1,0,0,0]},"velocity":[1,0,0],
+     "angular_velocity":[0,0,1]},
+    {"name":"box","shape":{"shape":"box","half_extents":[1,1,1]},"pose":{"position":[0,3,1]},
+     "angular_velocity":[1,0,0]}],
+  "needs":[{"need":"stands","body":"can","degrees":1,"from":0,"until":1}],
+  "camera":{"position":[9,9,9],"look_at":[0,0,0]}})";
+
 TEST(HostileInput, Scenes) {
-  expect_answer_or_refusal("scene", 14, files_of(TOUCHSTONE_SCENES, ".json"),
-                           [](const std::string& text, std::uint64_t) {
-                             const SceneFile file =
-                                 scene_from_json(parse_json(text, "file"), "scene");
-                             for (const Need& need : file.needs) describe(need, file.scene);
-                             if (!file.camera.position.allFinite())
-                               throw std::runtime_error("a camera nowhere");
-                             step_through(file);
-                           });
+  std::vector<std::string> scenes = files_of(TOUCHSTONE_SCENES, ".json");
+  scenes.insert(scenes.end(), scenes.size(), dense_scene);  // half of all
+  expect_answer_or_refusal("scene", 16, scenes, [](const std::string& text, std::uint64_t) {
+    const SceneFile file = scene_from_json(parse_json(text, "file"), "scene");
+    for (const Need& need : file.needs) describe(need, file.scene);
+    if (!file.camera.position.allFinite()) throw std::runtime_error("a camera nowhere");
+    step_through(file);
+  });
 }
 
 TEST(HostileInput, Reports) {
@@ -254,13 +272,13 @@ TEST(HostileInput, Reports) {
   const json report = make_report(c, "x");
   CompareLimits limits;
   limits.baseline = "capsule";
-  expect_answer_or_refusal("report.json", 9, {report.dump(1)},
+  expect_answer_or_refusal("report.json", 3, {report.dump(1)},
                            [&](const std::string& text, std::uint64_t) {
                              const json read = report_from_text(text, "file");
                              for (const json& comparison :
                                   {compare(report, read, limits), compare(read, report, limits)}) {
                                require_numbers(comparison);
-                               if (comparison_text(comparison).find("nan") != std::string::npos) {
+                               if (shows_nan(comparison_text(comparison), text)) {
                                  throw std::runtime_error("nan is printed");
                                }
                              }
@@ -317,7 +335,7 @@ TEST(HostileInput, ShardFiles) {
     return result;
   };
   expect_answer_or_refusal(
-      "shard file", 8, texts, [&](const std::string& text, std::uint64_t number) {
+      "shard file", 6, texts, [&](const std::string& text, std::uint64_t number) {
         const std::string& whole = texts[number % texts.size()];
         const std::string body = number == 0       ? text
                                  : number % 4 == 0 ? text
@@ -329,8 +347,7 @@ TEST(HostileInput, ShardFiles) {
             "file");
         const json result = campaign_result(merge.whole(true));
         require_numbers(result);
-        if (terminal_table(result).find("nan") != std::string::npos)
-          throw std::runtime_error("nan");
+        if (shows_nan(terminal_table(result), body)) throw std::runtime_error("nan");
       });
 }
 
@@ -384,7 +401,7 @@ void read_robot(const std::filesystem::path& file) {
 
 TEST(HostileInput, Urdf) {
   const Written file(".urdf");
-  expect_answer_or_refusal("URDF", 1.5, files_of(TOUCHSTONE_SCENES, ".urdf"),
+  expect_answer_or_refusal("URDF", 1.8, files_of(TOUCHSTONE_SCENES, ".urdf"),
                            [&](const std::string& text, std::uint64_t) {
                              const Quiet quiet;
                              read_robot(file.with(text));
@@ -393,7 +410,7 @@ TEST(HostileInput, Urdf) {
 
 TEST(HostileInput, Sdf) {
   const Written file(".sdf");
-  expect_answer_or_refusal("SDF", 0.5, files_of(TOUCHSTONE_SCENES, ".sdf"),
+  expect_answer_or_refusal("SDF", 0.2, files_of(TOUCHSTONE_SCENES, ".sdf"),
                            [&](const std::string& text, std::uint64_t) {
                              const Quiet quiet;
                              read_robot(file.with(text));

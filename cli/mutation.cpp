@@ -185,8 +185,16 @@ std::string Mutation::repeat_member(std::string text) {
 std::string Mutation::change_json(const std::string& text) {
   json whole = json::parse(text, nullptr, false);
   if (whole.is_discarded()) return change_bytes(text);
-  std::vector<json*> all;
+  std::vector<json*> all, numbers;
   collect(whole, all);
+  for (json* const value : all) {
+    if (value->is_number()) numbers.push_back(value);
+  }
+  if (!numbers.empty() && one_in(2)) {
+    const json parsed = json::parse(extreme_number(), nullptr, false);
+    *numbers[below(numbers.size())] = parsed.is_discarded() ? json(1e200) : parsed;
+    return whole.dump(-1, ' ', false, json::error_handler_t::replace);
+  }
   json& value = *all[below(all.size())];
   const json& other = *all[below(all.size())];
   switch (below(8)) {
@@ -227,7 +235,7 @@ std::string Mutation::change_json(const std::string& text) {
 
 std::string Mutation::of(const std::string& text) {
   std::string result = text;
-  const std::size_t changes = 1 + below(4);
+  const std::size_t changes = one_in(2) ? 1 : 1 + below(4);
   const bool as_json = one_in(2);
   for (std::size_t i = 0; i < changes; ++i) {
     if (as_json) {

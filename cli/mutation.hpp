@@ -13,8 +13,8 @@ class Mutation {
  public:
   explicit Mutation(std::uint64_t seed) : random_(seed) {}
 
-  /// One to four changes. Texts that are JSON are mostly changed as such, so that they go past the
-  /// parser.
+  /// One to four changes. Texts that are JSON are changed as such half of the time, numbers first,
+  /// so that they go past the parser.
   std::string of(const std::string& text);
 
  private:
