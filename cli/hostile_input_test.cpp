@@ -62,13 +62,14 @@ std::vector<std::string> files_of(const std::filesystem::path& folder, const cha
   return texts;
 }
 
-// What is being read, for the last words of a process that crashes or hangs.
+// What is being read, for the last words of a process that crashes or hangs. On standard output:
+// standard error may be captured.
 std::string current_name, current_text;
 
 void tell_and_end(int signal) {
   for (const std::string* text : {&current_name, &current_text}) {
-    if (write(STDERR_FILENO, text->data(), text->size()) < 0) break;
-    if (write(STDERR_FILENO, "\n", 1) < 0) break;
+    if (write(STDOUT_FILENO, text->data(), text->size()) < 0) break;
+    if (write(STDOUT_FILENO, "\n", 1) < 0) break;
   }
   std::signal(signal, SIG_DFL);
   std::raise(signal);

@@ -94,6 +94,11 @@ void note_ignored_elements(const std::string& text, ShapesFile& result) {
 
 ShapesFile read_urdf(const std::filesystem::path& file) {
   const std::string text = read_xml(file);
+  if (text.find('%') != text.npos) {
+    // urdfdom 3.0.1 gives what it complains of to printf as the format: "%n" ends the process.
+    throw InvalidInput("scene", '"' + file.string() + '"',
+                       "must not hold a percent sign, which its reader takes for a format");
+  }
   const urdf::ModelInterfaceSharedPtr robot = urdf::parseURDF(text);
   if (!robot || !robot->getRoot()) {
     throw InvalidInput("scene", '"' + file.string() + '"',
