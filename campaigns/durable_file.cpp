@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "reference/invalid_input.hpp"
+#include "reports/read_file.hpp"
 
 namespace touchstone {
 namespace {
@@ -76,7 +77,7 @@ void write_durably(const std::filesystem::path& file, std::string_view text) {
 std::string read_whole(const std::filesystem::path& file, const char* field) {
   std::ifstream in(file, std::ios::binary);
   std::string text{std::istreambuf_iterator<char>(in), {}};
-  if (!in.is_open() || in.bad()) {
+  if (!in.is_open() || in.bad() || is_folder(file)) {
     throw InvalidInput(field, '"' + file.string() + '"', "could not be read");
   }
   return text;

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "reference/invalid_input.hpp"
+#include "reports/json_fields.hpp"
 
 namespace touchstone {
 namespace {
@@ -58,12 +59,19 @@ nlohmann::json Magnitudes::to_json() const {
 
 Magnitudes Magnitudes::from_json(const nlohmann::json& json) {
   Magnitudes result;
-  result.max_ = json.at("max");
-  const nlohmann::json& bins = json.at("bins");
-  if (bins.size() % 2 != 0) throw InvalidInput("bins", "an odd list", "must be pairs");
+  result.max_ = number(member(json, "max", ""), "max");
+  if (!(std::isfinite(result.max_) && result.max_ >= 0)) {
+    throw InvalidInput("max", shown(json["max"]), "must be finite and not negative");
+  }
+  const nlohmann::json& bins = member(json, "bins", "");
+  if (!bins.is_array() || bins.size() % 2 != 0) {
+    throw InvalidInput("bins", shown(bins), "must be an array of pairs");
+  }
   for (std::size_t i = 0; i < bins.size(); i += 2) {
-    const std::uint64_t count = bins[i + 1];
-    result.bins_[bins[i].get<std::uint16_t>()] += count;
+    const auto bin = whole_number(bins[i], fmt::format("bins[{}]", i), bin_of(result.max_));
+    const auto count =
+        whole_number(bins[i + 1], fmt::format("bins[{}]", i + 1), max_count - result.count_);
+    result.bins_[static_cast<std::uint16_t>(bin)] += count;
     result.count_ += count;
   }
   return result;

@@ -13,6 +13,10 @@ namespace touchstone {
 /// same to the last bit. Memory grows with the octaves that occur, not with the count.
 class Magnitudes {
  public:
+  /// More than can be scored in years; sums and percentiles do not overflow, not even of all pose
+  /// classes together.
+  static constexpr std::uint64_t max_count = 1'000'000'000'000;
+
   /// Of |value|. What is not finite counts as the largest double.
   void add(double value);
   void add(const Magnitudes& other);
@@ -30,7 +34,7 @@ class Magnitudes {
   /// {"max", "bins": [number, count, number, count, …]}; bin i holds the doubles whose first 14
   /// bits (sign, exponent and three of the mantissa) are i.
   nlohmann::json to_json() const;
-  /// Throws nlohmann::json::exception or InvalidInput on anything else than to_json gives.
+  /// Throws InvalidInput on anything else than to_json gives.
   static Magnitudes from_json(const nlohmann::json& json);
 
  private:

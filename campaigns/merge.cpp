@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "campaigns/durable_file.hpp"
 #include "reference/invalid_input.hpp"
+#include "reports/read_file.hpp"
 
 namespace touchstone {
 namespace {
@@ -52,10 +52,10 @@ Progressed Merge::whole(bool may_be_partial) const {
 Progressed merge(const std::vector<std::filesystem::path>& inputs, bool may_be_partial) {
   Merge merge;
   const auto add = [&](const std::filesystem::path& file) {
-    merge.add(progressed_from_text(read_whole(file, "input"), file.string()), file.string());
+    merge.add(progressed_from_text(read_file(file, "input"), file.string()), file.string());
   };
   for (const auto& input : inputs) {
-    if (!std::filesystem::is_directory(input)) {
+    if (!is_folder(input)) {
       add(input);
       continue;
     }

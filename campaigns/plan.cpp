@@ -5,6 +5,7 @@
 #include "campaigns/durable_file.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/configuration_json.hpp"
+#include "reports/json_fields.hpp"
 #include "reports/worst.hpp"
 
 namespace touchstone {
@@ -12,10 +13,12 @@ namespace {
 
 using nlohmann::json;
 
-/// Short enough for an error message.
-std::string shown(const json& value) {
-  const std::string text = value.dump();
-  return text.size() <= 60 ? text : text.substr(0, 57) + "...";
+/// Calls read(element, "name[i]") for each element.
+template <class Read>
+void each_of(const json& plan, const char* name, Read read) {
+  const json& array = member(plan, name, "campaign");
+  if (!array.is_array()) throw InvalidInput(name, shown(array), "must be an array");
+  for (std::size_t i = 0; i < array.size(); ++i) read(array[i], fmt::format("{}[{}]", name, i));
 }
 
 /// "candidates[1].version is 3.24, not 3.25"; lists by the first entry that differs.
@@ -71,11 +74,30 @@ json make_plan(const Campaign& campaign, const std::string& command) {
           {"candidates", candidates}};
 }
 
-PlanView::PlanView(const json& plan) : cut{0, plan.at("count")}, seed(plan.at("seed")) {
-  for (const json& c : plan.at("classes")) {
-    cells.push_back({parse_pair(c.at("pair").get<std::string>()), c.at("class")});
+PlanView::PlanView(const json& plan)
+    : cut{0, whole_number(member(plan, "count", "campaign"), "campaign.count", max_count)},
+      seed(whole_number(member(plan, "seed", "campaign"), "campaign.seed")) {
+  for (const char* name : {"version", "command", "program"}) {
+    string(member(plan, name, "campaign"), name);
   }
-  for (const json& c : plan.at("candidates")) candidates.push_back(c.at("name"));
+  for (const char* name : {"tolerance", "threshold"}) number(member(plan, name, "campaign"), name);
+  each_of(plan, "classes", [&](const json& c, const std::string& path) {
+    const auto text = [&](const char* name) {
+      return string(member(c, name, path), path + '.' + name);
+    };
+    const Pair pair = parse_pair(text("pair"));
+    const Cell cell{pair, text("class")};
+    describe_pose_class(pair, cell.pose_class);  // throws where there is no such class
+    for (const Cell& other : cells) {
+      if (other.pair == cell.pair && other.pose_class == cell.pose_class) {
+        throw InvalidInput(path, shown(c), "must be another class: it is given twice");
+      }
+    }
+    cells.push_back(cell);
+  });
+  each_of(plan, "candidates", [&](const json& c, const std::string& path) {
+    candidates.push_back(string(member(c, "name", path), path + ".name"));
+  });
   cut.cells = cells.size();
   if (cells.empty() || cut.count == 0) {
     throw InvalidInput("campaign", "empty", "must have classes and a count");

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "campaigns/magnitudes.hpp"
 #include "campaigns/units.hpp"
 #include "reports/campaign.hpp"
 
@@ -17,9 +18,12 @@ namespace touchstone {
 /// every setting.
 nlohmann::json make_plan(const Campaign& campaign, const std::string& command);
 
-/// What a file needs to know of its plan. Throws nlohmann::json::exception or InvalidInput on
-/// anything else than make_plan gives.
+/// What a file needs to know of its plan. Throws InvalidInput on anything else than make_plan
+/// gives.
 struct PlanView {
+  /// Of each class; numbers of units and configurations of all classes do not overflow.
+  static constexpr std::uint64_t max_count = Magnitudes::max_count;
+
   explicit PlanView(const nlohmann::json& plan);
 
   std::vector<Cell> cells;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
@@ -73,7 +74,12 @@ bool under_mpirun() { return std::getenv(size_variable) != nullptr; }
 
 Shard shard_of_rank() {
   if (!under_mpirun()) return {};
-  return {number_in(rank_variable) + 1, number_in(size_variable)};
+  const std::uint64_t rank = number_in(rank_variable), size = number_in(size_variable);
+  if (rank >= size) {
+    throw InvalidInput(rank_variable, fmt::format("{}", rank),
+                       fmt::format("must be less than {}, which is {}", size_variable, size));
+  }
+  return {rank + 1, size};
 }
 
 bool gather(const Progressed& part, Merge& merge) {
@@ -84,7 +90,7 @@ bool gather(const Progressed& part, Merge& merge) {
     return first;
   } catch (const std::exception& e) {
     // The other ranks would wait for ever.
-    fmt::print(stderr, "error: {}\n", e.what());
+    std::fputs(fmt::format("error: {}\n", e.what()).c_str(), stderr);
     MPI_Abort(MPI_COMM_WORLD, 2);
     throw;
   }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "reference/invalid_input.hpp"
+#include "reports/json_fields.hpp"
 
 namespace touchstone {
 namespace {
@@ -43,8 +44,15 @@ json shares(const Magnitudes& uncovered, std::uint64_t covered_sum) {
 
 json or_null(const std::optional<double>& value) { return value ? json(*value) : json(nullptr); }
 
-std::optional<double> number_or_null(const json& value) {
-  return value.is_null() ? std::nullopt : std::optional(value.get<double>());
+std::optional<double> number_or_null(const json& object, const char* name) {
+  const json& value = member(object, name, "");
+  return value.is_null() ? std::nullopt : std::optional(number(value, name));
+}
+
+const json& array(const json& object, const char* name) {
+  const json& value = member(object, name, "");
+  if (!value.is_array()) throw InvalidInput(name, shown(value), "must be an array");
+  return value;
 }
 
 Outcome parse_outcome(const std::string& name) {
@@ -64,11 +72,11 @@ json to_json(const Case& c) {
 
 Case case_from_json(const json& j, std::size_t cell) {
   Score score;
-  score.outcome = parse_outcome(j.at("outcome"));
-  score.depth_error = number_or_null(j.at("depth_error"));
-  score.normal_regret = number_or_null(j.at("normal_regret"));
-  score.severity = j.at("severity");
-  return {cell, j.at("index"), score};
+  score.outcome = parse_outcome(string(member(j, "outcome", ""), "outcome"));
+  score.depth_error = number_or_null(j, "depth_error");
+  score.normal_regret = number_or_null(j, "normal_regret");
+  score.severity = number(member(j, "severity", ""), "severity");
+  return {cell, whole_number(member(j, "index", ""), "index"), score};
 }
 
 /// JSON knows no infinity.
@@ -160,21 +168,48 @@ json ScoreTally::to_json() const {
 
 ScoreTally ScoreTally::from_json(const json& j, std::size_t cell) {
   ScoreTally t;
-  t.count_ = j.at("count");
-  for (const auto& [name, count] : j.at("outcomes").items()) {
-    t.outcomes_[static_cast<std::size_t>(parse_outcome(name))] = count;
+  t.count_ = whole_number(member(j, "count", ""), "count", Magnitudes::max_count);
+  std::uint64_t left = t.count_;  // every configuration has one outcome
+  const json& outcomes = member(j, "outcomes", "");
+  require_object(outcomes, "outcomes");
+  for (const auto& [name, count] : outcomes.items()) {
+    auto& number = t.outcomes_[static_cast<std::size_t>(parse_outcome(name))];
+    number = whole_number(count, "outcomes." + name, left);
+    left -= number;
   }
-  for (const json& entry : j.at("points")) t.points_[entry.at(0)] = entry.at(1);
+  if (left != 0) throw InvalidInput("outcomes", shown(outcomes), "must add up to the count");
+  for (const json& entry : array(j, "points")) {
+    if (!entry.is_array() || entry.size() != 2) {
+      throw InvalidInput("points", shown(entry), "must be an array of pairs");
+    }
+    const auto points = whole_number(entry[0], "points", TOUCHSTONE_MAX_POINTS);
+    t.points_[static_cast<int>(points)] = whole_number(entry[1], "points", t.count_);
+  }
+  const auto magnitudes = [&](const char* name) {
+    return at_path(name, [&] {
+      const Magnitudes read = Magnitudes::from_json(member(j, name, ""));
+      if (read.count() > t.count_) {
+        throw InvalidInput("bins", fmt::format("{} values", read.count()),
+                           "must hold no more than the count");
+      }
+      return read;
+    });
+  };
   for (std::size_t i = 0; i < quantities.size(); ++i) {
     // Files of before the deepest point was measured do without it.
     if (j.contains(quantities[i].name) || quantities[i].value != &Score::deepest_error) {
-      t.errors_[i] = Magnitudes::from_json(j.at(quantities[i].name));
+      t.errors_[i] = magnitudes(quantities[i].name);
     }
   }
-  t.severity_ = Magnitudes::from_json(j.at("severity"));
-  t.uncovered_ = Magnitudes::from_json(j.at("uncovered"));
-  t.covered_sum_ = j.at("covered_sum");
-  for (const json& entry : j.at("worst")) t.worst_.push_back(case_from_json(entry, cell));
+  t.severity_ = magnitudes("severity");
+  t.uncovered_ = magnitudes("uncovered");
+  const auto one = static_cast<std::uint64_t>(1 / covered_unit);
+  t.covered_sum_ =
+      whole_number(member(j, "covered_sum", ""), "covered_sum", t.uncovered_.count() * one);
+  for (const json& entry : array(j, "worst")) {
+    t.worst_.push_back(at_path("worst", [&] { return case_from_json(entry, cell); }));
+  }
+  t.select_worst();
   return t;
 }
 

@@ -31,8 +31,8 @@ class ScoreTally {
   nlohmann::json summary() const;
 
   nlohmann::json to_json() const;
-  /// Of a tally whose cases are all of this cell. Throws nlohmann::json::exception or InvalidInput
-  /// on anything else than to_json gives.
+  /// Of a tally whose cases are all of this cell. Throws InvalidInput on anything else than to_json
+  /// gives.
   static ScoreTally from_json(const nlohmann::json& json, std::size_t cell);
 
  private:

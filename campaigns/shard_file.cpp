@@ -8,6 +8,9 @@
 
 #include "campaigns/durable_file.hpp"
 #include "reference/invalid_input.hpp"
+#include "reports/error_text.hpp"
+#include "reports/json_fields.hpp"
+#include "reports/strict_json.hpp"
 
 namespace touchstone {
 namespace {
@@ -38,20 +41,62 @@ std::string_view intact(std::string_view text, const std::string& file) {
   return text.substr(0, last_line + 1);
 }
 
+/// [3, 7].
+Shard shard_from_json(const json& value) {
+  if (!value.is_array() || value.size() != 2) {
+    throw InvalidInput("shard", shown(value), "must be two numbers, as in [3, 7]");
+  }
+  const Shard shard{whole_number(value[0], "shard[0]"), whole_number(value[1], "shard[1]")};
+  if (shard.number < 1 || shard.number > shard.of) {
+    throw InvalidInput("shard", shown(value), "must be a part and how many there are");
+  }
+  return shard;
+}
+
+/// Each candidate has answered what is done, and nothing else.
+void check_counts(const Progressed& p, const std::string& file) {
+  const std::uint64_t expected = configurations(p.view.cut, p.done);
+  for (std::size_t k = 0; k < p.view.candidates.size(); ++k) {
+    std::uint64_t left = expected;
+    for (std::size_t cell = 0; cell < p.view.cells.size(); ++cell) {
+      const ScoreTally& tally = p.tally(cell, k);
+      if (tally.count() > left) refuse(file, "with counts of more than what is done");
+      left -= tally.count();
+      for (const Case& c : tally.worst()) {
+        if (c.index >= p.view.cut.count) refuse(file, "with cases that the campaign has not");
+      }
+    }
+    if (left != 0) refuse(file, "with counts of less than what is done");
+  }
+}
+
 Progressed parsed(const std::string& text, const std::string& file) {
   std::istringstream lines{text};
   std::string line;
   std::getline(lines, line);
-  const json head = json::parse(line);
-  if (head.at("schema") != schema) refuse(file, "of schema " + head.at("schema").dump());
-  Progressed result(head.at("campaign"), {head.at("shard").at(0), head.at("shard").at(1)});
-  result.done = unit_set_from_json(head.at("done"));
-  for (ScoreTally& tally : result.tallies) {
-    if (!std::getline(lines, line)) refuse(file, "without some of its tallies");
-    const auto number = static_cast<std::size_t>(&tally - result.tallies.data());
-    tally = ScoreTally::from_json(json::parse(line).at("tally"),
-                                  number / result.view.candidates.size());
+  const json head = parse_json(line, "line 1");
+  if (member(head, "schema", "") != schema) refuse(file, "of schema " + shown(head["schema"]));
+  const json& plan = member(head, "campaign", "");
+  const PlanView view(plan);
+  const auto tally_lines = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) - 1;
+  if (view.candidates.empty() || tally_lines % view.candidates.size() != 0 ||
+      tally_lines / view.candidates.size() != view.cells.size()) {
+    refuse(file, "without a line for each class and candidate");
   }
+  Progressed result(plan, shard_from_json(member(head, "shard", "")));
+  result.done = unit_set_from_json(member(head, "done", ""));
+  if (!boost::icl::within(result.done, result.shard.units(result.view.cut))) {
+    refuse(file, "with work done that is not its own");
+  }
+  for (std::size_t i = 0; i < result.tallies.size(); ++i) {
+    std::getline(lines, line);
+    const std::string name = fmt::format("line {}", i + 2);
+    result.tallies[i] = at_path(name, [&] {
+      const json object = parse_json(line, "it");
+      return ScoreTally::from_json(member(object, "tally", ""), i / result.view.candidates.size());
+    });
+  }
+  check_counts(result, file);
   return result;
 }
 
@@ -107,8 +152,9 @@ Progressed progressed_from_text(const std::string& text, const std::string& file
   const std::string body(intact(text, file));
   try {
     return parsed(body, file);
-  } catch (const json::exception& e) {
-    refuse(file, fmt::format("not understood ({})", e.what()));
+  } catch (const InvalidInput& e) {
+    if (e.field() == '"' + file + '"') throw;
+    refuse(file, fmt::format("not understood ({})", error_text(e)));
   }
 }
 

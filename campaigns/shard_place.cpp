@@ -5,7 +5,9 @@
 #include <utility>
 
 #include "reference/invalid_input.hpp"
+#include "reports/read_file.hpp"
 #include "reports/report.hpp"
+#include "reports/strict_json.hpp"
 #include "reports/write_file.hpp"
 
 namespace touchstone {
@@ -23,8 +25,12 @@ json head_of(const std::filesystem::path& file) {
   std::ifstream in(file);
   std::string line;
   std::getline(in, line);
-  const json head = json::parse(line, nullptr, false);
-  return head.is_object() ? head : json::object();
+  try {
+    const json head = parse_json(line, "it");
+    return head.is_object() ? head : json::object();
+  } catch (const InvalidInput&) {
+    return json::object();
+  }
 }
 
 }  // namespace
@@ -40,7 +46,8 @@ Progressed ShardPlace::begin(const json& plan, bool resume) const {
     if (other == file_) continue;
     const json head = head_of(other);
     require_same_plan(plan, head.value("campaign", json()), other.string());
-    if (head["shard"][1] != shard_.of) {
+    const json cut = head.value("shard", json());
+    if (!cut.is_array() || cut.size() != 2 || cut[1] != shard_.of) {
       throw InvalidInput(
           "--out", '"' + folder_.string() + '"',
           "already holds this campaign cut in another way; go on as it was begun, or "
@@ -52,7 +59,7 @@ Progressed ShardPlace::begin(const json& plan, bool resume) const {
     throw InvalidInput("--out", '"' + folder_.string() + '"',
                        "already holds a campaign; go on with --resume, or choose another folder");
   }
-  Progressed found = progressed_from_text(read_whole(file_, "--out"), file_.string());
+  Progressed found = progressed_from_text(read_file(file_, "--out"), file_.string());
   require_same_plan(plan, found.plan, file_.string());
   return found;
 }

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "reference/invalid_input.hpp"
+#include "reports/json_fields.hpp"
 
 namespace touchstone {
 namespace {
@@ -54,8 +55,12 @@ nlohmann::json to_json(const UnitSet& set) {
 
 UnitSet unit_set_from_json(const nlohmann::json& json) {
   UnitSet result;
+  if (!json.is_array()) throw InvalidInput("done", shown(json), "must be an array of ranges");
   for (const nlohmann::json& range : json) {
-    result.add(Range(range.at(0).get<std::uint64_t>(), range.at(1).get<std::uint64_t>()));
+    const bool is_pair = range.is_array() && range.size() == 2;
+    if (!is_pair) throw InvalidInput("done", shown(range), "must be a range, as in [0, 12]");
+    const auto last = whole_number(range[1], "done");
+    result.add(Range(whole_number(range[0], "done", last), last));
   }
   return result;
 }

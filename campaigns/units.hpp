@@ -36,7 +36,7 @@ using UnitSet = boost::icl::interval_set<std::uint64_t, std::less,
 std::uint64_t nth(const UnitSet& set, std::uint64_t position);
 std::uint64_t configurations(const Cut& cut, const UnitSet& set);
 
-/// [[first, last], …], and back; throws InvalidInput or nlohmann::json::exception on anything else.
+/// [[first, last], …], and back; throws InvalidInput on anything else.
 nlohmann::json to_json(const UnitSet& set);
 UnitSet unit_set_from_json(const nlohmann::json& json);
 

@@ -1,4 +1,3 @@
-#include <cmath>
 #include <cstring>
 #include <fmt/format.h>
 #include <memory>
@@ -10,6 +9,7 @@
 #include "campaigns/shard_place.hpp"
 #include "cli/commands.hpp"
 #include "cli/options.hpp"
+#include "cli/standard_streams.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/interruption.hpp"
 #include "reports/terminal_table.hpp"
@@ -21,7 +21,7 @@ namespace {
 struct Options {
   /// Ranks share a machine as mpirun says.
   explicit Options(CLI::App& command)
-      : scored(command, 1000),
+      : scored(command, 1000, PlanView::max_count),
         workers(command, under_mpirun() ? 1 : std::max(1U, std::thread::hardware_concurrency()),
                 "one a core, or one a rank under mpirun") {}
   CampaignOption scored;
@@ -66,14 +66,10 @@ void print_plan(const Options& options, const Progressed& progressed) {
     text += fmt::format("; shard {}: {}", to_string(shard), configurations(view.cut, all));
   }
   if (!done.empty()) text += fmt::format("; {} done before", configurations(view.cut, done));
-  fmt::print(stderr, "{}; workers: {}\n", text, options.workers.get());
+  complain(fmt::format("{}; workers: {}", text, options.workers.get()));
 }
 
 int run(const Options& options) {
-  if (!(std::isfinite(options.interval) && options.interval > 0)) {
-    throw InvalidInput("--checkpoint", fmt::format("{}", options.interval),
-                       "must be positive and finite");
-  }
   const Shard shard = options.shard();
   const Campaign campaign = options.campaign();
   const ShardPlace place(options.out, shard);
@@ -86,8 +82,9 @@ int run(const Options& options) {
                               [] { return !interrupted(); });
   if (!done) {
     if (speaks) {
-      fmt::print(stderr, "Stopped ({}); all that was done is in {}. To go on:\n  {}\n",
-                 strsignal(interrupting_signal()), place.file().string(), options.resuming());
+      complain(fmt::format("Stopped ({}); all that was done is in {}. To go on:\n  {}",
+                           strsignal(interrupting_signal()), place.file().string(),
+                           options.resuming()));
     }
     return interrupted_exit_code();
   }
@@ -120,8 +117,8 @@ void add_campaign(CLI::App& program, int& exit_code) {
                       "Only this part, as in 3/7; put together by touchstone merge");
   command->add_flag("--resume", options->resume,
                     "Go on where the folder's checkpoint ends, or begin where there is none");
-  command->add_option("--checkpoint", options->interval, "Seconds between checkpoints")
-      ->capture_default_str();
+  add_number(*command, "--checkpoint", options->interval, {1e-3, 1e9},
+             "Seconds between checkpoints");
   command->footer(
       "Examples:\n"
       "  touchstone campaign --candidates reference --count 1e6 --out run\n"

@@ -1,4 +1,3 @@
-#include <cmath>
 #include <fmt/format.h>
 #include <memory>
 #include <string>
@@ -6,7 +5,7 @@
 #include "audit/certificate.hpp"
 #include "cli/commands.hpp"
 #include "cli/given.hpp"
-#include "reference/invalid_input.hpp"
+#include "cli/number_option.hpp"
 #include "reports/certificate_json.hpp"
 
 namespace touchstone {
@@ -14,17 +13,14 @@ namespace {
 
 struct Options {
   std::string input;
-  audit::Budget budget{1e-30, 4000};
+  double width = 1e-30;
+  std::uint64_t cells = 4000;
 };
 
 void run(const Options& options) {
-  const auto [width, cells] = options.budget;
-  if (!(std::isfinite(width) && width > 0)) {
-    throw InvalidInput("--width", fmt::format("{}", width), "must be positive and finite");
-  }
-  if (cells < 0) throw InvalidInput("--cells", fmt::format("{}", cells), "must not be negative");
   const Configuration c = given_configuration(options.input).configuration;
-  const audit::Certificate certificate = audit::certify(c, options.budget);
+  const audit::Certificate certificate =
+      audit::certify(c, {options.width, static_cast<int>(options.cells)});
   fmt::print("{}\n", to_json(certificate, c).dump());
 }
 
@@ -35,14 +31,10 @@ void add_certify(CLI::App& program, int&) {
       program.add_subcommand("certify", "Prove one signed distance: a file that others can check");
   const auto options = std::make_shared<Options>();
   command->add_option("input", options->input, given_help)->required();
-  command
-      ->add_option("--width", options->budget.width,
-                   "Width to prove, relative to the larger size; down to 1e-60")
-      ->capture_default_str();
-  command
-      ->add_option("--cells", options->budget.cells,
-                   "End at so many cells of directions, with the width reached by then")
-      ->capture_default_str();
+  add_number(*command, "--width", options->width, {1e-60, 1e30},
+             "Width to prove, relative to the larger size; down to 1e-60");
+  add_count(*command, "--cells", options->cells, {0, 1000000},
+            "End at so many cells of directions, with the width reached by then");
   command->footer(
       "Examples:\n"
       "  touchstone certify cylinder-box/near-parallel-1e-6/42/137 > proof.json\n"

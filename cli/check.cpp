@@ -22,7 +22,7 @@ constexpr int something_failed = 1;
 constexpr std::uint64_t usual_count = 10, usual_count_of_hostile = 500;
 
 struct Options {
-  explicit Options(CLI::App& command) : sample(command, usual_count), bar(command) {}
+  explicit Options(CLI::App& command) : sample(command, usual_count, 1000000000), bar(command) {}
   SampleOption sample;
   BarOption bar;
   std::string candidate;

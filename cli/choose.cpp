@@ -1,11 +1,11 @@
 #include "scenes/choose.hpp"
 
-#include <cmath>
 #include <fmt/format.h>
 #include <memory>
 
 #include "cli/commands.hpp"
 #include "cli/options.hpp"
+#include "cli/standard_streams.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/report.hpp"
 #include "reports/write_file.hpp"
@@ -51,7 +51,7 @@ int choose_scene(const Options& options, const std::string& command) {
 int choose_pairs(const Options& options, const std::string& command) {
   const ShapesFile file = read_shapes(options.scene);
   for (const std::string& ignored : file.ignored) {
-    fmt::print(stderr, "warning: {}: {}\n", options.scene, ignored);
+    complain(fmt::format("warning: {}: {}", options.scene, ignored));
   }
   const nlohmann::json result =
       choose_for_pairs(file, options.pairs, options.contestants(), options.candidates.limits(),
@@ -66,14 +66,6 @@ int choose_pairs(const Options& options, const std::string& command) {
 }
 
 int run(const Options& options) {
-  const auto check = [](const char* field, double value) {
-    if (!(std::isfinite(value) && value > 0)) {
-      throw InvalidInput(field, fmt::format("{}", value), "must be positive and finite");
-    }
-  };
-  check("--depth", options.pairs.depth);
-  check("--angle", options.pairs.angle);
-  check("--count", static_cast<double>(options.pairs.count));
   check_writable(options.out);
   if (!is_shapes_file(options.scene)) {
     return choose_scene(options, "touchstone choose " + options.scene);
@@ -100,18 +92,14 @@ void add_choose(CLI::App& program, int& exit_code) {
   command->add_flag("--json", options->json, "Print choose.json instead of text");
   const char* robots = "Of a robot or world";
   PairNeeds& pairs = options->pairs;
-  command->add_option("--depth", pairs.depth, "Largest depth error, metres")
-      ->capture_default_str()
+  add_number(*command, "--depth", pairs.depth, positive_numbers, "Largest depth error, metres")
       ->group(robots);
-  command->add_option("--angle", pairs.angle, "Largest error of a normal, degrees")
-      ->capture_default_str()
+  add_number(*command, "--angle", pairs.angle, positive_numbers,
+             "Largest error of a normal, degrees")
       ->group(robots);
-  command->add_option("--count", pairs.count, "Sampled poses of each pair of shapes")
-      ->capture_default_str()
+  add_count(*command, "--count", pairs.count, {1, 1000000}, "Sampled poses of each pair of shapes")
       ->group(robots);
-  command->add_option("--seed", pairs.seed, "Same seed, same poses")
-      ->capture_default_str()
-      ->group(robots);
+  add_count(*command, "--seed", pairs.seed, all_counts, "Same seed, same poses")->group(robots);
   command->footer(
       "Examples:\n"
       "  touchstone choose scenes/log-pile.json\n"

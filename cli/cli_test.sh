@@ -59,7 +59,7 @@ expect 0 '^4 configurations' campaign --pair cylinder-sphere --class cap,side --
   --candidates reference --out "$folder/c"
 expect 2 'already holds a campaign' campaign --out "$folder/c"
 expect 0 '^4 configurations' merge "$folder/c" --out "$folder/m"
-expect 2 'could not be read' merge "$folder/none" --out "$folder/n"
+expect 2 'could not be opened' merge "$folder/none" --out "$folder/n"
 expect 2 'candidate is required' search
 expect 1 'shallow\|overdeep\|missed' search --candidate capsule --pair cylinder-sphere \
   --class general-deep --count 40 --save "$folder/found"
@@ -67,7 +67,7 @@ expect 0 'as expected' check --corpus "$folder/found"
 expect 0 'capsule: contact, \|capsule: none, ' replay "$(ls "$folder"/found/*.json | head -n 1)" --candidates capsule
 
 expect 2 'must be one of standing, ' simulate juggling
-expect 2 '--step.*0.1 s' simulate rolling --step 0
+expect 2 '--step.*from 1e-05 to 0.1' simulate rolling --step 0
 expect 2 '--workers' simulate rolling --workers 0
 expect 2 '--out' simulate rolling --out /proc/none
 expect 0 'reference  *=' simulate rolling --candidates reference --step 0.01
@@ -130,7 +130,7 @@ line=$("$program" replay cylinder-box/general-deep/3/4 | grep '^{' | tail -n 1)
 expect 2 'identity.class' certify cylinder-box/none/1/2
 expect 2 '--width' certify cylinder-box/rim-face/1/2 --width 0
 expect 2 '--cells' certify cylinder-box/rim-face/1/2 --cells -1
-expect 2 'must be a JSON object' certify -
+expect 2 'standard input is no JSON' certify -
 expect 0 '"schema":"touchstone-certificate-1"' certify cylinder-box/rim-face/1/2
 if [ "$("$program" certify - <<<"$line")" != "$("$program" certify cylinder-box/general-deep/3/4)" ]; then
   echo "FAILED: certify proves something else of a line than of its identity"
@@ -155,14 +155,14 @@ expect 0 'Better: 1' compare "$folder/worse.json" "$r"
 expect 2 'none.json.*could not be opened' compare "$r" "$folder/none.json"
 expect 2 'junit.xml.*is no JSON' compare "$folder/junit.xml" "$r"
 expect 2 'proof.json: schema is .* must be 1' compare "$folder/proof.json" "$r"
-expect 2 '--max-error-factor is 0.5' compare "$r" "$r" --max-error-factor 0.5
+expect 2 '--max-error-factor is "0.5"' compare "$r" "$r" --max-error-factor 0.5
 expect 2 '--html' compare "$r" "$r" --html "$folder/none/compare.html"
 
 expect 2 '--emit.*havok.*must be one of bullet, ode, fcl, libccd, mujoco' \
   replay cylinder-box/rim-face/1/2 --emit havok
 expect 2 '--emit.*libccd.*half-space' replay cylinder-plane/general-deep/1/2 --emit libccd
 expect 2 'identity.class' replay cylinder-box/none/1/2 --emit bullet
-expect 2 'must be a JSON object' replay - --emit bullet
+expect 2 'standard input is no JSON' replay - --emit bullet
 expect 2 'excludes' replay cylinder-box/rim-face/1/2 --emit bullet --json
 expect 0 '#include <BulletCollision' replay cylinder-box/rim-face/1/2 --emit bullet
 echo '{"configuration":{"a":{"shape":"cylinder","radius":1,"half_length":1},"b":{"shape":"sphere","radius":1}}}' \
@@ -195,5 +195,105 @@ if [ -z "$solved" ] || [ "$solved" != "$replayed" ]; then
   echo "FAILED: solve gives another truth than replay: $solved instead of $replayed"
   failures=$((failures + 1))
 fi
+
+# Output that is lost is an error that says so, whatever the command and wherever it is lost.
+lost() {
+  local code=$1 how=$2 printed
+  if [ "$code" -ne 2 ] || ! grep -q 'standard output' "$folder/lost.log"; then
+    echo "FAILED: $how: exit code $code: $(head -n 3 "$folder/lost.log")"
+    failures=$((failures + 1))
+  fi
+}
+rim=cylinder-box/rim-face/1/2
+"$program" replay $rim --json >"$folder/replayed.json"
+"$program" replay $rim | grep '^{' | tail -n 1 >"$folder/line.jsonl"
+for command in candidates --help --version --manual "--completion bash" "replay $rim" \
+  "replay $rim --json" "replay $rim --emit bullet" "solve $folder/line.jsonl" "certify $rim" \
+  "check --corpus $folder/found" "simulate rolling --candidates reference --step 0.01" \
+  "search --candidate reference --pair cylinder-sphere --class cap --count 4" \
+  "stability $rim --candidates reference --count 1 --out $folder/lost" \
+  "report --candidates reference --pair cylinder-plane --class lying --count 1 --out $folder/lost"; do
+  # shellcheck disable=SC2086
+  "$program" $command >/dev/full 2>"$folder/lost.log" </dev/null
+  lost $? "touchstone $command > /dev/full"
+done
+for command in candidates "solve $folder/line.jsonl"; do
+  # shellcheck disable=SC2086
+  "$program" $command >&- 2>"$folder/lost.log" </dev/null
+  lost $? "touchstone $command >&-"
+  # shellcheck disable=SC2086
+  (trap '' PIPE; "$program" $command 2>"$folder/lost.log" </dev/null; echo $? >"$folder/code") | true
+  lost "$(cat "$folder/code")" "touchstone $command | true, without SIGPIPE"
+done
+# A reader that has had enough ends the program quietly, as it does others.
+"$program" --manual 2>"$folder/lost.log" | true
+case ${PIPESTATUS[0]} in 0 | 141) ;; *) echo "FAILED: | true"; failures=$((failures + 1)) ;; esac
+[ -s "$folder/lost.log" ] && { echo "FAILED: | true is not quiet"; failures=$((failures + 1)); }
+# Standard error is where errors go; without it the exit code still tells.
+"$program" replay nonsense 2>&-
+[ $? -eq 2 ] || { echo "FAILED: 2>&-"; failures=$((failures + 1)); }
+"$program" replay nonsense 2>/dev/full
+[ $? -eq 2 ] || { echo "FAILED: 2>/dev/full"; failures=$((failures + 1)); }
+expect 2 '--html.*No space left' replay $rim --html /dev/full --candidates reference
+
+# Every number of every option is read alike: refused by its name, with the range.
+for number in -1 nan "" 0x1.8p-1z; do
+  for option in "campaign --count" "report --count" "report --seed" "report --workers" \
+    "solve --width" "solve --time-limit" "solve --memory-limit" "solve --tolerance" \
+    "solve --threshold" "campaign --checkpoint" "certify $rim --cells" "certify $rim --width" \
+    "compare a b --max-error-factor" "compare a b --max-time-factor" "compare a b --min-agree" \
+    "render a --every" "simulate --step" "choose a --depth" "choose a --angle" "choose a --count" \
+    "choose a --seed" "search --candidate bullet --count" "stability --count"; do
+    # shellcheck disable=SC2086
+    expect 2 "${option##* } is \".*\": must be a .*number from .* to " $option "$number" --out "$folder/none"
+  done
+done
+for option in "campaign --count" "report --count" "report --workers" "stability --count" \
+  "search --candidate bullet --count" "check --count" "certify $rim --cells"; do
+  # shellcheck disable=SC2086
+  expect 2 "${option##* } is \"1e15\": must be a whole number from" $option 1e15
+done
+expect 2 'must be at most .*campaign scores any number' report --count 1e7 --out "$folder/none"
+
+# Names of any length, and what only begins as a configuration, a scene or a report.
+cp "$r" "$folder/report.json"
+long=$(printf 'x%.0s' {1..10000})
+for command in replay solve choose render merge certify stability "check --corpus" "compare $folder/report.json" \
+  "report --out" "replay $rim --html" "check --candidate reference --law" "report --class" "search --candidate"; do
+  # shellcheck disable=SC2086
+  expect 2 'xxx\.\.\.' $command "$long"
+done
+expect 2 'input' replay "$rim$(printf '@1e-8/1/4%.0s' {1..10000})"
+body='{"shape":"cylinder","radius":1,"half_length":1}'
+twice='{"a":{"shape":"sphere","radius":1,"radius":2},"b":'$body'}'
+echo "$twice" >"$folder/twice.json"
+printf '{"a":{"shape":"sphere","radius":1},"b":%s}\0x' "$body" >"$folder/nul.json"
+printf '{"a":%.0s' {1..100000} >"$folder/deep.json"
+printf '{"a":{"shape":"sphere","radius":1e400},"b":%s}' "$body" >"$folder/large.json"
+expect 2 'a.radius is given twice' replay "$folder/twice.json"
+expect 2 'nul.json is no JSON' replay "$folder/nul.json"
+for file in twice nul deep large; do
+  for command in replay choose certify "compare $folder/report.json"; do
+    # shellcheck disable=SC2086
+    expect 2 'error: ' $command "$folder/$file.json"
+    # shellcheck disable=SC2086
+    "$program" $command "$folder/$file.json" 2>&1 | grep -q 'json.exception' &&
+      { echo "FAILED: $command $file.json shows the library's words"; failures=$((failures + 1)); }
+  done
+  expect 2 '"field"' solve "$folder/$file.json"
+done
+python3 - "$r" "$folder" <<'END'
+import json, sys
+report = json.load(open(sys.argv[1]))
+row = report["results"][0]
+row["outcomes"] = None
+json.dump(report, open(sys.argv[2] + "/null.json", "w"))
+END
+expect 2 'results\[0\].outcomes is null: must be an object' compare "$folder/null.json" "$r"
+sed 's/"duration":0.3/"duration":0.3,"gravity":[0,0,-1e200]/' "$folder/can.json" >"$folder/heavy.json"
+expect 2 'gravity\[2\] is -1e+200' choose "$folder/heavy.json"
+sed 's/"name":"can",/&"angular_velocity":[1e200,0,0],/' "$folder/can.json" >"$folder/spun.json"
+expect 2 'bodies\[1\].angular_velocity\[0\] is 1e+200: must lie between' choose "$folder/spun.json"
+expect 2 'angular_velocity' render "$folder/spun.json"
 
 exit "$failures"

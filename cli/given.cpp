@@ -1,14 +1,17 @@
 #include "cli/given.hpp"
 
-#include <algorithm>
-#include <filesystem>
-#include <fstream>
+#include <fmt/format.h>
 #include <iostream>
-#include <iterator>
+#include <optional>
+#include <sstream>
+#include <utility>
 
 #include "properties/identity.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/configuration_json.hpp"
+#include "reports/json_fields.hpp"
+#include "reports/read_file.hpp"
+#include "reports/strict_json.hpp"
 #include "stability/name.hpp"
 #include "stability/perturbation.hpp"
 
@@ -17,25 +20,45 @@ namespace {
 
 using nlohmann::json;
 
-/// All of the text, or its first line that is not blank.
-json first_object(const std::string& text) {
-  json whole = json::parse(text, nullptr, false);
-  if (whole.is_object()) return whole;
-  const auto start = std::min(text.find_first_not_of(" \t\r\n"), text.size());
-  const std::string line = text.substr(start, text.find('\n', start) - start);
-  json object = json::parse(line, nullptr, false);
-  if (object.is_object()) return object;
-  throw InvalidInput("line", '"' + line.substr(0, 60) + '"', "must be a JSON object");
+bool is_blank(const std::string& line) {
+  return line.find_first_not_of(" \t\r") == std::string::npos;
 }
 
-Configuration read_configuration(std::istream& in) {
-  const json object = first_object({std::istreambuf_iterator<char>(in), {}});
-  const bool wrapped = object.contains("configuration");
-  return configuration_from_json(wrapped ? object["configuration"] : object).configuration;
+/// The first of JSON Lines, all of which must be JSON. `whole` says why the text is not one value:
+/// the error where not even its first line is.
+json first_of_lines(const std::string& text, const InvalidInput& whole) {
+  std::istringstream lines(text);
+  std::string line;
+  std::optional<json> first;
+  for (std::size_t number = 1; std::getline(lines, line); ++number) {
+    if (is_blank(line)) continue;
+    try {
+      json parsed = parse_json(line, fmt::format("line {}", number));
+      if (!first) first = std::move(parsed);
+    } catch (const InvalidInput&) {
+      if (first) throw;
+      throw whole;
+    }
+  }
+  if (!first) throw whole;
+  return *first;
+}
+
+json first_value(const std::string& text, const std::string& source) {
+  try {
+    return parse_json(text, source);
+  } catch (const InvalidInput& e) {
+    return first_of_lines(text, e);
+  }
 }
 
 /// An identity, a name of the stability room, or either and a perturbation.
 Subject named(const std::string& name) {
+  constexpr std::size_t max_name = 1000;  // perturbations of perturbations stand one within another
+  if (name.size() > max_name) {
+    throw InvalidInput("input", '"' + name + '"',
+                       "must be a file, or an identity, which is never that long");
+  }
   if (const auto at = name.rfind('@'); at != std::string::npos) {
     const Perturbation perturbation = parse_perturbation(name.substr(at + 1));
     const Subject base = given_configuration(name.substr(0, at));
@@ -47,12 +70,20 @@ Subject named(const std::string& name) {
 
 }  // namespace
 
+Configuration configuration_from_text(const std::string& text, const std::string& source) {
+  const json object = first_value(text, source);
+  require_object(object, source);
+  const bool wrapped = object.contains("configuration");
+  return configuration_from_json(wrapped ? object["configuration"] : object).configuration;
+}
+
 Subject given_configuration(const std::string& input) {
-  if (input == "-") return {"standard input", "", read_configuration(std::cin)};
-  if (!std::filesystem::is_regular_file(input)) return named(input);
-  std::ifstream file(input);
-  if (!file) throw InvalidInput("input", '"' + input + '"', "could not be opened for reading");
-  return {input, "", read_configuration(file)};
+  if (input == "-") {
+    const std::string name = "standard input";
+    return {name, "", configuration_from_text(read_stream(std::cin, name, "input"), name)};
+  }
+  if (!is_file(input)) return named(input);
+  return {input, "", configuration_from_text(read_file(input, "input"), input)};
 }
 
 }  // namespace touchstone

@@ -1,5 +1,8 @@
+#include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <fmt/format.h>
+#include <sstream>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -9,12 +12,15 @@
 #include "cli/help.hpp"
 #include "cli/manual.hpp"
 #include "cli/options.hpp"
+#include "cli/standard_streams.hpp"
 #include "cli/version.hpp"
 #include "reference/invalid_input.hpp"
+#include "reports/error_text.hpp"
 
 namespace {
 
 constexpr int bad_input = 2;
+constexpr int unwritten_output = 2;
 constexpr int contradiction = 3;
 
 /// CLI11 would only say that a subcommand is required.
@@ -27,6 +33,20 @@ void refuse_unknown_subcommand(const CLI::App& program, int argc, char** argv) {
   }
   throw touchstone::InvalidInput("subcommand", '"' + std::string(argv[1]) + '"',
                                  "must be one of " + names);
+}
+
+/// --help and --version are errors to CLI11. The others' messages repeat what was given.
+int tell(const CLI::App& program, const CLI::ParseError& error) {
+  std::ostringstream out, message;
+  const int code = program.exit(error, out, message);
+  std::fputs(out.str().c_str(), stdout);
+  if (code == 0) return 0;
+  constexpr std::size_t max_message = 400;
+  std::istringstream lines(message.str());
+  for (std::string line; std::getline(lines, line);) {
+    touchstone::complain(touchstone::printable(line, max_message));
+  }
+  return bad_input;
 }
 
 /// What packages are made with, and whoever installs none.
@@ -54,9 +74,8 @@ void add_descriptions(CLI::App& program) {
       ->type_name("SHELL");
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+/// Parses, runs what was asked for, and tells failures.
+int run(int argc, char** argv) {
   CLI::App program(
       "Touchstone: verification and validation of cylinder contacts.\n"
       "Scores contact routines against an exact oracle.",
@@ -80,7 +99,7 @@ int main(int argc, char** argv) {
       "Exit codes:\n"
       "  0    done\n"
       "  1    a law was broken, a result is worse, or needs are not met\n"
-      "  2    bad input or usage\n"
+      "  2    bad input or usage, or output that could not be written\n"
       "  3    an internal contradiction\n"
       "  130  interrupted");
   program.fallthrough();  // --candidate may also stand after the subcommand
@@ -104,14 +123,28 @@ int main(int argc, char** argv) {
     refuse_unknown_subcommand(program, argc, argv);
     program.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
-    // Zero for --help and --version.
-    return program.exit(e) == 0 ? 0 : bad_input;
+    return tell(program, e);
   } catch (const touchstone::InvalidInput& e) {
-    fmt::print(stderr, "error: {}\n", e.what());
+    touchstone::complain("error: " + touchstone::error_text(e));
+    return bad_input;
+  } catch (const std::filesystem::filesystem_error& e) {
+    // Of a name that is too long, a folder that may not be read, a link to itself.
+    touchstone::complain("error: " +
+                         touchstone::error_text({"path", e.path1(), e.code().message()}));
     return bad_input;
   } catch (const std::exception& e) {
-    fmt::print(stderr, "internal error: {}\n", e.what());
+    if (std::ferror(stdout) != 0) return unwritten_output;  // main tells it
+    touchstone::complain(std::string("internal error: ") + e.what());
     return contradiction;
   }
   return exit_code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  touchstone::open_closed_streams();
+  const int code = run(argc, argv);
+  if (touchstone::standard_output_is_written()) return code;
+  return code == contradiction ? code : unwritten_output;
 }

@@ -1,13 +1,12 @@
 #include "cli/options.hpp"
 
-#include <cmath>
-#include <cstdlib>
-#include <filesystem>
+#include <algorithm>
 #include <fmt/format.h>
 #include <thread>
 
 #include "candidates/candidates.hpp"
 #include "reference/invalid_input.hpp"
+#include "reports/read_file.hpp"
 
 namespace touchstone {
 
@@ -29,14 +28,11 @@ CandidateOption::CandidateOption(CLI::App& command) {
                   "Only these, separated by commas (default: all); families by several numbers, as "
                   "in prism:8,16,32 or spheres:1..64")
       ->delimiter(',');
-  command
-      .add_option("--time-limit", limits_.seconds,
-                  "Processor time that a candidate may take for one configuration, seconds")
-      ->capture_default_str();
-  command
-      .add_option("--memory-limit", limits_.mebibytes,
-                  "What a candidate's memory may grow by, mebibytes")
-      ->capture_default_str();
+  constexpr NumberRange seconds{1e-3, 1e6}, mebibytes{1, 1e9};
+  add_number(command, "--time-limit", limits_.seconds, seconds,
+             "Processor time that a candidate may take for one configuration, seconds");
+  add_number(command, "--memory-limit", limits_.mebibytes, mebibytes,
+             "What a candidate's memory may grow by, mebibytes");
 }
 
 std::vector<const Candidate*> CandidateOption::get() const {
@@ -49,17 +45,6 @@ std::vector<const Candidate*> CandidateOption::get() const {
   return candidates;
 }
 
-Limits CandidateOption::limits() const {
-  const auto check = [](const char* field, double value) {
-    if (!(std::isfinite(value) && value > 0)) {
-      throw InvalidInput(field, fmt::format("{}", value), "must be positive and finite");
-    }
-  };
-  check("--time-limit", limits_.seconds);
-  check("--memory-limit", limits_.mebibytes);
-  return limits_;
-}
-
 std::string CandidateOption::command_line() const {
   std::vector<std::string> names;
   for (const Candidate* c : get()) names.emplace_back(c->name);
@@ -68,61 +53,30 @@ std::string CandidateOption::command_line() const {
 }
 
 const Candidate& named_candidate(const std::string& name) {
-  if (!std::filesystem::is_regular_file(name)) return find_candidate(name);
+  if (!is_file(name)) return find_candidate(name);
   add_plugin(name);
   return *all_candidates().back();
 }
 
 BarOption::BarOption(CLI::App& command) {
-  command
-      .add_option("--tolerance", bar_.tolerance,
-                  "Agreement in depth and normal regret, relative to the smaller shape's size")
-      ->capture_default_str();
-  command
-      .add_option("--threshold", bar_.threshold, "Ask for contacts up to this far apart, metres")
-      ->capture_default_str();
-}
-
-Bar BarOption::get() const {
-  const auto check = [](const char* field, double value) {
-    if (!(std::isfinite(value) && value >= 0)) {
-      throw InvalidInput(field, fmt::format("{}", value), "must be finite and not negative");
-    }
-  };
-  check("--tolerance", bar_.tolerance);
-  check("--threshold", bar_.threshold);
-  return bar_;
+  constexpr NumberRange not_negative{0, 1e30};
+  add_number(command, "--tolerance", bar_.tolerance, not_negative,
+             "Agreement in depth and normal regret, relative to the smaller shape's size");
+  add_number(command, "--threshold", bar_.threshold, not_negative,
+             "Ask for contacts up to this far apart, metres");
 }
 
 std::string BarOption::command_line() const {
   return fmt::format(" --tolerance {} --threshold {}", bar_.tolerance, bar_.threshold);
 }
 
-namespace {
-
-/// Writes "1e6" as CLI11 reads a whole number, and leaves what is none to it to refuse.
-std::string whole_number(std::string& text) {
-  constexpr double most = 0x1p53;  // doubles know every whole number up to here
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  const bool scientific = text.find_first_of("eE") != std::string::npos && *end == '\0';
-  if (scientific && value >= 0 && value <= most && value == std::floor(value)) {
-    text = fmt::format("{:.0f}", value);
-  }
-  return {};
-}
-
-}  // namespace
-
-SampleOption::SampleOption(CLI::App& command, std::uint64_t count) : count_(count) {
+SampleOption::SampleOption(CLI::App& command, std::uint64_t count, std::uint64_t max_count)
+    : count_(count) {
   command.add_option("--pair", pairs_, "Only these pairs, as in cylinder-box")->delimiter(',');
   command.add_option("--class", classes_, "Only these pose classes")->delimiter(',');
-  command
-      .add_option("--count", count_,
-                  "Configurations of each pair and pose class; 1e6 is understood too")
-      ->transform(CLI::Validator(whole_number, ""))
-      ->capture_default_str();
-  command.add_option("--seed", seed_, "Same seed, same configurations")->capture_default_str();
+  add_count(command, "--count", count_, {1, max_count},
+            "Configurations of each pair and pose class; 1e6 is understood too");
+  add_count(command, "--seed", seed_, all_counts, "Same seed, same configurations");
 }
 
 std::vector<Pair> SampleOption::pairs() const {
@@ -143,11 +97,6 @@ const std::vector<std::string>& SampleOption::classes() const {
   return classes_;
 }
 
-std::uint64_t SampleOption::count() const {
-  if (count_ == 0) throw InvalidInput("--count", "0", "must be at least 1");
-  return count_;
-}
-
 std::string SampleOption::command_line() const {
   std::string line = fmt::format(" --seed {} --count {}", seed_, count_);
   if (!pairs_.empty()) line += fmt::format(" --pair {}", fmt::join(pairs_, ","));
@@ -160,17 +109,14 @@ WorkersOption::WorkersOption(CLI::App& command)
 
 WorkersOption::WorkersOption(CLI::App& command, unsigned usual, const std::string& meaning)
     : workers_(usual) {
-  command.add_option("--workers", workers_, "Worker processes; they do not change the result")
+  const std::uint64_t max = std::max(1024U, usual);  // each is a process with candidates of its own
+  add_count(command, "--workers", workers_, {1, max},
+            "Worker processes; they do not change the result")
       ->default_str(meaning);
 }
 
-unsigned WorkersOption::get() const {
-  if (workers_ == 0) throw InvalidInput("--workers", "0", "must be at least 1");
-  return workers_;
-}
-
-CampaignOption::CampaignOption(CLI::App& command, std::uint64_t count)
-    : sample(command, count), candidates(command), bar(command) {}
+CampaignOption::CampaignOption(CLI::App& command, std::uint64_t count, std::uint64_t max_count)
+    : sample(command, count, max_count), candidates(command), bar(command) {}
 
 Campaign CampaignOption::get() const {
   Campaign c;

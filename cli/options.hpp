@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include "candidates/candidate_process.hpp"
+#include "cli/number_option.hpp"
 #include "properties/identity.hpp"
 #include "reports/campaign.hpp"
 
@@ -22,8 +23,7 @@ struct CandidateOption {
   explicit CandidateOption(CLI::App& command);
   /// In the order given; all of them by default. Throws InvalidInput on an unknown name.
   std::vector<const Candidate*> get() const;
-  /// Throws InvalidInput unless both are positive and finite.
-  Limits limits() const;
+  const Limits& limits() const { return limits_; }
   /// The same options as text, to be repeated, with every candidate's name.
   std::string command_line() const;
 
@@ -38,7 +38,7 @@ const Candidate& named_candidate(const std::string& name);
 
 struct BarOption {
   explicit BarOption(CLI::App& command);
-  Bar get() const;  ///< throws InvalidInput unless both are finite and not negative
+  const Bar& get() const { return bar_; }
   std::string command_line() const;
 
  private:
@@ -47,13 +47,13 @@ struct BarOption {
 
 /// --pair, --class, --count, --seed: which sampled configurations a command is about.
 struct SampleOption {
-  /// `count`: of each pair and pose class, by default.
-  SampleOption(CLI::App& command, std::uint64_t count);
+  /// `count`: of each pair and pose class, by default, and at most.
+  SampleOption(CLI::App& command, std::uint64_t count, std::uint64_t max_count);
   /// All of them by default. Throws InvalidInput on an unknown name.
   std::vector<Pair> pairs() const;
   /// As given; empty means all. Throws InvalidInput on a class that none of the pairs has.
   const std::vector<std::string>& classes() const;
-  std::uint64_t count() const;  ///< throws InvalidInput when zero
+  std::uint64_t count() const { return count_; }
   std::uint64_t seed() const { return seed_; }
   bool is_narrowed() const {
     return !(pairs_.empty() && classes_.empty());
@@ -71,16 +71,16 @@ struct WorkersOption {
   /// One a core by default, or as many as `usual` says, which `meaning` explains.
   explicit WorkersOption(CLI::App& command);
   WorkersOption(CLI::App& command, unsigned usual, const std::string& meaning);
-  unsigned get() const;  ///< throws InvalidInput when zero
+  unsigned get() const { return static_cast<unsigned>(workers_); }
 
  private:
-  unsigned workers_;
+  std::uint64_t workers_;
 };
 
 /// What is scored, by whom, and how strictly.
 struct CampaignOption {
-  /// `count`: of each pair and pose class, by default.
-  CampaignOption(CLI::App& command, std::uint64_t count);
+  /// `count`: of each pair and pose class, by default, and at most.
+  CampaignOption(CLI::App& command, std::uint64_t count, std::uint64_t max_count);
   /// With one worker. Throws InvalidInput.
   Campaign get() const;
   std::string command_line() const;

@@ -1,11 +1,9 @@
-#include <cmath>
-#include <filesystem>
 #include <fmt/format.h>
 #include <memory>
 
 #include "candidates/candidates.hpp"
 #include "cli/commands.hpp"
-#include "reference/invalid_input.hpp"
+#include "cli/number_option.hpp"
 #include "reports/report.hpp"
 #include "reports/write_file.hpp"
 #include "scenes/povray.hpp"
@@ -24,9 +22,6 @@ SceneFile read(const std::string& file) {
 }
 
 void run(const Options& options) {
-  if (!(std::isfinite(options.every) && options.every > 0)) {
-    throw InvalidInput("--every", fmt::format("{}", options.every), "must be positive and finite");
-  }
   const Candidate& candidate = find_candidate(options.contacts);
   const SceneFile file = read(options.scene);
   check_writable(options.out);
@@ -45,7 +40,7 @@ void add_render(CLI::App& program, int&) {
   const auto options = std::make_shared<Options>();
   command->add_option("scene", options->scene, "A scene file, or a robot or world (.urdf, .sdf)")
       ->required();
-  command->add_option("--every", options->every, "Seconds between frames")->capture_default_str();
+  add_number(*command, "--every", options->every, {1e-6, 1e6}, "Seconds between frames");
   command->add_option("--contacts", options->contacts, "The candidate that contacts come from")
       ->capture_default_str();
   command->add_option("--out", options->out, "Folder for scene.pov, scene.ini and the frames")

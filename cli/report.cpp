@@ -1,10 +1,12 @@
 #include "reports/report.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <memory>
 
 #include "cli/commands.hpp"
 #include "cli/options.hpp"
+#include "cli/standard_streams.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/figures/figures.hpp"
 #include "reports/interruption.hpp"
@@ -17,8 +19,11 @@
 namespace touchstone {
 namespace {
 
+/// A report keeps all answers in memory, about a hundred bytes each.
+constexpr std::uint64_t max_answers = 100000000;
+
 struct Options {
-  explicit Options(CLI::App& command) : scored(command, 100), workers(command) {}
+  explicit Options(CLI::App& command) : scored(command, 100, max_answers), workers(command) {}
   CampaignOption scored;
   WorkersOption workers;
   std::string out = "out", figures;
@@ -26,6 +31,14 @@ struct Options {
   Campaign campaign() const {
     Campaign c = scored.get();
     c.workers = workers.get();
+    const std::uint64_t max_count =
+        max_answers / std::max<std::uint64_t>(1, cells(c).size() * c.candidates.size());
+    if (c.count > max_count) {
+      throw InvalidInput("--count", fmt::format("{}", c.count),
+                         fmt::format("must be at most {} for these classes and candidates; "
+                                     "touchstone campaign scores any number",
+                                     max_count));
+    }
     return c;
   }
 
@@ -49,7 +62,7 @@ int run(const Options& options) {
   const Interruption interruption;
   nlohmann::json report = make_report(campaign, options.command_line());
   if (report["results"].empty()) {
-    fmt::print(stderr, "Interrupted before any pose class was done: there is no report.\n");
+    complain("Interrupted before any pose class was done: there is no report.");
     return interrupted_exit_code();
   }
   if (!options.scored.sample.is_narrowed() && !interrupted()) {

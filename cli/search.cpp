@@ -17,7 +17,7 @@ namespace {
 constexpr int something_failed = 1;
 
 struct Options {
-  explicit Options(CLI::App& command) : sample(command, 1000), bar(command) {}
+  explicit Options(CLI::App& command) : sample(command, 1000, 1000000), bar(command) {}
   SampleOption sample;
   BarOption bar;
   std::string candidate, save, json;

@@ -1,6 +1,5 @@
 #include "reports/solve.hpp"
 
-#include <cmath>
 #include <fmt/format.h>
 #include <fstream>
 #include <iostream>
@@ -9,6 +8,7 @@
 #include "cli/commands.hpp"
 #include "cli/options.hpp"
 #include "reference/invalid_input.hpp"
+#include "reports/read_file.hpp"
 
 namespace touchstone {
 namespace {
@@ -24,14 +24,12 @@ struct Options {
 
 /// Bad lines make exit code 2, after all of them are answered; a contradiction ends all.
 int run(const Options& options) {
-  if (!(std::isfinite(options.width) && options.width > 0)) {
-    throw InvalidInput("--width", fmt::format("{}", options.width), "must be positive and finite");
-  }
   const SolveOptions solving{options.candidates.get(), options.width, options.bar.get(),
                              options.audit, options.candidates.limits()};
   if (options.file == "-") return solve(std::cin, std::cout, solving) ? 0 : 2;
   std::ifstream in(options.file);
-  if (!in) throw InvalidInput("file", '"' + options.file + '"', "could not be opened for reading");
+  if (!in || is_folder(options.file))
+    throw InvalidInput("file", '"' + options.file + '"', "could not be opened for reading");
   return solve(in, std::cout, solving) ? 0 : 2;
 }
 
@@ -43,8 +41,8 @@ void add_solve(CLI::App& program, int& exit_code) {
   const auto options = std::make_shared<Options>(*command);
   command->add_option("file", options->file, "JSON Lines; - is standard input")
       ->capture_default_str();
-  command->add_option("--width", options->width, "Width of the truth, relative to the larger size")
-      ->capture_default_str();
+  add_number(*command, "--width", options->width, {1e-300, 1e30},
+             "Width of the truth, relative to the larger size");
   command->add_flag("--audit", options->audit, "Let the second oracle check every truth");
   command->footer(
       "Examples:\n"

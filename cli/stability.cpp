@@ -15,7 +15,7 @@ namespace {
 
 struct Options {
   explicit Options(CLI::App& command)
-      : sample(command, 6), candidates(command), bar(command), workers(command) {}
+      : sample(command, 6, 100000), candidates(command), bar(command), workers(command) {}
   SampleOption sample;
   CandidateOption candidates;
   BarOption bar;

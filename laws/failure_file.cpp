@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <fstream>
 #include <memory>
 
 #include "candidates/candidates.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/configuration_json.hpp"
+#include "reports/json_fields.hpp"
+#include "reports/read_file.hpp"
+#include "reports/strict_json.hpp"
 #include "reports/write_file.hpp"
 
 namespace touchstone {
@@ -17,18 +19,16 @@ using nlohmann::json;
 
 constexpr const char* schema = "touchstone-failure-1";
 
-std::string text(const json& object, const char* member) {
-  if (!object.contains(member) || !object[member].is_string()) {
-    throw InvalidInput(member, object.value(member, json()).dump(), "must be a string");
-  }
-  return object[member];
+std::string text(const json& object, const char* name) {
+  return string(member(object, name, ""), name);
 }
 
-double number(const json& object, const char* member) {
-  if (!object.contains(member) || !object[member].is_number()) {
-    throw InvalidInput(member, object.value(member, json()).dump(), "must be a number");
-  }
-  return object[member];
+/// As a bar's options must be.
+double bar_number(const json& object, const char* name) {
+  const json& value = member(object, name, "");
+  const double x = number(value, name);
+  if (!(x >= 0)) throw InvalidInput(name, shown(value), "must not be negative");
+  return x;
 }
 
 ReplayedFailure replayed(const Failure& expected, const Limits& limits) {
@@ -64,30 +64,28 @@ json to_json(const Failure& f) {
 }
 
 Failure failure_from_json(const json& object) {
-  if (!object.is_object()) {
-    throw InvalidInput("line", object.dump().substr(0, 60), "must be a JSON object");
-  }
+  require_object(object, "failure");
   if (text(object, "schema") != schema) {
-    throw InvalidInput("schema", object["schema"].dump(), fmt::format("must be \"{}\"", schema));
+    throw InvalidInput("schema", shown(object["schema"]), fmt::format("must be \"{}\"", schema));
   }
   const std::string failure = text(object, "failure");
   const auto& failures = all_failures();
   if (std::find(failures.begin(), failures.end(), failure) == failures.end()) {
-    throw InvalidInput("failure", '"' + failure + '"',
+    throw InvalidInput("failure", shown(failure),
                        fmt::format("must be one of {}", fmt::join(failures, ", ")));
   }
   return {find_law(text(object, "law")).name,
           text(object, "candidate"),
           text(object, "version"),
           text(object, "found"),
-          configuration_from_json(object.value("configuration", json())).configuration,
+          configuration_from_json(member(object, "configuration", "")).configuration,
           {failure, 0, text(object, "detail")},
-          {number(object, "tolerance"), number(object, "threshold")},
+          {bar_number(object, "tolerance"), bar_number(object, "threshold")},
           object.value("answer", json())};
 }
 
 std::filesystem::path save(const Failure& f, const std::filesystem::path& folder) {
-  std::filesystem::create_directories(folder);
+  check_writable(folder, "--save");
   std::string name = fmt::format("{}-{}-{}-{}.json", f.candidate,
                                  pair_name(pair_of(f.configuration)), f.law, f.violation.failure);
   std::replace(name.begin(), name.end(), ':', '-');
@@ -97,7 +95,7 @@ std::filesystem::path save(const Failure& f, const std::filesystem::path& folder
 }
 
 std::vector<Failure> read_corpus(const std::filesystem::path& folder) {
-  if (!std::filesystem::is_directory(folder)) {
+  if (!is_folder(folder)) {
     throw InvalidInput("--corpus", '"' + folder.string() + '"', "must be a folder");
   }
   std::vector<std::filesystem::path> files;
@@ -108,12 +106,9 @@ std::vector<Failure> read_corpus(const std::filesystem::path& folder) {
   std::vector<Failure> corpus;
   for (const auto& file : files) {
     try {
-      std::ifstream in(file);
-      corpus.push_back(failure_from_json(json::parse(in)));
+      corpus.push_back(failure_from_json(parse_json(read_file(file, "--corpus"), "it")));
     } catch (const InvalidInput& e) {
       throw InvalidInput("--corpus", '"' + file.string() + '"', e.what());
-    } catch (const json::exception& e) {
-      throw InvalidInput("--corpus", '"' + file.string() + '"', "is no JSON object");
     }
   }
   return corpus;

@@ -1,30 +1,36 @@
 #include "reports/json_fields.hpp"
 
-#include <cctype>
-#include <cstdlib>
+#include "reports/error_text.hpp"
+#include "reports/parse_double.hpp"
 
 namespace touchstone {
 
 using nlohmann::json;
 
 std::string shown(const json& value) {
-  std::string text = value.dump(-1, ' ', false, json::error_handler_t::replace);
-  if (text.size() > 60) text = text.substr(0, 57) + "...";
-  return text;
+  constexpr std::size_t max_shown = 60;
+  return printable(value.dump(-1, ' ', false, json::error_handler_t::replace), max_shown);
 }
 
 double number(const json& value, const std::string& field) {
   if (value.is_number()) return value.get<double>();
   if (value.is_string()) {
-    const std::string text = value.get<std::string>();
-    char* end = nullptr;
-    const double parsed = std::strtod(text.c_str(), &end);
-    const bool blank = text.empty() || std::isspace(static_cast<unsigned char>(text[0]));
-    if (!blank && *end == '\0') return parsed;
+    if (const auto parsed = parse_double(value.get_ref<const std::string&>())) return *parsed;
   }
   throw InvalidInput(field, shown(value),
-                     "must be a number, or a string with a decimal or hexadecimal float such as "
-                     "\"0x1.8p-1\"");
+                     "must be a finite number, or a string with a decimal or hexadecimal float "
+                     "such as \"0x1.8p-1\"");
+}
+
+std::uint64_t whole_number(const json& value, const std::string& field, std::uint64_t max) {
+  const bool is_whole = value.is_number_integer() && (value.is_number_unsigned() || value >= 0);
+  if (is_whole && value.get<std::uint64_t>() <= max) return value.get<std::uint64_t>();
+  throw InvalidInput(field, shown(value), fmt::format("must be a whole number from 0 to {}", max));
+}
+
+std::string string(const json& value, const std::string& field) {
+  if (!value.is_string()) throw InvalidInput(field, shown(value), "must be a string");
+  return value.get<std::string>();
 }
 
 const json& member(const json& object, const char* name, const std::string& path) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <fmt/format.h>
 #include <initializer_list>
 #include <string>
@@ -20,6 +21,12 @@ std::string shown(const nlohmann::json& value);
 
 /// A JSON number, or a string with a decimal or hexadecimal float.
 double number(const nlohmann::json& value, const std::string& field);
+
+/// From 0 to `max`.
+std::uint64_t whole_number(const nlohmann::json& value, const std::string& field,
+                           std::uint64_t max = UINT64_MAX);
+
+std::string string(const nlohmann::json& value, const std::string& field);
 
 /// The member of that name; `path` is that of the object, empty for the whole text.
 const nlohmann::json& member(const nlohmann::json& object, const char* name,

@@ -50,7 +50,7 @@ Progress::Progress(std::string unit, std::size_t total)
       printed_(start_) {}
 
 Progress::~Progress() {
-  if (terminal_) fmt::print(stderr, "{}", clear_line);
+  if (terminal_) std::fputs(clear_line, stderr);
 }
 
 void Progress::update(std::size_t done) {
@@ -60,9 +60,9 @@ void Progress::update(std::size_t done) {
   const double seconds = std::chrono::duration<double>(now - start_).count();
   const std::string text = progress_text(unit_, done, total_, seconds);
   if (terminal_) {
-    fmt::print(stderr, "{}{}", clear_line, fitting(text));
+    std::fputs((clear_line + fitting(text)).c_str(), stderr);
   } else {
-    fmt::print(stderr, "{}\n", text);
+    std::fputs((text + '\n').c_str(), stderr);
   }
   std::fflush(stderr);
 }

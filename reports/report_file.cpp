@@ -1,9 +1,13 @@
 #include "reports/report_file.hpp"
 
-#include <fstream>
+#include <cmath>
+#include <cstdint>
 #include <string>
 
 #include "reference/invalid_input.hpp"
+#include "reports/json_fields.hpp"
+#include "reports/read_file.hpp"
+#include "reports/strict_json.hpp"
 
 namespace touchstone {
 namespace {
@@ -35,8 +39,25 @@ class Reader {
     if (!value_.is_number()) refuse("must be a number");
     return *this;
   }
+  /// An error relative to a size, of which infinity was written as null.
+  const Reader& not_negative() const {
+    if (!value_.is_number() || !(value_.get<double>() >= 0)) {
+      refuse("must be a number that is not negative");
+    }
+    return *this;
+  }
+  /// A time, a number of instructions, or the factor between two; quotients of two stay finite.
   const Reader& positive() const {
-    if (!value_.is_number() || value_.get<double>() <= 0) refuse("must be a positive number");
+    constexpr double min = 1e-30, max = 1e30;
+    if (!value_.is_number() || !(value_.get<double>() >= min && value_.get<double>() <= max)) {
+      refuse("must be a positive number, from 1e-30 to 1e30");
+    }
+    return *this;
+  }
+  const Reader& share() const {
+    if (!value_.is_number() || !(value_.get<double>() >= 0 && value_.get<double>() <= 1)) {
+      refuse("must be a number from 0 to 1");
+    }
     return *this;
   }
   const Reader& flag() const {
@@ -45,6 +66,10 @@ class Reader {
   }
   bool is_null() const { return value_.is_null(); }
   const json& value() const { return value_; }
+  const json& object() const {
+    if (!value_.is_object()) refuse("must be an object");
+    return value_;
+  }
   template <class Check>
   void each(const Check& check) const {
     if (!value_.is_array()) refuse("must be an array");
@@ -53,9 +78,7 @@ class Reader {
     }
   }
   [[noreturn]] void refuse(const std::string& what) const {
-    std::string shown = value_.dump(-1, ' ', true, json::error_handler_t::replace);
-    if (shown.size() > 60) shown = shown.substr(0, 60) + "…";
-    throw InvalidInput(file_ + ": " + path_, shown,
+    throw InvalidInput(file_ + ": " + path_, shown(value_),
                        what + "; make the report again with this version of touchstone");
   }
 
@@ -67,26 +90,39 @@ class Reader {
 
 void check_quantiles(const Reader& q) {
   if (q.is_null()) return;
-  for (const char* which : {"median", "p99", "max"}) q.at(which).number();
+  for (const char* which : {"median", "p99", "max"}) q.at(which).not_negative();
+}
+
+/// Every configuration has one outcome.
+void check_outcomes(const Reader& row) {
+  constexpr std::uint64_t max_count = std::uint64_t{1} << 53;  // exact as a double
+  const Reader count = row.at("count").whole(), outcomes = row.at("outcomes");
+  const auto all = count.value().get<std::uint64_t>();
+  if (all < 1 || all > max_count) count.refuse("must be positive and at most 2^53");
+  std::uint64_t left = all;
+  for (const auto& [name, value] : outcomes.object().items()) {
+    const auto number = outcomes.at(name).whole().value().get<std::uint64_t>();
+    if (number > left) outcomes.refuse("must be numbers whose sum is the count");
+    left -= number;
+  }
+  if (left != 0) outcomes.refuse("must be numbers whose sum is the count");
 }
 
 void check_row(const Reader& row) {
   for (const char* name : {"pair", "class", "candidate"}) row.at(name).text();
-  row.at("count").positive();
-  const Reader outcomes = row.at("outcomes");
-  for (const auto& [name, count] : outcomes.value().items()) outcomes.at(name).whole();
+  check_outcomes(row);
   for (const char* name : {"depth_error", "normal_regret", "point_error"}) {
     check_quantiles(row.at(name));
   }
   // Reports of before the deepest point was measured do without it.
   if (row.value().contains("deepest_error")) check_quantiles(row.at("deepest_error"));
-  if (const Reader c = row.at("coverage"); !c.is_null()) c.at("mean").number();
+  if (const Reader c = row.at("coverage"); !c.is_null()) c.at("mean").share();
   const Reader time = row.at("nanoseconds");
   if (time.is_null()) return;
   for (const char* name : {"median", "low", "high"}) time.at(name).positive();
-  for (const char* name : {"instructions", "ratio_to_bullet", "ratio_low", "ratio_high"}) {
-    if (const Reader r = time.at(name); !r.is_null()) r.positive();
-  }
+  if (const Reader r = time.at("instructions"); !r.is_null()) r.positive();
+  if (time.at("ratio_to_bullet").is_null()) return;
+  for (const char* name : {"ratio_to_bullet", "ratio_low", "ratio_high"}) time.at(name).positive();
 }
 
 void check(const Reader& report) {
@@ -112,23 +148,22 @@ void check(const Reader& report) {
 
 }  // namespace
 
-json read_report(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in || std::filesystem::is_directory(file)) {
-    throw InvalidInput("file", '"' + file.string() + '"', "could not be opened for reading");
-  }
+json report_from_text(std::string_view text, const std::string& name) {
   json report;
   try {
-    report = json::parse(in);
-  } catch (const json::parse_error& e) {
-    throw InvalidInput("file", '"' + file.string() + '"',
-                       std::string("must be a report.json, but is no JSON: ") + e.what());
+    report = parse_json(text, "it");
+  } catch (const InvalidInput& e) {
+    throw InvalidInput("file", '"' + name + '"', std::string("must be a report.json; ") + e.what());
   }
   if (!report.is_object()) {
-    throw InvalidInput("file", '"' + file.string() + '"', "must be a report.json: an object");
+    throw InvalidInput("file", '"' + name + '"', "must be a report.json: an object");
   }
-  check(Reader(file.string(), report));
+  check(Reader(name, report));
   return report;
+}
+
+json read_report(const std::filesystem::path& file) {
+  return report_from_text(read_file(file, "file"), file.string());
 }
 
 }  // namespace touchstone

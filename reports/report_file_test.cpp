@@ -84,7 +84,36 @@ TEST_F(ReportFile, NamesTheFieldAndTheRemedy) {
   report = good();
   report["results"][0]["count"] = std::numeric_limits<double>::infinity();  // JSON has null for it
   write(report.dump());
-  expect_refusal("results[0].count", "positive");
+  expect_refusal("results[0].count", "whole number");
+}
+
+TEST_F(ReportFile, RefusesWhatCannotBeCompared) {
+  const auto refused = [&](const char* pointer, const json& value, const char* field) {
+    json report = good();
+    report[json::json_pointer(pointer)] = value;
+    write(report.dump());
+    expect_refusal(field, "must be");
+  };
+  refused("/results/0/outcomes", nullptr, "results[0].outcomes is null");
+  refused("/results/0/outcomes/agree", 0, "results[0].outcomes");
+  refused("/results/0/outcomes/missed", std::uint64_t{1} << 63, "results[0].outcomes");
+  refused("/results/0/count", 0, "results[0].count");
+  refused("/results/0/coverage/mean", 1.5, "results[0].coverage.mean");
+  refused("/results/0/depth_error/max", -1, "results[0].depth_error.max");
+  refused("/results/0/nanoseconds/ratio_low", nullptr, "results[0].nanoseconds.ratio_low");
+  refused("/results/0/nanoseconds/median", 1e-300, "results[0].nanoseconds.median");
+  refused("/results/0/outcomes", json::array(), "results[0].outcomes");
+}
+
+TEST_F(ReportFile, RefusesTextThatOnlyBeginsAsAReport) {
+  std::string text = good().dump();
+  write(text + '\0');
+  expect_refusal("is no JSON", "whole JSON value");
+  write(text.replace(text.find("\"seed\":") + 7, 1, "1e400"));
+  expect_refusal("seed is a number beyond all doubles", "1.8e308");
+  text = good().dump();
+  write("{\"seed\":1," + text.substr(1));
+  expect_refusal("seed is given twice", "once");
 }
 
 }  // namespace

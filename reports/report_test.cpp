@@ -367,5 +367,33 @@ TEST(Solve, ABadLineIsNamedAndTheRestGoOn) {
   EXPECT_EQ(lines[5]["truth"], lines[0]["truth"]);
 }
 
+TEST(Solve, RefusesWhatOnlyBeginsAsAConfiguration) {
+  const std::string twice =
+      R"({"a":{"shape":"cylinder","radius":1,"radius":2,"half_length":1},"b":{"shape":"sphere","radius":1}})";
+  std::string deep;
+  for (int i = 0; i < 100000; ++i) deep += "{\"a\":";
+  bool good = true;
+  const auto lines = solved(on_sphere + '\0' + "x\n" + twice + '\n' + deep + '\n' +
+                                std::string(3000000, ' ') + on_sphere + '\n' + on_sphere + '\n',
+                            good);
+  EXPECT_FALSE(good);
+  ASSERT_EQ(lines.size(), 5U);
+  EXPECT_EQ(lines[0]["field"], "line");
+  EXPECT_EQ(lines[1]["field"], "a.radius");
+  EXPECT_THAT(lines[2]["error"].get<std::string>(), HasSubstr("nested too deeply"));
+  EXPECT_THAT(lines[3]["error"].get<std::string>(), HasSubstr("at most"));
+  EXPECT_TRUE(lines[4].contains("truth"));
+  for (const json& line : lines) EXPECT_LT(line.value("error", "").size(), 500U);
+}
+
+TEST(Solve, EndsWhereItsAnswersAreLost) {
+  std::istringstream in(on_sphere + '\n' + on_sphere + '\n' + on_sphere + '\n');
+  std::ostringstream out;
+  out.setstate(std::ios::badbit);
+  solve(in, out, {some(), 1e-15, Bar()});
+  std::string rest;
+  EXPECT_TRUE(std::getline(in, rest)) << "all lines were answered to nobody";
+}
+
 }  // namespace
 }  // namespace touchstone

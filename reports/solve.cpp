@@ -1,6 +1,7 @@
 #include "reports/solve.hpp"
 
-#include <exception>
+#include <cstdio>
+#include <fmt/format.h>
 #include <istream>
 #include <ostream>
 #include <string>
@@ -9,6 +10,8 @@
 #include "reports/agreement.hpp"
 #include "reports/answer_json.hpp"
 #include "reports/configuration_json.hpp"
+#include "reports/error_text.hpp"
+#include "reports/strict_json.hpp"
 
 namespace touchstone {
 namespace {
@@ -38,11 +41,36 @@ json solved(const json& line, const SolveOptions& options,
   return result;
 }
 
-json error(std::size_t number, const json& line, const std::string& field,
-           const std::string& message) {
-  json result = {{"line", number}, {"field", field}, {"error", message}};
+json error(std::size_t number, const json& line, const InvalidInput& e) {
+  constexpr std::size_t max_field = 200;
+  json result = {
+      {"line", number}, {"field", printable(e.field(), max_field)}, {"error", error_text(e)}};
   if (line.is_object() && line.contains("id")) result["id"] = line["id"];
   return result;
+}
+
+/// A thousand times what a configuration takes.
+constexpr std::size_t max_line = std::size_t{1} << 20;
+
+/// A line without its end, of which no more than one byte beyond `max_line` is kept; false where
+/// there is none.
+bool read_line(std::istream& in, std::string& line) {
+  line.clear();
+  std::streambuf& buffer = *in.rdbuf();
+  int c = buffer.sbumpc();
+  if (c == EOF) return false;
+  for (; c != EOF && c != '\n'; c = buffer.sbumpc()) {
+    if (line.size() <= max_line) line += static_cast<char>(c);
+  }
+  return true;
+}
+
+json parse_line(const std::string& text) {
+  if (text.size() > max_line) {
+    throw InvalidInput("line", printable(text, 30),
+                       fmt::format("must have at most {} bytes", max_line));
+  }
+  return parse_json(text, "line");
 }
 
 }  // namespace
@@ -51,20 +79,19 @@ bool solve(std::istream& in, std::ostream& out, const SolveOptions& options) {
   auto candidates = start(options.candidates, options.bar.threshold, options.limits);
   bool good = true;
   std::string text;
-  for (std::size_t number = 1; std::getline(in, text); ++number) {
-    if (text.find_first_not_of(" \t\r") == std::string::npos) continue;
+  for (std::size_t number = 1; read_line(in, text); ++number) {
+    if (text.size() <= max_line && text.find_first_not_of(" \t\r") == text.npos) continue;
     json line, result;
     try {
-      line = json::parse(text);
+      line = parse_line(text);
       result = solved(line, options, candidates);
     } catch (const InvalidInput& e) {
-      result = error(number, line, e.field(), e.what());
-    } catch (const json::exception& e) {
-      result = error(number, line, "line", std::string("is no JSON object: ") + e.what());
+      result = error(number, line, e);
     }
     // Anything else is our own contradiction and ends the program.
     good = good && !result.contains("error");
     out << result.dump(-1, ' ', false, json::error_handler_t::replace) << std::endl;
+    if (!out) break;  // nobody would see the other answers
   }
   return good;
 }

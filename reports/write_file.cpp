@@ -1,5 +1,7 @@
 #include "reports/write_file.hpp"
 
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <string>
 #include <unistd.h>
@@ -16,21 +18,25 @@ void write_file(const std::filesystem::path& file, std::string_view text, const 
   std::ofstream out(at, std::ios::binary);
   out << text;
   out.close();
+  const int reason = errno;  // of what failed first: streams stop there
   bool written = static_cast<bool>(out);
+  std::string why = std::strerror(reason);
   if (ordinary && written) {
     std::filesystem::rename(at, file, error);
     written = !error;
+    why = error.message();
   }
   if (written) return;
   if (ordinary) std::filesystem::remove(at, error);
-  throw InvalidInput(field, '"' + file.string() + '"', "could not be written; is the disk full?");
+  throw InvalidInput(field, '"' + file.string() + '"',
+                     "could not be written (" + why + "); make room, or name another place");
 }
 
-void check_writable(const std::filesystem::path& folder) {
+void check_writable(const std::filesystem::path& folder, const char* field) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error || access(folder.c_str(), W_OK | X_OK) != 0) {
-    throw InvalidInput("--out", '"' + folder.string() + '"',
+    throw InvalidInput(field, '"' + folder.string() + '"',
                        "must be a folder that can be written to");
   }
 }

@@ -146,7 +146,7 @@ json to_json(const Choice& choice, const SceneFile& file, const std::string& com
 }
 
 void write_evidence(const Choice& choice, const SceneFile& file, const std::string& folder) {
-  std::filesystem::create_directories(folder);
+  check_writable(folder);
   for (std::size_t i = 0; i < choice.runs.size(); ++i) {
     if (!choice.runs[i].evidence) continue;
     const std::string at = evidence_file(file, i, folder);

@@ -3,12 +3,13 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <fstream>
 #include <map>
 
 #include "reference/aabb.hpp"
 #include "reports/configuration_json.hpp"
 #include "reports/json_fields.hpp"
+#include "reports/read_file.hpp"
+#include "reports/strict_json.hpp"
 #include "scenes/need_json.hpp"
 
 namespace touchstone {
@@ -47,24 +48,19 @@ std::map<std::string, NamedMaterial> read_materials(const json& file) {
   return result;
 }
 
-std::string text(const json& value, const std::string& field) {
-  if (!value.is_string()) throw InvalidInput(field, shown(value), "must be a string");
-  return value.get<std::string>();
-}
-
 Body read_body(const json& value, const std::string& path,
                const std::map<std::string, NamedMaterial>& materials) {
   require_object(value, path);
   refuse_others(
       value, {"name", "shape", "material", "pose", "velocity", "angular_velocity", "fixed"}, path);
-  Body body{text(member(value, "name", path), path + ".name"),
+  Body body{string(member(value, "name", path), path + ".name"),
             shape_from_json(member(value, "shape", path), path + ".shape")};
   if (value.contains("material")) {
-    const std::string name = text(value["material"], path + ".material");
+    const std::string name = string(value["material"], path + ".material");
     if (!materials.contains(name)) {
       std::vector<std::string> names;
       for (const auto& [known, material] : materials) names.push_back(known);
-      throw InvalidInput(path + ".material", '"' + name + '"',
+      throw InvalidInput(path + ".material", shown(name),
                          fmt::format("must be one of the materials: {}", fmt::join(names, ", ")));
     }
     body.material = materials.at(name).material;
@@ -129,7 +125,7 @@ SceneFile scene_from_json(const json& file, const std::string& name) {
                 "");
   SceneFile result;
   result.name = name;
-  if (file.contains("description")) result.description = text(file["description"], "description");
+  if (file.contains("description")) result.description = string(file["description"], "description");
   Scene& scene = result.scene;
   if (file.contains("gravity")) scene.gravity = vector(file["gravity"], "gravity");
   if (file.contains("step")) scene.step = number(file["step"], "step");
@@ -141,10 +137,18 @@ SceneFile scene_from_json(const json& file, const std::string& name) {
   each_of(file, "bodies", [&](const json& value, const std::string& path) {
     scene.bodies.push_back(read_body(value, path, materials));
   });
+  constexpr std::size_t max_bodies = 1000;  // in each step every one is held against every other
+  if (scene.bodies.size() > max_bodies) {
+    throw InvalidInput("bodies", fmt::format("{} bodies", scene.bodies.size()),
+                       fmt::format("must be at most {}", max_bodies));
+  }
   check_scene(scene);
-  constexpr double most_steps = 1e6;
-  if (scene.duration / scene.step > most_steps) {
-    throw InvalidInput("duration", shown(file["duration"]), "must be at most a million steps");
+  constexpr double max_steps = 1e6, max_states = 4e6;  // a state of a body takes 200 bytes
+  const double steps = scene.duration / scene.step;
+  if (steps > max_steps || steps * static_cast<double>(scene.bodies.size()) > max_states) {
+    throw InvalidInput("duration", shown(file["duration"]),
+                       "must be at most a million steps, and four million divided by the number of "
+                       "bodies");
   }
   if (file.contains("needs")) {
     each_of(file, "needs", [&](const json& value, const std::string& path) {
@@ -156,18 +160,7 @@ SceneFile scene_from_json(const json& file, const std::string& name) {
 }
 
 SceneFile read_scene(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  if (!in || std::filesystem::is_directory(file)) {
-    throw InvalidInput("scene", '"' + file.string() + '"', "could not be opened for reading");
-  }
-  json parsed;
-  try {
-    parsed = json::parse(in);
-  } catch (const json::parse_error& e) {
-    throw InvalidInput("scene", '"' + file.string() + '"',
-                       fmt::format("must be JSON; at byte {} it is not", e.byte));
-  }
-  return scene_from_json(parsed, file.stem().string());
+  return scene_from_json(parse_json(read_file(file, "scene"), file.string()), file.stem().string());
 }
 
 }  // namespace touchstone

@@ -73,12 +73,22 @@ TEST(SceneFile, ErrorsNameThePathOfTheField) {
   EXPECT_THAT(refusal([](json& s) { s["materials"]["steel"]["restitution"] = 2; }),
               HasSubstr("materials.steel.restitution is 2: must lie between 0 and 1"));
   EXPECT_THAT(refusal([](json& s) { s.erase("duration"); }), HasSubstr("duration is missing"));
-  EXPECT_THAT(refusal([](json& s) { s["step"] = 1e-9; }), HasSubstr("a million steps"));
+  EXPECT_THAT(refusal([](json& s) { s["step"] = 1e-6; }), HasSubstr("a million steps"));
   EXPECT_THAT(refusal([](json& s) {
                 s["camera"] = {{"position", {0, 0, 0}}, {"look_at", {0, 0, 0}}};
               }),
               HasSubstr("camera.position"));
   EXPECT_THAT(refusal([](json& s) { s["gravitation"] = 1; }), HasSubstr("gravitation"));
+}
+
+TEST(SceneFile, WithMoreBodiesThanCanBeHeldAgainstEachOtherIsRefused) {
+  EXPECT_THAT(refusal([](json& s) {
+                for (int i = 0; i < 1000; ++i) {
+                  s["bodies"].push_back(s["bodies"][1]);
+                  s["bodies"].back()["name"] = std::to_string(i);
+                }
+              }),
+              HasSubstr("bodies is 1002 bodies"));
 }
 
 TEST(SceneFile, ErrorsOfNeedsNameThePathOfTheField) {
@@ -108,6 +118,7 @@ TEST(SceneFile, ThatIsNoneIsRefused) {
   EXPECT_THROW(read_scene("/nowhere/scene.json"), InvalidInput);
   EXPECT_THROW(read_scene("/etc"), InvalidInput);
   EXPECT_THROW(read_scene("/etc/passwd"), InvalidInput);
+  EXPECT_THROW(read_scene(std::string(10000, 'x')), InvalidInput);
 }
 
 TEST(SceneFile, ShippedScenesAreReadAndSayWhatTheyNeed) {

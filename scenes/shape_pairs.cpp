@@ -1,6 +1,7 @@
 #include "scenes/shape_pairs.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
@@ -139,6 +140,18 @@ json chosen_of(const json& candidates) {
   return exact != candidates.end() && (*exact)["serves"] == true ? *exact : json(nullptr);
 }
 
+/// A robot's name as part of a file's.
+std::string file_name(std::string name) {
+  constexpr std::size_t max_length = 100;
+  name.resize(std::min(name.size(), max_length));
+  const auto is_plain = [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '-' || c == '_' || c == '.';
+  };
+  std::replace_if(
+      name.begin(), name.end(), [&](char c) { return !is_plain(c); }, '-');
+  return name;
+}
+
 }  // namespace
 
 json choose_for_pairs(const ShapesFile& file, const PairNeeds& needs,
@@ -159,7 +172,7 @@ json choose_for_pairs(const ShapesFile& file, const PairNeeds& needs,
   json entries = json::array();
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const auto sampled = sample(pairs[i], i, needs);
-    const std::string at = fmt::format("{}/{}-{}", folder, file.name, i + 1);
+    const std::string at = fmt::format("{}/{}-{}", folder, file_name(file.name), i + 1);
     const json all = candidates_json(replay(sampled, processes), candidates, sampled, needs, at);
     entries.push_back({{"name", pairs[i].name},
                        {"example", pairs[i].example},
@@ -187,7 +200,7 @@ void write_pair_evidence(const json& choice) {
     for (const json& c : pair["candidates"]) {
       if (c["worst"].is_null()) continue;
       const std::filesystem::path at = c["worst"]["file"].get<std::string>();
-      std::filesystem::create_directories(at.parent_path());
+      check_writable(at.parent_path());
       write_file(at, c["worst"]["configuration"].dump() + '\n', "--out");
     }
   }

@@ -35,8 +35,13 @@ bool is_shapes_file(const std::filesystem::path& file);
 
 /// Reads URDF or SDF by the name's ending. Throws InvalidInput with the element's name.
 ShapesFile read_shapes(const std::filesystem::path& file);
+/// Both libraries may print on standard error what is wrong.
 ShapesFile read_urdf(const std::filesystem::path& file);
 ShapesFile read_sdf(const std::filesystem::path& file);
+
+/// The file's text. Throws InvalidInput where its elements are nested so deeply that a parser would
+/// overflow the stack.
+std::string read_xml(const std::filesystem::path& file);
 
 /// The shapes as bodies that stay where they are.
 SceneFile still_scene(const ShapesFile& shapes);

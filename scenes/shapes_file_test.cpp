@@ -49,6 +49,13 @@ TEST(Urdf, GivesShapesAtTheDefaultPositionOfTheirJoints) {
   EXPECT_TRUE(file.joined.contains({"palm_link", "camera_link"}));
 }
 
+TEST(Urdf, APercentSignDoesNotEndTheProcess) {
+  const Written file("percent.urdf",
+                     R"(<robot name="r"><link name="a"><collision><origin xyz="0%n 0 0"/><geometry>
+                        <sphere radius="1"/></geometry></collision></link></robot>)");
+  EXPECT_THROW(read_urdf(file.path), InvalidInput);
+}
+
 TEST(Urdf, SaysWhatItIgnores) {
   const auto ignored = read_urdf(scenes / "gripper.urdf").ignored;
   EXPECT_THAT(ignored, Contains("collision forearm_link/cover: a mesh"));

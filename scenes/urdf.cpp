@@ -1,7 +1,5 @@
 #include <boost/property_tree/xml_parser.hpp>
 #include <fmt/format.h>
-#include <fstream>
-#include <iterator>
 #include <sstream>
 #include <urdf_parser/urdf_parser.h>
 
@@ -10,14 +8,6 @@
 
 namespace touchstone {
 namespace {
-
-std::string read_text(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  if (!in || std::filesystem::is_directory(file)) {
-    throw InvalidInput("scene", '"' + file.string() + '"', "could not be opened for reading");
-  }
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 Eigen::Isometry3d isometry(const urdf::Pose& pose) {
   Eigen::Quaterniond q;
@@ -46,7 +36,13 @@ std::optional<Shape> shape_of(const urdf::Geometry& geometry) {
   }
 }
 
-void add_link(const urdf::Link& link, const Eigen::Isometry3d& X_RL, ShapesFile& result) {
+void add_link(const urdf::Link& link, const Eigen::Isometry3d& X_RL, int joints_from_root,
+              ShapesFile& result) {
+  constexpr int max_joints = 1000;
+  if (joints_from_root > max_joints) {
+    throw InvalidInput("link", '"' + link.name + '"',
+                       fmt::format("must be at most {} joints from the root", max_joints));
+  }
   for (std::size_t i = 0; i < link.collision_array.size(); ++i) {
     const urdf::Collision& collision = *link.collision_array[i];
     const std::string name =
@@ -72,7 +68,7 @@ void add_link(const urdf::Link& link, const Eigen::Isometry3d& X_RL, ShapesFile&
       result.ignored.push_back(fmt::format("joint {}: held in its default position", joint.name));
     }
     const Eigen::Isometry3d origin = isometry(joint.parent_to_joint_origin_transform);
-    add_link(*link.child_links[i], X_RL * origin, result);
+    add_link(*link.child_links[i], X_RL * origin, joints_from_root + 1, result);
   }
 }
 
@@ -97,7 +93,12 @@ void note_ignored_elements(const std::string& text, ShapesFile& result) {
 }  // namespace
 
 ShapesFile read_urdf(const std::filesystem::path& file) {
-  const std::string text = read_text(file);
+  const std::string text = read_xml(file);
+  if (text.find('%') != text.npos) {
+    // urdfdom 3.0.1 gives what it complains of to printf as the format: "%n" ends the process.
+    throw InvalidInput("scene", '"' + file.string() + '"',
+                       "must not hold a percent sign, which its reader takes for a format");
+  }
   const urdf::ModelInterfaceSharedPtr robot = urdf::parseURDF(text);
   if (!robot || !robot->getRoot()) {
     throw InvalidInput("scene", '"' + file.string() + '"',
@@ -105,7 +106,7 @@ ShapesFile read_urdf(const std::filesystem::path& file) {
   }
   ShapesFile result;
   result.name = robot->getName();
-  add_link(*robot->getRoot(), Eigen::Isometry3d::Identity(), result);
+  add_link(*robot->getRoot(), Eigen::Isometry3d::Identity(), 0, result);
   note_ignored_elements(text, result);
   return result;
 }

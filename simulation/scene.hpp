@@ -36,8 +36,11 @@ struct Scene {
   int solver_iterations = 100;  ///< of ODE's solver in a step; stacks need more
 };
 
+/// Metres, m/s, rad/s, m/s²: a world in which anything is larger is no longer simulated.
+inline constexpr double max_in_world = 1e6;
+
 /// Throws InvalidInput with the path of the field ("bodies[2].density") unless the scene can be
-/// simulated.
+/// simulated: ODE ends the process where a product of what it was given overflows or vanishes.
 void check_scene(const Scene& scene);
 
 }  // namespace touchstone

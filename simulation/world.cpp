@@ -18,7 +18,6 @@ constexpr double error_reduction = 0.2;  // ERP
 constexpr double least_bounce = 0.01;
 /// Below this the direction of slip is rounding, m/s; any will do.
 constexpr double least_slip = 1e-12;
-constexpr double absurd = 1e6;
 
 /// What a cylinder may reach by any candidate: simplified models put round ends on top.
 Aabb reach(const Shape& shape, const Pose& pose) {
@@ -144,7 +143,8 @@ void World::State::add_contacts(const PairContact& contact) {
     const ts_point& p = contact.answer.points[i];
     const Vec3 position(p.position), normal(p.normal);
     const double length = normal.norm();
-    if (!position.allFinite() || !std::isfinite(p.depth) || !(length > 0 && length < absurd)) {
+    if (!position.allFinite() || !std::isfinite(p.depth) ||
+        !(length > 0 && length < max_in_world)) {
       ++unusable;
       continue;
     }
@@ -223,7 +223,7 @@ void World::State::read_states(const std::vector<Vec3>& free) {
       return;
     }
     for (const Vec3& v : {read[i].pose.position(), read[i].velocity, read[i].angular_velocity}) {
-      if (!(v.norm() < absurd)) sound = false;
+      if (!(v.norm() < max_in_world)) sound = false;
     }
   }
   if (!sound) return;

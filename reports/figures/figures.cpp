@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cstdlib>
 #include <string>
-#include <system_error>
-#include <unistd.h>
 #include <vector>
 
 #include "reference/invalid_input.hpp"
 #include "reports/figures/gnuplot.hpp"
+#include "reports/write_file.hpp"
 
 namespace touchstone {
 
@@ -20,12 +19,7 @@ void check_figures(const path& folder) {
     throw InvalidInput("--figures", '"' + folder.string() + '"',
                        "needs gnuplot, which is not installed (Debian: gnuplot-nox)");
   }
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error || access(folder.c_str(), W_OK | X_OK) != 0) {
-    throw InvalidInput("--figures", '"' + folder.string() + '"',
-                       "must be a folder that can be written to");
-  }
+  check_writable(folder, "--figures");
 }
 
 void write_figures(const json& report, const path& folder) {

@@ -1,0 +1,90 @@
+#include "cli/number_option.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fmt/format.h>
+#include <optional>
+
+#include "reference/invalid_input.hpp"
+#include "reports/parse_double.hpp"
+
+namespace touchstone {
+namespace {
+
+std::string quoted(const std::string& text) { return '"' + text + '"'; }
+
+/// "12" or "1.2e1". Doubles know every whole number up to 2^53 only.
+std::optional<std::uint64_t> whole_number(const std::string& text) {
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  if (!text.empty() && std::all_of(text.begin(), text.end(), is_digit)) {
+    std::uint64_t value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return error == std::errc() ? std::optional(value) : std::nullopt;
+  }
+  if (text.find_first_of("eE") == text.npos || text.starts_with('0')) return std::nullopt;
+  const auto value = parse_double(text);
+  if (!value || !(*value >= 0 && *value <= 0x1p53) || *value != std::floor(*value)) {
+    return std::nullopt;
+  }
+  return static_cast<std::uint64_t>(*value);
+}
+
+}  // namespace
+
+double read_number(const std::string& option, const std::string& text, NumberRange range) {
+  const auto value = parse_double(text);
+  if (value && *value >= range.min && *value <= range.max) return *value;
+  throw InvalidInput(option, quoted(text),
+                     fmt::format("must be a number from {} to {}", range.min, range.max));
+}
+
+std::uint64_t read_count(const std::string& option, const std::string& text, CountRange range) {
+  const auto value = whole_number(text);
+  if (value && *value >= range.min && *value <= range.max) return *value;
+  throw InvalidInput(option, quoted(text),
+                     fmt::format("must be a whole number from {} to {}", range.min, range.max));
+}
+
+CLI::Option* add_number(CLI::App& command, const std::string& option, double& variable,
+                        NumberRange range, const std::string& description) {
+  return command
+      .add_option_function<std::string>(
+          option,
+          [&variable, option, range](const std::string& text) {
+            variable = read_number(option, text, range);
+          },
+          description)
+      ->type_name("FLOAT")
+      ->default_str(fmt::format("{}", variable));
+}
+
+CLI::Option* add_count(CLI::App& command, const std::string& option, std::uint64_t& variable,
+                       CountRange range, const std::string& description) {
+  return command
+      .add_option_function<std::string>(
+          option,
+          [&variable, option, range](const std::string& text) {
+            variable = read_count(option, text, range);
+          },
+          description)
+      ->type_name("UINT")
+      ->default_str(fmt::format("{}", variable));
+}
+
+CLI::Option* add_numbers(CLI::App& command, const std::string& option,
+                         std::vector<double>& variable, NumberRange range,
+                         const std::string& description) {
+  return command
+      .add_option_function<std::vector<std::string>>(
+          option,
+          [&variable, option, range](const std::vector<std::string>& texts) {
+            variable.clear();
+            for (const auto& text : texts) variable.push_back(read_number(option, text, range));
+          },
+          description)
+      ->type_name("FLOAT")
+      ->delimiter(',');
+}
+
+}  // namespace touchstone

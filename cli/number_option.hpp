@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+namespace touchstone {
+
+// How numbers on the command line are read, everywhere alike: a decimal or hexadecimal float as in
+// files, or a whole number, of which 1e6 is one too. What is none or out of range is InvalidInput
+// that names the option, the text and the range.
+
+struct NumberRange {
+  double min, max;
+};
+/// Of what must be positive. The ends leave products and quotients finite.
+inline constexpr NumberRange positive_numbers{1e-30, 1e30};
+
+struct CountRange {
+  std::uint64_t min, max;
+};
+/// Seeds.
+inline constexpr CountRange all_counts{0, std::numeric_limits<std::uint64_t>::max()};
+
+double read_number(const std::string& option, const std::string& text, NumberRange range);
+std::uint64_t read_count(const std::string& option, const std::string& text, CountRange range);
+
+/// An option that sets the variable, whose value now is the default that --help shows.
+CLI::Option* add_number(CLI::App& command, const std::string& option, double& variable,
+                        NumberRange range, const std::string& description);
+CLI::Option* add_count(CLI::App& command, const std::string& option, std::uint64_t& variable,
+                       CountRange range, const std::string& description);
+/// Several, separated by commas; the description says what they are by default.
+CLI::Option* add_numbers(CLI::App& command, const std::string& option,
+                         std::vector<double>& variable, NumberRange range,
+                         const std::string& description);
+
+}  // namespace touchstone
