@@ -186,8 +186,9 @@ ScoreTally ScoreTally::from_json(const json& j, std::size_t cell) {
     t.points_[static_cast<int>(points)] = whole_number(entry[1], "points", t.count_);
   }
   const auto magnitudes = [&](const char* name) {
+    const json& value = member(j, name, "");
     return at_path(name, [&] {
-      const Magnitudes read = Magnitudes::from_json(member(j, name, ""));
+      const Magnitudes read = Magnitudes::from_json(value);
       if (read.count() > t.count_) {
         throw InvalidInput("bins", fmt::format("{} values", read.count()),
                            "must hold no more than the count");

@@ -7,6 +7,7 @@
 #include <rapidcheck.h>
 #include <vector>
 
+#include "reference/invalid_input.hpp"
 #include "reports/statistics.hpp"
 
 namespace touchstone {
@@ -71,7 +72,7 @@ TEST(ScoreTally, OfAFileWithoutTheDeepestPointHasTheRest) {
   EXPECT_TRUE(summary["deepest_error"].is_null());
   EXPECT_EQ(summary["depth_error"]["max"], 0.25);
   old.erase("depth_error");
-  EXPECT_THROW(ScoreTally::from_json(old, 3), json::exception);
+  EXPECT_THROW(ScoreTally::from_json(old, 3), InvalidInput);
 }
 
 void expect_within(const json& bounds, double value) {

@@ -113,16 +113,15 @@ class RimScan {
   /// Offers the normal of an arc whose distances are within `reach` of this one and whose ends are
   /// within the angle `turn`, and counts what it may have missed.
   void leave(const RimSample& x, double reach, double turn) {
-    const double nearest = std::max(x.distance - reach, least_depth_);
-    const double farthest = std::min(x.distance + reach, limit_);
+    const double nearest = std::max({x.distance - reach, least_depth_, 0.0});
     // No better than the best one, whether the bodies overlap by that distance or are that far
     // apart.
     const double enough = best_.gap + noise_;
-    if (-nearest <= enough && (least_depth_ > 0 || farthest <= enough)) return;
+    if (-nearest <= enough && (least_depth_ > 0 || limit_ <= enough)) return;
     offer(x);
     const double error = reach + noise_;
     if (rims_.may_meet(x, -1, error, turn)) count_unproven(-nearest);
-    if (least_depth_ <= 0 && rims_.may_meet(x, 1, error, turn)) count_unproven(farthest);
+    if (least_depth_ <= 0 && rims_.may_meet(x, 1, error, turn)) count_unproven(limit_);
   }
   void count_unproven(double gap) { unproven_ = std::max(unproven_, gap - best_.gap - noise_); }
   /// How far distances lie from one of them if half their squares lie within `change` of its.
@@ -144,6 +143,8 @@ class RimScan {
       best_.offer(pair_.gap(n), n);
       const Vec3 better = rims_.polished(n).normal;
       best_.offer(pair_.gap(better), better);
+      const double distance = rims_.distance_at(better);
+      if (distance < limit_) limit_ = distance;
     }
   }
 

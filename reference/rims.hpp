@@ -160,6 +160,15 @@ class Rims {
     return {n, converged && outward, slope};
   }
 
+  /// How far the rims' points at a normal are apart: the bodies are no further.
+  double distance_at(const Vec3& n) const {
+    const double c = pair_.axes.c, s = pair_.axes.s, m = c * n.y() - s * n.x();
+    const double k1 = pair_.r1 / std::sqrt(n.y() * n.y() + n.z() * n.z());
+    const double k2 = pair_.r2 / std::sqrt(m * m + n.z() * n.z());
+    return Vec3(q_.x() + k2 * s * m, q_.y() - k1 * n.y() - k2 * c * m, q_.z() - (k1 + k2) * n.z())
+        .norm();
+  }
+
   /// Where each of these rims crosses the other's cap, the normal across both rims' tangents, of
   /// any length: at which they meet but for parts of the order of the gap.
   std::optional<Vec3> crossing_normal() const;
