@@ -201,8 +201,7 @@ Certificate certify_over_plane(const Configuration& c, const Plane& plane, const
 Certificate certify(const Configuration& configuration, const Budget& budget) {
   check_width(budget.width);
   const double unit = unit_of(configuration);
-  // A capsule of two finite sizes may be longer than all doubles.
-  const double size = std::min(larger_size(configuration), std::numeric_limits<double>::max());
+  const double size = larger_size(configuration);
   const Real400 width = Real400(budget.width) * size / unit;
   if (const auto* plane = std::get_if<Plane>(&configuration.b)) {
     return certify_over_plane(configuration, *plane, width, unit);

@@ -27,11 +27,10 @@ Aabb aabb(const Cylinder& shape, const Pose& pose) {
 Aabb aabb(const Plane& shape, const Pose& pose) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
   Aabb result{Vec3::Constant(-infinite), Vec3::Constant(infinite)};
-  const double length = shape.normal().stableNorm();
-  const Vec3 n = pose.rotation() * (shape.normal() / length);
+  const Vec3 n = pose.rotation() * shape.unit_normal();
   for (int i = 0; i < 3; ++i) {
     if (n[(i + 1) % 3] != 0 || n[(i + 2) % 3] != 0) continue;
-    const double offset = shape.displacement() / length;
+    const double offset = shape.unit_displacement();
     (n[i] > 0 ? result.upper[i] = pose.position()[i] + offset
               : result.lower[i] = pose.position()[i] - offset);
   }

@@ -24,7 +24,7 @@ inline double outside(const Cylinder& s, const Vec3& x) {
   return std::max(std::hypot(x.x(), x.y()) - s.radius(), std::abs(x.z()) - s.half_length());
 }
 inline double outside(const Plane& s, const Vec3& x) {
-  return (s.normal().dot(x) - s.displacement()) / s.normal().norm();
+  return s.unit_normal().dot(x) - s.unit_displacement();
 }
 inline double outside(const Sphere& s, const Vec3& x) { return x.norm() - s.radius(); }
 inline double outside(const Capsule& s, const Vec3& x) {

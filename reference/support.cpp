@@ -11,9 +11,7 @@ double local_support(const Cylinder& s, const Vec3& n) {
   return s.half_length() * std::abs(n.z()) + s.radius() * std::hypot(n.x(), n.y());
 }
 double local_support(const Plane& s, const Vec3& n) {
-  const double length = s.normal().norm();
-  return n == Vec3(s.normal() / length) ? s.displacement() / length
-                                        : std::numeric_limits<double>::infinity();
+  return n == s.unit_normal() ? s.unit_displacement() : std::numeric_limits<double>::infinity();
 }
 double local_support(const Sphere& s, const Vec3&) { return s.radius(); }
 double local_support(const Capsule& s, const Vec3& n) {

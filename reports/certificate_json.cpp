@@ -17,8 +17,7 @@ json exact(const audit::RationalVector& v) {
 }  // namespace
 
 json to_json(const audit::Certificate& certificate, const Configuration& configuration) {
-  // A capsule of two finite sizes may be longer than all doubles.
-  const double size = std::min(larger_size(configuration), std::numeric_limits<double>::max());
+  const double size = larger_size(configuration);
   const mpq_class width = (certificate.hi - certificate.lo) / mpq_class(size);
   json result = {{"schema", "touchstone-certificate-1"},
                  {"configuration", to_hex_json(configuration)},

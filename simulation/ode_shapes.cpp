@@ -25,10 +25,8 @@ struct MakeGeom {
 
 /// The posed plane as a shape of the world: ODE's cannot be placed.
 Plane in_world(const Plane& plane, const Pose& pose) {
-  const Vec3 unit = plane.normal().stableNormalized();
-  const Vec3 normal = (pose.rotation() * unit).normalized();
-  return Plane(normal,
-               plane.displacement() / plane.normal().stableNorm() + normal.dot(pose.position()));
+  const Vec3 normal = (pose.rotation() * plane.unit_normal()).normalized();
+  return Plane(normal, plane.unit_displacement() + normal.dot(pose.position()));
 }
 
 }  // namespace
