@@ -30,6 +30,31 @@ RawConfiguration raw(const Configuration& configuration) {
   return r;
 }
 
+void add_patch(Case& result, const oracle::ContactPatch& patch, const Vec3& n, double leans) {
+  KnownPatch known{numbers(n), leans, {}};
+  const std::vector<Vec3> outline = patch.outline();
+  constexpr std::size_t enough = 32;
+  const std::size_t step = leans != 0 ? 1 + outline.size() / enough : 1;
+  for (std::size_t i = 0; i < outline.size(); i += step) {
+    known.outline.push_back(numbers(outline[i]));
+  }
+  result.patches.push_back(std::move(known));
+}
+
+/// What the manifold's points are to hold of bodies that lean: what lies well within its slack
+/// (reference/manifold.hpp).
+void add_leaning_patch(Case& result, const Configuration& c, const Vec3& n) {
+  const double size_a = largest_half_extent(c.a), size_b = largest_half_extent(c.b);
+  const double smaller = size_b > 0 ? std::min(size_a, size_b) : size_a;  // a plane has no size
+  const double room =
+      leaning_threshold * smaller_size(c) - static_cast<double>(result.signed_distance);
+  const double slack = std::min(1e-3 * smaller, room);
+  if (!(slack > 1e-6 * smaller)) return;
+  const oracle::ContactPatch patch = oracle::contact_patch(c, n, slack / 8);
+  if (patch.perimeter() < 0.1 * smaller_size(c)) return;
+  add_patch(result, patch, n, 1);
+}
+
 Case make_case(const Identity& id) {
   using oracle::ContactPatch;
   const Configuration c = make_configuration(id);
@@ -44,30 +69,14 @@ Case make_case(const Identity& id) {
     if (result.normals.size() == max_normals) break;
     result.normals.push_back(numbers(normal.n));
     const ContactPatch patch = oracle::contact_patch(c, normal);
-    if (patch.kind() == ContactPatch::Kind::point) continue;
-    KnownPatch known{numbers(normal.n), {}};
-    for (const Vec3& corner : patch.outline()) known.outline.push_back(numbers(corner));
-    result.patches.push_back(std::move(known));
+    if (patch.kind() != ContactPatch::Kind::point) {
+      add_patch(result, patch, normal.n, 0);
+    } else if (truth.ties == oracle::Ties::unique) {
+      add_leaning_patch(result, c, normal.n);
+    }
   }
   return result;
 }
-
-}  // namespace
-
-std::vector<Case> make_cases(const std::string& net, std::uint64_t count) {
-  constexpr std::uint64_t seed = 17;
-  std::vector<Case> cases;
-  for (std::uint64_t i = 0; i < count; ++i) {
-    for (const Pair pair : all_pairs) {
-      const auto classes =
-          net == "hostile" ? std::vector<std::string>{"hostile"} : pose_classes(pair);
-      for (const std::string& name : classes) cases.push_back(make_case({pair, name, seed, i}));
-    }
-  }
-  return cases;
-}
-
-namespace {
 
 // A flat row of doubles: numbers of all kinds, a string as its length and characters.
 class Writer {
@@ -117,46 +126,68 @@ std::FILE* opened(const std::string& file, const char* mode) {
   return f;
 }
 
+void write(Writer& out, const Case& c) {
+  out.add_all(c.identity);
+  const RawConfiguration& r = c.raw;
+  out.add(r.pair), out.add(r.sizes), out.add(r.position_a), out.add(r.position_b);
+  out.add(r.orientation_a), out.add(r.orientation_b), out.add(r.normal), out.add(r.displacement);
+  const auto high = static_cast<double>(c.signed_distance);
+  out.add(high), out.add(static_cast<double>(c.signed_distance - high));
+  out.add_all(c.normals);
+  out.add(static_cast<double>(c.patches.size()));
+  for (const KnownPatch& p : c.patches) {
+    out.add(p.normal), out.add(p.leans), out.add_all(p.outline);
+  }
+}
+
+constexpr std::uint64_t seed = 17;
+
 }  // namespace
 
-void write_cases(const std::string& file, const std::vector<Case>& cases) {
+void write_cases(const std::string& file, const std::string& net, std::uint64_t count) {
   std::FILE* f = opened(file, "wb");
   Writer out(f);
-  for (const Case& c : cases) {
-    out.add_all(c.identity);
-    const RawConfiguration& r = c.raw;
-    out.add(r.pair), out.add(r.sizes), out.add(r.position_a), out.add(r.position_b);
-    out.add(r.orientation_a), out.add(r.orientation_b), out.add(r.normal), out.add(r.displacement);
-    const auto high = static_cast<double>(c.signed_distance);
-    out.add(high), out.add(static_cast<double>(c.signed_distance - high));
-    out.add_all(c.normals);
-    out.add(static_cast<double>(c.patches.size()));
-    for (const KnownPatch& p : c.patches) out.add(p.normal), out.add_all(p.outline);
+  for (std::uint64_t i = 0; i < count; ++i) {
+    for (const Pair pair : all_pairs) {
+      if (net == "hostile") {
+        const bool has_search = pair != Pair::plane && pair != Pair::sphere;
+        if (has_search || i % 8 == 0) write(out, make_case({pair, "hostile", seed, i}));
+        continue;
+      }
+      for (const std::string& name : pose_classes(pair)) {
+        write(out, make_case({pair, name, seed, i}));
+      }
+    }
   }
   if (std::fclose(f) != 0) throw std::runtime_error("cannot write " + file);
 }
 
-std::vector<Case> read_cases(const std::string& file) {
-  std::FILE* f = opened(file, "rb");
-  Reader in(f);
-  std::vector<Case> cases;
+CaseReader::CaseReader(const std::string& file) : file_(opened(file, "rb")) {}
+
+bool CaseReader::next(Case& c) {
+  Reader in(file_);
   double length = 0;
-  while (in.read(length)) {
-    Case& c = cases.emplace_back();
-    for (int i = 0; i < length; ++i) c.identity += static_cast<char>(in.number());
-    RawConfiguration& r = c.raw;
-    r.pair = in.number();
-    in.read(r.sizes), in.read(r.position_a), in.read(r.position_b);
-    in.read(r.orientation_a), in.read(r.orientation_b), in.read(r.normal);
-    r.displacement = in.number();
-    const long double high = in.number();
-    c.signed_distance = high + in.number();
-    c.normals = in.vectors();
-    c.patches.resize(static_cast<std::size_t>(in.number()));
-    for (KnownPatch& p : c.patches) in.read(p.normal), p.outline = in.vectors();
+  if (!in.read(length)) return false;
+  c = Case{};
+  for (int i = 0; i < length; ++i) c.identity += static_cast<char>(in.number());
+  RawConfiguration& r = c.raw;
+  r.pair = in.number();
+  in.read(r.sizes), in.read(r.position_a), in.read(r.position_b);
+  in.read(r.orientation_a), in.read(r.orientation_b), in.read(r.normal);
+  r.displacement = in.number();
+  const long double high = in.number();
+  c.signed_distance = high + in.number();
+  c.normals = in.vectors();
+  c.patches.resize(static_cast<std::size_t>(in.number()));
+  for (KnownPatch& p : c.patches) {
+    in.read(p.normal), p.leans = in.number(), p.outline = in.vectors();
   }
-  std::fclose(f);
-  return cases;
+  return true;
+}
+
+Case without_truth(int pair, std::uint64_t index) {
+  const Identity id{static_cast<Pair>(pair), "hostile", seed + 1, index};
+  return {to_string(id), raw(make_configuration(id)), 0, {}, {}};
 }
 
 }  // namespace touchstone::mutation

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -8,9 +9,12 @@
 
 namespace touchstone::mutation {
 
-/// The contact patch along one of the optimal normals, where it is more than a point.
+/// The contact patch along one of the optimal normals, where it is more than a point. Where it is
+/// one because the bodies lean, it is what both have within a part of the manifold's slack of their
+/// support planes, for points asked for within `leaning_threshold` of the smaller size.
 struct KnownPatch {
   Numbers3 normal;
+  double leans;                   ///< 1 or 0
   std::vector<Numbers3> outline;  ///< corners in order, arcs as chords
 };
 
@@ -23,12 +27,28 @@ struct Case {
   std::vector<KnownPatch> patches;
 };
 
-/// Of every pair `per_class` configurations of each pose class of the default report, or `hostile`
-/// of the hostile class.
-std::vector<Case> make_cases(const std::string& net, std::uint64_t count);
+constexpr double leaning_threshold = 0.01;
 
-// The cache: truths take far longer than answers and are the same for all mutants.
-void write_cases(const std::string& file, const std::vector<Case>& cases);
-std::vector<Case> read_cases(const std::string& file);
+/// Of every pair `count` configurations of each pose class of the default report, or `count` of
+/// the hostile class (of pairs without a search an eighth). The cache: truths take far longer than
+/// answers and are the same for all mutants.
+void write_cases(const std::string& file, const std::string& net, std::uint64_t count);
+
+/// Reads them one by one: most faults are found in the first few.
+class CaseReader {
+ public:
+  explicit CaseReader(const std::string& file);
+  ~CaseReader() { std::fclose(file_); }
+  CaseReader(const CaseReader&) = delete;
+  CaseReader& operator=(const CaseReader&) = delete;
+
+  bool next(Case& c);
+
+ private:
+  std::FILE* file_;
+};
+
+/// A hostile configuration that is not in the cache, without its truth.
+Case without_truth(int pair, std::uint64_t index);
 
 }  // namespace touchstone::mutation

@@ -24,9 +24,10 @@ enum class Check {
   exchange,    ///< cylinders exchanged have the mirrored answer, to the last bit
   vocabulary,  ///< sizes, rotations, supports, gaps, names
   bounds,      ///< axis-aligned boxes
+  agreement,   ///< among the routines themselves, the proven one being right
   refusal      ///< what is no shape or pose is refused, and its field named
 };
-constexpr int check_count = 16;
+constexpr int check_count = 17;
 const char* check_name(int check);
 
 /// Each check is made at most this many times of one case, at different thresholds or hints.
@@ -34,6 +35,9 @@ constexpr int max_variants = 8;
 using Findings = std::bitset<std::size_t{check_count} * max_variants>;
 
 Findings judge(const Case& c, const Routines& routines);
+
+/// Without a truth: do the routines agree with each other? Only `agreement` is found.
+Findings judge_agreement(const Case& c, const Routines& routines);
 
 /// Of shapes and poses that cannot be; independent of the cases.
 Findings judge_refusals(const Routines& routines);

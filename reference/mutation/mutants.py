@@ -189,6 +189,8 @@ def plant_functions(s):
 
 def plant_numbers(s):
     for found in s.matches(r"(?<![\w.])(\d+\.\d+(?:e[-+]?\d+)?|\d+e[-+]?\d+)(?![\w.])"):
+        if float(found.group()) == 0:
+            continue
         small = "e-" in found.group() or float(found.group()) < 0.01
         for factor in ("100", "0.01") if small else ("2", "0.5"):
             edits = [(found.start(), found.end(),

@@ -11,7 +11,7 @@ which TOUCHSTONE_FAULT says which one is active.
 
 Three nets are held under each fault, at most 60 s of processor time each:
   classes  the pose classes of the default report
-  hostile  the hostile class
+  hostile  the hostile class, and many more of it without truths, on which the routines must agree
   laws     `touchstone check`, for faults that the first two do not find
 The first two are mutation_probe's: every answer against the exact truth (judge.hpp), but for what is
 wrong without a fault. What no net finds is either listed in equivalent.json, with the reason why no
@@ -70,7 +70,8 @@ class BuildFailed(Exception):
 class Library:
     """The routines with the drawn faults behind switches, numbered from 1."""
 
-    def __init__(self, drawn, work, jobs):
+    def __init__(self, drawn, work, jobs, rest=None):
+        """`rest` is an archive of the routines: then only files with faults are compiled."""
         self.faults = dict(enumerate(drawn, 1))
         self.refused = []  # by the compiler
         self.tree = work / "planted"
@@ -79,7 +80,9 @@ class Library:
         self.objects.mkdir(parents=True, exist_ok=True)
         self.sources = {p.name: p.read_text() for p in routine_files()}
         self.file = work / "libplanted.so"
-        units = [n for n in self.sources if n.endswith(".cpp")]
+        self.rest = [rest] if rest else []
+        units = [n for n in self.sources if n.endswith(".cpp") and
+                 (not rest or any(m.file == n for m in drawn))]
         for name in sorted(self.sources, key=lambda n: n.endswith(".cpp")):
             self.write(name)
         with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
@@ -131,14 +134,15 @@ class Library:
 
     def link(self, units):
         objects = [self.objects / (name + ".o") for name in units]
-        for source in (HERE / "routines.cpp", ROOT / "candidates" / "reference.cpp"):
+        plugin = [] if self.rest else [ROOT / "candidates" / "reference.cpp"]
+        for source in [HERE / "routines.cpp"] + plugin:
             target = self.objects / f"{source.parent.name}-{source.name}.o"
             errors = self.compile_to(target, source, [
                 "-I", self.tree, "-I", ROOT, '-DTOUCHSTONE_VERSION="0"'])
             if errors:
                 raise BuildFailed(errors)
             objects.append(target)
-        done = run("g++", "-shared", "-Wl,-Bsymbolic", *objects, "-o", self.file)
+        done = run("g++", "-shared", "-Wl,-Bsymbolic", *objects, *self.rest, "-o", self.file)
         if done.returncode != 0:
             raise BuildFailed(done.stderr)
 
@@ -146,8 +150,8 @@ class Library:
 class Probe:
     """mutation_probe with the cases and truths of one net."""
 
-    def __init__(self, program, net, count, work):
-        self.program, self.net = program, net
+    def __init__(self, program, net, count, more, work):
+        self.program, self.net, self.more = program, net, more
         makers = [p for room in ("properties", "oracle", "oracle/patch")
                   for p in sorted((ROOT / room).glob("*.[ch]pp")) if "test" not in p.name]
         self.cases = work / f"{net}-{digest(count, HERE / 'cases.cpp', *makers)}.cases"
@@ -160,15 +164,16 @@ class Probe:
             part.rename(self.cases)
 
     def baseline(self, library):
-        done = run(self.program, "baseline", library.file, self.cases, self.known)
+        done = run(self.program, "baseline", library.file, self.cases, self.known,
+                   self.more)
         if done.returncode != 0:
             raise BuildFailed(f"baseline: {done.stderr}{done.stdout}")
         return done.stdout.strip()
 
     def finding(self, library, number, pair):
         environment = dict(os.environ, TOUCHSTONE_FAULT=str(number))
-        words = [self.program, "ask", library.file, self.cases, self.known] + (
-            [pair] if pair is not None else [])
+        words = [self.program, "ask", library.file, self.cases, self.known, self.more,
+                 -1 if pair is None else pair]
         try:
             done = run(*words, env=environment, timeout=20 * LIMIT,
                        preexec_fn=limit_processor_time)
@@ -195,9 +200,9 @@ def law_finding(touchstone, library, number, pair):
     if pair is not None:
         words += ["--pair", names[pair]]
     try:
-        done = run(*words, env=environment, timeout=20 * LIMIT)
+        done = run(*words, env=environment, timeout=LIMIT)
     except subprocess.TimeoutExpired:
-        return "does not end"
+        return None  # nothing within its time
     if done.returncode == 0:
         return None
     if done.returncode != 1:
@@ -213,13 +218,17 @@ def parse_words():
     words.add_argument("--count", type=int, default=220, help="faults to draw")
     words.add_argument("--seed", type=int, default=1)
     words.add_argument("--only", default="", help="of the faults drawn, those whose name has this")
-    words.add_argument("--classes", type=int, default=150,
+    words.add_argument("--classes", type=int, default=200,
                        help="configurations of each pair and pose class")
-    words.add_argument("--hostile", type=int, default=10000,
+    words.add_argument("--hostile", type=int, default=40000,
                        help="hostile configurations of each pair")
+    words.add_argument("--more", type=int, default=250000,
+                       help="hostile configurations of each pair that are asked without a truth")
     words.add_argument("--laws", choices=["yes", "no"], default="yes", help="whether to ask `check`")
     words.add_argument("--bar", type=float, default=0.98, help="the lowest score that passes")
     words.add_argument("--jobs", type=int, default=1)
+    words.add_argument("--handful", action="store_true",
+                       help="only faults in .cpp files, the rest from the build, without laws")
     words.add_argument("--list", action="store_true", help="only list the faults")
     words.add_argument("--table", type=pathlib.Path, help="write one line a fault there")
     return words.parse_args()
@@ -229,6 +238,8 @@ def draw(words):
     every = []
     for path in routine_files():
         every += mutants.mutants_of(path.name, path.read_text())
+    if words.handful:
+        every = [m for m in every if m.file.endswith(".cpp")]
     return [m for m in mutants.draw(every, words.count, words.seed) if words.only in m.name]
 
 
@@ -242,6 +253,8 @@ def main():
         for m in drawn:
             print(m.place, m.name)
         return 0
+    if words.handful:
+        words.laws = "no"
     reasons = json.loads((HERE / "equivalent.json").read_text())
     work = (words.work or words.build / "mutation").resolve()
     work.mkdir(parents=True, exist_ok=True)
@@ -260,10 +273,11 @@ def main():
 
 
 def score(words, drawn, reasons, work, program, touchstone):
-    library = Library(drawn, work, words.jobs)
+    rest = words.build.resolve() / "reference" / "libtouchstone_reference.a"
+    library = Library(drawn, work, words.jobs, rest if words.handful else None)
     print(f"{len(drawn)} faults drawn, {len(library.refused)} of them refused by the compiler")
-    probes = [Probe(program, "classes", words.classes, work),
-              Probe(program, "hostile", words.hostile, work)]
+    probes = [Probe(program, "classes", words.classes, 0, work),
+              Probe(program, "hostile", words.hostile, words.more, work)]
     for probe in probes:
         print(f"{probe.net}: {probe.baseline(library)}", flush=True)
 
@@ -303,7 +317,7 @@ def summary(words, results, reasons):
             equivalent.append(mutant)
         else:
             surviving.append(mutant)
-    if not words.only:
+    if not words.only and not words.handful:
         names = {m.name for m, _ in results}
         everything = {m.name for p in routine_files()
                       for m in mutants.mutants_of(p.name, p.read_text())}

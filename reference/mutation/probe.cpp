@@ -13,6 +13,7 @@
 #include <cstring>
 #include <dlfcn.h>
 #include <exception>
+#include <map>
 #include <stdexcept>
 #include <sys/time.h>
 
@@ -45,24 +46,49 @@ void print(const Findings& findings, const std::string& identity) {
   }
 }
 
-int write_baseline(const Routines& routines, const char* cases_file, const char* known_file) {
+/// Hostile configurations of each pair with a search that are asked without their truths.
+constexpr int first_pair_with_search = 2, pair_count = 5;
+
+/// Calls visit(case, whether it has its truth) until that is false: the cases of the file, then
+/// `more` of each pair without truths.
+template <class Visit>
+void visit_cases(const char* file, std::uint64_t more, double pair, Visit visit) {
+  CaseReader reader(file);
+  for (Case c; reader.next(c);) {
+    if (!visit(c, true)) return;
+  }
+  for (std::uint64_t i = 0; i < more; ++i) {
+    for (int p = first_pair_with_search; p < pair_count; ++p) {
+      if (pair >= 0 && p != pair) continue;
+      if (!visit(without_truth(p, i), false)) return;
+    }
+  }
+}
+
+Findings judged(const Case& c, bool has_truth, const Routines& routines) {
+  return has_truth ? judge(c, routines) : judge_agreement(c, routines);
+}
+
+int write_baseline(const Routines& routines, const char* cases_file, const char* known_file,
+                   std::uint64_t more) {
   std::FILE* known = std::fopen(known_file, "w");
   if (!known) throw std::runtime_error(std::string("cannot open ") + known_file);
-  std::size_t wrong[check_count] = {}, with_any = 0;
-  const auto cases = read_cases(cases_file);
-  for (const Case& c : cases) {
-    const Findings findings = judge(c, routines);
+  std::size_t wrong[check_count] = {}, count = 0, with_any = 0;
+  visit_cases(cases_file, more, -1, [&](const Case& c, bool has_truth) {
+    const Findings findings = judged(c, has_truth, routines);
+    ++count;
+    if (findings.none()) return true;
     std::fprintf(known, "%s %s\n", findings.to_string().c_str(), c.identity.c_str());
-    with_any += findings.any();
+    ++with_any;
     for (std::size_t check = 0; check < check_count; ++check) {
       bool any = false;
       for (std::size_t i = 0; i < max_variants; ++i) any |= findings[check * max_variants + i];
       wrong[check] += any;
     }
-  }
+    return true;
+  });
   if (std::fclose(known) != 0) throw std::runtime_error(std::string("cannot write ") + known_file);
-  std::printf("%zu configurations; without a fault some check fails on %zu:", cases.size(),
-              with_any);
+  std::printf("%zu configurations; without a fault some check fails on %zu:", count, with_any);
   for (int check = 0; check < check_count; ++check) {
     if (wrong[check] > 0) std::printf(" %s %zu", check_name(check), wrong[check]);
   }
@@ -71,41 +97,54 @@ int write_baseline(const Routines& routines, const char* cases_file, const char*
   return 0;
 }
 
-int ask(const Routines& routines, const char* cases_file, const char* known_file, double pair) {
-  const auto cases = read_cases(cases_file);
-  std::FILE* known = std::fopen(known_file, "r");
-  if (!known) throw std::runtime_error(std::string("cannot open ") + known_file);
+std::map<std::string, Findings> read_known(const char* file) {
+  std::FILE* f = std::fopen(file, "r");
+  if (!f) throw std::runtime_error(std::string("cannot open ") + file);
+  std::map<std::string, Findings> known;
+  char bits[Findings().size() + 1], identity[400];
+  static_assert(Findings().size() == 136);
+  while (std::fscanf(f, "%136s %399s", bits, identity) == 2) known[identity] = Findings(bits);
+  std::fclose(f);
+  return known;
+}
+
+int ask(const Routines& routines, const char* cases_file, const char* known_file,
+        std::uint64_t more, double pair) {
+  const auto known = read_known(known_file);
   expect_an_end();
   if (const Findings findings = judge_refusals(routines); findings.any()) {
     print(findings, "refusals");
     return 1;
   }
-  for (const Case& c : cases) {
-    char bits[Findings().size() + 1], identity[400];
-    if (std::fscanf(known, "%128s %399s", bits, identity) != 2 || c.identity != identity) {
-      throw std::runtime_error(std::string(known_file) + " is of other cases: make it again");
-    }
-    if (pair >= 0 && c.raw.pair != pair) continue;
+  int result = 0;
+  visit_cases(cases_file, more, pair, [&](const Case& c, bool has_truth) {
+    if (pair >= 0 && c.raw.pair != pair) return true;
     expect_an_end();
-    const Findings findings = judge(c, routines) & ~Findings(bits);
-    if (!findings.any()) continue;
+    Findings findings = judged(c, has_truth, routines);
+    if (findings.none()) return true;
+    if (const auto found = known.find(c.identity); found != known.end()) {
+      findings &= ~found->second;
+    }
+    if (findings.none()) return true;
     print(findings, c.identity);
-    return 1;
-  }
-  return 0;
+    result = 1;
+    return false;
+  });
+  return result;
 }
 
 int run(int count, char** words) {
   const auto is = [&](const char* command, int wanted) {
     return count >= wanted && std::strcmp(words[1], command) == 0;
   };
+  const auto number = [&](int i) { return std::strtoull(words[i], nullptr, 10); };
   if (is("cases", 5)) {
-    write_cases(words[4], make_cases(words[2], std::strtoull(words[3], nullptr, 10)));
+    write_cases(words[4], words[2], number(3));
     return 0;
   }
-  if (is("baseline", 5)) return write_baseline(load(words[2]), words[3], words[4]);
-  if (is("ask", 5)) {
-    return ask(load(words[2]), words[3], words[4], count > 5 ? std::atof(words[5]) : -1);
+  if (is("baseline", 6)) return write_baseline(load(words[2]), words[3], words[4], number(5));
+  if (is("ask", 7)) {
+    return ask(load(words[2]), words[3], words[4], number(5), std::atof(words[6]));
   }
   std::fprintf(stderr, "usage: see the head of probe.cpp\n");
   return 2;

@@ -48,6 +48,8 @@ const void* make(const RawConfiguration& raw, const char** field) {
   }
 }
 
+void release(const void* made) { delete static_cast<const Configuration*>(made); }
+
 RawDistance signed_distance(const void* made) {
   const SignedDistance d = touchstone::signed_distance(of(made));
   return {d.value, numbers(d.normal), 0};
@@ -95,8 +97,8 @@ RawFacts facts(const void* made) {
 }
 
 const Routines routines = {
-    make,         signed_distance, certified_distance, overlaps, contact, gap,
-    support_of_a, bounds,          bounds_overlap,     facts};
+    make, release,      signed_distance, certified_distance, overlaps, contact,
+    gap,  support_of_a, bounds,          bounds_overlap,     facts};
 
 }  // namespace
 }  // namespace touchstone::mutation

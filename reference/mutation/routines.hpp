@@ -52,10 +52,11 @@ struct RawFacts {
   std::array<double, 9> rotation_a, rotation_b;  ///< row by row
 };
 
-/// The routines of one library. A configuration that was made is never released: a probe ends soon.
+/// The routines of one library.
 struct Routines {
   /// Null where a shape or a pose refuses its numbers, and `field` then says which.
   const void* (*make)(const RawConfiguration&, const char** field);
+  void (*release)(const void*);
   RawDistance (*signed_distance)(const void*);
   RawDistance (*certified_distance)(const void*);
   bool (*overlaps)(const void*);
