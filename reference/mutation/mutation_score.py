@@ -134,8 +134,11 @@ class Library:
 
     def link(self, units):
         objects = [self.objects / (name + ".o") for name in units]
-        plugin = [] if self.rest else [ROOT / "candidates" / "reference.cpp"]
-        for source in [HERE / "routines.cpp"] + plugin:
+        # The plug-in of our own routines, under a name that is not taken.
+        plugin = self.tree / "planted.cpp"
+        plugin.write_text((ROOT / "candidates" / "reference.cpp").read_text().replace(
+            '{"reference",', '{"planted",'))
+        for source in [HERE / "routines.cpp"] + ([] if self.rest else [plugin]):
             target = self.objects / f"{source.parent.name}-{source.name}.o"
             errors = self.compile_to(target, source, [
                 "-I", self.tree, "-I", ROOT, '-DTOUCHSTONE_VERSION="0"'])
@@ -280,6 +283,9 @@ def score(words, drawn, reasons, work, program, touchstone):
               Probe(program, "hostile", words.hostile, words.more, work)]
     for probe in probes:
         print(f"{probe.net}: {probe.baseline(library)}", flush=True)
+
+    if words.laws == "yes" and (broken := law_finding(touchstone, library, 0, None)):
+        raise BuildFailed(f"laws are broken without a fault: {broken}")
 
     def findings(item):
         number, mutant = item
