@@ -417,6 +417,93 @@ Source draw_source(Draw& draw, Pair pair) {
   return {std::move(n), 0, 4};
 }
 
+// Anywhere within each other: where proofs that end a search early are drawn upon.
+
+/// Turned off an alignment by any angle up to half a radian, about an axis near or away from those
+/// of B.
+Quaternion draw_clear_tilt(Draw& draw) {
+  const Quaternion bases[] = {Quaternion(1, 0, 0, 0), Quaternion(1, 1, 0, 0)};
+  const Quaternion quarters[] = {Quaternion(1, 0, 0, 0), Quaternion(1, 0, 0, 1)};
+  const double half_angle = draw.sign() * draw.log_uniform(1e-7, 0.5) / 2;
+  Quaternion heading = draw.turn_about_z();
+  if (draw.coin()) {
+    const double off = draw.log_uniform(1e-6, 0.5);
+    heading = product(any_of(draw, quarters), Quaternion(1, 0, 0, off));
+  }
+  return product(product(heading, any_of(draw, bases)), Quaternion(1, half_angle, 0, 0));
+}
+
+/// Three coordinates of B's frame, each evenly within the bodies' reach, or near a place where
+/// something of the two coincides.
+Vec3 draw_offset_within(Draw& draw, const std::vector<double>& sizes) {
+  const double reach = *std::max_element(sizes.begin(), sizes.end());
+  const double part = draw.coin() ? 2 : draw.log_uniform(0.02, 2);
+  Vec3 offset = Vec3::Zero();
+  const bool coincides = one_in(draw, 3);
+  for (int i = 0; i < 3; ++i) {
+    offset[i] = reach * part * draw.uniform(-1, 1);
+    if (coincides && draw.coin()) {
+      const double one = any_of(draw, sizes), other = any_of(draw, sizes);
+      const double sum = draw.sign() * (one + draw.sign() * other);
+      offset[i] = sum + draw.sign() * one * draw.log_uniform(1e-6, 0.5);
+    }
+  }
+  return offset;
+}
+
+/// Parallel axes, caps that overlap by little, centres across them a hair to a tenth apart: where
+/// contact points are handed over from one layout to another.
+void put_caps_together(Draw& draw, Numbers& n) {
+  if (draw.coin()) n.sizes[2] = n.sizes[0];
+  const double across = n.sizes[0] * draw.log_uniform(1e-7, 0.1);
+  const double along = n.sizes[1] + n.sizes[3] - draw_shallow(draw, n.sizes[0]);
+  n.orientation_a = n.orientation_b = Quaternion(1, 0, 0, 0);
+  n.position_a = n.position_b + Vec3(across, 0, draw.sign() * along);
+}
+
+/// The way out along B's axis is about as long as that across it, for parallel axes: where the
+/// better one of two is a matter of rounding, or of a tilt.
+void make_ways_out_alike(Draw& draw, Numbers& n) {
+  const double across = n.sizes[0] * draw.uniform(0, 2);
+  const double depth = n.sizes[0] + n.sizes[2] - across;
+  const double half_b = n.sizes.back();  // of a box along z; a capsule's end is a radius further
+  const double cap_b = n.pair == Pair::capsule ? half_b + n.sizes[2] : half_b;
+  const double along =
+      n.sizes[1] + cap_b - depth + draw.sign() * n.sizes[0] * draw.log_uniform(1e-6, 0.1);
+  n.position_a = n.position_b + across * draw.direction_across(Vec3(0, 0, 1));
+  n.position_a.z() += draw.sign() * along;
+}
+
+/// Sides that cross about where one of them ends, leaning by a hair.
+void cross_at_an_end(Draw& draw, Numbers& n) {
+  const double quarter = draw.uniform(0.1, 1), lean = draw.log_uniform(1e-7, 1e-2);
+  n.orientation_a = product(Quaternion(1, quarter, 0, 0), Quaternion(1, 0, draw.sign() * lean, 0));
+  const Vec3 axis = rotated(n.orientation_a, Vec3(0, 0, 1));
+  const double on_a = n.sizes[1] * (1 + draw.sign() * draw.log_uniform(1e-7, 1e-2));
+  const double on_b = n.sizes[3] * draw.uniform(-1, 1);
+  const double across = n.sizes[0] + n.sizes[2] - draw_shallow(draw, n.sizes[0]);
+  n.position_a = n.position_b + Vec3(across, 0, on_b) - draw.sign() * on_a * axis;
+}
+
+Numbers draw_entangled(Draw& draw, Pair pair) {
+  Numbers n;
+  n.pair = pair;
+  n.sizes.resize(size_count(pair));
+  for (double& size : n.sizes) size = draw.log_uniform(0.05, 2);
+  if (pair == Pair::plane) {
+    n.normal = Vec3(0, 0, 1);
+    n.displacement = draw.uniform(-1, 1);
+  }
+  n.orientation_a = one_in(draw, 4) ? draw.orientation() : draw_clear_tilt(draw);
+  n.position_a = draw_offset_within(draw, n.sizes);
+  if (pair != Pair::plane && one_in(draw, 4)) make_ways_out_alike(draw, n);
+  const bool has_sides = pair == Pair::capsule || pair == Pair::cylinder;
+  if (has_sides && one_in(draw, 4)) cross_at_an_end(draw, n);
+  if (pair == Pair::cylinder && one_in(draw, 4)) put_caps_together(draw, n);
+  if (one_in(draw, 4)) scale(n, static_cast<int>(draw.integer(-12, 12)));
+  return n;
+}
+
 Configuration hostile(Draw& draw, Pair pair) {
   auto [n, changes, one_more_in] = draw_source(draw, pair);
   if (one_in(draw, 4)) turn(n, draw.coin() ? draw.orientation() : draw_integer_quaternion(draw));
@@ -425,6 +512,8 @@ Configuration hostile(Draw& draw, Pair pair) {
   while (changes < max_changes && one_in(draw, one_more_in)) ++changes;
   for (const auto numbers = every_number(n); changes > 0; --changes) change_one(draw, numbers);
   make_valid(n);
+  // Drawn last, so that all others keep their numbers.
+  if (one_in(draw, 6)) return configuration_of(draw_entangled(draw, pair));
   return configuration_of(n);
 }
 

@@ -108,6 +108,34 @@ TEST(HostileClass, HasEveryKindOfNumber) {
   for (const auto& kind : kinds) EXPECT_GT(count(Pair::box, kind.holds), 40) << kind.what;
 }
 
+TEST(HostileClass, PutsBodiesAnywhereWithinEachOtherAtClearTilts) {
+  for (const Pair pair : {Pair::cylinder, Pair::box}) {
+    EXPECT_GT(count(pair,
+                    [](const Configuration& c) {
+                      const Vec3 between = c.pose_a.position() - c.pose_b.position();
+                      return is_within(between_axes(c).sine, 1e-3, 0.3) &&
+                             is_within(between.norm(), 0, larger_size(c)) &&
+                             larger_size(c) < 40 * smaller_size(c);
+                    }),
+              200)
+        << pair_name(pair);
+  }
+}
+
+// Between three points of a whole cap and four of a lens.
+TEST(HostileClass, PutsCapsOnCapsThatAreNotQuiteCoaxial) {
+  EXPECT_GT(count(Pair::cylinder,
+                  [](const Configuration& c) {
+                    const Vec3 between = c.pose_a.position() - c.pose_b.position();
+                    const double across = std::hypot(between.x(), between.y());
+                    const double above = c.a.half_length() + std::get<Cylinder>(c.b).half_length() -
+                                         std::abs(between.z());
+                    return between_axes(c).sine == 0 && is_within(above / c.a.radius(), 0, 0.1) &&
+                           is_within(across / c.a.radius(), 1e-6, 1e-2);
+                  }),
+            150);
+}
+
 TEST(HostileClass, ChangesKnownFailuresByLittle) {
   for (const Pair pair : {Pair::sphere, Pair::capsule, Pair::cylinder, Pair::box}) {
     const Numbers& known = known_failures(pair).front();

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+// What the probe and a library with planted faults say to each other: plain numbers, so that no
+// mutated shape, pose or configuration reaches the probe, its cases or its truths.
+
+namespace touchstone::mutation {
+
+using Numbers3 = std::array<double, 3>;
+using Numbers4 = std::array<double, 4>;
+
+/// A configuration: `pair` counts as enum Pair does, `sizes` are those of A, then those of B;
+/// orientations are w, x, y, z; `normal` and `displacement` are a plane's.
+struct RawConfiguration {
+  double pair = 0;
+  std::array<double, 5> sizes{};
+  Numbers3 position_a{}, position_b{};
+  Numbers4 orientation_a{}, orientation_b{};
+  Numbers3 normal{};
+  double displacement = 0;
+};
+
+struct RawDistance {
+  double value;
+  Numbers3 normal;
+  double error_bound;  ///< of a certified distance
+};
+
+struct RawPoint {
+  Numbers3 position;
+  double depth;
+};
+
+struct RawContact {
+  double signed_distance;
+  Numbers3 normal;
+  std::size_t count;
+  std::array<RawPoint, 8> points;
+};
+
+struct RawBounds {
+  Numbers3 lower, upper;
+};
+
+/// Sizes and names that the vocabulary tells of a configuration.
+struct RawFacts {
+  double smaller_size, larger_size;
+  double pair;
+  const char *pair_name, *shape_name;
+  std::array<double, 9> rotation_a, rotation_b;  ///< row by row
+};
+
+/// The routines of one library.
+struct Routines {
+  /// Null where a shape or a pose refuses its numbers, and `field` then says which.
+  const void* (*make)(const RawConfiguration&, const char** field);
+  void (*release)(const void*);
+  RawDistance (*signed_distance)(const void*);
+  RawDistance (*certified_distance)(const void*);
+  bool (*overlaps)(const void*);
+  RawContact (*contact)(const void*, double threshold, const Numbers3* previous_normal);
+  double (*gap)(const void*, const Numbers3& n);
+  double (*support_of_a)(const void*, const Numbers3& n);
+  void (*bounds)(const void*, RawBounds& a, RawBounds& b);
+  bool (*bounds_overlap)(const void*);
+  RawFacts (*facts)(const void*);
+};
+
+}  // namespace touchstone::mutation
+
+extern "C" __attribute__((visibility("default"))) const touchstone::mutation::Routines*
+touchstone_routines();
