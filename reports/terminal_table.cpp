@@ -93,7 +93,7 @@ std::string terminal_table(const json& report) {
     last_pair = pair;
   }
   text += fmt::format(
-      "\nagree: depth and normal regret within {:g} of the smaller shape's size\n"
+      "\nagree: depth, normal and deepest point within {:g} of the smaller size\n"
       "err: depth error of the contacts that were reported, in the same unit\n"
       "cover: mean share of the contact patch that the contact points span\n",
       report["tolerance"].get<double>());
