@@ -92,7 +92,7 @@ CertifiedDistance certified_distance(const Cylinder& a, const Pose& pose_a, cons
   }
   const double lengths = (pose_a.position() - pose_b.position()).cwiseAbs().sum() + a.radius() +
                          a.half_length() + b.radius();
-  return {distance(a, pose_a, b, pose_b, never), rounding_part * lengths};
+  return {signed_distance(a, pose_a, b, pose_b), rounding_part * lengths};
 }
 
 bool overlaps(const Cylinder& a, const Pose& pose_a, const Sphere& b, const Pose& pose_b) {
