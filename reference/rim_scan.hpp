@@ -11,7 +11,7 @@ namespace touchstone {
 /// Searches one pair of rims for every normal at which they meet, and offers them to `best`.
 ///
 /// At a largest gap where these rims meet, their distance along rim 1, to the nearest point of rim
-/// 2, has a local minimum. Arcs of rim 1 are bisected until one of four bounds proves of each arc
+/// 2, has a local minimum. Arcs of rim 1 are bisected until one of five bounds proves of each arc
 /// that it holds none that matters, or that it holds at most one, which is then found (proofs.md,
 /// "The search of rims"). An arc for which all bounds fail down to `min_half_width` counts as
 /// unproven.
