@@ -3,15 +3,15 @@
 #include <memory>
 #include <thread>
 
-#include "campaigns/ranks.hpp"
-#include "campaigns/result.hpp"
-#include "campaigns/run.hpp"
-#include "campaigns/shard_place.hpp"
+#include "candidates/host/interruption.hpp"
 #include "cli/commands.hpp"
 #include "cli/options.hpp"
 #include "cli/standard_streams.hpp"
 #include "reference/invalid_input.hpp"
-#include "reports/interruption.hpp"
+#include "reports/campaigns/ranks.hpp"
+#include "reports/campaigns/result.hpp"
+#include "reports/campaigns/run.hpp"
+#include "reports/campaigns/shard_place.hpp"
 #include "reports/terminal_table.hpp"
 #include "reports/worst.hpp"
 

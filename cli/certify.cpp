@@ -2,10 +2,10 @@
 #include <memory>
 #include <string>
 
-#include "audit/certificate.hpp"
 #include "cli/commands.hpp"
 #include "cli/given.hpp"
 #include "cli/number_option.hpp"
+#include "oracle/audit/certificate.hpp"
 #include "reports/certificate_json.hpp"
 
 namespace touchstone {

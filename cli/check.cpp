@@ -1,17 +1,17 @@
-#include "laws/check.hpp"
+#include "properties/laws/check.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
 #include <memory>
 
+#include "candidates/host/progress.hpp"
 #include "cli/commands.hpp"
 #include "cli/help.hpp"
 #include "cli/options.hpp"
-#include "laws/check_report.hpp"
-#include "laws/failure_file.hpp"
+#include "properties/files/write_file.hpp"
+#include "properties/laws/failure_file.hpp"
 #include "reference/invalid_input.hpp"
-#include "reports/progress.hpp"
-#include "reports/write_file.hpp"
+#include "reports/check_report.hpp"
 
 namespace touchstone {
 namespace {

@@ -1,4 +1,4 @@
-#include "scenes/choose.hpp"
+#include "simulation/scenes/choose.hpp"
 
 #include <fmt/format.h>
 #include <memory>
@@ -6,13 +6,13 @@
 #include "cli/commands.hpp"
 #include "cli/options.hpp"
 #include "cli/standard_streams.hpp"
+#include "properties/files/write_file.hpp"
 #include "reference/invalid_input.hpp"
-#include "reports/report.hpp"
-#include "reports/write_file.hpp"
-#include "scenes/choice_json.hpp"
-#include "scenes/choice_page.hpp"
-#include "scenes/choice_text.hpp"
-#include "scenes/shape_pairs.hpp"
+#include "reports/choice/choice_json.hpp"
+#include "reports/choice/choice_page.hpp"
+#include "reports/choice/choice_text.hpp"
+#include "reports/choice/shape_pairs.hpp"
+#include "reports/make_report.hpp"
 
 namespace touchstone {
 namespace {
@@ -102,9 +102,9 @@ void add_choose(CLI::App& program, int& exit_code) {
   add_count(*command, "--seed", pairs.seed, all_counts, "Same seed, same poses")->group(robots);
   command->footer(
       "Examples:\n"
-      "  touchstone choose scenes/log-pile.json\n"
-      "  touchstone choose scenes/conveyor.json --candidates capsule,spheres:1..16,ode\n"
-      "  touchstone choose scenes/gripper.urdf --depth 0.002 --angle 10\n"
+      "  touchstone choose simulation/scenes/log-pile.json\n"
+      "  touchstone choose simulation/scenes/conveyor.json --candidates capsule,spheres:1..16,ode\n"
+      "  touchstone choose simulation/scenes/gripper.urdf --depth 0.002 --angle 10\n"
       "Exit code 1: not even exact contacts meet the needs.");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }

@@ -5,9 +5,9 @@
 
 #include "cli/commands.hpp"
 #include "cli/number_option.hpp"
+#include "properties/files/write_file.hpp"
 #include "reports/compare_page/compare_page.hpp"
 #include "reports/report_file.hpp"
-#include "reports/write_file.hpp"
 
 namespace touchstone {
 namespace {

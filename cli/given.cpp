@@ -6,14 +6,14 @@
 #include <sstream>
 #include <utility>
 
+#include "properties/files/configuration_json.hpp"
+#include "properties/files/json_fields.hpp"
+#include "properties/files/read_file.hpp"
+#include "properties/files/strict_json.hpp"
 #include "properties/identity.hpp"
+#include "properties/motions/name.hpp"
+#include "properties/motions/perturbation.hpp"
 #include "reference/invalid_input.hpp"
-#include "reports/configuration_json.hpp"
-#include "reports/json_fields.hpp"
-#include "reports/read_file.hpp"
-#include "reports/strict_json.hpp"
-#include "stability/name.hpp"
-#include "stability/perturbation.hpp"
 
 namespace touchstone {
 namespace {

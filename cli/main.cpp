@@ -14,8 +14,8 @@
 #include "cli/options.hpp"
 #include "cli/standard_streams.hpp"
 #include "cli/version.hpp"
+#include "properties/files/error_text.hpp"
 #include "reference/invalid_input.hpp"
-#include "reports/error_text.hpp"
 
 namespace {
 
@@ -93,7 +93,7 @@ int run(int argc, char** argv) {
       "  touchstone check --candidate bullet             laws, smallest failures\n"
       "  touchstone campaign --count 1e6 --out run       any number, on many machines\n"
       "  touchstone simulate rolling                     contacts against paper\n"
-      "  touchstone choose scenes/log-pile.json          the cheapest model that serves\n"
+      "  touchstone choose simulation/scenes/log-pile.json  the cheapest model that serves\n"
       "  touchstone stability                            tiny steps, slow motions\n"
       "  touchstone compare old.json out/report.json     better, worse, slower\n"
       "Exit codes:\n"

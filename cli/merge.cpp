@@ -1,12 +1,12 @@
-#include "campaigns/merge.hpp"
+#include "reports/campaigns/merge.hpp"
 
 #include <fmt/format.h>
 #include <memory>
 
-#include "campaigns/result.hpp"
-#include "campaigns/shard_place.hpp"
 #include "cli/commands.hpp"
 #include "reference/invalid_input.hpp"
+#include "reports/campaigns/result.hpp"
+#include "reports/campaigns/shard_place.hpp"
 #include "reports/terminal_table.hpp"
 
 namespace touchstone {

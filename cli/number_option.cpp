@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 #include <optional>
 
+#include "properties/files/parse_double.hpp"
 #include "reference/invalid_input.hpp"
-#include "reports/parse_double.hpp"
 
 namespace touchstone {
 namespace {

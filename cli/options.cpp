@@ -5,8 +5,8 @@
 #include <thread>
 
 #include "candidates/candidates.hpp"
+#include "properties/files/read_file.hpp"
 #include "reference/invalid_input.hpp"
-#include "reports/read_file.hpp"
 
 namespace touchstone {
 

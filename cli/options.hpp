@@ -6,7 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "candidates/candidate_process.hpp"
+#include "candidates/host/candidate_process.hpp"
 #include "cli/number_option.hpp"
 #include "properties/identity.hpp"
 #include "reports/campaign.hpp"

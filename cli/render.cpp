@@ -4,10 +4,10 @@
 #include "candidates/candidates.hpp"
 #include "cli/commands.hpp"
 #include "cli/number_option.hpp"
-#include "reports/report.hpp"
-#include "reports/write_file.hpp"
-#include "scenes/povray.hpp"
-#include "scenes/shapes_file.hpp"
+#include "properties/files/write_file.hpp"
+#include "reports/make_report.hpp"
+#include "simulation/scenes/povray.hpp"
+#include "simulation/scenes/shapes_file.hpp"
 
 namespace touchstone {
 namespace {
@@ -47,9 +47,9 @@ void add_render(CLI::App& program, int&) {
       ->capture_default_str();
   command->footer(
       "Examples:\n"
-      "  touchstone render scenes/thesis-knock.json\n"
-      "  touchstone render scenes/log-pile.json --contacts capsule --every 0.1\n"
-      "  touchstone render scenes/gripper.urdf");
+      "  touchstone render simulation/scenes/thesis-knock.json\n"
+      "  touchstone render simulation/scenes/log-pile.json --contacts capsule --every 0.1\n"
+      "  touchstone render simulation/scenes/gripper.urdf");
   command->callback([options] { run(*options); });
 }
 

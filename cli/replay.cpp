@@ -6,11 +6,11 @@
 #include "cli/commands.hpp"
 #include "cli/given.hpp"
 #include "cli/options.hpp"
-#include "reports/configuration_json.hpp"
+#include "properties/files/configuration_json.hpp"
+#include "properties/files/write_file.hpp"
 #include "reports/replay_page/replay_page.hpp"
+#include "reports/reproducer/reproducer.hpp"
 #include "reports/worst.hpp"
-#include "reports/write_file.hpp"
-#include "reproducers/reproducer.hpp"
 
 namespace touchstone {
 namespace {

@@ -1,20 +1,20 @@
-#include "reports/report.hpp"
+#include "reports/make_report.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
 #include <memory>
 
+#include "candidates/host/interruption.hpp"
 #include "cli/commands.hpp"
 #include "cli/options.hpp"
 #include "cli/standard_streams.hpp"
+#include "properties/files/write_file.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/figures/figures.hpp"
-#include "reports/interruption.hpp"
+#include "reports/stability/stability.hpp"
 #include "reports/terminal_table.hpp"
 #include "reports/worst.hpp"
-#include "reports/write_file.hpp"
 #include "simulation/run_experiments.hpp"
-#include "stability/stability.hpp"
 
 namespace touchstone {
 namespace {

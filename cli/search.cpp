@@ -1,15 +1,15 @@
-#include "campaigns/search.hpp"
+#include "reports/campaigns/search.hpp"
 
 #include <fmt/format.h>
 #include <map>
 #include <memory>
 #include <utility>
 
+#include "candidates/host/progress.hpp"
 #include "cli/commands.hpp"
 #include "cli/options.hpp"
-#include "laws/failure_file.hpp"
-#include "reports/progress.hpp"
-#include "reports/write_file.hpp"
+#include "properties/files/write_file.hpp"
+#include "properties/laws/failure_file.hpp"
 
 namespace touchstone {
 namespace {

@@ -4,8 +4,8 @@
 #include "cli/commands.hpp"
 #include "cli/help.hpp"
 #include "cli/options.hpp"
-#include "reports/report.hpp"
-#include "reports/write_file.hpp"
+#include "properties/files/write_file.hpp"
+#include "reports/make_report.hpp"
 #include "simulation/run_experiments.hpp"
 
 namespace touchstone {

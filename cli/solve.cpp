@@ -7,8 +7,8 @@
 
 #include "cli/commands.hpp"
 #include "cli/options.hpp"
+#include "properties/files/read_file.hpp"
 #include "reference/invalid_input.hpp"
-#include "reports/read_file.hpp"
 
 namespace touchstone {
 namespace {

@@ -1,4 +1,4 @@
-#include "stability/stability.hpp"
+#include "reports/stability/stability.hpp"
 
 #include <fmt/format.h>
 #include <memory>
@@ -6,9 +6,9 @@
 #include "cli/commands.hpp"
 #include "cli/given.hpp"
 #include "cli/options.hpp"
+#include "properties/files/write_file.hpp"
 #include "reference/invalid_input.hpp"
-#include "reports/report.hpp"
-#include "reports/write_file.hpp"
+#include "reports/make_report.hpp"
 
 namespace touchstone {
 namespace {

@@ -15,8 +15,8 @@ include(CPack)
 install(FILES LICENSE DESTINATION share/doc/touchstone RENAME copyright)
 install(FILES reference/LICENSE DESTINATION share/doc/touchstone RENAME copyright.reference)
 install(PROGRAMS oracle/check_certificate.py DESTINATION share/touchstone)
-install(DIRECTORY scenes/ DESTINATION share/touchstone/scenes
-  FILES_MATCHING REGEX "[.](json|urdf|sdf)$" PATTERN page EXCLUDE)
+install(DIRECTORY simulation/scenes/ DESTINATION share/touchstone/scenes
+  FILES_MATCHING REGEX "[.](json|urdf|sdf)$")
 
 # The package as a user gets it. Without dpkg-dev there is none to be made.
 find_program(DPKG_SHLIBDEPS dpkg-shlibdeps)

@@ -169,4 +169,9 @@ std::uint64_t parse_number(const char* field, std::string_view text) {
   return value;
 }
 
+Subject subject(const Identity& identity) {
+  return {to_string(identity), std::string(describe_pose_class(identity.pair, identity.pose_class)),
+          make_configuration(identity)};
+}
+
 }  // namespace touchstone

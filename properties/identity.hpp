@@ -53,4 +53,12 @@ Configuration make_configuration(const Identity& identity, std::vector<std::uint
 /// A whole number in a name. Throws InvalidInput (with this field).
 std::uint64_t parse_number(const char* field, std::string_view text);
 
+/// A configuration to be shown, and what to call it.
+struct Subject {
+  std::string name;         ///< An identity, or a file.
+  std::string description;  ///< Of its pose class; empty without one.
+  Configuration configuration;
+};
+Subject subject(const Identity& identity);
+
 }  // namespace touchstone

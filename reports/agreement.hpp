@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "audit/enclose.hpp"
+#include "oracle/audit/enclose.hpp"
 #include "oracle/truth.hpp"
 
 namespace touchstone {

@@ -4,10 +4,10 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "candidates/candidate_process.hpp"
+#include "candidates/host/candidate_process.hpp"
+#include "candidates/host/progress.hpp"
+#include "candidates/host/worker_processes.hpp"
 #include "oracle/truth.hpp"
-#include "reports/progress.hpp"
-#include "reports/worker_processes.hpp"
 
 namespace touchstone {
 namespace {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "candidates/candidate_process.hpp"
+#include "candidates/host/candidate_process.hpp"
+#include "oracle/judge/score.hpp"
 #include "properties/identity.hpp"
-#include "reports/score.hpp"
 
 namespace touchstone {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "reports/configuration_json.hpp"
+#include "properties/files/configuration_json.hpp"
 
 namespace touchstone {
 namespace {

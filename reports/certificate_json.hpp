@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "audit/certificate.hpp"
+#include "oracle/audit/certificate.hpp"
 
 namespace touchstone {
 

@@ -15,9 +15,9 @@
 #include <vector>
 
 #include "oracle/truth.hpp"
+#include "properties/files/configuration_json.hpp"
 #include "properties/identity.hpp"
 #include "reports/certificate_json.hpp"
-#include "reports/configuration_json.hpp"
 
 namespace touchstone {
 namespace {

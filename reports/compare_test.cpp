@@ -7,7 +7,7 @@
 
 #include "candidates/candidates.hpp"
 #include "reference/invalid_input.hpp"
-#include "reports/report.hpp"
+#include "reports/make_report.hpp"
 
 namespace touchstone {
 namespace {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "reports/configuration_json.hpp"
+#include "properties/files/configuration_json.hpp"
 
 namespace touchstone {
 namespace {

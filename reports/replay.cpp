@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "reports/configuration_json.hpp"
+#include "properties/files/configuration_json.hpp"
 #include "reports/worst.hpp"
 
 namespace touchstone {

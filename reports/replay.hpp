@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "candidates/candidate_process.hpp"
+#include "candidates/host/candidate_process.hpp"
 #include "reports/worst.hpp"
 
 namespace touchstone {

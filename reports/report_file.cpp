@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <string>
 
+#include "properties/files/json_fields.hpp"
+#include "properties/files/read_file.hpp"
+#include "properties/files/strict_json.hpp"
 #include "reference/invalid_input.hpp"
-#include "reports/json_fields.hpp"
-#include "reports/read_file.hpp"
-#include "reports/strict_json.hpp"
 
 namespace touchstone {
 namespace {

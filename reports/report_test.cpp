@@ -1,4 +1,4 @@
-#include "reports/report.hpp"
+#include "reports/make_report.hpp"
 
 #include <csignal>
 #include <dlfcn.h>
@@ -8,13 +8,13 @@
 #include <sstream>
 
 #include "candidates/candidates.hpp"
+#include "candidates/host/interruption.hpp"
+#include "properties/files/write_file.hpp"
 #include "reference/invalid_input.hpp"
-#include "reports/interruption.hpp"
 #include "reports/replay.hpp"
 #include "reports/solve.hpp"
 #include "reports/terminal_table.hpp"
 #include "reports/worst.hpp"
-#include "reports/write_file.hpp"
 
 namespace touchstone {
 namespace {

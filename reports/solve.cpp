@@ -6,12 +6,12 @@
 #include <ostream>
 #include <string>
 
+#include "properties/files/answer_json.hpp"
+#include "properties/files/configuration_json.hpp"
+#include "properties/files/error_text.hpp"
+#include "properties/files/strict_json.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/agreement.hpp"
-#include "reports/answer_json.hpp"
-#include "reports/configuration_json.hpp"
-#include "reports/error_text.hpp"
-#include "reports/strict_json.hpp"
 
 namespace touchstone {
 namespace {

@@ -3,8 +3,8 @@
 #include <iosfwd>
 #include <vector>
 
-#include "candidates/candidate_process.hpp"
-#include "reports/score.hpp"
+#include "candidates/host/candidate_process.hpp"
+#include "oracle/judge/score.hpp"
 
 namespace touchstone {
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include "oracle/judge/score.hpp"
 #include "reports/log_histogram.hpp"
-#include "reports/score.hpp"
 
 namespace touchstone {
 

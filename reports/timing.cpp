@@ -4,8 +4,8 @@
 #include <numeric>
 #include <random>
 
-#include "reports/interruption.hpp"
-#include "reports/progress.hpp"
+#include "candidates/host/interruption.hpp"
+#include "candidates/host/progress.hpp"
 
 namespace touchstone {
 namespace {

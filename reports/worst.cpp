@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "candidates/candidates.hpp"
-#include "reports/answer_json.hpp"
-#include "reports/configuration_json.hpp"
-#include "reports/progress.hpp"
+#include "candidates/host/progress.hpp"
+#include "properties/files/answer_json.hpp"
+#include "properties/files/configuration_json.hpp"
 #include "reports/worst_selection.hpp"
 
 namespace touchstone {
@@ -50,11 +50,6 @@ std::string program_name() {
 
 std::string replay_command(const std::string& name) {
   return program_name() + " replay " + shell_quoted(name);
-}
-
-Subject subject(const Identity& identity) {
-  return {to_string(identity), std::string(describe_pose_class(identity.pair, identity.pose_class)),
-          make_configuration(identity)};
 }
 
 json examined(const Subject& subject, const std::vector<CandidateProcess*>& candidates,

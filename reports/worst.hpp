@@ -11,14 +11,6 @@ namespace touchstone {
 /// first, then failures before mere errors, by severity, at most two of one class.
 nlohmann::json worst_cases(const Campaign& campaign, const std::vector<CellScores>& scores);
 
-/// A configuration to be shown, and what to call it.
-struct Subject {
-  std::string name;         ///< An identity, or a file.
-  std::string description;  ///< Of its pose class; empty without one.
-  Configuration configuration;
-};
-Subject subject(const Identity& identity);
-
 /// One configuration with its truth and the candidates' answers, as in worst_cases and `replay`.
 nlohmann::json examined(const Subject& subject, const std::vector<CandidateProcess*>& candidates,
                         const Bar& bar, double width = 1e-15);

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "reports/score.hpp"
+#include "oracle/judge/score.hpp"
 
 namespace touchstone {
 

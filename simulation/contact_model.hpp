@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "candidates/candidate_process.hpp"
+#include "candidates/host/candidate_process.hpp"
 
 namespace touchstone {
 

@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reports/progress.hpp"
-#include "reports/statistics.hpp"
-#include "reports/worker_processes.hpp"
+#include "candidates/host/progress.hpp"
+#include "candidates/host/worker_processes.hpp"
 #include "simulation/experiment_bodies.hpp"
 
 namespace touchstone {
@@ -68,8 +67,10 @@ json nanoseconds(CandidateProcess& process, const std::vector<Configuration>& co
   for (int i = 0; i < rounds; ++i) {
     if (const auto cost = process.cost_per_query()) samples.push_back(cost->nanoseconds);
   }
-  const auto q = quantiles(samples);
-  return q ? json(q->median) : json(nullptr);
+  if (samples.empty()) return nullptr;
+  const auto middle = samples.begin() + static_cast<std::ptrdiff_t>((samples.size() - 1) / 2);
+  std::nth_element(samples.begin(), middle, samples.end());
+  return *middle;
 }
 
 json finite(double x) { return std::isfinite(x) ? json(x) : json(nullptr); }

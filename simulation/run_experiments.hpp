@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "candidates/candidate_process.hpp"
+#include "candidates/host/candidate_process.hpp"
 #include "simulation/experiment.hpp"
 
 namespace touchstone {

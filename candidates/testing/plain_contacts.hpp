@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "candidates/candidate_process.hpp"
 #include "candidates/candidates.hpp"
+#include "candidates/host/candidate_process.hpp"
 
 namespace touchstone {
 

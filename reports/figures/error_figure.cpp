@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 #include <vector>
 
+#include "properties/files/write_file.hpp"
 #include "reports/figures/gnuplot.hpp"
-#include "reports/write_file.hpp"
 
 namespace touchstone {
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "properties/files/write_file.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/figures/gnuplot.hpp"
-#include "reports/write_file.hpp"
 
 namespace touchstone {
 

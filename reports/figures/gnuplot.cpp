@@ -8,8 +8,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "properties/files/write_file.hpp"
 #include "reports/html/marks.hpp"
-#include "reports/write_file.hpp"
 
 namespace touchstone {
 

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 #include <vector>
 
+#include "properties/files/write_file.hpp"
 #include "reports/figures/gnuplot.hpp"
 #include "reports/figures/label_places.hpp"
-#include "reports/write_file.hpp"
 
 namespace touchstone {
 namespace {

@@ -7,9 +7,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "reports/configuration_json.hpp"
+#include "properties/files/configuration_json.hpp"
+#include "properties/files/write_file.hpp"
 #include "reports/worst.hpp"
-#include "reports/write_file.hpp"
 
 namespace touchstone {
 namespace {

@@ -1,0 +1,366 @@
+// Asks one candidate in sessions of its plug-in's process; exchange.hpp says what goes between
+// them.
+#include "candidates/host/candidate_process.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <signal.h>
+#include <stdexcept>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "candidates/candidates.hpp"
+#include "candidates/host/exchange.hpp"
+#include "candidates/host/plugin_state.hpp"
+#include "candidates/host/watch.hpp"
+#include "reference/invalid_input.hpp"
+
+namespace touchstone {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// How often a candidate's use of time is looked at.
+constexpr std::chrono::milliseconds between_looks(20);
+
+/// For a plug-in's process to fork a session.
+constexpr std::chrono::seconds beginning_time(10);
+/// For a session that has nothing more to do to end.
+constexpr std::chrono::seconds ending_time(1);
+
+/// Of the limit of processor time, how long a query may wait at first, and by the clock where the
+/// kernel does not tell waiting from wanting a processor.
+constexpr double first_patience = 10, patience_by_the_clock = 100;
+
+/// Sent by timers, other processes and the kernel as well as by the routine that dies of them.
+bool may_come_from_elsewhere(int signal) {
+  switch (signal) {
+    case SIGSEGV:
+    case SIGBUS:
+    case SIGFPE:
+    case SIGILL:
+    case SIGABRT:
+    case SIGTRAP:
+    case SIGSYS:
+      return false;
+    default:
+      return true;
+  }
+}
+
+Command plain_command(Command::Kind kind) {
+  Command command{};
+  command.kind = kind;
+  return command;
+}
+
+Command answer_command(std::uint32_t first, std::uint32_t count, bool release) {
+  Command command = plain_command(Command::answer);
+  command.first = first;
+  command.count = count;
+  command.release = release;
+  return command;
+}
+
+std::string seconds_text(double seconds) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g s", seconds);
+  return text;
+}
+
+}  // namespace
+
+CandidateProcess::CandidateProcess(const Candidate& candidate, double threshold,
+                                   const Limits& limits)
+    : candidate_(candidate),
+      threshold_(threshold),
+      limits_(limits),
+      plugin_(candidate.plugin),
+      patience_(first_patience * limits.seconds) {}
+
+std::optional<CandidateProcess::Misdeed> CandidateProcess::begin() {
+  using Received = PluginProcess::State::Received;
+  PluginProcess::State& s = *plugin_.state_;
+  if (ftruncate(s.text, 0) != 0) fail("ftruncate");
+  bool forked = true;
+  for (int attempt = 0; attempt < 2; ++attempt) {
+    try {
+      if (!s.runs()) s.start(PluginProcess::loading_time);
+    } catch (const InvalidInput& e) {
+      return Misdeed{TS_CRASHED, e.what(), true};
+    }
+    if (static_cast<std::size_t>(candidate_.index) >= s.candidates.size()) {
+      return Misdeed{TS_CRASHED, "its plug-in no longer has it", true};
+    }
+    Command command = plain_command(Command::begin);
+    command.ticket = session_ticket_ = ++ticket_;
+    command.index = candidate_.index;
+    command.threshold = threshold_;
+    command.parameter = candidate_.value;
+    command.memory = static_cast<std::uint64_t>(limits_.mebibytes * (1 << 20));
+    const auto end = Clock::now() + beginning_time;
+    for (bool waits = s.send(command); waits && Clock::now() < end;) {
+      Report report;
+      pid_t sender = -1;
+      const Received received = s.receive(&report, sizeof report, beginning_time, &sender);
+      waits = received != Received::end;
+      if (received != Received::message || report.kind != Report::began ||
+          report.ticket != command.ticket) {
+        continue;
+      }
+      forked = report.value >= 0;
+      if (!forked) break;
+      session_ = sender;
+      return std::nullopt;
+    }
+    s.stop();
+  }
+  if (!forked) throw std::runtime_error("no process could be made for " + candidate_.name);
+  return Misdeed{TS_CRASHED, "its plug-in's process, loaded anew, answers no more", true};
+}
+
+void CandidateProcess::end() {
+  if (session_ < 0) return;
+  session_ = -1;
+  using Received = PluginProcess::State::Received;
+  PluginProcess::State& s = *plugin_.state_;
+  Command command = plain_command(Command::finish);
+  command.ticket = ++ticket_;
+  const auto end = Clock::now() + ending_time;
+  for (bool waits = s.send(command); waits && Clock::now() < end;) {
+    Report report;
+    const Received received = s.receive(&report, sizeof report, ending_time);
+    waits = received != Received::end;
+    if (received == Received::message && report.kind == Report::ended &&
+        report.ticket == session_ticket_) {
+      if (report.left_behind) break;
+      return;
+    }
+  }
+  s.stop();
+}
+
+void CandidateProcess::ask_within(double threshold) {
+  end();
+  threshold_ = threshold;
+}
+
+void CandidateProcess::put(std::uint32_t slot, const Configuration& c,
+                           const Vec3* previous_normal) {
+  const Vec3 hint = previous_normal ? *previous_normal : Vec3(Vec3::Zero());
+  plugin_.state_->questions->slots[slot] = {
+      to_ts_shape(c.a),     to_ts_shape(c.b),           to_ts_pose(c.pose_a),
+      to_ts_pose(c.pose_b), previous_normal != nullptr, {hint.x(), hint.y(), hint.z()}};
+}
+
+std::optional<CandidateProcess::Misdeed> CandidateProcess::obey(Command command) {
+  using Received = PluginProcess::State::Received;
+  PluginProcess::State& s = *plugin_.state_;
+  std::optional<Misdeed> not_begun;
+  if (session_ < 0) not_begun = begin();
+  command.ticket = ++ticket_;
+  s.exchange->progress = progress_of(ticket_, command.first);
+  if (not_begun) return not_begun;
+  const auto fallen = [&](ts_status status, std::string reason) {
+    s.stop();
+    session_ = -1;
+    return Misdeed{status, std::move(reason), false};
+  };
+  if (!s.send(command)) return fallen(TS_CRASHED, "its plug-in's process ended");
+
+  // Most commands are done before anyone looks; the watch begins when the first look is over.
+  std::optional<Watch> watch;
+  std::uint64_t progress = s.exchange->progress;
+  auto next_look = Clock::now() + between_looks;
+  for (;;) {
+    std::string too_long;
+    if (Clock::now() >= next_look) {
+      next_look = Clock::now() + between_looks;
+      const std::uint64_t now = s.exchange->progress;
+      if (!watch || (now > progress && now <= progress_of(ticket_, command.count))) {
+        progress = now;
+        watch.emplace(session_);
+      } else {
+        too_long = judge(*watch);
+      }
+    }
+    // At least once after the look, so that no answer is late that came before.
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(next_look - Clock::now());
+    Report report;
+    const Received received =
+        s.receive(&report, sizeof report, std::max(too_long.empty() ? left : left * 0, left * 0));
+    if (received == Received::message) {
+      if (report.kind == Report::finished && report.ticket == ticket_) return std::nullopt;
+      if (report.kind == Report::ended && report.ticket == session_ticket_) {
+        session_ = -1;
+        if (report.left_behind) s.stop();
+        return end_of_session(report.value);
+      }
+      if (report.kind == Report::gone) {
+        return fallen(TS_CRASHED, "its plug-in's process: " + how_it_ended(report.value));
+      }
+    } else if (received == Received::end) {
+      return fallen(TS_CRASHED, "closed its connection to Touchstone");
+    }
+    if (!too_long.empty()) return fallen(TS_TIMED_OUT, too_long);
+  }
+}
+
+std::string CandidateProcess::judge(const Watch& watch) {
+  const Watch::Spent spent = watch.spent();
+  if (spent.computing > limits_.seconds) {
+    return "no answer within " + seconds_text(limits_.seconds);
+  }
+  if (!spent.waiting) {
+    const double limit = patience_by_the_clock * limits_.seconds;
+    if (spent.by_the_clock > limit)
+      return "no answer within " + seconds_text(limit) + " by the clock";
+  } else if (*spent.waiting > patience_) {
+    const std::string text = "no answer, having waited for " + seconds_text(patience_);
+    patience_ = std::max(limits_.seconds, patience_ / 2);
+    return text;
+  }
+  return "";
+}
+
+CandidateProcess::Misdeed CandidateProcess::end_of_session(int status) const {
+  const PluginProcess::State& s = *plugin_.state_;
+  if (WIFEXITED(status) && WEXITSTATUS(status) == exit_thrown) {
+    const char* const text = s.exchange->thrown;
+    return {TS_CRASHED, "threw " + std::string(text, strnlen(text, sizeof s.exchange->thrown)),
+            true};
+  }
+  Misdeed misdeed{TS_CRASHED, how_it_ended(status), true};
+  if (WIFSIGNALED(status)) {
+    misdeed.certain = !may_come_from_elsewhere(WTERMSIG(status));
+    if (WTERMSIG(status) == SIGABRT && !s.last_line().empty()) {
+      misdeed.reason += ": " + s.last_line();
+    }
+  }
+  return misdeed;
+}
+
+Answer CandidateProcess::answer_of(const Misdeed& misdeed) {
+  Answer answer{};
+  answer.status = misdeed.status;
+  answer.reason = readable(misdeed.reason);
+  return answer;
+}
+
+std::optional<Answer> CandidateProcess::answer_in(std::uint32_t i) const {
+  const Slot slot = plugin_.state_->exchange->slots[i];
+  if (slot.seal != seal_of(slot, ticket_)) return std::nullopt;
+  Answer answer{slot.answer, {}, {}};
+  if (!std::isnan(slot.model_distance)) answer.model_distance = slot.model_distance;
+  // Statuses and points that the interface does not allow are the candidate's failure.
+  if (answer.status < TS_CONTACT || answer.status > TS_FAILED || answer.point_count < 0 ||
+      answer.point_count > TOUCHSTONE_MAX_POINTS) {
+    static_cast<ts_answer&>(answer) = {};
+    answer.status = TS_FAILED;
+  }
+  return answer;
+}
+
+Answer CandidateProcess::answer_alone(std::uint32_t i) {
+  end();
+  const auto misdeed = obey(answer_command(i, i + 1, true));
+  if (const auto answer = answer_in(i)) return *answer;
+  return answer_of(misdeed.value_or(Misdeed{TS_CRASHED, "wrote over its own answer", true}));
+}
+
+void CandidateProcess::answer_batch(std::uint32_t count, bool release,
+                                    std::vector<Answer>& answers) {
+  std::vector<std::optional<Answer>> given(count);
+  for (std::uint32_t first = 0; first < count;) {
+    const bool fresh = session_ < 0;
+    const auto misdeed = obey(answer_command(first, count, release));
+    for (std::uint32_t i = first; i < count; ++i) given[i] = answer_in(i);
+    const auto none = std::find(given.begin(), given.end(), std::nullopt);
+    const auto in_hand = static_cast<std::uint32_t>(none - given.begin());
+    if (in_hand == count) break;
+    if (misdeed && plugin_.state_->exchange->progress == progress_of(ticket_, in_hand)) {
+      const bool certain = misdeed->certain || (fresh && in_hand == first);
+      given[in_hand] = certain ? answer_of(*misdeed) : answer_alone(in_hand);
+      first = in_hand + 1;
+      continue;
+    }
+    // Answers were written over, by whom nobody can tell.
+    for (std::uint32_t i = in_hand; i < count; ++i) {
+      if (!given[i]) given[i] = answer_alone(i);
+    }
+    break;
+  }
+  for (auto& answer : given) answers.push_back(std::move(*answer));
+}
+
+std::vector<Answer> CandidateProcess::answers(std::span<const Configuration> configurations) {
+  end();
+  return answer(configurations, {}, true);
+}
+
+std::vector<Answer> CandidateProcess::answer(std::span<const Configuration> configurations,
+                                             std::span<const Vec3* const> previous_normals) {
+  return answer(configurations, previous_normals, false);
+}
+
+std::vector<Answer> CandidateProcess::answer(std::span<const Configuration> configurations,
+                                             std::span<const Vec3* const> previous_normals,
+                                             bool release) {
+  std::vector<Answer> result;
+  for (std::size_t at = 0; at < configurations.size(); at += batch_size) {
+    const auto batch =
+        configurations.subspan(at, std::min<std::size_t>(batch_size, configurations.size() - at));
+    for (std::uint32_t i = 0; i < batch.size(); ++i) {
+      put(i, batch[i], previous_normals.empty() ? nullptr : previous_normals[at + i]);
+    }
+    answer_batch(static_cast<std::uint32_t>(batch.size()), release, result);
+  }
+  return result;
+}
+
+Answer CandidateProcess::answer(const Configuration& configuration, const Vec3* previous_normal) {
+  std::vector<Answer> result;
+  put(0, configuration, previous_normal);
+  answer_batch(1, false, result);
+  return result.front();
+}
+
+bool CandidateProcess::prepare_timing(std::span<const Configuration> configurations) {
+  end();
+  for (std::size_t at = 0; at < configurations.size(); at += batch_size) {
+    const auto batch =
+        configurations.subspan(at, std::min<std::size_t>(batch_size, configurations.size() - at));
+    for (std::uint32_t i = 0; i < batch.size(); ++i) put(i, batch[i]);
+    Command keep = plain_command(Command::keep);
+    keep.count = static_cast<std::uint32_t>(batch.size());
+    if (obey(keep)) return false;
+  }
+  return !configurations.empty() && !obey(plain_command(Command::warm_up));
+}
+
+std::optional<QueryCost> CandidateProcess::cost_per_query() {
+  if (session_ < 0 || obey(plain_command(Command::time))) return std::nullopt;
+  const Exchange& exchange = *plugin_.state_->exchange;
+  if (!std::isfinite(exchange.nanoseconds)) return std::nullopt;
+  QueryCost cost{exchange.nanoseconds, std::nullopt};
+  if (std::isfinite(exchange.instructions)) cost.instructions = exchange.instructions;
+  return cost;
+}
+
+std::vector<CandidateProcess> start(const std::vector<const Candidate*>& candidates,
+                                    double threshold, const Limits& limits) {
+  std::vector<CandidateProcess> processes;
+  for (const Candidate* c : candidates) processes.emplace_back(*c, threshold, limits);
+  return processes;
+}
+
+std::vector<CandidateProcess*> pointers(std::vector<CandidateProcess>& processes) {
+  std::vector<CandidateProcess*> result;
+  for (CandidateProcess& p : processes) result.push_back(&p);
+  return result;
+}
+
+}  // namespace touchstone

@@ -1,0 +1,209 @@
+// Every misdeed of testing/sabotage.cpp costs the one configuration that it was done on.
+#include "candidates/host/candidate_process.hpp"
+
+#include <chrono>
+#include <filesystem>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "candidates/testing/plain_contacts.hpp"
+#include "reference/invalid_input.hpp"
+
+namespace touchstone {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+const Configuration standing = plain_contacts()[0].configuration;
+
+const Candidate& sabotage(const std::string& name) {
+  static const bool added = (add_plugin(TOUCHSTONE_TEST_PLUGINS "/touchstone-sabotage.so"), true);
+  (void)added;
+  return find_candidate(name);
+}
+
+Answer after_misdeed(int deed, const Limits& limits = {10, 256}) {
+  CandidateProcess process(sabotage("misdeed:" + std::to_string(deed)), 0, limits);
+  return process.answer(standing);
+}
+
+TEST(CandidateProcess, NamesTheSignalOfACrash) {
+  const Answer a = after_misdeed(1);
+  EXPECT_EQ(a.status, TS_CRASHED);
+#ifndef __SANITIZE_ADDRESS__
+  EXPECT_EQ(a.reason, "Segmentation fault");
+#endif
+}
+
+TEST(CandidateProcess, NamesAnAbort) {
+  const Answer a = after_misdeed(2);
+  EXPECT_EQ(a.status, TS_CRASHED);
+  EXPECT_THAT(a.reason, StartsWith("Aborted"));
+}
+
+TEST(CandidateProcess, CatchesExceptionsOfEveryType) {
+  EXPECT_EQ(after_misdeed(3).status, TS_CRASHED);
+  EXPECT_EQ(after_misdeed(3).reason, "threw no convergence");
+  EXPECT_EQ(after_misdeed(4).status, TS_CRASHED);
+  EXPECT_EQ(after_misdeed(4).reason, "threw something that is no exception");
+}
+
+TEST(CandidateProcess, WhatACandidateSaysIsMadeReadable) {
+  EXPECT_EQ(after_misdeed(15).reason, "threw no text ??");
+}
+
+TEST(CandidateProcess, EndsALoopAfterItsProcessorTime) {
+  const auto start = std::chrono::steady_clock::now();
+  const Answer a = after_misdeed(5, {0.1, 256});
+  EXPECT_EQ(a.status, TS_TIMED_OUT);
+  EXPECT_EQ(a.reason, "no answer within 0.1 s");
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(30));
+}
+
+TEST(CandidateProcess, EndsASleepByTheClock) {
+  EXPECT_EQ(after_misdeed(6, {0.01, 256}).status, TS_TIMED_OUT);
+}
+
+TEST(CandidateProcess, RefusesTenGibibytes) {
+  const Answer a = after_misdeed(7);
+  EXPECT_EQ(a.status, TS_CRASHED);
+#ifndef __SANITIZE_ADDRESS__
+  EXPECT_EQ(a.reason, "threw std::bad_alloc");
+#endif
+}
+
+TEST(CandidateProcess, NoticesThatItsProcessLeft) {
+  const Answer a = after_misdeed(8);
+  EXPECT_EQ(a.status, TS_CRASHED);
+  EXPECT_EQ(a.reason, "ended with exit code 0");
+}
+
+TEST(CandidateProcess, AMillionPointsAreACrashWhenWrittenAndAFailureWhenClaimed) {
+  EXPECT_EQ(after_misdeed(9).status, TS_CRASHED);
+  EXPECT_EQ(after_misdeed(10).status, TS_FAILED);
+  EXPECT_EQ(after_misdeed(10).point_count, 0);
+}
+
+TEST(CandidateProcess, PassesOnNonsenseForTheScoreToJudge) {
+  EXPECT_TRUE(std::isnan(after_misdeed(11).normal[0]));
+  EXPECT_EQ(after_misdeed(12).normal[2], 2);
+}
+
+TEST(CandidateProcess, ACandidateCannotClaimToHaveCrashed) {
+  EXPECT_EQ(after_misdeed(13).status, TS_FAILED);
+}
+
+TEST(CandidateProcess, MemoryThatGrowsIsStoppedAndStartsAgain) {
+  CandidateProcess process(sabotage("misdeed:14"), 0, {1, 256});
+  const std::vector<Configuration> many(10, standing);
+  const auto answers = process.answers(many);
+  ASSERT_EQ(answers.size(), 10u);
+  // Three times 64 MiB fit; the fourth costs its configuration, and the next starts empty.
+  for (int i = 0; i < 10; ++i) {
+    EXPECT_EQ(answers[i].status, i % 4 == 3 ? TS_CRASHED : TS_CONTACT) << i;
+  }
+}
+
+TEST(CandidateProcess, AMisdeedCostsOneConfigurationOfABatch) {
+  // Sanitizers take their time over a crash.
+  CandidateProcess process(sabotage("sabotage"), 0, {10, 256});
+  std::vector<Configuration> many;
+  for (int i = 0; i < 150; ++i) {
+    many.push_back({standing.a, Pose({0.37 * i, 0, 1.9}, upright), standing.b, standing.pose_b});
+  }
+  const auto together = process.answers(many);
+  ASSERT_EQ(together.size(), many.size());
+  int crashed = 0;
+  for (std::size_t i = 0; i < many.size(); ++i) {
+    const Answer alone = process.answer(many[i]);
+    EXPECT_EQ(alone.status, together[i].status) << i;
+    EXPECT_EQ(alone.reason, together[i].reason) << i;
+    crashed += together[i].status == TS_CRASHED;
+  }
+  EXPECT_GT(crashed, 10);
+  EXPECT_LT(crashed, 60);
+}
+
+TEST(CandidateProcess, HandsThePreviousNormalOnOnce) {
+  CandidateProcess process(sabotage("obedient"), 0);
+  const Vec3 previous(0, 0.6, -0.8);
+  EXPECT_EQ(normal_of(process.answer(standing)), Vec3::UnitZ());
+  EXPECT_EQ(normal_of(process.answer(standing, &previous)), previous);
+  EXPECT_EQ(normal_of(process.answer(standing)), Vec3::UnitZ());
+  const auto answers = process.answers({&standing, 1});
+  EXPECT_EQ(normal_of(answers.at(0)), Vec3::UnitZ());
+}
+
+TEST(CandidateProcess, PreparesShapesOnceForManyPosesAndKeepsFewOfThem) {
+  CandidateProcess process(sabotage("counting"), 0);
+  const auto ask = [&](double radius, double height) {
+    return process.answer({Cylinder(radius, 1), Pose({0, 0, height}, upright), standing.b, {}});
+  };
+  for (const double height : {0.9, 0.8, 0.7}) {  // two bodies in turn, as in a world
+    ask(0.5, height);
+    EXPECT_EQ(ask(0.25, height).signed_distance, -2);
+  }
+  for (int i = 1; i <= 100; ++i) ask(i, 0.9);
+  const Answer last = ask(0.5, 0.9);
+  EXPECT_EQ(last.signed_distance, -103);  // so long ago that it was prepared anew
+  EXPECT_LT(last.points[0].depth, 20);    // pairs that are not released
+}
+
+TEST(CandidateProcess, LeavesNoFileOpen) {
+  const auto open_files = [] {
+    int count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
+      count += entry.exists();
+    }
+    return count;
+  };
+  after_misdeed(16);
+  const int before = open_files();
+  for (int deed : {1, 3, 8, 16}) after_misdeed(deed);
+  EXPECT_EQ(open_files(), before);
+}
+
+TEST(CandidateProcess, TimesTheQueriesAndNothingElse) {
+  // An answer made by a few stores: what a round trip between processes costs, some microseconds,
+  // would be seen.
+  CandidateProcess process(sabotage("misdeed:16"), 0);
+  const std::vector<Configuration> many(200, standing);
+  ASSERT_TRUE(process.prepare_timing(many));
+  double least = 1e9, fewest = 1e9;
+  for (int i = 0; i < 9; ++i) {
+    const QueryCost cost = process.cost_per_query().value();
+    least = std::min(least, cost.nanoseconds);
+    // Where they cannot be counted it says so; where they can, a query is some dozens.
+    fewest = std::min(fewest, cost.instructions.value_or(20));
+  }
+  EXPECT_GT(fewest, 5);
+  EXPECT_LT(fewest, 500);
+  EXPECT_GT(least, 0);
+  EXPECT_LT(least, 200);
+}
+
+TEST(CandidateProcess, ACrashWhileTimingIsNoTime) {
+  CandidateProcess process(sabotage("misdeed:1"), 0);
+  EXPECT_FALSE(process.prepare_timing(std::vector<Configuration>(3, standing)));
+  EXPECT_FALSE(process.cost_per_query());
+}
+
+TEST(PluginProcess, RefusesWhatIsNoPlugin) {
+  const auto refused = [](const std::string& file, const std::string& why) {
+    EXPECT_THAT([&] { add_plugin(file); }, testing::ThrowsMessage<InvalidInput>(
+                                               AllOf(HasSubstr("--candidate"), HasSubstr(why))))
+        << file;
+  };
+  const std::string folder = TOUCHSTONE_TEST_PLUGINS;
+  refused("nowhere.so", "must be a file");
+  refused("/etc/passwd", "invalid ELF header");
+  refused(folder + "/touchstone-old.so", "version 2 of candidate.h; this is version 3");
+  refused(folder + "/touchstone-deadly.so", "Aborted");
+  sabotage("sabotage");
+  refused(folder + "/touchstone-sabotage.so", "a name that is taken");
+}
+
+}  // namespace
+}  // namespace touchstone

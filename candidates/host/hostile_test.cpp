@@ -1,0 +1,349 @@
+// Whatever a plug-in does, on purpose or not: the configuration that it does it on gets the answer
+// that is true of it, the others get theirs, nothing is left running, and it takes no long time.
+#include <chrono>
+#include <cstdlib>
+#include <dlfcn.h>
+#include <filesystem>
+#include <fstream>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <linux/filter.h>
+#include <linux/seccomp.h>
+#include <map>
+#include <sched.h>
+#include <set>
+#include <sys/prctl.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+
+#include "candidates/candidates.hpp"
+#include "candidates/host/candidate_process.hpp"
+#include "candidates/host/guard.hpp"
+#include "reference/invalid_input.hpp"
+
+namespace touchstone {
+namespace {
+
+using testing::AnyOf;
+using testing::HasSubstr;
+
+const std::filesystem::path hostile_file = TOUCHSTONE_TEST_PLUGINS "/touchstone-hostile.so";
+
+#ifdef __SANITIZE_ADDRESS__
+constexpr Limits limits{2, 256};  // it takes its time over a crash
+#else
+constexpr Limits limits{0.05, 256};
+#endif
+constexpr int culprit = 5, number = 12;
+
+/// What becomes of the configuration that a deed is done on.
+struct Expected {
+  const char* deed;
+  std::vector<ts_status> status;
+  std::string reason = "";
+};
+
+/// A wait is over the sooner.
+Limits limits_of(const Expected& expected) {
+  return expected.reason == "waited" ? Limits{0.02, 256} : limits;
+}
+
+const std::vector<ts_status> answered = {TS_CONTACT}, crashed = {TS_CRASHED},
+                             timed_out = {TS_TIMED_OUT}, failed = {TS_FAILED};
+/// It may have answered before what it did ends its session.
+const std::vector<ts_status> answered_or_crashed = {TS_CONTACT, TS_CRASHED};
+const std::vector<ts_status> whatever = {TS_CONTACT, TS_CRASHED, TS_TIMED_OUT};
+
+const std::vector<Expected> all_deeds = {
+    {"nothing", answered},
+    {"segmentation fault", crashed, "Segmentation fault"},
+    {"division", crashed, "Floating point exception"},
+    {"abort", crashed, "Aborted"},
+    {"SIGTERM", crashed, "Terminated"},
+    {"SIGINT", crashed, "Interrupt"},
+    {"SIGKILL", crashed, "Killed"},
+    {"SIGSTOP", timed_out, "waited"},
+    {"SIGALRM", crashed, "Alarm clock"},
+    {"SIGBUS", crashed, "Bus error"},
+    {"exit", crashed, "exit code 0"},
+    {"_exit", crashed, "exit code 0"},
+    {"quick_exit", crashed, "exit code 0"},
+    {"exit with the host's own code", crashed, ""},
+    {"exit with a handler that hangs", timed_out, "waited"},
+    {"leave the session to a child", answered_or_crashed},
+    {"throw", crashed, "no exception"},
+    {"endless loop", timed_out, "no answer within"},
+    {"sleep", timed_out, "waited"},
+    {"pause", timed_out, "waited"},
+    {"doze", timed_out, "waited"},
+    {"read standard input", answered},
+    {"read a pipe of its own", timed_out, "waited"},
+    {"deadlock", timed_out, "waited"},
+    {"fork, both pause", timed_out, "waited"},
+    {"fork, both return", answered},
+    {"fork, the child pauses", answered},
+    {"vfork, the child pauses", timed_out, "waited"},
+    {"daemon", answered},
+    {"thirty-two processes", timed_out, "waited"},
+    {"daemon that kills all later", answered},
+    {"thread left working", answered},
+    {"write to all descriptors", answered},
+    {"write to all descriptors for ever", timed_out},
+    {"close all descriptors", answered_or_crashed},
+    {"shut all sockets", answered_or_crashed},
+    {"read all descriptors", timed_out, "waited"},
+    {"replace all descriptors", answered_or_crashed},
+    {"interrupt the group", crashed, "Interrupt"},
+    {"kill the group", crashed, "Killed"},
+    {"stop the group", timed_out, "waited"},
+    {"kill everyone", answered_or_crashed},
+    {"stop everyone", whatever},
+    {"kill the parent", answered_or_crashed},
+    {"stop the parent", answered_or_crashed},
+    {"interrupt the parent", answered_or_crashed},
+    {"kill the parent's group", answered_or_crashed},
+    {"be traced", crashed},
+    {"trace the parent", answered_or_crashed},
+    {"block all signals and loop", timed_out, "no answer within"},
+    {"handle all signals and crash", crashed, "Segmentation fault"},
+    {"handle crashes and crash", timed_out, "no answer within"},
+    {"alarm", answered},
+    {"timer", answered_or_crashed},
+    {"lower limits", answered},
+    {"raise limits", answered},
+    {"allocate a tebibyte", crashed, "std::bad_alloc"},
+    {"overflow the stack", crashed, "Segmentation fault"},
+    {"change folder, mask, locale, environment", answered},
+    {"remove its folder", answered},
+    {"round upward", answered},
+    {"flush subnormals", answered},
+    {"trap on inexact", answered_or_crashed},
+    {"overwrite shared memory with ones", answered},
+    {"overwrite shared memory with zeros", answered},
+    {"overwrite shared memory and crash", crashed, "Segmentation fault"},
+    {"overwrite shared memory and pause", timed_out, "waited"},
+    {"unmap shared memory", crashed, "Segmentation fault"},
+    {"print 40 MiB", answered},
+    {"jump nowhere", crashed},
+    {"end the thread", crashed},
+    {"crash in prepare", crashed, "Segmentation fault"},
+    {"exit in prepare", crashed, "exit code 0"},
+    {"throw in prepare", crashed, "no exception"},
+    {"pause in prepare", timed_out, "waited"},
+    {"crash in release", crashed, "Segmentation fault"},
+    {"exit in release", crashed, "exit code 0"},
+    {"pause in release", timed_out, "waited"},
+    {"a billion points", failed},
+    {"minus one point", failed},
+    {"not a number", answered},
+    {"unknown status", failed},
+    {"claim a timeout", failed},
+    {"write beyond the answer", crashed, "Segmentation fault"},
+    {"write before the answer", answered},
+};
+
+/// Number of each deed.
+const std::map<std::string, int>& deed_numbers() {
+  static const auto numbers = [] {
+    std::map<std::string, int> result;
+    void* const library = dlopen(hostile_file.c_str(), RTLD_NOW | RTLD_LOCAL);
+    const auto name = reinterpret_cast<const char* (*)(int)>(dlsym(library, "hostile_deed"));
+    for (int i = 0; name(i); ++i) result[name(i)] = i + 1;
+    return result;
+  }();
+  return numbers;
+}
+
+Candidate hostile(const std::string& deed) {
+  Candidate candidate = PluginProcess(hostile_file).candidates().front();
+  candidate.value = deed_numbers().at(deed);
+  return candidate;
+}
+
+std::vector<Configuration> configurations() {
+  std::vector<Configuration> result;
+  for (int i = 0; i < number; ++i) {
+    const Pose pose({0.25 * i, 0, 1.9}, Eigen::Quaterniond::Identity());
+    result.push_back({Cylinder(i == culprit ? 7 : 0.5 + i, 1), pose, Plane({0, 0, 1}, 0), Pose()});
+  }
+  return result;
+}
+
+void expect_right(const Answer& answer, int i) {
+  EXPECT_EQ(answer.status, TS_CONTACT) << i << ": " << answer.reason;
+  EXPECT_EQ(answer.signed_distance, -1.0 / 3 - 0.25 * i) << i;
+  EXPECT_EQ(answer.point_count, 1) << i;
+}
+
+/// Children of this process; with those that lost their parent, once it is asked to take them in.
+std::set<std::string> children() {
+  std::set<std::string> result;
+  std::ifstream list("/proc/thread-self/children");
+  for (std::string pid; list >> pid;) result.insert(pid);
+  return result;
+}
+
+/// Takes leave of children that have ended, and gives those that are about to a moment.
+void expect_children(const std::set<std::string>& expected) {
+  for (int i = 0; i < 200 && children() != expected; ++i) {
+    usleep(10000);
+    while (waitpid(-1, nullptr, WNOHANG) > 0) {
+    }
+  }
+  EXPECT_EQ(children(), expected);
+}
+
+/// As googletest wants names.
+template <class Parameter>
+std::string deed_name(const testing::TestParamInfo<Parameter>& tested) {
+  std::string name;
+  for (const char c : std::string(tested.param.deed)) {
+    if (std::isalnum(static_cast<unsigned char>(c))) name += c;
+    if (c == ' ' || c == '_') name += '_';
+  }
+  return name;
+}
+
+/// With TOUCHSTONE_TEST_NO_NAMESPACES in the environment nobody gets one, as in most containers.
+class NoNamespaces : public testing::Environment {
+  void SetUp() override {
+    if (!std::getenv("TOUCHSTONE_TEST_NO_NAMESPACES")) return;
+    sock_filter filter[] = {
+        BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, nr)),
+        BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, SYS_unshare, 0, 1),
+        BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ERRNO | EPERM),
+        BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW),
+    };
+    const sock_fprog program{std::size(filter), filter};
+    ASSERT_EQ(prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0), 0);
+    ASSERT_EQ(prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program), 0);
+    ASSERT_NE(unshare(CLONE_NEWPID), 0);
+  }
+};
+const auto* const no_namespaces = testing::AddGlobalTestEnvironment(new NoNamespaces);
+
+bool namespaces_are_given() {
+  const pid_t child = fork();
+  if (child == 0) _exit(begin_pid_namespace() ? 0 : 1);
+  int status = 0;
+  waitpid(child, &status, 0);
+  return status == 0;
+}
+
+class Hostile : public testing::TestWithParam<Expected> {};
+
+TEST_P(Hostile, CostsItsOwnConfigurationAlone) {
+  const Expected& expected = GetParam();
+  prctl(PR_SET_CHILD_SUBREAPER, 1);  // whatever is left behind comes here
+  const auto before = children();
+  {
+    CandidateProcess process(hostile(expected.deed), 0, limits_of(expected));
+    const auto asked = configurations();
+    const std::vector<Answer> answers = process.answers(asked);
+    ASSERT_EQ(answers.size(), asked.size());
+    for (int i = 0; i < number; ++i) {
+      if (i != culprit) expect_right(answers[i], i);
+    }
+    EXPECT_THAT(expected.status, testing::Contains(answers[culprit].status))
+        << answers[culprit].reason;
+    EXPECT_THAT(answers[culprit].reason, HasSubstr(expected.reason));
+    // The next questions find no trace of it.
+    const std::vector<Answer> again = process.answers({asked.data(), culprit});
+    for (int i = 0; i < culprit; ++i) expect_right(again[i], i);
+  }
+  expect_children(before);
+}
+
+INSTANTIATE_TEST_SUITE_P(Deeds, Hostile, testing::ValuesIn(all_deeds), deed_name<Expected>);
+
+TEST(HostileDeeds, AreAllTried) {
+  std::set<std::string> tried, known;
+  for (const Expected& e : all_deeds) tried.insert(e.deed);
+  for (const auto& [name, i] : deed_numbers()) known.insert(name);
+  EXPECT_EQ(tried, known);
+  EXPECT_GE(known.size(), 40u);
+}
+
+void PrintTo(const Expected& expected, std::ostream* out) { *out << expected.deed; }
+
+struct Loading {
+  const char* deed;
+  const char* refused;      ///< why; null: it serves
+  bool hits_guard = false;  ///< where that is not out of reach; then it may be either
+};
+
+void PrintTo(const Loading& loading, std::ostream* out) { *out << loading.deed; }
+
+class HostileLoading : public testing::TestWithParam<Loading> {};
+
+TEST_P(HostileLoading, IsRefusedOrServes) {
+  prctl(PR_SET_CHILD_SUBREAPER, 1);
+  const auto before = children();
+  const auto [deed, refused, hits_guard] = GetParam();
+  const Candidate candidate = hostile("nothing");
+  setenv("TOUCHSTONE_HOSTILE_LOAD", deed, 1);
+  constexpr std::chrono::milliseconds loading(1000);
+  if (hits_guard && !namespaces_are_given()) {
+    try {
+      CandidateProcess(candidate, 0, limits).answers(configurations());
+    } catch (const InvalidInput&) {
+    }
+  } else if (refused) {
+    EXPECT_THAT([&] { PluginProcess(hostile_file, loading); },
+                testing::ThrowsMessage<InvalidInput>(HasSubstr(refused)));
+  } else {
+    CandidateProcess process(candidate, 0, limits);
+    for (int round = 0; round < 2; ++round) {
+      const auto answers = process.answers(configurations());
+      for (int i = 0; i < number; ++i) expect_right(answers[i], i);
+      if (std::string(deed) == "timer") usleep(300000);  // until it has gone off
+    }
+  }
+  unsetenv("TOUCHSTONE_HOSTILE_LOAD");
+  expect_children(before);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Deeds, HostileLoading,
+    testing::Values(
+        Loading{"crash", "Segmentation fault"}, Loading{"abort", "Aborted"},
+        Loading{"exit", "exit code 0"}, Loading{"throw", "threw"},
+        Loading{"pause", "nothing was heard"}, Loading{"loop", "nothing was heard"},
+        Loading{"fork, both pause", "nothing was heard"}, Loading{"stop", "after loading"},
+        Loading{"close all descriptors", "after loading"},
+        Loading{"kill the group", "after loading"}, Loading{"wrong version", "version 77"},
+        Loading{"no candidates", "no candidates"},
+        Loading{"a billion candidates", "1000000000 candidates"},
+        Loading{"minus one candidate", "no candidates"}, Loading{"no name", "name"},
+        Loading{"endless name", ""}, Loading{"endless settings", "Segmentation fault"},
+        Loading{"no query", "leaves something out"}, Loading{"no release", "leaves something out"},
+        Loading{"supports hangs", "nothing was heard"}, Loading{"daemon", nullptr},
+        Loading{"write to all descriptors", nullptr},
+
+        Loading{"kill the parent", nullptr, true}, Loading{"handle all signals", nullptr},
+        Loading{"timer", nullptr}, Loading{"thread", nullptr}, Loading{"print 40 MiB", nullptr}),
+    deed_name<Loading>);
+
+TEST(PluginProcess, RefusesWhatIsNoRegularFile) {
+  const std::string fifo = testing::TempDir() + "touchstone-fifo-" + std::to_string(getpid());
+  ASSERT_EQ(mkfifo(fifo.c_str(), 0600), 0);
+  for (const std::string& file : {fifo, std::string("/dev/zero"), testing::TempDir()}) {
+    EXPECT_THAT([&] { add_plugin(file); },
+                testing::ThrowsMessage<InvalidInput>(HasSubstr("must be a regular file")))
+        << file;
+  }
+  std::filesystem::remove(fifo);
+}
+
+TEST(CandidateProcess, AHabitualSleeperCostsLittle) {
+  CandidateProcess process(hostile("sleep"), 0, {0.02, 256});
+  const std::vector<Configuration> many(30, configurations()[culprit]);
+  const auto start = std::chrono::steady_clock::now();
+  for (const Answer& a : process.answers(many)) EXPECT_EQ(a.status, TS_TIMED_OUT);
+  // 0.2 + 0.1 + 0.05 + 0.025 + 26 · 0.02 s of waiting, looked at every 0.02 s; twice 30 s before.
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(15));
+}
+
+}  // namespace
+}  // namespace touchstone

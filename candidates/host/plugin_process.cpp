@@ -1,0 +1,272 @@
+// The harness's side of a plug-in's process; the plug-in's own is plugin_server.cpp.
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/socket.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <system_error>
+#include <unistd.h>
+#include <utility>
+
+#include "candidates/host/guard.hpp"
+#include "candidates/host/plugin_state.hpp"
+#include "reference/invalid_input.hpp"
+
+namespace touchstone {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// For a guard to end what it guards.
+constexpr std::chrono::seconds stopping_time(10);
+
+/// A file in memory, for two processes to map.
+int shared_file(std::size_t size) {
+  const int file = memfd_create("exchange", MFD_CLOEXEC | MFD_ALLOW_SEALING);
+  if (file < 0 || ftruncate(file, static_cast<off_t>(size)) < 0) fail("memfd_create");
+  return file;
+}
+
+void* map(int file, std::size_t size, int protection) {
+  void* const memory = mmap(nullptr, size, protection, MAP_SHARED, file, 0);
+  if (memory == MAP_FAILED) fail("mmap");
+  return memory;
+}
+
+std::chrono::milliseconds until(Clock::time_point end) {
+  return std::max(std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now()),
+                  std::chrono::milliseconds(0));
+}
+
+/// poll, whatever signals come meanwhile.
+int poll_through(pollfd& polled, std::chrono::milliseconds time) {
+  int ready;
+  while ((ready = poll(&polled, 1, static_cast<int>(time.count()))) < 0 && errno == EINTR) {
+  }
+  return ready;
+}
+
+}  // namespace
+
+void fail(const char* call) { throw std::system_error(errno, std::generic_category(), call); }
+
+std::string readable(const std::string& text) {
+  std::string result;
+  for (std::size_t i = 0; i < text.size();) {
+    const auto lead = static_cast<unsigned char>(text[i]);
+    const std::size_t length = lead < 0x80                    ? 1
+                               : lead >= 0xc2 && lead <= 0xdf ? 2
+                               : lead >= 0xe0 && lead <= 0xef ? 3
+                               : lead >= 0xf0 && lead <= 0xf4 ? 4
+                                                              : 0;
+    bool good = length > 0 && i + length <= text.size();
+    for (std::size_t k = 1; good && k < length; ++k) {
+      good = (static_cast<unsigned char>(text[i + k]) & 0xc0) == 0x80;
+    }
+    if (good && length == 3) {  // neither an overlong form nor a surrogate
+      const auto second = static_cast<unsigned char>(text[i + 1]);
+      good = !(lead == 0xe0 && second < 0xa0) && !(lead == 0xed && second > 0x9f);
+    }
+    if (good && length == 4) {  // neither an overlong form nor beyond U+10FFFF
+      const auto second = static_cast<unsigned char>(text[i + 1]);
+      good = !(lead == 0xf0 && second < 0x90) && !(lead == 0xf4 && second > 0x8f);
+    }
+    if (!good) {
+      result += '?';
+      ++i;
+      continue;
+    }
+    if (length == 1) {
+      result += lead < 0x20 || lead == 0x7f ? ' ' : static_cast<char>(lead);
+    } else {
+      result.append(text, i, length);
+    }
+    i += length;
+  }
+  return result;
+}
+
+std::string how_it_ended(int status) {
+  if (WIFSIGNALED(status)) return strsignal(WTERMSIG(status));
+  if (WIFSTOPPED(status)) return "was stopped";
+  return "ended with exit code " + std::to_string(WEXITSTATUS(status));
+}
+
+PluginProcess::State::State(const std::filesystem::path& f) : file(f) {
+  text = memfd_create("candidate", MFD_CLOEXEC);
+  if (text < 0 || fcntl(text, F_SETFL, O_APPEND) < 0) fail("memfd_create");
+  questions_file = shared_file(sizeof(Questions));
+  exchange_file = shared_file(sizeof(Exchange));
+  questions = new (map(questions_file, sizeof(Questions), PROT_READ | PROT_WRITE)) Questions{};
+  exchange = new (map(exchange_file, sizeof(Exchange), PROT_READ | PROT_WRITE)) Exchange{};
+  // Each plug-in maps its own memory; that of others is not to be found in its process.
+  madvise(questions, sizeof(Questions), MADV_DONTFORK);
+  madvise(exchange, sizeof(Exchange), MADV_DONTFORK);
+  // From here on nobody can map the questions to write them.
+  if (fcntl(questions_file, F_ADD_SEALS, F_SEAL_FUTURE_WRITE) < 0) fail("fcntl");
+}
+
+PluginProcess::State::~State() {
+  stop();
+  for (const int file_descriptor : {text, questions_file, exchange_file}) close(file_descriptor);
+  if (owner != getpid()) return;
+  munmap(questions, sizeof(Questions));
+  munmap(exchange, sizeof(Exchange));
+}
+
+void PluginProcess::State::stop() {
+  if (guard > 0 && owner == getpid()) {
+    kill(guard, SIGCONT);
+    kill(guard, SIGTERM);
+    const int handle = static_cast<int>(syscall(SYS_pidfd_open, guard, 0));
+    pollfd ended{handle, POLLIN, 0};
+    if (handle >= 0 && poll_through(ended, stopping_time) == 0) kill(guard, SIGKILL);
+    if (handle >= 0) close(handle);
+    while (waitpid(guard, nullptr, 0) < 0 && errno == EINTR) {
+    }
+    guard = -1;
+  }
+  // Not before, lest a routine that waits for it goes on.
+  if (socket >= 0) close(std::exchange(socket, -1));
+}
+
+PluginProcess::State::Received PluginProcess::State::receive(void* message, std::size_t size,
+                                                             std::chrono::milliseconds time,
+                                                             pid_t* sender) const {
+  pollfd polled{socket, POLLIN, 0};
+  if (poll_through(polled, time) <= 0) return Received::nothing;
+  iovec part{message, size};
+  alignas(cmsghdr) char control[CMSG_SPACE(sizeof(ucred))];
+  msghdr header{};
+  header.msg_iov = &part;
+  header.msg_iovlen = 1;
+  header.msg_control = control;
+  header.msg_controllen = sizeof control;
+  const ssize_t got = recvmsg(socket, &header, MSG_TRUNC | MSG_CMSG_CLOEXEC);
+  if (got <= 0 && (got < 0 || (polled.revents & POLLHUP))) {
+    return got < 0 && errno == EINTR ? Received::nothing : Received::end;
+  }
+  if (got != static_cast<ssize_t>(size)) return Received::noise;
+  const cmsghdr* const first = CMSG_FIRSTHDR(&header);
+  if (sender && first && first->cmsg_type == SCM_CREDENTIALS) {
+    ucred credentials;
+    std::memcpy(&credentials, CMSG_DATA(first), sizeof credentials);
+    *sender = credentials.pid;
+  }
+  return Received::message;
+}
+
+bool PluginProcess::State::wait_for(void* message, std::size_t size,
+                                    std::chrono::milliseconds time) const {
+  const auto end = Clock::now() + time;
+  while (Clock::now() <= end) {
+    const Received received = receive(message, size, until(end));
+    if (received == Received::message) return true;
+    if (received == Received::end) return false;
+  }
+  return false;
+}
+
+bool PluginProcess::State::send(const Command& command) const {
+  return ::send(socket, &command, sizeof command, MSG_NOSIGNAL) == sizeof command;
+}
+
+std::string PluginProcess::State::last_line() const {
+  char buffer[4096];
+  const off_t size = lseek(text, 0, SEEK_END);
+  const ssize_t got = pread(text, buffer, sizeof buffer, std::max<off_t>(0, size - 4096));
+  std::string line(buffer, static_cast<std::size_t>(std::max<ssize_t>(0, got)));
+  while (!line.empty() && line.back() == '\n') line.pop_back();
+  return line.substr(line.rfind('\n') + 1);
+}
+
+/// Runs in the first process that is forked for the plug-in.
+void PluginProcess::State::serve(int other_end) const {
+  prctl(PR_SET_PDEATHSIG, SIGTERM);
+  if (getppid() != owner) _exit(0);  // it died before that
+  const Questions& asked =
+      *static_cast<Questions*>(map(questions_file, sizeof(Questions), PROT_READ));
+  Exchange& answered =
+      *static_cast<Exchange*>(map(exchange_file, sizeof(Exchange), PROT_READ | PROT_WRITE));
+  const int nothing = open("/dev/null", O_RDONLY);
+  dup2(nothing, STDIN_FILENO);
+  dup2(text, STDOUT_FILENO);
+  dup2(text, STDERR_FILENO);
+  constexpr int only = STDERR_FILENO + 1;  // descriptor besides those three
+  dup2(other_end, only);
+  close_range(only + 1, ~0u, 0);
+  setpgid(0, 0);
+  // The namespace begins with the next process; its first one must run no plug-in, because it is
+  // spared the signals that others die of.
+  if (begin_pid_namespace()) fork_guarded(-1);
+  fork_guarded(only);
+  serve_plugin(file.c_str(), only, asked, answered);
+}
+
+void PluginProcess::State::start(std::chrono::milliseconds loading) {
+  int ends[2];
+  if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) fail("socketpair");
+  socket = ends[0];
+  // Says who sent a message, in the numbers of our own PID namespace.
+  const int yes = 1;
+  setsockopt(socket, SOL_SOCKET, SO_PASSCRED, &yes, sizeof yes);
+  guard = fork();
+  if (guard == 0) serve(ends[1]);
+  close(ends[1]);
+  if (guard < 0) fail("fork");
+
+  const auto refuse = [&](const std::string& why) {
+    stop();
+    throw InvalidInput("--candidate", '"' + file.string() + '"',
+                       "must be a plug-in made with candidate.h, but " + why);
+  };
+  const auto told = [](const Report& r) {
+    return r.kind == Report::described || r.kind == Report::refused || r.kind == Report::gone;
+  };
+  Report report;
+  const auto end = Clock::now() + loading;
+  bool heard;
+  do {
+    heard = wait_for(&report, sizeof report, until(end));
+  } while (heard && !told(report));
+  if (!heard && Clock::now() < end) refuse("its process was not there after loading");
+  if (!heard) {
+    refuse("nothing was heard of it within " + std::to_string(loading.count()) + " ms of loading");
+  }
+  if (report.kind == Report::gone) {
+    refuse("its process was not there after loading: " + how_it_ended(report.value));
+  }
+  if (report.kind != Report::described) refuse("it " + readable(report.text));
+  candidates.clear();
+  for (int i = 0; i < report.value; ++i) {
+    Description d;
+    if (!wait_for(&d, sizeof d, until(end))) refuse("it could not be described");
+    Candidate c{
+        d.name, d.name, readable(d.version), readable(d.settings), readable(d.models), {}, 0, {},
+        file,   i};
+    std::copy(std::begin(d.supports), std::end(d.supports), c.supports.begin());
+    if (d.has_parameter)
+      c.parameter = {readable(d.meaning), d.least, d.most, d.usual, d.whole, d.bare};
+    candidates.push_back(std::move(c));
+  }
+}
+
+PluginProcess::PluginProcess(const std::filesystem::path& file, std::chrono::milliseconds loading)
+    : state_(new State(file)) {
+  state_->start(loading);
+}
+
+PluginProcess::~PluginProcess() = default;
+PluginProcess::PluginProcess(PluginProcess&&) noexcept = default;
+PluginProcess& PluginProcess::operator=(PluginProcess&&) noexcept = default;
+
+const std::vector<Candidate>& PluginProcess::candidates() const { return state_->candidates; }
+
+}  // namespace touchstone

@@ -1,0 +1,168 @@
+// The plug-in's side: loads it, describes it, and forks sessions of it.
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <dlfcn.h>
+#include <exception>
+#include <signal.h>
+#include <stdexcept>
+#include <string>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <vector>
+
+#include "candidates/host/exchange.hpp"
+#include "candidates/host/session.hpp"
+
+namespace touchstone {
+namespace {
+
+/// More than anyone has, fewer than a number that is no count.
+constexpr int max_candidates = 1000;
+
+const ts_plugin& load(const char* file) {
+  void* const library = dlopen(file, RTLD_NOW | RTLD_LOCAL);
+  if (!library) throw std::runtime_error(dlerror());
+  const auto entry =
+      reinterpret_cast<decltype(&touchstone_plugin)>(dlsym(library, "touchstone_plugin"));
+  if (!entry) throw std::runtime_error("exports no touchstone_plugin");
+  const ts_plugin* plugin = entry();
+  if (!plugin) throw std::runtime_error("gives no candidates");
+  if (plugin->interface_version != TOUCHSTONE_INTERFACE_VERSION) {
+    throw std::runtime_error("was made for version " + std::to_string(plugin->interface_version) +
+                             " of candidate.h; this is version " +
+                             std::to_string(TOUCHSTONE_INTERFACE_VERSION));
+  }
+  if (plugin->count < 1 || !plugin->candidates) throw std::runtime_error("gives no candidates");
+  if (plugin->count > max_candidates) {
+    throw std::runtime_error("gives " + std::to_string(plugin->count) + " candidates, more than " +
+                             std::to_string(max_candidates));
+  }
+  return *plugin;
+}
+
+template <std::size_t size>
+void copy(const char* from, char (&to)[size]) {
+  std::snprintf(to, size, "%s", from ? from : "");
+}
+
+Description describe(const ts_candidate& c) {
+  const std::string name = c.name ? c.name : "";
+  const auto plain = [](unsigned char x) { return std::isgraph(x) && x != ':' && x != ','; };
+  if (name.empty() || name.size() >= sizeof Description::name ||
+      !std::all_of(name.begin(), name.end(), plain)) {
+    throw std::runtime_error("has a candidate whose name is not of up to " +
+                             std::to_string(sizeof Description::name - 1) +
+                             " characters of printable ASCII without colon, comma or space");
+  }
+  if (!c.version || !c.settings || !c.supports || !c.prepare || !c.query || !c.release) {
+    throw std::runtime_error(std::string("leaves something out in the candidate ") + c.name);
+  }
+  if (const ts_parameter* const p = c.parameter) {
+    if (!p->meaning || !(p->least <= p->usual && p->usual <= p->most)) {
+      throw std::runtime_error("gives the candidate " + name +
+                               " a parameter without meaning or whose usual value is not between "
+                               "its least and most");
+    }
+  }
+  Description d{};
+  copy(c.name, d.name);
+  copy(c.version, d.version);
+  copy(c.settings, d.settings);
+  copy(c.models, d.models);
+  if (c.parameter) {
+    d.has_parameter = true;
+    copy(c.parameter->meaning, d.meaning);
+    d.least = c.parameter->least;
+    d.most = c.parameter->most;
+    d.usual = c.parameter->usual;
+    d.whole = c.parameter->whole != 0;
+    d.bare = c.parameter->bare != 0;
+  }
+  for (const ts_shape_kind kind : {TS_CYLINDER, TS_PLANE, TS_SPHERE, TS_CAPSULE, TS_BOX}) {
+    d.supports[kind] = c.supports(kind) != 0;
+  }
+  return d;
+}
+
+void bound_memory(std::uint64_t growth) {
+  unsigned long pages = 0;
+  if (std::FILE* file = std::fopen("/proc/self/statm", "r")) {
+    if (std::fscanf(file, "%lu", &pages) != 1) pages = 0;
+    std::fclose(file);
+  }
+  const rlim_t bytes = pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + growth;
+  const rlimit memory{bytes, bytes};
+  setrlimit(RLIMIT_AS, &memory);
+}
+
+/// Its wait status when it has ended, which one that is only stopped, by ptrace, has to.
+int wait_for(pid_t pid) {
+  int status = 0;
+  while (waitpid(pid, &status, 0) < 0 ? errno == EINTR : WIFSTOPPED(status)) {
+    if (WIFSTOPPED(status)) kill(pid, SIGKILL);
+  }
+  return status;
+}
+
+/// Does any process that came from this one still run? Takes leave of those that have ended.
+bool others_run() {
+  pid_t pid;
+  while ((pid = waitpid(-1, nullptr, WNOHANG)) > 0) {
+  }
+  return pid == 0;
+}
+
+}  // namespace
+
+void serve_plugin(const char* file, int socket, const Questions& questions, Exchange& exchange) {
+  for (const int signal : {SIGHUP, SIGINT, SIGPIPE, SIGTERM}) ::signal(signal, SIG_DFL);
+  sigset_t none;
+  sigemptyset(&none);
+  sigprocmask(SIG_SETMASK, &none, nullptr);
+  const rlimit no_core{0, 0}, file_size{1 << 24, 1 << 24};  // of what it prints, too
+  setrlimit(RLIMIT_CORE, &no_core);
+  setrlimit(RLIMIT_FSIZE, &file_size);
+  signal(SIGXFSZ, SIG_IGN);
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  // What a session leaves behind comes to this process, which so learns of it.
+  prctl(PR_SET_CHILD_SUBREAPER, 1);
+
+  const ts_plugin* plugin = nullptr;
+  try {
+    plugin = &load(file);
+    std::vector<Description> descriptions;
+    for (int i = 0; i < plugin->count; ++i) descriptions.push_back(describe(plugin->candidates[i]));
+    report(socket, Report::described, 0, plugin->count);
+    for (const Description& d : descriptions) send(socket, &d, sizeof d);
+  } catch (const std::exception& e) {
+    report(socket, Report::refused, 0, 0, e.what());
+    _exit(1);
+  } catch (...) {
+    report(socket, Report::refused, 0, 0, "threw something that is no exception");
+    _exit(1);
+  }
+  for (;;) {
+    const Command command = receive(socket);
+    if (command.kind != Command::begin) continue;  // meant for a session that died unasked
+    const pid_t pid = fork();
+    if (pid == 0) {
+      prctl(PR_SET_PDEATHSIG, SIGKILL);  // if this process dies first, receive() ends the session
+      setpgid(0, 0);
+      bound_memory(command.memory);
+      Session(plugin->candidates[command.index], command, socket, questions, exchange).serve();
+    }
+    if (pid < 0) {
+      report(socket, Report::began, command.ticket, -1);
+      continue;
+    }
+    const int status = wait_for(pid);
+    report(socket, Report::ended, command.ticket, status, "", others_run());
+  }
+}
+
+}  // namespace touchstone

@@ -1,0 +1,73 @@
+#include "candidates/host/progress.hpp"
+
+#include <cstdio>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <pty.h>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+
+namespace touchstone {
+namespace {
+
+TEST(Progress, HasRateAndTimeLeft) {
+  EXPECT_EQ(progress_text("configurations", 100, 1000, 2),
+            "100 of 1000 configurations, 50/s, 18 s left");
+  EXPECT_EQ(progress_text("cells", 3, 303, 2), "3 of 303 cells, 1.5/s, 3 min 20 s left");
+  EXPECT_EQ(progress_text("cells", 1, 10000, 2), "1 of 10000 cells, 0.5/s, 5 h 33 min left");
+  EXPECT_EQ(progress_text("cells", 10, 10, 2), "10 of 10 cells, 5.0/s, 0 s left");
+}
+
+TEST(Progress, PromisesNothingBeforeAnythingIsDone) {
+  EXPECT_EQ(progress_text("cells", 0, 10, 2), "0 of 10 cells");
+  EXPECT_EQ(progress_text("cells", 0, 0, 0), "0 of 0 cells");
+}
+
+/// What half a second of progress prints on a terminal so many columns wide.
+std::string on_terminal(unsigned short columns) {
+  winsize size{24, columns, 0, 0};
+  int terminal = -1;
+  const pid_t pid = forkpty(&terminal, nullptr, nullptr, &size);
+  if (pid == 0) {
+    {
+      Progress progress("configurations", 100);
+      for (std::size_t i = 0; i < 50; ++i) {
+        progress.update(i);
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      }
+    }
+    _exit(0);
+  }
+  std::string text;
+  char part[256];
+  for (ssize_t got; (got = read(terminal, part, sizeof part)) > 0;) text.append(part, got);
+  waitpid(pid, nullptr, 0);
+  close(terminal);
+  return text;
+}
+
+TEST(Progress, RewritesOneLineOnATerminalAndClearsIt) {
+  const std::string text = on_terminal(80);
+  EXPECT_THAT(text, testing::HasSubstr(" of 100 configurations, "));
+  EXPECT_THAT(text, testing::HasSubstr(" s left"));
+  EXPECT_THAT(text, testing::Not(testing::HasSubstr("\n")));
+  EXPECT_THAT(text, testing::EndsWith("\r\x1b[K"));
+}
+
+TEST(Progress, KeepsToTheWidthOfTheTerminal) {
+  EXPECT_THAT(on_terminal(20), testing::Not(testing::HasSubstr("configurations,")));
+}
+
+TEST(Progress, OfShortWorkIsSilentElsewhere) {
+  testing::internal::CaptureStderr();
+  {
+    Progress progress("configurations", 2);
+    progress.update(1);
+    progress.update(2);
+  }
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+}  // namespace
+}  // namespace touchstone

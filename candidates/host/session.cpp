@@ -1,0 +1,213 @@
+#include "candidates/host/session.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cerrno>
+#include <chrono>
+#include <cstdio>
+#include <exception>
+#include <limits>
+#include <sys/mman.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+namespace touchstone {
+namespace {
+
+/// A round of timing takes at most about this long, so that slow candidates do not take minutes …
+constexpr std::chrono::microseconds round_time(500);
+constexpr std::size_t fewest_timed = 10;
+/// … and at least this long, so that what another process left in the caches does not count.
+constexpr std::chrono::microseconds least_round_time(200);
+
+/// Pairs of shapes that stay ready for the next pose of the same bodies, as in a world: more than
+/// most scenes have, few enough for the largest meshes.
+constexpr std::size_t most_ready = 8;
+
+/// To the bit.
+bool same(const ts_shape& x, const ts_shape& y) {
+  using Bits = std::array<std::uint64_t, 4>;
+  return x.kind == y.kind && std::bit_cast<Bits>(x.size) == std::bit_cast<Bits>(y.size);
+}
+
+/// Where a candidate writes its answer: the page behind is out of bounds, so that one point too
+/// many is a crash wherever it is written, and the same one on every run.
+ts_answer* make_answer() {
+  const std::size_t page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+  void* const memory =
+      mmap(nullptr, 2 * page, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (memory == MAP_FAILED) _exit(1);
+  char* const end = static_cast<char*>(memory) + page;
+  mprotect(end, page, PROT_NONE);
+  return reinterpret_cast<ts_answer*>(end - sizeof(ts_answer));
+}
+
+}  // namespace
+
+void send(int socket, const void* message, std::size_t size) {
+  while (::send(socket, message, size, MSG_NOSIGNAL) < 0) {
+    if (errno != EINTR) _exit(0);  // the harness is gone
+  }
+}
+
+void report(int socket, Report::Kind kind, std::uint64_t ticket, int value, const char* text,
+            bool left_behind) {
+  Report r{kind, value, ticket, left_behind, {}};
+  std::snprintf(r.text, sizeof r.text, "%s", text);
+  send(socket, &r, sizeof r);
+}
+
+Command receive(int socket) {
+  Command command;
+  for (;;) {
+    const ssize_t size = recv(socket, &command, sizeof command, 0);
+    if (size == sizeof command) return command;
+    if (size < 0 && errno == EINTR) continue;
+    _exit(0);
+  }
+}
+
+Session::Session(const ts_candidate& candidate, const Command& begin, int socket,
+                 const Questions& questions, Exchange& exchange)
+    : candidate_(candidate),
+      threshold_(begin.threshold),
+      parameter_(begin.parameter),
+      socket_(socket),
+      asked_(questions),
+      exchange_(exchange),
+      answer_(make_answer()) {
+  std::fegetenv(&environment_);
+  report(socket_, Report::began, begin.ticket, 0);
+}
+
+void Session::serve() {
+  const pid_t own = getpid();
+  for (;;) {
+    const Command command = receive(socket_);
+    try {
+      obey(command);
+    } catch (const std::exception& e) {
+      std::snprintf(exchange_.thrown, sizeof exchange_.thrown, "%s", e.what());
+      _exit(exit_thrown);
+    } catch (...) {
+      std::snprintf(exchange_.thrown, sizeof exchange_.thrown, "something that is no exception");
+      _exit(exit_thrown);
+    }
+    if (getpid() != own) _exit(0);  // forked by the candidate, and returned like its parent
+    report(socket_, Report::finished, command.ticket, 0);
+  }
+}
+
+void Session::obey(const Command& command) {
+  switch (command.kind) {
+    case Command::answer:
+      for (std::uint32_t i = command.first; i < command.count; ++i) {
+        answer(i);
+        if (command.release) release_all_but_of(command, i + 1);
+        exchange_.slots[i].seal = seal_of(exchange_.slots[i], command.ticket);
+        exchange_.progress = progress_of(command.ticket, i + 1);
+      }
+      return;
+    case Command::keep:
+      for (std::uint32_t i = 0; i < command.count; ++i) {
+        questions_.push_back(asked_.slots[i]);
+      }
+      return;
+    case Command::warm_up:
+      return warm_up();
+    case Command::time:
+      return time();
+    case Command::begin:
+    case Command::finish:
+      _exit(0);
+  }
+}
+
+ts_prepared* Session::prepare(const Question& q) {
+  if (!candidate_.supports(q.b.kind)) return nullptr;
+  return candidate_.prepare(&q.a, &q.b, threshold_, parameter_);
+}
+
+/// Prepared now, or for a question before with the same shapes.
+ts_prepared* Session::ready(const Question& q) {
+  const auto found = std::find_if(ready_.begin(), ready_.end(),
+                                  [&](const Ready& r) { return same(r.a, q.a) && same(r.b, q.b); });
+  if (found != ready_.end()) {
+    std::rotate(found, found + 1, ready_.end());
+    return ready_.back().prepared;
+  }
+  if (ready_.size() == most_ready) {
+    if (ready_.front().prepared) candidate_.release(ready_.front().prepared);
+    ready_.erase(ready_.begin());
+  }
+  ready_.push_back({q.a, q.b, prepare(q)});
+  return ready_.back().prepared;
+}
+
+/// Those that no question of this command from `first` on needs: here and now, so that whoever dies
+/// of it does so in the time of its own configuration.
+void Session::release_all_but_of(const Command& command, std::uint32_t first) {
+  std::erase_if(ready_, [&](const Ready& r) {
+    for (std::uint32_t i = first; i < command.count; ++i) {
+      if (same(r.a, asked_.slots[i].a) && same(r.b, asked_.slots[i].b)) return false;
+    }
+    if (r.prepared) candidate_.release(r.prepared);
+    return true;
+  });
+}
+
+void Session::answer(std::uint32_t i) {
+  Slot& slot = exchange_.slots[i];
+  const Question question = asked_.slots[i];
+  slot.model_distance = std::numeric_limits<double>::quiet_NaN();
+  *answer_ = {};
+  answer_->status = TS_UNSUPPORTED;
+  std::fesetenv(&environment_);  // a rounding mode that a query left would spoil the next one
+  if (ts_prepared* const prepared = ready(question)) {
+    const double* const hint = question.has_previous_normal ? question.previous_normal : nullptr;
+    candidate_.query(prepared, &question.pose_a, &question.pose_b, hint, answer_);
+    if (candidate_.model_distance) {
+      slot.model_distance = candidate_.model_distance(prepared, &question.pose_a, &question.pose_b);
+    }
+  }
+  slot.answer = *answer_;
+}
+
+void Session::warm_up() {
+  std::chrono::steady_clock::duration used{};
+  for (const Question& q : questions_) {
+    if (kept_.size() >= fewest_timed && used > round_time) break;
+    ts_prepared* const prepared = prepare(q);
+    if (!prepared) continue;
+    const auto start = std::chrono::steady_clock::now();
+    candidate_.query(prepared, &q.pose_a, &q.pose_b, nullptr, answer_);
+    used += std::chrono::steady_clock::now() - start;
+    kept_.push_back({prepared, q.pose_a, q.pose_b});
+  }
+  const auto start = std::chrono::steady_clock::now();
+  query_all();
+  const auto once = std::max<std::chrono::steady_clock::duration>(
+      std::chrono::steady_clock::now() - start, std::chrono::nanoseconds(1));
+  passes_ = 1 + static_cast<std::size_t>(least_round_time / once);
+}
+
+void Session::query_all() {
+  // The call goes through a function pointer, which no optimiser removes.
+  for (const Kept& k : kept_) candidate_.query(k.prepared, &k.a, &k.b, nullptr, answer_);
+}
+
+void Session::time() {
+  query_all();  // the process has slept since the last round: its caches are cold
+  counter_.start();
+  const auto start = std::chrono::steady_clock::now();
+  for (std::size_t pass = 0; pass < passes_; ++pass) query_all();
+  const auto end = std::chrono::steady_clock::now();
+  const auto instructions = counter_.stop();
+  const auto queries = static_cast<double>(passes_ * kept_.size());
+  exchange_.nanoseconds = std::chrono::duration<double, std::nano>(end - start).count() / queries;
+  exchange_.instructions = instructions ? static_cast<double>(*instructions) / queries
+                                        : std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace touchstone

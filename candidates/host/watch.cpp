@@ -1,0 +1,70 @@
+#include "candidates/host/watch.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <system_error>
+
+namespace touchstone {
+namespace {
+
+/// Seconds of processor time that a process has used; zero when it is gone.
+double processor_seconds(pid_t process) {
+  clockid_t clock;
+  timespec time{};
+  if (clock_getcpuclockid(process, &clock) != 0 || clock_gettime(clock, &time) != 0) return 0;
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+struct Threads {
+  bool one_can_run = false;
+  /// Seconds that they were ready to run and had no processor, all together: the second number in
+  /// schedstat (Documentation/scheduler/sched-stats.rst of Linux), which grows only when such a
+  /// wait is over.
+  std::optional<double> starved;
+};
+
+Threads threads(pid_t process) {
+  Threads result;
+  std::error_code error;
+  const std::string folder = "/proc/" + std::to_string(process) + "/task";
+  for (auto task = std::filesystem::directory_iterator(folder, error);
+       !error && task != std::filesystem::directory_iterator(); task.increment(error)) {
+    std::string stat;
+    std::getline(std::ifstream(task->path() / "stat"), stat);
+    const auto name_end = stat.rfind(") ");  // the state follows
+    result.one_can_run |= name_end != std::string::npos && stat[name_end + 2] == 'R';
+    std::ifstream schedstat(task->path() / "schedstat");
+    std::uint64_t ran = 0, waited = 0;
+    if (schedstat >> ran >> waited) {
+      result.starved = result.starved.value_or(0) + 1e-9 * static_cast<double>(waited);
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+// Times are read so that what happens in between makes less waiting of it: the clock last here …
+Watch::Watch(pid_t process)
+    : process_(process),
+      computed_(processor_seconds(process)),
+      starved_(threads(process).starved),
+      start_(std::chrono::steady_clock::now()) {}
+
+// … and first here.
+Watch::Spent Watch::spent() const {
+  const double clock =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  const Threads now = threads(process_);
+  const double computing = std::max(0.0, processor_seconds(process_) - computed_);
+  if (!starved_) return {computing, std::nullopt, clock};
+  if (now.one_can_run) return {computing, 0, clock};
+  const double starved = std::max(0.0, now.starved.value_or(0) - *starved_);
+  return {computing, std::max(0.0, clock - computing - starved), clock};
+}
+
+}  // namespace touchstone

@@ -1,0 +1,108 @@
+#include "candidates/host/worker_processes.hpp"
+
+#include <csignal>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <stdexcept>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace touchstone {
+namespace {
+
+using testing::HasSubstr;
+
+std::string name(std::size_t i) { return "task " + std::to_string(i); }
+void ignore(std::size_t) {}
+
+TEST(WorkerProcesses, ReturnResultsInOrderWhateverTheirNumber) {
+  const auto square = [](std::size_t i) {
+    return std::string(i * 1000, 'x') + std::to_string(i * i);
+  };
+  const auto alone = run_in_processes(30, 1, square, name, ignore);
+  ASSERT_EQ(alone.size(), 30u);
+  EXPECT_EQ(alone[7].substr(7000), "49");
+  EXPECT_EQ(run_in_processes(30, 4, square, name, ignore), alone);
+  EXPECT_EQ(run_in_processes(30, 64, square, name, ignore), alone);
+  EXPECT_TRUE(run_in_processes(0, 2, square, name, ignore).empty());
+}
+
+TEST(WorkerProcesses, ReportProgress) {
+  std::size_t last = 0;
+  run_in_processes(
+      5, 2, [](std::size_t) { return std::string(); }, name,
+      [&](std::size_t done) { last = done; });
+  EXPECT_EQ(last, 5u);
+}
+
+TEST(WorkerProcesses, AnExceptionNamesItsTask) {
+  const auto bad = [](std::size_t i) -> std::string {
+    if (i == 3) throw std::runtime_error("no truth");
+    return "";
+  };
+  EXPECT_THAT([&] { run_in_processes(6, 2, bad, name, ignore); },
+              testing::ThrowsMessage<std::runtime_error>(HasSubstr("task 3: no truth")));
+}
+
+TEST(WorkerProcesses, ADeadWorkerNamesItsTaskAndSignal) {
+  const auto deadly = [](std::size_t i) -> std::string {
+    if (i == 2) raise(SIGKILL);
+    return "";
+  };
+  EXPECT_THAT([&] { run_in_processes(6, 2, deadly, name, ignore); },
+              testing::ThrowsMessage<std::runtime_error>(
+                  testing::AllOf(HasSubstr("task 2"), HasSubstr("Killed"))));
+}
+
+TEST(WorkerProcesses, EndEarlyWithoutTheTasksInHand) {
+  std::size_t taken = 0;
+  const bool all = stream_from_processes(
+      1000, 2, [](std::uint64_t) { return std::string(100, 'x'); }, name,
+      [&](std::uint64_t, const std::string&) { ++taken; }, [&] { return taken < 3; });
+  EXPECT_FALSE(all);
+  EXPECT_GE(taken, 3u);
+
+  const auto endless = [](std::uint64_t) -> std::string {
+    for (;;) pause();
+  };
+  int asked = 0;
+  EXPECT_FALSE(stream_from_processes(
+      2, 2, endless, name, [](std::uint64_t, const std::string&) {}, [&] { return ++asked < 3; }));
+}
+
+TEST(WorkerProcesses, ShareNothingWithTheirOwnChildren) {
+  // A plug-in that overwrote the number of the next task had tasks done twice.
+  const auto overwrite = [](std::size_t) -> std::string {
+    const pid_t child = fork();
+    if (child > 0) return std::to_string(waitpid(child, nullptr, 0) == child);
+    std::ifstream maps("/proc/self/maps");
+    for (std::string line; std::getline(maps, line);) {
+      std::uintptr_t from = 0, to = 0;
+      char rights[5] = "";
+      if (std::sscanf(line.c_str(), "%lx-%lx %4s", &from, &to, rights) == 3 &&
+          std::string(rights) == "rw-s") {
+        std::memset(reinterpret_cast<void*>(from), 0, to - from);
+      }
+    }
+    _exit(0);
+  };
+  std::size_t last = 0;
+  run_in_processes(6, 2, overwrite, name, [&](std::size_t done) { last = done; });
+  EXPECT_EQ(last, 6u);
+}
+
+TEST(WorkerProcesses, DoNotObeyWhatIsMeantForTheirParent) {
+  const auto hit = [](std::size_t) -> std::string {
+    raise(SIGINT);
+    raise(SIGTERM);
+    return "alive";
+  };
+  EXPECT_EQ(run_in_processes(1, 1, hit, name, ignore).front(), "alive");
+}
+
+}  // namespace
+}  // namespace touchstone

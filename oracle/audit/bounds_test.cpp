@@ -1,0 +1,156 @@
+// The inequalities that every enclosure rests on, met on random points, cells and directions.
+#include <gtest/gtest.h>
+#include <random>
+
+#include "oracle/audit/cell_program.hpp"
+#include "oracle/audit/certain_bounds.hpp"
+#include "reference/support.hpp"
+
+namespace touchstone::audit {
+namespace {
+
+class RandomBodies : public testing::Test {
+ protected:
+  double uniform(double lo, double hi) {
+    return std::uniform_real_distribution<double>(lo, hi)(random_);
+  }
+  Vec3 vector(double most) {
+    return {uniform(-most, most), uniform(-most, most), uniform(-most, most)};
+  }
+  Pose pose() {
+    return Pose(vector(0.3), {uniform(-1, 1), uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)});
+  }
+  double size() { return uniform(0.2, 1); }
+  Shape other() {
+    switch (random_() % 4) {
+      case 0:
+        return Sphere(size());
+      case 1:
+        return Capsule(size(), size());
+      case 2:
+        return Cylinder(size(), size());
+      default:
+        return Box({size(), size(), size()});
+    }
+  }
+  Configuration configuration() { return {Cylinder(size(), size()), pose(), other(), pose()}; }
+  DirectionCell<double> cell() {
+    auto c = DirectionCell<double>::whole_face(static_cast<int>(random_() % 6));
+    for (auto depth = random_() % 6; depth > 0; --depth) {
+      c = c.child(static_cast<int>(random_() % 4));
+    }
+    return c;
+  }
+
+  const CGAL::Protect_FPU_rounding<true> outward_;
+  std::mt19937_64 random_{20261121};
+};
+
+// Of the program's value, after some dozens of updates of its inverse: no more than the tolerance
+// to which it is solved.
+constexpr double program_rounding = 1e-9;
+constexpr double rounding = 1e-14;  // of the reference's gap in double, bodies of about a metre
+
+TEST_F(RandomBodies, GapIsEnclosedFromBelowAndTightly) {
+  for (int i = 0; i < 1000; ++i) {
+    const Configuration c = configuration();
+    const Vec3 n = vector(1);
+    const double lo = gap_below(make_bodies<Interval>(c, 1), n);
+    EXPECT_NEAR(lo, gap(c, n.normalized()), rounding);
+  }
+}
+
+TEST_F(RandomBodies, SupportPairsDecideTheGap) {
+  for (int i = 0; i < 1000; ++i) {
+    const Configuration c = configuration();
+    const auto bodies = make_bodies<double>(c, 1);
+    const Vec3 n = vector(1).normalized();
+    EXPECT_NEAR(difference(bodies, support_pair(bodies, n)).dot(n), gap(c, n), rounding);
+  }
+}
+
+TEST_F(RandomBodies, PointsPulledInsideAreCertainlyInside) {
+  for (int i = 0; i < 1000; ++i) {
+    const Configuration c = configuration();
+    const auto certain = make_bodies<Interval>(c, 1);
+    const auto search = make_bodies<double>(c, 1);
+    const auto pair = pulled_inside(search, support_pair(search, vector(1)));
+    EXPECT_TRUE(certainly_contain(certain, pair));
+    EXPECT_FALSE(certainly_contains(certain.a, Vec3(1.001 * pair.a)));
+  }
+}
+
+TEST_F(RandomBodies, NoDirectionOfACellBeatsItsBound) {
+  int bounded = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const Configuration c = configuration();
+    const auto certain = make_bodies<Interval>(c, 1);
+    const auto search = make_bodies<double>(c, 1);
+    const auto k = cell();
+    CellProgram<double> program(search, k, {Vec3::Zero(), Vec3::Zero()});
+    program.run(-1e9, 1e-9, 100);
+    const auto pair = pulled_inside(search, program.pair());
+    ASSERT_TRUE(certainly_contain(certain, pair));
+    const double bound = corner_bound_above(certain, pair, k);
+    EXPECT_NEAR(bound, program.value(), program_rounding);
+    if (!(bound < 0)) continue;
+    ++bounded;
+    for (int j = 0; j < 20; ++j) {
+      const Vec3 n = k.at(k.u + uniform(0, 1) * k.size, k.v + uniform(0, 1) * k.size);
+      EXPECT_LE(gap(c, n.normalized()), bound + rounding);
+    }
+  }
+  EXPECT_GT(bounded, 500);
+}
+
+TEST_F(RandomBodies, TheProgramFindsTheLargestGapOfTheCornersHull) {
+  for (int i = 0; i < 300; ++i) {
+    const Configuration c = configuration();
+    const auto search = make_bodies<double>(c, 1);
+    const auto k = cell();
+    CellProgram<double> program(search, k, {Vec3::Zero(), Vec3::Zero()});
+    program.run(-1e9, 1e-12, 200);
+    double best = -1e9;
+    for (int j = 0; j < 2000; ++j) {
+      double weights[4], sum = 0;
+      for (double& w : weights) sum += w = -std::log(uniform(1e-9, 1));
+      Vec3 x = Vec3::Zero();
+      for (int m = 0; m < 4; ++m) x += weights[m] / sum * k.corners()[m].normalized();
+      best = std::max(best, gap_times_length(search, x));
+    }
+    EXPECT_GE(program.value(), best - program_rounding);
+    EXPECT_LE(program.value(), best + 0.05);  // as coarse as the samples
+  }
+}
+
+TEST(DirectionCell, ChildrenTileTheirParent) {
+  const auto parent = DirectionCell<double>::whole_face(3).child(2);
+  double area = 0;
+  for (int quarter = 0; quarter < 4; ++quarter) {
+    const auto child = parent.child(quarter);
+    EXPECT_EQ(child.face, 3);
+    EXPECT_EQ(child.level, 2);
+    EXPECT_GE(child.u, parent.u);
+    EXPECT_LE(child.u + child.size, parent.u + parent.size);
+    area += child.size * child.size;
+  }
+  EXPECT_EQ(area, parent.size * parent.size);
+}
+
+TEST(CertainlyContains, RefusesWhatIsNoPoint) {
+  const auto bodies = make_bodies<Interval>({Cylinder(1, 1), Pose(), Sphere(1), Pose()}, 1);
+  const double nan = std::nan("");
+  EXPECT_FALSE(certainly_contains(bodies.a, Vec3(nan, 0, 0)));
+  EXPECT_FALSE(certainly_contains(bodies.b, Vec3(0, HUGE_VAL, 0)));
+}
+
+TEST(CertainlyContains, KnowsTheEndsOfACapsuleFromThoseOfACylinder) {
+  const Pose here;
+  const auto capsule = make_bodies<Interval>({Cylinder(1, 1), here, Capsule(1, 1), here}, 1);
+  EXPECT_FALSE(certainly_contains(capsule.a, Vec3(0, 0, 1.5)));
+  EXPECT_TRUE(certainly_contains(capsule.b, Vec3(0, 0, 1.5)));
+  EXPECT_FALSE(certainly_contains(capsule.b, Vec3(0.9, 0, 1.5)));
+}
+
+}  // namespace
+}  // namespace touchstone::audit

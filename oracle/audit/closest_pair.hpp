@@ -1,0 +1,131 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <utility>
+
+#include <Eigen/QR>
+
+#include "oracle/audit/support_points.hpp"
+
+namespace touchstone::audit {
+
+/// What a search has found, without certainty.
+template <class R>
+struct ClosestPair {
+  PointPair<R> pair;    ///< Closest known points; of overlapping bodies, (nearly) one point.
+  Vector<R> direction;  ///< World, any length; the gap along it is the largest met.
+  R gap;                ///< That gap.
+};
+
+/// Wolfe's algorithm for the point of smallest norm in the set of differences a − b ("Finding the
+/// nearest point in a polytope", Mathematical Programming 11, 1976), with support points as
+/// vertices, as in Gilbert, Johnson, Keerthi (IEEE J. Robotics and Automation 4, 1988).
+template <class R>
+class ClosestPairSearch {
+ public:
+  explicit ClosestPairSearch(const Bodies<R>& bodies) : bodies_(bodies) {}
+
+  /// Ends when |a − b| and the gap along a − b are within `tolerance`, or at the end of precision.
+  ClosestPair<R> run(const R& tolerance, int most_steps) {
+    using std::sqrt;
+    const R nothing = 64 * std::numeric_limits<R>::epsilon();
+    Vector<R> start = bodies_.offset;
+    if (start.squaredNorm() == 0) start = Vector<R>(R(0), R(0), R(1));
+    ClosestPair<R> best;
+    best.direction = start;
+    add(support_pair(bodies_, start), R(1));
+    best.gap = vertices_[0].w.dot(start) / sqrt(R(start.squaredNorm()));
+    for (int step = 0; step < most_steps; ++step) {
+      const Vector<R> w = nearest();
+      const R length = sqrt(R(w.squaredNorm()));
+      if (length <= nothing) break;
+      const PointPair<R> pair = support_pair(bodies_, w);
+      const R gap = difference(bodies_, pair).dot(w) / length;
+      if (gap > best.gap) {
+        best.gap = gap;
+        best.direction = w / length;
+      }
+      if (length - gap <= tolerance || count_ == 4) break;
+      add(pair, R(0));
+      if (!reduce()) break;
+    }
+    best.pair = {nearest(&PointPair<R>::a), nearest(&PointPair<R>::b)};
+    return best;
+  }
+
+ private:
+  struct Vertex {
+    PointPair<R> pair;
+    Vector<R> w;
+    R weight;
+  };
+
+  void add(const PointPair<R>& pair, const R& weight) {
+    vertices_[count_++] = {pair, difference(bodies_, pair), weight};
+  }
+
+  Vector<R> nearest() const {
+    Vector<R> sum = Vector<R>::Zero();
+    for (int i = 0; i < count_; ++i) sum += vertices_[i].weight * vertices_[i].w;
+    return sum;
+  }
+  Vector<R> nearest(Vector<R> PointPair<R>::*point) const {
+    Vector<R> sum = Vector<R>::Zero();
+    for (int i = 0; i < count_; ++i) sum += vertices_[i].weight * (vertices_[i].pair.*point);
+    return sum;
+  }
+
+  /// Weights, summing to one, of the point of the vertices' affine hull nearest to the origin.
+  std::array<R, 4> affine_minimum() const {
+    std::array<R, 4> weights{R(1), R(0), R(0), R(0)};
+    if (count_ == 1) return weights;
+    Eigen::Matrix<R, 3, Eigen::Dynamic, 0, 3, 3> edges(3, count_ - 1);
+    for (int i = 1; i < count_; ++i) edges.col(i - 1) = vertices_[i].w - vertices_[0].w;
+    const Eigen::Matrix<R, Eigen::Dynamic, 1, 0, 3, 1> steps =
+        edges.colPivHouseholderQr().solve(-vertices_[0].w);
+    for (int i = 1; i < count_; ++i) {
+      weights[i] = steps[i - 1];
+      weights[0] -= steps[i - 1];
+    }
+    return weights;
+  }
+
+  /// Moves to the nearest point of the vertices' hull and drops vertices without weight. False when
+  /// rounding leaves no progress: the newest vertex is dropped at once.
+  bool reduce() {
+    const R before = nearest().squaredNorm();
+    for (;;) {
+      const std::array<R, 4> target = affine_minimum();
+      R step(1);
+      int blocking = -1;
+      for (int i = 0; i < count_; ++i) {
+        if (target[i] > 0) continue;
+        // A vertex without weight, not wanted either, must go: 0/0 otherwise.
+        const R& weight = vertices_[i].weight;
+        const R reach = weight > target[i] ? R(weight / (weight - target[i])) : R(0);
+        if (blocking < 0 || reach < step) {
+          step = reach;
+          blocking = i;
+        }
+      }
+      for (int i = 0; i < count_; ++i) {
+        vertices_[i].weight += step * (target[i] - vertices_[i].weight);
+      }
+      if (blocking < 0) break;
+      vertices_[blocking] = vertices_[--count_];
+      if (count_ == 1) {
+        vertices_[0].weight = R(1);
+        break;
+      }
+    }
+    return nearest().squaredNorm() < before;
+  }
+
+  const Bodies<R>& bodies_;
+  std::array<Vertex, 4> vertices_;
+  int count_ = 0;
+};
+
+}  // namespace touchstone::audit

@@ -1,0 +1,76 @@
+#include "oracle/judge/coverage.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "oracle/patch/convex_polygon.hpp"
+
+namespace touchstone {
+namespace {
+
+using oracle::ConvexSet;
+using oracle::Vec2;
+
+Vec2 across(const Vec2& d) { return {d.y(), -d.x()}; }
+
+double width(const ConvexSet& set, const Vec2& direction) {
+  return set.support(direction) + set.support(-direction);
+}
+
+/// Across which a convex set is narrowest, nearly: a polygon is so across one of its sides.
+Vec2 narrowest_direction(const ConvexSet& set) {
+  constexpr int chords_per_quarter = 8;
+  const std::vector<Vec2> outline = set.outline(chords_per_quarter);
+  Vec2 best(1, 0);
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Vec2 side = outline[(i + 1) % outline.size()] - outline[i];
+    if (!(side.norm() > 0)) continue;
+    const Vec2 direction = across(side.normalized());
+    const double here = width(set, direction);
+    if (here < least) {
+      least = here;
+      best = direction;
+    }
+  }
+  return best;
+}
+
+double reach(const std::vector<Vec2>& points, const Vec2& centre, const Vec2& direction) {
+  double most = -std::numeric_limits<double>::infinity();
+  for (const Vec2& p : points) most = std::max(most, (p - centre).dot(direction));
+  return most;
+}
+
+}  // namespace
+
+double coverage(const oracle::ContactPatch& patch, const std::vector<Vec3>& points,
+                double resolution) {
+  if (points.empty()) return 0;
+  const ConvexSet& set = patch.shape();
+  const Vec2 centre = set.centroid();
+  std::vector<Vec2> flat;
+  flat.reserve(points.size());
+  for (const Vec3& p : points) flat.push_back(patch.in_plane(p));
+
+  std::vector<Vec2> directions;
+  const Vec2 narrow = narrowest_direction(set), wide = across(narrow);
+  if (width(set, wide) <= resolution) return 1;
+  if (width(set, narrow) <= resolution) {
+    directions = {wide, -wide};
+  } else {
+    // The shrunk patch lies within the hull if it does so across each of the hull's sides.
+    const std::vector<Vec2> hull = oracle::convex_hull(flat);
+    if (hull.size() < 3) return 0;
+    for (std::size_t i = 0; i < hull.size(); ++i) {
+      directions.push_back(across(hull[(i + 1) % hull.size()] - hull[i]).normalized());
+    }
+  }
+  double least = 1;
+  for (const Vec2& d : directions) {
+    least = std::min(least, reach(flat, centre, d) / (set.support(d) - centre.dot(d)));
+  }
+  return std::max(0.0, least);
+}
+
+}  // namespace touchstone

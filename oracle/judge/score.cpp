@@ -1,0 +1,255 @@
+#include "oracle/judge/score.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "oracle/judge/coverage.hpp"
+#include "oracle/judge/point_distance.hpp"
+#include "oracle/patch/support_part.hpp"
+
+namespace touchstone {
+namespace {
+
+/// A normal of another length than one is the candidate's error; rounding in single precision is
+/// not.
+constexpr double unit_slack = 1e-6;
+
+Vec3 vector(const double (&v)[3]) { return Vec3(v[0], v[1], v[2]); }
+
+double angle(const Vec3& n, const Vec3& m) {
+  return std::atan2(n.cross(m).norm(), n.dot(m)) * 180 / std::numbers::pi;
+}
+
+Vec3 nearest(const Vec3& n, const std::vector<oracle::OptimalNormal>& normals) {
+  return std::min_element(
+             normals.begin(), normals.end(),
+             [&](const auto& l, const auto& r) { return angle(n, l.n) < angle(n, r.n); })
+      ->n;
+}
+
+double coverage_by(const ts_answer& answer, const Configuration& c, const oracle::Truth& truth) {
+  std::vector<Vec3> points;
+  points.reserve(static_cast<std::size_t>(answer.point_count));
+  for (int i = 0; i < answer.point_count; ++i) points.push_back(vector(answer.points[i].position));
+  const double size = smaller_size(c), depth = patch_depth * size;
+  const Vec3 n = patch_normal(truth, vector(answer.normal));
+  const auto of_a = oracle::width_from_epsilon(c.a, c.pose_a, n, depth);
+  const auto of_b = oracle::width_from_epsilon(c.b, c.pose_b, n, depth);
+  // Most poses: any point at all covers a corner.
+  if (of_a.is_a_corner || of_b.is_a_corner) return points.empty() ? 0 : 1;
+  // A hundredth more than the width itself, so that rounding does not decide.
+  const double resolution =
+      std::max({patch_resolution * size, 1.01 * of_a.largest, 1.01 * of_b.largest});
+  return coverage(oracle::contact_patch(c, n, depth), points, resolution);
+}
+
+double worst_point_error(const ts_answer& answer, const Configuration& c) {
+  double worst = 0;
+  for (int i = 0; i < answer.point_count; ++i) {
+    worst = std::max(worst, point_excess(c, answer.points[i]));
+  }
+  return worst;
+}
+
+struct Depths {
+  double least, largest;
+};
+/// Of the points, of which there must be one.
+Depths depths_of(const ts_answer& answer) {
+  const auto [least, largest] =
+      std::minmax_element(answer.points, answer.points + answer.point_count,
+                          [](const ts_point& p, const ts_point& q) { return p.depth < q.depth; });
+  return {least->depth, largest->depth};
+}
+
+/// Of an answer with the right depth and normal. `distance` and `beyond`, by which the farthest
+/// point is beyond the threshold, are relative to the smaller size. Bodies apart need no point.
+Outcome outcome_of_points(const Score& s, double distance, double beyond, const Bar& bar) {
+  if (s.points == 0) {
+    return distance < -bar.tolerance ? Outcome::shallow_points : Outcome::agree;
+  }
+  if (*s.deepest_error < -bar.tolerance) return Outcome::shallow_points;
+  if (*s.deepest_error > bar.tolerance) return Outcome::overdeep_points;
+  return beyond > bar.tolerance ? Outcome::phantom_points : Outcome::agree;
+}
+
+Score only(Outcome outcome) {
+  Score s;
+  s.outcome = outcome;
+  return s;
+}
+
+Score without_contact(double distance, const Bar& bar) {
+  Score s;
+  if (distance < -bar.tolerance) {
+    s.outcome = Outcome::missed;
+    s.severity = -distance;
+  }
+  return s;
+}
+
+}  // namespace
+
+Vec3 patch_normal(const oracle::Truth& truth, const Vec3& n) {
+  constexpr double far = 1;  // degrees
+  const Vec3 listed = nearest(n, truth.normals);
+  return truth.ties == oracle::Ties::continuum && angle(n, listed) > far ? n.normalized() : listed;
+}
+
+bool is_finite(const ts_answer& answer) {
+  if (!std::isfinite(answer.signed_distance) || !vector(answer.normal).allFinite()) return false;
+  return std::all_of(answer.points, answer.points + answer.point_count, [](const ts_point& p) {
+    return std::isfinite(p.depth) && vector(p.position).allFinite() && vector(p.normal).allFinite();
+  });
+}
+
+const char* outcome_name(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::agree:
+      return "agree";
+    case Outcome::missed:
+      return "missed";
+    case Outcome::phantom:
+      return "phantom";
+    case Outcome::shallow:
+      return "shallow";
+    case Outcome::overdeep:
+      return "overdeep";
+    case Outcome::wrong_normal:
+      return "wrong-normal";
+    case Outcome::not_finite:
+      return "not-finite";
+    case Outcome::failed:
+      return "failed";
+    case Outcome::crashed:
+      return "crashed";
+    case Outcome::timed_out:
+      return "timed-out";
+    case Outcome::unsupported:
+      return "unsupported";
+    case Outcome::shallow_points:
+      return "shallow-points";
+    case Outcome::overdeep_points:
+      return "overdeep-points";
+    case Outcome::phantom_points:
+      return "phantom-points";
+  }
+  return "";
+}
+
+bool is_of_points(Outcome outcome) {
+  return outcome == Outcome::shallow_points || outcome == Outcome::overdeep_points ||
+         outcome == Outcome::phantom_points;
+}
+
+bool is_judged(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::not_finite:
+    case Outcome::failed:
+    case Outcome::crashed:
+    case Outcome::timed_out:
+    case Outcome::unsupported:
+      return false;
+    default:
+      return true;
+  }
+}
+
+const char* status_name(ts_status status) {
+  switch (status) {
+    case TS_CONTACT:
+      return "contact";
+    case TS_NONE:
+      return "none";
+    case TS_UNSUPPORTED:
+      return "unsupported";
+    case TS_FAILED:
+      return "failed";
+    case TS_CRASHED:
+      return "crashed";
+    case TS_TIMED_OUT:
+      return "timed-out";
+  }
+  return "failed";
+}
+
+double error_size(const Configuration& c, const Bar& bar) {
+  constexpr double resolved = 1e-13;
+  double larger = larger_size(c);
+  if (const auto* plane = std::get_if<Plane>(&c.b)) {
+    const double aside = (c.pose_a.position() - c.pose_b.position()).cwiseAbs().maxCoeff();
+    larger = std::max({larger, aside, std::abs(plane->unit_displacement())});
+  }
+  return std::max(smaller_size(c), std::min(1.0, resolved / bar.tolerance) * larger);
+}
+
+Score score(const Configuration& c, const oracle::Truth& truth, const ts_answer& answer,
+            const Bar& bar) {
+  const double size = error_size(c, bar);
+  const double distance = truth.signed_distance.midpoint() / size;
+  switch (answer.status) {
+    case TS_NONE:
+      return without_contact(distance, bar);
+    case TS_CONTACT:
+      break;
+    case TS_UNSUPPORTED:
+      return only(Outcome::unsupported);
+    case TS_CRASHED:
+      return only(Outcome::crashed);
+    case TS_TIMED_OUT:
+      return only(Outcome::timed_out);
+    default:
+      return only(Outcome::failed);
+  }
+  if (!is_finite(answer)) return only(Outcome::not_finite);
+
+  Score s;
+  s.points = answer.point_count;
+  const Vec3 n = vector(answer.normal);
+  const bool unit = std::abs(n.norm() - 1) <= unit_slack;
+  s.depth_error = (answer.signed_distance - truth.signed_distance.midpoint()) / size;
+  s.severity = std::abs(*s.depth_error);
+  double beyond = 0;
+  if (answer.point_count > 0) {
+    const Depths depths = depths_of(answer);
+    s.point_error = worst_point_error(answer, c) / size;
+    s.deepest_error = (depths.largest + truth.signed_distance.midpoint()) / size;
+    s.severity = std::max(s.severity, std::abs(*s.deepest_error));
+    beyond = (-depths.least - bar.threshold) / size;
+  }
+  if (!n.isZero(0)) {
+    s.normal_regret = oracle::normal_regret(c, truth, n) / size;
+    s.normal_angle = angle(n, nearest(n, truth.normals));
+    s.severity = std::max(s.severity, *s.normal_regret);
+  }
+  if (distance > bar.threshold / size + bar.tolerance) {
+    s.outcome = Outcome::phantom;
+  } else if (*s.depth_error > bar.tolerance) {
+    s.outcome = Outcome::shallow;
+  } else if (*s.depth_error < -bar.tolerance) {
+    s.outcome = Outcome::overdeep;
+  } else if (!unit || !s.normal_regret || *s.normal_regret > bar.tolerance) {
+    s.outcome = Outcome::wrong_normal;
+  } else {
+    s.outcome = outcome_of_points(s, distance, beyond, bar);
+    if (s.points == 0) s.severity = std::max(s.severity, -distance);
+    if (s.outcome == Outcome::phantom_points) s.severity = std::max(s.severity, beyond);
+  }
+  const bool right_normal = unit && s.normal_regret && *s.normal_regret <= bar.tolerance;
+  if (s.outcome != Outcome::phantom && right_normal) s.coverage = coverage_by(answer, c, truth);
+  return s;
+}
+
+Score score(const Configuration& c, const oracle::Truth& truth, const Answer& answer,
+            const Bar& bar) {
+  Score s = score(c, truth, static_cast<const ts_answer&>(answer), bar);
+  if (s.depth_error && answer.model_distance) {
+    const double size = error_size(c, bar);
+    s.model_error = (*answer.model_distance - truth.signed_distance.midpoint()) / size;
+    s.solver_error = (answer.signed_distance - *answer.model_distance) / size;
+  }
+  return s;
+}
+
+}  // namespace touchstone

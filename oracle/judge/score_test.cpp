@@ -1,0 +1,331 @@
+#include "oracle/judge/score.hpp"
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <limits>
+#include <numbers>
+#include <set>
+#include <string>
+
+#include "reports/statistics.hpp"
+
+namespace touchstone {
+namespace {
+
+/// A can of size 0.5 standing on a box, 1e-3 deep: truth −1e-3 along z, −2e-3 of the size.
+const Configuration standing{Cylinder(0.5, 1),
+                             Pose(Vec3(0, 0, 1.999), Eigen::Quaterniond::Identity()),
+                             Box(Vec3(2, 2, 1)), Pose()};
+
+ts_answer contact(double signed_distance, const Vec3& normal) {
+  ts_answer a{};
+  a.status = TS_CONTACT;
+  a.signed_distance = signed_distance;
+  for (int i = 0; i < 3; ++i) a.normal[i] = normal[i];
+  a.point_count = 1;
+  a.points[0] = {{0, 0, 1}, {normal.x(), normal.y(), normal.z()}, -signed_distance};
+  return a;
+}
+
+ts_answer none() {
+  ts_answer a{};
+  a.status = TS_NONE;
+  return a;
+}
+
+Score scored(const Configuration& c, const ts_answer& a, const Bar& bar = {}) {
+  return score(c, oracle::truth(c), a, bar);
+}
+
+Configuration lifted(double by) {
+  return {standing.a,
+          Pose(standing.pose_a.position() + Vec3(0, 0, by), standing.pose_a.orientation()),
+          standing.b, standing.pose_b};
+}
+
+const Vec3 up(0, 0, 1);
+
+TEST(Score, TheRightAnswerAgreesWithNoError) {
+  const Score s = scored(standing, contact(-1e-3, up));
+  EXPECT_EQ(s.outcome, Outcome::agree);
+  EXPECT_NEAR(*s.depth_error, 0, 1e-12);
+  EXPECT_NEAR(*s.normal_regret, 0, 1e-12);
+  EXPECT_NEAR(*s.normal_angle, 0, 1e-12);
+  EXPECT_EQ(s.points, 1);
+}
+
+TEST(Score, SaysHowFarPointsAreOffTheBodies) {
+  EXPECT_EQ(*scored(standing, contact(-1e-3, up)).point_error, 0);
+  ts_answer off = contact(-1e-3, up);
+  off.point_count = 2;
+  off.points[1] = {{0, 0, 1.1}, {0, 0, 1}, 1e-3};  // 0.101 from the cap, 1e-3 of it allowed
+  const Score s = scored(standing, off);
+  EXPECT_NEAR(*s.point_error, 0.1 / 0.5, 1e-12);
+  EXPECT_EQ(s.outcome, Outcome::agree);
+  off.point_count = 0;
+  EXPECT_FALSE(scored(standing, off).point_error);
+  EXPECT_FALSE(scored(standing, none()).point_error);
+}
+
+/// Bodies 1e-3 deep (2e-3 of the size) with points of these depths.
+ts_answer with_depths(const std::vector<double>& depths) {
+  ts_answer a = contact(-1e-3, up);
+  a.point_count = static_cast<int>(depths.size());
+  for (std::size_t i = 0; i < depths.size(); ++i) {
+    a.points[i] = {{0, 0, 1}, {0, 0, 1}, depths[i]};
+  }
+  return a;
+}
+
+TEST(DeepestPoint, WithTheDepthAgreesHoweverShallowTheOthersAre) {
+  const Score s = scored(standing, with_depths({0, 1e-3, 2e-4}));
+  EXPECT_EQ(s.outcome, Outcome::agree);
+  EXPECT_NEAR(*s.deepest_error, 0, 1e-12);
+}
+
+TEST(DeepestPoint, WithoutTheDepthIsShallowPointsByWhatIsLacking) {
+  const Score s = scored(standing, with_depths({0, 4e-4}));
+  EXPECT_EQ(s.outcome, Outcome::shallow_points);
+  EXPECT_NEAR(*s.depth_error, 0, 1e-12);
+  EXPECT_NEAR(*s.deepest_error, -0.6e-3 / 0.5, 1e-12);
+  EXPECT_NEAR(s.severity, 0.6e-3 / 0.5, 1e-12);
+}
+
+TEST(DeepestPoint, DeeperThanTheBodiesIsOverdeepPointsByTheExcess) {
+  const Score s = scored(standing, with_depths({1e-3, 3e-3}));
+  EXPECT_EQ(s.outcome, Outcome::overdeep_points);
+  EXPECT_NEAR(*s.deepest_error, 2e-3 / 0.5, 1e-12);
+  EXPECT_NEAR(s.severity, 2e-3 / 0.5, 1e-12);
+}
+
+TEST(DeepestPoint, IsJudgedAtTheBar) {
+  const ts_answer lacking = with_depths({1e-3 - 2e-5});  // 4e-5 of the size
+  EXPECT_EQ(scored(standing, lacking).outcome, Outcome::agree);
+  EXPECT_EQ(scored(standing, lacking, {.tolerance = 1e-5, .threshold = 0}).outcome,
+            Outcome::shallow_points);
+}
+
+TEST(DeepestPoint, OfAContactWithoutPointsIsLackingAltogether) {
+  const Score s = scored(standing, with_depths({}));
+  EXPECT_EQ(s.outcome, Outcome::shallow_points);
+  EXPECT_FALSE(s.deepest_error);
+  EXPECT_NEAR(s.severity, 1e-3 / 0.5, 1e-12);
+  ts_answer apart = with_depths({});
+  apart.signed_distance = 0.01;
+  EXPECT_EQ(scored(lifted(0.011), apart, {.tolerance = 1e-4, .threshold = 0.02}).outcome,
+            Outcome::agree);
+}
+
+TEST(DeepestPoint, IsNotSoughtWhereDepthOrNormalAreWrong) {
+  ts_answer shallow = with_depths({0});
+  shallow.signed_distance = -0.5e-3;
+  EXPECT_EQ(scored(standing, shallow).outcome, Outcome::shallow);
+  ts_answer sideways = with_depths({0});
+  sideways.normal[0] = 1, sideways.normal[2] = 0;
+  EXPECT_EQ(scored(standing, sideways).outcome, Outcome::wrong_normal);
+}
+
+TEST(Points, BeyondTheThresholdArePhantomPointsByTheGap) {
+  const ts_answer far = with_depths({1e-3, -2e-3});
+  const Score s = scored(standing, far);
+  EXPECT_EQ(s.outcome, Outcome::phantom_points);
+  EXPECT_NEAR(s.severity, 2e-3 / 0.5, 1e-12);
+  EXPECT_NEAR(*s.deepest_error, 0, 1e-12);
+  EXPECT_EQ(scored(standing, far, {.tolerance = 1e-4, .threshold = 2e-3}).outcome, Outcome::agree);
+}
+
+// Of parallel sides that a tilt of 0.03 makes cross: signed distance and normal are right to the
+// last digits, and a solver feels nothing.
+TEST(DeepestPoint, IsLackingWhereOurOwnCapsuleOnceHadPointsAtTheEndsOnly) {
+  const Configuration c{Cylinder(0x1p-2, 5),
+                        Pose(Vec3(0x1.1745d1745d174p-2, -0x1.ac37dac37dac4p-2, 0x1.bed61bed61bfp-6),
+                             Eigen::Quaterniond(0x1.041c6a547a96ep+1, -0x1.78c73ac4b8bf4p+1,
+                                                -0x1.1fa452869f12cp-7, -0x1.847b2902f586dp+1)),
+                        Capsule(0x1p-2, 5), Pose(Vec3::Zero(), Eigen::Quaterniond(2, -3, 0, -3))};
+  const oracle::Truth truth = oracle::truth(c);
+  ts_answer a = contact(truth.signed_distance.midpoint(), truth.normals.front().n);
+  EXPECT_EQ(score(c, truth, a, {}).outcome, Outcome::agree);
+  a.point_count = 2;
+  a.points[0].depth = a.points[1].depth = 3e-17;
+  const Score s = score(c, truth, a, {});
+  EXPECT_EQ(s.outcome, Outcome::shallow_points);
+  EXPECT_NEAR(*s.deepest_error, -0.00244 / 0.25, 1e-4);
+}
+
+TEST(Score, OutcomesAreNamedAfterTheSymptom) {
+  EXPECT_EQ(scored(standing, none()).outcome, Outcome::missed);
+  EXPECT_EQ(scored(standing, contact(-0.5e-3, up)).outcome, Outcome::shallow);
+  EXPECT_EQ(scored(standing, contact(-2e-3, up)).outcome, Outcome::overdeep);
+  EXPECT_EQ(scored(standing, contact(-1e-3, -up)).outcome, Outcome::wrong_normal);
+  EXPECT_EQ(scored(standing, contact(-1e-3, Vec3(0, 0, 2))).outcome, Outcome::wrong_normal);
+  EXPECT_EQ(scored(standing, contact(-1e-3, Vec3::Zero())).outcome, Outcome::wrong_normal);
+  EXPECT_EQ(scored(lifted(0.1), contact(-1e-3, up)).outcome, Outcome::phantom);
+  EXPECT_EQ(scored(lifted(0.1), none()).outcome, Outcome::agree);
+  ts_answer broken = none();
+  broken.status = TS_FAILED;
+  EXPECT_EQ(scored(standing, broken).outcome, Outcome::failed);
+  broken.status = TS_UNSUPPORTED;
+  EXPECT_EQ(scored(standing, broken).outcome, Outcome::unsupported);
+}
+
+TEST(Score, EveryOutcomeIsListedOnceInItsPlaceWithANameOfItsOwn) {
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < all_outcomes.size(); ++i) {
+    EXPECT_EQ(static_cast<std::size_t>(all_outcomes[i]), i);  // statistics count by it
+    EXPECT_TRUE(names.insert(outcome_name(all_outcomes[i])).second);
+  }
+}
+
+TEST(Score, NotANumberAnywhereIsNotFinite) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(scored(standing, contact(nan, up)).outcome, Outcome::not_finite);
+  EXPECT_EQ(scored(standing, contact(-1e-3, Vec3(0, nan, 1))).outcome, Outcome::not_finite);
+  ts_answer in_point = contact(-1e-3, up);
+  in_point.points[0].position[1] = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(scored(standing, in_point).outcome, Outcome::not_finite);
+}
+
+TEST(Score, ErrorsAreRelativeToTheSmallerSize) {
+  const Score s = scored(standing, contact(-0.5e-3, up));
+  EXPECT_NEAR(*s.depth_error, 0.5e-3 / 0.5, 1e-12);
+  EXPECT_NEAR(s.severity, 1e-3, 1e-12);
+}
+
+TEST(Score, ErrorsAreRelativeToAShareOfTheLargerSizeWhereDoublesSayNoMore) {
+  const Configuration needle{Cylinder(1e-3, 1e9), Pose(), Sphere(1), Pose()};
+  EXPECT_EQ(error_size(needle, {}), 1);  // 1e-13 over the tolerance of 1e-4
+  EXPECT_EQ(error_size(needle, {.tolerance = 1e-13, .threshold = 0}), 1e9);
+  EXPECT_EQ(error_size(needle, {.tolerance = 0, .threshold = 0}), 1e9);
+  EXPECT_EQ(error_size(standing, {}), 0.5);
+  // A plane has no end: how far along it the cylinder lies counts.
+  const Configuration aside{Cylinder(0.5, 1), Pose(Vec3(1e12, 0, 0)), Plane(up, 0), Pose()};
+  EXPECT_DOUBLE_EQ(error_size(aside, {}), 1e3);
+}
+
+TEST(Score, ReversedNormalRegretsTheWholeWayThrough) {
+  // Along −z the bodies overlap by 2·1 + 2·1 − 1e-3.
+  EXPECT_NEAR(*scored(standing, contact(-1e-3, -up)).normal_regret, (4 - 2e-3) / 0.5, 1e-9);
+}
+
+TEST(Score, WhatIsWithinTheBarMayBeMissed) {
+  const Configuration touching = lifted(1e-3 - 2e-5);  // 4e-5 of the size deep
+  EXPECT_EQ(scored(touching, none()).outcome, Outcome::agree);
+  EXPECT_EQ(scored(touching, none(), {.tolerance = 1e-6, .threshold = 0}).outcome, Outcome::missed);
+}
+
+TEST(Score, ThresholdAllowsContactsThatFarApart) {
+  const Configuration apart = lifted(0.011);
+  EXPECT_EQ(scored(apart, contact(0.01, up)).outcome, Outcome::phantom);
+  EXPECT_EQ(scored(apart, contact(0.01, up), {.tolerance = 1e-4, .threshold = 0.02}).outcome,
+            Outcome::agree);
+}
+
+ts_answer contact_at(const std::vector<Vec3>& positions, const Vec3& normal = up) {
+  ts_answer a = contact(-1e-3, normal);
+  a.point_count = static_cast<int>(positions.size());
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    a.points[i] = a.points[0];
+    for (int k = 0; k < 3; ++k) a.points[i].position[k] = positions[i][k];
+  }
+  return a;
+}
+
+std::vector<Vec3> on_rim(int count) {
+  std::vector<Vec3> points;
+  for (int i = 0; i < count; ++i) {
+    const double angle = 2 * std::numbers::pi * i / count;
+    points.push_back(Vec3(0.5 * std::cos(angle), 0.5 * std::sin(angle), 1));
+  }
+  return points;
+}
+
+/// `standing`, leaning by an angle.
+Configuration leaning(double angle) {
+  return {standing.a, Pose(standing.pose_a.position(), Eigen::Quaterniond(1, 0, angle / 2, 0)),
+          standing.b, standing.pose_b};
+}
+
+TEST(Coverage, OfAStandingCylinderGrowsWithItsPoints) {
+  constexpr double inscribed = 1e-3;  // the patch is a polygon in the disc
+  for (const int count : {3, 4, 8}) {
+    EXPECT_NEAR(*scored(standing, contact_at(on_rim(count))).coverage,
+                std::cos(std::numbers::pi / count), inscribed);
+  }
+  EXPECT_EQ(*scored(standing, contact(-1e-3, up)).coverage, 0);
+}
+
+TEST(Coverage, HairTiltedCylindersStillStandAndTiltedOnesTouchInAPoint) {
+  const Bar loose{.tolerance = 0.1, .threshold = 0};
+  EXPECT_NEAR(*scored(leaning(1e-9), contact_at(on_rim(3)), loose).coverage, 0.5, 1e-3);
+  EXPECT_EQ(*scored(leaning(1e-9), contact(-1e-3, up), loose).coverage, 0);
+  EXPECT_EQ(*scored(leaning(0.017), contact(-1e-3, up), loose).coverage, 1);
+}
+
+TEST(Coverage, OfALyingCylinderNeedsBothEnds) {
+  const Configuration lying{Cylinder(0.5, 1),
+                            Pose(Vec3(0, 0, 0.499), Eigen::Quaterniond(1, 0, 1, 0)), Plane(up, 0),
+                            Pose()};
+  EXPECT_NEAR(*scored(lying, contact_at({Vec3(-1, 0, 0), Vec3(1, 0, 0)})).coverage, 1, 1e-9);
+  EXPECT_NEAR(*scored(lying, contact_at({Vec3(-0.5, 0, 0), Vec3(1, 0, 0)})).coverage, 0.5, 1e-9);
+  EXPECT_EQ(*scored(lying, contact_at({Vec3(0, 0, 0)})).coverage, 0);
+}
+
+TEST(Coverage, OfARoundContactIsOneWithOnePointHoweverLargeTheSphere) {
+  for (const double radius : {0.5, 5e3}) {
+    const Configuration c{Cylinder(0.5, 1), Pose(Vec3(0, 0, 0.999), Eigen::Quaterniond::Identity()),
+                          Sphere(radius),
+                          Pose(Vec3(0, 0, -radius), Eigen::Quaterniond::Identity())};
+    EXPECT_EQ(*scored(c, contact_at({Vec3::Zero()})).coverage, 1);
+  }
+}
+
+TEST(Coverage, OfAContinuumIsThatOfTheAnswersOwnNormal) {
+  // Coaxial: a ring of radial normals, each with a segment across the shared length.
+  const Configuration coaxial{Cylinder(0.5, 1), Pose(), Cylinder(0.25, 4), Pose()};
+  const Vec3 n = Vec3(3, 4, 0) / 5;
+  ts_answer a = contact_at({-0.5 * n + Vec3(0, 0, -1), -0.5 * n + Vec3(0, 0, 1)}, n);
+  a.signed_distance = -0.75;
+  EXPECT_NEAR(*scored(coaxial, a).coverage, 1, 1e-9);
+}
+
+TEST(Coverage, IsUndefinedWithoutARightContact) {
+  EXPECT_FALSE(scored(standing, none()).coverage);
+  EXPECT_FALSE(scored(standing, contact(-1e-3, Vec3(1, 0, 0))).coverage);
+  EXPECT_FALSE(scored(lifted(0.1), contact(-1e-3, up)).coverage);
+}
+
+TEST(Statistics, SharesCountFromBelow) {
+  std::vector<double> values;
+  for (int i = 0; i <= 200; ++i) values.push_back(i / 200.0);
+  const Shares s = *shares(values);
+  EXPECT_NEAR(s.mean, 0.5, 1e-12);
+  EXPECT_NEAR(s.median, 0.5, 1e-12);
+  EXPECT_NEAR(s.p1, 0.01, 1e-12);
+  EXPECT_EQ(s.min, 0);
+  EXPECT_FALSE(shares({}));
+}
+
+TEST(Statistics, QuantilesAreNearestRank) {
+  std::vector<double> values;
+  for (int i = 200; i >= 1; --i) values.push_back(i);
+  const Quantiles q = *quantiles(values);
+  EXPECT_EQ(q.median, 100);
+  EXPECT_EQ(q.p99, 198);
+  EXPECT_EQ(q.max, 200);
+  EXPECT_EQ(quantiles({7})->p99, 7);
+  EXPECT_FALSE(quantiles({}));
+}
+
+TEST(Statistics, CountsOutcomesAndPoints) {
+  const Statistics s = statistics({scored(standing, contact(-1e-3, up)),
+                                   scored(standing, contact(-2e-3, up)), scored(standing, none())});
+  EXPECT_EQ(s.count, 3u);
+  EXPECT_EQ(s.of(Outcome::agree), 1u);
+  EXPECT_EQ(s.of(Outcome::overdeep), 1u);
+  EXPECT_EQ(s.of(Outcome::missed), 1u);
+  EXPECT_EQ(s.points.at(1), 2u);
+  EXPECT_NEAR(s.depth_error->max, 2e-3, 1e-12);
+}
+
+}  // namespace
+}  // namespace touchstone

@@ -1,0 +1,149 @@
+#include "properties/files/configuration_json.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <functional>
+#include <gmpxx.h>
+#include <string>
+
+#include "properties/files/json_fields.hpp"
+#include "reference/invalid_input.hpp"
+
+namespace touchstone {
+namespace {
+
+using nlohmann::json;
+
+/// How a number is written.
+using Write = std::function<json(double)>;
+
+json write_vector(const Vec3& v, const Write& write) {
+  return json::array({write(v.x()), write(v.y()), write(v.z())});
+}
+
+struct WriteShape {
+  Write write;
+  json operator()(const Cylinder& s) const {
+    return round("cylinder", s.radius(), s.half_length());
+  }
+  json operator()(const Capsule& s) const { return round("capsule", s.radius(), s.half_length()); }
+  json operator()(const Sphere& s) const {
+    return {{"shape", "sphere"}, {"radius", write(s.radius())}};
+  }
+  json operator()(const Box& s) const {
+    return {{"shape", "box"}, {"half_extents", write_vector(s.half_extents(), write)}};
+  }
+  json operator()(const Plane& s) const {
+    return {{"shape", "plane"},
+            {"normal", write_vector(s.normal(), write)},
+            {"displacement", write(s.displacement())}};
+  }
+  json round(const char* name, double radius, double half_length) const {
+    return {{"shape", name}, {"radius", write(radius)}, {"half_length", write(half_length)}};
+  }
+};
+
+json write_pose(const Pose& pose, const Write& write) {
+  const auto& q = pose.orientation();
+  return {{"position", write_vector(pose.position(), write)},
+          {"orientation", json::array({write(q.w()), write(q.x()), write(q.y()), write(q.z())})}};
+}
+
+json write_configuration(const Configuration& c, const Write& write) {
+  return {{"a", WriteShape{write}(c.a)},
+          {"pose_a", write_pose(c.pose_a, write)},
+          {"b", std::visit(WriteShape{write}, c.b)},
+          {"pose_b", write_pose(c.pose_b, write)}};
+}
+
+}  // namespace
+
+Shape shape_from_json(const json& value, const std::string& path) {
+  require_object(value, path);
+  const json& kind = member(value, "shape", path);
+  const auto size = [&](const char* name) {
+    return number(member(value, name, path), path + "." + name);
+  };
+  if (kind == "cylinder" || kind == "capsule") {
+    refuse_others(value, {"shape", "radius", "half_length"}, path);
+    const double radius = size("radius"), half_length = size("half_length");
+    return at_path(path, [&]() -> Shape {
+      if (kind == "cylinder") return Cylinder(radius, half_length);
+      return Capsule(radius, half_length);
+    });
+  }
+  if (kind == "sphere") {
+    refuse_others(value, {"shape", "radius"}, path);
+    const double radius = size("radius");
+    return at_path(path, [&]() -> Shape { return Sphere(radius); });
+  }
+  if (kind == "box") {
+    refuse_others(value, {"shape", "half_extents"}, path);
+    const Vec3 half = vector(member(value, "half_extents", path), path + ".half_extents");
+    return at_path(path, [&]() -> Shape { return Box(half); });
+  }
+  if (kind == "plane") {
+    refuse_others(value, {"shape", "normal", "displacement"}, path);
+    const Vec3 normal = vector(member(value, "normal", path), path + ".normal");
+    const double displacement = size("displacement");
+    return at_path(path, [&]() -> Shape { return Plane(normal, displacement); });
+  }
+  throw InvalidInput(path + ".shape", shown(kind),
+                     "must be \"cylinder\", \"plane\", \"sphere\", \"capsule\" or \"box\"");
+}
+
+Pose pose_from_json(const json& value, const std::string& path) {
+  require_object(value, path);
+  refuse_others(value, {"position", "orientation"}, path);
+  Vec3 position = Vec3::Zero();
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
+  if (value.contains("position")) {
+    position = vector(value["position"], path + ".position");
+  }
+  if (value.contains("orientation")) {
+    const auto q = numbers<4>(value["orientation"], path + ".orientation");
+    orientation = Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
+  }
+  return at_path(path, [&] { return Pose(position, orientation); });
+}
+
+GivenConfiguration configuration_from_json(const json& value) {
+  require_object(value, "configuration");
+  refuse_others(value, {"id", "a", "pose_a", "b", "pose_b"}, "");
+  const Shape a = shape_from_json(member(value, "a", ""), "a");
+  const Shape b = shape_from_json(member(value, "b", ""), "b");
+  const auto pose = [&](const char* name) {
+    return value.contains(name) ? pose_from_json(value[name], name) : Pose();
+  };
+  const Pose pose_a = pose("pose_a"), pose_b = pose("pose_b");
+  if (const auto* cylinder = std::get_if<Cylinder>(&a)) {
+    return {{*cylinder, pose_a, b, pose_b}, false};
+  }
+  if (const auto* cylinder = std::get_if<Cylinder>(&b)) {
+    return {{*cylinder, pose_b, a, pose_a}, true};
+  }
+  throw InvalidInput("a.shape", shown(value["a"]["shape"]),
+                     "one of the two bodies must be a cylinder");
+}
+
+json to_json(const Configuration& c) {
+  return write_configuration(c, [](double x) { return json(x); });
+}
+
+json to_hex_json(const Configuration& c) {
+  return write_configuration(c, [](double x) { return json(fmt::format("{:a}", x)); });
+}
+
+json to_exact_json(const Configuration& c) {
+  return write_configuration(c, [](double x) { return json(mpq_class(x).get_str()); });
+}
+
+json to_json(const Shape& shape) {
+  return std::visit(WriteShape{[](double x) { return json(x); }}, shape);
+}
+
+json to_json(const Vec3& v) {
+  return write_vector(v, [](double x) { return std::isfinite(x) ? json(x) : json(nullptr); });
+}
+
+}  // namespace touchstone

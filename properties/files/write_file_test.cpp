@@ -1,0 +1,67 @@
+#include "properties/files/write_file.hpp"
+
+#include <fstream>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <iterator>
+
+#include "reference/invalid_input.hpp"
+
+namespace touchstone {
+namespace {
+
+struct WriteFile : testing::Test {
+  WriteFile() { std::filesystem::create_directories(folder); }
+  ~WriteFile() override { std::filesystem::remove_all(folder); }
+
+  static std::string read(const std::filesystem::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+  long count() const { return std::distance(std::filesystem::directory_iterator(folder), {}); }
+
+  const std::filesystem::path folder =
+      std::filesystem::path(testing::TempDir()) / "touchstone_write_file_test";
+};
+
+TEST_F(WriteFile, ReplacesWhatWasThereAndLeavesNothingElse) {
+  write_file(folder / "a", "a longer text", "--out");
+  write_file(folder / "a", std::string_view("b\n\0c", 4), "--out");
+  EXPECT_EQ(read(folder / "a"), std::string("b\n\0c", 4));
+  EXPECT_EQ(count(), 1);
+}
+
+TEST_F(WriteFile, WhatIsNoOrdinaryFileIsWrittenAsItIs) {
+  write_file("/dev/null", "text", "--out");
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+}
+
+TEST_F(WriteFile, AFullDiskLeavesTheOldFileAndNamesTheOption) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+  // The partial file is as full as a disk can be.
+  write_file(folder / "a", "old", "--out");
+  std::filesystem::create_symlink("/dev/full", folder / "a.partial");
+  try {
+    write_file(folder / "a", "new", "--html");
+    FAIL() << "nothing was thrown";
+  } catch (const InvalidInput& e) {
+    EXPECT_EQ(e.field(), "--html");
+    EXPECT_THAT(e.what(), testing::HasSubstr((folder / "a").string()));
+  }
+  EXPECT_EQ(read(folder / "a"), "old");
+  EXPECT_EQ(count(), 1);
+}
+
+TEST_F(WriteFile, AFolderThatDoesNotExistIsBadInput) {
+  EXPECT_THROW(write_file(folder / "none" / "a", "text", "--out"), InvalidInput);
+}
+
+TEST_F(WriteFile, AFolderIsMadeOrRefused) {
+  check_writable(folder / "x" / "y");
+  EXPECT_TRUE(std::filesystem::is_directory(folder / "x" / "y"));
+  write_file(folder / "file", "", "--out");
+  EXPECT_THROW(check_writable(folder / "file"), InvalidInput);
+}
+
+}  // namespace
+}  // namespace touchstone

@@ -1,0 +1,83 @@
+#include "properties/laws/check.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "properties/files/answer_json.hpp"
+#include "properties/simplify.hpp"
+
+namespace touchstone {
+namespace {
+
+std::vector<Identity> identities(const CheckOptions& options, Pair pair) {
+  std::vector<Identity> result;
+  for (const std::string& name : pose_classes(pair, options.classes)) {
+    for (std::uint64_t i = 0; i < options.count; ++i) {
+      result.push_back({pair, name, options.seed, i});
+    }
+  }
+  return result;
+}
+
+nlohmann::json answer_of(CandidateProcess& candidate, const Configuration& c, const Bar& bar) {
+  candidate.ask_within(bar.threshold);
+  const Answer answer = candidate.answers({&c, 1}).front();
+  return to_json(answer, score(c, oracle::truth(c), answer, bar));
+}
+
+Failure simplest(const Law& law, const Identity& identity, const Violation& violation,
+                 CandidateProcess& candidate, const Bar& bar) {
+  constexpr int most_trials = 500;
+  const auto fails_alike = [&](const Configuration& c) {
+    const auto v = broken(law, c, candidate, bar);
+    return v && v->failure == violation.failure;
+  };
+  const Configuration c = simplified(make_configuration(identity), fails_alike, most_trials);
+  return {law.name,
+          candidate.candidate().name,
+          candidate.candidate().version,
+          to_string(identity),
+          c,
+          broken(law, c, candidate, bar).value_or(violation),
+          bar,
+          answer_of(candidate, c, bar)};
+}
+
+}  // namespace
+
+std::vector<LawResult> check(CandidateProcess& candidate, const CheckOptions& options,
+                             const std::function<void(std::uint64_t, std::uint64_t)>& progress) {
+  std::uint64_t all = 0, done = 0;
+  for (const Pair pair : options.pairs) all += identities(options, pair).size();
+
+  std::vector<LawResult> results;
+  for (const Pair pair : options.pairs) {
+    const std::vector<Identity> tried = identities(options, pair);
+    if (tried.empty()) continue;
+    const auto first = static_cast<std::ptrdiff_t>(results.size());
+    for (const Law* law : options.laws) results.push_back({law, pair, 0, 0, {}, {}});
+    for (const Identity& identity : tried) {
+      const Configuration c = make_configuration(identity);
+      for (auto result = results.begin() + first; result != results.end(); ++result) {
+        if (!result->law->applies(c)) continue;
+        ++result->tried;
+        const auto violation = broken(*result->law, c, candidate, options.bar);
+        if (!violation) continue;
+        ++result->broken;
+        if (result->counts[violation->failure]++ > 0) continue;
+        result->failures.push_back(
+            simplest(*result->law, identity, *violation, candidate, options.bar));
+      }
+      progress(++done, all);
+    }
+  }
+  std::erase_if(results, [](const LawResult& result) { return result.tried == 0; });
+  for (LawResult& result : results) {
+    std::sort(result.failures.begin(), result.failures.end(), [](const auto& a, const auto& b) {
+      return complexity(a.configuration) < complexity(b.configuration);
+    });
+  }
+  return results;
+}
+
+}  // namespace touchstone

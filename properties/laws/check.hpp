@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "properties/identity.hpp"
+#include "properties/laws/law.hpp"
+
+namespace touchstone {
+
+struct CheckOptions {
+  std::vector<const Law*> laws;
+  std::vector<Pair> pairs;
+  std::vector<std::string> classes;  ///< Of every pair that has them; empty for all.
+  std::uint64_t count = 10;          ///< Configurations of each pair and pose class.
+  std::uint64_t seed = 1;
+  Bar bar;
+};
+
+/// A configuration that breaks a law: the first one met, and a simpler one that fails alike.
+struct Failure {
+  std::string law;
+  std::string candidate, version;
+  std::string identity;  ///< Of the first one met.
+  Configuration configuration;
+  Violation violation;  ///< Of the simpler one.
+  Bar bar;
+  nlohmann::json answer;  ///< Of the candidate to it (docs/solve.md); null where it is not known.
+};
+
+/// One law on one pair.
+struct LawResult {
+  const Law* law;
+  Pair pair;
+  std::uint64_t tried = 0, broken = 0;
+  /// By the failure's name: how often, and the simplest example.
+  std::map<std::string, std::uint64_t> counts;
+  std::vector<Failure> failures;  ///< One of each name, the simplest first.
+};
+
+/// Tries every law on every configuration and simplifies the first failure of each name, keeping
+/// the name. `progress` is told how many configurations are done, of how many.
+std::vector<LawResult> check(CandidateProcess& candidate, const CheckOptions& options,
+                             const std::function<void(std::uint64_t, std::uint64_t)>& progress);
+
+}  // namespace touchstone

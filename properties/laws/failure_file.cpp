@@ -1,0 +1,124 @@
+#include "properties/laws/failure_file.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <memory>
+
+#include "candidates/candidates.hpp"
+#include "properties/files/configuration_json.hpp"
+#include "properties/files/json_fields.hpp"
+#include "properties/files/read_file.hpp"
+#include "properties/files/strict_json.hpp"
+#include "properties/files/write_file.hpp"
+#include "reference/invalid_input.hpp"
+
+namespace touchstone {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* schema = "touchstone-failure-1";
+
+std::string text(const json& object, const char* name) {
+  return string(member(object, name, ""), name);
+}
+
+/// As a bar's options must be.
+double bar_number(const json& object, const char* name) {
+  const json& value = member(object, name, "");
+  const double x = number(value, name);
+  if (!(x >= 0)) throw InvalidInput(name, shown(value), "must not be negative");
+  return x;
+}
+
+ReplayedFailure replayed(const Failure& expected, const Limits& limits) {
+  std::unique_ptr<CandidateProcess> process;
+  try {
+    process = std::make_unique<CandidateProcess>(find_candidate(expected.candidate),
+                                                 expected.bar.threshold, limits);
+  } catch (const InvalidInput&) {
+    return {expected, ReplayedFailure::Result::skipped, "the candidate is not installed"};
+  }
+  const auto v = broken(find_law(expected.law), expected.configuration, *process, expected.bar);
+  if (!v) return {expected, ReplayedFailure::Result::fixed, ""};
+  const bool same = v->failure == expected.violation.failure;
+  return {expected, same ? ReplayedFailure::Result::as_expected : ReplayedFailure::Result::changed,
+          v->failure};
+}
+
+}  // namespace
+
+json to_json(const Failure& f) {
+  return {{"schema", schema},
+          {"candidate", f.candidate},
+          {"version", f.version},
+          {"law", f.law},
+          {"failure", f.violation.failure},
+          {"detail", f.violation.detail},
+          {"tolerance", f.bar.tolerance},
+          {"threshold", f.bar.threshold},
+          {"found", f.identity},
+          {"configuration", to_hex_json(f.configuration)},
+          {"decimal", to_json(f.configuration)},
+          {"answer", f.answer}};
+}
+
+Failure failure_from_json(const json& object) {
+  require_object(object, "failure");
+  if (text(object, "schema") != schema) {
+    throw InvalidInput("schema", shown(object["schema"]), fmt::format("must be \"{}\"", schema));
+  }
+  const std::string failure = text(object, "failure");
+  const auto& failures = all_failures();
+  if (std::find(failures.begin(), failures.end(), failure) == failures.end()) {
+    throw InvalidInput("failure", shown(failure),
+                       fmt::format("must be one of {}", fmt::join(failures, ", ")));
+  }
+  return {find_law(text(object, "law")).name,
+          text(object, "candidate"),
+          text(object, "version"),
+          text(object, "found"),
+          configuration_from_json(member(object, "configuration", "")).configuration,
+          {failure, 0, text(object, "detail")},
+          {bar_number(object, "tolerance"), bar_number(object, "threshold")},
+          object.value("answer", json())};
+}
+
+std::filesystem::path save(const Failure& f, const std::filesystem::path& folder) {
+  check_writable(folder, "--save");
+  std::string name = fmt::format("{}-{}-{}-{}.json", f.candidate,
+                                 pair_name(pair_of(f.configuration)), f.law, f.violation.failure);
+  std::replace(name.begin(), name.end(), ':', '-');
+  auto path = folder / name;
+  write_file(path, to_json(f).dump(2) + '\n', "--save");
+  return path;
+}
+
+std::vector<Failure> read_corpus(const std::filesystem::path& folder) {
+  if (!is_folder(folder)) {
+    throw InvalidInput("--corpus", '"' + folder.string() + '"', "must be a folder");
+  }
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().extension() == ".json") files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  std::vector<Failure> corpus;
+  for (const auto& file : files) {
+    try {
+      corpus.push_back(failure_from_json(parse_json(read_file(file, "--corpus"), "it")));
+    } catch (const InvalidInput& e) {
+      throw InvalidInput("--corpus", '"' + file.string() + '"', e.what());
+    }
+  }
+  return corpus;
+}
+
+std::vector<ReplayedFailure> replay(const std::vector<Failure>& corpus, const Limits& limits) {
+  std::vector<ReplayedFailure> result;
+  result.reserve(corpus.size());
+  for (const Failure& failure : corpus) result.push_back(replayed(failure, limits));
+  return result;
+}
+
+}  // namespace touchstone

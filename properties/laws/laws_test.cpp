@@ -1,0 +1,250 @@
+// The laws themselves: what they accept, and that each sees the fault it is there for.
+#include <cmath>
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include "candidates/candidates.hpp"
+#include "properties/arbitrary.hpp"
+#include "properties/laws/check.hpp"
+#include "properties/laws/moves.hpp"
+#include "properties/simplify.hpp"
+#include "reference/contact_of.hpp"
+#include "reference/invalid_input.hpp"
+
+namespace touchstone {
+namespace {
+
+/// A standing cylinder 0.1 deep in a box's top, and an answer that is right.
+Configuration standing() {
+  return {Cylinder(1, 1), Pose({0, 0, 1.9}, {1, 0, 0, 0}), Box({2, 2, 1}), Pose()};
+}
+
+Answer contact(double distance, const Vec3& n = Vec3(0, 0, 1),
+               const std::vector<Vec3>& points = {{0, 0, 0.95}}) {
+  Answer a{};
+  a.status = TS_CONTACT;
+  a.signed_distance = distance;
+  Eigen::Map<Vec3>(a.normal) = n;
+  for (const Vec3& p : points) {
+    ts_point& point = a.points[a.point_count++];
+    Eigen::Map<Vec3>(point.position) = p;
+    Eigen::Map<Vec3>(point.normal) = n;
+    point.depth = -distance;
+  }
+  return a;
+}
+
+Answer none() {
+  Answer a{};
+  a.status = TS_NONE;
+  return a;
+}
+
+std::string failure(const char* law, const std::vector<Answer>& answers) {
+  const auto v = find_law(law).judge(standing(), answers, {});
+  return v ? v->failure : "";
+}
+
+/// The same with points of other depths, halfway between the surfaces if they were so deep.
+Answer with_depths(Answer a, const std::vector<double>& depths) {
+  for (std::size_t i = 0; i < depths.size(); ++i) {
+    a.points[i].depth = depths[i];
+    a.points[i].position[2] = 1 - depths[i] / 2;
+  }
+  return a;
+}
+
+const std::vector<Vec3> triangle = {{1, 0, 0.95}, {-0.5, 0.8, 0.95}, {-0.5, -0.8, 0.95}};
+
+TEST(Laws, SeeWhatTheyAreThereFor) {
+  const Answer good = contact(-0.1, {0, 0, 1}, triangle);
+  EXPECT_EQ(failure("answers", {good}), "");
+  EXPECT_EQ(failure("answers", {contact(NAN)}), "not-finite");
+  EXPECT_EQ(failure("answers", {contact(-0.1, {0, 0, 2})}), "wrong-normal");
+
+  EXPECT_EQ(failure("agreement", {good}), "");
+  EXPECT_EQ(failure("agreement", {none()}), "missed");
+  EXPECT_EQ(failure("agreement", {contact(-0.09)}), "shallow");
+  EXPECT_EQ(failure("agreement", {contact(-0.11)}), "overdeep");
+  EXPECT_EQ(failure("agreement", {contact(-0.1, {1, 0, 0})}), "wrong-normal");
+
+  EXPECT_EQ(failure("flip", {good, contact(-0.1)}), "");
+  EXPECT_EQ(failure("flip", {good, contact(-0.101)}), "not-invariant");
+  EXPECT_EQ(failure("flip", {good, contact(-0.1, {0, 0.6, 0.8})}), "not-invariant");
+  EXPECT_EQ(failure("flip", {good, none()}), "not-invariant");
+  EXPECT_EQ(failure("scale", {good, contact(-0.0125), contact(-0.8)}), "");
+  EXPECT_EQ(failure("scale", {good, contact(-0.1), contact(-0.1)}), "not-invariant");
+
+  std::vector<Answer> steps(7, good);
+  EXPECT_EQ(failure("small-steps", steps), "");
+  steps[4] = contact(-0.12);
+  EXPECT_EQ(failure("small-steps", steps), "jump");
+
+  EXPECT_EQ(failure("growth", {good, good, contact(-0.11)}), "");
+  EXPECT_EQ(failure("growth", {good, contact(-0.09), good}), "shallow");
+  EXPECT_EQ(failure("growth", {good, contact(-0.2), good}), "overdeep");
+
+  EXPECT_EQ(failure("way-out", {good}), "");
+  EXPECT_EQ(failure("way-out", {contact(-0.05)}), "shallow");
+  EXPECT_EQ(failure("way-out", {contact(-0.2)}), "overdeep");
+
+  EXPECT_EQ(failure("apart", {good, none()}), "");
+  EXPECT_EQ(failure("apart", {good, contact(-0.01)}), "phantom");
+
+  EXPECT_EQ(failure("points", {good}), "");
+  EXPECT_EQ(failure("points", {contact(-0.1, {0, 0, 1}, {{3, 0, 0.95}})}), "off-body");
+  EXPECT_EQ(failure("points", {contact(-0.1, {0, 0, 1}, {})}), "shallow-points");
+  EXPECT_EQ(failure("points", {with_depths(good, {0, 0.05, 0})}), "shallow-points");
+  EXPECT_EQ(failure("points", {with_depths(good, {0.1, 0.05, 0.11})}), "overdeep-points");
+  EXPECT_EQ(failure("points", {with_depths(good, {0.1, -0.05, 0.1})}), "phantom-points");
+  EXPECT_EQ(failure("points", {contact(-0.09)}), "");
+  EXPECT_EQ(failure("agreement", {contact(-0.1, {0, 0, 1}, {})}), "");
+
+  EXPECT_EQ(failure("manifold", {good}), "");
+  EXPECT_EQ(failure("manifold", {contact(-0.1, {0, 0, 1}, {{0, 0, 0.95}})}), "few-points");
+
+  EXPECT_EQ(failure("memory", {good, good, good, good, good}), "");
+  EXPECT_EQ(failure("memory", {good, good, good, good, contact(std::nextafter(-0.1, 0))}),
+            "not-invariant");
+}
+
+TEST(Laws, HintSeesAFlickerAndAHintThatMisleads) {
+  const Law& law = find_law("hint");
+  // Every face of the cube is as near as the cylinder's caps.
+  const Configuration tied{Cylinder(1, 1), Pose(), Box({1, 1, 1}), Pose()};
+  const auto judged = [&](const Configuration& c, const std::vector<Answer>& answers) {
+    Bar bar;
+    bar.threshold = law.threshold(c, bar);
+    const auto v = law.judge(c, answers, bar);
+    return v ? v->failure : "";
+  };
+  const Vec3 x = Vec3::UnitX(), z = Vec3::UnitZ();
+  const Answer up = contact(-2, z), down = contact(-2, -z), side = contact(-2, x);
+  EXPECT_EQ(judged(tied, {up, up, up, up}), "");
+  EXPECT_EQ(judged(tied, {up, side, up, down}), "");
+  EXPECT_EQ(judged(tied, {up, up, side, up}), "jump");
+  EXPECT_EQ(judged(tied, {up, up, none(), up}), "missed");
+  EXPECT_EQ(judged(tied, {up, up, up, contact(-2.1, -z)}), "overdeep");
+  // What is wrong without a hint is for other laws to say.
+  EXPECT_EQ(judged(tied, {up, none(), none(), none()}), "");
+  EXPECT_EQ(judged(tied, {none()}), "");
+
+  // One normal is the best: the hint decides nothing.
+  const Answer good = contact(-0.1, z), wrong = contact(-0.1, x);
+  EXPECT_EQ(judged(standing(), {good, good, good, good}), "");
+  EXPECT_EQ(judged(standing(), {good, good, good, wrong}), "wrong-normal");
+  EXPECT_EQ(judged(standing(), {good, good, wrong, good}), "wrong-normal");
+  EXPECT_EQ(judged(standing(), {wrong, good, good, good}), "");
+}
+
+TEST(Laws, HintIsAskedOfTheNextFrameWithTheNormalAndItsOpposite) {
+  const Law& law = find_law("hint");
+  Bar bar;
+  bar.threshold = law.threshold(standing(), bar);
+  EXPECT_DOUBLE_EQ(bar.threshold, 0.5e-4);
+  const auto frames = law.frames(standing(), contact(-0.1, {0, 0, 1}), bar);
+  ASSERT_EQ(frames.size(), 3u);
+  for (const Frame& f : frames) {
+    EXPECT_DOUBLE_EQ(f.configuration.pose_a.position().z(), 1.9 - 1e-5);
+  }
+  EXPECT_FALSE(frames[0].previous_normal);
+  EXPECT_EQ(*frames[1].previous_normal, Vec3(0, 0, 1));
+  EXPECT_EQ(*frames[2].previous_normal, Vec3(0, 0, -1));
+  EXPECT_TRUE(law.frames(standing(), none(), bar).empty());
+}
+
+TEST(Laws, HaveNamesThatAreFound) {
+  for (const Law& law : all_laws()) EXPECT_EQ(&find_law(law.name), &law);
+  EXPECT_THROW(find_law("gravity"), InvalidInput);
+}
+
+// As a rapidcheck property: RC_PARAMS sets the number of tries and the seed, failures shrink.
+class ReferenceKeeps : public testing::TestWithParam<Pair> {};
+
+TEST_P(ReferenceKeeps, EveryLaw) {
+  CandidateProcess reference(find_candidate("reference"), 0);
+  const auto& classes = pose_classes(GetParam());
+  EXPECT_TRUE(rc::check([&](unsigned number) {
+    const Configuration c = *configurations(GetParam(), classes[number % classes.size()]);
+    for (const Law& law : all_laws()) {
+      const auto violation = broken(law, c, reference, {});
+      if (violation) RC_FAIL(law.name + ", " + violation->failure + ": " + violation->detail);
+    }
+  }));
+}
+
+INSTANTIATE_TEST_SUITE_P(, ReferenceKeeps, testing::ValuesIn(all_pairs), [](const auto& pair) {
+  return std::string(pair_name(pair.param)).substr(std::string("cylinder-").size());
+});
+
+TEST(Check, SimplifiesAFailureToOneThatFailsAlike) {
+  CandidateProcess bullet(find_candidate("bullet"), 0);
+  CheckOptions options;
+  options.laws = {&find_law("agreement")};
+  options.pairs = {Pair::box};
+  options.classes = {"edge-cap"};
+  options.count = 3;
+  const auto results = check(bullet, options, [](auto, auto) {});
+  ASSERT_EQ(results.size(), 1u);
+  ASSERT_FALSE(results[0].failures.empty());
+  for (const Failure& f : results[0].failures) {
+    const Configuration met = make_configuration(parse_identity(f.identity));
+    EXPECT_LT(complexity(f.configuration), complexity(met) / 4);
+    const auto v = broken(find_law(f.law), f.configuration, bullet, options.bar);
+    ASSERT_TRUE(v);
+    EXPECT_EQ(v->failure, f.violation.failure);
+  }
+}
+
+// Of bodies too large, too small or too far away to be moved without rounding that decides, laws
+// that move them say nothing; the others do, and no number overflows.
+TEST(Check, HoldsHostileConfigurationsToTheLawsThatApply) {
+  CandidateProcess reference(find_candidate("reference"), 0);
+  CheckOptions options;
+  for (const Law& law : all_laws()) options.laws.push_back(&law);
+  options.pairs = {Pair::sphere};  // the quickest
+  options.classes = {"hostile"};
+  options.count = 400;
+  std::uint64_t all = 0, moved = 0;
+  for (const LawResult& result : check(reference, options, [](auto, auto) {})) {
+    if (result.law->name == "answers") all = result.tried;
+    if (result.law->name == "rotation") moved = result.tried;
+    for (const Failure& f : result.failures) {
+      ADD_FAILURE() << f.law << ", " << f.identity << ": " << f.violation.detail;
+    }
+  }
+  EXPECT_EQ(all, options.count);
+  EXPECT_GT(moved, options.count / 2);
+  EXPECT_LT(moved, options.count);
+}
+
+TEST(Check, ACrashIsAFailureOfTheLawAnswersAlone) {
+  add_plugin(TOUCHSTONE_TEST_PLUGINS "/touchstone-sabotage.so");
+  CandidateProcess crashing(find_candidate("misdeed:2"), 0, {10, 256});
+  const Configuration c = make_configuration({Pair::sphere, "general-shallow", 1, 0});
+  for (const Law& law : all_laws()) {
+    const auto v = broken(law, c, crashing, {});
+    EXPECT_EQ(v.has_value(), law.name == "answers") << law.name;
+    EXPECT_TRUE(!v || v->failure == "crashed");
+  }
+}
+
+TEST(Moves, LeaveTheGeometryAsTheySay) {
+  for (const Pair pair : all_pairs) {
+    const Configuration c = make_configuration({pair, "general-shallow", 4, 1});
+    const double distance = oracle::truth(c).signed_distance.midpoint();
+    const auto near = [&](const Configuration& other, double expected) {
+      EXPECT_NEAR(oracle::truth(other).signed_distance.midpoint(), expected,
+                  1e-13 * larger_size(c));
+    };
+    near(rotated(c, Eigen::Quaterniond(1, 2, 3, 4).normalized()), distance);
+    near(translated(c, {1, -2, 3}), distance);
+    near(spun(c, 1.3), distance);
+    near(flipped(c), distance);
+    near(scaled(c, 4), 4 * distance);
+    if (pair == Pair::cylinder) near(exchanged(c), distance);
+  }
+}
+
+}  // namespace
+}  // namespace touchstone

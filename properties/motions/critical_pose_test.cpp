@@ -1,0 +1,169 @@
+#include "properties/motions/critical_pose.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "oracle/patch/contact_patch.hpp"
+#include "oracle/truth.hpp"
+#include "properties/arbitrary.hpp"
+#include "properties/motions/motion.hpp"
+#include "properties/motions/name.hpp"
+#include "reference/invalid_input.hpp"
+
+namespace touchstone {
+namespace {
+
+using Kind = oracle::ContactPatch::Kind;
+
+TEST(CriticalPose, IsExactlyWhatItSays) {
+  const struct {
+    const char* name;
+    Kind patch;
+    std::size_t normals;
+    double depth;  // times 256
+  } table[] = {
+      {"lying", Kind::segment, 1, 1},
+      {"standing", Kind::region, 1, 1},
+      {"parallel-sides", Kind::segment, 1, 1},
+      {"cap-on-cap", Kind::region, 1, 1},
+      {"t", Kind::segment, 1, 1},
+      {"x", Kind::point, 1, 1},
+      {"rim-on-rim", Kind::point, 2, 0.8},
+      {"edge-on-side", Kind::segment, 1, 1},
+      {"cap-on-box-corner", Kind::region, 1, 1},
+  };
+  ASSERT_EQ(critical_poses().size(), std::size(table));
+  for (const auto& row : table) {
+    SCOPED_TRACE(row.name);
+    const Configuration& c = find_critical_pose(row.name).configuration;
+    const oracle::Truth truth = oracle::truth(c);
+    EXPECT_EQ(truth.normals.size(), row.normals);
+    EXPECT_NEAR(-256 * truth.signed_distance.midpoint(), row.depth, 1e-12);
+    EXPECT_EQ(oracle::contact_patch(c, truth.normals[0]).kind(), row.patch);
+  }
+}
+
+TEST(MapPixel, InTheMiddleIsTheDegeneratePoseItself) {
+  for (const CriticalPose& pose : critical_poses()) {
+    EXPECT_EQ(rc::toString(map_pixel(pose, Decade(-8), 0, 0)), rc::toString(pose.configuration))
+        << pose.name;
+  }
+}
+
+TEST(MapPixel, AtTheMarginIsChangedByTheZoom) {
+  for (const CriticalPose& pose : critical_poses()) {
+    SCOPED_TRACE(pose.name);
+    const Configuration& c = pose.configuration;
+    const double circumradius = std::hypot(c.a.radius(), c.a.half_length());
+    for (const auto& [change, column, row] :
+         {std::tuple(&pose.across, map_reach, 0), std::tuple(&pose.up, 0, -map_reach)}) {
+      const double expected =
+          change->turn.norm() * circumradius + change->move.norm() * smaller_size(c);
+      const Configuration pixel = map_pixel(pose, Decade(-4), column, row);
+      EXPECT_NEAR(largest_displacement(c, pixel) / 1e-4, expected, 1e-8);
+      // The degeneracy is broken: no other pose of the map is this one.
+      EXPECT_GT(expected, 0.1);
+    }
+  }
+}
+
+// A changed pose breaks every name that anybody has noted down.
+TEST(StabilityName, KeepsItsBitsFromVersionToVersion) {
+  const struct {
+    const char* name;
+    const char* shown;
+  } golden[] = {
+      {"map/rim-on-rim/1e-12/-3/16",
+       "a: cylinder radius 0x1p-2 half_length 0x1p-1 position "
+       "(-0x1.a636641c4df1ap-45, 0x0p+0, 0x1.fep-1) orientation (0x1p+1, "
+       "-0x1.19799812dea11p-41, 0x1p+0, 0x1.19799812dea11p-40); b: cylinder radius "
+       "0x1p-2 half_length 0x1p-1 position (0x0p+0, 0x0p+0, 0x0p+0) orientation "
+       "(0x1p+1, 0x0p+0, -0x1p+0, 0x0p+0)"},
+      {"map/edge-on-side/1e-2/7/-16",
+       "a: cylinder radius 0x1p-2 half_length 0x1p-1 position "
+       "(0x1.4b9999999999ap-1, 0x1p-3, 0x1.64ccccccccccdp-1) orientation "
+       "(0x1.ff5c28f5c28f6p-1, -0x1.0051eb851eb85p+0, 0x1.5c28f5c28f5c3p-8, "
+       "-0x1.5c28f5c28f5c3p-8); b: box half_extents (0x1p-1, 0x1p-1, 0x1p-1) "
+       "position (0x0p+0, 0x0p+0, 0x0p+0) orientation (0x1p+0, 0x0p+0, 0x0p+0, "
+       "0x0p+0)"},
+      {"sequence/roll-over-edge/113/200",
+       "a: cylinder radius 0x1p-2 half_length 0x1p-1 position "
+       "(0x1.20372ebfc79bep-1, 0x1p-3, 0x1.79cfddc33a87ep-1) orientation (0x1p+0, "
+       "-0x1p+0, 0x0p+0, 0x0p+0); b: box half_extents (0x1p-1, 0x1p+0, 0x1p-1) "
+       "position (0x0p+0, 0x0p+0, 0x0p+0) orientation (0x1p+0, 0x0p+0, 0x0p+0, "
+       "0x0p+0)"},
+  };
+  for (const auto& row : golden) {
+    EXPECT_EQ(rc::toString(named_configuration(row.name)->configuration), row.shown) << row.name;
+  }
+}
+
+TEST(StabilityName, RefusesWhatItIsNotAndNamesThePart) {
+  EXPECT_FALSE(named_configuration("cylinder-box/rim-face/1/0"));
+  const struct {
+    const char* text;
+    const char* field;
+    const char* remedy;
+  } table[] = {
+      {"map", "map", "map/standing/1e-12/-3/16"},
+      {"map/standing/1e-12/3", "map", "map/standing/1e-12/-3/16"},
+      {"map/leaning/1e-12/3/4", "map.pose", "standing"},
+      {"map/standing/1e-20/3/4", "map.zoom", "1e-16"},
+      {"map/standing/1e-12/17/4", "map.column", "from -16 to 16"},
+      {"map/standing/1e-12/3/4.5", "map.row", "from -16 to 16"},
+      {"sequence/roll-over-edge/3", "sequence", "113/200"},
+      {"sequence/fall/3/4", "sequence.motion", "roll-over-edge"},
+      {"sequence/roll-over-edge/5/4", "sequence.step", "from 0 to 4"},
+      {"sequence/roll-over-edge/0/0", "sequence.steps", "from 1"},
+  };
+  for (const auto& row : table) {
+    SCOPED_TRACE(row.text);
+    try {
+      named_configuration(row.text);
+      ADD_FAILURE() << "accepted";
+    } catch (const InvalidInput& e) {
+      EXPECT_EQ(e.field(), row.field);
+      EXPECT_THAT(e.remedy(), testing::HasSubstr(row.remedy));
+    }
+  }
+}
+
+TEST(Motion, IsContinuous) {
+  constexpr int steps = 64;
+  for (const Motion& motion : motions()) {
+    for (int i = 1; i <= steps; ++i) {
+      const Configuration from = pose_at(motion, i - 1, steps), to = pose_at(motion, i, steps);
+      EXPECT_GT(largest_displacement(from, to), 0) << motion.name << ' ' << i;
+      EXPECT_LT(largest_displacement(from, to), 0.05) << motion.name << ' ' << i;
+    }
+  }
+}
+
+TEST(Motion, StaysInContactUntilTheBodiesPart) {
+  for (const Motion& motion : motions()) {
+    const bool parts = motion.name == "slide-off-box" || motion.name == "slide-over-cap";
+    for (int i = 0; i <= 16; ++i) {
+      const double depth = -oracle::truth(pose_at(motion, i, 16)).signed_distance.midpoint();
+      const bool ends = parts && (i == 16 || (i == 0 && motion.name == "slide-over-cap"));
+      if (ends) {
+        EXPECT_NEAR(depth, 0, 1e-15) << motion.name << ' ' << i;
+      } else {
+        EXPECT_GT(depth, 0.002) << motion.name << ' ' << i;
+      }
+    }
+  }
+}
+
+TEST(Motion, KeepsOneDepthWhereNothingElseChanges) {
+  for (const char* name : {"tilt-on-plane", "tilt-on-box", "roll-on-plane", "roll-on-box",
+                           "yaw-on-box", "spin-on-box", "roll-over-edge", "sphere-round-rim"}) {
+    for (const int step : {0, 7, 20, 31, 40}) {
+      const double depth =
+          -oracle::truth(pose_at(find_motion(name), step, 40)).signed_distance.midpoint();
+      EXPECT_NEAR(256 * depth, 1, 1e-12) << name << ' ' << step;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace touchstone

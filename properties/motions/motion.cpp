@@ -1,0 +1,146 @@
+#include "properties/motions/motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "properties/draw.hpp"
+#include "properties/named.hpp"
+#include "reference/invalid_input.hpp"
+
+namespace touchstone {
+namespace {
+
+using Quaternion = Eigen::Quaterniond;
+
+constexpr double radius = 0.25, half_length = 0.5;
+constexpr double depth = 1.0 / 256;
+const Quaternion upright(1, 0, 0, 0), along_x(1, 0, 1, 0), along_y(1, -1, 0, 0);
+
+Cylinder can() { return Cylinder(radius, half_length); }
+Plane ground() { return Plane({0, 0, 1}, 0); }
+Box table() { return Box({2, 2, 0.5}); }
+Box block() { return Box({0.5, 1, 0.5}); }
+Pose below() { return Pose({0, 0, -0.5}, upright); }  // of a table whose top is at z = 0
+
+/// Of the angle 2 arctan(t).
+struct HalfTangent {
+  double t;
+  double cosine() const { return (1 - t * t) / (1 + t * t); }
+  double sine() const { return 2 * t / (1 + t * t); }
+  Quaternion about_x() const { return Quaternion(1, t, 0, 0); }
+  Quaternion about_y() const { return Quaternion(1, 0, t, 0); }
+  Quaternion about_z() const { return Quaternion(1, 0, 0, t); }
+};
+
+/// Standing at time -0.8, lying at 0.8, on its rim between, at one depth.
+Pose tilting(double time) {
+  const HalfTangent angle{(time + 0.8) / 1.6};
+  const double height = half_length * std::abs(angle.cosine()) + radius * std::abs(angle.sine());
+  return Pose({0, 0, height - depth}, angle.about_y());
+}
+
+/// Lying along x, turned by `turn` in the world.
+Pose lying(const Quaternion& turn) { return Pose({0, 0, radius - depth}, product(turn, along_x)); }
+
+/// Along the top of a block to its edge at time 0, then around the edge by a right angle.
+Pose rolling_over_edge(double time) {
+  const double reach = radius - depth;
+  if (time <= 0) return Pose({0.5 + 0.5 * time, 0.125, 0.5 + reach}, along_y);
+  const HalfTangent angle{time};
+  return Pose({0.5 + reach * angle.sine(), 0.125, 0.5 + reach * angle.cosine()}, along_y);
+}
+
+/// A cylinder along x above B, which lies along x, with the sides in contact.
+Configuration crossing(const Shape& b, const Quaternion& turn) {
+  return {can(), Pose({0.125, 0, 2 * radius - depth}, product(turn, along_x)), b,
+          Pose({0, 0, 0}, along_x)};
+}
+
+/// A sphere as large as the can's radius goes from the middle of the cap over the rim, at time 0,
+/// and down the side. It is A that moves.
+Configuration round_rim(double time) {
+  const double reach = radius - depth;
+  double px = radius, pz = half_length;
+  if (time < -0.25) {
+    px = radius * (1 + (time + 0.25) / 0.75);
+    pz += reach;
+  } else if (time > 0.25) {
+    px += reach;
+    pz = half_length * (1 - (time - 0.25) / 0.75);
+  } else {
+    const HalfTangent angle{(time + 0.25) / 0.5};
+    px += reach * angle.sine();
+    pz += reach * angle.cosine();
+  }
+  return {can(), Pose({-px, 0, -pz}, upright), Sphere(radius), Pose()};
+}
+
+std::vector<Motion> make() {
+  return {
+      {"tilt-on-plane", "Standing on a plane, over its rim, to lying on it.",
+       [](double t) -> Configuration {
+         return {can(), tilting(t), ground(), Pose()};
+       }},
+      {"tilt-on-box", "The same on the face of a box.",
+       [](double t) -> Configuration {
+         return {can(), tilting(t), table(), below()};
+       }},
+      {"roll-on-plane", "Lying on a plane, turned about its own axis: nothing changes.",
+       [](double t) -> Configuration {
+         return {can(), lying(HalfTangent{t}.about_x()), ground(), Pose()};
+       }},
+      {"roll-on-box", "The same on the face of a box.",
+       [](double t) -> Configuration {
+         return {can(), lying(HalfTangent{t}.about_x()), table(), below()};
+       }},
+      {"yaw-on-box", "Lying on a box, turned about the vertical.",
+       [](double t) -> Configuration {
+         return {can(), lying(HalfTangent{t}.about_z()), table(), below()};
+       }},
+      {"spin-on-box", "Standing on a box, turned about its own axis: nothing changes.",
+       [](double t) -> Configuration {
+         return {can(), Pose({0, 0, half_length - depth}, HalfTangent{t}.about_z()), table(),
+                 below()};
+       }},
+      {"roll-over-edge", "Lying on a box parallel to its edge, over the edge and around it.",
+       [](double t) -> Configuration {
+         return {can(), rolling_over_edge(t), block(), Pose()};
+       }},
+      {"slide-off-box", "Standing on a box, off its edge, until nothing is left.",
+       [](double t) -> Configuration {
+         return {can(), Pose({0.5 + radius * t, 0, 0.5 + half_length - depth}, upright), block(),
+                 Pose()};
+       }},
+      {"slide-over-cap",
+       "A cap slides over another cap of the same size, through the axes in line.",
+       [](double t) -> Configuration {
+         return {can(), Pose({2 * radius * t, 0, 2 * half_length - depth}, upright), can(), Pose()};
+       }},
+      {"turn-through-parallel", "Side on side, turned through parallel axes.",
+       [](double t) { return crossing(can(), HalfTangent{0.125 * t}.about_z()); }},
+      {"tilt-through-parallel", "Side on side, tilted through parallel axes.",
+       [](double t) { return crossing(can(), HalfTangent{0.03125 * t}.about_y()); }},
+      {"turn-on-capsule", "Side on a capsule's side, turned through parallel axes.",
+       [](double t) {
+         return crossing(Capsule(radius, half_length), HalfTangent{0.125 * t}.about_z());
+       }},
+      {"sphere-round-rim", "A sphere rolls from the cap over the rim to the side.", round_rim},
+  };
+}
+
+}  // namespace
+
+const std::vector<Motion>& motions() {
+  static const std::vector<Motion> all = make();
+  return all;
+}
+
+const Motion& find_motion(std::string_view name) {
+  return named(motions(), name, "sequence.motion");
+}
+
+Configuration pose_at(const Motion& motion, int step, int steps) {
+  return motion.at(static_cast<double>(2 * step - steps) / steps);
+}
+
+}  // namespace touchstone

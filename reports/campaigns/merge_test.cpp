@@ -1,0 +1,162 @@
+#include "reports/campaigns/merge.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "reference/invalid_input.hpp"
+#include "reports/campaigns/durable_file.hpp"
+#include "reports/campaigns/result.hpp"
+
+namespace touchstone {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+/// A plan without plug-ins: parts are made up, not run.
+json plan(std::uint64_t seed = 1) {
+  return {{"version", "0"},
+          {"command", "./touchstone campaign"},
+          {"program", "./touchstone"},
+          {"seed", seed},
+          {"count", 1000},
+          {"tolerance", 1e-4},
+          {"threshold", 0},
+          {"classes",
+           {{{"pair", "cylinder-sphere"}, {"class", "general-deep"}},
+            {{"pair", "cylinder-box"}, {"class", "rim-face"}}}},
+          {"candidates", {{{"name", "one"}}, {{"name", "two"}}}}};
+}
+
+/// Units first … last − 1 of it, with scores that follow from their indices.
+Progressed part(std::uint64_t first, std::uint64_t last, std::uint64_t seed = 1) {
+  Progressed p(plan(seed), Shard{});
+  for (std::uint64_t number = first; number < last; ++number) {
+    const Unit unit = p.view.cut.unit(number);
+    std::vector<ScoreTally> tallies(p.tallies.size());
+    for (std::uint64_t i = unit.first; i < unit.last; ++i) {
+      for (std::size_t k = 0; k < 2; ++k) {
+        Score s;
+        s.depth_error = 1e-9 * static_cast<double>((i * 7919 + k) % 1009);
+        s.severity = *s.depth_error;
+        s.outcome = i % 5 == k ? Outcome::shallow : Outcome::agree;
+        tallies[unit.cell * 2 + k].add(unit.cell, i, s);
+      }
+    }
+    UnitSet done;
+    done += UnitSet::interval_type(number, number + 1);
+    p.add(done, tallies);
+  }
+  return p;
+}
+
+std::string merged(const std::vector<Progressed>& parts) {
+  Merge merge;
+  for (const Progressed& p : parts) merge.add(p, "part");
+  return campaign_result(merge.whole(false)).dump();
+}
+
+TEST(Merge, DoesNotDependOnTheSplitNorOnTheOrder) {
+  const std::string whole = merged({part(0, 4)});
+  EXPECT_EQ(merged({part(0, 2), part(2, 4)}), whole);
+  EXPECT_EQ(merged({part(3, 4), part(1, 3), part(0, 1)}), whole);
+  EXPECT_EQ(json::parse(whole)["configurations"], 2000);
+  EXPECT_EQ(json::parse(whole)["summary"][4]["outcomes"]["shallow"], 400);
+}
+
+TEST(Merge, RefusesWhatOverlapsWhatIsMissingAndWhatIsForeign) {
+  EXPECT_THAT(
+      [] {
+        merged({part(0, 3), part(2, 4)});
+      },
+      ThrowsMessage<InvalidInput>(
+          HasSubstr("cylinder-sphere/general-deep, configurations 512 to 999")));
+  EXPECT_THAT(
+      [] {
+        merged({part(0, 1), part(2, 4)});
+      },
+      ThrowsMessage<InvalidInput>(HasSubstr("512 of 2000 configurations are missing, the "
+                                            "first of them cylinder-box/rim-face")));
+  EXPECT_THAT(
+      [] {
+        merged({part(0, 1), part(1, 4, 2)});
+      },
+      ThrowsMessage<InvalidInput>(HasSubstr("seed is 2, not 1")));
+  EXPECT_THROW(merged({}), InvalidInput);
+}
+
+TEST(Merge, MarksWhatIsPartial) {
+  Merge merge;
+  merge.add(part(1, 3), "part");
+  const json result = campaign_result(merge.whole(true));
+  EXPECT_EQ(result["complete"], false);
+  EXPECT_EQ(result["configurations"], 512 + 488);
+}
+
+TEST(ShardFile, IsReadBackToTheLastBit) {
+  const std::string text = to_text(part(0, 3));
+  EXPECT_EQ(to_text(progressed_from_text(text, "file")), text);
+}
+
+TEST(ShardFile, IsRefusedWhenAnythingInItHasChanged) {
+  const std::string text = to_text(part(0, 3));
+  const auto refused = [](const std::string& damaged) {
+    EXPECT_THAT([&] { progressed_from_text(damaged, "file"); },
+                ThrowsMessage<InvalidInput>(HasSubstr("\"file\" is damaged")));
+  };
+  for (std::size_t size = 0; size < text.size(); size += 1 + text.size() / 200) {
+    refused(text.substr(0, size));
+  }
+  refused(text.substr(0, text.size() - 1));
+  for (std::size_t at = 0; at < text.size(); at += 1 + text.size() / 200) {
+    std::string damaged = text;
+    damaged[at] = static_cast<char>(damaged[at] ^ 1);
+    refused(damaged);
+  }
+  refused(text + "\n");
+  refused(text + text);
+  refused("{\"schema\":1}\n");
+}
+
+TEST(ShardFile, IsRefusedWhenItIsIntactButSomethingElse) {
+  const auto with_checksum = [](const std::string& body) {
+    return body + json{{"crc32", checksum(body)}}.dump() + '\n';
+  };
+  for (const std::string body :
+       {"{\"schema\":\"touchstone-shard-9\"}\n", "{}\n", "[]\n", "no JSON\n",
+        "{\"schema\":\"touchstone-shard-1\",\"shard\":[1,1],\"done\":[],\"campaign\":{}}\n"}) {
+    EXPECT_THROW(progressed_from_text(with_checksum(body), "file"), InvalidInput) << body;
+  }
+}
+
+class DurableFile : public testing::Test {
+ protected:
+  DurableFile() { std::filesystem::create_directories(folder_); }
+  ~DurableFile() override { std::filesystem::remove_all(folder_); }
+  std::filesystem::path folder_ =
+      std::filesystem::temp_directory_path() / ("touchstone-durable-" + std::to_string(getpid()));
+};
+
+TEST_F(DurableFile, ReplacesAFileAsAWhole) {
+  write_durably(folder_ / "a", "one");
+  write_durably(folder_ / "a", "two");
+  EXPECT_EQ(read_whole(folder_ / "a", "x"), "two");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_), {}), 1);
+}
+
+TEST_F(DurableFile, SaysWhyItCannotBeWritten) {
+  EXPECT_THAT([&] { write_durably(folder_ / "none" / "a", "x"); },
+              ThrowsMessage<InvalidInput>(HasSubstr("No such file or directory")));
+  EXPECT_THAT([&] { read_whole(folder_ / "none", "input"); },
+              ThrowsMessage<InvalidInput>(HasSubstr("input")));
+}
+
+TEST(Checksum, IsTheOneOfZipAndPng) { EXPECT_EQ(checksum("123456789"), "cbf43926"); }
+
+}  // namespace
+}  // namespace touchstone

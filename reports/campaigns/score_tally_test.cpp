@@ -1,0 +1,167 @@
+#include "reports/campaigns/score_tally.hpp"
+
+#include <cmath>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <limits>
+#include <rapidcheck.h>
+#include <vector>
+
+#include "reference/invalid_input.hpp"
+#include "reports/statistics.hpp"
+
+namespace touchstone {
+namespace {
+
+using nlohmann::json;
+
+/// Every kind of score: any outcome, errors of any magnitude, present or not.
+Score arbitrary_score() {
+  const auto maybe = [](double value) {
+    return *rc::gen::arbitrary<bool>() ? std::optional(value) : std::nullopt;
+  };
+  const auto magnitude = [] {
+    const double fraction = 1 + *rc::gen::inRange(0, 1000) / 1000.0;
+    return std::ldexp(fraction, *rc::gen::inRange(-70, 20));
+  };
+  Score s;
+  s.outcome = *rc::gen::elementOf(std::vector<Outcome>(all_outcomes.begin(), all_outcomes.end()));
+  s.depth_error = maybe((*rc::gen::arbitrary<bool>() ? -1 : 1) * magnitude());
+  s.normal_regret = maybe(magnitude());
+  s.normal_angle = maybe(magnitude());
+  s.point_error = maybe(magnitude());
+  s.deepest_error = maybe((*rc::gen::arbitrary<bool>() ? -1 : 1) * magnitude());
+  s.coverage = maybe(*rc::gen::inRange(0, 101) / 100.0);
+  s.model_error = maybe(magnitude());
+  s.solver_error = maybe(-magnitude());
+  s.points = *rc::gen::inRange(0, 9);
+  s.severity = *rc::gen::inRange(0, 4);  // many ties
+  return s;
+}
+
+ScoreTally tally_of(const std::vector<Score>& scores) {
+  ScoreTally tally;
+  for (std::size_t i = 0; i < scores.size(); ++i) tally.add(3, i, scores[i]);
+  return tally;
+}
+
+TEST(ScoreTally, OfPartsInAnyOrderIsThatOfTheWhole) {
+  EXPECT_TRUE(rc::check([] {
+    std::vector<Score> scores(static_cast<std::size_t>(*rc::gen::inRange(1, 40)));
+    for (Score& s : scores) s = arbitrary_score();
+    std::vector<ScoreTally> parts(4);
+    for (std::size_t i = 0; i < scores.size(); ++i) {
+      parts[*rc::gen::inRange<std::size_t>(0, 4)].add(3, i, scores[i]);
+    }
+    ScoreTally sum;
+    const auto orders =
+        std::vector<std::vector<std::size_t>>{{0, 1, 2, 3}, {3, 2, 1, 0}, {2, 0, 3, 1}};
+    for (const std::size_t i : *rc::gen::elementOf(orders)) {
+      sum.add(ScoreTally::from_json(json::parse(parts[i].to_json().dump()), 3));
+    }
+    RC_ASSERT(sum.to_json().dump() == tally_of(scores).to_json().dump());
+  }));
+}
+
+TEST(ScoreTally, OfAFileWithoutTheDeepestPointHasTheRest) {
+  Score s;
+  s.depth_error = 0.25;
+  json old = tally_of({s, s}).to_json();
+  old.erase("deepest_error");
+  const json summary = ScoreTally::from_json(old, 3).summary();
+  EXPECT_TRUE(summary["deepest_error"].is_null());
+  EXPECT_EQ(summary["depth_error"]["max"], 0.25);
+  old.erase("depth_error");
+  EXPECT_THROW(ScoreTally::from_json(old, 3), InvalidInput);
+}
+
+void expect_within(const json& bounds, double value) {
+  EXPECT_LE(bounds[0], value);
+  EXPECT_GE(bounds[1], value);
+  EXPECT_LE(bounds[1].get<double>() - bounds[0].get<double>(), value / 8 + 1e-300);
+}
+
+TEST(ScoreTally, BoundsTheExactQuantilesOfTheReport) {
+  EXPECT_TRUE(rc::check([] {
+    std::vector<Score> scores(static_cast<std::size_t>(*rc::gen::inRange(1, 200)));
+    for (Score& s : scores) s = arbitrary_score();
+    const Statistics exact = statistics(scores);
+    const json found = tally_of(scores).summary();
+    EXPECT_EQ(found["count"], exact.count);
+    EXPECT_EQ(found["outcomes"].value("agree", 0U), exact.of(Outcome::agree));
+    if (exact.depth_error) {
+      expect_within(found["depth_error"]["median_bounds"], exact.depth_error->median);
+      expect_within(found["depth_error"]["p99_bounds"], exact.depth_error->p99);
+      EXPECT_EQ(found["depth_error"]["max"], exact.depth_error->max);
+      EXPECT_GE(found["depth_error"]["median"], exact.depth_error->median);
+    }
+    if (exact.severity) {
+      expect_within(found["severity"]["median_bounds"], exact.severity->median);
+      EXPECT_EQ(found["severity"]["max"], exact.severity->max);
+    }
+    if (exact.coverage) {
+      EXPECT_NEAR(found["coverage"]["mean"], exact.coverage->mean, 1e-7);
+      EXPECT_LE(found["coverage"]["p1"], exact.coverage->p1);
+      EXPECT_EQ(found["coverage"]["min"], exact.coverage->min);
+    }
+    RC_ASSERT(!testing::Test::HasFailure());
+  }));
+}
+
+TEST(ScoreTally, KeepsTheTwoWorstAndTheWorstOfEachOutcome) {
+  const auto score = [](Outcome outcome, double severity) {
+    Score s;
+    s.outcome = outcome;
+    s.severity = severity;
+    return s;
+  };
+  const ScoreTally tally =
+      tally_of({score(Outcome::agree, 1e-9), score(Outcome::missed, 5), score(Outcome::shallow, 2),
+                score(Outcome::missed, 5), score(Outcome::missed, 7),
+                score(Outcome::unsupported, 0), score(Outcome::crashed, 0)});
+  std::vector<std::uint64_t> indices;
+  for (const Case& c : tally.worst()) indices.push_back(c.index);
+  EXPECT_THAT(indices, testing::ElementsAre(6, 4, 2, 0));  // of equal ones, 1 and 3, neither
+}
+
+TEST(ScoreTally, KeepsTheFirstOfEquallyBadCases) {
+  Score s;
+  s.outcome = Outcome::missed;
+  s.severity = 1;
+  ScoreTally tally;
+  for (const std::uint64_t index : {7U, 9U, 2U, 5U}) tally.add(0, index, s);
+  std::vector<std::uint64_t> indices;
+  for (const Case& c : tally.worst()) indices.push_back(c.index);
+  EXPECT_THAT(indices, testing::ElementsAre(2, 5));
+}
+
+TEST(ScoreTally, WritesWhatIsBeyondAllDoublesAsTheLargest) {
+  Score s;
+  s.outcome = Outcome::overdeep;
+  s.depth_error = -std::numeric_limits<double>::infinity();
+  s.normal_regret = std::numeric_limits<double>::quiet_NaN();
+  s.severity = std::numeric_limits<double>::infinity();
+  constexpr double largest = std::numeric_limits<double>::max();
+  const json written = tally_of({s}).to_json();
+  EXPECT_EQ(written["depth_error"]["max"], largest);
+  EXPECT_EQ(written["worst"][0]["depth_error"], -largest);
+  EXPECT_EQ(written["worst"][0]["severity"], largest);
+  EXPECT_EQ(tally_of({s}).summary()["normal_regret"]["median"], largest);
+}
+
+TEST(Magnitudes, BoundEveryValue) {
+  constexpr double least = std::numeric_limits<double>::denorm_min();
+  for (const double value : {0.0, least, 1e-300, 0.999, 1.0, 1.2499999, 1.25, 3e7, 1.7e308}) {
+    Magnitudes m;
+    m.add(-value);
+    m.add(1e308 * 1.79);
+    const auto bounds = m.percentile(50);
+    EXPECT_LE(bounds->lower, value);
+    EXPECT_GE(bounds->upper, value);
+    EXPECT_LE(bounds->upper, bounds->lower * 1.125 + 1e-307) << value;
+  }
+  EXPECT_FALSE(Magnitudes().percentile(50));
+}
+
+}  // namespace
+}  // namespace touchstone

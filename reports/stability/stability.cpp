@@ -1,0 +1,92 @@
+#include "reports/stability/stability.hpp"
+
+#include <algorithm>
+
+#include "properties/files/write_file.hpp"
+#include "reference/invalid_input.hpp"
+#include "reports/make_report.hpp"
+#include "reports/stability/stability_page.hpp"
+
+namespace touchstone {
+namespace {
+
+using nlohmann::json;
+
+template <class Thing, class ConfigurationOf>
+std::vector<const Thing*> of_pairs(const std::vector<Thing>& all, const std::vector<Pair>& pairs,
+                                   ConfigurationOf configuration) {
+  std::vector<const Thing*> result;
+  for (const Thing& thing : all) {
+    const Pair pair = pair_of(configuration(thing));
+    if (std::find(pairs.begin(), pairs.end(), pair) != pairs.end()) result.push_back(&thing);
+  }
+  return result;
+}
+
+}  // namespace
+
+StabilityPart parse_stability_part(std::string_view name) {
+  if (name == "amplification") return StabilityPart::amplification;
+  if (name == "maps") return StabilityPart::maps;
+  if (name == "sequences") return StabilityPart::sequences;
+  throw InvalidInput("--part", '"' + std::string(name) + '"',
+                     "must be one of amplification, maps, sequences");
+}
+
+StabilityOptions thorough(const Study& study, std::uint64_t seed) {
+  StabilityOptions options;
+  options.study = study;
+  options.pairs.assign(std::begin(all_pairs), std::end(all_pairs));
+  options.ladder = {degenerate_cells(options.pairs), seed, 6};
+  for (const int exponent : {-15, -12, -8, -4, -2}) options.grid.zooms.emplace_back(exponent);
+  return options;
+}
+
+StabilityOptions brief(const Study& study, const std::vector<Pair>& pairs, std::uint64_t seed) {
+  StabilityOptions options;
+  options.study = study;
+  options.pairs = pairs;
+  options.ladder = {degenerate_cells(pairs), seed, 3};
+  for (const int exponent : {-15, -8, -2}) options.grid.zooms.emplace_back(exponent);
+  options.grid.stride = 2;
+  options.steps = 100;
+  return options;
+}
+
+json stability(const StabilityOptions& options) {
+  const Study& study = options.study;
+  json names = json::array();
+  for (const Candidate* c : study.candidates) names.push_back(c->name);
+  json result = {{"candidates", names},
+                 {"tolerance", study.bar.tolerance},
+                 {"threshold", study.bar.threshold}};
+  if (options.parts.contains(StabilityPart::amplification)) {
+    result["amplification"] = options.base ? amplification(*options.base, options.ladder.seed,
+                                                           options.ladder.count, study)
+                                           : amplification(options.ladder, study);
+  }
+  if (options.parts.contains(StabilityPart::maps)) {
+    const auto poses = of_pairs(critical_poses(), options.pairs,
+                                [](const CriticalPose& pose) { return pose.configuration; });
+    result["maps"] = maps(poses, options.grid, study);
+  }
+  if (options.parts.contains(StabilityPart::sequences)) {
+    const auto chosen = of_pairs(motions(), options.pairs,
+                                 [](const Motion& motion) { return pose_at(motion, 0, 1); });
+    result["sequences"] = sequences(chosen, options.steps, study);
+  }
+  return result;
+}
+
+void write_stability(const json& stability, const std::string& command,
+                     const std::filesystem::path& folder) {
+  check_writable(folder);
+  json whole = stability;
+  whole["schema"] = "touchstone-stability-1";
+  whole["version"] = TOUCHSTONE_VERSION;
+  whole["command"] = command;
+  write_file(folder / "stability.json", whole.dump() + "\n", "--out");
+  write_file(folder / "stability.html", stability_page(whole), "--out");
+}
+
+}  // namespace touchstone

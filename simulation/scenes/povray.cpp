@@ -1,0 +1,111 @@
+// POV-Ray's space is left-handed. A camera whose `right` is turned round makes it right-handed with
+// z up, so that poses go in as they are.
+#include "simulation/scenes/povray.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+#include "properties/files/write_file.hpp"
+#include "reference/invalid_input.hpp"
+
+namespace touchstone {
+namespace {
+
+std::string vector(const Vec3& v) {
+  return fmt::format("<{:.9g},{:.9g},{:.9g}>", v.x(), v.y(), v.z());
+}
+
+std::string view(const Camera& camera) {
+  const double reach = (camera.position - camera.look_at).norm();
+  const Vec3 lamp = camera.look_at + reach * Vec3(0.4, -0.9, 1.6);
+  return fmt::format(
+      "#version 3.7;\n"
+      "global_settings {{ assumed_gamma 1 }}\n"
+      "camera {{\n"
+      "  sky z right -x*image_width/image_height up z\n"
+      "  location {} look_at {} angle 46\n"
+      "}}\n"
+      "light_source {{ {} rgb 1 area_light x*{:.6g}, y*{:.6g}, 4, 4 adaptive 1 jitter }}\n"
+      "light_source {{ {} rgb 0.35 shadowless }}\n"
+      "background {{ rgb <0.78,0.84,0.9> }}\n"
+      "#macro Striped(Colour)\n"
+      "  texture {{\n"
+      "    pigment {{ radial frequency 4 color_map {{ [0.5 rgb Colour] [0.5 rgb 0.85] }} rotate "
+      "x*90 }}\n"
+      "    finish {{ ambient 0.1 diffuse 0.7 specular 0.25 roughness 0.03 }}\n"
+      "  }}\n"
+      "#end\n"
+      "#macro Plain(Colour)\n"
+      "  texture {{ pigment {{ rgb Colour }} finish {{ ambient 0.12 diffuse 0.7 }} }}\n"
+      "#end\n"
+      "#include concat(\"frame-\", str(max(1, frame_number), -5, 0), \".inc\")\n",
+      vector(camera.position), vector(camera.look_at), vector(lamp), reach / 4, reach / 4,
+      vector(camera.position));
+}
+
+/// In its own frame, with its texture.
+struct Object {
+  bool fixed;
+
+  std::string operator()(const Cylinder& s) const {
+    return fmt::format("cylinder {{ -z*{0:.9g}, z*{0:.9g}, {1:.9g} Striped(<0.08,0.22,0.5>)",
+                       s.half_length(), s.radius());
+  }
+  std::string operator()(const Capsule& s) const {
+    return fmt::format(
+        "merge {{ cylinder {{ -z*{0:.9g}, z*{0:.9g}, {1:.9g} }} sphere {{ -z*{0:.9g}, {1:.9g} }} "
+        "sphere {{ z*{0:.9g}, {1:.9g} }} Striped(<0.7,0.3,0.05>)",
+        s.half_length(), s.radius());
+  }
+  std::string operator()(const Sphere& s) const {
+    return fmt::format("sphere {{ 0, {:.9g} Striped(<0.35,0.2,0.5>)", s.radius());
+  }
+  std::string operator()(const Box& s) const {
+    return fmt::format("box {{ {}, {} Plain({})", vector(-s.half_extents()),
+                       vector(s.half_extents()), fixed ? "<0.5,0.52,0.55>" : "<0.7,0.55,0.3>");
+  }
+  std::string operator()(const Plane& s) const {
+    return fmt::format("plane {{ {}, {:.9g} Plain(<0.62,0.64,0.6>)", vector(s.unit_normal()),
+                       s.unit_displacement());
+  }
+};
+
+/// POV-Ray's rows are the images of the axes.
+std::string placed(const Pose& pose) {
+  std::string numbers;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vec3 image = pose.rotation().col(axis);
+    numbers += fmt::format("{:.9g},{:.9g},{:.9g}, ", image.x(), image.y(), image.z());
+  }
+  const Vec3& p = pose.position();
+  return fmt::format("matrix <{}{:.9g},{:.9g},{:.9g}> }}", numbers, p.x(), p.y(), p.z());
+}
+
+}  // namespace
+
+int write_povray(const SceneFile& file, const Trajectory& run, double every,
+                 const std::filesystem::path& folder) {
+  const auto stride =
+      std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(every / run.step)));
+  write_file(folder / "scene.pov", view(file.camera), "--out");
+  int count = 0;
+  for (std::size_t i = 0; i < run.frames.size(); i += stride) {
+    std::string text =
+        fmt::format("// {} at {:.4f} s\n", file.name, run.step * static_cast<double>(i));
+    for (std::size_t b = 0; b < file.scene.bodies.size(); ++b) {
+      const Body& body = file.scene.bodies[b];
+      text +=
+          std::visit(Object{body.fixed}, body.shape) + ' ' + placed(run.frames[i][b].pose) + '\n';
+    }
+    write_file(folder / fmt::format("frame-{:05}.inc", ++count), text, "--out");
+  }
+  write_file(folder / "scene.ini",
+             fmt::format("Input_File_Name=scene.pov\nOutput_File_Type=N\nWidth=800\nHeight=600\n"
+                         "Antialias=On\nQuality=9\nDisplay=Off\nInitial_Frame=1\nFinal_Frame={}\n",
+                         count),
+             "--out");
+  return count;
+}
+
+}  // namespace touchstone
