@@ -15,11 +15,11 @@
 #include <unistd.h>
 
 #include "candidates/candidates.hpp"
-#include "cli/given.hpp"
 #include "cli/mutation.hpp"
 #include "cli/number_option.hpp"
 #include "properties/files/configuration_json.hpp"
 #include "properties/files/error_text.hpp"
+#include "properties/files/given.hpp"
 #include "properties/files/parse_double.hpp"
 #include "properties/files/strict_json.hpp"
 #include "properties/laws/failure_file.hpp"

@@ -1,4 +1,4 @@
-#include "cli/given.hpp"
+#include "properties/files/given.hpp"
 
 #include <fmt/format.h>
 #include <iostream>
