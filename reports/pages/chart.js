@@ -1,4 +1,7 @@
 // Charts by Vega, in the page's colours and as wide as their place, and the one tooltip.
+byId('credits').textContent = 'Charts by Vega (© 2015–2022 University of Washington Interactive Data Lab, BSD-3-Clause) ' +
+    'with parts of D3 (© 2010–2022 Mike Bostock, ISC).';
+
 const chartConfig = {
   axis: {domainColor: 'var(--line)', gridColor: 'var(--line)', tickColor: 'var(--line)', labelColor: 'var(--quiet)',
          titleColor: 'var(--quiet)', titleFontWeight: 'normal', labelFontSize: 11, titleFontSize: 11, grid: true},

@@ -213,3 +213,9 @@ function drawStability(into, data) {
     draw();
   }
 }
+
+// The page of `touchstone stability` is this section alone.
+function drawStabilityPage() {
+  byId('provenance').append(`Touchstone ${data.version}. Same figures again: `, element('code', {}, data.command));
+  drawStability(byId('stability'), data);
+}

@@ -1,4 +1,4 @@
-const {comparison, before, after, marks} = JSON.parse(document.getElementById('data').textContent);
+const {comparison, before, after} = data;
 const limits = comparison.limits;
 const names = [...new Set([...before, ...after].map(r => r.candidate))];
 const colour = name => `var(${markOf(name).colour})`;

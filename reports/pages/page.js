@@ -1,6 +1,7 @@
 'use strict';
 // What the pages have in common.
 const byId = id => document.getElementById(id);
+const data = JSON.parse(byId('data').textContent), {marks} = data;
 
 // Small builders; text always goes in as text.
 function element(name, attributes = {}, ...children) {
@@ -17,6 +18,12 @@ function shape(name, attributes = {}, text) {
 }
 function definitions(id, entries) {
   byId(id).append(...entries.flatMap(([term, text]) => [element('dt', {}, term), element('dd', {}, text)]));
+}
+
+// Links to the sections that are shown, in the header.
+function listSections() {
+  byId('contents').append(...[...document.querySelectorAll('main > section')].filter(s => !s.hidden)
+      .map(s => element('a', {href: `#${s.id}`}, s.querySelector('h2').textContent)));
 }
 
 // Marks of candidates, the same on every page: what marks.cpp says of each name, as the page's `marks`.
