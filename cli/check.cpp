@@ -121,8 +121,10 @@ void add_check(CLI::App& program, int& exit_code) {
                              usual_count_of_hostile))
       ->excludes("--class");
   command->add_option("--law", options->laws, "Only these laws")->delimiter(',');
-  command->add_option("--corpus", options->corpus,
-                      "First replay the failures saved in this folder: each must fail as it did");
+  command->add_option(
+      "--corpus", options->corpus,
+      "First replay the failures saved in this folder, or in this file of JSON Lines: each must "
+      "fail as it did");
   command->add_option("--save", options->save, "Save failures into this folder, one file each");
   command->add_option("--junit", options->junit, "Write the result as JUnit XML");
   command->add_option("--json", options->json, "Write the result as JSON");
@@ -131,7 +133,7 @@ void add_check(CLI::App& program, int& exit_code) {
       "  touchstone check --candidate bullet\n"
       "  touchstone check --candidate ./my_engine.so --save failures\n"
       "  touchstone check --candidate ./my_engine.so --hostile\n"
-      "  touchstone check --corpus properties/corpus\n" +
+      "  touchstone check --corpus failures\n" +
       law_list() + "Exit code 1: a law was broken, or a saved failure has changed.");
   command->callback([options, command, &exit_code] {
     options->count_given = command->count("--count") > 0;
