@@ -121,7 +121,8 @@ void add_check(Program& program) {
       .excludes(options->sample.class_option());
   command.list("--law", options->laws, "Only these laws");
   command.text("--corpus", options->corpus,
-               "First replay the failures saved in this folder: each must fail as it did");
+               "First replay the failures saved in this folder, or in this file of JSON Lines: "
+               "each must fail as it did");
   command.text("--save", options->save, "Save failures into this folder, one file each");
   command.text("--junit", options->junit, "Write the result as JUnit XML");
   command.text("--json", options->json, "Write the result as JSON");
@@ -130,7 +131,7 @@ void add_check(Program& program) {
       "  touchstone check --candidate bullet\n"
       "  touchstone check --candidate ./my_engine.so --save failures\n"
       "  touchstone check --candidate ./my_engine.so --hostile\n"
-      "  touchstone check --corpus properties/corpus\n" +
+      "  touchstone check --corpus failures\n" +
       law_list() + "Exit code 1: a law was broken, or a saved failure has changed.");
   command.runs([options] { return run(*options); });
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <memory>
+#include <sstream>
+#include <utility>
 
 #include "candidates/candidates.hpp"
 #include "properties/files/configuration_json.hpp"
@@ -44,6 +46,30 @@ ReplayedFailure replayed(const Failure& expected, const Limits& limits) {
   const bool same = v->failure == expected.violation.failure;
   return {expected, same ? ReplayedFailure::Result::as_expected : ReplayedFailure::Result::changed,
           v->failure};
+}
+
+Failure failure_from_text(const std::string& text, const std::string& place) {
+  try {
+    return failure_from_json(parse_json(text, "it"));
+  } catch (const InvalidInput& e) {
+    throw InvalidInput("--corpus", place, e.what());
+  }
+}
+
+bool is_lines(const std::filesystem::path& file) { return file.extension() == ".jsonl"; }
+
+/// The one failure of a file, or those of a JSON Lines file, one on each line.
+std::vector<Failure> failures_in(const std::filesystem::path& file) {
+  const std::string content = read_file(file, "--corpus"), name = '"' + file.string() + '"';
+  if (!is_lines(file)) return {failure_from_text(content, name)};
+  std::vector<Failure> failures;
+  std::istringstream lines(content);
+  std::string line;
+  for (int number = 1; std::getline(lines, line); ++number) {
+    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
+    failures.push_back(failure_from_text(line, fmt::format("{}, line {}", name, number)));
+  }
+  return failures;
 }
 
 }  // namespace
@@ -94,22 +120,21 @@ std::filesystem::path save(const Failure& f, const std::filesystem::path& folder
   return path;
 }
 
-std::vector<Failure> read_corpus(const std::filesystem::path& folder) {
-  if (!is_folder(folder)) {
-    throw InvalidInput("--corpus", '"' + folder.string() + '"', "must be a folder");
+std::vector<Failure> read_corpus(const std::filesystem::path& path) {
+  if (is_file(path)) return failures_in(path);
+  if (!is_folder(path)) {
+    throw InvalidInput("--corpus", '"' + path.string() + '"', "must be a folder or a file");
   }
   std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    if (entry.path().extension() == ".json") files.push_back(entry.path());
+  for (const auto& entry : std::filesystem::directory_iterator(path)) {
+    if (entry.path().extension() == ".json" || is_lines(entry.path())) {
+      files.push_back(entry.path());
+    }
   }
   std::sort(files.begin(), files.end());
   std::vector<Failure> corpus;
   for (const auto& file : files) {
-    try {
-      corpus.push_back(failure_from_json(parse_json(read_file(file, "--corpus"), "it")));
-    } catch (const InvalidInput& e) {
-      throw InvalidInput("--corpus", '"' + file.string() + '"', e.what());
-    }
+    for (Failure& failure : failures_in(file)) corpus.push_back(std::move(failure));
   }
   return corpus;
 }

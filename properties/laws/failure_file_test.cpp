@@ -60,6 +60,20 @@ TEST(FailureFile, ASavedFailureReplacesItself) {
   EXPECT_THROW(read_corpus(folder / "none"), InvalidInput);
 }
 
+TEST(Corpus, AJsonLinesFileHoldsOneFailureOnEachLine) {
+  const auto file = std::filesystem::path(testing::TempDir()) / "failures.jsonl";
+  const std::string line = to_json(failure()).dump() + '\n';
+  std::ofstream(file) << line << '\n' << line;
+  EXPECT_EQ(read_corpus(file).size(), 2u);
+  std::ofstream(file) << line << '\n' << "[\n";
+  try {
+    read_corpus(file);
+    ADD_FAILURE() << "accepted";
+  } catch (const InvalidInput& e) {
+    EXPECT_THAT(e.what(), testing::HasSubstr("line 3"));
+  }
+}
+
 TEST(Corpus, ACandidateThatIsNotInstalledIsSkipped) {
   Failure f = failure();
   f.candidate = "havok";
@@ -75,8 +89,8 @@ TEST(Corpus, SeesWhatIsFixedAndWhatHasChanged) {
 
 // A new version of an engine that mends or breaks one of these is to be noticed.
 TEST(Corpus, KnownFailuresFailAsTheyDid) {
-  const auto corpus = read_corpus(TOUCHSTONE_CORPUS);
-  EXPECT_GE(corpus.size(), 10u);
+  const auto corpus = read_corpus(TOUCHSTONE_KNOWN_FAILURES);
+  EXPECT_GE(corpus.size(), 51u);
   for (const ReplayedFailure& r : replay(corpus, {})) {
     EXPECT_TRUE(r.result == ReplayedFailure::Result::as_expected ||
                 r.result == ReplayedFailure::Result::skipped)
