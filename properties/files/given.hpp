@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "reports/worst.hpp"
+#include "properties/identity.hpp"
 
 namespace touchstone {
 
