@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 #include <memory>
 
+#include <nlohmann/json.hpp>
+
 #include "cli/commands.hpp"
 #include "cli/help.hpp"
 #include "cli/options.hpp"
@@ -37,10 +39,11 @@ struct Options {
 void run(const Options& options) {
   const ExperimentOptions experiments = options.experiments();
   if (!options.out.empty()) check_writable(options.out);
-  const nlohmann::json result = run_experiments(experiments);
-  fmt::print("{}", options.json ? result.dump() + '\n' : experiments_table(result));
+  const ExperimentResults results = run_experiments(experiments);
+  const nlohmann::json json = to_json(results);
+  fmt::print("{}", options.json ? json.dump() + '\n' : experiments_table(results));
   if (options.out.empty()) return;
-  write_file(options.out + "/experiments.json", result.dump(1) + '\n', "--out");
+  write_file(options.out + "/experiments.json", json.dump(1) + '\n', "--out");
 }
 
 std::string experiment_list() {
