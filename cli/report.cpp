@@ -69,7 +69,7 @@ int run(const Options& options) {
   if (!options.scored.sample.is_narrowed() && !interrupted()) {
     const Study study{campaign.candidates, campaign.bar, campaign.limits, campaign.workers};
     report["stability"] = stability(brief(study, campaign.pairs, campaign.seed));
-    report["experiments"] = run_experiments(options.experiments());
+    report["experiments"] = to_json(run_experiments(options.experiments()));
   }
   write_report(report, options.out);
   fmt::print("{}\n{} configurations, truth certified to 1e-30 of the larger size, {:.0f} s.\n",
