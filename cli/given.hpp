@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "reports/worst.hpp"
+#include "properties/identity.hpp"
 
 namespace touchstone {
 
@@ -16,8 +16,5 @@ inline constexpr const char* given_help =
 /// for `solve`, or an object with one as its member "configuration", as saved failures,
 /// certificates and a report's worst cases have. Throws InvalidInput.
 Subject given_configuration(const std::string& input);
-
-/// What such a file holds; `source` is what errors call it. Throws InvalidInput.
-Configuration configuration_from_text(const std::string& text, const std::string& source);
 
 }  // namespace touchstone

@@ -4,7 +4,10 @@
 #include <fmt/format.h>
 #include <memory>
 
+#include <nlohmann/json.hpp>
+
 #include "candidates/candidates.hpp"
+#include "properties/files/answer_json.hpp"
 #include "properties/files/configuration_json.hpp"
 #include "properties/files/json_fields.hpp"
 #include "properties/files/read_file.hpp"
@@ -23,12 +26,27 @@ std::string text(const json& object, const char* name) {
   return string(member(object, name, ""), name);
 }
 
-/// As a bar's options must be.
+/// A member of a bar, which must be what its option takes.
 double bar_number(const json& object, const char* name) {
   const json& value = member(object, name, "");
   const double x = number(value, name);
   if (!(x >= 0)) throw InvalidInput(name, shown(value), "must not be negative");
   return x;
+}
+
+std::vector<std::filesystem::path> files_of(const std::filesystem::path& path) {
+  if (is_file(path)) return {path};
+  if (!is_folder(path)) {
+    throw InvalidInput("--corpus", '"' + path.string() + '"',
+                       "must be a folder, or a file of failures");
+  }
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(path)) {
+    const auto extension = entry.path().extension();
+    if (extension == ".json" || extension == ".jsonl") files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
 }
 
 ReplayedFailure replayed(const Failure& expected, const Limits& limits) {
@@ -46,6 +64,18 @@ ReplayedFailure replayed(const Failure& expected, const Limits& limits) {
           v->failure};
 }
 
+void append_failures(const std::string& text, std::vector<Failure>& corpus) {
+  const std::vector<json> values = parse_json_lines(text, "it");
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    try {
+      corpus.push_back(failure_from_json(values[i]));
+    } catch (const InvalidInput& e) {
+      if (values.size() == 1) throw;
+      throw e.within(fmt::format("failure {}", i + 1));
+    }
+  }
+}
+
 }  // namespace
 
 json to_json(const Failure& f) {
@@ -60,7 +90,7 @@ json to_json(const Failure& f) {
           {"found", f.identity},
           {"configuration", to_hex_json(f.configuration)},
           {"decimal", to_json(f.configuration)},
-          {"answer", f.answer}};
+          {"answer", f.answer ? to_json(*f.answer, f.score) : json(nullptr)}};
 }
 
 Failure failure_from_json(const json& object) {
@@ -74,14 +104,21 @@ Failure failure_from_json(const json& object) {
     throw InvalidInput("failure", shown(failure),
                        fmt::format("must be one of {}", fmt::join(failures, ", ")));
   }
-  return {find_law(text(object, "law")).name,
-          text(object, "candidate"),
-          text(object, "version"),
-          text(object, "found"),
-          configuration_from_json(member(object, "configuration", "")).configuration,
-          {failure, 0, text(object, "detail")},
-          {bar_number(object, "tolerance"), bar_number(object, "threshold")},
-          object.value("answer", json())};
+  Failure result{find_law(text(object, "law")).name,
+                 text(object, "candidate"),
+                 text(object, "version"),
+                 text(object, "found"),
+                 configuration_from_json(member(object, "configuration", "")).configuration,
+                 {failure, 0, text(object, "detail")},
+                 {bar_number(object, "tolerance"), bar_number(object, "threshold")},
+                 {},
+                 {}};
+  const json answer = object.value("answer", json());
+  if (answer.is_null()) return result;
+  require_object(answer, "answer");
+  result.answer = answer_from_json(answer, "answer");
+  result.score = score_from_json(answer, "answer");
+  return result;
 }
 
 std::filesystem::path save(const Failure& f, const std::filesystem::path& folder) {
@@ -94,19 +131,11 @@ std::filesystem::path save(const Failure& f, const std::filesystem::path& folder
   return path;
 }
 
-std::vector<Failure> read_corpus(const std::filesystem::path& folder) {
-  if (!is_folder(folder)) {
-    throw InvalidInput("--corpus", '"' + folder.string() + '"', "must be a folder");
-  }
-  std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    if (entry.path().extension() == ".json") files.push_back(entry.path());
-  }
-  std::sort(files.begin(), files.end());
+std::vector<Failure> read_corpus(const std::filesystem::path& path) {
   std::vector<Failure> corpus;
-  for (const auto& file : files) {
+  for (const auto& file : files_of(path)) {
     try {
-      corpus.push_back(failure_from_json(parse_json(read_file(file, "--corpus"), "it")));
+      append_failures(read_file(file, "--corpus"), corpus);
     } catch (const InvalidInput& e) {
       throw InvalidInput("--corpus", '"' + file.string() + '"', e.what());
     }
