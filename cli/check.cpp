@@ -89,8 +89,7 @@ int run(const Options& options) {
     write_file(options.junit, junit_xml(options.candidate, results, corpus), "--junit");
   }
   if (!options.json.empty()) {
-    write_file(options.json, to_json(options.candidate, checks, results, corpus).dump(2) + '\n',
-               "--json");
+    write_file(options.json, check_json(options.candidate, checks, results, corpus), "--json");
   }
   const bool broken =
       std::any_of(results.begin(), results.end(), [](const LawResult& r) { return r.broken > 0; });

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+
 #include "oracle/truth.hpp"
-#include "properties/files/answer_json.hpp"
 #include "properties/files/configuration_json.hpp"
+#include "properties/files/json_fields.hpp"
 
 namespace touchstone {
 namespace {
@@ -19,10 +21,13 @@ std::string counts_text(const LawResult& result) {
   return text;
 }
 
-std::string answer_text(const json& answer) {
-  if (answer.is_null() || answer["status"] != "contact") return answer.value("status", "-");
-  return fmt::format("signed distance {} m, normal {}, {} points", answer["signed_distance"].dump(),
-                     answer["normal"].dump(), answer["points"].size());
+/// Numbers as in the answer's JSON.
+std::string answer_text(const std::optional<ts_answer>& answer) {
+  if (!answer) return "-";
+  if (answer->status != TS_CONTACT) return status_name(answer->status);
+  return fmt::format("signed distance {} m, normal {}, {} points",
+                     or_null(answer->signed_distance).dump(), to_json(Vec3(answer->normal)).dump(),
+                     answer->point_count);
 }
 
 std::string failure_text(const Failure& f) {
@@ -147,8 +152,9 @@ std::string junit_xml(const std::string& candidate, const std::vector<LawResult>
       results.size() + corpus.size(), failures, skipped, cases);
 }
 
-json to_json(const std::string& candidate, const CheckOptions& options,
-             const std::vector<LawResult>& results, const std::vector<ReplayedFailure>& corpus) {
+std::string check_json(const std::string& candidate, const CheckOptions& options,
+                       const std::vector<LawResult>& results,
+                       const std::vector<ReplayedFailure>& corpus) {
   json laws = json::array(), saved = json::array();
   for (const LawResult& r : results) {
     json failures = json::array();
@@ -166,14 +172,15 @@ json to_json(const std::string& candidate, const CheckOptions& options,
     entry["now"] = r.now;
     saved.push_back(entry);
   }
-  return {{"schema", "touchstone-check-1"},
-          {"candidate", candidate},
-          {"seed", options.seed},
-          {"count", options.count},
-          {"tolerance", options.bar.tolerance},
-          {"threshold", options.bar.threshold},
-          {"laws", laws},
-          {"corpus", saved}};
+  const json result = {{"schema", "touchstone-check-1"},
+                       {"candidate", candidate},
+                       {"seed", options.seed},
+                       {"count", options.count},
+                       {"tolerance", options.bar.tolerance},
+                       {"threshold", options.bar.threshold},
+                       {"laws", laws},
+                       {"corpus", saved}};
+  return result.dump(2) + '\n';
 }
 
 }  // namespace touchstone

@@ -3,13 +3,11 @@
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 #include "properties/laws/failure_file.hpp"
 
 namespace touchstone {
 
-/// A line per law and pair, and the simplest failure of each law with what is needed to see it
+/// A line for each law and pair, and the simplest failure of each law with what is needed to see it
 /// again.
 std::string check_text(const std::vector<LawResult>& results);
 std::string corpus_text(const std::vector<ReplayedFailure>& corpus);
@@ -19,7 +17,8 @@ std::string corpus_text(const std::vector<ReplayedFailure>& corpus);
 std::string junit_xml(const std::string& candidate, const std::vector<LawResult>& results,
                       const std::vector<ReplayedFailure>& corpus);
 
-nlohmann::json to_json(const std::string& candidate, const CheckOptions& options,
+/// One JSON object (docs/check.md).
+std::string check_json(const std::string& candidate, const CheckOptions& options,
                        const std::vector<LawResult>& results,
                        const std::vector<ReplayedFailure>& corpus);
 

@@ -1,10 +1,18 @@
 #include "properties/files/answer_json.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <fmt/format.h>
+#include <iterator>
+#include <limits>
+#include <utility>
+
+#include <nlohmann/json.hpp>
 
 #include "oracle/patch/contact_patch.hpp"
 #include "properties/files/configuration_json.hpp"
+#include "properties/files/json_fields.hpp"
 
 namespace touchstone {
 namespace {
@@ -23,12 +31,9 @@ const char* ties_name(oracle::Ties ties) {
   return "";
 }
 
-json number(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
-json number(const std::optional<double>& value) { return value ? number(*value) : json(nullptr); }
-
 double sign(Order order) { return order == Order::swapped ? -1 : 1; }
 
-json vector(const double (&v)[3], double factor = 1) {
+json vector_json(const double (&v)[3], double factor = 1) {
   return to_json(Vec3(factor * v[0], factor * v[1], factor * v[2]));
 }
 
@@ -86,46 +91,123 @@ json patch_json(const oracle::ContactPatch& patch) {
           {"outline", outline}};
 }
 
+/// The members of a score that its JSON has, by their names.
+template <class AnyScore>
+auto numbers_of(AnyScore& score) {
+  return std::array{std::pair("depth_error", &score.depth_error),
+                    std::pair("normal_regret", &score.normal_regret),
+                    std::pair("normal_angle", &score.normal_angle),
+                    std::pair("point_error", &score.point_error),
+                    std::pair("deepest_error", &score.deepest_error),
+                    std::pair("coverage", &score.coverage)};
+}
+
+double number_or_nan(const json& value, const std::string& field) {
+  return number_or_null(value, field).value_or(std::numeric_limits<double>::quiet_NaN());
+}
+
+void read_vector(const json& value, const std::string& field, double (&v)[3]) {
+  if (array(value, field).size() != 3) {
+    throw InvalidInput(field, shown(value), "must be an array of 3 numbers");
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    v[i] = number_or_nan(value[i], fmt::format("{}[{}]", field, i));
+  }
+}
+
+ts_status status_from_json(const json& value, const std::string& field) {
+  for (const ts_status status :
+       {TS_CONTACT, TS_NONE, TS_UNSUPPORTED, TS_FAILED, TS_CRASHED, TS_TIMED_OUT}) {
+    if (value == status_name(status)) return status;
+  }
+  throw InvalidInput(field, shown(value), "must be a status that an answer has, as \"contact\"");
+}
+
 }  // namespace
 
+Outcome outcome_from_json(const json& value, const std::string& field) {
+  for (const Outcome outcome : all_outcomes) {
+    if (value == outcome_name(outcome)) return outcome;
+  }
+  throw InvalidInput(field, shown(value), "must be one that a score has");
+}
+
+std::array<std::string, 2> decimals(const oracle::Enclosure& e) {
+  const int digits = digits_for(e);
+  return {oracle::decimal_below(e.lo, digits), oracle::decimal_above(e.hi, digits)};
+}
+
 json to_json(const Configuration& c, const oracle::Truth& truth, Order order) {
-  const auto& [lo, hi] = truth.signed_distance;
-  const int digits = digits_for(truth.signed_distance);
   json normals = json::array(), patch = json::array(), families = json::array();
   for (const auto& normal : truth.normals) {
     normals.push_back(to_json(Vec3(sign(order) * normal.n)));
     patch.push_back(patch_json(oracle::contact_patch(c, normal)));
   }
   for (const auto& family : truth.families) families.push_back(family_json(family, order));
-  return {
-      {"signed_distance", {oracle::decimal_below(lo, digits), oracle::decimal_above(hi, digits)}},
-      {"normals", normals},
-      {"ties", ties_name(truth.ties)},
-      {"families", families},
-      {"patch", patch}};
+  return {{"signed_distance", decimals(truth.signed_distance)},
+          {"normals", normals},
+          {"ties", ties_name(truth.ties)},
+          {"families", families},
+          {"patch", patch}};
 }
 
 json to_json(const ts_answer& answer, const Score& score, Order order) {
-  const bool contact = answer.status == TS_CONTACT;
+  const bool is_contact = answer.status == TS_CONTACT;
   json points = json::array();
-  for (int i = 0; contact && i < answer.point_count; ++i) {
+  for (int i = 0; is_contact && i < answer.point_count; ++i) {
     const ts_point& p = answer.points[i];
-    points.push_back({{"position", vector(p.position)},
-                      {"normal", vector(p.normal, sign(order))},
-                      {"depth", number(p.depth)}});
+    points.push_back({{"position", vector_json(p.position)},
+                      {"normal", vector_json(p.normal, sign(order))},
+                      {"depth", or_null(p.depth)}});
   }
+  json score_json = {{"outcome", outcome_name(score.outcome)}};
+  for (const auto& [name, value] : numbers_of(score)) score_json[name] = or_null(*value);
   return {{"status", status_name(answer.status)},
-          {"signed_distance", contact ? number(answer.signed_distance) : json(nullptr)},
-          {"normal", contact ? vector(answer.normal, sign(order)) : json(nullptr)},
+          {"signed_distance", is_contact ? or_null(answer.signed_distance) : json(nullptr)},
+          {"normal", is_contact ? vector_json(answer.normal, sign(order)) : json(nullptr)},
           {"points", points},
-          {"score",
-           {{"outcome", outcome_name(score.outcome)},
-            {"depth_error", number(score.depth_error)},
-            {"normal_regret", number(score.normal_regret)},
-            {"normal_angle", number(score.normal_angle)},
-            {"point_error", number(score.point_error)},
-            {"deepest_error", number(score.deepest_error)},
-            {"coverage", number(score.coverage)}}}};
+          {"score", score_json}};
+}
+
+json to_json(const Answer& answer, const Score& score, Order order) {
+  json result = to_json(static_cast<const ts_answer&>(answer), score, order);
+  if (!answer.reason.empty()) result["reason"] = answer.reason;
+  return result;
+}
+
+ts_answer answer_from_json(const json& value, const std::string& path) {
+  ts_answer answer{};
+  answer.status = status_from_json(member(value, "status", path), path + ".status");
+  if (answer.status != TS_CONTACT) return answer;
+  answer.signed_distance =
+      number_or_nan(member(value, "signed_distance", path), path + ".signed_distance");
+  read_vector(member(value, "normal", path), path + ".normal", answer.normal);
+  const json& points = array(member(value, "points", path), path + ".points");
+  if (points.size() > std::size(answer.points)) {
+    throw InvalidInput(path + ".points", fmt::format("{} of them", points.size()),
+                       fmt::format("must be at most {}", std::size(answer.points)));
+  }
+  for (const json& point : points) {
+    const std::string at = fmt::format("{}.points[{}]", path, answer.point_count);
+    require_object(point, at);
+    ts_point& p = answer.points[answer.point_count++];
+    read_vector(member(point, "position", at), at + ".position", p.position);
+    read_vector(member(point, "normal", at), at + ".normal", p.normal);
+    p.depth = number_or_nan(member(point, "depth", at), at + ".depth");
+  }
+  return answer;
+}
+
+Score score_from_json(const json& answer, const std::string& answer_path) {
+  const std::string path = answer_path + ".score";
+  const json& value = member(answer, "score", answer_path);
+  require_object(value, path);
+  Score score;
+  score.outcome = outcome_from_json(member(value, "outcome", path), path + ".outcome");
+  for (const auto& [name, number] : numbers_of(score)) {
+    if (value.contains(name)) *number = number_or_null(value[name], path + "." + name);
+  }
+  return score;
 }
 
 }  // namespace touchstone

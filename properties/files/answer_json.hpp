@@ -1,15 +1,21 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <array>
+#include <string>
 
-#include "candidates/candidate.h"
+#include <nlohmann/json_fwd.hpp>
+
+#include "candidates/host/candidate_process.hpp"
 #include "oracle/judge/score.hpp"
 #include "oracle/truth.hpp"
 
 namespace touchstone {
 
-/// Turns every normal round: for a person whose body a is our body B.
+/// Whether every normal is reversed, for a person whose body a is our body B.
 enum class Order { as_ours, swapped };
+
+/// Decimals of an enclosure's two ends, rounded outward, with digits enough to tell them apart.
+std::array<std::string, 2> decimals(const oracle::Enclosure& enclosure);
 
 /// {"signed_distance": [lo, hi] as decimals rounded outward, "normals": […], "ties": "unique",
 /// "patch": [{"kind", "area", "perimeter", "centroid", "outline"}, …] for each of the normals}.
@@ -19,5 +25,14 @@ nlohmann::json to_json(const Configuration& configuration, const oracle::Truth& 
 /// {"status", "signed_distance", "normal", "points": [{"position", "normal", "depth"}], "score":
 /// {…}}; what the answer does not define is null.
 nlohmann::json to_json(const ts_answer& answer, const Score& score, Order order = Order::as_ours);
+/// As above, with the member "reason" where there is one.
+nlohmann::json to_json(const Answer& answer, const Score& score, Order order = Order::as_ours);
+
+/// Reads what to_json wrote, with Order::as_ours; of the score members may be missing, as they are
+/// in files of older versions. `path` names the answer in errors, which are InvalidInput.
+ts_answer answer_from_json(const nlohmann::json& answer, const std::string& path);
+Score score_from_json(const nlohmann::json& answer, const std::string& path);
+/// Reads an outcome's name. Throws InvalidInput with this field.
+Outcome outcome_from_json(const nlohmann::json& value, const std::string& field);
 
 }  // namespace touchstone

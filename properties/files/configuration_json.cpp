@@ -1,12 +1,14 @@
 #include "properties/files/configuration_json.hpp"
 
-#include <cmath>
 #include <fmt/format.h>
 #include <functional>
 #include <gmpxx.h>
 #include <string>
 
+#include <nlohmann/json.hpp>
+
 #include "properties/files/json_fields.hpp"
+#include "properties/files/strict_json.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone {
@@ -126,6 +128,13 @@ GivenConfiguration configuration_from_json(const json& value) {
                      "one of the two bodies must be a cylinder");
 }
 
+Configuration configuration_from_text(const std::string& text, const std::string& source) {
+  const json object = parse_json_lines(text, source).front();
+  require_object(object, source);
+  const bool is_wrapped = object.contains("configuration");
+  return configuration_from_json(is_wrapped ? object["configuration"] : object).configuration;
+}
+
 json to_json(const Configuration& c) {
   return write_configuration(c, [](double x) { return json(x); });
 }
@@ -142,8 +151,6 @@ json to_json(const Shape& shape) {
   return std::visit(WriteShape{[](double x) { return json(x); }}, shape);
 }
 
-json to_json(const Vec3& v) {
-  return write_vector(v, [](double x) { return std::isfinite(x) ? json(x) : json(nullptr); });
-}
+json to_json(const Vec3& v) { return write_vector(v, or_null); }
 
 }  // namespace touchstone

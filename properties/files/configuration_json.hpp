@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "reference/configuration.hpp"
 
@@ -19,6 +19,12 @@ struct GivenConfiguration {
 /// refused. Numbers are JSON numbers or strings with a decimal or hexadecimal float. A missing pose
 /// is the identity. Throws InvalidInput with the full path of the field ("b.half_extents[1]").
 GivenConfiguration configuration_from_json(const nlohmann::json& json);
+
+/// The configuration of a file: one JSON object, or JSON Lines, of which the first that is not
+/// blank counts. The object is a configuration, or has one as its member "configuration", as saved
+/// failures, certificates and a report's worst cases have. `source` is what errors call the file.
+/// Throws InvalidInput.
+Configuration configuration_from_text(const std::string& text, const std::string& source);
 
 /// {"shape": "cylinder", "radius": …}. `path` names the object in errors, which are InvalidInput.
 Shape shape_from_json(const nlohmann::json& value, const std::string& path);

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <limits>
 
+#include <nlohmann/json.hpp>
+
 #include "reference/invalid_input.hpp"
 
 namespace touchstone {

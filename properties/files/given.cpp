@@ -1,15 +1,9 @@
 #include "properties/files/given.hpp"
 
-#include <fmt/format.h>
 #include <iostream>
-#include <optional>
-#include <sstream>
-#include <utility>
 
 #include "properties/files/configuration_json.hpp"
-#include "properties/files/json_fields.hpp"
 #include "properties/files/read_file.hpp"
-#include "properties/files/strict_json.hpp"
 #include "properties/identity.hpp"
 #include "properties/motions/name.hpp"
 #include "properties/motions/perturbation.hpp"
@@ -17,40 +11,6 @@
 
 namespace touchstone {
 namespace {
-
-using nlohmann::json;
-
-bool is_blank(const std::string& line) {
-  return line.find_first_not_of(" \t\r") == std::string::npos;
-}
-
-/// The first of JSON Lines, all of which must be JSON. `whole` says why the text is not one value:
-/// the error where not even its first line is.
-json first_of_lines(const std::string& text, const InvalidInput& whole) {
-  std::istringstream lines(text);
-  std::string line;
-  std::optional<json> first;
-  for (std::size_t number = 1; std::getline(lines, line); ++number) {
-    if (is_blank(line)) continue;
-    try {
-      json parsed = parse_json(line, fmt::format("line {}", number));
-      if (!first) first = std::move(parsed);
-    } catch (const InvalidInput&) {
-      if (first) throw;
-      throw whole;
-    }
-  }
-  if (!first) throw whole;
-  return *first;
-}
-
-json first_value(const std::string& text, const std::string& source) {
-  try {
-    return parse_json(text, source);
-  } catch (const InvalidInput& e) {
-    return first_of_lines(text, e);
-  }
-}
 
 /// An identity, a name of the stability room, or either and a perturbation.
 Subject named(const std::string& name) {
@@ -69,13 +29,6 @@ Subject named(const std::string& name) {
 }
 
 }  // namespace
-
-Configuration configuration_from_text(const std::string& text, const std::string& source) {
-  const json object = first_value(text, source);
-  require_object(object, source);
-  const bool wrapped = object.contains("configuration");
-  return configuration_from_json(wrapped ? object["configuration"] : object).configuration;
-}
 
 Subject given_configuration(const std::string& input) {
   if (input == "-") {

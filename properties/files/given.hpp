@@ -17,7 +17,4 @@ inline constexpr const char* given_help =
 /// certificates and a report's worst cases have. Throws InvalidInput.
 Subject given_configuration(const std::string& input);
 
-/// What such a file holds; `source` is what errors call it. Throws InvalidInput.
-Configuration configuration_from_text(const std::string& text, const std::string& source);
-
 }  // namespace touchstone

@@ -1,5 +1,10 @@
 #include "properties/files/json_fields.hpp"
 
+#include <cmath>
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
 #include "properties/files/error_text.hpp"
 #include "properties/files/parse_double.hpp"
 
@@ -22,6 +27,14 @@ double number(const json& value, const std::string& field) {
                      "such as \"0x1.8p-1\"");
 }
 
+std::optional<double> number_or_null(const json& value, const std::string& field) {
+  return value.is_null() ? std::nullopt : std::optional(number(value, field));
+}
+
+json or_null(const std::optional<double>& value) {
+  return value && std::isfinite(*value) ? json(*value) : json(nullptr);
+}
+
 std::uint64_t whole_number(const json& value, const std::string& field, std::uint64_t max) {
   const bool is_whole = value.is_number_integer() && (value.is_number_unsigned() || value >= 0);
   if (is_whole && value.get<std::uint64_t>() <= max) return value.get<std::uint64_t>();
@@ -31,6 +44,11 @@ std::uint64_t whole_number(const json& value, const std::string& field, std::uin
 std::string string(const json& value, const std::string& field) {
   if (!value.is_string()) throw InvalidInput(field, shown(value), "must be a string");
   return value.get<std::string>();
+}
+
+const json& array(const json& value, const std::string& field) {
+  if (!value.is_array()) throw InvalidInput(field, shown(value), "must be an array");
+  return value;
 }
 
 const json& member(const json& object, const char* name, const std::string& path) {
@@ -57,6 +75,16 @@ void refuse_others(const json& object, std::initializer_list<const char*> known,
       throw InvalidInput(path.empty() ? name : path + "." + name, shown(value),
                          "is not known here; known are " + names);
     }
+  }
+}
+
+void read_numbers(const json& value, const std::string& field, std::span<double> numbers) {
+  if (!value.is_array() || value.size() != numbers.size()) {
+    throw InvalidInput(field, shown(value),
+                       fmt::format("must be an array of {} numbers", numbers.size()));
+  }
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    numbers[i] = number(value[i], fmt::format("{}[{}]", field, i));
   }
 }
 

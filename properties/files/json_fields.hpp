@@ -2,19 +2,20 @@
 
 #include <array>
 #include <cstdint>
-#include <fmt/format.h>
 #include <initializer_list>
+#include <optional>
+#include <span>
 #include <string>
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "reference/invalid_input.hpp"
 #include "reference/shape.hpp"
 
 namespace touchstone {
 
-// Reads what a person wrote as JSON. Every function throws InvalidInput with the full path of the
-// field ("bodies[3].shape.radius"), what stood there and what would be right.
+// Members of JSON that a person or another program wrote. Every reader throws InvalidInput with the
+// full path of the field ("bodies[3].shape.radius"), what stood there and what would be right.
 
 /// The value as the person wrote it, cut where it is long.
 std::string shown(const nlohmann::json& value);
@@ -22,11 +23,19 @@ std::string shown(const nlohmann::json& value);
 /// A JSON number, or a string with a decimal or hexadecimal float.
 double number(const nlohmann::json& value, const std::string& field);
 
-/// From 0 to `max`.
+/// The same, or nothing where null stands.
+std::optional<double> number_or_null(const nlohmann::json& value, const std::string& field);
+/// Writes null for what is absent or not finite: JSON has no other word for it.
+nlohmann::json or_null(const std::optional<double>& value);
+
+/// A whole number from 0 to `max`.
 std::uint64_t whole_number(const nlohmann::json& value, const std::string& field,
                            std::uint64_t max = UINT64_MAX);
 
 std::string string(const nlohmann::json& value, const std::string& field);
+
+/// The value itself, which is an array.
+const nlohmann::json& array(const nlohmann::json& value, const std::string& field);
 
 /// The member of that name; `path` is that of the object, empty for the whole text.
 const nlohmann::json& member(const nlohmann::json& object, const char* name,
@@ -38,15 +47,12 @@ void require_object(const nlohmann::json& value, const std::string& field);
 void refuse_others(const nlohmann::json& object, std::initializer_list<const char*> known,
                    const std::string& path);
 
+/// An array of exactly so many numbers.
+void read_numbers(const nlohmann::json& value, const std::string& field, std::span<double> numbers);
 template <std::size_t N>
 std::array<double, N> numbers(const nlohmann::json& value, const std::string& field) {
-  if (!value.is_array() || value.size() != N) {
-    throw InvalidInput(field, shown(value), fmt::format("must be an array of {} numbers", N));
-  }
   std::array<double, N> result;
-  for (std::size_t i = 0; i < N; ++i) {
-    result[i] = number(value[i], fmt::format("{}[{}]", field, i));
-  }
+  read_numbers(value, field, result);
   return result;
 }
 

@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <optional>
 #include <set>
+#include <sstream>
 #include <vector>
+
+#include <nlohmann/json.hpp>
 
 #include "properties/files/json_fields.hpp"
 #include "reference/invalid_input.hpp"
@@ -112,6 +116,29 @@ json parse_json(std::string_view text, const std::string& source) {
     throw InvalidInput(follower.path(), "a number beyond all doubles",
                        "must be at most 1.8e308 in size");
   }
+}
+
+std::vector<json> parse_json_lines(const std::string& text, const std::string& source) {
+  std::optional<InvalidInput> not_one_value;
+  try {
+    return {parse_json(text, source)};
+  } catch (const InvalidInput& e) {
+    not_one_value = e;
+  }
+  std::vector<json> values;
+  std::istringstream lines(text);
+  std::string line;
+  for (std::size_t number = 1; std::getline(lines, line); ++number) {
+    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
+    try {
+      values.push_back(parse_json(line, fmt::format("line {}", number)));
+    } catch (const InvalidInput&) {
+      if (values.empty()) throw *not_one_value;
+      throw;
+    }
+  }
+  if (values.empty()) throw *not_one_value;
+  return values;
 }
 
 }  // namespace touchstone

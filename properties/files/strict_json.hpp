@@ -2,8 +2,9 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 namespace touchstone {
 
@@ -17,5 +18,10 @@ inline constexpr std::size_t max_json_depth = 64;
 /// file's name", "line") and its value says at which line and column; otherwise its field is the
 /// path of the member ("bodies[3].shape.radius").
 nlohmann::json parse_json(std::string_view text, const std::string& source);
+
+/// The one value of the text, or those of JSON Lines, of which blank ones do not count; at least
+/// one. Throws InvalidInput: of the text as a whole where not even its first line is JSON,
+/// otherwise of the first line ("line 7") that is none.
+std::vector<nlohmann::json> parse_json_lines(const std::string& text, const std::string& source);
 
 }  // namespace touchstone

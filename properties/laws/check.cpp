@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "properties/files/answer_json.hpp"
 #include "properties/simplify.hpp"
 
 namespace touchstone {
@@ -19,28 +18,26 @@ std::vector<Identity> identities(const CheckOptions& options, Pair pair) {
   return result;
 }
 
-nlohmann::json answer_of(CandidateProcess& candidate, const Configuration& c, const Bar& bar) {
-  candidate.ask_within(bar.threshold);
-  const Answer answer = candidate.answers({&c, 1}).front();
-  return to_json(answer, score(c, oracle::truth(c), answer, bar));
-}
-
 Failure simplest(const Law& law, const Identity& identity, const Violation& violation,
                  CandidateProcess& candidate, const Bar& bar) {
-  constexpr int most_trials = 500;
+  constexpr int max_trials = 500;
   const auto fails_alike = [&](const Configuration& c) {
     const auto v = broken(law, c, candidate, bar);
     return v && v->failure == violation.failure;
   };
-  const Configuration c = simplified(make_configuration(identity), fails_alike, most_trials);
+  const Configuration c = simplified(make_configuration(identity), fails_alike, max_trials);
+  const Violation of_simplest = broken(law, c, candidate, bar).value_or(violation);
+  candidate.ask_within(bar.threshold);
+  const Answer answer = candidate.answers({&c, 1}).front();
   return {law.name,
           candidate.candidate().name,
           candidate.candidate().version,
           to_string(identity),
           c,
-          broken(law, c, candidate, bar).value_or(violation),
+          of_simplest,
           bar,
-          answer_of(candidate, c, bar)};
+          answer,
+          score(c, oracle::truth(c), answer, bar)};
 }
 
 }  // namespace

@@ -3,10 +3,9 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
-
-#include <nlohmann/json.hpp>
 
 #include "properties/identity.hpp"
 #include "properties/laws/law.hpp"
@@ -16,8 +15,8 @@ namespace touchstone {
 struct CheckOptions {
   std::vector<const Law*> laws;
   std::vector<Pair> pairs;
-  std::vector<std::string> classes;  ///< Of every pair that has them; empty for all.
-  std::uint64_t count = 10;          ///< Configurations of each pair and pose class.
+  std::vector<std::string> classes;  ///< of every pair that has them; empty for all
+  std::uint64_t count = 10;          ///< configurations of each pair and pose class
   std::uint64_t seed = 1;
   Bar bar;
 };
@@ -26,11 +25,12 @@ struct CheckOptions {
 struct Failure {
   std::string law;
   std::string candidate, version;
-  std::string identity;  ///< Of the first one met.
-  Configuration configuration;
-  Violation violation;  ///< Of the simpler one.
+  std::string identity;         ///< of the first one met
+  Configuration configuration;  ///< the simpler one
+  Violation violation;          ///< by the simpler one
   Bar bar;
-  nlohmann::json answer;  ///< Of the candidate to it (docs/solve.md); null where it is not known.
+  std::optional<ts_answer> answer;  ///< to the simpler one; absent where it is not known
+  Score score;                      ///< of that answer
 };
 
 /// One law on one pair.
@@ -38,9 +38,8 @@ struct LawResult {
   const Law* law;
   Pair pair;
   std::uint64_t tried = 0, broken = 0;
-  /// By the failure's name: how often, and the simplest example.
-  std::map<std::string, std::uint64_t> counts;
-  std::vector<Failure> failures;  ///< One of each name, the simplest first.
+  std::map<std::string, std::uint64_t> counts;  ///< of configurations, by the failure's name
+  std::vector<Failure> failures;                ///< one of each name, the simplest first
 };
 
 /// Tries every law on every configuration and simplifies the first failure of each name, keeping

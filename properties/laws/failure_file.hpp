@@ -3,36 +3,36 @@
 #include <filesystem>
 #include <vector>
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "properties/laws/check.hpp"
 
 namespace touchstone {
 
-/// A failure as a file keeps it (docs/check.md): explicit numbers, so that it can be replayed
-/// without this program's generators.
+/// Writes a failure as a file keeps it (docs/check.md): explicit numbers, so that it can be
+/// replayed without this program's generators.
 nlohmann::json to_json(const Failure& failure);
-/// Throws InvalidInput naming the member, its value and what it must be.
+/// Reads what to_json wrote. Throws InvalidInput naming the member, its value and what it must be.
 Failure failure_from_json(const nlohmann::json& json);
 
 /// Writes one file into the folder, which is made if need be; named after candidate, law, pair and
 /// failure, so that the same failure replaces itself.
 std::filesystem::path save(const Failure& failure, const std::filesystem::path& folder);
 
-/// The failures of one file, or of a folder's files in order of their names: .json files hold one
-/// failure each, .jsonl files (JSON Lines) one on each line. Throws InvalidInput naming the file,
-/// and the line, that cannot be read or understood.
-std::vector<Failure> read_corpus(const std::filesystem::path& file_or_folder);
+/// The failures of a file, or of a folder's .json and .jsonl files in order of their names. A file
+/// holds one failure, or JSON Lines with one each. Throws InvalidInput naming the file that cannot
+/// be read or understood.
+std::vector<Failure> read_corpus(const std::filesystem::path& path);
 
-/// What became of a saved failure.
+/// A saved failure, and what its candidate does today.
 struct ReplayedFailure {
   enum class Result { as_expected, fixed, changed, skipped };
   Failure expected;
   Result result;
-  std::string now;  ///< The failure's name today, or why it was skipped; empty when fixed.
+  std::string now;  ///< the failure's name today, or why it was skipped; empty when fixed
 };
 
-/// Asks again, every failure's own candidate; one that is not installed is skipped.
+/// Asks every failure's candidate again; one that is not installed is skipped.
 std::vector<ReplayedFailure> replay(const std::vector<Failure>& corpus, const Limits& limits);
 
 }  // namespace touchstone

@@ -1,9 +1,13 @@
 #include "properties/laws/failure_file.hpp"
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <limits>
+
+#include <nlohmann/json.hpp>
 
 #include "properties/files/configuration_json.hpp"
 #include "properties/identity.hpp"
@@ -22,13 +26,45 @@ Failure failure() {
           make_configuration({Pair::box, "edge-cap", 1, 0}),
           {"missed", 0.5, "far off"},
           {1e-4, 0.25},
-          nullptr};
+          {},
+          {}};
+}
+
+/// Two points, one of whose depths is not a number, and some errors of its score.
+Failure failure_with_answer() {
+  Failure f = failure();
+  ts_answer& answer = f.answer.emplace();
+  answer.status = TS_CONTACT;
+  answer.signed_distance = -0.1;
+  answer.normal[1] = -1;
+  answer.point_count = 2;
+  answer.points[0] = {{1, 2, 3}, {0, 1, 0}, 0.25};
+  answer.points[1] = {{4, 5, 6}, {0, 0, 1}, std::numeric_limits<double>::quiet_NaN()};
+  f.score.outcome = Outcome::wrong_normal;
+  f.score.depth_error = 1e-3;
+  f.score.coverage = 0.5;
+  return f;
 }
 
 TEST(FailureFile, ComesBackBitForBit) {
   const Failure f = failure(), back = failure_from_json(to_json(f));
   EXPECT_EQ(to_json(back), to_json(f));
   EXPECT_EQ(to_hex_json(back.configuration), to_hex_json(f.configuration));
+}
+
+TEST(FailureFile, KeepsTheAnswer) {
+  const Failure f = failure_with_answer(), back = failure_from_json(to_json(f));
+  EXPECT_EQ(to_json(back), to_json(f));
+  ASSERT_TRUE(back.answer);
+  EXPECT_EQ(back.answer->signed_distance, -0.1);
+  EXPECT_EQ(back.answer->normal[1], -1);
+  ASSERT_EQ(back.answer->point_count, 2);
+  EXPECT_EQ(back.answer->points[0].position[2], 3);
+  EXPECT_EQ(back.answer->points[1].normal[2], 1);
+  EXPECT_TRUE(std::isnan(back.answer->points[1].depth));
+  EXPECT_EQ(back.score.outcome, Outcome::wrong_normal);
+  EXPECT_EQ(back.score.depth_error, 1e-3);
+  EXPECT_EQ(back.score.normal_angle, std::nullopt);
 }
 
 TEST(FailureFile, NamesWhatIsWrong) {
@@ -47,6 +83,10 @@ TEST(FailureFile, NamesWhatIsWrong) {
   EXPECT_THAT(message("failure", "bad"), testing::HasSubstr("missed"));
   EXPECT_THAT(message("tolerance", "wide"), testing::HasSubstr("tolerance"));
   EXPECT_THAT(message("configuration", nullptr), testing::Not(testing::HasSubstr("accepted")));
+  EXPECT_THAT(message("answer", {{"status", "perhaps"}}), testing::HasSubstr("answer.status"));
+  json answer = to_json(failure_with_answer())["answer"];
+  answer["points"][1]["position"][2] = "far";
+  EXPECT_THAT(message("answer", answer), testing::HasSubstr("answer.points[1].position[2]"));
 }
 
 TEST(FailureFile, ASavedFailureReplacesItself) {
@@ -71,6 +111,23 @@ TEST(Corpus, AJsonLinesFileHoldsOneFailureOnEachLine) {
     ADD_FAILURE() << "accepted";
   } catch (const InvalidInput& e) {
     EXPECT_THAT(e.what(), testing::HasSubstr("line 3"));
+  }
+}
+
+TEST(FailureFile, MayHoldOneFailureALine) {
+  const auto file = std::filesystem::path(testing::TempDir()) / "failures.jsonl";
+  const std::string line = to_json(failure()).dump() + '\n';
+  std::ofstream(file) << line << '\n' << to_json(failure_with_answer()).dump();
+  const auto corpus = read_corpus(file);
+  ASSERT_EQ(corpus.size(), 2u);
+  EXPECT_FALSE(corpus[0].answer);
+  EXPECT_TRUE(corpus[1].answer);
+  std::ofstream(file) << line << "{}";
+  try {
+    read_corpus(file);
+    ADD_FAILURE() << "a line without a failure is accepted";
+  } catch (const InvalidInput& e) {
+    EXPECT_THAT(e.what(), testing::HasSubstr("failure 2.schema"));
   }
 }
 

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "oracle/truth.hpp"
-#include "properties/files/answer_json.hpp"
 #include "properties/files/configuration_json.hpp"
 #include "reports/worst_selection.hpp"
 
@@ -140,7 +139,8 @@ std::optional<Failure> failure_of(const Found& found, CandidateProcess& candidat
                    c,
                    *violation,
                    bar,
-                   to_json(answer, score(c, oracle::truth(c), answer, bar))};
+                   answer,
+                   score(c, oracle::truth(c), answer, bar)};
   }
   return std::nullopt;
 }

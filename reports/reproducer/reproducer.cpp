@@ -10,6 +10,7 @@
 #include <span>
 
 #include "candidates/candidates.hpp"
+#include "oracle/patch/contact_patch.hpp"
 #include "oracle/truth.hpp"
 #include "properties/files/answer_json.hpp"
 #include "reference/invalid_input.hpp"
@@ -145,18 +146,17 @@ std::string reproducer(std::string_view name, const Configuration& c, const std:
                        const Bar& bar, const Limits& limits) {
   const Engine& engine = find_engine(name, pair_of(c) == Pair::plane);
   const oracle::Truth truth = oracle::truth(c);
-  const nlohmann::json shown = to_json(c, truth);
-  const nlohmann::json& bounds = shown["signed_distance"];
-  const auto middle = shown["patch"][0]["centroid"].get<std::array<double, 3>>();
+  const auto [low, high] = decimals(truth.signed_distance);
   const Vec3 n = truth.normals.front().n;
+  const Vec3 middle = oracle::contact_patch(c, truth.normals.front()).centroid();
   Texts texts = question(c);
   texts.insert({{"engine", engine.title},
                 {"asked", asked},
-                {"truth_low", bounds[0].get<std::string>()},
-                {"truth_high", bounds[1].get<std::string>()},
+                {"truth_low", low},
+                {"truth_high", high},
                 {"true_distance", hex(truth.signed_distance.midpoint())},
                 {"true_normal", hex(std::span(n.data(), 3))},
-                {"middle", hex(middle)},
+                {"middle", hex(std::span(middle.data(), 3))},
                 {"tolerance", fmt::format("{}", bar.tolerance)},
                 {"allowed", hex(bar.tolerance * error_size(c, bar))},
                 {"threshold", hex(bar.threshold)},

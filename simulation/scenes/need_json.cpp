@@ -1,6 +1,7 @@
 #include "simulation/scenes/need_json.hpp"
 
 #include <cmath>
+#include <fmt/format.h>
 #include <functional>
 #include <map>
 
