@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+
 #include "properties/files/configuration_json.hpp"
 #include "reports/worst.hpp"
 
