@@ -71,8 +71,10 @@ choices('worst-pair', ['all', ...pairs], gallery);
 choices('worst-candidate', ['all', ...candidates], gallery);
 gallery();
 
-if (report.stability) drawStability(byId('stability'), report.stability);
-byId('stability').hidden = !report.stability;
+if (report.stability) {
+  byId('stability').hidden = false;
+  drawStability(byId('stability'), report.stability);
+}
 
 // How it was measured.
 function method() {
