@@ -100,7 +100,7 @@ TEST(Html, LoadsNothingFromElsewhere) {
 }
 
 TEST(Html, HasNoPlaceholderLeft) {
-  for (const char* name : {"title", "pages", "heading", "main", "library", "scripts", "data"}) {
+  for (const char* name : {"title", "pages", "heading", "main", "vega", "scripts", "data"}) {
     EXPECT_EQ(render_html(json::object()).find("/* " + std::string(name)), std::string::npos);
   }
 }

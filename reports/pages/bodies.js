@@ -1,19 +1,19 @@
-// Vectors and the two bodies, in coordinates whose origin is the contact, so that a view may be
-// enlarged until the rounding of the doubles shows.
-const add = (a, b, s = 1) => a.map((x, i) => x + s * b[i]);
-const times = (a, s) => a.map(x => s * x);
+// Vectors and bodies. A view of a contact puts the origin into it, so that it may be enlarged until the rounding of
+// the doubles shows.
+const add = (a, b, s = 1) => [a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]];
+const times = (a, s) => [s * a[0], s * a[1], s * a[2]];
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 const length = a => Math.hypot(...a);
 const unit = a => times(a, 1 / length(a));
-const combine = (axes, c) => add(add(times(axes[0], c[0]), axes[1], c[1]), axes[2], c[2]);
+const combine = ([a, b, c], [x, y, z]) => [a[0] * x + b[0] * y + c[0] * z, a[1] * x + b[1] * y + c[1] * z, a[2] * x + b[2] * y + c[2] * z];
 // A unit vector across n; of the given directions the one furthest from n decides.
 function across(n, ...directions) {
   const rests = [...directions, [1, 0, 0], [0, 1, 0]].map(d => add(d, n, -dot(d, n)));
   return unit(rests.find(r => length(r) > 0.05) || rests[rests.length - 1]);
 }
 
-// The columns of the rotation of a quaternion that need not have unit length.
+// The columns of the rotation of a quaternion w, x, y, z that need not have unit length.
 function axesOf(orientation) {
   const norm = Math.hypot(...orientation);
   const [w, x, y, z] = orientation.map(q => q / norm);
@@ -22,36 +22,49 @@ function axesOf(orientation) {
           [2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)]];
 }
 
-// {shape, axes, centre, faces: convex polygons, edges: polylines}. The meshes are fine near the
-// contact, coarse elsewhere. `reach` is how much of a plane is shown.
+// A convex polyhedron in its own coordinates: {faces: polygons, normals: of the faces, edges: polylines, stripe: of each
+// face, whether it is pale, which shows how a round body turns}. Round parts have `segments` faces around, more near
+// `near` unless it is null. `reach` is how much of a plane is shown.
+function meshOf(s, near, reach, segments = 48) {
+  switch (s.shape) {
+    case 'cylinder': return cylinderMesh(s, near, segments);
+    case 'box': return boxMesh(s);
+    case 'plane': return planeMesh(s, near || [0, 0, 0], reach);
+    default: return capsuleMesh(s, near, segments);  // a sphere is a capsule of no length
+  }
+}
+// A mesh in the world: {shape, axes, centre, faces, outward: the faces' normals, edges, stripe}.
+function placeMesh(shape, mesh, orientation, centre) {
+  const axes = axesOf(orientation), toWorld = c => add(centre, combine(axes, c));
+  return {shape, axes, centre, stripe: mesh.stripe, faces: mesh.faces.map(f => f.map(toWorld)),
+          edges: mesh.edges.map(e => e.map(toWorld)), outward: mesh.normals.map(n => combine(axes, n))};
+}
+const toLocal = ({axes, centre}, p) => axes.map(e => dot(e, add(p, centre, -1)));
+// A body with the contact in the origin, its mesh fine near it.
 function makeBody(shape, pose, contact, reach) {
-  const body = {shape, axes: axesOf(pose.orientation), centre: add(pose.position, contact, -1)};
-  body.toLocal = p => body.axes.map(e => dot(e, add(p, body.centre, -1)));
-  body.toWorld = c => add(body.centre, combine(body.axes, c));
-  const near = body.toLocal([0, 0, 0]);
-  const mesh = {cylinder: cylinderMesh, capsule: capsuleMesh, sphere: capsuleMesh, box: boxMesh,
-                plane: planeMesh}[shape.shape](shape, near, reach);
-  body.faces = mesh.faces.map(f => f.map(body.toWorld));
-  body.edges = mesh.edges.map(e => e.map(body.toWorld));
-  body.outward = mesh.normals.map(n => combine(body.axes, n));
-  return body;
+  const centre = add(pose.position, contact, -1);
+  const near = toLocal({axes: axesOf(pose.orientation), centre}, [0, 0, 0]);
+  return placeMesh(shape, meshOf(shape, near, reach), pose.orientation, centre);
 }
 
-// From lo to hi in `count` steps, and ever closer around `at`.
+// From lo to hi in `count` steps, and ever closer around `at` unless it is null.
 function steps(lo, hi, count, at) {
   const values = [];
   for (let i = 0; i <= count; ++i) values.push(lo + (hi - lo) * i / count);
+  if (at === null) return values;
   for (let d = (hi - lo) / count; d > 1e-7 * (hi - lo); d /= 4) values.push(at - d, at + d);
   values.push(at);
   return values.filter(v => v >= lo && v <= hi).sort((a, b) => a - b);
 }
 
+// Eight stripes around z.
+const isPale = angle => Math.floor(angle / (Math.PI / 4) + 8) % 2 === 1;
 // A solid of revolution about z from its profile [radius, z], upwards.
-function revolve(profile, near, loops) {
-  const at = Math.atan2(near[1], near[0]);
-  const angles = steps(at - Math.PI, at + Math.PI, 48, at);
+function revolve(profile, near, segments, loops) {
+  const at = near && Math.atan2(near[1], near[0]), start = at === null ? -Math.PI : at - Math.PI;
+  const angles = steps(start, start + 2 * Math.PI, segments, at);
   const point = ([r, z], a) => [r * Math.cos(a), r * Math.sin(a), z];
-  const faces = [], normals = [];
+  const faces = [], normals = [], stripe = [];
   for (let i = 1; i < profile.length; ++i) {
     const [low, high] = [profile[i - 1], profile[i]];
     for (let k = 1; k < angles.length; ++k) {
@@ -60,24 +73,32 @@ function revolve(profile, near, loops) {
       if (!(norm > 0)) continue;
       faces.push([point(low, angles[k - 1]), point(low, angles[k]), point(high, angles[k]), point(high, angles[k - 1])]);
       normals.push([across / norm * Math.cos(middle), across / norm * Math.sin(middle), in_ / norm]);
+      stripe.push(isPale(middle));
     }
   }
-  const edges = loops.map(p => angles.map(a => point(p, a)));
-  return {faces, normals, edges};
+  return {faces, normals, stripe, edges: loops.map(p => angles.map(a => point(p, a)))};
 }
-function cylinderMesh({radius, half_length: h}, near) {
-  const mesh = revolve([[radius, -h], [radius, h]], near, [[radius, -h], [radius, h]]);
-  mesh.faces.push(mesh.edges[0], mesh.edges[1]);
-  mesh.normals.push([0, 0, -1], [0, 0, 1]);
+function cylinderMesh({radius, half_length: h}, near, segments) {
+  const mesh = revolve([[radius, -h], [radius, h]], near, segments, [[radius, -h], [radius, h]]);
+  for (const [end, rim] of mesh.edges.entries()) {
+    const normal = [0, 0, end === 0 ? -1 : 1];
+    for (let i = 0, k = 1; k < rim.length; ++k) {  // a sector for each stripe
+      const pale = isPale(Math.atan2(...[1, 0].map(c => rim[k - 1][c] + rim[k][c])));
+      if (k + 1 < rim.length && isPale(Math.atan2(...[1, 0].map(c => rim[k][c] + rim[k + 1][c]))) === pale) continue;
+      mesh.faces.push([[0, 0, rim[0][2]], ...rim.slice(i, k + 1)]);
+      mesh.normals.push(normal);
+      mesh.stripe.push(pale);
+      i = k;
+    }
+  }
   return mesh;
 }
-// A sphere is a capsule of no length.
-function capsuleMesh({radius, half_length: h = 0}, near) {
-  const end = Math.sign(near[2]) * Math.min(h, Math.abs(near[2]));
-  const latitude = Math.atan2(near[2] - end, Math.hypot(near[0], near[1]));
-  const profile = s => steps(s < 0 ? -Math.PI / 2 : 0, s < 0 ? 0 : Math.PI / 2, 12, latitude)
+function capsuleMesh({radius, half_length: h = 0}, near, segments) {
+  const end = near && Math.sign(near[2]) * Math.min(h, Math.abs(near[2]));
+  const latitude = near && Math.atan2(near[2] - end, Math.hypot(near[0], near[1]));
+  const profile = s => steps(s < 0 ? -Math.PI / 2 : 0, s < 0 ? 0 : Math.PI / 2, segments / 4, latitude)
       .map(v => [radius * Math.cos(v), s * h + radius * Math.sin(v)]);
-  return revolve([...profile(-1), ...profile(1)], near, h > 0 ? [[radius, -h], [radius, h]] : [[radius, 0]]);
+  return revolve([...profile(-1), ...profile(1)], near, segments, h > 0 ? [[radius, -h], [radius, h]] : [[radius, 0]]);
 }
 function boxMesh({half_extents: h}) {
   const faces = [], normals = [];
@@ -91,9 +112,9 @@ function boxMesh({half_extents: h}) {
       normals.push([0, 1, 2].map(i => i === k ? s : 0));
     }
   }
-  return {faces, normals, edges: faces.map(f => [...f, f[0]])};
+  return {faces, normals, edges: faces.map(f => [...f, f[0]]), stripe: faces.map(() => false)};
 }
-// A square of the plane about the contact, with a grid.
+// A square of the plane about `near`, with a grid.
 function planeMesh({normal, displacement}, near, reach) {
   const norm = length(normal), n = times(normal, 1 / norm);
   const foot = add(near, n, displacement / norm - dot(n, near));
@@ -102,12 +123,12 @@ function planeMesh({normal, displacement}, near, reach) {
   const edges = [];
   for (let i = -4; i <= 4; ++i) edges.push([at(i / 4, -1), at(i / 4, 1)], [at(-1, i / 4), at(1, i / 4)]);
   const face = [at(-1, -1), at(1, -1), at(1, 1), at(-1, 1)];
-  return {faces: [face, [...face].reverse()], normals: [n, times(n, -1)], edges};
+  return {faces: [face, [...face].reverse()], normals: [n, times(n, -1)], edges, stripe: [false, false]};
 }
 
 // The part [lo, hi] of the line p + y·d that is within a body; null where it misses.
 function chord(body, p, d) {
-  const o = body.toLocal(p), e = body.axes.map(axis => dot(axis, d)), s = body.shape;
+  const o = toLocal(body, p), e = body.axes.map(axis => dot(axis, d)), s = body.shape;
   const round = (o, e, r) => {  // |o + y·e| <= r
     const a = dot(e, e), b = dot(o, e);
     const rest = a > 0 ? add(o, e, -b / a) : o, square = r * r - dot(rest, rest);
@@ -143,4 +164,28 @@ function chord(body, p, d) {
       return parts.length ? [Math.min(...parts.map(c => c[0])), Math.max(...parts.map(c => c[1]))] : null;
     }
   }
+}
+
+// How far a body extends from its centre along n: its support function. A plane is centred where it is shown and ends there.
+function extentAlong({shape: s, axes}, n) {
+  if (s.shape === 'plane') return 0;
+  if (s.shape === 'box') return s.half_extents.reduce((sum, h, i) => sum + h * Math.abs(dot(axes[i], n)), 0);
+  const along = Math.abs(dot(axes[2], n)), h = (s.half_length || 0) * along;
+  return h + s.radius * (s.shape === 'cylinder' ? Math.sqrt(Math.max(0, 1 - along * along)) : 1);
+}
+// A plane {normal: from B to A, at: its distance from the origin} between two bodies: of the directions of their features the
+// one with the largest gap. A view needs no more, for it only tells which body hides the other.
+function planeBetween(a, b) {
+  const d = add(a.centre, b.centre, -1), flat = [a, b].find(body => body.shape.shape === 'plane');
+  const directions = flat ? [flat.outward[0]] : [d, ...a.axes, ...b.axes, ...[a, b].map(body => add(d, body.axes[2], -dot(d, body.axes[2]))),
+      ...a.axes.flatMap(e => b.axes.map(f => cross(e, f)))];
+  let best = {gap: -Infinity};
+  for (const direction of directions) {
+    const size = length(direction);
+    if (!(size > 1e-9)) continue;
+    const n = times(direction, (dot(direction, d) < 0 ? -1 : 1) / size);
+    const lowA = dot(a.centre, n) - extentAlong(a, n), highB = dot(b.centre, n) + extentAlong(b, n);
+    if (lowA - highB > best.gap) best = {gap: lowA - highB, normal: n, at: (lowA + highB) / 2};
+  }
+  return best;
 }

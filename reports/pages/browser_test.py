@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Opens a report in Chromium as a reader does: browser_test.py PROGRAM.
+"""Opens the pages in Chromium as a reader does: browser_test.py PROGRAM.
 
 Exit code 77, which CTest counts as skipped, when there is no browser to drive."""
 import json
@@ -27,7 +27,9 @@ if missing:
     sys.exit(skipped)
 
 program = sys.argv.pop(1)
-most_bytes = 5_000_000
+max_bytes = 5_000_000
+min_contrast = 4.5  # of small text (WCAG 2.2, 1.4.3)
+scene = Path(__file__).parents[2] / "simulation/scenes/wheel-on-road.json"
 
 
 def browser(width, height):
@@ -41,16 +43,32 @@ def browser(width, height):
     return driver
 
 
-class Report(unittest.TestCase):
+# Contrast of elements' text with what is behind it, as WCAG defines it. A canvas tells what a colour is.
+contrasts_of = """
+const pen = document.createElement('canvas').getContext('2d', {willReadFrequently: true});
+const paint = (colour, opacity = 1) => {
+  pen.globalAlpha = opacity;
+  pen.fillStyle = colour;
+  pen.fillRect(0, 0, 1, 1);
+  const [r, g, b] = [...pen.getImageData(0, 0, 1, 1).data].map(c => c / 255)
+      .map(c => c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4);
+  return 0.2126 * r + 0.7152 * g + 0.0722 * b;
+};
+return [...document.querySelectorAll(arguments[0])].map(e => {
+  paint(getComputedStyle(document.documentElement).backgroundColor);
+  const behind = paint(getComputedStyle(e.closest('td')).backgroundColor);
+  const text = paint(getComputedStyle(e).color, Number(getComputedStyle(e).opacity));
+  return (Math.max(text, behind) + 0.05) / (Math.min(text, behind) + 0.05);
+});
+"""
+
+
+class PageTest(unittest.TestCase):
+    """A browser and a folder for pages."""
     @classmethod
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
-        # Every candidate and class, so that the page is as large as it gets.
-        subprocess.run([program, "report", "--count", "1", "--out", cls.folder.name], check=True,
-                       capture_output=True)
-        cls.page = Path(cls.folder.name) / "report.html"
         cls.driver = browser(1280, 900)
-        cls.requested = cls.load()
 
     @classmethod
     def tearDownClass(cls):
@@ -58,15 +76,19 @@ class Report(unittest.TestCase):
         cls.folder.cleanup()
 
     @classmethod
-    def load(cls):
+    def run_program(cls, *arguments):
+        subprocess.run([program, *arguments], check=True, capture_output=True)
+
+    @classmethod
+    def load(cls, page):
         """The addresses that loading the page asks for, itself excepted."""
         cls.driver.get_log("performance")  # of pages before
-        cls.driver.get(cls.page.as_uri())
+        cls.driver.get(page.as_uri())
         time.sleep(0.5)
         events = [json.loads(e["message"])["message"] for e in cls.driver.get_log("performance")]
         urls = [e["params"]["request"]["url"] for e in events
                 if e["method"] == "Network.requestWillBeSent"]
-        return [url for url in urls if url != cls.page.as_uri()]
+        return [url for url in urls if url != page.as_uri()]
 
     def find(self, selector):
         return self.driver.find_element(By.CSS_SELECTOR, selector)
@@ -85,17 +107,51 @@ class Report(unittest.TestCase):
     def console(self):
         return [e for e in self.driver.get_log("browser") if e["level"] in ("SEVERE", "WARNING")]
 
+    def assert_no_sideways_scrolling_on_a_phone(self, page):
+        self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {
+            "width": 390, "height": 844, "deviceScaleFactor": 2, "mobile": True})
+        self.assertEqual(self.load(page), [])
+        width = "return Math.max(document.documentElement.scrollWidth, innerWidth)"
+        self.assertEqual(self.driver.execute_script(width), 390)
+
+
+class Report(PageTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        # Every candidate and class, so that the page is as large as it gets.
+        cls.run_program("report", "--count", "1", "--out", cls.folder.name)
+        cls.page = Path(cls.folder.name) / "report.html"
+        cls.requested = cls.load(cls.page)
+
     def test_1_loads_without_error_or_request(self):
         self.assertEqual(self.console(), [])
         self.assertEqual(self.requested, [])
 
     def test_2_is_small(self):
-        self.assertLess(self.page.stat().st_size, most_bytes)
+        self.assertLess(self.page.stat().st_size, max_bytes)
 
     def test_charts_are_drawn(self):
         self.assertEqual(len(self.all("#chart-panels svg")), 6)
         for chart in ("#distribution-cumulative", "#distribution-histogram", "#trend-chart"):
             self.assertGreater(len(self.all(f"{chart} svg path")), 3, chart)
+
+    def test_charts_have_names_and_fill_their_places(self):
+        charts = self.all(".chart")
+        self.assertGreater(len(charts), 8)
+        for chart in charts:
+            self.assertEqual(chart.get_attribute("role"), "figure")
+            self.assertGreater(len(chart.get_attribute("aria-label")), 10)
+            drawn = chart.find_element(By.CSS_SELECTOR, "svg").size["width"]
+            self.assertAlmostEqual(drawn, chart.size["width"], delta=2)
+
+    def test_numbers_in_coloured_cells_can_be_read_in_both_themes(self):
+        for theme in ("light", "dark"):
+            self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {
+                "features": [{"name": "prefers-color-scheme", "value": theme}]})
+            contrasts = self.driver.execute_script(contrasts_of, "td.heat, td.heat small")
+            self.assertGreater(len(contrasts), 100)
+            self.assertGreaterEqual(min(contrasts), min_contrast, theme)
 
     def test_a_mark_tells_its_numbers_and_leads_to_its_worst_cases(self):
         mark = next(m for m in self.all("#chart-panels figure:last-child .mark-symbol path")
@@ -163,6 +219,13 @@ class Report(unittest.TestCase):
         ActionChains(self.driver).drag_and_drop_by_offset(canvas, 40, 10).perform()
         self.assertNotEqual(self.driver.execute_script(picture, canvas), before)
 
+    def test_a_pixel_of_a_map_tells_its_command(self):
+        picture = self.find("canvas.map")
+        self.assertIn("agree", picture.get_attribute("aria-label"))
+        self.driver.execute_script("arguments[0].scrollIntoView({block: 'center'})", picture)
+        picture.click()
+        self.assertIn("./touchstone replay map/lying/", self.find("#stability .command").text)
+
     def test_drakes_own_numbers_stand_beside_ours(self):
         rows = [row.text for row in self.all("#drake-table tbody tr")]
         self.assertIn("Drake, point pair 4.0e-12 5.0e-12 4.0e-2 2.0 1.0", rows[0])
@@ -172,24 +235,86 @@ class Report(unittest.TestCase):
 
     def test_y_a_page_without_contacts_or_times_loads_too(self):
         small = Path(self.folder.name) / "small"
-        subprocess.run([program, "report", "--count", "1", "--pair", "cylinder-plane", "--class",
-                        "standing", "--candidates", "fcl-distance", "--out", small], check=True,
-                       capture_output=True)
+        self.run_program("report", "--count", "1", "--pair", "cylinder-plane", "--class", "standing",
+                         "--candidates", "fcl-distance", "--out", small)
         self.driver.get((small / "report.html").as_uri())
         self.assertEqual(self.console(), [])
         self.assertIn("no candidate has a routine", self.find("#finding-accuracy").text)
 
     def test_z_a_phone_needs_no_sideways_scrolling(self):
-        self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {
-            "width": 390, "height": 844, "deviceScaleFactor": 2, "mobile": True})
-        self.assertEqual(self.load(), [])
-        width = "return Math.max(document.documentElement.scrollWidth, innerWidth)"
-        self.assertEqual(self.driver.execute_script(width), 390)
+        self.assert_no_sideways_scrolling_on_a_phone(self.page)
         for table in ("#worst-error-table", "#drake-table", "#summary-table", "#manifold-table"):
             hidden = self.driver.execute_script(
                 "return arguments[0].scrollWidth - arguments[0].clientWidth", self.find(table))
             self.assertEqual(hidden, 0, table)
         self.assertEqual(self.console(), [])
+
+
+class OtherPages(PageTest):
+    def setUp(self):
+        self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {
+            "width": 1280, "height": 900, "deviceScaleFactor": 1, "mobile": False})
+
+    def open(self, page):
+        self.assertEqual(self.load(page), [])
+        self.assertEqual(self.console(), [])
+
+    def picture(self, selector):
+        return self.driver.execute_script("return arguments[0].toDataURL()", self.find(selector))
+
+    def test_replay(self):
+        page = Path(self.folder.name) / "replay.html"
+        self.run_program("replay", "cylinder-box/rim-face/1/0", "--html", page)
+        self.open(page)
+        self.assertEqual(self.find("#replay code").text, "./touchstone replay cylinder-box/rim-face/1/0")
+        before = self.picture("#view")
+        self.find("#view-contact").click()
+        self.assertNotEqual(self.picture("#view"), before)
+        self.assert_no_sideways_scrolling_on_a_phone(page)
+
+    def test_comparison(self):
+        reports = [Path(self.folder.name) / name for name in ("before", "after")]
+        for report, seed in zip(reports, ("1", "2")):
+            self.run_program("report", "--count", "2", "--pair", "cylinder-plane", "--candidates",
+                             "reference,bullet,ode", "--seed", seed, "--out", report)
+        page = Path(self.folder.name) / "compare.html"
+        subprocess.run([program, "compare", *(r / "report.json" for r in reports), "--html", page],
+                       capture_output=True)  # exit code 1 on a regression
+        self.open(page)
+        marks = [m.get_attribute("aria-label") for m in self.all(".chart .mark-symbol path")]
+        for name in ("reference", "bullet", "ode"):
+            self.assertTrue(any(m.startswith(name + ",") for m in marks), name)
+        self.assert_no_sideways_scrolling_on_a_phone(page)
+
+    def test_stability(self):
+        folder = Path(self.folder.name) / "stability"
+        self.run_program("stability", "--count", "1", "--candidates", "reference,bullet",
+                         "--part", "amplification,sequences", "--out", folder)  # maps take longer
+        self.open(folder / "stability.html")
+        lines = len(self.all(".chart .mark-line path"))
+        self.assertEqual(lines, 2 * 5)
+        self.find(".toggle").click()
+        self.assertEqual(len(self.all(".chart .mark-line path")), lines // 2)
+        self.assertEqual(len(self.all("#stability tbody tr th[scope=row]")), 3)
+        self.assert_no_sideways_scrolling_on_a_phone(folder / "stability.html")
+
+    def test_choice(self):
+        folder = Path(self.folder.name) / "choose"
+        self.run_program("choose", scene, "--candidates", "reference,ode,capsule", "--out", folder)
+        self.open(folder / "choose.html")
+        self.assertIn("error / limit", self.find("#front").text)
+        self.assertGreater(len(self.all("#front .mark-symbol path")), 2)
+        start = self.picture("#left")
+        self.driver.execute_script("""const scrub = document.getElementById('scrub'); scrub.value = 1;
+                                      scrub.dispatchEvent(new Event('input'))""")
+        later = self.picture("#left")
+        self.assertNotEqual(later, start)
+        self.assertNotEqual(self.picture("#right"), later)
+        ActionChains(self.driver).drag_and_drop_by_offset(self.find("#right"), 40, 10).perform()
+        self.assertNotEqual(self.picture("#left"), later)
+        self.find("#play").click()
+        self.assertEqual(self.find("#play").text, "Pause")
+        self.assert_no_sideways_scrolling_on_a_phone(folder / "choose.html")
 
 
 if __name__ == "__main__":

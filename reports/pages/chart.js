@@ -1,36 +1,30 @@
-// Charts by Vega, in the page's colours and as wide as their place, and the one tooltip.
+// Charts by Vega, in the page's colours and as wide as their place.
 byId('credits').textContent = 'Charts by Vega (© 2015–2022 University of Washington Interactive Data Lab, BSD-3-Clause) ' +
     'with parts of D3 (© 2010–2022 Mike Bostock, ISC).';
-
 const chartConfig = {
   axis: {domainColor: 'var(--line)', gridColor: 'var(--line)', tickColor: 'var(--line)', labelColor: 'var(--quiet)',
          titleColor: 'var(--quiet)', titleFontWeight: 'normal', labelFontSize: 11, titleFontSize: 11, grid: true},
   text: {fill: 'var(--ink)', fontSize: 11},
 };
-// Signals for labels of logarithmic axes.
-const powerLabel = "datum.value < 1.1e-18 ? '0' : '1e' + round(log(datum.value) / LN10)";
-const timeLabel = "datum.value < 1e3 ? datum.value + ' ns' : datum.value < 1e6 ? datum.value / 1e3 + ' µs' : datum.value / 1e6 + ' ms'";
-const decadesOf = (values, step = 1) => {
-  const lo = Math.floor(Math.log10(Math.min(...values))), hi = Math.max(lo + 1, Math.ceil(Math.log10(Math.max(...values))));
-  const ticks = [];
-  for (let d = lo; d <= hi; d += step) ticks.push(10 ** d);
-  return {domain: [10 ** lo, 10 ** hi], ticks, count: hi - lo};
-};
-const powerTicks = values => decadesOf(values, Math.max(1, Math.ceil(decadesOf(values).count / 8)));
 
-// A mark with a datum may have `tip` (shown on hover and focus) and be clicked.
-function drawChart(host, spec, onClick = () => {}) {
+// `label` names the chart to those who cannot see it. A mark whose datum has a `tip` shows it on hover and focus and
+// may be clicked.
+function drawChart(host, label, spec, onClick = () => {}) {
   if (host.chart) host.chart.finalize();
   host.replaceChildren();
-  const full = {$schema: '', autosize: {type: 'fit', contains: 'padding'}, padding: 4, config: chartConfig, ...spec,
-                width: Math.max(240, host.clientWidth)};
+  host.classList.add('chart');
+  const full = {$schema: '', description: label, autosize: {type: 'fit', contains: 'padding'}, padding: 4,
+                config: chartConfig, ...spec, width: Math.max(240, host.clientWidth)};
   const chart = new vega.View(vega.parse(full, chartConfig, {ast: true}), {expr: vega.expressionInterpreter});
   host.chart = chart;
   const datumOf = item => item && item.datum && item.datum.datum ? item.datum.datum : item && item.datum;
   chart.tooltip((handler, event, item, text) => text ? showTip(text, event.clientX, event.clientY) : hideTip());
   chart.addEventListener('click', (event, item) => { if (datumOf(item) && datumOf(item).tip) onClick(datumOf(item)); });
-  chart.initialize(host).renderer('svg').hover().runAsync().then(() => reachByKeys(host, onClick));
-  return chart;
+  chart.initialize(host).renderer('svg').hover().runAsync().then(() => {
+    host.setAttribute('role', 'figure');
+    host.setAttribute('aria-label', label);
+    reachByKeys(host, onClick);
+  });
 }
 // The symbols of a chart can be reached with the keyboard too.
 function reachByKeys(host, onClick) {
@@ -38,13 +32,13 @@ function reachByKeys(host, onClick) {
     const datum = path.__data__ && path.__data__.datum;
     if (!datum || !datum.tip) continue;
     path.setAttribute('tabindex', 0);
+    path.setAttribute('role', 'img');
     path.setAttribute('aria-label', datum.tip);
     path.addEventListener('focus', () => { const box = path.getBoundingClientRect(); showTip(datum.tip, box.right, box.bottom); });
     path.addEventListener('blur', hideTip);
     path.addEventListener('keydown', e => { if (e.key === 'Enter') onClick(datum); });
   }
 }
-
 // Charts are drawn again when their width or the choice of candidates changes.
 const redrawn = [];
 function keepDrawn(draw) {
@@ -58,27 +52,84 @@ addEventListener('resize', () => {
   redrawTimer = setTimeout(() => { drawnWidth = innerWidth; for (const draw of redrawn) draw(); }, 200);
 });
 
-function showTip(text, x, y) {
-  const tip = byId('tooltip');
-  tip.textContent = text;
-  tip.hidden = false;
-  tip.style.left = `${Math.max(8, Math.min(x + 12, innerWidth - tip.offsetWidth - 8))}px`;
-  tip.style.top = `${Math.max(8, Math.min(y + 12, innerHeight - tip.offsetHeight - 8))}px`;
+// An axis: {title, domain, ticks, label: an expression of a tick's text, type: 'log' unless told} and what else Vega knows.
+function axis(name, {title, domain, ticks, label, type = 'log', nice = false, ...rest}) {
+  const across = name === 'x';
+  return {scale: {name, type, domain, range: across ? 'width' : 'height', ...(type === 'point' ? {padding: 0.5} : {nice})},
+          axis: {orient: across ? 'bottom' : 'left', scale: name, title, ...(ticks && {values: ticks}),
+                 ...(label && {encode: {labels: {update: {text: {signal: label}}}}}), ...rest}};
 }
-function hideTip() { byId('tooltip').hidden = true; }
-// Of an element of the page.
-function explain(target, text) {
-  const show = () => { const box = target.getBoundingClientRect(); showTip(text, box.right - 4, box.bottom - 4); };
-  for (const start of ['mouseenter', 'focus']) target.addEventListener(start, show);
-  for (const end of ['mouseleave', 'blur']) target.addEventListener(end, hideTip);
+function axes(x, y) {
+  const both = [axis('x', x), axis('y', y)];
+  return {scales: both.map(a => a.scale), axes: both.map(a => a.axis)};
+}
+// Decades around values, every `step`-th of them a tick.
+function decadesOf(values, step = 1) {
+  const lo = Math.floor(Math.log10(Math.min(...values))), hi = Math.max(lo + 1, Math.ceil(Math.log10(Math.max(...values))));
+  const ticks = [];
+  for (let d = lo; d <= hi; d += step) ticks.push(10 ** d);
+  return {domain: [10 ** lo, 10 ** hi], ticks};
+}
+// An error of zero is drawn below all others.
+const zeroAt = 1e-18;
+const powerLabel = "datum.value < 1.1e-18 ? '0' : '1e' + round(log(datum.value) / LN10)";
+function powerAxis(title, values) {
+  const count = decadesOf(values).ticks.length - 1;
+  return {title, ...decadesOf(values, Math.max(1, Math.ceil(count / 8))), label: powerLabel};
+}
+const shareAxis = title => ({title, type: 'linear', domain: [0, 1], format: '%', tickCount: 5});
+
+// Marks. All data has x and y.
+const place = {x: {scale: 'x', field: 'x'}, y: {scale: 'y', field: 'y'}};
+// A line through the rows of `data`, or one for each value of `by`, as `look` says.
+function lineMarks(data, by, look) {
+  const line = from => ({type: 'line', from: {data: from}, interactive: false, encode: {update: {...place, ...look}}});
+  const part = `${data}-part`;
+  return by ? {type: 'group', from: {facet: {name: part, data, groupby: by}}, marks: [line(part)]} : line(data);
+}
+// A horizontal line.
+const limitMark = y => ({type: 'rule', interactive: false, encode: {update: {x: {value: 0}, x2: {signal: 'width'},
+    y: {scale: 'y', value: y}, stroke: {value: 'var(--quiet)'}, strokeDash: {value: [5, 4]}}}});
+const symbolMarks = (data, size, hovered, name) => ({type: 'symbol', name, from: {data}, encode: {
+  enter: {tooltip: {field: 'tip'}, shape: {field: 'symbol'}, fill: {field: 'fill'}, stroke: {field: 'stroke'}},
+  update: {...place, size: {signal: `datum.size || ${size}`}}, hover: {size: {signal: `datum.size || ${hovered}`}}}});
+const markData = name => ({candidate: name, fill: colour(name), stroke: null, line: colour(name),
+                           width: name === 'reference' ? 2.5 : 1.5, symbol: symbolPath(markOf(name).symbol, 0, 0, 1)});
+
+// A line with a symbol at each point for each candidate of `points`: markData with x, y, tip.
+function drawLines(host, label, {height = 280, x, y, points, limit}, onClick) {
+  drawChart(host, label, {height, data: [{name: 'points', values: points}], ...axes(x, y), marks: [
+    ...(limit ? [limitMark(limit)] : []),
+    lineMarks('points', 'candidate', {stroke: {field: 'line'}, strokeWidth: {field: 'width'}}),
+    symbolMarks('points', 22, 90)]}, onClick);
 }
 
-// Which candidates the charts with a line for each show: the legend's buttons.
+// Points: {x, y, symbol, fill, stroke, size, tip, label, weight, order}. Lines: {rows, by, dash, colour}. Only labels that
+// find room are shown; those of a lower order choose first.
+function drawScatter(host, label, {height = 300, x, y, points, lines, limit}, onClick) {
+  drawChart(host, label, {height, data: [{name: 'points', values: points}, ...lines.map(({rows}, i) => ({name: `line-${i}`, values: rows}))],
+    ...axes(x, y), marks: [
+      ...(limit ? [limitMark(limit)] : []),
+      ...lines.map(({by, dash, colour = 'var(--quiet)', width = 1}, i) => lineMarks(`line-${i}`, by,
+          {stroke: {value: colour}, strokeWidth: {value: width}, ...(dash && {strokeDash: {value: dash}})})),
+      symbolMarks('points', 30, 110, 'marks'),
+      // The style sheet makes labels smaller than what room is sought for.
+      {type: 'text', from: {data: 'marks'}, interactive: false, encode: {enter: {text: {field: 'datum.label'}, fontWeight: {field: 'datum.weight'},
+                                                    fontSize: {value: 13}, fill: {value: 'var(--ink)'}}},
+       transform: [{type: 'label', size: {signal: '[width, height]'}, offset: [7], padding: 0, avoidMarks: ['marks'],
+                    anchor: ['right', 'left', 'top-right', 'bottom-right', 'top-left', 'bottom-left', 'top', 'bottom'],
+                    sort: {field: 'datum.datum.order'}}]},
+    ]}, onClick);
+}
+
+// Which candidates the charts with a line for each show: the buttons of all legends.
 const usual = ['reference', 'bullet', 'bullet-margin-0', 'ode', 'fcl', 'fcl-distance', 'libccd-mpr', 'mujoco', 'prism:16', 'capsule'];
-const shown = new Set(candidates.length <= 10 ? candidates : [...new Set([...usual, candidates[0]])].filter(c => candidates.includes(c)));
-const toggles = [];
-function shownLegend(host) {
-  for (const name of candidates) {
+const shown = new Set(), toggles = [];
+function showUsual(names) {
+  for (const name of names) if (names.length <= 10 || name === names[0] || usual.includes(name)) shown.add(name);
+}
+function shownLegend(host, names) {
+  for (const name of names) {
     const button = element('button', {type: 'button', class: 'toggle', 'aria-pressed': shown.has(name)}, sign(name), name);
     button.addEventListener('click', () => {
       shown.has(name) ? shown.delete(name) : shown.add(name);
@@ -89,13 +140,3 @@ function shownLegend(host) {
     host.append(button);
   }
 }
-const markData = name => ({candidate: name, colour: colour(name), symbol: symbolPath(markOf(name).symbol, 0, 0, 1)});
-// A line with a mark at each point for each candidate of `points` ({candidate, x, y, colour, symbol, tip}).
-const candidateLines = [
-  {type: 'group', from: {facet: {name: 'one', data: 'points', groupby: 'candidate'}}, marks: [
-    {type: 'line', from: {data: 'one'}, encode: {
-      update: {x: {scale: 'x', field: 'x'}, y: {scale: 'y', field: 'y'}, stroke: {field: 'colour'}, strokeWidth: {value: 1.5}}}}]},
-  {type: 'symbol', from: {data: 'points'}, encode: {
-    enter: {tooltip: {field: 'tip'}, shape: {field: 'symbol'}, fill: {field: 'colour'}},
-    update: {x: {scale: 'x', field: 'x'}, y: {scale: 'y', field: 'y'}, size: {value: 22}}, hover: {size: {value: 90}}}},
-];

@@ -12,16 +12,15 @@ extern const std::string_view page_html, pages_css, page_js;
 extern const std::string_view report_html, compare_html, replay_html, choose_html;
 extern const std::string_view report_js, report_tables_js, report_charts_js, report_cases_js;
 extern const std::string_view compare_js, replay_js, stability_js, choose_js;
-extern const std::string_view bodies_js, view_js, chart_js;
-extern const std::string_view vega_js, three_js;
+extern const std::string_view bodies_js, view_js, chart_js, vega_js;
 
 namespace {
 
-/// What a page adds to the shell. Scripts of a page with charts need Vega as their library.
+/// What a page adds to the shell.
 struct PageParts {
   std::string_view title, heading, main;
+  bool charts;  ///< needs Vega
   std::vector<std::string_view> scripts;
-  std::string_view library;
 };
 
 PageParts parts_of(Page page) {
@@ -30,21 +29,21 @@ PageParts parts_of(Page page) {
       return {"cylinder contacts",
               "How right, and how fast, are cylinder contacts?",
               report_html,
-              {bodies_js, view_js, stability_js, report_js, chart_js, report_tables_js,
-               report_charts_js, report_cases_js},
-              vega_js};
+              true,
+              {bodies_js, view_js, stability_js, report_js, report_tables_js, report_charts_js,
+               report_cases_js}};
     case Page::comparison:
-      return {"two reports compared", "What has changed?", compare_html, {compare_js}, {}};
+      return {"two reports compared", "What has changed?", compare_html, true, {compare_js}};
     case Page::replay:
-      return {"one configuration", "", replay_html, {bodies_js, view_js, replay_js}, {}};
+      return {"one configuration", "", replay_html, false, {bodies_js, view_js, replay_js}};
     case Page::stability:
       return {"stability of cylinder contacts",
               "How steady are cylinder contacts near degenerate poses?",
               "<section id=\"stability\"></section>",
-              {stability_js, "drawStabilityPage();\n"},
-              {}};
+              true,
+              {stability_js, "drawStabilityPage();\n"}};
     case Page::choice:
-      return {"what a scene needs", "", choose_html, {choose_js}, three_js};
+      return {"what a scene needs", "", choose_html, true, {bodies_js, view_js, choose_js}};
   }
   return {};
 }
@@ -73,13 +72,14 @@ std::string script_safe(const nlohmann::json& json) {
 std::string render_page(Page page, const nlohmann::json& data) {
   const PageParts parts = parts_of(page);
   std::string scripts(page_js);
+  if (parts.charts) scripts += chart_js;
   for (const std::string_view script : parts.scripts) scripts += script;
   std::string text(page_html);
   fill(text, "/* title */", parts.title);
   fill(text, "/* pages.css */", pages_css);
   fill(text, "/* heading */", parts.heading);
   fill(text, "/* main */", parts.main);
-  fill(text, "/* library */", parts.library);
+  fill(text, "/* vega.js */", parts.charts ? vega_js : std::string_view());
   fill(text, "/* scripts */", scripts);
   // Last, so that nothing in it is taken for a placeholder.
   fill(text, "/* data */", script_safe(data));

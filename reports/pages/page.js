@@ -1,35 +1,34 @@
 'use strict';
-// What the pages have in common.
+// What all pages share: builders of elements, marks of candidates, numbers, tables, the tooltip.
 const byId = id => document.getElementById(id);
 const data = JSON.parse(byId('data').textContent), {marks} = data;
 
-// Small builders; text always goes in as text.
-function element(name, attributes = {}, ...children) {
-  const e = document.createElement(name);
+// Text always goes in as text.
+function fillElement(e, attributes, children) {
   for (const [key, value] of Object.entries(attributes)) e.setAttribute(key, value);
   e.append(...children.filter(c => c !== null && c !== undefined));
   return e;
 }
-function shape(name, attributes = {}, text) {
-  const e = document.createElementNS('http://www.w3.org/2000/svg', name);
-  for (const [key, value] of Object.entries(attributes)) e.setAttribute(key, value);
-  if (text !== undefined) e.textContent = text;
-  return e;
-}
+const element = (name, attributes = {}, ...children) => fillElement(document.createElement(name), attributes, children);
+const shape = (name, attributes = {}, ...children) =>
+    fillElement(document.createElementNS('http://www.w3.org/2000/svg', name), attributes, children);
 function definitions(id, entries) {
   byId(id).append(...entries.flatMap(([term, text]) => [element('dt', {}, term), element('dd', {}, text)]));
 }
-
+// A select box of [value, text] or plain values.
+const selectBox = (values, attributes = {}) => element('select', attributes,
+    ...values.map(v => Array.isArray(v) ? element('option', {value: v[0]}, v[1]) : element('option', {value: v}, v)));
 // Links to the sections that are shown, in the header.
 function listSections() {
   byId('contents').append(...[...document.querySelectorAll('main > section')].filter(s => !s.hidden)
       .map(s => element('a', {href: `#${s.id}`}, s.querySelector('h2').textContent)));
 }
 
-// Marks of candidates, the same on every page: what marks.cpp says of each name, as the page's `marks`.
+// Marks of candidates: the colour and symbol that mark_of in C++ gives each name.
 const symbols = ['circle', 'square', 'triangle', 'diamond', 'cross', 'wedge'];
 const truthMark = {colour: '--ink', symbol: 'diamond'};
 const markOf = name => ({colour: `--c${marks[name][0]}`, symbol: symbols[marks[name][1]]});
+const colour = name => `var(${markOf(name).colour})`;
 function symbolPath(kind, x, y, s) {
   switch (kind) {
     case 'square': return `M${x - s},${y - s}h${2 * s}v${2 * s}h${-2 * s}z`;
@@ -40,6 +39,18 @@ function symbolPath(kind, x, y, s) {
     default: return `M${x - s},${y}a${s},${s} 0 1,0 ${2 * s},0a${s},${s} 0 1,0 ${-2 * s},0`;
   }
 }
+const symbolSign = ({colour, symbol}) => shape('svg', {class: 'sign', viewBox: '-8 -8 16 16', 'aria-hidden': 'true'},
+    shape('path', {fill: `var(${colour})`, d: symbolPath(symbol, 0, 0, 5.5)}));
+const sign = name => symbolSign(markOf(name));
+const named = (name, ...rest) => element('span', {class: 'named'}, sign(name), name, ...rest);
+
+// The colour of an outcome, as a variable of the style sheet.
+const outcomeColours = {agree: '--agree', 'few-points': '--few-points', missed: '--c1', phantom: '--c3', shallow: '--c4',
+  overdeep: '--c6', 'wrong-normal': '--c0', 'shallow-points': '--c8', 'overdeep-points': '--c9', 'phantom-points': '--c10',
+  'not-finite': '--ink', failed: '--c7', crashed: '--bad', 'timed-out': '--timed-out', unsupported: '--line'};
+const isFailure = outcome => outcome !== 'agree' && outcome !== 'unsupported';
+const outcomeLegend = outcomes => element('div', {class: 'legend'}, ...outcomes.map(o => element('span', {},
+    element('span', {class: 'swatch', style: `background:var(${outcomeColours[o]})`, 'aria-hidden': 'true'}), o)));
 
 // Numbers as a person reads them. null: not measured.
 function exponent(x) {
@@ -47,5 +58,53 @@ function exponent(x) {
   if (x === 0) return '0';
   return Math.abs(x) >= 0.1 && Math.abs(x) < 1000 ? x.toPrecision(2) : x.toExponential(1).replace('+', '');
 }
-// Cut downwards: only what covers the whole patch shows 1.00.
+const whole = x => x === null ? '–' : Math.round(x).toLocaleString('en');
+// Both are rounded down: only what covers the whole patch shows 1.00, only a candidate without a failure 100%.
 const cutShare = share => share === null ? '–' : (Math.floor(share * 100 + 1e-6) / 100).toFixed(2);
+const percent = share => share === 1 ? '100%' : (Math.floor(share * 1000 + 1e-6) / 10).toFixed(1) + '%';
+const dashed = pair => pair.replace('-', '–');
+
+// Tables. A head is a string or a cell; a row is a list of texts or cells, or an element. Texts are
+// aligned as the head of their column.
+const column = (text, attributes = {}) => element('th', {scope: 'col', ...attributes}, text);
+const textColumn = text => column(text, {class: 'text'});
+const rowHead = (...children) => element('th', {scope: 'row'}, ...children);
+function table(heads, rows, caption) {
+  const columns = heads.map(h => h instanceof Element ? h : column(h));
+  const cell = (c, i) => c instanceof HTMLTableCellElement ? c : element('td', {class: columns[i].className}, c);
+  return element('table', {}, caption && element('caption', {}, caption),
+      element('thead', {}, element('tr', {}, ...columns)),
+      element('tbody', {}, ...rows.map(r => r instanceof Element ? r : element('tr', {}, ...r.map(cell)))));
+}
+const outcomeCell = outcome => element('td', {class: isFailure(outcome) ? 'text bad' : 'text'}, outcome);
+// The background of a cell: pale at 0, full at 1.
+const heated = level => `background: color-mix(in srgb, var(--heat) ${Math.round(70 * Math.min(1, Math.max(0, level)))}%, transparent)`;
+
+// A command with a button that copies it.
+function command(text) {
+  const copy = element('button', {type: 'button'}, 'Copy');
+  copy.addEventListener('click', () => navigator.clipboard.writeText(text).then(
+      () => { copy.textContent = 'Copied'; }, () => { copy.textContent = 'Select and copy'; }));
+  return element('div', {class: 'command'}, element('code', {}, text), copy);
+}
+// By pointer or keyboard.
+function whenPressed(target, act) {
+  target.addEventListener('click', act);
+  target.addEventListener('keydown', e => { if (e.key === 'Enter') act(); });
+}
+const onThemeChange = act => matchMedia('(prefers-color-scheme: dark)').addEventListener('change', act);
+
+// The one tooltip.
+function showTip(text, x, y) {
+  const tip = byId('tooltip');
+  tip.textContent = text;
+  tip.hidden = false;
+  tip.style.left = `${Math.max(8, Math.min(x + 12, innerWidth - tip.offsetWidth - 8))}px`;
+  tip.style.top = `${Math.max(8, Math.min(y + 12, innerHeight - tip.offsetHeight - 8))}px`;
+}
+function hideTip() { byId('tooltip').hidden = true; }
+function explain(target, text) {
+  const show = () => { const box = target.getBoundingClientRect(); showTip(text, box.right - 4, box.bottom - 4); };
+  for (const start of ['mouseenter', 'focus']) target.addEventListener(start, show);
+  for (const end of ['mouseleave', 'blur']) target.addEventListener(end, hideTip);
+}

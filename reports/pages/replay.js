@@ -1,3 +1,5 @@
+// The page of `touchstone replay`: a slice through the contact, the legend, tables, and what the two views show.
+
 // The section of both bodies with the plane of the true normal (upwards) and a direction across it.
 const slice = {svg: byId('slice'), across: [1, 0, 0], metres: 1, pan: [0, 0, 0], stretch: false};
 
@@ -73,21 +75,11 @@ function drawSlice(scene) {
   }
   slice.svg.replaceChildren(...parts);
 }
-// The page: its legend, its tables, and what the two views show.
+
 const view = makeView(byId('view'));
 const truth = data.truth, given = data.configuration, answers = Object.entries(data.answers);
-const whole = v => v === null ? '–' : v !== 0 && Math.abs(v) < 1e-3 ? v.toExponential() : String(v);
+const shortest = v => v === null ? '–' : v !== 0 && Math.abs(v) < 1e-3 ? v.toExponential() : String(v);
 const vector = v => v === null ? '–' : `(${v.map(c => c === null ? 'nan' : String(c)).join(', ')})`;
-const table = (heads, rows, text = []) => element('table', {}, element('thead', {}, element('tr', {},
-    ...heads.map((h, i) => element('th', {scope: 'col', class: text.includes(i) ? 'text' : ''}, h)))),
-    element('tbody', {}, ...rows.map(r => element('tr', {}, ...r.map((c, i) =>
-        c instanceof HTMLTableCellElement ? c : element('td', {class: text.includes(i) ? 'text' : ''}, c))))));
-function sign(name, size = 14) {
-  const mark = name === null ? truthMark : markOf(name);
-  const svg = shape('svg', {viewBox: '-8 -8 16 16', width: size, height: size, style: 'display:inline-block;width:14px;margin-right:.4em', 'aria-hidden': 'true'});
-  svg.append(shape('path', {fill: `var(${mark.colour})`, d: symbolPath(mark.symbol, 0, 0, 5.5)}));
-  return svg;
-}
 
 // What is shown: of the candidates at first those that fail, and our own.
 const shown = new Set(answers.filter(([name, a]) => a.status === 'contact' && (name === 'reference' || a.score.outcome !== 'agree'))
@@ -111,12 +103,12 @@ function turnSlice() {
 }
 function redraw() {
   scene.marks = marksOf(scene, truth, answers.filter(([name]) => shown.has(name)));
-  drawView(view, scene);
+  drawContact(view, scene);
   drawSlice(scene);
 }
 
 function legend() {
-  byId('legend').replaceChildren(element('span', {}, sign(null), 'truth'), ...answers.map(([name, a]) => {
+  byId('legend').replaceChildren(element('span', {}, symbolSign(truthMark), 'truth'), ...answers.map(([name, a]) => {
     const box = element('input', {type: 'checkbox'});
     box.checked = shown.has(name);
     box.disabled = a.status !== 'contact';
@@ -141,17 +133,15 @@ function truthValues() {
   ]);
 }
 function answerTables() {
-  const outcome = a => element('td', {class: a.score.outcome === 'agree' ? 'text' : 'text bad'}, a.score.outcome);
-  const name = n => element('td', {class: 'text'}, sign(n), n);
-  byId('answer-table').append(table(
-      ['candidate', 'outcome', 'signed distance', 'depth error', 'normal regret', 'angle, °', 'coverage', 'points', 'normal'],
-      answers.map(([n, a]) => [name(n), outcome(a), a.status === 'contact' ? whole(a.signed_distance) : a.status,
+    byId('answer-table').append(table([textColumn('candidate'), textColumn('outcome'), 'signed distance', 'depth error',
+      'normal regret', 'angle, °', 'coverage', 'points', textColumn('normal')],
+      answers.map(([n, a]) => [named(n), outcomeCell(a.score.outcome), a.status === 'contact' ? shortest(a.signed_distance) : a.status,
           exponent(a.score.depth_error), exponent(a.score.normal_regret), exponent(a.score.normal_angle),
-          cutShare(a.score.coverage), String(a.points.length), vector(a.normal)]), [0, 1, 8]));
+          cutShare(a.score.coverage), String(a.points.length), vector(a.normal)])));
   byId('reasons').append(...answers.filter(([, a]) => a.reason)
       .map(([n, a]) => element('p', {class: 'quiet'}, `${n}: ${a.reason}`)));
-  byId('point-table').append(table(['candidate', 'position', 'depth', 'normal'],
-      answers.flatMap(([n, a]) => a.points.map(p => [name(n), vector(p.position), whole(p.depth), vector(p.normal)])), [0, 1, 3]));
+  byId('point-table').append(table([textColumn('candidate'), textColumn('position'), 'depth', textColumn('normal')],
+      answers.flatMap(([n, a]) => a.points.map(p => [named(n), vector(p.position), shortest(p.depth), vector(p.normal)]))));
 }
 
 // Every number of the configuration by its path, as in "pose_a.position[2]".
@@ -164,15 +154,11 @@ function leaves(value, path = '') {
 }
 function configuration() {
   const hex = new Map(leaves(data.hexadecimal)), exact = new Map(leaves(data.exact));
-  byId('number-table').append(table(['field', 'decimal', 'hexadecimal', 'exact'], leaves(given).map(([path, value]) =>
+  byId('number-table').append(table(['field', 'decimal', 'hexadecimal', 'exact'].map(textColumn), leaves(given).map(([path, value]) =>
       path.endsWith('.shape') ? [path, element('td', {class: 'text', colspan: 3}, value)]
-          : [path, value, hex.get(path), element('td', {class: 'exact text'}, exact.get(path))]), [0, 1, 2, 3]));
-  byId('line').textContent = JSON.stringify({id: data.id, ...given});
-  byId('replay').textContent = data.replay;
-  for (const button of document.querySelectorAll('[data-copies]')) {
-    button.addEventListener('click', () => navigator.clipboard.writeText(byId(button.dataset.copies).textContent).then(
-        () => { button.textContent = 'Copied'; }, () => { button.textContent = 'Select and copy'; }));
-  }
+          : [path, value, hex.get(path), element('td', {class: 'exact text'}, exact.get(path))])));
+  byId('line').append(command(JSON.stringify({id: data.id, ...given})));
+  byId('replay').append(command(data.replay));
 }
 
 function controls() {
@@ -196,13 +182,13 @@ function controls() {
   byId('show-none').addEventListener('click', () => showAll(false));
   steerView(view, redraw);
   addEventListener('resize', redraw);
-  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', redraw);
+  onThemeChange(redraw);
 }
 
 byId('title').textContent = data.id;
 byId('description').textContent = data.description;
 byId('name-b').textContent = `${given.b.shape} B`;
-const distance = Number(truth.signed_distance[0]), failing = answers.filter(([, a]) => !['agree', 'unsupported'].includes(a.score.outcome));
+const distance = Number(truth.signed_distance[0]), failing = answers.filter(([, a]) => isFailure(a.score.outcome));
 byId('headline').textContent = `${distance < 0 ? `${exponent(-distance)} m deep` : `${exponent(distance)} m apart`}; ` +
     (failing.length ? `${failing.length} of ${answers.length} candidates disagree.` : 'all candidates agree.');
 legend();
@@ -211,3 +197,4 @@ answerTables();
 configuration();
 controls();
 aim(0);
+listSections();

@@ -13,58 +13,31 @@ function unpackReport(packed) {
 }
 
 const candidates = report.candidates.map(c => c.name);
+showUsual(candidates);
 const pairs = [...new Set(report.results.map(r => r.pair))];
-const colour = name => `var(${markOf(name).colour})`;
 const summaryOf = (pair, candidate) => report.summary.find(r => r.pair === pair && r.candidate === candidate);
 // "cylinder-box" among its like.
 const otherShape = pair => pair.replace('cylinder-', '');
-const dashed = pair => pair.replace('-', '–');
 
 // null: not measured.
-const whole = x => x === null ? '–' : Math.round(x).toLocaleString('en');
 const quantile = (q, which) => q === null ? null : q[which];
 const time = r => r.nanoseconds === null ? null : r.nanoseconds.median;
-// Of what a candidate has a routine for.
+// The configurations that a candidate has a routine for.
 const supported = r => r.count - (r.outcomes.unsupported || 0);
 const agreeing = r => (r.outcomes.agree || 0) / supported(r);
 const lost = r => ['not-finite', 'failed', 'crashed', 'timed-out'].reduce((sum, o) => sum + (r.outcomes[o] || 0), 0);
-// Cut downwards: only a candidate without a failure shows 100%.
-const percent = share => share === 1 ? '100%' : (Math.floor(share * 1000 + 1e-6) / 10).toFixed(1) + '%';
 const vector = v => v === null ? '–' : `(${v.map(c => c === null ? 'nan' : c.toPrecision(6)).join(', ')})`;
 const outcomesText = r => Object.entries(r.outcomes).map(([name, n]) => `${name} ${n}`).join(', ');
 
-// A candidate's mark and name.
-function sign(name) {
-  const mark = markOf(name), svg = shape('svg', {class: 'sign', viewBox: '-8 -8 16 16', 'aria-hidden': 'true'});
-  svg.append(shape('path', {fill: `var(${mark.colour})`, d: symbolPath(mark.symbol, 0, 0, 5.5)}));
-  return svg;
-}
-const named = (name, ...rest) => element('span', {class: 'named'}, sign(name), name, ...rest);
-
-// Tables, select boxes, cells to press and commands to copy.
-const column = (text, attributes = {}) => element('th', {scope: 'col', ...attributes}, text);
-const table = (caption, heads, rows) => element('table', {}, element('caption', {}, caption),
-    element('thead', {}, element('tr', {}, ...heads)), element('tbody', {}, ...rows));
+// Fills a select box of the page.
 function choices(id, values, change, selected) {
   byId(id).append(...values.map(v => element('option', {value: v}, v)));
   if (selected !== undefined) byId(id).value = selected;
   byId(id).addEventListener('change', change);
 }
-// By pointer or keyboard.
-function whenPressed(target, act) {
-  target.addEventListener('click', act);
-  target.addEventListener('keydown', e => { if (e.key === 'Enter') act(); });
-}
-function command(text) {
-  const copy = element('button', {type: 'button'}, 'Copy');
-  copy.addEventListener('click', () => navigator.clipboard.writeText(text).then(
-      () => { copy.textContent = 'Copied'; }, () => { copy.textContent = 'Select and copy'; }));
-  return element('div', {class: 'command'}, element('code', {}, text), copy);
-}
-
 // 1e-10 and less is pale, 1 and more is full.
-const decade = v => v <= 0 ? 0 : Math.min(1, Math.max(0, (Math.log10(v) + 10) / 10));
-const heated = level => `background: color-mix(in srgb, var(--bad) ${Math.round(70 * level)}%, transparent)`;
+const decade = v => v <= 0 ? 0 : (Math.log10(v) + 10) / 10;
+
 // What most readers ask first, answered from the data.
 function findings() {
   if (report.partial) {
@@ -90,11 +63,11 @@ function ranked(pair) {
       .sort((a, b) => agreeing(b) - agreeing(a) || worst(a) - worst(b));
 }
 const brief = r => `agrees on ${percent(agreeing(r))}, worst error ${exponent(quantile(r.severity, 'max'))}`;
-const link = (text, act) => {
+function link(text, act) {
   const button = element('button', {type: 'button', class: 'link'}, text);
   button.addEventListener('click', act);
   return button;
-};
+}
 
 function accuracyOf(pair) {
   const [first, second] = ranked(pair);

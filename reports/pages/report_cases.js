@@ -1,4 +1,4 @@
-// The gallery of worst cases: each with both bodies in 3-D, drawn when it comes into sight.
+// The gallery of worst cases, each with both bodies in 3-D; and how everything was measured.
 const atOnce = 6;
 let galleryCount = atOnce;
 function gallery() {
@@ -13,13 +13,12 @@ function gallery() {
 }
 const metres = d => Math.abs(d) < 1e-3 && d !== 0 ? d.toExponential(6) : d.toPrecision(7);
 function worstCase(w) {
-  const rows = Object.entries(w.answers).map(([name, a]) => element('tr', {}, element('th', {scope: 'row'}, named(name)),
-      element('td', {class: a.score.outcome === 'agree' ? 'text' : 'text bad'}, a.score.outcome),
-      element('td', {}, a.signed_distance === null ? a.status : metres(a.signed_distance)),
-      element('td', {}, exponent(a.score.depth_error)), element('td', {class: 'wide'}, exponent(a.score.normal_regret)),
-      element('td', {class: 'wide'}, exponent(a.score.normal_angle)), element('td', {}, String(a.points.length)),
-      element('td', {class: 'wide'}, cutShare(a.score.coverage))));
-  const heads = [['candidate', 'text'], ['outcome', 'text'], ['signed distance'], ['error'], ['regret', 'wide'], ['angle, °', 'wide'], ['points'], ['coverage', 'wide']];
+  const rows = Object.entries(w.answers).map(([name, a]) => [rowHead(named(name)),
+      outcomeCell(a.score.outcome),
+      a.signed_distance === null ? a.status : metres(a.signed_distance), exponent(a.score.depth_error),
+      exponent(a.score.normal_regret), exponent(a.score.normal_angle), String(a.points.length), cutShare(a.score.coverage)]);
+  const wide = text => column(text, {class: 'wide'});
+  const heads = [textColumn('candidate'), textColumn('outcome'), 'signed distance', 'error', wide('regret'), wide('angle, °'), 'points', wide('coverage')];
   const reasons = Object.entries(w.answers).filter(([, a]) => a.reason);
   return element('article', {},
       element('h3', {}, named(w.candidate), `: ${w.outcome}`, element('span', {class: 'quiet'}, ` ${dashed(w.pair)}, ${w.class}`)),
@@ -28,8 +27,7 @@ function worstCase(w) {
               (w.truth.ties === 'unique' ? 'one optimal normal: ' : `optimal normals (${w.truth.ties}): `) +
               w.truth.normals.slice(0, 2).map((n, i) => `${vector(n)}, contact patch a ${w.truth.patch[i].kind}`).join('; ') +
               (w.truth.normals.length > 2 ? '; …' : '.')),
-          element('div', {class: 'scroll'}, element('table', {}, element('thead', {}, element('tr', {},
-              ...heads.map(([h, style = '']) => column(h, {class: style})))), element('tbody', {}, ...rows))),
+          element('div', {class: 'scroll'}, table(heads, rows)),
           ...reasons.map(([name, a]) => element('p', {class: 'quiet'}, `${name}: ${a.reason}`)),
           element('p', {class: 'quiet'}, 'See it again, in numbers; with --html page.html also enlarged and in section:'),
           command(w.replay),
@@ -48,9 +46,9 @@ function caseView(w) {
     scene.marks = marksOf(scene, w.truth, Object.entries(w.answers));
     aimView(view, scene.normal, scene.across);
     fitView(view, mainBodies(scene));
-    const redraw = () => drawView(view, scene);
+    const redraw = () => drawContact(view, scene);
     steerView(view, redraw);
-    matchMedia('(prefers-color-scheme: dark)').addEventListener('change', redraw);
+    onThemeChange(redraw);
     redraw();
     close.addEventListener('click', () => { fitView(view, close.wide ? mainBodies(scene) : [], scene.reaches.contact); close.wide = !close.wide; redraw();
         close.textContent = close.wide ? 'Whole bodies' : 'Contact'; });
@@ -72,8 +70,12 @@ function showWorst(pair, candidate) {
 choices('worst-pair', ['all', ...pairs], gallery);
 choices('worst-candidate', ['all', ...candidates], gallery);
 gallery();
-if (report.stability) drawStability(byId('stability'), report.stability);
-byId('stability').hidden = !report.stability;
+
+if (report.stability) {
+  byId('stability').hidden = false;
+  drawStability(byId('stability'), report.stability);
+}
+
 // How it was measured.
 function method() {
   byId('command').append(command(report.command));

@@ -1,9 +1,12 @@
-// The 3-D view: an orthographic camera about the contact, on a 2-D canvas. Of a convex body only the
-// faces towards the viewer are drawn, which never hide each other; the true normal says which of the
-// two bodies is behind. So nothing needs sorting. The one in front is translucent.
-const makeView = canvas => ({canvas, right: [1, 0, 0], up: [0, 1, 0], towards: [0, 0, 1], zoom: 1, pan: [0, 0, 0]});
+// 3-D views of convex bodies on a 2-D canvas, drawn from far to near. Of a convex body only the faces towards the viewer are
+// drawn, which never hide each other. All is in doubles, so that a contact may be enlarged until their rounding shows, and a
+// page may have as many views as it likes: browsers allow only a few WebGL contexts.
 
-// Looks along the slice plane's normal, a little from the side and from above.
+// The point `pan` is in the middle of the canvas; there, a metre is `zoom` times half of its smaller side. `lens` is the
+// tangent of half the angle of view; 0 is an orthographic view.
+const makeView = canvas => ({canvas, right: [1, 0, 0], up: [0, 1, 0], towards: [0, 0, 1], zoom: 1, pan: [0, 0, 0], lens: 0});
+
+// Looks at a contact across its normal n, which points upwards, a little from the side and from above.
 function aimView(view, n, t) {
   view.up = n; view.right = t; view.towards = cross(t, n);
   turnView(view, 0.5, 0.35);
@@ -34,131 +37,158 @@ function zoomView(view, factor) {
   view.pan = times(view.pan, 1 / factor);
 }
 
-// A convex polygon's (or a line's) part within a rectangle somewhat larger than the canvas: the
-// coordinates of an enlarged body are beyond what a canvas can take.
-function clipped(points, width, height) {
-  const margin = 20;
-  const inside = [p => p[0] + margin, p => width + margin - p[0], p => p[1] + margin, p => height + margin - p[1]];
-  for (const room of inside) {
-    const next = [];
-    points.forEach((q, i) => {
-      const p = points[(i + points.length - 1) % points.length], a = room(p), b = room(q);
-      if ((a < 0) !== (b < 0)) next.push([0, 1].map(k => p[k] + (q[k] - p[k]) * (a / (a - b))));
-      if (b >= 0) next.push(q);
-    });
-    points = next;
-  }
-  return points;
+// The part of a convex polygon (or of a line) where `room` is not negative.
+function cut(points, room) {
+  const kept = [];
+  points.forEach((q, i) => {
+    const p = points[(i + points.length - 1) % points.length], a = room(p), b = room(q);
+    if ((a < 0) !== (b < 0)) kept.push(p.map((x, k) => x + (q[k] - x) * (a / (a - b))));
+    if (b >= 0) kept.push(q);
+  });
+  return kept;
 }
 function tracePath(context, points) {
   context.beginPath();
   points.forEach((p, i) => i ? context.lineTo(...p) : context.moveTo(...p));
 }
 
-// `scene`: {bodies: [A, B], normal, marks: [{colour, symbol, position, normal, large}], outlines}.
-function drawView(view, scene) {
-  const {canvas} = view, ratio = devicePixelRatio || 1;
-  const width = canvas.clientWidth, height = canvas.clientHeight;
+// An empty canvas to draw on: {view, context, width, height, ratio, scale: pixels a metre, project: to pixels, polygon: on the
+// canvas, sees: whether the viewer is on the outer side of the plane n·x = at}; null where the canvas is not shown.
+function startFrame(view) {
+  const {canvas, right, up, towards, pan, zoom, lens} = view, ratio = devicePixelRatio || 1;
+  const width = canvas.clientWidth, height = canvas.clientHeight, scale = zoom * Math.min(width, height) / 2;
+  if (!(width > 0 && height > 0)) return null;
   canvas.width = Math.round(width * ratio);
   canvas.height = Math.round(height * ratio);
   const context = canvas.getContext('2d');
   context.scale(ratio, ratio);
-  const scale = view.zoom * Math.min(width, height) / 2;
-  const across = dot(view.pan, view.right), up = dot(view.pan, view.up);
-  const project = p => [width / 2 + scale * (dot(p, view.right) - across), height / 2 - scale * (dot(p, view.up) - up)];
-  const style = getComputedStyle(document.documentElement);
-  const names = ['--body-a', '--body-b'];
-  const order = dot(scene.normal, view.towards) > 0 ? [1, 0] : [0, 1];
-  order.forEach((which, rank) => {
-    const tint = style.getPropertyValue(names[which]).trim().split(/\s+/).map(Number);
-    context.globalAlpha = rank === 0 ? 0.92 : 0.6;
-    context.drawImage(paintBody(view, scene.bodies[which], tint, project, width, height, ratio), 0, 0, width, height);
-  });
-  context.globalAlpha = 1;
-  for (const outline of scene.outlines) {
-    tracePath(context, clipped(outline.map(project), width, height));
-    context.closePath();
-    context.lineWidth = 2;
-    context.strokeStyle = style.getPropertyValue('--ink');
-    context.stroke();
-  }
-  for (const mark of scene.marks) drawMark(view, context, mark, project, style, width, height);
-  drawScale(context, scale, height, style);
+  const [panRight, panUp, panTowards] = [right, up, towards].map(e => dot(pan, e));
+  const nearness = p => lens * zoom * (dot(p, towards) - panTowards);  // 1 at the viewer
+  const project = p => {
+    const s = scale / (1 - nearness(p));
+    return [width / 2 + s * (dot(p, right) - panRight), height / 2 - s * (dot(p, up) - panUp)];
+  };
+  // Coordinates of an enlarged body are beyond what a canvas can take.
+  const margin = 20;
+  const sides = [p => p[0] + margin, p => width + margin - p[0], p => p[1] + margin, p => height + margin - p[1]];
+  const within = (points, room) => points.every(p => room(p) >= 0) ? points : cut(points, room);
+  const polygon = points => sides.reduce(within, (lens ? within(points, p => 0.98 - nearness(p)) : points).map(project));
+  const sees = lens ? (n, at) => dot(n, add(pan, towards, 1 / (lens * zoom))) > at : n => dot(n, towards) > 0;
+  return {view, context, width, height, ratio, scale, project, polygon, sees};
 }
 
-// On a canvas of its own, so that it is translucent as a whole.
-function paintBody(view, body, tint, project, width, height, ratio) {
-  const layer = document.createElement('canvas');
-  layer.width = Math.round(width * ratio);
-  layer.height = Math.round(height * ratio);
+// A body as `look` says: {tint: [r, g, b], pale: of its stripes, light: where from, opacity, shadows: bodies that cast them
+// on it}.
+function paintBody(frame, body, look) {
+  if (!(look.opacity < 1)) return paintFaces(frame, frame.context, body, look);
+  // On a canvas of its own, so that it is translucent as a whole.
+  const layer = frame.view.layer = frame.view.layer || document.createElement('canvas');
+  layer.width = frame.context.canvas.width;
+  layer.height = frame.context.canvas.height;
   const context = layer.getContext('2d');
-  context.scale(ratio, ratio);
-  const light = unit(add(add(view.towards, view.up, 0.6), view.right, -0.4));
+  context.scale(frame.ratio, frame.ratio);
+  paintFaces(frame, context, body, look);
+  frame.context.globalAlpha = look.opacity;
+  frame.context.drawImage(layer, 0, 0, frame.width, frame.height);
+  frame.context.globalAlpha = 1;
+}
+function paintFaces(frame, context, body, {tint, pale = tint, light, shadows = []}) {
   body.faces.forEach((face, i) => {
     const n = body.outward[i];
-    if (dot(n, view.towards) <= 0) return;
-    const points = clipped(face.map(project), width, height);
+    if (!frame.sees(n, dot(n, face[0]))) return;
+    const points = frame.polygon(face);
     if (points.length < 3) return;
     const shade = 0.62 + 0.42 * Math.max(0, dot(n, light));
-    context.fillStyle = context.strokeStyle = `rgb(${tint.map(c => Math.min(255, Math.round(c * shade))).join(' ')})`;
+    const colour = (body.stripe[i] ? pale : tint).map(c => Math.min(255, Math.round(c * shade)));
+    context.fillStyle = context.strokeStyle = `rgb(${colour.join(' ')})`;
     tracePath(context, points);
     context.closePath();
     context.fill();
     context.stroke();  // closes the seams between faces
+    if (shadows.length) paintShadows(frame, context, points, face[0], n, light, shadows);
   });
   context.strokeStyle = `rgb(${tint.map(c => Math.round(c * 0.5)).join(' ')} / .55)`;
   for (const edge of body.edges) {
     for (let i = 1; i < edge.length; ++i) {
-      const line = clipped([project(edge[i - 1]), project(edge[i])], width, height);
+      const line = frame.polygon([edge[i - 1], edge[i]]);
       if (line.length < 2) continue;
       tracePath(context, line);
       context.stroke();
     }
   }
-  return layer;
 }
-
-// A point, and an arrow along its normal of a fixed length on the screen.
-function drawMark(view, context, mark, project, style, width, height) {
-  const [x, y] = project(mark.position);
-  if (!(x > -50 && x < width + 50 && y > -50 && y < height + 50)) return;
-  const size = mark.large ? 72 : 54;
-  const dx = size * dot(mark.normal, view.right), dy = -size * dot(mark.normal, view.up);
-  context.strokeStyle = context.fillStyle = style.getPropertyValue(mark.colour);
-  context.lineWidth = mark.large ? 3 : 2;
-  tracePath(context, [[x, y], [x + dx, y + dy]]);
-  context.stroke();
-  const reach = Math.hypot(dx, dy);
-  if (reach > 8) {
-    const [ex, ey] = [dx / reach * 8, dy / reach * 8];
-    tracePath(context, [[x + dx + ex, y + dy + ey], [x + dx - ey / 2, y + dy + ex / 2], [x + dx + ey / 2, y + dy - ex / 2]]);
-    context.fill();
+// All corners of a body: of each face two that lie across from each other.
+const cornersOf = ({faces}) => faces.flatMap(f => [f[0], f[2]]);
+// Shadows of bodies on a face with the normal n through `at`, drawn on its `points` of the canvas.
+function paintShadows(frame, context, points, at, n, light, bodies) {
+  const fall = dot(n, light);
+  if (fall < 0.05) return;
+  const path = new Path2D();
+  for (const body of bodies) {
+    const shadow = [];
+    for (const p of cornersOf(body)) {
+      const height = dot(n, p) - dot(n, at);
+      if (height >= 0) shadow.push(add(p, light, -height / fall));
+    }
+    const outline = frame.polygon(shadow.length < 3 ? [] : hull(shadow, n));
+    outline.forEach((p, i) => i ? path.lineTo(...p) : path.moveTo(...p));
+    if (outline.length) path.closePath();
   }
-  const path = new Path2D(symbolPath(mark.symbol, x, y, mark.large ? 5 : 4));
-  context.fill(path);
-  context.strokeStyle = style.getPropertyValue('--panel');
-  context.lineWidth = 1;
-  context.stroke(path);
+  context.save();
+  tracePath(context, points);
+  context.clip();
+  context.fillStyle = 'rgb(0 0 0 / .25)';
+  context.fill(path);  // all turn the same way: together, and not darker where they overlap
+  context.restore();
+}
+// The convex hull of points of a plane with the normal n (A. M. Andrew, Information Processing Letters 9, 1979).
+function hull(points, n) {
+  const right = across(n), up = cross(n, right);
+  const flat = points.map(p => [dot(p, right), dot(p, up), p]).sort((a, b) => a[0] - b[0] || a[1] - b[1]);
+  const half = list => {
+    const chain = [];
+    for (const c of list) {
+      while (chain.length > 1) {
+        const [a, b] = chain.slice(-2);
+        if ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) > 0) break;
+        chain.pop();
+      }
+      chain.push(c);
+    }
+    return chain.slice(0, -1);
+  };
+  return [...half(flat), ...half(flat.reverse())].map(c => c[2]);
 }
 
-// The largest of 1, 2, 5, 10, … metres that is at most 100 pixels.
-function scaleBar(pixelsPerMetre) {
-  const decade = 10 ** Math.floor(Math.log10(100 / pixelsPerMetre));
-  const metres = decade * [5, 2, 1].find(f => f * decade * pixelsPerMetre <= 100.001);
-  return {pixels: metres * pixelsPerMetre, text: `${metres >= 0.01 && metres < 1e4 ? +metres.toPrecision(1) : metres.toExponential(0).replace('+', '')} m`};
-}
-function drawScale(context, scale, height, style) {
-  const {pixels, text} = scaleBar(scale);
-  context.strokeStyle = context.fillStyle = style.getPropertyValue('--ink');
-  context.lineWidth = 1.5;
-  tracePath(context, [[10, height - 16], [10, height - 10], [10 + pixels, height - 10], [10 + pixels, height - 16]]);
-  context.stroke();
-  context.font = '12px system-ui, "DejaVu Sans", sans-serif';
-  context.fillText(text, 10, height - 20);
+// Bodies from far to near: of two that overlap on the canvas, the one on the viewer's side of a plane between them is nearer.
+function farToNear(frame, bodies) {
+  const boxes = bodies.map(body => {
+    const points = cornersOf(body).map(frame.project);
+    return [0, 1].map(k => points.map(p => p[k])).map(v => [Math.min(...v), Math.max(...v)]);
+  });
+  const overlap = (a, b) => [0, 1].every(k => a[k][0] <= b[k][1] && b[k][0] <= a[k][1]);
+  const behind = bodies.map(() => []);
+  bodies.forEach((a, i) => {
+    for (let k = 0; k < i; ++k) {
+      if (!overlap(boxes[i], boxes[k])) continue;
+      const {normal, at} = planeBetween(a, bodies[k]);
+      if (frame.sees(normal, at)) behind[i].push(k); else behind[k].push(i);
+    }
+  });
+  const {towards} = frame.view, left = new Set(bodies.keys());
+  const byDepth = [...left].sort((i, k) => dot(bodies[i].centre, towards) - dot(bodies[k].centre, towards));
+  const result = [];
+  while (left.size) {
+    const free = byDepth.filter(i => left.has(i));
+    const next = free.find(i => behind[i].every(k => !left.has(k)));
+    left.delete(next === undefined ? free[0] : next);  // a circle of bodies is opened at the farthest
+    result.push(bodies[next === undefined ? free[0] : next]);
+  }
+  return result;
 }
 
 // Drag, wheel, pinch and keys; `redraw` after each.
-function steerView(view, redraw) {
+function steerView(view, redraw, turn = turnView, zoom = zoomView) {
   const {canvas} = view, held = new Map();
   const spread = () => { const [a, b] = [...held.values()]; return Math.hypot(a[0] - b[0], a[1] - b[1]); };
   canvas.addEventListener('pointerdown', e => { held.set(e.pointerId, [e.clientX, e.clientY]); canvas.setPointerCapture(e.pointerId); });
@@ -166,20 +196,22 @@ function steerView(view, redraw) {
     if (!held.has(e.pointerId)) return;
     const [x, y] = held.get(e.pointerId), before = held.size === 2 ? spread() : 0;
     held.set(e.pointerId, [e.clientX, e.clientY]);
-    if (held.size === 2) zoomView(view, spread() / Math.max(1, before));
-    else turnView(view, (x - e.clientX) * 0.01, (e.clientY - y) * 0.01);
+    if (held.size === 2) zoom(view, spread() / Math.max(1, before));
+    else turn(view, (x - e.clientX) * 0.01, (e.clientY - y) * 0.01);
     redraw();
   });
   for (const end of ['pointerup', 'pointercancel']) canvas.addEventListener(end, e => held.delete(e.pointerId));
-  canvas.addEventListener('wheel', e => { e.preventDefault(); zoomView(view, Math.exp(-0.0015 * e.deltaY)); redraw(); }, {passive: false});
+  canvas.addEventListener('wheel', e => { e.preventDefault(); zoom(view, Math.exp(-0.0015 * e.deltaY)); redraw(); }, {passive: false});
   const keys = {ArrowLeft: [0.1, 0], ArrowRight: [-0.1, 0], ArrowUp: [0, -0.1], ArrowDown: [0, 0.1]};
   canvas.addEventListener('keydown', e => {
     if (!keys[e.key]) return;
     e.preventDefault();
-    turnView(view, ...keys[e.key]);
+    turn(view, ...keys[e.key]);
     redraw();
   });
 }
+// A view of a contact.
+
 // What the views show of one configuration with its truth, about the contact along one true normal:
 // {bodies, normal, contact, outlines, across, signedDistance, radii, reaches: {depth, contact}}.
 function makeScene(given, truth, index) {
@@ -218,4 +250,63 @@ function marksOf(scene, truth, answers) {
   truth.normals.forEach((normal, i) => result.push({...truthMark, normal, large: true,
       position: add(truth.patch[i].centroid, scene.contact, -1)}));
   return result;
+}
+
+// `scene` with its marks: [{colour, symbol, position, normal, large}]. The true normal says which of the two bodies is
+// behind; the one in front is translucent.
+function drawContact(view, scene) {
+  const frame = startFrame(view);
+  if (frame === null) return;
+  const {context} = frame, style = getComputedStyle(document.documentElement);
+  const light = unit(add(add(view.towards, view.up, 0.6), view.right, -0.4));
+  const tints = ['--body-a', '--body-b'].map(name => style.getPropertyValue(name).trim().split(/\s+/).map(Number));
+  const order = dot(scene.normal, view.towards) > 0 ? [1, 0] : [0, 1];
+  order.forEach((which, rank) => paintBody(frame, scene.bodies[which], {tint: tints[which], light, opacity: rank === 0 ? 0.92 : 0.6}));
+  for (const outline of scene.outlines) {
+    tracePath(context, frame.polygon(outline));
+    context.closePath();
+    context.lineWidth = 2;
+    context.strokeStyle = style.getPropertyValue('--ink');
+    context.stroke();
+  }
+  for (const mark of scene.marks) drawMark(frame, mark, style);
+  drawScale(frame, style);
+}
+// A point, and an arrow along its normal of a fixed length on the screen.
+function drawMark({view, context, project, width, height}, mark, style) {
+  const [x, y] = project(mark.position);
+  if (!(x > -50 && x < width + 50 && y > -50 && y < height + 50)) return;
+  const size = mark.large ? 72 : 54;
+  const dx = size * dot(mark.normal, view.right), dy = -size * dot(mark.normal, view.up);
+  context.strokeStyle = context.fillStyle = style.getPropertyValue(mark.colour);
+  context.lineWidth = mark.large ? 3 : 2;
+  tracePath(context, [[x, y], [x + dx, y + dy]]);
+  context.stroke();
+  const reach = Math.hypot(dx, dy);
+  if (reach > 8) {
+    const [ex, ey] = [dx / reach * 8, dy / reach * 8];
+    tracePath(context, [[x + dx + ex, y + dy + ey], [x + dx - ey / 2, y + dy + ex / 2], [x + dx + ey / 2, y + dy - ex / 2]]);
+    context.fill();
+  }
+  const path = new Path2D(symbolPath(mark.symbol, x, y, mark.large ? 5 : 4));
+  context.fill(path);
+  context.strokeStyle = style.getPropertyValue('--panel');
+  context.lineWidth = 1;
+  context.stroke(path);
+}
+
+// The largest of 1, 2, 5, 10, … metres that is at most 100 pixels.
+function scaleBar(pixelsPerMetre) {
+  const decade = 10 ** Math.floor(Math.log10(100 / pixelsPerMetre));
+  const metres = decade * [5, 2, 1].find(f => f * decade * pixelsPerMetre <= 100.001);
+  return {pixels: metres * pixelsPerMetre, text: `${metres >= 0.01 && metres < 1e4 ? +metres.toPrecision(1) : metres.toExponential(0).replace('+', '')} m`};
+}
+function drawScale({context, scale, height}, style) {
+  const {pixels, text} = scaleBar(scale);
+  context.strokeStyle = context.fillStyle = style.getPropertyValue('--ink');
+  context.lineWidth = 1.5;
+  tracePath(context, [[10, height - 16], [10, height - 10], [10 + pixels, height - 10], [10 + pixels, height - 16]]);
+  context.stroke();
+  context.font = '12px system-ui, "DejaVu Sans", sans-serif';
+  context.fillText(text, 10, height - 20);
 }

@@ -65,7 +65,7 @@ TEST(ReplayPage, LoadsNothingFromElsewhere) {
 
 TEST(ReplayPage, HasNoPlaceholderLeft) {
   const std::string page = page_of({Pair::box, "rim-face", 1, 2});
-  for (const char* name : {"title", "pages", "heading", "main", "library", "scripts", "data"}) {
+  for (const char* name : {"title", "pages", "heading", "main", "vega", "scripts", "data"}) {
     EXPECT_THAT(page, Not(HasSubstr("/* " + std::string(name))));
   }
 }
