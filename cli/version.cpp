@@ -5,7 +5,7 @@
 #include <set>
 
 #include "candidates/candidates.hpp"
-#include "oracle/libraries.hpp"
+#include "oracle/truth.hpp"
 
 namespace touchstone {
 namespace {
