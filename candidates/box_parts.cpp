@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "candidates/candidate.h"
-#include "candidates/rounded_polytope.hpp"
+#include "candidates/model.hpp"
 #include "reference/cylinder_capsule.hpp"
 #include "reference/cylinder_sphere.hpp"
 
@@ -26,11 +26,11 @@ using touchstone::Vec3;
 
 namespace {
 
-/// Where the parts are in the box's frame, and the axis along which a capsule lies.
+/// The parts in the box's frame, and the rotation of a capsule.
 struct Parts {
   std::vector<Vec3> centres;
   double radius, half_length;
-  Eigen::Quaterniond along;  ///< turns z to the longest axis
+  Eigen::Quaterniond along;  ///< rotates z to the longest axis
 };
 
 double place(double reach, int i, int count) {
@@ -38,7 +38,7 @@ double place(double reach, int i, int count) {
 }
 
 Parts parts_of(const ts_shape& box, int count, bool as_capsules) {
-  std::array<int, 3> axis = {0, 1, 2};  // of the smallest, middle and largest half extent
+  std::array<int, 3> axis = {0, 1, 2};  // axes of the smallest, middle and largest half extent
   std::sort(axis.begin(), axis.end(), [&](int i, int j) { return box.size[i] < box.size[j]; });
   const double radius = box.size[axis[0]];
   const double middle = box.size[axis[1]] - radius, longest = box.size[axis[2]] - radius;
@@ -78,7 +78,7 @@ struct ts_prepared {
   Parts parts;
   double threshold;
 
-  /// Of the cylinder with one part; points and distances up to `reach` apart.
+  /// Contact of the cylinder with one part, up to `reach` apart.
   Contact contact(const Pose& a, const Pose& b, const Vec3& centre, double reach) const {
     const Pose at(b.position() + b.orientation() * centre, b.orientation() * parts.along);
     if (parts.half_length > 0) {
@@ -127,12 +127,12 @@ void query(ts_prepared* p, const ts_pose* a, const ts_pose* b, const double*, ts
 
 double model_distance(ts_prepared* p, const ts_pose* a, const ts_pose* b) {
   const Pose pose_a = to_pose(*a), pose_b = to_pose(*b);
-  double least = std::numeric_limits<double>::infinity();
+  double min = std::numeric_limits<double>::infinity();
   for (const Vec3& centre : p->parts.centres) {
     const double anywhere = std::numeric_limits<double>::max();
-    least = std::min(least, p->contact(pose_a, pose_b, centre, anywhere).signed_distance);
+    min = std::min(min, p->contact(pose_a, pose_b, centre, anywhere).signed_distance);
   }
-  return least;
+  return min;
 }
 
 int supports(ts_shape_kind kind) { return kind == TS_BOX; }

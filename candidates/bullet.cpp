@@ -21,16 +21,176 @@
 //              manifold's points, up to four, are refreshed as Bullet does; its time is that of all
 //              five queries.
 // Precision    Single precision is given the poses rounded to float, as an engine would hold them.
+#include <BulletCollision/BroadphaseCollision/btCollisionAlgorithm.h>
+#include <BulletCollision/CollisionDispatch/btCollisionDispatcher.h>
+#include <BulletCollision/CollisionDispatch/btCollisionObject.h>
+#include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
+#include <BulletCollision/CollisionDispatch/btDefaultCollisionConfiguration.h>
+#include <BulletCollision/CollisionDispatch/btManifoldResult.h>
+#include <BulletCollision/CollisionShapes/btBoxShape.h>
+#include <BulletCollision/CollisionShapes/btCapsuleShape.h>
+#include <BulletCollision/CollisionShapes/btConvexHullShape.h>
+#include <BulletCollision/CollisionShapes/btCylinderShape.h>
+#include <BulletCollision/CollisionShapes/btSphereShape.h>
+#include <BulletCollision/CollisionShapes/btStaticPlaneShape.h>
+#include <algorithm>
 #include <memory>
 
-#include "candidates/bullet_pair.hpp"
 #include "candidates/candidate.h"
 #include "candidates/model.hpp"
 
-using touchstone::bullet::Setting;
+namespace {
+
+/// How one of this file's candidates calls Bullet.
+struct Setting {
+  bool sharp = false;   ///< margin 0
+  bool rocked = false;  ///< several steps into one manifold
+  int sides = 0;        ///< of the prism that stands for a cylinder; zero: a cylinder
+};
+
+btScalar to_scalar(double value) { return static_cast<btScalar>(value); }
+
+std::unique_ptr<btCollisionShape> make_prism(int sides, const double (&size)[4]) {
+  auto shape = std::make_unique<btConvexHullShape>();
+  const auto prism = touchstone::RoundedPolytope::prism(sides, size[0], size[1]);
+  for (const touchstone::Vec3& v : prism.vertices()) {
+    shape->addPoint(btVector3(to_scalar(v.x()), to_scalar(v.y()), to_scalar(v.z())), false);
+  }
+  shape->recalcLocalAabb();
+  shape->setMargin(0);
+  return shape;
+}
+
+std::unique_ptr<btCollisionShape> make_shape(const ts_shape& shape, const Setting& setting) {
+  btScalar s[4];
+  std::transform(shape.size, shape.size + 4, s, to_scalar);
+  const auto with_margin = [&](auto made) -> std::unique_ptr<btCollisionShape> {
+    if (setting.sharp) made->setMargin(0);
+    return made;
+  };
+  switch (shape.kind) {
+    case TS_CYLINDER:
+      if (setting.sides > 0) return make_prism(setting.sides, shape.size);
+      return with_margin(std::make_unique<btCylinderShapeZ>(btVector3(s[0], s[0], s[1])));
+    case TS_PLANE:
+      return std::make_unique<btStaticPlaneShape>(btVector3(s[0], s[1], s[2]), s[3]);
+    case TS_SPHERE:
+      return std::make_unique<btSphereShape>(s[0]);
+    case TS_CAPSULE:
+      return std::make_unique<btCapsuleShapeZ>(s[0], 2 * s[1]);
+    case TS_BOX:
+      return with_margin(std::make_unique<btBoxShape>(btVector3(s[0], s[1], s[2])));
+  }
+  return nullptr;
+}
+
+btTransform to_transform(const ts_pose& p) {
+  btScalar q[4], x[3];
+  std::transform(p.orientation, p.orientation + 4, q, to_scalar);
+  std::transform(p.position, p.position + 3, x, to_scalar);
+  return btTransform(btQuaternion(q[1], q[2], q[3], q[0]), btVector3(x[0], x[1], x[2]));
+}
+
+void copy(const btVector3& from, double (&to)[3]) {
+  for (int i = 0; i < 3; ++i) to[i] = from[i];
+}
+
+/// The default configuration keeps pools for thousands of pairs; ours has one.
+btDefaultCollisionConstructionInfo small_pools() {
+  btDefaultCollisionConstructionInfo info;
+  info.m_defaultMaxPersistentManifoldPoolSize = 1;
+  info.m_defaultMaxCollisionAlgorithmPoolSize = 1;
+  return info;
+}
+
+/// A dispatcher with the pair's own algorithm; released in reverse order.
+class Pair {
+ public:
+  Pair(const ts_shape& a, const ts_shape& b, double threshold, const Setting& setting)
+      : threshold_(threshold),
+        rocked_(setting.rocked),
+        configuration_(small_pools()),
+        dispatcher_(&configuration_),
+        shape_a_(make_shape(a, setting)),
+        shape_b_(make_shape(b, setting)) {
+    object_a_.setCollisionShape(shape_a_.get());
+    object_b_.setCollisionShape(shape_b_.get());
+    const btCollisionObjectWrapper wrap_a = wrap(object_a_), wrap_b = wrap(object_b_);
+    algorithm_ = dispatcher_.findAlgorithm(&wrap_a, &wrap_b, nullptr, BT_CONTACT_POINT_ALGORITHMS);
+  }
+  ~Pair() {
+    algorithm_->~btCollisionAlgorithm();
+    dispatcher_.freeCollisionAlgorithm(algorithm_);
+  }
+  Pair(const Pair&) = delete;
+  Pair& operator=(const Pair&) = delete;
+
+  void query(const ts_pose& a, const ts_pose& b, ts_answer& answer) {
+    for (int i = 0; i < dispatcher_.getNumManifolds(); ++i) {
+      dispatcher_.getManifoldByIndexInternal(i)->clearManifold();
+    }
+    const btTransform at_a = to_transform(a);
+    object_b_.setWorldTransform(to_transform(b));
+    if (rocked_) {
+      for (const btVector3& axis :
+           {btVector3(1, 0, 0), btVector3(-1, 0, 0), btVector3(0, 1, 0), btVector3(0, -1, 0)}) {
+        const btQuaternion rock(axis, to_scalar(1e-3));
+        process(btTransform(rock * at_a.getRotation(), at_a.getOrigin()));
+      }
+    }
+    process(at_a);
+    answer.status = TS_NONE;
+    answer.point_count = 0;
+    for (int i = 0; i < dispatcher_.getNumManifolds(); ++i) {
+      read(*dispatcher_.getManifoldByIndexInternal(i), answer);
+    }
+  }
+
+ private:
+  void process(const btTransform& a) {
+    object_a_.setWorldTransform(a);
+    const btCollisionObjectWrapper wrap_a = wrap(object_a_), wrap_b = wrap(object_b_);
+    btManifoldResult result(&wrap_a, &wrap_b);
+    algorithm_->processCollision(&wrap_a, &wrap_b, info_, &result);
+  }
+
+  static btCollisionObjectWrapper wrap(const btCollisionObject& object) {
+    return {nullptr, object.getCollisionShape(), &object, object.getWorldTransform(), -1, -1};
+  }
+
+  void read(const btPersistentManifold& manifold, ts_answer& answer) const {
+    const btScalar sign = manifold.getBody0() == &object_a_ ? 1 : -1;
+    for (int k = 0; k < manifold.getNumContacts(); ++k) {
+      const btManifoldPoint& point = manifold.getContactPoint(k);
+      // Written so that NaN is reported, not dropped.
+      if (point.getDistance() > threshold_) continue;
+      if (answer.point_count == TOUCHSTONE_MAX_POINTS) break;
+      ts_point& out = answer.points[answer.point_count++];
+      copy((point.getPositionWorldOnA() + point.getPositionWorldOnB()) / 2, out.position);
+      copy(sign * point.m_normalWorldOnB, out.normal);
+      out.depth = -point.getDistance();
+      if (answer.status == TS_NONE || point.getDistance() < answer.signed_distance) {
+        answer.status = TS_CONTACT;
+        answer.signed_distance = point.getDistance();
+        std::copy(out.normal, out.normal + 3, answer.normal);
+      }
+    }
+  }
+
+  double threshold_;
+  bool rocked_;
+  btDefaultCollisionConfiguration configuration_;
+  btCollisionDispatcher dispatcher_;
+  btDispatcherInfo info_;
+  std::unique_ptr<btCollisionShape> shape_a_, shape_b_;
+  btCollisionObject object_a_, object_b_;
+  btCollisionAlgorithm* algorithm_ = nullptr;
+};
+
+}  // namespace
 
 struct ts_prepared {
-  touchstone::bullet::Pair pair;
+  Pair pair;
   std::unique_ptr<touchstone::ModelPair> model;  ///< of bullet-hull
 };
 
@@ -91,7 +251,7 @@ const ts_candidate candidates[] = {
      "every cylinder as the regular prism with its corners on the rims", &sides, supports,
      prepare_hull, query, release, hull_distance}};
 
-// The last two tell nothing new in single precision.
+// In single precision the last two would show nothing new.
 const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, single_precision ? 2 : 4, candidates};
 
 }  // namespace

@@ -34,7 +34,7 @@ std::filesystem::path standard_folder() {
   return program;
 }
 
-/// The shortest text that reads back the same.
+/// The shortest text that reads back as the same double.
 std::string number(double value) {
   char text[32];
   return std::string(text, std::to_chars(text, text + sizeof text, value).ptr);
@@ -136,7 +136,7 @@ class Registry {
     return known_.emplace_back(c);
   }
 
-  std::deque<Candidate> known_;  // whose members stay where they are
+  std::deque<Candidate> known_;  // a deque, so that references stay valid
   std::vector<const Candidate*> listed_;
   std::vector<Skipped> skipped_;
 };
@@ -170,7 +170,7 @@ std::vector<double> sweep(const Candidate& family, std::string_view text) {
   const double factor = family.parameter && family.parameter->whole ? 2 : 10;
   std::vector<double> values;
   for (double power = 1; *first * power <= *last * (1 + 1e-12); power *= factor) {
-    // Of 15 digits, so that 1e-6 · 10 is 1e-5.
+    // Rounded to 15 digits, so that 1e-6 · 10 is 1e-5.
     char text_of_value[32];
     std::snprintf(text_of_value, sizeof text_of_value, "%.15g", *first * power);
     values.push_back(std::min(*to_number(text_of_value), *last));
@@ -191,7 +191,7 @@ std::vector<const Candidate*> find_candidates(const std::vector<std::string>& na
     if (std::find(result.begin(), result.end(), &c) == result.end()) result.push_back(&c);
   };
   for (const std::string& text : names) {
-    // A number alone is another member of the family before it.
+    // A number alone is a further member of the preceding family.
     const bool goes_on = !family.empty() && !text.empty() &&
                          (std::isdigit(static_cast<unsigned char>(text[0])) || text[0] == '.');
     const std::string name = goes_on ? family + ':' + text : text;

@@ -1,33 +1,59 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "candidates/candidate.hpp"
+#include "candidates/candidate.h"
 #include "reference/configuration.hpp"
 
 namespace touchstone {
 
-/// Every candidate there is, in the order in which reports list them: those of the standard
-/// plug-ins that are installed, of each family the usual member, then those of `add_plugin`.
+/// The description of one candidate of a plug-in. The routine itself is called in other processes
+/// only (candidate_process.hpp).
+struct Candidate {
+  struct Parameter {
+    std::string meaning;
+    double least, most, usual;
+    bool whole, bare;
+  };
+
+  std::string name;      ///< for a family's member with its parameter: "prism:16"
+  std::string family;    ///< the name without the parameter: "prism"
+  std::string version;   ///< the engine's
+  std::string settings;  ///< how it is called
+  std::string models;  ///< what represents the shapes in a simplified model; empty if they are used
+                       ///< as they are
+  std::optional<Parameter> parameter;
+  double value = 0;                   ///< of the parameter
+  std::array<bool, 5> supports{};     ///< by ts_shape_kind
+  std::filesystem::path plugin = {};  ///< absolute
+  int index = 0;                      ///< among the plug-in's candidates
+};
+
+/// All candidates in the order in which reports list them: those of the installed standard
+/// plug-ins, with the usual member of each family, then those of `add_plugin`.
 std::vector<const Candidate*> all_candidates();
 
-/// The candidate of that name, "bullet" or "prism:32". Valid as long as the program runs. Throws
-/// InvalidInput (field "--candidates") naming those there are, or what a parameter must be.
+/// The candidate of that name, "bullet" or "prism:32"; valid as long as the program runs. Throws
+/// InvalidInput (field "--candidates") that lists the existing names or the parameter's range.
 const Candidate& find_candidate(std::string_view name);
 
-/// Candidates by name, families by several numbers: {"bullet", "prism:8", "16", "spheres:1..64"}
-/// are bullet, prism:8, prism:16 and spheres of 1, 2, 4, … 64. A range doubles where the parameter
-/// is a whole number and goes by factors of ten otherwise. Throws like find_candidate.
+/// Candidates by name, and families by several numbers: {"bullet", "prism:8", "16",
+/// "spheres:1..64"} are bullet, prism:8, prism:16 and spheres of 1, 2, 4, … 64. A range doubles
+/// where the parameter is a whole number and goes by factors of ten otherwise. Throws like
+/// find_candidate.
 std::vector<const Candidate*> find_candidates(const std::vector<std::string>& names);
 
-/// Adds a plug-in's candidates. Throws InvalidInput (field "--candidate") when the file is no
-/// plug-in of this interface version, dies while it is loaded, or brings a name that is taken.
+/// Adds a plug-in's candidates. Throws InvalidInput (field "--candidate") if the file is not a
+/// plug-in of this interface version, dies while it is loaded, or has a candidate whose name is
+/// taken.
 void add_plugin(const std::filesystem::path& file);
 
-/// The files of add_plugin, absolute, in order.
+/// The absolute paths given to add_plugin, in order.
 const std::vector<std::filesystem::path>& added_plugins();
 
 /// A standard plug-in that could not be used.
@@ -37,8 +63,8 @@ struct Skipped {
 };
 const std::vector<Skipped>& skipped_plugins();
 
-/// A configuration's shapes and poses as the C interface passes them: quaternions and plane
-/// normals normalised in double.
+/// Convert a shape or a pose to the C interface; quaternions and plane normals are normalised in
+/// double.
 ts_shape to_ts_shape(const Shape& shape);
 ts_pose to_ts_pose(const Pose& pose);
 

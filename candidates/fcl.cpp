@@ -113,7 +113,7 @@ void distance(ts_prepared* prepared, const ts_pose* a, const ts_pose* b, const d
   const double d = fcl::distance(prepared->a.get(), to_transform(*a), prepared->b.get(),
                                  to_transform(*b), request, result);
   answer->point_count = 0;
-  // Written so that a distance that is not a number is reported, not dropped.
+  // Written so that NaN is reported, not dropped.
   answer->status = d > prepared->threshold ? TS_NONE : TS_CONTACT;
   const Vector& on_a = result.nearest_points[0];
   const Vector& on_b = result.nearest_points[1];

@@ -38,7 +38,7 @@ struct Body {
 
 double side(double direction, double extent) { return direction < 0 ? -extent : extent; }
 
-/// The shape's point that is furthest along d, both in its own frame.
+/// The shape's point furthest along d, in its own frame.
 void support_locally(const ts_shape& shape, const ccd_vec3_t& d, ccd_vec3_t& p) {
   const double *s = shape.size, *v = d.v;
   switch (shape.kind) {

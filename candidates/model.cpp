@@ -2,9 +2,273 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace touchstone {
+namespace {
+
+struct Interval {
+  double low, high;
+};
+
+Interval project(const std::vector<Vec3>& vertices, const Vec3& n) {
+  Interval i{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  for (const Vec3& v : vertices) {
+    const double x = v.dot(n);
+    i.low = std::min(i.low, x);
+    i.high = std::max(i.high, x);
+  }
+  return i;
+}
+
+/// Closest points of the segments p + s d and q + t e with s, t in [0, 1] (Ericson, 5.1.9).
+std::pair<Vec3, Vec3> closest_of_segments(const Vec3& p, const Vec3& d, const Vec3& q,
+                                          const Vec3& e) {
+  const Vec3 r = p - q;
+  const double a = d.dot(d), b = d.dot(e), c = d.dot(r), ee = e.dot(e), f = e.dot(r);
+  double s = 0, t = 0;
+  if (a <= 0) {
+    t = ee > 0 ? std::clamp(f / ee, 0.0, 1.0) : 0;
+  } else if (ee <= 0) {
+    s = std::clamp(-c / a, 0.0, 1.0);
+  } else {
+    // |d × e|² rather than a·ee − b², which cancels for nearly parallel segments.
+    const double determinant = d.cross(e).squaredNorm();
+    s = determinant > 0 ? std::clamp((b * f - c * ee) / determinant, 0.0, 1.0) : 0;
+    t = (b * s + f) / ee;
+    if (t < 0 || t > 1) {
+      t = std::clamp(t, 0.0, 1.0);
+      s = std::clamp((b * t - c) / a, 0.0, 1.0);
+    }
+  }
+  return {p + s * d, q + t * e};
+}
+
+/// The point of a convex polygon (corners in order, counterclockwise) that is closest to p.
+Eigen::Vector2d closest_in_polygon(const std::vector<Vec3>& corners, std::size_t count,
+                                   const Eigen::Vector2d& p) {
+  Eigen::Vector2d best = p;
+  double least = std::numeric_limits<double>::infinity();
+  bool inside = true;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Eigen::Vector2d u = corners[i].head<2>(), v = corners[(i + 1) % count].head<2>();
+    const Eigen::Vector2d along = v - u, from = p - u;
+    if (along.x() * from.y() - along.y() * from.x() >= 0) continue;
+    inside = false;
+    const Eigen::Vector2d at =
+        u + std::clamp(from.dot(along) / along.squaredNorm(), 0.0, 1.0) * along;
+    if ((p - at).squaredNorm() < least) {
+      least = (p - at).squaredNorm();
+      best = at;
+    }
+  }
+  return inside ? p : best;
+}
+
+}  // namespace
+
+RoundedPolytope RoundedPolytope::sphere(const Vec3& centre, double radius) {
+  RoundedPolytope body;
+  body.radius_ = radius;
+  body.local_vertices_ = {centre};
+  body.place(Eigen::Matrix3d::Identity(), Vec3::Zero());
+  return body;
+}
+
+RoundedPolytope RoundedPolytope::capsule(double radius, double half_length) {
+  if (half_length == 0) return sphere(Vec3::Zero(), radius);
+  RoundedPolytope body;
+  body.radius_ = radius;
+  body.local_vertices_ = {Vec3(0, 0, -half_length), Vec3(0, 0, half_length)};
+  body.local_edge_directions_ = {Vec3::UnitZ()};
+  body.edges_ = {{0, 1}};
+  body.place(Eigen::Matrix3d::Identity(), Vec3::Zero());
+  return body;
+}
+
+RoundedPolytope RoundedPolytope::box(const Vec3& h) {
+  RoundedPolytope body;
+  // As in a prism: the lower face counterclockwise, then the upper one.
+  for (const double z : {-h.z(), h.z()}) {
+    for (const auto& [x, y] : {std::pair(-1, -1), {1, -1}, {1, 1}, {-1, 1}}) {
+      body.local_vertices_.emplace_back(x * h.x(), y * h.y(), z);
+    }
+  }
+  body.local_normals_ = {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
+  body.local_edge_directions_ = body.local_normals_;
+  for (int i = 0; i < 4; ++i) {
+    body.edges_.insert(body.edges_.end(), {{i, (i + 1) % 4}, {i + 4, (i + 1) % 4 + 4}, {i, i + 4}});
+  }
+  body.place(Eigen::Matrix3d::Identity(), Vec3::Zero());
+  return body;
+}
+
+RoundedPolytope RoundedPolytope::prism(int sides, double radius, double half_length) {
+  RoundedPolytope body;
+  const auto corner = [&](double i) {
+    const double angle = 2 * std::numbers::pi * i / sides;
+    return Vec3(std::cos(angle), std::sin(angle), 0);
+  };
+  for (const double z : {-half_length, half_length}) {
+    for (int i = 0; i < sides; ++i) {
+      body.local_vertices_.emplace_back(radius * corner(i) + Vec3(0, 0, z));
+    }
+  }
+  body.local_normals_ = {Vec3::UnitZ()};
+  body.local_edge_directions_ = {Vec3::UnitZ()};
+  // If the number is even, opposite sides are parallel.
+  for (int i = 0; i < (sides % 2 == 0 ? sides / 2 : sides); ++i) {
+    const Vec3 normal = corner(i + 0.5);
+    body.local_normals_.push_back(normal);
+    body.local_edge_directions_.emplace_back(-normal.y(), normal.x(), 0);
+  }
+  for (int i = 0; i < sides; ++i) {
+    const int next = (i + 1) % sides;
+    body.edges_.insert(body.edges_.end(), {{i, next}, {i + sides, next + sides}, {i, i + sides}});
+  }
+  body.place(Eigen::Matrix3d::Identity(), Vec3::Zero());
+  return body;
+}
+
+void RoundedPolytope::place(const Eigen::Matrix3d& rotation, const Vec3& position) {
+  rotation_ = rotation;
+  position_ = position;
+  const auto turn = [&](const std::vector<Vec3>& from, std::vector<Vec3>& to, const Vec3& shift) {
+    to.resize(from.size());
+    for (std::size_t i = 0; i < from.size(); ++i) to[i] = rotation * from[i] + shift;
+  };
+  turn(local_vertices_, vertices_, position);
+  turn(local_normals_, normals_, Vec3::Zero());
+  turn(local_edge_directions_, edge_directions_, Vec3::Zero());
+}
+
+const Vec3& RoundedPolytope::support(const Vec3& n) const {
+  return *std::max_element(vertices_.begin(), vertices_.end(),
+                           [&](const Vec3& x, const Vec3& y) { return x.dot(n) < y.dot(n); });
+}
+
+Vec3 RoundedPolytope::closest_to(const Vec3& p) const {
+  const Vec3 local = rotation_.transpose() * (p - position_);
+  const std::size_t corners = local_vertices_.size() / 2;
+  Vec3 closest;
+  closest.head<2>() = closest_in_polygon(local_vertices_, corners, local.head<2>());
+  const double half_length = local_vertices_.back().z();
+  closest.z() = std::clamp(local.z(), -half_length, half_length);
+  return rotation_ * closest + position_;
+}
+
+namespace {
+
+/// The largest gap over the candidate separating axes; −infinity if there are none (two points, or
+/// parallel segments).
+double largest_gap(const RoundedPolytope& a, const RoundedPolytope& b, Separation& best) {
+  best.distance = -std::numeric_limits<double>::infinity();
+  const auto consider = [&](const Vec3& n) {
+    const Interval in_a = project(a.vertices(), n), in_b = project(b.vertices(), n);
+    if (in_a.low - in_b.high > best.distance) {
+      best.distance = in_a.low - in_b.high;
+      best.normal = n;
+    }
+    if (in_b.low - in_a.high > best.distance) {
+      best.distance = in_b.low - in_a.high;
+      best.normal = -n;
+    }
+  };
+  for (const Vec3& n : a.normals()) consider(n);
+  for (const Vec3& n : b.normals()) consider(n);
+  for (const Vec3& u : a.edge_directions()) {
+    for (const Vec3& v : b.edge_directions()) {
+      const Vec3 n = u.cross(v);
+      const double length = n.norm();
+      // Parallel edges span no face of the Minkowski difference.
+      if (length > 1e-12) consider(n / length);
+    }
+  }
+  return best.distance;
+}
+
+/// The closest pair among edges and vertices of both, and among vertices and the other's solid
+/// core.
+void closest_apart(const RoundedPolytope& a, const RoundedPolytope& b, Separation& best) {
+  double least = std::numeric_limits<double>::infinity();
+  const auto consider = [&](const Vec3& on_a, const Vec3& on_b) {
+    const double squared = (on_a - on_b).squaredNorm();
+    if (squared >= least) return;
+    least = squared;
+    best.on_a = on_a;
+    best.on_b = on_b;
+  };
+  const auto segments = [](const RoundedPolytope& body) {
+    std::vector<std::pair<Vec3, Vec3>> result;
+    for (const auto& [i, j] : body.edges()) {
+      result.emplace_back(body.vertices()[i], body.vertices()[j] - body.vertices()[i]);
+    }
+    if (result.empty()) result.emplace_back(body.vertices()[0], Vec3::Zero());
+    return result;
+  };
+  for (const auto& [p, d] : segments(a)) {
+    for (const auto& [q, e] : segments(b)) {
+      const auto [on_a, on_b] = closest_of_segments(p, d, q, e);
+      consider(on_a, on_b);
+    }
+  }
+  if (a.is_solid()) {
+    for (const Vec3& v : b.vertices()) consider(a.closest_to(v), v);
+  }
+  if (b.is_solid()) {
+    for (const Vec3& v : a.vertices()) consider(v, b.closest_to(v));
+  }
+  best.distance = std::sqrt(least);
+}
+
+}  // namespace
+
+Separation separation(const RoundedPolytope& a, const RoundedPolytope& b) {
+  Separation s{};
+  const bool solid = a.is_solid() || b.is_solid();
+  const double gap = largest_gap(a, b, s);
+  if (!solid || (gap > 0 && !(a.is_solid() && b.is_solid()))) {
+    const Vec3 across = s.normal;
+    closest_apart(a, b, s);
+    const Vec3 line = s.on_a - s.on_b;
+    if (s.distance > 0) {
+      s.normal = line / s.distance;
+    } else {
+      // Touching cores: perpendicular to both segments, or any direction perpendicular to one.
+      const Vec3 axis = !a.edge_directions().empty()   ? a.edge_directions()[0]
+                        : !b.edge_directions().empty() ? b.edge_directions()[0]
+                                                       : Vec3(Vec3::UnitX());
+      s.normal = std::isfinite(gap) ? across : axis.unitOrthogonal();
+    }
+  } else {
+    s.on_a = a.support(-s.normal);
+    s.on_b = s.on_a - s.distance * s.normal;
+  }
+  s.distance -= a.radius() + b.radius();
+  s.on_a -= a.radius() * s.normal;
+  s.on_b += b.radius() * s.normal;
+  return s;
+}
+
+Separation separation(const RoundedPolytope& a, const Vec3& normal, double displacement) {
+  Separation s{};
+  s.normal = normal;
+  s.on_a = a.support(-normal) - a.radius() * normal;
+  s.distance = s.on_a.dot(normal) - displacement;
+  s.on_b = s.on_a - s.distance * normal;
+  return s;
+}
+
+Eigen::Matrix3d rotation_of(const ts_pose& pose) {
+  const double* q = pose.orientation;
+  return Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
+}
+
+Vec3 position_of(const ts_pose& pose) {
+  return Vec3(pose.position[0], pose.position[1], pose.position[2]);
+}
+
 namespace {
 
 std::vector<RoundedPolytope> parts(const ts_shape& shape, const CylinderModel& model) {

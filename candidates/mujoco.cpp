@@ -68,7 +68,7 @@ struct Scene {
   mjData* data;
 };
 
-/// Made once for each kind of shape and kept.
+/// The scene for one kind of shape, made on first use.
 Scene scene_for(ts_shape_kind other) {
   static std::map<ts_shape_kind, Scene> scenes;
   const auto [at, is_new] = scenes.try_emplace(other);
@@ -112,7 +112,7 @@ void place(const Scene& scene, int geom, const double* position, const double* o
 }
 
 void query(ts_prepared* p, const ts_pose* a, const ts_pose* b, const double*, ts_answer* answer) {
-  // A model serves all pairs of its kinds, so its sizes are set with every query.
+  // A model serves all pairs of the same kinds, so that its sizes are set with every query.
   mju_copy3(p->scene.model->geom_size + 3 * geom_a, p->a.size);
   place(p->scene, geom_a, a->position, a->orientation);
   if (p->b.kind == TS_PLANE) {

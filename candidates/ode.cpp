@@ -28,7 +28,7 @@ static_assert(sizeof(dReal) == sizeof(double), "built against single-precision O
 
 namespace {
 
-/// ODE's default handlers print and, for errors of its own, end the process.
+/// ODE's default handlers print, and end the process on internal errors.
 void ignore_message(int, const char*, va_list) {}
 
 void initialise() {
@@ -122,11 +122,11 @@ struct ts_prepared {
     } else {
       place(b_, b);
     }
-    // A mesh has points on every triangle, and the deepest may come last.
-    constexpr int most = 64;
-    dContactGeom contacts[most];
-    const int count =
-        dCollide(a_, b_, mesh_ ? most : TOUCHSTONE_MAX_POINTS, contacts, sizeof(dContactGeom));
+    // A mesh gives points on every triangle, and the deepest may come last.
+    constexpr int max_contacts = 64;
+    dContactGeom contacts[max_contacts];
+    const int count = dCollide(a_, b_, mesh_ ? max_contacts : TOUCHSTONE_MAX_POINTS, contacts,
+                               sizeof(dContactGeom));
     if (count > TOUCHSTONE_MAX_POINTS) {
       std::partial_sort(
           contacts, contacts + TOUCHSTONE_MAX_POINTS, contacts + count,
@@ -146,7 +146,7 @@ struct ts_prepared {
     }
   }
 
-  /// Of the mesh's prism; not known where B is a cylinder, which stays one here.
+  /// Distance of the mesh's prism; NaN if B is a cylinder, which is not replaced.
   double model_distance(const ts_pose& a, const ts_pose& b) {
     if (shape_b_.kind == TS_CYLINDER) return std::numeric_limits<double>::quiet_NaN();
     return model_->separation(a, b).distance;

@@ -18,7 +18,7 @@ using touchstone::Pose;
 using touchstone::Sphere;
 using touchstone::Vec3;
 
-/// One class per pair, so that a query knows its routine without asking for the shape's kind again.
+/// One class per pair, so that a query needs no switch over the shape's kind.
 struct ts_prepared {
   virtual ~ts_prepared() = default;
   virtual void query(const ts_pose& a, const ts_pose& b, const Vec3* previous_normal,
@@ -31,7 +31,7 @@ namespace {
 template <class Shape>
 Pose to_pose(const ts_pose& p) {
   const Vec3 position(p.position[0], p.position[1], p.position[2]);
-  if constexpr (std::is_same_v<Shape, Sphere>) {  // looks the same however it is turned
+  if constexpr (std::is_same_v<Shape, Sphere>) {  // a sphere's orientation does not matter
     return Pose(position);
   }
   const double* q = p.orientation;

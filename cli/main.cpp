@@ -8,7 +8,7 @@
 #include "candidates/candidates.hpp"
 #include "cli/standard_streams.hpp"
 #include "cli/subcommands.hpp"
-#include "oracle/libraries.hpp"
+#include "oracle/truth.hpp"
 #include "properties/files/error_text.hpp"
 #include "reference/invalid_input.hpp"
 

@@ -5,7 +5,7 @@
 namespace touchstone::oracle {
 namespace {
 
-/// FLINT's integers, rationals and floats, released at the end of the scope.
+/// Owners of FLINT's integers, rationals and floats.
 struct Integer {
   Integer() { fmpz_init(value); }
   explicit Integer(const mpz_class& z) : Integer() { fmpz_set_mpz(value, z.get_mpz_t()); }

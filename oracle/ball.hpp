@@ -30,7 +30,7 @@ class Ball {
   /// Rounded to that many bits.
   Ball(const mpz_class& value, long bits);
   explicit Ball(const mpq_class& exact);
-  /// The smallest ball found around [lo, hi].
+  /// A ball that contains [lo, hi].
   Ball(const mpq_class& lo, const mpq_class& hi);
 
   arb_ptr get() { return value_; }
@@ -51,8 +51,8 @@ class Ball {
   arb_t value_;
 };
 
-/// Working precision in bits of every operation on balls in this thread, for the life of the
-/// object; 64 where none is alive.
+/// Sets the working precision, in bits, of all ball operations of this thread for the lifetime of
+/// the object. Without one it is 64.
 class WorkingPrecision {
  public:
   explicit WorkingPrecision(long bits) : previous_(current_) { current_ = bits; }
@@ -98,7 +98,7 @@ inline Ball abs(const Ball& a) {
   arb_abs(r.get(), a.get());
   return r;
 }
-/// Root of a number known to be non-negative: what the ball holds below zero is cut off.
+/// Square root of a number known to be non-negative: negative values in the ball are ignored.
 inline Ball sqrt(const Ball& a) {
   Ball r;
   arb_sqrtpos(r.get(), a.get(), WorkingPrecision::bits());

@@ -2,16 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <gtest/gtest.h>
 #include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <vector>
 
+#include "reference/support.hpp"
+
 namespace touchstone::oracle {
 namespace {
 
-/// g(n) once more, independent of reference/support: by the support functions' textbook forms with
-/// the rotations computed once. Positions are subtracted first.
+/// The gap g(n), independent of reference/support: the textbook support functions, with the
+/// rotations computed once. Positions are subtracted first.
 class Gap {
  public:
   explicit Gap(const Configuration& c)
@@ -46,8 +49,8 @@ class Gap {
   Vec3 d_;
 };
 
-/// Eight neighbours at an angle about `step`; halved when none is better. Counted, since a climb
-/// along a ridge can take millions of steps.
+/// Moves to the best of eight neighbours at an angle of about `step`, which is halved if none is
+/// better. The number of steps is bounded because a climb along a ridge can take millions.
 BruteForce climb(const Gap& gap, BruteForce best, double step) {
   for (int count = 0; count < 400 && step > 1e-9; ++count) {
     const Vec3 e = best.normal.unitOrthogonal(), f = best.normal.cross(e);
@@ -120,6 +123,20 @@ double lowest_point_over_plane(const Configuration& c) {
     lowest = std::min(lowest, height(best, z));
   }
   return lowest;
+}
+
+void expect_brute_force_agrees(const Configuration& c, const Truth& t, int directions) {
+  // Rounding of g in double: a few ulp of the lengths that enter it.
+  const double lengths = larger_size(c) + (c.pose_a.position() - c.pose_b.position()).norm();
+  const double rounding = 1e-14 * lengths;
+  const double sigma = t.signed_distance.midpoint();
+  EXPECT_LE(t.signed_distance.width(), 1e-15 * larger_size(c));
+  ASSERT_FALSE(t.normals.empty());
+  for (const OptimalNormal& normal : t.normals) {
+    EXPECT_NEAR(touchstone::gap(c, normal.n), sigma, rounding) << "normal " << normal.n.transpose();
+  }
+  const BruteForce found = brute_force_maximum(c, directions);
+  EXPECT_LE(found.gap, sigma + rounding) << "along " << found.normal.transpose();
 }
 
 }  // namespace touchstone::oracle

@@ -1,9 +1,10 @@
 // One test, with the configuration that needs it, for each rule without which the set of critical
 // directions is not complete or its enclosure does not close (oracle/README.md).
 #include <cmath>
+#include <gtest/gtest.h>
 #include <string>
 
-#include "oracle/expect_truth.hpp"
+#include "oracle/brute_force.hpp"
 #include "oracle/truth.hpp"
 
 namespace touchstone::oracle {

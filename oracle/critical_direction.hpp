@@ -4,20 +4,48 @@
 #include <optional>
 #include <vector>
 
-#include "oracle/critical_site.hpp"
+#include "oracle/difference.hpp"
 #include "oracle/optimal_normal.hpp"
 
 namespace touchstone::oracle {
 
-/// What one critical direction says of the signed distance, at one working precision.
+/// Where a critical direction may lie: the parts of the difference that determine it, and for a
+/// root of a polynomial the piece of its parameter that could not be excluded.
+struct CriticalSite {
+  enum class Kind {
+    disc_axis,  ///< ± the axis of disc `first`
+    crossing,   ///< ± the cross product of segments `first` and `second`
+    radial,     ///< perpendicular to segment `first`, towards the vertex `signs`; the only disc has
+                ///< the segment's axis
+    rim_vertex,  ///< from the rim of the only disc to the vertex `signs`
+    rim_line,    ///< perpendicular to segment `first`, disc `second` seen as an ellipse, at the
+                 ///< vertex `signs`
+    rim_rim      ///< between the rims of both discs, at the vertex `signs`
+  };
+  Kind kind;
+  unsigned first = 0, second = 0;
+  unsigned signs = 0;  ///< bit i: the direction is on the positive side of segment i's axis
+  /// rim_line: the direction is x e + y f in the segment's frame, with (x, y) = (1, t) turned by
+  /// `turn` quarters. rim_rim: the point of the first rim is at the angle 2 arctan t, plus half a
+  /// circle if `turn` is 1. In both, lo <= t <= hi within [-1, 1].
+  unsigned turn = 0;
+  double lo = 0, hi = 0;
+};
+
+/// Every site that could hold a direction whose gap is within `slack` (metres, >= 0) of the signed
+/// distance: all sites that double intervals cannot exclude. Complete (oracle/README.md); a site
+/// without a maximum does no harm. Precondition: B is not a plane.
+std::vector<CriticalSite> critical_sites(const Difference& difference, double slack);
+
+/// What one critical direction implies for the signed distance, at one working precision.
 struct DirectionBound {
   Ball gap;  ///< In units. Not finite: nothing is known yet at this precision.
   /// Towards A's side, of any length, in A's frame. Absent: the direction is not determined, and
-  /// `gap` bounds the signed distance from above only.
+  /// `gap` is only an upper bound of the signed distance.
   std::optional<BallVector> normal;
 };
 
-/// What can be proven, exactly, of a gap that no precision has told from zero.
+/// What exact algebra proves about a gap whose sign no precision has decided.
 enum class ZeroGap { unknown, at_most_zero, zero };
 
 /// A continuous family of directions with the same gap: a NormalFamily in A's frame, with vectors
@@ -28,24 +56,24 @@ struct DirectionFamily {
   std::vector<IntegerVector> ends;
 };
 
-/// A direction at which the gap may have its maximum: exactly determined, to be enclosed at any
-/// precision. Since g(n) <= σ for every n, one that is no maximum does no harm; only completeness
-/// matters (oracle/README.md).
+/// A direction at which the gap may have its maximum: determined exactly, enclosed at any
+/// precision. Since g(n) <= σ for every n, a direction that is no maximum does no harm; only
+/// completeness matters (oracle/README.md).
 class CriticalDirection {
  public:
   virtual ~CriticalDirection() = default;
 
-  /// Appends what is known at the working precision of `difference`. Nothing when the direction is
-  /// proven not to lie where its features are in contact.
+  /// Appends what is known at the working precision of `difference`: nothing if the direction is
+  /// proven to lie outside the normals of its features.
   virtual void enclose(const Difference& difference, const BallDifference& balls,
                        std::vector<DirectionBound>& out) = 0;
 
-  /// To be asked where the gap's ball contains zero; decided with exact algebra, for which balls
-  /// at the working precision only tell apart what is apart.
+  /// Decides by exact algebra whether the gap is zero. Precondition: the gap's ball contains zero.
+  /// Balls at the working precision only separate roots that are known to differ.
   virtual ZeroGap zero_gap(const Difference& difference) = 0;
 
-  /// Is the direction exactly perpendicular to this vector? May be false where the same direction
-  /// has another site of a simpler kind.
+  /// Is the direction exactly perpendicular to this vector? May be false if the same direction also
+  /// has a site of a simpler kind.
   virtual bool is_across(const IntegerVector& v) const = 0;
 
   /// The family that this direction stands for.
@@ -54,11 +82,7 @@ class CriticalDirection {
 
 using CriticalDirections = std::vector<std::unique_ptr<CriticalDirection>>;
 
-/// Appends all critical directions of one site.
-void append_directions(const Difference& difference, const CriticalSite& site,
-                       CriticalDirections& out);
-
-// Its parts, by kind.
+// Append the critical directions of one site, by its kind.
 
 void append_disc_axis(const Difference& difference, const CriticalSite& site,
                       CriticalDirections& out);
@@ -71,33 +95,35 @@ void append_rim_line(const Difference& difference, const CriticalSite& site,
                      CriticalDirections& out);
 void append_rim_rim(const Difference& difference, const CriticalSite& site,
                     CriticalDirections& out);
-/// A half-space has one direction.
+
+/// The single direction of a half-space.
 std::unique_ptr<CriticalDirection> plane_direction(const Difference& difference);
 
 /// Both directions ±n with integer coordinates.
 std::unique_ptr<CriticalDirection> rational_direction(IntegerVector n,
                                                       std::optional<DirectionFamily> family = {});
 
-/// The segments' axes, turned to the side that `signs` says.
+/// The segments' axes, each pointing to the side given by `signs`.
 std::vector<IntegerVector> signed_axes(const Difference& difference, unsigned signs,
                                        const Difference::Segment* skipped = nullptr);
 
-/// All directions across a line that are not behind any of `inward`: a circle, or an arc.
-/// Without ends there is no arc.
+/// All directions n perpendicular to a line with n·v >= 0 for every `inward` v: a circle, or an
+/// arc. An arc without ends is empty.
 DirectionFamily sector(const IntegerVector& line, const std::vector<IntegerVector>& inward);
 
-/// d − Σ sign·half_length·axis over the segments other than `skipped`: where the reduced point lies
-/// once these segments have shrunk to their ends. Bit i of `signs` is the sign of segment i. Times
-/// norm, like d.
+/// d − Σ sign·half_length·axis over the segments other than `skipped`: the reduced point after each
+/// of these segments has been replaced by one of its ends. Bit i of `signs` is the sign of segment
+/// i. Times norm, like d.
 IntegerVector reduced_point(const Difference& difference, unsigned signs,
                             const Difference::Segment* skipped = nullptr);
 
-/// The part of q across a frame's axis, times norm².
+/// The component of q perpendicular to a frame's axis, times norm².
 IntegerVector off_axis(const IntegerVector& q, const Frame& frame);
 
 enum class Side { no, undecided, yes };
 
-/// Is a direction on the side of every segment's axis that `signs` says, as far as balls can tell?
+/// Is the direction on the side of every segment's axis that `signs` says? Undecided where balls
+/// contain zero.
 Side at_vertex(const Difference& difference, unsigned signs, const BallVector& n,
                const Difference::Segment* skipped = nullptr);
 

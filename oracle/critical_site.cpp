@@ -1,13 +1,11 @@
-// All sites of critical directions, less those that double intervals exclude.
-#include "oracle/critical_site.hpp"
-
+// Enumerates the sites of critical directions and drops those that double intervals exclude.
 #include <algorithm>
 #include <boost/container/small_vector.hpp>
 #include <boost/container/static_vector.hpp>
 #include <optional>
 
-#include "oracle/line_search.hpp"
-#include "oracle/rim_search.hpp"
+#include "oracle/critical_direction.hpp"
+#include "oracle/curve_search.hpp"
 
 namespace touchstone::oracle {
 namespace {
@@ -16,7 +14,7 @@ using Kind = CriticalSite::Kind;
 
 bool parallel(const IntegerVector& a, const IntegerVector& b) { return is_zero(cross(a, b)); }
 
-/// Index of the one disc that is not flat on along this segment's line.
+/// Index of the disc that is not perpendicular to this segment, if there is one.
 std::optional<unsigned> tilted_disc(const Difference& difference, unsigned segment) {
   for (unsigned i = 0; i < difference.discs.size(); ++i) {
     if (!parallel(difference.discs[i].frame.axis, difference.segments[segment].frame.axis)) {
@@ -41,22 +39,23 @@ class Search {
   const Difference& exact_;
   CGAL::Protect_FPU_rounding<true> rounding_;
   IntervalDifference difference_;
-  Bar bar_;
+  GapThreshold threshold_;
   struct Direction {
     CriticalSite site;
     Interval gap;
   };
-  // Two discs and six crossings of four segments, or one disc with them and its sixteen vertices.
+  // At most: one disc axis, six crossings of four segments, and sixteen vertices; or two disc axes
+  // and one crossing.
   boost::container::static_vector<Direction, 24> directions_;
 
-  // Curves: first the circles across each segment, then the rims' vertices.
-  boost::container::static_vector<LineSearch, most_segments> lines_;
+  // Curves: the circle perpendicular to each segment, then the rim pairs at each vertex.
+  boost::container::static_vector<LineSearch, max_segments> lines_;
   boost::container::static_vector<RimSearch, 4> rims_;
   struct OpenPiece {
     Piece piece;
     unsigned long vertices;  // of a line
   };
-  // Poses without a degeneracy need no more than this.
+  // Enough for poses without a degeneracy.
   boost::container::small_vector<OpenPiece, 256> pieces_, next_;
 };
 
@@ -67,9 +66,9 @@ double relative(double metres, const Difference& difference, const Integer& scal
 Search::Search(const Difference& difference, double slack)
     : exact_(difference),
       difference_(difference),
-      bar_(relative(slack, difference, difference_.scale)) {}
+      threshold_(relative(slack, difference, difference_.scale)) {}
 
-/// d less the segments' ends.
+/// d minus the ends of the segments that `signs` selects.
 IntervalVector Search::vertex(unsigned signs) const {
   IntervalVector q = difference_.d;
   for (std::size_t i = 0; i < difference_.segments.size(); ++i) {
@@ -83,8 +82,8 @@ IntervalVector Search::vertex(unsigned signs) const {
 void Search::search_directions() {
   const auto add = [&](const CriticalSite& site, const IntervalVector& n) {
     const Interval forth = difference_.gap(n), back = difference_.gap(-n);
-    bar_.raise(forth);
-    bar_.raise(back);
+    threshold_.raise(forth);
+    threshold_.raise(back);
     directions_.push_back({site, max(forth, back)});
   };
   for (unsigned i = 0; i < difference_.discs.size(); ++i) {
@@ -109,21 +108,21 @@ void Search::search_rim_vertices() {
     if ((length - disc.radius).sup() < 0) continue;
     const IntervalVector n = q - (disc.radius / length) * off_axis;
     const Interval gap = difference_.gap(n);
-    bar_.raise(gap);
+    threshold_.raise(gap);
     directions_.push_back({{Kind::rim_vertex, 0, 0, signs}, gap});
   }
 }
 
 constexpr int first_pieces = 4;  // per turn of a curve
-constexpr int most_splits = 5;
+constexpr int max_splits = 5;
 
-/// A single segment, and so a single disc flat on: no curve needs to be searched.
+/// With a single segment the only disc is perpendicular to it: no curve needs to be searched.
 void Search::search_radial() {
   const auto& frame = difference_.segments.front().frame;
   const IntervalVector n =
       dot(difference_.d, frame.e) * frame.e + dot(difference_.d, frame.f) * frame.f;
   const Interval gap = difference_.gap(n);
-  bar_.raise(gap);
+  threshold_.raise(gap);
   directions_.push_back({{Kind::radial, 0}, gap});
 }
 
@@ -151,15 +150,15 @@ void Search::search_curves() {
     for (OpenPiece& open : pieces_) {
       const Piece& piece = open.piece;
       if (piece.curve < lines_.size()) {
-        open.vertices = lines_[piece.curve].open_vertices(piece, bar_);
+        open.vertices = lines_[piece.curve].open_vertices(piece, threshold_);
         if (open.vertices == 0) continue;
-      } else if (!rims_[piece.curve - lines_.size()].is_open(piece, bar_)) {
+      } else if (!rims_[piece.curve - lines_.size()].is_open(piece, threshold_)) {
         continue;
       }
       next_.push_back(open);
     }
     pieces_.clear();
-    if (split == most_splits) break;
+    if (split == max_splits) break;
     for (const OpenPiece& open : next_) {
       const auto& [curve, turn, lo, hi] = open.piece;
       const double middle = (lo + hi) / 2;
@@ -169,7 +168,7 @@ void Search::search_curves() {
   }
 }
 
-/// Bits of `vertices` of the other segments, as signs of all.
+/// Inserts a zero bit for `segment` into the signs of the other segments.
 unsigned all_signs(unsigned others, unsigned segment) {
   const unsigned below = others & ((1U << segment) - 1);
   return below | (others & ~((1U << segment) - 1)) << 1;
@@ -186,9 +185,9 @@ std::vector<CriticalSite> Search::run() {
 
   std::vector<CriticalSite> sites;
   for (const auto& [site, gap] : directions_) {
-    if (!bar_.is_above(gap)) sites.push_back(site);
+    if (!threshold_.is_above(gap)) sites.push_back(site);
   }
-  // Pieces of one curve at one vertex that lie side by side become one site.
+  // Adjacent pieces of one curve at one vertex become one site.
   const auto extend = [&](const CriticalSite& site) {
     for (auto& known : sites) {
       if (known.kind == site.kind && known.first == site.first && known.signs == site.signs &&
@@ -213,7 +212,7 @@ std::vector<CriticalSite> Search::run() {
       if (tilted) {
         extend({Kind::rim_line, curve, *tilted, signs, turn, lo, hi});
       } else {
-        // One rational direction for the whole circle.
+        // One rational direction serves the whole circle.
         const CriticalSite site{Kind::radial, curve, 0, signs};
         const bool known = std::any_of(sites.begin(), sites.end(), [&](const auto& s) {
           return s.kind == site.kind && s.first == site.first && s.signs == site.signs;

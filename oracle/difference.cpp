@@ -8,13 +8,13 @@
 #include <limits>
 #include <string>
 
-#include "oracle/exact_rotation.hpp"
+#include "oracle/vector3.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone::oracle {
 namespace {
 
-/// A double as an odd integer times a power of two; zero as zero.
+/// A double as an odd integer times a power of two; zero stays zero.
 struct Dyadic {
   explicit Dyadic(double value) {
     constexpr int mantissa_bits = std::numeric_limits<double>::digits;
@@ -30,7 +30,7 @@ struct Dyadic {
   int exponent = 0;
 };
 
-/// The power of two that makes every one of these doubles an integer.
+/// A power of two that makes all included doubles integers.
 class DyadicScale {
  public:
   void include(double value) { bits_ = std::max(bits_, -Dyadic(value).exponent); }
@@ -85,7 +85,7 @@ void add_disc(Difference& difference, const Frame& frame, const Integer& radius)
   difference.discs.push_back({frame, radius});
 }
 
-/// Divides out what all directions have in common; for equal orientations that is nearly all.
+/// Divides by the common factor of all entries, which is large when the orientations are equal.
 void reduce(Integer& norm, std::array<IntegerVector, 3>& columns) {
   Integer g = norm;
   for (const auto& c : columns) {
@@ -139,12 +139,12 @@ Difference make_difference(const Configuration& c) {
   difference.norm = norm;
   std::copy(axes_b.begin(), axes_b.end(), difference.axes_b);
 
-  // D = A^T (cA − cB) / |qA|² in units; times norm it need not be an integer after the reduction,
-  // so the unit takes up what is missing.
+  // D = A^T (cA − cB) / |qA|² in units. Times the reduced norm it need not be an integer, so the
+  // unit is made finer by the missing factor.
   const IntegerVector centre_world = length(c.pose_a.position()) - length(c.pose_b.position());
   IntegerVector centre = a.apply_inverse(centre_world);
   Integer centre_denominator = a.norm;
-  Integer finer = 1;  // integer lengths are multiplied by this, the unit divided
+  Integer finer = 1;  // lengths are multiplied by this, the unit is divided by it
 
   if (const auto* plane = std::get_if<Plane>(&c.b)) {
     DyadicScale normal_scale;
@@ -154,7 +154,7 @@ Difference make_difference(const Configuration& c) {
     difference.is_plane = true;
     difference.plane_normal = normal_a;
     // The plane's point nearest to B's origin, displacement · n / |n|², becomes B's centre. With
-    // n scaled by F to integers it is displacement · F · n_F / |n_F|²; in A's frame n_F turns into
+    // the integer normal n_F = F n it is displacement · F · n_F / |n_F|²; in A's frame n_F becomes
     // normal_a / (|qA|² |qB|²).
     const Integer squared = dot(n, n);
     const Integer offset = length(plane->displacement()) * normal_scale.factor();

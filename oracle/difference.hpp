@@ -16,35 +16,34 @@ struct Frame {
   IntegerVector axis, e, f;
 };
 
-/// Of a cylinder and a box.
-inline constexpr std::size_t most_segments = 4;
-/// Of two cylinders.
-inline constexpr std::size_t most_discs = 2;
+/// Reached by a cylinder and a box.
+inline constexpr std::size_t max_segments = 4;
+/// Reached by two cylinders.
+inline constexpr std::size_t max_discs = 2;
 
-/// The Minkowski difference B − A of a configuration, exactly. Up to the ball of radius
-/// `inflation` it is a sum of segments [−s, s] and discs about the origin, all with rational data,
-/// so that the gap along a unit direction n is
+/// The exact Minkowski difference B − A of a configuration. Apart from a ball of radius `inflation`
+/// it is a sum of segments [−s, s] and discs about the origin, all with rational data, so that the
+/// gap along a unit direction n is
 ///
-///   g(n) = d·n − Σ half_length |axis·n| − Σ radius |axis × n| − inflation,   d = centre A − centre
-///   B.
+///   g(n) = d·n − Σ half_length |axis·n| − Σ radius |axis × n| − inflation,
+///   d = centre A − centre B.
 ///
-/// Everything is given in body A's frame, where a pose's doubles make all directions rational: for
-/// a quaternion q of doubles, R(q) |q|² is an integer matrix once q is scaled to integers. Parallel
-/// segments and parallel discs are merged, so that the remaining ones are pairwise not parallel,
-/// exactly.
+/// All vectors are in body A's frame. The doubles of a pose make all directions rational: for a
+/// quaternion q of integers, R(q) |q|² is an integer matrix. Parallel segments and parallel discs
+/// are merged, so that no two of the remaining ones are parallel; the test is exact.
 struct Difference {
   struct Segment {
     Frame frame;  ///< along frame.axis
     Integer half_length;
   };
   struct Disc {
-    Frame frame;  ///< across frame.axis
+    Frame frame;  ///< perpendicular to frame.axis
     Integer radius;
   };
 
-  Integer norm;     ///< Length of every Frame direction.
-  mpq_class unit;   ///< Metres per unit of the integer lengths below.
-  IntegerVector d;  ///< Centre A − centre B, in units, times norm.
+  Integer norm;     ///< length of every Frame direction
+  mpq_class unit;   ///< metres per unit of the integer lengths below
+  IntegerVector d;  ///< centre A − centre B, in units, times norm
   std::vector<Segment> segments;
   std::vector<Disc> discs;
   Integer inflation = 0;
@@ -54,7 +53,8 @@ struct Difference {
   IntegerVector plane_normal{0, 0, 0};
   bool is_plane = false;
 
-  /// Integer matrix that turns a direction of A's frame into the world, up to a positive factor.
+  /// Integer matrix that transforms a direction from A's frame to the world, up to a positive
+  /// factor.
   IntegerVector world_rows[3];
 };
 
@@ -67,13 +67,12 @@ IntegerVector in_frame_of_a(const Difference& difference, const Vec3& world);
 mpq_class width_in_units(const Difference& difference, const Configuration& configuration,
                          double width);
 
-/// A Difference at the working precision of its construction.
+/// A Difference in balls, at the working precision of its construction.
 class BallDifference {
  public:
   explicit BallDifference(const Difference& difference);
 
-  /// d·n and the half width h(n) = d·n − g(n) for a vector n of any length not zero; both times
-  /// |n|.
+  /// d·n and the half width h(n) = d·n − g(n), both times |n|. n may have any length but zero.
   struct Along {
     Ball centre_distance, half_width;
   };

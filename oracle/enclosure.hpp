@@ -1,6 +1,7 @@
 #pragma once
 
 #include <gmpxx.h>
+#include <optional>
 #include <string>
 
 namespace touchstone::oracle {
@@ -9,13 +10,32 @@ namespace touchstone::oracle {
 struct Enclosure {
   mpq_class lo, hi;
 
-  double midpoint() const;  ///< The middle in double, towards zero.
-  double width() const;     ///< hi − lo in double, towards zero.
+  double midpoint() const;  ///< rounded to a double, towards zero
+  double width() const;     ///< hi − lo, rounded to a double, towards zero
 };
 
-/// A decimal that is not above (below) the exact value, with that many significant digits; trailing
-/// zeros are left out.
+/// The value rounded down (up) to that many significant decimal digits, without trailing zeros.
 std::string decimal_below(const mpq_class& value, int digits);
 std::string decimal_above(const mpq_class& value, int digits);
+
+/// Enclosures that depend on the enclosed number alone and not on how it was computed: the cells of
+/// a grid whose spacing is a power of two. The grid is shifted by an unusual fraction of its
+/// spacing, so that a number that arises from doubles is unlikely to lie on the border of two
+/// cells.
+class GridCell {
+ public:
+  /// The spacing is the largest power of two not above `width` times `size`, both > 0.
+  GridCell(double size, double width);
+
+  /// The cell that contains [lo, hi], halved until it does not reach zero. None if [lo, hi] spans
+  /// several cells or contains zero.
+  std::optional<Enclosure> around(const mpq_class& lo, const mpq_class& hi) const;
+
+  /// ±2^-bits of the size.
+  Enclosure nearly_zero(long bits) const;
+
+ private:
+  mpq_class size_, spacing_;
+};
 
 }  // namespace touchstone::oracle

@@ -1,4 +1,4 @@
-// The gap along a direction that somebody else chose, and what choosing it costs.
+// The gap along a given direction, and the regret of having chosen it.
 #include <algorithm>
 #include <stdexcept>
 

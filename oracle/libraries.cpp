@@ -1,5 +1,3 @@
-#include "oracle/libraries.hpp"
-
 #include <CGAL/version.h>
 #include <arb.h>
 #include <flint/flint.h>
@@ -7,6 +5,8 @@
 #include <mpfr.h>
 
 #include <Eigen/Core>
+
+#include "oracle/truth.hpp"
 
 namespace touchstone::oracle {
 

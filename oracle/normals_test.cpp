@@ -1,7 +1,8 @@
 // All optimal normals: how they lie to the bodies' axes, and families of them.
 #include <cmath>
+#include <gtest/gtest.h>
 
-#include "oracle/expect_truth.hpp"
+#include "oracle/brute_force.hpp"
 #include "oracle/truth.hpp"
 
 namespace touchstone::oracle {

@@ -2,9 +2,10 @@
 //
 // TOUCHSTONE_COUNT sets how many configurations of each class are tried (10 by default, for CI).
 #include <cstdlib>
+#include <gtest/gtest.h>
 #include <string>
 
-#include "oracle/expect_truth.hpp"
+#include "oracle/brute_force.hpp"
 #include "oracle/truth.hpp"
 #include "properties/identity.hpp"
 

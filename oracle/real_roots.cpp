@@ -5,6 +5,7 @@
 #include <utility>
 
 namespace touchstone::oracle {
+
 Polynomial operator+(const Polynomial& a, const Polynomial& b) {
   Polynomial sum(std::max(a.size(), b.size()));
   for (std::size_t i = 0; i < a.size(); ++i) sum[i] += a[i];
@@ -78,7 +79,7 @@ bool RealRoot::newton_step(long bits) {
   if (!next.is_finite()) return false;
   const mpq_class lo = std::max(lo_, on_grid(next.lower(), bits, false));
   const mpq_class hi = std::min(hi_, on_grid(next.upper(), bits, true));
-  // A root is in both intervals, so they meet.
+  // Both intervals contain the root, so they intersect.
   assert(lo <= hi);
   lo_ = lo;
   hi_ = hi;
@@ -99,10 +100,10 @@ Ball RealRoot::enclose() {
   while (!narrow_enough()) {
     if (!newton_step(newton_bits)) {
       bisect();
-      newton_bits += 8;  // close roots cancel digits; a stall is paid for with a few more
+      newton_bits += 8;  // close roots cancel digits: try again with a few more
     }
   }
-  // Room for the ends themselves.
+  // Extra bits so that the ends are represented exactly enough.
   const WorkingPrecision precision(bits + 16);
   return Ball(lo_, hi_);
 }
@@ -110,7 +111,7 @@ Ball RealRoot::enclose() {
 bool RealRoot::is_root_of(const Polynomial& other) const {
   if (is_zero(other)) return true;
   if (lo_ == hi_) return sign_at(other, lo_) == 0;
-  // The common factor has at most this one root in the interval, a simple one.
+  // The common factor has at most this root in the interval, and it is simple.
   const Polynomial common = common_divisor(polynomial_, other);
   return sign_at(common, lo_) * sign_at(common, hi_) < 0;
 }
@@ -138,6 +139,26 @@ std::vector<RealRoot> real_roots(const Polynomial& polynomial, const mpq_class& 
     result.emplace_back(rest, root.lo, root.hi);
   }
   return result;
+}
+
+bool is_root_sum(const mpz_class& a, const mpz_class& b, const mpz_class& c) {
+  if (a < 0) return false;
+  const mpz_class rest = a * a - b - c;  // 2 √(bc)
+  return rest >= 0 && rest * rest == 4 * b * c;
+}
+
+Polynomial root_sum_norm(const Polynomial& a, const Polynomial& b, const Polynomial& c) {
+  if (is_zero(c)) return a * a - b;
+  const Polynomial rest = a * a - b - c;
+  return rest * rest - mpz_class(4) * (b * c);
+}
+
+bool has_no_other_zero(const Ball& a, const Ball& b, const Ball& c) {
+  const Ball root_b = sqrt(b);
+  if (c.is_zero()) return !(a + root_b).contains_zero();
+  const Ball root_c = sqrt(c);
+  return !(a + root_b + root_c).contains_zero() && !(a + root_b - root_c).contains_zero() &&
+         !(a - root_b + root_c).contains_zero();
 }
 
 }  // namespace touchstone::oracle

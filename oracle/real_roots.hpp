@@ -15,21 +15,21 @@ Polynomial operator*(const mpz_class& a, const Polynomial& b);
 bool is_zero(const Polynomial& p);
 Ball value_at(const Polynomial& p, const Ball& x);
 
-/// One real root of a polynomial: a simple one, and the only one in its isolating interval.
+/// One simple real root of a polynomial, the only one in its isolating interval.
 class RealRoot {
  public:
-  /// `lo` < `hi` with a sign change between them, or lo == hi and the root itself.
+  /// Precondition: lo < hi and the polynomial changes sign between them, or lo == hi is the root.
   RealRoot(Polynomial polynomial, mpq_class lo, mpq_class hi);
 
-  /// The root in a ball of width at most 2^-bits · max(1, |root|), bits being the working
-  /// precision. Narrows the isolating interval for the calls that follow: interval Newton in ball
-  /// arithmetic, and exact bisection where it stalls (roots that lie close together).
+  /// A ball of width at most 2^-bits · max(1, |root|) that contains the root; `bits` is the working
+  /// precision. Narrows the isolating interval, also for later calls: by interval Newton in ball
+  /// arithmetic, and by exact bisection where that stalls (close roots).
   Ball enclose();
 
-  /// Is this root exactly that number?
+  /// Is the root exactly this number?
   bool is(const mpq_class& number) const;
 
-  /// Is this root a root of another polynomial as well, exactly?
+  /// Is the root exactly a root of another polynomial, too?
   bool is_root_of(const Polynomial& other) const;
 
  private:
@@ -41,10 +41,26 @@ class RealRoot {
   int sign_at_lo_;
 };
 
-/// The real roots in [lo, hi] of a polynomial that is not zero, each once whatever its
-/// multiplicity. Where Descartes' rule of signs allows none or one root in the interval, that
-/// settles it.
+/// The distinct real roots in [lo, hi] of a polynomial that is not zero. Where Descartes' rule of
+/// signs allows no or one root in the interval, nothing else is computed.
 std::vector<RealRoot> real_roots(const Polynomial& polynomial, const mpq_class& lo,
                                  const mpq_class& hi);
+
+/// Every gap has the form E = a − √b − √c with b, c >= 0. E is zero only where its norm N is, the
+/// product of E over all signs of the two roots:
+///
+///   N = (a² − b − c)² − 4bc,   or a² − b where c is zero throughout;
+///
+/// Conversely E is zero where N is and no other factor is.
+
+/// Is E exactly zero?
+bool is_root_sum(const mpz_class& a, const mpz_class& b, const mpz_class& c);
+
+/// N for polynomials a, b, c.
+Polynomial root_sum_norm(const Polynomial& a, const Polynomial& b, const Polynomial& c);
+
+/// Are all factors of N other than E certainly not zero? Precondition: c is exactly zero or its
+/// ball excludes zero.
+bool has_no_other_zero(const Ball& a, const Ball& b, const Ball& c);
 
 }  // namespace touchstone::oracle

@@ -1,28 +1,31 @@
 #include "oracle/resolved.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <variant>
 
 namespace touchstone::oracle {
 namespace {
 
-/// Multiples of a power of two. Rounding half away from zero keeps opposite numbers opposite.
+/// Rounds to multiples of a power of two; halves away from zero, so that opposite numbers stay
+/// opposite.
 class Grid {
  public:
-  /// Spacing: 2^-bits of the largest power of two that is not above `size`.
+  /// The spacing is 2^-bits times the largest power of two not above `size`.
   Grid(double size, int bits) : exponent_(std::ilogb(size) - bits) {}
 
   double nearest(double x) const {
     constexpr int min_exponent = std::numeric_limits<double>::min_exponent;
     constexpr int digits = std::numeric_limits<double>::digits;
-    // A double that is a multiple as it is, like all where the spacing is below the smallest.
+    // Already a multiple, as is every double if the spacing is below the smallest one.
     if (x == 0 || exponent_ <= min_exponent - digits || std::ilogb(x) - (digits - 1) >= exponent_) {
       return x;
     }
     return std::scalbn(std::round(std::scalbn(x, -exponent_)), exponent_);
   }
-  /// Not zero.
+  /// Like nearest, but at least one multiple.
   double nearest_size(double x) const {
     const double rounded = nearest(x);
     return rounded > 0 ? rounded : std::scalbn(1.0, exponent_);
@@ -37,7 +40,7 @@ class Grid {
 
 mpq_class change(double from, double to) { return abs(mpq_class(to) - mpq_class(from)); }
 
-/// Rounds a shape's sizes and adds up by how much they change.
+/// Rounds a shape's sizes and adds their changes to `error`.
 struct RoundedShape {
   const Grid& grid;
   mpq_class& error;
@@ -57,7 +60,7 @@ struct RoundedShape {
   Plane operator()(const Plane& s) const { return s; }
 };
 
-/// A bound of how far a shape's points that an orientation moves lie from its centre.
+/// Upper bound of the distance from the centre of those points of a shape that a rotation moves.
 struct Reach {
   mpq_class operator()(const Cylinder& s) const {
     return mpq_class(s.radius()) + mpq_class(s.half_length());
@@ -71,7 +74,8 @@ struct Reach {
   mpq_class operator()(const Plane&) const { return 0; }
 };
 
-/// Rounds an orientation and adds a bound of how far that moves a point at distance `reach`.
+/// Rounds an orientation and adds to `error` a bound of how far that moves a point at distance
+/// `reach`.
 Eigen::Quaterniond rounded(const Eigen::Quaterniond& q, int bits, const mpq_class& reach,
                            mpq_class& error) {
   const double largest = q.coeffs().cwiseAbs().maxCoeff();
@@ -110,6 +114,49 @@ Resolved resolved(const Configuration& c, int bits) {
   const Eigen::Quaterniond q_b =
       rounded(c.pose_b.orientation(), bits, std::visit(Reach{}, b), error);
   return {{a, Pose(to_a, q_a), b, Pose(to_b, q_b)}, error};
+}
+
+namespace {
+
+long bits_of(const Integer& x) { return static_cast<long>(mpz_sizeinbase(x.get_mpz_t(), 2)); }
+
+Integer sum_of_sizes(const Difference& difference) {
+  Integer sum = difference.inflation;
+  for (const auto& s : difference.segments) sum += s.half_length;
+  for (const auto& disc : difference.discs) sum += disc.radius;
+  return sum;
+}
+
+/// Shifts right by `bits`, rounding towards zero.
+Integer shifted(const Integer& x, long bits) {
+  Integer result;
+  mpz_tdiv_q_2exp(result.get_mpz_t(), x.get_mpz_t(), static_cast<mp_bitcnt_t>(bits));
+  return result;
+}
+
+}  // namespace
+
+std::optional<FarBodies> FarBodies::brought_nearer(Difference& difference, int bits) {
+  if (difference.is_plane || difference.segments.size() == 1) return std::nullopt;
+  const Integer size = sum_of_sizes(difference);
+  const IntegerVector& d = difference.d;
+  const long excess = std::max({bits_of(d.x), bits_of(d.y), bits_of(d.z)}) -
+                      bits_of(size * difference.norm) - bits - 1;
+  if (excess <= 0) return std::nullopt;
+  const Difference before = difference;
+  difference.d = {shifted(d.x, excess), shifted(d.y, excess), shifted(d.z, excess)};
+  // The centres are now at least 2^bits S apart: the two upper bounds exceed the lower ones by less
+  // than S 2^-bits, and the direction, truncated by less than √3 of D norm, is off by 4 2^-bits/S.
+  mpq_class error(5 * size);
+  error >>= static_cast<mp_bitcnt_t>(bits);
+  return FarBodies(before, difference, std::move(error));
+}
+
+FarBodies::FarBodies(const Difference& before, const Difference& after, mpq_class error)
+    : before_(before.d), after_(after.d), norm_(before.norm), error_(std::move(error)) {}
+
+Ball FarBodies::shift() const {
+  return (norm(to_balls(before_)) - norm(to_balls(after_))) / Ball(norm_);
 }
 
 }  // namespace touchstone::oracle

@@ -1,33 +1,64 @@
 #pragma once
 
 #include <gmpxx.h>
+#include <optional>
 
+#include "oracle/difference.hpp"
 #include "reference/configuration.hpp"
 
 namespace touchstone::oracle {
 
-/// A configuration without the digits that no answer can show, and what leaving them out may have
+/// A configuration rounded to the bits that an answer can show, and a bound of what rounding
 /// changed.
 struct Resolved {
   Configuration configuration;
-  mpq_class
-      error;  ///< Metres: the signed distances differ by no more. Zero if nothing was rounded.
+  /// Metres: the signed distances differ by no more than this. Zero if nothing was rounded.
+  mpq_class error;
 };
 
 /// Bits that every truth and every contact patch keeps. Doubles within a factor of 2^139 of each
-/// other lose nothing, nor do tilts of 1e-25.
+/// other lose nothing; neither do tilts of 1e-25.
 inline constexpr int resolved_bits = 192;
 
-/// Lengths are rounded to multiples of 2^-bits of the larger size, a size to no less than one of
-/// them, and a quaternion's components likewise to 2^-bits of its largest one. Exact polynomials
-/// are of short numbers then, whatever exponents the doubles have: a component of 1e-300 beside
-/// ordinary ones makes them a hundred times longer, and their roots as much harder to isolate.
+/// Rounds lengths to multiples of 2^-bits of the larger size (a size to at least one multiple), and
+/// a quaternion's components to multiples of 2^-bits of its largest one. This keeps the
+/// coefficients of exact polynomials short, whatever exponents the doubles have: one component of
+/// 1e-300 would make them a hundred times longer, and their roots that much harder to isolate.
 ///
 /// The error follows from Lipschitz bounds of the gap along any one direction: 1 in the offset of
 /// the centres and in every size; a rotation of quaternion q to that of q' moves no point by more
 /// than 2 |q' − q| / |q| times its distance from the centre, as sin(angle/2) <= |q' − q| / |q|.
 ///
-/// Nothing is rounded where no polynomial arises: against a plane or a sphere.
+/// Against a plane or a sphere no polynomial arises, and nothing is rounded.
 Resolved resolved(const Configuration& configuration, int bits = resolved_bits);
+
+/// Moves bodies that are farther apart than 2^bits times their sizes closer together, in the same
+/// direction: coordinates of a thousand bits would give roots that lie 2^-1000 apart.
+///
+/// With D the distance of the centres, d̂ its direction, S the sum of all sizes and h the half width
+/// of the difference body, g(d̂) = D − h(d̂) is a lower bound of σ, and the distance of the support
+/// points along d̂ an upper one:
+///
+///   D − h(d̂) <= σ <= D − h(d̂) + S² / (2 (D − S)),
+///
+/// so that σ − D is independent of D to within S 2^-bits.
+class FarBodies {
+ public:
+  /// Moves the bodies of the difference closer together. None if they are near already, or if there
+  /// is only one segment, so that no polynomial arises.
+  static std::optional<FarBodies> brought_nearer(Difference& difference, int bits);
+
+  /// True signed distance minus that of the moved bodies, in units.
+  Ball shift() const;
+  /// Bound of the error of shift(), in units.
+  const mpq_class& error() const { return error_; }
+
+ private:
+  FarBodies(const Difference& before, const Difference& after, mpq_class error);
+
+  IntegerVector before_, after_;
+  Integer norm_;
+  mpq_class error_;
+};
 
 }  // namespace touchstone::oracle

@@ -1,20 +1,21 @@
-// A rim against a side or an edge: directions across a line, in whose projection the disc is an
-// ellipse and everything else a point or a disc. The nearest point of an ellipse is a root of a
-// quartic; Ericson, "Real-Time Collision Detection"; Eberly, "Distance from a Point to an Ellipse".
+// A rim against a side or an edge: directions perpendicular to a line. In the projection along that
+// line the disc is an ellipse, all else a point or a disc. The nearest point of an ellipse is a
+// root of a quartic: Ericson, "Real-Time Collision Detection"; Eberly, "Distance from a Point to an
+// Ellipse".
 //
-// With n = e + t f for an orthonormal e, f across the line, n' = f − t e, the disc's unit axis u
-// and the reduced point q, the gap is stationary where
+// With n = e + t f for orthonormal e, f perpendicular to the line, n' = f − t e, the disc's unit
+// axis u and the reduced point q, the gap is stationary where
 //
 //   (q·n')² (n·n − (u·n)²) = radius² (u·n)² (u·n')².
 #include <utility>
 
 #include "oracle/critical_direction.hpp"
-#include "oracle/root_sum.hpp"
+#include "oracle/real_roots.hpp"
 
 namespace touchstone::oracle {
 namespace {
 
-/// The frame whose e, f are turned by that many quarters about its axis.
+/// The frame with e and f turned by that many quarter turns about its axis.
 Frame turned(const Frame& frame, unsigned quarters) {
   switch (quarters) {
     case 0:
@@ -28,7 +29,8 @@ Frame turned(const Frame& frame, unsigned quarters) {
   }
 }
 
-/// What the gap depends on across one line, at one vertex of the other segments.
+/// The data of the gap along directions perpendicular to one line, at one vertex of the other
+/// segments.
 struct Profile {
   Frame line;
   const Difference::Segment* segment;
@@ -36,7 +38,7 @@ struct Profile {
   IntegerVector q;
   Frame disc;
   Integer radius;
-  Integer flat;  ///< the inflation, and the radius of a disc that is flat on
+  Integer flat;  ///< the inflation plus the radius of a disc perpendicular to the line
 
   /// v·n as a polynomial in t.
   Polynomial along(const IntegerVector& v) const { return {dot(v, line.e), dot(v, line.f)}; }
@@ -52,7 +54,7 @@ Polynomial length_squared(const Integer& norm) {
   return {norm_fourth, 0, norm_fourth};
 }
 
-// Scaled: q by norm², u·n by norm², both sides by norm⁴ · norm⁴.
+// Scale factors: q by norm², u·n by norm², both sides by norm⁸.
 Polynomial stationary_quartic(const Profile& profile, const Integer& norm) {
   const Polynomial q_slope = profile.across(profile.q);
   const Polynomial u_n = profile.along(profile.disc.axis);
@@ -98,7 +100,7 @@ class RimLineDirection : public CriticalDirection {
   /// Is a − √b − √c zero at this root?
   bool is_zero_here(const Polynomial& a, const Polynomial& b, const Polynomial& c) {
     if (t_.is_root_of(b)) {
-      // The disc is seen flat on.
+      // The direction is the disc's axis.
       return is_zero(c) ? t_.is_root_of(a) : is_zero_here(a, c, {0});
     }
     if (!t_.is_root_of(root_sum_norm(a, b, c))) return false;
@@ -133,8 +135,9 @@ void append_rim_line(const Difference& difference, const CriticalSite& site,
                   std::move(flat)};
   const Polynomial quartic = stationary_quartic(profile, difference.norm);
   if (is_zero(quartic)) {
-    // The disc is seen edge on and its corner coincides with the reduced point (or their mirror
-    // images do): for all directions between the corner's sides the gap is that of what is flat on.
+    // The line lies in the disc's plane, and the end of the projected disc coincides with the
+    // reduced point (or its mirror image does): the gap is constant over all directions of that
+    // end's normal cone.
     std::vector<IntegerVector> inward = signed_axes(difference, site.signs, &segment);
     inward.push_back(off_axis(profile.q, profile.line));
     DirectionFamily arc = sector(profile.line.axis, inward);

@@ -20,7 +20,8 @@
 namespace touchstone::oracle {
 namespace {
 
-/// One choice of the segments' ends: both rims, and the cell of directions that belongs to it.
+/// Both rims for one choice of the segments' ends, and the cell of directions that belongs to that
+/// choice.
 struct RimPair {
   Frame rim1;
   Frame rim2;
@@ -30,22 +31,22 @@ struct RimPair {
   std::array<IntegerVector, 2> up;  // signed segment axes: up·n >= 0 in the cell
 };
 
-/// The rims at one angle, in balls; lengths in units.
+/// Rim 1's point at one angle and its stationary partners on rim 2, in balls; lengths in units.
 class StationaryPair {
  public:
   StationaryPair(const RimPair& rims, const Ball& cosine, const Ball& sine);
 
-  /// Appends the direction of every stationary point of rim 2 that rim 1's point has here.
+  /// Appends the directions to all points of rim 2 that are stationary for rim 1's point.
   void enclose(const BallDifference& difference, std::vector<DirectionBound>& out) const;
 
-  /// If rim 1's point lies on rim 2 and their tangents cross: is the normal of both outward?
+  /// Is the common normal outward for both rims? Precondition: rim 1's point lies on rim 2.
   bool touches_outward() const;
 
  private:
   std::vector<BallVector> points_of_rim2(bool& undecided) const;
   void enclose(const BallVector& y, const BallDifference& difference,
                std::vector<DirectionBound>& out) const;
-  /// Is n an outward normal of both rims' contacts?
+  /// Is n an outward normal of both rims at their points?
   Side is_outward(const BallVector& n, const BallVector& y) const;
 
   BallVector radial_, tangent_, w_, axis2_;
@@ -82,7 +83,7 @@ std::vector<BallVector> StationaryPair::points_of_rim2(bool& undecided) const {
     }
     return points;
   }
-  // On the axis of rim 2, or nearly: solve y·t1 = w·t1 within rim 2's plane.
+  // On rim 2's axis, or nearly so: solve y·t1 = w·t1 in rim 2's plane.
   const BallVector slope = tangent_ - dot(tangent_, axis2_) * axis2_;
   const Ball slope_squared = dot(slope, slope);
   if (slope_squared.contains_zero()) {
@@ -113,7 +114,8 @@ void StationaryPair::enclose(const BallVector& y, const BallDifference& differen
                              std::vector<DirectionBound>& out) const {
   const BallVector apart = w_ - y;
   const Ball distance = norm(apart);
-  // The tangents' cross product survives rims that touch, the difference parallel tangents.
+  // For touching rims the cross product of the tangents is well defined, for parallel tangents the
+  // difference of the points is.
   BallVector n = apart;
   if (distance.contains_zero() ||
       arb_rel_accuracy_bits(distance.get()) < WorkingPrecision::bits() / 2) {
@@ -121,8 +123,8 @@ void StationaryPair::enclose(const BallVector& y, const BallDifference& differen
     if (!norm(across).contains_zero()) n = across;
   }
   if (norm(n).contains_zero()) {
-    // The rims touch with parallel tangents, as far as this precision can tell: the gap is at most
-    // their distance, if the two quarter circles of outward normals across the tangent meet at all.
+    // At this precision the rims may touch with parallel tangents. Then the gap is at most their
+    // distance, if the two quarter circles of outward normals intersect at all.
     const BallVector inner = radial_ + up_[0];
     const BallVector outer = up_[1] - (Ball(1) / radius2_) * y;
     if (!dot(inner, outer).is_negative()) out.push_back({distance, std::nullopt});
@@ -144,13 +146,12 @@ bool StationaryPair::touches_outward() const {
   return is_outward(n, w_) == Side::yes || is_outward(-n, w_) == Side::yes;
 }
 
-/// α + β cos θ + γ sin θ times 1 + t².
+/// (1 + t²)(α + β cos θ + γ sin θ) as a polynomial in t = tan(θ/2).
 Polynomial in_half_angle(const Integer& constant, const Integer& cosine, const Integer& sine) {
   return {Integer(constant + cosine), Integer(2 * sine), Integer(constant - cosine)};
 }
 
-// Every dot product of two vectors brings a factor norm² along, q·u2 and the like too; F is scaled
-// by norm^8 and (1 + t²)⁴.
+// Every dot product of two vectors carries a factor norm²; F is scaled by norm^8 (1 + t²)⁴.
 Polynomial stationary_octic(const RimPair& rims) {
   const Integer n2 = rims.norm * rims.norm;
   const Integer q_e = dot(rims.q, rims.rim1.e), q_f = dot(rims.q, rims.rim1.f);
@@ -171,10 +172,10 @@ Polynomial stationary_octic(const RimPair& rims) {
   return q_t * q_t * across_squared - Integer(rims.radius2 * rims.radius2) * (across_t * across_t);
 }
 
-/// Where rim 1's tangent is parallel to u2 and its point on rim 2's axis, F has a root without a
-/// stationary pair of its own: either (w·t1 ≠ 0) none at all, or the whole of rim 2, whose normals
-/// are all across u2 and belong to the line directions. Such points as t = tan(θ/2), exactly; none
-/// for θ = π, where no site lies.
+/// Exact t = tan(θ/2) of the spurious roots of F: where rim 1's tangent is parallel to u2 and its
+/// point lies on rim 2's axis. If w·t1 ≠ 0 there is no stationary pair; otherwise every point of
+/// rim 2 is stationary, with a normal perpendicular to u2, which the line directions cover. θ = π
+/// is left out because no site lies there.
 std::vector<mpq_class> spurious_points(const RimPair& rims) {
   std::vector<mpq_class> result;
   if (dot(rims.rim1.axis, rims.rim2.axis) != 0) return result;
@@ -195,7 +196,7 @@ std::vector<mpq_class> spurious_points(const RimPair& rims) {
   return result;
 }
 
-/// Where rim 1's point is on rim 2: in its plane, and at its radius from its centre.
+/// Both polynomials vanish where rim 1's point lies on rim 2: in its plane, and at its radius.
 struct OnRim2 {
   Polynomial in_plane, at_radius;
 };
@@ -220,14 +221,14 @@ class RimRimDirection : public CriticalDirection {
     pair().enclose(balls, out);
   }
 
-  // The points of rims that touch are points of both bodies, so that no gap is above zero.
+  // Touching rims share a point of both bodies, so that no gap is above zero.
   ZeroGap zero_gap(const Difference&) override {
     const OnRim2 on = on_rim2(rims_);
     if (!t_.is_root_of(on.in_plane) || !t_.is_root_of(on.at_radius)) return ZeroGap::unknown;
     return pair().touches_outward() ? ZeroGap::zero : ZeroGap::at_most_zero;
   }
 
-  // Across an axis it is a direction of that axis's line too.
+  // A direction perpendicular to an axis also belongs to that axis's line directions.
   bool is_across(const IntegerVector&) const override { return false; }
 
   std::optional<DirectionFamily> family() const override {
@@ -247,7 +248,7 @@ class RimRimDirection : public CriticalDirection {
   bool of_a_family_;
 };
 
-/// A root that is known.
+/// A known root as a RealRoot.
 RealRoot rational_root(const mpq_class& t) {
   return RealRoot({Integer(-t.get_num()), t.get_den()}, t, t);
 }
@@ -256,7 +257,7 @@ RealRoot rational_root(const mpq_class& t) {
 
 void append_rim_rim(const Difference& difference, const CriticalSite& site,
                     CriticalDirections& out) {
-  // Two discs come with exactly the two segments of the same axes.
+  // With two discs the segments are exactly two, with the same axes.
   const auto& [disc1, disc2] = std::pair(difference.discs[0], difference.discs[1]);
   RimPair rims{disc1.frame,
                disc2.frame,
@@ -277,10 +278,10 @@ void append_rim_rim(const Difference& difference, const CriticalSite& site,
   const Polynomial octic = stationary_octic(rims);
   const std::vector<mpq_class> spurious = spurious_points(rims);
   if (is_zero(octic)) {
-    // A continuous family of stationary pairs, on which the distance is constant. Where it leaves
-    // the cell it meets a direction of another kind; if it never does, any sample stands for it. At
-    // most two points of rim 1 lie on rim 2's axis, so that one sample of several shows both of
-    // rim 2's points.
+    // A continuous family of stationary pairs at constant distance. Where it leaves the cell it
+    // meets a direction of another kind; if it does not leave it, any sample represents it. At most
+    // two points of rim 1 lie on rim 2's axis, so that one of several samples yields both points of
+    // rim 2.
     for (int i = 1; i <= 5; ++i) {
       const mpq_class t = lo + mpq_class(i, 6) * (hi - lo);
       if (std::find(spurious.begin(), spurious.end(), t) != spurious.end()) continue;

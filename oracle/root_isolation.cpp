@@ -9,7 +9,7 @@
 namespace touchstone::oracle {
 namespace {
 
-/// FLINT's polynomial, released at the end of the scope.
+/// Owner of a FLINT polynomial.
 struct FlintPolynomial {
   FlintPolynomial() { fmpz_poly_init(value); }
   explicit FlintPolynomial(const Polynomial& p) : FlintPolynomial() {
@@ -39,8 +39,8 @@ long bits_of(const Polynomial& p) {
   return bits;
 }
 
-// Signs of numbers that are polynomials in long integers: first by balls of few bits, which mostly
-// tell, then exactly. Both ways share their formulas, written for any ring.
+// Signs of polynomial expressions in long integers: first in balls of few bits, which usually
+// suffice, then exactly. The formulas are templates over both rings.
 
 template <class Number>
 Number number(const mpz_class& x);
@@ -107,10 +107,10 @@ int variations(const std::vector<Number>& coefficients, const Sign& sign_of) {
 bool has_sign(const Ball& x) { return !x.contains_zero(); }
 int sign_of(const Ball& x) { return x.is_positive() ? 1 : -1; }
 
-/// The first precision at which balls may tell a sign; that of the exact numbers is `exact_bits`.
-/// Calls ask() at rising ones until it is content, or exact numbers are as cheap.
+/// Calls ask() at rising precisions until it succeeds. Gives up (false) once balls would be as long
+/// as the exact numbers, which have `exact_bits`.
 template <class Ask>
-bool told_by_balls(long exact_bits, const Ask& ask) {
+bool decided_by_balls(long exact_bits, const Ask& ask) {
   constexpr long first_bits = 192, growth = 2;
   for (long bits = first_bits; growth * bits < exact_bits; bits *= growth) {
     const WorkingPrecision precision(bits);
@@ -119,22 +119,22 @@ bool told_by_balls(long exact_bits, const Ask& ask) {
   return false;
 }
 
-/// Bits of the exact p(x) m^k.
+/// Length in bits of the exact p(x) m^k.
 long bits_of_value(const Polynomial& p, long denominator_bits) {
   return bits_of(p) + static_cast<long>(p.size()) * denominator_bits;
 }
 
-/// Upper bound of −log2 of a positive number.
+/// Upper bound of −log2(x) for x > 0.
 long bits_below_one(const mpq_class& x) {
   return static_cast<long>(mpz_sizeinbase(x.get_den_mpz_t(), 2)) -
          static_cast<long>(mpz_sizeinbase(x.get_num_mpz_t(), 2)) + 1;
 }
 
-/// An interval whose ends are no roots.
+/// An interval whose ends are not roots.
 struct Piece {
   mpq_class lo, hi;
   int variations;
-  long speed;  ///< the next jump makes it 2^-speed as wide
+  long speed;  ///< the next jump shrinks the width by 2^-speed
 };
 
 constexpr long first_speed = 2;
@@ -162,7 +162,8 @@ class Isolation {
   }
 
  private:
-  /// Shrinks the piece to where Newton's method expects all of its roots, if they are there.
+  /// Shrinks the piece to the neighbourhood in which Newton's method predicts all of its roots.
+  /// False if some are elsewhere.
   bool jump(Piece& piece) const {
     const mpq_class width = piece.hi - piece.lo;
     mpq_class half = width;
@@ -174,8 +175,8 @@ class Isolation {
       const mpq_class lo = std::max(piece.lo, mpq_class(centre - half));
       const mpq_class hi = std::min(piece.hi, mpq_class(centre + half));
       if (sign_at(p_, lo) == 0 || sign_at(p_, hi) == 0) continue;
-      // The numbers of variations of disjoint parts add up to no more than that of the whole: none
-      // is left for the rest.
+      // The sign variations of disjoint parts add up to at most those of the whole, so that none
+      // are left for the rest.
       if (sign_variations(p_, lo, hi) != piece.variations) continue;
       piece.lo = lo;
       piece.hi = hi;
@@ -185,17 +186,17 @@ class Isolation {
     return false;
   }
 
-  /// Where Newton's method for a root of that multiplicity goes; x itself where it cannot.
+  /// One step of Newton's method for a root of that multiplicity; x itself if the slope is zero.
   mpq_class newton(const mpq_class& x, int multiplicity) const {
     mpq_class step = 0;
-    const bool told = told_by_balls(bits_of_value(p_, bits_of(x.get_den())), [&] {
+    const bool decided = decided_by_balls(bits_of_value(p_, bits_of(x.get_den())), [&] {
       const Ball value = value_at<Ball>(p_, x), slope = value_at<Ball>(slope_, x);
       if (!has_sign(value) || !has_sign(slope)) return false;
       const Ball ratio = value / (slope * Ball(x.get_den()));
       step = multiplicity * ratio.lower();
       return true;
     });
-    if (told) return x - step;
+    if (decided) return x - step;
     const auto slope = value_at<mpz_class>(slope_, x);
     if (slope == 0) return x;
     step = mpq_class(multiplicity * value_at<mpz_class>(p_, x), slope * x.get_den());
@@ -210,7 +211,7 @@ class Isolation {
     open.push_back({piece.lo, middle, sign_variations(p_, piece.lo, middle), speed});
   }
 
-  /// A point near the middle that is no root.
+  /// A point near the middle that is not a root.
   mpq_class between(const Piece& piece) const {
     mpq_class offset = (piece.hi - piece.lo) / 2;
     mpq_class middle = piece.lo + offset;
@@ -229,13 +230,13 @@ class Isolation {
 
 int sign_at(const Polynomial& p, const mpq_class& x) {
   int sign = 0;
-  const bool told = told_by_balls(bits_of_value(p, bits_of(x.get_den())), [&] {
+  const bool decided = decided_by_balls(bits_of_value(p, bits_of(x.get_den())), [&] {
     const Ball value = value_at<Ball>(p, x);
     if (!has_sign(value)) return false;
     sign = sign_of(value);
     return true;
   });
-  return told ? sign : sgn(value_at<mpz_class>(p, x));
+  return decided ? sign : sgn(value_at<mpz_class>(p, x));
 }
 
 mpq_class on_grid(const mpq_class& x, long bits, bool up) {
@@ -289,13 +290,13 @@ Polynomial without_root(const Polynomial& p, const mpq_class& root) {
 int sign_variations(const Polynomial& p, const mpq_class& lo, const mpq_class& hi) {
   int result = 0;
   const long denominator_bits = std::max(bits_of(lo.get_den()), bits_of(hi.get_den()));
-  const bool told = told_by_balls(bits_of_value(p, denominator_bits), [&] {
+  const bool decided = decided_by_balls(bits_of_value(p, denominator_bits), [&] {
     const auto coefficients = over_interval<Ball>(p, lo, hi);
     if (!std::all_of(coefficients.begin(), coefficients.end(), has_sign)) return false;
     result = variations(coefficients, sign_of);
     return true;
   });
-  if (told) return result;
+  if (decided) return result;
   return variations(over_interval<mpz_class>(p, lo, hi), [](const mpz_class& c) { return sgn(c); });
 }
 

@@ -8,35 +8,35 @@
 #include <utility>
 
 #include "oracle/critical_direction.hpp"
-#include "oracle/far_bodies.hpp"
-#include "oracle/grid_cell.hpp"
+#include "oracle/enclosure.hpp"
 #include "oracle/resolved.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone::oracle {
 namespace {
 
-/// Bits below the larger size down to which a gap is separated from zero.
+/// A gap below 2^-zero_bits of the larger size is not separated from zero.
 constexpr long zero_bits = 1000;
 constexpr long last_bits = 1L << 13;
 
-/// An enclosure of a number that rounding to 2^-bits of the size leaves on either side of zero ends
-/// less than 2^(8 − bits) of the size from it: eight lengths change by at most one multiple each,
-/// two orientations by 12 and 18 (resolved.hpp), and four times that is told by balls.
+/// If rounding to 2^-bits of the size leaves the sign open, the enclosure reaches less than 2^(8 −
+/// bits) of the size beyond zero: eight lengths change by at most one multiple each, two
+/// orientations by 12 and 18 (resolved.hpp), and balls separate four times that.
 constexpr int bits_below_resolution = 8;
 
-/// What a gap may be below the largest and tie with it, relative to the larger size.
-mpq_class tie_of(double width) { return mpq_class(width) >> 20; }
+/// Gaps this close to the largest tie with it; relative to the larger size.
+mpq_class tie_tolerance(double width) { return mpq_class(width) >> 20; }
 
-/// Working precision to begin with: a little more than ties at this width need.
+/// Initial working precision: a little more than ties at this width need.
 long first_bits(double width) {
   return 112 + std::max(0L, static_cast<long>(-std::log2(width)) - 53);
 }
 
-/// Bits kept beyond the wanted width, so that hardly ever a rounded number lies between two cells.
+/// Bits kept beyond the wanted width, so that rounding rarely leaves open in which cell a number
+/// lies.
 constexpr int bits_beyond_width = 92;
 
-/// Normals no further apart are one in double.
+/// Normals closer than this are equal in double.
 constexpr double same_normal = 1e-14;
 
 struct Survivor {
@@ -44,13 +44,13 @@ struct Survivor {
   std::vector<DirectionBound> bounds;
 };
 
-/// Ends of the largest gap, in units, as far as they are known.
+/// Lower and upper bound of the largest gap, in units, if known.
 struct Maximum {
   std::optional<mpq_class> lo, hi;
 };
 
-/// Largest lower and upper end over all bounds. A bound without a normal is an upper one only; one
-/// that is not finite leaves the upper end open.
+/// Largest lower and upper ends over all bounds. A bound without a normal counts as an upper one
+/// only; one that is not finite leaves the upper end open.
 Maximum maximum(const std::vector<Survivor>& survivors) {
   Maximum result;
   bool open = false;
@@ -71,17 +71,18 @@ Maximum maximum(const std::vector<Survivor>& survivors) {
   return result;
 }
 
-/// A direction whose every bound stays below the bar is no maximum, nor tied with it.
-void drop_below(std::vector<Survivor>& survivors, const mpq_class& bar) {
+/// Drops directions all of whose bounds lie below `limit`: they are not maxima and do not tie with
+/// one.
+void drop_below(std::vector<Survivor>& survivors, const mpq_class& limit) {
   std::erase_if(survivors, [&](Survivor& survivor) {
     std::erase_if(survivor.bounds, [&](const DirectionBound& bound) {
-      return bound.gap.is_finite() && bound.gap.upper() < bar;
+      return bound.gap.is_finite() && bound.gap.upper() < limit;
     });
     return survivor.bounds.empty();
   });
 }
 
-/// Is it certain of every normal whether its gap is within `tie` of the largest?
+/// Is it decided for every normal whether its gap is within `tie` of the largest?
 bool ties_are_decided(const std::vector<Survivor>& survivors, const Maximum& best,
                       const mpq_class& tie) {
   std::size_t undecided = 0, reaching = 0;
@@ -92,12 +93,12 @@ bool ties_are_decided(const std::vector<Survivor>& survivors, const Maximum& bes
       if (bound.gap.lower() < *best.hi - tie) ++undecided;
     }
   }
-  // One alone is the largest, however little is known of it.
+  // A single remaining normal is the largest, however wide its bound is.
   return undecided == 0 || reaching == 1;
 }
 
-/// Is the signed distance proven to be zero? Every gap that may reach zero must be known not to
-/// exceed it, and one to be zero.
+/// Is the signed distance proven to be zero? Every gap that may reach zero must be proven not to
+/// exceed it, and at least one to be zero.
 bool is_exactly_zero(const std::vector<Survivor>& survivors, const Difference& difference) {
   bool zero = false;
   for (const auto& survivor : survivors) {
@@ -113,7 +114,7 @@ bool is_exactly_zero(const std::vector<Survivor>& survivors, const Difference& d
 }
 
 Vec3 in_world(const Difference& difference, const BallVector& n) {
-  // A double of each coordinate and one normalisation: within a few ulp.
+  // Rounding each coordinate and one normalisation: an error of a few ulp.
   const auto coordinate = [&](int row) { return dot(to_balls(difference.world_rows[row]), n); };
   const BallVector world{coordinate(0), coordinate(1), coordinate(2)};
   const Ball length = norm(world);
@@ -154,7 +155,7 @@ NormalFamily in_world(const Difference& difference, const DirectionFamily& famil
   return result;
 }
 
-/// The two of these directions with the largest angle between them.
+/// The arc between the two directions with the largest angle.
 NormalFamily arc_between(const std::vector<OptimalNormal>& normals) {
   NormalFamily arc{NormalFamily::Kind::arc, Vec3::Zero(), {normals[0].n, normals[1].n}};
   for (const auto& a : normals) {
@@ -166,7 +167,8 @@ NormalFamily arc_between(const std::vector<OptimalNormal>& normals) {
   return arc;
 }
 
-/// Sites come simplest first, so that a direction that several make is known by its simplest.
+/// Sites are ordered from simple to complex, so that a direction with several sites is known by the
+/// simplest.
 void set_normals(const Difference& difference, const Shape& b,
                  const std::vector<Survivor>& survivors, Truth& truth) {
   for (const auto& [direction, bounds] : survivors) {
@@ -183,13 +185,32 @@ void set_normals(const Difference& difference, const Shape& b,
       if (!known) truth.normals.push_back(optimal_normal(difference, b, *direction, n));
     }
   }
-  // g is concave as a function of vectors of any length, so two normals of gap zero make the whole
-  // arc between them optimal.
+  // As a function of vectors of any length g is concave and homogeneous, so that two normals of gap
+  // zero make the whole arc between them optimal.
   const bool touching = truth.signed_distance.lo <= 0 && 0 <= truth.signed_distance.hi;
   if (touching && truth.normals.size() > 1) truth.families = {arc_between(truth.normals)};
   truth.ties = !truth.families.empty()    ? Ties::continuum
                : truth.normals.size() > 1 ? Ties::finite
                                           : Ties::unique;
+}
+
+/// Appends all critical directions of one site.
+void append_directions(const Difference& difference, const CriticalSite& site,
+                       CriticalDirections& out) {
+  switch (site.kind) {
+    case CriticalSite::Kind::disc_axis:
+      return append_disc_axis(difference, site, out);
+    case CriticalSite::Kind::crossing:
+      return append_crossing(difference, site, out);
+    case CriticalSite::Kind::radial:
+      return append_radial(difference, site, out);
+    case CriticalSite::Kind::rim_vertex:
+      return append_rim_vertex(difference, site, out);
+    case CriticalSite::Kind::rim_line:
+      return append_rim_line(difference, site, out);
+    case CriticalSite::Kind::rim_rim:
+      return append_rim_rim(difference, site, out);
+  }
 }
 
 std::vector<Survivor> all_directions(const Difference& difference, double slack) {
@@ -214,15 +235,15 @@ void check(const char* field, double value, bool good, const char* remedy) {
 /// Bits after the binary point of a positive number.
 int bits_of(double x) { return std::max(0, -std::ilogb(x)); }
 
-/// What was asked for.
-struct Wanted {
+/// The question and the accuracy wanted.
+struct Request {
   const Configuration& configuration;
   double width, tie;
-  int resolution;  ///< the bits that were kept (resolved.hpp)
+  int resolution;  ///< bits kept by rounding (resolved.hpp)
 };
 
-/// None if what was rounded leaves the answer open.
-std::optional<Truth> truth_of(const Resolved& question, const Wanted& wanted) {
+/// None if the rounding of `question` leaves the answer open.
+std::optional<Truth> truth_of(const Resolved& question, const Request& wanted) {
   Difference difference = make_difference(question.configuration);
   const auto far = FarBodies::brought_nearer(difference, wanted.resolution);
   mpq_class error = question.error;
@@ -235,7 +256,7 @@ std::optional<Truth> truth_of(const Resolved& question, const Wanted& wanted) {
   const double slack = std::max(wanted.width, wanted.tie);
   const mpq_class slack_in_units = in_units(mpq_class(slack) * mpq_class(size));
   const mpq_class tie =
-      in_units(std::max(mpq_class(wanted.tie), tie_of(wanted.width)) * mpq_class(size));
+      in_units(std::max(mpq_class(wanted.tie), tie_tolerance(wanted.width)) * mpq_class(size));
 
   std::vector<Survivor> survivors = all_directions(difference, slack * size);
   std::optional<Enclosure> signed_distance;
@@ -260,7 +281,7 @@ std::optional<Truth> truth_of(const Resolved& question, const Wanted& wanted) {
       if (!signed_distance && may_be_zero && error == 0 && is_exactly_zero(survivors, difference)) {
         signed_distance = {0, 0};
       }
-      // What was rounded, not the precision, leaves the answer open.
+      // The rounding, not the precision, leaves the answer open.
       const bool needs_resolution = error != 0 && hi - lo <= 4 * error;
       if (!signed_distance && needs_resolution && !may_be_zero) return std::nullopt;
       const Enclosure nearly_zero =
@@ -285,8 +306,8 @@ std::optional<Truth> truth_of(const Resolved& question, const Wanted& wanted) {
 Truth truth(const Configuration& configuration, double width, double tie) {
   check("width", width, std::isfinite(width) && width > 0, "must be positive and finite");
   check("tie", tie, std::isfinite(tie) && tie >= 0, "must not be negative, and finite");
-  const int least = std::max(resolved_bits, bits_of(width) + bits_beyond_width);
-  for (int bits = least;; bits *= 2) {
+  const int min_bits = std::max(resolved_bits, bits_of(width) + bits_beyond_width);
+  for (int bits = min_bits;; bits *= 2) {
     const Resolved question = resolved(configuration, bits);
     if (auto answer = truth_of(question, {configuration, width, tie, bits})) return *answer;
   }

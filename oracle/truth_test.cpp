@@ -1,10 +1,11 @@
 #include "oracle/truth.hpp"
 
 #include <cmath>
+#include <gtest/gtest.h>
 #include <random>
 #include <string>
 
-#include "oracle/expect_truth.hpp"
+#include "oracle/brute_force.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone::oracle {

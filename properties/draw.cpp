@@ -28,14 +28,15 @@ double Draw::log_uniform(double lo, double hi) {
   for (double x = lo; 2 * x < hi; x *= 2) ++octaves;
   for (;;) {
     const double octave = std::ldexp(lo, static_cast<int>(integer(0, octaves - 1)));
-    const double x = octave * uniform(1, 2);  // C++ does not order the draws within one product
+    const double x = octave * uniform(1, 2);  // C++ leaves the order of draws within a product open
     if (x <= hi) return x;
   }
 }
 
 Vec3 Draw::direction() {
   for (;;) {
-    const Vec3 v{uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)};  // braces: in this order
+    const Vec3 v{uniform(-1, 1), uniform(-1, 1),
+                 uniform(-1, 1)};  // braces fix the order of the draws
     const double squared = dot(v, v);
     if (squared <= 1 && squared > 1e-4) return normalized(v);
   }

@@ -17,22 +17,22 @@ using Tape = std::vector<std::uint64_t>;
 class Draw {
  public:
   explicit Draw(const rc::Random& random) : random_(random) {}
-  /// Draws what is on the tape; where that ends, it is prolonged with the stream. The tape must
-  /// outlive this.
+  /// Draws the numbers on the tape; after its end the stream's numbers are appended to it. The tape
+  /// must outlive this.
   Draw(const rc::Random& random, Tape& tape) : random_(random), tape_(&tape) {}
 
   std::int64_t integer(std::int64_t lo, std::int64_t hi);  ///< both ends included
   bool coin() { return integer(0, 1) == 1; }
   double sign() { return coin() ? 1 : -1; }
   double uniform(double lo, double hi);
-  /// Every octave from lo upwards is equally likely, within an octave it is uniform.
+  /// Every octave from lo upwards is equally likely; within an octave the distribution is uniform.
   double log_uniform(double lo, double hi);
 
-  Vec3 direction();  ///< unit, evenly on the sphere
+  Vec3 direction();  ///< unit, uniform on the sphere
   Vec3 direction_across(const Vec3& unit);
-  /// Evenly over all orientations (Marsaglia 1972), unit up to rounding.
+  /// Uniform over all orientations (Marsaglia 1972), unit up to rounding.
   Eigen::Quaterniond orientation();
-  Eigen::Quaterniond turn_about_z();  ///< by an angle evenly on the circle
+  Eigen::Quaterniond turn_about_z();  ///< by a uniform angle
 
  private:
   std::uint64_t next();
@@ -42,7 +42,7 @@ class Draw {
   std::size_t at_ = 0;  ///< on the tape
 };
 
-// Eigen may add in another order on another instruction set; these never do.
+// Eigen's order of additions depends on the instruction set; that of these functions is fixed.
 double dot(const Vec3& a, const Vec3& b);
 Vec3 cross(const Vec3& a, const Vec3& b);
 Vec3 normalized(const Vec3& v);

@@ -38,7 +38,7 @@ Configuration concentric(Draw& draw, Pair pair) {
           Pose(centre, bodies.orientation_b)};
 }
 
-/// The box's z edge lies across the cap, in its plane but for rounding.
+/// The box's z edge lies across the cap, in its plane up to rounding.
 Configuration edge_in_cap(Draw& draw) {
   Bodies bodies = draw_bodies(draw, Pair::box);
   const Eigen::Quaterniond z_to_x(0.5, 0.5, 0.5, 0.5);

@@ -8,7 +8,7 @@
 namespace touchstone {
 namespace {
 
-/// Parts of a feature's extent at which contact is made; the outer tenth is left to the rim
+/// Fraction of a feature's extent within which contact is made; the outer tenth is left to the rim
 /// classes.
 constexpr double inner = 0.9;
 
@@ -19,8 +19,8 @@ Vec3 in_body(const Axes& a, const Vec3& world) {
   return Vec3(dot(a.x, world), dot(a.y, world), dot(a.z, world));
 }
 
-/// A contact point on a round body (radius, half length about z) that supports the local direction
-/// n.
+/// A point of a round body (radius, half length along z) at which the local direction n is an
+/// outward normal.
 Vec3 point_on_round(Draw& draw, double radius, double half_length, Feature feature, const Vec3& n) {
   const double z = feature == Feature::side ? half_length * draw.uniform(-inner, inner)
                                             : std::copysign(half_length, n.z());
@@ -37,7 +37,7 @@ Vec3 point_on_round(Draw& draw, double radius, double half_length, Feature featu
                     : Vec3(radius, 0, z);
 }
 
-/// The frame's axis nearest to a direction.
+/// Index of the axis nearest to a direction.
 int nearest_axis(const Vec3& local) {
   int best = 0;
   for (int i = 1; i < 3; ++i) {
@@ -86,7 +86,7 @@ struct PointOnB {
 
 Vec3 box_axis(const Axes& a, int i) { return i == 0 ? a.x : i == 1 ? a.y : a.z; }
 
-/// Which directions a feature allows: one, all across a line, or any.
+/// The normals of a feature: a single one, all perpendicular to a line, or any.
 struct Directions {
   enum Kind { one, across, any } kind;
   Vec3 axis;
@@ -111,7 +111,8 @@ Directions directions_of_b(Draw& draw, const Bodies& bodies, const Axes& axes, F
   return directions_of_a(draw, axes, feature);
 }
 
-/// Towards A. A plane decides alone; otherwise A's cap before B's face.
+/// The common normal, towards A. A plane's normal has priority, then that of A's cap, then that of
+/// B's face.
 Vec3 common_normal(Draw& draw, const Directions& a, const Directions& b, bool b_is_plane) {
   if (b_is_plane) return b.axis;
   if (a.kind == Directions::one) return a.axis;
@@ -188,13 +189,13 @@ Configuration meet_at(Draw& draw, const Bodies& bodies, Feature on_a, Feature on
           bodies.b, Pose(centre_b, bodies.orientation_b)};
 }
 
-Configuration overlap_deeply(Draw& draw, const Bodies& bodies, double most) {
+Configuration overlap_deeply(Draw& draw, const Bodies& bodies, double max_distance) {
   if (std::holds_alternative<Plane>(bodies.b)) {
     const double distance = -bodies.a.half_length() * draw.uniform(0.1, 2);
     return meet(draw, bodies, Feature::rim, Feature::cap, distance);
   }
   const Vec3 centre_b{draw.uniform(-1, 1), draw.uniform(-1, 1), draw.uniform(-1, 1)};
-  const double distance = most * draw.uniform(0, 1);
+  const double distance = max_distance * draw.uniform(0, 1);
   const Vec3 centre_a = centre_b + distance * draw.direction();
   return {bodies.a, Pose(centre_a, bodies.orientation_a), bodies.b,
           Pose(centre_b, bodies.orientation_b)};

@@ -4,11 +4,11 @@
 
 namespace touchstone {
 
-/// A part of a surface that can be in contact. The cylinder has cap, side and rim; a capsule end
-/// and side; a sphere is an end; a plane a cap; a box has cap (a face), edge and vertex.
+/// A part of a surface that can be in contact. A cylinder has cap, side and rim; a capsule has end
+/// and side; a sphere is an end, a plane a cap; a box has cap (a face), edge and vertex.
 enum class Feature { cap, side, rim, end, edge, vertex };
 
-/// Shapes and orientations chosen, positions not yet.
+/// Shapes and orientations, without positions.
 struct Bodies {
   Cylinder a;
   Eigen::Quaterniond orientation_a;
@@ -16,7 +16,7 @@ struct Bodies {
   Eigen::Quaterniond orientation_b;
 };
 
-/// The length to which drawn clearances are relative: the smallest half extent of both.
+/// The length to which drawn clearances are relative: the smallest half extent of both bodies.
 double smaller_size(const Bodies& bodies);
 
 /// Sizes log-uniform in [0.2, 1] metres.
@@ -24,23 +24,24 @@ Cylinder draw_cylinder(Draw& draw);
 Shape draw_other(Draw& draw, Pair pair);
 Bodies draw_bodies(Draw& draw, Pair pair);
 
-/// Moves A so that the two features meet with the clearance `distance` (negative: overlap) along
-/// their common normal, at a random place of each. Apart, that is the signed distance exactly but
-/// for rounding; inside, it is one critical depth, and the signed distance unless another feature
-/// is nearer. Two vertices, or a rim and a vertex, have no common normal of their own: a random one
-/// between their neighbours is taken, and overlapping them makes a depth of at most −distance.
+/// Places A so that the two features face each other with the clearance `distance` (negative:
+/// overlap) along their common normal, at a random point of each. For separate bodies `distance` is
+/// the signed distance up to rounding; for overlapping ones it is one critical value, and the
+/// signed distance unless another feature is nearer. Two vertices, or a rim and a vertex, have no
+/// unique common normal: a random one of the common normals is used, and an overlap of them makes
+/// the depth at most −distance.
 Configuration meet(Draw& draw, const Bodies& bodies, Feature on_a, Feature on_b, double distance);
 
-/// The same at the box's edge or face number `axis`, the local axis along or across which it lies.
-/// Other shapes have no choice.
+/// Like meet, at the box's edge along, or face perpendicular to, the local axis number `axis`. For
+/// other shapes `axis` has no effect.
 Configuration meet_at(Draw& draw, const Bodies& bodies, Feature on_a, Feature on_b, double distance,
                       int axis);
 
-/// A's centre less than `most` from B's, in a random direction; over a plane, A's lowest point 0.1
-/// to 2 half lengths below the surface.
-Configuration overlap_deeply(Draw& draw, const Bodies& bodies, double most);
+/// Places A's centre less than `max_distance` from B's, in a random direction; over a plane, places
+/// A's lowest point 0.1 to 2 half lengths below the surface.
+Configuration overlap_deeply(Draw& draw, const Bodies& bodies, double max_distance);
 
-/// A random pair of features with a common normal of their own.
+/// A random pair of features that determine a common normal.
 struct FeaturePair {
   Feature on_a, on_b;
 };

@@ -1,8 +1,8 @@
-// One class that mixes everything: where the other classes each hold one difficulty, faults of
-// contact routines sit where several meet. A configuration is made in four steps, each of which
-// often does nothing: bodies near an alignment whose features nearly meet (or a known failure, or a
-// member of another class); moved, turned and scaled as one; some of its numbers changed; and what
-// no double can hold put back into range.
+// One class that combines all difficulties: each other class has one, while faults of contact
+// routines appear where several coincide. A configuration is made in four steps, each of which
+// often does nothing. (1) Draw bodies near an alignment whose features nearly meet, or a known
+// failure, or a member of another class. (2) Move, turn and scale both bodies as one. (3) Change
+// some of the numbers. (4) Bring numbers that are out of range back into it.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -17,8 +17,8 @@ namespace {
 
 using Quaternion = Eigen::Quaterniond;
 
-/// No length, and no number of a quaternion, is larger: sums of a few, and laws that scale by 8 or
-/// move a body by 30 sizes, stay within double.
+/// Bound of every length and quaternion component: sums of a few, and laws that scale by 8 or move
+/// a body by 30 sizes, do not overflow.
 constexpr double max_number = 0x1p1000;
 
 bool one_in(Draw& draw, std::int64_t count) { return draw.integer(0, count - 1) == 0; }
@@ -29,14 +29,14 @@ auto& any_of(Draw& draw, Range& range) {
       draw.integer(0, static_cast<std::int64_t>(std::size(range)) - 1))];
 }
 
-/// Of any exponent that leaves room for a few sums and products.
+/// A number with any exponent that leaves room for a few sums and products.
 double draw_magnitude(Draw& draw) {
   const int exponent = static_cast<int>(draw.integer(-1000, 999));
   return std::ldexp(draw.uniform(1, 2), exponent);
 }
 
-/// A relative tilt, clearance or change from 1e-17 to 1. More of them lie about an ulp and its
-/// square root: there a term and its square drop below rounding.
+/// A relative tilt, clearance or change from 1e-17 to 1. Values near an ulp and near its square
+/// root are more frequent: there a term, or its square, drops below rounding.
 double draw_small(Draw& draw) {
   switch (draw.integer(0, 3)) {
     case 0:
@@ -48,7 +48,7 @@ double draw_small(Draw& draw) {
   }
 }
 
-/// One in four is zero exactly.
+/// Exactly zero in one of four draws.
 double draw_small_or_zero(Draw& draw) {
   if (one_in(draw, 4)) return 0;
   const double sign = draw.sign();
@@ -57,11 +57,11 @@ double draw_small_or_zero(Draw& draw) {
 
 // Sizes
 
-enum class Sizes { ordinary, dyadic, extreme_aspect, any_exponent };
+enum class Sizes { moderate, dyadic, extreme_aspect, any_exponent };
 
 Sizes draw_kind_of_sizes(Draw& draw) {
   const std::int64_t kind = draw.integer(0, 31);
-  return kind < 22   ? Sizes::ordinary
+  return kind < 22   ? Sizes::moderate
          : kind < 27 ? Sizes::dyadic
          : kind < 31 ? Sizes::extreme_aspect
                      : Sizes::any_exponent;
@@ -69,7 +69,7 @@ Sizes draw_kind_of_sizes(Draw& draw) {
 
 double draw_size(Draw& draw, Sizes kind) {
   switch (kind) {
-    case Sizes::ordinary:
+    case Sizes::moderate:
       return draw.log_uniform(0.05, 2);
     case Sizes::dyadic:
       return static_cast<double>(draw.integer(1, 16)) / 4;
@@ -85,7 +85,8 @@ std::vector<double> draw_sizes(Draw& draw, Pair pair) {
   const Sizes kind = draw_kind_of_sizes(draw);
   std::vector<double> sizes(size_count(pair));
   for (double& size : sizes) size = draw_size(draw, kind);
-  // Equal, or of a simple ratio: tangent rims, congruent caps, capsules as long as the cylinder.
+  // Make some sizes equal or of a simple ratio: tangent rims, congruent caps, a capsule as long as
+  // the cylinder.
   for (int i = 0; i < 4 && draw.coin(); ++i) {
     const double from = any_of(draw, sizes);
     constexpr double ratios[] = {1, 1, 2, 0.5};
@@ -106,7 +107,7 @@ Quaternion draw_integer_quaternion(Draw& draw) {
   }
 }
 
-/// About z: by nothing, quarters of a turn, or any angle, and off these by a little.
+/// A rotation about z: by zero, quarters of a turn or any angle, often with a small error.
 Quaternion draw_turn_about_z(Draw& draw) {
   const Quaternion turns[] = {Quaternion(1, 0, 0, 0), Quaternion(1, 0, 0, 1),
                               Quaternion(1, 0, 0, -1), Quaternion(0, 0, 0, 1)};
@@ -115,7 +116,7 @@ Quaternion draw_turn_about_z(Draw& draw) {
   return product(turn, Quaternion(1, 0, 0, off));
 }
 
-/// About x or y, about any axis across z, or about all three axes by angles of their own.
+/// A small rotation about x or y, about any axis perpendicular to z, or about all three axes.
 Quaternion draw_tilt(Draw& draw) {
   const double angle = draw_small_or_zero(draw);
   switch (draw.integer(0, 3)) {
@@ -134,7 +135,7 @@ Quaternion draw_tilt(Draw& draw) {
   }
 }
 
-/// How A is turned in B's frame: near parallel, opposite or perpendicular, or in general.
+/// A's orientation in B's frame: nearly parallel, opposite or perpendicular, or arbitrary.
 Quaternion draw_relative_orientation(Draw& draw) {
   const std::int64_t kind = draw.integer(0, 15);
   if (kind == 0) return draw.orientation();
@@ -156,7 +157,7 @@ Quaternion times(const Quaternion& q, double factor) {
   return Quaternion(q.w() * factor, q.x() * factor, q.y() * factor, q.z() * factor);
 }
 
-/// The same orientation with a length that is one, nearly one, or far from it.
+/// The same orientation as a quaternion of a length of one, nearly one, or far from it.
 Quaternion with_a_length(Draw& draw, const Quaternion& q) {
   switch (draw.integer(0, 7)) {
     case 0:
@@ -181,8 +182,8 @@ Vec3 rotated(const Quaternion& q, const Vec3& v) {
 
 // Positions
 
-/// A coordinate at which something of the two shapes coincides, or any within their reach; off by a
-/// little.
+/// A coordinate at which parts of the two shapes coincide, or any within their reach, often with a
+/// small error.
 double draw_coordinate(Draw& draw, const std::vector<double>& sizes) {
   const double one = any_of(draw, sizes), other = any_of(draw, sizes);
   double at = 0;
@@ -206,7 +207,7 @@ double draw_coordinate(Draw& draw, const std::vector<double>& sizes) {
   return at + clearance * one;
 }
 
-/// Distances along and across one of the bodies' axes, or three coordinates.
+/// An offset along and across one of the bodies' axes, or with three coordinates.
 Vec3 draw_aligned_offset(Draw& draw, const Numbers& n) {
   const auto& sizes = n.sizes;
   const double across = draw_coordinate(draw, sizes), along = draw_coordinate(draw, sizes);
@@ -234,7 +235,7 @@ std::vector<Feature> features_of_b(Pair pair) {
   return {cap, edge, vertex};
 }
 
-/// Drawn features meet, or miss each other by a clearance of either sign, or none.
+/// An offset at which drawn features meet with a clearance that is positive, negative or zero.
 Vec3 draw_meeting_offset(Draw& draw, const Numbers& n) {
   using enum Feature;
   const Configuration shapes = configuration_of(n);
@@ -247,13 +248,13 @@ Vec3 draw_meeting_offset(Draw& draw, const Numbers& n) {
   return met.pose_a.position() - met.pose_b.position();
 }
 
-/// From B's centre to A's.
+/// The offset from B's centre to A's.
 Vec3 draw_offset(Draw& draw, const Numbers& n) {
   return draw.coin() ? draw_meeting_offset(draw, n) : draw_aligned_offset(draw, n);
 }
 
-/// Where B is: mostly at the origin or near it, at times far away, or at a distance from it that
-/// vanishes against all else.
+/// B's position: mostly at or near the origin, sometimes far away, or at a distance that is
+/// negligible against all other lengths.
 Vec3 draw_place(Draw& draw) {
   const std::int64_t kind = draw.integer(0, 15);
   if (kind < 8) return Vec3::Zero();
@@ -282,7 +283,8 @@ Numbers draw_bodies_near_contact(Draw& draw, Pair pair) {
 
 Numbers draw_known_failure(Draw& draw, Pair pair) {
   const auto& known = known_failures(pair);
-  return draw.coin() ? known.front() : any_of(draw, known);  // the first is of our own routines
+  return draw.coin() ? known.front()
+                     : any_of(draw, known);  // the first is often of our own routines
 }
 
 Numbers draw_from_another_class(Draw& draw, Pair pair) {
@@ -317,7 +319,7 @@ int draw_exponent(Draw& draw) {
 
 // Single numbers
 
-/// The double so many places further in the order of all doubles of its sign.
+/// The double that many places away in the order of all doubles of the same sign.
 double neighbour(double x, std::int64_t places) {
   const auto magnitude = std::bit_cast<std::int64_t>(std::abs(x)) + places;
   return magnitude < 0 ? 0 : std::copysign(std::bit_cast<double>(magnitude), x);
@@ -386,8 +388,8 @@ double in_range(double x) {
 
 bool is_zero(const Quaternion& q) { return q.w() == 0 && q.x() == 0 && q.y() == 0 && q.z() == 0; }
 
-/// Sizes positive, quaternions and normals not zero, and a plane's distance from its origin within
-/// max_number too.
+/// Makes sizes positive, quaternions and normals nonzero, and a plane's distance from its origin at
+/// most max_number.
 void make_valid(Numbers& n) {
   for (double* x : every_number(n)) *x = in_range(*x);
   for (double& size : n.sizes) size = size == 0 ? 1 : std::abs(size);
@@ -400,7 +402,8 @@ void make_valid(Numbers& n) {
   if (!(std::abs(n.displacement) / length <= max_number)) n.displacement = 0;
 }
 
-/// One in so many of what a source gives has one more number changed, up to `max_changes`.
+/// Numbers of which at least `min_changes` are to be changed; each further one with probability
+/// 1/one_more_in.
 struct Source {
   Numbers numbers;
   int min_changes;
@@ -417,9 +420,9 @@ Source draw_source(Draw& draw, Pair pair) {
   return {std::move(n), 0, 4};
 }
 
-// Anywhere within each other: where proofs that end a search early are drawn upon.
+// Arbitrary overlaps: these exercise proofs that end a search early.
 
-/// Turned off an alignment by any angle up to half a radian, about an axis near or away from those
+/// A rotation away from an alignment by up to half a radian, about an axis near or far from those
 /// of B.
 Quaternion draw_clear_tilt(Draw& draw) {
   const Quaternion bases[] = {Quaternion(1, 0, 0, 0), Quaternion(1, 1, 0, 0)};
@@ -433,8 +436,8 @@ Quaternion draw_clear_tilt(Draw& draw) {
   return product(product(heading, any_of(draw, bases)), Quaternion(1, half_angle, 0, 0));
 }
 
-/// Three coordinates of B's frame, each evenly within the bodies' reach, or near a place where
-/// something of the two coincides.
+/// Three coordinates in B's frame, each uniform within the bodies' reach, or near a coincidence of
+/// their sizes.
 Vec3 draw_offset_within(Draw& draw, const std::vector<double>& sizes) {
   const double reach = *std::max_element(sizes.begin(), sizes.end());
   const double part = draw.coin() ? 2 : draw.log_uniform(0.02, 2);
@@ -451,8 +454,8 @@ Vec3 draw_offset_within(Draw& draw, const std::vector<double>& sizes) {
   return offset;
 }
 
-/// Parallel axes, caps that overlap by little, centres across them a hair to a tenth apart: where
-/// contact points are handed over from one layout to another.
+/// Parallel axes, caps that overlap by little, axes 1e-7 to 0.1 of a radius apart: here contact
+/// points change from one layout to another.
 void put_caps_together(Draw& draw, Numbers& n) {
   if (draw.coin()) n.sizes[2] = n.sizes[0];
   const double across = n.sizes[0] * draw.log_uniform(1e-7, 0.1);
@@ -461,12 +464,12 @@ void put_caps_together(Draw& draw, Numbers& n) {
   n.position_a = n.position_b + Vec3(across, 0, draw.sign() * along);
 }
 
-/// The way out along B's axis is about as long as that across it, for parallel axes: where the
-/// better one of two is a matter of rounding, or of a tilt.
-void make_ways_out_alike(Draw& draw, Numbers& n) {
+/// Parallel axes with nearly equal depths along and across B's axis: rounding, or a tilt, decides
+/// which is smaller.
+void make_depths_alike(Draw& draw, Numbers& n) {
   const double across = n.sizes[0] * draw.uniform(0, 2);
   const double depth = n.sizes[0] + n.sizes[2] - across;
-  const double half_b = n.sizes.back();  // of a box along z; a capsule's end is a radius further
+  const double half_b = n.sizes.back();  // a box's along z; a capsule's end is a radius farther out
   const double cap_b = n.pair == Pair::capsule ? half_b + n.sizes[2] : half_b;
   const double along =
       n.sizes[1] + cap_b - depth + draw.sign() * n.sizes[0] * draw.log_uniform(1e-6, 0.1);
@@ -474,7 +477,7 @@ void make_ways_out_alike(Draw& draw, Numbers& n) {
   n.position_a.z() += draw.sign() * along;
 }
 
-/// Sides that cross about where one of them ends, leaning by a hair.
+/// Sides that cross close to the end of one of them, nearly at a right angle.
 void cross_at_an_end(Draw& draw, Numbers& n) {
   const double quarter = draw.uniform(0.1, 1), lean = draw.log_uniform(1e-7, 1e-2);
   n.orientation_a = product(Quaternion(1, quarter, 0, 0), Quaternion(1, 0, draw.sign() * lean, 0));
@@ -496,7 +499,7 @@ Numbers draw_entangled(Draw& draw, Pair pair) {
   }
   n.orientation_a = one_in(draw, 4) ? draw.orientation() : draw_clear_tilt(draw);
   n.position_a = draw_offset_within(draw, n.sizes);
-  if (pair != Pair::plane && one_in(draw, 4)) make_ways_out_alike(draw, n);
+  if (pair != Pair::plane && one_in(draw, 4)) make_depths_alike(draw, n);
   const bool has_sides = pair == Pair::capsule || pair == Pair::cylinder;
   if (has_sides && one_in(draw, 4)) cross_at_an_end(draw, n);
   if (pair == Pair::cylinder && one_in(draw, 4)) put_caps_together(draw, n);
@@ -512,7 +515,7 @@ Configuration hostile(Draw& draw, Pair pair) {
   while (changes < max_changes && one_in(draw, one_more_in)) ++changes;
   for (const auto numbers = every_number(n); changes > 0; --changes) change_one(draw, numbers);
   make_valid(n);
-  // Drawn last, so that all others keep their numbers.
+  // Drawn last, so that the numbers of all other configurations stay.
   if (one_in(draw, 6)) return configuration_of(draw_entangled(draw, pair));
   return configuration_of(n);
 }

@@ -4,15 +4,13 @@
 #include <array>
 #include <charconv>
 
-#include "properties/arbitrary.hpp"
 #include "properties/pose_class.hpp"
-#include "properties/simplify.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone {
 namespace {
 
-/// FNV-1a, 64 bits: turns a class name into a part of the random key, the same everywhere.
+/// FNV-1a, 64 bits: makes a part of the random key from a class name, on all platforms alike.
 std::uint64_t stable_hash(std::string_view text) {
   std::uint64_t hash = 0xcbf29ce484222325U;
   for (const char c : text) {
@@ -31,20 +29,11 @@ std::string joined(const Range& names) {
   return all;
 }
 
-/// Those by name only too.
+/// All classes of a pair, including those that run only when named.
 std::vector<std::string> all_names(Pair pair) {
   std::vector<std::string> names;
   for (const PoseClass& c : pose_class_table(pair)) names.push_back(c.name);
   return names;
-}
-
-const PoseClass& find_class(Pair pair, std::string_view name) {
-  for (const PoseClass& c : pose_class_table(pair)) {
-    if (c.name == name) return c;
-  }
-  throw InvalidInput(
-      "identity.class", quoted(name),
-      std::string("must be a pose class of ") + pair_name(pair) + ": " + joined(all_names(pair)));
 }
 
 rc::Random stream_of(const Identity& identity) {
@@ -59,14 +48,23 @@ const std::vector<PoseClass>& pose_class_table(Pair pair) {
     std::array<std::vector<PoseClass>, std::size(all_pairs)> result;
     for (const Pair p : all_pairs) {
       auto& table = result[static_cast<std::size_t>(p)];
-      for (auto part :
-           {feature_classes(p), lattice_classes(p), limit_classes(p), hostile_class(p)}) {
+      for (auto part : {feature_classes(p), lattice_classes(p), touching_tilted_class(p),
+                        limit_classes(p), hostile_class(p)}) {
         table.insert(table.end(), part.begin(), part.end());
       }
     }
     return result;
   }();
   return tables[static_cast<std::size_t>(pair)];
+}
+
+const PoseClass& find_pose_class(Pair pair, std::string_view name) {
+  for (const PoseClass& c : pose_class_table(pair)) {
+    if (c.name == name) return c;
+  }
+  throw InvalidInput(
+      "identity.class", quoted(name),
+      std::string("must be a pose class of ") + pair_name(pair) + ": " + joined(all_names(pair)));
 }
 
 Pair parse_pair(std::string_view name) {
@@ -97,7 +95,7 @@ Identity parse_identity(std::string_view text) {
     rest = i < 3 ? rest.substr(slash + 1) : rest;
   }
   const Pair pair = parse_pair(parts[0]);
-  const PoseClass& pose_class = find_class(pair, parts[1]);
+  const PoseClass& pose_class = find_pose_class(pair, parts[1]);
   return {pair, pose_class.name, parse_number("identity.seed", parts[2]),
           parse_number("identity.index", parts[3])};
 }
@@ -138,26 +136,17 @@ void check_pose_classes(const std::vector<Pair>& pairs, const std::vector<std::s
 }
 
 std::string_view describe_pose_class(Pair pair, std::string_view pose_class) {
-  return find_class(pair, pose_class).description;
-}
-
-rc::Gen<Configuration> configurations(Pair pair, std::string_view pose_class) {
-  const PoseClass& c = find_class(pair, pose_class);
-  return rc::Gen<Configuration>([&c](const rc::Random& random, int) {
-    Draw draw(random);
-    return rc::shrinkable::shrinkRecur(c.generate(draw), [](const Configuration& configuration) {
-      return rc::seq::fromContainer(simpler(configuration));
-    });
-  });
+  return find_pose_class(pair, pose_class).description;
 }
 
 Configuration make_configuration(const Identity& identity) {
-  return configurations(identity.pair, identity.pose_class)(stream_of(identity)).value();
+  Draw draw(stream_of(identity));
+  return find_pose_class(identity.pair, identity.pose_class).generate(draw);
 }
 
 Configuration make_configuration(const Identity& identity, std::vector<std::uint64_t>& tape) {
   Draw draw(stream_of(identity), tape);
-  return find_class(identity.pair, identity.pose_class).generate(draw);
+  return find_pose_class(identity.pair, identity.pose_class).generate(draw);
 }
 
 std::uint64_t parse_number(const char* field, std::string_view text) {

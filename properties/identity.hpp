@@ -21,42 +21,42 @@ struct Identity {
 
 std::string to_string(const Identity& identity);
 
-/// Reads what to_string wrote. Throws InvalidInput that names the part, its value and, for pairs
-/// and classes, those there are.
+/// Reads what to_string wrote. Throws InvalidInput that names the part and its value and, for pairs
+/// and classes, lists the existing ones.
 Identity parse_identity(std::string_view text);
 
-/// Reads a pair's name; throws InvalidInput that lists those there are.
+/// Reads a pair's name; throws InvalidInput that lists the existing ones.
 Pair parse_pair(std::string_view name);
 
-/// Names of the pose classes of a pair, in report order, without those that are asked for by name
-/// only ("hostile").
+/// Names of the pose classes of a pair, in report order, without those that run only when named
+/// ("hostile").
 const std::vector<std::string>& pose_classes(Pair pair);
 
-/// Those of a pair's pose classes that are wanted, in report order; of none wanted, the same as
-/// without.
+/// The wanted ones of a pair's pose classes, in report order; if none are wanted,
+/// pose_classes(pair).
 std::vector<std::string> pose_classes(Pair pair, const std::vector<std::string>& wanted);
 
-/// Throws InvalidInput (field "--class") that lists those there are, unless each class is one of at
-/// least one of the pairs.
+/// Throws InvalidInput (field "--class") that lists the existing classes, unless every class
+/// belongs to at least one of the pairs.
 void check_pose_classes(const std::vector<Pair>& pairs, const std::vector<std::string>& classes);
 
-/// One sentence: which geometry the class makes and why it is hard.
+/// One sentence: the geometry that the class makes and why it is hard.
 std::string_view describe_pose_class(Pair pair, std::string_view pose_class);
 
-/// The configuration of that identity: the same bits on every call, alone, in constant time.
+/// The configuration of that identity: the same bits on every call, in constant time.
 Configuration make_configuration(const Identity& identity);
 
-/// The same from the random numbers on the tape, which is prolonged as need be: an empty one
-/// becomes the identity's own, and a changed one gives another configuration of the same class.
+/// Makes a configuration from the random numbers on the tape, which is extended as needed: an empty
+/// tape becomes the identity's own, a changed one gives another configuration of the same class.
 Configuration make_configuration(const Identity& identity, std::vector<std::uint64_t>& tape);
 
-/// A whole number in a name. Throws InvalidInput (with this field).
+/// Reads a whole number in a name. Throws InvalidInput (with this field).
 std::uint64_t parse_number(const char* field, std::string_view text);
 
-/// A configuration to be shown, and what to call it.
+/// A configuration with its name.
 struct Subject {
-  std::string name;         ///< An identity, or a file.
-  std::string description;  ///< Of its pose class; empty without one.
+  std::string name;         ///< an identity, or a file
+  std::string description;  ///< of its pose class; empty without one
   Configuration configuration;
 };
 Subject subject(const Identity& identity);

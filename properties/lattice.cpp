@@ -1,6 +1,7 @@
 #include "properties/lattice.hpp"
 
 #include <cmath>
+#include <stdexcept>
 
 namespace touchstone {
 
@@ -24,7 +25,7 @@ double Lattice::length(std::int64_t steps) const {
 Vec3 Lattice::at(std::int64_t x, std::int64_t y, std::int64_t z) const {
   const Axes a = axes(q_);
   const double i = static_cast<double>(x), j = static_cast<double>(y), k = static_cast<double>(z);
-  // Integers below 2^53, then a power of two.
+  // Sums of integers below 2^53, times a power of two: exact.
   return Vec3(((i * a.x.x() + j * a.y.x()) + k * a.z.x()) * scale_,
               ((i * a.x.y() + j * a.y.y()) + k * a.z.y()) * scale_,
               ((i * a.x.z() + j * a.y.z()) + k * a.z.z()) * scale_);
@@ -32,6 +33,46 @@ Vec3 Lattice::at(std::int64_t x, std::int64_t y, std::int64_t z) const {
 
 Eigen::Quaterniond Lattice::orientation(const Eigen::Quaterniond& turn) const {
   return product(q_, turn);
+}
+
+namespace {
+
+Shape other_shape(Pair pair, const Lattice& l, const Sizes& s) {
+  switch (pair) {
+    case Pair::plane:
+      return Plane(Vec3(0, 0, 1), 0);
+    case Pair::sphere:
+      return Sphere(l.length(s.radius_b));
+    case Pair::capsule:
+      return Capsule(l.length(s.radius_b), l.length(s.half_b));
+    case Pair::cylinder:
+      return Cylinder(l.length(s.radius_b), l.length(s.half_b));
+    case Pair::box:
+      return Box(Vec3(l.length(s.radius_b), l.length(s.other_b), l.length(s.half_b)));
+  }
+  throw std::logic_error("no such pair");
+}
+
+}  // namespace
+
+Sizes draw_sizes(Draw& draw, const Lattice& lattice) {
+  const auto size = [&] { return lattice.draw_size(draw); };
+  return {size(), size(), size(), size(), size()};
+}
+
+Steps draw_offset(Draw& draw, Steps max) { return draw.integer(-max, max); }
+
+Steps reach_b(Pair pair, const Sizes& s) {
+  if (pair == Pair::capsule) return s.half_b + s.radius_b;
+  return pair == Pair::sphere ? s.radius_b : s.half_b;
+}
+
+Configuration place(Draw& draw, Pair pair, const Lattice& l, const Sizes& s, const Placement& p) {
+  const Steps x = draw_offset(draw, Lattice::metre), y = draw_offset(draw, Lattice::metre),
+              z = draw_offset(draw, Lattice::metre);
+  return {Cylinder(l.length(s.radius_a), l.length(s.half_a)),
+          Pose(l.at(x + p.x, y + p.y, z + p.z), l.orientation(p.turn_a)), other_shape(pair, l, s),
+          Pose(l.at(x, y, z), l.orientation(p.turn_b))};
 }
 
 }  // namespace touchstone

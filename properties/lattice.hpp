@@ -4,7 +4,7 @@
 
 namespace touchstone {
 
-/// A turned frame in which parallel, perpendicular and touching bodies are so exactly.
+/// A rotated frame in which bodies can be exactly parallel, perpendicular or touching.
 ///
 /// For an integer quaternion q the axes R(q)|q|² are integers of length N = |q|². Lengths are
 /// multiples of N·2^-p and positions are sums of integer multiples of (axis·2^-p): both are doubles
@@ -13,14 +13,14 @@ class Lattice {
  public:
   explicit Lattice(Draw& draw);
 
-  /// Steps to a length of about one metre; sizes are drawn in [0.2, 1] of it.
+  /// Steps per length of about one metre; sizes are drawn from [0.2, 1] of it.
   static constexpr std::int64_t metre = std::int64_t{1} << 25;
   std::int64_t draw_size(Draw& draw) const { return draw.integer(metre / 5, metre); }
 
   double length(std::int64_t steps) const;
-  /// The point at these steps along the frame's axes.
+  /// The point at this number of steps along each of the frame's axes.
   Vec3 at(std::int64_t x, std::int64_t y, std::int64_t z) const;
-  /// The frame's orientation, turned further within the frame by an integer quaternion.
+  /// The frame's orientation times an integer quaternion.
   Eigen::Quaterniond orientation(const Eigen::Quaterniond& turn = {1, 0, 0, 0}) const;
 
  private:
@@ -28,5 +28,40 @@ class Lattice {
   double norm_;   // |q|²
   double scale_;  // 2^-p
 };
+
+// Bodies on a Lattice: every length and position is a whole number of its steps.
+
+using Steps = std::int64_t;
+using Quaternion = Eigen::Quaterniond;
+
+// Rotations within the lattice, not of unit length; the oracle reads them exactly as R(q)/|q|².
+inline const Quaternion upright(1, 0, 0, 0);
+inline const Quaternion along_x(1, 0, 1, 0);  ///< local z to the lattice's x, local x to its -z
+
+/// Sizes in steps. For a box radius_b, other_b and half_b are the half extents; for a sphere only
+/// radius_b counts; a plane has none.
+struct Sizes {
+  Steps radius_a, half_a;
+  Steps radius_b, half_b, other_b;
+};
+Sizes draw_sizes(Draw& draw, const Lattice& lattice);
+
+/// A uniform whole number from -max to max.
+Steps draw_offset(Draw& draw, Steps max);
+
+/// B's reach along its own z beyond its centre.
+Steps reach_b(Pair pair, const Sizes& sizes);
+
+/// Position of A's centre relative to B's, and both orientations within the lattice.
+struct Placement {
+  Steps x, y, z;
+  Quaternion turn_b = upright;
+  Quaternion turn_a = upright;
+};
+
+/// Makes the configuration. B lies a random number of whole steps from the world's origin, so that
+/// positions are exact and not zero. A plane is the lattice's z <= 0, shifted likewise.
+Configuration place(Draw& draw, Pair pair, const Lattice& lattice, const Sizes& sizes,
+                    const Placement& placement);
 
 }  // namespace touchstone

@@ -1,10 +1,8 @@
-// Configurations whose degeneracy is exact: all lengths and offsets are integer steps of one
-// Lattice.
+// Exactly degenerate configurations: all lengths and offsets are whole steps of one Lattice.
 #include <algorithm>
 
-#include "properties/lattice_bodies.hpp"
+#include "properties/lattice.hpp"
 #include "properties/pose_class.hpp"
-#include "properties/touching_tilted.hpp"
 
 namespace touchstone {
 namespace {
@@ -30,11 +28,11 @@ PoseClass exactly(Pair pair, const char* name, const char* description, Place wh
           }};
 }
 
-// Where A is, for axes along z unless turned. Each returns exact steps.
+// Placements of A, with axes along z unless turned, in exact steps.
 
 Placement parallel_side(Draw& draw, Pair pair, const Sizes& s, Steps depth) {
-  const Steps most = pair == Pair::sphere ? s.half_a : (s.half_a + s.half_b) / 2;
-  return {s.radius_a + s.radius_b - depth, 0, draw_offset(draw, most)};
+  const Steps max = pair == Pair::sphere ? s.half_a : (s.half_a + s.half_b) / 2;
+  return {s.radius_a + s.radius_b - depth, 0, draw_offset(draw, max)};
 }
 Placement coaxial(Draw& draw, Pair pair, const Sizes& s, Steps) {
   return {0, 0, draw_offset(draw, s.half_a + reach_b(pair, s))};
@@ -42,7 +40,7 @@ Placement coaxial(Draw& draw, Pair pair, const Sizes& s, Steps) {
 Placement cap_centred(Draw&, Pair pair, const Sizes& s, Steps depth) {
   return {0, 0, s.half_a + reach_b(pair, s) - depth};
 }
-/// Never so far aside that the cap misses what it stands on.
+/// The offset is small enough that the cap does not miss what it stands on.
 Placement cap_offset(Draw& draw, Pair pair, const Sizes& s, Steps depth) {
   const Steps beyond_x = pair == Pair::capsule ? 0 : s.radius_b;
   const Steps beyond_y = pair == Pair::capsule ? 0 : pair == Pair::box ? s.other_b : s.radius_b;
@@ -53,7 +51,7 @@ Placement cap_offset(Draw& draw, Pair pair, const Sizes& s, Steps depth) {
 Placement perpendicular_t(Draw& draw, Pair pair, const Sizes& s, Steps depth) {
   return {s.radius_a + reach_b(pair, s) - depth, 0, draw_offset(draw, s.half_a / 2), along_x};
 }
-/// Sides crossed at a right angle: B lies along x, A above it along y.
+/// Sides that cross at a right angle: B lies along x, A stands beside it in y.
 Placement perpendicular_x(Draw& draw, Pair, const Sizes& s, Steps depth) {
   return {draw_offset(draw, s.half_b / 2), s.radius_a + s.radius_b - depth,
           draw_offset(draw, s.half_a / 2), along_x};
@@ -63,14 +61,14 @@ Placement cap_on_side(Draw& draw, Pair, const Sizes& s, Steps depth) {
   return {draw_offset(draw, s.half_b + s.radius_a / 2), draw_offset(draw, s.radius_a / 2),
           s.half_a + s.radius_b - depth, along_x};
 }
-/// A's side on a face of the box: the box is turned so that its z face looks along x.
+/// A's side on a face of the box, which is turned so that its z face points along x.
 Placement side_on_face(Draw& draw, Pair, const Sizes& s, Steps depth) {
   return {s.radius_a + s.half_b - depth, draw_offset(draw, s.other_b / 2),
           draw_offset(draw, s.half_a / 2), along_x};
 }
-/// A box's edge, its faces at 3-4-5, across the side at a right angle: the box is turned about y by
-/// arctan(3/4), which puts its edge at ((4 radius_b + 3 half_b)/5, (4 half_b - 3 radius_b)/5) in
-/// the x-z plane through the box's centre.
+/// A box's edge across the side at a right angle: the box is turned about y by arctan(3/4), so that
+/// its edge lies at ((4 radius_b + 3 half_b)/5, (4 half_b - 3 radius_b)/5) in the x-z plane through
+/// the box's centre.
 Placement edge_across_side(Draw& draw, Pair, const Sizes& s, Steps depth) {
   const Steps edge_x = (4 * s.radius_b + 3 * s.half_b) / 5;
   const Steps edge_z = (4 * s.half_b - 3 * s.radius_b) / 5;
@@ -79,7 +77,7 @@ Placement edge_across_side(Draw& draw, Pair, const Sizes& s, Steps depth) {
 }
 Placement same_centre(Draw&, Pair, const Sizes&, Steps) { return {0, 0, 0}; }
 
-/// σ = 0 to the last bit: one of the exact contacts with no overlap.
+/// One of the exact contacts without overlap: σ = 0 to the last bit.
 Configuration touching(Draw& draw, Pair pair) {
   const Lattice lattice(draw);
   const Sizes sizes = draw_sizes(draw, lattice);
@@ -117,7 +115,6 @@ void add_plane_classes(std::vector<PoseClass>& out) {
       {"touching", "Standing or lying with distance zero to the last bit.", [](Draw& draw) {
          return on_plane(draw, draw.coin(), [](Draw&, const Sizes&) -> Steps { return 0; });
        }});
-  out.push_back(touching_tilted(Pair::plane));
 }
 
 }  // namespace
@@ -170,7 +167,6 @@ std::vector<PoseClass> lattice_classes(Pair pair) {
        "Exactly parallel or perpendicular bodies touch: the signed distance is zero to the "
        "last bit.",
        [pair](Draw& draw) { return touching(draw, pair); }});
-  out.push_back(touching_tilted(pair));
   return out;
 }
 

@@ -19,9 +19,9 @@ constexpr std::array<double, 16> power_of_ten = {1,     1e-1,  1e-2,  1e-3, 1e-4
 const Quaternion upright(1, 0, 0, 0);
 const Quaternion along_x(0.5, 0.5, 0.5, 0.5);  // z to x, x to y, y to z
 
-/// Turns A by `tilt` radians (to second order in it) about a random axis across its own z. Where
-/// B's z lies along A's x, only the axis's y part tilts the two towards each other: it is at least
-/// half.
+/// Tilts A by `tilt` radians (to second order) about a random axis perpendicular to its own z. If
+/// B's z lies along A's x, only the y component of that axis tilts the two towards each other: it
+/// is at least 0.5.
 Quaternion draw_tilt(Draw& draw, const Quaternion& base, double tilt) {
   for (;;) {
     const Vec3 axis = draw.direction_across(Vec3(0, 0, 1));
@@ -30,7 +30,8 @@ Quaternion draw_tilt(Draw& draw, const Quaternion& base, double tilt) {
   }
 }
 
-/// Cap or side of A against B turned to it by `base`, placed as if the tilt were zero.
+/// Cap or side of A against B, whose orientation relative to A is `base` and a tilt; placed as if
+/// the tilt were zero.
 Configuration nearly(Draw& draw, Pair pair, const Quaternion& base, double tilt) {
   Bodies bodies = draw_bodies(draw, pair);
   if (pair == Pair::plane) bodies.b = Plane(Vec3(0, 0, 1), draw.uniform(-1, 1));
@@ -47,7 +48,7 @@ Configuration nearly(Draw& draw, Pair pair, const Quaternion& base, double tilt)
   return {straight.a, Pose(straight.pose_a.position(), tilted), straight.b, straight.pose_b};
 }
 
-/// Bodies whose long half extent is 1000 times the short one.
+/// Bodies with A a needle or a coin: its long half extent is 1000 times the short one.
 Bodies draw_extreme(Draw& draw, Pair pair, bool needle) {
   Bodies bodies = draw_bodies(draw, pair);
   constexpr double ratio = 1000;
@@ -63,7 +64,7 @@ Configuration extreme_aspect(Draw& draw, Pair pair, bool needle) {
   return meet(draw, bodies, features.on_a, features.on_b, distance);
 }
 
-/// A's centre anywhere in the largest ball within B.
+/// Places A's centre in the largest ball within B.
 Configuration extreme_aspect_deep(Draw& draw, Pair pair, bool needle) {
   const Bodies bodies = draw_extreme(draw, pair, needle);
   return overlap_deeply(draw, bodies, smallest_half_extent(bodies.b));

@@ -7,8 +7,8 @@
 
 namespace touchstone {
 
-/// The element of `all` with that member `name`. Throws InvalidInput (with this field) that lists
-/// the names there are.
+/// The element of `all` whose member `name` is that name. Throws InvalidInput (with this field)
+/// that lists the existing names.
 template <class Range>
 const auto& named(const Range& all, std::string_view name, const char* field) {
   std::string names;

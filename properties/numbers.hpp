@@ -6,7 +6,7 @@
 
 namespace touchstone {
 
-/// A configuration as numbers that may be changed one by one.
+/// A configuration as plain numbers that can be changed one by one.
 struct Numbers {
   Pair pair = Pair::plane;
   std::vector<double> sizes;  ///< all > 0: radius and half length of A, then B's
@@ -16,15 +16,15 @@ struct Numbers {
   double displacement = 0;     ///< of a plane
 };
 
-/// How many lengths both shapes have; a plane has none.
+/// Number of lengths of both shapes; a plane has none.
 std::size_t size_count(Pair pair);
 
 Numbers numbers_of(const Configuration& configuration);
-/// Throws InvalidInput where a shape or a pose would.
+/// Throws InvalidInput if a shape's or a pose's constructor does.
 Configuration configuration_of(const Numbers& numbers);
 
-/// Where the numbers are: those of A, then those of B, each as shape, position, orientation (w, x,
-/// y, z). Valid as long as `numbers` is, and its number of sizes stays.
+/// Addresses of all numbers: A's, then B's, each as shape, position, orientation (w, x, y, z).
+/// Valid while `numbers` exists and its number of sizes is unchanged.
 std::vector<double*> every_number(Numbers& numbers);
 
 }  // namespace touchstone

@@ -35,7 +35,7 @@ int complexity(const Eigen::Quaterniond& q) {
   return is_identity ? complexity(q.w()) : 4 + total(q.coeffs());
 }
 
-/// To so many significant bits.
+/// Rounds to that many significant bits.
 double rounded(double x, int bits) {
   int exponent = 0;
   const double mantissa = std::frexp(x, &exponent);
@@ -93,7 +93,7 @@ class Steps {
       Configuration c = configuration_of(next);
       if (complexity(c) < complexity_) result_.push_back(std::move(c));
     } catch (const InvalidInput&) {
-      // Rounding may leave the range of valid numbers: not a step.
+      // Rounding may leave the range of valid numbers: skip the step.
     }
   }
 
@@ -166,12 +166,12 @@ std::vector<Configuration> simpler(const Configuration& configuration) {
 
 Configuration simplified(const Configuration& configuration,
                          const std::function<bool(const Configuration&)>& still_fails,
-                         int most_trials) {
+                         int max_trials) {
   Configuration best = configuration;
   for (int trials = 0;;) {
     bool found = false;
     for (const Configuration& next : simpler(best)) {
-      if (trials++ == most_trials) return best;
+      if (trials++ == max_trials) return best;
       if (!still_fails(next)) continue;
       best = next;
       found = true;

@@ -7,19 +7,19 @@
 
 namespace touchstone {
 
-/// How much there is to read in a configuration: significant bits and exponents of all its numbers,
-/// where zeros cost nothing and ones little, and an orientation less when it is none.
+/// Measure of a configuration's numbers: their significant bits and exponents. Zeros cost nothing,
+/// ones little, the identity orientation less than others.
 int complexity(const Configuration& configuration);
 
-/// Configurations of the same pair and less complexity, the boldest steps first: bodies moved to
-/// the origin, no rotation, sizes of one, numbers of fewer digits. None is meant to have the same
-/// signed distance. Since complexity falls with every step, taking them again and again ends.
+/// Configurations of the same pair and lower complexity, large steps first: bodies moved to the
+/// origin, no rotation, sizes of one, numbers of fewer digits. They need not have the same signed
+/// distance. Since every step lowers the complexity, repetition terminates.
 std::vector<Configuration> simpler(const Configuration& configuration);
 
-/// Follows `simpler` as long as `still_fails`, and at most for `most_trials` calls of it. The
-/// result fails, if the configuration does.
+/// Follows `simpler` while `still_fails`, with at most `max_trials` calls of it. The result fails
+/// if the configuration does.
 Configuration simplified(const Configuration& configuration,
                          const std::function<bool(const Configuration&)>& still_fails,
-                         int most_trials = 2000);
+                         int max_trials = 2000);
 
 }  // namespace touchstone

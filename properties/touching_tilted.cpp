@@ -1,12 +1,12 @@
-// Each way to touch is a point of A and a point of B, in body coordinates, that support opposite
-// directions of the lattice; they are brought together. A turn by atan(3/4) about a lattice axis
-// has entries of 0, ±3/5, ±4/5 and 1, and two of them have 25 as denominator: with sizes that are
-// multiples of 25 steps every supporting point is at whole steps, so nothing is rounded.
-#include "properties/touching_tilted.hpp"
-
+// Bodies that touch at exact tilts. A meeting is a point of A and a point of B, in body
+// coordinates, with opposite normals in the lattice; the two points are made to coincide. A
+// rotation by atan(3/4) about a lattice axis has the entries 0, ±3/5, ±4/5 and 1, and a product of
+// two has the denominator 25: with sizes that are multiples of 25 steps all supporting points lie
+// at whole steps, so that nothing is rounded.
 #include <cassert>
 
-#include "properties/lattice_bodies.hpp"
+#include "properties/lattice.hpp"
+#include "properties/pose_class.hpp"
 
 namespace touchstone {
 namespace {
@@ -35,7 +35,8 @@ Point turned(const Quaternion& turn, const Point& p) {
   return {along(0), along(1), along(2)};
 }
 
-/// The supporting points that meet, each in its body's coordinates.
+/// The supporting points that coincide, each in its body's coordinates, and the bodies'
+/// orientations.
 struct Meeting {
   Quaternion turn_a;
   Point on_a;
@@ -44,7 +45,7 @@ struct Meeting {
 };
 using Way = Meeting (*)(Draw&, const Sizes&);
 
-// Points of A, which is above B (towards z) or beside it (towards x).
+// Points of A, which lies above B (towards z) or beside it (towards x).
 
 Point lowest_of_rim(const Sizes& s) { return {s.radius_a, 0, -s.half_a}; }  // A pitched
 Point on_lower_cap(Draw& draw, const Sizes& s) {
@@ -150,19 +151,20 @@ Sizes draw_divisible_sizes(Draw& draw, const Lattice& lattice) {
 
 }  // namespace
 
-PoseClass touching_tilted(Pair pair) {
-  return {"touching-tilted",
-          "Bodies turned by 3-4-5 angles touch in a point or along an edge, at distance zero to "
-          "the last bit: rims, edges and vertices with nothing aligned to say which normal counts.",
-          [pair, ways = ways_of(pair)](Draw& draw) {
-            const Lattice lattice(draw);
-            const Sizes sizes = draw_divisible_sizes(draw, lattice);
-            const auto choice = draw.integer(0, static_cast<Steps>(ways.size()) - 1);
-            const Meeting m = ways[static_cast<std::size_t>(choice)](draw, sizes);
-            const Point a = turned(m.turn_a, m.on_a), b = turned(m.turn_b, m.on_b);
-            return place(draw, pair, lattice, sizes,
-                         {b.x - a.x, b.y - a.y, b.z - a.z, m.turn_b, m.turn_a});
-          }};
+std::vector<PoseClass> touching_tilted_class(Pair pair) {
+  const auto generate = [pair, ways = ways_of(pair)](Draw& draw) {
+    const Lattice lattice(draw);
+    const Sizes sizes = draw_divisible_sizes(draw, lattice);
+    const auto choice = draw.integer(0, static_cast<Steps>(ways.size()) - 1);
+    const Meeting m = ways[static_cast<std::size_t>(choice)](draw, sizes);
+    const Point a = turned(m.turn_a, m.on_a), b = turned(m.turn_b, m.on_b);
+    return place(draw, pair, lattice, sizes, {b.x - a.x, b.y - a.y, b.z - a.z, m.turn_b, m.turn_a});
+  };
+  return {
+      {"touching-tilted",
+       "Bodies turned by 3-4-5 angles touch in a point or along an edge, at distance zero to "
+       "the last bit: rims, edges and vertices with nothing aligned to say which normal counts.",
+       generate}};
 }
 
 }  // namespace touchstone

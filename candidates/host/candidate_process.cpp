@@ -1,5 +1,4 @@
-// Asks one candidate in sessions of its plug-in's process; exchange.hpp says what goes between
-// them.
+// Queries one candidate in sessions of its plug-in's process; exchange.hpp defines the messages.
 #include "candidates/host/candidate_process.hpp"
 
 #include <algorithm>
@@ -23,19 +22,21 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// How often a candidate's use of time is looked at.
-constexpr std::chrono::milliseconds between_looks(20);
+/// Interval at which a candidate's use of time is checked.
+constexpr std::chrono::milliseconds check_interval(20);
 
-/// For a plug-in's process to fork a session.
-constexpr std::chrono::seconds beginning_time(10);
-/// For a session that has nothing more to do to end.
-constexpr std::chrono::seconds ending_time(1);
+/// Time in which a plug-in's process must fork a session.
+constexpr std::chrono::seconds fork_timeout(10);
+/// Time in which a session with nothing more to do must end.
+constexpr std::chrono::seconds finish_timeout(1);
 
-/// Of the limit of processor time, how long a query may wait at first, and by the clock where the
-/// kernel does not tell waiting from wanting a processor.
-constexpr double first_patience = 10, patience_by_the_clock = 100;
+/// Multiples of the limit of processor time: how long a query may wait at first, and how long it
+/// may take by the clock if the kernel does not distinguish waiting for something from waiting for
+/// a processor.
+constexpr double initial_wait_factor = 10, clock_factor = 100;
 
-/// Sent by timers, other processes and the kernel as well as by the routine that dies of them.
+/// Can the signal come from a timer, another process or the kernel, and not only from the routine
+/// that dies of it?
 bool may_come_from_elsewhere(int signal) {
   switch (signal) {
     case SIGSEGV:
@@ -79,9 +80,9 @@ CandidateProcess::CandidateProcess(const Candidate& candidate, double threshold,
       threshold_(threshold),
       limits_(limits),
       plugin_(candidate.plugin),
-      patience_(first_patience * limits.seconds) {}
+      max_wait_(initial_wait_factor * limits.seconds) {}
 
-std::optional<CandidateProcess::Misdeed> CandidateProcess::begin() {
+std::optional<CandidateProcess::SessionFailure> CandidateProcess::begin() {
   using Received = PluginProcess::State::Received;
   PluginProcess::State& s = *plugin_.state_;
   if (ftruncate(s.text, 0) != 0) fail("ftruncate");
@@ -90,10 +91,10 @@ std::optional<CandidateProcess::Misdeed> CandidateProcess::begin() {
     try {
       if (!s.runs()) s.start(PluginProcess::loading_time);
     } catch (const InvalidInput& e) {
-      return Misdeed{TS_CRASHED, e.what(), true};
+      return SessionFailure{TS_CRASHED, e.what(), true};
     }
     if (static_cast<std::size_t>(candidate_.index) >= s.candidates.size()) {
-      return Misdeed{TS_CRASHED, "its plug-in no longer has it", true};
+      return SessionFailure{TS_CRASHED, "its plug-in no longer has it", true};
     }
     Command command = plain_command(Command::begin);
     command.ticket = session_ticket_ = ++ticket_;
@@ -101,17 +102,17 @@ std::optional<CandidateProcess::Misdeed> CandidateProcess::begin() {
     command.threshold = threshold_;
     command.parameter = candidate_.value;
     command.memory = static_cast<std::uint64_t>(limits_.mebibytes * (1 << 20));
-    const auto end = Clock::now() + beginning_time;
+    const auto end = Clock::now() + fork_timeout;
     for (bool waits = s.send(command); waits && Clock::now() < end;) {
-      Report report;
+      Reply reply;
       pid_t sender = -1;
-      const Received received = s.receive(&report, sizeof report, beginning_time, &sender);
+      const Received received = s.receive(&reply, sizeof reply, fork_timeout, &sender);
       waits = received != Received::end;
-      if (received != Received::message || report.kind != Report::began ||
-          report.ticket != command.ticket) {
+      if (received != Received::message || reply.kind != Reply::began ||
+          reply.ticket != command.ticket) {
         continue;
       }
-      forked = report.value >= 0;
+      forked = reply.value >= 0;
       if (!forked) break;
       session_ = sender;
       return std::nullopt;
@@ -119,7 +120,7 @@ std::optional<CandidateProcess::Misdeed> CandidateProcess::begin() {
     s.stop();
   }
   if (!forked) throw std::runtime_error("no process could be made for " + candidate_.name);
-  return Misdeed{TS_CRASHED, "its plug-in's process, loaded anew, answers no more", true};
+  return SessionFailure{TS_CRASHED, "its plug-in's process, loaded anew, answers no more", true};
 }
 
 void CandidateProcess::end() {
@@ -129,14 +130,14 @@ void CandidateProcess::end() {
   PluginProcess::State& s = *plugin_.state_;
   Command command = plain_command(Command::finish);
   command.ticket = ++ticket_;
-  const auto end = Clock::now() + ending_time;
+  const auto end = Clock::now() + finish_timeout;
   for (bool waits = s.send(command); waits && Clock::now() < end;) {
-    Report report;
-    const Received received = s.receive(&report, sizeof report, ending_time);
+    Reply reply;
+    const Received received = s.receive(&reply, sizeof reply, finish_timeout);
     waits = received != Received::end;
-    if (received == Received::message && report.kind == Report::ended &&
-        report.ticket == session_ticket_) {
-      if (report.left_behind) break;
+    if (received == Received::message && reply.kind == Reply::ended &&
+        reply.ticket == session_ticket_) {
+      if (reply.left_behind) break;
       return;
     }
   }
@@ -156,29 +157,29 @@ void CandidateProcess::put(std::uint32_t slot, const Configuration& c,
       to_ts_pose(c.pose_b), previous_normal != nullptr, {hint.x(), hint.y(), hint.z()}};
 }
 
-std::optional<CandidateProcess::Misdeed> CandidateProcess::obey(Command command) {
+std::optional<CandidateProcess::SessionFailure> CandidateProcess::obey(Command command) {
   using Received = PluginProcess::State::Received;
   PluginProcess::State& s = *plugin_.state_;
-  std::optional<Misdeed> not_begun;
-  if (session_ < 0) not_begun = begin();
+  std::optional<SessionFailure> begin_failure;
+  if (session_ < 0) begin_failure = begin();
   command.ticket = ++ticket_;
   s.exchange->progress = progress_of(ticket_, command.first);
-  if (not_begun) return not_begun;
-  const auto fallen = [&](ts_status status, std::string reason) {
+  if (begin_failure) return begin_failure;
+  const auto stopped = [&](ts_status status, std::string reason) {
     s.stop();
     session_ = -1;
-    return Misdeed{status, std::move(reason), false};
+    return SessionFailure{status, std::move(reason), false};
   };
-  if (!s.send(command)) return fallen(TS_CRASHED, "its plug-in's process ended");
+  if (!s.send(command)) return stopped(TS_CRASHED, "its plug-in's process ended");
 
-  // Most commands are done before anyone looks; the watch begins when the first look is over.
+  // Most commands finish before the first check; the watch starts with that.
   std::optional<Watch> watch;
   std::uint64_t progress = s.exchange->progress;
-  auto next_look = Clock::now() + between_looks;
+  auto next_check = Clock::now() + check_interval;
   for (;;) {
     std::string too_long;
-    if (Clock::now() >= next_look) {
-      next_look = Clock::now() + between_looks;
+    if (Clock::now() >= next_check) {
+      next_check = Clock::now() + check_interval;
       const std::uint64_t now = s.exchange->progress;
       if (!watch || (now > progress && now <= progress_of(ticket_, command.count))) {
         progress = now;
@@ -187,66 +188,66 @@ std::optional<CandidateProcess::Misdeed> CandidateProcess::obey(Command command)
         too_long = judge(*watch);
       }
     }
-    // At least once after the look, so that no answer is late that came before.
-    const auto left = std::chrono::ceil<std::chrono::milliseconds>(next_look - Clock::now());
-    Report report;
+    // Receive at least once after the check, so that an answer that arrived before it counts.
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(next_check - Clock::now());
+    Reply reply;
     const Received received =
-        s.receive(&report, sizeof report, std::max(too_long.empty() ? left : left * 0, left * 0));
+        s.receive(&reply, sizeof reply, std::max(too_long.empty() ? left : left * 0, left * 0));
     if (received == Received::message) {
-      if (report.kind == Report::finished && report.ticket == ticket_) return std::nullopt;
-      if (report.kind == Report::ended && report.ticket == session_ticket_) {
+      if (reply.kind == Reply::finished && reply.ticket == ticket_) return std::nullopt;
+      if (reply.kind == Reply::ended && reply.ticket == session_ticket_) {
         session_ = -1;
-        if (report.left_behind) s.stop();
-        return end_of_session(report.value);
+        if (reply.left_behind) s.stop();
+        return end_of_session(reply.value);
       }
-      if (report.kind == Report::gone) {
-        return fallen(TS_CRASHED, "its plug-in's process: " + how_it_ended(report.value));
+      if (reply.kind == Reply::gone) {
+        return stopped(TS_CRASHED, "its plug-in's process: " + how_it_ended(reply.value));
       }
     } else if (received == Received::end) {
-      return fallen(TS_CRASHED, "closed its connection to Touchstone");
+      return stopped(TS_CRASHED, "closed its connection to Touchstone");
     }
-    if (!too_long.empty()) return fallen(TS_TIMED_OUT, too_long);
+    if (!too_long.empty()) return stopped(TS_TIMED_OUT, too_long);
   }
 }
 
 std::string CandidateProcess::judge(const Watch& watch) {
-  const Watch::Spent spent = watch.spent();
+  const Watch::TimeUse spent = watch.spent();
   if (spent.computing > limits_.seconds) {
     return "no answer within " + seconds_text(limits_.seconds);
   }
   if (!spent.waiting) {
-    const double limit = patience_by_the_clock * limits_.seconds;
+    const double limit = clock_factor * limits_.seconds;
     if (spent.by_the_clock > limit)
       return "no answer within " + seconds_text(limit) + " by the clock";
-  } else if (*spent.waiting > patience_) {
-    const std::string text = "no answer, having waited for " + seconds_text(patience_);
-    patience_ = std::max(limits_.seconds, patience_ / 2);
+  } else if (*spent.waiting > max_wait_) {
+    const std::string text = "no answer, having waited for " + seconds_text(max_wait_);
+    max_wait_ = std::max(limits_.seconds, max_wait_ / 2);
     return text;
   }
   return "";
 }
 
-CandidateProcess::Misdeed CandidateProcess::end_of_session(int status) const {
+CandidateProcess::SessionFailure CandidateProcess::end_of_session(int status) const {
   const PluginProcess::State& s = *plugin_.state_;
   if (WIFEXITED(status) && WEXITSTATUS(status) == exit_thrown) {
     const char* const text = s.exchange->thrown;
     return {TS_CRASHED, "threw " + std::string(text, strnlen(text, sizeof s.exchange->thrown)),
             true};
   }
-  Misdeed misdeed{TS_CRASHED, how_it_ended(status), true};
+  SessionFailure failure{TS_CRASHED, how_it_ended(status), true};
   if (WIFSIGNALED(status)) {
-    misdeed.certain = !may_come_from_elsewhere(WTERMSIG(status));
+    failure.certain = !may_come_from_elsewhere(WTERMSIG(status));
     if (WTERMSIG(status) == SIGABRT && !s.last_line().empty()) {
-      misdeed.reason += ": " + s.last_line();
+      failure.reason += ": " + s.last_line();
     }
   }
-  return misdeed;
+  return failure;
 }
 
-Answer CandidateProcess::answer_of(const Misdeed& misdeed) {
+Answer CandidateProcess::answer_of(const SessionFailure& failure) {
   Answer answer{};
-  answer.status = misdeed.status;
-  answer.reason = readable(misdeed.reason);
+  answer.status = failure.status;
+  answer.reason = readable(failure.reason);
   return answer;
 }
 
@@ -255,7 +256,7 @@ std::optional<Answer> CandidateProcess::answer_in(std::uint32_t i) const {
   if (slot.seal != seal_of(slot, ticket_)) return std::nullopt;
   Answer answer{slot.answer, {}, {}};
   if (!std::isnan(slot.model_distance)) answer.model_distance = slot.model_distance;
-  // Statuses and points that the interface does not allow are the candidate's failure.
+  // A status or number of points that the interface does not allow is a failure of the candidate.
   if (answer.status < TS_CONTACT || answer.status > TS_FAILED || answer.point_count < 0 ||
       answer.point_count > TOUCHSTONE_MAX_POINTS) {
     static_cast<ts_answer&>(answer) = {};
@@ -266,9 +267,9 @@ std::optional<Answer> CandidateProcess::answer_in(std::uint32_t i) const {
 
 Answer CandidateProcess::answer_alone(std::uint32_t i) {
   end();
-  const auto misdeed = obey(answer_command(i, i + 1, true));
+  const auto failure = obey(answer_command(i, i + 1, true));
   if (const auto answer = answer_in(i)) return *answer;
-  return answer_of(misdeed.value_or(Misdeed{TS_CRASHED, "wrote over its own answer", true}));
+  return answer_of(failure.value_or(SessionFailure{TS_CRASHED, "wrote over its own answer", true}));
 }
 
 void CandidateProcess::answer_batch(std::uint32_t count, bool release,
@@ -276,18 +277,18 @@ void CandidateProcess::answer_batch(std::uint32_t count, bool release,
   std::vector<std::optional<Answer>> given(count);
   for (std::uint32_t first = 0; first < count;) {
     const bool fresh = session_ < 0;
-    const auto misdeed = obey(answer_command(first, count, release));
+    const auto failure = obey(answer_command(first, count, release));
     for (std::uint32_t i = first; i < count; ++i) given[i] = answer_in(i);
     const auto none = std::find(given.begin(), given.end(), std::nullopt);
     const auto in_hand = static_cast<std::uint32_t>(none - given.begin());
     if (in_hand == count) break;
-    if (misdeed && plugin_.state_->exchange->progress == progress_of(ticket_, in_hand)) {
-      const bool certain = misdeed->certain || (fresh && in_hand == first);
-      given[in_hand] = certain ? answer_of(*misdeed) : answer_alone(in_hand);
+    if (failure && plugin_.state_->exchange->progress == progress_of(ticket_, in_hand)) {
+      const bool certain = failure->certain || (fresh && in_hand == first);
+      given[in_hand] = certain ? answer_of(*failure) : answer_alone(in_hand);
       first = in_hand + 1;
       continue;
     }
-    // Answers were written over, by whom nobody can tell.
+    // An unknown query has overwritten answers.
     for (std::uint32_t i = in_hand; i < count; ++i) {
       if (!given[i]) given[i] = answer_alone(i);
     }

@@ -10,8 +10,8 @@
 
 namespace touchstone {
 
-// What the harness and a candidate's process say to each other: plain bytes through shared memory
-// and a socket that keeps messages apart.
+// The messages between the harness and a candidate's process: plain bytes in shared memory and on a
+// socket that preserves message boundaries.
 
 /// Shapes and poses of one configuration, and the hint.
 struct Question {
@@ -23,26 +23,26 @@ struct Question {
 
 struct Slot {
   ts_answer answer;
-  double model_distance;  ///< NaN where it is not known
+  double model_distance;  ///< NaN if unknown
   std::uint64_t seal;     ///< see seal_of
 };
 
-/// Questions and answers in one message.
+/// Number of questions and answers in one batch.
 inline constexpr std::uint32_t batch_size = 64;
 
-/// Shared memory that the candidate's processes cannot write to, whatever they do.
+/// Shared memory that the candidate's processes cannot write to.
 struct Questions {
   Question slots[batch_size];
 };
 
 /// Shared memory, zero at first.
 struct Exchange {
-  /// Slots of this batch that are finished, and the lower half of the command's ticket above, so
-  /// that it is seen when this is written over.
+  /// Number of finished slots of this batch; the upper half is the lower half of the command's
+  /// ticket, which reveals overwriting.
   std::atomic<std::uint64_t> progress;
-  char thrown[240];     ///< what an uncaught exception said
-  double nanoseconds;   ///< per query, of the last timed round
-  double instructions;  ///< likewise; NaN where they cannot be counted
+  char thrown[240];     ///< text of an uncaught exception
+  double nanoseconds;   ///< per query, in the last timed round
+  double instructions;  ///< likewise; NaN if they cannot be counted
   Slot slots[batch_size];
 };
 
@@ -50,9 +50,9 @@ inline std::uint64_t progress_of(std::uint64_t ticket, std::uint32_t done) {
   return ticket << 32 | done;
 }
 
-/// Tells the answer to a question of this command from all else that may stand in its slot: that of
-/// an earlier command, or what a routine wrote over it. It is no defence against forgery: a
-/// candidate may answer what it likes.
+/// Checksum that distinguishes the answer to a question of this command from other content of its
+/// slot: the answer to an earlier command, or overwritten bytes. It does not protect against
+/// forgery; a candidate may answer what it likes.
 inline std::uint64_t seal_of(const Slot& slot, std::uint64_t ticket) {
   constexpr std::size_t words = offsetof(Slot, seal) / sizeof(std::uint64_t);
   std::uint64_t word[words], sum = ticket;
@@ -61,44 +61,44 @@ inline std::uint64_t seal_of(const Slot& slot, std::uint64_t ticket) {
   return sum;
 }
 
-/// Told to the process that has loaded the plug-in (`begin`) and to the session that it forks.
+/// Sent to the process that has loaded the plug-in (`begin`) and to the session that it forks.
 struct Command {
   enum Kind : std::uint32_t {
     begin,    ///< fork a session for the candidate `index` with `threshold` and `parameter`
     answer,   ///< answer slots first … count − 1
     keep,     ///< keep the questions of slots 0 … count − 1 for timing
-    warm_up,  ///< prepare and query them once, as many as fit into the time of one round
+    warm_up,  ///< prepare and query once as many of them as fit into the time of one round
     time,     ///< one timed round
     finish    ///< end the session
   };
   Kind kind;
   std::uint32_t first, count;
-  std::uint64_t ticket;  ///< no two commands have the same
+  std::uint64_t ticket;  ///< unique to the command
   bool release;          ///< `answer`: keep no shapes ready for later commands
   std::int32_t index;
   double threshold, parameter;
-  std::uint64_t memory;  ///< bytes that a session may grow by
+  std::uint64_t memory;  ///< growth in bytes that a session is allowed
 };
 
-/// What comes back. Anything else that comes is noise, as from a routine that writes to descriptors
-/// that are not its own.
-struct Report {
+/// The reply. Everything else on the socket is noise, as from a routine that writes to foreign
+/// descriptors.
+struct Reply {
   enum Kind : std::uint32_t {
-    described,  ///< of the plug-in: `value` candidates; a Description of each follows
-    refused,    ///< of the plug-in: it cannot be used; `text` says why
-    began,      ///< said by the session itself; `value` is negative where none could be made
-    finished,   ///< the session has done what it was told
-    ended,      ///< the session is over, with the wait status `value`
-    gone        ///< the process that has loaded the plug-in is, with the wait status `value`
+    described,  ///< the plug-in has `value` candidates; a Description of each follows
+    refused,    ///< the plug-in cannot be used; `text` says why
+    began,      ///< sent by the session itself; `value` is negative if none could be forked
+    finished,   ///< the session has done its command
+    ended,      ///< the session has ended with the wait status `value`
+    gone        ///< the process that has loaded the plug-in has ended with the wait status `value`
   };
   Kind kind;
   std::int32_t value;
-  std::uint64_t ticket;  ///< of the command that it answers; of `ended`, the one that began it
-  bool left_behind;      ///< `ended`: processes that the session started still run
+  std::uint64_t ticket;  ///< ticket of the command; for `ended`, of the one that began the session
+  bool left_behind;      ///< for `ended`: processes that the session started are still running
   char text[240];
 };
 
-/// A ts_candidate without its pointers. Longer texts are cut.
+/// A ts_candidate without pointers. Longer texts are truncated.
 struct Description {
   char name[64], version[64], settings[1024], models[512], meaning[256];
   double least, most, usual;
@@ -106,10 +106,26 @@ struct Description {
   bool supports[5];
 };
 
-/// Exit code of a session that an exception left.
+/// Exit code of a session that ended by an exception.
 inline constexpr int exit_thrown = 97;
 
-/// What runs in the process of a plug-in: loads it, describes it on the socket, then serves
+/// Gives the processes forked from now on a PID namespace of their own, if the system allows it:
+/// from inside, no process outside can be named or signalled, and all processes inside end with the
+/// first one (pid_namespaces(7)). False if it is not permitted, as for root without CAP_SYS_ADMIN
+/// in most containers. Precondition: this process has a single thread.
+bool begin_pid_namespace();
+
+/// Forks, and returns in the child only. The parent becomes the child's guard and runs nothing
+/// else. When the child ends or is stopped, or on SIGTERM (which the guard also gets when its own
+/// parent ends), the guard kills all descendants of the child and exits. On `socket`, unless it is
+/// -1, it reports that the child has ended, with its wait status.
+///
+/// The child leads a process group of its own, so that signals to a group or from a terminal do not
+/// cross. (Not a session of its own: Linux schedules sessions in turn, see sched_autogroup in
+/// sched(7), and every answer would wait for its turn.)
+void fork_guarded(int socket);
+
+/// Main function of a plug-in's process: loads the plug-in, describes it on the socket, then serves
 /// sessions until the other end is closed.
 [[noreturn]] void serve_plugin(const char* file, int socket, const Questions& questions,
                                Exchange& exchange);

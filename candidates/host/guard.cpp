@@ -1,5 +1,3 @@
-#include "candidates/host/guard.hpp"
-
 #include <cerrno>
 #include <cstdio>
 #include <fcntl.h>
@@ -11,12 +9,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "candidates/host/exchange.hpp"
 #include "candidates/host/session.hpp"
 
 namespace touchstone {
 namespace {
 
-/// One write, as the files of user namespaces want it.
+/// Writes in a single call, as the files of user namespaces require.
 void write_file(const char* file, const std::string& text) {
   const int fd = open(file, O_WRONLY);
   if (fd < 0) return;
@@ -24,8 +23,8 @@ void write_file(const char* file, const std::string& text) {
   close(fd);
 }
 
-/// Sends SIGKILL to all children, those included that came to this process when their own parent
-/// ended; in a namespace of its own, to all in it. False where the kernel does not list them.
+/// Sends SIGKILL to all children, including those reparented to this process; as the first process
+/// of a PID namespace, to all processes in it. False if the kernel does not list children.
 bool kill_children() {
   if (getpid() == 1) {
     kill(-1, SIGKILL);
@@ -38,7 +37,8 @@ bool kill_children() {
   return true;
 }
 
-/// Until none is left: whoever loses its parent comes here, so there is an end to it.
+/// Kills children until none is left. This terminates because orphans are reparented to this
+/// process.
 void end_descendants(pid_t child) {
   while (kill_children()) {
     if (waitpid(-1, nullptr, 0) < 0 && errno == ECHILD) return;
@@ -63,7 +63,7 @@ void end_descendants(pid_t child) {
     over |= ended.has_value();
   }
   end_descendants(child);
-  if (ended && socket >= 0) report(socket, Report::gone, 0, *ended);
+  if (ended && socket >= 0) reply(socket, Reply::gone, 0, *ended);
   _exit(0);
 }
 

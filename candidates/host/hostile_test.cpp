@@ -19,7 +19,7 @@
 
 #include "candidates/candidates.hpp"
 #include "candidates/host/candidate_process.hpp"
-#include "candidates/host/guard.hpp"
+#include "candidates/host/exchange.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone {

@@ -27,7 +27,7 @@ void on_signal(int signal) {
 Interruption::Interruption() {
   asked = 0;
   struct sigaction action {};
-  action.sa_handler = on_signal;  // without SA_RESTART: whoever waits looks again
+  action.sa_handler = on_signal;  // without SA_RESTART: waiting calls return
   sigemptyset(&action.sa_mask);
   for (int i = 0; i < 2; ++i) {
     sigaction(signals[i], nullptr, &previous[i]);

@@ -2,9 +2,9 @@
 
 namespace touchstone {
 
-/// While one lives, the first SIGINT (Ctrl-C) or SIGTERM only asks for an end, which long work
-/// answers with what there is by then; a second one ends the program at once. A signal that was
-/// ignored when the program began stays so. One at a time.
+/// During its lifetime the first SIGINT (Ctrl-C) or SIGTERM only requests an end, upon which long
+/// work returns its partial result; a second one ends the program at once. A signal that was
+/// ignored when the program began stays ignored. There may be one object at a time.
 class Interruption {
  public:
   Interruption();
@@ -13,12 +13,12 @@ class Interruption {
   Interruption& operator=(const Interruption&) = delete;
 };
 
-/// Has an end been asked for? Never without an Interruption.
+/// Has an end been requested? False without an Interruption.
 bool interrupted();
 
-int interrupting_signal();  ///< SIGINT or SIGTERM; zero if there was none
+int interrupting_signal();  ///< the signal received, SIGINT or SIGTERM; otherwise zero
 
-/// As shells count it, 128 and the signal: 130 after Ctrl-C, 143 after SIGTERM.
+/// Exit code as shells define it, 128 plus the signal: 130 after Ctrl-C, 143 after SIGTERM.
 int interrupted_exit_code();
 
 }  // namespace touchstone

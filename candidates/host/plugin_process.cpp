@@ -15,7 +15,7 @@
 #include <unistd.h>
 #include <utility>
 
-#include "candidates/host/guard.hpp"
+#include "candidates/host/exchange.hpp"
 #include "candidates/host/plugin_state.hpp"
 #include "reference/invalid_input.hpp"
 
@@ -24,10 +24,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// For a guard to end what it guards.
+/// Time in which a guard must end its processes.
 constexpr std::chrono::seconds stopping_time(10);
 
-/// A file in memory, for two processes to map.
+/// Makes a file in memory that two processes can map.
 int shared_file(std::size_t size) {
   const int file = memfd_create("exchange", MFD_CLOEXEC | MFD_ALLOW_SEALING);
   if (file < 0 || ftruncate(file, static_cast<off_t>(size)) < 0) fail("memfd_create");
@@ -45,7 +45,7 @@ std::chrono::milliseconds until(Clock::time_point end) {
                   std::chrono::milliseconds(0));
 }
 
-/// poll, whatever signals come meanwhile.
+/// poll that ignores interruption by signals.
 int poll_through(pollfd& polled, std::chrono::milliseconds time) {
   int ready;
   while ((ready = poll(&polled, 1, static_cast<int>(time.count()))) < 0 && errno == EINTR) {
@@ -106,10 +106,10 @@ PluginProcess::State::State(const std::filesystem::path& f) : file(f) {
   exchange_file = shared_file(sizeof(Exchange));
   questions = new (map(questions_file, sizeof(Questions), PROT_READ | PROT_WRITE)) Questions{};
   exchange = new (map(exchange_file, sizeof(Exchange), PROT_READ | PROT_WRITE)) Exchange{};
-  // Each plug-in maps its own memory; that of others is not to be found in its process.
+  // Each plug-in's process maps its own memory and does not inherit that of others.
   madvise(questions, sizeof(Questions), MADV_DONTFORK);
   madvise(exchange, sizeof(Exchange), MADV_DONTFORK);
-  // From here on nobody can map the questions to write them.
+  // From here on no process can map the questions for writing.
   if (fcntl(questions_file, F_ADD_SEALS, F_SEAL_FUTURE_WRITE) < 0) fail("fcntl");
 }
 
@@ -133,7 +133,7 @@ void PluginProcess::State::stop() {
     }
     guard = -1;
   }
-  // Not before, lest a routine that waits for it goes on.
+  // Not earlier: a routine that waits for the end of the connection would continue.
   if (socket >= 0) close(std::exchange(socket, -1));
 }
 
@@ -187,10 +187,10 @@ std::string PluginProcess::State::last_line() const {
   return line.substr(line.rfind('\n') + 1);
 }
 
-/// Runs in the first process that is forked for the plug-in.
+/// Main function of the first process forked for the plug-in.
 void PluginProcess::State::serve(int other_end) const {
   prctl(PR_SET_PDEATHSIG, SIGTERM);
-  if (getppid() != owner) _exit(0);  // it died before that
+  if (getppid() != owner) _exit(0);  // the parent died before prctl
   const Questions& asked =
       *static_cast<Questions*>(map(questions_file, sizeof(Questions), PROT_READ));
   Exchange& answered =
@@ -199,12 +199,12 @@ void PluginProcess::State::serve(int other_end) const {
   dup2(nothing, STDIN_FILENO);
   dup2(text, STDOUT_FILENO);
   dup2(text, STDERR_FILENO);
-  constexpr int only = STDERR_FILENO + 1;  // descriptor besides those three
+  constexpr int only = STDERR_FILENO + 1;  // the only descriptor besides the standard three
   dup2(other_end, only);
   close_range(only + 1, ~0u, 0);
   setpgid(0, 0);
-  // The namespace begins with the next process; its first one must run no plug-in, because it is
-  // spared the signals that others die of.
+  // The namespace begins with the next process. Its first process must not run the plug-in, because
+  // the kernel spares it fatal signals.
   if (begin_pid_namespace()) fork_guarded(-1);
   fork_guarded(only);
   serve_plugin(file.c_str(), only, asked, answered);
@@ -214,7 +214,7 @@ void PluginProcess::State::start(std::chrono::milliseconds loading) {
   int ends[2];
   if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) fail("socketpair");
   socket = ends[0];
-  // Says who sent a message, in the numbers of our own PID namespace.
+  // Messages carry their sender's id as seen in our own PID namespace.
   const int yes = 1;
   setsockopt(socket, SOL_SOCKET, SO_PASSCRED, &yes, sizeof yes);
   guard = fork();
@@ -227,25 +227,25 @@ void PluginProcess::State::start(std::chrono::milliseconds loading) {
     throw InvalidInput("--candidate", '"' + file.string() + '"',
                        "must be a plug-in made with candidate.h, but " + why);
   };
-  const auto told = [](const Report& r) {
-    return r.kind == Report::described || r.kind == Report::refused || r.kind == Report::gone;
+  const auto told = [](const Reply& r) {
+    return r.kind == Reply::described || r.kind == Reply::refused || r.kind == Reply::gone;
   };
-  Report report;
+  Reply reply;
   const auto end = Clock::now() + loading;
   bool heard;
   do {
-    heard = wait_for(&report, sizeof report, until(end));
-  } while (heard && !told(report));
+    heard = wait_for(&reply, sizeof reply, until(end));
+  } while (heard && !told(reply));
   if (!heard && Clock::now() < end) refuse("its process was not there after loading");
   if (!heard) {
     refuse("nothing was heard of it within " + std::to_string(loading.count()) + " ms of loading");
   }
-  if (report.kind == Report::gone) {
-    refuse("its process was not there after loading: " + how_it_ended(report.value));
+  if (reply.kind == Reply::gone) {
+    refuse("its process was not there after loading: " + how_it_ended(reply.value));
   }
-  if (report.kind != Report::described) refuse("it " + readable(report.text));
+  if (reply.kind != Reply::described) refuse("it " + readable(reply.text));
   candidates.clear();
-  for (int i = 0; i < report.value; ++i) {
+  for (int i = 0; i < reply.value; ++i) {
     Description d;
     if (!wait_for(&d, sizeof d, until(end))) refuse("it could not be described");
     Candidate c{

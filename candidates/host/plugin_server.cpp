@@ -21,7 +21,7 @@
 namespace touchstone {
 namespace {
 
-/// More than anyone has, fewer than a number that is no count.
+/// Large enough for any plug-in; a larger count is corrupt.
 constexpr int max_candidates = 1000;
 
 const ts_plugin& load(const char* file) {
@@ -100,7 +100,8 @@ void bound_memory(std::uint64_t growth) {
   setrlimit(RLIMIT_AS, &memory);
 }
 
-/// Its wait status when it has ended, which one that is only stopped, by ptrace, has to.
+/// Waits for a process to end and returns its wait status; kills it if it has only been stopped (by
+/// ptrace).
 int wait_for(pid_t pid) {
   int status = 0;
   while (waitpid(pid, &status, 0) < 0 ? errno == EINTR : WIFSTOPPED(status)) {
@@ -109,7 +110,7 @@ int wait_for(pid_t pid) {
   return status;
 }
 
-/// Does any process that came from this one still run? Takes leave of those that have ended.
+/// Is any descendant still running? Reaps those that have ended.
 bool others_run() {
   pid_t pid;
   while ((pid = waitpid(-1, nullptr, WNOHANG)) > 0) {
@@ -124,12 +125,12 @@ void serve_plugin(const char* file, int socket, const Questions& questions, Exch
   sigset_t none;
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
-  const rlimit no_core{0, 0}, file_size{1 << 24, 1 << 24};  // of what it prints, too
+  const rlimit no_core{0, 0}, file_size{1 << 24, 1 << 24};  // limits what it prints, too
   setrlimit(RLIMIT_CORE, &no_core);
   setrlimit(RLIMIT_FSIZE, &file_size);
   signal(SIGXFSZ, SIG_IGN);
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  // What a session leaves behind comes to this process, which so learns of it.
+  // Processes that a session leaves behind are reparented to this one, which so learns of them.
   prctl(PR_SET_CHILD_SUBREAPER, 1);
 
   const ts_plugin* plugin = nullptr;
@@ -137,18 +138,18 @@ void serve_plugin(const char* file, int socket, const Questions& questions, Exch
     plugin = &load(file);
     std::vector<Description> descriptions;
     for (int i = 0; i < plugin->count; ++i) descriptions.push_back(describe(plugin->candidates[i]));
-    report(socket, Report::described, 0, plugin->count);
+    reply(socket, Reply::described, 0, plugin->count);
     for (const Description& d : descriptions) send(socket, &d, sizeof d);
   } catch (const std::exception& e) {
-    report(socket, Report::refused, 0, 0, e.what());
+    reply(socket, Reply::refused, 0, 0, e.what());
     _exit(1);
   } catch (...) {
-    report(socket, Report::refused, 0, 0, "threw something that is no exception");
+    reply(socket, Reply::refused, 0, 0, "threw something that is no exception");
     _exit(1);
   }
   for (;;) {
     const Command command = receive(socket);
-    if (command.kind != Command::begin) continue;  // meant for a session that died unasked
+    if (command.kind != Command::begin) continue;  // meant for a session that has died
     const pid_t pid = fork();
     if (pid == 0) {
       prctl(PR_SET_PDEATHSIG, SIGKILL);  // if this process dies first, receive() ends the session
@@ -157,11 +158,11 @@ void serve_plugin(const char* file, int socket, const Questions& questions, Exch
       Session(plugin->candidates[command.index], command, socket, questions, exchange).serve();
     }
     if (pid < 0) {
-      report(socket, Report::began, command.ticket, -1);
+      reply(socket, Reply::began, command.ticket, -1);
       continue;
     }
     const int status = wait_for(pid);
-    report(socket, Report::ended, command.ticket, status, "", others_run());
+    reply(socket, Reply::ended, command.ticket, status, "", others_run());
   }
 }
 

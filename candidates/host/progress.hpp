@@ -6,23 +6,23 @@
 
 namespace touchstone {
 
-/// "120 of 23600 configurations, 735/s, 32 s left". What is left is not said before anything is
-/// done.
+/// "120 of 23600 configurations, 735/s, 32 s left". The remaining time is left out until something
+/// is done.
 std::string progress_text(const std::string& unit, std::size_t done, std::size_t total,
                           double seconds);
 
-/// The state of work that takes long, on standard error: rewritten in place on a terminal, printed
-/// every ten seconds otherwise, and not at all for work that is done before.
+/// Prints the progress of long work on standard error: on a terminal rewritten in place, otherwise
+/// every ten seconds, so that short work prints nothing.
 class Progress {
  public:
-  /// `total` units of the given name ("configurations").
+  /// Expects `total` units of the given name ("configurations").
   Progress(std::string unit, std::size_t total);
   /// Clears the line on a terminal.
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// May be called as often as one likes.
+  /// Prints if it is time to; may be called often.
   void update(std::size_t done);
 
  private:

@@ -8,31 +8,71 @@
 #include <cstdio>
 #include <exception>
 #include <limits>
+#include <linux/perf_event.h>
+#include <sys/ioctl.h>
 #include <sys/mman.h>
 #include <sys/socket.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 namespace touchstone {
 namespace {
 
-/// A round of timing takes at most about this long, so that slow candidates do not take minutes …
-constexpr std::chrono::microseconds round_time(500);
-constexpr std::size_t fewest_timed = 10;
-/// … and at least this long, so that what another process left in the caches does not count.
-constexpr std::chrono::microseconds least_round_time(200);
+int open_counter() {
+  perf_event_attr attributes{};
+  attributes.size = sizeof attributes;
+  attributes.type = PERF_TYPE_HARDWARE;
+  attributes.config = PERF_COUNT_HW_INSTRUCTIONS;
+  attributes.disabled = 1;
+  attributes.exclude_kernel = 1;
+  attributes.exclude_hv = 1;
+  constexpr int this_process = 0, any_processor = -1, no_group = -1;
+  return static_cast<int>(syscall(SYS_perf_event_open, &attributes, this_process, any_processor,
+                                  no_group, PERF_FLAG_FD_CLOEXEC));
+}
 
-/// Pairs of shapes that stay ready for the next pose of the same bodies, as in a world: more than
-/// most scenes have, few enough for the largest meshes.
-constexpr std::size_t most_ready = 8;
+}  // namespace
 
-/// To the bit.
+InstructionCounter::InstructionCounter() : file_(open_counter()) {}
+
+InstructionCounter::~InstructionCounter() {
+  if (file_ >= 0) close(file_);
+}
+
+void InstructionCounter::start() const {
+  if (file_ < 0) return;
+  ioctl(file_, PERF_EVENT_IOC_RESET, 0);
+  ioctl(file_, PERF_EVENT_IOC_ENABLE, 0);
+}
+
+std::optional<std::uint64_t> InstructionCounter::stop() const {
+  if (file_ < 0) return std::nullopt;
+  ioctl(file_, PERF_EVENT_IOC_DISABLE, 0);
+  std::uint64_t count = 0;
+  if (read(file_, &count, sizeof count) != sizeof count || count == 0) return std::nullopt;
+  return count;
+}
+
+namespace {
+
+/// Upper limit of a round of timing, approximately, so that slow candidates do not take minutes.
+constexpr std::chrono::microseconds max_round_time(500);
+constexpr std::size_t min_timed = 10;
+/// Lower limit of a round of timing, so that the caches' former content does not count.
+constexpr std::chrono::microseconds min_round_time(200);
+
+/// Number of pairs of shapes kept prepared for the next pose of the same bodies, as in a world:
+/// more than most scenes have, few enough for the largest meshes.
+constexpr std::size_t max_ready = 8;
+
+/// Are the shapes equal to the bit?
 bool same(const ts_shape& x, const ts_shape& y) {
   using Bits = std::array<std::uint64_t, 4>;
   return x.kind == y.kind && std::bit_cast<Bits>(x.size) == std::bit_cast<Bits>(y.size);
 }
 
-/// Where a candidate writes its answer: the page behind is out of bounds, so that one point too
-/// many is a crash wherever it is written, and the same one on every run.
+/// Allocates the answer that a candidate fills. The page behind it is inaccessible, so that one
+/// point too many is a crash, the same one on every run.
 ts_answer* make_answer() {
   const std::size_t page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
   void* const memory =
@@ -47,13 +87,13 @@ ts_answer* make_answer() {
 
 void send(int socket, const void* message, std::size_t size) {
   while (::send(socket, message, size, MSG_NOSIGNAL) < 0) {
-    if (errno != EINTR) _exit(0);  // the harness is gone
+    if (errno != EINTR) _exit(0);  // the harness has gone
   }
 }
 
-void report(int socket, Report::Kind kind, std::uint64_t ticket, int value, const char* text,
-            bool left_behind) {
-  Report r{kind, value, ticket, left_behind, {}};
+void reply(int socket, Reply::Kind kind, std::uint64_t ticket, int value, const char* text,
+           bool left_behind) {
+  Reply r{kind, value, ticket, left_behind, {}};
   std::snprintf(r.text, sizeof r.text, "%s", text);
   send(socket, &r, sizeof r);
 }
@@ -78,7 +118,7 @@ Session::Session(const ts_candidate& candidate, const Command& begin, int socket
       exchange_(exchange),
       answer_(make_answer()) {
   std::fegetenv(&environment_);
-  report(socket_, Report::began, begin.ticket, 0);
+  reply(socket_, Reply::began, begin.ticket, 0);
 }
 
 void Session::serve() {
@@ -94,8 +134,8 @@ void Session::serve() {
       std::snprintf(exchange_.thrown, sizeof exchange_.thrown, "something that is no exception");
       _exit(exit_thrown);
     }
-    if (getpid() != own) _exit(0);  // forked by the candidate, and returned like its parent
-    report(socket_, Report::finished, command.ticket, 0);
+    if (getpid() != own) _exit(0);  // a fork made by the candidate that returned like its parent
+    reply(socket_, Reply::finished, command.ticket, 0);
   }
 }
 
@@ -129,7 +169,7 @@ ts_prepared* Session::prepare(const Question& q) {
   return candidate_.prepare(&q.a, &q.b, threshold_, parameter_);
 }
 
-/// Prepared now, or for a question before with the same shapes.
+/// Prepares the shapes, or returns them if an earlier question had the same ones.
 ts_prepared* Session::ready(const Question& q) {
   const auto found = std::find_if(ready_.begin(), ready_.end(),
                                   [&](const Ready& r) { return same(r.a, q.a) && same(r.b, q.b); });
@@ -137,7 +177,7 @@ ts_prepared* Session::ready(const Question& q) {
     std::rotate(found, found + 1, ready_.end());
     return ready_.back().prepared;
   }
-  if (ready_.size() == most_ready) {
+  if (ready_.size() == max_ready) {
     if (ready_.front().prepared) candidate_.release(ready_.front().prepared);
     ready_.erase(ready_.begin());
   }
@@ -145,8 +185,8 @@ ts_prepared* Session::ready(const Question& q) {
   return ready_.back().prepared;
 }
 
-/// Those that no question of this command from `first` on needs: here and now, so that whoever dies
-/// of it does so in the time of its own configuration.
+/// Releases the shapes that no question of this command from `first` on needs: at once, so that a
+/// crash in release falls into the time of its own configuration.
 void Session::release_all_but_of(const Command& command, std::uint32_t first) {
   std::erase_if(ready_, [&](const Ready& r) {
     for (std::uint32_t i = first; i < command.count; ++i) {
@@ -163,7 +203,7 @@ void Session::answer(std::uint32_t i) {
   slot.model_distance = std::numeric_limits<double>::quiet_NaN();
   *answer_ = {};
   answer_->status = TS_UNSUPPORTED;
-  std::fesetenv(&environment_);  // a rounding mode that a query left would spoil the next one
+  std::fesetenv(&environment_);  // a rounding mode left by a query would affect the next one
   if (ts_prepared* const prepared = ready(question)) {
     const double* const hint = question.has_previous_normal ? question.previous_normal : nullptr;
     candidate_.query(prepared, &question.pose_a, &question.pose_b, hint, answer_);
@@ -177,7 +217,7 @@ void Session::answer(std::uint32_t i) {
 void Session::warm_up() {
   std::chrono::steady_clock::duration used{};
   for (const Question& q : questions_) {
-    if (kept_.size() >= fewest_timed && used > round_time) break;
+    if (kept_.size() >= min_timed && used > max_round_time) break;
     ts_prepared* const prepared = prepare(q);
     if (!prepared) continue;
     const auto start = std::chrono::steady_clock::now();
@@ -189,16 +229,16 @@ void Session::warm_up() {
   query_all();
   const auto once = std::max<std::chrono::steady_clock::duration>(
       std::chrono::steady_clock::now() - start, std::chrono::nanoseconds(1));
-  passes_ = 1 + static_cast<std::size_t>(least_round_time / once);
+  passes_ = 1 + static_cast<std::size_t>(min_round_time / once);
 }
 
 void Session::query_all() {
-  // The call goes through a function pointer, which no optimiser removes.
+  // The call goes through a function pointer, so that the optimiser cannot remove it.
   for (const Kept& k : kept_) candidate_.query(k.prepared, &k.a, &k.b, nullptr, answer_);
 }
 
 void Session::time() {
-  query_all();  // the process has slept since the last round: its caches are cold
+  query_all();  // warms the caches, as the process has slept since the last round
   counter_.start();
   const auto start = std::chrono::steady_clock::now();
   for (std::size_t pass = 0; pass < passes_; ++pass) query_all();

@@ -1,20 +1,39 @@
 #pragma once
 
 #include <cfenv>
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "candidates/host/exchange.hpp"
-#include "candidates/host/instruction_counter.hpp"
 
 namespace touchstone {
 
-// Messages on the candidate's side; they end the process when the harness is gone.
+/// Counts the instructions that this process retires in user space, if machine and kernel allow it
+/// (perf_event_open(2); kernel.perf_event_paranoid up to 2).
+class InstructionCounter {
+ public:
+  InstructionCounter();
+  ~InstructionCounter();
+  InstructionCounter(const InstructionCounter&) = delete;
+  InstructionCounter& operator=(const InstructionCounter&) = delete;
+
+  void start() const;
+  /// The count since start, within a few dozen; absent if instructions cannot be counted.
+  std::optional<std::uint64_t> stop() const;
+
+ private:
+  int file_;  ///< -1: not permitted
+};
+
+// Messages on the candidate's side. They end the process if the harness has gone.
 void send(int socket, const void* message, std::size_t size);
-void report(int socket, Report::Kind kind, std::uint64_t ticket, int value, const char* text = "",
-            bool left_behind = false);
+void reply(int socket, Reply::Kind kind, std::uint64_t ticket, int value, const char* text = "",
+           bool left_behind = false);
 Command receive(int socket);
 
-/// One candidate in a process of its own, which obeys commands until it is told to finish, or dies.
+/// One candidate in a process of its own, which executes commands until it is told to finish or
+/// dies.
 class Session {
  public:
   Session(const ts_candidate& candidate, const Command& begin, int socket,
@@ -22,12 +41,12 @@ class Session {
   [[noreturn]] void serve();
 
  private:
-  /// Two shapes made ready, for one pose after another.
+  /// Two prepared shapes, for one pose after another.
   struct Ready {
     ts_shape a, b;
-    ts_prepared* prepared;  ///< null where the pair is not supported
+    ts_prepared* prepared;  ///< null if the pair is not supported
   };
-  /// Ready for timing.
+  /// Prepared shapes and poses for timing.
   struct Kept {
     ts_prepared* prepared;
     ts_pose a, b;
@@ -39,7 +58,7 @@ class Session {
   void answer(std::uint32_t slot);
   void release_all_but_of(const Command& command, std::uint32_t first);
   void warm_up();
-  void query_all();  ///< that is kept for timing, once
+  void query_all();  ///< queries everything kept for timing once
   void time();
 
   const ts_candidate& candidate_;
@@ -47,12 +66,12 @@ class Session {
   int socket_;
   const Questions& asked_;
   Exchange& exchange_;
-  std::fenv_t environment_;  ///< of floating-point arithmetic, as the loaded plug-in has it
+  std::fenv_t environment_;  ///< floating-point environment after loading the plug-in
   ts_answer* answer_;
-  std::vector<Ready> ready_;  ///< the last pairs of shapes that were asked for, oldest first
+  std::vector<Ready> ready_;  ///< the last pairs of shapes queried, oldest first
   std::vector<Question> questions_;
   std::vector<Kept> kept_;
-  std::size_t passes_ = 1;  ///< over them in one timed round
+  std::size_t passes_ = 1;  ///< passes over kept_ in one timed round
   InstructionCounter counter_;
 };
 

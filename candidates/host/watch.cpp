@@ -11,7 +11,7 @@
 namespace touchstone {
 namespace {
 
-/// Seconds of processor time that a process has used; zero when it is gone.
+/// Seconds of processor time that a process has used; zero if it has ended.
 double processor_seconds(pid_t process) {
   clockid_t clock;
   timespec time{};
@@ -21,9 +21,9 @@ double processor_seconds(pid_t process) {
 
 struct Threads {
   bool one_can_run = false;
-  /// Seconds that they were ready to run and had no processor, all together: the second number in
-  /// schedstat (Documentation/scheduler/sched-stats.rst of Linux), which grows only when such a
-  /// wait is over.
+  /// Total seconds for which the threads were ready to run and had no processor: the second number
+  /// in schedstat (Linux, Documentation/scheduler/sched-stats.rst), which is updated only when such
+  /// a wait is over.
   std::optional<double> starved;
 };
 
@@ -48,7 +48,7 @@ Threads threads(pid_t process) {
 
 }  // namespace
 
-// Times are read so that what happens in between makes less waiting of it: the clock last here …
+// The order of the readings makes waiting an underestimate: the clock is read last here …
 Watch::Watch(pid_t process)
     : process_(process),
       computed_(processor_seconds(process)),
@@ -56,7 +56,7 @@ Watch::Watch(pid_t process)
       start_(std::chrono::steady_clock::now()) {}
 
 // … and first here.
-Watch::Spent Watch::spent() const {
+Watch::TimeUse Watch::spent() const {
   const double clock =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   const Threads now = threads(process_);

@@ -6,21 +6,21 @@
 
 namespace touchstone {
 
-/// Watches what a process does with its time: compute, wait for something, or wait for nothing but
-/// a processor, which on a busy machine is not its own doing.
+/// Measures how a process spends its time: computing, waiting for something, or waiting for a
+/// processor, which on a busy machine is not its own fault.
 class Watch {
  public:
-  /// Both since the watch began, in seconds.
-  struct Spent {
+  /// Seconds since the watch began.
+  struct TimeUse {
     double computing;
-    /// For anything but a processor. Zero while a thread of it can run, and less than it is when
-    /// several of them could; absent where the kernel does not tell.
+    /// Waiting for anything but a processor. Zero while one of its threads can run, and
+    /// underestimated if several could; absent if the kernel does not tell.
     std::optional<double> waiting;
     double by_the_clock;
   };
 
   explicit Watch(pid_t process);
-  Spent spent() const;
+  TimeUse spent() const;
 
  private:
   pid_t process_;

@@ -22,7 +22,7 @@
 namespace touchstone {
 namespace {
 
-/// Shared between the parent and its workers.
+/// Counters in memory shared between the parent and its workers.
 class Shared {
  public:
   explicit Shared(unsigned workers)
@@ -35,11 +35,11 @@ class Shared {
   Shared(const Shared&) = delete;
   Shared& operator=(const Shared&) = delete;
 
-  /// From here on processes that this one forks, as those of plug-ins, have no part in it.
+  /// Hides the memory from processes that this one forks from now on, such as those of plug-ins.
   void withhold_from_children() { madvise(memory_, bytes_, MADV_DONTFORK); }
 
   std::atomic<std::uint64_t>& next() { return at(0); }
-  /// One more than the task that this worker is at; zero between tasks.
+  /// One more than the index of this worker's task; zero between tasks.
   std::atomic<std::uint64_t>& current(unsigned worker) { return at(worker + 1); }
 
  private:
@@ -61,17 +61,17 @@ void write_all(int fd, const void* data, std::size_t size) {
   while (size > 0) {
     const ssize_t written = write(fd, bytes, size);
     if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) _exit(1);  // the parent is gone
+    if (written <= 0) _exit(1);  // the parent has gone
     bytes += written;
     size -= static_cast<std::size_t>(written);
   }
 }
 
-/// Ends with the parent, whatever ends that, and leaves it alone to obey a terminal's Ctrl-C or a
-/// scheduler's SIGTERM: a candidate that dies of those would be counted as crashed.
+/// Makes this process end with its parent, and leaves a terminal's Ctrl-C or a scheduler's SIGTERM
+/// to the parent: a candidate that died of those would be counted as crashed.
 void follow(pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (getppid() != parent) _exit(0);  // it died before that
+  if (getppid() != parent) _exit(0);  // the parent died before prctl
   signal(SIGINT, SIG_IGN);
   signal(SIGTERM, SIG_IGN);
 }
@@ -109,7 +109,7 @@ std::string how_it_ended(int status) {
   return "ended with exit code " + std::to_string(WEXITSTATUS(status));
 }
 
-/// All workers of a run; kills those that are left when it ends early.
+/// All workers of a run. The destructor kills those that are still running.
 class Workers {
  public:
   explicit Workers(unsigned count) : workers_(count) {}
@@ -153,7 +153,7 @@ bool stream_from_processes(std::uint64_t count, unsigned workers,
                            const std::function<std::string(std::uint64_t)>& name,
                            const std::function<void(std::uint64_t, std::string)>& take,
                            const std::function<bool()>& go_on) {
-  constexpr int most_milliseconds = 100;
+  constexpr int max_milliseconds = 100;
   workers = static_cast<unsigned>(
       std::clamp<std::uint64_t>(workers, 1, std::max<std::uint64_t>(count, 1)));
   Shared shared(workers);
@@ -190,7 +190,7 @@ bool stream_from_processes(std::uint64_t count, unsigned workers,
     if (!go_on()) return false;
     std::vector<pollfd> polled;
     for (const Worker& w : pool.all()) polled.push_back({w.fd, POLLIN, 0});
-    if (poll(polled.data(), polled.size(), most_milliseconds) < 0) {
+    if (poll(polled.data(), polled.size(), max_milliseconds) < 0) {
       if (errno == EINTR) continue;
       throw std::system_error(errno, std::generic_category(), "poll");
     }

@@ -7,20 +7,19 @@
 
 namespace touchstone {
 
-/// Runs task(0) … task(count − 1) in `workers` child processes, each taking the next one that is
-/// free, and returns what they returned in the order of the tasks. An exception in a task, or the
-/// death of a worker, ends the run with std::runtime_error that begins with name(index). `done` is
-/// called in the parent after each task with the number finished. When an end is asked for
-/// (interruption.hpp) the workers are ended at once, and tasks that were not finished return
-/// nothing: an empty string.
+/// Runs task(0) … task(count − 1) in `workers` child processes, each of which takes the next free
+/// task, and returns the results in the order of the tasks. An exception in a task, or the death of
+/// a worker, ends the run with std::runtime_error that begins with name(index). `done` is called in
+/// the parent after each task with the number finished. On an interruption (interruption.hpp) the
+/// workers are ended at once, and unfinished tasks have an empty string as result.
 std::vector<std::string> run_in_processes(std::size_t count, unsigned workers,
                                           const std::function<std::string(std::size_t)>& task,
                                           const std::function<std::string(std::size_t)>& name,
                                           const std::function<void(std::size_t)>& done);
 
-/// The same for runs longer than memory: hands each result over as it comes, in no certain order,
-/// and keeps none. Ends early, without the tasks in hand, once `go_on` says no; it is asked at
-/// least every 100 ms. Returns whether all tasks were done.
+/// Like run_in_processes, for runs whose results do not fit into memory: passes each result to
+/// `take` as it arrives, in any order, and keeps none. Ends early, dropping unfinished tasks, when
+/// `go_on` (called at least every 100 ms) returns false. Returns whether all tasks were done.
 bool stream_from_processes(std::uint64_t count, unsigned workers,
                            const std::function<std::string(std::uint64_t)>& task,
                            const std::function<std::string(std::uint64_t)>& name,

@@ -1,20 +1,72 @@
 #pragma once
 
+#include <CGAL/Interval_nt.h>
 #include <algorithm>
+#include <boost/multiprecision/eigen.hpp>
+#include <boost/multiprecision/mpfr.hpp>
 #include <cmath>
+#include <string>
 
-#include "oracle/audit/arithmetic.hpp"
+#include <Eigen/Core>
+
 #include "reference/configuration.hpp"
+#include "reference/invalid_input.hpp"
 
 namespace touchstone::audit {
 
-// A configuration in an arithmetic of choice: enclosed by intervals, exact in rationals, rounded in
-// doubles. Every shape but the half-space is the sum of a box, a disc across the local z axis and a
-// ball, any of which may be a point; a cylinder is a segment plus a disc.
+/// Double intervals that round outward while a Protect_FPU_rounding<true> is alive: their
+/// enclosures are certain. Brönnimann, Burnikel, Pion, "Interval arithmetic yields efficient
+/// dynamic filters for computational geometry", Discrete Applied Mathematics 109, 2001.
+using Interval = CGAL::Interval_nt<false>;
+
+/// Floating point of about 400 bits, for searches in which doubles are too coarse.
+using Multiprecision = boost::multiprecision::number<
+    boost::multiprecision::mpfr_float_backend<120, boost::multiprecision::allocate_stack>,
+    boost::multiprecision::et_off>;
+
+template <class T>
+using Vector = Eigen::Matrix<T, 3, 1>;
+template <class T>
+using Matrix = Eigen::Matrix<T, 3, 3>;
+
+/// The search's numbers that belong to an arithmetic T of certain results: points, cells and
+/// directions are computed in them without any guarantee.
+template <class T>
+struct SearchNumber {
+  using type = T;
+};
+template <>
+struct SearchNumber<Interval> {
+  using type = double;
+};
+template <class T>
+using Real = typename SearchNumber<T>::type;
+
+/// Certain lower (upper) bound of a value in T. For all types but intervals: the value itself.
+template <class T>
+const T& lower(const T& x) {
+  return x;
+}
+template <class T>
+const T& upper(const T& x) {
+  return x;
+}
+inline double lower(const Interval& x) { return x.inf(); }
+inline double upper(const Interval& x) { return x.sup(); }
+
+/// Converts a vector to another arithmetic; exact if that one is finer.
+template <class To, class From>
+Vector<To> as(const Vector<From>& v) {
+  return {To(v.x()), To(v.y()), To(v.z())};
+}
+
+// A configuration in any arithmetic: enclosed in intervals, exact in rationals, rounded in doubles.
+// Every shape but the half-space is the Minkowski sum of a box, a disc perpendicular to the local z
+// axis and a ball, any of which may be a point; a cylinder is a segment plus a disc.
 
 template <class T>
 struct Body {
-  Matrix<T> axes;  ///< Columns: the body's axes in world coordinates, orthonormal.
+  Matrix<T> axes;  ///< columns: the body's axes in world coordinates, orthonormal
   Vector<T> half_extents = Vector<T>(T(0), T(0), T(0));
   T disc_radius{0}, ball_radius{0};
 };
@@ -22,7 +74,7 @@ struct Body {
 template <class T>
 struct Bodies {
   Body<T> a, b;
-  Vector<T> offset;  ///< Centre A − centre B, world coordinates.
+  Vector<T> offset;  ///< centre A − centre B, world coordinates
 };
 
 /// A point of A and a point of B, each in its own body frame. Their difference w = a − b bounds the
@@ -35,7 +87,7 @@ struct PointPair {
 /// The rotation of a quaternion of any length, R(q)/|q|², by Euler–Rodrigues.
 template <class T>
 Matrix<T> rotation(const Eigen::Quaterniond& quaternion) {
-  // A power of two first, so that no square overflows; it cancels.
+  // Divide by a power of two, which cancels, so that no square overflows.
   const T scale(std::ldexp(1.0, std::ilogb(quaternion.coeffs().cwiseAbs().maxCoeff())));
   const T w = T(quaternion.w()) / scale, x = T(quaternion.x()) / scale;
   const T y = T(quaternion.y()) / scale, z = T(quaternion.z()) / scale;
@@ -49,7 +101,7 @@ Matrix<T> rotation(const Eigen::Quaterniond& quaternion) {
   return r;
 }
 
-/// Sets the sizes of a body from its shape, in multiples of a unit; nothing for a half-space.
+/// Sets a body's sizes from its shape, in multiples of a unit; a half-space has none.
 template <class T>
 struct Sizes {
   Body<T>& body;
@@ -70,7 +122,25 @@ struct Sizes {
   void operator()(const Plane&) const {}
 };
 
-/// Lengths in multiples of `unit`, a power of two in metres.
+/// A power of two near the configuration's largest length, metres. Lengths in multiples of it do
+/// not overflow.
+inline double unit_of(const Configuration& c) {
+  const Vec3 quarter_apart = c.pose_a.position() / 4 - c.pose_b.position() / 4;
+  double length = std::max(larger_size(c), quarter_apart.cwiseAbs().maxCoeff());
+  if (const auto* plane = std::get_if<Plane>(&c.b)) {
+    const double offset = plane->displacement() / plane->normal().cwiseAbs().maxCoeff();
+    length = std::max(length, std::abs(offset));
+  }
+  return std::ldexp(1.0, std::clamp(std::ilogb(length), -1000, 1000));
+}
+
+/// Throws InvalidInput unless the width is positive and finite.
+inline void check_width(double width) {
+  if (std::isfinite(width) && width > 0) return;
+  throw InvalidInput("width", std::to_string(width), "must be positive and finite");
+}
+
+/// Converts a configuration, with lengths in multiples of `unit`, a power of two in metres.
 template <class T>
 Bodies<T> make_bodies(const Configuration& c, double unit) {
   Bodies<T> bodies;
@@ -78,7 +148,7 @@ Bodies<T> make_bodies(const Configuration& c, double unit) {
   bodies.b.axes = rotation<T>(c.pose_b.orientation());
   Sizes<T>{bodies.a, T(unit)}(c.a);
   std::visit(Sizes<T>{bodies.b, T(unit)}, c.b);
-  // Quarters: the difference of two doubles may not be one.
+  // Quarters, because the difference of two doubles may overflow.
   for (int i = 0; i < 3; ++i) {
     bodies.offset[i] =
         (T(c.pose_a.position()[i]) / T(4) - T(c.pose_b.position()[i]) / T(4)) / (T(unit) / T(4));
@@ -86,7 +156,7 @@ Bodies<T> make_bodies(const Configuration& c, double unit) {
   return bodies;
 }
 
-/// Support of a body about its centre: max over its points p of p·n, n in its frame.
+/// Support of a body about its centre: max of p·n over its points p, with n in the body's frame.
 template <class T>
 T support(const Body<T>& body, const Vector<T>& n) {
   using std::abs, std::sqrt;
@@ -98,7 +168,7 @@ T support(const Body<T>& body, const Vector<T>& n) {
   return sum;
 }
 
-/// The difference a − b of a pair, world coordinates.
+/// The difference a − b of a pair of points, world coordinates.
 template <class T>
 Vector<T> difference(const Bodies<T>& bodies, const PointPair<T>& pair) {
   const Vector<T> a = bodies.a.axes * pair.a, b = bodies.b.axes * pair.b;

@@ -9,33 +9,35 @@
 
 namespace touchstone::audit {
 
-/// A cell with a pair of points that bounds the gap along its directions.
+/// A cell of directions and the pair of points that bounds the gap along them.
 template <class R>
 struct BoundedCell {
   DirectionCell<R> cell;
   PointPair<R> pair;
-  R bound;    ///< Certain: no direction of the cell has a larger gap.
-  R promise;  ///< The program's value: ranks cells that only the closest pair bounds as yet.
+  R bound;     ///< certain: no direction of the cell has a larger gap
+  R estimate;  ///< the linear program's value: orders cells that only the closest pair bounds so
+               ///< far
 
   bool operator<(const BoundedCell& other) const {
-    return bound != other.bound ? bound < other.bound : promise < other.promise;
+    return bound != other.bound ? bound < other.bound : estimate < other.estimate;
   }
 };
 
-/// Bounds of the signed distance, certain as far as T is, and what proves them.
+/// Bounds of the signed distance, as certain as T is, and their proof.
 template <class T>
 struct Bounds {
-  Real<T> lo;              ///< The gap along `normal`.
-  Vector<Real<T>> normal;  ///< World, any length.
+  Real<T> lo;              ///< the gap along `normal`
+  Vector<Real<T>> normal;  ///< world, any length
   Real<T> hi;
-  PointPair<Real<T>> closest;               ///< Points of both bodies, close together.
-  Real<T> distance;                         ///< Of `closest`, rounded up.
-  std::vector<BoundedCell<Real<T>>> cells;  ///< Of the whole sphere, if `closest` is no proof.
-  int programs = 0;                         ///< Cells that were bounded, split ones included.
+  PointPair<Real<T>> closest;  ///< a point of each body, close together
+  Real<T> distance;            ///< distance of `closest`, rounded up
+  std::vector<BoundedCell<Real<T>>>
+      cells;         ///< cover the whole sphere, unless `closest` is the proof
+  int programs = 0;  ///< number of cells bounded, split ones included
 };
 
 /// Branch and bound over the sphere of directions. The largest gap is the signed distance; the
-/// closest pair bounds it everywhere, and cell by cell the program's pair.
+/// closest pair bounds it everywhere, the pair of a cell's linear program within the cell.
 template <class T>
 class BranchAndBound {
  public:
@@ -44,9 +46,9 @@ class BranchAndBound {
   BranchAndBound(const Bodies<T>& certain, const Bodies<R>& search)
       : certain_(certain), search_(search) {}
 
-  /// Starts from a closest pair, of whatever quality. Stops when hi − lo <= `width`, or before
-  /// `most_programs` cells are exceeded, beyond the six faces of the cube.
-  Bounds<T> run(const ClosestPair<R>& closest, const R& width, int most_programs) {
+  /// Starts from a closest pair of any quality. Stops when hi − lo <= `width`, or before it bounds
+  /// more than `max_programs` cells (but at least the cube's six faces).
+  Bounds<T> run(const ClosestPair<R>& closest, const R& width, int max_programs) {
     bound_by(closest);
     if (found_.distance - found_.lo <= width || found_.lo > 0) {
       found_.hi = found_.distance;
@@ -59,12 +61,12 @@ class BranchAndBound {
     }
     std::vector<BoundedCell<R>>& open = found_.cells;  // a heap
     std::make_heap(open.begin(), open.end());
-    while (open.front().bound - found_.lo > width && found_.programs + 4 <= most_programs) {
+    while (open.front().bound - found_.lo > width && found_.programs + 4 <= max_programs) {
       std::pop_heap(open.begin(), open.end());
       const BoundedCell<R> top = std::move(open.back());
       open.pop_back();
       for (int quarter = 0; quarter < 4; ++quarter) {
-        bound_cell({top.cell.child(quarter), top.pair, top.bound, top.promise}, width);
+        bound_cell({top.cell.child(quarter), top.pair, top.bound, top.estimate}, width);
         std::push_heap(open.begin(), open.end());
       }
     }
@@ -73,12 +75,12 @@ class BranchAndBound {
   }
 
  private:
-  static constexpr int most_program_steps = 40;
+  static constexpr int max_program_steps = 40;
 
   void bound_by(const ClosestPair<R>& closest) {
     found_.normal = closest.direction;
     found_.lo = gap_below(certain_, closest.direction);
-    // A's and B's centres, should rounding have moved the points out of the bodies.
+    // The centres serve if rounding has moved the points out of the bodies.
     PointPair<R> pair{Vector<R>::Zero(), Vector<R>::Zero()};
     const PointPair<R> inside = pulled_inside(search_, closest.pair);
     if (certainly_contain(certain_, inside)) pair = inside;
@@ -94,13 +96,13 @@ class BranchAndBound {
     found_.normal = n;
   }
 
-  /// Adds the cell with a better pair than the one that it inherits, if there is one.
+  /// Adds the cell, with a better pair than the inherited one if there is one.
   void bound_cell(BoundedCell<R> cell, const R& width) {
     ++found_.programs;
     CellProgram<R> program(search_, cell.cell, cell.pair);
-    program.run(found_.lo + width / 2, worthwhile(cell.cell), most_program_steps);
+    program.run(found_.lo + width / 2, program_tolerance(cell.cell), max_program_steps);
     if (program.has_gap() && program.gap() > found_.lo) try_direction(program.direction());
-    cell.promise = program.value();
+    cell.estimate = program.value();
     const PointPair<R> pair = pulled_inside(search_, program.pair());
     if (certainly_contain(certain_, pair)) {
       const R bound = corner_bound_above(certain_, pair, cell.cell);
@@ -112,9 +114,9 @@ class BranchAndBound {
     found_.cells.push_back(std::move(cell));
   }
 
-  /// A fraction of what any single pair loses on a cell because directions are curved: the bound
-  /// holds on the chord between the corners, not on the arc.
-  R worthwhile(const DirectionCell<R>& cell) const {
+  /// Tolerance of a cell's linear program: a fraction of what any single pair loses because the
+  /// cell is curved (the bound is taken on the chord between the corners, not on the arc).
+  R program_tolerance(const DirectionCell<R>& cell) const {
     using std::abs;
     const R spread = cell.size * cell.size / R(8);
     return R(abs(found_.lo)) * spread / (R(1) + spread);

@@ -5,8 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "oracle/audit/closest_pair.hpp"
 #include "oracle/audit/direction_cell.hpp"
-#include "oracle/audit/support_points.hpp"
 
 namespace touchstone::audit {
 
@@ -15,11 +15,11 @@ namespace touchstone::audit {
 ///
 ///     minimise t  over  λ >= 0, Σ λ = 1:   Σ_j λ_j w_j·m_k <= t   for the four corners k.
 ///
-/// A linear program with one column for every pair of points, solved by the simplex method with
-/// columns generated as they are needed (Dantzig, Wolfe, "Decomposition principle for linear
-/// programs", Operations Research 8, 1960): the multipliers μ_k of the corners make a direction
-/// x = Σ μ_k m_k, and the support pair along x is the column that helps most. Its product g(x) is
-/// a lower bound of t, so t is known to be good before all columns are.
+/// This is a linear program with one column for every pair of points, solved by the simplex method
+/// with column generation (Dantzig, Wolfe, "Decomposition principle for linear programs",
+/// Operations Research 8, 1960): the corners' multipliers μ_k give a direction x = Σ μ_k m_k, and
+/// the support pair along x is the most useful column. Its product g(x) is a lower bound of t,
+/// which tells when t is good enough.
 template <class R>
 class CellProgram {
  public:
@@ -50,11 +50,11 @@ class CellProgram {
     is_pair_ = {false, true, false, false, false};
   }
 
-  /// Improves until t is within `tolerance` of the smallest possible, or at most `goal`, or for
-  /// `most_steps`.
-  void run(const R& goal, const R& tolerance, int most_steps) {
+  /// Improves t until it is within `tolerance` of the minimum, or at most `goal`, or for
+  /// `max_steps`.
+  void run(const R& goal, const R& tolerance, int max_steps) {
     using std::sqrt;
-    for (int step = 0; step < most_steps && value() > goal; ++step) {
+    for (int step = 0; step < max_steps && value() > goal; ++step) {
       int slack = 0;
       for (int k = 1; k < 4; ++k) {
         if (inverse_[0][k] > inverse_[0][slack]) slack = k;
@@ -84,7 +84,7 @@ class CellProgram {
 
   const R& value() const { return inverse_[0][4]; }  ///< t
 
-  /// The pair of t's w.
+  /// The pair of points whose difference is w.
   PointPair<R> pair() const {
     PointPair<R> sum{Vector<R>::Zero(), Vector<R>::Zero()};
     for (int i = 1; i < 5; ++i) {
@@ -95,7 +95,7 @@ class CellProgram {
     return sum;
   }
 
-  /// The direction (any length) of the largest gap met, if any was tried.
+  /// The direction (any length) with the largest gap found, if any was tried.
   bool has_gap() const { return has_gap_; }
   const R& gap() const { return gap_; }
   const Vector<R>& direction() const { return direction_; }
@@ -103,7 +103,7 @@ class CellProgram {
  private:
   using Row = std::array<R, 5>;
 
-  /// A pair's column: its difference times the corners, and a one.
+  /// The column of a pair: the products of its difference with the corners, and a one.
   Row products_of(const PointPair<R>& pair) const {
     const Vector<R> w = difference(bodies_, pair);
     return {w.dot(corners_[0]), w.dot(corners_[1]), w.dot(corners_[2]), w.dot(corners_[3]), R(1)};
@@ -137,11 +137,11 @@ class CellProgram {
 
   const Bodies<R>& bodies_;
   std::array<Vector<R>, 4> corners_;  // unit
-  // Corner vectors are all but linearly dependent: four pairs at once are no basis. Pivots of
-  // genuine columns shrink with the cell, those of rounding do not.
+  // The corner vectors are nearly linearly dependent, so that four pairs are no basis. Pivots of
+  // true columns shrink with the cell; those made of rounding errors do not.
   R smallest_pivot_{0};
   std::array<Row, 5> inverse_;
-  std::array<bool, 5> is_pair_;  // or a slack; row 0 is t
+  std::array<bool, 5> is_pair_;  // otherwise a slack; row 0 is t
   std::array<PointPair<R>, 5> pairs_;
   bool has_gap_ = false;
   R gap_{0};

@@ -7,19 +7,19 @@
 
 namespace touchstone::audit {
 
-// Everything that a result rests on. T is an arithmetic whose results are certain; points, cells
-// and directions are given in the search's numbers and taken as exact.
+// The functions on which a result rests. T is an arithmetic with certain results; points, cells and
+// directions are given in the search's numbers and taken as exact.
 
 template <class R>
 bool is_finite(const Vector<R>& v) {
   return v - v == Vector<R>(Vector<R>::Zero());
 }
 
-/// Is p (body frame) certainly a point of the body?
+/// Is p (body frame) certainly in the body?
 template <class T>
 bool certainly_contains(const Body<T>& body, const Vector<Real<T>>& p) {
   if (!is_finite(p)) return false;
-  // p = (a point of the box) + (a rest, which the disc and the ball must hold).
+  // p is a point of the box plus a remainder, which must lie in the sum of disc and ball.
   T squared(0);
   for (int i = 0; i < 3; ++i) {
     const Real<T> h = lower(body.half_extents[i]);
@@ -29,8 +29,8 @@ bool certainly_contains(const Body<T>& body, const Vector<Real<T>>& p) {
     squared += rest * rest;
   }
   const Real<T> radius = lower(T(body.disc_radius + body.ball_radius));
-  const T most = T(radius) * T(radius);
-  return upper(squared) <= lower(most);
+  const T limit = T(radius) * T(radius);
+  return upper(squared) <= lower(limit);
 }
 
 template <class T>
@@ -38,7 +38,7 @@ bool certainly_contain(const Bodies<T>& bodies, const PointPair<Real<T>>& pair) 
   return certainly_contains(bodies.a, pair.a) && certainly_contains(bodies.b, pair.b);
 }
 
-/// g(n/|n|) is not below this.
+/// Certain lower bound of g(n/|n|).
 template <class T>
 Real<T> gap_below(const Bodies<T>& bodies, const Vector<Real<T>>& n) {
   using std::sqrt;
@@ -51,7 +51,7 @@ Vector<T> exact_difference(const Bodies<T>& bodies, const PointPair<Real<T>>& pa
   return difference(bodies, PointPair<T>{as<T>(pair.a), as<T>(pair.b)});
 }
 
-/// The points' distance is not above this. It is a bound of the gap along every direction.
+/// Certain upper bound of the points' distance, and so of the gap along every direction.
 template <class T>
 Real<T> distance_above(const Bodies<T>& bodies, const PointPair<Real<T>>& pair) {
   using std::sqrt;
@@ -59,9 +59,9 @@ Real<T> distance_above(const Bodies<T>& bodies, const PointPair<Real<T>>& pair) 
   return upper(T(sqrt(T(w.squaredNorm()))));
 }
 
-/// With w = a − b: the largest w·m/|m| over the cell's corners m is not above this. Where it is
-/// negative it bounds the gap along all directions of the cell, for w·m <= hi |m| at the corners
-/// holds in between as well: w·m − hi |m| is convex in m if hi <= 0.
+/// Certain upper bound of w·m/|m| over the cell's corners m, with w = a − b. If it is negative it
+/// bounds the gap along all directions of the cell: for hi <= 0, w·m − hi |m| is convex in m, so
+/// that w·m <= hi |m| holds between the corners, too.
 template <class T>
 Real<T> corner_bound_above(const Bodies<T>& bodies, const PointPair<Real<T>>& pair,
                            const DirectionCell<Real<T>>& cell) {

@@ -2,21 +2,73 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <utility>
 
 #include <Eigen/QR>
 
-#include "oracle/audit/support_points.hpp"
+#include "oracle/audit/bodies.hpp"
 
 namespace touchstone::audit {
 
-/// What a search has found, without certainty.
+// Points of bodies in the search's rounded arithmetic. No bound relies on their correctness:
+// `certainly_contains` in certain_bounds.hpp checks every point that is used.
+
+/// The point of the body farthest along n (body frame, any length).
+template <class R>
+Vector<R> support_point(const Body<R>& body, const Vector<R>& n) {
+  using std::sqrt;
+  Vector<R> p;
+  for (int i = 0; i < 3; ++i) p[i] = n[i] < 0 ? R(-body.half_extents[i]) : body.half_extents[i];
+  const R across = sqrt(R(n.x() * n.x() + n.y() * n.y()));
+  if (body.disc_radius > 0 && across > 0) {
+    p.x() += body.disc_radius * n.x() / across;
+    p.y() += body.disc_radius * n.y() / across;
+  }
+  const R length = sqrt(R(n.squaredNorm()));
+  if (body.ball_radius > 0 && length > 0) p += n * R(body.ball_radius / length);
+  return p;
+}
+
+/// The pair that attains the gap along n (world, any length): A's lowest and B's highest point.
+template <class R>
+PointPair<R> support_pair(const Bodies<R>& bodies, const Vector<R>& n) {
+  const Vector<R> n_a = bodies.a.axes.transpose() * n, n_b = bodies.b.axes.transpose() * n;
+  return {support_point(bodies.a, Vector<R>(-n_a)), support_point(bodies.b, n_b)};
+}
+
+/// Moves a point into the body by a little more than rounding can have moved it out.
+template <class R>
+Vector<R> pulled_inside(const Body<R>& body, const Vector<R>& p) {
+  using std::abs, std::sqrt;
+  Vector<R> core;
+  for (int i = 0; i < 3; ++i) {
+    const R& h = body.half_extents[i];
+    core[i] = p[i] > h ? h : p[i] < -h ? R(-h) : p[i];
+  }
+  const R radius = body.disc_radius + body.ball_radius;
+  Vector<R> round = p - core;
+  if (body.ball_radius == 0) round.z() = 0;
+  const R margin =
+      R(16) * std::numeric_limits<R>::epsilon() * (radius + R(body.half_extents.maxCoeff()));
+  const R length = sqrt(R(round.squaredNorm()));
+  const R allowed = radius > margin ? R(radius - margin) : R(0);
+  if (length > allowed) round *= R(allowed / length);
+  return core + round;
+}
+
+template <class R>
+PointPair<R> pulled_inside(const Bodies<R>& bodies, const PointPair<R>& pair) {
+  return {pulled_inside(bodies.a, pair.a), pulled_inside(bodies.b, pair.b)};
+}
+
+/// The result of a search, without guarantee.
 template <class R>
 struct ClosestPair {
-  PointPair<R> pair;    ///< Closest known points; of overlapping bodies, (nearly) one point.
-  Vector<R> direction;  ///< World, any length; the gap along it is the largest met.
-  R gap;                ///< That gap.
+  PointPair<R> pair;    ///< closest points found; for overlapping bodies (nearly) one point
+  Vector<R> direction;  ///< world, any length; the gap along it is the largest found
+  R gap;                ///< that gap
 };
 
 /// Wolfe's algorithm for the point of smallest norm in the set of differences a − b ("Finding the
@@ -27,8 +79,9 @@ class ClosestPairSearch {
  public:
   explicit ClosestPairSearch(const Bodies<R>& bodies) : bodies_(bodies) {}
 
-  /// Ends when |a − b| and the gap along a − b are within `tolerance`, or at the end of precision.
-  ClosestPair<R> run(const R& tolerance, int most_steps) {
+  /// Stops when |a − b| and the gap along a − b are within `tolerance` of each other, or when
+  /// rounding prevents progress.
+  ClosestPair<R> run(const R& tolerance, int max_steps) {
     using std::sqrt;
     const R nothing = 64 * std::numeric_limits<R>::epsilon();
     Vector<R> start = bodies_.offset;
@@ -37,7 +90,7 @@ class ClosestPairSearch {
     best.direction = start;
     add(support_pair(bodies_, start), R(1));
     best.gap = vertices_[0].w.dot(start) / sqrt(R(start.squaredNorm()));
-    for (int step = 0; step < most_steps; ++step) {
+    for (int step = 0; step < max_steps; ++step) {
       const Vector<R> w = nearest();
       const R length = sqrt(R(w.squaredNorm()));
       if (length <= nothing) break;
@@ -77,7 +130,7 @@ class ClosestPairSearch {
     return sum;
   }
 
-  /// Weights, summing to one, of the point of the vertices' affine hull nearest to the origin.
+  /// Weights (with sum one) of the point of the vertices' affine hull nearest to the origin.
   std::array<R, 4> affine_minimum() const {
     std::array<R, 4> weights{R(1), R(0), R(0), R(0)};
     if (count_ == 1) return weights;
@@ -92,8 +145,8 @@ class ClosestPairSearch {
     return weights;
   }
 
-  /// Moves to the nearest point of the vertices' hull and drops vertices without weight. False when
-  /// rounding leaves no progress: the newest vertex is dropped at once.
+  /// Moves to the nearest point of the vertices' hull and drops vertices of weight zero. False if
+  /// rounding prevents progress: the newest vertex is dropped at once.
   bool reduce() {
     const R before = nearest().squaredNorm();
     for (;;) {
@@ -102,7 +155,7 @@ class ClosestPairSearch {
       int blocking = -1;
       for (int i = 0; i < count_; ++i) {
         if (target[i] > 0) continue;
-        // A vertex without weight, not wanted either, must go: 0/0 otherwise.
+        // Weight and target zero would give 0/0: such a vertex is dropped.
         const R& weight = vertices_[i].weight;
         const R reach = weight > target[i] ? R(weight / (weight - target[i])) : R(0);
         if (blocking < 0 || reach < step) {

@@ -2,12 +2,12 @@
 
 #include <array>
 
-#include "oracle/audit/arithmetic.hpp"
+#include "oracle/audit/bodies.hpp"
 
 namespace touchstone::audit {
 
-/// Directions through a dyadic square on a face of the cube [−1, 1]³. All coordinates are exact in
-/// the arithmetic R as long as the level is below its number of bits.
+/// The directions through a dyadic square on a face of the cube [−1, 1]³. All coordinates are exact
+/// in R as long as the level is below its number of bits.
 template <class R>
 struct DirectionCell {
   int face;   ///< 2 k for the face where coordinate k is +1, 2 k + 1 where it is −1.
@@ -25,7 +25,7 @@ struct DirectionCell {
   }
   Vector<R> centre() const { return at(u + size / 2, v + size / 2); }
 
-  /// The vectors that span the cell's cone; on the cube, not unit.
+  /// The vectors that span the cell's cone; they lie on the cube and are not unit.
   std::array<Vector<R>, 4> corners() const {
     return {at(u, v), at(u + size, v), at(u, v + size), at(u + size, v + size)};
   }

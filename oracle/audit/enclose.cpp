@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "oracle/audit/bodies.hpp"
 #include "oracle/audit/branch_and_bound.hpp"
-#include "oracle/audit/unit.hpp"
 
 namespace touchstone::audit {
 namespace {
 
-/// A half-space bounds the gap only along its own normal N, by the height of a point of A.
+/// Encloses the signed distance from a half-space, whose gap is finite only along its own normal:
+/// by the height of a point of A.
 Enclosure over_plane(const Configuration& c, const Plane& plane, double unit) {
   const auto bodies = make_bodies<Interval>(c, unit);
   const auto search = make_bodies<double>(c, unit);
@@ -32,21 +33,20 @@ Enclosure over_plane(const Configuration& c, const Plane& plane, double unit) {
   return {lower(Interval(gap * Interval(unit))), hi, world.normalized(), std::max(hi, 0.0), 0};
 }
 
-constexpr int most_steps = 200;
+constexpr int max_steps = 200;
 
-/// Where the bodies all but touch, the pair's difference is too short for doubles to tell its
-/// direction: what they know to 1e-16 of its square is a length of 1e-8.
+/// Doubles suffice unless the bodies nearly touch. There the pair's difference is too short for its
+/// direction to be known: an error of 1e-16 in its square is a length of 1e-8.
 ClosestPair<double> closest_pair(const Configuration& c, const Bodies<double>& search,
                                  double unit) {
-  constexpr double tolerance = 1e-15, all_but_touching = 1e-6;
-  auto found = ClosestPairSearch<double>(search).run(tolerance, most_steps);
+  constexpr double tolerance = 1e-15, nearly_touching = 1e-6;
+  auto found = ClosestPairSearch<double>(search).run(tolerance, max_steps);
   const double distance = difference(search, found.pair).norm();
-  if (distance - found.gap < 1e-13 || distance > all_but_touching ||
-      found.gap < -all_but_touching) {
+  if (distance - found.gap < 1e-13 || distance > nearly_touching || found.gap < -nearly_touching) {
     return found;
   }
   const auto precise = make_bodies<Multiprecision>(c, unit);
-  const auto again = ClosestPairSearch<Multiprecision>(precise).run(tolerance, most_steps);
+  const auto again = ClosestPairSearch<Multiprecision>(precise).run(tolerance, max_steps);
   return {{as<double>(again.pair.a), as<double>(again.pair.b)},
           as<double>(again.direction),
           again.gap.convert_to<double>()};

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "oracle/patch/convex_polygon.hpp"
+#include "oracle/patch/convex_set.hpp"
 
 namespace touchstone {
 namespace {
@@ -17,19 +17,20 @@ double width(const ConvexSet& set, const Vec2& direction) {
   return set.support(direction) + set.support(-direction);
 }
 
-/// Across which a convex set is narrowest, nearly: a polygon is so across one of its sides.
+/// Direction in which a convex set is narrowest, up to sampling: a polygon is narrowest
+/// perpendicular to one of its sides.
 Vec2 narrowest_direction(const ConvexSet& set) {
   constexpr int chords_per_quarter = 8;
   const std::vector<Vec2> outline = set.outline(chords_per_quarter);
   Vec2 best(1, 0);
-  double least = std::numeric_limits<double>::infinity();
+  double min_width = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < outline.size(); ++i) {
     const Vec2 side = outline[(i + 1) % outline.size()] - outline[i];
     if (!(side.norm() > 0)) continue;
     const Vec2 direction = across(side.normalized());
     const double here = width(set, direction);
-    if (here < least) {
-      least = here;
+    if (here < min_width) {
+      min_width = here;
       best = direction;
     }
   }
@@ -37,9 +38,9 @@ Vec2 narrowest_direction(const ConvexSet& set) {
 }
 
 double reach(const std::vector<Vec2>& points, const Vec2& centre, const Vec2& direction) {
-  double most = -std::numeric_limits<double>::infinity();
-  for (const Vec2& p : points) most = std::max(most, (p - centre).dot(direction));
-  return most;
+  double max = -std::numeric_limits<double>::infinity();
+  for (const Vec2& p : points) max = std::max(max, (p - centre).dot(direction));
+  return max;
 }
 
 }  // namespace
@@ -59,18 +60,18 @@ double coverage(const oracle::ContactPatch& patch, const std::vector<Vec3>& poin
   if (width(set, narrow) <= resolution) {
     directions = {wide, -wide};
   } else {
-    // The shrunk patch lies within the hull if it does so across each of the hull's sides.
+    // The shrunk patch lies within the hull if it lies inside each of the hull's sides.
     const std::vector<Vec2> hull = oracle::convex_hull(flat);
     if (hull.size() < 3) return 0;
     for (std::size_t i = 0; i < hull.size(); ++i) {
       directions.push_back(across(hull[(i + 1) % hull.size()] - hull[i]).normalized());
     }
   }
-  double least = 1;
+  double smallest = 1;
   for (const Vec2& d : directions) {
-    least = std::min(least, reach(flat, centre, d) / (set.support(d) - centre.dot(d)));
+    smallest = std::min(smallest, reach(flat, centre, d) / (set.support(d) - centre.dot(d)));
   }
-  return std::max(0.0, least);
+  return std::max(0.0, smallest);
 }
 
 }  // namespace touchstone

@@ -6,16 +6,16 @@
 
 namespace touchstone {
 
-/// How much of a contact patch the hull of contact points spans, seen along the normal: the largest
-/// factor, at most 1, by which the patch may be shrunk about its centroid and still lie within the
-/// hull. In other words the hull's reach from the patch's centroid relative to the patch's own, in
-/// the direction where that is least, which is also how far a body's weight may lean before it
-/// tips. A full disc has 1/2 with three points 120° apart, cos 45° with four, cos 22.5° with eight;
-/// points that do not surround the centroid have 0.
+/// Share of a contact patch that the hull of the contact points spans, seen along the normal: the
+/// largest factor, at most 1, such that the patch shrunk by it about its centroid lies within the
+/// hull. Equivalently, the hull's extent from the patch's centroid relative to the patch's own,
+/// minimised over directions: it tells how far a body's weight may lean before it tips. For a full
+/// disc, three points on its rim 120° apart give 1/2, four give cos 45°, eight cos 22.5°; points
+/// that do not surround the centroid give 0.
 ///
-/// A patch that is nowhere wider than `resolution` (metres) counts as a point, and has 1 with any
-/// point at all; one that is so in one direction as a segment, of which points must reach both
-/// ways. Where a point lies off the patch, or off the plane, is not judged here.
+/// A patch that is nowhere wider than `resolution` (metres) counts as a point, which any contact
+/// point covers fully; one that is narrower in one direction only counts as a segment, which points
+/// must span on both sides. Points off the patch or off its plane are not penalised here.
 double coverage(const oracle::ContactPatch& patch, const std::vector<Vec3>& points,
                 double resolution);
 

@@ -5,14 +5,57 @@
 #include <numbers>
 
 #include "oracle/judge/coverage.hpp"
-#include "oracle/judge/point_distance.hpp"
-#include "oracle/patch/support_part.hpp"
+#include "oracle/patch/support_feature.hpp"
 
 namespace touchstone {
 namespace {
 
-/// A normal of another length than one is the candidate's error; rounding in single precision is
-/// not.
+/// Signed distance from a box, given how far the point is beyond each pair of parallel faces
+/// (negative inside).
+double outside_of_all(double x, double y, double z) {
+  const double outside = std::hypot(std::max(x, 0.0), std::max(y, 0.0), std::max(z, 0.0));
+  return outside > 0 ? outside : std::max({x, y, z});
+}
+
+struct Distance {
+  Vec3 p;  // in the body's frame
+
+  double across() const { return std::hypot(p.x(), p.y()); }
+
+  double operator()(const Cylinder& s) const {
+    const double side = across() - s.radius(), cap = std::abs(p.z()) - s.half_length();
+    return side > 0 || cap > 0 ? std::hypot(std::max(side, 0.0), std::max(cap, 0.0))
+                               : std::max(side, cap);
+  }
+  double operator()(const Capsule& s) const {
+    const double beyond = std::max(std::abs(p.z()) - s.half_length(), 0.0);
+    return std::hypot(across(), beyond) - s.radius();
+  }
+  double operator()(const Sphere& s) const { return std::hypot(p.x(), p.y(), p.z()) - s.radius(); }
+  double operator()(const Box& s) const {
+    const Vec3 beyond = p.cwiseAbs() - s.half_extents();
+    return outside_of_all(beyond.x(), beyond.y(), beyond.z());
+  }
+  double operator()(const Plane& s) const { return s.unit_normal().dot(p) - s.unit_displacement(); }
+};
+
+}  // namespace
+
+double point_distance(const Shape& shape, const Pose& pose, const Vec3& point) {
+  const Vec3 local = pose.rotation().transpose() * (point - pose.position());
+  return std::visit(Distance{local}, shape);
+}
+
+double point_excess(const Configuration& c, const ts_point& point) {
+  const Vec3 p(point.position[0], point.position[1], point.position[2]);
+  return std::max(std::abs(point_distance(c.a, c.pose_a, p)),
+                  std::abs(point_distance(c.b, c.pose_b, p))) -
+         std::abs(point.depth);
+}
+
+namespace {
+
+/// A normal whose length is not one is the candidate's error; rounding in single precision is not.
 constexpr double unit_slack = 1e-6;
 
 Vec3 vector(const double (&v)[3]) { return Vec3(v[0], v[1], v[2]); }
@@ -36,9 +79,9 @@ double coverage_by(const ts_answer& answer, const Configuration& c, const oracle
   const Vec3 n = patch_normal(truth, vector(answer.normal));
   const auto of_a = oracle::width_from_epsilon(c.a, c.pose_a, n, depth);
   const auto of_b = oracle::width_from_epsilon(c.b, c.pose_b, n, depth);
-  // Most poses: any point at all covers a corner.
+  // Most poses: the patch is a corner, which any point covers.
   if (of_a.is_a_corner || of_b.is_a_corner) return points.empty() ? 0 : 1;
-  // A hundredth more than the width itself, so that rounding does not decide.
+  // 1% more than the width itself, so that rounding does not decide.
   const double resolution =
       std::max({patch_resolution * size, 1.01 * of_a.largest, 1.01 * of_b.largest});
   return coverage(oracle::contact_patch(c, n, depth), points, resolution);
@@ -53,18 +96,19 @@ double worst_point_error(const ts_answer& answer, const Configuration& c) {
 }
 
 struct Depths {
-  double least, largest;
+  double min, max;
 };
-/// Of the points, of which there must be one.
+/// Extreme depths of the points. Precondition: there is one.
 Depths depths_of(const ts_answer& answer) {
-  const auto [least, largest] =
+  const auto [min, max] =
       std::minmax_element(answer.points, answer.points + answer.point_count,
                           [](const ts_point& p, const ts_point& q) { return p.depth < q.depth; });
-  return {least->depth, largest->depth};
+  return {min->depth, max->depth};
 }
 
-/// Of an answer with the right depth and normal. `distance` and `beyond`, by which the farthest
-/// point is beyond the threshold, are relative to the smaller size. Bodies apart need no point.
+/// Outcome of an answer with the right depth and normal. `distance`, and `beyond`, by which the
+/// farthest point is beyond the threshold, are relative to the smaller size. Separate bodies need
+/// no point.
 Outcome outcome_of_points(const Score& s, double distance, double beyond, const Bar& bar) {
   if (s.points == 0) {
     return distance < -bar.tolerance ? Outcome::shallow_points : Outcome::agree;
@@ -214,9 +258,9 @@ Score score(const Configuration& c, const oracle::Truth& truth, const ts_answer&
   if (answer.point_count > 0) {
     const Depths depths = depths_of(answer);
     s.point_error = worst_point_error(answer, c) / size;
-    s.deepest_error = (depths.largest + truth.signed_distance.midpoint()) / size;
+    s.deepest_error = (depths.max + truth.signed_distance.midpoint()) / size;
     s.severity = std::max(s.severity, std::abs(*s.deepest_error));
-    beyond = (-depths.least - bar.threshold) / size;
+    beyond = (-depths.min - bar.threshold) / size;
   }
   if (!n.isZero(0)) {
     s.normal_regret = oracle::normal_regret(c, truth, n) / size;

@@ -3,30 +3,40 @@
 #include <array>
 #include <optional>
 
+#include "candidates/candidate.h"
 #include "candidates/host/candidate_process.hpp"
 #include "oracle/truth.hpp"
+#include "reference/configuration.hpp"
 
 namespace touchstone {
 
-/// What became of one answer, named after the symptom.
+/// Signed distance of a point from a posed body's surface, metres, negative inside; in double, to a
+/// few ulp of the coordinates. Ericson, "Real-Time Collision Detection", 2004, ch. 5.
+double point_distance(const Shape& shape, const Pose& pose, const Vec3& point);
+
+/// Largest distance of a contact point from the surfaces of the two bodies, minus its own depth,
+/// metres. Not positive for an acceptable point: one between the surfaces or on one of them.
+double point_excess(const Configuration& configuration, const ts_point& point);
+
+/// Judgement of one answer, named after the symptom.
 enum class Outcome {
   agree,         ///< within the bar in every respect
   missed,        ///< no contact where the bodies overlap
   phantom,       ///< a contact where they are apart
   shallow,       ///< depth too small
   overdeep,      ///< depth too large
-  wrong_normal,  ///< a direction along which the bodies are deeper than need be
+  wrong_normal,  ///< a direction along which the bodies overlap more than along the best one
   not_finite,    ///< a NaN or an infinity in the answer
-  failed,        ///< the candidate says that it could not answer
+  failed,        ///< the candidate reports that it could not answer
   crashed,       ///< its process ended: a signal, an exception, too much memory
-  timed_out,     ///< it was ended for taking too long
+  timed_out,     ///< its process was ended because it took too long
   unsupported,   ///< the candidate has no routine for the pair
-  // Depth and normal are right, but not what a solver is given to act on:
-  shallow_points,   ///< no point as deep as the bodies are
-  overdeep_points,  ///< a point deeper than they are
-  phantom_points    ///< a point beyond the threshold
+  // Depth and normal are right, but the contact points, on which a solver acts, are not:
+  shallow_points,   ///< no point is as deep as the bodies
+  overdeep_points,  ///< a point is deeper than the bodies
+  phantom_points    ///< a point is beyond the threshold
 };
-// Saved files know outcomes by name; a new one goes to the end all the same.
+// Saved files refer to outcomes by name; even so, add new ones at the end.
 inline constexpr std::array all_outcomes = {
     Outcome::agree,           Outcome::missed,        Outcome::phantom,     Outcome::shallow,
     Outcome::overdeep,        Outcome::wrong_normal,  Outcome::not_finite,  Outcome::failed,
@@ -35,69 +45,69 @@ inline constexpr std::array all_outcomes = {
 /// "agree", "missed", "wrong-normal", …
 const char* outcome_name(Outcome outcome);
 const char* status_name(ts_status status);
-/// Has an answer of that outcome a severity: was there an answer to be judged?
+/// Does the outcome belong to an answer that could be judged, so that it has a severity?
 bool is_judged(Outcome outcome);
 
-/// Are depth and normal right, and what is wrong are the points?
+/// Are depth and normal right, but the contact points wrong?
 bool is_of_points(Outcome outcome);
 
-/// Are all numbers that belong to a contact finite?
+/// Are all numbers of the contact finite?
 bool is_finite(const ts_answer& answer);
 
-/// Where an answer stops agreeing with the truth.
+/// The limits within which an answer agrees with the truth.
 struct Bar {
   /// Relative to the smaller size. Drake's published protocol for contact queries overlaps bodies
   /// of 20 cm by 2 mm; 1e-4 of their half extent is one two-hundredth of that overlap.
   double tolerance = 1e-4;
-  /// Contacts up to this distance apart are asked for, metres.
+  /// Candidates are asked for contacts up to this distance apart, metres.
   double threshold = 0;
 };
 
-/// The length to which errors are relative, metres: the smaller size. Doubles place a body to some
-/// 1e-16 of the larger one, so that it is no less than what makes the tolerance 1e-13 of that: by
-/// default, 1e-9 of the larger size. Over a plane, distances from the origins are sizes too.
+/// The length to which errors are relative, metres: the smaller size, but large enough that the
+/// tolerance is at least 1e-13 of the larger size, since doubles place a body to about 1e-16 of
+/// that. With the default tolerance this is 1e-9 of the larger size. Over a plane, distances from
+/// the origins count as sizes, too.
 double error_size(const Configuration& configuration, const Bar& bar);
 
-/// One answer held against the truth. Errors are relative to error_size; those that the answer does
-/// not define are absent.
+/// One answer compared with the truth. Errors are relative to error_size; errors that the answer
+/// does not define are absent.
 struct Score {
   Outcome outcome = Outcome::agree;
   std::optional<double> depth_error;  ///< answer's signed distance − true: positive is too shallow
   std::optional<double> normal_regret;  ///< σ − g(n)
   std::optional<double> normal_angle;   ///< degrees to the nearest optimal normal
-  /// The largest depth of a point − the true depth: negative where a solver sees too little of it.
+  /// Largest depth of a point − true depth: negative if a solver sees too little overlap.
   std::optional<double> deepest_error;
-  /// By how much the worst of the contact points is farther from a body's surface than its own
-  /// depth; zero when none is. It does not decide the outcome.
+  /// Largest point_excess of a contact point, or zero. It does not decide the outcome.
   std::optional<double> point_error;
-  /// How much of the contact patch the points span, where the bodies are in contact and the normal
-  /// is within the bar.
+  /// Coverage of the contact patch (coverage.hpp), if the bodies are in contact and the normal is
+  /// within the bar.
   std::optional<double> coverage;
-  /// Of a simplified model that knows the signed distance of what it models: that distance − true,
-  /// and the answer's − that distance. They add up to the depth error.
+  /// For a simplified model that knows its own signed distance: that distance − true, and the
+  /// answer's − that distance. They add up to the depth error.
   std::optional<double> model_error, solver_error;
   int points = 0;
-  /// How bad the failure is: the depth or gap that was got wrong, by the answer or its points, or
-  /// the regret. Zero: perfect.
+  /// Size of the failure: the largest of the errors of depth (of the answer or its points) and the
+  /// regret. Zero is perfect.
   double severity = 0;
 };
 
-/// Coverage is of the patch within `patch_depth` of the bodies' support planes along the nearest
-/// optimal normal. Where it is narrower than `patch_resolution`, or only as wide as a rounded,
+/// Coverage refers to the patch within `patch_depth` of the bodies' support planes along the
+/// nearest optimal normal. If it is narrower than `patch_resolution`, or only as wide as a rounded,
 /// tilted or sharp feature is within that depth, it counts as a point or a segment. Both are
-/// relative to the smaller size. The depth is what engines make contact points within: pe's contact
-/// threshold is 1e-6.
+/// relative to the smaller size. The depth is that within which engines make contact points: pe's
+/// contact threshold is 1e-6.
 inline constexpr double patch_depth = 1e-6;
 inline constexpr double patch_resolution = 0.1;
 
-/// The optimal normal along which an answer's contact points are judged: the nearest one to its
-/// normal. Of a continuum not every member is listed: an answer that is far from all of those
-/// stands for itself.
+/// The optimal normal along which an answer's contact points are judged: the one nearest to its own
+/// normal. Not all members of a continuum are listed; an answer far from all listed ones is judged
+/// along its own normal.
 Vec3 patch_normal(const oracle::Truth& truth, const Vec3& n);
 
 Score score(const Configuration& configuration, const oracle::Truth& truth, const ts_answer& answer,
             const Bar& bar);
-/// The same, with the errors of model and solver.
+/// Adds the errors of model and solver.
 Score score(const Configuration& configuration, const oracle::Truth& truth, const Answer& answer,
             const Bar& bar);
 

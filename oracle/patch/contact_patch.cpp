@@ -1,23 +1,52 @@
 #include "oracle/patch/contact_patch.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
+#include "oracle/patch/convex_set.hpp"
 #include "oracle/patch/feature_overlap.hpp"
-#include "oracle/patch/patch_plane.hpp"
 #include "oracle/patch/support_feature.hpp"
 #include "oracle/resolved.hpp"
 
 namespace touchstone::oracle {
 namespace {
 
+// Support of a body about its position along the unit vector n of its own frame; for a plane the
+// height of its surface, whatever n is (Ericson, "Real-Time Collision Detection", 4.3 and 9.5).
+double reach(const Cylinder& s, const Vec3& n) {
+  return s.half_length() * std::abs(n.z()) + s.radius() * std::hypot(n.x(), n.y());
+}
+double reach(const Capsule& s, const Vec3& n) {
+  return s.half_length() * std::abs(n.z()) + s.radius();
+}
+double reach(const Sphere& s, const Vec3&) { return s.radius(); }
+double reach(const Box& s, const Vec3& n) { return s.half_extents().dot(n.cwiseAbs()); }
+double reach(const Plane& s, const Vec3&) { return s.unit_displacement(); }
+
+double reach(const Shape& shape, const Pose& pose, const Vec3& n) {
+  const Vec3 local = pose.rotation().transpose() * n;
+  return std::visit([&](const auto& s) { return reach(s, local); }, shape);
+}
+
+/// The plane across the unit vector n, halfway between the two support planes. Its origin is the
+/// projection of `through` along n; its first direction is nearest to `e1` (of any length).
+ContactPatch::Plane patch_plane(const Configuration& c, const Vec3& n, const Vec3& through,
+                                const Vec3& e1) {
+  const double height_a = (c.pose_a.position() - through).dot(n) - reach(c.a, c.pose_a, -n);
+  const double height_b = (c.pose_b.position() - through).dot(n) + reach(c.b, c.pose_b, n);
+  const Vec3 unit = e1.normalized();
+  const Vec3 across = (unit - unit.dot(n) * n).normalized();
+  return {through + (height_a + height_b) / 2 * n, across, n.cross(across)};
+}
+
 using Kind = SupportFeature::Kind;
 
-/// An overlap, and where its coordinates lie in the world.
+/// An overlap, and the world frame of its coordinates.
 struct Placement {
   ConvexSet shape;
   Vec3 origin;
-  Vec3 e1;  ///< across the normal but for rounding
+  Vec3 e1;  ///< perpendicular to the normal up to rounding
 };
 
 Placement at_point(const Vec3& p, const Vec3& n) {
@@ -68,8 +97,8 @@ Placement segment_and_rectangle(const SupportFeature& segment, const SupportFeat
           rounded(face.centre), e1};
 }
 
-/// Where two segments that are not parallel cross, seen along their common perpendicular; none if
-/// they do not.
+/// The point where two segments that are not parallel cross, seen along their common perpendicular;
+/// none if they miss each other.
 std::optional<Placement> crossing(const SupportFeature& first, const SupportFeature& second,
                                   const RationalVector& perpendicular, const Vec3& n) {
   const RationalVector w = second.centre - first.centre;
@@ -109,7 +138,7 @@ std::optional<Placement> overlap(const SupportFeature& a, const SupportFeature& 
   return b.kind == Kind::disc ? discs(a, b, n) : disc_and_rectangle(a, b, n);
 }
 
-/// How far a point is beside a feature, seen along n, in double.
+/// Distance of a point from a feature, seen along n, in double.
 double distance_beside(const SupportFeature& f, const Vec3& p, const Vec3& n) {
   if (f.kind == Kind::plane) return 0;
   const Vec3 w = p - (f.kind == Kind::point ? f.point : rounded(f.centre));
@@ -125,7 +154,7 @@ double distance_beside(const SupportFeature& f, const Vec3& p, const Vec3& n) {
   return (f.kind == Kind::segment ? beside_u : without(beside_u, f.v, f.half_v)).norm();
 }
 
-/// Whether a point feature is where its doubles say, and on the other feature.
+/// Are the point features certain, and do they lie on the other feature?
 bool points_are_right(const SupportFeatures& features, const Vec3& n, double tolerance) {
   const auto& [a, b] = features;
   if (!a.point_is_certain || !b.point_is_certain) return false;
@@ -155,7 +184,7 @@ ContactPatch contact_patch(const Configuration& configuration, const OptimalNorm
   const Configuration c = resolved(configuration).configuration;
   const SupportFeatures features = support_features(c, normal);
   const double lengths = larger_size(c) + (c.pose_a.position() - c.pose_b.position()).norm();
-  constexpr double beside = 1e-9;     // further off, a point was decided by rounding
+  constexpr double beside = 1e-9;     // farther away, rounding has decided where the point is
   constexpr double rounding = 1e-15;  // of the support planes
   if (points_are_right(features, normal.n, beside * lengths)) {
     if (auto found = overlap(features.a, features.b, normal.n)) {
@@ -165,6 +194,25 @@ ContactPatch contact_patch(const Configuration& configuration, const OptimalNorm
   const Vec3 middle = contact_patch(c, normal.n, rounding * lengths).centroid();
   return {patch_plane(c, normal.n, middle, normal.n.unitOrthogonal()),
           ConvexSet::point(Vec2::Zero())};
+}
+
+ContactPatch contact_patch(const Configuration& c, const Vec3& n, double epsilon) {
+  // Relative to a body, so that the distance from the world's origin costs no digits.
+  const Vec3 origin = c.pose_a.position();
+  const ContactPatch::Plane plane = patch_plane(c, n, origin, n.unitOrthogonal());
+  const auto seen_along_n = [&](const Shape& shape, const Pose& pose, const Vec3& outward) {
+    std::vector<Vec2> seen;
+    for (const Vec3& p : support_part(shape, pose, outward, epsilon, origin)) {
+      seen.emplace_back(p.dot(plane.e1), p.dot(plane.e2));
+    }
+    return convex_hull(seen);
+  };
+  const std::vector<Vec2> part_a = seen_along_n(c.a, c.pose_a, -n);
+  if (std::holds_alternative<Plane>(c.b)) return {plane, ConvexSet::polygon(part_a)};
+  const std::vector<Vec2> part_b = seen_along_n(c.b, c.pose_b, n);
+  const std::vector<Vec2> common = intersection(part_a, part_b);
+  if (common.empty()) return {plane, ConvexSet::point(halfway(part_a, part_b))};
+  return {plane, ConvexSet::polygon(common)};
 }
 
 }  // namespace touchstone::oracle

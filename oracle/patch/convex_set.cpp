@@ -1,7 +1,10 @@
 #include "oracle/patch/convex_set.hpp"
 
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/convex_hull_2.h>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numbers>
 
@@ -13,18 +16,18 @@ constexpr double pi = std::numbers::pi;
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 Vec2 polar(double angle) { return {std::cos(angle), std::sin(angle)}; }
 
-/// x − sin x, also where the two nearly cancel. The series' first omitted term is 1e-17 of its
-/// first.
+/// x − sin x, without cancellation. The first omitted term of the series is 1e-17 of its first.
 double minus_sine(double x) {
   if (x > 0.1) return x - std::sin(x);
   const double y = x * x;
   return x * y / 6 * (1 - y / 20 * (1 - y / 42 * (1 - y / 72 * (1 - y / 110))));
 }
 
-/// Between an arc and its chord.
+/// Area between an arc and its chord.
 double segment_area(const Side& s) { return s.radius * s.radius * minus_sine(s.sweep) / 2; }
 
-/// ∫ (x − centre) over the same: (2/3) r³ sin³(sweep/2) towards the middle of the arc.
+/// ∫ (x − centre) over the area between an arc and its chord: (2/3) r³ sin³(sweep/2) towards the
+/// arc's middle.
 Vec2 segment_moment(const Side& s) {
   const double sine = s.radius * std::sin(s.sweep / 2);
   return 2.0 / 3 * sine * sine * sine * polar(s.start + s.sweep / 2);
@@ -78,7 +81,7 @@ ConvexSet ConvexSet::polygon(const std::vector<Vec2>& vertices) {
 
 double ConvexSet::area() const {
   if (kind_ != Kind::region) return 0;
-  // From a corner of the set, so that its distance from the origin costs no digits.
+  // Relative to a corner of the set, so that its distance from the origin costs no digits.
   const Vec2 corner = sides_[0].from;
   double sum = 0;
   for (const Side& s : sides_) {
@@ -105,19 +108,19 @@ Vec2 ConvexSet::centroid() const {
     moment += triangle * (a + b) / 3 + segment * (s.centre - corner) + segment_moment(s);
     mean += a / static_cast<double>(sides_.size());
   }
-  // A region so thin that its area drowns in rounding.
+  // Otherwise the region is so thin that its area is lost in rounding.
   return corner + (area > 0 ? Vec2(moment / area) : mean);
 }
 
 double ConvexSet::support(const Vec2& direction) const {
-  double most = -std::numeric_limits<double>::infinity();
+  double max = -std::numeric_limits<double>::infinity();
   for (const Side& s : sides_) {
-    most = std::max({most, s.from.dot(direction), s.to.dot(direction)});
+    max = std::max({max, s.from.dot(direction), s.to.dot(direction)});
     if (!s.is_line() && arc_sees(s, direction)) {
-      most = std::max(most, s.centre.dot(direction) + s.radius * direction.norm());
+      max = std::max(max, s.centre.dot(direction) + s.radius * direction.norm());
     }
   }
-  return most;
+  return max;
 }
 
 bool ConvexSet::contains(const Vec2& p) const {
@@ -129,9 +132,9 @@ bool ConvexSet::contains(const Vec2& p) const {
 
 double ConvexSet::distance(const Vec2& p) const {
   if (contains(p)) return 0;
-  double least = std::numeric_limits<double>::infinity();
-  for (const Side& s : sides_) least = std::min(least, distance_to_side(s, p));
-  return least;
+  double min = std::numeric_limits<double>::infinity();
+  for (const Side& s : sides_) min = std::min(min, distance_to_side(s, p));
+  return min;
 }
 
 std::vector<Vec2> ConvexSet::outline(int per_quarter) const {
@@ -146,6 +149,76 @@ std::vector<Vec2> ConvexSet::outline(int per_quarter) const {
     }
   }
   return points;
+}
+
+namespace {
+
+/// The part of a polygon left of the line from `a` to `b` (Sutherland and Hodgman 1974).
+std::vector<Vec2> left_of(const std::vector<Vec2>& polygon, const Vec2& a, const Vec2& b) {
+  std::vector<Vec2> kept;
+  kept.reserve(polygon.size() + 1);
+  const Vec2 along = b - a;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vec2 &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
+    const double side_p = cross(along, p - a), side_q = cross(along, q - a);
+    if (side_p >= 0) kept.push_back(p);
+    if ((side_p >= 0) != (side_q >= 0)) kept.push_back(p + side_p / (side_p - side_q) * (q - p));
+  }
+  return kept;
+}
+
+Vec2 nearest_on_boundary(const std::vector<Vec2>& polygon, const Vec2& p) {
+  Vec2 nearest = polygon[0];
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vec2& a = polygon[i];
+    const Vec2 along = polygon[(i + 1) % polygon.size()] - a;
+    const double length2 = along.squaredNorm();
+    if (!(length2 > 0)) continue;
+    const Vec2 q = a + std::clamp((p - a).dot(along) / length2, 0.0, 1.0) * along;
+    if ((p - q).squaredNorm() < (p - nearest).squaredNorm()) nearest = q;
+  }
+  return nearest;
+}
+
+}  // namespace
+
+std::vector<Vec2> convex_hull(const std::vector<Vec2>& points) {
+  using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+  std::vector<Kernel::Point_2> all, extreme;
+  all.reserve(points.size());
+  for (const Vec2& p : points) all.emplace_back(p.x(), p.y());
+  CGAL::convex_hull_2(all.begin(), all.end(), std::back_inserter(extreme));
+  std::vector<Vec2> hull;
+  hull.reserve(extreme.size());
+  for (const auto& p : extreme) hull.emplace_back(p.x(), p.y());
+  return hull;
+}
+
+std::vector<Vec2> intersection(const std::vector<Vec2>& p, const std::vector<Vec2>& q) {
+  if (q.size() < 3 && p.size() >= 3) return intersection(q, p);
+  if (q.size() < 3) return {};
+  std::vector<Vec2> common = p;
+  for (std::size_t i = 0; i < q.size() && !common.empty(); ++i) {
+    common = left_of(common, q[i], q[(i + 1) % q.size()]);
+  }
+  return common.empty() ? common : convex_hull(common);
+}
+
+Vec2 halfway(const std::vector<Vec2>& p, const std::vector<Vec2>& q) {
+  double min_distance = std::numeric_limits<double>::infinity();
+  Vec2 middle = p[0];
+  const auto meet = [&](const std::vector<Vec2>& vertices, const std::vector<Vec2>& other) {
+    for (const Vec2& v : vertices) {
+      const Vec2 w = nearest_on_boundary(other, v);
+      if ((v - w).norm() < min_distance) {
+        min_distance = (v - w).norm();
+        middle = (v + w) / 2;
+      }
+    }
+  };
+  meet(p, q);
+  meet(q, p);
+  return middle;
 }
 
 }  // namespace touchstone::oracle

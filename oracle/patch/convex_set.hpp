@@ -8,7 +8,7 @@ namespace touchstone::oracle {
 
 using Vec2 = Eigen::Vector2d;
 
-/// A piece of a convex boundary, the set on its left: a line, or an arc counterclockwise about a
+/// A piece of a convex boundary with the set on its left: a line, or a counterclockwise arc about a
 /// centre.
 struct Side {
   Vec2 from, to;
@@ -22,31 +22,31 @@ struct Side {
   bool is_line() const { return radius == 0; }
 };
 
-/// A bounded convex set of the plane: a point, a segment, or a region whose boundary consists of
-/// lines and circular arcs. Never empty. Lengths are metres where the plane's are.
+/// A bounded convex set of the plane, not empty: a point, a segment, or a region bounded by lines
+/// and circular arcs.
 class ConvexSet {
  public:
   enum class Kind { point, segment, region };
 
   static ConvexSet point(const Vec2& p);
   static ConvexSet segment(const Vec2& from, const Vec2& to);
-  /// Counterclockwise, closed. The region must be what is common to the half-planes left of its
-  /// lines and the discs of its arcs.
+  /// Takes a closed counterclockwise boundary. Precondition: the region is the intersection of the
+  /// half-planes left of its lines and the discs of its arcs.
   static ConvexSet region(std::vector<Side> sides);
-  /// Counterclockwise vertices without repetition: a region of three or more, else a segment or a
-  /// point.
+  /// Takes counterclockwise vertices without repetition: three or more make a region, fewer a
+  /// segment or a point.
   static ConvexSet polygon(const std::vector<Vec2>& vertices);
 
   Kind kind() const { return kind_; }
-  /// Of a region in order; of a segment and a point, one line that is the set itself.
+  /// The sides of a region in order; for a segment or a point one line, the set itself.
   const std::vector<Side>& sides() const { return sides_; }
 
   double area() const;
-  double perimeter() const;                     ///< of a segment its length, once
-  Vec2 centroid() const;                        ///< centre of area, of a segment its middle
+  double perimeter() const;                     ///< for a segment its length, counted once
+  Vec2 centroid() const;                        ///< centre of area; for a segment its middle
   double support(const Vec2& direction) const;  ///< max of x·direction
   double distance(const Vec2& p) const;         ///< to the set; zero inside
-  /// Points of the boundary in order, arcs in chords of at most a quarter turn over `per_quarter`.
+  /// The boundary as points in order; arcs as chords of at most 90°/per_quarter.
   std::vector<Vec2> outline(int per_quarter) const;
 
  private:
@@ -55,5 +55,19 @@ class ConvexSet {
   Kind kind_;
   std::vector<Side> sides_;
 };
+
+// Convex polygons as their vertices, counterclockwise. Two vertices are a segment, one is a point.
+
+/// Vertices of the convex hull; points collinear with their neighbours are dropped exactly.
+/// Precondition: there is at least one point.
+std::vector<Vec2> convex_hull(const std::vector<Vec2>& points);
+
+/// Intersection of two convex polygons in double: empty if they miss each other, and possibly if
+/// the intersection is thinner than rounding.
+std::vector<Vec2> intersection(const std::vector<Vec2>& p, const std::vector<Vec2>& q);
+
+/// The point halfway between the nearest points of two convex polygons that do not meet, or cross
+/// in less than rounding.
+Vec2 halfway(const std::vector<Vec2>& p, const std::vector<Vec2>& q);
 
 }  // namespace touchstone::oracle

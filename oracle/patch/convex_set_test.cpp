@@ -4,8 +4,6 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
-#include "oracle/patch/convex_polygon.hpp"
-
 namespace touchstone::oracle {
 namespace {
 

@@ -17,7 +17,7 @@ mpq_class clamped(const mpq_class& q, const mpq_class& limit) {
   return q > limit ? limit : q < -limit ? mpq_class(-limit) : q;
 }
 
-/// Of p − √q, exactly; q >= 0.
+/// Exact sign of p − √q; q >= 0.
 int sign_of_minus_root(const mpq_class& p, const mpq_class& q) {
   if (p < 0) return -1;
   return cmp(square(p), q);
@@ -32,22 +32,23 @@ ConvexSet whole_disc(const Vec2& centre, double radius) {
   return ConvexSet::region({Side::arc(centre, radius, 0, 2 * pi)});
 }
 
-/// The part of a rectangle's edge within a disc, of positive length. Seen from the middle of the
-/// edge, x along it (counterclockwise) and the rectangle's outside at y < 0.
+/// The part of a rectangle's edge within a disc, of positive length. Coordinates have the origin in
+/// the middle of the edge, x along it (counterclockwise), and the rectangle's outside at y < 0.
 struct Chord {
   int edge;
-  bool from_corner, to_corner;    ///< the edge's own end, not the circle
-  double from, to;                ///< along the edge, from its middle
-  double start_angle, end_angle;  ///< of the ends about the disc's centre, in the rectangle's frame
+  bool from_corner, to_corner;  ///< it ends at the edge's end, not at the circle
+  double from, to;              ///< along the edge, from its middle
+  double start_angle,
+      end_angle;  ///< polar angles of the ends about the disc's centre, in the rectangle's frame
 };
 
-/// `along`, `inside`: the disc's centre as seen from the edge.
+/// `along` and `inside` are the disc's centre in the edge's coordinates.
 std::optional<Chord> chord(int edge, const mpq_class& along, const mpq_class& inside,
                            const mpq_class& radius, const mpq_class& half_edge) {
   const mpq_class half_chord2 = square(radius) - square(inside);
   if (half_chord2 <= 0) return std::nullopt;
   const mpq_class before = along + half_edge, after = half_edge - along;
-  // The circle meets the edge's line at along ± half chord.
+  // The circle intersects the edge's line at along ± half chord.
   if (sign_of_minus_root(-before, half_chord2) >= 0) return std::nullopt;
   if (sign_of_minus_root(-after, half_chord2) >= 0) return std::nullopt;
   Chord c;
@@ -59,7 +60,7 @@ std::optional<Chord> chord(int edge, const mpq_class& along, const mpq_class& in
   const double forth = c.to_corner ? after.get_d() : half_chord;
   c.from = c.from_corner ? -half_edge.get_d() : middle - half_chord;
   c.to = c.to_corner ? half_edge.get_d() : middle + half_chord;
-  // Edge 0 runs along +x below the rectangle, each following a quarter turn further.
+  // Edge 0 runs along +x below the rectangle; each next edge is turned by 90°.
   c.start_angle = std::atan2(y, -back) + edge * pi / 2;
   c.end_angle = std::atan2(y, forth) + edge * pi / 2;
   return c;
@@ -74,7 +75,7 @@ ConvexSet overlap_of_discs(const mpq_class& r, const mpq_class& s, const mpq_cla
   }
   if (distance2 == square(r + s)) return ConvexSet::point({radius, 0});
   if (distance2 > square(r + s)) return ConvexSet::point({distance - other, 0});
-  // The circles meet at (x, ±y); twice x and distance − x times the distance:
+  // The circles intersect at (x, ±y). Twice the distance times x, and times distance − x:
   const mpq_class from_first = distance2 + square(r) - square(s);
   const mpq_class from_other = distance2 + square(s) - square(r);
   const double y = root(4 * distance2 * square(r) - square(from_first));
@@ -82,7 +83,7 @@ ConvexSet overlap_of_discs(const mpq_class& r, const mpq_class& s, const mpq_cla
   const double other_angle = std::atan2(y, from_other.get_d());
   Side first = Side::arc(Vec2::Zero(), radius, -angle, 2 * angle);
   Side second = Side::arc({distance, 0}, other, pi - other_angle, 2 * other_angle);
-  // The same ends to both, lest the boundary of a thin lens cross itself.
+  // Both arcs get the same ends, so that the boundary of a thin lens does not intersect itself.
   first.to = second.from = Vec2(from_first.get_d(), y) / (2 * distance);
   first.from = second.to = Vec2(from_first.get_d(), -y) / (2 * distance);
   return ConvexSet::region({first, second});
@@ -125,7 +126,7 @@ ConvexSet overlap_of_disc_and_rectangle(const mpq_class& x, const mpq_class& y, 
     if (share_a_corner) continue;
     double sweep = next.start_angle - c.end_angle;
     sweep -= 2 * pi * std::floor(sweep / (2 * pi));
-    // A full turn leaves one edge and comes back to it; between two edges it is rounding of none.
+    // A full turn is possible with a single edge only; between two edges it is a rounded zero.
     constexpr double rounding = 1e-9;
     if (chords.size() > 1 && sweep > 2 * pi - rounding) sweep = 0;
     Side arc = Side::arc(centre, radius, c.end_angle, sweep);

@@ -6,14 +6,14 @@
 
 namespace touchstone::oracle {
 
-// What two flat features have in common. All numbers are exact rationals and every case is decided
-// exactly: whether it is a point, a segment or a region, and which lines and arcs bound it. Only
-// their ends are then rounded to double. Where nothing is common (the features are those of a
-// direction that is not quite optimal) the answer is the point of the second feature that is
-// nearest to the first.
+// Intersections of two flat features. All numbers are exact rationals, and every case is decided
+// exactly: whether the intersection is a point, a segment or a region, and which lines and arcs
+// bound it. Only their ends are then rounded to double. If the intersection is empty (the direction
+// is not quite optimal) the result is the point of the second feature nearest to the first.
 //
 // CGAL's polygons of circles and lines (Gps_circle_segment_traits_2) find the same regions, but
-// drop points and segments and take fifteen times as long; the tests hold these functions to them.
+// drop points and segments and take fifteen times as long; the tests compare these functions with
+// them.
 
 /// Two discs, the first about the origin, the second about (distance, 0).
 ConvexSet overlap_of_discs(const mpq_class& radius, const mpq_class& other_radius,
@@ -24,8 +24,8 @@ ConvexSet overlap_of_disc_and_rectangle(const mpq_class& x, const mpq_class& y,
                                         const mpq_class& radius, const mpq_class& a,
                                         const mpq_class& b);
 
-/// The disc about a point `along` the x axis and off it (squared), and |x| <= half_length on the
-/// axis.
+/// The segment |x| <= half_length of the x axis, and a disc in its plane whose centre is at x =
+/// `along`, at the squared distance `squared_off` from the axis.
 ConvexSet overlap_of_disc_and_segment(const mpq_class& along, const mpq_class& squared_off,
                                       const mpq_class& radius, const mpq_class& half_length);
 

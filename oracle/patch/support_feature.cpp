@@ -3,16 +3,30 @@
 #include <algorithm>
 #include <cmath>
 
+#include "oracle/vector3.hpp"
+
 namespace touchstone::oracle {
+
+RationalVector exact(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+Vec3 rounded(const RationalVector& v) { return {v.x.get_d(), v.y.get_d(), v.z.get_d()}; }
+
+ExactPose::ExactPose(const Pose& pose) : position(exact(pose.position())) {
+  const Eigen::Quaterniond& q = pose.orientation();
+  const ExactRotation<mpq_class> rotation(q.w(), q.x(), q.y(), q.z());
+  axes = rotation.columns;
+  norm = rotation.norm;
+}
+
 namespace {
 
 using Kind = SupportFeature::Kind;
 
 /// Below this sine or cosine between axis and normal, the normal's rounding of 1e-16 moves a rim
 /// point by more than 1e-4 of its radius.
-constexpr double all_but_aligned = 1e-12;
+constexpr double nearly_aligned = 1e-12;
 
-/// The way out of a body: towards the other one.
+/// The direction out of a body, towards the other one.
 struct Outward {
   RationalVector direction;  ///< of any length
   bool is_exact;
@@ -26,12 +40,12 @@ struct Placed {
   const std::array<Alignment, 3>& alignment;  ///< to the body's axes
 
   Vec3 unit_axis(int i) const { return rounded(exact.axes[i]) / exact.norm.get_d(); }
-  /// +1 or −1: which end of an axis not across the normal is further out.
+  /// +1 or −1: the end of an axis, not perpendicular to the normal, that is farther out.
   int end(int i) const { return sgn(dot(exact.axes[i], out.direction)) < 0 ? -1 : 1; }
   bool is_certain(int i) const {
     const Vec3 axis = unit_axis(i);
-    return out.is_exact || (std::abs(axis.dot(out.unit)) > all_but_aligned &&
-                            axis.cross(out.unit).norm() > all_but_aligned);
+    return out.is_exact || (std::abs(axis.dot(out.unit)) > nearly_aligned &&
+                            axis.cross(out.unit).norm() > nearly_aligned);
   }
   SupportFeature centred(Kind kind) const {
     SupportFeature f;
@@ -59,7 +73,7 @@ SupportFeature feature(const Cylinder& shape, const Placed& body) {
       break;
   }
   SupportFeature f;
-  // Across the axis, exactly, so that no digit is lost however small the tilt.
+  // The component perpendicular to the axis is exact, so that a small tilt loses no digits.
   const RationalVector &n = body.out.direction, &axis = body.exact.axes[2];
   const mpq_class along = dot(axis, n) / (body.exact.norm * body.exact.norm);
   const Vec3 radial = rounded(n - along * axis);
@@ -114,8 +128,8 @@ SupportFeature feature(const Box& shape, const Placed& body) {
 
 SupportFeature feature(const Plane&, const Placed& body) { return body.centred(Kind::plane); }
 
-/// The normal as an exact vector of any length, if it is along an axis or a plane's normal; else
-/// its doubles.
+/// The normal as an exact vector of any length if it is parallel to an axis or a plane's normal;
+/// otherwise its doubles.
 Outward from_b_to_a(const Configuration& c, const OptimalNormal& normal, const ExactPose& a,
                     const ExactPose& b) {
   const auto towards_a = [&](const RationalVector& axis) {

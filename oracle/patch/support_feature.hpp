@@ -1,33 +1,69 @@
 #pragma once
 
+#include <array>
+#include <gmpxx.h>
+#include <vector>
+
 #include "oracle/optimal_normal.hpp"
-#include "oracle/patch/exact_pose.hpp"
+#include "oracle/vector3.hpp"
+#include "reference/configuration.hpp"
+#include "reference/pose.hpp"
 
 namespace touchstone::oracle {
 
-/// What of a body lies in its support plane, seen along the normal: exactly, but for points, whose
+using RationalVector = Vector3<mpq_class>;
+
+/// A pose in exact rationals: its axes are exactly orthogonal, each of the length `norm` = |q|²
+/// (Euler–Rodrigues, without the division).
+struct ExactPose {
+  explicit ExactPose(const Pose& pose);
+  RationalVector position;
+  std::array<RationalVector, 3> axes;
+  mpq_class norm;
+};
+
+RationalVector exact(const Vec3& v);
+/// Rounds each coordinate towards zero.
+Vec3 rounded(const RationalVector& v);
+
+/// The part of a body in its support plane, seen along the normal. Exact, except for points, whose
 /// coordinates may be irrational.
 struct SupportFeature {
   enum class Kind { point, segment, disc, rectangle, plane };
   Kind kind = Kind::point;
 
-  Vec3 point = Vec3::Zero();  ///< of a point, world coordinates
-  /// Nearly every point of a body is as certain as the normal. Not so where the normal is
-  /// irrational and all but aligned with an axis: rounding then decides which end of the feature it
-  /// is.
+  Vec3 point = Vec3::Zero();  ///< for a point; world coordinates
+  /// False where rounding decides which end of a feature the point is: the normal is irrational and
+  /// nearly aligned with an axis.
   bool point_is_certain = true;
 
-  // Of the others; u and v have the length norm, and half extents are metres.
-  RationalVector centre;  ///< up to a multiple of the normal
-  RationalVector u;       ///< along a segment, across a disc, along a rectangle's side
+  // For the other kinds: u and v have the length norm, half extents are metres.
+  RationalVector centre;  ///< exact up to a multiple of the normal
+  RationalVector u;       ///< along a segment, the axis of a disc, along a rectangle's side
   RationalVector v;       ///< along a rectangle's other side
   mpq_class norm, half_u, half_v, radius;
 };
 
-/// Both bodies' features along a normal: A's lowest and B's highest.
+/// The features of both bodies along a normal: A's lowest and B's highest.
 struct SupportFeatures {
   SupportFeature a, b;
 };
 SupportFeatures support_features(const Configuration& configuration, const OptimalNormal& normal);
+
+/// Points whose convex hull, seen along the unit vector n, is the part of a posed body (no plane)
+/// within `epsilon` > 0 metres of its support plane along n. Curves are sampled, so that the hull
+/// is inscribed. Positions are relative to `origin`; for spheres and capsules their component along
+/// n has no meaning.
+std::vector<Vec3> support_part(const Shape& shape, const Pose& pose, const Vec3& n, double epsilon,
+                               const Vec3& origin);
+
+/// Those widths of the part that exist only because epsilon > 0: across a round side, a tilted cap,
+/// an edge.
+struct WidthFromEpsilon {
+  double largest;    ///< metres; zero if the part contains a whole flat face
+  bool is_a_corner;  ///< there are no other widths: the part shrinks to a point with epsilon
+};
+WidthFromEpsilon width_from_epsilon(const Shape& shape, const Pose& pose, const Vec3& n,
+                                    double epsilon);
 
 }  // namespace touchstone::oracle

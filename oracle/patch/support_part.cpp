@@ -1,17 +1,17 @@
-#include "oracle/patch/support_part.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "oracle/patch/support_feature.hpp"
+
 namespace touchstone::oracle {
 namespace {
 
-/// Chords to an arc, however short: an arc of a full turn loses 1 − cos(π/96) = 5e-4 of its radius.
+/// Chords per arc, whatever its length: a full circle loses 1 − cos(π/96) = 5e-4 of its radius.
 constexpr int chords = 96;
 
-/// How far about a circle of radius r > 0 one may go from its highest point before being `lower` by
-/// more than that: half the angle's range, at most π.
+/// Half the angle of the arc about the highest point of a circle of radius r > 0 that is at most
+/// `lower` below that point; at most π.
 double reach(double r, double lower) {
   if (lower <= 0) return 0;
   return lower < 2 * r ? 2 * std::asin(std::sqrt(lower / (2 * r))) : std::numbers::pi;
@@ -22,10 +22,10 @@ struct Part {
   double epsilon;
   std::vector<Vec3> points;
 
-  // A point of the cylinder at polar angle φ (zero: highest) and w along the axis (upwards along n)
-  // is lower than the highest one by r s (1 − cos φ) + c (h − w), with c and s the cosine and sine
-  // between the axis and n. For each φ the part is an interval of w from `lowest` to h: its hull is
-  // that of the upper rim, of the cut across the side, and of the lower rim if it is reached.
+  // A point of the cylinder at polar angle φ (zero: highest) and height w along the axis is lower
+  // than the highest point by r s (1 − cos φ) + c (h − w), where c and s are the cosine and sine of
+  // the angle between the axis and n. For each φ the part is an interval of w up to h. Its hull is
+  // that of the upper rim, the cut across the side, and the lower rim if the part reaches it.
   void add(const Cylinder& shape, const Vec3& centre, const Eigen::Matrix3d& axes) {
     const double r = shape.radius(), h = shape.half_length();
     const Vec3 up = axes.col(2).dot(n) < 0 ? Vec3(-axes.col(2)) : Vec3(axes.col(2));
@@ -56,7 +56,7 @@ struct Part {
     }
   }
 
-  // A ball whose top is within `left` of the plane has a disc of it, seen along n.
+  // The part of a ball within `left` of its top is a disc, seen along n.
   void add_ball(double r, const Vec3& centre, double left, int count) {
     const double radius = left < r ? std::sqrt(left * (2 * r - left)) : r;
     const Vec3 e1 = n.unitOrthogonal(), e2 = n.cross(e1);
@@ -70,8 +70,8 @@ struct Part {
     add_ball(shape.radius(), centre, epsilon, chords);
   }
 
-  // The balls about the points of the segment, from the highest to the lowest that reaches the
-  // part. With what is left of epsilon falling as a square, their radii fall evenly.
+  // Balls about points of the segment, from the highest to the lowest that reaches the part. The
+  // remaining epsilon decreases as a square, so that the radii decrease evenly.
   void add(const Capsule& shape, const Vec3& centre, const Eigen::Matrix3d& axes) {
     constexpr int balls = 12;
     const double r = shape.radius(), h = shape.half_length();
@@ -81,7 +81,7 @@ struct Part {
     for (int i = 0; i <= balls; ++i) {
       const double root = 1 - (1 - least) * i / balls;
       const double left = epsilon * root * root;
-      // A flat segment lies in the part with both ends.
+      // A segment perpendicular to n lies in the part with both ends.
       const bool at_end = i == balls && least > 0;
       const double w = i == 0 ? h : at_end || c == 0 ? -h : std::max(-h, h - (epsilon - left) / c);
       add_ball(r, centre + w * up, left, chords / 2);
@@ -94,8 +94,8 @@ struct Part {
     const auto corner = [&](int bits) {
       return Vec3(bits & 1 ? h.x() : -h.x(), bits & 2 ? h.y() : -h.y(), bits & 4 ? h.z() : -h.z());
     };
-    // A corner is lower than the highest by 2 h |axis·n| over the axes on which it is at the lower
-    // end: a sum without cancellation.
+    // A corner is lower than the highest one by the sum of 2 h |axis·n| over the axes at whose
+    // lower end it lies: a sum without cancellation.
     const auto below = [&](int bits) {
       double sum = 0;
       for (int i = 0; i < 3; ++i) {
@@ -119,8 +119,8 @@ struct Part {
   void add(const Plane&, const Vec3&, const Eigen::Matrix3d&) {}
 };
 
-/// Along an axis of half length h whose cosine to n is c: unless all of it lies in the part, what
-/// is within epsilon, seen along n.
+/// Width of the part along an axis of half length h with the cosine c to n, seen along n; zero if
+/// the whole axis lies in the part.
 double width_along(double h, double c, double epsilon) {
   return 2 * h * c > epsilon ? epsilon / c * std::sqrt(std::max(0.0, 1 - c * c)) : 0;
 }

@@ -4,8 +4,8 @@
 #include <random>
 
 #include "oracle/patch/contact_patch.hpp"
-#include "oracle/patch/convex_polygon.hpp"
-#include "oracle/patch/support_part.hpp"
+#include "oracle/patch/convex_set.hpp"
+#include "oracle/patch/support_feature.hpp"
 
 namespace touchstone::oracle {
 namespace {

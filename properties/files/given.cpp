@@ -5,7 +5,7 @@
 #include "properties/files/configuration_json.hpp"
 #include "properties/files/read_file.hpp"
 #include "properties/identity.hpp"
-#include "properties/motions/name.hpp"
+#include "properties/motions/motion.hpp"
 #include "properties/motions/perturbation.hpp"
 #include "reference/invalid_input.hpp"
 

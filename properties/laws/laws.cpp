@@ -4,10 +4,9 @@
 #include <cmath>
 #include <fmt/format.h>
 
-#include "oracle/judge/point_distance.hpp"
+#include "oracle/judge/score.hpp"
 #include "oracle/patch/contact_patch.hpp"
 #include "oracle/truth.hpp"
-#include "properties/laws/hint_law.hpp"
 #include "properties/laws/law.hpp"
 #include "properties/laws/moves.hpp"
 #include "properties/named.hpp"
@@ -23,9 +22,9 @@ Vec3 vector(const double (&v)[3]) { return {v[0], v[1], v[2]}; }
 
 bool always(const Configuration&) { return true; }
 
-/// Does rounding leave room to move, turn, grow and scale the bodies: may what laws ask differ from
-/// what they mean by far less than the tolerance, and overflow nowhere? Not of bodies so far away
-/// that coordinates round by more than their sizes allow.
+/// Can the bodies be moved, turned, grown and scaled without overflow and with rounding errors far
+/// below the tolerance? Not if they are so far away that coordinates round by more than their sizes
+/// allow.
 bool can_be_moved(const Configuration& c) {
   constexpr double min_size = 0x1p-1000, max_length = 0x1p1000, max_distance = 1e10;
   const double distance = std::max(c.pose_a.position().cwiseAbs().maxCoeff(),
@@ -36,7 +35,7 @@ bool can_be_moved(const Configuration& c) {
 
 Questions nothing_else(const Configuration&, const Bar&) { return {}; }
 
-/// An answer's distance up to the threshold, to which no contact is as good as one.
+/// The answer's signed distance, at most the threshold; no contact counts as the threshold.
 double distance(const Answer& answer, const Bar& bar) {
   return answer.status == TS_CONTACT ? std::min(answer.signed_distance, bar.threshold)
                                      : bar.threshold;
@@ -53,7 +52,7 @@ std::optional<Violation> judge_answers(const Configuration&, Answers answers, co
   if (a.status == TS_FAILED) return Violation{"failed", 1, "the candidate says it failed"};
   if (!is_finite(a)) return Violation{"not-finite", 1, "a number of the answer is not finite"};
   if (a.status != TS_CONTACT) return std::nullopt;
-  // Single precision rounds a unit vector's length by less.
+  // More than the rounding error of a unit vector's length in single precision.
   constexpr double unit = 1e-6;
   const auto not_unit = [](const double(&n)[3]) { return std::abs(vector(n).norm() - 1) > unit; };
   for (int i = 0; i < a.point_count; ++i) {
@@ -99,7 +98,7 @@ std::optional<Violation> differs(const Configuration& c, const Answer& answer,
       fmt::format("the gap along the normal changes by {:.3g} of the smaller size", regret)};
 }
 
-/// Of a law whose every question is the configuration seen otherwise.
+/// Judges a law all of whose questions are the same geometry in another form.
 template <Questions (*Ask)(const Configuration&, const Bar&)>
 std::optional<Violation> judge_same(const Configuration& c, Answers answers, const Bar& bar) {
   const Questions questions = Ask(c, bar);
@@ -127,7 +126,7 @@ constexpr double factors[] = {0.125, 8};
 bool asks_for_overlap_only(const Bar& bar) { return bar.threshold == 0; }
 
 Questions ask_scale(const Configuration& c, const Bar& bar) {
-  // A threshold would have to be scaled too.
+  // A threshold would have to be scaled, too.
   if (!asks_for_overlap_only(bar)) return {};
   return {scaled(c, factors[0]), scaled(c, factors[1])};
 }
@@ -169,7 +168,7 @@ std::optional<Violation> judge_steps(const Configuration& c, Answers answers, co
   return std::nullopt;
 }
 
-// Growth: a larger body is not less deep, and not deeper by more than it grew.
+// Growth: a larger body is at least as deep, and deeper by at most its growth.
 
 constexpr double growth = 0.01;
 
@@ -180,16 +179,16 @@ std::optional<Violation> judge_growth(const Configuration& c, Answers answers, c
   const double size = error_size(c, bar), grown[] = {c.a.radius(), c.a.half_length()};
   for (int i = 0; i < 2; ++i) {
     const double change = (distance(answers[i + 1], bar) - distance(answers[0], bar)) / size;
-    const double most = growth * grown[i] / size;
+    const double max_change = growth * grown[i] / size;
     const char* what = i == 0 ? "radius" : "half length";
     if (change > bar.tolerance) {
       return Violation{"shallow", change,
                        fmt::format("a larger {} raises the distance by {:.3g}", what, change)};
     }
-    if (change < -most - bar.tolerance) {
-      return Violation{
-          "overdeep", -change,
-          fmt::format("a {} larger by {:.3g} lowers the distance by {:.3g}", what, most, -change)};
+    if (change < -max_change - bar.tolerance) {
+      return Violation{"overdeep", -change,
+                       fmt::format("a {} larger by {:.3g} lowers the distance by {:.3g}", what,
+                                   max_change, -change)};
     }
   }
   return std::nullopt;
@@ -211,7 +210,7 @@ std::optional<Violation> judge_way_out(const Configuration& c, Answers answers, 
 
 // Apart: no contact beyond the threshold.
 
-/// A moved along an optimal normal until it is clear of B by more than bar and threshold.
+/// Moves A along an optimal normal until its distance from B exceeds threshold and tolerance.
 Questions ask_apart(const Configuration& c, const Bar& bar) {
   const oracle::Truth truth = oracle::truth(c);
   const double clear = bar.threshold + 10 * bar.tolerance * error_size(c, bar);
@@ -236,7 +235,7 @@ std::optional<Violation> judge_apart(const Configuration& c, Answers answers, co
 
 // Points
 
-/// What a double leaves open of where the point is, metres.
+/// Rounding error of a point's position in double, metres.
 double rounding_of(const ts_point& p) { return 1e-15 * vector(p.position).cwiseAbs().maxCoeff(); }
 
 std::string points_text(const Score& s) {
@@ -269,8 +268,8 @@ std::optional<Violation> judge_points(const Configuration& c, Answers answers, c
 // Manifold
 
 std::optional<Violation> judge_manifold(const Configuration& c, Answers answers, const Bar& bar) {
-  constexpr double least_coverage = 0.3;
-  // Near an alignment how many points there should be is a matter of degree: of exact ones only.
+  constexpr double min_coverage = 0.3;
+  // Only for exact alignments: near one the right number of points is a matter of degree.
   const oracle::Truth truth = oracle::truth(c);
   const bool is_aligned =
       std::all_of(truth.normals.begin(), truth.normals.end(), [&](const auto& normal) {
@@ -278,9 +277,9 @@ std::optional<Violation> judge_manifold(const Configuration& c, Answers answers,
       });
   if (!is_aligned) return std::nullopt;
   const Score s = score(c, truth, answers[0], bar);
-  if (!s.coverage || *s.coverage >= least_coverage) return std::nullopt;
+  if (!s.coverage || *s.coverage >= min_coverage) return std::nullopt;
   return Violation{
-      "few-points", least_coverage - *s.coverage,
+      "few-points", min_coverage - *s.coverage,
       fmt::format("{} points cover {:.2f} of the contact patch", s.points, *s.coverage)};
 }
 
@@ -347,11 +346,7 @@ const std::vector<Law>& all_laws() {
        always, nothing_else, judge_points},
       {"manifold", "Of exactly aligned bodies the points cover at least 0.3 of the contact patch.",
        always, nothing_else, judge_manifold},
-      {"hint",
-       "With the normal as hint, and A pressed in along it by a tenth of the tolerance, the "
-       "normal turns by more than 10 degrees only where another is better; no hint makes a right "
-       "answer wrong.",
-       can_be_moved, nothing_else, judge_hint, hinted_frames, hint_threshold},
+      hint_law(can_be_moved),
       {"memory", "The answer does not depend on what was asked before, to the last bit.",
        can_be_moved, ask_again, judge_again},
   };
@@ -379,8 +374,8 @@ std::optional<Violation> broken(const Law& law, const Configuration& c, Candidat
   candidate.ask_within(bar.threshold);
   std::vector<Answer> answers = candidate.answers(asked);
   if (answers[0].status == TS_UNSUPPORTED) return std::nullopt;
-  if (law.frames && !judge_answers(c, {&answers[0], 1}, bar)) {
-    for (const Frame& frame : law.frames(c, answers[0], bar)) {
+  if (law.hinted_questions && !judge_answers(c, {&answers[0], 1}, bar)) {
+    for (const HintedQuestion& frame : law.hinted_questions(c, answers[0], bar)) {
       const auto& hint = frame.previous_normal;
       answers.push_back(candidate.answer(frame.configuration, hint ? &*hint : nullptr));
     }

@@ -142,15 +142,15 @@ TEST(Laws, HintIsAskedOfTheNextFrameWithTheNormalAndItsOpposite) {
   Bar bar;
   bar.threshold = law.threshold(standing(), bar);
   EXPECT_DOUBLE_EQ(bar.threshold, 0.5e-4);
-  const auto frames = law.frames(standing(), contact(-0.1, {0, 0, 1}), bar);
+  const auto frames = law.hinted_questions(standing(), contact(-0.1, {0, 0, 1}), bar);
   ASSERT_EQ(frames.size(), 3u);
-  for (const Frame& f : frames) {
+  for (const HintedQuestion& f : frames) {
     EXPECT_DOUBLE_EQ(f.configuration.pose_a.position().z(), 1.9 - 1e-5);
   }
   EXPECT_FALSE(frames[0].previous_normal);
   EXPECT_EQ(*frames[1].previous_normal, Vec3(0, 0, 1));
   EXPECT_EQ(*frames[2].previous_normal, Vec3(0, 0, -1));
-  EXPECT_TRUE(law.frames(standing(), none(), bar).empty());
+  EXPECT_TRUE(law.hinted_questions(standing(), none(), bar).empty());
 }
 
 TEST(Laws, HaveNamesThatAreFound) {

@@ -7,7 +7,6 @@
 #include "oracle/truth.hpp"
 #include "properties/arbitrary.hpp"
 #include "properties/motions/motion.hpp"
-#include "properties/motions/name.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone {

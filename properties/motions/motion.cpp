@@ -1,7 +1,10 @@
 #include "properties/motions/motion.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <fmt/format.h>
+#include <vector>
 
 #include "properties/draw.hpp"
 #include "properties/named.hpp"
@@ -20,9 +23,9 @@ Cylinder can() { return Cylinder(radius, half_length); }
 Plane ground() { return Plane({0, 0, 1}, 0); }
 Box table() { return Box({2, 2, 0.5}); }
 Box block() { return Box({0.5, 1, 0.5}); }
-Pose below() { return Pose({0, 0, -0.5}, upright); }  // of a table whose top is at z = 0
+Pose below() { return Pose({0, 0, -0.5}, upright); }  // the pose of a table with its top at z = 0
 
-/// Of the angle 2 arctan(t).
+/// The angle 2 arctan(t).
 struct HalfTangent {
   double t;
   double cosine() const { return (1 - t * t) / (1 + t * t); }
@@ -32,7 +35,7 @@ struct HalfTangent {
   Quaternion about_z() const { return Quaternion(1, 0, 0, t); }
 };
 
-/// Standing at time -0.8, lying at 0.8, on its rim between, at one depth.
+/// Standing at time -0.8, lying at 0.8, on its rim in between, always at the same depth.
 Pose tilting(double time) {
   const HalfTangent angle{(time + 0.8) / 1.6};
   const double height = half_length * std::abs(angle.cosine()) + radius * std::abs(angle.sine());
@@ -42,7 +45,7 @@ Pose tilting(double time) {
 /// Lying along x, turned by `turn` in the world.
 Pose lying(const Quaternion& turn) { return Pose({0, 0, radius - depth}, product(turn, along_x)); }
 
-/// Along the top of a block to its edge at time 0, then around the edge by a right angle.
+/// Rolls along the top of a block to its edge at time 0, then around the edge by 90°.
 Pose rolling_over_edge(double time) {
   const double reach = radius - depth;
   if (time <= 0) return Pose({0.5 + 0.5 * time, 0.125, 0.5 + reach}, along_y);
@@ -56,8 +59,8 @@ Configuration crossing(const Shape& b, const Quaternion& turn) {
           Pose({0, 0, 0}, along_x)};
 }
 
-/// A sphere as large as the can's radius goes from the middle of the cap over the rim, at time 0,
-/// and down the side. It is A that moves.
+/// A sphere of the can's radius moves from the middle of the cap over the rim, at time 0, and down
+/// the side. The moving body is A, the can.
 Configuration round_rim(double time) {
   const double reach = radius - depth;
   double px = radius, pz = half_length;
@@ -141,6 +144,72 @@ const Motion& find_motion(std::string_view name) {
 
 Configuration pose_at(const Motion& motion, int step, int steps) {
   return motion.at(static_cast<double>(2 * step - steps) / steps);
+}
+
+namespace {
+
+constexpr int max_steps = 1 << 20;
+
+std::vector<std::string_view> parts_of(std::string_view text) {
+  std::vector<std::string_view> parts;
+  for (std::size_t start = 0; start <= text.size();) {
+    const std::size_t end = std::min(text.find('/', start), text.size());
+    parts.push_back(text.substr(start, end - start));
+    start = end + 1;
+  }
+  return parts;
+}
+
+int number(const char* field, std::string_view text, int min, int max) {
+  int value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || value < min || value > max) {
+    throw InvalidInput(field, fmt::format("\"{}\"", text),
+                       fmt::format("must be a whole number from {} to {}", min, max));
+  }
+  return value;
+}
+
+void require_count(const char* field, const std::string& text,
+                   const std::vector<std::string_view>& parts, std::size_t count,
+                   const char* remedy) {
+  if (parts.size() != count) throw InvalidInput(field, '"' + text + '"', remedy);
+}
+
+}  // namespace
+
+std::string pixel_name(const CriticalPose& pose, Decade zoom, int column, int row) {
+  return fmt::format("map/{}/{}/{}/{}", pose.name, zoom.name(), column, row);
+}
+
+std::string step_name(const Motion& motion, int step, int steps) {
+  return fmt::format("sequence/{}/{}/{}", motion.name, step, steps);
+}
+
+std::string perturbed_name(const std::string& base, const Perturbation& perturbation) {
+  return base + "@" + to_string(perturbation);
+}
+
+std::optional<Subject> named_configuration(const std::string& text) {
+  const auto parts = parts_of(text);
+  if (parts[0] == "map") {
+    require_count("map", text, parts, 5,
+                  "must read map/pose/zoom/column/row, as in map/standing/1e-12/-3/16");
+    const CriticalPose& pose = find_critical_pose(parts[1]);
+    return Subject{text, pose.description,
+                   map_pixel(pose, Decade::parse("map.zoom", parts[2]),
+                             number("map.column", parts[3], -map_reach, map_reach),
+                             number("map.row", parts[4], -map_reach, map_reach))};
+  }
+  if (parts[0] == "sequence") {
+    require_count("sequence", text, parts, 4,
+                  "must read sequence/motion/step/steps, as in sequence/roll-over-edge/113/200");
+    const Motion& motion = find_motion(parts[1]);
+    const int steps = number("sequence.steps", parts[3], 1, max_steps);
+    const int step = number("sequence.step", parts[2], 0, steps);
+    return Subject{text, motion.description, pose_at(motion, step, steps)};
+  }
+  return std::nullopt;
 }
 
 }  // namespace touchstone

@@ -14,7 +14,7 @@ constexpr std::array<double, 17> powers = {1,     1e-1,  1e-2,  1e-3,  1e-4,  1e
                                            1e-6,  1e-7,  1e-8,  1e-9,  1e-10, 1e-11,
                                            1e-12, 1e-13, 1e-14, 1e-15, 1e-16};
 
-/// Keeps these draws apart from those of other identities.
+/// Separates these draws from those of identities.
 constexpr std::uint64_t stream = 0x706572747572622eU;
 
 std::string quoted(std::string_view text) { return '"' + std::string(text) + '"'; }
@@ -22,7 +22,7 @@ std::string quoted(std::string_view text) { return '"' + std::string(text) + '"'
 }  // namespace
 
 Decade Decade::parse(const char* field, std::string_view text) {
-  for (int exponent = most; exponent >= least; --exponent) {
+  for (int exponent = max; exponent >= min; --exponent) {
     if (text == Decade(exponent).name()) return Decade(exponent);
   }
   throw InvalidInput(field, quoted(text), "must be one of 1e-1, 1e-2, … 1e-16");
@@ -57,7 +57,7 @@ Configuration moved(const Configuration& c, const Vec3& turn, const Vec3& by) {
 }
 
 Configuration perturbed(const Configuration& c, const Perturbation& p) {
-  // One stream for each amplitude: every step of the ladder goes another way.
+  // One stream for each amplitude, so that every amplitude has its own direction.
   const auto exponent = static_cast<std::uint64_t>(-p.amplitude.exponent());
   Draw draw(rc::Random(rc::Random::Key{p.seed, p.number, stream, exponent}));
   const Vec3 direction = draw.direction(), axis = draw.direction();

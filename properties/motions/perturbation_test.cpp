@@ -5,7 +5,7 @@
 
 #include "oracle/truth.hpp"
 #include "properties/arbitrary.hpp"
-#include "properties/motions/name.hpp"
+#include "properties/motions/motion.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone {
@@ -37,7 +37,7 @@ TEST(LargestDisplacement, KeepsItsDigitsForATinyRotation) {
 
 TEST(Perturbation, MovesOrTurnsByItsAmplitude) {
   const Configuration c = at({0.5, -0.25, 0.125}, Eigen::Quaterniond(1, 2, 0, -1));
-  for (int exponent = -14; exponent <= Decade::most; ++exponent) {
+  for (int exponent = -14; exponent <= Decade::max; ++exponent) {
     const Decade amplitude(exponent);
     const double a = amplitude.value(), rounding = 4e-16 / a;
     for (std::uint64_t number = 0; number < 12; ++number) {

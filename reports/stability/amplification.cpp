@@ -8,7 +8,7 @@
 
 #include "candidates/host/progress.hpp"
 #include "candidates/host/worker_processes.hpp"
-#include "properties/motions/name.hpp"
+#include "properties/motions/motion.hpp"
 #include "properties/pose_class.hpp"
 #include "reports/stability/short_number.hpp"
 
@@ -17,8 +17,8 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int amplitudes = Decade::most - Decade::least + 1;
-Decade amplitude(int rung) { return Decade(Decade::least + rung); }
+constexpr int amplitudes = Decade::max - Decade::min + 1;
+Decade amplitude(int rung) { return Decade(Decade::min + rung); }
 
 /// The largest of each measure on each rung; absent where there was nothing to measure.
 using Rungs = std::array<std::optional<double>, amplitudes>;

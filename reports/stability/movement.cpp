@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "oracle/patch/convex_polygon.hpp"
+#include "oracle/patch/convex_set.hpp"
 
 namespace touchstone {
 namespace {

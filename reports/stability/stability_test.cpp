@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "candidates/candidates.hpp"
-#include "properties/motions/name.hpp"
+#include "properties/motions/motion.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/stability/stability_page.hpp"
 

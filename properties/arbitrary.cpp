@@ -1,7 +1,10 @@
+#include "properties/arbitrary.hpp"
+
 #include <fmt/core.h>
 #include <ostream>
 
-#include "properties/arbitrary.hpp"
+#include "properties/pose_class.hpp"
+#include "properties/simplify.hpp"
 
 namespace touchstone {
 namespace {
@@ -33,6 +36,16 @@ struct ShownShape {
 };
 
 }  // namespace
+
+rc::Gen<Configuration> configurations(Pair pair, std::string_view pose_class) {
+  const PoseClass& c = find_pose_class(pair, pose_class);
+  return rc::Gen<Configuration>([&c](const rc::Random& random, int) {
+    Draw draw(random);
+    return rc::shrinkable::shrinkRecur(c.generate(draw), [](const Configuration& configuration) {
+      return rc::seq::fromContainer(simpler(configuration));
+    });
+  });
+}
 
 void showValue(const Configuration& c, std::ostream& out) {
   out << "a: " << ShownShape{}(c.a) << ' ' << shown(c.pose_a)

@@ -1,0 +1,273 @@
+#include "oracle/curve_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace touchstone::oracle {
+
+namespace {
+
+/// An integer as mantissa times a power of two.
+struct Scaled {
+  Interval mantissa;  // its magnitude within [1/2, 1], or zero
+  long exponent;
+};
+
+Scaled scaled(const Integer& value) {
+  Scaled result{0, 0};
+  const double towards_zero = mpz_get_d_2exp(&result.exponent, value.get_mpz_t());
+  if (towards_zero == 0) return result;
+  const double away = std::nextafter(towards_zero, towards_zero > 0 ? 1 : -1);
+  result.mantissa = mpz_sizeinbase(value.get_mpz_t(), 2) <= 53 ? Interval(towards_zero)
+                    : towards_zero > 0                         ? Interval(towards_zero, away)
+                                                               : Interval(away, towards_zero);
+  return result;
+}
+
+Interval ratio(const Integer& numerator, const Scaled& denominator) {
+  const Scaled top = scaled(numerator);
+  const Interval mantissas = top.mantissa / denominator.mantissa;
+  const long exponent = top.exponent - denominator.exponent;
+  // Within this limit a power of two neither rounds nor overflows.
+  constexpr long limit = 900;
+  if (exponent < -limit) {
+    const double tiny = std::ldexp(1, -static_cast<int>(limit));
+    return {-tiny, tiny};
+  }
+  if (exponent > limit) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    return {-infinity, infinity};
+  }
+  return mantissas * Interval(std::ldexp(1, static_cast<int>(exponent)));
+}
+
+IntervalVector ratio(const IntegerVector& v, const Scaled& denominator) {
+  return {ratio(v.x, denominator), ratio(v.y, denominator), ratio(v.z, denominator)};
+}
+
+IntervalDifference::IntervalFrame unit(const Frame& frame, const Scaled& norm) {
+  return {ratio(frame.axis, norm), ratio(frame.e, norm), ratio(frame.f, norm)};
+}
+
+}  // namespace
+
+IntervalDifference::IntervalDifference(const Difference& difference) : scale(difference.inflation) {
+  for (const auto& s : difference.segments) scale += s.half_length;
+  for (const auto& disc : difference.discs) scale += disc.radius;
+  const Scaled norm = scaled(difference.norm);
+  const Scaled length = scaled(scale);
+
+  d = ratio(difference.d, scaled(scale * difference.norm));
+  for (const auto& s : difference.segments) {
+    segments.push_back({unit(s.frame, norm), ratio(s.half_length, length)});
+  }
+  for (const auto& disc : difference.discs) {
+    discs.push_back({unit(disc.frame, norm), ratio(disc.radius, length)});
+  }
+  inflation = ratio(difference.inflation, length);
+}
+
+Interval IntervalDifference::gap(const IntervalVector& n) const {
+  Interval value = dot(d, n);
+  for (const auto& s : segments) value -= s.half_length * abs(dot(s.frame.axis, n));
+  for (const auto& disc : discs) {
+    value -= disc.radius * sqrt(square(dot(disc.frame.e, n)) + square(dot(disc.frame.f, n)));
+  }
+  return value / sqrt(square(n.x) + square(n.y) + square(n.z)) - inflation;
+}
+
+LineSearch::LineSearch(const IntervalDifference& difference, unsigned segment)
+    : inflation_(difference.inflation) {
+  const auto& line = difference.segments[segment].frame;
+  const auto planar = [&](const IntervalVector& v) {
+    return Planar{dot(v, line.e), dot(v, line.f)};
+  };
+  d_ = planar(difference.d);
+  for (const auto& s : difference.segments) {
+    if (&s.frame != &line) segments_.push_back({planar(s.frame.axis), s.half_length});
+  }
+  for (const auto& disc : difference.discs) {
+    discs_.push_back({planar(disc.frame.axis), dot(disc.frame.axis, line.axis), disc.radius});
+  }
+}
+
+LineSearch::At LineSearch::at(const Piece& piece, const Interval& t) {
+  const Interval length = sqrt(Interval(1) + square(t));
+  switch (piece.turn) {
+    case 0:
+      return {1, t, length};
+    case 1:
+      return {-t, 1, length};
+    case 2:
+      return {-1, -t, length};
+    default:
+      return {t, -1, length};
+  }
+}
+
+/// |axis × n|, computed without cancellation for a nearly parallel disc.
+Interval LineSearch::sine(const Disc& disc, const At& n) const {
+  return sqrt(square(across(disc.axis, n)) + square(disc.along * n.length));
+}
+
+Interval LineSearch::gap(const At& n) const {
+  Interval value = along(d_, n);
+  for (const auto& s : segments_) value -= s.half_length * abs(along(s.axis, n));
+  for (const auto& disc : discs_) value -= disc.radius * sine(disc, n);
+  return value / n.length - inflation_;
+}
+
+unsigned long LineSearch::open_vertices(const Piece& piece, GapThreshold& threshold) const {
+  const At middle = at(piece, Interval((piece.lo + piece.hi) / 2));
+  const Interval at_middle = gap(middle);
+  threshold.raise(at_middle);
+
+  const At n = at(piece, Interval(piece.lo, piece.hi));
+  // Slope of the gap along the circle, times n.length. The segments' part depends on their signs.
+  Interval smooth = across(d_, n);
+  for (const auto& disc : discs_) {
+    const Interval u = along(disc.axis, n), du = across(disc.axis, n), s = sine(disc, n);
+    // |du| <= s
+    const Interval bounded = abs(u) * Interval(-1, 1);
+    smooth += disc.radius * (s.inf() > 0 ? u * du / s : bounded);
+  }
+  Interval any_slope = smooth;
+  unsigned long open = 1;  // one bit for each vertex of the segments handled so far
+  std::array<Interval, 8> slopes{smooth};
+  std::size_t count = 1;
+  for (const auto& s : segments_) {
+    const Interval side = along(s.axis, n);
+    const Interval change = s.half_length * across(s.axis, n);
+    any_slope += (side.inf() > 0   ? -change
+                  : side.sup() < 0 ? change
+                                   : abs(change) * Interval(-1, 1));
+    const unsigned long negative = side.inf() > 0 ? 0 : open;
+    const unsigned long positive = side.sup() < 0 ? 0 : open;
+    for (std::size_t v = 0; v < count; ++v) {
+      slopes[count + v] = slopes[v] - change;
+      slopes[v] += change;
+    }
+    open = negative | positive << count;
+    count *= 2;
+  }
+
+  // Since dφ <= dt, the largest slope of all smooth parts bounds the change of g.
+  const Interval half = Interval(piece.hi) - Interval(piece.lo);
+  const Interval ahead = at_middle + abs(any_slope / n.length) * half * Interval(0.5);
+  if (threshold.is_above(ahead) || threshold.is_above(gap(n))) return 0;
+
+  for (std::size_t v = 0; v < count; ++v) {
+    const Interval& slope = slopes[v];
+    if (slope.inf() > 0 || slope.sup() < 0) open &= ~(1UL << v);
+  }
+  return open;
+}
+
+namespace {
+
+Interval length(const IntervalVector& v) { return sqrt(square(v.x) + square(v.y) + square(v.z)); }
+
+struct Angle {
+  Interval cosine, sine;
+};
+
+/// Cosine and sine from t = tan(angle/2) within [-1, 1], where the sine is monotone and the cosine
+/// decreases with |t|.
+Angle angle(double lo, double hi) {
+  const auto cosine = [](double t) {
+    const Interval square_t = square(Interval(t));
+    return (Interval(1) - square_t) / (Interval(1) + square_t);
+  };
+  const auto sine = [](double t) {
+    return Interval(2) * Interval(t) / (Interval(1) + square(Interval(t)));
+  };
+  const double near = lo <= 0 && 0 <= hi ? 0 : std::min(std::abs(lo), std::abs(hi));
+  const double far = std::max(std::abs(lo), std::abs(hi));
+  return {{cosine(far).inf(), cosine(near).sup()}, {sine(lo).inf(), sine(hi).sup()}};
+}
+
+}  // namespace
+
+RimSearch::RimSearch(const IntervalDifference& difference, unsigned signs)
+    : difference_(difference),
+      q_(difference.d),
+      radius1_(difference.discs[0].radius),
+      radius2_(difference.discs[1].radius) {
+  IntervalVector* ups[] = {&up1_, &up2_};
+  for (unsigned i = 0; i < 2; ++i) {
+    const auto& s = difference.segments[i];
+    *ups[i] = (signs >> i & 1U) ? s.frame.axis : -s.frame.axis;
+    q_ = q_ - s.half_length * *ups[i];
+  }
+}
+
+RimSearch::Point RimSearch::at(unsigned turn, double lo, double hi) const {
+  const Angle a = angle(lo, hi);
+  const auto& rim1 = difference_.discs[0].frame;
+  const auto& axis2 = difference_.discs[1].frame.axis;
+  Point p;
+  p.radial = a.cosine * rim1.e + a.sine * rim1.f;
+  p.tangent = a.cosine * rim1.f - a.sine * rim1.e;
+  if (turn == 1) {
+    p.radial = -p.radial;
+    p.tangent = -p.tangent;
+  }
+  p.w = radius1_ * p.radial - q_;
+  p.w_u = dot(p.w, axis2);
+  p.off_axis = p.w - p.w_u * axis2;
+  p.off_axis_length = length(p.off_axis);
+  return p;
+}
+
+/// Raises the threshold to the gaps along the directions at the middle of a piece.
+void RimSearch::sample(const Piece& piece, GapThreshold& threshold) const {
+  const double middle = (piece.lo + piece.hi) / 2;
+  const Point p = at(piece.turn, middle, middle);
+  if (!(p.off_axis_length.inf() > 0)) return;
+  for (const double branch : {1.0, -1.0}) {
+    const IntervalVector apart =
+        p.w - (Interval(branch) * radius2_ / p.off_axis_length) * p.off_axis;
+    for (const IntervalVector& n : {apart, -apart}) {
+      threshold.raise(difference_.gap(n));
+    }
+  }
+}
+
+bool RimSearch::is_open(const Piece& piece, GapThreshold& threshold) const {
+  const Point p = at(piece.turn, piece.lo, piece.hi);
+  const auto& axis2 = difference_.discs[1].frame.axis;
+  const Interval anywhere(-1, 1);
+  const bool on_axis = !(p.off_axis_length.inf() > 0);
+  IntervalVector y{anywhere, anywhere, anywhere};  // unit, from rim 2's centre to its point nearest to rim 1's
+  if (!on_axis) y = (Interval(1) / p.off_axis_length) * p.off_axis;
+
+  const Interval q_t = dot(q_, p.tangent);
+  const Interval y_t =
+      on_axis ? anywhere : -(q_t + p.w_u * dot(axis2, p.tangent)) / p.off_axis_length;
+  const Interval y_radial = dot(y, p.radial), y_up = dot(y, up1_);
+  const Interval apart_u = dot(p.w, up2_);
+
+  bool open = false;
+  for (const double branch : {1.0, -1.0}) {
+    const Interval reach = Interval(branch) * radius2_;
+    const Interval slope = q_t + reach * y_t;
+    if (slope.inf() > 0 || slope.sup() < 0) continue;
+    const Interval beyond = p.off_axis_length - reach;  // distance of rim 1's point beyond rim 2's, seen along u2
+    const Interval distance = sqrt(square(p.w_u) + square(beyond));
+    const Interval apart_radial = radius1_ - dot(q_, p.radial) - reach * y_radial;
+    const Interval apart_up = -dot(q_, up1_) - reach * y_up;
+    const Interval apart_y = branch * beyond;
+    // The direction from rim 2's point to rim 1's has the gap −distance, its opposite +distance.
+    // The comparisons are written so that NaN excludes nothing.
+    const bool not_inside = threshold.is_above(-distance) || apart_radial.sup() < 0 ||
+                            apart_y.inf() > 0 || apart_up.sup() < 0 || apart_u.sup() < 0;
+    const bool not_outside = threshold.is_above(distance) || apart_radial.inf() > 0 ||
+                             apart_y.sup() < 0 || apart_up.inf() > 0 || apart_u.inf() > 0;
+    open = open || !not_inside || !not_outside;
+  }
+  if (open) sample(piece, threshold);
+  return open;
+}
+
+}  // namespace touchstone::oracle

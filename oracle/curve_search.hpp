@@ -1,0 +1,133 @@
+#pragma once
+
+#include <CGAL/Interval_nt.h>
+#include <algorithm>
+#include <array>
+#include <boost/container/static_vector.hpp>
+#include <limits>
+
+#include "oracle/difference.hpp"
+
+namespace touchstone::oracle {
+
+/// A real number between two doubles. Operations round outward only while a
+/// CGAL::Protect_FPU_rounding is alive and in code compiled with -frounding-math.
+using Interval = CGAL::Interval_nt<false>;
+using IntervalVector = Vector3<Interval>;
+
+/// A Difference in double intervals; all lengths are relative to `scale`.
+struct IntervalDifference {
+  struct IntervalFrame {
+    IntervalVector axis, e, f;  ///< unit
+  };
+  struct Segment {
+    IntervalFrame frame;
+    Interval half_length;
+  };
+  struct Disc {
+    IntervalFrame frame;
+    Interval radius;
+  };
+
+  explicit IntervalDifference(const Difference& difference);
+
+  /// g(n/|n|) relative to `scale`; all real numbers if n may be zero.
+  Interval gap(const IntervalVector& n) const;
+
+  Integer scale;  ///< in units: the sum of all half lengths, radii and the inflation
+  IntervalVector d;
+  boost::container::static_vector<Segment, max_segments> segments;
+  boost::container::static_vector<Disc, max_discs> discs;
+  Interval inflation;
+};
+
+/// The largest proven gap so far, minus a slack: directions with a smaller gap do not matter.
+class GapThreshold {
+ public:
+  explicit GapThreshold(double slack) : slack_(slack) {}
+
+  /// Raises the threshold to a gap that is proven for some direction.
+  void raise(const Interval& gap) {
+    best_ = std::max(best_, gap.inf());
+    threshold_ = (Interval(best_) - Interval(slack_)).inf();
+  }
+  /// Is every number of the interval below the threshold? False for NaN.
+  bool is_above(const Interval& gap) const { return gap.sup() < threshold_; }
+
+ private:
+  double slack_;
+  double best_ = -std::numeric_limits<double>::infinity();
+  double threshold_ = best_;
+};
+
+/// A piece of a curve of directions: lo <= t <= hi within [-1, 1] (see CriticalSite::turn).
+struct Piece {
+  unsigned curve, turn;
+  double lo, hi;
+};
+
+/// The circle of directions perpendicular to one segment. Decides which of its pieces can contain a
+/// critical direction of the other parts, and at which vertices.
+class LineSearch {
+ public:
+  LineSearch(const IntervalDifference& difference, unsigned segment);
+
+  /// Bit v is set if at vertex v (one sign for each of the other segments, in order) the gap along
+  /// this circle may be stationary somewhere in the piece and reach the threshold. Raises the
+  /// threshold.
+  unsigned long open_vertices(const Piece& piece, GapThreshold& threshold) const;
+
+  /// Number of other segments.
+  std::size_t others() const { return segments_.size(); }
+
+ private:
+  struct Planar {
+    Interval e, f;
+  };
+  struct Segment {
+    Planar axis;
+    Interval half_length;
+  };
+  struct Disc {
+    Planar axis;
+    Interval along;  // component of the axis along the line
+    Interval radius;
+  };
+  struct At {
+    Interval x, y, length;
+  };
+  static At at(const Piece& piece, const Interval& t);
+  static Interval along(const Planar& v, const At& n) { return v.e * n.x + v.f * n.y; }
+  static Interval across(const Planar& v, const At& n) { return v.f * n.x - v.e * n.y; }
+  Interval sine(const Disc& disc, const At& n) const;
+  Interval gap(const At& n) const;
+
+  Planar d_;
+  boost::container::static_vector<Segment, max_segments - 1> segments_;
+  boost::container::static_vector<Disc, max_discs> discs_;
+  Interval inflation_;
+};
+
+/// The angles of a point on the first of two rims, at one vertex of the two segments. Decides which
+/// of them can belong to a stationary pair of rim points whose common normal both rims have.
+class RimSearch {
+ public:
+  RimSearch(const IntervalDifference& difference, unsigned signs);
+
+  /// Can the piece contain such a pair with a gap that reaches the threshold? Raises the threshold.
+  bool is_open(const Piece& piece, GapThreshold& threshold) const;
+
+ private:
+  struct Point {
+    IntervalVector radial, tangent, w, off_axis;  // unit radius and tangent of rim 1; w = point − q; its component across u2
+    Interval w_u, off_axis_length;
+  };
+  Point at(unsigned turn, double lo, double hi) const;
+  void sample(const Piece& piece, GapThreshold& threshold) const;
+
+  const IntervalDifference& difference_;
+  IntervalVector q_, up1_, up2_;
+  Interval radius1_, radius2_;
+};
+
+}  // namespace touchstone::oracle
