@@ -73,32 +73,35 @@ class RimScan {
     const Passage passage = rims_.passage(middle, half_width);
     double bend = never;
     if (passage.min_radial > 0) {
-      bend = rims_.max_bend(middle, half_width, passage) * half_width +
-             noise_ * rims_.conditioning(passage.min_radial);
-      const double change = (std::abs(middle.curvature) + bend) * half_width;
+      bend = rims_.max_bend(middle, half_width, passage) * half_width;
+      const double change = (std::abs(middle.curvature) + bend / 2 +
+                             noise_ * rims_.conditioning(passage.min_radial)) *
+                            half_width;
       if (std::abs(middle.slope) > change + noise_) return;  // no stationary distance
     }
     undecided(middle, half_width, passage, bend);
   }
 
   /// An arc that may have a stationary distance; the curvature differs by `bend` from the middle's.
-  void undecided(const RimSample& middle, double half_width, const Passage& passage, double bend) {
-    if (!may_meet(middle, half_width, passage)) return;
-    if (rims_.has_only_maxima_beside_axis(middle, half_width, passage)) return;
+  [[gnu::noinline]] void undecided(const RimSample& middle, double half_width,
+                                   const Passage& passage, double bend) {
     double reach = rims_.radius1() * half_width;
     if (bend < never) {
+      const double curvature_noise = noise_ * rims_.conditioning(passage.min_radial);
       const double slope = std::abs(middle.slope);
-      const double change = (std::abs(middle.curvature) + bend) * half_width;
+      const double change = (std::abs(middle.curvature) + bend / 2 + curvature_noise) * half_width;
+      if (middle.curvature + bend + curvature_noise < 0) return;  // only maxima
+      if (least_depth_ > 0 && rims_.points_inward(middle, half_width, passage)) return;
+      if (!may_meet(middle, half_width, passage)) return;
       reach = std::min(reach, reach_of_squares(middle.distance, (slope + change / 2) * reach));
       if (!matters(middle.distance - reach, middle.distance + reach)) return;
       if (slope + change <= noise_ && reach <= noise_) {  // one distance
         return leave(middle, reach, half_width);
       }
-      if (middle.curvature + bend < 0) return;  // only maxima
-      if (least_depth_ > 0 && rims_.points_inward(middle, half_width, passage)) return;
-      const double min_curvature = middle.curvature - bend;
+      const double min_curvature = middle.curvature - bend - curvature_noise;
       if (min_curvature > 0) return steady(middle, half_width, min_curvature);
     }
+    if (rims_.has_only_maxima_beside_axis(middle, half_width, passage)) return;
     if (half_width <= min_half_width || samples_ > max_samples) {
       return leave(middle, reach, half_width);
     }
