@@ -239,7 +239,7 @@ class Rims {
   }
 
   /// A bound of the slope's second derivative on such an arc, which stays off axis 2.
-  double max_bend(const RimSample& x, double half_width, const Passage& p) const {
+  double max_third_derivative(const RimSample& x, double half_width, const Passage& p) const {
     const double s = pair_.axes.s, r1 = pair_.r1;
     const double third = std::min(p.max_speed * (1 + 1.155 * p.turn * p.turn) + 3 * r1 * p.turn,
                                   p.min_radial * p.wave * (0.5 + p.wave * (0.75 + 0.375 * p.wave)));
@@ -270,7 +270,7 @@ class Rims {
   /// `apart` is −δ n. Of its points only rim 2's moves along axis 1, by s r2 dβ, dβ <= r1 dα / R.
   bool points_inward(const RimSample& middle, double half_width, const Passage& p) const {
     const double change = pair_.axes.s * pair_.r2 * p.turn * half_width;
-    return end1_ * middle.apart.x() > change + 4 * noise();
+    return p.min_radial > 0 && end1_ * middle.apart.x() > change + 4 * noise();
   }
 
   /// What rounding leaves of a slope.
