@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "deep_normals.hpp"
-#include "rim_scan.hpp"
 
 namespace touchstone {
 namespace {
@@ -156,6 +155,179 @@ bool offer_where_likely(const FoldedCylinders& pair, const Rims& rims, double en
   if (found.normal.z() >= 0) best.offer(pair.gap(found.normal), found.normal);
   return best.gap > enough || (found.maximum && best.gap > before && is_largest(pair, found, best));
 }
+
+/// Searches one pair of rims for every normal at which they meet, and offers them to `best`.
+///
+/// At a largest gap where these rims meet, their distance along rim 1, to the nearest point of rim
+/// 2, has a local minimum. Arcs of rim 1 are bisected until a bound proves of each arc that it
+/// holds none that matters, or that it holds at most one, which is then found (proofs.md, "The
+/// search of rims"). An arc for which all bounds fail down to `min_half_width` counts as unproven.
+///
+/// `limit` is an upper bound of the bodies' distance, and is lowered on the way; `least_depth` a
+/// lower bound of their depth, not positive where nothing is known.
+class RimScan {
+ public:
+  RimScan(const FoldedCylinders& pair, const Rims& rims, double& limit, double least_depth,
+          LargestGap& best)
+      : pair_(pair),
+        rims_(rims),
+        limit_(limit),
+        least_depth_(least_depth),
+        best_(best),
+        noise_(8 * rims.noise()) {}
+
+  void scan(const Range& cosines) {
+    // The ends of the range are rounded, and a minimum may lie at one of them.
+    constexpr double beyond = 0.01;
+    const double from = std::acos(cosines.hi) - beyond, to = std::acos(cosines.lo) + beyond;
+    arc((from + to) / 2, (to - from) / 2);
+  }
+
+  /// By how much the largest gap where these rims meet may exceed the best one, but for rounding;
+  /// zero where the search is proven complete.
+  double unproven() const { return unproven_; }
+
+ private:
+  static constexpr double min_half_width = 1e-8;  // rad
+  static constexpr double small_step = 1e-9;      // rad; its square is below rounding
+  static constexpr int max_samples = 20000;
+
+  RimSample at(double angle) {
+    ++samples_;
+    RimSample sample = rims_.at(angle);
+    limit_ = std::min(limit_, sample.distance);
+    return sample;
+  }
+
+  /// Whether a largest gap can have such a distance: the bodies overlap by less than the best depth
+  /// or are no further apart than `limit_`, and overlap by no less than `least_depth_`.
+  bool matters(double min_distance, double max_distance) const {
+    return (min_distance - noise_ <= limit_ || min_distance + noise_ < -best_.gap) &&
+           max_distance + noise_ >= least_depth_;
+  }
+
+  /// Whether the rims may meet on the arc, overlapping or, where the bodies may be apart, apart.
+  bool may_meet(const RimSample& middle, double half_width, const Passage& passage) const {
+    return rims_.may_meet(middle, -1, half_width, passage) ||
+           (least_depth_ <= 0 && rims_.may_meet(middle, 1, half_width, passage));
+  }
+
+  void arc(double angle, double half_width) {
+    const RimSample middle = at(angle);
+    const double reach = rims_.radius1() * half_width;
+    if (!matters(middle.distance - reach, middle.distance + reach)) return;
+    const Passage passage = rims_.passage(middle, half_width);
+    const double bend = max_bend(middle, half_width, passage);
+    const double change = (std::abs(middle.curvature) + bend / 2) * half_width;
+    if (std::abs(middle.slope) > change + noise_) return;  // no stationary distance
+    undecided(middle, half_width, passage, bend, change);
+  }
+
+  /// How far curvatures on the arc are from the middle's, rounding included; infinite where the arc
+  /// may cross axis 2.
+  double max_bend(const RimSample& middle, double half_width, const Passage& passage) const {
+    if (!(passage.min_radial > 0)) return never;
+    return rims_.max_third_derivative(middle, half_width, passage) * half_width +
+           noise_ * rims_.conditioning(passage.min_radial);
+  }
+
+  /// Treats an arc that may have a stationary distance. Few have, so that this stays out of `arc`.
+  [[gnu::noinline]] void undecided(const RimSample& middle, double half_width,
+                                   const Passage& passage, double bend, double change) {
+    if (middle.curvature + bend < 0) return;  // only maxima
+    if (least_depth_ > 0 && rims_.points_inward(middle, half_width, passage)) return;
+    if (!may_meet(middle, half_width, passage)) return;
+    const double slope = std::abs(middle.slope), way = rims_.radius1() * half_width;
+    const double reach =
+        std::min(way, reach_of_squares(middle.distance, (slope + change / 2) * way));
+    if (!matters(middle.distance - reach, middle.distance + reach)) return;
+    if (slope + change <= noise_ && reach <= noise_) {  // one distance
+      return leave(middle, reach, half_width);
+    }
+    if (middle.curvature > bend) return converge(middle, half_width, middle.curvature - bend);
+    if (rims_.has_only_maxima_beside_axis(middle, half_width, passage)) return;
+    if (half_width <= min_half_width || samples_ > max_samples) {
+      return leave(middle, reach, half_width);
+    }
+    arc(middle.angle - half_width / 2, half_width / 2);
+    arc(middle.angle + half_width / 2, half_width / 2);
+  }
+
+  /// The distance is convex on the arc: Newton's method finds the one minimum or leaves the arc.
+  void converge(const RimSample& middle, double half_width, double min_curvature) {
+    const double fall = rims_.radius1() * middle.slope * middle.slope / min_curvature;
+    const double squared = middle.distance * middle.distance - fall;
+    if (squared > 0 && !matters(std::sqrt(squared), middle.distance)) return;
+    double lo = middle.angle - half_width, hi = middle.angle + half_width;
+    RimSample x = middle;
+    double previous = 4 * half_width;
+    constexpr int max_steps = 60;
+    for (int i = 0; i < max_steps; ++i) {
+      (x.slope < 0 ? lo : hi) = x.angle;
+      double next = std::clamp(x.angle - x.slope / x.curvature, lo, hi);
+      if (std::abs(next - x.angle) > previous / 2) next = (lo + hi) / 2;
+      previous = std::abs(next - x.angle);
+      x = at(next);
+      if (previous <= small_step) break;
+    }
+    // Beyond an end of the arc the minimum is the neighbouring arc's.
+    if (!(lo < hi) && std::abs(x.slope) > noise_) return;
+    // The minimum is as near as the least curvature between it and x tells.
+    const double slope = std::abs(x.slope) + noise_;
+    double curvature = min_curvature;
+    if (const double width = slope / min_curvature; width < half_width) {
+      curvature = std::max(curvature, x.curvature - max_bend(x, width, rims_.passage(x, width)));
+    }
+    const double change = rims_.radius1() * slope * slope / (2 * curvature);
+    leave(x, reach_of_squares(x.distance, change), slope / curvature);
+  }
+
+  /// Offers the normal of an arc whose distances are within `reach` of the sample's and whose
+  /// angles are within `turn` of its angle, and counts by how much another one there may be better.
+  void leave(const RimSample& x, double reach, double turn) {
+    const double nearest = std::max({x.distance - reach, least_depth_, 0.0});
+    // The best gap is as large, whether the bodies overlap by that distance or are that far apart.
+    const double enough = best_.gap + noise_;
+    if (-nearest <= enough && (least_depth_ > 0 || limit_ <= enough)) return;
+    offer(x);
+    const Passage passage = rims_.passage(x, turn);
+    if (rims_.may_meet(x, -1, turn, passage)) count_unproven(-nearest);
+    if (least_depth_ <= 0 && rims_.may_meet(x, 1, turn, passage)) count_unproven(limit_);
+  }
+  void count_unproven(double gap) { unproven_ = std::max(unproven_, gap - best_.gap - noise_); }
+  /// How far a distance can be from this one when half their squares differ by at most `change`.
+  static double reach_of_squares(double distance, double change) {
+    const double least = std::max(0.0, distance * distance - 2 * change);
+    return 2 * change / (distance + std::sqrt(least));
+  }
+
+  /// Offers the normal along the rims' difference, which is noise where they nearly touch, and that
+  /// across their tangents, which is noise where these are parallel.
+  void offer(const RimSample& x) {
+    for (Vec3 n : {x.apart, rims_.across_tangents(x.cos1, x.sin1, x.cos2, x.sin2)}) {
+      const double length = n.norm();
+      if (!(length > 0)) continue;
+      // The one of ±n towards A has the larger gap; so has, of mirror images, the one on A's side
+      // of the plane of the axes. Rims that overlap by a hair show the other one.
+      n *= (n.dot(pair_.axes.d()) < 0 ? -1 : 1) / length;
+      n.z() = std::abs(n.z());
+      best_.offer(pair_.gap(n), n);
+      const Vec3 better = rims_.polished(n).normal;
+      best_.offer(pair_.gap(better), better);
+      const double distance = rims_.distance_at(better);
+      if (distance < limit_) limit_ = distance;
+    }
+  }
+
+  const FoldedCylinders& pair_;
+  const Rims& rims_;
+  double& limit_;
+  double least_depth_;
+  LargestGap& best_;
+  double noise_;
+  int samples_ = 0;
+  double unproven_ = 0;
+};
 
 /// What is known of the bodies' distance before their rims are searched.
 struct DistanceBounds {

@@ -103,17 +103,21 @@ Range Rims::useful_cosines(double lowest, double highest) const {
   Range useful{2, -2};
   const auto keep_sector = [&](double sign1, double sign2, const Range& along1,
                                const Range& along2) {
-    const Range gap1 = product(lowest, highest, along1), gap2 = product(lowest, highest, along2);
+    const Range gap2 = product(lowest, highest, along2);
     const Range cosine1 =
         cosines(offset1, -end2_ * inverse1, {gap2.lo - margin, gap2.hi + margin}, sign1);
+    if (cosine1.empty()) return;
+    const Range gap1 = product(lowest, highest, along1);
     const Range cosine2 =
         cosines(offset2, end1_ * inverse2, {gap1.lo - margin, gap1.hi + margin}, sign2);
-    if (cosine1.empty() || cosine2.empty()) return;
+    if (cosine2.empty()) return;
     Quarter one(cosine1), two(cosine2);
     const double n3 = std::min({most_n3, one.sine.hi, two.sine.hi});
     const Range sines{f.d3 - outward * n3 - margin, f.d3 - inward * n3 + margin};
-    one.keep(s * inverse1 * (sines.lo - r2 * two.sine.hi), s * inverse1 * (sines.hi - r2 * two.sine.lo));
-    two.keep(s * inverse2 * (sines.lo - r1 * one.sine.hi), s * inverse2 * (sines.hi - r1 * one.sine.lo));
+    one.keep(s * inverse1 * (sines.lo - r2 * two.sine.hi),
+             s * inverse1 * (sines.hi - r2 * two.sine.lo));
+    two.keep(s * inverse2 * (sines.lo - r1 * one.sine.hi),
+             s * inverse2 * (sines.hi - r1 * one.sine.lo));
     if (one.sine.empty() || two.sine.empty()) return;
     const double sines_lo = c * one.sine.lo * two.sine.lo;
     const double sines_hi = c * one.sine.hi * two.sine.hi;

@@ -95,9 +95,6 @@ class Rims {
     const FoldedAxes& f = pair.axes;
     q_ = f.d() - end1 * pair.h1 * Vec3(1, 0, 0) - end2 * pair.h2 * Vec3(f.c, f.s, 0);
     size_ = pair.r1 + pair.r2 + q_.norm();
-    const double k = f.along_k2(q_), lean = f.s * pair.r1;
-    inverse_r1_ = 1 / pair.r1;
-    amplitude_ = 2 * pair.r1 * std::sqrt(k * k + q_.z() * q_.z()) + 4 * lean * lean;
   }
 
   RimSample at(double angle) const {
@@ -109,8 +106,9 @@ class Rims {
     const double v2 = q_.y() - r1 * x.cos1, v3 = q_.z() - r1 * x.sin1;
     const double height = c * q_.x() + s * v2, k = c * v2 - s * q_.x();
     const double radial = std::sqrt(k * k + v3 * v3);
-    x.cos2 = radial > 0 ? k / radial : 1;
-    x.sin2 = radial > 0 ? v3 / radial : 0;
+    const double inverse = radial > 0 ? 1 / radial : 0;
+    x.cos2 = radial > 0 ? k * inverse : 1;
+    x.sin2 = v3 * inverse;
     const double beside = radial - r2;
     const double a_k = beside * x.cos2, a3 = beside * x.sin2;
     x.apart = Vec3(c * height - s * a_k, s * height + c * a_k, a3);
@@ -120,7 +118,7 @@ class Rims {
     x.slope = x.apart.y() * x.sin1 - a3 * x.cos1;
     // Rim 2's point moves by r1 r2 / radial times the part of rim 1's tangent along its own.
     const double follow = c * x.sin1 * x.sin2 + x.cos1 * x.cos2;
-    const double moved = radial > 0 ? r2 * follow * follow / radial : 0;
+    const double moved = r2 * follow * follow * inverse;
     x.curvature = r1 * (1 - moved) + (x.apart.y() * x.cos1 + a3 * x.sin1);
     return x;
   }
@@ -232,7 +230,7 @@ class Rims {
     p.max_radial = x.radial + p.max_speed * half_width;
     const double inverse = 1 / p.min_radial;
     p.turn = p.max_speed * inverse;
-    p.wave = amplitude_ * inverse * inverse;
+    p.wave = amplitude() * inverse * inverse;
     const double rate = r1 * std::abs(c * x.cos2 * x.sin1 - x.sin2 * x.cos1);
     const double most_rate = p.min_radial * p.wave / 2;
     p.max_second = std::min(r1 + p.max_speed * p.turn, most_rate * (1 + 0.5 * p.wave));
@@ -241,15 +239,14 @@ class Rims {
   }
 
   /// A bound of the slope's second derivative on such an arc, which stays off axis 2.
-  double max_bend(const RimSample& x, double half_width, const Passage& p) const {
+  double max_third_derivative(const RimSample& x, double half_width, const Passage& p) const {
     const double s = pair_.axes.s, r1 = pair_.r1;
     const double third = std::min(p.max_speed * (1 + 1.155 * p.turn * p.turn) + 3 * r1 * p.turn,
                                   p.min_radial * p.wave * (0.5 + p.wave * (0.75 + 0.375 * p.wave)));
     const double sine = std::min(0.5, std::abs(x.sin1) + half_width);
     const double height = std::abs(x.height) + s * r1 * half_width;
     const double beside = std::abs(x.radial - pair_.r2) + p.max_rate * half_width;
-    return s * (height + 3 * s * r1 * sine) +
-           (beside * third + 3 * p.max_rate * p.max_second) * inverse_r1_;
+    return s * (height + 3 * s * r1 * sine) + (beside * third + 3 * p.max_rate * p.max_second) / r1;
   }
 
   /// Is every stationary distance on such an arc a maximum, because rim 1 passes so close to axis 2
@@ -273,13 +270,18 @@ class Rims {
   /// `apart` is −δ n. Of its points only rim 2's moves along axis 1, by s r2 dβ, dβ <= r1 dα / R.
   bool points_inward(const RimSample& middle, double half_width, const Passage& p) const {
     const double change = pair_.axes.s * pair_.r2 * p.turn * half_width;
-    return end1_ * middle.apart.x() > change + 4 * noise();
+    return p.min_radial > 0 && end1_ * middle.apart.x() > change + 4 * noise();
   }
 
   /// What rounding leaves of a slope.
   double noise() const { return 2e-16 * size_; }
 
  private:
+  /// Bounds each derivative of the squared distance of rim 1 from axis 2.
+  double amplitude() const {
+    const double k = pair_.axes.along_k2(q_), lean = pair_.axes.s * pair_.r1;
+    return 2 * pair_.r1 * std::sqrt(k * k + q_.z() * q_.z()) + 4 * lean * lean;
+  }
   /// The same of nearly parallel axes, where these rims cross as seen along the axes.
   std::optional<Vec3> crossing_along_axes() const;
   /// Useful cosines from one coordinate alone, which is all that rounding leaves of them along
@@ -292,8 +294,6 @@ class Rims {
   double end1_, end2_;
   Vec3 q_;
   double size_;
-  double inverse_r1_;
-  double amplitude_;  ///< bounds each derivative of the squared distance of rim 1 from axis 2
 };
 
 }  // namespace touchstone

@@ -43,7 +43,7 @@ FLAGS = ["-std=c++20", "-O1", "-fPIC", "-fno-math-errno", "-fvisibility=hidden",
          "-isystem", "/usr/include/eigen3", "-include", str(HERE / "planted.hpp")]
 # Which pair a file is of, where it is of one only.
 PAIRS = {"cylinder_plane": 0, "cylinder_sphere": 1, "cylinder_capsule": 2, "cylinder_cylinder": 3,
-         "rim_rim": 3, "rim_scan": 3, "rims": 3, "lens": 3, "cap_on_cap": 3, "cylinder_box": 4,
+         "rim_rim": 3, "rims": 3, "lens": 3, "cap_on_cap": 3, "cylinder_box": 4,
          "box_sides": 4, "cap_on_face": 4}
 
 
