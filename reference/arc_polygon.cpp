@@ -2,8 +2,75 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "disc_layout.hpp"
 
 namespace touchstone {
+
+Lens::Lens(const Circle& c1, const Circle& c2, double apart, const Vec2& direction)
+    : circle1(c1), circle2(c2), towards(direction) {
+  // Where the common chord crosses the line of centres, and half its length.
+  const double x = (apart + (c1.radius - c2.radius) * (c1.radius + c2.radius) / apart) / 2;
+  const double half = std::sqrt(std::max(0.0, (c1.radius - x) * (c1.radius + x)));
+  const Vec2 foot = c1.centre + x * towards, aside = half * turned_left(towards);
+  left = foot + aside;
+  right = foot - aside;
+}
+
+Vec2 Lens::farthest(const Vec2& unit) const {
+  const auto within = [](const Circle& c, const Vec2& p) {
+    return (p - c.centre).squaredNorm() <= c.radius * c.radius;
+  };
+  Vec2 top1 = circle1.centre + circle1.radius * unit;
+  if (within(circle2, top1)) return top1;
+  Vec2 top2 = circle2.centre + circle2.radius * unit;
+  if (within(circle1, top2)) return top2;
+  return unit.dot(left) > unit.dot(right) ? left : right;
+}
+
+std::array<Vec2, 4> Lens::spread() const {
+  const Vec2 end1 = circle1.centre + circle1.radius * towards;
+  const Vec2 end2 = circle2.centre - circle2.radius * towards;
+  const double rise1 = (end1 - left).dot(towards), rise2 = (left - end2).dot(towards);
+  // Arcs that stand out alike: their middles and the lens's widest places.
+  constexpr double alike = 0.45, all_but_flat = 0.15;
+  if (std::min(rise1, rise2) > alike * std::max(rise1, rise2)) {
+    const Vec2 aside = turned_left(towards);
+    return {end1, farthest(aside), end2, farthest(-aside)};
+  }
+  // Else two points of each; those of the flatter arc near the corners or, where the other circle
+  // is nearly whole, on that one.
+  const bool first_is_flatter = rise1 < rise2;
+  const Circle& round = first_is_flatter ? circle2 : circle1;
+  const Circle& flat = first_is_flatter ? circle1 : circle2;
+  const Vec2 out = first_is_flatter ? Vec2(-towards) : towards;
+  const auto on = [](const Circle& c, const Vec2& direction) -> Vec2 {
+    return c.centre + c.radius * direction.normalized();
+  };
+  const auto mirrored = [&](const Vec2& p) -> Vec2 {
+    const Vec2 arm = p - round.centre;
+    return round.centre + 2 * arm.dot(out) * out - arm;
+  };
+  const Vec2 corner = (left - round.centre) / round.radius;
+  constexpr double diagonal = 0.7071067811865476, third = 1.7;
+  const double sign = cross2(out, corner) < 0 ? -1 : 1;
+  const Vec2 aside = sign * turned_left(out);
+  Vec2 front, rear;
+  if (corner.dot(out) < -diagonal) {
+    front = on(round, out + 0.9 * aside);
+    rear = on(round, aside - out);
+  } else {
+    front = on(round, third * out + corner);  // near a third of the arc's half
+    rear = left;
+    if (std::min(rise1, rise2) > all_but_flat * std::max(rise1, rise2)) {
+      rear = on(flat, 3 * (left - flat.centre) / flat.radius - out);
+    }
+  }
+  return {front, rear, mirrored(rear), mirrored(front)};
+}
+
 namespace {
 
 /// Is x, on the circle about `centre`, on the arc counter-clockwise from p to q?
@@ -118,6 +185,115 @@ void ArcPolygon::mark_farthest(const Vec2& direction) {
     ++count_;
     return;
   }
+}
+
+// Points whose hull covers the region well.
+
+namespace {
+
+/// An arc that is not longer than this is covered well by its ends.
+constexpr double long_arc = 0.4 * std::numbers::pi;
+/// An arc's piece that stands out by less than this part of the region's width is covered by its
+/// ends.
+constexpr double flat_part = 0.14;
+/// With so many points an arc need not be divided for that.
+constexpr int enough = 6;
+
+double twice_area(const Vec2& p, const Vec2& q, const Vec2& r) {
+  return std::abs(cross2(q - p, r - p));
+}
+
+}  // namespace
+
+int ArcPolygon::spread(const Vec2& first, std::array<Vec2, 8>& points) const {
+  if (is_disc_) {
+    const auto& [centre, radius] = circles_[0];
+    int count = 0;
+    for (const Vec2& arm : three_arms(radius, first.normalized())) points[count++] = centre + arm;
+    return count;
+  }
+
+  struct Edge {
+    Vec2 from;
+    int circle;
+    double angle;
+    int inside;           // points on it, ends not counted
+    double standing_out;  // how far its pieces do, as a part of the region's width there
+  };
+  std::array<Edge, max_vertices> edges;
+  int total = 0;
+  int corner = 0;
+  for (int i = 1; i < count_; ++i) {
+    if (first.dot(vertices_[i].at - vertices_[corner].at) > 0) corner = i;
+  }
+  for (int i = 0; i < count_; ++i, corner = next(corner)) {
+    const auto& [from, circle] = vertices_[corner];
+    double angle = 0;
+    if (circle != straight) {
+      const Vec2& centre = circles_[circle].centre;
+      angle = angle_between(from - centre, vertices_[next(corner)].at - centre);
+    }
+    edges[i] = {from, circle, angle, 0, 0};
+  }
+  for (int i = 0; i < count_; ++i) {
+    Edge& e = edges[i];
+    e.inside = std::max(0, static_cast<int>(std::ceil(e.angle / long_arc - 1e-9)) - 1);
+    total += 1 + e.inside;
+  }
+  const auto piece = [](const Edge& e) { return e.angle / (e.inside + 1); };
+  const auto rise = [&](const Edge& e, double angle) {  // of an arc above its chord
+    return circles_[e.circle].radius * (1 - std::cos(angle / 2));
+  };
+  const auto measure = [&](int i) {
+    Edge& e = edges[i];
+    if (e.circle == straight) return;
+    const Vec2 chord = edges[i + 1 < count_ ? i + 1 : 0].from - e.from;
+    const double length = chord.norm();
+    double width = 0;
+    for (int k = 0; k < count_ && length > 0; ++k) {
+      width = std::max(width, cross2(chord, edges[k].from - e.from) / length);
+    }
+    const double whole = rise(e, e.angle);
+    e.standing_out = (e.inside == 0 ? whole : rise(e, piece(e))) / (width + whole);
+  };
+  for (int i = 0; i < count_ && total < enough; ++i) measure(i);
+  while (total < enough) {
+    int most = 0;
+    for (int i = 1; i < count_; ++i) {
+      if (edges[i].standing_out > edges[most].standing_out) most = i;
+    }
+    if (!(edges[most].standing_out > flat_part)) break;
+    ++edges[most].inside;
+    ++total;
+    measure(most);
+  }
+
+  std::array<Vec2, std::size_t{2} * max_vertices> all;
+  int count = 0;
+  for (int i = 0; i < count_; ++i) {
+    const Edge& e = edges[i];
+    all[count++] = e.from;
+    if (e.inside == 0) continue;
+    const Vec2& centre = circles_[e.circle].centre;
+    const double c = std::cos(piece(e)), s = std::sin(piece(e));
+    Vec2 arm = e.from - centre;
+    for (int k = 1; k <= e.inside; ++k) {
+      arm = Vec2(c * arm.x() - s * arm.y(), s * arm.x() + c * arm.y());
+      all[count++] = centre + arm;
+    }
+  }
+  while (count > static_cast<int>(points.size())) {  // but the first, the one that spans the least
+    int least = 1;
+    double least_area = std::numeric_limits<double>::infinity();
+    for (int i = 1; i < count; ++i) {
+      const double area = twice_area(all[(i + count - 1) % count], all[i], all[(i + 1) % count]);
+      if (area < least_area) least_area = area, least = i;
+    }
+    std::copy(all.begin() + least + 1, all.begin() + count, all.begin() + least);
+    --count;
+  }
+  std::copy(all.begin(), all.begin() + count, points.begin());
+  return count;
 }
 
 }  // namespace touchstone

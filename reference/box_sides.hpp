@@ -10,163 +10,180 @@
 
 namespace touchstone {
 
-/// A cylinder and a box in the box's frame, touching at a face, at a cap, or where an edge crosses
-/// the side: seven directions. Most of the time their best is final, because a smooth place of one
-/// body is met well within its bounds: where the bodies overlap by δ, a ball of radius δ fits into
-/// the cylinder or box behind that place, so that no way out is shorter than δ; deeper ones are
-/// bounded in deep_normals.hpp.
-class BoxSides {
- public:
-  /// `d` is the cylinder's centre, `u` its axis.
-  BoxSides(const Cylinder& a, const Box& b, const Vec3& d, const Vec3& u)
-      : r_(a.radius()),
-        h_(a.half_length()),
-        e_(b.half_extents()),
-        d_(d.unaryExpr([](double x) { return without_vanishing(x); })),
-        u_(u.unaryExpr([](double x) { return without_vanishing(x); })) {
+/// A cylinder and a box in the box's frame.
+struct CylinderInBoxFrame {
+  double r, h;
+  Vec3 e;  ///< the box's half extents
+  Vec3 d;  ///< the cylinder's centre
+  Vec3 u;  ///< its axis
+  Vec3 s;  ///< sines of the angles between u and the box's axes
+
+  CylinderInBoxFrame(double radius, double half_length, const Vec3& half_extents,
+                     const Vec3& centre, const Vec3& axis)
+      : r(radius), h(half_length), e(half_extents) {
     for (int i = 0; i < 3; ++i) {
-      const double y = u_[(i + 1) % 3], z = u_[(i + 2) % 3];
-      s_[i] = std::sqrt(y * y + z * z);
+      d[i] = without_vanishing(centre[i]);
+      u[i] = without_vanishing(axis[i]);
+    }
+    for (int i = 0; i < 3; ++i) {
+      const double y = u[(i + 1) % 3], z = u[(i + 2) % 3];
+      s[i] = std::sqrt(y * y + z * z);
       constexpr double vanishing = 1e-140;  // its square has lost digits
-      if (s_[i] < vanishing) s_[i] = 0;
+      if (s[i] < vanishing) s[i] = 0;
     }
   }
-
-  /// Seven directions. True if they say it all, or one of them has a gap of more than `enough`.
-  bool closed_forms(double enough) {
-    face_ = largest_face();
-    const double along = d_.dot(u_);
-    const double cap_gap = std::abs(along) - h_ - e_.dot(u_.cwiseAbs());
-    find_side();
-    if (side_gap_ > best_.gap && side_gap_ > cap_gap) {
-      kind_ = Kind::side;
-      best_ = {side_gap_, side_normal()};
-      return best_.gap > enough || side_is_final();
-    }
-    if (cap_gap > best_.gap) {
-      kind_ = Kind::cap;
-      best_ = {cap_gap, std::copysign(1, along) * u_};
-      return best_.gap > enough || cap_is_final();
-    }
-    best_.normal = std::copysign(1, d_[face_]) * Vec3::Unit(face_);
-    return best_.gap > enough || face_is_final();
-  }
-  const LargestGap& best() const { return best_; }
-
- protected:
   double gap(const Vec3& n) const {
-    return d_.dot(n) - e_.dot(n.cwiseAbs()) - h_ * std::abs(u_.dot(n)) - r_ * u_.cross(n).norm();
-  }
-
-  double depth() const { return std::max(0.0, -best_.gap); }
-
-  /// Where the axis passes the edge of that side.
-  struct Crossing {
-    double along_axis, along_edge;
-    Vec3 corner;  ///< an end of the edge, the nearer one where the axis passes beyond it
-  };
-  Crossing crossing() const {
-    const int i = side_, j = (i + 1) % 3, k = (i + 2) % 3;
-    Crossing c;
-    c.corner[j] = std::copysign(e_[j], -u_[k] * outwards_);
-    c.corner[k] = std::copysign(e_[k], u_[j] * outwards_);
-    // Along m = (u_j, u_k)/s, across n and the edge.
-    c.along_axis =
-        ((c.corner[j] - d_[j]) * u_[j] + (c.corner[k] - d_[k]) * u_[k]) / (s_[i] * s_[i]);
-    c.along_edge = d_[i] + c.along_axis * u_[i];
-    c.corner[i] = std::copysign(e_[i], c.along_edge);
-    return c;
-  }
-
-  const double r_, h_;
-  const Vec3& e_;
-  const Vec3 d_, u_;
-  Vec3 s_;  ///< sines of the angles between u and the edges
-  LargestGap best_;
-  double side_gap_ = -std::numeric_limits<double>::infinity(), outwards_ = 0;
-  int side_ = 0, face_ = 0;  ///< the edge of the best side, the axis of the best face
-  enum class Kind { face, side, cap } kind_ = Kind::face;  ///< of the best of the seven
-
-  /// Where the point of A that faces that face lies, across it. A generator or cap that lies on it
-  /// offers its middle.
-  Vec3 facing_face() const {
-    const int i = face_;
-    constexpr double flat = 1e-15;
-    const double along = std::copysign(1, d_[i]) * u_[i];
-    const double end = std::abs(along) > flat ? -std::copysign(h_, along) : 0;
-    const double rim = s_[i] > flat ? r_ / s_[i] : 0;
-    return d_ + (end + rim * along) * u_;
-  }
-
- private:
-  int largest_face() {
-    int best = 0;
-    for (int i = 0; i < 3; ++i) {
-      const double gap = std::abs(d_[i]) - e_[i] - h_ * std::abs(u_[i]) - r_ * s_[i];
-      if (gap <= best_.gap) continue;
-      best_.gap = gap;
-      best = i;
-    }
-    return best;
-  }
-
-  /// n = e × u, for the edge e across which the side is the furthest.
-  void find_side() {
-    for (int i = 0; i < 3; ++i) {
-      if (!(s_[i] > 0)) continue;
-      const int j = (i + 1) % 3, k = (i + 2) % 3;
-      const double along = d_[k] * u_[j] - d_[j] * u_[k];
-      const double gap =
-          (std::abs(along) - e_[j] * std::abs(u_[k]) - e_[k] * std::abs(u_[j])) / s_[i] - r_;
-      if (gap <= side_gap_) continue;
-      side_gap_ = gap, side_ = i, outwards_ = std::copysign(1 / s_[i], along);
-    }
-  }
-  Vec3 side_normal() const {
-    const int j = (side_ + 1) % 3, k = (side_ + 2) % 3;
-    Vec3 n = Vec3::Zero();
-    n[j] = -u_[k] * outwards_, n[k] = u_[j] * outwards_;
-    return n;
-  }
-
-  /// A point of A that faces the box lies on the face, its depth away from the edges; or a cylinder
-  /// about the face's axis is proven for the box, as wide as the centre's distance from the nearest
-  /// edge: from there the box reaches at least as far in every direction.
-  bool face_is_final() const {
-    const double delta = depth();
-    const int i = face_, j = (i + 1) % 3, k = (i + 2) % 3;
-    const Vec3 x = facing_face();
-    if (delta <= e_[i] && std::abs(x[j]) <= e_[j] - delta && std::abs(x[k]) <= e_[k] - delta) {
-      return true;
-    }
-    const double beside = std::min(e_[j] - std::abs(d_[j]), e_[k] - std::abs(d_[k]));
-    return best_.gap < 0 && beside >= 0 &&
-           no_normal_beats_cap({beside, e_[i], r_, h_, std::abs(u_[i]), s_[i], std::abs(d_[i]), 0},
-                               delta);
-  }
-
-  /// A point of B that faces the cap lies on it, its depth away from the rim.
-  bool cap_is_final() const {
-    const double delta = depth();
-    if (delta > h_ || delta > r_) return false;
-    Vec3 across;  // from B's point to A's centre
-    constexpr double flat = 1e-15;
-    for (int i = 0; i < 3; ++i) {
-      const double n = best_.normal[i];
-      across[i] =
-          d_[i] - (std::abs(n) > flat ? std::copysign(e_[i], n) : std::clamp(d_[i], -e_[i], e_[i]));
-    }
-    across -= across.dot(u_) * u_;
-    return across.squaredNorm() <= (r_ - delta) * (r_ - delta);
-  }
-
-  /// The edge and the generator cross within both, the generator's ends further than the depth.
-  bool side_is_final() const {
-    const double delta = depth();
-    if (delta > r_) return false;
-    const Crossing c = crossing();
-    return std::abs(c.along_axis) <= h_ - delta && std::abs(c.along_edge) <= e_[side_];
+    return d.dot(n) - e.dot(n.cwiseAbs()) - h * std::abs(u.dot(n)) - r * u.cross(n).norm();
   }
 };
+
+/// How far a ball must fit behind the place where bodies with this gap meet.
+inline double depth(double gap) { return std::max(0.0, -gap); }
+
+/// The best face, across an axis of the box.
+struct BestFace {
+  int axis = 0;
+  double gap = -std::numeric_limits<double>::infinity();
+};
+inline BestFace best_face(const CylinderInBoxFrame& p) {
+  BestFace best;
+  for (int i = 0; i < 3; ++i) {
+    const double gap = std::abs(p.d[i]) - p.e[i] - p.h * std::abs(p.u[i]) - p.r * p.s[i];
+    if (gap > best.gap) best = {i, gap};
+  }
+  return best;
+}
+/// Where the point of A that faces that face lies, across it. A generator or cap that lies on it
+/// offers its middle.
+inline Vec3 point_facing(const BestFace& face, const CylinderInBoxFrame& p) {
+  const int i = face.axis;
+  constexpr double flat = 1e-15;
+  const double along = std::copysign(1, p.d[i]) * p.u[i];
+  const double end = std::abs(along) > flat ? -std::copysign(p.h, along) : 0;
+  const double rim = p.s[i] > flat ? p.r / p.s[i] : 0;
+  return p.d + (end + rim * along) * p.u;
+}
+/// A point of A that faces the box lies on the face, its depth away from the edges; or a cylinder
+/// about the face's axis is proven for the box, as wide as the centre's distance from the nearest
+/// edge: from there the box reaches at least as far in every direction.
+inline bool is_proven(const BestFace& face, const CylinderInBoxFrame& p) {
+  const double delta = depth(face.gap);
+  const int i = face.axis, j = (i + 1) % 3, k = (i + 2) % 3;
+  const Vec3 x = point_facing(face, p);
+  if (delta <= p.e[i] && std::abs(x[j]) <= p.e[j] - delta && std::abs(x[k]) <= p.e[k] - delta) {
+    return true;
+  }
+  const double beside = std::min(p.e[j] - std::abs(p.d[j]), p.e[k] - std::abs(p.d[k]));
+  return face.gap < 0 && beside >= 0 &&
+         no_normal_beats_cap(
+             {beside, p.e[i], p.r, p.h, std::abs(p.u[i]), p.s[i], std::abs(p.d[i]), 0}, delta);
+}
+
+/// The edge across which the side is the furthest: n = ±e × u.
+struct BestEdge {
+  int axis = 0;  ///< along which the edge lies
+  double gap = -std::numeric_limits<double>::infinity();
+  double outwards = 0;  ///< what scales ±e × u to a unit vector towards A
+
+  Vec3 normal(const Vec3& u) const {
+    const int j = (axis + 1) % 3, k = (axis + 2) % 3;
+    Vec3 n = Vec3::Zero();
+    n[j] = -u[k] * outwards, n[k] = u[j] * outwards;
+    return n;
+  }
+};
+inline BestEdge best_edge(const CylinderInBoxFrame& p) {
+  BestEdge best;
+  for (int i = 0; i < 3; ++i) {
+    if (!(p.s[i] > 0)) continue;
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    const double along = p.d[k] * p.u[j] - p.d[j] * p.u[k];
+    const double gap =
+        (std::abs(along) - p.e[j] * std::abs(p.u[k]) - p.e[k] * std::abs(p.u[j])) / p.s[i] - p.r;
+    if (gap > best.gap) best = {i, gap, std::copysign(1 / p.s[i], along)};
+  }
+  return best;
+}
+/// Where the axis passes that edge.
+struct EdgeCrossing {
+  double along_axis, along_edge;
+  Vec3 corner;  ///< an end of the edge, the nearer one where the axis passes beyond it
+};
+inline EdgeCrossing crossing(const BestEdge& edge, const CylinderInBoxFrame& p) {
+  const int i = edge.axis, j = (i + 1) % 3, k = (i + 2) % 3;
+  EdgeCrossing c;
+  c.corner[j] = std::copysign(p.e[j], -p.u[k] * edge.outwards);
+  c.corner[k] = std::copysign(p.e[k], p.u[j] * edge.outwards);
+  // Along m = (u_j, u_k)/s, across n and the edge.
+  c.along_axis =
+      ((c.corner[j] - p.d[j]) * p.u[j] + (c.corner[k] - p.d[k]) * p.u[k]) / (p.s[i] * p.s[i]);
+  c.along_edge = p.d[i] + c.along_axis * p.u[i];
+  c.corner[i] = std::copysign(p.e[i], c.along_edge);
+  return c;
+}
+/// The edge and the generator cross within both, the generator's ends further than the depth.
+inline bool is_proven(const BestEdge& edge, const CylinderInBoxFrame& p) {
+  const double delta = depth(edge.gap);
+  if (delta > p.r) return false;
+  const EdgeCrossing c = crossing(edge, p);
+  return std::abs(c.along_axis) <= p.h - delta && std::abs(c.along_edge) <= p.e[edge.axis];
+}
+
+/// A point of B that faces a cap with this gap and normal lies on it, its depth away from the rim.
+inline bool is_proven_at_cap(const CylinderInBoxFrame& p, double gap, const Vec3& normal) {
+  const double delta = depth(gap);
+  if (delta > p.h || delta > p.r) return false;
+  Vec3 across;  // from B's point to A's centre
+  constexpr double flat = 1e-15;
+  for (int i = 0; i < 3; ++i) {
+    const double n = normal[i];
+    across[i] = p.d[i] - (std::abs(n) > flat ? std::copysign(p.e[i], n)
+                                             : std::clamp(p.d[i], -p.e[i], p.e[i]));
+  }
+  across -= across.dot(p.u) * p.u;
+  return across.squaredNorm() <= (p.r - delta) * (p.r - delta);
+}
+
+/// The best of seven directions: three faces, the cap, an edge along each axis across the side.
+///
+/// Most of the time it is proven, because a smooth place of one body is met well within its bounds:
+/// where the bodies overlap by δ, a ball of radius δ fits into the cylinder or box behind that
+/// place, so that no way out is shorter than δ; deeper ones are bounded in deep_normals.hpp.
+struct BoxSides {
+  enum class Kind { face, edge, cap };
+  BestFace face;
+  BestEdge edge;
+  Kind kind;  ///< of the best of all
+  StageResult best;
+};
+/// Proofs are left out where the gap is above `stop_above`.
+static inline BoxSides best_of_box_sides(const CylinderInBoxFrame& p, double stop_above) {
+  using Kind = BoxSides::Kind;
+  const BestFace face = best_face(p);
+  // Component by component: Eigen would load in pairs what was just stored singly, which stalls.
+  const double along = p.d[0] * p.u[0] + p.d[1] * p.u[1] + p.d[2] * p.u[2];
+  const double cap = std::abs(along) - p.h - p.e[0] * std::abs(p.u[0]) - p.e[1] * std::abs(p.u[1]) -
+                     p.e[2] * std::abs(p.u[2]);
+  const BestEdge edge = best_edge(p);
+  if (edge.gap > face.gap && edge.gap > cap) {
+    const Vec3 n = edge.normal(p.u);
+    return {face,
+            edge,
+            Kind::edge,
+            {edge.gap, n.x(), n.y(), n.z(), edge.gap <= stop_above && is_proven(edge, p)}};
+  }
+  if (cap > face.gap) {
+    const Vec3 n = std::copysign(1, along) * p.u;
+    return {face,
+            edge,
+            Kind::cap,
+            {cap, n.x(), n.y(), n.z(), cap <= stop_above && is_proven_at_cap(p, cap, n)}};
+  }
+  const Vec3 n = std::copysign(1, p.d[face.axis]) * Vec3::Unit(face.axis);
+  return {face,
+          edge,
+          Kind::face,
+          {face.gap, n.x(), n.y(), n.z(), face.gap <= stop_above && is_proven(face, p)}};
+}
 
 }  // namespace touchstone

@@ -1,16 +1,37 @@
 #pragma once
 
 #include "configuration.hpp"
-#include "contact.hpp"
+#include "cylinder_box.hpp"
+#include "cylinder_capsule.hpp"
+#include "cylinder_cylinder.hpp"
+#include "cylinder_plane.hpp"
+#include "cylinder_sphere.hpp"
 
 namespace touchstone {
 
-// The pair's own routines (cylinder_plane.hpp and its siblings) for a configuration.
+// The questions of cylinder_plane.hpp and its siblings, asked of a configuration.
 
-SignedDistance signed_distance(const Configuration& configuration);
-CertifiedDistance certified_distance(const Configuration& configuration);
-bool overlaps(const Configuration& configuration);
-Contact contact(const Configuration& configuration, double contact_threshold,
-                const Vec3* previous_normal = nullptr);
+inline SignedDistance signed_distance(const Configuration& c) {
+  return std::visit([&](const auto& b) { return signed_distance(c.a, c.pose_a, b, c.pose_b); },
+                    c.b);
+}
+
+inline CertifiedDistance certified_distance(const Configuration& c) {
+  return std::visit([&](const auto& b) { return certified_distance(c.a, c.pose_a, b, c.pose_b); },
+                    c.b);
+}
+
+inline bool overlaps(const Configuration& c) {
+  return std::visit([&](const auto& b) { return overlaps(c.a, c.pose_a, b, c.pose_b); }, c.b);
+}
+
+inline Contact contact(const Configuration& c, double contact_threshold,
+                       const Vec3* previous_normal = nullptr) {
+  return std::visit(
+      [&](const auto& b) {
+        return contact(c.a, c.pose_a, b, c.pose_b, contact_threshold, previous_normal);
+      },
+      c.b);
+}
 
 }  // namespace touchstone

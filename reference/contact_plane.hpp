@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 #include "arc_polygon.hpp"
 #include "contact.hpp"
 #include "facing_feature.hpp"
-#include "margins.hpp"
+#include "manifold.hpp"
 
 namespace touchstone {
 
@@ -42,77 +44,108 @@ struct Line {
 /// change which it is.
 inline bool points_onward(const Vec3& n) { return 0.27 * n.x() + 0.53 * n.y() + 0.8 * n.z() > 0; }
 
-/// Adds the point at which two lines cross, or come nearest to each other within both; it needs no
-/// frame. False for lines that run side by side, of which the plane knows more. In
-/// line_contact.cpp.
-bool add_crossing(Contact& contact, const FacingFeature& a, const FacingFeature& b,
-                  const Vec3& origin);
+/// Two unit vectors that make a right-handed frame with the unit normal (Duff et al., "Building an
+/// orthonormal basis, revisited", 2017).
+inline std::pair<Vec3, Vec3> across(const Vec3& n) {
+  const double sign = std::copysign(1.0, n.z());
+  const double a = -1 / (sign + n.z());
+  const double b = n.x() * n.y() * a;
+  return {Vec3(1 + sign * n.x() * n.x() * a, sign * b, -sign * n.x()),
+          Vec3(b, sign + n.y() * n.y() * a, -n.y())};
+}
 
-/// A plane to which two features that face each other are carried along the contact's normal, and
-/// which adds the points where they do (manifold.hpp). It need not be across the normal: in a cap's
-/// own plane the cap is a circle, however it leans.
+/// A contact whose normal and signed distance are set, and to which points are added.
+struct Manifold {
+  Contact& contact;
+  const Vec3& origin;  ///< where the features' frame lies in the world
+  const Margins& margins;
+};
+
+// Each adds the points where two features face each other (manifold.cpp); in line_contact.cpp and
+// flat_contact.cpp.
+
+/// Adds the point at which two segments cross, or come nearest to each other within both. False,
+/// and no point, for segments that run side by side.
+bool segments_crossing(const Manifold& to, const FacingFeature& a, const FacingFeature& b);
+/// Both are across the normal but for the slack, and run side by side.
+void segment_on_segment(const Manifold& to, const FacingFeature& a, const FacingFeature& b);
+void segment_on_flat(const Manifold& to, const FacingFeature& segment, const FacingFeature& flat,
+                     bool segment_is_a);
+void disc_on_rectangle(const Manifold& to, const FacingFeature& disc,
+                       const FacingFeature& rectangle);
+void disc_on_disc(const Manifold& to, const FacingFeature& first, const FacingFeature& second,
+                  bool first_is_a);
+
+/// A plane to which features that face each other are carried along the contact's normal. It need
+/// not be across the normal: in a cap's own plane the cap is a circle, however it leans.
 class ContactPlane {
  public:
-  /// `upright` is across the plane, of unit length, and not far from the normal or its opposite.
-  ContactPlane(Contact& contact, const Vec3& origin, const Margins& margins, const Vec3& upright);
+  /// Across the contact's normal.
+  explicit ContactPlane(const Manifold& to) : to_(to), n_(to.contact.normal), lift_(n_) {
+    std::tie(x_, y_) = across(points_onward(n_) ? n_ : Vec3(-n_));
+    dual_x_ = x_;
+    dual_y_ = y_;
+  }
+  /// Across `upright`, which has unit length and is not far from the normal or its opposite.
+  ContactPlane(const Manifold& to, const Vec3& upright)
+      : to_(to), n_(to.contact.normal), lift_(upright / upright.dot(n_)) {
+    std::tie(x_, y_) = across(points_onward(upright) ? upright : Vec3(-upright));
+    dual_x_ = x_ - x_.dot(n_) * lift_;
+    dual_y_ = y_ - y_.dot(n_) * lift_;
+  }
 
-  // In cap_on_face.cpp, cap_on_cap.cpp and line_contact.cpp. The plane is that of the face or cap
-  // which a line lies on, of the cap that lies on a face, or of the first of two caps.
-  void cap_on_face(const FacingFeature& cap, const FacingFeature& face);
-  void cap_on_cap(const FacingFeature& first, const FacingFeature& second, bool first_is_a);
-  void line_on_flat(const FacingFeature& line, const FacingFeature& flat, bool line_is_a);
-  void line_on_line(const FacingFeature& a, const FacingFeature& b);
-
- private:
-  /// Along the normal, from the plane through the frame's origin.
-  double height(const Vec3& v) const { return v.dot(lift_); }
+  const Margins& margins() const { return to_.margins; }
   Vec2 to_plane(const Vec3& v) const { return {v.dot(dual_x_), v.dot(dual_y_)}; }
-  /// A vector's products with the plane's own two.
-  Vec2 products(const Vec3& v) const { return {v.dot(x_), v.dot(y_)}; }
-
   Incline incline(const FacingFeature& f) const {
     const double inverse = 1 / f.axis.dot(n_);
     return {f.axis.dot(f.middle) * inverse, products(f.axis) * -inverse};
   }
   Line line(const FacingFeature& f) const {
-    return {to_plane(f.middle), to_plane(f.axis), height(f.middle),
-            height(f.axis),     f.half_length,    f.radius};
+    return {to_plane(f.middle), to_plane(f.axis), f.middle.dot(lift_),
+            f.axis.dot(lift_),  f.half_length,    f.radius};
   }
-  /// The face's own coordinate along its side i, of what is carried to it along the normal.
-  Strip strip(const FacingFeature& face, int i) const {
-    const Vec3 e = face.side[i] - face.side[i].dot(n_) / face.axis.dot(n_) * face.axis;
-    return {products(e), e.dot(face.middle), face.half_side[i]};
+  /// The rectangle's own coordinate along its side i, of what is carried to it along the normal.
+  Strip strip(const FacingFeature& rectangle, int i) const {
+    const Vec3& side = rectangle.side[i];
+    const Vec3 e = side - side.dot(n_) / rectangle.axis.dot(n_) * rectangle.axis;
+    return {products(e), e.dot(rectangle.middle), rectangle.half_side[i]};
   }
-  void add(const Vec2& p, double height_a, double height_b) {
-    contact_.add_point(origin_ + p.x() * x_ + p.y() * y_ + (height_a + height_b) / 2 * n_,
-                       height_b - height_a);
+  /// The least factor by which a disc across `axis` shrinks when it is carried to the plane across
+  /// `upright`, or somewhat less: a vector v of the disc is carried to v − v·upright / n·upright n,
+  /// which is not shorter than v's part across n.
+  double least_scale(const Vec3& axis, const Vec3& upright) const {
+    const double cosine = std::abs(axis.dot(n_)), turn = axis.cross(upright).norm();
+    const double lean = axis.cross(n_).norm();
+    return std::max(cosine,
+                    std::sqrt(std::max(0.0, 1 - 2 * turn * lean / std::abs(upright.dot(n_)))));
   }
-  void add(const Vec2& p, const Surfaces& s) { add(p, s.a.at(p), s.b.at(p)); }
+
+  /// Adds the point halfway between the surfaces at these heights above a point of the plane.
+  void add(const Vec2& p, double height_a, double height_b) const {
+    to_.contact.add_point(to_.origin + p.x() * x_ + p.y() * y_ + (height_a + height_b) / 2 * n_,
+                          height_b - height_a);
+  }
+  void add(const Vec2& p, const Surfaces& s) const { add(p, s.a.at(p), s.b.at(p)); }
 
   /// How much of the slack is left above a clearance that should be the least one.
   double room_above(double clearance) const {
-    return margins_.slack - (clearance - contact_.signed_distance);
+    return to_.margins.slack - (clearance - to_.contact.signed_distance);
   }
-  /// Is so little of a rise within the room that its points would hardly differ?
-  static bool is_one_point(double room, double rise) {
-    constexpr double alike = 1e-6;
-    return room < alike * rise;
-  }
-  /// Points of a whole disc, at rest the first along `anchor` (disc_layout.hpp).
-  void add_disc(const Circle& disc, const Vec2& anchor, const Surfaces& s);
-  /// Of a region over which the clearance has a slope, points of the part that does not rise above
-  /// the slack, the deepest among them. False, and no points, where all of it is within.
-  bool add_leaning(ArcPolygon region, const Surfaces& s);
-  /// A layout of so many points, and the deepest point, that part of the way from their middle.
-  void add_layout(std::array<Vec2, 8>& layout, int count, double part, const Vec2& deepest,
-                  const Surfaces& s);
 
-  Contact& contact_;
+ private:
+  /// A vector's products with the plane's own two.
+  Vec2 products(const Vec3& v) const { return {v.dot(x_), v.dot(y_)}; }
+
+  const Manifold& to_;
   const Vec3 n_;
-  const Vec3 origin_;
-  const Margins& margins_;
   Vec3 x_, y_;                   ///< unit, in the plane; the same whichever body comes first
   Vec3 lift_, dual_x_, dual_y_;  ///< the dual basis of n_, x_ and y_
 };
+
+/// Is so little of a rise within the room that its points would hardly differ?
+inline bool is_one_point(double room, double rise) {
+  constexpr double alike = 1e-6;
+  return room < alike * rise;
+}
 
 }  // namespace touchstone

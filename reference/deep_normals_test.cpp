@@ -193,12 +193,11 @@ TEST(DeepNormals, OfBoxesThatProveThemselvesHaveTheLargestGap) {
       const Eigen::Matrix3d to_box = x.pose_b.rotation().transpose();
       const Vec3 d = to_box * (x.pose_a.position() - x.pose_b.position());
       const Vec3 u = to_box * x.pose_a.axis();
-      BoxSides sides(x.a, b, d, u);
-      const bool proven = sides.closed_forms(std::numeric_limits<double>::infinity());
-      const CylinderAndBox pair{x.a.radius(), x.a.half_length(), u, b.half_extents(), d};
-      EXPECT_NEAR(sides.best().gap, pair.gap(sides.best().normal), 1e-14);
-      count(pair, sides.best().normal, proven, random, counts);
-      deep += proven && -sides.best().gap > x.a.radius();
+      const CylinderInBoxFrame pair(x.a.radius(), x.a.half_length(), b.half_extents(), d, u);
+      const StageResult best = best_of_box_sides(pair, no_early_exit).best;
+      EXPECT_NEAR(best.gap, pair.gap(best.normal()), 1e-14);
+      count(pair, best.normal(), best.is_proven, random, counts);
+      deep += best.is_proven && -best.gap > x.a.radius();
     }
   }
   EXPECT_GT(counts.proven, 900);

@@ -10,12 +10,12 @@ using Kind = FacingFeature::Kind;
 
 FacingFeature facing(const PosedCylinder& body, const Vec3& outward, double slack) {
   FacingFeature feature;
-  const double along = body.axis.dot(outward);
-  const Vec3 across = outward - along * body.axis;
+  const double along = body.axis().dot(outward);
+  const Vec3 across = outward - along * body.axis();
   feature.sine = across.norm();
   if (lies_flat(body.radius, feature.sine, slack)) {
     feature.kind = Kind::disc;
-    feature.axis = std::copysign(1, along) * body.axis;
+    feature.axis = std::copysign(1, along) * body.axis();
     feature.middle = body.centre + body.half_length * feature.axis;
     feature.mark = body.axes.col(0);
     feature.radius = body.radius;
@@ -25,13 +25,13 @@ FacingFeature facing(const PosedCylinder& body, const Vec3& outward, double slac
   if (lies_flat(body.half_length, along, slack)) {
     feature.kind = Kind::segment;
     feature.middle = body.centre + arm;
-    feature.axis = body.axis;
+    feature.axis = body.axis();
     feature.half_length = body.half_length;
     feature.radius = body.radius;
     return feature;
   }
   feature.kind = Kind::point;
-  feature.middle = body.centre + (std::copysign(body.half_length, along) * body.axis + arm);
+  feature.middle = body.centre + (std::copysign(body.half_length, along) * body.axis() + arm);
   return feature;
 }
 
@@ -39,18 +39,18 @@ FacingFeature facing(const PosedCapsule& body, const Vec3& outward, double slack
   FacingFeature feature;
   feature.sine = 1;
   feature.middle = body.centre + body.radius * outward;
-  const double along = body.axis.dot(outward);
+  const double along = body.axis().dot(outward);
   // Seen at a slant of θ, balls of its segment lie below its surface by up to θ²/2 of the radius.
   constexpr double slant = 0.01;
   if (lies_flat(body.half_length, along, slack, slant)) {
     feature.kind = Kind::segment;
-    feature.axis = body.axis;
+    feature.axis = body.axis();
     feature.half_length = body.half_length;
     feature.radius = body.radius;
     return feature;
   }
   feature.kind = Kind::point;
-  feature.middle += std::copysign(body.half_length, along) * body.axis;
+  feature.middle += std::copysign(body.half_length, along) * body.axis();
   return feature;
 }
 
@@ -87,18 +87,19 @@ FacingFeature facing(const PosedBox& body, const Vec3& outward, double slack) {
 }
 
 SupportPoint support_point(const PosedCylinder& body, const Vec3& outward) {
-  const double along = body.axis.dot(outward);
-  const Vec3 across = outward - along * body.axis;
+  const double along = body.axis().dot(outward);
+  const Vec3 across = outward - along * body.axis();
   const double sine = across.norm();
-  Vec3 arm = std::copysign(body.half_length, along) * body.axis;
+  Vec3 arm = std::copysign(body.half_length, along) * body.axis();
   if (sine > 0) arm += (body.radius / sine) * across;
   return {body.centre + arm, std::min(body.half_length * std::abs(along), body.radius * sine)};
 }
 
 SupportPoint support_point(const PosedCapsule& body, const Vec3& outward) {
-  const double along = body.axis.dot(outward);
-  return {body.centre + body.radius * outward + std::copysign(body.half_length, along) * body.axis,
-          body.half_length * std::abs(along)};
+  const double along = body.axis().dot(outward);
+  return {
+      body.centre + body.radius * outward + std::copysign(body.half_length, along) * body.axis(),
+      body.half_length * std::abs(along)};
 }
 
 SupportPoint support_point(const PosedBox& body, const Vec3& outward) {

@@ -1,25 +1,30 @@
-// A cap on a cap or face: what both have in common.
+// A cap on a cap or on a face.
 #include <algorithm>
+#include <cmath>
 
 #include "contact_plane.hpp"
 #include "disc_layout.hpp"
 
 namespace touchstone {
+namespace {
 
-void ContactPlane::add_disc(const Circle& disc, const Vec2& anchor, const Surfaces& s) {
+/// Adds points of a whole disc, at rest the first along `anchor` (disc_layout.hpp).
+void add_disc(const ContactPlane& plane, const Circle& disc, const Vec2& anchor,
+              const Surfaces& s) {
   const Vec2 slope = s.slope();
   const double steepness = slope.norm(), rise = 2 * disc.radius * steepness;
-  const double room = room_above(s.clearance(disc.centre) - rise / 2);
+  const double room = plane.room_above(s.clearance(disc.centre) - rise / 2);
   if (!(room > 0)) return;
-  if (is_one_point(room, rise)) return add(disc.centre - disc.radius / steepness * slope, s);
+  if (is_one_point(room, rise)) return plane.add(disc.centre - disc.radius / steepness * slope, s);
   std::array<Vec2, 6> arms;
-  const int count =
-      spread_disc(disc.radius, slope, anchor, room, std::min(margins_.clear_rise, room / 8), arms);
-  for (int i = 0; i < count; ++i) add(disc.centre + arms[i], s);
+  const int count = spread_disc(disc.radius, slope, anchor, room,
+                                std::min(plane.margins().clear_rise, room / 8), arms);
+  for (int i = 0; i < count; ++i) plane.add(disc.centre + arms[i], s);
 }
 
-void ContactPlane::add_layout(std::array<Vec2, 8>& layout, int count, double part,
-                              const Vec2& deepest, const Surfaces& s) {
+/// Adds a layout of so many points, and the deepest point with that weight against their middle.
+void add_layout(const ContactPlane& plane, std::array<Vec2, 8>& layout, int count, double part,
+                const Vec2& deepest, const Surfaces& s) {
   if (part > 0) {
     Vec2 middle = Vec2::Zero();
     int nearest = 0;
@@ -39,28 +44,127 @@ void ContactPlane::add_layout(std::array<Vec2, 8>& layout, int count, double par
       }
     }
   }
-  for (int i = 0; i < count; ++i) add(layout[i], s);
+  for (int i = 0; i < count; ++i) plane.add(layout[i], s);
 }
 
-bool ContactPlane::add_leaning(ArcPolygon region, const Surfaces& s) {
+/// Adds, of a region over which the clearance has a slope, points of the part that does not rise
+/// above the slack, the deepest among them. False, and no points, where all of it is within.
+bool add_leaning(const ContactPlane& plane, ArcPolygon region, const Surfaces& s) {
   const Vec2 slope = s.slope();
   const double steepness = slope.norm();
   const Vec2 lowest = -slope / steepness;
   const Vec2 deepest = region.farthest(lowest);
   const double bottom = -lowest.dot(deepest), top = -lowest.dot(region.farthest(-lowest));
-  const double room = room_above(s.clearance(deepest));
+  const double room = plane.room_above(s.clearance(deepest));
   if (steepness * (top - bottom) <= room) return false;
   if (!(room > 0)) return true;
   if (is_one_point(room, steepness * (top - bottom))) {
-    add(deepest, s);
+    plane.add(deepest, s);
     return true;
   }
   region.clip(-lowest, bottom + room / steepness);
   region.mark_farthest(lowest);
   std::array<Vec2, 8> points;
   const int count = region.spread(lowest, points);
-  for (int i = 0; i < count; ++i) add(points[i], s);
+  for (int i = 0; i < count; ++i) plane.add(points[i], s);
   return true;
+}
+
+/// The largest disc within what two discs share, `apart` metres apart along the unit vector
+/// `towards`: the smaller one where the other holds it.
+Circle largest_shared(const Circle& c1, const Circle& c2, double apart, const Vec2& towards) {
+  if (c1.radius + apart <= c2.radius) return c1;
+  if (c2.radius + apart <= c1.radius) return c2;
+  return {c1.centre + (c1.radius + apart - c2.radius) / 2 * towards,
+          (c1.radius + c2.radius - apart) / 2};
+}
+
+}  // namespace
+
+void disc_on_rectangle(const Manifold& to, const FacingFeature& cap, const FacingFeature& face) {
+  const ContactPlane plane(to, cap.axis);
+  const Surfaces s{plane.incline(cap), plane.incline(face)};
+  const Circle disc{plane.to_plane(cap.middle), cap.radius};
+  // The face's edges lie across `side`, half_side from its middle; how far the disc's centre lies
+  // from there, and how far from there on the disc is beyond the face.
+  std::array<Vec2, 2> side;
+  std::array<double, 2> middle, half_side, offset, beyond;
+  for (int i = 0; i < 2; ++i) {
+    const Strip strip = plane.strip(face, i);
+    const double inverse = 1 / strip.across.norm();
+    side[i] = inverse * strip.across;
+    middle[i] = inverse * strip.middle;
+    half_side[i] = inverse * strip.half_width;
+    offset[i] = side[i].dot(disc.centre) - middle[i];
+    beyond[i] = half_side[i] - disc.radius;
+  }
+  const bool whole = std::abs(offset[0]) <= beyond[0] && std::abs(offset[1]) <= beyond[1];
+  if (whole) return add_disc(plane, disc, side[0], s);
+
+  ArcPolygon region(disc);
+  for (int i = 0; i < 2; ++i) {
+    if (offset[i] > beyond[i]) region.clip(side[i], half_side[i] + middle[i]);
+    if (-offset[i] > beyond[i]) region.clip(-side[i], half_side[i] - middle[i]);
+  }
+  if (region.empty()) {
+    // The rim only touches the face's edge: the face's point that is nearest to the cap's middle.
+    Vec2 p = disc.centre;
+    for (int i = 0; i < 2; ++i) {
+      p += (std::clamp(offset[i], -half_side[i], half_side[i]) - offset[i]) * side[i];
+    }
+    return plane.add(p, s);
+  }
+  const Vec2 slope = s.slope();
+  const double most_rise = 2 * disc.radius * slope.norm();
+  if (most_rise > plane.margins().slack && add_leaning(plane, region, s)) return;
+  std::array<Vec2, 8> points;
+  // No two corners of a symmetric patch are equally far along this direction.
+  const int count = region.spread(side[0] + 0.37 * side[1], points);
+  const double part = part_of_the_way_to_the_deepest(most_rise, plane.margins().clear_rise);
+  add_layout(plane, points, count, part, part > 0 ? region.farthest(-slope) : Vec2(0, 0), s);
+}
+
+void disc_on_disc(const Manifold& to, const FacingFeature& first, const FacingFeature& second,
+                  bool first_is_a) {
+  const ContactPlane plane(to, first.axis);
+  const Incline incline1 = plane.incline(first), incline2 = plane.incline(second);
+  const Surfaces s = first_is_a ? Surfaces{incline1, incline2} : Surfaces{incline2, incline1};
+  // A leaning disc is seen as an ellipse; the circle within it keeps its points on the body.
+  const Circle c1{plane.to_plane(first.middle), first.radius};
+  const Circle c2{plane.to_plane(second.middle),
+                  second.radius * plane.least_scale(second.axis, first.axis)};
+  const Vec2 between = c2.centre - c1.centre;
+  const double apart = between.norm(), smaller = std::min(c1.radius, c2.radius);
+  const Vec2 towards = apart > 0 ? Vec2(between / apart) : Vec2(1, 0);
+  if (apart >= c1.radius + c2.radius) {  // the rims only touch
+    return plane.add(c1.centre + c1.radius / (c1.radius + c2.radius) * between, s);
+  }
+  const Circle disc = largest_shared(c1, c2, apart, towards);
+  // A disc is held by three points, and one of which the other cap leaves a lens by four. Of nearly
+  // coaxial caps rounding says where the line of centres runs, so the four wait until it is clear.
+  constexpr double clear = 1e-6, handed_over = 0.005;
+  const double missing = (apart - std::abs(c1.radius - c2.radius)) / smaller;
+  const HandOver over{(missing - clear) / handed_over};
+  if (!over.has_begun()) return add_disc(plane, disc, plane.to_plane(first.mark).normalized(), s);
+
+  const Vec2 slope = s.slope();
+  const double steepness = slope.norm(), most_rise = 2 * smaller * steepness;
+  const Lens lens(c1, c2, apart, towards);
+  if (most_rise > plane.margins().slack && add_leaning(plane, ArcPolygon(lens), s)) return;
+  std::array<Vec2, 8> points;
+  int count = 0;
+  for (const Vec2& p : lens.spread()) {
+    points[count++] = disc.centre + over.new_size() * (p - disc.centre);
+  }
+  if (!over.is_over()) {
+    for (const Vec2& arm :
+         three_arms(over.old_size() * disc.radius, plane.to_plane(first.mark).normalized())) {
+      points[count++] = disc.centre + arm;
+    }
+  }
+  const double part = part_of_the_way_to_the_deepest(most_rise, plane.margins().clear_rise);
+  add_layout(plane, points, count, part, part > 0 ? lens.farthest(-slope / steepness) : Vec2(0, 0),
+             s);
 }
 
 }  // namespace touchstone

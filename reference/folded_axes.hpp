@@ -34,9 +34,9 @@ struct FoldedAxes {
   }
 
  private:
-  /// Sets s, e2 and e3 for u2, which is on e1's side; s is the length of e1 × u2 and e3 a multiple
-  /// of it, of unit length when multiplied by `scale`.
-  void find_plane_of_nearly_parallel(double scale, const Vec3& u2, const Vec3& difference);
+  /// `side` is the sign of the axes' product, s the length of u1 × axis2, and e3 is along that
+  /// times the sign.
+  void fold_nearly_parallel(const Vec3& u1, const Vec3& axis2, double side, const Vec3& difference);
 };
 
 }  // namespace touchstone

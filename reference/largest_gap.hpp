@@ -13,8 +13,9 @@ inline double without_vanishing(double offset) {
   return offset < vanishing && offset > -vanishing ? 0.0 : offset;
 }
 
-/// A clearance that is never enough: the largest is wanted.
-inline constexpr double never = std::numeric_limits<double>::infinity();
+/// For `stop_above`: the largest clearance is wanted, and no other is enough.
+inline constexpr double no_early_exit = std::numeric_limits<double>::infinity();
+inline constexpr double never = no_early_exit;
 
 /// Rounding moves a clearance, of bodies as they are stored, by less than this part of all lengths
 /// together: each of its terms is rounded by a few units in the last place.
@@ -40,5 +41,33 @@ struct LargestGap {
     return std::abs(n.squaredNorm() - 1) < rounding;
   }
 };
+
+/// What a stage of a search has found: a normal with its gap, and whether that is proven to be the
+/// largest of all. Without a normal the gap is minus infinity.
+struct StageResult {
+  double gap = -std::numeric_limits<double>::infinity();
+  double x = 0, y = 0, z = 1;  ///< of the normal; one by one they stay in registers
+  bool is_proven = false;
+
+  Vec3 normal() const { return {x, y, z}; }
+  /// Keeps the better of both.
+  void improve(const StageResult& later) {
+    if (!(later.gap > gap)) return;
+    gap = later.gap;
+    x = later.x, y = later.y, z = later.z;
+    is_proven = later.is_proven;
+  }
+};
+
+/// When a search ends before all kinds of normals are tried.
+struct EarlyExit {
+  double stop_above;          ///< at the first gap above this
+  bool trusts_proofs = true;  ///< at a gap that is proven to be the largest
+
+  bool ends_with(const StageResult& best) const {
+    return best.gap > stop_above || (trusts_proofs && best.is_proven);
+  }
+};
+inline constexpr EarlyExit no_short_cuts{no_early_exit, false};
 
 }  // namespace touchstone

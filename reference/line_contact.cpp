@@ -50,16 +50,15 @@ struct Roundness {
 
 }  // namespace
 
-bool add_crossing(Contact& contact, const FacingFeature& a, const FacingFeature& b,
-                  const Vec3& origin) {
-  const Vec3& n = contact.normal;
+bool segments_crossing(const Manifold& to, const FacingFeature& a, const FacingFeature& b) {
+  const Vec3& n = to.contact.normal;
   const double turn = a.axis.cross(b.axis).dot(n);
   if (!(std::abs(turn) > crossed)) return false;
   const Vec3 from_a = b.middle - a.middle;
   const double t = from_a.cross(b.axis).dot(n) / turn, s = from_a.cross(a.axis).dot(n) / turn;
   if (std::abs(t) <= a.half_length && std::abs(s) <= b.half_length) {
     const Vec3 on_a = a.middle + t * a.axis, on_b = b.middle + s * b.axis;
-    contact.add_point(origin + (on_a + on_b) / 2, (on_b - on_a).dot(n));
+    to.contact.add_point(to.origin + (on_a + on_b) / 2, (on_b - on_a).dot(n));
     return true;
   }
   const Vec3 on_a = a.middle + std::clamp(t, -a.half_length, a.half_length) * a.axis;
@@ -71,17 +70,19 @@ bool add_crossing(Contact& contact, const FacingFeature& a, const FacingFeature&
   const Roundness round(a.radius, b.radius, 1);
   const double fall = round.fall(y.squaredNorm());
   const double middle = (between + (a.radius - b.radius) * fall) / 2;
-  contact.add_point(origin + (on_a + round.share_of_a * y + middle * n),
-                    between - round.radii * fall);
+  to.contact.add_point(to.origin + (on_a + round.share_of_a * y + middle * n),
+                       between - round.radii * fall);
   return true;
 }
 
-void ContactPlane::line_on_flat(const FacingFeature& f, const FacingFeature& flat, bool line_is_a) {
-  const Line l = line(f);
-  const Incline surface = incline(flat);
+void segment_on_flat(const Manifold& to, const FacingFeature& segment, const FacingFeature& flat,
+                     bool segment_is_a) {
+  const ContactPlane plane(to, flat.axis);
+  const Line l = plane.line(segment);
+  const Incline surface = plane.incline(flat);
   Range range{-l.half_length, l.half_length};
   if (flat.kind == Kind::disc) {
-    const Circle disc{to_plane(flat.middle), flat.radius};
+    const Circle disc{plane.to_plane(flat.middle), flat.radius};
     const double squared = l.along.squaredNorm();
     const Vec2 arm = l.middle - disc.centre;
     const double foot = -arm.dot(l.along) / squared;
@@ -92,11 +93,11 @@ void ContactPlane::line_on_flat(const FacingFeature& f, const FacingFeature& fla
   } else if (flat.kind == Kind::rectangle) {
     // The edges that the line crosses first. One that runs along the others, but for a hair, does
     // so within them or on one, whichever side of that rounding puts it on.
-    const std::array<Strip, 2> strips = {strip(flat, 0), strip(flat, 1)};
+    const std::array<Strip, 2> strips = {plane.strip(flat, 0), plane.strip(flat, 1)};
     const double along[] = {strips[0].across.dot(l.along), strips[1].across.dot(l.along)};
     const int first = std::abs(along[0]) >= std::abs(along[1]) ? 0 : 1;
     for (const int i : {first, 1 - first}) {
-      const double hair = 4e3 * margins_.rounding;
+      const double hair = 4e3 * plane.margins().rounding;
       if (std::abs(along[i]) * (range.hi - range.lo) <= hair) continue;
       const double offset = strips[i].across.dot(l.middle) - strips[i].middle;
       Range within = range;
@@ -114,11 +115,11 @@ void ContactPlane::line_on_flat(const FacingFeature& f, const FacingFeature& fla
   }
   const auto clearance = [&](double t) {
     const double gap = l.height + t * l.rise - surface.at(l.at(t));
-    return line_is_a ? gap : -gap;
+    return segment_is_a ? gap : -gap;
   };
   const double at_lo = clearance(range.lo), at_hi = clearance(range.hi);
   const double rise = std::abs(at_hi - at_lo);
-  const double room = std::max(0.0, room_above(std::min(at_lo, at_hi)));
+  const double room = std::max(0.0, plane.room_above(std::min(at_lo, at_hi)));
   if (rise > room) {
     const double part = is_one_point(room, rise) ? 0 : room / rise;
     const double kept = part * (range.hi - range.lo);
@@ -127,15 +128,15 @@ void ContactPlane::line_on_flat(const FacingFeature& f, const FacingFeature& fla
   const auto add_at = [&](double t) {
     const Vec2 p = l.at(t);
     const double on_line = l.height + t * l.rise, on_flat = surface.at(p);
-    line_is_a ? add(p, on_line, on_flat) : add(p, on_flat, on_line);
+    segment_is_a ? plane.add(p, on_line, on_flat) : plane.add(p, on_flat, on_line);
   };
   add_at(range.lo);
   if (range.hi > range.lo) add_at(range.hi);
 }
 
-// Both lines are across the normal but for the slack, and run side by side.
-void ContactPlane::line_on_line(const FacingFeature& f, const FacingFeature& g) {
-  const Line a = line(f), b = line(g);
+void segment_on_segment(const Manifold& to, const FacingFeature& f, const FacingFeature& g) {
+  const ContactPlane plane(to);
+  const Line a = plane.line(f), b = plane.line(g);
   const double turn = cross2(a.along, b.along);
   const Vec2 from_a = b.middle - a.middle;
 
@@ -147,8 +148,8 @@ void ContactPlane::line_on_line(const FacingFeature& f, const FacingFeature& g) 
   const auto add_at = [&](double t, double s) {
     const Vec2 p = a.at(t), y = b.at(s) - p;
     const double fall = round.fall(y.squaredNorm());
-    add(p + round.share_of_a * y, a.height + t * a.rise + a.radius * fall,
-        b.height + s * b.rise - b.radius * fall);
+    plane.add(p + round.share_of_a * y, a.height + t * a.rise + a.radius * fall,
+              b.height + s * b.rise - b.radius * fall);
   };
 
   Range range{-a.half_length, a.half_length};
@@ -168,7 +169,7 @@ void ContactPlane::line_on_line(const FacingFeature& f, const FacingFeature& g) 
   const double at_lo = clearance(range.lo), at_hi = clearance(range.hi);
   double deepest = at_lo <= at_hi ? range.lo : range.hi, least = std::min(at_lo, at_hi);
   const double bend = round.radii * y1 * round.inverse, curvature = bend * y1 * round.inverse;
-  const bool curved = curvature * whole * whole > margins_.rounding;
+  const bool curved = curvature * whole * whole > plane.margins().rounding;
   if (curved) {
     // Where slope + bend (y/R) / √(1 − (y/R)²) = 0.
     const double y =
@@ -178,7 +179,7 @@ void ContactPlane::line_on_line(const FacingFeature& f, const FacingFeature& g) 
   }
   // Less of the slack as the lines come to be crossed, so that the points have drawn together then.
   const double room =
-      std::min(room_above(least), margins_.slack * (2 - 2 * std::abs(turn) / crossed));
+      std::min(plane.room_above(least), plane.margins().slack * (2 - 2 * std::abs(turn) / crossed));
   // Surfaces that have fallen off further hardly face each other.
   constexpr double facing = 0.75;
   const double beside = facing * round.reach;
@@ -209,7 +210,8 @@ void ContactPlane::line_on_line(const FacingFeature& f, const FacingFeature& g) 
   add_at(t_lo, s0 + s1 * t_lo);
   add_at(t_hi, s0 + s1 * t_hi);
   // Of two lines that cross by a hair neither end has the depth.
-  if (curved && std::min(clearance(t_lo), clearance(t_hi)) - least > margins_.clear_rise / 2) {
+  if (curved &&
+      std::min(clearance(t_lo), clearance(t_hi)) - least > plane.margins().clear_rise / 2) {
     add_at(deepest, s0 + s1 * deepest);
   }
 }

@@ -1,10 +1,10 @@
 #include "manifold.hpp"
 
 #include <cmath>
-#include <tuple>
-#include <utility>
+#include <type_traits>
 
 #include "contact_plane.hpp"
+#include "facing_feature.hpp"
 
 namespace touchstone {
 namespace {
@@ -13,51 +13,113 @@ using Kind = FacingFeature::Kind;
 
 bool is_flat(const FacingFeature& f) { return f.kind == Kind::disc || f.kind == Kind::rectangle; }
 
-/// Two unit vectors that make a right-handed frame with the unit normal (Duff et al., "Building an
-/// orthonormal basis, revisited", 2017).
-std::pair<Vec3, Vec3> across(const Vec3& n) {
-  const double sign = std::copysign(1.0, n.z());
-  const double a = -1 / (sign + n.z());
-  const double b = n.x() * n.y() * a;
-  return {Vec3(1 + sign * n.x() * n.x() * a, sign * b, -sign * n.x()),
-          Vec3(b, sign + n.y() * n.y() * a, -n.y())};
-}
-
-}  // namespace
-
-ContactPlane::ContactPlane(Contact& contact, const Vec3& origin, const Margins& margins,
-                           const Vec3& upright)
-    : contact_(contact), n_(contact.normal), origin_(origin), margins_(margins) {
-  std::tie(x_, y_) = across(points_onward(upright) ? upright : Vec3(-upright));
-  lift_ = upright / upright.dot(n_);
-  dual_x_ = x_ - x_.dot(n_) * lift_;
-  dual_y_ = y_ - y_.dot(n_) * lift_;
-}
-
-void add_manifold(Contact& contact, const FacingFeature& a, const FacingFeature& b,
-                  const Vec3& origin, const Margins& margins) {
+/// Adds the points where two features face each other; by their kinds (the first of A):
+///
+///   point, any       that point; of two, the one that the normal's rounding moves less
+///   segment, segment where they cross, or the ends of what lies side by side (line_contact.cpp)
+///   segment, flat    the ends of what lies on it (line_contact.cpp)
+///   disc, rectangle  the corners of what they share (flat_contact.cpp)
+///   disc, disc       the same, in the plane of the smaller one (flat_contact.cpp)
+void add_points_of_features(Contact& contact, const FacingFeature& a, const FacingFeature& b,
+                            const Vec3& origin, const Margins& margins) {
   const bool a_is_point = a.kind == Kind::point, b_is_point = b.kind == Kind::point;
   if (a_is_point || b_is_point) {
-    // Of two points, the one that the normal's rounding moves less.
     const bool take_a = a_is_point && (!b_is_point || a.sine >= b.sine);
     const Vec3 half = contact.signed_distance / 2 * contact.normal;
     contact.add_point(origin + (take_a ? Vec3(a.middle - half) : Vec3(b.middle + half)),
                       -contact.signed_distance);
     return;
   }
-  if (!is_flat(a) && !is_flat(b) && add_crossing(contact, a, b, origin)) return;
-  const auto plane = [&](const Vec3& upright) {
-    return ContactPlane(contact, origin, margins, upright);
-  };
-  if (!is_flat(a)) {
-    return is_flat(b) ? plane(b.axis).line_on_flat(a, b, true)
-                      : plane(contact.normal).line_on_line(a, b);
+  const Manifold to{contact, origin, margins};
+  if (!is_flat(a) && !is_flat(b)) {
+    if (!segments_crossing(to, a, b)) segment_on_segment(to, a, b);
+    return;
   }
-  if (!is_flat(b)) return plane(a.axis).line_on_flat(b, a, false);
-  if (b.kind == Kind::rectangle) return plane(a.axis).cap_on_face(a, b);
+  if (!is_flat(a)) return segment_on_flat(to, a, b, true);
+  if (!is_flat(b)) return segment_on_flat(to, b, a, false);
+  if (b.kind == Kind::rectangle) return disc_on_rectangle(to, a, b);
   const bool a_is_first =
       a.radius != b.radius ? a.radius < b.radius : points_onward(contact.normal);
-  a_is_first ? plane(a.axis).cap_on_cap(a, b, true) : plane(b.axis).cap_on_cap(b, a, false);
+  a_is_first ? disc_on_disc(to, a, b, true) : disc_on_disc(to, b, a, false);
 }
+
+/// Adds a point of the whole depth to a contact whose `deepest` point misses some of it: features
+/// that lean are carried to each other with an error of the second order, which may part them. If
+/// it is their lean, one body has one deepest point; else rounding, in whose frame the deepest
+/// point that there is will do.
+template <class Body>
+void add_deepest(Contact& contact, const PosedCylinder& a, const Body& b, const Vec3& origin,
+                 const Margins& margins, const ContactPoint& deepest) {
+  const double depth = -contact.signed_distance;
+  const SupportPoint on_a = support_point(a, -contact.normal);
+  const SupportPoint on_b = support_point(b, contact.normal);
+  Vec3 position = deepest.position;
+  if (contact.points().empty() ||
+      std::max(on_a.sharpness, on_b.sharpness) > depth - deepest.depth) {
+    const Vec3 half = depth / 2 * contact.normal;
+    position = origin + (on_a.sharpness >= on_b.sharpness ? Vec3(on_a.position + half)
+                                                          : Vec3(on_b.position - half));
+  }
+  const Contact before = contact;
+  contact.clear_points();
+  contact.add_point(position, depth);
+  for (const ContactPoint& p : before.points()) {
+    const bool is_near = p.depth >= depth - margins.slack - margins.rounding;
+    if (is_near && p.position != position && contact.points().size() < Contact::max_points) {
+      contact.add_point(p.position, p.depth);
+    }
+  }
+}
+
+/// Sees to a point of the whole depth.
+template <class Body>
+void hold_depth(Contact& contact, const PosedCylinder& a, const Body& b, const Vec3& origin,
+                const Margins& margins) {
+  constexpr double none = -std::numeric_limits<double>::infinity();
+  ContactPoint deepest{Vec3::Zero(), none};
+  for (const ContactPoint& p : contact.points()) {
+    if (p.depth > deepest.depth) deepest = p;
+  }
+  if (!(-contact.signed_distance - deepest.depth <= margins.unseen_depth())) {
+    add_deepest(contact, a, b, origin, margins, deepest);
+  }
+}
+
+}  // namespace
+
+template <class Body>
+void add_facing_points(Contact& contact, const PosedCylinder& a, const Body& b, const Vec3& origin,
+                       double contact_threshold) {
+  const Vec3 &n = contact.normal, between = a.centre - b.centre;
+  const Margins margins(extents(a), extents(b), between.cwiseAbs().sum(), contact.signed_distance,
+                        contact_threshold);
+  // A well-known point is all there is to say, whatever the other body turns towards it. Asked
+  // first is the body that has one more often.
+  const auto is_known = [](const FacingFeature& x) {
+    return x.kind == Kind::point && x.sine > 0.5;
+  };
+  const Vec3 half = contact.signed_distance / 2 * n;
+  if constexpr (std::is_same_v<Body, PosedCapsule>) {
+    const FacingFeature on_b = facing(b, n, margins.flat);
+    if (is_known(on_b)) {
+      return contact.add_point(origin + (on_b.middle + half), -contact.signed_distance);
+    }
+    add_points_of_features(contact, facing(a, -n, margins.flat), on_b, origin, margins);
+  } else {
+    const FacingFeature on_a = facing(a, -n, margins.flat);
+    if (is_known(on_a)) {
+      return contact.add_point(origin + (on_a.middle - half), -contact.signed_distance);
+    }
+    add_points_of_features(contact, on_a, facing(b, n, margins.flat), origin, margins);
+  }
+  hold_depth(contact, a, b, origin, margins);
+}
+
+template void add_facing_points(Contact&, const PosedCylinder&, const PosedCapsule&, const Vec3&,
+                                double);
+template void add_facing_points(Contact&, const PosedCylinder&, const PosedCylinder&, const Vec3&,
+                                double);
+template void add_facing_points(Contact&, const PosedCylinder&, const PosedBox&, const Vec3&,
+                                double);
 
 }  // namespace touchstone

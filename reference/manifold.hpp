@@ -1,20 +1,69 @@
 #pragma once
 
+#include <algorithm>
+#include <limits>
+
 #include "contact.hpp"
-#include "facing_feature.hpp"
-#include "margins.hpp"
+#include "posed_body.hpp"
 
 namespace touchstone {
 
-/// Adds to `contact`, whose normal and signed distance are set, the points where two features face
-/// each other, and to each of them `origin`, where the features' frame lies in the world.
+/// A body's smallest and largest half extent.
+struct Extents {
+  double smallest, largest;
+};
+inline Extents extents(const PosedCylinder& s) {
+  return {std::min(s.radius, s.half_length), std::max(s.radius, s.half_length)};
+}
+inline Extents extents(const PosedCapsule& s) { return {s.radius, s.half_length + s.radius}; }
+inline Extents extents(const PosedBox& s) {
+  return {s.half_extents.minCoeff(), s.half_extents.maxCoeff()};
+}
+
+/// Lengths that decide on the points of a contact, metres.
+struct Margins {
+  /// How far above the deepest point a surface may lie and still carry a point: a thousandth of the
+  /// smaller body's largest half extent, so that a standing or lying body keeps its points when a
+  /// step of a simulation tilts it, as long as they overlap: no more than the contact threshold
+  /// leaves above the deepest point; never less than rounding.
+  double slack;
+  /// How much higher one side of a patch than the other is seen, and not taken for the rounding of
+  /// a body at rest: a millionth of the smallest half extent, the contact threshold that engines
+  /// use.
+  double clear_rise;
+  /// A feature that leans by no more counts as facing the other body, even where the threshold
+  /// leaves less room: so little decides which of a cap's or generator's points is the deepest, and
+  /// not always one that the other body reaches.
+  double flat;
+  double rounding;  ///< of what is known of the bodies' surfaces
+
+  /// `offset` is how far the bodies' centres are apart, or somewhat more.
+  Margins(const Extents& a, const Extents& b, double offset, double signed_distance,
+          double contact_threshold) {
+    constexpr double hair = 1e-3, clear = 1e-6, invisible = 1e-4,
+                     epsilon = std::numeric_limits<double>::epsilon();
+    rounding = 16 * epsilon * (std::max(a.largest, b.largest) + offset);
+    const double smaller = std::min(a.largest, b.largest);
+    slack = std::max(rounding, std::min(hair * smaller, contact_threshold - signed_distance));
+    flat = std::max(slack, invisible * smaller);
+    clear_rise = std::min(std::max(clear * std::min(a.smallest, b.smallest), rounding), slack / 8);
+  }
+  /// The deepest point of a layout that does not see which way the bodies lean lacks less than this
+  /// of their depth (disc_layout.hpp).
+  double unseen_depth() const { return clear_rise / 2 + rounding; }
+};
+
+/// Adds to `contact`, whose normal and signed distance are set, the points where the bodies face
+/// each other across the normal; `origin` is where their frame lies in the world. Bodies:
+/// cylinders, capsules, boxes.
 ///
-/// The features' overlap across the normal is a point (one contact point), a segment (its two ends)
-/// or a region bounded by lines and arcs (its corners and points on long arcs, at most eight; three
-/// where it is a whole disc). Of features that lean, the part within the slack of the deepest point
-/// counts, so that the points draw together as the tilt grows. Each lies halfway between the
-/// surfaces along the normal.
-void add_manifold(Contact& contact, const FacingFeature& a, const FacingFeature& b,
-                  const Vec3& origin, const Margins& margins);
+/// The facing features' overlap across the normal is a point (one contact point), a segment (its
+/// two ends) or a region bounded by lines and arcs (its corners and points on long arcs, at most
+/// eight; three where it is a whole disc). Of features that lean, the part within the slack of the
+/// deepest point counts, so that the points draw together as the tilt grows. Each lies halfway
+/// between the surfaces along the normal, and one has the whole depth.
+template <class Body>
+void add_facing_points(Contact& contact, const PosedCylinder& a, const Body& b, const Vec3& origin,
+                       double contact_threshold);
 
 }  // namespace touchstone

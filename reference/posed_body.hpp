@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Geometry>
@@ -9,21 +10,34 @@
 
 namespace touchstone {
 
-// Bodies in one frame, which has the world's axes and its origin at B's centre: positions are
-// subtracted before anything else, so that they keep their digits far from the world's origin.
+// Bodies in one frame, which has the world's axes and its origin in one of them (pair.hpp):
+// positions are subtracted before anything else, so that they keep their digits far from the
+// world's origin.
 
 struct PosedCylinder {
-  Vec3 centre, axis;
+  Vec3 centre;
   double radius, half_length;
   const Eigen::Matrix3d& axes;
+
+  /// A view of the pose's own column: a copy would be stored and loaded again in other pieces, for
+  /// which the processor waits.
+  auto axis() const { return axes.col(2); }
+};
+/// The half-space normal·(x − centre) <= displacement.
+struct PosedPlane {
+  Vec3 centre, normal;
+  double displacement;
 };
 struct PosedSphere {
   Vec3 centre;
   double radius;
 };
 struct PosedCapsule {
-  Vec3 centre, axis;
+  Vec3 centre;
   double radius, half_length;
+  const Eigen::Matrix3d& axes;
+
+  auto axis() const { return axes.col(2); }
 };
 struct PosedBox {
   Vec3 centre;
@@ -31,29 +45,52 @@ struct PosedBox {
   Vec3 half_extents;
 };
 
-inline PosedCylinder posed(const Cylinder& s, const Pose& pose, const Vec3& origin) {
-  return {pose.position() - origin, pose.axis(), s.radius(), s.half_length(), pose.rotation()};
+inline PosedCylinder posed(const Cylinder& s, const Pose& pose, const auto& centre) {
+  return {centre, s.radius(), s.half_length(), pose.rotation()};
 }
-inline PosedSphere posed(const Sphere& s, const Pose& pose, const Vec3& origin) {
-  return {pose.position() - origin, s.radius()};
+inline PosedPlane posed(const Plane& s, const Pose& pose, const auto& centre) {
+  return {centre, pose.rotation() * s.unit_normal(), s.unit_displacement()};
 }
-inline PosedCapsule posed(const Capsule& s, const Pose& pose, const Vec3& origin) {
-  return {pose.position() - origin, pose.axis(), s.radius(), s.half_length()};
+inline PosedSphere posed(const Sphere& s, const Pose&, const auto& centre) {
+  return {centre, s.radius()};
 }
-inline PosedBox posed(const Box& s, const Pose& pose, const Vec3& origin) {
-  return {pose.position() - origin, pose.rotation(), s.half_extents()};
+inline PosedCapsule posed(const Capsule& s, const Pose& pose, const auto& centre) {
+  return {centre, s.radius(), s.half_length(), pose.rotation()};
+}
+inline PosedBox posed(const Box& s, const Pose& pose, const auto& centre) {
+  return {centre, pose.rotation(), s.half_extents()};
 }
 
 /// max over the body of (x − centre)·n for a unit n.
 inline double reach(const PosedCylinder& s, const Vec3& n) {
-  return s.half_length * std::abs(s.axis.dot(n)) + s.radius * s.axis.cross(n).norm();
+  return s.half_length * std::abs(s.axis().dot(n)) + s.radius * s.axis().cross(n).norm();
 }
 inline double reach(const PosedSphere& s, const Vec3&) { return s.radius; }
 inline double reach(const PosedCapsule& s, const Vec3& n) {
-  return s.half_length * std::abs(s.axis.dot(n)) + s.radius;
+  return s.half_length * std::abs(s.axis().dot(n)) + s.radius;
 }
 inline double reach(const PosedBox& s, const Vec3& n) {
   return s.half_extents.dot((s.axes.transpose() * n).cwiseAbs());
+}
+
+/// The smallest of a body's lengths, and all of them together.
+struct Lengths {
+  double smallest, sum;
+};
+inline Lengths lengths(const PosedCylinder& s) {
+  return {std::min(s.radius, s.half_length), s.radius + s.half_length};
+}
+inline Lengths lengths(const PosedPlane& s) {
+  constexpr double no_limit = 1;
+  return {no_limit, std::abs(s.displacement)};
+}
+inline Lengths lengths(const PosedSphere& s) { return {s.radius, s.radius}; }
+inline Lengths lengths(const PosedCapsule& s) {
+  return {std::min(s.radius, s.half_length), s.radius + s.half_length};
+}
+inline Lengths lengths(const PosedBox& s) {
+  const Vec3& e = s.half_extents;
+  return {std::min({e.x(), e.y(), e.z()}), e.x() + e.y() + e.z()};
 }
 
 }  // namespace touchstone

@@ -1,0 +1,284 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+#include <type_traits>
+
+#include "contact.hpp"
+#include "largest_gap.hpp"
+#include "posed_body.hpp"
+
+namespace touchstone {
+
+// How the four questions of every pair are answered. All that does not depend on the pair is here:
+// the frame, the order and the range of the bodies' lengths, ties, the bound of rounding. What does
+// is the pair's `Routine`, a struct of three static functions of two posed bodies:
+//
+//   SignedDistance find(a, b, stop_above)   the largest gap with its normal, or else the first gap
+//                                           above `stop_above` that it meets
+//   CertifiedDistance find_certified(a, b)  the same without short cuts; the bound says by how much
+//                                           the search may have missed the largest gap
+//   void add_points(contact, a, b, origin, contact_threshold)
+//                                           to a contact whose normal and signed distance are set;
+//                                           `origin` is where the bodies' frame lies in the world
+
+/// Both bodies in one frame, about B's centre.
+template <class Other>
+struct PosedPair {
+  PosedCylinder a;
+  decltype(posed(std::declval<Other>(), Pose(), Vec3())) b;
+  const Vec3& origin;  ///< of the frame, in the world
+  bool exchanged;
+
+  double lengths() const {
+    return (a.centre - b.centre).cwiseAbs().sum() + touchstone::lengths(a).sum +
+           touchstone::lengths(b).sum;
+  }
+  /// Turns a normal from this B to this A into that between the bodies as they were given, and
+  /// back.
+  void turn_as_given(Vec3& normal) const {
+    if constexpr (std::is_same_v<Other, Cylinder>) normal *= exchanged ? -1 : 1;
+  }
+};
+
+template <class Other>
+inline PosedPair<Other> posed_pair(const Cylinder& a, const Pose& pose_a, const Other& b,
+                                   const Pose& pose_b) {
+  const Vec3& origin = pose_b.position();
+  return {posed(a, pose_a, pose_a.position() - origin), posed(b, pose_b, Vec3::Zero()), origin,
+          false};
+}
+/// Cylinders in a fixed order, the one with the smaller radius first, so that the answer does not
+/// depend on how they were given.
+inline PosedPair<Cylinder> posed_pair(const Cylinder& a, const Pose& pose_a, const Cylinder& b,
+                                      const Pose& pose_b) {
+  const auto key = [](const Cylinder& s, const Pose& p) {
+    const Vec3& x = p.position();
+    const auto& q = p.orientation();
+    return std::make_tuple(s.half_length(), x.x(), x.y(), x.z(), q.w(), q.x(), q.y(), q.z());
+  };
+  const bool exchanged =
+      a.radius() != b.radius() ? a.radius() > b.radius() : key(a, pose_a) > key(b, pose_b);
+  const Pose &first = exchanged ? pose_b : pose_a, &second = exchanged ? pose_a : pose_b;
+  return {posed(exchanged ? b : a, first, first.position() - second.position()),
+          posed(exchanged ? a : b, second, Vec3::Zero()), second.position(), exchanged};
+}
+
+// Lengths so large or small that their powers overflow or vanish are brought into range by a power
+// of two, which rounds nothing, and the answer back. Nobody simulates such bodies, but a body that
+// has flown off must be answered with a number, not with NaN.
+
+/// Does no power of a length overflow or vanish? The largest are the eighth (`ellipse_normal` takes
+/// lengths of fourth powers): with all lengths within these bounds none leaves 1e-200 to 1e200,
+/// whichever lengths it multiplies.
+template <class Other>
+inline bool powers_in_range(const PosedPair<Other>& pair) {
+  constexpr double min_length = 1e-25, max_length = 1e25;
+  const Lengths of_a = lengths(pair.a), of_b = lengths(pair.b);
+  const Vec3 d = pair.a.centre - pair.b.centre;
+  return std::min(of_a.smallest, of_b.smallest) > min_length && of_a.sum + of_b.sum < max_length &&
+         d.x() * d.x() + d.y() * d.y() + d.z() * d.z() < max_length * max_length;
+}
+
+/// The bodies about B's centre, with all lengths times a power of two so that the largest is about
+/// one; sizes that vanish against it are made 1e-24 of it.
+template <class Other>
+class ScaledBodies {
+ public:
+  ScaledBodies(const Cylinder& a, const Pose& pose_a, const Other& b, const Pose& pose_b)
+      : origin_(pose_b.position()),
+        exponent_(std::ilogb(std::min(posed_pair(a, pose_a, b, pose_b).lengths(), max_length))),
+        a_(scaled(a)),
+        b_(scaled(b)),
+        pose_a_(scaled_difference(pose_a.position()), pose_a.orientation()),
+        pose_b_(Vec3::Zero(), pose_b.orientation()) {}
+
+  /// question(length, a, pose_a, b, pose_b) of the scaled length and bodies, scaled back; what
+  /// overflows is the largest double.
+  template <class Question>
+  auto answer(double length, Question question) const {
+    return back(question(scaled(length), a_, pose_a_, b_, pose_b_));
+  }
+
+ private:
+  static constexpr double vanishing = 1e-24;
+  static constexpr double max_length = std::numeric_limits<double>::max();
+
+  double scaled(double length) const { return std::scalbn(length, -exponent_); }
+  Vec3 scaled(const Vec3& x) const { return {scaled(x.x()), scaled(x.y()), scaled(x.z())}; }
+  double size(double length) const { return std::max(scaled(length), vanishing); }
+  Plane scaled(const Plane& s) const { return {s.unit_normal(), scaled(s.unit_displacement())}; }
+  Sphere scaled(const Sphere& s) const { return Sphere(size(s.radius())); }
+  Cylinder scaled(const Cylinder& s) const { return {size(s.radius()), size(s.half_length())}; }
+  Capsule scaled(const Capsule& s) const { return {size(s.radius()), size(s.half_length())}; }
+  Box scaled(const Box& s) const {
+    const Vec3& e = s.half_extents();
+    return Box(Vec3(size(e.x()), size(e.y()), size(e.z())));
+  }
+  /// The position less the origin; a difference that overflows is scaled before it is taken.
+  Vec3 scaled_difference(const Vec3& position) const {
+    const Vec3 difference = position - origin_;
+    return difference.allFinite() ? scaled(difference) : Vec3(scaled(position) - scaled(origin_));
+  }
+
+  double back(double length) const {
+    return std::clamp(std::scalbn(length, exponent_), -max_length, max_length);
+  }
+  bool back(bool answer) const { return answer; }
+  SignedDistance back(const SignedDistance& x) const { return {back(x.value), x.normal}; }
+  CertifiedDistance back(const CertifiedDistance& x) const {
+    return {{back(x.value), x.normal}, back(x.error_bound + vanishing)};
+  }
+  Contact back(const Contact& x) const {
+    Contact result;
+    result.normal = x.normal;
+    result.signed_distance = back(x.signed_distance);
+    for (const ContactPoint& p : x.points()) {
+      const Vec3 arm(back(p.position.x()), back(p.position.y()), back(p.position.z()));
+      result.add_point((origin_ + arm).cwiseMax(-max_length).cwiseMin(max_length), back(p.depth));
+    }
+    return result;
+  }
+
+  Vec3 origin_;
+  int exponent_;
+  Cylinder a_;
+  Other b_;
+  Pose pose_a_, pose_b_;
+};
+
+template <class Other, class Question>
+[[gnu::noinline, gnu::cold]] auto answer_scaled(double length, Question question, const Cylinder& a,
+                                                const Pose& pose_a, const Other& b,
+                                                const Pose& pose_b) {
+  return ScaledBodies(a, pose_a, b, pose_b).answer(length, question);
+}
+
+/// Calls `offer` with the unit vectors along a body's axes and, of bodies of revolution, radially
+/// along `v`.
+template <class Revolved, class Offer>
+void offer_normals(const Revolved& s, const Vec3& v, Offer offer) {
+  offer(s.axis());
+  const Vec3 radial = v - v.dot(s.axis()) * s.axis();
+  constexpr double noise = 1e-12, vanishing = 1e-100;
+  if (const double length = radial.norm(); length > noise * v.norm() + vanishing) {
+    offer(radial / length);
+  }
+}
+template <class Offer>
+void offer_normals(const PosedSphere&, const Vec3&, Offer) {}
+template <class Offer>
+void offer_normals(const PosedBox& s, const Vec3&, Offer offer) {
+  for (int i = 0; i < 3; ++i) offer(s.axes.col(i));
+}
+
+/// Of the normals whose gap is within `threshold` of the largest, the one nearest to the previous
+/// one: an axis or face of a body, radially off one, or the one found; and where all of these are
+/// more than 5 degrees away, the previous one itself. Nearer ones are taken for its own motion.
+/// `previous_normal` may have any length; zero or not finite, it decides nothing.
+template <class Body>
+SignedDistance nearest_tie(const PosedCylinder& a, const Body& b, const SignedDistance& found,
+                           double threshold, const Vec3& previous_normal) {
+  const double largest = previous_normal.cwiseAbs().maxCoeff();
+  if (!(largest > 0 && previous_normal.allFinite())) return found;
+  const Vec3 previous = (previous_normal / largest).normalized();
+  const Vec3 d = a.centre - b.centre;
+  SignedDistance chosen = found;
+  double nearest = found.normal.dot(previous);
+  const auto offer = [&](const Vec3& axis) {
+    const Vec3 n = axis.dot(previous) < 0 ? Vec3(-axis) : axis;
+    if (!(n.dot(previous) > nearest)) return;
+    const double gap = d.dot(n) - reach(a, n) - reach(b, n);
+    if (!(gap >= found.value - threshold)) return;
+    chosen = {gap, n};
+    nearest = n.dot(previous);
+  };
+  for (const Vec3& v : {d, previous}) {
+    offer_normals(a, v, offer);
+    offer_normals(b, v, offer);
+  }
+  constexpr double cosine_of_5_degrees = 0.9962;
+  if (nearest < cosine_of_5_degrees) offer(previous);
+  return chosen;
+}
+/// A plane has one normal.
+inline SignedDistance nearest_tie(const PosedCylinder&, const PosedPlane&,
+                                  const SignedDistance& found, double, const Vec3&) {
+  return found;
+}
+
+// The four questions. Each is asked again of scaled bodies where the given ones are out of range.
+
+template <class Routine, class Other>
+SignedDistance find_signed_distance(const Cylinder& a, const Pose& pose_a, const Other& b,
+                                    const Pose& pose_b) {
+  const auto pair = posed_pair(a, pose_a, b, pose_b);
+  if (!powers_in_range(pair)) {
+    const auto again = [](double, const auto&... bodies) { return signed_distance(bodies...); };
+    return answer_scaled(0, again, a, pose_a, b, pose_b);
+  }
+  SignedDistance found = Routine(pair.a, pair.b).find(no_early_exit);
+  pair.turn_as_given(found.normal);
+  return found;
+}
+
+template <class Routine, class Other>
+CertifiedDistance find_certified_distance(const Cylinder& a, const Pose& pose_a, const Other& b,
+                                          const Pose& pose_b) {
+  const auto pair = posed_pair(a, pose_a, b, pose_b);
+  if (!powers_in_range(pair)) {
+    const auto again = [](double, const auto&... bodies) { return certified_distance(bodies...); };
+    return answer_scaled(0, again, a, pose_a, b, pose_b);
+  }
+  CertifiedDistance found = Routine(pair.a, pair.b).find_certified();
+  pair.turn_as_given(found.normal);
+  found.error_bound += rounding_part * pair.lengths();
+  return found;
+}
+
+template <class Routine, class Other>
+bool find_overlap(const Cylinder& a, const Pose& pose_a, const Other& b, const Pose& pose_b) {
+  const auto pair = posed_pair(a, pose_a, b, pose_b);
+  if (!powers_in_range(pair)) {
+    const auto again = [](double, const auto&... bodies) { return overlaps(bodies...); };
+    return answer_scaled(0, again, a, pose_a, b, pose_b);
+  }
+  return Routine(pair.a, pair.b).find(0).value <= 0;
+}
+
+template <class Routine, class Other>
+Contact contact_in_range(const PosedPair<Other>& pair, double contact_threshold,
+                         const Vec3* previous_normal) {
+  const Routine routine(pair.a, pair.b);
+  SignedDistance found = routine.find(contact_threshold);
+  if (previous_normal && found.value <= contact_threshold) {
+    Vec3 previous = *previous_normal;
+    pair.turn_as_given(previous);
+    found = nearest_tie(pair.a, pair.b, found, contact_threshold, previous);
+  }
+  Contact result;
+  result.normal = found.normal;
+  result.signed_distance = found.value;
+  if (found.value <= contact_threshold) {
+    routine.add_points(result, pair.origin, contact_threshold);
+  }
+  pair.turn_as_given(result.normal);
+  return result;
+}
+
+template <class Routine, class Other>
+Contact find_contact(const Cylinder& a, const Pose& pose_a, const Other& b, const Pose& pose_b,
+                     double contact_threshold, const Vec3* previous_normal) {
+  const auto pair = posed_pair(a, pose_a, b, pose_b);
+  if (!powers_in_range(pair)) {
+    const auto again = [=](double threshold, const auto&... bodies) {
+      return contact(bodies..., threshold, previous_normal);
+    };
+    return answer_scaled(contact_threshold, again, a, pose_a, b, pose_b);
+  }
+  return contact_in_range<Routine>(pair, contact_threshold, previous_normal);
+}
+
+}  // namespace touchstone
