@@ -5,7 +5,6 @@
 #include "cli/commands.hpp"
 #include "cli/number_option.hpp"
 #include "properties/files/write_file.hpp"
-#include "reports/make_report.hpp"
 #include "simulation/scenes/povray.hpp"
 #include "simulation/scenes/shapes_file.hpp"
 

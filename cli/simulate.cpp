@@ -7,7 +7,6 @@
 #include "cli/help.hpp"
 #include "cli/options.hpp"
 #include "properties/files/write_file.hpp"
-#include "reports/make_report.hpp"
 #include "simulation/run_experiments.hpp"
 
 namespace touchstone {

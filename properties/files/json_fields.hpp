@@ -3,8 +3,8 @@
 #include <array>
 #include <cstdint>
 #include <fmt/format.h>
-#include <initializer_list>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -35,7 +35,7 @@ const nlohmann::json& member(const nlohmann::json& object, const char* name,
 void require_object(const nlohmann::json& value, const std::string& field);
 
 /// Refuses members that are not known.
-void refuse_others(const nlohmann::json& object, std::initializer_list<const char*> known,
+void refuse_others(const nlohmann::json& object, const std::vector<std::string>& known,
                    const std::string& path);
 
 template <std::size_t N>
