@@ -8,11 +8,7 @@
 #include "cli/subcommands.hpp"
 #include "properties/files/write_file.hpp"
 #include "reference/invalid_input.hpp"
-#include "reports/choice/choice_json.hpp"
-#include "reports/choice/choice_page.hpp"
-#include "reports/choice/choice_text.hpp"
-#include "reports/choice/shape_pairs.hpp"
-#include "reports/make_report.hpp"
+#include "reports/choice/choice.hpp"
 
 namespace touchstone {
 namespace {
@@ -37,12 +33,12 @@ int choose_scene(const Options& options, const std::string& command) {
   const SceneFile file = read_scene(options.scene);
   const Limits limits = options.candidates.limits();
   const Choice choice = choose(file, {options.contestants(), options.workers.get(), limits});
-  write_evidence(choice, file, options.folder());
-  nlohmann::json result = to_json(choice, file, command, options.folder());
-  write_file(options.out + "/choose.json", result.dump(1) + '\n', "--out");
-  fmt::print("{}", options.json ? result.dump() + '\n' : choice_text(result));
-  result["motion"] = motion_json(choice, file, limits);
-  write_file(options.out + "/choose.html", choice_page(result), "--out");
+  const std::string folder = options.folder();
+  write_evidence(choice, folder);
+  write_file(options.out + "/choose.json", choice_json(choice, command, folder, 1) + '\n', "--out");
+  fmt::print("{}", options.json ? choice_json(choice, command, folder) + '\n'
+                                : choice_text(choice, folder));
+  write_file(options.out + "/choose.html", choice_page(choice, command, folder, limits), "--out");
   if (!options.json) fmt::print("\nPage: {0}/choose.html; data: {0}/choose.json\n", options.out);
   return choice.impossible ? not_served : 0;
 }
@@ -52,16 +48,14 @@ int choose_pairs(const Options& options, const std::string& command) {
   for (const std::string& ignored : file.ignored) {
     complain(fmt::format("warning: {}: {}", options.scene, ignored));
   }
-  const nlohmann::json result =
-      choose_for_pairs(file, options.pairs, options.contestants(), options.candidates.limits(),
-                       command, options.folder());
-  write_pair_evidence(result);
-  write_file(options.out + "/choose.json", result.dump(1) + '\n', "--out");
-  fmt::print("{}", options.json ? result.dump() + '\n' : pairs_text(result));
-  for (const auto& pair : result["pairs"]) {
-    if (pair["chosen"].is_null()) return not_served;
-  }
-  return 0;
+  const PairsChoice choice =
+      choose_for_pairs(file, options.pairs, options.contestants(), options.candidates.limits());
+  const std::string folder = options.folder();
+  write_evidence(choice, folder);
+  write_file(options.out + "/choose.json", pairs_json(choice, command, folder, 1) + '\n', "--out");
+  fmt::print(
+      "{}", options.json ? pairs_json(choice, command, folder) + '\n' : pairs_text(choice, folder));
+  return choice.all_served() ? 0 : not_served;
 }
 
 int run(const Options& options) {

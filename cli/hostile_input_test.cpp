@@ -265,8 +265,8 @@ TEST(HostileInput, Scenes) {
   std::vector<std::string> scenes = files_of(TOUCHSTONE_SCENES, ".json");
   scenes.insert(scenes.end(), scenes.size(), dense_scene);  // half of all
   expect_answer_or_refusal("scene", 16, scenes, [](const std::string& text, std::uint64_t) {
-    const SceneFile file = scene_from_json(parse_json(text, "file"), "scene");
-    for (const Need& need : file.needs) describe(need, file.scene);
+    const SceneFile file = scene_from_text(text, "scene.json");
+    for (const auto& need : file.needs) need->text(file.scene);
     if (!file.camera.position.allFinite()) throw std::runtime_error("a camera nowhere");
     step_through(file);
   });

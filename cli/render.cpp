@@ -4,7 +4,6 @@
 #include "candidates/candidates.hpp"
 #include "cli/subcommands.hpp"
 #include "properties/files/write_file.hpp"
-#include "reports/make_report.hpp"
 #include "simulation/scenes/povray.hpp"
 #include "simulation/scenes/shapes_file.hpp"
 

@@ -6,7 +6,6 @@
 #include "cli/options.hpp"
 #include "cli/subcommands.hpp"
 #include "properties/files/write_file.hpp"
-#include "reports/make_report.hpp"
 #include "simulation/run_experiments.hpp"
 
 namespace touchstone {

@@ -62,14 +62,14 @@ void require_object(const json& value, const std::string& field) {
   if (!value.is_object()) throw InvalidInput(field, shown(value), "must be an object");
 }
 
-void refuse_others(const json& object, std::initializer_list<const char*> known,
+void refuse_others(const json& object, const std::vector<std::string>& known,
                    const std::string& path) {
   for (const auto& [name, value] : object.items()) {
     bool found = false;
     std::string names;
-    for (const char* k : known) {
+    for (const std::string& k : known) {
       found = found || name == k;
-      names += (names.empty() ? "" : ", ") + std::string(k);
+      names += (names.empty() ? "" : ", ") + k;
     }
     if (!found) {
       throw InvalidInput(path.empty() ? name : path + "." + name, shown(value),

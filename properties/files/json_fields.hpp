@@ -2,10 +2,10 @@
 
 #include <array>
 #include <cstdint>
-#include <initializer_list>
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -44,7 +44,7 @@ const nlohmann::json& member(const nlohmann::json& object, const char* name,
 void require_object(const nlohmann::json& value, const std::string& field);
 
 /// Refuses members that are not known.
-void refuse_others(const nlohmann::json& object, std::initializer_list<const char*> known,
+void refuse_others(const nlohmann::json& object, const std::vector<std::string>& known,
                    const std::string& path);
 
 /// An array of exactly so many numbers.

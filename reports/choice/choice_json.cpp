@@ -1,13 +1,15 @@
-#include "reports/choice/choice_json.hpp"
-
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
+#include <limits>
+
+#include <nlohmann/json.hpp>
 
 #include "properties/files/configuration_json.hpp"
 #include "properties/files/write_file.hpp"
-#include "reference/invalid_input.hpp"
+#include "reports/choice/choice.hpp"
 #include "reports/machine.hpp"
 #include "reports/report_json.hpp"
 
@@ -18,13 +20,7 @@ using nlohmann::json;
 
 json finite(double x) { return std::isfinite(x) ? json(x) : json(nullptr); }
 
-/// "scene-12.json": the configuration of the run number 12.
-std::string evidence_file(const SceneFile& file, std::size_t run, const std::string& folder) {
-  return fmt::format("{}/{}-{}.json", folder, file.name, run);
-}
-
-json run_json(const Choice& choice, const SceneFile& file, std::size_t index,
-              const std::string& folder) {
+json run_json(const Choice& choice, std::size_t index, const std::string& folder) {
   const SceneRun& run = choice.runs[index];
   const auto steps = static_cast<double>(choice.exact_run.frames.size() - 1);
   json models = json::array();
@@ -44,16 +40,24 @@ json run_json(const Choice& choice, const SceneFile& file, std::size_t index,
                  {"evidence", nullptr}};
   if (!run.holds()) result["first_broken"] = run.first_broken();
   if (const auto& e = run.evidence) {
-    const std::string at = evidence_file(file, index, folder);
+    const std::string file = evidence_file(choice, index, folder);
     result["evidence"] = {{"bodies", e->bodies},
                           {"candidate", e->candidate},
                           {"wrong", e->wrong},
                           {"time", e->time},
                           {"configuration", to_json(e->configuration)},
-                          {"replay", fmt::format("touchstone replay {} --candidates reference,{}",
-                                                 at, e->candidate)}};
+                          {"replay", replay_command(file, e->candidate)}};
   }
   return result;
+}
+
+json score_json(const std::string& candidate, const ReplayScore& s) {
+  return {{"name", candidate},
+          {"nanoseconds", s.nanoseconds ? json(*s.nanoseconds) : json(nullptr)},
+          {"count", s.count},
+          {"agree", s.agree},
+          {"depth_error", finite(s.depth_error)},
+          {"normal_angle", s.normal_angle}};
 }
 
 json kind_json(const Choice& choice, std::size_t k) {
@@ -62,19 +66,13 @@ json kind_json(const Choice& choice, std::size_t k) {
   const Candidate& chosen = *choice.runs[choice.answer].models[k];
   json candidates = json::array();
   for (std::size_t c = 0; c < choice.candidates.size(); ++c) {
-    const Replayed& r = choice.replayed[k][c];
-    if (r.count == 0) continue;
-    candidates.push_back({{"name", choice.candidates[c]->name},
-                          {"nanoseconds", r.nanoseconds ? json(*r.nanoseconds) : json(nullptr)},
-                          {"count", r.count},
-                          {"agree", r.agree},
-                          {"depth_error", finite(r.depth_error)},
-                          {"normal_angle", r.normal_angle}});
+    const ReplayScore& s = choice.replayed[k][c];
+    if (s.count > 0) candidates.push_back(score_json(choice.candidates[c]->name, s));
   }
   json result = {{"name", kind.name},
                  {"bodies", kind.bodies},
                  {"pair", pair_name(kind.pair)},
-                 {"asked", kind.asked.size()},
+                 {"asked", kind.answers.size()},
                  {"chosen", chosen.name},
                  {"nanoseconds", choice.nanoseconds(k, chosen)},
                  {"exact_nanoseconds", choice.nanoseconds(k, exact)},
@@ -89,7 +87,7 @@ json kind_json(const Choice& choice, std::size_t k) {
   return result;
 }
 
-/// Runs that no other one beats in both error and cost, the dearest first.
+/// Indices of the runs that no other one beats in both error and cost, the cheapest first.
 json front(const Choice& choice) {
   std::vector<std::size_t> order(choice.runs.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -98,26 +96,55 @@ json front(const Choice& choice) {
            std::pair(choice.runs[y].nanoseconds, choice.runs[y].error());
   });
   json result = json::array();
-  double least = std::numeric_limits<double>::infinity();
+  double min_error = std::numeric_limits<double>::infinity();
   for (const std::size_t i : order) {
-    if (!(choice.runs[i].error() < least)) continue;
-    least = choice.runs[i].error();
+    if (!(choice.runs[i].error() < min_error)) continue;
+    min_error = choice.runs[i].error();
     result.push_back(i);
   }
   return result;
 }
 
+json pair_candidate_json(const PairCandidate& candidate, const std::string& file) {
+  json result = score_json(candidate.name, candidate.score);
+  result["serves"] = candidate.serves;
+  result["worst"] = nullptr;
+  if (candidate.worst) {
+    result["worst"] = {{"configuration", to_json(*candidate.worst)},
+                       {"file", file},
+                       {"replay", replay_command(file, candidate.name)}};
+  }
+  return result;
+}
+
+/// A robot's name as part of a file name.
+std::string as_file_name(std::string name) {
+  constexpr std::size_t max_length = 100;
+  name.resize(std::min(name.size(), max_length));
+  const auto is_plain = [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '-' || c == '_' || c == '.';
+  };
+  std::replace_if(
+      name.begin(), name.end(), [&](char c) { return !is_plain(c); }, '-');
+  return name;
+}
+
+void write_configuration(const std::string& file, const Configuration& configuration) {
+  write_file(file, to_json(configuration).dump() + '\n', "--out");
+}
+
 }  // namespace
 
-json to_json(const Choice& choice, const SceneFile& file, const std::string& command,
-             const std::string& folder) {
+std::string choice_json(const Choice& choice, const std::string& command, const std::string& folder,
+                        int indent) {
+  const SceneFile& file = choice.file;
   json needs = json::array();
-  for (const Need& need : file.needs) {
-    needs.push_back({{"text", describe(need, file.scene)}, {"unit", unit(need)}});
+  for (const auto& need : file.needs) {
+    needs.push_back({{"text", need->text(file.scene)}, {"unit", need->unit}});
   }
   json runs = json::array(), kinds = json::array(), too_slow = json::array();
   for (std::size_t i = 0; i < choice.runs.size(); ++i) {
-    runs.push_back(run_json(choice, file, i, folder));
+    runs.push_back(run_json(choice, i, folder));
   }
   for (std::size_t k = 0; k < choice.kinds.all().size(); ++k) kinds.push_back(kind_json(choice, k));
   for (const Candidate* c : choice.too_slow) too_slow.push_back(c->name);
@@ -125,33 +152,89 @@ json to_json(const Choice& choice, const SceneFile& file, const std::string& com
   const double chosen = choice.runs[choice.answer].nanoseconds;
   const auto steps = static_cast<double>(choice.exact_run.frames.size() - 1);
   const double rest = choice.exact_run.seconds - choice.exact_run.contact_seconds;
-  return {{"schema", "touchstone-choice-1"},
-          {"command", command},
-          {"machine", to_json(describe_machine())},
-          {"scene",
-           {{"name", file.name},
-            {"description", file.description},
-            {"bodies", file.scene.bodies.size()},
-            {"step", file.scene.step},
-            {"duration", file.scene.duration},
-            {"needs", needs}}},
-          {"possible", !choice.impossible},
-          {"exact_is_cheapest", choice.answer == 0},
-          {"time_saved", choice.impossible ? 0 : 1 - chosen / exact},
-          {"rest_of_step_microseconds", rest * 1e6 / steps},
-          {"kinds", kinds},
-          {"answer", choice.answer},
-          {"runs", runs},
-          {"front", front(choice)},
-          {"too_slow", too_slow}};
+  const json result = {{"schema", "touchstone-choice-1"},
+                       {"command", command},
+                       {"machine", to_json(describe_machine())},
+                       {"scene",
+                        {{"name", file.name},
+                         {"description", file.description},
+                         {"bodies", file.scene.bodies.size()},
+                         {"step", file.scene.step},
+                         {"duration", file.scene.duration},
+                         {"needs", needs}}},
+                       {"possible", !choice.impossible},
+                       {"exact_is_cheapest", choice.answer == 0},
+                       {"time_saved", choice.impossible ? 0 : 1 - chosen / exact},
+                       {"rest_of_step_microseconds", rest * 1e6 / steps},
+                       {"kinds", kinds},
+                       {"answer", choice.answer},
+                       {"runs", runs},
+                       {"front", front(choice)},
+                       {"too_slow", too_slow}};
+  return result.dump(indent);
 }
 
-void write_evidence(const Choice& choice, const SceneFile& file, const std::string& folder) {
+std::string pairs_json(const PairsChoice& choice, const std::string& command,
+                       const std::string& folder, int indent) {
+  json pairs = json::array();
+  for (std::size_t i = 0; i < choice.pairs.size(); ++i) {
+    const PairChoice& pair = choice.pairs[i];
+    json candidates = json::array();
+    for (const PairCandidate& c : pair.candidates) {
+      candidates.push_back(pair_candidate_json(c, evidence_file(choice, i, c, folder)));
+    }
+    pairs.push_back({{"name", pair.name},
+                     {"example", pair.example},
+                     {"count", pair.count},
+                     {"chosen", pair.chosen ? candidates[*pair.chosen] : json(nullptr)},
+                     {"candidates", candidates}});
+  }
+  const json result = {{"schema", "touchstone-pair-choice-1"},
+                       {"command", command},
+                       {"machine", to_json(describe_machine())},
+                       {"name", choice.name},
+                       {"shapes", choice.shapes},
+                       {"ignored", choice.ignored},
+                       {"needs",
+                        {{"depth", choice.needs.depth},
+                         {"angle", choice.needs.angle},
+                         {"count", choice.needs.count},
+                         {"seed", choice.needs.seed}}},
+                       {"pairs", pairs}};
+  return result.dump(indent);
+}
+
+std::string evidence_file(const Choice& choice, std::size_t run, const std::string& folder) {
+  return fmt::format("{}/{}-{}.json", folder, choice.file.name, run);
+}
+
+std::string evidence_file(const PairsChoice& choice, std::size_t pair,
+                          const PairCandidate& candidate, const std::string& folder) {
+  std::string name = candidate.name;
+  std::replace(name.begin(), name.end(), ':', '-');
+  return fmt::format("{}/{}-{}-{}.json", folder, as_file_name(choice.name), pair + 1, name);
+}
+
+std::string replay_command(const std::string& file, const std::string& candidate) {
+  return fmt::format("touchstone replay {} --candidates reference,{}", file, candidate);
+}
+
+void write_evidence(const Choice& choice, const std::string& folder) {
   check_writable(folder);
   for (std::size_t i = 0; i < choice.runs.size(); ++i) {
-    if (!choice.runs[i].evidence) continue;
-    const std::string at = evidence_file(file, i, folder);
-    write_file(at, to_json(choice.runs[i].evidence->configuration).dump() + '\n', "--out");
+    if (const auto& e = choice.runs[i].evidence) {
+      write_configuration(evidence_file(choice, i, folder), e->configuration);
+    }
+  }
+}
+
+void write_evidence(const PairsChoice& choice, const std::string& folder) {
+  for (std::size_t i = 0; i < choice.pairs.size(); ++i) {
+    for (const PairCandidate& c : choice.pairs[i].candidates) {
+      if (!c.worst) continue;
+      check_writable(folder);
+      write_configuration(evidence_file(choice, i, c, folder), *c.worst);
+    }
   }
 }
 

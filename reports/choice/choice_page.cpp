@@ -1,11 +1,12 @@
-#include "reports/choice/choice_page.hpp"
-
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+
 #include "properties/files/configuration_json.hpp"
+#include "reports/choice/choice.hpp"
 #include "reports/pages/page.hpp"
 
 namespace touchstone {
@@ -30,7 +31,8 @@ std::string base64(const std::string& bytes) {
   return text;
 }
 
-/// Every `every`-th frame of the bodies that move.
+/// Poses of the moving bodies in every `every`-th frame: position and orientation (w, x, y, z) as
+/// floats, in base64.
 std::string poses(const Scene& scene, const Trajectory& run, std::size_t every) {
   std::string bytes;
   const auto append = [&](double value) {
@@ -53,7 +55,8 @@ std::string poses(const Scene& scene, const Trajectory& run, std::size_t every) 
   return base64(bytes);
 }
 
-/// The answer, each kind's next cheaper model, and well-known models for all pairs that fail.
+/// Indices of the runs to show beside the exact one: the answer, some with the next cheaper model
+/// of a kind, and well-known models for all pairs.
 std::vector<std::size_t> worth_showing(const Choice& choice) {
   std::vector<std::size_t> result;
   if (choice.answer != 0) result.push_back(choice.answer);
@@ -67,17 +70,17 @@ std::vector<std::size_t> worth_showing(const Choice& choice) {
   return result;
 }
 
-std::string note(const Choice& choice, const SceneFile& file, std::size_t index) {
+std::string note(const Choice& choice, std::size_t index) {
   const SceneRun& run = choice.runs[index];
   if (run.holds()) return "All needs hold.";
   const int broken = run.first_broken();
   return fmt::format("Breaks at {:.2f} s: {}.", run.verdicts[broken].time,
-                     describe(file.needs[broken], file.scene));
+                     choice.file.needs[broken]->text(choice.file.scene));
 }
 
-}  // namespace
-
-json motion_json(const Choice& choice, const SceneFile& file, const Limits& limits) {
+/// What the page animates.
+json motion_json(const Choice& choice, const Limits& limits) {
+  const SceneFile& file = choice.file;
   const Scene& scene = file.scene;
   json bodies = json::array();
   for (const Body& b : scene.bodies) {
@@ -98,11 +101,11 @@ json motion_json(const Choice& choice, const SceneFile& file, const Limits& limi
                   {"poses", poses(scene, choice.exact_run, every)}});
   Processes processes(limits);
   for (const std::size_t i : worth_showing(choice)) {
-    const Trajectory went =
+    const Trajectory run =
         run_with(scene, choice.kinds, choice.runs[i].models, *choice.candidates[0], processes);
     runs.push_back({{"name", i == choice.answer ? "the answer" : choice.runs[i].name},
-                    {"note", note(choice, file, i)},
-                    {"poses", poses(scene, went, every)}});
+                    {"note", note(choice, i)},
+                    {"poses", poses(scene, run, every)}});
   }
   return {
       {"bodies", bodies},
@@ -113,6 +116,15 @@ json motion_json(const Choice& choice, const SceneFile& file, const Limits& limi
       {"runs", runs}};
 }
 
+}  // namespace
+
 std::string choice_page(const json& choice) { return render_page(Page::choice, choice); }
+
+std::string choice_page(const Choice& choice, const std::string& command, const std::string& folder,
+                        const Limits& limits) {
+  json data = json::parse(choice_json(choice, command, folder));
+  data["motion"] = motion_json(choice, limits);
+  return choice_page(data);
+}
 
 }  // namespace touchstone

@@ -1,119 +1,156 @@
-#include "reports/choice/choice_text.hpp"
-
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
+
+#include "reports/choice/choice.hpp"
 
 namespace touchstone {
 namespace {
 
-using nlohmann::json;
-
-std::string text(const json& value) { return value.get<std::string>(); }
-
-std::string measured(const json& value, const json& need) {
-  if (value.is_null()) return "the motion becomes absurd";
-  return fmt::format("{:.3g}{}", value.get<double>(), text(need["unit"]));
+std::string measured(const Verdict& verdict, const Need& need) {
+  if (!std::isfinite(verdict.value)) return "the motion becomes absurd";
+  return fmt::format("{:.3g}{}", verdict.value, need.unit);
 }
 
 /// "can stands within 0.5°: 12.3° at 0.71 s"
-std::string failure(const json& choice, const json& run) {
-  const std::size_t broken = run["first_broken"].get<std::size_t>();
-  const json &need = choice["scene"]["needs"][broken], &verdict = run["verdicts"][broken];
-  return fmt::format("{}: {} at {:.2f} s", text(need["text"]), measured(verdict["value"], need),
-                     verdict["time"].get<double>());
+std::string failure(const Choice& choice, const SceneRun& run) {
+  const int broken = run.first_broken();
+  const Need& need = *choice.file.needs[broken];
+  const Verdict& verdict = run.verdicts[broken];
+  return fmt::format("{}: {} at {:.2f} s", need.text(choice.file.scene), measured(verdict, need),
+                     verdict.time);
 }
 
 /// "need 3 at 0.71 s"
-std::string breaks(const json& run) {
-  const std::size_t broken = run["first_broken"].get<std::size_t>();
-  return fmt::format("need {} at {:.2f} s", broken + 1,
-                     run["verdicts"][broken]["time"].get<double>());
+std::string first_failure(const SceneRun& run) {
+  const int broken = run.first_broken();
+  return fmt::format("need {} at {:.2f} s", broken + 1, run.verdicts[broken].time);
 }
 
-std::string evidence(const json& run, const char* indent) {
-  if (run["evidence"].is_null()) return "";
-  const json& e = run["evidence"];
-  return fmt::format("{0}{1} at {2:.2f} s: {3}\n{0}{4}\n", indent, text(e["bodies"]),
-                     e["time"].get<double>(), text(e["wrong"]), text(e["replay"]));
-}
-
-std::string needs_of(const json& choice, const json& run) {
+std::string needs_of(const Choice& choice, const SceneRun& run) {
   std::string lines;
-  for (std::size_t i = 0; i < run["verdicts"].size(); ++i) {
-    const json &need = choice["scene"]["needs"][i], &verdict = run["verdicts"][i];
-    lines +=
-        fmt::format("{:>3}. {:<6} {}: {}\n", i + 1, verdict["holds"] == true ? "holds" : "BROKEN",
-                    text(need["text"]), measured(verdict["value"], need));
+  for (std::size_t i = 0; i < run.verdicts.size(); ++i) {
+    const Need& need = *choice.file.needs[i];
+    const Verdict& verdict = run.verdicts[i];
+    lines += fmt::format("{:>3}. {:<6} {}: {}\n", i + 1, verdict.holds() ? "holds" : "BROKEN",
+                         need.text(choice.file.scene), measured(verdict, need));
   }
   return lines;
 }
 
-std::string answer(const json& choice) {
-  std::string lines;
-  for (const json& kind : choice["kinds"]) {
-    const double ns = kind["nanoseconds"].get<double>();
-    const double exact = kind["exact_nanoseconds"].get<double>();
-    lines += fmt::format("  {} ({}): {}\n", text(kind["name"]), text(kind["bodies"]),
-                         kind["chosen"] == "reference" ? "exact" : text(kind["chosen"]));
-    lines += kind["chosen"] == "reference"
-                 ? fmt::format("    {:.0f} ns a query\n", ns)
-                 : fmt::format("    {:.0f} ns a query instead of {:.0f} ns exactly\n", ns, exact);
-    if (kind["next_cheaper"].is_null()) {
-      lines += "    nothing is cheaper\n";
-      continue;
-    }
-    const json& cheaper = kind["next_cheaper"];
-    const json& run = choice["runs"][cheaper["run"].get<std::size_t>()];
-    lines +=
-        fmt::format("    next cheaper: {}, {:.0f} ns, breaks\n      {}\n", text(cheaper["name"]),
-                    cheaper["nanoseconds"].get<double>(), failure(choice, run));
-    lines += evidence(run, "      ");
+/// The next cheaper model of a kind, and how it fails.
+std::string next_cheaper(const Choice& choice, std::size_t kind, const std::string& folder) {
+  if (choice.cheaper.empty() || !choice.cheaper[kind]) return "    nothing is cheaper\n";
+  const std::size_t index = *choice.cheaper[kind];
+  const SceneRun& run = choice.runs[index];
+  const Candidate& cheaper = *run.models[kind];
+  std::string lines =
+      fmt::format("    next cheaper: {}, {:.0f} ns, breaks\n      {}\n", cheaper.name,
+                  choice.nanoseconds(kind, cheaper), failure(choice, run));
+  if (const auto& e = run.evidence) {
+    lines += fmt::format("      {} at {:.2f} s: {}\n      {}\n", e->bodies, e->time, e->wrong,
+                         replay_command(evidence_file(choice, index, folder), e->candidate));
   }
   return lines;
 }
 
-std::string headline(const json& choice) {
-  if (choice["possible"] == false) {
-    return "Not even exact contacts meet the needs of this scene:\n";
+std::string kinds_of(const Choice& choice, const std::string& folder) {
+  std::string lines;
+  const Candidate& exact = *choice.candidates[0];
+  for (std::size_t k = 0; k < choice.kinds.all().size(); ++k) {
+    const PairKind& kind = choice.kinds.all()[k];
+    const Candidate& chosen = *choice.runs[choice.answer].models[k];
+    const double ns = choice.nanoseconds(k, chosen);
+    const bool is_exact = &chosen == &exact;
+    lines +=
+        fmt::format("  {} ({}): {}\n", kind.name, kind.bodies, is_exact ? "exact" : chosen.name);
+    lines += is_exact ? fmt::format("    {:.0f} ns a query\n", ns)
+                      : fmt::format("    {:.0f} ns a query instead of {:.0f} ns exactly\n", ns,
+                                    choice.nanoseconds(k, exact));
+    lines += next_cheaper(choice, k, folder);
   }
-  if (choice["exact_is_cheapest"] == true) {
+  return lines;
+}
+
+std::string headline(const Choice& choice) {
+  if (choice.impossible) return "Not even exact contacts meet the needs of this scene:\n";
+  if (choice.answer == 0) {
     return "The exact cylinder is itself the cheapest model that meets all needs:\n";
   }
   return fmt::format(
       "The cheapest models that meet all needs save {:.0f}% of the contacts' time:\n",
-      100 * choice["time_saved"].get<double>());
+      100 * (1 - choice.runs[choice.answer].nanoseconds / choice.runs[0].nanoseconds));
+}
+
+/// One row for each candidate that was run for all pairs.
+std::string candidates_table(const Choice& choice, double steps) {
+  std::string lines = "\nOne model for all pairs      µs/step   error/limit  breaks first\n";
+  for (const SceneRun& run : choice.runs) {
+    const bool of_search = run.name.find(' ') != std::string::npos || run.name == "combination";
+    if (of_search) continue;
+    const double error = run.error();
+    lines += fmt::format("  {:<24} {:>9.2f} {:>13}  {}\n", run.name, run.nanoseconds / 1000 / steps,
+                         std::isfinite(error) ? fmt::format("{:.3g}", error) : "absurd",
+                         run.holds() ? "" : first_failure(run));
+  }
+  for (const Candidate* c : choice.too_slow) {
+    lines += fmt::format("  {:<24} takes too long to run\n", c->name);
+  }
+  return lines;
+}
+
+std::string errors(const ReplayScore& s) {
+  if (!std::isfinite(s.depth_error)) return "some without an answer";
+  return fmt::format("depth off by up to {:.2g} m, normals by {:.2g}°", s.depth_error,
+                     s.normal_angle);
 }
 
 }  // namespace
 
-std::string choice_text(const json& choice) {
-  const json& scene = choice["scene"];
-  const json& run = choice["runs"][choice["answer"].get<std::size_t>()];
+std::string choice_text(const Choice& choice, const std::string& folder) {
+  const SceneFile& file = choice.file;
+  const SceneRun& answer = choice.runs[choice.answer];
   std::string lines =
-      fmt::format("{}: {} bodies, {:g} s in steps of {:.2g} s\n\n{}", text(scene["name"]),
-                  scene["bodies"].get<std::size_t>(), scene["duration"].get<double>(),
-                  scene["step"].get<double>(), headline(choice));
-  lines += needs_of(choice, run);
-  if (choice["possible"] == false) return lines;
-  const double exact = choice["runs"][0]["microseconds_per_step"].get<double>();
-  const double chosen = run["microseconds_per_step"].get<double>();
-  lines += fmt::format(
-      "Contacts take {:.2g} µs of a step{}; the rest of it takes {:.0f} µs.\n\n{}", chosen,
-      choice["exact_is_cheapest"] == true ? ""
-                                          : fmt::format(" instead of {:.2g} µs exactly", exact),
-      choice["rest_of_step_microseconds"].get<double>(), answer(choice));
+      fmt::format("{}: {} bodies, {:g} s in steps of {:.2g} s\n\n{}", file.name,
+                  file.scene.bodies.size(), file.scene.duration, file.scene.step, headline(choice));
+  lines += needs_of(choice, answer);
+  if (choice.impossible) return lines;
+  const auto steps = static_cast<double>(choice.exact_run.frames.size() - 1);
+  const double exact = choice.runs[0].nanoseconds / 1000 / steps;
+  const double rest = choice.exact_run.seconds - choice.exact_run.contact_seconds;
+  lines +=
+      fmt::format("Contacts take {:.2g} µs of a step{}; the rest of it takes {:.0f} µs.\n\n{}",
+                  answer.nanoseconds / 1000 / steps,
+                  choice.answer == 0 ? "" : fmt::format(" instead of {:.2g} µs exactly", exact),
+                  rest * 1e6 / steps, kinds_of(choice, folder));
+  return lines + candidates_table(choice, steps);
+}
 
-  lines += "\nOne model for all pairs      µs/step   error/limit  breaks first\n";
-  for (const json& other : choice["runs"]) {
-    const std::string name = text(other["name"]);
-    if (name.find(' ') != std::string::npos || name == "combination") continue;
-    lines += fmt::format(
-        "  {:<24} {:>9.2f} {:>13}  {}\n", name, other["microseconds_per_step"].get<double>(),
-        other["error"].is_null() ? "absurd" : fmt::format("{:.3g}", other["error"].get<double>()),
-        other["holds"] == true ? "" : breaks(other));
-  }
-  for (const json& name : choice["too_slow"]) {
-    lines += fmt::format("  {:<24} takes too long to run\n", text(name));
+std::string pairs_text(const PairsChoice& choice, const std::string& folder) {
+  std::string lines = fmt::format(
+      "{}: {} collision shapes, {} kinds of pairs with a cylinder\n"
+      "Needs: depth within {:g} m, normals within {:g}°, on {} sampled poses of each\n",
+      choice.name, choice.shapes, choice.pairs.size(), choice.needs.depth, choice.needs.angle,
+      choice.needs.count);
+  for (std::size_t i = 0; i < choice.pairs.size(); ++i) {
+    const PairChoice& pair = choice.pairs[i];
+    lines +=
+        fmt::format("\n{} ({}{})\n", pair.name,
+                    pair.count == 1 ? "" : fmt::format("{} pairs, as ", pair.count), pair.example);
+    if (pair.chosen) {
+      const PairCandidate& c = pair.candidates[*pair.chosen];
+      lines += fmt::format("  {}, {:.0f} ns: {}\n",
+                           c.name == "reference" ? "the exact cylinder" : c.name,
+                           *c.score.nanoseconds, errors(c.score));
+    } else {
+      lines += "  no candidate serves\n";
+    }
+    for (const PairCandidate& c : pair.candidates) {
+      if (c.name != "capsule" || c.serves) continue;
+      lines +=
+          fmt::format("  capsule, {:.0f} ns, fails: {}\n    {}\n", *c.score.nanoseconds,
+                      errors(c.score), replay_command(evidence_file(choice, i, c, folder), c.name));
+    }
   }
   return lines;
 }

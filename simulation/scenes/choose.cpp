@@ -9,8 +9,8 @@
 namespace touchstone {
 namespace {
 
-/// A candidate is not run when its queries alone would take longer, seconds.
-constexpr double longest_run = 3;
+/// Seconds that the queries of a run may take; dearer candidates are not run.
+constexpr double max_run_time = 3;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -18,8 +18,8 @@ using Models = std::vector<const Candidate*>;
 
 class Search {
  public:
-  Search(const SceneFile& file, const ChooseOptions& options, Choice& choice)
-      : file_(file), options_(options), choice_(choice), exact_(*choice.candidates[0]) {}
+  Search(const ChooseOptions& options, Choice& choice)
+      : options_(options), choice_(choice), exact_(*choice.candidates[0]) {}
 
   void run() {
     judge_new({named("exact", all_exact())});
@@ -41,7 +41,7 @@ class Search {
     double sum = 0;
     for (std::size_t k = 0; k < models.size(); ++k) {
       sum += choice_.nanoseconds(k, *models[k]) *
-             static_cast<double>(choice_.kinds.all()[k].asked.size());
+             static_cast<double>(choice_.kinds.all()[k].answers.size());
     }
     return sum;
   }
@@ -57,7 +57,7 @@ class Search {
     return nullptr;
   }
 
-  /// Those that have not been run yet.
+  /// Runs and judges those that have not been run yet.
   void judge_new(const std::vector<SceneRun>& wanted) {
     std::vector<SceneRun> fresh;
     for (const SceneRun& run : wanted) {
@@ -66,7 +66,7 @@ class Search {
       });
       if (!twice && !find(run.models)) fresh.push_back(run);
     }
-    judge(fresh, file_, choice_.exact_run, choice_.kinds, exact_, options_.limits,
+    judge(fresh, choice_.file, choice_.exact_run, choice_.kinds, exact_, options_.limits,
           options_.workers);
     choice_.runs.insert(choice_.runs.end(), fresh.begin(), fresh.end());
   }
@@ -76,7 +76,7 @@ class Search {
     return find(models)->holds();
   }
 
-  /// Each candidate wherever it has a routine.
+  /// Each candidate for all kinds that it supports.
   std::vector<SceneRun> uniform_runs() {
     std::vector<SceneRun> result;
     for (const Candidate* candidate : choice_.candidates) {
@@ -84,7 +84,7 @@ class Search {
       for (std::size_t k = 0; k < models.size(); ++k) {
         if (choice_.nanoseconds(k, *candidate) < infinity) models[k] = candidate;
       }
-      if (cost(models) > longest_run * 1e9) {
+      if (cost(models) > max_run_time * 1e9) {
         choice_.too_slow.push_back(candidate);
       } else if (candidate != &exact_ && models != all_exact()) {
         result.push_back(named(candidate->name, models));
@@ -93,12 +93,12 @@ class Search {
     return result;
   }
 
-  /// Cheaper than the model for the kind, the dearest first.
+  /// Candidates cheaper than the model for the kind, the dearest first.
   Models cheaper(std::size_t kind, const Candidate& model) const {
     Models result;
-    const double most = cheaper_share * choice_.nanoseconds(kind, model);
+    const double max_time = cheaper_share * choice_.nanoseconds(kind, model);
     for (const Candidate* c : choice_.candidates) {
-      if (choice_.nanoseconds(kind, *c) < most) result.push_back(c);
+      if (choice_.nanoseconds(kind, *c) < max_time) result.push_back(c);
     }
     std::stable_sort(result.begin(), result.end(), [&](const Candidate* x, const Candidate* y) {
       return choice_.nanoseconds(kind, *x) > choice_.nanoseconds(kind, *y);
@@ -119,8 +119,8 @@ class Search {
     return result;
   }
 
-  /// Every kind's cheapest that serves alone; while they do not serve together, the kind that saves
-  /// least goes back to its next dearer one that serves alone.
+  /// The cheapest model of each kind that serves while the others are exact. While these do not
+  /// serve together, the kind with the smallest saving goes back to its next dearer model.
   void combine() {
     const Models exact = all_exact();
     std::vector<Models> serving(exact.size());
@@ -134,15 +134,15 @@ class Search {
     }
     while (!holds(models, "combination")) {
       std::size_t back = exact.size();
-      double least = infinity;
+      double min_saved = infinity;
       for (std::size_t k = 0; k < exact.size(); ++k) {
         if (serving[k].size() < 2) continue;
         const Candidate& dearer = *serving[k][serving[k].size() - 2];
         const double saved = (choice_.nanoseconds(k, dearer) - choice_.nanoseconds(k, *models[k])) *
-                             static_cast<double>(choice_.kinds.all()[k].asked.size());
-        if (saved < least) least = saved, back = k;
+                             static_cast<double>(choice_.kinds.all()[k].answers.size());
+        if (saved < min_saved) min_saved = saved, back = k;
       }
-      serving[back].pop_back();  // the exact run holds, so one was left
+      serving[back].pop_back();  // one was left, because the exact run holds
       models[back] = serving[back].back();
     }
   }
@@ -150,13 +150,14 @@ class Search {
   /// Is every model the exact one, or cheaper?
   bool nowhere_dearer(const Models& models) const {
     for (std::size_t k = 0; k < models.size(); ++k) {
-      const double most = cheaper_share * choice_.nanoseconds(k, exact_);
-      if (models[k] != &exact_ && !(choice_.nanoseconds(k, *models[k]) < most)) return false;
+      const double max_time = cheaper_share * choice_.nanoseconds(k, exact_);
+      if (models[k] != &exact_ && !(choice_.nanoseconds(k, *models[k]) < max_time)) return false;
     }
     return true;
   }
 
-  /// The cheapest run that holds; then every kind's next cheaper model, until all of them break.
+  /// Finds the cheapest run that holds and tries the next cheaper model of each kind, until none of
+  /// these holds.
   void settle() {
     for (;;) {
       choice_.answer = 0;
@@ -186,7 +187,6 @@ class Search {
     }
   }
 
-  const SceneFile& file_;
   const ChooseOptions& options_;
   Choice& choice_;
   const Candidate& exact_;
@@ -230,16 +230,8 @@ Choice choose(const SceneFile& file, const ChooseOptions& options) {
                        "must hold a cylinder that touches something");
   }
   auto replayed = replay(file.scene, exact_run, kinds.all(), candidates, options.limits);
-  Choice choice{std::move(exact_run),
-                std::move(kinds),
-                candidates,
-                std::move(replayed),
-                {},
-                {},
-                0,
-                false,
-                {}};
-  Search(file, options, choice).run();
+  Choice choice{file, std::move(exact_run), std::move(kinds), candidates, std::move(replayed)};
+  Search(options, choice).run();
   return choice;
 }
 

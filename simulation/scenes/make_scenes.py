@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Writes the scenes of this folder: make_scenes.py FOLDER. Lengths in metres, times in seconds."""
+"""Writes the scene files beside this script; with --check, only compares them with what it would
+write. Lengths in metres, times in seconds."""
 import json
 import math
 import pathlib
@@ -247,7 +248,14 @@ def dump(value, indent=""):
     return "{\n" + ",\n".join(lines) + "\n}\n"
 
 
-folder = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parent)
+folder = pathlib.Path(__file__).parent
+different = []
 for name, make in SCENES.items():
-    scene = {"$schema": "../docs/scene-schema.json", **make()}
-    (folder / f"{name}.json").write_text(dump(scene), encoding="utf-8")
+    text = dump({"$schema": "../docs/scene-schema.json", **make()})
+    file = folder / f"{name}.json"
+    if "--check" not in sys.argv:
+        file.write_text(text, encoding="utf-8")
+    elif file.read_text(encoding="utf-8") != text:
+        different.append(file.name)
+if different:
+    sys.exit(f"not as make_scenes.py writes them: {', '.join(different)}")

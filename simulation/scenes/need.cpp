@@ -4,19 +4,22 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <limits>
 #include <numbers>
+
+#include "reference/invalid_input.hpp"
 
 namespace touchstone {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// The largest value so far, and when the limit was first passed.
+/// The largest of a series of values, and the time at which the limit was first exceeded.
 class Largest {
  public:
   explicit Largest(double limit) : limit_(limit) {}
   void add(double value, double time) {
-    const bool worse = !(value <= value_);  // also when it is no number
+    const bool worse = !(value <= value_);  // true for NaN
     if (!broken_ && worse) time_ = time;
     if (worse) value_ = std::isnan(value) ? infinity : value;
     broken_ = broken_ || !(value <= limit_);
@@ -32,7 +35,7 @@ double degrees_between(const Vec3& u, const Vec3& v) {
   return std::atan2(u.cross(v).norm(), u.dot(v)) * 180 / std::numbers::pi;
 }
 
-/// Of a line with the vertical, 0° … 90°.
+/// Angle of a line to the vertical, 0° … 90°.
 double tilt(const Vec3& axis, const Vec3& gravity) {
   const double angle = degrees_between(axis, gravity);
   return std::min(angle, 180 - angle);
@@ -42,198 +45,299 @@ Vec3 horizontal(const Vec3& v, const Vec3& gravity) {
   return v - v.dot(gravity) / gravity.squaredNorm() * gravity;
 }
 
-struct Measure {
-  const Scene& scene;
-  const Trajectory& run;
-  const Trajectory& exact;
+/// Horizontal distance of a body from its start at the end of a run.
+double horizontal_distance(const ComparedRuns& runs, const Trajectory& run, int body) {
+  const Vec3 way =
+      run.frames.back()[body].pose.position() - run.frames.front()[body].pose.position();
+  return horizontal(way, runs.scene.gravity).norm();
+}
 
-  const BodyState& start(int body) const { return run.frames.front()[body]; }
-  const BodyState& last(int body) const { return run.frames.back()[body]; }
-
-  /// Calls f(state, time) for each frame from that time on.
-  template <class F>
-  void each(int body, double from, F f) const {
-    for (std::size_t i = 0; i < run.frames.size(); ++i) {
-      const double time = run.step * static_cast<double>(i);
-      if (time >= from - run.step / 2) f(run.frames[i][body], time);
-    }
+/// Calls f(state, time) for each frame of the run from a time on.
+template <class F>
+void each_state(const Trajectory& run, int body, double from, F f) {
+  for (std::size_t i = 0; i < run.frames.size(); ++i) {
+    const double time = run.step * static_cast<double>(i);
+    if (time >= from - run.step / 2) f(run.frames[i][body], time);
   }
+}
 
-  Verdict operator()(const Stands& n) const {
-    Largest largest(n.degrees);
-    each(n.body, n.from, [&](const BodyState& s, double time) {
-      if (time < n.until + run.step / 2) largest.add(tilt(s.pose.axis(), scene.gravity), time);
+/// Is the answer about these bodies, in either order? True for all answers if none are given.
+bool concerns(const std::vector<int>& bodies, const JudgedAnswer& answer) {
+  return bodies.empty() || (answer.a == bodies[0] && answer.b == bodies[1]) ||
+         (answer.a == bodies[1] && answer.b == bodies[0]);
+}
+
+/// The vertical is the direction of gravity.
+void require_vertical(const Scene& scene, const char* need) {
+  if (scene.gravity.norm() > 0) return;
+  throw InvalidInput("need", fmt::format("\"{}\"", need),
+                     "has no meaning in a scene without gravity");
+}
+
+std::string names(const Scene& scene, const std::vector<int>& bodies) {
+  std::vector<std::string> all;
+  for (const int b : bodies) all.push_back(scene.bodies[b].name);
+  return fmt::format("{}", fmt::join(all, ", "));
+}
+
+std::string from_text(double time) { return time > 0 ? fmt::format(" from {:g} s", time) : ""; }
+
+struct Stands : Need {
+  Stands() : Need("stands", "Its local z stays near the vertical", "°") {}
+  double degrees = 0, from = 0, until = infinity;
+
+  void visit(NeedMembers& members) override {
+    members.body(bodies);
+    members.number("degrees", degrees);
+    members.time_or_default("from", from);
+    members.time_or_default("until", until);
+  }
+  void check(const Scene& scene) const override { require_vertical(scene, name); }
+  std::string text(const Scene& scene) const override {
+    return fmt::format("{} stands within {:g}°{}{}", names(scene, bodies), degrees, from_text(from),
+                       until < scene.duration ? fmt::format(" until {:g} s", until) : "");
+  }
+  Verdict measure(const ComparedRuns& runs) const override {
+    Largest largest(degrees);
+    each_state(runs.run, bodies[0], from, [&](const BodyState& s, double time) {
+      if (time < until + runs.run.step / 2) {
+        largest.add(tilt(s.pose.axis(), runs.scene.gravity), time);
+      }
     });
     return largest.verdict();
   }
+};
 
-  Verdict operator()(const Rolls& n) const {
-    const auto rolled = [&](const Trajectory& t) {
-      const Vec3 way =
-          t.frames.back()[n.body].pose.position() - t.frames.front()[n.body].pose.position();
-      return horizontal(way, scene.gravity).norm();
-    };
-    const double expected = n.distance ? *n.distance : rolled(exact);
-    return {std::abs(rolled(run) - expected) / expected, n.share, run.end()};
+struct Rolls : Need {
+  Rolls()
+      : Need(
+            "rolls",
+            "It ends so far from its start, horizontally; without a distance, as far as with exact "
+            "contacts",
+            "") {}
+  std::optional<double> distance;  // metres
+  double share = 0;                // that it may be off by
+
+  void visit(NeedMembers& members) override {
+    members.body(bodies);
+    members.positive("distance", distance);
+    members.number("share", share);
   }
+  void check(const Scene& scene) const override { require_vertical(scene, name); }
+  std::string text(const Scene& scene) const override {
+    return fmt::format("{} rolls {} within {:g}%", names(scene, bodies),
+                       distance ? fmt::format("{:g} m", *distance) : "as far as exactly",
+                       100 * share);
+  }
+  Verdict measure(const ComparedRuns& runs) const override {
+    const double expected = distance ? *distance : horizontal_distance(runs, runs.exact, bodies[0]);
+    const double found = horizontal_distance(runs, runs.run, bodies[0]);
+    return {std::abs(found - expected) / expected, share, runs.run.end()};
+  }
+};
 
-  Verdict operator()(const Rests& n) const {
-    Largest largest(n.speed);
-    for (const int body : n.bodies) {
-      const double reach = largest_half_extent(scene.bodies[body].shape);
-      each(body, n.by, [&](const BodyState& s, double time) {
+struct Rests : Need {
+  Rests() : Need("rests", "None is faster from then on; without bodies, all that move", " m/s") {}
+  double speed = 0, by = 0;  // m/s, of the centre or of the surface by rotation
+
+  void visit(NeedMembers& members) override {
+    members.moving_bodies(bodies);
+    members.number("speed", speed);
+    members.time_or_default("by", by);
+  }
+  std::string text(const Scene& scene) const override {
+    constexpr std::size_t max_named = 3;
+    return fmt::format(
+        "{} slower than {:g} m/s from {:g} s",
+        bodies.size() > max_named ? fmt::format("{} bodies", bodies.size()) : names(scene, bodies),
+        speed, by);
+  }
+  Verdict measure(const ComparedRuns& runs) const override {
+    Largest largest(speed);
+    for (const int body : bodies) {
+      const double reach = largest_half_extent(runs.scene.bodies[body].shape);
+      each_state(runs.run, body, by, [&](const BodyState& s, double time) {
         largest.add(std::max(s.velocity.norm(), reach * s.angular_velocity.norm()), time);
       });
     }
     return largest.verdict();
   }
+};
 
-  /// How many fall before one that should have fallen earlier, or not at all.
-  Verdict operator()(const FallsInOrder& n) const {
+struct FallsInOrder : Need {
+  FallsInOrder()
+      : Need("falls-in-order", "They tilt by more than the angle, in this order", " out of place") {
+  }
+  double degrees = 45;
+
+  void visit(NeedMembers& members) override {
+    members.bodies(bodies);
+    members.number_or_default("degrees", degrees);
+  }
+  std::string text(const Scene& scene) const override {
+    return bodies.size() == 1 ? names(scene, bodies) + " falls"
+                              : "fall in the order " + names(scene, bodies);
+  }
+  /// Counts bodies that do not fall, or fall before one that should have fallen earlier.
+  Verdict measure(const ComparedRuns& runs) const override {
     double out_of_place = 0, first = infinity, before = 0;
-    for (const int body : n.bodies) {
-      double fell = infinity;
-      each(body, 0, [&](const BodyState& s, double time) {
-        const double angle = degrees_between(s.pose.axis(), start(body).pose.axis());
-        if (angle > n.degrees) fell = std::min(fell, time);
-      });
+    for (const int body : bodies) {
+      const double fell = fall_time(runs.run, body);
       if (!(fell < infinity) || fell < before) {
         ++out_of_place;
-        first = std::min(first, std::min(fell, run.end()));
+        first = std::min(first, std::min(fell, runs.run.end()));
       } else {
         before = fell;
       }
     }
-    return {out_of_place, 0, out_of_place > 0 ? first : run.end()};
+    return {out_of_place, 0, out_of_place > 0 ? first : runs.run.end()};
   }
 
-  bool concerns(const std::vector<int>& bodies, const Asked& asked) const {
-    return bodies.empty() || (asked.a == bodies[0] && asked.b == bodies[1]) ||
-           (asked.a == bodies[1] && asked.b == bodies[0]);
+ private:
+  double fall_time(const Trajectory& run, int body) const {
+    const Vec3 start = run.frames.front()[body].pose.axis();
+    double fell = infinity;
+    each_state(run, body, 0, [&](const BodyState& s, double time) {
+      if (degrees_between(s.pose.axis(), start) > degrees) fell = std::min(fell, time);
+    });
+    return fell;
   }
+};
 
-  Verdict operator()(const Penetration& n) const {
-    Largest largest(n.metres);
-    for (const Asked& a : run.asked) {
-      const double time = run.step * a.frame;
-      if (time >= n.from - run.step / 2 && concerns(n.bodies, a)) largest.add(a.depth, time);
+struct Penetration : Need {
+  Penetration()
+      : Need("penetration", "True depth of pairs with a cylinder; of all, or of two bodies", " m") {
+  }
+  double metres = 0, from = 0;
+
+  void visit(NeedMembers& members) override {
+    members.any_pair(bodies);
+    members.number("metres", metres);
+    members.time_or_default("from", from);
+  }
+  std::string text(const Scene& scene) const override {
+    return fmt::format("{} overlap by less than {:g} m{}",
+                       bodies.empty() ? "bodies" : names(scene, bodies), metres, from_text(from));
+  }
+  Verdict measure(const ComparedRuns& runs) const override {
+    Largest largest(metres);
+    for (const JudgedAnswer& a : runs.run.answers) {
+      const double time = runs.run.step * a.frame;
+      if (time >= from - runs.run.step / 2 && concerns(bodies, a)) largest.add(a.depth, time);
     }
     return largest.verdict();
   }
+};
 
-  Verdict operator()(const Normals& n) const {
-    Largest largest(n.degrees);
-    for (const Asked& a : run.asked) {
-      if (a.normal_angle && concerns(n.bodies, a)) largest.add(*a.normal_angle, run.step * a.frame);
+struct Normals : Need {
+  Normals() : Need("normals", "Every contact's normal", "°") {}
+  double degrees = 0;
+
+  void visit(NeedMembers& members) override {
+    members.pair(bodies);
+    members.number("degrees", degrees);
+  }
+  std::string text(const Scene& scene) const override {
+    return fmt::format("normals of {} within {:g}°", names(scene, bodies), degrees);
+  }
+  Verdict measure(const ComparedRuns& runs) const override {
+    Largest largest(degrees);
+    for (const JudgedAnswer& a : runs.run.answers) {
+      if (a.normal_angle && concerns(bodies, a)) {
+        largest.add(*a.normal_angle, runs.run.step * a.frame);
+      }
     }
     return largest.verdict();
   }
+};
 
-  Verdict operator()(const EndsNear& n) const {
-    const Vec3& with_exact = exact.frames.back()[n.body].pose.position();
-    return {(last(n.body).pose.position() - with_exact).norm(), n.metres, run.end()};
+struct EndsNear : Need {
+  EndsNear() : Need("ends-near", "It ends near where it does with exact contacts", " m") {}
+  double metres = 0;
+
+  void visit(NeedMembers& members) override {
+    members.body(bodies);
+    members.number("metres", metres);
   }
-
-  Verdict operator()(const EndsTilted& n) const {
-    const Vec3 with_exact = exact.frames.back()[n.body].pose.axis();
-    const double angle = degrees_between(last(n.body).pose.axis(), with_exact);
-    return {angle, n.degrees, run.end()};
+  std::string text(const Scene& scene) const override {
+    return fmt::format("{} ends within {:g} m of the exact place", names(scene, bodies), metres);
   }
+  Verdict measure(const ComparedRuns& runs) const override {
+    const Vec3& found = runs.run.frames.back()[bodies[0]].pose.position();
+    const Vec3& expected = runs.exact.frames.back()[bodies[0]].pose.position();
+    return {(found - expected).norm(), metres, runs.run.end()};
+  }
+};
 
-  Verdict operator()(const StaysIn& n) const {
-    Largest largest(n.metres);
-    each(n.body, n.from, [&](const BodyState& s, double time) {
+struct EndsTilted : Need {
+  EndsTilted()
+      : Need("ends-tilted", "Its local z ends near how it does with exact contacts", "°") {}
+  double degrees = 0;
+
+  void visit(NeedMembers& members) override {
+    members.body(bodies);
+    members.number("degrees", degrees);
+  }
+  std::string text(const Scene& scene) const override {
+    return fmt::format("{} ends within {:g}° of the exact tilt", names(scene, bodies), degrees);
+  }
+  Verdict measure(const ComparedRuns& runs) const override {
+    const Vec3 found = runs.run.frames.back()[bodies[0]].pose.axis();
+    const Vec3 expected = runs.exact.frames.back()[bodies[0]].pose.axis();
+    return {degrees_between(found, expected), degrees, runs.run.end()};
+  }
+};
+
+struct StaysIn : Need {
+  StaysIn() : Need("stays-in", "Its centre stays in a box of the world", " m") {}
+  Vec3 lower = Vec3::Zero(), upper = Vec3::Zero();
+  double metres = 0, from = 0;  // `metres`: distance that it may be outside
+
+  void visit(NeedMembers& members) override {
+    members.body(bodies);
+    members.point("lower", lower);
+    members.point("upper", upper);
+    members.number_or_default("metres", metres);
+    members.time_or_default("from", from);
+  }
+  void check(const Scene&) const override {
+    if ((lower.array() <= upper.array()).all()) return;
+    throw InvalidInput("upper", "below lower", "must not lie below lower");
+  }
+  std::string text(const Scene& scene) const override {
+    return fmt::format("{} stays in its region{}", names(scene, bodies), from_text(from));
+  }
+  Verdict measure(const ComparedRuns& runs) const override {
+    Largest largest(metres);
+    each_state(runs.run, bodies[0], from, [&](const BodyState& s, double time) {
       const Vec3& p = s.pose.position();
-      largest.add((p - p.cwiseMax(n.lower).cwiseMin(n.upper)).norm(), time);
+      largest.add((p - p.cwiseMax(lower).cwiseMin(upper)).norm(), time);
     });
     return largest.verdict();
   }
 };
 
-struct Describe {
-  const Scene& scene;
-
-  const std::string& name(int body) const { return scene.bodies[body].name; }
-  std::string names(const std::vector<int>& bodies) const {
-    std::vector<std::string> all;
-    for (const int b : bodies) all.push_back(name(b));
-    return fmt::format("{}", fmt::join(all, ", "));
-  }
-  std::string from(double time) const { return time > 0 ? fmt::format(" from {:g} s", time) : ""; }
-
-  std::string operator()(const Stands& n) const {
-    return fmt::format("{} stands within {:g}°{}{}", name(n.body), n.degrees, from(n.from),
-                       n.until < scene.duration ? fmt::format(" until {:g} s", n.until) : "");
-  }
-  std::string operator()(const Rolls& n) const {
-    return fmt::format("{} rolls {} within {:g}%", name(n.body),
-                       n.distance ? fmt::format("{:g} m", *n.distance) : "as far as exactly",
-                       100 * n.share);
-  }
-  std::string operator()(const Rests& n) const {
-    return fmt::format(
-        "{} slower than {:g} m/s from {:g} s",
-        n.bodies.size() > 3 ? fmt::format("{} bodies", n.bodies.size()) : names(n.bodies), n.speed,
-        n.by);
-  }
-  std::string operator()(const FallsInOrder& n) const {
-    if (n.bodies.size() == 1) return name(n.bodies[0]) + " falls";
-    return fmt::format("fall in the order {}", names(n.bodies));
-  }
-  std::string operator()(const Penetration& n) const {
-    return fmt::format("{} overlap by less than {:g} m{}",
-                       n.bodies.empty() ? "bodies" : names(n.bodies), n.metres, from(n.from));
-  }
-  std::string operator()(const Normals& n) const {
-    return fmt::format("normals of {} within {:g}°", names(n.bodies), n.degrees);
-  }
-  std::string operator()(const EndsNear& n) const {
-    return fmt::format("{} ends within {:g} m of the exact place", name(n.body), n.metres);
-  }
-  std::string operator()(const EndsTilted& n) const {
-    return fmt::format("{} ends within {:g}° of the exact tilt", name(n.body), n.degrees);
-  }
-  std::string operator()(const StaysIn& n) const {
-    return fmt::format("{} stays in its region{}", name(n.body), from(n.from));
-  }
-};
-
-struct Unit {
-  const char* operator()(const Stands&) const { return "°"; }
-  const char* operator()(const Rolls&) const { return ""; }
-  const char* operator()(const Rests&) const { return " m/s"; }
-  const char* operator()(const FallsInOrder&) const { return " out of place"; }
-  const char* operator()(const Penetration&) const { return " m"; }
-  const char* operator()(const Normals&) const { return "°"; }
-  const char* operator()(const EndsNear&) const { return " m"; }
-  const char* operator()(const EndsTilted&) const { return "°"; }
-  const char* operator()(const StaysIn&) const { return " m"; }
-};
+template <class... Kinds>
+std::vector<std::unique_ptr<Need>> one_of_each() {
+  std::vector<std::unique_ptr<Need>> all;
+  (all.push_back(std::make_unique<Kinds>()), ...);
+  return all;
+}
 
 }  // namespace
 
-Verdict measure(const Need& need, const Scene& scene, const Trajectory& run,
-                const Trajectory& exact) {
-  Verdict verdict = std::visit(Measure{scene, run, exact}, need);
-  if (!run.sound) verdict.value = infinity, verdict.time = std::min(verdict.time, run.end());
+Verdict Need::judge(const ComparedRuns& runs) const {
+  Verdict verdict = measure(runs);
+  if (!runs.run.sound) {
+    verdict.value = infinity;
+    verdict.time = std::min(verdict.time, runs.run.end());
+  }
   return verdict;
 }
 
-std::vector<int> bodies_of(const Need& need) {
-  return std::visit(
-      [](const auto& n) -> std::vector<int> {
-        if constexpr (requires { n.bodies; }) {
-          return n.bodies;
-        } else {
-          return {n.body};
-        }
-      },
-      need);
+std::vector<std::unique_ptr<Need>> all_needs() {
+  return one_of_each<Stands, Rolls, Rests, FallsInOrder, Penetration, Normals, EndsNear, EndsTilted,
+                     StaysIn>();
 }
-
-std::string describe(const Need& need, const Scene& scene) {
-  return std::visit(Describe{scene}, need);
-}
-const char* unit(const Need& need) { return std::visit(Unit{}, need); }
 
 }  // namespace touchstone

@@ -1,92 +1,77 @@
 #pragma once
 
-#include <limits>
+#include <memory>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
-#include "reference/shape.hpp"
 #include "simulation/scenes/trajectory.hpp"
 
 namespace touchstone {
 
-// What must come out right in a scene. Bodies are given by their place in it, times in seconds.
-
-/// Its local z stays within that angle of the vertical, either way up, from a time to another.
-struct Stands {
-  int body;
-  double degrees, from, until;
-};
-/// Its centre ends that far from where it began, horizontally; without a distance, as far as with
-/// exact contacts. Off by no more than a share of it.
-struct Rolls {
-  int body;
-  std::optional<double> distance;  ///< metres
-  double share;
-};
-/// None of the bodies is faster at that time or later: of its centre, or of its surface by its
-/// spin.
-struct Rests {
-  std::vector<int> bodies;
-  double speed, by;  ///< m/s
-};
-/// They tilt by more than an angle from how they began, in this order.
-struct FallsInOrder {
-  std::vector<int> bodies;
-  double degrees;
-};
-/// No pair with a cylinder is truly deeper, whatever depth is answered; of these two bodies alone
-/// if they are given.
-struct Penetration {
-  std::vector<int> bodies;  ///< none or two
-  double metres, from;
-};
-/// Of these two bodies, the normal of every contact: where another one separates them as well, its
-/// angle does not count.
-struct Normals {
-  std::vector<int> bodies;  ///< two
-  double degrees;
-};
-/// Its centre ends within a distance of where it ends with exact contacts.
-struct EndsNear {
-  int body;
-  double metres;
-};
-/// Its local z ends within an angle of how it ends with exact contacts.
-struct EndsTilted {
-  int body;
-  double degrees;
-};
-/// Its centre stays in a box of the world, or at most that far outside, from a time to the end.
-struct StaysIn {
-  int body;
-  Vec3 lower, upper;
-  double metres, from;
-};
-
-using Need = std::variant<Stands, Rolls, Rests, FallsInOrder, Penetration, Normals, EndsNear,
-                          EndsTilted, StaysIn>;
-
-/// What became of a need in one run.
+/// Outcome of a need in one run.
 struct Verdict {
-  double value;  ///< measured, in the unit of the limit; not finite when the run is not sound
+  double value;  ///< measured, in the unit of the limit; not finite if the run is not sound
   double limit;
-  double time;  ///< when the limit was first passed; of a need that holds, of its largest value
+  double time;  ///< when the limit was first exceeded; for a need that holds, of the largest value
   bool holds() const { return value <= limit; }
-  /// Of the limit; with a limit of zero, more than one as soon as the need is broken.
+  /// Value as a share of the limit; for a limit of zero, above one as soon as the need is broken.
   double share() const { return limit > 0 ? value / limit : value > 0 ? 1 + value : 0; }
 };
 
-/// `exact` is the run with exact contacts, maybe the same one.
-Verdict measure(const Need& need, const Scene& scene, const Trajectory& run,
-                const Trajectory& exact);
+/// Runs of one scene: the run to be judged and the run with exact contacts, which may be the same.
+struct ComparedRuns {
+  const Scene& scene;
+  const Trajectory& run;
+  const Trajectory& exact;
+};
 
-/// The bodies that it names; none: all.
-std::vector<int> bodies_of(const Need& need);
+/// Visitor of the members that a need has in a scene file beside "need". One visitor reads them,
+/// another describes them as JSON Schema. Bodies are indices into the scene, times seconds.
+class NeedMembers {
+ public:
+  virtual void body(std::vector<int>& bodies) = 0;           ///< "body": one
+  virtual void bodies(std::vector<int>& bodies) = 0;         ///< "bodies": one or more
+  virtual void moving_bodies(std::vector<int>& bodies) = 0;  ///< likewise; default: all that move
+  virtual void pair(std::vector<int>& bodies) = 0;           ///< "bodies": two, one a cylinder
+  virtual void any_pair(std::vector<int>& bodies) = 0;       ///< likewise; default: none
+  virtual void number(const char* name, double& value) = 0;  ///< finite, not negative
+  virtual void number_or_default(const char* name, double& value) = 0;
+  virtual void positive(const char* name, std::optional<double>& value) = 0;  ///< default: none
+  virtual void time_or_default(const char* name, double& value) = 0;  ///< within the duration
+  virtual void point(const char* name, Vec3& value) = 0;
 
-/// "can-1 stands within 0.5°", and its unit: "°", "m", …
-std::string describe(const Need& need, const Scene& scene);
-const char* unit(const Need& need);
+ protected:
+  ~NeedMembers() = default;
+};
+
+/// A requirement on the motion of a scene (docs/scenes.md). need.cpp has one class for each kind.
+class Need {
+ public:
+  virtual ~Need() = default;
+
+  const char* const name;     ///< in a scene file: "stands"
+  const char* const meaning;  ///< in the schema, as a phrase
+  const char* const unit;     ///< of value and limit, to stand after a number: "°", " m"
+  std::vector<int> bodies;    ///< that the need names; empty: all pairs with a cylinder
+
+  /// Visits the members in the order in which they are documented.
+  virtual void visit(NeedMembers& members) = 0;
+  /// Throws InvalidInput with the name of the member if the members do not suit the scene.
+  virtual void check(const Scene&) const {}
+  /// "can-1 stands within 0.5°"
+  virtual std::string text(const Scene& scene) const = 0;
+
+  /// Broken whatever it requires if the run is not sound.
+  Verdict judge(const ComparedRuns& runs) const;
+
+ protected:
+  Need(const char* need_name, const char* need_meaning, const char* need_unit)
+      : name(need_name), meaning(need_meaning), unit(need_unit) {}
+  virtual Verdict measure(const ComparedRuns& runs) const = 0;
+};
+
+/// One need of each kind with its default members, in the order of docs/scenes.md.
+std::vector<std::unique_ptr<Need>> all_needs();
 
 }  // namespace touchstone

@@ -1,5 +1,5 @@
-// POV-Ray's space is left-handed. A camera whose `right` is turned round makes it right-handed with
-// z up, so that poses go in as they are.
+// POV-Ray's coordinate system is left-handed. A camera with reversed `right` makes it right-handed
+// with z up, so that poses are written unchanged.
 #include "simulation/scenes/povray.hpp"
 
 #include <algorithm>
@@ -44,7 +44,7 @@ std::string view(const Camera& camera) {
       vector(camera.position));
 }
 
-/// In its own frame, with its texture.
+/// POV-Ray object of a shape in the body's frame, with its texture, without the closing brace.
 struct Object {
   bool fixed;
 
@@ -71,7 +71,7 @@ struct Object {
   }
 };
 
-/// POV-Ray's rows are the images of the axes.
+/// Transformation of a pose, and the closing brace. POV-Ray's rows are the images of the axes.
 std::string placed(const Pose& pose) {
   std::string numbers;
   for (int axis = 0; axis < 3; ++axis) {

@@ -8,9 +8,9 @@
 
 namespace touchstone {
 
-/// Writes a run for POV-Ray 3.7: scene.pov (camera, light), frame-00001.inc, … (the bodies, every
-/// `every` seconds), and scene.ini, so that `povray scene.ini` draws all frames. Returns how many.
-/// Throws InvalidInput (field "--out") where that cannot be done.
+/// Writes a run for POV-Ray 3.7: scene.pov (camera, light), frame-00001.inc, … (the bodies at
+/// intervals of `every` seconds), and scene.ini; `povray scene.ini` draws all frames. Returns the
+/// number of frames. Throws InvalidInput (field "--out") if a file cannot be written.
 int write_povray(const SceneFile& file, const Trajectory& run, double every,
                  const std::filesystem::path& folder);
 

@@ -1,21 +1,25 @@
 #include "simulation/scenes/scene_file.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <map>
+
+#include <nlohmann/json.hpp>
 
 #include "properties/files/configuration_json.hpp"
 #include "properties/files/json_fields.hpp"
 #include "properties/files/read_file.hpp"
 #include "properties/files/strict_json.hpp"
 #include "reference/aabb.hpp"
-#include "simulation/scenes/need_json.hpp"
+#include "reference/invalid_input.hpp"
 
 namespace touchstone {
 namespace {
 
 using nlohmann::json;
+using nlohmann::ordered_json;
 
 struct NamedMaterial {
   Material material;
@@ -30,20 +34,20 @@ std::map<std::string, NamedMaterial> read_materials(const json& file) {
     const std::string path = "materials." + name;
     require_object(value, path);
     refuse_others(value, {"density", "friction", "restitution"}, path);
-    const Body usual{"", Sphere(1)};
-    const auto get = [&](const char* field, double otherwise, double most) {
+    const Body defaults{"", Sphere(1)};
+    const auto get = [&](const char* field, double otherwise, double max) {
       if (!value.contains(field)) return otherwise;
       const double x = number(value[field], path + '.' + field);
-      if (!(std::isfinite(x) && x >= 0 && x <= most)) {
+      if (!(std::isfinite(x) && x >= 0 && x <= max)) {
         throw InvalidInput(path + '.' + field, shown(value[field]),
-                           most == 1 ? "must lie between 0 and 1" : "must be finite and positive");
+                           max == 1 ? "must lie between 0 and 1" : "must be finite and positive");
       }
       return x;
     };
     constexpr double any = std::numeric_limits<double>::max();
-    result[name] = {{get("friction", usual.material.friction, any),
-                     get("restitution", usual.material.restitution, 1)},
-                    get("density", usual.density, any)};
+    result[name] = {{get("friction", defaults.material.friction, any),
+                     get("restitution", defaults.material.restitution, 1)},
+                    get("density", defaults.density, any)};
   }
   return result;
 }
@@ -88,6 +92,171 @@ void each_of(const json& file, const char* name, Read read) {
   for (std::size_t i = 0; i < array.size(); ++i) read(array[i], fmt::format("{}[{}]", name, i));
 }
 
+/// Reads the members of a need from its JSON object.
+class NeedReader : public NeedMembers {
+ public:
+  NeedReader(const json& value, std::string path, const Scene& scene)
+      : value_(value), path_(std::move(path)), scene_(scene) {}
+  virtual ~NeedReader() = default;
+
+  void body(std::vector<int>& bodies) override {
+    bodies = {index(member(value_, "body", path_), at("body"))};
+  }
+  void bodies(std::vector<int>& bodies) override {
+    constexpr std::size_t no_limit = 1000000;
+    bodies = array(1, no_limit);
+  }
+  void moving_bodies(std::vector<int>& bodies) override {
+    if (value_.contains("bodies")) {
+      bodies = array(1, scene_.bodies.size());
+      return;
+    }
+    for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
+      if (!scene_.bodies[i].fixed) bodies.push_back(static_cast<int>(i));
+    }
+  }
+  /// One of them must be a cylinder: contacts of other pairs are not judged.
+  void pair(std::vector<int>& bodies) override {
+    bodies = array(2, 2);
+    for (const int b : bodies) {
+      if (std::holds_alternative<Cylinder>(scene_.bodies[b].shape)) return;
+    }
+    throw InvalidInput(at("bodies"), shown(value_["bodies"]), "one of them must be a cylinder");
+  }
+  void any_pair(std::vector<int>& bodies) override {
+    if (value_.contains("bodies")) pair(bodies);
+  }
+  void number(const char* name, double& value) override {
+    const json& given = member(value_, name, path_);
+    value = touchstone::number(given, at(name));
+    if (!(std::isfinite(value) && value >= 0)) {
+      throw InvalidInput(at(name), shown(given), "must be finite and not negative");
+    }
+  }
+  void number_or_default(const char* name, double& value) override {
+    if (value_.contains(name)) number(name, value);
+  }
+  void positive(const char* name, std::optional<double>& value) override {
+    if (!value_.contains(name)) return;
+    number(name, value.emplace());
+    if (*value == 0) throw InvalidInput(at(name), "0", "must be positive");
+  }
+  void time_or_default(const char* name, double& value) override {
+    if (!value_.contains(name)) return;
+    number(name, value);
+    if (value > scene_.duration) {
+      throw InvalidInput(at(name), shown(value_[name]), "must lie within the scene's duration");
+    }
+  }
+  void point(const char* name, Vec3& value) override {
+    value = vector(member(value_, name, path_), at(name));
+  }
+
+ private:
+  std::string at(const char* name) const { return path_ + '.' + name; }
+
+  int index(const json& name, const std::string& field) const {
+    for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
+      if (name == scene_.bodies[i].name) return static_cast<int>(i);
+    }
+    throw InvalidInput(field, shown(name), "must be the name of one of the bodies");
+  }
+  std::vector<int> array(std::size_t min, std::size_t max) const {
+    const json& names = member(value_, "bodies", path_);
+    if (!names.is_array() || names.size() < min || names.size() > max) {
+      throw InvalidInput(at("bodies"), shown(names),
+                         min == max
+                             ? "must be an array of two names of bodies"
+                             : fmt::format("must be an array of at least {} names of bodies", min));
+    }
+    std::vector<int> result;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      result.push_back(index(names[i], fmt::format("{}[{}]", at("bodies"), i)));
+    }
+    return result;
+  }
+
+  const json& value_;
+  std::string path_;
+  const Scene& scene_;
+};
+
+/// Describes the members of a need as JSON Schema.
+class NeedSchema : public NeedMembers {
+ public:
+  explicit NeedSchema(Need& need) {
+    properties_["need"] = {{"const", need.name}};
+    need.visit(*this);
+    schema_ = {{"type", "object"},
+               {"properties", properties_},
+               {"required", required_},
+               {"additionalProperties", false},
+               {"description", need.meaning}};
+  }
+  virtual ~NeedSchema() = default;
+  const ordered_json& schema() const { return schema_; }
+  /// The members that are known, "need" first.
+  std::vector<std::string> names() const {
+    std::vector<std::string> result;
+    for (const auto& [name, property] : properties_.items()) result.push_back(name);
+    return result;
+  }
+
+  void body(std::vector<int>&) override { add("body", body_name, true); }
+  void bodies(std::vector<int>&) override { add("bodies", some_bodies, true); }
+  void moving_bodies(std::vector<int>&) override { add("bodies", some_bodies, false); }
+  void pair(std::vector<int>&) override { add("bodies", two_bodies, true); }
+  void any_pair(std::vector<int>&) override { add("bodies", two_bodies, false); }
+  void number(const char* name, double&) override { add(name, any_number, true); }
+  void number_or_default(const char* name, double& value) override {
+    ordered_json property = any_number;
+    const bool is_whole = value == std::round(value);
+    if (std::isfinite(value)) {
+      property["default"] = is_whole ? ordered_json(std::lround(value)) : ordered_json(value);
+    }
+    add(name, property, false);
+  }
+  void positive(const char* name, std::optional<double>&) override { add(name, any_number, false); }
+  void time_or_default(const char* name, double& value) override { number_or_default(name, value); }
+  void point(const char* name, Vec3&) override { add(name, {{"$ref", "#/$defs/vector"}}, true); }
+
+ private:
+  void add(const char* name, const ordered_json& property, bool required) {
+    properties_[name] = property;
+    if (required) required_.push_back(name);
+  }
+
+  const ordered_json any_number = {{"$ref", "#/$defs/number"}};
+  const ordered_json body_name = {{"type", "string"}, {"description", "The name of a body"}};
+  const ordered_json some_bodies = {{"type", "array"}, {"items", body_name}, {"minItems", 1}};
+  const ordered_json two_bodies = {
+      {"type", "array"}, {"items", body_name}, {"minItems", 2}, {"maxItems", 2}};
+  ordered_json properties_, required_ = {"need"}, schema_;
+};
+
+/// The kind of a need by its name, with its default members.
+std::unique_ptr<Need> need_of_kind(const json& kind, const std::string& field) {
+  std::vector<std::string> names;
+  for (auto& need : all_needs()) {
+    if (kind == need->name) return std::move(need);
+    names.emplace_back(need->name);
+  }
+  std::sort(names.begin(), names.end());
+  throw InvalidInput(field, shown(kind), fmt::format("must be one of {}", fmt::join(names, ", ")));
+}
+
+/// {"need": "stands", "body": "can", "degrees": 0.5}
+std::shared_ptr<const Need> read_need(const json& value, const std::string& path,
+                                      const Scene& scene) {
+  require_object(value, path);
+  auto need = need_of_kind(member(value, "need", path), path + ".need");
+  refuse_others(value, NeedSchema(*need).names(), path);
+  NeedReader reader(value, path, scene);
+  need->visit(reader);
+  at_path(path, [&] { need->check(scene); });
+  return need;
+}
+
 Camera read_camera(const json& value) {
   require_object(value, "camera");
   refuse_others(value, {"position", "look_at"}, "camera");
@@ -117,14 +286,15 @@ Camera camera_for(const Scene& scene) {
   return {centre + 2.6 * reach * Vec3(0.45, -0.8, 0.4), centre};
 }
 
-SceneFile scene_from_json(const json& file, const std::string& name) {
+SceneFile scene_from_text(std::string_view text, const std::filesystem::path& path) {
+  const json file = parse_json(text, path.string());
   require_object(file, "scene");
   refuse_others(file,
                 {"$schema", "description", "gravity", "step", "duration", "surface_layer",
                  "materials", "bodies", "needs", "camera"},
                 "");
   SceneFile result;
-  result.name = name;
+  result.name = path.stem().string();
   if (file.contains("description")) result.description = string(file["description"], "description");
   Scene& scene = result.scene;
   if (file.contains("gravity")) scene.gravity = vector(file["gravity"], "gravity");
@@ -134,10 +304,10 @@ SceneFile scene_from_json(const json& file, const std::string& name) {
     scene.surface_layer = number(file["surface_layer"], "surface_layer");
   }
   const auto materials = read_materials(file);
-  each_of(file, "bodies", [&](const json& value, const std::string& path) {
-    scene.bodies.push_back(read_body(value, path, materials));
+  each_of(file, "bodies", [&](const json& value, const std::string& field) {
+    scene.bodies.push_back(read_body(value, field, materials));
   });
-  constexpr std::size_t max_bodies = 1000;  // in each step every one is held against every other
+  constexpr std::size_t max_bodies = 1000;  // each step tests all pairs
   if (scene.bodies.size() > max_bodies) {
     throw InvalidInput("bodies", fmt::format("{} bodies", scene.bodies.size()),
                        fmt::format("must be at most {}", max_bodies));
@@ -151,8 +321,8 @@ SceneFile scene_from_json(const json& file, const std::string& name) {
                        "bodies");
   }
   if (file.contains("needs")) {
-    each_of(file, "needs", [&](const json& value, const std::string& path) {
-      result.needs.push_back(need_from_json(value, path, scene));
+    each_of(file, "needs", [&](const json& value, const std::string& field) {
+      result.needs.push_back(read_need(value, field, scene));
     });
   }
   result.camera = file.contains("camera") ? read_camera(file["camera"]) : camera_for(scene);
@@ -160,7 +330,23 @@ SceneFile scene_from_json(const json& file, const std::string& name) {
 }
 
 SceneFile read_scene(const std::filesystem::path& file) {
-  return scene_from_json(parse_json(read_file(file, "scene"), file.string()), file.stem().string());
+  return scene_from_text(read_file(file, "scene"), file);
+}
+
+std::string schema_with_needs(const std::string& schema) {
+  ordered_json result = ordered_json::parse(schema);
+  ordered_json definitions, choices = ordered_json::array();
+  for (const auto& [name, definition] : result["$defs"].items()) {
+    if (!name.starts_with("need-")) definitions[name] = definition;
+  }
+  for (const auto& need : all_needs()) {
+    const std::string name = std::string("need-") + need->name;
+    definitions[name] = NeedSchema(*need).schema();
+    choices.push_back({{"$ref", "#/$defs/" + name}});
+  }
+  result["$defs"] = definitions;
+  result["properties"]["needs"]["items"]["oneOf"] = choices;
+  return result.dump(1) + '\n';
 }
 
 }  // namespace touchstone

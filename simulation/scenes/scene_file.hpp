@@ -1,18 +1,17 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
+#include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
-
-#include <nlohmann/json.hpp>
 
 #include "simulation/scene.hpp"
 #include "simulation/scenes/need.hpp"
 
 namespace touchstone {
 
-/// From where a picture of a scene is taken, z up, metres.
+/// View point of a picture of a scene, z up, metres.
 struct Camera {
   Vec3 position, look_at;
 };
@@ -22,16 +21,20 @@ struct SceneFile {
   std::string name;  ///< of the file, without folder and ending
   std::string description;
   Scene scene;
-  std::vector<Need> needs;
-  Camera camera;  ///< one that sees all bodies, where the file has none
+  std::vector<std::shared_ptr<const Need>> needs;
+  Camera camera;  ///< by default `camera_for` the scene
 };
 
-/// Throws InvalidInput with the path of the field ("bodies[3].shape.radius").
-SceneFile scene_from_json(const nlohmann::json& json, const std::string& name);
-/// The same, or InvalidInput where the file cannot be read or is no JSON.
+/// Reads the text of a scene file. Throws InvalidInput with the path of the field
+/// ("bodies[3].shape.radius"), or with the file's name where the text is not JSON.
+SceneFile scene_from_text(std::string_view text, const std::filesystem::path& file);
+/// Reads a scene file; throws likewise, also where the file cannot be read.
 SceneFile read_scene(const std::filesystem::path& file);
 
-/// Sees all bodies but the planes from the front right above.
+/// The JSON Schema of scene files with its needs replaced by those that `scene_from_text` reads.
+std::string schema_with_needs(const std::string& schema);
+
+/// A camera that sees all bodies but the planes, from the front right above.
 Camera camera_for(const Scene& scene);
 
 }  // namespace touchstone

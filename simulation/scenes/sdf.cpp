@@ -28,7 +28,7 @@ Pose to_pose(const Pose3d& p) {
           Eigen::Quaterniond(p.Rot().W(), p.Rot().X(), p.Rot().Y(), p.Rot().Z())};
 }
 
-/// SDF gives whole lengths.
+/// Lengths in SDF are full lengths. Nothing for a mesh or a heightmap.
 std::optional<Shape> shape_of(const sdf::Geometry& geometry) {
   if (const auto* s = geometry.SphereShape()) return Sphere(s->Radius());
   if (const auto* s = geometry.CylinderShape()) return Cylinder(s->Radius(), s->Length() / 2);
@@ -86,7 +86,7 @@ void add_model(const sdf::Model& model, const std::string& outer, const Pose3d& 
   }
 }
 
-/// What has no part in contacts, by element and name.
+/// Adds elements that have no part in contacts.
 void note_ignored_elements(const sdf::ElementPtr& element, ShapesFile& result) {
   static const std::set<std::string> ignored = {"plugin", "sensor", "actor", "wind"};
   for (auto child = element->GetFirstElement(); child; child = child->GetNextElement()) {
@@ -103,7 +103,7 @@ void note_ignored_elements(const sdf::ElementPtr& element, ShapesFile& result) {
 }  // namespace
 
 ShapesFile read_sdf(const std::filesystem::path& file) {
-  read_xml(file);  // refuses what would overflow the stack
+  read_xml(file);  // refuses elements nested too deeply
   sdf::Root root;
   const sdf::Errors errors = root.Load(file.string());
   if (!errors.empty()) {

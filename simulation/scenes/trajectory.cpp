@@ -2,7 +2,9 @@
 
 #include <chrono>
 #include <cmath>
+#include <fmt/format.h>
 #include <numbers>
+#include <set>
 
 #include "reference/contact_of.hpp"
 #include "reference/support.hpp"
@@ -16,13 +18,14 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Regrets below this share of the smaller size are those of a normal that is as good.
-constexpr double as_good = 1e-6;
+/// Normal regret, as a share of the smaller size, below which a normal separates the bodies as well
+/// as the true one.
+constexpr double equal_regret = 1e-6;
 
-/// Asks another model, and the truth after it.
-class WatchedModel : public ContactModel {
+/// Another model, whose answers are judged and recorded in a trajectory.
+class JudgedModel : public ContactModel {
  public:
-  WatchedModel(ContactModel& model, Trajectory& trajectory)
+  JudgedModel(ContactModel& model, Trajectory& trajectory)
       : model_(model), trajectory_(trajectory) {}
 
   void begin() override { model_.begin(); }
@@ -32,56 +35,74 @@ class WatchedModel : public ContactModel {
     auto result = model_.answers(questions);
     trajectory_.contact_seconds += seconds_since(start);
     for (std::size_t i = 0; i < questions.size(); ++i) {
-      trajectory_.asked.push_back(judged(questions[i], result[i]));
+      trajectory_.answers.push_back(judge(questions[i], result[i]));
     }
     return result;
   }
 
  private:
-  Asked judged(const PairQuestion& question, const Answer& answer) const {
+  JudgedAnswer judge(const PairQuestion& question, const Answer& answer) const {
     const Configuration& c = question.configuration;
     const SignedDistance truth = touchstone::signed_distance(c);
-    Asked asked{static_cast<int>(trajectory_.frames.size()) - 1,
-                question.a,
-                question.b,
-                -truth.value,
-                answer.status,
-                0,
-                std::nullopt,
-                0};
-    if (answer.status != TS_CONTACT) return asked;
-    asked.signed_distance = answer.signed_distance;
-    asked.points = answer.point_count;
+    JudgedAnswer judged{static_cast<int>(trajectory_.frames.size()) - 1,
+                        question.a,
+                        question.b,
+                        -truth.value,
+                        answer.status,
+                        0,
+                        std::nullopt,
+                        0};
+    if (answer.status != TS_CONTACT) return judged;
+    judged.signed_distance = answer.signed_distance;
+    judged.points = answer.point_count;
     const Vec3 normal(answer.normal);
     const double regret = truth.value - gap(c, normal);
     const double sine = normal.cross(truth.normal).norm(), cosine = normal.dot(truth.normal);
-    asked.normal_angle =
-        regret < as_good * smaller_size(c) ? 0 : std::atan2(sine, cosine) * 180 / std::numbers::pi;
-    return asked;
+    judged.normal_angle = regret < equal_regret * smaller_size(c)
+                              ? 0
+                              : std::atan2(sine, cosine) * 180 / std::numbers::pi;
+    return judged;
   }
 
   ContactModel& model_;
   Trajectory& trajectory_;
 };
 
+struct ShapeText {
+  std::string operator()(const Cylinder& s) const {
+    return fmt::format("cylinder ⌀{:g}×{:g}", 2 * s.radius(), 2 * s.half_length());
+  }
+  std::string operator()(const Capsule& s) const {
+    return fmt::format("capsule ⌀{:g}×{:g}", 2 * s.radius(), 2 * (s.half_length() + s.radius()));
+  }
+  std::string operator()(const Sphere& s) const {
+    return fmt::format("sphere ⌀{:g}", 2 * s.radius());
+  }
+  std::string operator()(const Box& s) const {
+    const Vec3 side = 2 * s.half_extents();
+    return fmt::format("box {:g}×{:g}×{:g}", side.x(), side.y(), side.z());
+  }
+  std::string operator()(const Plane&) const { return "plane"; }
+};
+
 }  // namespace
 
-double Asked::depth_error() const {
+double JudgedAnswer::depth_error() const {
   if (status != TS_CONTACT) return std::max(depth, 0.0);
   return std::abs(depth + signed_distance);
 }
 
-Configuration Trajectory::configuration(const Scene& scene, const Asked& question) const {
-  const auto& states = frames[static_cast<std::size_t>(question.frame)];
-  return {std::get<Cylinder>(scene.bodies[question.a].shape), states[question.a].pose,
-          scene.bodies[question.b].shape, states[question.b].pose};
+Configuration Trajectory::configuration(const Scene& scene, const JudgedAnswer& answer) const {
+  const auto& states = frames[static_cast<std::size_t>(answer.frame)];
+  return {std::get<Cylinder>(scene.bodies[answer.a].shape), states[answer.a].pose,
+          scene.bodies[answer.b].shape, states[answer.b].pose};
 }
 
 Trajectory run_scene(const Scene& scene, ContactModel& model) {
   Trajectory trajectory;
   trajectory.step = scene.step;
-  WatchedModel watched(model, trajectory);
-  World world(scene, watched);
+  JudgedModel judged(model, trajectory);
+  World world(scene, judged);
   trajectory.frames.push_back(world.states());
   const auto start = Clock::now();
   while (world.time() < scene.duration - scene.step / 2) {
@@ -94,6 +115,40 @@ Trajectory run_scene(const Scene& scene, ContactModel& model) {
   }
   trajectory.seconds = seconds_since(start);
   return trajectory;
+}
+
+std::string shape_text(const Shape& shape) { return std::visit(ShapeText{}, shape); }
+
+PairKinds::PairKinds(const Scene& scene, const Trajectory& run) {
+  for (const Body& body : scene.bodies) shapes_.push_back(shape_text(body.shape));
+  std::vector<std::set<std::pair<int, int>>> pairs;
+  for (const JudgedAnswer& answer : run.answers) {
+    int kind = of(answer.a, answer.b);
+    if (kind < 0) {
+      kind = static_cast<int>(kinds_.size());
+      index_[{shapes_[answer.a], shapes_[answer.b]}] = kind;
+      kinds_.push_back({shapes_[answer.a] + " on " + shapes_[answer.b],
+                        scene.bodies[answer.a].name + " and " + scene.bodies[answer.b].name,
+                        pair_of(run.configuration(scene, answer)),
+                        {}});
+      pairs.emplace_back();
+    }
+    kinds_[kind].answers.push_back(answer);
+    pairs[kind].insert({answer.a, answer.b});
+  }
+  for (std::size_t i = 0; i < kinds_.size(); ++i) {
+    if (pairs[i].size() > 1) {
+      kinds_[i].bodies = fmt::format("{} pairs, as {}", pairs[i].size(), kinds_[i].bodies);
+    }
+  }
+}
+
+int PairKinds::of(int a, int b) const {
+  for (const auto& [first, second] : {std::pair(a, b), std::pair(b, a)}) {
+    const auto found = index_.find({shapes_[first], shapes_[second]});
+    if (found != index_.end()) return found->second;
+  }
+  return -1;
 }
 
 }  // namespace touchstone

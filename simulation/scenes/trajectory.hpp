@@ -1,43 +1,71 @@
 #pragma once
 
+#include <map>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "simulation/world.hpp"
 
 namespace touchstone {
 
-/// What a contact model was asked in one step, and how right its answer was.
-struct Asked {
-  int frame;     ///< the states that it was asked about
+/// One answer of a contact model during a run, with its errors.
+struct JudgedAnswer {
+  int frame;     ///< index of the states that were asked about
   int a, b;      ///< bodies as in PairQuestion
-  double depth;  ///< true one, metres; negative apart
+  double depth;  ///< true depth, metres; negative apart
   ts_status status;
-  double signed_distance;  ///< as answered, metres; of no contact, zero
-  /// Degrees between the answered normal and the true one; zero where the answered one separates
+  double signed_distance;  ///< as answered, metres; zero without a contact
+  /// Angle between the answered and the true normal, degrees; zero where the answered one separates
   /// the bodies as well. Absent without a contact.
   std::optional<double> normal_angle;
   int points;
 
-  /// By how much the answer is too shallow or too deep, metres; of bodies apart without a contact,
-  /// nothing.
+  /// Error of the answered depth, metres; zero for bodies rightly found apart.
   double depth_error() const;
 };
 
-/// How a scene went.
+/// The motion of a scene, and what its contact model answered.
 struct Trajectory {
   double step = 0;                             ///< s
-  std::vector<std::vector<BodyState>> frames;  ///< the first is the start; one for each step
-  std::vector<Asked> asked;                    ///< in order of time
-  bool sound = true;           ///< false: the motion became absurd, and the frames end there
-  double seconds = 0;          ///< of the processor's clock, for all
-  double contact_seconds = 0;  ///< of these, for asking the contact model
+  std::vector<std::vector<BodyState>> frames;  ///< the start, then one for each step
+  std::vector<JudgedAnswer> answers;           ///< in order of time
+  bool sound = true;           ///< false: the motion left all bounds, and the frames end there
+  double seconds = 0;          ///< wall-clock time of the run
+  double contact_seconds = 0;  ///< the part of it in the contact model
 
   double end() const { return step * static_cast<double>(frames.size() - 1); }
-  Configuration configuration(const Scene& scene, const Asked& asked) const;
+  Configuration configuration(const Scene& scene, const JudgedAnswer& answer) const;
 };
 
-/// Runs the scene to its duration. Truths come from our own routines (held to 1e-13).
+/// Runs the scene to its duration. The true depths and normals are those of our own routines (held
+/// to 1e-13).
 Trajectory run_scene(const Scene& scene, ContactModel& model);
+
+/// All body pairs of a scene whose shapes have the same kind and sizes: they share a contact model.
+struct PairKind {
+  std::string name;                   ///< "cylinder ⌀0.1×0.3 on box 1×1×0.2"
+  std::string bodies;                 ///< "can-1 and ground", "6 pairs, as can-1 and can-2"
+  Pair pair;                          ///< which shape meets the cylinder
+  std::vector<JudgedAnswer> answers;  ///< in order of time
+};
+
+/// The kinds of pairs that a run asked about, in the order of their first question.
+class PairKinds {
+ public:
+  PairKinds(const Scene& scene, const Trajectory& run);
+  const std::vector<PairKind>& all() const { return kinds_; }
+  /// Index of the kind of two bodies, in either order; −1 if no pair like them was asked about.
+  int of(int a, int b) const;
+
+ private:
+  std::vector<std::string> shapes_;  ///< by body
+  std::map<std::pair<std::string, std::string>, int> index_;
+  std::vector<PairKind> kinds_;
+};
+
+/// "cylinder ⌀0.1×0.3" (diameter and full length), "box 1×2×0.5", "sphere ⌀0.2", "plane".
+std::string shape_text(const Shape& shape);
 
 }  // namespace touchstone

@@ -1,0 +1,120 @@
+#include "reports/choice/choice.hpp"
+
+#include <filesystem>
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "candidates/candidates.hpp"
+
+namespace touchstone {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+/// A can that stands, slightly tilted, with one need.
+Choice choice_of(const std::string& need) {
+  const std::string scene = R"({
+    "duration": 0.8,
+    "bodies": [
+      {"name": "ground", "shape": {"shape": "plane", "normal": [0, 0, 1], "displacement": 0},
+       "fixed": true},
+      {"name": "can", "shape": {"shape": "cylinder", "radius": 0.1, "half_length": 0.2},
+       "pose": {"position": [0, 0, 0.2], "orientation": [1, 0.004, 0.001, 0]}}],
+    "needs": [)" + need + "]}";
+  return choose(scene_from_text(scene, "can.json"), {find_candidates({"capsule", "prism:64"})});
+}
+const char* const stands = R"({"need": "stands", "body": "can", "degrees": 2})";
+const char* const elsewhere =
+    R"({"need": "stays-in", "body": "can", "lower": [5, 5, 5], "upper": [6, 6, 6]})";
+
+json data_of(const std::string& page) {
+  const std::string begin = R"(<script type="application/json" id="data">)";
+  const std::size_t at = page.find(begin) + begin.size();
+  return json::parse(page.substr(at, page.find("</script>", at) - at));
+}
+
+TEST(ChoicePage, HoldsItsDataAndLoadsNothing) {
+  const std::string page = choice_page(choice_of(stands), "touchstone choose can.json", "out", {});
+  const json data = data_of(page), &motion = data["motion"];
+  EXPECT_EQ(data["scene"]["needs"][0]["text"], "can stands within 2°");
+  ASSERT_GE(motion["runs"].size(), 2U);
+  // 193 steps at 240 a second, every fourth: 49 poses of seven floats of one body, in base64.
+  EXPECT_EQ(motion["runs"][0]["poses"].get<std::string>().size(), (49 * 7 * 4 + 2) / 3 * 4U);
+  EXPECT_THAT(page, HasSubstr("WebGLRenderer"));
+  EXPECT_EQ(page.find("src=\"http"), std::string::npos);
+}
+
+TEST(ChoiceText, SaysWhenExactContactsDoNotServe) {
+  EXPECT_THAT(choice_text(choice_of(elsewhere), "out"), HasSubstr("Not even exact contacts"));
+}
+
+TEST(ChoiceText, AndJsonNameTheSameReplayOfAFailure) {
+  const Choice choice = choice_of(stands);
+  const json data = json::parse(choice_json(choice, "", "out"));
+  for (const json& run : data["runs"]) {
+    if (run["name"] != "capsule") continue;
+    EXPECT_EQ(run["holds"], false);
+    EXPECT_THAT(run["evidence"]["replay"].get<std::string>(),
+                HasSubstr("touchstone replay out/can-"));
+    return;
+  }
+  FAIL() << "no run with capsules";
+}
+
+struct WarehousePairs : testing::Test {
+  static PairsChoice choose() {
+    PairNeeds needs;
+    needs.count = 20;
+    const std::filesystem::path file = std::filesystem::path(TOUCHSTONE_SCENES) / "warehouse.sdf";
+    return choose_for_pairs(read_shapes(file), needs, find_candidates({"capsule"}), {});
+  }
+};
+
+// Not the wheel with the tray, which a joint holds, nor the rollers with what is as fixed as they.
+TEST_F(WarehousePairs, AreThoseThatCanTouch) {
+  const PairsChoice choice = choose();
+  for (const PairChoice& pair : choice.pairs) {
+    const auto names = [&](const char* part) {
+      return pair.example.find(part) != std::string::npos;
+    };
+    EXPECT_FALSE(names("tyre") && names("deck")) << pair.example;
+    EXPECT_FALSE(names("roller") && names("ground")) << pair.example;
+  }
+}
+
+TEST_F(WarehousePairs, AreServedByTheExactCylinderAndScoredAlikeEachTime) {
+  const PairsChoice choice = choose(), again = choose();
+  EXPECT_TRUE(choice.all_served());
+  const auto errors = [](const PairChoice& pair) {
+    std::map<std::string, double> result;
+    for (const PairCandidate& c : pair.candidates) result[c.name] = c.score.depth_error;
+    return result;
+  };
+  for (std::size_t i = 0; i < choice.pairs.size(); ++i) {
+    EXPECT_LT(errors(choice.pairs[i])["reference"], 1e-12);
+    EXPECT_EQ(errors(choice.pairs[i]), errors(again.pairs[i]));
+  }
+}
+
+TEST_F(WarehousePairs, NameTheConfigurationOfWhatDoesNotServe) {
+  const PairsChoice choice = choose();
+  const json data = json::parse(pairs_json(choice, "", "out"));
+  int failures = 0;
+  for (std::size_t i = 0; i < choice.pairs.size(); ++i) {
+    for (std::size_t k = 0; k < choice.pairs[i].candidates.size(); ++k) {
+      const PairCandidate& c = choice.pairs[i].candidates[k];
+      EXPECT_EQ(c.worst.has_value(), !c.serves);
+      if (c.serves) continue;
+      ++failures;
+      EXPECT_EQ(data["pairs"][i]["candidates"][k]["worst"]["file"],
+                evidence_file(choice, i, c, "out"));
+    }
+  }
+  EXPECT_GT(failures, 0);
+  EXPECT_THAT(pairs_text(choice, "out"), HasSubstr("touchstone replay out/warehouse-"));
+}
+
+}  // namespace
+}  // namespace touchstone

@@ -1,0 +1,313 @@
+// The files that scenes are read from and written to: scene files and their schema, URDF, SDF,
+// POV-Ray.
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <gmock/gmock.h>
+#include <iterator>
+#include <unistd.h>
+
+#include <nlohmann/json.hpp>
+
+#include "reference/invalid_input.hpp"
+#include "simulation/scenes/povray.hpp"
+#include "simulation/scenes/scene_file.hpp"
+#include "simulation/scenes/shapes_file.hpp"
+
+namespace touchstone {
+namespace {
+
+using nlohmann::json;
+using testing::Contains;
+using testing::HasSubstr;
+
+const std::filesystem::path scenes = TOUCHSTONE_SCENES;
+
+std::string contents(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+json small_scene() {
+  return json::parse(R"({
+    "duration": 2,
+    "materials": {"steel": {"density": 7800, "friction": 0.3}},
+    "bodies": [
+      {"name": "ground", "shape": {"shape": "plane", "normal": [0, 0, 1], "displacement": 0},
+       "fixed": true},
+      {"name": "can", "shape": {"shape": "cylinder", "radius": 0.1, "half_length": 0.2},
+       "material": "steel", "pose": {"position": [0, 0, 0.2]}, "velocity": [1, 0, 0]}],
+    "needs": [{"need": "stands", "body": "can", "degrees": 0.5, "from": 1}]})");
+}
+
+template <class Spoil>
+std::string refusal(Spoil spoil) {
+  json scene = small_scene();
+  spoil(scene);
+  try {
+    scene_from_text(scene.dump(), "small.json");
+  } catch (const InvalidInput& e) {
+    return e.what();
+  }
+  return "accepted";
+}
+
+TEST(SceneFile, IsReadAsItIsWritten) {
+  const SceneFile file = scene_from_text(small_scene().dump(), "folder/small.json");
+  ASSERT_EQ(file.scene.bodies.size(), 2U);
+  EXPECT_TRUE(file.scene.bodies[0].fixed);
+  const Body& can = file.scene.bodies[1];
+  EXPECT_EQ(can.density, 7800);
+  EXPECT_EQ(can.material.friction, 0.3);
+  EXPECT_EQ(can.velocity, Vec3(1, 0, 0));
+  EXPECT_EQ(can.pose.position(), Vec3(0, 0, 0.2));
+  EXPECT_EQ(file.scene.duration, 2);
+  ASSERT_EQ(file.needs.size(), 1U);
+  EXPECT_EQ(file.name, "small");
+  EXPECT_EQ(file.needs[0]->bodies, std::vector<int>{1});
+  EXPECT_EQ(file.needs[0]->text(file.scene), "can stands within 0.5° from 1 s");
+}
+
+TEST(SceneFile, ErrorsNameThePathOfTheField) {
+  const auto on_can = [](const char* field, const json& value) {
+    return [=](json& s) { s["bodies"][1][field] = value; };
+  };
+  EXPECT_THAT(refusal([](json& s) { s["bodies"][1]["shape"]["radius"] = -1; }),
+              HasSubstr("bodies[1].shape.radius is -1"));
+  EXPECT_THAT(refusal(on_can("materiel", "steel")), HasSubstr("bodies[1].materiel"));
+  EXPECT_THAT(refusal(on_can("material", "wood")),
+              HasSubstr("bodies[1].material is \"wood\": must be one of the materials: steel"));
+  EXPECT_THAT(refusal(on_can("velocity", {1, 2})), HasSubstr("bodies[1].velocity"));
+  EXPECT_THAT(refusal(on_can("fixed", 1)), HasSubstr("bodies[1].fixed is 1"));
+  EXPECT_THAT(refusal(on_can("name", "ground")), HasSubstr("bodies[1].name"));
+  EXPECT_THAT(refusal([](json& s) {
+                s["bodies"][1]["pose"]["orientation"] = {0, 0, 0, 0};
+              }),
+              HasSubstr("bodies[1].pose.orientation"));
+  EXPECT_THAT(refusal([](json& s) { s["bodies"] = 3; }), HasSubstr("bodies is 3"));
+  EXPECT_THAT(refusal([](json& s) { s["materials"]["steel"]["restitution"] = 2; }),
+              HasSubstr("materials.steel.restitution is 2: must lie between 0 and 1"));
+  EXPECT_THAT(refusal([](json& s) { s.erase("duration"); }), HasSubstr("duration is missing"));
+  EXPECT_THAT(refusal([](json& s) { s["step"] = 1e-6; }), HasSubstr("a million steps"));
+  EXPECT_THAT(refusal([](json& s) {
+                s["camera"] = {{"position", {0, 0, 0}}, {"look_at", {0, 0, 0}}};
+              }),
+              HasSubstr("camera.position"));
+  EXPECT_THAT(refusal([](json& s) { s["gravitation"] = 1; }), HasSubstr("gravitation"));
+}
+
+TEST(SceneFile, WithMoreBodiesThanCanBeHeldAgainstEachOtherIsRefused) {
+  EXPECT_THAT(refusal([](json& s) {
+                for (int i = 0; i < 1000; ++i) {
+                  s["bodies"].push_back(s["bodies"][1]);
+                  s["bodies"].back()["name"] = std::to_string(i);
+                }
+              }),
+              HasSubstr("bodies is 1002 bodies"));
+}
+
+TEST(SceneFile, ErrorsOfNeedsNameThePathOfTheField) {
+  const auto need = [](const json& value) { return [=](json& s) { s["needs"][0] = value; }; };
+  EXPECT_THAT(refusal(need({{"need", "flies"}})),
+              HasSubstr("needs[0].need is \"flies\": must be one of ends-near, ends-tilted"));
+  EXPECT_THAT(refusal(need({{"need", "stands"}, {"body", "pot"}, {"degrees", 1}})),
+              HasSubstr("needs[0].body is \"pot\""));
+  EXPECT_THAT(refusal(need({{"need", "stands"}, {"body", "can"}, {"degrees", -1}})),
+              HasSubstr("needs[0].degrees is -1"));
+  EXPECT_THAT(refusal(need({{"need", "rests"}, {"speed", 1}, {"by", 9}})),
+              HasSubstr("needs[0].by is 9: must lie within the scene's duration"));
+  EXPECT_THAT(refusal(need({{"need", "normals"}, {"bodies", {"can"}}, {"degrees", 9}})),
+              HasSubstr("needs[0].bodies"));
+  EXPECT_THAT(
+      refusal(need({{"need", "penetration"}, {"bodies", {"ground", "ground"}}, {"metres", 1}})),
+      HasSubstr("needs[0].bodies is [\"ground\",\"ground\"]: one of them"));
+  EXPECT_THAT(refusal(need({{"need", "rolls"}, {"body", "can"}, {"distance", 0}, {"share", 1}})),
+              HasSubstr("needs[0].distance is 0"));
+  EXPECT_THAT(
+      refusal(need(
+          {{"need", "stays-in"}, {"body", "can"}, {"lower", {0, 0, 1}}, {"upper", {1, 1, 0}}})),
+      HasSubstr("needs[0].upper"));
+}
+
+TEST(SceneFile, ThatIsNoneIsRefused) {
+  EXPECT_THROW(read_scene("/nowhere/scene.json"), InvalidInput);
+  EXPECT_THROW(read_scene("/etc"), InvalidInput);
+  EXPECT_THROW(read_scene("/etc/passwd"), InvalidInput);
+  EXPECT_THROW(read_scene(std::string(10000, 'x')), InvalidInput);
+}
+
+TEST(SceneFile, ShippedScenesAreReadAndSayWhatTheyNeed) {
+  int count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(scenes)) {
+    if (entry.path().extension() != ".json") continue;
+    SCOPED_TRACE(entry.path());
+    const SceneFile file = read_scene(entry.path());
+    EXPECT_FALSE(file.needs.empty());
+    EXPECT_FALSE(file.description.empty());
+    ++count;
+  }
+  EXPECT_EQ(count, 7);
+}
+
+// TOUCHSTONE_WRITE_SCHEMA=1 writes the file.
+TEST(SceneSchema, DescribesTheNeedsThatAreRead) {
+  const std::filesystem::path file = std::filesystem::path(TOUCHSTONE_DOCS) / "scene-schema.json";
+  const std::string found = contents(file), expected = schema_with_needs(found);
+  if (std::getenv("TOUCHSTONE_WRITE_SCHEMA")) std::ofstream(file) << expected;
+  EXPECT_EQ(contents(file), expected);
+}
+
+TEST(SceneSchema, AndTheDocsHaveARowForEachNeed) {
+  const std::string docs = contents(std::filesystem::path(TOUCHSTONE_DOCS) / "scenes.md");
+  for (const auto& need : all_needs()) {
+    EXPECT_THAT(docs, HasSubstr(std::string("\n| `") + need->name + "` |"));
+  }
+}
+
+const PlacedShape& named(const ShapesFile& file, const std::string& name) {
+  for (const PlacedShape& s : file.shapes) {
+    if (s.name == name) return s;
+  }
+  throw std::runtime_error("no shape " + name);
+}
+
+/// A file of this test's own.
+struct Written {
+  Written(const std::string& name, const std::string& text)
+      : path(std::filesystem::temp_directory_path() / (std::to_string(getpid()) + '-' + name)) {
+    std::ofstream(path) << text;
+  }
+  ~Written() { std::filesystem::remove(path); }
+  std::filesystem::path path;
+};
+
+TEST(Urdf, GivesShapesAtTheDefaultPositionOfTheirJoints) {
+  const ShapesFile file = read_shapes(scenes / "gripper.urdf");
+  EXPECT_EQ(file.name, "arm_with_gripper");
+  EXPECT_EQ(file.shapes.size(), 7U);
+  const auto& tube = std::get<Cylinder>(named(file, "upper_arm_link/tube").shape);
+  EXPECT_EQ(tube.radius(), 0.06);
+  EXPECT_EQ(tube.half_length(), 0.2);  // URDF gives the whole length
+  // Turned by 0.6 about y at 0.1 m, then 0.2 m along it.
+  const Pose& pose = named(file, "upper_arm_link/tube").pose;
+  EXPECT_NEAR((pose.position() - Vec3(0.2 * std::sin(0.6), 0, 0.1 + 0.2 * std::cos(0.6))).norm(), 0,
+              1e-12);
+  EXPECT_NEAR((pose.axis() - Vec3(std::sin(0.6), 0, std::cos(0.6))).norm(), 0, 1e-12);
+  EXPECT_TRUE(file.joined.contains({"palm_link", "camera_link"}));
+}
+
+TEST(Urdf, APercentSignDoesNotEndTheProcess) {
+  const Written file("percent.urdf",
+                     R"(<robot name="r"><link name="a"><collision><origin xyz="0%n 0 0"/><geometry>
+                        <sphere radius="1"/></geometry></collision></link></robot>)");
+  EXPECT_THROW(read_urdf(file.path), InvalidInput);
+}
+
+TEST(Urdf, SaysWhatItIgnores) {
+  const auto ignored = read_urdf(scenes / "gripper.urdf").ignored;
+  EXPECT_THAT(ignored, Contains("collision forearm_link/cover: a mesh"));
+  EXPECT_THAT(ignored, Contains("joint elbow_joint: held in its default position"));
+  EXPECT_THAT(ignored, Contains("transmission shoulder_transmission: not read"));
+  EXPECT_THAT(ignored, Contains("gazebo forearm_link: not read"));
+  EXPECT_EQ(ignored.size(), 8U);
+}
+
+TEST(Sdf, GivesShapesWhereTheyAreInTheWorld) {
+  const ShapesFile file = read_shapes(scenes / "warehouse.sdf");
+  EXPECT_EQ(file.name, "warehouse");
+  EXPECT_EQ(file.shapes.size(), 9U);
+  const PlacedShape& roller = named(file, "roller_conveyor::frame/roller_2");
+  EXPECT_TRUE(roller.fixed);
+  EXPECT_NEAR((roller.pose.position() - Vec3(-0.6, 0, 0.42)).norm(), 0, 1e-12);
+  EXPECT_NEAR((roller.pose.axis() - Vec3(0, -1, 0)).norm(), 0, 1e-5);
+  const auto& bumper = std::get<Capsule>(named(file, "cart::tray/bumper").shape);
+  EXPECT_EQ(bumper.half_length(), 0.2);
+  EXPECT_TRUE(std::holds_alternative<Plane>(named(file, "ground_plane::link/collision").shape));
+  EXPECT_TRUE(file.joined.contains({"cart::tray", "cart::wheel"}));
+}
+
+TEST(Sdf, SaysWhatItIgnores) {
+  const auto ignored = read_sdf(scenes / "warehouse.sdf").ignored;
+  EXPECT_THAT(ignored, Contains(HasSubstr("collision cart::tray/hull: a mesh")));
+  EXPECT_THAT(ignored, Contains("joint cart::wheel_axle: held in its default position"));
+  EXPECT_THAT(ignored, Contains("plugin ignition::gazebo::systems::Physics: not read"));
+  EXPECT_THAT(ignored, Contains("sensor touch: not read"));
+}
+
+TEST(RobotFiles, ThatAreBadAreRefused) {
+  EXPECT_THROW(read_shapes("/nowhere/robot.urdf"), InvalidInput);
+  EXPECT_THROW(read_shapes("/nowhere/world.sdf"), InvalidInput);
+  const Written no_robot("robot.urdf", "<robot"), no_world("world.sdf", "<sdf version='1.7'>");
+  EXPECT_THROW(read_shapes(no_robot.path), InvalidInput);
+  EXPECT_THROW(read_shapes(no_world.path), InvalidInput);
+  const Written flat("flat.urdf",
+                     "<robot name='r'><link name='l'><collision name='c'><geometry>"
+                     "<sphere radius='0'/></geometry></collision></link></robot>");
+  try {
+    read_shapes(flat.path);
+    FAIL() << "accepted";
+  } catch (const InvalidInput& e) {
+    EXPECT_THAT(e.what(), HasSubstr("l/c.radius is 0"));
+  }
+}
+
+struct PovrayTest : testing::Test {
+  PovrayTest() { std::filesystem::create_directory(folder); }
+  ~PovrayTest() override { std::filesystem::remove_all(folder); }
+  std::string text(const char* name) const { return contents(folder / name); }
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("touchstone-povray-" + std::to_string(getpid()));
+};
+
+/// One frame: a box that lies on its side, moved.
+SceneFile one_box() {
+  SceneFile file;
+  file.name = "box";
+  Body body{"box", Box(Vec3(1, 2, 3))};
+  body.pose = Pose(Vec3(4, 5, 6), Eigen::Quaterniond(std::sqrt(0.5), 0, 0, std::sqrt(0.5)));
+  file.scene.bodies = {body};
+  file.camera = camera_for(file.scene);
+  return file;
+}
+Trajectory one_frame(const SceneFile& file) {
+  Trajectory run;
+  run.step = 0.01;
+  run.frames.emplace_back();
+  for (const Body& b : file.scene.bodies) {
+    run.frames[0].push_back({b.pose, Vec3::Zero(), Vec3::Zero()});
+  }
+  return run;
+}
+
+TEST_F(PovrayTest, RowsAreTheImagesOfTheAxes) {
+  EXPECT_EQ(write_povray(one_box(), one_frame(one_box()), 0.04, folder), 1);
+  // A quarter turn about z: x goes to y, y to −x.
+  const std::string frame = text("frame-00001.inc");
+  EXPECT_THAT(frame, HasSubstr("box { <-1,-2,-3>, <1,2,3>"));
+  EXPECT_THAT(frame, testing::ContainsRegex("matrix <[^,]*,1,0, -1,[^,]*,0, 0,0,1, 4,5,6>"));
+  EXPECT_THAT(text("scene.ini"), HasSubstr("Final_Frame=1"));
+}
+
+TEST_F(PovrayTest, EveryIsInSecondsOfTheScene) {
+  const SceneFile file = one_box();
+  Trajectory run = one_frame(file);
+  run.frames.assign(11, run.frames[0]);
+  EXPECT_EQ(write_povray(file, run, 0.05, folder), 3);  // at 0, 0.05 and 0.1 s
+}
+
+TEST_F(PovrayTest, FoldersThatAreNotThereAreRefused) {
+  EXPECT_THROW(write_povray(one_box(), one_frame(one_box()), 0.04, folder / "none"), InvalidInput);
+}
+
+TEST_F(PovrayTest, PovrayDrawsAFrame) {
+  if (std::system("command -v povray >/dev/null") != 0) GTEST_SKIP() << "povray is not installed";
+  const SceneFile file = still_scene(read_shapes(scenes / "warehouse.sdf"));
+  write_povray(file, one_frame(file), 0.04, folder);
+  const std::string command =
+      "cd " + folder.string() + " && povray scene.ini +W64 +H48 >povray.log 2>&1";
+  EXPECT_EQ(std::system(command.c_str()), 0) << text("povray.log");
+  EXPECT_TRUE(std::filesystem::exists(folder / "scene.png")) << text("povray.log");
+}
+
+}  // namespace
+}  // namespace touchstone

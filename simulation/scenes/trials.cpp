@@ -1,0 +1,331 @@
+#include "simulation/scenes/trials.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <functional>
+#include <limits>
+
+#include <nlohmann/json.hpp>
+
+#include "candidates/candidates.hpp"
+#include "candidates/host/progress.hpp"
+#include "candidates/host/worker_processes.hpp"
+#include "oracle/judge/score.hpp"
+#include "oracle/truth.hpp"
+#include "properties/files/configuration_json.hpp"
+
+namespace touchstone {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::size_t timing_rounds = 9;
+
+std::vector<Configuration> sample(const Scene& scene, const Trajectory& run, const PairKind& kind) {
+  const std::size_t count = std::min(max_replayed, kind.answers.size());
+  std::vector<Configuration> result;
+  for (std::size_t i = 0; i < count; ++i) {
+    result.push_back(run.configuration(scene, kind.answers[i * kind.answers.size() / count]));
+  }
+  return result;
+}
+
+/// Normal regret, as a share of the smaller size, below which a normal separates the bodies as well
+/// as the true one.
+constexpr double equal_regret = 1e-6;
+
+/// Error of the answered depth, metres, as ReplayScore has it.
+double depth_error(const Score& s, double size) {
+  if (s.depth_error) return std::abs(*s.depth_error) * size;
+  if (s.outcome == Outcome::agree || s.outcome == Outcome::missed) return s.severity * size;
+  return std::numeric_limits<double>::infinity();
+}
+
+ReplayScore score_all(const std::vector<Configuration>& configurations,
+                      const std::vector<oracle::Truth>& truths,
+                      const std::vector<Answer>& answers) {
+  ReplayScore result;
+  for (std::size_t i = 0; i < configurations.size(); ++i) {
+    const Score s = score(configurations[i], truths[i], answers[i], Bar{});
+    ++result.count;
+    if (s.outcome == Outcome::agree) ++result.agree;
+    const double error = depth_error(s, error_size(configurations[i], Bar{}));
+    if (error > result.depth_error) result.depth_error = error, result.worst_depth = i;
+    const double angle =
+        s.normal_regret.value_or(0) > equal_regret ? s.normal_angle.value_or(0) : 0;
+    if (angle > result.normal_angle) result.normal_angle = angle, result.worst_angle = i;
+  }
+  return result;
+}
+
+/// A candidate for each pair of bodies, and one batch of questions for each candidate in a step.
+class PairwiseModel : public ContactModel {
+ public:
+  /// The process that answers for bodies a and b, always the same one for the same pair.
+  using Choice = std::function<CandidateProcess&(int a, int b)>;
+  explicit PairwiseModel(Choice choice) : choice_(std::move(choice)) {}
+  void begin() override { begun_.clear(); }
+  std::vector<Answer> answers(std::span<const PairQuestion> questions) override {
+    std::vector<CandidateProcess*> chosen;
+    for (const PairQuestion& q : questions) {
+      chosen.push_back(&choice_(q.a, q.b));
+      if (std::find(begun_.begin(), begun_.end(), chosen.back()) != begun_.end()) continue;
+      chosen.back()->restart();
+      begun_.push_back(chosen.back());
+    }
+    std::vector<Answer> result(questions.size());
+    for (CandidateProcess* process : begun_) {
+      std::vector<PairQuestion> batch;
+      for (std::size_t i = 0; i < questions.size(); ++i) {
+        if (chosen[i] == process) batch.push_back(questions[i]);
+      }
+      if (batch.empty()) continue;
+      auto answers = CandidateModel(*process).answers(batch);
+      auto next = answers.begin();
+      for (std::size_t i = 0; i < questions.size(); ++i) {
+        if (chosen[i] == process) result[i] = std::move(*next++);
+      }
+    }
+    return result;
+  }
+
+ private:
+  Choice choice_;
+  std::vector<CandidateProcess*> begun_;
+};
+
+/// Largest number of answers of a run that are compared with the oracle.
+constexpr std::size_t max_scored = 24;
+
+/// Answers of models other than the exact one, up to a time, for bodies that touch or that the
+/// model takes to touch: those that concern one of `bodies` if there are any, otherwise all.
+std::vector<JudgedAnswer> suspects(const Trajectory& run, double time,
+                                   const std::vector<int>& bodies, const auto& is_exact) {
+  std::vector<JudgedAnswer> all, concerned;
+  for (const JudgedAnswer& a : run.answers) {
+    if (run.step * a.frame > time + run.step / 2) break;
+    const bool touches = a.depth > 0 || a.status != TS_NONE;
+    if (!touches || is_exact(a)) continue;
+    all.push_back(a);
+    const auto named = [&](int body) {
+      return std::find(bodies.begin(), bodies.end(), body) != bodies.end();
+    };
+    if (named(a.a) || named(a.b)) concerned.push_back(a);
+  }
+  return concerned.empty() ? all : concerned;
+}
+
+/// The answer with the largest error of depth, and others evenly over time.
+std::vector<JudgedAnswer> worth_scoring(std::vector<JudgedAnswer> all) {
+  if (all.size() <= max_scored) return all;
+  std::vector<JudgedAnswer> result = {
+      *std::max_element(all.begin(), all.end(), [](const JudgedAnswer& x, const JudgedAnswer& y) {
+        return x.depth_error() < y.depth_error();
+      })};
+  for (std::size_t i = 1; i < max_scored; ++i) {
+    result.push_back(all[i * (all.size() - 1) / (max_scored - 1)]);
+  }
+  return result;
+}
+
+/// Coverage of the contact patch below which evidence mentions it.
+constexpr double poor_coverage = 0.5;
+
+std::string in_words(const Score& s, const Configuration& c) {
+  const double size = error_size(c, Bar{});
+  std::string text = outcome_name(s.outcome);
+  switch (s.outcome) {
+    case Outcome::agree:
+      text = "depth and normal are right";
+      break;
+    case Outcome::missed:
+      return fmt::format("missed, {:.2g} m deep", s.severity * size);
+    case Outcome::wrong_normal:
+      return fmt::format("normal wrong by {:.2g}°", s.normal_angle.value_or(0));
+    case Outcome::phantom:
+    case Outcome::shallow:
+    case Outcome::overdeep:
+      text += fmt::format(" by {:.2g} m", std::abs(*s.depth_error) * size);
+      break;
+    case Outcome::shallow_points:
+    case Outcome::overdeep_points:
+    case Outcome::phantom_points:
+      return text + fmt::format(" by {:.2g} m", s.severity * size);
+    default:
+      return text;
+  }
+  if (s.coverage.value_or(1) >= poor_coverage) return text;
+  return text + fmt::format(", but {} {:.2f} of the contact patch",
+                            s.points == 1 ? "its 1 point spans"
+                                          : fmt::format("its {} points span", s.points),
+                            *s.coverage);
+}
+
+/// Rank of an answer as evidence: points that span nothing of the patch count as much as an error
+/// of a tenth of the size in depth or normal.
+double badness(const Score& s) {
+  const bool no_answer = s.outcome != Outcome::agree && s.severity == 0;
+  if (no_answer) return std::numeric_limits<double>::infinity();
+  return 10 * s.severity + 1 - s.coverage.value_or(1);
+}
+
+/// Worst answer, against the oracle, up to the moment at which the run's first need broke: of the
+/// need's own bodies if their models were asked. Absent when only the exact candidate was asked.
+std::optional<Evidence> find_evidence(const SceneRun& run, const SceneFile& file,
+                                      const Trajectory& trajectory, const PairKinds& kinds,
+                                      const Candidate& exact, Processes& processes) {
+  const int broken = run.first_broken();
+  const auto model_of = [&](const JudgedAnswer& a) {
+    const int kind = kinds.of(a.a, a.b);
+    return kind >= 0 && run.models[kind] ? run.models[kind] : &exact;
+  };
+  const auto all = suspects(trajectory, run.verdicts[broken].time, file.needs[broken]->bodies,
+                            [&](const JudgedAnswer& a) { return model_of(a) == &exact; });
+  std::optional<Evidence> worst;
+  double max_badness = -1;
+  for (const JudgedAnswer& a : worth_scoring(all)) {
+    const Candidate& model = *model_of(a);
+    const Configuration c = trajectory.configuration(file.scene, a);
+    const Score s = score(c, oracle::truth(c), processes.of(model).answer(c), Bar{});
+    if (badness(s) <= max_badness) continue;
+    max_badness = badness(s);
+    worst = {c, file.scene.bodies[a.a].name + " and " + file.scene.bodies[a.b].name, model.name,
+             in_words(s, c), trajectory.step * a.frame};
+  }
+  return worst;
+}
+
+/// Verdicts and evidence as text, on their way from the process that found them.
+std::string to_text(const SceneRun& run) {
+  json verdicts = json::array();
+  for (const Verdict& v : run.verdicts) {
+    verdicts.push_back({std::isfinite(v.value) ? json(v.value) : json(nullptr), v.limit, v.time});
+  }
+  json result = {{"verdicts", verdicts}};
+  if (const auto& e = run.evidence) {
+    result["evidence"] = {{"configuration", to_json(e->configuration)},
+                          {"bodies", e->bodies},
+                          {"candidate", e->candidate},
+                          {"wrong", e->wrong},
+                          {"time", e->time}};
+  }
+  return result.dump();
+}
+
+void read_text(const std::string& text, SceneRun& run) {
+  const json parsed = json::parse(text);
+  run.verdicts.clear();
+  for (const json& v : parsed["verdicts"]) {
+    run.verdicts.push_back(
+        {v[0].is_null() ? std::numeric_limits<double>::infinity() : v[0].get<double>(),
+         v[1].get<double>(), v[2].get<double>()});
+  }
+  if (!parsed.contains("evidence")) return;
+  const json& e = parsed["evidence"];
+  run.evidence = {configuration_from_json(e["configuration"]).configuration,
+                  e["bodies"].get<std::string>(), e["candidate"].get<std::string>(),
+                  e["wrong"].get<std::string>(), e["time"].get<double>()};
+}
+
+}  // namespace
+
+std::vector<ReplayScore> replay(const std::vector<Configuration>& configurations,
+                                std::vector<CandidateProcess>& candidates) {
+  std::vector<oracle::Truth> truths;
+  for (const Configuration& c : configurations) truths.push_back(oracle::truth(c));
+  std::vector<ReplayScore> result(candidates.size());
+  std::vector<bool> ready(candidates.size());
+  for (std::size_t k = 0; k < candidates.size(); ++k) {
+    const ts_shape_kind other = to_ts_shape(configurations.front().b).kind;
+    if (!candidates[k].candidate().supports[other]) continue;
+    result[k] = score_all(configurations, truths, candidates[k].answers(configurations));
+    ready[k] = candidates[k].prepare_timing(configurations);
+  }
+  std::vector<std::vector<double>> times(candidates.size());
+  for (std::size_t round = 0; round < timing_rounds; ++round) {
+    for (std::size_t turn = 0; turn < candidates.size(); ++turn) {
+      const std::size_t k = (round + turn) % candidates.size();
+      if (!ready[k]) continue;
+      if (const auto cost = candidates[k].cost_per_query()) times[k].push_back(cost->nanoseconds);
+    }
+  }
+  for (std::size_t k = 0; k < candidates.size(); ++k) {
+    if (times[k].size() < timing_rounds) continue;  // unsupported, or it died on the way
+    std::nth_element(times[k].begin(), times[k].begin() + timing_rounds / 2, times[k].end());
+    result[k].nanoseconds = times[k][timing_rounds / 2];
+  }
+  return result;
+}
+
+std::vector<std::vector<ReplayScore>> replay(const Scene& scene, const Trajectory& run,
+                                             const std::vector<PairKind>& kinds,
+                                             const std::vector<const Candidate*>& candidates,
+                                             const Limits& limits) {
+  Progress progress("kinds of pairs replayed", kinds.size());
+  auto processes = start(candidates, simulation_threshold, limits);
+  std::vector<std::vector<ReplayScore>> result;
+  for (const PairKind& kind : kinds) {
+    result.push_back(replay(sample(scene, run, kind), processes));
+    progress.update(result.size());
+  }
+  return result;
+}
+
+bool SceneRun::holds() const { return first_broken() < 0; }
+
+double SceneRun::error() const {
+  double largest = 0;
+  for (const Verdict& v : verdicts) largest = std::max(largest, v.share());
+  return largest;
+}
+
+int SceneRun::first_broken() const {
+  int first = -1;
+  for (std::size_t i = 0; i < verdicts.size(); ++i) {
+    if (verdicts[i].holds()) continue;
+    if (first < 0 || verdicts[i].time < verdicts[first].time) first = static_cast<int>(i);
+  }
+  return first;
+}
+
+CandidateProcess& Processes::of(const Candidate& candidate) {
+  const auto found = processes_.find(&candidate);
+  if (found != processes_.end()) return found->second;
+  return processes_.emplace(&candidate, CandidateProcess(candidate, simulation_threshold, limits_))
+      .first->second;
+}
+
+Trajectory run_with(const Scene& scene, const PairKinds& kinds,
+                    const std::vector<const Candidate*>& models, const Candidate& exact,
+                    Processes& processes) {
+  PairwiseModel model([&](int a, int b) -> CandidateProcess& {
+    const int kind = kinds.of(a, b);
+    return processes.of(kind >= 0 && models[kind] ? *models[kind] : exact);
+  });
+  return run_scene(scene, model);
+}
+
+void judge(std::vector<SceneRun>& runs, const SceneFile& file, const Trajectory& exact_run,
+           const PairKinds& kinds, const Candidate& exact, const Limits& limits, unsigned workers) {
+  if (runs.empty()) return;
+  Progress progress("runs of the scene", runs.size());
+  Processes processes(limits);  // each worker process starts its own candidates
+  const auto results = run_in_processes(
+      runs.size(), workers,
+      [&](std::size_t i) {
+        SceneRun run = runs[i];
+        const Trajectory trajectory = run_with(file.scene, kinds, run.models, exact, processes);
+        for (const auto& need : file.needs) {
+          run.verdicts.push_back(need->judge({file.scene, trajectory, exact_run}));
+        }
+        if (!run.holds())
+          run.evidence = find_evidence(run, file, trajectory, kinds, exact, processes);
+        return to_text(run);
+      },
+      [&](std::size_t i) { return file.name + " with " + runs[i].name; },
+      [&](std::size_t done) { progress.update(done); });
+  for (std::size_t i = 0; i < runs.size(); ++i) read_text(results[i], runs[i]);
+}
+
+}  // namespace touchstone
