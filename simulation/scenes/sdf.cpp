@@ -105,7 +105,9 @@ void note_ignored_elements(const sdf::ElementPtr& element, ShapesFile& result) {
 ShapesFile read_sdf(const std::filesystem::path& file) {
   read_xml(file);  // refuses elements nested too deeply
   sdf::Root root;
-  const sdf::Errors errors = root.Load(file.string());
+  // By a relative name libsdformat finds its own description first, which has one of world.sdf and
+  // model.sdf.
+  const sdf::Errors errors = root.Load(std::filesystem::absolute(file).string());
   if (!errors.empty()) {
     throw InvalidInput("scene", '"' + file.string() + '"',
                        "must be SDF: " + errors.front().Message());
