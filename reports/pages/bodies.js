@@ -24,12 +24,12 @@ function axesOf(orientation) {
 
 // A convex polyhedron in its own coordinates: {faces: polygons, normals: of the faces, edges: polylines, stripe: of each
 // face, whether it is pale, which shows how a round body turns}. Round parts have `segments` faces around, more near
-// `near` unless it is null. `reach` is how much of a plane is shown.
+// `near` unless it is null. Of a plane a square about `near` is shown, `reach` each way.
 function meshOf(s, near, reach, segments = 48) {
   switch (s.shape) {
     case 'cylinder': return cylinderMesh(s, near, segments);
     case 'box': return boxMesh(s);
-    case 'plane': return planeMesh(s, near || [0, 0, 0], reach);
+    case 'plane': return planeMesh(s, near, reach);
     default: return capsuleMesh(s, near, segments);  // a sphere is a capsule of no length
   }
 }
@@ -166,19 +166,17 @@ function chord(body, p, d) {
   }
 }
 
-// How far a body extends from its centre along n: its support function. A plane is centred where it is shown and ends there.
+// How far a bounded body extends from its centre along n: its support function.
 function extentAlong({shape: s, axes}, n) {
-  if (s.shape === 'plane') return 0;
   if (s.shape === 'box') return s.half_extents.reduce((sum, h, i) => sum + h * Math.abs(dot(axes[i], n)), 0);
   const along = Math.abs(dot(axes[2], n)), h = (s.half_length || 0) * along;
   return h + s.radius * (s.shape === 'cylinder' ? Math.sqrt(Math.max(0, 1 - along * along)) : 1);
 }
-// A plane {normal: from B to A, at: its distance from the origin} between two bodies: of the directions of their features the
+// A plane {normal: from B to A, at: its distance from the origin} between two bounded bodies: of the directions of their features the
 // one with the largest gap. A view needs no more, for it only tells which body hides the other.
 function planeBetween(a, b) {
-  const d = add(a.centre, b.centre, -1), flat = [a, b].find(body => body.shape.shape === 'plane');
-  const directions = flat ? [flat.outward[0]] : [d, ...a.axes, ...b.axes, ...[a, b].map(body => add(d, body.axes[2], -dot(d, body.axes[2]))),
-      ...a.axes.flatMap(e => b.axes.map(f => cross(e, f)))];
+  const d = add(a.centre, b.centre, -1), radial = [a, b].map(({axes}) => add(d, axes[2], -dot(d, axes[2])));
+  const directions = [d, ...a.axes, ...b.axes, ...radial, ...a.axes.flatMap(e => b.axes.map(f => cross(e, f)))];
   let best = {gap: -Infinity};
   for (const direction of directions) {
     const size = length(direction);

@@ -76,7 +76,7 @@ function costChart() {
 }
 
 // The motion: two runs side by side, seen alike.
-const tints = {cylinder: [59, 120, 181], capsule: [201, 130, 43], sphere: [138, 107, 176], box: [154, 164, 174], plane: [200, 204, 196]};
+const bodyTints = {cylinder: [59, 120, 181], capsule: [201, 130, 43], sphere: [138, 107, 176], box: [154, 164, 174], plane: [200, 204, 196]};
 const pale = [242, 239, 232], sun = unit([0.4, -0.6, 1.2]);
 
 // The poses of a run, of each frame's moving bodies: x y z and the quaternion w x y z, as base64 of float32.
@@ -92,22 +92,19 @@ function poseAt(poses, frame, i, count) {
   return [mixed.slice(0, 3), mixed.slice(3)];
 }
 
-// Meshes of the bodies, the fixed ones in their place. Of a plane as much is shown as is outside of other planes.
+// Meshes of the bodies, the fixed ones in their place. Of a plane only the outer side is shown, outside of other planes.
 function sceneOf({bodies, camera}) {
-  const reach = 10 * length(add(camera.position, camera.look_at, -1)), fine = bodies.length > 20 ? 24 : 48;
+  const reach = 10 * length(add(camera.position, camera.look_at, -1)), moving = bodies.filter(b => !b.fixed).length;
+  const segments = moving > 20 ? 16 : moving > 8 ? 24 : 48;  // of spheres and capsules; many are small on the canvas
   const parts = bodies.map(({shape, fixed, pose}) => {
-    const mesh = meshOf(shape, null, reach, fine), part = {shape, fixed, mesh};
-    if (shape.shape === 'plane') Object.assign(mesh, planeMesh(shape, camera.look_at, reach));
-    if (!fixed || shape.shape !== 'box') mesh.edges = [];  // of what cannot be seen through
-    if (fixed) part.body = placeMesh(shape, mesh, pose.orientation, shape.shape === 'plane' ? [0, 0, 0] : pose.position);
-    return part;
+    const near = toLocal({axes: axesOf(pose.orientation), centre: pose.position}, camera.look_at);
+    const mesh = {...meshOf(shape, shape.shape === 'plane' ? near : null, reach, shape.shape === 'cylinder' ? 48 : segments), edges: []};
+    return {shape, fixed, mesh, body: fixed ? placeMesh(shape, mesh, pose.orientation, pose.position) : null};
   });
   const planes = parts.filter(p => p.shape.shape === 'plane').map(p => p.body);
-  for (const plane of planes) {
-    plane.faces = [planes.filter(other => other !== plane).reduce((face, {outward: [n], faces: [[p]]}) =>
-        cut(face, x => dot(n, add(x, p, -1))), plane.faces[0])];
-    plane.centre = plane.faces[0][0];
-  }
+  const shown = planes.map(plane => planes.filter(other => other !== plane).reduce((face, {outward: [n], faces: [[p]]}) =>
+      cut(face, x => dot(n, add(x, p, -1))), plane.faces[0]));
+  planes.forEach((plane, i) => { plane.faces = shown[i].length ? [shown[i]] : []; });
   return parts;
 }
 function drawMotion(view, parts, poses, frame) {
@@ -119,12 +116,13 @@ function drawMotion(view, parts, poses, frame) {
     part.body = placeMesh(part.shape, part.mesh, orientation, position);
   });
   const shadows = moving.map(p => p.body), planes = parts.filter(p => p.shape.shape === 'plane');
-  // Bodies are outside of all planes, which are behind them unless seen from within.
+  // Bodies are outside of all planes, which are therefore behind them.
   const order = farToNear(canvas, parts.filter(p => !planes.includes(p)).map(p => p.body));
-  for (const {body} of planes) paintBody(canvas, body, {tint: tints.plane, light: sun, shadows});
+  for (const {body} of planes) paintBody(canvas, body, {tint: bodyTints.plane, light: sun, shadows});
   for (const body of order) {
-    const {fixed} = parts.find(p => p.body === body), box = body.shape.shape === 'box';
-    paintBody(canvas, body, {tint: tints[body.shape.shape], pale, light: sun, opacity: fixed && box ? 0.55 : 1, shadows: fixed && box ? shadows : []});
+    const tint = bodyTints[body.shape.shape], box = body.shape.shape === 'box', wall = box && !shadows.includes(body);
+    paintBody(canvas, body, {tint, pale, light: sun, opacity: wall ? 0.55 : 1, shadows: wall ? shadows : [],
+                             outline: box ? `rgb(${times(tint, 0.6).join(' ')} / .7)` : null});
   }
 }
 

@@ -78,7 +78,7 @@ function startFrame(view) {
 }
 
 // A body as `look` says: {tint: [r, g, b], pale: of its stripes, light: where from, opacity, shadows: bodies that cast them
-// on it}.
+// on it, outline: of each face}.
 function paintBody(frame, body, look) {
   if (!(look.opacity < 1)) return paintFaces(frame, frame.context, body, look);
   // On a canvas of its own, so that it is translucent as a whole.
@@ -92,7 +92,7 @@ function paintBody(frame, body, look) {
   frame.context.drawImage(layer, 0, 0, frame.width, frame.height);
   frame.context.globalAlpha = 1;
 }
-function paintFaces(frame, context, body, {tint, pale = tint, light, shadows = []}) {
+function paintFaces(frame, context, body, {tint, pale = tint, light, shadows = [], outline = null}) {
   body.faces.forEach((face, i) => {
     const n = body.outward[i];
     if (!frame.sees(n, dot(n, face[0]))) return;
@@ -106,6 +106,11 @@ function paintFaces(frame, context, body, {tint, pale = tint, light, shadows = [
     context.fill();
     context.stroke();  // closes the seams between faces
     if (shadows.length) paintShadows(frame, context, points, face[0], n, light, shadows);
+    if (!outline) return;
+    context.strokeStyle = outline;
+    tracePath(context, points);
+    context.closePath();
+    context.stroke();
   });
   context.strokeStyle = `rgb(${tint.map(c => Math.round(c * 0.5)).join(' ')} / .55)`;
   for (const edge of body.edges) {
