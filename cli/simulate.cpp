@@ -7,6 +7,7 @@
 #include "cli/help.hpp"
 #include "cli/options.hpp"
 #include "properties/files/write_file.hpp"
+#include "simulation/experiment.hpp"
 #include "simulation/run_experiments.hpp"
 
 namespace touchstone {
