@@ -14,6 +14,7 @@
 #include "reports/stability/stability.hpp"
 #include "reports/terminal_table.hpp"
 #include "reports/worst.hpp"
+#include "simulation/experiment.hpp"
 #include "simulation/run_experiments.hpp"
 
 namespace touchstone {

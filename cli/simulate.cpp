@@ -6,6 +6,7 @@
 #include "cli/options.hpp"
 #include "cli/subcommands.hpp"
 #include "properties/files/write_file.hpp"
+#include "simulation/experiment.hpp"
 #include "simulation/run_experiments.hpp"
 
 namespace touchstone {

@@ -28,7 +28,8 @@ inline Body ground(double friction) {
   return fixed_body("ground", Plane(Vec3::UnitZ(), 0), friction);
 }
 
-/// Rotates the local z, a cylinder's axis, to the world's x.
+/// Rotates the local z, a cylinder's axis, to the world's x, up to rounding. The exact `along_x`
+/// would change documented results: chaotic ones depend on the last bits (log-pile with Bullet).
 inline Eigen::Quaterniond level() { return about(Vec3::UnitY(), std::numbers::pi / 2); }
 
 /// The can's radius of gyration, metres, about a line parallel to a diameter of its caps: at

@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "simulation/experiment_results.hpp"
+#include "simulation/run_experiments.hpp"
 
 namespace touchstone {
 namespace {

@@ -1,7 +1,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
-#include "simulation/experiment_results.hpp"
+#include "simulation/run_experiments.hpp"
 
 namespace touchstone {
 namespace {

@@ -8,6 +8,7 @@
 
 #include "candidates/candidates.hpp"
 #include "reference/invalid_input.hpp"
+#include "simulation/experiment.hpp"
 #include "simulation/experiment_setup.hpp"
 #include "simulation/run_experiments.hpp"
 

@@ -5,6 +5,7 @@
 
 #include "candidates/host/progress.hpp"
 #include "candidates/host/worker_processes.hpp"
+#include "simulation/experiment.hpp"
 #include "simulation/experiment_setup.hpp"
 
 namespace touchstone {

@@ -1,6 +1,7 @@
 #include "properties/motions/critical_pose.hpp"
 
 #include "properties/named.hpp"
+#include "properties/turns.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone {
@@ -12,7 +13,6 @@ using Quaternion = Eigen::Quaterniond;
 constexpr double radius = 0.25, half_length = 0.5;
 constexpr double depth = 1.0 / 256;
 
-const Quaternion upright(1, 0, 0, 0), along_x(1, 0, 1, 0), along_y(1, -1, 0, 0);
 const Vec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1), none(0, 0, 0);
 
 Cylinder can() { return Cylinder(radius, half_length); }

@@ -8,6 +8,7 @@
 
 #include "properties/draw.hpp"
 #include "properties/named.hpp"
+#include "properties/turns.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone {
@@ -17,7 +18,6 @@ using Quaternion = Eigen::Quaterniond;
 
 constexpr double radius = 0.25, half_length = 0.5;
 constexpr double depth = 1.0 / 256;
-const Quaternion upright(1, 0, 0, 0), along_x(1, 0, 1, 0), along_y(1, -1, 0, 0);
 
 Cylinder can() { return Cylinder(radius, half_length); }
 Plane ground() { return Plane({0, 0, 1}, 0); }

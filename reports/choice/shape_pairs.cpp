@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <limits>
 
-#include "candidates/candidates.hpp"
 #include "candidates/host/progress.hpp"
 #include "properties/features.hpp"
 #include "reference/invalid_input.hpp"
@@ -124,10 +123,7 @@ PairsChoice choose_for_pairs(const ShapesFile& file, const PairNeeds& needs,
                        "must hold a cylinder and another collision shape that it can touch: of "
                        "another link without a joint between them");
   }
-  std::vector<const Candidate*> candidates = {&find_candidate("reference")};
-  for (const Candidate* c : given) {
-    if (c != candidates[0]) candidates.push_back(c);
-  }
+  const auto candidates = exact_first(given);
   auto processes = start(candidates, simulation_threshold, limits);
   Progress progress("pairs of shapes", pairs.size());
   PairsChoice result{file.name, file.shapes.size(), file.ignored, needs, {}};

@@ -213,14 +213,19 @@ std::vector<const Candidate*> swept_candidates() {
   return find_candidates(names);
 }
 
+std::vector<const Candidate*> exact_first(const std::vector<const Candidate*>& candidates) {
+  std::vector<const Candidate*> result = {&find_candidate("reference")};
+  for (const Candidate* c : candidates) {
+    if (c != result[0]) result.push_back(c);
+  }
+  return result;
+}
+
 Choice choose(const SceneFile& file, const ChooseOptions& options) {
   if (file.needs.empty()) {
     throw InvalidInput("needs", "missing", "must say what has to come out right");
   }
-  std::vector<const Candidate*> candidates = {&find_candidate("reference")};
-  for (const Candidate* c : options.candidates) {
-    if (c != candidates[0]) candidates.push_back(c);
-  }
+  const auto candidates = exact_first(options.candidates);
   Processes processes(options.limits);
   CandidateModel exact(processes.of(*candidates[0]));
   Trajectory exact_run = run_scene(file.scene, exact);

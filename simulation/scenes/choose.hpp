@@ -19,6 +19,9 @@ struct ChooseOptions {
 /// 128 sides, boxes as spheres and capsules.
 std::vector<const Candidate*> swept_candidates();
 
+/// The exact candidate (`reference`), then the others.
+std::vector<const Candidate*> exact_first(const std::vector<const Candidate*>& candidates);
+
 /// The cheapest models that meet the needs of a scene, and all that was tried to find them.
 struct Choice {
   SceneFile file;

@@ -18,10 +18,6 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Normal regret, as a share of the smaller size, below which a normal separates the bodies as well
-/// as the true one.
-constexpr double equal_regret = 1e-6;
-
 /// Another model, whose answers are judged and recorded in a trajectory.
 class JudgedModel : public ContactModel {
  public:

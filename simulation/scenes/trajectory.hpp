@@ -10,6 +10,10 @@
 
 namespace touchstone {
 
+/// Normal regret, as a share of the smaller size, below which a normal separates the bodies as well
+/// as the true one, and its angle does not count.
+inline constexpr double equal_regret = 1e-6;
+
 /// One answer of a contact model during a run, with its errors.
 struct JudgedAnswer {
   int frame;     ///< index of the states that were asked about

@@ -31,10 +31,6 @@ std::vector<Configuration> sample(const Scene& scene, const Trajectory& run, con
   return result;
 }
 
-/// Normal regret, as a share of the smaller size, below which a normal separates the bodies as well
-/// as the true one.
-constexpr double equal_regret = 1e-6;
-
 /// Error of the answered depth, metres, as ReplayScore has it.
 double depth_error(const Score& s, double size) {
   if (s.depth_error) return std::abs(*s.depth_error) * size;
