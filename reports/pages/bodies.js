@@ -1,5 +1,5 @@
-// Vectors and bodies. A view of a contact puts the origin into it, so that it may be enlarged until the rounding of
-// the doubles shows.
+// Vectors and bodies. A view of a contact puts the origin at the contact, so that it can be enlarged until the rounding
+// of doubles shows.
 const add = (a, b, s = 1) => [a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]];
 const times = (a, s) => [s * a[0], s * a[1], s * a[2]];
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -7,13 +7,13 @@ const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a
 const length = a => Math.hypot(...a);
 const unit = a => times(a, 1 / length(a));
 const combine = ([a, b, c], [x, y, z]) => [a[0] * x + b[0] * y + c[0] * z, a[1] * x + b[1] * y + c[1] * z, a[2] * x + b[2] * y + c[2] * z];
-// A unit vector across n; of the given directions the one furthest from n decides.
+// A unit vector perpendicular to n: the projection of the first direction that is not nearly parallel to n.
 function across(n, ...directions) {
   const rests = [...directions, [1, 0, 0], [0, 1, 0]].map(d => add(d, n, -dot(d, n)));
   return unit(rests.find(r => length(r) > 0.05) || rests[rests.length - 1]);
 }
 
-// The columns of the rotation of a quaternion w, x, y, z that need not have unit length.
+// The columns of the rotation matrix of a quaternion w, x, y, z of any length.
 function axesOf(orientation) {
   const norm = Math.hypot(...orientation);
   const [w, x, y, z] = orientation.map(q => q / norm);
@@ -22,9 +22,9 @@ function axesOf(orientation) {
           [2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)]];
 }
 
-// A convex polyhedron in its own coordinates: {faces: polygons, normals: of the faces, edges: polylines, stripe: of each
-// face, whether it is pale, which shows how a round body turns}. Round parts have `segments` faces around, more near
-// `near` unless it is null. Of a plane a square about `near` is shown, `reach` each way.
+// A convex polyhedron in its own coordinates: {faces: polygons, normals: one for each face, edges: polylines, stripe:
+// whether each face is pale, so that a round body is seen to turn}. Round parts have `segments` faces around and more
+// close to the point `near`, unless it is null. A plane becomes a square about `near` that extends `reach` each way.
 function meshOf(s, near, reach, segments = 48) {
   switch (s.shape) {
     case 'cylinder': return cylinderMesh(s, near, segments);
@@ -40,14 +40,14 @@ function placeMesh(shape, mesh, orientation, centre) {
           edges: mesh.edges.map(e => e.map(toWorld)), outward: mesh.normals.map(n => combine(axes, n))};
 }
 const toLocal = ({axes, centre}, p) => axes.map(e => dot(e, add(p, centre, -1)));
-// A body with the contact in the origin, its mesh fine near it.
+// A body in coordinates whose origin is the contact; its mesh is finest there.
 function makeBody(shape, pose, contact, reach) {
   const centre = add(pose.position, contact, -1);
   const near = toLocal({axes: axesOf(pose.orientation), centre}, [0, 0, 0]);
   return placeMesh(shape, meshOf(shape, near, reach), pose.orientation, centre);
 }
 
-// From lo to hi in `count` steps, and ever closer around `at` unless it is null.
+// Values from lo to hi in `count` equal steps, refined around `at` unless it is null.
 function steps(lo, hi, count, at) {
   const values = [];
   for (let i = 0; i <= count; ++i) values.push(lo + (hi - lo) * i / count);
@@ -57,9 +57,9 @@ function steps(lo, hi, count, at) {
   return values.filter(v => v >= lo && v <= hi).sort((a, b) => a - b);
 }
 
-// Eight stripes around z.
+// Eight stripes around the z axis.
 const isPale = angle => Math.floor(angle / (Math.PI / 4) + 8) % 2 === 1;
-// A solid of revolution about z from its profile [radius, z], upwards.
+// A solid of revolution about z; its profile is a list of [radius, z] from bottom to top.
 function revolve(profile, near, segments, loops) {
   const at = near && Math.atan2(near[1], near[0]), start = at === null ? -Math.PI : at - Math.PI;
   const angles = steps(start, start + 2 * Math.PI, segments, at);
@@ -114,7 +114,7 @@ function boxMesh({half_extents: h}) {
   }
   return {faces, normals, edges: faces.map(f => [...f, f[0]]), stripe: faces.map(() => false)};
 }
-// A square of the plane about `near`, with a grid.
+// A square of the plane with a grid.
 function planeMesh({normal, displacement}, near, reach) {
   const norm = length(normal), n = times(normal, 1 / norm);
   const foot = add(near, n, displacement / norm - dot(n, near));
@@ -166,14 +166,14 @@ function chord(body, p, d) {
   }
 }
 
-// How far a bounded body extends from its centre along n: its support function.
+// The support function of a bounded body about its centre: how far the body extends along n.
 function extentAlong({shape: s, axes}, n) {
   if (s.shape === 'box') return s.half_extents.reduce((sum, h, i) => sum + h * Math.abs(dot(axes[i], n)), 0);
   const along = Math.abs(dot(axes[2], n)), h = (s.half_length || 0) * along;
   return h + s.radius * (s.shape === 'cylinder' ? Math.sqrt(Math.max(0, 1 - along * along)) : 1);
 }
-// A plane {normal: from B to A, at: its distance from the origin} between two bounded bodies: of the directions of their features the
-// one with the largest gap. A view needs no more, for it only tells which body hides the other.
+// A plane between two bounded bodies, {normal: from B to A, at: its distance from the origin}. Its normal is the direction
+// with the largest gap among those of the bodies' features: enough to tell which body hides the other.
 function planeBetween(a, b) {
   const d = add(a.centre, b.centre, -1), radial = [a, b].map(({axes}) => add(d, axes[2], -dot(d, axes[2])));
   const directions = [d, ...a.axes, ...b.axes, ...radial, ...a.axes.flatMap(e => b.axes.map(f => cross(e, f)))];

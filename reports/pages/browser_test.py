@@ -1,7 +1,5 @@
 #!/usr/bin/python3
-"""Opens the pages in Chromium as a reader does: browser_test.py PROGRAM.
-
-Exit code 77, which CTest counts as skipped, when there is no browser to drive."""
+"""Opens the pages in Chromium as a reader does: browser_test.py PROGRAM. Fails without a browser to drive."""
 import json
 import shutil
 import subprocess
@@ -11,7 +9,6 @@ import time
 import unittest
 from pathlib import Path
 
-skipped = 77
 try:
     from selenium import webdriver
     from selenium.webdriver.chrome.service import Service
@@ -19,12 +16,10 @@ try:
     from selenium.webdriver.common.by import By
     from selenium.webdriver.support.select import Select
 except ImportError:
-    print("skipped: no python3-selenium (packages-test.txt)")
-    sys.exit(skipped)
+    sys.exit("python3-selenium is missing (packages-test.txt)")
 missing = [tool for tool in ("chromium", "chromedriver") if shutil.which(tool) is None]
 if missing:
-    print(f"skipped: no {' and no '.join(missing)} (packages-test.txt)")
-    sys.exit(skipped)
+    sys.exit(f"{' and '.join(missing)} missing (packages-test.txt)")
 
 program = sys.argv.pop(1)
 max_bytes = 5_000_000

@@ -1,4 +1,4 @@
-// Charts by Vega, in the page's colours and as wide as their place.
+// Charts drawn by Vega in the page's colours, each as wide as the element that holds it.
 byId('credits').textContent = 'Charts by Vega (© 2015–2022 University of Washington Interactive Data Lab, BSD-3-Clause) ' +
     'with parts of D3 (© 2010–2022 Mike Bostock, ISC).';
 const chartConfig = {
@@ -7,8 +7,8 @@ const chartConfig = {
   text: {fill: 'var(--ink)', fontSize: 11},
 };
 
-// `label` names the chart to those who cannot see it. A mark whose datum has a `tip` shows it on hover and focus and
-// may be clicked.
+// Draws a chart into `host`. `label` is its name for screen readers. A mark whose datum has a `tip` shows it on hover and
+// focus, and a click on it calls `onClick` with the datum.
 function drawChart(host, label, spec, onClick = () => {}) {
   if (host.chart) host.chart.finalize();
   host.replaceChildren();
@@ -26,7 +26,7 @@ function drawChart(host, label, spec, onClick = () => {}) {
     reachByKeys(host, onClick);
   });
 }
-// The symbols of a chart can be reached with the keyboard too.
+// Makes the symbols of a chart reachable by keyboard.
 function reachByKeys(host, onClick) {
   for (const path of host.querySelectorAll('.mark-symbol path')) {
     const datum = path.__data__ && path.__data__.datum;
@@ -39,7 +39,7 @@ function reachByKeys(host, onClick) {
     path.addEventListener('keydown', e => { if (e.key === 'Enter') onClick(datum); });
   }
 }
-// Charts are drawn again when their width or the choice of candidates changes.
+// Draws now, and again whenever the width or the choice of candidates changes.
 const redrawn = [];
 function keepDrawn(draw) {
   redrawn.push(draw);
@@ -52,7 +52,7 @@ addEventListener('resize', () => {
   redrawTimer = setTimeout(() => { drawnWidth = innerWidth; for (const draw of redrawn) draw(); }, 200);
 });
 
-// An axis: {title, domain, ticks, label: an expression of a tick's text, type: 'log' unless told} and what else Vega knows.
+// Vega's scale and axis. `label` is an expression for the text of a tick; `rest` is passed on to the axis.
 function axis(name, {title, domain, ticks, label, type = 'log', nice = false, ...rest}) {
   const across = name === 'x';
   return {scale: {name, type, domain, range: across ? 'width' : 'height', ...(type === 'point' ? {padding: 0.5} : {nice})},
@@ -63,7 +63,7 @@ function axes(x, y) {
   const both = [axis('x', x), axis('y', y)];
   return {scales: both.map(a => a.scale), axes: both.map(a => a.axis)};
 }
-// Decades around values, every `step`-th of them a tick.
+// The decades that enclose the values, with a tick at every `step`-th of them.
 function decadesOf(values, step = 1) {
   const lo = Math.floor(Math.log10(Math.min(...values))), hi = Math.max(lo + 1, Math.ceil(Math.log10(Math.max(...values))));
   const ticks = [];
@@ -79,7 +79,7 @@ function powerAxis(title, values) {
 }
 const shareAxis = title => ({title, type: 'linear', domain: [0, 1], format: '%', tickCount: 5});
 
-// Marks. All data has x and y.
+// Marks of data that has x and y.
 const place = {x: {scale: 'x', field: 'x'}, y: {scale: 'y', field: 'y'}};
 // A line through the rows of `data`, or one for each value of `by`, as `look` says.
 function lineMarks(data, by, look) {
@@ -87,7 +87,7 @@ function lineMarks(data, by, look) {
   const part = `${data}-part`;
   return by ? {type: 'group', from: {facet: {name: part, data, groupby: by}}, marks: [line(part)]} : line(data);
 }
-// A horizontal line.
+// A dashed horizontal line.
 const limitMark = y => ({type: 'rule', interactive: false, encode: {update: {x: {value: 0}, x2: {signal: 'width'},
     y: {scale: 'y', value: y}, stroke: {value: 'var(--quiet)'}, strokeDash: {value: [5, 4]}}}});
 const symbolMarks = (data, size, hovered, name) => ({type: 'symbol', name, from: {data}, encode: {
@@ -104,8 +104,8 @@ function drawLines(host, label, {height = 280, x, y, points, limit}, onClick) {
     symbolMarks('points', 22, 90)]}, onClick);
 }
 
-// Points: {x, y, symbol, fill, stroke, size, tip, label, weight, order}. Lines: {rows, by, dash, colour}. Only labels that
-// find room are shown; those of a lower order choose first.
+// A chart of points {x, y, symbol, fill, stroke, size, tip, label, weight, order} and of lines {rows, by, dash, colour,
+// width} beneath them. Only labels that find room are shown; labels of a lower order are placed first.
 function drawScatter(host, label, {height = 300, x, y, points, lines, limit}, onClick) {
   drawChart(host, label, {height, data: [{name: 'points', values: points}, ...lines.map(({rows}, i) => ({name: `line-${i}`, values: rows}))],
     ...axes(x, y), marks: [
@@ -113,7 +113,7 @@ function drawScatter(host, label, {height = 300, x, y, points, lines, limit}, on
       ...lines.map(({by, dash, colour = 'var(--quiet)', width = 1}, i) => lineMarks(`line-${i}`, by,
           {stroke: {value: colour}, strokeWidth: {value: width}, ...(dash && {strokeDash: {value: dash}})})),
       symbolMarks('points', 30, 110, 'marks'),
-      // The style sheet makes labels smaller than what room is sought for.
+      // The style sheet shows labels smaller than the size that they are placed with.
       {type: 'text', from: {data: 'marks'}, interactive: false, encode: {enter: {text: {field: 'datum.label'}, fontWeight: {field: 'datum.weight'},
                                                     fontSize: {value: 13}, fill: {value: 'var(--ink)'}}},
        transform: [{type: 'label', size: {signal: '[width, height]'}, offset: [7], padding: 0, avoidMarks: ['marks'],
@@ -122,7 +122,7 @@ function drawScatter(host, label, {height = 300, x, y, points, lines, limit}, on
     ]}, onClick);
 }
 
-// Which candidates the charts with a line for each show: the buttons of all legends.
+// The candidates whose lines are shown, chosen by the buttons of any legend.
 const usual = ['reference', 'bullet', 'bullet-margin-0', 'ode', 'fcl', 'fcl-distance', 'libccd-mpr', 'mujoco', 'prism:16', 'capsule'];
 const shown = new Set(), toggles = [];
 function showUsual(names) {

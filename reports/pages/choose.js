@@ -5,7 +5,7 @@ const measured = (value, need) => value === null ? 'the motion becomes absurd' :
 
 const wide = text => element('td', {class: 'text wrap'}, text);
 
-// "can stands within 0.5°: 12° at 0.71 s"
+// Words such as "can stands within 0.5°: 12° at 0.71 s".
 function failure(run) {
   const need = needs[run.first_broken], verdict = run.verdicts[run.first_broken];
   return `${need.text}: ${measured(verdict.value, need)} at ${verdict.time.toFixed(2)} s`;
@@ -44,7 +44,7 @@ function failures() {
   if (!list.children.length) list.append(element('p', {}, 'No cheaper model has a routine for any of these pairs.'));
 }
 
-// Runs with one candidate for all pairs; searches have longer names.
+// Whether a run has one candidate for all pairs; runs of the search have longer names.
 const isUniform = run => !run.name.includes(' ') && run.name !== 'combination';
 function runTable() {
   byId('run-table').append(table([textColumn('model'), 'µs of a step', 'error / limit', textColumn('breaks first'), textColumn('worst answer before')],
@@ -54,7 +54,7 @@ function runTable() {
   if (data.too_slow.length) byId('too-slow').textContent = `Not run, because their queries alone would take more than 3 s: ${data.too_slow.join(', ')}.`;
 }
 
-// Error and cost of all runs. What is absurd is drawn at the top.
+// Error and cost of all runs. A run whose motion became absurd is drawn at the top.
 function costChart() {
   const errors = data.runs.map(r => r.error).filter(e => e > 0 && e < 1e4).concat(1);
   const cost = data.runs.map(r => r.microseconds_per_step);
@@ -75,15 +75,15 @@ function costChart() {
       y: {title: 'error / limit', domain: [low, high], ticks: decadesOf([low, high]).ticks, label: plain}});
 }
 
-// The motion: two runs side by side, seen alike.
+// The motion: two runs side by side, seen from the same place.
 const bodyTints = {cylinder: [59, 120, 181], capsule: [201, 130, 43], sphere: [138, 107, 176], box: [154, 164, 174], plane: [200, 204, 196]};
 const pale = [242, 239, 232], sun = unit([0.4, -0.6, 1.2]);
 
-// The poses of a run, of each frame's moving bodies: x y z and the quaternion w x y z, as base64 of float32.
+// Decodes the poses of a run: for each frame and moving body x y z and the quaternion w x y z, as base64 of float32.
 function decodePoses(text) {
   return new Float32Array(Uint8Array.from(atob(text), c => c.charCodeAt(0)).buffer);
 }
-// [position, orientation] of the moving body `i` of `count`, between two frames in proportion.
+// [position, orientation] of moving body `i` of `count`, interpolated between two frames.
 function poseAt(poses, frame, i, count) {
   const first = Math.floor(frame), next = Math.min(poses.length / 7 / count - 1, first + 1), share = frame - first;
   const [p, q] = [first, next].map(f => Array.from(poses.subarray(7 * (f * count + i), 7 * (f * count + i) + 7)));
@@ -92,7 +92,7 @@ function poseAt(poses, frame, i, count) {
   return [mixed.slice(0, 3), mixed.slice(3)];
 }
 
-// Meshes of the bodies, the fixed ones in their place. Of a plane only the outer side is shown, outside of other planes.
+// Meshes of the bodies; fixed bodies are placed once. A plane shows its outer side, as far as no other plane covers it.
 function sceneOf({bodies, camera}) {
   const reach = 10 * length(add(camera.position, camera.look_at, -1)), moving = bodies.filter(b => !b.fixed).length;
   const segments = moving > 20 ? 16 : moving > 8 ? 24 : 48;  // of spheres and capsules; many are small on the canvas
@@ -126,7 +126,7 @@ function drawMotion(view, parts, poses, frame) {
   }
 }
 
-// The camera turns about the vertical through the point it looks at.
+// The camera turns about the vertical through the point that it looks at.
 function aimCamera(view, {position, look_at}) {
   const from = add(position, look_at, -1);
   Object.assign(view, {pan: look_at, towards: unit(from), lens: Math.tan(18 * Math.PI / 180)});
@@ -167,8 +167,7 @@ function startMotion(motion) {
     before = performance.now();
     if (on) requestAnimationFrame(tick);
   };
-  const others = runs.length > 1 ? runs.slice(1) : runs;
-  others.forEach(r => select.append(element('option', {value: runs.indexOf(r)}, r.name)));
+  select.append(...options(runs.map((r, i) => [i, r.name]).slice(runs.length > 1 ? 1 : 0)));
   const note = () => { byId('other-note').textContent = runs[select.value].note; };
   select.addEventListener('change', () => { note(); draw(); });
   byId('scrub').max = motion.duration;

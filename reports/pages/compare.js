@@ -51,7 +51,7 @@ function charts() {
   for (const [pair, place] of places) keepDrawn(() => changeChart(place, pair, of(was, pair), of(is, pair), x, y));
 }
 function changeChart(place, pair, was, is, x, y) {
-  // In shares of the axes; a mark that has moved by less than one in a hundred hides its old place.
+  // A movement is measured in shares of the axes; below one in a hundred the old mark is left out.
   const moved = (a, b) => a && b ? Math.hypot(...[[x, 'x'], [y, 'y']].map(([{domain}, k]) => Math.log(a[k] / b[k]) / Math.log(domain[1] / domain[0]))) : 1;
   const points = names.flatMap((name, i) => {
     const [old, now] = [was, is].map(list => list.find(p => p.candidate === name)), latest = now || old;

@@ -3,7 +3,7 @@
 const byId = id => document.getElementById(id);
 const data = JSON.parse(byId('data').textContent), {marks} = data;
 
-// Text always goes in as text.
+// Builders of elements. Strings become text, never markup.
 function fillElement(e, attributes, children) {
   for (const [key, value] of Object.entries(attributes)) e.setAttribute(key, value);
   e.append(...children.filter(c => c !== null && c !== undefined));
@@ -15,10 +15,9 @@ const shape = (name, attributes = {}, ...children) =>
 function definitions(id, entries) {
   byId(id).append(...entries.flatMap(([term, text]) => [element('dt', {}, term), element('dd', {}, text)]));
 }
-// A select box of [value, text] or plain values.
-const selectBox = (values, attributes = {}) => element('select', attributes,
-    ...values.map(v => Array.isArray(v) ? element('option', {value: v[0]}, v[1]) : element('option', {value: v}, v)));
-// Links to the sections that are shown, in the header.
+// Options of a select box: values or [value, text].
+const options = values => values.map(v => Array.isArray(v) ? element('option', {value: v[0]}, v[1]) : element('option', {value: v}, v));
+// Lists the visible sections in the header.
 function listSections() {
   byId('contents').append(...[...document.querySelectorAll('main > section')].filter(s => !s.hidden)
       .map(s => element('a', {href: `#${s.id}`}, s.querySelector('h2').textContent)));
@@ -56,16 +55,16 @@ const outcomeLegend = outcomes => element('div', {class: 'legend'}, ...outcomes.
 function exponent(x) {
   if (x === null) return '–';
   if (x === 0) return '0';
-  return Math.abs(x) >= 0.1 && Math.abs(x) < 1000 ? x.toPrecision(2) : x.toExponential(1).replace('+', '');
+  return Math.abs(x) >= 0.1 && Math.abs(x) < 1000 ? x.toPrecision(2).replace('+', '') : x.toExponential(1).replace('+', '');
 }
 const whole = x => x === null ? '–' : Math.round(x).toLocaleString('en');
-// Both are rounded down: only what covers the whole patch shows 1.00, only a candidate without a failure 100%.
+// Both round down, so that 1.00 means the whole patch and 100% no failure.
 const cutShare = share => share === null ? '–' : (Math.floor(share * 100 + 1e-6) / 100).toFixed(2);
 const percent = share => share === 1 ? '100%' : (Math.floor(share * 1000 + 1e-6) / 10).toFixed(1) + '%';
 const dashed = pair => pair.replace('-', '–');
 
-// Tables. A head is a string or a cell; a row is a list of texts or cells, or an element. Texts are
-// aligned as the head of their column.
+// Tables. A head is a string or a cell; a row is an element or a list of strings and cells. A string takes the class
+// of its column's head.
 const column = (text, attributes = {}) => element('th', {scope: 'col', ...attributes}, text);
 const textColumn = text => column(text, {class: 'text'});
 const rowHead = (...children) => element('th', {scope: 'row'}, ...children);
@@ -87,14 +86,14 @@ function command(text) {
       () => { copy.textContent = 'Copied'; }, () => { copy.textContent = 'Select and copy'; }));
   return element('div', {class: 'command'}, element('code', {}, text), copy);
 }
-// By pointer or keyboard.
+// Calls `act` when an element is clicked or Enter is pressed on it.
 function whenPressed(target, act) {
   target.addEventListener('click', act);
   target.addEventListener('keydown', e => { if (e.key === 'Enter') act(); });
 }
 const onThemeChange = act => matchMedia('(prefers-color-scheme: dark)').addEventListener('change', act);
 
-// The one tooltip.
+// The tooltip, one for the page.
 function showTip(text, x, y) {
   const tip = byId('tooltip');
   tip.textContent = text;

@@ -4,7 +4,7 @@
 const slice = {svg: byId('slice'), across: [1, 0, 0], metres: 1, pan: [0, 0, 0], stretch: false};
 
 const sliceWidth = 480, sliceHeight = 360;
-// As for the 3-D view; `metres` is the width.
+// Fits the slice to these bodies or, without any, to `reach` about the contact. `metres` is the width shown.
 function fitSlice(bodies, n, reach) {
   const points = bodies.flatMap(b => b.faces.flat());
   const {centre, half} = points.length ? bounds(points, [slice.across, n, cross(slice.across, n)])
@@ -17,8 +17,8 @@ function zoomSlice(factor) {
   slice.pan = times(slice.pan, 1 / factor);
 }
 
-// The outline of a body's section for x from x0 to x1: its chords along n, column by column, and
-// its two ends by bisection (a section is convex). y is cut off below y0 and above y1.
+// The outline of a body's section for x in [x0, x1], with y limited to [y0, y1]: chords along n, column by column, and
+// both ends by bisection, for a section is convex.
 function section(body, n, t, [x0, x1], [y0, y1]) {
   const at = x => chord(body, times(t, x), n);
   const columns = 480, xs = [];
@@ -43,13 +43,13 @@ function section(body, n, t, [x0, x1], [y0, y1]) {
   return [...hit.map((x, i) => [x, cut(chords[i][1])]), ...hit.map((x, i) => [x, cut(chords[i][0])]).reverse()];
 }
 
-// `scene` as for the 3-D view, and `signedDistance`.
+// Draws the slice of a scene (see makeScene).
 function drawSlice(scene) {
   const width = sliceWidth, height = sliceHeight, n = scene.normal, t = slice.across, s = cross(n, t);
   const xScale = width / slice.metres;
   const depth = Math.abs(scene.signedDistance);
   const yScale = slice.stretch && depth > 0 ? Math.max(xScale, height / (8 * depth)) : xScale;
-  // Stretched about the contact's height.
+  // Heights are stretched about the contact.
   const panX = dot(slice.pan, t), panY = dot(slice.pan, n) * xScale / yScale;
   const x = v => width / 2 + xScale * (v - panX), y = v => height / 2 - yScale * (v - panY);
   const xRange = [-0.52, 0.52].map(k => panX + k * slice.metres), yRange = [-0.55, 0.55].map(k => panY + k * height / yScale);
@@ -81,12 +81,12 @@ const truth = data.truth, given = data.configuration, answers = Object.entries(d
 const shortest = v => v === null ? '–' : v !== 0 && Math.abs(v) < 1e-3 ? v.toExponential() : String(v);
 const vector = v => v === null ? '–' : `(${v.map(c => c === null ? 'nan' : String(c)).join(', ')})`;
 
-// What is shown: of the candidates at first those that fail, and our own.
+// The candidates shown: at first those that fail, and our own.
 const shown = new Set(answers.filter(([name, a]) => a.status === 'contact' && (name === 'reference' || a.score.outcome !== 'agree'))
     .map(([name]) => name));
 let scene, shows;
 
-// Puts the origin of everything into the contact of one of the true normals.
+// Moves the origin to the contact of the true normal `index`.
 function aim(index) {
   scene = makeScene(given, truth, index);
   aimView(view, scene.normal, scene.across);
@@ -144,7 +144,7 @@ function answerTables() {
       answers.flatMap(([n, a]) => a.points.map(p => [named(n), vector(p.position), shortest(p.depth), vector(p.normal)]))));
 }
 
-// Every number of the configuration by its path, as in "pose_a.position[2]".
+// Every number of the configuration with its path, such as "pose_a.position[2]".
 function leaves(value, path = '') {
   if (Array.isArray(value)) return value.flatMap((v, i) => leaves(v, `${path}[${i}]`));
   if (value !== null && typeof value === 'object') {
@@ -165,7 +165,7 @@ function controls() {
   const onClick = (id, act) => byId(id).addEventListener('click', () => { act(); redraw(); });
   for (const which of ['contact', 'smaller', 'whole']) {
     onClick(`view-${which}`, () => fitView(view, shows[which], scene.reaches.contact));
-    // In the slice the depth itself is to be seen, however long the patch is.
+    // The slice shows the depth itself, however long the patch is.
     onClick(`slice-${which}`, () => fitSlice(shows[which], scene.normal, scene.reaches.depth));
   }
   onClick('view-in', () => zoomView(view, 2));
@@ -175,7 +175,7 @@ function controls() {
   slice.svg.addEventListener('wheel', e => { e.preventDefault(); zoomSlice(Math.exp(-0.0015 * e.deltaY)); redraw(); }, {passive: false});
   byId('slice-stretch').addEventListener('change', e => { slice.stretch = e.target.checked; redraw(); });
   byId('slice-turn').addEventListener('input', turnSlice);
-  byId('slice-normal').append(...truth.normals.map((n, i) => element('option', {value: i}, `${i + 1} of ${truth.normals.length}`)));
+  byId('slice-normal').append(...options(truth.normals.map((n, i) => [i, `${i + 1} of ${truth.normals.length}`])));
   byId('slice-normal').addEventListener('change', e => aim(Number(e.target.value)));
   byId('slice-normal-label').hidden = truth.normals.length === 1;
   byId('show-all').addEventListener('click', () => showAll(true));

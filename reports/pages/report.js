@@ -1,7 +1,7 @@
-// The report's data, and what all sections ask of it.
+// The report's data, what all sections ask of it, and the findings.
 const report = unpackReport(data);
 
-// Lists of like objects come as a schema and rows of their values (page_data.cpp).
+// Unpacks lists of objects with the same members, which come as a schema and rows of values (page_data.cpp).
 function unpackReport(packed) {
   const unpack = (cell, schema) => {
     if (schema === 'string') return packed.strings[cell];
@@ -16,29 +16,29 @@ const candidates = report.candidates.map(c => c.name);
 showUsual(candidates);
 const pairs = [...new Set(report.results.map(r => r.pair))];
 const summaryOf = (pair, candidate) => report.summary.find(r => r.pair === pair && r.candidate === candidate);
-// "cylinder-box" among its like.
+// "box" for "cylinder-box".
 const otherShape = pair => pair.replace('cylinder-', '');
 
-// null: not measured.
+// null stands for what was not measured.
 const quantile = (q, which) => q === null ? null : q[which];
 const time = r => r.nanoseconds === null ? null : r.nanoseconds.median;
-// The configurations that a candidate has a routine for.
+// The number of configurations that a candidate has a routine for.
 const supported = r => r.count - (r.outcomes.unsupported || 0);
 const agreeing = r => (r.outcomes.agree || 0) / supported(r);
 const lost = r => ['not-finite', 'failed', 'crashed', 'timed-out'].reduce((sum, o) => sum + (r.outcomes[o] || 0), 0);
 const vector = v => v === null ? '–' : `(${v.map(c => c === null ? 'nan' : c.toPrecision(6)).join(', ')})`;
 const outcomesText = r => Object.entries(r.outcomes).map(([name, n]) => `${name} ${n}`).join(', ');
 
-// Fills a select box of the page.
+// Fills a select box of the page and listens to it.
 function choices(id, values, change, selected) {
-  byId(id).append(...values.map(v => element('option', {value: v}, v)));
+  byId(id).append(...options(values));
   if (selected !== undefined) byId(id).value = selected;
   byId(id).addEventListener('change', change);
 }
-// 1e-10 and less is pale, 1 and more is full.
+// The level of a heated cell: pale at 1e-10 and below, full at 1 and above.
 const decade = v => v <= 0 ? 0 : (Math.log10(v) + 10) / 10;
 
-// What most readers ask first, answered from the data.
+// The findings answer what most readers ask first.
 function findings() {
   if (report.partial) {
     byId('partial').hidden = false;
@@ -56,7 +56,7 @@ function findings() {
   failuresOf();
 }
 
-// First those that answer everything, then by agreement, then by the worst error.
+// Candidates by agreement, then by worst error.
 function ranked(pair) {
   const worst = r => r.severity === null ? Infinity : r.severity.max;
   return report.summary.filter(r => r.pair === pair && supported(r))

@@ -34,7 +34,7 @@ function worstCase(w) {
           element('details', {}, element('summary', {}, 'Configuration'), element('pre', {}, JSON.stringify(w.configuration))))));
 }
 
-// Draws on a plain canvas, when in sight or printed: browsers allow but few WebGL contexts on a page.
+// A case is drawn when it comes into sight or is printed.
 let undrawn = [];
 addEventListener('beforeprint', () => { for (const draw of undrawn) draw(); });
 function caseView(w) {

@@ -12,12 +12,12 @@ function speedAccuracy() {
   const x = {title: 'time per query', ...decadesOf(rows.map(time)), label: timeLabel};
   const y = powerAxis('depth error, p99 (sizes)', rows.map(chartedError));
   const places = [...new Set(rows.map(r => r.pair))].reverse().map(pair => [pair, element('div', {class: 'chart'})]);
-  // All are in place before the first is drawn as wide as its place.
+  // All places exist before the first chart is drawn, so that each has its final width.
   host.append(...places.map(([pair, place]) => element('figure', {}, element('figcaption', {}, pair === 'all' ? 'all pairs' : dashed(pair)), place)));
   for (const [pair, place] of places) keepDrawn(() => speedChart(place, pair, rows.filter(r => r.pair === pair), x, y));
 }
 function speedChart(place, pair, rows, x, y) {
-  // Overlapping spreads of time are a tie (reports/pareto.hpp).
+  // Candidates whose spreads of time overlap tie (reports/pareto.hpp).
   const front = rows.filter(r => r.pareto).sort((a, b) => time(a) - time(b));
   const at = r => ({x: time(r), y: chartedError(r)});
   const points = rows.map((r, i) => ({...markData(r.candidate), ...at(r), order: front.includes(r) ? i : 1000 + i,
@@ -35,18 +35,18 @@ function speedChart(place, pair, rows, x, y) {
 }
 speedAccuracy();
 
-// How the errors are distributed: cumulative of several candidates, and one candidate's histogram.
+// The distribution of errors: cumulative for several candidates, a histogram for one.
 function distributionRow(candidate) {
   const pair = byId('distribution-pair').value, poseClass = byId('distribution-class').value;
   return (poseClass === 'all' ? report.summary : report.results)
       .find(r => r.pair === pair && r.class === poseClass && r.candidate === candidate);
 }
-// Half decades [lower, upper, count], with zeros below all others.
+// Bins of half a decade, [lower, upper, count]; errors of zero are in a bin below all others.
 function binsOf(q) {
   const h = q.histogram, bins = h.counts.map((n, i) => [10 ** ((h.first + i) / 2), 10 ** ((h.first + i + 1) / 2), n]);
   return h.zero ? [[zeroAt, 10 ** -17.5, h.zero], ...bins.map(([a, b, n]) => [Math.max(a, 10 ** -17.5), Math.max(b, 1e-17), n])] : bins;
 }
-// Contacts that should have been reported count too: they never come below any error.
+// The contacts that should have been reported; a missed one is below no error.
 const reportedOf = q => q.histogram.zero + q.histogram.counts.reduce((a, b) => a + b, 0);
 const owed = r => reportedOf(r.depth_error) + (r.outcomes.missed || 0) + lost(r);
 
@@ -87,8 +87,7 @@ function histogram(quantity) {
 }
 function distributionClasses() {
   const pair = byId('distribution-pair').value;
-  byId('distribution-class').replaceChildren(...['all', ...report.classes.filter(c => c.pair === pair).map(c => c.class)]
-      .map(v => element('option', {value: v}, v)));
+  byId('distribution-class').replaceChildren(...options(['all', ...report.classes.filter(c => c.pair === pair).map(c => c.class)]));
 }
 choices('distribution-pair', summaryPairs, () => { distributionClasses(); distribution(); });
 distributionClasses();
@@ -97,7 +96,7 @@ choices('distribution-candidate', candidates, distribution, candidates.find(c =>
 shownLegend(byId('distribution-legend'), candidates);
 keepDrawn(distribution);
 
-// Error against what it may depend on.
+// Error against the variables that it may depend on.
 const variables = {
   tilt: 'angle of the cylinder’s axis from parallel or perpendicular to an axis of B (radians)',
   depth: 'true penetration (sizes)',

@@ -1,7 +1,7 @@
 // The report's tables: worst errors, summary, pose classes, contact points, experiments, outcomes.
 const notAvailable = () => element('td', {class: 'quiet'}, '–');
 
-// The worst error of every candidate on every pair, and once more by Drake's protocol.
+// The worst error of every candidate on every pair, by our pose classes and by Drake's protocol.
 const perPair = first => [textColumn(first), ...pairs.map(p => column(otherShape(p)))];
 
 function worstErrors() {
@@ -63,7 +63,7 @@ function summaryTable() {
   byId('summary-table').replaceChildren(table(heads, rows, 'Agreement, depth error of the reported contacts, nanoseconds per query'));
 }
 
-// What is wrong with a simplified model, and with its solver.
+// The errors of a simplified model and of its solver.
 const modelled = report.summary.filter(r => r.model_error !== null && report.candidates.some(c => c.name === r.candidate && c.models));
 function modelTable() {
   const rows = modelled.filter(r => r.pair === byId('model-pair').value).map(r => {
@@ -127,8 +127,8 @@ choices('class-candidate', ['all', ...candidates], classTable, candidates.find(c
 byId('class-quantity').addEventListener('change', classTable);
 classTable();
 
-// Contact points: how many, against the thesis's cases, and what they cover. The thesis is the one that
-// added cylinders to the pe rigid-body engine; its figures 4-6 and 16-19 and 21-28 say how many.
+// Contact points: their number and coverage, beside the numbers of the thesis that added cylinders to the pe
+// rigid-body engine (its figures 4-6, 16-19 and 21-28).
 const thesisCases = [
   ['cylinder-plane', 'standing', 'standing on a plane', '3'],
   ['cylinder-plane', 'lying', 'lying on a plane', '2'],
@@ -179,7 +179,7 @@ manifold();
 // and the numbers of one experiment. Errors below what an experiment resolves are equal.
 const experimentCell = {
   text: r => r.outcome === 'unsupported' ? '–' : r.exact ? 'held' : r.error === null || r.outcome === 'unsound' ? 'lost' : exponent(r.error),
-  // From what the experiment resolves (pale) to wrong by all (full).
+  // Pale at the experiment's resolution, full at an error of 1.
   style: (r, resolution) => r.exact ? '' : heated(r.error === null ? 1
       : 0.2 + 0.8 * Math.max(0, 1 - Math.log(r.error) / Math.log(resolution))),
 };
@@ -228,7 +228,7 @@ if (report.experiments) {
   experimentTables(report.experiments);
 }
 
-// What became of every configuration.
+// The outcomes of all configurations, as bars.
 function outcomeBars() {
   const pair = byId('outcome-pair').value, seen = Object.keys(outcomeColours).filter(o => report.summary.some(r => r.outcomes[o]));
   const rows = report.summary.filter(r => r.pair === pair && supported(r)).map(r => {

@@ -14,14 +14,21 @@ function drawStabilityPage() {
   drawStability(byId('stability'), data);
 }
 
-// [label, its select box]
-function labelledSelect(label, options, change) {
-  const list = selectBox(options);
+// A label and its select box.
+function labelledSelect(label, values, change) {
+  const list = element('select', {}, ...options(values));
   list.addEventListener('change', change);
   return [element('label', {class: 'long'}, `${label} `, list), list];
 }
 
-// Small steps: a chart of each pair with a line for each candidate.
+// The head of a column that tells more on hover and focus.
+function explainedHead(text, more) {
+  const head = column(text, {class: 'text pose', tabindex: 0});
+  explain(head, more);
+  return head;
+}
+
+// Small steps: one chart per pair, one line per candidate.
 const stepMeasures = {  // [words, whether a share, the limit]
   amplification: ['change of depth over what the step allows', false, 1],
   hull_excess: ['movement of the points beyond that of the contact patch', false],
@@ -45,7 +52,7 @@ function drawSteps(into, ladder, names) {
       element('div', {class: 'panels'}, ...places.map(([pair, place]) => element('figure', {}, element('figcaption', {}, dashed(pair)), place))),
       worstSteps(ladder.worst));
 
-  // Of each amplitude: the largest value, or the mean share; null if nothing was measured.
+  // For each amplitude the largest value, or the mean share; null where nothing was measured.
   function values(pair, name, [, isShare]) {
     const rows = ladder.results.filter(r => r.pair === pair && r.candidate === name && (poseClass.value === 'all' || r.class === poseClass.value));
     return ladder.amplitudes.map((_, i) => {
@@ -78,7 +85,7 @@ function worstSteps(worst) {
           [named(w.candidate), w.pair, element('code', {}, w.from), element('code', {}, w.to), exponent(w.value)]))));
 }
 
-// Maps of failure: a row a candidate, a column a critical pose.
+// Maps of failure: one row per candidate, one column per critical pose.
 function drawMaps(into, maps, names) {
   const place = element('div', {class: 'scroll'});
   const shown = element('p', {class: 'command', role: 'status'}, 'Point at a pixel for its outcome; click for the command that replays it.');
@@ -94,7 +101,7 @@ function drawMaps(into, maps, names) {
   const show = (result, pixel) => shown.replaceChildren(`${result.candidate}, ${maps.letters[pixel.letter]}: `,
       element('code', {}, `./touchstone replay ${pixel.name} --candidates ${result.candidate}`));
   function draw() {
-    const heads = maps.poses.map(p => column(p.pose, {class: 'text pose', title: `${p.description} Across: ${p.columns}. Up: ${p.rows}.`}));
+    const heads = maps.poses.map(p => explainedHead(p.pose, `${p.description} Across: ${p.columns}. Up: ${p.rows}.`));
     place.replaceChildren(table([textColumn(''), ...heads], names.map(name => [rowHead(named(name)), ...maps.poses.map(p => {
       const result = p.results.find(r => r.candidate === name);
       return element('td', {class: 'map-cell'}, result ? mapPicture(maps, p, result, Number(zoom.value), show) : '–');
@@ -126,7 +133,7 @@ function mapPicture(maps, pose, result, zoom, show) {
   return canvas;
 }
 
-// Motions: a row a candidate, a column a motion.
+// Motions: one row per candidate, one column per motion.
 const motionMeasures = {
   jump: ['largest change of depth beyond the true one', r => r.jump],
   hull_excess: ['largest movement of the points beyond that of the contact patch', r => r.hull_excess],
@@ -147,11 +154,12 @@ function drawMotions(into, sequences, names) {
     const value = result ? motionMeasures[measure.value][1](result) : null;
     if (value === null) return element('td', {}, '–');
     if (typeof value === 'number') return element('td', {style: heated(value / sequences.steps)}, String(value));
-    return element('td', {style: heated(value.value > 0 ? (Math.log10(value.value) + 6) / 6 : 0),
-      title: `${step(m, value.step - 1)} to\n${step(m, value.step)}`}, exponent(value.value));
+    const shown = element('td', {tabindex: 0, style: heated(value.value > 0 ? (Math.log10(value.value) + 6) / 6 : 0)}, exponent(value.value));
+    explain(shown, `${step(m, value.step - 1)} to\n${step(m, value.step)}`);
+    return shown;
   }
   function draw() {
-    const heads = sequences.motions.map(m => column(m.motion, {class: 'text pose', title: m.description}));
+    const heads = sequences.motions.map(m => explainedHead(m.motion, m.description));
     const truth = sequences.motions.map(m => element('td', {}, measure.value === 'jump' ? exponent(m.truth.depth)
         : measure.value.startsWith('hull') ? exponent(m.truth.patch) : ''));
     place.replaceChildren(table([textColumn(''), ...heads], [[rowHead('truth, a step'), ...truth],

@@ -1,12 +1,12 @@
-// 3-D views of convex bodies on a 2-D canvas, drawn from far to near. Of a convex body only the faces towards the viewer are
-// drawn, which never hide each other. All is in doubles, so that a contact may be enlarged until their rounding shows, and a
-// page may have as many views as it likes: browsers allow only a few WebGL contexts.
+// 3-D views of convex bodies on a 2-D canvas, drawn from far to near. Only the faces towards the viewer are drawn; those of a
+// convex body never hide each other. A 2-D canvas keeps the full precision of doubles, so that a contact can be enlarged
+// until their rounding shows, and a page may hold any number of them; browsers allow only a few WebGL contexts.
 
-// The point `pan` is in the middle of the canvas; there, a metre is `zoom` times half of its smaller side. `lens` is the
-// tangent of half the angle of view; 0 is an orthographic view.
+// A view. The point `pan` is shown in the middle of the canvas; there, a metre is `zoom` times half of the canvas's smaller
+// side. `lens` is the tangent of half the angle of view; 0 means orthographic.
 const makeView = canvas => ({canvas, right: [1, 0, 0], up: [0, 1, 0], towards: [0, 0, 1], zoom: 1, pan: [0, 0, 0], lens: 0});
 
-// Looks at a contact across its normal n, which points upwards, a little from the side and from above.
+// Aims at a contact with its normal n upwards, slightly from the side and from above; t is a direction across n.
 function aimView(view, n, t) {
   view.up = n; view.right = t; view.towards = cross(t, n);
   turnView(view, 0.5, 0.35);
@@ -20,24 +20,24 @@ function turnView(view, sideways, upwards) {
   view.towards = cross(view.right, view.up);
 }
 
-// The box around points, along given axes: its centre and half extents.
+// The bounding box of points along given axes: its centre and half extents.
 function bounds(points, axes) {
   const ends = axes.map(e => points.map(p => dot(p, e))).map(v => [Math.min(...v), Math.max(...v)]);
   return {centre: combine(axes, ends.map(([lo, hi]) => (lo + hi) / 2)), half: ends.map(([lo, hi]) => (hi - lo) / 2)};
 }
-// All of these bodies; without any, `reach` metres about the contact.
+// Fits the view to these bodies or, without any, to `reach` metres about the contact.
 function fitView(view, bodies, reach) {
   const points = bodies.flatMap(b => b.faces.flat());
   view.pan = points.length ? bounds(points, [view.right, view.up, view.towards]).centre : [0, 0, 0];
   view.zoom = 0.9 / (points.length ? Math.max(...points.map(p => length(add(p, view.pan, -1)))) : reach);
 }
-// The contact stays where it is on the screen.
+// Zooms about the contact, which keeps its place on the screen.
 function zoomView(view, factor) {
   view.zoom *= factor;
   view.pan = times(view.pan, 1 / factor);
 }
 
-// The part of a convex polygon (or of a line) where `room` is not negative.
+// The part of a convex polygon or line where `room` is not negative.
 function cut(points, room) {
   const kept = [];
   points.forEach((q, i) => {
@@ -52,8 +52,9 @@ function tracePath(context, points) {
   points.forEach((p, i) => i ? context.lineTo(...p) : context.moveTo(...p));
 }
 
-// An empty canvas to draw on: {view, context, width, height, ratio, scale: pixels a metre, project: to pixels, polygon: on the
-// canvas, sees: whether the viewer is on the outer side of the plane n·x = at}; null where the canvas is not shown.
+// Clears the canvas and returns what drawing needs: {view, context, width, height, ratio, scale: pixels per metre, project: a
+// point to pixels, polygon: a polygon's visible part in pixels, sees: whether the viewer is on the outer side of the plane
+// n·x = at}; null if the canvas has no size.
 function startFrame(view) {
   const {canvas, right, up, towards, pan, zoom, lens} = view, ratio = devicePixelRatio || 1;
   const width = canvas.clientWidth, height = canvas.clientHeight, scale = zoom * Math.min(width, height) / 2;
@@ -68,7 +69,7 @@ function startFrame(view) {
     const s = scale / (1 - nearness(p));
     return [width / 2 + s * (dot(p, right) - panRight), height / 2 - s * (dot(p, up) - panUp)];
   };
-  // Coordinates of an enlarged body are beyond what a canvas can take.
+  // An enlarged body has coordinates that are too large for a canvas, so everything is clipped.
   const margin = 20;
   const sides = [p => p[0] + margin, p => width + margin - p[0], p => p[1] + margin, p => height + margin - p[1]];
   const within = (points, room) => points.every(p => room(p) >= 0) ? points : cut(points, room);
@@ -77,11 +78,11 @@ function startFrame(view) {
   return {view, context, width, height, ratio, scale, project, polygon, sees};
 }
 
-// A body as `look` says: {tint: [r, g, b], pale: of its stripes, light: where from, opacity, shadows: bodies that cast them
-// on it, outline: of each face}.
+// Paints a body. `look`: {tint: [r, g, b], pale: the colour of stripes, light: the direction towards it, opacity, shadows:
+// bodies that cast a shadow on it, outline: the colour of outlines of faces}.
 function paintBody(frame, body, look) {
   if (!(look.opacity < 1)) return paintFaces(frame, frame.context, body, look);
-  // On a canvas of its own, so that it is translucent as a whole.
+  // A layer of its own makes the body translucent as a whole.
   const layer = frame.view.layer = frame.view.layer || document.createElement('canvas');
   layer.width = frame.context.canvas.width;
   layer.height = frame.context.canvas.height;
@@ -122,9 +123,9 @@ function paintFaces(frame, context, body, {tint, pale = tint, light, shadows = [
     }
   }
 }
-// All corners of a body: of each face two that lie across from each other.
+// All corners of a body: two opposite ones of each face.
 const cornersOf = ({faces}) => faces.flatMap(f => [f[0], f[2]]);
-// Shadows of bodies on a face with the normal n through `at`, drawn on its `points` of the canvas.
+// Paints the shadows of bodies on a face through `at` with normal n; `points` is the face on the canvas.
 function paintShadows(frame, context, points, at, n, light, bodies) {
   const fall = dot(n, light);
   if (fall < 0.05) return;
@@ -143,10 +144,10 @@ function paintShadows(frame, context, points, at, n, light, bodies) {
   tracePath(context, points);
   context.clip();
   context.fillStyle = 'rgb(0 0 0 / .25)';
-  context.fill(path);  // all turn the same way: together, and not darker where they overlap
+  context.fill(path);  // one path: shadows that overlap are not darker there
   context.restore();
 }
-// The convex hull of points of a plane with the normal n (A. M. Andrew, Information Processing Letters 9, 1979).
+// The convex hull of points in a plane with normal n (A. M. Andrew, Information Processing Letters 9, 1979).
 function hull(points, n) {
   const right = across(n), up = cross(n, right);
   const flat = points.map(p => [dot(p, right), dot(p, up), p]).sort((a, b) => a[0] - b[0] || a[1] - b[1]);
@@ -165,7 +166,7 @@ function hull(points, n) {
   return [...half(flat), ...half(flat.reverse())].map(c => c[2]);
 }
 
-// Bodies from far to near: of two that overlap on the canvas, the one on the viewer's side of a plane between them is nearer.
+// Bodies from far to near. Of two that overlap on the canvas, the nearer is on the viewer's side of a plane between them.
 function farToNear(frame, bodies) {
   const boxes = bodies.map(body => {
     const points = cornersOf(body).map(frame.project);
@@ -186,13 +187,13 @@ function farToNear(frame, bodies) {
   while (left.size) {
     const free = byDepth.filter(i => left.has(i));
     const next = free.find(i => behind[i].every(k => !left.has(k)));
-    left.delete(next === undefined ? free[0] : next);  // a circle of bodies is opened at the farthest
+    left.delete(next === undefined ? free[0] : next);  // a cycle is broken at its farthest body
     result.push(bodies[next === undefined ? free[0] : next]);
   }
   return result;
 }
 
-// Drag, wheel, pinch and keys; `redraw` after each.
+// Lets drag, wheel, pinch and arrow keys move the view, and redraws after each.
 function steerView(view, redraw, turn = turnView, zoom = zoomView) {
   const {canvas} = view, held = new Map();
   const spread = () => { const [a, b] = [...held.values()]; return Math.hypot(a[0] - b[0], a[1] - b[1]); };
@@ -215,9 +216,9 @@ function steerView(view, redraw, turn = turnView, zoom = zoomView) {
     redraw();
   });
 }
-// A view of a contact.
+// The view of a contact.
 
-// What the views show of one configuration with its truth, about the contact along one true normal:
+// What the views show of one configuration, about the contact along the true normal `index`:
 // {bodies, normal, contact, outlines, across, signedDistance, radii, reaches: {depth, contact}}.
 function makeScene(given, truth, index) {
   const n = unit(truth.normals[index]), contact = truth.patch[index].centroid;
@@ -227,22 +228,22 @@ function makeScene(given, truth, index) {
   const bodies = [makeBody(given.a, given.pose_a, contact, reach), makeBody(given.b, given.pose_b, contact, reach)];
   const radii = bodies.map(b => { const all = b.faces.flat(); const c = bounds(all, b.axes).centre; return Math.max(...all.map(p => length(add(p, c, -1)))); });
   const outline = truth.patch[index].outline.map(p => add(p, contact, -1));
-  const signedDistance = Number(truth.signed_distance[0]), most = Math.max(...radii);
-  // Rounding shows below a few units in the last place of the position.
-  const depth = Math.min(most, Math.max(5 * Math.abs(signedDistance), 1e-14 * Math.max(most, length(contact))));
-  const reaches = {depth, contact: Math.min(most, Math.max(depth, 1.3 * Math.max(0, ...outline.map(length))))};
+  const signedDistance = Number(truth.signed_distance[0]), largestRadius = Math.max(...radii);
+  // Below a few units in the last place of the position only rounding shows.
+  const depth = Math.min(largestRadius, Math.max(5 * Math.abs(signedDistance), 1e-14 * Math.max(largestRadius, length(contact))));
+  const reaches = {depth, contact: Math.min(largestRadius, Math.max(depth, 1.3 * Math.max(0, ...outline.map(length))))};
   const u = combine(axesOf(given.pose_a.orientation), [0, 0, 1]);
   return {bodies, normal: n, contact, outlines: outline.length > 1 ? [outline] : [], signedDistance, radii, reaches,
           across: across(n, u, add(bodies[1].centre, bodies[0].centre, -1))};
 }
-// The bodies to show at first: both, unless one would be too small to see.
+// The bodies shown at first: both, unless one of them would be too small to see.
 function mainBodies({bodies, radii}) {
   return Math.min(...radii) > Math.max(...radii) / 20 ? bodies : [smallerBody({bodies, radii})];
 }
 const smallerBody = ({bodies, radii}) => bodies[radii[0] < radii[1] ? 0 : 1];
 
 const finite = v => v !== null && v.every(c => c !== null);
-// The points of answers ([name, answer] each) and the truth's, with their normals.
+// Marks for the contact points and normals of the answers, a list of [name, answer], and of the truth.
 function marksOf(scene, truth, answers) {
   const result = [];
   for (const [name, a] of answers) {
@@ -257,8 +258,8 @@ function marksOf(scene, truth, answers) {
   return result;
 }
 
-// `scene` with its marks: [{colour, symbol, position, normal, large}]. The true normal says which of the two bodies is
-// behind; the one in front is translucent.
+// Draws a scene with its marks, [{colour, symbol, position, normal, large}]. The true normal tells which body is behind;
+// the one in front is translucent.
 function drawContact(view, scene) {
   const frame = startFrame(view);
   if (frame === null) return;
@@ -277,7 +278,7 @@ function drawContact(view, scene) {
   for (const mark of scene.marks) drawMark(frame, mark, style);
   drawScale(frame, style);
 }
-// A point, and an arrow along its normal of a fixed length on the screen.
+// Draws a contact point and its normal, an arrow with a fixed length on the screen.
 function drawMark({view, context, project, width, height}, mark, style) {
   const [x, y] = project(mark.position);
   if (!(x > -50 && x < width + 50 && y > -50 && y < height + 50)) return;
@@ -300,7 +301,7 @@ function drawMark({view, context, project, width, height}, mark, style) {
   context.stroke(path);
 }
 
-// The largest of 1, 2, 5, 10, … metres that is at most 100 pixels.
+// The largest of 1, 2, 5, 10, … metres that takes at most 100 pixels.
 function scaleBar(pixelsPerMetre) {
   const decade = 10 ** Math.floor(Math.log10(100 / pixelsPerMetre));
   const metres = decade * [5, 2, 1].find(f => f * decade * pixelsPerMetre <= 100.001);
