@@ -91,7 +91,8 @@ class Judge {
     // A bound that is less than an ulp or two of the lengths would be luck.
     expect(found.error_bound >= 4e-16L * larger_, Check::certified, 3);
     if (geometry_.pair != cylinder) return;
-    judge_arcs(made_, routines_, [&](bool holds, ArcCheck check) {
+    const std::size_t index = std::hash<std::string>()(case_.identity);
+    judge_arcs(made_, routines_, index, [&](bool holds, ArcCheck check) {
       expect(holds, Check::certified, 4 + static_cast<int>(check));
     });
   }
