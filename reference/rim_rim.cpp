@@ -14,8 +14,8 @@ struct Size {
   double r, h;
 };
 
-/// Two points of cylinders of these sizes that are near each other, by alternating projections:
-/// from B's to A's, in the folded frame.
+/// Vector from B's to A's point of two that are near each other, by alternating projections, in the
+/// folded frame.
 Vec3 facing_points(const FoldedAxes& f, const Size& a, const Size& b) {
   const auto nearest = [](const Size& s, const Vec3& x) -> Vec3 {
     const double squared = x.y() * x.y() + x.z() * x.z();
@@ -36,9 +36,9 @@ Vec3 facing_points(const FoldedAxes& f, const Size& a, const Size& b) {
   return on_a - on_b;
 }
 
-/// The largest balls within a cylinder are as wide as it; their centres fill a segment or a disc.
-/// How far two such balls, near each other, overlap: the bodies do so no less. Negative if they do
-/// not.
+/// Overlap of two largest balls within the cylinders that are near each other, negative if they
+/// are apart: the bodies overlap by no less. A largest ball is as wide as its cylinder; the centres
+/// of all of them fill a segment or a disc.
 double overlap_of_balls(const FoldedCylinders& pair) {
   const auto centres = [](double r, double h) {
     return Size{std::max(r - h, 0.0), std::max(h - r, 0.0)};
@@ -47,7 +47,8 @@ double overlap_of_balls(const FoldedCylinders& pair) {
          facing_points(pair.axes, centres(pair.r1, pair.h1), centres(pair.r2, pair.h2)).norm();
 }
 
-/// With parallel axes the sum of two cylinders is a cylinder; its rim has this normal.
+/// Offers the normal of the rim of the sum of two cylinders with parallel axes, which is a
+/// cylinder.
 void offer_parallel_rim_normal(const FoldedCylinders& pair, LargestGap& best) {
   const FoldedAxes& f = pair.axes;
   const double beyond_cap = std::abs(f.d1) - pair.h1 - pair.h2;
@@ -81,7 +82,7 @@ bool is_largest_where_round(const FoldedCylinders& pair, const LargestGap& maxim
   return f.d3 * kappa + delta < -pair.gap_of_shadows() * std::sqrt(1 - kappa * kappa);
 }
 
-/// The proofs of `bends_away` for a stationary normal of two rims.
+/// Whether `bends_away` proves a stationary normal of two rims the best.
 bool is_largest_at_shallow_depth(const FoldedCylinders& pair, const Stationary& found, double gap) {
   const Vec3& n = found.normal;
   const double c = pair.axes.c, s = pair.axes.s, m = pair.axes.along_k2(n);
@@ -103,13 +104,13 @@ bool is_largest(const FoldedCylinders& pair, const Stationary& found, const Larg
   return is_largest_at_shallow_depth(pair, found, best.gap) || is_largest_where_round(pair, best);
 }
 
-/// Which ends' rims meet: +1 or -1 along each axis, as seen from B to A.
+/// Ends whose rims meet: +1 or −1 along each axis, as the normal points.
 struct Ends {
   double one, two;
 };
 
-/// Those that a normal points to. Along an axis that it is across, the end beyond which the bodies
-/// meet along it.
+/// The ends that a normal points to. Along an axis that it is across, the end beyond which the
+/// bodies meet.
 Ends likely_ends(const FoldedCylinders& pair, const Vec3& n) {
   const FoldedAxes& f = pair.axes;
   constexpr double across = 1e-15;

@@ -10,19 +10,19 @@ struct Quarter {
   Range cosine, sine;
 
   explicit Quarter(const Range& c) : cosine(c), sine{sine_of(c.hi), sine_of(c.lo)} {}
-  /// Keeps what has a sine within these bounds.
-  void keep(double least, double most) {
-    if (sine.hi > most) sine.hi = std::max(most, 0.0), cosine.lo = sine_of(sine.hi);
-    if (sine.lo < least) sine.lo = std::min(least, 1.0), cosine.hi = sine_of(sine.lo);
+  /// Keeps the part whose sine is within these bounds.
+  void keep(double min_sine, double max_sine) {
+    if (sine.hi > max_sine) sine.hi = std::max(max_sine, 0.0), cosine.lo = sine_of(sine.hi);
+    if (sine.lo < min_sine) sine.lo = std::min(min_sine, 1.0), cosine.hi = sine_of(sine.lo);
   }
 };
 
-/// G x for a gap between `lowest` and `highest` and an x within a range of positive numbers.
+/// Range of G x for a gap G between `lowest` and `highest` and positive x.
 Range product(double lowest, double highest, const Range& x) {
   return {lowest * (lowest < 0 ? x.hi : x.lo), highest * (highest < 0 ? x.lo : x.hi)};
 }
 
-/// |cos| where sign * cos = offset + end * x, x within a range, and cos has this sign.
+/// Range of |cos| where cos has this sign and sign * cos = offset + end * x.
 Range cosines(double offset, double end, const Range& x, double sign) {
   const double at_lo = sign * (offset + end * x.lo), at_hi = sign * (offset + end * x.hi);
   return {std::max(0.0, std::min(at_lo, at_hi)), std::min(1.0, std::max(at_lo, at_hi))};
@@ -34,11 +34,11 @@ Range Rims::cosines_at_height(double depth, double limit) const {
   const double lean = pair_.axes.s * pair_.r1, height = pair_.axes.along_u2(q_);
   const double lowest = end2_ > 0 ? -depth : -limit, highest = end2_ > 0 ? limit : depth;
   const double margin = 4 * noise();
-  // Where the ends' cones of normals share only one quarter, that quarter.
-  const double most = end1_ != end2_ && end2_ < 0 ? 0.0 : 1.0;
-  const double least = end1_ != end2_ && end2_ > 0 ? 0.0 : -1.0;
-  return {std::max(least, (height - highest - margin) / lean),
-          std::min(most, (height - lowest + margin) / lean)};
+  // Normals of opposite ends fill one quarter only, in which rim 1's points lie towards end 2.
+  const bool whole = end1_ == end2_;
+  const double min_cosine = whole || end2_ < 0 ? -1 : 0, max_cosine = whole || end2_ > 0 ? 1 : 0;
+  return {std::max(min_cosine, (height - highest - margin) / lean),
+          std::min(max_cosine, (height - lowest + margin) / lean)};
 }
 
 std::optional<Vec3> Rims::crossing_normal() const {
@@ -92,11 +92,11 @@ Range Rims::useful_cosines(double lowest, double highest) const {
   const double offset1 = f.along_u2(q_) * inverse1, offset2 = -q_.x() * inverse2;
 
   const double radii = r1 + r2;
-  const double most_n3 = radii + lowest > 0 ? std::min(1.0, f.d3 / (radii + lowest)) : 1;
-  const double in_plane = std::sqrt((1 - most_n3) * (1 + most_n3));
+  const double max_n3 = radii + lowest > 0 ? std::min(1.0, f.d3 / (radii + lowest)) : 1;
+  const double in_plane = std::sqrt((1 - max_n3) * (1 + max_n3));
   const double bend = -std::min(highest, 0.0) * s;
   constexpr double rounding = 1e-12;
-  const double most_squared_cosine =
+  const double max_squared_cosine =
       rounding +
       (r2 - bend >= r1 ? 1 - bend / r2 : (radii - bend) * (radii - bend) / (4 * r1 * r2));
 
@@ -112,7 +112,7 @@ Range Rims::useful_cosines(double lowest, double highest) const {
         cosines(offset2, end1_ * inverse2, {gap1.lo - margin, gap1.hi + margin}, sign2);
     if (cosine2.empty()) return;
     Quarter one(cosine1), two(cosine2);
-    const double n3 = std::min({most_n3, one.sine.hi, two.sine.hi});
+    const double n3 = std::min({max_n3, one.sine.hi, two.sine.hi});
     const Range sines{f.d3 - outward * n3 - margin, f.d3 - inward * n3 + margin};
     one.keep(s * inverse1 * (sines.lo - r2 * two.sine.hi),
              s * inverse1 * (sines.hi - r2 * two.sine.lo));
@@ -123,7 +123,7 @@ Range Rims::useful_cosines(double lowest, double highest) const {
     const double sines_hi = c * one.sine.hi * two.sine.hi;
     const double cosines_lo = one.cosine.lo * two.cosine.lo;
     const double cosine = sign1 == sign2 ? cosines_lo + sines_lo : cosines_lo - sines_hi;
-    if (cosine > 0 && cosine * cosine > most_squared_cosine) return;
+    if (cosine > 0 && cosine * cosine > max_squared_cosine) return;
     useful.lo = std::min(useful.lo, sign1 > 0 ? one.cosine.lo : -one.cosine.hi);
     useful.hi = std::max(useful.hi, sign1 > 0 ? one.cosine.hi : -one.cosine.lo);
   };

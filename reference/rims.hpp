@@ -23,19 +23,19 @@ struct FoldedCylinders {
     return axes.d().dot(n) - h1 * std::abs(n.x()) - h2 * std::abs(axes.along_u2(n)) -
            r1 * std::sqrt(n.y() * n.y() + n.z() * n.z()) - r2 * std::sqrt(m * m + n.z() * n.z());
   }
-  /// A clearance that no rounding makes.
+  /// A clearance that is more than rounding.
   double clear_gap() const { return clear_part * lengths(); }
   /// All lengths together.
   double lengths() const {
     return axes.d3 + std::abs(axes.d2) + std::abs(axes.d1) + r1 + h1 + r2 + h2;
   }
-  /// Of a normal across axis 1, where along it from A's centre lies the point of B; likewise the
-  /// point of A along axis 2.
+  /// For n across axis 1: coordinate along axis 1 of B's support point, from A's centre.
   double along_axis1(const Vec3& n) const {
     const double nu = axes.along_u2(n), m = axes.along_k2(n);
     const double rim = -r2 * nu * axes.c / std::sqrt(m * m + n.z() * n.z());
     return std::copysign(h2, nu) * axes.c + rim - axes.d1;
   }
+  /// For n across axis 2: coordinate along axis 2 of A's support point, from B's centre.
   double along_axis2(const Vec3& n) const {
     const double nu = n.x();
     const double rim = -r1 * nu * axes.c / std::sqrt(n.y() * n.y() + n.z() * n.z());
@@ -55,24 +55,23 @@ struct FoldedCylinders {
 /// A point of rim 1 with the nearest point of rim 2.
 struct RimSample {
   double angle;
-  double slope;      ///< derivative of half the squared distance along rim 1, over its radius
+  double slope;      ///< derivative of half the squared distance by the angle, over r1
   double curvature;  ///< derivative of the slope
   double distance;
-  double radial, height;          ///< of rim 1's point: distance from axis 2, from rim 2's plane
-  Vec3 apart;                     ///< from rim 1's point to rim 2's
-  double cos1, sin1, cos2, sin2;  ///< where on the rims, from e2 and k2 to e3
+  double radial, height;  ///< rim 1's point: distance from axis 2, height over rim 2's plane
+  Vec3 apart;             ///< from rim 1's point to rim 2's
+  double cos1, sin1, cos2, sin2;  ///< directions of the points, from e2 and from k2 towards e3
 };
 
-/// Bounds on an arc of rim 1 as seen along axis 2, per radian; the distance from that axis is the
-/// `radial` one.
+/// Bounds of rim 1's point on an arc as seen along axis 2, each per radian of its angle.
 struct Passage {
   double min_speed, max_speed;
-  double min_radial, max_radial;
-  // Where `min_radial` is positive:
-  double turn;        ///< bounds the turn of the point about axis 2
-  double wave;        ///< the same for the squared distance of nearly concentric rims
-  double max_rate;    ///< bounds the first derivative of `radial`
-  double max_second;  ///< bounds the second
+  double min_radial, max_radial;  ///< distance from axis 2
+  // Valid where min_radial is positive:
+  double turn;        ///< bound of the speed of turning about axis 2
+  double wave;        ///< the same for the squared distance from axis 2 of nearly concentric rims
+  double max_rate;    ///< bound of the distance's first derivative
+  double max_second;  ///< bound of its second derivative
 };
 
 struct Range {
@@ -83,11 +82,12 @@ struct Range {
 /// Where Newton's method for a normal of two rims ended.
 struct Stationary {
   Vec3 normal;
-  bool maximum;  ///< It converged, to a normal that points outward at both ends.
-  double slope;  ///< The gap's derivative along the sphere there, at most.
+  bool maximum;  ///< converged to a normal that points outward at both ends
+  double slope;  ///< bound of the gap's derivative along the sphere there
 };
 
-/// Rim 1 about the origin and rim 2 about q: their sum's surface is where d lies in contact.
+/// One pair of rims, rim 1 about the origin and rim 2 about q. Bodies touch at these rims when q is
+/// on the surface of their sum.
 class Rims {
  public:
   Rims(const FoldedCylinders& pair, double end1, double end2)
@@ -123,11 +123,11 @@ class Rims {
     return x;
   }
 
-  /// Newton's method for the stationary normal of these ends, in whose neighbourhood
+  /// Newton's method for the stationary normal of these ends, about which
   /// G(n) = q·n − r1 |n − n·u1 u1| − r2 |n − n·u2 u2| is smooth. On the sphere G has the gradient
   /// q − p1 − p2 less its part along n, and the Hessian −(r1/ρ1) t1 t1ᵀ − (r2/ρ2) t2 t2ᵀ − G. The
   /// components of n that are small keep their digits. A step is at most half of n's distance from
-  /// an axis, where G has its kinks; few steps are taken but where rims nearly touch along nearly
+  /// an axis, where G has its kinks. Steps are few except where rims nearly touch along nearly
   /// parallel axes, in a valley that n has to go down by orders of magnitude.
   Stationary polished(Vec3 n, int steps = 40) const {
     const double c = pair_.axes.c, s = pair_.axes.s;
@@ -157,14 +157,14 @@ class Rims {
       double step1 = (e * g1 - b * g2) * inverse, step2 = (a * g2 - b * g1) * inverse;
       const double gain = g1 * step1 + g2 * step2;
       const double length = std::sqrt(step1 * step1 + step2 * step2);
-      const double most = std::min(rho1, rho2) / 2;
-      const bool too_long = length > most;
-      if (too_long) step1 *= most / length, step2 *= most / length;
+      const double max_length = std::min(rho1, rho2) / 2;
+      const bool too_long = length > max_length;
+      if (too_long) step1 *= max_length / length, step2 *= max_length / length;
       n += step1 * t1 + step2 * other;
       // Converged, or as far as rounding lets it. A short step alone says nothing: next to an axis
       // n may first turn about it by a hair and then leave it by far.
       constexpr double small_part = 1e-8;
-      converged = length <= small_part * most;
+      converged = length <= small_part * max_length;
       if (converged || (length >= previous / 2 && gain <= noise())) break;
       previous = too_long ? std::numeric_limits<double>::infinity() : length;
     }
@@ -173,7 +173,7 @@ class Rims {
     return {n, converged && outward, slope};
   }
 
-  /// How far the rims' points at a normal are apart: the bodies are no further.
+  /// Distance of the rims' points at a normal: the bodies are no further apart.
   double distance_at(const Vec3& n) const {
     const double c = pair_.axes.c, s = pair_.axes.s, m = c * n.y() - s * n.x();
     const double k1 = pair_.r1 / std::sqrt(n.y() * n.y() + n.z() * n.z());
@@ -182,17 +182,17 @@ class Rims {
         .norm();
   }
 
-  /// Where each of these rims crosses the other's cap, the normal across both rims' tangents, of
-  /// any length: at which they meet but for parts of the order of the gap.
+  /// Normal, of any length, across both rims' tangents where each of these rims crosses the other's
+  /// cap. The rims meet there but for parts of the order of the gap.
   std::optional<Vec3> crossing_normal() const;
 
-  /// The cosines of rim 1's angles at which these ends may have a local maximum of the gap between
+  /// Cosines of rim 1's angles at which these ends may have a local maximum of the gap between
   /// `lowest` and `highest`; an empty range if they have none.
   Range useful_cosines(double lowest, double highest) const;
 
-  /// May the rims meet with a largest gap on an arc? There n is `way` (+1 apart, −1 overlapping)
-  /// times `apart`, up to its length, has n3 >= 0, and points outward from both ends and both rims.
-  /// It is across both tangents, too, which tell more along nearly parallel axes.
+  /// Whether the rims may meet with a largest gap on an arc. There n is `way` (+1 apart, −1
+  /// overlapping) times `apart`, up to its length, has n3 >= 0, and points outward from both ends
+  /// and both rims. It is also across both tangents, which tell more along nearly parallel axes.
   bool may_meet(const RimSample& x, double way, double half_width, const Passage& p) const {
     if (!(p.min_radial > 0)) return true;
     const double c = pair_.axes.c, moved = p.max_rate * half_width;
@@ -210,7 +210,7 @@ class Rims {
            way * (x.radial - pair_.r2) >= -error;
   }
 
-  /// Across both rims' tangents at these places.
+  /// Vector across both rims' tangents at these places.
   Vec3 across_tangents(double cos1, double sin1, double cos2, double sin2) const {
     const double c = pair_.axes.c, s = pair_.axes.s;
     return {c * cos1 * sin2 - sin1 * cos2, s * cos1 * sin2, s * sin1 * sin2};
@@ -218,7 +218,7 @@ class Rims {
 
   double radius1() const { return pair_.r1; }
 
-  /// Bounds of an arc up to `half_width` from a sample (proofs.md, "The search of rims").
+  /// Bounds on the arc up to `half_width` from a sample (proofs.md, "The search of rims").
   Passage passage(const RimSample& x, double half_width) const {
     const double c = pair_.axes.c, r1 = pair_.r1;
     // The speed is the length of r1 (cos α, c sin α): between its larger component and their sum.
@@ -232,13 +232,13 @@ class Rims {
     p.turn = p.max_speed * inverse;
     p.wave = amplitude() * inverse * inverse;
     const double rate = r1 * std::abs(c * x.cos2 * x.sin1 - x.sin2 * x.cos1);
-    const double most_rate = p.min_radial * p.wave / 2;
-    p.max_second = std::min(r1 + p.max_speed * p.turn, most_rate * (1 + 0.5 * p.wave));
-    p.max_rate = std::min({p.max_speed, most_rate, rate + p.max_second * half_width});
+    const double wave_rate = p.min_radial * p.wave / 2;
+    p.max_second = std::min(r1 + p.max_speed * p.turn, wave_rate * (1 + 0.5 * p.wave));
+    p.max_rate = std::min({p.max_speed, wave_rate, rate + p.max_second * half_width});
     return p;
   }
 
-  /// A bound of the slope's second derivative on such an arc, which stays off axis 2.
+  /// Bound of the slope's second derivative on an arc that stays off axis 2.
   double max_third_derivative(const RimSample& x, double half_width, const Passage& p) const {
     const double s = pair_.axes.s, r1 = pair_.r1;
     const double third = std::min(p.max_speed * (1 + 1.155 * p.turn * p.turn) + 3 * r1 * p.turn,
@@ -249,8 +249,8 @@ class Rims {
     return s * (height + 3 * s * r1 * sine) + (beside * third + 3 * p.max_rate * p.max_second) / r1;
   }
 
-  /// Is every stationary distance on such an arc a maximum, because rim 1 passes so close to axis 2
-  /// that rim 2's nearest point turns about it?
+  /// Whether every stationary distance on the arc is a maximum, because rim 1 passes so close to
+  /// axis 2 that rim 2's nearest point turns about it.
   bool has_only_maxima_beside_axis(const RimSample& x, double half_width, const Passage& p) const {
     const double s = pair_.axes.s, r1 = pair_.r1, r2 = pair_.r2;
     const double max_radial = p.max_radial + 8 * noise(), inside = r2 - max_radial;
@@ -262,30 +262,34 @@ class Rims {
     return max_rise * max_rise + along * along + (s * max_height + r2) * r1 <
            inside * across_squared / max_radial;
   }
-  /// By how much more than lengths a curvature is rounded there.
+
+  /// Factor by which a curvature is rounded more than lengths are, at this distance from axis 2.
   double conditioning(double radial) const {
     return 1 + pair_.r1 / radial + pair_.r1 * pair_.r2 / (radial * radial);
   }
-  /// Does n point inward at end 1 wherever the rims meet on that arc, the bodies overlapping? There
-  /// `apart` is −δ n. Of its points only rim 2's moves along axis 1, by s r2 dβ, dβ <= r1 dα / R.
+
+  /// Whether n points inward at end 1 wherever the rims of overlapping bodies meet on the arc.
+  /// There `apart` is −δ n, and along axis 1 only rim 2's point moves, by s r2 dβ.
   bool points_inward(const RimSample& middle, double half_width, const Passage& p) const {
     const double change = pair_.axes.s * pair_.r2 * p.turn * half_width;
     return p.min_radial > 0 && end1_ * middle.apart.x() > change + 4 * noise();
   }
 
-  /// What rounding leaves of a slope.
+  /// Rounding of a slope, also of a length.
   double noise() const { return 2e-16 * size_; }
 
  private:
-  /// Bounds each derivative of the squared distance of rim 1 from axis 2.
+  /// Bound of each derivative of the squared distance of rim 1 from axis 2.
   double amplitude() const {
     const double k = pair_.axes.along_k2(q_), lean = pair_.axes.s * pair_.r1;
     return 2 * pair_.r1 * std::sqrt(k * k + q_.z() * q_.z()) + 4 * lean * lean;
   }
-  /// The same of nearly parallel axes, where these rims cross as seen along the axes.
+
+  /// `crossing_normal` of nearly parallel axes, where the rims cross as seen along the axes.
   std::optional<Vec3> crossing_along_axes() const;
+
   /// Useful cosines from one coordinate alone, which is all that rounding leaves of them along
-  /// nearly parallel axes: rim 1's point lies above rim 2's plane by a height that its angle gives,
+  /// nearly parallel axes. Rim 1's point lies above rim 2's plane by a height that its angle gives,
   /// at most the distance of the rims, on the far side of the plane where the bodies are apart, on
   /// the near side where they overlap.
   Range cosines_at_height(double depth, double limit) const;

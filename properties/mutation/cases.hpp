@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "properties/mutation/routines.hpp"
+#include "reference/configuration.hpp"
 
 namespace touchstone::mutation {
 
@@ -48,7 +49,13 @@ class CaseReader {
   std::FILE* file_;
 };
 
-/// A hostile configuration that is not in the cache, without its truth.
+RawConfiguration raw(const Configuration& configuration);
+
+constexpr std::uint64_t case_seed = 17;
+
+/// The configuration `index` of those that are asked without their truths: hostile ones that are
+/// not in the cache; every fourth of two cylinders has rims that meet along a normal of any
+/// direction, and every 64th lengths at the end of what a double holds.
 Case without_truth(int pair, std::uint64_t index);
 
 }  // namespace touchstone::mutation

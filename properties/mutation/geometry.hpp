@@ -96,6 +96,20 @@ class Geometry {
     }
   }
 
+  /// Cosine between a unit vector and the outward direction of a round side at a point on it; 1 on
+  /// rims and flat sides, where a cone of normals or another law decides.
+  Real facing_a(const Vector& x, const Vector& n) const {
+    return facing_cylinder(axes_a.transpose() * (x - position_a), axes_a.transpose() * n, size[0],
+                           size[1]);
+  }
+  Real facing_b(const Vector& x, const Vector& n) const {
+    const Vector local = axes_b.transpose() * (x - position_b), way = axes_b.transpose() * n;
+    if (pair == cylinder) return facing_cylinder(local, way, size[2], size[3]);
+    if (pair != sphere && pair != capsule) return 1;
+    const Real half = pair == capsule ? size[3] : 0;
+    return (local - Vector(0, 0, std::clamp(local.z(), -half, half))).normalized().dot(way);
+  }
+
   Real smaller_size() const {
     Real result = std::min(size[0], size[1]);
     const int last = pair == plane ? 1 : pair == box ? 4 : 2;  // a capsule's radius
@@ -126,6 +140,12 @@ class Geometry {
   static Real reach_of_cylinder(const Matrix& axes, const Vector& n, Real radius, Real half) {
     const Vector axis = axes.col(2);
     return half * std::abs(axis.dot(n)) + radius * axis.cross(n).norm();
+  }
+  static Real facing_cylinder(const Vector& x, const Vector& n, Real radius, Real half) {
+    constexpr Real rim = 1e-6L;
+    const Real radial = std::hypot(x.x(), x.y());
+    if (std::abs(x.z()) > half - rim * radius || radial < (1 - rim) * radius) return 1;
+    return (x.x() * n.x() + x.y() * n.y()) / radial;
   }
   static Real outside_cylinder(const Vector& x, Real radius, Real half) {
     return std::max(std::hypot(x.x(), x.y()) - radius, std::abs(x.z()) - half);

@@ -90,6 +90,11 @@ class Judge {
     expect(found.error_bound <= rounding * geometry_.lengths(), Check::certified, 2);
     // A bound that is less than an ulp or two of the lengths would be luck.
     expect(found.error_bound >= 4e-16L * larger_, Check::certified, 3);
+    if (geometry_.pair != cylinder) return;
+    const std::size_t index = std::hash<std::string>()(case_.identity);
+    judge_arcs(made_, routines_, index, [&](bool holds, ArcCheck check) {
+      expect(holds, Check::certified, 4 + static_cast<int>(check));
+    });
   }
 
   void judge_vocabulary() {
@@ -212,8 +217,13 @@ class Judge {
       deepest = std::max<Real>(deepest, p.depth);
       expect(p.depth <= depth + point_tolerance_, Check::points, variant);
       expect(p.depth >= -threshold - point_tolerance_, Check::points, variant);
-      expect(std::abs(geometry_.outside_a(x - p.depth * half)) <= aside, Check::surfaces, variant);
-      expect(std::abs(geometry_.outside_b(x + p.depth * half)) <= aside, Check::surfaces, variant);
+      const Vector on_a = x - p.depth * half, on_b = x + p.depth * half;
+      expect(std::abs(geometry_.outside_a(on_a)) <= aside, Check::surfaces, variant);
+      expect(std::abs(geometry_.outside_b(on_b)) <= aside, Check::surfaces, variant);
+      // No point where a round side has turned away: the manifold's is at most asin(3/4).
+      constexpr Real turned_away = 0.6L;
+      expect(geometry_.facing_a(on_a, -2 * half) >= turned_away, Check::surfaces, variant);
+      expect(geometry_.facing_b(on_b, 2 * half) >= turned_away, Check::surfaces, variant);
     }
     expect(deepest >= depth - 1e-6L * smaller_ - point_tolerance_, Check::points, variant);
   }
@@ -388,7 +398,10 @@ Findings judge_agreement(const Case& c, const Routines& routines) {
   expect(std::abs(found.value - static_cast<Real>(certified.value)) <=
              tolerance + certified.error_bound,
          1);
-  expect(std::abs(geometry.gap(vector(found.normal).normalized()) - found.value) <= tolerance, 2);
+  // What overflows is the largest double.
+  constexpr Real max_length = std::numeric_limits<double>::max();
+  const Real along = geometry.gap(vector(found.normal).normalized());
+  expect(std::abs(std::clamp(along, -max_length, max_length) - found.value) <= tolerance, 2);
   expect(routines.overlaps(made) == (found.value <= 0), 3);
   routines.release(made);
   return findings;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <bitset>
+#include <functional>
 #include <string>
 
 #include "properties/mutation/cases.hpp"
@@ -35,6 +36,12 @@ constexpr int max_variants = 8;
 using Findings = std::bitset<std::size_t{check_count} * max_variants>;
 
 Findings judge(const Case& c, const Routines& routines);
+
+/// What the search of rims proves of its arcs, held against rims in long double: calls
+/// expect(whether it holds, which of the checks). `index` decides on the ends.
+enum class ArcCheck { passage, derivatives, minima, directions };
+void judge_arcs(const void* made, const Routines& routines, std::size_t index,
+                const std::function<void(bool, ArcCheck)>& expect);
 
 /// Without a truth: do the routines agree with each other? Only `agreement` is found.
 Findings judge_agreement(const Case& c, const Routines& routines);

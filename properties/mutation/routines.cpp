@@ -6,6 +6,7 @@
 #include "reference/aabb.hpp"
 #include "reference/contact_of.hpp"
 #include "reference/invalid_input.hpp"
+#include "reference/rims.hpp"
 #include "reference/support.hpp"
 
 namespace touchstone::mutation {
@@ -96,9 +97,43 @@ RawFacts facts(const void* made) {
           rows(c.pose_b.rotation())};
 }
 
+RawArc arc(const void* made, double end1, double end2, double angle, double half_width) {
+  const Configuration& c = of(made);
+  const Cylinder& other = std::get<Cylinder>(c.b);
+  const bool in_order = c.a.radius() <= other.radius();
+  const Cylinder &one = in_order ? c.a : other, &two = in_order ? other : c.a;
+  const Pose &pose1 = in_order ? c.pose_a : c.pose_b, &pose2 = in_order ? c.pose_b : c.pose_a;
+  const FoldedAxes axes(pose1.rotation().col(2), pose2.rotation().col(2),
+                        pose1.position() - pose2.position());
+  const FoldedCylinders pair{axes, one.radius(), one.half_length(), two.radius(),
+                             two.half_length()};
+  const Rims rims(pair, end1, end2);
+  const RimSample x = rims.at(angle);
+  const Passage p = rims.passage(x, half_width);
+  const Vec3 q =
+      axes.d() - end1 * pair.h1 * Vec3(1, 0, 0) - end2 * pair.h2 * Vec3(axes.c, axes.s, 0);
+  return {axes.c,
+          axes.s,
+          numbers(q),
+          pair.r1,
+          pair.r2,
+          p.min_speed,
+          p.max_speed,
+          p.min_radial,
+          p.max_radial,
+          p.turn,
+          p.max_rate,
+          p.max_second,
+          rims.max_third_derivative(x, half_width, p),
+          rims.has_only_maxima_beside_axis(x, half_width, p),
+          rims.points_inward(x, half_width, p),
+          rims.may_meet(x, -1, half_width, p),
+          rims.may_meet(x, 1, half_width, p)};
+}
+
 const Routines routines = {
     make, release,      signed_distance, certified_distance, overlaps, contact,
-    gap,  support_of_a, bounds,          bounds_overlap,     facts};
+    gap,  support_of_a, bounds,          bounds_overlap,     facts,    arc};
 
 }  // namespace
 }  // namespace touchstone::mutation

@@ -52,6 +52,16 @@ struct RawFacts {
   std::array<double, 9> rotation_a, rotation_b;  ///< row by row
 };
 
+/// What the search of rims takes for proven of one arc of the smaller cylinder's rim
+/// (reference/rims.hpp), and the numbers that it has of the two rims.
+struct RawArc {
+  double c, s;  ///< cosine and sine between the axes
+  Numbers3 q;   ///< from rim 2's centre to rim 1's, but for the bodies' halves (proofs.md)
+  double r1, r2;
+  double min_speed, max_speed, min_radial, max_radial, turn, max_rate, max_second, max_third;
+  bool only_maxima, points_inward, may_meet_overlapping, may_meet_apart;
+};
+
 /// The routines of one library.
 struct Routines {
   /// Null where a shape or a pose refuses its numbers, and `field` then says which.
@@ -66,6 +76,8 @@ struct Routines {
   void (*bounds)(const void*, RawBounds& a, RawBounds& b);
   bool (*bounds_overlap)(const void*);
   RawFacts (*facts)(const void*);
+  /// Two cylinders only; ends are +1 or −1, the angle and half width radians along the rim.
+  RawArc (*arc)(const void*, double end1, double end2, double angle, double half_width);
 };
 
 }  // namespace touchstone::mutation
