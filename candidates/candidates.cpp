@@ -22,10 +22,12 @@ constexpr struct {
     {"ode", "libode-dev"},       {"fcl", "libfcl-dev"},       {"libccd", "libccd-dev"},
     {"mujoco", "libmujoco-dev"}, {"simplified", ""},          {"box-parts", ""}};
 
-/// Beside the program as it is built, or under its prefix as it is installed.
+/// The folder of the standard plug-ins: in the build tree above the program (tests lie two folders
+/// deep), or under the prefix of an installed program.
 std::filesystem::path standard_folder() {
   const auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path();
-  for (const char* folder : {"candidates", "../candidates", "../lib/touchstone"}) {
+  for (const char* folder :
+       {"candidates", "../candidates", "../../candidates", "../lib/touchstone"}) {
     const auto path = program / folder;
     if (std::filesystem::exists(path / "touchstone-reference.so")) return path.lexically_normal();
   }

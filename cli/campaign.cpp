@@ -4,9 +4,9 @@
 #include <thread>
 
 #include "candidates/host/interruption.hpp"
-#include "cli/commands.hpp"
 #include "cli/options.hpp"
 #include "cli/standard_streams.hpp"
+#include "cli/subcommands.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/campaigns/ranks.hpp"
 #include "reports/campaigns/result.hpp"
@@ -20,7 +20,7 @@ namespace {
 
 struct Options {
   /// Ranks share a machine as mpirun says.
-  explicit Options(CLI::App& command)
+  explicit Options(Command& command)
       : scored(command, 1000, PlanView::max_count),
         workers(command, under_mpirun() ? 1 : std::max(1U, std::thread::hardware_concurrency()),
                 "one a core, or one a rank under mpirun") {}
@@ -107,26 +107,24 @@ int run(const Options& options) {
 
 }  // namespace
 
-void add_campaign(CLI::App& program, int& exit_code) {
-  CLI::App* command =
-      program.add_subcommand("campaign", "Score any number of configurations, on many machines");
-  const auto options = std::make_shared<Options>(*command);
-  command->add_option("--out", options->out, "Folder for the checkpoints and campaign.json")
-      ->capture_default_str();
-  command->add_option("--shard", options->shard_text,
-                      "Only this part, as in 3/7; put together by touchstone merge");
-  command->add_flag("--resume", options->resume,
-                    "Go on where the folder's checkpoint ends, or begin where there is none");
-  add_number(*command, "--checkpoint", options->interval, {1e-3, 1e9},
-             "Seconds between checkpoints");
-  command->footer(
+void add_campaign(Program& program) {
+  Command command =
+      program.command("campaign", "Score any number of configurations, on many machines");
+  const auto options = std::make_shared<Options>(command);
+  command.text("--out", options->out, "Folder for the checkpoints and campaign.json");
+  command.text("--shard", options->shard_text,
+               "Only this part, as in 3/7; put together by touchstone merge");
+  command.flag("--resume", options->resume,
+               "Go on where the folder's checkpoint ends, or begin where there is none");
+  command.number("--checkpoint", options->interval, {1e-3, 1e9}, "Seconds between checkpoints");
+  command.footer(
       "Examples:\n"
       "  touchstone campaign --candidates reference --count 1e6 --out run\n"
       "  touchstone campaign --candidates reference --count 1e6 --out run --resume\n"
       "  mpirun -n 64 touchstone campaign --count 1e6 --out run\n"
       "  touchstone campaign --count 1e6 --shard 3/7 --out run   then merge\n"
       "Exit codes: 130, 143 when stopped by Ctrl-C, SIGTERM; what was done is saved.");
-  command->callback([options, &exit_code] { exit_code = run(*options); });
+  command.runs([options] { return run(*options); });
 }
 
 }  // namespace touchstone

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <string>
 
-#include "cli/commands.hpp"
+#include "cli/subcommands.hpp"
 
 namespace touchstone {
 namespace {
@@ -29,11 +29,12 @@ void print(const Candidate& c) {
 
 }  // namespace
 
-void add_candidates(CLI::App& program, int&) {
-  CLI::App* command = program.add_subcommand("candidates", "List the contact routines there are");
-  command->callback([] {
+void add_candidates(Program& program) {
+  Command command = program.command("candidates", "List the contact routines there are");
+  command.runs([] {
     for (const Candidate* c : all_candidates()) print(*c);
     for (const Skipped& s : skipped_plugins()) fmt::print("{}: skipped; {}\n", s.name, s.reason);
+    return 0;
   });
 }
 

@@ -5,9 +5,8 @@
 #include <memory>
 
 #include "candidates/host/progress.hpp"
-#include "cli/commands.hpp"
-#include "cli/help.hpp"
 #include "cli/options.hpp"
+#include "cli/subcommands.hpp"
 #include "properties/files/write_file.hpp"
 #include "properties/laws/failure_file.hpp"
 #include "reference/invalid_input.hpp"
@@ -22,12 +21,12 @@ constexpr int something_failed = 1;
 constexpr std::uint64_t usual_count = 10, usual_count_of_hostile = 500;
 
 struct Options {
-  explicit Options(CLI::App& command) : sample(command, usual_count, 1000000000), bar(command) {}
+  explicit Options(Command& command) : sample(command, usual_count, 1000000000), bar(command) {}
   SampleOption sample;
   BarOption bar;
   std::string candidate;
   std::vector<std::string> laws;
-  bool hostile = false, count_given = false;
+  bool hostile = false;
   std::string save, corpus, junit, json;
 
   CheckOptions check() const {
@@ -38,7 +37,7 @@ struct Options {
     }
     c.pairs = sample.pairs();
     c.classes = hostile ? std::vector<std::string>{"hostile"} : sample.classes();
-    c.count = hostile && !count_given ? usual_count_of_hostile : sample.count();
+    c.count = hostile && !sample.count_is_given() ? usual_count_of_hostile : sample.count();
     c.seed = sample.seed();
     c.bar = bar.get();
     return c;
@@ -109,33 +108,31 @@ std::string law_list() {
 
 }  // namespace
 
-void add_check(CLI::App& program, int& exit_code) {
-  CLI::App* command = program.add_subcommand("check", "Hold one candidate to the laws of contacts");
-  const auto options = std::make_shared<Options>(*command);
-  command->add_option("--candidate", options->candidate, "Its name, or a plug-in's file");
+void add_check(Program& program) {
+  Command command = program.command("check", "Hold one candidate to the laws of contacts");
+  const auto options = std::make_shared<Options>(command);
+  command.text("--candidate", options->candidate, "Its name, or a plug-in's file");
   command
-      ->add_flag("--hostile", options->hostile,
-                 fmt::format("On the pose class hostile alone, {} configurations of each pair "
-                             "unless --count says otherwise",
-                             usual_count_of_hostile))
-      ->excludes("--class");
-  command->add_option("--law", options->laws, "Only these laws")->delimiter(',');
-  command->add_option("--corpus", options->corpus,
-                      "First replay the failures saved in this folder: each must fail as it did");
-  command->add_option("--save", options->save, "Save failures into this folder, one file each");
-  command->add_option("--junit", options->junit, "Write the result as JUnit XML");
-  command->add_option("--json", options->json, "Write the result as JSON");
-  command->footer(
+      .flag("--hostile", options->hostile,
+            fmt::format("On the pose class hostile alone, {} configurations of each pair unless "
+                        "--count says otherwise",
+                        usual_count_of_hostile))
+      .excludes(options->sample.class_option());
+  command.list("--law", options->laws, "Only these laws");
+  command.text("--corpus", options->corpus,
+               "First replay the failures saved in this folder, or in this file of JSON Lines: "
+               "each must fail as it did");
+  command.text("--save", options->save, "Save failures into this folder, one file each");
+  command.text("--junit", options->junit, "Write the result as JUnit XML");
+  command.text("--json", options->json, "Write the result as JSON");
+  command.footer(
       "Examples:\n"
       "  touchstone check --candidate bullet\n"
       "  touchstone check --candidate ./my_engine.so --save failures\n"
       "  touchstone check --candidate ./my_engine.so --hostile\n"
-      "  touchstone check --corpus properties/corpus\n" +
+      "  touchstone check --corpus failures\n" +
       law_list() + "Exit code 1: a law was broken, or a saved failure has changed.");
-  command->callback([options, command, &exit_code] {
-    options->count_given = command->count("--count") > 0;
-    exit_code = run(*options);
-  });
+  command.runs([options] { return run(*options); });
 }
 
 }  // namespace touchstone

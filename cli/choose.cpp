@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 #include <memory>
 
-#include "cli/commands.hpp"
 #include "cli/options.hpp"
 #include "cli/standard_streams.hpp"
+#include "cli/subcommands.hpp"
 #include "properties/files/write_file.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/choice/choice_json.hpp"
@@ -20,16 +20,15 @@ namespace {
 constexpr int not_served = 1;
 
 struct Options {
-  explicit Options(CLI::App& command) : candidates(command), workers(command) {}
+  explicit Options(Command& command) : candidates(command), workers(command) {}
   CandidateOption candidates;
   WorkersOption workers;
-  CLI::Option* names = nullptr;
   std::string scene, out = "out";
   bool json = false;
   PairNeeds pairs;
 
   std::vector<const Candidate*> contestants() const {
-    return names->count() > 0 ? candidates.get() : swept_candidates();
+    return candidates.is_given() ? candidates.get() : swept_candidates();
   }
   std::string folder() const { return out + "/choose"; }
 };
@@ -78,35 +77,31 @@ int run(const Options& options) {
 
 }  // namespace
 
-void add_choose(CLI::App& program, int& exit_code) {
-  CLI::App* command =
-      program.add_subcommand("choose", "The cheapest contact models that a scene needs");
-  const auto options = std::make_shared<Options>(*command);
-  options->names = command->get_option("--candidates");
+void add_choose(Program& program) {
+  Command command = program.command("choose", "The cheapest contact models that a scene needs");
+  const auto options = std::make_shared<Options>(command);
   command
-      ->add_option("scene", options->scene,
-                   "A scene file (docs/scenes.md), or a robot or world (.urdf, .sdf)")
-      ->required();
-  command->add_option("--out", options->out, "Folder for choose.json and choose.html")
-      ->capture_default_str();
-  command->add_flag("--json", options->json, "Print choose.json instead of text");
+      .text("scene", options->scene,
+            "A scene file (docs/scenes.md), or a robot or world (.urdf, .sdf)")
+      .required();
+  command.text("--out", options->out, "Folder for choose.json and choose.html");
+  command.flag("--json", options->json, "Print choose.json instead of text");
   const char* robots = "Of a robot or world";
   PairNeeds& pairs = options->pairs;
-  add_number(*command, "--depth", pairs.depth, positive_numbers, "Largest depth error, metres")
-      ->group(robots);
-  add_number(*command, "--angle", pairs.angle, positive_numbers,
-             "Largest error of a normal, degrees")
-      ->group(robots);
-  add_count(*command, "--count", pairs.count, {1, 1000000}, "Sampled poses of each pair of shapes")
-      ->group(robots);
-  add_count(*command, "--seed", pairs.seed, all_counts, "Same seed, same poses")->group(robots);
-  command->footer(
+  command.number("--depth", pairs.depth, positive_numbers, "Largest depth error, metres")
+      .group(robots);
+  command.number("--angle", pairs.angle, positive_numbers, "Largest error of a normal, degrees")
+      .group(robots);
+  command.count("--count", pairs.count, {1, 1000000}, "Sampled poses of each pair of shapes")
+      .group(robots);
+  command.count("--seed", pairs.seed, all_counts, "Same seed, same poses").group(robots);
+  command.footer(
       "Examples:\n"
       "  touchstone choose simulation/scenes/log-pile.json\n"
-      "  touchstone choose simulation/scenes/conveyor.json --candidates capsule,spheres:1..16,ode\n"
+      "  touchstone choose simulation/scenes/conveyor.json --candidates spheres:1..16\n"
       "  touchstone choose simulation/scenes/gripper.urdf --depth 0.002 --angle 10\n"
       "Exit code 1: not even exact contacts meet the needs.");
-  command->callback([options, &exit_code] { exit_code = run(*options); });
+  command.runs([options] { return run(*options); });
 }
 
 }  // namespace touchstone

@@ -45,6 +45,9 @@ grep -q 'cylinder-box/rim-face/1/2' "$folder/page.html" || { echo "FAILED: no pa
 expect 2 '--html' replay cylinder-box/rim-face/1/2 --html "$folder/none/page.html"
 expect 2 'could not be opened' solve "$folder/none.jsonl"
 expect 2 '--width' solve --width 0
+# A list takes one argument: what follows is another.
+echo '{"a":{"shape":"cylinder","radius":1,"half_length":1},"b":{"shape":"sphere","radius":1}}' >"$folder/one.jsonl"
+expect 0 '"reference":{' solve --candidates reference "$folder/one.jsonl"
 expect 2 '--count' report --count 0
 expect 2 '--pair.*cylinder-box' report --pair cylinder-cone
 expect 2 '--class' report --class nowhere --out "$folder/r"

@@ -3,8 +3,7 @@
 #include <fmt/format.h>
 #include <memory>
 
-#include "cli/commands.hpp"
-#include "cli/number_option.hpp"
+#include "cli/subcommands.hpp"
 #include "properties/files/write_file.hpp"
 #include "reports/compare_page/compare_page.hpp"
 #include "reports/report_file.hpp"
@@ -30,32 +29,32 @@ int run(const Options& options) {
 
 }  // namespace
 
-void add_compare(CLI::App& program, int& exit_code) {
-  CLI::App* command =
-      program.add_subcommand("compare", "What is better, worse or slower than in another report");
+void add_compare(Program& program) {
+  Command command =
+      program.command("compare", "What is better, worse or slower than in another report");
   const auto options = std::make_shared<Options>();
-  command->add_option("OLD", options->before, "report.json to compare with")->required();
-  command->add_option("NEW", options->after, "report.json that may be worse")->required();
+  command.text("OLD", options->before, "report.json to compare with").required();
+  command.text("NEW", options->after, "report.json that may be worse").required();
   constexpr NumberRange factors{1, 1e300}, shares{0, 1};
-  add_number(*command, "--max-error-factor", options->limits.error_factor, factors,
-             "By how much an error may grow, and the share of the contact patch that the points do "
-             "not cover");
-  add_number(*command, "--max-time-factor", options->limits.time_factor, factors,
-             "By how much a time, as a multiple of the baseline's, or an instruction count may "
-             "grow, by the nearest ends of their spreads");
-  add_number(*command, "--min-agree", options->limits.agreement, shares,
-             "Share of the configurations that agreed before that must agree still");
-  command->add_option("--baseline", options->limits.baseline, "Candidate that times are related to")
-      ->capture_default_str();
-  command->add_flag("--json", options->json, "Print one JSON object with every change");
-  command->add_option("--html", options->html, "Write a page too: both Pareto fronts, all changes");
-  command->footer(
+  command.number(
+      "--max-error-factor", options->limits.error_factor, factors,
+      "By how much an error may grow, and the share of the contact patch that the points do "
+      "not cover");
+  command.number("--max-time-factor", options->limits.time_factor, factors,
+                 "By how much a time, as a multiple of the baseline's, or an instruction count may "
+                 "grow, by the nearest ends of their spreads");
+  command.number("--min-agree", options->limits.agreement, shares,
+                 "Share of the configurations that agreed before that must agree still");
+  command.text("--baseline", options->limits.baseline, "Candidate that times are related to");
+  command.flag("--json", options->json, "Print one JSON object with every change");
+  command.text("--html", options->html, "Write a page too: both Pareto fronts, all changes");
+  command.footer(
       "Examples:\n"
       "  touchstone compare old/report.json out/report.json\n"
       "  touchstone compare old/report.json out/report.json --html compare.html\n"
       "  touchstone compare old.json new.json --min-agree 0.99 --max-time-factor 1.2\n"
       "Exit code 1: something is worse or slower beyond the limits.");
-  command->callback([options, &exit_code] { exit_code = run(*options); });
+  command.runs([options] { return run(*options); });
 }
 
 }  // namespace touchstone

@@ -15,11 +15,11 @@
 #include <unistd.h>
 
 #include "candidates/candidates.hpp"
-#include "cli/given.hpp"
 #include "cli/mutation.hpp"
 #include "cli/number_option.hpp"
 #include "properties/files/configuration_json.hpp"
 #include "properties/files/error_text.hpp"
+#include "properties/files/given.hpp"
 #include "properties/files/parse_double.hpp"
 #include "properties/files/strict_json.hpp"
 #include "properties/laws/failure_file.hpp"
@@ -60,6 +60,13 @@ std::vector<std::string> files_of(const std::filesystem::path& folder, const cha
   std::vector<std::string> texts;
   for (const auto& file : files) texts.push_back(contents(file));
   return texts;
+}
+
+std::vector<std::string> lines_of(const std::filesystem::path& file) {
+  std::istringstream in(contents(file));
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
 }
 
 // What is being read, for the last words of a process that crashes or hangs. On standard output:
@@ -178,7 +185,7 @@ TEST(HostileInput, WholeFilesOfSolve) {
 }
 
 TEST(HostileInput, ConfigurationFiles) {
-  std::vector<std::string> files = files_of(TOUCHSTONE_CORPUS, ".json");
+  std::vector<std::string> files = lines_of(TOUCHSTONE_KNOWN_FAILURES);
   const auto lines = configuration_lines();
   files.push_back(lines[0] + '\n' + lines[1] + '\n');
   files.push_back("\n" + lines[2]);
@@ -201,7 +208,7 @@ TEST(HostileInput, Identities) {
 }
 
 TEST(HostileInput, SavedFailures) {
-  expect_answer_or_refusal("failure file", 8, files_of(TOUCHSTONE_CORPUS, ".json"),
+  expect_answer_or_refusal("failure file", 8, lines_of(TOUCHSTONE_KNOWN_FAILURES),
                            [](const std::string& text, std::uint64_t) {
                              to_json(failure_from_json(parse_json(text, "file")));
                            });

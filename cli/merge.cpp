@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <memory>
 
-#include "cli/commands.hpp"
+#include "cli/subcommands.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/campaigns/result.hpp"
 #include "reports/campaigns/shard_place.hpp"
@@ -18,7 +18,7 @@ struct Options {
   bool partial = false;
 };
 
-void run(const Options& options) {
+int run(const Options& options) {
   const Progressed whole = merge({options.inputs.begin(), options.inputs.end()}, options.partial);
   const ShardPlace place(options.out, whole.shard);
   if (std::filesystem::exists(place.file())) {
@@ -31,24 +31,23 @@ void run(const Options& options) {
   fmt::print("{}\n{} configurations{}.\nResult: {}\n", terminal_table(result),
              result["configurations"].get<std::uint64_t>(),
              result["complete"] ? "" : ", which is not all of the campaign", file.string());
+  return 0;
 }
 
 }  // namespace
 
-void add_merge(CLI::App& program, int&) {
-  CLI::App* command = program.add_subcommand("merge", "Put the parts of a campaign together");
+void add_merge(Program& program) {
+  Command command = program.command("merge", "Put the parts of a campaign together");
   const auto options = std::make_shared<Options>();
-  command->add_option("inputs", options->inputs, "Shard files, or folders that hold some")
-      ->required();
-  command->add_option("--out", options->out, "Folder for campaign.json and the merged shard file")
-      ->capture_default_str();
-  command->add_flag("--partial", options->partial, "Even if parts are missing");
-  command->footer(
+  command.arguments("inputs", options->inputs, "Shard files, or folders that hold some").required();
+  command.text("--out", options->out, "Folder for campaign.json and the merged shard file");
+  command.flag("--partial", options->partial, "Even if parts are missing");
+  command.footer(
       "Examples:\n"
       "  touchstone merge run --out merged\n"
       "  touchstone merge node-*/shard-*.jsonl --out merged\n"
       "Parts of different campaigns, parts that overlap and damaged files are refused.");
-  command->callback([options] { run(*options); });
+  command.runs([options] { return run(*options); });
 }
 
 }  // namespace touchstone

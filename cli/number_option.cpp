@@ -46,45 +46,4 @@ std::uint64_t read_count(const std::string& option, const std::string& text, Cou
                      fmt::format("must be a whole number from {} to {}", range.min, range.max));
 }
 
-CLI::Option* add_number(CLI::App& command, const std::string& option, double& variable,
-                        NumberRange range, const std::string& description) {
-  return command
-      .add_option_function<std::string>(
-          option,
-          [&variable, option, range](const std::string& text) {
-            variable = read_number(option, text, range);
-          },
-          description)
-      ->type_name("FLOAT")
-      ->default_str(fmt::format("{}", variable));
-}
-
-CLI::Option* add_count(CLI::App& command, const std::string& option, std::uint64_t& variable,
-                       CountRange range, const std::string& description) {
-  return command
-      .add_option_function<std::string>(
-          option,
-          [&variable, option, range](const std::string& text) {
-            variable = read_count(option, text, range);
-          },
-          description)
-      ->type_name("UINT")
-      ->default_str(fmt::format("{}", variable));
-}
-
-CLI::Option* add_numbers(CLI::App& command, const std::string& option,
-                         std::vector<double>& variable, NumberRange range,
-                         const std::string& description) {
-  return command
-      .add_option_function<std::vector<std::string>>(
-          option,
-          [&variable, option, range](const std::vector<std::string>& texts) {
-            variable.clear();
-            for (const auto& text : texts) variable.push_back(read_number(option, text, range));
-          },
-          description)
-      ->type_name("FLOAT")
-      ->delimiter(',');
-}
-
 }  // namespace touchstone

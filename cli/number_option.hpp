@@ -3,9 +3,6 @@
 #include <cstdint>
 #include <limits>
 #include <string>
-#include <vector>
-
-#include <CLI/CLI.hpp>
 
 namespace touchstone {
 
@@ -27,15 +24,5 @@ inline constexpr CountRange all_counts{0, std::numeric_limits<std::uint64_t>::ma
 
 double read_number(const std::string& option, const std::string& text, NumberRange range);
 std::uint64_t read_count(const std::string& option, const std::string& text, CountRange range);
-
-/// An option that sets the variable, whose value now is the default that --help shows.
-CLI::Option* add_number(CLI::App& command, const std::string& option, double& variable,
-                        NumberRange range, const std::string& description);
-CLI::Option* add_count(CLI::App& command, const std::string& option, std::uint64_t& variable,
-                       CountRange range, const std::string& description);
-/// Several, separated by commas; the description says what they are by default.
-CLI::Option* add_numbers(CLI::App& command, const std::string& option,
-                         std::vector<double>& variable, NumberRange range,
-                         const std::string& description);
 
 }  // namespace touchstone

@@ -10,29 +10,15 @@
 
 namespace touchstone {
 
-void add_plugin_option(CLI::App& program) {
-  program
-      .add_option_function<std::vector<std::string>>(
-          "--candidate",
-          [](const std::vector<std::string>& files) {
-            for (const auto& file : files) add_plugin(file);
-          },
-          "A plug-in with candidates of your own; may be repeated")
-      ->type_name("FILE")
-      ->allow_extra_args(false);
-}
-
-CandidateOption::CandidateOption(CLI::App& command) {
-  command
-      .add_option("--candidates", names_,
-                  "Only these, separated by commas (default: all); families by several numbers, as "
-                  "in prism:8,16,32 or spheres:1..64")
-      ->delimiter(',');
+CandidateOption::CandidateOption(Command& command)
+    : option_(command.list("--candidates", names_,
+                           "Only these, separated by commas (default: all); families by several "
+                           "numbers, as in prism:8,16,32 or spheres:1..64")) {
   constexpr NumberRange seconds{1e-3, 1e6}, mebibytes{1, 1e9};
-  add_number(command, "--time-limit", limits_.seconds, seconds,
-             "Processor time that a candidate may take for one configuration, seconds");
-  add_number(command, "--memory-limit", limits_.mebibytes, mebibytes,
-             "What a candidate's memory may grow by, mebibytes");
+  command.number("--time-limit", limits_.seconds, seconds,
+                 "Processor time that a candidate may take for one configuration, seconds");
+  command.number("--memory-limit", limits_.mebibytes, mebibytes,
+                 "What a candidate's memory may grow by, mebibytes");
 }
 
 std::vector<const Candidate*> CandidateOption::get() const {
@@ -58,25 +44,26 @@ const Candidate& named_candidate(const std::string& name) {
   return *all_candidates().back();
 }
 
-BarOption::BarOption(CLI::App& command) {
+BarOption::BarOption(Command& command) {
   constexpr NumberRange not_negative{0, 1e30};
-  add_number(command, "--tolerance", bar_.tolerance, not_negative,
-             "Agreement in depth and normal regret, relative to the smaller shape's size");
-  add_number(command, "--threshold", bar_.threshold, not_negative,
-             "Ask for contacts up to this far apart, metres");
+  command.number("--tolerance", bar_.tolerance, not_negative,
+                 "Agreement in depth and normal regret, relative to the smaller shape's size");
+  command.number("--threshold", bar_.threshold, not_negative,
+                 "Ask for contacts up to this far apart, metres");
 }
 
 std::string BarOption::command_line() const {
   return fmt::format(" --tolerance {} --threshold {}", bar_.tolerance, bar_.threshold);
 }
 
-SampleOption::SampleOption(CLI::App& command, std::uint64_t count, std::uint64_t max_count)
-    : count_(count) {
-  command.add_option("--pair", pairs_, "Only these pairs, as in cylinder-box")->delimiter(',');
-  command.add_option("--class", classes_, "Only these pose classes")->delimiter(',');
-  add_count(command, "--count", count_, {1, max_count},
-            "Configurations of each pair and pose class; 1e6 is understood too");
-  add_count(command, "--seed", seed_, all_counts, "Same seed, same configurations");
+SampleOption::SampleOption(Command& command, std::uint64_t count, std::uint64_t max_count)
+    : count_(count),
+      pair_option_(command.list("--pair", pairs_, "Only these pairs, as in cylinder-box")),
+      class_option_(command.list("--class", classes_, "Only these pose classes")),
+      count_option_(command.count("--count", count_, {1, max_count},
+                                  "Configurations of each pair and pose class; 1e6 is understood "
+                                  "too")) {
+  command.count("--seed", seed_, all_counts, "Same seed, same configurations");
 }
 
 std::vector<Pair> SampleOption::pairs() const {
@@ -104,18 +91,17 @@ std::string SampleOption::command_line() const {
   return line;
 }
 
-WorkersOption::WorkersOption(CLI::App& command)
+WorkersOption::WorkersOption(Command& command)
     : WorkersOption(command, std::max(1U, std::thread::hardware_concurrency()), "one a core") {}
 
-WorkersOption::WorkersOption(CLI::App& command, unsigned usual, const std::string& meaning)
+WorkersOption::WorkersOption(Command& command, unsigned usual, const std::string& meaning)
     : workers_(usual) {
   const std::uint64_t max = std::max(1024U, usual);  // each is a process with candidates of its own
-  add_count(command, "--workers", workers_, {1, max},
-            "Worker processes; they do not change the result")
-      ->default_str(meaning);
+  command.count("--workers", workers_, {1, max}, "Worker processes; they do not change the result")
+      .default_text(meaning);
 }
 
-CampaignOption::CampaignOption(CLI::App& command, std::uint64_t count, std::uint64_t max_count)
+CampaignOption::CampaignOption(Command& command, std::uint64_t count, std::uint64_t max_count)
     : sample(command, count, max_count), candidates(command), bar(command) {}
 
 Campaign CampaignOption::get() const {

@@ -4,10 +4,8 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
 #include "candidates/host/candidate_process.hpp"
-#include "cli/number_option.hpp"
+#include "cli/command.hpp"
 #include "properties/identity.hpp"
 #include "reports/campaign.hpp"
 
@@ -16,11 +14,9 @@ namespace touchstone {
 // Options that mean the same in every subcommand. Each adds itself to the subcommand and is read
 // after parsing.
 
-/// --candidate FILE of the program itself: plug-ins beside the standard ones.
-void add_plugin_option(CLI::App& program);
-
 struct CandidateOption {
-  explicit CandidateOption(CLI::App& command);
+  explicit CandidateOption(Command& command);
+  bool is_given() const { return option_.is_given(); }
   /// In the order given; all of them by default. Throws InvalidInput on an unknown name.
   std::vector<const Candidate*> get() const;
   const Limits& limits() const { return limits_; }
@@ -30,6 +26,7 @@ struct CandidateOption {
  private:
   std::vector<std::string> names_;
   Limits limits_;
+  Option option_;
 };
 
 /// The candidate of that name, or the first of the plug-in in that file, which is added. Throws
@@ -37,7 +34,7 @@ struct CandidateOption {
 const Candidate& named_candidate(const std::string& name);
 
 struct BarOption {
-  explicit BarOption(CLI::App& command);
+  explicit BarOption(Command& command);
   const Bar& get() const { return bar_; }
   std::string command_line() const;
 
@@ -48,29 +45,31 @@ struct BarOption {
 /// --pair, --class, --count, --seed: which sampled configurations a command is about.
 struct SampleOption {
   /// `count`: of each pair and pose class, by default, and at most.
-  SampleOption(CLI::App& command, std::uint64_t count, std::uint64_t max_count);
+  SampleOption(Command& command, std::uint64_t count, std::uint64_t max_count);
   /// All of them by default. Throws InvalidInput on an unknown name.
   std::vector<Pair> pairs() const;
   /// As given; empty means all. Throws InvalidInput on a class that none of the pairs has.
   const std::vector<std::string>& classes() const;
   std::uint64_t count() const { return count_; }
   std::uint64_t seed() const { return seed_; }
-  bool is_narrowed() const {
-    return !(pairs_.empty() && classes_.empty());
-  }  ///< by --pair, --class
+  bool count_is_given() const { return count_option_.is_given(); }
+  /// By --pair or --class.
+  bool is_narrowed() const { return !(pairs_.empty() && classes_.empty()); }
+  const Option& class_option() const { return class_option_; }
   /// The same options as text, to be repeated: " --seed 1 --count 100 --pair cylinder-box".
   std::string command_line() const;
 
  private:
   std::vector<std::string> pairs_, classes_;
   std::uint64_t count_, seed_ = 1;
+  Option pair_option_, class_option_, count_option_;
 };
 
 /// --workers
 struct WorkersOption {
   /// One a core by default, or as many as `usual` says, which `meaning` explains.
-  explicit WorkersOption(CLI::App& command);
-  WorkersOption(CLI::App& command, unsigned usual, const std::string& meaning);
+  explicit WorkersOption(Command& command);
+  WorkersOption(Command& command, unsigned usual, const std::string& meaning);
   unsigned get() const { return static_cast<unsigned>(workers_); }
 
  private:
@@ -80,7 +79,7 @@ struct WorkersOption {
 /// What is scored, by whom, and how strictly.
 struct CampaignOption {
   /// `count`: of each pair and pose class, by default, and at most.
-  CampaignOption(CLI::App& command, std::uint64_t count, std::uint64_t max_count);
+  CampaignOption(Command& command, std::uint64_t count, std::uint64_t max_count);
   /// With one worker. Throws InvalidInput.
   Campaign get() const;
   std::string command_line() const;

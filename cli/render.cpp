@@ -2,8 +2,7 @@
 #include <memory>
 
 #include "candidates/candidates.hpp"
-#include "cli/commands.hpp"
-#include "cli/number_option.hpp"
+#include "cli/subcommands.hpp"
 #include "properties/files/write_file.hpp"
 #include "reports/make_report.hpp"
 #include "simulation/scenes/povray.hpp"
@@ -21,7 +20,7 @@ SceneFile read(const std::string& file) {
   return is_shapes_file(file) ? still_scene(read_shapes(file)) : read_scene(file);
 }
 
-void run(const Options& options) {
+int run(const Options& options) {
   const Candidate& candidate = find_candidate(options.contacts);
   const SceneFile file = read(options.scene);
   check_writable(options.out);
@@ -30,27 +29,26 @@ void run(const Options& options) {
   const int frames = write_povray(file, run_scene(file.scene, model), options.every, options.out);
   fmt::print("{} frames. To draw them with Debian's povray:\n  cd {} && povray scene.ini\n", frames,
              options.out);
+  return 0;
 }
 
 }  // namespace
 
-void add_render(CLI::App& program, int&) {
-  CLI::App* command =
-      program.add_subcommand("render", "Run a scene and write it for POV-Ray, frame by frame");
+void add_render(Program& program) {
+  Command command =
+      program.command("render", "Run a scene and write it for POV-Ray, frame by frame");
   const auto options = std::make_shared<Options>();
-  command->add_option("scene", options->scene, "A scene file, or a robot or world (.urdf, .sdf)")
-      ->required();
-  add_number(*command, "--every", options->every, {1e-6, 1e6}, "Seconds between frames");
-  command->add_option("--contacts", options->contacts, "The candidate that contacts come from")
-      ->capture_default_str();
-  command->add_option("--out", options->out, "Folder for scene.pov, scene.ini and the frames")
-      ->capture_default_str();
-  command->footer(
+  command.text("scene", options->scene, "A scene file, or a robot or world (.urdf, .sdf)")
+      .required();
+  command.number("--every", options->every, {1e-6, 1e6}, "Seconds between frames");
+  command.text("--contacts", options->contacts, "The candidate that contacts come from");
+  command.text("--out", options->out, "Folder for scene.pov, scene.ini and the frames");
+  command.footer(
       "Examples:\n"
       "  touchstone render simulation/scenes/thesis-knock.json\n"
-      "  touchstone render simulation/scenes/log-pile.json --contacts capsule --every 0.1\n"
+      "  touchstone render simulation/scenes/log-pile.json --contacts capsule\n"
       "  touchstone render simulation/scenes/gripper.urdf");
-  command->callback([options] { run(*options); });
+  command.runs([options] { return run(*options); });
 }
 
 }  // namespace touchstone

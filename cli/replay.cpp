@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 #include <memory>
 
-#include "cli/commands.hpp"
-#include "cli/given.hpp"
 #include "cli/options.hpp"
+#include "cli/subcommands.hpp"
 #include "properties/files/configuration_json.hpp"
+#include "properties/files/given.hpp"
 #include "properties/files/write_file.hpp"
 #include "reports/replay_page/replay_page.hpp"
 #include "reports/reproducer/reproducer.hpp"
@@ -16,7 +16,7 @@ namespace touchstone {
 namespace {
 
 struct Options {
-  explicit Options(CLI::App& command) : candidates(command), bar(command) {}
+  explicit Options(Command& command) : candidates(command), bar(command) {}
   CandidateOption candidates;
   BarOption bar;
   std::string input, engine;
@@ -24,46 +24,46 @@ struct Options {
   std::string html;
 };
 
+int run(const Options& options, bool emits) {
+  const Bar bar = options.bar.get();
+  const Subject given = given_configuration(options.input);
+  if (emits) {
+    fmt::print("{}", reproducer(options.engine, given.configuration, given.name, bar,
+                                options.candidates.limits()));
+    return 0;
+  }
+  auto candidates = start(options.candidates.get(), bar.threshold, options.candidates.limits());
+  const nlohmann::json e = examined(given, pointers(candidates), bar, 1e-30);
+  if (!options.html.empty()) {
+    const Configuration& c = given.configuration;
+    write_file(options.html, replay_page(e, to_hex_json(c), to_exact_json(c), given.description),
+               "--html");
+  }
+  fmt::print("{}", options.json ? e.dump() + '\n' : replay_text(given, e, candidates));
+  return 0;
+}
+
 }  // namespace
 
-void add_replay(CLI::App& program, int&) {
-  CLI::App* command =
-      program.add_subcommand("replay", "Show one configuration again: truth and answers");
-  const auto options = std::make_shared<Options>(*command);
-  command->add_option("input", options->input, given_help)->required();
-  CLI::Option* json = command->add_flag("--json", options->json, "Print one JSON object");
-  CLI::Option* emit =
-      command->add_option("--emit", options->engine,
-                          fmt::format("Write a C++ program that asks this engine alone: {}",
-                                      fmt::join(reproducer_engines(), ", ")));
-  CLI::Option* html = command->add_option(
+void add_replay(Program& program) {
+  Command command = program.command("replay", "Show one configuration again: truth and answers");
+  const auto options = std::make_shared<Options>(command);
+  command.text("input", options->input, given_help).required();
+  const Option json = command.flag("--json", options->json, "Print one JSON object");
+  Option emit = command.text("--emit", options->engine,
+                             fmt::format("Write a C++ program that asks this engine alone: {}",
+                                         fmt::join(reproducer_engines(), ", ")));
+  const Option html = command.text(
       "--html", options->html, "Write a page too: both bodies in 3-D, a slice, and all numbers");
-  emit->excludes(json);
-  emit->excludes(html);
-  command->footer(
+  emit.excludes(json).excludes(html);
+  command.footer(
       "Examples:\n"
       "  touchstone replay cylinder-box/near-parallel-1e-6/42/137\n"
       "  touchstone replay cylinder-cylinder/rim-rim/1/0 --candidates bullet --json\n"
       "  touchstone replay cylinder-box/rim-face/1/0 --emit bullet > reproducer.cpp\n"
       "  touchstone replay cylinder-box/rim-face/1/0 --html page.html\n"
       "  touchstone replay failures/ode-cylinder-box-agreement-missed.json --emit ode");
-  command->callback([options, emit] {
-    const Bar bar = options->bar.get();
-    const Subject given = given_configuration(options->input);
-    if (emit->count() > 0) {
-      fmt::print("{}", reproducer(options->engine, given.configuration, given.name, bar,
-                                  options->candidates.limits()));
-      return;
-    }
-    auto candidates = start(options->candidates.get(), bar.threshold, options->candidates.limits());
-    const nlohmann::json e = examined(given, pointers(candidates), bar, 1e-30);
-    if (!options->html.empty()) {
-      const Configuration& c = given.configuration;
-      write_file(options->html, replay_page(e, to_hex_json(c), to_exact_json(c), given.description),
-                 "--html");
-    }
-    fmt::print("{}", options->json ? e.dump() + '\n' : replay_text(given, e, candidates));
-  });
+  command.runs([options, emit] { return run(*options, emit.is_given()); });
 }
 
 }  // namespace touchstone

@@ -1,16 +1,15 @@
-#include "reports/make_report.hpp"
-
 #include <algorithm>
 #include <fmt/format.h>
 #include <memory>
 
 #include "candidates/host/interruption.hpp"
-#include "cli/commands.hpp"
 #include "cli/options.hpp"
 #include "cli/standard_streams.hpp"
+#include "cli/subcommands.hpp"
 #include "properties/files/write_file.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/figures/figures.hpp"
+#include "reports/make_report.hpp"
 #include "reports/stability/stability.hpp"
 #include "reports/terminal_table.hpp"
 #include "reports/worst.hpp"
@@ -23,7 +22,7 @@ namespace {
 constexpr std::uint64_t max_answers = 100000000;
 
 struct Options {
-  explicit Options(CLI::App& command) : scored(command, 100, max_answers), workers(command) {}
+  explicit Options(Command& command) : scored(command, 100, max_answers), workers(command) {}
   CampaignOption scored;
   WorkersOption workers;
   std::string out = "out", figures;
@@ -84,22 +83,20 @@ int run(const Options& options) {
 
 }  // namespace
 
-void add_report(CLI::App& program, int& exit_code) {
-  CLI::App* command =
-      program.add_subcommand("report", "Score all candidates; write out/report.html");
-  const auto options = std::make_shared<Options>(*command);
-  command->add_option("--out", options->out, "Folder for report.json and report.html")
-      ->capture_default_str();
-  command->add_option("--figures", options->figures,
-                      "Folder for figures as SVG, PNG and CSV, made by gnuplot");
-  command->footer(
+void add_report(Program& program) {
+  Command command = program.command("report", "Score all candidates; write out/report.html");
+  const auto options = std::make_shared<Options>(command);
+  command.text("--out", options->out, "Folder for report.json and report.html");
+  command.text("--figures", options->figures,
+               "Folder for figures as SVG, PNG and CSV, made by gnuplot");
+  command.footer(
       "Examples:\n"
       "  touchstone report\n"
       "  touchstone report --pair cylinder-box --count 1000 --seed 7\n"
       "  touchstone report --candidates reference,bullet --class rim-rim,touching\n"
       "  touchstone report --figures figures\n"
       "Ctrl-C ends with a report of what is done, marked partial (exit code 130).");
-  command->callback([options, &exit_code] { exit_code = run(*options); });
+  command.runs([options] { return run(*options); });
 }
 
 }  // namespace touchstone

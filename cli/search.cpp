@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "candidates/host/progress.hpp"
-#include "cli/commands.hpp"
 #include "cli/options.hpp"
+#include "cli/subcommands.hpp"
 #include "properties/files/write_file.hpp"
 #include "properties/laws/failure_file.hpp"
 
@@ -17,7 +17,7 @@ namespace {
 constexpr int something_failed = 1;
 
 struct Options {
-  explicit Options(CLI::App& command) : sample(command, 1000, 1000000), bar(command) {}
+  explicit Options(Command& command) : sample(command, 1000, 1000000), bar(command) {}
   SampleOption sample;
   BarOption bar;
   std::string candidate, save, json;
@@ -70,22 +70,20 @@ int run(const Options& options) {
 
 }  // namespace
 
-void add_search(CLI::App& program, int& exit_code) {
-  CLI::App* command =
-      program.add_subcommand("search", "Look for one candidate's worst configurations");
-  const auto options = std::make_shared<Options>(*command);
-  command->add_option("--candidate", options->candidate, "Its name, or a plug-in's file")
-      ->required();
-  command->add_option("--save", options->save,
-                      "Save the worst failure of each kind and pair into this folder");
-  command->add_option("--json", options->json, "Write all that was found as JSON");
-  command->footer(
+void add_search(Program& program) {
+  Command command = program.command("search", "Look for one candidate's worst configurations");
+  const auto options = std::make_shared<Options>(command);
+  command.text("--candidate", options->candidate, "Its name, or a plug-in's file").required();
+  command.text("--save", options->save,
+               "Save the worst failure of each kind and pair into this folder");
+  command.text("--json", options->json, "Write all that was found as JSON");
+  command.footer(
       "Examples:\n"
       "  touchstone search --candidate bullet --pair cylinder-box --save failures\n"
       "  touchstone search --candidate reference --tolerance 1e-12 --count 1e5\n"
       "  touchstone replay failures/bullet-cylinder-box-agreement-shallow.json\n"
       "Exit code 1: something was beyond the tolerance.");
-  command->callback([options, &exit_code] { exit_code = run(*options); });
+  command.runs([options] { return run(*options); });
 }
 
 }  // namespace touchstone

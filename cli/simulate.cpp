@@ -1,9 +1,8 @@
 #include <fmt/format.h>
 #include <memory>
 
-#include "cli/commands.hpp"
-#include "cli/help.hpp"
 #include "cli/options.hpp"
+#include "cli/subcommands.hpp"
 #include "properties/files/write_file.hpp"
 #include "reports/make_report.hpp"
 #include "simulation/run_experiments.hpp"
@@ -12,7 +11,7 @@ namespace touchstone {
 namespace {
 
 struct Options {
-  explicit Options(CLI::App& command) : candidates(command), workers(command) {}
+  explicit Options(Command& command) : candidates(command), workers(command) {}
   CandidateOption candidates;
   WorkersOption workers;
   std::vector<std::string> names;
@@ -34,13 +33,14 @@ struct Options {
   }
 };
 
-void run(const Options& options) {
+int run(const Options& options) {
   const ExperimentOptions experiments = options.experiments();
   if (!options.out.empty()) check_writable(options.out);
   const nlohmann::json result = run_experiments(experiments);
   fmt::print("{}", options.json ? result.dump() + '\n' : experiments_table(result));
-  if (options.out.empty()) return;
+  if (options.out.empty()) return 0;
   write_file(options.out + "/experiments.json", result.dump(1) + '\n', "--out");
+  return 0;
 }
 
 std::string experiment_list() {
@@ -53,22 +53,21 @@ std::string experiment_list() {
 
 }  // namespace
 
-void add_simulate(CLI::App& program, int&) {
-  CLI::App* command =
-      program.add_subcommand("simulate", "Rigid-body experiments with an answer on paper");
-  const auto options = std::make_shared<Options>(*command);
-  command->add_option("experiments", options->names, "Only these experiments");
-  add_numbers(*command, "--step", options->steps, {1e-5, 0.1},
-              "Steps of time, seconds, separated by commas (default: 1/60, 1/240, 1/960)");
-  command->add_option("--out", options->out, "Folder for experiments.json");
-  command->add_flag("--json", options->json, "Print one JSON object");
-  command->footer(
+void add_simulate(Program& program) {
+  Command command = program.command("simulate", "Rigid-body experiments with an answer on paper");
+  const auto options = std::make_shared<Options>(command);
+  command.arguments("experiments", options->names, "Only these experiments");
+  command.numbers("--step", options->steps, {1e-5, 0.1},
+                  "Steps of time, seconds, separated by commas (default: 1/60, 1/240, 1/960)");
+  command.text("--out", options->out, "Folder for experiments.json");
+  command.flag("--json", options->json, "Print one JSON object");
+  command.footer(
       "Examples:\n"
       "  touchstone simulate rolling\n"
       "  touchstone simulate standing --candidates reference,bullet --step 0.004\n"
       "  touchstone simulate --out out\n" +
       experiment_list());
-  command->callback([options] { run(*options); });
+  command.runs([options] { return run(*options); });
 }
 
 }  // namespace touchstone

@@ -5,8 +5,8 @@
 #include <iostream>
 #include <memory>
 
-#include "cli/commands.hpp"
 #include "cli/options.hpp"
+#include "cli/subcommands.hpp"
 #include "properties/files/read_file.hpp"
 #include "reference/invalid_input.hpp"
 
@@ -14,7 +14,7 @@ namespace touchstone {
 namespace {
 
 struct Options {
-  explicit Options(CLI::App& command) : candidates(command), bar(command) {}
+  explicit Options(Command& command) : candidates(command), bar(command) {}
   CandidateOption candidates;
   BarOption bar;
   std::string file = "-";
@@ -35,16 +35,15 @@ int run(const Options& options) {
 
 }  // namespace
 
-void add_solve(CLI::App& program, int& exit_code) {
-  CLI::App* command =
-      program.add_subcommand("solve", "Truth, answers and scores for your own configurations");
-  const auto options = std::make_shared<Options>(*command);
-  command->add_option("file", options->file, "JSON Lines; - is standard input")
-      ->capture_default_str();
-  add_number(*command, "--width", options->width, {1e-300, 1e30},
-             "Width of the truth, relative to the larger size");
-  command->add_flag("--audit", options->audit, "Let the second oracle check every truth");
-  command->footer(
+void add_solve(Program& program) {
+  Command command =
+      program.command("solve", "Truth, answers and scores for your own configurations");
+  const auto options = std::make_shared<Options>(command);
+  command.text("file", options->file, "JSON Lines; - is standard input");
+  command.number("--width", options->width, {1e-300, 1e30},
+                 "Width of the truth, relative to the larger size");
+  command.flag("--audit", options->audit, "Let the second oracle check every truth");
+  command.footer(
       "Examples:\n"
       "  touchstone solve poses.jsonl > answers.jsonl\n"
       "  echo '{\"a\":{\"shape\":\"cylinder\",\"radius\":0.5,\"half_length\":1},\n"
@@ -53,7 +52,7 @@ void add_solve(CLI::App& program, int& exit_code) {
       "Shapes: cylinder and capsule (radius, half_length), sphere (radius),\n"
       "box (half_extents), plane (normal, displacement).\n"
       "A pose has position and orientation (w, x, y, z).");
-  command->callback([options, &exit_code] { exit_code = run(*options); });
+  command.runs([options] { return run(*options); });
 }
 
 }  // namespace touchstone

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 #include <memory>
 
-#include "cli/commands.hpp"
-#include "cli/given.hpp"
 #include "cli/options.hpp"
+#include "cli/subcommands.hpp"
+#include "properties/files/given.hpp"
 #include "properties/files/write_file.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/make_report.hpp"
@@ -14,7 +14,7 @@ namespace touchstone {
 namespace {
 
 struct Options {
-  explicit Options(CLI::App& command)
+  explicit Options(Command& command)
       : sample(command, 6, 100000), candidates(command), bar(command), workers(command) {}
   SampleOption sample;
   CandidateOption candidates;
@@ -65,33 +65,32 @@ struct Options {
   }
 };
 
-void run(const Options& options) {
+int run(const Options& options) {
   const StabilityOptions chosen = options.stability();
   check_writable(options.out);
   const nlohmann::json result = stability(chosen);
   write_stability(result, options.command_line(), options.out);
   if (options.json) {
     fmt::print("{}\n", result.dump());
-    return;
+    return 0;
   }
   fmt::print("{}\nWritten: {}/stability.html, {}/stability.json\n", stability_table(result),
              options.out, options.out);
+  return 0;
 }
 
 }  // namespace
 
-void add_stability(CLI::App& program, int&) {
-  CLI::App* command =
-      program.add_subcommand("stability", "How answers change at tiny steps and along motions");
-  const auto options = std::make_shared<Options>(*command);
-  command->add_option("input", options->input,
-                      std::string("Small steps around this configuration alone: ") + given_help);
-  command->add_option("--part", options->parts, "Only these of amplification, maps, sequences")
-      ->delimiter(',');
-  command->add_option("--out", options->out, "Folder for stability.json and stability.html")
-      ->capture_default_str();
-  command->add_flag("--json", options->json, "Print the result as one JSON object");
-  command->footer(
+void add_stability(Program& program) {
+  Command command =
+      program.command("stability", "How answers change at tiny steps and along motions");
+  const auto options = std::make_shared<Options>(command);
+  command.text("input", options->input,
+               std::string("Small steps around this configuration alone: ") + given_help);
+  command.list("--part", options->parts, "Only these of amplification, maps, sequences");
+  command.text("--out", options->out, "Folder for stability.json and stability.html");
+  command.flag("--json", options->json, "Print the result as one JSON object");
+  command.footer(
       "Small steps start in exactly degenerate pose classes, or in those of --class.\n"
       "Examples:\n"
       "  touchstone stability\n"
@@ -101,7 +100,7 @@ void add_stability(CLI::App& program, int&) {
       "  touchstone replay cylinder-box/side-on-face/1/0@1e-8/1/4\n"
       "  touchstone replay map/standing/1e-12/-3/16\n"
       "  touchstone replay sequence/roll-over-edge/113/400");
-  command->callback([options] { run(*options); });
+  command.runs([options] { return run(*options); });
 }
 
 }  // namespace touchstone

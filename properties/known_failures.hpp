@@ -6,8 +6,8 @@
 
 namespace touchstone {
 
-/// Configurations that some contact routine once answered wrongly, ours or an engine's. None for a
-/// plane.
+/// Configurations that some contact routine once answered wrongly, ours or an engine's (those of
+/// known_failures.jsonl). None for a plane.
 const std::vector<Numbers>& known_failures(Pair pair);
 
 }  // namespace touchstone

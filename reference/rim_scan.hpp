@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "largest_gap.hpp"
 #include "rims.hpp"
@@ -43,7 +44,7 @@ class RimScan {
  private:
   static constexpr double min_half_width = 1e-8;  // rad
   static constexpr double small_step = 1e-9;      // rad; its square is below rounding
-  static constexpr int max_samples = 1000;
+  static constexpr int max_samples = 20000;
 
   RimSample at(double angle) {
     ++samples_;
@@ -55,35 +56,61 @@ class RimScan {
   /// Distances that a largest gap can have: its bodies overlap by less than the best depth or are
   /// no further apart than `limit_`, and lie deeper than `least_depth_`.
   bool matters(double min_distance, double max_distance) const {
-    return min_distance - noise_ <= std::max(limit_, -best_.gap) &&
+    return (min_distance - noise_ <= limit_ || min_distance + noise_ < -best_.gap) &&
            max_distance + noise_ >= least_depth_;
+  }
+
+  /// May the rims meet on such an arc, overlapping or, where the bodies may be, apart?
+  bool may_meet(const RimSample& middle, double half_width, const Passage& passage) const {
+    return rims_.may_meet(middle, -1, half_width, passage) ||
+           (least_depth_ <= 0 && rims_.may_meet(middle, 1, half_width, passage));
   }
 
   void arc(double angle, double half_width) {
     const RimSample middle = at(angle);
     const double reach = rims_.radius1() * half_width;
     if (!matters(middle.distance - reach, middle.distance + reach)) return;
-    const double radial = middle.radial - reach;  // a lower bound on the arc
-    if (radial > 0) {
-      const double bend = rims_.max_bend(middle, half_width, radial) * half_width;
-      const double curvature_noise = noise_ * rims_.conditioning(radial);
-      const double change = (std::abs(middle.curvature) + bend / 2 + curvature_noise) * half_width;
+    const Passage passage = rims_.passage(middle, half_width);
+    double bend = never;
+    if (passage.min_radial > 0) {
+      bend = rims_.max_bend(middle, half_width, passage) * half_width +
+             noise_ * rims_.conditioning(passage.min_radial);
+      const double change = (std::abs(middle.curvature) + bend) * half_width;
       if (std::abs(middle.slope) > change + noise_) return;  // no stationary distance
-      if (std::abs(middle.slope) + change <= noise_) {
-        const double wide =
-            reach_of_squares(middle.distance, rims_.radius1() * noise_ * half_width);
-        if (wide <= noise_) return leave(middle, wide, half_width);  // constant
+    }
+    undecided(middle, half_width, passage, bend);
+  }
+
+  /// An arc that may have a stationary distance; the curvature differs by `bend` from the middle's.
+  void undecided(const RimSample& middle, double half_width, const Passage& passage, double bend) {
+    if (!may_meet(middle, half_width, passage)) return;
+    if (rims_.has_only_maxima_beside_axis(middle, half_width, passage)) return;
+    double reach = rims_.radius1() * half_width;
+    if (bend < never) {
+      const double slope = std::abs(middle.slope);
+      const double change = (std::abs(middle.curvature) + bend) * half_width;
+      reach = std::min(reach, reach_of_squares(middle.distance, (slope + change / 2) * reach));
+      if (!matters(middle.distance - reach, middle.distance + reach)) return;
+      if (slope + change <= noise_ && reach <= noise_) {  // one distance
+        return leave(middle, reach, half_width);
       }
-      if (middle.curvature + bend + curvature_noise < 0) return;  // only maxima
-      if (least_depth_ > 0 && rims_.points_inward(middle, half_width, radial)) return;
-      const double min_curvature = middle.curvature - bend - curvature_noise;
+      if (middle.curvature + bend < 0) return;  // only maxima
+      if (least_depth_ > 0 && rims_.points_inward(middle, half_width, passage)) return;
+      const double min_curvature = middle.curvature - bend;
       if (min_curvature > 0) return steady(middle, half_width, min_curvature);
     }
     if (half_width <= min_half_width || samples_ > max_samples) {
       return leave(middle, reach, half_width);
     }
-    arc(angle - half_width / 2, half_width / 2);
-    arc(angle + half_width / 2, half_width / 2);
+    arc(middle.angle - half_width / 2, half_width / 2);
+    arc(middle.angle + half_width / 2, half_width / 2);
+  }
+
+  /// Of such an arc that stays off axis 2; negative infinity elsewhere.
+  double least_curvature(const RimSample& middle, double half_width, const Passage& p) const {
+    if (!(p.min_radial > 0)) return -std::numeric_limits<double>::infinity();
+    return middle.curvature - rims_.max_bend(middle, half_width, p) * half_width -
+           noise_ * rims_.conditioning(p.min_radial);
   }
 
   /// The distance is convex on the arc: Newton's method finds the one minimum or leaves the arc.
@@ -105,9 +132,14 @@ class RimScan {
     }
     // Beyond an end of the arc the minimum is the neighbouring arc's.
     if (!(lo < hi) && std::abs(x.slope) > noise_) return;
-    const double noise = std::abs(x.slope) + noise_;
-    const double change = rims_.radius1() * noise * noise / (2 * min_curvature);
-    leave(x, reach_of_squares(x.distance, change), small_step);
+    // The minimum is as near as the least curvature between it and x tells.
+    const double slope = std::abs(x.slope) + noise_;
+    double curvature = min_curvature;
+    if (const double most = slope / min_curvature; most < half_width) {
+      curvature = std::max(curvature, least_curvature(x, most, rims_.passage(x, most)));
+    }
+    const double change = rims_.radius1() * slope * slope / (2 * curvature);
+    leave(x, reach_of_squares(x.distance, change), slope / curvature);
   }
 
   /// Offers the normal of an arc whose distances are within `reach` of this one and whose ends are
@@ -119,9 +151,9 @@ class RimScan {
     const double enough = best_.gap + noise_;
     if (-nearest <= enough && (least_depth_ > 0 || limit_ <= enough)) return;
     offer(x);
-    const double error = reach + noise_;
-    if (rims_.may_meet(x, -1, error, turn)) count_unproven(-nearest);
-    if (least_depth_ <= 0 && rims_.may_meet(x, 1, error, turn)) count_unproven(limit_);
+    const Passage passage = rims_.passage(x, turn);
+    if (rims_.may_meet(x, -1, turn, passage)) count_unproven(-nearest);
+    if (least_depth_ <= 0 && rims_.may_meet(x, 1, turn, passage)) count_unproven(limit_);
   }
   void count_unproven(double gap) { unproven_ = std::max(unproven_, gap - best_.gap - noise_); }
   /// How far distances lie from one of them if half their squares lie within `change` of its.

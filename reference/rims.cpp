@@ -112,8 +112,10 @@ Range Rims::useful_cosines(double lowest, double highest) const {
     Quarter one(cosine1), two(cosine2);
     const double n3 = std::min({most_n3, one.sine.hi, two.sine.hi});
     const Range sines{f.d3 - outward * n3 - margin, f.d3 - inward * n3 + margin};
-    one.keep((sines.lo - r2 * two.sine.hi) / r1, (sines.hi - r2 * two.sine.lo) / r1);
-    two.keep((sines.lo - r1 * one.sine.hi) / r2, (sines.hi - r1 * one.sine.lo) / r2);
+    one.keep(s * inverse1 * (sines.lo - r2 * two.sine.hi),
+             s * inverse1 * (sines.hi - r2 * two.sine.lo));
+    two.keep(s * inverse2 * (sines.lo - r1 * one.sine.hi),
+             s * inverse2 * (sines.hi - r1 * one.sine.lo));
     if (one.sine.empty() || two.sine.empty()) return;
     const double sines_lo = c * one.sine.lo * two.sine.lo;
     const double sines_hi = c * one.sine.hi * two.sine.hi;

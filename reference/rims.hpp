@@ -63,6 +63,18 @@ struct RimSample {
   double cos1, sin1, cos2, sin2;  ///< where on the rims, from e2 and k2 to e3
 };
 
+/// Bounds on an arc of rim 1 as seen along axis 2, per radian; the distance from that axis is the
+/// `radial` one.
+struct Passage {
+  double min_speed, max_speed;
+  double min_radial, max_radial;
+  // Where `min_radial` is positive:
+  double turn;        ///< bounds the turn of the point about axis 2
+  double wave;        ///< the same for the squared distance of nearly concentric rims
+  double max_rate;    ///< bounds the first derivative of `radial`
+  double max_second;  ///< bounds the second
+};
+
 struct Range {
   double lo, hi;
   bool empty() const { return !(lo <= hi); }
@@ -84,6 +96,7 @@ class Rims {
     q_ = f.d() - end1 * pair.h1 * Vec3(1, 0, 0) - end2 * pair.h2 * Vec3(f.c, f.s, 0);
     size_ = pair.r1 + pair.r2 + q_.norm();
     const double k = f.along_k2(q_), lean = f.s * pair.r1;
+    inverse_r1_ = 1 / pair.r1;
     amplitude_ = 2 * pair.r1 * std::sqrt(k * k + q_.z() * q_.z()) + 4 * lean * lean;
   }
 
@@ -144,15 +157,17 @@ class Rims {
       const double g1 = residual.dot(t1), g2 = residual.dot(other), inverse = 1 / determinant;
       slope = std::sqrt(g1 * g1 + g2 * g2);
       double step1 = (e * g1 - b * g2) * inverse, step2 = (a * g2 - b * g1) * inverse;
+      const double gain = g1 * step1 + g2 * step2;
       const double length = std::sqrt(step1 * step1 + step2 * step2);
       const double most = std::min(rho1, rho2) / 2;
       const bool too_long = length > most;
       if (too_long) step1 *= most / length, step2 *= most / length;
       n += step1 * t1 + step2 * other;
-      // Converged, or as far as rounding lets it.
+      // Converged, or as far as rounding lets it. A short step alone says nothing: next to an axis
+      // n may first turn about it by a hair and then leave it by far.
       constexpr double small_part = 1e-8;
       converged = length <= small_part * most;
-      if (converged || length >= previous / 2) break;
+      if (converged || (length >= previous / 2 && gain <= noise())) break;
       previous = too_long ? std::numeric_limits<double>::infinity() : length;
     }
     n.normalize();
@@ -177,12 +192,17 @@ class Rims {
   /// `lowest` and `highest`; an empty range if they have none.
   Range useful_cosines(double lowest, double highest) const;
 
-  /// May the rims meet with a largest gap at a sample whose `apart` is known to within `error` and
-  /// whose angle to within `turn`? There n is `way` (+1 apart, −1 overlapping) times `apart`, up to
-  /// its length, has n3 >= 0, and points outward from both ends and both rims. It is across both
-  /// tangents, too, which tell more along nearly parallel axes.
-  bool may_meet(const RimSample& x, double way, double error, double turn) const {
-    const double c = pair_.axes.c, slack = turn * (2 + pair_.r1 / x.radial);
+  /// May the rims meet with a largest gap on an arc? There n is `way` (+1 apart, −1 overlapping)
+  /// times `apart`, up to its length, has n3 >= 0, and points outward from both ends and both rims.
+  /// It is across both tangents, too, which tell more along nearly parallel axes.
+  bool may_meet(const RimSample& x, double way, double half_width, const Passage& p) const {
+    if (!(p.min_radial > 0)) return true;
+    const double c = pair_.axes.c, moved = p.max_rate * half_width;
+    const double turn = half_width * p.turn;  // of rim 2's point, at most
+    const double slack = half_width + turn + 8 * noise() / p.min_radial;
+    const double error = pair_.axes.s * pair_.r1 * half_width + moved +
+                         (std::abs(x.radial - pair_.r2) + moved) * turn + x.distance * half_width +
+                         8 * noise();
     const double along1 = c * x.cos1 * x.sin2 - x.sin1 * x.cos2;
     const double along2 = x.cos1 * x.sin2 - c * x.sin1 * x.cos2;
     const double outward1 = x.apart.y() * x.cos1 + x.apart.z() * x.sin1;
@@ -200,21 +220,50 @@ class Rims {
 
   double radius1() const { return pair_.r1; }
 
-  /// A bound of the slope's second derivative up to `half_width` from a sample, where rim 1 stays
-  /// at least `radial` from axis 2 (proofs.md, "The search of rims").
-  double max_bend(const RimSample& x, double half_width, double radial) const {
-    const double c = pair_.axes.c, s = pair_.axes.s, r1 = pair_.r1;
-    const double part = r1 / radial, wave = amplitude_ / (radial * radial);
-    const double second = std::min(r1 * (1 + part), radial * wave * (0.5 + 0.25 * wave));
-    const double third = std::min(r1 * (1 + part * (3 + 1.155 * part)),
-                                  radial * wave * (0.5 + wave * (0.75 + 0.375 * wave)));
-    const double rate =
-        std::min({r1, radial * wave / 2,
-                  r1 * std::abs(c * x.cos2 * x.sin1 - x.sin2 * x.cos1) + second * half_width});
+  /// Bounds of an arc up to `half_width` from a sample (proofs.md, "The search of rims").
+  Passage passage(const RimSample& x, double half_width) const {
+    const double c = pair_.axes.c, r1 = pair_.r1;
+    // The speed is the length of r1 (cos α, c sin α): between its larger component and their sum.
+    const double one = std::abs(x.cos1), two = c * std::abs(x.sin1);
+    Passage p;
+    p.min_speed = r1 * (std::max(one, two) - half_width);
+    p.max_speed = r1 * std::min(1.0, one + two + half_width);
+    p.min_radial = x.radial - p.max_speed * half_width;
+    p.max_radial = x.radial + p.max_speed * half_width;
+    const double inverse = 1 / p.min_radial;
+    p.turn = p.max_speed * inverse;
+    p.wave = amplitude_ * inverse * inverse;
+    const double rate = r1 * std::abs(c * x.cos2 * x.sin1 - x.sin2 * x.cos1);
+    const double most_rate = p.min_radial * p.wave / 2;
+    p.max_second = std::min(r1 + p.max_speed * p.turn, most_rate * (1 + 0.5 * p.wave));
+    p.max_rate = std::min({p.max_speed, most_rate, rate + p.max_second * half_width});
+    return p;
+  }
+
+  /// A bound of the slope's second derivative on such an arc, which stays off axis 2.
+  double max_bend(const RimSample& x, double half_width, const Passage& p) const {
+    const double s = pair_.axes.s, r1 = pair_.r1;
+    const double third = std::min(p.max_speed * (1 + 1.155 * p.turn * p.turn) + 3 * r1 * p.turn,
+                                  p.min_radial * p.wave * (0.5 + p.wave * (0.75 + 0.375 * p.wave)));
     const double sine = std::min(0.5, std::abs(x.sin1) + half_width);
     const double height = std::abs(x.height) + s * r1 * half_width;
-    const double beside = std::abs(x.radial - pair_.r2) + rate * half_width;
-    return s * (height + 3 * s * r1 * sine) + (beside * third + 3 * rate * second) / r1;
+    const double beside = std::abs(x.radial - pair_.r2) + p.max_rate * half_width;
+    return s * (height + 3 * s * r1 * sine) +
+           (beside * third + 3 * p.max_rate * p.max_second) * inverse_r1_;
+  }
+
+  /// Is every stationary distance on such an arc a maximum, because rim 1 passes so close to axis 2
+  /// that rim 2's nearest point turns about it?
+  bool has_only_maxima_beside_axis(const RimSample& x, double half_width, const Passage& p) const {
+    const double s = pair_.axes.s, r1 = pair_.r1, r2 = pair_.r2;
+    const double max_radial = p.max_radial + 8 * noise(), inside = r2 - max_radial;
+    if (!(inside > 0 && p.min_speed > 0)) return false;
+    const double max_height = std::abs(x.height) + s * r1 * half_width + 8 * noise();
+    const double max_rise = s * r1 * std::min(1.0, std::abs(x.sin1) + half_width);
+    const double along = max_height * max_rise / inside;
+    const double across_squared = p.min_speed * p.min_speed - along * along;
+    return max_rise * max_rise + along * along + (s * max_height + r2) * r1 <
+           inside * across_squared / max_radial;
   }
   /// By how much more than lengths a curvature is rounded there.
   double conditioning(double radial) const {
@@ -222,8 +271,8 @@ class Rims {
   }
   /// Does n point inward at end 1 wherever the rims meet on that arc, the bodies overlapping? There
   /// `apart` is −δ n. Of its points only rim 2's moves along axis 1, by s r2 dβ, dβ <= r1 dα / R.
-  bool points_inward(const RimSample& middle, double half_width, double radial) const {
-    const double change = pair_.axes.s * pair_.r1 * pair_.r2 / radial * half_width;
+  bool points_inward(const RimSample& middle, double half_width, const Passage& p) const {
+    const double change = pair_.axes.s * pair_.r2 * p.turn * half_width;
     return end1_ * middle.apart.x() > change + 4 * noise();
   }
 
@@ -243,6 +292,7 @@ class Rims {
   double end1_, end2_;
   Vec3 q_;
   double size_;
+  double inverse_r1_;
   double amplitude_;  ///< bounds each derivative of the squared distance of rim 1 from axis 2
 };
 

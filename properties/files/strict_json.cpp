@@ -118,27 +118,28 @@ json parse_json(std::string_view text, const std::string& source) {
   }
 }
 
-std::vector<json> parse_json_lines(const std::string& text, const std::string& source) {
+json parse_first_json(const std::string& text, const std::string& source) {
   std::optional<InvalidInput> not_one_value;
   try {
-    return {parse_json(text, source)};
+    return parse_json(text, source);
   } catch (const InvalidInput& e) {
     not_one_value = e;
   }
-  std::vector<json> values;
+  std::optional<json> first;
   std::istringstream lines(text);
   std::string line;
   for (std::size_t number = 1; std::getline(lines, line); ++number) {
     if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
     try {
-      values.push_back(parse_json(line, fmt::format("line {}", number)));
+      json value = parse_json(line, fmt::format("line {}", number));
+      if (!first) first = std::move(value);
     } catch (const InvalidInput&) {
-      if (values.empty()) throw *not_one_value;
+      if (!first) throw *not_one_value;
       throw;
     }
   }
-  if (values.empty()) throw *not_one_value;
-  return values;
+  if (!first) throw *not_one_value;
+  return *first;
 }
 
 }  // namespace touchstone

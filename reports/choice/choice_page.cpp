@@ -4,19 +4,11 @@
 #include <cstdint>
 #include <cstring>
 #include <fmt/format.h>
-#include <string_view>
 
 #include "properties/files/configuration_json.hpp"
-#include "reports/html/placeholder.hpp"
+#include "reports/pages/page.hpp"
 
 namespace touchstone {
-
-// Made by the build from the files of the same names.
-extern const std::string_view choose_html;
-extern const std::string_view choose_css;
-extern const std::string_view choose_js;
-extern const std::string_view motion_js;
-extern const std::string_view three_js;
 
 namespace {
 
@@ -121,16 +113,6 @@ json motion_json(const Choice& choice, const SceneFile& file, const Limits& limi
       {"runs", runs}};
 }
 
-std::string choice_page(const json& choice) {
-  std::string page(choose_html);
-  fill(page, "/* report.css */", report_css);
-  fill(page, "/* choose.css */", choose_css);
-  fill(page, "/* three.js */", three_js);
-  fill(page, "/* elements.js */", elements_js);
-  fill(page, "/* motion.js */", motion_js);
-  fill(page, "/* choose.js */", choose_js);
-  fill(page, "/* choose.json */", script_safe(choice));
-  return page;
-}
+std::string choice_page(const json& choice) { return render_page(Page::choice, choice); }
 
 }  // namespace touchstone

@@ -100,8 +100,8 @@ TEST(Html, LoadsNothingFromElsewhere) {
 }
 
 TEST(Html, HasNoPlaceholderLeft) {
-  for (const char* name : {"report", "vega", "elements", "bodies", "view", "scene"}) {
-    EXPECT_EQ(render_html(json::object()).find("/* " + std::string(name) + "."), std::string::npos);
+  for (const char* name : {"title", "pages", "heading", "main", "library", "scripts", "data"}) {
+    EXPECT_EQ(render_html(json::object()).find("/* " + std::string(name)), std::string::npos);
   }
 }
 

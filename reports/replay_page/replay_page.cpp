@@ -2,12 +2,9 @@
 
 #include "reference/invalid_input.hpp"
 #include "reports/html/marks.hpp"
-#include "reports/html/placeholder.hpp"
+#include "reports/pages/page.hpp"
 
 namespace touchstone {
-
-// Made by the build from the files of the same names.
-extern const std::string_view replay_html, replay_css, slice_js, replay_js;
 
 std::string replay_page(nlohmann::json examined, const nlohmann::json& hexadecimal,
                         const nlohmann::json& exact, std::string_view description) {
@@ -17,17 +14,7 @@ std::string replay_page(nlohmann::json examined, const nlohmann::json& hexadecim
   std::vector<std::string> names;
   for (const auto& [name, unused] : examined["answers"].items()) names.push_back(name);
   examined["marks"] = marks(names);
-  std::string page(replay_html);
-  fill(page, "/* report.css */", report_css);
-  fill(page, "/* replay.css */", replay_css);
-  fill(page, "/* elements.js */", elements_js);
-  fill(page, "/* bodies.js */", bodies_js);
-  fill(page, "/* view.js */", view_js);
-  fill(page, "/* scene.js */", scene_js);
-  fill(page, "/* slice.js */", slice_js);
-  fill(page, "/* replay.js */", replay_js);
-  fill(page, "/* replay.json */", script_safe(examined));
-  return page;
+  return render_page(Page::replay, examined);
 }
 
 }  // namespace touchstone

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Writes, compiles (by the line in its comment) and runs reproducers for one engine:
 # reproducer_test.sh PROGRAM ENGINE CONFIGURATION OUTCOME … with pairs of a configuration (an
-# identity or a file) and the outcome that its candidate is known for.
+# identity, or FILE.jsonl:ID for a line of a file) and the outcome that its candidate is known for.
 set -u
 program=$1 engine=$2
 shift 2
@@ -18,6 +18,10 @@ while [ $# -gt 0 ]; do
   configuration=$1 outcome=$2
   shift 2
   rm -f "$folder"/*
+  if [[ $configuration == *.jsonl:* ]]; then
+    grep -F "\"id\":\"${configuration##*:}\"" "${configuration%:*}" >"$folder/line.json"
+    configuration=$folder/line.json
+  fi
   if ! "$program" replay "$configuration" --emit "$engine" >"$folder/reproducer.cpp"; then
     fail "nothing was written"
     continue

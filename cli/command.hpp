@@ -1,0 +1,98 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cli/number_option.hpp"
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+namespace touchstone {
+
+// The command line, read by CLI11, whose header only this one's source and that of descriptions.hpp
+// include: it costs seconds a file. Variables are set when the program runs; what stands in them
+// before is the default that --help shows.
+
+/// An option or an argument of a command.
+class Option {
+ public:
+  Option& required();
+  Option& excludes(const Option& other);
+  /// Puts it under a heading of its own in --help.
+  Option& group(const std::string& heading);
+  /// Says in words what the default is.
+  Option& default_text(const std::string& text);
+  /// Is it on the command line? Known once the program runs.
+  bool is_given() const;
+
+ private:
+  friend class Command;
+  explicit Option(CLI::Option* option) : option_(option) {}
+  CLI::Option* option_;
+};
+
+/// A subcommand. Names with leading dashes are options, others are arguments by position.
+class Command {
+ public:
+  Option text(const std::string& name, std::string& variable, const std::string& description);
+  /// One argument, separated by commas.
+  Option list(const std::string& name, std::vector<std::string>& variable,
+              const std::string& description);
+  /// All that stands here.
+  Option arguments(const std::string& name, std::vector<std::string>& variable,
+                   const std::string& description);
+  Option flag(const std::string& name, bool& variable, const std::string& description);
+  Option number(const std::string& name, double& variable, NumberRange range,
+                const std::string& description);
+  Option count(const std::string& name, std::uint64_t& variable, CountRange range,
+               const std::string& description);
+  /// Numbers separated by commas; the description says what they are by default.
+  Option numbers(const std::string& name, std::vector<double>& variable, NumberRange range,
+                 const std::string& description);
+  /// Examples and remarks, after the options in --help.
+  void footer(const std::string& text);
+  /// What the command does; the value is the program's exit code.
+  void runs(std::function<int()> action);
+
+ private:
+  friend class Program;
+  Command(CLI::App* app, int* exit_code) : app_(app), exit_code_(exit_code) {}
+  CLI::App* app_;
+  int* exit_code_;
+};
+
+class Program {
+ public:
+  Program(const std::string& name, const std::string& description);
+  ~Program();
+  Program(const Program&) = delete;
+  Program& operator=(const Program&) = delete;
+
+  Command command(const std::string& name, const std::string& description);
+  /// --version prints what `text` gives.
+  void version(const std::function<std::string()>& text);
+  /// An option that may stand before and after every subcommand, each time with one file.
+  void files(const std::string& name, const std::function<void(const std::string&)>& each,
+             const std::string& description);
+  void footer(const std::string& text);
+
+  /// Parses and runs the command that is named. Usage errors, --help and the like are told and end
+  /// with their exit code; what a command throws is thrown on.
+  int run(int argc, char** argv);
+
+ private:
+  std::unique_ptr<CLI::App> app_;
+  int exit_code_ = 0;
+};
+
+/// A line of a list in a footer, or several within 80 columns: a name in a column of this width and
+/// what it is.
+std::string list_entry(const std::string& name, std::size_t width, const std::string& text);
+
+}  // namespace touchstone

@@ -1,0 +1,47 @@
+# cmake -DIN=known_failures.jsonl -DOUT=rows.inc -P known_failures.cmake: the configurations of saved
+# failures as rows of known_failures.cpp. Their numbers are hexadecimal floats, as C++ writes them.
+#
+# The hostile class draws from these lines, so that a line more would change every identity of its
+# pair: failures beyond them are replayed, not mutated.
+set(frozen_lines 51)
+
+file(READ ${IN} rest)
+set(text "")
+foreach(number RANGE 1 ${frozen_lines})
+  string(FIND "${rest}" "\n" end)
+  string(SUBSTRING "${rest}" 0 ${end} line)
+  math(EXPR next "${end} + 1")
+  string(SUBSTRING "${rest}" ${next} -1 rest)
+  string(JSON shape GET "${line}" configuration b shape)
+  set(row "{Pair::${shape}, {")
+  # append(COUNT MEMBER…): the numbers of an array of that many, or (0) one number.
+  macro(append count)
+    if(${count} EQUAL 0)
+      string(JSON value GET "${line}" configuration ${ARGN})
+      string(APPEND row "${value}, ")
+    else()
+      math(EXPR last "${count} - 1")
+      foreach(i RANGE ${last})
+        string(JSON value GET "${line}" configuration ${ARGN} ${i})
+        string(APPEND row "${value}, ")
+      endforeach()
+    endif()
+  endmacro()
+  append(0 a radius)
+  append(0 a half_length)
+  append(3 pose_a position)
+  append(4 pose_a orientation)
+  if(shape STREQUAL "box")
+    append(3 b half_extents)
+  else()
+    append(0 b radius)
+    if(NOT shape STREQUAL "sphere")
+      append(0 b half_length)
+    endif()
+  endif()
+  append(3 pose_b position)
+  append(4 pose_b orientation)
+  string(APPEND text "${row}}},\n")
+endforeach()
+string(REPLACE "-0x0p+0" "0x0p+0" text "${text}")  # the sign of a zero has no part in a failure
+file(WRITE ${OUT} "${text}")

@@ -1,0 +1,213 @@
+// The section of both bodies with the plane of the true normal (upwards) and a direction across it.
+const slice = {svg: byId('slice'), across: [1, 0, 0], metres: 1, pan: [0, 0, 0], stretch: false};
+
+const sliceWidth = 480, sliceHeight = 360;
+// As for the 3-D view; `metres` is the width.
+function fitSlice(bodies, n, reach) {
+  const points = bodies.flatMap(b => b.faces.flat());
+  const {centre, half} = points.length ? bounds(points, [slice.across, n, cross(slice.across, n)])
+      : {centre: [0, 0, 0], half: [reach, reach]};
+  slice.pan = centre;
+  slice.metres = 2.2 * Math.max(half[0], half[1] * sliceWidth / sliceHeight);
+}
+function zoomSlice(factor) {
+  slice.metres /= factor;
+  slice.pan = times(slice.pan, 1 / factor);
+}
+
+// The outline of a body's section for x from x0 to x1: its chords along n, column by column, and
+// its two ends by bisection (a section is convex). y is cut off below y0 and above y1.
+function section(body, n, t, [x0, x1], [y0, y1]) {
+  const at = x => chord(body, times(t, x), n);
+  const columns = 480, xs = [];
+  for (let i = 0; i <= columns; ++i) xs.push(x0 + (x1 - x0) * i / columns);
+  const own = dot(body.centre, t);  // also of a needle that is thinner than a column
+  for (const x of [own, 0]) if (x > x0 && x < x1) xs.push(x);
+  xs.sort((a, b) => a - b);
+  const hit = xs.filter(x => at(x) !== null);
+  if (hit.length === 0) return [];
+  const end = (outside, inside) => {
+    for (let i = 0; i < 60; ++i) {
+      const middle = (outside + inside) / 2;
+      if (at(middle) === null) outside = middle; else inside = middle;
+    }
+    return inside;
+  };
+  const first = xs.indexOf(hit[0]), last = xs.lastIndexOf(hit[hit.length - 1]);
+  if (first > 0) hit.unshift(end(xs[first - 1], xs[first]));
+  if (last + 1 < xs.length) hit.push(end(xs[last + 1], xs[last]));
+  const cut = y => Math.max(y0, Math.min(y1, y));
+  const chords = hit.map(at);
+  return [...hit.map((x, i) => [x, cut(chords[i][1])]), ...hit.map((x, i) => [x, cut(chords[i][0])]).reverse()];
+}
+
+// `scene` as for the 3-D view, and `signedDistance`.
+function drawSlice(scene) {
+  const width = sliceWidth, height = sliceHeight, n = scene.normal, t = slice.across, s = cross(n, t);
+  const xScale = width / slice.metres;
+  const depth = Math.abs(scene.signedDistance);
+  const yScale = slice.stretch && depth > 0 ? Math.max(xScale, height / (8 * depth)) : xScale;
+  // Stretched about the contact's height.
+  const panX = dot(slice.pan, t), panY = dot(slice.pan, n) * xScale / yScale;
+  const x = v => width / 2 + xScale * (v - panX), y = v => height / 2 - yScale * (v - panY);
+  const xRange = [-0.52, 0.52].map(k => panX + k * slice.metres), yRange = [-0.55, 0.55].map(k => panY + k * height / yScale);
+  const parts = scene.bodies.map((body, i) => shape('path', {class: 'ab'[i],
+      d: section(body, n, t, xRange, yRange).map(([a, b], k) => `${k ? 'L' : 'M'}${x(a).toFixed(2)},${y(b).toFixed(2)}`).join('') + 'z'}));
+  for (const mark of scene.marks) {
+    const px = x(dot(mark.position, t)), py = y(dot(mark.position, n));
+    if (!(px > -40 && px < width + 40 && py > -40 && py < height + 40)) continue;
+    const off = Math.abs(dot(mark.position, s)) * xScale > 3;  // pixels
+    const reach = mark.large ? 64 : 48;
+    const colour = `var(${mark.colour})`;
+    parts.push(shape('line', {x1: px, y1: py, x2: px + reach * dot(mark.normal, t), y2: py - reach * dot(mark.normal, n),
+                              stroke: colour, 'stroke-width': mark.large ? 2.5 : 1.8}));
+    parts.push(shape('path', {d: symbolPath(mark.symbol, px, py, mark.large ? 5 : 4), stroke: colour,
+                              fill: off ? 'var(--panel)' : colour, 'stroke-width': 1.4}));
+  }
+  const across = scaleBar(xScale), up = scaleBar(yScale);
+  parts.push(shape('path', {d: `M10,338v6h${across.pixels}v-6`, fill: 'none', stroke: 'var(--ink)', 'stroke-width': 1.5}),
+             shape('text', {x: 10, y: 332}, across.text));
+  if (yScale !== xScale) {
+    parts.push(shape('path', {d: `M464,${344 - up.pixels}h6v${up.pixels}h-6`, fill: 'none', stroke: 'var(--ink)', 'stroke-width': 1.5}),
+               shape('text', {x: 460, y: 344, 'text-anchor': 'end'}, `heights: ${up.text}`));
+  }
+  slice.svg.replaceChildren(...parts);
+}
+// The page: its legend, its tables, and what the two views show.
+const view = makeView(byId('view'));
+const truth = data.truth, given = data.configuration, answers = Object.entries(data.answers);
+const whole = v => v === null ? '–' : v !== 0 && Math.abs(v) < 1e-3 ? v.toExponential() : String(v);
+const vector = v => v === null ? '–' : `(${v.map(c => c === null ? 'nan' : String(c)).join(', ')})`;
+const table = (heads, rows, text = []) => element('table', {}, element('thead', {}, element('tr', {},
+    ...heads.map((h, i) => element('th', {scope: 'col', class: text.includes(i) ? 'text' : ''}, h)))),
+    element('tbody', {}, ...rows.map(r => element('tr', {}, ...r.map((c, i) =>
+        c instanceof HTMLTableCellElement ? c : element('td', {class: text.includes(i) ? 'text' : ''}, c))))));
+function sign(name, size = 14) {
+  const mark = name === null ? truthMark : markOf(name);
+  const svg = shape('svg', {viewBox: '-8 -8 16 16', width: size, height: size, style: 'display:inline-block;width:14px;margin-right:.4em', 'aria-hidden': 'true'});
+  svg.append(shape('path', {fill: `var(${mark.colour})`, d: symbolPath(mark.symbol, 0, 0, 5.5)}));
+  return svg;
+}
+
+// What is shown: of the candidates at first those that fail, and our own.
+const shown = new Set(answers.filter(([name, a]) => a.status === 'contact' && (name === 'reference' || a.score.outcome !== 'agree'))
+    .map(([name]) => name));
+let scene, shows;
+
+// Puts the origin of everything into the contact of one of the true normals.
+function aim(index) {
+  scene = makeScene(given, truth, index);
+  aimView(view, scene.normal, scene.across);
+  slice.across = scene.across;
+  shows = {contact: [], smaller: [smallerBody(scene)], whole: scene.bodies};
+  fitView(view, mainBodies(scene));
+  fitSlice(mainBodies(scene), scene.normal);
+  turnSlice();
+}
+function turnSlice() {
+  const angle = Number(byId('slice-turn').value) * Math.PI / 180;
+  slice.across = add(times(scene.across, Math.cos(angle)), cross(scene.normal, scene.across), Math.sin(angle));
+  redraw();
+}
+function redraw() {
+  scene.marks = marksOf(scene, truth, answers.filter(([name]) => shown.has(name)));
+  drawView(view, scene);
+  drawSlice(scene);
+}
+
+function legend() {
+  byId('legend').replaceChildren(element('span', {}, sign(null), 'truth'), ...answers.map(([name, a]) => {
+    const box = element('input', {type: 'checkbox'});
+    box.checked = shown.has(name);
+    box.disabled = a.status !== 'contact';
+    box.addEventListener('change', () => { box.checked ? shown.add(name) : shown.delete(name); redraw(); });
+    return element('label', {}, box, sign(name), name, element('span', {class: 'quiet'}, a.score.outcome));
+  }));
+}
+function showAll(all) {
+  shown.clear();
+  if (all) for (const [name, a] of answers) if (a.status === 'contact') shown.add(name);
+  legend();
+  redraw();
+}
+
+function truthValues() {
+  const patches = truth.patch.map(p => p.kind === 'region' ? `a region of area ${exponent(p.area)} m²`
+      : p.kind === 'segment' ? `a segment of length ${exponent(p.perimeter)} m` : 'a point');
+  definitions('truth-values', [
+    ['Signed distance is between', truth.signed_distance.join(' and ')],
+    [`Normals (${truth.ties === 'unique' ? 'unique' : `ties: ${truth.ties}`})`, truth.normals.map(vector).join(', ')],
+    ['Contact patch', truth.patch.map((p, i) => `${patches[i]} about ${vector(p.centroid)}`).join('; ')],
+  ]);
+}
+function answerTables() {
+  const outcome = a => element('td', {class: a.score.outcome === 'agree' ? 'text' : 'text bad'}, a.score.outcome);
+  const name = n => element('td', {class: 'text'}, sign(n), n);
+  byId('answer-table').append(table(
+      ['candidate', 'outcome', 'signed distance', 'depth error', 'normal regret', 'angle, °', 'coverage', 'points', 'normal'],
+      answers.map(([n, a]) => [name(n), outcome(a), a.status === 'contact' ? whole(a.signed_distance) : a.status,
+          exponent(a.score.depth_error), exponent(a.score.normal_regret), exponent(a.score.normal_angle),
+          cutShare(a.score.coverage), String(a.points.length), vector(a.normal)]), [0, 1, 8]));
+  byId('reasons').append(...answers.filter(([, a]) => a.reason)
+      .map(([n, a]) => element('p', {class: 'quiet'}, `${n}: ${a.reason}`)));
+  byId('point-table').append(table(['candidate', 'position', 'depth', 'normal'],
+      answers.flatMap(([n, a]) => a.points.map(p => [name(n), vector(p.position), whole(p.depth), vector(p.normal)])), [0, 1, 3]));
+}
+
+// Every number of the configuration by its path, as in "pose_a.position[2]".
+function leaves(value, path = '') {
+  if (Array.isArray(value)) return value.flatMap((v, i) => leaves(v, `${path}[${i}]`));
+  if (value !== null && typeof value === 'object') {
+    return Object.entries(value).flatMap(([key, v]) => leaves(v, path ? `${path}.${key}` : key));
+  }
+  return [[path, String(value)]];
+}
+function configuration() {
+  const hex = new Map(leaves(data.hexadecimal)), exact = new Map(leaves(data.exact));
+  byId('number-table').append(table(['field', 'decimal', 'hexadecimal', 'exact'], leaves(given).map(([path, value]) =>
+      path.endsWith('.shape') ? [path, element('td', {class: 'text', colspan: 3}, value)]
+          : [path, value, hex.get(path), element('td', {class: 'exact text'}, exact.get(path))]), [0, 1, 2, 3]));
+  byId('line').textContent = JSON.stringify({id: data.id, ...given});
+  byId('replay').textContent = data.replay;
+  for (const button of document.querySelectorAll('[data-copies]')) {
+    button.addEventListener('click', () => navigator.clipboard.writeText(byId(button.dataset.copies).textContent).then(
+        () => { button.textContent = 'Copied'; }, () => { button.textContent = 'Select and copy'; }));
+  }
+}
+
+function controls() {
+  const onClick = (id, act) => byId(id).addEventListener('click', () => { act(); redraw(); });
+  for (const which of ['contact', 'smaller', 'whole']) {
+    onClick(`view-${which}`, () => fitView(view, shows[which], scene.reaches.contact));
+    // In the slice the depth itself is to be seen, however long the patch is.
+    onClick(`slice-${which}`, () => fitSlice(shows[which], scene.normal, scene.reaches.depth));
+  }
+  onClick('view-in', () => zoomView(view, 2));
+  onClick('view-out', () => zoomView(view, 0.5));
+  onClick('slice-in', () => zoomSlice(2));
+  onClick('slice-out', () => zoomSlice(0.5));
+  slice.svg.addEventListener('wheel', e => { e.preventDefault(); zoomSlice(Math.exp(-0.0015 * e.deltaY)); redraw(); }, {passive: false});
+  byId('slice-stretch').addEventListener('change', e => { slice.stretch = e.target.checked; redraw(); });
+  byId('slice-turn').addEventListener('input', turnSlice);
+  byId('slice-normal').append(...truth.normals.map((n, i) => element('option', {value: i}, `${i + 1} of ${truth.normals.length}`)));
+  byId('slice-normal').addEventListener('change', e => aim(Number(e.target.value)));
+  byId('slice-normal-label').hidden = truth.normals.length === 1;
+  byId('show-all').addEventListener('click', () => showAll(true));
+  byId('show-none').addEventListener('click', () => showAll(false));
+  steerView(view, redraw);
+  addEventListener('resize', redraw);
+  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', redraw);
+}
+
+byId('title').textContent = data.id;
+byId('description').textContent = data.description;
+byId('name-b').textContent = `${given.b.shape} B`;
+const distance = Number(truth.signed_distance[0]), failing = answers.filter(([, a]) => !['agree', 'unsupported'].includes(a.score.outcome));
+byId('headline').textContent = `${distance < 0 ? `${exponent(-distance)} m deep` : `${exponent(distance)} m apart`}; ` +
+    (failing.length ? `${failing.length} of ${answers.length} candidates disagree.` : 'all candidates agree.');
+legend();
+truthValues();
+answerTables();
+configuration();
+controls();
+aim(0);

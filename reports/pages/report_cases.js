@@ -1,0 +1,110 @@
+// The gallery of worst cases: each with both bodies in 3-D, drawn when it comes into sight.
+const atOnce = 6;
+let galleryCount = atOnce;
+function gallery() {
+  const pair = byId('worst-pair').value, candidate = byId('worst-candidate').value;
+  const chosen = report.worst.filter(w => (pair === 'all' || w.pair === pair) && (candidate === 'all' || w.candidate === candidate));
+  chosen.sort((a, b) => (a.outcome === 'agree') - (b.outcome === 'agree') || b.severity - a.severity);
+  undrawn = [];
+  const more = element('button', {type: 'button'}, `Show more (${chosen.length - galleryCount})`);
+  more.addEventListener('click', () => { galleryCount += 2 * atOnce; gallery(); });
+  byId('worst-cases').replaceChildren(...(chosen.length ? chosen.slice(0, galleryCount).map(worstCase) : ['None.']),
+      ...(chosen.length > galleryCount ? [more] : []));
+}
+const metres = d => Math.abs(d) < 1e-3 && d !== 0 ? d.toExponential(6) : d.toPrecision(7);
+function worstCase(w) {
+  const rows = Object.entries(w.answers).map(([name, a]) => element('tr', {}, element('th', {scope: 'row'}, named(name)),
+      element('td', {class: a.score.outcome === 'agree' ? 'text' : 'text bad'}, a.score.outcome),
+      element('td', {}, a.signed_distance === null ? a.status : metres(a.signed_distance)),
+      element('td', {}, exponent(a.score.depth_error)), element('td', {class: 'wide'}, exponent(a.score.normal_regret)),
+      element('td', {class: 'wide'}, exponent(a.score.normal_angle)), element('td', {}, String(a.points.length)),
+      element('td', {class: 'wide'}, cutShare(a.score.coverage))));
+  const heads = [['candidate', 'text'], ['outcome', 'text'], ['signed distance'], ['error'], ['regret', 'wide'], ['angle, °', 'wide'], ['points'], ['coverage', 'wide']];
+  const reasons = Object.entries(w.answers).filter(([, a]) => a.reason);
+  return element('article', {},
+      element('h3', {}, named(w.candidate), `: ${w.outcome}`, element('span', {class: 'quiet'}, ` ${dashed(w.pair)}, ${w.class}`)),
+      element('div', {class: 'case'}, caseView(w), element('div', {},
+          element('p', {}, `True signed distance ${metres(Number(w.truth.signed_distance[0]))} m, ` +
+              (w.truth.ties === 'unique' ? 'one optimal normal: ' : `optimal normals (${w.truth.ties}): `) +
+              w.truth.normals.slice(0, 2).map((n, i) => `${vector(n)}, contact patch a ${w.truth.patch[i].kind}`).join('; ') +
+              (w.truth.normals.length > 2 ? '; …' : '.')),
+          element('div', {class: 'scroll'}, element('table', {}, element('thead', {}, element('tr', {},
+              ...heads.map(([h, style = '']) => column(h, {class: style})))), element('tbody', {}, ...rows))),
+          ...reasons.map(([name, a]) => element('p', {class: 'quiet'}, `${name}: ${a.reason}`)),
+          element('p', {class: 'quiet'}, 'See it again, in numbers; with --html page.html also enlarged and in section:'),
+          command(w.replay),
+          element('details', {}, element('summary', {}, 'Configuration'), element('pre', {}, JSON.stringify(w.configuration))))));
+}
+
+// Draws on a plain canvas, when in sight or printed: browsers allow but few WebGL contexts on a page.
+let undrawn = [];
+addEventListener('beforeprint', () => { for (const draw of undrawn) draw(); });
+function caseView(w) {
+  const canvas = element('canvas', {tabindex: 0, role: 'img', 'aria-label': `Both bodies of ${w.id} with the contact points of the truth and the answers`});
+  const draw = () => {
+    inSight.disconnect();
+    undrawn = undrawn.filter(other => other !== draw);
+    const scene = makeScene(w.configuration, w.truth, 0), view = makeView(canvas);
+    scene.marks = marksOf(scene, w.truth, Object.entries(w.answers));
+    aimView(view, scene.normal, scene.across);
+    fitView(view, mainBodies(scene));
+    const redraw = () => drawView(view, scene);
+    steerView(view, redraw);
+    matchMedia('(prefers-color-scheme: dark)').addEventListener('change', redraw);
+    redraw();
+    close.addEventListener('click', () => { fitView(view, close.wide ? mainBodies(scene) : [], scene.reaches.contact); close.wide = !close.wide; redraw();
+        close.textContent = close.wide ? 'Whole bodies' : 'Contact'; });
+  };
+  const inSight = new IntersectionObserver(entries => { if (entries.some(e => e.isIntersecting)) draw(); }, {rootMargin: '200px'});
+  inSight.observe(canvas);
+  undrawn.push(draw);
+  const close = element('button', {type: 'button'}, 'Contact');
+  return element('figure', {}, canvas, element('p', {class: 'controls quiet'}, close, element('span', {class: 'body-a'}, 'cylinder A'),
+      element('span', {class: 'body-b'}, `${w.configuration.b.shape} B`), element('span', {}, '◆ truth; drag to turn')));
+}
+function showWorst(pair, candidate) {
+  byId('worst-pair').value = pair;
+  byId('worst-candidate').value = candidate;
+  galleryCount = atOnce;
+  gallery();
+  byId('worst').scrollIntoView();
+}
+choices('worst-pair', ['all', ...pairs], gallery);
+choices('worst-candidate', ['all', ...candidates], gallery);
+gallery();
+if (report.stability) drawStability(byId('stability'), report.stability);
+byId('stability').hidden = !report.stability;
+// How it was measured.
+function method() {
+  byId('command').append(command(report.command));
+  definitions('settings', report.candidates.map(c =>
+      [named(c.name, ` ${c.version}`), c.settings + (c.models ? `; models ${c.models}` : '')]));
+  const bar = report.tolerance;
+  definitions('words', [
+    ['size', 'Half of the smallest width of the smaller shape; errors are relative to it (where the bar would be below 1e-13 of the larger shape, to a share of that).'],
+    ['normal', 'Unit vector from B to A (the cylinder): the way A moves to come free.'],
+    ['normal regret', 'How much deeper the bodies are along the reported normal than along the best one. It is well defined where several normals tie.'],
+    ['error', 'Without more words: of an answer the larger of its depth error and its regret; of a missed contact its depth. Lost: missed, or no answer at all.'],
+    ['coverage', 'The largest factor by which the contact patch (where the bodies\u2019 flat and straight parts meet) may be shrunk about its centroid to lie within the hull of the contact points: 0.5 for three points evenly on a disc\u2019s rim, 0.7 for four. Of a point contact 1. Means are over contacts with a normal within the bar.'],
+    ['agree', `Depth and normal regret within ${bar} of the size; contacts shallower than that may be missed.`],
+    ['missed', `No contact, though the bodies overlap by more than ${bar} of the size.`],
+    ['phantom', `A contact, though they are more than ${bar} of the size further apart than was asked for.`],
+    ['shallow, overdeep', 'The depth is too small, too large.'],
+    ['wrong-normal', 'The depth is right; the normal is of no unit length or its regret is beyond the bar.'],
+    ['shallow-points, overdeep-points, phantom-points', 'Depth and normal are right, but no contact point is as deep as the bodies are (a solver feels too little, or nothing); one is deeper; one is further apart than was asked for.'],
+    ['not-finite, failed, unsupported', 'A NaN or infinity in the answer; the candidate says that it could not answer; it has no routine for the pair, which does not count against it.'],
+    ['crashed, timed-out', 'The candidate ended its process (a signal, an exception, too much memory), or took longer than 50 ms of processor time, unless asked otherwise. Each candidate has a process of its own.'],
+    ['model error, solver error', 'Of a simplified model: the true signed distance of what it models against that of the cylinder, and its answer against that of what it models.'],
+    ['time', 'Narrow phase alone, one thread, shapes prepared beforehand, candidates in random turns on the same configurations, each in its own process, which reads the clock itself: median and quartiles of repeated measurements, in each of which the classes’ median counts. Candidates whose quartiles overlap tie (~: with Bullet).'],
+  ]);
+  const m = report.machine, o = report.oracle_microseconds;
+  definitions('machine', [
+    ['machine', `${m.cpu}, ${m.cores} cores, ${m.os}`],
+    ['compiler', m.compiler],
+    ['seed', String(report.seed)],
+    ['oracle', o === null ? '–' : `median ${whole(o.median)} µs, 99th percentile ${whole(o.p99)} µs per configuration`],
+    ['run', `${whole(report.wall_seconds)} s`],
+  ]);
+}
+method();
+listSections();

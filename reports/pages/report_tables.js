@@ -1,0 +1,253 @@
+// The worst error of every candidate on every pair, and once more by Drake's protocol.
+const perPair = first => [column(first, {class: 'text'}), ...pairs.map(p => column(otherShape(p)))];
+
+function worstErrors() {
+  const rows = candidates.map(name => element('tr', {}, element('th', {scope: 'row'}, named(name)),
+      ...pairs.map(pair => worstErrorCell(summaryOf(pair, name)))));
+  byId('worst-error-table').append(table('Cylinder against …: worst error, in sizes', perPair('candidate'), rows));
+}
+function worstErrorCell(r) {
+  if (!r || supported(r) === 0) return element('td', {class: 'quiet'}, '–');
+  const worst = quantile(r.severity, 'max'), cell = element('td', {class: 'heat', tabindex: 0, style: heated(Math.max(0, 1 + Math.log10(worst) / 16))},
+      exponent(worst), r.outcomes.missed || lost(r) ? element('small', {}, `${whole((r.outcomes.missed || 0) + lost(r))} lost`) : null);
+  explain(cell, `${r.candidate}, ${dashed(r.pair)}\n${outcomesText(r)}\nworst error ${exponent(worst)}, 99th percentile ` +
+      `${exponent(quantile(r.severity, 'p99'))}\nClick for its worst cases`);
+  whenPressed(cell, () => showWorst(r.pair, r.candidate));
+  return cell;
+}
+
+const millimetres = metres => metres === null ? 'refuses' : `${exponent(1000 * metres)}`;
+function drakeProtocol() {
+  const protocol = report.drake_protocol;
+  if (!protocol) return byId('drake-table').append('Not measured: the run was interrupted.');
+  const published = query => element('tr', {class: 'published'}, element('th', {scope: 'row'}, `Drake, ${query === 'penetration' ? 'point pair' : 'signed distance'}`),
+      ...protocol.pairs.map(p => element('td', {}, millimetres(p.published[query]))));
+  const rows = candidates.map(name => element('tr', {}, element('th', {scope: 'row'}, named(name)),
+      ...protocol.pairs.map(p => drakeCell(p, protocol.results.find(r => r.pair === p.pair && r.candidate === name)))));
+  byId('drake-table').append(table('Cylinder against …: worst error, millimetres', perPair('query'),
+      [published('penetration'), published('signed_distance'), ...rows]));
+}
+function drakeCell(pair, r) {
+  if (supported(r) === 0) return element('td', {class: 'quiet'}, '–');
+  const missed = r.outcomes.missed || 0, cell = element('td', {class: 'heat', tabindex: 0,
+      style: heated(r.max_error === null ? 1 : decade(1e3 * r.max_error))}, r.max_error === null ? '–' : millimetres(r.max_error),
+      missed || lost(r) ? element('small', {}, `${missed + lost(r)} lost`) : null);
+  const worst = r.worst === null ? null : pair.configurations[r.worst];
+  explain(cell, `${r.candidate}, ${dashed(r.pair)}, ${r.count} poses\n${outcomesText(r)}` + (worst ? `\nworst: ${worst.description}\nClick for the command` : ''));
+  if (worst) {
+    whenPressed(cell, () => byId('drake-command').replaceChildren(
+        element('p', {}, `${r.candidate}, ${worst.description}:`),
+        command(`echo '${JSON.stringify(worst.configuration)}' | ./touchstone replay - --candidates ${r.candidate}`)));
+  }
+  return cell;
+}
+worstErrors();
+drakeProtocol();
+// Agreement, errors and speed of one pair at a time; and the errors of simplified models.
+function summaryTable() {
+  const pair = byId('summary-pair').value;
+  const heads = [column('candidate', {class: 'text'}), column('agrees'), column('missed'), column('error, p99'),
+                 column('error, max'), column('regret, max', {class: 'wide'}), column('coverage', {class: 'wide'}), column('ns'),
+                 column('× Bullet', {class: 'wide'})];
+  const rows = report.summary.filter(r => r.pair === pair && supported(r)).map(r => {
+    const share = agreeing(r), ratio = r.nanoseconds && r.nanoseconds.ratio_to_bullet;
+    return element('tr', {}, element('th', {scope: 'row'}, named(r.candidate)),
+        element('td', {class: share === 1 ? 'good' : ''}, percent(share)),
+        element('td', {class: r.outcomes.missed ? 'bad' : ''}, whole(r.outcomes.missed || 0)),
+        element('td', {}, exponent(quantile(r.depth_error, 'p99'))),
+        element('td', {}, exponent(quantile(r.depth_error, 'max'))),
+        element('td', {class: 'wide'}, exponent(quantile(r.normal_regret, 'max'))),
+        element('td', {class: 'wide'}, cutShare(quantile(r.coverage, 'mean'))),
+        element('td', {}, whole(time(r))),
+        element('td', {class: 'wide'}, ratio ? (r.tied_with.includes('bullet') ? '~' : '') + ratio.toFixed(2) : '–'));
+  });
+  byId('summary-table').replaceChildren(table('Agreement, depth error of the reported contacts, nanoseconds per query', heads, rows));
+}
+
+// What is wrong with a simplified model, and with its solver.
+const modelled = report.summary.filter(r => r.model_error !== null && report.candidates.some(c => c.name === r.candidate && c.models));
+function modelTable() {
+  const rows = modelled.filter(r => r.pair === byId('model-pair').value).map(r => {
+    const name = element('th', {scope: 'row', tabindex: 0}, named(r.candidate));
+    explain(name, report.candidates.find(c => c.name === r.candidate).models);
+    return element('tr', {}, name, ...[r.model_error, r.solver_error].flatMap(q => ['median', 'p99'].map(which =>
+        element('td', {}, exponent(quantile(q, which))))));
+  });
+  byId('model-table').replaceChildren(table('Errors of model and solver', [column('candidate', {class: 'text'}),
+      column('model, median'), column('p99'), column('solver, median'), column('p99')], rows));
+}
+const summaryPairs = [...new Set(report.summary.map(r => r.pair))].reverse();
+choices('summary-pair', summaryPairs, summaryTable);
+summaryTable();
+if (modelled.length) {
+  byId('models').hidden = false;
+  choices('model-pair', summaryPairs.filter(p => modelled.some(r => r.pair === p)), modelTable);
+  modelTable();
+}
+// Pose classes: a table whose cells are coloured by one quantity, of all candidates on one pair or of
+// one candidate on all pairs.
+const quantities = {
+  fail: {value: r => 1 - agreeing(r), text: r => agreeing(r) === 1 ? '0' : (100 * (1 - agreeing(r))).toFixed(1) + '%',
+         level: v => v === 0 ? 0 : 0.12 + 0.88 * v},
+  worst: {value: r => quantile(r.severity, 'max'), text: r => exponent(quantile(r.severity, 'max')), level: decade},
+  depth: {value: r => quantile(r.depth_error, 'p99'), text: r => exponent(quantile(r.depth_error, 'p99')), level: decade},
+  regret: {value: r => quantile(r.normal_regret, 'p99'), text: r => exponent(quantile(r.normal_regret, 'p99')), level: decade},
+  coverage: {value: r => quantile(r.coverage, 'mean'), text: r => cutShare(quantile(r.coverage, 'mean')), level: v => 1 - v},
+  time: {value: time, text: r => whole(time(r)), level: v => Math.min(1, Math.max(0, (Math.log10(v) - 1) / 4))},
+};
+const resultAt = new Map(report.results.map(r => [`${r.pair}/${r.class}/${r.candidate}`, r]));
+
+function classTable() {
+  const candidate = byId('class-candidate').value, pair = byId('class-pair').value;
+  const quantity = quantities[byId('class-quantity').value], what = byId('class-quantity').selectedOptions[0].text;
+  const ofOne = candidate !== 'all';
+  byId('class-pair').parentElement.hidden = ofOne;
+  const classes = [...new Map(report.classes.filter(c => ofOne || c.pair === pair).map(c => [c.class, c])).values()];
+  const columns = ofOne ? pairs.map(p => [p, candidate]) : candidates.map(c => [pair, c]);
+  const rows = classes.map(c => {
+    const name = element('th', {scope: 'row', tabindex: 0}, c.class);
+    explain(name, c.description);
+    return element('tr', {}, name, ...columns.map(([p, k]) => classCell(c, resultAt.get(`${p}/${c.class}/${k}`), quantity)));
+  });
+  byId('class-table').replaceChildren(table(`${ofOne ? candidate : dashed(pair)}: ${what}`,
+      [column('pose class', {class: 'text'}), ...columns.map(([p, k]) => ofOne ? column(otherShape(p)) : column(named(k), {class: 'slanted'}))], rows));
+}
+function classCell(c, r, quantity) {
+  if (!r || supported(r) === 0) return element('td', {class: 'quiet'}, '–');
+  const value = quantity.value(r), level = value === null ? 0 : quantity.level(value);
+  const cell = element('td', {class: 'heat', tabindex: 0, style: heated(level)}, quantity.text(r));
+  explain(cell, `${r.candidate}, ${dashed(r.pair)}, ${c.class}\n${c.description}\n${outcomesText(r)}\n` +
+      `depth error median ${exponent(quantile(r.depth_error, 'median'))}, worst ${exponent(quantile(r.depth_error, 'max'))}\n` +
+      `normal angle p99 ${r.normal_angle === null ? '–' : r.normal_angle.p99.toPrecision(2) + '°'}, ${whole(time(r))} ns\n` +
+      `patch covered: mean ${cutShare(quantile(r.coverage, 'mean'))}, least ${cutShare(quantile(r.coverage, 'min'))}`);
+  whenPressed(cell, () => showWorst(r.pair, r.candidate));
+  return cell;
+}
+choices('class-pair', pairs, classTable, pairs[pairs.length - 1]);
+choices('class-candidate', ['all', ...candidates], classTable, candidates.find(c => c !== 'reference') || candidates[0]);
+byId('class-quantity').addEventListener('change', classTable);
+classTable();
+// Contact points: how many, against the thesis's cases, and what they cover. The thesis is the one that
+// added cylinders to the pe rigid-body engine; its figures 4-6 and 16-19 and 21-28 say how many.
+const thesisCases = [
+  ['cylinder-plane', 'standing', 'standing on a plane', '3'],
+  ['cylinder-plane', 'lying', 'lying on a plane', '2'],
+  ['cylinder-plane', 'general-shallow', 'tilted on a plane', '1'],
+  ['cylinder-sphere', 'general-shallow', 'a sphere anywhere', '1'],
+  ['cylinder-capsule', 'parallel-side', 'a capsule alongside', '2'],
+  ['cylinder-capsule', 'cap-on-side', 'a capsule across the cap', '2'],
+  ['cylinder-capsule', 'perpendicular-x', 'a capsule crossed', '1'],
+  ['cylinder-cylinder', 'parallel-side', 'side by side', '2'],
+  ['cylinder-cylinder', 'cap-on-side', 'a side across the cap', '2'],
+  ['cylinder-cylinder', 'cap-on-cap-centred', 'cap on cap, one within the other', '3'],
+  ['cylinder-cylinder', 'cap-on-cap-offset', 'cap on cap, overlapping', '4'],
+  ['cylinder-cylinder', 'rim-rim', 'rim on rim', '1'],
+  ['cylinder-box', 'side-on-face', 'side on a face', '2'],
+  ['cylinder-box', 'cap-on-face-centred', 'standing on a face', 'up to 8'],
+  ['cylinder-box', 'cap-on-face-offset', 'standing over an edge', 'up to 8'],
+  ['cylinder-box', 'rim-face', 'rim on a face', '1'],
+];
+// "2", or "1–8" where a class gives several.
+function pointCounts(r) {
+  const counts = Object.keys(r.points).map(Number);
+  if (counts.length === 0) return 'none';
+  const lo = Math.min(...counts), hi = Math.max(...counts);
+  return lo === hi ? String(lo) : `${lo}–${hi}`;
+}
+function manifold() {
+  const candidate = byId('manifold-candidate').value;
+  const other = candidate === 'reference' ? candidates.find(c => c !== 'reference') : candidates.includes('reference') ? 'reference' : null;
+  const compared = [candidate, ...(other ? [other] : [])];
+  const rows = thesisCases.filter(([pair, poseClass]) => resultAt.has(`${pair}/${poseClass}/${candidate}`)).map(([pair, poseClass, words, points]) => {
+    const name = element('th', {scope: 'row', tabindex: 0}, `${words}`);
+    explain(name, `${dashed(pair)}, class ${poseClass}`);
+    return element('tr', {}, name, element('td', {}, points), ...compared.flatMap(c => manifoldCells(resultAt.get(`${pair}/${poseClass}/${c}`))));
+  });
+  byId('manifold-table').replaceChildren(rows.length === 0 ? 'None of the thesis’s cases was run.' : table('Contact points, and mean coverage of the patch',
+      [column('case', {class: 'text'}), column('thesis'), ...compared.flatMap(c => [column(named(c)), column('coverage')])], rows));
+}
+function manifoldCells(r) {
+  if (!r || supported(r) === 0) return [element('td', {class: 'quiet'}, '–'), element('td', {class: 'quiet'}, '–')];
+  const mean = quantile(r.coverage, 'mean'), points = element('td', {tabindex: 0}, pointCounts(r));
+  explain(points, `${r.candidate}: ${Object.entries(r.points).map(([n, count]) => `${count} × ${n} points`).join(', ') || 'no contacts'}`);
+  return [points, element('td', mean === null ? {} : {class: 'heat', style: heated(1 - mean)}, cutShare(mean))];
+}
+choices('manifold-candidate', candidates, manifold, candidates.find(c => c !== 'reference') || candidates[0]);
+manifold();
+// Rigid-body experiments with an answer on paper: the error of every candidate in every experiment,
+// and the numbers of one experiment. Errors below what an experiment resolves are equal.
+const experimentCell = {
+  text: r => r.outcome === 'unsupported' ? '–' : r.exact ? 'held' : r.error === null || r.outcome === 'unsound' ? 'lost' : exponent(r.error),
+  // From what the experiment resolves (pale) to wrong by all (full).
+  style: (r, resolution) => r.exact ? '' : heated(r.error === null ? 1
+      : Math.min(1, 0.2 + 0.8 * Math.max(0, 1 - Math.log(r.error) / Math.log(resolution)))),
+};
+function experimentTip(r, experiment, k) {
+  if (r.outcome === 'unsupported') return `${r.candidate} has no routine for a pair in it`;
+  const details = Object.entries(r.details).map(([name, value]) => `\n${name} ${exponent(value)}`).join('');
+  return `${r.candidate}, ${experiment.name}\nerror ${exponent(r.error)} ${experiment.unit}, resolved to ${exponent(experiment.resolution[k])}` +
+      `\nvalue ${exponent(r.value)}, on paper ${exponent(experiment.expected[k])}${details}` +
+      `\n${r.points.toFixed(1)} contact points, changing in ${percent(r.flicker)} of the steps` +
+      `\none point in ${percent(r.single)}, none in ${percent(r.without)}` +
+      (r.failures ? `\n${r.failures} answers failed` : '');
+}
+function experimentTables(data) {
+  const of = (experiment, name) => data.results.find(r => r.experiment === experiment.name && r.candidate === name && r.step === data.steps[0]);
+  const rows = candidates.map(name => element('tr', {}, element('th', {scope: 'row'}, named(name)),
+      ...data.experiments.map(e => {
+        const r = of(e, name), cell = element('td', {class: r.exact ? 'heat good' : r.outcome === 'unsupported' ? 'quiet' : 'heat', tabindex: 0,
+            style: experimentCell.style(r, e.resolution[0])}, experimentCell.text(r));
+        explain(cell, experimentTip(r, e, 0));
+        cell.addEventListener('click', () => { byId('experiment-name').value = e.name; one(); });
+        return cell;
+      })));
+  const resolved = element('tr', {class: 'quiet'}, element('th', {scope: 'row'}, 'resolves'),
+      ...data.experiments.map(e => element('td', {}, exponent(e.resolution[0]))));
+  byId('experiment-errors').append(table('Error of each experiment in its own unit; held: below what the experiment resolves, where all are equal',
+      [column('candidate', {class: 'text'}), ...data.experiments.map(e => column(e.name))], [resolved, ...rows]));
+
+  function one() {
+    const e = data.experiments.find(x => x.name === byId('experiment-name').value);
+    byId('experiment-statement').textContent = `${e.statement} Value: ${e.quantity}; on paper ${exponent(e.expected[0])}. ` +
+        `Error in ${e.unit}; errors below ${exponent(e.resolution[0])} are equal: the experiment resolves no more.`;
+    const measured = candidates.map(name => of(e, name)).filter(r => r.outcome !== 'unsupported');
+    byId('experiment-table').replaceChildren(table('One experiment', [column('candidate', {class: 'text'}), column('value'), column('error'),
+      column('points'), column('flicker'), column('one point', {class: 'wide'}), column('energy gained', {class: 'wide'}), column('ns per query'), column('µs per step')],
+      measured.map(r => element('tr', {}, element('th', {scope: 'row'}, named(r.candidate)),
+          element('td', {}, exponent(r.value)), element('td', {class: r.exact ? 'good' : ''}, r.exact ? `held (${exponent(r.error)})` : experimentCell.text(r)),
+          element('td', {}, r.points.toFixed(1)), element('td', {}, percent(r.flicker)),
+          element('td', {class: 'wide'}, percent(r.single)), element('td', {class: 'wide'}, exponent(r.energy_gained)),
+          element('td', {}, whole(r.nanoseconds)), element('td', {}, whole(r.microseconds_per_step))))));
+    byId('experiment-command').replaceChildren(command(`./touchstone simulate ${e.name} --step ${data.steps[0]}`));
+  }
+  choices('experiment-name', data.experiments.map(e => e.name), one);
+  one();
+}
+if (report.experiments) {
+  byId('experiments').hidden = false;
+  experimentTables(report.experiments);
+}
+// What became of every configuration.
+const outcomeColours = {agree: 'var(--good)', missed: 'var(--c1)', phantom: 'var(--c3)', shallow: 'var(--c4)',
+  overdeep: 'var(--c6)', 'wrong-normal': 'var(--c0)', 'shallow-points': 'var(--c8)', 'overdeep-points': 'var(--c9)',
+  'phantom-points': 'var(--c10)', 'not-finite': 'var(--ink)', failed: 'var(--c7)', crashed: 'var(--c2)', 'timed-out': 'var(--c5)',
+  unsupported: 'var(--line)'};
+function outcomeBars() {
+  const pair = byId('outcome-pair').value, seen = Object.keys(outcomeColours).filter(o => report.summary.some(r => r.outcomes[o]));
+  const legend = element('div', {class: 'legend'}, ...seen.map(o => element('span', {},
+      element('span', {class: 'swatch', style: `background:${outcomeColours[o]}`, 'aria-hidden': 'true'}), o)));
+  const rows = report.summary.filter(r => r.pair === pair && supported(r)).map(r => {
+    const bar = element('div', {class: 'bar', role: 'img', 'aria-label': outcomesText(r)});
+    for (const o of seen) {
+      const n = r.outcomes[o] || 0;
+      if (n === 0) continue;
+      const part = element('div', {style: `width:${100 * n / r.count}%;background:${outcomeColours[o]}`});
+      explain(part, `${r.candidate}, ${dashed(r.pair)}\n${o}: ${whole(n)} of ${whole(r.count)}`);
+      bar.append(part);
+    }
+    return element('div', {class: 'outcome-row'}, named(r.candidate), bar);
+  });
+  byId('outcome-bars').replaceChildren(legend, ...rows);
+}
+choices('outcome-pair', summaryPairs, outcomeBars);
+outcomeBars();
