@@ -12,6 +12,7 @@
 #include "reports/campaigns/result.hpp"
 #include "reports/campaigns/run.hpp"
 #include "reports/campaigns/shard_place.hpp"
+#include "reports/report_json.hpp"
 #include "reports/terminal_table.hpp"
 #include "reports/worst.hpp"
 
@@ -98,10 +99,11 @@ int run(const Options& options) {
   } else {
     merge.add(progressed, place.file().string());
   }
-  const nlohmann::json result = campaign_result(merge.whole(false));
-  const auto file = write_result(result, options.out);
+  const Progressed whole = merge.whole(false);
+  const Report result = campaign_result(whole);
+  const auto file = write_result(whole, options.out);
   fmt::print("{}\n{} configurations, truth certified to 1e-30 of the larger size.\nResult: {}\n",
-             terminal_table(result), result["configurations"].get<std::uint64_t>(), file.string());
+             terminal_table(to_json(result)), result.configurations, file.string());
   return 0;
 }
 

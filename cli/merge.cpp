@@ -7,6 +7,7 @@
 #include "reference/invalid_input.hpp"
 #include "reports/campaigns/result.hpp"
 #include "reports/campaigns/shard_place.hpp"
+#include "reports/report_json.hpp"
 #include "reports/terminal_table.hpp"
 
 namespace touchstone {
@@ -26,12 +27,12 @@ int run(const Options& options) {
                        "already holds a campaign; choose another folder");
   }
   write_durably(place.file(), to_text(whole));
-  const nlohmann::json result = campaign_result(whole);
-  const auto file = write_result(result, options.out);
-  fmt::print("{}\n{} configurations{}.\nResult: {}\n", terminal_table(result),
-             result["configurations"].get<std::uint64_t>(),
-             result["complete"] ? "" : ", which is not all of the campaign", file.string());
-  return 0;
+  const Report result = campaign_result(whole);
+  const auto file = write_result(whole, options.out);
+  const bool complete = result.completed.configurations == result.planned.configurations;
+  fmt::print("{}\n{} configurations{}.\nResult: {}\n", terminal_table(to_json(result)),
+             result.configurations, complete ? "" : ", which is not all of the campaign",
+             file.string());
 }
 
 }  // namespace

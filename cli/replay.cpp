@@ -9,6 +9,7 @@
 #include "properties/files/given.hpp"
 #include "properties/files/write_file.hpp"
 #include "reports/replay_page/replay_page.hpp"
+#include "reports/report_json.hpp"
 #include "reports/reproducer/reproducer.hpp"
 #include "reports/worst.hpp"
 
@@ -33,7 +34,7 @@ int run(const Options& options, bool emits) {
     return 0;
   }
   auto candidates = start(options.candidates.get(), bar.threshold, options.candidates.limits());
-  const nlohmann::json e = examined(given, pointers(candidates), bar, 1e-30);
+  const nlohmann::json e = to_json(examine(given, pointers(candidates), bar, 1e-30));
   if (!options.html.empty()) {
     const Configuration& c = given.configuration;
     write_file(options.html, replay_page(e, to_hex_json(c), to_exact_json(c), given.description),

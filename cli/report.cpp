@@ -10,6 +10,7 @@
 #include "reference/invalid_input.hpp"
 #include "reports/figures/figures.hpp"
 #include "reports/make_report.hpp"
+#include "reports/report_json.hpp"
 #include "reports/stability/stability.hpp"
 #include "reports/terminal_table.hpp"
 #include "reports/worst.hpp"
@@ -59,26 +60,26 @@ int run(const Options& options) {
   check_writable(options.out);
   if (!options.figures.empty()) check_figures(options.figures);
   const Interruption interruption;
-  nlohmann::json report = make_report(campaign, options.command_line());
-  if (report["results"].empty()) {
+  const Report measured = make_report(campaign, options.command_line());
+  if (measured.results.empty()) {
     complain("Interrupted before any pose class was done: there is no report.");
     return interrupted_exit_code();
   }
+  nlohmann::json report = to_json(measured);
   if (!options.scored.sample.is_narrowed() && !interrupted()) {
     const Study study{campaign.candidates, campaign.bar, campaign.limits, campaign.workers};
     report["stability"] = stability(brief(study, campaign.pairs, campaign.seed));
-    report["experiments"] = run_experiments(options.experiments());
+    report["experiments"] = to_json(run_experiments(options.experiments()));
   }
   write_report(report, options.out);
   fmt::print("{}\n{} configurations, truth certified to 1e-30 of the larger size, {:.0f} s.\n",
-             terminal_table(report), report["configurations"].get<std::uint64_t>(),
-             report["wall_seconds"].get<double>());
+             terminal_table(report), measured.configurations, measured.wall_seconds);
   fmt::print("Report: {}/report.html, {}/report.json\n", options.out, options.out);
   if (!options.figures.empty()) {
     write_figures(report, options.figures);
     fmt::print("Figures: {}\n", options.figures);
   }
-  return report["partial"].get<bool>() ? interrupted_exit_code() : 0;
+  return measured.partial ? interrupted_exit_code() : 0;
 }
 
 }  // namespace

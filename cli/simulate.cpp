@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 #include <memory>
 
+#include <nlohmann/json.hpp>
+
 #include "cli/options.hpp"
 #include "cli/subcommands.hpp"
 #include "properties/files/write_file.hpp"
@@ -36,10 +38,11 @@ struct Options {
 int run(const Options& options) {
   const ExperimentOptions experiments = options.experiments();
   if (!options.out.empty()) check_writable(options.out);
-  const nlohmann::json result = run_experiments(experiments);
-  fmt::print("{}", options.json ? result.dump() + '\n' : experiments_table(result));
+  const ExperimentResults results = run_experiments(experiments);
+  const nlohmann::json json = to_json(results);
+  fmt::print("{}", options.json ? json.dump() + '\n' : experiments_table(results));
   if (options.out.empty()) return 0;
-  write_file(options.out + "/experiments.json", result.dump(1) + '\n', "--out");
+  write_file(options.out + "/experiments.json", json.dump(1) + '\n', "--out");
   return 0;
 }
 

@@ -8,6 +8,7 @@
 #include "candidates/candidates.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/make_report.hpp"
+#include "reports/report_json.hpp"
 
 namespace touchstone {
 namespace {
@@ -255,7 +256,7 @@ json report_of_declining(const char* by) {
   c.classes = {"lying", "standing", "general-shallow"};
   c.candidates = find_candidates({"bullet", "declining"});
   c.count = 20;
-  const json report = make_report(c, "x");
+  const json report = to_json(make_report(c, "x"));
   unsetenv("TOUCHSTONE_DECLINE");
   return report;
 }

@@ -5,12 +5,8 @@
 #include <limits>
 #include <numbers>
 
-#include "properties/files/configuration_json.hpp"
-
 namespace touchstone {
 namespace {
-
-using nlohmann::json;
 
 constexpr double depth = 2e-3;  // metres; Drake's kDistance, in which its sizes are given
 
@@ -97,42 +93,43 @@ Shape other(Pair pair) {
 
 /// From RobotLocomotion/drake, geometry/query_object.h: table 1 (ComputePointPairPenetration) and
 /// table 3 (ComputeSignedDistancePairwiseClosestPoints, which refuses half-spaces), of double.
-json published(Pair pair) {
+DrakeProtocol::Published published(Pair pair) {
   switch (pair) {
     case Pair::plane:
-      return {{"penetration", 4e-15}, {"signed_distance", nullptr}};
+      return {pair_name(pair), 4e-15, std::nullopt, {}};
     case Pair::sphere:
-      return {{"penetration", 5e-15}, {"signed_distance", 5e-15}};
+      return {pair_name(pair), 5e-15, 5e-15, {}};
     case Pair::capsule:
-      return {{"penetration", 4e-5}, {"signed_distance", 1e-5}};
+      return {pair_name(pair), 4e-5, 1e-5, {}};
     case Pair::cylinder:
-      return {{"penetration", 2e-3}, {"signed_distance", 2e-5}};
+      return {pair_name(pair), 2e-3, 2e-5, {}};
     case Pair::box:
       break;
   }
-  return {{"penetration", 1e-3}, {"signed_distance", 6e-6}};
+  return {pair_name(pair), 1e-3, 6e-6, {}};
 }
 
 /// One candidate on one pair.
-json judged(CandidateProcess& candidate, const std::vector<DrakeCase>& cases, const Bar& bar) {
+DrakeProtocol::Result judged(CandidateProcess& candidate, const std::vector<DrakeCase>& cases,
+                             const Bar& bar) {
   std::vector<Configuration> configurations;
   for (const DrakeCase& c : cases) configurations.push_back(c.configuration);
   const std::vector<Answer> answers = candidate.answers(configurations);
-  json outcomes = json::object(), max_error = nullptr, worst = nullptr;
+  DrakeProtocol::Result result;
+  result.candidate = candidate.candidate().name;
+  result.count = cases.size();
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const Configuration& c = configurations[i];
     const oracle::Truth truth = oracle::truth(c);
     const Score s = score(c, truth, answers[i], bar);
-    auto& count = outcomes[outcome_name(s.outcome)];
-    count = count.is_null() ? 1 : count.get<int>() + 1;
+    ++result.outcomes[s.outcome];
     if (!s.depth_error) continue;
     const double error = std::abs(answers[i].signed_distance - truth.signed_distance.midpoint());
-    if (!worst.is_null() && error <= max_error.get<double>()) continue;
-    max_error = error;
-    worst = i;
+    if (result.worst && error <= *result.max_error) continue;
+    result.max_error = error;
+    result.worst = i;
   }
-  return {
-      {"count", cases.size()}, {"outcomes", outcomes}, {"max_error", max_error}, {"worst", worst}};
+  return result;
 }
 
 }  // namespace
@@ -163,27 +160,20 @@ std::vector<DrakeCase> drake_cases(Pair pair) {
   return result;
 }
 
-json drake_protocol(const Campaign& campaign) {
-  json pairs = json::array(), results = json::array();
+DrakeProtocol drake_protocol(const Campaign& campaign) {
+  DrakeProtocol protocol{depth, {}, {}};
   auto candidates = start(campaign.candidates, campaign.bar.threshold, campaign.limits);
   for (const Pair pair : campaign.pairs) {
     const std::vector<DrakeCase> cases = drake_cases(pair);
-    json configurations = json::array();
-    for (const DrakeCase& c : cases) {
-      configurations.push_back(
-          {{"description", c.description}, {"configuration", to_json(c.configuration)}});
-    }
-    pairs.push_back({{"pair", pair_name(pair)},
-                     {"published", published(pair)},
-                     {"configurations", configurations}});
+    protocol.pairs.push_back(published(pair));
+    protocol.pairs.back().configurations = cases;
     for (CandidateProcess& candidate : candidates) {
-      json row = judged(candidate, cases, campaign.bar);
-      row["pair"] = pair_name(pair);
-      row["candidate"] = candidate.candidate().name;
-      results.push_back(std::move(row));
+      DrakeProtocol::Result result = judged(candidate, cases, campaign.bar);
+      result.pair = pair_name(pair);
+      protocol.results.push_back(std::move(result));
     }
   }
-  return {{"depth", depth}, {"pairs", pairs}, {"results", results}};
+  return protocol;
 }
 
 }  // namespace touchstone

@@ -1,19 +1,11 @@
 #pragma once
 
-#include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 #include "reports/campaign.hpp"
+#include "reports/report.hpp"
 
 namespace touchstone {
-
-/// One pose of Drake's characterisation of its contact queries.
-struct DrakeCase {
-  std::string description;  ///< "cylinder edge against box face, far"
-  Configuration configuration;
-};
 
 /// Drake publishes the worst error of its queries for pairs of bodies of about 20 cm that overlap
 /// by 2 mm: at chosen points of both surfaces (on a face, an edge, a vertex) the outward normals
@@ -23,8 +15,8 @@ struct DrakeCase {
 /// (ShapeConfigurations, AlignPlanes, X_WAs).
 std::vector<DrakeCase> drake_cases(Pair pair);
 
-/// The worst absolute error of every candidate in signed distance, metres, beside those that Drake
-/// publishes of itself: `drake_protocol` in report.json.
-nlohmann::json drake_protocol(const Campaign& campaign);
+/// The worst absolute error of every candidate in signed distance beside those that Drake publishes
+/// of itself.
+DrakeProtocol drake_protocol(const Campaign& campaign);
 
 }  // namespace touchstone

@@ -9,8 +9,6 @@
 namespace touchstone {
 namespace {
 
-using nlohmann::json;
-
 /// Poses some 26 m from the origin, rounded to doubles.
 constexpr double rounding = 26 * 0x1p-50;
 
@@ -37,18 +35,18 @@ TEST(DrakeProtocol, ReportsTheWorstErrorAndItsPose) {
   Campaign campaign;
   campaign.pairs = {Pair::plane, Pair::box};
   campaign.candidates = find_candidates({"reference", "bullet"});
-  const json report = drake_protocol(campaign);
-  ASSERT_EQ(report["results"].size(), 4u);
-  EXPECT_EQ(report["pairs"][1]["published"]["penetration"], 1e-3);
-  const json& ours = report["results"][2];
-  EXPECT_EQ(ours["candidate"], "reference");
-  EXPECT_EQ(ours["outcomes"], json({{"agree", 14}}));
-  EXPECT_LT(ours["max_error"], rounding);
+  const DrakeProtocol protocol = drake_protocol(campaign);
+  ASSERT_EQ(protocol.results.size(), 4u);
+  EXPECT_EQ(protocol.pairs[1].penetration, 1e-3);
+  const DrakeProtocol::Result& ours = protocol.results[2];
+  EXPECT_EQ(ours.candidate, "reference");
+  EXPECT_EQ(ours.outcomes, (std::map<Outcome, std::uint64_t>{{Outcome::agree, 14}}));
+  EXPECT_LT(ours.max_error, rounding);
   // Bullet rounds edges by its margin: more than Drake's published error, less than its margin.
-  const json& bullet = report["results"][3];
-  EXPECT_GT(bullet["max_error"], 1e-5);
-  EXPECT_LT(bullet["max_error"], 0.04);
-  EXPECT_LT(bullet["worst"], report["pairs"][1]["configurations"].size());
+  const DrakeProtocol::Result& bullet = protocol.results[3];
+  EXPECT_GT(bullet.max_error, 1e-5);
+  EXPECT_LT(bullet.max_error, 0.04);
+  EXPECT_LT(bullet.worst, protocol.pairs[1].configurations.size());
 }
 
 }  // namespace

@@ -23,17 +23,15 @@ std::string value_in(const char* path, const std::string& key, char separator) {
 
 }  // namespace
 
-nlohmann::json describe_machine() {
+Machine describe_machine() {
   utsname system{};
   uname(&system);
   std::string cpu = value_in("/proc/cpuinfo", "model name", ':');
   if (cpu.empty()) cpu = system.machine;
   std::string os = value_in("/etc/os-release", "PRETTY_NAME", '=');
   if (os.empty()) os = system.sysname;
-  return {{"cpu", cpu},
-          {"cores", sysconf(_SC_NPROCESSORS_ONLN)},
-          {"compiler", std::string("g++ ") + __VERSION__ + " " + TOUCHSTONE_FLAGS},
-          {"os", os}};
+  const std::string compiler = std::string("g++ ") + __VERSION__ + " " + TOUCHSTONE_FLAGS;
+  return {cpu, compiler, os, static_cast<unsigned>(sysconf(_SC_NPROCESSORS_ONLN))};
 }
 
 }  // namespace touchstone

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include "reports/report.hpp"
 
 namespace touchstone {
 
-/// {"cpu", "cores", "compiler", "os"} of the machine that this runs on.
-nlohmann::json describe_machine();
+/// The machine that this runs on.
+Machine describe_machine();
 
 }  // namespace touchstone

@@ -14,9 +14,10 @@
 
 namespace touchstone {
 
-// The result of a run: filled once (make_report.hpp), then read by every writer: report.json, the
-// terminal table, the pages, the figures, the comparison. docs/report-schema.md says what each
-// member means; here a member has the name that report.json gives it where both can.
+// The result of a run: filled once (make_report.hpp; a campaign's by campaigns/), then read by
+// every writer: report.json, the terminal table, the pages, the figures, the comparison.
+// docs/report-schema.md says what each member means; a member that report.json has too has the same
+// name here.
 
 struct Machine {
   std::string cpu, compiler, os;
@@ -36,11 +37,11 @@ struct Spread {
   double median, low, high;
 };
 
-/// What one query costs.
+/// The time of one query.
 struct QueryTime {
   Spread nanoseconds;
   std::size_t repetitions = 0;
-  std::optional<double> instructions;  ///< median, in user space
+  std::optional<double> instructions;  ///< median, in user space; absent: they cannot be counted
   std::optional<Spread> ratio_to_bullet;
 };
 
@@ -49,15 +50,15 @@ struct ResultRow {
   std::string pair, pose_class, candidate;  ///< pair and class may be "all"
   Statistics statistics;
   std::optional<QueryTime> time;
-  // In a summary:
-  std::optional<bool> pareto;          ///< on the front of speed and accuracy; absent: not in it
-  std::vector<std::string> tied_with;  ///< candidates that take the same time
+  // Of rows of a summary:
+  std::optional<bool> pareto;  ///< on the front of speed and accuracy; absent: not in that chart
+  std::vector<std::string> tied_with;  ///< candidates whose times overlap with this one's
 };
 
 /// Severity in one decade of a variable.
 struct TrendBin {
   std::optional<int> decade;  ///< absent: zero
-  std::size_t count = 0, missed = 0;
+  std::uint64_t count = 0, missed = 0;
   double median = 0, max = 0;
 };
 struct Trend {
@@ -74,10 +75,11 @@ struct ScoredAnswer {
 
 /// One configuration with its truth and what candidates make of it.
 struct Examination {
-  Subject subject;
-  oracle::Truth truth;
+  std::string id;  ///< an identity, or a file
+  Configuration configuration;
+  std::optional<oracle::Truth> truth;  ///< absent in a campaign, which keeps identities alone
   std::vector<ScoredAnswer> answers;
-  std::string replay;  ///< command
+  std::string replay;  ///< the command that shows it again
 };
 
 /// One of the worst configurations of a pair × candidate.
@@ -87,17 +89,23 @@ struct WorstCase {
   Examination examination;
 };
 
+/// One pose of Drake's characterisation of its contact queries.
+struct DrakeCase {
+  std::string description;  ///< "cylinder edge against box face, far"
+  Configuration configuration;
+};
+
 /// Largest errors by the protocol that Drake publishes its own by, metres.
 struct DrakeProtocol {
   struct Published {
     std::string pair;
     std::optional<double> penetration, signed_distance;  ///< absent: Drake refuses
-    std::size_t configurations = 0;
+    std::vector<DrakeCase> configurations;
   };
   struct Result {
     std::string pair, candidate;
-    std::size_t count = 0;
-    std::map<Outcome, std::size_t> outcomes;
+    std::uint64_t count = 0;
+    std::map<Outcome, std::uint64_t> outcomes;
     std::optional<double> max_error;
     std::optional<std::size_t> worst;  ///< index of its configuration
   };
@@ -107,16 +115,18 @@ struct DrakeProtocol {
 };
 
 struct Report {
+  /// How much of a run there is.
+  struct Extent {
+    std::uint64_t classes = 0, configurations = 0;
+  };
+
   std::string version, command;
   std::uint64_t seed = 0;
   double tolerance = 0, threshold = 0;
   Machine machine;
   std::uint64_t configurations = 0;
   bool partial = false;
-  struct Amount {
-    std::uint64_t classes = 0, configurations = 0;
-  };
-  Amount planned, completed;
+  Extent planned, completed;
   std::uint64_t timed_classes = 0;
   double wall_seconds = 0;
   std::optional<Quantiles> oracle_microseconds;

@@ -4,10 +4,13 @@
 #include <cstdint>
 #include <string>
 
+#include <nlohmann/json.hpp>
+
 #include "properties/files/json_fields.hpp"
 #include "properties/files/read_file.hpp"
 #include "properties/files/strict_json.hpp"
 #include "reference/invalid_input.hpp"
+#include "reports/report_json.hpp"
 
 namespace touchstone {
 namespace {

@@ -4,12 +4,9 @@
 #include <string>
 #include <string_view>
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 namespace touchstone {
-
-/// Of report.json (docs/report-schema.md).
-inline constexpr int report_schema = 1;
 
 /// Reads a report.json and checks everything of it that `compare` uses. Throws InvalidInput that
 /// names the file, the field, and what to do.

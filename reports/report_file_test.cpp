@@ -5,9 +5,12 @@
 #include <gtest/gtest.h>
 #include <limits>
 
+#include <nlohmann/json.hpp>
+
 #include "candidates/candidates.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/make_report.hpp"
+#include "reports/report_json.hpp"
 
 namespace touchstone {
 namespace {
@@ -32,7 +35,7 @@ class ReportFile : public testing::Test {
       c.classes = {"lying"};
       c.candidates = find_candidates({"reference", "bullet", "libccd-mpr"});
       c.count = 2;
-      return make_report(c, "x");
+      return to_json(make_report(c, "x"));
     }();
     return report;
   }

@@ -1,5 +1,3 @@
-#include "reports/make_report.hpp"
-
 #include <csignal>
 #include <dlfcn.h>
 #include <fstream>
@@ -11,7 +9,9 @@
 #include "candidates/host/interruption.hpp"
 #include "properties/files/write_file.hpp"
 #include "reference/invalid_input.hpp"
+#include "reports/make_report.hpp"
 #include "reports/replay.hpp"
+#include "reports/report_json.hpp"
 #include "reports/solve.hpp"
 #include "reports/terminal_table.hpp"
 #include "reports/worst.hpp"
@@ -21,6 +21,8 @@ namespace {
 
 using nlohmann::json;
 using testing::HasSubstr;
+
+json report_of(const Campaign& campaign) { return to_json(make_report(campaign, "x")); }
 
 /// Our own routines and three engines; the others differ in nothing that is tested here.
 std::vector<const Candidate*> some() {
@@ -50,12 +52,12 @@ json without_timing(json report) {
 }
 
 TEST(Report, DoesNotDependOnTheNumberOfWorkers) {
-  EXPECT_EQ(without_timing(make_report(small_campaign(1), "x")),
-            without_timing(make_report(small_campaign(3), "x")));
+  EXPECT_EQ(without_timing(report_of(small_campaign(1))),
+            without_timing(report_of(small_campaign(3))));
 }
 
 TEST(Report, HasARowForEveryPairClassAndCandidate) {
-  const json report = make_report(small_campaign(), "x");
+  const json report = report_of(small_campaign());
   // Plane has no concentric poses.
   EXPECT_EQ(report["classes"].size(), 5u);
   EXPECT_EQ(report["results"].size(), 20u);
@@ -71,7 +73,7 @@ TEST(Report, HasARowForEveryPairClassAndCandidate) {
 }
 
 TEST(Report, RanksNobodyWithinTheSpreads) {
-  const json report = make_report(small_campaign(), "x");
+  const json report = report_of(small_campaign());
   for (const json& row : report["summary"]) {
     const json& time = row["nanoseconds"];
     ASSERT_EQ(time["repetitions"], 11);
@@ -101,7 +103,7 @@ TEST(Report, InterruptedBeforeTheEndIsOfWhatIsDone) {
   const Interruption interruption;
   testing::internal::CaptureStderr();
   raise(SIGTERM);
-  const json report = make_report(c, "x");
+  const json report = report_of(c);
   testing::internal::GetCapturedStderr();
   EXPECT_EQ(report["partial"], true);
   EXPECT_TRUE(report["results"].empty());
@@ -112,7 +114,7 @@ TEST(Report, InterruptedBeforeTheEndIsOfWhatIsDone) {
 }
 
 TEST(Report, TellsAModelsErrorFromItsSolvers) {
-  const json report = make_report(small_campaign(), "x");
+  const json report = report_of(small_campaign());
   for (const json& row : report["results"]) {
     const bool is_model = row["candidate"] == "prism:8";
     EXPECT_EQ(row["model_error"].is_null(), !is_model || row["depth_error"].is_null());
@@ -142,9 +144,9 @@ TEST(Report, IsCompleteWhateverACandidateDoes) {
   c.count = 40;
   c.pairs = {Pair::plane, Pair::cylinder};
   c.limits.seconds = 10;  // sanitizers take their time over a crash
-  const json alone = without_timing(make_report(c, "x"));
+  const json alone = without_timing(report_of(c));
   c.candidates.push_back(&sabotage());
-  const json together = without_timing(make_report(c, "x"));
+  const json together = without_timing(report_of(c));
   // Each misdeed is counted …
   std::map<std::string, int> outcomes;
   std::size_t sum = 0;
@@ -163,8 +165,8 @@ TEST(Report, IsCompleteWhateverACandidateDoes) {
   for (const json& w : together["worst"]) {
     if (w["candidate"] != "sabotage") continue;
     ++shown[w["outcome"]];
-    const json again =
-        examined(subject(parse_identity(w["id"].get<std::string>())), pointers(processes), Bar());
+    const json again = to_json(
+        examine(subject(parse_identity(w["id"].get<std::string>())), pointers(processes), Bar()));
     EXPECT_EQ(again["answers"]["sabotage"], w["answers"]["sabotage"]);
     EXPECT_THAT(w["replay"].get<std::string>(), HasSubstr("--candidate"));
   }
@@ -177,7 +179,7 @@ TEST(Report, IsCompleteWhateverACandidateDoes) {
   EXPECT_EQ(others, alone["results"]);
   // And it is the same whatever the number of workers.
   c.workers = 1;
-  EXPECT_EQ(without_timing(make_report(c, "x")), together);
+  EXPECT_EQ(without_timing(report_of(c)), together);
 }
 
 /// The candidate that does what testing/hostile.cpp calls by this name.
@@ -203,7 +205,7 @@ TEST(Report, IsCompleteWithHostileCandidates) {
         "kill the parent", "stop the parent", "overwrite shared memory with zeros"}) {
     c.candidates.push_back(hostile(deed));
   }
-  const json report = make_report(c, "x");
+  const json report = report_of(c);
   unsetenv("TOUCHSTONE_HOSTILE_EVERYWHERE");
   EXPECT_FALSE(report.value("partial", false));
   EXPECT_EQ(report["results"].size(), report["classes"].size() * c.candidates.size());
@@ -224,19 +226,19 @@ TEST(Report, AHangCostsOneConfigurationEach) {
   c.pairs = {Pair::plane};
   c.limits.seconds = 0.05;
   c.candidates = find_candidates({"reference", "misdeed:5"});
-  const json report = make_report(c, "x");
+  const json report = report_of(c);
   EXPECT_EQ(report["results"][0]["outcomes"], json({{"agree", 4}}));
   EXPECT_EQ(report["results"][1]["outcomes"], json({{"timed-out", 4}}));
   EXPECT_TRUE(report["results"][1]["nanoseconds"].is_null());
 }
 
 TEST(Report, EveryWorstCaseReplaysToTheSameAnswers) {
-  const json report = make_report(small_campaign(), "x");
+  const json report = report_of(small_campaign());
   ASSERT_FALSE(report["worst"].empty());
   auto candidates = start(some(), 0);
   for (const json& w : report["worst"]) {
     const Identity id = parse_identity(w["id"].get<std::string>());
-    const json again = examined(subject(id), pointers(candidates), Bar());
+    const json again = to_json(examine(subject(id), pointers(candidates), Bar()));
     EXPECT_TRUE(w["answers"].contains(w["candidate"]));
     for (const auto& [name, answer] : w["answers"].items()) {
       EXPECT_EQ(again["answers"][name], answer) << name;
@@ -247,7 +249,7 @@ TEST(Report, EveryWorstCaseReplaysToTheSameAnswers) {
 }
 
 TEST(Report, TableFitsIntoEightyColumns) {
-  std::istringstream table(terminal_table(make_report(small_campaign(), "x")));
+  std::istringstream table(terminal_table(report_of(small_campaign())));
   for (std::string line; std::getline(table, line);) {
     if (line.find("./touchstone") == std::string::npos) {  // a command is not broken
       EXPECT_LE(line.size(), 80u) << line;
@@ -257,7 +259,7 @@ TEST(Report, TableFitsIntoEightyColumns) {
 
 TEST(Report, IsWrittenAsAWhole) {
   const std::filesystem::path folder = testing::TempDir() + "touchstone report test";
-  write_report(make_report(small_campaign(), "x"), folder);
+  write_report(report_of(small_campaign()), folder);
   std::ifstream file(folder / "report.json");
   EXPECT_EQ(json::parse(file)["schema"], 1);
   EXPECT_TRUE(std::filesystem::exists(folder / "report.html"));
@@ -283,7 +285,8 @@ TEST(Replay, IsTheSameOnEveryCall) {
   const Identity id{Pair::cylinder, "rim-rim", 1, 2};
   auto candidates = start(some(), 0), again = start(some(), 0);
   const auto shown = [&](std::vector<CandidateProcess>& processes) {
-    return replay_text(subject(id), examined(subject(id), pointers(processes), Bar()), processes);
+    return replay_text(subject(id), to_json(examine(subject(id), pointers(processes), Bar())),
+                       processes);
   };
   const std::string text = shown(candidates);
   EXPECT_EQ(shown(again), text);

@@ -44,8 +44,8 @@ Statistics statistics(const std::vector<Score>& scores) {
   }
   result.coverage = shares(coverage);
   result.severity = quantiles(std::move(severity));
-  result.depth_histogram = log_histogram(depth_error);
-  result.regret_histogram = log_histogram(normal_regret);
+  if (!depth_error.empty()) result.depth_histogram = log_histogram(depth_error);
+  if (!normal_regret.empty()) result.regret_histogram = log_histogram(normal_regret);
   result.depth_error = quantiles(std::move(depth_error));
   result.normal_regret = quantiles(std::move(normal_regret));
   result.normal_angle = quantiles(std::move(normal_angle));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <vector>
@@ -10,30 +11,40 @@
 
 namespace touchstone {
 
-/// Nearest-rank quantiles: the median of n values is the ⌈n/2⌉-th smallest, p99 the ⌈0.99 n⌉-th.
+/// What is known of a value of which only the bin was kept: lower <= value <= upper.
+struct Bounds {
+  double lower, upper;
+};
+
+/// Nearest-rank quantiles: the median of n values is the ⌈n/2⌉-th smallest, p99 the ⌈0.99 n⌉-th. Of
+/// binned values both are the larger end of their bounds.
 struct Quantiles {
   double median, p99, max;
+  std::optional<Bounds> median_bounds = {}, p99_bounds = {};  ///< of binned values
 };
 std::optional<Quantiles> quantiles(std::vector<double> values);
 
-/// Shares of which more is better: the 1st percentile is that of which 99% are no less.
+/// Shares of which more is better: the 1st percentile is that of which 99% are no less. Of binned
+/// values, median and percentile are the smaller end of their bounds.
 struct Shares {
   double mean, median, p1, min;
+  std::optional<Bounds> median_bounds = {}, p1_bounds = {};  ///< of binned values
 };
 std::optional<Shares> shares(const std::vector<double>& values);
 
 /// Scores of one candidate on any set of configurations.
 struct Statistics {
-  std::size_t count = 0;
-  std::array<std::size_t, all_outcomes.size()> outcomes{};  ///< in the order of all_outcomes
-  std::map<int, std::size_t> points;                        ///< contacts by their number of points
+  std::uint64_t count = 0;
+  std::array<std::uint64_t, all_outcomes.size()> outcomes{};  ///< in the order of all_outcomes
+  std::map<int, std::uint64_t> points;  ///< contacts by their number of points
   std::optional<Quantiles> depth_error, normal_regret, normal_angle, point_error, deepest_error,
-      model_error, solver_error;                   ///< of magnitudes
-  std::optional<Quantiles> severity;               ///< of all that is judged, missed ones included
-  LogHistogram depth_histogram, regret_histogram;  ///< of what depth_error, normal_regret hold
+      model_error, solver_error;      ///< of magnitudes
+  std::optional<Quantiles> severity;  ///< of all that is judged, missed contacts included
+  /// Of what depth_error and normal_regret hold; absent where those are, and of binned values.
+  std::optional<LogHistogram> depth_histogram, regret_histogram;
   std::optional<Shares> coverage;
 
-  std::size_t of(Outcome outcome) const { return outcomes[static_cast<std::size_t>(outcome)]; }
+  std::uint64_t of(Outcome outcome) const { return outcomes[static_cast<std::size_t>(outcome)]; }
 };
 Statistics statistics(const std::vector<Score>& scores);
 

@@ -107,7 +107,7 @@ std::optional<QueryTime> query_time(const Times& times, const std::vector<std::s
   }
   const auto time = spread(over_cells(times, timed, candidate, nanoseconds));
   if (!time) return std::nullopt;
-  QueryTime result{*time, std::nullopt};
+  QueryTime result{*time, timing_repetitions, std::nullopt, std::nullopt};
   if (counted == timed) {
     const auto instructions = [](const QueryCost& c) { return *c.instructions; };
     result.instructions = spread(over_cells(times, timed, candidate, instructions))->median;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "reports/campaign.hpp"
+#include "reports/report.hpp"
 
 namespace touchstone {
 
@@ -21,17 +22,10 @@ inline constexpr std::size_t timing_repetitions = 11;
 /// Configurations that ended a candidate's process, as `scores` say, are not asked of it.
 Times time_queries(const Campaign& campaign, const std::vector<CellScores>& scores);
 
-/// Median and quartiles over the repetitions.
-struct Spread {
-  double median, low, high;
-};
 std::optional<Spread> spread(std::vector<double> values);
 
-/// Of one candidate over several cells. A repetition's value is the median over the cells.
-struct QueryTime {
-  Spread nanoseconds;
-  std::optional<double> instructions;  ///< median; absent where they cannot be counted
-};
+/// Time of one candidate over several cells, but for the ratio. A repetition's value is the median
+/// over the cells.
 std::optional<QueryTime> query_time(const Times& times, const std::vector<std::size_t>& cells,
                                     std::size_t candidate);
 

@@ -10,8 +10,6 @@
 namespace touchstone {
 namespace {
 
-using nlohmann::json;
-
 /// The directions that a body's features lie along, as unit vectors in the world.
 std::vector<Vec3> axes(const Shape& shape, const Pose& pose) {
   if (const auto* plane = std::get_if<Plane>(&shape)) {
@@ -54,15 +52,11 @@ struct Bin {
 /// Zero, as no decade, comes first.
 using Bins = std::map<std::optional<int>, Bin>;
 
-json to_json(const Bins& bins) {
-  json result = json::array();
-  for (const auto& [at, bin] : bins) {
+std::vector<TrendBin> summary(const Bins& bins) {
+  std::vector<TrendBin> result;
+  for (const auto& [decade, bin] : bins) {
     const Quantiles q = *quantiles(bin.severity);
-    result.push_back({{"decade", at ? json(*at) : json(nullptr)},
-                      {"count", bin.severity.size()},
-                      {"missed", bin.missed},
-                      {"median", q.median},
-                      {"max", q.max}});
+    result.push_back({decade, bin.severity.size(), bin.missed, q.median, q.max});
   }
   return result;
 }
@@ -98,9 +92,9 @@ std::optional<double> value_of(Variable variable, const Configuration& c, double
   return std::nullopt;
 }
 
-json trends(const Campaign& campaign, const std::vector<CellScores>& scores) {
+std::vector<Trend> trends(const Campaign& campaign, const std::vector<CellScores>& scores) {
   const std::vector<Cell> all = cells(campaign);
-  json result = json::array();
+  std::vector<Trend> result;
   for (const Pair pair : campaign.pairs) {
     std::map<std::pair<std::size_t, Variable>, Bins> bins;
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -122,10 +116,8 @@ json trends(const Campaign& campaign, const std::vector<CellScores>& scores) {
       }
     }
     for (const auto& [key, of_decade] : bins) {
-      result.push_back({{"pair", pair_name(pair)},
-                        {"candidate", campaign.candidates[key.first]->name},
-                        {"variable", variable_name(key.second)},
-                        {"bins", to_json(of_decade)}});
+      result.push_back({pair_name(pair), campaign.candidates[key.first]->name,
+                        variable_name(key.second), summary(of_decade)});
     }
   }
   return result;

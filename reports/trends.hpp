@@ -4,9 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 #include "reports/campaign.hpp"
+#include "reports/report.hpp"
 
 namespace touchstone {
 
@@ -26,8 +25,8 @@ const char* variable_name(Variable variable);
 std::optional<double> value_of(Variable variable, const Configuration& configuration,
                                double signed_distance);
 
-/// Severity against each variable, by its decades: one entry of `trends` in report.json for each
-/// pair × candidate × variable with any values.
-nlohmann::json trends(const Campaign& campaign, const std::vector<CellScores>& scores);
+/// Severity against each variable, by its decades: one trend for each pair × candidate × variable
+/// with any values.
+std::vector<Trend> trends(const Campaign& campaign, const std::vector<CellScores>& scores);
 
 }  // namespace touchstone

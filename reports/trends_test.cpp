@@ -9,8 +9,6 @@
 namespace touchstone {
 namespace {
 
-using nlohmann::json;
-
 TEST(LogHistogram, CountsHalfDecadesAndZerosApart) {
   const LogHistogram h = log_histogram({0, 1e-3, 2e-3, 5e-3, 0.5, 0});
   EXPECT_EQ(h.zero, 2u);
@@ -66,18 +64,17 @@ TEST(Trends, EveryJudgedAnswerLiesInOneDecade) {
   campaign.candidates = find_candidates({"reference", "capsule"});
   campaign.count = 5;
   const auto scores = run(campaign);
-  const json result = trends(campaign, scores);
   std::size_t missed = 0;
-  for (const json& trend : result) {
-    EXPECT_FALSE(trend["pair"] == "cylinder-sphere" && trend["variable"] == "tilt");
+  for (const Trend& trend : trends(campaign, scores)) {
+    EXPECT_FALSE(trend.pair == "cylinder-sphere" && trend.variable == "tilt");
     std::size_t count = 0;
-    for (const json& bin : trend["bins"]) {
-      count += bin["count"].get<std::size_t>();
-      EXPECT_LE(bin["missed"], bin["count"]);
-      EXPECT_LE(bin["median"], bin["max"]);
-      if (trend["variable"] == "distance") missed += bin["missed"].get<std::size_t>();
+    for (const TrendBin& bin : trend.bins) {
+      count += bin.count;
+      EXPECT_LE(bin.missed, bin.count);
+      EXPECT_LE(bin.median, bin.max);
+      if (trend.variable == "distance") missed += bin.missed;
     }
-    if (trend["variable"] != "depth") {
+    if (trend.variable != "depth") {
       EXPECT_EQ(count, 10u);
     }
   }

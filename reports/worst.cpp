@@ -7,14 +7,10 @@
 
 #include "candidates/candidates.hpp"
 #include "candidates/host/progress.hpp"
-#include "properties/files/answer_json.hpp"
-#include "properties/files/configuration_json.hpp"
 #include "reports/worst_selection.hpp"
 
 namespace touchstone {
 namespace {
-
-using nlohmann::json;
 
 std::vector<Case> worst_of(const std::vector<Cell>& all, const std::vector<CellScores>& scores,
                            Pair pair, std::size_t candidate) {
@@ -29,8 +25,6 @@ std::vector<Case> worst_of(const std::vector<Cell>& all, const std::vector<CellS
   }
   return worst_of_pair(std::move(cases));
 }
-
-json or_null(const std::optional<double>& value) { return value ? json(*value) : json(nullptr); }
 
 }  // namespace
 
@@ -52,26 +46,22 @@ std::string replay_command(const std::string& name) {
   return program_name() + " replay " + shell_quoted(name);
 }
 
-json examined(const Subject& subject, const std::vector<CandidateProcess*>& candidates,
-              const Bar& bar, double width) {
+Examination examine(const Subject& subject, const std::vector<CandidateProcess*>& candidates,
+                    const Bar& bar, double width) {
   const Configuration& c = subject.configuration;
   const oracle::Truth truth = oracle::truth(c, width);
-  json answers = json::object();
+  std::vector<ScoredAnswer> answers;
   for (CandidateProcess* const process : candidates) {
     const Answer a = process->answer(c);
-    json& entry = answers[process->candidate().name] = to_json(a, score(c, truth, a, bar));
-    if (!a.reason.empty()) entry["reason"] = a.reason;
+    answers.push_back({process->candidate().name, a, score(c, truth, a, bar)});
   }
-  return {{"id", subject.name},
-          {"configuration", to_json(c)},
-          {"truth", to_json(c, truth)},
-          {"answers", answers},
-          {"replay", replay_command(subject.name)}};
+  return {subject.name, c, truth, answers, replay_command(subject.name)};
 }
 
-json worst_cases(const Campaign& campaign, const std::vector<CellScores>& scores) {
+std::vector<WorstCase> worst_cases(const Campaign& campaign,
+                                   const std::vector<CellScores>& scores) {
   const std::vector<Cell> all = cells(campaign);
-  json result = json::array();
+  std::vector<WorstCase> result;
   auto processes = start(campaign.candidates, campaign.bar.threshold, campaign.limits);
   Progress progress("candidates' worst cases", campaign.pairs.size() * campaign.candidates.size());
   std::size_t done = 0;
@@ -82,15 +72,8 @@ json worst_cases(const Campaign& campaign, const std::vector<CellScores>& scores
         const Identity id{pair, all[w.cell].pose_class, campaign.seed, w.index};
         std::vector<CandidateProcess*> shown = {&processes[k]};
         if (k > 0) shown.push_back(&processes[0]);
-        json entry = examined(subject(id), shown, campaign.bar);
-        entry["pair"] = pair_name(pair);
-        entry["class"] = id.pose_class;
-        entry["candidate"] = campaign.candidates[k]->name;
-        entry["outcome"] = outcome_name(w.score.outcome);
-        entry["depth_error"] = or_null(w.score.depth_error);
-        entry["normal_regret"] = or_null(w.score.normal_regret);
-        entry["severity"] = w.score.severity;
-        result.push_back(std::move(entry));
+        result.push_back({pair_name(pair), id.pose_class, campaign.candidates[k]->name, w.score,
+                          examine(subject(id), shown, campaign.bar)});
       }
     }
   }

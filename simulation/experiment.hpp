@@ -1,50 +1,91 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "simulation/run.hpp"
+#include "simulation/world.hpp"
 
 namespace touchstone {
 
-/// What came of an experiment with one contact model at one step.
+/// Counts over the steps of one or more runs.
+struct RunTally {
+  std::uint64_t steps = 0;
+  std::uint64_t points = 0;       ///< contact points, summed over the steps
+  std::uint64_t flickers = 0;     ///< steps whose number of points differs from the step before
+  std::uint64_t single = 0;       ///< steps with exactly one contact point
+  std::uint64_t without = 0;      ///< steps with none
+  std::uint64_t failures = 0;     ///< answers other than contact or none
+  double energy_gained = 0;       ///< largest rise above an earlier energy, in weight × size
+  bool unsupported = false;       ///< the candidate has no routine for a pair that occurred
+  std::optional<double> unsound;  ///< time at which the world became unsound, s
+  double seconds = 0;             ///< wall-clock time of all steps
+
+  void add(const RunTally& other);
+};
+
+/// One run of a scene, with its tally.
+class Run {
+ public:
+  /// The weight of all moving bodies times `size`, metres, is the unit of energy.
+  Run(const Scene& scene, ContactModel& model, double size);
+
+  /// False when the duration is over, the world is unsound, or a pair is unsupported.
+  bool step();
+  const World& world() const { return world_; }
+  const RunTally& tally() const { return tally_; }
+  /// Of all moving bodies, in weight × size.
+  double kinetic_energy() const { return world_.kinetic_energy() / energy_unit_; }
+
+ private:
+  double energy() const { return world_.kinetic_energy() + world_.potential_energy(); }
+
+  World world_;
+  std::uint64_t steps_;  ///< of the whole duration
+  double energy_unit_, min_energy_;
+  std::optional<int> last_points_;
+  RunTally tally_;
+};
+
+/// Outcome of an experiment with one contact model at one step.
 struct Measurement {
   double value;    ///< the experiment's quantity
-  double error;    ///< from the value on paper, as the experiment's unit says
+  double error;    ///< deviation from the value on paper, in the experiment's unit
   RunTally tally;  ///< of all its runs
   std::vector<std::pair<std::string, double>> details = {};  ///< by name, as in docs/simulation.md
 };
 
 /// A scene, or a few, whose outcome is known on paper.
 struct Experiment {
-  using OfStep = std::function<double(double step)>;
+  using StepFunction = std::function<double(double step)>;
 
   std::string name;       ///< as on the command line: "rolling"
   std::string statement;  ///< what must happen, in one sentence
-  std::string quantity;   ///< that is measured, with its unit
+  std::string quantity;   ///< what is measured, with its unit
   std::string unit;       ///< of the error
-  /// Runs it with a step in seconds. A model that lacks a pair ends it early
+  /// Runs the experiment with a step in seconds. Ends early if the model does not support a pair
   /// (RunTally::unsupported).
   std::function<Measurement(ContactModel& model, double step)> run;
-  OfStep expected;  ///< the value on paper at that step
-  /// Exact contacts may have an error up to this, whichever points they consist of: of the
-  /// integrator, the solver, the surface layer, the bisection (resolution.hpp). Candidates with
-  /// smaller errors are equal.
-  OfStep resolution;
+  StepFunction expected;  ///< value on paper at a step
+  /// Largest error at a step that exact contacts may have, whichever points they consist of: that
+  /// of the integrator, the solver, the surface layer and the bisection (experiment_setup.hpp).
+  /// Candidates with smaller errors are equal.
+  StepFunction resolution;
   bool rests = false;  ///< the value is a motion that must die away
 };
 
-/// In report order.
+/// All experiments in report order.
 const std::vector<Experiment>& all_experiments();
 
-/// Throws InvalidInput (field "experiment") naming those there are.
+/// Throws InvalidInput (field "experiment") that lists the names there are.
 const Experiment& find_experiment(const std::string& name);
 
-// Of which all_experiments is made, by what they ask.
-std::vector<Experiment> resting_experiments();    ///< does what is at rest stay there?
-std::vector<Experiment> moving_experiments();     ///< does what moves keep to its law?
+// The parts of all_experiments, by the question they ask.
+std::vector<Experiment> resting_experiments();    ///< does a body at rest stay at rest?
+std::vector<Experiment> moving_experiments();     ///< does a moving body obey its law of motion?
 std::vector<Experiment> threshold_experiments();  ///< up to which angle, friction, overhang, speed?
 
 }  // namespace touchstone

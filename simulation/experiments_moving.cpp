@@ -1,17 +1,15 @@
-// What rolls and spins keeps to its law of motion.
+// Rolling and spinning bodies obey their laws of motion.
 #include <algorithm>
 #include <cmath>
 
 #include "simulation/experiment.hpp"
-#include "simulation/experiment_bodies.hpp"
-#include "simulation/motion.hpp"
-#include "simulation/resolution.hpp"
+#include "simulation/experiment_setup.hpp"
 
 namespace touchstone {
 namespace {
 
-// Down a slope θ without slip: acceleration 2/3 g sin θ. Semi-implicit Euler's distance after n
-// steps h from rest is a h² n (n + 1) / 2, which is what contacts are held to.
+// Down a slope θ without slip the acceleration is a = 2/3 g sin θ. Contacts are compared with the
+// distance that semi-implicit Euler makes of it in n steps h from rest: a h² n (n + 1) / 2.
 const double slope = radians(10);
 constexpr double rolling_time = 3;  // s
 
@@ -20,20 +18,20 @@ double rolling_distance(double step) {
   return 2.0 / 3 * gravity * std::sin(slope) * step * step * n * (n + 1) / 2;
 }
 
-/// A lever shorter by some share makes the acceleration smaller by two thirds of that share.
+/// A lever that is shorter by some share reduces the acceleration by two thirds of that share.
 double rolling_resolution(double) {
   return 2.0 / 3 * (touching + sinking(rolling_time)) / can_radius;
 }
 
-/// How far the speed departs from even acceleration, as a share of the last speed.
+/// Largest deviation of the speed from constant acceleration, as a share of the final speed.
 double ripple(const std::vector<double>& speeds) {
-  double most = 0;
+  double largest = 0;
   for (std::size_t i = 0; i < speeds.size(); ++i) {
-    const double even =
+    const double constant =
         speeds.back() * static_cast<double>(i + 1) / static_cast<double>(speeds.size());
-    most = std::max(most, std::abs(speeds[i] - even));
+    largest = std::max(largest, std::abs(speeds[i] - constant));
   }
-  return speeds.empty() || speeds.back() == 0 ? 0 : most / std::abs(speeds.back());
+  return speeds.empty() || speeds.back() == 0 ? 0 : largest / std::abs(speeds.back());
 }
 
 Measurement rolling(ContactModel& model, double step) {
@@ -57,10 +55,10 @@ Measurement rolling(ContactModel& model, double step) {
       found, (way - expected * down).norm() / expected, run.tally(), {{"ripple", ripple(speeds)}}};
 }
 
-// A disc that rolls on its rim about a resting centre, leaning by α from lying flat, goes round at
-// Ω with Ω² sin α (Iₜ cos α − Iₐ h/r sin α) = m g (r cos α − h sin α): torque of the support equals
-// the change of angular momentum; the angular velocity is along the line to the contact, as rolling
-// without slip about a resting centre needs.
+// A disc that rolls on its rim about a resting centre, inclined by α from lying flat, precesses at
+// the rate Ω of Ω² sin α (Iₜ cos α − Iₐ h/r sin α) = m g (r cos α − h sin α): the torque of the
+// support equals the rate of change of the angular momentum, and the angular velocity points along
+// the line from the centre to the contact, because the disc rolls without slip.
 const Cylinder coin(0.5, 0.02);
 const double coin_lean = radians(25);
 
@@ -71,7 +69,7 @@ double coin_rate(double lean) {
                    (s * (i.principal.x() * c - i.principal.z() * h / r * s)));
 }
 
-/// Finer than the other experiments: the coin goes round in less than half a second.
+/// Steps are finer than in other experiments: a revolution takes less than half a second.
 constexpr int coin_substeps = 8;
 constexpr double coin_time = 2;  // s
 
@@ -81,10 +79,10 @@ Measurement spinning_coin(ContactModel& model, double step) {
   scene.duration = coin_time;
   const double r = coin.radius(), h = coin.half_length(), rate = coin_rate(coin_lean);
   const Eigen::Quaterniond lean = about(Vec3::UnitY(), coin_lean);
-  const Vec3 axis = lean * Vec3::UnitZ(), low = lean * Vec3::UnitX();  // of the rim's lowest point
+  const Vec3 axis = lean * Vec3::UnitZ(), to_lowest = lean * Vec3::UnitX();
   const double height = h * std::cos(coin_lean) + r * std::sin(coin_lean) - touching;
   Body body = moving_body("coin", coin, 1, Pose(height * Vec3::UnitZ(), lean));
-  body.angular_velocity = -rate * std::sin(coin_lean) / r * (r * low - h * axis);
+  body.angular_velocity = -rate * std::sin(coin_lean) / r * (r * to_lowest - h * axis);
   scene.bodies = {ground(1), body};
 
   Run run(scene, model, r);
@@ -102,7 +100,7 @@ Measurement spinning_coin(ContactModel& model, double step) {
       angle, std::max(std::abs(turned), std::abs(lean_kept)), run.tally(), {{"lean", lean_kept}}};
 }
 
-/// The one contact of a leaning cylinder and the ground z = 0, on paper.
+/// Closed form of the single contact between an inclined cylinder and the ground z = 0.
 class LowestPoint : public ContactModel {
  public:
   void begin() override {}
@@ -125,7 +123,7 @@ class LowestPoint : public ContactModel {
   }
 };
 
-/// What the integrator makes of exact contacts, and as much again.
+/// Twice the error of the integrator, which is measured with the closed form.
 double coin_resolution(double step) {
   LowestPoint exact;
   return 2 * spinning_coin(exact, step).error;

@@ -1,47 +1,47 @@
-// What is supported stays where it is, also when it is let go leaning by a hair.
+// A supported body stays where it is, also when it is released with a slight lean.
 #include <algorithm>
 
 #include "simulation/experiment.hpp"
-#include "simulation/experiment_bodies.hpp"
-#include "simulation/resolution.hpp"
+#include "simulation/experiment_setup.hpp"
 
 namespace touchstone {
 namespace {
 
-/// One side is lifted before it is let go: a single contact point straight below the centre of mass
-/// would otherwise do.
+/// Lean at the start: one side is lifted, because in the rest pose itself a single contact point
+/// below the centre of mass would do.
 constexpr double lean = 0.01;  // rad
 
-/// Turned about a point of the world that stays where it is.
+/// The pose rotated about a point of the world.
 Pose turned_about(const Pose& pose, const Vec3& pivot, const Vec3& axis, double angle) {
   const Eigen::Quaterniond turn = about(axis, angle);
   return Pose(pivot + turn * (pose.position() - pivot), turn * pose.orientation());
 }
 
-/// The largest way of any point of a body from where it would be at home, metres.
-double astray(const Pose& now, const Pose& home, double reach) {
+/// Bound on the distance, metres, of any point of a body from its place in the home pose.
+double distance_from(const Pose& now, const Pose& home, double reach) {
   const double angle = Eigen::AngleAxisd(now.rotation() * home.rotation().transpose()).angle();
   return (now.position() - home.position()).norm() + reach * angle;
 }
 
 /// Runs to the end. In the second half the rocking must be over: the value is the mean kinetic
-/// energy that is left, the error how far any body is from its home at the most, in radii. `homes`
-/// are those of the last bodies.
+/// energy that is left, the error the largest distance of any body from its home, in radii.
+/// `homes`: those of the last bodies of the scene.
 Measurement stay(const Scene& scene, const std::vector<Pose>& homes, ContactModel& model) {
   const std::size_t first = scene.bodies.size() - homes.size();
   Run run(scene, model, can_radius);
-  double most = 0, jitter = 0;
+  double farthest = 0, energy = 0;
   std::uint64_t counted = 0;
   while (run.step()) {
     if (run.world().time() < scene.duration / 2) continue;
     for (std::size_t i = 0; i < homes.size(); ++i) {
-      most =
-          std::max(most, astray(run.world().states()[first + i].pose, homes[i], can_half_length));
+      farthest = std::max(
+          farthest, distance_from(run.world().states()[first + i].pose, homes[i], can_half_length));
     }
-    jitter += run.kinetic_energy();
+    energy += run.kinetic_energy();
     ++counted;
   }
-  return {counted > 0 ? jitter / static_cast<double>(counted) : 0, most / can_radius, run.tally()};
+  return {counted > 0 ? energy / static_cast<double>(counted) : 0, farthest / can_radius,
+          run.tally()};
 }
 
 Scene resting(double step) {
@@ -63,8 +63,9 @@ Measurement standing(ContactModel& model, double step) {
   return stay(scene, {home}, model);
 }
 
-/// A quarter of the cap's width hangs over an edge, to which the box slopes, well within friction.
-/// Lifted on that side: it rocks in one plane, and without slip it comes back to its place.
+/// A quarter of the cap's width hangs over the lower edge of a box whose slope is well within
+/// friction. Lifted on that side, the can rocks in one plane and, without slip, returns to its
+/// place.
 Measurement standing_on_box(ContactModel& model, double step) {
   Scene scene = resting(step);
   const Eigen::Quaterniond turn = about(Vec3::UnitZ(), 0.4) * about(Vec3::UnitY(), radians(3));
@@ -78,12 +79,13 @@ Measurement standing_on_box(ContactModel& model, double step) {
   return stay(scene, {home}, model);
 }
 
-/// One end is lifted. While it comes down the other one's rim needs a friction of 0.77 to stay.
+/// One end is lifted. Until it has landed, the rim of the other end needs a friction of 0.77 to
+/// stick.
 Measurement lying(ContactModel& model, double step) {
   Scene scene = resting(step);
   const Vec3 centre(0.1, -0.2, can_radius - touching);
   const Eigen::Quaterniond turn = about(Vec3::UnitZ(), 0.4);
-  const Pose home(centre, turn * along_x() * about(Vec3::UnitZ(), 0.7));
+  const Pose home(centre, turn * level() * about(Vec3::UnitZ(), 0.7));
   const Vec3 pivot = centre + turn * Vec3(can_half_length, 0, -can_radius);
   const Pose start = turned_about(home, pivot, turn * Vec3::UnitY(), lean);
   scene.bodies = {ground(1), moving_body("can", can, 1, start)};
@@ -91,34 +93,34 @@ Measurement lying(ContactModel& model, double step) {
 }
 
 constexpr double stacked_half_length = can_radius;  // as high as wide
-constexpr double most_aside = 0.1;                  // m, of one stacked cylinder from the next
+constexpr double max_offset = 0.1;                  // m, between stacked axes
 
 Measurement stack(ContactModel& model, double step) {
   Scene scene = resting(step);
-  // With 200 what the solver left undone moved the bodies ten thousand times as far as now.
+  // With 200 the residual of the solver moved the bodies ten thousand times as far.
   scene.solver_iterations = 1000;
   const double half = stacked_half_length;
   scene.bodies = {ground(0.5)};
   const char* names[] = {"lowest", "middle", "highest"};
-  const Vec3 aside[] = {Vec3::Zero(), Vec3(0.08, 0.03, 0), Vec3(0.02, -0.05, 0)};
+  const Vec3 offset[] = {Vec3::Zero(), Vec3(0.08, 0.03, 0), Vec3(0.02, -0.05, 0)};
   std::vector<Pose> homes;
   for (int i = 0; i < 3; ++i) {
     const double height = (2 * i + 1) * half - (i + 1) * middle_of_layer(scene);
-    homes.emplace_back(aside[i] + height * Vec3::UnitZ(), about(Vec3::UnitZ(), 0.3 + i));
+    homes.emplace_back(offset[i] + height * Vec3::UnitZ(), about(Vec3::UnitZ(), 0.3 + i));
     scene.bodies.push_back(moving_body(names[i], Cylinder(can_radius, half), 0.5, homes.back()));
   }
   return stay(scene, homes, model);
 }
 
-// Resolutions, in radii.
+// Resolutions, in radii of the can.
 
 const double layer = Scene{}.surface_layer;
 
-/// Any three points around a round support are an exact answer; they are this much of its width
-/// apart at the least, across a side of their triangle.
+/// Height of the triangle of three equally spaced points around a round support, as a share of its
+/// diameter: an exact answer may consist of just these.
 constexpr double triangle = 0.75;
 
-/// On a flat support of this width, on whose far side it comes down.
+/// Standing on a support of this width, on whose far side the can lands.
 double on_end(double width, double step) {
   const double gyration = can_gyration(can_radius, can_half_length);
   return (way_within_layer(layer, triangle * width, can_half_length, can_half_length) +
@@ -133,9 +135,9 @@ double on_its_side(double step) {
          can_radius;
 }
 
-/// The highest one leans with all below it.
+/// The highest cylinder leans with all below it.
 double stacked(double) {
-  const double width = triangle * (2 * can_radius - most_aside);
+  const double width = triangle * (2 * can_radius - max_offset);
   double way = 0;
   for (const int below : {0, 1, 2}) {
     const double height = (2 * below + 1) * stacked_half_length;

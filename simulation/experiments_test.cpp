@@ -1,36 +1,40 @@
-// The experiments judge contacts; these tests judge the experiments. Exact contacts must pass each,
-// and what is known to be wrong must be seen.
+// The experiments judge contacts; these tests judge the experiments: exact contacts must pass each,
+// and contacts known to be wrong must fail.
+#include <cmath>
 #include <gmock/gmock.h>
+#include <limits>
+
+#include <nlohmann/json.hpp>
 
 #include "candidates/candidates.hpp"
 #include "reference/invalid_input.hpp"
-#include "simulation/resolution.hpp"
+#include "simulation/experiment_setup.hpp"
 #include "simulation/run_experiments.hpp"
 
 namespace touchstone {
 namespace {
 
-using nlohmann::json;
+using Outcome = ExperimentResult::Outcome;
 using testing::HasSubstr;
 
 constexpr double usual_step = 1.0 / 240;
 
-json run_one(const std::string& experiment, const std::string& candidate,
-             double step = usual_step) {
+ExperimentResult run_one(const std::string& experiment, const std::string& candidate,
+                         double step = usual_step) {
   ExperimentOptions options;
   options.experiments = {&find_experiment(experiment)};
   options.candidates = {&find_candidate(candidate)};
   options.steps = {step};
-  return run_experiments(options)["results"][0];
+  return run_experiments(options).results.at(0);
 }
 
 class EveryExperiment : public testing::TestWithParam<std::string> {};
 
 TEST_P(EveryExperiment, IsPassedByOurContacts) {
   for (const double step : {1.0 / 60, usual_step}) {
-    const json result = run_one(GetParam(), "reference", step);
-    EXPECT_EQ(result["exact"], true) << result.dump();
-    EXPECT_EQ(result["failures"], 0);
+    const ExperimentResult result = run_one(GetParam(), "reference", step);
+    EXPECT_TRUE(result.exact) << to_text(result);
+    EXPECT_EQ(result.failures, 0U);
   }
 }
 
@@ -46,10 +50,10 @@ INSTANTIATE_TEST_SUITE_P(, EveryExperiment, testing::ValuesIn(names()), [](const
 });
 
 TEST(Experiments, RollingKeepsToSemiImplicitEuler) {
-  const json result = run_one("rolling", "reference");
-  EXPECT_LT(result["error"], 1.1e-8);  // two thirds of touching and sinking, in radii
-  EXPECT_LT(result["details"]["ripple"], 1e-8);
-  EXPECT_EQ(result["points"], 2);
+  const ExperimentResult result = run_one("rolling", "reference");
+  EXPECT_LT(result.error, 1.1e-8);  // two thirds of touching and sinking, in radii
+  EXPECT_LT(result.details.at("ripple"), 1e-8);
+  EXPECT_EQ(result.points, 2);
 }
 
 /// Another candidate's contacts, changed.
@@ -104,9 +108,8 @@ TEST(Experiments, DoNotJudgeDepthsWithinTheSurfaceLayer) {
 // What is left is the contacts', not the solver's: it has converged, and nothing slips.
 TEST(Experiments, LeaveExactContactsNoMoreThanCfmAndTheLayerDo) {
   const double radius = 0.25, weights = 3 + 2 + 1;  // on the three supports of the stack
-  EXPECT_LT(run_one("stack", "reference")["error"], weights * sinking(10) / radius);
-  EXPECT_LT(run_one("lying", "reference")["error"],
-            way_within_layer(1e-4, 1, radius, 0.5) / radius);
+  EXPECT_LT(run_one("stack", "reference").error, weights * sinking(10) / radius);
+  EXPECT_LT(run_one("lying", "reference").error, way_within_layer(1e-4, 1, radius, 0.5) / radius);
 }
 
 TEST(Experiments, JudgeALeverThatIsWrong) {
@@ -123,21 +126,21 @@ TEST(Experiments, JudgeALeverThatIsWrong) {
 }
 
 TEST(Experiments, SeeAPrismThatDoesNotRoll) {
-  const json result = run_one("rolling", "prism:16");
-  EXPECT_EQ(result["exact"], false);
-  EXPECT_GT(result["error"], 0.1);
-  EXPECT_GT(result["details"]["ripple"], 1e-3);
+  const ExperimentResult result = run_one("rolling", "prism:16");
+  EXPECT_FALSE(result.exact);
+  EXPECT_GT(result.error, 0.1);
+  EXPECT_GT(result.details.at("ripple"), 1e-3);
 }
 
 TEST(Experiments, SeeACapsuleThatDoesNotStand) {
-  const json result = run_one("standing", "capsule");
-  EXPECT_EQ(result["exact"], false);
-  EXPECT_GT(result["error"], 1);
+  const ExperimentResult result = run_one("standing", "capsule");
+  EXPECT_FALSE(result.exact);
+  EXPECT_GT(result.error, 1);
 }
 
 TEST(Experiments, SeeACoinThatFallsFlatThoughItGoesRoundAsFast) {
-  const json result = run_one("coin", "spheres:8", 1.0 / 60);
-  EXPECT_EQ(result["exact"], false) << result.dump();
+  const ExperimentResult result = run_one("coin", "spheres:8", 1.0 / 60);
+  EXPECT_FALSE(result.exact) << to_text(result);
 }
 
 TEST(Experiments, SeeOneContactUnderALyingCylinder) {
@@ -146,15 +149,15 @@ TEST(Experiments, SeeOneContactUnderALyingCylinder) {
   } catch (const InvalidInput&) {
     GTEST_SKIP() << "Bullet is not there";
   }
-  const json result = run_one("lying", "bullet");
-  EXPECT_GT(result["single"], 0.9);
-  EXPECT_GT(result["value"], 1e-6);  // never at rest
-  EXPECT_EQ(result["exact"], false);
+  const ExperimentResult result = run_one("lying", "bullet");
+  EXPECT_GT(result.single, 0.9);
+  EXPECT_GT(result.value, 1e-6);  // never at rest
+  EXPECT_FALSE(result.exact);
 }
 
 TEST(Experiments, SayWhatACandidateLacks) {
-  const json result = run_one("standing", "box-spheres:8");
-  EXPECT_EQ(result["outcome"], "unsupported");
+  const ExperimentResult result = run_one("standing", "box-spheres:8");
+  EXPECT_EQ(result.outcome, Outcome::unsupported);
 }
 
 TEST(Experiments, GiveTheSameResultWithAnyNumberOfWorkers) {
@@ -165,14 +168,36 @@ TEST(Experiments, GiveTheSameResultWithAnyNumberOfWorkers) {
   options.candidates = {&find_candidate("reference"), &find_candidate("capsule")};
   const auto without_times = [&](unsigned workers) {
     options.workers = workers;
-    json result = run_experiments(options);
-    for (json& row : result["results"]) {
-      row.erase("nanoseconds");
-      row.erase("microseconds_per_step");
+    ExperimentResults all = run_experiments(options);
+    for (ExperimentResult& result : all.results) {
+      result.nanoseconds.reset();
+      result.microseconds_per_step = 0;
     }
-    return result;
+    return to_json(all);
   };
   EXPECT_EQ(without_times(1), without_times(3));
+}
+
+TEST(ExperimentResults, SurviveTheWayBetweenProcesses) {
+  ExperimentResult result;
+  result.experiment = "coin";
+  result.candidate = "bullet";
+  result.outcome = Outcome::unsound;
+  result.value = std::numeric_limits<double>::infinity();
+  result.details = {{"lean", 0.1}};
+  result.nanoseconds = 1.0 / 3;
+  const ExperimentResult copy = result_from_text(to_text(result));
+  EXPECT_EQ(copy.outcome, Outcome::unsound);
+  EXPECT_FALSE(std::isfinite(copy.value));
+  EXPECT_EQ(to_text(copy), to_text(result));
+}
+
+TEST(ExperimentResults, OfAnUnsupportedPairHaveNoFigures) {
+  ExperimentResult result;
+  result.outcome = Outcome::unsupported;
+  const nlohmann::json row = to_json(ExperimentResults{{}, {}, {result}})["results"][0];
+  EXPECT_EQ(row["outcome"], "unsupported");
+  EXPECT_FALSE(row.contains("value"));
 }
 
 TEST(Experiments, AreFoundByName) {
@@ -182,6 +207,31 @@ TEST(Experiments, AreFoundByName) {
   } catch (const InvalidInput& e) {
     EXPECT_THAT(e.what(), HasSubstr("must be one of standing, standing-on-box, lying"));
   }
+}
+
+TEST(Resolution, SinkingIsTheSpeedThatCfmLeavesUnderAWeight) {
+  EXPECT_DOUBLE_EQ(sinking(3), 3 * 9.81e-10);
+}
+
+TEST(Resolution, LayerLetsABodyOnTwoPointsSinkAndLean) {
+  // Points 0.4 m apart, one at the layer's top and one at its bottom.
+  EXPECT_DOUBLE_EQ(lean_within_layer(1e-4, 0.4), 2.5e-4);
+  EXPECT_DOUBLE_EQ(way_within_layer(1e-4, 0.4, 0.5, 0.1), 1e-4 + 2.5e-4 * 0.6);
+}
+
+TEST(Resolution, LandingIsAsFastAsTheFallOfALeaningBody) {
+  constexpr double gyration = 0.6, arm = 0.25, across = 0.5, lean = 0.01, tick = 1e-7;
+  double angle = lean, rate = 0;
+  while (angle > 0) {
+    rate += tick * 9.81 * arm / (gyration * gyration);
+    angle -= tick * rate;
+  }
+  EXPECT_NEAR(way_of_late_landing(lean, arm, gyration, across, 1e-3), across * rate * 1e-3, 1e-9);
+}
+
+TEST(Resolution, BisectionLeavesHalfOfTheLastInterval) {
+  EXPECT_EQ(bisected(1), 0.25);
+  EXPECT_EQ(bisected(12), 0.5 / 4096);
 }
 
 }  // namespace

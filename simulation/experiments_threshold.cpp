@@ -1,10 +1,9 @@
-// Up to where does it hold? Each threshold is known on paper and found by bisection.
+// Thresholds, each known on paper and found by bisection: up to which angle does a can stand?
 #include <algorithm>
 #include <cmath>
 
 #include "simulation/experiment.hpp"
-#include "simulation/experiment_bodies.hpp"
-#include "simulation/resolution.hpp"
+#include "simulation/experiment_setup.hpp"
 
 namespace touchstone {
 namespace {
@@ -13,8 +12,8 @@ const Cylinder can(can_radius, can_half_length);
 
 constexpr int halvings = 12;
 
-/// The last value from `holds` towards `fails` at which `test` holds; what it is at the ends is
-/// taken for granted.
+/// Bisects the interval from `holds` to `fails` for the value at which `test` turns from true to
+/// false; assumes without a test that it does so in between.
 template <class Test>
 double threshold(double holds, double fails, const Test& test) {
   for (int i = 0; i < halvings; ++i) {
@@ -24,7 +23,7 @@ double threshold(double holds, double fails, const Test& test) {
   return (holds + fails) / 2;
 }
 
-/// Runs until `still` fails; true if it never did.
+/// Runs while `still` holds; true if it held to the end.
 template <class Still>
 bool lasts(const Scene& scene, ContactModel& model, RunTally& tally, const Still& still) {
   Run run(scene, model, can_radius);
@@ -47,7 +46,7 @@ Measurement tipping(ContactModel& model, double step) {
     Scene scene;
     scene.step = step;
     scene.duration = 2;
-    constexpr double friction = 2;  // so that it tips before it slides
+    constexpr double friction = 2;  // enough to tip before sliding
     const Eigen::Quaterniond turn = about(Vec3::UnitZ(), 0.4) * about(Vec3::UnitY(), slope);
     const Vec3 up = turn * Vec3::UnitZ();
     const Vec3 centre = (can_half_length - touching) * up;
@@ -65,11 +64,11 @@ Measurement tipping(ContactModel& model, double step) {
   return {found, std::abs(found / expected - 1), tally};
 }
 
-/// Any three points on the rim are an exact answer. Where the rim is lowest between two of them,
-/// the can turns with an acceleration α about the line through both, half a radius nearer to its
-/// middle, for the step that it takes to find the rim there; that speed carries it over if by
-/// energy it has no more than (gyration × α × step)² / 2 left to climb. It may also lean on the
-/// layer.
+/// Any three points on the rim are an exact answer. Where the rim's lowest point lies between two
+/// of them, the can rotates with angular acceleration α about the line through both, half a radius
+/// nearer to its axis, for one step, until a point there is found; the speed gained carries it over
+/// if the energy that is left to climb is at most (gyration × α × step)² / 2. The can may also lean
+/// on the surface layer.
 double tipping_resolution(double step) {
   const double angle = tipping_angle(step), to_rim = std::hypot(can_radius, can_half_length);
   const double about_line = can_gyration(can_radius / 2, can_half_length);
@@ -81,12 +80,12 @@ double tipping_resolution(double step) {
   return (carried + leaning) / angle + 2 * bisected(halvings);
 }
 
-// Two logs a little apart and one upon them: each lower one is in balance if the friction at its
-// two contacts is the normal force times tan(φ/2), φ being the angle of the line of centres to the
-// vertical. The ground's friction is the same with a larger normal force.
+// Two logs a little apart carry a third: each lower one is in equilibrium if the friction at its
+// two contacts is tan(φ/2) times the normal force, φ being the angle between the line of centres
+// and the vertical. At the ground the friction force is the same and the normal force larger.
 constexpr double half_spacing = 1.1 * can_radius;
 constexpr double pile_time = 1;                 // s
-constexpr double pile_way = 0.02 * can_radius;  // m, beyond which it does not hold
+constexpr double pile_way = 0.02 * can_radius;  // m, beyond which the pile has not held
 double pile_friction(double) { return std::tan(std::asin(half_spacing / (2 * can_radius)) / 2); }
 
 Measurement log_pile(ContactModel& model, double step) {
@@ -100,7 +99,7 @@ Measurement log_pile(ContactModel& model, double step) {
     const double between = 2 * can_radius - depth;
     const double high = low + std::sqrt(between * between - half_spacing * half_spacing);
     const auto log = [&](const char* name, double y, double z) {
-      return moving_body(name, can, friction, Pose(Vec3(0, y, z), along_x()));
+      return moving_body(name, can, friction, Pose(Vec3(0, y, z), level()));
     };
     scene.bodies = {ground(friction), log("left", -half_spacing, low),
                     log("right", half_spacing, low), log("top", 0, high)};
@@ -119,19 +118,20 @@ Measurement log_pile(ContactModel& model, double step) {
   return {found, std::abs(found / expected - 1), tally};
 }
 
-/// What slides less than the bar within the time counts as holding. Where friction lacks Δμ a lower
-/// log rolls away with g (1 + cos φ) Δμ / 3.
+/// A pile that slides less than `pile_way` in the time counts as holding. Where the friction is too
+/// small by Δμ, a lower log rolls away with acceleration g (1 + cos φ) Δμ / 3.
 double pile_resolution(double step) {
   const double cosine = std::cos(std::asin(half_spacing / (2 * can_radius)));
   const double lacking = 6 * pile_way / (pile_time * pile_time * gravity * (1 + cosine));
   return lacking / pile_friction(step) + 4 * bisected(halvings);
 }
 
-// On its side across a box's edge it stays as long as its centre is above the box.
+// A can on its side across the edge of a box stays as long as its centre is above the box.
 constexpr double edge_time = 2;     // s
 const double toppled = radians(3);  // of lean
 
-/// In half lengths. Beyond by x it leans by g x t² / (2 gyration²), which has to be seen in time.
+/// In half lengths. With its centre x beyond the edge, the can leans by g x t² / (2 gyration²),
+/// which must reach `toppled` within the time.
 double edge_resolution(double) {
   const double gyration = can_gyration(can_radius, 0);
   const double unseen = 2 * toppled * gyration * gyration / (gravity * edge_time * edge_time);
@@ -148,7 +148,7 @@ Measurement across_edge(ContactModel& model, double step) {
     const Eigen::Quaterniond turn = about(Vec3::UnitZ(), 0.4);
     const Vec3 centre(half.x() + overhang, 0, half.z() + can_radius - touching);
     scene.bodies = {fixed_body("box", Box(half), 0.5, Pose(Vec3::Zero(), turn)),
-                    moving_body("can", can, 0.5, Pose(turn * centre, turn * along_x()))};
+                    moving_body("can", can, 0.5, Pose(turn * centre, turn * level()))};
     return lasts(scene, model, tally, [&](const World& world) {
       return std::abs(world.states()[1].pose.axis().z()) < std::sin(toppled);
     });
@@ -157,17 +157,18 @@ Measurement across_edge(ContactModel& model, double step) {
   return {found / can_half_length, std::abs(found) / can_half_length, tally};
 }
 
-// A can that flies end first at a plate is found in it at least once while its centre is on the
-// near side, however its steps fall, up to one way through per step.
+// A can that flies end first at a plate is in contact with it, its centre still on the near side of
+// the plate's middle, over a way of half length + half thickness; up to that way per step, at least
+// one step ends in contact.
 constexpr double plate_half_thickness = 0.01;
-constexpr double least_phase = 0.001;  // of a step's way that it is ahead of touching, at first
+constexpr double min_phase = 0.001;  // distance from touching at the start, in steps
 double tunnelling_speed(double step) { return (can_half_length + plate_half_thickness) / step; }
 
 Measurement tunnelling(ContactModel& model, double step) {
   RunTally tally;
   const double expected = tunnelling_speed(step);
   const auto is_stopped = [&](double speed) {
-    for (const double phase : {least_phase, 0.25, 0.5, 0.75}) {
+    for (const double phase : {min_phase, 0.25, 0.5, 0.75}) {
       Scene scene;
       scene.step = step;
       scene.gravity = Vec3::Zero();
@@ -208,7 +209,7 @@ std::vector<Experiment> threshold_experiments() {
        "A cylinder that flies end first at a thin plate is stopped up to (half length + half "
        "thickness) / step.",
        "speed at which it passes through, m/s", "relative, slower only", tunnelling,
-       tunnelling_speed, [](double) { return least_phase + 2 * bisected(halvings); }}};
+       tunnelling_speed, [](double) { return min_phase + 2 * bisected(halvings); }}};
 }
 
 }  // namespace touchstone

@@ -5,16 +5,14 @@
 
 #include "candidates/host/progress.hpp"
 #include "candidates/host/worker_processes.hpp"
-#include "simulation/experiment_bodies.hpp"
+#include "simulation/experiment_setup.hpp"
 
 namespace touchstone {
 namespace {
 
-using nlohmann::json;
-
-/// Kinetic energy, in weight × radius, below which a body rests: a thousandth of what a fall of one
-/// step gives, which is about what an iterative solver leaves of it.
-double at_rest(double step) { return 1e-3 * gravity * step * step / (2 * can_radius); }
+/// Kinetic energy, in weight × radius, below which a body is at rest: a thousandth of what a fall
+/// of one step gives, which is about what an iterative solver leaves of it.
+double rest_energy(double step) { return 1e-3 * gravity * step * step / (2 * can_radius); }
 
 struct Trial {
   const Experiment* experiment;
@@ -22,7 +20,7 @@ struct Trial {
   double step;
 };
 
-/// Experiment by experiment, so that its rows stand together.
+/// All trials, ordered by experiment, then step, then candidate.
 std::vector<Trial> trials(const ExperimentOptions& options) {
   std::vector<Trial> result;
   for (const Experiment* e : options.experiments) {
@@ -33,7 +31,7 @@ std::vector<Trial> trials(const ExperimentOptions& options) {
   return result;
 }
 
-/// Passes questions on and keeps some of them, evenly over the whole run, to be timed later.
+/// Another model, with a sample of the configurations in contact, evenly spread over the run.
 class SamplingModel : public ContactModel {
  public:
   explicit SamplingModel(ContactModel& model) : model_(model) {}
@@ -42,103 +40,102 @@ class SamplingModel : public ContactModel {
     auto result = model_.answers(questions);
     for (std::size_t i = 0; i < questions.size(); ++i) {
       if (result[i].status != TS_CONTACT || seen_++ % stride_ != 0) continue;
-      kept_.push_back(questions[i].configuration);
-      if (kept_.size() < 2 * wanted) continue;
-      for (std::size_t k = 0; k < wanted; ++k) kept_[k] = kept_[2 * k];
-      kept_.resize(wanted, kept_.front());
+      sample_.push_back(questions[i].configuration);
+      if (sample_.size() < 2 * min_size) continue;
+      for (std::size_t k = 0; k < min_size; ++k) sample_[k] = sample_[2 * k];
+      sample_.resize(min_size, sample_.front());
       stride_ *= 2;
     }
     return result;
   }
-  const std::vector<Configuration>& kept() const { return kept_; }
+  const std::vector<Configuration>& sample() const { return sample_; }
 
  private:
-  static constexpr std::size_t wanted = 50;
+  static constexpr std::size_t min_size = 50;  // of the sample of a long run
   ContactModel& model_;
-  std::vector<Configuration> kept_;
+  std::vector<Configuration> sample_;
   std::size_t seen_ = 0, stride_ = 1;
 };
 
-/// Median over a few rounds of the narrow phase alone; null where it cannot be timed.
-json nanoseconds(CandidateProcess& process, const std::vector<Configuration>& configurations) {
+/// Nanoseconds per query of the narrow phase alone, median over a few rounds; absent where it
+/// cannot be timed.
+std::optional<double> query_time(CandidateProcess& process,
+                                 const std::vector<Configuration>& configurations) {
   constexpr int rounds = 5;
-  if (configurations.empty() || !process.prepare_timing(configurations)) return nullptr;
+  if (configurations.empty() || !process.prepare_timing(configurations)) return std::nullopt;
   std::vector<double> samples;
   for (int i = 0; i < rounds; ++i) {
     if (const auto cost = process.cost_per_query()) samples.push_back(cost->nanoseconds);
   }
-  if (samples.empty()) return nullptr;
+  if (samples.empty()) return std::nullopt;
   const auto middle = samples.begin() + static_cast<std::ptrdiff_t>((samples.size() - 1) / 2);
   std::nth_element(samples.begin(), middle, samples.end());
   return *middle;
 }
 
-json finite(double x) { return std::isfinite(x) ? json(x) : json(nullptr); }
-
-json run(const Trial& trial, const Limits& limits) {
+ExperimentResult run(const Trial& trial, const Limits& limits) {
   CandidateProcess process(*trial.candidate, simulation_threshold, limits);
   CandidateModel model(process);
   SamplingModel sampling(model);
-  const Measurement m = trial.experiment->run(sampling, trial.step);
+  const Experiment& experiment = *trial.experiment;
+  const Measurement m = experiment.run(sampling, trial.step);
   const RunTally& t = m.tally;
   const double steps = static_cast<double>(std::max<std::uint64_t>(t.steps, 1));
   const auto share = [&](std::uint64_t count) { return static_cast<double>(count) / steps; };
 
-  json result = {{"experiment", trial.experiment->name},
-                 {"candidate", trial.candidate->name},
-                 {"step", trial.step}};
-  if (t.unsupported) {
-    result["outcome"] = "unsupported";
-    return result;
+  ExperimentResult r;
+  r.experiment = experiment.name;
+  r.candidate = trial.candidate->name;
+  r.step = trial.step;
+  r.outcome = t.unsupported ? ExperimentResult::Outcome::unsupported
+              : t.unsound   ? ExperimentResult::Outcome::unsound
+                            : ExperimentResult::Outcome::measured;
+  if (t.unsupported) return r;
+  r.value = m.value;
+  r.error = m.error;
+  r.exact = !t.unsound && m.error <= experiment.resolution(trial.step) &&
+            !(experiment.rests && m.value > rest_energy(trial.step));
+  r.energy_gained = t.energy_gained;
+  r.points = share(t.points);
+  r.flicker = share(t.flickers);
+  r.single = share(t.single);
+  r.without = share(t.without);
+  r.failures = t.failures;
+  r.details = {m.details.begin(), m.details.end()};
+  r.steps = t.steps;
+  r.nanoseconds = query_time(process, sampling.sample());
+  r.microseconds_per_step = 1e6 * t.seconds / steps;
+  return r;
+}
+
+ExperimentDescription describe(const Experiment& experiment, const std::vector<double>& steps) {
+  ExperimentDescription d{
+      experiment.name, experiment.statement, experiment.quantity, experiment.unit, {}, {}};
+  for (const double step : steps) {
+    d.expected.push_back(experiment.expected(step));
+    d.resolution.push_back(experiment.resolution(step));
   }
-  json details = json::object();
-  for (const auto& [name, value] : m.details) details[name] = finite(value);
-  result["outcome"] = t.unsound ? "unsound" : "measured";
-  result["value"] = finite(m.value);
-  result["error"] = finite(m.error);
-  result["exact"] = !t.unsound && m.error <= trial.experiment->resolution(trial.step) &&
-                    !(trial.experiment->rests && m.value > at_rest(trial.step));
-  result["energy_gained"] = finite(t.energy_gained);
-  result["points"] = share(t.points);
-  result["flicker"] = share(t.flickers);
-  result["single"] = share(t.single);
-  result["without"] = share(t.without);
-  result["failures"] = t.failures;
-  result["details"] = details;
-  result["steps"] = t.steps;
-  result["nanoseconds"] = nanoseconds(process, sampling.kept());
-  result["microseconds_per_step"] = 1e6 * t.seconds / steps;
-  return result;
+  return d;
 }
 
 }  // namespace
 
-json run_experiments(const ExperimentOptions& options) {
+ExperimentResults run_experiments(const ExperimentOptions& options) {
   const std::vector<Trial> all = trials(options);
   Progress progress("experiments", all.size());
   const auto texts = run_in_processes(
       all.size(), options.workers,
-      [&](std::size_t i) { return run(all[i], options.limits).dump(); },
+      [&](std::size_t i) { return to_text(run(all[i], options.limits)); },
       [&](std::size_t i) { return all[i].experiment->name + " with " + all[i].candidate->name; },
       [&](std::size_t done) { progress.update(done); });
-  json results = json::array();
-  for (const std::string& text : texts) results.push_back(json::parse(text));
-
-  json experiments = json::array();
+  ExperimentResults results{options.steps, {}, {}};
   for (const Experiment* e : options.experiments) {
-    json expected = json::array(), resolution = json::array();
-    for (const double step : options.steps) {
-      expected.push_back(e->expected(step));
-      resolution.push_back(e->resolution(step));
-    }
-    experiments.push_back({{"name", e->name},
-                           {"statement", e->statement},
-                           {"quantity", e->quantity},
-                           {"unit", e->unit},
-                           {"expected", expected},
-                           {"resolution", resolution}});
+    results.experiments.push_back(describe(*e, options.steps));
   }
-  return {{"steps", options.steps}, {"experiments", experiments}, {"results", results}};
+  for (const std::string& text : texts) {
+    if (!text.empty()) results.results.push_back(result_from_text(text));
+  }
+  return results;
 }
 
 }  // namespace touchstone

@@ -1,29 +1,25 @@
 #pragma once
 
-#include <string>
 #include <vector>
-
-#include <nlohmann/json.hpp>
 
 #include "candidates/host/candidate_process.hpp"
 #include "simulation/experiment.hpp"
+#include "simulation/experiment_results.hpp"
 
 namespace touchstone {
 
-/// Which experiments are run, with whose contacts, and how finely.
+/// Which experiments to run, with which candidates, at which steps.
 struct ExperimentOptions {
   std::vector<const Experiment*> experiments;
   std::vector<const Candidate*> candidates;
   std::vector<double> steps = {1.0 / 240};  ///< s
-  unsigned workers = 1;                     ///< processes; they do not change the result
+  unsigned workers = 1;                     ///< processes; the results do not depend on them
   Limits limits;
 };
 
-/// Runs every experiment with every candidate at every step; docs/simulation.md has the result's
-/// members. Times aside it depends on the options alone. Progress goes to standard error.
-nlohmann::json run_experiments(const ExperimentOptions& options);
-
-/// For a terminal of 80 columns.
-std::string experiments_table(const nlohmann::json& result);
+/// Runs every experiment with every candidate at every step. Times aside the results depend on the
+/// options alone. Progress goes to standard error. After an interruption (interruption.hpp) the
+/// results of what was not done are missing.
+ExperimentResults run_experiments(const ExperimentOptions& options);
 
 }  // namespace touchstone

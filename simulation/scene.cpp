@@ -1,22 +1,24 @@
 #include "simulation/scene.hpp"
 
 #include <fmt/format.h>
+#include <numbers>
 #include <set>
 
 #include "reference/invalid_input.hpp"
-#include "simulation/motion.hpp"
 
 namespace touchstone {
 namespace {
 
-/// Those of what moves, metres and kg/m³: masses and moments of inertia keep all their digits.
+/// Bounds for moving bodies, metres and kg/m³, within which masses and moments of inertia keep all
+/// their digits.
 constexpr double min_half_width = 1e-6, min_density = 1e-6, max_density = 1e9;
-/// Of the smallest to the largest moment of inertia: a rod a million times as long as wide.
+/// Bound on the ratio of the smallest to the largest moment of inertia: that of a rod a million
+/// times as long as wide.
 constexpr double min_inertia_ratio = 1e-12;
 constexpr double max_friction = 1e6;
 /// Seconds.
 constexpr double min_step = 1e-6, max_step = 1;
-/// Of quaternions, whose squares must not overflow or vanish.
+/// Bounds on a quaternion's entries, whose squares must not overflow or vanish.
 constexpr double min_length = 1e-100, max_length = 1e100;
 
 void check_between(const std::string& field, double value, double min, double max) {
@@ -36,15 +38,16 @@ void check_shape(const std::string& field, const Body& body) {
     check_between(field + ".displacement", plane->unit_displacement(), -max_in_world, max_in_world);
     return;
   }
-  const double least = smallest_half_extent(body.shape), most = largest_half_extent(body.shape);
-  if (!(least >= min_half_width && most <= max_in_world)) {
-    throw InvalidInput(field, fmt::format("{} to {} m in half width", least, most),
+  const double smallest = smallest_half_extent(body.shape);
+  const double largest = largest_half_extent(body.shape);
+  if (!(smallest >= min_half_width && largest <= max_in_world)) {
+    throw InvalidInput(field, fmt::format("{} to {} m in half width", smallest, largest),
                        fmt::format("must be from {} to {} m", min_half_width, max_in_world));
   }
   if (body.fixed) return;
   const Vec3 moments = inertia(body.shape, body.density).principal;
   if (!(moments.minCoeff() >= min_inertia_ratio * moments.maxCoeff())) {
-    throw InvalidInput(field, fmt::format("{} to {} m in half width", least, most),
+    throw InvalidInput(field, fmt::format("{} to {} m in half width", smallest, largest),
                        "must be thicker for its length to be turned");
   }
 }
@@ -64,6 +67,37 @@ void check_body(const std::string& field, const Body& body) {
     throw InvalidInput(field + ".fixed", "false", "a plane has no mass and must be fixed");
   }
 }
+
+using std::numbers::pi;
+
+struct InertiaOf {
+  double density;
+
+  Inertia operator()(const Plane&) const { return {0, Vec3::Zero()}; }
+  Inertia operator()(const Sphere& s) const {
+    const double r2 = s.radius() * s.radius(), mass = density * 4 / 3 * pi * r2 * s.radius();
+    return {mass, Vec3::Constant(0.4 * mass * r2)};
+  }
+  Inertia operator()(const Cylinder& s) const {
+    const double r2 = s.radius() * s.radius(), h = s.half_length();
+    const double mass = density * 2 * pi * r2 * h, across = mass * (r2 / 4 + h * h / 3);
+    return {mass, Vec3(across, across, mass * r2 / 2)};
+  }
+  /// A cylinder and two half balls, whose centres of mass lie 3/8 of the radius beyond its ends.
+  /// The parallel axis theorem adds m ((h + 3/8 r)² − (3/8 r)²) = m (h² + 3/4 h r).
+  Inertia operator()(const Capsule& s) const {
+    const double r = s.radius(), h = s.half_length();
+    const Inertia side = (*this)(Cylinder(r, h)), ball = (*this)(Sphere(r));
+    const double across =
+        side.principal.x() + ball.principal.x() + ball.mass * (h * h + 0.75 * r * h);
+    return {side.mass + ball.mass, Vec3(across, across, side.principal.z() + ball.principal.z())};
+  }
+  Inertia operator()(const Box& s) const {
+    const Vec3 h = s.half_extents(), squared = h.cwiseProduct(h);
+    const double mass = density * 8 * h.prod();
+    return {mass, mass / 3 * (Vec3::Constant(squared.sum()) - squared)};
+  }
+};
 
 }  // namespace
 
@@ -86,6 +120,39 @@ void check_scene(const Scene& scene) {
     throw InvalidInput("solver_iterations", fmt::format("{}", scene.solver_iterations),
                        "must be at least 1");
   }
+}
+
+Inertia inertia(const Shape& shape, double density) {
+  return std::visit(InertiaOf{density}, shape);
+}
+
+double kinetic_energy(const BodyState& state, const Inertia& inertia) {
+  return (inertia.mass * state.velocity.squaredNorm() +
+          state.angular_velocity.dot(spin(state.pose, inertia, state.angular_velocity))) /
+         2;
+}
+
+Vec3 angular_velocity(const Pose& pose, const Inertia& inertia, const Vec3& spin) {
+  const Eigen::Matrix3d& r = pose.rotation();
+  return r * (r.transpose() * spin).cwiseQuotient(inertia.principal);
+}
+
+Vec3 free_angular_velocity(const Pose& pose, const Inertia& inertia, const Vec3& spin,
+                           double step) {
+  constexpr int iterations = 6;  // each contracts the error by about half the angle of the step
+  Vec3 mean = angular_velocity(pose, inertia, spin);
+  for (int i = 0; i < iterations; ++i) {
+    const double angle = step / 2 * mean.norm();
+    if (angle == 0) break;
+    const Eigen::Matrix3d half_way = Eigen::AngleAxisd(angle, mean.normalized()) * pose.rotation();
+    mean = half_way * (half_way.transpose() * spin).cwiseQuotient(inertia.principal);
+  }
+  return mean;
+}
+
+Vec3 spin(const Pose& pose, const Inertia& inertia, const Vec3& angular_velocity) {
+  const Eigen::Matrix3d& r = pose.rotation();
+  return r * inertia.principal.cwiseProduct(r.transpose() * angular_velocity);
 }
 
 }  // namespace touchstone

@@ -8,39 +8,70 @@
 
 namespace touchstone {
 
-/// Of two bodies in contact, friction is the geometric mean and restitution the larger one.
+/// Surface of a body. A contact takes the geometric mean of both bodies' friction and the larger
+/// restitution.
 struct Material {
   double friction = 0.5;   ///< Coulomb's coefficient
-  double restitution = 0;  ///< speed after a bounce over speed before it, 0 … 1
+  double restitution = 0;  ///< ratio of the speeds after and before a bounce, 0 … 1
 };
 
-/// A rigid body and how it starts. Velocities are those of the centre, in the world frame.
+/// A rigid body and its initial state. Velocities: of the centre, world frame.
 struct Body {
   std::string name;
   Shape shape;
-  double density = 1000;  ///< kg/m³; of a fixed body it does not matter
+  double density = 1000;  ///< kg/m³; irrelevant if fixed
   Material material = {};
   Pose pose = {};
   Vec3 velocity = Vec3::Zero();          ///< m/s
   Vec3 angular_velocity = Vec3::Zero();  ///< rad/s
-  bool fixed = false;                    ///< moves for nobody; a plane must be fixed
+  bool fixed = false;                    ///< immovable; a plane must be
 };
 
+/// Bodies under gravity, and the settings of the solver that moves them.
 struct Scene {
   std::vector<Body> bodies;
   Vec3 gravity = Vec3(0, 0, -9.81);  ///< m/s²
   double step = 1.0 / 240;           ///< s
   double duration = 1;               ///< s
-  /// Metres that resting bodies may overlap by: only what is deeper is pushed apart.
+  /// Depth that the solver tolerates, metres: only deeper contacts are pushed apart.
   double surface_layer = 1e-4;
-  int solver_iterations = 100;  ///< of ODE's solver in a step; stacks need more
+  int solver_iterations = 100;  ///< of ODE's solver, per step; stacks need more
 };
 
-/// Metres, m/s, rad/s, m/s²: a world in which anything is larger is no longer simulated.
+/// Bound on positions, speeds, angular speeds and gravity (m, m/s, rad/s, m/s²); a motion beyond it
+/// is no longer simulated.
 inline constexpr double max_in_world = 1e6;
 
 /// Throws InvalidInput with the path of the field ("bodies[2].density") unless the scene can be
-/// simulated: ODE ends the process where a product of what it was given overflows or vanishes.
+/// simulated: ODE ends the process where a product of its inputs overflows or vanishes.
 void check_scene(const Scene& scene);
+
+/// Mass properties of a solid body of uniform density, about its centre.
+struct Inertia {
+  double mass;     ///< kg
+  Vec3 principal;  ///< principal moments along the shape's own axes, kg m²
+};
+
+/// Closed forms for the solid shapes; zeros for a plane.
+Inertia inertia(const Shape& shape, double density);
+
+/// Pose and velocities of a body at one time.
+struct BodyState {
+  Pose pose;
+  Vec3 velocity, angular_velocity;  ///< of the centre, world frame; m/s, rad/s
+};
+
+/// Joules.
+double kinetic_energy(const BodyState& state, const Inertia& inertia);
+
+// Spin: angular momentum about the body's centre, world frame, kg m²/s.
+
+Vec3 spin(const Pose& pose, const Inertia& inertia, const Vec3& angular_velocity);
+Vec3 angular_velocity(const Pose& pose, const Inertia& inertia, const Vec3& spin);
+
+/// Mean angular velocity over a step without torque: the spin is constant, and the
+/// angular velocity is evaluated at the orientation half way (implicit midpoint rule, second
+/// order).
+Vec3 free_angular_velocity(const Pose& pose, const Inertia& inertia, const Vec3& spin, double step);
 
 }  // namespace touchstone

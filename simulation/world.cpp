@@ -8,23 +8,108 @@
 
 #include "reference/aabb.hpp"
 #include "reference/invalid_input.hpp"
-#include "simulation/ode_shapes.hpp"
+
+static_assert(sizeof(dReal) == sizeof(double), "built against single-precision ODE");
 
 namespace touchstone {
 namespace {
 
 constexpr double error_reduction = 0.2;  // ERP
-/// Slower impacts do not bounce, m/s.
-constexpr double least_bounce = 0.01;
-/// Below this the direction of slip is rounding, m/s; any will do.
-constexpr double least_slip = 1e-12;
+/// Impact speed below which nothing bounces, m/s.
+constexpr double min_bounce_speed = 0.01;
+/// Slip below which its direction is rounding, and any direction serves, m/s.
+constexpr double min_slip = 1e-12;
 
-/// What a cylinder may reach by any candidate: simplified models put round ends on top.
-Aabb reach(const Shape& shape, const Pose& pose) {
+/// Box that contains every candidate's model of the shape: some put round ends on a cylinder.
+Aabb candidate_box(const Shape& shape, const Pose& pose) {
   if (const auto* c = std::get_if<Cylinder>(&shape)) {
     return aabb(Capsule(c->radius(), c->half_length()), pose);
   }
   return aabb(shape, pose);
+}
+
+/// Replaces ODE's message handlers, which print, and end the process on internal errors.
+void ignore_message(int, const char*, va_list) {}
+
+/// ODE's shape of a body, in the body's frame; null for a cylinder, whose contacts come from the
+/// contact model.
+struct MakeGeom {
+  dGeomID operator()(const Cylinder&) const { return nullptr; }
+  dGeomID operator()(const Plane& s) const {
+    return dCreatePlane(nullptr, s.normal().x(), s.normal().y(), s.normal().z(), s.displacement());
+  }
+  dGeomID operator()(const Sphere& s) const { return dCreateSphere(nullptr, s.radius()); }
+  dGeomID operator()(const Capsule& s) const {
+    return dCreateCapsule(nullptr, s.radius(), 2 * s.half_length());
+  }
+  dGeomID operator()(const Box& s) const {
+    const Vec3 side = 2 * s.half_extents();
+    return dCreateBox(nullptr, side.x(), side.y(), side.z());
+  }
+};
+
+/// The posed plane in world coordinates: ODE's planes have no pose.
+Plane in_world(const Plane& plane, const Pose& pose) {
+  const Vec3 normal = (pose.rotation() * plane.unit_normal()).normalized();
+  return Plane(normal, plane.unit_displacement() + normal.dot(pose.position()));
+}
+
+void initialise_ode() {
+  static const bool done = [] {
+    dInitODE2(0);
+    dSetMessageHandler(ignore_message);
+    dAllocateODEDataForThread(dAllocateMaskAll);
+    return true;
+  }();
+  (void)done;
+}
+
+struct OdeQuaternion {
+  explicit OdeQuaternion(const Pose& pose) {
+    const Eigen::Quaterniond q = pose.unit_orientation();
+    wxyz[0] = q.w(), wxyz[1] = q.x(), wxyz[2] = q.y(), wxyz[3] = q.z();
+  }
+  dQuaternion wxyz;
+};
+
+dBodyID make_ode_body(dWorldID world, const Body& body, const Inertia& inertia) {
+  const dBodyID made = dBodyCreate(world);
+  const Vec3 &p = body.pose.position(), &v = body.velocity, &w = body.angular_velocity;
+  const Vec3& i = inertia.principal;
+  dMass mass;
+  dMassSetParameters(&mass, inertia.mass, 0, 0, 0, i.x(), i.y(), i.z(), 0, 0, 0);
+  dBodySetMass(made, &mass);
+  dBodySetPosition(made, p.x(), p.y(), p.z());
+  dBodySetQuaternion(made, OdeQuaternion(body.pose).wxyz);
+  dBodySetLinearVel(made, v.x(), v.y(), v.z());
+  dBodySetAngularVel(made, w.x(), w.y(), w.z());
+  dBodySetFiniteRotationMode(made, 1);  // exact finite rotations
+  dBodySetGyroscopicMode(made, 0);      // see World::State::move
+  return made;
+}
+
+/// A geometry that follows `moving`, or stays at the body's pose if that is null.
+dGeomID make_ode_geom(const Body& body, dBodyID moving) {
+  if (const auto* plane = std::get_if<Plane>(&body.shape)) {
+    return MakeGeom{}(in_world(*plane, body.pose));
+  }
+  const dGeomID made = std::visit(MakeGeom{}, body.shape);
+  if (!made) return nullptr;
+  if (moving) {
+    dGeomSetBody(made, moving);
+    return made;
+  }
+  const Vec3& p = body.pose.position();
+  dGeomSetPosition(made, p.x(), p.y(), p.z());
+  dGeomSetQuaternion(made, OdeQuaternion(body.pose).wxyz);
+  return made;
+}
+
+BodyState state_of(dBodyID body) {
+  const auto vector = [](const dReal* v) { return Vec3(v[0], v[1], v[2]); };
+  const dReal* q = dBodyGetQuaternion(body);
+  return {Pose(vector(dBodyGetPosition(body)), Eigen::Quaterniond(q[0], q[1], q[2], q[3])),
+          vector(dBodyGetLinearVel(body)), vector(dBodyGetAngularVel(body))};
 }
 
 }  // namespace
@@ -37,12 +122,13 @@ struct World::State {
 
   void make_body(const Body& body);
   void find_contacts();
+  std::vector<PairQuestion> find_pairs();
   void add_contacts(const PairContact& contact);
-  void add_others(int a, int b);
+  void add_ode_contacts(int a, int b);
   void add_joint(int a, int b, dContactGeom geom);
   void move();
-  void read_states(const std::vector<Vec3>& free);
-  Vec3 slip_to_come(int a, int b, const Vec3& position) const;
+  void read_states(const std::vector<Vec3>& free_angular_velocities);
+  Vec3 impending_slip(int a, int b, const Vec3& position) const;
 
   Scene scene;
   ContactModel& model;
@@ -52,7 +138,7 @@ struct World::State {
   std::vector<dGeomID> geoms;   ///< null where it is a cylinder
   std::vector<Inertia> inertias;
   std::vector<BodyState> states;
-  std::vector<Vec3> spins;  ///< angular momenta about the bodies' centres
+  std::vector<Vec3> spins;  ///< about the bodies' centres
   std::vector<PairContact> contacts;
   std::uint64_t steps = 0;
   std::size_t unusable = 0;
@@ -91,31 +177,32 @@ void World::State::make_body(const Body& body) {
   geoms.push_back(make_ode_geom(body, bodies.back()));
   states.push_back(
       {body.pose, body.fixed ? zero : body.velocity, body.fixed ? zero : body.angular_velocity});
-  spins.push_back(spin_of(body.pose, inertias.back(), states.back().angular_velocity));
+  spins.push_back(spin(body.pose, inertias.back(), states.back().angular_velocity));
 }
 
-void World::State::find_contacts() {
-  dJointGroupEmpty(joints);
+/// All pairs with overlapping boxes: those with a cylinder as questions, the contacts of all others
+/// at once. Scenes have few bodies, and testing a pair takes a nanosecond: no broad phase.
+std::vector<PairQuestion> World::State::find_pairs() {
   const int count = static_cast<int>(bodies.size());
   std::vector<Aabb> boxes;
-  for (int i = 0; i < count; ++i) boxes.push_back(reach(scene.bodies[i].shape, states[i].pose));
-
+  for (int i = 0; i < count; ++i) {
+    boxes.push_back(candidate_box(scene.bodies[i].shape, states[i].pose));
+  }
   std::map<std::pair<int, int>, Vec3> previous;
   for (const PairContact& c : contacts) {
     const Vec3 normal(c.answer.normal);
-    if (c.answer.status == TS_CONTACT && std::abs(normal.squaredNorm() - 1) < 1e-6) {
+    constexpr double rounding = 1e-6;  // a candidate may answer in single precision
+    if (c.answer.status == TS_CONTACT && std::abs(normal.squaredNorm() - 1) < rounding) {
       previous.insert({{c.a, c.b}, normal});
     }
   }
-
-  // Every pair is looked at: scenes have few bodies, and a look costs a nanosecond.
   std::vector<PairQuestion> questions;
   for (int i = 0; i < count; ++i) {
     for (int j = i + 1; j < count; ++j) {
       if (!(bodies[i] || bodies[j]) || !boxes[i].overlaps(boxes[j])) continue;
       const bool i_is_cylinder = !geoms[i];
       if (!i_is_cylinder && geoms[j]) {
-        add_others(i, j);
+        add_ode_contacts(i, j);
         continue;
       }
       const int a = i_is_cylinder ? i : j, b = i_is_cylinder ? j : i;
@@ -128,6 +215,12 @@ void World::State::find_contacts() {
       }
     }
   }
+  return questions;
+}
+
+void World::State::find_contacts() {
+  dJointGroupEmpty(joints);
+  const std::vector<PairQuestion> questions = find_pairs();
   contacts.clear();
   if (questions.empty()) return;
   auto answers = model.answers(questions);
@@ -148,7 +241,7 @@ void World::State::add_contacts(const PairContact& contact) {
       ++unusable;
       continue;
     }
-    if (p.depth < simulation_threshold) continue;  // ODE would stop what is still apart
+    if (p.depth < simulation_threshold) continue;  // ODE would stop bodies that are still apart
     dContactGeom geom{};
     for (int k = 0; k < 3; ++k) {
       geom.pos[k] = position[k];
@@ -159,15 +252,16 @@ void World::State::add_contacts(const PairContact& contact) {
   }
 }
 
-void World::State::add_others(int a, int b) {
-  constexpr int most = 16;
-  dContactGeom found[most];
-  const int count = dCollide(geoms[a], geoms[b], most, found, sizeof(dContactGeom));
+void World::State::add_ode_contacts(int a, int b) {
+  constexpr int max_points = 16;
+  dContactGeom found[max_points];
+  const int count = dCollide(geoms[a], geoms[b], max_points, found, sizeof(dContactGeom));
   for (int i = 0; i < count; ++i) add_joint(a, b, found[i]);
 }
 
-/// Of body a over body b, were there no contact: what friction has to act against.
-Vec3 World::State::slip_to_come(int a, int b, const Vec3& position) const {
+/// Velocity of body a relative to body b at the end of the step without the contact, which friction
+/// acts against.
+Vec3 World::State::impending_slip(int a, int b, const Vec3& position) const {
   const auto velocity = [&](int i) {
     if (!bodies[i]) return Vec3(Vec3::Zero());
     const BodyState& s = states[i];
@@ -178,28 +272,29 @@ Vec3 World::State::slip_to_come(int a, int b, const Vec3& position) const {
 }
 
 void World::State::add_joint(int a, int b, dContactGeom geom) {
-  const Material &of_a = scene.bodies[a].material, &of_b = scene.bodies[b].material;
+  const Material &material_a = scene.bodies[a].material, &material_b = scene.bodies[b].material;
   dContact contact{};
   contact.geom = geom;
   contact.surface.mode = dContactApprox1;
-  contact.surface.mu = std::sqrt(of_a.friction * of_b.friction);
-  if (const double bounce = std::max(of_a.restitution, of_b.restitution); bounce > 0) {
+  contact.surface.mu = std::sqrt(material_a.friction * material_b.friction);
+  if (const double bounce = std::max(material_a.restitution, material_b.restitution); bounce > 0) {
     contact.surface.mode |= dContactBounce;
     contact.surface.bounce = bounce;
-    contact.surface.bounce_vel = least_bounce;
+    contact.surface.bounce_vel = min_bounce_speed;
   }
-  const Vec3 normal(geom.normal), slip = slip_to_come(a, b, Vec3(geom.pos));
-  const Vec3 along = slip - slip.dot(normal) * normal;
-  if (const double speed = along.norm(); speed > least_slip) {
+  const Vec3 normal(geom.normal), slip = impending_slip(a, b, Vec3(geom.pos));
+  const Vec3 tangential = slip - slip.dot(normal) * normal;
+  if (const double speed = tangential.norm(); speed > min_slip) {
     contact.surface.mode |= dContactFDir1;
-    for (int k = 0; k < 3; ++k) contact.fdir1[k] = along[k] / speed;
+    for (int k = 0; k < 3; ++k) contact.fdir1[k] = tangential[k] / speed;
   }
   const dJointID joint = dJointCreateContact(world, joints, &contact);
   dJointAttach(joint, bodies[a], bodies[b]);
 }
 
-/// ODE is given the mean angular velocity of the free step, adds to it what contacts change, and
-/// turns the body by the sum. Its own gyroscopic torque loses energy and angular momentum.
+/// ODE starts from the mean angular velocity of the step without contacts, adds the change that
+/// contacts make, and rotates the body by the sum. Its own gyroscopic torque, which is off, loses
+/// energy and angular momentum.
 void World::State::move() {
   std::vector<Vec3> free(bodies.size(), Vec3::Zero());
   for (std::size_t i = 0; i < bodies.size(); ++i) {
@@ -212,13 +307,13 @@ void World::State::move() {
   read_states(free);
 }
 
-void World::State::read_states(const std::vector<Vec3>& free) {
+void World::State::read_states(const std::vector<Vec3>& free_angular_velocities) {
   std::vector<BodyState> read = states;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (!bodies[i]) continue;
     try {
       read[i] = state_of(bodies[i]);
-    } catch (const InvalidInput&) {  // no number
+    } catch (const InvalidInput&) {  // not a number
       sound = false;
       return;
     }
@@ -229,10 +324,21 @@ void World::State::read_states(const std::vector<Vec3>& free) {
   if (!sound) return;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (!bodies[i]) continue;
-    spins[i] += spin_of(states[i].pose, inertias[i], read[i].angular_velocity - free[i]);
+    spins[i] +=
+        spin(states[i].pose, inertias[i], read[i].angular_velocity - free_angular_velocities[i]);
     read[i].angular_velocity = angular_velocity(read[i].pose, inertias[i], spins[i]);
   }
   states = std::move(read);
+}
+
+std::vector<Answer> CandidateModel::answers(std::span<const PairQuestion> questions) {
+  std::vector<Configuration> configurations;
+  std::vector<const Vec3*> previous_normals;
+  for (const PairQuestion& q : questions) {
+    configurations.push_back(q.configuration);
+    previous_normals.push_back(q.previous_normal ? &*q.previous_normal : nullptr);
+  }
+  return process_.answer(configurations, previous_normals);
 }
 
 World::World(const Scene& scene, ContactModel& model)

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <gmock/gmock.h>
 #include <limits>
+#include <utility>
 
 #include "candidates/candidates.hpp"
 #include "reference/invalid_input.hpp"
@@ -15,7 +16,7 @@ using testing::HasSubstr;
 Pose at(double x, double y, double z) { return {Vec3(x, y, z), Eigen::Quaterniond::Identity()}; }
 Body ground() { return {"ground", Plane(Vec3::UnitZ(), 0), 1000, {}, {}, {}, {}, true}; }
 
-/// With our own contacts.
+/// Worlds with the contacts of `reference`.
 struct WorldTest : testing::Test {
   World run(const Scene& scene) {
     World world(scene, model);
@@ -159,7 +160,7 @@ TEST_F(WorldTest, BadScenesAreRefusedByTheirField) {
               HasSubstr("solver_iterations is 0"));
 }
 
-/// What is finite but absurd: ODE would end the process.
+// Finite but absurd: ODE would end the process.
 TEST_F(WorldTest, RefusesNumbersThatNoWorldHas) {
   const auto refusal = [&](auto spoil) {
     Scene scene;
@@ -206,6 +207,93 @@ TEST_F(WorldTest, RefusesNumbersThatNoWorldHas) {
             "bodies[1].pose.orientation");
   EXPECT_EQ(refusal([&](Scene& s) { s.bodies[1].pose = turned(1e80); }), "accepted");
   EXPECT_EQ(refusal([](Scene& s) { s.bodies[1].shape = Cylinder(1e6, 1e6); }), "accepted");
+}
+
+Scene two_cans_on_the_ground() {
+  Scene scene;
+  scene.bodies = {ground(),
+                  {"left", Cylinder(0.2, 0.3), 1000, {}, at(-1, 0, 0.29995)},
+                  {"right", Cylinder(0.2, 0.3), 1000, {}, at(1, 0, 0.29995)}};
+  return scene;
+}
+
+/// Another model, and every question and answer in order.
+class RecordingModel : public ContactModel {
+ public:
+  explicit RecordingModel(ContactModel& model) : model_(model) {}
+  void begin() override { model_.begin(); }
+  std::vector<Answer> answers(std::span<const PairQuestion> questions) override {
+    auto result = model_.answers(questions);
+    for (std::size_t i = 0; i < questions.size(); ++i) {
+      record.emplace_back(questions[i], result[i]);
+    }
+    return result;
+  }
+  std::vector<std::pair<PairQuestion, Answer>> record;
+
+ private:
+  ContactModel& model_;
+};
+
+TEST_F(WorldTest, AsksWithTheNormalOfTheStepBefore) {
+  RecordingModel recording(model);
+  World world(two_cans_on_the_ground(), recording);
+  for (int i = 0; i < 3; ++i) world.step();
+  ASSERT_EQ(recording.record.size(), 6U);
+  EXPECT_FALSE(recording.record[0].first.previous_normal.has_value());
+  for (std::size_t i = 2; i < 6; ++i) {
+    const auto& [question, answer] = recording.record[i];
+    ASSERT_TRUE(question.previous_normal.has_value());
+    EXPECT_LT((*question.previous_normal - Vec3::UnitZ()).norm(), 1e-12);
+    EXPECT_EQ(answer.status, TS_CONTACT);
+  }
+}
+
+/// The same single point in answer to every question.
+class MadeUpModel : public ContactModel {
+ public:
+  explicit MadeUpModel(const ts_point& point) : point_(point) {}
+  void begin() override {}
+  std::vector<Answer> answers(std::span<const PairQuestion> questions) override {
+    Answer answer{};
+    answer.status = TS_CONTACT;
+    answer.point_count = 1;
+    answer.points[0] = point_;
+    return std::vector<Answer>(questions.size(), answer);
+  }
+
+ private:
+  ts_point point_;
+};
+
+TEST_F(WorldTest, IgnoresPointsThatAreNotNumbersAndCountsThem) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const ts_point& point : {ts_point{{nan, 0, 0}, {0, 0, 1}, 0}, ts_point{{}, {0, 0, nan}, 0},
+                                ts_point{{}, {0, 0, 0}, 0}, ts_point{{}, {0, 0, 1}, nan}}) {
+    MadeUpModel made_up(point);
+    World world(two_cans_on_the_ground(), made_up);
+    world.step();
+    EXPECT_EQ(world.unusable_points(), 2U);
+    EXPECT_NEAR(world.states()[1].velocity.z(), -9.81 / 240, 1e-12);  // falls freely
+  }
+}
+
+TEST_F(WorldTest, DoesNotStopWhatIsStillApart) {
+  MadeUpModel made_up({{-1, 0, 0}, {0, 0, 1}, -1e-9});
+  World world(two_cans_on_the_ground(), made_up);
+  world.step();
+  EXPECT_NEAR(world.states()[1].velocity.z(), -9.81 / 240, 1e-12);
+}
+
+TEST_F(WorldTest, EndsAMotionBeyondAllBounds) {
+  MadeUpModel made_up({{-1, 0, 0}, {0, 0, 1}, 1e9});
+  World world(two_cans_on_the_ground(), made_up);
+  world.step();
+  world.step();
+  EXPECT_FALSE(world.sound());
+  EXPECT_TRUE(world.states()[1].pose.position().allFinite());
+  world.step();
+  EXPECT_NEAR(world.time(), 3.0 / 240, 1e-12);
 }
 
 }  // namespace

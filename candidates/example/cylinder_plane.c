@@ -27,7 +27,7 @@ static double dot(const double* u, const double* v) {
 }
 
 /* out = v turned by the unit quaternion q: v + 2 w (u × v) + 2 u × (u × v) with u its vector. */
-static void turn(const double q[4], const double v[3], double out[3]) {
+static void rotate(const double q[4], const double v[3], double out[3]) {
   double c[3];
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3, k = (i + 2) % 3;
@@ -44,10 +44,10 @@ static void query(ts_prepared* p, const ts_pose* a, const ts_pose* b, const doub
   const double z[3] = {0, 0, 1}, x[3] = {1, 0, 0};
   double n[3], axis[3], down[3];
   (void)previous_normal; /* there is but one normal */
-  turn(b->orientation, p->normal, n);
-  turn(a->orientation, z, axis);
+  rotate(b->orientation, p->normal, n);
+  rotate(a->orientation, z, axis);
   for (int i = 0; i < 3; ++i) down[i] = dot(n, axis) * axis[i] - n[i]; /* across the axis */
-  if (dot(down, down) < 1e-24) turn(a->orientation, x, down);          /* standing: any way */
+  if (dot(down, down) < 1e-24) rotate(a->orientation, x, down);          /* standing: any way */
   const double length = sqrt(dot(down, down));
   answer->status = TS_NONE;
   answer->point_count = 0;

@@ -129,7 +129,7 @@ GivenConfiguration configuration_from_json(const json& value) {
 }
 
 Configuration configuration_from_text(const std::string& text, const std::string& source) {
-  const json object = parse_first_json(text, source);
+  const json object = parse_json_lines(text, source).front();
   require_object(object, source);
   const bool is_wrapped = object.contains("configuration");
   return configuration_from_json(is_wrapped ? object["configuration"] : object).configuration;

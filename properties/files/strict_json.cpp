@@ -118,28 +118,27 @@ json parse_json(std::string_view text, const std::string& source) {
   }
 }
 
-json parse_first_json(const std::string& text, const std::string& source) {
+std::vector<json> parse_json_lines(const std::string& text, const std::string& source) {
   std::optional<InvalidInput> not_one_value;
   try {
-    return parse_json(text, source);
+    return {parse_json(text, source)};
   } catch (const InvalidInput& e) {
     not_one_value = e;
   }
-  std::optional<json> first;
+  std::vector<json> values;
   std::istringstream lines(text);
   std::string line;
   for (std::size_t number = 1; std::getline(lines, line); ++number) {
     if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
     try {
-      json value = parse_json(line, fmt::format("line {}", number));
-      if (!first) first = std::move(value);
+      values.push_back(parse_json(line, fmt::format("line {}", number)));
     } catch (const InvalidInput&) {
-      if (!first) throw *not_one_value;
+      if (values.empty()) throw *not_one_value;
       throw;
     }
   }
-  if (!first) throw *not_one_value;
-  return *first;
+  if (values.empty()) throw *not_one_value;
+  return values;
 }
 
 }  // namespace touchstone

@@ -2,6 +2,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -18,9 +19,9 @@ inline constexpr std::size_t max_json_depth = 64;
 /// path of the member ("bodies[3].shape.radius").
 nlohmann::json parse_json(std::string_view text, const std::string& source);
 
-/// The one value of the text, or the first of JSON Lines, all of which must be JSON; blank lines do
-/// not count. Throws InvalidInput: of the text as a whole where not even its first line is JSON,
+/// The one value of the text, or those of JSON Lines, of which blank ones do not count; at least
+/// one. Throws InvalidInput: of the text as a whole where not even its first line is JSON,
 /// otherwise of the first line ("line 7") that is none.
-nlohmann::json parse_first_json(const std::string& text, const std::string& source);
+std::vector<nlohmann::json> parse_json_lines(const std::string& text, const std::string& source);
 
 }  // namespace touchstone

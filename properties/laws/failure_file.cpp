@@ -36,6 +36,21 @@ double bar_number(const json& object, const char* name) {
   return x;
 }
 
+std::vector<std::filesystem::path> files_of(const std::filesystem::path& path) {
+  if (is_file(path)) return {path};
+  if (!is_folder(path)) {
+    throw InvalidInput("--corpus", '"' + path.string() + '"',
+                       "must be a folder, or a file of failures");
+  }
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(path)) {
+    const auto extension = entry.path().extension();
+    if (extension == ".json" || extension == ".jsonl") files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
 ReplayedFailure replayed(const Failure& expected, const Limits& limits) {
   std::unique_ptr<CandidateProcess> process;
   try {
@@ -51,28 +66,16 @@ ReplayedFailure replayed(const Failure& expected, const Limits& limits) {
           v->failure};
 }
 
-Failure failure_from_text(const std::string& text, const std::string& place) {
-  try {
-    return failure_from_json(parse_json(text, "it"));
-  } catch (const InvalidInput& e) {
-    throw InvalidInput("--corpus", place, e.what());
+void append_failures(const std::string& text, std::vector<Failure>& corpus) {
+  const std::vector<json> values = parse_json_lines(text, "it");
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    try {
+      corpus.push_back(failure_from_json(values[i]));
+    } catch (const InvalidInput& e) {
+      if (values.size() == 1) throw;
+      throw e.within(fmt::format("failure {}", i + 1));
+    }
   }
-}
-
-bool is_lines(const std::filesystem::path& file) { return file.extension() == ".jsonl"; }
-
-/// The one failure of a file, or those of a JSON Lines file, one on each line.
-std::vector<Failure> failures_in(const std::filesystem::path& file) {
-  const std::string content = read_file(file, "--corpus"), name = '"' + file.string() + '"';
-  if (!is_lines(file)) return {failure_from_text(content, name)};
-  std::vector<Failure> failures;
-  std::istringstream lines(content);
-  std::string line;
-  for (int number = 1; std::getline(lines, line); ++number) {
-    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
-    failures.push_back(failure_from_text(line, fmt::format("{}, line {}", name, number)));
-  }
-  return failures;
 }
 
 }  // namespace
@@ -131,20 +134,13 @@ std::filesystem::path save(const Failure& f, const std::filesystem::path& folder
 }
 
 std::vector<Failure> read_corpus(const std::filesystem::path& path) {
-  if (is_file(path)) return failures_in(path);
-  if (!is_folder(path)) {
-    throw InvalidInput("--corpus", '"' + path.string() + '"', "must be a folder or a file");
-  }
-  std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(path)) {
-    if (entry.path().extension() == ".json" || is_lines(entry.path())) {
-      files.push_back(entry.path());
-    }
-  }
-  std::sort(files.begin(), files.end());
   std::vector<Failure> corpus;
-  for (const auto& file : files) {
-    for (Failure& failure : failures_in(file)) corpus.push_back(std::move(failure));
+  for (const auto& file : files_of(path)) {
+    try {
+      append_failures(read_file(file, "--corpus"), corpus);
+    } catch (const InvalidInput& e) {
+      throw InvalidInput("--corpus", '"' + file.string() + '"', e.what());
+    }
   }
   return corpus;
 }

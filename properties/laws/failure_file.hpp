@@ -19,10 +19,10 @@ Failure failure_from_json(const nlohmann::json& json);
 /// failure, so that the same failure replaces itself.
 std::filesystem::path save(const Failure& failure, const std::filesystem::path& folder);
 
-/// The failures of one file, or of a folder's files in order of their names: .json files hold one
-/// failure each, .jsonl files (JSON Lines) one on each line. Throws InvalidInput naming the file,
-/// and the line, that cannot be read or understood.
-std::vector<Failure> read_corpus(const std::filesystem::path& file_or_folder);
+/// The failures of a file, or of a folder's .json and .jsonl files in order of their names. A file
+/// holds one failure, or JSON Lines with one each. Throws InvalidInput naming the file that cannot
+/// be read or understood.
+std::vector<Failure> read_corpus(const std::filesystem::path& path);
 
 /// A saved failure, and what its candidate does today.
 struct ReplayedFailure {

@@ -103,17 +103,31 @@ TEST(FailureFile, ASavedFailureReplacesItself) {
 TEST(Corpus, AJsonLinesFileHoldsOneFailureOnEachLine) {
   const auto file = std::filesystem::path(testing::TempDir()) / "failures.jsonl";
   const std::string line = to_json(failure()).dump() + '\n';
-  std::ofstream(file) << line << '\n' << to_json(failure_with_answer()).dump();
-  const auto corpus = read_corpus(file);
-  ASSERT_EQ(corpus.size(), 2u);
-  EXPECT_FALSE(corpus[0].answer);
-  EXPECT_TRUE(corpus[1].answer);
+  std::ofstream(file) << line << '\n' << line;
+  EXPECT_EQ(read_corpus(file).size(), 2u);
   std::ofstream(file) << line << '\n' << "[\n";
   try {
     read_corpus(file);
     ADD_FAILURE() << "accepted";
   } catch (const InvalidInput& e) {
     EXPECT_THAT(e.what(), testing::HasSubstr("line 3"));
+  }
+}
+
+TEST(FailureFile, MayHoldOneFailureALine) {
+  const auto file = std::filesystem::path(testing::TempDir()) / "failures.jsonl";
+  const std::string line = to_json(failure()).dump() + '\n';
+  std::ofstream(file) << line << '\n' << to_json(failure_with_answer()).dump();
+  const auto corpus = read_corpus(file);
+  ASSERT_EQ(corpus.size(), 2u);
+  EXPECT_FALSE(corpus[0].answer);
+  EXPECT_TRUE(corpus[1].answer);
+  std::ofstream(file) << line << "{}";
+  try {
+    read_corpus(file);
+    ADD_FAILURE() << "a line without a failure is accepted";
+  } catch (const InvalidInput& e) {
+    EXPECT_THAT(e.what(), testing::HasSubstr("failure 2.schema"));
   }
 }
 

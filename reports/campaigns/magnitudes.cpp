@@ -38,7 +38,7 @@ void Magnitudes::add(const Magnitudes& other) {
   max_ = std::max(max_, other.max_);
 }
 
-std::optional<Magnitudes::Bounds> Magnitudes::percentile(std::uint64_t percent) const {
+std::optional<Bounds> Magnitudes::percentile(std::uint64_t percent) const {
   if (count_ == 0) return std::nullopt;
   const std::uint64_t rank = (percent * count_ + 99) / 100;
   std::uint64_t seen = 0;

@@ -6,6 +6,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "reports/statistics.hpp"
+
 namespace touchstone {
 
 /// Counts of magnitudes in bins of an eighth of an octave's width, from zero to the largest double,
@@ -24,11 +26,8 @@ class Magnitudes {
   std::uint64_t count() const { return count_; }
   double max() const { return max_; }
 
-  /// Bounds of a value: lower <= value <= upper, at most an eighth apart.
-  struct Bounds {
-    double lower, upper;
-  };
-  /// Of the ⌈n·percent/100⌉-th smallest of n values; absent without values.
+  /// Bounds, at most an eighth apart, of the ⌈n·percent/100⌉-th smallest of n values; absent
+  /// without values.
   std::optional<Bounds> percentile(std::uint64_t percent) const;
 
   /// {"max", "bins": [number, count, number, count, …]}; bin i holds the doubles whose first 14

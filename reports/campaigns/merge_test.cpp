@@ -58,7 +58,7 @@ Progressed part(std::uint64_t first, std::uint64_t last, std::uint64_t seed = 1)
 std::string merged(const std::vector<Progressed>& parts) {
   Merge merge;
   for (const Progressed& p : parts) merge.add(p, "part");
-  return campaign_result(merge.whole(false)).dump();
+  return campaign_json(merge.whole(false));
 }
 
 TEST(Merge, DoesNotDependOnTheSplitNorOnTheOrder) {
@@ -93,7 +93,7 @@ TEST(Merge, RefusesWhatOverlapsWhatIsMissingAndWhatIsForeign) {
 TEST(Merge, MarksWhatIsPartial) {
   Merge merge;
   merge.add(part(1, 3), "part");
-  const json result = campaign_result(merge.whole(true));
+  const json result = json::parse(campaign_json(merge.whole(true)));
   EXPECT_EQ(result["complete"], false);
   EXPECT_EQ(result["configurations"], 512 + 488);
 }

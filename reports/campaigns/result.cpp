@@ -1,50 +1,61 @@
 #include "reports/campaigns/result.hpp"
 
-#include <string>
 #include <utility>
 
-#include "properties/files/configuration_json.hpp"
+#include <nlohmann/json.hpp>
+
 #include "reports/campaigns/durable_file.hpp"
-#include "reports/worst.hpp"
+#include "reports/report_json.hpp"
 
 namespace touchstone {
 namespace {
 
 using nlohmann::json;
 
-json row(const ScoreTally& tally, const std::string& pair, const std::string& pose_class,
-         const std::string& candidate) {
-  json result = tally.summary();
-  result["pair"] = pair;
-  result["class"] = pose_class;
-  result["candidate"] = candidate;
-  result["nanoseconds"] = nullptr;  // campaigns do not time candidates
-  return result;
+ResultRow row(const ScoreTally& tally, const std::string& pair, const std::string& pose_class,
+              const std::string& candidate) {
+  ResultRow result;
+  result.pair = pair;
+  result.pose_class = pose_class;
+  result.candidate = candidate;
+  result.statistics = tally.statistics();
+  return result;  // campaigns do not time candidates
 }
 
-/// One of its pair and candidate, with the numbers that replay it without our generators.
-json worst_case(const Progressed& whole, const Case& c, const std::string& candidate) {
+WorstCase worst_case(const Progressed& whole, const Case& c, const std::string& candidate) {
   const Cell& cell = whole.view.cells[c.cell];
-  const std::string id = to_string(Identity{cell.pair, cell.pose_class, whole.view.seed, c.index});
-  const auto or_null = [](const std::optional<double>& v) { return v ? json(*v) : json(nullptr); };
-  return {{"id", id},
-          {"pair", pair_name(cell.pair)},
-          {"class", cell.pose_class},
-          {"candidate", candidate},
-          {"outcome", outcome_name(c.score.outcome)},
-          {"depth_error", or_null(c.score.depth_error)},
-          {"normal_regret", or_null(c.score.normal_regret)},
-          {"severity", c.score.severity},
-          {"configuration", to_json(make_configuration(parse_identity(id)))},
-          {"replay", whole.plan.at("program").get<std::string>() + " replay " + id}};
+  const Identity identity{cell.pair, cell.pose_class, whole.view.seed, c.index};
+  const std::string id = to_string(identity);
+  const std::string replay = whole.plan.at("program").get<std::string>() + " replay " + id;
+  return {pair_name(cell.pair),
+          cell.pose_class,
+          candidate,
+          c.score,
+          {id, make_configuration(identity), std::nullopt, {}, replay}};
 }
 
 }  // namespace
 
-json campaign_result(const Progressed& whole) {
+Report campaign_result(const Progressed& whole) {
   const PlanView& view = whole.view;
   const std::size_t candidates = view.candidates.size();
-  json results = json::array(), summary = json::array(), worst = json::array();
+  Report report;
+  report.version = whole.plan.at("version");
+  report.command = whole.plan.at("command");
+  report.seed = view.seed;
+  report.tolerance = whole.plan.at("tolerance");
+  report.threshold = whole.plan.at("threshold");
+  report.planned = {view.cut.cells, view.cut.cells * view.cut.count};
+  report.completed = {view.cut.cells, configurations(view.cut, whole.done)};
+  report.configurations = report.completed.configurations;
+  for (const std::string& name : view.candidates) {
+    report.candidates.push_back({name, "", "", "", ""});
+  }
+  for (const Cell& cell : view.cells) {
+    report.classes.push_back({pair_name(cell.pair), cell.pose_class,
+                              std::string(describe_pose_class(cell.pair, cell.pose_class))});
+  }
+
   std::vector<ScoreTally> everything(candidates);
   std::size_t pairs = 0;
   for (std::size_t first = 0, last = 0; first < view.cells.size(); first = last, ++pairs) {
@@ -52,8 +63,8 @@ json campaign_result(const Progressed& whole) {
     while (last < view.cells.size() && view.cells[last].pair == pair) ++last;
     for (std::size_t cell = first; cell < last; ++cell) {
       for (std::size_t k = 0; k < candidates; ++k) {
-        results.push_back(row(whole.tally(cell, k), pair_name(pair), view.cells[cell].pose_class,
-                              view.candidates[k]));
+        report.results.push_back(row(whole.tally(cell, k), pair_name(pair),
+                                     view.cells[cell].pose_class, view.candidates[k]));
       }
     }
     for (std::size_t k = 0; k < candidates; ++k) {
@@ -65,21 +76,27 @@ json campaign_result(const Progressed& whole) {
         cases.insert(cases.end(), tally.worst().begin(), tally.worst().end());
       }
       everything[k].add(of_pair);
-      summary.push_back(row(of_pair, pair_name(pair), "all", view.candidates[k]));
+      report.summary.push_back(row(of_pair, pair_name(pair), "all", view.candidates[k]));
       for (const Case& c : worst_of_pair(std::move(cases))) {
-        worst.push_back(worst_case(whole, c, view.candidates[k]));
+        report.worst.push_back(worst_case(whole, c, view.candidates[k]));
       }
     }
   }
   for (std::size_t k = 0; k < candidates && pairs > 1; ++k) {
-    summary.push_back(row(everything[k], "all", "all", view.candidates[k]));
+    report.summary.push_back(row(everything[k], "all", "all", view.candidates[k]));
   }
+  return report;
+}
 
-  const std::uint64_t all = view.cut.cells * view.cut.count;
-  const std::uint64_t scored = configurations(view.cut, whole.done);
+std::string campaign_json(const Progressed& whole) {
+  const Report report = campaign_result(whole);
+  json results = json::array(), summary = json::array(), worst = json::array();
+  for (const ResultRow& row : report.results) results.push_back(to_json(row));
+  for (const ResultRow& row : report.summary) summary.push_back(to_json(row));
+  for (const WorstCase& w : report.worst) worst.push_back(to_json(w));
   json result = {{"schema", "touchstone-campaign-1"},
-                 {"configurations", scored},
-                 {"complete", scored == all},
+                 {"configurations", report.configurations},
+                 {"complete", report.completed.configurations == report.planned.configurations},
                  {"results", results},
                  {"summary", summary},
                  {"worst", worst}};
@@ -87,12 +104,12 @@ json campaign_result(const Progressed& whole) {
        {"version", "command", "seed", "count", "tolerance", "threshold", "candidates", "classes"}) {
     result[member] = whole.plan.at(member);
   }
-  return result;
+  return result.dump(1) + '\n';
 }
 
-std::filesystem::path write_result(const json& result, const std::filesystem::path& folder) {
+std::filesystem::path write_result(const Progressed& whole, const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / "campaign.json";
-  write_durably(file, result.dump(1) + '\n');
+  write_durably(file, campaign_json(whole));
   return file;
 }
 

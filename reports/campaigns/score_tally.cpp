@@ -17,30 +17,21 @@ using nlohmann::json;
 /// Coverage is summed as an integer: a sum of doubles depends on its order.
 constexpr double covered_unit = 0x1p-24;
 
-json bounds(const Magnitudes::Bounds& b) { return {b.lower, b.upper}; }
-
 /// Of magnitudes, of which less is better.
-json quantiles(const Magnitudes& h) {
+std::optional<Quantiles> quantiles(const Magnitudes& h) {
   const auto median = h.percentile(50), p99 = h.percentile(99);
-  if (!median) return nullptr;
-  return {{"median", median->upper},
-          {"median_bounds", bounds(*median)},
-          {"p99", p99->upper},
-          {"p99_bounds", bounds(*p99)},
-          {"max", h.max()}};
+  if (!median) return std::nullopt;
+  return Quantiles{median->upper, p99->upper, h.max(), median, p99};
 }
 
-json shares(const Magnitudes& uncovered, std::uint64_t covered_sum) {
+std::optional<Shares> shares(const Magnitudes& uncovered, std::uint64_t covered_sum) {
   const auto median = uncovered.percentile(50), p99 = uncovered.percentile(99);
-  if (!median) return nullptr;
-  const auto rest = [](const Magnitudes::Bounds& b) { return json{1 - b.upper, 1 - b.lower}; };
-  return {{"mean", static_cast<double>(covered_sum) * covered_unit /
-                       static_cast<double>(uncovered.count())},
-          {"median", 1 - median->upper},
-          {"median_bounds", rest(*median)},
-          {"p1", 1 - p99->upper},
-          {"p1_bounds", rest(*p99)},
-          {"min", 1 - uncovered.max()}};
+  if (!median) return std::nullopt;
+  const auto rest = [](const Bounds& b) { return Bounds{1 - b.upper, 1 - b.lower}; };
+  const double mean =
+      static_cast<double>(covered_sum) * covered_unit / static_cast<double>(uncovered.count());
+  return Shares{mean,          1 - median->upper, 1 - p99->upper, 1 - uncovered.max(),
+                rest(*median), rest(*p99)};
 }
 
 json or_null(const std::optional<double>& value) { return value ? json(*value) : json(nullptr); }
@@ -129,20 +120,15 @@ void ScoreTally::add(const ScoreTally& other) {
 
 void ScoreTally::select_worst() { worst_ = worst_of_class(std::move(worst_)); }
 
-json ScoreTally::summary() const {
-  json outcomes = json::object(), points = json::object();
-  for (const Outcome outcome : all_outcomes) {
-    const std::uint64_t count = outcomes_[static_cast<std::size_t>(outcome)];
-    if (count > 0) outcomes[outcome_name(outcome)] = count;
-  }
-  for (const auto& [number, count] : points_) points[std::to_string(number)] = count;
-  json result = {{"count", count_},
-                 {"outcomes", outcomes},
-                 {"points", points},
-                 {"severity", quantiles(severity_)},
-                 {"coverage", shares(uncovered_, covered_sum_)}};
+Statistics ScoreTally::statistics() const {
+  Statistics result;
+  result.count = count_;
+  result.outcomes = outcomes_;
+  result.points = points_;
+  result.severity = quantiles(severity_);
+  result.coverage = shares(uncovered_, covered_sum_);
   for (std::size_t i = 0; i < errors_.size(); ++i) {
-    result[quantities[i].name] = quantiles(errors_[i]);
+    result.*quantities[i].quantiles = quantiles(errors_[i]);
   }
   return result;
 }

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "reports/campaigns/magnitudes.hpp"
+#include "reports/statistics.hpp"
 #include "reports/worst_selection.hpp"
 
 namespace touchstone {
@@ -25,10 +26,7 @@ class ScoreTally {
   /// Of a tally of one class: its worst_of_class.
   const std::vector<Case>& worst() const { return worst_; }
 
-  /// As an entry of `results` in report.json, from `count` to `coverage`. A median and a percentile
-  /// are the worse end of what the histogram knows of them; `median_bounds` and so on are both
-  /// ends.
-  nlohmann::json summary() const;
+  Statistics statistics() const;
 
   nlohmann::json to_json() const;
   /// Of a tally whose cases are all of this cell. Throws InvalidInput on anything else than to_json
@@ -38,18 +36,20 @@ class ScoreTally {
  private:
   void select_worst();
 
-  /// Errors of a score, as report.json calls them, less is better.
+  /// Errors of a score, as report.json calls them; less is better.
   struct Quantity {
     const char* name;
     std::optional<double> Score::*value;
+    std::optional<Quantiles> Statistics::*quantiles;
   };
-  static constexpr std::array<Quantity, 7> quantities = {{{"depth_error", &Score::depth_error},
-                                                          {"normal_regret", &Score::normal_regret},
-                                                          {"normal_angle", &Score::normal_angle},
-                                                          {"point_error", &Score::point_error},
-                                                          {"deepest_error", &Score::deepest_error},
-                                                          {"model_error", &Score::model_error},
-                                                          {"solver_error", &Score::solver_error}}};
+  static constexpr std::array<Quantity, 7> quantities = {
+      {{"depth_error", &Score::depth_error, &Statistics::depth_error},
+       {"normal_regret", &Score::normal_regret, &Statistics::normal_regret},
+       {"normal_angle", &Score::normal_angle, &Statistics::normal_angle},
+       {"point_error", &Score::point_error, &Statistics::point_error},
+       {"deepest_error", &Score::deepest_error, &Statistics::deepest_error},
+       {"model_error", &Score::model_error, &Statistics::model_error},
+       {"solver_error", &Score::solver_error, &Statistics::solver_error}}};
 
   std::uint64_t count_ = 0;
   std::array<std::uint64_t, all_outcomes.size()> outcomes_{};

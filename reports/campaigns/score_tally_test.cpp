@@ -68,17 +68,18 @@ TEST(ScoreTally, OfAFileWithoutTheDeepestPointHasTheRest) {
   s.depth_error = 0.25;
   json old = tally_of({s, s}).to_json();
   old.erase("deepest_error");
-  const json summary = ScoreTally::from_json(old, 3).summary();
-  EXPECT_TRUE(summary["deepest_error"].is_null());
-  EXPECT_EQ(summary["depth_error"]["max"], 0.25);
+  const Statistics read = ScoreTally::from_json(old, 3).statistics();
+  EXPECT_FALSE(read.deepest_error);
+  EXPECT_EQ(read.depth_error->max, 0.25);
   old.erase("depth_error");
   EXPECT_THROW(ScoreTally::from_json(old, 3), InvalidInput);
 }
 
-void expect_within(const json& bounds, double value) {
-  EXPECT_LE(bounds[0], value);
-  EXPECT_GE(bounds[1], value);
-  EXPECT_LE(bounds[1].get<double>() - bounds[0].get<double>(), value / 8 + 1e-300);
+void expect_within(const std::optional<Bounds>& bounds, double value) {
+  ASSERT_TRUE(bounds);
+  EXPECT_LE(bounds->lower, value);
+  EXPECT_GE(bounds->upper, value);
+  EXPECT_LE(bounds->upper - bounds->lower, value / 8 + 1e-300);
 }
 
 TEST(ScoreTally, BoundsTheExactQuantilesOfTheReport) {
@@ -86,23 +87,23 @@ TEST(ScoreTally, BoundsTheExactQuantilesOfTheReport) {
     std::vector<Score> scores(static_cast<std::size_t>(*rc::gen::inRange(1, 200)));
     for (Score& s : scores) s = arbitrary_score();
     const Statistics exact = statistics(scores);
-    const json found = tally_of(scores).summary();
-    EXPECT_EQ(found["count"], exact.count);
-    EXPECT_EQ(found["outcomes"].value("agree", 0U), exact.of(Outcome::agree));
+    const Statistics found = tally_of(scores).statistics();
+    EXPECT_EQ(found.count, exact.count);
+    EXPECT_EQ(found.outcomes, exact.outcomes);
     if (exact.depth_error) {
-      expect_within(found["depth_error"]["median_bounds"], exact.depth_error->median);
-      expect_within(found["depth_error"]["p99_bounds"], exact.depth_error->p99);
-      EXPECT_EQ(found["depth_error"]["max"], exact.depth_error->max);
-      EXPECT_GE(found["depth_error"]["median"], exact.depth_error->median);
+      expect_within(found.depth_error->median_bounds, exact.depth_error->median);
+      expect_within(found.depth_error->p99_bounds, exact.depth_error->p99);
+      EXPECT_EQ(found.depth_error->max, exact.depth_error->max);
+      EXPECT_GE(found.depth_error->median, exact.depth_error->median);
     }
     if (exact.severity) {
-      expect_within(found["severity"]["median_bounds"], exact.severity->median);
-      EXPECT_EQ(found["severity"]["max"], exact.severity->max);
+      expect_within(found.severity->median_bounds, exact.severity->median);
+      EXPECT_EQ(found.severity->max, exact.severity->max);
     }
     if (exact.coverage) {
-      EXPECT_NEAR(found["coverage"]["mean"], exact.coverage->mean, 1e-7);
-      EXPECT_LE(found["coverage"]["p1"], exact.coverage->p1);
-      EXPECT_EQ(found["coverage"]["min"], exact.coverage->min);
+      EXPECT_NEAR(found.coverage->mean, exact.coverage->mean, 1e-7);
+      EXPECT_LE(found.coverage->p1, exact.coverage->p1);
+      EXPECT_EQ(found.coverage->min, exact.coverage->min);
     }
     RC_ASSERT(!testing::Test::HasFailure());
   }));
@@ -146,7 +147,7 @@ TEST(ScoreTally, WritesWhatIsBeyondAllDoublesAsTheLargest) {
   EXPECT_EQ(written["depth_error"]["max"], largest);
   EXPECT_EQ(written["worst"][0]["depth_error"], -largest);
   EXPECT_EQ(written["worst"][0]["severity"], largest);
-  EXPECT_EQ(tally_of({s}).summary()["normal_regret"]["median"], largest);
+  EXPECT_EQ(tally_of({s}).statistics().normal_regret->median, largest);
 }
 
 TEST(Magnitudes, BoundEveryValue) {

@@ -9,6 +9,7 @@
 #include "properties/files/write_file.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/machine.hpp"
+#include "reports/report_json.hpp"
 
 namespace touchstone {
 namespace {
@@ -126,7 +127,7 @@ json to_json(const Choice& choice, const SceneFile& file, const std::string& com
   const double rest = choice.exact_run.seconds - choice.exact_run.contact_seconds;
   return {{"schema", "touchstone-choice-1"},
           {"command", command},
-          {"machine", describe_machine()},
+          {"machine", to_json(describe_machine())},
           {"scene",
            {{"name", file.name},
             {"description", file.description},

@@ -14,6 +14,7 @@
 #include "properties/files/write_file.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/machine.hpp"
+#include "reports/report_json.hpp"
 #include "simulation/scenes/choose.hpp"
 #include "simulation/scenes/replayed.hpp"
 
@@ -183,7 +184,7 @@ json choose_for_pairs(const ShapesFile& file, const PairNeeds& needs,
   }
   return {{"schema", "touchstone-pair-choice-1"},
           {"command", command},
-          {"machine", describe_machine()},
+          {"machine", to_json(describe_machine())},
           {"name", file.name},
           {"shapes", file.shapes.size()},
           {"ignored", file.ignored},

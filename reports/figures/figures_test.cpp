@@ -9,6 +9,7 @@
 #include "reference/invalid_input.hpp"
 #include "reports/figures/label_places.hpp"
 #include "reports/make_report.hpp"
+#include "reports/report_json.hpp"
 
 namespace touchstone {
 namespace {
@@ -29,7 +30,7 @@ TEST(Figures, EachComesAsPictureTwiceAndAsData) {
   c.classes = {"general-shallow", "touching"};
   c.candidates = find_candidates({"reference", "bullet", "prism:8"});
   c.count = 3;
-  json report = make_report(c, "x");
+  json report = to_json(make_report(c, "x"));
   // A plug-in may be called anything.
   for (const char* list : {"summary", "results"}) {
     for (json& row : report[list]) {

@@ -9,6 +9,7 @@
 
 #include "properties/files/configuration_json.hpp"
 #include "properties/files/write_file.hpp"
+#include "reports/report_json.hpp"
 #include "reports/worst.hpp"
 
 namespace touchstone {
@@ -20,8 +21,8 @@ using testing::Not;
 
 std::string page_of(const Identity& identity) {
   const Configuration c = make_configuration(identity);
-  return replay_page(examined(subject(identity), {}, Bar{}), to_hex_json(c), to_exact_json(c),
-                     describe_pose_class(identity.pair, identity.pose_class));
+  return replay_page(to_json(examine(subject(identity), {}, Bar{})), to_hex_json(c),
+                     to_exact_json(c), describe_pose_class(identity.pair, identity.pose_class));
 }
 
 json data_of(const std::string& page) {
@@ -70,7 +71,7 @@ TEST(ReplayPage, HasNoPlaceholderLeft) {
 }
 
 TEST(ReplayPage, HostileReasonsStayData) {
-  json hostile = examined(subject({Pair::box, "rim-face", 1, 2}), {}, Bar{});
+  json hostile = to_json(examine(subject({Pair::box, "rim-face", 1, 2}), {}, Bar{}));
   hostile["answers"]["x"] = "</script><script>alert(1)</script>";
   const std::string page = replay_page(hostile, json::object(), json::object(), "");
   EXPECT_EQ(data_of(page)["answers"], hostile["answers"]);

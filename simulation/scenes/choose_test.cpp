@@ -42,6 +42,25 @@ const SceneRun& run_of(const Choice& choice, const std::string& name) {
   throw std::runtime_error("no run " + name);
 }
 
+// Two cans on the same ground, of different sizes and so of different kinds of pairs.
+TEST(RunWith, AsksTheCandidateOfEachKindOfPairs) {
+  Scene scene;
+  scene.duration = 2 * scene.step;
+  const auto at = [](double x) { return Pose(Vec3(x, 0, 0.29995)); };
+  scene.bodies = {{"ground", Plane(Vec3::UnitZ(), 0), 1000, {}, {}, {}, {}, true},
+                  {"left", Cylinder(0.2, 0.3), 1000, {}, at(-1)},
+                  {"right", Cylinder(0.3, 0.3), 1000, {}, at(1)}};
+  const Candidate &exact = find_candidate("reference"), &capsule = find_candidate("capsule");
+  Processes processes({});
+  CandidateModel model(processes.of(exact));
+  const PairKinds kinds(scene, run_scene(scene, model));
+  ASSERT_EQ(kinds.all().size(), 2U);
+  const Trajectory run = run_with(scene, kinds, {nullptr, &capsule}, exact, processes);
+  ASSERT_GE(run.asked.size(), 2U);
+  EXPECT_EQ(run.asked[0].points, 3);  // a cap
+  EXPECT_EQ(run.asked[1].points, 1);  // a round end
+}
+
 TEST(Choose, CapsulesCannotStand) {
   const Choice choice = chosen(standing_can(stands));
   EXPECT_TRUE(choice.runs[0].holds());

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <functional>
 #include <limits>
 
 #include "candidates/host/progress.hpp"
@@ -10,6 +11,45 @@
 #include "simulation/scenes/evidence.hpp"
 
 namespace touchstone {
+namespace {
+
+/// A candidate for each pair of bodies.
+class PairwiseModel : public ContactModel {
+ public:
+  /// The process that answers for bodies a and b, always the same one for the same pair.
+  using Choice = std::function<CandidateProcess&(int a, int b)>;
+  explicit PairwiseModel(Choice choice) : choice_(std::move(choice)) {}
+  void begin() override { begun_.clear(); }
+  std::vector<Answer> answers(std::span<const PairQuestion> questions) override {
+    std::vector<CandidateProcess*> chosen;
+    for (const PairQuestion& q : questions) {
+      chosen.push_back(&choice_(q.a, q.b));
+      if (std::find(begun_.begin(), begun_.end(), chosen.back()) != begun_.end()) continue;
+      chosen.back()->restart();
+      begun_.push_back(chosen.back());
+    }
+    std::vector<Answer> result(questions.size());
+    for (CandidateProcess* process : begun_) {
+      std::vector<PairQuestion> batch;
+      for (std::size_t i = 0; i < questions.size(); ++i) {
+        if (chosen[i] == process) batch.push_back(questions[i]);
+      }
+      if (batch.empty()) continue;
+      auto answers = CandidateModel(*process).answers(batch);
+      auto next = answers.begin();
+      for (std::size_t i = 0; i < questions.size(); ++i) {
+        if (chosen[i] == process) result[i] = std::move(*next++);
+      }
+    }
+    return result;
+  }
+
+ private:
+  Choice choice_;
+  std::vector<CandidateProcess*> begun_;
+};
+
+}  // namespace
 
 bool SceneRun::holds() const { return first_broken() < 0; }
 

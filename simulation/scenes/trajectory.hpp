@@ -3,7 +3,6 @@
 #include <optional>
 #include <vector>
 
-#include "simulation/contact_model.hpp"
 #include "simulation/world.hpp"
 
 namespace touchstone {

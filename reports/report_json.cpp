@@ -1,0 +1,223 @@
+#include "reports/report_json.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "properties/files/answer_json.hpp"
+#include "properties/files/configuration_json.hpp"
+
+namespace touchstone {
+namespace {
+
+using nlohmann::json;
+
+json to_json(const Bounds& bounds) { return {bounds.lower, bounds.upper}; }
+
+json to_json(const std::optional<Quantiles>& q) {
+  if (!q) return nullptr;
+  json result = {{"median", q->median}, {"p99", q->p99}, {"max", q->max}};
+  if (q->median_bounds) result["median_bounds"] = to_json(*q->median_bounds);
+  if (q->p99_bounds) result["p99_bounds"] = to_json(*q->p99_bounds);
+  return result;
+}
+
+json to_json(const std::optional<Quantiles>& q, const std::optional<LogHistogram>& h) {
+  json result = to_json(q);
+  if (h) result["histogram"] = {{"zero", h->zero}, {"first", h->first}, {"counts", h->counts}};
+  return result;
+}
+
+json to_json(const std::optional<Shares>& s) {
+  if (!s) return nullptr;
+  json result = {{"mean", s->mean}, {"median", s->median}, {"p1", s->p1}, {"min", s->min}};
+  if (s->median_bounds) result["median_bounds"] = to_json(*s->median_bounds);
+  if (s->p1_bounds) result["p1_bounds"] = to_json(*s->p1_bounds);
+  return result;
+}
+
+json to_json(const Statistics& s) {
+  json outcomes = json::object(), points = json::object();
+  for (const Outcome outcome : all_outcomes) {
+    if (s.of(outcome) > 0) outcomes[outcome_name(outcome)] = s.of(outcome);
+  }
+  for (const auto& [number, count] : s.points) points[std::to_string(number)] = count;
+  return {{"count", s.count},
+          {"outcomes", outcomes},
+          {"severity", to_json(s.severity)},
+          {"depth_error", to_json(s.depth_error, s.depth_histogram)},
+          {"normal_regret", to_json(s.normal_regret, s.regret_histogram)},
+          {"normal_angle", to_json(s.normal_angle)},
+          {"point_error", to_json(s.point_error)},
+          {"deepest_error", to_json(s.deepest_error)},
+          {"model_error", to_json(s.model_error)},
+          {"solver_error", to_json(s.solver_error)},
+          {"points", points},
+          {"coverage", to_json(s.coverage)}};
+}
+
+json to_json(const std::optional<QueryTime>& time) {
+  if (!time) return nullptr;
+  const auto& [median, low, high] = time->nanoseconds;
+  json result = {{"median", median},
+                 {"low", low},
+                 {"high", high},
+                 {"spread", high - low},
+                 {"repetitions", time->repetitions},
+                 {"instructions", or_null(time->instructions)},
+                 {"ratio_to_bullet", nullptr},
+                 {"ratio_low", nullptr},
+                 {"ratio_high", nullptr}};
+  if (const auto& ratio = time->ratio_to_bullet) {
+    result["ratio_to_bullet"] = ratio->median;
+    result["ratio_low"] = ratio->low;
+    result["ratio_high"] = ratio->high;
+  }
+  return result;
+}
+
+json summary_json(const ResultRow& row) {
+  json result = to_json(row);
+  result["pareto"] = row.pareto ? json(*row.pareto) : json(nullptr);
+  result["tied_with"] = row.tied_with;
+  return result;
+}
+
+json to_json(const Trend& trend) {
+  json bins = json::array();
+  for (const TrendBin& bin : trend.bins) {
+    bins.push_back({{"decade", bin.decade ? json(*bin.decade) : json(nullptr)},
+                    {"count", bin.count},
+                    {"missed", bin.missed},
+                    {"median", bin.median},
+                    {"max", bin.max}});
+  }
+  return {{"pair", trend.pair},
+          {"candidate", trend.candidate},
+          {"variable", trend.variable},
+          {"bins", bins}};
+}
+
+json to_json(const DrakeProtocol::Published& p) {
+  json configurations = json::array();
+  for (const DrakeCase& c : p.configurations) {
+    configurations.push_back(
+        {{"description", c.description}, {"configuration", to_json(c.configuration)}});
+  }
+  return {
+      {"pair", p.pair},
+      {"published",
+       {{"penetration", or_null(p.penetration)}, {"signed_distance", or_null(p.signed_distance)}}},
+      {"configurations", configurations}};
+}
+
+json to_json(const DrakeProtocol::Result& r) {
+  json outcomes = json::object();
+  for (const auto& [outcome, count] : r.outcomes) outcomes[outcome_name(outcome)] = count;
+  return {{"pair", r.pair},
+          {"candidate", r.candidate},
+          {"count", r.count},
+          {"outcomes", outcomes},
+          {"max_error", or_null(r.max_error)},
+          {"worst", r.worst ? json(*r.worst) : json(nullptr)}};
+}
+
+json to_json(const CandidateDescription& c) {
+  return {{"name", c.name},
+          {"family", c.family},
+          {"version", c.version},
+          {"settings", c.settings},
+          {"models", c.models}};
+}
+
+json to_json(const Report::Extent& extent) {
+  return {{"classes", extent.classes}, {"configurations", extent.configurations}};
+}
+
+template <class Value>
+json array_of(const std::vector<Value>& values) {
+  json result = json::array();
+  for (const Value& value : values) result.push_back(to_json(value));
+  return result;
+}
+
+json to_json(const std::optional<DrakeProtocol>& protocol) {
+  if (!protocol) return nullptr;
+  return {{"depth", protocol->depth},
+          {"pairs", array_of(protocol->pairs)},
+          {"results", array_of(protocol->results)}};
+}
+
+}  // namespace
+
+json or_null(const std::optional<double>& value) { return value ? json(*value) : json(nullptr); }
+
+json to_json(const Machine& machine) {
+  return {{"cpu", machine.cpu},
+          {"cores", machine.cores},
+          {"compiler", machine.compiler},
+          {"os", machine.os}};
+}
+
+json to_json(const PoseClassDescription& c) {
+  return {{"pair", c.pair}, {"class", c.pose_class}, {"description", c.description}};
+}
+
+json to_json(const ResultRow& row) {
+  json result = to_json(row.statistics);
+  result["pair"] = row.pair;
+  result["class"] = row.pose_class;
+  result["candidate"] = row.candidate;
+  result["nanoseconds"] = to_json(row.time);
+  return result;
+}
+
+json to_json(const Examination& e) {
+  json result = {{"id", e.id}, {"configuration", to_json(e.configuration)}, {"replay", e.replay}};
+  if (!e.truth) return result;
+  result["truth"] = to_json(e.configuration, *e.truth);
+  json& answers = result["answers"] = json::object();
+  for (const auto& [candidate, answer, score] : e.answers) {
+    json& entry = answers[candidate] = to_json(answer, score);
+    if (!answer.reason.empty()) entry["reason"] = answer.reason;
+  }
+  return result;
+}
+
+json to_json(const WorstCase& worst) {
+  json result = to_json(worst.examination);
+  result["pair"] = worst.pair;
+  result["class"] = worst.pose_class;
+  result["candidate"] = worst.candidate;
+  result["outcome"] = outcome_name(worst.score.outcome);
+  result["depth_error"] = or_null(worst.score.depth_error);
+  result["normal_regret"] = or_null(worst.score.normal_regret);
+  result["severity"] = worst.score.severity;
+  return result;
+}
+
+json to_json(const Report& report) {
+  json completed = to_json(report.completed), summary = json::array();
+  completed["timed_classes"] = report.timed_classes;
+  for (const ResultRow& row : report.summary) summary.push_back(summary_json(row));
+  return {{"schema", report_schema},
+          {"version", report.version},
+          {"command", report.command},
+          {"seed", report.seed},
+          {"tolerance", report.tolerance},
+          {"threshold", report.threshold},
+          {"machine", to_json(report.machine)},
+          {"configurations", report.configurations},
+          {"partial", report.partial},
+          {"planned", to_json(report.planned)},
+          {"completed", completed},
+          {"wall_seconds", report.wall_seconds},
+          {"oracle_microseconds", to_json(report.oracle_microseconds)},
+          {"candidates", array_of(report.candidates)},
+          {"classes", array_of(report.classes)},
+          {"results", array_of(report.results)},
+          {"summary", summary},
+          {"trends", array_of(report.trends)},
+          {"drake_protocol", to_json(report.drake_protocol)},
+          {"worst", array_of(report.worst)}};
+}
+
+}  // namespace touchstone

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "reports/report.hpp"
+
+namespace touchstone {
+
+// The format of report.json (docs/report-schema.md). What was not measured is null.
+
+/// Version of the format: member "schema".
+inline constexpr int report_schema = 1;
+
+nlohmann::json to_json(const Report& report);
+
+// Parts of it that stand in other formats too:
+
+nlohmann::json to_json(const Machine& machine);
+nlohmann::json to_json(const PoseClassDescription& pose_class);
+/// An entry of `results`.
+nlohmann::json to_json(const ResultRow& row);
+/// {"id", "configuration", "truth", "answers", "replay"}; without a truth, neither that nor
+/// answers.
+nlohmann::json to_json(const Examination& examination);
+nlohmann::json to_json(const WorstCase& worst);
+
+nlohmann::json or_null(const std::optional<double>& value);
+
+}  // namespace touchstone

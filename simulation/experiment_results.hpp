@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+namespace touchstone {
+
+/// Outcome of one experiment with one candidate at one step (docs/simulation.md). If the outcome is
+/// `unsupported`, the members after it have no meaning.
+struct ExperimentResult {
+  enum class Outcome {
+    measured,
+    unsupported,  ///< the candidate has no routine for a pair that occurred
+    unsound,      ///< the motion ended beyond all bounds
+  };
+  std::string experiment, candidate;
+  double step = 0;  ///< s
+  Outcome outcome = Outcome::measured;
+  double value = 0, error = 0;  ///< may be infinite or NaN
+  bool exact = false;        ///< within the experiment's resolution, and at rest where it should be
+  double energy_gained = 0;  ///< largest rise above an earlier energy, in weight × size
+  double points = 0;         ///< mean number of contact points
+  double flicker = 0, single = 0, without = 0;  ///< shares of steps, as in RunTally
+  std::uint64_t failures = 0;                   ///< answers other than contact or none
+  std::map<std::string, double> details;
+  std::uint64_t steps = 0;            ///< of all runs
+  std::optional<double> nanoseconds;  ///< median of a query; absent: could not be timed
+  double microseconds_per_step = 0;   ///< wall-clock time, solver and communication included
+};
+
+struct ExperimentDescription {
+  std::string name, statement, quantity, unit;  ///< as in Experiment
+  std::vector<double> expected, resolution;     ///< for each step
+};
+
+/// Results of all experiments with all candidates at all steps.
+struct ExperimentResults {
+  std::vector<double> steps;  ///< s
+  std::vector<ExperimentDescription> experiments;
+  std::vector<ExperimentResult> results;
+};
+
+/// Table for a terminal of 80 columns.
+std::string experiments_table(const ExperimentResults& results);
+
+/// The member `experiments` of report.json (docs/simulation.md); null for what is not finite.
+nlohmann::json to_json(const ExperimentResults& results);
+
+// One result as text, on its way from the process that measured it. What is not finite comes back
+// as NaN.
+std::string to_text(const ExperimentResult& result);
+ExperimentResult result_from_text(const std::string& text);
+
+}  // namespace touchstone

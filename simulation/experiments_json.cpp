@@ -1,0 +1,100 @@
+#include <cmath>
+#include <limits>
+
+#include <nlohmann/json.hpp>
+
+#include "simulation/experiment_results.hpp"
+
+namespace touchstone {
+namespace {
+
+using nlohmann::json;
+using Outcome = ExperimentResult::Outcome;
+
+const char* name_of(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::measured:
+      return "measured";
+    case Outcome::unsupported:
+      return "unsupported";
+    case Outcome::unsound:
+      return "unsound";
+  }
+  return "";
+}
+
+json finite(double x) { return std::isfinite(x) ? json(x) : json(nullptr); }
+
+json result_json(const ExperimentResult& r) {
+  json result = {{"experiment", r.experiment},
+                 {"candidate", r.candidate},
+                 {"step", r.step},
+                 {"outcome", name_of(r.outcome)}};
+  if (r.outcome == Outcome::unsupported) return result;
+  json details = json::object();
+  for (const auto& [name, value] : r.details) details[name] = finite(value);
+  result.update({{"value", finite(r.value)},
+                 {"error", finite(r.error)},
+                 {"exact", r.exact},
+                 {"energy_gained", finite(r.energy_gained)},
+                 {"points", r.points},
+                 {"flicker", r.flicker},
+                 {"single", r.single},
+                 {"without", r.without},
+                 {"failures", r.failures},
+                 {"details", details},
+                 {"steps", r.steps},
+                 {"nanoseconds", r.nanoseconds ? json(*r.nanoseconds) : json(nullptr)},
+                 {"microseconds_per_step", r.microseconds_per_step}});
+  return result;
+}
+
+double number(const json& value) {
+  return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
+}
+
+}  // namespace
+
+json to_json(const ExperimentResults& r) {
+  json experiments = json::array(), results = json::array();
+  for (const ExperimentDescription& e : r.experiments) {
+    experiments.push_back({{"name", e.name},
+                           {"statement", e.statement},
+                           {"quantity", e.quantity},
+                           {"unit", e.unit},
+                           {"expected", e.expected},
+                           {"resolution", e.resolution}});
+  }
+  for (const ExperimentResult& each : r.results) results.push_back(result_json(each));
+  return {{"steps", r.steps}, {"experiments", experiments}, {"results", results}};
+}
+
+std::string to_text(const ExperimentResult& result) { return result_json(result).dump(); }
+
+ExperimentResult result_from_text(const std::string& text) {
+  const json value = json::parse(text);
+  ExperimentResult r;
+  r.experiment = value["experiment"];
+  r.candidate = value["candidate"];
+  r.step = value["step"];
+  for (const Outcome outcome : {Outcome::measured, Outcome::unsupported, Outcome::unsound}) {
+    if (value["outcome"] == name_of(outcome)) r.outcome = outcome;
+  }
+  if (r.outcome == Outcome::unsupported) return r;
+  r.value = number(value["value"]);
+  r.error = number(value["error"]);
+  r.exact = value["exact"];
+  r.energy_gained = number(value["energy_gained"]);
+  r.points = value["points"];
+  r.flicker = value["flicker"];
+  r.single = value["single"];
+  r.without = value["without"];
+  r.failures = value["failures"];
+  for (const auto& [name, detail] : value["details"].items()) r.details[name] = number(detail);
+  r.steps = value["steps"];
+  if (!value["nanoseconds"].is_null()) r.nanoseconds = value["nanoseconds"].get<double>();
+  r.microseconds_per_step = value["microseconds_per_step"];
+  return r;
+}
+
+}  // namespace touchstone
