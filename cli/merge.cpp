@@ -32,6 +32,7 @@ int run(const Options& options) {
   fmt::print("{}\n{} configurations{}.\nResult: {}\n", terminal_table(result),
              result.configurations, complete ? "" : ", which is not all of the campaign",
              file.string());
+  return 0;
 }
 
 }  // namespace

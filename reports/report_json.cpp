@@ -4,6 +4,7 @@
 
 #include "properties/files/answer_json.hpp"
 #include "properties/files/configuration_json.hpp"
+#include "properties/files/json_fields.hpp"
 
 namespace touchstone {
 namespace {
@@ -147,8 +148,6 @@ json to_json(const std::optional<DrakeProtocol>& protocol) {
 }
 
 }  // namespace
-
-json or_null(const std::optional<double>& value) { return value ? json(*value) : json(nullptr); }
 
 json to_json(const Machine& machine) {
   return {{"cpu", machine.cpu},

@@ -24,6 +24,5 @@ nlohmann::json to_json(const ResultRow& row);
 nlohmann::json to_json(const Examination& examination);
 nlohmann::json to_json(const WorstCase& worst);
 
-nlohmann::json or_null(const std::optional<double>& value);
 
 }  // namespace touchstone
