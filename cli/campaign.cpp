@@ -12,7 +12,6 @@
 #include "reports/campaigns/result.hpp"
 #include "reports/campaigns/run.hpp"
 #include "reports/campaigns/shard_place.hpp"
-#include "reports/report_json.hpp"
 #include "reports/terminal_table.hpp"
 #include "reports/worst.hpp"
 
@@ -103,7 +102,7 @@ int run(const Options& options) {
   const Report result = campaign_result(whole);
   const auto file = write_result(whole, options.out);
   fmt::print("{}\n{} configurations, truth certified to 1e-30 of the larger size.\nResult: {}\n",
-             terminal_table(to_json(result)), result.configurations, file.string());
+             terminal_table(result), result.configurations, file.string());
   return 0;
 }
 

@@ -5,7 +5,7 @@
 #include "cli/subcommands.hpp"
 #include "oracle/audit/certificate.hpp"
 #include "properties/files/given.hpp"
-#include "reports/certificate_json.hpp"
+#include "reports/second_oracle.hpp"
 
 namespace touchstone {
 namespace {
@@ -20,7 +20,7 @@ int run(const Options& options) {
   const Configuration c = given_configuration(options.input).configuration;
   const audit::Certificate certificate =
       audit::certify(c, {options.width, static_cast<int>(options.cells)});
-  fmt::print("{}\n", to_json(certificate, c).dump());
+  fmt::print("{}\n", certificate_json(certificate, c));
   return 0;
 }
 

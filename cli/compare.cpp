@@ -5,7 +5,6 @@
 
 #include "cli/subcommands.hpp"
 #include "properties/files/write_file.hpp"
-#include "reports/compare_page/compare_page.hpp"
 #include "reports/report_file.hpp"
 
 namespace touchstone {
@@ -18,13 +17,13 @@ struct Options {
 };
 
 int run(const Options& options) {
-  const nlohmann::json before = read_report(options.before), after = read_report(options.after);
-  const nlohmann::json comparison = compare(before, after, options.limits);
+  const Report before = read_report(options.before), after = read_report(options.after);
+  const Comparison comparison = compare(before, after, options.limits);
   if (!options.html.empty()) {
-    write_file(options.html, compare_page(comparison, before, after), "--html");
+    write_file(options.html, comparison_page(comparison, before, after), "--html");
   }
-  fmt::print("{}", options.json ? comparison.dump() + '\n' : comparison_text(comparison));
-  return has_regressed(comparison) ? 1 : 0;
+  fmt::print("{}", options.json ? comparison_json(comparison) : comparison_text(comparison));
+  return comparison.has_regressed() ? 1 : 0;
 }
 
 }  // namespace

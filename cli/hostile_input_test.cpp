@@ -14,6 +14,8 @@
 #include <sstream>
 #include <unistd.h>
 
+#include <nlohmann/json.hpp>
+
 #include "candidates/candidates.hpp"
 #include "cli/mutation.hpp"
 #include "cli/number_option.hpp"
@@ -278,15 +280,15 @@ TEST(HostileInput, Reports) {
   c.classes = {"lying", "standing"};
   c.candidates = find_candidates({"reference", "capsule"});
   c.count = 2;
-  const json report = to_json(make_report(c, "x"));
+  const Report report = make_report(c, "x");
   CompareLimits limits;
   limits.baseline = "capsule";
-  expect_answer_or_refusal("report.json", 3, {report.dump(1)},
+  expect_answer_or_refusal("report.json", 3, {to_json(report).dump(1)},
                            [&](const std::string& text, std::uint64_t) {
-                             const json read = report_from_text(text, "file");
-                             for (const json& comparison :
+                             const Report read = report_from_text(text, "file");
+                             for (const Comparison& comparison :
                                   {compare(report, read, limits), compare(read, report, limits)}) {
-                               require_numbers(comparison);
+                               require_numbers(json::parse(comparison_json(comparison)));
                                if (shows_nan(comparison_text(comparison), text)) {
                                  throw std::runtime_error("nan is printed");
                                }
@@ -356,7 +358,7 @@ TEST(HostileInput, ShardFiles) {
             "file");
         const Progressed merged = merge.whole(true);
         require_numbers(json::parse(campaign_json(merged)));
-        if (shows_nan(terminal_table(to_json(campaign_result(merged))), body)) {
+        if (shows_nan(terminal_table(campaign_result(merged)), body)) {
           throw std::runtime_error("nan");
         }
       });

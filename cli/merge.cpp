@@ -7,7 +7,6 @@
 #include "reference/invalid_input.hpp"
 #include "reports/campaigns/result.hpp"
 #include "reports/campaigns/shard_place.hpp"
-#include "reports/report_json.hpp"
 #include "reports/terminal_table.hpp"
 
 namespace touchstone {
@@ -30,7 +29,7 @@ int run(const Options& options) {
   const Report result = campaign_result(whole);
   const auto file = write_result(whole, options.out);
   const bool complete = result.completed.configurations == result.planned.configurations;
-  fmt::print("{}\n{} configurations{}.\nResult: {}\n", terminal_table(to_json(result)),
+  fmt::print("{}\n{} configurations{}.\nResult: {}\n", terminal_table(result),
              result.configurations, complete ? "" : ", which is not all of the campaign",
              file.string());
   return 0;

@@ -5,11 +5,8 @@
 
 #include "cli/options.hpp"
 #include "cli/subcommands.hpp"
-#include "properties/files/configuration_json.hpp"
 #include "properties/files/given.hpp"
 #include "properties/files/write_file.hpp"
-#include "reports/replay_page/replay_page.hpp"
-#include "reports/report_json.hpp"
 #include "reports/reproducer/reproducer.hpp"
 #include "reports/worst.hpp"
 
@@ -34,13 +31,11 @@ int run(const Options& options, bool emits) {
     return 0;
   }
   auto candidates = start(options.candidates.get(), bar.threshold, options.candidates.limits());
-  const nlohmann::json e = to_json(examine(given, pointers(candidates), bar, 1e-30));
+  const Examination shown = examine(given, pointers(candidates), bar, 1e-30);
   if (!options.html.empty()) {
-    const Configuration& c = given.configuration;
-    write_file(options.html, replay_page(e, to_hex_json(c), to_exact_json(c), given.description),
-               "--html");
+    write_file(options.html, replay_page(shown, given.description), "--html");
   }
-  fmt::print("{}", options.json ? e.dump() + '\n' : replay_text(given, e, candidates));
+  fmt::print("{}", options.json ? replay_json(shown) : replay_text(shown, given.description));
   return 0;
 }
 

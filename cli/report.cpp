@@ -10,8 +10,8 @@
 #include "reference/invalid_input.hpp"
 #include "reports/figures/figures.hpp"
 #include "reports/make_report.hpp"
-#include "reports/report_json.hpp"
-#include "reports/stability/stability.hpp"
+#include "reports/report_file.hpp"
+#include "reports/stability/measure.hpp"
 #include "reports/terminal_table.hpp"
 #include "reports/worst.hpp"
 #include "simulation/experiment.hpp"
@@ -61,26 +61,25 @@ int run(const Options& options) {
   check_writable(options.out);
   if (!options.figures.empty()) check_figures(options.figures);
   const Interruption interruption;
-  const Report measured = make_report(campaign, options.command_line());
-  if (measured.results.empty()) {
+  Report report = make_report(campaign, options.command_line());
+  if (report.results.empty()) {
     complain("Interrupted before any pose class was done: there is no report.");
     return interrupted_exit_code();
   }
-  nlohmann::json report = to_json(measured);
   if (!options.scored.sample.is_narrowed() && !interrupted()) {
     const Study study{campaign.candidates, campaign.bar, campaign.limits, campaign.workers};
-    report["stability"] = stability(brief(study, campaign.pairs, campaign.seed));
-    report["experiments"] = to_json(run_experiments(options.experiments()));
+    report.stability = measure(brief(study, campaign.pairs, campaign.seed));
+    report.experiments = run_experiments(options.experiments());
   }
   write_report(report, options.out);
   fmt::print("{}\n{} configurations, truth certified to 1e-30 of the larger size, {:.0f} s.\n",
-             terminal_table(report), measured.configurations, measured.wall_seconds);
+             terminal_table(report), report.configurations, report.wall_seconds);
   fmt::print("Report: {}/report.html, {}/report.json\n", options.out, options.out);
   if (!options.figures.empty()) {
     write_figures(report, options.figures);
     fmt::print("Figures: {}\n", options.figures);
   }
-  return measured.partial ? interrupted_exit_code() : 0;
+  return report.partial ? interrupted_exit_code() : 0;
 }
 
 }  // namespace

@@ -8,7 +8,8 @@
 #include "properties/files/given.hpp"
 #include "properties/files/write_file.hpp"
 #include "reference/invalid_input.hpp"
-#include "reports/make_report.hpp"
+#include "reports/stability/measure.hpp"
+#include "reports/worst.hpp"
 
 namespace touchstone {
 namespace {
@@ -68,10 +69,10 @@ struct Options {
 int run(const Options& options) {
   const StabilityOptions chosen = options.stability();
   check_writable(options.out);
-  const nlohmann::json result = stability(chosen);
+  const Stability result = measure(chosen);
   write_stability(result, options.command_line(), options.out);
   if (options.json) {
-    fmt::print("{}\n", result.dump());
+    fmt::print("{}\n", json_text(result));
     return 0;
   }
   fmt::print("{}\nWritten: {}/stability.html, {}/stability.json\n", stability_table(result),

@@ -2,63 +2,166 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
+#include <iterator>
 #include <map>
-#include <optional>
-#include <string>
+#include <set>
 #include <tuple>
+#include <utility>
 
 #include "reference/invalid_input.hpp"
-#include "reports/comparison_basis.hpp"
-#include "reports/timing.hpp"
 
 namespace touchstone {
 namespace {
 
-using nlohmann::json;
-using Key = std::tuple<std::string, std::string, std::string>;  // pair, class, candidate
-using Rows = std::map<Key, const json*>;
+using Verdict = Change::Verdict;
+using Names = std::set<std::string>;
 
-/// Of the configurations that it has a routine for.
-double supported(const json& row) {
-  return row["count"].get<double>() - row["outcomes"].value("unsupported", 0.0);
-}
+/// What two reports have in common, and everything else that a person must know before reading
+/// differences into them.
+struct Basis {
+  bool same_configurations = true;  ///< seed and count
+  bool same_bar = true;             ///< tolerance and threshold
+  bool same_classes = true;
+  bool times = true;  ///< both have the baseline that times are related to
+  std::vector<std::string> remarks;
+};
 
-Rows rows(const json& list) {
-  Rows result;
-  for (const json& row : list) result[{row["pair"], row["class"], row["candidate"]}] = &row;
+Names candidate_names(const Report& report) {
+  Names result;
+  for (const CandidateDescription& c : report.candidates) result.insert(c.name);
   return result;
 }
 
-/// Collects the changes of one pair × class × candidate.
+Names class_names(const Report& report) {
+  Names result;
+  for (const ResultRow& row : report.results) result.insert(row.pair + '/' + row.pose_class);
+  return result;
+}
+
+/// "Only in the old report, not compared: …", and likewise of the new one.
+void remark_only(Basis& basis, const char* what, const Names& old_names, const Names& new_names) {
+  const auto remark = [&](const Names& all, const Names& others, const char* where) {
+    Names only;
+    std::set_difference(all.begin(), all.end(), others.begin(), others.end(),
+                        std::inserter(only, only.end()));
+    if (only.empty()) return;
+    basis.remarks.push_back(fmt::format("Only in the {} report, not compared: {} {}.", where, what,
+                                        fmt::join(only, ", ")));
+  };
+  remark(old_names, new_names, "old");
+  remark(new_names, old_names, "new");
+}
+
+void remark_candidates(Basis& basis, const Report& before, const Report& after) {
+  for (const CandidateDescription& old : before.candidates) {
+    for (const CandidateDescription& now : after.candidates) {
+      if (old.name != now.name) continue;
+      if (old.version != now.version) {
+        basis.remarks.push_back(
+            fmt::format("{}: version {} before, {} now.", old.name, old.version, now.version));
+      }
+      if (old.settings != now.settings) {
+        basis.remarks.push_back(fmt::format("{} is called in another way than before.", old.name));
+      }
+    }
+  }
+}
+
+std::uint64_t count_of(const Report& report) {
+  return report.results.empty() ? 0 : report.results[0].statistics.count;
+}
+
+/// A number as report.json has it: "0.0001", "0.0".
+std::string number(double value) {
+  const bool is_whole = value == std::floor(value) && std::abs(value) < 1e15;
+  return is_whole ? fmt::format("{:.1f}", value) : fmt::format("{}", value);
+}
+
+void remark_another(Basis& basis, const char* what, const std::string& before,
+                    const std::string& after) {
+  if (before == after) return;
+  basis.remarks.push_back(fmt::format("Another {}: {} before, {} now.", what, before, after));
+}
+
+Basis basis_of(const Report& before, const Report& after, const std::string& baseline) {
+  Basis basis;
+  const Names old_names = candidate_names(before), new_names = candidate_names(after);
+  const Names old_classes = class_names(before), new_classes = class_names(after);
+  remark_only(basis, "candidates", old_names, new_names);
+  remark_only(basis, "classes", old_classes, new_classes);
+  basis.same_classes = old_classes == new_classes;
+  basis.same_configurations = before.seed == after.seed && count_of(before) == count_of(after);
+  if (!basis.same_configurations) {
+    basis.remarks.push_back(fmt::format(
+        "The configurations differ (seed {} and {}, {} and {} of each class): only pairs as a "
+        "whole are compared, by median and 99th percentile, and agreement beyond chance.",
+        before.seed, after.seed, count_of(before), count_of(after)));
+  }
+  basis.same_bar = before.tolerance == after.tolerance && before.threshold == after.threshold;
+  if (!basis.same_bar) {
+    basis.remarks.push_back(fmt::format(
+        "The bars differ (tolerance {} and {}, threshold {} and {}): agreement and coverage are "
+        "not compared.",
+        number(before.tolerance), number(after.tolerance), number(before.threshold),
+        number(after.threshold)));
+  }
+  for (const auto& [report, which] : {std::pair(&before, "old"), std::pair(&after, "new")}) {
+    if (!report->partial) continue;
+    basis.remarks.push_back(
+        fmt::format("The {} report is partial: its run was interrupted.", which));
+  }
+  if (before.version != after.version) {
+    basis.remarks.push_back(
+        fmt::format("Made by touchstone {} and {}.", before.version, after.version));
+  }
+  remark_candidates(basis, before, after);
+  remark_another(basis, "cpu", before.machine.cpu, after.machine.cpu);
+  remark_another(basis, "compiler", before.machine.compiler, after.machine.compiler);
+  basis.times = old_names.contains(baseline) && new_names.contains(baseline);
+  if (!basis.times) {
+    basis.remarks.push_back(fmt::format(
+        "Times are not compared: {} is not in both reports to relate them to.", baseline));
+  }
+  return basis;
+}
+
+using Key = std::tuple<std::string, std::string, std::string>;  // pair, class, candidate
+using Rows = std::map<Key, const ResultRow*>;
+
+Rows rows_of(const std::vector<ResultRow>& list) {
+  Rows result;
+  for (const ResultRow& row : list) result[{row.pair, row.pose_class, row.candidate}] = &row;
+  return result;
+}
+
+/// Number of configurations that the candidate has a routine for.
+double supported(const Statistics& s) {
+  return static_cast<double>(s.count - s.of(Outcome::unsupported));
+}
+
+/// Collects the changes of one row.
 class Changes {
  public:
-  Changes(const Key& key, json& list) : key_(key), list_(list) {}
+  Changes(const ResultRow& row, std::vector<Change>& list) : row_(row), list_(list) {}
 
-  /// Of a quantity of which less is better; what lies below `floor` counts as that.
+  /// Adds a quantity of which less is better; what lies below `floor` counts as that.
   void smaller_is_better(const char* measure, double before, double after, double floor,
                          double limit) {
     const double factor = std::max(after, floor) / std::max(before, floor);
     if (factor == 1) return;
-    add(measure, before, after, factor, factor > 1 ? "worse" : "better",
+    add(measure, before, after, factor, factor > 1 ? Verdict::worse : Verdict::better,
         factor > limit || factor < 1 / limit);
   }
-  void add(const char* measure, double before, double after, const json& factor,
-           const char* verdict, bool beyond) {
-    const auto& [pair, pose_class, candidate] = key_;
-    list_.push_back({{"pair", pair},
-                     {"class", pose_class},
-                     {"candidate", candidate},
-                     {"measure", measure},
-                     {"before", before},
-                     {"after", after},
-                     {"factor", factor},
-                     {"verdict", verdict},
-                     {"beyond_limits", beyond}});
+  void add(const char* measure, double before, double after, std::optional<double> factor,
+           Verdict verdict, bool beyond) {
+    list_.push_back({row_.pair, row_.pose_class, row_.candidate, measure, before, after, factor,
+                     verdict, beyond});
   }
 
  private:
-  const Key& key_;
-  json& list_;
+  const ResultRow& row_;
+  std::vector<Change>& list_;
 };
 
 /// Three standard deviations of the difference of two shares of different samples.
@@ -67,150 +170,154 @@ double chance(double p, double n, double q, double m) {
   return 3 * std::sqrt(mean * (1 - mean) * (1 / n + 1 / m));
 }
 
-void compare_agreement(Changes& changes, const json& before, const json& after,
-                       const ComparisonBasis& basis, const CompareLimits& limits) {
+void compare_agreement(Changes& changes, const Statistics& before, const Statistics& after,
+                       const Basis& basis, const CompareLimits& limits) {
   const double n = supported(before), m = supported(after);
-  const double p = before["outcomes"].value("agree", 0.0) / n;
-  const double q = after["outcomes"].value("agree", 0.0) / m;
+  const double p = static_cast<double>(before.of(Outcome::agree)) / n;
+  const double q = static_cast<double>(after.of(Outcome::agree)) / m;
   if (p == q || (!basis.same_configurations && std::abs(p - q) <= chance(p, n, q, m))) return;
-  const json factor = p > 0 ? json(q / p) : json(nullptr);
-  changes.add("agreement", p, q, factor, q < p ? "worse" : "better",
-              q > p || q < limits.agreement * p);
+  changes.add("agreement", p, q, p > 0 ? std::optional(q / p) : std::nullopt,
+              q < p ? Verdict::worse : Verdict::better, q > p || q < limits.agreement * p);
 }
 
-void compare_errors(Changes& changes, const json& before, const json& after,
-                    const ComparisonBasis& basis, const CompareLimits& limits) {
+void compare_errors(Changes& changes, const Statistics& before, const Statistics& after,
+                    const Basis& basis, const CompareLimits& limits) {
   constexpr struct {
-    const char* member;
-    const char* which;
+    std::optional<Quantiles> Statistics::*member;
+    double Quantiles::*which;
     const char* measure;
-    bool of_any_sample;  ///< not a matter of single configurations
-  } measures[] = {{"depth_error", "median", "depth error, median", true},
-                  {"depth_error", "p99", "depth error, p99", true},
-                  {"depth_error", "max", "depth error, max", false},
-                  {"normal_regret", "p99", "normal regret, p99", true},
-                  {"normal_regret", "max", "normal regret, max", false},
-                  {"point_error", "p99", "point error, p99", true},
-                  {"point_error", "max", "point error, max", false},
-                  {"deepest_error", "p99", "deepest point's error, p99", true},
-                  {"deepest_error", "max", "deepest point's error, max", false}};
+    bool of_any_sample;  ///< does not depend on single configurations
+  } measures[] = {
+      {&Statistics::depth_error, &Quantiles::median, "depth error, median", true},
+      {&Statistics::depth_error, &Quantiles::p99, "depth error, p99", true},
+      {&Statistics::depth_error, &Quantiles::max, "depth error, max", false},
+      {&Statistics::normal_regret, &Quantiles::p99, "normal regret, p99", true},
+      {&Statistics::normal_regret, &Quantiles::max, "normal regret, max", false},
+      {&Statistics::point_error, &Quantiles::p99, "point error, p99", true},
+      {&Statistics::point_error, &Quantiles::max, "point error, max", false},
+      {&Statistics::deepest_error, &Quantiles::p99, "deepest point's error, p99", true},
+      {&Statistics::deepest_error, &Quantiles::max, "deepest point's error, max", false}};
   for (const auto& m : measures) {
-    const json old = before.value(m.member, json()), now = after.value(m.member, json());
-    if (old.is_null() || now.is_null() || !(m.of_any_sample || basis.same_configurations)) continue;
-    changes.smaller_is_better(m.measure, old[m.which], now[m.which], negligible_error,
+    const auto &old = before.*m.member, &now = after.*m.member;
+    if (!old || !now || !(m.of_any_sample || basis.same_configurations)) continue;
+    changes.smaller_is_better(m.measure, (*old).*m.which, (*now).*m.which, negligible_error,
                               limits.error_factor);
   }
-  if (!basis.same_bar || before["coverage"].is_null() || after["coverage"].is_null()) return;
-  constexpr double least_share = 0.01;
-  const auto uncovered = [](const json& row) { return 1 - row["coverage"]["mean"].get<double>(); };
-  changes.smaller_is_better("patch not covered, mean", uncovered(before), uncovered(after),
-                            least_share, limits.error_factor);
+  if (!basis.same_bar || !before.coverage || !after.coverage) return;
+  constexpr double min_share = 0.01;
+  changes.smaller_is_better("patch not covered, mean", 1 - before.coverage->mean,
+                            1 - after.coverage->mean, min_share, limits.error_factor);
 }
 
-/// A time as a multiple of the baseline's.
-std::optional<Spread> relative(const Rows& rows, const Key& key, const std::string& baseline) {
-  const json& time = (*rows.at(key))["nanoseconds"];
-  const auto other = rows.find({std::get<0>(key), std::get<1>(key), baseline});
-  if (time.is_null() || other == rows.end()) return std::nullopt;
-  const json& of_baseline = (*other->second)["nanoseconds"];
-  if (of_baseline.is_null()) return std::nullopt;
-  if (baseline == "bullet" && !time["ratio_to_bullet"].is_null()) {
-    return Spread{time["ratio_to_bullet"], time["ratio_low"], time["ratio_high"]};
-  }
-  const auto value = [](const json& t, const char* name) { return t[name].get<double>(); };
-  return Spread{value(time, "median") / value(of_baseline, "median"),
-                value(time, "low") / value(of_baseline, "high"),
-                value(time, "high") / value(of_baseline, "low")};
+/// The row's time as a multiple of the baseline's.
+std::optional<Spread> relative_time(const Rows& rows, const ResultRow& row,
+                                    const std::string& baseline) {
+  const auto found = rows.find({row.pair, row.pose_class, baseline});
+  if (!row.time || found == rows.end() || !found->second->time) return std::nullopt;
+  if (baseline == "bullet" && row.time->ratio_to_bullet) return row.time->ratio_to_bullet;
+  const Spread &time = row.time->nanoseconds, &of_baseline = found->second->time->nanoseconds;
+  return Spread{time.median / of_baseline.median, time.low / of_baseline.high,
+                time.high / of_baseline.low};
 }
 
-void compare_times(Changes& changes, const Rows& before, const Rows& after, const Key& key,
-                   const CompareLimits& limits) {
-  const auto old = relative(before, key, limits.baseline);
-  const auto now = relative(after, key, limits.baseline);
-  if (old && now) {
-    // By the nearest ends of the spreads; less may be the day's memory layout and is no change.
-    const bool slower = now->low > limits.time_factor * old->high;
-    const bool faster = old->low > limits.time_factor * now->high;
-    if (slower || faster) {
-      changes.add("time", old->median, now->median, now->median / old->median,
-                  slower ? "slower" : "faster", true);
+void compare_times(Changes& changes, const std::optional<Spread>& before,
+                   const std::optional<Spread>& after, double limit) {
+  if (!before || !after) return;
+  // By the nearest ends of the spreads; less may be the day's memory layout and is no change.
+  const bool is_slower = after->low > limit * before->high;
+  const bool is_faster = before->low > limit * after->high;
+  if (!is_slower && !is_faster) return;
+  changes.add("time", before->median, after->median, after->median / before->median,
+              is_slower ? Verdict::slower : Verdict::faster, true);
+}
+
+void compare_instructions(Changes& changes, const ResultRow& before, const ResultRow& after,
+                          double limit) {
+  if (!before.time || !after.time) return;
+  const auto &old = before.time->instructions, &now = after.time->instructions;
+  if (!old || !now) return;
+  const double factor = *now / *old;
+  if (factor <= limit && factor >= 1 / limit) return;
+  changes.add("instructions", *old, *now, factor, factor > 1 ? Verdict::slower : Verdict::faster,
+              true);
+}
+
+/// Compares the rows that both lists have.
+void compare_rows(Comparison& comparison, const std::vector<ResultRow>& before,
+                  const std::vector<ResultRow>& after, const Basis& basis, bool with_errors) {
+  const CompareLimits& limits = comparison.limits;
+  const Rows old_rows = rows_of(before), new_rows = rows_of(after);
+  for (const auto& [key, old_row] : old_rows) {
+    const auto found = new_rows.find(key);
+    if (found == new_rows.end()) continue;
+    const ResultRow &old = *old_row, &now = *found->second;
+    const bool had = supported(old.statistics) > 0, has = supported(now.statistics) > 0;
+    if (!had && !has) continue;
+    ++comparison.compared;
+    Changes changes(old, comparison.changes);
+    if (had != has) {
+      changes.add("has a routine", had, has, {}, has ? Verdict::better : Verdict::worse, true);
+      continue;
+    }
+    if (with_errors) {
+      if (basis.same_bar) {
+        compare_agreement(changes, old.statistics, now.statistics, basis, limits);
+      }
+      compare_errors(changes, old.statistics, now.statistics, basis, limits);
+    }
+    if (basis.times) {
+      compare_times(changes, relative_time(old_rows, old, limits.baseline),
+                    relative_time(new_rows, now, limits.baseline), limits.time_factor);
+      compare_instructions(changes, old, now, limits.time_factor);
     }
   }
-  const json &old_time = (*before.at(key))["nanoseconds"],
-             &new_time = (*after.at(key))["nanoseconds"];
-  if (old_time.is_null() || new_time.is_null()) return;
-  const json &old_count = old_time["instructions"], &new_count = new_time["instructions"];
-  if (old_count.is_null() || new_count.is_null()) return;
-  const double factor = new_count.get<double>() / old_count.get<double>();
-  if (factor > limits.time_factor || factor < 1 / limits.time_factor) {
-    changes.add("instructions", old_count, new_count, factor, factor > 1 ? "slower" : "faster",
-                true);
-  }
+}
+
+/// By how much a change differs from none, either way; a change without a factor is the largest.
+double size_of(const Change& change) {
+  return change.factor.value_or(0) == 0 ? INFINITY : std::abs(std::log(*change.factor));
+}
+
+Comparison::Side side(const Report& report) {
+  return {report.version, report.seed, report.configurations, report.partial, report.machine};
 }
 
 }  // namespace
 
-json compare(const json& before, const json& after, const CompareLimits& limits) {
-  const ComparisonBasis basis = comparison_basis(before, after, limits.baseline);
-  json changes = json::array();
-  std::size_t compared = 0;
-  const auto compare_rows = [&](const char* list, bool errors, bool times) {
-    const Rows old_rows = rows(before[list]), new_rows = rows(after[list]);
-    for (const auto& [key, old_row] : old_rows) {
-      const auto found = new_rows.find(key);
-      if (found == new_rows.end()) continue;
-      const json &old = *old_row, &now = *found->second;
-      const bool had = supported(old) > 0, has = supported(now) > 0;
-      if (!had && !has) continue;
-      ++compared;
-      Changes of_row(key, changes);
-      if (had != has) {
-        of_row.add("has a routine", had, has, nullptr, has ? "better" : "worse", true);
-        continue;
-      }
-      if (errors && basis.same_bar) compare_agreement(of_row, old, now, basis, limits);
-      if (errors) compare_errors(of_row, old, now, basis, limits);
-      if (times && basis.times) compare_times(of_row, old_rows, new_rows, key, limits);
-    }
-  };
-  if (basis.same_configurations) compare_rows("results", true, true);
-  if (basis.same_classes) compare_rows("summary", !basis.same_configurations, true);
-  if (compared == 0) {
+const char* verdict_name(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::worse:
+      return "worse";
+    case Verdict::slower:
+      return "slower";
+    case Verdict::better:
+      return "better";
+    case Verdict::faster:
+      return "faster";
+  }
+  return "";
+}
+
+bool Comparison::has_regressed() const {
+  return std::any_of(changes.begin(), changes.end(), [](const Change& c) {
+    return c.beyond_limits && (c.verdict == Verdict::worse || c.verdict == Verdict::slower);
+  });
+}
+
+Comparison compare(const Report& before, const Report& after, const CompareLimits& limits) {
+  const Basis basis = basis_of(before, after, limits.baseline);
+  Comparison result{side(before), side(after), limits, basis.remarks, 0, {}};
+  if (basis.same_configurations) compare_rows(result, before.results, after.results, basis, true);
+  if (basis.same_classes) {
+    compare_rows(result, before.summary, after.summary, basis, !basis.same_configurations);
+  }
+  if (result.compared == 0) {
     throw InvalidInput("NEW", "of other things",
                        "must have a candidate and a class in common with OLD");
   }
-  // The largest first; without a factor before all others.
-  const auto size = [](const json& change) {
-    const json& factor = change["factor"];
-    return factor.is_null() || factor == 0 ? INFINITY : std::abs(std::log(factor.get<double>()));
-  };
-  std::stable_sort(changes.begin(), changes.end(),
-                   [&](const json& a, const json& b) { return size(a) > size(b); });
-  const auto about = [](const json& report) {
-    return json{{"version", report["version"]},
-                {"seed", report["seed"]},
-                {"configurations", report["configurations"]},
-                {"partial", report["partial"]},
-                {"machine", report["machine"]}};
-  };
-  return {{"schema", "touchstone-comparison-1"},
-          {"before", about(before)},
-          {"after", about(after)},
-          {"limits",
-           {{"error_factor", limits.error_factor},
-            {"time_factor", limits.time_factor},
-            {"agreement", limits.agreement},
-            {"baseline", limits.baseline}}},
-          {"remarks", basis.remarks},
-          {"compared", compared},
-          {"changes", changes}};
-}
-
-bool has_regressed(const json& comparison) {
-  const json& changes = comparison["changes"];
-  return std::any_of(changes.begin(), changes.end(), [](const json& c) {
-    return c["beyond_limits"].get<bool>() && (c["verdict"] == "worse" || c["verdict"] == "slower");
-  });
+  std::stable_sort(result.changes.begin(), result.changes.end(),
+                   [](const Change& a, const Change& b) { return size_of(a) > size_of(b); });
+  return result;
 }
 
 }  // namespace touchstone

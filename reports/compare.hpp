@@ -1,8 +1,11 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
+#include <vector>
 
-#include <nlohmann/json.hpp>
+#include "reports/report.hpp"
 
 namespace touchstone {
 
@@ -17,17 +20,47 @@ struct CompareLimits {
 /// Errors below this, of the smaller size, are rounding: they count as this one.
 inline constexpr double negligible_error = 1e-14;
 
-/// What is better, worse, faster or slower in `after` than in `before`, both as read_report gives
-/// them (docs/compare.md). Reports on the same configurations are compared class by class; on
-/// others pair by pair, and only beyond chance. Times are compared as multiples of the baseline's;
-/// they have changed when even the nearest ends of their spreads are farther apart than the limit.
-/// Throws InvalidInput when there is nothing in common.
-nlohmann::json compare(const nlohmann::json& before, const nlohmann::json& after,
-                       const CompareLimits& limits);
+/// One measure of one pair × class × candidate.
+struct Change {
+  enum class Verdict { worse, slower, better, faster };
+  std::string pair, pose_class, candidate, measure;
+  double before, after;
+  std::optional<double> factor;  ///< absent where `before` is zero, and for yes or no
+  Verdict verdict;
+  bool beyond_limits;
+};
+const char* verdict_name(Change::Verdict verdict);
+
+struct Comparison {
+  /// One of the two reports.
+  struct Side {
+    std::string version;
+    std::uint64_t seed, configurations;
+    bool partial;
+    Machine machine;
+  };
+  Side before, after;
+  CompareLimits limits;
+  std::vector<std::string> remarks;  ///< sentences: what else differs, what is not compared
+  std::size_t compared = 0;          ///< rows
+  std::vector<Change> changes;       ///< the largest first
+
+  bool has_regressed() const;
+};
+
+/// What is better, worse, faster or slower in `after` than in `before` (docs/compare.md). Reports
+/// on the same configurations are compared class by class; on others pair by pair, and only beyond
+/// chance. Times are compared as multiples of the baseline's; they have changed when even the
+/// nearest ends of their spreads are farther apart than the limit. Throws InvalidInput when there
+/// is nothing in common.
+Comparison compare(const Report& before, const Report& after, const CompareLimits& limits);
 
 /// For a terminal of 80 columns.
-std::string comparison_text(const nlohmann::json& comparison);
-
-bool has_regressed(const nlohmann::json& comparison);
+std::string comparison_text(const Comparison& comparison);
+/// One JSON object (docs/compare.md).
+std::string comparison_json(const Comparison& comparison);
+/// A page, usable offline: the changes, and both fronts of speed and accuracy one over the other.
+std::string comparison_page(const Comparison& comparison, const Report& before,
+                            const Report& after);
 
 }  // namespace touchstone

@@ -5,9 +5,12 @@
 #include <gtest/gtest.h>
 #include <sstream>
 
+#include <nlohmann/json.hpp>
+
 #include "candidates/candidates.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/make_report.hpp"
+#include "reports/report_file.hpp"
 #include "reports/report_json.hpp"
 
 namespace touchstone {
@@ -59,45 +62,55 @@ json small_report() {
           {"summary", {row("all", "bullet", 90, 1e-3, 100), row("all", "mine", 80, 1e-6, 200)}}};
 }
 
-std::vector<std::string> changes(const json& comparison, bool beyond = true) {
+Comparison compare(const json& before, const json& after, const CompareLimits& limits) {
+  const auto read = [](const json& report) { return report_from_text(report.dump(), "report"); };
+  return touchstone::compare(read(before), read(after), limits);
+}
+
+/// Those beyond the limits.
+std::vector<std::string> changes(const Comparison& comparison) {
   std::vector<std::string> result;
-  for (const json& c : comparison["changes"]) {
-    if (c["beyond_limits"] != beyond) continue;
+  for (const Change& c : comparison.changes) {
+    if (!c.beyond_limits) continue;
     std::ostringstream text;
-    text << c["verdict"].get<std::string>() << ' ' << c["class"].get<std::string>() << ' '
-         << c["candidate"].get<std::string>() << ' ' << c["measure"].get<std::string>();
+    text << verdict_name(c.verdict) << ' ' << c.pose_class << ' ' << c.candidate << ' '
+         << c.measure;
     result.push_back(text.str());
   }
   return result;
 }
 
-std::string remarks(const json& comparison) { return comparison["remarks"].dump(); }
+std::string remarks(const Comparison& comparison) {
+  std::string text;
+  for (const std::string& remark : comparison.remarks) text += remark + '\n';
+  return text;
+}
 
 TEST(Compare, OfAReportWithItselfFindsNothing) {
-  const json c = compare(small_report(), small_report(), {});
-  EXPECT_TRUE(c["changes"].empty());
-  EXPECT_TRUE(c["remarks"].empty());
-  EXPECT_FALSE(has_regressed(c));
+  const Comparison c = compare(small_report(), small_report(), {});
+  EXPECT_TRUE(c.changes.empty());
+  EXPECT_TRUE(c.remarks.empty());
+  EXPECT_FALSE(c.has_regressed());
   EXPECT_THAT(comparison_text(c), HasSubstr("No change."));
 }
 
 TEST(Compare, NamesPairClassCandidateAndFactorOfALargerError) {
   json now = small_report();
   now["results"][1] = row("rim-face", "mine", 80, 3e-6, 200);
-  const json c = compare(small_report(), now, {});
+  const Comparison c = compare(small_report(), now, {});
   EXPECT_THAT(changes(c), testing::UnorderedElementsAre("worse rim-face mine depth error, median",
                                                         "worse rim-face mine depth error, p99",
                                                         "worse rim-face mine depth error, max"));
-  EXPECT_TRUE(has_regressed(c));
+  EXPECT_TRUE(c.has_regressed());
   EXPECT_THAT(comparison_text(c), HasSubstr("Worse: 1\n  cylinder-box/rim-face  mine\n"));
   EXPECT_THAT(comparison_text(c), HasSubstr("x 3\n"));
   // The other way round it is better, and within wider limits nothing to report.
-  const json back = compare(now, small_report(), {});
+  const Comparison back = compare(now, small_report(), {});
   EXPECT_EQ(changes(back).front().substr(0, 6), "better");
-  EXPECT_FALSE(has_regressed(back));
+  EXPECT_FALSE(back.has_regressed());
   CompareLimits wide;
   wide.error_factor = 3.5;
-  EXPECT_FALSE(has_regressed(compare(small_report(), now, wide)));
+  EXPECT_FALSE(compare(small_report(), now, wide).has_regressed());
   EXPECT_THAT(comparison_text(compare(small_report(), now, wide)), HasSubstr("3 smaller changes"));
 }
 
@@ -109,43 +122,43 @@ TEST(Compare, ADeepestPointThatLosesItsDepthIsARegressionWhereBothReportsKnowIt)
   };
   EXPECT_THAT(changes(compare(with_deepest(1e-9), with_deepest(1e-3), {})),
               testing::ElementsAre("worse rim-face mine deepest point's error, max"));
-  EXPECT_TRUE(compare(small_report(), with_deepest(1e-3), {})["changes"].empty());
-  EXPECT_TRUE(compare(with_deepest(1e-3), small_report(), {})["changes"].empty());
+  EXPECT_TRUE(compare(small_report(), with_deepest(1e-3), {}).changes.empty());
+  EXPECT_TRUE(compare(with_deepest(1e-3), small_report(), {}).changes.empty());
 }
 
 TEST(Compare, RoundingIsNoChange) {
   json old = small_report(), now = small_report();
   old["results"][1] = row("rim-face", "mine", 80, 0, 200);
   now["results"][1] = row("rim-face", "mine", 80, 4e-15, 200);
-  EXPECT_TRUE(compare(old, now, {})["changes"].empty());
+  EXPECT_TRUE(compare(old, now, {}).changes.empty());
   now["results"][1] = row("rim-face", "mine", 80, 4e-13, 200);
-  EXPECT_TRUE(has_regressed(compare(old, now, {})));
+  EXPECT_TRUE(compare(old, now, {}).has_regressed());
 }
 
 TEST(Compare, LostAgreementIsARegressionUnlessAllowed) {
   json now = small_report();
   now["results"][1] = row("rim-face", "mine", 79, 1e-6, 200);
-  const json c = compare(small_report(), now, {});
+  const Comparison c = compare(small_report(), now, {});
   EXPECT_THAT(changes(c), testing::ElementsAre("worse rim-face mine agreement"));
   CompareLimits limits;
   limits.agreement = 0.98;
-  EXPECT_FALSE(has_regressed(compare(small_report(), now, limits)));
+  EXPECT_FALSE(compare(small_report(), now, limits).has_regressed());
   // None before, some now.
   json none = small_report();
   none["results"][1] = row("rim-face", "mine", 0, 1e-6, 200);
   EXPECT_THAT(changes(compare(none, now, {})),
               testing::ElementsAre("better rim-face mine agreement"));
-  EXPECT_TRUE(has_regressed(compare(now, none, {})));
+  EXPECT_TRUE(compare(now, none, {}).has_regressed());
 }
 
 TEST(Compare, ALostRoutineIsARegression) {
   json now = small_report();
   now["results"][1]["outcomes"] = {{"unsupported", 100}};
-  const json c = compare(small_report(), now, {});
+  const Comparison c = compare(small_report(), now, {});
   EXPECT_THAT(changes(c), testing::ElementsAre("worse rim-face mine has a routine"));
-  EXPECT_TRUE(has_regressed(c));
+  EXPECT_TRUE(c.has_regressed());
   EXPECT_THAT(comparison_text(c), HasSubstr("yes ->         no"));
-  EXPECT_FALSE(has_regressed(compare(now, small_report(), {})));
+  EXPECT_FALSE(compare(now, small_report(), {}).has_regressed());
 }
 
 TEST(Compare, TimesCountAsMultiplesOfTheBaseline) {
@@ -158,27 +171,27 @@ TEST(Compare, TimesCountAsMultiplesOfTheBaseline) {
       }
     }
   }
-  EXPECT_TRUE(compare(small_report(), now, {})["changes"].empty());
+  EXPECT_TRUE(compare(small_report(), now, {}).changes.empty());
   CompareLimits other;
   other.baseline = "mine";
-  EXPECT_TRUE(compare(small_report(), now, other)["changes"].empty());
+  EXPECT_TRUE(compare(small_report(), now, other).changes.empty());
   now["results"][1] = row("rim-face", "mine", 80, 1e-6, 400);
   EXPECT_THAT(changes(compare(small_report(), now, {})),
               testing::ElementsAre("slower rim-face mine time"));
-  EXPECT_TRUE(has_regressed(compare(small_report(), now, {})));
+  EXPECT_TRUE(compare(small_report(), now, {}).has_regressed());
 }
 
 TEST(Compare, TimesWhoseSpreadsReachWithinTheFactorAreNoChange) {
   json now = small_report();
   now["results"][1] = row("rim-face", "mine", 80, 1e-6, 400);
   now["results"][1]["nanoseconds"]["ratio_low"] = 3;  // before: 1.98 to 2.02
-  EXPECT_TRUE(compare(small_report(), now, {})["changes"].empty());
+  EXPECT_TRUE(compare(small_report(), now, {}).changes.empty());
 }
 
 TEST(Compare, WithoutTheBaselineTimesAreNotCompared) {
   CompareLimits limits;
   limits.baseline = "havok";
-  const json c = compare(small_report(), small_report(), limits);
+  const Comparison c = compare(small_report(), small_report(), limits);
   EXPECT_THAT(remarks(c), HasSubstr("havok is not in both"));
 }
 
@@ -188,7 +201,7 @@ TEST(Compare, CountsInstructionsWhereBothHaveThem) {
   now["results"][1]["nanoseconds"]["instructions"] = 1600;
   EXPECT_THAT(changes(compare(old, now, {})),
               testing::ElementsAre("slower rim-face mine instructions"));
-  EXPECT_TRUE(compare(small_report(), now, {})["changes"].empty());
+  EXPECT_TRUE(compare(small_report(), now, {}).changes.empty());
 }
 
 TEST(Compare, SaysWhatIsOnlyInOne) {
@@ -222,7 +235,7 @@ TEST(Compare, OfOtherConfigurationsTakesPairsAsAWholeBeyondChance) {
   now["seed"] = 2;
   now["results"][1] = row("rim-face", "mine", 10, 1, 200);  // no matter
   now["summary"][1] = row("all", "mine", 70, 1e-6, 200);    // 80 of 100 or 70: chance
-  EXPECT_TRUE(compare(small_report(), now, {})["changes"].empty());
+  EXPECT_TRUE(compare(small_report(), now, {}).changes.empty());
   now["summary"][1] = row("all", "mine", 50, 1e-6, 200);
   EXPECT_THAT(changes(compare(small_report(), now, {})),
               testing::ElementsAre("worse all mine agreement"));
@@ -247,6 +260,27 @@ TEST(Compare, TextFitsIntoEightyColumns) {
   for (std::string line; std::getline(text, line);) EXPECT_LE(line.size(), 80u) << line;
 }
 
+TEST(Compare, WritesEveryChangeAsJson) {
+  json now = small_report();
+  now["results"][1]["outcomes"] = {{"unsupported", 100}};
+  now["summary"][1] = row("all", "mine", 80, 1e-6, 400);
+  const json written = json::parse(comparison_json(compare(small_report(), now, {})));
+  EXPECT_EQ(written["schema"], "touchstone-comparison-1");
+  EXPECT_EQ(written["before"]["seed"], 1);
+  EXPECT_EQ(written["after"]["machine"]["cpu"], "one");
+  EXPECT_EQ(written["limits"]["baseline"], "bullet");
+  EXPECT_EQ(written["compared"], 6);
+  ASSERT_EQ(written["changes"].size(), 2u);
+  const json& lost = written["changes"][0];  // without a factor first
+  EXPECT_EQ(lost["measure"], "has a routine");
+  EXPECT_EQ(lost["factor"], nullptr);
+  EXPECT_EQ(lost["before"], 1.0);
+  EXPECT_EQ(lost["verdict"], "worse");
+  EXPECT_EQ(lost["beyond_limits"], true);
+  EXPECT_EQ(written["changes"][1]["verdict"], "slower");
+  EXPECT_EQ(written["changes"][1]["class"], "all");
+}
+
 /// The plug-in of testing/sabotage.cpp, worse than it is by this number.
 json report_of_declining(const char* by) {
   if (added_plugins().empty()) add_plugin(TOUCHSTONE_TEST_PLUGINS "/touchstone-sabotage.so");
@@ -262,22 +296,22 @@ json report_of_declining(const char* by) {
 }
 
 TEST(Compare, TwoRunsOfTheSameCodeShowNoChange) {
-  const json c = compare(report_of_declining("1"), report_of_declining("1"), {});
-  EXPECT_TRUE(c["changes"].empty()) << c["changes"];
-  EXPECT_TRUE(c["remarks"].empty()) << c["remarks"];
+  const Comparison c = compare(report_of_declining("1"), report_of_declining("1"), {});
+  EXPECT_TRUE(c.changes.empty()) << comparison_text(c);
+  EXPECT_TRUE(c.remarks.empty()) << remarks(c);
 }
 
 TEST(Compare, FindsADegradedPluginByPairClassAndFactor) {
   const json before = report_of_declining("1");
-  const json c = compare(before, report_of_declining("8"), {});
+  const Comparison c = compare(before, report_of_declining("8"), {});
   const auto worse = changes(c);
   EXPECT_THAT(worse, testing::Contains("worse lying declining depth error, p99"));
   for (const std::string& change : worse) EXPECT_THAT(change, HasSubstr(" lying declining "));
-  for (const json& change : c["changes"]) {
-    EXPECT_EQ(change["pair"], "cylinder-plane");
-    EXPECT_NEAR(change["factor"].get<double>(), 8, 0.01);
+  for (const Change& change : c.changes) {
+    EXPECT_EQ(change.pair, "cylinder-plane");
+    EXPECT_NEAR(change.factor.value(), 8, 0.01);
   }
-  const json slow = compare(before, report_of_declining("-1"), {});
+  const Comparison slow = compare(before, report_of_declining("-1"), {});
   EXPECT_THAT(changes(slow), testing::Contains("slower all declining time"));
   for (const std::string& change : changes(slow)) {
     EXPECT_THAT(change, testing::AllOf(testing::StartsWith("slower "), HasSubstr(" declining ")));

@@ -4,13 +4,9 @@
 #include <chrono>
 #include <span>
 
-#include <nlohmann/json.hpp>
-
 #include "candidates/host/interruption.hpp"
-#include "properties/files/write_file.hpp"
 #include "properties/identity.hpp"
 #include "reports/drake_protocol.hpp"
-#include "reports/html/html.hpp"
 #include "reports/machine.hpp"
 #include "reports/pareto.hpp"
 #include "reports/statistics.hpp"
@@ -144,12 +140,6 @@ Report make_report(const Campaign& campaign, const std::string& command) {
   report.wall_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return report;
-}
-
-void write_report(const nlohmann::json& report, const std::filesystem::path& folder) {
-  check_writable(folder);
-  write_file(folder / "report.json", report.dump(1) + "\n", "--out");
-  write_file(folder / "report.html", render_html(report), "--out");
 }
 
 }  // namespace touchstone

@@ -1,9 +1,6 @@
 #pragma once
 
-#include <filesystem>
 #include <string>
-
-#include <nlohmann/json_fwd.hpp>
 
 #include "reports/campaign.hpp"
 #include "reports/report.hpp"
@@ -14,9 +11,5 @@ namespace touchstone {
 /// an end is asked for (interruption.hpp) the report is of what was done by then, and says so
 /// (`partial`).
 Report make_report(const Campaign& campaign, const std::string& command);
-
-/// Writes report.json, as of report_json.hpp, and report.html into the folder, each as a whole or
-/// not at all. Throws InvalidInput (field "--out") where that cannot be done.
-void write_report(const nlohmann::json& report, const std::filesystem::path& folder);
 
 }  // namespace touchstone

@@ -10,7 +10,9 @@
 #include "oracle/judge/score.hpp"
 #include "oracle/truth.hpp"
 #include "properties/identity.hpp"
+#include "reports/stability/stability.hpp"
 #include "reports/statistics.hpp"
+#include "simulation/experiment_results.hpp"
 
 namespace touchstone {
 
@@ -136,6 +138,9 @@ struct Report {
   std::vector<Trend> trends;
   std::optional<DrakeProtocol> drake_protocol;
   std::vector<WorstCase> worst;
+  // Of a whole report, all pairs and classes:
+  std::optional<Stability> stability;
+  std::optional<ExperimentResults> experiments;
 };
 
 }  // namespace touchstone

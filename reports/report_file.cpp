@@ -1,28 +1,32 @@
 #include "reports/report_file.hpp"
 
-#include <cmath>
+#include <algorithm>
 #include <cstdint>
 #include <string>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
 #include "properties/files/json_fields.hpp"
 #include "properties/files/read_file.hpp"
 #include "properties/files/strict_json.hpp"
+#include "properties/files/write_file.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/report_json.hpp"
+#include "reports/report_page.hpp"
 
 namespace touchstone {
 namespace {
 
 using nlohmann::json;
 
-/// Reads members and knows where in which file they stand.
+/// A value with its place in the file. What it is not is refused with both.
 class Reader {
  public:
   Reader(const std::string& file, const json& value, std::string path = "")
       : file_(file), value_(value), path_(std::move(path)) {}
 
+  bool has(const std::string& name) const { return value_.is_object() && value_.contains(name); }
   Reader at(const std::string& name) const {
     if (!value_.is_object()) refuse("must be an object");
     const std::string path = path_.empty() ? name : path_ + '.' + name;
@@ -30,55 +34,56 @@ class Reader {
     if (member == value_.end()) Reader(file_, nullptr, path).refuse("is missing");
     return {file_, *member, path};
   }
-  const Reader& text() const {
+  template <class Read>
+  void each(const Read& read) const {
+    if (!value_.is_array()) refuse("must be an array");
+    for (std::size_t i = 0; i < value_.size(); ++i) {
+      read(Reader(file_, value_[i], path_ + '[' + std::to_string(i) + ']'));
+    }
+  }
+  bool is_null() const { return value_.is_null(); }
+  const json& value() const { return value_; }
+
+  std::string text() const {
     if (!value_.is_string()) refuse("must be a string");
-    return *this;
+    return value_;
   }
-  const Reader& whole() const {
+  std::uint64_t whole() const {
     if (!value_.is_number_unsigned()) refuse("must be a whole number");
-    return *this;
+    return value_;
   }
-  const Reader& number() const {
+  double number() const {
     if (!value_.is_number()) refuse("must be a number");
-    return *this;
+    return value_;
   }
-  /// An error relative to a size, of which infinity was written as null.
-  const Reader& not_negative() const {
+  /// An error relative to a size; infinity was written as null.
+  double not_negative() const {
     if (!value_.is_number() || !(value_.get<double>() >= 0)) {
       refuse("must be a number that is not negative");
     }
-    return *this;
+    return value_;
   }
   /// A time, a number of instructions, or the factor between two; quotients of two stay finite.
-  const Reader& positive() const {
+  double positive() const {
     constexpr double min = 1e-30, max = 1e30;
     if (!value_.is_number() || !(value_.get<double>() >= min && value_.get<double>() <= max)) {
       refuse("must be a positive number, from 1e-30 to 1e30");
     }
-    return *this;
+    return value_;
   }
-  const Reader& share() const {
+  double share() const {
     if (!value_.is_number() || !(value_.get<double>() >= 0 && value_.get<double>() <= 1)) {
       refuse("must be a number from 0 to 1");
     }
-    return *this;
+    return value_;
   }
-  const Reader& flag() const {
+  bool flag() const {
     if (!value_.is_boolean()) refuse("must be true or false");
-    return *this;
+    return value_;
   }
-  bool is_null() const { return value_.is_null(); }
-  const json& value() const { return value_; }
   const json& object() const {
     if (!value_.is_object()) refuse("must be an object");
     return value_;
-  }
-  template <class Check>
-  void each(const Check& check) const {
-    if (!value_.is_array()) refuse("must be an array");
-    for (std::size_t i = 0; i < value_.size(); ++i) {
-      check(Reader(file_, value_[i], path_ + '[' + std::to_string(i) + ']'));
-    }
   }
   [[noreturn]] void refuse(const std::string& what) const {
     throw InvalidInput(file_ + ": " + path_, shown(value_),
@@ -91,82 +96,139 @@ class Reader {
   std::string path_;
 };
 
-void check_quantiles(const Reader& q) {
-  if (q.is_null()) return;
-  for (const char* which : {"median", "p99", "max"}) q.at(which).not_negative();
+std::optional<Quantiles> quantiles(const Reader& q) {
+  if (q.is_null()) return std::nullopt;
+  return Quantiles{q.at("median").not_negative(), q.at("p99").not_negative(),
+                   q.at("max").not_negative()};
+}
+/// Older reports are without some of them.
+std::optional<Quantiles> quantiles_if_any(const Reader& row, const char* name) {
+  return row.has(name) ? quantiles(row.at(name)) : std::nullopt;
 }
 
 /// Every configuration has one outcome.
-void check_outcomes(const Reader& row) {
+void read_outcomes(const Reader& row, Statistics& statistics) {
   constexpr std::uint64_t max_count = std::uint64_t{1} << 53;  // exact as a double
-  const Reader count = row.at("count").whole(), outcomes = row.at("outcomes");
-  const auto all = count.value().get<std::uint64_t>();
-  if (all < 1 || all > max_count) count.refuse("must be positive and at most 2^53");
-  std::uint64_t left = all;
+  const Reader count = row.at("count"), outcomes = row.at("outcomes");
+  statistics.count = count.whole();
+  if (statistics.count < 1 || statistics.count > max_count) {
+    count.refuse("must be positive and at most 2^53");
+  }
+  std::uint64_t left = statistics.count;
   for (const auto& [name, value] : outcomes.object().items()) {
-    const auto number = outcomes.at(name).whole().value().get<std::uint64_t>();
-    if (number > left) outcomes.refuse("must be numbers whose sum is the count");
-    left -= number;
+    const Reader number = outcomes.at(name);
+    const auto outcome = std::find_if(all_outcomes.begin(), all_outcomes.end(),
+                                      [&](Outcome o) { return name == outcome_name(o); });
+    if (outcome == all_outcomes.end()) number.refuse("must belong to an outcome");
+    const std::uint64_t of_outcome = number.whole();
+    if (of_outcome > left) outcomes.refuse("must be numbers whose sum is the count");
+    left -= of_outcome;
+    statistics.outcomes[static_cast<std::size_t>(*outcome)] = of_outcome;
   }
   if (left != 0) outcomes.refuse("must be numbers whose sum is the count");
 }
 
-void check_row(const Reader& row) {
-  for (const char* name : {"pair", "class", "candidate"}) row.at(name).text();
-  check_outcomes(row);
-  for (const char* name : {"depth_error", "normal_regret", "point_error"}) {
-    check_quantiles(row.at(name));
+std::optional<Shares> shares(const Reader& coverage) {
+  if (coverage.is_null()) return std::nullopt;
+  Shares result{coverage.at("mean").share(), 0, 0, 0};
+  for (const auto& [name, value] : {std::pair("median", &result.median),
+                                    std::pair("p1", &result.p1), std::pair("min", &result.min)}) {
+    *value = coverage.has(name) ? coverage.at(name).share() : result.mean;
   }
-  // Reports of before the deepest point was measured do without it.
-  if (row.value().contains("deepest_error")) check_quantiles(row.at("deepest_error"));
-  if (const Reader c = row.at("coverage"); !c.is_null()) c.at("mean").share();
-  const Reader time = row.at("nanoseconds");
-  if (time.is_null()) return;
-  for (const char* name : {"median", "low", "high"}) time.at(name).positive();
-  if (const Reader r = time.at("instructions"); !r.is_null()) r.positive();
-  if (time.at("ratio_to_bullet").is_null()) return;
-  for (const char* name : {"ratio_to_bullet", "ratio_low", "ratio_high"}) time.at(name).positive();
+  return result;
 }
 
-void check(const Reader& report) {
-  const Reader schema = report.at("schema");
-  if (schema.value() != report_schema) {
-    schema.refuse("must be " + std::to_string(report_schema));
+Spread spread(const Reader& time, const char* median, const char* low, const char* high) {
+  return {time.at(median).positive(), time.at(low).positive(), time.at(high).positive()};
+}
+
+std::optional<QueryTime> query_time(const Reader& time) {
+  if (time.is_null()) return std::nullopt;
+  QueryTime result{spread(time, "median", "low", "high"), 0, {}, {}};
+  if (time.has("repetitions")) result.repetitions = time.at("repetitions").whole();
+  if (const Reader n = time.at("instructions"); !n.is_null()) result.instructions = n.positive();
+  if (!time.at("ratio_to_bullet").is_null()) {
+    result.ratio_to_bullet = spread(time, "ratio_to_bullet", "ratio_low", "ratio_high");
   }
-  report.at("version").text();
-  report.at("seed").whole();
-  report.at("configurations").whole();
-  for (const char* name : {"tolerance", "threshold"}) report.at(name).number();
-  report.at("partial").flag();
-  for (const char* name : {"cpu", "compiler"}) report.at("machine").at(name).text();
-  report.at("candidates").each([](const Reader& c) {
-    for (const char* name : {"name", "version", "settings"}) c.at(name).text();
+  return result;
+}
+
+ResultRow result_row(const Reader& row) {
+  ResultRow result;
+  result.pair = row.at("pair").text();
+  result.pose_class = row.at("class").text();
+  result.candidate = row.at("candidate").text();
+  Statistics& s = result.statistics;
+  read_outcomes(row, s);
+  s.depth_error = quantiles(row.at("depth_error"));
+  s.normal_regret = quantiles(row.at("normal_regret"));
+  s.point_error = quantiles(row.at("point_error"));
+  s.deepest_error = quantiles_if_any(row, "deepest_error");
+  s.coverage = shares(row.at("coverage"));
+  result.time = query_time(row.at("nanoseconds"));
+  return result;
+}
+
+ResultRow summary_row(const Reader& row) {
+  ResultRow result = result_row(row);
+  if (const Reader on_front = row.at("pareto"); !on_front.is_null()) {
+    result.pareto = on_front.flag();
+  }
+  return result;
+}
+
+Machine machine(const Reader& m) {
+  Machine result;
+  result.cpu = m.at("cpu").text();
+  result.compiler = m.at("compiler").text();
+  if (m.has("os")) result.os = m.at("os").text();
+  if (m.has("cores")) result.cores = static_cast<unsigned>(m.at("cores").whole());
+  return result;
+}
+
+Report report(const Reader& r) {
+  const Reader schema = r.at("schema");
+  if (schema.value() != report_schema) schema.refuse("must be " + std::to_string(report_schema));
+  Report result;
+  result.version = r.at("version").text();
+  result.seed = r.at("seed").whole();
+  result.configurations = r.at("configurations").whole();
+  result.tolerance = r.at("tolerance").number();
+  result.threshold = r.at("threshold").number();
+  result.partial = r.at("partial").flag();
+  result.machine = machine(r.at("machine"));
+  r.at("candidates").each([&](const Reader& c) {
+    result.candidates.push_back(
+        {c.at("name").text(), "", c.at("version").text(), c.at("settings").text(), ""});
   });
-  report.at("results").each(check_row);
-  report.at("summary").each([](const Reader& row) {
-    check_row(row);
-    if (const Reader on_front = row.at("pareto"); !on_front.is_null()) on_front.flag();
-  });
+  r.at("results").each([&](const Reader& row) { result.results.push_back(result_row(row)); });
+  r.at("summary").each([&](const Reader& row) { result.summary.push_back(summary_row(row)); });
+  return result;
 }
 
 }  // namespace
 
-json report_from_text(std::string_view text, const std::string& name) {
-  json report;
+Report report_from_text(std::string_view text, const std::string& name) {
+  json parsed;
   try {
-    report = parse_json(text, "it");
+    parsed = parse_json(text, "it");
   } catch (const InvalidInput& e) {
     throw InvalidInput("file", '"' + name + '"', std::string("must be a report.json; ") + e.what());
   }
-  if (!report.is_object()) {
+  if (!parsed.is_object()) {
     throw InvalidInput("file", '"' + name + '"', "must be a report.json: an object");
   }
-  check(Reader(name, report));
-  return report;
+  return report(Reader(name, parsed));
 }
 
-json read_report(const std::filesystem::path& file) {
+Report read_report(const std::filesystem::path& file) {
   return report_from_text(read_file(file, "file"), file.string());
+}
+
+void write_report(const Report& report, const std::filesystem::path& folder) {
+  check_writable(folder);
+  write_file(folder / "report.json", to_json(report).dump(1) + "\n", "--out");
+  write_file(folder / "report.html", report_page(report), "--out");
 }
 
 }  // namespace touchstone

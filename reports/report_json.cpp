@@ -175,8 +175,7 @@ json to_json(const Examination& e) {
   result["truth"] = to_json(e.configuration, *e.truth);
   json& answers = result["answers"] = json::object();
   for (const auto& [candidate, answer, score] : e.answers) {
-    json& entry = answers[candidate] = to_json(answer, score);
-    if (!answer.reason.empty()) entry["reason"] = answer.reason;
+    answers[candidate] = to_json(answer, score);
   }
   return result;
 }
@@ -197,26 +196,29 @@ json to_json(const Report& report) {
   json completed = to_json(report.completed), summary = json::array();
   completed["timed_classes"] = report.timed_classes;
   for (const ResultRow& row : report.summary) summary.push_back(summary_json(row));
-  return {{"schema", report_schema},
-          {"version", report.version},
-          {"command", report.command},
-          {"seed", report.seed},
-          {"tolerance", report.tolerance},
-          {"threshold", report.threshold},
-          {"machine", to_json(report.machine)},
-          {"configurations", report.configurations},
-          {"partial", report.partial},
-          {"planned", to_json(report.planned)},
-          {"completed", completed},
-          {"wall_seconds", report.wall_seconds},
-          {"oracle_microseconds", to_json(report.oracle_microseconds)},
-          {"candidates", array_of(report.candidates)},
-          {"classes", array_of(report.classes)},
-          {"results", array_of(report.results)},
-          {"summary", summary},
-          {"trends", array_of(report.trends)},
-          {"drake_protocol", to_json(report.drake_protocol)},
-          {"worst", array_of(report.worst)}};
+  json result = {{"schema", report_schema},
+                 {"version", report.version},
+                 {"command", report.command},
+                 {"seed", report.seed},
+                 {"tolerance", report.tolerance},
+                 {"threshold", report.threshold},
+                 {"machine", to_json(report.machine)},
+                 {"configurations", report.configurations},
+                 {"partial", report.partial},
+                 {"planned", to_json(report.planned)},
+                 {"completed", completed},
+                 {"wall_seconds", report.wall_seconds},
+                 {"oracle_microseconds", to_json(report.oracle_microseconds)},
+                 {"candidates", array_of(report.candidates)},
+                 {"classes", array_of(report.classes)},
+                 {"results", array_of(report.results)},
+                 {"summary", summary},
+                 {"trends", array_of(report.trends)},
+                 {"drake_protocol", to_json(report.drake_protocol)},
+                 {"worst", array_of(report.worst)}};
+  if (report.stability) result["stability"] = to_json(*report.stability);
+  if (report.experiments) result["experiments"] = to_json(*report.experiments);
+  return result;
 }
 
 }  // namespace touchstone

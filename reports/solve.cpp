@@ -6,12 +6,14 @@
 #include <ostream>
 #include <string>
 
+#include <nlohmann/json.hpp>
+
 #include "properties/files/answer_json.hpp"
 #include "properties/files/configuration_json.hpp"
 #include "properties/files/error_text.hpp"
 #include "properties/files/strict_json.hpp"
 #include "reference/invalid_input.hpp"
-#include "reports/agreement.hpp"
+#include "reports/second_oracle.hpp"
 
 namespace touchstone {
 namespace {
@@ -34,9 +36,8 @@ json solved(const json& line, const SolveOptions& options,
   result["answers"] = json::object();
   for (CandidateProcess& process : candidates) {
     const Answer a = process.answer(c);
-    json& entry = result["answers"][process.candidate().name] =
+    result["answers"][process.candidate().name] =
         to_json(a, score(c, truth, a, options.bar), order);
-    if (!a.reason.empty()) entry["reason"] = a.reason;
   }
   return result;
 }

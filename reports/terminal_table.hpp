@@ -2,12 +2,12 @@
 
 #include <string>
 
-#include <nlohmann/json.hpp>
+#include "reports/report.hpp"
 
 namespace touchstone {
 
 /// The summary of a report for a terminal of 80 columns: a row for each pair and candidate, the
 /// worst failure of each candidate with the command that replays it.
-std::string terminal_table(const nlohmann::json& report);
+std::string terminal_table(const Report& report);
 
 }  // namespace touchstone

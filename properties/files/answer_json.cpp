@@ -19,18 +19,6 @@ namespace {
 
 using nlohmann::json;
 
-const char* ties_name(oracle::Ties ties) {
-  switch (ties) {
-    case oracle::Ties::unique:
-      return "unique";
-    case oracle::Ties::finite:
-      return "finite";
-    case oracle::Ties::continuum:
-      return "continuum";
-  }
-  return "";
-}
-
 double sign(Order order) { return order == Order::swapped ? -1 : 1; }
 
 json vector_json(const double (&v)[3], double factor = 1) {
@@ -44,18 +32,6 @@ int digits_for(const oracle::Enclosure& e) {
   if (!(magnitude > 0) || !(width > 0)) return 20;
   return std::clamp(3 + static_cast<int>(std::ceil(std::log10(magnitude) - std::log10(width))), 20,
                     400);
-}
-
-const char* kind_name(oracle::ContactPatch::Kind kind) {
-  switch (kind) {
-    case oracle::ContactPatch::Kind::point:
-      return "point";
-    case oracle::ContactPatch::Kind::segment:
-      return "segment";
-    case oracle::ContactPatch::Kind::region:
-      return "region";
-  }
-  return "";
 }
 
 const char* kind_name(oracle::NormalFamily::Kind kind) {
@@ -84,7 +60,7 @@ json family_json(const oracle::NormalFamily& family, Order order) {
 json patch_json(const oracle::ContactPatch& patch) {
   json outline = json::array();
   for (const Vec3& p : patch.outline()) outline.push_back(to_json(p));
-  return {{"kind", kind_name(patch.kind())},
+  return {{"kind", patch_kind_name(patch.kind())},
           {"area", patch.area()},
           {"perimeter", patch.perimeter()},
           {"centroid", to_json(patch.centroid())},
@@ -130,6 +106,30 @@ Outcome outcome_from_json(const json& value, const std::string& field) {
     if (value == outcome_name(outcome)) return outcome;
   }
   throw InvalidInput(field, shown(value), "must be one that a score has");
+}
+
+const char* ties_name(oracle::Ties ties) {
+  switch (ties) {
+    case oracle::Ties::unique:
+      return "unique";
+    case oracle::Ties::finite:
+      return "finite";
+    case oracle::Ties::continuum:
+      return "continuum";
+  }
+  return "";
+}
+
+const char* patch_kind_name(oracle::ContactPatch::Kind kind) {
+  switch (kind) {
+    case oracle::ContactPatch::Kind::point:
+      return "point";
+    case oracle::ContactPatch::Kind::segment:
+      return "segment";
+    case oracle::ContactPatch::Kind::region:
+      return "region";
+  }
+  return "";
 }
 
 std::array<std::string, 2> decimals(const oracle::Enclosure& e) {

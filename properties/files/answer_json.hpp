@@ -7,12 +7,16 @@
 
 #include "candidates/host/candidate_process.hpp"
 #include "oracle/judge/score.hpp"
+#include "oracle/patch/contact_patch.hpp"
 #include "oracle/truth.hpp"
 
 namespace touchstone {
 
 /// Whether every normal is reversed, for a person whose body a is our body B.
 enum class Order { as_ours, swapped };
+
+const char* ties_name(oracle::Ties ties);
+const char* patch_kind_name(oracle::ContactPatch::Kind kind);
 
 /// Decimals of an enclosure's two ends, rounded outward, with digits enough to tell them apart.
 std::array<std::string, 2> decimals(const oracle::Enclosure& enclosure);

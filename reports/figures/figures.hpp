@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include <nlohmann/json.hpp>
+#include "reports/report.hpp"
 
 namespace touchstone {
 
@@ -11,8 +11,8 @@ void check_figures(const std::filesystem::path& folder);
 
 /// Figures of a report for papers, each as SVG and PNG with its data as CSV: speed-accuracy of all
 /// pairs and of each, errors-PAIR (cumulative distribution of the depth error) and classes-PAIR
-/// (share that disagrees, by pose class and candidate). `report` as of make_report. Throws
-/// std::runtime_error with gnuplot's words if it fails.
-void write_figures(const nlohmann::json& report, const std::filesystem::path& folder);
+/// (share that disagrees, by pose class and candidate). Throws std::runtime_error with gnuplot's
+/// words if it fails.
+void write_figures(const Report& report, const std::filesystem::path& folder);
 
 }  // namespace touchstone

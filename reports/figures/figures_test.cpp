@@ -7,14 +7,12 @@
 
 #include "candidates/candidates.hpp"
 #include "reference/invalid_input.hpp"
-#include "reports/figures/label_places.hpp"
+#include "reports/figures/gnuplot.hpp"
 #include "reports/make_report.hpp"
-#include "reports/report_json.hpp"
 
 namespace touchstone {
 namespace {
 
-using nlohmann::json;
 using testing::HasSubstr;
 using testing::StartsWith;
 
@@ -30,11 +28,11 @@ TEST(Figures, EachComesAsPictureTwiceAndAsData) {
   c.classes = {"general-shallow", "touching"};
   c.candidates = find_candidates({"reference", "bullet", "prism:8"});
   c.count = 3;
-  json report = to_json(make_report(c, "x"));
+  Report report = make_report(c, "x");
   // A plug-in may be called anything.
-  for (const char* list : {"summary", "results"}) {
-    for (json& row : report[list]) {
-      if (row["candidate"] == "prism:8") row["candidate"] = "a\"b,{c}\\";
+  for (auto* rows : {&report.summary, &report.results}) {
+    for (ResultRow& row : *rows) {
+      if (row.candidate == "prism:8") row.candidate = "a\"b,{c}\\";
     }
   }
   const std::filesystem::path folder = testing::TempDir() + "touchstone figures's test";

@@ -1,11 +1,15 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <vector>
 
-#include <nlohmann/json.hpp>
+#include "reports/report.hpp"
 
 namespace touchstone {
+
+// Pieces that the figures of a report are made of.
 
 /// "pointtype 7 linecolor '#0072b2'": a candidate's mark, coloured as on the report's page.
 std::string style_of(const std::string& candidate);
@@ -23,16 +27,31 @@ std::string in_both_forms(const std::string& name, int width, int height,
 /// script is then left there.
 void run_gnuplot(const std::string& script, const std::filesystem::path& folder);
 
-/// Of a row of `summary` or `results`.
-double agreement(const nlohmann::json& row);
+/// Share of the configurations with a routine on which the candidate agrees.
+double agreement(const Statistics& statistics);
 
-// The figures of one report. Each writes its data as CSV and returns its commands, none where there
-// is nothing to show.
-std::string speed_figures(const nlohmann::json& report, const std::vector<std::string>& pairs,
+/// The charts of speed and accuracy, together and of each pair (figures.hpp). Writes their data as
+/// CSV and returns their commands, none where there is nothing to show.
+std::string speed_figures(const Report& report, const std::vector<std::string>& pairs,
                           const std::filesystem::path& folder);
-std::string error_figure(const nlohmann::json& report, const std::string& pair,
-                         const std::filesystem::path& folder);
-std::string class_figure(const nlohmann::json& report, const std::string& pair,
-                         const std::filesystem::path& folder);
+
+/// A mark of a chart that wants a label beside it. Lengths are in characters: one across, one line
+/// up.
+struct Label {
+  double x, y;     ///< the mark, from the chart's lower left corner
+  double length;   ///< of the text
+  bool important;  ///< chooses its place before those that are not
+};
+
+/// Where a label's text begins (or ends, unless rightwards), from its mark.
+struct LabelPlace {
+  bool rightwards;
+  double dx, dy;
+};
+
+/// Places in which no label lies on another, on a mark or beyond the chart. Absent where there is
+/// no such place, except for important labels: they get the best there is.
+std::vector<std::optional<LabelPlace>> label_places(const std::vector<Label>& labels, double width,
+                                                    double height);
 
 }  // namespace touchstone

@@ -5,12 +5,9 @@
 
 #include "properties/files/write_file.hpp"
 #include "reports/figures/gnuplot.hpp"
-#include "reports/figures/label_places.hpp"
 
 namespace touchstone {
 namespace {
-
-using nlohmann::json;
 
 struct Point {
   std::string candidate;
@@ -19,15 +16,15 @@ struct Point {
 };
 
 /// Timed candidates with contacts.
-std::vector<Point> points_of(const json& report, const std::string& pair) {
-  constexpr double least = 1e-17;  // a logarithmic axis has no zero
+std::vector<Point> points_of(const Report& report, const std::string& pair) {
+  constexpr double min_error = 1e-17;  // a logarithmic axis has no zero
   std::vector<Point> result;
-  for (const json& row : report["summary"]) {
-    if (row["pair"] != pair || row["nanoseconds"].is_null() || row["depth_error"].is_null())
-      continue;
-    result.push_back({row["candidate"], row["nanoseconds"]["median"],
-                      std::max(row["depth_error"]["p99"].get<double>(), least), agreement(row),
-                      row["pareto"].get<bool>()});
+  for (const ResultRow& row : report.summary) {
+    const Statistics& s = row.statistics;
+    if (row.pair != pair || !row.time || !s.depth_error) continue;
+    result.push_back({row.candidate, row.time->nanoseconds.median,
+                      std::max(s.depth_error->p99, min_error), agreement(s),
+                      row.pareto.value_or(false)});
   }
   return result;
 }
@@ -102,7 +99,7 @@ std::string key_panel(const std::vector<std::string>& candidates, double share) 
 
 }  // namespace
 
-std::string speed_figures(const json& report, const std::vector<std::string>& pairs,
+std::string speed_figures(const Report& report, const std::vector<std::string>& pairs,
                           const std::filesystem::path& folder) {
   std::vector<double> times, errors;
   std::vector<std::string> drawn;
@@ -129,7 +126,7 @@ std::string speed_figures(const json& report, const std::vector<std::string>& pa
   constexpr int key_height = 90;
   const double share = 1.0 * key_height / (340 * rows + key_height);
   std::vector<std::string> candidates;
-  for (const json& c : report["candidates"]) candidates.push_back(c["name"]);
+  for (const CandidateDescription& c : report.candidates) candidates.push_back(c.name);
   int panel = 0;
   for (const auto& pair : drawn) {
     const auto points = points_of(report, pair);

@@ -1,89 +1,55 @@
-#include "reports/stability/amplification.hpp"
-
-#include <algorithm>
-#include <array>
 #include <fmt/format.h>
 #include <map>
-#include <optional>
+#include <tuple>
 
-#include "candidates/host/progress.hpp"
-#include "candidates/host/worker_processes.hpp"
 #include "properties/motions/motion.hpp"
 #include "properties/pose_class.hpp"
-#include "reports/stability/short_number.hpp"
+#include "reports/stability/measure.hpp"
+#include "reports/stability/step_change.hpp"
 
 namespace touchstone {
 namespace {
 
-using nlohmann::json;
-
-constexpr int amplitudes = Decade::max - Decade::min + 1;
-Decade amplitude(int rung) { return Decade(Decade::min + rung); }
-
-/// The largest of each measure on each rung; absent where there was nothing to measure.
-using Rungs = std::array<std::optional<double>, amplitudes>;
-void raise(std::optional<double>& most, const std::optional<double>& value) {
-  if (value && !(most && *most >= *value)) most = value;
-}
-json to_json(const Rungs& rungs, json (*written)(const std::optional<double>&)) {
-  json result = json::array();
-  for (const auto& value : rungs) result.push_back(written(value));
-  return result;
+void raise(std::optional<double>& max, const std::optional<double>& value) {
+  if (value && !(max && *max >= *value)) max = value;
 }
 
-/// The worst step by one measure.
+/// The worst step by one measure: the amplitude's number, and that of the configuration around
+/// which it is made.
 struct Worst {
   std::optional<double> value;
-  std::string from, to;
-  void take(const std::optional<double>& candidate, const std::string& base,
-            const Perturbation& perturbation) {
-    if (!candidate || (value && *value >= *candidate)) return;
-    *this = {candidate, base, perturbed_name(base, perturbation)};
-  }
+  std::size_t base = 0, rung = 0;
 };
+void raise(Worst& worst, const std::optional<double>& value, std::size_t base, std::size_t rung) {
+  if (value && !(worst.value && *worst.value >= *value)) worst = {value, base, rung};
+}
 
-/// What one candidate made of all steps of a cell.
-struct Made {
-  Rungs amplification, hull_excess, regret;
+/// All steps of a cell, as one candidate answered them, or as the truth has it: amplification
+/// alone.
+struct Climb {
+  bool is_supported = true;
+  ByAmplitude<std::optional<double>> amplification, hull_excess, regret;
   std::optional<double> jump;
-  std::array<int, amplitudes> points_changed{}, missed{}, unanswered{};
-  Worst depth, manifold;
+  ByAmplitude<int> points_changed{}, missed{}, unanswered{};
+  Worst worst_amplification, worst_hull_excess;
 
-  void add(int rung, const ExaminedPose& from, const ExaminedPose& to, std::size_t k,
-           const Bar& bar, const std::string& base, const Perturbation& perturbation) {
-    const std::size_t i = static_cast<std::size_t>(rung);
-    const CandidatePose& pose = to.of[k];
-    missed[i] += pose.score.outcome == Outcome::missed;
-    raise(regret[i], pose.score.normal_regret);
+  /// Adds the step that candidate `k` was asked about.
+  void add(const ExaminedPose& from, const ExaminedPose& to, std::size_t k, const Bar& bar,
+           std::size_t base, std::size_t rung) {
+    const Score& score = to.answers[k].score;
+    missed[rung] += score.outcome == Outcome::missed;
+    raise(regret[rung], score.normal_regret);
     const auto change = step_change(from, to, k, bar);
     if (!change) {
-      ++unanswered[i];
+      ++unanswered[rung];
       return;
     }
-    raise(amplification[i], change->amplification);
+    raise(amplification[rung], change->amplification);
     raise(jump, change->jump);
-    raise(hull_excess[i], change->hull_excess);
-    points_changed[i] += change->points_changed;
-    depth.take(change->amplification, base, perturbation);
-    manifold.take(change->hull_excess, base, perturbation);
-  }
-
-  json to_json() const {
-    json worst = json::array();
-    const auto add_worst = [&](const char* measure, const Worst& w) {
-      if (!w.value || *w.value == 0) return;
-      worst.push_back({{"measure", measure}, {"value", *w.value}, {"from", w.from}, {"to", w.to}});
-    };
-    add_worst("amplification", depth);
-    add_worst("hull_excess", manifold);
-    return {{"amplification", touchstone::to_json(amplification, rounded_up)},
-            {"jump", short_number(jump)},
-            {"hull_excess", touchstone::to_json(hull_excess, short_number)},
-            {"regret", touchstone::to_json(regret, short_number)},
-            {"points_changed", points_changed},
-            {"missed", missed},
-            {"unanswered", unanswered},
-            {"worst", worst}};
+    raise(hull_excess[rung], change->hull_excess);
+    points_changed[rung] += change->points_changed;
+    raise(worst_amplification, change->amplification, base, rung);
+    raise(worst_hull_excess, change->hull_excess, base, rung);
   }
 };
 
@@ -91,88 +57,90 @@ struct Made {
 /// of its perturbations.
 struct Bases {
   std::string pair, pose_class;
-  std::uint64_t seed;
   std::vector<Subject> subjects;
 };
 
 Bases bases_of(const Cell& cell, const Ladder& ladder) {
-  Bases bases{pair_name(cell.pair), cell.pose_class, ladder.seed, {}};
+  Bases bases{pair_name(cell.pair), cell.pose_class, {}};
   for (std::uint64_t i = 0; i < ladder.count; ++i) {
     bases.subjects.push_back(subject(Identity{cell.pair, cell.pose_class, ladder.seed, i}));
   }
   return bases;
 }
 
-/// One result for each candidate that has a routine for the pair, and the truth's own.
-json climb(const Bases& bases, std::vector<CandidateProcess>& candidates, const Bar& bar) {
+/// The truth first, then the candidates in their order.
+std::vector<Climb> climb(const Bases& bases, std::uint64_t seed,
+                         std::vector<CandidateProcess>& candidates, const Bar& bar) {
   std::vector<Configuration> asked;
-  for (std::uint64_t i = 0; i < bases.subjects.size(); ++i) {
+  for (std::size_t i = 0; i < bases.subjects.size(); ++i) {
     const Configuration& c = bases.subjects[i].configuration;
     asked.push_back(c);
-    for (int rung = 0; rung < amplitudes; ++rung) {
-      asked.push_back(perturbed(c, {amplitude(rung), bases.seed, i}));
+    for (std::size_t rung = 0; rung < amplitude_count; ++rung) {
+      asked.push_back(perturbed(c, {amplitude(rung), seed, i}));
     }
   }
   const std::vector<ExaminedPose> poses = examine(asked, candidates, bar);
-  std::vector<Made> made(candidates.size());
-  Rungs truth;
-  for (std::uint64_t i = 0; i < bases.subjects.size(); ++i) {
-    const ExaminedPose& from = poses[i * (1 + amplitudes)];
-    for (int rung = 0; rung < amplitudes; ++rung) {
-      const ExaminedPose& to = poses[i * (1 + amplitudes) + 1 + static_cast<std::size_t>(rung)];
-      raise(truth[static_cast<std::size_t>(rung)], true_amplification(from, to, bar));
-      for (std::size_t k = 0; k < made.size(); ++k) {
-        made[k].add(rung, from, to, k, bar, bases.subjects[i].name,
-                    {amplitude(rung), bases.seed, i});
+  std::vector<Climb> climbs(1 + candidates.size());
+  for (std::size_t k = 0; k < candidates.size(); ++k) {
+    climbs[1 + k].is_supported = poses[0].answers[k].score.outcome != Outcome::unsupported;
+  }
+  for (std::size_t i = 0; i < bases.subjects.size(); ++i) {
+    const ExaminedPose* const from = &poses[i * (1 + amplitude_count)];
+    for (std::size_t rung = 0; rung < amplitude_count; ++rung) {
+      const ExaminedPose& to = from[1 + rung];
+      raise(climbs[0].amplification[rung], true_amplification(*from, to, bar));
+      for (std::size_t k = 0; k < candidates.size(); ++k) {
+        climbs[1 + k].add(*from, to, k, bar, i, rung);
       }
     }
   }
-  json results = json::array();
-  for (std::size_t k = 0; k < made.size(); ++k) {
-    if (poses[0].of[k].score.outcome == Outcome::unsupported) continue;
-    json result = made[k].to_json();
-    result["pair"] = bases.pair;
-    result["class"] = bases.pose_class;
-    result["candidate"] = candidates[k].candidate().name;
-    results.push_back(std::move(result));
-  }
-  return {{"results", results},
-          {"truth",
-           {{"pair", bases.pair},
-            {"class", bases.pose_class},
-            {"amplification", to_json(truth, rounded_up)}}}};
+  return climbs;
 }
 
-/// Of each pair and candidate the worst step by each measure, taken out of the results.
-json take_worst(json& results) {
-  std::map<std::tuple<std::string, std::string, std::string>, json> worst;
-  for (json& result : results) {
-    for (json& w : result["worst"]) {
-      json& most = worst[{result["candidate"], result["pair"], w["measure"]}];
-      if (!most.is_null() && most["value"] >= w["value"]) continue;
-      w["candidate"] = result["candidate"];
-      w["pair"] = result["pair"];
-      w["class"] = result["class"];
-      most = std::move(w);
+/// Puts the cells' climbs together; of each candidate and pair it keeps the worst step by each
+/// measure.
+class Collector {
+ public:
+  Collector(const Study& study, std::uint64_t seed, std::uint64_t count) : study_(study) {
+    result_.seed = seed;
+    result_.count = count;
+  }
+
+  void add(const Bases& bases, const std::vector<Climb>& climbs) {
+    result_.truth.push_back({bases.pair, bases.pose_class, climbs[0].amplification});
+    for (std::size_t k = 0; k < study_.candidates.size(); ++k) {
+      const Climb& c = climbs[1 + k];
+      if (!c.is_supported) continue;
+      const std::string& candidate = study_.candidates[k]->name;
+      result_.results.push_back({bases.pair, bases.pose_class, candidate, c.amplification,
+                                 c.hull_excess, c.regret, c.jump, c.points_changed, c.missed,
+                                 c.unanswered});
+      add_worst(bases, candidate, "amplification", c.worst_amplification);
+      add_worst(bases, candidate, "hull_excess", c.worst_hull_excess);
     }
-    result.erase("worst");
   }
-  json list = json::array();
-  for (auto& [key, w] : worst) list.push_back(std::move(w));
-  return list;
-}
 
-json collected(const std::vector<json>& cells, std::uint64_t seed, std::uint64_t count) {
-  json ladder = json::array(), results = json::array(), truth = json::array();
-  for (int rung = 0; rung < amplitudes; ++rung) ladder.push_back(amplitude(rung).value());
-  for (const json& cell : cells) {
-    for (const json& result : cell["results"]) results.push_back(result);
-    truth.push_back(cell["truth"]);
+  Amplification result() && {
+    for (auto& [key, step] : worst_) result_.worst.push_back(std::move(step));
+    return std::move(result_);
   }
-  json worst = take_worst(results);
-  return {{"amplitudes", ladder}, {"seed", seed},   {"count", count},
-          {"results", results},   {"truth", truth}, {"worst", worst}};
-}
+
+ private:
+  void add_worst(const Bases& bases, const std::string& candidate, const char* measure,
+                 const Worst& worst) {
+    if (worst.value.value_or(0) == 0) return;
+    const auto [at, is_new] = worst_.try_emplace({candidate, bases.pair, measure});
+    if (!is_new && at->second.value >= *worst.value) return;
+    const std::string& from = bases.subjects[worst.base].name;
+    const Perturbation step{amplitude(worst.rung), result_.seed, worst.base};
+    at->second = {bases.pair, bases.pose_class,          candidate, measure, *worst.value,
+                  from,       perturbed_name(from, step)};
+  }
+
+  const Study& study_;
+  Amplification result_;
+  std::map<std::tuple<std::string, std::string, std::string>, Amplification::WorstStep> worst_;
+};
 
 }  // namespace
 
@@ -184,35 +152,33 @@ std::vector<Cell> degenerate_cells(const std::vector<Pair>& pairs) {
   return cells;
 }
 
-json amplification(const Ladder& ladder, const Study& study) {
-  const std::uint64_t of_cell = ladder.count * (1 + amplitudes);
-  Progress progress("perturbed poses", ladder.cells.size() * of_cell);
-  std::vector<CandidateProcess> candidates;  // each worker starts its own
-  const auto results = run_in_processes(
-      ladder.cells.size(), study.workers,
-      [&](std::size_t i) {
-        if (candidates.empty()) {
-          candidates = start(study.candidates, study.bar.threshold, study.limits);
-        }
-        return climb(bases_of(ladder.cells[i], ladder), candidates, study.bar).dump();
-      },
-      [&](std::size_t i) {
-        return fmt::format("{}/{}", pair_name(ladder.cells[i].pair), ladder.cells[i].pose_class);
-      },
-      [&](std::size_t done) { progress.update(done * of_cell); });
-  std::vector<json> cells;
-  for (const std::string& text : results) {
-    if (!text.empty()) cells.push_back(json::parse(text));  // empty: interrupted before
+Amplification amplification(const Ladder& ladder, const Study& study) {
+  const Work work{ladder.cells.size(), "perturbed poses", ladder.count * (1 + amplitude_count),
+                  [&](std::size_t i) {
+                    const Cell& cell = ladder.cells[i];
+                    return fmt::format("{}/{}", pair_name(cell.pair), cell.pose_class);
+                  }};
+  const auto results =
+      spread(study, work, [&](std::size_t i, std::vector<CandidateProcess>& candidates) {
+        return to_bytes(
+            climb(bases_of(ladder.cells[i], ladder), ladder.seed, candidates, study.bar));
+      });
+  Collector collector(study, ladder.seed, ladder.count);
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    if (results[i].empty()) continue;  // interrupted before
+    collector.add(bases_of(ladder.cells[i], ladder), from_bytes<Climb>(results[i]));
   }
-  return collected(cells, ladder.seed, ladder.count);
+  return std::move(collector).result();
 }
 
-json amplification(const Subject& base, std::uint64_t seed, std::uint64_t count,
-                   const Study& study) {
-  const Bases bases{pair_name(pair_of(base.configuration)), base.name, seed,
+Amplification amplification(const Subject& base, std::uint64_t seed, std::uint64_t count,
+                            const Study& study) {
+  const Bases bases{pair_name(pair_of(base.configuration)), base.name,
                     std::vector<Subject>(count, base)};
   auto candidates = start(study.candidates, study.bar.threshold, study.limits);
-  return collected({climb(bases, candidates, study.bar)}, seed, count);
+  Collector collector(study, seed, count);
+  collector.add(bases, climb(bases, seed, candidates, study.bar));
+  return std::move(collector).result();
 }
 
 }  // namespace touchstone

@@ -1,16 +1,12 @@
-#include "reports/stability/stability.hpp"
-
 #include <algorithm>
 
-#include "properties/files/write_file.hpp"
+#include "candidates/host/progress.hpp"
+#include "candidates/host/worker_processes.hpp"
 #include "reference/invalid_input.hpp"
-#include "reports/make_report.hpp"
-#include "reports/stability/stability_page.hpp"
+#include "reports/stability/measure.hpp"
 
 namespace touchstone {
 namespace {
-
-using nlohmann::json;
 
 template <class Thing, class ConfigurationOf>
 std::vector<const Thing*> of_pairs(const std::vector<Thing>& all, const std::vector<Pair>& pairs,
@@ -53,40 +49,42 @@ StabilityOptions brief(const Study& study, const std::vector<Pair>& pairs, std::
   return options;
 }
 
-json stability(const StabilityOptions& options) {
+Stability measure(const StabilityOptions& options) {
   const Study& study = options.study;
-  json names = json::array();
-  for (const Candidate* c : study.candidates) names.push_back(c->name);
-  json result = {{"candidates", names},
-                 {"tolerance", study.bar.tolerance},
-                 {"threshold", study.bar.threshold}};
+  Stability result{{}, study.bar.tolerance, study.bar.threshold, {}, {}, {}};
+  for (const Candidate* c : study.candidates) result.candidates.push_back(c->name);
   if (options.parts.contains(StabilityPart::amplification)) {
-    result["amplification"] = options.base ? amplification(*options.base, options.ladder.seed,
-                                                           options.ladder.count, study)
-                                           : amplification(options.ladder, study);
+    result.amplification = options.base ? amplification(*options.base, options.ladder.seed,
+                                                        options.ladder.count, study)
+                                        : amplification(options.ladder, study);
   }
   if (options.parts.contains(StabilityPart::maps)) {
     const auto poses = of_pairs(critical_poses(), options.pairs,
                                 [](const CriticalPose& pose) { return pose.configuration; });
-    result["maps"] = maps(poses, options.grid, study);
+    result.maps = maps(poses, options.grid, study);
   }
   if (options.parts.contains(StabilityPart::sequences)) {
     const auto chosen = of_pairs(motions(), options.pairs,
                                  [](const Motion& motion) { return pose_at(motion, 0, 1); });
-    result["sequences"] = sequences(chosen, options.steps, study);
+    result.sequences = sequences(chosen, options.steps, study);
   }
   return result;
 }
 
-void write_stability(const json& stability, const std::string& command,
-                     const std::filesystem::path& folder) {
-  check_writable(folder);
-  json whole = stability;
-  whole["schema"] = "touchstone-stability-1";
-  whole["version"] = TOUCHSTONE_VERSION;
-  whole["command"] = command;
-  write_file(folder / "stability.json", whole.dump() + "\n", "--out");
-  write_file(folder / "stability.html", stability_page(whole), "--out");
+std::vector<std::string> spread(
+    const Study& study, const Work& work,
+    const std::function<std::string(std::size_t, std::vector<CandidateProcess>&)>& run) {
+  Progress progress(work.unit, work.count * work.units_per_task);
+  std::vector<CandidateProcess> candidates;  // of the worker that this becomes
+  return run_in_processes(
+      work.count, study.workers,
+      [&](std::size_t task) {
+        if (candidates.empty()) {
+          candidates = start(study.candidates, study.bar.threshold, study.limits);
+        }
+        return run(task, candidates);
+      },
+      work.name, [&](std::size_t done) { progress.update(done * work.units_per_task); });
 }
 
 }  // namespace touchstone

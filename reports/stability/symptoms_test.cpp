@@ -7,7 +7,7 @@
 #include <set>
 
 #include "candidates/testing/plain_contacts.hpp"
-#include "reports/stability/movement.hpp"
+#include "reports/stability/step_change.hpp"
 
 namespace touchstone {
 namespace {

@@ -9,67 +9,62 @@
 namespace touchstone {
 namespace {
 
-using nlohmann::json;
-
-/// Steps up to here are far below what a contact patch is made within (patch_depth).
-constexpr double tiny = 1e-8;
+using Names = std::vector<std::string>;
 
 std::string number(double value) { return value == 0 ? "0" : fmt::format("{:.1e}", value); }
+std::string short_text(double value) { return number(short_number(value)); }
 
-/// Rounded upwards already.
-std::string amplification_text(double value) {
-  return value < 10 ? fmt::format("{:.2f}", value) : number(value);
+std::string amplification_text(double ratio) {
+  const double shown = rounded_up(ratio);
+  return shown < 10 ? fmt::format("{:.2f}", shown) : number(shown);
 }
 
-/// Cut downwards: only all of them show 100.
-std::string percent(double part, double whole) {
-  const double value = std::floor(1000 * part / whole) / 10;
+/// Cut downwards, so that only the whole shows 100.
+std::string percent(int part, int whole) {
+  const double value = std::floor(1000.0 * part / whole) / 10;
   return part == whole ? "100" : fmt::format("{:.1f}", value);
 }
 
-struct Row {
+/// One candidate on all classes of a pair.
+struct PairRow {
   double amplification = 0, jump = 0, regret = 0, hull_excess = 0;
   int tiny_steps = 0, flickers = 0, missed = 0, unanswered = 0;
 
-  void add(const json& result, const std::vector<double>& amplitudes, int steps) {
-    const auto raise = [&](double& most, const json& values) {
-      for (const json& v : values) {
-        if (!v.is_null()) most = std::max(most, v.get<double>());
-      }
-    };
-    raise(amplification, result["amplification"]);
-    if (!result["jump"].is_null()) jump = std::max(jump, result["jump"].get<double>());
-    raise(regret, result["regret"]);
-    raise(hull_excess, result["hull_excess"]);
-    for (std::size_t i = 0; i < amplitudes.size(); ++i) {
-      missed += result["missed"][i].get<int>();
-      unanswered += result["unanswered"][i].get<int>();
-      if (amplitudes[i] > tiny) continue;
-      tiny_steps += steps - result["unanswered"][i].get<int>();
-      flickers += result["points_changed"][i].get<int>();
+  void add(const Amplification::Row& row, int steps) {
+    /// Steps up to here are far below the depth within which a contact patch lies (patch_depth).
+    constexpr double tiny = 1e-8;
+    jump = std::max(jump, row.jump.value_or(0));
+    for (std::size_t i = 0; i < amplitude_count; ++i) {
+      amplification = std::max(amplification, row.amplification[i].value_or(0));
+      regret = std::max(regret, row.regret[i].value_or(0));
+      hull_excess = std::max(hull_excess, row.hull_excess[i].value_or(0));
+      missed += row.missed[i];
+      unanswered += row.unanswered[i];
+      if (amplitude(i).value() > tiny) continue;
+      tiny_steps += steps - row.unanswered[i];
+      flickers += row.points_changed[i];
     }
   }
 };
 
-std::string amplification_table(const json& a, const json& candidates) {
-  std::map<std::string, std::map<std::string, Row>> rows;
-  std::vector<std::string> pairs;
-  for (const json& result : a["results"]) {
-    const std::string pair = result["pair"];
-    if (std::find(pairs.begin(), pairs.end(), pair) == pairs.end()) pairs.push_back(pair);
-    rows[pair][result["candidate"]].add(result, a["amplitudes"], a["count"]);
+std::string amplification_table(const Amplification& a, const Names& candidates) {
+  std::map<std::string, std::map<std::string, PairRow>> rows;
+  Names pairs;
+  for (const Amplification::Row& row : a.results) {
+    if (std::find(pairs.begin(), pairs.end(), row.pair) == pairs.end()) pairs.push_back(row.pair);
+    rows[row.pair][row.candidate].add(row, static_cast<int>(a.count));
   }
   std::string text = fmt::format("{:<23}{:>8} {:>8} {:>8} {:>8} {:>8} {:>6} {:>5}\n", "small steps",
                                  "depth x", "jump", "regret", "hull", "flicker%", "missed", "none");
   for (const std::string& pair : pairs) {
     text += '\n' + pair + '\n';
-    for (const json& candidate : candidates) {
+    for (const std::string& candidate : candidates) {
       const auto found = rows[pair].find(candidate);
       if (found == rows[pair].end()) continue;
-      const Row& r = found->second;
-      text += fmt::format("  {:<21}{:>8} {:>8} {:>8} {:>8} {:>8} {:>6} {:>5}\n",
-                          candidate.get<std::string>(), amplification_text(r.amplification),
-                          number(r.jump), number(r.regret), number(r.hull_excess),
+      const PairRow& r = found->second;
+      text += fmt::format("  {:<21}{:>8} {:>8} {:>8} {:>8} {:>8} {:>6} {:>5}\n", candidate,
+                          amplification_text(r.amplification), short_text(r.jump),
+                          short_text(r.regret), short_text(r.hull_excess),
                           r.tiny_steps > 0 ? percent(r.flickers, r.tiny_steps) : "-", r.missed,
                           r.unanswered);
     }
@@ -82,101 +77,107 @@ std::string amplification_table(const json& a, const json& candidates) {
          "points. none: steps without an answer in numbers at one end.\n";
 }
 
-std::string maps_table(const json& maps, const json& candidates) {
-  struct Count {
-    std::map<std::string, int> of_zoom;
-    std::map<char, int> letters;
-  };
-  std::map<std::string, Count> counts;
-  std::map<std::string, std::map<std::string, int>> asked;
-  for (const json& pose : maps["poses"]) {
-    for (const json& result : pose["results"]) {
-      Count& count = counts[result["candidate"]];
-      for (std::size_t z = 0; z < maps["zooms"].size(); ++z) {
-        const std::string zoom = maps["zooms"][z];
-        for (const char letter : map_letters_of(result["maps"][z])) {
-          ++asked[result["candidate"]][zoom];
-          count.of_zoom[zoom] += letter == '.';
-          ++count.letters[letter];
-        }
+/// All pixels of one candidate.
+struct PixelCounts {
+  std::vector<int> asked, agreed;  ///< of each zoom
+  int missed = 0;
+};
+
+std::map<std::string, PixelCounts> count_pixels(const FailureMaps& maps) {
+  std::map<std::string, PixelCounts> counts;
+  for (const FailureMaps::Pose& pose : maps.poses) {
+    for (const FailureMaps::Picture& picture : pose.pictures) {
+      PixelCounts& c = counts[picture.candidate];
+      c.asked.resize(maps.zooms.size());
+      c.agreed.resize(maps.zooms.size());
+      for (std::size_t z = 0; z < maps.zooms.size(); ++z) {
+        const std::string& letters = picture.letters[z];
+        c.asked[z] += static_cast<int>(letters.size());
+        c.agreed[z] += static_cast<int>(std::count(letters.begin(), letters.end(), '.'));
+        c.missed += static_cast<int>(std::count(letters.begin(), letters.end(), 'm'));
       }
     }
   }
+  return counts;
+}
+
+std::string maps_table(const FailureMaps& maps, const Names& candidates) {
+  const auto counts = count_pixels(maps);
   std::string text = fmt::format("{:<23}", "maps, pixels that agree");
-  for (const json& zoom : maps["zooms"]) text += fmt::format("{:>8}", zoom.get<std::string>());
+  for (const Decade& zoom : maps.zooms) text += fmt::format("{:>8}", zoom.name());
   text += fmt::format("{:>9}\n\n", "missed");
-  for (const json& candidate : candidates) {
+  for (const std::string& candidate : candidates) {
     const auto found = counts.find(candidate);
     if (found == counts.end()) continue;
-    text += fmt::format("  {:<21}", candidate.get<std::string>());
-    for (const json& zoom : maps["zooms"]) {
-      text += fmt::format("{:>8}", percent(found->second.of_zoom[zoom], asked[candidate][zoom]));
+    const PixelCounts& c = found->second;
+    text += fmt::format("  {:<21}", candidate);
+    for (std::size_t z = 0; z < maps.zooms.size(); ++z) {
+      text += fmt::format("{:>8}", percent(c.agreed[z], c.asked[z]));
     }
-    text += fmt::format("{:>9}\n", found->second.letters['m']);
+    text += fmt::format("{:>9}\n", c.missed);
   }
   return text + "\npercent of the pixels of all poses, at each zoom\n";
 }
 
-std::string sequences_table(const json& sequences, const json& candidates) {
-  struct Worst {
-    double value = 0;
-    std::string motion;
-    void take(const json& largest, const std::string& where) {
-      if (largest.is_null() || largest["value"].get<double>() <= value) return;
-      value = largest["value"];
-      motion = where;
-    }
-  };
+/// The largest value of a measure over all motions, as it is shown, and the first motion that has
+/// it.
+struct LargestPeak {
+  double value = 0;
+  std::string motion;
+  void raise(const std::optional<Sequences::Peak>& peak, const std::string& of) {
+    const double shown = peak ? short_number(peak->value) : 0;
+    if (shown > value) *this = {shown, of};
+  }
+};
+
+std::string sequences_table(const Sequences& sequences, const Names& candidates) {
   std::string text = fmt::format("{:<23}{:>8} {:<21} {:>8} {:<11}{:>6}\n\n", "motions", "jump",
                                  "in", "hull", "in", "missed");
-  for (const json& candidate : candidates) {
-    Worst jump, hull;
+  for (const std::string& candidate : candidates) {
+    LargestPeak jump, hull;
     int missed = 0;
     bool any = false;
-    for (const json& motion : sequences["motions"]) {
-      for (const json& result : motion["results"]) {
-        if (result["candidate"] != candidate) continue;
+    for (const Sequences::Course& course : sequences.motions) {
+      for (const Sequences::Row& row : course.results) {
+        if (row.candidate != candidate) continue;
         any = true;
-        jump.take(result["jump"], motion["motion"]);
-        hull.take(result["hull_excess"], motion["motion"]);
-        missed += result["missed"].get<int>();
+        jump.raise(row.jump, course.motion);
+        hull.raise(row.hull_excess, course.motion);
+        missed += row.missed;
       }
     }
     if (!any) continue;
-    text += fmt::format("  {:<21}{:>8} {:<21} {:>8} {:<11}{:>6}\n", candidate.get<std::string>(),
-                        number(jump.value), jump.motion, number(hull.value),
-                        hull.motion.substr(0, 11), missed);
+    text += fmt::format("  {:<21}{:>8} {:<21} {:>8} {:<11}{:>6}\n", candidate, number(jump.value),
+                        jump.motion, number(hull.value), hull.motion.substr(0, 11), missed);
   }
   return text + fmt::format("\nlargest at one of {} steps of each motion, in sizes; as above\n",
-                            sequences["steps"].get<int>());
+                            sequences.steps);
 }
 
-std::string worst_steps(const json& worst, const json& candidates) {
+std::string worst_steps(const std::vector<Amplification::WorstStep>& worst,
+                        const Names& candidates) {
   std::string text;
-  for (const json& candidate : candidates) {
-    const json* most = nullptr;
-    for (const json& w : worst) {
-      if (w["candidate"] != candidate || w["measure"] != "amplification") continue;
-      if (!most || w["value"] > (*most)["value"]) most = &w;
+  for (const std::string& candidate : candidates) {
+    const Amplification::WorstStep* max = nullptr;
+    for (const Amplification::WorstStep& w : worst) {
+      if (w.candidate != candidate || w.measure != "amplification") continue;
+      if (!max || w.value > max->value) max = &w;
     }
-    if (!most || (*most)["value"].get<double>() <= 1 + 1e-9) continue;
-    text += fmt::format("  {}: depth x {}\n    {}\n    {}\n", candidate.get<std::string>(),
-                        number((*most)["value"]), replay_command((*most)["from"]),
-                        replay_command((*most)["to"]));
+    if (!max || max->value <= 1 + 1e-9) continue;
+    text += fmt::format("  {}: depth x {}\n    {}\n    {}\n", candidate, number(max->value),
+                        replay_command(max->from), replay_command(max->to));
   }
   return text.empty() ? text : "\nWorst step of each candidate, from and to:\n" + text;
 }
 
 }  // namespace
 
-std::string stability_table(const json& s) {
+std::string stability_table(const Stability& s) {
   std::string text;
-  if (s.contains("amplification")) text += amplification_table(s["amplification"], s["candidates"]);
-  if (s.contains("maps")) text += '\n' + maps_table(s["maps"], s["candidates"]);
-  if (s.contains("sequences")) text += '\n' + sequences_table(s["sequences"], s["candidates"]);
-  if (s.contains("amplification")) {
-    text += worst_steps(s["amplification"]["worst"], s["candidates"]);
-  }
+  if (s.amplification) text += amplification_table(*s.amplification, s.candidates);
+  if (s.maps) text += '\n' + maps_table(*s.maps, s.candidates);
+  if (s.sequences) text += '\n' + sequences_table(*s.sequences, s.candidates);
+  if (s.amplification) text += worst_steps(s.amplification->worst, s.candidates);
   return text;
 }
 

@@ -8,20 +8,12 @@
 
 namespace touchstone {
 
-/// What is studied, and of whom.
-struct Study {
-  std::vector<const Candidate*> candidates;
-  Bar bar;
-  Limits limits;
-  unsigned workers = 1;  ///< they do not change the result
-};
-
-/// One pose with its truth, and what one candidate makes of it.
-struct CandidatePose {
+/// One candidate's answer to a pose.
+struct PoseAnswer {
   Answer answer;
   Score score;
-  /// Of a contact with points: their hull, and the contact patch along the optimal normal that is
-  /// nearest to the answered one, within patch_depth of the support planes.
+  /// For a contact with points: their hull, and the contact patch along the optimal normal nearest
+  /// to the answered one, within patch_depth of the support planes.
   std::optional<oracle::ContactPatch> hull, patch;
 
   /// A contact in finite numbers, or none.
@@ -30,10 +22,12 @@ struct CandidatePose {
            (answer.status == TS_CONTACT && score.outcome != Outcome::not_finite);
   }
 };
+
+/// One pose with its truth and the answers, in the order of the candidates.
 struct ExaminedPose {
   Configuration configuration;
   oracle::Truth truth;
-  std::vector<CandidatePose> of;  ///< in the order of the candidates
+  std::vector<PoseAnswer> answers;
 };
 
 /// Asks every candidate for all of them in one new session, in this order, and the oracle. Throws
@@ -41,12 +35,12 @@ struct ExaminedPose {
 std::vector<ExaminedPose> examine(const std::vector<Configuration>& configurations,
                                   std::vector<CandidateProcess>& candidates, const Bar& bar);
 
-/// What one candidate makes of a step from one pose to another. Lengths are relative to the smaller
-/// size.
+/// How one candidate's answer changes at a step from one pose to another. Lengths are relative to
+/// the smaller size.
 struct StepChange {
   /// Change of the answered depth over what the step allows: the largest displacement of any of A's
-  /// points, plus the rounding of coordinates. The truth's is at most one. A depth is how far the
-  /// signed distance is below the threshold of contact, zero without a contact.
+  /// points, plus the rounding of coordinates. The truth's is at most one. The depth is by how much
+  /// the signed distance is below the threshold of contact, zero without a contact.
   double amplification;
   double jump;  ///< |change of the answered depth − change of the true one|
   // Between two contacts with points:
@@ -59,14 +53,22 @@ struct StepChange {
 std::optional<StepChange> step_change(const ExaminedPose& from, const ExaminedPose& to,
                                       std::size_t candidate, const Bar& bar);
 
-/// The same of the truth's depth.
+/// Amplification of the true depth.
 double true_amplification(const ExaminedPose& from, const ExaminedPose& to, const Bar& bar);
 
-/// How far the truth's own patch moved, along its first normal at either pose.
+/// How far the true patch moved, along the first optimal normal of either pose.
 double patch_movement(const ExaminedPose& from, const ExaminedPose& to);
 
 /// Metres that rounding alone may change a depth by: four units in the last place of the bodies'
 /// coordinates and sizes.
 double rounding_of(const Configuration& configuration);
+
+/// The Hausdorff distance of two plane convex sets in space, metres: the largest distance of a
+/// point of either set from the other. Exact for polygons; of arcs 32 points a circle are taken.
+double movement(const oracle::ContactPatch& from, const oracle::ContactPatch& to);
+
+/// The hull of an answer's contact points, seen along its normal, in the plane through their mean.
+/// Preconditions: at least one point, all numbers finite, the normal not zero.
+oracle::ContactPatch hull_of_points(const ts_answer& answer);
 
 }  // namespace touchstone

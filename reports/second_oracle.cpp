@@ -1,9 +1,10 @@
-#include "reports/agreement.hpp"
+#include "reports/second_oracle.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
-#include <string>
+
+#include <nlohmann/json.hpp>
 
 #include "properties/files/configuration_json.hpp"
 
@@ -12,11 +13,13 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int digits = 17;
-
-/// An enclosure that overflowed on that side says nothing there.
+/// An end that overflowed is null: it bounds nothing.
 json end_of(double value, std::string (*decimal)(const mpq_class&, int)) {
-  return std::isfinite(value) ? json(decimal(mpq_class(value), digits)) : json(nullptr);
+  return std::isfinite(value) ? json(decimal(mpq_class(value), 17)) : json(nullptr);
+}
+
+json exact(const audit::RationalVector& v) {
+  return json::array({v[0].get_str(), v[1].get_str(), v[2].get_str()});
 }
 
 bool is_above(double value, const mpq_class& exact) {
@@ -49,6 +52,29 @@ json to_json(const audit::Enclosure& audit) {
            {end_of(audit.lo, oracle::decimal_below), end_of(audit.hi, oracle::decimal_above)}},
           {"primal_dual_gap",
            audit.lo > 0 && std::isfinite(primal_dual) ? json(primal_dual) : json(nullptr)}};
+}
+
+std::string certificate_json(const audit::Certificate& certificate,
+                             const Configuration& configuration) {
+  const double size = larger_size(configuration);
+  const mpq_class width = (certificate.hi - certificate.lo) / mpq_class(size);
+  json result = {{"schema", "touchstone-certificate-1"},
+                 {"configuration", to_hex_json(configuration)},
+                 {"exact", to_exact_json(configuration)},
+                 {"signed_distance", {certificate.lo.get_str(), certificate.hi.get_str()}},
+                 {"grain", certificate.grain.get_str()},
+                 {"width", width.get_d()},
+                 {"normal", exact(certificate.normal)}};
+  if (certificate.pair) {
+    result["pair"] = {{"a", exact(certificate.pair->a)}, {"b", exact(certificate.pair->b)}};
+    return result.dump();
+  }
+  result["cells"] = json::array();
+  for (const auto& cell : certificate.cells) {
+    result["cells"].push_back(
+        {{"cell", cell.path}, {"a", exact(cell.pair.a)}, {"b", exact(cell.pair.b)}});
+  }
+  return result.dump();
 }
 
 }  // namespace touchstone

@@ -1,5 +1,3 @@
-#include "reports/replay_page/replay_page.hpp"
-
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -7,9 +5,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "properties/files/configuration_json.hpp"
 #include "properties/files/write_file.hpp"
-#include "reports/report_json.hpp"
+#include "reports/replay.hpp"
 #include "reports/worst.hpp"
 
 namespace touchstone {
@@ -20,9 +20,8 @@ using testing::HasSubstr;
 using testing::Not;
 
 std::string page_of(const Identity& identity) {
-  const Configuration c = make_configuration(identity);
-  return replay_page(to_json(examine(subject(identity), {}, Bar{})), to_hex_json(c),
-                     to_exact_json(c), describe_pose_class(identity.pair, identity.pose_class));
+  const Subject s = subject(identity);
+  return replay_page(examine(s, {}, Bar{}), s.description);
 }
 
 json data_of(const std::string& page) {
@@ -71,10 +70,11 @@ TEST(ReplayPage, HasNoPlaceholderLeft) {
 }
 
 TEST(ReplayPage, HostileReasonsStayData) {
-  json hostile = to_json(examine(subject({Pair::box, "rim-face", 1, 2}), {}, Bar{}));
-  hostile["answers"]["x"] = "</script><script>alert(1)</script>";
-  const std::string page = replay_page(hostile, json::object(), json::object(), "");
-  EXPECT_EQ(data_of(page)["answers"], hostile["answers"]);
+  Examination hostile = examine(subject({Pair::box, "rim-face", 1, 2}), {}, Bar{});
+  const std::string reason = "</script><script>alert(1)</script>";
+  hostile.answers.push_back({"x", {{}, reason, {}}, {}});
+  const std::string page = replay_page(hostile, "");
+  EXPECT_EQ(data_of(page)["answers"]["x"]["reason"], reason);
   EXPECT_THAT(page, Not(HasSubstr("<script>alert")));
 }
 

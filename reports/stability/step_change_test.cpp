@@ -1,4 +1,4 @@
-#include "reports/stability/movement.hpp"
+#include "reports/stability/step_change.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,10 @@
-#include "reports/agreement.hpp"
+#include "reports/second_oracle.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sstream>
+
+#include <nlohmann/json.hpp>
 
 #include "candidates/candidates.hpp"
 #include "reports/solve.hpp"

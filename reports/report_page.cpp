@@ -1,4 +1,4 @@
-#include "reports/html/page_data.hpp"
+#include "reports/report_page.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -7,7 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "reports/html/marks.hpp"
+#include <nlohmann/json.hpp>
+
+#include "reports/pages/marks.hpp"
+#include "reports/pages/page.hpp"
+#include "reports/report_json.hpp"
 
 namespace touchstone {
 namespace {
@@ -85,17 +89,22 @@ class Packer {
 
 }  // namespace
 
-json page_data(const json& report) {
+json packed(const json& report) {
   json result = report;
   Packer packer;
   for (const char* list : {"results", "summary", "trends"}) {
     if (report.contains(list)) result[list] = packer.list(report[list]);
   }
   result["strings"] = packer.strings();
-  std::vector<std::string> names;
-  for (const json& c : report.value("candidates", json::array())) names.push_back(c["name"]);
-  result["marks"] = marks(names);
   return result;
+}
+
+std::string report_page(const Report& report) {
+  json data = packed(to_json(report));
+  std::vector<std::string> names;
+  for (const CandidateDescription& c : report.candidates) names.push_back(c.name);
+  data["marks"] = marks(names);
+  return render_page(Page::report, data);
 }
 
 }  // namespace touchstone

@@ -1,16 +1,17 @@
-#include "reports/stability/examined_pose.hpp"
+#include "reports/stability/step_change.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "oracle/patch/convex_set.hpp"
 #include "properties/motions/perturbation.hpp"
-#include "reports/stability/movement.hpp"
 
 namespace touchstone {
 namespace {
 
 using oracle::ContactPatch;
+using oracle::Vec2;
 
 double depth(double signed_distance, const Bar& bar) {
   return std::max(0.0, bar.threshold - signed_distance);
@@ -22,7 +23,7 @@ double answered_depth(const Answer& answer, const Bar& bar) {
   return answer.status == TS_CONTACT ? depth(answer.signed_distance, bar) : 0;
 }
 
-/// Patches of one configuration by their normals: most candidates answer the same one.
+/// Patches of one configuration by their normals; most candidates answer the same normal.
 class Patches {
  public:
   explicit Patches(const Configuration& c) : c_(c), depth_(patch_depth * smaller_size(c)) {}
@@ -39,9 +40,20 @@ class Patches {
   std::vector<std::pair<Vec3, ContactPatch>> known_;
 };
 
-/// What a step may change a depth by, metres.
+/// The largest change of the true depth at a step, metres.
 double allowance(const Configuration& from, const Configuration& to) {
   return largest_displacement(from, to) + std::max(rounding_of(from), rounding_of(to));
+}
+
+double distance_in_space(const Vec3& point, const ContactPatch& patch) {
+  const double beside = patch.distance(point);
+  return std::hypot(beside, (point - patch.in_world(patch.in_plane(point))).norm());
+}
+
+double farthest(const ContactPatch& from, const ContactPatch& to) {
+  double max = 0;
+  for (const Vec3& point : from.outline()) max = std::max(max, distance_in_space(point, to));
+  return max;
 }
 
 }  // namespace
@@ -58,14 +70,14 @@ std::vector<ExaminedPose> examine(const std::vector<Configuration>& configuratio
     ExaminedPose pose{c, oracle::truth(c), {}};
     Patches patches(c);
     for (const auto& of_candidate : answers) {
-      CandidatePose made{of_candidate[i], score(c, pose.truth, of_candidate[i], bar), {}, {}};
-      const Vec3 n(made.answer.normal);
-      if (made.answer.status == TS_CONTACT && made.is_answered() && made.answer.point_count > 0 &&
-          !n.isZero(0)) {
-        made.hull = hull_of_points(made.answer);
-        made.patch = patches.along(patch_normal(pose.truth, n));
+      PoseAnswer entry{of_candidate[i], score(c, pose.truth, of_candidate[i], bar), {}, {}};
+      const Vec3 n(entry.answer.normal);
+      if (entry.answer.status == TS_CONTACT && entry.is_answered() &&
+          entry.answer.point_count > 0 && !n.isZero(0)) {
+        entry.hull = hull_of_points(entry.answer);
+        entry.patch = patches.along(patch_normal(pose.truth, n));
       }
-      pose.of.push_back(std::move(made));
+      pose.answers.push_back(std::move(entry));
     }
     poses.push_back(std::move(pose));
   }
@@ -81,7 +93,7 @@ double rounding_of(const Configuration& c) {
 
 std::optional<StepChange> step_change(const ExaminedPose& from, const ExaminedPose& to,
                                       std::size_t candidate, const Bar& bar) {
-  const CandidatePose &a = from.of[candidate], &b = to.of[candidate];
+  const PoseAnswer &a = from.answers[candidate], &b = to.answers[candidate];
   if (!a.is_answered() || !b.is_answered()) return std::nullopt;
   const double size = smaller_size(from.configuration);
   const double change = answered_depth(b.answer, bar) - answered_depth(a.answer, bar);
@@ -108,6 +120,25 @@ double patch_movement(const ExaminedPose& from, const ExaminedPose& to) {
     return oracle::contact_patch(c, pose.truth.normals.front().n, patch_depth * smaller_size(c));
   };
   return movement(patch(from), patch(to)) / smaller_size(from.configuration);
+}
+
+double movement(const ContactPatch& from, const ContactPatch& to) {
+  return std::max(farthest(from, to), farthest(to, from));
+}
+
+ContactPatch hull_of_points(const ts_answer& answer) {
+  Vec3 mean = Vec3::Zero();
+  for (int i = 0; i < answer.point_count; ++i) mean += Vec3(answer.points[i].position);
+  mean /= answer.point_count;
+  const Vec3 n = Vec3(answer.normal).normalized();
+  const Vec3 e1 = n.unitOrthogonal();
+  const ContactPatch::Plane plane{mean, e1, n.cross(e1)};
+  std::vector<Vec2> flat;
+  for (int i = 0; i < answer.point_count; ++i) {
+    const Vec3 from_mean = Vec3(answer.points[i].position) - mean;
+    flat.emplace_back(from_mean.dot(plane.e1), from_mean.dot(plane.e2));
+  }
+  return {plane, oracle::ConvexSet::polygon(oracle::convex_hull(flat))};
 }
 
 }  // namespace touchstone

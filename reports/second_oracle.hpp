@@ -1,13 +1,17 @@
 #pragma once
 
 #include <stdexcept>
+#include <string>
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
+#include "oracle/audit/certificate.hpp"
 #include "oracle/audit/enclose.hpp"
 #include "oracle/truth.hpp"
 
 namespace touchstone {
+
+// What the second oracle says, held against the first one and written down.
 
 /// The two oracles exclude each other: one of them is wrong. `what()` holds both answers and the
 /// configuration, every number as a hexadecimal float.
@@ -24,5 +28,9 @@ void check_agreement(const Configuration& configuration, const oracle::Enclosure
 /// {"signed_distance": [lo, hi] as decimals rounded outward, "primal_dual_gap": by how much a pair
 /// of points is farther apart than the gap along one direction, null unless the bodies are apart}.
 nlohmann::json to_json(const audit::Enclosure& audit);
+
+/// The certificate with the configuration that it is about, one JSON object (docs/certificate.md).
+std::string certificate_json(const audit::Certificate& certificate,
+                             const Configuration& configuration);
 
 }  // namespace touchstone

@@ -1,4 +1,4 @@
-#include "reports/html/marks.hpp"
+#include "reports/pages/marks.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -27,8 +27,9 @@ Mark mark_of(std::string_view candidate) {
   return {engines.size(), sum % symbols};
 }
 
-nlohmann::json marks(const std::vector<std::string>& candidates) {
-  nlohmann::json result = nlohmann::json::object();
+std::map<std::string, std::array<std::size_t, 2>> marks(
+    const std::vector<std::string>& candidates) {
+  std::map<std::string, std::array<std::size_t, 2>> result;
   for (const auto& name : candidates) {
     const Mark mark = mark_of(name);
     result[name] = {mark.colour, mark.symbol};

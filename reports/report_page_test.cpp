@@ -1,9 +1,13 @@
-#include "reports/html/html.hpp"
+#include "reports/report_page.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "reports/html/marks.hpp"
+#include <nlohmann/json.hpp>
+
+#include "reports/pages/marks.hpp"
+#include "reports/pages/page.hpp"
+#include "reports/report_json.hpp"
 
 namespace touchstone {
 namespace {
@@ -31,17 +35,25 @@ json unpacked(const json& cell, const json& schema, const json& strings) {
   return result;
 }
 
-TEST(Html, CarriesTheReport) {
-  const json report = {{"schema", 1}, {"x", 0.1}, {"text", "é ≤ /* report.js */ $& \\u003c"}};
-  json data = data_of(render_html(report));
-  for (const char* added : {"strings", "marks"}) {
-    EXPECT_TRUE(data[added].empty());
-    data.erase(added);
+TEST(ReportPage, CarriesTheReport) {
+  Report report;
+  report.command = "é ≤ /* report.js */ $& \\u003c";
+  report.tolerance = 0.1;
+  report.candidates = {{"ode", "ODE", "1", "", ""}};
+  json data = data_of(report_page(report)), expected = to_json(report);
+  EXPECT_EQ(data["marks"], json({{"ode", {2, 0}}}));
+  EXPECT_TRUE(data["strings"].empty());
+  for (const char* list : {"results", "summary", "trends"}) {
+    EXPECT_EQ(data[list]["rows"], json::array());
+    expected.erase(list);
+    data.erase(list);
   }
-  EXPECT_EQ(data, report);
+  data.erase("marks");
+  data.erase("strings");
+  EXPECT_EQ(data, expected);
 }
 
-TEST(Html, PacksRowsWithoutLoss) {
+TEST(ReportPage, PacksRowsWithoutLoss) {
   const json row = {{"pair", "cylinder-box"},
                     {"outcomes", {{"agree", 3}}},
                     {"severity", {{"max", 1.234e-300}, {"median", 0.0}}},
@@ -52,7 +64,7 @@ TEST(Html, PacksRowsWithoutLoss) {
   other["coverage"] = {{"mean", 0.5}};
   other["pair"] = "cylinder-plane";
   for (const json& rows : {json{row, other}, json{row}, json{other, other, row}, json::array()}) {
-    const json data = data_of(render_html({{"results", rows}}));
+    const json data = packed({{"results", rows}});
     ASSERT_EQ(data["results"]["rows"].size(), rows.size());
     for (std::size_t i = 0; i < rows.size(); ++i) {
       EXPECT_EQ(unpacked(data["results"]["rows"][i], data["results"]["schema"], data["strings"]),
@@ -61,8 +73,8 @@ TEST(Html, PacksRowsWithoutLoss) {
   }
 }
 
-TEST(Html, RoundsRowsToFourDigits) {
-  const json data = data_of(render_html({{"summary", {{{"median", 1.0 / 3}}}}}));
+TEST(ReportPage, RoundsRowsToFourDigits) {
+  const json data = packed({{"summary", {{{"median", 1.0 / 3}}}}});
   EXPECT_EQ(data["summary"]["rows"], json({{0.3333}}));
 }
 
@@ -75,17 +87,18 @@ TEST(Marks, AreAnEnginesColourAndASettingsSymbol) {
   EXPECT_LT(mark_of("").symbol, 6u);
 }
 
-TEST(Html, HostileStringsStayData) {
+TEST(ReportPage, HostileStringsStayData) {
   for (const char* text : {"</script><script>alert(1)</script>", "<!--<script>", "]]>"}) {
-    const json report = {{"command", text}};
-    const std::string page = render_html(report);
+    Report report;
+    report.command = text;
+    const std::string page = report_page(report);
     EXPECT_EQ(data_of(page)["command"], text);
     EXPECT_THAT(page, Not(HasSubstr("<script>alert")));
   }
 }
 
-TEST(Html, LoadsNothingFromElsewhere) {
-  std::string page = render_html(json::object());
+TEST(ReportPage, LoadsNothingFromElsewhere) {
+  std::string page = report_page({});
   // The browser is told to refuse all requests, also those that Vega could make.
   EXPECT_THAT(page, HasSubstr("content=\"default-src 'none'; "));
   const std::size_t vega = page.find("const vega = ");
@@ -99,9 +112,9 @@ TEST(Html, LoadsNothingFromElsewhere) {
   }
 }
 
-TEST(Html, HasNoPlaceholderLeft) {
+TEST(ReportPage, HasNoPlaceholderLeft) {
   for (const char* name : {"title", "pages", "heading", "main", "vega", "scripts", "data"}) {
-    EXPECT_EQ(render_html(json::object()).find("/* " + std::string(name)), std::string::npos);
+    EXPECT_EQ(report_page({}).find("/* " + std::string(name)), std::string::npos);
   }
 }
 

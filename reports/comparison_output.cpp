@@ -1,0 +1,171 @@
+#include <algorithm>
+#include <fmt/format.h>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "reports/compare.hpp"
+#include "reports/pages/marks.hpp"
+#include "reports/pages/page.hpp"
+#include "reports/report_json.hpp"
+
+namespace touchstone {
+namespace {
+
+using nlohmann::json;
+using Verdict = Change::Verdict;
+
+std::string value_text(const Change& change, double value) {
+  if (change.measure == "has a routine") return value > 0 ? "yes" : "no";
+  if (change.measure == "agreement") return fmt::format("{:.1f}%", 100 * value);
+  if (change.measure == "time") return fmt::format("{:.2f}", value);
+  if (change.measure == "instructions") return fmt::format("{:.0f}", value);
+  return value == 0 ? "0" : fmt::format("{:.1e}", value);
+}
+
+std::string factor_text(const Change& change) {
+  return change.factor ? fmt::format("x {:.3g}", *change.factor) : "";
+}
+
+/// Broken at blanks, indented by two.
+std::string wrapped(const std::string& text) {
+  constexpr std::size_t width = 76;
+  std::string result;
+  std::size_t at = 0;
+  while (at < text.size()) {
+    std::size_t end = text.size();
+    if (end - at > width) {
+      end = text.rfind(' ', at + width);
+      if (end == std::string::npos || end <= at) end = std::min(text.find(' ', at), text.size());
+    }
+    result += (at == 0 ? "- " : "  ") + text.substr(at, end - at) + '\n';
+    at = end + 1;
+  }
+  return result;
+}
+
+/// Changes of one verdict beyond the limits, the largest first; those of one row stand together.
+std::string section(const char* title, Verdict verdict, const std::vector<Change>& changes) {
+  constexpr std::size_t max_shown = 20;
+  std::vector<std::pair<std::string, std::string>> shown;  // a row, its changes
+  for (const Change& c : changes) {
+    if (c.verdict != verdict || !c.beyond_limits) continue;
+    const std::string row = fmt::format("{}/{}  {}", c.pair, c.pose_class, c.candidate);
+    auto at =
+        std::find_if(shown.begin(), shown.end(), [&](const auto& s) { return s.first == row; });
+    if (at == shown.end()) at = shown.insert(at, {row, ""});
+    at->second += fmt::format("    {:<24} {:>10} -> {:>10}  {}\n", c.measure,
+                              value_text(c, c.before), value_text(c, c.after), factor_text(c));
+  }
+  if (shown.empty()) return "";
+  std::string text = fmt::format("\n{}: {}\n", title, shown.size());
+  for (std::size_t i = 0; i < std::min(shown.size(), max_shown); ++i) {
+    text += "  " + shown[i].first + '\n' + shown[i].second;
+  }
+  if (shown.size() > max_shown) {
+    text += fmt::format("  and {} more, which --json lists\n", shown.size() - max_shown);
+  }
+  return text;
+}
+
+json to_json(const Comparison::Side& side) {
+  return {{"version", side.version},
+          {"seed", side.seed},
+          {"configurations", side.configurations},
+          {"partial", side.partial},
+          {"machine", touchstone::to_json(side.machine)}};
+}
+
+json to_json(const Change& c) {
+  return {{"pair", c.pair},
+          {"class", c.pose_class},
+          {"candidate", c.candidate},
+          {"measure", c.measure},
+          {"before", c.before},
+          {"after", c.after},
+          {"factor", c.factor ? json(*c.factor) : json(nullptr)},
+          {"verdict", verdict_name(c.verdict)},
+          {"beyond_limits", c.beyond_limits}};
+}
+
+json to_json(const Comparison& c) {
+  json changes = json::array();
+  for (const Change& change : c.changes) changes.push_back(to_json(change));
+  return {{"schema", "touchstone-comparison-1"},
+          {"before", to_json(c.before)},
+          {"after", to_json(c.after)},
+          {"limits",
+           {{"error_factor", c.limits.error_factor},
+            {"time_factor", c.limits.time_factor},
+            {"agreement", c.limits.agreement},
+            {"baseline", c.limits.baseline}}},
+          {"remarks", c.remarks},
+          {"compared", c.compared},
+          {"changes", changes}};
+}
+
+/// What the page shows of a report: the places of its candidates in time and error.
+json places(const Report& report) {
+  json result = json::array();
+  for (const ResultRow& row : report.summary) {
+    json place = {{"pair", row.pair},
+                  {"candidate", row.candidate},
+                  {"nanoseconds", nullptr},
+                  {"depth_error", nullptr},
+                  {"pareto", row.pareto ? json(*row.pareto) : json(nullptr)}};
+    if (row.time) {
+      const auto& ratio = row.time->ratio_to_bullet;
+      place["nanoseconds"] = {{"median", row.time->nanoseconds.median},
+                              {"ratio_to_bullet", ratio ? json(ratio->median) : json(nullptr)}};
+    }
+    if (row.statistics.depth_error) {
+      place["depth_error"] = {{"p99", row.statistics.depth_error->p99}};
+    }
+    result.push_back(std::move(place));
+  }
+  return result;
+}
+
+}  // namespace
+
+std::string comparison_text(const Comparison& c) {
+  std::string text;
+  for (const auto& [name, side] : {std::pair("before", &c.before), std::pair("after", &c.after)}) {
+    text +=
+        fmt::format("{:<7} {} configurations, seed {}\n", name, side->configurations, side->seed);
+  }
+  for (const std::string& remark : c.remarks) text += wrapped(remark);
+  text +=
+      section("Worse", Verdict::worse, c.changes) + section("Slower", Verdict::slower, c.changes) +
+      section("Better", Verdict::better, c.changes) + section("Faster", Verdict::faster, c.changes);
+  const auto within = std::count_if(c.changes.begin(), c.changes.end(),
+                                    [](const Change& change) { return !change.beyond_limits; });
+  text += '\n';
+  if (c.changes.empty()) text += "No change. ";
+  if (within > 0) text += fmt::format("{} smaller changes, within the limits.\n", within);
+  text += fmt::format(
+      "{} rows of pair, class and candidate compared.\n"
+      "Limits: errors {:g} times; times {:g} times, as multiples of {}'s and by the\n"
+      "nearest ends of their spreads; {:g} of the agreement kept.\n",
+      c.compared, c.limits.error_factor, c.limits.time_factor, c.limits.baseline,
+      c.limits.agreement);
+  return text;
+}
+
+std::string comparison_json(const Comparison& comparison) {
+  return to_json(comparison).dump() + '\n';
+}
+
+std::string comparison_page(const Comparison& comparison, const Report& before,
+                            const Report& after) {
+  std::vector<std::string> names;
+  for (const Report* report : {&before, &after}) {
+    for (const ResultRow& row : report->summary) names.push_back(row.candidate);
+  }
+  return render_page(Page::comparison, {{"comparison", to_json(comparison)},
+                                        {"before", places(before)},
+                                        {"after", places(after)},
+                                        {"marks", marks(names)}});
+}
+
+}  // namespace touchstone

@@ -1,0 +1,106 @@
+#pragma once
+
+#include <cstring>
+#include <functional>
+#include <set>
+#include <type_traits>
+
+#include "properties/motions/critical_pose.hpp"
+#include "properties/motions/motion.hpp"
+#include "reports/campaign.hpp"
+#include "reports/stability/stability.hpp"
+
+namespace touchstone {
+
+/// Who is asked, how strictly, and by how many processes at once; these do not change the result.
+struct Study {
+  std::vector<const Candidate*> candidates;
+  Bar bar;
+  Limits limits;
+  unsigned workers = 1;
+};
+
+/// Around which configurations steps are made: `count` of each cell, and at each of the sixteen
+/// amplitudes one step from each of them.
+struct Ladder {
+  std::vector<Cell> cells;
+  std::uint64_t seed = 1, count = 6;
+};
+
+/// Every class of these pairs whose degeneracy is exact.
+std::vector<Cell> degenerate_cells(const std::vector<Pair>& pairs);
+
+Amplification amplification(const Ladder& ladder, const Study& study);
+/// Around one configuration: `count` steps at each amplitude.
+Amplification amplification(const Subject& base, std::uint64_t seed, std::uint64_t count,
+                            const Study& study);
+
+/// Which pixels are asked.
+struct MapGrid {
+  std::vector<Decade> zooms;
+  int stride = 1;  ///< every so many columns and rows, the middle one included; divides map_reach
+};
+
+/// Contacts whose points cover less of the patch have too few (as the law "manifold" has it).
+inline constexpr double min_coverage = 0.3;
+char map_letter(const Score& score);  ///< precondition: the candidate supports the pair
+
+FailureMaps maps(const std::vector<const CriticalPose*>& poses, const MapGrid& grid,
+                 const Study& study);
+
+/// Each of these motions in so many steps.
+Sequences sequences(const std::vector<const Motion*>& motions, int steps, const Study& study);
+
+enum class StabilityPart { amplification, maps, sequences };
+/// Throws InvalidInput (field "--part") unless it is "amplification", "maps" or "sequences".
+StabilityPart parse_stability_part(std::string_view name);
+
+struct StabilityOptions {
+  Study study;
+  std::set<StabilityPart> parts = {StabilityPart::amplification, StabilityPart::maps,
+                                   StabilityPart::sequences};
+  std::vector<Pair> pairs;      ///< of maps and sequences
+  Ladder ladder;                ///< of amplification …
+  std::optional<Subject> base;  ///< … unless it is around this one
+  MapGrid grid;
+  int steps = 400;  ///< of each motion
+};
+
+/// All pairs, all degenerate classes, the finest maps.
+StabilityOptions thorough(const Study& study, std::uint64_t seed);
+/// A sample of them that takes about half a minute on two cores, for the report.
+StabilityOptions brief(const Study& study, const std::vector<Pair>& pairs, std::uint64_t seed);
+
+/// Measures the parts that are asked for. The same options give the same result. Progress goes to
+/// standard error.
+Stability measure(const StabilityOptions& options);
+
+// For the three parts: work that is spread over the study's processes.
+
+/// One piece of a part's work.
+struct Work {
+  std::size_t count;                                  ///< tasks
+  const char* unit;                                   ///< what progress counts …
+  std::size_t units_per_task;                         ///< … and how many of it a task has
+  std::function<std::string(std::size_t task)> name;  ///< of a task, for errors
+};
+/// Runs every task in one of the study's workers, in which each candidate has a process of its own.
+/// Returns what the tasks returned, in their order; an empty string for one that was interrupted.
+std::vector<std::string> spread(
+    const Study& study, const Work& work,
+    const std::function<std::string(std::size_t task, std::vector<CandidateProcess>&)>& run);
+
+/// Values as bytes, for a pipe between two processes of one program, and back.
+template <class Value>
+std::string to_bytes(const std::vector<Value>& values) {
+  static_assert(std::is_trivially_copyable_v<Value>);
+  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(Value)};
+}
+template <class Value>
+std::vector<Value> from_bytes(const std::string& bytes) {
+  std::vector<Value> values(bytes.size() / sizeof(Value));
+  std::memcpy(values.data(), bytes.data(), bytes.size());
+  return values;
+}
+
+}  // namespace touchstone
