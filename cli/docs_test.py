@@ -5,7 +5,7 @@ Runs every command of the pages: the blocks marked `sh`, the `run:` of blocks ma
 what begins with `./touchstone` within a sentence. A block has a folder of its own, which looks like
 a clone after its build. An unmarked block that follows holds lines which its commands print; other
 blocks are not read. Commands that take long are shortened (SHORTER); the few that cannot run here
-are named with what does run them (ELSEWHERE). Links and names of source files must exist.
+are named with what does run them (ELSEWHERE). Links, names of source files and options must exist.
 """
 import os
 import pathlib
@@ -175,6 +175,14 @@ def missing_files(page, files):
             yield name
 
 
+def unknown_options(page, program):
+    """Options that a page names and no subcommand has."""
+    completion = subprocess.run([program, "--completion", "bash"], stdout=subprocess.PIPE,
+                                text=True)
+    known = {"--oversubscribe", *re.findall(r"--[a-z-]+", completion.stdout)}  # one is Open MPI's
+    return sorted(set(re.findall(r"`(--[a-z-]+)", page.read_text())) - known)
+
+
 def main(source, program):
     files = [str(f.relative_to(source)) for f in source.rglob("*")
              if f.relative_to(source).parts[0] != "build"]
@@ -184,6 +192,7 @@ def main(source, program):
         for page in [page for pattern in PAGES for page in sorted(source.glob(pattern))]:
             name = page.relative_to(source)
             faults += [f"{name}: there is no {missing}" for missing in missing_files(page, files)]
+            faults += [f"{name}: there is no {option}" for option in unknown_options(page, program)]
             for commands, expected_lines in blocks_of(page.read_text()):
                 clone = Clone(source, program,
                               pathlib.Path(tempfile.mkdtemp(dir=scratch)) / "clone")
