@@ -17,7 +17,7 @@ namespace {
 using Verdict = Change::Verdict;
 using Names = std::set<std::string>;
 
-/// What two reports have in common, and everything else that a person must know before reading
+/// The common ground of two reports, and everything else that a person must know before reading
 /// differences into them.
 struct Basis {
   bool same_configurations = true;  ///< seed and count

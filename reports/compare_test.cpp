@@ -67,7 +67,7 @@ Comparison compare(const json& before, const json& after, const CompareLimits& l
   return touchstone::compare(read(before), read(after), limits);
 }
 
-/// Those beyond the limits.
+/// Lists the changes beyond the limits.
 std::vector<std::string> changes(const Comparison& comparison) {
   std::vector<std::string> result;
   for (const Change& c : comparison.changes) {

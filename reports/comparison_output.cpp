@@ -104,7 +104,7 @@ json to_json(const Comparison& c) {
           {"changes", changes}};
 }
 
-/// What the page shows of a report: the places of its candidates in time and error.
+/// Places of the candidates in time and error, as the page draws them.
 json places(const Report& report) {
   json result = json::array();
   for (const ResultRow& row : report.summary) {

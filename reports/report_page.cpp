@@ -23,7 +23,7 @@ bool same_keys(const json& a, const json& b) {
                     [](const auto& l, const auto& r) { return l.key() == r.key(); });
 }
 
-/// What all of these values are, null among them or not.
+/// The schema that all of these values fit, null among them or not.
 json schema_of(const std::vector<const json*>& values) {
   std::vector<const json*> present;
   for (const json* v : values) {

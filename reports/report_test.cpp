@@ -106,13 +106,15 @@ TEST(Report, InterruptedBeforeTheEndIsOfWhatIsDone) {
   const Interruption interruption;
   testing::internal::CaptureStderr();
   raise(SIGTERM);
-  const json report = report_of(c);
+  const Report report = make_report(c, "x");
   testing::internal::GetCapturedStderr();
-  EXPECT_EQ(report["partial"], true);
-  EXPECT_TRUE(report["results"].empty());
-  EXPECT_EQ(report["completed"],
-            json({{"classes", 0}, {"configurations", 0}, {"timed_classes", 0}}));
-  EXPECT_EQ(report["planned"], json({{"classes", 5}, {"configurations", 20}}));
+  EXPECT_TRUE(report.partial);
+  EXPECT_TRUE(report.results.empty());
+  EXPECT_EQ(report.completed.classes, 0u);
+  EXPECT_EQ(report.completed.configurations, 0u);
+  EXPECT_EQ(report.timed_classes, 0u);
+  EXPECT_EQ(report.planned.classes, 5u);
+  EXPECT_EQ(report.planned.configurations, 20u);
   EXPECT_THAT(terminal_table(report), HasSubstr("PARTIAL: interrupted when 0 of 5"));
 }
 

@@ -77,7 +77,7 @@ Texts question(const Configuration& c) {
           {"orientation_b", hex(pose_b.orientation)}};
 }
 
-/// What the candidate answers here and now, for a comment.
+/// The candidate's answer here and now, for a comment.
 std::string seen(const Engine& engine, const Configuration& c, const oracle::Truth& truth,
                  const Bar& bar, const Limits& limits) {
   const Candidate* candidate = nullptr;

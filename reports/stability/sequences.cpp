@@ -20,7 +20,7 @@ struct TrueCourse {
   double displacement = 0, depth = 0, patch = 0;
 };
 
-/// Of equal values the first.
+/// Keeps the first of equal values.
 void raise(std::optional<Sequences::Peak>& peak, const std::optional<double>& value, int step) {
   if (value && !(peak && peak->value >= *value)) peak = {*value, step};
 }

@@ -45,7 +45,7 @@ Walk walk(const char* candidate, const std::function<Configuration(int)>& pose) 
   return result;
 }
 
-/// Of one axis, angle in radians.
+/// A rotation by an angle in radians.
 Quaternion turn(const Vec3& about, double angle) {
   return Quaternion(Eigen::AngleAxisd(angle, about));
 }
