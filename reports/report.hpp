@@ -12,7 +12,7 @@
 #include "properties/identity.hpp"
 #include "reports/stability/stability.hpp"
 #include "reports/statistics.hpp"
-#include "simulation/experiment_results.hpp"
+#include "simulation/run_experiments.hpp"
 
 namespace touchstone {
 
