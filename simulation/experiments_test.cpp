@@ -96,7 +96,7 @@ TEST(Experiments, DoNotJudgeWhereInTheOverlapPointsLie) {
   }
 }
 
-// What they resolve: depths that are wrong by less than half the layer move nothing further.
+// The resolution covers the surface layer: depths wrong by a fifth of it do no harm.
 TEST(Experiments, DoNotJudgeDepthsWithinTheSurfaceLayer) {
   const Experiment& experiment = find_experiment("stack");
   ChangedModel model([wrong = 2e-5](Answer& answer) mutable {
@@ -106,7 +106,7 @@ TEST(Experiments, DoNotJudgeDepthsWithinTheSurfaceLayer) {
   EXPECT_LT(experiment.run(model, usual_step).error, experiment.resolution(usual_step));
 }
 
-// What is left is the contacts', not the solver's: it has converged, and nothing slips.
+// The solver has converged and nothing slips: only CFM and the layer leave an error.
 TEST(Experiments, LeaveExactContactsNoMoreThanCfmAndTheLayerDo) {
   const double radius = 0.25, weights = 3 + 2 + 1;  // on the three supports of the stack
   EXPECT_LT(run_one("stack", "reference").error, weights * sinking(10) / radius);
