@@ -84,9 +84,8 @@ double tipping_resolution(double step) {
 // two contacts is tan(φ/2) times the normal force, φ being the angle between the line of centres
 // and the vertical. At the ground the friction force is the same and the normal force larger.
 constexpr double half_spacing = 1.1 * can_radius;
-constexpr double pile_time = 1;  // s
-constexpr double max_pile_displacement =
-    0.02 * can_radius;  // m, beyond which the pile has not held
+constexpr double pile_time = 1;                              // s
+constexpr double max_pile_displacement = 0.02 * can_radius;  // m, of a pile that holds
 double pile_friction(double) { return std::tan(std::asin(half_spacing / (2 * can_radius)) / 2); }
 
 Measurement log_pile(ContactModel& model, double step) {
