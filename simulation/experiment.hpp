@@ -37,7 +37,7 @@ class Run {
   bool step();
   const World& world() const { return world_; }
   const RunTally& tally() const { return tally_; }
-  /// Of all moving bodies, in weight × size.
+  /// Kinetic energy of all moving bodies, in weight × size.
   double kinetic_energy() const { return world_.kinetic_energy() / energy_unit_; }
 
  private:

@@ -62,7 +62,7 @@ inline double lean_within_layer(double layer, double width) { return layer / wid
 
 /// Distance, metres, by which sinking and leaning within the surface layer may move a point `reach`
 /// from the centre of a body whose centre is `height` above the support.
-inline double way_within_layer(double layer, double width, double height, double reach) {
+inline double displacement_within_layer(double layer, double width, double height, double reach) {
   return layer + lean_within_layer(layer, width) * (height + reach);
 }
 
@@ -70,8 +70,8 @@ inline double way_within_layer(double layer, double width, double height, double
 /// edge, its centre `arm` beyond the edge, with radius of gyration `gyration` about it, and rotates
 /// until a point `across` from the edge lands. That point is found up to one step late, and so too
 /// deep. Energy: (gyration × rate)² / 2 = g × arm × lean.
-inline double way_of_late_landing(double lean, double arm, double gyration, double across,
-                                  double step) {
+inline double displacement_of_late_landing(double lean, double arm, double gyration, double across,
+                                           double step) {
   return across * std::sqrt(2 * gravity * arm * lean) / gyration * step;
 }
 

@@ -123,15 +123,15 @@ constexpr double triangle = 0.75;
 /// Standing on a support of this width, on whose far side the can lands.
 double on_end(double width, double step) {
   const double gyration = can_gyration(can_radius, can_half_length);
-  return (way_within_layer(layer, triangle * width, can_half_length, can_half_length) +
-          way_of_late_landing(lean, can_radius, gyration, width, step)) /
+  return (displacement_within_layer(layer, triangle * width, can_half_length, can_half_length) +
+          displacement_of_late_landing(lean, can_radius, gyration, width, step)) /
          can_radius;
 }
 
 double on_its_side(double step) {
   const double gyration = can_gyration(can_radius, can_half_length), length = 2 * can_half_length;
-  return (way_within_layer(layer, length, can_radius, can_half_length) +
-          way_of_late_landing(lean, can_half_length, gyration, length, step)) /
+  return (displacement_within_layer(layer, length, can_radius, can_half_length) +
+          displacement_of_late_landing(lean, can_half_length, gyration, length, step)) /
          can_radius;
 }
 
@@ -141,7 +141,7 @@ double stacked(double) {
   double way = 0;
   for (const int below : {0, 1, 2}) {
     const double height = (2 * below + 1) * stacked_half_length;
-    way += way_within_layer(layer, width, height, can_half_length);
+    way += displacement_within_layer(layer, width, height, can_half_length);
   }
   return way / can_radius;
 }

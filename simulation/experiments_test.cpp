@@ -96,7 +96,7 @@ TEST(Experiments, DoNotJudgeWhereInTheOverlapPointsLie) {
   }
 }
 
-// What they resolve: depths that are wrong by less than half the layer move nothing further.
+// The resolution covers the surface layer: depths wrong by a fifth of it do no harm.
 TEST(Experiments, DoNotJudgeDepthsWithinTheSurfaceLayer) {
   const Experiment& experiment = find_experiment("stack");
   ChangedModel model([wrong = 2e-5](Answer& answer) mutable {
@@ -106,11 +106,12 @@ TEST(Experiments, DoNotJudgeDepthsWithinTheSurfaceLayer) {
   EXPECT_LT(experiment.run(model, usual_step).error, experiment.resolution(usual_step));
 }
 
-// What is left is the contacts', not the solver's: it has converged, and nothing slips.
+// The solver has converged and nothing slips: only CFM and the layer leave an error.
 TEST(Experiments, LeaveExactContactsNoMoreThanCfmAndTheLayerDo) {
   const double radius = 0.25, weights = 3 + 2 + 1;  // on the three supports of the stack
   EXPECT_LT(run_one("stack", "reference").error, weights * sinking(10) / radius);
-  EXPECT_LT(run_one("lying", "reference").error, way_within_layer(1e-4, 1, radius, 0.5) / radius);
+  EXPECT_LT(run_one("lying", "reference").error,
+            displacement_within_layer(1e-4, 1, radius, 0.5) / radius);
 }
 
 TEST(Experiments, JudgeALeverThatIsWrong) {
@@ -217,7 +218,7 @@ TEST(Resolution, SinkingIsTheSpeedThatCfmLeavesUnderAWeight) {
 TEST(Resolution, LayerLetsABodyOnTwoPointsSinkAndLean) {
   // Points 0.4 m apart, one at the layer's top and one at its bottom.
   EXPECT_DOUBLE_EQ(lean_within_layer(1e-4, 0.4), 2.5e-4);
-  EXPECT_DOUBLE_EQ(way_within_layer(1e-4, 0.4, 0.5, 0.1), 1e-4 + 2.5e-4 * 0.6);
+  EXPECT_DOUBLE_EQ(displacement_within_layer(1e-4, 0.4, 0.5, 0.1), 1e-4 + 2.5e-4 * 0.6);
 }
 
 TEST(Resolution, LandingIsAsFastAsTheFallOfALeaningBody) {
@@ -227,7 +228,8 @@ TEST(Resolution, LandingIsAsFastAsTheFallOfALeaningBody) {
     rate += tick * 9.81 * arm / (gyration * gyration);
     angle -= tick * rate;
   }
-  EXPECT_NEAR(way_of_late_landing(lean, arm, gyration, across, 1e-3), across * rate * 1e-3, 1e-9);
+  EXPECT_NEAR(displacement_of_late_landing(lean, arm, gyration, across, 1e-3), across * rate * 1e-3,
+              1e-9);
 }
 
 TEST(Resolution, BisectionLeavesHalfOfTheLastInterval) {

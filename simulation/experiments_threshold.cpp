@@ -84,8 +84,8 @@ double tipping_resolution(double step) {
 // two contacts is tan(φ/2) times the normal force, φ being the angle between the line of centres
 // and the vertical. At the ground the friction force is the same and the normal force larger.
 constexpr double half_spacing = 1.1 * can_radius;
-constexpr double pile_time = 1;                 // s
-constexpr double pile_way = 0.02 * can_radius;  // m, beyond which the pile has not held
+constexpr double pile_time = 1;                              // s
+constexpr double max_pile_displacement = 0.02 * can_radius;  // m, of a pile that holds
 double pile_friction(double) { return std::tan(std::asin(half_spacing / (2 * can_radius)) / 2); }
 
 Measurement log_pile(ContactModel& model, double step) {
@@ -106,7 +106,7 @@ Measurement log_pile(ContactModel& model, double step) {
     return lasts(scene, model, tally, [&](const World& world) {
       for (int i = 1; i <= 3; ++i) {
         if ((world.states()[i].pose.position() - scene.bodies[i].pose.position()).norm() >
-            pile_way) {
+            max_pile_displacement) {
           return false;
         }
       }
@@ -118,11 +118,12 @@ Measurement log_pile(ContactModel& model, double step) {
   return {found, std::abs(found / expected - 1), tally};
 }
 
-/// A pile that slides less than `pile_way` in the time counts as holding. Where the friction is too
-/// small by Δμ, a lower log rolls away with acceleration g (1 + cos φ) Δμ / 3.
+/// A pile that slides less than `max_pile_displacement` in the time counts as holding. Where the
+/// friction is too small by Δμ, a lower log rolls away with acceleration g (1 + cos φ) Δμ / 3.
 double pile_resolution(double step) {
   const double cosine = std::cos(std::asin(half_spacing / (2 * can_radius)));
-  const double lacking = 6 * pile_way / (pile_time * pile_time * gravity * (1 + cosine));
+  const double lacking =
+      6 * max_pile_displacement / (pile_time * pile_time * gravity * (1 + cosine));
   return lacking / pile_friction(step) + 4 * bisected(halvings);
 }
 

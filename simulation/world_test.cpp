@@ -249,7 +249,7 @@ TEST_F(WorldTest, AsksWithTheNormalOfTheStepBefore) {
   }
 }
 
-/// The same single point in answer to every question.
+/// Answers every question with the same single point.
 class MadeUpModel : public ContactModel {
  public:
   explicit MadeUpModel(const ts_point& point) : point_(point) {}

@@ -5,7 +5,7 @@
 #include "reports/choice/shape_pairs.hpp"
 #include "simulation/scenes/choose.hpp"
 
-// What `touchstone choose` writes. `folder` holds the configurations of failures, one file each,
+// Outputs of `touchstone choose`. `folder` holds the configurations of failures, one file each,
 // for `touchstone replay`; `command` is the command line that a person would repeat.
 namespace touchstone {
 

@@ -78,7 +78,7 @@ std::string note(const Choice& choice, std::size_t index) {
                      choice.file.needs[broken]->text(choice.file.scene));
 }
 
-/// What the page animates.
+/// The runs that the page animates, and the bodies and camera that they share.
 json motion_json(const Choice& choice, const Limits& limits) {
   const SceneFile& file = choice.file;
   const Scene& scene = file.scene;

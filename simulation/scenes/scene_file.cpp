@@ -93,11 +93,10 @@ void each_of(const json& file, const char* name, Read read) {
 }
 
 /// Reads the members of a need from its JSON object.
-class NeedReader : public NeedMembers {
+class NeedReader final : public NeedMembers {
  public:
   NeedReader(const json& value, std::string path, const Scene& scene)
       : value_(value), path_(std::move(path)), scene_(scene) {}
-  virtual ~NeedReader() = default;
 
   void body(std::vector<int>& bodies) override {
     bodies = {index(member(value_, "body", path_), at("body"))};
@@ -182,7 +181,7 @@ class NeedReader : public NeedMembers {
 };
 
 /// Describes the members of a need as JSON Schema.
-class NeedSchema : public NeedMembers {
+class NeedSchema final : public NeedMembers {
  public:
   explicit NeedSchema(Need& need) {
     properties_["need"] = {{"const", need.name}};
@@ -193,7 +192,6 @@ class NeedSchema : public NeedMembers {
                {"additionalProperties", false},
                {"description", need.meaning}};
   }
-  virtual ~NeedSchema() = default;
   const ordered_json& schema() const { return schema_; }
   /// The members that are known, "need" first.
   std::vector<std::string> names() const {
