@@ -9,6 +9,7 @@
 
 #include "properties/files/answer_json.hpp"
 #include "properties/files/configuration_json.hpp"
+#include "properties/files/json_fields.hpp"
 #include "reports/report_json.hpp"
 #include "reports/worst.hpp"
 
