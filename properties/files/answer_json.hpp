@@ -18,7 +18,7 @@ enum class Order { as_ours, swapped };
 const char* ties_name(oracle::Ties ties);
 const char* patch_kind_name(oracle::ContactPatch::Kind kind);
 
-/// Decimals of an enclosure's two ends, rounded outward, with digits enough to tell them apart.
+/// Decimals of an enclosure's two ends, rounded outward, with as many digits as tell them apart.
 std::array<std::string, 2> decimals(const oracle::Enclosure& enclosure);
 
 /// {"signed_distance": [lo, hi] as decimals rounded outward, "normals": […], "ties": "unique",
@@ -29,7 +29,7 @@ nlohmann::json to_json(const Configuration& configuration, const oracle::Truth& 
 /// {"status", "signed_distance", "normal", "points": [{"position", "normal", "depth"}], "score":
 /// {…}}; what the answer does not define is null.
 nlohmann::json to_json(const ts_answer& answer, const Score& score, Order order = Order::as_ours);
-/// As above, with the member "reason" where there is one.
+/// Adds the member "reason" where the answer has one.
 nlohmann::json to_json(const Answer& answer, const Score& score, Order order = Order::as_ours);
 
 /// Reads what to_json wrote, with Order::as_ours; of the score members may be missing, as they are

@@ -8,10 +8,10 @@
 
 namespace touchstone {
 
-/// A configuration as a person writes it (DESIGN: the bodies may come in either order).
+/// A configuration as a person writes it: the bodies may come in either order.
 struct GivenConfiguration {
   Configuration configuration;
-  /// The person's body a is our body B: normals are to be reversed before they are shown.
+  /// True if the person's body a is our body B: normals are reversed before they are shown.
   bool swapped = false;
 };
 
@@ -33,10 +33,10 @@ Pose pose_from_json(const nlohmann::json& value, const std::string& path);
 
 /// Shortest decimals that give the same doubles back.
 nlohmann::json to_json(const Configuration& configuration);
-/// The same with every number as a hexadecimal float string.
+/// Every number as a string with a hexadecimal float.
 nlohmann::json to_hex_json(const Configuration& configuration);
 
-/// The same with every number as a string of a fraction in lowest terms, as in "-3/8".
+/// Every number as a string with a fraction in lowest terms, as in "-3/8".
 nlohmann::json to_exact_json(const Configuration& configuration);
 
 nlohmann::json to_json(const Shape& shape);

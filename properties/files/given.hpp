@@ -6,7 +6,7 @@
 
 namespace touchstone {
 
-/// What the option's help says of it.
+/// Help of the option that takes such a name.
 inline constexpr const char* given_help =
     "pair/class/seed/index, a file with a line as for solve or with a saved failure, or - for "
     "standard input";

@@ -159,7 +159,7 @@ Amplification amplification(const Ladder& ladder, const Study& study) {
                     return fmt::format("{}/{}", pair_name(cell.pair), cell.pose_class);
                   }};
   const auto results =
-      spread(study, work, [&](std::size_t i, std::vector<CandidateProcess>& candidates) {
+      run_in_workers(study, work, [&](std::size_t i, std::vector<CandidateProcess>& candidates) {
         return to_bytes(
             climb(bases_of(ladder.cells[i], ladder), ladder.seed, candidates, study.bar));
       });

@@ -70,7 +70,7 @@ FailureMaps maps(const std::vector<const CriticalPose*>& poses, const MapGrid& g
                                        grid.zooms[i % zooms].name());
                   }};
   const auto results =
-      spread(study, work, [&](std::size_t i, std::vector<CandidateProcess>& candidates) {
+      run_in_workers(study, work, [&](std::size_t i, std::vector<CandidateProcess>& candidates) {
         const auto asked = pixels(*poses[i / zooms], grid.zooms[i % zooms], grid.stride);
         return pictures(asked, candidates, study.bar);
       });

@@ -12,7 +12,7 @@
 
 namespace touchstone {
 
-/// Who is asked, how strictly, and by how many processes at once; these do not change the result.
+/// Who is asked, and how strictly. The number of workers does not change the result.
 struct Study {
   std::vector<const Candidate*> candidates;
   Bar bar;
@@ -75,7 +75,7 @@ StabilityOptions brief(const Study& study, const std::vector<Pair>& pairs, std::
 /// standard error.
 Stability measure(const StabilityOptions& options);
 
-// For the three parts: work that is spread over the study's processes.
+// For the three parts: work that is shared out among worker processes.
 
 /// One piece of a part's work.
 struct Work {
@@ -86,7 +86,7 @@ struct Work {
 };
 /// Runs every task in one of the study's workers, in which each candidate has a process of its own.
 /// Returns what the tasks returned, in their order; an empty string for one that was interrupted.
-std::vector<std::string> spread(
+std::vector<std::string> run_in_workers(
     const Study& study, const Work& work,
     const std::function<std::string(std::size_t task, std::vector<CandidateProcess>&)>& run);
 

@@ -97,7 +97,7 @@ Sequences sequences(const std::vector<const Motion*>& motions, int steps, const 
   const Work work{motions.size(), "steps", static_cast<std::size_t>(steps) + 1,
                   [&](std::size_t i) { return "sequence/" + motions[i]->name; }};
   const auto results =
-      spread(study, work, [&](std::size_t i, std::vector<CandidateProcess>& candidates) {
+      run_in_workers(study, work, [&](std::size_t i, std::vector<CandidateProcess>& candidates) {
         return follow(*motions[i], steps, candidates, study.bar);
       });
   Sequences sequences{steps, {}};

@@ -71,7 +71,7 @@ Stability measure(const StabilityOptions& options) {
   return result;
 }
 
-std::vector<std::string> spread(
+std::vector<std::string> run_in_workers(
     const Study& study, const Work& work,
     const std::function<std::string(std::size_t, std::vector<CandidateProcess>&)>& run) {
   Progress progress(work.unit, work.count * work.units_per_task);
