@@ -47,7 +47,7 @@ class Magnitudes {
 
   /// Absent without values.
   std::optional<Quantiles> quantiles() const;
-  /// Binned: bounds, at most an eighth apart, of the ⌈n·percent/100⌉-th smallest of n values.
+  /// Bounds, at most an eighth apart, of the ⌈n·percent/100⌉-th smallest of n binned values.
   std::optional<Bounds> percentile(std::uint64_t percent) const;
 
  private:

@@ -10,17 +10,17 @@ struct SpeedAccuracy {
   double error;
 };
 
-/// Their spreads overlap: neither may be called the faster one.
+/// Tells whether the spreads overlap: neither may be called the faster one.
 bool tied_in_time(const SpeedAccuracy& a, const SpeedAccuracy& b);
 
-/// Is `a` better: more accurate and not slower beyond the spreads, or as accurate and faster beyond
-/// them?
+/// Tells whether `a` is better: more accurate and not slower beyond the spreads, or as accurate and
+/// faster beyond them.
 bool beats(const SpeedAccuracy& a, const SpeedAccuracy& b);
 
-/// Which of them are on the Pareto front: those that nothing on the front beats. Ties are not
-/// transitive (a chain of overlapping spreads may join a fast one and a slow one), so to be beaten
-/// by something off the front does not count: the front is built from the most accurate on, and
-/// whatever is off it is beaten by something on it.
+/// Finds the candidates on the Pareto front: those that no candidate on the front beats. Ties are
+/// not transitive (a chain of overlapping spreads may join a fast candidate and a slow one), so a
+/// candidate off the front beats nobody: the front is built in the order of accuracy, and every
+/// candidate off it is beaten by one on it.
 std::vector<bool> pareto_front(const std::vector<SpeedAccuracy>& candidates);
 
 }  // namespace touchstone

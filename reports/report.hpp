@@ -52,7 +52,7 @@ struct ResultRow {
   std::string pair, pose_class, candidate;  ///< pair and class may be "all"
   Statistics statistics;
   std::optional<QueryTime> time;
-  // Of rows of a summary:
+  // In a summary alone:
   std::optional<bool> pareto;  ///< on the front of speed and accuracy; absent: not in that chart
   std::vector<std::string> tied_with;  ///< candidates whose times overlap with this one's
 };

@@ -70,9 +70,9 @@ struct Sample {
 /// Scores the campaign's units 0 … count − 1, as `unit` numbers them, spread over worker processes,
 /// in each of which every candidate has a process of its own. Samples are handed over as they come,
 /// in no certain order; they depend neither on the number of workers nor on other candidates. Ends
-/// early, without the units in hand, once `go_on` says no; it is asked at least every 100 ms.
-/// Returns whether all units were scored. Throws std::runtime_error naming the configuration whose
-/// truth contradicts itself, or the unit in which a worker died.
+/// early, without the units in hand, once `go_on` returns false; it is called every 100 ms or more
+/// often. Returns whether all units were scored. Throws std::runtime_error naming the configuration
+/// whose truth contradicts itself, or the unit in which a worker died.
 bool sample(const Campaign& campaign, Purpose purpose, std::uint64_t count,
             const std::function<Unit(std::uint64_t)>& unit,
             const std::function<void(std::uint64_t, Sample)>& take,

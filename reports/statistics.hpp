@@ -52,7 +52,7 @@ struct Statistics {
   std::optional<Quantiles> depth_error, normal_regret, normal_angle, point_error, deepest_error,
       model_error, solver_error;      ///< of magnitudes
   std::optional<Quantiles> severity;  ///< of all that is judged, missed contacts included
-  /// Of what depth_error and normal_regret hold; absent where those are, and of binned values.
+  /// Histograms of depth_error and normal_regret; absent where those are, and of binned values.
   std::optional<LogHistogram> depth_histogram, regret_histogram;
   std::optional<Shares> coverage;
 

@@ -53,7 +53,7 @@ bool all_counted(const Repetitions& repetitions) {
                      [](const QueryCost& c) { return c.instructions.has_value(); });
 }
 
-/// Of each repetition the median over the cells.
+/// Median over the cells, of each repetition.
 template <class Value>
 std::vector<double> over_cells(const Times& times, const std::vector<std::size_t>& cells,
                                std::size_t candidate, const Value& value) {

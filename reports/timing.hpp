@@ -8,8 +8,8 @@
 
 namespace touchstone {
 
-/// What one candidate's queries on the configurations of one cell cost, in each repetition; empty
-/// where the pair is unsupported, the candidate died of it, or an end was asked for before.
+/// Cost of one candidate's queries on the configurations of one cell, in each repetition; empty
+/// where the pair is unsupported, the candidate died, or the run was interrupted before.
 using Repetitions = std::vector<QueryCost>;
 using Times = std::vector<std::vector<Repetitions>>;  ///< [cell][candidate][repetition]
 
@@ -30,8 +30,8 @@ std::optional<Spread> spread(std::vector<double> values);
 std::optional<QueryTime> query_time(const Times& times, const std::vector<std::size_t>& cells,
                                     std::size_t candidate);
 
-/// How much longer a candidate takes than another, on the cells where both were timed. Both values
-/// of a repetition were measured at nearly the same moment, so that most disturbances cancel.
+/// Ratio of a candidate's time to another's, on the cells where both were timed. Both values of a
+/// repetition were measured at nearly the same moment, so that disturbances of both cancel.
 std::optional<Spread> time_ratio(const Times& times, const std::vector<std::size_t>& cells,
                                  std::size_t candidate, std::size_t other);
 

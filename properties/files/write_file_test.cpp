@@ -53,7 +53,9 @@ TEST_F(WriteFile, AFullDiskLeavesTheOldFileAndNamesTheOption) {
 }
 
 TEST_F(WriteFile, AFolderThatDoesNotExistIsBadInput) {
-  EXPECT_THROW(write_file(folder / "none" / "a", "text", "--out"), InvalidInput);
+  EXPECT_THAT(
+      [&] { write_file(folder / "none" / "a", "text", "--out"); },
+      testing::ThrowsMessage<InvalidInput>(testing::HasSubstr("No such file or directory")));
 }
 
 TEST_F(WriteFile, AFolderIsMadeOrRefused) {

@@ -28,7 +28,7 @@ std::uint64_t start_of(std::uint64_t units, std::uint64_t number, std::uint64_t 
   return units / of * number + std::min(number, units % of);
 }
 
-/// Of a file of any size.
+/// Checksum of a file of any size.
 std::string checksum_of_plugin(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(in), {}};
