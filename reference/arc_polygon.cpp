@@ -284,10 +284,10 @@ int ArcPolygon::spread(const Vec2& first, std::array<Vec2, 8>& points) const {
   }
   while (count > static_cast<int>(points.size())) {  // but the first, the one that spans the least
     int least = 1;
-    double least_area = std::numeric_limits<double>::infinity();
+    double min_area = std::numeric_limits<double>::infinity();
     for (int i = 1; i < count; ++i) {
       const double area = twice_area(all[(i + count - 1) % count], all[i], all[(i + 1) % count]);
-      if (area < least_area) least_area = area, least = i;
+      if (area < min_area) min_area = area, least = i;
     }
     std::copy(all.begin() + least + 1, all.begin() + count, all.begin() + least);
     --count;

@@ -44,6 +44,21 @@ struct Line {
 /// change which it is.
 inline bool points_onward(const Vec3& n) { return 0.27 * n.x() + 0.53 * n.y() + 0.8 * n.z() > 0; }
 
+// Component by component: Eigen would load in pairs what was just stored singly, which stalls.
+inline double dot(const Vec3& a, const Vec3& b) {
+  return a.x() * b.x() + a.y() * b.y() + a.z() * b.z();
+}
+/// The sine of the angle between two unit vectors.
+inline double sine_between(const Vec3& a, const Vec3& b) {
+  const double x = a.y() * b.z() - a.z() * b.y(), y = a.z() * b.x() - a.x() * b.z();
+  const double z = a.x() * b.y() - a.y() * b.x();
+  return std::sqrt(x * x + y * y + z * z);
+}
+/// a − k b
+inline Vec3 less(const Vec3& a, double k, const Vec3& b) {
+  return {a.x() - k * b.x(), a.y() - k * b.y(), a.z() - k * b.z()};
+}
+
 /// Two unit vectors that make a right-handed frame with the unit normal (Duff et al., "Building an
 /// orthonormal basis, revisited", 2017).
 inline std::pair<Vec3, Vec3> across(const Vec3& n) {
@@ -88,36 +103,35 @@ class ContactPlane {
   }
   /// Across `upright`, which has unit length and is not far from the normal or its opposite.
   ContactPlane(const Manifold& to, const Vec3& upright)
-      : to_(to), n_(to.contact.normal), lift_(upright / upright.dot(n_)) {
+      : to_(to), n_(to.contact.normal), lift_(upright / dot(upright, n_)) {
     std::tie(x_, y_) = across(points_onward(upright) ? upright : Vec3(-upright));
-    dual_x_ = x_ - x_.dot(n_) * lift_;
-    dual_y_ = y_ - y_.dot(n_) * lift_;
+    dual_x_ = less(x_, dot(x_, n_), lift_);
+    dual_y_ = less(y_, dot(y_, n_), lift_);
   }
 
   const Margins& margins() const { return to_.margins; }
-  Vec2 to_plane(const Vec3& v) const { return {v.dot(dual_x_), v.dot(dual_y_)}; }
+  Vec2 to_plane(const Vec3& v) const { return {dot(v, dual_x_), dot(v, dual_y_)}; }
   Incline incline(const FacingFeature& f) const {
-    const double inverse = 1 / f.axis.dot(n_);
-    return {f.axis.dot(f.middle) * inverse, products(f.axis) * -inverse};
+    const double inverse = 1 / dot(f.axis, n_);
+    return {dot(f.axis, f.middle) * inverse, products(f.axis) * -inverse};
   }
   Line line(const FacingFeature& f) const {
-    return {to_plane(f.middle), to_plane(f.axis), f.middle.dot(lift_),
-            f.axis.dot(lift_),  f.half_length,    f.radius};
+    return {to_plane(f.middle), to_plane(f.axis), dot(f.middle, lift_),
+            dot(f.axis, lift_), f.half_length,    f.radius};
   }
   /// The rectangle's own coordinate along its side i, of what is carried to it along the normal.
   Strip strip(const FacingFeature& rectangle, int i) const {
     const Vec3& side = rectangle.side[i];
-    const Vec3 e = side - side.dot(n_) / rectangle.axis.dot(n_) * rectangle.axis;
-    return {products(e), e.dot(rectangle.middle), rectangle.half_side[i]};
+    const Vec3 e = less(side, dot(side, n_) / dot(rectangle.axis, n_), rectangle.axis);
+    return {products(e), dot(e, rectangle.middle), rectangle.half_side[i]};
   }
   /// The least factor by which a disc across `axis` shrinks when it is carried to the plane across
   /// `upright`, or somewhat less: a vector v of the disc is carried to v − v·upright / n·upright n,
-  /// which is not shorter than v's part across n.
-  double least_scale(const Vec3& axis, const Vec3& upright) const {
-    const double cosine = std::abs(axis.dot(n_)), turn = axis.cross(upright).norm();
-    const double lean = axis.cross(n_).norm();
-    return std::max(cosine,
-                    std::sqrt(std::max(0.0, 1 - 2 * turn * lean / std::abs(upright.dot(n_)))));
+  /// whose square is at least 1 − 2 |v·upright| |v·n| / |n·upright|. All three directions enclose
+  /// small angles (`lies_flat`).
+  double min_scale(const Vec3& axis, const Vec3& upright) const {
+    return std::sqrt(1 - 2 * sine_between(axis, upright) * sine_between(axis, n_) /
+                             std::abs(dot(upright, n_)));
   }
 
   /// Adds the point halfway between the surfaces at these heights above a point of the plane.
@@ -134,7 +148,7 @@ class ContactPlane {
 
  private:
   /// A vector's products with the plane's own two.
-  Vec2 products(const Vec3& v) const { return {v.dot(x_), v.dot(y_)}; }
+  Vec2 products(const Vec3& v) const { return {dot(v, x_), dot(v, y_)}; }
 
   const Manifold& to_;
   const Vec3 n_;

@@ -7,7 +7,6 @@
 #include <numbers>
 
 #include "box_sides.hpp"
-#include "circle.hpp"
 #include "deep_normals.hpp"
 #include "ellipse_normal.hpp"
 #include "manifold.hpp"
@@ -75,28 +74,38 @@ StageResult side_and_nearest_vertex(const Frame& p, const BestEdge& edge, double
   return side_and_vertex(p, c.corner, best);
 }
 
-/// The edge along axis i at a corner of the box as seen along it, with those signs, and the rim at
+/// The edge along axis i at a corner of the box as seen along it, with these signs, and the rim at
 /// an end, +1 or -1 along the axis.
 struct EdgeAndRim {
   int i;
-  Vec2 sign;
-  double end;
+  double sign_j, sign_k, end;
 };
 
-/// The axis as seen along edge i; unit.
-Vec2 seen_along(const Frame& p, int i) { return Vec2(p.u[(i + 1) % 3], p.u[(i + 2) % 3]) / p.s[i]; }
-/// From the middle of the rim to the corner, as seen along the edge.
-Vec2 rim_to_corner(const Frame& p, const EdgeAndRim& at, const Vec2& along) {
-  const int j = (at.i + 1) % 3, k = (at.i + 2) % 3;
-  return Vec2(p.d[j] - at.sign.x() * p.e[j], p.d[k] - at.sign.y() * p.e[k]) -
-         at.end * p.h * p.s[at.i] * along;
-}
+/// What is seen along edge i: the axis's direction, unit. (Component by component here and below:
+/// Eigen would load in pairs what was just stored singly, which stalls.)
+struct SeenAlong {
+  double j, k, lean_j, lean_k;  ///< and the cylinder's half as far as it is seen
+  SeenAlong(const Frame& p, int i)
+      : j(p.u[(i + 1) % 3] / p.s[i]),
+        k(p.u[(i + 2) % 3] / p.s[i]),
+        lean_j(p.h * p.u[(i + 1) % 3]),
+        lean_k(p.h * p.u[(i + 2) % 3]) {}
+};
+/// From the middle of the rim to the corner, across the axis and along it towards the rim's end.
+struct RimToCorner {
+  double j, k, across, along;
+  RimToCorner(const Frame& p, const EdgeAndRim& at, const SeenAlong& axis)
+      : j(p.d[(at.i + 1) % 3] - at.sign_j * p.e[(at.i + 1) % 3] - at.end * axis.lean_j),
+        k(p.d[(at.i + 2) % 3] - at.sign_k * p.e[(at.i + 2) % 3] - at.end * axis.lean_k),
+        across(axis.j * k - axis.k * j),
+        along(at.end * (axis.j * j + axis.k * k)) {}
+};
 
 /// The proof of `bends_away` for a normal at which a rim and an edge meet.
-bool is_proven_at_rim(const Frame& p, const EdgeAndRim& at, const Vec2& foot, double gap) {
+bool is_proven_at_rim(const Frame& p, const EdgeAndRim& at, double x, double y, double gap) {
   const int i = at.i;
-  const double nu = at.end * p.s[i] * foot.y();                                        // n·u
-  const double squared = foot.x() * foot.x() + p.u[i] * p.u[i] * foot.y() * foot.y();  // 1 − nu²
+  const double nu = at.end * p.s[i] * y;                   // n·u
+  const double squared = x * x + p.u[i] * p.u[i] * y * y;  // 1 − nu²
   const double where = p.d[i] - at.end * p.h * p.u[i] + p.r * nu * p.u[i] / std::sqrt(squared);
   const double beyond = p.e[i] - std::abs(where);
   return beyond > 0 &&
@@ -106,21 +115,22 @@ bool is_proven_at_rim(const Frame& p, const EdgeAndRim& at, const Vec2& foot, do
 
 StageResult rim_and_edge(const Frame& p, const EdgeAndRim& at, double best) {
   const int i = at.i, j = (i + 1) % 3, k = (i + 2) % 3;
-  const Vec2 along = seen_along(p, i), q = rim_to_corner(p, at, along);
-  const double b = p.r * std::abs(p.u[i]), aside = cross2(along, q);
-  const auto foot = ellipse_normal(p.r, b, std::abs(aside), at.end * along.dot(q));
+  const SeenAlong axis(p, i);
+  const RimToCorner q(p, at, axis);
+  const double b = p.r * std::abs(p.u[i]);
+  const auto foot = ellipse_normal(p.r, b, std::abs(q.across), q.along);
   if (!foot) return {};
-  const double x = foot->x(), y = foot->y(), x_side = std::copysign(x, aside);
-  const Vec2 n(at.end * y * along.x() - x_side * along.y(),
-               at.end * y * along.y() + x_side * along.x());
-  const double gap = p.d[j] * n.x() + p.d[k] * n.y() - p.e[j] * std::abs(n.x()) -
-                     p.e[k] * std::abs(n.y()) - p.h * p.s[i] * y -
-                     std::sqrt(p.r * p.r * x * x + b * b * y * y);
+  const double x = foot->x(), y = foot->y(), across = std::copysign(x, q.across);
+  const double along = at.end * y;
+  const double nj = along * axis.j - across * axis.k, nk = along * axis.k + across * axis.j;
+  const double gap = p.d[j] * nj + p.d[k] * nk - p.e[j] * std::abs(nj) - p.e[k] * std::abs(nk) -
+                     p.h * p.s[i] * y - std::sqrt(p.r * p.r * x * x + b * b * y * y);
   if (!(gap > best)) return {};
-  const bool pointed = n.x() * at.sign.x() >= 0 && n.y() * at.sign.y() >= 0;
-  std::array<double, 3> normal;
-  normal[i] = 0, normal[j] = n.x(), normal[k] = n.y();
-  return {gap, normal[0], normal[1], normal[2], pointed && is_proven_at_rim(p, at, *foot, gap)};
+  const bool is_proven =
+      nj * at.sign_j >= 0 && nk * at.sign_k >= 0 && is_proven_at_rim(p, at, x, y, gap);
+  if (i == 0) return {gap, 0, nj, nk, is_proven};
+  if (i == 1) return {gap, nk, 0, nj, is_proven};
+  return {gap, nj, nk, 0, is_proven};
 }
 
 /// Two chords of the ellipse's quadrant meet at (r, b)/√2: is the point (x, y) further behind both
@@ -138,30 +148,33 @@ bool is_behind_chords(double r, double b, double x, double y, double best) {
 StageResult rim_and_edge_along(const Frame& p, int i, double best) {
   if (!(p.s[i] > 0)) return {};
   const int j = (i + 1) % 3, k = (i + 2) % 3;
-  const Vec2 along = seen_along(p, i), across(-along.y(), along.x());
-  const double b = p.r * std::abs(p.u[i]);
+  const SeenAlong axis(p, i);
+  const double b = p.r * std::abs(p.u[i]), aside = axis.j * p.d[k] - axis.k * p.d[j];
   // Inside the polygon, no direction is better than its edges less the ellipse's inscribed disc.
-  const double aside = across.x() * p.d[j] + across.y() * p.d[k];
   const double polygon =
       std::max({std::abs(p.d[j]) - p.e[j] - p.h * std::abs(p.u[j]),
                 std::abs(p.d[k]) - p.e[k] - p.h * std::abs(p.u[k]),
-                std::abs(aside) - p.e[j] * std::abs(across.x()) - p.e[k] * std::abs(across.y())});
+                std::abs(aside) - p.e[j] * std::abs(axis.k) - p.e[k] * std::abs(axis.j)});
   if (polygon <= 0 && polygon - b <= best) return {};
   StageResult found;
-  for (int corner = 0; corner < 4; ++corner) {
-    for (const double end : {1.0, -1.0}) {
-      const EdgeAndRim at{i, {(corner & 1) ? 1 : -1, (corner & 2) ? 1 : -1}, end};
-      const Vec2 q = rim_to_corner(p, at, along);
-      const double least = std::max(best, found.gap);
-      // n points away from the corner, so that only what of q does so counts.
-      const Vec2 out = q.cwiseProduct(at.sign).cwiseMax(0.0);
-      const double bound = least + b;
-      if (bound >= 0 && out.squaredNorm() <= bound * bound) continue;
-      const double x = across.dot(q), y = end * along.dot(q);
-      // The corner's quadrant of normals and the ellipse's must overlap.
-      if (!((std::copysign(1, x) * across + end * along).dot(at.sign) > 0)) continue;
-      if (is_behind_chords(p.r, b, std::abs(x), y, least)) continue;
-      found.improve(rim_and_edge(p, at, least));
+  for (const double sign_j : {-1.0, 1.0}) {
+    for (const double sign_k : {-1.0, 1.0}) {
+      for (const double end : {1.0, -1.0}) {
+        const EdgeAndRim at{i, sign_j, sign_k, end};
+        const RimToCorner q(p, at, axis);
+        const double least = std::max(best, found.gap), bound = least + b;
+        // n points away from the corner, so that only what of q does so counts.
+        const double out_j = std::max(q.j * sign_j, 0.0), out_k = std::max(q.k * sign_k, 0.0);
+        if (bound >= 0 && out_j * out_j + out_k * out_k <= bound * bound) continue;
+        // The corner's quadrant of normals and the ellipse's must overlap.
+        const double side = std::copysign(1, q.across);
+        if (!((end * axis.j - side * axis.k) * sign_j + (end * axis.k + side * axis.j) * sign_k >
+              0)) {
+          continue;
+        }
+        if (is_behind_chords(p.r, b, std::abs(q.across), q.along, least)) continue;
+        found.improve(rim_and_edge(p, at, least));
+      }
     }
   }
   return found;
@@ -192,7 +205,8 @@ StageResult likely_rim_and_edge(const Frame& p, const BoxSides& sides, double be
   // Along an edge across the axis the proof fails.
   constexpr double across = 1e-12;
   if (!(p.s[at.i] > 0 && std::abs(p.u[at.i]) > across)) return {};
-  at.sign = {std::copysign(1, sign[(at.i + 1) % 3]), std::copysign(1, sign[(at.i + 2) % 3])};
+  at.sign_j = std::copysign(1, sign[(at.i + 1) % 3]);
+  at.sign_k = std::copysign(1, sign[(at.i + 2) % 3]);
   return rim_and_edge(p, at, best);
 }
 

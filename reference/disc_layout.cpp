@@ -11,7 +11,7 @@ constexpr double half = 0.5, height = std::numbers::sqrt3 / 2;  // cos 60°, sin
 
 }  // namespace
 
-double part_of_the_way_to_the_deepest(double rise, double clear_rise) {
+double deepest_point_weight(double rise, double clear_rise) {
   return rise <= clear_rise ? 0 : std::min((rise - clear_rise) / clear_rise, 1.0);
 }
 
@@ -24,7 +24,7 @@ int spread_disc(double radius, const Vec2& slope, const Vec2& anchor, double sla
                 double clear_rise, std::array<Vec2, 6>& arms) {
   const double steepness = slope.norm(), rise = 2 * radius * steepness;
   int count = 0;
-  const double way = part_of_the_way_to_the_deepest(rise, clear_rise);
+  const double way = deepest_point_weight(rise, clear_rise);
   if (way == 0) {
     for (const Vec2& arm : three_arms(radius, anchor)) arms[count++] = arm;
     return count;

@@ -16,7 +16,7 @@ namespace touchstone {
 /// How much of the deepest point's way from the layout's middle to its place a disc takes whose
 /// clearance rises by `rise` metres across it: 0 while that is no more than `clear_rise`
 /// (manifold.hpp), 1 from twice that on.
-double part_of_the_way_to_the_deepest(double rise, double clear_rise);
+double deepest_point_weight(double rise, double clear_rise);
 
 /// One layout handed over to another about the same middle. First the new one grows from half its
 /// size, where it lies within the hull of the old; then the old one shrinks to half its size.

@@ -35,7 +35,7 @@ Anomaly between(const Anomaly& p, const Anomaly& q) { return towards(p.c + q.c, 
 /// Is q counter-clockwise of p, both within a quarter turn?
 bool after(const Anomaly& q, const Anomaly& p) { return p.c * q.s > p.s * q.c; }
 
-constexpr int most_steps = 60;
+constexpr int max_steps = 60;
 /// Newton's next step is the square of this: below rounding.
 constexpr double small_step = 1e-8;
 
@@ -45,7 +45,7 @@ constexpr double small_step = 1e-8;
 Anomaly same_side_foot(double ax, double by, double focal, Anomaly t) {
   Anomaly lo{1, 0}, hi{0, 1};
   double previous = 1;
-  for (int i = 0; i < most_steps; ++i) {
+  for (int i = 0; i < max_steps; ++i) {
     const double slope = ax * t.s - by * t.c - focal * t.s * t.c;
     const double rise = ax * t.c + by * t.s - focal * (t.c - t.s) * (t.c + t.s);
     if (slope == 0) return t;
@@ -68,7 +68,7 @@ Anomaly same_side_foot(double ax, double by, double focal, Anomaly t) {
 std::optional<Anomaly> far_side_foot(double ax, double by, double focal) {
   if (!(ax < focal && by < focal)) return std::nullopt;
   Anomaly t{ax / focal, std::sqrt((focal - ax) * (focal + ax)) / focal};
-  for (int i = 0; i < most_steps; ++i) {
+  for (int i = 0; i < max_steps; ++i) {
     if (!(t.c > 0 && t.s > 0)) return t.c <= 0 ? std::optional(Anomaly{0, 1}) : std::nullopt;
     const double value = ax / t.c + by / t.s - focal;
     const double rise = ax * t.s / (t.c * t.c) - by * t.c / (t.s * t.s);

@@ -9,29 +9,35 @@ namespace touchstone {
 using Kind = FacingFeature::Kind;
 
 FacingFeature facing(const PosedCylinder& body, const Vec3& outward, double slack) {
+  // Component by component: Eigen would load in pairs what was just stored singly, which stalls.
+  const auto u = body.axis();
+  const Vec3& c = body.centre;
+  const double along = u.x() * outward.x() + u.y() * outward.y() + u.z() * outward.z();
+  const double x = outward.x() - along * u.x(), y = outward.y() - along * u.y();
+  const double z = outward.z() - along * u.z();
+  const double end = std::copysign(body.half_length, along);
   FacingFeature feature;
-  const double along = body.axis().dot(outward);
-  const Vec3 across = outward - along * body.axis();
-  feature.sine = across.norm();
+  feature.sine = std::sqrt(x * x + y * y + z * z);
   if (lies_flat(body.radius, feature.sine, slack)) {
+    const double side = std::copysign(1, along);
     feature.kind = Kind::disc;
-    feature.axis = std::copysign(1, along) * body.axis();
-    feature.middle = body.centre + body.half_length * feature.axis;
+    feature.axis = Vec3(side * u.x(), side * u.y(), side * u.z());
+    feature.middle = Vec3(c.x() + end * u.x(), c.y() + end * u.y(), c.z() + end * u.z());
     feature.mark = body.axes.col(0);
     feature.radius = body.radius;
     return feature;
   }
-  const Vec3 arm = (body.radius / feature.sine) * across;
+  const double arm = body.radius / feature.sine;
   if (lies_flat(body.half_length, along, slack)) {
     feature.kind = Kind::segment;
-    feature.middle = body.centre + arm;
-    feature.axis = body.axis();
+    feature.middle = Vec3(c.x() + arm * x, c.y() + arm * y, c.z() + arm * z);
+    feature.axis = u;
     feature.half_length = body.half_length;
     feature.radius = body.radius;
     return feature;
   }
-  feature.kind = Kind::point;
-  feature.middle = body.centre + (std::copysign(body.half_length, along) * body.axis() + arm);
+  feature.middle = Vec3(c.x() + (end * u.x() + arm * x), c.y() + (end * u.y() + arm * y),
+                        c.z() + (end * u.z() + arm * z));
   return feature;
 }
 
@@ -49,18 +55,15 @@ FacingFeature facing(const PosedCapsule& body, const Vec3& outward, double slack
     feature.radius = body.radius;
     return feature;
   }
-  feature.kind = Kind::point;
   feature.middle += std::copysign(body.half_length, along) * body.axis();
   return feature;
 }
 
 FacingFeature facing(const PosedBox& body, const Vec3& outward, double slack) {
   FacingFeature feature;
-  feature.kind = Kind::point;
   feature.sine = 1;
   feature.middle = body.centre;
   int free = 0;
-  double steepest = 0;
   for (int i = 0; i < 3; ++i) {
     const Vec3 axis = body.axes.col(i);
     const double along = axis.dot(outward);
@@ -70,10 +73,7 @@ FacingFeature facing(const PosedBox& body, const Vec3& outward, double slack) {
       continue;
     }
     feature.middle += std::copysign(body.half_extents[i], along) * axis;
-    if (std::abs(along) > std::abs(steepest)) {
-      steepest = along;
-      feature.axis = std::copysign(1, along) * axis;
-    }
+    feature.axis = std::copysign(1, along) * axis;  // of a rectangle there is one that is no side
   }
   if (free == 1) {
     feature.kind = Kind::segment;

@@ -7,7 +7,7 @@
 
 namespace touchstone {
 
-/// What a body turns towards the other across a known normal.
+/// The part of a body's surface that faces the other body across a known normal.
 struct FacingFeature {
   enum class Kind {
     point,
@@ -15,11 +15,11 @@ struct FacingFeature {
     disc,      ///< a cap: middle, axis (its normal), radius
     rectangle  ///< a face: middle, axis (its normal), two sides with their half lengths
   };
-  Kind kind;
+  Kind kind = Kind::point;
   Vec3 middle;  ///< The point itself; on the surface.
-  /// Of a point on a rim, how much of the normal tells where on the rim it lies; else 1.
+  /// Of a point on a rim, the sine of the angle between normal and axis; otherwise 1.
   double sine;
-  // What the kind has not stays unset.
+  // Members that the kind does not name stay unset.
   Vec3 axis;
   Vec3 mark;  ///< of a disc, across its axis: a direction that turns with the body
   double half_length, radius;
@@ -27,10 +27,10 @@ struct FacingFeature {
   std::array<double, 2> half_side;
 };
 
-/// Does a tenth of a feature of this half length, leaning by `sine`, rise by no more than `slack`?
-/// Features smaller than the slack may lean by a tenth.
-inline bool lies_flat(double half_length, double sine, double slack, double most = 0.1) {
-  return 0.2 * half_length * std::abs(sine) <= slack && std::abs(sine) <= most;
+/// Returns whether a tenth of a feature of this half length, leaning by `sine`, rises by no more
+/// than `slack`. Features smaller than the slack may lean by `max_sine`.
+inline bool lies_flat(double half_length, double sine, double slack, double max_sine = 0.1) {
+  return 0.2 * half_length * std::abs(sine) <= slack && std::abs(sine) <= max_sine;
 }
 
 /// The feature of the body that is farthest along `outward`. A cap, generator, edge or face counts
@@ -39,7 +39,7 @@ FacingFeature facing(const PosedCylinder& body, const Vec3& outward, double slac
 FacingFeature facing(const PosedCapsule& body, const Vec3& outward, double slack);
 FacingFeature facing(const PosedBox& body, const Vec3& outward, double slack);
 
-/// The one point of a body that is farthest along `outward`, as rounding has it.
+/// The single farthest point of a body along `outward`, however rounding chooses among several.
 struct SupportPoint {
   Vec3 position;
   double sharpness;  ///< how far along `outward` it lies beyond the body's other points, metres

@@ -115,12 +115,12 @@ void disc_on_rectangle(const Manifold& to, const FacingFeature& cap, const Facin
     return plane.add(p, s);
   }
   const Vec2 slope = s.slope();
-  const double most_rise = 2 * disc.radius * slope.norm();
-  if (most_rise > plane.margins().slack && add_leaning(plane, region, s)) return;
+  const double max_rise = 2 * disc.radius * slope.norm();
+  if (max_rise > plane.margins().slack && add_leaning(plane, region, s)) return;
   std::array<Vec2, 8> points;
   // No two corners of a symmetric patch are equally far along this direction.
   const int count = region.spread(side[0] + 0.37 * side[1], points);
-  const double part = part_of_the_way_to_the_deepest(most_rise, plane.margins().clear_rise);
+  const double part = deepest_point_weight(max_rise, plane.margins().clear_rise);
   add_layout(plane, points, count, part, part > 0 ? region.farthest(-slope) : Vec2(0, 0), s);
 }
 
@@ -132,7 +132,7 @@ void disc_on_disc(const Manifold& to, const FacingFeature& first, const FacingFe
   // A leaning disc is seen as an ellipse; the circle within it keeps its points on the body.
   const Circle c1{plane.to_plane(first.middle), first.radius};
   const Circle c2{plane.to_plane(second.middle),
-                  second.radius * plane.least_scale(second.axis, first.axis)};
+                  second.radius * plane.min_scale(second.axis, first.axis)};
   const Vec2 between = c2.centre - c1.centre;
   const double apart = between.norm(), smaller = std::min(c1.radius, c2.radius);
   const Vec2 towards = apart > 0 ? Vec2(between / apart) : Vec2(1, 0);
@@ -148,9 +148,9 @@ void disc_on_disc(const Manifold& to, const FacingFeature& first, const FacingFe
   if (!over.has_begun()) return add_disc(plane, disc, plane.to_plane(first.mark).normalized(), s);
 
   const Vec2 slope = s.slope();
-  const double steepness = slope.norm(), most_rise = 2 * smaller * steepness;
+  const double steepness = slope.norm(), max_rise = 2 * smaller * steepness;
   const Lens lens(c1, c2, apart, towards);
-  if (most_rise > plane.margins().slack && add_leaning(plane, ArcPolygon(lens), s)) return;
+  if (max_rise > plane.margins().slack && add_leaning(plane, ArcPolygon(lens), s)) return;
   std::array<Vec2, 8> points;
   int count = 0;
   for (const Vec2& p : lens.spread()) {
@@ -162,7 +162,7 @@ void disc_on_disc(const Manifold& to, const FacingFeature& first, const FacingFe
       points[count++] = disc.centre + arm;
     }
   }
-  const double part = part_of_the_way_to_the_deepest(most_rise, plane.margins().clear_rise);
+  const double part = deepest_point_weight(max_rise, plane.margins().clear_rise);
   add_layout(plane, points, count, part, part > 0 ? lens.farthest(-slope / steepness) : Vec2(0, 0),
              s);
 }

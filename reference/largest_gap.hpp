@@ -7,15 +7,16 @@
 
 namespace touchstone {
 
-/// An offset whose square would lose its digits is nothing against any body's size (scaled.hpp).
+/// An offset whose square would lose its digits is nothing against any body's size
+/// (`powers_in_range`).
 inline double without_vanishing(double offset) {
   constexpr double vanishing = 1e-100;
   return offset < vanishing && offset > -vanishing ? 0.0 : offset;
 }
 
-/// For `stop_above`: the largest clearance is wanted, and no other is enough.
+/// A `stop_above` for the largest clearance, and no other.
 inline constexpr double no_early_exit = std::numeric_limits<double>::infinity();
-inline constexpr double never = no_early_exit;
+inline constexpr double never = no_early_exit;  // as rim_rim.cpp calls it
 
 /// Rounding moves a clearance, of bodies as they are stored, by less than this part of all lengths
 /// together: each of its terms is rounded by a few units in the last place.
@@ -46,7 +47,7 @@ struct LargestGap {
 /// largest of all. Without a normal the gap is minus infinity.
 struct StageResult {
   double gap = -std::numeric_limits<double>::infinity();
-  double x = 0, y = 0, z = 1;  ///< of the normal; one by one they stay in registers
+  double x = 0, y = 0, z = 1;  ///< the normal's; one by one they stay in registers
   bool is_proven = false;
 
   Vec3 normal() const { return {x, y, z}; }

@@ -33,12 +33,11 @@ constexpr double crossed = 0.1;  // rad; lines that turn by more cross in a poin
 /// their radii, so that both surfaces fall off by the same part of these. Across a, which crosses b
 /// with this cosine, y is that much less.
 struct Roundness {
-  double radii, reach, inverse, share_of_a;
+  double radii, inverse, share_of_a;  ///< `inverse` is that of the reach, where both have ended
   Roundness(double radius_a, double radius_b, double cosine) : radii(radius_a + radius_b) {
-    const double a = radius_a / cosine;
-    reach = a + radius_b;
-    inverse = 1 / reach;
-    share_of_a = a * inverse;
+    const double scale = 1 / (radius_a + radius_b * cosine);
+    inverse = cosine * scale;
+    share_of_a = radius_a * scale;
   }
   /// 1 − √(1 − (y/reach)²), without cancellation.
   double fall(double squared_y) const {
@@ -52,7 +51,10 @@ struct Roundness {
 
 bool segments_crossing(const Manifold& to, const FacingFeature& a, const FacingFeature& b) {
   const Vec3& n = to.contact.normal;
-  const double turn = a.axis.cross(b.axis).dot(n);
+  const Vec3 &u = a.axis, &v = b.axis;
+  const double turn = (u.y() * v.z() - u.z() * v.y()) * n.x() +
+                      (u.z() * v.x() - u.x() * v.z()) * n.y() +
+                      (u.x() * v.y() - u.y() * v.x()) * n.z();
   if (!(std::abs(turn) > crossed)) return false;
   const Vec3 from_a = b.middle - a.middle;
   const double t = from_a.cross(b.axis).dot(n) / turn, s = from_a.cross(a.axis).dot(n) / turn;
@@ -172,8 +174,8 @@ void segment_on_segment(const Manifold& to, const FacingFeature& f, const Facing
   const bool curved = curvature * whole * whole > plane.margins().rounding;
   if (curved) {
     // Where slope + bend (y/R) / √(1 − (y/R)²) = 0.
-    const double y =
-        -std::copysign(round.reach, bend) * slope / std::sqrt(slope * slope + bend * bend);
+    const double y = -std::copysign(slope, bend * slope) /
+                     (round.inverse * std::sqrt(slope * slope + bend * bend));
     const double lowest = std::clamp((y - y0) / y1, range.lo, range.hi);
     if (const double there = clearance(lowest); there <= least) deepest = lowest, least = there;
   }
@@ -182,10 +184,8 @@ void segment_on_segment(const Manifold& to, const FacingFeature& f, const Facing
       std::min(plane.room_above(least), plane.margins().slack * (2 - 2 * std::abs(turn) / crossed));
   // Surfaces that have fallen off further hardly face each other.
   constexpr double facing = 0.75;
-  const double beside = facing * round.reach;
-  if (std::max(std::abs(y0 + y1 * range.lo), std::abs(y0 + y1 * range.hi)) > beside) {
-    keep_within(range, y0, y1, beside);
-  }
+  const double beside = std::max(std::abs(y0 + y1 * range.lo), std::abs(y0 + y1 * range.hi));
+  if (beside * round.inverse > facing) keep_within(range, y0, y1, facing / round.inverse);
   if (!(room > 0) || !(range.lo <= deepest && deepest <= range.hi)) {
     return add_at(deepest, s0 + s1 * deepest);
   }
@@ -202,10 +202,10 @@ void segment_on_segment(const Manifold& to, const FacingFeature& f, const Facing
     return deepest + way * far * (taken > room ? room / taken : 1);
   };
   const double lo = reach(range.lo), hi = reach(range.hi);
-  constexpr double least_part = 0.1;
+  constexpr double min_part = 0.1;
   const double part = (hi - lo) / whole;
-  if (!(part > least_part)) return add_at(deepest, s0 + s1 * deepest);
-  const double fade = std::min(1.0, part / least_part - 1);
+  if (!(part > min_part)) return add_at(deepest, s0 + s1 * deepest);
+  const double fade = std::min(1.0, part / min_part - 1);
   const double t_lo = deepest + fade * (lo - deepest), t_hi = deepest + fade * (hi - deepest);
   add_at(t_lo, s0 + s1 * t_lo);
   add_at(t_hi, s0 + s1 * t_hi);

@@ -43,22 +43,23 @@ void add_points_of_features(Contact& contact, const FacingFeature& a, const Faci
   a_is_first ? disc_on_disc(to, a, b, true) : disc_on_disc(to, b, a, false);
 }
 
-/// Adds a point of the whole depth to a contact whose `deepest` point misses some of it: features
+/// Adds a point of the whole depth to a contact whose points are no deeper than `deepest`: features
 /// that lean are carried to each other with an error of the second order, which may part them. If
 /// it is their lean, one body has one deepest point; else rounding, in whose frame the deepest
 /// point that there is will do.
 template <class Body>
 void add_deepest(Contact& contact, const PosedCylinder& a, const Body& b, const Vec3& origin,
-                 const Margins& margins, const ContactPoint& deepest) {
+                 const Margins& margins, double deepest) {
   const double depth = -contact.signed_distance;
   const SupportPoint on_a = support_point(a, -contact.normal);
   const SupportPoint on_b = support_point(b, contact.normal);
-  Vec3 position = deepest.position;
-  if (contact.points().empty() ||
-      std::max(on_a.sharpness, on_b.sharpness) > depth - deepest.depth) {
-    const Vec3 half = depth / 2 * contact.normal;
-    position = origin + (on_a.sharpness >= on_b.sharpness ? Vec3(on_a.position + half)
-                                                          : Vec3(on_b.position - half));
+  const Vec3 half = depth / 2 * contact.normal;
+  Vec3 position = origin + (on_a.sharpness >= on_b.sharpness ? Vec3(on_a.position + half)
+                                                             : Vec3(on_b.position - half));
+  if (!(std::max(on_a.sharpness, on_b.sharpness) > depth - deepest)) {
+    for (const ContactPoint& p : contact.points()) {
+      if (p.depth == deepest) position = p.position;
+    }
   }
   const Contact before = contact;
   contact.clear_points();
@@ -75,13 +76,10 @@ void add_deepest(Contact& contact, const PosedCylinder& a, const Body& b, const 
 template <class Body>
 void hold_depth(Contact& contact, const PosedCylinder& a, const Body& b, const Vec3& origin,
                 const Margins& margins) {
-  constexpr double none = -std::numeric_limits<double>::infinity();
-  ContactPoint deepest{Vec3::Zero(), none};
-  for (const ContactPoint& p : contact.points()) {
-    if (p.depth > deepest.depth) deepest = p;
-  }
-  if (!(-contact.signed_distance - deepest.depth <= margins.unseen_depth())) {
-    add_deepest(contact, a, b, origin, margins, deepest);
+  double depth = -std::numeric_limits<double>::infinity();
+  for (const ContactPoint& p : contact.points()) depth = std::max(depth, p.depth);
+  if (!(-contact.signed_distance - depth <= margins.unseen_depth())) {
+    add_deepest(contact, a, b, origin, margins, depth);
   }
 }
 

@@ -12,17 +12,18 @@
 
 namespace touchstone {
 
-// How the four questions of every pair are answered. All that does not depend on the pair is here:
-// the frame, the order and the range of the bodies' lengths, ties, the bound of rounding. What does
-// is the pair's `Routine`, a struct of three static functions of two posed bodies:
+// How the four questions of every pair are answered: all that does not depend on the pair. That is
+// the bodies' frame, their order, lengths out of range, ties and the bound of rounding. What does
+// depend on it is the pair's `Routine`, which is made from two posed bodies and does not change:
 //
-//   SignedDistance find(a, b, stop_above)   the largest gap with its normal, or else the first gap
-//                                           above `stop_above` that it meets
-//   CertifiedDistance find_certified(a, b)  the same without short cuts; the bound says by how much
-//                                           the search may have missed the largest gap
-//   void add_points(contact, a, b, origin, contact_threshold)
-//                                           to a contact whose normal and signed distance are set;
-//                                           `origin` is where the bodies' frame lies in the world
+//   SignedDistance find(double stop_above) const
+//       the largest gap and its normal, or the first gap above `stop_above` that it meets
+//   CertifiedDistance find_certified() const
+//       the same without short cuts; the bound is by how much the search may have missed the
+//       largest gap, but for rounding
+//   void add_points(Contact&, const Vec3& origin, double contact_threshold) const
+//       to a contact whose normal and signed distance are set; `origin` is where the bodies' frame
+//       lies in the world
 
 /// Both bodies in one frame, about B's centre.
 template <class Other>
@@ -149,6 +150,7 @@ class ScaledBodies {
   Pose pose_a_, pose_b_;
 };
 
+/// Out of line, so that what hardly ever happens costs the others nothing.
 template <class Other, class Question>
 [[gnu::noinline, gnu::cold]] auto answer_scaled(double length, Question question, const Cylinder& a,
                                                 const Pose& pose_a, const Other& b,
@@ -209,7 +211,7 @@ inline SignedDistance nearest_tie(const PosedCylinder&, const PosedPlane&,
   return found;
 }
 
-// The four questions. Each is asked again of scaled bodies where the given ones are out of range.
+// The four questions. Where the bodies are out of range, each is asked again of scaled ones.
 
 template <class Routine, class Other>
 SignedDistance find_signed_distance(const Cylinder& a, const Pose& pose_a, const Other& b,
