@@ -1,10 +1,10 @@
 // Our own routines (reference/), called through their public headers.
 //
 // Calls        touchstone::contact, one overload for each pair.
-// Conventions  those of candidate.h: normal from B to A, points halfway between the surfaces.
-// Threshold    handed on; a distance beyond it is answered with none, and then signed_distance is
+// Conventions  Those of candidate.h: normal from B to A, points halfway between the surfaces.
+// Threshold    Passed on; a distance beyond it is answered with none, and then signed_distance is
 //              the clearance along the first direction that proves it.
-// Hint         handed on; it decides between normals whose gaps are within the threshold.
+// Hint         Passed on; it decides between normals whose gaps are within the threshold.
 #include <optional>
 #include <type_traits>
 #include <utility>

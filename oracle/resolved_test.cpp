@@ -27,7 +27,7 @@ TEST(Resolved, NoPoseClassLosesADigit) {
   }
 }
 
-// Few bits, so that rounding is no matter of the last digit.
+// Few bits, so that rounding errors are large.
 TEST(Resolved, TheErrorBoundsWhatRoundingChanges) {
   for (const Pair pair : {Pair::capsule, Pair::cylinder, Pair::box}) {
     for (const std::string& name : pose_classes(pair)) {

@@ -1,4 +1,5 @@
-// Every misdeed of testing/sabotage.cpp costs the one configuration that it was done on.
+// Every kind of sabotage in testing/sabotage.cpp affects only the configuration on which it
+// happens.
 #include "candidates/host/candidate_process.hpp"
 
 #include <chrono>
@@ -166,22 +167,22 @@ TEST(CandidateProcess, LeavesNoFileOpen) {
 }
 
 TEST(CandidateProcess, TimesTheQueriesAndNothingElse) {
-  // An answer made by a few stores: what a round trip between processes costs, some microseconds,
-  // would be seen.
+  // The answer takes a few stores, so that the microseconds of a round trip between processes would
+  // show.
   CandidateProcess process(sabotage("misdeed:16"), 0);
   const std::vector<Configuration> many(200, standing);
   ASSERT_TRUE(process.prepare_timing(many));
-  double least = 1e9, fewest = 1e9;
+  double min_nanoseconds = 1e9, min_instructions = 1e9;
   for (int i = 0; i < 9; ++i) {
     const QueryCost cost = process.cost_per_query().value();
-    least = std::min(least, cost.nanoseconds);
-    // Where they cannot be counted it says so; where they can, a query is some dozens.
-    fewest = std::min(fewest, cost.instructions.value_or(20));
+    min_nanoseconds = std::min(min_nanoseconds, cost.nanoseconds);
+    // Absent where instructions cannot be counted; otherwise a few dozen per query.
+    min_instructions = std::min(min_instructions, cost.instructions.value_or(20));
   }
-  EXPECT_GT(fewest, 5);
-  EXPECT_LT(fewest, 500);
-  EXPECT_GT(least, 0);
-  EXPECT_LT(least, 200);
+  EXPECT_GT(min_instructions, 5);
+  EXPECT_LT(min_instructions, 500);
+  EXPECT_GT(min_nanoseconds, 0);
+  EXPECT_LT(min_nanoseconds, 200);
 }
 
 TEST(CandidateProcess, ACrashWhileTimingIsNoTime) {

@@ -101,7 +101,7 @@ struct Reply {
 /// A ts_candidate without pointers. Longer texts are truncated.
 struct Description {
   char name[64], version[64], settings[1024], models[512], meaning[256];
-  double least, most, usual;
+  double min, max, usual;
   bool has_parameter, whole, bare;
   bool supports[5];
 };

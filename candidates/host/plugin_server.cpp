@@ -77,8 +77,8 @@ Description describe(const ts_candidate& c) {
   if (c.parameter) {
     d.has_parameter = true;
     copy(c.parameter->meaning, d.meaning);
-    d.least = c.parameter->least;
-    d.most = c.parameter->most;
+    d.min = c.parameter->least;
+    d.max = c.parameter->most;
     d.usual = c.parameter->usual;
     d.whole = c.parameter->whole != 0;
     d.bare = c.parameter->bare != 0;

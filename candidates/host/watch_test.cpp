@@ -11,7 +11,7 @@
 namespace touchstone {
 namespace {
 
-/// A process that does this until it is ended.
+/// A process that runs a function until it is ended.
 class Child {
  public:
   explicit Child(const std::function<void()>& work) : pid_(fork()) {
@@ -37,7 +37,7 @@ TEST(Watch, SeesAProcessWait) {
   usleep(a_while);  // until it does
   const Watch watch(child.pid());
   usleep(a_while);
-  const Watch::Spent spent = watch.spent();
+  const Watch::TimeUse spent = watch.spent();
   if (!spent.waiting) GTEST_SKIP() << "this kernel does not tell";
   EXPECT_GE(*spent.waiting, 0.9e-6 * a_while);
   EXPECT_LE(spent.computing, 0.1e-6 * a_while);
@@ -58,7 +58,7 @@ TEST(Watch, DoesNotTakeAProcessThatGetsNoProcessorForOneThatWaits) {
   usleep(a_while);
   const Watch watch(one.pid());
   usleep(a_while);
-  const Watch::Spent spent = watch.spent();
+  const Watch::TimeUse spent = watch.spent();
   EXPECT_LT(spent.computing, 0.7 * spent.by_the_clock);
   EXPECT_LT(spent.waiting.value_or(0), 0.05 * spent.by_the_clock);
 }

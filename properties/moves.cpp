@@ -1,4 +1,4 @@
-#include "properties/laws/moves.hpp"
+#include "properties/moves.hpp"
 
 namespace touchstone {
 namespace {
