@@ -9,13 +9,13 @@ namespace touchstone::oracle {
 namespace {
 
 /// An integer as mantissa times a power of two.
-struct Scaled {
+struct ScaledInterval {
   Interval mantissa;  // its magnitude within [1/2, 1], or zero
   long exponent;
 };
 
-Scaled scaled(const Integer& value) {
-  Scaled result{0, 0};
+ScaledInterval scaled(const Integer& value) {
+  ScaledInterval result{0, 0};
   const double towards_zero = mpz_get_d_2exp(&result.exponent, value.get_mpz_t());
   if (towards_zero == 0) return result;
   const double away = std::nextafter(towards_zero, towards_zero > 0 ? 1 : -1);
@@ -25,8 +25,8 @@ Scaled scaled(const Integer& value) {
   return result;
 }
 
-Interval ratio(const Integer& numerator, const Scaled& denominator) {
-  const Scaled top = scaled(numerator);
+Interval ratio(const Integer& numerator, const ScaledInterval& denominator) {
+  const ScaledInterval top = scaled(numerator);
   const Interval mantissas = top.mantissa / denominator.mantissa;
   const long exponent = top.exponent - denominator.exponent;
   // Within this limit a power of two neither rounds nor overflows.
@@ -42,11 +42,11 @@ Interval ratio(const Integer& numerator, const Scaled& denominator) {
   return mantissas * Interval(std::ldexp(1, static_cast<int>(exponent)));
 }
 
-IntervalVector ratio(const IntegerVector& v, const Scaled& denominator) {
+IntervalVector ratio(const IntegerVector& v, const ScaledInterval& denominator) {
   return {ratio(v.x, denominator), ratio(v.y, denominator), ratio(v.z, denominator)};
 }
 
-IntervalDifference::IntervalFrame unit(const Frame& frame, const Scaled& norm) {
+IntervalDifference::IntervalFrame unit(const Frame& frame, const ScaledInterval& norm) {
   return {ratio(frame.axis, norm), ratio(frame.e, norm), ratio(frame.f, norm)};
 }
 
@@ -55,8 +55,8 @@ IntervalDifference::IntervalFrame unit(const Frame& frame, const Scaled& norm) {
 IntervalDifference::IntervalDifference(const Difference& difference) : scale(difference.inflation) {
   for (const auto& s : difference.segments) scale += s.half_length;
   for (const auto& disc : difference.discs) scale += disc.radius;
-  const Scaled norm = scaled(difference.norm);
-  const Scaled length = scaled(scale);
+  const ScaledInterval norm = scaled(difference.norm);
+  const ScaledInterval length = scaled(scale);
 
   d = ratio(difference.d, scaled(scale * difference.norm));
   for (const auto& s : difference.segments) {

@@ -87,7 +87,7 @@ std::vector<RealRoot> real_roots(const Polynomial& polynomial, const mpq_class& 
 /// Every gap has the form E = a − √b − √c with b, c >= 0. E is zero only where its norm N is, the
 /// product of E over all signs of the two roots:
 ///
-///   N = (a² − b − c)² − 4bc,   or a² − b where c is zero throughout;
+///   N = (a² − b − c)² − 4bc,   or a² − b if c is identically zero.
 ///
 /// Conversely E is zero where N is and no other factor is.
 

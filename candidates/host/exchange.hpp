@@ -80,7 +80,7 @@ struct Command {
   std::uint64_t memory;  ///< growth in bytes that a session is allowed
 };
 
-/// The reply. Everything else on the socket is noise, as from a routine that writes to foreign
+/// A message to the harness. Everything else on the socket is noise, as from a routine that writes to foreign
 /// descriptors.
 struct Reply {
   enum Kind : std::uint32_t {

@@ -39,14 +39,14 @@ constexpr Limits limits{0.05, 256};
 constexpr int culprit = 5, number = 12;
 
 /// The outcome of the configuration on which the deed happens.
-struct Expected {
+struct ExpectedOutcome {
   const char* deed;
   std::vector<ts_status> status;
   std::string reason = "";
 };
 
 /// A short limit ends waiting early.
-Limits limits_of(const Expected& expected) {
+Limits limits_of(const ExpectedOutcome& expected) {
   return expected.reason == "waited" ? Limits{0.02, 256} : limits;
 }
 
@@ -56,7 +56,7 @@ const std::vector<ts_status> answered = {TS_CONTACT}, crashed = {TS_CRASHED},
 const std::vector<ts_status> answered_or_crashed = {TS_CONTACT, TS_CRASHED};
 const std::vector<ts_status> whatever = {TS_CONTACT, TS_CRASHED, TS_TIMED_OUT};
 
-const std::vector<Expected> all_deeds = {
+const std::vector<ExpectedOutcome> all_deeds = {
     {"nothing", answered},
     {"segmentation fault", crashed, "Segmentation fault"},
     {"division", crashed, "Floating point exception"},
@@ -233,10 +233,10 @@ bool namespaces_are_given() {
   return status == 0;
 }
 
-class Hostile : public testing::TestWithParam<Expected> {};
+class Hostile : public testing::TestWithParam<ExpectedOutcome> {};
 
 TEST_P(Hostile, CostsItsOwnConfigurationAlone) {
-  const Expected& expected = GetParam();
+  const ExpectedOutcome& expected = GetParam();
   prctl(PR_SET_CHILD_SUBREAPER, 1);  // whatever is left behind comes here
   const auto before = children();
   {
@@ -257,17 +257,17 @@ TEST_P(Hostile, CostsItsOwnConfigurationAlone) {
   expect_children(before);
 }
 
-INSTANTIATE_TEST_SUITE_P(Deeds, Hostile, testing::ValuesIn(all_deeds), deed_name<Expected>);
+INSTANTIATE_TEST_SUITE_P(Deeds, Hostile, testing::ValuesIn(all_deeds), deed_name<ExpectedOutcome>);
 
 TEST(HostileDeeds, AreAllTried) {
   std::set<std::string> tried, known;
-  for (const Expected& e : all_deeds) tried.insert(e.deed);
+  for (const ExpectedOutcome& e : all_deeds) tried.insert(e.deed);
   for (const auto& [name, i] : deed_numbers()) known.insert(name);
   EXPECT_EQ(tried, known);
   EXPECT_GE(known.size(), 40u);
 }
 
-void PrintTo(const Expected& expected, std::ostream* out) { *out << expected.deed; }
+void PrintTo(const ExpectedOutcome& expected, std::ostream* out) { *out << expected.deed; }
 
 struct Loading {
   const char* deed;
