@@ -1,5 +1,3 @@
-#include "reports/make_report.hpp"
-
 #include <algorithm>
 #include <fmt/format.h>
 #include <memory>
@@ -11,6 +9,7 @@
 #include "properties/files/write_file.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/figures/figures.hpp"
+#include "reports/make_report.hpp"
 #include "reports/stability/stability.hpp"
 #include "reports/terminal_table.hpp"
 #include "reports/worst.hpp"

@@ -7,8 +7,6 @@
 #include <set>
 #include <string>
 
-#include "reports/statistics.hpp"
-
 namespace touchstone {
 namespace {
 
@@ -292,39 +290,6 @@ TEST(Coverage, IsUndefinedWithoutARightContact) {
   EXPECT_FALSE(scored(standing, none()).coverage);
   EXPECT_FALSE(scored(standing, contact(-1e-3, Vec3(1, 0, 0))).coverage);
   EXPECT_FALSE(scored(lifted(0.1), contact(-1e-3, up)).coverage);
-}
-
-TEST(Statistics, SharesCountFromBelow) {
-  std::vector<double> values;
-  for (int i = 0; i <= 200; ++i) values.push_back(i / 200.0);
-  const Shares s = *shares(values);
-  EXPECT_NEAR(s.mean, 0.5, 1e-12);
-  EXPECT_NEAR(s.median, 0.5, 1e-12);
-  EXPECT_NEAR(s.p1, 0.01, 1e-12);
-  EXPECT_EQ(s.min, 0);
-  EXPECT_FALSE(shares({}));
-}
-
-TEST(Statistics, QuantilesAreNearestRank) {
-  std::vector<double> values;
-  for (int i = 200; i >= 1; --i) values.push_back(i);
-  const Quantiles q = *quantiles(values);
-  EXPECT_EQ(q.median, 100);
-  EXPECT_EQ(q.p99, 198);
-  EXPECT_EQ(q.max, 200);
-  EXPECT_EQ(quantiles({7})->p99, 7);
-  EXPECT_FALSE(quantiles({}));
-}
-
-TEST(Statistics, CountsOutcomesAndPoints) {
-  const Statistics s = statistics({scored(standing, contact(-1e-3, up)),
-                                   scored(standing, contact(-2e-3, up)), scored(standing, none())});
-  EXPECT_EQ(s.count, 3u);
-  EXPECT_EQ(s.of(Outcome::agree), 1u);
-  EXPECT_EQ(s.of(Outcome::overdeep), 1u);
-  EXPECT_EQ(s.of(Outcome::missed), 1u);
-  EXPECT_EQ(s.points.at(1), 2u);
-  EXPECT_NEAR(s.depth_error->max, 2e-3, 1e-12);
 }
 
 TEST(PointDistance, OfEveryShape) {
