@@ -1,5 +1,6 @@
-// Every adapter calls its engine fairly: conventions on contacts that no engine gets wrong, and on
-// generic shallow poses the depth that the engine can give in the way that it is called.
+// Every adapter calls its engine fairly. Its conventions are tested on contacts that every engine
+// gets right, its depth on generic shallow poses, to the accuracy that the engine can reach when
+// called so.
 #include <algorithm>
 #include <cmath>
 #include <gmock/gmock.h>
@@ -12,8 +13,8 @@
 namespace touchstone {
 namespace {
 
-/// Accuracy on plain contacts, metres and sine of the angle: of MPR on crossed capsules, unless an
-/// engine's tolerance allows no better.
+/// Accuracy on plain contacts, in metres and as sine of the angle: that of MPR on crossed capsules,
+/// unless an engine's tolerance is coarser.
 double everyday(const Candidate& c) {
   // On a surface of radius r, a search that stops within e of the depth may be √(2e/r) off in the
   // direction: for libccd's 1e-4 metres and our 0.5, 2 in 100; EPA's polytope needs twice that.
@@ -24,7 +25,7 @@ double everyday(const Candidate& c) {
   return 2e-3;
 }
 
-/// FCL's own EPA gives up on two crossed cylinders and answers more than twice their depth.
+/// FCL's own EPA fails on two crossed cylinders and answers more than twice their depth.
 bool is_beyond(const Candidate& c, const PlainContact& contact) {
   return c.name == "fcl-indep" && contact.name == std::string("crossed cylinder");
 }
@@ -33,7 +34,7 @@ bool supports(const Candidate& c, const Configuration& k) {
   return c.supports[to_ts_shape(k.b).kind];
 }
 
-/// All candidates that take the shapes as they are, on all contacts that they support.
+/// All candidates without a simplified model, on all contacts that they support.
 template <class Check>
 void for_engines(const Check& check) {
   for (const Candidate* candidate : all_candidates()) {
@@ -60,7 +61,7 @@ TEST(Adapters, AgreeOnPlainContactsInDepthAndNormal) {
 }
 
 TEST(Adapters, TurnWithTheWorld) {
-  // The same contacts seen from a turned and shifted frame: every convention is exercised.
+  // Repeats the contacts in a rotated and shifted frame, to test every convention.
   const Quaternion turn = Quaternion(0.5, -0.1, 0.7, 0.3).normalized();
   const Vec3 shift(0.3, -0.2, 0.5);
   const auto moved = [&](const Pose& p) {
@@ -76,8 +77,8 @@ TEST(Adapters, TurnWithTheWorld) {
 }
 
 TEST(Adapters, PutPointsNearTheContact) {
-  // Whatever a position means to an engine, it lies within the overlap of 0.05 and on the patch;
-  // libccd's EPA alone gives none (libccd's issue 73).
+  // Whatever convention an engine has for positions, they lie within the overlap of 0.05 and on the
+  // patch; only libccd's EPA gives none (libccd's issue 73).
   for_engines([](CandidateProcess& engine, const PlainContact& c) {
     if (engine.candidate().family == "libccd-gjk") return;
     const Answer a = engine.answer(c.configuration);
@@ -137,10 +138,9 @@ TEST(Adapters, AnswerDoesNotDependOnWhatWasQueriedBefore) {
   }
 }
 
-/// How near an engine comes to the truth on generic shallow poses (of the pose class
-/// general-shallow: overlaps from 1e-6 to 5% of the smaller size), relative to that size, in 19 of
-/// 20 poses; and the share of overlaps deeper than 0.2% that it may miss. Reasons are those
-/// of the adapters' headers.
+/// Depth error that an engine must not exceed in 19 of 20 generic shallow poses (pose class
+/// general-shallow: overlaps from 1e-6 to 5% of the smaller size), relative to that size; and the
+/// share of overlaps deeper than 0.2% that it may miss. The adapters' headers give the reasons.
 struct Fairness {
   const char* candidate;
   double tolerance;

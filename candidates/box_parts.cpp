@@ -1,14 +1,13 @@
-// The box as spheres or capsules, against which the cylinder is itself: the third simplification of
-// the thesis that Touchstone grew out of (its chapter 3.6.2).
+// The box replaced by spheres or capsules, against an unchanged cylinder: the third simplification
+// of the thesis from which Touchstone grew (its chapter 3.6.2).
 //
-// Models       Radius: the box's smallest half extent. box-capsules:N is N capsules along the
-// longest
-//              axis, side by side along the middle one; box-spheres:N is N spheres along the
-//              longest axis in as many rows along the middle one as have no wider gaps. All lie
-//              inside the box and reach its faces; its edges and corners are lost.
+// Models       The radius is the box's smallest half extent. box-capsules:N is N capsules along
+//              the longest axis, side by side along the middle one; box-spheres:N is N spheres
+//              along the longest axis, in enough rows along the middle one that gaps there are no
+//              wider. All lie inside the box and reach its faces; its edges and corners are lost.
 // Calls        Touchstone's own cylinder–sphere and cylinder–capsule routines, once for each part.
 // Conventions  Those of candidate.h; up to 16 points, the deepest.
-// Threshold    Handed on.
+// Threshold    Passed on.
 #include <algorithm>
 #include <array>
 #include <cmath>

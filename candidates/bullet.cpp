@@ -10,17 +10,17 @@
 //              rounds the edges; for capsule and sphere the radius is the margin.
 //              bullet-margin-0: setMargin(0) on cylinder and box, for sharp edges.
 //              bullet-hull:N: btConvexHullShape of the prism's corners with margin 0; Bullet's own
-//              0.04 would be put around the hull.
+//              0.04 would enlarge the hull.
 // Conventions  m_normalWorldOnB points from B to A of the manifold; its order is checked. A point
 //              is midway between Bullet's positions on A and on B.
-// Threshold    Bullet also reports points up to its contact breaking threshold apart (0.02 at
-//              most); those beyond ours are left out.
+// Threshold    Bullet also reports points up to its contact breaking threshold apart (at most
+//              0.02); those beyond ours are dropped.
 // History      The manifold is emptied before every query: one query gives one point for most
-//              pairs. bullet-persistent is what a world has after some steps: the pose is queried
-//              four times rocked by 1 mrad about the world's x and y axes, then as it is, and the
-//              manifold's points, up to four, are refreshed as Bullet does; its time is that of all
-//              five queries.
-// Precision    Single precision is given the poses rounded to float, as an engine would hold them.
+//              pairs. bullet-persistent has the manifold of a world after some steps: the pose is
+//              queried four times, rocked by 1 mrad about the world's x and y axes, then as it is;
+//              Bullet refreshes the manifold's points, up to four. Its time is that of all five
+//              queries.
+// Precision    In single precision the poses are rounded to float, as an engine holds them.
 #include <BulletCollision/BroadphaseCollision/btCollisionAlgorithm.h>
 #include <BulletCollision/CollisionDispatch/btCollisionDispatcher.h>
 #include <BulletCollision/CollisionDispatch/btCollisionObject.h>

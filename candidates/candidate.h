@@ -2,8 +2,8 @@
  * candidate, in C so that any engine can implement it.
  *
  * A plug-in is a shared object that exports `touchstone_plugin`. It is loaded with dlopen in a
- * process of its own, with local symbols, so that it may bring any version of any library; it may
- * crash, hang or throw, which is counted against the configuration that it was asked for.
+ * process of its own, with local symbols, so that it may use any version of any library. It may
+ * crash, hang or throw: that counts as its answer to the current configuration.
  *
  * A candidate prepares two shapes once and is then asked for many poses. Body A is the cylinder.
  * Lengths are in metres; poses map body frame to world frame; normals are unit vectors from B to A
@@ -18,7 +18,7 @@
 extern "C" {
 #endif
 
-/* Of this header. A plug-in made for another version is refused. */
+/* The version of this header. A plug-in made for another version is rejected. */
 #define TOUCHSTONE_INTERFACE_VERSION 3
 #define TOUCHSTONE_MAX_POINTS 16
 #define TOUCHSTONE_EXPORT __attribute__((visibility("default")))
@@ -43,7 +43,7 @@ typedef struct ts_pose {
 } ts_pose;
 
 typedef struct ts_point {
-  double position[3]; /* where the candidate puts it; Touchstone's own are halfway */
+  double position[3]; /* by the candidate's convention; Touchstone's are halfway */
   double normal[3];   /* unit, from B to A, of this point */
   double depth;       /* positive inside, negative apart */
 } ts_point;
@@ -52,7 +52,7 @@ typedef enum ts_status {
   TS_CONTACT,     /* normal, signed_distance and points are set */
   TS_NONE,        /* the bodies are further apart than the threshold */
   TS_UNSUPPORTED, /* the candidate has no routine for this pair */
-  TS_FAILED,      /* the candidate itself reports that it could not answer */
+  TS_FAILED,      /* the candidate reports that it could not answer */
   TS_CRASHED,     /* set by Touchstone alone: the candidate's process ended */
   TS_TIMED_OUT    /* set by Touchstone alone: the candidate was ended for taking too long */
 } ts_status;
@@ -69,12 +69,12 @@ typedef struct ts_answer {
 typedef struct ts_parameter {
   const char* meaning; /* "number of sides" */
   double least, most;  /* inclusive */
-  double usual;        /* of the member that a default report shows */
-  int whole;           /* non-zero: only whole numbers */
-  int bare;            /* non-zero: the usual member is called by the family's name alone */
+  double usual;        /* value of the member that a default report shows */
+  int whole;           /* non-zero: whole numbers only */
+  int bare;            /* non-zero: the usual member has the family's name alone */
 } ts_parameter;
 
-/* A pair of shapes made ready by the candidate; only the candidate looks inside. */
+/* A prepared pair of shapes, opaque to Touchstone. */
 typedef struct ts_prepared ts_prepared;
 
 typedef struct ts_candidate {
@@ -82,31 +82,31 @@ typedef struct ts_candidate {
   const char* version;  /* of the engine: "3.24" */
   const char* settings; /* how it is called: precision, margin, algorithm, conventions */
 
-  /* What stands for the shapes in a simplified model ("capsules for cylinders"); NULL when the
-   * shapes are taken as they are. */
+  /* What replaces the shapes in a simplified model ("capsules for cylinders"); NULL if the shapes
+   * are used as they are. */
   const char* models;
 
   const ts_parameter* parameter; /* NULL: takes none */
 
-  /* Non-zero when the candidate has a routine for a cylinder against this kind of shape. */
+  /* Non-zero if the candidate has a routine for a cylinder against this kind of shape. */
   int (*supports)(ts_shape_kind other);
 
-  /* Makes both shapes ready. `threshold` >= 0: report contacts up to this distance apart.
-   * `parameter` is zero without one. Returns NULL when the pair is not supported. */
+  /* Prepares both shapes. Contacts up to `threshold` >= 0 apart are to be reported. `parameter` is
+   * zero for a candidate without one. Returns NULL if the pair is not supported. */
   ts_prepared* (*prepare)(const ts_shape* a, const ts_shape* b, double threshold, double parameter);
 
   /* One narrow-phase query; only this is timed. `previous_normal` is a hint: the normal of these
-   * bodies' contact in the frame before, unit, world frame, from B to A, or NULL when there was
-   * none. It may decide between normals that are equally good to within the threshold and nothing
-   * else; a routine without warm start ignores it. The answer depends on nothing else that was
-   * queried before. `answer` comes uncleared: set its status, and for TS_CONTACT everything. */
+   * bodies' contact in the previous frame (unit, world frame, from B to A), or NULL if there was no
+   * contact. It may only decide between normals whose gaps are equal to within the threshold; a
+   * routine without warm start ignores it. The answer must not depend on earlier queries otherwise.
+   * `answer` is not cleared: set its status, and for TS_CONTACT everything. */
   void (*query)(ts_prepared* prepared, const ts_pose* a, const ts_pose* b,
                 const double* previous_normal, ts_answer* answer);
 
   void (*release)(ts_prepared* prepared);
 
-  /* Of a simplified model: the signed distance of what it models, exact but for rounding, so that
-   * the report can tell the model's error from the solver's. NULL, or a NaN: not known. */
+  /* For a simplified model: the signed distance of the model, exact up to rounding, so that the
+   * report can separate the model's error from the solver's. NULL, or a NaN: unknown. */
   double (*model_distance)(ts_prepared* prepared, const ts_pose* a, const ts_pose* b);
 } ts_candidate;
 
@@ -116,7 +116,7 @@ typedef struct ts_plugin {
   const ts_candidate* candidates; /* `count` of them, in report order */
 } ts_plugin;
 
-/* The one symbol that a plug-in exports. What it returns stays valid. */
+/* The only symbol that a plug-in exports. The result stays valid. */
 TOUCHSTONE_EXPORT const ts_plugin* touchstone_plugin(void);
 
 #ifdef __cplusplus

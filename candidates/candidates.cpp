@@ -122,12 +122,12 @@ class Registry {
       throw InvalidInput("--candidates", '"' + std::string(name) + '"',
                          "must be \"" + family.family + "\", which takes no number");
     }
-    if (!value || !(*value >= p->least && *value <= p->most) ||
+    if (!value || !(*value >= p->min && *value <= p->max) ||
         (p->whole && *value != std::floor(*value))) {
       throw InvalidInput("--candidates", '"' + std::string(name) + '"',
                          "must be \"" + family.family + ":\" and the " + p->meaning + ", " +
                              (p->whole ? "a whole number" : "a number") + " from " +
-                             number(p->least) + " to " + number(p->most));
+                             number(p->min) + " to " + number(p->max));
     }
     const Candidate c = member(family, *value);
     for (const Candidate& k : known_) {

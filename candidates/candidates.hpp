@@ -17,7 +17,7 @@ namespace touchstone {
 struct Candidate {
   struct Parameter {
     std::string meaning;
-    double least, most, usual;
+    double min, max, usual;
     bool whole, bare;
   };
 

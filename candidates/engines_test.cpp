@@ -1,5 +1,5 @@
-// What each engine is known for, from its own issue tracker or its maintainers' words elsewhere;
-// docs/engines.md tells the same with sources. A new version that changes it should be noticed.
+// Known defects of each engine, from its own issue tracker or statements of its maintainers;
+// docs/engines.md gives the sources. The tests detect a new version that changes them.
 #include <cmath>
 #include <gtest/gtest.h>
 
@@ -40,7 +40,7 @@ TEST(Bullet, RoundsSharpEdges) {  // godot-jolt #516
 }
 
 TEST(Bullet, TakesACapsulesRadiusForItsMargin) {  // bullet3 #928
-  // Nothing of a capsule is rounded off: its round end on a face is found to the last micrometre.
+  // A capsule has no margin: its round end on a face is found to a micrometre.
   const Configuration c{Cylinder(0.5, 1), Pose({0, 0, 1.8 - 1e-6}, upright), Capsule(0.3, 0.5),
                         Pose()};
   EXPECT_NEAR(answer("bullet", c).signed_distance, -1e-6, 1e-9);
@@ -56,7 +56,8 @@ TEST(Ode, GivesALyingCylinderTwoPointsAndACapsuleOne) {  // gz-physics #692
   EXPECT_EQ(points("ode", standing_on_plane), 4);
   EXPECT_EQ(points("ode", lying_on_plane), 2);
   EXPECT_EQ(points("ode", lying_on_box), 2);
-  // A capsule along a cylinder touches in a line; the report is that one point does not hold it.
+  // A capsule along a cylinder touches it in a line, which the reported single point does not
+  // support.
   const Configuration c{Cylinder(0.5, 0.5), Pose({0, 0, 0.699}, along_x), Capsule(0.2, 0.3),
                         Pose({0, 0, 0}, along_x)};
   EXPECT_EQ(answer("ode", c).point_count, 1);
@@ -82,12 +83,12 @@ TEST(Ode, HasNoNormalForASphereOnTheAxis) {  // found here
 
 // FCL
 
-/// The numbers of fcl #375: a disc that sits on a plate exactly.
+/// The configuration of fcl #375: a disc that stands exactly on a plate.
 const Configuration disc_on_plate{Cylinder(0.08, 0.001), Pose({0, 0, 0.0085}, upright),
                                   Box({0.245, 0.315, 0.0075}),
                                   Pose({-0.25, 0, 0}, Quaternion(1, 0, 0, 1))};
 
-/// The numbers of drake #21234: a cylinder over a plate, apart by less than a nanometre.
+/// The configuration of drake #21234: a cylinder less than a nanometre above a plate.
 const Configuration barely_apart{
     Cylinder(0.041, 0.085),
     Pose({0.20238033346825459735, 0.027845683594011010065, 0.3114233939246693339},
@@ -169,7 +170,7 @@ TEST(Mujoco, HoldsACylinderOnATableByOnePoint) {  // mujoco #420
   const Answer aside = answer("mujoco", {can, Pose({0, 0.2, 0.359}, upright), table, Pose()});
   ASSERT_EQ(aside.point_count, 1);
   EXPECT_GT(std::hypot(aside.points[0].position[0], aside.points[0].position[1] - 0.2), 0.01);
-  // In the very centre it lands upright: the point is below its axis.
+  // In the centre it lands upright: the point is below its axis.
   const Answer centre = answer("mujoco", {can, Pose({0, 0, 0.359}, upright), table, Pose()});
   ASSERT_EQ(centre.point_count, 1);
   EXPECT_LT(std::hypot(centre.points[0].position[0], centre.points[0].position[1]), 0.001);
@@ -191,8 +192,8 @@ TEST(Mujoco, StandsAlignedOnAPlaneWithoutNaN) {  // mujoco #2657, of MJX; MuJoCo
 }
 
 TEST(Mujoco, TurnsANormalRoundInADeepContact) {
-  // The pose of fcl #324, in which A comes free along +x after 0.55: MuJoCo has the depth and the
-  // opposite direction.
+  // The pose of fcl #324, in which A comes free along +x after 0.55: MuJoCo gives this depth with
+  // the opposite direction.
   const Configuration c{Cylinder(0.25, 0.125), Pose({0.2, 0, 0}, upright), Box({0.5, 0.5, 0.5}),
                         Pose()};
   const Answer a = answer("mujoco", c);

@@ -1,23 +1,24 @@
 // FCL 0.7.0 in double precision, on libccd 2.1.
 //
-// Calls        fcl          fcl::collide as its request is made by default (GST_LIBCCD: the MPR of
-//                           libccd where FCL has no routine of its own), asked for 16 contacts.
-//              fcl-indep    the same with GST_INDEP, FCL's own GJK and EPA.
+// Calls        fcl          fcl::collide with the default request (GST_LIBCCD: libccd's MPR where
+// FCL
+//                           has no routine of its own), asked for 16 contacts.
+//              fcl-indep    fcl::collide with GST_INDEP, FCL's own GJK and EPA.
 //              fcl-distance fcl::distance with enable_signed_distance (GST_LIBCCD: FCL's GJK
-//                           and EPA over libccd), tolerances as they are by default.
+//                           and EPA over libccd), with default tolerances.
 // Routes       Half-space and sphere are FCL's own closed forms in collide.
 // Shapes       Cylinder and Capsule by full length, the capsule's without its caps; Box by full
 //              lengths; a plane is a Halfspace, solid where n·x <= d.
-// Conventions  collide's normal points from object 1 to object 2 and is turned round. fcl::distance
-//              gives no normal: it is the line between the two nearest points, of which FCL puts
-//              each on its own body; at exact touch there is none, and it is left zero.
+// Conventions  collide's normal points from object 1 to object 2 and is reversed. fcl::distance
+//              gives no normal; it is taken along the line between the two nearest points, each
+//              on its own body. At exact touch there is no line, and it stays zero.
 // Corrected    With GST_INDEP, pairs without a closed form come with a negative depth and a normal
 //              in object 1's local frame (gjk_solver_indep-inl.h, ShapeIntersectIndepImpl): both
-//              are put right here, so that the solver is judged and not this slip.
+//              are corrected here, so that the solver is judged and not this slip.
 // Points       collide: one at mid-depth, or inside both bodies where MPR answers. distance: the
 //              middle of the two nearest points.
 // Threshold    collide has none. distance reports up to it.
-// Asserts      Debian's libfcl keeps them: a failed one ends the process and is counted as a crash.
+// Asserts      are active in Debian's libfcl: a failed one ends the process and counts as a crash.
 #include <algorithm>
 #include <fcl/fcl.h>
 #include <memory>

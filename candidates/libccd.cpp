@@ -6,12 +6,12 @@
 // Tolerance    The parameter is epa_tolerance or mpr_tolerance; libccd's default is 1e-4, in metres
 //              for EPA. At most 100 iterations, as in libccd's README: without a bound EPA can
 //              hang.
-// Conventions  `dir` points from A to B, the way B moves to come free, and is turned round. Where
-//              they exactly touch MPR's is zero; it is handed on as it is.
-// Points       One: MPR's lies inside both bodies; EPA's position is by libccd's own account no
+// Conventions  `dir` points from A to B, the way B moves to come free, and is reversed. If they
+//              exactly touch, MPR's is zero and is passed on as it is.
+// Points       One: MPR's lies inside both bodies; EPA's position is, according to libccd, not a
 //              contact point, only somewhere between.
-// Threshold    libccd has none: it answers only when it finds the bodies touching.
-// Failure      -2, out of memory, is handed on as failed.
+// Threshold    libccd has none: it answers only if it finds the bodies touching.
+// Failure      -2, out of memory, is passed on as failed.
 #include <algorithm>
 #include <ccd/ccd.h>
 #include <ccd/quat.h>

@@ -49,7 +49,7 @@ std::pair<Vec3, Vec3> closest_of_segments(const Vec3& p, const Vec3& d, const Ve
 Eigen::Vector2d closest_in_polygon(const std::vector<Vec3>& corners, std::size_t count,
                                    const Eigen::Vector2d& p) {
   Eigen::Vector2d best = p;
-  double least = std::numeric_limits<double>::infinity();
+  double min_squared = std::numeric_limits<double>::infinity();
   bool inside = true;
   for (std::size_t i = 0; i < count; ++i) {
     const Eigen::Vector2d u = corners[i].head<2>(), v = corners[(i + 1) % count].head<2>();
@@ -58,8 +58,8 @@ Eigen::Vector2d closest_in_polygon(const std::vector<Vec3>& corners, std::size_t
     inside = false;
     const Eigen::Vector2d at =
         u + std::clamp(from.dot(along) / along.squaredNorm(), 0.0, 1.0) * along;
-    if ((p - at).squaredNorm() < least) {
-      least = (p - at).squaredNorm();
+    if ((p - at).squaredNorm() < min_squared) {
+      min_squared = (p - at).squaredNorm();
       best = at;
     }
   }
@@ -191,11 +191,11 @@ double largest_gap(const RoundedPolytope& a, const RoundedPolytope& b, Separatio
 /// The closest pair among edges and vertices of both, and among vertices and the other's solid
 /// core.
 void closest_apart(const RoundedPolytope& a, const RoundedPolytope& b, Separation& best) {
-  double least = std::numeric_limits<double>::infinity();
+  double min_squared = std::numeric_limits<double>::infinity();
   const auto consider = [&](const Vec3& on_a, const Vec3& on_b) {
     const double squared = (on_a - on_b).squaredNorm();
-    if (squared >= least) return;
-    least = squared;
+    if (squared >= min_squared) return;
+    min_squared = squared;
     best.on_a = on_a;
     best.on_b = on_b;
   };
@@ -219,7 +219,7 @@ void closest_apart(const RoundedPolytope& a, const RoundedPolytope& b, Separatio
   if (b.is_solid()) {
     for (const Vec3& v : a.vertices()) consider(v, b.closest_to(v));
   }
-  best.distance = std::sqrt(least);
+  best.distance = std::sqrt(min_squared);
 }
 
 }  // namespace
@@ -300,7 +300,7 @@ Separation ModelPair::separation(const ts_pose& a, const ts_pose& b, std::vector
   const Vec3 normal = rotation_b * Vec3(plane_.size[0], plane_.size[1], plane_.size[2]);
   const double displacement = plane_.size[3] + normal.dot(position_of(b));
 
-  Separation least{};
+  Separation nearest{};
   for (std::size_t i = 0; i < a_.size(); ++i) {
     Separation of_part{};
     if (is_plane_) {
@@ -312,9 +312,9 @@ Separation ModelPair::separation(const ts_pose& a, const ts_pose& b, std::vector
       }
     }
     if (all) all->push_back(of_part);
-    if (i == 0 || of_part.distance < least.distance) least = of_part;
+    if (i == 0 || of_part.distance < nearest.distance) nearest = of_part;
   }
-  return least;
+  return nearest;
 }
 
 std::vector<RoundedPolytope> inscribed_capsule(double radius, double half_length) {

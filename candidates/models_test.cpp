@@ -1,5 +1,5 @@
 // The simplified models against closed forms, and their exact routine against the definition of the
-// signed distance: no direction has a larger gap.
+// signed distance, the largest gap over all directions.
 #include <cmath>
 #include <gtest/gtest.h>
 #include <random>
@@ -39,7 +39,7 @@ TEST(Models, InscribedCapsuleLosesTheRimAndKeepsCapAndSide) {
   EXPECT_NEAR(between(inscribed_capsule, can, at({0, 0, 0.4}, along_x), floor_below, at({0, 0, 0}))
                   .distance,
               -0.1, rounding);
-  // A sphere beside the upper rim: the round end is a corner's distance away.
+  // A sphere beside the upper rim: its distance is that of the round end from the corner.
   const auto s = between(inscribed_capsule, can, at({0, 0, 0}), ball, at({0.75, 0, 1}));
   EXPECT_NEAR(s.distance, std::hypot(0.75, 0.5) - 0.75, rounding);
 }
@@ -100,7 +100,7 @@ TEST(Models, APrismApartFromASphereKnowsFacesEdgesAndCorners) {
 }
 
 TEST(Models, FourSidesAreABox) {
-  // The prism's own code against that of the box, on which both are asked for the same solid.
+  // The prism's code against the box's, for the same solid.
   std::mt19937 random(2);
   std::normal_distribution<double> normal;
   auto square = RoundedPolytope::prism(4, std::sqrt(2.0) * 0.4, 0.7);
@@ -179,7 +179,7 @@ TEST(Models, ManySidesComeToTheCylinder) {
       const Answer a = answer("prism:128", c);
       ASSERT_TRUE(a.model_distance);
       const double truth = oracle::truth(c).signed_distance.midpoint();
-      // Inscribed: never deeper, and shallower by no more than the sagittas of both.
+      // An inscribed prism is not deeper, and shallower by at most the sagittas of both.
       EXPECT_GE(*a.model_distance, truth - 1e-9 * larger_size(c));
       const double sagitta = larger_size(c) * (1 - std::cos(M_PI / 128));
       if (pair != Pair::box && pair != Pair::cylinder) {

@@ -9,9 +9,9 @@
 // Shapes       Half lengths, a capsule's without its caps. A plane is solid below its frame's
 //              xy-plane; ours is given such a frame.
 // Conventions  The lower geom type comes first; the normal points from it to the other one, and is
-//              turned round when the cylinder is first.
+//              reversed if the cylinder is first.
 // Points       Midway between the two surfaces.
-// Threshold    The function's margin. Only the plane answers beyond touch.
+// Threshold    Passed as the function's margin. Only the plane answers separate bodies.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

@@ -9,10 +9,10 @@
 //              depth is positive inside. Positions are where ODE puts them (on the cylinder for a
 //              plane, inside both bodies for MPR).
 // Meshes       ode-mesh:N is the cylinder A as the triangle mesh of the prism with N sides, against
-//              B's own geom. A mesh is a surface: what lies wholly inside is not in contact.
-// Threshold    ODE has none: it answers only when it finds the bodies touching.
-// Planes       A plane geom cannot be placed, so a posed plane is turned into world coordinates at
-//              every query.
+//              B's own geom. A mesh is a surface: a body wholly inside it is not in contact.
+// Threshold    ODE has none: it answers only if it finds the bodies touching.
+// Planes       A plane geom has no pose, so that a posed plane is transformed to world coordinates
+//              at every query.
 #include <algorithm>
 #include <cmath>
 #include <limits>

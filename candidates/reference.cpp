@@ -1,10 +1,10 @@
 // Our own routines (reference/), called through their public headers.
 //
 // Calls        touchstone::contact, one overload for each pair.
-// Conventions  those of candidate.h: normal from B to A, points halfway between the surfaces.
-// Threshold    handed on; a distance beyond it is answered with none, and then signed_distance is
+// Conventions  Those of candidate.h: normal from B to A, points halfway between the surfaces.
+// Threshold    Passed on; a distance beyond it is answered with none, and then signed_distance is
 //              the clearance along the first direction that proves it.
-// Hint         handed on; it decides between normals whose gaps are within the threshold.
+// Hint         Passed on; it decides between normals whose gaps are within the threshold.
 #include <optional>
 #include <type_traits>
 #include <utility>
@@ -56,8 +56,8 @@ void copy(const Contact& contact, double threshold, ts_answer& answer) {
 }
 
 template <class Other>
-struct Prepared : ts_prepared {
-  Prepared(const Cylinder& cylinder, Other shape) : a(cylinder), b(std::move(shape)) {}
+struct PreparedPair : ts_prepared {
+  PreparedPair(const Cylinder& cylinder, Other shape) : a(cylinder), b(std::move(shape)) {}
   void query(const ts_pose& pose_a, const ts_pose& pose_b, const Vec3* previous_normal,
              ts_answer& answer) const override {
     copy(contact(a, to_pose<Cylinder>(pose_a), b, to_pose<Other>(pose_b), threshold,
@@ -76,19 +76,19 @@ ts_prepared* prepare(const ts_shape* a, const ts_shape* b, double threshold, dou
   ts_prepared* prepared = nullptr;
   switch (b->kind) {
     case TS_PLANE:
-      prepared = new Prepared(cylinder, touchstone::Plane(Vec3(s[0], s[1], s[2]), s[3]));
+      prepared = new PreparedPair(cylinder, touchstone::Plane(Vec3(s[0], s[1], s[2]), s[3]));
       break;
     case TS_SPHERE:
-      prepared = new Prepared(cylinder, Sphere(s[0]));
+      prepared = new PreparedPair(cylinder, Sphere(s[0]));
       break;
     case TS_CAPSULE:
-      prepared = new Prepared(cylinder, touchstone::Capsule(s[0], s[1]));
+      prepared = new PreparedPair(cylinder, touchstone::Capsule(s[0], s[1]));
       break;
     case TS_CYLINDER:
-      prepared = new Prepared(cylinder, Cylinder(s[0], s[1]));
+      prepared = new PreparedPair(cylinder, Cylinder(s[0], s[1]));
       break;
     case TS_BOX:
-      prepared = new Prepared(cylinder, touchstone::Box(Vec3(s[0], s[1], s[2])));
+      prepared = new PreparedPair(cylinder, touchstone::Box(Vec3(s[0], s[1], s[2])));
       break;
   }
   if (prepared) prepared->threshold = threshold;

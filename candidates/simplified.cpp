@@ -1,16 +1,16 @@
-// Simplified models of the cylinder, answered exactly (but for rounding): what is wrong with an
-// answer is the model.
+// Simplified models of the cylinder, answered exactly up to rounding: the error of an answer is
+// that of the model.
 //
-// Models       Every cylinder of the pair, A and also B, is replaced; other shapes are themselves.
+// Models       Every cylinder of the pair, A and B, is replaced; other shapes are kept.
 //              capsule, capsule-circumscribed, spheres:N and prism:N are described in model.hpp.
-// Calls        rounded_polytope.hpp: closest points of cores, or separating axes where they
-// overlap.
+// Calls        model.hpp: closest points of cores, or separating axes where they overlap.
 //              Straightforward rather than fast: a prism's cost grows with the square of N against
 //              another one.
 // Conventions  Those of candidate.h.
-// Points       Halfway between the surfaces: one, or of spheres one for each that touches.
-// Threshold    Handed on. Prism and box apart are answered with the largest gap, which is less than
-//              their distance where vertices are closest.
+// Points       Halfway between the surfaces: one, or for spheres one for each that touches.
+// Threshold    Passed on. Separate prisms and boxes are answered with the largest gap, which is
+// less
+//              than their distance if vertices are closest.
 #include <algorithm>
 
 #include "candidates/model.hpp"
@@ -47,12 +47,12 @@ void copy(const Vec3& from, double (&to)[3]) { std::copy(from.data(), from.data(
 
 void query(ts_prepared* p, const ts_pose* a, const ts_pose* b, const double*, ts_answer* answer) {
   p->parts.clear();
-  const Separation least = p->pair.separation(*a, *b, &p->parts);
-  answer->status = least.distance <= p->threshold ? TS_CONTACT : TS_NONE;
+  const Separation nearest = p->pair.separation(*a, *b, &p->parts);
+  answer->status = nearest.distance <= p->threshold ? TS_CONTACT : TS_NONE;
   answer->point_count = 0;
   if (answer->status == TS_NONE) return;
-  answer->signed_distance = least.distance;
-  copy(least.normal, answer->normal);
+  answer->signed_distance = nearest.distance;
+  copy(nearest.normal, answer->normal);
   const auto deeper = [](const Separation& x, const Separation& y) {
     return x.distance < y.distance;
   };

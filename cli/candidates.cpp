@@ -22,8 +22,8 @@ void print(const Candidate& c) {
              c.settings);
   if (!c.models.empty()) fmt::print("  models {}\n", c.models);
   if (c.parameter) {
-    fmt::print("  {}:N with N the {}, {} to {}\n", c.family, c.parameter->meaning,
-               c.parameter->least, c.parameter->most);
+    fmt::print("  {}:N with N the {}, {} to {}\n", c.family, c.parameter->meaning, c.parameter->min,
+               c.parameter->max);
   }
 }
 

@@ -1,5 +1,5 @@
-// One test, with the configuration that needs it, for each rule without which the set of critical
-// directions is not complete or its enclosure does not close (oracle/README.md).
+// One test for each rule without which the set of critical directions is incomplete or its
+// enclosure does not converge, with a configuration that needs the rule (oracle/README.md).
 #include <cmath>
 #include <gtest/gtest.h>
 #include <string>
@@ -57,7 +57,8 @@ TEST(Completeness, TouchingRimsWithCrossedTangentsHaveTheTangentsNormal) {
   EXPECT_LT((truth(c).normals.at(0).n + n).norm(), 1e-6);
 }
 
-// Found among 40,000 configurations of small integers: at θ = π/2 all is exact, also the zero.
+// Found among 40,000 configurations of small integers: at θ = π/2 everything is exact, the zero
+// included.
 TEST(Completeness, RimsThatTouchExactlyWithoutAContactDoNotHoldUpTheEnclosure) {
   const Configuration c{Cylinder(1.5, 0.5), Pose({-0.5, -1.5, -1.5}, Quaternion(2, -1, 0, 0)),
                         Cylinder(0.5, 2), Pose({0, 0, 0}, Quaternion(1, 1, 0, 0))};
@@ -67,7 +68,7 @@ TEST(Completeness, RimsThatTouchExactlyWithoutAContactDoNotHoldUpTheEnclosure) {
   expect_brute_force_agrees(c, t);
 }
 
-// Rule 3: nor do the tangents help.
+// Rule 3: the tangents do not help either.
 TEST(Completeness, TouchingRimsWithParallelTangentsAreZeroAlongAnArcOfNormals) {
   const Configuration c =
       rims_meet_at({100, 0, 100}, columns(Vec3(-100, 0, -75), Vec3(0, 125, 0), Vec3(75, 0, -100)));

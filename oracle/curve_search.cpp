@@ -9,13 +9,13 @@ namespace touchstone::oracle {
 namespace {
 
 /// An integer as mantissa times a power of two.
-struct Scaled {
+struct ScaledInterval {
   Interval mantissa;  // its magnitude within [1/2, 1], or zero
   long exponent;
 };
 
-Scaled scaled(const Integer& value) {
-  Scaled result{0, 0};
+ScaledInterval scaled(const Integer& value) {
+  ScaledInterval result{0, 0};
   const double towards_zero = mpz_get_d_2exp(&result.exponent, value.get_mpz_t());
   if (towards_zero == 0) return result;
   const double away = std::nextafter(towards_zero, towards_zero > 0 ? 1 : -1);
@@ -25,8 +25,8 @@ Scaled scaled(const Integer& value) {
   return result;
 }
 
-Interval ratio(const Integer& numerator, const Scaled& denominator) {
-  const Scaled top = scaled(numerator);
+Interval ratio(const Integer& numerator, const ScaledInterval& denominator) {
+  const ScaledInterval top = scaled(numerator);
   const Interval mantissas = top.mantissa / denominator.mantissa;
   const long exponent = top.exponent - denominator.exponent;
   // Within this limit a power of two neither rounds nor overflows.
@@ -42,11 +42,11 @@ Interval ratio(const Integer& numerator, const Scaled& denominator) {
   return mantissas * Interval(std::ldexp(1, static_cast<int>(exponent)));
 }
 
-IntervalVector ratio(const IntegerVector& v, const Scaled& denominator) {
+IntervalVector ratio(const IntegerVector& v, const ScaledInterval& denominator) {
   return {ratio(v.x, denominator), ratio(v.y, denominator), ratio(v.z, denominator)};
 }
 
-IntervalDifference::IntervalFrame unit(const Frame& frame, const Scaled& norm) {
+IntervalDifference::IntervalFrame unit(const Frame& frame, const ScaledInterval& norm) {
   return {ratio(frame.axis, norm), ratio(frame.e, norm), ratio(frame.f, norm)};
 }
 
@@ -55,8 +55,8 @@ IntervalDifference::IntervalFrame unit(const Frame& frame, const Scaled& norm) {
 IntervalDifference::IntervalDifference(const Difference& difference) : scale(difference.inflation) {
   for (const auto& s : difference.segments) scale += s.half_length;
   for (const auto& disc : difference.discs) scale += disc.radius;
-  const Scaled norm = scaled(difference.norm);
-  const Scaled length = scaled(scale);
+  const ScaledInterval norm = scaled(difference.norm);
+  const ScaledInterval length = scaled(scale);
 
   d = ratio(difference.d, scaled(scale * difference.norm));
   for (const auto& s : difference.segments) {
@@ -69,12 +69,8 @@ IntervalDifference::IntervalDifference(const Difference& difference) : scale(dif
 }
 
 Interval IntervalDifference::gap(const IntervalVector& n) const {
-  Interval value = dot(d, n);
-  for (const auto& s : segments) value -= s.half_length * abs(dot(s.frame.axis, n));
-  for (const auto& disc : discs) {
-    value -= disc.radius * sqrt(square(dot(disc.frame.e, n)) + square(dot(disc.frame.f, n)));
-  }
-  return value / sqrt(square(n.x) + square(n.y) + square(n.z)) - inflation;
+  const Interval length = sqrt(square(n.x) + square(n.y) + square(n.z));
+  return (dot(d, n) - add_half_width(Interval(0), segments, discs, n)) / length - inflation;
 }
 
 LineSearch::LineSearch(const IntervalDifference& difference, unsigned segment)
@@ -92,7 +88,7 @@ LineSearch::LineSearch(const IntervalDifference& difference, unsigned segment)
   }
 }
 
-LineSearch::At LineSearch::at(const Piece& piece, const Interval& t) {
+LineSearch::Direction LineSearch::direction(const Piece& piece, const Interval& t) {
   const Interval length = sqrt(Interval(1) + square(t));
   switch (piece.turn) {
     case 0:
@@ -106,28 +102,20 @@ LineSearch::At LineSearch::at(const Piece& piece, const Interval& t) {
   }
 }
 
-/// |axis × n|, computed without cancellation for a nearly parallel disc.
-Interval LineSearch::sine(const Disc& disc, const At& n) const {
-  return sqrt(square(across(disc.axis, n)) + square(disc.along * n.length));
-}
-
-Interval LineSearch::gap(const At& n) const {
-  Interval value = along(d_, n);
-  for (const auto& s : segments_) value -= s.half_length * abs(along(s.axis, n));
-  for (const auto& disc : discs_) value -= disc.radius * sine(disc, n);
-  return value / n.length - inflation_;
+Interval LineSearch::gap(const Direction& n) const {
+  return (d_.along(n) - add_half_width(Interval(0), segments_, discs_, n)) / n.length - inflation_;
 }
 
 unsigned long LineSearch::open_vertices(const Piece& piece, GapThreshold& threshold) const {
-  const At middle = at(piece, Interval((piece.lo + piece.hi) / 2));
+  const Direction middle = direction(piece, Interval((piece.lo + piece.hi) / 2));
   const Interval at_middle = gap(middle);
   threshold.raise(at_middle);
 
-  const At n = at(piece, Interval(piece.lo, piece.hi));
+  const Direction n = direction(piece, Interval(piece.lo, piece.hi));
   // Slope of the gap along the circle, times n.length. The segments' part depends on their signs.
-  Interval smooth = across(d_, n);
+  Interval smooth = d_.across(n);
   for (const auto& disc : discs_) {
-    const Interval u = along(disc.axis, n), du = across(disc.axis, n), s = sine(disc, n);
+    const Interval u = disc.axis.along(n), du = disc.axis.across(n), s = disc.projection(n);
     // |du| <= s
     const Interval bounded = abs(u) * Interval(-1, 1);
     smooth += disc.radius * (s.inf() > 0 ? u * du / s : bounded);
@@ -137,8 +125,8 @@ unsigned long LineSearch::open_vertices(const Piece& piece, GapThreshold& thresh
   std::array<Interval, 8> slopes{smooth};
   std::size_t count = 1;
   for (const auto& s : segments_) {
-    const Interval side = along(s.axis, n);
-    const Interval change = s.half_length * across(s.axis, n);
+    const Interval side = s.axis.along(n);
+    const Interval change = s.half_length * s.axis.across(n);
     any_slope += (side.inf() > 0   ? -change
                   : side.sup() < 0 ? change
                                    : abs(change) * Interval(-1, 1));
@@ -239,7 +227,8 @@ bool RimSearch::is_open(const Piece& piece, GapThreshold& threshold) const {
   const auto& axis2 = difference_.discs[1].frame.axis;
   const Interval anywhere(-1, 1);
   const bool on_axis = !(p.off_axis_length.inf() > 0);
-  IntervalVector y{anywhere, anywhere, anywhere};  // unit, from rim 2's centre to its point nearest to rim 1's
+  IntervalVector y{anywhere, anywhere,
+                   anywhere};  // unit, from rim 2's centre to its point nearest to rim 1's
   if (!on_axis) y = (Interval(1) / p.off_axis_length) * p.off_axis;
 
   const Interval q_t = dot(q_, p.tangent);
@@ -253,7 +242,8 @@ bool RimSearch::is_open(const Piece& piece, GapThreshold& threshold) const {
     const Interval reach = Interval(branch) * radius2_;
     const Interval slope = q_t + reach * y_t;
     if (slope.inf() > 0 || slope.sup() < 0) continue;
-    const Interval beyond = p.off_axis_length - reach;  // distance of rim 1's point beyond rim 2's, seen along u2
+    const Interval beyond =
+        p.off_axis_length - reach;  // distance of rim 1's point beyond rim 2's, seen along u2
     const Interval distance = sqrt(square(p.w_u) + square(beyond));
     const Interval apart_radial = radius1_ - dot(q_, p.radial) - reach * y_radial;
     const Interval apart_up = -dot(q_, up1_) - reach * y_up;

@@ -23,10 +23,14 @@ struct IntervalDifference {
   struct Segment {
     IntervalFrame frame;
     Interval half_length;
+    Interval projection(const IntervalVector& n) const { return abs(dot(frame.axis, n)); }
   };
   struct Disc {
     IntervalFrame frame;
     Interval radius;
+    Interval projection(const IntervalVector& n) const {
+      return sqrt(square(dot(frame.e, n)) + square(dot(frame.f, n)));
+    }
   };
 
   explicit IntervalDifference(const Difference& difference);
@@ -81,26 +85,32 @@ class LineSearch {
   std::size_t others() const { return segments_.size(); }
 
  private:
+  /// A direction perpendicular to the line, of that length.
+  struct Direction {
+    Interval x, y, length;
+  };
+  /// The part of a vector perpendicular to the line.
   struct Planar {
     Interval e, f;
+    Interval along(const Direction& n) const { return e * n.x + f * n.y; }
+    Interval across(const Direction& n) const { return f * n.x - e * n.y; }
   };
   struct Segment {
     Planar axis;
     Interval half_length;
+    Interval projection(const Direction& n) const { return abs(axis.along(n)); }
   };
   struct Disc {
     Planar axis;
     Interval along;  // component of the axis along the line
     Interval radius;
+    /// |axis × n|, without cancellation for a disc that is nearly perpendicular to n.
+    Interval projection(const Direction& n) const {
+      return sqrt(square(axis.across(n)) + square(along * n.length));
+    }
   };
-  struct At {
-    Interval x, y, length;
-  };
-  static At at(const Piece& piece, const Interval& t);
-  static Interval along(const Planar& v, const At& n) { return v.e * n.x + v.f * n.y; }
-  static Interval across(const Planar& v, const At& n) { return v.f * n.x - v.e * n.y; }
-  Interval sine(const Disc& disc, const At& n) const;
-  Interval gap(const At& n) const;
+  static Direction direction(const Piece& piece, const Interval& t);
+  Interval gap(const Direction& n) const;
 
   Planar d_;
   boost::container::static_vector<Segment, max_segments - 1> segments_;
@@ -119,7 +129,8 @@ class RimSearch {
 
  private:
   struct Point {
-    IntervalVector radial, tangent, w, off_axis;  // unit radius and tangent of rim 1; w = point − q; its component across u2
+    IntervalVector radial, tangent, w,
+        off_axis;  // unit radius and tangent of rim 1; w = point − q; its component across u2
     Interval w_u, off_axis_length;
   };
   Point at(unsigned turn, double lo, double hi) const;

@@ -222,12 +222,7 @@ BallDifference::BallDifference(const Difference& difference) : inflation_(differ
 }
 
 BallDifference::Along BallDifference::along(const BallVector& n) const {
-  Ball half_width = inflation_ * oracle::norm(n);
-  for (const auto& s : segments_) half_width = half_width + s.length * abs(dot(s.axis, n));
-  for (const auto& disc : discs_) {
-    half_width = half_width + disc.length * oracle::norm(cross(disc.axis, n));
-  }
-  return {dot(d_, n), half_width};
+  return {dot(d_, n), add_half_width(inflation_ * norm(n), segments_, discs_, n)};
 }
 
 Ball BallDifference::gap(const BallVector& n) const {

@@ -67,6 +67,16 @@ IntegerVector in_frame_of_a(const Difference& difference, const Vec3& world);
 mpq_class width_in_units(const Difference& difference, const Configuration& configuration,
                          double width);
 
+/// Adds Σ half_length |axis·n| + Σ radius |axis × n| to `sum`: the half width of a difference,
+/// times |n|, in any arithmetic. `projection` of a segment is |axis·n|, of a disc |axis × n|.
+template <class Number, class Segments, class Discs, class Direction>
+Number add_half_width(Number sum, const Segments& segments, const Discs& discs,
+                      const Direction& n) {
+  for (const auto& s : segments) sum = sum + s.half_length * s.projection(n);
+  for (const auto& disc : discs) sum = sum + disc.radius * disc.projection(n);
+  return sum;
+}
+
 /// A Difference in balls, at the working precision of its construction.
 class BallDifference {
  public:
@@ -82,12 +92,19 @@ class BallDifference {
   Ball gap(const BallVector& n) const;
 
  private:
-  struct Part {
+  struct Segment {
     BallVector axis;  // unit
-    Ball length;
+    Ball half_length;
+    Ball projection(const BallVector& n) const { return abs(dot(axis, n)); }
+  };
+  struct Disc {
+    BallVector axis;  // unit
+    Ball radius;
+    Ball projection(const BallVector& n) const { return norm(cross(axis, n)); }
   };
   BallVector d_;
-  std::vector<Part> segments_, discs_;
+  std::vector<Segment> segments_;
+  std::vector<Disc> discs_;
   Ball inflation_;
 };
 

@@ -105,8 +105,8 @@ TEST(Lattice, TouchingIsProvenNotGuessed) {
   EXPECT_GT(touching, count() / 100);
 }
 
-// The directions that the filter drops must not matter: with a bar low enough to keep every
-// critical direction the signed distance is the same.
+// The directions that the filter drops do not matter: with a slack that keeps every critical
+// direction the signed distance is the same.
 TEST(Lattice, TheFilterDropsNothingThatMatters) {
   LatticePoses poses(3);
   for (int i = 0; i < count() / 4; ++i) {
@@ -131,8 +131,8 @@ Eigen::Quaterniond rounded(const Eigen::Quaterniond& q, double step) {
   return Eigen::Quaterniond(Eigen::Vector4d(step * (q.coeffs() / step).array().round().matrix()));
 }
 
-/// Like the class's configuration, with coordinates of so few digits that rotation by `turn` is
-/// exact; turn's entries are integers whose squares add up to 25.
+/// The class's configuration with coordinates rounded to so few digits that the rotation by `turn`
+/// is exact; turn's entries are integers whose squares add up to 25.
 struct Turned {
   Configuration before, after;
 };

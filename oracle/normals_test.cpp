@@ -1,4 +1,4 @@
-// All optimal normals: how they lie to the bodies' axes, and families of them.
+// All optimal normals: their alignment to the bodies' axes, and their families.
 #include <cmath>
 #include <gtest/gtest.h>
 

@@ -1,11 +1,16 @@
-// The oracle against brute force on every pair and pose class.
+// The oracle against brute force on every pair and pose class, and properties of the contact patch
+// at every optimal normal that it finds.
 //
-// TOUCHSTONE_COUNT sets how many configurations of each class are tried (10 by default, for CI).
+// TOUCHSTONE_COUNT sets how many configurations of each class brute force is tried on (10 by
+// default, for CI).
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <gtest/gtest.h>
 #include <string>
 
 #include "oracle/brute_force.hpp"
+#include "oracle/patch/contact_patch.hpp"
 #include "oracle/truth.hpp"
 #include "properties/identity.hpp"
 
@@ -42,5 +47,129 @@ INSTANTIATE_TEST_SUITE_P(, PoseClasses, testing::ValuesIn(all_pairs), [](const a
   return std::string(pair_name(pair.param)).substr(std::string("cylinder-").size());
 });
 
+constexpr std::uint64_t patches_per_class = 2;
+
+Alignment alignment(const Vec3& axis, const Vec3& n, double tolerance) {
+  if (std::abs(axis.dot(n)) <= tolerance) return Alignment::perpendicular;
+  return axis.cross(n).norm() <= tolerance ? Alignment::parallel : Alignment::oblique;
+}
+
+/// An optimal normal, its alignment decided in double.
+OptimalNormal optimal(const Configuration& c, const Vec3& n, double tolerance = 1e-12) {
+  OptimalNormal result{n, alignment(c.pose_a.rotation().col(2), n, tolerance), {}};
+  const Pair pair = pair_of(c);
+  if (pair == Pair::plane || pair == Pair::sphere) return result;
+  for (int i = pair == Pair::box ? 0 : 2; i < 3; ++i) {
+    result.to_b[i] = alignment(c.pose_b.rotation().col(i), n, tolerance);
+  }
+  return result;
+}
+
+/// Lengths from which coordinates are computed: rounding is relative to them.
+double lengths(const Configuration& c) {
+  return larger_size(c) + c.pose_a.position().norm() + c.pose_b.position().norm();
+}
+
+template <class Check>
+void for_all_normals(Pair pair, const Check& check) {
+  for (const auto& name : pose_classes(pair)) {
+    for (std::uint64_t i = 0; i < patches_per_class; ++i) {
+      const Identity id{pair, name, 20261121, i};
+      SCOPED_TRACE(to_string(id));
+      const Configuration c = make_configuration(id);
+      const Truth t = truth(c);
+      for (const OptimalNormal& n : t.normals) check(c, n, t.signed_distance.midpoint());
+    }
+  }
+}
+
+class PatchClasses : public testing::TestWithParam<Pair> {};
+
+TEST_P(PatchClasses, TheExactPatchLiesWithinThatOfEveryEpsilon) {
+  for_all_normals(GetParam(), [](const Configuration& c, const OptimalNormal& n, double) {
+    for (const double epsilon : {1e-4, 1e-9}) {
+      const ContactPatch wider = contact_patch(c, n.n, epsilon * larger_size(c));
+      // Inscribed polygons may lack 0.5% of their width.
+      const double slack = 0.005 * wider.perimeter() + 1e-13 * lengths(c);
+      for (const double tolerance : {4e-16, 1e-14, 1e-12}) {
+        for (const Vec3& p : contact_patch(c, optimal(c, n.n, tolerance)).outline()) {
+          EXPECT_LE(wider.distance(p), slack) << "epsilon " << epsilon;
+        }
+      }
+    }
+  });
+}
+
+TEST_P(PatchClasses, LiesHalfwayBetweenTheSupportPlanes) {
+  for_all_normals(GetParam(), [](const Configuration& c, const OptimalNormal& n, double sigma) {
+    const ContactPatch patch = contact_patch(c, n);
+    // Half of the distance above B's highest point, which for a sphere needs none of our code.
+    const auto* sphere = std::get_if<Sphere>(&c.b);
+    if (!sphere) return;
+    const double above = (patch.centroid() - c.pose_b.position()).dot(n.n) - sphere->radius();
+    EXPECT_NEAR(above, sigma / 2, 1e-14 * lengths(c));
+  });
+}
+
+// Laws.
+
+Configuration turned_by(const Eigen::Quaterniond& q, const Configuration& c) {
+  const Eigen::Matrix3d rotation = q.toRotationMatrix();
+  return {c.a, Pose(rotation * c.pose_a.position(), q * c.pose_a.orientation()), c.b,
+          Pose(rotation * c.pose_b.position(), q * c.pose_b.orientation())};
+}
+
+TEST_P(PatchClasses, TurnsWithTheWorld) {
+  // A third of a turn about (1, 1, 1): positions lose no bit.
+  const Eigen::Quaterniond q(0.5, 0.5, 0.5, 0.5);
+  const Eigen::Matrix3d rotation = q.toRotationMatrix();
+  for_all_normals(GetParam(), [&](const Configuration& c, const OptimalNormal& n, double) {
+    // The orientations' product is rounded, which changes tilts of 1e-15.
+    const Configuration turned = turned_by(q, c);
+    OptimalNormal turned_normal = n;
+    turned_normal.n = rotation * n.n;
+    const ContactPatch patch = contact_patch(c, n), again = contact_patch(turned, turned_normal);
+    const double rounding = 1e-9 * larger_size(c) + 1e-13 * lengths(c);
+    EXPECT_NEAR(again.perimeter(), patch.perimeter(), rounding);
+    if (patch.kind() != ContactPatch::Kind::region) return;
+    EXPECT_NEAR(again.area(), patch.area(), rounding * larger_size(c));
+    EXPECT_LE((again.centroid() - rotation * patch.centroid()).norm(), rounding);
+  });
+}
+
+Shape scaled(const Shape& shape, double s) {
+  if (const auto* x = std::get_if<Cylinder>(&shape)) {
+    return Cylinder(s * x->radius(), s * x->half_length());
+  }
+  if (const auto* x = std::get_if<Capsule>(&shape)) {
+    return Capsule(s * x->radius(), s * x->half_length());
+  }
+  if (const auto* x = std::get_if<Sphere>(&shape)) return Sphere(s * x->radius());
+  if (const auto* x = std::get_if<Plane>(&shape)) return Plane(x->normal(), s * x->displacement());
+  return Box(s * std::get<Box>(shape).half_extents());
+}
+
+TEST_P(PatchClasses, ScalesWithTheUnitOfLength) {
+  for_all_normals(GetParam(), [](const Configuration& c, const OptimalNormal& n, double) {
+    const ContactPatch patch = contact_patch(c, n);
+    for (const double s : {0x1p-20, 0x1p20}) {
+      const Configuration d{Cylinder(s * c.a.radius(), s * c.a.half_length()),
+                            Pose(s * c.pose_a.position(), c.pose_a.orientation()), scaled(c.b, s),
+                            Pose(s * c.pose_b.position(), c.pose_b.orientation())};
+      // A power of two changes no digit.
+      const ContactPatch again = contact_patch(d, n);
+      EXPECT_EQ(again.kind(), patch.kind());
+      EXPECT_EQ(again.area(), s * s * patch.area());
+      EXPECT_EQ(again.perimeter(), s * patch.perimeter());
+      EXPECT_EQ(again.centroid(), Vec3(s * patch.centroid()));
+    }
+  });
+}
+
+INSTANTIATE_TEST_SUITE_P(, PatchClasses, testing::ValuesIn(all_pairs), [](const auto& pair) {
+  return std::string(pair_name(pair.param)).substr(std::string("cylinder-").size());
+});
+
 }  // namespace
+
 }  // namespace touchstone::oracle

@@ -4,8 +4,6 @@
 #include <gtest/gtest.h>
 #include <random>
 
-#include "oracle/root_isolation.hpp"
-
 namespace touchstone::oracle {
 namespace {
 

@@ -1,10 +1,9 @@
-#include "oracle/root_isolation.hpp"
-
 #include <algorithm>
 #include <flint/fmpz_poly.h>
 #include <utility>
 
 #include "oracle/ball.hpp"
+#include "oracle/real_roots.hpp"
 
 namespace touchstone::oracle {
 namespace {

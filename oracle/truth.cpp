@@ -9,7 +9,7 @@
 
 #include "oracle/critical_direction.hpp"
 #include "oracle/enclosure.hpp"
-#include "oracle/resolved.hpp"
+#include "oracle/rounding.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone::oracle {
@@ -21,7 +21,7 @@ constexpr long last_bits = 1L << 13;
 
 /// If rounding to 2^-bits of the size leaves the sign open, the enclosure reaches less than 2^(8 −
 /// bits) of the size beyond zero: eight lengths change by at most one multiple each, two
-/// orientations by 12 and 18 (resolved.hpp), and balls separate four times that.
+/// orientations by 12 and 18 (rounding.hpp), and balls separate four times that.
 constexpr int bits_below_resolution = 8;
 
 /// Gaps this close to the largest tie with it; relative to the larger size.
@@ -239,11 +239,11 @@ int bits_of(double x) { return std::max(0, -std::ilogb(x)); }
 struct Request {
   const Configuration& configuration;
   double width, tie;
-  int resolution;  ///< bits kept by rounding (resolved.hpp)
+  int resolution;  ///< bits kept by rounding (rounding.hpp)
 };
 
 /// None if the rounding of `question` leaves the answer open.
-std::optional<Truth> truth_of(const Resolved& question, const Request& wanted) {
+std::optional<Truth> truth_of(const RoundedConfiguration& question, const Request& wanted) {
   Difference difference = make_difference(question.configuration);
   const auto far = FarBodies::brought_nearer(difference, wanted.resolution);
   mpq_class error = question.error;
@@ -306,9 +306,9 @@ std::optional<Truth> truth_of(const Resolved& question, const Request& wanted) {
 Truth truth(const Configuration& configuration, double width, double tie) {
   check("width", width, std::isfinite(width) && width > 0, "must be positive and finite");
   check("tie", tie, std::isfinite(tie) && tie >= 0, "must not be negative, and finite");
-  const int min_bits = std::max(resolved_bits, bits_of(width) + bits_beyond_width);
+  const int min_bits = std::max(kept_bits, bits_of(width) + bits_beyond_width);
   for (int bits = min_bits;; bits *= 2) {
-    const Resolved question = resolved(configuration, bits);
+    const RoundedConfiguration question = rounded_configuration(configuration, bits);
     if (auto answer = truth_of(question, {configuration, width, tie, bits})) return *answer;
   }
 }

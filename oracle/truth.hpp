@@ -37,7 +37,7 @@ struct Truth {
 /// until every tie is decided, so that ties too depend on the geometry alone.
 ///
 /// Against a capsule, cylinder or box, lengths are rounded to multiples of 2^-192 of the larger
-/// size and orientations to as many bits (resolved.hpp); a narrower `width` keeps more. The
+/// size and orientations to as many bits (rounding.hpp); a narrower `width` keeps more. The
 /// enclosure is valid for the exact configuration; normals, ties and alignments are those of the
 /// rounded one, and bodies that touch to within 2^-184 of the size have zero in their enclosure.
 /// This bounds the time for any finite numbers to about 50 ms at the width 1e-30.

@@ -82,6 +82,12 @@ Vec3 normalized(const Vec3& v) {
   return Vec3(v.x() / length, v.y() / length, v.z() / length);
 }
 
+Eigen::Quaterniond normalized(const Eigen::Quaterniond& q) {
+  const double length =
+      std::sqrt(((q.w() * q.w() + q.x() * q.x()) + q.y() * q.y()) + q.z() * q.z());
+  return Eigen::Quaterniond(q.w() / length, q.x() / length, q.y() / length, q.z() / length);
+}
+
 Eigen::Quaterniond product(const Eigen::Quaterniond& p, const Eigen::Quaterniond& q) {
   return Eigen::Quaterniond(((p.w() * q.w() - p.x() * q.x()) - p.y() * q.y()) - p.z() * q.z(),
                             ((p.w() * q.x() + p.x() * q.w()) + p.y() * q.z()) - p.z() * q.y(),
@@ -95,6 +101,11 @@ Axes axes(const Eigen::Quaterniond& q) {
   return {Vec3(((ww + xx) - yy) - zz, 2 * (x * y + w * z), 2 * (x * z - w * y)),
           Vec3(2 * (x * y - w * z), ((ww - xx) + yy) - zz, 2 * (y * z + w * x)),
           Vec3(2 * (x * z + w * y), 2 * (y * z - w * x), ((ww - xx) - yy) + zz)};
+}
+
+Vec3 rotated(const Eigen::Quaterniond& q, const Vec3& v) {
+  const Axes a = axes(normalized(q));
+  return (v.x() * a.x + v.y() * a.y) + v.z() * a.z;
 }
 
 }  // namespace touchstone

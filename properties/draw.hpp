@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <iterator>
 #include <rapidcheck/Random.h>
 #include <vector>
 
@@ -23,6 +24,13 @@ class Draw {
 
   std::int64_t integer(std::int64_t lo, std::int64_t hi);  ///< both ends included
   bool coin() { return integer(0, 1) == 1; }
+  bool one_in(std::int64_t count) { return integer(0, count - 1) == 0; }
+  /// A random element of a container or array.
+  template <class Range>
+  auto& any_of(Range& range) {
+    return range[static_cast<std::size_t>(
+        integer(0, static_cast<std::int64_t>(std::size(range)) - 1))];
+  }
   double sign() { return coin() ? 1 : -1; }
   double uniform(double lo, double hi);
   /// Every octave from lo upwards is equally likely; within an octave the distribution is uniform.
@@ -46,6 +54,7 @@ class Draw {
 double dot(const Vec3& a, const Vec3& b);
 Vec3 cross(const Vec3& a, const Vec3& b);
 Vec3 normalized(const Vec3& v);
+Eigen::Quaterniond normalized(const Eigen::Quaterniond& q);
 /// Hamilton product; exact for small integers.
 Eigen::Quaterniond product(const Eigen::Quaterniond& p, const Eigen::Quaterniond& q);
 /// R(q) times |q|²: exact for small integers, unit columns for unit quaternions.
@@ -53,5 +62,7 @@ struct Axes {
   Vec3 x, y, z;
 };
 Axes axes(const Eigen::Quaterniond& q);
+/// Rotates v by a quaternion of moderate length.
+Vec3 rotated(const Eigen::Quaterniond& q, const Vec3& v);
 
 }  // namespace touchstone

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "properties/draw.hpp"
+#include "properties/numbers.hpp"
 
 namespace touchstone {
 
@@ -40,6 +41,10 @@ Configuration meet_at(Draw& draw, const Bodies& bodies, Feature on_a, Feature on
 /// Places A's centre less than `max_distance` from B's, in a random direction; over a plane, places
 /// A's lowest point 0.1 to 2 half lengths below the surface.
 Configuration overlap_deeply(Draw& draw, const Bodies& bodies, double max_distance);
+
+/// Bodies that overlap arbitrarily: at clear tilts from an alignment, near coincidences of their
+/// sizes, with depths along and across the axes alike.
+Numbers draw_entangled(Draw& draw, Pair pair);
 
 /// A random pair of features that determine a common normal.
 struct FeaturePair {

@@ -21,14 +21,6 @@ using Quaternion = Eigen::Quaterniond;
 /// a body by 30 sizes, do not overflow.
 constexpr double max_number = 0x1p1000;
 
-bool one_in(Draw& draw, std::int64_t count) { return draw.integer(0, count - 1) == 0; }
-
-template <class Range>
-auto& any_of(Draw& draw, Range& range) {
-  return range[static_cast<std::size_t>(
-      draw.integer(0, static_cast<std::int64_t>(std::size(range)) - 1))];
-}
-
 /// A number with any exponent that leaves room for a few sums and products.
 double draw_magnitude(Draw& draw) {
   const int exponent = static_cast<int>(draw.integer(-1000, 999));
@@ -50,7 +42,7 @@ double draw_small(Draw& draw) {
 
 /// Exactly zero in one of four draws.
 double draw_small_or_zero(Draw& draw) {
-  if (one_in(draw, 4)) return 0;
+  if (draw.one_in(4)) return 0;
   const double sign = draw.sign();
   return sign * draw_small(draw);
 }
@@ -88,9 +80,9 @@ std::vector<double> draw_sizes(Draw& draw, Pair pair) {
   // Make some sizes equal or of a simple ratio: tangent rims, congruent caps, a capsule as long as
   // the cylinder.
   for (int i = 0; i < 4 && draw.coin(); ++i) {
-    const double from = any_of(draw, sizes);
+    const double from = draw.any_of(sizes);
     constexpr double ratios[] = {1, 1, 2, 0.5};
-    any_of(draw, sizes) = from * any_of(draw, ratios);
+    draw.any_of(sizes) = from * draw.any_of(ratios);
   }
   return sizes;
 }
@@ -111,7 +103,7 @@ Quaternion draw_integer_quaternion(Draw& draw) {
 Quaternion draw_turn_about_z(Draw& draw) {
   const Quaternion turns[] = {Quaternion(1, 0, 0, 0), Quaternion(1, 0, 0, 1),
                               Quaternion(1, 0, 0, -1), Quaternion(0, 0, 0, 1)};
-  const Quaternion turn = one_in(draw, 3) ? draw.turn_about_z() : any_of(draw, turns);
+  const Quaternion turn = draw.one_in(3) ? draw.turn_about_z() : draw.any_of(turns);
   const double off = draw.coin() ? 0 : draw_small_or_zero(draw);
   return product(turn, Quaternion(1, 0, 0, off));
 }
@@ -142,15 +134,9 @@ Quaternion draw_relative_orientation(Draw& draw) {
   if (kind == 1) return draw_integer_quaternion(draw);
   const Quaternion parallel[] = {Quaternion(1, 0, 0, 0), Quaternion(0, 1, 0, 0)};
   const Quaternion perpendicular[] = {Quaternion(1, 0, 1, 0), Quaternion(1, 1, 0, 0)};
-  const Quaternion base = kind < 9 ? any_of(draw, parallel) : any_of(draw, perpendicular);
+  const Quaternion base = kind < 9 ? draw.any_of(parallel) : draw.any_of(perpendicular);
   const Quaternion heading = draw_turn_about_z(draw), tilt = draw_tilt(draw);
   return product(product(product(heading, base), tilt), draw_turn_about_z(draw));
-}
-
-Quaternion normalized(const Quaternion& q) {
-  const double length =
-      std::sqrt(((q.w() * q.w() + q.x() * q.x()) + q.y() * q.y()) + q.z() * q.z());
-  return Quaternion(q.w() / length, q.x() / length, q.y() / length, q.z() / length);
 }
 
 Quaternion times(const Quaternion& q, double factor) {
@@ -166,7 +152,7 @@ Quaternion with_a_length(Draw& draw, const Quaternion& q) {
     case 2:
       return times(normalized(q), 1 + draw_small_or_zero(draw));
     case 3: {
-      const int exponent = static_cast<int>(one_in(draw, 8) ? draw.integer(-900, 900) : 1);
+      const int exponent = static_cast<int>(draw.one_in(8) ? draw.integer(-900, 900) : 1);
       return times(normalized(q), std::ldexp(1, exponent));
     }
     default:
@@ -174,18 +160,12 @@ Quaternion with_a_length(Draw& draw, const Quaternion& q) {
   }
 }
 
-/// R(q)v for a quaternion of moderate length.
-Vec3 rotated(const Quaternion& q, const Vec3& v) {
-  const Axes a = axes(normalized(q));
-  return (v.x() * a.x + v.y() * a.y) + v.z() * a.z;
-}
-
 // Positions
 
 /// A coordinate at which parts of the two shapes coincide, or any within their reach, often with a
 /// small error.
 double draw_coordinate(Draw& draw, const std::vector<double>& sizes) {
-  const double one = any_of(draw, sizes), other = any_of(draw, sizes);
+  const double one = draw.any_of(sizes), other = draw.any_of(sizes);
   double at = 0;
   switch (draw.integer(0, 7)) {
     case 0:
@@ -213,7 +193,7 @@ Vec3 draw_aligned_offset(Draw& draw, const Numbers& n) {
   const double across = draw_coordinate(draw, sizes), along = draw_coordinate(draw, sizes);
   const double aside = draw.coin() ? 0 : draw_coordinate(draw, sizes);
   const Vec3 headings[] = {Vec3(1, 0, 0), Vec3(0, 1, 0), draw.direction_across(Vec3(0, 0, 1))};
-  const Vec3 e = any_of(draw, headings);
+  const Vec3 e = draw.any_of(headings);
   const Vec3 offset(across * e.x() - aside * e.y(), across * e.y() + aside * e.x(), along);
   return rotated(draw.coin() ? n.orientation_b : n.orientation_a, offset);
 }
@@ -242,8 +222,8 @@ Vec3 draw_meeting_offset(Draw& draw, const Numbers& n) {
   const Quaternion turn_a = normalized(n.orientation_a), turn_b = normalized(n.orientation_b);
   constexpr Feature of_a[] = {cap, side, rim, rim};
   const std::vector<Feature> of_b = features_of_b(n.pair);
-  const Feature on_a = any_of(draw, of_a), on_b = any_of(draw, of_b);
-  const double size = any_of(draw, n.sizes), clearance = size * draw_small_or_zero(draw);
+  const Feature on_a = draw.any_of(of_a), on_b = draw.any_of(of_b);
+  const double size = draw.any_of(n.sizes), clearance = size * draw_small_or_zero(draw);
   const Configuration met = meet(draw, {shapes.a, turn_a, shapes.b, turn_b}, on_a, on_b, clearance);
   return met.pose_a.position() - met.pose_b.position();
 }
@@ -274,7 +254,7 @@ Numbers draw_bodies_near_contact(Draw& draw, Pair pair) {
   }
   const Quaternion frames[] = {Quaternion(1, 0, 0, 0), draw_integer_quaternion(draw),
                                draw.orientation()};
-  n.orientation_b = any_of(draw, frames);
+  n.orientation_b = draw.any_of(frames);
   n.orientation_a = product(n.orientation_b, draw_relative_orientation(draw));
   n.position_b = draw_place(draw);
   n.position_a = n.position_b + draw_offset(draw, n);
@@ -284,7 +264,7 @@ Numbers draw_bodies_near_contact(Draw& draw, Pair pair) {
 Numbers draw_known_failure(Draw& draw, Pair pair) {
   const auto& known = known_failures(pair);
   return draw.coin() ? known.front()
-                     : any_of(draw, known);  // the first is often of our own routines
+                     : draw.any_of(known);  // the first is often of our own routines
 }
 
 Numbers draw_from_another_class(Draw& draw, Pair pair) {
@@ -292,28 +272,12 @@ Numbers draw_from_another_class(Draw& draw, Pair pair) {
   for (const PoseClass& c : pose_class_table(pair)) {
     if (!c.by_name_only) others.push_back(&c);
   }
-  return numbers_of(any_of(draw, others)->generate(draw));
-}
-
-// Both bodies as one
-
-void turn(Numbers& n, const Quaternion& by) {
-  n.position_a = rotated(by, n.position_a);
-  n.position_b = rotated(by, n.position_b);
-  n.orientation_a = product(by, n.orientation_a);
-  n.orientation_b = product(by, n.orientation_b);
-}
-
-void scale(Numbers& n, int exponent) {
-  const auto scaled = [&](double& x) { x = std::ldexp(x, exponent); };
-  for (double& size : n.sizes) scaled(size);
-  for (int i = 0; i < 3; ++i) scaled(n.position_a[i]), scaled(n.position_b[i]);
-  scaled(n.displacement);
+  return numbers_of(draw.any_of(others)->generate(draw));
 }
 
 int draw_exponent(Draw& draw) {
   constexpr std::int64_t reaches[] = {20, 200, 1000};
-  const std::int64_t reach = any_of(draw, reaches);
+  const std::int64_t reach = draw.any_of(reaches);
   return static_cast<int>(draw.integer(-reach, reach));
 }
 
@@ -331,8 +295,8 @@ double to_a_dyadic(Draw& draw, double x) {
 }
 
 void change_one(Draw& draw, const std::vector<double*>& numbers) {
-  double& x = *any_of(draw, numbers);
-  double& other = *any_of(draw, numbers);
+  double& x = *draw.any_of(numbers);
+  double& other = *draw.any_of(numbers);
   switch (draw.integer(0, 15)) {
     case 0:
     case 1:
@@ -356,7 +320,7 @@ void change_one(Draw& draw, const std::vector<double*>& numbers) {
       break;
     case 10: {
       constexpr double ratios[] = {1, 1, -1, 2, 0.5};
-      x = other * any_of(draw, ratios);
+      x = other * draw.any_of(ratios);
       break;
     }
     case 11:
@@ -373,8 +337,8 @@ void change_one(Draw& draw, const std::vector<double*>& numbers) {
       break;
     default: {
       const double sign = draw.sign();
-      if (one_in(draw, 4)) x = sign * draw_magnitude(draw);
-      if (one_in(draw, 4)) x = sign * neighbour(0, draw.integer(1, 1000));
+      if (draw.one_in(4)) x = sign * draw_magnitude(draw);
+      if (draw.one_in(4)) x = sign * neighbour(0, draw.integer(1, 1000));
     }
   }
 }
@@ -420,103 +384,17 @@ Source draw_source(Draw& draw, Pair pair) {
   return {std::move(n), 0, 4};
 }
 
-// Arbitrary overlaps: these exercise proofs that end a search early.
-
-/// A rotation away from an alignment by up to half a radian, about an axis near or far from those
-/// of B.
-Quaternion draw_clear_tilt(Draw& draw) {
-  const Quaternion bases[] = {Quaternion(1, 0, 0, 0), Quaternion(1, 1, 0, 0)};
-  const Quaternion quarters[] = {Quaternion(1, 0, 0, 0), Quaternion(1, 0, 0, 1)};
-  const double half_angle = draw.sign() * draw.log_uniform(1e-7, 0.5) / 2;
-  Quaternion heading = draw.turn_about_z();
-  if (draw.coin()) {
-    const double off = draw.log_uniform(1e-6, 0.5);
-    heading = product(any_of(draw, quarters), Quaternion(1, 0, 0, off));
-  }
-  return product(product(heading, any_of(draw, bases)), Quaternion(1, half_angle, 0, 0));
-}
-
-/// Three coordinates in B's frame, each uniform within the bodies' reach, or near a coincidence of
-/// their sizes.
-Vec3 draw_offset_within(Draw& draw, const std::vector<double>& sizes) {
-  const double reach = *std::max_element(sizes.begin(), sizes.end());
-  const double part = draw.coin() ? 2 : draw.log_uniform(0.02, 2);
-  Vec3 offset = Vec3::Zero();
-  const bool coincides = one_in(draw, 3);
-  for (int i = 0; i < 3; ++i) {
-    offset[i] = reach * part * draw.uniform(-1, 1);
-    if (coincides && draw.coin()) {
-      const double one = any_of(draw, sizes), other = any_of(draw, sizes);
-      const double sum = draw.sign() * (one + draw.sign() * other);
-      offset[i] = sum + draw.sign() * one * draw.log_uniform(1e-6, 0.5);
-    }
-  }
-  return offset;
-}
-
-/// Parallel axes, caps that overlap by little, axes 1e-7 to 0.1 of a radius apart: here contact
-/// points change from one layout to another.
-void put_caps_together(Draw& draw, Numbers& n) {
-  if (draw.coin()) n.sizes[2] = n.sizes[0];
-  const double across = n.sizes[0] * draw.log_uniform(1e-7, 0.1);
-  const double along = n.sizes[1] + n.sizes[3] - draw_shallow(draw, n.sizes[0]);
-  n.orientation_a = n.orientation_b = Quaternion(1, 0, 0, 0);
-  n.position_a = n.position_b + Vec3(across, 0, draw.sign() * along);
-}
-
-/// Parallel axes with nearly equal depths along and across B's axis: rounding, or a tilt, decides
-/// which is smaller.
-void make_depths_alike(Draw& draw, Numbers& n) {
-  const double across = n.sizes[0] * draw.uniform(0, 2);
-  const double depth = n.sizes[0] + n.sizes[2] - across;
-  const double half_b = n.sizes.back();  // a box's along z; a capsule's end is a radius farther out
-  const double cap_b = n.pair == Pair::capsule ? half_b + n.sizes[2] : half_b;
-  const double along =
-      n.sizes[1] + cap_b - depth + draw.sign() * n.sizes[0] * draw.log_uniform(1e-6, 0.1);
-  n.position_a = n.position_b + across * draw.direction_across(Vec3(0, 0, 1));
-  n.position_a.z() += draw.sign() * along;
-}
-
-/// Sides that cross close to the end of one of them, nearly at a right angle.
-void cross_at_an_end(Draw& draw, Numbers& n) {
-  const double quarter = draw.uniform(0.1, 1), lean = draw.log_uniform(1e-7, 1e-2);
-  n.orientation_a = product(Quaternion(1, quarter, 0, 0), Quaternion(1, 0, draw.sign() * lean, 0));
-  const Vec3 axis = rotated(n.orientation_a, Vec3(0, 0, 1));
-  const double on_a = n.sizes[1] * (1 + draw.sign() * draw.log_uniform(1e-7, 1e-2));
-  const double on_b = n.sizes[3] * draw.uniform(-1, 1);
-  const double across = n.sizes[0] + n.sizes[2] - draw_shallow(draw, n.sizes[0]);
-  n.position_a = n.position_b + Vec3(across, 0, on_b) - draw.sign() * on_a * axis;
-}
-
-Numbers draw_entangled(Draw& draw, Pair pair) {
-  Numbers n;
-  n.pair = pair;
-  n.sizes.resize(size_count(pair));
-  for (double& size : n.sizes) size = draw.log_uniform(0.05, 2);
-  if (pair == Pair::plane) {
-    n.normal = Vec3(0, 0, 1);
-    n.displacement = draw.uniform(-1, 1);
-  }
-  n.orientation_a = one_in(draw, 4) ? draw.orientation() : draw_clear_tilt(draw);
-  n.position_a = draw_offset_within(draw, n.sizes);
-  if (pair != Pair::plane && one_in(draw, 4)) make_depths_alike(draw, n);
-  const bool has_sides = pair == Pair::capsule || pair == Pair::cylinder;
-  if (has_sides && one_in(draw, 4)) cross_at_an_end(draw, n);
-  if (pair == Pair::cylinder && one_in(draw, 4)) put_caps_together(draw, n);
-  if (one_in(draw, 4)) scale(n, static_cast<int>(draw.integer(-12, 12)));
-  return n;
-}
-
 Configuration hostile(Draw& draw, Pair pair) {
   auto [n, changes, one_more_in] = draw_source(draw, pair);
-  if (one_in(draw, 4)) turn(n, draw.coin() ? draw.orientation() : draw_integer_quaternion(draw));
-  if (one_in(draw, 8)) scale(n, draw_exponent(draw));
+  if (draw.one_in(4))
+    turn_both(n, draw.coin() ? draw.orientation() : draw_integer_quaternion(draw));
+  if (draw.one_in(8)) scale_both(n, draw_exponent(draw));
   constexpr int max_changes = 5;
-  while (changes < max_changes && one_in(draw, one_more_in)) ++changes;
+  while (changes < max_changes && draw.one_in(one_more_in)) ++changes;
   for (const auto numbers = every_number(n); changes > 0; --changes) change_one(draw, numbers);
   make_valid(n);
   // Drawn last, so that the numbers of all other configurations stay.
-  if (one_in(draw, 6)) return configuration_of(draw_entangled(draw, pair));
+  if (draw.one_in(6)) return configuration_of(draw_entangled(draw, pair));
   return configuration_of(n);
 }
 

@@ -1,5 +1,5 @@
-// What the hostile class promises: that it reaches every corner that it speaks of, and nothing that
-// is not a configuration.
+// The promises of the hostile class: it reaches every difficulty that its description names, and
+// makes valid configurations only.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -39,14 +39,14 @@ Angle between_axes(const Configuration& c) {
 
 bool is_within(double x, double lo, double hi) { return std::abs(x) > lo && std::abs(x) < hi; }
 
-// Shapes and poses refuse what is not finite, so that making one is the test.
+// Shapes and poses reject numbers that are not finite, so that constructing them is the test.
 TEST(HostileClass, MakesValidConfigurationsOfItsPair) {
   for (const Pair pair : all_pairs) {
     EXPECT_EQ(count(pair, [&](const Configuration& c) { return pair_of(c) == pair; }), samples);
   }
 }
 
-/// How many of `samples` tilts lie between each power of ten and the next: counts[k] from 1e-(k+1).
+/// Histogram of `samples` tilts by powers of ten: counts[k] starts at 1e-(k+1).
 struct Decades {
   std::array<int, 16> counts{};
   void add(double tilt) {

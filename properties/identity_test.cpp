@@ -88,8 +88,8 @@ TEST(Identity, RebuildsTheSameBitsInAnyOrder) {
   }
 }
 
-// A changed generator breaks every identity that anybody has noted down: change these on purpose
-// only. The tilted rows are those whose bits a fused multiply-add would change.
+// A changed generator breaks every identity that has been written down: change these only on
+// purpose. The tilted rows are those whose bits a fused multiply-add would change.
 TEST(Identity, KeepsItsBitsFromVersionToVersion) {
   const struct {
     const char* identity;
@@ -245,7 +245,7 @@ TEST(Tape, HoldsWhatAnIdentityDrew) {
     EXPECT_EQ(shown(make_configuration(id, tape)), shown(make_configuration(id)));
     EXPECT_FALSE(tape.empty());
     const auto recorded = tape;
-    // Whatever the stream is, the tape says it all.
+    // The tape determines the configuration, whatever the stream.
     EXPECT_EQ(shown(make_configuration({c.pair, c.name, 8, 12}, tape)),
               shown(make_configuration(id)));
     EXPECT_EQ(tape, recorded);
@@ -263,7 +263,7 @@ TEST(Tape, ASmallChangeOfMostNumbersMovesAConfigurationALittle) {
   for (std::uint64_t& number : tape) {
     number ^= std::uint64_t{1} << 20;
     const Configuration after = make_configuration(id, tape);
-    // Whole numbers are drawn by remainders: those jump.
+    // Whole numbers are drawn as remainders, which are not continuous.
     const double moved = (after.pose_a.position() - before.pose_a.position()).norm();
     moved_little += shown(after) != shown(before) && moved < 1e-9;
     number ^= std::uint64_t{1} << 20;

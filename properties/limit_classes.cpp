@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include "properties/features.hpp"
+#include "properties/moves.hpp"
 #include "properties/pose_class.hpp"
 
 namespace touchstone {
@@ -77,32 +78,6 @@ Configuration general_near(Draw& draw, Pair pair) {
   return meet(draw, bodies, features.on_a, features.on_b, distance);
 }
 
-struct Scaled {
-  double factor;
-  Shape operator()(const Cylinder& s) const { return cylinder(s); }
-  Shape operator()(const Plane& s) const { return Plane(s.normal(), factor * s.displacement()); }
-  Shape operator()(const Sphere& s) const { return Sphere(factor * s.radius()); }
-  Shape operator()(const Capsule& s) const {
-    return Capsule(factor * s.radius(), factor * s.half_length());
-  }
-  Shape operator()(const Box& s) const { return Box(factor * s.half_extents()); }
-  Cylinder cylinder(const Cylinder& s) const {
-    return Cylinder(factor * s.radius(), factor * s.half_length());
-  }
-  Pose pose(const Pose& p) const { return Pose(factor * p.position(), p.orientation()); }
-};
-
-Configuration scaled(const Configuration& c, double factor) {
-  const Scaled by{factor};
-  return {by.cylinder(c.a), by.pose(c.pose_a), std::visit(by, c.b), by.pose(c.pose_b)};
-}
-
-Configuration far_away(Draw& draw, const Configuration& c) {
-  const Vec3 offset = 1e6 * draw.direction();
-  const auto moved = [&](const Pose& p) { return Pose(p.position() + offset, p.orientation()); };
-  return {c.a, moved(c.pose_a), c.b, moved(c.pose_b)};
-}
-
 /// One class for each tilt of 10^-k rad, k = 1..15, away from the exact pose `base`.
 void add_tilts(Pair pair, const std::string& name, const Quaternion& base, const std::string& what,
                std::vector<PoseClass>& out) {
@@ -157,7 +132,10 @@ std::vector<PoseClass> limit_classes(Pair pair) {
       {"far-from-origin",
        "Both bodies are a million metres away: positions must be subtracted before anything "
        "else.",
-       [pair](Draw& draw) { return far_away(draw, general_near(draw, pair)); }});
+       [pair](Draw& draw) {
+         const Configuration near = general_near(draw, pair);
+         return translated(near, 1e6 * draw.direction());
+       }});
   return out;
 }
 

@@ -1,6 +1,9 @@
 #include "properties/numbers.hpp"
 
+#include <cmath>
 #include <initializer_list>
+
+#include "properties/draw.hpp"
 
 namespace touchstone {
 namespace {
@@ -84,6 +87,20 @@ std::vector<double*> every_number(Numbers& n) {
   }
   add_pose(n.position_b, n.orientation_b);
   return all;
+}
+
+void turn_both(Numbers& n, const Eigen::Quaterniond& by) {
+  n.position_a = rotated(by, n.position_a);
+  n.position_b = rotated(by, n.position_b);
+  n.orientation_a = product(by, n.orientation_a);
+  n.orientation_b = product(by, n.orientation_b);
+}
+
+void scale_both(Numbers& n, int exponent) {
+  const auto scaled = [&](double& x) { x = std::ldexp(x, exponent); };
+  for (double& size : n.sizes) scaled(size);
+  for (int i = 0; i < 3; ++i) scaled(n.position_a[i]), scaled(n.position_b[i]);
+  scaled(n.displacement);
 }
 
 }  // namespace touchstone

@@ -27,4 +27,9 @@ Configuration configuration_of(const Numbers& numbers);
 /// Valid while `numbers` exists and its number of sizes is unchanged.
 std::vector<double*> every_number(Numbers& numbers);
 
+/// Rotates both bodies about the world's origin by a quaternion of moderate length.
+void turn_both(Numbers& numbers, const Eigen::Quaterniond& by);
+/// Multiplies all lengths by 2^exponent.
+void scale_both(Numbers& numbers, int exponent);
+
 }  // namespace touchstone

@@ -1,4 +1,5 @@
-// What each pose class promises: relations of axes in rational arithmetic, distances by the oracle.
+// The promises of each pose class: relations of axes in rational arithmetic, distances by the
+// oracle.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -24,7 +25,7 @@ TEST(PoseClasses, AreNamedOnceAndDescribedInASentence) {
   }
 }
 
-// Shapes and poses refuse what is not finite, so that making one is the test.
+// Shapes and poses reject numbers that are not finite, so that constructing them is the test.
 TEST(PoseClasses, MakeValidConfigurationsOfTheirPair) {
   for (const Pair pair : all_pairs) {
     for (const auto& name : pose_classes(pair)) {

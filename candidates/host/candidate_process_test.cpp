@@ -1,11 +1,19 @@
-// Every misdeed of testing/sabotage.cpp costs the one configuration that it was done on.
+// Every kind of sabotage in testing/sabotage.cpp affects only the configuration on which it
+// happens.
 #include "candidates/host/candidate_process.hpp"
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sched.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <vector>
 
+#include "candidates/host/watch.hpp"
 #include "candidates/testing/plain_contacts.hpp"
 #include "reference/invalid_input.hpp"
 
@@ -166,22 +174,22 @@ TEST(CandidateProcess, LeavesNoFileOpen) {
 }
 
 TEST(CandidateProcess, TimesTheQueriesAndNothingElse) {
-  // An answer made by a few stores: what a round trip between processes costs, some microseconds,
-  // would be seen.
+  // The answer takes a few stores, so that the microseconds of a round trip between processes would
+  // show.
   CandidateProcess process(sabotage("misdeed:16"), 0);
   const std::vector<Configuration> many(200, standing);
   ASSERT_TRUE(process.prepare_timing(many));
-  double least = 1e9, fewest = 1e9;
+  double min_nanoseconds = 1e9, min_instructions = 1e9;
   for (int i = 0; i < 9; ++i) {
     const QueryCost cost = process.cost_per_query().value();
-    least = std::min(least, cost.nanoseconds);
-    // Where they cannot be counted it says so; where they can, a query is some dozens.
-    fewest = std::min(fewest, cost.instructions.value_or(20));
+    min_nanoseconds = std::min(min_nanoseconds, cost.nanoseconds);
+    // Absent where instructions cannot be counted; otherwise a few dozen per query.
+    min_instructions = std::min(min_instructions, cost.instructions.value_or(20));
   }
-  EXPECT_GT(fewest, 5);
-  EXPECT_LT(fewest, 500);
-  EXPECT_GT(least, 0);
-  EXPECT_LT(least, 200);
+  EXPECT_GT(min_instructions, 5);
+  EXPECT_LT(min_instructions, 500);
+  EXPECT_GT(min_nanoseconds, 0);
+  EXPECT_LT(min_nanoseconds, 200);
 }
 
 TEST(CandidateProcess, ACrashWhileTimingIsNoTime) {
@@ -205,5 +213,58 @@ TEST(PluginProcess, RefusesWhatIsNoPlugin) {
   refused(folder + "/touchstone-sabotage.so", "a name that is taken");
 }
 
+/// A process that runs a function until it is ended.
+class Child {
+ public:
+  explicit Child(const std::function<void()>& work) : pid_(fork()) {
+    if (pid_ != 0) return;
+    for (;;) work();
+  }
+  ~Child() {
+    kill(pid_, SIGKILL);
+    waitpid(pid_, nullptr, 0);
+  }
+  Child(const Child&) = delete;
+  Child& operator=(const Child&) = delete;
+  pid_t pid() const { return pid_; }
+
+ private:
+  pid_t pid_;
+};
+
+constexpr useconds_t a_while = 300000;
+
+TEST(Watch, SeesAProcessWait) {
+  const Child child([] { pause(); });
+  usleep(a_while);  // until it does
+  const Watch watch(child.pid());
+  usleep(a_while);
+  const Watch::TimeUse spent = watch.spent();
+  if (!spent.waiting) GTEST_SKIP() << "this kernel does not tell";
+  EXPECT_GE(*spent.waiting, 0.9e-6 * a_while);
+  EXPECT_LE(spent.computing, 0.1e-6 * a_while);
+}
+
+TEST(Watch, DoesNotTakeAProcessThatGetsNoProcessorForOneThatWaits) {
+  const auto work_on_the_first_processor = [] {
+    cpu_set_t first;
+    CPU_ZERO(&first);
+    CPU_SET(0, &first);
+    sched_setaffinity(0, sizeof first, &first);
+    volatile bool over = false;
+    while (!over) {
+    }
+  };
+  const Child one(work_on_the_first_processor), two(work_on_the_first_processor),
+      three(work_on_the_first_processor), four(work_on_the_first_processor);
+  usleep(a_while);
+  const Watch watch(one.pid());
+  usleep(a_while);
+  const Watch::TimeUse spent = watch.spent();
+  EXPECT_LT(spent.computing, 0.7 * spent.by_the_clock);
+  EXPECT_LT(spent.waiting.value_or(0), 0.05 * spent.by_the_clock);
+}
+
 }  // namespace
+
 }  // namespace touchstone

@@ -80,7 +80,7 @@ struct Command {
   std::uint64_t memory;  ///< growth in bytes that a session is allowed
 };
 
-/// The reply. Everything else on the socket is noise, as from a routine that writes to foreign
+/// A message to the harness. Everything else on the socket is noise, as from a routine that writes to foreign
 /// descriptors.
 struct Reply {
   enum Kind : std::uint32_t {
@@ -101,7 +101,7 @@ struct Reply {
 /// A ts_candidate without pointers. Longer texts are truncated.
 struct Description {
   char name[64], version[64], settings[1024], models[512], meaning[256];
-  double least, most, usual;
+  double min, max, usual;
   bool has_parameter, whole, bare;
   bool supports[5];
 };

@@ -1,5 +1,6 @@
-// Whatever a plug-in does, on purpose or not: the configuration that it does it on gets the answer
-// that is true of it, the others get theirs, nothing is left running, and it takes no long time.
+// Whatever a plug-in does, on purpose or not: the configuration concerned gets the status that
+// describes what happened, the others get their answers, no process is left running, and it does
+// not take long.
 #include <chrono>
 #include <cstdlib>
 #include <dlfcn.h>
@@ -37,25 +38,25 @@ constexpr Limits limits{0.05, 256};
 #endif
 constexpr int culprit = 5, number = 12;
 
-/// What becomes of the configuration that a deed is done on.
-struct Expected {
+/// The outcome of the configuration on which the deed happens.
+struct ExpectedOutcome {
   const char* deed;
   std::vector<ts_status> status;
   std::string reason = "";
 };
 
-/// A wait is over the sooner.
-Limits limits_of(const Expected& expected) {
+/// A short limit ends waiting early.
+Limits limits_of(const ExpectedOutcome& expected) {
   return expected.reason == "waited" ? Limits{0.02, 256} : limits;
 }
 
 const std::vector<ts_status> answered = {TS_CONTACT}, crashed = {TS_CRASHED},
                              timed_out = {TS_TIMED_OUT}, failed = {TS_FAILED};
-/// It may have answered before what it did ends its session.
+/// It may have answered before its deed ends the session.
 const std::vector<ts_status> answered_or_crashed = {TS_CONTACT, TS_CRASHED};
 const std::vector<ts_status> whatever = {TS_CONTACT, TS_CRASHED, TS_TIMED_OUT};
 
-const std::vector<Expected> all_deeds = {
+const std::vector<ExpectedOutcome> all_deeds = {
     {"nothing", answered},
     {"segmentation fault", crashed, "Segmentation fault"},
     {"division", crashed, "Floating point exception"},
@@ -176,7 +177,7 @@ void expect_right(const Answer& answer, int i) {
   EXPECT_EQ(answer.point_count, 1) << i;
 }
 
-/// Children of this process; with those that lost their parent, once it is asked to take them in.
+/// The children of this process, including orphans once it is a subreaper.
 std::set<std::string> children() {
   std::set<std::string> result;
   std::ifstream list("/proc/thread-self/children");
@@ -184,7 +185,7 @@ std::set<std::string> children() {
   return result;
 }
 
-/// Takes leave of children that have ended, and gives those that are about to a moment.
+/// Reaps children that have ended, and waits a moment for those that are about to.
 void expect_children(const std::set<std::string>& expected) {
   for (int i = 0; i < 200 && children() != expected; ++i) {
     usleep(10000);
@@ -194,7 +195,7 @@ void expect_children(const std::set<std::string>& expected) {
   EXPECT_EQ(children(), expected);
 }
 
-/// As googletest wants names.
+/// Makes a name that googletest accepts.
 template <class Parameter>
 std::string deed_name(const testing::TestParamInfo<Parameter>& tested) {
   std::string name;
@@ -205,7 +206,8 @@ std::string deed_name(const testing::TestParamInfo<Parameter>& tested) {
   return name;
 }
 
-/// With TOUCHSTONE_TEST_NO_NAMESPACES in the environment nobody gets one, as in most containers.
+/// With TOUCHSTONE_TEST_NO_NAMESPACES in the environment no process gets a namespace, as in most
+/// containers.
 class NoNamespaces : public testing::Environment {
   void SetUp() override {
     if (!std::getenv("TOUCHSTONE_TEST_NO_NAMESPACES")) return;
@@ -231,10 +233,10 @@ bool namespaces_are_given() {
   return status == 0;
 }
 
-class Hostile : public testing::TestWithParam<Expected> {};
+class Hostile : public testing::TestWithParam<ExpectedOutcome> {};
 
 TEST_P(Hostile, CostsItsOwnConfigurationAlone) {
-  const Expected& expected = GetParam();
+  const ExpectedOutcome& expected = GetParam();
   prctl(PR_SET_CHILD_SUBREAPER, 1);  // whatever is left behind comes here
   const auto before = children();
   {
@@ -255,17 +257,17 @@ TEST_P(Hostile, CostsItsOwnConfigurationAlone) {
   expect_children(before);
 }
 
-INSTANTIATE_TEST_SUITE_P(Deeds, Hostile, testing::ValuesIn(all_deeds), deed_name<Expected>);
+INSTANTIATE_TEST_SUITE_P(Deeds, Hostile, testing::ValuesIn(all_deeds), deed_name<ExpectedOutcome>);
 
 TEST(HostileDeeds, AreAllTried) {
   std::set<std::string> tried, known;
-  for (const Expected& e : all_deeds) tried.insert(e.deed);
+  for (const ExpectedOutcome& e : all_deeds) tried.insert(e.deed);
   for (const auto& [name, i] : deed_numbers()) known.insert(name);
   EXPECT_EQ(tried, known);
   EXPECT_GE(known.size(), 40u);
 }
 
-void PrintTo(const Expected& expected, std::ostream* out) { *out << expected.deed; }
+void PrintTo(const ExpectedOutcome& expected, std::ostream* out) { *out << expected.deed; }
 
 struct Loading {
   const char* deed;
@@ -341,7 +343,8 @@ TEST(CandidateProcess, AHabitualSleeperCostsLittle) {
   const std::vector<Configuration> many(30, configurations()[culprit]);
   const auto start = std::chrono::steady_clock::now();
   for (const Answer& a : process.answers(many)) EXPECT_EQ(a.status, TS_TIMED_OUT);
-  // 0.2 + 0.1 + 0.05 + 0.025 + 26 · 0.02 s of waiting, looked at every 0.02 s; twice 30 s before.
+  // 0.2 + 0.1 + 0.05 + 0.025 + 26 · 0.02 s of waiting, checked every 0.02 s. Without halving it
+  // would be 30 s, twice.
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(15));
 }
 

@@ -253,7 +253,7 @@ void PluginProcess::State::start(std::chrono::milliseconds loading) {
         file,   i};
     std::copy(std::begin(d.supports), std::end(d.supports), c.supports.begin());
     if (d.has_parameter)
-      c.parameter = {readable(d.meaning), d.least, d.most, d.usual, d.whole, d.bare};
+      c.parameter = {readable(d.meaning), d.min, d.max, d.usual, d.whole, d.bare};
     candidates.push_back(std::move(c));
   }
 }

@@ -1,4 +1,5 @@
-// The plug-in's side: loads it, describes it, and forks sessions of it.
+// The plug-in's side: the guards of its processes, and the server that loads it, describes it, and
+// forks sessions of it.
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
@@ -6,6 +7,9 @@
 #include <cstring>
 #include <dlfcn.h>
 #include <exception>
+#include <fcntl.h>
+#include <optional>
+#include <sched.h>
 #include <signal.h>
 #include <stdexcept>
 #include <string>
@@ -19,6 +23,85 @@
 #include "candidates/host/session.hpp"
 
 namespace touchstone {
+namespace {
+
+/// Writes in a single call, as the files of user namespaces require.
+void write_file(const char* file, const std::string& text) {
+  const int fd = open(file, O_WRONLY);
+  if (fd < 0) return;
+  [[maybe_unused]] const ssize_t written = write(fd, text.data(), text.size());
+  close(fd);
+}
+
+/// Sends SIGKILL to all children, including those reparented to this process; as the first process
+/// of a PID namespace, to all processes in it. False if the kernel does not list children.
+bool kill_children() {
+  if (getpid() == 1) {
+    kill(-1, SIGKILL);
+    return true;
+  }
+  std::FILE* const list = std::fopen("/proc/thread-self/children", "r");
+  if (!list) return false;
+  for (int child; std::fscanf(list, "%d", &child) == 1;) kill(child, SIGKILL);
+  std::fclose(list);
+  return true;
+}
+
+/// Kills children until none is left. This terminates because orphans are reparented to this
+/// process.
+void end_descendants(pid_t child) {
+  while (kill_children()) {
+    if (waitpid(-1, nullptr, 0) < 0 && errno == ECHILD) return;
+  }
+  kill(-child, SIGKILL);
+  kill(child, SIGKILL);
+  waitpid(child, nullptr, 0);
+}
+
+[[noreturn]] void guard(pid_t child, int socket) {
+  sigset_t awaited;
+  sigemptyset(&awaited);
+  sigaddset(&awaited, SIGCHLD);
+  sigaddset(&awaited, SIGTERM);
+  std::optional<int> ended;
+  for (bool over = false; !over;) {
+    over = sigwaitinfo(&awaited, nullptr) == SIGTERM;
+    int status = 0;
+    for (pid_t pid; (pid = waitpid(-1, &status, WNOHANG | WUNTRACED)) > 0;) {
+      if (pid == child) ended = status;
+    }
+    over |= ended.has_value();
+  }
+  end_descendants(child);
+  if (ended && socket >= 0) reply(socket, Reply::gone, 0, *ended);
+  _exit(0);
+}
+
+}  // namespace
+
+bool begin_pid_namespace() {
+  if (unshare(CLONE_NEWPID) == 0) return true;
+  const std::string user = std::to_string(geteuid()), group = std::to_string(getegid());
+  if (unshare(CLONE_NEWUSER | CLONE_NEWPID) != 0) return false;
+  write_file("/proc/self/setgroups", "deny");
+  write_file("/proc/self/uid_map", user + " " + user + " 1");
+  write_file("/proc/self/gid_map", group + " " + group + " 1");
+  return true;
+}
+
+void fork_guarded(int socket) {
+  sigset_t all;
+  sigfillset(&all);
+  sigprocmask(SIG_BLOCK, &all, nullptr);
+  signal(SIGCHLD, SIG_DFL);
+  prctl(PR_SET_CHILD_SUBREAPER, 1);
+  const pid_t child = fork();
+  if (child < 0) _exit(1);
+  if (child > 0) guard(child, socket);
+  prctl(PR_SET_PDEATHSIG, SIGTERM);
+  setpgid(0, 0);
+}
+
 namespace {
 
 /// Large enough for any plug-in; a larger count is corrupt.
@@ -77,8 +160,8 @@ Description describe(const ts_candidate& c) {
   if (c.parameter) {
     d.has_parameter = true;
     copy(c.parameter->meaning, d.meaning);
-    d.least = c.parameter->least;
-    d.most = c.parameter->most;
+    d.min = c.parameter->least;
+    d.max = c.parameter->most;
     d.usual = c.parameter->usual;
     d.whole = c.parameter->whole != 0;
     d.bare = c.parameter->bare != 0;

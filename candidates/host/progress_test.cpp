@@ -24,7 +24,7 @@ TEST(Progress, PromisesNothingBeforeAnythingIsDone) {
   EXPECT_EQ(progress_text("cells", 0, 0, 0), "0 of 0 cells");
 }
 
-/// What half a second of progress prints on a terminal so many columns wide.
+/// The output of half a second of progress on a terminal of that many columns.
 std::string on_terminal(unsigned short columns) {
   winsize size{24, columns, 0, 0};
   int terminal = -1;

@@ -171,8 +171,9 @@ ts_prepared* Session::prepare(const Question& q) {
 
 /// Prepares the shapes, or returns them if an earlier question had the same ones.
 ts_prepared* Session::ready(const Question& q) {
-  const auto found = std::find_if(ready_.begin(), ready_.end(),
-                                  [&](const Ready& r) { return same(r.a, q.a) && same(r.b, q.b); });
+  const auto found = std::find_if(ready_.begin(), ready_.end(), [&](const PreparedPair& r) {
+    return same(r.a, q.a) && same(r.b, q.b);
+  });
   if (found != ready_.end()) {
     std::rotate(found, found + 1, ready_.end());
     return ready_.back().prepared;
@@ -188,7 +189,7 @@ ts_prepared* Session::ready(const Question& q) {
 /// Releases the shapes that no question of this command from `first` on needs: at once, so that a
 /// crash in release falls into the time of its own configuration.
 void Session::release_all_but_of(const Command& command, std::uint32_t first) {
-  std::erase_if(ready_, [&](const Ready& r) {
+  std::erase_if(ready_, [&](const PreparedPair& r) {
     for (std::uint32_t i = first; i < command.count; ++i) {
       if (same(r.a, asked_.slots[i].a) && same(r.b, asked_.slots[i].b)) return false;
     }
@@ -234,7 +235,7 @@ void Session::warm_up() {
 
 void Session::query_all() {
   // The call goes through a function pointer, so that the optimiser cannot remove it.
-  for (const Kept& k : kept_) candidate_.query(k.prepared, &k.a, &k.b, nullptr, answer_);
+  for (const TimedQuery& k : kept_) candidate_.query(k.prepared, &k.a, &k.b, nullptr, answer_);
 }
 
 void Session::time() {

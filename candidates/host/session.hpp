@@ -42,12 +42,12 @@ class Session {
 
  private:
   /// Two prepared shapes, for one pose after another.
-  struct Ready {
+  struct PreparedPair {
     ts_shape a, b;
     ts_prepared* prepared;  ///< null if the pair is not supported
   };
   /// Prepared shapes and poses for timing.
-  struct Kept {
+  struct TimedQuery {
     ts_prepared* prepared;
     ts_pose a, b;
   };
@@ -68,9 +68,9 @@ class Session {
   Exchange& exchange_;
   std::fenv_t environment_;  ///< floating-point environment after loading the plug-in
   ts_answer* answer_;
-  std::vector<Ready> ready_;  ///< the last pairs of shapes queried, oldest first
+  std::vector<PreparedPair> ready_;  ///< the last pairs of shapes queried, oldest first
   std::vector<Question> questions_;
-  std::vector<Kept> kept_;
+  std::vector<TimedQuery> kept_;
   std::size_t passes_ = 1;  ///< passes over kept_ in one timed round
   InstructionCounter counter_;
 };

@@ -77,7 +77,7 @@ TEST(WorkerProcesses, EndEarlyWithoutTheTasksInHand) {
 }
 
 TEST(WorkerProcesses, ShareNothingWithTheirOwnChildren) {
-  // A plug-in that overwrote the number of the next task had tasks done twice.
+  // A plug-in that overwrote the number of the next task once made tasks run twice.
   const auto overwrite = [](std::size_t) -> std::string {
     const pid_t child = fork();
     if (child > 0) return std::to_string(waitpid(child, nullptr, 0) == child);

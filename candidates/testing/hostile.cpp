@@ -1,9 +1,9 @@
-// A plug-in that is its host's enemy; for tests.
+// A plug-in that attacks its host; for tests.
 //
-// hostile:N does the N-th deed of the list below where A has the radius 7 (with
-// TOUCHSTONE_HOSTILE_EVERYWHERE in the environment: everywhere), and answers like any routine
-// elsewhere. TOUCHSTONE_HOSTILE_LOAD names one of the other list, which it does when it is asked
-// what it is. What would harm the machine is bounded.
+// hostile:N performs the N-th deed of the list below if A has the radius 7 (with
+// TOUCHSTONE_HOSTILE_EVERYWHERE in the environment: always), and otherwise answers normally.
+// TOUCHSTONE_HOSTILE_LOAD names a deed of the other list, which it performs when it is asked for
+// its description. Harm to the machine is bounded.
 #include <cfenv>
 #include <clocale>
 #include <csetjmp>
@@ -32,11 +32,11 @@
 
 namespace {
 
-/// Zero where the compiler cannot know it.
+/// Zero, hidden from the compiler.
 volatile std::uintptr_t nowhere = 0;
 volatile double third = 0;
 
-/// 1/3 as arithmetic gives it here: another number once the rounding mode is changed.
+/// 1/3 in the current rounding mode.
 void behave(ts_answer& answer, double x) {
   const double one = 1 + static_cast<double>(nowhere), three = 3 + static_cast<double>(nowhere);
   third = one / three;
@@ -47,8 +47,8 @@ void behave(ts_answer& answer, double x) {
   std::memcpy(answer.normal, answer.points[0].normal, sizeof answer.normal);
 }
 
-/// Is this process in a PID namespace that the host has made? Then it has two numbers: that of the
-/// host's namespace and its own.
+/// Is this process in a PID namespace made by the host? Then it has two numbers, one in the host's
+/// namespace and one in its own.
 bool confined() {
   std::FILE* const status = std::fopen("/proc/self/status", "r");
   if (!status) return false;
@@ -132,7 +132,7 @@ void daemon_that_waits() {
     _exit(0);
   }
 }
-/// Five generations of two children each, all of which stay.
+/// Forks five generations of two children each, all of which stay.
 void multiply() {
   for (int generation = 0; generation < 5; ++generation) fork();
   wait_for_ever();
@@ -155,7 +155,7 @@ void leave_a_thread_working() {
 void scribble(int fd, bool good_size) {
   char garbage[300];
   std::memset(garbage, 0x5a, sizeof garbage);
-  // As our reports are sized, and not.
+  // Once of the size of a Reply, once not.
   for (const std::size_t size : {std::size_t{1}, std::size_t{264}, sizeof garbage}) {
     [[maybe_unused]] const ssize_t written = write(fd, garbage, good_size ? size : 1);
   }
@@ -251,7 +251,7 @@ void remove_folder() {
 void change_rounding() { std::fesetround(FE_UPWARD); }
 void flush_subnormals() { _mm_setcsr(_mm_getcsr() | 0x8040); }
 void unmask_exceptions() { feenableexcept(FE_ALL_EXCEPT); }
-/// Whatever memory is shared with anyone, as /proc tells it.
+/// All shared memory, according to /proc.
 void overwrite_shared(int byte) {
   std::FILE* const maps = std::fopen("/proc/self/maps", "r");
   if (!maps) return;
@@ -460,7 +460,7 @@ ts_candidate candidate = {"hostile", "1",     "does one deed", nullptr, &which,
                           supports,  prepare, query,           release, nullptr};
 ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 1, &candidate};
 
-/// Letters to the last byte of the memory that there is.
+/// Fills the available memory with letters, to the last byte.
 const char* endless_text() {
   const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
   void* const memory =
@@ -525,7 +525,7 @@ const ts_plugin* touchstone_plugin() {
   return &plugin;
 }
 
-/// The names of the deeds in order, for the test, which runs none of them.
+/// The names of the deeds in order, for the test, which does not perform them.
 extern "C" TOUCHSTONE_EXPORT const char* hostile_deed(int i) {
   return i < count ? deeds[i].name : nullptr;
 }

@@ -18,8 +18,8 @@ inline const Quaternion along_y = Quaternion(Eigen::AngleAxisd(M_PI / 2, Vec3::U
 
 inline Vec3 normal_of(const ts_answer& a) { return Vec3(a.normal[0], a.normal[1], a.normal[2]); }
 
-/// A contact that every engine must get right in the way it is called here: faces and sides meet,
-/// no rounded edge is involved.
+/// A contact that every engine must get right as it is called here: between faces and sides,
+/// without rounded edges.
 struct PlainContact {
   const char* name;
   Configuration configuration;
@@ -60,7 +60,7 @@ inline std::vector<PlainContact> plain_contacts() {
   };
 }
 
-/// One process for each candidate and threshold in the life of a test program.
+/// One process for each candidate and threshold, kept for the lifetime of a test program.
 inline CandidateProcess& process(const Candidate& candidate, double threshold = 0) {
   static std::map<std::pair<std::string, double>, CandidateProcess> processes;
   return processes.try_emplace({candidate.name, threshold}, candidate, threshold).first->second;

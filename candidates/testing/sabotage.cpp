@@ -1,11 +1,11 @@
-// A plug-in that does on purpose what engines do by accident; for tests.
+// A plug-in that fails on purpose as engines fail by accident; for tests.
 //
-// misdeed:N does the N-th deed of the list below on every configuration. sabotage does one of them,
-// or none, as the bits of A's position decide: the same one for the same configuration. obedient
-// answers whatever previous normal it is given. declining answers planes, with a relative error of
-// 1e-6 in the depth where the axis lies in the plane: TOUCHSTONE_DECLINE, a number in the
-// environment, multiplies that error, and slows down all queries where it is negative. counting
-// answers with how many pairs it has prepared, and how many of them are not released.
+// misdeed:N performs the N-th deed of the list below on every configuration. sabotage performs one
+// of them, or none, chosen by the bits of A's position. obedient returns the previous normal that
+// it is given. declining answers planes, with a relative error of 1e-6 in the depth if the axis
+// lies in the plane; TOUCHSTONE_DECLINE, a number in the environment, multiplies that error, and
+// slows down all queries if it is negative. counting answers with the number of pairs prepared and
+// the number not yet released.
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -23,7 +23,7 @@ struct ts_prepared {
 
 namespace {
 
-/// Zero where the compiler cannot know it.
+/// Zero, hidden from the compiler.
 volatile std::uintptr_t nowhere = 0;
 std::vector<std::vector<char>> leaked;
 
@@ -51,7 +51,7 @@ void million_points(ts_answer& answer) {
   behave(answer);
   answer.point_count = 1000000;
   for (int i = 0; i < answer.point_count; ++i) {
-    // Beyond the array, as a routine does that was never told how many points there are.
+    // Writes beyond the array, as a routine does that does not know its size.
     std::memcpy(reinterpret_cast<char*>(answer.points) + i * sizeof(ts_point), answer.points,
                 i == 0 ? 0 : sizeof(ts_point));
   }
@@ -91,7 +91,7 @@ void query(ts_prepared* prepared, const ts_pose*, const ts_pose*, const double*,
            ts_answer* answer) {
   deeds[prepared->deed](*answer);
 }
-/// Of those that need no waiting; two in three configurations are answered.
+/// Chooses among the deeds that need no waiting; two of three configurations are answered.
 void query_some(ts_prepared*, const ts_pose* a, const ts_pose*, const double*, ts_answer* answer) {
   constexpr void (*quick[])(ts_answer&) = {
       segfault,     abort_it,    throw_it,       allocate,

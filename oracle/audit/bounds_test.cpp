@@ -1,4 +1,4 @@
-// The inequalities that every enclosure rests on, met on random points, cells and directions.
+// The inequalities on which every enclosure rests, on random points, cells and directions.
 #include <gtest/gtest.h>
 #include <random>
 
@@ -14,8 +14,8 @@ class RandomBodies : public testing::Test {
   double uniform(double lo, double hi) {
     return std::uniform_real_distribution<double>(lo, hi)(random_);
   }
-  Vec3 vector(double most) {
-    return {uniform(-most, most), uniform(-most, most), uniform(-most, most)};
+  Vec3 vector(double limit) {
+    return {uniform(-limit, limit), uniform(-limit, limit), uniform(-limit, limit)};
   }
   Pose pose() {
     return Pose(vector(0.3), {uniform(-1, 1), uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)});
@@ -46,7 +46,7 @@ class RandomBodies : public testing::Test {
   std::mt19937_64 random_{20261121};
 };
 
-// Of the program's value, after some dozens of updates of its inverse: no more than the tolerance
+// Error of the program's value after some dozens of updates of its inverse: at most the tolerance
 // to which it is solved.
 constexpr double program_rounding = 1e-9;
 constexpr double rounding = 1e-14;  // of the reference's gap in double, bodies of about a metre

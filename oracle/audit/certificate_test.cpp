@@ -1,4 +1,4 @@
-// What certificates claim; oracle/check_certificate.py judges their proofs
+// The claims of certificates; oracle/check_certificate.py checks their proofs
 // (reports/certificate_test.cpp).
 #include "oracle/audit/certificate.hpp"
 

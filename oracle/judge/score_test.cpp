@@ -132,8 +132,8 @@ TEST(Points, BeyondTheThresholdArePhantomPointsByTheGap) {
   EXPECT_EQ(scored(standing, far, {.tolerance = 1e-4, .threshold = 2e-3}).outcome, Outcome::agree);
 }
 
-// Of parallel sides that a tilt of 0.03 makes cross: signed distance and normal are right to the
-// last digits, and a solver feels nothing.
+// Parallel sides that a tilt of 0.03 makes cross: signed distance and normal are right to the last
+// digits, but a solver sees no depth.
 TEST(DeepestPoint, IsLackingWhereOurOwnCapsuleOnceHadPointsAtTheEndsOnly) {
   const Configuration c{Cylinder(0x1p-2, 5),
                         Pose(Vec3(0x1.1745d1745d174p-2, -0x1.ac37dac37dac4p-2, 0x1.bed61bed61bfp-6),
@@ -195,7 +195,7 @@ TEST(Score, ErrorsAreRelativeToAShareOfTheLargerSizeWhereDoublesSayNoMore) {
   EXPECT_EQ(error_size(needle, {.tolerance = 1e-13, .threshold = 0}), 1e9);
   EXPECT_EQ(error_size(needle, {.tolerance = 0, .threshold = 0}), 1e9);
   EXPECT_EQ(error_size(standing, {}), 0.5);
-  // A plane has no end: how far along it the cylinder lies counts.
+  // A plane has no end: the cylinder's distance along it counts.
   const Configuration aside{Cylinder(0.5, 1), Pose(Vec3(1e12, 0, 0)), Plane(up, 0), Pose()};
   EXPECT_DOUBLE_EQ(error_size(aside, {}), 1e3);
 }
@@ -307,12 +307,12 @@ TEST(PointDistance, OfEveryShape) {
   EXPECT_DOUBLE_EQ(distance(Plane({0, 0, 2}, 2), {0, 0, 5}), 1);
 }
 
-/// A can standing 0.2 deep in a half-space.
-const Configuration standing{Cylinder(1, 2), Pose({0, 0, 1.8}, {1, 0, 0, 0}), Plane({0, 0, 1}, 0),
-                             Pose()};
+/// A can that stands 0.2 deep in a half-space.
+const Configuration in_half_space{Cylinder(1, 2), Pose({0, 0, 1.8}, {1, 0, 0, 0}),
+                                  Plane({0, 0, 1}, 0), Pose()};
 
 double excess(const Vec3& p, double depth) {
-  return point_excess(standing, {{p.x(), p.y(), p.z()}, {0, 0, 1}, depth});
+  return point_excess(in_half_space, {{p.x(), p.y(), p.z()}, {0, 0, 1}, depth});
 }
 
 TEST(PointExcess, IsNoneBetweenTheSurfacesWhereverInTheDepth) {

@@ -7,7 +7,7 @@
 #include "oracle/patch/convex_set.hpp"
 #include "oracle/patch/feature_overlap.hpp"
 #include "oracle/patch/support_feature.hpp"
-#include "oracle/resolved.hpp"
+#include "oracle/rounding.hpp"
 
 namespace touchstone::oracle {
 namespace {
@@ -181,7 +181,7 @@ std::vector<Vec3> ContactPatch::outline(int per_quarter) const {
 }
 
 ContactPatch contact_patch(const Configuration& configuration, const OptimalNormal& normal) {
-  const Configuration c = resolved(configuration).configuration;
+  const Configuration c = rounded_configuration(configuration).configuration;
   const SupportFeatures features = support_features(c, normal);
   const double lengths = larger_size(c) + (c.pose_a.position() - c.pose_b.position()).norm();
   constexpr double beside = 1e-9;     // farther away, rounding has decided where the point is

@@ -43,7 +43,7 @@ Polygon exact_rectangle(int a, int b) {
 
 Vec2 rounded(const Traits::Point_2& p) { return {CGAL::to_double(p.x()), CGAL::to_double(p.y())}; }
 
-/// What CGAL has of the intersection: how many lines and arcs bound it, and its area.
+/// CGAL's intersection: the number of its lines and arcs, and its area.
 struct Region {
   int lines = 0, arcs = 0;
   double area = 0;
@@ -120,7 +120,7 @@ TEST(FeatureOverlap, DiscAndRectangleAreAsCgalHasThem) {
   }
 }
 
-/// Every side starts where the one before ends, on the discs and lines that it should.
+/// Every side starts where the previous one ends, and lies on the right disc or line.
 void expect_closed(const ConvexSet& set) {
   for (std::size_t i = 0; i < set.sides().size(); ++i) {
     const Side& s = set.sides()[i];

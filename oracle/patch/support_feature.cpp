@@ -33,7 +33,7 @@ struct Outward {
   Vec3 unit;
 };
 
-struct Placed {
+struct PosedShape {
   const Pose& pose;
   const ExactPose exact;
   const Outward& out;
@@ -57,7 +57,7 @@ struct Placed {
   }
 };
 
-SupportFeature feature(const Cylinder& shape, const Placed& body) {
+SupportFeature feature(const Cylinder& shape, const PosedShape& body) {
   switch (body.alignment[2]) {
     case Alignment::parallel: {
       SupportFeature f = body.centred(Kind::disc);
@@ -83,7 +83,7 @@ SupportFeature feature(const Cylinder& shape, const Placed& body) {
   return f;
 }
 
-SupportFeature feature(const Capsule& shape, const Placed& body) {
+SupportFeature feature(const Capsule& shape, const PosedShape& body) {
   if (body.alignment[2] == Alignment::perpendicular) {
     SupportFeature f = body.centred(Kind::segment);
     f.half_u = shape.half_length();
@@ -96,13 +96,13 @@ SupportFeature feature(const Capsule& shape, const Placed& body) {
   return f;
 }
 
-SupportFeature feature(const Sphere& shape, const Placed& body) {
+SupportFeature feature(const Sphere& shape, const PosedShape& body) {
   SupportFeature f;
   f.point = body.pose.position() + shape.radius() * body.out.unit;
   return f;
 }
 
-SupportFeature feature(const Box& shape, const Placed& body) {
+SupportFeature feature(const Box& shape, const PosedShape& body) {
   SupportFeature f = body.centred(Kind::point);
   f.point = body.pose.position();
   std::vector<int> across;
@@ -126,7 +126,7 @@ SupportFeature feature(const Box& shape, const Placed& body) {
   return f;
 }
 
-SupportFeature feature(const Plane&, const Placed& body) { return body.centred(Kind::plane); }
+SupportFeature feature(const Plane&, const PosedShape& body) { return body.centred(Kind::plane); }
 
 /// The normal as an exact vector of any length if it is parallel to an axis or a plane's normal;
 /// otherwise its doubles.
@@ -154,8 +154,8 @@ SupportFeatures support_features(const Configuration& c, const OptimalNormal& no
   const Outward out_of_b = from_b_to_a(c, normal, a, b);
   const Outward out_of_a{-out_of_b.direction, out_of_b.is_exact, -out_of_b.unit};
   const std::array<Alignment, 3> to_a{Alignment::oblique, Alignment::oblique, normal.to_a};
-  const Placed body_a{c.pose_a, a, out_of_a, to_a};
-  const Placed body_b{c.pose_b, b, out_of_b, normal.to_b};
+  const PosedShape body_a{c.pose_a, a, out_of_a, to_a};
+  const PosedShape body_b{c.pose_b, b, out_of_b, normal.to_b};
   return {feature(c.a, body_a),
           std::visit([&](const auto& shape) { return feature(shape, body_b); }, c.b)};
 }

@@ -77,12 +77,12 @@ struct Part {
     const double r = shape.radius(), h = shape.half_length();
     const Vec3 up = axes.col(2).dot(n) < 0 ? Vec3(-axes.col(2)) : Vec3(axes.col(2));
     const double c = up.dot(n);
-    const double least = std::sqrt(std::max(0.0, 1 - 2 * h * c / epsilon));
+    const double lowest_root = std::sqrt(std::max(0.0, 1 - 2 * h * c / epsilon));
     for (int i = 0; i <= balls; ++i) {
-      const double root = 1 - (1 - least) * i / balls;
+      const double root = 1 - (1 - lowest_root) * i / balls;
       const double left = epsilon * root * root;
       // A segment perpendicular to n lies in the part with both ends.
-      const bool at_end = i == balls && least > 0;
+      const bool at_end = i == balls && lowest_root > 0;
       const double w = i == 0 ? h : at_end || c == 0 ? -h : std::max(-h, h - (epsilon - left) / c);
       add_ball(r, centre + w * up, left, chords / 2);
     }

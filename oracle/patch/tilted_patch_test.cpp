@@ -11,7 +11,7 @@ namespace touchstone::oracle {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-/// The width by which inscribed polygons may be too narrow, as patch.hpp promises.
+/// Relative width by which inscribed polygons may be too narrow, as contact_patch.hpp promises.
 constexpr double inscribed = 5e-3;
 using Kind = ContactPatch::Kind;
 
@@ -63,15 +63,15 @@ TEST(TiltedPatch, OfASphereIsADisc) {
 }
 
 TEST(TiltedPatch, HoldsAsLongAsEpsilonDoesEvenBeyondTheBody) {
-  // All of both bodies: the shadow of the smaller one.
+  // The whole of both bodies: the projection of the smaller one.
   const ContactPatch p = contact_patch(
       {Cylinder(0.5, 1), Pose(up, lying_along_x), Box(Vec3(5, 5, 5)), Pose(-5 * up, upright)}, up,
       100);
   EXPECT_NEAR(p.area(), 2, 1e-9);
 }
 
-// A second way to the same part: its support along t is the minimum over λ >= 0 of
-// h(t + λ n) − λ (h(n) − ε), where h is the body's support (Lagrange duality).
+// An independent way to compute the part: its support along t is the minimum over λ >= 0 of h(t + λ
+// n) − λ (h(n) − ε), where h is the body's support (Lagrange duality).
 double body_support(const Shape& shape, const Eigen::Matrix3d& axes, const Vec3& d) {
   const Vec3 n = axes.transpose() * d;
   if (const auto* s = std::get_if<Cylinder>(&shape)) {
@@ -90,7 +90,7 @@ double part_support(const Shape& shape, const Eigen::Matrix3d& axes, const Vec3&
     return body_support(shape, axes, t + lambda * n) -
            lambda * (body_support(shape, axes, n) - epsilon);
   };
-  // Convex in λ; ternary search over the logarithm, λ = 0 apart.
+  // Convex in λ: ternary search over its logarithm; λ = 0 is tried separately.
   double lo = std::log(1e-9), hi = std::log(1e9);
   for (int i = 0; i < 200; ++i) {
     const double a = lo + (hi - lo) / 3, b = hi - (hi - lo) / 3;

@@ -28,7 +28,7 @@ std::vector<Configuration> configurations(Pair pair, const std::string& pose_cla
   return result;
 }
 
-/// Separated poses as most of an engine's calls are: A moved away by a tenth of the smaller size.
+/// Separate bodies, as in most calls of an engine: A moved away by a tenth of the smaller size.
 std::vector<Configuration> apart(Pair pair) {
   std::vector<Configuration> result = configurations(pair, "general-separated");
   for (Configuration& c : result) {
@@ -38,7 +38,7 @@ std::vector<Configuration> apart(Pair pair) {
   return result;
 }
 
-/// Streams `question` over the poses; asks for the shape's kind once for all of them.
+/// Streams `question` over the poses; the shape's kind is resolved once for all of them.
 template <class Question>
 void stream(benchmark::State& state, const std::vector<Configuration>& all, Question question) {
   std::visit(

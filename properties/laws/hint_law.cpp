@@ -9,7 +9,7 @@
 
 #include "oracle/truth.hpp"
 #include "properties/laws/law.hpp"
-#include "properties/laws/moves.hpp"
+#include "properties/moves.hpp"
 
 namespace touchstone {
 namespace {

@@ -8,7 +8,7 @@
 #include "oracle/patch/contact_patch.hpp"
 #include "oracle/truth.hpp"
 #include "properties/laws/law.hpp"
-#include "properties/laws/moves.hpp"
+#include "properties/moves.hpp"
 #include "properties/named.hpp"
 #include "reference/invalid_input.hpp"
 

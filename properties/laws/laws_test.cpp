@@ -1,4 +1,4 @@
-// The laws themselves: what they accept, and that each sees the fault it is there for.
+// The laws themselves: what they accept, and that each finds its fault.
 #include <cmath>
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -6,7 +6,7 @@
 #include "candidates/candidates.hpp"
 #include "properties/arbitrary.hpp"
 #include "properties/laws/check.hpp"
-#include "properties/laws/moves.hpp"
+#include "properties/moves.hpp"
 #include "properties/simplify.hpp"
 #include "reference/contact_of.hpp"
 #include "reference/invalid_input.hpp"
@@ -14,7 +14,7 @@
 namespace touchstone {
 namespace {
 
-/// A standing cylinder 0.1 deep in a box's top, and an answer that is right.
+/// A standing cylinder 0.1 deep in a box's top, and its right answer.
 Configuration standing() {
   return {Cylinder(1, 1), Pose({0, 0, 1.9}, {1, 0, 0, 0}), Box({2, 2, 1}), Pose()};
 }
@@ -45,7 +45,7 @@ std::string failure(const char* law, const std::vector<Answer>& answers) {
   return v ? v->failure : "";
 }
 
-/// The same with points of other depths, halfway between the surfaces if they were so deep.
+/// The right contact with points of other depths, halfway between surfaces that overlap by as much.
 Answer with_depths(Answer a, const std::vector<double>& depths) {
   for (std::size_t i = 0; i < depths.size(); ++i) {
     a.points[i].depth = depths[i];
@@ -125,7 +125,7 @@ TEST(Laws, HintSeesAFlickerAndAHintThatMisleads) {
   EXPECT_EQ(judged(tied, {up, up, side, up}), "jump");
   EXPECT_EQ(judged(tied, {up, up, none(), up}), "missed");
   EXPECT_EQ(judged(tied, {up, up, up, contact(-2.1, -z)}), "overdeep");
-  // What is wrong without a hint is for other laws to say.
+  // An answer that is wrong without a hint breaks other laws.
   EXPECT_EQ(judged(tied, {up, none(), none(), none()}), "");
   EXPECT_EQ(judged(tied, {none()}), "");
 
@@ -196,8 +196,8 @@ TEST(Check, SimplifiesAFailureToOneThatFailsAlike) {
   }
 }
 
-// Of bodies too large, too small or too far away to be moved without rounding that decides, laws
-// that move them say nothing; the others do, and no number overflows.
+// If bodies are so large, small or far away that rounding would decide, the laws that move them do
+// not apply; the others do, and no number overflows.
 TEST(Check, HoldsHostileConfigurationsToTheLawsThatApply) {
   CandidateProcess reference(find_candidate("reference"), 0);
   CheckOptions options;

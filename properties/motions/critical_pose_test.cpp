@@ -66,7 +66,7 @@ TEST(MapPixel, AtTheMarginIsChangedByTheZoom) {
   }
 }
 
-// A changed pose breaks every name that anybody has noted down.
+// A changed pose breaks every name that has been written down.
 TEST(StabilityName, KeepsItsBitsFromVersionToVersion) {
   const struct {
     const char* name;

@@ -64,8 +64,8 @@ TEST(Perturbation, GoesAnotherWayForEveryNumberSeedAndAmplitude) {
   EXPECT_LT(p.dot(perturbed(c, {Decade(-4), 1, 0}).pose_a.position().normalized()), 0.999);
 }
 
-// A changed step breaks every name with an @ that anybody has noted down. One that moves, one that
-// turns by a unit in the last place, one that does both.
+// A changed step breaks every name with an @ that has been written down. The rows: a translation, a
+// rotation by a unit in the last place, both.
 TEST(Perturbation, KeepsItsBitsFromVersionToVersion) {
   const struct {
     const char* perturbation;

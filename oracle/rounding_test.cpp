@@ -1,4 +1,4 @@
-#include "oracle/resolved.hpp"
+#include "oracle/rounding.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -16,26 +16,26 @@ const Quaternion upright(1, 0, 0, 0);
 
 bool meet(const Enclosure& a, const Enclosure& b) { return a.lo <= b.hi && b.lo <= a.hi; }
 
-TEST(Resolved, NoPoseClassLosesADigit) {
+TEST(RoundedConfiguration, NoPoseClassLosesADigit) {
   for (const Pair pair : all_pairs) {
     for (const std::string& name : pose_classes(pair)) {
       for (std::uint64_t i = 0; i < 10; ++i) {
         SCOPED_TRACE(to_string(Identity{pair, name, 8, i}));
-        EXPECT_EQ(resolved(make_configuration({pair, name, 8, i})).error, 0);
+        EXPECT_EQ(rounded_configuration(make_configuration({pair, name, 8, i})).error, 0);
       }
     }
   }
 }
 
-// Few bits, so that rounding is no matter of the last digit.
-TEST(Resolved, TheErrorBoundsWhatRoundingChanges) {
+// Few bits, so that rounding errors are large.
+TEST(RoundedConfiguration, TheErrorBoundsWhatRoundingChanges) {
   for (const Pair pair : {Pair::capsule, Pair::cylinder, Pair::box}) {
     for (const std::string& name : pose_classes(pair)) {
       for (std::uint64_t i = 0; i < 3; ++i) {
         SCOPED_TRACE(to_string(Identity{pair, name, 9, i}));
         const Configuration c = make_configuration({pair, name, 9, i});
         for (const int bits : {3, 6, 12, 30}) {
-          const auto [rounded, error] = resolved(c, bits);
+          const auto [rounded, error] = rounded_configuration(c, bits);
           const Enclosure exact = truth(c).signed_distance, is = truth(rounded).signed_distance;
           EXPECT_TRUE(meet(exact, {is.lo - error, is.hi + error})) << bits;
           EXPECT_LE(error, 38 * std::ldexp(larger_size(c), -bits)) << bits;
@@ -45,33 +45,33 @@ TEST(Resolved, TheErrorBoundsWhatRoundingChanges) {
   }
 }
 
-TEST(Resolved, AnOrientationMovesTheFarthestPointByNoMoreThanTheError) {
+TEST(RoundedConfiguration, AnOrientationMovesTheFarthestPointByNoMoreThanTheError) {
   // A needle of half length 1 over a box: the end goes down by the sine of the tilt.
   const Configuration c{Cylinder(0x1p-60, 1), Pose({0, 0, 3}, Quaternion(1, 0, 1 + 0.875 / 64, 0)),
                         Box({4, 4, 1}), Pose()};
-  const auto [rounded, error] = resolved(c, 6);
+  const auto [rounded, error] = rounded_configuration(c, 6);
   const mpq_class change = truth(c).signed_distance.lo - truth(rounded).signed_distance.lo;
   EXPECT_GT(abs(change), error / 8);
   EXPECT_LE(abs(change), error);
 }
 
-TEST(Resolved, SizesThatVanishStayPositive) {
+TEST(RoundedConfiguration, SizesThatVanishStayPositive) {
   const auto [rounded, error] =
-      resolved({Cylinder(1e-300, 1), Pose(), Box({5e-324, 1, 1}), Pose()});
+      rounded_configuration({Cylinder(1e-300, 1), Pose(), Box({5e-324, 1, 1}), Pose()});
   EXPECT_EQ(rounded.a.radius(), 0x1p-192);
   EXPECT_EQ(std::get<Box>(rounded.b).half_extents().x(), 0x1p-192);
   EXPECT_GT(error, 0);
   EXPECT_LE(error, 0x1p-190);
 }
 
-TEST(Resolved, WhatBothPositionsHaveInCommonCostsNothing) {
+TEST(RoundedConfiguration, WhatBothPositionsHaveInCommonCostsNothing) {
   const Vec3 tiny(1e-300, -1e-250, 0);
   const Configuration c{Cylinder(1, 1), Pose(tiny, upright), Cylinder(1, 1), Pose(tiny, upright)};
-  EXPECT_EQ(resolved(c).error, 0);
-  EXPECT_EQ(resolved(c).configuration.pose_a.position(), Vec3::Zero());
+  EXPECT_EQ(rounded_configuration(c).error, 0);
+  EXPECT_EQ(rounded_configuration(c).configuration.pose_a.position(), Vec3::Zero());
 }
 
-TEST(Resolved, ANarrowerWidthSharpensTheSameNumber) {
+TEST(RoundedConfiguration, ANarrowerWidthSharpensTheSameNumber) {
   // A tilt of 1e-70, lengths of 1e-80, and both beside what lies 1e200 away.
   const Quaternion tilt(1, 1e-70, 0, 0);
   const Configuration configurations[] = {
@@ -88,7 +88,7 @@ TEST(Resolved, ANarrowerWidthSharpensTheSameNumber) {
   }
 }
 
-TEST(Resolved, TheSignIsToldDownTo1e54OfTheSize) {
+TEST(RoundedConfiguration, TheSignIsToldDownTo1e54OfTheSize) {
   const Quaternion turned(1, 0, 0, 1e-150);
   for (const double size : {1e-30, 1e-54}) {
     // Coins whose faces are -size / 2 and 2 size apart.
@@ -102,7 +102,7 @@ TEST(Resolved, TheSignIsToldDownTo1e54OfTheSize) {
   }
 }
 
-TEST(Resolved, BodiesThatTouchWithRoundedNumbersAreSaidToTouchNearly) {
+TEST(RoundedConfiguration, BodiesThatTouchWithRoundedNumbersAreSaidToTouchNearly) {
   const Enclosure e = truth({Cylinder(1, 1), Pose({0, 0, 2}, upright), Cylinder(1, 1),
                              Pose({0, 1e-130, 0}, Quaternion(1, 0, 0, 1e-150))})
                           .signed_distance;

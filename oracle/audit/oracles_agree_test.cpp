@@ -1,7 +1,9 @@
-// Any finite numbers: whatever exponents stand beside each other, both oracles answer, do not
-// contradict each other, and one truth takes bounded time.
+// The two oracles against each other: on every pair and pose class, and on any finite numbers.
+// Whatever their exponents, both oracles answer, do not contradict each other, and one truth takes
+// bounded time.
 //
-// TOUCHSTONE_COUNT sets how many configurations of each pair are tried (300 by default, for CI).
+// TOUCHSTONE_COUNT sets how many configurations are tried: of each class (10 by default, for CI)
+// and of each pair (300 by default).
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -18,6 +20,7 @@
 #include "oracle/patch/contact_patch.hpp"
 #include "oracle/truth.hpp"
 #include "properties/arbitrary.hpp"
+#include "properties/identity.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone {
@@ -25,8 +28,8 @@ namespace {
 
 using Quaternion = Eigen::Quaterniond;
 
-/// Ordinary numbers, small integers and halves, and, the more of them the worse its mood, numbers
-/// of any exponent; bodies that coincide, touch or are parallel, exactly or nearly.
+/// Moderate numbers, small integers and halves, and a varying share of numbers of any exponent;
+/// bodies that coincide, touch or are parallel, exactly or nearly.
 class HostileConfigurations {
  public:
   explicit HostileConfigurations(std::uint64_t seed) : bits_(seed) {}
@@ -101,7 +104,7 @@ class HostileConfigurations {
     if (mood_ > 0 && one_in(4)) q.coeffs()[static_cast<int>(below(4))] = extreme();
     return q;
   }
-  /// The same, tilted by anything or turned by nearly a quarter; or another.
+  /// The same orientation, tilted by any angle or turned by nearly 90°; or another one.
   Quaternion related(const Quaternion& q) {
     switch (below(5)) {
       case 0:
@@ -144,7 +147,7 @@ class HostileConfigurations {
     }
     return Sphere(1);
   }
-  /// Between the centres: none, along one axis, where surfaces touch, or any.
+  /// Offset of the centres: zero, along one axis, such that surfaces touch, or any.
   Vec3 offset(const Cylinder& a, const Shape& b) {
     Vec3 along = Vec3::Zero();
     switch (below(5)) {
@@ -177,7 +180,7 @@ class HostileConfigurations {
   std::uint64_t mood_ = 0;
 };
 
-/// Of this thread, so that a busy machine changes nothing.
+/// Processor time of this thread, which a busy machine does not change.
 double processor_milliseconds() {
   timespec t;
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
@@ -189,7 +192,7 @@ std::uint64_t count() {
   return text ? std::strtoull(text, nullptr, 10) : 300;
 }
 
-/// An end of the second oracle's enclosure; none beyond all doubles.
+/// An end of the second oracle's enclosure; none if it is infinite.
 std::optional<mpq_class> end(double x) {
   if (!std::isfinite(x)) return std::nullopt;
   return mpq_class(x);
@@ -214,7 +217,7 @@ TEST_P(Hostile, NumbersAreAnsweredAlikeByBothOraclesAndSoon) {
     for (const oracle::OptimalNormal& normal : t.normals) oracle::contact_patch(c, normal);
     longest = std::max(longest, processor_milliseconds() - start);
     ASSERT_FALSE(t.normals.empty());
-    // At most one cell of the grid wide, or all that is left around zero.
+    // At most one cell of the grid wide, or the remaining neighbourhood of zero.
     EXPECT_LE(t.signed_distance.hi - t.signed_distance.lo,
               mpq_class(1e-30) * mpq_class(larger_size(c)));
     expect_no_contradiction(t.signed_distance, audit::enclose(c));
@@ -233,5 +236,38 @@ INSTANTIATE_TEST_SUITE_P(, Hostile, testing::ValuesIn(all_pairs), [](const auto&
   return std::string(pair_name(pair.param)).substr(std::string("cylinder-").size());
 });
 
+std::uint64_t count_per_class() {
+  const char* text = std::getenv("TOUCHSTONE_COUNT");
+  return text ? std::strtoull(text, nullptr, 10) : 10;
+}
+
+class PoseClasses : public testing::TestWithParam<Pair> {};
+
+TEST_P(PoseClasses, BothOraclesEncloseOneSignedDistance) {
+  // Relative to the larger size; continua of normals (concentric, coaxial) cost the most.
+  constexpr double widest = 1e-4;
+  for (const auto& name : pose_classes(GetParam())) {
+    for (std::uint64_t i = 0; i < count_per_class(); ++i) {
+      const Identity id{GetParam(), name, 20261121, i};
+      SCOPED_TRACE(to_string(id));
+      const Configuration c = make_configuration(id);
+      const oracle::Enclosure truth = oracle::truth(c).signed_distance;
+      const audit::Enclosure e = audit::enclose(c);
+      ASSERT_LE(mpq_class(e.lo), truth.hi);
+      ASSERT_GE(mpq_class(e.hi), truth.lo);
+      ASSERT_GE(mpq_class(e.pair_distance), truth.lo);
+      EXPECT_LE(e.hi - e.lo, widest * larger_size(c));
+      if (name.starts_with("general-")) {
+        EXPECT_LE(e.hi - e.lo, 1.0001e-9 * larger_size(c));
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(, PoseClasses, testing::ValuesIn(all_pairs), [](const auto& pair) {
+  return std::string(pair_name(pair.param)).substr(std::string("cylinder-").size());
+});
+
 }  // namespace
+
 }  // namespace touchstone

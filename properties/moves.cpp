@@ -1,4 +1,4 @@
-#include "properties/laws/moves.hpp"
+#include "properties/moves.hpp"
 
 namespace touchstone {
 namespace {
@@ -11,7 +11,7 @@ Pose turned_in_place(const Pose& pose, const Eigen::Quaterniond& local) {
   return {pose.position(), pose.unit_orientation() * local};
 }
 
-struct Scaled {
+struct Scaling {
   double factor;
   Shape operator()(const Cylinder& s) const {
     return Cylinder(factor * s.radius(), factor * s.half_length());
@@ -64,8 +64,8 @@ Configuration scaled(const Configuration& c, double factor) {
   const auto moved = [&](const Pose& pose) {
     return Pose(factor * pose.position(), pose.orientation());
   };
-  return {std::get<Cylinder>(Scaled{factor}(c.a)), moved(c.pose_a), std::visit(Scaled{factor}, c.b),
-          moved(c.pose_b)};
+  return {std::get<Cylinder>(Scaling{factor}(c.a)), moved(c.pose_a),
+          std::visit(Scaling{factor}, c.b), moved(c.pose_b)};
 }
 
 Configuration with_a_grown(const Configuration& c, double radius, double half_length) {

@@ -1,4 +1,4 @@
-#include "oracle/resolved.hpp"
+#include "oracle/rounding.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -93,7 +93,7 @@ Eigen::Quaterniond rounded(const Eigen::Quaterniond& q, int bits, const mpq_clas
 
 }  // namespace
 
-Resolved resolved(const Configuration& c, int bits) {
+RoundedConfiguration rounded_configuration(const Configuration& c, int bits) {
   if (std::holds_alternative<Plane>(c.b) || std::holds_alternative<Sphere>(c.b)) return {c, 0};
   mpq_class error = 0;
   const Grid lengths(larger_size(c), bits);

@@ -10,7 +10,7 @@ namespace touchstone::oracle {
 
 /// A configuration rounded to the bits that an answer can show, and a bound of what rounding
 /// changed.
-struct Resolved {
+struct RoundedConfiguration {
   Configuration configuration;
   /// Metres: the signed distances differ by no more than this. Zero if nothing was rounded.
   mpq_class error;
@@ -18,7 +18,7 @@ struct Resolved {
 
 /// Bits that every truth and every contact patch keeps. Doubles within a factor of 2^139 of each
 /// other lose nothing; neither do tilts of 1e-25.
-inline constexpr int resolved_bits = 192;
+inline constexpr int kept_bits = 192;
 
 /// Rounds lengths to multiples of 2^-bits of the larger size (a size to at least one multiple), and
 /// a quaternion's components to multiples of 2^-bits of its largest one. This keeps the
@@ -30,7 +30,8 @@ inline constexpr int resolved_bits = 192;
 /// than 2 |q' − q| / |q| times its distance from the centre, as sin(angle/2) <= |q' − q| / |q|.
 ///
 /// Against a plane or a sphere no polynomial arises, and nothing is rounded.
-Resolved resolved(const Configuration& configuration, int bits = resolved_bits);
+RoundedConfiguration rounded_configuration(const Configuration& configuration,
+                                           int bits = kept_bits);
 
 /// Moves bodies that are farther apart than 2^bits times their sizes closer together, in the same
 /// direction: coordinates of a thousand bits would give roots that lie 2^-1000 apart.
