@@ -287,9 +287,6 @@ class RimScan {
   /// angles are within `turn` of its angle, and counts by how much another one there may be better.
   void leave(const RimSample& x, double reach, double turn) {
     const double nearest = std::max({x.distance - reach, least_depth_, 0.0});
-    // The best gap is as large, whether the bodies overlap by that distance or are that far apart.
-    const double enough = best_.gap + noise_;
-    if (-nearest <= enough && (least_depth_ > 0 || limit_ <= enough)) return;
     offer(x);
     const Passage passage = rims_.passage(x, turn);
     if (rims_.may_meet(x, -1, turn, passage)) count_unproven(-nearest);

@@ -88,7 +88,7 @@ void judge_arcs(const void* made, const Routines& routines, std::size_t index,
   const RawArc rims = routines.arc(made, end1, end2, 0, 0);
   constexpr double min_length = 1e-20, max_length = 1e20;
   if (!(rims.r1 > min_length && rims.r2 + vector(rims.q).norm() < max_length)) return;
-  // Where the rim passes closest to the other's axis, and beside it.
+  // Where the rim passes closest to the other's axis, beside that, and anywhere.
   double closest = 0;
   Real least = max_length;
   constexpr int places = 16;
@@ -98,8 +98,8 @@ void judge_arcs(const void* made, const Routines& routines, std::size_t index,
       least = radial, closest = angle;
     }
   }
-  for (const double half_width : {0.4, 0.05, 1e-3}) {
-    for (const double angle : {closest, closest + 1.5 * half_width}) {
+  for (const double half_width : {0.4, 0.1, 0.02, 1e-3}) {
+    for (const double angle : {closest, closest + 1.5 * half_width, 0.7, 2.2}) {
       const RawArc arc = routines.arc(made, end1, end2, angle, half_width);
       judge_arc(arc, end1, end2, angle, half_width, expect);
     }
