@@ -110,7 +110,7 @@ void judge_derivation(const RawArc& x, Real angle, Real half_width,
   const Real derivative =
       s * (max_height + 3 * s * r1 * sine) + (beside * third + 3 * rate * second) / r1;
   const Real noise = 1.6e-15L * size * (1 + r1 / radial + r1 * r2 / (radial * radial));
-  expect(x.turn >= digits * turn && x.max_second >= digits * second &&
+  expect(x.turn >= digits * turn && x.max_second >= digits * second - 1e-15L * size &&
              x.max_rate >= digits * rate - 1e-15L * size,
          ArcCheck::derivatives);
   expect(x.max_bend >= digits * (derivative * half_width + noise), ArcCheck::derivatives);
