@@ -175,7 +175,7 @@ class RimScan {
         limit_(limit),
         least_depth_(least_depth),
         best_(best),
-        noise_(8 * rims.noise()) {}
+        noise_(rims.margin()) {}
 
   void scan(const Range& cosines) {
     // The ends of the range are rounded, and a minimum may lie at one of them.
@@ -218,18 +218,10 @@ class RimScan {
     const double reach = rims_.radius1() * half_width;
     if (!matters(middle.distance - reach, middle.distance + reach)) return;
     const Passage passage = rims_.passage(middle, half_width);
-    const double bend = max_bend(middle, half_width, passage);
+    const double bend = rims_.max_bend(middle, half_width, passage);
     const double change = (std::abs(middle.curvature) + bend / 2) * half_width;
     if (std::abs(middle.slope) > change + noise_) return;  // no stationary distance
     undecided(middle, half_width, passage, bend, change);
-  }
-
-  /// How far curvatures on the arc are from the middle's, rounding included; infinite where the arc
-  /// may cross axis 2.
-  double max_bend(const RimSample& middle, double half_width, const Passage& passage) const {
-    if (!(passage.min_radial > 0)) return never;
-    return rims_.max_third_derivative(middle, half_width, passage) * half_width +
-           noise_ * rims_.conditioning(passage.min_radial);
   }
 
   /// Treats an arc that may have a stationary distance. Few have, so that this stays out of `arc`.
@@ -277,7 +269,8 @@ class RimScan {
     const double slope = std::abs(x.slope) + noise_;
     double curvature = min_curvature;
     if (const double width = slope / min_curvature; width < half_width) {
-      curvature = std::max(curvature, x.curvature - max_bend(x, width, rims_.passage(x, width)));
+      curvature =
+          std::max(curvature, x.curvature - rims_.max_bend(x, width, rims_.passage(x, width)));
     }
     const double change = rims_.radius1() * slope * slope / (2 * curvature);
     leave(x, reach_of_squares(x.distance, change), slope / curvature);
@@ -287,9 +280,6 @@ class RimScan {
   /// angles are within `turn` of its angle, and counts by how much another one there may be better.
   void leave(const RimSample& x, double reach, double turn) {
     const double nearest = std::max({x.distance - reach, least_depth_, 0.0});
-    // The best gap is as large, whether the bodies overlap by that distance or are that far apart.
-    const double enough = best_.gap + noise_;
-    if (-nearest <= enough && (least_depth_ > 0 || limit_ <= enough)) return;
     offer(x);
     const Passage passage = rims_.passage(x, turn);
     if (rims_.may_meet(x, -1, turn, passage)) count_unproven(-nearest);

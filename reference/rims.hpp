@@ -197,10 +197,10 @@ class Rims {
     if (!(p.min_radial > 0)) return true;
     const double c = pair_.axes.c, moved = p.max_rate * half_width;
     const double turn = half_width * p.turn;  // of rim 2's point, at most
-    const double slack = half_width + turn + 8 * noise() / p.min_radial;
+    const double slack = half_width + turn + margin() / p.min_radial;
     const double error = pair_.axes.s * pair_.r1 * half_width + moved +
                          (std::abs(x.radial - pair_.r2) + moved) * turn + x.distance * half_width +
-                         8 * noise();
+                         margin();
     const double along1 = c * x.cos1 * x.sin2 - x.sin1 * x.cos2;
     const double along2 = x.cos1 * x.sin2 - c * x.sin1 * x.cos2;
     const double outward1 = x.apart.y() * x.cos1 + x.apart.z() * x.sin1;
@@ -249,23 +249,27 @@ class Rims {
     return s * (height + 3 * s * r1 * sine) + (beside * third + 3 * p.max_rate * p.max_second) / r1;
   }
 
+  /// Bound of how far curvatures on the arc are from the middle's, rounding included; infinite
+  /// where the arc may cross axis 2.
+  double max_bend(const RimSample& x, double half_width, const Passage& p) const {
+    if (!(p.min_radial > 0)) return never;
+    const double part = pair_.r1 / p.min_radial;
+    const double conditioning = 1 + part + part * pair_.r2 / p.min_radial;
+    return max_third_derivative(x, half_width, p) * half_width + margin() * conditioning;
+  }
+
   /// Whether every stationary distance on the arc is a maximum, because rim 1 passes so close to
   /// axis 2 that rim 2's nearest point turns about it.
   bool has_only_maxima_beside_axis(const RimSample& x, double half_width, const Passage& p) const {
     const double s = pair_.axes.s, r1 = pair_.r1, r2 = pair_.r2;
-    const double max_radial = p.max_radial + 8 * noise(), inside = r2 - max_radial;
+    const double max_radial = p.max_radial + margin(), inside = r2 - max_radial;
     if (!(inside > 0 && p.min_speed > 0)) return false;
-    const double max_height = std::abs(x.height) + s * r1 * half_width + 8 * noise();
+    const double max_height = std::abs(x.height) + s * r1 * half_width + margin();
     const double max_rise = s * r1 * std::min(1.0, std::abs(x.sin1) + half_width);
     const double along = max_height * max_rise / inside;
     const double across_squared = p.min_speed * p.min_speed - along * along;
     return max_rise * max_rise + along * along + (s * max_height + r2) * r1 <
            inside * across_squared / max_radial;
-  }
-
-  /// Factor by which a curvature is rounded more than lengths are, at this distance from axis 2.
-  double conditioning(double radial) const {
-    return 1 + pair_.r1 / radial + pair_.r1 * pair_.r2 / (radial * radial);
   }
 
   /// Whether n points inward at end 1 wherever the rims of overlapping bodies meet on the arc.
@@ -277,6 +281,8 @@ class Rims {
 
   /// Rounding of a slope, also of a length.
   double noise() const { return 2e-16 * size_; }
+  /// Margin that proofs leave for it.
+  double margin() const { return 8 * noise(); }
 
  private:
   /// Bound of each derivative of the squared distance of rim 1 from axis 2.

@@ -72,7 +72,9 @@ void move_to_the_limit(RawConfiguration& c) {
   double largest = 0;
   for (const double x : c.sizes) largest = std::max(largest, x);
   if (!(largest > 0)) return;
-  for (double& x : c.sizes) x = std::min(x / largest * max_length, max_length);
+  for (double& x : c.sizes) {
+    if (x > 0) x = std::clamp(x / largest * max_length, 1.0, max_length);
+  }
   for (std::size_t i = 0; i < 3; ++i) {
     const double side = std::copysign(1, c.position_a[i]);
     const double part = std::abs(std::remainder(c.position_a[i], 1));

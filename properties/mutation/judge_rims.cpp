@@ -68,7 +68,7 @@ void judge_arc(const RawArc& x, Real end1, Real end2, Real angle, Real half_widt
       expect(p.turn <= digits * x.turn + 1e-9L &&
                  std::abs(p.rate) <= x.max_rate * digits + rounding &&
                  std::abs(p.second) <= x.max_second * digits + 1e5L * rounding &&
-                 std::abs(p.third) <= x.r1 * (x.max_third * digits + 1e9L * rounding),
+                 std::abs(p.third) * half_width <= x.r1 * x.max_bend * digits,
              ArcCheck::derivatives);
       expect(!x.points_inward || end1 * p.apart.x() > -rounding, ArcCheck::directions);
       expect(x.may_meet_overlapping || !p.may_meet(x, end1, end2, -1), ArcCheck::directions);
@@ -80,6 +80,45 @@ void judge_arc(const RawArc& x, Real end1, Real end2, Real angle, Real half_widt
   }
 }
 
+/// No bound is smaller than proofs.md derives it, also where the rims would not show that.
+void judge_derivation(const RawArc& x, Real angle, Real half_width,
+                      const std::function<void(bool, ArcCheck)>& expect) {
+  const RimPoint middle(x, angle);
+  constexpr Real digits = 1 - 1e-9L;
+  const Real s = x.s, r1 = x.r1, r2 = x.r2, size = r1 + r2 + vector(x.q).norm();
+  const Real max_rise = s * r1 * std::min<Real>(1, std::abs(std::sin(angle)) + half_width);
+  const Real max_height = std::abs(middle.height) + s * r1 * half_width;
+  if (x.only_maxima) {
+    const Real inside = r2 - x.max_radial, along = max_height * max_rise / inside;
+    const Real across_squared = x.min_speed * x.min_speed - along * along;
+    expect(max_rise * max_rise + along * along + max_height * s * r1 + r2 * r1 <
+               inside * across_squared / x.max_radial / digits,
+           ArcCheck::minima);
+  }
+  constexpr Real close = 1e-4L;
+  if (!(x.min_radial > close * size && r1 > close * size)) return;
+  const Real radial = x.min_radial, v = x.max_speed, turn = v / radial;
+  const Real k = x.c * x.q[1] - s * x.q[0];
+  const Real wave =
+      (2 * r1 * std::hypot(k, static_cast<Real>(x.q[2])) + 4 * r1 * r1 * s * s) / (radial * radial);
+  const Real second = std::min(r1 + v * turn, radial * wave * (0.5L + wave / 4));
+  const Real rate = std::min({v, radial * wave / 2, std::abs(middle.rate) + second * half_width});
+  const Real third = std::min(v * (1 + 1.154L * turn * turn) + 3 * r1 * turn,
+                              radial * wave * (0.5L + 0.75L * wave + 0.375L * wave * wave));
+  const Real beside = std::abs(middle.radial - r2) + rate * half_width;
+  const Real sine = std::min<Real>(0.5L, std::abs(std::sin(angle)) + half_width);
+  const Real derivative =
+      s * (max_height + 3 * s * r1 * sine) + (beside * third + 3 * rate * second) / r1;
+  const Real noise = 1.6e-15L * size * (1 + r1 / radial + r1 * r2 / (radial * radial));
+  expect(x.turn >= digits * turn && x.max_second >= digits * second - 1e-15L * size &&
+             x.max_rate >= digits * rate - 1e-15L * size,
+         ArcCheck::derivatives);
+  expect(x.max_bend >= digits * (derivative * half_width + noise), ArcCheck::derivatives);
+  if (x.points_inward) {
+    expect(std::abs(middle.apart.x()) >= digits * s * r2 * turn * half_width, ArcCheck::directions);
+  }
+}
+
 }  // namespace
 
 void judge_arcs(const void* made, const Routines& routines, std::size_t index,
@@ -88,7 +127,7 @@ void judge_arcs(const void* made, const Routines& routines, std::size_t index,
   const RawArc rims = routines.arc(made, end1, end2, 0, 0);
   constexpr double min_length = 1e-20, max_length = 1e20;
   if (!(rims.r1 > min_length && rims.r2 + vector(rims.q).norm() < max_length)) return;
-  // Where the rim passes closest to the other's axis, and beside it.
+  // Where the rim passes closest to the other's axis, beside that, and anywhere.
   double closest = 0;
   Real least = max_length;
   constexpr int places = 16;
@@ -98,10 +137,11 @@ void judge_arcs(const void* made, const Routines& routines, std::size_t index,
       least = radial, closest = angle;
     }
   }
-  for (const double half_width : {0.4, 0.05, 1e-3}) {
-    for (const double angle : {closest, closest + 1.5 * half_width}) {
+  for (const double half_width : {0.4, 0.1, 0.02, 1e-3}) {
+    for (const double angle : {closest, closest + 1.5 * half_width, 0.7, 2.2}) {
       const RawArc arc = routines.arc(made, end1, end2, angle, half_width);
       judge_arc(arc, end1, end2, angle, half_width, expect);
+      judge_derivation(arc, angle, half_width, expect);
     }
   }
 }

@@ -124,7 +124,7 @@ RawArc arc(const void* made, double end1, double end2, double angle, double half
           p.turn,
           p.max_rate,
           p.max_second,
-          rims.max_third_derivative(x, half_width, p),
+          rims.max_bend(x, half_width, p),
           rims.has_only_maxima_beside_axis(x, half_width, p),
           rims.points_inward(x, half_width, p),
           rims.may_meet(x, -1, half_width, p),

@@ -58,7 +58,7 @@ struct RawArc {
   double c, s;  ///< cosine and sine between the axes
   Numbers3 q;   ///< from rim 2's centre to rim 1's, but for the bodies' halves (proofs.md)
   double r1, r2;
-  double min_speed, max_speed, min_radial, max_radial, turn, max_rate, max_second, max_third;
+  double min_speed, max_speed, min_radial, max_radial, turn, max_rate, max_second, max_bend;
   bool only_maxima, points_inward, may_meet_overlapping, may_meet_apart;
 };
 
