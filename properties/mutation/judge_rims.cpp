@@ -137,7 +137,7 @@ void judge_arcs(const void* made, const Routines& routines, std::size_t index,
       least = radial, closest = angle;
     }
   }
-  for (const double half_width : {0.4, 0.1, 0.02, 1e-3}) {
+  for (const double half_width : {1.5, 0.4, 0.1, 0.02, 1e-3}) {
     for (const double angle : {closest, closest + 1.5 * half_width, 0.7, 2.2}) {
       const RawArc arc = routines.arc(made, end1, end2, angle, half_width);
       judge_arc(arc, end1, end2, angle, half_width, expect);
