@@ -33,7 +33,9 @@ constexpr double crossed = 0.1;  // rad; lines that turn by more cross in a poin
 /// their radii, so that both surfaces fall off by the same part of these. Across a, which crosses b
 /// with this cosine, y is that much less.
 struct Roundness {
-  double radii, inverse, share_of_a;  ///< `inverse` is that of the reach, where both have ended
+  double radii;       ///< both together
+  double inverse;     ///< of the reach: the distance at which both surfaces have ended
+  double share_of_a;  ///< of a distance, what belongs to A
   Roundness(double radius_a, double radius_b, double cosine) : radii(radius_a + radius_b) {
     const double scale = 1 / (radius_a + radius_b * cosine);
     inverse = cosine * scale;
@@ -95,7 +97,7 @@ void segment_on_flat(const Manifold& to, const FacingFeature& segment, const Fac
   } else if (flat.kind == Kind::rectangle) {
     // The edges that the line crosses first. One that runs along the others, but for a hair, does
     // so within them or on one, whichever side of that rounding puts it on.
-    const std::array<Strip, 2> strips = {plane.strip(flat, 0), plane.strip(flat, 1)};
+    const std::array<Strip, 2> strips = plane.face(flat).strips;
     const double along[] = {strips[0].across.dot(l.along), strips[1].across.dot(l.along)};
     const int first = std::abs(along[0]) >= std::abs(along[1]) ? 0 : 1;
     for (const int i : {first, 1 - first}) {
