@@ -49,6 +49,11 @@ inline bool points_onward(const Vec3& n) { return 0.27 * n.x() + 0.53 * n.y() + 
 inline double dot(const Vec3& a, const Vec3& b) {
   return a.x() * b.x() + a.y() * b.y() + a.z() * b.z();
 }
+/// (a × b)·c
+inline double triple(const Vec3& a, const Vec3& b, const Vec3& c) {
+  return (a.y() * b.z() - a.z() * b.y()) * c.x() + (a.z() * b.x() - a.x() * b.z()) * c.y() +
+         (a.x() * b.y() - a.y() * b.x()) * c.z();
+}
 /// The sine of the angle between two unit vectors.
 inline double sine_between(const Vec3& a, const Vec3& b) {
   const double x = a.y() * b.z() - a.z() * b.y(), y = a.z() * b.x() - a.x() * b.z();

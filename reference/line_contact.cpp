@@ -53,13 +53,10 @@ struct Roundness {
 
 bool segments_crossing(const Manifold& to, const FacingFeature& a, const FacingFeature& b) {
   const Vec3& n = to.contact.normal;
-  const Vec3 &u = a.axis, &v = b.axis;
-  const double turn = (u.y() * v.z() - u.z() * v.y()) * n.x() +
-                      (u.z() * v.x() - u.x() * v.z()) * n.y() +
-                      (u.x() * v.y() - u.y() * v.x()) * n.z();
+  const double turn = triple(a.axis, b.axis, n);
   if (!(std::abs(turn) > crossed)) return false;
   const Vec3 from_a = b.middle - a.middle;
-  const double t = from_a.cross(b.axis).dot(n) / turn, s = from_a.cross(a.axis).dot(n) / turn;
+  const double t = triple(from_a, b.axis, n) / turn, s = triple(from_a, a.axis, n) / turn;
   if (std::abs(t) <= a.half_length && std::abs(s) <= b.half_length) {
     const Vec3 on_a = a.middle + t * a.axis, on_b = b.middle + s * b.axis;
     to.contact.add_point(to.origin + (on_a + on_b) / 2, (on_b - on_a).dot(n));
