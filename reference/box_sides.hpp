@@ -37,9 +37,6 @@ struct CylinderInBoxFrame {
   }
 };
 
-/// How far a ball must fit behind the place where bodies with this gap meet.
-inline double depth(double gap) { return std::max(0.0, -gap); }
-
 /// The best face, across an axis of the box.
 struct BestFace {
   int axis = 0;
@@ -156,7 +153,7 @@ struct BoxSides {
   Kind kind;  ///< of the best of all
   StageResult best;
 };
-/// Proofs are left out where the gap is above `stop_above`.
+/// Proofs are left out where the gap is above `stop_above`. (Static: used once, it is inlined.)
 static inline BoxSides best_of_box_sides(const CylinderInBoxFrame& p, double stop_above) {
   using Kind = BoxSides::Kind;
   const BestFace face = best_face(p);

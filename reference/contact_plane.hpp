@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <tuple>
 #include <utility>
@@ -47,6 +48,11 @@ inline bool points_onward(const Vec3& n) { return 0.27 * n.x() + 0.53 * n.y() + 
 // Component by component: Eigen would load in pairs what was just stored singly, which stalls.
 inline double dot(const Vec3& a, const Vec3& b) {
   return a.x() * b.x() + a.y() * b.y() + a.z() * b.z();
+}
+/// (a × b)·c
+inline double triple(const Vec3& a, const Vec3& b, const Vec3& c) {
+  return (a.y() * b.z() - a.z() * b.y()) * c.x() + (a.z() * b.x() - a.x() * b.z()) * c.y() +
+         (a.x() * b.y() - a.y() * b.x()) * c.z();
 }
 /// The sine of the angle between two unit vectors.
 inline double sine_between(const Vec3& a, const Vec3& b) {
@@ -111,19 +117,24 @@ class ContactPlane {
 
   const Margins& margins() const { return to_.margins; }
   Vec2 to_plane(const Vec3& v) const { return {dot(v, dual_x_), dot(v, dual_y_)}; }
-  Incline incline(const FacingFeature& f) const {
-    const double inverse = 1 / dot(f.axis, n_);
-    return {dot(f.axis, f.middle) * inverse, products(f.axis) * -inverse};
-  }
+  Incline incline(const FacingFeature& f) const { return incline(f, 1 / dot(f.axis, n_)); }
   Line line(const FacingFeature& f) const {
     return {to_plane(f.middle), to_plane(f.axis), dot(f.middle, lift_),
             dot(f.axis, lift_), f.half_length,    f.radius};
   }
-  /// The rectangle's own coordinate along its side i, of what is carried to it along the normal.
-  Strip strip(const FacingFeature& rectangle, int i) const {
-    const Vec3& side = rectangle.side[i];
-    const Vec3 e = less(side, dot(side, n_) / dot(rectangle.axis, n_), rectangle.axis);
-    return {products(e), dot(e, rectangle.middle), rectangle.half_side[i]};
+  /// A rectangle's own surface, and its coordinates along its sides of what is carried to it along
+  /// the normal.
+  struct Face {
+    Incline surface;
+    std::array<Strip, 2> strips;
+  };
+  Face face(const FacingFeature& f) const {
+    const double inverse = 1 / dot(f.axis, n_);
+    const auto strip = [&](int i) -> Strip {
+      const Vec3 e = less(f.side[i], dot(f.side[i], n_) * inverse, f.axis);
+      return {products(e), dot(e, f.middle), f.half_side[i]};
+    };
+    return {incline(f, inverse), {strip(0), strip(1)}};
   }
   /// The least factor by which a disc across `axis` shrinks when it is carried to the plane across
   /// `upright`, or somewhat less: a vector v of the disc is carried to v − v·upright / n·upright n,
@@ -147,6 +158,9 @@ class ContactPlane {
   }
 
  private:
+  Incline incline(const FacingFeature& f, double inverse_cosine) const {
+    return {dot(f.axis, f.middle) * inverse_cosine, products(f.axis) * -inverse_cosine};
+  }
   /// A vector's products with the plane's own two.
   Vec2 products(const Vec3& v) const { return {dot(v, x_), dot(v, y_)}; }
 

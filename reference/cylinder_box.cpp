@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "box_sides.hpp"
+#include "circle.hpp"
 #include "deep_normals.hpp"
 #include "ellipse_normal.hpp"
 #include "manifold.hpp"
@@ -81,24 +82,14 @@ struct EdgeAndRim {
   double sign_j, sign_k, end;
 };
 
-/// What is seen along edge i: the axis's direction, unit. (Component by component here and below:
-/// Eigen would load in pairs what was just stored singly, which stalls.)
+/// What is seen along edge i: the axis's direction, unit, and the cylinder's half along it.
 struct SeenAlong {
-  double j, k, lean_j, lean_k;  ///< and the cylinder's half as far as it is seen
-  SeenAlong(const Frame& p, int i)
-      : j(p.u[(i + 1) % 3] / p.s[i]),
-        k(p.u[(i + 2) % 3] / p.s[i]),
-        lean_j(p.h * p.u[(i + 1) % 3]),
-        lean_k(p.h * p.u[(i + 2) % 3]) {}
-};
-/// From the middle of the rim to the corner, across the axis and along it towards the rim's end.
-struct RimToCorner {
-  double j, k, across, along;
-  RimToCorner(const Frame& p, const EdgeAndRim& at, const SeenAlong& axis)
-      : j(p.d[(at.i + 1) % 3] - at.sign_j * p.e[(at.i + 1) % 3] - at.end * axis.lean_j),
-        k(p.d[(at.i + 2) % 3] - at.sign_k * p.e[(at.i + 2) % 3] - at.end * axis.lean_k),
-        across(axis.j * k - axis.k * j),
-        along(at.end * (axis.j * j + axis.k * k)) {}
+  Vec2 axis, lean;
+  SeenAlong(const Frame& p, int i) {
+    const double j = p.u[(i + 1) % 3], k = p.u[(i + 2) % 3];
+    axis = Vec2(j / p.s[i], k / p.s[i]);
+    lean = Vec2(p.h * j, p.h * k);
+  }
 };
 
 /// The proof of `bends_away` for a normal at which a rim and an edge meet.
@@ -113,16 +104,17 @@ bool is_proven_at_rim(const Frame& p, const EdgeAndRim& at, double x, double y, 
                     p.u[i] * p.u[i] / squared, depth(gap), 0);
 }
 
-StageResult rim_and_edge(const Frame& p, const EdgeAndRim& at, double best) {
+/// The corner lies at q from the middle of the rim.
+StageResult rim_and_edge(const Frame& p, const EdgeAndRim& at, const Vec2& axis, const Vec2& q,
+                         double best) {
   const int i = at.i, j = (i + 1) % 3, k = (i + 2) % 3;
-  const SeenAlong axis(p, i);
-  const RimToCorner q(p, at, axis);
-  const double b = p.r * std::abs(p.u[i]);
-  const auto foot = ellipse_normal(p.r, b, std::abs(q.across), q.along);
+  const double b = p.r * std::abs(p.u[i]), aside = cross2(axis, q);
+  const auto foot = ellipse_normal(p.r, b, std::abs(aside), at.end * axis.dot(q));
   if (!foot) return {};
-  const double x = foot->x(), y = foot->y(), across = std::copysign(x, q.across);
+  const double x = foot->x(), y = foot->y(), across = std::copysign(x, aside);
   const double along = at.end * y;
-  const double nj = along * axis.j - across * axis.k, nk = along * axis.k + across * axis.j;
+  const double nj = along * axis.x() - across * axis.y();
+  const double nk = along * axis.y() + across * axis.x();
   const double gap = p.d[j] * nj + p.d[k] * nk - p.e[j] * std::abs(nj) - p.e[k] * std::abs(nk) -
                      p.h * p.s[i] * y - std::sqrt(p.r * p.r * x * x + b * b * y * y);
   if (!(gap > best)) return {};
@@ -148,33 +140,31 @@ bool is_behind_chords(double r, double b, double x, double y, double best) {
 StageResult rim_and_edge_along(const Frame& p, int i, double best) {
   if (!(p.s[i] > 0)) return {};
   const int j = (i + 1) % 3, k = (i + 2) % 3;
-  const SeenAlong axis(p, i);
-  const double b = p.r * std::abs(p.u[i]), aside = axis.j * p.d[k] - axis.k * p.d[j];
+  const SeenAlong seen(p, i);
+  const Vec2& axis = seen.axis;
+  const Vec2 across = turned_left(axis), d(p.d[j], p.d[k]), e(p.e[j], p.e[k]);
+  const double b = p.r * std::abs(p.u[i]);
   // Inside the polygon, no direction is better than its edges less the ellipse's inscribed disc.
-  const double polygon =
-      std::max({std::abs(p.d[j]) - p.e[j] - p.h * std::abs(p.u[j]),
-                std::abs(p.d[k]) - p.e[k] - p.h * std::abs(p.u[k]),
-                std::abs(aside) - p.e[j] * std::abs(axis.k) - p.e[k] * std::abs(axis.j)});
+  const double polygon = std::max({std::abs(d.x()) - e.x() - p.h * std::abs(p.u[j]),
+                                   std::abs(d.y()) - e.y() - p.h * std::abs(p.u[k]),
+                                   std::abs(across.dot(d)) - e.x() * std::abs(across.x()) -
+                                       e.y() * std::abs(across.y())});
   if (polygon <= 0 && polygon - b <= best) return {};
   StageResult found;
-  for (const double sign_j : {-1.0, 1.0}) {
-    for (const double sign_k : {-1.0, 1.0}) {
-      for (const double end : {1.0, -1.0}) {
-        const EdgeAndRim at{i, sign_j, sign_k, end};
-        const RimToCorner q(p, at, axis);
-        const double least = std::max(best, found.gap), bound = least + b;
-        // n points away from the corner, so that only what of q does so counts.
-        const double out_j = std::max(q.j * sign_j, 0.0), out_k = std::max(q.k * sign_k, 0.0);
-        if (bound >= 0 && out_j * out_j + out_k * out_k <= bound * bound) continue;
-        // The corner's quadrant of normals and the ellipse's must overlap.
-        const double side = std::copysign(1, q.across);
-        if (!((end * axis.j - side * axis.k) * sign_j + (end * axis.k + side * axis.j) * sign_k >
-              0)) {
-          continue;
-        }
-        if (is_behind_chords(p.r, b, std::abs(q.across), q.along, least)) continue;
-        found.improve(rim_and_edge(p, at, least));
-      }
+  for (int corner = 0; corner < 4; ++corner) {
+    const Vec2 sign((corner & 1) ? 1 : -1, (corner & 2) ? 1 : -1);
+    const Vec2 to_corner = d - sign.cwiseProduct(e);
+    for (const double end : {1.0, -1.0}) {
+      const Vec2 q = to_corner - end * seen.lean;
+      const double least = std::max(best, found.gap), bound = least + b;
+      // n points away from the corner, so that only what of q does so counts.
+      const Vec2 out = q.cwiseProduct(sign).cwiseMax(0.0);
+      if (bound >= 0 && out.squaredNorm() <= bound * bound) continue;
+      // The corner's quadrant of normals and the ellipse's must overlap.
+      const double aside = across.dot(q);
+      if (!((std::copysign(1, aside) * across + end * axis).dot(sign) > 0)) continue;
+      if (is_behind_chords(p.r, b, std::abs(aside), end * axis.dot(q), least)) continue;
+      found.improve(rim_and_edge(p, {i, sign.x(), sign.y(), end}, axis, q, least));
     }
   }
   return found;
@@ -207,7 +197,10 @@ StageResult likely_rim_and_edge(const Frame& p, const BoxSides& sides, double be
   if (!(p.s[at.i] > 0 && std::abs(p.u[at.i]) > across)) return {};
   at.sign_j = std::copysign(1, sign[(at.i + 1) % 3]);
   at.sign_k = std::copysign(1, sign[(at.i + 2) % 3]);
-  return rim_and_edge(p, at, best);
+  const SeenAlong seen(p, at.i);
+  const int j = (at.i + 1) % 3, k = (at.i + 2) % 3;
+  const Vec2 to_corner(p.d[j] - at.sign_j * p.e[j], p.d[k] - at.sign_k * p.e[k]);
+  return rim_and_edge(p, at, seen.axis, to_corner - at.end * seen.lean, best);
 }
 
 /// Projects A's centre onto the box, that point onto A and that onto the box again (von Neumann's

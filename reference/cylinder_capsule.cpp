@@ -32,8 +32,6 @@ struct Folded {
   double h2;      ///< half length of the segment
 };
 
-double depth(double gap) { return std::max(0.0, -gap); }
-
 /// Does a point of the side, so far along the axis, lie its depth away from the ends?
 bool is_within_side(const Folded& p, double along, double gap) {
   return std::abs(along) <= p.h1 - depth(gap) && depth(gap) <= p.r1;

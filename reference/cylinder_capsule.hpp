@@ -11,7 +11,7 @@ namespace touchstone {
 
 /// Returns the signed distance and its normal, however far apart the bodies are; zero where they
 /// touch. Where normals tie, the first in a fixed order. Within 1e-13 of the larger size of the
-/// truth, for every pose (accuracy_test.cpp). Some 60 ns.
+/// truth, for every pose (accuracy_test.cpp). Some 40 to 70 ns.
 SignedDistance signed_distance(const Cylinder& a, const Pose& pose_a, const Capsule& b,
                                const Pose& pose_b);
 

@@ -28,8 +28,6 @@ namespace {
 
 constexpr double flat = 1e-15;  // sine of an angle that counts as none
 
-double depth(double gap) { return std::max(0.0, -gap); }
-
 /// Does a point of a side, so far along the axis, lie its depth away from the ends?
 bool is_within_side(double along, double r, double h, double gap) {
   return std::abs(along) <= h - depth(gap) && depth(gap) <= r;

@@ -26,7 +26,7 @@ bool overlaps(const Cylinder& a, const Pose& pose_a, const Sphere& b, const Pose
 /// Returns signed distance, normal and one point where the distance is at most `contact_threshold`;
 /// else no point, and a clearance that is above the threshold and not above the distance. Given
 /// `previous_normal`, of normals whose gaps are within the threshold of the largest the one nearest
-/// to it is taken. Some 12 ns.
+/// to it is taken. Some 10 ns.
 Contact contact(const Cylinder& a, const Pose& pose_a, const Sphere& b, const Pose& pose_b,
                 double contact_threshold, const Vec3* previous_normal = nullptr);
 

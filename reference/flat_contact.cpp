@@ -83,14 +83,15 @@ Circle largest_shared(const Circle& c1, const Circle& c2, double apart, const Ve
 
 void disc_on_rectangle(const Manifold& to, const FacingFeature& cap, const FacingFeature& face) {
   const ContactPlane plane(to, cap.axis);
-  const Surfaces s{plane.incline(cap), plane.incline(face)};
+  const ContactPlane::Face seen = plane.face(face);
+  const Surfaces s{plane.incline(cap), seen.surface};
   const Circle disc{plane.to_plane(cap.middle), cap.radius};
   // The face's edges lie across `side`, half_side from its middle; how far the disc's centre lies
   // from there, and how far from there on the disc is beyond the face.
   std::array<Vec2, 2> side;
   std::array<double, 2> middle, half_side, offset, beyond;
   for (int i = 0; i < 2; ++i) {
-    const Strip strip = plane.strip(face, i);
+    const Strip& strip = seen.strips[i];
     const double inverse = 1 / strip.across.norm();
     side[i] = inverse * strip.across;
     middle[i] = inverse * strip.middle;

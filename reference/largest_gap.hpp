@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -26,6 +27,9 @@ inline constexpr double rounding_part = 16 * std::numeric_limits<double>::epsilo
 /// answer may hang on what it makes of a touch, so a normal that is not always tried must part the
 /// bodies by more than that.
 inline constexpr double clear_part = 1e-9;
+
+/// How deep bodies with this gap lie in each other; zero apart.
+inline double depth(double gap) { return std::max(0.0, -gap); }
 
 /// The largest clearance met so far and its normal, in whatever frame the pair is solved in.
 struct LargestGap {

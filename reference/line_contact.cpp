@@ -33,7 +33,9 @@ constexpr double crossed = 0.1;  // rad; lines that turn by more cross in a poin
 /// their radii, so that both surfaces fall off by the same part of these. Across a, which crosses b
 /// with this cosine, y is that much less.
 struct Roundness {
-  double radii, inverse, share_of_a;  ///< `inverse` is that of the reach, where both have ended
+  double radii;       ///< both together
+  double inverse;     ///< of the reach: the distance at which both surfaces have ended
+  double share_of_a;  ///< of a distance, what belongs to A
   Roundness(double radius_a, double radius_b, double cosine) : radii(radius_a + radius_b) {
     const double scale = 1 / (radius_a + radius_b * cosine);
     inverse = cosine * scale;
@@ -51,13 +53,10 @@ struct Roundness {
 
 bool segments_crossing(const Manifold& to, const FacingFeature& a, const FacingFeature& b) {
   const Vec3& n = to.contact.normal;
-  const Vec3 &u = a.axis, &v = b.axis;
-  const double turn = (u.y() * v.z() - u.z() * v.y()) * n.x() +
-                      (u.z() * v.x() - u.x() * v.z()) * n.y() +
-                      (u.x() * v.y() - u.y() * v.x()) * n.z();
+  const double turn = triple(a.axis, b.axis, n);
   if (!(std::abs(turn) > crossed)) return false;
   const Vec3 from_a = b.middle - a.middle;
-  const double t = from_a.cross(b.axis).dot(n) / turn, s = from_a.cross(a.axis).dot(n) / turn;
+  const double t = triple(from_a, b.axis, n) / turn, s = triple(from_a, a.axis, n) / turn;
   if (std::abs(t) <= a.half_length && std::abs(s) <= b.half_length) {
     const Vec3 on_a = a.middle + t * a.axis, on_b = b.middle + s * b.axis;
     to.contact.add_point(to.origin + (on_a + on_b) / 2, (on_b - on_a).dot(n));
@@ -95,7 +94,7 @@ void segment_on_flat(const Manifold& to, const FacingFeature& segment, const Fac
   } else if (flat.kind == Kind::rectangle) {
     // The edges that the line crosses first. One that runs along the others, but for a hair, does
     // so within them or on one, whichever side of that rounding puts it on.
-    const std::array<Strip, 2> strips = {plane.strip(flat, 0), plane.strip(flat, 1)};
+    const std::array<Strip, 2> strips = plane.face(flat).strips;
     const double along[] = {strips[0].across.dot(l.along), strips[1].across.dot(l.along)};
     const int first = std::abs(along[0]) >= std::abs(along[1]) ? 0 : 1;
     for (const int i : {first, 1 - first}) {

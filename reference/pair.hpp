@@ -5,6 +5,7 @@
 #include <limits>
 #include <tuple>
 #include <type_traits>
+#include <utility>
 
 #include "contact.hpp"
 #include "largest_gap.hpp"
