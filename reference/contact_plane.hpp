@@ -159,7 +159,8 @@ class ContactPlane {
 
  private:
   Incline incline(const FacingFeature& f, double inverse_cosine) const {
-    return {dot(f.axis, f.middle) * inverse_cosine, products(f.axis) * -inverse_cosine};
+    return {dot(f.axis, f.middle) * inverse_cosine,
+            {dot(f.axis, x_) * -inverse_cosine, dot(f.axis, y_) * -inverse_cosine}};
   }
   /// A vector's products with the plane's own two.
   Vec2 products(const Vec3& v) const { return {dot(v, x_), dot(v, y_)}; }

@@ -145,10 +145,10 @@ StageResult rim_and_edge_along(const Frame& p, int i, double best) {
   const Vec2 across = turned_left(axis), d(p.d[j], p.d[k]), e(p.e[j], p.e[k]);
   const double b = p.r * std::abs(p.u[i]);
   // Inside the polygon, no direction is better than its edges less the ellipse's inscribed disc.
-  const double polygon = std::max({std::abs(d.x()) - e.x() - p.h * std::abs(p.u[j]),
-                                   std::abs(d.y()) - e.y() - p.h * std::abs(p.u[k]),
-                                   std::abs(across.dot(d)) - e.x() * std::abs(across.x()) -
-                                       e.y() * std::abs(across.y())});
+  const double polygon = std::max(
+      {std::abs(d.x()) - e.x() - p.h * std::abs(p.u[j]),
+       std::abs(d.y()) - e.y() - p.h * std::abs(p.u[k]),
+       std::abs(across.dot(d)) - e.x() * std::abs(across.x()) - e.y() * std::abs(across.y())});
   if (polygon <= 0 && polygon - b <= best) return {};
   StageResult found;
   for (int corner = 0; corner < 4; ++corner) {

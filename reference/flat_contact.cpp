@@ -92,11 +92,11 @@ void disc_on_rectangle(const Manifold& to, const FacingFeature& cap, const Facin
   std::array<double, 2> middle, half_side, offset, beyond;
   for (int i = 0; i < 2; ++i) {
     const Strip& strip = seen.strips[i];
-    const double inverse = 1 / strip.across.norm();
-    side[i] = inverse * strip.across;
+    const double x = strip.across.x(), y = strip.across.y(), inverse = 1 / std::sqrt(x * x + y * y);
+    side[i] = Vec2(inverse * x, inverse * y);
     middle[i] = inverse * strip.middle;
     half_side[i] = inverse * strip.half_width;
-    offset[i] = side[i].dot(disc.centre) - middle[i];
+    offset[i] = inverse * (x * disc.centre.x() + y * disc.centre.y()) - middle[i];
     beyond[i] = half_side[i] - disc.radius;
   }
   const bool whole = std::abs(offset[0]) <= beyond[0] && std::abs(offset[1]) <= beyond[1];
