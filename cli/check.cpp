@@ -7,7 +7,7 @@
 #include "candidates/host/progress.hpp"
 #include "cli/options.hpp"
 #include "cli/subcommands.hpp"
-#include "properties/files/write_file.hpp"
+#include "properties/files/disk.hpp"
 #include "properties/laws/failure_file.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/check_report.hpp"

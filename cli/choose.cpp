@@ -6,7 +6,7 @@
 #include "cli/options.hpp"
 #include "cli/standard_streams.hpp"
 #include "cli/subcommands.hpp"
-#include "properties/files/write_file.hpp"
+#include "properties/files/disk.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/choice/choice.hpp"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/number_option.hpp"
+#include "properties/files/parse_number.hpp"
 
 namespace CLI {
 class App;

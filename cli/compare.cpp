@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "cli/subcommands.hpp"
-#include "properties/files/write_file.hpp"
+#include "properties/files/disk.hpp"
 #include "reports/report_file.hpp"
 
 namespace touchstone {

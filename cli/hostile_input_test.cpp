@@ -18,11 +18,10 @@
 
 #include "candidates/candidates.hpp"
 #include "cli/mutation.hpp"
-#include "cli/number_option.hpp"
 #include "properties/files/configuration_json.hpp"
 #include "properties/files/error_text.hpp"
 #include "properties/files/given.hpp"
-#include "properties/files/parse_double.hpp"
+#include "properties/files/parse_number.hpp"
 #include "properties/files/strict_json.hpp"
 #include "properties/laws/failure_file.hpp"
 #include "reference/contact_of.hpp"

@@ -5,7 +5,7 @@
 #include <thread>
 
 #include "candidates/candidates.hpp"
-#include "properties/files/read_file.hpp"
+#include "properties/files/disk.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone {

@@ -3,7 +3,7 @@
 
 #include "candidates/candidates.hpp"
 #include "cli/subcommands.hpp"
-#include "properties/files/write_file.hpp"
+#include "properties/files/disk.hpp"
 #include "simulation/scenes/povray.hpp"
 #include "simulation/scenes/shapes_file.hpp"
 

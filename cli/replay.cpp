@@ -5,8 +5,8 @@
 
 #include "cli/options.hpp"
 #include "cli/subcommands.hpp"
+#include "properties/files/disk.hpp"
 #include "properties/files/given.hpp"
-#include "properties/files/write_file.hpp"
 #include "reports/reproducer/reproducer.hpp"
 #include "reports/worst.hpp"
 

@@ -5,10 +5,12 @@
 #include <memory>
 #include <utility>
 
+#include <nlohmann/json.hpp>
+
 #include "candidates/host/progress.hpp"
 #include "cli/options.hpp"
 #include "cli/subcommands.hpp"
-#include "properties/files/write_file.hpp"
+#include "properties/files/disk.hpp"
 #include "properties/laws/failure_file.hpp"
 
 namespace touchstone {

@@ -5,7 +5,7 @@
 
 #include "cli/options.hpp"
 #include "cli/subcommands.hpp"
-#include "properties/files/write_file.hpp"
+#include "properties/files/disk.hpp"
 #include "simulation/experiment.hpp"
 #include "simulation/run_experiments.hpp"
 

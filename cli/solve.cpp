@@ -7,7 +7,7 @@
 
 #include "cli/options.hpp"
 #include "cli/subcommands.hpp"
-#include "properties/files/read_file.hpp"
+#include "properties/files/disk.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone {

@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 
 #include "reports/compare.hpp"
-#include "reports/pages/marks.hpp"
 #include "reports/pages/page.hpp"
 #include "reports/report_json.hpp"
 

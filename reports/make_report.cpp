@@ -2,15 +2,18 @@
 
 #include <algorithm>
 #include <chrono>
+#include <fstream>
 #include <span>
+#include <string>
+#include <sys/utsname.h>
+#include <unistd.h>
 
 #include "candidates/host/interruption.hpp"
 #include "candidates/host/progress.hpp"
 #include "properties/identity.hpp"
 #include "reports/drake_protocol.hpp"
-#include "reports/machine.hpp"
-#include "reports/pareto.hpp"
 #include "reports/sampler.hpp"
+#include "reports/statistics.hpp"
 #include "reports/timing.hpp"
 #include "reports/worst.hpp"
 
@@ -218,6 +221,34 @@ Report make_report(const Campaign& campaign, const std::string& command) {
   report.wall_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return report;
+}
+
+namespace {
+
+/// The text after `key` and a separator on the first line of a file that begins with it.
+std::string value_in(const char* path, const std::string& key, char separator) {
+  std::ifstream file(path);
+  for (std::string line; std::getline(file, line);) {
+    if (line.rfind(key, 0) != 0) continue;
+    std::string value = line.substr(line.find(separator) + 1);
+    std::erase(value, '"');
+    const std::size_t start = value.find_first_not_of(" \t");
+    return start == std::string::npos ? "" : value.substr(start);
+  }
+  return "";
+}
+
+}  // namespace
+
+Machine describe_machine() {
+  utsname system{};
+  uname(&system);
+  std::string cpu = value_in("/proc/cpuinfo", "model name", ':');
+  if (cpu.empty()) cpu = system.machine;
+  std::string os = value_in("/etc/os-release", "PRETTY_NAME", '=');
+  if (os.empty()) os = system.sysname;
+  const std::string compiler = std::string("g++ ") + __VERSION__ + " " + TOUCHSTONE_FLAGS;
+  return {cpu, compiler, os, static_cast<unsigned>(sysconf(_SC_NPROCESSORS_ONLN))};
 }
 
 }  // namespace touchstone

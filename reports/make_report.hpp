@@ -12,4 +12,7 @@ namespace touchstone {
 /// (`partial`).
 Report make_report(const Campaign& campaign, const std::string& command);
 
+/// The machine that this runs on.
+Machine describe_machine();
+
 }  // namespace touchstone

@@ -7,7 +7,6 @@
 
 #include "properties/files/answer_json.hpp"
 #include "properties/files/configuration_json.hpp"
-#include "reports/pages/marks.hpp"
 #include "reports/pages/page.hpp"
 #include "reports/report_json.hpp"
 

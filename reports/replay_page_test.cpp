@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "properties/files/configuration_json.hpp"
-#include "properties/files/write_file.hpp"
+#include "properties/files/disk.hpp"
 #include "reports/replay.hpp"
 #include "reports/worst.hpp"
 

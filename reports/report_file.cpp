@@ -7,10 +7,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "properties/files/disk.hpp"
 #include "properties/files/json_fields.hpp"
-#include "properties/files/read_file.hpp"
 #include "properties/files/strict_json.hpp"
-#include "properties/files/write_file.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/report_json.hpp"
 #include "reports/report_page.hpp"

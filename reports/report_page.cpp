@@ -9,7 +9,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "reports/pages/marks.hpp"
 #include "reports/pages/page.hpp"
 #include "reports/report_json.hpp"
 

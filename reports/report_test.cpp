@@ -9,7 +9,7 @@
 
 #include "candidates/candidates.hpp"
 #include "candidates/host/interruption.hpp"
-#include "properties/files/write_file.hpp"
+#include "properties/files/disk.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/make_report.hpp"
 #include "reports/replay.hpp"

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <tuple>
 
 namespace touchstone {
 
@@ -42,6 +44,33 @@ LogHistogram log_histogram(const std::vector<double>& values) {
     result.counts[static_cast<std::size_t>(bin - result.first)] = count;
   }
   return result;
+}
+
+bool tied_in_time(const SpeedAccuracy& a, const SpeedAccuracy& b) {
+  return a.low <= b.high && b.low <= a.high;
+}
+
+bool beats(const SpeedAccuracy& a, const SpeedAccuracy& b) {
+  const bool a_is_slower = a.low > b.high, a_is_faster = a.high < b.low;
+  return a.error < b.error ? !a_is_slower : a.error == b.error && a_is_faster;
+}
+
+std::vector<bool> pareto_front(const std::vector<SpeedAccuracy>& candidates) {
+  std::vector<std::size_t> order(candidates.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  // Whatever may beat another comes before it.
+  std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
+    const SpeedAccuracy &a = candidates[i], &b = candidates[j];
+    return std::tie(a.error, a.high, i) < std::tie(b.error, b.high, j);
+  });
+  std::vector<bool> on_front(candidates.size(), false);
+  for (std::size_t at = 0; at < order.size(); ++at) {
+    const auto before = order.begin() + static_cast<std::ptrdiff_t>(at);
+    on_front[order[at]] = std::none_of(order.begin(), before, [&](std::size_t i) {
+      return on_front[i] && beats(candidates[i], candidates[order[at]]);
+    });
+  }
+  return on_front;
 }
 
 }  // namespace touchstone

@@ -3,7 +3,7 @@
 #include <iostream>
 
 #include "properties/files/configuration_json.hpp"
-#include "properties/files/read_file.hpp"
+#include "properties/files/disk.hpp"
 #include "properties/identity.hpp"
 #include "properties/motions/motion.hpp"
 #include "properties/motions/perturbation.hpp"

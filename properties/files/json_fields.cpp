@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "properties/files/error_text.hpp"
-#include "properties/files/parse_double.hpp"
+#include "properties/files/parse_number.hpp"
 
 namespace touchstone {
 

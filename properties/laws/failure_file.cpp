@@ -11,10 +11,9 @@
 #include "candidates/candidates.hpp"
 #include "properties/files/answer_json.hpp"
 #include "properties/files/configuration_json.hpp"
+#include "properties/files/disk.hpp"
 #include "properties/files/json_fields.hpp"
-#include "properties/files/read_file.hpp"
 #include "properties/files/strict_json.hpp"
-#include "properties/files/write_file.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone {

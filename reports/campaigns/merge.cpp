@@ -12,8 +12,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "properties/files/read_file.hpp"
-#include "properties/files/write_file.hpp"
+#include "properties/files/disk.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/report_json.hpp"
 

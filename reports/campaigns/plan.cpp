@@ -12,8 +12,8 @@
 #include <nlohmann/json.hpp>
 
 #include "properties/files/configuration_json.hpp"
+#include "properties/files/disk.hpp"
 #include "properties/files/json_fields.hpp"
-#include "properties/files/read_file.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/worst.hpp"
 

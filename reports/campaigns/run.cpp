@@ -14,9 +14,8 @@
 #include <nlohmann/json.hpp>
 
 #include "candidates/host/progress.hpp"
-#include "properties/files/read_file.hpp"
+#include "properties/files/disk.hpp"
 #include "properties/files/strict_json.hpp"
-#include "properties/files/write_file.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone {

@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include "properties/files/configuration_json.hpp"
-#include "properties/files/write_file.hpp"
+#include "properties/files/disk.hpp"
 #include "reports/choice/choice.hpp"
-#include "reports/machine.hpp"
+#include "reports/make_report.hpp"
 #include "reports/report_json.hpp"
 
 namespace touchstone {

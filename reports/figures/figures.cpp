@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "properties/files/write_file.hpp"
+#include "properties/files/disk.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/figures/gnuplot.hpp"
 

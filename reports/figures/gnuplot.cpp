@@ -8,8 +8,8 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "properties/files/write_file.hpp"
-#include "reports/pages/marks.hpp"
+#include "properties/files/disk.hpp"
+#include "reports/pages/page.hpp"
 
 namespace touchstone {
 namespace {

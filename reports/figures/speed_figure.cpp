@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <vector>
 
-#include "properties/files/write_file.hpp"
+#include "properties/files/disk.hpp"
 #include "reports/figures/gnuplot.hpp"
 
 namespace touchstone {

@@ -1,6 +1,10 @@
 #pragma once
 
+#include <array>
+#include <map>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -12,5 +16,16 @@ enum class Page { report, comparison, replay, stability, choice };
 /// own part, its scripts and its data. It loads nothing from elsewhere, and no string of the data
 /// can break out of it.
 std::string render_page(Page page, const nlohmann::json& data);
+
+/// The mark of a candidate on every page and figure: a colour for each engine, a symbol for each of
+/// its settings. A candidate that is not known here has the last colour and a symbol by its name.
+struct Mark {
+  std::size_t colour;  ///< 0 … 7: --c0 … --c7 of the pages' style sheet
+  std::size_t symbol;  ///< 0 … 5: of `symbols` in elements.js
+};
+Mark mark_of(std::string_view candidate);
+
+/// By name the colour and the symbol, for a page's script.
+std::map<std::string, std::array<std::size_t, 2>> marks(const std::vector<std::string>& candidates);
 
 }  // namespace touchstone

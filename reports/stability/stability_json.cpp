@@ -5,9 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "properties/files/write_file.hpp"
+#include "properties/files/disk.hpp"
 #include "properties/motions/critical_pose.hpp"
-#include "reports/pages/marks.hpp"
 #include "reports/pages/page.hpp"
 #include "reports/stability/stability.hpp"
 

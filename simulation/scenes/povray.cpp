@@ -6,7 +6,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
-#include "properties/files/write_file.hpp"
+#include "properties/files/disk.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone {

@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include "properties/files/configuration_json.hpp"
+#include "properties/files/disk.hpp"
 #include "properties/files/json_fields.hpp"
-#include "properties/files/read_file.hpp"
 #include "properties/files/strict_json.hpp"
 #include "reference/aabb.hpp"
 #include "reference/invalid_input.hpp"

@@ -9,8 +9,8 @@
 #include <string_view>
 #include <urdf_parser/urdf_parser.h>
 
+#include "properties/files/disk.hpp"
 #include "properties/files/error_text.hpp"
-#include "properties/files/read_file.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone {

@@ -2,9 +2,16 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
+#include <string_view>
 
 namespace touchstone {
+
+/// Reads a finite number, "-1.5e-3" or in hexadecimal "0x1.8p-1", to the nearest double; one too
+/// small for any is zero. Nothing may stand before or after it, and the locale does not matter.
+/// Absent where the text is something else, NaN, infinite, or too large for a double.
+std::optional<double> parse_double(std::string_view text);
 
 // How numbers on the command line are read, everywhere alike: a decimal or hexadecimal float as in
 // files, or a whole number, of which 1e6 is one too. What is none or out of range is InvalidInput
