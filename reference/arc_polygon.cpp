@@ -197,7 +197,7 @@ constexpr double long_arc = 0.4 * std::numbers::pi;
 /// ends.
 constexpr double flat_part = 0.14;
 /// With so many points an arc need not be divided for that.
-constexpr int enough = 6;
+constexpr int sufficient_points = 6;
 
 double twice_area(const Vec2& p, const Vec2& q, const Vec2& r) {
   return std::abs(cross2(q - p, r - p));
@@ -256,8 +256,8 @@ int ArcPolygon::spread(const Vec2& first, std::array<Vec2, 8>& points) const {
     const double whole = rise(e, e.angle);
     e.standing_out = (e.inside == 0 ? whole : rise(e, piece(e))) / (width + whole);
   };
-  for (int i = 0; i < count_ && total < enough; ++i) measure(i);
-  while (total < enough) {
+  for (int i = 0; i < count_ && total < sufficient_points; ++i) measure(i);
+  while (total < sufficient_points) {
     int most = 0;
     for (int i = 1; i < count_; ++i) {
       if (edges[i].standing_out > edges[most].standing_out) most = i;

@@ -17,7 +17,6 @@ inline double without_vanishing(double offset) {
 
 /// A `stop_above` for the largest clearance, and no other.
 inline constexpr double no_early_exit = std::numeric_limits<double>::infinity();
-inline constexpr double never = no_early_exit;  // as rim_rim.cpp calls it
 
 /// Rounding moves a clearance, of bodies as they are stored, by less than this part of all lengths
 /// together: each of its terms is rounded by a few units in the last place.

@@ -128,8 +128,8 @@ Ends likely_ends(const FoldedCylinders& pair, const Vec3& n) {
 }
 
 /// Offers the normal at which these rims meet. True if it is the largest gap of all or exceeds
-/// `enough`.
-bool offer_where_likely(const FoldedCylinders& pair, const Rims& rims, double enough,
+/// `stop_above`.
+bool offer_where_likely(const FoldedCylinders& pair, const Rims& rims, double stop_above,
                         LargestGap& best) {
   // As deep in each other as this, bodies hardly ever come free where rims meet.
   constexpr double deep = 0.3;
@@ -141,11 +141,11 @@ bool offer_where_likely(const FoldedCylinders& pair, const Rims& rims, double en
     start = facing_points(pair.axes, {pair.r1, pair.h1}, {pair.r2, pair.h2});
   }
   if (!(start.squaredNorm() > 0)) return false;
-  if (enough < never) {
+  if (stop_above < no_early_exit) {
     // Bodies that are clearly apart are so along it, too.
     const Vec3 n = start.normalized();
     const double gap = pair.gap(n);
-    if (gap > enough + pair.clear_gap()) {
+    if (gap > stop_above + pair.clear_gap()) {
       best.offer(gap, n);
       return true;
     }
@@ -154,7 +154,8 @@ bool offer_where_likely(const FoldedCylinders& pair, const Rims& rims, double en
   constexpr int few_steps = 8;
   const Stationary found = rims.polished(start, few_steps);
   if (found.normal.z() >= 0) best.offer(pair.gap(found.normal), found.normal);
-  return best.gap > enough || (found.maximum && best.gap > before && is_largest(pair, found, best));
+  return best.gap > stop_above ||
+         (found.maximum && best.gap > before && is_largest(pair, found, best));
 }
 
 /// Searches one pair of rims for every normal at which they meet, and offers them to `best`.
@@ -340,10 +341,10 @@ constexpr double parallel = 2e-16;
 
 }  // namespace
 
-void offer_rim_rim_normals(const FoldedCylinders& pair, double enough, LargestGap& best) {
+void offer_rim_rim_normals(const FoldedCylinders& pair, double stop_above, LargestGap& best) {
   if (pair.axes.s <= parallel) return offer_parallel_rim_normal(pair, best);
   const Ends likely = likely_ends(pair, best.normal);
-  if (offer_where_likely(pair, Rims(pair, likely.one, likely.two), enough, best)) return;
+  if (offer_where_likely(pair, Rims(pair, likely.one, likely.two), stop_above, best)) return;
 
   offer_parallel_rim_normal(pair, best);
   DistanceBounds bounds(pair);
@@ -355,7 +356,7 @@ void offer_rim_rim_normals(const FoldedCylinders& pair, double enough, LargestGa
       if (useful.empty()) continue;
       RimScan(pair, rims, bounds.limit, bounds.least_depth, best).scan(useful);
       // Apart by the gap, with points no further apart: nothing is better.
-      if (best.gap > enough || best.gap >= bounds.limit - bounds.rounding) return;
+      if (best.gap > stop_above || best.gap >= bounds.limit - bounds.rounding) return;
     }
   }
 }
@@ -368,7 +369,7 @@ double search_all_rims(const FoldedCylinders& pair, LargestGap& best) {
   for (const double end1 : {1.0, -1.0}) {
     for (const double end2 : {1.0, -1.0}) {
       const Rims rims(pair, end1, end2);
-      offer_where_likely(pair, rims, never, best);
+      offer_where_likely(pair, rims, no_early_exit, best);
       RimScan scan(pair, rims, bounds.limit, bounds.least_depth, best);
       scan.scan({-1, 1});
       unproven = std::max(unproven, scan.unproven());

@@ -252,7 +252,7 @@ class Rims {
   /// Bound of how far curvatures on the arc are from the middle's, rounding included; infinite
   /// where the arc may cross axis 2.
   double max_bend(const RimSample& x, double half_width, const Passage& p) const {
-    if (!(p.min_radial > 0)) return never;
+    if (!(p.min_radial > 0)) return std::numeric_limits<double>::infinity();
     const double part = pair_.r1 / p.min_radial;
     const double conditioning = 1 + part + part * pair_.r2 / p.min_radial;
     return max_third_derivative(x, half_width, p) * half_width + margin() * conditioning;
