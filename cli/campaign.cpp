@@ -8,10 +8,8 @@
 #include "cli/standard_streams.hpp"
 #include "cli/subcommands.hpp"
 #include "reference/invalid_input.hpp"
-#include "reports/campaigns/ranks.hpp"
-#include "reports/campaigns/result.hpp"
+#include "reports/campaigns/merge.hpp"
 #include "reports/campaigns/run.hpp"
-#include "reports/campaigns/shard_place.hpp"
 #include "reports/terminal_table.hpp"
 #include "reports/worst.hpp"
 
@@ -21,14 +19,14 @@ namespace {
 struct Options {
   /// Ranks share a machine as mpirun says.
   explicit Options(Command& command)
-      : scored(command, 1000, PlanView::max_count),
+      : scored(command, 1000, Plan::max_count),
         workers(command, under_mpirun() ? 1 : std::max(1U, std::thread::hardware_concurrency()),
                 "one a core, or one a rank under mpirun") {}
   CampaignOption scored;
   WorkersOption workers;
   std::string out = "out", shard_text;
   bool resume = false;
-  double interval = Running{}.interval;
+  double interval = RunOptions{}.interval;
 
   Campaign campaign() const {
     Campaign c = scored.get();
@@ -55,17 +53,17 @@ struct Options {
   }
 };
 
-void print_plan(const Options& options, const Progressed& progressed) {
-  const PlanView& view = progressed.view;
-  const Shard& shard = progressed.shard;
-  const UnitSet all = shard.units(view.cut), done = progressed.done;
+void print_plan(const Options& options, const ShardState& state) {
+  const Plan& plan = state.plan;
+  const Shard& shard = state.shard;
+  const UnitSet all = shard.units(plan.cut), done = state.done;
   std::string text =
-      fmt::format("{} pose classes × {} = {} configurations, {} candidates", view.cells.size(),
-                  view.cut.count, view.cells.size() * view.cut.count, view.candidates.size());
+      fmt::format("{} pose classes × {} = {} configurations, {} candidates", plan.cells.size(),
+                  plan.cut.count, plan.cells.size() * plan.cut.count, plan.candidates.size());
   if (shard.of > 1) {
-    text += fmt::format("; shard {}: {}", to_string(shard), configurations(view.cut, all));
+    text += fmt::format("; shard {}: {}", to_string(shard), configurations(plan.cut, all));
   }
-  if (!done.empty()) text += fmt::format("; {} done before", configurations(view.cut, done));
+  if (!done.empty()) text += fmt::format("; {} done before", configurations(plan.cut, done));
   complain(fmt::format("{}; workers: {}", text, options.workers.get()));
 }
 
@@ -73,12 +71,12 @@ int run(const Options& options) {
   const Shard shard = options.shard();
   const Campaign campaign = options.campaign();
   const ShardPlace place(options.out, shard);
-  Progressed progressed = place.begin(make_plan(campaign, options.command_line()), options.resume);
+  ShardState state = place.begin(make_plan(campaign, options.command_line()), options.resume);
   const bool speaks = !under_mpirun() || shard.number == 1;
-  if (speaks) print_plan(options, progressed);
+  if (speaks) print_plan(options, state);
 
   const Interruption interruption;
-  const bool done = run_shard(campaign, progressed, place.file(), {options.interval, speaks},
+  const bool done = run_shard(campaign, state, place.file(), {options.interval, speaks},
                               [] { return !interrupted(); });
   if (!done) {
     if (speaks) {
@@ -90,15 +88,15 @@ int run(const Options& options) {
   }
   Merge merge;
   if (under_mpirun()) {
-    if (!gather(progressed, merge)) return 0;
+    if (!gather(state, merge)) return 0;
   } else if (shard.of > 1) {
     fmt::print("Shard {} is done: {}\nWith the others: {} merge FOLDER... --out FOLDER\n",
                to_string(shard), place.file().string(), program_name());
     return 0;
   } else {
-    merge.add(progressed, place.file().string());
+    merge.add(state, place.file().string());
   }
-  const Progressed whole = merge.whole(false);
+  const ShardState whole = merge.whole(false);
   const Report result = campaign_result(whole);
   const auto file = write_result(whole, options.out);
   fmt::print("{}\n{} configurations, truth certified to 1e-30 of the larger size.\nResult: {}\n",

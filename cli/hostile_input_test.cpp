@@ -27,9 +27,7 @@
 #include "properties/laws/failure_file.hpp"
 #include "reference/contact_of.hpp"
 #include "reference/invalid_input.hpp"
-#include "reports/campaigns/durable_file.hpp"
 #include "reports/campaigns/merge.hpp"
-#include "reports/campaigns/result.hpp"
 #include "reports/compare.hpp"
 #include "reports/make_report.hpp"
 #include "reports/report_file.hpp"
@@ -309,11 +307,11 @@ std::string shard_text(const Shard& shard) {
                       {{{"pair", "cylinder-sphere"}, {"class", "general-deep"}},
                        {{"pair", "cylinder-box"}, {"class", "rim-face"}}}},
                      {"candidates", {{{"name", "one"}}, {{"name", "two"}}}}};
-  Progressed p(plan, shard);
-  p.done = shard.units(p.view.cut);
-  for (std::uint64_t number = 0; number < p.view.cut.units(); ++number) {
+  ShardState p(plan_from_json(plan), shard);
+  p.done = shard.units(p.plan.cut);
+  for (std::uint64_t number = 0; number < p.plan.cut.units(); ++number) {
     if (!boost::icl::contains(p.done, number)) continue;
-    const Unit unit = p.view.cut.unit(number);
+    const Unit unit = p.plan.cut.unit(number);
     for (std::uint64_t i = unit.first; i < unit.last; ++i) {
       for (std::size_t k = 0; k < 2; ++k) {
         Score s;
@@ -353,10 +351,9 @@ TEST(HostileInput, ShardFiles) {
                                                    : changed_in_a_line(whole, number);
         current_text = body;
         Merge merge;
-        merge.add(
-            progressed_from_text(body + json{{"crc32", checksum(body)}}.dump() + '\n', "file"),
-            "file");
-        const Progressed merged = merge.whole(true);
+        merge.add(shard_from_text(body + json{{"crc32", checksum(body)}}.dump() + '\n', "file"),
+                  "file");
+        const ShardState merged = merge.whole(true);
         require_numbers(json::parse(campaign_json(merged)));
         if (shows_nan(terminal_table(campaign_result(merged)), body)) {
           throw std::runtime_error("nan");

@@ -5,8 +5,7 @@
 
 #include "cli/subcommands.hpp"
 #include "reference/invalid_input.hpp"
-#include "reports/campaigns/result.hpp"
-#include "reports/campaigns/shard_place.hpp"
+#include "reports/campaigns/run.hpp"
 #include "reports/terminal_table.hpp"
 
 namespace touchstone {
@@ -19,13 +18,13 @@ struct Options {
 };
 
 int run(const Options& options) {
-  const Progressed whole = merge({options.inputs.begin(), options.inputs.end()}, options.partial);
+  const ShardState whole = merge({options.inputs.begin(), options.inputs.end()}, options.partial);
   const ShardPlace place(options.out, whole.shard);
   if (std::filesystem::exists(place.file())) {
     throw InvalidInput("--out", '"' + options.out + '"',
                        "already holds a campaign; choose another folder");
   }
-  write_durably(place.file(), to_text(whole));
+  write_shard(whole, place.file());
   const Report result = campaign_result(whole);
   const auto file = write_result(whole, options.out);
   const bool complete = result.completed.configurations == result.planned.configurations;

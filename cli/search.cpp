@@ -1,9 +1,11 @@
-#include "reports/campaigns/search.hpp"
+#include "reports/search.hpp"
 
 #include <fmt/format.h>
 #include <map>
 #include <memory>
 #include <utility>
+
+#include <nlohmann/json.hpp>
 
 #include "candidates/host/progress.hpp"
 #include "cli/options.hpp"
@@ -39,8 +41,9 @@ int run(const Options& options) {
   {
     Progress progress("configurations", all.size() * budget);
     for (std::size_t i = 0; i < all.size(); ++i) {
-      const Found found = search(process, {all[i], options.sample.seed(), budget, bar},
-                                 [&](std::uint64_t asked) { progress.update(i * budget + asked); });
+      const SearchResult found =
+          search(process, {all[i], options.sample.seed(), budget, bar},
+                 [&](std::uint64_t asked) { progress.update(i * budget + asked); });
       found_json.push_back(to_json(found, all[i]));
       table += fmt::format("{:<46} {:>13} {:>9.1e} {:>9.1e}\n",
                            fmt::format("{}/{}", pair_name(all[i].pair), all[i].pose_class),

@@ -2,11 +2,13 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "candidates/host/candidate_process.hpp"
 #include "oracle/judge/score.hpp"
+#include "oracle/truth.hpp"
 #include "properties/identity.hpp"
 
 namespace touchstone {
@@ -28,39 +30,27 @@ struct Cell {
   Pair pair;
   std::string pose_class;
 };
-/// In report order. Throws InvalidInput when a class belongs to none of the pairs.
+/// Lists the cells in report order. Throws InvalidInput when a class belongs to none of the pairs.
 std::vector<Cell> cells(const Campaign& campaign);
 
-/// The scores of one cell: scores[candidate][index]; none if the campaign was interrupted before it
-/// was done.
-struct CellScores {
-  std::vector<std::vector<Score>> scores;
-  std::vector<double> oracle_microseconds;
-  std::vector<double> signed_distance;  ///< true, metres
+/// Width of every truth that a score is against, relative to the larger size.
+inline constexpr double truth_width = 1e-30;
 
-  bool done() const { return !oracle_microseconds.empty(); }
-};
-
-/// One configuration's scores, in the order of the candidates.
+/// One configuration, its truth, and what candidates make of it, in their order.
 struct ScoredConfiguration {
-  std::uint64_t index;
+  Configuration configuration;
+  oracle::Truth truth;
   double oracle_microseconds;
-  double signed_distance;  ///< true, metres
+  std::vector<Answer> answers;
   std::vector<Score> scores;
 };
 
-/// Scores the configurations first … last − 1 of a cell and hands them over in order. Each
-/// candidate has a new session: the scores depend on these configurations alone. Throws
-/// std::runtime_error naming the configuration whose truth contradicts itself.
-void score_range(const Campaign& campaign, std::vector<CandidateProcess>& candidates,
-                 const Cell& cell, std::uint64_t first, std::uint64_t last,
-                 const std::function<void(const ScoredConfiguration&)>& take);
-
-/// Scores every cell, spread over worker processes, in each of which every candidate has a process
-/// of its own and a new session for each cell: the result does not depend on how many there are,
-/// nor on what other candidates do. Progress goes to standard error. Throws std::runtime_error
-/// naming the cell if a worker itself dies. When an end is asked for (interruption.hpp), cells that
-/// are not done by then have no scores.
-std::vector<CellScores> run(const Campaign& campaign);
+/// Asks each candidate for all configurations in a new session, so that the scores depend on these
+/// configurations alone, and hands the scored ones over in order. `width`: of the truth, relative
+/// to the larger size. Throws like the oracle.
+void score_configurations(std::span<const Configuration> configurations,
+                          std::span<CandidateProcess* const> candidates, const Bar& bar,
+                          double width,
+                          const std::function<void(const ScoredConfiguration&)>& take);
 
 }  // namespace touchstone

@@ -96,40 +96,29 @@ Shape other(Pair pair) {
 DrakeProtocol::Published published(Pair pair) {
   switch (pair) {
     case Pair::plane:
-      return {pair_name(pair), 4e-15, std::nullopt, {}};
+      return {pair_name(pair), 4e-15, std::nullopt, drake_cases(pair)};
     case Pair::sphere:
-      return {pair_name(pair), 5e-15, 5e-15, {}};
+      return {pair_name(pair), 5e-15, 5e-15, drake_cases(pair)};
     case Pair::capsule:
-      return {pair_name(pair), 4e-5, 1e-5, {}};
+      return {pair_name(pair), 4e-5, 1e-5, drake_cases(pair)};
     case Pair::cylinder:
-      return {pair_name(pair), 2e-3, 2e-5, {}};
+      return {pair_name(pair), 2e-3, 2e-5, drake_cases(pair)};
     case Pair::box:
       break;
   }
-  return {pair_name(pair), 1e-3, 6e-6, {}};
+  return {pair_name(pair), 1e-3, 6e-6, drake_cases(pair)};
 }
 
-/// One candidate on one pair.
-DrakeProtocol::Result judged(CandidateProcess& candidate, const std::vector<DrakeCase>& cases,
-                             const Bar& bar) {
-  std::vector<Configuration> configurations;
-  for (const DrakeCase& c : cases) configurations.push_back(c.configuration);
-  const std::vector<Answer> answers = candidate.answers(configurations);
-  DrakeProtocol::Result result;
-  result.candidate = candidate.candidate().name;
-  result.count = cases.size();
-  for (std::size_t i = 0; i < cases.size(); ++i) {
-    const Configuration& c = configurations[i];
-    const oracle::Truth truth = oracle::truth(c);
-    const Score s = score(c, truth, answers[i], bar);
-    ++result.outcomes[s.outcome];
-    if (!s.depth_error) continue;
-    const double error = std::abs(answers[i].signed_distance - truth.signed_distance.midpoint());
-    if (result.worst && error <= *result.max_error) continue;
-    result.max_error = error;
-    result.worst = i;
-  }
-  return result;
+/// Adds what a candidate makes of a configuration.
+void add(DrakeProtocol::Result& result, std::size_t configuration, const oracle::Truth& truth,
+         const Answer& answer, const Score& score) {
+  ++result.count;
+  ++result.outcomes[score.outcome];
+  if (!score.depth_error) return;
+  const double error = std::abs(answer.signed_distance - truth.signed_distance.midpoint());
+  if (result.worst && error <= *result.max_error) return;
+  result.max_error = error;
+  result.worst = configuration;
 }
 
 }  // namespace
@@ -164,14 +153,24 @@ DrakeProtocol drake_protocol(const Campaign& campaign) {
   DrakeProtocol protocol{depth, {}, {}};
   auto candidates = start(campaign.candidates, campaign.bar.threshold, campaign.limits);
   for (const Pair pair : campaign.pairs) {
-    const std::vector<DrakeCase> cases = drake_cases(pair);
     protocol.pairs.push_back(published(pair));
-    protocol.pairs.back().configurations = cases;
-    for (CandidateProcess& candidate : candidates) {
-      DrakeProtocol::Result result = judged(candidate, cases, campaign.bar);
-      result.pair = pair_name(pair);
-      protocol.results.push_back(std::move(result));
+    std::vector<Configuration> configurations;
+    for (const DrakeCase& c : protocol.pairs.back().configurations) {
+      configurations.push_back(c.configuration);
     }
+    std::vector<DrakeProtocol::Result> results;
+    for (const Candidate* c : campaign.candidates) {
+      results.push_back({pair_name(pair), c->name, 0, {}, {}, {}});
+    }
+    std::size_t i = 0;
+    score_configurations(configurations, pointers(candidates), campaign.bar, truth_width,
+                         [&](const ScoredConfiguration& scored) {
+                           for (std::size_t k = 0; k < results.size(); ++k) {
+                             add(results[k], i, scored.truth, scored.answers[k], scored.scores[k]);
+                           }
+                           ++i;
+                         });
+    protocol.results.insert(protocol.results.end(), results.begin(), results.end());
   }
   return protocol;
 }

@@ -5,19 +5,49 @@
 #include <span>
 
 #include "candidates/host/interruption.hpp"
+#include "candidates/host/progress.hpp"
 #include "properties/identity.hpp"
 #include "reports/drake_protocol.hpp"
 #include "reports/machine.hpp"
 #include "reports/pareto.hpp"
-#include "reports/statistics.hpp"
+#include "reports/sampler.hpp"
 #include "reports/timing.hpp"
-#include "reports/trends.hpp"
 #include "reports/worst.hpp"
 
 namespace touchstone {
 namespace {
 
-/// The same scores and times under one heading: a cell, all of a pair, everything.
+/// What is known of each cell; absent where the run was interrupted before all of it was scored.
+std::vector<std::optional<Sample>> sample_cells(const Campaign& campaign, std::size_t cells) {
+  const std::uint64_t per_cell = (campaign.count + Unit::max_size - 1) / Unit::max_size;
+  const auto unit = [&](std::uint64_t number) {
+    const std::uint64_t first = number % per_cell * Unit::max_size;
+    return Unit{number / per_cell, first, std::min(campaign.count, first + Unit::max_size)};
+  };
+  std::vector<std::optional<Sample>> parts(cells * per_cell);
+  Progress progress("configurations", cells * campaign.count);
+  std::uint64_t done = 0;
+  sample(
+      campaign, Purpose::report, parts.size(), unit,
+      [&](std::uint64_t number, Sample part) {
+        parts[number] = std::move(part);
+        progress.update(done += unit(number).last - unit(number).first);
+      },
+      [] { return !interrupted(); });
+
+  std::vector<std::optional<Sample>> result(cells);
+  for (std::size_t cell = 0; cell < cells; ++cell) {
+    const std::span of_cell = std::span(parts).subspan(cell * per_cell, per_cell);
+    if (!std::all_of(of_cell.begin(), of_cell.end(), [](const auto& part) { return !!part; })) {
+      continue;
+    }
+    result[cell] = std::move(of_cell.front());
+    for (const auto& part : of_cell.subspan(1)) result[cell]->add(*part);
+  }
+  return result;
+}
+
+/// Cells under one heading: one of them, all of a pair, everything.
 struct Group {
   std::vector<std::size_t> cells;
   std::string pair, pose_class;
@@ -33,30 +63,79 @@ std::optional<QueryTime> time_of(const Campaign& campaign, const Times& times, c
   return time;
 }
 
-ResultRow row_of(const Campaign& campaign, const std::vector<CellScores>& scores,
-                 const Times& times, const Group& group, std::size_t k) {
-  std::vector<Score> all;
-  for (const std::size_t cell : group.cells) {
-    all.insert(all.end(), scores[cell].scores[k].begin(), scores[cell].scores[k].end());
-  }
-  ResultRow row;
-  row.pair = group.pair;
-  row.pose_class = group.pose_class;
-  row.candidate = campaign.candidates[k]->name;
-  row.statistics = statistics(all);
-  row.time = time_of(campaign, times, group, k);
-  return row;
-}
-
-std::vector<ResultRow> rows_of(const Campaign& campaign, const std::vector<CellScores>& scores,
+std::vector<ResultRow> rows_of(const Campaign& campaign,
+                               const std::vector<std::optional<Sample>>& samples,
                                const Times& times, const std::vector<Group>& groups) {
   std::vector<ResultRow> rows;
   for (const Group& group : groups) {
     for (std::size_t k = 0; k < campaign.candidates.size(); ++k) {
-      rows.push_back(row_of(campaign, scores, times, group, k));
+      ScoreTally tally(Precision::exact);
+      for (const std::size_t cell : group.cells) tally.add(samples[cell]->tallies[k]);
+      ResultRow& row = rows.emplace_back();
+      row.pair = group.pair;
+      row.pose_class = group.pose_class;
+      row.candidate = campaign.candidates[k]->name;
+      row.statistics = tally.statistics();
+      row.time = time_of(campaign, times, group, k);
     }
   }
   return rows;
+}
+
+std::vector<Trend> trends_of(const Campaign& campaign,
+                             const std::vector<std::optional<Sample>>& samples,
+                             const std::vector<Group>& pairs) {
+  std::vector<std::string> names;
+  for (const Candidate* c : campaign.candidates) names.push_back(c->name);
+  std::vector<Trend> result;
+  for (const Group& pair : pairs) {
+    TrendTally tally;
+    for (const std::size_t cell : pair.cells) tally.add(samples[cell]->trends);
+    const std::vector<Trend> trends = tally.trends(pair.pair, names);
+    result.insert(result.end(), trends.begin(), trends.end());
+  }
+  return result;
+}
+
+WorstCase worst_case(const Campaign& campaign, const Sample& sample, const Identity& identity,
+                     std::size_t candidate) {
+  auto [configuration, truth, answers] = sample.examined(candidate, identity.index);
+  const std::string id = to_string(identity);
+  WorstCase result{pair_name(identity.pair),
+                   identity.pose_class,
+                   campaign.candidates[candidate]->name,
+                   answers.front().second,
+                   {id, configuration, std::move(truth), {}, replay_command(id)}};
+  std::size_t shown = candidate;
+  for (auto& [answer, score] : answers) {
+    result.examination.answers.push_back(
+        {campaign.candidates[shown]->name, std::move(answer), score});
+    shown = 0;  // the other one is the first candidate's
+  }
+  return result;
+}
+
+/// The worst configurations of every pair × candidate, each with the candidate's answer and that of
+/// the campaign's first.
+std::vector<WorstCase> worst_of(const Campaign& campaign, const std::vector<Cell>& cells,
+                                const std::vector<std::optional<Sample>>& samples,
+                                const std::vector<Group>& pairs) {
+  std::vector<WorstCase> result;
+  for (const Group& pair : pairs) {
+    for (std::size_t k = 0; k < campaign.candidates.size(); ++k) {
+      std::vector<Case> cases;
+      for (const std::size_t cell : pair.cells) {
+        const auto& worst = samples[cell]->tallies[k].worst;
+        cases.insert(cases.end(), worst.begin(), worst.end());
+      }
+      for (const Case& c : worst_of_pair(std::move(cases))) {
+        const Identity identity{cells[c.cell].pair, cells[c.cell].pose_class, campaign.seed,
+                                c.index};
+        result.push_back(worst_case(campaign, *samples[c.cell], identity, k));
+      }
+    }
+  }
+  return result;
 }
 
 /// Finds which rows of one group of candidates are on the front of speed and accuracy, and whose
@@ -89,8 +168,8 @@ void rank(std::span<ResultRow> rows) {
 Report make_report(const Campaign& campaign, const std::string& command) {
   const auto start = std::chrono::steady_clock::now();
   const std::vector<Cell> all = cells(campaign);
-  const std::vector<CellScores> scores = run(campaign);
-  const Times times = time_queries(campaign, scores);
+  const std::vector<std::optional<Sample>> samples = sample_cells(campaign, all.size());
+  const Times times = time_queries(campaign, samples);
 
   Report report;
   report.version = TOUCHSTONE_VERSION;
@@ -104,39 +183,38 @@ Report make_report(const Campaign& campaign, const std::string& command) {
     report.candidates.push_back({c->name, c->family, c->version, c->settings, c->models});
   }
 
-  std::vector<Group> single, summary;
+  std::vector<Group> single, pairs;
   Group everything{{}, "all", "all"};
+  std::vector<double> oracle_times;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (!scores[i].done()) continue;
+    if (!samples[i]) continue;
     const auto has_times = [](const Repetitions& r) { return !r.empty(); };
     report.timed_classes += std::any_of(times[i].begin(), times[i].end(), has_times);
+    oracle_times.insert(oracle_times.end(), samples[i]->oracle_microseconds.begin(),
+                        samples[i]->oracle_microseconds.end());
     const char* pair = pair_name(all[i].pair);
     single.push_back({{i}, pair, all[i].pose_class});
-    if (summary.empty() || summary.back().pair != pair) summary.push_back({{}, pair, "all"});
-    summary.back().cells.push_back(i);
+    if (pairs.empty() || pairs.back().pair != pair) pairs.push_back({{}, pair, "all"});
+    pairs.back().cells.push_back(i);
     everything.cells.push_back(i);
     report.classes.push_back({pair, all[i].pose_class,
                               std::string(describe_pose_class(all[i].pair, all[i].pose_class))});
   }
-  if (summary.size() > 1) summary.push_back(everything);
   report.planned = {all.size(), all.size() * campaign.count};
   report.completed = {single.size(), single.size() * campaign.count};
   report.configurations = report.completed.configurations;
-
-  std::vector<double> oracle_times;
-  for (const CellScores& s : scores) {
-    oracle_times.insert(oracle_times.end(), s.oracle_microseconds.begin(),
-                        s.oracle_microseconds.end());
-  }
   report.oracle_microseconds = quantiles(std::move(oracle_times));
-  report.results = rows_of(campaign, scores, times, single);
-  report.summary = rows_of(campaign, scores, times, summary);
+
+  report.results = rows_of(campaign, samples, times, single);
+  std::vector<Group> summary = pairs;
+  if (pairs.size() > 1) summary.push_back(everything);
+  report.summary = rows_of(campaign, samples, times, summary);
   for (std::size_t i = 0; i < report.summary.size(); i += campaign.candidates.size()) {
     rank(std::span(report.summary).subspan(i, campaign.candidates.size()));
   }
-  report.trends = trends(campaign, scores);
+  report.trends = trends_of(campaign, samples, pairs);
+  report.worst = worst_of(campaign, all, samples, pairs);
   if (!report.partial) report.drake_protocol = drake_protocol(campaign);
-  report.worst = worst_cases(campaign, scores);
   report.wall_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return report;

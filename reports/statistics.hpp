@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "oracle/judge/score.hpp"
-#include "reports/log_histogram.hpp"
 
 namespace touchstone {
 
@@ -32,7 +31,20 @@ struct Shares {
 };
 std::optional<Shares> shares(const std::vector<double>& values);
 
-/// Scores of one candidate on any set of configurations.
+/// How many magnitudes lie in each half decade: counts[i] in [10^(k/2), 10^((k+1)/2)) with
+/// k = first + i. Zeros, which have no logarithm, apart. What is beyond 1e-18 or 1e6 is counted in
+/// the outermost half decades.
+struct LogHistogram {
+  std::uint64_t zero = 0;
+  int first = 0;
+  std::vector<std::uint64_t> counts;  ///< empty or without zeros at its ends
+
+  bool operator==(const LogHistogram&) const = default;
+};
+/// Histogram of finite values that are not negative.
+LogHistogram log_histogram(const std::vector<double>& values);
+
+/// Summary of the scores of one candidate on any set of configurations (score_tally.hpp).
 struct Statistics {
   std::uint64_t count = 0;
   std::array<std::uint64_t, all_outcomes.size()> outcomes{};  ///< in the order of all_outcomes
@@ -46,6 +58,5 @@ struct Statistics {
 
   std::uint64_t of(Outcome outcome) const { return outcomes[static_cast<std::size_t>(outcome)]; }
 };
-Statistics statistics(const std::vector<Score>& scores);
 
 }  // namespace touchstone

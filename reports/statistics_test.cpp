@@ -1,6 +1,7 @@
 #include "reports/statistics.hpp"
 
 #include <gtest/gtest.h>
+#include <vector>
 
 namespace touchstone {
 namespace {
@@ -27,20 +28,20 @@ TEST(Statistics, QuantilesAreNearestRank) {
   EXPECT_FALSE(quantiles({}));
 }
 
-TEST(Statistics, CountsOutcomesAndPoints) {
-  Score agreeing, overdeep, missed;
-  agreeing.points = overdeep.points = 1;
-  agreeing.depth_error = 0;
-  overdeep.outcome = Outcome::overdeep;
-  overdeep.depth_error = -2e-3;
-  missed.outcome = Outcome::missed;
-  const Statistics s = statistics({agreeing, overdeep, missed});
-  EXPECT_EQ(s.count, 3u);
-  EXPECT_EQ(s.of(Outcome::agree), 1u);
-  EXPECT_EQ(s.of(Outcome::overdeep), 1u);
-  EXPECT_EQ(s.of(Outcome::missed), 1u);
-  EXPECT_EQ(s.points.at(1), 2u);
-  EXPECT_EQ(s.depth_error->max, 2e-3);
+TEST(LogHistogram, CountsHalfDecadesAndZerosApart) {
+  const LogHistogram h = log_histogram({0, 1e-3, 2e-3, 5e-3, 0.5, 0});
+  EXPECT_EQ(h.zero, 2u);
+  EXPECT_EQ(h.first, -6);
+  EXPECT_EQ(h.counts, (std::vector<std::uint64_t>{2, 1, 0, 0, 0, 1}));
+}
+
+TEST(LogHistogram, KeepsWhatIsBeyondItsEnds) {
+  const LogHistogram h = log_histogram({1e-300, 1e300});
+  EXPECT_EQ(h.first, -36);
+  EXPECT_EQ(h.counts.size(), 48u);
+  EXPECT_EQ(h.counts.front() + h.counts.back(), 2u);
+  EXPECT_EQ(log_histogram({}), LogHistogram{});
+  EXPECT_EQ(log_histogram({0}), (LogHistogram{1, 0, {}}));
 }
 
 }  // namespace

@@ -10,28 +10,23 @@
 namespace touchstone {
 namespace {
 
-/// More configurations than this of one cell would not change its median.
-constexpr std::uint64_t most_configurations = 50;
-
-/// Those that a candidate survived, in order; all are asked of it within one process.
-std::vector<Configuration> survived(const Campaign& campaign, const Cell& cell,
-                                    const std::vector<Score>& scores) {
+/// The configurations that a candidate survived, in order; all are asked of it within one process.
+std::vector<Configuration> survived(const Sample& sample, std::size_t candidate) {
   std::vector<Configuration> result;
-  for (std::uint64_t i = 0; i < std::min<std::uint64_t>(scores.size(), most_configurations); ++i) {
-    const Outcome outcome = scores[i].outcome;
+  for (std::size_t i = 0; i < sample.timed.size(); ++i) {
+    const Outcome outcome = sample.timed_outcomes[candidate][i];
     if (outcome == Outcome::unsupported) return {};
     if (outcome == Outcome::crashed || outcome == Outcome::timed_out) continue;
-    result.push_back(make_configuration({cell.pair, cell.pose_class, campaign.seed, i}));
+    result.push_back(sample.timed[i]);
   }
   return result;
 }
 
-std::vector<Repetitions> time_cell(const Campaign& campaign, const Cell& cell,
-                                   std::vector<CandidateProcess>& candidates,
-                                   const CellScores& scores, std::mt19937_64& random) {
+std::vector<Repetitions> time_cell(const Sample& sample, std::vector<CandidateProcess>& candidates,
+                                   std::mt19937_64& random) {
   std::vector<std::size_t> order;  // of those that are ready
   for (std::size_t k = 0; k < candidates.size(); ++k) {
-    const auto configurations = survived(campaign, cell, scores.scores[k]);
+    const auto configurations = survived(sample, k);
     if (!configurations.empty() && candidates[k].prepare_timing(configurations)) order.push_back(k);
   }
   std::vector<Repetitions> result(candidates.size());
@@ -75,15 +70,14 @@ double nanoseconds(const QueryCost& cost) { return cost.nanoseconds; }
 
 }  // namespace
 
-Times time_queries(const Campaign& campaign, const std::vector<CellScores>& scores) {
-  const std::vector<Cell> all = cells(campaign);
-  Times times(all.size(), std::vector<Repetitions>(campaign.candidates.size()));
+Times time_queries(const Campaign& campaign, const std::vector<std::optional<Sample>>& samples) {
+  Times times(samples.size(), std::vector<Repetitions>(campaign.candidates.size()));
   if (interrupted()) return times;
-  Progress progress("pose classes timed", all.size());
+  Progress progress("pose classes timed", samples.size());
   std::mt19937_64 random(campaign.seed);
   auto candidates = start(campaign.candidates, campaign.bar.threshold, campaign.limits);
-  for (std::size_t i = 0; i < all.size() && !interrupted(); ++i) {
-    times[i] = time_cell(campaign, all[i], candidates, scores[i], random);
+  for (std::size_t i = 0; i < samples.size() && !interrupted(); ++i) {
+    if (samples[i]) times[i] = time_cell(*samples[i], candidates, random);
     progress.update(i + 1);
   }
   return times;

@@ -3,8 +3,8 @@
 #include <optional>
 #include <vector>
 
-#include "reports/campaign.hpp"
 #include "reports/report.hpp"
+#include "reports/sampler.hpp"
 
 namespace touchstone {
 
@@ -19,8 +19,9 @@ inline constexpr std::size_t timing_repetitions = 11;
 /// random order within each (drawn from the campaign's seed), one at a time. Shapes are prepared
 /// beforehand, a cell's configurations are queried one after the other. Each candidate reads the
 /// clock in its own process around the loop of its queries; what isolation costs lies outside.
-/// Configurations that ended a candidate's process, as `scores` say, are not asked of it.
-Times time_queries(const Campaign& campaign, const std::vector<CellScores>& scores);
+/// Configurations that ended a candidate's process, as the samples of the cells say, are not asked
+/// of it.
+Times time_queries(const Campaign& campaign, const std::vector<std::optional<Sample>>& samples);
 
 std::optional<Spread> spread(std::vector<double> values);
 

@@ -5,8 +5,6 @@
 #include <limits>
 #include <map>
 
-#include "reports/statistics.hpp"
-
 namespace touchstone {
 namespace {
 
@@ -25,12 +23,12 @@ std::vector<Vec3> axes(const Shape& shape, const Pose& pose) {
 
 std::optional<double> tilt(const Configuration& c) {
   const Vec3 u = c.pose_a.axis();
-  std::optional<double> least;
+  std::optional<double> min;
   for (const Vec3& e : axes(c.b, c.pose_b)) {
     const double sine = std::min(std::abs(u.dot(e)), u.cross(e).norm());
-    if (!least || sine < *least) least = sine;
+    if (!min || sine < *min) min = sine;
   }
-  return least ? std::optional(std::asin(std::min(1.0, *least))) : std::nullopt;
+  return min ? std::optional(std::asin(std::min(1.0, *min))) : std::nullopt;
 }
 
 double aspect(const Shape& shape) {
@@ -39,26 +37,8 @@ double aspect(const Shape& shape) {
              : largest_half_extent(shape) / smallest_half_extent(shape);
 }
 
-/// The decade of a value; absent for zero and what is lost in rounding.
 std::optional<int> decade(double value) {
   return value < 1e-17 ? std::nullopt : std::optional<int>(std::floor(std::log10(value)));
-}
-
-/// What one decade of a variable holds.
-struct Bin {
-  std::vector<double> severity;
-  std::size_t missed = 0;
-};
-/// Zero, as no decade, comes first.
-using Bins = std::map<std::optional<int>, Bin>;
-
-std::vector<TrendBin> summary(const Bins& bins) {
-  std::vector<TrendBin> result;
-  for (const auto& [decade, bin] : bins) {
-    const Quantiles q = *quantiles(bin.severity);
-    result.push_back({decade, bin.severity.size(), bin.missed, q.median, q.max});
-  }
-  return result;
 }
 
 }  // namespace
@@ -92,35 +72,60 @@ std::optional<double> value_of(Variable variable, const Configuration& c, double
   return std::nullopt;
 }
 
-std::vector<Trend> trends(const Campaign& campaign, const std::vector<CellScores>& scores) {
-  const std::vector<Cell> all = cells(campaign);
-  std::vector<Trend> result;
-  for (const Pair pair : campaign.pairs) {
-    std::map<std::pair<std::size_t, Variable>, Bins> bins;
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      if (all[i].pair != pair || !scores[i].done()) continue;
-      const std::uint64_t done = scores[i].signed_distance.size();  // none if it was interrupted
-      for (std::uint64_t index = 0; index < done; ++index) {
-        const Configuration c = make_configuration({pair, all[i].pose_class, campaign.seed, index});
-        for (const Variable variable : all_variables) {
-          const auto value = value_of(variable, c, scores[i].signed_distance[index]);
-          if (!value) continue;
-          for (std::size_t k = 0; k < campaign.candidates.size(); ++k) {
-            const Score& s = scores[i].scores[k][index];
-            if (!is_judged(s.outcome)) continue;
-            Bin& bin = bins[{k, variable}][decade(*value)];
-            bin.severity.push_back(s.severity);
-            bin.missed += s.outcome == Outcome::missed;
-          }
-        }
-      }
-    }
-    for (const auto& [key, of_decade] : bins) {
-      result.push_back({pair_name(pair), campaign.candidates[key.first]->name,
-                        variable_name(key.second), summary(of_decade)});
+void TrendTally::add(const Configuration& c, double signed_distance,
+                     const std::vector<Score>& scores) {
+  for (const Variable variable : all_variables) {
+    const auto value = value_of(variable, c, signed_distance);
+    if (!value) continue;
+    for (std::size_t k = 0; k < scores.size(); ++k) {
+      if (!is_judged(scores[k].outcome)) continue;
+      Bin& bin = bins_[{k, variable, decade(*value)}];
+      bin.severity.push_back(scores[k].severity);
+      bin.missed += scores[k].outcome == Outcome::missed;
     }
   }
+}
+
+void TrendTally::add(const TrendTally& other) {
+  for (const auto& [key, added] : other.bins_) {
+    Bin& bin = bins_[key];
+    bin.severity.insert(bin.severity.end(), added.severity.begin(), added.severity.end());
+    bin.missed += added.missed;
+  }
+}
+
+std::vector<Trend> TrendTally::trends(const std::string& pair,
+                                      const std::vector<std::string>& candidates) const {
+  std::vector<Trend> result;
+  const Key* last = nullptr;
+  for (const auto& [key, bin] : bins_) {
+    if (!last || last->candidate != key.candidate || last->variable != key.variable) {
+      result.push_back({pair, candidates[key.candidate], variable_name(key.variable), {}});
+    }
+    const Quantiles q = *quantiles(bin.severity);
+    result.back().bins.push_back({key.decade, bin.severity.size(), bin.missed, q.median, q.max});
+    last = &key;
+  }
   return result;
+}
+
+void TrendTally::write(ByteWriter& out) const {
+  out.put(bins_.size());
+  for (const auto& [key, bin] : bins_) {
+    out.put(key);
+    out.put(bin.severity);
+    out.put(bin.missed);
+  }
+}
+
+TrendTally TrendTally::read(ByteReader& in) {
+  TrendTally tally;
+  for (auto left = in.get<std::size_t>(); left > 0; --left) {
+    Bin& bin = tally.bins_[in.get<Key>()];
+    bin.severity = in.get_all<double>();
+    bin.missed = in.get<std::uint64_t>();
+  }
+  return tally;
 }
 
 }  // namespace touchstone

@@ -1,10 +1,13 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
-#include "reports/campaign.hpp"
+#include "reports/bytes.hpp"
 #include "reports/report.hpp"
 
 namespace touchstone {
@@ -21,12 +24,38 @@ inline constexpr std::array all_variables = {Variable::tilt, Variable::depth, Va
                                              Variable::distance};
 const char* variable_name(Variable variable);
 
-/// `signed_distance` is the true one in metres.
+/// Value of a variable; `signed_distance` is the true one in metres.
 std::optional<double> value_of(Variable variable, const Configuration& configuration,
                                double signed_distance);
 
-/// Severity against each variable, by its decades: one trend for each pair × candidate × variable
-/// with any values.
-std::vector<Trend> trends(const Campaign& campaign, const std::vector<CellScores>& scores);
+/// Severity of judged answers against each variable, by its decades. Tallies of the parts, added in
+/// any order, give the trends of the whole.
+class TrendTally {
+ public:
+  /// `scores`: of every candidate on this configuration.
+  void add(const Configuration& configuration, double signed_distance,
+           const std::vector<Score>& scores);
+  void add(const TrendTally& other);
+
+  /// Trends of one pair: of each candidate and variable with any values.
+  std::vector<Trend> trends(const std::string& pair,
+                            const std::vector<std::string>& candidates) const;
+
+  void write(ByteWriter& out) const;
+  static TrendTally read(ByteReader& in);
+
+ private:
+  struct Key {
+    std::size_t candidate;
+    Variable variable;
+    std::optional<int> decade;  ///< absent, which comes first: zero, and what is lost in rounding
+    auto operator<=>(const Key&) const = default;
+  };
+  struct Bin {
+    std::vector<double> severity;
+    std::uint64_t missed = 0;
+  };
+  std::map<Key, Bin> bins_;
+};
 
 }  // namespace touchstone

@@ -3,30 +3,66 @@
 #include <algorithm>
 #include <cctype>
 #include <cstring>
+#include <map>
+#include <tuple>
 #include <utility>
 
 #include "candidates/candidates.hpp"
-#include "candidates/host/progress.hpp"
-#include "reports/worst_selection.hpp"
 
 namespace touchstone {
 namespace {
 
-std::vector<Case> worst_of(const std::vector<Cell>& all, const std::vector<CellScores>& scores,
-                           Pair pair, std::size_t candidate) {
-  std::vector<Case> cases;
-  for (std::size_t cell = 0; cell < all.size(); ++cell) {
-    if (all[cell].pair != pair) continue;
-    std::vector<Case> of_class;
-    const auto& row = scores[cell].scores[candidate];
-    for (std::uint64_t i = 0; i < row.size(); ++i) of_class.push_back({cell, i, row[i]});
-    const auto worst = worst_of_class(std::move(of_class));
-    cases.insert(cases.end(), worst.begin(), worst.end());
-  }
-  return worst_of_pair(std::move(cases));
+constexpr std::size_t kept_of_pair = 4;
+constexpr std::size_t kept_of_class = 2;
+
+auto rank(const Case& c) {
+  const Outcome o = c.score.outcome;
+  const bool answered = o != Outcome::crashed && o != Outcome::timed_out && o != Outcome::failed &&
+                        o != Outcome::not_finite;
+  return std::tuple(o == Outcome::agree, answered, -c.score.severity, c.cell, c.index);
 }
 
 }  // namespace
+
+bool Case::operator<(const Case& other) const { return rank(*this) < rank(other); }
+
+std::vector<Case> worst_of_class(std::vector<Case> cases) {
+  std::erase_if(cases, [](const Case& c) { return c.score.outcome == Outcome::unsupported; });
+  std::sort(cases.begin(), cases.end());
+  std::map<Outcome, std::size_t> seen;
+  std::size_t at = 0;
+  std::erase_if(cases, [&](const Case& c) {
+    const bool first_of_outcome = seen[c.score.outcome]++ == 0;
+    return at++ >= kept_of_class && !first_of_outcome;
+  });
+  return cases;
+}
+
+std::vector<Case> worst_of_pair(std::vector<Case> cases) {
+  std::sort(cases.begin(), cases.end());
+  // The worst of each outcome stay, then what else is worst.
+  std::map<Outcome, std::size_t> seen;
+  const auto others = std::stable_partition(
+      cases.begin(), cases.end(), [&](const Case& c) { return seen[c.score.outcome]++ == 0; });
+  const auto first = static_cast<std::size_t>(others - cases.begin());
+  cases.resize(std::min(std::max(kept_of_pair, first), cases.size()));
+  std::sort(cases.begin(), cases.end());
+  return cases;
+}
+
+Examination examine(const Subject& subject, std::span<CandidateProcess* const> candidates,
+                    const Bar& bar, double width) {
+  Examination result{subject.name, subject.configuration, {}, {}, replay_command(subject.name)};
+  const auto take = [&](const ScoredConfiguration& scored) {
+    result.truth = scored.truth;
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+      result.answers.push_back(
+          {candidates[k]->candidate().name, scored.answers[k], scored.scores[k]});
+    }
+  };
+  score_configurations({&subject.configuration, 1}, candidates, bar, width, take);
+  return result;
+}
 
 std::string shell_quoted(const std::string& text) {
   const auto plain = [](unsigned char c) { return std::isalnum(c) || std::strchr("/._-+@", c); };
@@ -44,40 +80,6 @@ std::string program_name() {
 
 std::string replay_command(const std::string& name) {
   return program_name() + " replay " + shell_quoted(name);
-}
-
-Examination examine(const Subject& subject, const std::vector<CandidateProcess*>& candidates,
-                    const Bar& bar, double width) {
-  const Configuration& c = subject.configuration;
-  const oracle::Truth truth = oracle::truth(c, width);
-  std::vector<ScoredAnswer> answers;
-  for (CandidateProcess* const process : candidates) {
-    const Answer a = process->answer(c);
-    answers.push_back({process->candidate().name, a, score(c, truth, a, bar)});
-  }
-  return {subject.name, c, truth, answers, replay_command(subject.name)};
-}
-
-std::vector<WorstCase> worst_cases(const Campaign& campaign,
-                                   const std::vector<CellScores>& scores) {
-  const std::vector<Cell> all = cells(campaign);
-  std::vector<WorstCase> result;
-  auto processes = start(campaign.candidates, campaign.bar.threshold, campaign.limits);
-  Progress progress("candidates' worst cases", campaign.pairs.size() * campaign.candidates.size());
-  std::size_t done = 0;
-  for (const Pair pair : campaign.pairs) {
-    for (std::size_t k = 0; k < campaign.candidates.size(); ++k) {
-      progress.update(done++);
-      for (const Case& w : worst_of(all, scores, pair, k)) {
-        const Identity id{pair, all[w.cell].pose_class, campaign.seed, w.index};
-        std::vector<CandidateProcess*> shown = {&processes[k]};
-        if (k > 0) shown.push_back(&processes[0]);
-        result.push_back({pair_name(pair), id.pose_class, campaign.candidates[k]->name, w.score,
-                          examine(subject(id), shown, campaign.bar)});
-      }
-    }
-  }
-  return result;
 }
 
 }  // namespace touchstone

@@ -1,23 +1,43 @@
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "candidates/host/candidate_process.hpp"
+#include "oracle/judge/score.hpp"
+#include "properties/identity.hpp"
 #include "reports/campaign.hpp"
 #include "reports/report.hpp"
 
 namespace touchstone {
 
-/// The worst configurations of every pair × candidate, each with truth, the candidate's answer and
-/// that of the campaign's first, and the command that replays it: one of each kind of failure
-/// first, then failures before mere errors, by severity, at most two of one class.
-std::vector<WorstCase> worst_cases(const Campaign& campaign, const std::vector<CellScores>& scores);
+/// The score of one candidate on one configuration.
+struct Case {
+  std::size_t cell;     ///< pair × class, in report order
+  std::uint64_t index;  ///< of the configuration in its class
+  Score score;
 
-/// One configuration with its truth and the candidates' answers, as in worst_cases and `replay`.
-Examination examine(const Subject& subject, const std::vector<CandidateProcess*>& candidates,
-                    const Bar& bar, double width = 1e-15);
+  /// Failures first, those without an answer at the top, by severity; equal ones in report order.
+  bool operator<(const Case& other) const;
+};
 
-/// For a shell; left alone where it needs no quotes.
+/// Selects from the cases of one class the two worst and the worst of each outcome, worst first.
+/// Cases that a candidate does not support are left out. The worst of two sets together are the
+/// worst of the worst of each.
+std::vector<Case> worst_of_class(std::vector<Case> cases);
+
+/// Selects from what worst_of_class gave of all classes of a pair the worst of each outcome, and
+/// what else is worst up to four, worst first.
+std::vector<Case> worst_of_pair(std::vector<Case> cases);
+
+/// Examines one configuration, as in a report's worst cases and `replay`: each candidate answers in
+/// a new session. `width`: of the truth, relative to the larger size.
+Examination examine(const Subject& subject, std::span<CandidateProcess* const> candidates,
+                    const Bar& bar, double width = truth_width);
+
+/// Quotes a word for a shell; left alone where it needs no quotes.
 std::string shell_quoted(const std::string& text);
 
 /// "./touchstone", with the plug-ins that were added to it.

@@ -3,7 +3,10 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include "candidates/host/candidate_process.hpp"
 
 namespace touchstone {
 
@@ -26,5 +29,24 @@ bool stream_from_processes(std::uint64_t count, unsigned workers,
                            const std::function<std::string(std::uint64_t)>& name,
                            const std::function<void(std::uint64_t, std::string)>& take,
                            const std::function<bool()>& go_on);
+
+/// Candidates of a worker (worker_processes.hpp): started at the first use, which is after the
+/// fork, so that each worker has its own.
+class WorkerCandidates {
+ public:
+  WorkerCandidates(std::vector<const Candidate*> candidates, double threshold, Limits limits)
+      : candidates_(std::move(candidates)), threshold_(threshold), limits_(limits) {}
+
+  std::vector<CandidateProcess>& get() {
+    if (processes_.empty()) processes_ = start(candidates_, threshold_, limits_);
+    return processes_;
+  }
+
+ private:
+  std::vector<const Candidate*> candidates_;
+  double threshold_;
+  Limits limits_;
+  std::vector<CandidateProcess> processes_;
+};
 
 }  // namespace touchstone

@@ -1,58 +1,146 @@
 #include "reports/campaigns/merge.hpp"
 
+#include <algorithm>
+#include <charconv>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
 #include <fmt/format.h>
+#include <mpi.h>
+#include <utility>
+
+#include <nlohmann/json.hpp>
 
 #include "properties/files/read_file.hpp"
+#include "properties/files/write_file.hpp"
 #include "reference/invalid_input.hpp"
+#include "reports/report_json.hpp"
 
 namespace touchstone {
 namespace {
 
+using nlohmann::json;
+
 /// "cylinder-box/rim-face, configurations 512 to 1023".
-std::string describe(const PlanView& view, std::uint64_t number) {
-  const Unit unit = view.cut.unit(number);
-  return fmt::format("{}/{}, configurations {} to {}", pair_name(view.cells[unit.cell].pair),
-                     view.cells[unit.cell].pose_class, unit.first, unit.last - 1);
+std::string describe(const Plan& plan, std::uint64_t number) {
+  const Unit unit = plan.cut.unit(number);
+  return fmt::format("{}/{}, configurations {} to {}", pair_name(plan.cells[unit.cell].pair),
+                     plan.cells[unit.cell].pose_class, unit.first, unit.last - 1);
+}
+
+constexpr const char* size_variable = "OMPI_COMM_WORLD_SIZE";
+constexpr const char* rank_variable = "OMPI_COMM_WORLD_RANK";
+
+std::uint64_t number_in(const char* variable) {
+  const char* const text = std::getenv(variable);
+  std::uint64_t value = 0;
+  const char* const end = text ? text + std::strlen(text) : nullptr;
+  if (!text || std::from_chars(text, end, value).ptr != end) {
+    throw InvalidInput(variable, text ? text : "unset", "must be the number that mpirun gives");
+  }
+  return value;
+}
+
+/// MPI counts bytes in int.
+constexpr std::size_t piece = 1 << 30;
+
+void send(const std::string& text) {
+  const std::uint64_t size = text.size();
+  MPI_Send(&size, 1, MPI_UINT64_T, 0, 0, MPI_COMM_WORLD);
+  for (std::size_t at = 0; at < text.size(); at += piece) {
+    MPI_Send(text.data() + at, static_cast<int>(std::min(piece, text.size() - at)), MPI_BYTE, 0, 0,
+             MPI_COMM_WORLD);
+  }
+}
+
+std::string receive(int rank) {
+  std::uint64_t size = 0;
+  MPI_Recv(&size, 1, MPI_UINT64_T, rank, 0, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+  std::string text(size, '\0');
+  for (std::size_t at = 0; at < text.size(); at += piece) {
+    MPI_Recv(text.data() + at, static_cast<int>(std::min(piece, text.size() - at)), MPI_BYTE, rank,
+             0, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+  }
+  return text;
+}
+
+bool exchange(const ShardState& part, Merge& merge) {
+  int rank = 0, size = 1;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  MPI_Comm_size(MPI_COMM_WORLD, &size);
+  if (rank != 0) {
+    send(to_text(part));
+    return false;
+  }
+  merge.add(part, "rank 0");
+  for (int other = 1; other < size; ++other) {
+    const std::string name = fmt::format("rank {}", other);
+    merge.add(shard_from_text(receive(other), name), name);
+  }
+  return true;
+}
+
+ResultRow row(const ScoreTally& tally, const std::string& pair, const std::string& pose_class,
+              const std::string& candidate) {
+  ResultRow result;
+  result.pair = pair;
+  result.pose_class = pose_class;
+  result.candidate = candidate;
+  result.statistics = tally.statistics();
+  return result;  // campaigns do not time candidates
+}
+
+WorstCase worst_case(const ShardState& whole, const Case& c, const std::string& candidate) {
+  const Cell& cell = whole.plan.cells[c.cell];
+  const Identity identity{cell.pair, cell.pose_class, whole.plan.seed, c.index};
+  const std::string id = to_string(identity);
+  const std::string replay = whole.plan.program + " replay " + id;
+  return {pair_name(cell.pair),
+          cell.pose_class,
+          candidate,
+          c.score,
+          {id, make_configuration(identity), std::nullopt, {}, replay}};
 }
 
 }  // namespace
 
-void Merge::add(const Progressed& part, const std::string& file) {
+void Merge::add(const ShardState& part, const std::string& file) {
   if (sum_.empty()) {
     sum_.emplace_back(part.plan, Shard{});
   } else {
-    require_same_plan(sum_.front().plan, part.plan, file);
+    require_same_plan(sum_.front().plan, json::parse(part.plan.text), file);
   }
   for (const Part& earlier : parts_) {
     const UnitSet both = earlier.units & part.done;
     if (both.empty()) continue;
     throw InvalidInput('"' + file + '"', "no separate part",
                        fmt::format("it and \"{}\" both hold {}", earlier.file,
-                                   describe(part.view, both.begin()->lower())));
+                                   describe(part.plan, both.begin()->lower())));
   }
   sum_.front().add(part.done, part.tallies);
   parts_.push_back({file, part.done});
 }
 
-Progressed Merge::whole(bool may_be_partial) const {
+ShardState Merge::whole(bool may_be_partial) const {
   if (sum_.empty()) throw InvalidInput("input", "empty", "must hold shard files of a campaign");
-  const Progressed& sum = sum_.front();
-  const UnitSet missing = Shard{}.units(sum.view.cut) - sum.done;
+  const ShardState& sum = sum_.front();
+  const UnitSet missing = Shard{}.units(sum.plan.cut) - sum.done;
   if (!missing.empty() && !may_be_partial) {
     throw InvalidInput(
         "input", "incomplete",
         fmt::format("{} of {} configurations are missing, the first of them {}; give all parts, "
                     "finish them with --resume, or take what there is with --partial",
-                    configurations(sum.view.cut, missing), sum.view.cut.cells * sum.view.cut.count,
-                    describe(sum.view, missing.begin()->lower())));
+                    configurations(sum.plan.cut, missing), sum.plan.cut.cells * sum.plan.cut.count,
+                    describe(sum.plan, missing.begin()->lower())));
   }
   return sum;
 }
 
-Progressed merge(const std::vector<std::filesystem::path>& inputs, bool may_be_partial) {
+ShardState merge(const std::vector<std::filesystem::path>& inputs, bool may_be_partial) {
   Merge merge;
   const auto add = [&](const std::filesystem::path& file) {
-    merge.add(progressed_from_text(read_file(file, "input"), file.string()), file.string());
+    merge.add(shard_from_text(read_file(file, "input"), file.string()), file.string());
   };
   for (const auto& input : inputs) {
     if (!is_folder(input)) {
@@ -66,6 +154,110 @@ Progressed merge(const std::vector<std::filesystem::path>& inputs, bool may_be_p
     for (const auto& file : files) add(file);
   }
   return merge.whole(may_be_partial);
+}
+
+bool under_mpirun() { return std::getenv(size_variable) != nullptr; }
+
+Shard shard_of_rank() {
+  if (!under_mpirun()) return {};
+  const std::uint64_t rank = number_in(rank_variable), size = number_in(size_variable);
+  if (rank >= size) {
+    throw InvalidInput(rank_variable, fmt::format("{}", rank),
+                       fmt::format("must be less than {}, which is {}", size_variable, size));
+  }
+  return {rank + 1, size};
+}
+
+bool gather(const ShardState& part, Merge& merge) {
+  MPI_Init(nullptr, nullptr);
+  try {
+    const bool first = exchange(part, merge);
+    MPI_Finalize();
+    return first;
+  } catch (const std::exception& e) {
+    // The other ranks would wait for ever.
+    std::fputs(fmt::format("error: {}\n", e.what()).c_str(), stderr);
+    MPI_Abort(MPI_COMM_WORLD, 2);
+    throw;
+  }
+}
+
+Report campaign_result(const ShardState& whole) {
+  const Plan& plan = whole.plan;
+  const std::size_t candidates = plan.candidates.size();
+  Report report;
+  report.version = plan.version;
+  report.command = plan.command;
+  report.seed = plan.seed;
+  report.tolerance = plan.tolerance;
+  report.threshold = plan.threshold;
+  report.planned = {plan.cut.cells, plan.cut.cells * plan.cut.count};
+  report.completed = {plan.cut.cells, configurations(plan.cut, whole.done)};
+  report.configurations = report.completed.configurations;
+  for (const std::string& name : plan.candidates) {
+    report.candidates.push_back({name, "", "", "", ""});
+  }
+  for (const Cell& cell : plan.cells) {
+    report.classes.push_back({pair_name(cell.pair), cell.pose_class,
+                              std::string(describe_pose_class(cell.pair, cell.pose_class))});
+  }
+
+  std::vector<ScoreTally> everything(candidates, ScoreTally(Precision::binned));
+  std::size_t pairs = 0;
+  for (std::size_t first = 0, last = 0; first < plan.cells.size(); first = last, ++pairs) {
+    const Pair pair = plan.cells[first].pair;
+    while (last < plan.cells.size() && plan.cells[last].pair == pair) ++last;
+    for (std::size_t cell = first; cell < last; ++cell) {
+      for (std::size_t k = 0; k < candidates; ++k) {
+        report.results.push_back(row(whole.tally(cell, k), pair_name(pair),
+                                     plan.cells[cell].pose_class, plan.candidates[k]));
+      }
+    }
+    for (std::size_t k = 0; k < candidates; ++k) {
+      ScoreTally of_pair(Precision::binned);
+      std::vector<Case> cases;
+      for (std::size_t cell = first; cell < last; ++cell) {
+        const ScoreTally& tally = whole.tally(cell, k);
+        of_pair.add(tally);
+        cases.insert(cases.end(), tally.worst.begin(), tally.worst.end());
+      }
+      everything[k].add(of_pair);
+      report.summary.push_back(row(of_pair, pair_name(pair), "all", plan.candidates[k]));
+      for (const Case& c : worst_of_pair(std::move(cases))) {
+        report.worst.push_back(worst_case(whole, c, plan.candidates[k]));
+      }
+    }
+  }
+  for (std::size_t k = 0; k < candidates && pairs > 1; ++k) {
+    report.summary.push_back(row(everything[k], "all", "all", plan.candidates[k]));
+  }
+  return report;
+}
+
+std::string campaign_json(const ShardState& whole) {
+  const Report report = campaign_result(whole);
+  const json plan = json::parse(whole.plan.text);
+  json results = json::array(), summary = json::array(), worst = json::array();
+  for (const ResultRow& row : report.results) results.push_back(to_json(row));
+  for (const ResultRow& row : report.summary) summary.push_back(to_json(row));
+  for (const WorstCase& w : report.worst) worst.push_back(to_json(w));
+  json result = {{"schema", "touchstone-campaign-1"},
+                 {"configurations", report.configurations},
+                 {"complete", report.completed.configurations == report.planned.configurations},
+                 {"results", results},
+                 {"summary", summary},
+                 {"worst", worst}};
+  for (const char* member :
+       {"version", "command", "seed", "count", "tolerance", "threshold", "candidates", "classes"}) {
+    result[member] = plan.at(member);
+  }
+  return result.dump(1) + '\n';
+}
+
+std::filesystem::path write_result(const ShardState& whole, const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / "campaign.json";
+  write_file(file, campaign_json(whole), "--out");
+  return file;
 }
 
 }  // namespace touchstone

@@ -1,15 +1,11 @@
 #include "reports/campaigns/merge.hpp"
 
-#include <algorithm>
-#include <filesystem>
-#include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
+
+#include <nlohmann/json.hpp>
 
 #include "reference/invalid_input.hpp"
-#include "reports/campaigns/durable_file.hpp"
-#include "reports/campaigns/result.hpp"
 
 namespace touchstone {
 namespace {
@@ -34,11 +30,11 @@ json plan(std::uint64_t seed = 1) {
 }
 
 /// Units first … last − 1 of it, with scores that follow from their indices.
-Progressed part(std::uint64_t first, std::uint64_t last, std::uint64_t seed = 1) {
-  Progressed p(plan(seed), Shard{});
+ShardState part(std::uint64_t first, std::uint64_t last, std::uint64_t seed = 1) {
+  ShardState p(plan_from_json(plan(seed)), Shard{});
   for (std::uint64_t number = first; number < last; ++number) {
-    const Unit unit = p.view.cut.unit(number);
-    std::vector<ScoreTally> tallies(p.tallies.size());
+    const Unit unit = p.plan.cut.unit(number);
+    std::vector<ScoreTally> tallies(p.tallies.size(), ScoreTally(Precision::binned));
     for (std::uint64_t i = unit.first; i < unit.last; ++i) {
       for (std::size_t k = 0; k < 2; ++k) {
         Score s;
@@ -55,9 +51,9 @@ Progressed part(std::uint64_t first, std::uint64_t last, std::uint64_t seed = 1)
   return p;
 }
 
-std::string merged(const std::vector<Progressed>& parts) {
+std::string merged(const std::vector<ShardState>& parts) {
   Merge merge;
-  for (const Progressed& p : parts) merge.add(p, "part");
+  for (const ShardState& p : parts) merge.add(p, "part");
   return campaign_json(merge.whole(false));
 }
 
@@ -100,13 +96,13 @@ TEST(Merge, MarksWhatIsPartial) {
 
 TEST(ShardFile, IsReadBackToTheLastBit) {
   const std::string text = to_text(part(0, 3));
-  EXPECT_EQ(to_text(progressed_from_text(text, "file")), text);
+  EXPECT_EQ(to_text(shard_from_text(text, "file")), text);
 }
 
 TEST(ShardFile, IsRefusedWhenAnythingInItHasChanged) {
   const std::string text = to_text(part(0, 3));
   const auto refused = [](const std::string& damaged) {
-    EXPECT_THAT([&] { progressed_from_text(damaged, "file"); },
+    EXPECT_THAT([&] { shard_from_text(damaged, "file"); },
                 ThrowsMessage<InvalidInput>(HasSubstr("\"file\" is damaged")));
   };
   for (std::size_t size = 0; size < text.size(); size += 1 + text.size() / 200) {
@@ -130,30 +126,8 @@ TEST(ShardFile, IsRefusedWhenItIsIntactButSomethingElse) {
   for (const std::string body :
        {"{\"schema\":\"touchstone-shard-9\"}\n", "{}\n", "[]\n", "no JSON\n",
         "{\"schema\":\"touchstone-shard-1\",\"shard\":[1,1],\"done\":[],\"campaign\":{}}\n"}) {
-    EXPECT_THROW(progressed_from_text(with_checksum(body), "file"), InvalidInput) << body;
+    EXPECT_THROW(shard_from_text(with_checksum(body), "file"), InvalidInput) << body;
   }
-}
-
-class DurableFile : public testing::Test {
- protected:
-  DurableFile() { std::filesystem::create_directories(folder_); }
-  ~DurableFile() override { std::filesystem::remove_all(folder_); }
-  std::filesystem::path folder_ =
-      std::filesystem::temp_directory_path() / ("touchstone-durable-" + std::to_string(getpid()));
-};
-
-TEST_F(DurableFile, ReplacesAFileAsAWhole) {
-  write_durably(folder_ / "a", "one");
-  write_durably(folder_ / "a", "two");
-  EXPECT_EQ(read_whole(folder_ / "a", "x"), "two");
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_), {}), 1);
-}
-
-TEST_F(DurableFile, SaysWhyItCannotBeWritten) {
-  EXPECT_THAT([&] { write_durably(folder_ / "none" / "a", "x"); },
-              ThrowsMessage<InvalidInput>(HasSubstr("No such file or directory")));
-  EXPECT_THAT([&] { read_whole(folder_ / "none", "input"); },
-              ThrowsMessage<InvalidInput>(HasSubstr("input")));
 }
 
 TEST(Checksum, IsTheOneOfZipAndPng) { EXPECT_EQ(checksum("123456789"), "cbf43926"); }

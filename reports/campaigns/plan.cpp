@@ -1,17 +1,42 @@
 #include "reports/campaigns/plan.hpp"
 
+#include <algorithm>
+#include <boost/crc.hpp>
+#include <charconv>
+#include <filesystem>
 #include <fmt/format.h>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+#include <nlohmann/json.hpp>
 
 #include "properties/files/configuration_json.hpp"
 #include "properties/files/json_fields.hpp"
+#include "properties/files/read_file.hpp"
 #include "reference/invalid_input.hpp"
-#include "reports/campaigns/durable_file.hpp"
 #include "reports/worst.hpp"
 
 namespace touchstone {
 namespace {
 
 using nlohmann::json;
+using Range = UnitSet::interval_type;
+
+/// Where part `number` of `of` begins; without overflow.
+std::uint64_t start_of(std::uint64_t units, std::uint64_t number, std::uint64_t of) {
+  return units / of * number + std::min(number, units % of);
+}
+
+/// Of a file of any size.
+std::string checksum_of_plugin(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  if (!in.is_open() || in.bad() || is_folder(file)) {
+    throw InvalidInput("--candidate", '"' + file.string() + '"', "could not be read");
+  }
+  return checksum(text);
+}
 
 /// Calls read(element, "name[i]") for each element.
 template <class Read>
@@ -41,7 +66,56 @@ std::string difference(const std::string& name, const json& expected, const json
 
 }  // namespace
 
-json make_plan(const Campaign& campaign, const std::string& command) {
+Unit Cut::unit(std::uint64_t number) const {
+  const std::uint64_t first = number / cells * Unit::max_size;
+  return {number % cells, first, std::min(count, first + Unit::max_size)};
+}
+
+std::uint64_t nth(const UnitSet& set, std::uint64_t position) {
+  for (const Range& range : set) {
+    const std::uint64_t length = range.upper() - range.lower();
+    if (position < length) return range.lower() + position;
+    position -= length;
+  }
+  throw std::logic_error("no such position in the set of units");
+}
+
+std::uint64_t configurations(const Cut& cut, const UnitSet& set) {
+  // All units have the same size but the last of each cell.
+  std::uint64_t count = 0;
+  const std::uint64_t last_row = cut.units() - cut.cells;
+  const std::uint64_t last_size = cut.count - last_row / cut.cells * Unit::max_size;
+  for (const Range& range : set) {
+    const std::uint64_t full =
+        std::min(range.upper(), last_row) - std::min(range.lower(), last_row);
+    count += full * Unit::max_size + (range.upper() - range.lower() - full) * last_size;
+  }
+  return count;
+}
+
+UnitSet Shard::units(const Cut& cut) const {
+  UnitSet result;
+  result.add(Range(start_of(cut.units(), number - 1, of), start_of(cut.units(), number, of)));
+  return result;
+}
+
+std::string to_string(const Shard& shard) { return fmt::format("{}/{}", shard.number, shard.of); }
+
+Shard parse_shard(const std::string& text) {
+  Shard shard{0, 0};
+  const char* const end = text.data() + text.size();
+  const auto [slash, bad_number] = std::from_chars(text.data(), end, shard.number);
+  const bool has_slash = bad_number == std::errc() && slash != end && *slash == '/';
+  const auto [rest, bad_of] =
+      has_slash ? std::from_chars(slash + 1, end, shard.of) : std::from_chars_result{slash, {}};
+  if (!has_slash || bad_of != std::errc() || rest != end || shard.number < 1 ||
+      shard.number > shard.of) {
+    throw InvalidInput("--shard", '"' + text + '"', "must read 3/7 for the third of seven parts");
+  }
+  return shard;
+}
+
+Plan make_plan(const Campaign& campaign, const std::string& command) {
   json classes = json::array(), candidates = json::array();
   std::string first_configurations;
   for (const Cell& cell : cells(campaign)) {
@@ -57,54 +131,63 @@ json make_plan(const Campaign& campaign, const std::string& command) {
                           {"version", c->version},
                           {"settings", c->settings},
                           {"models", c->models},
-                          {"plugin_checksum", checksum(read_whole(c->plugin, "--candidate"))}});
+                          {"plugin_checksum", checksum_of_plugin(c->plugin)}});
   }
-  return {{"version", TOUCHSTONE_VERSION},
-          {"command", command},
-          {"program", program_name()},
-          {"seed", campaign.seed},
-          {"count", campaign.count},
-          {"unit_size", Cut::unit_size},
-          {"tolerance", campaign.bar.tolerance},
-          {"threshold", campaign.bar.threshold},
-          {"time_limit", campaign.limits.seconds},
-          {"memory_limit", campaign.limits.mebibytes},
-          {"classes", classes},
-          {"first_configurations_checksum", checksum(first_configurations)},
-          {"candidates", candidates}};
+  return plan_from_json({{"version", TOUCHSTONE_VERSION},
+                         {"command", command},
+                         {"program", program_name()},
+                         {"seed", campaign.seed},
+                         {"count", campaign.count},
+                         {"unit_size", Unit::max_size},
+                         {"tolerance", campaign.bar.tolerance},
+                         {"threshold", campaign.bar.threshold},
+                         {"time_limit", campaign.limits.seconds},
+                         {"memory_limit", campaign.limits.mebibytes},
+                         {"classes", classes},
+                         {"first_configurations_checksum", checksum(first_configurations)},
+                         {"candidates", candidates}});
 }
 
-PlanView::PlanView(const json& plan)
-    : cut{0, whole_number(member(plan, "count", "campaign"), "campaign.count", max_count)},
-      seed(whole_number(member(plan, "seed", "campaign"), "campaign.seed")) {
-  for (const char* name : {"version", "command", "program"}) {
-    string(member(plan, name, "campaign"), name);
-  }
-  for (const char* name : {"tolerance", "threshold"}) number(member(plan, name, "campaign"), name);
-  each_of(plan, "classes", [&](const json& c, const std::string& path) {
+Plan plan_from_json(const json& j) {
+  const auto text_of = [&](const char* name) { return string(member(j, name, "campaign"), name); };
+  const auto number_of = [&](const char* name) {
+    return number(member(j, name, "campaign"), name);
+  };
+  Plan plan;
+  plan.cut.count = whole_number(member(j, "count", "campaign"), "campaign.count", Plan::max_count);
+  plan.seed = whole_number(member(j, "seed", "campaign"), "campaign.seed");
+  plan.version = text_of("version");
+  plan.command = text_of("command");
+  plan.program = text_of("program");
+  plan.tolerance = number_of("tolerance");
+  plan.threshold = number_of("threshold");
+  each_of(j, "classes", [&](const json& c, const std::string& path) {
     const auto text = [&](const char* name) {
       return string(member(c, name, path), path + '.' + name);
     };
     const Pair pair = parse_pair(text("pair"));
     const Cell cell{pair, text("class")};
     describe_pose_class(pair, cell.pose_class);  // throws where there is no such class
-    for (const Cell& other : cells) {
+    for (const Cell& other : plan.cells) {
       if (other.pair == cell.pair && other.pose_class == cell.pose_class) {
         throw InvalidInput(path, shown(c), "must be another class: it is given twice");
       }
     }
-    cells.push_back(cell);
+    plan.cells.push_back(cell);
   });
-  each_of(plan, "candidates", [&](const json& c, const std::string& path) {
-    candidates.push_back(string(member(c, "name", path), path + ".name"));
+  each_of(j, "candidates", [&](const json& c, const std::string& path) {
+    plan.candidates.push_back(string(member(c, "name", path), path + ".name"));
   });
-  cut.cells = cells.size();
-  if (cells.empty() || cut.count == 0) {
+  plan.cut.cells = plan.cells.size();
+  if (plan.cells.empty() || plan.cut.count == 0) {
     throw InvalidInput("campaign", "empty", "must have classes and a count");
   }
+  plan.text = j.dump();
+  return plan;
 }
 
-void require_same_plan(const json& expected, const json& found, const std::string& file) {
+void require_same_plan(const Plan& plan, const json& found, const std::string& file) {
+  const json expected = json::parse(plan.text);
   if (expected == found) return;
   // Members that follow from others tell less than those.
   json settings = expected, other_settings = found.is_object() ? found : json::object();
@@ -116,6 +199,12 @@ void require_same_plan(const json& expected, const json& found, const std::strin
                                                       : difference("", settings, other_settings);
   throw InvalidInput('"' + file + '"', "of another campaign",
                      what + "; parts of different campaigns are never put together");
+}
+
+std::string checksum(std::string_view text) {
+  boost::crc_32_type crc;
+  crc.process_bytes(text.data(), text.size());
+  return fmt::format("{:08x}", crc.checksum());
 }
 
 }  // namespace touchstone

@@ -1,89 +1,131 @@
 #include "reports/campaigns/run.hpp"
 
+#include <cerrno>
 #include <chrono>
+#include <cstring>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <fstream>
 #include <optional>
 #include <string>
+#include <unistd.h>
+#include <utility>
+
+#include <nlohmann/json.hpp>
 
 #include "candidates/host/progress.hpp"
-#include "candidates/host/worker_processes.hpp"
+#include "properties/files/read_file.hpp"
+#include "properties/files/strict_json.hpp"
+#include "properties/files/write_file.hpp"
 #include "reference/invalid_input.hpp"
-#include "reports/campaigns/durable_file.hpp"
 
 namespace touchstone {
 namespace {
 
 using nlohmann::json;
 
-/// Adds what a worker sent of one unit.
-void add(Progressed& progressed, std::uint64_t number, const std::string& text) {
-  const std::size_t cell = progressed.view.cut.unit(number).cell;
-  std::size_t k = 0;
-  for (const json& tally : json::parse(text)) {
-    progressed.tally(cell, k++).add(ScoreTally::from_json(tally, cell));
+std::filesystem::path writable(std::filesystem::path folder) {
+  check_writable(folder);
+  return folder;
+}
+
+/// The first line of a shard file alone: another process may be at work on the rest.
+json head_of(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  std::string line;
+  std::getline(in, line);
+  try {
+    const json head = parse_json(line, "it");
+    return head.is_object() ? head : json::object();
+  } catch (const InvalidInput&) {
+    return json::object();
   }
-  progressed.done += UnitSet::interval_type(number, number + 1);
+}
+
+[[noreturn]] void refuse(const std::filesystem::path& file, int error) {
+  throw InvalidInput("--out", '"' + file.string() + '"',
+                     fmt::format("could not be locked: {}", std::strerror(error)));
 }
 
 }  // namespace
 
-std::vector<ScoreTally> tally_unit(const Campaign& campaign,
-                                   std::vector<CandidateProcess>& candidates, const Cell& cell,
-                                   const Unit& unit) {
-  std::vector<ScoreTally> tallies(candidates.size());
-  score_range(campaign, candidates, cell, unit.first, unit.last,
-              [&](const ScoredConfiguration& scored) {
-                for (std::size_t k = 0; k < scored.scores.size(); ++k) {
-                  tallies[k].add(unit.cell, scored.index, scored.scores[k]);
-                }
-              });
-  return tallies;
+FileLock::FileLock(const std::filesystem::path& file)
+    : fd_(open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
+  if (fd_ < 0) refuse(file, errno);
+  struct flock whole {};
+  whole.l_type = F_WRLCK;
+  whole.l_whence = SEEK_SET;
+  if (fcntl(fd_, F_SETLK, &whole) == 0) return;
+  const int error = errno;
+  close(fd_);
+  if (error != EACCES && error != EAGAIN) refuse(file, error);
+  throw InvalidInput("--out", '"' + file.parent_path().string() + '"',
+                     "must be a folder to which no other campaign is writing");
 }
 
-bool run_shard(const Campaign& campaign, Progressed& progressed, const std::filesystem::path& file,
-               const Running& running, const std::function<bool()>& go_on) {
+FileLock::~FileLock() { close(fd_); }
+
+ShardPlace::ShardPlace(std::filesystem::path folder, const Shard& shard)
+    : folder_(writable(std::move(folder))),
+      shard_(shard),
+      file_(shard_file(folder_, shard)),
+      lock_(std::filesystem::path(file_).replace_extension(".lock")) {}
+
+ShardState ShardPlace::begin(const Plan& plan, bool resume) const {
+  for (const auto& other : shard_files(folder_)) {
+    if (other == file_) continue;
+    const json head = head_of(other);
+    require_same_plan(plan, head.value("campaign", json()), other.string());
+    const json cut = head.value("shard", json());
+    if (!cut.is_array() || cut.size() != 2 || cut[1] != shard_.of) {
+      throw InvalidInput(
+          "--out", '"' + folder_.string() + '"',
+          "already holds this campaign cut in another way; go on as it was begun, or "
+          "choose another folder");
+    }
+  }
+  if (!std::filesystem::exists(file_)) return ShardState(plan, shard_);
+  if (!resume) {
+    throw InvalidInput("--out", '"' + folder_.string() + '"',
+                       "already holds a campaign; go on with --resume, or choose another folder");
+  }
+  ShardState found = shard_from_text(read_file(file_, "--out"), file_.string());
+  require_same_plan(plan, json::parse(found.plan.text), file_.string());
+  return found;
+}
+
+bool run_shard(const Campaign& campaign, ShardState& state, const std::filesystem::path& file,
+               const RunOptions& options, const std::function<bool()>& go_on) {
   using Clock = std::chrono::steady_clock;
-  const std::vector<Cell>& cells = progressed.view.cells;
-  const Cut& cut = progressed.view.cut;
-  const UnitSet left = progressed.shard.units(cut) - progressed.done;
+  const Cut& cut = state.plan.cut;
+  const UnitSet left = state.shard.units(cut) - state.done;
   std::optional<Progress> progress;
-  if (running.progress) progress.emplace("configurations", configurations(cut, left));
+  if (options.progress) progress.emplace("configurations", configurations(cut, left));
   std::uint64_t scored = 0;
   Clock::time_point written = Clock::now();
   const auto checkpoint = [&] {
-    write_durably(file, to_text(progressed));
+    write_shard(state, file);
     written = Clock::now();
   };
   checkpoint();  // tells at once whether it can be done
 
-  std::vector<CandidateProcess> candidates;  // each worker starts its own
   bool all = false;
   try {
-    all = stream_from_processes(
-        boost::icl::cardinality(left), campaign.workers,
-        [&](std::uint64_t task) {
-          if (candidates.empty()) {
-            candidates = start(campaign.candidates, campaign.bar.threshold, campaign.limits);
-          }
-          const Unit unit = cut.unit(nth(left, task));
-          json tallies = json::array();
-          for (const ScoreTally& t : tally_unit(campaign, candidates, cells[unit.cell], unit)) {
-            tallies.push_back(t.to_json());
-          }
-          return tallies.dump();
-        },
-        [&](std::uint64_t task) {
-          const Unit unit = cut.unit(nth(left, task));
-          return to_string(Identity{cells[unit.cell].pair, cells[unit.cell].pose_class,
-                                    campaign.seed, unit.first});
-        },
-        [&](std::uint64_t task, const std::string& tallies) {
+    all = sample(
+        campaign, Purpose::campaign, boost::icl::cardinality(left),
+        [&](std::uint64_t task) { return cut.unit(nth(left, task)); },
+        [&](std::uint64_t task, const Sample& unit_sample) {
           const std::uint64_t number = nth(left, task);
-          add(progressed, number, tallies);
-          const Unit unit = cut.unit(number);
-          scored += unit.last - unit.first;
+          const auto [cell, first, last] = cut.unit(number);
+          for (std::size_t k = 0; k < unit_sample.tallies.size(); ++k) {
+            state.tally(cell, k).add(unit_sample.tallies[k]);
+          }
+          state.done += UnitSet::interval_type(number, number + 1);
+          scored += last - first;
           if (progress) progress->update(scored);
-          if (Clock::now() - written > std::chrono::duration<double>(running.interval))
+          if (Clock::now() - written > std::chrono::duration<double>(options.interval)) {
             checkpoint();
+          }
         },
         go_on);
   } catch (const InvalidInput&) {

@@ -1,13 +1,17 @@
-#include "reports/campaigns/search.hpp"
+#include "reports/search.hpp"
 
 #include <algorithm>
 #include <limits>
 #include <random>
 #include <utility>
 
+#include <nlohmann/json.hpp>
+
 #include "oracle/truth.hpp"
 #include "properties/files/configuration_json.hpp"
-#include "reports/worst_selection.hpp"
+#include "properties/files/json_fields.hpp"
+#include "reports/report_json.hpp"
+#include "reports/worst.hpp"
 
 namespace touchstone {
 namespace {
@@ -18,7 +22,7 @@ constexpr std::size_t batch = 32;  // asked in one session
 constexpr std::size_t climbers = 4;
 
 struct Trial {
-  Identity identity;  ///< What the tape is prolonged from.
+  Identity identity;  ///< extends the tape where it is too short
   Tape tape;
   Configuration configuration;
   Score score;
@@ -44,7 +48,7 @@ class Climb {
     for (std::uint64_t first = 0; first < count; first += batch) {
       std::vector<Trial> trials;
       for (std::uint64_t i = first; i < std::min(count, first + batch); ++i) {
-        trials.push_back(made({search_.cell.pair, search_.cell.pose_class, search_.seed, i}, {}));
+        trials.push_back(trial({search_.cell.pair, search_.cell.pose_class, search_.seed, i}, {}));
       }
       ask(trials);
       worst.insert(worst.end(), trials.begin(), trials.end());
@@ -58,7 +62,7 @@ class Climb {
     while (steps > 0 && !is_without_answer(at.score.outcome)) {
       std::vector<Trial> trials;
       for (std::uint64_t i = 0; i < std::min<std::uint64_t>(steps, batch); ++i) {
-        trials.push_back(made(at.identity, changed(at.tape)));
+        trials.push_back(trial(at.identity, changed(at.tape)));
       }
       ask(trials);
       steps -= trials.size();
@@ -68,20 +72,20 @@ class Climb {
   }
 
  private:
-  Trial made(Identity identity, Tape tape) const {
+  static Trial trial(Identity identity, Tape tape) {
     Configuration c = make_configuration(identity, tape);
     return {std::move(identity), std::move(tape), c, {}};
   }
 
-  /// One to four numbers changed: most by a step of any size, as a step of a millionth may be the
-  /// right one, the others drawn anew.
+  /// Changes one to four numbers: most by a step of any magnitude, for a step of a millionth may be
+  /// the right one; the others are drawn anew.
   Tape changed(Tape tape) {
     constexpr std::uint64_t anew_in = 8;
-    constexpr std::uint64_t least_shift = 11;  // the lowest bits make no double (Draw::uniform)
+    constexpr std::uint64_t unused_bits = 11;  // the lowest bits make no double (Draw::uniform)
     const std::uint64_t changes = 1 + random_() % 4;
     for (std::uint64_t i = 0; i < changes; ++i) {
       std::uint64_t& number = tape[random_() % tape.size()];
-      const std::uint64_t step = random_() >> (random_() % (64 - least_shift));
+      const std::uint64_t step = random_() >> (random_() % (64 - unused_bits));
       if (random_() % anew_in == 0) {
         number = random_();
       } else if (random_() % 2 == 0) {
@@ -96,10 +100,11 @@ class Climb {
   void ask(std::vector<Trial>& trials) {
     std::vector<Configuration> questions;
     for (const Trial& t : trials) questions.push_back(t.configuration);
-    const std::vector<Answer> answers = candidate_.answers(questions);
-    for (std::size_t i = 0; i < trials.size(); ++i) {
-      trials[i].score = score(questions[i], oracle::truth(questions[i]), answers[i], search_.bar);
-    }
+    CandidateProcess* const asked[] = {&candidate_};
+    auto trial = trials.begin();
+    score_configurations(
+        questions, asked, search_.bar, truth_width,
+        [&](const ScoredConfiguration& scored) { (trial++)->score = scored.scores.front(); });
     progress_(asked_ += trials.size());
   }
 
@@ -112,8 +117,8 @@ class Climb {
 
 }  // namespace
 
-Found search(CandidateProcess& candidate, const Search& s,
-             const std::function<void(std::uint64_t)>& progress) {
+SearchResult search(CandidateProcess& candidate, const Search& s,
+                    const std::function<void(std::uint64_t)>& progress) {
   Climb climb(candidate, s, progress);
   const std::uint64_t sampled = std::max<std::uint64_t>(1, s.budget / 4);
   std::vector<Trial> best = climb.sample(sampled);
@@ -126,7 +131,8 @@ Found search(CandidateProcess& candidate, const Search& s,
   return {worst.configuration, worst.score, to_string(worst.identity), of_sampled};
 }
 
-std::optional<Failure> failure_of(const Found& found, CandidateProcess& candidate, const Bar& bar) {
+std::optional<Failure> failure_of(const SearchResult& found, CandidateProcess& candidate,
+                                  const Bar& bar) {
   const Configuration& c = found.configuration;
   for (const char* name : {"answers", "agreement", "points"}) {
     const auto violation = broken(find_law(name), c, candidate, bar);
@@ -145,10 +151,7 @@ std::optional<Failure> failure_of(const Found& found, CandidateProcess& candidat
   return std::nullopt;
 }
 
-nlohmann::json to_json(const Found& f, const Cell& cell) {
-  const auto or_null = [](const std::optional<double>& v) {
-    return v ? nlohmann::json(*v) : nlohmann::json(nullptr);
-  };
+nlohmann::json to_json(const SearchResult& f, const Cell& cell) {
   return {{"pair", pair_name(cell.pair)},
           {"class", cell.pose_class},
           {"outcome", outcome_name(f.score.outcome)},

@@ -1,11 +1,14 @@
-#include "reports/campaigns/units.hpp"
+#include "reports/campaigns/plan.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <map>
 #include <rapidcheck.h>
 
+#include <nlohmann/json.hpp>
+
 #include "reference/invalid_input.hpp"
+#include "reports/campaigns/shard.hpp"
 
 namespace touchstone {
 namespace {
@@ -34,18 +37,18 @@ TEST(Units, OfAllShardsAreAllUnitsOnce) {
     const Cut cut = arbitrary_cut();
     const auto of = *rc::gen::inRange<std::uint64_t>(1, 30);
     UnitSet all;
-    std::uint64_t sum = 0, least = cut.units(), most = 0;
+    std::uint64_t sum = 0, min = cut.units(), max = 0;
     for (std::uint64_t number = 1; number <= of; ++number) {
       const UnitSet part = Shard{number, of}.units(cut);
       RC_ASSERT(!boost::icl::intersects(all, part));
       all += part;
       sum += configurations(cut, part);
-      least = std::min<std::uint64_t>(least, boost::icl::cardinality(part));
-      most = std::max<std::uint64_t>(most, boost::icl::cardinality(part));
+      min = std::min<std::uint64_t>(min, boost::icl::cardinality(part));
+      max = std::max<std::uint64_t>(max, boost::icl::cardinality(part));
     }
     RC_ASSERT(all == Shard{}.units(cut));
     RC_ASSERT(sum == cut.cells * cut.count);
-    RC_ASSERT(most - least <= 1u);
+    RC_ASSERT(max - min <= 1u);
   }));
 }
 

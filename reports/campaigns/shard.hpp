@@ -4,31 +4,30 @@
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "reports/campaigns/plan.hpp"
-#include "reports/campaigns/score_tally.hpp"
+#include "reports/score_tally.hpp"
 
 namespace touchstone {
 
 /// How far one shard has come: the tallies of the units that are done, and no others.
-struct Progressed {
-  Progressed(nlohmann::json plan, Shard shard);
+struct ShardState {
+  ShardState(Plan plan, Shard shard);
 
   /// Adds the tallies of some units, in the order of `tallies`. The units must not be done yet.
   void add(const UnitSet& units, const std::vector<ScoreTally>& added);
   ScoreTally& tally(std::size_t cell, std::size_t candidate) {
-    return tallies[cell * view.candidates.size() + candidate];
+    return tallies[cell * plan.candidates.size() + candidate];
   }
   const ScoreTally& tally(std::size_t cell, std::size_t candidate) const {
-    return tallies[cell * view.candidates.size() + candidate];
+    return tallies[cell * plan.candidates.size() + candidate];
   }
 
-  nlohmann::json plan;
-  PlanView view;
+  Plan plan;
   Shard shard;
   UnitSet done;
-  std::vector<ScoreTally> tallies;  ///< Cell by cell, of every candidate.
+  std::vector<ScoreTally> tallies;  ///< binned; cell by cell, of every candidate
 };
 
 // A shard file is JSON Lines: what it is (schema, shard, done, plan), a line for each tally, and a
@@ -39,9 +38,23 @@ std::filesystem::path shard_file(const std::filesystem::path& folder, const Shar
 /// Those in a folder, by name.
 std::vector<std::filesystem::path> shard_files(const std::filesystem::path& folder);
 
-std::string to_text(const Progressed& progressed);
+/// Writes a shard file as a whole or not at all. Throws InvalidInput (field "--out") where that
+/// cannot be done.
+void write_shard(const ShardState& state, const std::filesystem::path& file);
+
+std::string to_text(const ShardState& state);
 /// `file` is what errors call it. Throws InvalidInput where the text is damaged, cut short, or of
 /// something else.
-Progressed progressed_from_text(const std::string& text, const std::string& file);
+ShardState shard_from_text(const std::string& text, const std::string& file);
+
+/// [[first, last], …], and back; throws InvalidInput on anything else.
+nlohmann::json to_json(const UnitSet& set);
+UnitSet unit_set_from_json(const nlohmann::json& json);
+
+/// A binned tally as it stands in a shard file.
+nlohmann::json to_json(const ScoreTally& tally);
+/// Reads a tally whose cases are all of this cell. Throws InvalidInput on anything else than
+/// to_json gives.
+ScoreTally tally_from_json(const nlohmann::json& json, std::size_t cell);
 
 }  // namespace touchstone

@@ -1,15 +1,16 @@
-#include "reports/campaigns/search.hpp"
+#include "reports/search.hpp"
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "candidates/candidates.hpp"
-#include "reports/worst_selection.hpp"
 
 namespace touchstone {
 namespace {
 
-Found found_by(const char* candidate, const Cell& cell, std::uint64_t budget,
-               std::uint64_t* asked = nullptr) {
+SearchResult found_by(const char* candidate, const Cell& cell, std::uint64_t budget,
+                      std::uint64_t* asked = nullptr) {
   CandidateProcess process(find_candidate(candidate), 0);
   return search(process, {cell, 1, budget, Bar{}}, [&](std::uint64_t n) {
     if (asked) *asked = n;
@@ -35,7 +36,7 @@ double sampled_severity(const char* candidate, const Cell& cell, std::uint64_t b
 TEST(Search, FindsWorseThanSamplingDoes) {
   const Cell cell{Pair::sphere, "general-deep"};
   std::uint64_t asked = 0;
-  const Found found = found_by("capsule", cell, 800, &asked);
+  const SearchResult found = found_by("capsule", cell, 800, &asked);
   EXPECT_EQ(asked, 800u);
   EXPECT_GT(found.score.severity, 1.05 * sampled_severity("capsule", cell, 800));
   EXPECT_GE(found.score.severity, found.sampled.severity);
@@ -49,7 +50,7 @@ TEST(Search, FindsTheSameAgain) {
 
 TEST(Search, TheFailureIsThatOfTheScore) {
   const Cell cell{Pair::sphere, "general-deep"};
-  const Found found = found_by("capsule", cell, 100);
+  const SearchResult found = found_by("capsule", cell, 100);
   CandidateProcess process(find_candidate("capsule"), 0);
   const auto failure = failure_of(found, process, Bar{});
   ASSERT_TRUE(failure);

@@ -1,0 +1,323 @@
+#include "reports/campaigns/shard.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "properties/files/error_text.hpp"
+#include "properties/files/json_fields.hpp"
+#include "properties/files/strict_json.hpp"
+#include "properties/files/write_file.hpp"
+#include "reference/invalid_input.hpp"
+#include "reports/report_json.hpp"
+
+namespace touchstone {
+namespace {
+
+using nlohmann::json;
+using Range = UnitSet::interval_type;
+
+std::optional<double> number_or_null(const json& object, const char* name) {
+  const json& value = member(object, name, "");
+  return value.is_null() ? std::nullopt : std::optional(number(value, name));
+}
+
+const json& array(const json& object, const char* name) {
+  const json& value = member(object, name, "");
+  if (!value.is_array()) throw InvalidInput(name, shown(value), "must be an array");
+  return value;
+}
+
+Outcome parse_outcome(const std::string& name) {
+  for (const Outcome outcome : all_outcomes) {
+    if (name == outcome_name(outcome)) return outcome;
+  }
+  throw InvalidInput("outcome", '"' + name + '"', "must be one that a score has");
+}
+
+json to_json(const Case& c) {
+  return {{"index", c.index},
+          {"outcome", outcome_name(c.score.outcome)},
+          {"depth_error", or_null(c.score.depth_error)},
+          {"normal_regret", or_null(c.score.normal_regret)},
+          {"severity", c.score.severity}};
+}
+
+Case case_from_json(const json& j, std::size_t cell) {
+  Score score;
+  score.outcome = parse_outcome(string(member(j, "outcome", ""), "outcome"));
+  score.depth_error = number_or_null(j, "depth_error");
+  score.normal_regret = number_or_null(j, "normal_regret");
+  score.severity = number(member(j, "severity", ""), "severity");
+  return {cell, whole_number(member(j, "index", ""), "index"), score};
+}
+
+/// {"max", "bins": [number, count, number, count, …]}.
+json to_json(const Magnitudes& magnitudes) {
+  json bins = json::array();
+  for (const auto& [bin, count] : magnitudes.bins()) {
+    bins.push_back(bin);
+    bins.push_back(count);
+  }
+  return {{"max", magnitudes.max()}, {"bins", bins}};
+}
+
+/// `max_count`: of values.
+Magnitudes magnitudes_from_json(const json& j, std::uint64_t max_count) {
+  const double max = number(member(j, "max", ""), "max");
+  if (!(std::isfinite(max) && max >= 0)) {
+    throw InvalidInput("max", shown(j["max"]), "must be finite and not negative");
+  }
+  const json& list = member(j, "bins", "");
+  if (!list.is_array() || list.size() % 2 != 0) {
+    throw InvalidInput("bins", shown(list), "must be an array of pairs");
+  }
+  Magnitudes::Bins bins;
+  std::uint64_t left = Magnitudes::max_count;
+  for (std::size_t i = 0; i < list.size(); i += 2) {
+    const auto bin = whole_number(list[i], fmt::format("bins[{}]", i), Magnitudes::bin_of(max));
+    const auto count = whole_number(list[i + 1], fmt::format("bins[{}]", i + 1), left);
+    bins[static_cast<std::uint16_t>(bin)] += count;
+    left -= count;
+  }
+  Magnitudes result(std::move(bins), max);
+  if (result.count() > max_count) {
+    throw InvalidInput("bins", fmt::format("{} values", result.count()),
+                       "must hold no more than the count");
+  }
+  return result;
+}
+
+}  // namespace
+
+json to_json(const UnitSet& set) {
+  json result = json::array();
+  for (const Range& range : set) result.push_back({range.lower(), range.upper()});
+  return result;
+}
+
+UnitSet unit_set_from_json(const json& value) {
+  UnitSet result;
+  if (!value.is_array()) throw InvalidInput("done", shown(value), "must be an array of ranges");
+  for (const json& range : value) {
+    const bool is_pair = range.is_array() && range.size() == 2;
+    if (!is_pair) throw InvalidInput("done", shown(range), "must be a range, as in [0, 12]");
+    const auto last = whole_number(range[1], "done");
+    result.add(Range(whole_number(range[0], "done", last), last));
+  }
+  return result;
+}
+
+json to_json(const ScoreTally& tally) {
+  json outcomes = json::object(), points = json::array(), worst = json::array();
+  for (const Outcome outcome : all_outcomes) {
+    outcomes[outcome_name(outcome)] = tally.outcomes[static_cast<std::size_t>(outcome)];
+  }
+  for (const auto& [number, count] : tally.points) points.push_back({number, count});
+  for (const Case& c : tally.worst) worst.push_back(to_json(c));
+  json result = {{"count", tally.count},
+                 {"outcomes", outcomes},
+                 {"points", points},
+                 {"severity", to_json(tally.severity)},
+                 {"uncovered", to_json(tally.coverage.uncovered)},
+                 {"covered_sum", tally.coverage.sum},
+                 {"worst", worst}};
+  for (std::size_t i = 0; i < tally.errors.size(); ++i) {
+    result[ScoreTally::quantities[i].name] = to_json(tally.errors[i]);
+  }
+  return result;
+}
+
+ScoreTally tally_from_json(const json& j, std::size_t cell) {
+  ScoreTally t(Precision::binned);
+  t.count = whole_number(member(j, "count", ""), "count", Magnitudes::max_count);
+  std::uint64_t left = t.count;  // every configuration has one outcome
+  const json& outcomes = member(j, "outcomes", "");
+  require_object(outcomes, "outcomes");
+  for (const auto& [name, count] : outcomes.items()) {
+    auto& number = t.outcomes[static_cast<std::size_t>(parse_outcome(name))];
+    number = whole_number(count, "outcomes." + name, left);
+    left -= number;
+  }
+  if (left != 0) throw InvalidInput("outcomes", shown(outcomes), "must add up to the count");
+  for (const json& entry : array(j, "points")) {
+    if (!entry.is_array() || entry.size() != 2) {
+      throw InvalidInput("points", shown(entry), "must be an array of pairs");
+    }
+    const auto points = whole_number(entry[0], "points", TOUCHSTONE_MAX_POINTS);
+    t.points[static_cast<int>(points)] = whole_number(entry[1], "points", t.count);
+  }
+  const auto magnitudes = [&](const char* name) {
+    const json& value = member(j, name, "");
+    return at_path(name, [&] { return magnitudes_from_json(value, t.count); });
+  };
+  for (std::size_t i = 0; i < t.errors.size(); ++i) {
+    const ScoreTally::Quantity& quantity = ScoreTally::quantities[i];
+    // Files of before the deepest point was measured do without it.
+    if (j.contains(quantity.name) || quantity.value != &Score::deepest_error) {
+      t.errors[i] = magnitudes(quantity.name);
+    }
+  }
+  t.severity = magnitudes("severity");
+  t.coverage.uncovered = magnitudes("uncovered");
+  const auto one = static_cast<std::uint64_t>(1 / CoverageTally::unit);
+  t.coverage.sum =
+      whole_number(member(j, "covered_sum", ""), "covered_sum", t.coverage.uncovered.count() * one);
+  for (const json& entry : array(j, "worst")) {
+    t.worst.push_back(at_path("worst", [&] { return case_from_json(entry, cell); }));
+  }
+  t.worst = worst_of_class(std::move(t.worst));
+  return t;
+}
+
+namespace {
+
+constexpr const char* schema = "touchstone-shard-1";
+
+std::string checksum_line(std::string_view text) {
+  return json{{"crc32", checksum(text)}}.dump() + '\n';
+}
+
+[[noreturn]] void refuse(const std::string& file, const std::string& why) {
+  throw InvalidInput(
+      '"' + file + '"', why,
+      "must be a shard file as touchstone campaign has written it; delete it and run "
+      "that part again");
+}
+
+/// What comes before the last line, which must be its checksum.
+std::string_view intact(std::string_view text, const std::string& file) {
+  const std::size_t last_line =
+      text.size() < 2 ? std::string_view::npos : text.rfind('\n', text.size() - 2);
+  if (last_line == std::string_view::npos ||
+      text.substr(last_line + 1) != checksum_line(text.substr(0, last_line + 1))) {
+    refuse(file, "damaged, cut short, or something else");
+  }
+  return text.substr(0, last_line + 1);
+}
+
+/// [3, 7].
+Shard shard_from_json(const json& value) {
+  if (!value.is_array() || value.size() != 2) {
+    throw InvalidInput("shard", shown(value), "must be two numbers, as in [3, 7]");
+  }
+  const Shard shard{whole_number(value[0], "shard[0]"), whole_number(value[1], "shard[1]")};
+  if (shard.number < 1 || shard.number > shard.of) {
+    throw InvalidInput("shard", shown(value), "must be a part and how many there are");
+  }
+  return shard;
+}
+
+/// Each candidate has answered what is done, and nothing else.
+void check_counts(const ShardState& p, const std::string& file) {
+  const std::uint64_t expected = configurations(p.plan.cut, p.done);
+  for (std::size_t k = 0; k < p.plan.candidates.size(); ++k) {
+    std::uint64_t left = expected;
+    for (std::size_t cell = 0; cell < p.plan.cells.size(); ++cell) {
+      const ScoreTally& tally = p.tally(cell, k);
+      if (tally.count > left) refuse(file, "with counts of more than what is done");
+      left -= tally.count;
+      for (const Case& c : tally.worst) {
+        if (c.index >= p.plan.cut.count) refuse(file, "with cases that the campaign has not");
+      }
+    }
+    if (left != 0) refuse(file, "with counts of less than what is done");
+  }
+}
+
+ShardState parsed(const std::string& text, const std::string& file) {
+  std::istringstream lines{text};
+  std::string line;
+  std::getline(lines, line);
+  const json head = parse_json(line, "line 1");
+  if (member(head, "schema", "") != schema) refuse(file, "of schema " + shown(head["schema"]));
+  const Plan plan = plan_from_json(member(head, "campaign", ""));
+  const auto tally_lines = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) - 1;
+  if (plan.candidates.empty() || tally_lines % plan.candidates.size() != 0 ||
+      tally_lines / plan.candidates.size() != plan.cells.size()) {
+    refuse(file, "without a line for each class and candidate");
+  }
+  ShardState result(plan, shard_from_json(member(head, "shard", "")));
+  result.done = unit_set_from_json(member(head, "done", ""));
+  if (!boost::icl::within(result.done, result.shard.units(result.plan.cut))) {
+    refuse(file, "with work done that is not its own");
+  }
+  for (std::size_t i = 0; i < result.tallies.size(); ++i) {
+    std::getline(lines, line);
+    const std::string name = fmt::format("line {}", i + 2);
+    result.tallies[i] = at_path(name, [&] {
+      const json object = parse_json(line, "it");
+      return tally_from_json(member(object, "tally", ""), i / result.plan.candidates.size());
+    });
+  }
+  check_counts(result, file);
+  return result;
+}
+
+}  // namespace
+
+ShardState::ShardState(Plan of, Shard which)
+    : plan(std::move(of)),
+      shard(which),
+      tallies(plan.cells.size() * plan.candidates.size(), ScoreTally(Precision::binned)) {}
+
+void ShardState::add(const UnitSet& units, const std::vector<ScoreTally>& added) {
+  if (boost::icl::intersects(done, units)) throw std::logic_error("a unit was counted twice");
+  for (std::size_t i = 0; i < tallies.size(); ++i) tallies[i].add(added[i]);
+  done += units;
+}
+
+std::filesystem::path shard_file(const std::filesystem::path& folder, const Shard& shard) {
+  return folder / fmt::format("shard-{}-of-{}.jsonl", shard.number, shard.of);
+}
+
+std::vector<std::filesystem::path> shard_files(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with("shard-") && name.ends_with(".jsonl")) files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+std::string to_text(const ShardState& p) {
+  std::string text = json{{"schema", schema},
+                          {"shard", {p.shard.number, p.shard.of}},
+                          {"done", to_json(p.done)},
+                          {"campaign", json::parse(p.plan.text)}}
+                         .dump() +
+                     '\n';
+  for (std::size_t cell = 0; cell < p.plan.cells.size(); ++cell) {
+    for (std::size_t k = 0; k < p.plan.candidates.size(); ++k) {
+      text += json{{"pair", pair_name(p.plan.cells[cell].pair)},
+                   {"class", p.plan.cells[cell].pose_class},
+                   {"candidate", p.plan.candidates[k]},
+                   {"tally", to_json(p.tally(cell, k))}}
+                  .dump() +
+              '\n';
+    }
+  }
+  return text + checksum_line(text);
+}
+
+void write_shard(const ShardState& state, const std::filesystem::path& file) {
+  write_file(file, to_text(state), "--out", "make room, then go on with --resume");
+}
+
+ShardState shard_from_text(const std::string& text, const std::string& file) {
+  const std::string body(intact(text, file));
+  try {
+    return parsed(body, file);
+  } catch (const InvalidInput& e) {
+    if (e.field() == '"' + file + '"') throw;
+    refuse(file, fmt::format("not understood ({})", error_text(e)));
+  }
+}
+
+}  // namespace touchstone

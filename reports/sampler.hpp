@@ -1,0 +1,86 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "reports/campaign.hpp"
+#include "reports/score_tally.hpp"
+#include "reports/trends.hpp"
+
+namespace touchstone {
+
+/// A run of configurations of one cell (pair × class): indices first … last − 1. A unit has a
+/// session of its own.
+struct Unit {
+  /// Few enough that a checkpoint loses little, enough that new sessions cost little.
+  static constexpr std::uint64_t max_size = 512;
+
+  std::size_t cell;
+  std::uint64_t first, last;
+};
+
+/// What scores are kept for.
+enum class Purpose {
+  report,   ///< exact values, and what trends, timing and worst cases need
+  campaign  ///< counts in bins alone, in flat memory
+};
+
+/// What is kept of the scored configurations of a unit or, added up, of a cell. A configuration is
+/// made once and its truth computed once: whatever needs them later finds them here.
+struct Sample {
+  /// Configurations of a cell that are kept for timing: more would not change its median.
+  static constexpr std::uint64_t max_timed = 50;
+
+  Sample(std::size_t candidates, Purpose purpose);
+  void add(std::size_t cell, std::uint64_t index, const ScoredConfiguration& scored);
+  /// Adds the next unit of the same cell.
+  void add(const Sample& next);
+
+  std::string bytes() const;
+  static Sample from_bytes(const std::string& bytes, std::size_t candidates, Purpose purpose);
+
+  std::vector<ScoreTally> tallies;  ///< of each candidate
+  // For a report:
+  std::vector<double> oracle_microseconds;
+  TrendTally trends;
+  std::vector<Configuration> timed;                  ///< the first of the cell
+  std::vector<std::vector<Outcome>> timed_outcomes;  ///< [candidate], of `timed`
+
+  /// Truth and answers of one of a candidate's worst cases: its own answer, then that of the first
+  /// candidate, where that is another.
+  struct Examined {
+    Configuration configuration;
+    oracle::Truth truth;
+    std::vector<std::pair<Answer, Score>> answers;
+  };
+  Examined examined(std::size_t candidate, std::uint64_t index) const;
+
+ private:
+  void forget_better_cases();
+
+  Purpose purpose_;
+  /// Examined, as bytes, by candidate and index: of the tallies' worst cases and no others.
+  std::map<std::pair<std::size_t, std::uint64_t>, std::string> examined_;
+};
+
+/// Scores the campaign's units 0 … count − 1, as `unit` numbers them, spread over worker processes,
+/// in each of which every candidate has a process of its own. Samples are handed over as they come,
+/// in no certain order; they depend neither on the number of workers nor on other candidates. Ends
+/// early, without the units in hand, once `go_on` says no; it is asked at least every 100 ms.
+/// Returns whether all units were scored. Throws std::runtime_error naming the configuration whose
+/// truth contradicts itself, or the unit in which a worker died.
+bool sample(const Campaign& campaign, Purpose purpose, std::uint64_t count,
+            const std::function<Unit(std::uint64_t)>& unit,
+            const std::function<void(std::uint64_t, Sample)>& take,
+            const std::function<bool()>& go_on);
+
+/// Scores one unit in this process.
+Sample sample_unit(const Campaign& campaign, Purpose purpose,
+                   std::span<CandidateProcess* const> candidates, const Cell& cell,
+                   const Unit& unit);
+
+}  // namespace touchstone

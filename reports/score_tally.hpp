@@ -1,0 +1,67 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "reports/magnitudes.hpp"
+#include "reports/worst.hpp"
+
+namespace touchstone {
+
+/// Coverages (shares between 0 and 1) of which quantiles are wanted.
+struct CoverageTally {
+  /// Unit of `sum`: coverage is summed as an integer, for a sum of doubles depends on its order.
+  static constexpr double unit = 0x1p-24;
+
+  explicit CoverageTally(Precision precision) : uncovered(precision) {}
+  void add(double coverage);
+  void add(const CoverageTally& other);
+  std::optional<Shares> shares() const;
+
+  Magnitudes uncovered;        ///< binned: one minus each coverage
+  std::uint64_t sum = 0;       ///< binned: of coverages, in units
+  std::vector<double> values;  ///< exact: each coverage, in order
+};
+
+/// The scores of one candidate on any number of configurations. Binned, it takes constant memory,
+/// and everything in it is an integer, a maximum or a selection under a total order: tallies of the
+/// parts, added in any order, are the tally of the whole to the last bit. Exact, only the mean
+/// coverage depends on the order of adding, in its last bits.
+struct ScoreTally {
+  explicit ScoreTally(Precision precision);
+
+  /// Adds the score of a configuration: `index` of its cell.
+  void add(std::size_t cell, std::uint64_t index, const Score& score);
+  /// Adds a tally of the same precision.
+  void add(const ScoreTally& other);
+
+  Statistics statistics() const;
+
+  /// Errors of a score, as report.json calls them; less is better.
+  struct Quantity {
+    const char* name;
+    std::optional<double> Score::*value;
+    std::optional<Quantiles> Statistics::*quantiles;
+  };
+  static constexpr std::array<Quantity, 7> quantities = {
+      {{"depth_error", &Score::depth_error, &Statistics::depth_error},
+       {"normal_regret", &Score::normal_regret, &Statistics::normal_regret},
+       {"normal_angle", &Score::normal_angle, &Statistics::normal_angle},
+       {"point_error", &Score::point_error, &Statistics::point_error},
+       {"deepest_error", &Score::deepest_error, &Statistics::deepest_error},
+       {"model_error", &Score::model_error, &Statistics::model_error},
+       {"solver_error", &Score::solver_error, &Statistics::solver_error}}};
+
+  std::uint64_t count = 0;
+  std::array<std::uint64_t, all_outcomes.size()> outcomes{};
+  std::map<int, std::uint64_t> points;
+  std::vector<Magnitudes> errors;  ///< of each of the quantities
+  Magnitudes severity;             ///< of all that is judged, missed contacts included
+  CoverageTally coverage;
+  std::vector<Case> worst;  ///< of a tally of one cell: its worst_of_class
+};
+
+}  // namespace touchstone
