@@ -10,7 +10,6 @@
 #include "reference/invalid_input.hpp"
 #include "reports/campaigns/merge.hpp"
 #include "reports/campaigns/run.hpp"
-#include "reports/report_json.hpp"
 #include "reports/terminal_table.hpp"
 #include "reports/worst.hpp"
 

@@ -6,7 +6,6 @@
 #include "cli/subcommands.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/campaigns/run.hpp"
-#include "reports/report_json.hpp"
 #include "reports/terminal_table.hpp"
 
 namespace touchstone {

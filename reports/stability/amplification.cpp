@@ -4,6 +4,7 @@
 
 #include "properties/motions/motion.hpp"
 #include "properties/pose_class.hpp"
+#include "reports/bytes.hpp"
 #include "reports/stability/measure.hpp"
 #include "reports/stability/step_change.hpp"
 
@@ -160,13 +161,14 @@ Amplification amplification(const Ladder& ladder, const Study& study) {
                   }};
   const auto results =
       run_in_workers(study, work, [&](std::size_t i, std::vector<CandidateProcess>& candidates) {
-        return to_bytes(
-            climb(bases_of(ladder.cells[i], ladder), ladder.seed, candidates, study.bar));
+        ByteWriter bytes;
+        bytes.put(climb(bases_of(ladder.cells[i], ladder), ladder.seed, candidates, study.bar));
+        return bytes.take();
       });
   Collector collector(study, ladder.seed, ladder.count);
   for (std::size_t i = 0; i < results.size(); ++i) {
     if (results[i].empty()) continue;  // interrupted before
-    collector.add(bases_of(ladder.cells[i], ladder), from_bytes<Climb>(results[i]));
+    collector.add(bases_of(ladder.cells[i], ladder), ByteReader(results[i]).get_all<Climb>());
   }
   return std::move(collector).result();
 }

@@ -1,9 +1,7 @@
 #pragma once
 
-#include <cstring>
 #include <functional>
 #include <set>
-#include <type_traits>
 
 #include "properties/motions/critical_pose.hpp"
 #include "properties/motions/motion.hpp"
@@ -89,18 +87,5 @@ struct Work {
 std::vector<std::string> run_in_workers(
     const Study& study, const Work& work,
     const std::function<std::string(std::size_t task, std::vector<CandidateProcess>&)>& run);
-
-/// Values as bytes, for a pipe between two processes of one program, and back.
-template <class Value>
-std::string to_bytes(const std::vector<Value>& values) {
-  static_assert(std::is_trivially_copyable_v<Value>);
-  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(Value)};
-}
-template <class Value>
-std::vector<Value> from_bytes(const std::string& bytes) {
-  std::vector<Value> values(bytes.size() / sizeof(Value));
-  std::memcpy(values.data(), bytes.data(), bytes.size());
-  return values;
-}
 
 }  // namespace touchstone

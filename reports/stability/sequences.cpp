@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reports/bytes.hpp"
 #include "reports/stability/measure.hpp"
 #include "reports/stability/step_change.hpp"
 
@@ -68,13 +69,17 @@ std::string follow(const Motion& motion, int steps, std::vector<CandidateProcess
   const std::vector<ExaminedPose> poses = examine(asked, candidates, bar);
   std::vector<Course> courses;
   for (std::size_t k = 0; k < candidates.size(); ++k) courses.push_back(course(poses, k, bar));
-  return to_bytes(std::vector{true_course(poses)}) + to_bytes(courses);
+  ByteWriter bytes;
+  bytes.put(true_course(poses));
+  bytes.put(courses);
+  return bytes.take();
 }
 
 Sequences::Course collected(const Motion& motion, const std::string& bytes,
                             const std::vector<const Candidate*>& candidates) {
-  const auto truth = from_bytes<TrueCourse>(bytes.substr(0, sizeof(TrueCourse))).front();
-  const auto courses = from_bytes<Course>(bytes.substr(sizeof(TrueCourse)));
+  ByteReader reader(bytes);
+  const auto truth = reader.get<TrueCourse>();
+  const auto courses = reader.get_all<Course>();
   Sequences::Course result{motion.name,
                            motion.description,
                            pair_name(pair_of(pose_at(motion, 0, 1))),

@@ -6,6 +6,7 @@
 
 #include "oracle/patch/convex_set.hpp"
 #include "properties/motions/perturbation.hpp"
+#include "reports/campaign.hpp"
 
 namespace touchstone {
 namespace {
@@ -40,6 +41,15 @@ class Patches {
   std::vector<std::pair<Vec3, ContactPatch>> known_;
 };
 
+/// The change of a depth by rounding alone, metres: four units in the last place of the bodies'
+/// coordinates and sizes.
+double rounding_of(const Configuration& c) {
+  constexpr double units = 4;
+  const double coordinates = std::max(c.pose_a.position().cwiseAbs().maxCoeff(),
+                                      c.pose_b.position().cwiseAbs().maxCoeff());
+  return units * std::numeric_limits<double>::epsilon() * (coordinates + larger_size(c));
+}
+
 /// The largest change of the true depth at a step, metres.
 double allowance(const Configuration& from, const Configuration& to) {
   return largest_displacement(from, to) + std::max(rounding_of(from), rounding_of(to));
@@ -60,35 +70,23 @@ double farthest(const ContactPatch& from, const ContactPatch& to) {
 
 std::vector<ExaminedPose> examine(const std::vector<Configuration>& configurations,
                                   std::vector<CandidateProcess>& candidates, const Bar& bar) {
-  std::vector<std::vector<Answer>> answers;
-  for (CandidateProcess& candidate : candidates) {
-    answers.push_back(candidate.answers(configurations));
-  }
   std::vector<ExaminedPose> poses;
-  for (std::size_t i = 0; i < configurations.size(); ++i) {
-    const Configuration& c = configurations[i];
-    ExaminedPose pose{c, oracle::truth(c), {}};
-    Patches patches(c);
-    for (const auto& of_candidate : answers) {
-      PoseAnswer entry{of_candidate[i], score(c, pose.truth, of_candidate[i], bar), {}, {}};
+  const auto take = [&](const ScoredConfiguration& scored) {
+    ExaminedPose& pose = poses.emplace_back(ExaminedPose{scored.configuration, scored.truth, {}});
+    Patches patches(pose.configuration);
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+      PoseAnswer& entry =
+          pose.answers.emplace_back(PoseAnswer{scored.answers[k], scored.scores[k], {}, {}});
       const Vec3 n(entry.answer.normal);
       if (entry.answer.status == TS_CONTACT && entry.is_answered() &&
           entry.answer.point_count > 0 && !n.isZero(0)) {
         entry.hull = hull_of_points(entry.answer);
         entry.patch = patches.along(patch_normal(pose.truth, n));
       }
-      pose.answers.push_back(std::move(entry));
     }
-    poses.push_back(std::move(pose));
-  }
+  };
+  score_configurations(configurations, pointers(candidates), bar, truth_width, take);
   return poses;
-}
-
-double rounding_of(const Configuration& c) {
-  constexpr double units = 4;
-  const double coordinates = std::max(c.pose_a.position().cwiseAbs().maxCoeff(),
-                                      c.pose_b.position().cwiseAbs().maxCoeff());
-  return units * std::numeric_limits<double>::epsilon() * (coordinates + larger_size(c));
 }
 
 std::optional<StepChange> step_change(const ExaminedPose& from, const ExaminedPose& to,

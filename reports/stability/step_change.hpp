@@ -59,10 +59,6 @@ double true_amplification(const ExaminedPose& from, const ExaminedPose& to, cons
 /// How far the true patch moved, along the first optimal normal of either pose.
 double patch_movement(const ExaminedPose& from, const ExaminedPose& to);
 
-/// Metres that rounding alone may change a depth by: four units in the last place of the bodies'
-/// coordinates and sizes.
-double rounding_of(const Configuration& configuration);
-
 /// The Hausdorff distance of two plane convex sets in space, metres: the largest distance of a
 /// point of either set from the other. Exact for polygons; of arcs 32 points a circle are taken.
 double movement(const oracle::ContactPatch& from, const oracle::ContactPatch& to);
