@@ -24,5 +24,4 @@ nlohmann::json to_json(const ResultRow& row);
 nlohmann::json to_json(const Examination& examination);
 nlohmann::json to_json(const WorstCase& worst);
 
-
 }  // namespace touchstone

@@ -7,8 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "properties/files/answer_json.hpp"
 #include "oracle/truth.hpp"
+#include "properties/files/answer_json.hpp"
 #include "properties/files/configuration_json.hpp"
 #include "properties/files/json_fields.hpp"
 #include "reports/report_json.hpp"

@@ -80,8 +80,8 @@ struct Command {
   std::uint64_t memory;  ///< growth in bytes that a session is allowed
 };
 
-/// A message to the harness. Everything else on the socket is noise, as from a routine that writes to foreign
-/// descriptors.
+/// A message to the harness. Everything else on the socket is noise, as from a routine that writes
+/// to foreign descriptors.
 struct Reply {
   enum Kind : std::uint32_t {
     described,  ///< the plug-in has `value` candidates; a Description of each follows
