@@ -148,7 +148,9 @@ class Collector {
 std::vector<Cell> degenerate_cells(const std::vector<Pair>& pairs) {
   std::vector<Cell> cells;
   for (const Pair pair : pairs) {
-    for (const PoseClass& c : lattice_classes(pair)) cells.push_back({pair, c.name});
+    for (const auto& classes : {lattice_classes(pair), touching_tilted_class(pair)}) {
+      for (const PoseClass& c : classes) cells.push_back({pair, c.name});
+    }
   }
   return cells;
 }

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <numeric>
+#include <set>
 #include <sstream>
 
 #include <nlohmann/json.hpp>
@@ -38,6 +39,14 @@ StabilityOptions small(const Study& of) {
 TEST(Stability, DoesNotDependOnTheNumberOfWorkers) {
   EXPECT_EQ(json_text(measure(small(study({"reference", "bullet", "ode"}, 1)))),
             json_text(measure(small(study({"reference", "bullet", "ode"}, 3)))));
+}
+
+TEST(Stability, SmallStepsStartInEveryClassThatTouchesOrIsAlignedExactly) {
+  std::set<std::string> names;
+  for (const Cell& cell : degenerate_cells({Pair::box})) names.insert(cell.pose_class);
+  for (const char* name : {"parallel-side", "touching", "touching-tilted"}) {
+    EXPECT_EQ(names.count(name), 1u) << name;
+  }
 }
 
 /// "Done when": the depth of our routines changes by no more than a step allows, on every rung of
