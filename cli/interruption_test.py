@@ -101,8 +101,8 @@ def termination_while_timing(program, folder):
 
 
 def ctrl_c_twice(program, folder):
-    run = Run(program, folder)
-    run.wait_for(r"of 23600 configurations")
+    run = Run(program, folder, "--count", "5000")  # so that what is begun takes long
+    run.wait_for(r"of 1180000 configurations")
     run.ctrl_c()
     run.wait_for("once more")
     os.kill(run.pid, signal.SIGINT)
