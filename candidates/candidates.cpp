@@ -25,7 +25,7 @@ constexpr struct {
 /// The folder of the standard plug-ins: in the build tree above the program (tests lie two folders
 /// deep), or under the prefix of an installed program.
 std::filesystem::path standard_folder() {
-  const auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path();
+  auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path();
   for (const char* folder :
        {"candidates", "../candidates", "../../candidates", "../lib/touchstone"}) {
     const auto path = program / folder;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <fmt/format.h>
 #include <fstream>
 #include <span>
 #include <string>
@@ -247,7 +248,7 @@ Machine describe_machine() {
   if (cpu.empty()) cpu = system.machine;
   std::string os = value_in("/etc/os-release", "PRETTY_NAME", '=');
   if (os.empty()) os = system.sysname;
-  const std::string compiler = std::string("g++ ") + __VERSION__ + " " + TOUCHSTONE_FLAGS;
+  const std::string compiler = fmt::format("g++ {} {}", __VERSION__, TOUCHSTONE_FLAGS);
   return {cpu, compiler, os, static_cast<unsigned>(sysconf(_SC_NPROCESSORS_ONLN))};
 }
 

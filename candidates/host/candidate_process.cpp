@@ -220,7 +220,7 @@ std::string CandidateProcess::judge(const Watch& watch) {
     if (spent.by_the_clock > limit)
       return "no answer within " + seconds_text(limit) + " by the clock";
   } else if (*spent.waiting > max_wait_) {
-    const std::string text = "no answer, having waited for " + seconds_text(max_wait_);
+    std::string text = "no answer, having waited for " + seconds_text(max_wait_);
     max_wait_ = std::max(limits_.seconds, max_wait_ / 2);
     return text;
   }
