@@ -39,7 +39,8 @@ class ReportFile : public testing::Test {
     }();
     return report;
   }
-  const std::filesystem::path file = testing::TempDir() + "touchstone_report_file_test.json";
+  const std::filesystem::path file =
+      testing::TempDir() + testing::UnitTest::GetInstance()->current_test_info()->name() + ".json";
 };
 
 TEST_F(ReportFile, IsReadAsItWasWritten) {

@@ -101,7 +101,7 @@ TEST(FailureFile, ASavedFailureReplacesItself) {
 }
 
 TEST(Corpus, AJsonLinesFileHoldsOneFailureOnEachLine) {
-  const auto file = std::filesystem::path(testing::TempDir()) / "failures.jsonl";
+  const auto file = std::filesystem::path(testing::TempDir()) / "failures-broken-line.jsonl";
   const std::string line = to_json(failure()).dump() + '\n';
   std::ofstream(file) << line << '\n' << line;
   EXPECT_EQ(read_corpus(file).size(), 2u);
