@@ -9,6 +9,7 @@
 #include <signal.h>
 #include <stdexcept>
 #include <sys/wait.h>
+#include <type_traits>
 #include <unistd.h>
 
 #include "candidates/candidates.hpp"
@@ -257,7 +258,10 @@ std::optional<Answer> CandidateProcess::answer_in(std::uint32_t i) const {
   Answer answer{slot.answer, {}, {}};
   if (!std::isnan(slot.model_distance)) answer.model_distance = slot.model_distance;
   // A status or number of points that the interface does not allow is a failure of the candidate.
-  if (answer.status < TS_CONTACT || answer.status > TS_FAILED || answer.point_count < 0 ||
+  // Read as an integer: an enumeration must not even be looked at with another value in it.
+  std::underlying_type_t<ts_status> status;
+  std::memcpy(&status, &slot.answer.status, sizeof status);
+  if (status < TS_CONTACT || status > TS_FAILED || answer.point_count < 0 ||
       answer.point_count > TOUCHSTONE_MAX_POINTS) {
     static_cast<ts_answer&>(answer) = {};
     answer.status = TS_FAILED;
