@@ -47,7 +47,7 @@ static void query(ts_prepared* p, const ts_pose* a, const ts_pose* b, const doub
   rotate(b->orientation, p->normal, n);
   rotate(a->orientation, z, axis);
   for (int i = 0; i < 3; ++i) down[i] = dot(n, axis) * axis[i] - n[i]; /* across the axis */
-  if (dot(down, down) < 1e-24) rotate(a->orientation, x, down);          /* standing: any way */
+  if (dot(down, down) < 1e-24) rotate(a->orientation, x, down);        /* standing: any way */
   const double length = sqrt(dot(down, down));
   answer->status = TS_NONE;
   answer->point_count = 0;
