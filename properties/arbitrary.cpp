@@ -38,8 +38,8 @@ struct ShownShape {
 }  // namespace
 
 rc::Gen<Configuration> configurations(Pair pair, std::string_view pose_class) {
-  const PoseClass& c = find_pose_class(pair, pose_class);
-  return rc::Gen<Configuration>([&c](const rc::Random& random, int) {
+  const PoseClass c = find_pose_class(pair, pose_class);
+  return rc::Gen<Configuration>([c](const rc::Random& random, int) {
     Draw draw(random);
     return rc::shrinkable::shrinkRecur(c.generate(draw), [](const Configuration& configuration) {
       return rc::seq::fromContainer(simpler(configuration));

@@ -1,11 +1,12 @@
 #include "properties/features.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <vector>
 
-#include "properties/pose_class.hpp"
+#include "properties/moves.hpp"
 
 namespace touchstone {
 namespace {
@@ -158,11 +159,49 @@ Shape draw_other(Draw& draw, Pair pair) {
   throw std::logic_error("no such pair");
 }
 
-Bodies draw_bodies(Draw& draw, Pair pair) {
+namespace {
+
+void reshape(Draw& draw, Proportions proportions, Bodies& bodies) {
+  const double size = bodies.a.radius(), small = size / static_cast<double>(extreme_ratio);
+  switch (proportions) {
+    case Proportions::usual:
+      return;
+    case Proportions::needle:
+      bodies.a = Cylinder(small, size);
+      return;
+    case Proportions::coin:
+      bodies.a = Cylinder(size, small);
+      return;
+    case Proportions::plate: {
+      const std::array<bool, 3> is_thin = draw_thin_extents(draw);
+      const double length = std::get<Box>(bodies.b).half_extents().x();
+      const auto extent = [&](std::size_t i) {
+        return is_thin[i] ? length / static_cast<double>(extreme_ratio) : length;
+      };
+      bodies.b = Box(Vec3(extent(0), extent(1), extent(2)));
+      return;
+    }
+    case Proportions::uneven: {
+      const double factor = 1 / static_cast<double>(draw_uneven_ratio(draw));
+      if (draw.coin()) {
+        bodies.a = std::get<Cylinder>(scaled(Shape(bodies.a), factor));
+      } else {
+        bodies.b = scaled(bodies.b, factor);
+      }
+      return;
+    }
+  }
+}
+
+}  // namespace
+
+Bodies draw_bodies(Draw& draw, Pair pair, Proportions proportions) {
   const Cylinder a = draw_cylinder(draw);
   const Eigen::Quaterniond orientation_a = draw.orientation();
   const Shape b = draw_other(draw, pair);
-  return {a, orientation_a, b, draw.orientation()};
+  Bodies bodies{a, orientation_a, b, draw.orientation()};
+  reshape(draw, proportions, bodies);
+  return bodies;
 }
 
 double smaller_size(const Bodies& bodies) {
@@ -191,11 +230,13 @@ Configuration meet_at(Draw& draw, const Bodies& bodies, Feature on_a, Feature on
           bodies.b, Pose(centre_b, bodies.orientation_b)};
 }
 
-Configuration overlap_deeply(Draw& draw, const Bodies& bodies, double max_distance) {
+Configuration overlap_deeply(Draw& draw, const Bodies& bodies, Proportions proportions) {
   if (std::holds_alternative<Plane>(bodies.b)) {
     const double distance = -bodies.a.half_length() * draw.uniform(0.1, 2);
     return meet(draw, bodies, Feature::rim, Feature::cap, distance);
   }
+  const bool thin_a = proportions == Proportions::needle || proportions == Proportions::coin;
+  const double max_distance = thin_a ? smallest_half_extent(bodies.b) : smaller_size(bodies);
   const Vec3 centre_b{draw.uniform(-1, 1), draw.uniform(-1, 1), draw.uniform(-1, 1)};
   const double distance = max_distance * draw.uniform(0, 1);
   const Vec3 centre_a = centre_b + distance * draw.direction();

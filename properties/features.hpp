@@ -1,6 +1,7 @@
 #pragma once
 
 #include "properties/draw.hpp"
+#include "properties/modifiers.hpp"
 #include "properties/numbers.hpp"
 
 namespace touchstone {
@@ -23,7 +24,7 @@ double smaller_size(const Bodies& bodies);
 /// Sizes log-uniform in [0.2, 1] metres.
 Cylinder draw_cylinder(Draw& draw);
 Shape draw_other(Draw& draw, Pair pair);
-Bodies draw_bodies(Draw& draw, Pair pair);
+Bodies draw_bodies(Draw& draw, Pair pair, Proportions proportions = Proportions::usual);
 
 /// Places A so that the two features face each other with the clearance `distance` (negative:
 /// overlap) along their common normal, at a random point of each. For separate bodies `distance` is
@@ -38,9 +39,10 @@ Configuration meet(Draw& draw, const Bodies& bodies, Feature on_a, Feature on_b,
 Configuration meet_at(Draw& draw, const Bodies& bodies, Feature on_a, Feature on_b, double distance,
                       int axis);
 
-/// Places A's centre less than `max_distance` from B's, in a random direction; over a plane, places
-/// A's lowest point 0.1 to 2 half lengths below the surface.
-Configuration overlap_deeply(Draw& draw, const Bodies& bodies, double max_distance);
+/// Places A's centre less than the smallest half extent from B's, in a random direction; that of a
+/// needle or coin within the largest ball in B. Over a plane, places A's lowest point 0.1 to 2 half
+/// lengths below the surface.
+Configuration overlap_deeply(Draw& draw, const Bodies& bodies, Proportions proportions);
 
 /// Bodies that overlap arbitrarily: at clear tilts from an alignment, near coincidences of their
 /// sizes, with depths along and across the axes alike.

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <utility>
 
+#include "properties/arrangement.hpp"
 #include "properties/features.hpp"
 #include "properties/known_failures.hpp"
 #include "properties/pose_class.hpp"
@@ -267,12 +268,8 @@ Numbers draw_known_failure(Draw& draw, Pair pair) {
                      : draw.any_of(known);  // the first is often of our own routines
 }
 
-Numbers draw_from_another_class(Draw& draw, Pair pair) {
-  std::vector<const PoseClass*> others;
-  for (const PoseClass& c : pose_class_table(pair)) {
-    if (!c.by_name_only) others.push_back(&c);
-  }
-  return numbers_of(draw.any_of(others)->generate(draw));
+Numbers draw_from_a_class(Draw& draw, Pair pair) {
+  return numbers_of(draw.any_of(old_classes(pair)).generate(draw));
 }
 
 int draw_exponent(Draw& draw) {
@@ -377,14 +374,14 @@ struct Source {
 Source draw_source(Draw& draw, Pair pair) {
   const std::int64_t kind = draw.integer(0, 7);
   if (kind == 0 && !known_failures(pair).empty()) return {draw_known_failure(draw, pair), 1, 2};
-  if (kind == 1) return {draw_from_another_class(draw, pair), 1, 2};
+  if (kind == 1) return {draw_from_a_class(draw, pair), 1, 2};
   Numbers n = draw_bodies_near_contact(draw, pair);
   n.orientation_a = with_a_length(draw, n.orientation_a);
   n.orientation_b = with_a_length(draw, n.orientation_b);
   return {std::move(n), 0, 4};
 }
 
-Configuration hostile(Draw& draw, Pair pair) {
+Configuration draw_hostile(Draw& draw, Pair pair) {
   auto [n, changes, one_more_in] = draw_source(draw, pair);
   if (draw.one_in(4))
     turn_both(n, draw.coin() ? draw.orientation() : draw_integer_quaternion(draw));
@@ -400,12 +397,14 @@ Configuration hostile(Draw& draw, Pair pair) {
 
 }  // namespace
 
-std::vector<PoseClass> hostile_class(Pair pair) {
-  return {{"hostile",
-           "Everything at once: tilts and clearances of any size about alignments and meeting "
-           "features, exact coincidences, neighbours of doubles, any exponent, and known failures "
-           "with a few numbers changed.",
-           [pair](Draw& draw) { return hostile(draw, pair); }, true}};
+Arrangement hostile(Pair pair) {
+  return {"hostile",
+          "Everything at once: tilts and clearances of any size about alignments and meeting "
+          "features, exact coincidences, neighbours of doubles, any exponent, and known failures "
+          "with a few numbers changed.",
+          Arrangement::Orientations::mixed,
+          {},
+          [pair](Draw& draw, Clearance, Proportions) { return draw_hostile(draw, pair); }};
 }
 
 }  // namespace touchstone

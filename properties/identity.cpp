@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <optional>
 
 #include "properties/pose_class.hpp"
 #include "reference/invalid_input.hpp"
@@ -29,43 +30,19 @@ std::string joined(const Range& names) {
   return all;
 }
 
-/// All classes of a pair, including those that run only when named.
-std::vector<std::string> all_names(Pair pair) {
-  std::vector<std::string> names;
-  for (const PoseClass& c : pose_class_table(pair)) names.push_back(c.name);
-  return names;
+Draw draw_of(const Identity& identity, const PoseClass& pose_class, Tape* tape) {
+  const std::string name = std::string(pair_name(identity.pair)) + "/" + stream_name(pose_class);
+  const rc::Random random(rc::Random::Key{identity.seed, identity.index, stable_hash(name), 0});
+  return tape ? Draw(random, *tape) : Draw(random);
 }
 
-rc::Random stream_of(const Identity& identity) {
-  const std::string name = std::string(pair_name(identity.pair)) + "/" + identity.pose_class;
-  return rc::Random(rc::Random::Key{identity.seed, identity.index, stable_hash(name), 0});
+Configuration made(const Identity& identity, Tape* tape) {
+  const PoseClass pose_class = find_pose_class(identity.pair, identity.pose_class);
+  Draw draw = draw_of(identity, pose_class, tape);
+  return pose_class.generate(draw);
 }
 
 }  // namespace
-
-const std::vector<PoseClass>& pose_class_table(Pair pair) {
-  static const auto tables = [] {
-    std::array<std::vector<PoseClass>, std::size(all_pairs)> result;
-    for (const Pair p : all_pairs) {
-      auto& table = result[static_cast<std::size_t>(p)];
-      for (auto part : {feature_classes(p), lattice_classes(p), touching_tilted_class(p),
-                        limit_classes(p), hostile_class(p)}) {
-        table.insert(table.end(), part.begin(), part.end());
-      }
-    }
-    return result;
-  }();
-  return tables[static_cast<std::size_t>(pair)];
-}
-
-const PoseClass& find_pose_class(Pair pair, std::string_view name) {
-  for (const PoseClass& c : pose_class_table(pair)) {
-    if (c.name == name) return c;
-  }
-  throw InvalidInput(
-      "identity.class", quoted(name),
-      std::string("must be a pose class of ") + pair_name(pair) + ": " + joined(all_names(pair)));
-}
 
 Pair parse_pair(std::string_view name) {
   std::vector<std::string> names;
@@ -95,58 +72,104 @@ Identity parse_identity(std::string_view text) {
     rest = i < 3 ? rest.substr(slash + 1) : rest;
   }
   const Pair pair = parse_pair(parts[0]);
-  const PoseClass& pose_class = find_pose_class(pair, parts[1]);
-  return {pair, pose_class.name, parse_number("identity.seed", parts[2]),
+  return {pair, find_pose_class(pair, parts[1]).name(), parse_number("identity.seed", parts[2]),
           parse_number("identity.index", parts[3])};
 }
 
-const std::vector<std::string>& pose_classes(Pair pair) {
-  static const auto names = [] {
+const char* group_name(Group group) {
+  switch (group) {
+    case Group::everyday:
+      return "everyday";
+    case Group::degenerate:
+      return "degenerate";
+    case Group::extreme:
+      return "extreme";
+  }
+  return "";
+}
+
+Group parse_group(std::string_view name) {
+  std::vector<std::string> names;
+  for (const Group group : all_groups) {
+    if (name == group_name(group)) return group;
+    names.emplace_back(group_name(group));
+  }
+  throw InvalidInput("--group", quoted(name), "must be one of " + joined(names));
+}
+
+const std::vector<std::string>& pose_classes(Pair pair, Coverage coverage) {
+  const auto names = [](int strength) {
     std::array<std::vector<std::string>, std::size(all_pairs)> result;
     for (const Pair p : all_pairs) {
-      for (const PoseClass& c : pose_class_table(p)) {
-        if (!c.by_name_only) result[static_cast<std::size_t>(p)].push_back(c.name);
+      for (const PoseClass& c : covering_classes(p, strength)) {
+        result[static_cast<std::size_t>(p)].push_back(c.name());
       }
     }
     return result;
-  }();
-  return names[static_cast<std::size_t>(pair)];
+  };
+  static const auto of_pairs = names(2);
+  if (coverage == Coverage::pairs) return of_pairs[static_cast<std::size_t>(pair)];
+  static const auto of_triples = names(3);
+  return of_triples[static_cast<std::size_t>(pair)];
 }
 
-std::vector<std::string> pose_classes(Pair pair, const std::vector<std::string>& wanted) {
-  if (wanted.empty()) return pose_classes(pair);
-  std::vector<std::string> names = all_names(pair);
-  std::erase_if(names, [&](const std::string& name) {
-    return std::find(wanted.begin(), wanted.end(), name) == wanted.end();
-  });
+namespace {
+
+/// The class's name of today; absent if the pair has no such class.
+std::optional<std::string> known_name(Pair pair, std::string_view name) {
+  try {
+    return find_pose_class(pair, name).name();
+  } catch (const InvalidInput&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> wanted_classes(Pair pair, const std::vector<std::string>& wanted,
+                                        Coverage coverage) {
+  if (wanted.empty()) return pose_classes(pair, coverage);
+  std::vector<std::string> names;
+  for (const std::string& each : wanted) {
+    const auto name = known_name(pair, each);
+    if (name && std::find(names.begin(), names.end(), *name) == names.end()) {
+      names.push_back(*name);
+    }
+  }
   return names;
 }
 
 void check_pose_classes(const std::vector<Pair>& pairs, const std::vector<std::string>& classes) {
-  std::vector<std::string> known;  // in report order, each once
-  for (const Pair pair : pairs) {
-    for (const auto& name : all_names(pair)) {
-      if (std::find(known.begin(), known.end(), name) == known.end()) known.push_back(name);
+  for (const auto& name : classes) {
+    const auto has = [&](Pair pair) { return known_name(pair, name).has_value(); };
+    if (std::any_of(pairs.begin(), pairs.end(), has)) continue;
+    try {
+      find_pose_class(pairs.front(), name);
+    } catch (const InvalidInput& e) {
+      throw InvalidInput("--class", e.value(), e.remedy());
     }
   }
-  for (const auto& name : classes) {
-    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-    throw InvalidInput("--class", quoted(name), "must be one of " + joined(known));
-  }
 }
 
-std::string_view describe_pose_class(Pair pair, std::string_view pose_class) {
-  return find_pose_class(pair, pose_class).description;
+std::string describe_pose_class(Pair pair, std::string_view pose_class) {
+  return find_pose_class(pair, pose_class).description();
 }
 
-Configuration make_configuration(const Identity& identity) {
-  Draw draw(stream_of(identity));
-  return find_pose_class(identity.pair, identity.pose_class).generate(draw);
+Group group_of(Pair pair, std::string_view pose_class) {
+  return find_pose_class(pair, pose_class).group();
 }
+
+ClassParts parts_of(Pair pair, std::string_view pose_class) {
+  const PoseClass c = find_pose_class(pair, pose_class);
+  ClassParts result{c.arrangement->name, {}};
+  for (const Modifier* m : c.modifiers.list()) result.modifiers.push_back(m->name);
+  return result;
+}
+
+Configuration make_configuration(const Identity& identity) { return made(identity, nullptr); }
 
 Configuration make_configuration(const Identity& identity, std::vector<std::uint64_t>& tape) {
-  Draw draw(stream_of(identity), tape);
-  return find_pose_class(identity.pair, identity.pose_class).generate(draw);
+  return made(identity, &tape);
 }
 
 std::uint64_t parse_number(const char* field, std::string_view text) {
@@ -159,7 +182,7 @@ std::uint64_t parse_number(const char* field, std::string_view text) {
 }
 
 Subject subject(const Identity& identity) {
-  return {to_string(identity), std::string(describe_pose_class(identity.pair, identity.pose_class)),
+  return {to_string(identity), describe_pose_class(identity.pair, identity.pose_class),
           make_configuration(identity)};
 }
 

@@ -21,27 +21,51 @@ struct Identity {
 
 std::string to_string(const Identity& identity);
 
-/// Reads what to_string wrote. Throws InvalidInput that names the part and its value and, for pairs
-/// and classes, lists the existing ones.
+/// Reads what to_string wrote; a class may have an old name or its modifiers in another order.
+/// Throws InvalidInput that names the part and its value, and for pairs and classes what is near.
 Identity parse_identity(std::string_view text);
 
 /// Reads a pair's name; throws InvalidInput that lists the existing ones.
 Pair parse_pair(std::string_view name);
 
-/// Names of the pose classes of a pair, in report order, without those that run only when named
-/// ("hostile").
-const std::vector<std::string>& pose_classes(Pair pair);
+/// What a user meets of a class: no figure is given over all groups.
+enum class Group {
+  everyday,    ///< sizes within 1:20, turned at random, shallow, resting or apart
+  degenerate,  ///< exact, near-exact and symmetric
+  extreme      ///< aspect, scale, distance from the origin, depth of the order of the size
+};
+inline constexpr Group all_groups[] = {Group::everyday, Group::degenerate, Group::extreme};
+const char* group_name(Group group);
+/// Throws InvalidInput (field "--group") that lists the groups.
+Group parse_group(std::string_view name);
 
-/// The wanted ones of a pair's pose classes, in report order; if none are wanted,
-/// pose_classes(pair).
-std::vector<std::string> pose_classes(Pair pair, const std::vector<std::string>& wanted);
+/// How many of an arrangement and its modifiers occur together in every sensible combination.
+enum class Coverage { pairs = 2, triples = 3 };
 
-/// Throws InvalidInput (field "--class") that lists the existing classes, unless every class
-/// belongs to at least one of the pairs.
+/// Names of the pose classes of a pair that cover so much, in report order: without those that run
+/// only when named ("hostile").
+const std::vector<std::string>& pose_classes(Pair pair, Coverage coverage = Coverage::pairs);
+
+/// The wanted ones of a pair's pose classes, each once, in the order wanted; those that the pair
+/// does not have are left out. If none are wanted, pose_classes(pair, coverage).
+std::vector<std::string> wanted_classes(Pair pair, const std::vector<std::string>& wanted,
+                                        Coverage coverage = Coverage::pairs);
+
+/// Throws InvalidInput (field "--class") that says what is near, unless every class belongs to at
+/// least one of the pairs.
 void check_pose_classes(const std::vector<Pair>& pairs, const std::vector<std::string>& classes);
 
-/// One sentence: the geometry that the class makes and why it is hard.
-std::string_view describe_pose_class(Pair pair, std::string_view pose_class);
+/// Sentences: the geometry that the class makes, why it is hard, and how it is modified.
+std::string describe_pose_class(Pair pair, std::string_view pose_class);
+
+Group group_of(Pair pair, std::string_view pose_class);
+
+/// The parts of a class's name.
+struct ClassParts {
+  std::string arrangement;
+  std::vector<std::string> modifiers;
+};
+ClassParts parts_of(Pair pair, std::string_view pose_class);
 
 /// The configuration of that identity: the same bits on every call, in constant time.
 Configuration make_configuration(const Identity& identity);

@@ -23,14 +23,15 @@ struct Class {
 std::vector<Class> every_class() {
   std::vector<Class> all;
   for (const Pair pair : all_pairs) {
-    for (const PoseClass& c : pose_class_table(pair)) all.push_back({pair, c.name});
+    for (const std::string& name : pose_classes(pair)) all.push_back({pair, name});
+    all.push_back({pair, "hostile"});
   }
   return all;
 }
 
 TEST(Identity, PrintsAndParsesBack) {
-  const Identity id{Pair::box, "near-parallel-1e-6", 42, 137};
-  EXPECT_EQ(to_string(id), "cylinder-box/near-parallel-1e-6/42/137");
+  const Identity id{Pair::box, "side-on-face+tilted-1e-6+turned", 42, 137};
+  EXPECT_EQ(to_string(id), "cylinder-box/side-on-face+tilted-1e-6+turned/42/137");
   EXPECT_EQ(parse_identity(to_string(id)), id);
   const Identity largest{Pair::sphere, "rim", ~std::uint64_t{0}, ~std::uint64_t{0}};
   EXPECT_EQ(parse_identity(to_string(largest)), largest);
@@ -46,7 +47,25 @@ TEST(Identity, RefusesWhatItIsNotAndNamesThePart) {
       {"cylinder-box", "identity", "pair/class/seed/index"},
       {"cylinder-box/rim-face/1", "identity", "pair/class/seed/index"},
       {"cylinder-cone/rim-face/1/2", "identity.pair", "cylinder-sphere"},
-      {"cylinder-sphere/rim-face/1/2", "identity.class", "general-deep"},
+      {"cylinder-sphere/rim-face/1/2", "identity.class", "as rim, side or"},
+      {"cylinder-box/paralel-side/1/2", "identity.class", "as parallel-side"},
+      {"cylinder-box/hostile+turned/1/2", "identity.class", "it has everything already"},
+      {"cylinder-box/rim-face+turned/1/2", "identity.class", "turned at random already"},
+      {"cylinder-box/rim-face+tilted-1e-3/1/2", "identity.class", "random angle already"},
+      {"cylinder-box/rim-face+deep/1/2", "identity.class", "another feature"},
+      {"cylinder-box/side-on-face+shallow/1/2", "identity.class", "it is so already"},
+      {"cylinder-box/touching+apart/1/2", "identity.class", "touch already"},
+      {"cylinder-box/coaxial+deep/1/2", "identity.class", "centres or axes"},
+      {"cylinder-box/touching-tilted+tilted-1e-3/1/2", "identity.class", "tilted already"},
+      {"cylinder-capsule/general+plate/1/2", "identity.class", "neither body is a box"},
+      {"cylinder-plane/general+uneven/1/2", "identity.class", "a plane has no size"},
+      {"cylinder-box/general+tiny+huge/1/2", "identity.class", "both tiny and huge"},
+      {"cylinder-box/general+tiny+tiny/1/2", "identity.class", "both tiny and tiny"},
+      {"cylinder-box/general+trned/1/2", "identity.class", "such as turned"},
+      {"cylinder-box/general+/1/2", "identity.class", "such as"},
+      {"cylinder-box/general++tiny/1/2", "identity.class", "such as"},
+      {"cylinder-box/+tiny/1/2", "identity.class", "must begin with an arrangement"},
+      {"cylinder-box//1/2", "identity.class", "must begin with an arrangement"},
       {"cylinder-box/rim-face/-1/2", "identity.seed", "whole number"},
       {"cylinder-box/rim-face/1/2x", "identity.index", "whole number"},
       {"cylinder-box/rim-face/1/2/3", "identity.index", "whole number"},
@@ -68,14 +87,45 @@ TEST(Identity, RefusesWhatItIsNotAndNamesThePart) {
 TEST(Identity, HostileIsKnownByNameButNotAmongAllClasses) {
   for (const Pair pair : all_pairs) {
     EXPECT_THAT(pose_classes(pair), testing::Not(testing::Contains("hostile")));
-    EXPECT_EQ(pose_classes(pair, {}), pose_classes(pair));
-    EXPECT_THAT(pose_classes(pair, {"hostile", "general-deep", "no-such"}),
-                testing::ElementsAre("general-deep", "hostile"));
+    EXPECT_EQ(wanted_classes(pair, {}), pose_classes(pair));
+    EXPECT_THAT(wanted_classes(pair, {"hostile", "general-deep", "no-such"}),
+                testing::ElementsAre("hostile", "general+deep"));
     const Identity id{pair, "hostile", 42, 137};
     EXPECT_EQ(describe_pose_class(pair, "hostile").back(), '.');
     EXPECT_EQ(parse_identity(to_string(id)), id);
   }
   EXPECT_NO_THROW(check_pose_classes({Pair::box}, {"hostile"}));
+}
+
+TEST(Identity, ReadsModifiersInAnyOrderAndWritesThemInOne) {
+  for (const char* name :
+       {"parallel-side+deep+tilted-1e-3+turned+far", "parallel-side+far+turned+deep+tilted-1e-3"}) {
+    const Identity id = parse_identity("cylinder-box/" + std::string(name) + "/1/2");
+    EXPECT_EQ(id.pose_class, "parallel-side+deep+tilted-1e-3+turned+far");
+  }
+}
+
+// The bits of old names are held by KeepsItsBitsFromVersionToVersion.
+TEST(Identity, OldNamesAreTheSameConfigurationsAsTodays) {
+  const struct {
+    const char *old, *today;
+  } names[] = {{"general-separated", "general+apart"},
+               {"general-shallow", "general+shallow"},
+               {"general-deep", "general+deep"},
+               {"touching-rounded", "general+touching"},
+               {"near-parallel-1e-6", "parallel+tilted-1e-6"},
+               {"near-perpendicular-1e-15", "perpendicular+tilted-1e-15"},
+               {"aspect-needle", "general+needle"},
+               {"aspect-coin-deep", "general+deep+coin"},
+               {"scale-tiny", "general+tiny"},
+               {"scale-huge", "general+huge"},
+               {"far-from-origin", "general+far"}};
+  for (const auto& [old, today] : names) {
+    EXPECT_EQ(parse_identity("cylinder-box/" + std::string(old) + "/7/3"),
+              (Identity{Pair::box, today, 7, 3}));
+    EXPECT_EQ(shown(make_configuration({Pair::box, old, 7, 3})),
+              shown(make_configuration({Pair::box, today, 7, 3})));
+  }
 }
 
 TEST(Identity, RebuildsTheSameBitsInAnyOrder) {

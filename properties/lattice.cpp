@@ -1,6 +1,8 @@
 #include "properties/lattice.hpp"
 
+#include <array>
 #include <cmath>
+#include <initializer_list>
 #include <stdexcept>
 
 namespace touchstone {
@@ -55,9 +57,42 @@ Shape other_shape(Pair pair, const Lattice& l, const Sizes& s) {
 
 }  // namespace
 
-Sizes draw_sizes(Draw& draw, const Lattice& lattice) {
+Sizes draw_sizes(Draw& draw, const Lattice& lattice, Proportions proportions) {
   const auto size = [&] { return lattice.draw_size(draw); };
-  return {size(), size(), size(), size(), size()};
+  Sizes s{size(), size(), size(), size(), size()};
+  const auto divide = [](std::initializer_list<Steps*> lengths, Steps by) {
+    for (Steps* length : lengths) *length /= by;
+  };
+  switch (proportions) {
+    case Proportions::usual:
+      break;
+    case Proportions::needle:
+      s.half_a = s.radius_a;
+      divide({&s.radius_a}, extreme_ratio);
+      break;
+    case Proportions::coin:
+      s.half_a = s.radius_a;
+      divide({&s.half_a}, extreme_ratio);
+      break;
+    case Proportions::plate: {
+      const std::array<bool, 3> is_thin = draw_thin_extents(draw);
+      s.other_b = s.half_b = s.radius_b;
+      if (is_thin[0]) divide({&s.radius_b}, extreme_ratio);
+      if (is_thin[1]) divide({&s.other_b}, extreme_ratio);
+      if (is_thin[2]) divide({&s.half_b}, extreme_ratio);
+      break;
+    }
+    case Proportions::uneven: {
+      const std::int64_t ratio = draw_uneven_ratio(draw);
+      if (draw.coin()) {
+        divide({&s.radius_a, &s.half_a}, ratio);
+      } else {
+        divide({&s.radius_b, &s.half_b, &s.other_b}, ratio);
+      }
+      break;
+    }
+  }
+  return s;
 }
 
 Steps draw_offset(Draw& draw, Steps max) { return draw.integer(-max, max); }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "properties/draw.hpp"
+#include "properties/modifiers.hpp"
 
 namespace touchstone {
 
@@ -44,7 +45,7 @@ struct Sizes {
   Steps radius_a, half_a;
   Steps radius_b, half_b, other_b;
 };
-Sizes draw_sizes(Draw& draw, const Lattice& lattice);
+Sizes draw_sizes(Draw& draw, const Lattice& lattice, Proportions proportions);
 
 /// A uniform whole number from -max to max.
 Steps draw_offset(Draw& draw, Steps max);

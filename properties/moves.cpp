@@ -11,7 +11,7 @@ Pose turned_in_place(const Pose& pose, const Eigen::Quaterniond& local) {
   return {pose.position(), pose.unit_orientation() * local};
 }
 
-struct Scaling {
+struct Scaled {
   double factor;
   Shape operator()(const Cylinder& s) const {
     return Cylinder(factor * s.radius(), factor * s.half_length());
@@ -60,12 +60,14 @@ Configuration flipped(const Configuration& c) {
           std::holds_alternative<Plane>(c.b) ? c.pose_b : turned_in_place(c.pose_b, half_turn)};
 }
 
+Shape scaled(const Shape& shape, double factor) { return std::visit(Scaled{factor}, shape); }
+
 Configuration scaled(const Configuration& c, double factor) {
   const auto moved = [&](const Pose& pose) {
     return Pose(factor * pose.position(), pose.orientation());
   };
-  return {std::get<Cylinder>(Scaling{factor}(c.a)), moved(c.pose_a),
-          std::visit(Scaling{factor}, c.b), moved(c.pose_b)};
+  return {std::get<Cylinder>(Scaled{factor}(c.a)), moved(c.pose_a), scaled(c.b, factor),
+          moved(c.pose_b)};
 }
 
 Configuration with_a_grown(const Configuration& c, double radius, double half_length) {

@@ -16,6 +16,7 @@ Configuration spun(const Configuration& c, double angle);
 /// Rotates every body by 180° about its own x axis; a plane stays.
 Configuration flipped(const Configuration& c);
 /// Multiplies all lengths by a factor.
+Shape scaled(const Shape& shape, double factor);
 Configuration scaled(const Configuration& c, double factor);
 /// Multiplies body A's radius and half length by two factors.
 Configuration with_a_grown(const Configuration& c, double radius, double half_length);

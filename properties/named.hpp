@@ -2,6 +2,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "reference/invalid_input.hpp"
 
@@ -18,5 +19,8 @@ const auto& named(const Range& all, std::string_view name, const char* field) {
   }
   throw InvalidInput(field, '"' + std::string(name) + '"', "must be one of " + names);
 }
+
+/// The three names that differ in the fewest letters, nearest first: "rim, rim-side or rim-rim".
+std::string nearest(std::string_view name, const std::vector<std::string>& known);
 
 }  // namespace touchstone

@@ -1,46 +1,47 @@
 #pragma once
 
-#include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "properties/draw.hpp"
+#include "properties/arrangement.hpp"
+#include "properties/identity.hpp"
 
 namespace touchstone {
 
-/// A named family of configurations of one pair.
+/// A named family of configurations of one pair: an arrangement and modifiers that make sense of
+/// it.
 struct PoseClass {
-  std::string name;
-  std::string description;  ///< one sentence: the geometry, and why it is hard
-  std::function<Configuration(Draw&)> generate;
-  bool by_name_only = false;  ///< not in reports and checks of all classes
+  Pair pair;
+  const Arrangement* arrangement;
+  Modifiers modifiers;
+
+  std::string name() const;  ///< "perpendicular-t+turned"
+  std::string description() const;
+  Group group() const;
+  Configuration generate(Draw& draw) const;
 };
 
-/// All classes of a pair in report order; those that run only when named come last.
-const std::vector<PoseClass>& pose_class_table(Pair pair);
+/// Why a modifier makes no sense of an arrangement of that pair; absent where it does.
+std::optional<std::string_view> nonsense(Pair pair, const Arrangement& arrangement,
+                                         const Modifier& modifier);
 
-/// Throws InvalidInput that lists the pair's classes.
-const PoseClass& find_pose_class(Pair pair, std::string_view name);
+/// Reads a name: modifiers in any order, or a name from before there were modifiers
+/// ("near-parallel-1e-6"). Throws InvalidInput (field "identity.class") that says what is nearest
+/// to an unknown name, or why a modifier makes no sense.
+PoseClass find_pose_class(Pair pair, std::string_view name);
 
-// The parts of the table, by how the geometry is made.
+/// The name by which the class's random stream is chosen: an old one where it has one, so that
+/// identities of any age keep their bits.
+std::string stream_name(const PoseClass& pose_class);
 
-/// Random orientations, with chosen features in contact.
-std::vector<PoseClass> feature_classes(Pair pair);
-/// Exactly parallel, perpendicular and touching bodies on a Lattice.
-std::vector<PoseClass> lattice_classes(Pair pair);
-/// Bodies turned by 3-4-5 angles against each other that touch in a point or along an edge: signed
-/// distance zero to the last bit, no cap, side or face aligned with another.
-std::vector<PoseClass> touching_tilted_class(Pair pair);
-/// Near-parallel and near-perpendicular tilts, aspect ratios, scales, distance from the origin.
-std::vector<PoseClass> limit_classes(Pair pair);
-/// Combinations of all difficulties; runs only when named.
-std::vector<PoseClass> hostile_class(Pair pair);
+/// The classes that existed before modifiers did, in the order of that time.
+const std::vector<PoseClass>& old_classes(Pair pair);
 
-/// Draws a clearance: an overlap of 1e-6 to 5% of `size`, log-uniform.
-double draw_shallow(Draw& draw, double size);
-/// Draws a clearance: shallow, or in one of four draws a separation of 1e-6 to 1 of `size`,
-/// log-uniform.
-double draw_near(Draw& draw, double size);
+/// A covering array: every sensible combination of `strength` (2 or 3) of an arrangement and
+/// modifiers occurs in at least one class. It begins with the old classes, then has every
+/// arrangement alone and, where it makes sense, turned.
+const std::vector<PoseClass>& covering_classes(Pair pair, int strength);
 
 }  // namespace touchstone

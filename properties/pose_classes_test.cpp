@@ -8,7 +8,8 @@
 #include <set>
 
 #include "oracle/truth.hpp"
-#include "properties/identity.hpp"
+#include "properties/pose_class.hpp"
+#include "reference/invalid_input.hpp"
 
 namespace touchstone {
 namespace {
@@ -29,7 +30,7 @@ TEST(PoseClasses, AreNamedOnceAndDescribedInASentence) {
 TEST(PoseClasses, MakeValidConfigurationsOfTheirPair) {
   for (const Pair pair : all_pairs) {
     for (const auto& name : pose_classes(pair)) {
-      for (std::uint64_t i = 0; i < 200; ++i) {
+      for (std::uint64_t i = 0; i < 50; ++i) {
         const Identity id{pair, name, 1, i};
         ASSERT_NO_THROW(ASSERT_EQ(pair_of(make_configuration(id)), pair)) << to_string(id);
       }
@@ -37,10 +38,7 @@ TEST(PoseClasses, MakeValidConfigurationsOfTheirPair) {
   }
 }
 
-bool has_class(Pair pair, std::string_view name) {
-  const auto& names = pose_classes(pair);
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
+bool has_class(Pair pair, const std::string& name) { return !wanted_classes(pair, {name}).empty(); }
 
 constexpr std::uint64_t samples = 40;
 
@@ -92,10 +90,10 @@ TEST_P(DistanceOfClass, IsWhatTheClassSays) {
 constexpr double any_depth = -1e6;
 
 constexpr Range ranges[] = {
-    {"general-separated", 1e-6 - rounding, most_apart},
-    {"general-shallow", most_shallow, -1e-6 + rounding},
-    {"general-deep", any_depth, -0.05},
-    {"touching-rounded", -1e-13, 1e-13},
+    {"general+apart", 1e-6 - rounding, most_apart},
+    {"general+shallow", most_shallow, -1e-6 + rounding},
+    {"general+deep", any_depth, -0.05},
+    {"general+touching", -1e-13, 1e-13},
     {"concentric", any_depth, -1},
     {"concentric-aligned", any_depth, -1},
     {"coaxial", any_depth, 0},
@@ -131,30 +129,31 @@ constexpr Range ranges[] = {
     {"side-on-face", most_shallow, -1e-8},
     {"standing", most_shallow, -1e-8},
     {"lying", most_shallow, -1e-8},
-    {"aspect-needle", most_shallow, most_apart},
-    {"aspect-coin", most_shallow, most_apart},
-    {"aspect-needle-deep", any_depth, -0.05},
-    {"aspect-coin-deep", any_depth, -0.05},
-    {"scale-tiny", most_shallow, most_apart},
-    {"scale-huge", most_shallow, most_apart},
+    {"general+needle", most_shallow, most_apart},
+    {"general+coin", most_shallow, most_apart},
+    {"general+deep+needle", any_depth, -0.05},
+    {"general+deep+coin", any_depth, -0.05},
+    {"general+tiny", most_shallow, most_apart},
+    {"general+huge", most_shallow, most_apart},
     // Positions of 1e6 m have a spacing of 1e-10 m.
-    {"far-from-origin", most_shallow - 1e-8, most_apart + 1e-8},
+    {"general+far", most_shallow - 1e-8, most_apart + 1e-8},
 };
 
 INSTANTIATE_TEST_SUITE_P(, DistanceOfClass, testing::ValuesIn(ranges), [](const auto& range) {
   std::string name = range.param.name;
-  std::replace(name.begin(), name.end(), '-', '_');
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return c == '-' || c == '+'; }, '_');
   return name;
 });
 
-// Every class is in the table above or has a test of its own, so that a new one is not forgotten.
+// Every old class is in the table above or has a test of its own.
 TEST(PoseClasses, AllHaveATest) {
   std::set<std::string> tested = {"touching", "touching-tilted"};
   for (const Range& range : ranges) tested.insert(range.name);
   for (const Pair pair : all_pairs) {
-    for (const auto& name : pose_classes(pair)) {
-      const bool tilt = name.starts_with("near-");
-      EXPECT_TRUE(tilt || tested.contains(name)) << pair_name(pair) << " " << name;
+    for (const PoseClass& c : old_classes(pair)) {
+      const bool tilt = c.modifiers[Kind::tilt] != 0;
+      EXPECT_TRUE(tilt || tested.contains(c.name())) << pair_name(pair) << " " << c.name();
     }
   }
 }
@@ -244,9 +243,9 @@ TEST(PoseClasses, TiltsAreWhatTheirNamesSay) {
         // The plane's normal is the z axis of its body: lying is perpendicular to it.
         const bool plane = pair == Pair::plane;
         const Identity along{
-            pair, plane ? "near-perpendicular-" + digits : "near-parallel-" + digits, 1, i};
+            pair, plane ? "perpendicular+tilted-" + digits : "parallel+tilted-" + digits, 1, i};
         const Identity across{
-            pair, plane ? "near-parallel-" + digits : "near-perpendicular-" + digits, 1, i};
+            pair, plane ? "parallel+tilted-" + digits : "perpendicular+tilted-" + digits, 1, i};
         expect_tilt(axis_angle(make_configuration(along)).sine, tilt, 0.99, along);
         expect_tilt(axis_angle(make_configuration(across)).cosine, tilt, 0.49, across);
       }
@@ -256,7 +255,7 @@ TEST(PoseClasses, TiltsAreWhatTheirNamesSay) {
 
 TEST(PoseClasses, NearParallelAndNearPerpendicularMeet) {
   for (const Pair pair : {Pair::plane, Pair::capsule, Pair::cylinder, Pair::box}) {
-    for (const char* name : {"near-parallel-1e-6", "near-perpendicular-1e-6"}) {
+    for (const char* name : {"parallel+tilted-1e-6", "perpendicular+tilted-1e-6"}) {
       int overlapping = 0;
       for (std::uint64_t i = 0; i < samples; ++i) {
         const Identity id{pair, name, 1, i};
@@ -303,11 +302,205 @@ TEST(PoseClasses, CentredAndCoaxialCentresLieOnTheAxisExactly) {
 
 TEST(PoseClasses, ExtremeAspectIsOneToAThousand) {
   for (std::uint64_t i = 0; i < samples; ++i) {
-    const Cylinder needle = make_configuration({Pair::box, "aspect-needle", 1, i}).a;
+    const Cylinder needle = make_configuration({Pair::box, "general+needle", 1, i}).a;
     EXPECT_NEAR(needle.half_length() / needle.radius(), 1000, 1e-9);
-    const Cylinder coin = make_configuration({Pair::box, "aspect-coin", 1, i}).a;
+    const Cylinder coin = make_configuration({Pair::box, "general+coin", 1, i}).a;
     EXPECT_NEAR(coin.radius() / coin.half_length(), 1000, 1e-9);
   }
+}
+
+// Modifiers, by what they do to configurations.
+
+TEST(Modifiers, ClearancesAreMetExactlyOnALattice) {
+  const auto distance = [](Pair pair, const std::string& name, std::uint64_t i) {
+    const Configuration c = make_configuration({pair, name, 1, i});
+    const auto t = oracle::truth(c, 1e-40);
+    if (name.ends_with("+touching")) {
+      EXPECT_LE(t.signed_distance.lo, 0) << pair_name(pair) << " " << name;
+      EXPECT_GE(t.signed_distance.hi, 0) << pair_name(pair) << " " << name;
+    }
+    return t.signed_distance.midpoint() / smaller_size(c);
+  };
+  for (const Pair pair : all_pairs) {
+    for (const Arrangement& a : arrangements(pair)) {
+      if (a.orientations != Arrangement::Orientations::exact || a.clearances.empty()) continue;
+      int deep = 0;
+      constexpr std::uint64_t count = 16;
+      for (std::uint64_t i = 0; i < count; ++i) {
+        if (has_class(pair, a.name + "+touching")) distance(pair, a.name + "+touching", i);
+        EXPECT_GE(distance(pair, a.name + "+apart", i), 1e-7) << pair_name(pair) << " " << a.name;
+        const double depth = -distance(pair, a.name + "+deep", i);
+        EXPECT_GE(depth, 0.01) << pair_name(pair) << " " << a.name << " " << i;
+        deep += depth > 0.0999;
+      }
+      // Another feature may be nearer, where the bodies lie beside each other.
+      EXPECT_GE(deep, static_cast<int>(count) / 2) << pair_name(pair) << " " << a.name;
+    }
+  }
+}
+
+TEST(Modifiers, TurnedKeepsTheDistanceAndForgetsTheFrame) {
+  for (const char* name : {"perpendicular-t", "cap-on-cap-offset", "coaxial", "touching"}) {
+    for (std::uint64_t i = 0; i < samples; ++i) {
+      const Identity id{Pair::cylinder, std::string(name) + "+turned", 1, i};
+      std::vector<std::uint64_t> tape;
+      const Configuration turned = make_configuration(id, tape);
+      const Configuration before = make_configuration({Pair::cylinder, name, 1, i}, tape);
+      const auto distance = [](const Configuration& c) {
+        return oracle::truth(c).signed_distance.midpoint();
+      };
+      EXPECT_NEAR(distance(turned), distance(before), 1e-14) << to_string(id);
+      EXPECT_NEAR(turned.pose_a.orientation().norm(), 1, 1e-15);
+      EXPECT_NEAR(turned.pose_b.orientation().norm(), 1, 1e-15);
+      EXPECT_GT((turned.pose_a.position() - before.pose_a.position()).norm(), 1e-3);
+    }
+  }
+}
+
+TEST(Modifiers, ScalesLeaveExactArrangementsExact) {
+  for (const char* scale : {"+tiny", "+huge"}) {
+    for (std::uint64_t i = 0; i < samples; ++i) {
+      const Identity id{Pair::capsule, std::string("touching") + scale, 1, i};
+      const Configuration c = make_configuration(id);
+      const auto t = oracle::truth(c, 1e-40);
+      EXPECT_LE(t.signed_distance.lo, 0) << to_string(id);
+      EXPECT_GE(t.signed_distance.hi, 0) << to_string(id);
+      const double size = smaller_size(c) * (scale[1] == 't' ? 1e6 : 1e-6);
+      EXPECT_GT(size, 0.1);
+      EXPECT_LT(size, 1.1);
+    }
+  }
+}
+
+TEST(Modifiers, ProportionsAreWhatTheirNamesSay) {
+  for (const char* arrangement : {"general", "side-on-face"}) {
+    int bars = 0, plates = 0;
+    for (std::uint64_t i = 0; i < samples; ++i) {
+      const auto made = [&](const char* proportions) {
+        return make_configuration({Pair::box, std::string(arrangement) + proportions, 1, i});
+      };
+      const Cylinder needle = made("+needle").a, coin = made("+coin").a;
+      EXPECT_NEAR(needle.half_length() / needle.radius(), 1000, 0.2);
+      EXPECT_NEAR(coin.radius() / coin.half_length(), 1000, 0.2);
+      const Vec3 plate = std::get<Box>(made("+plate").b).half_extents();
+      EXPECT_NEAR(plate.maxCoeff() / plate.minCoeff(), 1000, 0.2);
+      const auto thin = (plate.array() < plate.maxCoeff() / 2).count();
+      bars += thin == 2;
+      plates += thin == 1;
+      const Configuration uneven = made("+uneven");
+      const double ratio = std::max(uneven.a.radius() / std::get<Box>(uneven.b).half_extents().x(),
+                                    std::get<Box>(uneven.b).half_extents().x() / uneven.a.radius());
+      EXPECT_GE(ratio, 100 / 5.01);
+      EXPECT_LE(ratio, 1000 * 5.01);
+    }
+    EXPECT_EQ(bars + plates, static_cast<int>(samples));
+    EXPECT_GT(bars, 5);
+    EXPECT_GT(plates, 5);
+  }
+}
+
+TEST(Modifiers, LengthsOfQuaternionsAreOffByWhatAnIntegratorLeaves) {
+  for (std::uint64_t i = 0; i < samples; ++i) {
+    const Configuration c = make_configuration({Pair::capsule, "general+not-quite-unit", 1, i});
+    for (const Pose& pose : {c.pose_a, c.pose_b}) {
+      EXPECT_LE(std::abs(pose.orientation().norm() - 1), 1.01e-7);
+    }
+  }
+}
+
+TEST(Modifiers, FarIsAMillionMetresAway) {
+  const Configuration c = make_configuration({Pair::box, "side-on-face+turned+far", 1, 0});
+  EXPECT_NEAR(c.pose_a.position().norm(), 1e6, 10);
+  EXPECT_LT((c.pose_a.position() - c.pose_b.position()).norm(), 10);
+}
+
+// Counted from the names alone.
+TEST(CoveringArray, HasEverySensibleCombination) {
+  for (const Pair pair : all_pairs) {
+    for (const Coverage coverage : {Coverage::pairs, Coverage::triples}) {
+      using Combination = std::set<std::string>;
+      std::set<Combination> covered;
+      for (const auto& name : pose_classes(pair, coverage)) {
+        ClassParts parts = parts_of(pair, name);
+        std::vector<std::string> all = parts.modifiers;
+        all.push_back(parts.arrangement);
+        for (const auto& x : all) {
+          for (const auto& y : all) {
+            for (const auto& z : all) covered.insert({x, y, z});
+          }
+        }
+      }
+      std::size_t sensible = 0;
+      const auto expect = [&](const Arrangement& a, const std::vector<const Modifier*>& modifiers) {
+        PoseClass c{pair, &a, {}};
+        Combination names = {a.name};
+        for (const Modifier* m : modifiers) {
+          const int set = c.modifiers[m->kind];
+          if (nonsense(pair, a, *m) || (set != 0 && set != m->value)) return;
+          c.modifiers[m->kind] = m->value;
+          names.insert(m->name);
+        }
+        ++sensible;
+        if (names.size() <= static_cast<std::size_t>(coverage)) {
+          EXPECT_TRUE(covered.contains(names)) << pair_name(pair) << " " << c.name();
+        }
+        names.erase(a.name);
+        EXPECT_TRUE(covered.contains(names)) << pair_name(pair) << " " << c.name();
+      };
+      for (const Arrangement& a : arrangements(pair)) {
+        for (const Modifier& x : all_modifiers()) {
+          for (const Modifier& y : all_modifiers()) {
+            expect(a, {&x, &y});
+            if (coverage == Coverage::pairs) continue;
+            for (const Modifier& z : all_modifiers()) expect(a, {&x, &y, &z});
+          }
+        }
+      }
+      EXPECT_GT(sensible, 500u) << pair_name(pair);
+    }
+  }
+}
+
+TEST(CoveringArray, HasEveryArrangementAloneAndTurned) {
+  for (const Pair pair : all_pairs) {
+    const auto& names = pose_classes(pair);
+    const auto has = [&](const std::string& name) {
+      return std::find(names.begin(), names.end(), name) != names.end();
+    };
+    for (const Arrangement& a : arrangements(pair)) {
+      if (a.name == "hostile") continue;
+      EXPECT_TRUE(has(a.name)) << a.name;
+      EXPECT_NE(has(a.name + "+turned"), !has_class(pair, a.name + "+turned")) << a.name;
+    }
+  }
+}
+
+TEST(Groups, AreWhatAUserMeets) {
+  const struct {
+    const char* name;
+    Group group;
+  } table[] = {{"general", Group::everyday},
+               {"general+shallow", Group::everyday},
+               {"general+apart", Group::everyday},
+               {"rim-rim", Group::everyday},
+               {"cap-on-cap-offset+turned", Group::everyday},
+               {"cap-on-cap-offset+turned+not-quite-unit", Group::everyday},
+               {"cap-on-cap-offset", Group::degenerate},
+               {"cap-on-cap-offset+tilted-1e-6+turned", Group::degenerate},
+               {"general+touching", Group::degenerate},
+               {"touching+turned", Group::degenerate},
+               {"coaxial+turned", Group::degenerate},
+               {"concentric", Group::degenerate},
+               {"general+deep", Group::extreme},
+               {"cap-on-cap-offset+coin", Group::extreme},
+               {"general+tiny", Group::extreme},
+               {"coaxial+far", Group::extreme},
+               {"hostile", Group::extreme}};
+  for (const auto& [name, group] : table) {
+    EXPECT_EQ(group_of(Pair::cylinder, name), group) << name;
+  }
+  for (const Group group : all_groups) EXPECT_EQ(parse_group(group_name(group)), group);
+  EXPECT_THROW(parse_group("weekday"), InvalidInput);
 }
 
 }  // namespace

@@ -5,8 +5,8 @@
 // at whole steps, so that nothing is rounded.
 #include <cassert>
 
+#include "properties/arrangement.hpp"
 #include "properties/lattice.hpp"
-#include "properties/pose_class.hpp"
 
 namespace touchstone {
 namespace {
@@ -142,29 +142,34 @@ std::vector<Way> ways_of(Pair pair) {
   return {};
 }
 
-Sizes draw_divisible_sizes(Draw& draw, const Lattice& lattice) {
+Sizes draw_divisible_sizes(Draw& draw, const Lattice& lattice, Proportions proportions) {
   const auto divisible = [](Steps s) { return s - s % common_denominator; };
-  const Sizes s = draw_sizes(draw, lattice);
+  const Sizes s = draw_sizes(draw, lattice, proportions);
   return {divisible(s.radius_a), divisible(s.half_a), divisible(s.radius_b), divisible(s.half_b),
           divisible(s.other_b)};
 }
 
 }  // namespace
 
-std::vector<PoseClass> touching_tilted_class(Pair pair) {
-  const auto generate = [pair, ways = ways_of(pair)](Draw& draw) {
+Arrangement touching_tilted(Pair pair) {
+  const auto generate = [pair, ways = ways_of(pair)](Draw& draw, Clearance,
+                                                     Proportions proportions) {
     const Lattice lattice(draw);
-    const Sizes sizes = draw_divisible_sizes(draw, lattice);
+    const Sizes sizes = draw_divisible_sizes(draw, lattice, proportions);
     const auto choice = draw.integer(0, static_cast<Steps>(ways.size()) - 1);
     const Meeting m = ways[static_cast<std::size_t>(choice)](draw, sizes);
     const Point a = turned(m.turn_a, m.on_a), b = turned(m.turn_b, m.on_b);
     return place(draw, pair, lattice, sizes, {b.x - a.x, b.y - a.y, b.z - a.z, m.turn_b, m.turn_a});
   };
-  return {
-      {"touching-tilted",
-       "Bodies turned by 3-4-5 angles touch in a point or along an edge, at distance zero to "
-       "the last bit: rims, edges and vertices with nothing aligned to say which normal counts.",
-       generate}};
+  Arrangement result{"touching-tilted",
+                     "Bodies turned by 3-4-5 angles touch in a point or along an edge, at distance "
+                     "zero to the last bit: rims, edges and vertices with nothing aligned to say "
+                     "which normal counts.",
+                     Arrangement::Orientations::pitched,
+                     {},
+                     generate};
+  result.touches = true;
+  return result;
 }
 
 }  // namespace touchstone

@@ -9,7 +9,7 @@ std::vector<Cell> cells(const Campaign& campaign) {
   std::vector<Cell> result;
   check_pose_classes(campaign.pairs, campaign.classes);
   for (const Pair pair : campaign.pairs) {
-    for (const auto& name : pose_classes(pair, campaign.classes)) result.push_back({pair, name});
+    for (const auto& name : wanted_classes(pair, campaign.classes)) result.push_back({pair, name});
   }
   return result;
 }

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "properties/modifiers.hpp"
+
+namespace touchstone {
+
+/// How two bodies lie to each other.
+struct Arrangement {
+  enum class Orientations {
+    random,   ///< at any angle to each other, in any frame
+    nearly,   ///< parallel or perpendicular but for rounding, in any frame
+    exact,    ///< parallel or perpendicular, in the frame of a Lattice
+    pitched,  ///< at 3-4-5 angles, in the frame of a Lattice
+    mixed     ///< everything at once: no modifier adds to it
+  };
+
+  std::string name;
+  std::string description;  ///< one sentence: the geometry, and why it is hard
+  Orientations orientations;
+  std::vector<Clearance> clearances;  ///< that can be asked for, besides its own
+  std::function<Configuration(Draw&, Clearance, Proportions)> generate;
+  bool across = false;        ///< B's axis lies along A's x, at a right angle to A's
+  bool is_symmetric = false;  ///< centres or axes coincide
+  bool touches = false;       ///< whatever clearance is asked for
+};
+
+/// All arrangements of a pair in report order; one that is used only when named comes last.
+const std::vector<Arrangement>& arrangements(Pair pair);
+
+// The parts of that list, by how the geometry is made.
+
+/// Random orientations, with chosen features in contact; nearly aligned bodies.
+std::vector<Arrangement> feature_arrangements(Pair pair);
+/// Exactly parallel, perpendicular and touching bodies on a Lattice.
+std::vector<Arrangement> lattice_arrangements(Pair pair);
+/// Bodies turned by 3-4-5 angles against each other that touch in a point or along an edge: signed
+/// distance zero to the last bit, no cap, side or face aligned with another.
+Arrangement touching_tilted(Pair pair);
+/// Combinations of all difficulties.
+Arrangement hostile(Pair pair);
+
+}  // namespace touchstone

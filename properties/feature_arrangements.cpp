@@ -1,0 +1,207 @@
+#include <initializer_list>
+
+#include "properties/arrangement.hpp"
+#include "properties/features.hpp"
+
+namespace touchstone {
+namespace {
+
+using enum Feature;
+using Orientations = Arrangement::Orientations;
+using Quaternion = Eigen::Quaterniond;
+
+const std::vector<Clearance> not_deep = {Clearance::shallow, Clearance::apart, Clearance::touching};
+
+/// Random bodies whose given features meet. Their overlap is never deep: then other features would
+/// be nearer.
+Arrangement meeting(Pair pair, const char* name, const char* description, Feature on_a,
+                    Feature on_b) {
+  return {name, description, Orientations::random, not_deep,
+          [pair, on_a, on_b](Draw& draw, Clearance clearance, Proportions proportions) {
+            const Bodies bodies = draw_bodies(draw, pair, proportions);
+            const double distance = draw_clearance(draw, clearance, smaller_size(bodies));
+            return meet(draw, bodies, on_a, on_b, distance);
+          }};
+}
+
+Configuration general(Draw& draw, Pair pair, Clearance clearance, Proportions proportions) {
+  const Bodies bodies = draw_bodies(draw, pair, proportions);
+  if (clearance == Clearance::deep) return overlap_deeply(draw, bodies, proportions);
+  const FeaturePair features = draw_feature_pair(draw, pair);
+  const double distance = draw_clearance(draw, clearance, smaller_size(bodies));
+  return meet(draw, bodies, features.on_a, features.on_b, distance);
+}
+
+Configuration concentric(Draw& draw, Pair pair, Proportions proportions) {
+  const Bodies bodies = draw_bodies(draw, pair, proportions);
+  const Vec3 centre{draw.uniform(-1, 1), draw.uniform(-1, 1), draw.uniform(-1, 1)};
+  return {bodies.a, Pose(centre, bodies.orientation_a), bodies.b,
+          Pose(centre, bodies.orientation_b)};
+}
+
+const Quaternion z_to_x(0.5, 0.5, 0.5, 0.5);  // x to y, y to z
+
+/// The box's z edge lies across the cap, in its plane up to rounding.
+Configuration edge_in_cap(Draw& draw, Clearance clearance, Proportions proportions) {
+  Bodies bodies = draw_bodies(draw, Pair::box, proportions);
+  const Quaternion heading = draw.turn_about_z();
+  bodies.orientation_b =
+      product(product(product(bodies.orientation_a, heading), z_to_x), draw.turn_about_z());
+  const double distance = draw_clearance(draw, clearance, smaller_size(bodies));
+  return meet_at(draw, bodies, cap, edge, distance, 2);
+}
+
+/// Cap or side of A against B, whose orientation relative to A is `base` and any turn about its own
+/// z axis.
+Configuration nearly_aligned(Draw& draw, Pair pair, const Quaternion& base, Clearance clearance,
+                             Proportions proportions) {
+  Bodies bodies = draw_bodies(draw, pair, proportions);
+  if (pair == Pair::plane) bodies.b = Plane(Vec3(0, 0, 1), draw.uniform(-1, 1));
+  bodies.orientation_b = product(product(bodies.orientation_a, base), draw.turn_about_z());
+  const double distance = draw_clearance(draw, clearance, smaller_size(bodies));
+  const bool cap_first = draw.coin();
+  const Feature on_a = pair == Pair::plane ? rim : cap_first ? cap : side;
+  const Feature on_b = pair == Pair::plane      ? cap
+                       : pair == Pair::capsule  ? (draw.coin() ? side : end)
+                       : pair == Pair::cylinder ? (draw.coin() ? side : rim)
+                                                : (draw.coin() ? edge : vertex);
+  return meet(draw, bodies, on_a, on_b, distance);
+}
+
+void add_nearly_aligned(Pair pair, std::vector<Arrangement>& out) {
+  const auto add = [&](const char* name, const char* description, const Quaternion& base) {
+    const auto generate = [pair, base](Draw& draw, Clearance clearance, Proportions proportions) {
+      return nearly_aligned(draw, pair, base, clearance, proportions);
+    };
+    out.push_back({name, description, Orientations::nearly, not_deep, generate});
+    out.back().across = base.x() != 0;
+  };
+  const Quaternion upright(1, 0, 0, 0);
+  if (pair == Pair::plane) {
+    // The plane's normal is B's z axis, so a lying cylinder is parallel to the plane's surface.
+    add("parallel", "The cylinder lies but for rounding; tilted, it does so on one end.", z_to_x);
+    add("perpendicular", "The cylinder stands but for rounding; tilted, it does so on its rim.",
+        upright);
+    return;
+  }
+  add("parallel",
+      "Features meet while the axes (or the axis and a box edge) are parallel but for rounding or "
+      "a tilt: cross products lose their digits.",
+      upright);
+  add("perpendicular",
+      "Features meet while the axes (or the axis and a box edge) are perpendicular but for "
+      "rounding or a tilt: discs are seen edge on.",
+      z_to_x);
+}
+
+void add_cylinder_features(std::vector<Arrangement>& out) {
+  out.push_back(meeting(
+      Pair::cylinder, "rim-rim",
+      "The rims cross at a random angle; the normal belongs to neither body alone.", rim, rim));
+  out.push_back(meeting(Pair::cylinder, "rim-side",
+                        "A's rim meets B's side; the normal jumps where the rim passes the end.",
+                        rim, side));
+  out.push_back(meeting(Pair::cylinder, "rim-face",
+                        "A's rim meets B's cap in one point of a large flat face.", rim, cap));
+  out.push_back(
+      meeting(Pair::cylinder, "side-side",
+              "Two sides cross at a random angle; the contact is a point that slides fast as "
+              "the axes become parallel.",
+              side, side));
+}
+
+/// Overlapping, the round end would be nearer to the cap or the side.
+Arrangement rim_end() {
+  Arrangement result = meeting(Pair::capsule, "rim-end",
+                               "The cylinder's rim meets the capsule's round end.", rim, end);
+  result.clearances = {Clearance::touching};
+  result.generate = [make = result.generate](Draw& draw, Clearance clearance,
+                                             Proportions proportions) {
+    return make(draw, clearance == Clearance::usual ? Clearance::apart : clearance, proportions);
+  };
+  return result;
+}
+
+void add_capsule_features(std::vector<Arrangement>& out) {
+  out.push_back(meeting(Pair::capsule, "rim-side", "The cylinder's rim meets the capsule's side.",
+                        rim, side));
+  out.push_back(rim_end());
+  out.push_back(
+      meeting(Pair::capsule, "cap-end", "The capsule's round end meets the cap.", cap, end));
+  out.push_back(
+      meeting(Pair::capsule, "side-end", "The capsule's round end meets the side.", side, end));
+  out.push_back(
+      meeting(Pair::capsule, "side-side", "Two sides cross at a random angle.", side, side));
+}
+
+void add_sphere_features(std::vector<Arrangement>& out) {
+  out.push_back(meeting(Pair::sphere, "side", "The sphere meets the side.", side, end));
+  out.push_back(meeting(Pair::sphere, "cap", "The sphere meets the cap.", cap, end));
+  out.push_back(
+      meeting(Pair::sphere, "rim",
+              "The sphere meets the rim, its centre in the rim's fan of normals: neither the cap's "
+              "nor the side's normal is right.",
+              rim, end));
+}
+
+void add_box_features(std::vector<Arrangement>& out) {
+  const auto add = [&](const char* name, const char* description, Feature on_a, Feature on_b) {
+    out.push_back(meeting(Pair::box, name, description, on_a, on_b));
+  };
+  add("rim-face", "The rim meets a face of the box in one point.", rim, cap);
+  add("edge-side", "An edge of the box crosses the side.", side, edge);
+  out.push_back({"edge-cap",
+                 "An edge of the box lies across the cap, parallel to it but for rounding: a line "
+                 "of contact that ends at the edge's ends or at the rim.",
+                 Orientations::nearly, not_deep, edge_in_cap});
+  add("edge-rim", "An edge of the box meets the rim; the nearest point is the root of a quartic.",
+      rim, edge);
+  add("vertex-side", "A vertex of the box meets the side.", side, vertex);
+  add("vertex-cap", "A vertex of the box meets the cap.", cap, vertex);
+  add("vertex-rim", "A vertex of the box meets the rim: two fans of normals, none of its own.", rim,
+      vertex);
+}
+
+}  // namespace
+
+std::vector<Arrangement> feature_arrangements(Pair pair) {
+  std::vector<Arrangement> out;
+  out.push_back({"general",
+                 "Random features face each other, at a random angle.",
+                 Orientations::random,
+                 {Clearance::shallow, Clearance::apart, Clearance::touching, Clearance::deep},
+                 [pair](Draw& draw, Clearance clearance, Proportions proportions) {
+                   return general(draw, pair, clearance, proportions);
+                 }});
+  switch (pair) {
+    case Pair::plane:
+      break;
+    case Pair::sphere:
+      add_sphere_features(out);
+      break;
+    case Pair::capsule:
+      add_capsule_features(out);
+      break;
+    case Pair::cylinder:
+      add_cylinder_features(out);
+      break;
+    case Pair::box:
+      add_box_features(out);
+      break;
+  }
+  if (pair != Pair::plane) {
+    out.push_back({"concentric",
+                   "The centres coincide, at random orientations: every direction has its opposite "
+                   "as an equal, and difference vectors vanish.",
+                   Orientations::random,
+                   {},
+                   [pair](Draw& draw, Clearance, Proportions proportions) {
+                     return concentric(draw, pair, proportions);
+                   }});
+    out.back().is_symmetric = true;
+  }
+  if (pair != Pair::sphere) add_nearly_aligned(pair, out);
+  return out;
+}
+
+}  // namespace touchstone

@@ -1,0 +1,164 @@
+#include "properties/modifiers.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+
+#include "properties/moves.hpp"
+#include "properties/numbers.hpp"
+
+namespace touchstone {
+namespace {
+
+using Quaternion = Eigen::Quaterniond;
+
+constexpr int smallest_tilt = 15;
+constexpr std::array<double, smallest_tilt + 1> power_of_ten = {
+    1,    1e-1, 1e-2,  1e-3,  1e-4,  1e-5,  1e-6,  1e-7,
+    1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13, 1e-14, 1e-15};
+
+/// A tilt of A (radians, to second order) about a random axis perpendicular to its own z. If B's
+/// axis lies along A's x, only the y component of that axis tilts the two towards each other: it is
+/// at least 0.5.
+Quaternion draw_tilt(Draw& draw, double tilt, bool across) {
+  for (;;) {
+    const Vec3 axis = draw.direction_across(Vec3(0, 0, 1));
+    if (across && std::abs(axis.y()) < 0.5) continue;
+    return Quaternion(1, tilt / 2 * axis.x(), tilt / 2 * axis.y(), 0);
+  }
+}
+
+Configuration tilted(Draw& draw, const Configuration& c, int k, bool across) {
+  const Quaternion tilt = draw_tilt(draw, power_of_ten[static_cast<std::size_t>(k)], across);
+  return {c.a, Pose(c.pose_a.position(), product(c.pose_a.orientation(), tilt)), c.b, c.pose_b};
+}
+
+/// Turns and moves both bodies as one; their orientations are of unit length afterwards, as those
+/// of moving bodies are.
+Configuration turned(Draw& draw, const Configuration& c) {
+  const Quaternion by = draw.orientation();
+  const Vec3 shift{draw.uniform(-1, 1), draw.uniform(-1, 1), draw.uniform(-1, 1)};
+  const auto moved = [&](const Pose& pose) {
+    return Pose(rotated(by, pose.position()) + shift, normalized(product(by, pose.orientation())));
+  };
+  return {c.a, moved(c.pose_a), c.b, moved(c.pose_b)};
+}
+
+Configuration not_quite_unit(Draw& draw, const Configuration& c) {
+  const auto stretched = [&](const Pose& pose) {
+    const double sign = draw.sign();
+    const double factor = 1 + sign * draw.log_uniform(1e-16, 1e-7);
+    const Quaternion& q = pose.orientation();
+    return Pose(pose.position(),
+                Quaternion(factor * q.w(), factor * q.x(), factor * q.y(), factor * q.z()));
+  };
+  const Pose a = stretched(c.pose_a);
+  return {c.a, a, c.b, stretched(c.pose_b)};
+}
+
+}  // namespace
+
+const std::vector<Modifier>& all_modifiers() {
+  static const std::vector<Modifier> all = [] {
+    const auto value = [](auto v) { return static_cast<int>(v); };
+    std::vector<Modifier> m = {
+        {Kind::clearance, value(Clearance::shallow), "shallow",
+         "The overlap is 1e-6 to 5% of the smaller size, as of resting contacts."},
+        {Kind::clearance, value(Clearance::apart), "apart",
+         "The clearance is 1e-6 to 1 of the smaller size: a contact query must say no, a distance "
+         "query how far."},
+        {Kind::clearance, value(Clearance::touching), "touching",
+         "The clearance is zero: to the last bit where the arrangement is exact, else as nearly as "
+         "doubles can say."},
+        {Kind::clearance, value(Clearance::deep), "deep",
+         "The overlap is of the order of the smaller size: many directions compete to be the way "
+         "out."},
+        {Kind::proportions, value(Proportions::needle), "needle",
+         "A is a needle, 1000 times longer than wide."},
+        {Kind::proportions, value(Proportions::coin), "coin",
+         "A is a coin, 1000 times wider than thick."},
+        {Kind::proportions, value(Proportions::plate), "plate",
+         "The box is a plate of 1000:1000:1 or a bar of 1000:1:1."},
+        {Kind::proportions, value(Proportions::uneven), "uneven",
+         "One body is 100 to 1000 times smaller than otherwise."},
+    };
+    for (int k = 1; k <= smallest_tilt; ++k) {
+      m.push_back({Kind::tilt, k, fmt::format("tilted-1e-{}", k),
+                   fmt::format("A is tilted by 1e-{} rad about its centre.", k)});
+    }
+    m.push_back({Kind::turn, 1, "turned",
+                 "Both bodies are turned and moved as one, by any rotation: what was exact is so "
+                 "but for rounding."});
+    m.push_back(
+        {Kind::scale, value(Scale::tiny), "tiny",
+         "All lengths are times 1e-6 (2^-20 where the arrangement is exact): absolute tolerances "
+         "show."});
+    m.push_back(
+        {Kind::scale, value(Scale::huge), "huge",
+         "All lengths are times 1e6 (2^20 where the arrangement is exact): absolute tolerances "
+         "show."});
+    m.push_back(
+        {Kind::unit, 1, "not-quite-unit",
+         "The quaternions' lengths are off by 1e-16 to 1e-7, as an integrator leaves them."});
+    m.push_back({Kind::distance, 1, "far",
+                 "Both bodies are a million metres away: positions must be subtracted before "
+                 "anything else."});
+    return m;
+  }();
+  return all;
+}
+
+std::vector<const Modifier*> Modifiers::list() const {
+  std::vector<const Modifier*> result;
+  for (const Modifier& m : all_modifiers()) {
+    if (has(m)) result.push_back(&m);
+  }
+  return result;
+}
+
+int Modifiers::count() const {
+  int n = 0;
+  for (const int value : values_) n += value != 0;
+  return n;
+}
+
+double draw_shallow(Draw& draw, double size) { return -size * draw.log_uniform(1e-6, 0.05); }
+
+double draw_apart(Draw& draw, double size) { return size * draw.log_uniform(1e-6, 1); }
+
+double draw_clearance(Draw& draw, Clearance clearance, double size) {
+  switch (clearance) {
+    case Clearance::shallow:
+      return draw_shallow(draw, size);
+    case Clearance::apart:
+      return draw_apart(draw, size);
+    case Clearance::touching:
+      return 0;
+    default:
+      return draw.integer(0, 3) == 0 ? draw_apart(draw, size) : draw_shallow(draw, size);
+  }
+}
+
+std::array<bool, 3> draw_thin_extents(Draw& draw) {
+  const bool plate = draw.coin();
+  std::array<bool, 3> is_thin{!plate, !plate, !plate};
+  is_thin[static_cast<std::size_t>(draw.integer(0, 2))] = plate;
+  return is_thin;
+}
+
+std::int64_t draw_uneven_ratio(Draw& draw) { return draw.integer(100, 1000); }
+
+Configuration modified(Draw& draw, const Configuration& made, const Modifiers& modifiers,
+                       const Finish& finish) {
+  Configuration c = made;
+  if (const int k = modifiers[Kind::tilt]) c = tilted(draw, c, k, finish.across);
+  if (modifiers[Kind::turn]) c = turned(draw, c);
+  if (modifiers.scale() != Scale::usual) {
+    const bool tiny = modifiers.scale() == Scale::tiny;
+    c = scaled(c, finish.is_exact ? (tiny ? 0x1p-20 : 0x1p20) : (tiny ? 1e-6 : 1e6));
+  }
+  if (modifiers[Kind::unit]) c = not_quite_unit(draw, c);
+  if (modifiers[Kind::distance]) c = translated(c, 1e6 * draw.direction());
+  return c;
+}
+
+}  // namespace touchstone

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "properties/draw.hpp"
+
+namespace touchstone {
+
+/// A modifier is something that is done to an arrangement of two bodies. Those of one kind exclude
+/// each other; a name and an identity list them in this order, in which they are also applied.
+enum class Kind { clearance, proportions, tilt, turn, scale, unit, distance };
+inline constexpr std::size_t kinds = 7;
+
+/// How far apart the bodies are; the usual one is the arrangement's own.
+enum class Clearance { usual, shallow, apart, touching, deep };
+/// Ratios of the bodies' sizes.
+enum class Proportions { usual, needle, coin, plate, uneven };
+enum class Scale { usual, tiny, huge };
+
+struct Modifier {
+  Kind kind;
+  int value;  ///< of the kind's enumeration; of a tilt the k of 10^-k rad; else 1
+  std::string name;
+  std::string description;  ///< one sentence
+};
+
+/// All modifiers, by kind.
+const std::vector<Modifier>& all_modifiers();
+
+/// The value of each kind; zero: not modified.
+class Modifiers {
+ public:
+  int operator[](Kind kind) const { return values_[static_cast<std::size_t>(kind)]; }
+  int& operator[](Kind kind) { return values_[static_cast<std::size_t>(kind)]; }
+  Clearance clearance() const { return static_cast<Clearance>((*this)[Kind::clearance]); }
+  Proportions proportions() const { return static_cast<Proportions>((*this)[Kind::proportions]); }
+  Scale scale() const { return static_cast<Scale>((*this)[Kind::scale]); }
+  bool has(const Modifier& m) const { return (*this)[m.kind] == m.value; }
+
+  /// Those that are set, in order.
+  std::vector<const Modifier*> list() const;
+  int count() const;
+  bool operator==(const Modifiers&) const = default;
+
+ private:
+  std::array<int, kinds> values_{};
+};
+
+/// Draws a clearance of bodies of this size: an overlap of 1e-6 to 5% of it, log-uniform.
+double draw_shallow(Draw& draw, double size);
+/// A separation of 1e-6 to 1 of the size, log-uniform.
+double draw_apart(Draw& draw, double size);
+/// Draws as `clearance` says, which is not deep; the usual one is shallow, or in one of four draws
+/// apart.
+double draw_clearance(Draw& draw, Clearance clearance, double size);
+
+/// A needle's length over its width, and so on.
+inline constexpr std::int64_t extreme_ratio = 1000;
+/// Which of a plate's or bar's extents are the short ones.
+std::array<bool, 3> draw_thin_extents(Draw& draw);
+/// The number by which the smaller of two uneven bodies is divided.
+std::int64_t draw_uneven_ratio(Draw& draw);
+
+/// What is to be known of an arrangement to modify one of its configurations.
+struct Finish {
+  bool is_exact;  ///< scaling is to leave it so
+  bool across;    ///< B's axis lies along A's x, and a tilt is to be towards it
+};
+/// Applies the modifiers of a finished configuration: all but clearance and proportions, which go
+/// into its making.
+Configuration modified(Draw& draw, const Configuration& made, const Modifiers& modifiers,
+                       const Finish& finish);
+
+}  // namespace touchstone

@@ -1,0 +1,256 @@
+#include "properties/pose_class.hpp"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+#include <map>
+
+#include "properties/named.hpp"
+
+namespace touchstone {
+namespace {
+
+using Orientations = Arrangement::Orientations;
+
+std::vector<Arrangement> make_arrangements(Pair pair) {
+  std::vector<Arrangement> all = feature_arrangements(pair);
+  for (Arrangement& a : lattice_arrangements(pair)) all.push_back(std::move(a));
+  all.push_back(touching_tilted(pair));
+  all.push_back(hostile(pair));
+  return all;
+}
+
+/// One of each pair, made when it is first asked for.
+template <class Value, class Make>
+std::array<Value, std::size(all_pairs)> of_each_pair(const Make& make) {
+  std::array<Value, std::size(all_pairs)> result;
+  for (const Pair pair : all_pairs) result[static_cast<std::size_t>(pair)] = make(pair);
+  return result;
+}
+
+struct OldName {
+  std::string name, today;
+};
+
+std::vector<OldName> make_old_names() {
+  std::vector<OldName> names = {{"general-separated", "general+apart"},
+                                {"general-shallow", "general+shallow"},
+                                {"general-deep", "general+deep"},
+                                {"touching-rounded", "general+touching"},
+                                {"aspect-needle", "general+needle"},
+                                {"aspect-coin", "general+coin"},
+                                {"aspect-needle-deep", "general+deep+needle"},
+                                {"aspect-coin-deep", "general+deep+coin"},
+                                {"scale-tiny", "general+tiny"},
+                                {"scale-huge", "general+huge"},
+                                {"far-from-origin", "general+far"}};
+  for (const Modifier& m : all_modifiers()) {
+    if (m.kind != Kind::tilt) continue;
+    const std::string size = fmt::format("1e-{}", m.value);
+    names.push_back({"near-parallel-" + size, "parallel+" + m.name});
+    names.push_back({"near-perpendicular-" + size, "perpendicular+" + m.name});
+  }
+  return names;
+}
+
+const std::vector<OldName>& old_names() {
+  static const std::vector<OldName> names = make_old_names();
+  return names;
+}
+
+std::vector<PoseClass> make_old_classes(Pair pair) {
+  std::vector<PoseClass> result;
+  const auto add = [&](std::string_view name) { result.push_back(find_pose_class(pair, name)); };
+  const auto& all = arrangements(pair);
+  for (const char* name : {"general+apart", "general+shallow", "general+deep"}) add(name);
+  const auto add_if = [&](const auto& condition) {
+    for (const Arrangement& a : all) {
+      if (condition(a)) add(a.name);
+    }
+  };
+  const auto is_aligned = [](const Arrangement& a) {
+    return a.name == "parallel" || a.name == "perpendicular";
+  };
+  const auto made_of_features = [&](const Arrangement& a) {
+    return a.orientations == Orientations::random || a.orientations == Orientations::nearly;
+  };
+  add_if([&](const Arrangement& a) {
+    return made_of_features(a) && a.name != "general" && !a.is_symmetric && !is_aligned(a);
+  });
+  add("general+touching");
+  add_if([&](const Arrangement& a) { return made_of_features(a) && a.is_symmetric; });
+  add_if([&](const Arrangement& a) {
+    return a.orientations == Orientations::exact || a.orientations == Orientations::pitched;
+  });
+  for (const Arrangement& a : all) {
+    if (!is_aligned(a)) continue;
+    for (const Modifier& m : all_modifiers()) {
+      if (m.kind == Kind::tilt) add(a.name + "+" + m.name);
+    }
+  }
+  for (const char* name : {"general+needle", "general+coin", "general+deep+needle",
+                           "general+deep+coin", "general+tiny", "general+huge", "general+far"}) {
+    add(name);
+  }
+  return result;
+}
+
+/// The arrangement's name, then the modifiers'.
+std::vector<std::string_view> parts_of(std::string_view name) {
+  std::vector<std::string_view> parts;
+  for (;;) {
+    const std::size_t plus = name.find('+');
+    parts.push_back(name.substr(0, plus));
+    if (plus == std::string_view::npos) return parts;
+    name.remove_prefix(plus + 1);
+  }
+}
+
+[[noreturn]] void refuse(Pair pair, std::string_view name, const std::string& why) {
+  throw InvalidInput("identity.class", '"' + std::string(name) + '"',
+                     fmt::format("{}; touchstone classes {} lists all", why, pair_name(pair)));
+}
+
+const Arrangement& find_arrangement(Pair pair, std::string_view part, std::string_view name) {
+  std::vector<std::string> known;
+  for (const Arrangement& a : arrangements(pair)) {
+    if (a.name == part) return a;
+    known.push_back(a.name);
+  }
+  for (const OldName& old : old_names()) known.push_back(old.name);
+  refuse(pair, name,
+         fmt::format("must begin with an arrangement of {}, as {}", pair_name(pair),
+                     nearest(part, known)));
+}
+
+void set_modifier(PoseClass& c, std::string_view part, std::string_view name) {
+  std::vector<std::string> known;
+  for (const Modifier& m : all_modifiers()) {
+    known.push_back(m.name);
+    if (m.name != part) continue;
+    if (c.modifiers[m.kind] != 0) {
+      const auto set = c.modifiers.list();
+      const auto same_kind = [&](const Modifier* other) { return other->kind == m.kind; };
+      const Modifier* other = *std::find_if(set.begin(), set.end(), same_kind);
+      refuse(c.pair, name, fmt::format("must not have both {} and {}", other->name, m.name));
+    }
+    if (const auto why = nonsense(c.pair, *c.arrangement, m)) {
+      refuse(c.pair, name, fmt::format("must not have {}: {}", m.name, *why));
+    }
+    c.modifiers[m.kind] = m.value;
+    return;
+  }
+  refuse(c.pair, name, fmt::format("must have modifiers such as {}", nearest(part, known)));
+}
+
+}  // namespace
+
+const std::vector<Arrangement>& arrangements(Pair pair) {
+  static const auto all = of_each_pair<std::vector<Arrangement>>(make_arrangements);
+  return all[static_cast<std::size_t>(pair)];
+}
+
+std::string PoseClass::name() const {
+  std::string result = arrangement->name;
+  for (const Modifier* m : modifiers.list()) result += "+" + m->name;
+  return result;
+}
+
+std::string PoseClass::description() const {
+  std::string result = arrangement->description;
+  for (const Modifier* m : modifiers.list()) result += " " + m->description;
+  return result;
+}
+
+Group PoseClass::group() const {
+  const Orientations o = arrangement->orientations;
+  const Clearance clearance = modifiers.clearance();
+  if (o == Orientations::mixed || clearance == Clearance::deep ||
+      modifiers[Kind::proportions] != 0 || modifiers[Kind::scale] != 0 ||
+      modifiers[Kind::distance] != 0) {
+    return Group::extreme;
+  }
+  const bool exact =
+      (o == Orientations::exact || o == Orientations::pitched) && modifiers[Kind::turn] == 0;
+  if (exact || arrangement->is_symmetric || arrangement->touches ||
+      clearance == Clearance::touching || modifiers[Kind::tilt] != 0) {
+    return Group::degenerate;
+  }
+  return Group::everyday;
+}
+
+Configuration PoseClass::generate(Draw& draw) const {
+  const Configuration made =
+      arrangement->generate(draw, modifiers.clearance(), modifiers.proportions());
+  return modified(draw, made, modifiers,
+                  {arrangement->orientations == Orientations::exact ||
+                       arrangement->orientations == Orientations::pitched,
+                   arrangement->across});
+}
+
+std::optional<std::string_view> nonsense(Pair pair, const Arrangement& a, const Modifier& m) {
+  if (a.orientations == Orientations::mixed) return "it has everything already";
+  switch (m.kind) {
+    case Kind::clearance:
+      if (std::find(a.clearances.begin(), a.clearances.end(), static_cast<Clearance>(m.value)) !=
+          a.clearances.end()) {
+        return std::nullopt;
+      }
+      if (a.touches) return "its bodies touch already";
+      if (a.is_symmetric) return "its centres or axes say how deep it is";
+      if (static_cast<Clearance>(m.value) == Clearance::shallow) return "it is so already";
+      if (static_cast<Clearance>(m.value) == Clearance::touching) return "it cannot be exact";
+      return "another feature than its own would be nearer, as in general+deep";
+    case Kind::proportions:
+      if (static_cast<Proportions>(m.value) == Proportions::plate && pair != Pair::box) {
+        return "neither body is a box";
+      }
+      if (static_cast<Proportions>(m.value) == Proportions::uneven && pair == Pair::plane) {
+        return "a plane has no size";
+      }
+      return std::nullopt;
+    case Kind::tilt:
+      if (a.orientations == Orientations::random) return "its axes are at a random angle already";
+      if (a.orientations == Orientations::pitched) return "it is tilted already";
+      return std::nullopt;
+    case Kind::turn:
+      if (a.orientations == Orientations::random || a.orientations == Orientations::nearly) {
+        return "its bodies are turned at random already";
+      }
+      return std::nullopt;
+    case Kind::scale:
+    case Kind::unit:
+    case Kind::distance:
+      break;
+  }
+  return std::nullopt;
+}
+
+PoseClass find_pose_class(Pair pair, std::string_view name) {
+  std::string_view today = name;
+  for (const OldName& old : old_names()) {
+    if (old.name == name) today = old.today;
+  }
+  const std::vector<std::string_view> parts = parts_of(today);
+  PoseClass result{pair, &find_arrangement(pair, parts.front(), name), {}};
+  for (std::size_t i = 1; i < parts.size(); ++i) set_modifier(result, parts[i], name);
+  return result;
+}
+
+std::string stream_name(const PoseClass& pose_class) {
+  static const std::map<std::string, std::string> old_of_today = [] {
+    std::map<std::string, std::string> result;
+    for (const OldName& old : old_names()) result[old.today] = old.name;
+    return result;
+  }();
+  const std::string name = pose_class.name();
+  const auto old = old_of_today.find(name);
+  return old == old_of_today.end() ? name : old->second;
+}
+
+const std::vector<PoseClass>& old_classes(Pair pair) {
+  static const auto all = of_each_pair<std::vector<PoseClass>>(make_old_classes);
+  return all[static_cast<std::size_t>(pair)];
+}
+
+}  // namespace touchstone
