@@ -52,12 +52,12 @@ std::vector<std::optional<Sample>> sample_cells(const Campaign& campaign, std::s
 }
 
 /// Cells under one heading: one of them, all of a pair, everything.
-struct Group {
+struct Heading {
   std::vector<std::size_t> cells;
   std::string pair, pose_class;
 };
 
-std::optional<QueryTime> time_of(const Campaign& campaign, const Times& times, const Group& group,
+std::optional<QueryTime> time_of(const Campaign& campaign, const Times& times, const Heading& group,
                                  std::size_t k) {
   auto time = query_time(times, group.cells, k);
   for (std::size_t b = 0; time && b < campaign.candidates.size(); ++b) {
@@ -69,9 +69,9 @@ std::optional<QueryTime> time_of(const Campaign& campaign, const Times& times, c
 
 std::vector<ResultRow> rows_of(const Campaign& campaign,
                                const std::vector<std::optional<Sample>>& samples,
-                               const Times& times, const std::vector<Group>& groups) {
+                               const Times& times, const std::vector<Heading>& groups) {
   std::vector<ResultRow> rows;
-  for (const Group& group : groups) {
+  for (const Heading& group : groups) {
     for (std::size_t k = 0; k < campaign.candidates.size(); ++k) {
       ScoreTally tally(Precision::exact);
       for (const std::size_t cell : group.cells) tally.add(samples[cell]->tallies[k]);
@@ -88,11 +88,11 @@ std::vector<ResultRow> rows_of(const Campaign& campaign,
 
 std::vector<Trend> trends_of(const Campaign& campaign,
                              const std::vector<std::optional<Sample>>& samples,
-                             const std::vector<Group>& pairs) {
+                             const std::vector<Heading>& pairs) {
   std::vector<std::string> names;
   for (const Candidate* c : campaign.candidates) names.push_back(c->name);
   std::vector<Trend> result;
-  for (const Group& pair : pairs) {
+  for (const Heading& pair : pairs) {
     TrendTally tally;
     for (const std::size_t cell : pair.cells) tally.add(samples[cell]->trends);
     const std::vector<Trend> trends = tally.trends(pair.pair, names);
@@ -123,9 +123,9 @@ WorstCase worst_case(const Campaign& campaign, const Sample& sample, const Ident
 /// the campaign's first.
 std::vector<WorstCase> worst_of(const Campaign& campaign, const std::vector<Cell>& cells,
                                 const std::vector<std::optional<Sample>>& samples,
-                                const std::vector<Group>& pairs) {
+                                const std::vector<Heading>& pairs) {
   std::vector<WorstCase> result;
-  for (const Group& pair : pairs) {
+  for (const Heading& pair : pairs) {
     for (std::size_t k = 0; k < campaign.candidates.size(); ++k) {
       std::vector<Case> cases;
       for (const std::size_t cell : pair.cells) {
@@ -187,8 +187,8 @@ Report make_report(const Campaign& campaign, const std::string& command) {
     report.candidates.push_back({c->name, c->family, c->version, c->settings, c->models});
   }
 
-  std::vector<Group> single, pairs;
-  Group everything{{}, "all", "all"};
+  std::vector<Heading> single, pairs;
+  Heading everything{{}, "all", "all"};
   std::vector<double> oracle_times;
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (!samples[i]) continue;
@@ -210,7 +210,7 @@ Report make_report(const Campaign& campaign, const std::string& command) {
   report.oracle_microseconds = quantiles(std::move(oracle_times));
 
   report.results = rows_of(campaign, samples, times, single);
-  std::vector<Group> summary = pairs;
+  std::vector<Heading> summary = pairs;
   if (pairs.size() > 1) summary.push_back(everything);
   report.summary = rows_of(campaign, samples, times, summary);
   for (std::size_t i = 0; i < report.summary.size(); i += campaign.candidates.size()) {
