@@ -30,6 +30,7 @@ struct Options {
 
   Campaign campaign() const {
     Campaign c = scored.get();
+    c.coverage = Coverage::triples;
     c.workers = workers.get();
     return c;
   }

@@ -17,8 +17,8 @@ namespace {
 
 constexpr int something_failed = 1;
 
-/// About as much work: there is one hostile class, and of others some fifty to a pair.
-constexpr std::uint64_t usual_count = 10, usual_count_of_hostile = 500;
+/// About as much work: there is one hostile class, and of others some two hundred to a pair.
+constexpr std::uint64_t usual_count = 2, usual_count_of_hostile = 500;
 
 struct Options {
   explicit Options(Command& command) : sample(command, usual_count, 1000000000), bar(command) {}
@@ -37,6 +37,7 @@ struct Options {
     }
     c.pairs = sample.pairs();
     c.classes = hostile ? std::vector<std::string>{"hostile"} : sample.classes();
+    c.groups = sample.groups();
     c.count = hostile && !sample.count_is_given() ? usual_count_of_hostile : sample.count();
     c.seed = sample.seed();
     c.bar = bar.get();

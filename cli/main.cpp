@@ -79,6 +79,7 @@ int run(int argc, char** argv) {
   add_render(program);
   add_stability(program);
   add_candidates(program);
+  add_classes(program);
   try {
     return program.run(argc, argv);
   } catch (const InvalidInput& e) {

@@ -59,10 +59,12 @@ std::string BarOption::command_line() const {
 SampleOption::SampleOption(Command& command, std::uint64_t count, std::uint64_t max_count)
     : count_(count),
       pair_option_(command.list("--pair", pairs_, "Only these pairs, as in cylinder-box")),
-      class_option_(command.list("--class", classes_, "Only these pose classes")),
+      class_option_(command.list("--class", classes_,
+                                 "Only these pose classes; touchstone classes lists them")),
       count_option_(command.count("--count", count_, {1, max_count},
                                   "Configurations of each pair and pose class; 1e6 is understood "
                                   "too")) {
+  command.list("--group", groups_, "Only everyday, degenerate or extreme pose classes");
   command.count("--seed", seed_, all_counts, "Same seed, same configurations");
 }
 
@@ -84,10 +86,27 @@ const std::vector<std::string>& SampleOption::classes() const {
   return classes_;
 }
 
+std::vector<Group> SampleOption::groups() const {
+  std::vector<Group> result;
+  for (const auto& name : groups_) result.push_back(parse_group(name));
+  return result;
+}
+
+Campaign SampleOption::campaign() const {
+  Campaign c;
+  c.pairs = pairs();
+  c.classes = classes();
+  c.groups = groups();
+  c.count = count_;
+  c.seed = seed_;
+  return c;
+}
+
 std::string SampleOption::command_line() const {
   std::string line = fmt::format(" --seed {} --count {}", seed_, count_);
   if (!pairs_.empty()) line += fmt::format(" --pair {}", fmt::join(pairs_, ","));
   if (!classes_.empty()) line += fmt::format(" --class {}", fmt::join(classes_, ","));
+  if (!groups_.empty()) line += fmt::format(" --group {}", fmt::join(groups_, ","));
   return line;
 }
 
@@ -105,12 +124,8 @@ CampaignOption::CampaignOption(Command& command, std::uint64_t count, std::uint6
     : sample(command, count, max_count), candidates(command), bar(command) {}
 
 Campaign CampaignOption::get() const {
-  Campaign c;
-  c.pairs = sample.pairs();
-  c.classes = sample.classes();
+  Campaign c = sample.campaign();
   c.candidates = candidates.get();
-  c.count = sample.count();
-  c.seed = sample.seed();
   c.bar = bar.get();
   c.limits = candidates.limits();
   return c;

@@ -42,7 +42,7 @@ struct BarOption {
   Bar bar_;
 };
 
-/// --pair, --class, --count, --seed: which sampled configurations a command is about.
+/// --pair, --class, --group, --count, --seed: which sampled configurations a command is about.
 struct SampleOption {
   /// `count`: of each pair and pose class, by default, and at most.
   SampleOption(Command& command, std::uint64_t count, std::uint64_t max_count);
@@ -50,17 +50,23 @@ struct SampleOption {
   std::vector<Pair> pairs() const;
   /// As given; empty means all. Throws InvalidInput on a class that none of the pairs has.
   const std::vector<std::string>& classes() const;
+  /// Empty means all. Throws InvalidInput on an unknown name.
+  std::vector<Group> groups() const;
+  /// All of this, without candidates.
+  Campaign campaign() const;
   std::uint64_t count() const { return count_; }
   std::uint64_t seed() const { return seed_; }
   bool count_is_given() const { return count_option_.is_given(); }
-  /// By --pair or --class.
-  bool is_narrowed() const { return !(pairs_.empty() && classes_.empty()); }
+  /// By --pair, --class or --group.
+  bool is_narrowed() const { return !pairs_.empty() || has_some_classes(); }
+  /// By --class or --group.
+  bool has_some_classes() const { return !(classes_.empty() && groups_.empty()); }
   const Option& class_option() const { return class_option_; }
   /// The same options as text, to be repeated: " --seed 1 --count 100 --pair cylinder-box".
   std::string command_line() const;
 
  private:
-  std::vector<std::string> pairs_, classes_;
+  std::vector<std::string> pairs_, classes_, groups_;
   std::uint64_t count_, seed_ = 1;
   Option pair_option_, class_option_, count_option_;
 };

@@ -19,17 +19,14 @@ namespace {
 constexpr int something_failed = 1;
 
 struct Options {
-  explicit Options(Command& command) : sample(command, 1000, 1000000), bar(command) {}
+  explicit Options(Command& command) : sample(command, 250, 1000000), bar(command) {}
   SampleOption sample;
   BarOption bar;
   std::string candidate, save, json;
 };
 
 int run(const Options& options) {
-  Campaign where;
-  where.pairs = options.sample.pairs();
-  where.classes = options.sample.classes();
-  const std::vector<Cell> all = cells(where);
+  const std::vector<Cell> all = cells(options.sample.campaign());
   const Bar bar = options.bar.get();
   const std::uint64_t budget = options.sample.count();
   CandidateProcess process(named_candidate(options.candidate), bar.threshold);

@@ -31,14 +31,9 @@ struct Options {
         thorough({candidates.get(), bar.get(), candidates.limits(), workers.get()}, sample.seed());
     s.pairs = sample.pairs();
     s.ladder = {degenerate_cells(s.pairs), sample.seed(), sample.count()};
-    const bool ladder_only = !input.empty() || !sample.classes().empty();
+    const bool ladder_only = !input.empty() || sample.has_some_classes();
     if (ladder_only) s.parts = {StabilityPart::amplification};
-    if (!sample.classes().empty()) {
-      Campaign wanted;
-      wanted.pairs = s.pairs;
-      wanted.classes = sample.classes();
-      s.ladder.cells = cells(wanted);
-    }
+    if (sample.has_some_classes()) s.ladder.cells = cells(sample.campaign());
     if (!parts.empty()) s.parts.clear();
     for (const auto& name : parts) {
       const StabilityPart part = parse_stability_part(name);
@@ -50,7 +45,8 @@ struct Options {
     }
     if (!input.empty()) {
       if (sample.is_narrowed()) {
-        throw InvalidInput("input", '"' + input + '"', "leaves no choice of --pair or --class");
+        throw InvalidInput("input", '"' + input + '"',
+                           "leaves no choice of --pair, --class or --group");
       }
       s.base = given_configuration(input);
     }

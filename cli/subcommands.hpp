@@ -20,5 +20,6 @@ void add_search(Program& program);
 void add_render(Program& program);
 void add_stability(Program& program);
 void add_candidates(Program& program);
+void add_classes(Program& program);
 
 }  // namespace touchstone

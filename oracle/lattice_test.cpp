@@ -157,7 +157,7 @@ TEST(Invariance, ExactRotationAndTranslation) {
   const Eigen::Quaterniond turns[] = {{4, 0, 3, 0}, {2, 4, 2, 1}, {0, 0, 0, 5}, {-3, 0, 0, 4}};
   for (const Pair pair : all_pairs) {
     for (const std::string& name : pose_classes(pair)) {
-      for (std::uint64_t i = 0; i < 4; ++i) {
+      for (std::uint64_t i = 0; i < 2; ++i) {
         SCOPED_TRACE(to_string(Identity{pair, name, 5, i}));
         const auto [before, after] =
             turned(make_configuration({pair, name, 5, i}), turns[i % 4], {0.5, -3, 1024});
@@ -177,7 +177,7 @@ TEST(Invariance, ExactRotationAndTranslation) {
 
 TEST(Invariance, ExchangeOfTheBodies) {
   for (const std::string& name : pose_classes(Pair::cylinder)) {
-    for (std::uint64_t i = 0; i < 4; ++i) {
+    for (std::uint64_t i = 0; i < 2; ++i) {
       SCOPED_TRACE(to_string(Identity{Pair::cylinder, name, 6, i}));
       const Configuration c = make_configuration({Pair::cylinder, name, 6, i});
       const Configuration exchanged{std::get<Cylinder>(c.b), c.pose_b, c.a, c.pose_a};

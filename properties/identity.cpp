@@ -126,16 +126,20 @@ std::optional<std::string> known_name(Pair pair, std::string_view name) {
 
 }  // namespace
 
-std::vector<std::string> wanted_classes(Pair pair, const std::vector<std::string>& wanted,
-                                        Coverage coverage) {
-  if (wanted.empty()) return pose_classes(pair, coverage);
+std::vector<std::string> selected_classes(Pair pair, const ClassSelection& selection) {
   std::vector<std::string> names;
-  for (const std::string& each : wanted) {
+  if (selection.names.empty()) names = pose_classes(pair, selection.coverage);
+  for (const std::string& each : selection.names) {
     const auto name = known_name(pair, each);
     if (name && std::find(names.begin(), names.end(), *name) == names.end()) {
       names.push_back(*name);
     }
   }
+  const std::vector<Group>& groups = selection.groups;
+  std::erase_if(names, [&](const std::string& name) {
+    return !groups.empty() &&
+           std::find(groups.begin(), groups.end(), group_of(pair, name)) == groups.end();
+  });
   return names;
 }
 

@@ -46,10 +46,14 @@ enum class Coverage { pairs = 2, triples = 3 };
 /// only when named ("hostile").
 const std::vector<std::string>& pose_classes(Pair pair, Coverage coverage = Coverage::pairs);
 
-/// The wanted ones of a pair's pose classes, each once, in the order wanted; those that the pair
-/// does not have are left out. If none are wanted, pose_classes(pair, coverage).
-std::vector<std::string> wanted_classes(Pair pair, const std::vector<std::string>& wanted,
-                                        Coverage coverage = Coverage::pairs);
+/// Which pose classes are meant.
+struct ClassSelection {
+  std::vector<std::string> names = {};  ///< in this order; empty: all of the coverage
+  std::vector<Group> groups = {};       ///< and of these groups; empty: of all
+  Coverage coverage = Coverage::pairs;
+};
+/// Those of the selected classes that a pair has, each once.
+std::vector<std::string> selected_classes(Pair pair, const ClassSelection& selection);
 
 /// Throws InvalidInput (field "--class") that says what is near, unless every class belongs to at
 /// least one of the pairs.

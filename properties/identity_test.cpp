@@ -87,8 +87,8 @@ TEST(Identity, RefusesWhatItIsNotAndNamesThePart) {
 TEST(Identity, HostileIsKnownByNameButNotAmongAllClasses) {
   for (const Pair pair : all_pairs) {
     EXPECT_THAT(pose_classes(pair), testing::Not(testing::Contains("hostile")));
-    EXPECT_EQ(wanted_classes(pair, {}), pose_classes(pair));
-    EXPECT_THAT(wanted_classes(pair, {"hostile", "general-deep", "no-such"}),
+    EXPECT_EQ(selected_classes(pair, {}), pose_classes(pair));
+    EXPECT_THAT(selected_classes(pair, {.names = {"hostile", "general-deep", "no-such"}}),
                 testing::ElementsAre("hostile", "general+deep"));
     const Identity id{pair, "hostile", 42, 137};
     EXPECT_EQ(describe_pose_class(pair, "hostile").back(), '.');

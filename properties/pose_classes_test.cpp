@@ -38,7 +38,9 @@ TEST(PoseClasses, MakeValidConfigurationsOfTheirPair) {
   }
 }
 
-bool has_class(Pair pair, const std::string& name) { return !wanted_classes(pair, {name}).empty(); }
+bool has_class(Pair pair, const std::string& name) {
+  return !selected_classes(pair, {.names = {name}}).empty();
+}
 
 constexpr std::uint64_t samples = 40;
 

@@ -19,7 +19,7 @@ namespace {
 
 std::uint64_t count_per_class() {
   const char* text = std::getenv("TOUCHSTONE_COUNT");
-  return text ? std::strtoull(text, nullptr, 10) : 100;
+  return text ? std::strtoull(text, nullptr, 10) : 25;
 }
 
 /// The larger size, or how far the bodies are apart.
@@ -40,7 +40,7 @@ TEST_P(Certified, BoundsHoldAndAreRounding) {
   std::string worst_id;
   for (const std::string& name : classes) {
     const bool hostile = name == "hostile";
-    const std::uint64_t count = count_per_class() * (hostile ? 50 : 1);
+    const std::uint64_t count = count_per_class() * (hostile ? 200 : 1);
     std::uint64_t proven = 0;
     for (std::uint64_t i = 0; i < count; ++i) {
       const Identity id{GetParam(), name, 13, i};

@@ -13,7 +13,7 @@
 namespace touchstone {
 namespace {
 
-constexpr int per_class = 5;
+constexpr int per_class = 2;
 
 std::vector<Identity> some_identities(Pair pair) {
   std::vector<Identity> identities;

@@ -160,7 +160,7 @@ class ManifoldOfPair : public testing::TestWithParam<Pair> {};
 
 TEST_P(ManifoldOfPair, LiesOnBothBodiesInEveryPoseClass) {
   for (const auto& name : pose_classes(GetParam())) {
-    for (std::uint64_t i = 0; i < 40; ++i) {
+    for (std::uint64_t i = 0; i < 10; ++i) {
       const Identity id{GetParam(), name, 11, i};
       const Configuration c = make_configuration(id);
       const Contact answer = contact(c, 0);
@@ -168,7 +168,7 @@ TEST_P(ManifoldOfPair, LiesOnBothBodiesInEveryPoseClass) {
       ASSERT_EQ(answer.points().empty(), answer.signed_distance > 0);
       // Where rims meet at a small tilt, rounding of the normal over the tilt says where on the
       // rim.
-      const double aside = name.starts_with("near-parallel") ? 1e-6 : 3e-8;
+      const double aside = name.find("+tilted") != name.npos ? 1e-6 : 3e-8;
       expect_points_on_both(c, answer, aside * larger_size(c) + position_rounding(c));
     }
   }

@@ -9,9 +9,17 @@ std::vector<Cell> cells(const Campaign& campaign) {
   std::vector<Cell> result;
   check_pose_classes(campaign.pairs, campaign.classes);
   for (const Pair pair : campaign.pairs) {
-    for (const auto& name : wanted_classes(pair, campaign.classes)) result.push_back({pair, name});
+    for (const auto& name :
+         selected_classes(pair, {campaign.classes, campaign.groups, campaign.coverage})) {
+      result.push_back({pair, name});
+    }
   }
   return result;
+}
+
+std::uint64_t count_of(const Campaign& campaign, const Cell& cell) {
+  const bool everyday = group_of(cell.pair, cell.pose_class) == Group::everyday;
+  return campaign.count * (everyday ? campaign.everyday_times : 1);
 }
 
 void score_configurations(std::span<const Configuration> configurations,

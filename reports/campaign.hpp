@@ -17,8 +17,11 @@ namespace touchstone {
 struct Campaign {
   std::vector<Pair> pairs;
   std::vector<std::string> classes;  ///< empty: all; else each must be a class of one of the pairs
+  std::vector<Group> groups;         ///< empty: all
+  Coverage coverage = Coverage::pairs;
   std::vector<const Candidate*> candidates;
-  std::uint64_t count = 100;  ///< configurations of each pair × class
+  std::uint64_t count = 100;         ///< configurations of each pair × class
+  std::uint64_t everyday_times = 1;  ///< as many of a class of the everyday group
   std::uint64_t seed = 1;
   unsigned workers = 1;
   Bar bar;
@@ -32,6 +35,7 @@ struct Cell {
 };
 /// Lists the cells in report order. Throws InvalidInput when a class belongs to none of the pairs.
 std::vector<Cell> cells(const Campaign& campaign);
+std::uint64_t count_of(const Campaign& campaign, const Cell& cell);
 
 /// Width of every truth that a score is against, relative to the larger size.
 inline constexpr double truth_width = 1e-30;

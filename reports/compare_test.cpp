@@ -251,10 +251,10 @@ TEST(Compare, TextFitsIntoEightyColumns) {
   json now = small_report();
   now["seed"] = 2;
   now["machine"]["compiler"] = std::string(30, 'x') + ' ' + std::string(40, 'y');
-  now["summary"][1] = row("near-perpendicular-1e-15", "capsule-circumscribed", 10, 1, 500);
+  now["summary"][1] = row("perpendicular+tilted-1e-15", "capsule-circumscribed", 10, 1, 500);
   now["summary"][1]["pair"] = "cylinder-cylinder";
   json old = small_report();
-  old["summary"][1] = row("near-perpendicular-1e-15", "capsule-circumscribed", 80, 1e-9, 200);
+  old["summary"][1] = row("perpendicular+tilted-1e-15", "capsule-circumscribed", 80, 1e-9, 200);
   old["summary"][1]["pair"] = "cylinder-cylinder";
   std::istringstream text(comparison_text(compare(old, now, {})));
   for (std::string line; std::getline(text, line);) EXPECT_LE(line.size(), 80u) << line;

@@ -22,31 +22,38 @@ namespace touchstone {
 namespace {
 
 /// What is known of each cell; absent where the run was interrupted before all of it was scored.
-std::vector<std::optional<Sample>> sample_cells(const Campaign& campaign, std::size_t cells) {
-  const std::uint64_t per_cell = (campaign.count + Unit::max_size - 1) / Unit::max_size;
-  const auto unit = [&](std::uint64_t number) {
-    const std::uint64_t first = number % per_cell * Unit::max_size;
-    return Unit{number / per_cell, first, std::min(campaign.count, first + Unit::max_size)};
-  };
-  std::vector<std::optional<Sample>> parts(cells * per_cell);
-  Progress progress("configurations", cells * campaign.count);
+std::vector<std::optional<Sample>> sample_cells(const Campaign& campaign,
+                                                const std::vector<Cell>& cells) {
+  std::vector<Unit> units;
+  std::uint64_t configurations = 0;
+  for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+    const std::uint64_t count = count_of(campaign, cells[cell]);
+    for (std::uint64_t first = 0; first < count; first += Unit::max_size) {
+      units.push_back({cell, first, std::min(count, first + Unit::max_size)});
+    }
+    configurations += count;
+  }
+  std::vector<std::optional<Sample>> parts(units.size());
+  Progress progress("configurations", configurations);
   std::uint64_t done = 0;
   sample(
-      campaign, Purpose::report, parts.size(), unit,
+      campaign, Purpose::report, units.size(), [&](std::uint64_t number) { return units[number]; },
       [&](std::uint64_t number, Sample part) {
         parts[number] = std::move(part);
-        progress.update(done += unit(number).last - unit(number).first);
+        progress.update(done += units[number].last - units[number].first);
       },
       [] { return !interrupted(); });
 
-  std::vector<std::optional<Sample>> result(cells);
-  for (std::size_t cell = 0; cell < cells; ++cell) {
-    const std::span of_cell = std::span(parts).subspan(cell * per_cell, per_cell);
+  std::vector<std::optional<Sample>> result(cells.size());
+  for (std::size_t first = 0, last = 0; first < units.size(); first = last) {
+    while (last < units.size() && units[last].cell == units[first].cell) ++last;
+    const std::span of_cell = std::span(parts).subspan(first, last - first);
     if (!std::all_of(of_cell.begin(), of_cell.end(), [](const auto& part) { return !!part; })) {
       continue;
     }
-    result[cell] = std::move(of_cell.front());
-    for (const auto& part : of_cell.subspan(1)) result[cell]->add(*part);
+    auto& whole = result[units[first].cell];
+    whole = std::move(of_cell.front());
+    for (const auto& part : of_cell.subspan(1)) whole->add(*part);
   }
   return result;
 }
@@ -172,8 +179,8 @@ void rank(std::span<ResultRow> rows) {
 Report make_report(const Campaign& campaign, const std::string& command) {
   const auto start = std::chrono::steady_clock::now();
   const std::vector<Cell> all = cells(campaign);
-  const std::vector<std::optional<Sample>> samples = sample_cells(campaign, all.size());
-  const Times times = time_queries(campaign, samples);
+  const std::vector<std::optional<Sample>> samples = sample_cells(campaign, all);
+  const Times times = time_queries(campaign, all, samples);
 
   Report report;
   report.version = TOUCHSTONE_VERSION;
@@ -191,7 +198,12 @@ Report make_report(const Campaign& campaign, const std::string& command) {
   Heading everything{{}, "all", "all"};
   std::vector<double> oracle_times;
   for (std::size_t i = 0; i < all.size(); ++i) {
+    const std::uint64_t count = count_of(campaign, all[i]);
+    report.planned.classes += 1;
+    report.planned.configurations += count;
     if (!samples[i]) continue;
+    report.completed.classes += 1;
+    report.completed.configurations += count;
     const auto has_times = [](const Repetitions& r) { return !r.empty(); };
     report.timed_classes += std::any_of(times[i].begin(), times[i].end(), has_times);
     oracle_times.insert(oracle_times.end(), samples[i]->oracle_microseconds.begin(),
@@ -201,11 +213,9 @@ Report make_report(const Campaign& campaign, const std::string& command) {
     if (pairs.empty() || pairs.back().pair != pair) pairs.push_back({{}, pair, "all"});
     pairs.back().cells.push_back(i);
     everything.cells.push_back(i);
-    report.classes.push_back({pair, all[i].pose_class,
-                              std::string(describe_pose_class(all[i].pair, all[i].pose_class))});
+    report.classes.push_back(
+        {pair, all[i].pose_class, describe_pose_class(all[i].pair, all[i].pose_class)});
   }
-  report.planned = {all.size(), all.size() * campaign.count};
-  report.completed = {single.size(), single.size() * campaign.count};
   report.configurations = report.completed.configurations;
   report.oracle_microseconds = quantiles(std::move(oracle_times));
 

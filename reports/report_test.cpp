@@ -276,7 +276,7 @@ TEST(Report, RefusesAnUnknownClassBeforeAnyWork) {
   Campaign c = small_campaign();
   c.classes = {"rim-rimm"};
   EXPECT_THAT([&] { cells(c); }, testing::ThrowsMessage<InvalidInput>(testing::AllOf(
-                                     HasSubstr("rim-rimm"), HasSubstr("general-deep"))));
+                                     HasSubstr("rim-rimm"), HasSubstr("rim-rim, "))));
 }
 
 TEST(Report, RefusesAFolderThatIsAFile) {

@@ -1,6 +1,7 @@
 #include "reports/timing.hpp"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <random>
 
@@ -42,6 +43,15 @@ std::vector<Repetitions> time_cell(const Sample& sample, std::vector<CandidatePr
   return result;
 }
 
+bool is_timed(const Cell& cell) {
+  constexpr std::array timed_tilts = {"tilted-1e-1", "tilted-1e-6", "tilted-1e-12"};
+  const auto modifiers = parts_of(cell.pair, cell.pose_class).modifiers;
+  if (modifiers.empty()) return true;
+  if (modifiers.size() > 1) return false;
+  return !modifiers[0].starts_with("tilted") ||
+         std::find(timed_tilts.begin(), timed_tilts.end(), modifiers[0]) != timed_tilts.end();
+}
+
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
@@ -70,14 +80,16 @@ double nanoseconds(const QueryCost& cost) { return cost.nanoseconds; }
 
 }  // namespace
 
-Times time_queries(const Campaign& campaign, const std::vector<std::optional<Sample>>& samples) {
+Times time_queries(const Campaign& campaign, const std::vector<Cell>& cells,
+                   const std::vector<std::optional<Sample>>& samples) {
   Times times(samples.size(), std::vector<Repetitions>(campaign.candidates.size()));
   if (interrupted()) return times;
   Progress progress("pose classes timed", samples.size());
   std::mt19937_64 random(campaign.seed);
   auto candidates = start(campaign.candidates, campaign.bar.threshold, campaign.limits);
   for (std::size_t i = 0; i < samples.size() && !interrupted(); ++i) {
-    if (samples[i]) times[i] = time_cell(*samples[i], candidates, random);
+    const bool wanted = !campaign.classes.empty() || is_timed(cells[i]);
+    if (samples[i] && wanted) times[i] = time_cell(*samples[i], candidates, random);
     progress.update(i + 1);
   }
   return times;

@@ -238,7 +238,7 @@ INSTANTIATE_TEST_SUITE_P(, Hostile, testing::ValuesIn(all_pairs), [](const auto&
 
 std::uint64_t count_per_class() {
   const char* text = std::getenv("TOUCHSTONE_COUNT");
-  return text ? std::strtoull(text, nullptr, 10) : 10;
+  return text ? std::strtoull(text, nullptr, 10) : 3;
 }
 
 class PoseClasses : public testing::TestWithParam<Pair> {};
@@ -257,7 +257,7 @@ TEST_P(PoseClasses, BothOraclesEncloseOneSignedDistance) {
       ASSERT_GE(mpq_class(e.hi), truth.lo);
       ASSERT_GE(mpq_class(e.pair_distance), truth.lo);
       EXPECT_LE(e.hi - e.lo, widest * larger_size(c));
-      if (name.starts_with("general-")) {
+      if (name == "general+shallow" || name == "general+apart" || name == "general+deep") {
         EXPECT_LE(e.hi - e.lo, 1.0001e-9 * larger_size(c));
       }
     }

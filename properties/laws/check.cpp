@@ -10,7 +10,7 @@ namespace {
 
 std::vector<Identity> identities(const CheckOptions& options, Pair pair) {
   std::vector<Identity> result;
-  for (const std::string& name : wanted_classes(pair, options.classes)) {
+  for (const std::string& name : selected_classes(pair, {options.classes, options.groups})) {
     for (std::uint64_t i = 0; i < options.count; ++i) {
       result.push_back({pair, name, options.seed, i});
     }

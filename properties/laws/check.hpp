@@ -16,6 +16,7 @@ struct CheckOptions {
   std::vector<const Law*> laws;
   std::vector<Pair> pairs;
   std::vector<std::string> classes;  ///< of every pair that has them; empty for all
+  std::vector<Group> groups;         ///< empty for all
   std::uint64_t count = 10;          ///< configurations of each pair and pose class
   std::uint64_t seed = 1;
   Bar bar;

@@ -125,7 +125,7 @@ TEST(LargestDisplacement, BoundsTheTrueChangeOfDistance) {
     for (const std::string& name : pose_classes(pair)) {
       const Configuration from = make_configuration({pair, name, 11, 2});
       for (const int exponent : {-9, -4, -1}) {
-        for (std::uint64_t number = 0; number < 3; ++number) {
+        for (std::uint64_t number = 0; number < 1; ++number) {
           const Configuration to = perturbed(from, {Decade(exponent), 11, number});
           const double change = std::abs(oracle::truth(to).signed_distance.midpoint() -
                                          oracle::truth(from).signed_distance.midpoint());

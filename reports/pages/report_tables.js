@@ -132,8 +132,8 @@ classTable();
 const thesisCases = [
   ['cylinder-plane', 'standing', 'standing on a plane', '3'],
   ['cylinder-plane', 'lying', 'lying on a plane', '2'],
-  ['cylinder-plane', 'general-shallow', 'tilted on a plane', '1'],
-  ['cylinder-sphere', 'general-shallow', 'a sphere anywhere', '1'],
+  ['cylinder-plane', 'general+shallow', 'tilted on a plane', '1'],
+  ['cylinder-sphere', 'general+shallow', 'a sphere anywhere', '1'],
   ['cylinder-capsule', 'parallel-side', 'a capsule alongside', '2'],
   ['cylinder-capsule', 'cap-on-side', 'a capsule across the cap', '2'],
   ['cylinder-capsule', 'perpendicular-x', 'a capsule crossed', '1'],
