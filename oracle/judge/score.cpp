@@ -182,6 +182,12 @@ const char* outcome_name(Outcome outcome) {
   return "";
 }
 
+std::optional<Outcome> find_outcome(std::string_view name) {
+  const auto found = std::find_if(all_outcomes.begin(), all_outcomes.end(),
+                                  [&](Outcome o) { return name == outcome_name(o); });
+  return found == all_outcomes.end() ? std::nullopt : std::optional(*found);
+}
+
 bool is_of_points(Outcome outcome) {
   return outcome == Outcome::shallow_points || outcome == Outcome::overdeep_points ||
          outcome == Outcome::phantom_points;

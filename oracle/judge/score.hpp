@@ -2,6 +2,7 @@
 
 #include <array>
 #include <optional>
+#include <string_view>
 
 #include "candidates/candidate.h"
 #include "candidates/host/candidate_process.hpp"
@@ -44,6 +45,8 @@ inline constexpr std::array all_outcomes = {
     Outcome::overdeep_points, Outcome::phantom_points};
 /// "agree", "missed", "wrong-normal", …
 const char* outcome_name(Outcome outcome);
+/// The outcome of that name, if there is one.
+std::optional<Outcome> find_outcome(std::string_view name);
 const char* status_name(ts_status status);
 /// Does the outcome belong to an answer that could be judged, so that it has a severity?
 bool is_judged(Outcome outcome);
