@@ -71,6 +71,7 @@ int run(const Options& options) {
     report.stability = measure(brief(study, campaign.pairs, campaign.seed));
     report.experiments = run_experiments(options.experiments());
   }
+  report.partial = report.partial || interrupted();
   write_report(report, options.out);
   fmt::print("{}\n{} configurations, truth certified to 1e-30 of the larger size, {:.0f} s.\n",
              terminal_table(report), report.configurations, report.wall_seconds);
