@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "cli/subcommands.hpp"
+#include "cli/command.hpp"
 
 namespace touchstone {
 namespace {

@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 
 #include "properties/files/disk.hpp"
-#include "properties/files/json_fields.hpp"
 #include "properties/files/strict_json.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/report_json.hpp"

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "oracle/judge/coverage.hpp"
 #include "oracle/patch/support_feature.hpp"
 
 namespace touchstone {

@@ -12,7 +12,7 @@
 
 #include "oracle/patch/contact_patch.hpp"
 #include "properties/files/configuration_json.hpp"
-#include "properties/files/json_fields.hpp"
+#include "properties/files/strict_json.hpp"
 
 namespace touchstone {
 namespace {

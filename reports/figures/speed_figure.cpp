@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "properties/files/disk.hpp"
-#include "reports/figures/gnuplot.hpp"
+#include "reports/figures/figures.hpp"
 
 namespace touchstone {
 namespace {

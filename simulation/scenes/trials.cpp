@@ -1,4 +1,4 @@
-#include "simulation/scenes/trials.hpp"
+#include "simulation/scenes/choose.hpp"
 
 #include <algorithm>
 #include <cmath>
