@@ -7,11 +7,14 @@
 
 #include "candidates/candidates.hpp"
 #include "candidates/host/candidate_process.hpp"
-#include "properties/turns.hpp"
 
 namespace touchstone {
 
 using Quaternion = Eigen::Quaterniond;
+
+inline const Quaternion upright(1, 0, 0, 0);
+inline const Quaternion along_x = Quaternion(Eigen::AngleAxisd(M_PI / 2, Vec3::UnitY()));
+inline const Quaternion along_y = Quaternion(Eigen::AngleAxisd(M_PI / 2, Vec3::UnitX()));
 
 inline Vec3 normal_of(const ts_answer& a) { return Vec3(a.normal[0], a.normal[1], a.normal[2]); }
 

@@ -18,32 +18,6 @@ void check_figures(const std::filesystem::path& folder);
 /// words if it fails.
 void write_figures(const Report& report, const std::filesystem::path& folder);
 
-// Pieces that the figures of a report are made of.
-
-/// "pointtype 7 linecolor '#0072b2'": a candidate's mark, coloured as on the report's page.
-std::string style_of(const std::string& candidate);
-
-/// Text within double quotes, for gnuplot.
-std::string quoted(const std::string& text);
-/// A cell of CSV.
-std::string csv_cell(const std::string& text);
-
-/// A figure's commands, once for NAME.svg and once for NAME.png of twice as many pixels.
-std::string in_both_forms(const std::string& name, int width, int height,
-                          const std::string& commands);
-
-/// Runs a script within `folder`. Throws std::runtime_error with gnuplot's words if it fails; the
-/// script is then left there.
-void run_gnuplot(const std::string& script, const std::filesystem::path& folder);
-
-/// Share of the configurations with a routine on which the candidate agrees.
-double agreement(const Statistics& statistics);
-
-/// The charts of speed and accuracy, together and of each pair. Writes their data as
-/// CSV and returns their commands, none where there is nothing to show.
-std::string speed_figures(const Report& report, const std::vector<std::string>& pairs,
-                          const std::filesystem::path& folder);
-
 /// A mark of a chart that wants a label beside it. Lengths are in characters: one across, one line
 /// up.
 struct Label {
