@@ -30,9 +30,7 @@ bool is_beyond(const Candidate& c, const PlainContact& contact) {
   return c.name == "fcl-indep" && contact.name == std::string("crossed cylinder");
 }
 
-bool supports(const Candidate& c, const Configuration& k) {
-  return c.supports[to_ts_shape(k.b).kind];
-}
+bool supports(const Candidate& c, const Configuration& k) { return c.has_routine_for(pair_of(k)); }
 
 /// All candidates without a simplified model, on all contacts that they support.
 template <class Check>

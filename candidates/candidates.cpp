@@ -178,7 +178,25 @@ std::vector<double> sweep(const Candidate& family, std::string_view text) {
   return values;
 }
 
+ts_shape_kind other_shape(Pair pair) {
+  switch (pair) {
+    case Pair::plane:
+      return TS_PLANE;
+    case Pair::sphere:
+      return TS_SPHERE;
+    case Pair::capsule:
+      return TS_CAPSULE;
+    case Pair::cylinder:
+      return TS_CYLINDER;
+    case Pair::box:
+      break;
+  }
+  return TS_BOX;
+}
+
 }  // namespace
+
+bool Candidate::has_routine_for(Pair pair) const { return supports[other_shape(pair)]; }
 
 std::vector<const Candidate*> all_candidates() { return Registry::get().listed(); }
 

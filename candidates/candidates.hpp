@@ -32,6 +32,8 @@ struct Candidate {
   std::array<bool, 5> supports{};     ///< by ts_shape_kind
   std::filesystem::path plugin = {};  ///< absolute
   int index = 0;                      ///< among the plug-in's candidates
+
+  bool has_routine_for(Pair pair) const;
 };
 
 /// All candidates in the order in which reports list them: those of the installed standard

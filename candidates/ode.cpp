@@ -23,23 +23,9 @@
 
 #include "candidates/candidate.h"
 #include "candidates/model.hpp"
-
-static_assert(sizeof(dReal) == sizeof(double), "built against single-precision ODE");
+#include "candidates/ode_library.hpp"
 
 namespace {
-
-/// ODE's default handlers print, and end the process on internal errors.
-void ignore_message(int, const char*, va_list) {}
-
-void initialise() {
-  static const bool done = [] {
-    dInitODE2(0);
-    dSetMessageHandler(ignore_message);
-    dAllocateODEDataForThread(dAllocateMaskAll);
-    return true;
-  }();
-  (void)done;
-}
 
 dGeomID make_geom(const ts_shape& shape) {
   const double* s = shape.size;
@@ -179,12 +165,12 @@ namespace {
 int supports(ts_shape_kind) { return 1; }
 
 ts_prepared* prepare(const ts_shape* a, const ts_shape* b, double, double) {
-  initialise();
+  touchstone::initialise_ode();
   return new ts_prepared(*a, *b);
 }
 
 ts_prepared* prepare_mesh(const ts_shape* a, const ts_shape* b, double, double sides) {
-  initialise();
+  touchstone::initialise_ode();
   return new ts_prepared(*a, *b, static_cast<int>(sides));
 }
 

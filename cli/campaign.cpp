@@ -4,12 +4,12 @@
 #include <thread>
 
 #include "candidates/host/interruption.hpp"
+#include "cli/command.hpp"
 #include "cli/options.hpp"
 #include "cli/standard_streams.hpp"
-#include "cli/subcommands.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/campaigns/merge.hpp"
-#include "reports/campaigns/run.hpp"
+#include "reports/campaigns/shard.hpp"
 #include "reports/terminal_table.hpp"
 #include "reports/worst.hpp"
 

@@ -2,23 +2,26 @@
 
 #include <fmt/format.h>
 #include <string>
+#include <string_view>
 
-#include "cli/subcommands.hpp"
+#include "cli/command.hpp"
 
 namespace touchstone {
 namespace {
 
-std::string supported_pairs(const Candidate& candidate) {
-  constexpr const char* names[] = {"cylinder", "plane", "sphere", "capsule", "box"};
+/// The shapes that it has a routine for, against a cylinder.
+std::string other_shapes(const Candidate& candidate) {
+  constexpr std::string_view before = "cylinder-";  // of a pair's name
   std::string text;
-  for (const ts_shape_kind kind : {TS_PLANE, TS_SPHERE, TS_CAPSULE, TS_CYLINDER, TS_BOX}) {
-    if (candidate.supports[kind]) text += (text.empty() ? "" : ", ") + std::string(names[kind]);
+  for (const Pair pair : all_pairs) {
+    if (!candidate.has_routine_for(pair)) continue;
+    text += (text.empty() ? "" : ", ") + std::string(pair_name(pair)).substr(before.size());
   }
   return text;
 }
 
 void print(const Candidate& c) {
-  fmt::print("{} {}\n  cylinder against {}\n  {}\n", c.name, c.version, supported_pairs(c),
+  fmt::print("{} {}\n  cylinder against {}\n  {}\n", c.name, c.version, other_shapes(c),
              c.settings);
   if (!c.models.empty()) fmt::print("  models {}\n", c.models);
   if (c.parameter) {

@@ -2,9 +2,9 @@
 #include <memory>
 #include <string>
 
-#include "cli/subcommands.hpp"
+#include "cli/command.hpp"
 #include "oracle/audit/certificate.hpp"
-#include "properties/files/given.hpp"
+#include "properties/files/configuration_json.hpp"
 #include "reports/second_oracle.hpp"
 
 namespace touchstone {

@@ -5,8 +5,8 @@
 #include <memory>
 
 #include "candidates/host/progress.hpp"
+#include "cli/command.hpp"
 #include "cli/options.hpp"
-#include "cli/subcommands.hpp"
 #include "properties/files/disk.hpp"
 #include "properties/laws/failure_file.hpp"
 #include "reference/invalid_input.hpp"

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 #include <memory>
 
+#include "cli/command.hpp"
 #include "cli/options.hpp"
 #include "cli/standard_streams.hpp"
-#include "cli/subcommands.hpp"
 #include "properties/files/disk.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/choice/choice.hpp"

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 #include <memory>
 
-#include "cli/subcommands.hpp"
+#include "cli/command.hpp"
 #include "properties/pose_class.hpp"
 #include "reference/invalid_input.hpp"
 

@@ -7,7 +7,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include "cli/descriptions.hpp"
 #include "cli/standard_streams.hpp"
 #include "properties/files/error_text.hpp"
 #include "reference/invalid_input.hpp"

@@ -9,15 +9,16 @@
 #include "properties/files/parse_number.hpp"
 
 namespace CLI {
+
 class App;
 class Option;
 }  // namespace CLI
 
 namespace touchstone {
 
-// The command line, read by CLI11, whose header only this one's source and that of descriptions.hpp
-// include: it costs seconds a file. Variables are set when the program runs; what stands in them
-// before is the default that --help shows.
+// The command line, read by CLI11, whose header only command.cpp and descriptions.cpp include: it
+// costs seconds a file. Variables are set when the program runs; what stands in them before is the
+// default that --help shows.
 
 /// An option or an argument of a command.
 class Option {
@@ -94,5 +95,33 @@ class Program {
 /// A line of a list in a footer, or several within 80 columns: a name in a column of this width and
 /// what it is.
 std::string list_entry(const std::string& name, std::size_t width, const std::string& text);
+
+// The subcommands, one file each; each adds itself to the program.
+
+void add_report(Program& program);
+void add_replay(Program& program);
+void add_solve(Program& program);
+void add_certify(Program& program);
+void add_check(Program& program);
+void add_compare(Program& program);
+void add_campaign(Program& program);
+void add_merge(Program& program);
+void add_simulate(Program& program);
+void add_choose(Program& program);
+void add_search(Program& program);
+void add_render(Program& program);
+void add_stability(Program& program);
+void add_candidates(Program& program);
+void add_classes(Program& program);
+
+// The program's own description of its commands, in other forms than --help
+// (descriptions.cpp).
+
+/// The manual page, in troff with the man macros.
+std::string manual(const CLI::App& program);
+
+/// Completion scripts: subcommands, options, files.
+std::string bash_completion(const CLI::App& program);
+std::string zsh_completion(const CLI::App& program);
 
 }  // namespace touchstone

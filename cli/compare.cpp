@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <memory>
 
-#include "cli/subcommands.hpp"
+#include "cli/command.hpp"
 #include "properties/files/disk.hpp"
 #include "reports/report_file.hpp"
 

@@ -1,10 +1,10 @@
-#include "cli/descriptions.hpp"
-
 #include <algorithm>
 #include <fmt/format.h>
 #include <vector>
 
 #include <CLI/CLI.hpp>
+
+#include "cli/command.hpp"
 
 namespace touchstone {
 namespace {

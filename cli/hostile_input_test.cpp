@@ -20,7 +20,6 @@
 #include "cli/mutation.hpp"
 #include "properties/files/configuration_json.hpp"
 #include "properties/files/error_text.hpp"
-#include "properties/files/given.hpp"
 #include "properties/files/parse_number.hpp"
 #include "properties/files/strict_json.hpp"
 #include "properties/laws/failure_file.hpp"

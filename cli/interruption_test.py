@@ -100,6 +100,19 @@ def termination_while_timing(program, folder):
     assert 0 < report["completed"]["timed_classes"] < 236
 
 
+def ctrl_c_after_timing(program, folder):
+    run = Run(program, folder, "--count", "1")
+    run.wait_for(r"of \d+ perturbed poses")  # of the study of small steps, which comes after timing
+    run.ctrl_c()
+    status = run.end()
+    assert os.WEXITSTATUS(status) == 130, status
+    report = run.report()
+    assert report["partial"] is True
+    assert report["completed"]["timed_classes"] == report["planned"]["classes"] == 236
+    assert report["experiments"]["results"] == []
+    assert "PARTIAL" in run.printed
+
+
 def ctrl_c_twice(program, folder):
     run = Run(program, folder, "--count", "5000")  # so that what is begun takes long
     run.wait_for(r"of 1180000 configurations")
@@ -111,7 +124,7 @@ def ctrl_c_twice(program, folder):
     assert not os.path.exists(f"{folder}/report.json")
 
 
-for case in (ctrl_c_while_scoring, termination_while_timing, ctrl_c_twice):
+for case in (ctrl_c_while_scoring, termination_while_timing, ctrl_c_after_timing, ctrl_c_twice):
     with tempfile.TemporaryDirectory() as folder:
         case(sys.argv[1], folder)
         print("passed:", case.__name__)

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "candidates/candidates.hpp"
+#include "cli/command.hpp"
 #include "cli/standard_streams.hpp"
-#include "cli/subcommands.hpp"
 #include "oracle/truth.hpp"
 #include "properties/files/error_text.hpp"
 #include "reference/invalid_input.hpp"

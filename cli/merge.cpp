@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 #include <memory>
 
-#include "cli/subcommands.hpp"
+#include "cli/command.hpp"
 #include "reference/invalid_input.hpp"
-#include "reports/campaigns/run.hpp"
+#include "reports/campaigns/shard.hpp"
 #include "reports/terminal_table.hpp"
 
 namespace touchstone {

@@ -2,7 +2,7 @@
 #include <memory>
 
 #include "candidates/candidates.hpp"
-#include "cli/subcommands.hpp"
+#include "cli/command.hpp"
 #include "properties/files/disk.hpp"
 #include "simulation/scenes/povray.hpp"
 #include "simulation/scenes/shapes_file.hpp"

@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 #include <memory>
 
+#include "cli/command.hpp"
 #include "cli/options.hpp"
-#include "cli/subcommands.hpp"
+#include "properties/files/configuration_json.hpp"
 #include "properties/files/disk.hpp"
-#include "properties/files/given.hpp"
-#include "reports/reproducer/reproducer.hpp"
 #include "reports/worst.hpp"
 
 namespace touchstone {

@@ -3,9 +3,9 @@
 #include <memory>
 
 #include "candidates/host/interruption.hpp"
+#include "cli/command.hpp"
 #include "cli/options.hpp"
 #include "cli/standard_streams.hpp"
-#include "cli/subcommands.hpp"
 #include "properties/files/disk.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/figures/figures.hpp"
@@ -78,6 +78,7 @@ int run(const Options& options) {
     report.stability = measure(brief(study, campaign.pairs, campaign.seed));
     report.experiments = run_experiments(options.experiments());
   }
+  report.partial = report.partial || interrupted();
   write_report(report, options.out);
   fmt::print("{}\n{} configurations, truth certified to 1e-30 of the larger size, {:.0f} s.\n",
              terminal_table(report), report.configurations, report.wall_seconds);

@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "candidates/host/progress.hpp"
+#include "cli/command.hpp"
 #include "cli/options.hpp"
-#include "cli/subcommands.hpp"
 #include "properties/files/disk.hpp"
 #include "properties/laws/failure_file.hpp"
 

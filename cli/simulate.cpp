@@ -3,8 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "cli/command.hpp"
 #include "cli/options.hpp"
-#include "cli/subcommands.hpp"
 #include "properties/files/disk.hpp"
 #include "simulation/experiment.hpp"
 #include "simulation/run_experiments.hpp"

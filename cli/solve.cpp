@@ -5,8 +5,8 @@
 #include <iostream>
 #include <memory>
 
+#include "cli/command.hpp"
 #include "cli/options.hpp"
-#include "cli/subcommands.hpp"
 #include "properties/files/disk.hpp"
 #include "reference/invalid_input.hpp"
 

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 #include <memory>
 
+#include "cli/command.hpp"
 #include "cli/options.hpp"
-#include "cli/subcommands.hpp"
+#include "properties/files/configuration_json.hpp"
 #include "properties/files/disk.hpp"
-#include "properties/files/given.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/stability/measure.hpp"
 #include "reports/worst.hpp"

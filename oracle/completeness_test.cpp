@@ -6,6 +6,7 @@
 
 #include "oracle/brute_force.hpp"
 #include "oracle/truth.hpp"
+#include "properties/turns.hpp"
 
 namespace touchstone::oracle {
 namespace {
@@ -118,7 +119,6 @@ TEST(Completeness, ConcentricBodies) {
 
 // Rule 5: polynomials that vanish identically.
 TEST(Completeness, DiscCentredOnACornerWithPerpendicularAxes) {
-  const Quaternion along_x(1, 0, 1, 0);
   // B's cap is centred on A's rim point, its axis along A's tangent or across it.
   for (const auto& turn : {along_x, Quaternion(1, 1, 0, 0)}) {
     const Configuration cylinders{Cylinder(1, 1), Pose(), Cylinder(0.5, 1), Pose({1, 1, 1}, turn)};

@@ -6,13 +6,12 @@
 #include "oracle/truth.hpp"
 #include "properties/draw.hpp"
 #include "properties/identity.hpp"
+#include "properties/turns.hpp"
 
 namespace touchstone::oracle {
 namespace {
 
 using Quaternion = Eigen::Quaterniond;
-
-const Quaternion upright(1, 0, 0, 0);
 
 bool meet(const Enclosure& a, const Enclosure& b) { return a.lo <= b.hi && b.lo <= a.hi; }
 

@@ -1,11 +1,18 @@
 #include "oracle/truth.hpp"
 
+#include <CGAL/version.h>
 #include <algorithm>
+#include <arb.h>
 #include <cmath>
+#include <flint/flint.h>
+#include <gmp.h>
+#include <mpfr.h>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
+
+#include <Eigen/Core>
 
 #include "oracle/critical_direction.hpp"
 #include "oracle/enclosure.hpp"
@@ -311,6 +318,15 @@ Truth truth(const Configuration& configuration, double width, double tie) {
     const RoundedConfiguration question = rounded_configuration(configuration, bits);
     if (auto answer = truth_of(question, {configuration, width, tie, bits})) return *answer;
   }
+}
+
+std::vector<std::string> libraries() {
+  const auto eigen = std::to_string(EIGEN_WORLD_VERSION) + '.' +
+                     std::to_string(EIGEN_MAJOR_VERSION) + '.' +
+                     std::to_string(EIGEN_MINOR_VERSION);
+  return {std::string("CGAL ") + CGAL_VERSION_STR,   std::string("GMP ") + gmp_version,
+          std::string("MPFR ") + mpfr_get_version(), std::string("FLINT ") + flint_version,
+          std::string("Arb ") + arb_version,         "Eigen " + eigen};
 }
 
 }  // namespace touchstone::oracle

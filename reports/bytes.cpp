@@ -1,72 +1,28 @@
 #include "reports/bytes.hpp"
 
 #include <stdexcept>
-#include <variant>
+
+#include "properties/numbers.hpp"
 
 namespace touchstone {
 namespace {
 
 constexpr int base = 62;  // the most compact one of GMP
 
-void put(ByteWriter& out, const Pose& pose) {
-  const Eigen::Quaterniond& q = pose.orientation();
-  out.put(pose.position());
-  for (const double x : {q.w(), q.x(), q.y(), q.z()}) out.put(x);
-}
-
-Pose get_pose(ByteReader& in) {
-  const Vec3 position = in.get_vector();
-  const double w = in.get<double>(), x = in.get<double>(), y = in.get<double>();
-  return Pose(position, Eigen::Quaterniond(w, x, y, in.get<double>()));
-}
-
-void put(ByteWriter& out, const Cylinder& c) {
-  out.put(c.radius());
-  out.put(c.half_length());
-}
-void put(ByteWriter& out, const Plane& p) {
-  out.put(p.normal());
-  out.put(p.displacement());
-}
-void put(ByteWriter& out, const Sphere& s) { out.put(s.radius()); }
-void put(ByteWriter& out, const Capsule& c) {
-  out.put(c.radius());
-  out.put(c.half_length());
-}
-void put(ByteWriter& out, const Box& b) { out.put(b.half_extents()); }
-
-template <class Round>
-Round get_round(ByteReader& in) {
-  const double radius = in.get<double>();
-  return Round(radius, in.get<double>());
-}
-
-/// `index`: in the variant.
-Shape get_shape(ByteReader& in, std::size_t index) {
-  static_assert(std::variant_size_v<Shape> == 5);
-  if (index == Shape(Sphere(1)).index()) return Sphere(in.get<double>());
-  if (index == Shape(Capsule(1, 1)).index()) return get_round<Capsule>(in);
-  if (index == Shape(Cylinder(1, 1)).index()) return get_round<Cylinder>(in);
-  const Vec3 v = in.get_vector();
-  if (index == Shape(Box(Vec3::Ones())).index()) return Box(v);
-  return Plane(v, in.get<double>());
-}
-
 }  // namespace
 
 void ByteWriter::put(const Configuration& c) {
-  touchstone::put(*this, c.a);
-  touchstone::put(*this, c.pose_a);
-  put(c.b.index());
-  std::visit([&](const auto& shape) { touchstone::put(*this, shape); }, c.b);
-  touchstone::put(*this, c.pose_b);
+  Numbers numbers = numbers_of(c);
+  put(numbers.pair);
+  for (const double* number : every_number(numbers)) put(*number);
 }
 
 Configuration ByteReader::get_configuration() {
-  const Cylinder a = get_round<Cylinder>(*this);
-  const Pose pose_a = get_pose(*this);
-  const Shape b = get_shape(*this, get<std::size_t>());
-  return {a, pose_a, b, get_pose(*this)};
+  Numbers numbers;
+  numbers.pair = get<Pair>();
+  numbers.sizes.resize(size_count(numbers.pair));
+  for (double* number : every_number(numbers)) *number = get<double>();
+  return configuration_of(numbers);
 }
 
 void ByteWriter::put(const oracle::Truth& truth) {

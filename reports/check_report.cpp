@@ -6,7 +6,7 @@
 
 #include "oracle/truth.hpp"
 #include "properties/files/configuration_json.hpp"
-#include "properties/files/json_fields.hpp"
+#include "properties/files/strict_json.hpp"
 
 namespace touchstone {
 namespace {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 namespace touchstone {
 namespace {
@@ -50,10 +51,6 @@ std::vector<Site> sites(const Box& b) {
           {"box face", Vec3(from_edge, from_edge, 0) - h, -Vec3::UnitZ(), from_edge}};
 }
 
-std::vector<Site> sites(const Shape& shape) {
-  return std::visit([](const auto& s) { return sites(s); }, shape);
-}
-
 struct World {
   const char* name;
   Eigen::Quaterniond rotation;
@@ -75,38 +72,37 @@ Pose placed(const Site& first, const Site& second) {
   return Pose(first.point - depth * first.normal - r * second.point, r);
 }
 
-Shape other(Pair pair) {
-  switch (pair) {
-    case Pair::plane:
-      return Plane(Vec3::UnitZ(), 0);
-    case Pair::sphere:
-      return Sphere(100 * depth);
-    case Pair::capsule:
-      return Capsule(100 * depth, 51 * depth / 2);
-    case Pair::cylinder:
-      return Cylinder(19 * depth, 100 * depth / 2);
-    case Pair::box:
-      break;
-  }
-  return Box(Vec3(37, 100, 43) * depth / 2);
+/// The second shape of a pair, and the errors that Drake publishes.
+struct PublishedPair {
+  Pair pair;
+  Shape shape;
+  std::vector<Site> sites;
+  std::optional<double> penetration, signed_distance;
+};
+
+template <class Other>
+PublishedPair row(Pair pair, const Other& shape, std::optional<double> penetration,
+                  std::optional<double> signed_distance) {
+  return {pair, shape, sites(shape), penetration, signed_distance};
 }
 
 /// From RobotLocomotion/drake, geometry/query_object.h: table 1 (ComputePointPairPenetration) and
 /// table 3 (ComputeSignedDistancePairwiseClosestPoints, which refuses half-spaces), of double.
-DrakeProtocol::Published published(Pair pair) {
-  switch (pair) {
-    case Pair::plane:
-      return {pair_name(pair), 4e-15, std::nullopt, drake_cases(pair)};
-    case Pair::sphere:
-      return {pair_name(pair), 5e-15, 5e-15, drake_cases(pair)};
-    case Pair::capsule:
-      return {pair_name(pair), 4e-5, 1e-5, drake_cases(pair)};
-    case Pair::cylinder:
-      return {pair_name(pair), 2e-3, 2e-5, drake_cases(pair)};
-    case Pair::box:
-      break;
-  }
-  return {pair_name(pair), 1e-3, 6e-6, drake_cases(pair)};
+const std::vector<PublishedPair>& published_pairs() {
+  static const std::vector<PublishedPair> pairs = {
+      row(Pair::plane, Plane(Vec3::UnitZ(), 0), 4e-15, std::nullopt),
+      row(Pair::sphere, Sphere(100 * depth), 5e-15, 5e-15),
+      row(Pair::capsule, Capsule(100 * depth, 51 * depth / 2), 4e-5, 1e-5),
+      row(Pair::cylinder, Cylinder(19 * depth, 100 * depth / 2), 2e-3, 2e-5),
+      row(Pair::box, Box(Vec3(37, 100, 43) * depth / 2), 1e-3, 6e-6)};
+  return pairs;
+}
+
+const PublishedPair* find_published(Pair pair) {
+  const auto& pairs = published_pairs();
+  const auto found =
+      std::find_if(pairs.begin(), pairs.end(), [&](const auto& p) { return p.pair == pair; });
+  return found == pairs.end() ? nullptr : &*found;
 }
 
 /// Adds what a candidate makes of a configuration.
@@ -124,13 +120,15 @@ void add(DrakeProtocol::Result& result, std::size_t configuration, const oracle:
 }  // namespace
 
 std::vector<DrakeCase> drake_cases(Pair pair) {
-  const Shape cylinder = Cylinder(100 * depth, 71 * depth / 2), second = other(pair);
+  const PublishedPair* const second = find_published(pair);
+  if (!second) return {};
+  const Cylinder cylinder(100 * depth, 71 * depth / 2);
   // Drake names the pairs with a box or a capsule the other way round.
   const bool cylinder_first = pair != Pair::box && pair != Pair::capsule;
   std::vector<DrakeCase> result;
   for (const World& world : worlds()) {
     for (const Site& on_cylinder : sites(cylinder)) {
-      for (const Site& on_other : sites(second)) {
+      for (const Site& on_other : second->sites) {
         if (std::max(on_cylinder.room, on_other.room) < depth) continue;
         const Pose first(world.translation, world.rotation);
         const Pose relative =
@@ -140,9 +138,10 @@ std::vector<DrakeCase> drake_cases(Pair pair) {
         const Pose &a = cylinder_first ? first : then, &b = cylinder_first ? then : first;
         const std::string name =
             "cylinder " + on_cylinder.name + " against " + on_other.name + ", " + world.name;
-        result.push_back({name, {std::get<Cylinder>(cylinder), a, second, b}});
+        result.push_back({name, {cylinder, a, second->shape, b}});
         if (pair != Pair::cylinder) continue;
-        result.push_back({name + ", exchanged", {std::get<Cylinder>(second), b, cylinder, a}});
+        result.push_back(
+            {name + ", exchanged", {std::get<Cylinder>(second->shape), b, cylinder, a}});
       }
     }
   }
@@ -153,7 +152,10 @@ DrakeProtocol drake_protocol(const Campaign& campaign) {
   DrakeProtocol protocol{depth, {}, {}};
   auto candidates = start(campaign.candidates, campaign.bar.threshold, campaign.limits);
   for (const Pair pair : campaign.pairs) {
-    protocol.pairs.push_back(published(pair));
+    const PublishedPair* const known = find_published(pair);
+    if (!known) continue;
+    protocol.pairs.push_back(
+        {pair_name(pair), known->penetration, known->signed_distance, drake_cases(pair)});
     std::vector<Configuration> configurations;
     for (const DrakeCase& c : protocol.pairs.back().configurations) {
       configurations.push_back(c.configuration);

@@ -1,7 +1,11 @@
 #pragma once
 
 #include <string>
+#include <string_view>
+#include <vector>
 
+#include "candidates/host/candidate_process.hpp"
+#include "oracle/judge/score.hpp"
 #include "reports/report.hpp"
 
 namespace touchstone {
@@ -20,5 +24,19 @@ std::string replay_json(const Examination& examination);
 /// with the contact points and normals of truth and candidates, and all numbers. Nothing is loaded
 /// from elsewhere.
 std::string replay_page(const Examination& examination, const std::string& description);
+
+/// Engines that a reproducer can be written for: "bullet", "ode", "fcl", "libccd", "mujoco".
+std::vector<std::string> reproducer_engines();
+
+/// One C++ file with a main that asks this engine alone, called as the candidate of that name is
+/// (libccd as libccd-gjk), and needs nothing of ours. It prints the engine's answer and what is
+/// true, with a proof, and exits with 1 while the answer's depth or normal regret is beyond the
+/// bar. Its comment says how to compile it, and what the candidate answered here and now.
+/// `asked` names the configuration there.
+///
+/// Throws InvalidInput (field "--emit") for an engine that is not known or has no routine for the
+/// pair.
+std::string reproducer(std::string_view engine, const Configuration& configuration,
+                       const std::string& asked, const Bar& bar, const Limits& limits = {});
 
 }  // namespace touchstone

@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 
 #include "properties/files/disk.hpp"
-#include "properties/files/json_fields.hpp"
 #include "properties/files/strict_json.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/report_json.hpp"
@@ -116,9 +115,8 @@ void read_outcomes(const Reader& row, Statistics& statistics) {
   std::uint64_t left = statistics.count;
   for (const auto& [name, value] : outcomes.object().items()) {
     const Reader number = outcomes.at(name);
-    const auto outcome = std::find_if(all_outcomes.begin(), all_outcomes.end(),
-                                      [&](Outcome o) { return name == outcome_name(o); });
-    if (outcome == all_outcomes.end()) number.refuse("must belong to an outcome");
+    const auto outcome = find_outcome(name);
+    if (!outcome) number.refuse("must belong to an outcome");
     const std::uint64_t of_outcome = number.whole();
     if (of_outcome > left) outcomes.refuse("must be numbers whose sum is the count");
     left -= of_outcome;

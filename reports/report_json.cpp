@@ -4,7 +4,7 @@
 
 #include "properties/files/answer_json.hpp"
 #include "properties/files/configuration_json.hpp"
-#include "properties/files/json_fields.hpp"
+#include "properties/files/strict_json.hpp"
 
 namespace touchstone {
 namespace {

@@ -10,7 +10,7 @@
 #include "oracle/truth.hpp"
 #include "properties/files/answer_json.hpp"
 #include "properties/files/configuration_json.hpp"
-#include "properties/files/json_fields.hpp"
+#include "properties/files/strict_json.hpp"
 #include "reports/report_json.hpp"
 #include "reports/worst.hpp"
 

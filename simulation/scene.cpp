@@ -63,8 +63,9 @@ void check_body(const std::string& field, const Body& body) {
   check_vector(field + ".velocity", body.velocity);
   check_vector(field + ".angular_velocity", body.angular_velocity);
   check_shape(field + ".shape", body);
-  if (std::holds_alternative<Plane>(body.shape) && !body.fixed) {
-    throw InvalidInput(field + ".fixed", "false", "a plane has no mass and must be fixed");
+  if (!body.fixed && inertia(body.shape, body.density).mass == 0) {
+    throw InvalidInput(field + ".fixed", "false",
+                       fmt::format("a {} has no mass and must be fixed", shape_name(body.shape)));
   }
 }
 
@@ -73,7 +74,11 @@ using std::numbers::pi;
 struct InertiaOf {
   double density;
 
-  Inertia operator()(const Plane&) const { return {0, Vec3::Zero()}; }
+  /// For any other shape.
+  template <class Massless>
+  Inertia operator()(const Massless&) const {
+    return {0, Vec3::Zero()};
+  }
   Inertia operator()(const Sphere& s) const {
     const double r2 = s.radius() * s.radius(), mass = density * 4 / 3 * pi * r2 * s.radius();
     return {mass, Vec3::Constant(0.4 * mass * r2)};

@@ -52,7 +52,7 @@ struct Inertia {
   Vec3 principal;  ///< principal moments along the shape's own axes, kg m²
 };
 
-/// Closed forms for the solid shapes; zeros for a plane.
+/// Closed forms for the solid shapes; zeros for a plane, as for any shape without a formula here.
 Inertia inertia(const Shape& shape, double density);
 
 /// Pose and velocities of a body at one time.

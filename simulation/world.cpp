@@ -6,10 +6,9 @@
 #include <ode/ode.h>
 #include <utility>
 
+#include "candidates/ode_library.hpp"
 #include "reference/aabb.hpp"
 #include "reference/invalid_input.hpp"
-
-static_assert(sizeof(dReal) == sizeof(double), "built against single-precision ODE");
 
 namespace touchstone {
 namespace {
@@ -27,9 +26,6 @@ Aabb candidate_box(const Shape& shape, const Pose& pose) {
   }
   return aabb(shape, pose);
 }
-
-/// Replaces ODE's message handlers, which print, and end the process on internal errors.
-void ignore_message(int, const char*, va_list) {}
 
 /// ODE's shape of a body, in the body's frame; null for a cylinder, whose contacts come from the
 /// contact model.
@@ -52,16 +48,6 @@ struct MakeGeom {
 Plane in_world(const Plane& plane, const Pose& pose) {
   const Vec3 normal = (pose.rotation() * plane.unit_normal()).normalized();
   return Plane(normal, plane.unit_displacement() + normal.dot(pose.position()));
-}
-
-void initialise_ode() {
-  static const bool done = [] {
-    dInitODE2(0);
-    dSetMessageHandler(ignore_message);
-    dAllocateODEDataForThread(dAllocateMaskAll);
-    return true;
-  }();
-  (void)done;
 }
 
 struct OdeQuaternion {

@@ -125,6 +125,16 @@ bool begin_pid_namespace();
 /// sched(7), and every answer would wait for its turn.)
 void fork_guarded(int socket);
 
+// Messages on the candidate's side. They end the process if the harness has gone.
+void send(int socket, const void* message, std::size_t size);
+void reply(int socket, Reply::Kind kind, std::uint64_t ticket, int value, const char* text = "",
+           bool left_behind = false);
+Command receive(int socket);
+
+/// One candidate's session in this process: executes commands until it is told to finish or dies.
+[[noreturn]] void serve_session(const ts_candidate& candidate, const Command& begin, int socket,
+                                const Questions& questions, Exchange& exchange);
+
 /// Main function of a plug-in's process: loads the plug-in, describes it on the socket, then serves
 /// sessions until the other end is closed.
 [[noreturn]] void serve_plugin(const char* file, int socket, const Questions& questions,

@@ -20,7 +20,6 @@
 #include <vector>
 
 #include "candidates/host/exchange.hpp"
-#include "candidates/host/session.hpp"
 
 namespace touchstone {
 namespace {
@@ -238,7 +237,7 @@ void serve_plugin(const char* file, int socket, const Questions& questions, Exch
       prctl(PR_SET_PDEATHSIG, SIGKILL);  // if this process dies first, receive() ends the session
       setpgid(0, 0);
       bound_memory(command.memory);
-      Session(plugin->candidates[command.index], command, socket, questions, exchange).serve();
+      serve_session(plugin->candidates[command.index], command, socket, questions, exchange);
     }
     if (pid < 0) {
       reply(socket, Reply::began, command.ticket, -1);

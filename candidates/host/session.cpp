@@ -1,19 +1,24 @@
-#include "candidates/host/session.hpp"
-
+// One session of a candidate: prepares its shapes, asks it, and times it.
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cerrno>
+#include <cfenv>
 #include <chrono>
+#include <cstdint>
 #include <cstdio>
 #include <exception>
 #include <limits>
 #include <linux/perf_event.h>
+#include <optional>
 #include <sys/ioctl.h>
 #include <sys/mman.h>
 #include <sys/socket.h>
 #include <sys/syscall.h>
 #include <unistd.h>
+#include <vector>
+
+#include "candidates/host/exchange.hpp"
 
 namespace touchstone {
 namespace {
@@ -31,7 +36,22 @@ int open_counter() {
                                   no_group, PERF_FLAG_FD_CLOEXEC));
 }
 
-}  // namespace
+/// Counts the instructions that this process retires in user space, if machine and kernel allow it
+/// (perf_event_open(2); kernel.perf_event_paranoid up to 2).
+class InstructionCounter {
+ public:
+  InstructionCounter();
+  ~InstructionCounter();
+  InstructionCounter(const InstructionCounter&) = delete;
+  InstructionCounter& operator=(const InstructionCounter&) = delete;
+
+  void start() const;
+  /// The count since start, within a few dozen; absent if instructions cannot be counted.
+  std::optional<std::uint64_t> stop() const;
+
+ private:
+  int file_;  ///< -1: not permitted
+};
 
 InstructionCounter::InstructionCounter() : file_(open_counter()) {}
 
@@ -52,8 +72,6 @@ std::optional<std::uint64_t> InstructionCounter::stop() const {
   if (read(file_, &count, sizeof count) != sizeof count || count == 0) return std::nullopt;
   return count;
 }
-
-namespace {
 
 /// Upper limit of a round of timing, approximately, so that slow candidates do not take minutes.
 constexpr std::chrono::microseconds max_round_time(500);
@@ -107,6 +125,51 @@ Command receive(int socket) {
     _exit(0);
   }
 }
+
+namespace {
+
+/// One candidate in a process of its own, which executes commands until it is told to finish or
+/// dies.
+class Session {
+ public:
+  Session(const ts_candidate& candidate, const Command& begin, int socket,
+          const Questions& questions, Exchange& exchange);
+  [[noreturn]] void serve();
+
+ private:
+  /// Two prepared shapes, for one pose after another.
+  struct PreparedPair {
+    ts_shape a, b;
+    ts_prepared* prepared;  ///< null if the pair is not supported
+  };
+  /// Prepared shapes and poses for timing.
+  struct TimedQuery {
+    ts_prepared* prepared;
+    ts_pose a, b;
+  };
+
+  void obey(const Command& command);
+  ts_prepared* prepare(const Question& question);
+  ts_prepared* ready(const Question& question);
+  void answer(std::uint32_t slot);
+  void release_all_but_of(const Command& command, std::uint32_t first);
+  void warm_up();
+  void query_all();  ///< queries everything kept for timing once
+  void time();
+
+  const ts_candidate& candidate_;
+  double threshold_, parameter_;
+  int socket_;
+  const Questions& asked_;
+  Exchange& exchange_;
+  std::fenv_t environment_;  ///< floating-point environment after loading the plug-in
+  ts_answer* answer_;
+  std::vector<PreparedPair> ready_;  ///< the last pairs of shapes queried, oldest first
+  std::vector<Question> questions_;
+  std::vector<TimedQuery> kept_;
+  std::size_t passes_ = 1;  ///< passes over kept_ in one timed round
+  InstructionCounter counter_;
+};
 
 Session::Session(const ts_candidate& candidate, const Command& begin, int socket,
                  const Questions& questions, Exchange& exchange)
@@ -249,6 +312,13 @@ void Session::time() {
   exchange_.nanoseconds = std::chrono::duration<double, std::nano>(end - start).count() / queries;
   exchange_.instructions = instructions ? static_cast<double>(*instructions) / queries
                                         : std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace
+
+void serve_session(const ts_candidate& candidate, const Command& begin, int socket,
+                   const Questions& questions, Exchange& exchange) {
+  Session(candidate, begin, socket, questions, exchange).serve();
 }
 
 }  // namespace touchstone

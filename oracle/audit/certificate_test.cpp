@@ -1,10 +1,11 @@
 // The claims of certificates; oracle/check_certificate.py checks their proofs
-// (reports/certificate_test.cpp).
+// (reports/second_oracle_test.cpp).
 #include "oracle/audit/certificate.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>
 
+#include "properties/turns.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone::audit {
@@ -12,7 +13,6 @@ namespace {
 
 using Quaternion = Eigen::Quaterniond;
 
-const Quaternion upright(1, 0, 0, 0);
 const Quaternion tilt(3, 1, 2, 1);
 
 const Configuration overlapping{Cylinder(0.3, 0.7), Pose({0.25, 0.25, 0.1}, tilt),

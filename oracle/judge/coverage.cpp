@@ -1,8 +1,7 @@
-#include "oracle/judge/coverage.hpp"
-
 #include <algorithm>
 #include <limits>
 
+#include "oracle/judge/score.hpp"
 #include "oracle/patch/convex_set.hpp"
 
 namespace touchstone {

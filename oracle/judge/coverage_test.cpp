@@ -1,8 +1,8 @@
-#include "oracle/judge/coverage.hpp"
-
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
+
+#include "oracle/judge/score.hpp"
 
 namespace touchstone {
 namespace {

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "oracle/judge/coverage.hpp"
 #include "oracle/patch/support_feature.hpp"
 
 namespace touchstone {
@@ -180,6 +179,12 @@ const char* outcome_name(Outcome outcome) {
       return "phantom-points";
   }
   return "";
+}
+
+std::optional<Outcome> find_outcome(std::string_view name) {
+  const auto found = std::find_if(all_outcomes.begin(), all_outcomes.end(),
+                                  [&](Outcome o) { return name == outcome_name(o); });
+  return found == all_outcomes.end() ? std::nullopt : std::optional(*found);
 }
 
 bool is_of_points(Outcome outcome) {

@@ -2,9 +2,12 @@
 
 #include <array>
 #include <optional>
+#include <string_view>
+#include <vector>
 
 #include "candidates/candidate.h"
 #include "candidates/host/candidate_process.hpp"
+#include "oracle/patch/contact_patch.hpp"
 #include "oracle/truth.hpp"
 #include "reference/configuration.hpp"
 
@@ -44,6 +47,8 @@ inline constexpr std::array all_outcomes = {
     Outcome::overdeep_points, Outcome::phantom_points};
 /// "agree", "missed", "wrong-normal", …
 const char* outcome_name(Outcome outcome);
+/// The outcome of that name, if there is one.
+std::optional<Outcome> find_outcome(std::string_view name);
 const char* status_name(ts_status status);
 /// Does the outcome belong to an answer that could be judged, so that it has a severity?
 bool is_judged(Outcome outcome);
@@ -80,7 +85,7 @@ struct Score {
   std::optional<double> deepest_error;
   /// Largest point_excess of a contact point, or zero. It does not decide the outcome.
   std::optional<double> point_error;
-  /// Coverage of the contact patch (coverage.hpp), if the bodies are in contact and the normal is
+  /// Coverage of the contact patch , if the bodies are in contact and the normal is
   /// within the bar.
   std::optional<double> coverage;
   /// For a simplified model that knows its own signed distance: that distance − true, and the
@@ -110,5 +115,18 @@ Score score(const Configuration& configuration, const oracle::Truth& truth, cons
 /// Adds the errors of model and solver.
 Score score(const Configuration& configuration, const oracle::Truth& truth, const Answer& answer,
             const Bar& bar);
+
+/// Share of a contact patch that the hull of the contact points spans, seen along the normal: the
+/// largest factor, at most 1, such that the patch shrunk by it about its centroid lies within the
+/// hull. Equivalently, the hull's extent from the patch's centroid relative to the patch's own,
+/// minimised over directions: it tells how far a body's weight may lean before it tips. For a full
+/// disc, three points on its rim 120° apart give 1/2, four give cos 45°, eight cos 22.5°; points
+/// that do not surround the centroid give 0.
+///
+/// A patch that is nowhere wider than `resolution` (metres) counts as a point, which any contact
+/// point covers fully; one that is narrower in one direction only counts as a segment, which points
+/// must span on both sides. Points off the patch or off its plane are not penalised here.
+double coverage(const oracle::ContactPatch& patch, const std::vector<Vec3>& points,
+                double resolution);
 
 }  // namespace touchstone

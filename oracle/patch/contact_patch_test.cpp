@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
+#include "properties/turns.hpp"
+
 namespace touchstone::oracle {
 namespace {
 
@@ -17,11 +19,6 @@ constexpr auto perpendicular = Alignment::perpendicular;
 using Kind = ContactPatch::Kind;
 
 const Vec3 up(0, 0, 1);
-/// Turns local z to x, exactly, and x to −z.
-const Eigen::Quaterniond lying_along_x(1, 0, 1, 0);
-/// Turns local z to −y, exactly.
-const Eigen::Quaterniond lying_along_y(1, 1, 0, 0);
-const Eigen::Quaterniond upright = Eigen::Quaterniond::Identity();
 const std::array<Alignment, 3> unaligned{};
 const std::array<Alignment, 3> of_face{perpendicular, perpendicular, parallel};
 
@@ -159,8 +156,8 @@ TEST(Patch, DiscThatTouchesAnEdgeOrACornerFromOutsideIsAPoint) {
 
 TEST(Patch, SideAcrossACapIsTheChord) {
   // A lies along x, half a radius off the middle of the disc.
-  const Configuration c{Cylinder(0.25, 5), Pose(Vec3(0.5, 0.5, 0.25), lying_along_x),
-                        Cylinder(1, 2), Pose(-2 * up, upright)};
+  const Configuration c{Cylinder(0.25, 5), Pose(Vec3(0.5, 0.5, 0.25), along_x), Cylinder(1, 2),
+                        Pose(-2 * up, upright)};
   const ContactPatch p = contact_patch(c, {up, perpendicular, {oblique, oblique, parallel}});
   EXPECT_EQ(p.kind(), Kind::segment);
   EXPECT_NEAR(p.perimeter(), std::sqrt(3), rounding);
@@ -168,7 +165,7 @@ TEST(Patch, SideAcrossACapIsTheChord) {
 }
 
 TEST(Patch, SideThatEndsInsideTheCap) {
-  const Configuration c{Cylinder(0.25, 5), Pose(Vec3(5, 0, 0.25), lying_along_x), Cylinder(1, 2),
+  const Configuration c{Cylinder(0.25, 5), Pose(Vec3(5, 0, 0.25), along_x), Cylinder(1, 2),
                         Pose(-2 * up, upright)};
   const ContactPatch p = contact_patch(c, {up, perpendicular, {oblique, oblique, parallel}});
   EXPECT_EQ(p.kind(), Kind::segment);
@@ -180,7 +177,7 @@ TEST(Patch, SideThatTouchesTheRimIsAPoint) {
   const std::array<Alignment, 3> to_b{oblique, oblique, parallel};
   // Tangent to the rim, then with its end on the rim.
   for (const Vec3& centre : {Vec3(0.5, 1, 0.25), Vec3(6, 0, 0.25)}) {
-    const Configuration c{Cylinder(0.25, 5), Pose(centre, lying_along_x), Cylinder(1, 2),
+    const Configuration c{Cylinder(0.25, 5), Pose(centre, along_x), Cylinder(1, 2),
                           Pose(-2 * up, upright)};
     const ContactPatch p = contact_patch(c, {up, perpendicular, to_b});
     EXPECT_EQ(p.kind(), Kind::point);
@@ -190,7 +187,7 @@ TEST(Patch, SideThatTouchesTheRimIsAPoint) {
 
 TEST(Patch, CapOnACapsulesSide) {
   const Configuration c{Cylinder(1, 1), Pose(up, upright), Capsule(0.5, 3),
-                        Pose(Vec3(2.5, 0, -0.5), lying_along_x)};
+                        Pose(Vec3(2.5, 0, -0.5), along_x)};
   const ContactPatch p = contact_patch(c, {up, parallel, {oblique, oblique, perpendicular}});
   EXPECT_EQ(p.kind(), Kind::segment);
   EXPECT_NEAR(p.perimeter(), 1.5, rounding);
@@ -198,8 +195,8 @@ TEST(Patch, CapOnACapsulesSide) {
 }
 
 TEST(Patch, ParallelSidesShareWhatOverlaps) {
-  const Configuration c{Cylinder(0.5, 2), Pose(Vec3(0, 0, 0.5), lying_along_x), Cylinder(1, 3),
-                        Pose(Vec3(4, 0, -1), lying_along_x)};
+  const Configuration c{Cylinder(0.5, 2), Pose(Vec3(0, 0, 0.5), along_x), Cylinder(1, 3),
+                        Pose(Vec3(4, 0, -1), along_x)};
   const ContactPatch p = contact_patch(c, {up, perpendicular, {oblique, oblique, perpendicular}});
   EXPECT_EQ(p.kind(), Kind::segment);
   EXPECT_NEAR(p.perimeter(), 1, rounding);
@@ -207,8 +204,8 @@ TEST(Patch, ParallelSidesShareWhatOverlaps) {
 }
 
 TEST(Patch, ParallelSidesEndToEndShareAPoint) {
-  const Configuration c{Cylinder(0.5, 2), Pose(Vec3(0, 0, 0.5), lying_along_x), Cylinder(1, 3),
-                        Pose(Vec3(5, 0, -1), lying_along_x)};
+  const Configuration c{Cylinder(0.5, 2), Pose(Vec3(0, 0, 0.5), along_x), Cylinder(1, 3),
+                        Pose(Vec3(5, 0, -1), along_x)};
   const ContactPatch p = contact_patch(c, {up, perpendicular, {oblique, oblique, perpendicular}});
   EXPECT_EQ(p.kind(), Kind::point);
   expect_near(p.centroid(), Vec3(2, 0, 0));
@@ -218,8 +215,8 @@ TEST(Patch, CrossedSidesShareAPointHowEverSmallTheAngle) {
   // Axes along x and along (1, tilt, 0), crossing above (1, 0).
   for (const double tilt : {1.0, 1e-3, 1e-15}) {
     const Eigen::Quaterniond turn(1, 0, 0, tilt / 2);
-    const Configuration c{Cylinder(0.5, 2), Pose(Vec3(0, 0, 0.5), lying_along_x), Cylinder(1, 3),
-                          Pose(Vec3(1, 0, -1), turn * lying_along_x)};
+    const Configuration c{Cylinder(0.5, 2), Pose(Vec3(0, 0, 0.5), along_x), Cylinder(1, 3),
+                          Pose(Vec3(1, 0, -1), turn * along_x)};
     const ContactPatch p = contact_patch(c, {up, perpendicular, {oblique, oblique, perpendicular}});
     EXPECT_EQ(p.kind(), Kind::point);
     expect_near(p.centroid(), Vec3(1, 0, 0));
@@ -227,7 +224,7 @@ TEST(Patch, CrossedSidesShareAPointHowEverSmallTheAngle) {
 }
 
 TEST(Patch, SideOnAFaceIsCutByTheFace) {
-  const Configuration c{Cylinder(0.5, 4), Pose(Vec3(2, 1, 0.5), lying_along_x), Box(Vec3(3, 2, 1)),
+  const Configuration c{Cylinder(0.5, 4), Pose(Vec3(2, 1, 0.5), along_x), Box(Vec3(3, 2, 1)),
                         Pose(-up, upright)};
   const ContactPatch p = contact_patch(c, {up, perpendicular, of_face});
   EXPECT_EQ(p.kind(), Kind::segment);
@@ -237,8 +234,8 @@ TEST(Patch, SideOnAFaceIsCutByTheFace) {
 
 TEST(Patch, SideAlongAFacesEdgeIsWholeAndJustBeyondAPoint) {
   const auto at = [](double y) {
-    const Configuration c{Cylinder(0.5, 4), Pose(Vec3(0, y, 0.5), lying_along_x),
-                          Box(Vec3(3, 2, 1)), Pose(-up, upright)};
+    const Configuration c{Cylinder(0.5, 4), Pose(Vec3(0, y, 0.5), along_x), Box(Vec3(3, 2, 1)),
+                          Pose(-up, upright)};
     return contact_patch(c, {up, perpendicular, of_face});
   };
   EXPECT_EQ(at(2).kind(), Kind::segment);
@@ -266,7 +263,7 @@ TEST(Patch, OnAPlaneItIsTheCylindersOwnFeature) {
   const ContactPatch standing = on_plane(upright, 2, parallel);
   EXPECT_NEAR(standing.area(), pi / 4, rounding);
   expect_near(standing.centroid(), Vec3(3, 4, 0));
-  const ContactPatch lying = on_plane(lying_along_y, 0.5, perpendicular);
+  const ContactPatch lying = on_plane(along_y, 0.5, perpendicular);
   EXPECT_EQ(lying.kind(), Kind::segment);
   EXPECT_EQ(lying.perimeter(), 4);
   EXPECT_EQ(lying.extent(Vec3(1, 0, 0)), 0);

@@ -6,6 +6,7 @@
 #include "oracle/patch/contact_patch.hpp"
 #include "oracle/patch/convex_set.hpp"
 #include "oracle/patch/support_feature.hpp"
+#include "properties/turns.hpp"
 
 namespace touchstone::oracle {
 namespace {
@@ -16,8 +17,6 @@ constexpr double inscribed = 5e-3;
 using Kind = ContactPatch::Kind;
 
 const Vec3 up(0, 0, 1);
-const Eigen::Quaterniond upright = Eigen::Quaterniond::Identity();
-const Eigen::Quaterniond lying_along_x(1, 0, 1, 0);
 
 Eigen::Quaterniond leaning(double angle) {
   return Eigen::Quaterniond(std::cos(angle / 2), 0, std::sin(angle / 2), 0);
@@ -47,7 +46,7 @@ TEST(TiltedPatch, OfATiltedCapIsADiscSegment) {
 
 TEST(TiltedPatch, OfASideIsABand) {
   const double r = 0.5, h = 2, epsilon = 1e-6;
-  const ContactPatch p = over_plane(Cylinder(r, h), lying_along_x, epsilon);
+  const ContactPatch p = over_plane(Cylinder(r, h), along_x, epsilon);
   EXPECT_EQ(p.kind(), Kind::region);
   EXPECT_NEAR(p.extent(Vec3(1, 0, 0)), 2 * h, 1e-12);
   EXPECT_NEAR(p.extent(Vec3(0, 1, 0)) / (2 * std::sqrt(epsilon * (2 * r - epsilon))), 1, 1e-9);
@@ -65,8 +64,7 @@ TEST(TiltedPatch, OfASphereIsADisc) {
 TEST(TiltedPatch, HoldsAsLongAsEpsilonDoesEvenBeyondTheBody) {
   // The whole of both bodies: the projection of the smaller one.
   const ContactPatch p = contact_patch(
-      {Cylinder(0.5, 1), Pose(up, lying_along_x), Box(Vec3(5, 5, 5)), Pose(-5 * up, upright)}, up,
-      100);
+      {Cylinder(0.5, 1), Pose(up, along_x), Box(Vec3(5, 5, 5)), Pose(-5 * up, upright)}, up, 100);
   EXPECT_NEAR(p.area(), 2, 1e-9);
 }
 
@@ -194,9 +192,9 @@ std::vector<Exact> exact_contacts(double s) {
       {{can, upright_at(0.75, 0.25, 1), other, upright_at(0, 0, -1)}, {up, flat, of_cap}},
       {{can, upright_at(0.75, 0.9, 1), box, upright_at(0, 0, -1)}, {up, flat, of_face}},
       {{can, upright_at(0.25, 0.25, 1), box, upright_at(0, 0, -1)}, {up, flat, of_face}},
-      {{can, Pose(s * Vec3(0.75, 0.25, 0.5), lying_along_x), box, upright_at(0, 0, -1)},
+      {{can, Pose(s * Vec3(0.75, 0.25, 0.5), along_x), box, upright_at(0, 0, -1)},
        {up, across, of_face}},
-      {{can, Pose(s * Vec3(0.75, 0.25, 0.5), lying_along_x), other, upright_at(0, 0, -1)},
+      {{can, Pose(s * Vec3(0.75, 0.25, 0.5), along_x), other, upright_at(0, 0, -1)},
        {up, across, of_cap}},
   };
 }
@@ -259,7 +257,7 @@ WidthFromEpsilon width(const Shape& shape, const Eigen::Quaterniond& q) {
 TEST(WidthFromEpsilon, IsThatOfWhatIsNotFlat) {
   EXPECT_EQ(width(Cylinder(0.5, 1), upright).largest, 0);
   EXPECT_NEAR(width(Cylinder(0.5, 1), leaning(1e-7)).largest, 0, 1e-12);
-  EXPECT_NEAR(width(Cylinder(0.5, 1), lying_along_x).largest, 2 * std::sqrt(e * (1 - e)), 1e-15);
+  EXPECT_NEAR(width(Cylinder(0.5, 1), along_x).largest, 2 * std::sqrt(e * (1 - e)), 1e-15);
   EXPECT_NEAR(width(Sphere(0.5), upright).largest, 2 * std::sqrt(e * (1 - e)), 1e-15);
   EXPECT_EQ(width(Box(Vec3(1, 1, 1)), upright).largest, 0);
   EXPECT_NEAR(width(Box(Vec3(1, 1, 1)), leaning(1e-4)).largest, 1e-2, 1e-6);
@@ -269,9 +267,9 @@ TEST(WidthFromEpsilon, CornersHaveNoOther) {
   EXPECT_TRUE(width(Sphere(0.5), upright).is_a_corner);
   EXPECT_TRUE(width(Cylinder(0.5, 1), leaning(0.5)).is_a_corner);
   EXPECT_FALSE(width(Cylinder(0.5, 1), leaning(1e-7)).is_a_corner);
-  EXPECT_FALSE(width(Cylinder(0.5, 1), lying_along_x).is_a_corner);
+  EXPECT_FALSE(width(Cylinder(0.5, 1), along_x).is_a_corner);
   EXPECT_TRUE(width(Capsule(0.5, 1), upright).is_a_corner);
-  EXPECT_FALSE(width(Capsule(0.5, 1), lying_along_x).is_a_corner);
+  EXPECT_FALSE(width(Capsule(0.5, 1), along_x).is_a_corner);
   EXPECT_FALSE(width(Box(Vec3(1, 1, 1)), leaning(0.5)).is_a_corner);  // an edge
   EXPECT_TRUE(width(Box(Vec3(1, 1, 1)), Eigen::Quaterniond(1, 0.3, 0.2, 0)).is_a_corner);
 }

@@ -12,7 +12,7 @@
 
 #include "oracle/patch/contact_patch.hpp"
 #include "properties/files/configuration_json.hpp"
-#include "properties/files/json_fields.hpp"
+#include "properties/files/strict_json.hpp"
 
 namespace touchstone {
 namespace {
@@ -102,8 +102,8 @@ ts_status status_from_json(const json& value, const std::string& field) {
 }  // namespace
 
 Outcome outcome_from_json(const json& value, const std::string& field) {
-  for (const Outcome outcome : all_outcomes) {
-    if (value == outcome_name(outcome)) return outcome;
+  if (value.is_string()) {
+    if (const auto outcome = find_outcome(value.get_ref<const std::string&>())) return *outcome;
   }
   throw InvalidInput(field, shown(value), "must be one that a score has");
 }

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "properties/identity.hpp"
 #include "reference/configuration.hpp"
 
 namespace touchstone {
@@ -41,5 +42,16 @@ nlohmann::json to_exact_json(const Configuration& configuration);
 
 nlohmann::json to_json(const Shape& shape);
 nlohmann::json to_json(const Vec3& v);
+
+/// Help of the option that takes such a name.
+inline constexpr const char* given_help =
+    "pair/class/seed/index, a file with a line as for solve or with a saved failure, or - for "
+    "standard input";
+
+/// Reads an identity, or where there is such a file, the file; "-" is standard input. A file holds
+/// one JSON object, or JSON Lines, of which the first that is not blank counts: a configuration as
+/// for `solve`, or an object with one as its member "configuration", as saved failures,
+/// certificates and a report's worst cases have. Throws InvalidInput.
+Subject given_configuration(const std::string& input);
 
 }  // namespace touchstone

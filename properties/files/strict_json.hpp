@@ -1,10 +1,17 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
+
+#include "reference/invalid_input.hpp"
+#include "reference/shape.hpp"
 
 namespace touchstone {
 
@@ -23,5 +30,59 @@ nlohmann::json parse_json(std::string_view text, const std::string& source);
 /// one. Throws InvalidInput: of the text as a whole where not even its first line is JSON,
 /// otherwise of the first line ("line 7") that is none.
 std::vector<nlohmann::json> parse_json_lines(const std::string& text, const std::string& source);
+
+// Members of JSON that a person or another program wrote. Every reader throws InvalidInput with the
+// full path of the field ("bodies[3].shape.radius"), what stood there and what would be right.
+
+/// The value as the person wrote it, cut where it is long.
+std::string shown(const nlohmann::json& value);
+
+/// A JSON number, or a string with a decimal or hexadecimal float.
+double number(const nlohmann::json& value, const std::string& field);
+
+/// The same, or nothing where null stands.
+std::optional<double> number_or_null(const nlohmann::json& value, const std::string& field);
+/// Writes null for what is absent or not finite: JSON has no other word for it.
+nlohmann::json or_null(const std::optional<double>& value);
+
+/// A whole number from 0 to `max`.
+std::uint64_t whole_number(const nlohmann::json& value, const std::string& field,
+                           std::uint64_t max = UINT64_MAX);
+
+std::string string(const nlohmann::json& value, const std::string& field);
+
+/// The value itself, which is an array.
+const nlohmann::json& array(const nlohmann::json& value, const std::string& field);
+
+/// The member of that name; `path` is that of the object, empty for the whole text.
+const nlohmann::json& member(const nlohmann::json& object, const char* name,
+                             const std::string& path);
+
+void require_object(const nlohmann::json& value, const std::string& field);
+
+/// Refuses members that are not known.
+void refuse_others(const nlohmann::json& object, const std::vector<std::string>& known,
+                   const std::string& path);
+
+/// An array of exactly so many numbers.
+void read_numbers(const nlohmann::json& value, const std::string& field, std::span<double> numbers);
+template <std::size_t N>
+std::array<double, N> numbers(const nlohmann::json& value, const std::string& field) {
+  std::array<double, N> result;
+  read_numbers(value, field, result);
+  return result;
+}
+
+Vec3 vector(const nlohmann::json& value, const std::string& field);
+
+/// The constructors name the field within the shape; the path in front of it is added here.
+template <class Make>
+auto at_path(const std::string& path, Make make) {
+  try {
+    return make();
+  } catch (const InvalidInput& e) {
+    throw e.within(path);
+  }
+}
 
 }  // namespace touchstone

@@ -12,7 +12,6 @@
 #include "properties/files/answer_json.hpp"
 #include "properties/files/configuration_json.hpp"
 #include "properties/files/disk.hpp"
-#include "properties/files/json_fields.hpp"
 #include "properties/files/strict_json.hpp"
 #include "reference/invalid_input.hpp"
 

@@ -1,5 +1,3 @@
-#include "reports/campaigns/plan.hpp"
-
 #include <algorithm>
 #include <boost/crc.hpp>
 #include <charconv>
@@ -13,8 +11,9 @@
 
 #include "properties/files/configuration_json.hpp"
 #include "properties/files/disk.hpp"
-#include "properties/files/json_fields.hpp"
+#include "properties/files/strict_json.hpp"
 #include "reference/invalid_input.hpp"
+#include "reports/campaigns/shard.hpp"
 #include "reports/worst.hpp"
 
 namespace touchstone {

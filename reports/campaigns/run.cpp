@@ -1,5 +1,3 @@
-#include "reports/campaigns/run.hpp"
-
 #include <cerrno>
 #include <chrono>
 #include <cstring>
@@ -17,6 +15,7 @@
 #include "properties/files/disk.hpp"
 #include "properties/files/strict_json.hpp"
 #include "reference/invalid_input.hpp"
+#include "reports/campaigns/shard.hpp"
 
 namespace touchstone {
 namespace {

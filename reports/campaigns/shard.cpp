@@ -9,9 +9,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "properties/files/answer_json.hpp"
 #include "properties/files/disk.hpp"
 #include "properties/files/error_text.hpp"
-#include "properties/files/json_fields.hpp"
 #include "properties/files/strict_json.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/report_json.hpp"
@@ -33,13 +33,6 @@ const json& array(const json& object, const char* name) {
   return value;
 }
 
-Outcome parse_outcome(const std::string& name) {
-  for (const Outcome outcome : all_outcomes) {
-    if (name == outcome_name(outcome)) return outcome;
-  }
-  throw InvalidInput("outcome", '"' + name + '"', "must be one that a score has");
-}
-
 json to_json(const Case& c) {
   return {{"index", c.index},
           {"outcome", outcome_name(c.score.outcome)},
@@ -50,7 +43,7 @@ json to_json(const Case& c) {
 
 Case case_from_json(const json& j, std::size_t cell) {
   Score score;
-  score.outcome = parse_outcome(string(member(j, "outcome", ""), "outcome"));
+  score.outcome = outcome_from_json(member(j, "outcome", ""), "outcome");
   score.depth_error = number_or_null(j, "depth_error");
   score.normal_regret = number_or_null(j, "normal_regret");
   score.severity = number(member(j, "severity", ""), "severity");
@@ -140,7 +133,7 @@ ScoreTally tally_from_json(const json& j, std::size_t cell) {
   const json& outcomes = member(j, "outcomes", "");
   require_object(outcomes, "outcomes");
   for (const auto& [name, count] : outcomes.items()) {
-    auto& number = t.outcomes[static_cast<std::size_t>(parse_outcome(name))];
+    auto& number = t.outcomes[static_cast<std::size_t>(outcome_from_json(name, "outcome"))];
     number = whole_number(count, "outcomes." + name, left);
     left -= number;
   }

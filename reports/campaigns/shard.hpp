@@ -1,15 +1,81 @@
 #pragma once
 
+#include <boost/icl/interval_set.hpp>
+#include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "reports/campaigns/plan.hpp"
+#include "reports/sampler.hpp"
 #include "reports/score_tally.hpp"
 
 namespace touchstone {
+
+/// How a campaign is cut into units of work, the same however it is shared out: numbers go through
+/// all cells with the first configurations of each, then through all with the next ones. A piece of
+/// consecutive numbers has its share of every cell, cheap and dear.
+struct Cut {
+  std::uint64_t cells;
+  std::uint64_t count;  ///< of configurations of each cell
+
+  std::uint64_t units() const { return cells * ((count + Unit::max_size - 1) / Unit::max_size); }
+  Unit unit(std::uint64_t number) const;
+};
+
+/// Numbers of units, as ranges [first, last).
+using UnitSet = boost::icl::interval_set<std::uint64_t, std::less,
+                                         boost::icl::right_open_interval<std::uint64_t>>;
+
+/// The number at a position among those of the set, in order.
+std::uint64_t nth(const UnitSet& set, std::uint64_t position);
+std::uint64_t configurations(const Cut& cut, const UnitSet& set);
+
+/// One of `of` equal parts, numbered from 1.
+struct Shard {
+  std::uint64_t number = 1, of = 1;
+
+  bool operator==(const Shard&) const = default;
+  /// A run of consecutive units; those of all shards together are all units, each once.
+  UnitSet units(const Cut& cut) const;
+};
+/// "3/7".
+std::string to_string(const Shard& shard);
+/// Throws InvalidInput (field "--shard").
+Shard parse_shard(const std::string& text);
+
+/// Everything that decides a campaign's result. Parts with the same plan belong together.
+struct Plan {
+  /// Configurations of each class; numbers of units and configurations of all classes do not
+  /// overflow.
+  static constexpr std::uint64_t max_count = Magnitudes::max_count;
+
+  std::string version;
+  std::string command;  ///< gives the same result in one process; it names every setting
+  std::string program;  ///< of the command
+  std::uint64_t seed = 0;
+  double tolerance = 0, threshold = 0;
+  std::vector<Cell> cells;
+  std::vector<std::string> candidates;
+  Cut cut{};
+  /// All of it in JSON, as the campaign's files have it: limits, descriptions, and checksums of the
+  /// plug-ins and of the first configuration of each class, which changes when a generator does.
+  std::string text;
+};
+Plan make_plan(const Campaign& campaign, const std::string& command);
+
+/// Throws InvalidInput on anything else than the text of a plan.
+Plan plan_from_json(const nlohmann::json& json);
+
+/// Throws InvalidInput (field `file`) naming what differs and how, unless `found` is the text of
+/// the expected plan.
+void require_same_plan(const Plan& expected, const nlohmann::json& found, const std::string& file);
+
+/// CRC-32 (as in zip and PNG) as eight hexadecimal digits: finds damage, not malice.
+std::string checksum(std::string_view text);
 
 /// How far one shard has come: the tallies of the units that are done, and no others.
 struct ShardState {
@@ -56,5 +122,53 @@ nlohmann::json to_json(const ScoreTally& tally);
 /// Reads a tally whose cases are all of this cell. Throws InvalidInput on anything else than
 /// to_json gives.
 ScoreTally tally_from_json(const nlohmann::json& json, std::size_t cell);
+
+/// Held by one process at a time, and let go when it ends, however it does: a record lock, which
+/// its children do not hold.
+class FileLock {
+ public:
+  /// Makes the file. Throws InvalidInput (field "--out") if another process holds it.
+  explicit FileLock(const std::filesystem::path& file);
+  ~FileLock();
+  FileLock(const FileLock&) = delete;
+  FileLock& operator=(const FileLock&) = delete;
+
+ private:
+  int fd_;
+};
+
+/// Place of one shard: its file in a campaign's folder, locked as long as this lives.
+class ShardPlace {
+ public:
+  /// Makes the folder. Throws InvalidInput (field "--out") where nothing can be written or another
+  /// process is at work on the same shard.
+  ShardPlace(std::filesystem::path folder, const Shard& shard);
+
+  const std::filesystem::path& file() const { return file_; }
+
+  /// The shard as its file has it, or at its beginning where there is none. Throws InvalidInput
+  /// where there is one and `resume` is false, where it is damaged or of another campaign, and
+  /// where the folder holds shards of another campaign or of another cut.
+  ShardState begin(const Plan& plan, bool resume) const;
+
+ private:
+  std::filesystem::path folder_;
+  Shard shard_;
+  std::filesystem::path file_;
+  FileLock lock_;
+};
+
+/// How a shard is run; none of it changes the result.
+struct RunOptions {
+  double interval = 30;  ///< seconds between checkpoints, by a clock that never jumps
+  bool progress = true;  ///< shown on standard error
+};
+
+/// Scores the units of the shard that are not done yet, spread over worker processes, and writes
+/// `file` at every interval, at the end, and before an error goes on. Ends early, with the file
+/// written, once `go_on` says no; units in hand are lost. The result does not depend on workers or
+/// interruptions. Returns whether all is done.
+bool run_shard(const Campaign& campaign, ShardState& state, const std::filesystem::path& file,
+               const RunOptions& options, const std::function<bool()>& go_on);
 
 }  // namespace touchstone

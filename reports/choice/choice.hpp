@@ -1,13 +1,61 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
+#include <vector>
 
-#include "reports/choice/shape_pairs.hpp"
 #include "simulation/scenes/choose.hpp"
+#include "simulation/scenes/shapes_file.hpp"
 
 // Outputs of `touchstone choose`. `folder` holds the configurations of failures, one file each,
 // for `touchstone replay`; `command` is the command line that a person would repeat.
+
 namespace touchstone {
+
+/// Limits on the errors of contacts between the shapes of a robot or world.
+struct PairNeeds {
+  double depth = 1e-3;                  ///< error of the depth, metres; a missed contact counts
+  double angle = 5;                     ///< error of the normal, degrees
+  std::uint64_t count = 200, seed = 1;  ///< sampled poses of each pair
+};
+
+/// One candidate on one pair of shapes.
+struct PairCandidate {
+  std::string name;
+  ReplayScore score;
+  bool serves;                         ///< keeps all limits
+  std::optional<Configuration> worst;  ///< of one that does not serve: where it is worst
+};
+
+/// Two shapes and the candidates on them.
+struct PairChoice {
+  std::string name;                       ///< "cylinder ⌀0.1×0.3 on box 1×1×0.2"
+  std::string example;                    ///< names of two such shapes of the file
+  int count;                              ///< such pairs in the file
+  std::vector<PairCandidate> candidates;  ///< the cheapest first, without those that lack the pair
+  std::optional<std::size_t> chosen;      ///< index of the cheapest that serves
+};
+
+/// The cheapest models that serve for the pairs of shapes of a robot or world.
+struct PairsChoice {
+  std::string name;  ///< of the robot or world
+  std::size_t shapes;
+  std::vector<std::string> ignored;  ///< elements of the file
+  PairNeeds needs;
+  std::vector<PairChoice> pairs;
+
+  bool all_served() const;
+};
+
+/// Scores all candidates on every cylinder of the file against everything that it can touch: shapes
+/// of other links without a joint between them, not both of them fixed. Pairs of equal shapes count
+/// once. Poses near contact are sampled (any orientation, any two features, up to a twentieth of
+/// the smaller size or four times the depth limit), scored against the oracle and timed. The exact
+/// candidate is chosen unless another one is cheaper by more than the machine's noise. Throws
+/// InvalidInput if no cylinder can touch anything.
+PairsChoice choose_for_pairs(const ShapesFile& file, const PairNeeds& needs,
+                             const std::vector<const Candidate*>& candidates, const Limits& limits);
 
 /// Text for a terminal of 80 columns: the answer, what fails first with cheaper models, and the run
 /// of each candidate.

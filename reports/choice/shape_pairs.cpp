@@ -1,4 +1,4 @@
-#include "reports/choice/shape_pairs.hpp"
+#include "reports/choice/choice.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

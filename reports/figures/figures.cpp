@@ -4,18 +4,274 @@
 #include <cmath>
 #include <cstdlib>
 #include <fmt/format.h>
+#include <fstream>
+#include <iterator>
+#include <numeric>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "properties/files/disk.hpp"
 #include "reference/invalid_input.hpp"
-#include "reports/figures/gnuplot.hpp"
+#include "reports/pages/page.hpp"
 
 namespace touchstone {
 
 using std::filesystem::path;
 
 namespace {
+
+struct Rectangle {
+  double left, bottom, right, top;
+  bool meets(const Rectangle& o) const {
+    return left < o.right && o.left < right && bottom < o.top && o.bottom < top;
+  }
+};
+
+constexpr LabelPlace choices[] = {{true, 1, 0},      {false, -1, 0},     {true, 0.6, 0.8},
+                                  {true, 0.6, -0.8}, {false, -0.6, 0.8}, {false, -0.6, -0.8}};
+
+Rectangle text_at(const Label& l, const LabelPlace& p) {
+  const double end = l.x + p.dx, other = end + (p.rightwards ? l.length : -l.length);
+  return {std::min(end, other), l.y + p.dy - 0.5, std::max(end, other), l.y + p.dy + 0.5};
+}
+
+}  // namespace
+
+std::vector<std::optional<LabelPlace>> label_places(const std::vector<Label>& labels, double width,
+                                                    double height) {
+  const Rectangle chart{0, -0.5, width, height + 1.5};  // a line more, below the title
+  std::vector<Rectangle> taken;
+  for (const Label& l : labels) taken.push_back({l.x - 0.7, l.y - 0.35, l.x + 0.7, l.y + 0.35});
+  std::vector<std::size_t> order(labels.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_partition(order.begin(), order.end(),
+                        [&](std::size_t i) { return labels[i].important; });
+  std::vector<std::optional<LabelPlace>> result(labels.size());
+  for (const std::size_t i : order) {
+    // How bad a place is: what it lies on, and what of it is cut off.
+    const auto badness = [&](const LabelPlace& p) {
+      const Rectangle text = text_at(labels[i], p);
+      const auto hits = std::count_if(taken.begin(), taken.end(),
+                                      [&](const Rectangle& r) { return r.meets(text); });
+      const bool cut = text.left < chart.left || text.right > chart.right ||
+                       text.bottom < chart.bottom || text.top > chart.top;
+      return hits + (cut ? 100 : 0);
+    };
+    const LabelPlace* best = std::min_element(
+        std::begin(choices), std::end(choices),
+        [&](const LabelPlace& a, const LabelPlace& b) { return badness(a) < badness(b); });
+    if (badness(*best) > 0 && !labels[i].important) continue;
+    result[i] = *best;
+    taken.push_back(text_at(labels[i], *best));
+  }
+  return result;
+}
+
+namespace {
+
+/// "pointtype 7 linecolor '#0072b2'": a candidate's mark, coloured as on the report's page.
+std::string style_of(const std::string& candidate) {
+  constexpr const char* colours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
+                                     "#a67c00", "#3a9bdc", "#7a5195", "#555555"};
+  constexpr int symbols[] = {7, 5, 9, 13, 1, 11};  // gnuplot's circle, square, triangle, …
+  const Mark mark = mark_of(candidate);
+  return fmt::format("pointtype {} linecolor '{}'", symbols[mark.symbol], colours[mark.colour]);
+}
+
+/// Text within double quotes, for gnuplot.
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    result += c;
+  }
+  return result + '"';
+}
+
+/// A cell of CSV.
+std::string csv_cell(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string result = "\"";
+  for (const char c : text) result += c == '"' ? "\"\"" : std::string(1, c);
+  return result + '"';
+}
+
+/// Runs a script within `folder`. Throws std::runtime_error with gnuplot's words if it fails; the
+/// script is then left there.
+void run_gnuplot(const std::string& script, const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / "figures.gnuplot", said = folder / "figures.log";
+  write_file(file, script, "--figures");
+  const std::string command =
+      fmt::format("cd {} && gnuplot figures.gnuplot >figures.log 2>&1", "\"$TOUCHSTONE_FIGURES\"");
+  setenv("TOUCHSTONE_FIGURES", folder.c_str(), 1);
+  const int code = std::system(command.c_str());
+  unsetenv("TOUCHSTONE_FIGURES");
+  std::ifstream log(said);
+  const std::string words((std::istreambuf_iterator<char>(log)), {});
+  std::filesystem::remove(said);
+  if (code != 0) throw std::runtime_error("gnuplot failed on " + file.string() + ": " + words);
+  std::filesystem::remove(file);
+}
+
+/// A figure's commands, once for NAME.svg and once for NAME.png of twice as many pixels.
+std::string in_both_forms(const std::string& name, int width, int height,
+                          const std::string& commands) {
+  const std::string reset = "\nreset\n";
+  return fmt::format(
+      "set terminal svg size {0},{1} noenhanced font 'DejaVu Sans,11' "
+      "background '#ffffff'\nset output {2}\n{3}{4}"
+      "set terminal pngcairo size {5},{6} noenhanced font 'DejaVu Sans,11' "
+      "fontscale 2 linewidth 2 pointscale 1.6\nset output {7}\n{3}{4}",
+      width, height, quoted(name + ".svg"), commands, reset, 2 * width, 2 * height,
+      quoted(name + ".png"));
+}
+
+/// Share of the configurations with a routine on which the candidate agrees.
+double agreement(const Statistics& s) {
+  return static_cast<double>(s.of(Outcome::agree)) /
+         static_cast<double>(s.count - s.of(Outcome::unsupported));
+}
+
+struct Point {
+  std::string candidate;
+  double time, error, agreement;
+  bool front = false;
+};
+
+/// Timed candidates with contacts.
+std::vector<Point> points_of(const Report& report, const std::string& pair) {
+  constexpr double min_error = 1e-17;  // a logarithmic axis has no zero
+  std::vector<Point> result;
+  for (const ResultRow& row : report.summary) {
+    const Statistics& s = row.statistics;
+    if (row.pair != pair || !row.time || !s.depth_error) continue;
+    result.push_back({row.candidate, row.time->nanoseconds.median,
+                      std::max(s.depth_error->p99, min_error), agreement(s),
+                      row.pareto.value_or(false)});
+  }
+  return result;
+}
+
+struct Range {
+  double low, high;  ///< powers of ten
+};
+Range decades(const std::vector<double>& values) {
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  const double first = std::floor(std::log10(*low));
+  return {first, std::max(first + 1, std::ceil(std::log10(*high)))};
+}
+
+/// The panel's commands; `width` and `height` are of its axes, in characters of its labels.
+std::string speed_panel(const std::string& pair, const std::vector<Point>& points, const Range& x,
+                        const Range& y, double width, double height) {
+  std::string text = fmt::format(
+      "set title {} noenhanced\nset logscale xy\nset xrange [0.999e{}:1.001e{}]\nset yrange "
+      "[1e{}:1e{}]\n"
+      "set grid xtics ytics linecolor '#d9dee5'\nset border 3\nset tics nomirror\n"
+      "set xtics ('10 ns' 10, '100 ns' 100, '1 µs' 1e3, '10 µs' 1e4, '100 µs' 1e5, '1 ms' 1e6)\n"
+      "set ytics 1e{} format '%.0e'\nset xlabel 'time per query'\n"
+      "set ylabel 'depth error, p99 (sizes)'\nset key off\nunset label\nunset mxtics\nunset "
+      "mytics\n",
+      quoted(pair == "all" ? "all pairs" : pair), x.low, x.high, y.low, y.high,
+      std::max(1.0, std::ceil((y.high - y.low) / 6)));
+  std::vector<Label> labels;
+  for (const Point& p : points) {
+    labels.push_back({(std::log10(p.time) - x.low) / (x.high - x.low) * width,
+                      (std::log10(p.error) - y.low) / (y.high - y.low) * height,
+                      static_cast<double>(p.candidate.size()), p.front});
+  }
+  const auto places = label_places(labels, width, height);
+  std::string marks;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Point& p = points[i];
+    marks += fmt::format("{}'-' with points pointsize 1 {}",
+                         i ? ", " : "plot '-' with lines dashtype 2 linecolor '#5a6472', ",
+                         style_of(p.candidate));
+    if (!places[i]) continue;
+    text +=
+        fmt::format("set label {} at {:.6g},{:.6g} {} offset character {:.2f},{:.2f} front{}\n",
+                    quoted(p.candidate), p.time, p.error, places[i]->rightwards ? "left" : "right",
+                    places[i]->dx, places[i]->dy, p.front ? "" : " textcolor '#5a6472'");
+  }
+  std::vector<Point> front;
+  for (const Point& p : points) {
+    if (p.front) front.push_back(p);
+  }
+  std::sort(front.begin(), front.end(),
+            [](const Point& a, const Point& b) { return a.time < b.time; });
+  text += marks + '\n';
+  for (const Point& p : front) text += fmt::format("{:.6g} {:.6g}\n", p.time, p.error);
+  text += "e\n";
+  for (const Point& p : points) text += fmt::format("{:.6g} {:.6g}\ne\n", p.time, p.error);
+  return text;
+}
+
+/// All marks with their names, at the bottom of a page of panels.
+std::string key_panel(const std::vector<std::string>& candidates, double share) {
+  std::string text = fmt::format(
+      "set size 1,{}\nset origin 0,0\nunset title\nunset label\nunset border\nunset tics\n"
+      "unset xlabel\nunset ylabel\nunset grid\nset key center center horizontal Left reverse "
+      "samplen 1 width 1 font ',9'\n",
+      share);
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    text += fmt::format("{}1/0 with points title {} pointsize 1 {}", i ? ", " : "plot ",
+                        quoted(candidates[i]), style_of(candidates[i]));
+  }
+  return text + '\n';
+}
+
+/// The charts of speed and accuracy, together and of each pair. Writes their data as CSV and
+/// returns their commands, none where there is nothing to show.
+std::string speed_figures(const Report& report, const std::vector<std::string>& pairs,
+                          const std::filesystem::path& folder) {
+  std::vector<double> times, errors;
+  std::vector<std::string> drawn;
+  std::string all_data = "pair,candidate,nanoseconds,depth_error_p99,agreement,on_front\n";
+  for (const auto& pair : pairs) {
+    const auto points = points_of(report, pair);
+    if (!points.empty()) drawn.push_back(pair);
+    for (const Point& p : points) {
+      times.push_back(p.time);
+      errors.push_back(p.error);
+      all_data += fmt::format("{},{},{},{},{},{}\n", pair, csv_cell(p.candidate), p.time, p.error,
+                              p.agreement, p.front ? 1 : 0);
+    }
+  }
+  if (drawn.empty()) return "";
+  write_file(folder / "speed-accuracy.csv", all_data, "--figures");
+  const Range x = decades(times);
+  Range y = decades(errors);
+  y.low -= 1;  // room for labels above the axis
+  std::string script, panels;
+  // Two columns of panels above a key of all marks.
+  const int columns = drawn.size() > 1 ? 2 : 1;
+  const int rows = static_cast<int>(drawn.size() + 1) / 2;
+  constexpr int key_height = 90;
+  const double share = 1.0 * key_height / (340 * rows + key_height);
+  std::vector<std::string> candidates;
+  for (const CandidateDescription& c : report.candidates) candidates.push_back(c.name);
+  int panel = 0;
+  for (const auto& pair : drawn) {
+    const auto points = points_of(report, pair);
+    script +=
+        in_both_forms("speed-accuracy-" + pair, 640, 440, speed_panel(pair, points, x, y, 64, 18));
+    panels += fmt::format("set size {},{}\nset origin {},{}\n", 1.0 / columns, (1 - share) / rows,
+                          1.0 / columns * (panel % columns),
+                          1 - (1 - share) / rows * (panel / columns + 1)) +
+              speed_panel(pair, points, x, y, 50, 13);
+    ++panel;
+    std::string data = "candidate,nanoseconds,depth_error_p99,agreement,on_front\n";
+    for (const Point& p : points) {
+      data += fmt::format("{},{},{},{},{}\n", csv_cell(p.candidate), p.time, p.error, p.agreement,
+                          p.front ? 1 : 0);
+    }
+    write_file(folder / ("speed-accuracy-" + pair + ".csv"), data, "--figures");
+  }
+  return script + in_both_forms("speed-accuracy", 1080, 340 * rows + key_height,
+                                "set multiplot\n" + panels + key_panel(candidates, share) +
+                                    "unset multiplot\n");
+}
 
 /// Cumulative distribution of the depth error, a line for each candidate.
 std::string error_figure(const Report& report, const std::string& pair, const path& folder) {

@@ -7,7 +7,6 @@
 
 #include "candidates/candidates.hpp"
 #include "reference/invalid_input.hpp"
-#include "reports/figures/gnuplot.hpp"
 #include "reports/make_report.hpp"
 
 namespace touchstone {

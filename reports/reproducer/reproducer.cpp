@@ -1,6 +1,6 @@
 // Templates are C++ with two additions: @name@ stands for a text, and a line that begins with
 // [shape] or [shape,shape] is there only for these shapes of body B.
-#include "reports/reproducer/reproducer.hpp"
+#include "reports/replay.hpp"
 
 #include <algorithm>
 #include <array>

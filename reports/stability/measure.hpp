@@ -3,7 +3,6 @@
 #include <functional>
 #include <set>
 
-#include "properties/motions/critical_pose.hpp"
 #include "properties/motions/motion.hpp"
 #include "reports/campaign.hpp"
 #include "reports/stability/stability.hpp"

@@ -1,12 +1,89 @@
 #pragma once
 
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "simulation/scenes/trials.hpp"
+#include "candidates/host/candidate_process.hpp"
+#include "simulation/scenes/scene_file.hpp"
+
+// How candidates do in a scene: query by query on the configurations of a run, and in whole runs.
 
 namespace touchstone {
+
+/// Errors and time of one candidate on configurations of one kind of pairs.
+struct ReplayScore {
+  std::optional<double> nanoseconds;  ///< per query, median of the rounds; absent: unsupported
+  std::size_t count = 0, agree = 0;   ///< configurations, and those on which it agrees
+  /// Largest error of the depth, metres; for a missed contact, its depth; infinite without an
+  /// answer.
+  double depth_error = 0;
+  /// Largest angle, degrees, of an answered normal that does not separate the bodies as well as the
+  /// true one.
+  double normal_angle = 0;
+  std::size_t worst_depth = 0, worst_angle = 0;  ///< indices of the configurations with them
+};
+
+/// Scores the candidates against the oracle and times them in turns, one process at a time. All
+/// configurations are of the same two shapes.
+std::vector<ReplayScore> replay(const std::vector<Configuration>& configurations,
+                                std::vector<CandidateProcess>& candidates);
+
+/// Largest number of configurations of a kind that are replayed, evenly spread over the run.
+inline constexpr std::size_t max_replayed = 64;
+
+/// Replays what occurred in a run: result[kind][candidate].
+std::vector<std::vector<ReplayScore>> replay(const Scene& scene, const Trajectory& run,
+                                             const std::vector<PairKind>& kinds,
+                                             const std::vector<const Candidate*>& candidates,
+                                             const Limits& limits);
+
+/// The worst answer of a run's models before its first need broke.
+struct Evidence {
+  Configuration configuration;
+  std::string bodies, candidate;
+  std::string wrong;  ///< in words: "missed, 0.0012 m deep"
+  double time;        ///< s
+};
+
+/// A whole run of a scene with a candidate for each kind of pairs.
+struct SceneRun {
+  std::string name;                      ///< of its models: "capsule", "combination", …
+  std::vector<const Candidate*> models;  ///< by kind
+  double nanoseconds = 0;                ///< cost of its models for all questions of the exact run
+  std::vector<Verdict> verdicts = {};    ///< by need
+  std::optional<Evidence> evidence = {};
+
+  bool holds() const;
+  /// Largest share of its limit that a need takes; above one: broken.
+  double error() const;
+  /// Index of the need that broke first; −1: all hold.
+  int first_broken() const;
+};
+
+/// Processes of candidates, each started on first use.
+class Processes {
+ public:
+  explicit Processes(const Limits& limits) : limits_(limits) {}
+  CandidateProcess& of(const Candidate& candidate);
+
+ private:
+  Limits limits_;
+  std::map<const Candidate*, CandidateProcess> processes_;
+};
+
+/// Runs the scene with a model for each kind, and `exact` for kinds whose model is null and for
+/// pairs that the exact run never asked about.
+Trajectory run_with(const Scene& scene, const PairKinds& kinds,
+                    const std::vector<const Candidate*>& models, const Candidate& exact,
+                    Processes& processes);
+
+/// Runs the scene with the models of each run and fills in the verdicts and, where a need is
+/// broken, the evidence. The result does not depend on the number of worker processes.
+void judge(std::vector<SceneRun>& runs, const SceneFile& file, const Trajectory& exact_run,
+           const PairKinds& kinds, const Candidate& exact, const Limits& limits, unsigned workers);
 
 /// Which models to try in a scene.
 struct ChooseOptions {

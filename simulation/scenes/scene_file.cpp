@@ -10,7 +10,6 @@
 
 #include "properties/files/configuration_json.hpp"
 #include "properties/files/disk.hpp"
-#include "properties/files/json_fields.hpp"
 #include "properties/files/strict_json.hpp"
 #include "reference/aabb.hpp"
 #include "reference/invalid_input.hpp"

@@ -78,7 +78,11 @@ struct ShapeText {
     const Vec3 side = 2 * s.half_extents();
     return fmt::format("box {:g}×{:g}×{:g}", side.x(), side.y(), side.z());
   }
-  std::string operator()(const Plane&) const { return "plane"; }
+  /// For any other shape.
+  template <class Other>
+  std::string operator()(const Other& s) const {
+    return shape_name(s);
+  }
 };
 
 }  // namespace

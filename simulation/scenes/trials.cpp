@@ -1,4 +1,4 @@
-#include "simulation/scenes/trials.hpp"
+#include "simulation/scenes/choose.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -233,8 +233,7 @@ std::vector<ReplayScore> replay(const std::vector<Configuration>& configurations
   std::vector<ReplayScore> result(candidates.size());
   std::vector<bool> ready(candidates.size());
   for (std::size_t k = 0; k < candidates.size(); ++k) {
-    const ts_shape_kind other = to_ts_shape(configurations.front().b).kind;
-    if (!candidates[k].candidate().supports[other]) continue;
+    if (!candidates[k].candidate().has_routine_for(pair_of(configurations.front()))) continue;
     result[k] = score_all(configurations, truths, candidates[k].answers(configurations));
     ready[k] = candidates[k].prepare_timing(configurations);
   }

@@ -1,4 +1,4 @@
-#include "properties/motions/critical_pose.hpp"
+#include "properties/motions/perturbation.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,6 +11,133 @@
 
 namespace touchstone {
 namespace {
+
+using testing::HasSubstr;
+
+const Cylinder can(0.3, 0.4);  // circumradius 0.5
+Configuration at(const Vec3& position, const Eigen::Quaterniond& q) {
+  return {can, Pose(position, q), Sphere(0.2), Pose()};
+}
+const Eigen::Quaterniond straight(1, 0, 0, 0);
+
+TEST(LargestDisplacement, IsTheLengthOfATranslation) {
+  EXPECT_DOUBLE_EQ(largest_displacement(at({1, 2, 3}, straight), at({1.3, 2.4, 3}, straight)), 0.5);
+}
+
+TEST(LargestDisplacement, IsTheChordOfTheCircumradiusInARotation) {
+  // A right angle: the chord is sqrt 2 circumradii, whatever the quaternions' lengths.
+  const Eigen::Quaterniond quarter(3, 3, 0, 0);
+  EXPECT_NEAR(largest_displacement(at({0, 0, 0}, straight), at({0, 0, 0}, quarter)),
+              std::sqrt(2.0) * 0.5, 1e-15);
+}
+
+TEST(LargestDisplacement, KeepsItsDigitsForATinyRotation) {
+  const Eigen::Quaterniond turned(0.6, 0.8, 0, 0), tiny(0.6, 0.8, 1e-100, 0);
+  EXPECT_NEAR(largest_displacement(at({0, 0, 0}, turned), at({0, 0, 0}, tiny)) / 1e-100, 1, 1e-12);
+}
+
+TEST(Perturbation, MovesOrTurnsByItsAmplitude) {
+  const Configuration c = at({0.5, -0.25, 0.125}, Eigen::Quaterniond(1, 2, 0, -1));
+  for (int exponent = -14; exponent <= Decade::max; ++exponent) {
+    const Decade amplitude(exponent);
+    const double a = amplitude.value(), rounding = 4e-16 / a;
+    for (std::uint64_t number = 0; number < 12; ++number) {
+      const Configuration to = perturbed(c, {amplitude, 7, number});
+      const double moves = (to.pose_a.position() - c.pose_a.position()).norm() / (0.2 * a);
+      Configuration turned = to;
+      turned.pose_a = Pose(c.pose_a.position(), to.pose_a.orientation());
+      const double turns = largest_displacement(c, turned) / (0.5 * a);
+      EXPECT_NEAR(moves, number % 3 == 1 ? 0 : 1, 5 * rounding) << a << ' ' << number;
+      // 2 sin(θ/2) of θ = 2 arctan(a/2) is a to second order.
+      EXPECT_NEAR(turns, number % 3 == 0 ? 0 : 1, a * a + rounding) << a << ' ' << number;
+    }
+  }
+}
+
+TEST(Perturbation, GoesAnotherWayForEveryNumberSeedAndAmplitude) {
+  const Configuration c = at({0, 0, 0}, straight);
+  const auto shown = [&](const Perturbation& p) { return rc::toString(perturbed(c, p)); };
+  const std::string first = shown({Decade(-3), 1, 0});
+  EXPECT_EQ(first, shown({Decade(-3), 1, 0}));
+  EXPECT_NE(first, shown({Decade(-3), 2, 0}));
+  EXPECT_NE(first, shown({Decade(-3), 1, 3}));
+  const Vec3 p = perturbed(c, {Decade(-3), 1, 0}).pose_a.position().normalized();
+  EXPECT_LT(p.dot(perturbed(c, {Decade(-4), 1, 0}).pose_a.position().normalized()), 0.999);
+}
+
+// A changed step breaks every name with an @ that has been written down. The rows: a translation, a
+// rotation by a unit in the last place, both.
+TEST(Perturbation, KeepsItsBitsFromVersionToVersion) {
+  const struct {
+    const char* perturbation;
+    const char* pose;
+  } golden[] = {{"1e-8/1/0",
+                 "position (-0x1.1217ab1d1cfa4p-1, -0x1.bc085ef93110bp-1, -0x1.ca64626f7f4ccp-4) "
+                 "orientation (-0x1.8p+1, -0x1p+0, -0x1p+0, 0x1.8p+1)"},
+                {"1e-16/1/4",
+                 "position (-0x1.1217ab2p-1, -0x1.bc085fp-1, -0x1.ca6463p-4) orientation "
+                 "(-0x1.8p+1, -0x1p+0, -0x1.ffffffffffffep-1, 0x1.8p+1)"},
+                {"1e-2/7/5",
+                 "position (-0x1.12d5cfc4a7fcbp-1, -0x1.bce8919491472p-1, -0x1.cbe244cdd979ep-4) "
+                 "orientation (-0x1.814c045063111p+1, -0x1.f8e78b32c881p-1, -0x1.02d0ee2ea2a06p+0, "
+                 "0x1.7ed3330e46743p+1)"}};
+  const Configuration c = make_configuration(parse_identity("cylinder-box/side-on-face/1/4"));
+  for (const auto& row : golden) {
+    EXPECT_THAT(rc::toString(perturbed(c, parse_perturbation(row.perturbation))),
+                HasSubstr(row.pose))
+        << row.perturbation;
+  }
+}
+
+TEST(Perturbation, PrintsAndParsesBack) {
+  const Perturbation p = parse_perturbation("1e-8/3/18446744073709551615");
+  EXPECT_EQ(p.amplitude.value(), 1e-8);
+  EXPECT_EQ(to_string(p), "1e-8/3/18446744073709551615");
+}
+
+TEST(Perturbation, RefusesWhatItIsNotAndNamesThePart) {
+  const struct {
+    const char* text;
+    const char* field;
+    const char* remedy;
+  } table[] = {{"", "perturbation", "1e-8/1/4"},
+               {"1e-8/1", "perturbation", "1e-8/1/4"},
+               {"1e-17/1/4", "perturbation.amplitude", "1e-16"},
+               {"1e-08/1/4", "perturbation.amplitude", "1e-16"},
+               {"0.1/1/4", "perturbation.amplitude", "1e-1"},
+               {"1e-8/x/4", "perturbation.seed", "whole number"},
+               {"1e-8/1/-4", "perturbation.number", "whole number"},
+               {"1e-8/1/4/5", "perturbation.number", "whole number"}};
+  for (const auto& row : table) {
+    SCOPED_TRACE(row.text);
+    try {
+      parse_perturbation(row.text);
+      ADD_FAILURE() << "accepted";
+    } catch (const InvalidInput& e) {
+      EXPECT_EQ(e.field(), row.field);
+      EXPECT_THAT(e.remedy(), HasSubstr(row.remedy));
+    }
+  }
+}
+
+// The bound that amplification is measured against holds for the truth, in every class.
+TEST(LargestDisplacement, BoundsTheTrueChangeOfDistance) {
+  for (const Pair pair : all_pairs) {
+    for (const std::string& name : pose_classes(pair)) {
+      const Configuration from = make_configuration({pair, name, 11, 2});
+      for (const int exponent : {-9, -4, -1}) {
+        for (std::uint64_t number = 0; number < 1; ++number) {
+          const Configuration to = perturbed(from, {Decade(exponent), 11, number});
+          const double change = std::abs(oracle::truth(to).signed_distance.midpoint() -
+                                         oracle::truth(from).signed_distance.midpoint());
+          EXPECT_LE(change, largest_displacement(from, to) * (1 + 1e-12) +
+                                1e-15 * (from.pose_a.position().norm() + larger_size(from)))
+              << pair_name(pair) << '/' << name << ' ' << exponent << ' ' << number;
+        }
+      }
+    }
+  }
+}
 
 using Kind = oracle::ContactPatch::Kind;
 

@@ -1,0 +1,262 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <limits>
+#include <map>
+#include <random>
+#include <rapidcheck.h>
+
+#include <nlohmann/json.hpp>
+
+#include "reference/invalid_input.hpp"
+#include "reports/campaigns/merge.hpp"
+#include "reports/campaigns/shard.hpp"
+
+namespace touchstone {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+Cut arbitrary_cut() {
+  return {*rc::gen::inRange<std::uint64_t>(1, 7), *rc::gen::inRange<std::uint64_t>(1, 3000)};
+}
+
+TEST(Units, HoldEveryConfigurationOnce) {
+  EXPECT_TRUE(rc::check([] {
+    const Cut cut = arbitrary_cut();
+    std::map<std::size_t, std::uint64_t> reached;  // of each cell
+    for (std::uint64_t number = 0; number < cut.units(); ++number) {
+      const Unit unit = cut.unit(number);
+      RC_ASSERT(unit.first == reached[unit.cell]);
+      RC_ASSERT(unit.last > unit.first);
+      reached[unit.cell] = unit.last;
+    }
+    RC_ASSERT(reached.size() == cut.cells);
+    for (const auto& [cell, last] : reached) RC_ASSERT(last == cut.count);
+  }));
+}
+
+TEST(Units, OfAllShardsAreAllUnitsOnce) {
+  EXPECT_TRUE(rc::check([] {
+    const Cut cut = arbitrary_cut();
+    const auto of = *rc::gen::inRange<std::uint64_t>(1, 30);
+    UnitSet all;
+    std::uint64_t sum = 0, min = cut.units(), max = 0;
+    for (std::uint64_t number = 1; number <= of; ++number) {
+      const UnitSet part = Shard{number, of}.units(cut);
+      RC_ASSERT(!boost::icl::intersects(all, part));
+      all += part;
+      sum += configurations(cut, part);
+      min = std::min<std::uint64_t>(min, boost::icl::cardinality(part));
+      max = std::max<std::uint64_t>(max, boost::icl::cardinality(part));
+    }
+    RC_ASSERT(all == Shard{}.units(cut));
+    RC_ASSERT(sum == cut.cells * cut.count);
+    RC_ASSERT(max - min <= 1u);
+  }));
+}
+
+TEST(Units, AreCountedAndNumberedInSets) {
+  const Cut cut{2, 600};  // units of 512, 512, 88, 88
+  UnitSet set;
+  set += UnitSet::interval_type(0, 1);
+  set += UnitSet::interval_type(2, 4);
+  EXPECT_EQ(configurations(cut, set), 512u + 88 + 88);
+  EXPECT_EQ(nth(set, 0), 0u);
+  EXPECT_EQ(nth(set, 1), 2u);
+  EXPECT_EQ(nth(set, 2), 3u);
+  EXPECT_THROW(nth(set, 3), std::logic_error);
+  EXPECT_EQ(to_json(set).dump(), "[[0,1],[2,4]]");
+  EXPECT_EQ(unit_set_from_json(to_json(set)), set);
+}
+
+TEST(Shards, AreReadOrRefused) {
+  EXPECT_EQ(parse_shard("3/7"), (Shard{3, 7}));
+  EXPECT_EQ(to_string(Shard{3, 7}), "3/7");
+  for (const char* bad : {"", "3", "3/", "/7", "0/7", "8/7", "3/7/1", "-1/7", "1.5/7", "a/b"}) {
+    EXPECT_THROW(parse_shard(bad), InvalidInput) << bad;
+  }
+}
+
+ScoreTally tally_of(const std::vector<Score>& scores) {
+  ScoreTally tally(Precision::binned);
+  for (std::size_t i = 0; i < scores.size(); ++i) tally.add(3, i, scores[i]);
+  return tally;
+}
+
+/// Every outcome, errors of any magnitude and sign, present or not.
+Score some_score(std::mt19937_64& random) {
+  const auto maybe = [&]() -> std::optional<double> {
+    if (random() % 2 == 0) return std::nullopt;
+    const double fraction = static_cast<double>(random() % 2001) / 1000 - 1;
+    return std::ldexp(fraction, static_cast<int>(random() % 90) - 70);
+  };
+  Score s;
+  s.outcome = all_outcomes[random() % all_outcomes.size()];
+  for (const ScoreTally::Quantity& quantity : ScoreTally::quantities) s.*quantity.value = maybe();
+  if (random() % 2 == 0) s.coverage = static_cast<double>(random() % 101) / 100;
+  s.points = static_cast<int>(random() % 9);
+  s.severity = static_cast<double>(random() % 4);  // many ties
+  return s;
+}
+
+TEST(TallyJson, IsReadBackToTheLastBitAndAddsUp) {
+  std::mt19937_64 random(1);
+  std::vector<Score> scores(300);
+  for (Score& s : scores) s = some_score(random);
+  ScoreTally sum(Precision::binned);
+  for (std::size_t first = 0; first < scores.size(); first += 100) {
+    ScoreTally part(Precision::binned);
+    for (std::size_t i = first; i < first + 100; ++i) part.add(3, i, scores[i]);
+    sum.add(tally_from_json(json::parse(to_json(part).dump()), 3));
+  }
+  EXPECT_EQ(to_json(sum).dump(), to_json(tally_of(scores)).dump());
+}
+
+TEST(TallyJson, OfAFileWithoutTheDeepestPointHasTheRest) {
+  Score s;
+  s.depth_error = 0.25;
+  json old = to_json(tally_of({s, s}));
+  old.erase("deepest_error");
+  const Statistics read = tally_from_json(old, 3).statistics();
+  EXPECT_FALSE(read.deepest_error);
+  EXPECT_EQ(read.depth_error->max, 0.25);
+  old.erase("depth_error");
+  EXPECT_THROW(tally_from_json(old, 3), InvalidInput);
+}
+
+TEST(TallyJson, HasTheLargestDoubleForWhatIsBeyond) {
+  Score s;
+  s.outcome = Outcome::overdeep;
+  s.depth_error = -std::numeric_limits<double>::infinity();
+  s.normal_regret = std::numeric_limits<double>::quiet_NaN();
+  s.severity = std::numeric_limits<double>::infinity();
+  constexpr double largest = std::numeric_limits<double>::max();
+  const json written = to_json(tally_of({s}));
+  EXPECT_EQ(written["depth_error"]["max"], largest);
+  EXPECT_EQ(written["worst"][0]["depth_error"], -largest);
+  EXPECT_EQ(written["worst"][0]["severity"], largest);
+  EXPECT_EQ(tally_of({s}).statistics().normal_regret->median, largest);
+}
+
+/// A plan without plug-ins: parts are made up, not run.
+json plan(std::uint64_t seed = 1) {
+  return {{"version", "0"},
+          {"command", "./touchstone campaign"},
+          {"program", "./touchstone"},
+          {"seed", seed},
+          {"count", 1000},
+          {"tolerance", 1e-4},
+          {"threshold", 0},
+          {"classes",
+           {{{"pair", "cylinder-sphere"}, {"class", "general-deep"}},
+            {{"pair", "cylinder-box"}, {"class", "rim-face"}}}},
+          {"candidates", {{{"name", "one"}}, {{"name", "two"}}}}};
+}
+
+/// Units first … last − 1 of it, with scores that follow from their indices.
+ShardState part(std::uint64_t first, std::uint64_t last, std::uint64_t seed = 1) {
+  ShardState p(plan_from_json(plan(seed)), Shard{});
+  for (std::uint64_t number = first; number < last; ++number) {
+    const Unit unit = p.plan.cut.unit(number);
+    std::vector<ScoreTally> tallies(p.tallies.size(), ScoreTally(Precision::binned));
+    for (std::uint64_t i = unit.first; i < unit.last; ++i) {
+      for (std::size_t k = 0; k < 2; ++k) {
+        Score s;
+        s.depth_error = 1e-9 * static_cast<double>((i * 7919 + k) % 1009);
+        s.severity = *s.depth_error;
+        s.outcome = i % 5 == k ? Outcome::shallow : Outcome::agree;
+        tallies[unit.cell * 2 + k].add(unit.cell, i, s);
+      }
+    }
+    UnitSet done;
+    done += UnitSet::interval_type(number, number + 1);
+    p.add(done, tallies);
+  }
+  return p;
+}
+
+std::string merged(const std::vector<ShardState>& parts) {
+  Merge merge;
+  for (const ShardState& p : parts) merge.add(p, "part");
+  return campaign_json(merge.whole(false));
+}
+
+TEST(Merge, DoesNotDependOnTheSplitNorOnTheOrder) {
+  const std::string whole = merged({part(0, 4)});
+  EXPECT_EQ(merged({part(0, 2), part(2, 4)}), whole);
+  EXPECT_EQ(merged({part(3, 4), part(1, 3), part(0, 1)}), whole);
+  EXPECT_EQ(json::parse(whole)["configurations"], 2000);
+  EXPECT_EQ(json::parse(whole)["summary"][4]["outcomes"]["shallow"], 400);
+}
+
+TEST(Merge, RefusesWhatOverlapsWhatIsMissingAndWhatIsForeign) {
+  EXPECT_THAT(
+      [] {
+        merged({part(0, 3), part(2, 4)});
+      },
+      ThrowsMessage<InvalidInput>(
+          HasSubstr("cylinder-sphere/general-deep, configurations 512 to 999")));
+  EXPECT_THAT(
+      [] {
+        merged({part(0, 1), part(2, 4)});
+      },
+      ThrowsMessage<InvalidInput>(HasSubstr("512 of 2000 configurations are missing, the "
+                                            "first of them cylinder-box/rim-face")));
+  EXPECT_THAT(
+      [] {
+        merged({part(0, 1), part(1, 4, 2)});
+      },
+      ThrowsMessage<InvalidInput>(HasSubstr("seed is 2, not 1")));
+  EXPECT_THROW(merged({}), InvalidInput);
+}
+
+TEST(Merge, MarksWhatIsPartial) {
+  Merge merge;
+  merge.add(part(1, 3), "part");
+  const json result = json::parse(campaign_json(merge.whole(true)));
+  EXPECT_EQ(result["complete"], false);
+  EXPECT_EQ(result["configurations"], 512 + 488);
+}
+
+TEST(ShardFile, IsReadBackToTheLastBit) {
+  const std::string text = to_text(part(0, 3));
+  EXPECT_EQ(to_text(shard_from_text(text, "file")), text);
+}
+
+TEST(ShardFile, IsRefusedWhenAnythingInItHasChanged) {
+  const std::string text = to_text(part(0, 3));
+  const auto refused = [](const std::string& damaged) {
+    EXPECT_THAT([&] { shard_from_text(damaged, "file"); },
+                ThrowsMessage<InvalidInput>(HasSubstr("\"file\" is damaged")));
+  };
+  for (std::size_t size = 0; size < text.size(); size += 1 + text.size() / 200) {
+    refused(text.substr(0, size));
+  }
+  refused(text.substr(0, text.size() - 1));
+  for (std::size_t at = 0; at < text.size(); at += 1 + text.size() / 200) {
+    std::string damaged = text;
+    damaged[at] = static_cast<char>(damaged[at] ^ 1);
+    refused(damaged);
+  }
+  refused(text + "\n");
+  refused(text + text);
+  refused("{\"schema\":1}\n");
+}
+
+TEST(ShardFile, IsRefusedWhenItIsIntactButSomethingElse) {
+  const auto with_checksum = [](const std::string& body) {
+    return body + json{{"crc32", checksum(body)}}.dump() + '\n';
+  };
+  for (const std::string body :
+       {"{\"schema\":\"touchstone-shard-9\"}\n", "{}\n", "[]\n", "no JSON\n",
+        "{\"schema\":\"touchstone-shard-1\",\"shard\":[1,1],\"done\":[],\"campaign\":{}}\n"}) {
+    EXPECT_THROW(shard_from_text(with_checksum(body), "file"), InvalidInput) << body;
+  }
+}
+
+TEST(Checksum, IsTheOneOfZipAndPng) { EXPECT_EQ(checksum("123456789"), "cbf43926"); }
+
+}  // namespace
+}  // namespace touchstone
