@@ -10,7 +10,6 @@
 #include "circle.hpp"
 #include "deep_normals.hpp"
 #include "ellipse_normal.hpp"
-#include "manifold.hpp"
 #include "pair.hpp"
 
 // In the box's frame the largest gap lies at one normal of six kinds:
@@ -284,47 +283,17 @@ StageResult largest_gap(const Frame& p, const EarlyExit& exit) {
   return best;
 }
 
-SignedDistance find_largest(const PosedCylinder& a, const PosedBox& b, const EarlyExit& exit) {
+CertifiedDistance find_largest(const PosedCylinder& a, const PosedBox& b, const EarlyExit& exit) {
   const Frame p(a.radius, a.half_length, b.half_extents, b.axes.transpose() * (a.centre - b.centre),
                 b.axes.transpose() * a.axis());
   const StageResult best = largest_gap(p, exit);
-  return {best.gap, b.axes * best.normal()};
+  return {{best.gap, b.axes * best.normal()}, 0};
 }
 
-class Routine {
- public:
-  Routine(const PosedCylinder& a, const PosedBox& b) : a_(a), b_(b) {}
-
-  SignedDistance find(double stop_above) const { return find_largest(a_, b_, {stop_above}); }
-  CertifiedDistance find_certified() const { return {find_largest(a_, b_, no_short_cuts), 0}; }
-  void add_points(Contact& contact, const Vec3& origin, double contact_threshold) const {
-    add_facing_points(contact, a_, b_, origin, contact_threshold);
-  }
-
- private:
-  const PosedCylinder& a_;
-  const PosedBox& b_;
-};
+using Routine = SearchRoutine<PosedBox, find_largest>;
 
 }  // namespace
 
-SignedDistance signed_distance(const Cylinder& a, const Pose& pose_a, const Box& b,
-                               const Pose& pose_b) {
-  return find_signed_distance<Routine>(a, pose_a, b, pose_b);
-}
-
-CertifiedDistance certified_distance(const Cylinder& a, const Pose& pose_a, const Box& b,
-                                     const Pose& pose_b) {
-  return find_certified_distance<Routine>(a, pose_a, b, pose_b);
-}
-
-bool overlaps(const Cylinder& a, const Pose& pose_a, const Box& b, const Pose& pose_b) {
-  return find_overlap<Routine>(a, pose_a, b, pose_b);
-}
-
-Contact contact(const Cylinder& a, const Pose& pose_a, const Box& b, const Pose& pose_b,
-                double contact_threshold, const Vec3* previous_normal) {
-  return find_contact<Routine>(a, pose_a, b, pose_b, contact_threshold, previous_normal);
-}
+TOUCHSTONE_DEFINE_QUESTIONS(Box)
 
 }  // namespace touchstone

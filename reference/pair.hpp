@@ -9,6 +9,7 @@
 
 #include "contact.hpp"
 #include "largest_gap.hpp"
+#include "manifold.hpp"
 #include "posed_body.hpp"
 
 namespace touchstone {
@@ -25,6 +26,25 @@ namespace touchstone {
 //   void add_points(Contact&, const Vec3& origin, double contact_threshold) const
 //       to a contact whose normal and signed distance are set; `origin` is where the bodies' frame
 //       lies in the world
+
+/// The routine of a pair whose largest gap one function finds, up to an early exit, and whose
+/// points lie where features face each other. The function's bound is as that of `find_certified`.
+template <class Body,
+          CertifiedDistance (&find_largest)(const PosedCylinder&, const Body&, const EarlyExit&)>
+class SearchRoutine {
+ public:
+  SearchRoutine(const PosedCylinder& a, const Body& b) : a_(a), b_(b) {}
+
+  SignedDistance find(double stop_above) const { return find_largest(a_, b_, {stop_above}); }
+  CertifiedDistance find_certified() const { return find_largest(a_, b_, no_short_cuts); }
+  void add_points(Contact& contact, const Vec3& origin, double contact_threshold) const {
+    add_facing_points(contact, a_, b_, origin, contact_threshold);
+  }
+
+ private:
+  const PosedCylinder& a_;
+  const Body& b_;
+};
 
 /// Both bodies in one frame, about B's centre.
 template <class Other>
@@ -283,5 +303,23 @@ Contact find_contact(const Cylinder& a, const Pose& pose_a, const Other& b, cons
   }
   return contact_in_range<Routine>(pair, contact_threshold, previous_normal);
 }
+
+/// Defines the functions that a pair's header declares; below its `Routine`.
+#define TOUCHSTONE_DEFINE_QUESTIONS(Other)                                                    \
+  SignedDistance signed_distance(const Cylinder& a, const Pose& pose_a, const Other& b,       \
+                                 const Pose& pose_b) {                                        \
+    return find_signed_distance<Routine>(a, pose_a, b, pose_b);                               \
+  }                                                                                           \
+  CertifiedDistance certified_distance(const Cylinder& a, const Pose& pose_a, const Other& b, \
+                                       const Pose& pose_b) {                                  \
+    return find_certified_distance<Routine>(a, pose_a, b, pose_b);                            \
+  }                                                                                           \
+  bool overlaps(const Cylinder& a, const Pose& pose_a, const Other& b, const Pose& pose_b) {  \
+    return find_overlap<Routine>(a, pose_a, b, pose_b);                                       \
+  }                                                                                           \
+  Contact contact(const Cylinder& a, const Pose& pose_a, const Other& b, const Pose& pose_b,  \
+                  double contact_threshold, const Vec3* previous_normal) {                    \
+    return find_contact<Routine>(a, pose_a, b, pose_b, contact_threshold, previous_normal);   \
+  }
 
 }  // namespace touchstone
