@@ -260,7 +260,7 @@ StageResult rim_and_vertex(const Frame& p) {
   return {p.gap(n), n.x(), n.y(), n.z()};
 }
 
-StageResult largest_gap(const Frame& p, const EarlyExit& exit) {
+StageResult largest_gap(const Frame& p, EarlyExit exit) {
   const BoxSides sides = best_of_box_sides(p, exit.stop_above);
   StageResult best = sides.best;
   if (exit.ends_with(best)) return best;
@@ -283,7 +283,7 @@ StageResult largest_gap(const Frame& p, const EarlyExit& exit) {
   return best;
 }
 
-CertifiedDistance find_largest(const PosedCylinder& a, const PosedBox& b, const EarlyExit& exit) {
+CertifiedDistance find_largest(const PosedCylinder& a, const PosedBox& b, EarlyExit exit) {
   const Frame p(a.radius, a.half_length, b.half_extents, b.axes.transpose() * (a.centre - b.centre),
                 b.axes.transpose() * a.axis());
   const StageResult best = largest_gap(p, exit);

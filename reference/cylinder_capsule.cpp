@@ -109,7 +109,7 @@ StageResult rim_and_end(const Folded& p, double best) {
   return found;
 }
 
-StageResult largest_gap(const Folded& p, const EarlyExit& exit) {
+StageResult largest_gap(const Folded& p, EarlyExit exit) {
   StageResult best = cap_and_end(p);
   if (exit.ends_with(best)) return best;
   best.improve(side_and_segment(p, best.gap));
@@ -150,8 +150,7 @@ std::optional<SignedDistance> separation(const PosedCylinder& a, const PosedCaps
   return std::nullopt;
 }
 
-CertifiedDistance find_largest(const PosedCylinder& a, const PosedCapsule& b,
-                               const EarlyExit& exit) {
+CertifiedDistance find_largest(const PosedCylinder& a, const PosedCapsule& b, EarlyExit exit) {
   const Vec3 d = a.centre - b.centre;
   if (exit.stop_above < no_early_exit) {
     if (const auto apart = separation(a, b, d, exit.stop_above)) return {*apart, 0};

@@ -190,7 +190,7 @@ StageResult side2_and_rim1(const FoldedCylinders& p, double best) {
 }
 
 /// The largest gap but where rims meet.
-StageResult largest_gap_beside_rims(const FoldedCylinders& p, const EarlyExit& exit) {
+StageResult largest_gap_beside_rims(const FoldedCylinders& p, EarlyExit exit) {
   StageResult best = caps_and_sides(p, exit.stop_above);
   if (exit.ends_with(best)) return best;
   if (exit.stop_above < no_early_exit) {
@@ -204,8 +204,7 @@ StageResult largest_gap_beside_rims(const FoldedCylinders& p, const EarlyExit& e
 }
 
 /// `a` has the smaller radius or the same.
-CertifiedDistance find_largest(const PosedCylinder& a, const PosedCylinder& b,
-                               const EarlyExit& exit) {
+CertifiedDistance find_largest(const PosedCylinder& a, const PosedCylinder& b, EarlyExit exit) {
   const FoldedCylinders p{FoldedAxes(a.axis(), b.axis(), a.centre - b.centre), a.radius,
                           a.half_length, b.radius, b.half_length};
   const StageResult found = largest_gap_beside_rims(p, exit);

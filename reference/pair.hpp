@@ -30,7 +30,7 @@ namespace touchstone {
 /// The routine of a pair whose largest gap one function finds, up to an early exit, and whose
 /// points lie where features face each other. The function's bound is as that of `find_certified`.
 template <class Body,
-          CertifiedDistance (&find_largest)(const PosedCylinder&, const Body&, const EarlyExit&)>
+          CertifiedDistance (&find_largest)(const PosedCylinder&, const Body&, EarlyExit)>
 class SearchRoutine {
  public:
   SearchRoutine(const PosedCylinder& a, const Body& b) : a_(a), b_(b) {}
