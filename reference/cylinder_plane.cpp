@@ -62,7 +62,7 @@ class Routine {
     const double z = lower_end();
     std::array<Vec2, 6> arms;
     const int count =
-        spread_disc(a_.radius, Vec2(x_, y_), Vec2(1, 0), margins.slack, margins.clear_rise, arms);
+        spread_disc(a_.radius, Vec2(x_, y_), Vec2(1, 0), margins.slack, margins.clear_rise(), arms);
     for (int i = 0; i < count; ++i) add(arms[i].x(), arms[i].y(), z, height(arms[i], z));
   }
   /// The ends of the lowest generator in the order of the axis; instead of the higher one, where

@@ -18,7 +18,7 @@ void add_disc(const ContactPlane& plane, const Circle& disc, const Vec2& anchor,
   if (is_one_point(room, rise)) return plane.add(disc.centre - disc.radius / steepness * slope, s);
   std::array<Vec2, 6> arms;
   const int count = spread_disc(disc.radius, slope, anchor, room,
-                                std::min(plane.margins().clear_rise, room / 8), arms);
+                                std::min(plane.margins().clear_rise(), room / 8), arms);
   for (int i = 0; i < count; ++i) plane.add(disc.centre + arms[i], s);
 }
 
@@ -124,7 +124,7 @@ void disc_on_rectangle(const Manifold& to, const FacingFeature& cap, const Facin
   std::array<Vec2, 8> points;
   // No two corners of a symmetric patch are equally far along this direction.
   const int count = region.spread(sides[0].across + 0.37 * sides[1].across, points);
-  const double part = deepest_point_weight(max_rise, plane.margins().clear_rise);
+  const double part = deepest_point_weight(max_rise, plane.margins().clear_rise());
   add_layout(plane, points, count, part, part > 0 ? region.farthest(-slope) : Vec2(0, 0), s);
 }
 
@@ -166,7 +166,7 @@ void disc_on_disc(const Manifold& to, const FacingFeature& first, const FacingFe
       points[count++] = disc.centre + arm;
     }
   }
-  const double part = deepest_point_weight(max_rise, plane.margins().clear_rise);
+  const double part = deepest_point_weight(max_rise, plane.margins().clear_rise());
   add_layout(plane, points, count, part, part > 0 ? lens.farthest(-slope / steepness) : Vec2(0, 0),
              s);
 }
