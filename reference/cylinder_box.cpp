@@ -33,7 +33,8 @@ Vec3 vertex(const Frame& p, int i) {
   return {(i & 1) ? p.e[0] : -p.e[0], (i & 2) ? p.e[1] : -p.e[1], (i & 4) ? p.e[2] : -p.e[2]};
 }
 
-StageResult side_and_vertex(const Frame& p, const Vec3& v, double best) {
+// Inlined: of eight vertices most are soon ruled out, and returning that costs as much.
+[[gnu::always_inline]] inline StageResult side_and_vertex(const Frame& p, const Vec3& v, double best) {
   const Vec3 arm = p.d - v;
   const double height = arm.dot(p.u);
   const Vec3 across = arm - height * p.u;
