@@ -34,7 +34,8 @@ Vec3 vertex(const Frame& p, int i) {
 }
 
 // Inlined: of eight vertices most are soon ruled out, and returning that costs as much.
-[[gnu::always_inline]] inline StageResult side_and_vertex(const Frame& p, const Vec3& v, double best) {
+[[gnu::always_inline]] inline StageResult side_and_vertex(const Frame& p, const Vec3& v,
+                                                          double best) {
   const Vec3 arm = p.d - v;
   const double height = arm.dot(p.u);
   const Vec3 across = arm - height * p.u;
@@ -174,10 +175,11 @@ StageResult rim_and_edge_along(const Frame& p, int i, double best) {
 /// bodies would meet lies beyond an edge or a rim.
 StageResult likely_rim_and_edge(const Frame& p, const BoxSides& sides, double best) {
   using Kind = BoxSides::Kind;
-  if (sides.kind == Kind::cap) return {};
+  const Kind kind = sides.kind();
+  if (kind == Kind::cap) return {};
   Vec3 sign;  // of a vertex
   EdgeAndRim at;
-  if (sides.kind == Kind::face) {
+  if (kind == Kind::face) {
     const int face = sides.face.axis, j = (face + 1) % 3, k = (face + 2) % 3;
     sign = point_facing(sides.face, p);
     at.i = std::abs(sign[j]) - p.e[j] > std::abs(sign[k]) - p.e[k] ? k : j;
@@ -262,8 +264,8 @@ StageResult rim_and_vertex(const Frame& p) {
 }
 
 StageResult largest_gap(const Frame& p, EarlyExit exit) {
-  const BoxSides sides = best_of_box_sides(p, exit.stop_above);
-  StageResult best = sides.best;
+  const BoxSides sides(p);
+  StageResult best = sides.best(p, exit.stop_above);
   if (exit.ends_with(best)) return best;
   best.improve(exit.trusts_proofs ? side_and_nearest_vertex(p, sides.edge, best.gap)
                                   : side_and_any_vertex(p, best.gap));
