@@ -104,18 +104,19 @@ inline bool powers_in_range(const PosedPair<Other>& pair) {
          d.x() * d.x() + d.y() * d.y() + d.z() * d.z() < max_length * max_length;
 }
 
-/// The bodies about B's centre, with all lengths times a power of two so that the largest is about
-/// one; sizes that vanish against it are made 1e-24 of it.
+/// The bodies about the origin of their frame, with all lengths times a power of two so that the
+/// largest is about one; sizes that vanish against it are made 1e-24 of it.
 template <class Other>
 class ScaledBodies {
  public:
-  ScaledBodies(const Cylinder& a, const Pose& pose_a, const Other& b, const Pose& pose_b)
-      : origin_(pose_b.position()),
-        exponent_(std::ilogb(std::min(posed_pair(a, pose_a, b, pose_b).lengths(), max_length))),
+  ScaledBodies(const PosedPair<Other>& pair, const Cylinder& a, const Pose& pose_a, const Other& b,
+               const Pose& pose_b)
+      : origin_(pair.origin),
+        exponent_(std::ilogb(std::min(pair.lengths(), max_length))),
         a_(scaled(a)),
         b_(scaled(b)),
         pose_a_(scaled_difference(pose_a.position()), pose_a.orientation()),
-        pose_b_(Vec3::Zero(), pose_b.orientation()) {}
+        pose_b_(scaled_difference(pose_b.position()), pose_b.orientation()) {}
 
   /// question(length, a, pose_a, b, pose_b) of the scaled length and bodies, scaled back; what
   /// overflows is the largest double.
@@ -176,7 +177,8 @@ template <class Other, class Question>
 [[gnu::noinline, gnu::cold]] auto answer_scaled(double length, Question question, const Cylinder& a,
                                                 const Pose& pose_a, const Other& b,
                                                 const Pose& pose_b) {
-  return ScaledBodies(a, pose_a, b, pose_b).answer(length, question);
+  return ScaledBodies(posed_pair(a, pose_a, b, pose_b), a, pose_a, b, pose_b)
+      .answer(length, question);
 }
 
 /// Calls `offer` with the unit vectors along a body's axes and, of bodies of revolution, radially
