@@ -1,6 +1,7 @@
 // A cap on a cap or on a face.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "contact_plane.hpp"
 #include "disc_layout.hpp"
@@ -26,17 +27,18 @@ void add_disc(const ContactPlane& plane, const Circle& disc, const Vec2& anchor,
 void add_layout(const ContactPlane& plane, std::array<Vec2, 8>& layout, int count, double part,
                 const Vec2& deepest, const Surfaces& s) {
   if (part > 0) {
-    Vec2 middle = Vec2::Zero();
+    Vec2 sum = Vec2::Zero();
     int nearest = 0;
+    double nearest_squared = std::numeric_limits<double>::infinity();
     for (int i = 0; i < count; ++i) {
-      middle += layout[i] / count;
-      if ((layout[i] - deepest).squaredNorm() < (layout[nearest] - deepest).squaredNorm()) {
-        nearest = i;
-      }
+      sum += layout[i];
+      const double squared = (layout[i] - deepest).squaredNorm();
+      if (squared < nearest_squared) nearest_squared = squared, nearest = i;
     }
+    const Vec2 middle = sum / count;
     // The same point twice would tell a solver that the body stands more firmly there.
     constexpr double same = 1e-6;
-    if ((layout[nearest] - deepest).norm() > same * (middle - deepest).norm()) {
+    if (nearest_squared > same * same * (middle - deepest).squaredNorm()) {
       if (count < Contact::max_points) {
         layout[count++] = middle + part * (deepest - middle);
       } else {
