@@ -35,7 +35,10 @@ class SearchRoutine {
  public:
   SearchRoutine(const PosedCylinder& a, const Body& b) : a_(a), b_(b) {}
 
-  SignedDistance find(double stop_above) const { return find_largest(a_, b_, {stop_above}); }
+  SignedDistance find(double stop_above) const {
+    const CertifiedDistance found = find_largest(a_, b_, {stop_above});
+    return {found.value, found.normal};
+  }
   CertifiedDistance find_certified() const { return find_largest(a_, b_, no_short_cuts); }
   void add_points(Contact& contact, const Vec3& origin, double contact_threshold) const {
     add_facing_points(contact, a_, b_, origin, contact_threshold);
