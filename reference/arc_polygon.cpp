@@ -73,15 +73,24 @@ std::array<Vec2, 4> Lens::spread() const {
 
 namespace {
 
-/// Is x, on the circle about `centre`, on the arc counter-clockwise from p to q?
-bool on_arc(const Vec2& centre, const Vec2& p, const Vec2& q, const Vec2& x) {
-  const Vec2 to_p = p - centre, to_q = q - centre, to_x = x - centre;
-  const bool after_p = cross2(to_p, to_x) >= 0, before_q = cross2(to_x, to_q) >= 0;
-  const double cross = cross2(to_p, to_q), dot = to_p.dot(to_q);
-  constexpr double hair = 1e-7;  // as in angle_between
-  const bool beyond_half_a_turn = cross < 0 && (dot < 0 || cross < -hair * dot);
-  return beyond_half_a_turn ? after_p || before_q : after_p && before_q;
-}
+/// The part of the circle about `centre` counter-clockwise from p to q.
+struct Arc {
+  Vec2 centre, to_p, to_q;
+  bool beyond_half_a_turn;
+
+  Arc(const Vec2& middle, const Vec2& p, const Vec2& q)
+      : centre(middle), to_p(p - middle), to_q(q - middle) {
+    const double cross = cross2(to_p, to_q), dot = to_p.dot(to_q);
+    constexpr double hair = 1e-7;  // as in angle_between
+    beyond_half_a_turn = cross < 0 && (dot < 0 || cross < -hair * dot);
+  }
+  /// Is a point of the circle on the arc?
+  bool holds(const Vec2& x) const {
+    const Vec2 to_x = x - centre;
+    const bool after_p = cross2(to_p, to_x) >= 0, before_q = cross2(to_x, to_q) >= 0;
+    return beyond_half_a_turn ? after_p || before_q : after_p && before_q;
+  }
+};
 
 }  // namespace
 
@@ -116,10 +125,13 @@ void ArcPolygon::clip(const Vec2& normal, double bound) {
   }
   const ArcPolygon before = *this;
   count_ = 0;
+  const auto beyond = [&](const Vec2& x) { return normal.dot(x) - bound; };
+  double q_beyond = before.count_ > 0 ? beyond(before.vertices_[0].at) : 0;
   for (int i = 0; i < before.count_; ++i) {
     const Vertex& vertex = before.vertices_[i];
     const Vec2 &p = vertex.at, &q = before.vertices_[before.next(i)].at;
-    const double p_beyond = normal.dot(p) - bound, q_beyond = normal.dot(q) - bound;
+    const double p_beyond = q_beyond;
+    q_beyond = beyond(q);
     const bool p_stays = p_beyond <= 0, q_stays = q_beyond <= 0;
     if (count_ + 3 > max_vertices) return;  // cannot happen for the cuts of a patch
     if (p_stays) add(p, vertex.circle);
@@ -133,21 +145,25 @@ void ArcPolygon::clip(const Vec2& normal, double bound) {
       continue;
     }
     if (at.cosine <= -1) continue;
-    const auto& [centre, radius] = circles_[vertex.circle];
     if (p_stays && !q_stays) {
       add(at.leaves, straight);
-    } else if (!p_stays && q_stays) {
+      continue;
+    }
+    if (!p_stays && q_stays) {
       add(at.returns, vertex.circle);
-    } else if (on_arc(centre, p, q, centre + (p_stays ? radius : -radius) * normal)) {
-      // The arc passes the place that is the farthest along the normal, or the least far. (Where
-      // the line meets an end of the arc, rounding may put a crossing beyond it.)
-      if (p_stays) {
-        add(on_arc(centre, p, q, at.leaves) ? at.leaves : p, straight);
-        add(on_arc(centre, p, q, at.returns) ? at.returns : q, vertex.circle);
-      } else {
-        add(on_arc(centre, p, q, at.returns) ? at.returns : p, vertex.circle);
-        add(on_arc(centre, p, q, at.leaves) ? at.leaves : q, straight);
-      }
+      continue;
+    }
+    const auto& [centre, radius] = circles_[vertex.circle];
+    const Arc arc(centre, p, q);
+    // Does it pass the place that is the farthest along the normal, or the least far? (Where the
+    // line meets an end of the arc, rounding may put a crossing beyond it.)
+    if (!arc.holds(centre + (p_stays ? radius : -radius) * normal)) continue;
+    if (p_stays) {
+      add(arc.holds(at.leaves) ? at.leaves : p, straight);
+      add(arc.holds(at.returns) ? at.returns : q, vertex.circle);
+    } else {
+      add(arc.holds(at.returns) ? at.returns : p, vertex.circle);
+      add(arc.holds(at.leaves) ? at.leaves : q, straight);
     }
   }
 }
@@ -166,7 +182,7 @@ Vec2 ArcPolygon::farthest(const Vec2& direction) const {
     if (vertex.circle == straight) continue;
     const auto& [centre, radius] = circles_[vertex.circle];
     const Vec2 top = centre + radius * unit;
-    if (on_arc(centre, vertex.at, vertices_[next(i)].at, top)) offer(top);
+    if (Arc(centre, vertex.at, vertices_[next(i)].at).holds(top)) offer(top);
   }
   return best;
 }
@@ -178,7 +194,7 @@ void ArcPolygon::mark_farthest(const Vec2& direction) {
     if (vertex.circle == straight) continue;
     const auto& [centre, radius] = circles_[vertex.circle];
     const Vec2 top = centre + radius * unit;
-    if (!on_arc(centre, vertex.at, vertices_[next(i)].at, top)) continue;
+    if (!Arc(centre, vertex.at, vertices_[next(i)].at).holds(top)) continue;
     std::copy_backward(vertices_.begin() + i + 1, vertices_.begin() + count_,
                        vertices_.begin() + count_ + 1);
     vertices_[i + 1] = {top, vertices_[i].circle};

@@ -150,37 +150,37 @@ struct BoxSides {
   enum class Kind { face, edge, cap };
   BestFace face;
   BestEdge edge;
-  Kind kind;  ///< of the best of all
-  StageResult best;
+  double cap, cap_side;  ///< gap; ±1, along the axis towards A
+
+  explicit BoxSides(const CylinderInBoxFrame& p) : face(best_face(p)), edge(best_edge(p)) {
+    // Component by component: Eigen would load in pairs what was just stored singly, which stalls.
+    const double along = p.d[0] * p.u[0] + p.d[1] * p.u[1] + p.d[2] * p.u[2];
+    cap = std::abs(along) - p.h - p.e[0] * std::abs(p.u[0]) - p.e[1] * std::abs(p.u[1]) -
+          p.e[2] * std::abs(p.u[2]);
+    cap_side = std::copysign(1, along);
+  }
+  /// Of the best of all.
+  Kind kind() const {
+    if (edge.gap > face.gap && edge.gap > cap) return Kind::edge;
+    return cap > face.gap ? Kind::cap : Kind::face;
+  }
+  /// The proof is left out where the gap is above `stop_above`.
+  StageResult best(const CylinderInBoxFrame& p, double stop_above) const {
+    switch (kind()) {
+      case Kind::edge: {
+        const Vec3 n = edge.normal(p.u);
+        return {edge.gap, n.x(), n.y(), n.z(), edge.gap <= stop_above && is_proven(edge, p)};
+      }
+      case Kind::cap: {
+        const Vec3 n = cap_side * p.u;
+        return {cap, n.x(), n.y(), n.z(), cap <= stop_above && is_proven_at_cap(p, cap, n)};
+      }
+      default: {
+        const Vec3 n = std::copysign(1, p.d[face.axis]) * Vec3::Unit(face.axis);
+        return {face.gap, n.x(), n.y(), n.z(), face.gap <= stop_above && is_proven(face, p)};
+      }
+    }
+  }
 };
-/// Proofs are left out where the gap is above `stop_above`. (Static: used once, it is inlined.)
-static inline BoxSides best_of_box_sides(const CylinderInBoxFrame& p, double stop_above) {
-  using Kind = BoxSides::Kind;
-  const BestFace face = best_face(p);
-  // Component by component: Eigen would load in pairs what was just stored singly, which stalls.
-  const double along = p.d[0] * p.u[0] + p.d[1] * p.u[1] + p.d[2] * p.u[2];
-  const double cap = std::abs(along) - p.h - p.e[0] * std::abs(p.u[0]) - p.e[1] * std::abs(p.u[1]) -
-                     p.e[2] * std::abs(p.u[2]);
-  const BestEdge edge = best_edge(p);
-  if (edge.gap > face.gap && edge.gap > cap) {
-    const Vec3 n = edge.normal(p.u);
-    return {face,
-            edge,
-            Kind::edge,
-            {edge.gap, n.x(), n.y(), n.z(), edge.gap <= stop_above && is_proven(edge, p)}};
-  }
-  if (cap > face.gap) {
-    const Vec3 n = std::copysign(1, along) * p.u;
-    return {face,
-            edge,
-            Kind::cap,
-            {cap, n.x(), n.y(), n.z(), cap <= stop_above && is_proven_at_cap(p, cap, n)}};
-  }
-  const Vec3 n = std::copysign(1, p.d[face.axis]) * Vec3::Unit(face.axis);
-  return {face,
-          edge,
-          Kind::face,
-          {face.gap, n.x(), n.y(), n.z(), face.gap <= stop_above && is_proven(face, p)}};
-}
 
 }  // namespace touchstone

@@ -10,7 +10,6 @@
 #include "circle.hpp"
 #include "deep_normals.hpp"
 #include "ellipse_normal.hpp"
-#include "manifold.hpp"
 #include "pair.hpp"
 
 // In the box's frame the largest gap lies at one normal of six kinds:
@@ -34,7 +33,9 @@ Vec3 vertex(const Frame& p, int i) {
   return {(i & 1) ? p.e[0] : -p.e[0], (i & 2) ? p.e[1] : -p.e[1], (i & 4) ? p.e[2] : -p.e[2]};
 }
 
-StageResult side_and_vertex(const Frame& p, const Vec3& v, double best) {
+// Inlined: of eight vertices most are soon ruled out, and returning that costs as much.
+[[gnu::always_inline]] inline StageResult side_and_vertex(const Frame& p, const Vec3& v,
+                                                          double best) {
   const Vec3 arm = p.d - v;
   const double height = arm.dot(p.u);
   const Vec3 across = arm - height * p.u;
@@ -174,10 +175,11 @@ StageResult rim_and_edge_along(const Frame& p, int i, double best) {
 /// bodies would meet lies beyond an edge or a rim.
 StageResult likely_rim_and_edge(const Frame& p, const BoxSides& sides, double best) {
   using Kind = BoxSides::Kind;
-  if (sides.kind == Kind::cap) return {};
+  const Kind kind = sides.kind();
+  if (kind == Kind::cap) return {};
   Vec3 sign;  // of a vertex
   EdgeAndRim at;
-  if (sides.kind == Kind::face) {
+  if (kind == Kind::face) {
     const int face = sides.face.axis, j = (face + 1) % 3, k = (face + 2) % 3;
     sign = point_facing(sides.face, p);
     at.i = std::abs(sign[j]) - p.e[j] > std::abs(sign[k]) - p.e[k] ? k : j;
@@ -261,9 +263,9 @@ StageResult rim_and_vertex(const Frame& p) {
   return {p.gap(n), n.x(), n.y(), n.z()};
 }
 
-StageResult largest_gap(const Frame& p, const EarlyExit& exit) {
-  const BoxSides sides = best_of_box_sides(p, exit.stop_above);
-  StageResult best = sides.best;
+StageResult largest_gap(const Frame& p, EarlyExit exit) {
+  const BoxSides sides(p);
+  StageResult best = sides.best(p, exit.stop_above);
   if (exit.ends_with(best)) return best;
   best.improve(exit.trusts_proofs ? side_and_nearest_vertex(p, sides.edge, best.gap)
                                   : side_and_any_vertex(p, best.gap));
@@ -284,47 +286,17 @@ StageResult largest_gap(const Frame& p, const EarlyExit& exit) {
   return best;
 }
 
-SignedDistance find_largest(const PosedCylinder& a, const PosedBox& b, const EarlyExit& exit) {
+CertifiedDistance find_largest(const PosedCylinder& a, const PosedBox& b, EarlyExit exit) {
   const Frame p(a.radius, a.half_length, b.half_extents, b.axes.transpose() * (a.centre - b.centre),
                 b.axes.transpose() * a.axis());
   const StageResult best = largest_gap(p, exit);
-  return {best.gap, b.axes * best.normal()};
+  return {{best.gap, b.axes * best.normal()}, 0};
 }
 
-class Routine {
- public:
-  Routine(const PosedCylinder& a, const PosedBox& b) : a_(a), b_(b) {}
-
-  SignedDistance find(double stop_above) const { return find_largest(a_, b_, {stop_above}); }
-  CertifiedDistance find_certified() const { return {find_largest(a_, b_, no_short_cuts), 0}; }
-  void add_points(Contact& contact, const Vec3& origin, double contact_threshold) const {
-    add_facing_points(contact, a_, b_, origin, contact_threshold);
-  }
-
- private:
-  const PosedCylinder& a_;
-  const PosedBox& b_;
-};
+using Routine = SearchRoutine<PosedBox, find_largest>;
 
 }  // namespace
 
-SignedDistance signed_distance(const Cylinder& a, const Pose& pose_a, const Box& b,
-                               const Pose& pose_b) {
-  return find_signed_distance<Routine>(a, pose_a, b, pose_b);
-}
-
-CertifiedDistance certified_distance(const Cylinder& a, const Pose& pose_a, const Box& b,
-                                     const Pose& pose_b) {
-  return find_certified_distance<Routine>(a, pose_a, b, pose_b);
-}
-
-bool overlaps(const Cylinder& a, const Pose& pose_a, const Box& b, const Pose& pose_b) {
-  return find_overlap<Routine>(a, pose_a, b, pose_b);
-}
-
-Contact contact(const Cylinder& a, const Pose& pose_a, const Box& b, const Pose& pose_b,
-                double contact_threshold, const Vec3* previous_normal) {
-  return find_contact<Routine>(a, pose_a, b, pose_b, contact_threshold, previous_normal);
-}
+TOUCHSTONE_DEFINE_QUESTIONS(Box)
 
 }  // namespace touchstone

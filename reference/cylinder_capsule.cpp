@@ -6,7 +6,6 @@
 
 #include "ellipse_normal.hpp"
 #include "folded_axes.hpp"
-#include "manifold.hpp"
 #include "pair.hpp"
 
 // The capsule less its radius is a segment, so that the largest gap lies at one normal of five
@@ -110,7 +109,7 @@ StageResult rim_and_end(const Folded& p, double best) {
   return found;
 }
 
-StageResult largest_gap(const Folded& p, const EarlyExit& exit) {
+StageResult largest_gap(const Folded& p, EarlyExit exit) {
   StageResult best = cap_and_end(p);
   if (exit.ends_with(best)) return best;
   best.improve(side_and_segment(p, best.gap));
@@ -151,50 +150,20 @@ std::optional<SignedDistance> separation(const PosedCylinder& a, const PosedCaps
   return std::nullopt;
 }
 
-SignedDistance find_largest(const PosedCylinder& a, const PosedCapsule& b, const EarlyExit& exit) {
+CertifiedDistance find_largest(const PosedCylinder& a, const PosedCapsule& b, EarlyExit exit) {
   const Vec3 d = a.centre - b.centre;
   if (exit.stop_above < no_early_exit) {
-    if (const auto apart = separation(a, b, d, exit.stop_above)) return *apart;
+    if (const auto apart = separation(a, b, d, exit.stop_above)) return {*apart, 0};
   }
   const Folded p{FoldedAxes(a.axis(), b.axis(), d), a.radius, a.half_length, b.half_length};
   const StageResult best = largest_gap(p, {exit.stop_above + b.radius, exit.trusts_proofs});
-  return {best.gap - b.radius, p.axes.to_world(best.normal())};
+  return {{best.gap - b.radius, p.axes.to_world(best.normal())}, 0};
 }
 
-class Routine {
- public:
-  Routine(const PosedCylinder& a, const PosedCapsule& b) : a_(a), b_(b) {}
-
-  SignedDistance find(double stop_above) const { return find_largest(a_, b_, {stop_above}); }
-  CertifiedDistance find_certified() const { return {find_largest(a_, b_, no_short_cuts), 0}; }
-  void add_points(Contact& contact, const Vec3& origin, double contact_threshold) const {
-    add_facing_points(contact, a_, b_, origin, contact_threshold);
-  }
-
- private:
-  const PosedCylinder& a_;
-  const PosedCapsule& b_;
-};
+using Routine = SearchRoutine<PosedCapsule, find_largest>;
 
 }  // namespace
 
-SignedDistance signed_distance(const Cylinder& a, const Pose& pose_a, const Capsule& b,
-                               const Pose& pose_b) {
-  return find_signed_distance<Routine>(a, pose_a, b, pose_b);
-}
-
-CertifiedDistance certified_distance(const Cylinder& a, const Pose& pose_a, const Capsule& b,
-                                     const Pose& pose_b) {
-  return find_certified_distance<Routine>(a, pose_a, b, pose_b);
-}
-
-bool overlaps(const Cylinder& a, const Pose& pose_a, const Capsule& b, const Pose& pose_b) {
-  return find_overlap<Routine>(a, pose_a, b, pose_b);
-}
-
-Contact contact(const Cylinder& a, const Pose& pose_a, const Capsule& b, const Pose& pose_b,
-                double contact_threshold, const Vec3* previous_normal) {
-  return find_contact<Routine>(a, pose_a, b, pose_b, contact_threshold, previous_normal);
-}
+TOUCHSTONE_DEFINE_QUESTIONS(Capsule)
 
 }  // namespace touchstone

@@ -8,7 +8,6 @@
 #include "deep_normals.hpp"
 #include "ellipse_normal.hpp"
 #include "largest_gap.hpp"
-#include "manifold.hpp"
 #include "pair.hpp"
 #include "rim_rim.hpp"
 
@@ -191,7 +190,7 @@ StageResult side2_and_rim1(const FoldedCylinders& p, double best) {
 }
 
 /// The largest gap but where rims meet.
-StageResult largest_gap_beside_rims(const FoldedCylinders& p, const EarlyExit& exit) {
+StageResult largest_gap_beside_rims(const FoldedCylinders& p, EarlyExit exit) {
   StageResult best = caps_and_sides(p, exit.stop_above);
   if (exit.ends_with(best)) return best;
   if (exit.stop_above < no_early_exit) {
@@ -204,62 +203,26 @@ StageResult largest_gap_beside_rims(const FoldedCylinders& p, const EarlyExit& e
   return best;
 }
 
-FoldedCylinders folded(const PosedCylinder& a, const PosedCylinder& b) {
-  return {FoldedAxes(a.axis(), b.axis(), a.centre - b.centre), a.radius, a.half_length, b.radius,
-          b.half_length};
-}
-
-SignedDistance find_largest(const PosedCylinder& a, const PosedCylinder& b, double stop_above) {
-  const FoldedCylinders p = folded(a, b);
-  const EarlyExit exit{stop_above};
+/// `a` has the smaller radius or the same.
+CertifiedDistance find_largest(const PosedCylinder& a, const PosedCylinder& b, EarlyExit exit) {
+  const FoldedCylinders p{FoldedAxes(a.axis(), b.axis(), a.centre - b.centre), a.radius,
+                          a.half_length, b.radius, b.half_length};
   const StageResult found = largest_gap_beside_rims(p, exit);
-  if (exit.ends_with(found)) return {found.gap, p.axes.to_world(found.normal())};
+  if (exit.ends_with(found)) return {{found.gap, p.axes.to_world(found.normal())}, 0};
   LargestGap best{found.gap, found.normal()};
-  offer_rim_rim_normals(p, stop_above, best);
-  return {best.gap, p.axes.to_world(best.normal)};
+  double unproven = 0;
+  if (exit.trusts_proofs) {
+    offer_rim_rim_normals(p, exit.stop_above, best);
+  } else {
+    unproven = search_all_rims(p, best);
+  }
+  return {{best.gap, p.axes.to_world(best.normal)}, unproven};
 }
 
-class Routine {
- public:
-  /// `a` has the smaller radius or the same.
-  Routine(const PosedCylinder& a, const PosedCylinder& b) : a_(a), b_(b) {}
-
-  SignedDistance find(double stop_above) const { return find_largest(a_, b_, stop_above); }
-  CertifiedDistance find_certified() const {
-    const FoldedCylinders p = folded(a_, b_);
-    const StageResult found = largest_gap_beside_rims(p, no_short_cuts);
-    LargestGap best{found.gap, found.normal()};
-    const double unproven = search_all_rims(p, best);
-    return {{best.gap, p.axes.to_world(best.normal)}, unproven};
-  }
-  void add_points(Contact& contact, const Vec3& origin, double contact_threshold) const {
-    add_facing_points(contact, a_, b_, origin, contact_threshold);
-  }
-
- private:
-  const PosedCylinder& a_;
-  const PosedCylinder& b_;
-};
+using Routine = SearchRoutine<PosedCylinder, find_largest>;
 
 }  // namespace
 
-SignedDistance signed_distance(const Cylinder& a, const Pose& pose_a, const Cylinder& b,
-                               const Pose& pose_b) {
-  return find_signed_distance<Routine>(a, pose_a, b, pose_b);
-}
-
-CertifiedDistance certified_distance(const Cylinder& a, const Pose& pose_a, const Cylinder& b,
-                                     const Pose& pose_b) {
-  return find_certified_distance<Routine>(a, pose_a, b, pose_b);
-}
-
-bool overlaps(const Cylinder& a, const Pose& pose_a, const Cylinder& b, const Pose& pose_b) {
-  return find_overlap<Routine>(a, pose_a, b, pose_b);
-}
-
-Contact contact(const Cylinder& a, const Pose& pose_a, const Cylinder& b, const Pose& pose_b,
-                double contact_threshold, const Vec3* previous_normal) {
-  return find_contact<Routine>(a, pose_a, b, pose_b, contact_threshold, previous_normal);
-}
+TOUCHSTONE_DEFINE_QUESTIONS(Cylinder)
 
 }  // namespace touchstone

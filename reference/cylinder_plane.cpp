@@ -62,7 +62,7 @@ class Routine {
     const double z = lower_end();
     std::array<Vec2, 6> arms;
     const int count =
-        spread_disc(a_.radius, Vec2(x_, y_), Vec2(1, 0), margins.slack, margins.clear_rise, arms);
+        spread_disc(a_.radius, Vec2(x_, y_), Vec2(1, 0), margins.slack, margins.clear_rise(), arms);
     for (int i = 0; i < count; ++i) add(arms[i].x(), arms[i].y(), z, height(arms[i], z));
   }
   /// The ends of the lowest generator in the order of the axis; instead of the higher one, where
@@ -97,23 +97,6 @@ class Routine {
 
 }  // namespace
 
-SignedDistance signed_distance(const Cylinder& a, const Pose& pose_a, const Plane& b,
-                               const Pose& pose_b) {
-  return find_signed_distance<Routine>(a, pose_a, b, pose_b);
-}
-
-CertifiedDistance certified_distance(const Cylinder& a, const Pose& pose_a, const Plane& b,
-                                     const Pose& pose_b) {
-  return find_certified_distance<Routine>(a, pose_a, b, pose_b);
-}
-
-bool overlaps(const Cylinder& a, const Pose& pose_a, const Plane& b, const Pose& pose_b) {
-  return find_overlap<Routine>(a, pose_a, b, pose_b);
-}
-
-Contact contact(const Cylinder& a, const Pose& pose_a, const Plane& b, const Pose& pose_b,
-                double contact_threshold, const Vec3* previous_normal) {
-  return find_contact<Routine>(a, pose_a, b, pose_b, contact_threshold, previous_normal);
-}
+TOUCHSTONE_DEFINE_QUESTIONS(Plane)
 
 }  // namespace touchstone

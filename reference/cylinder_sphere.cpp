@@ -77,23 +77,6 @@ class Routine {
 
 }  // namespace
 
-SignedDistance signed_distance(const Cylinder& a, const Pose& pose_a, const Sphere& b,
-                               const Pose& pose_b) {
-  return find_signed_distance<Routine>(a, pose_a, b, pose_b);
-}
-
-CertifiedDistance certified_distance(const Cylinder& a, const Pose& pose_a, const Sphere& b,
-                                     const Pose& pose_b) {
-  return find_certified_distance<Routine>(a, pose_a, b, pose_b);
-}
-
-bool overlaps(const Cylinder& a, const Pose& pose_a, const Sphere& b, const Pose& pose_b) {
-  return find_overlap<Routine>(a, pose_a, b, pose_b);
-}
-
-Contact contact(const Cylinder& a, const Pose& pose_a, const Sphere& b, const Pose& pose_b,
-                double contact_threshold, const Vec3* previous_normal) {
-  return find_contact<Routine>(a, pose_a, b, pose_b, contact_threshold, previous_normal);
-}
+TOUCHSTONE_DEFINE_QUESTIONS(Sphere)
 
 }  // namespace touchstone

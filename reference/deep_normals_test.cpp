@@ -194,7 +194,7 @@ TEST(DeepNormals, OfBoxesThatProveThemselvesHaveTheLargestGap) {
       const Vec3 d = to_box * (x.pose_a.position() - x.pose_b.position());
       const Vec3 u = to_box * x.pose_a.axis();
       const CylinderInBoxFrame pair(x.a.radius(), x.a.half_length(), b.half_extents(), d, u);
-      const StageResult best = best_of_box_sides(pair, no_early_exit).best;
+      const StageResult best = BoxSides(pair).best(pair, no_early_exit);
       EXPECT_NEAR(best.gap, pair.gap(best.normal()), 1e-14);
       count(pair, best.normal(), best.is_proven, random, counts);
       deep += best.is_proven && -best.gap > x.a.radius();

@@ -1,6 +1,7 @@
 // A cap on a cap or on a face.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "contact_plane.hpp"
 #include "disc_layout.hpp"
@@ -18,7 +19,7 @@ void add_disc(const ContactPlane& plane, const Circle& disc, const Vec2& anchor,
   if (is_one_point(room, rise)) return plane.add(disc.centre - disc.radius / steepness * slope, s);
   std::array<Vec2, 6> arms;
   const int count = spread_disc(disc.radius, slope, anchor, room,
-                                std::min(plane.margins().clear_rise, room / 8), arms);
+                                std::min(plane.margins().clear_rise(), room / 8), arms);
   for (int i = 0; i < count; ++i) plane.add(disc.centre + arms[i], s);
 }
 
@@ -26,17 +27,18 @@ void add_disc(const ContactPlane& plane, const Circle& disc, const Vec2& anchor,
 void add_layout(const ContactPlane& plane, std::array<Vec2, 8>& layout, int count, double part,
                 const Vec2& deepest, const Surfaces& s) {
   if (part > 0) {
-    Vec2 middle = Vec2::Zero();
+    Vec2 sum = Vec2::Zero();
     int nearest = 0;
+    double nearest_squared = std::numeric_limits<double>::infinity();
     for (int i = 0; i < count; ++i) {
-      middle += layout[i] / count;
-      if ((layout[i] - deepest).squaredNorm() < (layout[nearest] - deepest).squaredNorm()) {
-        nearest = i;
-      }
+      sum += layout[i];
+      const double squared = (layout[i] - deepest).squaredNorm();
+      if (squared < nearest_squared) nearest_squared = squared, nearest = i;
     }
+    const Vec2 middle = sum / count;
     // The same point twice would tell a solver that the body stands more firmly there.
     constexpr double same = 1e-6;
-    if ((layout[nearest] - deepest).norm() > same * (middle - deepest).norm()) {
+    if (nearest_squared > same * same * (middle - deepest).squaredNorm()) {
       if (count < Contact::max_points) {
         layout[count++] = middle + part * (deepest - middle);
       } else {
@@ -86,32 +88,35 @@ void disc_on_rectangle(const Manifold& to, const FacingFeature& cap, const Facin
   const ContactPlane::Face seen = plane.face(face);
   const Surfaces s{plane.incline(cap), seen.surface};
   const Circle disc{plane.to_plane(cap.middle), cap.radius};
-  // The face's edges lie across `side`, half_side from its middle; how far the disc's centre lies
-  // from there, and how far from there on the disc is beyond the face.
-  std::array<Vec2, 2> side;
-  std::array<double, 2> middle, half_side, offset, beyond;
-  for (int i = 0; i < 2; ++i) {
-    const Strip& strip = seen.strips[i];
+  // How far the disc's centre lies from the middle between two opposite edges, and how far from
+  // there on the disc is beyond them.
+  struct Edges {
+    Vec2 across;  // unit
+    double middle, half_width, offset, beyond;
+  };
+  const auto edges = [&](const Strip& strip) -> Edges {
     const double x = strip.across.x(), y = strip.across.y(), inverse = 1 / std::sqrt(x * x + y * y);
-    side[i] = Vec2(inverse * x, inverse * y);
-    middle[i] = inverse * strip.middle;
-    half_side[i] = inverse * strip.half_width;
-    offset[i] = inverse * (x * disc.centre.x() + y * disc.centre.y()) - middle[i];
-    beyond[i] = half_side[i] - disc.radius;
+    const double middle = inverse * strip.middle, half_width = inverse * strip.half_width;
+    return {Vec2(inverse * x, inverse * y), middle, half_width,
+            inverse * (x * disc.centre.x() + y * disc.centre.y()) - middle,
+            half_width - disc.radius};
+  };
+  const Edges sides[] = {edges(seen.strips[0]), edges(seen.strips[1])};
+  const auto lies_between = [](const Edges& e) { return std::abs(e.offset) <= e.beyond; };
+  if (lies_between(sides[0]) && lies_between(sides[1])) {
+    return add_disc(plane, disc, sides[0].across, s);
   }
-  const bool whole = std::abs(offset[0]) <= beyond[0] && std::abs(offset[1]) <= beyond[1];
-  if (whole) return add_disc(plane, disc, side[0], s);
 
   ArcPolygon region(disc);
-  for (int i = 0; i < 2; ++i) {
-    if (offset[i] > beyond[i]) region.clip(side[i], half_side[i] + middle[i]);
-    if (-offset[i] > beyond[i]) region.clip(-side[i], half_side[i] - middle[i]);
+  for (const Edges& e : sides) {
+    if (e.offset > e.beyond) region.clip(e.across, e.half_width + e.middle);
+    if (-e.offset > e.beyond) region.clip(-e.across, e.half_width - e.middle);
   }
   if (region.empty()) {
     // The rim only touches the face's edge: the face's point that is nearest to the cap's middle.
     Vec2 p = disc.centre;
-    for (int i = 0; i < 2; ++i) {
-      p += (std::clamp(offset[i], -half_side[i], half_side[i]) - offset[i]) * side[i];
+    for (const Edges& e : sides) {
+      p += (std::clamp(e.offset, -e.half_width, e.half_width) - e.offset) * e.across;
     }
     return plane.add(p, s);
   }
@@ -120,8 +125,8 @@ void disc_on_rectangle(const Manifold& to, const FacingFeature& cap, const Facin
   if (max_rise > plane.margins().slack && add_leaning(plane, region, s)) return;
   std::array<Vec2, 8> points;
   // No two corners of a symmetric patch are equally far along this direction.
-  const int count = region.spread(side[0] + 0.37 * side[1], points);
-  const double part = deepest_point_weight(max_rise, plane.margins().clear_rise);
+  const int count = region.spread(sides[0].across + 0.37 * sides[1].across, points);
+  const double part = deepest_point_weight(max_rise, plane.margins().clear_rise());
   add_layout(plane, points, count, part, part > 0 ? region.farthest(-slope) : Vec2(0, 0), s);
 }
 
@@ -163,7 +168,7 @@ void disc_on_disc(const Manifold& to, const FacingFeature& first, const FacingFe
       points[count++] = disc.centre + arm;
     }
   }
-  const double part = deepest_point_weight(max_rise, plane.margins().clear_rise);
+  const double part = deepest_point_weight(max_rise, plane.margins().clear_rise());
   add_layout(plane, points, count, part, part > 0 ? lens.farthest(-slope / steepness) : Vec2(0, 0),
              s);
 }

@@ -210,7 +210,7 @@ void segment_on_segment(const Manifold& to, const FacingFeature& f, const Facing
   add_at(t_hi, s0 + s1 * t_hi);
   // Of two lines that cross by a hair neither end has the depth.
   if (curved &&
-      std::min(clearance(t_lo), clearance(t_hi)) - least > plane.margins().clear_rise / 2) {
+      std::min(clearance(t_lo), clearance(t_hi)) - least > plane.margins().clear_rise() / 2) {
     add_at(deepest, s0 + s1 * deepest);
   }
 }

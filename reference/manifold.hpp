@@ -27,30 +27,34 @@ struct Margins {
   /// step of a simulation tilts it, as long as they overlap: no more than the contact threshold
   /// leaves above the deepest point; never less than rounding.
   double slack;
-  /// How much higher one side of a patch than the other is seen, and not taken for the rounding of
-  /// a body at rest: a millionth of the smallest half extent, the contact threshold that engines
-  /// use.
-  double clear_rise;
   /// A feature that leans by no more counts as facing the other body, even where the threshold
   /// leaves less room: so little decides which of a cap's or generator's points is the deepest, and
   /// not always one that the other body reaches.
   double flat;
   double rounding;  ///< of what is known of the bodies' surfaces
+  double smallest;  ///< half extent of both bodies
 
   /// `offset` is how far the bodies' centres are apart, or somewhat more.
   Margins(const Extents& a, const Extents& b, double offset, double signed_distance,
           double contact_threshold) {
-    constexpr double hair = 1e-3, clear = 1e-6, invisible = 1e-4,
+    constexpr double hair = 1e-3, invisible = 1e-4,
                      epsilon = std::numeric_limits<double>::epsilon();
     rounding = 16 * epsilon * (std::max(a.largest, b.largest) + offset);
     const double smaller = std::min(a.largest, b.largest);
     slack = std::max(rounding, std::min(hair * smaller, contact_threshold - signed_distance));
     flat = std::max(slack, invisible * smaller);
-    clear_rise = std::min(std::max(clear * std::min(a.smallest, b.smallest), rounding), slack / 8);
+    smallest = std::min(a.smallest, b.smallest);
+  }
+  /// How much higher one side of a patch than the other is seen, and not taken for the rounding of
+  /// a body at rest: a millionth of the smallest half extent, the contact threshold that engines
+  /// use.
+  double clear_rise() const {
+    constexpr double clear = 1e-6;
+    return std::min(std::max(clear * smallest, rounding), slack / 8);
   }
   /// The deepest point of a layout that does not see which way the bodies lean lacks less than this
   /// of their depth (disc_layout.hpp).
-  double unseen_depth() const { return clear_rise / 2 + rounding; }
+  double unseen_depth() const { return clear_rise() / 2 + rounding; }
 };
 
 /// Adds to `contact`, whose normal and signed distance are set, the points where the bodies face

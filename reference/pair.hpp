@@ -9,6 +9,7 @@
 
 #include "contact.hpp"
 #include "largest_gap.hpp"
+#include "manifold.hpp"
 #include "posed_body.hpp"
 
 namespace touchstone {
@@ -25,6 +26,28 @@ namespace touchstone {
 //   void add_points(Contact&, const Vec3& origin, double contact_threshold) const
 //       to a contact whose normal and signed distance are set; `origin` is where the bodies' frame
 //       lies in the world
+
+/// The routine of a pair whose largest gap one function finds, up to an early exit, and whose
+/// points lie where features face each other. The function's bound is as that of `find_certified`.
+template <class Body,
+          CertifiedDistance (&find_largest)(const PosedCylinder&, const Body&, EarlyExit)>
+class SearchRoutine {
+ public:
+  SearchRoutine(const PosedCylinder& a, const Body& b) : a_(a), b_(b) {}
+
+  SignedDistance find(double stop_above) const {
+    const CertifiedDistance found = find_largest(a_, b_, {stop_above});
+    return {found.value, found.normal};
+  }
+  CertifiedDistance find_certified() const { return find_largest(a_, b_, no_short_cuts); }
+  void add_points(Contact& contact, const Vec3& origin, double contact_threshold) const {
+    add_facing_points(contact, a_, b_, origin, contact_threshold);
+  }
+
+ private:
+  const PosedCylinder& a_;
+  const Body& b_;
+};
 
 /// Both bodies in one frame, about B's centre.
 template <class Other>
@@ -84,18 +107,19 @@ inline bool powers_in_range(const PosedPair<Other>& pair) {
          d.x() * d.x() + d.y() * d.y() + d.z() * d.z() < max_length * max_length;
 }
 
-/// The bodies about B's centre, with all lengths times a power of two so that the largest is about
-/// one; sizes that vanish against it are made 1e-24 of it.
+/// The bodies about the origin of their frame, with all lengths times a power of two so that the
+/// largest is about one; sizes that vanish against it are made 1e-24 of it.
 template <class Other>
 class ScaledBodies {
  public:
-  ScaledBodies(const Cylinder& a, const Pose& pose_a, const Other& b, const Pose& pose_b)
-      : origin_(pose_b.position()),
-        exponent_(std::ilogb(std::min(posed_pair(a, pose_a, b, pose_b).lengths(), max_length))),
+  ScaledBodies(const PosedPair<Other>& pair, const Cylinder& a, const Pose& pose_a, const Other& b,
+               const Pose& pose_b)
+      : origin_(pair.origin),
+        exponent_(std::ilogb(std::min(pair.lengths(), max_length))),
         a_(scaled(a)),
         b_(scaled(b)),
         pose_a_(scaled_difference(pose_a.position()), pose_a.orientation()),
-        pose_b_(Vec3::Zero(), pose_b.orientation()) {}
+        pose_b_(scaled_difference(pose_b.position()), pose_b.orientation()) {}
 
   /// question(length, a, pose_a, b, pose_b) of the scaled length and bodies, scaled back; what
   /// overflows is the largest double.
@@ -156,7 +180,8 @@ template <class Other, class Question>
 [[gnu::noinline, gnu::cold]] auto answer_scaled(double length, Question question, const Cylinder& a,
                                                 const Pose& pose_a, const Other& b,
                                                 const Pose& pose_b) {
-  return ScaledBodies(a, pose_a, b, pose_b).answer(length, question);
+  return ScaledBodies(posed_pair(a, pose_a, b, pose_b), a, pose_a, b, pose_b)
+      .answer(length, question);
 }
 
 /// Calls `offer` with the unit vectors along a body's axes and, of bodies of revolution, radially
@@ -283,5 +308,23 @@ Contact find_contact(const Cylinder& a, const Pose& pose_a, const Other& b, cons
   }
   return contact_in_range<Routine>(pair, contact_threshold, previous_normal);
 }
+
+/// Defines the functions that a pair's header declares; below its `Routine`.
+#define TOUCHSTONE_DEFINE_QUESTIONS(Other)                                                    \
+  SignedDistance signed_distance(const Cylinder& a, const Pose& pose_a, const Other& b,       \
+                                 const Pose& pose_b) {                                        \
+    return find_signed_distance<Routine>(a, pose_a, b, pose_b);                               \
+  }                                                                                           \
+  CertifiedDistance certified_distance(const Cylinder& a, const Pose& pose_a, const Other& b, \
+                                       const Pose& pose_b) {                                  \
+    return find_certified_distance<Routine>(a, pose_a, b, pose_b);                            \
+  }                                                                                           \
+  bool overlaps(const Cylinder& a, const Pose& pose_a, const Other& b, const Pose& pose_b) {  \
+    return find_overlap<Routine>(a, pose_a, b, pose_b);                                       \
+  }                                                                                           \
+  Contact contact(const Cylinder& a, const Pose& pose_a, const Other& b, const Pose& pose_b,  \
+                  double contact_threshold, const Vec3* previous_normal) {                    \
+    return find_contact<Routine>(a, pose_a, b, pose_b, contact_threshold, previous_normal);   \
+  }
 
 }  // namespace touchstone
