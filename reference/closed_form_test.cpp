@@ -167,6 +167,20 @@ TEST(CylinderBox, EdgeParallelToTheAxisTouchesTheSide) {
   for (const Configuration& c : table) EXPECT_NEAR(signed_distance(c).value, 0, 1e-15);
 }
 
+// Rims that meet in parallel tangents, beside a normal along the axes: of several arcs all bounds
+// fail, and what may be missed there counts as error.
+TEST(CertifiedDistance, IsNotClaimedForArcsOnWhichTheSearchGaveUp) {
+  const Configuration c{Cylinder(3.25, 2.75),
+                        Pose({0x1.171848db4edd8p+0, 0x1.a9b636cd32c6cp+1, -0x1.6fffffff14d0fp+2},
+                             {0x1.920a976ca45f1p-51, 1, 1, 0}),
+                        Cylinder(0.25, 3), Pose()};
+  const CertifiedDistance certified = certified_distance(c);
+  EXPECT_NEAR(certified.value, -8.5559526589006752e-10, 1e-14);
+  const double rounding = 1e-13;  // of lengths that add up to 24
+  EXPECT_GT(certified.error_bound, rounding);
+  EXPECT_LE(certified.error_bound, 1e-9);
+}
+
 TEST(PreviousNormal, IsKeptAsLongAsItIsAsGood) {
   const Pose centre;
   const auto hinted = [](const Pose& pose_b, const Vec3& previous, double threshold) {
