@@ -40,7 +40,8 @@ ROOT = HERE.parent.parent
 REFERENCE = ROOT / "reference"
 LIMIT = 60  # seconds of each net
 CHECK_COUNT = "3"  # configurations of each pair, pose class and law
-NOT_ROUTINES = ("_test.cpp", "_benchmark.cpp", "points_on_both.hpp")
+FOR_TESTS = "points_on_both.hpp"
+NOT_ROUTINES = ("_test.cpp", "_benchmark.cpp", FOR_TESTS)
 FLAGS = ["-std=c++20", "-O1", "-fPIC", "-fno-math-errno", "-fvisibility=hidden", "-w",
          # What a fault leaves unset is the same in every run, and no valid value.
          "-ftrivial-auto-var-init=pattern",
@@ -88,6 +89,7 @@ class Library:
                  (not rest or any(m.file == n for m in drawn))]
         for name in sorted(self.sources, key=lambda n: n.endswith(".cpp")):
             self.write(name)
+        (self.tree / "reference" / FOR_TESTS).write_text((REFERENCE / FOR_TESTS).read_text())
         with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
             while True:
                 results = list(pool.map(self.compile, units))
@@ -161,8 +163,6 @@ class UnitTests:
     def __init__(self, library, work, jobs):
         files = [p for p in sorted(REFERENCE.glob("*_test.cpp"))
                  if not re.search(r'#include "(?!reference/|\w+\.hpp)', p.read_text())]
-        (library.tree / "reference" / "points_on_both.hpp").write_text(
-            (REFERENCE / "points_on_both.hpp").read_text())
         for p in files:
             (library.tree / "reference" / p.name).write_text(p.read_text())
         with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
@@ -171,8 +171,8 @@ class UnitTests:
             raise BuildFailed("\n".join(errors))
         self.file = work / "planted_tests"
         objects = [library.objects / (p.name + ".o") for p in files]
-        done = run("g++", *objects, *library.routine_objects, *library.rest, "-lgtest_main", "-lgtest",
-                   "-lrapidcheck", "-lpthread", "-o", self.file)
+        done = run("g++", *objects, *library.routine_objects, *library.rest, "-lgtest_main",
+                   "-lgtest", "-lrapidcheck", "-lpthread", "-o", self.file)
         if done.returncode != 0:
             raise BuildFailed(done.stderr)
 
