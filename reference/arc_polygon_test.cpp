@@ -115,6 +115,35 @@ TEST(ArcPolygon, DiscCutByAllFourEdgesOfASquareHasEightCorners) {
   EXPECT_GT(coverage(region), 0.9);
 }
 
+// A square's cut disc with one of its eight corners cut off in turn.
+TEST(ArcPolygon, OfNineCornersTheOneThatSpansTheLeastIsLeftOut) {
+  ArcPolygon region(unit);
+  for (const Vec2& n : {Vec2(1, 0), Vec2(0, 1), Vec2(-1, 0), Vec2(0, -1)}) region.clip(n, 0.9);
+  const Vec2 on_arc = direction(0.47), on_side(0.9, 0.4);
+  const Vec2 cut = -turned_left(Vec2(on_arc - on_side)).normalized();
+  region.clip(cut, cut.dot(on_side));
+  std::array<Vec2, 8> points;
+  ASSERT_EQ(region.spread(Vec2(1, -0.5), points), 8);
+  EXPECT_NEAR((points[0] - Vec2(0.9, -std::sqrt(0.19))).norm(), 0, 1e-15);
+  EXPECT_NEAR((points[1] - on_arc).norm(), 0, 1e-15);  // and not `on_side`, which comes before it
+}
+
+TEST(ArcPolygon, SixCornersAreEnoughForAnArcThatStandsOut) {
+  ArcPolygon region(unit);
+  const double half = 35 * std::numbers::pi / 180;  // of the arc
+  region.clip(Vec2(0, 1), std::sin(half));
+  region.clip(Vec2(0, -1), std::sin(half));
+  region.clip(Vec2(-1, 0), -0.3);
+  std::array<Vec2, 8> points;
+  ASSERT_EQ(region.spread(Vec2(-1, 0.1), points), 5);  // the arc's middle, too
+  EXPECT_NEAR((points[3] - Vec2(1, 0)).norm(), 0, 1e-15);
+  for (const double side : {1.0, -1.0}) {
+    const Vec2 oblique = Vec2(-1, side).normalized();
+    region.clip(oblique, oblique.dot(Vec2(0.35, side * std::sin(half))));
+  }
+  EXPECT_EQ(region.spread(Vec2(-1, 0.1), points), 6);
+}
+
 TEST(ArcPolygon, SquareWithinTheDiscHasItsCorners) {
   ArcPolygon region(unit);
   for (const Vec2& n : {Vec2(1, 0), Vec2(0, 1), Vec2(-1, 0), Vec2(0, -1)}) region.clip(n, 0.5);

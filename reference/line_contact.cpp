@@ -91,7 +91,7 @@ void segment_on_flat(const Manifold& to, const FacingFeature& segment, const Fac
     const double half =
         std::sqrt(std::max(0.0, (disc.radius - offset) * (disc.radius + offset)) / squared);
     range = {std::max(range.lo, foot - half), std::min(range.hi, foot + half)};
-  } else if (flat.kind == Kind::rectangle) {
+  } else {  // a rectangle
     // The edges that the line crosses first. One that runs along the others, but for a hair, does
     // so within them or on one, whichever side of that rounding puts it on.
     const std::array<Strip, 2> strips = plane.face(flat).strips;

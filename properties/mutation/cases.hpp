@@ -54,8 +54,9 @@ RawConfiguration raw(const Configuration& configuration);
 constexpr std::uint64_t case_seed = 17;
 
 /// The configuration `index` of those that are asked without their truths: hostile ones that are
-/// not in the cache; every fourth of two cylinders has rims that meet along a normal of any
-/// direction, and every 64th lengths at the end of what a double holds.
+/// not in the cache; every fourth has two normals that nearly tie, of two cylinders another fourth
+/// has rims that meet along a normal of any direction, and every 64th has lengths at the end of
+/// what a double holds.
 Case without_truth(int pair, std::uint64_t index);
 
 }  // namespace touchstone::mutation

@@ -9,6 +9,9 @@ namespace touchstone::mutation {
 namespace {
 
 constexpr Real promised = 1e-13L;
+/// The part of all lengths together that a bound of the error is at most, which is rounding alone
+/// (lengths are counted in a turned frame).
+constexpr Real max_error_part = 7e-15L;
 
 Numbers3 negated(const Numbers3& v) { return {-v[0], -v[1], -v[2]}; }
 
@@ -86,8 +89,7 @@ class Judge {
     expect(std::isfinite(found.value) && is_unit(found.normal), Check::finite, 1);
     expect(std::abs(found.value - sigma_) <= found.error_bound, Check::certified, 0);
     expect(regret(found.normal) <= found.error_bound + tolerance_, Check::certified, 1);
-    constexpr Real rounding = 7e-15L;  // lengths are counted in a turned frame
-    expect(found.error_bound <= rounding * geometry_.lengths(), Check::certified, 2);
+    expect(found.error_bound <= max_error_part * geometry_.lengths(), Check::certified, 2);
     // A bound that is less than an ulp or two of the lengths would be luck.
     expect(found.error_bound >= 4e-16L * larger_, Check::certified, 3);
     if (geometry_.pair != cylinder) return;
@@ -404,6 +406,9 @@ Findings judge_agreement(const Case& c, const Routines& routines) {
   const Real along = geometry.gap(vector(found.normal).normalized());
   expect(std::abs(std::clamp(along, -max_length, max_length) - found.value) <= tolerance, 2);
   expect(routines.overlaps(made) == (found.value <= 0), 3);
+  if (!(certified.error_bound <= max_error_part * geometry.lengths())) {
+    findings.set(static_cast<std::size_t>(Check::certified) * max_variants + 2);
+  }
   routines.release(made);
   return findings;
 }

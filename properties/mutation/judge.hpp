@@ -43,7 +43,8 @@ enum class ArcCheck { passage, derivatives, minima, directions };
 void judge_arcs(const void* made, const Routines& routines, std::size_t index,
                 const std::function<void(bool, ArcCheck)>& expect);
 
-/// Without a truth: do the routines agree with each other? Only `agreement` is found.
+/// Without a truth: do the routines agree with each other, and is the proven one sure? Finds only
+/// `agreement` and `certified`.
 Findings judge_agreement(const Case& c, const Routines& routines);
 
 /// Of shapes and poses that cannot be; independent of the cases.

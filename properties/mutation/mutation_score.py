@@ -9,10 +9,12 @@ over the lines of reference/ that hold code, seeded; a fault keeps its name and 
 long as its line stays the same. All are built into one library behind switches (planted.hpp), in
 which TOUCHSTONE_FAULT says which one is active.
 
-Three nets are held under each fault, at most 60 s of processor time each:
+Four nets are held under each fault, at most 60 s of processor time each:
   classes  the pose classes of the default report
   hostile  the hostile class, and many more of it without truths, on which the routines must agree
-  laws     `touchstone check`, for faults that the first two do not find
+  tests    the unit tests beside the routines that look at nothing else, neither truth nor pose
+           class, for faults that the first two do not find
+  laws     `touchstone check`, for faults that none of these finds
 The first two are mutation_probe's: every answer against the exact truth (judge.hpp), but for what is
 wrong without a fault. What no net finds is either listed in equivalent.json, with the reason why no
 answer can change, or survives.
@@ -38,7 +40,8 @@ ROOT = HERE.parent.parent
 REFERENCE = ROOT / "reference"
 LIMIT = 60  # seconds of each net
 CHECK_COUNT = "3"  # configurations of each pair, pose class and law
-NOT_ROUTINES = ("_test.cpp", "_benchmark.cpp", "points_on_both.hpp")
+FOR_TESTS = "points_on_both.hpp"
+NOT_ROUTINES = ("_test.cpp", "_benchmark.cpp", FOR_TESTS)
 FLAGS = ["-std=c++20", "-O1", "-fPIC", "-fno-math-errno", "-fvisibility=hidden", "-w",
          # What a fault leaves unset is the same in every run, and no valid value.
          "-ftrivial-auto-var-init=pattern",
@@ -86,6 +89,7 @@ class Library:
                  (not rest or any(m.file == n for m in drawn))]
         for name in sorted(self.sources, key=lambda n: n.endswith(".cpp")):
             self.write(name)
+        (self.tree / "reference" / FOR_TESTS).write_text((REFERENCE / FOR_TESTS).read_text())
         with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
             while True:
                 results = list(pool.map(self.compile, units))
@@ -134,7 +138,8 @@ class Library:
             self.write(name)
 
     def link(self, units):
-        objects = [self.objects / (name + ".o") for name in units]
+        self.routine_objects = [self.objects / (name + ".o") for name in units]
+        objects = list(self.routine_objects)
         # The plug-in of our own routines, under a name that is not taken.
         plugin = self.tree / "planted.cpp"
         plugin.write_text((ROOT / "candidates" / "reference.cpp").read_text().replace(
@@ -149,6 +154,41 @@ class Library:
         done = run("g++", "-shared", "-Wl,-Bsymbolic", *objects, *self.rest, "-o", self.file)
         if done.returncode != 0:
             raise BuildFailed(done.stderr)
+
+
+class UnitTests:
+    """The unit tests beside the routines that include only these, built on a planted library: test
+    files that use another room would bring its copies of the routines' inline functions."""
+
+    def __init__(self, library, work, jobs):
+        files = [p for p in sorted(REFERENCE.glob("*_test.cpp"))
+                 if not re.search(r'#include "(?!reference/|\w+\.hpp)', p.read_text())]
+        for p in files:
+            (library.tree / "reference" / p.name).write_text(p.read_text())
+        with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+            errors = [text for text in pool.map(library.compile, [p.name for p in files]) if text]
+        if errors:
+            raise BuildFailed("\n".join(errors))
+        self.file = work / "planted_tests"
+        objects = [library.objects / (p.name + ".o") for p in files]
+        done = run("g++", *objects, *library.routine_objects, *library.rest, "-lgtest_main",
+                   "-lgtest", "-lrapidcheck", "-lpthread", "-o", self.file)
+        if done.returncode != 0:
+            raise BuildFailed(done.stderr)
+
+    def finding(self, number):
+        environment = dict(os.environ, TOUCHSTONE_FAULT=str(number), RC_PARAMS="seed=1")
+        try:
+            done = run(self.file, "--gtest_brief=1", "--gtest_fail_fast", env=environment,
+                       timeout=20 * LIMIT, preexec_fn=limit_processor_time)
+        except subprocess.TimeoutExpired:
+            return "does not end"
+        if done.returncode < 0:
+            return "does not end" if -done.returncode in (24, 26) else f"signal {-done.returncode}"
+        if done.returncode == 0:
+            return None
+        return next((line.split()[3].rstrip(",") for line in done.stdout.splitlines()
+                     if line.startswith("[  FAILED  ] ")), "a test")
 
 
 class Probe:
@@ -228,7 +268,8 @@ def parse_words():
                        help="hostile configurations of each pair")
     words.add_argument("--more", type=int, default=250000,
                        help="hostile configurations of each pair that are asked without a truth")
-    words.add_argument("--laws", choices=["yes", "no"], default="yes", help="whether to ask `check`")
+    words.add_argument("--laws", choices=["yes", "no"], default="yes",
+                       help="whether to ask the unit tests and `check`")
     words.add_argument("--bar", type=float, default=0.98, help="the lowest score that passes")
     words.add_argument("--jobs", type=int, default=1)
     words.add_argument("--handful", action="store_true",
@@ -285,6 +326,9 @@ def score(words, drawn, reasons, work, program, touchstone):
     for probe in probes:
         print(f"{probe.net}: {probe.baseline(library)}", flush=True)
 
+    tests = UnitTests(library, work, words.jobs) if words.laws == "yes" else None
+    if tests and (broken := tests.finding(0)):
+        raise BuildFailed(f"a test fails without a fault: {broken}")
     if words.laws == "yes" and (broken := law_finding(touchstone, library, 0, None)):
         raise BuildFailed(f"laws are broken without a fault: {broken}")
 
@@ -292,6 +336,7 @@ def score(words, drawn, reasons, work, program, touchstone):
         number, mutant = item
         pair = PAIRS.get(mutant.file.split(".")[0])
         found = {p.net: p.finding(library, number, pair) for p in probes}
+        found["tests"] = tests.finding(number) if tests and not any(found.values()) else None
         found["laws"] = None
         if words.laws == "yes" and not any(found.values()) and mutant.name not in reasons:
             found["laws"] = law_finding(touchstone, library, number, pair)
@@ -333,7 +378,7 @@ def summary(words, results, reasons):
     value = len(killed) / relevant if relevant else 1
     print(f"\n{len(results)} faults: {len(killed)} found (classes {by_net['classes']}, hostile "
           f"{by_net['hostile']}, both or either {by_net['first classes'] + by_net['first hostile']}, "
-          f"only laws {by_net['first laws']}), {len(equivalent)} equivalent, "
+          f"only tests {by_net['first tests']}, only laws {by_net['first laws']}), {len(equivalent)} equivalent, "
           f"{len(surviving)} surviving")
     print(f"mutation score {100 * value:.1f}% = {len(killed)} of {relevant}")
     for mutant in surviving:
