@@ -36,6 +36,11 @@ constexpr std::chrono::seconds finish_timeout(1);
 /// a processor.
 constexpr double initial_wait_factor = 10, clock_factor = 100;
 
+/// Slow configurations are queried so often, and prepared once, by warm_up and by time of
+/// session.cpp: to warm up and in one measured pass. Passes are repeated only where they take
+/// microseconds.
+constexpr std::size_t queries_per_round = 2;
+
 /// Can the signal come from a timer, another process or the kernel, and not only from the routine
 /// that dies of it?
 bool may_come_from_elsewhere(int signal) {
@@ -158,7 +163,8 @@ void CandidateProcess::put(std::uint32_t slot, const Configuration& c,
       to_ts_pose(c.pose_b), previous_normal != nullptr, {hint.x(), hint.y(), hint.z()}};
 }
 
-std::optional<CandidateProcess::SessionFailure> CandidateProcess::obey(Command command) {
+std::optional<CandidateProcess::SessionFailure> CandidateProcess::obey(Command command,
+                                                                       std::size_t configurations) {
   using Received = PluginProcess::State::Received;
   PluginProcess::State& s = *plugin_.state_;
   std::optional<SessionFailure> begin_failure;
@@ -186,7 +192,7 @@ std::optional<CandidateProcess::SessionFailure> CandidateProcess::obey(Command c
         progress = now;
         watch.emplace(session_);
       } else {
-        too_long = judge(*watch);
+        too_long = judge(*watch, configurations);
       }
     }
     // Receive at least once after the check, so that an answer that arrived before it counts.
@@ -211,17 +217,17 @@ std::optional<CandidateProcess::SessionFailure> CandidateProcess::obey(Command c
   }
 }
 
-std::string CandidateProcess::judge(const Watch& watch) {
+std::string CandidateProcess::judge(const Watch& watch, std::size_t configurations) {
   const Watch::TimeUse spent = watch.spent();
-  if (spent.computing > limits_.seconds) {
-    return "no answer within " + seconds_text(limits_.seconds);
-  }
+  const double seconds = limits_.seconds * static_cast<double>(configurations);
+  const double max_wait = max_wait_ * static_cast<double>(configurations);
+  if (spent.computing > seconds) return "no answer within " + seconds_text(seconds);
   if (!spent.waiting) {
-    const double limit = clock_factor * limits_.seconds;
+    const double limit = clock_factor * seconds;
     if (spent.by_the_clock > limit)
       return "no answer within " + seconds_text(limit) + " by the clock";
-  } else if (*spent.waiting > max_wait_) {
-    std::string text = "no answer, having waited for " + seconds_text(max_wait_);
+  } else if (*spent.waiting > max_wait) {
+    std::string text = "no answer, having waited for " + seconds_text(max_wait);
     max_wait_ = std::max(limits_.seconds, max_wait_ / 2);
     return text;
   }
@@ -335,6 +341,7 @@ Answer CandidateProcess::answer(const Configuration& configuration, const Vec3* 
 
 bool CandidateProcess::prepare_timing(std::span<const Configuration> configurations) {
   end();
+  timed_ = configurations.size();
   for (std::size_t at = 0; at < configurations.size(); at += batch_size) {
     const auto batch =
         configurations.subspan(at, std::min<std::size_t>(batch_size, configurations.size() - at));
@@ -343,11 +350,14 @@ bool CandidateProcess::prepare_timing(std::span<const Configuration> configurati
     keep.count = static_cast<std::uint32_t>(batch.size());
     if (obey(keep)) return false;
   }
-  return !configurations.empty() && !obey(plain_command(Command::warm_up));
+  return !configurations.empty() &&
+         !obey(plain_command(Command::warm_up), queries_per_round * timed_);
 }
 
 std::optional<QueryCost> CandidateProcess::cost_per_query() {
-  if (session_ < 0 || obey(plain_command(Command::time))) return std::nullopt;
+  if (session_ < 0 || obey(plain_command(Command::time), queries_per_round * timed_)) {
+    return std::nullopt;
+  }
   const Exchange& exchange = *plugin_.state_->exchange;
   if (!std::isfinite(exchange.nanoseconds)) return std::nullopt;
   QueryCost cost{exchange.nanoseconds, std::nullopt};

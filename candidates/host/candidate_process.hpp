@@ -111,11 +111,12 @@ class CandidateProcess {
   /// Answers this slot's question in a session of its own.
   Answer answer_alone(std::uint32_t slot);
   static Answer answer_of(const SessionFailure& failure);
-  /// Sends a command and waits for its end; absent on success.
-  std::optional<SessionFailure> obey(Command command);
+  /// Sends a command and waits for its end; absent on success. `configurations`: how many it may
+  /// query before it reports progress; each may take as long as the limits say.
+  std::optional<SessionFailure> obey(Command command, std::size_t configurations = 1);
   SessionFailure end_of_session(int wait_status) const;
-  /// Why the command has taken too long; empty if it has not.
-  std::string judge(const Watch& watch);
+  /// Why the command has taken too long for so many configurations; empty if it has not.
+  std::string judge(const Watch& watch, std::size_t configurations);
 
   Candidate candidate_;
   double threshold_;
@@ -125,6 +126,7 @@ class CandidateProcess {
   std::uint64_t ticket_ = 0;          ///< ticket of the last command
   std::uint64_t session_ticket_ = 0;  ///< ticket of the command that began the session
   double max_wait_;                   ///< seconds that a query may wait
+  std::size_t timed_ = 0;             ///< configurations of prepare_timing
 };
 
 /// Starts one process for each candidate.

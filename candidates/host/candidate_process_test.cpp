@@ -192,6 +192,15 @@ TEST(CandidateProcess, TimesTheQueriesAndNothingElse) {
   EXPECT_LT(min_nanoseconds, 200);
 }
 
+TEST(CandidateProcess, TimesWhatIsSlowButWithinTheLimit) {
+  // A round takes at least ten queries of ten milliseconds.
+  CandidateProcess process(sabotage("misdeed:17"), 0, {0.05, 256});
+  ASSERT_TRUE(process.prepare_timing(std::vector<Configuration>(20, standing)));
+  const auto cost = process.cost_per_query();
+  ASSERT_TRUE(cost);
+  EXPECT_GT(cost->nanoseconds, 9e6);
+}
+
 TEST(CandidateProcess, ACrashWhileTimingIsNoTime) {
   CandidateProcess process(sabotage("misdeed:1"), 0);
   EXPECT_FALSE(process.prepare_timing(std::vector<Configuration>(3, standing)));

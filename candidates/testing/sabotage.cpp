@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <limits>
 #include <stdexcept>
 #include <unistd.h>
@@ -74,11 +75,19 @@ void leak(ts_answer& answer) {
   behave(answer);
 }
 
+/// Answers after ten milliseconds of processor time.
+void dawdle(ts_answer& answer) {
+  constexpr std::clock_t time = CLOCKS_PER_SEC / 100;
+  for (const std::clock_t start = std::clock(); std::clock() - start < time;) {
+  }
+  behave(answer);
+}
+
 constexpr void (*deeds[])(ts_answer&) = {
     segfault,     abort_it,    throw_it,    throw_number,   loop,
     sleep_long,   allocate,    leave,       million_points, claim_million_points,
     not_a_number, long_normal, claim_crash, leak,           throw_no_text,
-    behave};
+    behave,       dawdle};
 constexpr int count = sizeof deeds / sizeof *deeds;
 
 const ts_parameter which = {"number of the deed", 1, count, count, 1, 0};
