@@ -309,6 +309,7 @@ void CandidateProcess::answer_batch(std::uint32_t count, bool release,
 
 std::vector<Answer> CandidateProcess::answers(std::span<const Configuration> configurations) {
   end();
+  max_wait_ = initial_wait_factor * limits_.seconds;
   return answer(configurations, {}, true);
 }
 

@@ -18,8 +18,9 @@ class Watch;
 /// Resources that one configuration may use before the candidate's process is ended.
 struct Limits {
   /// Processor time: three frames of a simulation, thousands of times that of a query. A query may
-  /// wait for something else ten times as long; for a candidate that does so repeatedly this is
-  /// halved each time, down to the limit itself. Waiting for a processor does not count.
+  /// wait for something else ten times as long; for a candidate that does so repeatedly within one
+  /// call of CandidateProcess::answers this is halved each time, down to the limit itself. Waiting
+  /// for a processor does not count.
   double seconds = 0.05;
   double mebibytes = 1024;  ///< growth of its memory
 };

@@ -74,6 +74,12 @@ TEST(CandidateProcess, EndsASleepByTheClock) {
   EXPECT_EQ(after_misdeed(6, {0.01, 256}).status, TS_TIMED_OUT);
 }
 
+TEST(CandidateProcess, WaitsAsLongWhateverItWaitedForBefore) {
+  CandidateProcess process(sabotage("misdeed:6"), 0, {0.01, 256});
+  const std::string first = process.answers({&standing, 1}).at(0).reason;
+  EXPECT_EQ(process.answers({&standing, 1}).at(0).reason, first);
+}
+
 TEST(CandidateProcess, RefusesTenGibibytes) {
   const Answer a = after_misdeed(7);
   EXPECT_EQ(a.status, TS_CRASHED);
