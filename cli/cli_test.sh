@@ -43,6 +43,7 @@ expect 0 '"id":"cylinder-box/rim-face/1/2"' replay cylinder-box/rim-face/1/2 --j
 expect 0 'reference: contact' replay cylinder-box/rim-face/1/2 --html "$folder/page.html"
 grep -q 'cylinder-box/rim-face/1/2' "$folder/page.html" || { echo "FAILED: no page"; failures=$((failures + 1)); }
 expect 2 '--html' replay cylinder-box/rim-face/1/2 --html "$folder/none/page.html"
+expect 0 'reference: contact' replay <("$program" replay cylinder-box/rim-face/1/2 --json) --candidates reference
 expect 2 'could not be opened' solve "$folder/none.jsonl"
 expect 2 '--width' solve --width 0
 # A list takes one argument: what follows is another.
