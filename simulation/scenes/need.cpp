@@ -329,8 +329,8 @@ std::vector<std::unique_ptr<Need>> one_of_each() {
 Verdict Need::judge(const ComparedRuns& runs) const {
   Verdict verdict = measure(runs);
   if (!runs.run.sound) {
+    if (verdict.holds()) verdict.time = runs.run.end();
     verdict.value = infinity;
-    verdict.time = std::min(verdict.time, runs.run.end());
   }
   return verdict;
 }

@@ -151,6 +151,21 @@ TEST(Needs, AreBrokenByAMotionThatIsUnsoundOrNotANumber) {
   EXPECT_FALSE(judged(R"("need":"rests","bodies":["can"],"speed":1)", no_number).holds());
 }
 
+TEST(Needs, AnUnsoundRunBreaksWhatHeldAtItsEnd) {
+  Trajectory absurd = motion([](int body, double t) { return tilted(body == 1 ? 10 * t : 0); });
+  absurd.sound = false;
+  const Verdict broken_before = judged(R"("need":"stands","body":"can","degrees":5)", absurd);
+  EXPECT_NEAR(broken_before.time, 0.6, 1e-9);
+  EXPECT_FALSE(broken_before.holds());
+  for (const char* held : {R"("need":"stands","body":"pot","degrees":5)",
+                           R"("need":"stands","body":"can","degrees":5,"until":0.3)",
+                           R"("need":"penetration","metres":1)"}) {
+    const Verdict verdict = judged(held, absurd);
+    EXPECT_NEAR(verdict.time, absurd.end(), 1e-9) << held;
+    EXPECT_FALSE(verdict.holds()) << held;
+  }
+}
+
 TEST(Verdicts, ShareOfALimitOfZeroIsAboveOneWhenBroken) {
   EXPECT_EQ((Verdict{0, 0, 0}.share()), 0);
   EXPECT_EQ((Verdict{2, 0, 0}.share()), 3);
