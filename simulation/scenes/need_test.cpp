@@ -96,6 +96,17 @@ TEST(Needs, RestsCountsSpeedAndSpinFromItsTime) {
               0.4, 1e-12);  // 2 rad/s on 0.2 m
 }
 
+TEST(Needs, RestsIsBrokenWhenTheFirstOfItsBodiesIsTooFast) {
+  const Trajectory falling = motion([](int body, double t) {
+    BodyState s = tilted(0);
+    s.velocity = Vec3(0, 0, body == 1 ? -10 * t : -10 * t - 2);  // the pot is ahead of the can
+    return s;
+  });
+  const Verdict verdict = judged(R"("need":"rests","bodies":["can","pot"],"speed":3.5)", falling);
+  EXPECT_NEAR(verdict.time, 0.2, 1e-9);
+  EXPECT_NEAR(verdict.value, 12, 1e-9);
+}
+
 TEST(Needs, FallsInOrderCountsThoseOutOfPlace) {
   const Trajectory falling =
       motion([](int body, double t) { return tilted(t > 0.2 * body + 0.05 ? 90 : 0); });
