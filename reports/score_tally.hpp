@@ -36,7 +36,7 @@ class Magnitudes {
   /// Exact ones that were kept elsewhere.
   explicit Magnitudes(std::vector<double> values);
 
-  /// Binned, what is not finite counts as the largest double.
+  /// What is not finite counts as the largest double.
   void add(double value);
   /// Adds magnitudes of the same precision.
   void add(const Magnitudes& other);
