@@ -22,9 +22,9 @@ enum class Precision {
 /// zero to the largest double.
 class Magnitudes {
  public:
-  /// More than can be scored in years; sums and percentiles do not overflow, not even of all pose
-  /// classes together.
-  static constexpr std::uint64_t max_count = 1'000'000'000'000;
+  /// Sums and percentiles do not overflow, not even of a thousand pose classes together: a coverage
+  /// sum has room for 2^64 units of 2^-24, which are 1.1e12 configurations.
+  static constexpr std::uint64_t max_count = 1'000'000'000;
   /// The first 15 bits of a double that is not negative (sign, exponent, three of the mantissa)
   /// number its bin.
   using Bins = std::map<std::uint16_t, std::uint64_t>;

@@ -66,6 +66,14 @@ TEST(Units, AreCountedAndNumberedInSets) {
   EXPECT_EQ(unit_set_from_json(to_json(set)), set);
 }
 
+TEST(Plans, HaveRoomForTheCoverageOfAllClasses) {
+  Campaign all;
+  all.pairs = {std::begin(all_pairs), std::end(all_pairs)};
+  const double one = 1 / CoverageTally::unit;
+  const double sum = static_cast<double>(Plan::max_count * cells(all).size()) * one;
+  EXPECT_LT(sum, 0x1p64);
+}
+
 TEST(Shards, AreReadOrRefused) {
   EXPECT_EQ(parse_shard("3/7"), (Shard{3, 7}));
   EXPECT_EQ(to_string(Shard{3, 7}), "3/7");
