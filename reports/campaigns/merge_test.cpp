@@ -21,6 +21,7 @@ json plan(std::uint64_t seed = 1) {
           {"program", "./touchstone"},
           {"seed", seed},
           {"count", 1000},
+          {"unit_size", Unit::max_size},
           {"tolerance", 1e-4},
           {"threshold", 0},
           {"classes",
@@ -84,6 +85,13 @@ TEST(Merge, RefusesWhatOverlapsWhatIsMissingAndWhatIsForeign) {
       },
       ThrowsMessage<InvalidInput>(HasSubstr("seed is 2, not 1")));
   EXPECT_THROW(merged({}), InvalidInput);
+}
+
+TEST(Merge, RefusesPartsThatAreCutIntoUnitsOfAnotherSize) {
+  json other = plan();
+  other["unit_size"] = 2 * Unit::max_size;
+  EXPECT_THAT([&] { plan_from_json(other); },
+              ThrowsMessage<InvalidInput>(HasSubstr("campaign.unit_size is 1024")));
 }
 
 TEST(Merge, MarksWhatIsPartial) {
