@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Runs the program as a person does: cli_test.sh PROGRAM.
 set -u
-program=$1
+program=$(readlink -f "$1")
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 failures=0
@@ -90,6 +90,17 @@ sed -i 's/"missed"/"overdeep"/; s/"shallow"/"overdeep"/' "$folder"/corpus/*.json
 expect 1 'changed' check --corpus "$folder/corpus"
 echo '{' > "$folder/corpus/broken.json"
 expect 2 'broken.json' check --corpus "$folder/corpus"
+# A plug-in's file names its first candidate, and a known name comes before a file of that name.
+plugin=$(dirname "$program")/candidates/testing/touchstone-sabotage.so
+expect 1 '^misdeed:[0-9]* 1, seed' check --candidate "$plugin" --pair cylinder-sphere --class cap --count 1 \
+  --law agreement --save "$folder/engine"
+expect 1 'as expected  misdeed:' check --candidate "$plugin" --corpus "$folder/engine" \
+  --pair cylinder-sphere --class cap --count 1 --law agreement
+touch "$folder/bullet"
+pushd "$folder" >/dev/null || exit 1
+expect 0 'agreement .* passed' check --candidate bullet --pair cylinder-sphere --class cap --count 1 \
+  --law agreement
+popd >/dev/null || exit 1
 python3 - "$folder" <<'END' || { echo "FAILED: JUnit XML or JSON of check"; failures=$((failures + 1)); }
 import json, sys, xml.etree.ElementTree as tree
 suite = tree.parse(sys.argv[1] + "/junit.xml").getroot()[0]

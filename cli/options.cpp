@@ -39,9 +39,14 @@ std::string CandidateOption::command_line() const {
 }
 
 const Candidate& named_candidate(const std::string& name) {
-  if (!is_file(name)) return find_candidate(name);
+  try {
+    return find_candidate(name);
+  } catch (const InvalidInput&) {
+    if (!is_file(name)) throw;
+  }
+  const std::size_t known = all_candidates().size();
   add_plugin(name);
-  return *all_candidates().back();
+  return *all_candidates()[known];
 }
 
 BarOption::BarOption(Command& command) {

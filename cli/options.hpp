@@ -29,8 +29,8 @@ struct CandidateOption {
   Option option_;
 };
 
-/// The candidate of that name, or the first of the plug-in in that file, which is added. Throws
-/// InvalidInput.
+/// The candidate of that name, or, where there is none, the first of the plug-in in that file,
+/// which is added. Throws InvalidInput.
 const Candidate& named_candidate(const std::string& name);
 
 struct BarOption {
