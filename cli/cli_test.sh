@@ -55,6 +55,8 @@ expect 2 '--class' report --class nowhere --out "$folder/r"
 expect 2 '--out' report --out /proc/none
 expect 0 'report.html' report --pair cylinder-plane --count 1 --out "$folder/a b"
 [ -s "$folder/a b/report.html" ] || { echo "FAILED: no report.html"; failures=$((failures + 1)); }
+expect 0 '^1 configurations' report --pair cylinder-plane,cylinder-plane --class lying,lying --count 1 \
+  --candidates reference --out "$folder/twice"
 
 
 expect 2 '--count' campaign --count 1.5e0 --out "$folder/c"

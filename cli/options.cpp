@@ -76,7 +76,8 @@ std::vector<Pair> SampleOption::pairs() const {
   std::vector<Pair> result;
   for (const auto& name : pairs_) {
     try {
-      result.push_back(parse_pair(name));
+      const Pair pair = parse_pair(name);
+      if (std::find(result.begin(), result.end(), pair) == result.end()) result.push_back(pair);
     } catch (const InvalidInput& e) {
       throw InvalidInput("--pair", e.value(), e.remedy());
     }

@@ -46,7 +46,7 @@ struct BarOption {
 struct SampleOption {
   /// `count`: of each pair and pose class, by default, and at most.
   SampleOption(Command& command, std::uint64_t count, std::uint64_t max_count);
-  /// All of them by default. Throws InvalidInput on an unknown name.
+  /// Each once, in the order given; all of them by default. Throws InvalidInput on an unknown name.
   std::vector<Pair> pairs() const;
   /// As given; empty means all. Throws InvalidInput on a class that none of the pairs has.
   const std::vector<std::string>& classes() const;
