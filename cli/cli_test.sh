@@ -123,6 +123,10 @@ cat > "$folder/can.json" <<'END'
  "needs":[{"need":"stands","body":"can","degrees":1}]}
 END
 expect 0 'can stands within 1' choose "$folder/can.json" --candidates capsule --out "$folder/choice"
+mkdir "$folder/my scenes"
+cp "$folder/can.json" "$folder/my scenes/"
+expect 0 "choose '$folder/my scenes/can.json' --candidates capsule --time-limit 0.1 --memory-limit 1024\"" \
+  choose "$folder/my scenes/can.json" --candidates capsule --time-limit 0.1 --json --out "$folder/choice"
 [ -s "$folder/choice/choose.html" ] || { echo "FAILED: no choose.html"; failures=$((failures + 1)); }
 sed 's/"degrees":1/"degrees":1e-30/; s/0.2\]}/0.2],"orientation":[1,0.1,0,0]}/' "$folder/can.json" > "$folder/fall.json"
 expect 1 'Not even exact contacts' choose "$folder/fall.json" --candidates capsule --out "$folder/choice"

@@ -31,9 +31,9 @@ std::vector<const Candidate*> CandidateOption::get() const {
   return candidates;
 }
 
-std::string CandidateOption::command_line() const {
+std::string CandidateOption::command_line(const std::vector<const Candidate*>& candidates) const {
   std::vector<std::string> names;
-  for (const Candidate* c : get()) names.emplace_back(c->name);
+  for (const Candidate* c : candidates) names.emplace_back(c->name);
   return fmt::format(" --candidates {} --time-limit {} --memory-limit {}", fmt::join(names, ","),
                      limits_.seconds, limits_.mebibytes);
 }

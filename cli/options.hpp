@@ -20,8 +20,10 @@ struct CandidateOption {
   /// In the order given; all of them by default. Throws InvalidInput on an unknown name.
   std::vector<const Candidate*> get() const;
   const Limits& limits() const { return limits_; }
-  /// The same options as text, to be repeated, with every candidate's name.
-  std::string command_line() const;
+  /// These options as text, to be repeated, with every candidate's name.
+  std::string command_line() const { return command_line(get()); }
+  /// Likewise, with the names of these candidates.
+  std::string command_line(const std::vector<const Candidate*>& candidates) const;
 
  private:
   std::vector<std::string> names_;

@@ -99,21 +99,21 @@ campaign --out killed --resume >/dev/null 2>&1
 same killed "killed twenty times"
 
 # Stopped in order, and a second campaign at the same place meanwhile.
-"$program" "${settings[@]}" --count 1e9 --checkpoint 0.1 --out stopped >stop.log 2>&1 &
+"$program" "${settings[@]}" --count 1e9 --checkpoint 0.1 --out 'stopped here' >stop.log 2>&1 &
 victim=$!
-until grep -q '"done":\[\[0,' stopped/shard-1-of-1.jsonl 2>/dev/null; do sleep 0.05; done
-refused 'no other campaign' endless --out stopped --resume
+until grep -q '"done":\[\[0,' 'stopped here/shard-1-of-1.jsonl' 2>/dev/null; do sleep 0.05; done
+refused 'no other campaign' endless --out 'stopped here' --resume
 kill -TERM "$victim"
 wait "$victim"
 code=$?
 [ "$code" -eq 143 ] || fail "exit code $code after SIGTERM"
-grep -q 'To go on:' stop.log || fail "it does not say how to go on: $(cat stop.log)"
+grep -q "^  .* --out 'stopped here' --resume$" stop.log || fail "it does not say how to go on: $(cat stop.log)"
 
 # A checkpoint that was cut short is refused, and so is one with a changed byte.
-cp -r stopped cut
+cp -r 'stopped here' cut
 truncate -s -20 cut/shard-1-of-1.jsonl
 refused 'damaged, cut short' endless --out cut --resume
-cp stopped/shard-1-of-1.jsonl cut/
+cp 'stopped here/shard-1-of-1.jsonl' cut/
 printf X | dd of=cut/shard-1-of-1.jsonl bs=1 seek=2000 conv=notrunc 2>/dev/null
 refused 'damaged, cut short' endless --out cut --resume
 
