@@ -78,6 +78,10 @@ refused 'seed is 1, not 2' campaign --seed 2 --out whole --resume
 refused 'cut in another way' campaign --shard 1/3 --out seven
 refused 'already holds a campaign' campaign --out whole
 refused 'already holds a campaign' "$program" merge seven --out whole
+refused 'cut in another way' "$program" merge seven --out seven
+mkdir renamed
+cp seven/shard-1-of-7.jsonl renamed/shard-2-of-7.jsonl
+refused 'shard-2-of-7.jsonl" is shard 1/7' campaign --shard 2/7 --out renamed --resume
 refused 'must hold shard files' "$program" merge empty --out none
 refused 'damaged, cut short, or something else' "$program" merge mpi.log --out none
 refused '--shard' campaign --shard 8/7 --out none
