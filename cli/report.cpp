@@ -96,7 +96,8 @@ void add_report(Program& program) {
       "  touchstone report --pair cylinder-box --count 1000 --seed 7\n"
       "  touchstone report --candidates reference,bullet --class rim-rim,touching\n"
       "  touchstone report --figures figures\n"
-      "Ctrl-C ends with a report of what is done, marked partial (exit code 130).");
+      "Ctrl-C or SIGTERM ends with a report of what is done, marked partial (exit code 130 or "
+      "143).");
   command.runs([options] { return run(*options); });
 }
 
