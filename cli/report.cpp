@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <chrono>
 #include <fmt/format.h>
 #include <memory>
 
@@ -67,9 +68,12 @@ int run(const Options& options) {
     return interrupted_exit_code();
   }
   if (!options.scored.sample.is_narrowed() && !interrupted()) {
+    const auto start = std::chrono::steady_clock::now();
     const Study study{campaign.candidates, campaign.bar, campaign.limits, campaign.workers};
     report.stability = measure(brief(study, campaign.pairs, campaign.seed));
     report.experiments = run_experiments(options.experiments());
+    report.wall_seconds +=
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
   write_report(report, options.out);
   fmt::print("{}\n{} configurations, truth certified to 1e-30 of the larger size, {:.0f} s.\n",
