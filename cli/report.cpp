@@ -100,8 +100,8 @@ void add_report(Program& program) {
       "  touchstone report --pair cylinder-box --count 1000 --seed 7\n"
       "  touchstone report --candidates reference,bullet --class rim-rim,touching\n"
       "  touchstone report --figures figures\n"
-      "Ctrl-C or SIGTERM ends with a report of what is done, marked partial (exit code 130 or "
-      "143).");
+      "Ctrl-C or SIGTERM ends with a report of what is done, marked partial.\n"
+      "Exit codes: 130, 143 when stopped by Ctrl-C, SIGTERM.");
   command.runs([options] { return run(*options); });
 }
 
