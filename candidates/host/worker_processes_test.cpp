@@ -26,11 +26,11 @@ template <class F>
 void each_shared_mapping(F f) {
   std::ifstream maps("/proc/self/maps");
   for (std::string line; std::getline(maps, line);) {
-    std::uintptr_t from = 0, to = 0;
+    void *from = nullptr, *to = nullptr;
     char rights[5] = "";
-    if (std::sscanf(line.c_str(), "%lx-%lx %4s", &from, &to, rights) == 3 &&
+    if (std::sscanf(line.c_str(), "%p-%p %4s", &from, &to, rights) == 3 &&
         std::string(rights) == "rw-s") {
-      f(reinterpret_cast<char*>(from), reinterpret_cast<char*>(to));
+      f(static_cast<char*>(from), static_cast<char*>(to));
     }
   }
 }
@@ -169,9 +169,9 @@ TEST(Interruption, WorkersKeepWhatIsDone) {
   testing::internal::CaptureStderr();
   const auto results = run_in_processes(
       3, 1,
-      [](std::size_t i) {
-        while (i == 2) sleep(1000);  // would never end
-        return std::string("done");
+      [](std::size_t i) -> std::string {
+        if (i < 2) return "done";
+        for (;;) pause();
       },
       [](std::size_t) { return std::string(); },
       [](std::size_t done) {

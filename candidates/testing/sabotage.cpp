@@ -24,8 +24,9 @@ struct ts_prepared {
 
 namespace {
 
-/// Zero, hidden from the compiler.
-volatile std::uintptr_t nowhere = 0;
+/// Zero and null, hidden from the compiler.
+volatile int nowhere = 0;
+int* volatile no_memory = nullptr;
 std::vector<std::vector<char>> leaked;
 
 void behave(ts_answer& answer) {
@@ -36,7 +37,7 @@ void behave(ts_answer& answer) {
   std::memcpy(answer.normal, answer.points[0].normal, sizeof answer.normal);
 }
 
-void segfault(ts_answer&) { *reinterpret_cast<volatile int*>(nowhere) = 1; }
+void segfault(ts_answer&) { *no_memory = 1; }
 void abort_it(ts_answer&) { std::abort(); }
 void throw_it(ts_answer&) { throw std::runtime_error("no convergence"); }
 void throw_no_text(ts_answer&) { throw std::runtime_error("no\ntext \xff\xc3"); }
