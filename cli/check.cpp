@@ -51,7 +51,7 @@ std::vector<ReplayedFailure> replay_corpus(const Options& options, const Candida
   if (candidate) {
     std::erase_if(corpus, [&](const Failure& f) { return f.candidate != candidate->name; });
   }
-  const std::vector<ReplayedFailure> replayed = replay(corpus, {});
+  std::vector<ReplayedFailure> replayed = replay(corpus, {});
   fmt::print("{}:\n{}", options.corpus, corpus_text(replayed));
   return replayed;
 }
@@ -63,7 +63,7 @@ std::vector<LawResult> check_laws(const Candidate* candidate, const CheckOptions
              process.candidate().name, process.candidate().version, checks.seed, checks.count,
              checks.bar.tolerance);
   std::unique_ptr<Progress> progress;
-  const auto results = check(process, checks, [&](std::uint64_t done, std::uint64_t all) {
+  auto results = check(process, checks, [&](std::uint64_t done, std::uint64_t all) {
     if (!progress) progress = std::make_unique<Progress>("configurations", all);
     progress->update(done);
   });
