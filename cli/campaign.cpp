@@ -50,7 +50,7 @@ struct Options {
   /// What goes on where this was stopped.
   std::string resuming() const {
     return command_line() + (shard_text.empty() ? "" : " --shard " + shard_text) +
-           fmt::format(" --workers {} --out {} --resume", workers.get(), out);
+           fmt::format(" --workers {} --out {} --resume", workers.get(), shell_quoted(out));
   }
 };
 

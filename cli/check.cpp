@@ -45,25 +45,26 @@ struct Options {
   }
 };
 
-std::vector<ReplayedFailure> replay_corpus(const Options& options) {
+/// Replays the failures of the candidate, or all of them if it is null.
+std::vector<ReplayedFailure> replay_corpus(const Options& options, const Candidate* candidate) {
   if (options.corpus.empty()) return {};
   std::vector<Failure> corpus = read_corpus(options.corpus);
-  if (!options.candidate.empty()) {
-    std::erase_if(corpus, [&](const Failure& f) { return f.candidate != options.candidate; });
+  if (candidate) {
+    std::erase_if(corpus, [&](const Failure& f) { return f.candidate != candidate->name; });
   }
-  const std::vector<ReplayedFailure> replayed = replay(corpus, {});
+  std::vector<ReplayedFailure> replayed = replay(corpus, {});
   fmt::print("{}:\n{}", options.corpus, corpus_text(replayed));
   return replayed;
 }
 
-std::vector<LawResult> check_laws(const Options& options, const CheckOptions& checks) {
-  if (options.candidate.empty()) return {};
-  CandidateProcess process(named_candidate(options.candidate), checks.bar.threshold);
+std::vector<LawResult> check_laws(const Candidate* candidate, const CheckOptions& checks) {
+  if (!candidate) return {};
+  CandidateProcess process(*candidate, checks.bar.threshold);
   fmt::print("{} {}, seed {}, {} configurations of each pair and pose class, tolerance {}\n",
              process.candidate().name, process.candidate().version, checks.seed, checks.count,
              checks.bar.tolerance);
   std::unique_ptr<Progress> progress;
-  const auto results = check(process, checks, [&](std::uint64_t done, std::uint64_t all) {
+  auto results = check(process, checks, [&](std::uint64_t done, std::uint64_t all) {
     if (!progress) progress = std::make_unique<Progress>("configurations", all);
     progress->update(done);
   });
@@ -77,8 +78,10 @@ int run(const Options& options) {
     throw InvalidInput("--candidate", "nothing", "must name what to check, or --corpus a folder");
   }
   const CheckOptions checks = options.check();
-  const auto corpus = replay_corpus(options);
-  const auto results = check_laws(options, checks);
+  const Candidate* const candidate =
+      options.candidate.empty() ? nullptr : &named_candidate(options.candidate);
+  const auto corpus = replay_corpus(options, candidate);
+  const auto results = check_laws(candidate, checks);
   if (!options.save.empty()) {
     for (const LawResult& result : results) {
       for (const Failure& failure : result.failures) {

@@ -9,6 +9,7 @@
 #include "properties/files/disk.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/choice/choice.hpp"
+#include "reports/worst.hpp"
 
 namespace touchstone {
 namespace {
@@ -27,6 +28,11 @@ struct Options {
     return candidates.is_given() ? candidates.get() : swept_candidates();
   }
   std::string folder() const { return out + "/choose"; }
+  /// The command that gives the same choice again.
+  std::string command_line() const {
+    return program_name() + " choose " + shell_quoted(scene) +
+           candidates.command_line(contestants());
+  }
 };
 
 int choose_scene(const Options& options, const std::string& command) {
@@ -61,12 +67,12 @@ int choose_pairs(const Options& options, const std::string& command) {
 int run(const Options& options) {
   check_writable(options.out);
   if (!is_shapes_file(options.scene)) {
-    return choose_scene(options, "touchstone choose " + options.scene);
+    return choose_scene(options, options.command_line());
   }
   const PairNeeds& n = options.pairs;
-  return choose_pairs(options,
-                      fmt::format("touchstone choose {} --depth {} --angle {} --count {} --seed {}",
-                                  options.scene, n.depth, n.angle, n.count, n.seed));
+  return choose_pairs(
+      options, options.command_line() + fmt::format(" --depth {} --angle {} --count {} --seed {}",
+                                                    n.depth, n.angle, n.count, n.seed));
 }
 
 }  // namespace

@@ -299,6 +299,7 @@ std::string shard_text(const Shard& shard) {
                      {"program", "./touchstone"},
                      {"seed", 1},
                      {"count", 600},
+                     {"unit_size", Unit::max_size},
                      {"tolerance", 1e-4},
                      {"threshold", 0},
                      {"classes",

@@ -60,8 +60,9 @@ int run(int argc, char** argv) {
       "  0    done\n"
       "  1    a law was broken, a result is worse, or needs are not met\n"
       "  2    bad input or usage, or output that could not be written\n"
-      "  3    an internal contradiction\n"
-      "  130  interrupted");
+      "  3    an internal contradiction, or another failure that is not the input's:\n"
+      "       no process or memory to be had, a worker killed\n"
+      "  130  interrupted by Ctrl-C; 143 by SIGTERM");
   program.files(
       "--candidate", [](const std::string& file) { add_plugin(file); },
       "A plug-in with candidates of your own; may be repeated");

@@ -20,10 +20,7 @@ struct Options {
 int run(const Options& options) {
   const ShardState whole = merge({options.inputs.begin(), options.inputs.end()}, options.partial);
   const ShardPlace place(options.out, whole.shard);
-  if (std::filesystem::exists(place.file())) {
-    throw InvalidInput("--out", '"' + options.out + '"',
-                       "already holds a campaign; choose another folder");
-  }
+  place.begin(whole.plan, false);  // throws where there is a campaign
   write_shard(whole, place.file());
   const Report result = campaign_result(whole);
   const auto file = write_result(whole, options.out);

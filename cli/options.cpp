@@ -31,17 +31,22 @@ std::vector<const Candidate*> CandidateOption::get() const {
   return candidates;
 }
 
-std::string CandidateOption::command_line() const {
+std::string CandidateOption::command_line(const std::vector<const Candidate*>& candidates) const {
   std::vector<std::string> names;
-  for (const Candidate* c : get()) names.emplace_back(c->name);
+  for (const Candidate* c : candidates) names.emplace_back(c->name);
   return fmt::format(" --candidates {} --time-limit {} --memory-limit {}", fmt::join(names, ","),
                      limits_.seconds, limits_.mebibytes);
 }
 
 const Candidate& named_candidate(const std::string& name) {
-  if (!is_file(name)) return find_candidate(name);
+  try {
+    return find_candidate(name);
+  } catch (const InvalidInput&) {
+    if (!is_file(name)) throw;
+  }
+  const std::size_t known = all_candidates().size();
   add_plugin(name);
-  return *all_candidates().back();
+  return *all_candidates()[known];
 }
 
 BarOption::BarOption(Command& command) {
@@ -73,7 +78,8 @@ std::vector<Pair> SampleOption::pairs() const {
   std::vector<Pair> result;
   for (const auto& name : pairs_) {
     try {
-      result.push_back(parse_pair(name));
+      const Pair pair = parse_pair(name);
+      if (std::find(result.begin(), result.end(), pair) == result.end()) result.push_back(pair);
     } catch (const InvalidInput& e) {
       throw InvalidInput("--pair", e.value(), e.remedy());
     }

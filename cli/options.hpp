@@ -20,8 +20,10 @@ struct CandidateOption {
   /// In the order given; all of them by default. Throws InvalidInput on an unknown name.
   std::vector<const Candidate*> get() const;
   const Limits& limits() const { return limits_; }
-  /// The same options as text, to be repeated, with every candidate's name.
-  std::string command_line() const;
+  /// These options as text, to be repeated, with every candidate's name.
+  std::string command_line() const { return command_line(get()); }
+  /// Likewise, with the names of these candidates.
+  std::string command_line(const std::vector<const Candidate*>& candidates) const;
 
  private:
   std::vector<std::string> names_;
@@ -29,8 +31,8 @@ struct CandidateOption {
   Option option_;
 };
 
-/// The candidate of that name, or the first of the plug-in in that file, which is added. Throws
-/// InvalidInput.
+/// The candidate of that name, or, where there is none, the first of the plug-in in that file,
+/// which is added. Throws InvalidInput.
 const Candidate& named_candidate(const std::string& name);
 
 struct BarOption {
@@ -46,7 +48,7 @@ struct BarOption {
 struct SampleOption {
   /// `count`: of each pair and pose class, by default, and at most.
   SampleOption(Command& command, std::uint64_t count, std::uint64_t max_count);
-  /// All of them by default. Throws InvalidInput on an unknown name.
+  /// Each once, in the order given; all of them by default. Throws InvalidInput on an unknown name.
   std::vector<Pair> pairs() const;
   /// As given; empty means all. Throws InvalidInput on a class that none of the pairs has.
   const std::vector<std::string>& classes() const;

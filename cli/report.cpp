@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <chrono>
 #include <fmt/format.h>
 #include <memory>
 
@@ -74,9 +75,12 @@ int run(const Options& options) {
     return interrupted_exit_code();
   }
   if (!options.scored.sample.is_narrowed() && !interrupted()) {
+    const auto start = std::chrono::steady_clock::now();
     const Study study{campaign.candidates, campaign.bar, campaign.limits, campaign.workers};
     report.stability = measure(brief(study, campaign.pairs, campaign.seed));
     report.experiments = run_experiments(options.experiments());
+    report.wall_seconds +=
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
   report.partial = report.partial || interrupted();
   write_report(report, options.out);
@@ -105,9 +109,10 @@ void add_report(Program& program) {
       "  touchstone report --candidates reference,bullet --class rim-rim,touching\n"
       "  touchstone report --group everyday --count 100\n"
       "  touchstone report --figures figures\n"
-      "Of an everyday pose class that --class does not name, five times as many configurations "
+      "Of an everyday pose class that --class does not name, five times as many "
       "are\nscored.\n"
-      "Ctrl-C ends with a report of what is done, marked partial (exit code 130).");
+      "Ctrl-C or SIGTERM ends with a report of what is done, marked partial.\n"
+      "Exit codes: 130, 143 when stopped by Ctrl-C, SIGTERM.");
   command.runs([options] { return run(*options); });
 }
 

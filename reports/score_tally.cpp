@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace touchstone {
@@ -12,12 +11,6 @@ namespace {
 constexpr int dropped_bits = 64 - 15;
 
 double lower_end(std::uint64_t bin) { return std::bit_cast<double>(bin << dropped_bits); }
-
-/// JSON, which campaigns keep tallies in, knows no infinity.
-double finite(double value) {
-  constexpr double max = std::numeric_limits<double>::max();
-  return std::isnan(value) ? max : std::clamp(value, -max, max);
-}
 
 /// What is kept of the score of one of the worst cases.
 Score essence(const Score& s) {
@@ -52,11 +45,10 @@ Magnitudes::Magnitudes(std::vector<double> values)
 }
 
 void Magnitudes::add(double value) {
-  double magnitude = std::abs(value);
+  const double magnitude = std::abs(finite(value));
   if (precision_ == Precision::exact) {
     values_.push_back(magnitude);
   } else {
-    if (!std::isfinite(magnitude)) magnitude = std::numeric_limits<double>::max();
     ++bins_[bin_of(magnitude)];
   }
   ++count_;

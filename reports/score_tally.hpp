@@ -22,9 +22,9 @@ enum class Precision {
 /// zero to the largest double.
 class Magnitudes {
  public:
-  /// More than can be scored in years; sums and percentiles do not overflow, not even of all pose
-  /// classes together.
-  static constexpr std::uint64_t max_count = 1'000'000'000'000;
+  /// Sums and percentiles do not overflow, not even of a thousand pose classes together: a coverage
+  /// sum has room for 2^64 units of 2^-24, which are 1.1e12 configurations.
+  static constexpr std::uint64_t max_count = 1'000'000'000;
   /// The first 15 bits of a double that is not negative (sign, exponent, three of the mantissa)
   /// number its bin.
   using Bins = std::map<std::uint16_t, std::uint64_t>;
@@ -36,7 +36,7 @@ class Magnitudes {
   /// Exact ones that were kept elsewhere.
   explicit Magnitudes(std::vector<double> values);
 
-  /// Binned, what is not finite counts as the largest double.
+  /// What is not finite counts as the largest double.
   void add(double value);
   /// Adds magnitudes of the same precision.
   void add(const Magnitudes& other);
@@ -63,7 +63,7 @@ class Magnitudes {
 /// Coverages (shares between 0 and 1) of which quantiles are wanted.
 struct CoverageTally {
   /// Unit of `sum`: coverage is summed as an integer, for a sum of doubles depends on its order.
-  static constexpr double unit = 0x1p-24;
+  static constexpr double unit = 0x1p-20;
 
   explicit CoverageTally(Precision precision) : uncovered(precision) {}
   void add(double coverage);

@@ -156,6 +156,16 @@ TEST(ScoreTally, KeepsTheFirstOfEquallyBadCases) {
   EXPECT_THAT(indices, testing::ElementsAre(2, 5));
 }
 
+TEST(Magnitudes, HaveTheLargestDoubleForWhatIsNotFinite) {
+  for (const Precision precision : {Precision::exact, Precision::binned}) {
+    Magnitudes m(precision);
+    m.add(-std::numeric_limits<double>::infinity());
+    m.add(std::numeric_limits<double>::quiet_NaN());
+    EXPECT_EQ(m.quantiles()->median, std::numeric_limits<double>::max());
+    EXPECT_EQ(m.quantiles()->max, std::numeric_limits<double>::max());
+  }
+}
+
 TEST(Magnitudes, BoundEveryValue) {
   constexpr double smallest = std::numeric_limits<double>::denorm_min();
   for (const double value : {0.0, smallest, 1e-300, 0.999, 1.0, 1.2499999, 1.25, 3e7, 1.7e308}) {

@@ -2,10 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <tuple>
 
 namespace touchstone {
+
+double finite(double value) {
+  constexpr double max = std::numeric_limits<double>::max();
+  return std::isnan(value) ? max : std::clamp(value, -max, max);
+}
 
 std::optional<Quantiles> quantiles(std::vector<double> values) {
   if (values.empty()) return std::nullopt;

@@ -10,6 +10,10 @@
 
 namespace touchstone {
 
+/// The value, but the largest double with its sign for an infinity, and that for what is no number:
+/// JSON, which reports and campaigns are kept in, knows neither.
+double finite(double value);
+
 /// What is known of a value of which only the bin was kept: lower <= value <= upper.
 struct Bounds {
   double lower, upper;

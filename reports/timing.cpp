@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 #include <random>
 
 #include "candidates/host/interruption.hpp"
@@ -52,12 +51,6 @@ bool is_timed(const Cell& cell) {
          std::find(timed_tilts.begin(), timed_tilts.end(), modifiers[0]) != timed_tilts.end();
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 bool all_counted(const Repetitions& repetitions) {
   return std::all_of(repetitions.begin(), repetitions.end(),
                      [](const QueryCost& c) { return c.instructions.has_value(); });
@@ -71,7 +64,7 @@ std::vector<double> over_cells(const Times& times, const std::vector<std::size_t
   for (std::size_t r = 0; r < timing_repetitions && !cells.empty(); ++r) {
     std::vector<double> values;
     for (const std::size_t cell : cells) values.push_back(value(times[cell][candidate][r]));
-    result.push_back(median(std::move(values)));
+    result.push_back(quantiles(std::move(values))->median);
   }
   return result;
 }

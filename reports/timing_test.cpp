@@ -26,13 +26,14 @@ TEST(Spread, IsMedianAndQuartiles) {
 
 TEST(QueryTime, IsTheMedianOverCellsOfEachRepetition) {
   // A cell that no one timed counts for nothing.
-  const Times times = {{repetitions(100, 0)}, {repetitions(300, 10)}, {{}}};
-  const auto time = query_time(times, {0, 1, 2}, 0);
+  const Times times = {{repetitions(100, 0)}, {repetitions(300, 10)}, {repetitions(900, 0)}, {{}}};
+  const auto time = query_time(times, {0, 1, 2, 3}, 0);
   EXPECT_EQ(time->nanoseconds.median, 350);
   EXPECT_EQ(time->nanoseconds.low, 320);
   EXPECT_EQ(time->nanoseconds.high, 380);
   EXPECT_FALSE(time->instructions);
-  EXPECT_FALSE(query_time(times, {2}, 0));
+  EXPECT_FALSE(query_time(times, {3}, 0));
+  EXPECT_EQ(query_time(times, {0, 2}, 0)->nanoseconds.median, 100);  // of two the smaller one
 }
 
 TEST(QueryTime, HasInstructionsWhereAllWereCounted) {

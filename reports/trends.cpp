@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
+
+#include "reports/statistics.hpp"
 
 namespace touchstone {
 namespace {
@@ -38,7 +39,8 @@ double aspect(const Shape& shape) {
 }
 
 std::optional<int> decade(double value) {
-  return value < 1e-17 ? std::nullopt : std::optional<int>(std::floor(std::log10(value)));
+  if (value < 1e-17) return std::nullopt;
+  return static_cast<int>(std::floor(std::log10(finite(value))));
 }
 
 }  // namespace

@@ -41,6 +41,19 @@ TEST(Variables, AreRelativeToSize) {
   EXPECT_DOUBLE_EQ(*value_of(Variable::distance, c, -0.1), 0.5);
 }
 
+TEST(Trends, HaveTheLastDecadeForWhatIsBeyondTheLargestDouble) {
+  Score missed;
+  missed.outcome = Outcome::missed;
+  missed.severity = 1;
+  TrendTally tally;
+  tally.add({Cylinder(1e-9, 1e-9), Pose(Vec3(1e300, 0, 0)), Sphere(1e-9), Pose()}, -1e-9, {missed});
+  std::vector<int> decades;
+  for (const Trend& trend : tally.trends("cylinder-sphere", {"far"})) {
+    if (trend.variable == "distance") decades.push_back(trend.bins.at(0).decade.value());
+  }
+  EXPECT_EQ(decades, std::vector{308});
+}
+
 TEST(Trends, EveryJudgedAnswerLiesInOneDecade) {
   Campaign campaign;
   campaign.pairs = {Pair::plane, Pair::sphere};

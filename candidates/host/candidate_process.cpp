@@ -36,6 +36,11 @@ constexpr std::chrono::seconds finish_timeout(1);
 /// a processor.
 constexpr double initial_wait_factor = 10, clock_factor = 100;
 
+/// Slow configurations are queried so often, and prepared once, by warm_up and by time of
+/// session.cpp: to warm up and in one measured pass. Passes are repeated only where they take
+/// microseconds.
+constexpr std::size_t queries_per_round = 2;
+
 /// Can the signal come from a timer, another process or the kernel, and not only from the routine
 /// that dies of it?
 bool may_come_from_elsewhere(int signal) {
@@ -53,14 +58,14 @@ bool may_come_from_elsewhere(int signal) {
   }
 }
 
-Command plain_command(Command::Kind kind) {
-  Command command{};
+SessionCommand plain_command(SessionCommand::Kind kind) {
+  SessionCommand command{};
   command.kind = kind;
   return command;
 }
 
-Command answer_command(std::uint32_t first, std::uint32_t count, bool release) {
-  Command command = plain_command(Command::answer);
+SessionCommand answer_command(std::uint32_t first, std::uint32_t count, bool release) {
+  SessionCommand command = plain_command(SessionCommand::answer);
   command.first = first;
   command.count = count;
   command.release = release;
@@ -97,7 +102,7 @@ std::optional<CandidateProcess::SessionFailure> CandidateProcess::begin() {
     if (static_cast<std::size_t>(candidate_.index) >= s.candidates.size()) {
       return SessionFailure{TS_CRASHED, "its plug-in no longer has it", true};
     }
-    Command command = plain_command(Command::begin);
+    SessionCommand command = plain_command(SessionCommand::begin);
     command.ticket = session_ticket_ = ++ticket_;
     command.index = candidate_.index;
     command.threshold = threshold_;
@@ -129,7 +134,7 @@ void CandidateProcess::end() {
   session_ = -1;
   using Received = PluginProcess::State::Received;
   PluginProcess::State& s = *plugin_.state_;
-  Command command = plain_command(Command::finish);
+  SessionCommand command = plain_command(SessionCommand::finish);
   command.ticket = ++ticket_;
   const auto end = Clock::now() + finish_timeout;
   for (bool waits = s.send(command); waits && Clock::now() < end;) {
@@ -158,7 +163,8 @@ void CandidateProcess::put(std::uint32_t slot, const Configuration& c,
       to_ts_pose(c.pose_b), previous_normal != nullptr, {hint.x(), hint.y(), hint.z()}};
 }
 
-std::optional<CandidateProcess::SessionFailure> CandidateProcess::obey(Command command) {
+std::optional<CandidateProcess::SessionFailure> CandidateProcess::obey(SessionCommand command,
+                                                                       std::size_t configurations) {
   using Received = PluginProcess::State::Received;
   PluginProcess::State& s = *plugin_.state_;
   std::optional<SessionFailure> begin_failure;
@@ -186,7 +192,7 @@ std::optional<CandidateProcess::SessionFailure> CandidateProcess::obey(Command c
         progress = now;
         watch.emplace(session_);
       } else {
-        too_long = judge(*watch);
+        too_long = judge(*watch, configurations);
       }
     }
     // Receive at least once after the check, so that an answer that arrived before it counts.
@@ -211,17 +217,17 @@ std::optional<CandidateProcess::SessionFailure> CandidateProcess::obey(Command c
   }
 }
 
-std::string CandidateProcess::judge(const Watch& watch) {
+std::string CandidateProcess::judge(const Watch& watch, std::size_t configurations) {
   const Watch::TimeUse spent = watch.spent();
-  if (spent.computing > limits_.seconds) {
-    return "no answer within " + seconds_text(limits_.seconds);
-  }
+  const double seconds = limits_.seconds * static_cast<double>(configurations);
+  const double max_wait = max_wait_ * static_cast<double>(configurations);
+  if (spent.computing > seconds) return "no answer within " + seconds_text(seconds);
   if (!spent.waiting) {
-    const double limit = clock_factor * limits_.seconds;
+    const double limit = clock_factor * seconds;
     if (spent.by_the_clock > limit)
       return "no answer within " + seconds_text(limit) + " by the clock";
-  } else if (*spent.waiting > max_wait_) {
-    std::string text = "no answer, having waited for " + seconds_text(max_wait_);
+  } else if (*spent.waiting > max_wait) {
+    std::string text = "no answer, having waited for " + seconds_text(max_wait);
     max_wait_ = std::max(limits_.seconds, max_wait_ / 2);
     return text;
   }
@@ -303,6 +309,7 @@ void CandidateProcess::answer_batch(std::uint32_t count, bool release,
 
 std::vector<Answer> CandidateProcess::answers(std::span<const Configuration> configurations) {
   end();
+  max_wait_ = initial_wait_factor * limits_.seconds;
   return answer(configurations, {}, true);
 }
 
@@ -335,19 +342,23 @@ Answer CandidateProcess::answer(const Configuration& configuration, const Vec3* 
 
 bool CandidateProcess::prepare_timing(std::span<const Configuration> configurations) {
   end();
+  timed_ = configurations.size();
   for (std::size_t at = 0; at < configurations.size(); at += batch_size) {
     const auto batch =
         configurations.subspan(at, std::min<std::size_t>(batch_size, configurations.size() - at));
     for (std::uint32_t i = 0; i < batch.size(); ++i) put(i, batch[i]);
-    Command keep = plain_command(Command::keep);
+    SessionCommand keep = plain_command(SessionCommand::keep);
     keep.count = static_cast<std::uint32_t>(batch.size());
     if (obey(keep)) return false;
   }
-  return !configurations.empty() && !obey(plain_command(Command::warm_up));
+  return !configurations.empty() &&
+         !obey(plain_command(SessionCommand::warm_up), queries_per_round * timed_);
 }
 
 std::optional<QueryCost> CandidateProcess::cost_per_query() {
-  if (session_ < 0 || obey(plain_command(Command::time))) return std::nullopt;
+  if (session_ < 0 || obey(plain_command(SessionCommand::time), queries_per_round * timed_)) {
+    return std::nullopt;
+  }
   const Exchange& exchange = *plugin_.state_->exchange;
   if (!std::isfinite(exchange.nanoseconds)) return std::nullopt;
   QueryCost cost{exchange.nanoseconds, std::nullopt};

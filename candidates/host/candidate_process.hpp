@@ -12,14 +12,15 @@
 
 namespace touchstone {
 
-struct Command;
+struct SessionCommand;
 class Watch;
 
 /// Resources that one configuration may use before the candidate's process is ended.
 struct Limits {
   /// Processor time: three frames of a simulation, thousands of times that of a query. A query may
-  /// wait for something else ten times as long; for a candidate that does so repeatedly this is
-  /// halved each time, down to the limit itself. Waiting for a processor does not count.
+  /// wait for something else ten times as long; for a candidate that does so repeatedly within one
+  /// call of CandidateProcess::answers this is halved each time, down to the limit itself. Waiting
+  /// for a processor does not count.
   double seconds = 0.05;
   double mebibytes = 1024;  ///< growth of its memory
 };
@@ -111,11 +112,12 @@ class CandidateProcess {
   /// Answers this slot's question in a session of its own.
   Answer answer_alone(std::uint32_t slot);
   static Answer answer_of(const SessionFailure& failure);
-  /// Sends a command and waits for its end; absent on success.
-  std::optional<SessionFailure> obey(Command command);
+  /// Sends a command and waits for its end; absent on success. `configurations`: how many it may
+  /// query before it reports progress; each may take as long as the limits say.
+  std::optional<SessionFailure> obey(SessionCommand command, std::size_t configurations = 1);
   SessionFailure end_of_session(int wait_status) const;
-  /// Why the command has taken too long; empty if it has not.
-  std::string judge(const Watch& watch);
+  /// Why the command has taken too long for so many configurations; empty if it has not.
+  std::string judge(const Watch& watch, std::size_t configurations);
 
   Candidate candidate_;
   double threshold_;
@@ -125,6 +127,7 @@ class CandidateProcess {
   std::uint64_t ticket_ = 0;          ///< ticket of the last command
   std::uint64_t session_ticket_ = 0;  ///< ticket of the command that began the session
   double max_wait_;                   ///< seconds that a query may wait
+  std::size_t timed_ = 0;             ///< configurations of prepare_timing
 };
 
 /// Starts one process for each candidate.

@@ -74,6 +74,12 @@ TEST(CandidateProcess, EndsASleepByTheClock) {
   EXPECT_EQ(after_misdeed(6, {0.01, 256}).status, TS_TIMED_OUT);
 }
 
+TEST(CandidateProcess, WaitsAsLongWhateverItWaitedForBefore) {
+  CandidateProcess process(sabotage("misdeed:6"), 0, {0.01, 256});
+  const std::string first = process.answers({&standing, 1}).at(0).reason;
+  EXPECT_EQ(process.answers({&standing, 1}).at(0).reason, first);
+}
+
 TEST(CandidateProcess, RefusesTenGibibytes) {
   const Answer a = after_misdeed(7);
   EXPECT_EQ(a.status, TS_CRASHED);
@@ -190,6 +196,15 @@ TEST(CandidateProcess, TimesTheQueriesAndNothingElse) {
   EXPECT_LT(min_instructions, 500);
   EXPECT_GT(min_nanoseconds, 0);
   EXPECT_LT(min_nanoseconds, 200);
+}
+
+TEST(CandidateProcess, TimesWhatIsSlowButWithinTheLimit) {
+  // A round takes at least ten queries of ten milliseconds.
+  CandidateProcess process(sabotage("misdeed:17"), 0, {0.05, 256});
+  ASSERT_TRUE(process.prepare_timing(std::vector<Configuration>(20, standing)));
+  const auto cost = process.cost_per_query();
+  ASSERT_TRUE(cost);
+  EXPECT_GT(cost->nanoseconds, 9e6);
 }
 
 TEST(CandidateProcess, ACrashWhileTimingIsNoTime) {

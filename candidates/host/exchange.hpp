@@ -62,7 +62,7 @@ inline std::uint64_t seal_of(const Slot& slot, std::uint64_t ticket) {
 }
 
 /// Sent to the process that has loaded the plug-in (`begin`) and to the session that it forks.
-struct Command {
+struct SessionCommand {
   enum Kind : std::uint32_t {
     begin,    ///< fork a session for the candidate `index` with `threshold` and `parameter`
     answer,   ///< answer slots first … count − 1
@@ -129,11 +129,11 @@ void fork_guarded(int socket);
 void send(int socket, const void* message, std::size_t size);
 void reply(int socket, Reply::Kind kind, std::uint64_t ticket, int value, const char* text = "",
            bool left_behind = false);
-Command receive(int socket);
+SessionCommand receive(int socket);
 
 /// One candidate's session in this process: executes commands until it is told to finish or dies.
-[[noreturn]] void serve_session(const ts_candidate& candidate, const Command& begin, int socket,
-                                const Questions& questions, Exchange& exchange);
+[[noreturn]] void serve_session(const ts_candidate& candidate, const SessionCommand& begin,
+                                int socket, const Questions& questions, Exchange& exchange);
 
 /// Main function of a plug-in's process: loads the plug-in, describes it on the socket, then serves
 /// sessions until the other end is closed.

@@ -174,7 +174,7 @@ bool PluginProcess::State::wait_for(void* message, std::size_t size,
   return false;
 }
 
-bool PluginProcess::State::send(const Command& command) const {
+bool PluginProcess::State::send(const SessionCommand& command) const {
   return ::send(socket, &command, sizeof command, MSG_NOSIGNAL) == sizeof command;
 }
 

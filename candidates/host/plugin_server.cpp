@@ -230,8 +230,8 @@ void serve_plugin(const char* file, int socket, const Questions& questions, Exch
     _exit(1);
   }
   for (;;) {
-    const Command command = receive(socket);
-    if (command.kind != Command::begin) continue;  // meant for a session that has died
+    const SessionCommand command = receive(socket);
+    if (command.kind != SessionCommand::begin) continue;  // meant for a session that has died
     const pid_t pid = fork();
     if (pid == 0) {
       prctl(PR_SET_PDEATHSIG, SIGKILL);  // if this process dies first, receive() ends the session

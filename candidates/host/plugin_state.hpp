@@ -42,7 +42,7 @@ struct PluginProcess::State {
   Received receive(void* message, std::size_t size, std::chrono::milliseconds time,
                    pid_t* sender = nullptr) const;
   /// False when the other end is closed.
-  bool send(const Command& command) const;
+  bool send(const SessionCommand& command) const;
   std::string last_line() const;  ///< the last line that the candidate printed
 
  private:

@@ -116,8 +116,8 @@ void reply(int socket, Reply::Kind kind, std::uint64_t ticket, int value, const 
   send(socket, &r, sizeof r);
 }
 
-Command receive(int socket) {
-  Command command;
+SessionCommand receive(int socket) {
+  SessionCommand command;
   for (;;) {
     const ssize_t size = recv(socket, &command, sizeof command, 0);
     if (size == sizeof command) return command;
@@ -132,7 +132,7 @@ namespace {
 /// dies.
 class Session {
  public:
-  Session(const ts_candidate& candidate, const Command& begin, int socket,
+  Session(const ts_candidate& candidate, const SessionCommand& begin, int socket,
           const Questions& questions, Exchange& exchange);
   [[noreturn]] void serve();
 
@@ -148,11 +148,11 @@ class Session {
     ts_pose a, b;
   };
 
-  void obey(const Command& command);
+  void obey(const SessionCommand& command);
   ts_prepared* prepare(const Question& question);
   ts_prepared* ready(const Question& question);
   void answer(std::uint32_t slot);
-  void release_all_but_of(const Command& command, std::uint32_t first);
+  void release_all_but_of(const SessionCommand& command, std::uint32_t first);
   void warm_up();
   void query_all();  ///< queries everything kept for timing once
   void time();
@@ -171,7 +171,7 @@ class Session {
   InstructionCounter counter_;
 };
 
-Session::Session(const ts_candidate& candidate, const Command& begin, int socket,
+Session::Session(const ts_candidate& candidate, const SessionCommand& begin, int socket,
                  const Questions& questions, Exchange& exchange)
     : candidate_(candidate),
       threshold_(begin.threshold),
@@ -187,7 +187,7 @@ Session::Session(const ts_candidate& candidate, const Command& begin, int socket
 void Session::serve() {
   const pid_t own = getpid();
   for (;;) {
-    const Command command = receive(socket_);
+    const SessionCommand command = receive(socket_);
     try {
       obey(command);
     } catch (const std::exception& e) {
@@ -202,9 +202,9 @@ void Session::serve() {
   }
 }
 
-void Session::obey(const Command& command) {
+void Session::obey(const SessionCommand& command) {
   switch (command.kind) {
-    case Command::answer:
+    case SessionCommand::answer:
       for (std::uint32_t i = command.first; i < command.count; ++i) {
         answer(i);
         if (command.release) release_all_but_of(command, i + 1);
@@ -212,17 +212,17 @@ void Session::obey(const Command& command) {
         exchange_.progress = progress_of(command.ticket, i + 1);
       }
       return;
-    case Command::keep:
+    case SessionCommand::keep:
       for (std::uint32_t i = 0; i < command.count; ++i) {
         questions_.push_back(asked_.slots[i]);
       }
       return;
-    case Command::warm_up:
+    case SessionCommand::warm_up:
       return warm_up();
-    case Command::time:
+    case SessionCommand::time:
       return time();
-    case Command::begin:
-    case Command::finish:
+    case SessionCommand::begin:
+    case SessionCommand::finish:
       _exit(0);
   }
 }
@@ -251,7 +251,7 @@ ts_prepared* Session::ready(const Question& q) {
 
 /// Releases the shapes that no question of this command from `first` on needs: at once, so that a
 /// crash in release falls into the time of its own configuration.
-void Session::release_all_but_of(const Command& command, std::uint32_t first) {
+void Session::release_all_but_of(const SessionCommand& command, std::uint32_t first) {
   std::erase_if(ready_, [&](const PreparedPair& r) {
     for (std::uint32_t i = first; i < command.count; ++i) {
       if (same(r.a, asked_.slots[i].a) && same(r.b, asked_.slots[i].b)) return false;
@@ -316,7 +316,7 @@ void Session::time() {
 
 }  // namespace
 
-void serve_session(const ts_candidate& candidate, const Command& begin, int socket,
+void serve_session(const ts_candidate& candidate, const SessionCommand& begin, int socket,
                    const Questions& questions, Exchange& exchange) {
   Session(candidate, begin, socket, questions, exchange).serve();
 }

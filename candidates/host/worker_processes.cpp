@@ -175,6 +175,7 @@ bool stream_from_processes(std::uint64_t count, unsigned workers,
   }
 
   std::size_t open = workers;
+  std::uint64_t taken = 0;
   const auto take_records = [&](std::string& buffer) {
     Header header;
     while (buffer.size() >= sizeof header) {
@@ -184,6 +185,7 @@ bool stream_from_processes(std::uint64_t count, unsigned workers,
       buffer.erase(0, sizeof header + header.size);
       if (header.failed) throw std::runtime_error(name(header.index) + ": " + result);
       take(header.index, std::move(result));
+      ++taken;
     }
   };
   while (open > 0) {
@@ -213,6 +215,10 @@ bool stream_from_processes(std::uint64_t count, unsigned workers,
           throw std::runtime_error(name(at - 1) + ": the worker " + how_it_ended(status));
       }
     }
+  }
+  if (taken != count) {  // a worker died between taking a task and noting that it has
+    throw std::runtime_error("a worker died: only " + std::to_string(taken) + " of " +
+                             std::to_string(count) + " tasks were done");
   }
   return true;
 }

@@ -29,8 +29,8 @@ bool stream_from_processes(std::uint64_t count, unsigned workers,
                            const std::function<void(std::uint64_t, std::string)>& take,
                            const std::function<bool()>& go_on);
 
-/// Candidates of a worker (worker_processes.hpp): started at the first use, which is after the
-/// fork, so that each worker has its own.
+/// Candidates of a worker: started at the first use, which is after the fork, so that each worker
+/// has its own.
 class WorkerCandidates {
  public:
   WorkerCandidates(std::vector<const Candidate*> candidates, double threshold, Limits limits)

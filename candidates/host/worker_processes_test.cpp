@@ -21,6 +21,20 @@ using testing::HasSubstr;
 std::string name(std::size_t i) { return "task " + std::to_string(i); }
 void ignore(std::size_t) {}
 
+/// Calls f(first byte, end) for the memory that this process shares with others.
+template <class F>
+void each_shared_mapping(F f) {
+  std::ifstream maps("/proc/self/maps");
+  for (std::string line; std::getline(maps, line);) {
+    void *from = nullptr, *to = nullptr;
+    char rights[5] = "";
+    if (std::sscanf(line.c_str(), "%p-%p %4s", &from, &to, rights) == 3 &&
+        std::string(rights) == "rw-s") {
+      f(static_cast<char*>(from), static_cast<char*>(to));
+    }
+  }
+}
+
 TEST(WorkerProcesses, ReturnResultsInOrderWhateverTheirNumber) {
   const auto square = [](std::size_t i) {
     return std::string(i * 1000, 'x') + std::to_string(i * i);
@@ -60,6 +74,23 @@ TEST(WorkerProcesses, ADeadWorkerNamesItsTaskAndSignal) {
                   testing::AllOf(HasSubstr("task 2"), HasSubstr("Killed"))));
 }
 
+TEST(WorkerProcesses, ATaskThatIsLostEndsTheRun) {
+  // As if the worker were killed between taking a task and noting that it has: the note, behind the
+  // number of the next task, is wiped.
+  const auto lost = [](std::size_t i) -> std::string {
+    if (i == 2) {
+      each_shared_mapping([](char* from, char* to) {
+        from += sizeof(std::uint64_t);
+        std::memset(from, 0, static_cast<std::size_t>(to - from));
+      });
+      raise(SIGKILL);
+    }
+    return "";
+  };
+  EXPECT_THAT([&] { run_in_processes(6, 2, lost, name, ignore); },
+              testing::ThrowsMessage<std::runtime_error>(HasSubstr("5 of 6")));
+}
+
 TEST(WorkerProcesses, EndEarlyWithoutTheTasksInHand) {
   std::size_t taken = 0;
   const bool all = stream_from_processes(
@@ -81,15 +112,8 @@ TEST(WorkerProcesses, ShareNothingWithTheirOwnChildren) {
   const auto overwrite = [](std::size_t) -> std::string {
     const pid_t child = fork();
     if (child > 0) return std::to_string(waitpid(child, nullptr, 0) == child);
-    std::ifstream maps("/proc/self/maps");
-    for (std::string line; std::getline(maps, line);) {
-      std::uintptr_t from = 0, to = 0;
-      char rights[5] = "";
-      if (std::sscanf(line.c_str(), "%lx-%lx %4s", &from, &to, rights) == 3 &&
-          std::string(rights) == "rw-s") {
-        std::memset(reinterpret_cast<void*>(from), 0, to - from);
-      }
-    }
+    each_shared_mapping(
+        [](char* from, char* to) { std::memset(from, 0, static_cast<std::size_t>(to - from)); });
     _exit(0);
   };
   std::size_t last = 0;
@@ -145,9 +169,9 @@ TEST(Interruption, WorkersKeepWhatIsDone) {
   testing::internal::CaptureStderr();
   const auto results = run_in_processes(
       3, 1,
-      [](std::size_t i) {
-        while (i == 2) sleep(1000);  // would never end
-        return std::string("done");
+      [](std::size_t i) -> std::string {
+        if (i < 2) return "done";
+        for (;;) pause();
       },
       [](std::size_t) { return std::string(); },
       [](std::size_t done) {

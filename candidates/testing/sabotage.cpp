@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <limits>
 #include <stdexcept>
 #include <unistd.h>
@@ -23,8 +24,9 @@ struct ts_prepared {
 
 namespace {
 
-/// Zero, hidden from the compiler.
-volatile std::uintptr_t nowhere = 0;
+/// Zero and null, hidden from the compiler.
+volatile int nowhere = 0;
+int* volatile no_memory = nullptr;
 std::vector<std::vector<char>> leaked;
 
 void behave(ts_answer& answer) {
@@ -35,7 +37,7 @@ void behave(ts_answer& answer) {
   std::memcpy(answer.normal, answer.points[0].normal, sizeof answer.normal);
 }
 
-void segfault(ts_answer&) { *reinterpret_cast<volatile int*>(nowhere) = 1; }
+void segfault(ts_answer&) { *no_memory = 1; }
 void abort_it(ts_answer&) { std::abort(); }
 void throw_it(ts_answer&) { throw std::runtime_error("no convergence"); }
 void throw_no_text(ts_answer&) { throw std::runtime_error("no\ntext \xff\xc3"); }
@@ -74,11 +76,19 @@ void leak(ts_answer& answer) {
   behave(answer);
 }
 
+/// Answers after ten milliseconds of processor time.
+void dawdle(ts_answer& answer) {
+  constexpr std::clock_t time = CLOCKS_PER_SEC / 100;
+  for (const std::clock_t start = std::clock(); std::clock() - start < time;) {
+  }
+  behave(answer);
+}
+
 constexpr void (*deeds[])(ts_answer&) = {
     segfault,     abort_it,    throw_it,    throw_number,   loop,
     sleep_long,   allocate,    leave,       million_points, claim_million_points,
     not_a_number, long_normal, claim_crash, leak,           throw_no_text,
-    behave};
+    behave,       dawdle};
 constexpr int count = sizeof deeds / sizeof *deeds;
 
 const ts_parameter which = {"number of the deed", 1, count, count, 1, 0};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "oracle/patch/support_feature.hpp"
@@ -123,6 +124,13 @@ Score only(Outcome outcome) {
   return s;
 }
 
+/// An error relative to a size. One that overflows is the largest double: it is finite, as are all
+/// numbers of an answer that is scored, and reports are written in JSON, which knows no infinity.
+double relative(double error, double size) {
+  constexpr double max = std::numeric_limits<double>::max();
+  return std::clamp(error / size, -max, max);
+}
+
 Score without_contact(double distance, const Bar& bar) {
   Score s;
   if (distance < -bar.tolerance) {
@@ -236,7 +244,7 @@ double error_size(const Configuration& c, const Bar& bar) {
 Score score(const Configuration& c, const oracle::Truth& truth, const ts_answer& answer,
             const Bar& bar) {
   const double size = error_size(c, bar);
-  const double distance = truth.signed_distance.midpoint() / size;
+  const double distance = relative(truth.signed_distance.midpoint(), size);
   switch (answer.status) {
     case TS_NONE:
       return without_contact(distance, bar);
@@ -257,18 +265,18 @@ Score score(const Configuration& c, const oracle::Truth& truth, const ts_answer&
   s.points = answer.point_count;
   const Vec3 n = vector(answer.normal);
   const bool unit = std::abs(n.norm() - 1) <= unit_slack;
-  s.depth_error = (answer.signed_distance - truth.signed_distance.midpoint()) / size;
+  s.depth_error = relative(answer.signed_distance - truth.signed_distance.midpoint(), size);
   s.severity = std::abs(*s.depth_error);
   double beyond = 0;
   if (answer.point_count > 0) {
     const Depths depths = depths_of(answer);
-    s.point_error = worst_point_error(answer, c) / size;
-    s.deepest_error = (depths.max + truth.signed_distance.midpoint()) / size;
+    s.point_error = relative(worst_point_error(answer, c), size);
+    s.deepest_error = relative(depths.max + truth.signed_distance.midpoint(), size);
     s.severity = std::max(s.severity, std::abs(*s.deepest_error));
-    beyond = (-depths.min - bar.threshold) / size;
+    beyond = relative(-depths.min - bar.threshold, size);
   }
   if (!n.isZero(0)) {
-    s.normal_regret = oracle::normal_regret(c, truth, n) / size;
+    s.normal_regret = relative(oracle::normal_regret(c, truth, n), size);
     s.normal_angle = angle(n, nearest(n, truth.normals));
     s.severity = std::max(s.severity, *s.normal_regret);
   }
@@ -295,8 +303,8 @@ Score score(const Configuration& c, const oracle::Truth& truth, const Answer& an
   Score s = score(c, truth, static_cast<const ts_answer&>(answer), bar);
   if (s.depth_error && answer.model_distance) {
     const double size = error_size(c, bar);
-    s.model_error = (*answer.model_distance - truth.signed_distance.midpoint()) / size;
-    s.solver_error = (answer.signed_distance - *answer.model_distance) / size;
+    s.model_error = relative(*answer.model_distance - truth.signed_distance.midpoint(), size);
+    s.solver_error = relative(answer.signed_distance - *answer.model_distance, size);
   }
   return s;
 }

@@ -65,6 +65,20 @@ TEST(Score, SaysHowFarPointsAreOffTheBodies) {
   EXPECT_FALSE(scored(standing, none()).point_error);
 }
 
+TEST(Score, ErrorsBeyondTheLargestDoubleAreTheLargestDouble) {
+  const Configuration small{Cylinder(1e-3, 1e-3), Pose(), Sphere(1e-3), Pose()};
+  Answer answer{contact(-1e308, up), {}, 1e308};
+  answer.points[0].position[0] = 1e308;
+  const Score s = score(small, oracle::truth(small), answer, Bar{});
+  constexpr double largest = std::numeric_limits<double>::max();
+  EXPECT_EQ(s.depth_error, -largest);
+  EXPECT_EQ(s.deepest_error, largest);
+  EXPECT_EQ(s.model_error, largest);
+  EXPECT_EQ(s.solver_error, -largest);
+  EXPECT_EQ(s.severity, largest);
+  EXPECT_EQ(s.outcome, Outcome::overdeep);
+}
+
 /// Bodies 1e-3 deep (2e-3 of the size) with points of these depths.
 ts_answer with_depths(const std::vector<double>& depths) {
   ts_answer a = contact(-1e-3, up);

@@ -118,7 +118,7 @@ std::string read_stream(std::istream& in, const std::string& name, const char* f
 
 bool is_file(const std::filesystem::path& name) {
   std::error_code error;
-  return std::filesystem::is_regular_file(name, error);
+  return std::filesystem::exists(name, error) && !is_folder(name);
 }
 
 bool is_folder(const std::filesystem::path& name) {

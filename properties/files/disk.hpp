@@ -28,7 +28,7 @@ std::string read_file(const std::filesystem::path& file, const char* field);
 /// The rest of an open stream; `name` is what errors call it.
 std::string read_stream(std::istream& in, const std::string& name, const char* field);
 
-/// True for the name of a file that is not a folder.
+/// True for the name of anything that exists and is not a folder, a pipe for example.
 bool is_file(const std::filesystem::path& name);
 bool is_folder(const std::filesystem::path& name);
 

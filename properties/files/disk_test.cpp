@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <iterator>
+#include <sys/stat.h>
 
 #include "properties/files/error_text.hpp"
 #include "reference/invalid_input.hpp"
@@ -35,6 +36,14 @@ TEST_F(WriteFile, ReplacesWhatWasThereAndLeavesNothingElse) {
 TEST_F(WriteFile, WhatIsNoOrdinaryFileIsWrittenAsItIs) {
   write_file("/dev/null", "text", "--out");
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+}
+
+TEST_F(WriteFile, APipeIsAFileAndAFolderIsNot) {
+  ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
+  EXPECT_TRUE(is_file(folder / "pipe"));
+  EXPECT_TRUE(is_file("/dev/null"));
+  EXPECT_FALSE(is_file(folder));
+  EXPECT_FALSE(is_file(folder / "none"));
 }
 
 TEST_F(WriteFile, AFullDiskLeavesTheOldFileAndNamesTheOption) {

@@ -78,6 +78,10 @@ refused 'seed is 1, not 2' campaign --seed 2 --out whole --resume
 refused 'cut in another way' campaign --shard 1/3 --out seven
 refused 'already holds a campaign' campaign --out whole
 refused 'already holds a campaign' "$program" merge seven --out whole
+refused 'cut in another way' "$program" merge seven --out seven
+mkdir renamed
+cp seven/shard-1-of-7.jsonl renamed/shard-2-of-7.jsonl
+refused 'shard-2-of-7.jsonl" is shard 1/7' campaign --shard 2/7 --out renamed --resume
 refused 'must hold shard files' "$program" merge empty --out none
 refused 'damaged, cut short, or something else' "$program" merge mpi.log --out none
 refused '--shard' campaign --shard 8/7 --out none
@@ -99,21 +103,21 @@ campaign --out killed --resume >/dev/null 2>&1
 same killed "killed twenty times"
 
 # Stopped in order, and a second campaign at the same place meanwhile.
-"$program" "${settings[@]}" --count 1e9 --checkpoint 0.1 --out stopped >stop.log 2>&1 &
+"$program" "${settings[@]}" --count 1e9 --checkpoint 0.1 --out 'stopped here' >stop.log 2>&1 &
 victim=$!
-until grep -q '"done":\[\[0,' stopped/shard-1-of-1.jsonl 2>/dev/null; do sleep 0.05; done
-refused 'no other campaign' endless --out stopped --resume
+until grep -q '"done":\[\[0,' 'stopped here/shard-1-of-1.jsonl' 2>/dev/null; do sleep 0.05; done
+refused 'no other campaign' endless --out 'stopped here' --resume
 kill -TERM "$victim"
 wait "$victim"
 code=$?
 [ "$code" -eq 143 ] || fail "exit code $code after SIGTERM"
-grep -q 'To go on:' stop.log || fail "it does not say how to go on: $(cat stop.log)"
+grep -q "^  .* --out 'stopped here' --resume$" stop.log || fail "it does not say how to go on: $(cat stop.log)"
 
 # A checkpoint that was cut short is refused, and so is one with a changed byte.
-cp -r stopped cut
+cp -r 'stopped here' cut
 truncate -s -20 cut/shard-1-of-1.jsonl
 refused 'damaged, cut short' endless --out cut --resume
-cp stopped/shard-1-of-1.jsonl cut/
+cp 'stopped here/shard-1-of-1.jsonl' cut/
 printf X | dd of=cut/shard-1-of-1.jsonl bs=1 seek=2000 conv=notrunc 2>/dev/null
 refused 'damaged, cut short' endless --out cut --resume
 

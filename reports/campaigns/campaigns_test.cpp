@@ -71,6 +71,15 @@ TEST(Units, AreCountedAndNumberedInSets) {
   EXPECT_EQ(unit_set_from_json(to_json(set)), set);
 }
 
+TEST(Plans, HaveRoomForTheCoverageOfAllClasses) {
+  Campaign all;
+  all.pairs = {std::begin(all_pairs), std::end(all_pairs)};
+  all.coverage = Coverage::triples;
+  const double one = 1 / CoverageTally::unit;
+  const double sum = static_cast<double>(Plan::max_count * cells(all).size()) * one;
+  EXPECT_LT(sum, 0x1p64);
+}
+
 TEST(Shards, AreReadOrRefused) {
   EXPECT_EQ(parse_shard("3/7"), (Shard{3, 7}));
   EXPECT_EQ(to_string(Shard{3, 7}), "3/7");
@@ -147,6 +156,7 @@ json plan(std::uint64_t seed = 1) {
           {"program", "./touchstone"},
           {"seed", seed},
           {"count", 1000},
+          {"unit_size", Unit::max_size},
           {"tolerance", 1e-4},
           {"threshold", 0},
           {"classes",
@@ -210,6 +220,13 @@ TEST(Merge, RefusesWhatOverlapsWhatIsMissingAndWhatIsForeign) {
       },
       ThrowsMessage<InvalidInput>(HasSubstr("seed is 2, not 1")));
   EXPECT_THROW(merged({}), InvalidInput);
+}
+
+TEST(Merge, RefusesPartsThatAreCutIntoUnitsOfAnotherSize) {
+  json other = plan();
+  other["unit_size"] = 2 * Unit::max_size;
+  EXPECT_THAT([&] { plan_from_json(other); },
+              ThrowsMessage<InvalidInput>(HasSubstr("campaign.unit_size is 1024")));
 }
 
 TEST(Merge, MarksWhatIsPartial) {

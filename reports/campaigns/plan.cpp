@@ -154,6 +154,11 @@ Plan plan_from_json(const json& j) {
   };
   Plan plan;
   plan.cut.count = whole_number(member(j, "count", "campaign"), "campaign.count", Plan::max_count);
+  const json& unit_size = member(j, "unit_size", "campaign");
+  if (unit_size != Unit::max_size) {
+    throw InvalidInput("campaign.unit_size", shown(unit_size),
+                       fmt::format("must be {}, the units of this version", Unit::max_size));
+  }
   plan.seed = whole_number(member(j, "seed", "campaign"), "campaign.seed");
   plan.version = text_of("version");
   plan.command = text_of("command");

@@ -84,11 +84,16 @@ ShardState ShardPlace::begin(const Plan& plan, bool resume) const {
   }
   if (!std::filesystem::exists(file_)) return ShardState(plan, shard_);
   if (!resume) {
-    throw InvalidInput("--out", '"' + folder_.string() + '"',
-                       "already holds a campaign; go on with --resume, or choose another folder");
+    throw InvalidInput(
+        "--out", '"' + folder_.string() + '"',
+        "already holds a campaign; go on with campaign --resume, or choose another folder");
   }
   ShardState found = shard_from_text(read_file(file_, "--out"), file_.string());
   require_same_plan(plan, json::parse(found.plan.text), file_.string());
+  if (found.shard != shard_) {
+    throw InvalidInput('"' + file_.string() + '"', "shard " + to_string(found.shard),
+                       "must be shard " + to_string(shard_) + ", as its name says");
+  }
   return found;
 }
 

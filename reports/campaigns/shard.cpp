@@ -22,17 +22,6 @@ namespace {
 using nlohmann::json;
 using Range = UnitSet::interval_type;
 
-std::optional<double> number_or_null(const json& object, const char* name) {
-  const json& value = member(object, name, "");
-  return value.is_null() ? std::nullopt : std::optional(number(value, name));
-}
-
-const json& array(const json& object, const char* name) {
-  const json& value = member(object, name, "");
-  if (!value.is_array()) throw InvalidInput(name, shown(value), "must be an array");
-  return value;
-}
-
 json to_json(const Case& c) {
   return {{"index", c.index},
           {"outcome", outcome_name(c.score.outcome)},
@@ -44,8 +33,8 @@ json to_json(const Case& c) {
 Case case_from_json(const json& j, std::size_t cell) {
   Score score;
   score.outcome = outcome_from_json(member(j, "outcome", ""), "outcome");
-  score.depth_error = number_or_null(j, "depth_error");
-  score.normal_regret = number_or_null(j, "normal_regret");
+  score.depth_error = number_or_null(member(j, "depth_error", ""), "depth_error");
+  score.normal_regret = number_or_null(member(j, "normal_regret", ""), "normal_regret");
   score.severity = number(member(j, "severity", ""), "severity");
   return {cell, whole_number(member(j, "index", ""), "index"), score};
 }
@@ -138,7 +127,7 @@ ScoreTally tally_from_json(const json& j, std::size_t cell) {
     left -= number;
   }
   if (left != 0) throw InvalidInput("outcomes", shown(outcomes), "must add up to the count");
-  for (const json& entry : array(j, "points")) {
+  for (const json& entry : array(member(j, "points", ""), "points")) {
     if (!entry.is_array() || entry.size() != 2) {
       throw InvalidInput("points", shown(entry), "must be an array of pairs");
     }
@@ -161,7 +150,7 @@ ScoreTally tally_from_json(const json& j, std::size_t cell) {
   const auto one = static_cast<std::uint64_t>(1 / CoverageTally::unit);
   t.coverage.sum =
       whole_number(member(j, "covered_sum", ""), "covered_sum", t.coverage.uncovered.count() * one);
-  for (const json& entry : array(j, "worst")) {
+  for (const json& entry : array(member(j, "worst", ""), "worst")) {
     t.worst.push_back(at_path("worst", [&] { return case_from_json(entry, cell); }));
   }
   t.worst = worst_of_class(std::move(t.worst));

@@ -147,8 +147,8 @@ class ShardPlace {
   const std::filesystem::path& file() const { return file_; }
 
   /// The shard as its file has it, or at its beginning where there is none. Throws InvalidInput
-  /// where there is one and `resume` is false, where it is damaged or of another campaign, and
-  /// where the folder holds shards of another campaign or of another cut.
+  /// where there is one and `resume` is false, where it is damaged, of another campaign or another
+  /// shard, and where the folder holds shards of another campaign or of another cut.
   ShardState begin(const Plan& plan, bool resume) const;
 
  private:

@@ -115,13 +115,21 @@ class Report(PageTest):
     def setUpClass(cls):
         super().setUpClass()
         # Every candidate and class, so that the page is as large as it gets.
+        start = time.monotonic()
         cls.run_program("report", "--count", "1", "--out", cls.folder.name)
+        cls.seconds = time.monotonic() - start
         cls.page = Path(cls.folder.name) / "report.html"
         cls.requested = cls.load(cls.page)
 
     def test_1_loads_without_error_or_request(self):
         self.assertEqual(self.console(), [])
         self.assertEqual(self.requested, [])
+
+    def test_the_report_says_how_long_all_of_it_took(self):
+        report = json.loads(self.page.with_suffix(".json").read_text())
+        self.assertTrue(report["stability"] and report["experiments"])
+        self.assertGreater(report["wall_seconds"], 0.8 * self.seconds)
+        self.assertLess(report["wall_seconds"], self.seconds)
 
     def test_2_is_small(self):
         self.assertLess(self.page.stat().st_size, max_bytes)

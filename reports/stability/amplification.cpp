@@ -80,7 +80,7 @@ std::vector<Climb> climb(const Bases& bases, std::uint64_t seed,
       asked.push_back(perturbed(c, {amplitude(rung), seed, i}));
     }
   }
-  const std::vector<ExaminedPose> poses = examine(asked, candidates, bar);
+  const std::vector<ExaminedPose> poses = examine_poses(asked, candidates, bar);
   std::vector<Climb> climbs(1 + candidates.size());
   for (std::size_t k = 0; k < candidates.size(); ++k) {
     climbs[1 + k].is_supported = poses[0].answers[k].score.outcome != Outcome::unsupported;

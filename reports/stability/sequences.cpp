@@ -66,7 +66,7 @@ std::string follow(const Motion& motion, int steps, std::vector<CandidateProcess
                    const Bar& bar) {
   std::vector<Configuration> asked;
   for (int i = 0; i <= steps; ++i) asked.push_back(pose_at(motion, i, steps));
-  const std::vector<ExaminedPose> poses = examine(asked, candidates, bar);
+  const std::vector<ExaminedPose> poses = examine_poses(asked, candidates, bar);
   std::vector<Course> courses;
   for (std::size_t k = 0; k < candidates.size(); ++k) courses.push_back(course(poses, k, bar));
   ByteWriter bytes;

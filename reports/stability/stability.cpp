@@ -75,15 +75,9 @@ std::vector<std::string> run_in_workers(
     const Study& study, const Work& work,
     const std::function<std::string(std::size_t, std::vector<CandidateProcess>&)>& run) {
   Progress progress(work.unit, work.count * work.units_per_task);
-  std::vector<CandidateProcess> candidates;  // of the worker that this becomes
+  WorkerCandidates candidates(study.candidates, study.bar.threshold, study.limits);
   return run_in_processes(
-      work.count, study.workers,
-      [&](std::size_t task) {
-        if (candidates.empty()) {
-          candidates = start(study.candidates, study.bar.threshold, study.limits);
-        }
-        return run(task, candidates);
-      },
+      work.count, study.workers, [&](std::size_t task) { return run(task, candidates.get()); },
       work.name, [&](std::size_t done) { progress.update(done * work.units_per_task); });
 }
 

@@ -68,8 +68,8 @@ double farthest(const ContactPatch& from, const ContactPatch& to) {
 
 }  // namespace
 
-std::vector<ExaminedPose> examine(const std::vector<Configuration>& configurations,
-                                  std::vector<CandidateProcess>& candidates, const Bar& bar) {
+std::vector<ExaminedPose> examine_poses(const std::vector<Configuration>& configurations,
+                                        std::vector<CandidateProcess>& candidates, const Bar& bar) {
   std::vector<ExaminedPose> poses;
   const auto take = [&](const ScoredConfiguration& scored) {
     ExaminedPose& pose = poses.emplace_back(ExaminedPose{scored.configuration, scored.truth, {}});

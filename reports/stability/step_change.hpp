@@ -32,8 +32,8 @@ struct ExaminedPose {
 
 /// Asks every candidate for all of them in one new session, in this order, and the oracle. Throws
 /// like the oracle.
-std::vector<ExaminedPose> examine(const std::vector<Configuration>& configurations,
-                                  std::vector<CandidateProcess>& candidates, const Bar& bar);
+std::vector<ExaminedPose> examine_poses(const std::vector<Configuration>& configurations,
+                                        std::vector<CandidateProcess>& candidates, const Bar& bar);
 
 /// How one candidate's answer changes at a step from one pose to another. Lengths are relative to
 /// the smaller size.

@@ -15,7 +15,8 @@ namespace touchstone {
 
 /// Errors and time of one candidate on configurations of one kind of pairs.
 struct ReplayScore {
-  std::optional<double> nanoseconds;  ///< per query, median of the rounds; absent: unsupported
+  std::optional<double> nanoseconds;  ///< per query, median of the rounds; absent: unsupported,
+                                      ///< or it died or took too long
   std::size_t count = 0, agree = 0;   ///< configurations, and those on which it agrees
   /// Largest error of the depth, metres; for a missed contact, its depth; infinite without an
   /// answer.
@@ -27,7 +28,7 @@ struct ReplayScore {
 };
 
 /// Scores the candidates against the oracle and times them in turns, one process at a time. All
-/// configurations are of the same two shapes.
+/// configurations are of one kind of pairs.
 std::vector<ReplayScore> replay(const std::vector<Configuration>& configurations,
                                 std::vector<CandidateProcess>& candidates);
 

@@ -104,6 +104,17 @@ TEST(Needs, RestsCountsSpeedAndSpinFromItsTime) {
               0.4, 1e-12);  // 2 rad/s on 0.2 m
 }
 
+TEST(Needs, RestsIsBrokenWhenTheFirstOfItsBodiesIsTooFast) {
+  const Trajectory falling = motion([](int body, double t) {
+    BodyState s = tilted(0);
+    s.velocity = Vec3(0, 0, body == 1 ? -10 * t : -10 * t - 2);  // the pot is ahead of the can
+    return s;
+  });
+  const Verdict verdict = judged(R"("need":"rests","bodies":["can","pot"],"speed":3.5)", falling);
+  EXPECT_NEAR(verdict.time, 0.2, 1e-9);
+  EXPECT_NEAR(verdict.value, 12, 1e-9);
+}
+
 TEST(Needs, FallsInOrderCountsThoseOutOfPlace) {
   const Trajectory falling =
       motion([](int body, double t) { return tilted(t > 0.2 * body + 0.05 ? 90 : 0); });
@@ -157,6 +168,21 @@ TEST(Needs, AreBrokenByAMotionThatIsUnsoundOrNotANumber) {
     return s;
   });
   EXPECT_FALSE(judged(R"("need":"rests","bodies":["can"],"speed":1)", no_number).holds());
+}
+
+TEST(Needs, AnUnsoundRunBreaksWhatHeldAtItsEnd) {
+  Trajectory absurd = motion([](int body, double t) { return tilted(body == 1 ? 10 * t : 0); });
+  absurd.sound = false;
+  const Verdict broken_before = judged(R"("need":"stands","body":"can","degrees":5)", absurd);
+  EXPECT_NEAR(broken_before.time, 0.6, 1e-9);
+  EXPECT_FALSE(broken_before.holds());
+  for (const char* held : {R"("need":"stands","body":"pot","degrees":5)",
+                           R"("need":"stands","body":"can","degrees":5,"until":0.3)",
+                           R"("need":"penetration","metres":1)"}) {
+    const Verdict verdict = judged(held, absurd);
+    EXPECT_NEAR(verdict.time, absurd.end(), 1e-9) << held;
+    EXPECT_FALSE(verdict.holds()) << held;
+  }
 }
 
 TEST(Verdicts, ShareOfALimitOfZeroIsAboveOneWhenBroken) {

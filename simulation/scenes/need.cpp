@@ -14,7 +14,8 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// The largest of a series of values, and the time at which the limit was first exceeded.
+/// The largest of a series of values, and the time at which the limit was first exceeded. Values
+/// are added in the order of their times.
 class Largest {
  public:
   explicit Largest(double limit) : limit_(limit) {}
@@ -52,13 +53,19 @@ double horizontal_distance(const ComparedRuns& runs, const Trajectory& run, int 
   return horizontal(way, runs.scene.gravity).norm();
 }
 
-/// Calls f(state, time) for each frame of the run from a time on.
+/// Calls f(frame, time) for each frame of the run from a time on.
 template <class F>
-void each_state(const Trajectory& run, int body, double from, F f) {
+void each_frame(const Trajectory& run, double from, F f) {
   for (std::size_t i = 0; i < run.frames.size(); ++i) {
     const double time = run.step * static_cast<double>(i);
-    if (time >= from - run.step / 2) f(run.frames[i][body], time);
+    if (time >= from - run.step / 2) f(run.frames[i], time);
   }
+}
+
+/// Calls f(state, time) for a body in each of them.
+template <class F>
+void each_state(const Trajectory& run, int body, double from, F f) {
+  each_frame(run, from, [&](const auto& frame, double time) { f(frame[body], time); });
 }
 
 /// Is the answer about these bodies, in either order? True for all answers if none are given.
@@ -154,12 +161,13 @@ struct Rests : Need {
   }
   Verdict measure(const ComparedRuns& runs) const override {
     Largest largest(speed);
-    for (const int body : bodies) {
-      const double reach = largest_half_extent(runs.scene.bodies[body].shape);
-      each_state(runs.run, body, by, [&](const BodyState& s, double time) {
+    each_frame(runs.run, by, [&](const std::vector<BodyState>& states, double time) {
+      for (const int body : bodies) {
+        const BodyState& s = states[body];
+        const double reach = largest_half_extent(runs.scene.bodies[body].shape);
         largest.add(std::max(s.velocity.norm(), reach * s.angular_velocity.norm()), time);
-      });
-    }
+      }
+    });
     return largest.verdict();
   }
 };
@@ -329,8 +337,8 @@ std::vector<std::unique_ptr<Need>> one_of_each() {
 Verdict Need::judge(const ComparedRuns& runs) const {
   Verdict verdict = measure(runs);
   if (!runs.run.sound) {
+    if (verdict.holds()) verdict.time = runs.run.end();
     verdict.value = infinity;
-    verdict.time = std::min(verdict.time, runs.run.end());
   }
   return verdict;
 }

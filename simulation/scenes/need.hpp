@@ -13,7 +13,9 @@ namespace touchstone {
 struct Verdict {
   double value;  ///< measured, in the unit of the limit; not finite if the run is not sound
   double limit;
-  double time;  ///< when the limit was first exceeded; for a need that holds, of the largest value
+  /// When the limit was first exceeded; for a need that holds, of the largest value; for one that
+  /// is broken only because the run is not sound, the end of the run.
+  double time;
   bool holds() const { return value <= limit; }
   /// Value as a share of the limit; for a limit of zero, above one as soon as the need is broken.
   double share() const { return limit > 0 ? value / limit : value > 0 ? 1 + value : 0; }

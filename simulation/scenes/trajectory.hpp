@@ -47,7 +47,8 @@ struct Trajectory {
 /// to 1e-13).
 Trajectory run_scene(const Scene& scene, ContactModel& model);
 
-/// All body pairs of a scene whose shapes have the same kind and sizes: they share a contact model.
+/// All body pairs of a scene whose shapes have the same kind and, to six digits, the same sizes:
+/// they share a contact model.
 struct PairKind {
   std::string name;                   ///< "cylinder ⌀0.1×0.3 on box 1×1×0.2"
   std::string bodies;                 ///< "can-1 and ground", "6 pairs, as can-1 and can-2"
