@@ -110,9 +110,10 @@ cat > "$folder/can.json" <<'END'
 END
 expect 0 'can: 3 of 72 configurations' simulate "$folder/can.json" --count 3 --record "$folder/recorded.jsonl"
 expect 0 '"id":"can/can and ground/' solve --candidates reference "$folder/recorded.jsonl"
-expect 0 'cylinder-plane' replay "$folder/recorded.jsonl" --candidates reference
+expect 0 'truth: signed distance' replay "$folder/recorded.jsonl" --candidates reference
 expect 2 '--record.*needs scene files' simulate --record "$folder/recorded.jsonl"
 expect 2 '--record' simulate "$folder/can.json" --record /proc/none/recorded.jsonl
+expect 2 '--record excludes --out' simulate "$folder/can.json" --record "$folder/r.jsonl" --out "$folder"
 expect 2 'scene.*could not be opened' simulate "$folder/none.json" --record "$folder/recorded.jsonl"
 expect 0 'can stands within 1' choose "$folder/can.json" --candidates capsule --out "$folder/choice"
 [ -s "$folder/choice/choose.html" ] || { echo "FAILED: no choose.html"; failures=$((failures + 1)); }

@@ -94,12 +94,14 @@ void add_simulate(Program& program) {
                     "Only these experiments; with --record, scene files");
   command.numbers("--step", options->steps, {1e-5, 0.1},
                   "Steps of time, seconds, separated by commas (default: 1/60, 1/240, 1/960)");
-  command.text("--out", options->out, "Folder for experiments.json");
-  command.flag("--json", options->json, "Print one JSON object");
+  const Option out = command.text("--out", options->out, "Folder for experiments.json");
+  const Option json = command.flag("--json", options->json, "Print one JSON object");
   const char* recording = "Of scenes, with exact contacts";
   command
       .text("--record", options->record,
             "File for configurations near contact that occur in the scenes (docs/scenes.md)")
+      .excludes(out)
+      .excludes(json)
       .group(recording);
   command
       .count("--count", options->recording.count, {1, 1000000},
