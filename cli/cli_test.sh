@@ -113,7 +113,7 @@ expect 0 '"id":"can/can and ground/' solve --candidates reference "$folder/recor
 expect 0 'truth: signed distance' replay "$folder/recorded.jsonl" --candidates reference
 expect 2 '--record.*needs scene files' simulate --record "$folder/recorded.jsonl"
 expect 2 '--record' simulate "$folder/can.json" --record /proc/none/recorded.jsonl
-expect 2 '--record excludes --out' simulate "$folder/can.json" --record "$folder/r.jsonl" --out "$folder"
+expect 2 'excludes --record' simulate "$folder/can.json" --record "$folder/r.jsonl" --out "$folder"
 expect 2 'scene.*could not be opened' simulate "$folder/none.json" --record "$folder/recorded.jsonl"
 expect 0 'can stands within 1' choose "$folder/can.json" --candidates capsule --out "$folder/choice"
 [ -s "$folder/choice/choose.html" ] || { echo "FAILED: no choose.html"; failures=$((failures + 1)); }
