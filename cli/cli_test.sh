@@ -121,6 +121,13 @@ cat > "$folder/can.json" <<'END'
  {"name":"can","shape":{"shape":"cylinder","radius":0.1,"half_length":0.2},"pose":{"position":[0,0,0.2]}}],
  "needs":[{"need":"stands","body":"can","degrees":1}]}
 END
+expect 0 'can: 3 of 72 configurations' simulate "$folder/can.json" --count 3 --record "$folder/recorded.jsonl"
+expect 0 '"id":"can/can and ground/' solve --candidates reference "$folder/recorded.jsonl"
+expect 0 'truth: signed distance' replay "$folder/recorded.jsonl" --candidates reference
+expect 2 '--record.*needs scene files' simulate --record "$folder/recorded.jsonl"
+expect 2 '--record' simulate "$folder/can.json" --record /proc/none/recorded.jsonl
+expect 2 'excludes --record' simulate "$folder/can.json" --record "$folder/r.jsonl" --out "$folder"
+expect 2 'scene.*could not be opened' simulate "$folder/none.json" --record "$folder/recorded.jsonl"
 expect 0 'can stands within 1' choose "$folder/can.json" --candidates capsule --out "$folder/choice"
 mkdir "$folder/my scenes"
 cp "$folder/can.json" "$folder/my scenes/"
@@ -263,7 +270,7 @@ for number in -1 nan "" 0x1.8p-1z; do
     "solve --width" "solve --time-limit" "solve --memory-limit" "solve --tolerance" \
     "solve --threshold" "campaign --checkpoint" "certify $rim --cells" "certify $rim --width" \
     "compare a b --max-error-factor" "compare a b --max-time-factor" "compare a b --min-agree" \
-    "render a --every" "simulate --step" "choose a --depth" "choose a --angle" "choose a --count" \
+    "render a --every" "simulate --step" "simulate --count" "simulate --seed" "choose a --depth" "choose a --angle" "choose a --count" \
     "choose a --seed" "search --candidate bullet --count" "stability --count"; do
     # shellcheck disable=SC2086
     expect 2 "${option##* } is \".*\": must be a .*number from .* to " $option "$number" --out "$folder/none"

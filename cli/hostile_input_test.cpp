@@ -168,6 +168,10 @@ TEST(HostileInput, WholeFilesOfSolve) {
     for (const char* name : {"general-deep", "general-shallow", "touching"}) {
       file += to_json(make_configuration({pair, name, 1, 0})).dump() + '\n';
     }
+    file += json{{"weight", 3},
+                 {"configuration", to_json(make_configuration({pair, "touching", 1, 1}))}}
+                .dump() +
+            '\n';
   }
   expect_answer_or_refusal("solve, whole", 3, {file}, [](const std::string& text, std::uint64_t) {
     std::istringstream in(text), lines(text);

@@ -1,3 +1,4 @@
+#include <filesystem>
 #include <fmt/format.h>
 #include <memory>
 
@@ -6,8 +7,11 @@
 #include "cli/command.hpp"
 #include "cli/options.hpp"
 #include "properties/files/disk.hpp"
+#include "reference/invalid_input.hpp"
 #include "simulation/experiment.hpp"
 #include "simulation/run_experiments.hpp"
+#include "simulation/scenes/choose.hpp"
+#include "simulation/scenes/recording.hpp"
 
 namespace touchstone {
 namespace {
@@ -18,7 +22,8 @@ struct Options {
   WorkersOption workers;
   std::vector<std::string> names;
   std::vector<double> steps = {1.0 / 60, 1.0 / 240, 1.0 / 960};
-  std::string out;
+  std::string out, record;
+  RecordingOptions recording;
   bool json = false;
 
   ExperimentOptions experiments() const {
@@ -35,7 +40,33 @@ struct Options {
   }
 };
 
+/// Runs the scenes with exact contacts and writes what occurred near contact.
+int record(const Options& options) {
+  if (options.names.empty()) {
+    throw InvalidInput("--record", options.record,
+                       "needs scene files, as simulation/scenes/conveyor.json");
+  }
+  const auto folder = std::filesystem::path(options.record).parent_path();
+  check_writable(folder.empty() ? "." : folder, "--record");
+  std::vector<SceneFile> files;
+  for (const std::string& name : options.names) files.push_back(read_scene(name));
+  Processes processes(options.candidates.limits());
+  CandidateModel exact(processes.of(*exact_first({}).front()));
+  std::string lines;
+  for (const SceneFile& file : files) {
+    const Trajectory run = run_scene(file.scene, exact);
+    const auto questions = sample_near_contact(file.scene, run, options.recording);
+    lines += recording_lines(file.name, file.scene, run, questions);
+    std::uint64_t near = 0;
+    for (const RecordedQuestion& q : questions) near += q.weight;
+    fmt::print("{}: {} of {} configurations near contact\n", file.name, questions.size(), near);
+  }
+  write_file(options.record, lines, "--record");
+  return 0;
+}
+
 int run(const Options& options) {
+  if (!options.record.empty()) return record(options);
   const ExperimentOptions experiments = options.experiments();
   if (!options.out.empty()) check_writable(options.out);
   const ExperimentResults results = run_experiments(experiments);
@@ -59,16 +90,31 @@ std::string experiment_list() {
 void add_simulate(Program& program) {
   Command command = program.command("simulate", "Rigid-body experiments with an answer on paper");
   const auto options = std::make_shared<Options>(command);
-  command.arguments("experiments", options->names, "Only these experiments");
+  command.arguments("experiments", options->names,
+                    "Only these experiments; with --record, scene files");
   command.numbers("--step", options->steps, {1e-5, 0.1},
                   "Steps of time, seconds, separated by commas (default: 1/60, 1/240, 1/960)");
-  command.text("--out", options->out, "Folder for experiments.json");
-  command.flag("--json", options->json, "Print one JSON object");
+  const Option out = command.text("--out", options->out, "Folder for experiments.json");
+  const Option json = command.flag("--json", options->json, "Print one JSON object");
+  const char* recording = "Of scenes, with exact contacts";
+  command
+      .text("--record", options->record,
+            "File for configurations near contact that occur in the scenes (docs/scenes.md)")
+      .excludes(out)
+      .excludes(json)
+      .group(recording);
+  command
+      .count("--count", options->recording.count, {1, 1000000},
+             "Configurations of each scene and pair of shapes")
+      .group(recording);
+  command.count("--seed", options->recording.seed, all_counts, "Same seed, same configurations")
+      .group(recording);
   command.footer(
       "Examples:\n"
       "  touchstone simulate rolling\n"
       "  touchstone simulate standing --candidates reference,bullet --step 0.004\n"
-      "  touchstone simulate --out out\n" +
+      "  touchstone simulate --out out\n"
+      "  touchstone simulate simulation/scenes/conveyor.json --record recorded.jsonl\n" +
       experiment_list());
   command.runs([options] { return run(*options); });
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,11 +12,12 @@ namespace touchstone {
 /// How two bodies lie to each other.
 struct Arrangement {
   enum class Orientations {
-    random,   ///< at any angle to each other, in any frame
-    nearly,   ///< parallel or perpendicular but for rounding, in any frame
-    exact,    ///< parallel or perpendicular, in the frame of a Lattice
-    pitched,  ///< at 3-4-5 angles, in the frame of a Lattice
-    mixed     ///< everything at once: no modifier adds to it
+    random,    ///< at any angle to each other, in any frame
+    nearly,    ///< parallel or perpendicular but for rounding, in any frame
+    exact,     ///< parallel or perpendicular, in the frame of a Lattice
+    pitched,   ///< at 3-4-5 angles, in the frame of a Lattice
+    recorded,  ///< as it was: nothing may be changed
+    mixed      ///< everything at once: no modifier adds to it
   };
 
   std::string name;
@@ -45,6 +47,8 @@ std::vector<Arrangement> lattice_arrangements(Pair pair);
 /// Bodies turned by 3-4-5 angles against each other that touch in a point or along an edge: signed
 /// distance zero to the last bit, no cap, side or face aligned with another.
 Arrangement touching_tilted(Pair pair);
+/// What the shipped scenes produced (recorded.hpp); absent where they produced nothing.
+std::optional<Arrangement> recorded_arrangement(Pair pair);
 /// Combinations of all difficulties.
 Arrangement hostile(Pair pair);
 

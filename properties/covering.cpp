@@ -23,9 +23,9 @@ std::vector<Factor> factors_of(Pair pair) {
   std::vector<Factor> factors(1 + kinds);
   std::uint32_t number = 0;
   for (const Arrangement& a : arrangements(pair)) {
-    if (a.orientations != Arrangement::Orientations::mixed) {
-      factors[0].push_back({&a, nullptr, ++number});
-    }
+    using enum Arrangement::Orientations;
+    if (a.orientations == mixed || a.orientations == recorded) continue;
+    factors[0].push_back({&a, nullptr, ++number});
   }
   for (const Modifier& m : all_modifiers()) {
     factors[1 + static_cast<std::size_t>(m.kind)].push_back({nullptr, &m, ++number});
@@ -49,6 +49,10 @@ class Covering {
       if (!nonsense(pair_, *e.arrangement, *turned.modifiers.list().front())) add(turned);
     }
     while (!uncovered_.empty()) add(class_of(best_row()));
+    for (const Arrangement& a : arrangements(pair_)) {
+      if (a.orientations == Arrangement::Orientations::recorded)
+        classes_.push_back({pair_, &a, {}});
+    }
     return std::move(classes_);
   }
 

@@ -84,6 +84,8 @@ const char* group_name(Group group) {
       return "degenerate";
     case Group::extreme:
       return "extreme";
+    case Group::recorded:
+      return "recorded";
   }
   return "";
 }

@@ -32,9 +32,11 @@ Pair parse_pair(std::string_view name);
 enum class Group {
   everyday,    ///< sizes within 1:20, turned at random, shallow, resting or apart
   degenerate,  ///< exact, near-exact and symmetric
-  extreme      ///< aspect, scale, distance from the origin, depth of the order of the size
+  extreme,     ///< aspect, scale, distance from the origin, depth of the order of the size
+  recorded     ///< as simulated scenes produced it, as often as they did
 };
-inline constexpr Group all_groups[] = {Group::everyday, Group::degenerate, Group::extreme};
+inline constexpr Group all_groups[] = {Group::everyday, Group::degenerate, Group::extreme,
+                                       Group::recorded};
 const char* group_name(Group group);
 /// Throws InvalidInput (field "--group") that lists the groups.
 Group parse_group(std::string_view name);

@@ -241,6 +241,14 @@ TEST(Identity, KeepsItsBitsFromVersionToVersion) {
        "(0x1.ap+1, 0x1p+1, 0x1.8p+1) position (-0x0.0000000000007p-1022, 0x0p+0, 0x0p+0) "
        "orientation (-0x1.33f197f896182p-1, 0x1.dd39351ea0c01p-2, -0x1.1c55cbfa7efc2p-1, "
        "0x1.57b381e75717ap-2)"},
+      {"cylinder-sphere/recorded/1/0",
+       "a: cylinder radius 0x1.3333333333333p-3 half_length 0x1p-2 position "
+       "(0x1.7da5bff7eff1ep-29, 0x1.c845b05bb25cdp-12, 0x1.ffcb9239be4a2p-3) orientation "
+       "(0x1.fffffffffffe3p-1, 0x1.35ce2af6db547p-36, 0x1.94ea0c4adb3cbp-36, "
+       "0x1.5c069809a92bfp-24); b: sphere radius 0x1.3333333333333p-2 position "
+       "(0x1.46057cfdc4f5ap-4, -0x1.e47fdaba35361p-5, 0x1.997f62b659d4bp-1) orientation "
+       "(0x1.f11e34cff923ap-1, 0x1.ca0c46e9b989dp-4, 0x1.adffeb925ffa4p-3, "
+       "0x1.b1257751470e5p-6)"},
       {"cylinder-sphere/hostile/42/137",
        "a: cylinder radius 0x1.68853e3af5537p-4 half_length 0x1.1ee7174b89dbdp+0 position "
        "(-0x1.2b7ed52fec6e7p+1, -0x1.d266e1f609eeap+0, -0x1.30d3141c56933p+0) orientation "

@@ -16,6 +16,7 @@ std::vector<Arrangement> make_arrangements(Pair pair) {
   std::vector<Arrangement> all = feature_arrangements(pair);
   for (Arrangement& a : lattice_arrangements(pair)) all.push_back(std::move(a));
   all.push_back(touching_tilted(pair));
+  if (auto recorded = recorded_arrangement(pair)) all.push_back(std::move(*recorded));
   all.push_back(hostile(pair));
   return all;
 }
@@ -163,6 +164,7 @@ std::string PoseClass::description() const {
 Group PoseClass::group() const {
   const Orientations o = arrangement->orientations;
   const Clearance clearance = modifiers.clearance();
+  if (o == Orientations::recorded) return Group::recorded;
   if (o == Orientations::mixed || clearance == Clearance::deep ||
       modifiers[Kind::proportions] != 0 || modifiers[Kind::scale] != 0 ||
       modifiers[Kind::distance] != 0) {
@@ -184,6 +186,7 @@ Configuration PoseClass::generate(Draw& draw) const {
 
 std::optional<std::string_view> nonsense(Pair pair, const Arrangement& a, const Modifier& m) {
   if (a.orientations == Orientations::mixed) return "it has everything already";
+  if (a.orientations == Orientations::recorded) return "it is as it occurred";
   switch (m.kind) {
     case Kind::clearance:
       if (std::find(a.clearances.begin(), a.clearances.end(), static_cast<Clearance>(m.value)) !=

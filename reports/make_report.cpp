@@ -227,6 +227,10 @@ Report make_report(const Campaign& campaign, const std::string& command) {
     rank(std::span(report.summary).subspan(i, campaign.candidates.size()));
   }
   report.trends = trends_of(campaign, samples, pairs);
+  for (const RecordedShare& s : recorded_shares()) {
+    const auto is_of = [&](const Heading& pair) { return pair.pair == pair_name(s.pair); };
+    if (std::any_of(pairs.begin(), pairs.end(), is_of)) report.recorded.push_back(s);
+  }
   report.worst = worst_of(campaign, all, samples, pairs);
   if (!report.partial) report.drake_protocol = drake_protocol(campaign);
   report.wall_seconds =

@@ -10,6 +10,7 @@
 #include "oracle/judge/score.hpp"
 #include "oracle/truth.hpp"
 #include "properties/identity.hpp"
+#include "properties/recorded.hpp"
 #include "reports/stability/stability.hpp"
 #include "reports/statistics.hpp"
 #include "simulation/run_experiments.hpp"
@@ -136,6 +137,7 @@ struct Report {
   std::vector<PoseClassDescription> classes;
   std::vector<ResultRow> results, summary;
   std::vector<Trend> trends;
+  std::vector<RecordedShare> recorded;  ///< of the pairs in the report
   std::optional<DrakeProtocol> drake_protocol;
   std::vector<WorstCase> worst;
   // Of a whole report, all pairs and classes:

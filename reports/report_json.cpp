@@ -129,6 +129,13 @@ json to_json(const CandidateDescription& c) {
           {"models", c.models}};
 }
 
+json to_json(const RecordedShare& s) {
+  return {{"pair", pair_name(s.pair)},
+          {"arrangement", s.arrangement.name},
+          {"tilt", s.arrangement.tilt ? json(*s.arrangement.tilt) : json(nullptr)},
+          {"share", s.share}};
+}
+
 json to_json(const Report::Extent& extent) {
   return {{"classes", extent.classes}, {"configurations", extent.configurations}};
 }
@@ -214,6 +221,7 @@ json to_json(const Report& report) {
                  {"results", array_of(report.results)},
                  {"summary", summary},
                  {"trends", array_of(report.trends)},
+                 {"recorded", array_of(report.recorded)},
                  {"drake_protocol", to_json(report.drake_protocol)},
                  {"worst", array_of(report.worst)}};
   if (report.stability) result["stability"] = to_json(*report.stability);

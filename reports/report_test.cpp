@@ -3,6 +3,7 @@
 #include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <map>
 #include <sstream>
 
 #include <nlohmann/json.hpp>
@@ -73,6 +74,18 @@ TEST(Report, HasARowForEveryPairClassAndCandidate) {
     for (const json& n : row["outcomes"]) outcomes += n.get<std::size_t>();
     EXPECT_EQ(outcomes, 4u);
   }
+}
+
+TEST(Report, SaysHowOftenArrangementsOccurInScenesForItsOwnPairs) {
+  const json report = report_of(small_campaign());
+  std::map<std::string, double> sums;
+  for (const json& row : report["recorded"]) {
+    sums[row["pair"]] += row["share"].get<double>();
+    EXPECT_TRUE(row["tilt"].is_null() || row["tilt"] <= 15);
+    EXPECT_TRUE(row["arrangement"].is_string());
+  }
+  EXPECT_EQ(sums.size(), 2u);
+  for (const char* pair : {"cylinder-plane", "cylinder-box"}) EXPECT_NEAR(sums[pair], 1, 1e-12);
 }
 
 TEST(Report, RanksNobodyWithinTheSpreads) {

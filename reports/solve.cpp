@@ -22,7 +22,8 @@ using nlohmann::json;
 
 json solved(const json& line, const SolveOptions& options,
             std::vector<CandidateProcess>& candidates) {
-  const auto [c, swapped] = configuration_from_json(line);
+  const auto [c, swapped] =
+      configuration_from_json(line.contains("configuration") ? line["configuration"] : line);
   const Order order = swapped ? Order::swapped : Order::as_ours;
   const oracle::Truth truth = oracle::truth(c, options.width);
   json result;

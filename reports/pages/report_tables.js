@@ -228,6 +228,27 @@ if (report.experiments) {
   experimentTables(report.experiments);
 }
 
+// How often each arrangement occurs in the recorded scenes, and how far the bodies are tilted out of it.
+function recordedTable(recorded) {
+  const byArrangement = new Map();
+  for (const r of recorded) {
+    const key = `${r.pair} ${r.arrangement}`;
+    if (!byArrangement.has(key)) byArrangement.set(key, {...r, share: 0, tilts: []});
+    byArrangement.get(key).share += r.share;
+    if (r.tilt !== null) byArrangement.get(key).tilts.push(r);
+  }
+  const tilt = k => k === 15 ? 'exact' : `1e-${k}`;
+  const rows = [...byArrangement.values()].sort((x, y) => pairs.indexOf(x.pair) - pairs.indexOf(y.pair) || y.share - x.share)
+      .map(({pair, arrangement, share, tilts}) => [rowHead(otherShape(pair)), arrangement, percent(share),
+          tilts.sort((x, y) => x.tilt - y.tilt).map(t => `${tilt(t.tilt)}: ${percent(t.share / share)}`).join(', ') || '–']);
+  byId('recorded-table').append(table([textColumn('pair'), textColumn('arrangement'), 'share', textColumn('tilts out of it')], rows,
+      'Arrangements in recorded scenes'));
+}
+if (report.recorded && report.recorded.length) {
+  byId('recorded').hidden = false;
+  recordedTable(report.recorded);
+}
+
 // The outcomes of all configurations, as bars.
 function outcomeBars() {
   const pair = byId('outcome-pair').value, seen = Object.keys(outcomeColours).filter(o => report.summary.some(r => r.outcomes[o]));

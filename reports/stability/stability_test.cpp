@@ -11,7 +11,7 @@
 
 #include "candidates/candidates.hpp"
 #include "oracle/patch/convex_set.hpp"
-#include "properties/files/given.hpp"
+#include "properties/files/configuration_json.hpp"
 #include "properties/motions/motion.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/stability/measure.hpp"

@@ -1,19 +1,33 @@
-# cmake -DIN=known_failures.jsonl -DOUT=rows.inc -P known_failures.cmake: the configurations of saved
-# failures as rows of known_failures.cpp. Their numbers are hexadecimal floats, as C++ writes them.
-#
-# The hostile class draws from these lines, so that a line more would change every identity of its
-# pair: failures beyond them are replayed, not mutated.
-set(frozen_lines 51)
-
+# cmake -DIN=known_failures.jsonl -DOUT=rows.inc [-DLINES=51] [-DWORDS=scene,…] -P
+# configuration_rows.cmake: the member "configuration" of each line, or of the first ones, as a row of
+# C++: the pair, the members named, and the numbers in the order of every_number. Numbers that are
+# hexadecimal floats in the file stay so; decimals come with 17 digits, which give the same doubles.
+string(REPLACE "," ";" WORDS "${WORDS}")
 file(READ ${IN} rest)
+string(REGEX MATCHALL "\n" all_lines "${rest}")
+list(LENGTH all_lines count)
+if(NOT DEFINED LINES)
+  set(LINES ${count})
+endif()
 set(text "")
-foreach(number RANGE 1 ${frozen_lines})
+set(number 0)
+while(number LESS LINES)
+  math(EXPR number "${number} + 1")
   string(FIND "${rest}" "\n" end)
   string(SUBSTRING "${rest}" 0 ${end} line)
   math(EXPR next "${end} + 1")
   string(SUBSTRING "${rest}" ${next} -1 rest)
   string(JSON shape GET "${line}" configuration b shape)
-  set(row "{Pair::${shape}, {")
+  set(row "{Pair::${shape}, ")
+  foreach(word IN LISTS WORDS)
+    string(JSON type TYPE "${line}" ${word})
+    string(JSON value GET "${line}" ${word})
+    if(type STREQUAL "STRING")
+      set(value "\"${value}\"")
+    endif()
+    string(APPEND row "${value}, ")
+  endforeach()
+  string(APPEND row "{")
   # append(COUNT MEMBER…): the numbers of an array of that many, or (0) one number.
   macro(append count)
     if(${count} EQUAL 0)
@@ -33,6 +47,9 @@ foreach(number RANGE 1 ${frozen_lines})
   append(4 pose_a orientation)
   if(shape STREQUAL "box")
     append(3 b half_extents)
+  elseif(shape STREQUAL "plane")
+    append(3 b normal)
+    append(0 b displacement)
   else()
     append(0 b radius)
     if(NOT shape STREQUAL "sphere")
@@ -42,6 +59,6 @@ foreach(number RANGE 1 ${frozen_lines})
   append(3 pose_b position)
   append(4 pose_b orientation)
   string(APPEND text "${row}}},\n")
-endforeach()
+endwhile()
 string(REPLACE "-0x0p+0" "0x0p+0" text "${text}")  # the sign of a zero has no part in a failure
 file(WRITE ${OUT} "${text}")
