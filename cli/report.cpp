@@ -109,8 +109,8 @@ void add_report(Program& program) {
       "  touchstone report --candidates reference,bullet --class rim-rim,touching\n"
       "  touchstone report --group everyday --count 100\n"
       "  touchstone report --figures figures\n"
-      "Of an everyday pose class that --class does not name, five times as many "
-      "are\nscored.\n"
+      "Of everyday pose classes, recorded ones and arrangements along the world's axes\n"
+      "that --class does not name, five times as many configurations are scored.\n"
       "Ctrl-C or SIGTERM ends with a report of what is done, marked partial.\n"
       "Exit codes: 130, 143 when stopped by Ctrl-C, SIGTERM.");
   command.runs([options] { return run(*options); });

@@ -24,7 +24,7 @@ struct Arrangement {
   std::string description;  ///< one sentence: the geometry, and why it is hard
   Orientations orientations;
   std::vector<Clearance> clearances;  ///< that can be asked for, besides its own
-  std::function<Configuration(Draw&, Clearance, Proportions)> generate;
+  std::function<Configuration(Draw&, const Modifiers&)> generate;
   bool across = false;        ///< B's axis lies along A's x, at a right angle to A's
   bool is_symmetric = false;  ///< centres or axes coincide
   bool touches = false;       ///< whatever clearance is asked for

@@ -44,9 +44,9 @@ class Covering {
     for (const PoseClass& c : old_classes(pair_)) add(c);
     for (const Element& e : factors_[0]) add({pair_, e.arrangement, {}});
     for (const Element& e : factors_[0]) {
-      PoseClass turned{pair_, e.arrangement, {}};
-      turned.modifiers[Kind::turn] = 1;
-      if (!nonsense(pair_, *e.arrangement, *turned.modifiers.list().front())) add(turned);
+      for (const Element& frame : factors_[1 + static_cast<std::size_t>(Kind::frame)]) {
+        if (makes_sense({&e, &frame})) add(class_of({&e, &frame}));
+      }
     }
     while (!uncovered_.empty()) add(class_of(best_row()));
     for (const Arrangement& a : arrangements(pair_)) {

@@ -17,23 +17,23 @@ const std::vector<Clearance> not_deep = {Clearance::shallow, Clearance::apart, C
 Arrangement meeting(Pair pair, const char* name, const char* description, Feature on_a,
                     Feature on_b) {
   return {name, description, Orientations::random, not_deep,
-          [pair, on_a, on_b](Draw& draw, Clearance clearance, Proportions proportions) {
-            const Bodies bodies = draw_bodies(draw, pair, proportions);
-            const double distance = draw_clearance(draw, clearance, smaller_size(bodies));
+          [pair, on_a, on_b](Draw& draw, const Modifiers& m) {
+            const Bodies bodies = draw_bodies(draw, pair, m.proportions());
+            const double distance = draw_clearance(draw, m.clearance(), smaller_size(bodies));
             return meet(draw, bodies, on_a, on_b, distance);
           }};
 }
 
-Configuration general(Draw& draw, Pair pair, Clearance clearance, Proportions proportions) {
-  const Bodies bodies = draw_bodies(draw, pair, proportions);
-  if (clearance == Clearance::deep) return overlap_deeply(draw, bodies, proportions);
+Configuration general(Draw& draw, Pair pair, const Modifiers& m) {
+  const Bodies bodies = draw_bodies(draw, pair, m.proportions());
+  if (m.clearance() == Clearance::deep) return overlap_deeply(draw, bodies, m.proportions());
   const FeaturePair features = draw_feature_pair(draw, pair);
-  const double distance = draw_clearance(draw, clearance, smaller_size(bodies));
+  const double distance = draw_clearance(draw, m.clearance(), smaller_size(bodies));
   return meet(draw, bodies, features.on_a, features.on_b, distance);
 }
 
-Configuration concentric(Draw& draw, Pair pair, Proportions proportions) {
-  const Bodies bodies = draw_bodies(draw, pair, proportions);
+Configuration concentric(Draw& draw, Pair pair, const Modifiers& m) {
+  const Bodies bodies = draw_bodies(draw, pair, m.proportions());
   const Vec3 centre{draw.uniform(-1, 1), draw.uniform(-1, 1), draw.uniform(-1, 1)};
   return {bodies.a, Pose(centre, bodies.orientation_a), bodies.b,
           Pose(centre, bodies.orientation_b)};
@@ -42,23 +42,22 @@ Configuration concentric(Draw& draw, Pair pair, Proportions proportions) {
 const Quaternion z_to_x(0.5, 0.5, 0.5, 0.5);  // x to y, y to z
 
 /// The box's z edge lies across the cap, in its plane up to rounding.
-Configuration edge_in_cap(Draw& draw, Clearance clearance, Proportions proportions) {
-  Bodies bodies = draw_bodies(draw, Pair::box, proportions);
+Configuration edge_in_cap(Draw& draw, const Modifiers& m) {
+  Bodies bodies = draw_bodies(draw, Pair::box, m.proportions());
   const Quaternion heading = draw.turn_about_z();
   bodies.orientation_b =
       product(product(product(bodies.orientation_a, heading), z_to_x), draw.turn_about_z());
-  const double distance = draw_clearance(draw, clearance, smaller_size(bodies));
+  const double distance = draw_clearance(draw, m.clearance(), smaller_size(bodies));
   return meet_at(draw, bodies, cap, edge, distance, 2);
 }
 
 /// Cap or side of A against B, whose orientation relative to A is `base` and any turn about its own
 /// z axis.
-Configuration nearly_aligned(Draw& draw, Pair pair, const Quaternion& base, Clearance clearance,
-                             Proportions proportions) {
-  Bodies bodies = draw_bodies(draw, pair, proportions);
+Configuration nearly_aligned(Draw& draw, Pair pair, const Quaternion& base, const Modifiers& m) {
+  Bodies bodies = draw_bodies(draw, pair, m.proportions());
   if (pair == Pair::plane) bodies.b = Plane(Vec3(0, 0, 1), draw.uniform(-1, 1));
   bodies.orientation_b = product(product(bodies.orientation_a, base), draw.turn_about_z());
-  const double distance = draw_clearance(draw, clearance, smaller_size(bodies));
+  const double distance = draw_clearance(draw, m.clearance(), smaller_size(bodies));
   const bool cap_first = draw.coin();
   const Feature on_a = pair == Pair::plane ? rim : cap_first ? cap : side;
   const Feature on_b = pair == Pair::plane      ? cap
@@ -70,8 +69,8 @@ Configuration nearly_aligned(Draw& draw, Pair pair, const Quaternion& base, Clea
 
 void add_nearly_aligned(Pair pair, std::vector<Arrangement>& out) {
   const auto add = [&](const char* name, const char* description, const Quaternion& base) {
-    const auto generate = [pair, base](Draw& draw, Clearance clearance, Proportions proportions) {
-      return nearly_aligned(draw, pair, base, clearance, proportions);
+    const auto generate = [pair, base](Draw& draw, const Modifiers& m) {
+      return nearly_aligned(draw, pair, base, m);
     };
     out.push_back({name, description, Orientations::nearly, not_deep, generate});
     out.back().across = base.x() != 0;
@@ -115,9 +114,12 @@ Arrangement rim_end() {
   Arrangement result = meeting(Pair::capsule, "rim-end",
                                "The cylinder's rim meets the capsule's round end.", rim, end);
   result.clearances = {Clearance::touching};
-  result.generate = [make = result.generate](Draw& draw, Clearance clearance,
-                                             Proportions proportions) {
-    return make(draw, clearance == Clearance::usual ? Clearance::apart : clearance, proportions);
+  result.generate = [make = result.generate](Draw& draw, const Modifiers& m) {
+    Modifiers modified = m;
+    if (m.clearance() == Clearance::usual) {
+      modified[Kind::clearance] = static_cast<int>(Clearance::apart);
+    }
+    return make(draw, modified);
   };
   return result;
 }
@@ -170,9 +172,7 @@ std::vector<Arrangement> feature_arrangements(Pair pair) {
                  "Random features face each other, at a random angle.",
                  Orientations::random,
                  {Clearance::shallow, Clearance::apart, Clearance::touching, Clearance::deep},
-                 [pair](Draw& draw, Clearance clearance, Proportions proportions) {
-                   return general(draw, pair, clearance, proportions);
-                 }});
+                 [pair](Draw& draw, const Modifiers& m) { return general(draw, pair, m); }});
   switch (pair) {
     case Pair::plane:
       break;
@@ -195,9 +195,7 @@ std::vector<Arrangement> feature_arrangements(Pair pair) {
                    "as an equal, and difference vectors vanish.",
                    Orientations::random,
                    {},
-                   [pair](Draw& draw, Clearance, Proportions proportions) {
-                     return concentric(draw, pair, proportions);
-                   }});
+                   [pair](Draw& draw, const Modifiers& m) { return concentric(draw, pair, m); }});
     out.back().is_symmetric = true;
   }
   if (pair != Pair::sphere) add_nearly_aligned(pair, out);

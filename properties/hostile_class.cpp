@@ -404,7 +404,7 @@ Arrangement hostile(Pair pair) {
           "with a few numbers changed.",
           Arrangement::Orientations::mixed,
           {},
-          [pair](Draw& draw, Clearance, Proportions) { return draw_hostile(draw, pair); }};
+          [pair](Draw& draw, const Modifiers&) { return draw_hostile(draw, pair); }};
 }
 
 }  // namespace touchstone

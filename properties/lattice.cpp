@@ -7,13 +7,17 @@
 
 namespace touchstone {
 
-Lattice::Lattice(Draw& draw) {
+Lattice::Lattice(Draw& draw, Frame frame) {
   do {
     const auto entry = [&] { return static_cast<double>(draw.integer(-4, 4)); };
     const double w = entry(), x = entry(), y = entry(), z = entry();
     q_ = Eigen::Quaterniond(w, x, y, z);
     norm_ = w * w + x * x + y * y + z * z;
   } while (norm_ == 0);
+  if (frame == Frame::aligned) {
+    q_ = Eigen::Quaterniond(1, 0, 0, 0);
+    norm_ = 1;
+  }
   // The largest power of two with norm · scale · metre <= 1 metre.
   int exponent = 0;
   std::frexp(norm_, &exponent);

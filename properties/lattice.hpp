@@ -12,7 +12,8 @@ namespace touchstone {
 /// without rounding, and a step of m along an axis has exactly the length of a size m.
 class Lattice {
  public:
-  explicit Lattice(Draw& draw);
+  /// A random frame, or the world's own where it is to be aligned.
+  explicit Lattice(Draw& draw, Frame frame = Frame::usual);
 
   /// Steps per length of about one metre; sizes are drawn from [0.2, 1] of it.
   static constexpr std::int64_t metre = std::int64_t{1} << 25;

@@ -31,10 +31,10 @@ Steps draw_depth(Draw& draw, const Sizes& s, Clearance clearance) {
 }
 using Place = Placement (*)(Draw&, Pair, const Sizes&, Steps depth);
 
-Configuration placed(Draw& draw, Pair pair, Clearance clearance, Proportions proportions,
+Configuration placed(Draw& draw, Pair pair, Clearance clearance, const Modifiers& m,
                      const std::vector<Place>& places) {
-  const Lattice lattice(draw);
-  const Sizes sizes = draw_sizes(draw, lattice, proportions);
+  const Lattice lattice(draw, m.frame());
+  const Sizes sizes = draw_sizes(draw, lattice, m.proportions());
   const Steps depth = draw_depth(draw, sizes, clearance);
   const Place where = places.size() == 1 ? places.front() : draw.any_of(places);
   const Placement p = where(draw, pair, sizes, depth);
@@ -64,20 +64,32 @@ Placement cap_offset(Draw& draw, Pair pair, const Sizes& s, Steps depth) {
 Placement perpendicular_t(Draw& draw, Pair pair, const Sizes& s, Steps depth) {
   return {s.radius_a + reach_b(pair, s) - depth, 0, draw_offset(draw, s.half_a / 2), along_x};
 }
+Placement perpendicular_t_centred(Draw&, Pair pair, const Sizes& s, Steps depth) {
+  return {s.radius_a + reach_b(pair, s) - depth, 0, 0, along_x};
+}
 /// Sides that cross at a right angle: B lies along x, A stands beside it in y.
 Placement perpendicular_x(Draw& draw, Pair, const Sizes& s, Steps depth) {
   return {draw_offset(draw, s.half_b / 2), s.radius_a + s.radius_b - depth,
           draw_offset(draw, s.half_a / 2), along_x};
+}
+Placement perpendicular_x_centred(Draw&, Pair, const Sizes& s, Steps depth) {
+  return {0, s.radius_a + s.radius_b - depth, 0, along_x};
 }
 /// A's cap on B's side, B lying along x; B's generator may end inside the cap.
 Placement cap_on_side(Draw& draw, Pair, const Sizes& s, Steps depth) {
   return {draw_offset(draw, s.half_b + s.radius_a / 2), draw_offset(draw, s.radius_a / 2),
           s.half_a + s.radius_b - depth, along_x};
 }
+Placement cap_on_side_centred(Draw&, Pair, const Sizes& s, Steps depth) {
+  return {0, 0, s.half_a + s.radius_b - depth, along_x};
+}
 /// A's side on a face of the box, which is turned so that its z face points along x.
 Placement side_on_face(Draw& draw, Pair, const Sizes& s, Steps depth) {
   return {s.radius_a + s.half_b - depth, draw_offset(draw, s.other_b / 2),
           draw_offset(draw, s.half_a / 2), along_x};
+}
+Placement side_on_face_centred(Draw&, Pair, const Sizes& s, Steps depth) {
+  return {s.radius_a + s.half_b - depth, 0, 0, along_x};
 }
 /// A box's edge across the side at a right angle: the box is turned about y by arctan(3/4), so that
 /// its edge lies at ((4 radius_b + 3 half_b)/5, (4 half_b - 3 radius_b)/5) in the x-z plane through
@@ -130,8 +142,8 @@ struct Collector {
     return all.back();
   }
   Generate at(Place where) const {
-    return [pair = pair, where](Draw& draw, Clearance clearance, Proportions proportions) {
-      return placed(draw, pair, clearance, proportions, {where});
+    return [pair = pair, where](Draw& draw, const Modifiers& m) {
+      return placed(draw, pair, m.clearance(), m, {where});
     };
   }
   Arrangement& contact(const char* name, const char* description, Place where) {
@@ -172,6 +184,13 @@ std::vector<Arrangement> lattice_arrangements(Pair pair) {
     c.across("perpendicular-x", "Sides crossed at exactly a right angle.", perpendicular_x);
     c.across("cap-on-side", "B lies exactly across A's cap; its generator may end inside the disc.",
              cap_on_side);
+    c.across("perpendicular-t-centred",
+             "B's end meets the middle of A's side: its axis passes through A's centre.",
+             perpendicular_t_centred);
+    c.across("perpendicular-x-centred", "Sides crossed at a right angle, in the middle of both.",
+             perpendicular_x_centred);
+    c.across("cap-on-side-centred", "B lies across the middle of A's cap, centre over centre.",
+             cap_on_side_centred);
   }
   if (pair == Pair::capsule) {
     c.contact("cap-on-end-centred", "The capsule stands on the middle of the cap, axes in line.",
@@ -188,6 +207,8 @@ std::vector<Arrangement> lattice_arrangements(Pair pair) {
     c.contact("cap-on-face-centred", "The cylinder stands in the middle of a face.", cap_centred);
     c.contact("cap-on-face-offset", "The cylinder stands on a face or over its edge.", cap_offset);
     c.across("side-on-face", "The side lies exactly along a face.", side_on_face);
+    c.across("side-on-face-centred", "The side lies exactly along the middle of a face.",
+             side_on_face_centred);
     c.contact("perpendicular-x", "An edge of the box crosses the side at exactly a right angle.",
               edge_across_side)
         .clearances = {Clearance::apart, Clearance::deep};
@@ -196,13 +217,12 @@ std::vector<Arrangement> lattice_arrangements(Pair pair) {
     c.symmetric("concentric-aligned",
                 "Centres and axes coincide exactly: every tie there is, at once.", same_centre);
   }
-  const auto on_plane = [](Draw& draw, Clearance, Proportions proportions) {
+  const auto on_plane = [](Draw& draw, const Modifiers& m) {
     const Place where = draw.coin() ? standing : lying;
-    return placed(draw, Pair::plane, Clearance::touching, proportions, {where});
+    return placed(draw, Pair::plane, Clearance::touching, m, {where});
   };
-  const auto touching = [pair, places = contacts(pair)](Draw& draw, Clearance,
-                                                        Proportions proportions) {
-    return placed(draw, pair, Clearance::touching, proportions, places);
+  const auto touching = [pair, places = contacts(pair)](Draw& draw, const Modifiers& m) {
+    return placed(draw, pair, Clearance::touching, m, places);
   };
   using Generate = Collector::Generate;
   c.add("touching",

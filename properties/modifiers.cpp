@@ -85,7 +85,9 @@ const std::vector<Modifier>& all_modifiers() {
       m.push_back({Kind::tilt, k, fmt::format("tilted-1e-{}", k),
                    fmt::format("A is tilted by 1e-{} rad about its centre.", k)});
     }
-    m.push_back({Kind::turn, 1, "turned",
+    m.push_back({Kind::frame, value(Frame::aligned), "aligned",
+                 "The arrangement lies along the world's own axes."});
+    m.push_back({Kind::frame, value(Frame::turned), "turned",
                  "Both bodies are turned and moved as one, by any rotation: what was exact is so "
                  "but for rounding."});
     m.push_back(
@@ -151,7 +153,7 @@ Configuration modified(Draw& draw, const Configuration& made, const Modifiers& m
                        const Finish& finish) {
   Configuration c = made;
   if (const int k = modifiers[Kind::tilt]) c = tilted(draw, c, k, finish.across);
-  if (modifiers[Kind::turn]) c = turned(draw, c);
+  if (modifiers.frame() == Frame::turned) c = turned(draw, c);
   if (modifiers.scale() != Scale::usual) {
     const bool tiny = modifiers.scale() == Scale::tiny;
     c = scaled(c, finish.is_exact ? (tiny ? 0x1p-20 : 0x1p20) : (tiny ? 1e-6 : 1e6));

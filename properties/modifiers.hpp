@@ -11,13 +11,15 @@ namespace touchstone {
 
 /// A modifier is something that is done to an arrangement of two bodies. Those of one kind exclude
 /// each other; a name and an identity list them in this order, in which they are also applied.
-enum class Kind { clearance, proportions, tilt, turn, scale, unit, distance };
+enum class Kind { clearance, proportions, tilt, frame, scale, unit, distance };
 inline constexpr std::size_t kinds = 7;
 
 /// How far apart the bodies are; the usual one is the arrangement's own.
 enum class Clearance { usual, shallow, apart, touching, deep };
 /// Ratios of the bodies' sizes.
 enum class Proportions { usual, needle, coin, plate, uneven };
+/// The frame in which both bodies lie.
+enum class Frame { usual, aligned, turned };
 enum class Scale { usual, tiny, huge };
 
 struct Modifier {
@@ -37,6 +39,7 @@ class Modifiers {
   int& operator[](Kind kind) { return values_[static_cast<std::size_t>(kind)]; }
   Clearance clearance() const { return static_cast<Clearance>((*this)[Kind::clearance]); }
   Proportions proportions() const { return static_cast<Proportions>((*this)[Kind::proportions]); }
+  Frame frame() const { return static_cast<Frame>((*this)[Kind::frame]); }
   Scale scale() const { return static_cast<Scale>((*this)[Kind::scale]); }
   bool has(const Modifier& m) const { return (*this)[m.kind] == m.value; }
 
@@ -69,8 +72,8 @@ struct Finish {
   bool is_exact;  ///< scaling is to leave it so
   bool across;    ///< B's axis lies along A's x, and a tilt is to be towards it
 };
-/// Applies the modifiers of a finished configuration: all but clearance and proportions, which go
-/// into its making.
+/// Applies the modifiers of a finished configuration: all but clearance, proportions and the
+/// world's own frame, which go into its making.
 Configuration modified(Draw& draw, const Configuration& made, const Modifiers& modifiers,
                        const Finish& finish);
 

@@ -80,7 +80,12 @@ std::vector<PoseClass> make_old_classes(Pair pair) {
   });
   add("general+touching");
   add_if([&](const Arrangement& a) { return made_of_features(a) && a.is_symmetric; });
-  add_if([](const Arrangement& a) { return a.is_exact(); });
+  const auto came_with_modifiers = [](const Arrangement& a) {
+    constexpr std::array names = {"perpendicular-t-centred", "perpendicular-x-centred",
+                                  "cap-on-side-centred", "side-on-face-centred"};
+    return std::find(names.begin(), names.end(), a.name) != names.end();
+  };
+  add_if([&](const Arrangement& a) { return a.is_exact() && !came_with_modifiers(a); });
   for (const Arrangement& a : all) {
     if (!is_aligned(a)) continue;
     for (const Modifier& m : all_modifiers()) {
@@ -170,7 +175,7 @@ Group PoseClass::group() const {
       modifiers[Kind::distance] != 0) {
     return Group::extreme;
   }
-  const bool exact = arrangement->is_exact() && modifiers[Kind::turn] == 0;
+  const bool exact = arrangement->is_exact() && modifiers.frame() != Frame::turned;
   if (exact || arrangement->is_symmetric || arrangement->touches ||
       clearance == Clearance::touching || modifiers[Kind::tilt] != 0) {
     return Group::degenerate;
@@ -179,8 +184,7 @@ Group PoseClass::group() const {
 }
 
 Configuration PoseClass::generate(Draw& draw) const {
-  const Configuration made =
-      arrangement->generate(draw, modifiers.clearance(), modifiers.proportions());
+  const Configuration made = arrangement->generate(draw, modifiers);
   return modified(draw, made, modifiers, {arrangement->is_exact(), arrangement->across});
 }
 
@@ -210,10 +214,8 @@ std::optional<std::string_view> nonsense(Pair pair, const Arrangement& a, const 
       if (a.orientations == Orientations::random) return "its axes are at a random angle already";
       if (a.orientations == Orientations::pitched) return "it is tilted already";
       return std::nullopt;
-    case Kind::turn:
-      if (a.orientations == Orientations::random || a.orientations == Orientations::nearly) {
-        return "its bodies are turned at random already";
-      }
+    case Kind::frame:
+      if (!a.is_exact()) return "its bodies are turned at random already";
       return std::nullopt;
     case Kind::scale:
     case Kind::unit:

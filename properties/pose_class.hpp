@@ -41,7 +41,7 @@ const std::vector<PoseClass>& old_classes(Pair pair);
 
 /// A covering array: every sensible combination of `strength` (2 or 3) of an arrangement and
 /// modifiers occurs in at least one class. It begins with the old classes, then has every
-/// arrangement alone and, where it makes sense, turned; "recorded" is the last.
+/// arrangement alone and, where it makes sense, aligned and turned; "recorded" is the last.
 const std::vector<PoseClass>& covering_classes(Pair pair, int strength);
 
 }  // namespace touchstone

@@ -76,7 +76,7 @@ std::vector<RecordedShare> recorded_shares() {
 std::optional<Arrangement> recorded_arrangement(Pair pair) {
   if (recorded(pair).empty()) return std::nullopt;
   const auto generate = [&all = recorded(pair), total = total_weight(recorded(pair))](
-                            Draw& draw, Clearance, Proportions) {
+                            Draw& draw, const Modifiers&) {
     auto left = static_cast<std::uint64_t>(draw.integer(0, static_cast<std::int64_t>(total) - 1));
     for (const Recorded& r : all) {
       if (left < r.weight) return r.configuration;

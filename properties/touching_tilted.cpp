@@ -152,10 +152,9 @@ Sizes draw_divisible_sizes(Draw& draw, const Lattice& lattice, Proportions propo
 }  // namespace
 
 Arrangement touching_tilted(Pair pair) {
-  const auto generate = [pair, ways = ways_of(pair)](Draw& draw, Clearance,
-                                                     Proportions proportions) {
-    const Lattice lattice(draw);
-    const Sizes sizes = draw_divisible_sizes(draw, lattice, proportions);
+  const auto generate = [pair, ways = ways_of(pair)](Draw& draw, const Modifiers& modifiers) {
+    const Lattice lattice(draw, modifiers.frame());
+    const Sizes sizes = draw_divisible_sizes(draw, lattice, modifiers.proportions());
     const auto choice = draw.integer(0, static_cast<Steps>(ways.size()) - 1);
     const Meeting m = ways[static_cast<std::size_t>(choice)](draw, sizes);
     const Point a = turned(m.turn_a, m.on_a), b = turned(m.turn_b, m.on_b);

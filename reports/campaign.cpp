@@ -18,8 +18,11 @@ std::vector<Cell> cells(const Campaign& campaign) {
 }
 
 std::uint64_t count_of(const Campaign& campaign, const Cell& cell) {
-  const bool everyday = group_of(cell.pair, cell.pose_class) == Group::everyday;
-  return campaign.count * (everyday ? campaign.everyday_times : 1);
+  const Group group = group_of(cell.pair, cell.pose_class);
+  const bool everyday = group == Group::everyday || group == Group::recorded;
+  const auto modifiers = parts_of(cell.pair, cell.pose_class).modifiers;
+  const bool aligned = modifiers == std::vector<std::string>{"aligned"};
+  return campaign.count * (everyday || aligned ? campaign.everyday_times : 1);
 }
 
 void score_configurations(std::span<const Configuration> configurations,

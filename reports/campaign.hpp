@@ -20,8 +20,10 @@ struct Campaign {
   std::vector<Group> groups;         ///< empty: all
   Coverage coverage = Coverage::pairs;
   std::vector<const Candidate*> candidates;
-  std::uint64_t count = 100;         ///< configurations of each pair × class
-  std::uint64_t everyday_times = 1;  ///< as many of a class of the everyday group
+  std::uint64_t count = 100;  ///< configurations of each pair × class
+  /// As many of a class of the everyday and recorded groups and of arrangements along the world's
+  /// own axes, to which their turned ones are compared.
+  std::uint64_t everyday_times = 1;
   std::uint64_t seed = 1;
   unsigned workers = 1;
   Bar bar;
