@@ -26,6 +26,11 @@ struct Arrangement {
   bool across = false;        ///< B's axis lies along A's x, at a right angle to A's
   bool is_symmetric = false;  ///< centres or axes coincide
   bool touches = false;       ///< whatever clearance is asked for
+
+  /// Whether nothing in it is rounded.
+  bool is_exact() const {
+    return orientations == Orientations::exact || orientations == Orientations::pitched;
+  }
 };
 
 /// All arrangements of a pair in report order; one that is used only when named comes last.

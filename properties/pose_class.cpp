@@ -79,9 +79,7 @@ std::vector<PoseClass> make_old_classes(Pair pair) {
   });
   add("general+touching");
   add_if([&](const Arrangement& a) { return made_of_features(a) && a.is_symmetric; });
-  add_if([&](const Arrangement& a) {
-    return a.orientations == Orientations::exact || a.orientations == Orientations::pitched;
-  });
+  add_if([](const Arrangement& a) { return a.is_exact(); });
   for (const Arrangement& a : all) {
     if (!is_aligned(a)) continue;
     for (const Modifier& m : all_modifiers()) {
@@ -170,8 +168,7 @@ Group PoseClass::group() const {
       modifiers[Kind::distance] != 0) {
     return Group::extreme;
   }
-  const bool exact =
-      (o == Orientations::exact || o == Orientations::pitched) && modifiers[Kind::turn] == 0;
+  const bool exact = arrangement->is_exact() && modifiers[Kind::turn] == 0;
   if (exact || arrangement->is_symmetric || arrangement->touches ||
       clearance == Clearance::touching || modifiers[Kind::tilt] != 0) {
     return Group::degenerate;
@@ -182,10 +179,7 @@ Group PoseClass::group() const {
 Configuration PoseClass::generate(Draw& draw) const {
   const Configuration made =
       arrangement->generate(draw, modifiers.clearance(), modifiers.proportions());
-  return modified(draw, made, modifiers,
-                  {arrangement->orientations == Orientations::exact ||
-                       arrangement->orientations == Orientations::pitched,
-                   arrangement->across});
+  return modified(draw, made, modifiers, {arrangement->is_exact(), arrangement->across});
 }
 
 std::optional<std::string_view> nonsense(Pair pair, const Arrangement& a, const Modifier& m) {

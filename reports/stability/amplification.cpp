@@ -148,8 +148,8 @@ class Collector {
 std::vector<Cell> degenerate_cells(const std::vector<Pair>& pairs) {
   std::vector<Cell> cells;
   for (const Pair pair : pairs) {
-    for (const auto& classes : {lattice_classes(pair), touching_tilted_class(pair)}) {
-      for (const PoseClass& c : classes) cells.push_back({pair, c.name});
+    for (const Arrangement& a : arrangements(pair)) {
+      if (a.is_exact()) cells.push_back({pair, a.name});
     }
   }
   return cells;
