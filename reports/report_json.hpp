@@ -9,7 +9,7 @@ namespace touchstone {
 // The format of report.json (docs/report-schema.md). What was not measured is null.
 
 /// Version of the format: member "schema".
-inline constexpr int report_schema = 1;
+inline constexpr int report_schema = 2;
 
 nlohmann::json to_json(const Report& report);
 
@@ -23,5 +23,7 @@ nlohmann::json to_json(const ResultRow& row);
 /// answers.
 nlohmann::json to_json(const Examination& examination);
 nlohmann::json to_json(const WorstCase& worst);
+nlohmann::json to_json(const Factor& factor);
+nlohmann::json to_json(const Contrast& contrast);
 
 }  // namespace touchstone

@@ -24,7 +24,7 @@ json plan(std::uint64_t seed = 1) {
           {"tolerance", 1e-4},
           {"threshold", 0},
           {"classes",
-           {{{"pair", "cylinder-sphere"}, {"class", "general-deep"}},
+           {{{"pair", "cylinder-sphere"}, {"class", "general-shallow"}},
             {{"pair", "cylinder-box"}, {"class", "rim-face"}}}},
           {"candidates", {{{"name", "one"}}, {{"name", "two"}}}}};
 }
@@ -71,7 +71,7 @@ TEST(Merge, RefusesWhatOverlapsWhatIsMissingAndWhatIsForeign) {
         merged({part(0, 3), part(2, 4)});
       },
       ThrowsMessage<InvalidInput>(
-          HasSubstr("cylinder-sphere/general-deep, configurations 512 to 999")));
+          HasSubstr("cylinder-sphere/general-shallow, configurations 512 to 999")));
   EXPECT_THAT(
       [] {
         merged({part(0, 1), part(2, 4)});

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <fmt/format.h>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -18,11 +19,12 @@ using std::filesystem::path;
 namespace {
 
 /// Cumulative distribution of the depth error, a line for each candidate.
-std::string error_figure(const Report& report, const std::string& pair, const path& folder) {
+std::string error_figure(const Report& report, const std::string& group, const std::string& pair,
+                         const path& folder) {
   std::string data = "candidate,depth_error,share_at_most\n", plot, points;
   for (const ResultRow& row : report.summary) {
     const Statistics& s = row.statistics;
-    if (row.pair != pair || !s.depth_histogram) continue;
+    if (row.pair != pair || row.pose_class != group || !s.depth_histogram) continue;
     const LogHistogram& histogram = *s.depth_histogram;
     // Contacts that were not reported are below no error.
     auto sum = static_cast<double>(histogram.zero), owed = sum;
@@ -47,20 +49,26 @@ std::string error_figure(const Report& report, const std::string& pair, const pa
     points += "e\n";
   }
   if (plot.empty()) return "";
-  write_file(folder / ("errors-" + pair + ".csv"), data, "--figures");
+  const std::string name = figure_name("errors-" + pair, group);
+  write_file(folder / (name + ".csv"), data, "--figures");
   return in_both_forms(
-      "errors-" + pair, 900, 520,
+      name, 900, 520,
       fmt::format("set title {}\nset logscale x\nset xtics 1e4 format '%.0e'\nunset mxtics\n"
                   "set yrange [0:1]\nset grid linecolor '#d9dee5'\nset border 3\n"
                   "set tics nomirror\nset xlabel 'depth error (sizes)'\n"
                   "set ylabel 'share of contacts with at most this error'\n"
                   "set key outside right top maxcols 1 font ',9'\n",
-                  quoted(pair)) +
+                  quoted(figure_title(pair, group))) +
           plot + '\n' + points);
 }
 
 /// Share that disagrees, by pose class and candidate.
-std::string class_figure(const Report& report, const std::string& pair, const path& folder) {
+std::string class_figure(const Report& report, const std::string& group, const std::string& pair,
+                         const path& folder) {
+  std::set<std::string> of_group;
+  for (const PoseClassDescription& c : report.classes) {
+    if (c.pair == pair && c.group == group) of_group.insert(c.pose_class);
+  }
   std::vector<std::string> classes, candidates;
   std::string data = "class,candidate,share_that_disagrees\n", cells;
   const auto place = [](std::vector<std::string>& names, const std::string& name) {
@@ -71,14 +79,16 @@ std::string class_figure(const Report& report, const std::string& pair, const pa
   };
   for (const ResultRow& row : report.results) {
     const Statistics& s = row.statistics;
-    if (row.pair != pair || s.of(Outcome::unsupported) == s.count) continue;
+    if (row.pair != pair || !of_group.contains(row.pose_class)) continue;
+    if (s.of(Outcome::unsupported) == s.count) continue;
     const double share = 1 - agreement(s);
     data += fmt::format("{},{},{:.6g}\n", row.pose_class, csv_cell(row.candidate), share);
     const auto y = place(classes, row.pose_class), x = place(candidates, row.candidate);
     cells += fmt::format("{} {} {:.6g}\n", x, y, share);
   }
   if (cells.empty()) return "";
-  write_file(folder / ("classes-" + pair + ".csv"), data, "--figures");
+  const std::string name = figure_name("classes-" + pair, group);
+  write_file(folder / (name + ".csv"), data, "--figures");
   const auto tics = [](const std::vector<std::string>& names) {
     std::string text;
     for (std::size_t i = 0; i < names.size(); ++i) {
@@ -88,15 +98,16 @@ std::string class_figure(const Report& report, const std::string& pair, const pa
   };
   const int width = 320 + 26 * static_cast<int>(candidates.size());
   const int height = 200 + 15 * static_cast<int>(classes.size());
-  return in_both_forms("classes-" + pair, width, height,
-                       fmt::format("set title {}\nset palette defined (0 '#ffffff', 1 '#b3321f')\n"
-                                   "set cbrange [0:1]\nset cblabel 'share that disagrees'\n"
-                                   "set xrange [-0.5:{}]\nset yrange [{}:-0.5]\nset tics scale 0\n"
-                                   "set xtics rotate by 90 right ({})\nset ytics ({})\n"
-                                   "plot '-' using 1:2:3 with image pixels notitle\n{}e\n",
-                                   quoted(pair), static_cast<double>(candidates.size()) - 0.5,
-                                   static_cast<double>(classes.size()) - 0.5, tics(candidates),
-                                   tics(classes), cells));
+  return in_both_forms(
+      name, width, height,
+      fmt::format("set title {}\nset palette defined (0 '#ffffff', 1 '#b3321f')\n"
+                  "set cbrange [0:1]\nset cblabel 'share that disagrees'\n"
+                  "set xrange [-0.5:{}]\nset yrange [{}:-0.5]\nset tics scale 0\n"
+                  "set xtics rotate by 90 right ({})\nset ytics ({})\n"
+                  "plot '-' using 1:2:3 with image pixels notitle\n{}e\n",
+                  quoted(figure_title(pair, group)), static_cast<double>(candidates.size()) - 0.5,
+                  static_cast<double>(classes.size()) - 0.5, tics(candidates), tics(classes),
+                  cells));
 }
 
 }  // namespace
@@ -111,13 +122,18 @@ void check_figures(const path& folder) {
 
 void write_figures(const Report& report, const path& folder) {
   check_figures(folder);
-  std::vector<std::string> pairs;
-  for (const ResultRow& row : report.summary) {
-    if (pairs.empty() || pairs.back() != row.pair) pairs.push_back(row.pair);
-  }
-  std::string script = speed_figures(report, pairs, folder);
-  for (const auto& pair : pairs) {
-    script += error_figure(report, pair, folder) + class_figure(report, pair, folder);
+  std::string script;
+  for (const Group group : all_groups) {
+    const std::string name = group_name(group);
+    std::vector<std::string> pairs;
+    for (const ResultRow& row : report.summary) {
+      if (row.pose_class != name) continue;
+      if (pairs.empty() || pairs.back() != row.pair) pairs.push_back(row.pair);
+    }
+    script += speed_figures(report, name, pairs, folder);
+    for (const auto& pair : pairs) {
+      script += error_figure(report, name, pair, folder) + class_figure(report, name, pair, folder);
+    }
   }
   run_gnuplot(script, folder);
 }

@@ -82,6 +82,14 @@ std::string in_both_forms(const std::string& name, int width, int height,
       quoted(name + ".png"));
 }
 
+std::string figure_name(const std::string& name, const std::string& group) {
+  return group == group_name(Group::everyday) ? name : name + '-' + group;
+}
+
+std::string figure_title(const std::string& pair, const std::string& group) {
+  return fmt::format("{}, {} poses", pair == "all" ? "all pairs" : pair, group);
+}
+
 double agreement(const Statistics& s) {
   return static_cast<double>(s.of(Outcome::agree)) /
          static_cast<double>(s.count - s.of(Outcome::unsupported));

@@ -23,6 +23,12 @@ std::string csv_cell(const std::string& text);
 std::string in_both_forms(const std::string& name, int width, int height,
                           const std::string& commands);
 
+/// "errors-cylinder-box", and of another group of pose classes than everyday
+/// "errors-cylinder-box-extreme".
+std::string figure_name(const std::string& name, const std::string& group);
+/// "cylinder-box, everyday poses".
+std::string figure_title(const std::string& pair, const std::string& group);
+
 /// Runs a script within `folder`. Throws std::runtime_error with gnuplot's words if it fails; the
 /// script is then left there.
 void run_gnuplot(const std::string& script, const std::filesystem::path& folder);
@@ -30,9 +36,10 @@ void run_gnuplot(const std::string& script, const std::filesystem::path& folder)
 /// Share of the configurations with a routine on which the candidate agrees.
 double agreement(const Statistics& statistics);
 
-/// The charts of speed and accuracy, together and of each pair (figures.hpp). Writes their data as
-/// CSV and returns their commands, none where there is nothing to show.
-std::string speed_figures(const Report& report, const std::vector<std::string>& pairs,
+/// The charts of speed and accuracy in one group, together and of each pair (figures.hpp). Writes
+/// their data as CSV and returns their commands, none where there is nothing to show.
+std::string speed_figures(const Report& report, const std::string& group,
+                          const std::vector<std::string>& pairs,
                           const std::filesystem::path& folder);
 
 /// A mark of a chart that wants a label beside it. Lengths are in characters: one across, one line

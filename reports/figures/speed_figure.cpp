@@ -16,12 +16,13 @@ struct Point {
 };
 
 /// Timed candidates with contacts.
-std::vector<Point> points_of(const Report& report, const std::string& pair) {
+std::vector<Point> points_of(const Report& report, const std::string& group,
+                             const std::string& pair) {
   constexpr double min_error = 1e-17;  // a logarithmic axis has no zero
   std::vector<Point> result;
   for (const ResultRow& row : report.summary) {
     const Statistics& s = row.statistics;
-    if (row.pair != pair || !row.time || !s.depth_error) continue;
+    if (row.pair != pair || row.pose_class != group || !row.time || !s.depth_error) continue;
     result.push_back({row.candidate, row.time->nanoseconds.median,
                       std::max(s.depth_error->p99, min_error), agreement(s),
                       row.pareto.value_or(false)});
@@ -39,7 +40,7 @@ Range decades(const std::vector<double>& values) {
 }
 
 /// The panel's commands; `width` and `height` are of its axes, in characters of its labels.
-std::string speed_panel(const std::string& pair, const std::vector<Point>& points, const Range& x,
+std::string speed_panel(const std::string& title, const std::vector<Point>& points, const Range& x,
                         const Range& y, double width, double height) {
   std::string text = fmt::format(
       "set title {} noenhanced\nset logscale xy\nset xrange [0.999e{}:1.001e{}]\nset yrange "
@@ -49,8 +50,7 @@ std::string speed_panel(const std::string& pair, const std::vector<Point>& point
       "set ytics 1e{} format '%.0e'\nset xlabel 'time per query'\n"
       "set ylabel 'depth error, p99 (sizes)'\nset key off\nunset label\nunset mxtics\nunset "
       "mytics\n",
-      quoted(pair == "all" ? "all pairs" : pair), x.low, x.high, y.low, y.high,
-      std::max(1.0, std::ceil((y.high - y.low) / 6)));
+      quoted(title), x.low, x.high, y.low, y.high, std::max(1.0, std::ceil((y.high - y.low) / 6)));
   std::vector<Label> labels;
   for (const Point& p : points) {
     labels.push_back({(std::log10(p.time) - x.low) / (x.high - x.low) * width,
@@ -99,13 +99,14 @@ std::string key_panel(const std::vector<std::string>& candidates, double share) 
 
 }  // namespace
 
-std::string speed_figures(const Report& report, const std::vector<std::string>& pairs,
+std::string speed_figures(const Report& report, const std::string& group,
+                          const std::vector<std::string>& pairs,
                           const std::filesystem::path& folder) {
   std::vector<double> times, errors;
   std::vector<std::string> drawn;
   std::string all_data = "pair,candidate,nanoseconds,depth_error_p99,agreement,on_front\n";
   for (const auto& pair : pairs) {
-    const auto points = points_of(report, pair);
+    const auto points = points_of(report, group, pair);
     if (!points.empty()) drawn.push_back(pair);
     for (const Point& p : points) {
       times.push_back(p.time);
@@ -115,7 +116,7 @@ std::string speed_figures(const Report& report, const std::vector<std::string>& 
     }
   }
   if (drawn.empty()) return "";
-  write_file(folder / "speed-accuracy.csv", all_data, "--figures");
+  write_file(folder / (figure_name("speed-accuracy", group) + ".csv"), all_data, "--figures");
   const Range x = decades(times);
   Range y = decades(errors);
   y.low -= 1;  // room for labels above the axis
@@ -129,22 +130,23 @@ std::string speed_figures(const Report& report, const std::vector<std::string>& 
   for (const CandidateDescription& c : report.candidates) candidates.push_back(c.name);
   int panel = 0;
   for (const auto& pair : drawn) {
-    const auto points = points_of(report, pair);
-    script +=
-        in_both_forms("speed-accuracy-" + pair, 640, 440, speed_panel(pair, points, x, y, 64, 18));
+    const std::string title = figure_title(pair, group);
+    const std::string name = figure_name("speed-accuracy-" + pair, group);
+    const auto points = points_of(report, group, pair);
+    script += in_both_forms(name, 640, 440, speed_panel(title, points, x, y, 64, 18));
     panels += fmt::format("set size {},{}\nset origin {},{}\n", 1.0 / columns, (1 - share) / rows,
                           1.0 / columns * (panel % columns),
                           1 - (1 - share) / rows * (panel / columns + 1)) +
-              speed_panel(pair, points, x, y, 50, 13);
+              speed_panel(title, points, x, y, 50, 13);
     ++panel;
     std::string data = "candidate,nanoseconds,depth_error_p99,agreement,on_front\n";
     for (const Point& p : points) {
       data += fmt::format("{},{},{},{},{}\n", csv_cell(p.candidate), p.time, p.error, p.agreement,
                           p.front ? 1 : 0);
     }
-    write_file(folder / ("speed-accuracy-" + pair + ".csv"), data, "--figures");
+    write_file(folder / (name + ".csv"), data, "--figures");
   }
-  return script + in_both_forms("speed-accuracy", 1080, 340 * rows + key_height,
+  return script + in_both_forms(figure_name("speed-accuracy", group), 1080, 340 * rows + key_height,
                                 "set multiplot\n" + panels + key_panel(candidates, share) +
                                     "unset multiplot\n");
 }

@@ -15,7 +15,13 @@ function unpackReport(packed) {
 const candidates = report.candidates.map(c => c.name);
 showUsual(candidates);
 const pairs = [...new Set(report.results.map(r => r.pair))];
-const summaryOf = (pair, candidate) => report.summary.find(r => r.pair === pair && r.candidate === candidate);
+// What is shown is of the group of pose classes that is chosen at the top of the page.
+const classGroup = new Map(report.classes.map(c => [`${c.pair}/${c.class}`, c.group]));
+groupControl(byId('groups'), [...new Set(report.summary.map(r => r.class))]);
+const inGroup = r => classGroup.get(`${r.pair}/${r.class}`) === group;
+const summary = () => report.summary.filter(r => r.class === group);
+const summaryOf = (pair, candidate) => summary().find(r => r.pair === pair && r.candidate === candidate);
+const classesOf = pair => report.classes.filter(c => c.pair === pair && c.group === group);
 // "box" for "cylinder-box".
 const otherShape = pair => pair.replace('cylinder-', '');
 
@@ -25,7 +31,8 @@ const time = r => r.nanoseconds === null ? null : r.nanoseconds.median;
 // The number of configurations that a candidate has a routine for.
 const supported = r => r.count - (r.outcomes.unsupported || 0);
 const agreeing = r => (r.outcomes.agree || 0) / supported(r);
-const lost = r => ['not-finite', 'failed', 'crashed', 'timed-out'].reduce((sum, o) => sum + (r.outcomes[o] || 0), 0);
+const withoutAnswer = ['not-finite', 'failed', 'crashed', 'timed-out'];
+const lost = r => withoutAnswer.reduce((sum, o) => sum + (r.outcomes[o] || 0), 0);
 const vector = v => v === null ? '–' : `(${v.map(c => c === null ? 'nan' : c.toPrecision(6)).join(', ')})`;
 const outcomesText = r => Object.entries(r.outcomes).map(([name, n]) => `${name} ${n}`).join(', ');
 
@@ -34,6 +41,12 @@ function choices(id, values, change, selected) {
   byId(id).append(...options(values));
   if (selected !== undefined) byId(id).value = selected;
   byId(id).addEventListener('change', change);
+}
+// Fills it with other values; the chosen one stays where it can.
+function chooseAmong(id, values) {
+  const chosen = byId(id).value;
+  byId(id).replaceChildren(...options(values));
+  if (values.includes(chosen)) byId(id).value = chosen;
 }
 // The level of a heated cell: pale at 1e-10 and below, full at 1 and above.
 const decade = v => v <= 0 ? 0 : (Math.log10(v) + 10) / 10;
@@ -45,21 +58,25 @@ function findings() {
     byId('partial').textContent = `Partial: interrupted when ${report.completed.classes} of ` +
         `${report.planned.classes} pose classes were scored and ${report.completed.timed_classes} timed.`;
   }
-  const all = report.summary.filter(r => r.pair === 'all'), rows = (all.length ? all : report.summary).filter(supported);
+  const rows = report.summary.filter(supported);
   byId('headline').textContent = `${whole(report.configurations)} configurations of ${pairs.length} ` +
       `${pairs.length === 1 ? 'pair' : 'pairs'} of shapes, ${new Set(rows.map(r => r.candidate)).size} contact routines, ` +
       `each answer held against a truth certified to 1e-30 of the larger size.`;
   byId('provenance').append(`Touchstone ${report.version}, seed ${report.seed}, ${report.machine.cpu}.`);
-  byId('finding-accuracy').append(...pairs.map(pair => element('li', {}, ...accuracyOf(pair))));
-  byId('finding-cost').append(...pairs.map(pair => element('li', {}, ...costOf(pair))));
   choices('finding-candidate', candidates, failuresOf, candidates.find(c => c !== 'reference'));
-  failuresOf();
+  keepGrouped(() => {
+    const here = pairs.filter(pair => summary().some(r => r.pair === pair));
+    byId('finding-accuracy').replaceChildren(...here.map(pair => element('li', {}, ...accuracyOf(pair))));
+    byId('finding-cost').replaceChildren(...here.map(pair => element('li', {}, ...costOf(pair))));
+    failuresOf();
+  });
+  contrastsFound();
 }
 
 // Candidates by agreement, then by worst error.
 function ranked(pair) {
   const worst = r => r.severity === null ? Infinity : r.severity.max;
-  return report.summary.filter(r => r.pair === pair && supported(r))
+  return summary().filter(r => r.pair === pair && supported(r))
       .sort((a, b) => agreeing(b) - agreeing(a) || worst(a) - worst(b));
 }
 const brief = r => `agrees on ${percent(agreeing(r))}, worst error ${exponent(quantile(r.severity, 'max'))}`;
@@ -90,18 +107,35 @@ function costOf(pair) {
 
 function failuresOf() {
   const candidate = byId('finding-candidate').value;
-  const failing = report.results.filter(r => r.candidate === candidate && supported(r) && agreeing(r) < 1)
+  const failing = report.results.filter(r => r.candidate === candidate && inGroup(r) && supported(r) && agreeing(r) < 1)
       .sort((a, b) => agreeing(a) - agreeing(b) || quantile(b.severity, 'max') - quantile(a.severity, 'max'));
-  const classes = pair => report.classes.filter(c => c.pair === pair).length;
   byId('finding-failures').replaceChildren(...(failing.length === 0
-      ? [element('li', {}, `${candidate} agrees with the truth on every configuration that it has a routine for.`)]
+      ? [element('li', {}, `${candidate} agrees with the truth on every ${group} configuration that it has a routine for.`)]
       : pairs.map(pair => {
         const here = failing.filter(r => r.pair === pair);
         if (here.length === 0) return null;
         const main = r => Object.entries(r.outcomes).filter(([o]) => o !== 'agree').sort((a, b) => b[1] - a[1])[0][0];
-        return element('li', {}, element('b', {}, dashed(pair)), `: disagrees in ${here.length} of ${classes(pair)} pose classes, most in `,
+        return element('li', {}, element('b', {}, dashed(pair)), `: disagrees in ${here.length} of ${classesOf(pair).length} ${group} pose classes, most in `,
             ...here.slice(0, 3).flatMap((r, i) => [i ? ', ' : '', `${r.class} (${percent(1 - agreeing(r))}, ${main(r)})`]),
             '. ', link('See its worst cases', () => showWorst(pair, candidate)));
       }).filter(Boolean)));
+}
+
+// What candidates pass as it is and fail with one modifier (factors.hpp).
+const agreed = rate => 1 - rate.failed / rate.count;
+const wholePercent = share => `${Math.floor(100 * share + 1e-9)}%`;
+const replayOf = (id, candidate) => `./touchstone replay ${id} --candidates ${candidate}`;
+function contrastsFound() {
+  const shownOfEach = 3, drop = c => agreed(c.plain) - agreed(c.modified);
+  const items = candidates.flatMap(name => {
+    const failing = report.contrasts.filter(c => c.candidate === name && c.fails).sort((a, b) => drop(b) - drop(a));
+    if (failing.length === 0) return [];
+    return [element('li', {}, named(name), failing.length > shownOfEach ? ` (the worst ${shownOfEach} of ${failing.length})` : '',
+        element('ul', {}, ...failing.slice(0, shownOfEach).map(c => element('li', {},
+            `${dashed(c.pair)}, ${c.arrangement}: agrees in ${wholePercent(agreed(c.plain))}, ${c.modifier} in ${wholePercent(agreed(c.modified))}. `,
+            element('code', {}, replayOf(c.worst, name))))))];
+  });
+  byId('finding-contrasts-part').hidden = items.length === 0;
+  byId('finding-contrasts').append(...items);
 }
 findings();
