@@ -115,13 +115,13 @@ TEST(Report, ARowsWorstIndexLeadsToItsWorstFailure) {
 TEST(Report, TheTablesWorstFailureIsTheOneWithoutAnAnswer) {
   Report report;
   report.candidates = {{"mine", "mine", "1", "", ""}};
+  const Configuration any = make_configuration({Pair::plane, "lying", 1, 0});
   const auto add = [&](const char* group, Outcome outcome, double severity, const char* replay) {
-    WorstCase& w = report.worst.emplace_back();
-    w.candidate = "mine";
-    w.group = group;
-    w.score.outcome = outcome;
-    w.score.severity = severity;
-    w.examination.replay = replay;
+    Score score;
+    score.outcome = outcome;
+    score.severity = severity;
+    report.worst.push_back(
+        {"cylinder-plane", group, "lying", "mine", score, {"", any, std::nullopt, {}, replay}});
   };
   add("everyday", Outcome::shallow, 5, "first");
   add("everyday", Outcome::crashed, 0, "second");
@@ -331,7 +331,7 @@ TEST(Report, RefusesAnUnknownClassBeforeAnyWork) {
   Campaign c = small_campaign();
   c.classes = {"rim-rimm"};
   EXPECT_THAT([&] { cells(c); }, testing::ThrowsMessage<InvalidInput>(testing::AllOf(
-                                     HasSubstr("rim-rimm"), HasSubstr("general-deep"))));
+                                     HasSubstr("rim-rimm"), HasSubstr("rim-rim, "))));
 }
 
 TEST(Report, RefusesAFolderThatIsAFile) {

@@ -201,6 +201,32 @@ class Report(PageTest):
         self.find("#trend-legend .toggle[aria-pressed=true]").click()
         self.assertEqual(len(self.all("#trend-chart .mark-line path")), lines - 1)
 
+    def test_the_group_of_poses_changes_every_table_and_chart(self):
+        places = ("#finding-accuracy", "#worst-error-table", "#chart-panels", "#summary-table",
+                  "#distribution-cumulative", "#trend-chart", "#class-table", "#outcome-bars",
+                  "#worst-cases")
+        def shown():
+            time.sleep(0.3)  # charts are drawn when they are ready
+            return [self.find(place).get_attribute("innerHTML") for place in places]
+        before = shown()
+        self.find("#groups button[value=extreme]").click()
+        for place, was, now in zip(places, before, shown()):
+            self.assertNotEqual(was, now, place)
+        self.assertEqual(len(self.all("#chart-panels svg")), 6)
+        self.assertIn("extreme poses", self.find("#summary-table caption").text)
+        self.find("#groups button[value=everyday]").click()
+        self.assertEqual(self.find("#summary-table").get_attribute("innerHTML"), before[3])
+
+    def test_an_arrangement_alone_stands_beside_itself_turned(self):
+        self.choose("#contrast-pair", "cylinder-cylinder")
+        row = next(r for r in self.all("#contrast-table tbody tr") if r.text.startswith("perpendicular-t"))
+        self.assertIn("100 → 100", row.text)  # the reference
+        self.choose("#contrast-modifier", "tilted")
+        failing = next(c for c in self.all("#contrast-table td.heat")
+                       if not c.text.endswith("→ 100"))
+        failing.click()
+        self.assertIn("./touchstone replay cylinder-cylinder/", self.find("#contrast-command code").text)
+
     def test_a_worst_case_is_drawn_and_turns(self):
         canvas = self.find("#worst-cases canvas")
         self.driver.execute_script("arguments[0].scrollIntoView({block: 'center'})", canvas)

@@ -109,7 +109,7 @@ function keepGrouped(draw) {
 function groupControl(host, groups) {
   group = groups[0] ?? null;
   host.hidden = group === null;
-  const meaning = element('span', {class: 'quiet'});
+  const meaning = element('span', {class: 'quiet wide'});
   const buttons = groups.map(g => element('button', {type: 'button', value: g}, g));
   const choose = chosen => {
     group = chosen;

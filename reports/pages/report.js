@@ -8,8 +8,20 @@ function unpackReport(packed) {
     if (schema === null || cell === null) return cell;
     return Object.fromEntries(Object.keys(schema).map((key, i) => [key, unpack(cell[i], schema[key])]));
   };
-  return Object.fromEntries(Object.entries(packed).map(([key, value]) =>
+  const whole = Object.fromEntries(Object.entries(packed).map(([key, value]) =>
       [key, value !== null && value.rows ? value.rows.map(row => unpack(row, value.schema)) : value]));
+  for (const trend of whole.trends) {
+    trend.bins = trend.bins.map(([decade, count, missed, median, max]) => ({decade, count, missed, median, max}));
+  }
+  const only = (value, name) => value === null ? null : {[name]: value};
+  for (const r of whole.results) {
+    const {outcomes} = r;
+    r.outcomes = {};
+    for (let i = 0; i < outcomes.length; i += 2) r.outcomes[whole.outcomes[outcomes[i]]] = outcomes[i + 1];
+    for (const [member, name] of [['severity', 'max'], ['depth_error', 'p99'], ['normal_regret', 'p99'], ['coverage', 'mean'],
+                                  ['nanoseconds', 'median']]) r[member] = only(r[member], name);
+  }
+  return whole;
 }
 
 const candidates = report.candidates.map(c => c.name);
@@ -41,12 +53,6 @@ function choices(id, values, change, selected) {
   byId(id).append(...options(values));
   if (selected !== undefined) byId(id).value = selected;
   byId(id).addEventListener('change', change);
-}
-// Fills it with other values; the chosen one stays where it can.
-function chooseAmong(id, values) {
-  const chosen = byId(id).value;
-  byId(id).replaceChildren(...options(values));
-  if (values.includes(chosen)) byId(id).value = chosen;
 }
 // The level of a heated cell: pale at 1e-10 and below, full at 1 and above.
 const decade = v => v <= 0 ? 0 : (Math.log10(v) + 10) / 10;

@@ -44,10 +44,7 @@ function speedChart(place, pair, rows, x, y) {
 keepGrouped(speedAccuracy);
 
 // The distribution of errors: cumulative for several candidates, a histogram for one.
-function distributionRow(candidate) {
-  const pair = byId('distribution-pair').value, poseClass = byId('distribution-class').value;
-  return poseClass === 'all' ? summaryOf(pair, candidate) : resultAt.get(`${pair}/${poseClass}/${candidate}`);
-}
+const distributionRow = candidate => summaryOf(byId('distribution-pair').value, candidate);
 // Bins of half a decade, [lower, upper, count]; errors of zero are in a bin below all others.
 function binsOf(q) {
   const h = q.histogram, bins = h.counts.map((n, i) => [10 ** ((h.first + i) / 2), 10 ** ((h.first + i + 1) / 2), n]);
@@ -92,17 +89,12 @@ function histogram(quantity) {
         update: {x: {scale: 'x', field: 'a'}, x2: {scale: 'x', field: 'b'}, y: {scale: 'y', field: 'y'}, y2: {scale: 'y', value: 0}, fillOpacity: {value: 0.85}},
         hover: {fillOpacity: {value: 1}}}}]});
 }
-function distributionClasses() {
-  const pair = byId('distribution-pair').value;
-  chooseAmong('distribution-class', ['all', ...classesOf(pair).map(c => c.class)]);
-}
-choices('distribution-pair', summaryPairs, () => { distributionClasses(); distribution(); });
-distributionClasses();
-for (const id of ['distribution-class', 'distribution-quantity']) byId(id).addEventListener('change', distribution);
+choices('distribution-pair', summaryPairs, distribution);
+byId('distribution-quantity').addEventListener('change', distribution);
 choices('distribution-candidate', candidates, distribution, candidates.find(c => c !== 'reference'));
 shownLegend(byId('distribution-legend'), candidates);
 keepDrawn(distribution);
-grouped.push(() => { distributionClasses(); distribution(); });
+grouped.push(distribution);
 
 // Error against the variables that it may depend on.
 const variables = {

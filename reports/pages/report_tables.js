@@ -121,9 +121,9 @@ function classCell(c, r, quantity) {
   const value = quantity.value(r), level = value === null ? 0 : quantity.level(value);
   const cell = element('td', {class: 'heat', tabindex: 0, style: heated(level)}, quantity.text(r));
   explain(cell, `${r.candidate}, ${dashed(r.pair)}, ${c.class}\n${c.description}\n${outcomesText(r)}\n` +
-      `depth error median ${exponent(quantile(r.depth_error, 'median'))}, worst ${exponent(quantile(r.depth_error, 'max'))}\n` +
-      `normal angle p99 ${r.normal_angle === null ? '–' : r.normal_angle.p99.toPrecision(2) + '°'}, ${whole(time(r))} ns\n` +
-      `patch covered: mean ${cutShare(quantile(r.coverage, 'mean'))}, min ${cutShare(quantile(r.coverage, 'min'))}`);
+      `worst error ${exponent(quantile(r.severity, 'max'))}, depth error p99 ${exponent(quantile(r.depth_error, 'p99'))}, regret p99 ` +
+      `${exponent(quantile(r.normal_regret, 'p99'))}\npatch covered: mean ${cutShare(quantile(r.coverage, 'mean'))}; ${whole(time(r))} ns` +
+      (r.worst_index === null ? '' : `\nworst: ${r.pair}/${r.class}/${report.seed}/${r.worst_index}`));
   whenPressed(cell, () => showWorst(r.pair, r.candidate));
   return cell;
 }
@@ -182,8 +182,8 @@ contrastTable();
 const thesisCases = [
   ['cylinder-plane', 'standing', 'standing on a plane', '3'],
   ['cylinder-plane', 'lying', 'lying on a plane', '2'],
-  ['cylinder-plane', 'general-shallow', 'tilted on a plane', '1'],
-  ['cylinder-sphere', 'general-shallow', 'a sphere anywhere', '1'],
+  ['cylinder-plane', 'general+shallow', 'tilted on a plane', '1'],
+  ['cylinder-sphere', 'general+shallow', 'a sphere anywhere', '1'],
   ['cylinder-capsule', 'parallel-side', 'a capsule alongside', '2'],
   ['cylinder-capsule', 'cap-on-side', 'a capsule across the cap', '2'],
   ['cylinder-capsule', 'perpendicular-x', 'a capsule crossed', '1'],
