@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <fmt/format.h>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
@@ -65,12 +67,6 @@ class Table {
     const auto row = rows_.find(c.description->pose_class);
     if (row == rows_.end()) return std::nullopt;
     return rate_of(row->second->statistics);
-  }
-  const ClassOfPair* find(const std::string& arrangement, const Modifiers& modifiers) const {
-    for (const ClassOfPair& c : classes_) {
-      if (c.description->arrangement == arrangement && c.modifiers == modifiers) return &c;
-    }
-    return nullptr;
   }
   /// The sum of the rates of the classes for which this holds.
   template <class Holds>
@@ -140,13 +136,22 @@ struct Comparison {
 FailureRate rate_without(const Table& table, const ClassOfPair& c, const std::string& modifier) {
   Modifiers rest = c.modifiers;
   rest.erase(modifier);
-  if (const ClassOfPair* equal = table.find(c.description->arrangement, rest)) {
-    if (const auto rate = table.rate(*equal)) return *rate;
-  }
-  return table.sum([&](const ClassOfPair& other) {
+  const auto difference = [&](const ClassOfPair& other) {
+    std::vector<std::string> only_in_one;
+    std::set_symmetric_difference(rest.begin(), rest.end(), other.modifiers.begin(),
+                                  other.modifiers.end(), std::back_inserter(only_in_one));
+    return only_in_one.size();
+  };
+  const auto is_without = [&](const ClassOfPair& other) {
     return other.description->arrangement == c.description->arrangement &&
            !other.modifiers.contains(modifier);
-  });
+  };
+  std::size_t least = SIZE_MAX;
+  for (const ClassOfPair& other : table.classes()) {
+    if (is_without(other) && table.rate(other)) least = std::min(least, difference(other));
+  }
+  return table.sum(
+      [&](const ClassOfPair& other) { return is_without(other) && difference(other) == least; });
 }
 
 FailureRate rate_of_others(const Table& table, const ClassOfPair& c) {

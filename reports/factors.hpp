@@ -15,11 +15,11 @@ double chance(const FailureRate& without, const FailureRate& with);
 /// and one modifier, where there is one that does beyond chance.
 ///
 /// Like is compared with like. A class with a modifier is compared with the class that is equal but
-/// for it; where that was not run, with all classes of its arrangement without the modifier. A
-/// class of an arrangement is compared with those of other arrangements that have the same
-/// modifiers, where a random orientation counts as turned; where there are none, it is left out.
-/// `without` is the mean rate of what the classes with it were compared with, weighted by their
-/// counts.
+/// for it; where that was not run, with those of its arrangement without the modifier whose other
+/// modifiers differ least, lest the modifier be blamed for what another one does. A class of an
+/// arrangement is compared with those of other arrangements that have the same modifiers, where a
+/// random orientation counts as turned; where there are none, it is left out. `without` is the mean
+/// rate of what the classes with it were compared with, weighted by their counts.
 std::vector<Factor> factors(const Report& report);
 
 /// Compares each arrangement's own class with the same one turned, and with that of its tilts on

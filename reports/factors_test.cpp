@@ -106,6 +106,18 @@ TEST(Factors, CompareAModifierWithWhatIsEqualButForIt) {
   EXPECT_EQ(found[0].worst, "cylinder-cylinder/general+needle/7/3");
 }
 
+TEST(Factors, CompareAModifierWithWhatIsNearestWhereNothingIsEqual) {
+  // Needles fail; that huge was never tried without them must not put the blame on it.
+  for (const Factor& f : factors(Rates()
+                                     .add("general", 100)
+                                     .add("general+needle", 50)
+                                     .add("general+needle+tiny", 50)
+                                     .add("general+needle+huge+far", 50)
+                                     .get())) {
+    EXPECT_EQ(f.name, "needle");
+  }
+}
+
 TEST(Factors, CompareAnArrangementWithOthersUnderTheSameModifiers) {
   // Everything tiny fails; of the arrangements only rim-rim does so of itself.
   const auto found = factors(Rates()

@@ -178,11 +178,11 @@ class Report(PageTest):
         box = next(li.text for li in self.all("#finding-accuracy li") if "cylinder–box" in li.text)
         self.assertIn("reference (agrees on 100%", box)
         self.assertRegex(self.find("#finding-cost").text, r"takes \d+ ns")
-        self.choose("#finding-candidate", "ode")
+        self.choose("#finding-candidate", "bullet")
         failures = self.find("#finding-failures")
         self.assertIn("pose classes, most in", failures.text)
         failures.find_element(By.CSS_SELECTOR, "li:last-child button").click()
-        self.assertEqual(self.find("#worst-candidate").get_attribute("value"), "ode")
+        self.assertEqual(self.find("#worst-candidate").get_attribute("value"), "bullet")
 
     def test_the_controls_change_what_is_shown(self):
         for control, value, place in (

@@ -26,7 +26,7 @@ function unpackReport(packed) {
 
 const candidates = report.candidates.map(c => c.name);
 showUsual(candidates);
-const pairs = [...new Set(report.results.map(r => r.pair))];
+const pairs = [...new Set(report.classes.map(c => c.pair))];
 // What is shown is of the group of pose classes that is chosen at the top of the page.
 const classGroup = new Map(report.classes.map(c => [`${c.pair}/${c.class}`, c.group]));
 groupControl(byId('groups'), [...new Set(report.summary.map(r => r.class))]);
