@@ -281,18 +281,22 @@ std::vector<const Contrast*> failing_contrasts(const Report& report) {
     for (const Contrast& c : report.contrasts) {
       if (c.candidate == candidate.name && c.fails) result.push_back(&c);
     }
-    std::stable_sort(
-        result.begin() + first, result.end(), [](const Contrast* a, const Contrast* b) {
-          return a->modified.share() - a->plain.share() > b->modified.share() - b->plain.share();
-        });
+    // Every moving body is turned, few are tilted by just so much.
+    const auto weight = [](const Contrast* c) {
+      return std::pair(c->modifier == turned, c->modified.share() - c->plain.share());
+    };
+    std::stable_sort(result.begin() + first, result.end(),
+                     [&](const Contrast* a, const Contrast* b) { return weight(a) > weight(b); });
   }
   return result;
 }
 
 std::string contrast_text(const Contrast& c) {
-  const auto agrees = [](const FailureRate& rate) { return std::floor(100 * (1 - rate.share())); };
-  return fmt::format("{}/{} agrees in {:.0f}%, {} in {:.0f}%", c.pair, c.arrangement,
-                     agrees(c.plain), c.modifier, agrees(c.modified));
+  const auto agrees = [](const FailureRate& rate) {
+    return 100 * (rate.count - rate.failed) / rate.count;
+  };
+  return fmt::format("{}/{} agrees in {}%, {} in {}%", c.pair, c.arrangement, agrees(c.plain),
+                     c.modifier, agrees(c.modified));
 }
 
 std::string contrast_command(const Contrast& c) {

@@ -89,6 +89,18 @@ TEST(Contrasts, TakeTheTiltThatIsWorst) {
       testing::ElementsAre("cylinder-cylinder/perpendicular-t agrees in 100%, tilted-1e-9 in 40%"));
 }
 
+TEST(Contrasts, PointOutTurnedOnesFirst) {
+  Report report = Rates()
+                      .add("perpendicular-t", 100)
+                      .add("perpendicular-t+turned", 50)
+                      .add("perpendicular-t+tilted-1e-9", 10)
+                      .get();
+  report.contrasts = contrasts(report);
+  std::vector<std::string> modifiers;
+  for (const Contrast* c : failing_contrasts(report)) modifiers.push_back(c->modifier);
+  EXPECT_THAT(modifiers, testing::ElementsAre("turned", "tilted-1e-9"));
+}
+
 TEST(Factors, CompareAModifierWithWhatIsEqualButForIt) {
   // Needles fail everywhere; tiny ones are not to be blamed for being tiny.
   const auto found = factors(Rates()

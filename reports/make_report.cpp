@@ -141,29 +141,32 @@ std::vector<WorstCase> worst_of(const Campaign& campaign, const std::vector<Cell
   return result;
 }
 
+SpeedAccuracy place_of(const ResultRow& row) {
+  /// Half an ulp of the size or less: no difference in accuracy.
+  constexpr double no_error = 1e-17;
+  const std::optional<Quantiles>& error = row.statistics.depth_error;
+  const Spread& time = row.time->nanoseconds;
+  return {time.low, time.high, std::max(error ? error->p99 : 0, no_error)};
+}
+
 /// Finds which rows under one heading are on the front of speed and accuracy, and whose
 /// times tie.
 void rank(std::span<ResultRow> rows) {
-  /// Half an ulp of the size or less: no difference in accuracy.
-  constexpr double no_error = 1e-17;
   std::vector<ResultRow*> placed;
   std::vector<SpeedAccuracy> places;
   for (ResultRow& row : rows) {
-    const std::optional<QueryTime>& time = row.time;
-    const std::optional<Quantiles>& error = row.statistics.depth_error;
-    if (!time || !error) continue;
+    if (!row.time) continue;
+    for (const ResultRow& other : rows) {
+      if (&other == &row || !other.time || !tied_in_time(place_of(row), place_of(other))) continue;
+      row.tied_with.push_back(other.candidate);
+    }
+    // Without a contact there is no error, and no place in the chart.
+    if (!row.statistics.depth_error) continue;
     placed.push_back(&row);
-    places.push_back(
-        {time->nanoseconds.low, time->nanoseconds.high, std::max(error->p99, no_error)});
+    places.push_back(place_of(row));
   }
   const std::vector<bool> front = pareto_front(places);
-  for (std::size_t i = 0; i < placed.size(); ++i) {
-    placed[i]->pareto = front[i];
-    for (std::size_t k = 0; k < placed.size(); ++k) {
-      if (k == i || !tied_in_time(places[i], places[k])) continue;
-      placed[i]->tied_with.push_back(placed[k]->candidate);
-    }
-  }
+  for (std::size_t i = 0; i < placed.size(); ++i) placed[i]->pareto = front[i];
 }
 
 }  // namespace

@@ -132,7 +132,7 @@ const agreed = rate => 1 - rate.failed / rate.count;
 const wholePercent = share => `${Math.floor(100 * share + 1e-9)}%`;
 const replayOf = (id, candidate) => `./touchstone replay ${id} --candidates ${candidate}`;
 function contrastsFound() {
-  const shownOfEach = 3, drop = c => agreed(c.plain) - agreed(c.modified);
+  const shownOfEach = 3, drop = c => (c.modifier === 'turned') + agreed(c.plain) - agreed(c.modified);
   const items = candidates.flatMap(name => {
     const failing = report.contrasts.filter(c => c.candidate === name && c.fails).sort((a, b) => drop(b) - drop(a));
     if (failing.length === 0) return [];
