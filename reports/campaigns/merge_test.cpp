@@ -65,6 +65,24 @@ TEST(Merge, DoesNotDependOnTheSplitNorOnTheOrder) {
   EXPECT_EQ(json::parse(whole)["summary"][4]["outcomes"]["shallow"], 400);
 }
 
+TEST(Merge, SumsUpByGroupsAlone) {
+  const json result = json::parse(merged({part(0, 4)}));
+  ASSERT_EQ(result["summary"].size(), 6u);
+  for (const json& row : result["summary"]) EXPECT_EQ(row["class"], "everyday");
+  EXPECT_EQ(result["classes"][1]["arrangement"], "rim-face");
+  for (const json& worst : result["worst"]) EXPECT_EQ(worst["group"], "everyday");
+}
+
+TEST(TallyJson, OfAFileWithoutSignsKnowsNoBias) {
+  const ShardState p = part(0, 1);
+  json tally = to_json(p.tallies[0]);
+  EXPECT_TRUE(tally_from_json(tally, 0).statistics().bias);
+  tally.erase("too_deep");
+  const Statistics s = tally_from_json(tally, 0).statistics();
+  EXPECT_FALSE(s.bias);
+  EXPECT_TRUE(s.depth_error);
+}
+
 TEST(Merge, RefusesWhatOverlapsWhatIsMissingAndWhatIsForeign) {
   EXPECT_THAT(
       [] {
