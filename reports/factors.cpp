@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 #include <iterator>
 #include <map>
-#include <optional>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -24,7 +23,8 @@ struct ClassOfPair {
   const PoseClassDescription* description;
   Modifiers modifiers;
   /// The modifiers, and "turned" where the arrangement's orientations are random anyway.
-  Modifiers conditions;
+  std::string conditions;
+  const ResultRow* row = nullptr;  ///< of the candidate in hand, if it has a routine
 };
 
 constexpr const char* turned = "turned";
@@ -51,11 +51,12 @@ class Table {
 
   void take(const std::string& candidate) {
     candidate_ = candidate;
-    rows_.clear();
+    std::map<std::string, const ResultRow*> rows;
     for (const ResultRow& row : report_.results) {
       if (row.pair != pair_ || row.candidate != candidate) continue;
-      if (rate_of(row.statistics).count > 0) rows_[row.pose_class] = &row;
+      if (rate_of(row.statistics).count > 0) rows[row.pose_class] = &row;
     }
+    for (ClassOfPair& c : classes_) c.row = rows[c.description->pose_class];
   }
 
   const std::string& pair() const { return pair_; }
@@ -63,17 +64,12 @@ class Table {
   /// All classes, those without a row, too.
   const std::vector<ClassOfPair>& classes() const { return classes_; }
 
-  std::optional<FailureRate> rate(const ClassOfPair& c) const {
-    const auto row = rows_.find(c.description->pose_class);
-    if (row == rows_.end()) return std::nullopt;
-    return rate_of(row->second->statistics);
-  }
   /// The sum of the rates of the classes for which this holds.
   template <class Holds>
   FailureRate sum(const Holds& holds) const {
     FailureRate result;
     for (const ClassOfPair& c : classes_) {
-      if (const auto of_class = rate(c); of_class && holds(c)) result = result + *of_class;
+      if (c.row && holds(c)) result = result + rate_of(c.row->statistics);
     }
     return result;
   }
@@ -81,10 +77,9 @@ class Table {
   std::string worst(const std::vector<const ClassOfPair*>& classes) const {
     const ResultRow* worst = nullptr;
     for (const ClassOfPair* c : classes) {
-      const auto row = rows_.find(c->description->pose_class);
-      if (row == rows_.end() || !row->second->worst_index) continue;
-      if (!worst || rate_of(worst->statistics).share() < rate_of(row->second->statistics).share()) {
-        worst = row->second;
+      if (!c->row || !c->row->worst_index) continue;
+      if (!worst || rate_of(worst->statistics).share() < rate_of(c->row->statistics).share()) {
+        worst = c->row;
       }
     }
     if (!worst) return "";
@@ -94,20 +89,20 @@ class Table {
  private:
   static ClassOfPair taken_apart(const PoseClassDescription& c) {
     ClassOfPair result{&c, {c.modifiers.begin(), c.modifiers.end()}, {}};
-    result.conditions = result.modifiers;
+    Modifiers conditions = result.modifiers;
     const auto orientations =
         find_pose_class(parse_pair(c.pair), c.pose_class).arrangement->orientations;
     if (orientations == Arrangement::Orientations::random ||
         orientations == Arrangement::Orientations::nearly) {
-      result.conditions.insert(turned);
+      conditions.insert(turned);
     }
+    result.conditions = fmt::format("{}", fmt::join(conditions, "+"));
     return result;
   }
 
   const Report& report_;
   std::string pair_, candidate_;
   std::vector<ClassOfPair> classes_;
-  std::map<std::string, const ResultRow*> rows_;
 };
 
 /// The classes that have something, and what they are compared with.
@@ -148,7 +143,7 @@ FailureRate rate_without(const Table& table, const ClassOfPair& c, const std::st
   };
   std::size_t least = SIZE_MAX;
   for (const ClassOfPair& other : table.classes()) {
-    if (is_without(other) && table.rate(other)) least = std::min(least, difference(other));
+    if (other.row && is_without(other)) least = std::min(least, difference(other));
   }
   return table.sum(
       [&](const ClassOfPair& other) { return is_without(other) && difference(other) == least; });
@@ -176,11 +171,11 @@ void add_strongest(std::vector<Factor>& result, const Table& table, const std::s
 void add_factors(std::vector<Factor>& result, const Table& table, const std::string& group) {
   std::map<std::string, Comparison> arrangements, modifiers;
   for (const ClassOfPair& c : table.classes()) {
-    const auto rate = table.rate(c);
-    if (!rate || c.description->group != group) continue;
-    arrangements[c.description->arrangement].add(c, *rate, rate_of_others(table, c));
+    if (!c.row || c.description->group != group) continue;
+    const FailureRate rate = rate_of(c.row->statistics);
+    arrangements[c.description->arrangement].add(c, rate, rate_of_others(table, c));
     for (const std::string& modifier : c.modifiers) {
-      modifiers[modifier].add(c, *rate, rate_without(table, c, modifier));
+      modifiers[modifier].add(c, rate, rate_without(table, c, modifier));
     }
   }
   for (auto* by_name : {&arrangements, &modifiers}) {
@@ -193,30 +188,31 @@ void add_factors(std::vector<Factor>& result, const Table& table, const std::str
 /// Adds the contrast of a class and the same with one modifier.
 void add_contrast(std::vector<Contrast>& result, const Table& table, const ClassOfPair& plain,
                   const ClassOfPair& modified) {
-  const auto before = table.rate(plain), after = table.rate(modified);
-  if (!before || !after) return;
+  const FailureRate before = rate_of(plain.row->statistics);
+  const FailureRate after = rate_of(modified.row->statistics);
   // A candidate that fails one in five of the plain ones does not pass them. Of the thousands of
   // contrasts of a report, less than one in a thousand is to be pointed out by chance. Ten in a
   // hundred is what a reader should care for, however sure it is in a long run.
   constexpr double passes = 0.2, max_chance = 1e-3, min_surplus = 0.1;
-  const double p_value = chance(*before, *after);
-  const bool fails = before->share() <= passes && p_value < max_chance &&
-                     after->share() - before->share() >= min_surplus;
+  const double p_value = chance(before, after);
+  const bool fails = before.share() <= passes && p_value < max_chance &&
+                     after.share() - before.share() >= min_surplus;
   result.push_back({table.pair(), table.candidate(), plain.description->arrangement,
-                    *modified.modifiers.begin(), *before, *after, p_value, fails,
+                    *modified.modifiers.begin(), before, after, p_value, fails,
                     table.worst({&modified})});
 }
 
 void add_contrasts(std::vector<Contrast>& result, const Table& table) {
   for (const ClassOfPair& plain : table.classes()) {
-    if (!plain.modifiers.empty() || !table.rate(plain)) continue;
+    if (!plain.row || !plain.modifiers.empty()) continue;
     const ClassOfPair* tilted = nullptr;
     for (const ClassOfPair& c : table.classes()) {
       if (c.description->arrangement != plain.description->arrangement) continue;
-      if (c.modifiers.size() != 1 || !table.rate(c)) continue;
+      if (!c.row || c.modifiers.size() != 1) continue;
       if (c.modifiers.contains(turned)) add_contrast(result, table, plain, c);
       if (!is_tilt(*c.modifiers.begin())) continue;
-      if (!tilted || table.rate(*tilted)->share() < table.rate(c)->share()) tilted = &c;
+      const auto share = [](const ClassOfPair& t) { return rate_of(t.row->statistics).share(); };
+      if (!tilted || share(*tilted) < share(c)) tilted = &c;
     }
     if (tilted) add_contrast(result, table, plain, *tilted);
   }

@@ -229,23 +229,6 @@ Report report(const Reader& r) {
   return result;
 }
 
-/// A line for each member, and for each entry of its lists: half the size of indented text, and a
-/// changed row is one changed line.
-std::string text_of(const json& report) {
-  std::string text;
-  for (const auto& [name, value] : report.items()) {
-    text += (text.empty() ? "{\n" : ",\n") + json(name).dump() + ": ";
-    if (!value.is_array() || value.empty()) {
-      text += value.dump();
-      continue;
-    }
-    const char* before = "[\n";
-    for (const json& entry : value) text += std::exchange(before, ",\n") + entry.dump();
-    text += "\n]";
-  }
-  return text + "\n}\n";
-}
-
 }  // namespace
 
 Report report_from_text(std::string_view text, const std::string& name) {
@@ -267,7 +250,7 @@ Report read_report(const std::filesystem::path& file) {
 
 void write_report(const Report& report, const std::filesystem::path& folder) {
   check_writable(folder);
-  write_file(folder / "report.json", text_of(to_json(report)), "--out");
+  write_file(folder / "report.json", text_by_lines(to_json(report)), "--out");
   write_file(folder / "report.html", report_page(report), "--out");
 }
 

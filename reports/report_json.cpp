@@ -1,5 +1,7 @@
 #include "reports/report_json.hpp"
 
+#include <utility>
+
 #include <nlohmann/json.hpp>
 
 #include "properties/files/answer_json.hpp"
@@ -267,6 +269,21 @@ json to_json(const Report& report) {
   if (report.stability) result["stability"] = to_json(*report.stability);
   if (report.experiments) result["experiments"] = to_json(*report.experiments);
   return result;
+}
+
+std::string text_by_lines(const json& object) {
+  std::string text;
+  for (const auto& [name, value] : object.items()) {
+    text += (text.empty() ? "{\n" : ",\n") + json(name).dump() + ": ";
+    if (!value.is_array() || value.empty()) {
+      text += value.dump();
+      continue;
+    }
+    const char* before = "[\n";
+    for (const json& entry : value) text += std::exchange(before, ",\n") + entry.dump();
+    text += "\n]";
+  }
+  return text + "\n}\n";
 }
 
 }  // namespace touchstone

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include <nlohmann/json_fwd.hpp>
 
 #include "reports/report.hpp"
@@ -12,6 +14,10 @@ namespace touchstone {
 inline constexpr int report_schema = 2;
 
 nlohmann::json to_json(const Report& report);
+
+/// JSON text of an object with a line for each member and for each entry of its lists: half the
+/// size of indented text, and a changed row is one changed line.
+std::string text_by_lines(const nlohmann::json& object);
 
 // Parts of it that stand in other formats too:
 

@@ -56,9 +56,17 @@ bool is_timed(const Report& report) {
                      [](const ResultRow& row) { return row.time.has_value(); });
 }
 
+/// Few characters, cut downwards: "999", "1k", "340k".
+std::string brief_count(std::uint64_t count) {
+  constexpr std::uint64_t thousand = 1000, million = thousand * thousand;
+  if (count < thousand) return fmt::format("{}", count);
+  if (count < million) return fmt::format("{}k", count / thousand);
+  return fmt::format("{}M", count / million);
+}
+
 /// "0/12": contacts reported where there are none, and the other way round.
 std::string wrong_answers(const Statistics& s) {
-  return fmt::format("{}/{}", s.of(Outcome::phantom), s.of(Outcome::missed));
+  return brief_count(s.of(Outcome::phantom)) + '/' + brief_count(s.of(Outcome::missed));
 }
 
 std::string signed_median(const std::optional<SignedMedian>& bias) {

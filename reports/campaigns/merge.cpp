@@ -261,7 +261,7 @@ std::string campaign_json(const ShardState& whole) {
        {"version", "command", "seed", "count", "tolerance", "threshold", "candidates"}) {
     result[member] = plan.at(member);
   }
-  return result.dump(1) + '\n';
+  return text_by_lines(result);
 }
 
 std::filesystem::path write_result(const ShardState& whole, const std::filesystem::path& folder) {
