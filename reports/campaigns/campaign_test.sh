@@ -37,7 +37,7 @@ refused() {
 
 campaign --workers 1 --out whole >table 2>/dev/null || fail "one process"
 grep -q '^  bullet ' table || fail "no table is printed"
-"$program" replay "$(grep -o '"id": "[^"]*"' whole/campaign.json | head -n 1 | cut -d '"' -f 4)" \
+"$program" replay "$(grep -o '"id":"[^"]*"' whole/campaign.json | head -n 1 | cut -d '"' -f 4)" \
   --candidates bullet >/dev/null || fail "a worst case cannot be replayed"
 
 campaign --workers 2 --out two >/dev/null 2>&1
