@@ -20,7 +20,7 @@ using Names = std::set<std::string>;
 /// The common ground of two reports, and everything else that a person must know before reading
 /// differences into them.
 struct Basis {
-  bool same_configurations = true;  ///< seed and count
+  bool same_configurations = true;  ///< seed, and count of each class that both have
   bool same_bar = true;             ///< tolerance and threshold
   bool same_classes = true;
   bool times = true;  ///< both have the baseline that times are related to
@@ -46,8 +46,12 @@ void remark_only(Basis& basis, const char* what, const Names& old_names, const N
     std::set_difference(all.begin(), all.end(), others.begin(), others.end(),
                         std::inserter(only, only.end()));
     if (only.empty()) return;
-    basis.remarks.push_back(fmt::format("Only in the {} report, not compared: {} {}.", where, what,
-                                        fmt::join(only, ", ")));
+    constexpr std::size_t max_named = 20;
+    const std::size_t unnamed = only.size() - std::min(only.size(), max_named);
+    const auto end = std::next(only.begin(), static_cast<std::ptrdiff_t>(only.size() - unnamed));
+    basis.remarks.push_back(fmt::format("Only in the {} report, not compared: {} {}{}.", where,
+                                        what, fmt::join(only.begin(), end, ", "),
+                                        unnamed ? fmt::format(" and {} more", unnamed) : ""));
   };
   remark(old_names, new_names, "old");
   remark(new_names, old_names, "new");
@@ -68,8 +72,26 @@ void remark_candidates(Basis& basis, const Report& before, const Report& after) 
   }
 }
 
-std::uint64_t count_of(const Report& report) {
-  return report.results.empty() ? 0 : report.results[0].statistics.count;
+using Key = std::tuple<std::string, std::string, std::string>;  // pair, class, candidate
+using Rows = std::map<Key, const ResultRow*>;
+
+Rows rows_of(const std::vector<ResultRow>& list) {
+  Rows result;
+  for (const ResultRow& row : list) result[{row.pair, row.pose_class, row.candidate}] = &row;
+  return result;
+}
+
+/// The counts of the first class that has another one in each report.
+std::optional<std::pair<std::uint64_t, std::uint64_t>> other_counts(const Report& before,
+                                                                    const Report& after) {
+  const Rows old_rows = rows_of(before.results);
+  for (const ResultRow& row : after.results) {
+    const auto old = old_rows.find({row.pair, row.pose_class, row.candidate});
+    if (old == old_rows.end()) continue;
+    const std::uint64_t was = old->second->statistics.count, is = row.statistics.count;
+    if (was != is) return std::pair(was, is);
+  }
+  return std::nullopt;
 }
 
 /// A number as report.json has it: "0.0001", "0.0".
@@ -91,12 +113,24 @@ Basis basis_of(const Report& before, const Report& after, const std::string& bas
   remark_only(basis, "candidates", old_names, new_names);
   remark_only(basis, "classes", old_classes, new_classes);
   basis.same_classes = old_classes == new_classes;
-  basis.same_configurations = before.seed == after.seed && count_of(before) == count_of(after);
+  const auto counts = other_counts(before, after);
+  basis.same_configurations = before.seed == after.seed && !counts;
   if (!basis.same_configurations) {
+    std::string why;
+    if (before.seed != after.seed) why = fmt::format("seed {} and {}", before.seed, after.seed);
+    if (counts) {
+      why += fmt::format("{}{} and {} of a class", why.empty() ? "" : ", ", counts->first,
+                         counts->second);
+    }
+    basis.remarks.push_back(
+        fmt::format("The configurations differ ({}): only groups of classes as a whole are "
+                    "compared, by median and 99th percentile, and agreement beyond chance.",
+                    why));
+  }
+  for (const auto& [report, which] : {std::pair(&before, "old"), std::pair(&after, "new")}) {
+    if (!report->is_old) continue;
     basis.remarks.push_back(fmt::format(
-        "The configurations differ (seed {} and {}, {} and {} of each class): only pairs as a "
-        "whole are compared, by median and 99th percentile, and agreement beyond chance.",
-        before.seed, after.seed, count_of(before), count_of(after)));
+        "The {} report is of schema 1, which knows no groups: only classes are compared.", which));
   }
   basis.same_bar = before.tolerance == after.tolerance && before.threshold == after.threshold;
   if (!basis.same_bar) {
@@ -124,15 +158,6 @@ Basis basis_of(const Report& before, const Report& after, const std::string& bas
         "Times are not compared: {} is not in both reports to relate them to.", baseline));
   }
   return basis;
-}
-
-using Key = std::tuple<std::string, std::string, std::string>;  // pair, class, candidate
-using Rows = std::map<Key, const ResultRow*>;
-
-Rows rows_of(const std::vector<ResultRow>& list) {
-  Rows result;
-  for (const ResultRow& row : list) result[{row.pair, row.pose_class, row.candidate}] = &row;
-  return result;
 }
 
 /// Number of configurations that the candidate has a routine for.
@@ -310,6 +335,11 @@ Comparison compare(const Report& before, const Report& after, const CompareLimit
   if (basis.same_configurations) compare_rows(result, before.results, after.results, basis, true);
   if (basis.same_classes) {
     compare_rows(result, before.summary, after.summary, basis, !basis.same_configurations);
+  }
+  if (result.compared == 0 && (before.is_old || after.is_old) && !basis.same_configurations) {
+    throw InvalidInput(before.is_old ? "OLD" : "NEW", "of schema 1",
+                       "must be made again with this version of touchstone, for it knows no groups "
+                       "and has another seed or count");
   }
   if (result.compared == 0) {
     throw InvalidInput("NEW", "of other things",

@@ -20,7 +20,7 @@ struct CompareLimits {
 /// Errors below this, of the smaller size, are rounding: they count as this one.
 inline constexpr double negligible_error = 1e-14;
 
-/// One measure of one pair × class × candidate.
+/// One measure of one pair × class × candidate, or pair × group × candidate.
 struct Change {
   enum class Verdict { worse, slower, better, faster };
   std::string pair, pose_class, candidate, measure;
@@ -49,10 +49,10 @@ struct Comparison {
 };
 
 /// What is better, worse, faster or slower in `after` than in `before` (docs/compare.md). Reports
-/// on the same configurations are compared class by class; on others pair by pair, and only beyond
-/// chance. Times are compared as multiples of the baseline's; they have changed when even the
-/// nearest ends of their spreads are farther apart than the limit. Throws InvalidInput when there
-/// is nothing in common.
+/// on the same configurations are compared class by class; on others by pair and group, and only
+/// beyond chance. Times are compared as multiples of the baseline's; they have changed when even
+/// the nearest ends of their spreads are farther apart than the limit. Throws InvalidInput when
+/// there is nothing in common.
 Comparison compare(const Report& before, const Report& after, const CompareLimits& limits);
 
 /// For a terminal of 80 columns.

@@ -45,7 +45,7 @@ json row(const char* pose_class, const char* candidate, int agree, double error,
 }
 
 json small_report() {
-  return {{"schema", 1},
+  return {{"schema", 2},
           {"version", "0.1.0"},
           {"seed", 1},
           {"tolerance", 1e-4},
@@ -59,7 +59,8 @@ json small_report() {
           {"results",
            {row("rim-face", "bullet", 90, 1e-3, 100), row("rim-face", "mine", 80, 1e-6, 200),
             row("touching", "bullet", 90, 1e-3, 100), row("touching", "mine", 80, 1e-6, 200)}},
-          {"summary", {row("all", "bullet", 90, 1e-3, 100), row("all", "mine", 80, 1e-6, 200)}}};
+          {"summary",
+           {row("everyday", "bullet", 90, 1e-3, 100), row("everyday", "mine", 80, 1e-6, 200)}}};
 }
 
 Comparison compare(const json& before, const json& after, const CompareLimits& limits) {
@@ -233,12 +234,45 @@ TEST(Compare, SaysWhatElseDiffers) {
 TEST(Compare, OfOtherConfigurationsTakesPairsAsAWholeBeyondChance) {
   json now = small_report();
   now["seed"] = 2;
-  now["results"][1] = row("rim-face", "mine", 10, 1, 200);  // no matter
-  now["summary"][1] = row("all", "mine", 70, 1e-6, 200);    // 80 of 100 or 70: chance
+  now["results"][1] = row("rim-face", "mine", 10, 1, 200);     // no matter
+  now["summary"][1] = row("everyday", "mine", 70, 1e-6, 200);  // 80 of 100 or 70: chance
   EXPECT_TRUE(compare(small_report(), now, {}).changes.empty());
-  now["summary"][1] = row("all", "mine", 50, 1e-6, 200);
+  now["summary"][1] = row("everyday", "mine", 50, 1e-6, 200);
   EXPECT_THAT(changes(compare(small_report(), now, {})),
-              testing::ElementsAre("worse all mine agreement"));
+              testing::ElementsAre("worse everyday mine agreement"));
+}
+
+TEST(Compare, AReportOfTheOldSchemaIsComparedByClassesUnderTheirNamesOfToday) {
+  json old = small_report(), now = small_report();
+  old["schema"] = 1;
+  old["results"][0]["class"] = old["results"][1]["class"] = "near-parallel-1e-6";
+  now["results"][0]["class"] = now["results"][1]["class"] = "parallel+tilted-1e-6";
+  old["summary"][0]["class"] = old["summary"][1]["class"] = "all";
+  EXPECT_TRUE(compare(old, now, {}).changes.empty());
+  now["results"][1]["outcomes"] = {{"agree", 70}, {"shallow", 30}};
+  const Comparison c = compare(old, now, {});
+  EXPECT_THAT(changes(c), testing::ElementsAre("worse parallel+tilted-1e-6 mine agreement"));
+  EXPECT_THAT(remarks(c), HasSubstr("old report is of schema 1, which knows no groups"));
+  now["seed"] = 2;
+  EXPECT_THAT([&] { compare(old, now, {}); },
+              testing::ThrowsMessage<InvalidInput>(HasSubstr("OLD is of schema 1")));
+}
+
+TEST(Compare, AClassOfAnotherCountIsOfOtherConfigurations) {
+  json now = small_report();
+  now["results"][1]["count"] = 50;
+  now["results"][1]["outcomes"] = {{"agree", 50}};
+  const Comparison c = compare(small_report(), now, {});
+  EXPECT_TRUE(c.changes.empty());
+  EXPECT_THAT(remarks(c), HasSubstr("100 and 50 of a class"));
+}
+
+TEST(Compare, NamesTheFirstOfManyClasses) {
+  json now = small_report();
+  for (int i = 0; i < 30; ++i) {
+    now["results"].push_back(row(("z" + std::to_string(i)).c_str(), "mine", 1, 1, 1));
+  }
+  EXPECT_THAT(remarks(compare(small_report(), now, {})), HasSubstr(" and 10 more."));
 }
 
 TEST(Compare, RefusesReportsWithNothingInCommon) {
@@ -263,7 +297,7 @@ TEST(Compare, TextFitsIntoEightyColumns) {
 TEST(Compare, WritesEveryChangeAsJson) {
   json now = small_report();
   now["results"][1]["outcomes"] = {{"unsupported", 100}};
-  now["summary"][1] = row("all", "mine", 80, 1e-6, 400);
+  now["summary"][1] = row("everyday", "mine", 80, 1e-6, 400);
   const json written = json::parse(comparison_json(compare(small_report(), now, {})));
   EXPECT_EQ(written["schema"], "touchstone-comparison-1");
   EXPECT_EQ(written["before"]["seed"], 1);
@@ -278,7 +312,7 @@ TEST(Compare, WritesEveryChangeAsJson) {
   EXPECT_EQ(lost["verdict"], "worse");
   EXPECT_EQ(lost["beyond_limits"], true);
   EXPECT_EQ(written["changes"][1]["verdict"], "slower");
-  EXPECT_EQ(written["changes"][1]["class"], "all");
+  EXPECT_EQ(written["changes"][1]["class"], "everyday");
 }
 
 /// The plug-in of testing/sabotage.cpp, worse than it is by this number.
@@ -312,7 +346,7 @@ TEST(Compare, FindsADegradedPluginByPairClassAndFactor) {
     EXPECT_NEAR(change.factor.value(), 8, 0.01);
   }
   const Comparison slow = compare(before, report_of_declining("-1"), {});
-  EXPECT_THAT(changes(slow), testing::Contains("slower all declining time"));
+  EXPECT_THAT(changes(slow), testing::Contains("slower everyday declining time"));
   for (const std::string& change : changes(slow)) {
     EXPECT_THAT(change, testing::AllOf(testing::StartsWith("slower "), HasSubstr(" declining ")));
   }

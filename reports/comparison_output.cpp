@@ -107,11 +107,10 @@ json to_json(const Comparison& c) {
 json places(const Report& report) {
   json result = json::array();
   for (const ResultRow& row : report.summary) {
-    json place = {{"pair", row.pair},
-                  {"candidate", row.candidate},
-                  {"nanoseconds", nullptr},
-                  {"depth_error", nullptr},
-                  {"pareto", row.pareto ? json(*row.pareto) : json(nullptr)}};
+    json place = {
+        {"pair", row.pair},           {"group", row.pose_class},
+        {"candidate", row.candidate}, {"nanoseconds", nullptr},
+        {"depth_error", nullptr},     {"pareto", row.pareto ? json(*row.pareto) : json(nullptr)}};
     if (row.time) {
       const auto& ratio = row.time->ratio_to_bullet;
       place["nanoseconds"] = {{"median", row.time->nanoseconds.median},

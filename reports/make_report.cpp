@@ -13,6 +13,8 @@
 #include "candidates/host/progress.hpp"
 #include "properties/identity.hpp"
 #include "reports/drake_protocol.hpp"
+#include "reports/factors.hpp"
+#include "reports/headings.hpp"
 #include "reports/sampler.hpp"
 #include "reports/statistics.hpp"
 #include "reports/timing.hpp"
@@ -58,51 +60,48 @@ std::vector<std::optional<Sample>> sample_cells(const Campaign& campaign,
   return result;
 }
 
-/// Cells under one heading: one of them, all of a pair, everything.
-struct Heading {
-  std::vector<std::size_t> cells;
-  std::string pair, pose_class;
-};
-
-std::optional<QueryTime> time_of(const Campaign& campaign, const Times& times, const Heading& group,
-                                 std::size_t k) {
-  auto time = query_time(times, group.cells, k);
+std::optional<QueryTime> time_of(const Campaign& campaign, const Times& times,
+                                 const std::vector<std::size_t>& cells, std::size_t k) {
+  auto time = query_time(times, cells, k);
   for (std::size_t b = 0; time && b < campaign.candidates.size(); ++b) {
     if (campaign.candidates[b]->name != "bullet") continue;
-    time->ratio_to_bullet = time_ratio(times, group.cells, k, b);
+    time->ratio_to_bullet = time_ratio(times, cells, k, b);
   }
   return time;
 }
 
+/// Rows of all candidates on these cells together. `pair` and `pose_class` are what the rows are
+/// called by.
 std::vector<ResultRow> rows_of(const Campaign& campaign,
                                const std::vector<std::optional<Sample>>& samples,
-                               const Times& times, const std::vector<Heading>& groups) {
+                               const Times& times, const std::vector<std::size_t>& cells,
+                               const std::string& pair, const std::string& pose_class) {
   std::vector<ResultRow> rows;
-  for (const Heading& group : groups) {
-    for (std::size_t k = 0; k < campaign.candidates.size(); ++k) {
-      ScoreTally tally(Precision::exact);
-      for (const std::size_t cell : group.cells) tally.add(samples[cell]->tallies[k]);
-      ResultRow& row = rows.emplace_back();
-      row.pair = group.pair;
-      row.pose_class = group.pose_class;
-      row.candidate = campaign.candidates[k]->name;
-      row.statistics = tally.statistics();
-      row.time = time_of(campaign, times, group, k);
-    }
+  for (std::size_t k = 0; k < campaign.candidates.size(); ++k) {
+    ScoreTally tally(Precision::exact);
+    for (const std::size_t cell : cells) tally.add(samples[cell]->tallies[k]);
+    ResultRow& row = rows.emplace_back();
+    row.pair = pair;
+    row.pose_class = pose_class;
+    row.candidate = campaign.candidates[k]->name;
+    row.statistics = tally.statistics();
+    row.time = time_of(campaign, times, cells, k);
+    if (cells.size() == 1) row.worst_index = worst_failure(tally);
   }
   return rows;
 }
 
 std::vector<Trend> trends_of(const Campaign& campaign,
                              const std::vector<std::optional<Sample>>& samples,
-                             const std::vector<Heading>& pairs) {
+                             const std::vector<Heading>& all) {
   std::vector<std::string> names;
   for (const Candidate* c : campaign.candidates) names.push_back(c->name);
   std::vector<Trend> result;
-  for (const Heading& pair : pairs) {
+  for (const Heading& heading : all) {
+    if (heading.pair == "all") continue;
     TrendTally tally;
-    for (const std::size_t cell : pair.cells) tally.add(samples[cell]->trends);
-    const std::vector<Trend> trends = tally.trends(pair.pair, names);
+    for (const std::size_t cell : heading.cells) tally.add(samples[cell]->trends);
+    const auto trends = tally.trends(heading.pair, group_name(heading.group), names);
     result.insert(result.end(), trends.begin(), trends.end());
   }
   return result;
@@ -112,11 +111,10 @@ WorstCase worst_case(const Campaign& campaign, const Sample& sample, const Ident
                      std::size_t candidate) {
   auto [configuration, truth, answers] = sample.examined(candidate, identity.index);
   const std::string id = to_string(identity);
-  WorstCase result{pair_name(identity.pair),
-                   identity.pose_class,
-                   campaign.candidates[candidate]->name,
-                   answers.front().second,
-                   {id, configuration, std::move(truth), {}, replay_command(id)}};
+  WorstCase result{
+      pair_name(identity.pair), group_name(group_of(identity.pair, identity.pose_class)),
+      identity.pose_class,      campaign.candidates[candidate]->name,
+      answers.front().second,   {id, configuration, std::move(truth), {}, replay_command(id)}};
   std::size_t shown = candidate;
   for (auto& [answer, score] : answers) {
     result.examination.answers.push_back(
@@ -126,20 +124,21 @@ WorstCase worst_case(const Campaign& campaign, const Sample& sample, const Ident
   return result;
 }
 
-/// The worst configurations of every pair × candidate, each with the candidate's answer and that of
-/// the campaign's first.
+/// The worst configurations of every pair × group × candidate, each with the candidate's answer and
+/// that of the campaign's first.
 std::vector<WorstCase> worst_of(const Campaign& campaign, const std::vector<Cell>& cells,
                                 const std::vector<std::optional<Sample>>& samples,
-                                const std::vector<Heading>& pairs) {
+                                const std::vector<Heading>& all) {
   std::vector<WorstCase> result;
-  for (const Heading& pair : pairs) {
+  for (const Heading& heading : all) {
+    if (heading.pair == "all") continue;
     for (std::size_t k = 0; k < campaign.candidates.size(); ++k) {
-      std::vector<Case> cases;
-      for (const std::size_t cell : pair.cells) {
+      std::vector<Case> found;
+      for (const std::size_t cell : heading.cells) {
         const auto& worst = samples[cell]->tallies[k].worst;
-        cases.insert(cases.end(), worst.begin(), worst.end());
+        found.insert(found.end(), worst.begin(), worst.end());
       }
-      for (const Case& c : worst_of_pair(std::move(cases))) {
+      for (const Case& c : worst_of_heading(std::move(found))) {
         const Identity identity{cells[c.cell].pair, cells[c.cell].pose_class, campaign.seed,
                                 c.index};
         result.push_back(worst_case(campaign, *samples[c.cell], identity, k));
@@ -149,29 +148,32 @@ std::vector<WorstCase> worst_of(const Campaign& campaign, const std::vector<Cell
   return result;
 }
 
-/// Finds which rows of one group of candidates are on the front of speed and accuracy, and whose
-/// times tie.
-void rank(std::span<ResultRow> rows) {
+SpeedAccuracy place_of(const ResultRow& row) {
   /// Half an ulp of the size or less: no difference in accuracy.
   constexpr double no_error = 1e-17;
+  const std::optional<Quantiles>& error = row.statistics.depth_error;
+  const Spread& time = row.time->nanoseconds;
+  return {time.low, time.high, std::max(error ? error->p99 : 0, no_error)};
+}
+
+/// Finds which rows under one heading are on the front of speed and accuracy, and whose
+/// times tie.
+void rank(std::span<ResultRow> rows) {
   std::vector<ResultRow*> placed;
   std::vector<SpeedAccuracy> places;
   for (ResultRow& row : rows) {
-    const std::optional<QueryTime>& time = row.time;
-    const std::optional<Quantiles>& error = row.statistics.depth_error;
-    if (!time || !error) continue;
+    if (!row.time) continue;
+    for (const ResultRow& other : rows) {
+      if (&other == &row || !other.time || !tied_in_time(place_of(row), place_of(other))) continue;
+      row.tied_with.push_back(other.candidate);
+    }
+    // Without a contact there is no error, and no place in the chart.
+    if (!row.statistics.depth_error) continue;
     placed.push_back(&row);
-    places.push_back(
-        {time->nanoseconds.low, time->nanoseconds.high, std::max(error->p99, no_error)});
+    places.push_back(place_of(row));
   }
   const std::vector<bool> front = pareto_front(places);
-  for (std::size_t i = 0; i < placed.size(); ++i) {
-    placed[i]->pareto = front[i];
-    for (std::size_t k = 0; k < placed.size(); ++k) {
-      if (k == i || !tied_in_time(places[i], places[k])) continue;
-      placed[i]->tied_with.push_back(placed[k]->candidate);
-    }
-  }
+  for (std::size_t i = 0; i < placed.size(); ++i) placed[i]->pareto = front[i];
 }
 
 }  // namespace
@@ -194,8 +196,6 @@ Report make_report(const Campaign& campaign, const std::string& command) {
     report.candidates.push_back({c->name, c->family, c->version, c->settings, c->models});
   }
 
-  std::vector<Heading> single, pairs;
-  Heading everything{{}, "all", "all"};
   std::vector<double> oracle_times;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const std::uint64_t count = count_of(campaign, all[i]);
@@ -208,30 +208,30 @@ Report make_report(const Campaign& campaign, const std::string& command) {
     report.timed_classes += std::any_of(times[i].begin(), times[i].end(), has_times);
     oracle_times.insert(oracle_times.end(), samples[i]->oracle_microseconds.begin(),
                         samples[i]->oracle_microseconds.end());
-    const char* pair = pair_name(all[i].pair);
-    single.push_back({{i}, pair, all[i].pose_class});
-    if (pairs.empty() || pairs.back().pair != pair) pairs.push_back({{}, pair, "all"});
-    pairs.back().cells.push_back(i);
-    everything.cells.push_back(i);
-    report.classes.push_back(
-        {pair, all[i].pose_class, describe_pose_class(all[i].pair, all[i].pose_class)});
+    report.classes.push_back(description_of(all[i]));
+    const auto rows =
+        rows_of(campaign, samples, times, {i}, pair_name(all[i].pair), all[i].pose_class);
+    report.results.insert(report.results.end(), rows.begin(), rows.end());
   }
   report.configurations = report.completed.configurations;
   report.oracle_microseconds = quantiles(std::move(oracle_times));
 
-  report.results = rows_of(campaign, samples, times, single);
-  std::vector<Heading> summary = pairs;
-  if (pairs.size() > 1) summary.push_back(everything);
-  report.summary = rows_of(campaign, samples, times, summary);
-  for (std::size_t i = 0; i < report.summary.size(); i += campaign.candidates.size()) {
-    rank(std::span(report.summary).subspan(i, campaign.candidates.size()));
+  const auto is_scored = [&](std::size_t cell) { return samples[cell].has_value(); };
+  const std::vector<Heading> of_groups = headings(all, is_scored);
+  for (const Heading& heading : of_groups) {
+    auto rows =
+        rows_of(campaign, samples, times, heading.cells, heading.pair, group_name(heading.group));
+    rank(rows);
+    report.summary.insert(report.summary.end(), rows.begin(), rows.end());
   }
-  report.trends = trends_of(campaign, samples, pairs);
+  report.factors = factors(report);
+  report.contrasts = contrasts(report);
+  report.trends = trends_of(campaign, samples, of_groups);
   for (const RecordedShare& s : recorded_shares()) {
-    const auto is_of = [&](const Heading& pair) { return pair.pair == pair_name(s.pair); };
-    if (std::any_of(pairs.begin(), pairs.end(), is_of)) report.recorded.push_back(s);
+    const auto is_of = [&](const Heading& heading) { return heading.pair == pair_name(s.pair); };
+    if (std::any_of(of_groups.begin(), of_groups.end(), is_of)) report.recorded.push_back(s);
   }
-  report.worst = worst_of(campaign, all, samples, pairs);
+  report.worst = worst_of(campaign, all, samples, of_groups);
   if (!report.partial) report.drake_protocol = drake_protocol(campaign);
   report.wall_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -32,7 +32,8 @@ struct CandidateDescription {
 };
 
 struct PoseClassDescription {
-  std::string pair, pose_class, description;
+  std::string pair, pose_class, description, group, arrangement;
+  std::vector<std::string> modifiers;
 };
 
 /// Median and quartiles over repetitions.
@@ -48,11 +49,14 @@ struct QueryTime {
   std::optional<Spread> ratio_to_bullet;
 };
 
-/// The scores and times of one candidate on one class, on all classes of a pair, or on everything.
+/// The scores and times of one candidate: on one class or, in a summary, on the classes of one
+/// group (group_name), of a pair or of all pairs.
 struct ResultRow {
-  std::string pair, pose_class, candidate;  ///< pair and class may be "all"
+  std::string pair, pose_class, candidate;  ///< in a summary: or "all"; a group
   Statistics statistics;
   std::optional<QueryTime> time;
+  /// Of one class: the worst configuration on which the candidate disagrees, if it does.
+  std::optional<std::uint64_t> worst_index;
   // In a summary alone:
   std::optional<bool> pareto;  ///< on the front of speed and accuracy; absent: not in that chart
   std::vector<std::string> tied_with;  ///< candidates whose times overlap with this one's
@@ -65,8 +69,37 @@ struct TrendBin {
   double median = 0, max = 0;
 };
 struct Trend {
-  std::string pair, candidate, variable;
+  std::string pair, group, candidate, variable;
   std::vector<TrendBin> bins;
+};
+
+/// How many of the configurations that a candidate has a routine for it does not agree on.
+struct FailureRate {
+  std::uint64_t count = 0, failed = 0;
+  double share() const { return static_cast<double>(failed) / static_cast<double>(count); }
+};
+
+/// What raises a candidate's failure rate most (factors.hpp).
+struct Factor {
+  enum class Kind { arrangement, modifier };
+  std::string pair, candidate;
+  std::string group;  ///< of the classes with it
+  Kind kind;
+  std::string name;
+  FailureRate with;
+  double without;     ///< share of failures in what the classes with it are compared with
+  std::string worst;  ///< identity of the worst failure in the class that fails most
+};
+
+/// An arrangement alone, and with one modifier.
+struct Contrast {
+  std::string pair, candidate, arrangement;
+  std::string plain_class;  ///< what it is compared with: the arrangement, aligned if it can be
+  std::string modifier;
+  FailureRate plain, modified;
+  double chance;      ///< p-value of Fisher's exact test
+  bool fails;         ///< the candidate passes the one and clearly not the other
+  std::string worst;  ///< identity of the worst failure with the modifier; empty: none
 };
 
 /// One candidate's answer to a configuration, judged.
@@ -85,9 +118,9 @@ struct Examination {
   std::string replay;  ///< the command that shows it again
 };
 
-/// One of the worst configurations of a pair × candidate.
+/// One of the worst configurations of a pair × group × candidate.
 struct WorstCase {
-  std::string pair, pose_class, candidate;
+  std::string pair, group, pose_class, candidate;
   Score score;  ///< of that candidate
   Examination examination;
 };
@@ -123,6 +156,7 @@ struct Report {
     std::uint64_t classes = 0, configurations = 0;
   };
 
+  bool is_old = false;  ///< read from a file of schema 1, without what knows of groups
   std::string version, command;
   std::uint64_t seed = 0;
   double tolerance = 0, threshold = 0;
@@ -136,6 +170,8 @@ struct Report {
   std::vector<CandidateDescription> candidates;
   std::vector<PoseClassDescription> classes;
   std::vector<ResultRow> results, summary;
+  std::vector<Factor> factors;
+  std::vector<Contrast> contrasts;
   std::vector<Trend> trends;
   std::vector<RecordedShare> recorded;  ///< of the pairs in the report
   std::optional<DrakeProtocol> drake_protocol;

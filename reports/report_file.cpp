@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <fmt/format.h>
 #include <string>
 #include <utility>
 
@@ -9,6 +10,7 @@
 
 #include "properties/files/disk.hpp"
 #include "properties/files/strict_json.hpp"
+#include "properties/pose_class.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/report_json.hpp"
 #include "reports/report_page.hpp"
@@ -161,6 +163,9 @@ ResultRow result_row(const Reader& row) {
   s.normal_regret = quantiles(row.at("normal_regret"));
   s.point_error = quantiles(row.at("point_error"));
   s.deepest_error = quantiles_if_any(row, "deepest_error");
+  if (row.has("bias") && !row.at("bias").is_null()) {
+    s.bias = SignedMedian{row.at("bias").at("median").number()};
+  }
   s.coverage = shares(row.at("coverage"));
   result.time = query_time(row.at("nanoseconds"));
   return result;
@@ -174,6 +179,15 @@ ResultRow summary_row(const Reader& row) {
   return result;
 }
 
+/// The name of today of a class that may have had another one; an unknown name stays.
+std::string class_name(const std::string& pair, const std::string& name) {
+  try {
+    return find_pose_class(parse_pair(pair), name).name();
+  } catch (const InvalidInput&) {
+    return name;
+  }
+}
+
 Machine machine(const Reader& m) {
   Machine result;
   result.cpu = m.at("cpu").text();
@@ -185,8 +199,12 @@ Machine machine(const Reader& m) {
 
 Report report(const Reader& r) {
   const Reader schema = r.at("schema");
-  if (schema.value() != report_schema) schema.refuse("must be " + std::to_string(report_schema));
+  constexpr int old_schema = 1;
   Report result;
+  result.is_old = schema.value() == old_schema;
+  if (!result.is_old && schema.value() != report_schema) {
+    schema.refuse(fmt::format("must be {} or {}", old_schema, report_schema));
+  }
   result.version = r.at("version").text();
   result.seed = r.at("seed").whole();
   result.configurations = r.at("configurations").whole();
@@ -198,7 +216,13 @@ Report report(const Reader& r) {
     result.candidates.push_back(
         {c.at("name").text(), "", c.at("version").text(), c.at("settings").text(), ""});
   });
-  r.at("results").each([&](const Reader& row) { result.results.push_back(result_row(row)); });
+  r.at("results").each([&](const Reader& row) {
+    result.results.push_back(result_row(row));
+    std::string& name = result.results.back().pose_class;
+    if (result.is_old) name = class_name(result.results.back().pair, name);
+  });
+  // An old summary is over all groups, which no summary is any more.
+  if (result.is_old) return result;
   r.at("summary").each([&](const Reader& row) { result.summary.push_back(summary_row(row)); });
   return result;
 }
@@ -224,7 +248,7 @@ Report read_report(const std::filesystem::path& file) {
 
 void write_report(const Report& report, const std::filesystem::path& folder) {
   check_writable(folder);
-  write_file(folder / "report.json", to_json(report).dump(1) + "\n", "--out");
+  write_file(folder / "report.json", text_by_lines(to_json(report)), "--out");
   write_file(folder / "report.html", report_page(report), "--out");
 }
 

@@ -59,7 +59,7 @@ TEST_F(ReportFile, IsReadAsItWasWritten) {
     for (std::size_t i = 0; i < read[list].size(); ++i) {
       const json &row = read[list][i], &written_row = written[list][i];
       for (const char* member : {"pair", "class", "candidate", "count", "outcomes", "point_error",
-                                 "deepest_error", "coverage", "nanoseconds"}) {
+                                 "deepest_error", "bias", "coverage", "nanoseconds"}) {
         EXPECT_EQ(row[member], written_row[member]) << list << ' ' << i << ' ' << member;
       }
       for (const char* member : {"depth_error", "normal_regret"}) {
@@ -83,7 +83,7 @@ TEST_F(ReportFile, NamesTheFieldAndTheRemedy) {
   json report = good();
   report["schema"] = 99;
   write(report.dump());
-  expect_refusal("schema is 99", "must be 1; make the report again");
+  expect_refusal("schema is 99", "must be 1 or 2; make the report again");
   report = good();
   report["results"][1]["depth_error"]["p99"] = "small";
   write(report.dump());

@@ -1,5 +1,7 @@
 #include "reports/report_json.hpp"
 
+#include <utility>
+
 #include <nlohmann/json.hpp>
 
 #include "properties/files/answer_json.hpp"
@@ -35,6 +37,13 @@ json to_json(const std::optional<Shares>& s) {
   return result;
 }
 
+json to_json(const std::optional<SignedMedian>& m) {
+  if (!m) return nullptr;
+  json result = {{"median", m->value}};
+  if (m->bounds) result["median_bounds"] = to_json(*m->bounds);
+  return result;
+}
+
 json to_json(const Statistics& s) {
   json outcomes = json::object(), points = json::object();
   for (const Outcome outcome : all_outcomes) {
@@ -45,6 +54,7 @@ json to_json(const Statistics& s) {
           {"outcomes", outcomes},
           {"severity", to_json(s.severity)},
           {"depth_error", to_json(s.depth_error, s.depth_histogram)},
+          {"bias", to_json(s.bias)},
           {"normal_regret", to_json(s.normal_regret, s.regret_histogram)},
           {"normal_angle", to_json(s.normal_angle)},
           {"point_error", to_json(s.point_error)},
@@ -75,13 +85,6 @@ json to_json(const std::optional<QueryTime>& time) {
   return result;
 }
 
-json summary_json(const ResultRow& row) {
-  json result = to_json(row);
-  result["pareto"] = row.pareto ? json(*row.pareto) : json(nullptr);
-  result["tied_with"] = row.tied_with;
-  return result;
-}
-
 json to_json(const Trend& trend) {
   json bins = json::array();
   for (const TrendBin& bin : trend.bins) {
@@ -92,6 +95,7 @@ json to_json(const Trend& trend) {
                     {"max", bin.max}});
   }
   return {{"pair", trend.pair},
+          {"group", trend.group},
           {"candidate", trend.candidate},
           {"variable", trend.variable},
           {"bins", bins}};
@@ -164,16 +168,60 @@ json to_json(const Machine& machine) {
 }
 
 json to_json(const PoseClassDescription& c) {
-  return {{"pair", c.pair}, {"class", c.pose_class}, {"description", c.description}};
+  return {{"pair", c.pair},   {"class", c.pose_class},        {"description", c.description},
+          {"group", c.group}, {"arrangement", c.arrangement}, {"modifiers", c.modifiers}};
 }
 
-json to_json(const ResultRow& row) {
+namespace {
+
+json row_json(const ResultRow& row) {
   json result = to_json(row.statistics);
   result["pair"] = row.pair;
   result["class"] = row.pose_class;
   result["candidate"] = row.candidate;
   result["nanoseconds"] = to_json(row.time);
   return result;
+}
+
+json summary_json(const ResultRow& row) {
+  json result = row_json(row);
+  result["pareto"] = row.pareto ? json(*row.pareto) : json(nullptr);
+  result["tied_with"] = row.tied_with;
+  return result;
+}
+
+json to_json(const FailureRate& rate) { return {{"count", rate.count}, {"failed", rate.failed}}; }
+
+}  // namespace
+
+json to_json(const ResultRow& row) {
+  json result = row_json(row);
+  result["worst_index"] = row.worst_index ? json(*row.worst_index) : json(nullptr);
+  return result;
+}
+
+json to_json(const Factor& f) {
+  return {{"pair", f.pair},
+          {"candidate", f.candidate},
+          {"group", f.group},
+          {"kind", f.kind == Factor::Kind::arrangement ? "arrangement" : "modifier"},
+          {"name", f.name},
+          {"with", to_json(f.with)},
+          {"without", f.without},
+          {"worst", f.worst.empty() ? json(nullptr) : json(f.worst)}};
+}
+
+json to_json(const Contrast& c) {
+  return {{"pair", c.pair},
+          {"candidate", c.candidate},
+          {"arrangement", c.arrangement},
+          {"plain_class", c.plain_class},
+          {"modifier", c.modifier},
+          {"plain", to_json(c.plain)},
+          {"modified", to_json(c.modified)},
+          {"chance", c.chance},
+          {"fails", c.fails},
+          {"worst", c.worst.empty() ? json(nullptr) : json(c.worst)}};
 }
 
 json to_json(const Examination& e) {
@@ -190,6 +238,7 @@ json to_json(const Examination& e) {
 json to_json(const WorstCase& worst) {
   json result = to_json(worst.examination);
   result["pair"] = worst.pair;
+  result["group"] = worst.group;
   result["class"] = worst.pose_class;
   result["candidate"] = worst.candidate;
   result["outcome"] = outcome_name(worst.score.outcome);
@@ -220,6 +269,8 @@ json to_json(const Report& report) {
                  {"classes", array_of(report.classes)},
                  {"results", array_of(report.results)},
                  {"summary", summary},
+                 {"factors", array_of(report.factors)},
+                 {"contrasts", array_of(report.contrasts)},
                  {"trends", array_of(report.trends)},
                  {"recorded", array_of(report.recorded)},
                  {"drake_protocol", to_json(report.drake_protocol)},
@@ -227,6 +278,21 @@ json to_json(const Report& report) {
   if (report.stability) result["stability"] = to_json(*report.stability);
   if (report.experiments) result["experiments"] = to_json(*report.experiments);
   return result;
+}
+
+std::string text_by_lines(const json& object) {
+  std::string text;
+  for (const auto& [name, value] : object.items()) {
+    text += (text.empty() ? "{\n" : ",\n") + json(name).dump() + ": ";
+    if (!value.is_array() || value.empty()) {
+      text += value.dump();
+      continue;
+    }
+    const char* before = "[\n";
+    for (const json& entry : value) text += std::exchange(before, ",\n") + entry.dump();
+    text += "\n]";
+  }
+  return text + "\n}\n";
 }
 
 }  // namespace touchstone

@@ -1,10 +1,13 @@
 #include "reports/report_page.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <cstdlib>
 #include <fmt/format.h>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -46,6 +49,17 @@ json schema_of(const std::vector<const json*>& values) {
   return result;
 }
 
+json rounded(const json& v, int digits) {
+  if (v.is_number_float()) {
+    return std::strtod(fmt::format("{:.{}g}", v.get<double>(), digits).c_str(), nullptr);
+  }
+  json result = v;
+  if (v.is_structured()) {
+    for (json& member : result) member = rounded(member, digits);
+  }
+  return result;
+}
+
 class Packer {
  public:
   json list(const json& objects) {
@@ -60,7 +74,8 @@ class Packer {
 
  private:
   json value(const json& v, const json& schema) {
-    if (v.is_null() || schema.is_null()) return rounded(v);
+    constexpr int digits = 4;
+    if (v.is_null() || schema.is_null()) return rounded(v, digits);
     if (schema.is_string()) {
       const auto [at, is_new] = numbers_.try_emplace(v.get<std::string>(), strings_.size());
       if (is_new) strings_.push_back(v);
@@ -71,27 +86,79 @@ class Packer {
     return row;
   }
 
-  static json rounded(const json& v) {
-    if (v.is_number_float()) {
-      return std::strtod(fmt::format("{:.4g}", v.get<double>()).c_str(), nullptr);
-    }
-    json result = v;
-    if (v.is_structured()) {
-      for (json& member : result) member = rounded(member);
-    }
-    return result;
-  }
-
   std::map<std::string, std::size_t> numbers_;
   json strings_ = json::array();
 };
+
+/// Of the rows of classes, of which there are twenty thousand, what the page shows of a class, with
+/// as many digits: outcomes as [index in all_outcomes, count, …], of each error one number.
+json shown_of_classes(const json& results) {
+  constexpr int digits = 2;
+  json rows = json::array();
+  for (const json& row : results) {
+    if (row["outcomes"].value("unsupported", std::uint64_t{0}) == row["count"]) continue;
+    json shown;
+    for (const char* member : {"pair", "class", "candidate", "count", "worst_index"}) {
+      shown[member] = row[member];
+    }
+    json& outcomes = shown["outcomes"] = json::array();
+    for (std::size_t i = 0; i < all_outcomes.size(); ++i) {
+      const auto of_outcome = row["outcomes"].find(outcome_name(all_outcomes[i]));
+      if (of_outcome == row["outcomes"].end()) continue;
+      outcomes.insert(outcomes.end(), {i, *of_outcome});
+    }
+    for (const auto& [member, value] :
+         {std::pair("severity", "max"), std::pair("depth_error", "p99"),
+          std::pair("normal_regret", "p99")}) {
+      shown[member] = row[member].is_null() ? json(nullptr) : rounded(row[member][value], digits);
+    }
+    for (const auto& [member, value] :
+         {std::pair("coverage", "mean"), std::pair("nanoseconds", "median")}) {
+      shown[member] = row[member].is_null() ? json(nullptr) : row[member][value];
+    }
+    // The thesis, beside which they are shown, has no more modifiers.
+    const auto name = row["class"].get<std::string>();
+    const bool is_plain = name.find('+') == std::string::npos || name.ends_with("+shallow");
+    shown["points"] = is_plain ? row["points"] : json(nullptr);
+    rows.push_back(std::move(shown));
+  }
+  return rows;
+}
+
+/// Of the worst cases, the first few of each pair × group × candidate, with as many digits of truth
+/// and answers as pictures of bodies a million metres away need; configurations stay exact.
+json shown_worst(const json& worst) {
+  constexpr int max_shown = 2, digits = 10, digits_of_score = 3;
+  std::map<std::array<std::string, 3>, int> seen;
+  json cases = json::array();
+  for (json w : worst) {
+    if (++seen[{w["pair"], w["group"], w["candidate"]}] > max_shown) continue;
+    for (const char* member : {"truth", "answers"}) w[member] = rounded(w[member], digits);
+    for (json& answer : w["answers"]) answer["score"] = rounded(answer["score"], digits_of_score);
+    for (json& bound : w["truth"]["signed_distance"]) {
+      bound = rounded(std::strtod(bound.get<std::string>().c_str(), nullptr), digits);
+    }
+    cases.push_back(std::move(w));
+  }
+  return cases;
+}
+
+/// Bins as lists instead of objects.
+json shown_trends(json trends) {
+  for (json& trend : trends) {
+    for (json& bin : trend["bins"]) {
+      bin = {bin["decade"], bin["count"], bin["missed"], bin["median"], bin["max"]};
+    }
+  }
+  return trends;
+}
 
 }  // namespace
 
 json packed(const json& report) {
   json result = report;
   Packer packer;
-  for (const char* list : {"results", "summary", "trends"}) {
+  for (const char* list : {"results", "summary", "trends", "classes", "factors", "contrasts"}) {
     if (report.contains(list)) result[list] = packer.list(report[list]);
   }
   result["strings"] = packer.strings();
@@ -99,10 +166,16 @@ json packed(const json& report) {
 }
 
 std::string report_page(const Report& report) {
-  json data = packed(to_json(report));
+  json whole = to_json(report);
+  whole["results"] = shown_of_classes(whole["results"]);
+  whole["worst"] = shown_worst(whole["worst"]);
+  whole["trends"] = shown_trends(std::move(whole["trends"]));
+  json data = packed(whole);
   std::vector<std::string> names;
   for (const CandidateDescription& c : report.candidates) names.push_back(c.name);
   data["marks"] = marks(names);
+  json& outcomes = data["outcomes"] = json::array();
+  for (const Outcome outcome : all_outcomes) outcomes.push_back(outcome_name(outcome));
   return render_page(Page::report, data);
 }
 

@@ -11,9 +11,9 @@ namespace touchstone {
 /// report.html: one self-contained page; nothing is loaded from elsewhere.
 std::string report_page(const Report& report);
 
-/// The report as that page carries it, at a fifth of the size: `results`, `summary` and `trends` as
-/// {schema, rows} with their numbers to four digits, and the `strings` that rows name by number. A
-/// schema is "string", null (as it is) or an object, whose values a row gives in its order.
+/// A report with its long lists, such as `results`, at a fifth of the size: as {schema, rows} with
+/// their numbers to four digits, and the `strings` that rows name by number. A schema is "string",
+/// null (as it is) or an object, whose values a row gives in its order.
 nlohmann::json packed(const nlohmann::json& report);
 
 }  // namespace touchstone

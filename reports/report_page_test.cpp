@@ -42,11 +42,13 @@ TEST(ReportPage, CarriesTheReport) {
   json data = data_of(report_page(report)), expected = to_json(report);
   EXPECT_EQ(data["marks"], json({{"ode", {2, 0}}}));
   EXPECT_TRUE(data["strings"].empty());
-  for (const char* list : {"results", "summary", "trends"}) {
+  for (const char* list : {"results", "summary", "trends", "classes", "factors", "contrasts"}) {
     EXPECT_EQ(data[list]["rows"], json::array());
     expected.erase(list);
     data.erase(list);
   }
+  EXPECT_EQ(data["outcomes"][1], "missed");
+  data.erase("outcomes");
   data.erase("marks");
   data.erase("strings");
   EXPECT_EQ(data, expected);

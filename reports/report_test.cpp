@@ -65,7 +65,8 @@ TEST(Report, HasARowForEveryPairClassAndCandidate) {
   // Plane has no concentric poses.
   EXPECT_EQ(report["classes"].size(), 5u);
   EXPECT_EQ(report["results"].size(), 20u);
-  EXPECT_EQ(report["summary"].size(), 12u);
+  // Pairs and groups: both pairs and all in everyday and in degenerate poses.
+  EXPECT_EQ(report["summary"].size(), 24u);
   EXPECT_EQ(report["configurations"], 20);
   for (const json& row : report["results"]) {
     EXPECT_EQ(row["count"], 4);
@@ -88,6 +89,59 @@ TEST(Report, SaysHowOftenArrangementsOccurInScenesForItsOwnPairs) {
   for (const char* pair : {"cylinder-plane", "cylinder-box"}) EXPECT_NEAR(sums[pair], 1, 1e-12);
 }
 
+TEST(Report, HasNoRowOverAllGroups) {
+  const json report = report_of(small_campaign());
+  std::map<std::string, std::uint64_t> in_summary, in_classes;
+  for (const json& row : report["summary"]) {
+    EXPECT_NO_THROW(parse_group(row["class"].get<std::string>()));
+    if (row["pair"] != "all") in_summary[row["class"]] += row["count"].get<std::uint64_t>();
+  }
+  for (const json& c : report["classes"]) {
+    in_classes[c["group"]] += 4 * report["candidates"].size();
+    EXPECT_FALSE(c["arrangement"].get<std::string>().empty());
+    EXPECT_TRUE(c["modifiers"].is_array());
+  }
+  EXPECT_EQ(in_summary, in_classes);
+  for (const char* list : {"trends", "worst"}) {
+    ASSERT_FALSE(report[list].empty());
+    for (const json& entry : report[list]) EXPECT_TRUE(in_classes.contains(entry["group"])) << list;
+  }
+}
+
+TEST(Report, ARowsWorstIndexLeadsToItsWorstFailure) {
+  const json report = report_of(small_campaign());
+  auto candidates = start(some(), 0);
+  int failing = 0;
+  for (const json& row : report["results"]) {
+    const bool fails = row["outcomes"].value("agree", 0) + row["outcomes"].value("unsupported", 0) <
+                       row["count"].get<int>();
+    EXPECT_EQ(row["worst_index"].is_null(), !fails);
+    if (!fails || ++failing > 3) continue;
+    const Identity id{parse_pair(row["pair"].get<std::string>()), row["class"], 5,
+                      row["worst_index"]};
+    const json again = to_json(examine(subject(id), pointers(candidates), Bar()));
+    EXPECT_NE(again["answers"][row["candidate"].get<std::string>()]["score"]["outcome"], "agree");
+  }
+  EXPECT_GT(failing, 0);
+}
+
+TEST(Report, TheTablesWorstFailureIsTheOneWithoutAnAnswer) {
+  Report report;
+  report.candidates = {{"mine", "mine", "1", "", ""}};
+  const Configuration any = make_configuration({Pair::plane, "lying", 1, 0});
+  const auto add = [&](const char* group, Outcome outcome, double severity, const char* replay) {
+    Score score;
+    score.outcome = outcome;
+    score.severity = severity;
+    report.worst.push_back(
+        {"cylinder-plane", group, "lying", "mine", score, {"", any, std::nullopt, {}, replay}});
+  };
+  add("everyday", Outcome::shallow, 5, "first");
+  add("everyday", Outcome::crashed, 0, "second");
+  add("extreme", Outcome::crashed, 0, "third");
+  EXPECT_THAT(terminal_table(report), HasSubstr("mine crashed, everyday\n    second\n"));
+}
+
 TEST(Report, RanksNobodyWithinTheSpreads) {
   const json report = report_of(small_campaign());
   for (const json& row : report["summary"]) {
@@ -101,7 +155,8 @@ TEST(Report, RanksNobodyWithinTheSpreads) {
       EXPECT_EQ(time["ratio_high"], 1);
     }
     for (const json& other : report["summary"]) {
-      if (other["pair"] != row["pair"] || other["candidate"] == row["candidate"]) continue;
+      if (other["pair"] != row["pair"] || other["class"] != row["class"]) continue;
+      if (other["candidate"] == row["candidate"]) continue;
       const json& theirs = other["nanoseconds"];
       const bool overlap = time["low"] <= theirs["high"] && theirs["low"] <= time["high"];
       const json& ties = row["tied_with"];
@@ -279,7 +334,7 @@ TEST(Report, IsWrittenAsAWhole) {
   const std::filesystem::path folder = testing::TempDir() + "touchstone report test";
   write_report(make_report(small_campaign(), "x"), folder);
   std::ifstream file(folder / "report.json");
-  EXPECT_EQ(json::parse(file)["schema"], 1);
+  EXPECT_EQ(json::parse(file)["schema"], 2);
   EXPECT_TRUE(std::filesystem::exists(folder / "report.html"));
   EXPECT_FALSE(std::filesystem::exists(folder / "report.json.partial"));
   std::filesystem::remove_all(folder);

@@ -42,6 +42,8 @@ void put(ByteWriter& out, const ScoreTally& t) {
     out.put(count);
   }
   for (const Magnitudes& m : t.errors) put(out, m);
+  put(out, t.bias.negative);
+  put(out, t.bias.positive);
   put(out, t.severity);
   put(out, t.coverage.uncovered);
   out.put(t.coverage.sum);
@@ -58,6 +60,8 @@ ScoreTally get_tally(ByteReader& in, Precision precision) {
     t.points[number] = in.get<std::uint64_t>();
   }
   for (Magnitudes& m : t.errors) m = get_magnitudes(in, precision);
+  t.bias.negative = get_magnitudes(in, precision);
+  t.bias.positive = get_magnitudes(in, precision);
   t.severity = get_magnitudes(in, precision);
   t.coverage.uncovered = get_magnitudes(in, precision);
   t.coverage.sum = in.get<std::uint64_t>();

@@ -49,7 +49,7 @@ std::string text(const Sample& sample, Purpose purpose) {
     for (const Outcome outcome : sample.timed_outcomes[k]) result += outcome_name(outcome);
   }
   for (const Configuration& c : sample.timed) result += to_hex_json(c).dump() + '\n';
-  for (const Trend& trend : sample.trends.trends("", {"a", "b", "c"})) {
+  for (const Trend& trend : sample.trends.trends("", "", {"a", "b", "c"})) {
     result += trend.candidate + trend.variable;
     for (const TrendBin& bin : trend.bins) {
       result += fmt::format(" {} {} {} {} {}", bin.decade.value_or(-99), bin.count, bin.missed,

@@ -71,7 +71,16 @@ std::optional<Quantiles> Magnitudes::quantiles() const {
 
 std::optional<Bounds> Magnitudes::percentile(std::uint64_t percent) const {
   if (count_ == 0) return std::nullopt;
-  const std::uint64_t rank = (percent * count_ + 99) / 100;
+  return ranked((percent * count_ + 99) / 100);
+}
+
+Bounds Magnitudes::ranked(std::uint64_t rank) const {
+  if (precision_ == Precision::exact) {
+    std::vector<double> values = values_;
+    const auto at = values.begin() + static_cast<std::ptrdiff_t>(rank - 1);
+    std::nth_element(values.begin(), at, values.end());
+    return {*at, *at};
+  }
   std::uint64_t seen = 0;
   for (const auto& [bin, count] : bins_) {
     seen += count;
@@ -106,8 +115,38 @@ std::optional<Shares> CoverageTally::shares() const {
                 1 - q->max, rest(*q->median_bounds), rest(*q->p99_bounds)};
 }
 
+void SignedTally::add(double value) { (value < 0 ? negative : positive).add(value); }
+
+void SignedTally::add(const SignedTally& other) {
+  negative.add(other.negative);
+  positive.add(other.positive);
+}
+
+std::optional<SignedMedian> SignedTally::median() const {
+  if (count() == 0) return std::nullopt;
+  const std::uint64_t rank = (count() + 1) / 2;
+  const bool is_negative = rank <= negative.count();
+  // The smallest negative value has the largest magnitude.
+  const Bounds magnitude = is_negative ? negative.ranked(negative.count() + 1 - rank)
+                                       : positive.ranked(rank - negative.count());
+  SignedMedian result{is_negative ? -magnitude.upper : magnitude.upper};
+  if (negative.precision() == Precision::binned) {
+    result.bounds = is_negative ? Bounds{-magnitude.upper, -magnitude.lower} : magnitude;
+  }
+  return result;
+}
+
+std::optional<std::uint64_t> worst_failure(const ScoreTally& tally) {
+  // Worst first: if this one agrees, all do.
+  if (tally.worst.empty() || tally.worst.front().score.outcome == Outcome::agree) return {};
+  return tally.worst.front().index;
+}
+
 ScoreTally::ScoreTally(Precision precision)
-    : errors(quantities.size(), Magnitudes(precision)), severity(precision), coverage(precision) {}
+    : errors(quantities.size(), Magnitudes(precision)),
+      bias(precision),
+      severity(precision),
+      coverage(precision) {}
 
 void ScoreTally::add(std::size_t cell, std::uint64_t index, const Score& s) {
   ++count;
@@ -116,6 +155,7 @@ void ScoreTally::add(std::size_t cell, std::uint64_t index, const Score& s) {
   for (std::size_t i = 0; i < quantities.size(); ++i) {
     if (const auto& error = s.*quantities[i].value) errors[i].add(*error);
   }
+  if (s.depth_error) bias.add(*s.depth_error);
   if (is_judged(s.outcome)) severity.add(s.severity);
   if (s.coverage) coverage.add(*s.coverage);
   worst.push_back({cell, index, essence(s)});
@@ -127,6 +167,7 @@ void ScoreTally::add(const ScoreTally& other) {
   for (std::size_t i = 0; i < outcomes.size(); ++i) outcomes[i] += other.outcomes[i];
   for (const auto& [number, times] : other.points) points[number] += times;
   for (std::size_t i = 0; i < errors.size(); ++i) errors[i].add(other.errors[i]);
+  bias.add(other.bias);
   severity.add(other.severity);
   coverage.add(other.coverage);
   worst.insert(worst.end(), other.worst.begin(), other.worst.end());
@@ -141,6 +182,8 @@ Statistics ScoreTally::statistics() const {
   for (std::size_t i = 0; i < errors.size(); ++i) {
     result.*quantities[i].quantiles = errors[i].quantiles();
   }
+  // Counts from before signs were kept know no bias.
+  if (bias.count() == errors[0].count()) result.bias = bias.median();
   result.depth_histogram = histogram(errors[0]);
   result.regret_histogram = histogram(errors[1]);
   result.severity = severity.quantiles();

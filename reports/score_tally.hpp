@@ -51,6 +51,9 @@ class Magnitudes {
   std::optional<Quantiles> quantiles() const;
   /// Bounds, at most an eighth apart, of the ⌈n·percent/100⌉-th smallest of n binned values.
   std::optional<Bounds> percentile(std::uint64_t percent) const;
+  /// Bounds of the rank-th smallest value: equal ones where values are exact. Precondition: rank is
+  /// from 1 to count().
+  Bounds ranked(std::uint64_t rank) const;
 
  private:
   Precision precision_;
@@ -73,6 +76,17 @@ struct CoverageTally {
   Magnitudes uncovered;        ///< binned: one minus each coverage
   std::uint64_t sum = 0;       ///< binned: of coverages, in units
   std::vector<double> values;  ///< exact: each coverage, in order
+};
+
+/// Values with a sign of which the median is wanted.
+struct SignedTally {
+  explicit SignedTally(Precision precision) : negative(precision), positive(precision) {}
+  void add(double value);
+  void add(const SignedTally& other);
+  std::optional<SignedMedian> median() const;
+  std::uint64_t count() const { return negative.count() + positive.count(); }
+
+  Magnitudes negative, positive;  ///< zero is positive
 };
 
 /// The scores of one candidate on any number of configurations. Binned, it takes constant memory,
@@ -108,9 +122,13 @@ struct ScoreTally {
   std::array<std::uint64_t, all_outcomes.size()> outcomes{};
   std::map<int, std::uint64_t> points;
   std::vector<Magnitudes> errors;  ///< of each of the quantities
+  SignedTally bias;                ///< of depth errors
   Magnitudes severity;             ///< of all that is judged, missed contacts included
   CoverageTally coverage;
   std::vector<Case> worst;  ///< of a tally of one cell: its worst_of_class
 };
+
+/// Index of the worst configuration in a tally of one cell on which the candidate disagrees.
+std::optional<std::uint64_t> worst_failure(const ScoreTally& tally);
 
 }  // namespace touchstone

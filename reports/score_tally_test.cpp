@@ -115,6 +115,10 @@ TEST(ScoreTally, BinnedBoundsTheExactQuantiles) {
       EXPECT_EQ(found.depth_error->max, exact.depth_error->max);
       EXPECT_GE(found.depth_error->median, exact.depth_error->median);
     }
+    if (exact.bias) {
+      EXPECT_LE(found.bias->bounds->lower, exact.bias->value);
+      EXPECT_GE(found.bias->bounds->upper, exact.bias->value);
+    }
     if (exact.severity) {
       expect_within(found.severity->median_bounds, exact.severity->median);
       EXPECT_EQ(found.severity->max, exact.severity->max);
@@ -126,6 +130,23 @@ TEST(ScoreTally, BinnedBoundsTheExactQuantiles) {
     }
     RC_ASSERT(!testing::Test::HasFailure());
   }));
+}
+
+TEST(ScoreTally, TheBiasIsTheMedianDepthErrorWithItsSign) {
+  const auto bias = [](const std::vector<double>& errors, Precision precision) {
+    std::vector<Score> scores(errors.size());
+    for (std::size_t i = 0; i < errors.size(); ++i) scores[i].depth_error = errors[i];
+    return tally_of(scores, precision).statistics().bias;
+  };
+  EXPECT_EQ(bias({-3, 1, -2}, Precision::exact)->value, -2);
+  EXPECT_EQ(bias({-3, 1, 2, 0}, Precision::exact)->value, 0);
+  EXPECT_EQ(bias({-3, 1, 2, 4, 5}, Precision::exact)->value, 2);
+  const auto binned = bias({-3, 1, -2.1}, Precision::binned);
+  EXPECT_LE(binned->bounds->lower, -2.1);
+  EXPECT_GE(binned->bounds->upper, -2.1);
+  EXPECT_LT(binned->bounds->upper, 0);
+  EXPECT_EQ(binned->value, binned->bounds->lower);
+  EXPECT_FALSE(bias({}, Precision::exact));
 }
 
 TEST(ScoreTally, KeepsTheTwoWorstAndTheWorstOfEachOutcome) {

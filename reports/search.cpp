@@ -29,7 +29,6 @@ struct Trial {
   Score score;
 };
 
-bool is_worse(const Score& a, const Score& b) { return Case{0, 0, a} < Case{0, 0, b}; }
 bool worse_trial(const Trial& a, const Trial& b) { return is_worse(a.score, b.score); }
 
 bool is_without_answer(Outcome o) {

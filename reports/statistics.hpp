@@ -35,6 +35,13 @@ struct Shares {
 };
 std::optional<Shares> shares(const std::vector<double>& values);
 
+/// Median of values that have a sign, by nearest rank; of binned values the end of its bounds that
+/// is farther from zero.
+struct SignedMedian {
+  double value;
+  std::optional<Bounds> bounds = {};  ///< of binned values
+};
+
 /// How many magnitudes lie in each half decade: counts[i] in [10^(k/2), 10^((k+1)/2)) with
 /// k = first + i. Zeros, which have no logarithm, apart. What is beyond 1e-18 or 1e6 is counted in
 /// the outermost half decades.
@@ -54,7 +61,9 @@ struct Statistics {
   std::array<std::uint64_t, all_outcomes.size()> outcomes{};  ///< in the order of all_outcomes
   std::map<int, std::uint64_t> points;  ///< contacts by their number of points
   std::optional<Quantiles> depth_error, normal_regret, normal_angle, point_error, deepest_error,
-      model_error, solver_error;      ///< of magnitudes
+      model_error, solver_error;  ///< of magnitudes
+  /// Of the depth error with its sign: negative where a candidate is too deep.
+  std::optional<SignedMedian> bias;
   std::optional<Quantiles> severity;  ///< of all that is judged, missed contacts included
   /// Histograms of depth_error and normal_regret; absent where those are, and of binned values.
   std::optional<LogHistogram> depth_histogram, regret_histogram;

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "reports/factors.hpp"
 #include "reports/timing.hpp"
+#include "reports/worst.hpp"
 
 namespace touchstone {
 namespace {
@@ -17,12 +19,6 @@ std::string scientific(const std::optional<Quantiles>& quantiles, double Quantil
 
 std::string nanoseconds(const std::optional<QueryTime>& time) {
   return time ? fmt::format("{:.0f}", time->nanoseconds.median) : "-";
-}
-
-std::string half_spread(const std::optional<QueryTime>& time) {
-  if (!time) return "-";
-  const auto& [median, low, high] = time->nanoseconds;
-  return fmt::format("{:.0f}", std::ceil(50 * (high - low) / median));
 }
 
 std::string ratio(const ResultRow& row) {
@@ -60,24 +56,105 @@ bool is_timed(const Report& report) {
                      [](const ResultRow& row) { return row.time.has_value(); });
 }
 
-std::string time_columns(const std::string& time, const std::string& spread,
-                         const std::string& times_bullet) {
-  return fmt::format(" {:>6} {:>4} {:>8}", time, spread, times_bullet);
+/// Few characters, cut downwards: "999", "1k", "340k".
+std::string brief_count(std::uint64_t count) {
+  constexpr std::uint64_t thousand = 1000, million = thousand * thousand;
+  if (count < thousand) return fmt::format("{}", count);
+  if (count < million) return fmt::format("{}k", count / thousand);
+  return fmt::format("{}M", count / million);
+}
+
+/// "0/12": contacts reported where there are none, and the other way round.
+std::string wrong_answers(const Statistics& s) {
+  return brief_count(s.of(Outcome::phantom)) + '/' + brief_count(s.of(Outcome::missed));
+}
+
+std::string signed_median(const std::optional<SignedMedian>& bias) {
+  if (!bias) return "-";
+  return bias->value == 0 ? "0" : fmt::format("{:+.1e}", bias->value);
+}
+
+std::string time_columns(const std::string& time, const std::string& times_bullet) {
+  return fmt::format(" {:>6} {:>5}", time, times_bullet);
+}
+
+std::string row_text(const ResultRow& row, bool timed) {
+  const Statistics& s = row.statistics;
+  return fmt::format("{:<21} {:>6} {:>7} {:>7} {:>8} {:>7} {:>5}{}\n", row.candidate, agreement(s),
+                     wrong_answers(s), scientific(s.depth_error, &Quantiles::p99),
+                     signed_median(s.bias), scientific(s.point_error, &Quantiles::p99),
+                     mean_coverage(s.coverage),
+                     timed ? time_columns(nanoseconds(row.time), ratio(row)) : "");
+}
+
+/// One table for each pair of the first group that was scored, then one for all pairs; of the other
+/// groups, one for all pairs, or of the only one.
+std::string summary_text(const Report& report, bool timed) {
+  std::string text, first_group, last;
+  const auto has_all = [&](const std::string& group) {
+    return std::any_of(report.summary.begin(), report.summary.end(), [&](const ResultRow& row) {
+      return row.pose_class == group && row.pair == "all";
+    });
+  };
+  for (const ResultRow& row : report.summary) {
+    const Statistics& s = row.statistics;
+    if (first_group.empty()) first_group = row.pose_class;
+    if (row.pose_class != first_group && row.pair != "all" && has_all(row.pose_class)) continue;
+    if (s.of(Outcome::unsupported) == s.count) continue;
+    const std::string heading =
+        fmt::format("\n{}, {} poses\n", row.pair == "all" ? "all pairs" : row.pair, row.pose_class);
+    if (heading != last) text += heading;
+    last = heading;
+    text += row_text(row, timed);
+  }
+  return text;
+}
+
+/// The worst failure of a candidate in the first group in which it has one.
+const WorstCase* worst_failure(const Report& report, const std::string& candidate) {
+  const WorstCase* worst = nullptr;
+  for (const WorstCase& w : report.worst) {  // group by group
+    if (w.candidate != candidate || w.score.outcome == Outcome::agree) continue;
+    if (worst && worst->group != w.group) break;
+    if (!worst || is_worse(w.score, worst->score)) worst = &w;
+  }
+  return worst;
 }
 
 std::string failures_text(const Report& report) {
   std::string text;
   for (const CandidateDescription& candidate : report.candidates) {
-    const WorstCase* worst = nullptr;
-    for (const WorstCase& w : report.worst) {
-      if (w.candidate != candidate.name || w.score.outcome == Outcome::agree) continue;
-      if (!worst || w.score.severity > worst->score.severity) worst = &w;
-    }
+    const WorstCase* worst = worst_failure(report, candidate.name);
     if (!worst) continue;
-    text += fmt::format("  {} {}\n    {}\n", candidate.name, outcome_name(worst->score.outcome),
-                        worst->examination.replay);
+    text += fmt::format("  {} {}, {}\n    {}\n", candidate.name, outcome_name(worst->score.outcome),
+                        worst->group, worst->examination.replay);
   }
-  return text.empty() ? text : "\nWorst failure of each candidate:\n" + text;
+  return text.empty()
+             ? text
+             : "\nWorst failure of each candidate, in everyday poses if it has one there:\n" + text;
+}
+
+/// What candidates pass as it is and fail turned or tilted.
+std::string contrasts_text(const Report& report) {
+  constexpr int max_shown = 3;  // of a candidate
+  std::string text, last;
+  int shown = 0;
+  const auto leave_out = [&] {
+    if (shown > max_shown)
+      text += fmt::format("    and {} more, in the report\n", shown - max_shown);
+  };
+  for (const Contrast* c : failing_contrasts(report)) {
+    if (c->candidate != last) {
+      leave_out();
+      text += fmt::format("  {}\n", c->candidate);
+      shown = 0;
+    }
+    last = c->candidate;
+    if (++shown > max_shown) continue;
+    text += fmt::format("    {}\n      {}\n", contrast_text(*c), contrast_command(*c));
+  }
+  leave_out();
+  return text.empty() ? text : "\nPassed as it is, failed once turned or tilted:\n" + text;
 }
 
 }  // namespace
@@ -85,33 +162,25 @@ std::string failures_text(const Report& report) {
 std::string terminal_table(const Report& report) {
   const bool timed = is_timed(report);
   std::string text = partial_text(report);
-  text += fmt::format("{:<23}{:>6} {:>6} {:>7} {:>7} {:>5}", "candidate", "agree%", "missed",
-                      "err p99", "err max", "cover");
-  text += (timed ? time_columns("ns", "+-%", "x bullet") : "") + '\n';
-  std::string last_pair;
-  for (const ResultRow& row : report.summary) {
-    const Statistics& s = row.statistics;
-    if (s.of(Outcome::unsupported) == s.count) continue;
-    if (row.pair != last_pair) text += '\n' + row.pair + '\n';
-    text += fmt::format("  {:<21}{:>6} {:>6} {:>7} {:>7} {:>5}", row.candidate, agreement(s),
-                        s.of(Outcome::missed), scientific(s.depth_error, &Quantiles::p99),
-                        scientific(s.depth_error, &Quantiles::max), mean_coverage(s.coverage));
-    text += timed ? time_columns(nanoseconds(row.time), half_spread(row.time), ratio(row)) : "";
-    text += '\n';
-    last_pair = row.pair;
-  }
+  text +=
+      fmt::format("{:<21} {:>6} {:>7} {:>7} {:>8} {:>7} {:>5}{}\n", "candidate", "agree%", "yes/no",
+                  "err p99", "bias", "pts p99", "cover", timed ? time_columns("ns", "times") : "");
+  text += summary_text(report, timed);
   text += fmt::format(
-      "\nagree: depth, normal and deepest point within {:g} of the smaller size\n"
-      "err: depth error of the contacts that were reported, in the same unit\n"
+      "\nagree%: depth, normal and deepest point within {:g} of the smaller size\n"
+      "yes/no: wrong answers to whether bodies touch: contacts made up, and missed\n"
+      "err, bias: depth error of the contacts that were reported, in the same unit;\n"
+      "  its median with its sign: negative is too deep\n"
+      "pts: by how much the worst contact point is off both surfaces and its depth\n"
       "cover: mean share of the contact patch that the contact points span\n",
       report.tolerance);
   if (timed) {
     text += fmt::format(
-        "ns, +-%: median of one query, half the spread of {} repetitions (quartiles)\n"
-        "x bullet: time as a multiple of Bullet's; ~ where their spreads overlap: a tie\n",
+        "ns, times: median of one query; as a multiple of Bullet's, ~ where the spreads\n"
+        "  of {} repetitions overlap: a tie\n",
         timing_repetitions);
   }
-  return text + failures_text(report);
+  return text + contrasts_text(report) + failures_text(report);
 }
 
 }  // namespace touchstone

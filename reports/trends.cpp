@@ -96,13 +96,13 @@ void TrendTally::add(const TrendTally& other) {
   }
 }
 
-std::vector<Trend> TrendTally::trends(const std::string& pair,
+std::vector<Trend> TrendTally::trends(const std::string& pair, const std::string& group,
                                       const std::vector<std::string>& candidates) const {
   std::vector<Trend> result;
   const Key* last = nullptr;
   for (const auto& [key, bin] : bins_) {
     if (!last || last->candidate != key.candidate || last->variable != key.variable) {
-      result.push_back({pair, candidates[key.candidate], variable_name(key.variable), {}});
+      result.push_back({pair, group, candidates[key.candidate], variable_name(key.variable), {}});
     }
     const Quantiles q = *quantiles(bin.severity);
     result.back().bins.push_back({key.decade, bin.severity.size(), bin.missed, q.median, q.max});

@@ -37,8 +37,8 @@ class TrendTally {
            const std::vector<Score>& scores);
   void add(const TrendTally& other);
 
-  /// Trends of one pair: of each candidate and variable with any values.
-  std::vector<Trend> trends(const std::string& pair,
+  /// Trends of one pair and group: of each candidate and variable with any values.
+  std::vector<Trend> trends(const std::string& pair, const std::string& group,
                             const std::vector<std::string>& candidates) const;
 
   void write(ByteWriter& out) const;

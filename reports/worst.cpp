@@ -12,19 +12,24 @@
 namespace touchstone {
 namespace {
 
-constexpr std::size_t kept_of_pair = 4;
+constexpr std::size_t kept_of_heading = 4;
 constexpr std::size_t kept_of_class = 2;
 
-auto rank(const Case& c) {
-  const Outcome o = c.score.outcome;
+auto rank(const Score& s) {
+  const Outcome o = s.outcome;
   const bool answered = o != Outcome::crashed && o != Outcome::timed_out && o != Outcome::failed &&
                         o != Outcome::not_finite;
-  return std::tuple(o == Outcome::agree, answered, -c.score.severity, c.cell, c.index);
+  return std::tuple(o == Outcome::agree, answered, -s.severity);
 }
 
 }  // namespace
 
-bool Case::operator<(const Case& other) const { return rank(*this) < rank(other); }
+bool is_worse(const Score& a, const Score& b) { return rank(a) < rank(b); }
+
+bool Case::operator<(const Case& other) const {
+  return std::tuple(rank(score), cell, index) <
+         std::tuple(rank(other.score), other.cell, other.index);
+}
 
 std::vector<Case> worst_of_class(std::vector<Case> cases) {
   std::erase_if(cases, [](const Case& c) { return c.score.outcome == Outcome::unsupported; });
@@ -38,14 +43,14 @@ std::vector<Case> worst_of_class(std::vector<Case> cases) {
   return cases;
 }
 
-std::vector<Case> worst_of_pair(std::vector<Case> cases) {
+std::vector<Case> worst_of_heading(std::vector<Case> cases) {
   std::sort(cases.begin(), cases.end());
   // The worst of each outcome stay, then what else is worst.
   std::map<Outcome, std::size_t> seen;
   const auto others = std::stable_partition(
       cases.begin(), cases.end(), [&](const Case& c) { return seen[c.score.outcome]++ == 0; });
   const auto first = static_cast<std::size_t>(others - cases.begin());
-  cases.resize(std::min(std::max(kept_of_pair, first), cases.size()));
+  cases.resize(std::min(std::max(kept_of_heading, first), cases.size()));
   std::sort(cases.begin(), cases.end());
   return cases;
 }

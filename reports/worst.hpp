@@ -13,13 +13,17 @@
 
 namespace touchstone {
 
+/// Is `a` the worse failure? Those without an answer are, then those of larger severity; any
+/// failure is worse than agreement.
+bool is_worse(const Score& a, const Score& b);
+
 /// The score of one candidate on one configuration.
 struct Case {
   std::size_t cell;     ///< pair × class, in report order
   std::uint64_t index;  ///< of the configuration in its class
   Score score;
 
-  /// Failures first, those without an answer at the top, by severity; equal ones in report order.
+  /// The worse one first (is_worse); equal ones in report order.
   bool operator<(const Case& other) const;
 };
 
@@ -28,9 +32,9 @@ struct Case {
 /// worst of the worst of each.
 std::vector<Case> worst_of_class(std::vector<Case> cases);
 
-/// Selects from what worst_of_class gave of all classes of a pair the worst of each outcome, and
-/// what else is worst up to four, worst first.
-std::vector<Case> worst_of_pair(std::vector<Case> cases);
+/// Selects from what worst_of_class gave of all classes under a heading (pair × group) the worst of
+/// each outcome, and what else is worst up to four, worst first.
+std::vector<Case> worst_of_heading(std::vector<Case> cases);
 
 /// Examines one configuration, as in a report's worst cases and `replay`: each candidate answers in
 /// a new session. `width`: of the truth, relative to the larger size.

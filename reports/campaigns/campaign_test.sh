@@ -37,7 +37,7 @@ refused() {
 
 campaign --workers 1 --out whole >table 2>/dev/null || fail "one process"
 grep -q '^  bullet ' table || fail "no table is printed"
-"$program" replay "$(grep -o '"id": "[^"]*"' whole/campaign.json | head -n 1 | cut -d '"' -f 4)" \
+"$program" replay "$(grep -o '"id":"[^"]*"' whole/campaign.json | head -n 1 | cut -d '"' -f 4)" \
   --candidates bullet >/dev/null || fail "a worst case cannot be replayed"
 
 campaign --workers 2 --out two >/dev/null 2>&1
@@ -123,12 +123,12 @@ refused 'damaged, cut short' endless --out cut --resume
 
 # A full disk: an error, the last checkpoint intact, and on with it once there is room.
 mkdir full
-if mount -t tmpfs -o size=64k tmpfs full 2>/dev/null; then
+if mount -t tmpfs -o size=96k tmpfs full 2>/dev/null; then
   mounted=yes
   campaign --workers 1 --shard 1/2 --out full >/dev/null 2>&1 || fail "no room for one shard"
   mv full/shard-1-of-2.jsonl kept
   cp kept full/shard-1-of-2.jsonl
-  head -c 60000 /dev/zero >full/ballast 2>/dev/null
+  head -c 92000 /dev/zero >full/ballast 2>/dev/null
   refused 'No space left' campaign --shard 1/2 --out full --resume
   cmp -s kept full/shard-1-of-2.jsonl || fail "a full disk has damaged the checkpoint"
   [ ! -e full/shard-1-of-2.jsonl.partial ] || fail "a full disk leaves half a file"

@@ -160,7 +160,7 @@ json plan(std::uint64_t seed = 1) {
           {"tolerance", 1e-4},
           {"threshold", 0},
           {"classes",
-           {{{"pair", "cylinder-sphere"}, {"class", "general-deep"}},
+           {{{"pair", "cylinder-sphere"}, {"class", "general-shallow"}},
             {{"pair", "cylinder-box"}, {"class", "rim-face"}}}},
           {"candidates", {{{"name", "one"}}, {{"name", "two"}}}}};
 }
@@ -201,13 +201,31 @@ TEST(Merge, DoesNotDependOnTheSplitNorOnTheOrder) {
   EXPECT_EQ(json::parse(whole)["summary"][4]["outcomes"]["shallow"], 400);
 }
 
+TEST(Merge, SumsUpByGroupsAlone) {
+  const json result = json::parse(merged({part(0, 4)}));
+  ASSERT_EQ(result["summary"].size(), 6u);
+  for (const json& row : result["summary"]) EXPECT_EQ(row["class"], "everyday");
+  EXPECT_EQ(result["classes"][1]["arrangement"], "rim-face");
+  for (const json& worst : result["worst"]) EXPECT_EQ(worst["group"], "everyday");
+}
+
+TEST(TallyJson, OfAFileWithoutSignsKnowsNoBias) {
+  const ShardState p = part(0, 1);
+  json tally = to_json(p.tallies[0]);
+  EXPECT_TRUE(tally_from_json(tally, 0).statistics().bias);
+  tally.erase("too_deep");
+  const Statistics s = tally_from_json(tally, 0).statistics();
+  EXPECT_FALSE(s.bias);
+  EXPECT_TRUE(s.depth_error);
+}
+
 TEST(Merge, RefusesWhatOverlapsWhatIsMissingAndWhatIsForeign) {
   EXPECT_THAT(
       [] {
         merged({part(0, 3), part(2, 4)});
       },
       ThrowsMessage<InvalidInput>(
-          HasSubstr("cylinder-sphere/general-deep, configurations 512 to 999")));
+          HasSubstr("cylinder-sphere/general-shallow, configurations 512 to 999")));
   EXPECT_THAT(
       [] {
         merged({part(0, 1), part(2, 4)});

@@ -14,6 +14,8 @@
 
 #include "properties/files/disk.hpp"
 #include "reference/invalid_input.hpp"
+#include "reports/factors.hpp"
+#include "reports/headings.hpp"
 #include "reports/report_json.hpp"
 
 namespace touchstone {
@@ -96,10 +98,29 @@ WorstCase worst_case(const ShardState& whole, const Case& c, const std::string& 
   const std::string id = to_string(identity);
   const std::string replay = whole.plan.program + " replay " + id;
   return {pair_name(cell.pair),
+          group_name(group_of(cell.pair, cell.pose_class)),
           cell.pose_class,
           candidate,
           c.score,
           {id, make_configuration(identity), std::nullopt, {}, replay}};
+}
+
+/// Adds the summary of one candidate under a heading, and its worst cases there.
+void add_summary(Report& report, const ShardState& whole, const Heading& heading,
+                 std::size_t candidate) {
+  const std::string& name = whole.plan.candidates[candidate];
+  ScoreTally sum(Precision::binned);
+  std::vector<Case> cases;
+  for (const std::size_t cell : heading.cells) {
+    const ScoreTally& tally = whole.tally(cell, candidate);
+    sum.add(tally);
+    cases.insert(cases.end(), tally.worst.begin(), tally.worst.end());
+  }
+  report.summary.push_back(row(sum, heading.pair, group_name(heading.group), name));
+  if (heading.pair == "all") return;
+  for (const Case& c : worst_of_heading(std::move(cases))) {
+    report.worst.push_back(worst_case(whole, c, name));
+  }
 }
 
 }  // namespace
@@ -197,39 +218,22 @@ Report campaign_result(const ShardState& whole) {
     report.candidates.push_back({name, "", "", "", ""});
   }
   for (const Cell& cell : plan.cells) {
-    report.classes.push_back({pair_name(cell.pair), cell.pose_class,
-                              std::string(describe_pose_class(cell.pair, cell.pose_class))});
+    report.classes.push_back(description_of(cell));
   }
 
-  std::vector<ScoreTally> everything(candidates, ScoreTally(Precision::binned));
-  std::size_t pairs = 0;
-  for (std::size_t first = 0, last = 0; first < plan.cells.size(); first = last, ++pairs) {
-    const Pair pair = plan.cells[first].pair;
-    while (last < plan.cells.size() && plan.cells[last].pair == pair) ++last;
-    for (std::size_t cell = first; cell < last; ++cell) {
-      for (std::size_t k = 0; k < candidates; ++k) {
-        report.results.push_back(row(whole.tally(cell, k), pair_name(pair),
-                                     plan.cells[cell].pose_class, plan.candidates[k]));
-      }
-    }
+  for (std::size_t cell = 0; cell < plan.cells.size(); ++cell) {
     for (std::size_t k = 0; k < candidates; ++k) {
-      ScoreTally of_pair(Precision::binned);
-      std::vector<Case> cases;
-      for (std::size_t cell = first; cell < last; ++cell) {
-        const ScoreTally& tally = whole.tally(cell, k);
-        of_pair.add(tally);
-        cases.insert(cases.end(), tally.worst.begin(), tally.worst.end());
-      }
-      everything[k].add(of_pair);
-      report.summary.push_back(row(of_pair, pair_name(pair), "all", plan.candidates[k]));
-      for (const Case& c : worst_of_pair(std::move(cases))) {
-        report.worst.push_back(worst_case(whole, c, plan.candidates[k]));
-      }
+      const ScoreTally& tally = whole.tally(cell, k);
+      report.results.push_back(row(tally, pair_name(plan.cells[cell].pair),
+                                   plan.cells[cell].pose_class, plan.candidates[k]));
+      report.results.back().worst_index = worst_failure(tally);
     }
   }
-  for (std::size_t k = 0; k < candidates && pairs > 1; ++k) {
-    report.summary.push_back(row(everything[k], "all", "all", plan.candidates[k]));
+  for (const Heading& heading : headings(plan.cells, [](std::size_t) { return true; })) {
+    for (std::size_t k = 0; k < candidates; ++k) add_summary(report, whole, heading, k);
   }
+  report.factors = factors(report);
+  report.contrasts = contrasts(report);
   return report;
 }
 
@@ -237,20 +241,27 @@ std::string campaign_json(const ShardState& whole) {
   const Report report = campaign_result(whole);
   const json plan = json::parse(whole.plan.text);
   json results = json::array(), summary = json::array(), worst = json::array();
+  json factors = json::array(), contrasts = json::array(), classes = json::array();
   for (const ResultRow& row : report.results) results.push_back(to_json(row));
   for (const ResultRow& row : report.summary) summary.push_back(to_json(row));
   for (const WorstCase& w : report.worst) worst.push_back(to_json(w));
-  json result = {{"schema", "touchstone-campaign-1"},
+  for (const Factor& f : report.factors) factors.push_back(to_json(f));
+  for (const Contrast& c : report.contrasts) contrasts.push_back(to_json(c));
+  for (const PoseClassDescription& c : report.classes) classes.push_back(to_json(c));
+  json result = {{"schema", "touchstone-campaign-2"},
                  {"configurations", report.configurations},
                  {"complete", report.completed.configurations == report.planned.configurations},
                  {"results", results},
                  {"summary", summary},
+                 {"classes", classes},
+                 {"factors", factors},
+                 {"contrasts", contrasts},
                  {"worst", worst}};
   for (const char* member :
-       {"version", "command", "seed", "count", "tolerance", "threshold", "candidates", "classes"}) {
+       {"version", "command", "seed", "count", "tolerance", "threshold", "candidates"}) {
     result[member] = plan.at(member);
   }
-  return result.dump(1) + '\n';
+  return text_by_lines(result);
 }
 
 std::filesystem::path write_result(const ShardState& whole, const std::filesystem::path& folder) {

@@ -105,6 +105,8 @@ json to_json(const ScoreTally& tally) {
   json result = {{"count", tally.count},
                  {"outcomes", outcomes},
                  {"points", points},
+                 {"too_deep", to_json(tally.bias.negative)},
+                 {"too_shallow", to_json(tally.bias.positive)},
                  {"severity", to_json(tally.severity)},
                  {"uncovered", to_json(tally.coverage.uncovered)},
                  {"covered_sum", tally.coverage.sum},
@@ -144,6 +146,11 @@ ScoreTally tally_from_json(const json& j, std::size_t cell) {
     if (j.contains(quantity.name) || quantity.value != &Score::deepest_error) {
       t.errors[i] = magnitudes(quantity.name);
     }
+  }
+  // Files of before the sign of the depth error was kept do without it.
+  if (j.contains("too_deep")) {
+    t.bias.negative = magnitudes("too_deep");
+    t.bias.positive = magnitudes("too_shallow");
   }
   t.severity = magnitudes("severity");
   t.coverage.uncovered = magnitudes("uncovered");

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iterator>
 #include <numeric>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -79,6 +80,17 @@ std::string style_of(const std::string& candidate) {
   return fmt::format("pointtype {} linecolor '{}'", symbols[mark.symbol], colours[mark.colour]);
 }
 
+/// "errors-cylinder-box", and of another group of pose classes than everyday
+/// "errors-cylinder-box-extreme".
+std::string figure_name(const std::string& name, const std::string& group) {
+  return group == group_name(Group::everyday) ? name : name + '-' + group;
+}
+
+/// "cylinder-box, everyday poses".
+std::string figure_title(const std::string& pair, const std::string& group) {
+  return fmt::format("{}, {} poses", pair == "all" ? "all pairs" : pair, group);
+}
+
 /// Text within double quotes, for gnuplot.
 std::string quoted(const std::string& text) {
   std::string result = "\"";
@@ -140,12 +152,13 @@ struct Point {
 };
 
 /// Timed candidates with contacts.
-std::vector<Point> points_of(const Report& report, const std::string& pair) {
+std::vector<Point> points_of(const Report& report, const std::string& group,
+                             const std::string& pair) {
   constexpr double min_error = 1e-17;  // a logarithmic axis has no zero
   std::vector<Point> result;
   for (const ResultRow& row : report.summary) {
     const Statistics& s = row.statistics;
-    if (row.pair != pair || !row.time || !s.depth_error) continue;
+    if (row.pair != pair || row.pose_class != group || !row.time || !s.depth_error) continue;
     result.push_back({row.candidate, row.time->nanoseconds.median,
                       std::max(s.depth_error->p99, min_error), agreement(s),
                       row.pareto.value_or(false)});
@@ -163,7 +176,7 @@ Range decades(const std::vector<double>& values) {
 }
 
 /// The panel's commands; `width` and `height` are of its axes, in characters of its labels.
-std::string speed_panel(const std::string& pair, const std::vector<Point>& points, const Range& x,
+std::string speed_panel(const std::string& title, const std::vector<Point>& points, const Range& x,
                         const Range& y, double width, double height) {
   std::string text = fmt::format(
       "set title {} noenhanced\nset logscale xy\nset xrange [0.999e{}:1.001e{}]\nset yrange "
@@ -173,8 +186,7 @@ std::string speed_panel(const std::string& pair, const std::vector<Point>& point
       "set ytics 1e{} format '%.0e'\nset xlabel 'time per query'\n"
       "set ylabel 'depth error, p99 (sizes)'\nset key off\nunset label\nunset mxtics\nunset "
       "mytics\n",
-      quoted(pair == "all" ? "all pairs" : pair), x.low, x.high, y.low, y.high,
-      std::max(1.0, std::ceil((y.high - y.low) / 6)));
+      quoted(title), x.low, x.high, y.low, y.high, std::max(1.0, std::ceil((y.high - y.low) / 6)));
   std::vector<Label> labels;
   for (const Point& p : points) {
     labels.push_back({(std::log10(p.time) - x.low) / (x.high - x.low) * width,
@@ -221,15 +233,16 @@ std::string key_panel(const std::vector<std::string>& candidates, double share) 
   return text + '\n';
 }
 
-/// The charts of speed and accuracy, together and of each pair. Writes their data as CSV and
-/// returns their commands, none where there is nothing to show.
-std::string speed_figures(const Report& report, const std::vector<std::string>& pairs,
+/// The charts of speed and accuracy in one group, together and of each pair. Writes their data as
+/// CSV and returns their commands, none where there is nothing to show.
+std::string speed_figures(const Report& report, const std::string& group,
+                          const std::vector<std::string>& pairs,
                           const std::filesystem::path& folder) {
   std::vector<double> times, errors;
   std::vector<std::string> drawn;
   std::string all_data = "pair,candidate,nanoseconds,depth_error_p99,agreement,on_front\n";
   for (const auto& pair : pairs) {
-    const auto points = points_of(report, pair);
+    const auto points = points_of(report, group, pair);
     if (!points.empty()) drawn.push_back(pair);
     for (const Point& p : points) {
       times.push_back(p.time);
@@ -239,7 +252,7 @@ std::string speed_figures(const Report& report, const std::vector<std::string>& 
     }
   }
   if (drawn.empty()) return "";
-  write_file(folder / "speed-accuracy.csv", all_data, "--figures");
+  write_file(folder / (figure_name("speed-accuracy", group) + ".csv"), all_data, "--figures");
   const Range x = decades(times);
   Range y = decades(errors);
   y.low -= 1;  // room for labels above the axis
@@ -253,32 +266,34 @@ std::string speed_figures(const Report& report, const std::vector<std::string>& 
   for (const CandidateDescription& c : report.candidates) candidates.push_back(c.name);
   int panel = 0;
   for (const auto& pair : drawn) {
-    const auto points = points_of(report, pair);
-    script +=
-        in_both_forms("speed-accuracy-" + pair, 640, 440, speed_panel(pair, points, x, y, 64, 18));
+    const std::string title = figure_title(pair, group);
+    const std::string name = figure_name("speed-accuracy-" + pair, group);
+    const auto points = points_of(report, group, pair);
+    script += in_both_forms(name, 640, 440, speed_panel(title, points, x, y, 64, 18));
     panels += fmt::format("set size {},{}\nset origin {},{}\n", 1.0 / columns, (1 - share) / rows,
                           1.0 / columns * (panel % columns),
                           1 - (1 - share) / rows * (panel / columns + 1)) +
-              speed_panel(pair, points, x, y, 50, 13);
+              speed_panel(title, points, x, y, 50, 13);
     ++panel;
     std::string data = "candidate,nanoseconds,depth_error_p99,agreement,on_front\n";
     for (const Point& p : points) {
       data += fmt::format("{},{},{},{},{}\n", csv_cell(p.candidate), p.time, p.error, p.agreement,
                           p.front ? 1 : 0);
     }
-    write_file(folder / ("speed-accuracy-" + pair + ".csv"), data, "--figures");
+    write_file(folder / (name + ".csv"), data, "--figures");
   }
-  return script + in_both_forms("speed-accuracy", 1080, 340 * rows + key_height,
+  return script + in_both_forms(figure_name("speed-accuracy", group), 1080, 340 * rows + key_height,
                                 "set multiplot\n" + panels + key_panel(candidates, share) +
                                     "unset multiplot\n");
 }
 
 /// Cumulative distribution of the depth error, a line for each candidate.
-std::string error_figure(const Report& report, const std::string& pair, const path& folder) {
+std::string error_figure(const Report& report, const std::string& group, const std::string& pair,
+                         const path& folder) {
   std::string data = "candidate,depth_error,share_at_most\n", plot, points;
   for (const ResultRow& row : report.summary) {
     const Statistics& s = row.statistics;
-    if (row.pair != pair || !s.depth_histogram) continue;
+    if (row.pair != pair || row.pose_class != group || !s.depth_histogram) continue;
     const LogHistogram& histogram = *s.depth_histogram;
     // Contacts that were not reported are below no error.
     auto sum = static_cast<double>(histogram.zero), owed = sum;
@@ -303,20 +318,26 @@ std::string error_figure(const Report& report, const std::string& pair, const pa
     points += "e\n";
   }
   if (plot.empty()) return "";
-  write_file(folder / ("errors-" + pair + ".csv"), data, "--figures");
+  const std::string name = figure_name("errors-" + pair, group);
+  write_file(folder / (name + ".csv"), data, "--figures");
   return in_both_forms(
-      "errors-" + pair, 900, 520,
+      name, 900, 520,
       fmt::format("set title {}\nset logscale x\nset xtics 1e4 format '%.0e'\nunset mxtics\n"
                   "set yrange [0:1]\nset grid linecolor '#d9dee5'\nset border 3\n"
                   "set tics nomirror\nset xlabel 'depth error (sizes)'\n"
                   "set ylabel 'share of contacts with at most this error'\n"
                   "set key outside right top maxcols 1 font ',9'\n",
-                  quoted(pair)) +
+                  quoted(figure_title(pair, group))) +
           plot + '\n' + points);
 }
 
 /// Share that disagrees, by pose class and candidate.
-std::string class_figure(const Report& report, const std::string& pair, const path& folder) {
+std::string class_figure(const Report& report, const std::string& group, const std::string& pair,
+                         const path& folder) {
+  std::set<std::string> of_group;
+  for (const PoseClassDescription& c : report.classes) {
+    if (c.pair == pair && c.group == group) of_group.insert(c.pose_class);
+  }
   std::vector<std::string> classes, candidates;
   std::string data = "class,candidate,share_that_disagrees\n", cells;
   const auto place = [](std::vector<std::string>& names, const std::string& name) {
@@ -327,14 +348,16 @@ std::string class_figure(const Report& report, const std::string& pair, const pa
   };
   for (const ResultRow& row : report.results) {
     const Statistics& s = row.statistics;
-    if (row.pair != pair || s.of(Outcome::unsupported) == s.count) continue;
+    if (row.pair != pair || !of_group.contains(row.pose_class)) continue;
+    if (s.of(Outcome::unsupported) == s.count) continue;
     const double share = 1 - agreement(s);
     data += fmt::format("{},{},{:.6g}\n", row.pose_class, csv_cell(row.candidate), share);
     const auto y = place(classes, row.pose_class), x = place(candidates, row.candidate);
     cells += fmt::format("{} {} {:.6g}\n", x, y, share);
   }
   if (cells.empty()) return "";
-  write_file(folder / ("classes-" + pair + ".csv"), data, "--figures");
+  const std::string name = figure_name("classes-" + pair, group);
+  write_file(folder / (name + ".csv"), data, "--figures");
   const auto tics = [](const std::vector<std::string>& names) {
     std::string text;
     for (std::size_t i = 0; i < names.size(); ++i) {
@@ -344,15 +367,16 @@ std::string class_figure(const Report& report, const std::string& pair, const pa
   };
   const int width = 320 + 26 * static_cast<int>(candidates.size());
   const int height = 200 + 15 * static_cast<int>(classes.size());
-  return in_both_forms("classes-" + pair, width, height,
-                       fmt::format("set title {}\nset palette defined (0 '#ffffff', 1 '#b3321f')\n"
-                                   "set cbrange [0:1]\nset cblabel 'share that disagrees'\n"
-                                   "set xrange [-0.5:{}]\nset yrange [{}:-0.5]\nset tics scale 0\n"
-                                   "set xtics rotate by 90 right ({})\nset ytics ({})\n"
-                                   "plot '-' using 1:2:3 with image pixels notitle\n{}e\n",
-                                   quoted(pair), static_cast<double>(candidates.size()) - 0.5,
-                                   static_cast<double>(classes.size()) - 0.5, tics(candidates),
-                                   tics(classes), cells));
+  return in_both_forms(
+      name, width, height,
+      fmt::format("set title {}\nset palette defined (0 '#ffffff', 1 '#b3321f')\n"
+                  "set cbrange [0:1]\nset cblabel 'share that disagrees'\n"
+                  "set xrange [-0.5:{}]\nset yrange [{}:-0.5]\nset tics scale 0\n"
+                  "set xtics rotate by 90 right ({})\nset ytics ({})\n"
+                  "plot '-' using 1:2:3 with image pixels notitle\n{}e\n",
+                  quoted(figure_title(pair, group)), static_cast<double>(candidates.size()) - 0.5,
+                  static_cast<double>(classes.size()) - 0.5, tics(candidates), tics(classes),
+                  cells));
 }
 
 }  // namespace
@@ -367,13 +391,18 @@ void check_figures(const path& folder) {
 
 void write_figures(const Report& report, const path& folder) {
   check_figures(folder);
-  std::vector<std::string> pairs;
-  for (const ResultRow& row : report.summary) {
-    if (pairs.empty() || pairs.back() != row.pair) pairs.push_back(row.pair);
-  }
-  std::string script = speed_figures(report, pairs, folder);
-  for (const auto& pair : pairs) {
-    script += error_figure(report, pair, folder) + class_figure(report, pair, folder);
+  std::string script;
+  for (const Group group : all_groups) {
+    const std::string name = group_name(group);
+    std::vector<std::string> pairs;
+    for (const ResultRow& row : report.summary) {
+      if (row.pose_class != name) continue;
+      if (pairs.empty() || pairs.back() != row.pair) pairs.push_back(row.pair);
+    }
+    script += speed_figures(report, name, pairs, folder);
+    for (const auto& pair : pairs) {
+      script += error_figure(report, name, pair, folder) + class_figure(report, name, pair, folder);
+    }
   }
   run_gnuplot(script, folder);
 }

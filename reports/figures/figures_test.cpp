@@ -42,6 +42,9 @@ TEST(Figures, EachComesAsPictureTwiceAndAsData) {
     EXPECT_THAT(text_of(folder / (std::string(name) + ".png")), StartsWith("\x89PNG")) << name;
     EXPECT_THAT(text_of(folder / (std::string(name) + ".csv")), HasSubstr("reference,")) << name;
   }
+  EXPECT_TRUE(std::filesystem::exists(folder / "errors-cylinder-box-degenerate.svg"));
+  EXPECT_THAT(text_of(folder / "classes-cylinder-box.csv"),
+              testing::AllOf(HasSubstr("general+shallow,"), testing::Not(HasSubstr("touching,"))));
   EXPECT_THAT(text_of(folder / "errors-all.csv"), HasSubstr("\"a\"\"b,{c}\\\""));
   EXPECT_FALSE(std::filesystem::exists(folder / "figures.gnuplot"));
   std::filesystem::remove_all(folder);

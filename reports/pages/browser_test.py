@@ -99,6 +99,11 @@ class PageTest(unittest.TestCase):
         ActionChains(self.driver).move_to_element(element).perform()
         return self.find("#tooltip")
 
+    def press(self, element):
+        """Clicks an element where nothing at the page's edge lies over it."""
+        self.hover(element)
+        element.click()
+
     def console(self):
         return [e for e in self.driver.get_log("browser") if e["level"] in ("SEVERE", "WARNING")]
 
@@ -186,11 +191,11 @@ class Report(PageTest):
         box = next(li.text for li in self.all("#finding-accuracy li") if "cylinder–box" in li.text)
         self.assertIn("reference (agrees on 100%", box)
         self.assertRegex(self.find("#finding-cost").text, r"takes \d+ ns")
-        self.choose("#finding-candidate", "ode")
+        self.choose("#finding-candidate", "bullet")
         failures = self.find("#finding-failures")
         self.assertIn("pose classes, most in", failures.text)
-        failures.find_element(By.CSS_SELECTOR, "li:last-child button").click()
-        self.assertEqual(self.find("#worst-candidate").get_attribute("value"), "ode")
+        self.press(failures.find_element(By.CSS_SELECTOR, "li:last-child button"))
+        self.assertEqual(self.find("#worst-candidate").get_attribute("value"), "bullet")
 
     def test_the_controls_change_what_is_shown(self):
         for control, value, place in (
@@ -206,8 +211,34 @@ class Report(PageTest):
             self.choose(control, value)
             self.assertNotEqual(self.find(place).get_attribute("innerHTML"), before, control)
         lines = len(self.all("#trend-chart .mark-line path"))
-        self.find("#trend-legend .toggle[aria-pressed=true]").click()
+        self.press(self.find("#trend-legend .toggle[aria-pressed=true]"))
         self.assertEqual(len(self.all("#trend-chart .mark-line path")), lines - 1)
+
+    def test_the_group_of_poses_changes_every_table_and_chart(self):
+        places = ("#finding-accuracy", "#worst-error-table", "#chart-panels", "#summary-table",
+                  "#distribution-cumulative", "#trend-chart", "#class-table", "#outcome-bars",
+                  "#worst-cases")
+        def shown():
+            time.sleep(0.3)  # charts are drawn when they are ready
+            return [self.find(place).get_attribute("innerHTML") for place in places]
+        before = shown()
+        self.press(self.find("#groups button[value=extreme]"))
+        for place, was, now in zip(places, before, shown()):
+            self.assertNotEqual(was, now, place)
+        self.assertEqual(len(self.all("#chart-panels svg")), 6)
+        self.assertIn("extreme poses", self.find("#summary-table caption").text)
+        self.press(self.find("#groups button[value=everyday]"))
+        self.assertEqual(self.find("#summary-table").get_attribute("innerHTML"), before[3])
+
+    def test_an_arrangement_alone_stands_beside_itself_turned(self):
+        self.choose("#contrast-pair", "cylinder-cylinder")
+        row = next(r for r in self.all("#contrast-table tbody tr") if r.text.startswith("perpendicular-t"))
+        self.assertIn("100 → 100", row.text)  # the reference
+        self.choose("#contrast-modifier", "tilted")
+        failing = next(c for c in self.all("#contrast-table td.heat")
+                       if not c.text.endswith("→ 100"))
+        self.press(failing)
+        self.assertIn("./touchstone replay cylinder-cylinder/", self.find("#contrast-command code").text)
 
     def test_a_worst_case_is_drawn_and_turns(self):
         canvas = self.find("#worst-cases canvas")

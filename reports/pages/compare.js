@@ -39,10 +39,15 @@ function placesOf(rows) {
     return [{pair: r.pair, candidate: r.candidate, x: time, y: Math.max(r.depth_error.p99, 1e-17), front: r.pareto}];
   });
 }
+const legend = element('div', {class: 'legend'});
+byId('chart-panels').before(legend);
 function charts() {
-  const was = placesOf(before), is = placesOf(after), all = [...was, ...is], host = byId('chart-panels');
+  const here = rows => placesOf(rows.filter(r => r.group === group));
+  const was = here(before), is = here(after), all = [...was, ...is], host = byId('chart-panels');
+  redrawn.length = 0;
+  host.replaceChildren();
   if (all.length === 0) return host.append(`No times relative to ${limits.baseline}.`);
-  host.before(element('div', {class: 'legend'}, ...names.filter(n => all.some(p => p.candidate === n)).map(n => named(n))));
+  legend.replaceChildren(...names.filter(n => all.some(p => p.candidate === n)).map(n => named(n)));
   const x = {title: `time, × ${limits.baseline}`, ...decadesOf(all.map(p => p.x)), label: "'× ' + format(datum.value, '~g')"};
   const y = powerAxis('depth error, p99 (sizes)', all.map(p => p.y));
   const places = [...new Set(all.map(p => p.pair))].map(pair => [pair, element('div', {class: 'chart'})]);
@@ -69,5 +74,6 @@ function changeChart(place, pair, was, is, x, y) {
 }
 words();
 changeTable();
-charts();
+groupControl(byId('groups'), [...new Set([...before, ...after].map(r => r.group))]);
+keepGrouped(charts);
 listSections();

@@ -91,6 +91,35 @@ function whenPressed(target, act) {
   target.addEventListener('click', act);
   target.addEventListener('keydown', e => { if (e.key === 'Enter') act(); });
 }
+
+// Groups of pose classes: one is shown at a time, for no number over all of them means anything. `grouped` holds what is
+// drawn anew when another is chosen.
+const groupMeanings = {
+  everyday: 'sizes within 1:20, turned at random, shallow, resting or apart',
+  degenerate: 'exact, near-exact and symmetric',
+  extreme: 'extreme proportions, scales, distances and depths',
+  recorded: 'as scenes have produced them',
+};
+let group = null;
+const grouped = [];
+function keepGrouped(draw) {
+  grouped.push(draw);
+  draw();
+}
+function groupControl(host, groups) {
+  group = groups[0] ?? null;
+  host.hidden = group === null;
+  const meaning = element('span', {class: 'quiet wide'});
+  const buttons = groups.map(g => element('button', {type: 'button', value: g}, g));
+  const choose = chosen => {
+    group = chosen;
+    meaning.textContent = groupMeanings[group] ?? '';
+    for (const b of buttons) b.setAttribute('aria-pressed', b.value === group);
+  };
+  for (const b of buttons) b.addEventListener('click', () => { choose(b.value); for (const draw of grouped) draw(); });
+  host.append(element('span', {}, 'Poses: '), element('span', {class: 'choice', role: 'group', 'aria-label': 'Poses'}, ...buttons), meaning);
+  choose(group);
+}
 const onThemeChange = act => matchMedia('(prefers-color-scheme: dark)').addEventListener('change', act);
 
 // The tooltip, one for the page.

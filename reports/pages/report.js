@@ -8,14 +8,32 @@ function unpackReport(packed) {
     if (schema === null || cell === null) return cell;
     return Object.fromEntries(Object.keys(schema).map((key, i) => [key, unpack(cell[i], schema[key])]));
   };
-  return Object.fromEntries(Object.entries(packed).map(([key, value]) =>
+  const whole = Object.fromEntries(Object.entries(packed).map(([key, value]) =>
       [key, value !== null && value.rows ? value.rows.map(row => unpack(row, value.schema)) : value]));
+  for (const trend of whole.trends) {
+    trend.bins = trend.bins.map(([decade, count, missed, median, max]) => ({decade, count, missed, median, max}));
+  }
+  const only = (value, name) => value === null ? null : {[name]: value};
+  for (const r of whole.results) {
+    const {outcomes} = r;
+    r.outcomes = {};
+    for (let i = 0; i < outcomes.length; i += 2) r.outcomes[whole.outcomes[outcomes[i]]] = outcomes[i + 1];
+    for (const [member, name] of [['severity', 'max'], ['depth_error', 'p99'], ['normal_regret', 'p99'], ['coverage', 'mean'],
+                                  ['nanoseconds', 'median']]) r[member] = only(r[member], name);
+  }
+  return whole;
 }
 
 const candidates = report.candidates.map(c => c.name);
 showUsual(candidates);
-const pairs = [...new Set(report.results.map(r => r.pair))];
-const summaryOf = (pair, candidate) => report.summary.find(r => r.pair === pair && r.candidate === candidate);
+const pairs = [...new Set(report.classes.map(c => c.pair))];
+// What is shown is of the group of pose classes that is chosen at the top of the page.
+const classGroup = new Map(report.classes.map(c => [`${c.pair}/${c.class}`, c.group]));
+groupControl(byId('groups'), [...new Set(report.summary.map(r => r.class))]);
+const inGroup = r => classGroup.get(`${r.pair}/${r.class}`) === group;
+const summary = () => report.summary.filter(r => r.class === group);
+const summaryOf = (pair, candidate) => summary().find(r => r.pair === pair && r.candidate === candidate);
+const classesOf = pair => report.classes.filter(c => c.pair === pair && c.group === group);
 // "box" for "cylinder-box".
 const otherShape = pair => pair.replace('cylinder-', '');
 
@@ -25,7 +43,8 @@ const time = r => r.nanoseconds === null ? null : r.nanoseconds.median;
 // The number of configurations that a candidate has a routine for.
 const supported = r => r.count - (r.outcomes.unsupported || 0);
 const agreeing = r => (r.outcomes.agree || 0) / supported(r);
-const lost = r => ['not-finite', 'failed', 'crashed', 'timed-out'].reduce((sum, o) => sum + (r.outcomes[o] || 0), 0);
+const withoutAnswer = ['not-finite', 'failed', 'crashed', 'timed-out'];
+const lost = r => withoutAnswer.reduce((sum, o) => sum + (r.outcomes[o] || 0), 0);
 const vector = v => v === null ? '–' : `(${v.map(c => c === null ? 'nan' : c.toPrecision(6)).join(', ')})`;
 const outcomesText = r => Object.entries(r.outcomes).map(([name, n]) => `${name} ${n}`).join(', ');
 
@@ -45,21 +64,25 @@ function findings() {
     byId('partial').textContent = `Partial: interrupted when ${report.completed.classes} of ` +
         `${report.planned.classes} pose classes were scored and ${report.completed.timed_classes} timed.`;
   }
-  const all = report.summary.filter(r => r.pair === 'all'), rows = (all.length ? all : report.summary).filter(supported);
+  const rows = report.summary.filter(supported);
   byId('headline').textContent = `${whole(report.configurations)} configurations of ${pairs.length} ` +
       `${pairs.length === 1 ? 'pair' : 'pairs'} of shapes, ${new Set(rows.map(r => r.candidate)).size} contact routines, ` +
       `each answer held against a truth certified to 1e-30 of the larger size.`;
   byId('provenance').append(`Touchstone ${report.version}, seed ${report.seed}, ${report.machine.cpu}.`);
-  byId('finding-accuracy').append(...pairs.map(pair => element('li', {}, ...accuracyOf(pair))));
-  byId('finding-cost').append(...pairs.map(pair => element('li', {}, ...costOf(pair))));
   choices('finding-candidate', candidates, failuresOf, candidates.find(c => c !== 'reference'));
-  failuresOf();
+  keepGrouped(() => {
+    const here = pairs.filter(pair => summary().some(r => r.pair === pair));
+    byId('finding-accuracy').replaceChildren(...here.map(pair => element('li', {}, ...accuracyOf(pair))));
+    byId('finding-cost').replaceChildren(...here.map(pair => element('li', {}, ...costOf(pair))));
+    failuresOf();
+  });
+  contrastsFound();
 }
 
 // Candidates by agreement, then by worst error.
 function ranked(pair) {
   const worst = r => r.severity === null ? Infinity : r.severity.max;
-  return report.summary.filter(r => r.pair === pair && supported(r))
+  return summary().filter(r => r.pair === pair && supported(r))
       .sort((a, b) => agreeing(b) - agreeing(a) || worst(a) - worst(b));
 }
 const brief = r => `agrees on ${percent(agreeing(r))}, worst error ${exponent(quantile(r.severity, 'max'))}`;
@@ -90,18 +113,35 @@ function costOf(pair) {
 
 function failuresOf() {
   const candidate = byId('finding-candidate').value;
-  const failing = report.results.filter(r => r.candidate === candidate && supported(r) && agreeing(r) < 1)
+  const failing = report.results.filter(r => r.candidate === candidate && inGroup(r) && supported(r) && agreeing(r) < 1)
       .sort((a, b) => agreeing(a) - agreeing(b) || quantile(b.severity, 'max') - quantile(a.severity, 'max'));
-  const classes = pair => report.classes.filter(c => c.pair === pair).length;
   byId('finding-failures').replaceChildren(...(failing.length === 0
-      ? [element('li', {}, `${candidate} agrees with the truth on every configuration that it has a routine for.`)]
+      ? [element('li', {}, `${candidate} agrees with the truth on every ${group} configuration that it has a routine for.`)]
       : pairs.map(pair => {
         const here = failing.filter(r => r.pair === pair);
         if (here.length === 0) return null;
         const main = r => Object.entries(r.outcomes).filter(([o]) => o !== 'agree').sort((a, b) => b[1] - a[1])[0][0];
-        return element('li', {}, element('b', {}, dashed(pair)), `: disagrees in ${here.length} of ${classes(pair)} pose classes, most in `,
+        return element('li', {}, element('b', {}, dashed(pair)), `: disagrees in ${here.length} of ${classesOf(pair).length} ${group} pose classes, most in `,
             ...here.slice(0, 3).flatMap((r, i) => [i ? ', ' : '', `${r.class} (${percent(1 - agreeing(r))}, ${main(r)})`]),
             '. ', link('See its worst cases', () => showWorst(pair, candidate)));
       }).filter(Boolean)));
+}
+
+// What candidates pass as it is and fail with one modifier (factors.hpp).
+const agreed = rate => 1 - rate.failed / rate.count;
+const wholePercent = share => `${Math.floor(100 * share + 1e-9)}%`;
+const replayOf = (id, candidate) => `./touchstone replay ${id} --candidates ${candidate}`;
+function contrastsFound() {
+  const shownOfEach = 3, drop = c => (c.modifier === 'turned') + agreed(c.plain) - agreed(c.modified);
+  const items = candidates.flatMap(name => {
+    const failing = report.contrasts.filter(c => c.candidate === name && c.fails).sort((a, b) => drop(b) - drop(a));
+    if (failing.length === 0) return [];
+    return [element('li', {}, named(name), failing.length > shownOfEach ? ` (the worst ${shownOfEach} of ${failing.length})` : '',
+        element('ul', {}, ...failing.slice(0, shownOfEach).map(c => element('li', {},
+            `${dashed(c.pair)}, ${c.plain_class}: agrees in ${wholePercent(agreed(c.plain))}, ${c.modifier} in ${wholePercent(agreed(c.modified))}. `,
+            element('code', {}, replayOf(c.worst, name))))))];
+  });
+  byId('finding-contrasts-part').hidden = items.length === 0;
+  byId('finding-contrasts').append(...items);
 }
 findings();

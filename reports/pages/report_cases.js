@@ -3,8 +3,9 @@ const atOnce = 6;
 let galleryCount = atOnce;
 function gallery() {
   const pair = byId('worst-pair').value, candidate = byId('worst-candidate').value;
-  const chosen = report.worst.filter(w => (pair === 'all' || w.pair === pair) && (candidate === 'all' || w.candidate === candidate));
-  chosen.sort((a, b) => (a.outcome === 'agree') - (b.outcome === 'agree') || b.severity - a.severity);
+  const chosen = report.worst.filter(w => w.group === group && (pair === 'all' || w.pair === pair) && (candidate === 'all' || w.candidate === candidate));
+  const rank = w => w.outcome === 'agree' ? 2 : withoutAnswer.includes(w.outcome) ? 0 : 1;  // as is_worse in worst.hpp
+  chosen.sort((a, b) => rank(a) - rank(b) || b.severity - a.severity);
   undrawn = [];
   const more = element('button', {type: 'button'}, `Show more (${chosen.length - galleryCount})`);
   more.addEventListener('click', () => { galleryCount += 2 * atOnce; gallery(); });
@@ -69,7 +70,7 @@ function showWorst(pair, candidate) {
 }
 choices('worst-pair', ['all', ...pairs], gallery);
 choices('worst-candidate', ['all', ...candidates], gallery);
-gallery();
+keepGrouped(gallery);
 
 if (report.stability) {
   byId('stability').hidden = false;
@@ -87,6 +88,8 @@ function method() {
     ['normal', 'Unit vector from B to A (the cylinder): the way A moves to come free.'],
     ['normal regret', 'How much deeper the bodies are along the reported normal than along the best one. It is well defined where several normals tie.'],
     ['error', 'Without more words: of an answer the larger of its depth error and its regret; of a missed contact its depth. Lost: missed, or no answer at all.'],
+    ['bias', 'The median of the depth error with its sign: negative where the routine is too deep, positive where it is too shallow.'],
+    ['points', 'By how much a contact’s worst point is off both surfaces in excess of its own depth.'],
     ['coverage', 'The largest factor by which the contact patch (where the bodies\u2019 flat and straight parts meet) may be shrunk about its centroid to lie within the hull of the contact points: 0.5 for three points evenly on a disc\u2019s rim, 0.7 for four. Of a point contact 1. Means are over contacts with a normal within the bar.'],
     ['agree', `Depth and normal regret within ${bar} of the size; contacts shallower than that may be missed.`],
     ['missed', `No contact, though the bodies overlap by more than ${bar} of the size.`],

@@ -5,8 +5,12 @@ const chartable = r => time(r) !== null && r.depth_error !== null;
 const timeLabel = "datum.value < 1e3 ? datum.value + ' ns' : datum.value < 1e6 ? datum.value / 1e3 + ' µs' : datum.value / 1e6 + ' ms'";
 
 // Speed and accuracy: a chart of each pair, on the same axes.
+const panels = [];
 function speedAccuracy() {
-  const rows = report.summary.filter(chartable), host = byId('chart-panels');
+  const rows = summary().filter(chartable), host = byId('chart-panels');
+  for (const draw of panels.splice(0)) redrawn.splice(redrawn.indexOf(draw), 1);
+  host.replaceChildren();
+  byId('chart-legend').replaceChildren();
   if (rows.length === 0) return host.append('No candidate was timed.');
   byId('chart-legend').append(...candidates.filter(name => rows.some(r => r.candidate === name)).map(name => named(name)));
   const x = {title: 'time per query', ...decadesOf(rows.map(time)), label: timeLabel};
@@ -14,7 +18,11 @@ function speedAccuracy() {
   const places = [...new Set(rows.map(r => r.pair))].reverse().map(pair => [pair, element('div', {class: 'chart'})]);
   // All places exist before the first chart is drawn, so that each has its final width.
   host.append(...places.map(([pair, place]) => element('figure', {}, element('figcaption', {}, pair === 'all' ? 'all pairs' : dashed(pair)), place)));
-  for (const [pair, place] of places) keepDrawn(() => speedChart(place, pair, rows.filter(r => r.pair === pair), x, y));
+  for (const [pair, place] of places) {
+    const draw = () => speedChart(place, pair, rows.filter(r => r.pair === pair), x, y);
+    panels.push(draw);
+    keepDrawn(draw);
+  }
 }
 function speedChart(place, pair, rows, x, y) {
   // Candidates whose spreads of time overlap tie (reports/pareto.hpp).
@@ -33,14 +41,10 @@ function speedChart(place, pair, rows, x, y) {
     {rows: members.map(m => ({family: m.family, ...at(m.row)})), by: 'family', width: 0.8},
     {rows: front.map(at), dash: [4, 3]}]}, r => showWorst(pair, r.candidate));
 }
-speedAccuracy();
+keepGrouped(speedAccuracy);
 
 // The distribution of errors: cumulative for several candidates, a histogram for one.
-function distributionRow(candidate) {
-  const pair = byId('distribution-pair').value, poseClass = byId('distribution-class').value;
-  return (poseClass === 'all' ? report.summary : report.results)
-      .find(r => r.pair === pair && r.class === poseClass && r.candidate === candidate);
-}
+const distributionRow = candidate => summaryOf(byId('distribution-pair').value, candidate);
 // Bins of half a decade, [lower, upper, count]; errors of zero are in a bin below all others.
 function binsOf(q) {
   const h = q.histogram, bins = h.counts.map((n, i) => [10 ** ((h.first + i) / 2), 10 ** ((h.first + i + 1) / 2), n]);
@@ -85,16 +89,12 @@ function histogram(quantity) {
         update: {x: {scale: 'x', field: 'a'}, x2: {scale: 'x', field: 'b'}, y: {scale: 'y', field: 'y'}, y2: {scale: 'y', value: 0}, fillOpacity: {value: 0.85}},
         hover: {fillOpacity: {value: 1}}}}]});
 }
-function distributionClasses() {
-  const pair = byId('distribution-pair').value;
-  byId('distribution-class').replaceChildren(...options(['all', ...report.classes.filter(c => c.pair === pair).map(c => c.class)]));
-}
-choices('distribution-pair', summaryPairs, () => { distributionClasses(); distribution(); });
-distributionClasses();
-for (const id of ['distribution-class', 'distribution-quantity']) byId(id).addEventListener('change', distribution);
+choices('distribution-pair', summaryPairs, distribution);
+byId('distribution-quantity').addEventListener('change', distribution);
 choices('distribution-candidate', candidates, distribution, candidates.find(c => c !== 'reference'));
 shownLegend(byId('distribution-legend'), candidates);
 keepDrawn(distribution);
+grouped.push(distribution);
 
 // Error against the variables that it may depend on.
 const variables = {
@@ -105,7 +105,7 @@ const variables = {
 };
 function trends() {
   const variable = byId('trend-variable').value, pair = byId('trend-pair').value, quantity = byId('trend-quantity').value;
-  const entries = report.trends.filter(t => t.pair === pair && t.variable === variable && shown.has(t.candidate));
+  const entries = report.trends.filter(t => t.pair === pair && t.group === group && t.variable === variable && shown.has(t.candidate));
   const share = quantity === 'missed', value = b => share ? b.missed / b.count : Math.max(b[quantity], zeroAt);
   // Zero is one decade below the smallest.
   const decades = entries.flatMap(t => t.bins).map(b => b.decade).filter(d => d !== null);
@@ -127,3 +127,4 @@ choices('trend-pair', [...pairs].reverse(), trends);
 for (const id of ['trend-variable', 'trend-quantity']) byId(id).addEventListener('change', trends);
 shownLegend(byId('trend-legend'), candidates);
 keepDrawn(trends);
+grouped.push(trends);

@@ -5,9 +5,9 @@ const notAvailable = () => element('td', {class: 'quiet'}, '–');
 const perPair = first => [textColumn(first), ...pairs.map(p => column(otherShape(p)))];
 
 function worstErrors() {
-  byId('worst-error-table').append(table(perPair('candidate'),
+  byId('worst-error-table').replaceChildren(table(perPair('candidate'),
       candidates.map(name => [rowHead(named(name)), ...pairs.map(pair => worstErrorCell(summaryOf(pair, name)))]),
-      'Cylinder against …: worst error, in sizes'));
+      `Cylinder against …, ${group} poses: worst error, in sizes`));
 }
 function worstErrorCell(r) {
   if (!r || supported(r) === 0) return notAvailable();
@@ -44,43 +44,48 @@ function drakeCell(pair, r) {
   }
   return cell;
 }
-worstErrors();
+keepGrouped(worstErrors);
 drakeProtocol();
 
 // Agreement, errors and speed of one pair at a time; and the errors of simplified models.
 function summaryTable() {
   const pair = byId('summary-pair').value;
   const wide = text => column(text, {class: 'wide'});
-  const heads = [textColumn('candidate'), 'agrees', 'missed', 'error, p99', 'error, max', wide('regret, max'), wide('coverage'), 'ns', wide('× Bullet')];
-  const rows = report.summary.filter(r => r.pair === pair && supported(r)).map(r => {
+  const heads = [textColumn('candidate'), 'agrees', 'wrong yes/no', 'error, p99', wide('error, max'), 'bias', wide('regret, p99'),
+                 'points, p99', wide('coverage'), 'ns', wide('× Bullet')];
+  const rows = summary().filter(r => r.pair === pair && supported(r)).map(r => {
     const share = agreeing(r), ratio = r.nanoseconds && r.nanoseconds.ratio_to_bullet;
     return [rowHead(named(r.candidate)), element('td', {class: share === 1 ? 'good' : ''}, percent(share)),
-            element('td', {class: r.outcomes.missed ? 'bad' : ''}, whole(r.outcomes.missed || 0)),
-            exponent(quantile(r.depth_error, 'p99')), exponent(quantile(r.depth_error, 'max')),
-            exponent(quantile(r.normal_regret, 'max')), cutShare(quantile(r.coverage, 'mean')), whole(time(r)),
+            element('td', {class: r.outcomes.missed || r.outcomes.phantom ? 'bad' : ''},
+                `${whole(r.outcomes.phantom || 0)} / ${whole(r.outcomes.missed || 0)}`),
+            exponent(quantile(r.depth_error, 'p99')), element('td', {class: 'wide'}, exponent(quantile(r.depth_error, 'max'))),
+            biasText(r), exponent(quantile(r.normal_regret, 'p99')), exponent(quantile(r.point_error, 'p99')), cutShare(quantile(r.coverage, 'mean')), whole(time(r)),
             ratio ? (r.tied_with.includes('bullet') ? '~' : '') + ratio.toFixed(2) : '–'];
   });
-  byId('summary-table').replaceChildren(table(heads, rows, 'Agreement, depth error of the reported contacts, nanoseconds per query'));
+  byId('summary-table').replaceChildren(table(heads, rows,
+      `Agreement, errors of the reported contacts, nanoseconds per query, ${group} poses`));
 }
+
+const biasText = r => r.bias === null ? '–' : r.bias.median > 0 ? `+${exponent(r.bias.median)}` : exponent(r.bias.median).replace('-', '−');
 
 // The errors of a simplified model and of its solver.
 const modelled = report.summary.filter(r => r.model_error !== null && report.candidates.some(c => c.name === r.candidate && c.models));
 function modelTable() {
-  const rows = modelled.filter(r => r.pair === byId('model-pair').value).map(r => {
+  const rows = modelled.filter(r => r.class === group && r.pair === byId('model-pair').value).map(r => {
     const name = element('th', {scope: 'row', tabindex: 0}, named(r.candidate));
     explain(name, report.candidates.find(c => c.name === r.candidate).models);
     return [name, ...[r.model_error, r.solver_error].flatMap(q => ['median', 'p99'].map(which => exponent(quantile(q, which))))];
   });
   byId('model-table').replaceChildren(table([textColumn('candidate'), 'model, median', 'p99', 'solver, median', 'p99'], rows,
-      'Errors of model and solver'));
+      `Errors of model and solver, ${group} poses`));
 }
-const summaryPairs = [...new Set(report.summary.map(r => r.pair))].reverse();
+const summaryPairs = [...new Set([...(pairs.length > 1 ? ['all'] : []), ...[...pairs].reverse()])];
 choices('summary-pair', summaryPairs, summaryTable);
-summaryTable();
+keepGrouped(summaryTable);
 if (modelled.length) {
   byId('models').hidden = false;
   choices('model-pair', summaryPairs.filter(p => modelled.some(r => r.pair === p)), modelTable);
-  modelTable();
+  keepGrouped(modelTable);
 }
 
 // Pose classes: a table whose cells are coloured by one quantity, of all candidates on one pair or of
@@ -101,7 +106,7 @@ function classTable() {
   const quantity = quantities[byId('class-quantity').value], what = byId('class-quantity').selectedOptions[0].text;
   const ofOne = candidate !== 'all';
   byId('class-pair').parentElement.hidden = ofOne;
-  const classes = [...new Map(report.classes.filter(c => ofOne || c.pair === pair).map(c => [c.class, c])).values()];
+  const classes = [...new Map(report.classes.filter(c => c.group === group && (ofOne || c.pair === pair)).map(c => [c.class, c])).values()];
   const columns = ofOne ? pairs.map(p => [p, candidate]) : candidates.map(c => [pair, c]);
   const rows = classes.map(c => {
     const name = element('th', {scope: 'row', tabindex: 0}, c.class);
@@ -116,16 +121,61 @@ function classCell(c, r, quantity) {
   const value = quantity.value(r), level = value === null ? 0 : quantity.level(value);
   const cell = element('td', {class: 'heat', tabindex: 0, style: heated(level)}, quantity.text(r));
   explain(cell, `${r.candidate}, ${dashed(r.pair)}, ${c.class}\n${c.description}\n${outcomesText(r)}\n` +
-      `depth error median ${exponent(quantile(r.depth_error, 'median'))}, worst ${exponent(quantile(r.depth_error, 'max'))}\n` +
-      `normal angle p99 ${r.normal_angle === null ? '–' : r.normal_angle.p99.toPrecision(2) + '°'}, ${whole(time(r))} ns\n` +
-      `patch covered: mean ${cutShare(quantile(r.coverage, 'mean'))}, min ${cutShare(quantile(r.coverage, 'min'))}`);
+      `worst error ${exponent(quantile(r.severity, 'max'))}, depth error p99 ${exponent(quantile(r.depth_error, 'p99'))}, regret p99 ` +
+      `${exponent(quantile(r.normal_regret, 'p99'))}\npatch covered: mean ${cutShare(quantile(r.coverage, 'mean'))}; ${whole(time(r))} ns` +
+      (r.worst_index === null ? '' : `\nworst: ${r.pair}/${r.class}/${report.seed}/${r.worst_index}`));
   whenPressed(cell, () => showWorst(r.pair, r.candidate));
   return cell;
 }
 choices('class-pair', pairs, classTable, pairs[pairs.length - 1]);
 choices('class-candidate', ['all', ...candidates], classTable, candidates.find(c => c !== 'reference') || candidates[0]);
 byId('class-quantity').addEventListener('change', classTable);
-classTable();
+keepGrouped(classTable);
+
+// What raises a candidate's failure rate most (factors.hpp).
+function factorTable() {
+  const candidate = byId('factor-candidate').value, entries = report.factors.filter(f => f.candidate === candidate && f.group === group);
+  byId('factor-command').replaceChildren();
+  const rows = entries.map(f => {
+    const row = element('tr', {tabindex: 0}, rowHead(dashed(f.pair)), element('td', {class: 'text'}, f.name),
+        element('td', {}, failing(f.with.failed / f.with.count)), element('td', {}, failing(f.without)), element('td', {class: 'text wide'}, f.kind));
+    explain(row, `${f.kind} ${f.name}: ${whole(f.with.failed)} of ${whole(f.with.count)} fail\nworst: ${f.worst}\nClick for the command`);
+    whenPressed(row, () => byId('factor-command').replaceChildren(command(replayOf(f.worst, candidate))));
+    return row;
+  });
+  byId('factor-table').replaceChildren(rows.length === 0 ? `Nothing raises the failure rate of ${candidate} beyond chance in ${group} poses.` : table(
+      [textColumn('pair'), textColumn('what'), 'fails with it', 'without', column('kind', {class: 'text wide'})], rows, `${candidate}, ${group} poses`));
+}
+const failing = share => `${(100 * share).toFixed(1)}%`;
+choices('factor-candidate', candidates, factorTable, candidates.find(c => c !== 'reference'));
+keepGrouped(factorTable);
+
+// Every arrangement alone against the same one turned or tilted, by candidate.
+function contrastTable() {
+  const pair = byId('contrast-pair').value, isTurned = byId('contrast-modifier').value === 'turned';
+  const entries = report.contrasts.filter(c => c.pair === pair && (c.modifier === 'turned') === isTurned);
+  const at = new Map(entries.map(c => [`${c.arrangement}/${c.candidate}`, c]));
+  const arrangements = [...new Set(entries.map(c => c.arrangement))], here = candidates.filter(name => entries.some(c => c.candidate === name));
+  byId('contrast-command').replaceChildren();
+  const rows = arrangements.map(a => [rowHead(a), ...here.map(name => contrastCell(at.get(`${a}/${name}`)))]);
+  byId('contrast-table').replaceChildren(rows.length === 0 ? 'No arrangement of this pair was asked in both ways.' : table(
+      [textColumn('arrangement'), ...here.map(name => column(named(name), {class: 'slanted'}))], rows,
+      `${dashed(pair)}: agreement alone, ${isTurned ? 'turned' : 'tilted'}, in percent`));
+}
+function contrastCell(c) {
+  if (!c) return notAvailable();
+  const alone = agreed(c.plain), modified = agreed(c.modified), cell = element('td', {class: 'heat', tabindex: 0, style: heated(Math.max(0, alone - modified))},
+      element('span', c.fails ? {class: 'strong'} : {}, `${Math.floor(100 * alone)} → ${Math.floor(100 * modified)}`));
+  explain(cell, `${c.candidate}, ${dashed(c.pair)}, ${c.arrangement}\nalone: agrees on ${percent(alone)} of ${whole(c.plain.count)}\n` +
+      `${c.modifier}: on ${percent(modified)} of ${whole(c.modified.count)}\nchance of as many failures there by accident: ${exponent(c.chance)}` +
+      (c.worst ? '\nClick for the worst failure' : ''));
+  if (c.worst) whenPressed(cell, () => byId('contrast-command').replaceChildren(command(replayOf(c.worst, c.candidate))));
+  return cell;
+}
+choices('contrast-pair', pairs.filter(p => report.contrasts.some(c => c.pair === p)), contrastTable, 'cylinder-cylinder');
+byId('contrast-modifier').addEventListener('change', contrastTable);
+byId('contrasts').hidden = report.contrasts.length === 0;
+contrastTable();
 
 // Contact points: their number and coverage, beside the numbers of the thesis that added cylinders to the pe
 // rigid-body engine (its figures 4-6, 16-19 and 21-28).
@@ -252,7 +302,7 @@ if (report.recorded && report.recorded.length) {
 // The outcomes of all configurations, as bars.
 function outcomeBars() {
   const pair = byId('outcome-pair').value, seen = Object.keys(outcomeColours).filter(o => report.summary.some(r => r.outcomes[o]));
-  const rows = report.summary.filter(r => r.pair === pair && supported(r)).map(r => {
+  const rows = summary().filter(r => r.pair === pair && supported(r)).map(r => {
     const bar = element('div', {class: 'bar', role: 'img', 'aria-label': outcomesText(r)});
     for (const o of seen) {
       const n = r.outcomes[o] || 0;
@@ -266,4 +316,4 @@ function outcomeBars() {
   byId('outcome-bars').replaceChildren(outcomeLegend(seen), ...rows);
 }
 choices('outcome-pair', summaryPairs, outcomeBars);
-outcomeBars();
+keepGrouped(outcomeBars);

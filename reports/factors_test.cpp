@@ -1,0 +1,184 @@
+#include "reports/factors.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "reports/headings.hpp"
+
+namespace touchstone {
+namespace {
+
+/// A report of one candidate on cylinder-cylinder, of which `agree` in 100 agree in each class.
+class Rates {
+ public:
+  Rates() {
+    report_.seed = 7;
+    report_.candidates = {{"mine", "mine", "1", "", ""}};
+  }
+  Rates& add(const std::string& pose_class, std::uint64_t agree, std::uint64_t of = 100) {
+    report_.classes.push_back(description_of({Pair::cylinder, pose_class}));
+    ResultRow& row = report_.results.emplace_back();
+    row.pair = pair_name(Pair::cylinder);
+    row.pose_class = pose_class;
+    row.candidate = "mine";
+    row.statistics.count = of;
+    row.statistics.outcomes[static_cast<std::size_t>(Outcome::agree)] = agree;
+    row.statistics.outcomes[static_cast<std::size_t>(Outcome::shallow)] = of - agree;
+    if (agree < of) row.worst_index = 3;
+    return *this;
+  }
+  const Report& get() const { return report_; }
+
+ private:
+  Report report_;
+};
+
+std::vector<std::string> texts(const std::vector<Contrast>& contrasts) {
+  std::vector<std::string> result;
+  for (const Contrast& c : contrasts) {
+    if (c.fails) result.push_back(contrast_text(c));
+  }
+  return result;
+}
+
+TEST(Chance, IsThatOfFishersTeaTasting) {
+  // Four cups of eight, all told right: 1/70. Three: 17/70 (Fisher, "The Design of Experiments",
+  // 1935).
+  EXPECT_NEAR(chance({4, 0}, {4, 4}), 1.0 / 70, 1e-14);
+  EXPECT_NEAR(chance({4, 1}, {4, 3}), 17.0 / 70, 1e-14);
+  EXPECT_EQ(chance({20, 0}, {20, 0}), 1);
+  EXPECT_NEAR(chance({20, 20}, {20, 0}), 1, 1e-12);
+  // Counts of a campaign neither overflow nor take their time.
+  EXPECT_LT(chance({1000000, 1000}, {1000000, 2000}), 1e-50);
+}
+
+TEST(Contrasts, PointOutWhatFailsOnlyWhenTurned) {
+  const auto found =
+      contrasts(Rates().add("perpendicular-t", 87).add("perpendicular-t+turned", 30).get());
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_THAT(texts(found), testing::ElementsAre(
+                                "cylinder-cylinder/perpendicular-t agrees in 87%, turned in 30%"));
+  EXPECT_EQ(found[0].worst, "cylinder-cylinder/perpendicular-t+turned/7/3");
+  EXPECT_THAT(contrast_command(found[0]),
+              testing::EndsWith("replay cylinder-cylinder/perpendicular-t+turned/7/3 "
+                                "--candidates mine"));
+}
+
+TEST(Contrasts, CompareTurnedOnesWithThoseAlongTheAxes) {
+  const auto found = contrasts(Rates()
+                                   .add("perpendicular-t", 40)
+                                   .add("perpendicular-t+aligned", 87)
+                                   .add("perpendicular-t+turned", 30)
+                                   .get());
+  EXPECT_THAT(texts(found), testing::ElementsAre("cylinder-cylinder/perpendicular-t+aligned agrees "
+                                                 "in 87%, turned in 30%"));
+}
+
+TEST(Contrasts, PointOutNeitherChanceNorWhatFailsAnyway) {
+  EXPECT_TRUE(
+      texts(contrasts(Rates().add("perpendicular-t", 60).add("perpendicular-t+turned", 10).get()))
+          .empty());
+  // Four in twenty more: one such table in twenty, by chance.
+  EXPECT_TRUE(
+      texts(contrasts(
+                Rates().add("perpendicular-t", 20, 20).add("perpendicular-t+turned", 16, 20).get()))
+          .empty());
+  EXPECT_TRUE(
+      texts(contrasts(Rates().add("perpendicular-t", 30).add("perpendicular-t+turned", 87).get()))
+          .empty());
+}
+
+TEST(Contrasts, TakeTheTiltThatIsWorst) {
+  EXPECT_THAT(
+      texts(contrasts(Rates()
+                          .add("perpendicular-t", 100)
+                          .add("perpendicular-t+tilted-1e-3", 95)
+                          .add("perpendicular-t+tilted-1e-9", 40)
+                          .add("perpendicular-t+tilted-1e-9+turned", 0)
+                          .get())),
+      testing::ElementsAre("cylinder-cylinder/perpendicular-t agrees in 100%, tilted-1e-9 in 40%"));
+}
+
+TEST(Contrasts, PointOutTurnedOnesFirst) {
+  Report report = Rates()
+                      .add("perpendicular-t", 100)
+                      .add("perpendicular-t+turned", 50)
+                      .add("perpendicular-t+tilted-1e-9", 10)
+                      .get();
+  report.contrasts = contrasts(report);
+  std::vector<std::string> modifiers;
+  for (const Contrast* c : failing_contrasts(report)) modifiers.push_back(c->modifier);
+  EXPECT_THAT(modifiers, testing::ElementsAre("turned", "tilted-1e-9"));
+}
+
+TEST(Factors, CompareAModifierWithWhatIsEqualButForIt) {
+  // Needles fail everywhere; tiny ones are not to be blamed for being tiny.
+  const auto found = factors(Rates()
+                                 .add("general", 100)
+                                 .add("general+needle", 50)
+                                 .add("general+needle+tiny", 50)
+                                 .add("general+tiny", 100)
+                                 .get());
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].name, "needle");
+  EXPECT_EQ(found[0].group, "extreme");
+  EXPECT_EQ(found[0].kind, Factor::Kind::modifier);
+  EXPECT_EQ(found[0].with.share(), 0.5);
+  EXPECT_EQ(found[0].without, 0);
+  EXPECT_EQ(found[0].worst, "cylinder-cylinder/general+needle/7/3");
+}
+
+TEST(Factors, CompareAModifierWithWhatIsNearestWhereNothingIsEqual) {
+  // Needles fail; that huge was never tried without them must not put the blame on it.
+  for (const Factor& f : factors(Rates()
+                                     .add("general", 100)
+                                     .add("general+needle", 50)
+                                     .add("general+needle+tiny", 50)
+                                     .add("general+needle+huge+far", 50)
+                                     .get())) {
+    EXPECT_EQ(f.name, "needle");
+  }
+}
+
+TEST(Factors, CompareAnArrangementWithOthersUnderTheSameModifiers) {
+  // Everything tiny fails; of the arrangements only rim-rim does so of itself.
+  const auto found = factors(Rates()
+                                 .add("general", 100)
+                                 .add("rim-rim", 40)
+                                 .add("perpendicular-t+turned", 100)
+                                 .add("general+tiny", 10)
+                                 .get());
+  ASSERT_FALSE(found.empty());
+  EXPECT_EQ(found[0].kind, Factor::Kind::arrangement);
+  EXPECT_EQ(found[0].name, "rim-rim");
+  EXPECT_EQ(found[0].group, "everyday");
+  EXPECT_EQ(found[0].with.count, 100u);
+  EXPECT_EQ(found[0].without, 0);
+  EXPECT_THAT(found, testing::Not(testing::Contains(testing::Field(&Factor::name, "general"))));
+}
+
+TEST(Factors, AreNotFoundWhereAllIsWell) {
+  EXPECT_TRUE(factors(Rates().add("general", 100).add("rim-rim", 100).add("general+tiny", 99).get())
+                  .empty());
+}
+
+TEST(Headings, AreOfOneGroupEach) {
+  const std::vector<Cell> cells = {{Pair::plane, "touching"},
+                                   {Pair::plane, "general+shallow"},
+                                   {Pair::box, "general+deep"},
+                                   {Pair::box, "general+shallow"}};
+  std::vector<std::string> found;
+  for (const Heading& h : headings(cells, [](std::size_t) { return true; })) {
+    found.push_back(h.pair + ' ' + group_name(h.group));
+    for (const std::size_t cell : h.cells) {
+      EXPECT_EQ(group_of(cells[cell].pair, cells[cell].pose_class), h.group);
+    }
+  }
+  EXPECT_THAT(found, testing::ElementsAre("cylinder-plane everyday", "cylinder-box everyday",
+                                          "all everyday", "cylinder-plane degenerate",
+                                          "cylinder-box extreme"));
+  EXPECT_EQ(headings(cells, [](std::size_t cell) { return cell == 2; }).size(), 1u);
+}
+
+}  // namespace
+}  // namespace touchstone
