@@ -124,7 +124,7 @@ TEST(ScoreTally, BinnedBoundsTheExactQuantiles) {
       EXPECT_EQ(found.severity->max, exact.severity->max);
     }
     if (exact.coverage) {
-      EXPECT_NEAR(found.coverage->mean, exact.coverage->mean, 1e-7);
+      EXPECT_NEAR(found.coverage->mean, exact.coverage->mean, CoverageTally::unit);
       EXPECT_LE(found.coverage->p1, exact.coverage->p1);
       EXPECT_EQ(found.coverage->min, exact.coverage->min);
     }

@@ -48,7 +48,7 @@ TEST(Trends, HaveTheLastDecadeForWhatIsBeyondTheLargestDouble) {
   TrendTally tally;
   tally.add({Cylinder(1e-9, 1e-9), Pose(Vec3(1e300, 0, 0)), Sphere(1e-9), Pose()}, -1e-9, {missed});
   std::vector<int> decades;
-  for (const Trend& trend : tally.trends("cylinder-sphere", {"far"})) {
+  for (const Trend& trend : tally.trends("cylinder-sphere", "extreme", {"far"})) {
     if (trend.variable == "distance") decades.push_back(trend.bins.at(0).decade.value());
   }
   EXPECT_EQ(decades, std::vector{308});
