@@ -149,8 +149,16 @@ void check_pose_classes(const std::vector<Pair>& pairs, const std::vector<std::s
   for (const auto& name : classes) {
     const auto has = [&](Pair pair) { return known_name(pair, name).has_value(); };
     if (std::any_of(pairs.begin(), pairs.end(), has)) continue;
+    const auto begins = std::find_if(pairs.begin(), pairs.end(),
+                                     [&](Pair pair) { return has_arrangement(pair, name); });
+    if (begins == pairs.end()) {
+      throw InvalidInput("--class", quoted(name),
+                         "must begin with an arrangement, as " +
+                             nearest_arrangements(pairs, name.substr(0, name.find('+'))) +
+                             "; touchstone classes lists all");
+    }
     try {
-      find_pose_class(pairs.front(), name);
+      find_pose_class(*begins, name);  // says what is wrong with its modifiers
     } catch (const InvalidInput& e) {
       throw InvalidInput("--class", e.value(), e.remedy());
     }

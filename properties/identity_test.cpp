@@ -128,6 +128,24 @@ TEST(Identity, OldNamesAreTheSameConfigurationsAsTodays) {
   }
 }
 
+TEST(Identity, AClassThatNoPairHasIsRefusedWithWhatIsNearOfAll) {
+  const std::vector<Pair> all(std::begin(all_pairs), std::end(all_pairs));
+  const auto refused = [&](const std::string& name) -> std::string {
+    try {
+      check_pose_classes(all, {name});
+    } catch (const InvalidInput& e) {
+      return e.remedy();
+    }
+    return "accepted";
+  };
+  EXPECT_EQ(refused("rim-rim+tiny"), "accepted");
+  EXPECT_EQ(refused("near-parallel-1e-6"), "accepted");
+  EXPECT_THAT(refused("rim-rimm"), HasSubstr("as rim-rim, "));
+  EXPECT_THAT(refused("side-on-fac+tiny"), HasSubstr("as side-on-face, "));
+  EXPECT_THAT(refused("rim-rim+tinny"), HasSubstr("such as tiny, "));
+  EXPECT_THAT(refused("vertex-cap+turned"), HasSubstr("turned at random already"));
+}
+
 TEST(Identity, RebuildsTheSameBitsInAnyOrder) {
   for (const auto& [pair, name] : every_class()) {
     const Configuration first = make_configuration({pair, name, 7, 3});

@@ -99,6 +99,13 @@ std::vector<PoseClass> make_old_classes(Pair pair) {
   return result;
 }
 
+std::string_view todays_name(std::string_view name) {
+  for (const OldName& old : old_names()) {
+    if (old.name == name) return old.today;
+  }
+  return name;
+}
+
 /// The arrangement's name, then the modifiers'.
 std::vector<std::string_view> parts_of(std::string_view name) {
   std::vector<std::string_view> parts;
@@ -115,16 +122,11 @@ std::vector<std::string_view> parts_of(std::string_view name) {
                      fmt::format("{}; touchstone classes {} lists all", why, pair_name(pair)));
 }
 
-const Arrangement& find_arrangement(Pair pair, std::string_view part, std::string_view name) {
-  std::vector<std::string> known;
+const Arrangement* find_arrangement(Pair pair, std::string_view name) {
   for (const Arrangement& a : arrangements(pair)) {
-    if (a.name == part) return a;
-    known.push_back(a.name);
+    if (a.name == name) return &a;
   }
-  for (const OldName& old : old_names()) known.push_back(old.name);
-  refuse(pair, name,
-         fmt::format("must begin with an arrangement of {}, as {}", pair_name(pair),
-                     nearest(part, known)));
+  return nullptr;
 }
 
 void set_modifier(PoseClass& c, std::string_view part, std::string_view name) {
@@ -225,13 +227,30 @@ std::optional<std::string_view> nonsense(Pair pair, const Arrangement& a, const 
   return std::nullopt;
 }
 
-PoseClass find_pose_class(Pair pair, std::string_view name) {
-  std::string_view today = name;
-  for (const OldName& old : old_names()) {
-    if (old.name == name) today = old.today;
+bool has_arrangement(Pair pair, std::string_view pose_class) {
+  return find_arrangement(pair, parts_of(todays_name(pose_class)).front()) != nullptr;
+}
+
+std::string nearest_arrangements(const std::vector<Pair>& pairs, std::string_view name) {
+  std::vector<std::string> known;
+  for (const Pair pair : pairs) {
+    for (const Arrangement& a : arrangements(pair)) {
+      if (std::find(known.begin(), known.end(), a.name) == known.end()) known.push_back(a.name);
+    }
   }
-  const std::vector<std::string_view> parts = parts_of(today);
-  PoseClass result{pair, &find_arrangement(pair, parts.front(), name), {}};
+  for (const OldName& old : old_names()) known.push_back(old.name);
+  return nearest(name, known);
+}
+
+PoseClass find_pose_class(Pair pair, std::string_view name) {
+  const std::vector<std::string_view> parts = parts_of(todays_name(name));
+  const Arrangement* arrangement = find_arrangement(pair, parts.front());
+  if (!arrangement) {
+    refuse(pair, name,
+           fmt::format("must begin with an arrangement of {}, as {}", pair_name(pair),
+                       nearest_arrangements({pair}, parts.front())));
+  }
+  PoseClass result{pair, arrangement, {}};
   for (std::size_t i = 1; i < parts.size(); ++i) set_modifier(result, parts[i], name);
   return result;
 }

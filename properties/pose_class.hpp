@@ -32,6 +32,11 @@ std::optional<std::string_view> nonsense(Pair pair, const Arrangement& arrangeme
 /// to an unknown name, or why a modifier makes no sense.
 PoseClass find_pose_class(Pair pair, std::string_view name);
 
+/// Whether the class begins with one of the pair's arrangements.
+bool has_arrangement(Pair pair, std::string_view pose_class);
+/// The three arrangements of these pairs whose names are nearest.
+std::string nearest_arrangements(const std::vector<Pair>& pairs, std::string_view name);
+
 /// The name by which the class's random stream is chosen: an old one where it has one, so that
 /// identities of any age keep their bits.
 std::string stream_name(const PoseClass& pose_class);

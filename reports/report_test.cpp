@@ -344,7 +344,7 @@ TEST(Report, RefusesAnUnknownClassBeforeAnyWork) {
   Campaign c = small_campaign();
   c.classes = {"rim-rimm"};
   EXPECT_THAT([&] { cells(c); }, testing::ThrowsMessage<InvalidInput>(testing::AllOf(
-                                     HasSubstr("rim-rimm"), HasSubstr("rim-rim, "))));
+                                     HasSubstr("rim-rimm"), HasSubstr("rim-face, "))));
 }
 
 TEST(Report, RefusesAFolderThatIsAFile) {

@@ -244,9 +244,11 @@ std::uint64_t count_per_class() {
 class PoseClasses : public testing::TestWithParam<Pair> {};
 
 TEST_P(PoseClasses, BothOraclesEncloseOneSignedDistance) {
-  // Relative to the larger size; continua of normals (concentric, coaxial) cost the most.
-  constexpr double widest = 1e-4;
   for (const auto& name : pose_classes(GetParam())) {
+    // Relative to the larger size; continua of normals (concentric, coaxial) cost the most, those
+    // of uneven bodies more than their smaller one's share.
+    const bool is_uneven = name.find("+uneven") != name.npos;
+    const double widest = is_uneven && name.starts_with("concentric") ? 1e-3 : 1e-4;
     for (std::uint64_t i = 0; i < count_per_class(); ++i) {
       const Identity id{GetParam(), name, 20261121, i};
       SCOPED_TRACE(to_string(id));
