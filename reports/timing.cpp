@@ -43,10 +43,15 @@ std::vector<Repetitions> time_cell(const Sample& sample, std::vector<CandidatePr
 }
 
 bool is_timed(const Cell& cell) {
+  const Group group = group_of(cell.pair, cell.pose_class);
+  const auto [arrangement, modifiers] = parts_of(cell.pair, cell.pose_class);
+  if (group == Group::everyday || group == Group::recorded || modifiers.empty()) return true;
+  constexpr std::array of_all = {"general", "parallel", "perpendicular"};
+  if (modifiers.size() > 1 ||
+      std::find(of_all.begin(), of_all.end(), arrangement) == of_all.end()) {
+    return false;
+  }
   constexpr std::array timed_tilts = {"tilted-1e-1", "tilted-1e-6", "tilted-1e-12"};
-  const auto modifiers = parts_of(cell.pair, cell.pose_class).modifiers;
-  if (modifiers.empty()) return true;
-  if (modifiers.size() > 1) return false;
   return !modifiers[0].starts_with("tilted") ||
          std::find(timed_tilts.begin(), timed_tilts.end(), modifiers[0]) != timed_tilts.end();
 }

@@ -20,7 +20,9 @@ inline constexpr std::size_t timing_repetitions = 11;
 /// beforehand, a cell's configurations are queried one after the other. Each candidate reads the
 /// clock in its own process around the loop of its queries; what isolation costs lies outside.
 /// Configurations that ended a candidate's process, as the samples of the cells say, are not asked
-/// of it. Of all classes, those are timed that have at most one modifier, and of the tilts three.
+/// of it. Timed are everyday and recorded classes, all arrangements alone, and those of general,
+/// parallel and perpendicular with one modifier, of the tilts three; and all classes of a campaign
+/// that names them.
 Times time_queries(const Campaign& campaign, const std::vector<Cell>& cells,
                    const std::vector<std::optional<Sample>>& samples);
 
