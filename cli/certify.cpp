@@ -37,7 +37,7 @@ void add_certify(Program& program) {
                 "End at so many cells of directions, with the width reached by then");
   command.footer(
       "Examples:\n"
-      "  touchstone certify cylinder-box/near-parallel-1e-6/42/137 > proof.json\n"
+      "  touchstone certify cylinder-box/parallel+tilted-1e-6/42/137 > proof.json\n"
       "  touchstone certify --width 1e-12 pose.jsonl > proof.json\n"
       "  python3 oracle/check_certificate.py proof.json");
   command.runs([options] { return run(*options); });

@@ -9,7 +9,7 @@
 namespace touchstone {
 namespace {
 
-constexpr std::size_t name_width = 20;
+constexpr std::size_t name_width = 24;
 
 /// Modifiers that some arrangement of these pairs can have; of the tilts the first, for all.
 std::string modifier_list(const std::vector<Pair>& pairs) {
@@ -49,7 +49,9 @@ std::string group_list() {
          list_entry("degenerate", name_width,
                     "Exact, nearly exact (tilted, touching) or symmetric.") +
          list_entry("extreme", name_width,
-                    "Needles, coins, plates, uneven sizes, tiny, huge, far away, or deep.");
+                    "Needles, coins, plates, uneven sizes, tiny, huge, far away, or deep.") +
+         list_entry("recorded", name_width,
+                    "As it occurred in the scenes that come with Touchstone.");
 }
 
 int run(const std::string& pair) {

@@ -69,7 +69,7 @@ SampleOption::SampleOption(Command& command, std::uint64_t count, std::uint64_t 
       count_option_(command.count("--count", count_, {1, max_count},
                                   "Configurations of each pair and pose class; 1e6 is understood "
                                   "too")) {
-  command.list("--group", groups_, "Only everyday, degenerate or extreme pose classes");
+  command.list("--group", groups_, "Only everyday, degenerate, extreme or recorded pose classes");
   command.count("--seed", seed_, all_counts, "Same seed, same configurations");
 }
 

@@ -53,7 +53,7 @@ void add_replay(Program& program) {
   emit.excludes(json).excludes(html);
   command.footer(
       "Examples:\n"
-      "  touchstone replay cylinder-box/near-parallel-1e-6/42/137\n"
+      "  touchstone replay cylinder-box/parallel+tilted-1e-6/42/137\n"
       "  touchstone replay cylinder-cylinder/rim-rim/1/0 --candidates bullet --json\n"
       "  touchstone replay cylinder-box/rim-face/1/0 --emit bullet > reproducer.cpp\n"
       "  touchstone replay cylinder-box/rim-face/1/0 --html page.html\n"
