@@ -25,9 +25,10 @@ struct Arrangement {
   Orientations orientations;
   std::vector<Clearance> clearances;  ///< that can be asked for, besides its own
   std::function<Configuration(Draw&, const Modifiers&)> generate;
-  bool across = false;        ///< B's axis lies along A's x, at a right angle to A's
-  bool is_symmetric = false;  ///< centres or axes coincide
-  bool touches = false;       ///< whatever clearance is asked for
+  Clearance own = Clearance::usual;  ///< what its own clearance is called, if it has a name
+  bool across = false;               ///< B's axis lies along A's x, at a right angle to A's
+  bool is_symmetric = false;         ///< centres or axes coincide
+  bool touches = false;              ///< whatever clearance is asked for
 
   /// Whether nothing in it is rounded.
   bool is_exact() const {

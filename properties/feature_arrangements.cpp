@@ -114,6 +114,7 @@ Arrangement rim_end() {
   Arrangement result = meeting(Pair::capsule, "rim-end",
                                "The cylinder's rim meets the capsule's round end.", rim, end);
   result.clearances = {Clearance::touching};
+  result.own = Clearance::apart;
   result.generate = [make = result.generate](Draw& draw, const Modifiers& m) {
     Modifiers modified = m;
     if (m.clearance() == Clearance::usual) {

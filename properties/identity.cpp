@@ -66,7 +66,7 @@ Identity parse_identity(std::string_view text) {
     if (slash == std::string_view::npos) {
       throw InvalidInput("identity", quoted(text),
                          "must read pair/class/seed/index, as in "
-                         "cylinder-box/near-parallel-1e-6/42/137");
+                         "cylinder-box/side-on-face+turned/42/137");
     }
     parts[i] = rest.substr(0, slash);
     rest = i < 3 ? rest.substr(slash + 1) : rest;

@@ -9,7 +9,7 @@
 
 namespace touchstone {
 
-/// The name of one sampled configuration: "cylinder-box/near-parallel-1e-6/42/137".
+/// The name of one sampled configuration: "cylinder-box/parallel+tilted-1e-6/42/137".
 struct Identity {
   Pair pair;
   std::string pose_class;

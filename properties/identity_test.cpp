@@ -54,6 +54,8 @@ TEST(Identity, RefusesWhatItIsNotAndNamesThePart) {
       {"cylinder-box/rim-face+tilted-1e-3/1/2", "identity.class", "random angle already"},
       {"cylinder-box/rim-face+deep/1/2", "identity.class", "another feature"},
       {"cylinder-box/side-on-face+shallow/1/2", "identity.class", "it is so already"},
+      {"cylinder-capsule/rim-end+apart/1/2", "identity.class", "it is so already"},
+      {"cylinder-capsule/rim-end+shallow/1/2", "identity.class", "another feature"},
       {"cylinder-box/touching+apart/1/2", "identity.class", "touch already"},
       {"cylinder-box/coaxial+deep/1/2", "identity.class", "centres or axes"},
       {"cylinder-box/touching-tilted+tilted-1e-3/1/2", "identity.class", "tilted already"},

@@ -147,7 +147,9 @@ struct Collector {
     };
   }
   Arrangement& contact(const char* name, const char* description, Place where) {
-    return add(name, description, any_clearance, at(where));
+    Arrangement& result = add(name, description, any_clearance, at(where));
+    result.own = Clearance::shallow;
+    return result;
   }
   void across(const char* name, const char* description, Place where) {
     contact(name, description, where).across = true;

@@ -201,7 +201,7 @@ std::optional<std::string_view> nonsense(Pair pair, const Arrangement& a, const 
       }
       if (a.touches) return "its bodies touch already";
       if (a.is_symmetric) return "its centres or axes say how deep it is";
-      if (static_cast<Clearance>(m.value) == Clearance::shallow) return "it is so already";
+      if (static_cast<Clearance>(m.value) == a.own) return "it is so already";
       if (static_cast<Clearance>(m.value) == Clearance::touching) return "it cannot be exact";
       return "another feature than its own would be nearer, as in general+deep";
     case Kind::proportions:

@@ -205,22 +205,30 @@ void add_contrast(std::vector<Contrast>& result, const Table& table, const Class
 /// Turned ones are compared with those along the world's axes, where there are such: a frame of
 /// integers is as good as turned to many engines.
 void add_contrasts(std::vector<Contrast>& result, const Table& table) {
-  for (const ClassOfPair& plain : table.classes()) {
-    if (!plain.row || !plain.modifiers.empty()) continue;
-    const ClassOfPair *tilted = nullptr, *exact = &plain;
+  const auto find = [&](const std::string& arrangement, const Modifiers& modifiers) {
+    const auto& all = table.classes();
+    const auto found = std::find_if(all.begin(), all.end(), [&](const ClassOfPair& c) {
+      return c.row && c.description->arrangement == arrangement && c.modifiers == modifiers;
+    });
+    return found == all.end() ? nullptr : &*found;
+  };
+  std::set<std::string> done;
+  for (const ClassOfPair& each : table.classes()) {
+    const std::string& arrangement = each.description->arrangement;
+    if (!done.insert(arrangement).second) continue;
+    const ClassOfPair* const alone = find(arrangement, {});
+    const ClassOfPair* const along_axes = find(arrangement, {aligned});
+    const ClassOfPair* const plain = along_axes ? along_axes : alone;
+    const ClassOfPair* const in_any_frame = find(arrangement, {turned});
+    if (plain && in_any_frame) add_contrast(result, table, *plain, *in_any_frame);
+    const ClassOfPair* tilted = nullptr;
     for (const ClassOfPair& c : table.classes()) {
-      const bool same = c.description->arrangement == plain.description->arrangement;
-      if (same && c.row && c.modifiers == Modifiers{aligned}) exact = &c;
-    }
-    for (const ClassOfPair& c : table.classes()) {
-      if (c.description->arrangement != plain.description->arrangement) continue;
-      if (!c.row || c.modifiers.size() != 1) continue;
-      if (c.modifiers.contains(turned)) add_contrast(result, table, *exact, c);
-      if (!is_tilt(*c.modifiers.begin())) continue;
+      if (!c.row || c.description->arrangement != arrangement) continue;
+      if (c.modifiers.size() != 1 || !is_tilt(*c.modifiers.begin())) continue;
       const auto share = [](const ClassOfPair& t) { return rate_of(t.row->statistics).share(); };
       if (!tilted || share(*tilted) < share(c)) tilted = &c;
     }
-    if (tilted) add_contrast(result, table, plain, *tilted);
+    if (alone && tilted) add_contrast(result, table, *alone, *tilted);
   }
 }
 
