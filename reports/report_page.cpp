@@ -125,17 +125,36 @@ json shown_of_classes(const json& results) {
   return rows;
 }
 
+/// Of an answer to a worst case, what the page shows. A point whose normal is that of the whole
+/// answer has none of its own.
+json shown_answer(json answer) {
+  constexpr int digits_of_score = 3;
+  json& score = answer["score"];
+  for (const char* unseen : {"deepest_error", "point_error"}) score.erase(unseen);
+  score = rounded(score, digits_of_score);
+  for (json& point : answer["points"]) {
+    point.erase("depth");
+    if (point["normal"] == answer["normal"]) point["normal"] = nullptr;
+  }
+  return answer;
+}
+
 /// Of the worst cases, the first few of each pair × group × candidate, with as many digits of truth
 /// and answers as pictures of bodies a million metres away need; configurations stay exact.
 json shown_worst(const json& worst) {
-  constexpr int max_shown = 2, digits = 10, digits_of_score = 3;
+  constexpr int max_shown = 2, digits = 10;
   std::map<std::array<std::string, 3>, int> seen;
   json cases = json::array();
   for (json w : worst) {
     if (++seen[{w["pair"], w["group"], w["candidate"]}] > max_shown) continue;
-    for (const char* member : {"truth", "answers"}) w[member] = rounded(w[member], digits);
-    for (json& answer : w["answers"]) answer["score"] = rounded(answer["score"], digits_of_score);
-    for (json& bound : w["truth"]["signed_distance"]) {
+    for (const char* unseen : {"depth_error", "normal_regret"}) w.erase(unseen);
+    for (json& answer : w["answers"]) answer = rounded(shown_answer(std::move(answer)), digits);
+    json& truth = w["truth"] = rounded(w["truth"], digits);
+    truth.erase("families");
+    for (json& patch : truth["patch"]) {
+      for (const char* unseen : {"area", "perimeter"}) patch.erase(unseen);
+    }
+    for (json& bound : truth["signed_distance"]) {
       bound = rounded(std::strtod(bound.get<std::string>().c_str(), nullptr), digits);
     }
     cases.push_back(std::move(w));
