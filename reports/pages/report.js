@@ -15,9 +15,12 @@ function unpackReport(packed) {
   }
   const only = (value, name) => value === null ? null : {[name]: value};
   for (const r of whole.results) {
-    const {outcomes} = r;
-    r.outcomes = {};
-    for (let i = 0; i < outcomes.length; i += 2) r.outcomes[whole.outcomes[outcomes[i]]] = outcomes[i + 1];
+    const {outcomes} = r, {pair, class: name} = whole.classes[r.class];
+    Object.assign(r, {pair, class: name, count: 0, outcomes: {}});
+    for (let i = 0; i < outcomes.length; i += 2) {
+      r.outcomes[whole.outcomes[outcomes[i]]] = outcomes[i + 1];
+      r.count += outcomes[i + 1];
+    }
     for (const [member, name] of [['severity', 'max'], ['depth_error', 'p99'], ['normal_regret', 'p99'], ['coverage', 'mean'],
                                   ['nanoseconds', 'median']]) r[member] = only(r[member], name);
   }
