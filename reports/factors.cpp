@@ -232,6 +232,13 @@ void add_contrasts(std::vector<Contrast>& result, const Table& table) {
   }
 }
 
+/// Every moving body is turned, few are exactly symmetric, and few are tilted by just so much.
+int rarity(const Contrast& c) {
+  if (c.modifier != turned) return 2;
+  const Group group = group_of(parse_pair(c.pair), c.arrangement + '+' + c.modifier);
+  return group == Group::everyday ? 0 : 1;
+}
+
 /// Of every pair and candidate, in report order.
 template <class Act>
 void each_table(const Report& report, const Act& act) {
@@ -287,16 +294,20 @@ std::vector<Contrast> contrasts(const Report& report) {
 std::vector<const Contrast*> failing_contrasts(const Report& report) {
   std::vector<const Contrast*> result;
   for (const CandidateDescription& candidate : report.candidates) {
-    const auto first = static_cast<std::ptrdiff_t>(result.size());
+    std::vector<const Contrast*> of_candidate;
     for (const Contrast& c : report.contrasts) {
-      if (c.candidate == candidate.name && c.fails) result.push_back(&c);
+      if (c.candidate == candidate.name && c.fails) of_candidate.push_back(&c);
     }
-    // Every moving body is turned, few are tilted by just so much.
-    const auto weight = [](const Contrast* c) {
-      return std::pair(c->modifier == turned, c->modified.share() - c->plain.share());
-    };
-    std::stable_sort(result.begin() + first, result.end(),
-                     [&](const Contrast* a, const Contrast* b) { return weight(a) > weight(b); });
+    const auto rise = [](const Contrast* c) { return c->modified.share() - c->plain.share(); };
+    std::stable_sort(of_candidate.begin(), of_candidate.end(),
+                     [&](const Contrast* a, const Contrast* b) { return rise(a) > rise(b); });
+    std::map<std::pair<int, std::string>, int> seen;
+    std::multimap<std::pair<int, int>, const Contrast*> in_turns;  // equal keys stay in order
+    for (const Contrast* c : of_candidate) {
+      const int rank = rarity(*c);
+      in_turns.insert({{rank, seen[{rank, c->pair}]++}, c});
+    }
+    for (const auto& [turn, c] : in_turns) result.push_back(c);
   }
   return result;
 }

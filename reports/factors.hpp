@@ -26,8 +26,9 @@ std::vector<Factor> factors(const Report& report);
 /// which the candidate fails most, for each candidate that has a routine for the pair.
 std::vector<Contrast> contrasts(const Report& report);
 
-/// Contrasts to be pointed out, those of a candidate together: turned ones, then tilted ones, the
-/// largest first.
+/// Lists the contrasts to be pointed out, those of a candidate together: everyday poses turned,
+/// then other turned ones, then tilted ones. Among these, the largest of each pair of shapes comes
+/// first, then the second of each.
 std::vector<const Contrast*> failing_contrasts(const Report& report);
 
 /// "ode: cylinder-cylinder/perpendicular-t agrees in 87%, turned in 30%".

@@ -111,6 +111,25 @@ TEST(Contrasts, PointOutTurnedOnesFirst) {
   EXPECT_THAT(modifiers, testing::ElementsAre("turned", "tilted-1e-9"));
 }
 
+TEST(Contrasts, PointOutEverydayPosesFirstAndOneOfEachPairBeforeTheSecondOfAny) {
+  Report report;
+  report.candidates = {{"mine", "mine", "1", "", ""}};
+  const auto add = [&](Pair pair, const std::string& arrangement, const std::string& modifier,
+                       std::uint64_t failed) {
+    report.contrasts.push_back({pair_name(pair), "mine", arrangement, arrangement, modifier,
+                                FailureRate{100, 0}, FailureRate{100, failed}, 0, true, ""});
+  };
+  add(Pair::box, "parallel", "tilted-1e-9", 100);
+  add(Pair::cylinder, "coaxial", "turned", 100);  // symmetric, so not everyday
+  add(Pair::box, "side-on-face", "turned", 40);
+  add(Pair::cylinder, "parallel-side", "turned", 80);
+  add(Pair::cylinder, "perpendicular-t", "turned", 90);
+  std::vector<std::string> arrangements;
+  for (const Contrast* c : failing_contrasts(report)) arrangements.push_back(c->arrangement);
+  EXPECT_THAT(arrangements, testing::ElementsAre("perpendicular-t", "side-on-face", "parallel-side",
+                                                 "coaxial", "parallel"));
+}
+
 TEST(Factors, CompareAModifierWithWhatIsEqualButForIt) {
   // Needles fail everywhere; tiny ones are not to be blamed for being tiny.
   const auto found = factors(Rates()

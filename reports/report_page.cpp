@@ -91,16 +91,18 @@ class Packer {
 };
 
 /// Of the rows of classes, of which there are twenty thousand, what the page shows of a class, with
-/// as many digits: outcomes as [index in all_outcomes, count, …], of each error one number.
-json shown_of_classes(const json& results) {
+/// as many digits: the class by its index, outcomes as [index in all_outcomes, count, …], of each
+/// error one number.
+json shown_of_classes(const json& results, const json& classes) {
   constexpr int digits = 2;
+  std::map<std::pair<std::string, std::string>, std::size_t> index_of;
+  for (const json& c : classes) index_of.try_emplace({c["pair"], c["class"]}, index_of.size());
   json rows = json::array();
   for (const json& row : results) {
     if (row["outcomes"].value("unsupported", std::uint64_t{0}) == row["count"]) continue;
     json shown;
-    for (const char* member : {"pair", "class", "candidate", "count", "worst_index"}) {
-      shown[member] = row[member];
-    }
+    shown["class"] = index_of.at({row["pair"], row["class"]});
+    for (const char* member : {"candidate", "worst_index"}) shown[member] = row[member];
     json& outcomes = shown["outcomes"] = json::array();
     for (std::size_t i = 0; i < all_outcomes.size(); ++i) {
       const auto of_outcome = row["outcomes"].find(outcome_name(all_outcomes[i]));
@@ -125,17 +127,36 @@ json shown_of_classes(const json& results) {
   return rows;
 }
 
+/// Of an answer to a worst case, what the page shows. A point whose normal is that of the whole
+/// answer has none of its own.
+json shown_answer(json answer) {
+  constexpr int digits_of_score = 3;
+  json& score = answer["score"];
+  for (const char* unseen : {"deepest_error", "point_error"}) score.erase(unseen);
+  score = rounded(score, digits_of_score);
+  for (json& point : answer["points"]) {
+    point.erase("depth");
+    if (point["normal"] == answer["normal"]) point.erase("normal");
+  }
+  return answer;
+}
+
 /// Of the worst cases, the first few of each pair × group × candidate, with as many digits of truth
 /// and answers as pictures of bodies a million metres away need; configurations stay exact.
 json shown_worst(const json& worst) {
-  constexpr int max_shown = 2, digits = 10, digits_of_score = 3;
+  constexpr int max_shown = 2, digits = 10;
   std::map<std::array<std::string, 3>, int> seen;
   json cases = json::array();
   for (json w : worst) {
     if (++seen[{w["pair"], w["group"], w["candidate"]}] > max_shown) continue;
-    for (const char* member : {"truth", "answers"}) w[member] = rounded(w[member], digits);
-    for (json& answer : w["answers"]) answer["score"] = rounded(answer["score"], digits_of_score);
-    for (json& bound : w["truth"]["signed_distance"]) {
+    for (const char* unseen : {"depth_error", "normal_regret"}) w.erase(unseen);
+    for (json& answer : w["answers"]) answer = rounded(shown_answer(std::move(answer)), digits);
+    json& truth = w["truth"] = rounded(w["truth"], digits);
+    truth.erase("families");
+    for (json& patch : truth["patch"]) {
+      for (const char* unseen : {"area", "perimeter"}) patch.erase(unseen);
+    }
+    for (json& bound : truth["signed_distance"]) {
       bound = rounded(std::strtod(bound.get<std::string>().c_str(), nullptr), digits);
     }
     cases.push_back(std::move(w));
@@ -143,11 +164,13 @@ json shown_worst(const json& worst) {
   return cases;
 }
 
-/// Bins as lists instead of objects.
+/// Bins as lists instead of objects, with as many digits as are shown.
 json shown_trends(json trends) {
+  constexpr int digits = 2;
   for (json& trend : trends) {
     for (json& bin : trend["bins"]) {
-      bin = {bin["decade"], bin["count"], bin["missed"], bin["median"], bin["max"]};
+      bin = {bin["decade"], bin["count"], bin["missed"], rounded(bin["median"], digits),
+             rounded(bin["max"], digits)};
     }
   }
   return trends;
@@ -167,7 +190,7 @@ json packed(const json& report) {
 
 std::string report_page(const Report& report) {
   json whole = to_json(report);
-  whole["results"] = shown_of_classes(whole["results"]);
+  whole["results"] = shown_of_classes(whole["results"], whole["classes"]);
   whole["worst"] = shown_worst(whole["worst"]);
   whole["trends"] = shown_trends(std::move(whole["trends"]));
   json data = packed(whole);

@@ -82,13 +82,17 @@ Times time_queries(const Campaign& campaign, const std::vector<Cell>& cells,
                    const std::vector<std::optional<Sample>>& samples) {
   Times times(samples.size(), std::vector<Repetitions>(campaign.candidates.size()));
   if (interrupted()) return times;
-  Progress progress("pose classes timed", samples.size());
+  std::vector<std::size_t> timed;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const bool wanted = !campaign.classes.empty() || is_timed(cells[i]);
+    if (samples[i] && wanted) timed.push_back(i);
+  }
+  Progress progress("pose classes timed", timed.size());
   std::mt19937_64 random(campaign.seed);
   auto candidates = start(campaign.candidates, campaign.bar.threshold, campaign.limits);
-  for (std::size_t i = 0; i < samples.size() && !interrupted(); ++i) {
-    const bool wanted = !campaign.classes.empty() || is_timed(cells[i]);
-    if (samples[i] && wanted) times[i] = time_cell(*samples[i], candidates, random);
-    progress.update(i + 1);
+  for (std::size_t done = 0; done < timed.size() && !interrupted(); ++done) {
+    times[timed[done]] = time_cell(*samples[timed[done]], candidates, random);
+    progress.update(done + 1);
   }
   return times;
 }

@@ -15,9 +15,12 @@ function unpackReport(packed) {
   }
   const only = (value, name) => value === null ? null : {[name]: value};
   for (const r of whole.results) {
-    const {outcomes} = r;
-    r.outcomes = {};
-    for (let i = 0; i < outcomes.length; i += 2) r.outcomes[whole.outcomes[outcomes[i]]] = outcomes[i + 1];
+    const {outcomes} = r, {pair, class: name} = whole.classes[r.class];
+    Object.assign(r, {pair, class: name, count: 0, outcomes: {}});
+    for (let i = 0; i < outcomes.length; i += 2) {
+      r.outcomes[whole.outcomes[outcomes[i]]] = outcomes[i + 1];
+      r.count += outcomes[i + 1];
+    }
     for (const [member, name] of [['severity', 'max'], ['depth_error', 'p99'], ['normal_regret', 'p99'], ['coverage', 'mean'],
                                   ['nanoseconds', 'median']]) r[member] = only(r[member], name);
   }
@@ -131,15 +134,19 @@ function failuresOf() {
 const agreed = rate => 1 - rate.failed / rate.count;
 const wholePercent = share => `${Math.floor(100 * share + 1e-9)}%`;
 const replayOf = (id, candidate) => `./touchstone replay ${id} --candidates ${candidate}`;
+// Every moving body is turned, so that all everyday arrangements that fail turned are shown, as far as there is room; of
+// others the worst, where few of those fail. The table "Exact against turned" has all.
 function contrastsFound() {
-  const shownOfEach = 3, drop = c => (c.modifier === 'turned') + agreed(c.plain) - agreed(c.modified);
+  const maxOfEach = 12, enough = 3, drop = c => agreed(c.plain) - agreed(c.modified);
+  const rarity = c => c.modifier !== 'turned' ? 2 : classGroup.get(`${c.pair}/${c.arrangement}+turned`) === 'everyday' ? 0 : 1;
   const items = candidates.flatMap(name => {
-    const failing = report.contrasts.filter(c => c.candidate === name && c.fails).sort((a, b) => drop(b) - drop(a));
+    const failing = report.contrasts.filter(c => c.candidate === name && c.fails).sort((a, b) => rarity(a) - rarity(b) || drop(b) - drop(a));
     if (failing.length === 0) return [];
-    return [element('li', {}, named(name), failing.length > shownOfEach ? ` (the worst ${shownOfEach} of ${failing.length})` : '',
-        element('ul', {}, ...failing.slice(0, shownOfEach).map(c => element('li', {},
+    const shownOnes = failing.filter((c, i) => i < enough || i < maxOfEach && rarity(c) === 0), left = failing.length - shownOnes.length;
+    return [element('li', {}, named(name), element('ul', {}, ...shownOnes.map(c => element('li', {},
             `${dashed(c.pair)}, ${c.plain_class}: agrees in ${wholePercent(agreed(c.plain))}, ${c.modifier} in ${wholePercent(agreed(c.modified))}. `,
-            element('code', {}, replayOf(c.worst, name))))))];
+            element('code', {}, replayOf(c.worst, name)))),
+        left ? element('li', {class: 'quiet'}, `and ${left} more, `, element('a', {href: '#contrasts'}, 'in the table')) : null))];
   });
   byId('finding-contrasts-part').hidden = items.length === 0;
   byId('finding-contrasts').append(...items);

@@ -109,7 +109,7 @@ function classTable() {
   const classes = [...new Map(report.classes.filter(c => c.group === group && (ofOne || c.pair === pair)).map(c => [c.class, c])).values()];
   const columns = ofOne ? pairs.map(p => [p, candidate]) : candidates.map(c => [pair, c]);
   const rows = classes.map(c => {
-    const name = element('th', {scope: 'row', tabindex: 0}, c.class);
+    const name = element('th', {scope: 'row', tabindex: 0}, ...c.class.split('+').flatMap((part, i) => i ? [element('wbr'), `+${part}`] : [part]));
     explain(name, c.description);
     return [name, ...columns.map(([p, k]) => classCell(c, resultAt.get(`${p}/${c.class}/${k}`), quantity))];
   });
@@ -290,7 +290,7 @@ function recordedTable(recorded) {
   const tilt = k => k === 15 ? 'exact' : `1e-${k}`;
   const rows = [...byArrangement.values()].sort((x, y) => pairs.indexOf(x.pair) - pairs.indexOf(y.pair) || y.share - x.share)
       .map(({pair, arrangement, share, tilts}) => [rowHead(otherShape(pair)), arrangement, percent(share),
-          tilts.sort((x, y) => x.tilt - y.tilt).map(t => `${tilt(t.tilt)}: ${percent(t.share / share)}`).join(', ') || '–']);
+          element('td', {class: 'text wrap'}, tilts.sort((x, y) => x.tilt - y.tilt).map(t => `${tilt(t.tilt)}: ${percent(t.share / share)}`).join(', ') || '–')]);
   byId('recorded-table').append(table([textColumn('pair'), textColumn('arrangement'), 'share', textColumn('tilts out of it')], rows,
       'Arrangements in recorded scenes'));
 }

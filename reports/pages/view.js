@@ -248,7 +248,7 @@ function marksOf(scene, truth, answers) {
   const result = [];
   for (const [name, a] of answers) {
     for (const p of a.status === 'contact' ? a.points : []) {
-      const normal = finite(p.normal) ? p.normal : a.normal;
+      const normal = p.normal && finite(p.normal) ? p.normal : a.normal;
       if (!finite(p.position) || !finite(normal)) continue;
       result.push({...markOf(name), position: add(p.position, scene.contact, -1), normal, large: false});
     }
