@@ -20,11 +20,15 @@ def listed_classes(program):
 
 
 def timed_classes(report):
-    """The number of pose classes that a whole report times: of at most one modifier, and of tilts three."""
-    tilts = ("tilted-1e-1", "tilted-1e-6", "tilted-1e-12")
-    modifiers = [c["modifiers"] for c in report["classes"]]
-    return sum(m == [] or len(m) == 1 and (not m[0].startswith("tilted") or m[0] in tilts)
-               for m in modifiers)
+    """How many of a whole report's classes are timed, as reports/timing.hpp says."""
+    def is_timed(c):
+        modifiers = c["modifiers"]
+        if c["group"] in ("everyday", "recorded") or not modifiers:
+            return True
+        tilts = ("tilted-1e-1", "tilted-1e-6", "tilted-1e-12")
+        return (c["arrangement"] in ("general", "parallel", "perpendicular") and len(modifiers) == 1
+                and (not modifiers[0].startswith("tilted") or modifiers[0] in tilts))
+    return sum(is_timed(c) for c in report["classes"])
 
 
 def planned_count(row, of_class):
