@@ -1,5 +1,3 @@
-#include "properties/motions/perturbation.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -7,6 +5,7 @@
 #include "oracle/truth.hpp"
 #include "properties/arbitrary.hpp"
 #include "properties/motions/motion.hpp"
+#include "properties/motions/perturbation.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone {

@@ -1,5 +1,3 @@
-#include "reports/choice/choice.hpp"
-
 #include <algorithm>
 #include <fmt/format.h>
 #include <limits>
@@ -7,6 +5,7 @@
 #include "candidates/host/progress.hpp"
 #include "properties/features.hpp"
 #include "reference/invalid_input.hpp"
+#include "reports/choice/choice.hpp"
 #include "simulation/scenes/choose.hpp"
 
 namespace touchstone {

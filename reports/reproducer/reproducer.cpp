@@ -1,7 +1,5 @@
 // Templates are C++ with two additions: @name@ stands for a text, and a line that begins with
 // [shape] or [shape,shape] is there only for these shapes of body B.
-#include "reports/replay.hpp"
-
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
@@ -14,6 +12,7 @@
 #include "oracle/truth.hpp"
 #include "properties/files/answer_json.hpp"
 #include "reference/invalid_input.hpp"
+#include "reports/replay.hpp"
 
 namespace touchstone {
 

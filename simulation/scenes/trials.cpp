@@ -1,5 +1,3 @@
-#include "simulation/scenes/choose.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -14,6 +12,7 @@
 #include "oracle/judge/score.hpp"
 #include "oracle/truth.hpp"
 #include "properties/files/configuration_json.hpp"
+#include "simulation/scenes/choose.hpp"
 
 namespace touchstone {
 namespace {
