@@ -340,6 +340,21 @@ TEST(Report, IsWrittenAsAWhole) {
   std::filesystem::remove_all(folder);
 }
 
+TEST(Report, ScoresMoreOfWhatUsersAskOfFirst) {
+  Campaign c;
+  c.count = 20;
+  const auto count = [&](const char* name) { return count_of(c, {Pair::cylinder, name}); };
+  EXPECT_EQ(count("rim-rim"), 20u);
+  c.everyday_times = 5;
+  for (const char* name :
+       {"rim-rim", "recorded", "parallel-side+turned", "parallel-side+aligned"}) {
+    EXPECT_EQ(count(name), 100u) << name;
+  }
+  for (const char* name : {"parallel-side", "general+needle", "parallel-side+aligned+tiny"}) {
+    EXPECT_EQ(count(name), 20u) << name;
+  }
+}
+
 TEST(Report, RefusesAnUnknownClassBeforeAnyWork) {
   Campaign c = small_campaign();
   c.classes = {"rim-rimm"};
