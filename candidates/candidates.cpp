@@ -7,7 +7,7 @@
 #include <deque>
 #include <system_error>
 
-#include "candidates/host/candidate_process.hpp"
+#include "candidates/host/plugin_process.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <chrono>
 #include <memory>
 #include <optional>
 #include <span>
@@ -12,8 +11,7 @@
 
 namespace touchstone {
 
-struct SessionCommand;
-class Watch;
+class Respondent;
 
 /// Resources that one configuration may use before the candidate's process is ended.
 struct Limits {
@@ -37,35 +35,14 @@ struct QueryCost {
   std::optional<double> instructions;  ///< in user space; absent if they cannot be counted
 };
 
-/// A plug-in, loaded in a process of its own: its symbols, global state and crashes affect neither
-/// other plug-ins nor this process. Throws InvalidInput (field "--candidate") when it cannot be
-/// loaded.
-class PluginProcess {
- public:
-  /// Time allowed for loading it, which may read libraries from a cold disk.
-  static constexpr std::chrono::milliseconds loading_time = std::chrono::seconds(30);
-  explicit PluginProcess(const std::filesystem::path& file,
-                         std::chrono::milliseconds loading = loading_time);
-  ~PluginProcess();
-  PluginProcess(PluginProcess&&) noexcept;
-  PluginProcess& operator=(PluginProcess&&) noexcept;
-
-  const std::vector<Candidate>& candidates() const;
-
- private:
-  friend class CandidateProcess;
-  struct State;
-  std::unique_ptr<State> state_;
-};
-
-/// One candidate, which answers in sessions: forks of its plug-in's process, which has loaded the
-/// plug-in and done nothing else. A configuration that ends its session is answered with TS_CRASHED
-/// or TS_TIMED_OUT, and the next one gets a new session. An end that the configuration may not have
-/// caused (a signal that others may have sent, a timeout) counts only if it happens again in a
-/// session with that configuration alone.
+/// One candidate that is asked in processes of its own: sessions of its plug-in's process
+/// (plugin_sessions.hpp) or a command (command_process.hpp).
 class CandidateProcess {
  public:
   CandidateProcess(const Candidate& candidate, double threshold, const Limits& limits = {});
+  ~CandidateProcess();
+  CandidateProcess(CandidateProcess&&) noexcept;
+  CandidateProcess& operator=(CandidateProcess&&) noexcept;
 
   const Candidate& candidate() const { return candidate_; }
 
@@ -82,7 +59,7 @@ class CandidateProcess {
   std::vector<Answer> answer(std::span<const Configuration> configurations,
                              std::span<const Vec3* const> previous_normals = {});
   /// Ends the session. The next call begins a new one.
-  void restart() { end(); }
+  void restart();
 
   /// Prepares shapes for timing in a new session and queries them once, untimed. Keeps as many as
   /// take about half a millisecond together, at least ten. False if the session died.
@@ -92,42 +69,8 @@ class CandidateProcess {
   std::optional<QueryCost> cost_per_query();
 
  private:
-  /// The premature end of a session.
-  struct SessionFailure {
-    ts_status status;
-    std::string reason;
-    bool certain;  ///< the current configuration is certainly the cause
-  };
-
-  /// Begins a session; absent on success.
-  std::optional<SessionFailure> begin();
-  void end();
-  void put(std::uint32_t slot, const Configuration& configuration,
-           const Vec3* previous_normal = nullptr);
-  std::vector<Answer> answer(std::span<const Configuration> configurations,
-                             std::span<const Vec3* const> previous_normals, bool release);
-  void answer_batch(std::uint32_t count, bool release, std::vector<Answer>& answers);
-  /// The answer in this slot, if it belongs to the last command.
-  std::optional<Answer> answer_in(std::uint32_t slot) const;
-  /// Answers this slot's question in a session of its own.
-  Answer answer_alone(std::uint32_t slot);
-  static Answer answer_of(const SessionFailure& failure);
-  /// Sends a command and waits for its end; absent on success. `configurations`: how many it may
-  /// query before it reports progress; each may take as long as the limits say.
-  std::optional<SessionFailure> obey(SessionCommand command, std::size_t configurations = 1);
-  SessionFailure end_of_session(int wait_status) const;
-  /// Why the command has taken too long for so many configurations; empty if it has not.
-  std::string judge(const Watch& watch, std::size_t configurations);
-
   Candidate candidate_;
-  double threshold_;
-  Limits limits_;
-  PluginProcess plugin_;
-  int session_ = -1;                  ///< process, or -1
-  std::uint64_t ticket_ = 0;          ///< ticket of the last command
-  std::uint64_t session_ticket_ = 0;  ///< ticket of the command that began the session
-  double max_wait_;                   ///< seconds that a query may wait
-  std::size_t timed_ = 0;             ///< configurations of prepare_timing
+  std::unique_ptr<Respondent> respondent_;
 };
 
 /// Starts one process for each candidate.

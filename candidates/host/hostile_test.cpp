@@ -21,6 +21,7 @@
 #include "candidates/candidates.hpp"
 #include "candidates/host/candidate_process.hpp"
 #include "candidates/host/exchange.hpp"
+#include "candidates/host/plugin_process.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone {

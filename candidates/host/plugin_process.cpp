@@ -1,4 +1,6 @@
 // The harness's side of a plug-in's process; the plug-in's own is plugin_server.cpp.
+#include "candidates/host/plugin_process.hpp"
+
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
@@ -16,7 +18,6 @@
 #include <utility>
 
 #include "candidates/host/exchange.hpp"
-#include "candidates/host/plugin_state.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone {

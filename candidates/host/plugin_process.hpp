@@ -1,14 +1,38 @@
 #pragma once
 
+#include <chrono>
+#include <filesystem>
+#include <memory>
 #include <string>
 #include <sys/types.h>
 #include <unistd.h>
 #include <vector>
 
-#include "candidates/host/candidate_process.hpp"
+#include "candidates/candidates.hpp"
 #include "candidates/host/exchange.hpp"
 
 namespace touchstone {
+
+/// A plug-in, loaded in a process of its own: its symbols, global state and crashes affect neither
+/// other plug-ins nor this process. Throws InvalidInput (field "--candidate") when it cannot be
+/// loaded.
+class PluginProcess {
+ public:
+  /// Time allowed for loading it, which may read libraries from a cold disk.
+  static constexpr std::chrono::milliseconds loading_time = std::chrono::seconds(30);
+  explicit PluginProcess(const std::filesystem::path& file,
+                         std::chrono::milliseconds loading = loading_time);
+  ~PluginProcess();
+  PluginProcess(PluginProcess&&) noexcept;
+  PluginProcess& operator=(PluginProcess&&) noexcept;
+
+  const std::vector<Candidate>& candidates() const;
+
+ private:
+  friend class PluginSessions;
+  struct State;
+  std::unique_ptr<State> state_;
+};
 
 /// A plug-in's process and the communication with it. After any failure it is stopped, with all
 /// processes that it has started, and started again for the next question.

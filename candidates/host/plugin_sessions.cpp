@@ -1,0 +1,358 @@
+// Queries one candidate in sessions of its plug-in's process; exchange.hpp defines the messages.
+#include "candidates/host/plugin_sessions.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <signal.h>
+#include <stdexcept>
+#include <sys/wait.h>
+#include <type_traits>
+#include <unistd.h>
+
+#include "candidates/candidates.hpp"
+#include "candidates/host/exchange.hpp"
+#include "candidates/host/watch.hpp"
+#include "reference/invalid_input.hpp"
+
+namespace touchstone {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Interval at which a candidate's use of time is checked.
+constexpr std::chrono::milliseconds check_interval(20);
+
+/// Time in which a plug-in's process must fork a session.
+constexpr std::chrono::seconds fork_timeout(10);
+/// Time in which a session with nothing more to do must end.
+constexpr std::chrono::seconds finish_timeout(1);
+
+/// Multiples of the limit of processor time: how long a query may wait at first, and how long it
+/// may take by the clock if the kernel does not distinguish waiting for something from waiting for
+/// a processor.
+constexpr double initial_wait_factor = 10, clock_factor = 100;
+
+/// Slow configurations are queried so often, and prepared once, by warm_up and by time of
+/// session.cpp: to warm up and in one measured pass. Passes are repeated only where they take
+/// microseconds.
+constexpr std::size_t queries_per_round = 2;
+
+/// Can the signal come from a timer, another process or the kernel, and not only from the routine
+/// that dies of it?
+bool may_come_from_elsewhere(int signal) {
+  switch (signal) {
+    case SIGSEGV:
+    case SIGBUS:
+    case SIGFPE:
+    case SIGILL:
+    case SIGABRT:
+    case SIGTRAP:
+    case SIGSYS:
+      return false;
+    default:
+      return true;
+  }
+}
+
+SessionCommand plain_command(SessionCommand::Kind kind) {
+  SessionCommand command{};
+  command.kind = kind;
+  return command;
+}
+
+SessionCommand answer_command(std::uint32_t first, std::uint32_t count, bool release) {
+  SessionCommand command = plain_command(SessionCommand::answer);
+  command.first = first;
+  command.count = count;
+  command.release = release;
+  return command;
+}
+
+std::string seconds_text(double seconds) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g s", seconds);
+  return text;
+}
+
+}  // namespace
+
+PluginSessions::PluginSessions(const Candidate& candidate, double threshold, const Limits& limits)
+    : candidate_(candidate),
+      threshold_(threshold),
+      limits_(limits),
+      plugin_(candidate.plugin),
+      max_wait_(initial_wait_factor * limits.seconds) {}
+
+std::optional<PluginSessions::SessionFailure> PluginSessions::begin() {
+  using Received = PluginProcess::State::Received;
+  PluginProcess::State& s = *plugin_.state_;
+  if (ftruncate(s.text, 0) != 0) fail("ftruncate");
+  bool forked = true;
+  for (int attempt = 0; attempt < 2; ++attempt) {
+    try {
+      if (!s.runs()) s.start(PluginProcess::loading_time);
+    } catch (const InvalidInput& e) {
+      return SessionFailure{TS_CRASHED, e.what(), true};
+    }
+    if (static_cast<std::size_t>(candidate_.index) >= s.candidates.size()) {
+      return SessionFailure{TS_CRASHED, "its plug-in no longer has it", true};
+    }
+    SessionCommand command = plain_command(SessionCommand::begin);
+    command.ticket = session_ticket_ = ++ticket_;
+    command.index = candidate_.index;
+    command.threshold = threshold_;
+    command.parameter = candidate_.value;
+    command.memory = static_cast<std::uint64_t>(limits_.mebibytes * (1 << 20));
+    const auto end = Clock::now() + fork_timeout;
+    for (bool waits = s.send(command); waits && Clock::now() < end;) {
+      Reply reply;
+      pid_t sender = -1;
+      const Received received = s.receive(&reply, sizeof reply, fork_timeout, &sender);
+      waits = received != Received::end;
+      if (received != Received::message || reply.kind != Reply::began ||
+          reply.ticket != command.ticket) {
+        continue;
+      }
+      forked = reply.value >= 0;
+      if (!forked) break;
+      session_ = sender;
+      return std::nullopt;
+    }
+    s.stop();
+  }
+  if (!forked) throw std::runtime_error("no process could be made for " + candidate_.name);
+  return SessionFailure{TS_CRASHED, "its plug-in's process, loaded anew, answers no more", true};
+}
+
+void PluginSessions::end() {
+  if (session_ < 0) return;
+  session_ = -1;
+  using Received = PluginProcess::State::Received;
+  PluginProcess::State& s = *plugin_.state_;
+  SessionCommand command = plain_command(SessionCommand::finish);
+  command.ticket = ++ticket_;
+  const auto end = Clock::now() + finish_timeout;
+  for (bool waits = s.send(command); waits && Clock::now() < end;) {
+    Reply reply;
+    const Received received = s.receive(&reply, sizeof reply, finish_timeout);
+    waits = received != Received::end;
+    if (received == Received::message && reply.kind == Reply::ended &&
+        reply.ticket == session_ticket_) {
+      if (reply.left_behind) break;
+      return;
+    }
+  }
+  s.stop();
+}
+
+void PluginSessions::ask_within(double threshold) {
+  end();
+  threshold_ = threshold;
+}
+
+void PluginSessions::put(std::uint32_t slot, const Configuration& c, const Vec3* previous_normal) {
+  const Vec3 hint = previous_normal ? *previous_normal : Vec3(Vec3::Zero());
+  plugin_.state_->questions->slots[slot] = {
+      to_ts_shape(c.a),     to_ts_shape(c.b),           to_ts_pose(c.pose_a),
+      to_ts_pose(c.pose_b), previous_normal != nullptr, {hint.x(), hint.y(), hint.z()}};
+}
+
+std::optional<PluginSessions::SessionFailure> PluginSessions::obey(SessionCommand command,
+                                                                   std::size_t configurations) {
+  using Received = PluginProcess::State::Received;
+  PluginProcess::State& s = *plugin_.state_;
+  std::optional<SessionFailure> begin_failure;
+  if (session_ < 0) begin_failure = begin();
+  command.ticket = ++ticket_;
+  s.exchange->progress = progress_of(ticket_, command.first);
+  if (begin_failure) return begin_failure;
+  const auto stopped = [&](ts_status status, std::string reason) {
+    s.stop();
+    session_ = -1;
+    return SessionFailure{status, std::move(reason), false};
+  };
+  if (!s.send(command)) return stopped(TS_CRASHED, "its plug-in's process ended");
+
+  // Most commands finish before the first check; the watch starts with that.
+  std::optional<Watch> watch;
+  std::uint64_t progress = s.exchange->progress;
+  auto next_check = Clock::now() + check_interval;
+  for (;;) {
+    std::string too_long;
+    if (Clock::now() >= next_check) {
+      next_check = Clock::now() + check_interval;
+      const std::uint64_t now = s.exchange->progress;
+      if (!watch || (now > progress && now <= progress_of(ticket_, command.count))) {
+        progress = now;
+        watch.emplace(session_);
+      } else {
+        too_long = judge(*watch, configurations);
+      }
+    }
+    // Receive at least once after the check, so that an answer that arrived before it counts.
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(next_check - Clock::now());
+    Reply reply;
+    const Received received =
+        s.receive(&reply, sizeof reply, std::max(too_long.empty() ? left : left * 0, left * 0));
+    if (received == Received::message) {
+      if (reply.kind == Reply::finished && reply.ticket == ticket_) return std::nullopt;
+      if (reply.kind == Reply::ended && reply.ticket == session_ticket_) {
+        session_ = -1;
+        if (reply.left_behind) s.stop();
+        return end_of_session(reply.value);
+      }
+      if (reply.kind == Reply::gone) {
+        return stopped(TS_CRASHED, "its plug-in's process: " + how_it_ended(reply.value));
+      }
+    } else if (received == Received::end) {
+      return stopped(TS_CRASHED, "closed its connection to Touchstone");
+    }
+    if (!too_long.empty()) return stopped(TS_TIMED_OUT, too_long);
+  }
+}
+
+std::string PluginSessions::judge(const Watch& watch, std::size_t configurations) {
+  const Watch::TimeUse spent = watch.spent();
+  const double seconds = limits_.seconds * static_cast<double>(configurations);
+  const double max_wait = max_wait_ * static_cast<double>(configurations);
+  if (spent.computing > seconds) return "no answer within " + seconds_text(seconds);
+  if (!spent.waiting) {
+    const double limit = clock_factor * seconds;
+    if (spent.by_the_clock > limit)
+      return "no answer within " + seconds_text(limit) + " by the clock";
+  } else if (*spent.waiting > max_wait) {
+    std::string text = "no answer, having waited for " + seconds_text(max_wait);
+    max_wait_ = std::max(limits_.seconds, max_wait_ / 2);
+    return text;
+  }
+  return "";
+}
+
+PluginSessions::SessionFailure PluginSessions::end_of_session(int status) const {
+  const PluginProcess::State& s = *plugin_.state_;
+  if (WIFEXITED(status) && WEXITSTATUS(status) == exit_thrown) {
+    const char* const text = s.exchange->thrown;
+    return {TS_CRASHED, "threw " + std::string(text, strnlen(text, sizeof s.exchange->thrown)),
+            true};
+  }
+  SessionFailure failure{TS_CRASHED, how_it_ended(status), true};
+  if (WIFSIGNALED(status)) {
+    failure.certain = !may_come_from_elsewhere(WTERMSIG(status));
+    if (WTERMSIG(status) == SIGABRT && !s.last_line().empty()) {
+      failure.reason += ": " + s.last_line();
+    }
+  }
+  return failure;
+}
+
+Answer PluginSessions::answer_of(const SessionFailure& failure) {
+  Answer answer{};
+  answer.status = failure.status;
+  answer.reason = readable(failure.reason);
+  return answer;
+}
+
+std::optional<Answer> PluginSessions::answer_in(std::uint32_t i) const {
+  const Slot slot = plugin_.state_->exchange->slots[i];
+  if (slot.seal != seal_of(slot, ticket_)) return std::nullopt;
+  Answer answer{slot.answer, {}, {}};
+  if (!std::isnan(slot.model_distance)) answer.model_distance = slot.model_distance;
+  // A status or number of points that the interface does not allow is a failure of the candidate.
+  // Read as an integer: an enumeration must not even be looked at with another value in it.
+  std::underlying_type_t<ts_status> status;
+  std::memcpy(&status, &slot.answer.status, sizeof status);
+  if (status < TS_CONTACT || status > TS_FAILED || answer.point_count < 0 ||
+      answer.point_count > TOUCHSTONE_MAX_POINTS) {
+    static_cast<ts_answer&>(answer) = {};
+    answer.status = TS_FAILED;
+  }
+  return answer;
+}
+
+Answer PluginSessions::answer_alone(std::uint32_t i) {
+  end();
+  const auto failure = obey(answer_command(i, i + 1, true));
+  if (const auto answer = answer_in(i)) return *answer;
+  return answer_of(failure.value_or(SessionFailure{TS_CRASHED, "wrote over its own answer", true}));
+}
+
+void PluginSessions::answer_batch(std::uint32_t count, bool release, std::vector<Answer>& answers) {
+  std::vector<std::optional<Answer>> given(count);
+  for (std::uint32_t first = 0; first < count;) {
+    const bool fresh = session_ < 0;
+    const auto failure = obey(answer_command(first, count, release));
+    for (std::uint32_t i = first; i < count; ++i) given[i] = answer_in(i);
+    const auto none = std::find(given.begin(), given.end(), std::nullopt);
+    const auto in_hand = static_cast<std::uint32_t>(none - given.begin());
+    if (in_hand == count) break;
+    if (failure && plugin_.state_->exchange->progress == progress_of(ticket_, in_hand)) {
+      const bool certain = failure->certain || (fresh && in_hand == first);
+      given[in_hand] = certain ? answer_of(*failure) : answer_alone(in_hand);
+      first = in_hand + 1;
+      continue;
+    }
+    // An unknown query has overwritten answers.
+    for (std::uint32_t i = in_hand; i < count; ++i) {
+      if (!given[i]) given[i] = answer_alone(i);
+    }
+    break;
+  }
+  for (auto& answer : given) answers.push_back(std::move(*answer));
+}
+
+std::vector<Answer> PluginSessions::answers(std::span<const Configuration> configurations) {
+  end();
+  max_wait_ = initial_wait_factor * limits_.seconds;
+  return answer(configurations, {}, true);
+}
+
+std::vector<Answer> PluginSessions::answer(std::span<const Configuration> configurations,
+                                           std::span<const Vec3* const> previous_normals) {
+  return answer(configurations, previous_normals, false);
+}
+
+std::vector<Answer> PluginSessions::answer(std::span<const Configuration> configurations,
+                                           std::span<const Vec3* const> previous_normals,
+                                           bool release) {
+  std::vector<Answer> result;
+  for (std::size_t at = 0; at < configurations.size(); at += batch_size) {
+    const auto batch =
+        configurations.subspan(at, std::min<std::size_t>(batch_size, configurations.size() - at));
+    for (std::uint32_t i = 0; i < batch.size(); ++i) {
+      put(i, batch[i], previous_normals.empty() ? nullptr : previous_normals[at + i]);
+    }
+    answer_batch(static_cast<std::uint32_t>(batch.size()), release, result);
+  }
+  return result;
+}
+
+bool PluginSessions::prepare_timing(std::span<const Configuration> configurations) {
+  end();
+  timed_ = configurations.size();
+  for (std::size_t at = 0; at < configurations.size(); at += batch_size) {
+    const auto batch =
+        configurations.subspan(at, std::min<std::size_t>(batch_size, configurations.size() - at));
+    for (std::uint32_t i = 0; i < batch.size(); ++i) put(i, batch[i]);
+    SessionCommand keep = plain_command(SessionCommand::keep);
+    keep.count = static_cast<std::uint32_t>(batch.size());
+    if (obey(keep)) return false;
+  }
+  return !configurations.empty() &&
+         !obey(plain_command(SessionCommand::warm_up), queries_per_round * timed_);
+}
+
+std::optional<QueryCost> PluginSessions::cost_per_query() {
+  if (session_ < 0 || obey(plain_command(SessionCommand::time), queries_per_round * timed_)) {
+    return std::nullopt;
+  }
+  const Exchange& exchange = *plugin_.state_->exchange;
+  if (!std::isfinite(exchange.nanoseconds)) return std::nullopt;
+  QueryCost cost{exchange.nanoseconds, std::nullopt};
+  if (std::isfinite(exchange.instructions)) cost.instructions = exchange.instructions;
+  return cost;
+}
+
+}  // namespace touchstone

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstdint>
+
+#include "candidates/host/plugin_process.hpp"
+#include "candidates/host/respondent.hpp"
+
+namespace touchstone {
+
+struct SessionCommand;
+class Watch;
+
+/// A candidate of a plug-in, which answers in sessions: forks of its plug-in's process, which has
+/// loaded the plug-in and done nothing else. A configuration that ends its session is answered with
+/// TS_CRASHED or TS_TIMED_OUT, and the next one gets a new session. An end that the configuration
+/// may not have caused (a signal that others may have sent, a timeout) counts only if it happens
+/// again in a session with that configuration alone.
+class PluginSessions : public Respondent {
+ public:
+  PluginSessions(const Candidate& candidate, double threshold, const Limits& limits);
+
+  void ask_within(double threshold) override;
+  std::vector<Answer> answers(std::span<const Configuration> configurations) override;
+  std::vector<Answer> answer(std::span<const Configuration> configurations,
+                             std::span<const Vec3* const> previous_normals) override;
+  void restart() override { end(); }
+  bool prepare_timing(std::span<const Configuration> configurations) override;
+  std::optional<QueryCost> cost_per_query() override;
+
+ private:
+  /// The premature end of a session.
+  struct SessionFailure {
+    ts_status status;
+    std::string reason;
+    bool certain;  ///< the current configuration is certainly the cause
+  };
+
+  /// Begins a session; absent on success.
+  std::optional<SessionFailure> begin();
+  void end();
+  void put(std::uint32_t slot, const Configuration& configuration,
+           const Vec3* previous_normal = nullptr);
+  std::vector<Answer> answer(std::span<const Configuration> configurations,
+                             std::span<const Vec3* const> previous_normals, bool release);
+  void answer_batch(std::uint32_t count, bool release, std::vector<Answer>& answers);
+  /// The answer in this slot, if it belongs to the last command.
+  std::optional<Answer> answer_in(std::uint32_t slot) const;
+  /// Answers this slot's question in a session of its own.
+  Answer answer_alone(std::uint32_t slot);
+  static Answer answer_of(const SessionFailure& failure);
+  /// Sends a command and waits for its end; absent on success. `configurations`: how many it may
+  /// query before it reports progress; each may take as long as the limits say.
+  std::optional<SessionFailure> obey(SessionCommand command, std::size_t configurations = 1);
+  SessionFailure end_of_session(int wait_status) const;
+  /// Why the command has taken too long for so many configurations; empty if it has not.
+  std::string judge(const Watch& watch, std::size_t configurations);
+
+  Candidate candidate_;
+  double threshold_;
+  Limits limits_;
+  PluginProcess plugin_;
+  int session_ = -1;                  ///< process, or -1
+  std::uint64_t ticket_ = 0;          ///< ticket of the last command
+  std::uint64_t session_ticket_ = 0;  ///< ticket of the command that began the session
+  double max_wait_;                   ///< seconds that a query may wait
+  std::size_t timed_ = 0;             ///< configurations of prepare_timing
+};
+
+}  // namespace touchstone
