@@ -5,8 +5,10 @@
 #include <cmath>
 #include <cstdio>
 #include <deque>
+#include <fstream>
 #include <system_error>
 
+#include "candidates/host/command_process.hpp"
 #include "candidates/host/plugin_process.hpp"
 #include "reference/invalid_input.hpp"
 
@@ -62,24 +64,30 @@ class Registry {
     return registry;
   }
 
-  void add(const std::filesystem::path& file) {
-    const PluginProcess plugin(file);
-    for (const Candidate& c : plugin.candidates()) {
-      const auto same = [&](const Candidate& other) { return other.family == c.family; };
-      if (std::any_of(known_.begin(), known_.end(), same)) {
-        throw InvalidInput("--candidate", '"' + file.string() + '"',
-                           "must not bring \"" + c.family + "\", a name that is taken");
-      }
+  void add_plugin(const std::filesystem::path& file) {
+    add(PluginProcess(file).candidates(), {"--candidate", file.string()});
+  }
+
+  /// `subject`: the option and value that are to blame.
+  void add_command(const std::string& command, const std::filesystem::path& folder,
+                   const Added& subject) {
+    CommandProcess process(command, folder);
+    const auto hello = process.start();
+    if (const auto* const failure = std::get_if<CommandProcess::Failure>(&hello)) {
+      throw InvalidInput(
+          subject.option, '"' + subject.value + '"',
+          "must be a command that speaks as docs/process-candidates.md says, but it " +
+              failure->reason);
     }
-    for (const Candidate& c : plugin.candidates()) {
-      known_.push_back(c.parameter ? member(c, c.parameter->usual) : c);
-      listed_.push_back(&known_.back());
-    }
+    Candidate candidate = std::get<messages::Hello>(hello).candidate;
+    candidate.command = command;
+    candidate.folder = folder;
+    add({candidate}, subject);
   }
 
   const std::vector<const Candidate*>& listed() const { return listed_; }
   const std::vector<Skipped>& skipped() const { return skipped_; }
-  std::vector<std::filesystem::path> added;
+  std::vector<Added> added;
 
   const Candidate& find(std::string_view name) {
     for (const Candidate& c : known_) {
@@ -97,6 +105,20 @@ class Registry {
   }
 
  private:
+  void add(const std::vector<Candidate>& candidates, const Added& subject) {
+    for (const Candidate& c : candidates) {
+      const auto same = [&](const Candidate& other) { return other.family == c.family; };
+      if (std::any_of(known_.begin(), known_.end(), same)) {
+        throw InvalidInput(subject.option, '"' + subject.value + '"',
+                           "must not bring \"" + c.family + "\", a name that is taken");
+      }
+    }
+    for (const Candidate& c : candidates) {
+      known_.push_back(c.parameter ? member(c, c.parameter->usual) : c);
+      listed_.push_back(&known_.back());
+    }
+  }
+
   Registry() {
     const auto folder = standard_folder();
     for (const auto& [name, package] : standard_plugins) {
@@ -107,7 +129,7 @@ class Registry {
         continue;
       }
       try {
-        add(file);
+        add_plugin(file);
       } catch (const InvalidInput& e) {
         skipped_.push_back({name, e.what()});
       }
@@ -226,18 +248,52 @@ std::vector<const Candidate*> find_candidates(const std::vector<std::string>& na
   return result;
 }
 
-void add_plugin(const std::filesystem::path& file) {
+namespace {
+
+/// Adds the commands of a list.
+void add_list(const std::filesystem::path& file) {
+  std::ifstream lines(file);
+  int number = 0;
+  std::string line;
+  for (; std::getline(lines, line); ++number) {
+    const auto first = line.find_first_not_of(" \t\r");
+    if (first == std::string::npos || line[first] == '#') continue;
+    const std::string where = file.string() + " line " + std::to_string(number + 1);
+    const std::string command = line.substr(first, line.find_last_not_of(" \t\r") + 1 - first);
+    try {
+      Registry::get().add_command(command, file.parent_path(), {"--candidate", command});
+    } catch (const InvalidInput& e) {
+      throw InvalidInput("--candidate", where + ": " + e.value(), e.remedy());
+    }
+  }
+  if (lines.bad())
+    throw InvalidInput("--candidate", file.string(), "must be a file that can be read");
+}
+
+}  // namespace
+
+void add_file(const std::filesystem::path& file) {
   std::error_code error;
   const auto path = std::filesystem::canonical(file, error);
   if (error) throw InvalidInput("--candidate", '"' + file.string() + '"', "must be a file");
   if (!std::filesystem::is_regular_file(path)) {  // opening a FIFO would wait for a writer
     throw InvalidInput("--candidate", '"' + file.string() + '"', "must be a regular file");
   }
-  Registry::get().add(path);
-  Registry::get().added.push_back(path);
+  if (path.extension() == ".txt") {
+    add_list(path);
+  } else {
+    Registry::get().add_plugin(path);
+  }
+  Registry::get().added.push_back({"--candidate", path.string()});
 }
 
-const std::vector<std::filesystem::path>& added_plugins() { return Registry::get().added; }
+void add_command(const std::string& command, const std::filesystem::path& folder) {
+  const Added added{"--candidate-command", command};
+  Registry::get().add_command(command, folder, added);
+  Registry::get().added.push_back(added);
+}
+
+const std::vector<Added>& added_candidates() { return Registry::get().added; }
 
 const std::vector<Skipped>& skipped_plugins() { return Registry::get().skipped(); }
 

@@ -12,8 +12,8 @@
 
 namespace touchstone {
 
-/// The description of one candidate of a plug-in. The routine itself is called in other processes
-/// only (candidate_process.hpp).
+/// The description of one candidate: of a plug-in, or a command. The routine itself is called in
+/// other processes only (candidate_process.hpp).
 struct Candidate {
   struct Parameter {
     std::string meaning;
@@ -32,12 +32,17 @@ struct Candidate {
   std::array<bool, 5> supports{};     ///< by ts_shape_kind
   std::filesystem::path plugin = {};  ///< absolute
   int index = 0;                      ///< among the plug-in's candidates
+  // Of a command (docs/process-candidates.md), which is no plug-in:
+  std::string command = {};           ///< for /bin/sh -c; empty: a plug-in
+  std::filesystem::path folder = {};  ///< in which it runs, absolute
+  std::string precision = {};         ///< "double" or "float"
+  std::string runs = "native";        ///< "native", "wasm" or "script"
 
   bool has_routine_for(Pair pair) const;
 };
 
 /// All candidates in the order in which reports list them: those of the installed standard
-/// plug-ins, with the usual member of each family, then those of `add_plugin`.
+/// plug-ins, with the usual member of each family, then the added ones.
 std::vector<const Candidate*> all_candidates();
 
 /// The candidate of that name, "bullet" or "prism:32"; valid as long as the program runs. Throws
@@ -50,13 +55,25 @@ const Candidate& find_candidate(std::string_view name);
 /// find_candidate.
 std::vector<const Candidate*> find_candidates(const std::vector<std::string>& names);
 
-/// Adds a plug-in's candidates. Throws InvalidInput (field "--candidate") if the file is not a
-/// plug-in of this interface version, dies while it is loaded, or has a candidate whose name is
-/// taken.
-void add_plugin(const std::filesystem::path& file);
+/// Adds the candidates of a file: a plug-in, or, if its name ends in ".txt", a list of commands, one
+/// a line, which run in the file's folder; "#" begins a comment. Throws InvalidInput (field
+/// "--candidate") if a plug-in is not one of this interface version, dies while it is loaded, or has
+/// a candidate whose name is taken; for a list like add_command, with the line.
+void add_file(const std::filesystem::path& file);
 
-/// The absolute paths given to add_plugin, in order.
-const std::vector<std::filesystem::path>& added_plugins();
+/// Adds the candidate that a command for /bin/sh says it is, and that runs in this folder. Throws
+/// InvalidInput (field "--candidate-command") if it does not say so as
+/// docs/process-candidates.md specifies, or has a name that is taken.
+void add_command(const std::string& command,
+                 const std::filesystem::path& folder = std::filesystem::current_path());
+
+/// An option that added candidates.
+struct Added {
+  std::string option;  ///< "--candidate", "--candidate-command"
+  std::string value;   ///< a file's absolute path, or the command
+};
+/// In order.
+const std::vector<Added>& added_candidates();
 
 /// A standard plug-in that could not be used.
 struct Skipped {

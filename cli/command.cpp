@@ -179,13 +179,14 @@ void Program::version(const std::function<std::string()>& text) {
   app_->set_version_flag("--version", text);
 }
 
-void Program::files(const std::string& name, const std::function<void(const std::string&)>& each,
-                    const std::string& description) {
-  const auto take = [each](const std::vector<std::string>& files) {
-    for (const std::string& file : files) each(file);
+void Program::repeated(const std::string& name, const std::string& value,
+                       const std::function<void(const std::string&)>& each,
+                       const std::string& description) {
+  const auto take = [each](const std::vector<std::string>& values) {
+    for (const std::string& one : values) each(one);
   };
   app_->add_option_function<std::vector<std::string>>(name, take, description)
-      ->type_name("FILE")
+      ->type_name(value)
       ->allow_extra_args(false);
 }
 

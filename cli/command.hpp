@@ -78,9 +78,11 @@ class Program {
   Command command(const std::string& name, const std::string& description);
   /// --version prints what `text` gives.
   void version(const std::function<std::string()>& text);
-  /// An option that may stand before and after every subcommand, each time with one file.
-  void files(const std::string& name, const std::function<void(const std::string&)>& each,
-             const std::string& description);
+  /// An option that may stand before and after every subcommand, each time with one value, which
+  /// --help calls `value`.
+  void repeated(const std::string& name, const std::string& value,
+                const std::function<void(const std::string&)>& each,
+                const std::string& description);
   void footer(const std::string& text);
 
   /// Parses and runs the command that is named. Usage errors, --help and the like are told and end

@@ -63,9 +63,12 @@ int run(int argc, char** argv) {
       "  3    an internal contradiction, or another failure that is not the input's:\n"
       "       no process or memory to be had, a worker killed\n"
       "  130  interrupted by Ctrl-C; 143 by SIGTERM");
-  program.files(
-      "--candidate", [](const std::string& file) { add_plugin(file); },
-      "A plug-in with candidates of your own; may be repeated");
+  program.repeated(
+      "--candidate", "FILE", [](const std::string& file) { add_file(file); },
+      "A plug-in with candidates of your own, or a list of commands (.txt); may be repeated");
+  program.repeated(
+      "--candidate-command", "COMMAND", [](const std::string& command) { add_command(command); },
+      "A command that is a candidate (docs/process-candidates.md); may be repeated");
   add_report(program);
   add_replay(program);
   add_solve(program);

@@ -45,7 +45,7 @@ const Candidate& named_candidate(const std::string& name) {
     if (!is_file(name)) throw;
   }
   const std::size_t known = all_candidates().size();
-  add_plugin(name);
+  add_file(name);
   return *all_candidates()[known];
 }
 

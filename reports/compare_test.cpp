@@ -317,7 +317,7 @@ TEST(Compare, WritesEveryChangeAsJson) {
 
 /// The plug-in of testing/sabotage.cpp, worse than it is by this number.
 json report_of_declining(const char* by) {
-  if (added_plugins().empty()) add_plugin(TOUCHSTONE_TEST_PLUGINS "/touchstone-sabotage.so");
+  if (added_candidates().empty()) add_file(TOUCHSTONE_TEST_PLUGINS "/touchstone-sabotage.so");
   setenv("TOUCHSTONE_DECLINE", by, 1);
   Campaign c;
   c.pairs = {Pair::plane};

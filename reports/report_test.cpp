@@ -201,8 +201,9 @@ TEST(Report, TellsAModelsErrorFromItsSolvers) {
 /// Other tests may have added it.
 void add_test_plugin(const char* name) {
   const auto file = std::filesystem::canonical(TOUCHSTONE_TEST_PLUGINS) / name;
-  const auto& added = added_plugins();
-  if (std::find(added.begin(), added.end(), file) == added.end()) add_plugin(file);
+  const auto& added = added_candidates();
+  const auto is = [&](const Added& a) { return a.value == file.string(); };
+  if (std::none_of(added.begin(), added.end(), is)) add_file(file);
 }
 
 /// A candidate that crashes, aborts, throws, allocates 10 GiB, answers NaN, long normals and a

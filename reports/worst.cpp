@@ -71,7 +71,7 @@ Examination examine(const Subject& subject, std::span<CandidateProcess* const> c
 
 std::string shell_quoted(const std::string& text) {
   const auto plain = [](unsigned char c) { return std::isalnum(c) || std::strchr("/._-+@", c); };
-  if (std::all_of(text.begin(), text.end(), plain)) return text;
+  if (!text.empty() && std::all_of(text.begin(), text.end(), plain)) return text;
   std::string result = "'";
   for (const char c : text) result += c == '\'' ? "'\\''" : std::string(1, c);
   return result + "'";
@@ -79,7 +79,9 @@ std::string shell_quoted(const std::string& text) {
 
 std::string program_name() {
   std::string name = "./touchstone";
-  for (const auto& file : added_plugins()) name += " --candidate " + shell_quoted(file.string());
+  for (const auto& [option, value] : added_candidates()) {
+    name += ' ' + option + ' ' + shell_quoted(value);
+  }
   return name;
 }
 

@@ -1,13 +1,19 @@
 #include "candidates/host/candidate_process.hpp"
 
+#include "candidates/host/command_respondent.hpp"
 #include "candidates/host/plugin_sessions.hpp"
 
 namespace touchstone {
 
 CandidateProcess::CandidateProcess(const Candidate& candidate, double threshold,
                                    const Limits& limits)
-    : candidate_(candidate),
-      respondent_(std::make_unique<PluginSessions>(candidate, threshold, limits)) {}
+    : candidate_(candidate) {
+  if (candidate.command.empty()) {
+    respondent_ = std::make_unique<PluginSessions>(candidate, threshold, limits);
+  } else {
+    respondent_ = std::make_unique<CommandRespondent>(candidate, threshold, limits);
+  }
+}
 
 CandidateProcess::~CandidateProcess() = default;
 CandidateProcess::CandidateProcess(CandidateProcess&&) noexcept = default;

@@ -33,6 +33,14 @@ struct Answer : ts_answer {
 struct QueryCost {
   double nanoseconds;
   std::optional<double> instructions;  ///< in user space; absent if they cannot be counted
+
+  /// What is known of a time that a command measured itself.
+  struct Measured {
+    double floor;      ///< nanoseconds of a query of the same shapes far apart
+    double our_clock;  ///< the round by our clock, relative to what the command says
+    double processor;  ///< the round's processor time, likewise
+  };
+  std::optional<Measured> measured = {};
 };
 
 /// One candidate that is asked in processes of its own: sessions of its plug-in's process

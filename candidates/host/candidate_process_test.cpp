@@ -27,7 +27,7 @@ using testing::StartsWith;
 const Configuration standing = plain_contacts()[0].configuration;
 
 const Candidate& sabotage(const std::string& name) {
-  static const bool added = (add_plugin(TOUCHSTONE_TEST_PLUGINS "/touchstone-sabotage.so"), true);
+  static const bool added = (add_file(TOUCHSTONE_TEST_PLUGINS "/touchstone-sabotage.so"), true);
   (void)added;
   return find_candidate(name);
 }
@@ -215,8 +215,8 @@ TEST(CandidateProcess, ACrashWhileTimingIsNoTime) {
 
 TEST(PluginProcess, RefusesWhatIsNoPlugin) {
   const auto refused = [](const std::string& file, const std::string& why) {
-    EXPECT_THAT([&] { add_plugin(file); }, testing::ThrowsMessage<InvalidInput>(
-                                               AllOf(HasSubstr("--candidate"), HasSubstr(why))))
+    EXPECT_THAT([&] { add_file(file); }, testing::ThrowsMessage<InvalidInput>(
+                                             AllOf(HasSubstr("--candidate"), HasSubstr(why))))
         << file;
   };
   const std::string folder = TOUCHSTONE_TEST_PLUGINS;

@@ -109,22 +109,6 @@ struct Description {
 /// Exit code of a session that ended by an exception.
 inline constexpr int exit_thrown = 97;
 
-/// Gives the processes forked from now on a PID namespace of their own, if the system allows it:
-/// from inside, no process outside can be named or signalled, and all processes inside end with the
-/// first one (pid_namespaces(7)). False if it is not permitted, as for root without CAP_SYS_ADMIN
-/// in most containers. Precondition: this process has a single thread.
-bool begin_pid_namespace();
-
-/// Forks, and returns in the child only. The parent becomes the child's guard and runs nothing
-/// else. When the child ends or is stopped, or on SIGTERM (which the guard also gets when its own
-/// parent ends), the guard kills all descendants of the child and exits. On `socket`, unless it is
-/// -1, it reports that the child has ended, with its wait status.
-///
-/// The child leads a process group of its own, so that signals to a group or from a terminal do not
-/// cross. (Not a session of its own: Linux schedules sessions in turn, see sched_autogroup in
-/// sched(7), and every answer would wait for its turn.)
-void fork_guarded(int socket);
-
 // Messages on the candidate's side. They end the process if the harness has gone.
 void send(int socket, const void* message, std::size_t size);
 void reply(int socket, Reply::Kind kind, std::uint64_t ticket, int value, const char* text = "",

@@ -21,6 +21,7 @@
 #include "candidates/candidates.hpp"
 #include "candidates/host/candidate_process.hpp"
 #include "candidates/host/exchange.hpp"
+#include "candidates/host/guard.hpp"
 #include "candidates/host/plugin_process.hpp"
 #include "reference/invalid_input.hpp"
 
@@ -332,7 +333,7 @@ TEST(PluginProcess, RefusesWhatIsNoRegularFile) {
   const std::string fifo = testing::TempDir() + "touchstone-fifo-" + std::to_string(getpid());
   ASSERT_EQ(mkfifo(fifo.c_str(), 0600), 0);
   for (const std::string& file : {fifo, std::string("/dev/zero"), testing::TempDir()}) {
-    EXPECT_THAT([&] { add_plugin(file); },
+    EXPECT_THAT([&] { add_file(file); },
                 testing::ThrowsMessage<InvalidInput>(HasSubstr("must be a regular file")))
         << file;
   }

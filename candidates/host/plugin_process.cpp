@@ -18,15 +18,13 @@
 #include <utility>
 
 #include "candidates/host/exchange.hpp"
+#include "candidates/host/guard.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-/// Time in which a guard must end its processes.
-constexpr std::chrono::seconds stopping_time(10);
 
 /// Makes a file in memory that two processes can map.
 int shared_file(std::size_t size) {
@@ -123,17 +121,7 @@ PluginProcess::State::~State() {
 }
 
 void PluginProcess::State::stop() {
-  if (guard > 0 && owner == getpid()) {
-    kill(guard, SIGCONT);
-    kill(guard, SIGTERM);
-    const int handle = static_cast<int>(syscall(SYS_pidfd_open, guard, 0));
-    pollfd ended{handle, POLLIN, 0};
-    if (handle >= 0 && poll_through(ended, stopping_time) == 0) kill(guard, SIGKILL);
-    if (handle >= 0) close(handle);
-    while (waitpid(guard, nullptr, 0) < 0 && errno == EINTR) {
-    }
-    guard = -1;
-  }
+  if (guard > 0 && owner == getpid()) end_guard(std::exchange(guard, -1));
   // Not earlier: a routine that waits for the end of the connection would continue.
   if (socket >= 0) close(std::exchange(socket, -1));
 }

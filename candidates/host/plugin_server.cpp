@@ -1,5 +1,4 @@
-// The plug-in's side: the guards of its processes, and the server that loads it, describes it, and
-// forks sessions of it.
+// The plug-in's side: the server that loads it, describes it, and forks sessions of it.
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
@@ -20,87 +19,9 @@
 #include <vector>
 
 #include "candidates/host/exchange.hpp"
+#include "candidates/host/guard.hpp"
 
 namespace touchstone {
-namespace {
-
-/// Writes in a single call, as the files of user namespaces require.
-void write_file(const char* file, const std::string& text) {
-  const int fd = open(file, O_WRONLY);
-  if (fd < 0) return;
-  [[maybe_unused]] const ssize_t written = write(fd, text.data(), text.size());
-  close(fd);
-}
-
-/// Sends SIGKILL to all children, including those reparented to this process; as the first process
-/// of a PID namespace, to all processes in it. False if the kernel does not list children.
-bool kill_children() {
-  if (getpid() == 1) {
-    kill(-1, SIGKILL);
-    return true;
-  }
-  std::FILE* const list = std::fopen("/proc/thread-self/children", "r");
-  if (!list) return false;
-  for (int child; std::fscanf(list, "%d", &child) == 1;) kill(child, SIGKILL);
-  std::fclose(list);
-  return true;
-}
-
-/// Kills children until none is left. This terminates because orphans are reparented to this
-/// process.
-void end_descendants(pid_t child) {
-  while (kill_children()) {
-    if (waitpid(-1, nullptr, 0) < 0 && errno == ECHILD) return;
-  }
-  kill(-child, SIGKILL);
-  kill(child, SIGKILL);
-  waitpid(child, nullptr, 0);
-}
-
-[[noreturn]] void guard(pid_t child, int socket) {
-  sigset_t awaited;
-  sigemptyset(&awaited);
-  sigaddset(&awaited, SIGCHLD);
-  sigaddset(&awaited, SIGTERM);
-  std::optional<int> ended;
-  for (bool over = false; !over;) {
-    over = sigwaitinfo(&awaited, nullptr) == SIGTERM;
-    int status = 0;
-    for (pid_t pid; (pid = waitpid(-1, &status, WNOHANG | WUNTRACED)) > 0;) {
-      if (pid == child) ended = status;
-    }
-    over |= ended.has_value();
-  }
-  end_descendants(child);
-  if (ended && socket >= 0) reply(socket, Reply::gone, 0, *ended);
-  _exit(0);
-}
-
-}  // namespace
-
-bool begin_pid_namespace() {
-  if (unshare(CLONE_NEWPID) == 0) return true;
-  const std::string user = std::to_string(geteuid()), group = std::to_string(getegid());
-  if (unshare(CLONE_NEWUSER | CLONE_NEWPID) != 0) return false;
-  write_file("/proc/self/setgroups", "deny");
-  write_file("/proc/self/uid_map", user + " " + user + " 1");
-  write_file("/proc/self/gid_map", group + " " + group + " 1");
-  return true;
-}
-
-void fork_guarded(int socket) {
-  sigset_t all;
-  sigfillset(&all);
-  sigprocmask(SIG_BLOCK, &all, nullptr);
-  signal(SIGCHLD, SIG_DFL);
-  prctl(PR_SET_CHILD_SUBREAPER, 1);
-  const pid_t child = fork();
-  if (child < 0) _exit(1);
-  if (child > 0) guard(child, socket);
-  prctl(PR_SET_PDEATHSIG, SIGTERM);
-  setpgid(0, 0);
-}
-
 namespace {
 
 /// Large enough for any plug-in; a larger count is corrupt.
@@ -203,15 +124,7 @@ bool others_run() {
 }  // namespace
 
 void serve_plugin(const char* file, int socket, const Questions& questions, Exchange& exchange) {
-  for (const int signal : {SIGHUP, SIGINT, SIGPIPE, SIGTERM}) ::signal(signal, SIG_DFL);
-  sigset_t none;
-  sigemptyset(&none);
-  sigprocmask(SIG_SETMASK, &none, nullptr);
-  const rlimit no_core{0, 0}, file_size{1 << 24, 1 << 24};  // limits what it prints, too
-  setrlimit(RLIMIT_CORE, &no_core);
-  setrlimit(RLIMIT_FSIZE, &file_size);
-  signal(SIGXFSZ, SIG_IGN);
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  become_plain_process(1 << 24);  // limits what it prints, too
   // Processes that a session leaves behind are reparented to this one, which so learns of them.
   prctl(PR_SET_CHILD_SUBREAPER, 1);
 

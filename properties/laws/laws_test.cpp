@@ -219,7 +219,7 @@ TEST(Check, HoldsHostileConfigurationsToTheLawsThatApply) {
 }
 
 TEST(Check, ACrashIsAFailureOfTheLawAnswersAlone) {
-  add_plugin(TOUCHSTONE_TEST_PLUGINS "/touchstone-sabotage.so");
+  add_file(TOUCHSTONE_TEST_PLUGINS "/touchstone-sabotage.so");
   CandidateProcess crashing(find_candidate("misdeed:2"), 0, {10, 256});
   const Configuration c = make_configuration({Pair::sphere, "general-shallow", 1, 0});
   for (const Law& law : all_laws()) {

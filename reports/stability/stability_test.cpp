@@ -156,7 +156,7 @@ TEST(Stability, ReplaysItsWorstSteps) {
 }
 
 TEST(Stability, CountsACandidateThatDies) {
-  add_plugin(std::filesystem::path(TOUCHSTONE_TEST_PLUGINS) / "touchstone-sabotage.so");
+  add_file(std::filesystem::path(TOUCHSTONE_TEST_PLUGINS) / "touchstone-sabotage.so");
   StabilityOptions options = small(study({"sabotage", "reference"}));
   options.parts = {StabilityPart::amplification};
   options.ladder.cells = {{Pair::capsule, "coaxial"}};

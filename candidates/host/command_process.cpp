@@ -1,0 +1,252 @@
+#include "candidates/host/command_process.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <fcntl.h>
+#include <limits>
+#include <optional>
+#include <poll.h>
+#include <signal.h>
+#include <string_view>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/socket.h>
+#include <utility>
+
+#include "candidates/host/exchange.hpp"
+#include "candidates/host/guard.hpp"
+#include "candidates/host/plugin_process.hpp"
+
+namespace touchstone {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Interval at which a child's use of time is checked.
+constexpr std::chrono::milliseconds check_interval(10);
+/// Waiting by the clock where the kernel does not distinguish it from waiting for a processor, as a
+/// multiple of what is allowed.
+constexpr double clock_factor = 10;
+/// A line longer than this is no answer.
+constexpr std::size_t max_line = std::size_t{1} << 26;
+/// What a child may write to one file, its standard error included.
+constexpr unsigned long max_file = 1ul << 28;
+
+void close_all(std::initializer_list<int*> files) {
+  for (int* const file : files) {
+    if (*file >= 0) close(std::exchange(*file, -1));
+  }
+}
+
+/// Writes as much as the pipe takes; returns how much. All, if nobody will read it: what that means
+/// is learnt from the child's end or its silence.
+std::size_t write_to_pipe(int file, std::string_view text) {
+  // Writing to a pipe that is closed raises a signal besides the error.
+  sigset_t broken_pipe, before;
+  sigemptyset(&broken_pipe);
+  sigaddset(&broken_pipe, SIGPIPE);
+  pthread_sigmask(SIG_BLOCK, &broken_pipe, &before);
+  const ssize_t written = write(file, text.data(), text.size());
+  const bool is_broken = written < 0 && errno == EPIPE;
+  constexpr timespec now{0, 0};
+  if (is_broken && sigismember(&before, SIGPIPE) == 0) sigtimedwait(&broken_pipe, nullptr, &now);
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  if (is_broken) return text.size();
+  return written > 0 ? static_cast<std::size_t>(written) : 0;
+}
+
+/// Is this a program and its arguments alone, so that the shell can become the program?
+bool is_simple(const std::string& command) {
+  const bool has_operator = command.find_first_of(";&|<>(){}\n`") != std::string::npos;
+  const bool has_assignment = command.substr(0, command.find(' ')).find('=') != std::string::npos;
+  return !has_operator && !has_assignment;
+}
+
+std::string seconds_text(double seconds) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g s", seconds);
+  return text;
+}
+
+}  // namespace
+
+CommandProcess::CommandProcess(std::string command, std::filesystem::path folder)
+    : command_(std::move(command)), folder_(std::move(folder)) {
+  log_ = memfd_create("candidate", MFD_CLOEXEC);
+  if (log_ < 0 || fcntl(log_, F_SETFL, O_APPEND) < 0) fail("memfd_create");
+}
+
+CommandProcess::~CommandProcess() {
+  stop();
+  close(log_);
+}
+
+/// Main function of the process that is forked for the child.
+void CommandProcess::run(int input, int output, int report) const {
+  prctl(PR_SET_PDEATHSIG, SIGTERM);
+  if (getppid() != owner_) _exit(0);  // the parent died before prctl
+  dup2(input, STDIN_FILENO);
+  dup2(output, STDOUT_FILENO);
+  dup2(log_, STDERR_FILENO);
+  constexpr int only = STDERR_FILENO + 1;  // the only descriptor besides the standard three
+  dup2(report, only);
+  fcntl(only, F_SETFD, FD_CLOEXEC);
+  close_range(only + 1, ~0u, 0);
+  setpgid(0, 0);
+  if (begin_pid_namespace()) fork_guarded(-1);
+  fork_guarded(only);
+  become_plain_process(max_file);
+  std::error_code error;
+  std::filesystem::current_path(folder_, error);
+  if (error) {
+    dprintf(STDERR_FILENO, "%s: %s\n", folder_.c_str(), error.message().c_str());
+    _exit(126);
+  }
+  // Without a shell in between the end of the command's output is seen at once.
+  const std::string line = is_simple(command_) ? "exec " + command_ : command_;
+  execl("/bin/sh", "sh", "-c", line.c_str(), static_cast<char*>(nullptr));
+  _exit(127);
+}
+
+std::variant<messages::Hello, CommandProcess::Failure> CommandProcess::start(
+    std::chrono::milliseconds time) {
+  stop();
+  if (ftruncate(log_, 0) != 0) fail("ftruncate");
+  int to_child[2], from_child[2], report[2];
+  if (pipe2(to_child, O_CLOEXEC) != 0 || pipe2(from_child, O_CLOEXEC) != 0) fail("pipe2");
+  if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, report) != 0) fail("socketpair");
+  guard_ = fork();
+  if (guard_ == 0) run(to_child[0], from_child[1], report[1]);
+  for (const int theirs : {to_child[0], from_child[1], report[1]}) close(theirs);
+  input_ = to_child[1];
+  output_ = from_child[0];
+  report_ = report[0];
+  if (guard_ < 0) fail("fork");
+  fcntl(input_, F_SETFL, O_NONBLOCK);
+  fcntl(output_, F_SETFL, O_NONBLOCK);
+
+  const double seconds = std::chrono::duration<double>(time).count();
+  const auto answer =
+      ask(messages::hello() + '\n', 0, {seconds, seconds, std::numeric_limits<double>::infinity()});
+  if (const Failure* const failure = std::get_if<Failure>(&answer)) return *failure;
+  try {
+    return messages::read_hello(std::get<std::string>(answer));
+  } catch (const messages::Garbage& garbage) {
+    return refuse(garbage.what());
+  }
+}
+
+void CommandProcess::stop() {
+  if (owner_ == getpid() && guard_ > 0) end_guard(guard_);
+  guard_ = -1;
+  close_all({&input_, &output_, &report_});
+  received_.clear();
+}
+
+std::variant<std::string, CommandProcess::Failure> CommandProcess::ask(const std::string& request,
+                                                                       std::size_t size,
+                                                                       const Allowance& allowance) {
+  // Most answers come before the first check; the watch starts with that.
+  std::optional<Watch> watching;
+  auto next_check = Clock::now() + check_interval;
+  std::size_t sent = 0;
+  received_.clear();
+  bool is_closed = false;
+  for (;;) {
+    std::array<pollfd, 3> polled = {pollfd{is_closed ? -1 : output_, POLLIN, 0},
+                                    pollfd{report_, POLLIN, 0},
+                                    pollfd{sent < request.size() ? input_ : -1, POLLOUT, 0}};
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(next_check - Clock::now());
+    poll(polled.data(), polled.size(), std::max(0, static_cast<int>(left.count())));
+
+    if (polled[2].revents != 0) {
+      sent += write_to_pipe(input_, std::string_view(request).substr(sent));
+    }
+    if (polled[0].revents != 0) {
+      std::array<char, 1 << 16> piece;
+      const ssize_t got = read(output_, piece.data(), piece.size());
+      if (got > 0) received_.append(piece.data(), static_cast<std::size_t>(got));
+      is_closed = got == 0;
+      const std::size_t end = size > 0 ? size : received_.find('\n') + 1;
+      const bool is_whole = end > 0 && received_.size() >= end;
+      if (is_whole && received_.size() > end) {
+        return refuse("it wrote more than its answer: " + messages::quoted(received_));
+      }
+      if (is_whole && sent < request.size()) return refuse("it answered before it was asked");
+      if (is_whole) {
+        received_.resize(size > 0 ? size : end - 1);
+        return std::move(received_);
+      }
+      if (size >= sizeof(std::uint32_t) && received_.size() >= sizeof(std::uint32_t)) {
+        std::uint32_t length;
+        std::memcpy(&length, received_.data(), sizeof length);
+        if (length != size - sizeof length) {
+          return refuse("its frame's length is " + std::to_string(length) + " instead of " +
+                        std::to_string(size - sizeof length));
+        }
+      }
+      if (received_.size() > max_line) return refuse("its line is too long");
+      if (is_closed && (polled[1].revents == 0)) {
+        // Give the guard the time to say how the child ended.
+        pollfd end_of_child{report_, POLLIN, 0};
+        if (poll(&end_of_child, 1, 100) <= 0) {
+          return failure(TS_CRASHED, received_.empty()
+                                         ? "closed its standard output"
+                                         : "closed its standard output within a message");
+        }
+        return ended();
+      }
+    } else if (polled[1].revents != 0) {
+      return ended();
+    }
+    if (Clock::now() < next_check) continue;
+    next_check = Clock::now() + check_interval;
+    if (!watching) watching.emplace(watch());
+    const Watch::TimeUse spent = watching->spent();
+    if (spent.computing > allowance.processor_seconds) {
+      return failure(TS_TIMED_OUT, "no answer within " + seconds_text(allowance.processor_seconds));
+    }
+    if (spent.waiting.value_or(spent.by_the_clock / clock_factor) > allowance.waiting_seconds) {
+      return failure(TS_TIMED_OUT,
+                     "no answer, having waited for " + seconds_text(allowance.waiting_seconds));
+    }
+    if (watching->resident_mebibytes() > allowance.mebibytes) {
+      char text[80];
+      std::snprintf(text, sizeof text, "used more than %.0f MiB of memory", allowance.mebibytes);
+      return failure(TS_CRASHED, text);
+    }
+  }
+}
+
+CommandProcess::Failure CommandProcess::failure(ts_status status, std::string reason) {
+  stop();
+  const std::string line = last_line();
+  if (!line.empty()) reason += "; standard error: " + line;
+  return {status, readable(reason)};
+}
+
+CommandProcess::Failure CommandProcess::refuse(const std::string& why) {
+  return failure(TS_CRASHED, "wrote what is no answer: " + why);
+}
+
+CommandProcess::Failure CommandProcess::ended() {
+  Reply reply{};
+  const bool told = recv(report_, &reply, sizeof reply, 0) == sizeof reply;
+  return failure(TS_CRASHED, told ? how_it_ended(reply.value) : "ended");
+}
+
+/// The last line that the child wrote to standard error.
+std::string CommandProcess::last_line() const {
+  std::array<char, 4096> buffer;
+  const off_t size = lseek(log_, 0, SEEK_END);
+  const ssize_t got = pread(log_, buffer.data(), buffer.size(),
+                            std::max<off_t>(0, size - static_cast<off_t>(buffer.size())));
+  std::string line(buffer.data(), static_cast<std::size_t>(std::max<ssize_t>(0, got)));
+  while (!line.empty() && line.back() == '\n') line.pop_back();
+  return line.substr(line.rfind('\n') + 1);
+}
+
+}  // namespace touchstone

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <string>
+#include <sys/types.h>
+#include <unistd.h>
+#include <variant>
+
+#include "candidates/host/messages.hpp"
+#include "candidates/host/watch.hpp"
+
+namespace touchstone {
+
+/// A command that runs as a child, with pipes to its standard input and output. Its standard error
+/// goes to a file in memory. After any failure it is stopped, with all processes that it has
+/// started.
+class CommandProcess {
+ public:
+  /// What a request may use.
+  struct Allowance {
+    double processor_seconds, waiting_seconds, mebibytes;
+  };
+  /// Why there is no answer.
+  struct Failure {
+    ts_status status;  ///< TS_CRASHED or TS_TIMED_OUT
+    std::string reason;
+  };
+
+  /// Time for the command to start and to say hello; it may compile itself, or load a model.
+  static constexpr std::chrono::seconds starting_time{30};
+
+  /// `command` is for /bin/sh -c, run in `folder`.
+  CommandProcess(std::string command, std::filesystem::path folder);
+  ~CommandProcess();
+  CommandProcess(const CommandProcess&) = delete;
+  CommandProcess& operator=(const CommandProcess&) = delete;
+
+  bool runs() const { return guard_ > 0; }
+  /// Starts it and exchanges the hellos.
+  std::variant<messages::Hello, Failure> start(std::chrono::milliseconds time = starting_time);
+  void stop();
+
+  /// Sends a request and waits for the answer: a frame of `size` bytes, or a line if that is zero.
+  /// Stops the process if there is none. Precondition: it runs.
+  std::variant<std::string, Failure> ask(const std::string& request, std::size_t size,
+                                         const Allowance& allowance);
+  /// Stops the process, whose answer was not what it should be.
+  Failure refuse(const std::string& why);
+  /// Begins to measure its use of time and memory. Precondition: it runs.
+  Watch watch() const { return Watch(guard_, Watch::Of::descendants_too); }
+
+ private:
+  [[noreturn]] void run(int input, int output, int report) const;
+  Failure failure(ts_status status, std::string reason);
+  Failure ended();
+  std::string last_line() const;
+
+  std::string command_;
+  std::filesystem::path folder_;
+  const pid_t owner_ = getpid();  ///< a worker forked from this one must not stop the child
+  pid_t guard_ = -1;
+  int input_ = -1, output_ = -1;  ///< ends of the child's pipes
+  int report_ = -1;               ///< socket on which the guard reports the end
+  int log_ = -1;                  ///< file with what the child wrote to standard error
+  std::string received_;
+};
+
+}  // namespace touchstone

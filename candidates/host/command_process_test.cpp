@@ -1,0 +1,225 @@
+#include "candidates/host/command_process.hpp"
+
+#include <cmath>
+#include <fstream>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <thread>
+
+#include "candidates/candidates.hpp"
+#include "candidates/host/candidate_process.hpp"
+#include "reference/invalid_input.hpp"
+
+namespace touchstone {
+namespace {
+
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+constexpr double mark = 666;
+
+std::string command(const std::string& format, const std::string& deed = "none") {
+  return "python3 " TOUCHSTONE_TEST_COMMAND " " + format + " '" + deed + "'";
+}
+
+/// What the command says it is, without being added to the candidates.
+Candidate told(const std::string& format, const std::string& deed = "none") {
+  Candidate candidate;
+  candidate.name = candidate.family = "told";
+  candidate.value = 2;
+  candidate.supports[TS_SPHERE] = candidate.supports[TS_BOX] = true;
+  candidate.command = command(format, deed);
+  candidate.folder = std::filesystem::current_path();
+  return candidate;
+}
+
+/// Questions of which the given ones have the mark.
+std::vector<Configuration> configurations(std::size_t count,
+                                          const std::vector<std::size_t>& marked) {
+  std::vector<Configuration> result;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double x = 0.1 * static_cast<double>(i);
+    const bool is_marked = std::find(marked.begin(), marked.end(), i) != marked.end();
+    const Pose pose_b({is_marked ? mark : x, 1, 0}, Eigen::Quaterniond(1, 0, 0, 0));
+    result.push_back({Cylinder(0.5 + x, 1), Pose({x, 2, 3}, Eigen::Quaterniond(0, 1, 0, 0)),
+                      Sphere(0.25), pose_b});
+  }
+  return result;
+}
+
+/// The answer of testing/command.py: minus the sum of all numbers of the question.
+double expected(const Configuration& c, double threshold, double parameter) {
+  const ts_shape a = to_ts_shape(c.a), b = to_ts_shape(c.b);
+  const ts_pose pose_a = to_ts_pose(c.pose_a), pose_b = to_ts_pose(c.pose_b);
+  double sum = threshold + parameter;
+  for (const auto* shape : {&a, &b}) sum += shape->size[0] + shape->size[1] + shape->size[2];
+  for (const auto* pose : {&pose_a, &pose_b}) {
+    for (const double x : pose->position) sum += x;
+    for (const double x : pose->orientation) sum += x;
+  }
+  return -sum;
+}
+
+void expect_true_answer(const Answer& answer, const Configuration& c) {
+  ASSERT_EQ(answer.status, TS_CONTACT) << answer.reason;
+  EXPECT_NEAR(answer.signed_distance, expected(c, 0.125, 2), 1e-12);
+  EXPECT_EQ(answer.point_count, 1);
+  EXPECT_EQ(answer.points[0].position[0], c.pose_a.position().x());
+}
+
+Limits quick() {
+  Limits limits;
+  limits.seconds = 0.02;
+  return limits;
+}
+
+class Formats : public testing::TestWithParam<const char*> {};
+
+TEST_P(Formats, CarryEveryNumberThereAndBack) {
+  CandidateProcess process(told(GetParam()), 0.125);
+  const auto asked = configurations(300, {});
+  const std::vector<Answer> answers = process.answers(asked);
+  ASSERT_EQ(answers.size(), asked.size());
+  for (std::size_t i = 0; i < asked.size(); ++i) expect_true_answer(answers[i], asked[i]);
+  expect_true_answer(process.answer(asked[7]), asked[7]);
+}
+
+TEST_P(Formats, APairWithoutARoutineIsUnsupported) {
+  CandidateProcess process(told(GetParam()), 0);
+  const Configuration c{Cylinder(1, 1), Pose(), Capsule(1, 1), Pose()};
+  EXPECT_EQ(process.answer(c).status, TS_UNSUPPORTED);
+}
+
+TEST_P(Formats, TimesAreThoseOfTheQueries) {
+  CandidateProcess process(told(GetParam()), 0);
+  ASSERT_TRUE(process.prepare_timing(configurations(30, {})));
+  for (int i = 0; i < 3; ++i) {
+    const QueryCost cost = process.cost_per_query().value();
+    EXPECT_GT(cost.nanoseconds, 200);  // Python
+    EXPECT_LT(cost.nanoseconds, 1e6);
+    ASSERT_TRUE(cost.measured);
+    EXPECT_GT(cost.measured->floor, 200);
+    EXPECT_GT(cost.measured->our_clock, 0.5);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Command, Formats, testing::Values("frames", "lines"),
+                         [](const auto& test) { return std::string(test.param); });
+
+struct Deed {
+  const char* name;
+  ts_status status;
+  const char* reason;
+};
+
+class Deeds : public testing::TestWithParam<std::tuple<const char*, Deed>> {};
+
+TEST_P(Deeds, AreAnsweredForTheirConfigurationAlone) {
+  const auto& [format, deed] = GetParam();
+  CandidateProcess process(told(format, deed.name), 0.125, quick());
+  const std::vector<std::size_t> marked = {11, 19, 20};
+  const auto asked = configurations(24, marked);
+  const std::vector<Answer> answers = process.answers(asked);
+  ASSERT_EQ(answers.size(), asked.size());
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    if (std::find(marked.begin(), marked.end(), i) == marked.end()) {
+      expect_true_answer(answers[i], asked[i]);
+      continue;
+    }
+    EXPECT_EQ(answers[i].status, deed.status) << answers[i].reason;
+    EXPECT_THAT(answers[i].reason, HasSubstr(deed.reason));
+  }
+}
+
+constexpr Deed deeds[] = {
+    {"exit", TS_CRASHED, "ended with exit code 3; standard error: a word to explain it"},
+    {"abort", TS_CRASHED, "Aborted"},
+    {"spin", TS_TIMED_OUT, "no answer within 0.02 s"},
+    {"sleep", TS_TIMED_OUT, "no answer, having waited for 0.2 s"},
+    {"stall", TS_TIMED_OUT, "no answer, having waited for 0.2 s"},
+    {"close", TS_CRASHED, "closed its standard output"},
+    {"garbage", TS_CRASHED, "wrote what is no answer"},
+    {"partial", TS_CRASHED, "ended with exit code 0"},
+    {"leave", TS_CRASHED, "ended with exit code 1"},
+    {"ticket", TS_CRASHED, "ticket"},
+    {"count", TS_CRASHED, "wrote what is no answer"},
+    {"status", TS_CRASHED, "status"},
+    {"points", TS_CRASHED, "points"},
+    {"type", TS_CRASHED, "wrote what is no answer"},
+    {"more", TS_CRASHED, "more than its answer"}};
+INSTANTIATE_TEST_SUITE_P(
+    Command, Deeds, testing::Combine(testing::Values("frames", "lines"), testing::ValuesIn(deeds)),
+    [](const auto& test) {
+      return std::string(std::get<0>(test.param)) + "_" + std::get<1>(test.param).name;
+    });
+
+TEST(CommandProcess, MayUseSoMuchMemory) {
+  Limits limits;
+  limits.seconds = 20;
+  limits.mebibytes = 256;
+  CandidateProcess process(told("lines", "memory"), 0.125, limits);
+  const auto answers = process.answers(configurations(2, {1}));
+  EXPECT_EQ(answers[1].status, TS_CRASHED);
+  EXPECT_EQ(answers[1].reason, "used more than 256 MiB of memory");
+}
+
+TEST(CommandProcess, LeavesNoProcessBehind) {
+  {
+    CandidateProcess process(told("frames", "leave"), 0.125, quick());
+    process.answers(configurations(3, {1}));
+  }
+  std::ifstream found;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+    std::string line;
+    std::getline(std::ifstream(entry.path() / "cmdline"), line);
+    EXPECT_NE(line, std::string("sleep\0001234\0", 11)) << entry.path();
+  }
+}
+
+TEST(CommandProcess, OneThatFailsAlwaysIsNotAskedForever) {
+  CandidateProcess process(told("frames", "exit"), 0.125, quick());
+  std::vector<std::size_t> all(200);
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
+  const auto answers = process.answers(configurations(200, all));
+  EXPECT_EQ(answers.back().status, TS_CRASHED);
+  EXPECT_THAT(answers.back().reason, HasSubstr("was not asked after failures in a row"));
+  // The next call begins anew.
+  const auto asked = configurations(2, {});
+  expect_true_answer(process.answers(asked)[1], asked[1]);
+}
+
+TEST(CommandProcess, IsRefusedWithTheReason) {
+  const auto refused_with = [](const std::string& deed, const std::string& message) {
+    EXPECT_THAT([&] { add_command(command("frames", deed)); },
+                ThrowsMessage<InvalidInput>(HasSubstr(message)))
+        << deed;
+  };
+  refused_with("ends", "ended with exit code 4; standard error: no such engine");
+  refused_with("chatter", "it wrote more than its answer: \"Welcome to my engine!");
+  refused_with("hello {\"name\": \"a b\"}", "must be up to 63 characters");
+  refused_with("hello {\"name\": \"reference\"}", "a name that is taken");
+  EXPECT_THAT([] { add_command("/no/such/program"); },
+              ThrowsMessage<InvalidInput>(HasSubstr("not found")));
+  CommandProcess silent(command("frames", "silent"), std::filesystem::current_path());
+  const auto hello = silent.start(std::chrono::milliseconds(300));
+  ASSERT_TRUE(std::holds_alternative<CommandProcess::Failure>(hello));
+  EXPECT_EQ(std::get<CommandProcess::Failure>(hello).status, TS_TIMED_OUT);
+}
+
+TEST(CommandProcess, IsAddedByCommandAndByList) {
+  add_command(command("lines", "hello {\"name\": \"by-command\"}"));
+  const auto file = std::filesystem::temp_directory_path() /
+                    ("touchstone-list-" + std::to_string(getpid()) + ".txt");
+  std::ofstream(file) << "# engines\n\n"
+                      << command("frames", "hello {\"name\": \"by-list\"}") << "\n";
+  add_file(file);
+  EXPECT_EQ(find_candidate("by-command:3").value, 3);
+  EXPECT_EQ(find_candidate("by-list").runs, "script");
+  EXPECT_EQ(find_candidate("by-list").folder, file.parent_path());
+  std::ofstream(file) << "# engines\ntrue\n";
+  EXPECT_THAT([&] { add_file(file); }, ThrowsMessage<InvalidInput>(HasSubstr("line 2: \"true\"")));
+  std::filesystem::remove(file);
+}
+
+}  // namespace
+}  // namespace touchstone

@@ -1,0 +1,489 @@
+#include "candidates/host/messages.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cctype>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include <nlohmann/json.hpp>
+
+#include "candidates/host/plugin_process.hpp"
+
+namespace touchstone::messages {
+namespace {
+
+using Json = nlohmann::json;
+
+static_assert(std::endian::native == std::endian::little,
+              "frames are copied as they lie in memory");
+
+constexpr std::size_t header_size = 24, length_size = 4;
+constexpr std::size_t point_size = 56, answer_size = 48 + TOUCHSTONE_MAX_POINTS * point_size;
+static_assert(sizeof(ts_point) == point_size);
+
+/// Throws Garbage.
+[[noreturn]] void refuse(const std::string& why) { throw Garbage(why); }
+
+// Hello
+
+constexpr const char* pairs_text =
+    "\"cylinder-plane\", \"cylinder-sphere\", \"cylinder-capsule\", \"cylinder-cylinder\", "
+    "\"cylinder-box\"";
+
+/// The kind of the other shape of "cylinder-box"; absent for what is no pair.
+std::optional<ts_shape_kind> kind_of_pair(const std::string& pair) {
+  constexpr struct {
+    const char* name;
+    ts_shape_kind kind;
+  } pairs[] = {{"cylinder-plane", TS_PLANE},
+               {"cylinder-sphere", TS_SPHERE},
+               {"cylinder-capsule", TS_CAPSULE},
+               {"cylinder-cylinder", TS_CYLINDER},
+               {"cylinder-box", TS_BOX}};
+  for (const auto& [name, kind] : pairs) {
+    if (pair == name) return kind;
+  }
+  return std::nullopt;
+}
+
+Json parsed(const std::string& line) {
+  Json json = Json::parse(line, nullptr, false);
+  if (!json.is_object()) refuse("it wrote " + quoted(line) + ", which is no JSON object");
+  return json;
+}
+
+[[noreturn]] void refuse_member(const char* name, const Json& value, const std::string& remedy) {
+  refuse("its hello has \"" + std::string(name) +
+         "\": " + (value.is_null() ? "nothing" : quoted(value.dump(-1, ' ', true))) +
+         ", which must be " + remedy);
+}
+
+std::string text_member(const Json& json, const char* name, bool required) {
+  const Json value = json.value(name, Json());
+  if (value.is_null() && !required) return "";
+  if (!value.is_string()) refuse_member(name, value, "a text");
+  return value.get<std::string>();
+}
+
+std::string choice_member(const Json& json, const char* name,
+                          std::initializer_list<const char*> of) {
+  const std::string text = text_member(json, name, true);
+  std::string remedy;
+  for (const char* choice : of) {
+    if (text == choice) return text;
+    remedy += (remedy.empty() ? "\"" : " or \"") + std::string(choice) + '"';
+  }
+  refuse_member(name, text, remedy);
+}
+
+Candidate::Parameter parameter_member(const Json& value) {
+  const auto bad = [&] {
+    refuse_member(
+        "parameter", value,
+        "like {\"meaning\": \"margin, metres\", \"min\": 0, \"max\": 1, \"usual\": 0.01}, "
+        "with min <= usual <= max");
+  };
+  if (!value.is_object() || !value.value("meaning", Json()).is_string()) bad();
+  for (const char* name : {"min", "max", "usual"}) {
+    if (!value.value(name, Json()).is_number()) bad();
+  }
+  if (!value.value("whole", Json(false)).is_boolean()) bad();
+  Candidate::Parameter p{value["meaning"],
+                         value["min"],
+                         value["max"],
+                         value["usual"],
+                         value.value("whole", false),
+                         false};
+  if (p.meaning.empty() || !(p.min <= p.usual && p.usual <= p.max)) bad();
+  return p;
+}
+
+// Frames
+
+class Writer {
+ public:
+  Writer(Operation operation, std::uint64_t ticket, std::size_t count, std::uint32_t passes) {
+    put(std::uint32_t{0});  // the length, at the end
+    put(operation);
+    put(ticket);
+    put(static_cast<std::uint32_t>(count));
+    put(passes);
+  }
+  template <class T>
+  void put(const T& value) {
+    bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
+  }
+  void put(const ts_shape& shape) {
+    put(static_cast<std::uint32_t>(shape.kind));
+    put(std::uint32_t{0});
+    put(shape.size);
+  }
+  std::string take() {
+    const auto length = static_cast<std::uint32_t>(bytes_.size() - length_size);
+    std::memcpy(bytes_.data(), &length, sizeof length);
+    return std::move(bytes_);
+  }
+
+ private:
+  std::string bytes_;
+};
+
+class Reader {
+ public:
+  /// Reads the header.
+  Reader(Operation operation, std::uint64_t ticket, std::uint32_t count, const std::string& bytes)
+      : bytes_(bytes) {
+    const std::size_t size = frame_size(operation, count);
+    if (bytes.size() != size) {
+      refuse("its frame has " + std::to_string(bytes.size()) + " bytes instead of " +
+             std::to_string(size));
+    }
+    expect("length", static_cast<std::uint32_t>(size - length_size));
+    expect("operation", static_cast<std::uint32_t>(operation));
+    expect("ticket", ticket);
+    expect("count", count);
+    get<std::uint32_t>();
+  }
+  template <class T>
+  T get() {
+    T value;
+    std::memcpy(&value, bytes_.data() + at_, sizeof value);
+    at_ += sizeof value;
+    return value;
+  }
+  void skip(std::size_t bytes) { at_ += bytes; }
+
+ private:
+  template <class T>
+  void expect(const char* name, T wanted) {
+    const T value = get<T>();
+    if (value == wanted) return;
+    refuse("its frame's " + std::string(name) + " is " + std::to_string(value) + " instead of " +
+           std::to_string(wanted));
+  }
+
+  const std::string& bytes_;
+  std::size_t at_ = 0;
+};
+
+void put(Writer& out, const Poses& p) {
+  out.put(p.handle);
+  out.put(std::uint32_t{p.has_previous_normal});
+  out.put(p.a);
+  out.put(p.b);
+  out.put(p.previous_normal);
+}
+
+Answer get_answer(Reader& in) {
+  Answer answer{};
+  const auto status = in.get<std::uint32_t>();
+  const auto points = in.get<std::uint32_t>();
+  if (status > TS_FAILED) refuse("an answer has the status " + std::to_string(status));
+  answer.status = static_cast<ts_status>(status);
+  answer.signed_distance = in.get<double>();
+  for (double& x : answer.normal) x = in.get<double>();
+  const auto model_distance = in.get<double>();
+  if (!std::isnan(model_distance)) answer.model_distance = model_distance;
+  if (answer.status != TS_CONTACT) {
+    static_cast<ts_answer&>(answer) = {};
+    answer.status = static_cast<ts_status>(status);
+    in.skip(TOUCHSTONE_MAX_POINTS * point_size);
+    return answer;
+  }
+  if (points > TOUCHSTONE_MAX_POINTS) {
+    refuse("an answer has " + std::to_string(points) + " points, more than " +
+           std::to_string(TOUCHSTONE_MAX_POINTS));
+  }
+  answer.point_count = static_cast<int>(points);
+  for (ts_point& point : answer.points) point = in.get<ts_point>();
+  return answer;
+}
+
+// Lines
+
+/// Numbers go as JSON writes doubles, with as many digits as they need; NaN and infinities, which
+/// JSON does not have, as texts.
+Json number(double x) {
+  if (std::isfinite(x)) return x;
+  return std::isnan(x) ? "nan" : x > 0 ? "inf" : "-inf";
+}
+
+template <std::size_t size>
+Json numbers(const double (&x)[size]) {
+  Json result = Json::array();
+  for (const double value : x) result.push_back(number(value));
+  return result;
+}
+
+Json shape_json(const ts_shape& s) {
+  const double* const size = s.size;
+  switch (s.kind) {
+    case TS_CYLINDER:
+      return {{"shape", "cylinder"}, {"radius", size[0]}, {"half_length", size[1]}};
+    case TS_PLANE:
+      return {
+          {"shape", "plane"}, {"normal", {size[0], size[1], size[2]}}, {"displacement", size[3]}};
+    case TS_SPHERE:
+      return {{"shape", "sphere"}, {"radius", size[0]}};
+    case TS_CAPSULE:
+      return {{"shape", "capsule"}, {"radius", size[0]}, {"half_length", size[1]}};
+    case TS_BOX:
+      break;
+  }
+  return {{"shape", "box"}, {"half_extents", {size[0], size[1], size[2]}}};
+}
+
+Json pose_json(const ts_pose& pose) {
+  return {{"position", numbers(pose.position)}, {"orientation", numbers(pose.orientation)}};
+}
+
+Json poses_json(std::span<const Poses> poses) {
+  Json entries = Json::array();
+  for (const Poses& p : poses) {
+    entries.push_back({{"handle", p.handle},
+                       {"pose_a", pose_json(p.a)},
+                       {"pose_b", pose_json(p.b)},
+                       {"hint", p.has_previous_normal ? numbers(p.previous_normal) : Json()}});
+  }
+  return entries;
+}
+
+std::string request_line(const char* operation, std::uint64_t ticket, Json entries,
+                         std::uint32_t passes = 0) {
+  Json json = {{"op", operation}, {"ticket", ticket}, {"entries", std::move(entries)}};
+  if (passes > 0) json["passes"] = passes;
+  return json.dump() + '\n';
+}
+
+/// The answer in a line. Throws Garbage if it has another ticket.
+Json answer_line(std::uint64_t ticket, const std::string& line) {
+  Json json = parsed(line);
+  const Json found = json.value("ticket", Json());
+  if (!found.is_number_unsigned() || found.get<std::uint64_t>() != ticket) {
+    refuse("its ticket is " + quoted(found.dump(-1, ' ', true)) + " instead of " +
+           std::to_string(ticket));
+  }
+  return json;
+}
+
+/// A list of `count` entries. Throws Garbage.
+Json list_member(const Json& json, const char* name, std::size_t count) {
+  const Json list = json.value(name, Json());
+  if (!list.is_array() || list.size() != count) {
+    refuse("its \"" + std::string(name) + "\" is no list of " + std::to_string(count));
+  }
+  return list;
+}
+
+double number_of(const Json& json, const char* name) {
+  if (json.is_number()) return json.get<double>();
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  if (json == "nan") return std::numeric_limits<double>::quiet_NaN();
+  if (json == "inf") return infinity;
+  if (json == "-inf") return -infinity;
+  refuse("its \"" + std::string(name) + "\" is " + quoted(json.dump(-1, ' ', true)) +
+         ", which is no number");
+}
+
+void get_vector(const Json& json, const char* name, double (&to)[3]) {
+  const Json list = list_member(json, name, 3);
+  for (std::size_t i = 0; i < 3; ++i) to[i] = number_of(list[i], name);
+}
+
+Answer get_answer(const Json& json) {
+  if (!json.is_object()) refuse("an answer is no JSON object");
+  constexpr const char* names[] = {"contact", "none", "unsupported", "failed"};
+  const Json status = json.value("status", Json());
+  const auto found = std::find_if(std::begin(names), std::end(names),
+                                  [&](const char* name) { return status == name; });
+  if (found == std::end(names)) {
+    refuse("an answer has the status " + quoted(status.dump(-1, ' ', true)));
+  }
+  Answer answer{};
+  answer.status = static_cast<ts_status>(found - std::begin(names));
+  const Json model_distance = json.value("model_distance", Json());
+  if (!model_distance.is_null()) {
+    const double distance = number_of(model_distance, "model_distance");
+    if (!std::isnan(distance)) answer.model_distance = distance;
+  }
+  if (answer.status != TS_CONTACT) return answer;
+  answer.signed_distance = number_of(json.value("signed_distance", Json()), "signed_distance");
+  get_vector(json, "normal", answer.normal);
+  const Json points = json.value("points", Json());
+  if (!points.is_array() || points.size() > TOUCHSTONE_MAX_POINTS) {
+    refuse("its \"points\" is no list of up to " + std::to_string(TOUCHSTONE_MAX_POINTS));
+  }
+  for (const Json& point : points) {
+    if (!point.is_object()) refuse("a point is no JSON object");
+    ts_point& p = answer.points[answer.point_count++];
+    get_vector(point, "position", p.position);
+    get_vector(point, "normal", p.normal);
+    p.depth = number_of(point.value("depth", Json()), "depth");
+  }
+  return answer;
+}
+
+}  // namespace
+
+std::string quoted(const std::string& text) {
+  constexpr std::size_t max_size = 60;
+  std::string result = text.substr(0, max_size);
+  for (char& c : result) {
+    if (!std::isprint(static_cast<unsigned char>(c))) c = '?';
+  }
+  return '"' + result + (text.size() > max_size ? "\"…" : "\"");
+}
+
+std::string hello() { return R"({"touchstone": 1})"; }
+
+Hello read_hello(const std::string& line) {
+  const Json json = parsed(line);
+  const Json version = json.value("touchstone", Json());
+  if (version != 1) refuse_member("touchstone", version, "1, the version of this protocol");
+  Candidate c;
+  c.name = c.family = text_member(json, "name", true);
+  const auto plain = [](unsigned char x) { return std::isgraph(x) && x != ':' && x != ','; };
+  if (c.name.empty() || c.name.size() > 63 || !std::all_of(c.name.begin(), c.name.end(), plain)) {
+    refuse_member("name", c.name,
+                  "up to 63 characters of printable ASCII without colon, comma or space");
+  }
+  c.version = readable(text_member(json, "version", true));
+  c.precision = choice_member(json, "precision", {"double", "float"});
+  c.runs = choice_member(json, "runs", {"native", "wasm", "script"});
+  c.settings = readable(text_member(json, "settings", true));
+  c.models = readable(text_member(json, "models", false));
+  const Json pairs = json.value("pairs", Json());
+  if (!pairs.is_array() || pairs.empty()) {
+    refuse_member("pairs", pairs, std::string("a list of ") + pairs_text);
+  }
+  for (const Json& pair : pairs) {
+    const auto kind = pair.is_string() ? kind_of_pair(pair) : std::nullopt;
+    if (!kind) refuse_member("pairs", pairs, std::string("a list of ") + pairs_text);
+    c.supports[*kind] = true;
+  }
+  if (json.contains("parameter")) c.parameter = parameter_member(json["parameter"]);
+  const std::string format = choice_member(json, "format", {"frames", "lines"});
+  return {std::move(c), format == "frames" ? Format::frames : Format::lines};
+}
+
+std::string prepare_request(Format format, std::uint64_t ticket,
+                            std::span<const PairOfShapes> pairs) {
+  if (format == Format::frames) {
+    Writer out(Operation::prepare, ticket, pairs.size(), 0);
+    for (const PairOfShapes& p : pairs) {
+      out.put(p.handle);
+      out.put(std::uint32_t{0});
+      out.put(p.threshold);
+      out.put(p.parameter);
+      out.put(p.a);
+      out.put(p.b);
+    }
+    return out.take();
+  }
+  Json entries = Json::array();
+  for (const PairOfShapes& p : pairs) {
+    entries.push_back({{"handle", p.handle},
+                       {"threshold", number(p.threshold)},
+                       {"parameter", number(p.parameter)},
+                       {"a", shape_json(p.a)},
+                       {"b", shape_json(p.b)}});
+  }
+  return request_line("prepare", ticket, std::move(entries));
+}
+
+std::string query_request(Format format, std::uint64_t ticket, std::span<const Poses> poses) {
+  if (format == Format::lines) return request_line("query", ticket, poses_json(poses));
+  Writer out(Operation::query, ticket, poses.size(), 0);
+  for (const Poses& p : poses) put(out, p);
+  return out.take();
+}
+
+std::string time_request(Format format, std::uint64_t ticket, std::uint32_t passes,
+                         std::span<const Poses> poses) {
+  if (format == Format::lines) return request_line("time", ticket, poses_json(poses), passes);
+  Writer out(Operation::time, ticket, poses.size(), passes);
+  for (const Poses& p : poses) put(out, p);
+  return out.take();
+}
+
+std::string release_request(Format format, std::uint64_t ticket,
+                            std::span<const std::uint32_t> handles) {
+  if (format == Format::lines) {
+    return request_line("release", ticket, Json(std::vector(handles.begin(), handles.end())));
+  }
+  Writer out(Operation::release, ticket, handles.size(), 0);
+  for (const std::uint32_t handle : handles) out.put(handle);
+  return out.take();
+}
+
+std::size_t frame_size(Operation operation, std::uint32_t count) {
+  switch (operation) {
+    case Operation::prepare:
+      return header_size + 4 * std::size_t{count};
+    case Operation::query:
+      return header_size + answer_size * std::size_t{count};
+    case Operation::time:
+      return header_size + 8;
+    case Operation::release:
+      break;
+  }
+  return header_size;
+}
+
+std::vector<bool> read_prepared(Format format, std::uint64_t ticket, std::uint32_t count,
+                                const std::string& text) {
+  std::vector<bool> result;
+  if (format == Format::frames) {
+    Reader in(Operation::prepare, ticket, count, text);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const auto supported = in.get<std::uint32_t>();
+      if (supported > 1) refuse("it prepared with " + std::to_string(supported));
+      result.push_back(supported == 1);
+    }
+    return result;
+  }
+  for (const Json& supported : list_member(answer_line(ticket, text), "supported", count)) {
+    if (!supported.is_boolean()) refuse("its \"supported\" has what is neither true nor false");
+    result.push_back(supported.get<bool>());
+  }
+  return result;
+}
+
+std::vector<Answer> read_answers(Format format, std::uint64_t ticket, std::uint32_t count,
+                                 const std::string& text) {
+  std::vector<Answer> result;
+  if (format == Format::frames) {
+    Reader in(Operation::query, ticket, count, text);
+    for (std::uint32_t i = 0; i < count; ++i) result.push_back(get_answer(in));
+    return result;
+  }
+  for (const Json& answer : list_member(answer_line(ticket, text), "answers", count)) {
+    result.push_back(get_answer(answer));
+  }
+  return result;
+}
+
+double read_time(Format format, std::uint64_t ticket, std::uint32_t count,
+                 const std::string& text) {
+  const double nanoseconds =
+      format == Format::frames
+          ? Reader(Operation::time, ticket, count, text).get<double>()
+          : number_of(answer_line(ticket, text).value("nanoseconds", Json()), "nanoseconds");
+  if (!std::isfinite(nanoseconds) || nanoseconds < 0) {
+    refuse("its time is " + std::to_string(nanoseconds) + " ns");
+  }
+  return nanoseconds;
+}
+
+void read_released(Format format, std::uint64_t ticket, std::uint32_t count,
+                   const std::string& text) {
+  if (format == Format::frames) {
+    Reader(Operation::release, ticket, count, text);
+  } else {
+    answer_line(ticket, text);
+  }
+}
+
+}  // namespace touchstone::messages

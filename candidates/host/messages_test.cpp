@@ -1,0 +1,200 @@
+#include "candidates/host/messages.hpp"
+
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <limits>
+#include <random>
+
+namespace touchstone::messages {
+namespace {
+
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+const std::string good_hello =
+    R"({"touchstone": 1, "name": "mine", "version": "2", "settings": "s", "precision": "float",)"
+    R"( "runs": "wasm", "format": "frames", "pairs": ["cylinder-box"], "later": []})";
+
+std::string hello_with(const std::string& from, const std::string& to) {
+  std::string text = good_hello;
+  return text.replace(text.find(from), from.size(), to);
+}
+
+TEST(Hello, IsReadAndUnknownMembersAreIgnored) {
+  const Hello hello = read_hello(good_hello);
+  EXPECT_EQ(hello.format, Format::frames);
+  EXPECT_EQ(hello.candidate.name, "mine");
+  EXPECT_EQ(hello.candidate.precision, "float");
+  EXPECT_EQ(hello.candidate.runs, "wasm");
+  EXPECT_TRUE(hello.candidate.supports[TS_BOX]);
+  EXPECT_FALSE(hello.candidate.supports[TS_PLANE]);
+  EXPECT_FALSE(hello.candidate.parameter);
+}
+
+TEST(Hello, IsRefusedWithTheMemberTheValueAndTheRemedy) {
+  const struct {
+    std::string from, to, message;
+  } cases[] = {
+      {"\"touchstone\": 1", "\"touchstone\": 2", "\"touchstone\": \"2\", which must be 1"},
+      {"\"mine\"", "\"my engine\"", "\"name\": \"\"my engine\"\", which must be up to 63"},
+      {"\"mine\"", "7", "\"name\": \"7\", which must be a text"},
+      {"\"version\": \"2\", ", "", "\"version\": nothing, which must be a text"},
+      {"\"float\"", "\"half\"", "must be \"double\" or \"float\""},
+      {"\"frames\"", "\"xml\"", "must be \"frames\" or \"lines\""},
+      {"\"cylinder-box\"", "\"box-box\"", "must be a list of \"cylinder-plane\""},
+      {"[\"cylinder-box\"]", "[]", "must be a list of"},
+      {"\"later\": []", "\"parameter\": {\"meaning\": \"m\", \"min\": 2, \"max\": 1, \"usual\": 1}",
+       "with min <= usual <= max"},
+      {"{\"touch", "Welcome!{\"touch", "no JSON object"}};
+  for (const auto& [from, to, message] : cases) {
+    EXPECT_THAT([&] { read_hello(hello_with(from, to)); },
+                ThrowsMessage<Garbage>(HasSubstr(message)))
+        << to;
+  }
+}
+
+Poses some_poses(std::uint32_t handle) {
+  return {handle,
+          {{1, 2, 3}, {1, 0, 0, 0}},
+          {{0.1, -1e-300, 1e300}, {0.5, 0.5, 0.5, 0.5}},
+          true,
+          {0, 0, 1}};
+}
+
+template <class T>
+T at(const std::string& bytes, std::size_t offset) {
+  T value;
+  std::memcpy(&value, bytes.data() + offset, sizeof value);
+  return value;
+}
+
+TEST(Frames, LieAsSpecified) {
+  const PairOfShapes pairs[] = {{7, 0.25, 16, {TS_CYLINDER, {0.5, 1}}, {TS_PLANE, {0, 0, 1, -2}}}};
+  const std::string prepare = prepare_request(Format::frames, 3, pairs);
+  ASSERT_EQ(prepare.size(), 24u + 104);
+  EXPECT_EQ(at<std::uint32_t>(prepare, 0), 20u + 104);
+  EXPECT_EQ(at<std::uint32_t>(prepare, 4), 1u);
+  EXPECT_EQ(at<std::uint64_t>(prepare, 8), 3u);
+  EXPECT_EQ(at<std::uint32_t>(prepare, 16), 1u);
+  EXPECT_EQ(at<std::uint32_t>(prepare, 20), 0u);
+  EXPECT_EQ(at<std::uint32_t>(prepare, 24), 7u);
+  EXPECT_EQ(at<double>(prepare, 32), 0.25);
+  EXPECT_EQ(at<double>(prepare, 40), 16);
+  EXPECT_EQ(at<std::uint32_t>(prepare, 48), 0u);
+  EXPECT_EQ(at<double>(prepare, 56), 0.5);
+  EXPECT_EQ(at<std::uint32_t>(prepare, 88), 1u);
+  EXPECT_EQ(at<double>(prepare, 96 + 24), -2);
+
+  const Poses poses[] = {some_poses(7), some_poses(8)};
+  const std::string query = query_request(Format::frames, 4, poses);
+  ASSERT_EQ(query.size(), 24u + 2 * 144);
+  EXPECT_EQ(at<std::uint32_t>(query, 24 + 144), 8u);
+  EXPECT_EQ(at<std::uint32_t>(query, 28), 1u);
+  EXPECT_EQ(at<double>(query, 32), 1);
+  EXPECT_EQ(at<double>(query, 32 + 56 + 16), 1e300);
+  EXPECT_EQ(at<double>(query, 32 + 112 + 16), 1);
+  EXPECT_EQ(at<std::uint32_t>(time_request(Format::frames, 5, 640, poses), 20), 640u);
+  const std::uint32_t handles[] = {7, 8};
+  EXPECT_EQ(release_request(Format::frames, 6, handles).size(), 24u + 8);
+}
+
+TEST(Lines, HoldDoublesExactly) {
+  Poses poses = some_poses(7);
+  poses.a.position[0] = 0.1 + 0.2;
+  poses.has_previous_normal = false;
+  const std::string line = query_request(Format::lines, 4, {&poses, 1});
+  EXPECT_THAT(line, HasSubstr("0.30000000000000004"));
+  EXPECT_THAT(line, HasSubstr("\"hint\":null"));
+  EXPECT_EQ(line.find('\n'), line.size() - 1);
+  const std::string answer =
+      R"({"ticket": 4, "answers": [{"status": "contact", "signed_distance": -0.30000000000000004,)"
+      R"( "normal": ["nan", "inf", "-inf"], "points": [{"position": [1, 2, 3], "normal": [0, 0, 1],)"
+      R"( "depth": 5e-324}]}]})";
+  const Answer read = read_answers(Format::lines, 4, 1, answer).front();
+  EXPECT_EQ(read.signed_distance, -(0.1 + 0.2));
+  EXPECT_TRUE(std::isnan(read.normal[0]));
+  EXPECT_EQ(read.normal[2], -std::numeric_limits<double>::infinity());
+  EXPECT_EQ(read.points[0].depth, 5e-324);
+}
+
+// Whatever a child writes is refused or read; bytes that are cut, doubled, swapped or changed do no
+// harm (under the sanitizers, too).
+class Fuzz {
+ public:
+  explicit Fuzz(std::uint64_t seed) : random_(seed) {}
+  std::string mutated(std::string text) {
+    for (int changes = 1 + static_cast<int>(random_() % 4); changes > 0 && !text.empty();
+         --changes) {
+      const std::size_t i = random_() % text.size();
+      switch (random_() % 6) {
+        case 0:
+          text[i] = static_cast<char>(random_());
+          break;
+        case 1:
+          text.resize(i);
+          break;
+        case 2:
+          text.insert(i, text.substr(i, random_() % 40));
+          break;
+        case 3:
+          text.erase(i, random_() % 9);
+          break;
+        case 4:
+          std::swap(text[i], text[random_() % text.size()]);
+          break;
+        default:
+          text.insert(i, pieces[random_() % std::size(pieces)]);
+      }
+    }
+    return text;
+  }
+
+ private:
+  static constexpr const char* pieces[] = {"[",    "]",       "{",  "}", "1e999",
+                                           "null", "\"nan\"", "-0", ","};
+  std::mt19937_64 random_;
+};
+
+TEST(Messages, AHundredThousandBrokenOnesAreReadOrRefused) {
+  std::string frame(frame_size(Operation::query, 2), '\0');
+  const std::uint32_t head[] = {static_cast<std::uint32_t>(frame.size() - 4), 2, 4, 0, 2, 0};
+  std::memcpy(frame.data(), head, sizeof head);
+  const std::string line =
+      R"({"ticket": 4, "answers": [{"status": "contact", "signed_distance": 1, "normal": [0, 0, 1],)"
+      R"( "points": [{"position": [1, 2, 3], "normal": [0, 0, 1], "depth": 5}]}, {"status": "none"}]})";
+  ASSERT_EQ(read_answers(Format::frames, 4, 2, frame).size(), 2u);
+  ASSERT_EQ(read_answers(Format::lines, 4, 2, line).size(), 2u);
+
+  Fuzz fuzz(1);
+  int read = 0, refused = 0;
+  const auto attempt = [&](const std::function<void()>& reader) {
+    try {
+      reader();
+      ++read;
+    } catch (const Garbage& garbage) {
+      EXPECT_STRNE(garbage.what(), "");
+      ++refused;
+    }
+  };
+  for (int i = 0; i < 20000; ++i) {
+    const std::string bytes = fuzz.mutated(frame), text = fuzz.mutated(line);
+    attempt([&] { read_answers(Format::frames, 4, 2, bytes); });
+    attempt([&] { read_answers(Format::lines, 4, 2, text); });
+    attempt([&] { read_hello(fuzz.mutated(good_hello)); });
+    attempt([&] {
+      read_prepared(Format::lines, 4, 1, fuzz.mutated(R"({"ticket":4,"supported":[true]})"));
+    });
+    attempt([&] {
+      read_time(Format::lines, 4, 1, fuzz.mutated(R"({"ticket":4,"nanoseconds":12.5})"));
+    });
+  }
+  EXPECT_EQ(read + refused, 100000);
+  EXPECT_GT(read, 2000);
+  EXPECT_GT(refused, 50000);
+}
+
+}  // namespace
+}  // namespace touchstone::messages
