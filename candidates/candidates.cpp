@@ -10,6 +10,7 @@
 
 #include "candidates/host/command_process.hpp"
 #include "candidates/host/plugin_process.hpp"
+#include "candidates/npm_engines.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone {
@@ -65,24 +66,13 @@ class Registry {
   }
 
   void add_plugin(const std::filesystem::path& file) {
-    add(PluginProcess(file).candidates(), {"--candidate", file.string()});
+    add(PluginProcess(file).candidates(), {"--candidate", file.string()}, true);
   }
 
   /// `subject`: the option and value that are to blame.
   void add_command(const std::string& command, const std::filesystem::path& folder,
                    const Added& subject) {
-    CommandProcess process(command, folder);
-    const auto hello = process.start();
-    if (const auto* const failure = std::get_if<CommandProcess::Failure>(&hello)) {
-      throw InvalidInput(
-          subject.option, '"' + subject.value + '"',
-          "must be a command that speaks as docs/process-candidates.md says, but it " +
-              failure->reason);
-    }
-    Candidate candidate = std::get<messages::Hello>(hello).candidate;
-    candidate.command = command;
-    candidate.folder = folder;
-    add({candidate}, subject);
+    add({told_by(command, folder, subject)}, subject, true);
   }
 
   const std::vector<const Candidate*>& listed() const { return listed_; }
@@ -99,13 +89,50 @@ class Registry {
       if (colon == std::string_view::npos) return c;
       return find_member(c, name, name.substr(colon + 1));
     }
+    const std::string family(name.substr(0, colon));
+    if (const NpmEngine* const engine = find_npm_engine(family)) {
+      add_npm_engine(*engine, name);
+      return find(name);
+    }
     std::string names;
     for (const Candidate* c : listed_) names += (names.empty() ? "" : ", ") + c->name;
+    for (const NpmEngine& engine : npm_engines()) names += ", " + std::string(engine.family);
     throw InvalidInput("--candidates", '"' + std::string(name) + '"', "must be one of " + names);
   }
 
  private:
-  void add(const std::vector<Candidate>& candidates, const Added& subject) {
+  /// The candidate that the command says it is.
+  static Candidate told_by(const std::string& command, const std::filesystem::path& folder,
+                           const Added& subject) {
+    CommandProcess process(command, folder);
+    const auto hello = process.start();
+    if (const auto* const failure = std::get_if<CommandProcess::Failure>(&hello)) {
+      throw InvalidInput(
+          subject.option, '"' + subject.value + '"',
+          "must be a command that speaks as docs/process-candidates.md says, but it " +
+              failure->reason);
+    }
+    Candidate candidate = std::get<messages::Hello>(hello).candidate;
+    candidate.command = command;
+    candidate.folder = folder;
+    return candidate;
+  }
+
+  /// Engines from npm are known once they are named, and in no list before or after.
+  void add_npm_engine(const NpmEngine& engine, std::string_view name) {
+    const Added subject{"--candidates", std::string(name)};
+    if (const std::string obstacle = npm_obstacle(engine); !obstacle.empty()) {
+      throw InvalidInput(subject.option, '"' + subject.value + '"', "is unavailable: " + obstacle);
+    }
+    const Candidate candidate = told_by(npm_command(engine), npm_folder(), subject);
+    if (candidate.family != engine.family) {
+      throw InvalidInput(subject.option, '"' + subject.value + '"',
+                         "is unavailable: its adapter says that it is " + candidate.family);
+    }
+    add({candidate}, subject, false);
+  }
+
+  void add(const std::vector<Candidate>& candidates, const Added& subject, bool listed) {
     for (const Candidate& c : candidates) {
       const auto same = [&](const Candidate& other) { return other.family == c.family; };
       if (std::any_of(known_.begin(), known_.end(), same)) {
@@ -115,7 +142,7 @@ class Registry {
     }
     for (const Candidate& c : candidates) {
       known_.push_back(c.parameter ? member(c, c.parameter->usual) : c);
-      listed_.push_back(&known_.back());
+      if (listed) listed_.push_back(&known_.back());
     }
   }
 

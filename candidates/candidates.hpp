@@ -55,10 +55,10 @@ const Candidate& find_candidate(std::string_view name);
 /// find_candidate.
 std::vector<const Candidate*> find_candidates(const std::vector<std::string>& names);
 
-/// Adds the candidates of a file: a plug-in, or, if its name ends in ".txt", a list of commands, one
-/// a line, which run in the file's folder; "#" begins a comment. Throws InvalidInput (field
-/// "--candidate") if a plug-in is not one of this interface version, dies while it is loaded, or has
-/// a candidate whose name is taken; for a list like add_command, with the line.
+/// Adds the candidates of a file: a plug-in, or, if its name ends in ".txt", a list of commands,
+/// one a line, which run in the file's folder; "#" begins a comment. Throws InvalidInput (field
+/// "--candidate") if a plug-in is not one of this interface version, dies while it is loaded, or
+/// has a candidate whose name is taken; for a list like add_command, with the line.
 void add_file(const std::filesystem::path& file);
 
 /// Adds the candidate that a command for /bin/sh says it is, and that runs in this folder. Throws

@@ -1,0 +1,70 @@
+#include "candidates/npm_engines.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <sstream>
+#include <unistd.h>
+
+namespace touchstone {
+namespace {
+
+/// The folder in which the packages are installed, as candidates/npm/packages.mjs finds it.
+std::filesystem::path packages() {
+  const char* const given = std::getenv("TOUCHSTONE_NPM");
+  return given ? std::filesystem::path(given) : npm_folder() / "../../build/npm";
+}
+
+bool is_on_path(const char* program) {
+  const char* const path = std::getenv("PATH");
+  std::istringstream folders(path ? path : "");
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    if (access((folder + '/' + program).c_str(), X_OK) == 0) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+const std::vector<NpmEngine>& npm_engines() {
+  static const std::vector<NpmEngine> engines = {
+      {"jolt", "jolt-physics", "jolt.mjs"},
+      {"jolt-margin-0", "jolt-physics", "jolt.mjs margin-0"},
+      {"jolt-margin", "jolt-physics", "jolt.mjs margin"},
+      {"rapier", "@dimforge/rapier3d-compat", "rapier.mjs"},
+      {"physx", "physx-js-webidl", "physx.mjs"},
+      {"havok", "@babylonjs/havok", "havok.mjs"},
+      {"mujoco3", "@mujoco/mujoco", "mujoco3.mjs"},
+      {"mujoco3-single", "@mujoco/mujoco", "mujoco3.mjs single"}};
+  return engines;
+}
+
+const NpmEngine* find_npm_engine(std::string_view family) {
+  const auto& all = npm_engines();
+  const auto found = std::find_if(all.begin(), all.end(),
+                                  [&](const NpmEngine& engine) { return engine.family == family; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+std::filesystem::path npm_folder() {
+  const auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path();
+  // The program of a build tree, a test in it, the installed program.
+  for (const char* folder : {"../../candidates/npm", "../../../candidates/npm",
+                             "../../../../candidates/npm", "../share/touchstone/candidates/npm"}) {
+    const auto path = (program / folder).lexically_normal();
+    if (std::filesystem::exists(path / "package.json")) return path;
+  }
+  return program;
+}
+
+std::string npm_obstacle(const NpmEngine& engine) {
+  if (!is_on_path("node")) return "node is not installed; ./touchstone installs it when it can";
+  const auto package = packages() / "node_modules" / engine.package / "package.json";
+  if (std::filesystem::exists(package)) return "";
+  return "npm's package " + std::string(engine.package) + " is not in " +
+         packages().lexically_normal().string() +
+         "; ./touchstone installs it there, or name a folder in TOUCHSTONE_NPM that has it";
+}
+
+std::string npm_command(const NpmEngine& engine) { return "node " + std::string(engine.script); }
+
+}  // namespace touchstone
