@@ -50,7 +50,7 @@ extern "C" fn query(pair: &Prepared, a: &Pose, b: &Pose, _: Option<&[c_double; 3
     if pair.b.kind == 1 {
         let n = rotate(b.orientation, [pair.b.size[0], pair.b.size[1], pair.b.size[2]]);
         let mut down = add(add([0.0; 3], n, -1.0), axis, dot(n, axis)); // lies across the axis
-        if dot(down, down) < 1e-30 { down = rotate(a.orientation, [1.0, 0.0, 0.0]); } // standing: any way
+        if dot(down, down) < 1e-24 { down = rotate(a.orientation, [1.0, 0.0, 0.0]); } // standing: any way
         for (along, across) in [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)] { // lowest and highest point of each rim
             let on_a = add(add(a.position, axis, along * half_length), down, across * radius / dot(down, down).sqrt());
             report(n, on_a, dot(n, add(on_a, b.position, -1.0)) - pair.b.size[3]);
