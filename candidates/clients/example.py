@@ -68,15 +68,15 @@ class Example(Candidate):
         r = 3 ** -0.5
         u, v, w, t = map(vertex, [(r, r, r), (r, -r, -r), (-r, r, -r), (-r, -r, r)])
         hull = [face(u, v, w), face(u, w, t), face(u, t, v), face(v, t, w)]
-        for _ in range(500):
+        for _ in range(300):
             near, n, (u, v, w) = nearest = min(hull)
             p = vertex(n)
             far = dot(n, p[0])
             if far < 0:
                 return None
-            if far - near <= 1e-9 * min(*a, hypot(*p[0])):
+            if far - near <= 1e-9 * min(a):
                 break
-            seen = [f for f in hull if dot(f[1], add(p[0], f[2][0][0], -1)) > 0]
+            seen = {f for f in hull if dot(f[1], p[0]) - f[0] > 1e-11 * min(a)}
             edges = {edge for f in seen for edge in zip(f[2], f[2][1:] + f[2][:1])}
             hull = [f for f in hull if f not in seen]
             hull += [face(*edge, p) for edge in edges if edge[::-1] not in edges]
