@@ -1,0 +1,56 @@
+// What the engines of npm have in common: where their packages lie, and rotations.
+//
+// The packages of package-lock.json are installed (`npm ci --ignore-scripts`) in the folder
+// TOUCHSTONE_NPM, or build/npm of the source tree.
+import fs from 'node:fs';
+import path from 'node:path';
+import { createRequire } from 'node:module';
+import { fileURLToPath, pathToFileURL } from 'node:url';
+
+const folder = process.env.TOUCHSTONE_NPM ?? fileURLToPath(new URL('../../build/npm', import.meta.url));
+const packages = createRequire(path.join(path.resolve(folder), 'any.js'));
+
+/** The module of a package. */
+export const load = (name) => import(pathToFileURL(packages.resolve(name)));
+
+/** The folder of a package. */
+export const folderOf = (name) => path.join(path.resolve(folder), 'node_modules', name);
+
+export const versionOf = (name) => JSON.parse(fs.readFileSync(path.join(folderOf(name), 'package.json'))).version;
+
+/** The rotation `q` after the rotation `p`; w, x, y, z. */
+export const multiply = ([a, b, c, d], [w, x, y, z]) => [
+  a * w - b * x - c * y - d * z,
+  a * x + b * w + c * z - d * y,
+  a * y - b * z + c * w + d * x,
+  a * z + b * y - c * x + d * w,
+];
+
+/** v turned by the unit quaternion q. */
+export function rotate([w, x, y, z], [a, b, c]) {
+  const s = 2 * (y * c - z * b), t = 2 * (z * a - x * c), u = 2 * (x * b - y * a);
+  return [a + w * s + y * u - z * t, b + w * t + z * s - x * u, c + w * u + x * t - y * s];
+}
+
+/** Turns the y axis, along which many engines have their cylinders, into our z axis. */
+export const Y_TO_Z = [Math.SQRT1_2, Math.SQRT1_2, 0, 0];
+
+/** A rotation that turns the unit vector `from` into the unit vector `to`. */
+export function turn(from, to) {
+  const [a, b, c] = from, [x, y, z] = to;
+  const w = 1 + a * x + b * y + c * z;
+  if (w < 1e-9) {  // opposite: half a turn about anything across
+    const across = Math.abs(a) < 0.8 ? [0, c, -b] : [-c, 0, a];
+    const length = Math.hypot(...across);
+    return [0, ...across.map((v) => v / length)];
+  }
+  const q = [w, b * z - c * y, c * x - a * z, a * y - b * x];
+  const length = Math.hypot(...q);
+  return q.map((v) => v / length);
+}
+
+/** The smallest half extent. */
+export const smallest = (shape) =>
+  Math.min(...shape.half_extents ?? [shape.radius, shape.half_length ?? Infinity]);
+
+export const middle = (u, v) => [(u[0] + v[0]) / 2, (u[1] + v[1]) / 2, (u[2] + v[2]) / 2];

@@ -1,0 +1,171 @@
+// PhysX 5.6.1 (npm's physx-js-webidl, compiled to WebAssembly), single precision.
+//
+// Calls        PxGjkQuery::proximityInfo, GJK and EPA, which a scene asks for convex cores; it gives one
+//              point, to which a scene adds others over several steps. The plane has no such query: both
+//              bodies are added to a scene without gravity, which takes one step of 1 µs, and the points of
+//              its contact report are taken; then they are removed, so that nothing is left of the pair.
+// Shapes       PxConvexCoreGeometry of a PxConvexCoreCylinder, along x, turned to ours, height a full one;
+//              PxCapsuleGeometry along x; PxSphereGeometry, PxBoxGeometry, PxPlaneGeometry, solid below x = 0.
+// Margin       0 on all; the tolerance length of 1 m is PhysX's default.
+// Conventions  separatingAxis, and the normal of a contact report, points from the second body to the first.
+// Points       Midway between pointA and pointB; the plane's as in the report.
+// Threshold    The query's contactDistance; in the scene, contacts beyond it are dropped. A contact offset of
+//              a thousandth of the cylinder's smaller size beyond the threshold is set, for PhysX wants more
+//              than zero.
+// Precision    Poses are rounded to float.
+// Traps        The package is built for browsers alone, and refuses to load where it sees node.
+import { run } from '../clients/touchstone_candidate.mjs';
+import fs from 'node:fs';
+import path from 'node:path';
+import { folderOf, load, middle, multiply, rotate, smallest, turn, versionOf } from './packages.mjs';
+
+const PhysX = await loadAsInBrowser();
+const { PxTopLevelFunctions: Px, PxConvexCoreGeometryFactory: Cores, PxGjkQuery: Gjk } =
+  Object.fromEntries(['PxTopLevelFunctions', 'PxConvexCoreGeometryFactory', 'PxGjkQuery']
+    .map((name) => [name, PhysX[name].prototype]));
+
+async function loadAsInBrowser() {
+  const wasmBinary = fs.readFileSync(path.join(folderOf('physx-js-webidl'), 'physx-js-webidl.wasm'));
+  const { default: start } = await load('physx-js-webidl');
+  const { process } = globalThis;
+  globalThis.process = undefined;
+  globalThis.window = globalThis;
+  try {
+    return await start({ wasmBinary });
+  } finally {
+    globalThis.process = process;
+    delete globalThis.window;
+  }
+}
+
+const X_TO_Z = [Math.SQRT1_2, 0, -Math.SQRT1_2, 0];
+const TOLERANCE_LENGTH = 1, STEP = 1e-6, MAX_POINTS = 16;
+
+const scene = makeScene();
+const material = scene.physics.createMaterial(0.5, 0.5, 0);
+const poseOfA = new PhysX.PxTransform(PhysX.PxIDENTITYEnum.PxIdentity);
+const poseOfB = new PhysX.PxTransform(PhysX.PxIDENTITYEnum.PxIdentity);
+const result = new PhysX.PxGjkQueryProximityInfoResult();
+
+function makeScene() {
+  const foundation = Px.CreateFoundation(PhysX.PHYSICS_VERSION, new PhysX.PxDefaultAllocator(),
+    new PhysX.PxDefaultErrorCallback());
+  const scale = new PhysX.PxTolerancesScale();
+  const physics = Px.CreatePhysics(PhysX.PHYSICS_VERSION, foundation, scale);
+  const description = new PhysX.PxSceneDesc(scale);
+  description.gravity = new PhysX.PxVec3(0, 0, 0);
+  description.cpuDispatcher = Px.DefaultCpuDispatcherCreate(0);
+  const shader = new PhysX.PassThroughFilterShaderImpl();
+  const { eDETECT_DISCRETE_CONTACT, eNOTIFY_TOUCH_FOUND, eNOTIFY_CONTACT_POINTS } = PhysX.PxPairFlagEnum;
+  shader.filterShader = () => {
+    shader.outputPairFlags = eDETECT_DISCRETE_CONTACT | eNOTIFY_TOUCH_FOUND | eNOTIFY_CONTACT_POINTS;
+    return 0;
+  };
+  Px.setupPassThroughFilterShader(description, shader);
+  const made = { physics, points: null, shapeOfA: null };
+  const reports = new PhysX.PxSimulationEventCallbackImpl();
+  const points = new PhysX.PxArray_PxContactPairPoint(MAX_POINTS);
+  reports.onContact = (header, pairs) => {
+    const pair = PhysX.NativeArrayHelpers.prototype.getContactPairAt(
+      PhysX.wrapPointer(pairs, PhysX.PxContactPair), 0);
+    const sign = PhysX.getPointer(pair.get_shapes(0)) === PhysX.getPointer(made.shapeOfA) ? 1 : -1;
+    const count = pair.extractContacts(points.begin(), MAX_POINTS);
+    made.points = Array.from({ length: count }, (_, i) => {
+      const { position, normal, separation } = points.get(i);
+      return { position: toArray(position), normal: toArray(normal).map((x) => sign * x), depth: -separation };
+    });
+  };
+  for (const name of ['onConstraintBreak', 'onWake', 'onSleep', 'onTrigger']) reports[name] = () => {};
+  description.simulationEventCallback = reports;
+  made.scene = physics.createScene(description);
+  return made;
+}
+
+const toArray = (v) => [v.x, v.y, v.z];
+
+function place(transform, [x, y, z], [w, qx, qy, qz]) {
+  const { p, q } = transform;
+  p.x = x; p.y = y; p.z = z;
+  q.x = qx; q.y = qy; q.z = qz; q.w = w;
+}
+
+function makeGeometry(shape) {
+  switch (shape.shape) {
+    case 'cylinder': {
+      const core = new PhysX.PxConvexCoreCylinder(2 * shape.half_length, shape.radius);
+      const made = Cores.createFromCylinder(core, 0);
+      PhysX.destroy(core);
+      return made;
+    }
+    case 'capsule': return new PhysX.PxCapsuleGeometry(shape.radius, shape.half_length);
+    case 'sphere': return new PhysX.PxSphereGeometry(shape.radius);
+    case 'box': return new PhysX.PxBoxGeometry(...shape.half_extents);
+    default: return new PhysX.PxPlaneGeometry();
+  }
+}
+
+/** Two supports for PxGjkQuery. */
+function prepareQuery(a, b, threshold) {
+  const geometries = [makeGeometry(a), makeGeometry(b)];
+  return { geometries, supports: geometries.map((geometry) => new PhysX.ConvexGeomSupport(geometry, 0)),
+    turnOfB: { cylinder: X_TO_Z, capsule: X_TO_Z }[b.shape], threshold };
+}
+
+function ask({ supports, turnOfB, threshold }, poseA, poseB) {
+  place(poseOfA, poseA.position, multiply(poseA.orientation, X_TO_Z));
+  place(poseOfB, poseB.position, turnOfB ? multiply(poseB.orientation, turnOfB) : poseB.orientation);
+  const found = Gjk.proximityInfo(...supports, poseOfA, poseOfB, threshold, TOLERANCE_LENGTH, result);
+  if (!found || result.separation > threshold) return null;
+  const normal = toArray(result.separatingAxis), distance = result.separation;
+  const position = middle(toArray(result.pointA), toArray(result.pointB));
+  return { signed_distance: distance, normal, points: [{ position, normal, depth: -distance }] };
+}
+
+/** Two actors for the scene. */
+function prepareScene(a, b, threshold) {
+  const geometries = [makeGeometry(a), makeGeometry(b)];
+  const shapes = geometries.map((geometry) => scene.physics.createShape(geometry, material, true));
+  shapes[0].setContactOffset(threshold + smallest(a) / 1000);
+  shapes[1].setContactOffset(1e-30);
+  const actors = [scene.physics.createRigidDynamic(poseOfA), scene.physics.createRigidStatic(poseOfB)];
+  actors.forEach((actor, i) => actor.attachShape(shapes[i]));
+  return { geometries, shapes, actors, plane: b, turnOfPlane: turn([1, 0, 0], b.normal), threshold };
+}
+
+function step({ shapes, actors, plane, turnOfPlane, threshold }, poseA, poseB) {
+  place(poseOfA, poseA.position, multiply(poseA.orientation, X_TO_Z));
+  const up = rotate(poseB.orientation, plane.normal);
+  place(poseOfB, poseB.position.map((x, i) => x + plane.displacement * up[i]),
+    multiply(poseB.orientation, turnOfPlane));
+  actors[0].setGlobalPose(poseOfA);
+  actors[1].setGlobalPose(poseOfB);
+  scene.points = [];
+  scene.shapeOfA = shapes[0];
+  actors.forEach((actor) => scene.scene.addActor(actor));
+  scene.scene.simulate(STEP);
+  scene.scene.fetchResults(true);
+  actors.forEach((actor) => scene.scene.removeActor(actor));
+  const points = scene.points.filter(({ depth }) => -depth <= threshold);
+  if (points.length === 0) return null;
+  const deepest = points.reduce((u, v) => v.depth > u.depth ? v : u);
+  return { signed_distance: -deepest.depth, normal: deepest.normal, points };
+}
+
+run({
+  name: 'physx',
+  version: `5.6.1 (${versionOf('physx-js-webidl')})`,
+  settings: 'PxGjkQuery::proximityInfo, convex core of margin 0, single precision, one point midway between ' +
+    'the bodies; the plane: contact report of a step of a scene',
+  precision: 'float',
+  runs: 'wasm',
+  pairs: ['cylinder-plane', 'cylinder-sphere', 'cylinder-capsule', 'cylinder-cylinder', 'cylinder-box'],
+
+  prepare: (a, b, threshold) => (b.shape === 'plane' ? prepareScene : prepareQuery)(a, b, threshold),
+
+  query: (prepared, poseA, poseB) => (prepared.actors ? step : ask)(prepared, poseA, poseB),
+
+  release({ geometries, supports = [], shapes = [], actors = [] }) {
+    for (const counted of [...actors, ...shapes]) counted.release();
+    for (const made of [...supports, ...geometries]) PhysX.destroy(made);
+  },
+});
