@@ -33,7 +33,7 @@ function makeModel(a, b, threshold) {
   const flag = single ? "<flag multiccd='disable'/>" : '';
   return mujoco.MjModel.from_xml_string(`<mujoco><option>${flag}</option><worldbody>
     <body mocap='${b.shape !== 'plane'}'>${geomXml(b, 0)}</body>
-    <body><freejoint/>${geomXml(a, threshold)}</body></worldbody></mujoco>`);
+    <body><freejoint/><inertial pos='0 0 0' mass='1' diaginertia='1 1 1'/>${geomXml(a, threshold)}</body></worldbody></mujoco>`);
 }
 
 const datas = new Map();  // by the kind of B
