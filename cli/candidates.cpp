@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "candidates/npm_engines.hpp"
 #include "cli/command.hpp"
 
 namespace touchstone {
@@ -37,6 +38,11 @@ void add_candidates(Program& program) {
   command.runs([] {
     for (const Candidate* c : all_candidates()) print(*c);
     for (const Skipped& s : skipped_plugins()) fmt::print("{}: skipped; {}\n", s.name, s.reason);
+    fmt::print("From npm, when one is named:\n");
+    for (const NpmEngine& engine : npm_engines()) {
+      const std::string obstacle = npm_obstacle(engine);
+      fmt::print("  {}{}\n", engine.family, obstacle.empty() ? "" : ": unavailable; " + obstacle);
+    }
     return 0;
   });
 }

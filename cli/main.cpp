@@ -24,7 +24,9 @@ std::string engines() {
   std::set<std::filesystem::path> seen;
   std::string text;
   for (const Candidate* c : all_candidates()) {
-    if (c->version == TOUCHSTONE_VERSION || !seen.insert(c->plugin).second) continue;
+    const std::filesystem::path from =
+        c->command.empty() ? c->plugin : std::filesystem::path(c->command);
+    if (c->version == TOUCHSTONE_VERSION || !seen.insert(from).second) continue;
     text += fmt::format("{}{} {}", text.empty() ? "" : ", ", c->family, c->version);
   }
   for (const Skipped& s : skipped_plugins()) {

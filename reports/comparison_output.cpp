@@ -160,10 +160,17 @@ std::string comparison_page(const Comparison& comparison, const Report& before,
   for (const Report* report : {&before, &after}) {
     for (const ResultRow& row : report->summary) names.push_back(row.candidate);
   }
+  json runs = json::object();
+  for (const Report* report : {&before, &after}) {
+    for (const CandidateDescription& c : report->candidates) {
+      if (c.runs != "native") runs[c.name] = c.runs;
+    }
+  }
   return render_page(Page::comparison, {{"comparison", to_json(comparison)},
                                         {"before", places(before)},
                                         {"after", places(after)},
-                                        {"marks", marks(names)}});
+                                        {"marks", marks(names)},
+                                        {"runs", runs}});
 }
 
 }  // namespace touchstone

@@ -156,9 +156,8 @@ SpeedAccuracy place_of(const ResultRow& row) {
   return {time.low, time.high, std::max(error ? error->p99 : 0, no_error)};
 }
 
-/// Finds which rows under one heading are on the front of speed and accuracy, and whose
-/// times tie.
-void rank(std::span<ResultRow> rows) {
+/// Finds which rows under one heading are on the front of speed and accuracy, and whose times tie.
+void rank(std::span<ResultRow> rows, const std::function<bool(const ResultRow&)>& is_native) {
   std::vector<ResultRow*> placed;
   std::vector<SpeedAccuracy> places;
   for (ResultRow& row : rows) {
@@ -171,6 +170,7 @@ void rank(std::span<ResultRow> rows) {
     if (!row.statistics.depth_error) continue;
     placed.push_back(&row);
     places.push_back(place_of(row));
+    places.back().is_native = is_native(row);
   }
   const std::vector<bool> front = pareto_front(places);
   for (std::size_t i = 0; i < placed.size(); ++i) placed[i]->pareto = front[i];
@@ -193,7 +193,8 @@ Report make_report(const Campaign& campaign, const std::string& command) {
   report.machine = describe_machine();
   report.partial = interrupted();
   for (const Candidate* c : campaign.candidates) {
-    report.candidates.push_back({c->name, c->family, c->version, c->settings, c->models});
+    report.candidates.push_back(
+        {c->name, c->family, c->version, c->settings, c->models, c->precision, c->runs});
   }
 
   std::vector<double> oracle_times;
@@ -218,10 +219,14 @@ Report make_report(const Campaign& campaign, const std::string& command) {
 
   const auto is_scored = [&](std::size_t cell) { return samples[cell].has_value(); };
   const std::vector<Heading> of_groups = headings(all, is_scored);
+  const auto is_native = [&](const ResultRow& row) {
+    const auto is = [&](const CandidateDescription& c) { return c.name == row.candidate; };
+    return std::find_if(report.candidates.begin(), report.candidates.end(), is)->runs == "native";
+  };
   for (const Heading& heading : of_groups) {
     auto rows =
         rows_of(campaign, samples, times, heading.cells, heading.pair, group_name(heading.group));
-    rank(rows);
+    rank(rows, is_native);
     report.summary.insert(report.summary.end(), rows.begin(), rows.end());
   }
   report.factors = factors(report);

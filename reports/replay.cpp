@@ -94,6 +94,10 @@ std::string replay_page(const Examination& examination, const std::string& descr
   std::vector<std::string> names;
   for (const ScoredAnswer& answer : examination.answers) names.push_back(answer.candidate);
   data["marks"] = marks(names);
+  for (const std::string& name : names) {
+    const std::string& runs = find_candidate(name).runs;
+    if (runs != "native") data["runs"][name] = runs;
+  }
   return render_page(Page::replay, data);
 }
 

@@ -29,6 +29,8 @@ struct Machine {
 
 struct CandidateDescription {
   std::string name, family, version, settings, models;
+  std::string precision;        ///< "double" or "float"; empty: its settings say it
+  std::string runs = "native";  ///< or "wasm", "script"
 };
 
 struct PoseClassDescription {
@@ -47,6 +49,8 @@ struct QueryTime {
   std::size_t repetitions = 0;
   std::optional<double> instructions;  ///< median, in user space; absent: they cannot be counted
   std::optional<Spread> ratio_to_bullet;
+  /// Of a candidate that is a command: medians over classes and repetitions.
+  std::optional<QueryCost::Measured> measured;
 };
 
 /// The scores and times of one candidate: on one class or, in a summary, on the classes of one

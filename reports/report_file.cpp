@@ -143,7 +143,7 @@ Spread spread(const Reader& time, const char* median, const char* low, const cha
 
 std::optional<QueryTime> query_time(const Reader& time) {
   if (time.is_null()) return std::nullopt;
-  QueryTime result{spread(time, "median", "low", "high"), 0, {}, {}};
+  QueryTime result{spread(time, "median", "low", "high"), 0, {}, {}, {}};
   if (time.has("repetitions")) result.repetitions = time.at("repetitions").whole();
   if (const Reader n = time.at("instructions"); !n.is_null()) result.instructions = n.positive();
   if (!time.at("ratio_to_bullet").is_null()) {
@@ -213,8 +213,11 @@ Report report(const Reader& r) {
   result.partial = r.at("partial").flag();
   result.machine = machine(r.at("machine"));
   r.at("candidates").each([&](const Reader& c) {
-    result.candidates.push_back(
-        {c.at("name").text(), "", c.at("version").text(), c.at("settings").text(), ""});
+    CandidateDescription& candidate = result.candidates.emplace_back();
+    candidate.name = c.at("name").text();
+    candidate.version = c.at("version").text();
+    candidate.settings = c.at("settings").text();
+    if (c.has("runs")) candidate.runs = c.at("runs").text();  // older ones are all native
   });
   r.at("results").each([&](const Reader& row) {
     result.results.push_back(result_row(row));

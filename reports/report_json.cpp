@@ -76,7 +76,15 @@ json to_json(const std::optional<QueryTime>& time) {
                  {"instructions", or_null(time->instructions)},
                  {"ratio_to_bullet", nullptr},
                  {"ratio_low", nullptr},
-                 {"ratio_high", nullptr}};
+                 {"ratio_high", nullptr},
+                 {"floor", nullptr},
+                 {"our_clock", nullptr},
+                 {"processor", nullptr}};
+  if (time->measured) {
+    result["floor"] = time->measured->floor;
+    result["our_clock"] = time->measured->our_clock;
+    result["processor"] = time->measured->processor;
+  }
   if (const auto& ratio = time->ratio_to_bullet) {
     result["ratio_to_bullet"] = ratio->median;
     result["ratio_low"] = ratio->low;
@@ -126,11 +134,9 @@ json to_json(const DrakeProtocol::Result& r) {
 }
 
 json to_json(const CandidateDescription& c) {
-  return {{"name", c.name},
-          {"family", c.family},
-          {"version", c.version},
-          {"settings", c.settings},
-          {"models", c.models}};
+  return {{"name", c.name},         {"family", c.family}, {"version", c.version},
+          {"settings", c.settings}, {"models", c.models}, {"precision", c.precision},
+          {"runs", c.runs}};
 }
 
 json to_json(const RecordedShare& s) {

@@ -197,6 +197,9 @@ std::string report_page(const Report& report) {
   std::vector<std::string> names;
   for (const CandidateDescription& c : report.candidates) names.push_back(c.name);
   data["marks"] = marks(names);
+  for (const CandidateDescription& c : report.candidates) {
+    if (c.runs != "native") data["runs"][c.name] = c.runs;
+  }
   json& outcomes = data["outcomes"] = json::array();
   for (const Outcome outcome : all_outcomes) outcomes.push_back(outcome_name(outcome));
   return render_page(Page::report, data);

@@ -73,7 +73,8 @@ std::vector<bool> pareto_front(const std::vector<SpeedAccuracy>& candidates) {
   for (std::size_t at = 0; at < order.size(); ++at) {
     const auto before = order.begin() + static_cast<std::ptrdiff_t>(at);
     on_front[order[at]] = std::none_of(order.begin(), before, [&](std::size_t i) {
-      return on_front[i] && beats(candidates[i], candidates[order[at]]);
+      const SpeedAccuracy &better = candidates[i], &worse = candidates[order[at]];
+      return on_front[i] && (better.is_native || !worse.is_native) && beats(better, worse);
     });
   }
   return on_front;

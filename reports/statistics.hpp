@@ -76,6 +76,7 @@ struct Statistics {
 struct SpeedAccuracy {
   double low, high;  ///< spread of its time per query
   double error;
+  bool is_native = true;
 };
 
 /// Tells whether the spreads overlap: neither may be called the faster one.
@@ -85,9 +86,10 @@ bool tied_in_time(const SpeedAccuracy& a, const SpeedAccuracy& b);
 /// faster beyond them.
 bool beats(const SpeedAccuracy& a, const SpeedAccuracy& b);
 
-/// Finds the candidates on the Pareto front: those that no candidate on the front beats. Ties are
-/// not transitive (a chain of overlapping spreads may join a fast candidate and a slow one), so a
-/// candidate off the front beats nobody: the front is built in the order of accuracy, and every
+/// Finds the candidates on the Pareto front: those that no candidate on the front beats; a native
+/// one must be beaten by a native one, as the time of others tells as much of their binding. Ties
+/// are not transitive (a chain of overlapping spreads may join a fast candidate and a slow one), so
+/// a candidate off the front beats nobody: the front is built in the order of accuracy, and every
 /// candidate off it is beaten by one on it.
 std::vector<bool> pareto_front(const std::vector<SpeedAccuracy>& candidates);
 

@@ -60,6 +60,14 @@ TEST(Pareto, WhatTiesInTimeIsJudgedByItsAccuracy) {
   EXPECT_THAT(pareto_front({rough, exact}), ElementsAre(false, true));
 }
 
+TEST(ParetoFront, WhatIsNoNativeCodeTakesNoNativeCodeOffIt) {
+  const SpeedAccuracy slow{200, 210, 1e-6};
+  SpeedAccuracy compiled_to_wasm{90, 100, 1e-9}, slower_script{900, 910, 1e-6};
+  compiled_to_wasm.is_native = slower_script.is_native = false;
+  EXPECT_THAT(pareto_front({slow, compiled_to_wasm, slower_script}),
+              ElementsAre(true, true, false));
+}
+
 TEST(Pareto, RefusesToRankWhatTiesInBoth) {
   const SpeedAccuracy a{10, 12, 1e-3}, b{12, 13, 1e-3}, slower{12.5, 14, 1e-3};
   EXPECT_THAT(pareto_front({a, b}), ElementsAre(true, true));

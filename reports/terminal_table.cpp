@@ -78,9 +78,17 @@ std::string time_columns(const std::string& time, const std::string& times_bulle
   return fmt::format(" {:>6} {:>5}", time, times_bullet);
 }
 
-std::string row_text(const ResultRow& row, bool timed) {
+/// Candidates that do not run as native code have a star.
+bool is_starred(const Report& report, const std::string& candidate) {
+  return std::any_of(
+      report.candidates.begin(), report.candidates.end(),
+      [&](const CandidateDescription& c) { return c.name == candidate && c.runs != "native"; });
+}
+
+std::string row_text(const Report& report, const ResultRow& row, bool timed) {
   const Statistics& s = row.statistics;
-  return fmt::format("{:<21} {:>6} {:>7} {:>7} {:>8} {:>7} {:>5}{}\n", row.candidate, agreement(s),
+  const std::string name = row.candidate + (is_starred(report, row.candidate) ? "*" : "");
+  return fmt::format("{:<21} {:>6} {:>7} {:>7} {:>8} {:>7} {:>5}{}\n", name, agreement(s),
                      wrong_answers(s), scientific(s.depth_error, &Quantiles::p99),
                      signed_median(s.bias), scientific(s.point_error, &Quantiles::p99),
                      mean_coverage(s.coverage),
@@ -105,7 +113,30 @@ std::string summary_text(const Report& report, bool timed) {
         fmt::format("\n{}, {} poses\n", row.pair == "all" ? "all pairs" : row.pair, row.pose_class);
     if (heading != last) text += heading;
     last = heading;
-    text += row_text(row, timed);
+    text += row_text(report, row, timed);
+  }
+  return text;
+}
+
+/// What a candidate that is a command says of its time, against what is known of it.
+std::string commands_text(const Report& report, bool timed) {
+  std::string text;
+  for (const CandidateDescription& c : report.candidates) {
+    if (c.runs != "native") text += fmt::format("* {} runs as {}\n", c.name, c.runs);
+    if (!timed) continue;
+    double floor = 0, low = 1, high = 1;
+    for (const ResultRow& row : report.summary) {
+      if (row.candidate != c.name || !row.time || !row.time->measured) continue;
+      const auto& [of_row, our_clock, processor] = *row.time->measured;
+      floor = std::max(floor, of_row);
+      low = std::min({low, our_clock, processor});
+      high = std::max({high, our_clock, processor});
+    }
+    if (floor > 0) text += fmt::format("  bodies far apart: up to {:.0f} ns\n", floor);
+    if (low < 0.9 || high > 1.1) {
+      text += fmt::format("  its times are doubtful: ours are {:.2f} to {:.2f} times as long\n",
+                          low, high);
+    }
   }
   return text;
 }
@@ -180,7 +211,7 @@ std::string terminal_table(const Report& report) {
         "  of {} repetitions overlap: a tie\n",
         timing_repetitions);
   }
-  return text + contrasts_text(report) + failures_text(report);
+  return text + commands_text(report, timed) + contrasts_text(report) + failures_text(report);
 }
 
 }  // namespace touchstone

@@ -115,10 +115,19 @@ std::optional<QueryTime> query_time(const Times& times, const std::vector<std::s
   }
   const auto time = spread(over_cells(times, timed, candidate, nanoseconds));
   if (!time) return std::nullopt;
-  QueryTime result{*time, timing_repetitions, std::nullopt, std::nullopt};
+  QueryTime result{*time, timing_repetitions, std::nullopt, std::nullopt, std::nullopt};
   if (counted == timed) {
     const auto instructions = [](const QueryCost& c) { return *c.instructions; };
     result.instructions = spread(over_cells(times, timed, candidate, instructions))->median;
+  }
+  if (times[timed.front()][candidate].front().measured) {
+    const auto median = [&](double QueryCost::Measured::*member) {
+      const auto value = [&](const QueryCost& c) { return (*c.measured).*member; };
+      return spread(over_cells(times, timed, candidate, value))->median;
+    };
+    using Measured = QueryCost::Measured;
+    result.measured = {median(&Measured::floor), median(&Measured::our_clock),
+                       median(&Measured::processor)};
   }
   return result;
 }

@@ -215,7 +215,7 @@ Report campaign_result(const ShardState& whole) {
   report.completed = {plan.cut.cells, configurations(plan.cut, whole.done)};
   report.configurations = report.completed.configurations;
   for (const std::string& name : plan.candidates) {
-    report.candidates.push_back({name, "", "", "", ""});
+    report.candidates.emplace_back().name = name;
   }
   for (const Cell& cell : plan.cells) {
     report.classes.push_back(description_of(cell));

@@ -130,7 +130,8 @@ Plan make_plan(const Campaign& campaign, const std::string& command) {
                           {"version", c->version},
                           {"settings", c->settings},
                           {"models", c->models},
-                          {"plugin_checksum", checksum_of_plugin(c->plugin)}});
+                          {"plugin_checksum", c->command.empty() ? checksum_of_plugin(c->plugin)
+                                                                 : checksum(c->command)}});
   }
   return plan_from_json({{"version", TOUCHSTONE_VERSION},
                          {"command", command},

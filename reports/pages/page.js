@@ -1,7 +1,7 @@
 'use strict';
 // What all pages share: builders of elements, marks of candidates, numbers, tables, the tooltip.
 const byId = id => document.getElementById(id);
-const data = JSON.parse(byId('data').textContent), {marks} = data;
+const data = JSON.parse(byId('data').textContent), {marks, runs = {}} = data;
 
 // Builders of elements. Strings become text, never markup.
 function fillElement(e, attributes, children) {
@@ -41,7 +41,9 @@ function symbolPath(kind, x, y, s) {
 const symbolSign = ({colour, symbol}) => shape('svg', {class: 'sign', viewBox: '-8 -8 16 16', 'aria-hidden': 'true'},
     shape('path', {fill: `var(${colour})`, d: symbolPath(symbol, 0, 0, 5.5)}));
 const sign = name => symbolSign(markOf(name));
-const named = (name, ...rest) => element('span', {class: 'named'}, sign(name), name, ...rest);
+// A candidate that does not run as native code is marked so wherever its name stands.
+const runsText = name => runs[name] ? ` (${runs[name]})` : '';
+const named = (name, ...rest) => element('span', {class: 'named'}, sign(name), name + runsText(name), ...rest);
 
 // The colour of an outcome, as a variable of the style sheet.
 const outcomeColours = {agree: '--agree', 'few-points': '--few-points', missed: '--c1', phantom: '--c3', shallow: '--c4',

@@ -77,11 +77,18 @@ if (report.stability) {
   drawStability(byId('stability'), report.stability);
 }
 
+// Where a command's clock and ours, or its processor time, differ by more than a tenth.
+function clockText(name) {
+  const off = report.summary.filter(r => r.candidate === name && r.nanoseconds && r.nanoseconds.floor !== null)
+      .map(r => r.nanoseconds).flatMap(t => [t.our_clock, t.processor]).filter(x => Math.abs(x - 1) > 0.1);
+  return off.length ? `; its own times are doubtful: ours are ${Math.min(...off).toFixed(2)} to ${Math.max(...off).toFixed(2)} times as long` : '';
+}
+
 // How it was measured.
 function method() {
   byId('command').append(command(report.command));
   definitions('settings', report.candidates.map(c =>
-      [named(c.name, ` ${c.version}`), c.settings + (c.models ? `; models ${c.models}` : '')]));
+      [named(c.name, ` ${c.version}`), c.settings + (c.models ? `; models ${c.models}` : '') + clockText(c.name)]));
   const bar = report.tolerance;
   definitions('words', [
     ['size', 'Half of the smallest width of the smaller shape; errors are relative to it (where the bar would be below 1e-13 of the larger shape, to a share of that).'],

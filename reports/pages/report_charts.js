@@ -4,6 +4,10 @@ const chartedError = r => Math.max(r.depth_error.p99, minChartedError);
 const chartable = r => time(r) !== null && r.depth_error !== null;
 const timeLabel = "datum.value < 1e3 ? datum.value + ' ns' : datum.value < 1e6 ? datum.value / 1e3 + ' µs' : datum.value / 1e6 + ' ms'";
 
+// What a command's own measurement of its time is worth.
+const floorText = ({nanoseconds: t}) => t && t.floor !== null ? `\nof bodies far apart ${whole(t.floor)} ns: what its binding costs; ` +
+    `by our clock ${t.our_clock.toFixed(2)} times, processor time ${t.processor.toFixed(2)} times what it says` : '';
+
 // Speed and accuracy: a chart of each pair, on the same axes.
 const panels = [];
 function speedAccuracy() {
@@ -29,10 +33,11 @@ function speedChart(place, pair, rows, x, y) {
   const front = rows.filter(r => r.pareto).sort((a, b) => time(a) - time(b));
   const at = r => ({x: time(r), y: chartedError(r)});
   const points = rows.map((r, i) => ({...markData(r.candidate), ...at(r), order: front.includes(r) ? i : 1000 + i,
-      label: `${r.candidate} ${percent(agreeing(r))}`, weight: front.includes(r) ? 'bold' : 'normal',
+      label: `${r.candidate}${runsText(r.candidate)} ${percent(agreeing(r))}`, weight: front.includes(r) ? 'bold' : 'normal',
       tip: `${r.candidate}, ${dashed(r.pair)}\nagrees on ${percent(agreeing(r))}, missed ${r.outcomes.missed || 0}\n` +
            `depth error p99 ${exponent(r.depth_error.p99)}, worst ${exponent(r.depth_error.max)}\n` +
            `${whole(time(r))} ns per query (quartiles ${whole(r.nanoseconds.low)} to ${whole(r.nanoseconds.high)})` +
+           floorText(r) +
            (r.tied_with.length ? `\nno faster or slower, within the spreads, than ${r.tied_with.join(', ')}` : '') +
            `\nClick for its worst cases`}));
   // The members of a family, in the order of their parameter.

@@ -59,13 +59,20 @@ function summaryTable() {
             element('td', {class: r.outcomes.missed || r.outcomes.phantom ? 'bad' : ''},
                 `${whole(r.outcomes.phantom || 0)} / ${whole(r.outcomes.missed || 0)}`),
             exponent(quantile(r.depth_error, 'p99')), element('td', {class: 'wide'}, exponent(quantile(r.depth_error, 'max'))),
-            biasText(r), exponent(quantile(r.normal_regret, 'p99')), exponent(quantile(r.point_error, 'p99')), cutShare(quantile(r.coverage, 'mean')), whole(time(r)),
+            biasText(r), exponent(quantile(r.normal_regret, 'p99')), exponent(quantile(r.point_error, 'p99')), cutShare(quantile(r.coverage, 'mean')), timeCell(r),
             ratio ? (r.tied_with.includes('bullet') ? '~' : '') + ratio.toFixed(2) : '–'];
   });
   byId('summary-table').replaceChildren(table(heads, rows,
       `Agreement, errors of the reported contacts, nanoseconds per query, ${group} poses`));
 }
 
+function timeCell(r) {
+  const t = r.nanoseconds;
+  if (!t || t.floor === null) return whole(time(r));
+  const cell = element('td', {tabindex: 0}, whole(time(r)), element('small', {}, `floor ${whole(t.floor)}`));
+  explain(cell, `${r.candidate}, ${dashed(r.pair)}: ${whole(time(r))} ns` + floorText(r));
+  return cell;
+}
 const biasText = r => r.bias === null ? '–' : r.bias.median > 0 ? `+${exponent(r.bias.median)}` : exponent(r.bias.median).replace('-', '−');
 
 // The errors of a simplified model and of its solver.

@@ -342,7 +342,12 @@ void write_stability(const Stability& stability, const std::string& command,
   whole["version"] = TOUCHSTONE_VERSION;
   whole["command"] = command;
   write_file(folder / "stability.json", whole.dump() + "\n", "--out");
-  whole["marks"] = marks(whole["candidates"]);
+  const std::vector<std::string> names = whole["candidates"];
+  whole["marks"] = marks(names);
+  for (const std::string& name : names) {
+    const std::string& runs = find_candidate(name).runs;
+    if (runs != "native") whole["runs"][name] = runs;
+  }
   write_file(folder / "stability.html", render_page(Page::stability, whole), "--out");
 }
 
