@@ -91,7 +91,7 @@ struct ts_prepared {
 namespace {
 
 template <bool as_capsules>
-ts_prepared* prepare(const ts_shape* a, const ts_shape* b, double threshold, double count) {
+ts_prepared* prepare(void*, const ts_shape* a, const ts_shape* b, double threshold, double count) {
   return new ts_prepared{touchstone::Cylinder(a->size[0], a->size[1]),
                          parts_of(*b, static_cast<int>(count), as_capsules), threshold};
 }
@@ -134,7 +134,7 @@ double model_distance(ts_prepared* p, const ts_pose* a, const ts_pose* b) {
   return min;
 }
 
-int supports(ts_shape_kind kind) { return kind == TS_BOX; }
+int supports(void*, ts_shape_kind kind) { return kind == TS_BOX; }
 void release(ts_prepared* prepared) { delete prepared; }
 
 const ts_parameter spheres = {"number of spheres along the longest axis", 1, 64, 8, 1, 0};
@@ -144,12 +144,12 @@ const ts_candidate candidates[] = {
     {"box-spheres", TOUCHSTONE_VERSION,
      "double precision; Touchstone's cylinder and sphere, once for each part; exact for its model",
      "the box as spheres inside it, of its smallest half extent, in a grid", &spheres, supports,
-     prepare<false>, query, release, model_distance},
+     prepare<false>, query, release, model_distance, nullptr},
     {"box-capsules", TOUCHSTONE_VERSION,
      "double precision; Touchstone's cylinder and capsule, once for each part; exact for its model",
      "the box as capsules inside it, of its smallest half extent, side by side", &capsules,
-     supports, prepare<true>, query, release, model_distance}};
-const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 2, candidates};
+     supports, prepare<true>, query, release, model_distance, nullptr}};
+const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 2, candidates, nullptr, 0};
 
 }  // namespace
 

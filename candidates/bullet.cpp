@@ -198,16 +198,17 @@ namespace {
 
 constexpr bool single_precision = sizeof(btScalar) == sizeof(float);
 
-int supports(ts_shape_kind) { return 1; }
+int supports(void*, ts_shape_kind) { return 1; }
 
 constexpr Setting usual, sharp{true, false}, rocked{false, true};
 
 template <Setting setting>
-ts_prepared* prepare(const ts_shape* a, const ts_shape* b, double threshold, double) {
+ts_prepared* prepare(void*, const ts_shape* a, const ts_shape* b, double threshold, double) {
   return new ts_prepared{{*a, *b, threshold, setting}, nullptr};
 }
 
-ts_prepared* prepare_hull(const ts_shape* a, const ts_shape* b, double threshold, double sides) {
+ts_prepared* prepare_hull(void*, const ts_shape* a, const ts_shape* b, double threshold,
+                          double sides) {
   const int n = static_cast<int>(sides);
   const auto prism = [n](double radius, double half_length) {
     return touchstone::inscribed_prism(n, radius, half_length);
@@ -238,21 +239,22 @@ const ts_candidate candidates[] = {
     {NAME(""), TOUCHSTONE_BULLET_VERSION,
      SETTINGS(CALLS "one query with an empty manifold; default margins: edges of cylinder and box "
                     "rounded by min(0.04 m, a tenth of the smallest half extent)"),
-     nullptr, nullptr, supports, prepare<usual>, query, release, nullptr},
+     nullptr, nullptr, supports, prepare<usual>, query, release, nullptr, nullptr},
     {NAME("-margin-0"), TOUCHSTONE_BULLET_VERSION,
      SETTINGS(CALLS "one query with an empty manifold; margin 0 on cylinder and box"), nullptr,
-     nullptr, supports, prepare<sharp>, query, release, nullptr},
+     nullptr, supports, prepare<sharp>, query, release, nullptr, nullptr},
     {NAME("-persistent"), TOUCHSTONE_BULLET_VERSION,
      SETTINGS(CALLS "the manifold after five queries, four of them rocked by 1 mrad; default "
                     "margins; the time is that of all five"),
-     nullptr, nullptr, supports, prepare<rocked>, query, release, nullptr},
+     nullptr, nullptr, supports, prepare<rocked>, query, release, nullptr, nullptr},
     {NAME("-hull"), TOUCHSTONE_BULLET_VERSION,
      SETTINGS(CALLS "one query with an empty manifold; btConvexHullShape and box with margin 0"),
      "every cylinder as the regular prism with its corners on the rims", &sides, supports,
-     prepare_hull, query, release, hull_distance}};
+     prepare_hull, query, release, hull_distance, nullptr}};
 
 // In single precision the last two would show nothing new.
-const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, single_precision ? 2 : 4, candidates};
+const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, single_precision ? 2 : 4, candidates,
+                          nullptr, 0};
 
 }  // namespace
 

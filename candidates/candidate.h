@@ -7,7 +7,12 @@
  *
  * A candidate prepares two shapes once and is then asked for many poses. Body A is the cylinder.
  * Lengths are in metres; poses map body frame to world frame; normals are unit vectors from B to A
- * in the world frame. No function may keep a pointer that it was given. A process has one thread.
+ * in the world frame. No function may keep a pointer that it was given.
+ *
+ * The process that has loaded the plug-in is forked for every session of questions. Threads do not
+ * survive a fork: start none when the plug-in is loaded, but in `after_fork`, or ask to be run
+ * unforked. An engine in a language with a runtime of its own is better asked as a command
+ * (docs/process-candidates.md).
  *
  *   cc -shared -fPIC -I PREFIX/include my_engine.c -o my_engine.so -lm
  *   touchstone --candidate ./my_engine.so report */
@@ -18,8 +23,8 @@
 extern "C" {
 #endif
 
-/* The version of this header. A plug-in made for another version is rejected. */
-#define TOUCHSTONE_INTERFACE_VERSION 3
+/* The version of this header. Plug-ins made for version 3 load, too; others are rejected. */
+#define TOUCHSTONE_INTERFACE_VERSION 4
 #define TOUCHSTONE_MAX_POINTS 16
 #define TOUCHSTONE_EXPORT __attribute__((visibility("default")))
 
@@ -89,11 +94,12 @@ typedef struct ts_candidate {
   const ts_parameter* parameter; /* NULL: takes none */
 
   /* Non-zero if the candidate has a routine for a cylinder against this kind of shape. */
-  int (*supports)(ts_shape_kind other);
+  int (*supports)(void* context, ts_shape_kind other);
 
   /* Prepares both shapes. Contacts up to `threshold` >= 0 apart are to be reported. `parameter` is
    * zero for a candidate without one. Returns NULL if the pair is not supported. */
-  ts_prepared* (*prepare)(const ts_shape* a, const ts_shape* b, double threshold, double parameter);
+  ts_prepared* (*prepare)(void* context, const ts_shape* a, const ts_shape* b, double threshold,
+                          double parameter);
 
   /* One narrow-phase query; only this is timed. `previous_normal` is a hint: the normal of these
    * bodies' contact in the previous frame (unit, world frame, from B to A), or NULL if there was no
@@ -108,12 +114,22 @@ typedef struct ts_candidate {
   /* For a simplified model: the signed distance of the model, exact up to rounding, so that the
    * report can separate the model's error from the solver's. NULL, or a NaN: unknown. */
   double (*model_distance)(ts_prepared* prepared, const ts_pose* a, const ts_pose* b);
+
+  void* context; /* given to supports and prepare as it stands here; NULL if they need nothing */
 } ts_candidate;
 
 typedef struct ts_plugin {
   int interface_version; /* TOUCHSTONE_INTERFACE_VERSION */
   int count;
   const ts_candidate* candidates; /* `count` of them, in report order */
+
+  /* Called once in every session's process before any question, for what does not survive a fork,
+   * such as threads. NULL: nothing to do. */
+  void (*after_fork)(void);
+
+  /* Non-zero: is never forked. Every session then is a process that has loaded the plug-in anew,
+   * which takes as long as loading does. */
+  int unforked;
 } ts_plugin;
 
 /* The only symbol that a plug-in exports. The result stays valid. */

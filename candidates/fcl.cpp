@@ -68,7 +68,7 @@ struct ts_prepared {
 
 namespace {
 
-ts_prepared* prepare(const ts_shape* a, const ts_shape* b, double threshold, double) {
+ts_prepared* prepare(void*, const ts_shape* a, const ts_shape* b, double threshold, double) {
   return new ts_prepared{make_geometry(*a), make_geometry(*b), threshold,
                          b->kind == TS_PLANE || b->kind == TS_SPHERE};
 }
@@ -123,23 +123,23 @@ void distance(ts_prepared* prepared, const ts_pose* a, const ts_pose* b, const d
   add((on_a + on_b) / 2, length == 0 ? Vector::Zero() : Vector(line / length), -d, *answer);
 }
 
-int supports_all(ts_shape_kind) { return 1; }
-int supports_bounded(ts_shape_kind kind) { return kind != TS_PLANE; }
+int supports_all(void*, ts_shape_kind) { return 1; }
+int supports_bounded(void*, ts_shape_kind kind) { return kind != TS_PLANE; }
 
 const ts_candidate candidates[] = {
     {"fcl", TOUCHSTONE_FCL_VERSION,
      "double precision; collide with default settings (GST_LIBCCD: libccd's MPR; half-space and "
      "sphere analytic), asked for 16 contacts",
-     nullptr, nullptr, supports_all, prepare, collide<fcl::GST_LIBCCD>, release, nullptr},
+     nullptr, nullptr, supports_all, prepare, collide<fcl::GST_LIBCCD>, release, nullptr, nullptr},
     {"fcl-indep", TOUCHSTONE_FCL_VERSION,
      "double precision; collide with GST_INDEP (FCL's own GJK and EPA; half-space and sphere "
      "analytic); its negative depths and local normals are put right",
-     nullptr, nullptr, supports_all, prepare, collide<fcl::GST_INDEP>, release, nullptr},
+     nullptr, nullptr, supports_all, prepare, collide<fcl::GST_INDEP>, release, nullptr, nullptr},
     {"fcl-distance", TOUCHSTONE_FCL_VERSION,
      "double precision; distance with enable_signed_distance, default tolerances (GJK and EPA); "
      "normal along the two nearest points; no half-space",
-     nullptr, nullptr, supports_bounded, prepare, distance, release, nullptr}};
-const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 3, candidates};
+     nullptr, nullptr, supports_bounded, prepare, distance, release, nullptr, nullptr}};
+const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 3, candidates, nullptr, 0};
 
 }  // namespace
 

@@ -86,7 +86,7 @@ struct ts_prepared {
 
 namespace {
 
-ts_prepared* prepare(const ts_shape* a, const ts_shape* b, double, double tolerance) {
+ts_prepared* prepare(void*, const ts_shape* a, const ts_shape* b, double, double tolerance) {
   auto* const p = new ts_prepared;
   p->a.shape = *a;
   p->b.shape = *b;
@@ -119,7 +119,7 @@ void query(ts_prepared* p, const ts_pose* a, const ts_pose* b, const double*, ts
   }
 }
 
-int supports(ts_shape_kind kind) { return kind != TS_PLANE; }
+int supports(void*, ts_shape_kind kind) { return kind != TS_PLANE; }
 void release(ts_prepared* prepared) { delete prepared; }
 
 const ts_parameter tolerance = {"tolerance", 1e-16, 1, 1e-4, 0, 1};
@@ -128,12 +128,12 @@ const ts_candidate candidates[] = {
     {"libccd-gjk", TOUCHSTONE_CCD_VERSION,
      "double precision; ccdGJKPenetration (GJK and EPA), epa_tolerance 1e-4 by default, at most "
      "100 iterations; no plane",
-     nullptr, &tolerance, supports, prepare, query<ccdGJKPenetration>, release, nullptr},
+     nullptr, &tolerance, supports, prepare, query<ccdGJKPenetration>, release, nullptr, nullptr},
     {"libccd-mpr", TOUCHSTONE_CCD_VERSION,
      "double precision; ccdMPRPenetration, mpr_tolerance 1e-4 by default, at most 100 iterations; "
      "no plane",
-     nullptr, &tolerance, supports, prepare, query<ccdMPRPenetration>, release, nullptr}};
-const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 2, candidates};
+     nullptr, &tolerance, supports, prepare, query<ccdMPRPenetration>, release, nullptr, nullptr}};
+const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 2, candidates, nullptr, 0};
 
 }  // namespace
 

@@ -94,7 +94,7 @@ struct ts_prepared {
 
 namespace {
 
-ts_prepared* prepare(const ts_shape* a, const ts_shape* b, double threshold, double) {
+ts_prepared* prepare(void*, const ts_shape* a, const ts_shape* b, double threshold, double) {
   const mjtGeom type = geom_type(b->kind);
   const bool cylinder_first = type >= mjGEOM_CYLINDER;
   const mjfCollision collide = cylinder_first ? mjCOLLISIONFUNC[mjGEOM_CYLINDER][type]
@@ -143,15 +143,15 @@ void query(ts_prepared* p, const ts_pose* a, const ts_pose* b, const double*, ts
   }
 }
 
-int supports(ts_shape_kind) { return 1; }
+int supports(void*, ts_shape_kind) { return 1; }
 void release(ts_prepared* prepared) { delete prepared; }
 
 const ts_candidate candidates[] = {
     {"mujoco", mj_versionString(),
      "double precision; the pair's function in mjCOLLISIONFUNC; plane analytic, others "
      "by libccd's MPR with MuJoCo's tolerance 1e-6; multiccd off",
-     nullptr, nullptr, supports, prepare, query, release, nullptr}};
-const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 1, candidates};
+     nullptr, nullptr, supports, prepare, query, release, nullptr, nullptr}};
+const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 1, candidates, nullptr, 0};
 
 }  // namespace
 

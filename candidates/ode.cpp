@@ -162,14 +162,14 @@ struct ts_prepared {
 
 namespace {
 
-int supports(ts_shape_kind) { return 1; }
+int supports(void*, ts_shape_kind) { return 1; }
 
-ts_prepared* prepare(const ts_shape* a, const ts_shape* b, double, double) {
+ts_prepared* prepare(void*, const ts_shape* a, const ts_shape* b, double, double) {
   touchstone::initialise_ode();
   return new ts_prepared(*a, *b);
 }
 
-ts_prepared* prepare_mesh(const ts_shape* a, const ts_shape* b, double, double sides) {
+ts_prepared* prepare_mesh(void*, const ts_shape* a, const ts_shape* b, double, double sides) {
   touchstone::initialise_ode();
   return new ts_prepared(*a, *b, static_cast<int>(sides));
 }
@@ -191,14 +191,14 @@ const ts_candidate candidates[] = {
     {"ode", TOUCHSTONE_ODE_VERSION,
      "double precision; dCollide asked for 16 contacts; cylinder and capsule through libccd's MPR, "
      "box by separating axes and clipping, plane and sphere analytic; positions as ODE gives them",
-     nullptr, nullptr, supports, prepare, query, release, nullptr},
+     nullptr, nullptr, supports, prepare, query, release, nullptr, nullptr},
     {"ode-mesh", TOUCHSTONE_ODE_VERSION,
      "double precision; dCollide of a triangle mesh and a primitive, asked for 64 contacts of "
      "which "
      "the 16 deepest are kept",
      "the cylinder A as the triangle mesh of the regular prism with its corners on the rims",
-     &sides, supports, prepare_mesh, query, release, model_distance}};
-const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 2, candidates};
+     &sides, supports, prepare_mesh, query, release, model_distance, nullptr}};
+const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 2, candidates, nullptr, 0};
 
 }  // namespace
 

@@ -68,9 +68,9 @@ struct PreparedPair : ts_prepared {
   Other b;
 };
 
-int supports(ts_shape_kind) { return 1; }
+int supports(void*, ts_shape_kind) { return 1; }
 
-ts_prepared* prepare(const ts_shape* a, const ts_shape* b, double threshold, double) {
+ts_prepared* prepare(void*, const ts_shape* a, const ts_shape* b, double threshold, double) {
   const Cylinder cylinder(a->size[0], a->size[1]);
   const double* s = b->size;
   ts_prepared* prepared = nullptr;
@@ -110,8 +110,8 @@ void release(ts_prepared* prepared) { delete prepared; }
 const ts_candidate candidates[] = {
     {"reference", TOUCHSTONE_VERSION,
      "Touchstone's own routines, double precision; points halfway between the surfaces", nullptr,
-     nullptr, supports, prepare, query, release, nullptr}};
-const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 1, candidates};
+     nullptr, supports, prepare, query, release, nullptr, nullptr}};
+const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 1, candidates, nullptr, 0};
 
 }  // namespace
 

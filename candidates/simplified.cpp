@@ -31,12 +31,13 @@ using Make = std::vector<touchstone::RoundedPolytope> (*)(double, double);
 using MakeMany = std::vector<touchstone::RoundedPolytope> (*)(int, double, double);
 
 template <Make make>
-ts_prepared* prepare(const ts_shape* a, const ts_shape* b, double threshold, double) {
+ts_prepared* prepare(void*, const ts_shape* a, const ts_shape* b, double threshold, double) {
   return new ts_prepared{ModelPair(*a, *b, make), threshold, {}};
 }
 
 template <MakeMany make>
-ts_prepared* prepare_many(const ts_shape* a, const ts_shape* b, double threshold, double number) {
+ts_prepared* prepare_many(void*, const ts_shape* a, const ts_shape* b, double threshold,
+                          double number) {
   const auto model = [number](double radius, double half_length) {
     return make(static_cast<int>(number), radius, half_length);
   };
@@ -74,7 +75,7 @@ double model_distance(ts_prepared* p, const ts_pose* a, const ts_pose* b) {
   return p->pair.separation(*a, *b).distance;
 }
 
-int supports(ts_shape_kind) { return 1; }
+int supports(void*, ts_shape_kind) { return 1; }
 void release(ts_prepared* prepared) { delete prepared; }
 
 const ts_parameter spheres = {"number of spheres", 1, 256, 8, 1, 0};
@@ -83,20 +84,20 @@ const ts_parameter sides = {"number of sides", 3, 128, 16, 1, 0};
 const ts_candidate candidates[] = {
     {"capsule", TOUCHSTONE_VERSION, "double precision; exact for its model",
      "every cylinder as the largest capsule of its length inside it", nullptr, supports,
-     prepare<touchstone::inscribed_capsule>, query, release, model_distance},
+     prepare<touchstone::inscribed_capsule>, query, release, model_distance, nullptr},
     {"capsule-circumscribed", TOUCHSTONE_VERSION, "double precision; exact for its model",
      "every cylinder as a capsule of its radius around it, round ends on top", nullptr, supports,
-     prepare<touchstone::circumscribed_capsule>, query, release, model_distance},
+     prepare<touchstone::circumscribed_capsule>, query, release, model_distance, nullptr},
     {"spheres", TOUCHSTONE_VERSION, "double precision; exact for its model",
      "every cylinder as spheres inside it, in a row along the axis, or in a ring when it is flat",
      &spheres, supports, prepare_many<touchstone::inscribed_spheres>, query, release,
-     model_distance},
+     model_distance, nullptr},
     {"prism", TOUCHSTONE_VERSION,
      "double precision; separating axes, closest features where a sphere or capsule is apart; "
      "exact for its model; one point",
      "every cylinder as the regular prism with its corners on the rims", &sides, supports,
-     prepare_many<touchstone::inscribed_prism>, query, release, model_distance}};
-const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 4, candidates};
+     prepare_many<touchstone::inscribed_prism>, query, release, model_distance, nullptr}};
+const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 4, candidates, nullptr, 0};
 
 }  // namespace
 

@@ -11,11 +11,15 @@ struct ts_prepared {
   double radius, half_length, normal[3], displacement, threshold;
 };
 
-static int supports(ts_shape_kind other) { return other == TS_PLANE; }
+static int supports(void* context, ts_shape_kind other) {
+  (void)context;
+  return other == TS_PLANE;
+}
 
-static ts_prepared* prepare(const ts_shape* a, const ts_shape* b, double threshold,
+static ts_prepared* prepare(void* context, const ts_shape* a, const ts_shape* b, double threshold,
                             double parameter) {
   ts_prepared* p = malloc(sizeof *p);
+  (void)context;
   (void)parameter;
   *p = (ts_prepared){
       a->size[0], a->size[1], {b->size[0], b->size[1], b->size[2]}, b->size[3], threshold};
@@ -71,9 +75,10 @@ static void query(ts_prepared* p, const ts_pose* a, const ts_pose* b, const doub
 static void release(ts_prepared* p) { free(p); }
 
 const ts_plugin* touchstone_plugin(void) {
-  static const ts_candidate me = {
-      "my-engine", "1.0", "double precision; rim points", NULL, NULL, supports, prepare, query,
-      release,     NULL};
-  static const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 1, &me};
+  static const ts_candidate me = {"my-engine", "1.0", "double precision; rim points",
+                                  NULL,        NULL,  supports,
+                                  prepare,     query, release,
+                                  NULL,        NULL};
+  static const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 1, &me, NULL, 0};
   return &plugin;
 }

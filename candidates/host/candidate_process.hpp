@@ -37,8 +37,8 @@ struct QueryCost {
   /// What is known of a time that a command measured itself.
   struct Measured {
     double floor;      ///< nanoseconds of a query of the same shapes far apart
-    double our_clock;  ///< the round by our clock, relative to what the command says
-    double processor;  ///< the round's processor time, likewise
+    double our_clock;  ///< the queries' time by our clock, relative to what the command says
+    double processor;  ///< their processor time, likewise
   };
   std::optional<Measured> measured = {};
 };

@@ -213,6 +213,56 @@ TEST(CandidateProcess, ACrashWhileTimingIsNoTime) {
   EXPECT_FALSE(process.cost_per_query());
 }
 
+const Candidate& of_plugin(const char* file, const std::string& name) {
+  const auto path = std::filesystem::canonical(TOUCHSTONE_TEST_PLUGINS) / file;
+  const auto is = [&](const Added& a) { return a.value == path.string(); };
+  if (std::none_of(added_candidates().begin(), added_candidates().end(), is)) add_file(path);
+  return find_candidate(name);
+}
+
+TEST(PluginProcess, OneMadeForVersion3IsAsked) {
+  const Configuration sphere{Cylinder(1, 1), Pose(), Sphere(1), Pose()};
+  CandidateProcess first(of_plugin("touchstone-version_3.so", "old-one:5"), 0.25);
+  EXPECT_EQ(first.answer(sphere).signed_distance, -5.25);
+  EXPECT_EQ(first.answer(standing).status, TS_UNSUPPORTED);
+  CandidateProcess second(of_plugin("touchstone-version_3.so", "old-two"), 0.25);
+  EXPECT_EQ(second.answer(sphere).signed_distance, -0.25);
+}
+
+class Threads : public testing::TestWithParam<const char*> {
+ protected:
+  static const Candidate& member(const std::string& parameter) {
+    const std::string kind = GetParam();
+    return of_plugin(("touchstone-threads_" + kind + ".so").c_str(),
+                     "threads-" + (kind == "unforked" ? kind : "after-fork") + parameter);
+  }
+};
+
+TEST_P(Threads, OfAnEngineAnswerInEverySession) {
+  CandidateProcess process(member(""), 0);
+  for (int session = 0; session < 3; ++session) {
+    const auto answers = process.answers(std::vector<Configuration>(5, standing));
+    ASSERT_EQ(answers.size(), 5u);
+    for (const Answer& a : answers) {
+      ASSERT_EQ(a.status, TS_CONTACT) << a.reason;
+      EXPECT_EQ(a.signed_distance, -3 * standing.pose_a.position().x());
+    }
+  }
+  ASSERT_TRUE(process.prepare_timing(std::vector<Configuration>(20, standing)));
+  EXPECT_TRUE(process.cost_per_query());
+}
+
+TEST_P(Threads, ACrashIsAnsweredAndTheNextSessionRuns) {
+  CandidateProcess process(member(":13"), 0);
+  for (const Answer& a : process.answers(std::vector<Configuration>(2, standing))) {
+    EXPECT_EQ(a.status, TS_CRASHED);
+    EXPECT_THAT(a.reason, StartsWith("Aborted"));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Plugin, Threads, testing::Values("after_fork", "unforked"),
+                         [](const auto& test) { return std::string(test.param); });
+
 TEST(PluginProcess, RefusesWhatIsNoPlugin) {
   const auto refused = [](const std::string& file, const std::string& why) {
     EXPECT_THAT([&] { add_file(file); }, testing::ThrowsMessage<InvalidInput>(
@@ -222,7 +272,7 @@ TEST(PluginProcess, RefusesWhatIsNoPlugin) {
   const std::string folder = TOUCHSTONE_TEST_PLUGINS;
   refused("nowhere.so", "must be a file");
   refused("/etc/passwd", "invalid ELF header");
-  refused(folder + "/touchstone-old.so", "version 2 of candidate.h; this is version 3");
+  refused(folder + "/touchstone-old.so", "version 2 of candidate.h; this is version 4");
   refused(folder + "/touchstone-deadly.so", "Aborted");
   sabotage("sabotage");
   refused(folder + "/touchstone-sabotage.so", "a name that is taken");

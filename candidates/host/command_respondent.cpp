@@ -30,7 +30,9 @@ constexpr double max_timed_seconds = 5e-4;  ///< of one pass, beyond the first m
 constexpr std::size_t min_timed = 10;
 constexpr std::uint32_t max_passes = 1u << 20;
 constexpr int max_warm_rounds = 30;
-constexpr double steady = 0.05;  ///< relative difference of three rounds of a warm child
+constexpr int clock_rounds = 3;
+constexpr double max_ratio = 1e6;  ///< of clocks
+constexpr double steady = 0.05;    ///< relative difference of three rounds of a warm child
 
 bool same(const ts_shape& x, const ts_shape& y) {
   using Bits = std::array<std::uint64_t, 4>;
@@ -331,7 +333,7 @@ std::optional<double> CommandRespondent::warm_cost(std::span<const messages::Pos
 bool CommandRespondent::prepare_timing(std::span<const Configuration> configurations) {
   restart();
   timed_.clear();
-  floor_.reset();
+  measured_.reset();
   std::vector<Question> questions;
   for (const Configuration& c : configurations) {
     if (candidate_.supports[to_ts_shape(c.b).kind]) questions.push_back(question_of(c, nullptr));
@@ -368,28 +370,38 @@ bool CommandRespondent::prepare_timing(std::span<const Configuration> configurat
     if (!std::holds_alternative<double>(round)) return false;
     if (1e-9 * std::get<double>(round) >= min_round) break;
   }
-  floor_ = warm_cost(apart);
-  if (!floor_ || !warm_cost(timed_)) return false;
-  // What a round takes besides its queries.
-  const auto start = Clock::now();
-  const auto once = time(timed_, 1);
-  if (!std::holds_alternative<double>(once)) return false;
-  const std::chrono::duration<double> taken = Clock::now() - start;
-  overhead_ = std::max(0.0, taken.count() - 1e-9 * std::get<double>(once));
-  return true;
+  const std::optional<double> floor = warm_cost(apart);
+  if (!floor || !warm_cost(timed_)) return false;
+  measured_ = compare_clocks();
+  if (measured_) measured_->floor = *floor;
+  return measured_.has_value();
+}
+
+std::optional<QueryCost::Measured> CommandRespondent::compare_clocks() {
+  // What a request costs besides its queries is in both of two rounds of different length.
+  double told = 0, ours = 0, computing = 0;
+  for (int i = 0; i < clock_rounds; ++i) {
+    for (const int sign : {-1, 1}) {
+      const Watch watch = process_.watch();
+      const auto total = time(timed_, sign > 0 ? 2 * passes_ : passes_);
+      if (!std::holds_alternative<double>(total)) return std::nullopt;
+      const Watch::TimeUse spent = watch.spent();
+      told += sign * 1e-9 * std::get<double>(total);
+      ours += sign * spent.by_the_clock;
+      computing += sign * spent.computing;
+    }
+  }
+  told = std::max({told, ours / max_ratio, 1e-12});  // of a child that tells nothing
+  return QueryCost::Measured{0, ours / told, computing / told};
 }
 
 std::optional<QueryCost> CommandRespondent::cost_per_query() {
-  if (timed_.empty() || !floor_ || !process_.runs()) return std::nullopt;
-  const Watch watch = process_.watch();
+  if (!measured_ || !process_.runs()) return std::nullopt;
   const auto total = time(timed_, passes_);
   if (!std::holds_alternative<double>(total)) return std::nullopt;
-  const Watch::TimeUse spent = watch.spent();
-  const double told = 1e-9 * std::max(std::get<double>(total), 1.0);
   const double queries = passes_ * static_cast<double>(timed_.size());
-  QueryCost cost{1e9 * told / queries, std::nullopt};
-  cost.measured = {*floor_, (spent.by_the_clock - overhead_) / told,
-                   (spent.computing - overhead_) / told};
+  QueryCost cost{std::max(std::get<double>(total), 1.0) / queries, std::nullopt};
+  cost.measured = measured_;
   return cost;
 }
 

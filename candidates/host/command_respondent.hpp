@@ -52,8 +52,10 @@ class CommandRespondent : public Respondent {
   std::optional<Failure> release_all_but(std::size_t count);
   /// One round of timing: nanoseconds in all.
   Result<double> time(std::span<const messages::Poses> poses, std::uint32_t passes);
-  /// A round without what it costs to send the request; warms up before.
+  /// Nanoseconds a query once rounds agree.
   std::optional<double> warm_cost(std::span<const messages::Poses> poses);
+  /// The child's clock beside ours; absent if it died.
+  std::optional<QueryCost::Measured> compare_clocks();
   std::size_t batch() const;
   /// Sends a request; `read` makes the result of the answer's text, and may throw Garbage.
   template <class Read>
@@ -72,10 +74,9 @@ class CommandRespondent : public Respondent {
   double seconds_per_query_ = 0;  ///< by the clock, so far; 0: not known
   int failures_ = 0;              ///< in a row
   std::string last_failure_;
-  std::vector<messages::Poses> timed_;  ///< of prepare_timing
-  std::uint32_t passes_ = 1;            ///< of one timed round
-  std::optional<double> floor_;         ///< nanoseconds a query of bodies far apart
-  double overhead_ = 0;                 ///< seconds that a round takes besides its queries
+  std::vector<messages::Poses> timed_;           ///< of prepare_timing
+  std::uint32_t passes_ = 1;                     ///< of one timed round
+  std::optional<QueryCost::Measured> measured_;  ///< absent: nothing is prepared for timing
 };
 
 }  // namespace touchstone

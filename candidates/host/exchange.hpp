@@ -104,6 +104,7 @@ struct Description {
   double min, max, usual;
   bool has_parameter, whole, bare;
   bool supports[5];
+  bool unforked;
 };
 
 /// Exit code of a session that ended by an exception.

@@ -241,6 +241,7 @@ void PluginProcess::State::start(std::chrono::milliseconds loading) {
         d.name, d.name, readable(d.version), readable(d.settings), readable(d.models), {}, 0, {},
         file,   i};
     std::copy(std::begin(d.supports), std::end(d.supports), c.supports.begin());
+    unforked = d.unforked;
     if (d.has_parameter)
       c.parameter = {readable(d.meaning), d.min, d.max, d.usual, d.whole, d.bare};
     candidates.push_back(std::move(c));

@@ -42,6 +42,7 @@ struct PluginProcess::State {
 
   std::filesystem::path file;
   std::vector<Candidate> candidates;
+  bool unforked = false;  ///< a session is the plug-in's process itself
   /// The process that made this. A candidate that calls exit runs our destructors in its own
   /// process, where they must do nothing.
   const pid_t owner = getpid();

@@ -15,6 +15,7 @@
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
+#include <type_traits>
 #include <unistd.h>
 #include <vector>
 
@@ -27,7 +28,55 @@ namespace {
 /// Large enough for any plug-in; a larger count is corrupt.
 constexpr int max_candidates = 1000;
 
-const ts_plugin& load(const char* file) {
+/// A candidate of interface version 3, which knew no context.
+struct CandidateOfVersion3 {
+  const char *name, *version, *settings, *models;
+  const ts_parameter* parameter;
+  int (*supports)(ts_shape_kind other);
+  ts_prepared* (*prepare)(const ts_shape* a, const ts_shape* b, double threshold, double parameter);
+  decltype(ts_candidate::query) query;
+  decltype(ts_candidate::release) release;
+  decltype(ts_candidate::model_distance) model_distance;
+};
+
+/// A plug-in of this interface version, whatever it was made for.
+struct LoadedPlugin {
+  std::vector<ts_candidate> candidates;
+  void (*after_fork)() = nullptr;
+  bool unforked = false;
+};
+
+ts_candidate of_version_3(const CandidateOfVersion3& old) {
+  const auto given_back = [](void* context) {
+    return static_cast<const CandidateOfVersion3*>(context);
+  };
+  static_assert(std::is_empty_v<decltype(given_back)>);
+  ts_candidate c{old.name,
+                 old.version,
+                 old.settings,
+                 old.models,
+                 old.parameter,
+                 nullptr,
+                 nullptr,
+                 old.query,
+                 old.release,
+                 old.model_distance,
+                 const_cast<CandidateOfVersion3*>(&old)};
+  if (old.supports) {
+    c.supports = [](void* context, ts_shape_kind other) {
+      return decltype(given_back){}(context)->supports(other);
+    };
+  }
+  if (old.prepare) {
+    c.prepare = [](void* context, const ts_shape* a, const ts_shape* b, double threshold,
+                   double parameter) {
+      return decltype(given_back){}(context)->prepare(a, b, threshold, parameter);
+    };
+  }
+  return c;
+}
+
+LoadedPlugin load(const char* file) {
   void* const library = dlopen(file, RTLD_NOW | RTLD_LOCAL);
   if (!library) throw std::runtime_error(dlerror());
   const auto entry =
@@ -35,7 +84,8 @@ const ts_plugin& load(const char* file) {
   if (!entry) throw std::runtime_error("exports no touchstone_plugin");
   const ts_plugin* plugin = entry();
   if (!plugin) throw std::runtime_error("gives no candidates");
-  if (plugin->interface_version != TOUCHSTONE_INTERFACE_VERSION) {
+  const bool is_old = plugin->interface_version == 3;
+  if (!is_old && plugin->interface_version != TOUCHSTONE_INTERFACE_VERSION) {
     throw std::runtime_error("was made for version " + std::to_string(plugin->interface_version) +
                              " of candidate.h; this is version " +
                              std::to_string(TOUCHSTONE_INTERFACE_VERSION));
@@ -45,7 +95,16 @@ const ts_plugin& load(const char* file) {
     throw std::runtime_error("gives " + std::to_string(plugin->count) + " candidates, more than " +
                              std::to_string(max_candidates));
   }
-  return *plugin;
+  LoadedPlugin result;
+  if (is_old) {
+    const auto* const old = reinterpret_cast<const CandidateOfVersion3*>(plugin->candidates);
+    for (int i = 0; i < plugin->count; ++i) result.candidates.push_back(of_version_3(old[i]));
+    return result;
+  }
+  result.candidates.assign(plugin->candidates, plugin->candidates + plugin->count);
+  result.after_fork = plugin->after_fork;
+  result.unforked = plugin->unforked != 0;
+  return result;
 }
 
 template <std::size_t size>
@@ -87,7 +146,7 @@ Description describe(const ts_candidate& c) {
     d.bare = c.parameter->bare != 0;
   }
   for (const ts_shape_kind kind : {TS_CYLINDER, TS_PLANE, TS_SPHERE, TS_CAPSULE, TS_BOX}) {
-    d.supports[kind] = c.supports(kind) != 0;
+    d.supports[kind] = c.supports(c.context, kind) != 0;
   }
   return d;
 }
@@ -128,12 +187,15 @@ void serve_plugin(const char* file, int socket, const Questions& questions, Exch
   // Processes that a session leaves behind are reparented to this one, which so learns of them.
   prctl(PR_SET_CHILD_SUBREAPER, 1);
 
-  const ts_plugin* plugin = nullptr;
+  LoadedPlugin plugin;
   try {
-    plugin = &load(file);
+    plugin = load(file);
     std::vector<Description> descriptions;
-    for (int i = 0; i < plugin->count; ++i) descriptions.push_back(describe(plugin->candidates[i]));
-    reply(socket, Reply::described, 0, plugin->count);
+    for (const ts_candidate& candidate : plugin.candidates) {
+      descriptions.push_back(describe(candidate));
+      descriptions.back().unforked = plugin.unforked;
+    }
+    reply(socket, Reply::described, 0, static_cast<int>(descriptions.size()));
     for (const Description& d : descriptions) send(socket, &d, sizeof d);
   } catch (const std::exception& e) {
     reply(socket, Reply::refused, 0, 0, e.what());
@@ -145,12 +207,18 @@ void serve_plugin(const char* file, int socket, const Questions& questions, Exch
   for (;;) {
     const SessionCommand command = receive(socket);
     if (command.kind != SessionCommand::begin) continue;  // meant for a session that has died
+    const auto serve = [&] {
+      bound_memory(command.memory);
+      if (plugin.after_fork) plugin.after_fork();
+      serve_session(plugin.candidates[static_cast<std::size_t>(command.index)], command, socket,
+                    questions, exchange);
+    };
+    if (plugin.unforked) serve();
     const pid_t pid = fork();
     if (pid == 0) {
       prctl(PR_SET_PDEATHSIG, SIGKILL);  // if this process dies first, receive() ends the session
       setpgid(0, 0);
-      bound_memory(command.memory);
-      serve_session(plugin->candidates[command.index], command, socket, questions, exchange);
+      serve();
     }
     if (pid < 0) {
       reply(socket, Reply::began, command.ticket, -1);

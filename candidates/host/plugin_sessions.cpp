@@ -132,6 +132,7 @@ void PluginSessions::end() {
   session_ = -1;
   using Received = PluginProcess::State::Received;
   PluginProcess::State& s = *plugin_.state_;
+  if (s.unforked) return s.stop();
   SessionCommand command = plain_command(SessionCommand::finish);
   command.ticket = ++ticket_;
   const auto end = Clock::now() + finish_timeout;
@@ -202,6 +203,11 @@ std::optional<PluginSessions::SessionFailure> PluginSessions::obey(SessionComman
       if (reply.kind == Reply::ended && reply.ticket == session_ticket_) {
         session_ = -1;
         if (reply.left_behind) s.stop();
+        return end_of_session(reply.value);
+      }
+      if (reply.kind == Reply::gone && s.unforked) {
+        s.stop();
+        session_ = -1;
         return end_of_session(reply.value);
       }
       if (reply.kind == Reply::gone) {

@@ -228,8 +228,8 @@ void Session::obey(const SessionCommand& command) {
 }
 
 ts_prepared* Session::prepare(const Question& q) {
-  if (!candidate_.supports(q.b.kind)) return nullptr;
-  return candidate_.prepare(&q.a, &q.b, threshold_, parameter_);
+  if (!candidate_.supports(candidate_.context, q.b.kind)) return nullptr;
+  return candidate_.prepare(candidate_.context, &q.a, &q.b, threshold_, parameter_);
 }
 
 /// Prepares the shapes, or returns them if an earlier question had the same ones.

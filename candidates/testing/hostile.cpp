@@ -432,12 +432,12 @@ namespace {
 constexpr double culprits_radius = 7;
 const ts_parameter which = {"number of the deed", 1, count, 1, 1, 0};
 
-int supports(ts_shape_kind) { return 1; }
+int supports(void*, ts_shape_kind) { return 1; }
 bool is_culprit(const ts_shape* a) {
   return a->size[0] == culprits_radius || std::getenv("TOUCHSTONE_HOSTILE_EVERYWHERE");
 }
 
-ts_prepared* prepare(const ts_shape* a, const ts_shape*, double, double parameter) {
+ts_prepared* prepare(void*, const ts_shape* a, const ts_shape*, double, double parameter) {
   const Deed* const deed = &deeds[static_cast<int>(parameter) - 1];
   if (is_culprit(a) && deed->when == When::prepare) deed->plain();
   return new ts_prepared{deed, is_culprit(a)};
@@ -456,9 +456,9 @@ void release(ts_prepared* prepared) {
 
 // While it is loaded
 
-ts_candidate candidate = {"hostile", "1",     "does one deed", nullptr, &which,
-                          supports,  prepare, query,           release, nullptr};
-ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 1, &candidate};
+ts_candidate candidate = {"hostile", "1",   "does one deed", nullptr, &which, supports,
+                          prepare,   query, release,         nullptr, nullptr};
+ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 1, &candidate, nullptr, 0};
 
 /// Fills the available memory with letters, to the last byte.
 const char* endless_text() {
@@ -469,7 +469,7 @@ const char* endless_text() {
   mprotect(static_cast<char*>(memory) + 2 * page, page, PROT_NONE);
   return static_cast<const char*>(memory);
 }
-int supports_nothing_and_hangs(ts_shape_kind) { wait_for_ever(); }
+int supports_nothing_and_hangs(void*, ts_shape_kind) { wait_for_ever(); }
 void set_timer_of_the_host() {
   const itimerval later{{0, 0}, {0, 200000}};
   setitimer(ITIMER_REAL, &later, nullptr);

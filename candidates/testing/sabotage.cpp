@@ -93,8 +93,8 @@ constexpr int count = sizeof deeds / sizeof *deeds;
 
 const ts_parameter which = {"number of the deed", 1, count, count, 1, 0};
 
-int supports(ts_shape_kind kind) { return kind != TS_BOX; }
-ts_prepared* prepare(const ts_shape*, const ts_shape*, double, double parameter) {
+int supports(void*, ts_shape_kind kind) { return kind != TS_BOX; }
+ts_prepared* prepare(void*, const ts_shape*, const ts_shape*, double, double parameter) {
   return new ts_prepared{static_cast<int>(parameter) - 1};
 }
 void query(ts_prepared* prepared, const ts_pose*, const ts_pose*, const double*,
@@ -137,8 +137,8 @@ struct Declining {
   ts_shape a, plane;
   double factor;
 };
-int supports_planes(ts_shape_kind kind) { return kind == TS_PLANE; }
-ts_prepared* prepare_declining(const ts_shape* a, const ts_shape* b, double, double) {
+int supports_planes(void*, ts_shape_kind kind) { return kind == TS_PLANE; }
+ts_prepared* prepare_declining(void*, const ts_shape* a, const ts_shape* b, double, double) {
   const char* const factor = std::getenv("TOUCHSTONE_DECLINE");
   return reinterpret_cast<ts_prepared*>(new Declining{*a, *b, factor ? std::atof(factor) : 1});
 }
@@ -168,7 +168,7 @@ void release_declining(ts_prepared* p) { delete reinterpret_cast<Declining*>(p);
 // counting
 
 int prepared_pairs = 0, released_pairs = 0;
-ts_prepared* prepare_counted(const ts_shape*, const ts_shape*, double, double) {
+ts_prepared* prepare_counted(void*, const ts_shape*, const ts_shape*, double, double) {
   ++prepared_pairs;
   return new ts_prepared{0};
 }
@@ -183,16 +183,17 @@ void release_counted(ts_prepared* prepared) {
 }
 
 const ts_candidate candidates[] = {
-    {"misdeed", "1", "does one deed", nullptr, &which, supports, prepare, query, release, nullptr},
-    {"sabotage", "1", "does many deeds", nullptr, nullptr, supports, prepare, query_some, release,
+    {"misdeed", "1", "does one deed", nullptr, &which, supports, prepare, query, release, nullptr,
      nullptr},
+    {"sabotage", "1", "does many deeds", nullptr, nullptr, supports, prepare, query_some, release,
+     nullptr, nullptr},
     {"obedient", "1", "answers the previous normal", nullptr, nullptr, supports, prepare,
-     query_obedient, release, nullptr},
+     query_obedient, release, nullptr, nullptr},
     {"declining", "1", "exact for planes but where a cylinder lies", nullptr, nullptr,
-     supports_planes, prepare_declining, query_declining, release_declining, nullptr},
+     supports_planes, prepare_declining, query_declining, release_declining, nullptr, nullptr},
     {"counting", "1", "answers how many pairs it has prepared", nullptr, nullptr, supports,
-     prepare_counted, query_counted, release_counted, nullptr}};
-const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 5, candidates};
+     prepare_counted, query_counted, release_counted, nullptr, nullptr}};
+const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 5, candidates, nullptr, 0};
 
 }  // namespace
 

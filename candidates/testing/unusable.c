@@ -1,4 +1,4 @@
-/* Plug-ins that cannot be used, for tests: OLD is of an earlier interface version, DEADLY ends the
+/* Plug-ins that cannot be used, for tests: OLD is of interface version 2, DEADLY ends the
  * process that loads it. */
 #include <stdlib.h>
 
@@ -6,7 +6,7 @@
 
 #ifdef OLD
 const ts_plugin* touchstone_plugin(void) {
-  static const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION - 1, 0, 0};
+  static const ts_plugin plugin = {2, 0, 0, 0, 0};
   return &plugin;
 }
 #endif
