@@ -37,6 +37,8 @@ ENGINES = {
     "jolt-margin-0": Engine(["jolt.mjs", "margin-0"], 2e-6, 2e-6, 2e-4),
     "jolt-margin": Engine(["jolt.mjs", "margin"], 2e-6, 2e-6, 2e-4, parameter=0.02),
     "rapier": Engine(["rapier.mjs"], 2e-4, 1e-5, 5e-3),
+    "rapier-world": Engine(["rapier.mjs", "world"], 2e-4, 1e-5, 5e-3),
+    "physx-world": Engine(["physx.mjs", "world"], 5e-6, 2e-3, 2e-4),
     "physx": Engine(["physx.mjs"], 5e-6, 2e-3, 2e-4),
     "havok": Engine(["havok.mjs"], 5e-6, 5e-6, 2e-5, kinds=ALL[1:]),
     "mujoco3": Engine(["mujoco3.mjs"], 1e-6, 1e-6, 2e-3),
