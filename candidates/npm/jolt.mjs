@@ -3,39 +3,50 @@
 // Calls        TransformedShape::CollideShape of the cylinder's shape (shape 1) against a
 //              TransformedShape of the other body (shape 2), with the settings of a default
 //              CollideShapeSettings: collision and penetration tolerance 1e-4 m. This is what a world asks
-//              in its narrow phase before it clips faces to a manifold, which the package does not
-//              export: one point.
+//              in its narrow phase before it clips faces to a manifold: one point.
+//              jolt-world: both bodies are made for a world without gravity, which takes one step of 1 µs,
+//              and the manifold of its contact listener is taken; then they are destroyed, so that nothing
+//              is left of the pair. All of it is timed.
 // Shapes       CylinderShape and CapsuleShape along y, turned to ours; SphereShape, BoxShape, PlaneShape.
-// Margin       jolt: Jolt's convex radius of 0.05 m on cylinder and box, at most half of the smallest
+// Margin       jolt, jolt-world: Jolt's convex radius of 0.05 m on cylinder and box, at most half of the smallest
 //              half extent (Jolt refuses more than the whole one). It is taken from the inside: faces stay
 //              where they are, edges are rounded.
 //              jolt-margin-0: convex radius 0. jolt-margin:M: M metres, at most the smallest half extent.
-// Conventions  mPenetrationAxis moves shape 2 out; the normal is its opposite, made a unit vector.
-// Points       Midway between mContactPointOn1 and mContactPointOn2.
-// Threshold    mMaxSeparationDistance.
+// Conventions  mPenetrationAxis, and a manifold's normal, moves shape 2 out; which body is the manifold's
+//              first is checked.
+// Points       Midway between those on both bodies.
+// Threshold    mMaxSeparationDistance; the world's speculative contact distance, at least its own of 2 cm,
+//              and what lies beyond the threshold is dropped.
 // Precision    Poses are rounded to float.
 // Traps        Until a JoltInterface exists, every pair's function is null, and a query ends the program.
 //
-// node jolt.mjs [margin-0 | margin]
+// node jolt.mjs [margin-0 | margin | world]
 import { run } from '../clients/touchstone_candidate.mjs';
 import { Y_TO_Z, load, middle, multiply, smallest, versionOf } from './packages.mjs';
 
 const Jolt = await (await load('jolt-physics')).default();
 
 const settings = new Jolt.JoltSettings();
-settings.mObjectLayerPairFilter = new Jolt.ObjectLayerPairFilterTable(1);
-settings.mBroadPhaseLayerInterface = new Jolt.BroadPhaseLayerInterfaceTable(1, 1);
-settings.mObjectVsBroadPhaseLayerFilter = new Jolt.ObjectVsBroadPhaseLayerFilterTable(
-  settings.mBroadPhaseLayerInterface, 1, settings.mObjectLayerPairFilter, 1);
-new Jolt.JoltInterface(settings);
+const LAYER = 0;
+const layers = new Jolt.ObjectLayerPairFilterTable(1);
+layers.EnableCollision(LAYER, LAYER);
+const broadPhase = new Jolt.BroadPhaseLayerInterfaceTable(1, 1);
+broadPhase.MapObjectToBroadPhaseLayer(LAYER, new Jolt.BroadPhaseLayer(0));
+settings.mObjectLayerPairFilter = layers;
+settings.mBroadPhaseLayerInterface = broadPhase;
+settings.mObjectVsBroadPhaseLayerFilter = new Jolt.ObjectVsBroadPhaseLayerFilterTable(broadPhase, 1, layers, 1);
+const jolt = new Jolt.JoltInterface(settings);
 
 const one = new Jolt.Vec3(1, 1, 1), zero = new Jolt.RVec3(0, 0, 0);
+const upright = new Jolt.Quat(0, 0, 0, 1);
 const any = new Jolt.ShapeFilter();
 const position = new Jolt.RVec3(), rotation = new Jolt.Quat();
 
+const usual = { says: 'convex radius 0.05 m, at most half of the smallest half extent',
+  of: (shape) => Math.min(0.05, smallest(shape) / 2) };
 const MARGINS = {
-  undefined: { name: 'jolt', says: 'convex radius 0.05 m, at most half of the smallest half extent',
-    of: (shape) => Math.min(0.05, smallest(shape) / 2) },
+  undefined: { name: 'jolt', ...usual },
+  world: { name: 'jolt-world', ...usual },
   'margin-0': { name: 'jolt-margin-0', says: 'convex radius 0', of: () => 0 },
   margin: { name: 'jolt-margin', says: 'convex radius as given, at most the smallest half extent',
     of: (shape, margin) => Math.min(margin, smallest(shape)),
@@ -87,15 +98,11 @@ hits.AddHit = (address) => {
 
 const toArray = (v) => [v.GetX(), v.GetY(), v.GetZ()];
 
-run({
-  name: margin.name,
-  version: versionOf('jolt-physics'),
+const needsTurn = (shape) => shape.shape === 'cylinder' || shape.shape === 'capsule';
+
+const byQuery = {
   settings: `CollideShape, single precision; ${margin.says}; tolerances 1e-4; ` +
     'one point, midway between those on both bodies',
-  precision: 'float',
-  runs: 'wasm',
-  pairs: ['cylinder-plane', 'cylinder-sphere', 'cylinder-capsule', 'cylinder-cylinder', 'cylinder-box'],
-  parameter: margin.parameter,
 
   prepare(a, b, threshold, parameter) {
     const [shapeA, shapeB] = [a, b].map((shape) => makeShape(shape, margin.of(shape, parameter)));
@@ -104,7 +111,7 @@ run({
     body.mShape = shapeB;
     const query = new Jolt.CollideShapeSettings();
     query.mMaxSeparationDistance = threshold;
-    return { shapeA, body, query, turned: b.shape === 'cylinder' || b.shape === 'capsule' };
+    return { shapeA, body, query, turned: needsTurn(b) };
   },
 
   query({ shapeA, body, query, turned }, poseA, poseB) {
@@ -112,8 +119,8 @@ run({
     body.SetWorldTransform(position, rotation, one);
     place(poseA, true);
     hit = null;
-    body.CollideShape(shapeA, one, Jolt.RMat44.prototype.sRotationTranslation(rotation, position), query, zero,
-      hits, any);
+    body.CollideShape(shapeA, one, Jolt.RMat44.prototype.sRotationTranslation(rotation, position), query,
+      zero, hits, any);
     if (!hit) return null;
     const { distance, axis, onA, onB } = hit;
     const length = -Math.hypot(...axis);
@@ -127,4 +134,84 @@ run({
     Jolt.destroy(body);  // releases its shape
     Jolt.destroy(query);
   },
+};
+
+const system = jolt.GetPhysicsSystem(), bodies = system.GetBodyInterface();
+const physics = system.GetPhysicsSettings(), OWN_DISTANCE = physics.mSpeculativeContactDistance;
+const STEP = 1e-6;
+let manifold = null;  // of the last step, with A's body as the first
+
+function listen(idOfA) {
+  const listener = new Jolt.ContactListenerJS();
+  listener.OnContactValidate = () => Jolt.ValidateResult_AcceptAllContactsForThisBodyPair;
+  listener.OnContactAdded = (first, second, address) => {
+    const found = Jolt.wrapPointer(address, Jolt.ContactManifold);
+    const isFirst = Jolt.wrapPointer(first, Jolt.Body).GetID().GetIndex() === idOfA();
+    const normal = toArray(found.mWorldSpaceNormal).map((x) => isFirst ? -x : x);
+    const points = [];
+    for (let i = 0; i < found.mRelativeContactPointsOn1.size(); ++i) {
+      const ends = [toArray(found.GetWorldSpaceContactPointOn1(i)), toArray(found.GetWorldSpaceContactPointOn2(i))];
+      const [onA, onB] = isFirst ? ends : ends.reverse();
+      const depth = normal.reduce((sum, x, j) => sum + x * (onB[j] - onA[j]), 0);
+      points.push({ position: middle(onA, onB), normal, depth });
+    }
+    manifold = { signed_distance: -found.mPenetrationDepth, normal, points };
+  };
+  listener.OnContactPersisted = () => {};
+  listener.OnContactRemoved = () => {};
+  system.SetContactListener(listener);
+}
+
+let idOfA = -1;
+const byWorld = {
+  settings: `contact listener of a step of a world, single precision; ${margin.says}; points midway ` +
+    'between those on both bodies',
+
+  prepare(a, b, threshold) {
+    const [shapeA, shapeB] = [a, b].map((shape) => makeShape(shape, margin.of(shape)));
+    const made = (shape, motion) => new Jolt.BodyCreationSettings(shape, zero, upright, motion, LAYER);
+    return { a: made(shapeA, Jolt.EMotionType_Dynamic), b: made(shapeB, Jolt.EMotionType_Static), threshold,
+      turned: needsTurn(b) };
+  },
+
+  query({ a, b, threshold, turned }, poseA, poseB) {
+    const ids = [[b, poseB, turned], [a, poseA, true]].map(([settings, pose, alongY]) => {
+      place(pose, alongY);
+      settings.mPosition = position;
+      settings.mRotation = rotation;
+      const body = bodies.CreateBody(settings);
+      bodies.AddBody(body.GetID(), Jolt.EActivation_Activate);
+      return body.GetID();
+    });
+    idOfA = ids[1].GetIndex();
+    manifold = null;
+    physics.mSpeculativeContactDistance = Math.max(OWN_DISTANCE, threshold);
+    jolt.Step(STEP, 1);
+    for (const id of ids.reverse()) {
+      bodies.RemoveBody(id);
+      bodies.DestroyBody(id);
+    }
+    if (!manifold || manifold.signed_distance > threshold) return null;
+    return { ...manifold, points: manifold.points.filter(({ depth }) => -depth <= threshold) };
+  },
+
+  release({ a, b }) {
+    Jolt.destroy(a);  // release their shapes
+    Jolt.destroy(b);
+  },
+};
+
+if (margin.name === 'jolt-world') {
+  system.SetGravity(new Jolt.Vec3(0, 0, 0));
+  listen(() => idOfA);
+}
+
+run({
+  name: margin.name,
+  version: versionOf('jolt-physics'),
+  precision: 'float',
+  runs: 'wasm',
+  pairs: ['cylinder-plane', 'cylinder-sphere', 'cylinder-capsule', 'cylinder-cylinder', 'cylinder-box'],
+  parameter: margin.parameter,
+  ...margin.name === 'jolt-world' ? byWorld : byQuery,
 });

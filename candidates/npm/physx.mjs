@@ -1,19 +1,22 @@
 // PhysX 5.6.1 (npm's physx-js-webidl, compiled to WebAssembly), single precision.
 //
-// Calls        PxGjkQuery::proximityInfo, GJK and EPA, which a scene asks for convex cores; it gives one
-//              point, to which a scene adds others over several steps. The plane has no such query: both
-//              bodies are added to a scene without gravity, which takes one step of 1 µs, and the points of
-//              its contact report are taken; then they are removed, so that nothing is left of the pair.
+// Calls        physx: PxGjkQuery::proximityInfo, GJK and EPA, which a scene asks for convex cores; the plane
+//              has no such query and is asked as by physx-world.
+//              physx-world: both bodies are added to a scene without gravity, which takes one step of 1 µs,
+//              and the points of its contact report are taken; then they are removed, so that nothing is
+//              left of the pair. All of it is timed.
 // Shapes       PxConvexCoreGeometry of a PxConvexCoreCylinder, along x, turned to ours, height a full one;
 //              PxCapsuleGeometry along x; PxSphereGeometry, PxBoxGeometry, PxPlaneGeometry, solid below x = 0.
 // Margin       0 on all; the tolerance length of 1 m is PhysX's default.
 // Conventions  separatingAxis, and the normal of a contact report, points from the second body to the first.
-// Points       Midway between pointA and pointB; the plane's as in the report.
+// Points       Midway between pointA and pointB; of a scene as in the report.
 // Threshold    The query's contactDistance; in the scene, contacts beyond it are dropped. A contact offset of
 //              a thousandth of the cylinder's smaller size beyond the threshold is set, for PhysX wants more
 //              than zero.
 // Precision    Poses are rounded to float.
 // Traps        The package is built for browsers alone, and refuses to load where it sees node.
+//
+// node physx.mjs [world]
 import { run } from '../clients/touchstone_candidate.mjs';
 import fs from 'node:fs';
 import path from 'node:path';
@@ -104,16 +107,24 @@ function makeGeometry(shape) {
   }
 }
 
+/** Where PhysX has B's frame: cylinder and capsule along x, a plane's surface through the origin across x. */
+function frameOfB(b, { position, orientation }) {
+  if (b.shape === 'cylinder' || b.shape === 'capsule') return [position, multiply(orientation, X_TO_Z)];
+  if (b.shape !== 'plane') return [position, orientation];
+  const up = rotate(orientation, b.normal);
+  return [position.map((x, i) => x + b.displacement * up[i]), multiply(orientation, turn([1, 0, 0], b.normal))];
+}
+
 /** Two supports for PxGjkQuery. */
 function prepareQuery(a, b, threshold) {
   const geometries = [makeGeometry(a), makeGeometry(b)];
   return { geometries, supports: geometries.map((geometry) => new PhysX.ConvexGeomSupport(geometry, 0)),
-    turnOfB: { cylinder: X_TO_Z, capsule: X_TO_Z }[b.shape], threshold };
+    b, threshold };
 }
 
-function ask({ supports, turnOfB, threshold }, poseA, poseB) {
+function ask({ supports, b, threshold }, poseA, poseB) {
   place(poseOfA, poseA.position, multiply(poseA.orientation, X_TO_Z));
-  place(poseOfB, poseB.position, turnOfB ? multiply(poseB.orientation, turnOfB) : poseB.orientation);
+  place(poseOfB, ...frameOfB(b, poseB));
   const found = Gjk.proximityInfo(...supports, poseOfA, poseOfB, threshold, TOLERANCE_LENGTH, result);
   if (!found || result.separation > threshold) return null;
   const normal = toArray(result.separatingAxis), distance = result.separation;
@@ -129,14 +140,12 @@ function prepareScene(a, b, threshold) {
   shapes[1].setContactOffset(1e-30);
   const actors = [scene.physics.createRigidDynamic(poseOfA), scene.physics.createRigidStatic(poseOfB)];
   actors.forEach((actor, i) => actor.attachShape(shapes[i]));
-  return { geometries, shapes, actors, plane: b, turnOfPlane: turn([1, 0, 0], b.normal), threshold };
+  return { geometries, shapes, actors, b, threshold };
 }
 
-function step({ shapes, actors, plane, turnOfPlane, threshold }, poseA, poseB) {
+function step({ shapes, actors, b, threshold }, poseA, poseB) {
   place(poseOfA, poseA.position, multiply(poseA.orientation, X_TO_Z));
-  const up = rotate(poseB.orientation, plane.normal);
-  place(poseOfB, poseB.position.map((x, i) => x + plane.displacement * up[i]),
-    multiply(poseB.orientation, turnOfPlane));
+  place(poseOfB, ...frameOfB(b, poseB));
   actors[0].setGlobalPose(poseOfA);
   actors[1].setGlobalPose(poseOfB);
   scene.points = [];
@@ -151,16 +160,19 @@ function step({ shapes, actors, plane, turnOfPlane, threshold }, poseA, poseB) {
   return { signed_distance: -deepest.depth, normal: deepest.normal, points };
 }
 
+const inWorld = process.argv[2] === 'world';
+
 run({
-  name: 'physx',
+  name: inWorld ? 'physx-world' : 'physx',
   version: `5.6.1 (${versionOf('physx-js-webidl')})`,
-  settings: 'PxGjkQuery::proximityInfo, convex core of margin 0, single precision, one point midway between ' +
-    'the bodies; the plane: contact report of a step of a scene',
+  settings: inWorld ? 'contact report of a step of a scene, convex core of margin 0, single precision' :
+    'PxGjkQuery::proximityInfo, convex core of margin 0, single precision, one point midway between the ' +
+    'bodies; the plane: contact report of a step of a scene',
   precision: 'float',
   runs: 'wasm',
   pairs: ['cylinder-plane', 'cylinder-sphere', 'cylinder-capsule', 'cylinder-cylinder', 'cylinder-box'],
 
-  prepare: (a, b, threshold) => (b.shape === 'plane' ? prepareScene : prepareQuery)(a, b, threshold),
+  prepare: (a, b, threshold) => (inWorld || b.shape === 'plane' ? prepareScene : prepareQuery)(a, b, threshold),
 
   query: (prepared, poseA, poseB) => (prepared.actors ? step : ask)(prepared, poseA, poseB),
 

@@ -1,16 +1,23 @@
 // Rapier (npm's @dimforge/rapier3d-compat, compiled to WebAssembly), single precision.
 //
-// Calls        Shape.contactShape, which is parry's contact query: GJK, then EPA for bodies that overlap,
-//              closed forms for the plane's and the sphere's pairs.
+// Calls        rapier: Shape.contactShape, which is parry's contact query: GJK, then EPA for bodies that
+//              overlap, closed forms for the plane's and the sphere's pairs.
+//              rapier-world: both bodies are added to a world without gravity, which takes one step of
+//              1 µs, and the manifolds of World.contactPair are taken; then they are removed, so that
+//              nothing is left of the pair. All of it is timed.
 // Shapes       Cylinder and Capsule along y, turned to ours; Ball, Cuboid; HalfSpace, which passes through
 //              the origin of its frame: displaced along its normal.
 // Margin       None; Rapier's round shapes (RoundCylinder) are others.
 // Conventions  The normal is normal1 of B if B is the plane, which has to come first, otherwise normal2,
 //              which points out of B as well.
-// Points       One, midway between those on both bodies.
-// Threshold    The query's prediction; what lies beyond it nevertheless is dropped.
+//              A manifold's normal points from its first body to its second, which may be either.
+// Points       Midway between those on both bodies; of a query one.
+// Threshold    The query's prediction; the world's prediction distance, at least its own of 2 mm. What lies
+//              beyond the threshold nevertheless is dropped.
 // Precision    Poses are rounded to float.
 // Traps        A panic of Rust is a trap of WebAssembly: the client ends and is started again.
+//
+// node rapier.mjs [world]
 import { run } from '../clients/touchstone_candidate.mjs';
 import { Y_TO_Z, load, middle, multiply, rotate, versionOf } from './packages.mjs';
 
@@ -29,30 +36,30 @@ function makeShape(shape) {
 
 const toVector = ([x, y, z]) => ({ x, y, z });
 const toArray = ({ x, y, z }) => [x, y, z];
+const isAlongY = (shape) => shape.shape === 'cylinder' || shape.shape === 'capsule';
 function toQuaternion(pose, alongY) {
   const [w, x, y, z] = alongY ? multiply(pose.orientation, Y_TO_Z) : pose.orientation;
   return { x, y, z, w };
 }
 
-run({
+/** The place of a half-space, whose origin lies on its surface. */
+function onPlane(plane, pose) {
+  const up = rotate(pose.orientation, plane.normal);
+  return toVector(pose.position.map((x, i) => x + plane.displacement * up[i]));
+}
+
+const byQuery = {
   name: 'rapier',
-  version: versionOf('@dimforge/rapier3d-compat'),
   settings: 'contactShape, single precision, no margin; one point, midway between those on both bodies',
-  precision: 'float',
-  runs: 'wasm',
-  pairs: ['cylinder-plane', 'cylinder-sphere', 'cylinder-capsule', 'cylinder-cylinder', 'cylinder-box'],
 
-  prepare: (a, b, threshold) => ({ b, shapeA: makeShape(a), shapeB: makeShape(b), threshold,
-    turned: b.shape === 'cylinder' || b.shape === 'capsule' }),
+  prepare: (a, b, threshold) => ({ b, shapeA: makeShape(a), shapeB: makeShape(b), threshold }),
 
-  query({ b, shapeA, shapeB, threshold, turned }, poseA, poseB) {
+  query({ b, shapeA, shapeB, threshold }, poseA, poseB) {
     const atA = toVector(poseA.position), turnA = toQuaternion(poseA, true);
-    const turnB = toQuaternion(poseB, turned);
+    const turnB = toQuaternion(poseB, isAlongY(b));
     let found, normal;
     if (b.shape === 'plane') {
-      const up = rotate(poseB.orientation, b.normal);
-      const atB = toVector(poseB.position.map((x, i) => x + b.displacement * up[i]));
-      found = shapeB.contactShape(atB, turnB, shapeA, atA, turnA, threshold);
+      found = shapeB.contactShape(onPlane(b, poseB), turnB, shapeA, atA, turnA, threshold);
       normal = found && toArray(found.normal1);
     } else {
       found = shapeA.contactShape(atA, turnA, shapeB, toVector(poseB.position), turnB, threshold);
@@ -60,6 +67,62 @@ run({
     }
     if (!found || found.distance > threshold) return null;
     const position = middle(toArray(found.point1), toArray(found.point2));
-    return { signed_distance: found.distance, normal, points: [{ position, normal, depth: -found.distance }] };
+    return { signed_distance: found.distance, normal,
+      points: [{ position, normal, depth: -found.distance }] };
   },
+};
+
+const world = new RAPIER.World({ x: 0, y: 0, z: 0 });
+world.timestep = 1e-6;
+const OWN_PREDICTION = world.integrationParameters.normalizedPredictionDistance;
+
+const byWorld = {
+  name: 'rapier-world',
+  settings: 'contactPair after a step of a world, single precision, no margin; points midway between the bodies',
+
+  prepare: (a, b, threshold) => ({ b, threshold, bodyA: RAPIER.RigidBodyDesc.dynamic(),
+    bodyB: RAPIER.RigidBodyDesc.fixed(), colliderA: new RAPIER.ColliderDesc(makeShape(a)),
+    colliderB: new RAPIER.ColliderDesc(makeShape(b)) }),
+
+  query({ b, threshold, bodyA, bodyB, colliderA, colliderB }, poseA, poseB) {
+    const atA = toVector(poseA.position), turnA = toQuaternion(poseA, true);
+    const turnB = toQuaternion(poseB, isAlongY(b));
+    const atB = b.shape === 'plane' ? onPlane(b, poseB) : toVector(poseB.position);
+    world.integrationParameters.normalizedPredictionDistance = Math.max(OWN_PREDICTION, threshold);
+    bodyA.setTranslation(atA.x, atA.y, atA.z).setRotation(turnA);
+    bodyB.setTranslation(atB.x, atB.y, atB.z).setRotation(turnB);
+    const [madeB, madeA] = [bodyB, bodyA].map((body) => world.createRigidBody(body));
+    const inB = world.createCollider(colliderB, madeB), inA = world.createCollider(colliderA, madeA);
+    try {
+      world.step();
+      const points = [];
+      const place = ({ x, y, z, w }, at, v) => rotate([w, x, y, z], toArray(v)).map((u, i) => u + at[i]);
+      world.contactPair(inA, inB, (manifold, flipped) => {
+        const sign = flipped ? 1 : -1;
+        const normal = toArray(manifold.normal()).map((x) => sign * x);
+        for (let i = 0; i < manifold.numContacts(); ++i) {
+          const distance = manifold.contactDist(i);
+          if (distance > threshold) continue;
+          const ends = [manifold.localContactPoint1(i), manifold.localContactPoint2(i)];
+          const [onA, onB] = flipped ? ends.reverse() : ends;
+          points.push({ depth: -distance, normal, position: middle(
+            place(turnA, toArray(atA), onA), place(turnB, toArray(atB), onB)) });
+        }
+      });
+      if (points.length === 0) return null;
+      const deepest = points.reduce((u, v) => v.depth > u.depth ? v : u);
+      return { signed_distance: -deepest.depth, normal: deepest.normal, points };
+    } finally {
+      world.removeRigidBody(madeA);
+      world.removeRigidBody(madeB);
+    }
+  },
+};
+
+run({
+  ...process.argv[2] === 'world' ? byWorld : byQuery,
+  version: versionOf('@dimforge/rapier3d-compat'),
+  precision: 'float',
+  runs: 'wasm',
+  pairs: ['cylinder-plane', 'cylinder-sphere', 'cylinder-capsule', 'cylinder-cylinder', 'cylinder-box'],
 });
