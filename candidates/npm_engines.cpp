@@ -30,8 +30,11 @@ const std::vector<NpmEngine>& npm_engines() {
       {"jolt", "jolt-physics", "jolt.mjs"},
       {"jolt-margin-0", "jolt-physics", "jolt.mjs margin-0"},
       {"jolt-margin", "jolt-physics", "jolt.mjs margin"},
+      {"jolt-world", "jolt-physics", "jolt.mjs world"},
       {"rapier", "@dimforge/rapier3d-compat", "rapier.mjs"},
+      {"rapier-world", "@dimforge/rapier3d-compat", "rapier.mjs world"},
       {"physx", "physx-js-webidl", "physx.mjs"},
+      {"physx-world", "physx-js-webidl", "physx.mjs world"},
       {"havok", "@babylonjs/havok", "havok.mjs"},
       {"mujoco3", "@mujoco/mujoco", "mujoco3.mjs"},
       {"mujoco3-single", "@mujoco/mujoco", "mujoco3.mjs single"}};
