@@ -9,15 +9,15 @@
 #include <system_error>
 
 namespace touchstone {
-namespace {
 
-/// Seconds of processor time that a process has used; zero if it has ended.
 double processor_seconds(pid_t process) {
   clockid_t clock;
   timespec time{};
   if (clock_getcpuclockid(process, &clock) != 0 || clock_gettime(clock, &time) != 0) return 0;
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
+
+namespace {
 
 struct Threads {
   bool one_can_run = false;

@@ -6,6 +6,9 @@
 
 namespace touchstone {
 
+/// Seconds of processor time that a process has used; zero if it has ended.
+double processor_seconds(pid_t process);
+
 /// Measures how a process spends its time: computing, waiting for something, or waiting for a
 /// processor, which on a busy machine is not its own fault.
 class Watch {
