@@ -1,5 +1,6 @@
 // The gap along a given direction, and the regret of having chosen it.
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
 
 #include "oracle/difference.hpp"
@@ -31,31 +32,61 @@ Ball gap_above_column(const Difference& difference, const BallDifference& balls,
 
 }  // namespace
 
-Enclosure certified_gap(const Configuration& configuration, const Vec3& n, double width) {
-  if (!n.allFinite() || n.isZero(0)) {
-    throw InvalidInput("n", "not a direction", "must be finite and not zero");
-  }
-  const Difference difference = make_difference(configuration);
-  const mpq_class wanted = width_in_units(difference, configuration, width);
-  const IntegerVector direction = in_frame_of_a(difference, n);
-  for (long bits = first_bits; bits <= last_bits; bits *= 2) {
-    const WorkingPrecision precision(bits);
-    const BallDifference balls(difference);
-    const BallVector along = to_balls(direction);
-    const Ball value =
-        difference.is_plane ? gap_above_column(difference, balls, along) : balls.gap(along);
-    if (!value.is_finite()) continue;
-    const mpq_class lo = value.lower(), hi = value.upper();
-    if (hi - lo <= wanted) return {lo * difference.unit, hi * difference.unit};
-  }
-  throw std::logic_error("oracle: the gap could not be enclosed");
-}
+/// The exact difference is made once; so are its balls of the first precision, which is nearly
+/// always enough.
+struct Gaps::State {
+  State(const Configuration& configuration, double width)
+      : difference(make_difference(configuration)),
+        wanted(width_in_units(difference, configuration, width)) {}
 
-double normal_regret(const Configuration& configuration, const Truth& truth, const Vec3& n) {
-  const Enclosure g = certified_gap(configuration, n);
+  Enclosure along(const Vec3& n) {
+    if (!n.allFinite() || n.isZero(0)) {
+      throw InvalidInput("n", "not a direction", "must be finite and not zero");
+    }
+    const IntegerVector direction = in_frame_of_a(difference, n);
+    for (long bits = first_bits; bits <= last_bits; bits *= 2) {
+      const WorkingPrecision precision(bits);
+      if (bits == first_bits && !first) first.emplace(difference);
+      const Ball value =
+          bits == first_bits ? gap(*first, direction) : gap(BallDifference(difference), direction);
+      if (!value.is_finite()) continue;
+      const mpq_class lo = value.lower(), hi = value.upper();
+      if (hi - lo <= wanted) return {lo * difference.unit, hi * difference.unit};
+    }
+    throw std::logic_error("oracle: the gap could not be enclosed");
+  }
+
+  Ball gap(const BallDifference& balls, const IntegerVector& direction) const {
+    const BallVector n = to_balls(direction);
+    return difference.is_plane ? gap_above_column(difference, balls, n) : balls.gap(n);
+  }
+
+  Difference difference;
+  mpq_class wanted;  ///< width in units
+  std::optional<BallDifference> first;
+};
+
+Gaps::Gaps(const Configuration& configuration, double width)
+    : state_(std::make_unique<State>(configuration, width)) {}
+Gaps::Gaps(Gaps&&) noexcept = default;
+Gaps& Gaps::operator=(Gaps&&) noexcept = default;
+Gaps::~Gaps() = default;
+
+Enclosure Gaps::along(const Vec3& n) { return state_->along(n); }
+
+double Gaps::regret(const Truth& truth, const Vec3& n) {
+  const Enclosure g = along(n);
   const mpq_class middle = (truth.signed_distance.lo + truth.signed_distance.hi) / 2;
   const mpq_class regret = middle - (g.lo + g.hi) / 2;
   return std::max(0.0, regret.get_d());
+}
+
+Enclosure certified_gap(const Configuration& configuration, const Vec3& n, double width) {
+  return Gaps(configuration, width).along(n);
+}
+
+double normal_regret(const Configuration& configuration, const Truth& truth, const Vec3& n) {
+  return Gaps(configuration).regret(truth, n);
 }
 
 }  // namespace touchstone::oracle

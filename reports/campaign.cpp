@@ -39,8 +39,9 @@ void score_configurations(std::span<const Configuration> configurations,
     ScoredConfiguration scored{c, oracle::truth(c, width), 0, {}, {}};
     const auto end = std::chrono::steady_clock::now();
     scored.oracle_microseconds = std::chrono::duration<double, std::micro>(end - start).count();
+    Judge judge(c, scored.truth, bar);
     for (auto& of_candidate : answers) {
-      scored.scores.push_back(score(c, scored.truth, of_candidate[i], bar));
+      scored.scores.push_back(judge.score(of_candidate[i]));
       scored.answers.push_back(std::move(of_candidate[i]));
     }
     take(scored);

@@ -148,9 +148,8 @@ std::vector<DrakeCase> drake_cases(Pair pair) {
   return result;
 }
 
-DrakeProtocol drake_protocol(const Campaign& campaign) {
+DrakeProtocol drake_protocol(const Campaign& campaign, std::vector<CandidateProcess>& candidates) {
   DrakeProtocol protocol{depth, {}, {}};
-  auto candidates = start(campaign.candidates, campaign.bar.threshold, campaign.limits);
   for (const Pair pair : campaign.pairs) {
     const PublishedPair* const known = find_published(pair);
     if (!known) continue;

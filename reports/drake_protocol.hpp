@@ -17,6 +17,6 @@ std::vector<DrakeCase> drake_cases(Pair pair);
 
 /// The worst absolute error of every candidate in signed distance beside those that Drake publishes
 /// of itself.
-DrakeProtocol drake_protocol(const Campaign& campaign);
+DrakeProtocol drake_protocol(const Campaign& campaign, std::vector<CandidateProcess>& candidates);
 
 }  // namespace touchstone

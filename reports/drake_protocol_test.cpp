@@ -35,7 +35,8 @@ TEST(DrakeProtocol, ReportsTheWorstErrorAndItsPose) {
   Campaign campaign;
   campaign.pairs = {Pair::plane, Pair::box};
   campaign.candidates = find_candidates({"reference", "bullet"});
-  const DrakeProtocol protocol = drake_protocol(campaign);
+  auto candidates = start(campaign.candidates, campaign.bar.threshold, campaign.limits);
+  const DrakeProtocol protocol = drake_protocol(campaign, candidates);
   ASSERT_EQ(protocol.results.size(), 4u);
   EXPECT_EQ(protocol.pairs[1].penetration, 1e-3);
   const DrakeProtocol::Result& ours = protocol.results[2];

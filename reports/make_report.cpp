@@ -23,6 +23,10 @@
 namespace touchstone {
 namespace {
 
+/// Configurations that candidates answer in one session: a new one costs a candidate as much as
+/// hundreds of answers.
+constexpr std::uint64_t run_size = 256;
+
 /// What is known of each cell; absent where the run was interrupted before all of it was scored.
 std::vector<std::optional<Sample>> sample_cells(const Campaign& campaign,
                                                 const std::vector<Cell>& cells) {
@@ -38,11 +42,21 @@ std::vector<std::optional<Sample>> sample_cells(const Campaign& campaign,
   std::vector<std::optional<Sample>> parts(units.size());
   Progress progress("configurations", configurations);
   std::uint64_t done = 0;
+  const std::vector<UnitRun> runs = runs_of(units, run_size);
+  std::vector<std::size_t> first_of_run;
+  for (std::size_t unit = 0; const UnitRun& run : runs) {
+    first_of_run.push_back(unit);
+    unit += run.size();
+  }
   sample(
-      campaign, Purpose::report, units.size(), [&](std::uint64_t number) { return units[number]; },
-      [&](std::uint64_t number, Sample part) {
-        parts[number] = std::move(part);
-        progress.update(done += units[number].last - units[number].first);
+      campaign, Purpose::report, runs.size(), [&](std::uint64_t number) { return runs[number]; },
+      [&](std::uint64_t number, std::vector<Sample> samples) {
+        for (std::size_t i = 0; i < samples.size(); ++i) {
+          parts[first_of_run[number] + i] = std::move(samples[i]);
+          const Unit& unit = runs[number][i];
+          done += unit.last - unit.first;
+        }
+        progress.update(done);
       },
       [] { return !interrupted(); });
 
@@ -181,8 +195,11 @@ void rank(std::span<ResultRow> rows, const std::function<bool(const ResultRow&)>
 Report make_report(const Campaign& campaign, const std::string& command) {
   const auto start = std::chrono::steady_clock::now();
   const std::vector<Cell> all = cells(campaign);
+  // Started before samples fill the memory: a session is a fork of a fork of this process, and
+  // costs the more the larger that was.
+  auto candidates = touchstone::start(campaign.candidates, campaign.bar.threshold, campaign.limits);
   const std::vector<std::optional<Sample>> samples = sample_cells(campaign, all);
-  const Times times = time_queries(campaign, all, samples);
+  const Times times = time_queries(campaign, all, samples, candidates);
 
   Report report;
   report.version = TOUCHSTONE_VERSION;
@@ -237,7 +254,7 @@ Report make_report(const Campaign& campaign, const std::string& command) {
     if (std::any_of(of_groups.begin(), of_groups.end(), is_of)) report.recorded.push_back(s);
   }
   report.worst = worst_of(campaign, all, samples, of_groups);
-  if (!report.partial) report.drake_protocol = drake_protocol(campaign);
+  if (!report.partial) report.drake_protocol = drake_protocol(campaign, candidates);
   report.wall_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return report;

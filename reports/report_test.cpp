@@ -146,7 +146,8 @@ TEST(Report, RanksNobodyWithinTheSpreads) {
   const json report = report_of(small_campaign());
   for (const json& row : report["summary"]) {
     const json& time = row["nanoseconds"];
-    ASSERT_EQ(time["repetitions"], 11);
+    ASSERT_GE(time["repetitions"], 5);
+    ASSERT_LE(time["repetitions"], 11);
     EXPECT_LE(time["low"], time["median"]);
     EXPECT_LE(time["median"], time["high"]);
     EXPECT_LE(time["ratio_low"], time["ratio_to_bullet"]);

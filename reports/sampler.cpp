@@ -183,45 +183,83 @@ Sample Sample::from_bytes(const std::string& bytes, std::size_t candidates, Purp
   return result;
 }
 
-Sample sample_unit(const Campaign& campaign, Purpose purpose,
-                   std::span<CandidateProcess* const> candidates, const Cell& cell,
-                   const Unit& unit) {
-  const auto identity = [&](std::uint64_t index) {
-    return Identity{cell.pair, cell.pose_class, campaign.seed, index};
+std::vector<UnitRun> runs_of(const std::vector<Unit>& units, std::uint64_t max_size) {
+  std::vector<UnitRun> runs;
+  std::uint64_t room = 0;
+  for (const Unit& unit : units) {
+    const std::uint64_t size = unit.last - unit.first;
+    if (runs.empty() || size > room) {
+      runs.emplace_back();
+      room = std::max(size, max_size);
+    }
+    runs.back().push_back(unit);
+    room -= size;
+  }
+  return runs;
+}
+
+std::vector<Sample> sample_run(const Campaign& campaign, Purpose purpose,
+                               std::span<CandidateProcess* const> candidates,
+                               const std::vector<Cell>& cells, const UnitRun& run) {
+  /// Where a configuration belongs.
+  struct Place {
+    std::size_t unit;
+    std::uint64_t index;
   };
   std::vector<Configuration> configurations;
-  for (std::uint64_t i = unit.first; i < unit.last; ++i) {
-    configurations.push_back(make_configuration(identity(i)));
+  std::vector<Place> places;
+  const auto identity = [&](const Place& place) {
+    const Cell& cell = cells[run[place.unit].cell];
+    return Identity{cell.pair, cell.pose_class, campaign.seed, place.index};
+  };
+  for (std::size_t unit = 0; unit < run.size(); ++unit) {
+    for (std::uint64_t i = run[unit].first; i < run[unit].last; ++i) {
+      places.push_back({unit, i});
+      configurations.push_back(make_configuration(identity(places.back())));
+    }
   }
-  Sample result(candidates.size(), purpose);
-  std::uint64_t index = unit.first;
+  std::vector<Sample> result(run.size(), Sample(candidates.size(), purpose));
+  std::size_t at = 0;
   try {
     score_configurations(configurations, candidates, campaign.bar, truth_width,
-                         [&](const ScoredConfiguration& s) { result.add(unit.cell, index++, s); });
+                         [&](const ScoredConfiguration& scored) {
+                           const auto [unit, index] = places[at];
+                           result[unit].add(run[unit].cell, index, scored);
+                           ++at;
+                         });
   } catch (const std::exception& e) {
-    throw std::runtime_error(to_string(identity(index)) + ": " + e.what());
+    throw std::runtime_error(to_string(identity(places[at])) + ": " + e.what());
   }
   return result;
 }
 
 bool sample(const Campaign& campaign, Purpose purpose, std::uint64_t count,
-            const std::function<Unit(std::uint64_t)>& unit,
-            const std::function<void(std::uint64_t, Sample)>& take,
+            const std::function<UnitRun(std::uint64_t)>& run,
+            const std::function<void(std::uint64_t, std::vector<Sample>)>& take,
             const std::function<bool()>& go_on) {
   const std::vector<Cell> all = cells(campaign);
   WorkerCandidates candidates(campaign.candidates, campaign.bar.threshold, campaign.limits);
   return stream_from_processes(
       count, campaign.workers,
       [&](std::uint64_t task) {
-        const Unit u = unit(task);
-        return sample_unit(campaign, purpose, pointers(candidates.get()), all[u.cell], u).bytes();
+        ByteWriter out;
+        for (const Sample& of_unit :
+             sample_run(campaign, purpose, pointers(candidates.get()), all, run(task))) {
+          out.put(of_unit.bytes());
+        }
+        return out.take();
       },
       [&](std::uint64_t task) {
-        const auto [cell, first, last] = unit(task);
+        const auto [cell, first, last] = run(task).front();
         return to_string(Identity{all[cell].pair, all[cell].pose_class, campaign.seed, first});
       },
       [&](std::uint64_t task, const std::string& bytes) {
-        take(task, Sample::from_bytes(bytes, campaign.candidates.size(), purpose));
+        ByteReader in(bytes);
+        std::vector<Sample> samples;
+        for (auto left = run(task).size(); left > 0; --left) {
+          samples.push_back(Sample::from_bytes(in.get_text(), campaign.candidates.size(), purpose));
+        }
+        take(task, std::move(samples));
       },
       go_on);
 }

@@ -13,8 +13,7 @@
 
 namespace touchstone {
 
-/// A run of configurations of one cell (pair × class): indices first … last − 1. A unit has a
-/// session of its own.
+/// Consecutive configurations of one cell (pair × class): indices first … last − 1.
 struct Unit {
   /// Few enough that a checkpoint loses little, enough that new sessions cost little.
   static constexpr std::uint64_t max_size = 512;
@@ -22,6 +21,14 @@ struct Unit {
   std::size_t cell;
   std::uint64_t first, last;
 };
+
+/// Units that one worker scores in turn, in one session of each candidate as long as it survives.
+/// Runs are fixed by whoever plans them, so that answers, even of a candidate with a memory, do not
+/// depend on the number of workers.
+using UnitRun = std::vector<Unit>;
+
+/// Joins successive units to runs of up to `max_size` configurations, or of one larger unit.
+std::vector<UnitRun> runs_of(const std::vector<Unit>& units, std::uint64_t max_size);
 
 /// What scores are kept for.
 enum class Purpose {
@@ -67,20 +74,22 @@ struct Sample {
   std::map<std::pair<std::size_t, std::uint64_t>, std::string> examined_;
 };
 
-/// Scores the campaign's units 0 … count − 1, as `unit` numbers them, spread over worker processes,
-/// in each of which every candidate has a process of its own. Samples are handed over as they come,
-/// in no certain order; they depend neither on the number of workers nor on other candidates. Ends
-/// early, without the units in hand, once `go_on` returns false; it is called every 100 ms or more
-/// often. Returns whether all units were scored. Throws std::runtime_error naming the configuration
-/// whose truth contradicts itself, or the unit in which a worker died.
+/// Scores the campaign's runs 0 … count − 1, as `run` numbers them, spread over worker processes,
+/// in each of which every candidate has a process of its own. The samples of a run's units are
+/// handed over as they come, runs in no certain order; they depend neither on the number of workers
+/// nor on other candidates. Ends early, without the runs in hand, once `go_on` returns false; it is
+/// called every 100 ms or more often. Returns whether all runs were scored. Throws
+/// std::runtime_error naming the configuration whose truth contradicts itself, or the run in which
+/// a worker died by its first configuration.
 bool sample(const Campaign& campaign, Purpose purpose, std::uint64_t count,
-            const std::function<Unit(std::uint64_t)>& unit,
-            const std::function<void(std::uint64_t, Sample)>& take,
+            const std::function<UnitRun(std::uint64_t)>& run,
+            const std::function<void(std::uint64_t, std::vector<Sample>)>& take,
             const std::function<bool()>& go_on);
 
-/// Scores one unit in this process.
-Sample sample_unit(const Campaign& campaign, Purpose purpose,
-                   std::span<CandidateProcess* const> candidates, const Cell& cell,
-                   const Unit& unit);
+/// Scores one run in this process; `cells` are those of the campaign. Returns a sample of each
+/// unit.
+std::vector<Sample> sample_run(const Campaign& campaign, Purpose purpose,
+                               std::span<CandidateProcess* const> candidates,
+                               const std::vector<Cell>& cells, const UnitRun& run);
 
 }  // namespace touchstone

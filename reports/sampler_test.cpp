@@ -25,8 +25,8 @@ Campaign small_campaign() {
 Sample sample_of(const Campaign& campaign, Purpose purpose, std::size_t cell, std::uint64_t first,
                  std::uint64_t last) {
   auto processes = start(campaign.candidates, 0);
-  return sample_unit(campaign, purpose, pointers(processes), cells(campaign)[cell],
-                     {cell, first, last});
+  return sample_run(campaign, purpose, pointers(processes), cells(campaign), {{cell, first, last}})
+      .front();
 }
 
 /// Everything in it but the oracle's times.
@@ -109,13 +109,16 @@ TEST(Sampler, HandsOverEveryUnitOnceWhateverTheNumberOfWorkers) {
     campaign.workers = workers;
     std::vector<std::string> units(6);
     EXPECT_TRUE(sample(
-        campaign, Purpose::report, units.size(),
-        [](std::uint64_t number) {
-          return Unit{number / 2, number % 2 * 3, number % 2 * 3 + 3};
+        campaign, Purpose::report, units.size() / 2,
+        [](std::uint64_t cell) {
+          return UnitRun{{cell, 0, 3}, {cell, 3, 6}};
         },
-        [&](std::uint64_t number, const Sample& unit) {
-          EXPECT_TRUE(units[number].empty());
-          units[number] = text(unit, Purpose::report);
+        [&](std::uint64_t cell, const std::vector<Sample>& samples) {
+          ASSERT_EQ(samples.size(), 2u);
+          for (std::size_t i = 0; i < 2; ++i) {
+            EXPECT_TRUE(units[2 * cell + i].empty());
+            units[2 * cell + i] = text(samples[i], Purpose::report);
+          }
         },
         [] { return true; }));
     return units;
@@ -128,9 +131,43 @@ TEST(Sampler, EndsWhenItIsTold) {
   EXPECT_FALSE(sample(
       campaign, Purpose::campaign, 1000000,
       [](std::uint64_t) {
-        return Unit{0, 0, 1};
+        return UnitRun{{0, 0, 1}};
       },
-      [](std::uint64_t, const Sample&) {}, [] { return false; }));
+      [](std::uint64_t, const std::vector<Sample>&) {}, [] { return false; }));
+}
+
+TEST(Sampler, OfUnitsInOneSessionGivesWhatEachGivesInItsOwn) {
+  const Campaign campaign = small_campaign();
+  auto processes = start(campaign.candidates, 0);
+  const UnitRun run = {{0, 0, 4}, {1, 0, 6}, {2, 2, 6}, {4, 0, 1}};
+  for (const Purpose purpose : {Purpose::report, Purpose::campaign}) {
+    const auto samples = sample_run(campaign, purpose, pointers(processes), cells(campaign), run);
+    ASSERT_EQ(samples.size(), run.size());
+    for (std::size_t i = 0; i < run.size(); ++i) {
+      EXPECT_EQ(
+          text(samples[i], purpose),
+          text(sample_of(campaign, purpose, run[i].cell, run[i].first, run[i].last), purpose));
+    }
+  }
+}
+
+TEST(Runs, HoldAllUnitsInOrderAndNoMoreConfigurationsThanAsked) {
+  const std::vector<Unit> units = {{0, 0, 20},    {1, 0, 20}, {2, 0, 25}, {3, 0, 512},
+                                   {3, 512, 520}, {4, 0, 1},  {5, 0, 63}};
+  const std::vector<UnitRun> runs = runs_of(units, 64);
+  std::vector<std::size_t> sizes;
+  std::vector<Unit> joined;
+  for (const UnitRun& run : runs) {
+    sizes.push_back(run.size());
+    joined.insert(joined.end(), run.begin(), run.end());
+  }
+  EXPECT_EQ(sizes, (std::vector<std::size_t>{2, 1, 1, 2, 1}));
+  ASSERT_EQ(joined.size(), units.size());
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    EXPECT_EQ(joined[i].cell, units[i].cell);
+    EXPECT_EQ(joined[i].first, units[i].first);
+    EXPECT_EQ(joined[i].last, units[i].last);
+  }
 }
 
 TEST(Sampler, MakesConfigurationsOfEveryShapeAgainToTheLastBit) {

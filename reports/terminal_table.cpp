@@ -208,8 +208,8 @@ std::string terminal_table(const Report& report) {
   if (timed) {
     text += fmt::format(
         "ns, times: median of one query; as a multiple of Bullet's, ~ where the spreads\n"
-        "  of {} repetitions overlap: a tie\n",
-        timing_repetitions);
+        "  of {} to {} repetitions overlap: a tie\n",
+        min_repetitions, max_repetitions);
   }
   return text + commands_text(report, timed) + contrasts_text(report) + failures_text(report);
 }

@@ -30,14 +30,17 @@ std::vector<Repetitions> time_cell(const Sample& sample, std::vector<CandidatePr
     if (!configurations.empty() && candidates[k].prepare_timing(configurations)) order.push_back(k);
   }
   std::vector<Repetitions> result(candidates.size());
-  for (std::size_t repetition = 0; repetition < timing_repetitions; ++repetition) {
+  for (std::size_t repetition = 0; repetition < max_repetitions; ++repetition) {
     std::shuffle(order.begin(), order.end(), random);
-    for (const std::size_t k : order) {
-      if (const auto cost = candidates[k].cost_per_query()) result[k].push_back(*cost);
-    }
-  }
-  for (Repetitions& r : result) {
-    if (r.size() < timing_repetitions) r.clear();  // it died in between
+    std::erase_if(order, [&](std::size_t k) {
+      const auto cost = candidates[k].cost_per_query();
+      if (!cost) {
+        result[k].clear();  // it died
+        return true;
+      }
+      result[k].push_back(*cost);
+      return result[k].size() >= min_repetitions && is_settled(result[k]);
+    });
   }
   return result;
 }
@@ -61,14 +64,25 @@ bool all_counted(const Repetitions& repetitions) {
                      [](const QueryCost& c) { return c.instructions.has_value(); });
 }
 
-/// Median over the cells, of each repetition.
+/// The largest number of repetitions on one of the cells.
+std::size_t repetitions_on(const Times& times, const std::vector<std::size_t>& cells,
+                           std::size_t candidate) {
+  std::size_t max = 0;
+  for (const std::size_t cell : cells) max = std::max(max, times[cell][candidate].size());
+  return max;
+}
+
+/// Median over the cells, of each of so many repetitions. Precondition: all cells were timed.
 template <class Value>
 std::vector<double> over_cells(const Times& times, const std::vector<std::size_t>& cells,
-                               std::size_t candidate, const Value& value) {
+                               std::size_t candidate, std::size_t repetitions, const Value& value) {
   std::vector<double> result;
-  for (std::size_t r = 0; r < timing_repetitions && !cells.empty(); ++r) {
+  for (std::size_t r = 0; r < repetitions; ++r) {
     std::vector<double> values;
-    for (const std::size_t cell : cells) values.push_back(value(times[cell][candidate][r]));
+    for (const std::size_t cell : cells) {
+      const Repetitions& of_cell = times[cell][candidate];
+      values.push_back(value(of_cell[r % of_cell.size()]));
+    }
     result.push_back(quantiles(std::move(values))->median);
   }
   return result;
@@ -79,7 +93,8 @@ double nanoseconds(const QueryCost& cost) { return cost.nanoseconds; }
 }  // namespace
 
 Times time_queries(const Campaign& campaign, const std::vector<Cell>& cells,
-                   const std::vector<std::optional<Sample>>& samples) {
+                   const std::vector<std::optional<Sample>>& samples,
+                   std::vector<CandidateProcess>& candidates) {
   Times times(samples.size(), std::vector<Repetitions>(campaign.candidates.size()));
   if (interrupted()) return times;
   std::vector<std::size_t> timed;
@@ -89,12 +104,19 @@ Times time_queries(const Campaign& campaign, const std::vector<Cell>& cells,
   }
   Progress progress("pose classes timed", timed.size());
   std::mt19937_64 random(campaign.seed);
-  auto candidates = start(campaign.candidates, campaign.bar.threshold, campaign.limits);
   for (std::size_t done = 0; done < timed.size() && !interrupted(); ++done) {
     times[timed[done]] = time_cell(*samples[timed[done]], candidates, random);
     progress.update(done + 1);
   }
   return times;
+}
+
+bool is_settled(const Repetitions& repetitions) {
+  constexpr double tolerance = 0.03;
+  std::vector<double> times;
+  for (const QueryCost& cost : repetitions) times.push_back(cost.nanoseconds);
+  const auto s = spread(std::move(times));
+  return s && s->high - s->low <= tolerance * s->median;
 }
 
 std::optional<Spread> spread(std::vector<double> values) {
@@ -113,17 +135,19 @@ std::optional<QueryTime> query_time(const Times& times, const std::vector<std::s
     timed.push_back(cell);
     if (all_counted(r)) counted.push_back(cell);
   }
-  const auto time = spread(over_cells(times, timed, candidate, nanoseconds));
+  const std::size_t repetitions = repetitions_on(times, timed, candidate);
+  const auto time = spread(over_cells(times, timed, candidate, repetitions, nanoseconds));
   if (!time) return std::nullopt;
-  QueryTime result{*time, timing_repetitions, std::nullopt, std::nullopt, std::nullopt};
+  QueryTime result{*time, repetitions, std::nullopt, std::nullopt, std::nullopt};
   if (counted == timed) {
     const auto instructions = [](const QueryCost& c) { return *c.instructions; };
-    result.instructions = spread(over_cells(times, timed, candidate, instructions))->median;
+    result.instructions =
+        spread(over_cells(times, timed, candidate, repetitions, instructions))->median;
   }
   if (times[timed.front()][candidate].front().measured) {
     const auto median = [&](double QueryCost::Measured::*member) {
       const auto value = [&](const QueryCost& c) { return (*c.measured).*member; };
-      return spread(over_cells(times, timed, candidate, value))->median;
+      return spread(over_cells(times, timed, candidate, repetitions, value))->median;
     };
     using Measured = QueryCost::Measured;
     result.measured = {median(&Measured::floor), median(&Measured::our_clock),
@@ -138,8 +162,10 @@ std::optional<Spread> time_ratio(const Times& times, const std::vector<std::size
   for (const std::size_t cell : cells) {
     if (!times[cell][candidate].empty() && !times[cell][other].empty()) both.push_back(cell);
   }
-  std::vector<double> ratios = over_cells(times, both, candidate, nanoseconds);
-  const std::vector<double> others = over_cells(times, both, other, nanoseconds);
+  const std::size_t repetitions =
+      std::max(repetitions_on(times, both, candidate), repetitions_on(times, both, other));
+  std::vector<double> ratios = over_cells(times, both, candidate, repetitions, nanoseconds);
+  const std::vector<double> others = over_cells(times, both, other, repetitions, nanoseconds);
   for (std::size_t r = 0; r < ratios.size(); ++r) ratios[r] /= others[r];
   return spread(std::move(ratios));
 }

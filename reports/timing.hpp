@@ -13,7 +13,11 @@ namespace touchstone {
 using Repetitions = std::vector<QueryCost>;
 using Times = std::vector<std::vector<Repetitions>>;  ///< [cell][candidate][repetition]
 
-inline constexpr std::size_t timing_repetitions = 11;
+/// Times are repeated until they are settled, no less and no more often than this.
+inline constexpr std::size_t min_repetitions = 5, max_repetitions = 11;
+
+/// Do half of the times lie within 3% of each other? Between runs, times differ by more.
+bool is_settled(const Repetitions& repetitions);
 
 /// Times the narrow phase alone, as Google Benchmark does it: warm-up, repetitions, candidates in
 /// random order within each (drawn from the campaign's seed), one at a time. Shapes are prepared
@@ -22,14 +26,15 @@ inline constexpr std::size_t timing_repetitions = 11;
 /// Configurations that ended a candidate's process, as the samples of the cells say, are not asked
 /// of it. Timed are everyday and recorded classes, all arrangements alone, and those of general,
 /// parallel and perpendicular with one modifier, of the tilts three; and all classes of a campaign
-/// that names them.
+/// that names them. `candidates` are the campaign's.
 Times time_queries(const Campaign& campaign, const std::vector<Cell>& cells,
-                   const std::vector<std::optional<Sample>>& samples);
+                   const std::vector<std::optional<Sample>>& samples,
+                   std::vector<CandidateProcess>& candidates);
 
 std::optional<Spread> spread(std::vector<double> values);
 
 /// Time of one candidate over several cells, but for the ratio. A repetition's value is the median
-/// over the cells.
+/// over the cells; a cell with fewer repetitions than another goes through its own again.
 std::optional<QueryTime> query_time(const Times& times, const std::vector<std::size_t>& cells,
                                     std::size_t candidate);
 

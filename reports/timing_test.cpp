@@ -7,7 +7,7 @@ namespace {
 
 Repetitions repetitions(double first, double step, bool counted = false) {
   Repetitions r;
-  for (std::size_t i = 0; i < timing_repetitions; ++i) {
+  for (std::size_t i = 0; i < max_repetitions; ++i) {
     r.push_back({first + step * static_cast<double>(i), std::nullopt});
     if (counted) r.back().instructions = 1000;
   }
@@ -24,6 +24,17 @@ TEST(Spread, IsMedianAndQuartiles) {
   EXPECT_FALSE(spread({}));
 }
 
+TEST(Repetitions, AreSettledWhenHalfOfThemLieWithinThreePercent) {
+  const auto settled = [](const std::vector<double>& times) {
+    Repetitions r;
+    for (const double t : times) r.push_back({t, std::nullopt});
+    return is_settled(r);
+  };
+  EXPECT_TRUE(settled({100, 101, 102.9, 50, 900}));
+  EXPECT_FALSE(settled({100, 102, 103.2, 50, 900}));
+  EXPECT_FALSE(settled({}));
+}
+
 TEST(QueryTime, IsTheMedianOverCellsOfEachRepetition) {
   // A cell that no one timed counts for nothing.
   const Times times = {{repetitions(100, 0)}, {repetitions(300, 10)}, {repetitions(900, 0)}, {{}}};
@@ -34,6 +45,15 @@ TEST(QueryTime, IsTheMedianOverCellsOfEachRepetition) {
   EXPECT_FALSE(time->instructions);
   EXPECT_FALSE(query_time(times, {3}, 0));
   EXPECT_EQ(query_time(times, {0, 2}, 0)->nanoseconds.median, 100);  // of two the smaller one
+}
+
+TEST(QueryTime, GoesAgainThroughTheRepetitionsOfACellThatSettledEarly) {
+  const Repetitions early = {{10, {}}, {20, {}}, {30, {}}}, late = repetitions(1000, 1);
+  const auto time = query_time({{early}, {early}, {late}}, {0, 1, 2}, 0);
+  EXPECT_EQ(time->repetitions, max_repetitions);
+  EXPECT_EQ(time->nanoseconds.median, 20);  // 10, 20, 30, 10, …: four, four and three of them
+  EXPECT_EQ(query_time({{early}}, {0}, 0)->repetitions, 3u);
+  EXPECT_EQ(time_ratio({{early, late}}, {0}, 0, 1)->median, 20 / 1004.0);
 }
 
 TEST(QueryTime, HasInstructionsWhereAllWereCounted) {

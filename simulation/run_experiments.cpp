@@ -74,8 +74,8 @@ std::optional<double> query_time(CandidateProcess& process,
   return *middle;
 }
 
-ExperimentResult run(const Trial& trial, const Limits& limits) {
-  CandidateProcess process(*trial.candidate, simulation_threshold, limits);
+ExperimentResult run(const Trial& trial, CandidateProcess& process) {
+  process.ask_within(simulation_threshold);  // as if it had been asked nothing before
   CandidateModel model(process);
   SamplingModel sampling(model);
   const Experiment& experiment = *trial.experiment;
@@ -124,9 +124,13 @@ ExperimentDescription describe(const Experiment& experiment, const std::vector<d
 ExperimentResults run_experiments(const ExperimentOptions& options) {
   const std::vector<Trial> all = trials(options);
   Progress progress("experiments", all.size());
+  WorkerCandidates processes(options.candidates, simulation_threshold, options.limits);
   const auto texts = run_in_processes(
       all.size(), options.workers,
-      [&](std::size_t i) { return to_text(run(all[i], options.limits)); },
+      [&](std::size_t i) {
+        const std::size_t candidate = i % options.candidates.size();  // the order of the trials
+        return to_text(run(all[i], processes.get()[candidate]));
+      },
       [&](std::size_t i) { return all[i].experiment->name + " with " + all[i].candidate->name; },
       [&](std::size_t done) { progress.update(done); });
   ExperimentResults results{options.steps, {}, {}};

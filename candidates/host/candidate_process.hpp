@@ -15,7 +15,9 @@ class Respondent;
 
 /// Resources that one configuration may use before the candidate's process is ended.
 struct Limits {
-  /// Processor time: three frames of a simulation, thousands of times that of a query. A query may
+  /// Processor time: three frames of a simulation, thousands of times that of a query. Once a
+  /// candidate has exceeded it within one call of CandidateProcess::answers, it is lower for the
+  /// rest of the call: a thousand times the candidate's median there, at least a tenth. A query may
   /// wait for something else ten times as long; for a candidate that does so repeatedly within one
   /// call of CandidateProcess::answers this is halved each time, down to the limit itself. Waiting
   /// for a processor does not count.

@@ -80,6 +80,54 @@ TEST(CandidateProcess, WaitsAsLongWhateverItWaitedForBefore) {
   EXPECT_EQ(process.answers({&standing, 1}).at(0).reason, first);
 }
 
+/// Answers of the candidate stalling, where A is at these x.
+std::vector<Answer> after_stalling(CandidateProcess& process, const std::vector<double>& at) {
+  std::vector<Configuration> configurations;
+  for (const double x : at) {
+    configurations.push_back({standing.a, Pose({x, 0, 1.9}, upright), standing.b, standing.pose_b});
+  }
+  return process.answers(configurations);
+}
+
+constexpr double answered = 0, endless = -1, slow = 2;
+
+TEST(CandidateProcess, ATimeOutLowersTheLimitForTheRestOfTheCall) {
+  CandidateProcess process(sabotage("stalling"), 0, {0.2, 256});
+  std::vector<double> at(30, answered);
+  at[1] = at[20] = at[21] = at[25] = endless;
+  for (int call = 0; call < 2; ++call) {
+    const auto answers = after_stalling(process, at);
+    for (std::size_t i = 0; i < at.size(); ++i) {
+      EXPECT_EQ(answers[i].status, at[i] == endless ? TS_TIMED_OUT : TS_CONTACT) << i;
+    }
+    EXPECT_EQ(answers[1].reason, "no answer within 0.2 s");
+    for (const int i : {20, 21, 25}) {
+      EXPECT_EQ(answers[i].reason, "no answer within 0.02 s and a thousand times its median") << i;
+    }
+  }
+}
+
+TEST(CandidateProcess, SlowAnswersCountUnlessAnAnswerHasTimedOut) {
+  CandidateProcess process(sabotage("stalling"), 0, {0.02, 256});
+  std::vector<double> at(20, answered);
+  at.push_back(slow);
+  EXPECT_EQ(after_stalling(process, at).back().status, TS_CONTACT);
+  at[19] = endless;
+  const auto answers = after_stalling(process, at);
+  EXPECT_EQ(answers[19].status, TS_TIMED_OUT);
+  EXPECT_EQ(answers.back().status, TS_TIMED_OUT);
+}
+
+TEST(CandidateProcess, TheLimitOfACandidateThatIsAlwaysSlowStays) {
+  CandidateProcess process(sabotage("stalling"), 0, {0.09, 256});
+  std::vector<double> at(16, slow);
+  at.insert(at.end(), {endless, slow, endless});
+  const auto answers = after_stalling(process, at);
+  EXPECT_EQ(answers[16].reason, "no answer within 0.09 s");
+  EXPECT_EQ(answers[17].status, TS_CONTACT);
+  EXPECT_EQ(answers[18].reason, "no answer within 0.09 s");
+}
+
 TEST(CandidateProcess, RefusesTenGibibytes) {
   const Answer a = after_misdeed(7);
   EXPECT_EQ(a.status, TS_CRASHED);

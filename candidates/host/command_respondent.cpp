@@ -113,7 +113,15 @@ std::optional<CommandRespondent::Failure> CommandRespondent::start() {
     return process_.refuse("its name is \"" + told.family + "\" instead of \"" + candidate_.family +
                            '"');
   }
-  // An easy question, so that what begins late begins now.
+  warm_up();
+  if (!process_.runs()) {  // not by its first question; that is asked of no one again
+    const auto again = process_.start();
+    if (const auto* const failure = std::get_if<Failure>(&again)) return *failure;
+  }
+  return std::nullopt;
+}
+
+void CommandRespondent::warm_up() {
   for (const ts_shape_kind kind : {TS_SPHERE, TS_BOX, TS_CYLINDER, TS_CAPSULE, TS_PLANE}) {
     if (!candidate_.supports[kind]) continue;
     ts_shape b{kind, {0.5, 0.5, 0.5}};
@@ -122,12 +130,10 @@ std::optional<CommandRespondent::Failure> CommandRespondent::start() {
     question.poses.a = {{0, 0.1, 0.4}, {0.8, 0.6, 0, 0}};
     question.poses.b = {{0, 0, 0}, {1, 0, 0, 0}};
     request_seconds_ = std::max(limits_.seconds, first_request);
-    const auto answers = ask({&question, 1}, true);
+    ask({&question, 1}, true);
     request_seconds_ = limits_.seconds;
-    if (const auto* const failure = std::get_if<Failure>(&answers)) return *failure;
-    break;
+    return;
   }
-  return std::nullopt;
 }
 
 std::optional<CommandRespondent::Failure> CommandRespondent::prepare(

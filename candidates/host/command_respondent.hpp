@@ -47,6 +47,8 @@ class CommandRespondent : public Respondent {
   Result<std::vector<Answer>> ask(std::span<Question> questions, bool release);
   /// Starts the command unless it runs; absent on success.
   std::optional<Failure> start();
+  /// Asks an easy question, so that what begins late begins now. Its answer does not count.
+  void warm_up();
   /// Prepares the shapes that are not yet, and sets the questions' handles.
   std::optional<Failure> prepare(std::span<Question> questions);
   std::optional<Failure> release_all_but(std::size_t count);

@@ -24,6 +24,7 @@ struct Question {
 struct Slot {
   ts_answer answer;
   double model_distance;  ///< NaN if unknown
+  double seconds;         ///< processor time of preparing, querying and releasing
   std::uint64_t seal;     ///< see seal_of
 };
 

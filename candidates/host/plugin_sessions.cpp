@@ -11,6 +11,7 @@
 #include <sys/wait.h>
 #include <type_traits>
 #include <unistd.h>
+#include <utility>
 
 #include "candidates/candidates.hpp"
 #include "candidates/host/exchange.hpp"
@@ -22,8 +23,15 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Interval at which a candidate's use of time is checked.
-constexpr std::chrono::milliseconds check_interval(20);
+/// Interval at which a candidate's use of processor time is checked, and that at which its waiting
+/// is, which costs a hundred times as much to find out.
+constexpr std::chrono::milliseconds check_interval(1), wait_interval(20);
+
+/// The lower limit of processor time of a candidate that has exceeded the full one, and beyond
+/// which a configuration is asked again alone: a multiple of the median of its answers, if so many
+/// are known, but at least a share of the full one.
+constexpr double median_factor = 1000, min_share = 0.1;
+constexpr std::size_t min_known = 15, max_known = 255;
 
 /// Time in which a plug-in's process must fork a session.
 constexpr std::chrono::seconds fork_timeout(10);
@@ -151,6 +159,7 @@ void PluginSessions::end() {
 
 void PluginSessions::ask_within(double threshold) {
   end();
+  forget_times();
   threshold_ = threshold;
 }
 
@@ -166,7 +175,8 @@ std::optional<PluginSessions::SessionFailure> PluginSessions::obey(SessionComman
   using Received = PluginProcess::State::Received;
   PluginProcess::State& s = *plugin_.state_;
   std::optional<SessionFailure> begin_failure;
-  if (session_ < 0) begin_failure = begin();
+  const bool fresh = session_ < 0;
+  if (fresh) begin_failure = begin();
   command.ticket = ++ticket_;
   s.exchange->progress = progress_of(ticket_, command.first);
   if (begin_failure) return begin_failure;
@@ -177,20 +187,36 @@ std::optional<PluginSessions::SessionFailure> PluginSessions::obey(SessionComman
   };
   if (!s.send(command)) return stopped(TS_CRASHED, "its plug-in's process ended");
 
-  // Most commands finish before the first check; the watch starts with that.
-  std::optional<Watch> watch;
+  // Most commands finish before the first check.
+  std::optional<double> computed;  // processor time at the last progress
+  std::optional<Watch> watch;      // begun later, for commands that take long
   std::uint64_t progress = s.exchange->progress;
-  auto next_check = Clock::now() + check_interval;
+  const auto limit_now = [&] {
+    const auto current = std::min(static_cast<std::uint32_t>(progress), command.count);
+    return time_limit(command, current, fresh && current == command.first);
+  };
+  auto next_check = Clock::now() + check_interval, next_judgement = next_check;
   for (;;) {
     std::string too_long;
-    if (Clock::now() >= next_check) {
-      next_check = Clock::now() + check_interval;
+    if (const auto time = Clock::now(); time >= next_check) {
+      next_check = time + check_interval;
       const std::uint64_t now = s.exchange->progress;
-      if (!watch || (now > progress && now <= progress_of(ticket_, command.count))) {
+      if (!computed || (now > progress && now <= progress_of(ticket_, command.count))) {
         progress = now;
-        watch.emplace(session_);
-      } else {
-        too_long = judge(*watch, configurations);
+        computed = processor_seconds(session_);
+        watch.reset();
+        next_judgement = time + wait_interval;
+      } else if (const auto limit = limit_now();
+                 processor_seconds(session_) - *computed >
+                 limit.seconds * static_cast<double>(configurations)) {
+        too_long = limit.exceeded;
+      } else if (time >= next_judgement) {
+        next_judgement = time + wait_interval;
+        if (watch) {
+          too_long = judge(*watch, configurations);
+        } else {
+          watch.emplace(session_);
+        }
       }
     }
     // Receive at least once after the check, so that an answer that arrived before it counts.
@@ -216,15 +242,74 @@ std::optional<PluginSessions::SessionFailure> PluginSessions::obey(SessionComman
     } else if (received == Received::end) {
       return stopped(TS_CRASHED, "closed its connection to Touchstone");
     }
-    if (!too_long.empty()) return stopped(TS_TIMED_OUT, too_long);
+    if (!too_long.empty()) {
+      kill_session();
+      return SessionFailure{TS_TIMED_OUT, too_long, false};
+    }
   }
+}
+
+void PluginSessions::kill_session() {
+  using Received = PluginProcess::State::Received;
+  PluginProcess::State& s = *plugin_.state_;
+  const auto end = Clock::now() + finish_timeout;
+  for (bool waits = kill(std::exchange(session_, -1), SIGKILL) == 0; waits && Clock::now() < end;) {
+    Reply reply;
+    const Received received = s.receive(&reply, sizeof reply, finish_timeout);
+    waits = received != Received::end;
+    if (received != Received::message || reply.kind != Reply::ended ||
+        reply.ticket != session_ticket_) {
+      continue;
+    }
+    if (reply.left_behind) break;
+    return;
+  }
+  s.stop();
+}
+
+PluginSessions::TimeLimit PluginSessions::time_limit(const SessionCommand& command,
+                                                     std::uint32_t current, bool alone) const {
+  const TimeLimit full = {limits_.seconds, "no answer within " + seconds_text(limits_.seconds)};
+  if (command.kind != SessionCommand::answer) return full;
+  // A session that others rely on (it keeps shapes) is not ended on suspicion.
+  const bool is_suspicion = !alone && command.release;
+  if (!has_timed_out_ && !is_suspicion) return full;
+  std::vector<double> sorted = answer_seconds_;
+  for (std::uint32_t i = command.first; i < current; ++i) {
+    const double seconds = plugin_.state_->exchange->slots[i].seconds;
+    if (std::isfinite(seconds)) sorted.push_back(seconds);
+  }
+  if (sorted.size() < min_known) return full;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  const double least = min_share * limits_.seconds, learnt = median_factor * *middle;
+  if (learnt >= limits_.seconds) return full;
+  // Without the number, which is measured and differs from run to run.
+  return {std::max(least, learnt),
+          "no answer within " + seconds_text(least) + " and a thousand times its median"};
+}
+
+void PluginSessions::learn(std::uint32_t i) {
+  const double seconds = plugin_.state_->exchange->slots[i].seconds;
+  if (answer_seconds_.size() < max_known && std::isfinite(seconds)) {
+    answer_seconds_.push_back(seconds);
+  }
+}
+
+void PluginSessions::learn(const SessionFailure& verdict) {
+  has_timed_out_ = has_timed_out_ || verdict.status == TS_TIMED_OUT;
+}
+
+void PluginSessions::forget_times() {
+  answer_seconds_.clear();
+  has_timed_out_ = false;
+  max_wait_ = initial_wait_factor * limits_.seconds;
 }
 
 std::string PluginSessions::judge(const Watch& watch, std::size_t configurations) {
   const Watch::TimeUse spent = watch.spent();
   const double seconds = limits_.seconds * static_cast<double>(configurations);
   const double max_wait = max_wait_ * static_cast<double>(configurations);
-  if (spent.computing > seconds) return "no answer within " + seconds_text(seconds);
   if (!spent.waiting) {
     const double limit = clock_factor * seconds;
     if (spent.by_the_clock > limit)
@@ -282,6 +367,7 @@ Answer PluginSessions::answer_alone(std::uint32_t i) {
   end();
   const auto failure = obey(answer_command(i, i + 1, true));
   if (const auto answer = answer_in(i)) return *answer;
+  if (failure) learn(*failure);
   return answer_of(failure.value_or(SessionFailure{TS_CRASHED, "wrote over its own answer", true}));
 }
 
@@ -290,12 +376,15 @@ void PluginSessions::answer_batch(std::uint32_t count, bool release, std::vector
   for (std::uint32_t first = 0; first < count;) {
     const bool fresh = session_ < 0;
     const auto failure = obey(answer_command(first, count, release));
-    for (std::uint32_t i = first; i < count; ++i) given[i] = answer_in(i);
+    for (std::uint32_t i = first; i < count; ++i) {
+      if ((given[i] = answer_in(i))) learn(i);
+    }
     const auto none = std::find(given.begin(), given.end(), std::nullopt);
     const auto in_hand = static_cast<std::uint32_t>(none - given.begin());
     if (in_hand == count) break;
     if (failure && plugin_.state_->exchange->progress == progress_of(ticket_, in_hand)) {
       const bool certain = failure->certain || (fresh && in_hand == first);
+      if (certain) learn(*failure);
       given[in_hand] = certain ? answer_of(*failure) : answer_alone(in_hand);
       first = in_hand + 1;
       continue;
@@ -311,7 +400,7 @@ void PluginSessions::answer_batch(std::uint32_t count, bool release, std::vector
 
 std::vector<Answer> PluginSessions::answers(std::span<const Configuration> configurations) {
   end();
-  max_wait_ = initial_wait_factor * limits_.seconds;
+  forget_times();
   return answer(configurations, {}, true);
 }
 

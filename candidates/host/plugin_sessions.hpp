@@ -52,18 +52,35 @@ class PluginSessions : public Respondent {
   /// query before it reports progress; each may take as long as the limits say.
   std::optional<SessionFailure> obey(SessionCommand command, std::size_t configurations = 1);
   SessionFailure end_of_session(int wait_status) const;
-  /// Why the command has taken too long for so many configurations; empty if it has not.
+  /// Processor time that a configuration may use, and what to say of one that uses more.
+  struct TimeLimit {
+    double seconds;
+    std::string exceeded;
+  };
+  /// Of slot `current` of a command. `alone`: the session has answered nothing before it, so that
+  /// exceeding the limit is its verdict, and no mere reason to ask it again alone.
+  TimeLimit time_limit(const SessionCommand& command, std::uint32_t current, bool alone) const;
+  /// Notes what limits of time are learnt from.
+  void learn(std::uint32_t slot);
+  void learn(const SessionFailure& verdict);
+  void forget_times();
+  /// Why a command that makes no progress has waited too long for so many configurations; empty if
+  /// it has not.
   std::string judge(const Watch& watch, std::size_t configurations);
+  /// Kills the session; its plug-in's process, too, if that does not leave a clean one.
+  void kill_session();
 
   Candidate candidate_;
   double threshold_;
   Limits limits_;
   PluginProcess plugin_;
-  int session_ = -1;                  ///< process, or -1
-  std::uint64_t ticket_ = 0;          ///< ticket of the last command
-  std::uint64_t session_ticket_ = 0;  ///< ticket of the command that began the session
-  double max_wait_;                   ///< seconds that a query may wait
-  std::size_t timed_ = 0;             ///< configurations of prepare_timing
+  int session_ = -1;                    ///< process, or -1
+  std::uint64_t ticket_ = 0;            ///< ticket of the last command
+  std::uint64_t session_ticket_ = 0;    ///< ticket of the command that began the session
+  double max_wait_;                     ///< seconds that a query may wait
+  std::vector<double> answer_seconds_;  ///< that the first answers took
+  bool has_timed_out_ = false;
+  std::size_t timed_ = 0;  ///< configurations of prepare_timing
 };
 
 }  // namespace touchstone

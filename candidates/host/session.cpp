@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
+#include <ctime>
 #include <exception>
 #include <limits>
 #include <linux/perf_event.h>
@@ -82,6 +83,13 @@ constexpr std::chrono::microseconds min_round_time(200);
 /// Number of pairs of shapes kept prepared for the next pose of the same bodies, as in a world:
 /// more than most scenes have, few enough for the largest meshes.
 constexpr std::size_t max_ready = 8;
+
+/// Processor time that this process has used, seconds.
+double processor_seconds() {
+  timespec time{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
 
 /// Are the shapes equal to the bit?
 bool same(const ts_shape& x, const ts_shape& y) {
@@ -206,8 +214,10 @@ void Session::obey(const SessionCommand& command) {
   switch (command.kind) {
     case SessionCommand::answer:
       for (std::uint32_t i = command.first; i < command.count; ++i) {
+        const double before = processor_seconds();
         answer(i);
         if (command.release) release_all_but_of(command, i + 1);
+        exchange_.slots[i].seconds = processor_seconds() - before;
         exchange_.slots[i].seal = seal_of(exchange_.slots[i], command.ticket);
         exchange_.progress = progress_of(command.ticket, i + 1);
       }

@@ -10,17 +10,19 @@
 #include <unistd.h>
 
 namespace touchstone {
+
+double processor_seconds(pid_t process) {
+  clockid_t clock;
+  timespec time{};
+  if (clock_getcpuclockid(process, &clock) != 0 || clock_gettime(clock, &time) != 0) return 0;
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
 namespace {
 
-/// Seconds of processor time that the processes have used; of those that have ended, none.
 double processor_seconds(const std::vector<pid_t>& processes) {
   double sum = 0;
-  for (const pid_t process : processes) {
-    clockid_t clock;
-    timespec time{};
-    if (clock_getcpuclockid(process, &clock) != 0 || clock_gettime(clock, &time) != 0) continue;
-    sum += static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-  }
+  for (const pid_t process : processes) sum += touchstone::processor_seconds(process);
   return sum;
 }
 

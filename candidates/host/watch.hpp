@@ -7,6 +7,9 @@
 
 namespace touchstone {
 
+/// Seconds of processor time that a process has used; zero if it has ended.
+double processor_seconds(pid_t process);
+
 /// Measures how a process, or it and its descendants, spend their time: computing, waiting for
 /// something, or waiting for a processor, which on a busy machine is not their own fault.
 class Watch {

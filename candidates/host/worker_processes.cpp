@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <exception>
+#include <malloc.h>
 #include <poll.h>
 #include <signal.h>
 #include <stdexcept>
@@ -159,6 +160,9 @@ bool stream_from_processes(std::uint64_t count, unsigned workers,
   Shared shared(workers);
   Workers pool(workers);
   const pid_t parent = getpid();
+  // Every process begun from here on, sessions of candidates included, copies the page tables of
+  // memory that was freed but not given back.
+  malloc_trim(0);
   for (unsigned i = 0; i < workers; ++i) {
     int ends[2];
     if (pipe(ends) != 0) throw std::system_error(errno, std::generic_category(), "pipe");

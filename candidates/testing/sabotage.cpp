@@ -4,8 +4,9 @@
 // of them, or none, chosen by the bits of A's position. obedient returns the previous normal that
 // it is given. declining answers planes, with a relative error of 1e-6 in the depth if the axis
 // lies in the plane; TOUCHSTONE_DECLINE, a number in the environment, multiplies that error, and
-// slows down all queries if it is negative. counting answers with the number of pairs prepared and
-// the number not yet released.
+// slows down all queries if it is negative. stalling never answers where A's x is negative, and
+// takes ten milliseconds where it is above 1. counting answers with the number of pairs prepared
+// and the number not yet released.
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -165,6 +166,12 @@ void query_declining(ts_prepared* prepared, const ts_pose* a, const ts_pose* b, 
 }
 void release_declining(ts_prepared* p) { delete reinterpret_cast<Declining*>(p); }
 
+void query_stalling(ts_prepared*, const ts_pose* a, const ts_pose*, const double*,
+                    ts_answer* answer) {
+  const double x = a->position[0];
+  (x < 0 ? loop : x > 1 ? dawdle : behave)(*answer);
+}
+
 // counting
 
 int prepared_pairs = 0, released_pairs = 0;
@@ -192,8 +199,10 @@ const ts_candidate candidates[] = {
     {"declining", "1", "exact for planes but where a cylinder lies", nullptr, nullptr,
      supports_planes, prepare_declining, query_declining, release_declining, nullptr, nullptr},
     {"counting", "1", "answers how many pairs it has prepared", nullptr, nullptr, supports,
-     prepare_counted, query_counted, release_counted, nullptr, nullptr}};
-const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 5, candidates, nullptr, 0};
+     prepare_counted, query_counted, release_counted, nullptr, nullptr},
+    {"stalling", "1", "is slow or endless in places", nullptr, nullptr, supports, prepare,
+     query_stalling, release, nullptr, nullptr}};
+const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 6, candidates, nullptr, 0};
 
 }  // namespace
 

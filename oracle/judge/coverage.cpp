@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "oracle/judge/score.hpp"
 #include "oracle/patch/convex_set.hpp"
@@ -44,19 +45,24 @@ double reach(const std::vector<Vec2>& points, const Vec2& centre, const Vec2& di
 
 }  // namespace
 
-double coverage(const oracle::ContactPatch& patch, const std::vector<Vec3>& points,
-                double resolution) {
-  if (points.empty()) return 0;
+PatchExtent::PatchExtent(oracle::ContactPatch of) : patch(std::move(of)) {
   const ConvexSet& set = patch.shape();
-  const Vec2 centre = set.centroid();
+  centre = set.centroid();
+  narrow = narrowest_direction(set);
+  min_width = width(set, narrow);
+  width_across = width(set, across(narrow));
+}
+
+double coverage(const PatchExtent& extent, const std::vector<Vec3>& points, double resolution) {
+  if (points.empty()) return 0;
+  if (extent.width_across <= resolution) return 1;
   std::vector<Vec2> flat;
   flat.reserve(points.size());
-  for (const Vec3& p : points) flat.push_back(patch.in_plane(p));
+  for (const Vec3& p : points) flat.push_back(extent.patch.in_plane(p));
 
   std::vector<Vec2> directions;
-  const Vec2 narrow = narrowest_direction(set), wide = across(narrow);
-  if (width(set, wide) <= resolution) return 1;
-  if (width(set, narrow) <= resolution) {
+  if (extent.min_width <= resolution) {
+    const Vec2 wide = across(extent.narrow);
     directions = {wide, -wide};
   } else {
     // The shrunk patch lies within the hull if it lies inside each of the hull's sides.
@@ -66,11 +72,18 @@ double coverage(const oracle::ContactPatch& patch, const std::vector<Vec3>& poin
       directions.push_back(across(hull[(i + 1) % hull.size()] - hull[i]).normalized());
     }
   }
+  const ConvexSet& set = extent.patch.shape();
   double smallest = 1;
   for (const Vec2& d : directions) {
-    smallest = std::min(smallest, reach(flat, centre, d) / (set.support(d) - centre.dot(d)));
+    smallest =
+        std::min(smallest, reach(flat, extent.centre, d) / (set.support(d) - extent.centre.dot(d)));
   }
   return std::max(0.0, smallest);
+}
+
+double coverage(const oracle::ContactPatch& patch, const std::vector<Vec3>& points,
+                double resolution) {
+  return coverage(PatchExtent(patch), points, resolution);
 }
 
 }  // namespace touchstone

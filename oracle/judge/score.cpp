@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <numbers>
+#include <optional>
+#include <vector>
 
 #include "oracle/patch/support_feature.hpp"
 
@@ -69,22 +72,6 @@ Vec3 nearest(const Vec3& n, const std::vector<oracle::OptimalNormal>& normals) {
              normals.begin(), normals.end(),
              [&](const auto& l, const auto& r) { return angle(n, l.n) < angle(n, r.n); })
       ->n;
-}
-
-double coverage_by(const ts_answer& answer, const Configuration& c, const oracle::Truth& truth) {
-  std::vector<Vec3> points;
-  points.reserve(static_cast<std::size_t>(answer.point_count));
-  for (int i = 0; i < answer.point_count; ++i) points.push_back(vector(answer.points[i].position));
-  const double size = smaller_size(c), depth = patch_depth * size;
-  const Vec3 n = patch_normal(truth, vector(answer.normal));
-  const auto of_a = oracle::width_from_epsilon(c.a, c.pose_a, n, depth);
-  const auto of_b = oracle::width_from_epsilon(c.b, c.pose_b, n, depth);
-  // Most poses: the patch is a corner, which any point covers.
-  if (of_a.is_a_corner || of_b.is_a_corner) return points.empty() ? 0 : 1;
-  // 1% more than the width itself, so that rounding does not decide.
-  const double resolution =
-      std::max({patch_resolution * size, 1.01 * of_a.largest, 1.01 * of_b.largest});
-  return coverage(oracle::contact_patch(c, n, depth), points, resolution);
 }
 
 double worst_point_error(const ts_answer& answer, const Configuration& c) {
@@ -241,26 +228,80 @@ double error_size(const Configuration& c, const Bar& bar) {
   return std::max(smaller_size(c), std::min(1.0, resolved / bar.tolerance) * larger);
 }
 
-Score score(const Configuration& c, const oracle::Truth& truth, const ts_answer& answer,
-            const Bar& bar) {
+namespace {
+
+/// The patch along one normal, which answers with that normal nearest to theirs share.
+struct NormalPatch {
+  Vec3 normal;
+  /// Most poses: the patch is a corner, which any point covers.
+  bool is_a_corner;
+  double resolution = 0;              ///< metres, for coverage
+  std::optional<PatchExtent> extent;  ///< unless it is a corner
+};
+
+/// Zeros of either sign differ: a patch's axes may depend on the sign.
+bool same_bits(const Vec3& n, const Vec3& m) {
+  return std::memcmp(n.data(), m.data(), 3 * sizeof(double)) == 0;
+}
+
+NormalPatch patch_along(const Configuration& c, const Vec3& n) {
+  const double size = smaller_size(c), depth = patch_depth * size;
+  const auto of_a = oracle::width_from_epsilon(c.a, c.pose_a, n, depth);
+  const auto of_b = oracle::width_from_epsilon(c.b, c.pose_b, n, depth);
+  NormalPatch result{n, of_a.is_a_corner || of_b.is_a_corner, 0, {}};
+  if (result.is_a_corner) return result;
+  // 1% more than the width itself, so that rounding does not decide.
+  result.resolution = std::max({patch_resolution * size, 1.01 * of_a.largest, 1.01 * of_b.largest});
+  result.extent.emplace(oracle::contact_patch(c, n, depth));
+  return result;
+}
+
+}  // namespace
+
+struct Judge::State {
+  const Configuration& c;
+  const oracle::Truth& truth;
+  const Bar bar;
+  const double size;      ///< to which errors are relative, metres
+  const double distance;  ///< true signed distance, relative to it
+  std::optional<oracle::Gaps> gaps;
+  std::vector<NormalPatch> patches;
+
+  double regret(const Vec3& n) {
+    if (!gaps) gaps.emplace(c);
+    return relative(gaps->regret(truth, n), size);
+  }
+
+  const NormalPatch& patch(const Vec3& n) {
+    for (const NormalPatch& known : patches) {
+      if (same_bits(known.normal, n)) return known;
+    }
+    return patches.emplace_back(patch_along(c, n));
+  }
+
+  double coverage_by(const ts_answer& answer) {
+    const NormalPatch& p = patch(patch_normal(truth, vector(answer.normal)));
+    if (p.is_a_corner) return answer.point_count > 0 ? 1 : 0;
+    std::vector<Vec3> points;
+    points.reserve(static_cast<std::size_t>(answer.point_count));
+    for (int i = 0; i < answer.point_count; ++i) {
+      points.push_back(vector(answer.points[i].position));
+    }
+    return coverage(*p.extent, points, p.resolution);
+  }
+
+  Score of_contact(const ts_answer& answer);
+};
+
+Judge::Judge(const Configuration& c, const oracle::Truth& truth, const Bar& bar) {
   const double size = error_size(c, bar);
   const double distance = relative(truth.signed_distance.midpoint(), size);
-  switch (answer.status) {
-    case TS_NONE:
-      return without_contact(distance, bar);
-    case TS_CONTACT:
-      break;
-    case TS_UNSUPPORTED:
-      return only(Outcome::unsupported);
-    case TS_CRASHED:
-      return only(Outcome::crashed);
-    case TS_TIMED_OUT:
-      return only(Outcome::timed_out);
-    default:
-      return only(Outcome::failed);
-  }
-  if (!is_finite(answer)) return only(Outcome::not_finite);
+  state_ = std::make_unique<State>(State{c, truth, bar, size, distance, {}, {}});
+}
+Judge::Judge(Judge&&) noexcept = default;
+Judge::~Judge() = default;
 
+Score Judge::State::of_contact(const ts_answer& answer) {
   Score s;
   s.points = answer.point_count;
   const Vec3 n = vector(answer.normal);
@@ -276,7 +317,7 @@ Score score(const Configuration& c, const oracle::Truth& truth, const ts_answer&
     beyond = relative(-depths.min - bar.threshold, size);
   }
   if (!n.isZero(0)) {
-    s.normal_regret = relative(oracle::normal_regret(c, truth, n), size);
+    s.normal_regret = regret(n);
     s.normal_angle = angle(n, nearest(n, truth.normals));
     s.severity = std::max(s.severity, *s.normal_regret);
   }
@@ -294,19 +335,45 @@ Score score(const Configuration& c, const oracle::Truth& truth, const ts_answer&
     if (s.outcome == Outcome::phantom_points) s.severity = std::max(s.severity, beyond);
   }
   const bool right_normal = unit && s.normal_regret && *s.normal_regret <= bar.tolerance;
-  if (s.outcome != Outcome::phantom && right_normal) s.coverage = coverage_by(answer, c, truth);
+  if (s.outcome != Outcome::phantom && right_normal) s.coverage = coverage_by(answer);
   return s;
+}
+
+Score Judge::score(const ts_answer& answer) {
+  switch (answer.status) {
+    case TS_NONE:
+      return without_contact(state_->distance, state_->bar);
+    case TS_CONTACT:
+      return is_finite(answer) ? state_->of_contact(answer) : only(Outcome::not_finite);
+    case TS_UNSUPPORTED:
+      return only(Outcome::unsupported);
+    case TS_CRASHED:
+      return only(Outcome::crashed);
+    case TS_TIMED_OUT:
+      return only(Outcome::timed_out);
+    default:
+      return only(Outcome::failed);
+  }
+}
+
+Score Judge::score(const Answer& answer) {
+  Score s = score(static_cast<const ts_answer&>(answer));
+  if (s.depth_error && answer.model_distance) {
+    const double truth = state_->truth.signed_distance.midpoint();
+    s.model_error = relative(*answer.model_distance - truth, state_->size);
+    s.solver_error = relative(answer.signed_distance - *answer.model_distance, state_->size);
+  }
+  return s;
+}
+
+Score score(const Configuration& c, const oracle::Truth& truth, const ts_answer& answer,
+            const Bar& bar) {
+  return Judge(c, truth, bar).score(answer);
 }
 
 Score score(const Configuration& c, const oracle::Truth& truth, const Answer& answer,
             const Bar& bar) {
-  Score s = score(c, truth, static_cast<const ts_answer&>(answer), bar);
-  if (s.depth_error && answer.model_distance) {
-    const double size = error_size(c, bar);
-    s.model_error = relative(*answer.model_distance - truth.signed_distance.midpoint(), size);
-    s.solver_error = relative(answer.signed_distance - *answer.model_distance, size);
-  }
-  return s;
+  return Judge(c, truth, bar).score(answer);
 }
 
 }  // namespace touchstone

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -110,9 +111,27 @@ inline constexpr double patch_resolution = 0.1;
 /// along its own normal.
 Vec3 patch_normal(const oracle::Truth& truth, const Vec3& n);
 
+/// Judges answers to one configuration. What depends on configuration and truth alone (the exact
+/// difference of the bodies, the patches along the optimal normals) is made once, at the first
+/// answer that needs it. Both must outlive the judge.
+class Judge {
+ public:
+  Judge(const Configuration& configuration, const oracle::Truth& truth, const Bar& bar);
+  Judge(Judge&&) noexcept;
+  ~Judge();
+
+  Score score(const ts_answer& answer);
+  /// Adds the errors of model and solver.
+  Score score(const Answer& answer);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// What a Judge says of a single answer.
 Score score(const Configuration& configuration, const oracle::Truth& truth, const ts_answer& answer,
             const Bar& bar);
-/// Adds the errors of model and solver.
 Score score(const Configuration& configuration, const oracle::Truth& truth, const Answer& answer,
             const Bar& bar);
 
@@ -128,5 +147,17 @@ Score score(const Configuration& configuration, const oracle::Truth& truth, cons
 /// must span on both sides. Points off the patch or off its plane are not penalised here.
 double coverage(const oracle::ContactPatch& patch, const std::vector<Vec3>& points,
                 double resolution);
+
+/// A contact patch with what its coverage by any points needs.
+struct PatchExtent {
+  explicit PatchExtent(oracle::ContactPatch patch);
+
+  oracle::ContactPatch patch;
+  oracle::Vec2 centre;  ///< centroid
+  oracle::Vec2 narrow;  ///< direction in which it is narrowest
+  double min_width;     ///< along `narrow`
+  double width_across;  ///< perpendicular to it
+};
+double coverage(const PatchExtent& extent, const std::vector<Vec3>& points, double resolution);
 
 }  // namespace touchstone

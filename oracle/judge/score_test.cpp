@@ -322,6 +322,53 @@ TEST(PointDistance, OfEveryShape) {
   EXPECT_DOUBLE_EQ(distance(Plane({0, 0, 2}, 2), {0, 0, 5}), 1);
 }
 
+/// Two crossed cans, and two coaxial ones, along whose sides all radial normals tie.
+const Configuration crossed{Cylinder(0.5, 1), Pose(), Cylinder(0.4, 1.5),
+                            Pose({0.1, 0.7, 0.2}, {1, 0.3, 0.1, 0.5})},
+    coaxial{Cylinder(0.5, 1), Pose(), Cylinder(0.4, 1), Pose({0, 0, 0.25}, {1, 0, 0, 0})};
+
+TEST(Judge, SaysOfEachOfManyAnswersWhatItSaysOfThatAlone) {
+  for (const Configuration& c : {standing, crossed, coaxial, lifted(1)}) {
+    const oracle::Truth truth = oracle::truth(c);
+    const double distance = truth.signed_distance.midpoint();
+    std::vector<ts_answer> answers = {none()};
+    for (const double turn : {0.0, 0.3, 1e-5, 2.0, 0.3, 0.0}) {
+      const Vec3 n = Eigen::AngleAxisd(turn, Vec3(0.6, 0, 0.8)) * truth.normals.front().n;
+      answers.push_back(contact(distance, n));
+      answers.push_back(contact(distance / 2, Vec3(n.y(), -n.z(), n.x())));
+      ts_answer spread = contact(distance, n);
+      spread.point_count = 4;
+      for (int i = 0; i < 4; ++i) {
+        spread.points[i] = spread.points[0];
+        spread.points[i].position[i % 2] += i < 2 ? 0.2 : -0.3;
+      }
+      answers.push_back(spread);
+    }
+    Judge judge(c, truth, {});
+    for (const ts_answer& answer : answers) {
+      const Score together = judge.score(answer), alone = score(c, truth, answer, Bar{});
+      EXPECT_EQ(together.outcome, alone.outcome);
+      EXPECT_EQ(together.normal_regret, alone.normal_regret);
+      EXPECT_EQ(together.coverage, alone.coverage);
+      EXPECT_EQ(together.severity, alone.severity);
+    }
+  }
+}
+
+TEST(Judge, MeasuresRegretByTheCertifiedGap) {
+  for (const Configuration& c : {standing, crossed, coaxial}) {
+    const oracle::Truth truth = oracle::truth(c);
+    Judge judge(c, truth, {});
+    for (const Vec3& n : {Vec3(0.6, 0, 0.8), Vec3(0, 0, 1), Vec3(0.36, 0.48, -0.8)}) {
+      const double regret =
+          truth.signed_distance.midpoint() - oracle::certified_gap(c, n).midpoint();
+      const double relative = std::max(0.0, regret) / error_size(c, {});
+      // Doubles, each rounded towards zero.
+      EXPECT_NEAR(*judge.score(contact(-0.1, n)).normal_regret, relative, 1e-15 * (1 + relative));
+    }
+  }
+}
+
 /// A can that stands 0.2 deep in a half-space.
 const Configuration in_half_space{Cylinder(1, 2), Pose({0, 0, 1.8}, {1, 0, 0, 0}),
                                   Plane({0, 0, 1}, 0), Pose()};

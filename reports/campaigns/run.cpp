@@ -116,8 +116,9 @@ bool run_shard(const Campaign& campaign, ShardState& state, const std::filesyste
   try {
     all = sample(
         campaign, Purpose::campaign, boost::icl::cardinality(left),
-        [&](std::uint64_t task) { return cut.unit(nth(left, task)); },
-        [&](std::uint64_t task, const Sample& unit_sample) {
+        [&](std::uint64_t task) { return UnitRun{cut.unit(nth(left, task))}; },
+        [&](std::uint64_t task, const std::vector<Sample>& samples) {
+          const Sample& unit_sample = samples.front();
           const std::uint64_t number = nth(left, task);
           const auto [cell, first, last] = cut.unit(number);
           for (std::size_t k = 0; k < unit_sample.tallies.size(); ++k) {

@@ -23,11 +23,13 @@ std::string pictures(const std::vector<Configuration>& asked,
                      std::vector<CandidateProcess>& candidates, const Bar& bar) {
   std::vector<oracle::Truth> truths;
   for (const Configuration& c : asked) truths.push_back(oracle::truth(c));
+  std::vector<Judge> judges;
+  for (std::size_t i = 0; i < asked.size(); ++i) judges.emplace_back(asked[i], truths[i], bar);
   std::string lines;
   for (CandidateProcess& candidate : candidates) {
     const std::vector<Answer> answers = candidate.answers(asked);
     for (std::size_t i = 0; i < asked.size(); ++i) {
-      const Score s = score(asked[i], truths[i], answers[i], bar);
+      const Score s = judges[i].score(answers[i]);
       if (s.outcome != Outcome::unsupported) lines += map_letter(s);
     }
     lines += '\n';
