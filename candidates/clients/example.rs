@@ -4,7 +4,7 @@
 //!
 //! rustc --edition 2021 -O --crate-type cdylib candidates/clients/example.rs -o my_engine.so
 //! touchstone --candidate ./my_engine.so report --pair cylinder-plane
-use std::ffi::{c_char, c_double, c_int};
+use std::ffi::{c_char, c_double, c_int, c_void};
 
 #[repr(C)] #[derive(Clone, Copy)] pub struct Shape { kind: c_int, size: [c_double; 4] } // 0 cylinder, 1 plane, 2 sphere
 #[repr(C)] pub struct Pose { position: [c_double; 3], orientation: [c_double; 4] } // unit quaternion w, x, y, z
@@ -14,13 +14,14 @@ use std::ffi::{c_char, c_double, c_int};
 pub struct Prepared { a: Shape, b: Shape, threshold: f64 }
 #[repr(C)] pub struct Candidate {
     name: *const c_char, version: *const c_char, settings: *const c_char, models: *const c_char, parameter: *const Parameter,
-    supports: extern "C" fn(c_int) -> c_int,
-    prepare: extern "C" fn(&Shape, &Shape, c_double, c_double) -> Option<Box<Prepared>>,
+    supports: extern "C" fn(*mut c_void, c_int) -> c_int,
+    prepare: extern "C" fn(*mut c_void, &Shape, &Shape, c_double, c_double) -> Option<Box<Prepared>>,
     query: extern "C" fn(&Prepared, &Pose, &Pose, Option<&[c_double; 3]>, &mut Answer),
     release: extern "C" fn(Option<Box<Prepared>>),
     model_distance: Option<extern "C" fn(&Prepared, &Pose, &Pose) -> c_double>,
+    context: *mut c_void,
 }
-#[repr(C)] pub struct Plugin { interface_version: c_int, count: c_int, candidates: *const Candidate }
+#[repr(C)] pub struct Plugin { interface_version: c_int, count: c_int, candidates: *const Candidate, after_fork: Option<extern "C" fn()>, unforked: c_int }
 unsafe impl Sync for Candidate {}
 unsafe impl Sync for Plugin {}
 
@@ -33,9 +34,9 @@ fn rotate([w, x, y, z]: [f64; 4], v: Vector) -> Vector {
     add(add(v, twice, w), cross([x, y, z], twice), 1.0)
 }
 
-extern "C" fn supports(other: c_int) -> c_int { (other == 1 || other == 2) as c_int }
-extern "C" fn prepare(a: &Shape, b: &Shape, threshold: c_double, _: c_double) -> Option<Box<Prepared>> {
-    (supports(b.kind) != 0).then(|| Box::new(Prepared { a: *a, b: *b, threshold }))
+extern "C" fn supports(_: *mut c_void, other: c_int) -> c_int { (other == 1 || other == 2) as c_int }
+extern "C" fn prepare(context: *mut c_void, a: &Shape, b: &Shape, threshold: c_double, _: c_double) -> Option<Box<Prepared>> {
+    (supports(context, b.kind) != 0).then(|| Box::new(Prepared { a: *a, b: *b, threshold }))
 }
 extern "C" fn release(_: Option<Box<Prepared>>) {}
 extern "C" fn query(pair: &Prepared, a: &Pose, b: &Pose, _: Option<&[c_double; 3]>, answer: &mut Answer) {
@@ -71,7 +72,7 @@ extern "C" fn query(pair: &Prepared, a: &Pose, b: &Pose, _: Option<&[c_double; 3
 
 static CANDIDATE: Candidate = Candidate {
     name: b"example-rust\0".as_ptr().cast(), version: b"1.0\0".as_ptr().cast(), settings: b"closed form, double precision; points halfway between the bodies\0".as_ptr().cast(),
-    models: std::ptr::null(), parameter: std::ptr::null(), supports, prepare, query, release, model_distance: None,
+    models: std::ptr::null(), parameter: std::ptr::null(), supports, prepare, query, release, model_distance: None, context: std::ptr::null_mut(),
 };
-static PLUGIN: Plugin = Plugin { interface_version: 3, count: 1, candidates: &CANDIDATE };
+static PLUGIN: Plugin = Plugin { interface_version: 4, count: 1, candidates: &CANDIDATE, after_fork: None, unforked: 0 };
 #[no_mangle] pub extern "C" fn touchstone_plugin() -> *const Plugin { &PLUGIN }
