@@ -18,8 +18,7 @@ pub struct Prepared { a: Shape, b: Shape, threshold: f64 }
     prepare: extern "C" fn(*mut c_void, &Shape, &Shape, c_double, c_double) -> Option<Box<Prepared>>,
     query: extern "C" fn(&Prepared, &Pose, &Pose, Option<&[c_double; 3]>, &mut Answer),
     release: extern "C" fn(Option<Box<Prepared>>),
-    model_distance: Option<extern "C" fn(&Prepared, &Pose, &Pose) -> c_double>,
-    context: *mut c_void,
+    model_distance: Option<extern "C" fn(&Prepared, &Pose, &Pose) -> c_double>, context: *mut c_void,
 }
 #[repr(C)] pub struct Plugin { interface_version: c_int, count: c_int, candidates: *const Candidate, after_fork: Option<extern "C" fn()>, unforked: c_int }
 unsafe impl Sync for Candidate {}
@@ -35,8 +34,8 @@ fn rotate([w, x, y, z]: [f64; 4], v: Vector) -> Vector {
 }
 
 extern "C" fn supports(_: *mut c_void, other: c_int) -> c_int { (other == 1 || other == 2) as c_int }
-extern "C" fn prepare(context: *mut c_void, a: &Shape, b: &Shape, threshold: c_double, _: c_double) -> Option<Box<Prepared>> {
-    (supports(context, b.kind) != 0).then(|| Box::new(Prepared { a: *a, b: *b, threshold }))
+extern "C" fn prepare(_: *mut c_void, a: &Shape, b: &Shape, threshold: c_double, _: c_double) -> Option<Box<Prepared>> {
+    (supports(std::ptr::null_mut(), b.kind) != 0).then(|| Box::new(Prepared { a: *a, b: *b, threshold }))
 }
 extern "C" fn release(_: Option<Box<Prepared>>) {}
 extern "C" fn query(pair: &Prepared, a: &Pose, b: &Pose, _: Option<&[c_double; 3]>, answer: &mut Answer) {
