@@ -42,8 +42,8 @@ class Clients(unittest.TestCase):
     @every_client
     def test_hello_says_what_the_candidate_is(self, child):
         self.assertEqual(child.hello, {
-            "touchstone": 1, "name": "echo", "version": "1", "settings": "none", "precision": "double",
-            "runs": "script", "format": child.hello["format"],
+            "touchstone": 1, "name": "echo", "version": "1", "settings": "none",
+            "precision": "double", "runs": "script", "format": child.hello["format"],
             "pairs": ["cylinder-plane", "cylinder-box", "cylinder-cylinder"],
             "parameter": {"meaning": "number", "min": 0, "max": 9, "usual": 3, "whole": True},
             "models": "nothing at all"})
@@ -55,7 +55,8 @@ class Clients(unittest.TestCase):
 
     @every_client
     def test_a_request_that_breaks_off_ends_the_child(self, child):
-        child.process.stdin.write(b"{" if child.in_lines else struct.pack("<IIQII", 164, 2, 1, 1, 0) + b"half")
+        half_a_frame = struct.pack("<IIQII", 164, 2, 1, 1, 0) + b"half"
+        child.process.stdin.write(b"{" if child.in_lines else half_a_frame)
         child.process.stdin.flush()
         child.process.stdin.close()
         self.assertEqual(child.process.stdout.read(), b"")
@@ -65,27 +66,32 @@ class Clients(unittest.TestCase):
     def test_an_answer_has_the_numbers_of_the_question(self, child):
         self.assertEqual(child.prepare([(7, CYLINDER, PLANE, 0.125, 3)]), [True])
         tiny, last = 5e-324, math.nextafter(1, 0)
-        a, b = pose(tiny, -0.0, 1e300, (0.1, 0.2, 0.3, last)), pose(1 / 3, -1e-17, 2.0**53, (0.7, 0.5, -0.0, 0.4))
+        a = pose(tiny, -0.0, 1e300, (0.1, 0.2, 0.3, last))
+        b = pose(1 / 3, -1e-17, 2.0**53, (0.7, 0.5, -0.0, 0.4))
         (answer,) = child.query([(7, a, b, (0.36, 0.48, -0.8))])
         sizes = [0.1, 1 / 3, 0.6, 0, -0.8, -0.25, 0.125, 3]
         points = [(*a["position"], *b["position"], sizes[i % 8]) for i in range(16)]
         points[0] = (math.nan, math.inf, -math.inf, 0.36, 0.48, -0.8, -0.0)
-        self.assertEqual(answer.bits(), Answer("contact", 0.1, (0.5, -0.0, 0.4), tuple(points), 0.7).bits())
+        right = Answer("contact", 0.1, (0.5, -0.0, 0.4), tuple(points), 0.7)
+        self.assertEqual(answer.bits(), right.bits())
 
     @every_client
     def test_an_absent_hint_is_absent(self, child):
         child.prepare([(0, CYLINDER, BOX, 0, 0)])
         (answer,) = child.query([(0, pose(0), pose(0), None)])
-        self.assertEqual(struct.pack("<3d", *answer.points[0][3:6]), struct.pack("<3d", -0.0, 0.0, 5e-324))
+        self.assertEqual(struct.pack("<3d", *answer.points[0][3:6]),
+                         struct.pack("<3d", -0.0, 0.0, 5e-324))
 
     @every_client
     def test_shapes_may_be_unsupported_and_fail_to_be_prepared(self, child):
         self.assertEqual(child.prepare([(0, CYLINDER, BOX, 0, 0), (1, CYLINDER, SPHERE, 0, 0),
                                         (2, CYLINDER, CAPSULE, 0, 0)]), [True, False, True])
         answers = child.query([(handle, pose(0), pose(0), None) for handle in (2, 0, 1)])
-        self.assertEqual([answer.status for answer in answers], ["failed", "contact", "unsupported"])
+        self.assertEqual([answer.status for answer in answers],
+                         ["failed", "contact", "unsupported"])
         self.assertIn("no capsules today", child.messages())
-        self.assertGreaterEqual(child.time(2, [(handle, pose(0), pose(0), None) for handle in range(3)]), 0)
+        questions = [(handle, pose(0), pose(0), None) for handle in range(3)]
+        self.assertGreaterEqual(child.time(2, questions), 0)
         child.release([2, 1, 0])
         self.assertEqual(child.messages().count("released"), 1)
 
@@ -155,12 +161,13 @@ class Clients(unittest.TestCase):
 
 class Examples(unittest.TestCase):
     def test_examples_agree_with_closed_forms(self):
-        """A cylinder of radius 0.5 and half length 1 about the origin, and a body in three places."""
+        """A cylinder of radius 0.5 and half length 1, and bodies at it."""
         half = math.sqrt(0.5)
         cylinder = {"shape": "cylinder", "radius": 0.5, "half_length": 1}
         sphere = {"shape": "sphere", "radius": 0.25}
         plane = {"shape": "plane", "normal": [0, 0, 1], "displacement": 0.5}
         box = {"shape": "box", "half_extents": [1, 1, 1]}
+        capsule = {"shape": "capsule", "radius": 0.25, "half_length": 1}
         lying = (half, half, 0, 0)
         cases = [
             (sphere, pose(0), pose(0.7), -0.05, (-1, 0, 0)),
@@ -175,14 +182,15 @@ class Examples(unittest.TestCase):
             (cylinder, pose(0), pose(0, 0.9, 0, (half, 0, half, 0)), -0.1, (0, -1, 0)),
             (box, pose(0, 0, 1.45, lying), pose(0), -0.05, (0, 0, 1)),
             (box, pose(0, 0, 2.05), pose(0), None, None),
-            ({"shape": "capsule", "radius": 0.25, "half_length": 1}, pose(0), pose(-0.7), -0.05, (1, 0, 0)),
+            (capsule, pose(0), pose(-0.7), -0.05, (1, 0, 0)),
         ]
-        for command in ([sys.executable, str(HERE / "example.py")], ["node", str(HERE / "example.mjs")]):
-            with Child(command) as child:
+        for program, script in ((sys.executable, "example.py"), ("node", "example.mjs")):
+            with Child([program, str(HERE / script)]) as child:
                 for i, (b, pose_a, pose_b, distance, normal) in enumerate(cases):
-                    with self.subTest(command=command[-1], case=i):
+                    with self.subTest(script=script, case=i):
                         supported = child.prepare([(i, cylinder, b, 0, 0)])[0]
-                        self.assertEqual(supported, f"cylinder-{b['shape']}" in child.hello["pairs"])
+                        pair = f"cylinder-{b['shape']}"
+                        self.assertEqual(supported, pair in child.hello["pairs"])
                         (answer,) = child.query([(i, pose_a, pose_b, None)])
                         if not supported:
                             self.assertEqual(answer.status, "unsupported")

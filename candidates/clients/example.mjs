@@ -5,7 +5,8 @@ import { run } from './touchstone_candidate.mjs';
 
 const add = (u, v, scale = 1) => u.map((x, i) => x + scale * v[i]);
 const dot = (u, v) => u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
-const cross = (u, v) => [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
+const cross = (u, v) =>
+  [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
 
 // v turned by a unit quaternion: v + 2 w (q × v) + 2 q × (q × v).
 function rotate([w, ...q], v) {
@@ -18,8 +19,9 @@ const rotateBack = ([w, x, y, z], v) => rotate([w, -x, -y, -z], v);
 // more of each, which matter where a cap lies flat.
 function planeContacts({ radius, half_length }, n, displacement) {
   const down = Math.hypot(n[0], n[1]) > 1e-12 ? Math.atan2(-n[1], -n[0]) : 0;
-  return [-half_length, half_length].flatMap((z) => [0, 2 * Math.PI / 3, -2 * Math.PI / 3].map((turn) => {
-    const onA = [radius * Math.cos(down + turn), radius * Math.sin(down + turn), z];
+  const third = 2 * Math.PI / 3;
+  return [-half_length, half_length].flatMap((z) => [down, down + third, down - third].map((angle) => {
+    const onA = [radius * Math.cos(angle), radius * Math.sin(angle), z];
     return { onA, distance: dot(n, onA) - displacement };
   }));
 }

@@ -46,7 +46,8 @@ def face(u, v, w):
 class Example(Candidate):
     name, version = "example-gjk-epa", "1.0"
     settings = "one hull is grown until a face holds to 1e-9; one point, halfway between the bodies"
-    pairs = ("cylinder-plane", "cylinder-sphere", "cylinder-capsule", "cylinder-cylinder", "cylinder-box")
+    pairs = ("cylinder-plane", "cylinder-sphere", "cylinder-capsule", "cylinder-cylinder",
+             "cylinder-box")
 
     def prepare(self, a, b, threshold, parameter):
         return a, b, threshold
@@ -81,7 +82,8 @@ class Example(Candidate):
             hull = [f for f in hull if f not in seen]
             hull += [face(*edge, p) for edge in edges if edge[::-1] not in edges]
         foot = add((0, 0, 0), n, near)
-        parts = [dot(n, cross(add(i[0], foot, -1), add(j[0], foot, -1))) for i, j in ((v, w), (w, u), (u, v))]
+        parts = [dot(n, cross(add(i[0], foot, -1), add(j[0], foot, -1)))
+                 for i, j in ((v, w), (w, u), (u, v))]
         on_a, on_b = ((0, 0, 0),) * 2
         for part, corner in zip(parts, (u, v, w)):
             on_a, on_b = (add(on, corner[i], part / sum(parts)) for i, on in ((1, on_a), (2, on_b)))

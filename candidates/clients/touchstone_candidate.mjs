@@ -11,10 +11,11 @@
 //
 //     touchstone --candidate-command "node mine.mjs" report --count 2
 //
-// Import this module before any other: from then on, what the process prints goes to standard error,
-// for standard output belongs to the protocol. Needs node 18 or later and nothing else. Lengths are in
-// metres, body A is the cylinder, normals are unit vectors from B to A in the world's frame, vectors
-// are arrays, orientations are unit quaternions w, x, y, z. Shapes are as in a configuration:
+// Import this module before any other: from then on, what the process prints goes to standard
+// error, for standard output belongs to the protocol. Needs node 18 or later and nothing else.
+// Lengths are in metres, body A is the cylinder, normals are unit vectors from B to A in the world's
+// frame, vectors are arrays, orientations are unit quaternions w, x, y, z. Shapes are as in a
+// configuration:
 // { shape: 'cylinder' | 'capsule', radius, half_length }, { shape: 'sphere', radius },
 // { shape: 'box', half_extents }, { shape: 'plane', normal, displacement }.
 //
@@ -23,20 +24,22 @@
 //   name        as on the command line: printable ASCII without colon, comma or space
 //   version     of the engine
 //   settings    how it is called: algorithm, margin, tolerance, where its contact points lie
-//   pairs       of cylinder-plane, cylinder-sphere, cylinder-capsule, cylinder-cylinder, cylinder-box
+//   pairs       of cylinder-plane, cylinder-sphere, cylinder-capsule, cylinder-cylinder and
+//               cylinder-box
 //   precision   'double' (default) or 'float'
 //   runs        'script' (default), 'wasm' or 'native'
 //   format      'frames' (default), or 'lines': requests and answers as text, for debugging
 //   parameter   for a family: { meaning: 'margin, metres', min: 0, max: 1, usual: 0.01 }
 //   models      what replaces the shapes, in a simplified model
 //
-//   prepare(a, b, threshold, parameter)       makes two shapes ready, untimed, and returns what `query`
-//       needs ({ a, b, threshold } by default); null: unsupported. Contacts up to `threshold` apart are
-//       to be reported.
-//   query(prepared, poseA, poseB, hint)       returns the contact, with at most 16 points; null: the
-//       bodies are further apart than the threshold. The answer depends on the arguments alone; `hint`,
-//       the normal of the previous frame or null, may only decide between normals that are equally
-//       good. An exception counts as a failure of this question; its text goes to standard error.
+//   prepare(a, b, threshold, parameter)       makes two shapes ready, untimed, and returns what
+//       `query` needs ({ a, b, threshold } by default); null: unsupported. Contacts up to
+//       `threshold` apart are to be reported.
+//   query(prepared, poseA, poseB, hint)       returns the contact, with at most 16 points; null:
+//       the bodies are further apart than the threshold. The answer depends on the arguments alone;
+//       `hint`, the normal of the previous frame or null, may only decide between normals that are
+//       equally good. An exception counts as a failure of this question; its text goes to standard
+//       error.
 //   release(prepared)                         frees what `prepare` returned
 //   model_distance(prepared, poseA, poseB)    the exact signed distance of what `models` names
 import fs from 'node:fs';
@@ -50,8 +53,8 @@ const STATUSES = { contact: 0, none: 1, unsupported: 2, failed: 3 };
 
 const output = takeStandardOutput();
 
-// A descriptor of its own for standard output; descriptor 1 becomes standard error. node has no dup2:
-// what was closed last is opened first.
+// A descriptor of its own for standard output; descriptor 1 becomes standard error. node has no
+// dup2: what was closed last is opened first.
 function takeStandardOutput() {
   process.stdout.write = process.stderr.write.bind(process.stderr);
   let own;
@@ -61,7 +64,11 @@ function takeStandardOutput() {
     return 1;  // not to be opened again, as a socket; what JavaScript prints is kept away
   }
   fs.closeSync(1);
-  fs.openSync('/proc/self/fd/2', 'a');
+  try {
+    fs.openSync('/proc/self/fd/2', 'a');
+  } catch {
+    fs.openSync('/dev/null', 'w');
+  }
   return own;
 }
 
@@ -76,7 +83,8 @@ export function run(candidate) {
   const { name, version, settings, pairs, precision = 'double', runs = 'script', format = 'frames',
     parameter, models } = candidate;
   if (format !== 'frames' && format !== 'lines') throw new Error(`no such format: ${format}`);
-  writeLine({ touchstone: 1, name, version, settings, precision, runs, format, pairs, parameter, models });
+  writeLine({ touchstone: 1, name, version, settings, precision, runs, format, pairs, parameter,
+    models });
   const engine = new Engine(candidate);
   if (format === 'frames') answerFrames(engine);
   else answerLines(engine);
@@ -123,8 +131,9 @@ class Engine {
 
   // Nanoseconds for all passes over all questions; a failure takes what it takes.
   time(passes, questions) {
-    const asked = questions.map(({ handle, poseA, poseB, hint }) =>
-      ({ value: this.prepared.get(handle).value, poseA, poseB, hint })).filter(({ value }) => value != null);
+    const asked = questions
+      .map(({ handle, ...question }) => ({ value: this.prepared.get(handle).value, ...question }))
+      .filter(({ value }) => value != null);
     const { candidate } = this;
     const begin = process.hrtime.bigint();
     for (let pass = 0; pass < passes; ++pass) {
@@ -165,7 +174,7 @@ function endAfterTrap(error) {
   process.exit(70);
 }
 
-// ---- frames --------------------------------------------------------------------------------------
+// ---- frames ------------------------------------------------------------------------------------
 
 function answerFrames(engine) {
   for (;;) {
@@ -249,25 +258,31 @@ function writeAnswer(view, at, { status, contact, modelDistance = NaN }) {
 function checked(contact) {
   if (!contact) return { signed_distance: 0, normal: [0, 0, 0], points: [] };
   const { points = [] } = contact;
-  if (points.length > MAX_POINTS) throw new RangeError(`${points.length} contact points, more than ${MAX_POINTS}`);
+  if (points.length > MAX_POINTS) {
+    throw new RangeError(`${points.length} contact points, more than ${MAX_POINTS}`);
+  }
   const isVector = (v) => v?.length === 3 && [...v].every((x) => typeof x === 'number');
+  const isPoint = ({ position, normal, depth }) =>
+    isVector(position) && isVector(normal) && typeof depth === 'number';
   if (typeof contact.signed_distance !== 'number' || !isVector(contact.normal) ||
-      !points.every((p) => isVector(p.position) && isVector(p.normal) && typeof p.depth === 'number')) {
+      !points.every(isPoint)) {
     throw new TypeError(`not a contact: ${JSON.stringify(contact)}`);
   }
   return { ...contact, points };
 }
 
-// ---- lines ---------------------------------------------------------------------------------------
+// ---- lines -------------------------------------------------------------------------------------
 
 function answerLines(engine) {
   for (let line; (line = readLine()) !== null;) {
-    const { op, ticket, passes, entries } = JSON.parse(line, (key, value) => NOT_FINITE.get(value) ?? value);
+    const { op, ticket, passes, entries } =
+      JSON.parse(line, (key, value) => NOT_FINITE.get(value) ?? value);
     if (op === 'prepare') {
       writeLine({ ticket, supported: entries.map(({ handle, a, b, threshold, parameter }) =>
         engine.prepare(handle, a, b, threshold, parameter)) });
     } else if (op === 'query') {
-      writeLine({ ticket, answers: entries.map((entry) => engine.query(questionOf(entry), describe)) });
+      const answers = entries.map((entry) => engine.query(questionOf(entry), describe));
+      writeLine({ ticket, answers });
     } else if (op === 'time') {
       writeLine({ ticket, nanoseconds: engine.time(passes, entries.map(questionOf)) });
     } else if (op === 'release') {
@@ -281,10 +296,12 @@ function answerLines(engine) {
 
 const NOT_FINITE = new Map([['nan', NaN], ['inf', Infinity], ['-inf', -Infinity]]);
 
-const questionOf = ({ handle, pose_a: poseA, pose_b: poseB, hint }) => ({ handle, poseA, poseB, hint });
+const questionOf = ({ handle, pose_a: poseA, pose_b: poseB, hint }) =>
+  ({ handle, poseA, poseB, hint });
 
 function describe({ status, contact, modelDistance = NaN }) {
-  const described = { status, model_distance: Number.isNaN(modelDistance) ? undefined : modelDistance };
+  const described = { status };
+  if (!Number.isNaN(modelDistance)) described.model_distance = modelDistance;
   if (!contact) return described;
   const { signed_distance, normal, points } = checked(contact);
   return { ...described, signed_distance, normal: [...normal],
@@ -302,10 +319,11 @@ function toText(value) {
   if (Array.isArray(value)) return `[${value.map(toText).join(', ')}]`;
   if (value === null || typeof value !== 'object') return JSON.stringify(value);
   const members = Object.entries(value).filter(([, member]) => member !== undefined);
-  return `{${members.map(([name, member]) => `${JSON.stringify(name)}: ${toText(member)}`).join(', ')}}`;
+  const texts = members.map(([name, member]) => `${JSON.stringify(name)}: ${toText(member)}`);
+  return `{${texts.join(', ')}}`;
 }
 
-// ---- standard input and output, synchronous --------------------------------------------------------
+// ---- standard input and output, synchronous ------------------------------------------------------
 
 function write(bytes) {
   for (let done = 0; done < bytes.length;) {

@@ -135,7 +135,8 @@ class Candidate:
         Contacts up to `threshold` apart are to be reported."""
         return a, b
 
-    def query(self, prepared: Any, pose_a: Pose, pose_b: Pose, hint: Vector | None) -> Contact | None:
+    def query(self, prepared: Any, pose_a: Pose, pose_b: Pose,
+              hint: Vector | None) -> Contact | None:
         """Returns the contact; None: the bodies are further apart than the threshold.
 
         The answer depends on the arguments alone. `hint`, the normal of the previous frame, may
@@ -204,7 +205,8 @@ class _Engine:
         self.candidate = candidate
         self.prepared: dict[int, Any] = {}
 
-    def prepare(self, handle: int, a: Cylinder, b: Shape, threshold: float, parameter: float) -> bool:
+    def prepare(self, handle: int, a: Cylinder, b: Shape, threshold: float,
+                parameter: float) -> bool:
         try:
             self.prepared[handle] = self.candidate.prepare(a, b, threshold, parameter)
         except Exception as error:

@@ -1,15 +1,17 @@
 // Havok Physics (npm's @babylonjs/havok, the binary for WebAssembly), single precision.
 //
-// Calls        HP_World_ShapeProximityWithCollector: the nearest point of the body of B, alone in a world, to
-//              the cylinder's shape; the distance is negative inside. The body is added before the query and
-//              removed after it, for a world of its own takes 0.3 MB a pair; both are timed.
-// Shapes       HP_Shape_CreateCylinder and CreateCapsule by their end points on z, CreateSphere, CreateBox
-//              (whole extents). There is no plane.
-//              Havok's cylinder is a prism of 16 sides with its corners on the rims: 1.9% of the radius are
-//              missing between two corners.
-// Margin       As Havok makes them; there is no call to set one. Edges are rounded by about 0.015 m.
-// Conventions  The contact on the queried shape comes in that shape's frame, the one on B in the world's. The
-//              normal is that on B, which points out of it.
+// Calls        HP_World_ShapeProximityWithCollector: the nearest point of the body of B, alone in a
+//              world, to the cylinder's shape; the distance is negative inside. The body is added
+//              before the query and removed after it, for a world of its own takes 0.3 MB a pair;
+//              both are timed.
+// Shapes       HP_Shape_CreateCylinder and CreateCapsule by their end points on z, CreateSphere,
+//              CreateBox (whole extents). There is no plane. Havok's cylinder is a prism of 16
+//              sides with its corners on the rims: 1.9% of the radius are missing between two
+//              corners.
+// Margin       As Havok makes them; there is no call to set one. Edges are rounded by about 0.015
+//              m.
+// Conventions  The contact on the queried shape comes in that shape's frame, the one on B in the
+//              world's. The normal is that on B, which points out of it.
 // Points       One, midway between those on both bodies.
 // Threshold    The query's maximum distance.
 // Precision    Poses are rounded to float.
@@ -30,12 +32,13 @@ function checked([code, value]) {
 }
 
 function makeShape(shape) {
-  const origin = [0, 0, 0], h = shape.half_length;
+  const origin = [0, 0, 0], ends = [-1, 1].map((side) => [0, 0, side * shape.half_length]);
   switch (shape.shape) {
-    case 'cylinder': return checked(havok.HP_Shape_CreateCylinder([0, 0, -h], [0, 0, h], shape.radius));
-    case 'capsule': return checked(havok.HP_Shape_CreateCapsule([0, 0, -h], [0, 0, h], shape.radius));
+    case 'cylinder': return checked(havok.HP_Shape_CreateCylinder(...ends, shape.radius));
+    case 'capsule': return checked(havok.HP_Shape_CreateCapsule(...ends, shape.radius));
     case 'sphere': return checked(havok.HP_Shape_CreateSphere(origin, shape.radius));
-    case 'box': return checked(havok.HP_Shape_CreateBox(origin, [0, 0, 0, 1], shape.half_extents.map((x) => 2 * x)));
+    case 'box': return checked(
+      havok.HP_Shape_CreateBox(origin, [0, 0, 0, 1], shape.half_extents.map((x) => 2 * x)));
     default: return null;
   }
 }
@@ -47,8 +50,8 @@ const toXyzw = ([w, x, y, z]) => [x, y, z, w];
 run({
   name: 'havok',
   version: versionOf('@babylonjs/havok'),
-  settings: 'ShapeProximity query of a world with one body, single precision, margins as made (a cylinder is a ' +
-    'rounded prism of 16 sides); one point, midway between those on both bodies',
+  settings: 'ShapeProximity query of a world with one body, single precision, margins as made (a ' +
+    'cylinder is a rounded prism of 16 sides); one point, midway between those on both bodies',
   precision: 'float',
   runs: 'wasm',
   pairs: ['cylinder-sphere', 'cylinder-capsule', 'cylinder-cylinder', 'cylinder-box'],
@@ -69,8 +72,10 @@ run({
       havok.HP_World_ShapeProximityWithCollector(world, collector,
         [shapeA, poseA.position, toXyzw(poseA.orientation), threshold, false, [0n]]);
       if (checked(havok.HP_QueryCollector_GetNumHits(collector)) === 0) return null;
-      const [distance, onA, onB] = checked(havok.HP_QueryCollector_GetShapeProximityResult(collector, 0));
-      const [, , , pointOnA] = onA, [, , , pointOnB, normal] = onB;  // after body, collider and path
+      const [distance, onA, onB] =
+        checked(havok.HP_QueryCollector_GetShapeProximityResult(collector, 0));
+      // After body, collider and path.
+      const [, , , pointOnA] = onA, [, , , pointOnB, normal] = onB;
       if (distance > threshold) return null;
       const inWorld = rotate(poseA.orientation, pointOnA).map((x, i) => x + poseA.position[i]);
       return { signed_distance: distance, normal,

@@ -2,27 +2,30 @@
 //
 // Calls        TransformedShape::CollideShape of the cylinder's shape (shape 1) against a
 //              TransformedShape of the other body (shape 2), with the settings of a default
-//              CollideShapeSettings: collision and penetration tolerance 1e-4 m. This is what a world asks
-//              in its narrow phase before it clips faces to a manifold: one point.
-//              jolt-world: both bodies are made for a world without gravity, which takes one step of 1 µs,
-//              and the manifold of its contact listener is taken; then they are destroyed, so that nothing
-//              is left of the pair. All of it is timed.
-// Shapes       CylinderShape and CapsuleShape along y, turned to ours; SphereShape, BoxShape, PlaneShape.
-// Margin       jolt, jolt-world: Jolt's convex radius of 0.05 m on cylinder and box, at most half of the smallest
-//              half extent (Jolt refuses more than the whole one). It is taken from the inside: faces stay
-//              where they are, edges are rounded.
-//              jolt-margin-0: convex radius 0. jolt-margin:M: M metres, at most the smallest half extent.
-// Conventions  mPenetrationAxis, and a manifold's normal, moves shape 2 out; which body is the manifold's
-//              first is checked.
+//              CollideShapeSettings: collision and penetration tolerance 1e-4 m. This is what a
+//              world asks in its narrow phase before it clips faces to a manifold: one point.
+//              jolt-world: both bodies are made for a world without gravity, which takes one step
+//              of 1 µs, and the manifold of its contact listener is taken; then they are destroyed,
+//              so that nothing is left of the pair. All of it is timed.
+// Shapes       CylinderShape and CapsuleShape along y, turned to ours; SphereShape, BoxShape,
+//              PlaneShape.
+// Margin       jolt, jolt-world: Jolt's convex radius of 0.05 m on cylinder and box, at most half
+//              of the smallest half extent (Jolt refuses more than the whole one). It is taken from
+//              the inside: faces stay where they are, edges are rounded.
+//              jolt-margin-0: convex radius 0. jolt-margin:M: M metres, at most the smallest half
+//              extent.
+// Conventions  mPenetrationAxis, and a manifold's normal, moves shape 2 out; which body is the
+//              manifold's first is checked.
 // Points       Midway between those on both bodies.
-// Threshold    mMaxSeparationDistance; the world's speculative contact distance, at least its own of 2 cm,
-//              and what lies beyond the threshold is dropped.
+// Threshold    mMaxSeparationDistance; the world's speculative contact distance, at least its own
+//              of 2 cm, and what lies beyond the threshold is dropped.
 // Precision    Poses are rounded to float.
-// Traps        Until a JoltInterface exists, every pair's function is null, and a query ends the program.
+// Traps        Until a JoltInterface exists, every pair's function is null, and a query ends the
+//              program.
 //
 // node jolt.mjs [margin-0 | margin | world]
 import { run } from '../clients/touchstone_candidate.mjs';
-import { Y_TO_Z, load, middle, multiply, smallest, versionOf } from './packages.mjs';
+import { ALL_PAIRS, Y_TO_Z, load, middle, multiply, smallest, versionOf } from './packages.mjs';
 
 const Jolt = await (await load('jolt-physics')).default();
 
@@ -34,7 +37,8 @@ const broadPhase = new Jolt.BroadPhaseLayerInterfaceTable(1, 1);
 broadPhase.MapObjectToBroadPhaseLayer(LAYER, new Jolt.BroadPhaseLayer(0));
 settings.mObjectLayerPairFilter = layers;
 settings.mBroadPhaseLayerInterface = broadPhase;
-settings.mObjectVsBroadPhaseLayerFilter = new Jolt.ObjectVsBroadPhaseLayerFilterTable(broadPhase, 1, layers, 1);
+settings.mObjectVsBroadPhaseLayerFilter =
+  new Jolt.ObjectVsBroadPhaseLayerFilterTable(broadPhase, 1, layers, 1);
 const jolt = new Jolt.JoltInterface(settings);
 
 const one = new Jolt.Vec3(1, 1, 1), zero = new Jolt.RVec3(0, 0, 0);
@@ -119,8 +123,8 @@ const byQuery = {
     body.SetWorldTransform(position, rotation, one);
     place(poseA, true);
     hit = null;
-    body.CollideShape(shapeA, one, Jolt.RMat44.prototype.sRotationTranslation(rotation, position), query,
-      zero, hits, any);
+    const atA = Jolt.RMat44.prototype.sRotationTranslation(rotation, position);
+    body.CollideShape(shapeA, one, atA, query, zero, hits, any);
     if (!hit) return null;
     const { distance, axis, onA, onB } = hit;
     const length = -Math.hypot(...axis);
@@ -150,7 +154,8 @@ function listen(idOfA) {
     const normal = toArray(found.mWorldSpaceNormal).map((x) => isFirst ? -x : x);
     const points = [];
     for (let i = 0; i < found.mRelativeContactPointsOn1.size(); ++i) {
-      const ends = [toArray(found.GetWorldSpaceContactPointOn1(i)), toArray(found.GetWorldSpaceContactPointOn2(i))];
+      const ends = [found.GetWorldSpaceContactPointOn1(i), found.GetWorldSpaceContactPointOn2(i)]
+        .map(toArray);
       const [onA, onB] = isFirst ? ends : ends.reverse();
       const depth = normal.reduce((sum, x, j) => sum + x * (onB[j] - onA[j]), 0);
       points.push({ position: middle(onA, onB), normal, depth });
@@ -164,14 +169,15 @@ function listen(idOfA) {
 
 let idOfA = -1;
 const byWorld = {
-  settings: `contact listener of a step of a world, single precision; ${margin.says}; points midway ` +
-    'between those on both bodies',
+  settings: `contact listener of a step of a world, single precision; ${margin.says}; points ` +
+    'midway between those on both bodies',
 
   prepare(a, b, threshold) {
     const [shapeA, shapeB] = [a, b].map((shape) => makeShape(shape, margin.of(shape)));
-    const made = (shape, motion) => new Jolt.BodyCreationSettings(shape, zero, upright, motion, LAYER);
-    return { a: made(shapeA, Jolt.EMotionType_Dynamic), b: made(shapeB, Jolt.EMotionType_Static), threshold,
-      turned: needsTurn(b) };
+    const body = (shape, motion) =>
+      new Jolt.BodyCreationSettings(shape, zero, upright, motion, LAYER);
+    return { a: body(shapeA, Jolt.EMotionType_Dynamic), b: body(shapeB, Jolt.EMotionType_Static),
+      threshold, turned: needsTurn(b) };
   },
 
   query({ a, b, threshold, turned }, poseA, poseB) {
@@ -211,7 +217,7 @@ run({
   version: versionOf('jolt-physics'),
   precision: 'float',
   runs: 'wasm',
-  pairs: ['cylinder-plane', 'cylinder-sphere', 'cylinder-capsule', 'cylinder-cylinder', 'cylinder-box'],
+  pairs: ALL_PAIRS,
   parameter: margin.parameter,
   ...margin.name === 'jolt-world' ? byWorld : byQuery,
 });

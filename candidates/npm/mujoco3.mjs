@@ -1,22 +1,25 @@
-// MuJoCo 3.14 (npm's @mujoco/mujoco, Google DeepMind's own build for WebAssembly), double precision.
+// MuJoCo 3.14 (npm's @mujoco/mujoco, Google DeepMind's build for WebAssembly), double precision.
 //
-// Calls        mj_kinematics and mj_collision of a model with one free body and one geom or mocap body for
-//              B, made from XML for each pair of shapes.
-// Routes       Plane, sphere and capsule by MuJoCo's closed forms where it has them; others by its own
-//              convex collision (nativeccd): GJK and EPA, ccd_tolerance 1e-6 and ccd_iterations 35, all as by
-//              default.
-// Points       mujoco3: several of flat features, as by default (multiccd). mujoco3-single: multiccd off.
-//              Midway between the two surfaces.
-// Shapes       Half lengths, a capsule's without its round ends. A plane is solid below its frame's xy-plane.
-// Conventions  A contact frame's x axis points from geom1 to geom2; reversed if geom1 is the cylinder.
+// Calls        mj_kinematics and mj_collision of a model with one free body and one geom or mocap
+//              body for B, made from XML for each pair of shapes.
+// Routes       Plane, sphere and capsule by MuJoCo's closed forms where it has them; others by its
+//              own convex collision (nativeccd): GJK and EPA, ccd_tolerance 1e-6 and ccd_iterations
+//              35, all as by default.
+// Points       mujoco3: several of flat features, as by default (multiccd). mujoco3-single:
+//              multiccd off. Midway between the two surfaces.
+// Shapes       Half lengths, a capsule's without its round ends. A plane is solid below its frame's
+//              xy-plane.
+// Conventions  A contact frame's x axis points from geom1 to geom2; reversed if geom1 is the
+//              cylinder.
 // Threshold    The cylinder's margin.
-// Traps        Contacts are copies: delete them. The plane has to hang from a static body other than the world,
-//              whose geoms mj_kinematics leaves where they were. An MjData serves all models with the same kinds
-//              of geoms, for its arena is large; mj_kinematics and mj_collision write whatever is read of it.
+// Traps        Contacts are copies: delete them. The plane has to hang from a static body other
+//              than the world, whose geoms mj_kinematics leaves where they were. An MjData serves
+//              all models with the same kinds of geoms, for its arena is large; mj_kinematics and
+//              mj_collision write whatever is read of it.
 //
 // node mujoco3.mjs [single]
 import { run } from '../clients/touchstone_candidate.mjs';
-import { load, multiply, rotate, turn } from './packages.mjs';
+import { ALL_PAIRS, load, multiply, rotate, turn } from './packages.mjs';
 
 const { default: start } = await load('@mujoco/mujoco');
 const mujoco = await start();
@@ -33,7 +36,8 @@ function makeModel(a, b, threshold) {
   const flag = single ? "<flag multiccd='disable'/>" : '';
   return mujoco.MjModel.from_xml_string(`<mujoco><option>${flag}</option><worldbody>
     <body mocap='${b.shape !== 'plane'}'>${geomXml(b, 0)}</body>
-    <body><freejoint/><inertial pos='0 0 0' mass='1' diaginertia='1 1 1'/>${geomXml(a, threshold)}</body></worldbody></mujoco>`);
+    <body><freejoint/><inertial pos='0 0 0' mass='1' diaginertia='1 1 1'/>
+      ${geomXml(a, threshold)}</body></worldbody></mujoco>`);
 }
 
 const datas = new Map();  // by the kind of B
@@ -51,7 +55,7 @@ run({
     single ? 'off' : 'on, as by default'}; points midway between the bodies`,
   precision: 'double',
   runs: 'wasm',
-  pairs: ['cylinder-plane', 'cylinder-sphere', 'cylinder-capsule', 'cylinder-cylinder', 'cylinder-box'],
+  pairs: ALL_PAIRS,
 
   prepare: (a, b, threshold) => ({ model: makeModel(a, b, threshold), data: dataFor(a, b),
     plane: b.shape === 'plane' ? { ...b, turn: turn([0, 0, 1], b.normal) } : null }),
@@ -74,8 +78,8 @@ run({
     for (let i = 0; i < data.ncon; ++i) {
       const contact = contacts.get(i);
       const sign = contact.geom1 === 1 ? -1 : 1;
-      points.push({ position: [...contact.pos], normal: [...contact.frame.slice(0, 3)].map((x) => sign * x),
-        depth: -contact.dist });
+      const normal = [...contact.frame.slice(0, 3)].map((x) => sign * x);
+      points.push({ position: [...contact.pos], normal, depth: -contact.dist });
       contact.delete();
     }
     contacts.delete();

@@ -7,7 +7,8 @@ import path from 'node:path';
 import { createRequire } from 'node:module';
 import { fileURLToPath, pathToFileURL } from 'node:url';
 
-const folder = process.env.TOUCHSTONE_NPM ?? fileURLToPath(new URL('../../build/npm', import.meta.url));
+const folder = process.env.TOUCHSTONE_NPM ??
+  fileURLToPath(new URL('../../build/npm', import.meta.url));
 const packages = createRequire(path.join(path.resolve(folder), 'any.js'));
 
 /** The module of a package. */
@@ -16,7 +17,10 @@ export const load = (name) => import(pathToFileURL(packages.resolve(name)));
 /** The folder of a package. */
 export const folderOf = (name) => path.join(path.resolve(folder), 'node_modules', name);
 
-export const versionOf = (name) => JSON.parse(fs.readFileSync(path.join(folderOf(name), 'package.json'))).version;
+export const versionOf = (name) =>
+  JSON.parse(fs.readFileSync(path.join(folderOf(name), 'package.json'))).version;
+
+export const ALL_PAIRS = ['plane', 'sphere', 'capsule', 'cylinder', 'box'].map((b) => `cylinder-${b}`);
 
 /** The rotation `q` after the rotation `p`; w, x, y, z. */
 export const multiply = ([a, b, c, d], [w, x, y, z]) => [

@@ -1,18 +1,20 @@
 // PhysX 5.6.1 (npm's physx-js-webidl, compiled to WebAssembly), single precision.
 //
-// Calls        physx: PxGjkQuery::proximityInfo, GJK and EPA, which a scene asks for convex cores; the plane
-//              has no such query and is asked as by physx-world.
-//              physx-world: both bodies are added to a scene without gravity, which takes one step of 1 µs,
-//              and the points of its contact report are taken; then they are removed, so that nothing is
-//              left of the pair. All of it is timed.
-// Shapes       PxConvexCoreGeometry of a PxConvexCoreCylinder, along x, turned to ours, height a full one;
-//              PxCapsuleGeometry along x; PxSphereGeometry, PxBoxGeometry, PxPlaneGeometry, solid below x = 0.
+// Calls        physx: PxGjkQuery::proximityInfo, GJK and EPA, which a scene asks for convex cores;
+//              the plane has no such query and is asked as by physx-world.
+//              physx-world: both bodies are added to a scene without gravity, which takes one step
+//              of 1 µs, and the points of its contact report are taken; then they are removed, so
+//              that nothing is left of the pair. All of it is timed.
+// Shapes       PxConvexCoreGeometry of a PxConvexCoreCylinder, along x, turned to ours, height a
+//              full one; PxCapsuleGeometry along x; PxSphereGeometry, PxBoxGeometry,
+//              PxPlaneGeometry, solid below x = 0.
 // Margin       0 on all; the tolerance length of 1 m is PhysX's default.
-// Conventions  separatingAxis, and the normal of a contact report, points from the second body to the first.
+// Conventions  separatingAxis, and the normal of a contact report, points from the second body to
+//              the first.
 // Points       Midway between pointA and pointB; of a scene as in the report.
-// Threshold    The query's contactDistance; in the scene, contacts beyond it are dropped. A contact offset of
-//              a thousandth of the cylinder's smaller size beyond the threshold is set, for PhysX wants more
-//              than zero.
+// Threshold    The query's contactDistance; in the scene, contacts beyond it are dropped. A contact
+//              offset of a thousandth of the cylinder's smaller size beyond the threshold is set,
+//              for PhysX wants more than zero.
 // Precision    Poses are rounded to float.
 // Traps        The package is built for browsers alone, and refuses to load where it sees node.
 //
@@ -20,7 +22,9 @@
 import { run } from '../clients/touchstone_candidate.mjs';
 import fs from 'node:fs';
 import path from 'node:path';
-import { folderOf, load, middle, multiply, rotate, smallest, turn, versionOf } from './packages.mjs';
+import {
+  ALL_PAIRS, folderOf, load, middle, multiply, rotate, smallest, turn, versionOf,
+} from './packages.mjs';
 
 const PhysX = await loadAsInBrowser();
 const { PxTopLevelFunctions: Px, PxConvexCoreGeometryFactory: Cores, PxGjkQuery: Gjk } =
@@ -59,9 +63,10 @@ function makeScene() {
   description.gravity = new PhysX.PxVec3(0, 0, 0);
   description.cpuDispatcher = Px.DefaultCpuDispatcherCreate(0);
   const shader = new PhysX.PassThroughFilterShaderImpl();
-  const { eDETECT_DISCRETE_CONTACT, eNOTIFY_TOUCH_FOUND, eNOTIFY_CONTACT_POINTS } = PhysX.PxPairFlagEnum;
+  const flags = PhysX.PxPairFlagEnum;
   shader.filterShader = () => {
-    shader.outputPairFlags = eDETECT_DISCRETE_CONTACT | eNOTIFY_TOUCH_FOUND | eNOTIFY_CONTACT_POINTS;
+    shader.outputPairFlags = flags.eDETECT_DISCRETE_CONTACT | flags.eNOTIFY_TOUCH_FOUND |
+      flags.eNOTIFY_CONTACT_POINTS;
     return 0;
   };
   Px.setupPassThroughFilterShader(description, shader);
@@ -74,11 +79,14 @@ function makeScene() {
     const sign = PhysX.getPointer(pair.get_shapes(0)) === PhysX.getPointer(made.shapeOfA) ? 1 : -1;
     const count = pair.extractContacts(points.begin(), MAX_POINTS);
     made.points = Array.from({ length: count }, (_, i) => {
-      const { position, normal, separation } = points.get(i);
-      return { position: toArray(position), normal: toArray(normal).map((x) => sign * x), depth: -separation };
+      const point = points.get(i);
+      const normal = toArray(point.normal).map((x) => sign * x);
+      return { position: toArray(point.position), normal, depth: -point.separation };
     });
   };
-  for (const name of ['onConstraintBreak', 'onWake', 'onSleep', 'onTrigger']) reports[name] = () => {};
+  for (const name of ['onConstraintBreak', 'onWake', 'onSleep', 'onTrigger']) {
+    reports[name] = () => {};
+  }
   description.simulationEventCallback = reports;
   made.scene = physics.createScene(description);
   return made;
@@ -107,25 +115,29 @@ function makeGeometry(shape) {
   }
 }
 
-/** Where PhysX has B's frame: cylinder and capsule along x, a plane's surface through the origin across x. */
+/** Where PhysX has B's frame: a capsule along x, a plane's surface through the origin across x. */
 function frameOfB(b, { position, orientation }) {
-  if (b.shape === 'cylinder' || b.shape === 'capsule') return [position, multiply(orientation, X_TO_Z)];
+  if (b.shape === 'cylinder' || b.shape === 'capsule') {
+    return [position, multiply(orientation, X_TO_Z)];
+  }
   if (b.shape !== 'plane') return [position, orientation];
   const up = rotate(orientation, b.normal);
-  return [position.map((x, i) => x + b.displacement * up[i]), multiply(orientation, turn([1, 0, 0], b.normal))];
+  return [position.map((x, i) => x + b.displacement * up[i]),
+    multiply(orientation, turn([1, 0, 0], b.normal))];
 }
 
 /** Two supports for PxGjkQuery. */
 function prepareQuery(a, b, threshold) {
   const geometries = [makeGeometry(a), makeGeometry(b)];
-  return { geometries, supports: geometries.map((geometry) => new PhysX.ConvexGeomSupport(geometry, 0)),
-    b, threshold };
+  const supports = geometries.map((geometry) => new PhysX.ConvexGeomSupport(geometry, 0));
+  return { geometries, supports, b, threshold };
 }
 
 function ask({ supports, b, threshold }, poseA, poseB) {
   place(poseOfA, poseA.position, multiply(poseA.orientation, X_TO_Z));
   place(poseOfB, ...frameOfB(b, poseB));
-  const found = Gjk.proximityInfo(...supports, poseOfA, poseOfB, threshold, TOLERANCE_LENGTH, result);
+  const found =
+    Gjk.proximityInfo(...supports, poseOfA, poseOfB, threshold, TOLERANCE_LENGTH, result);
   if (!found || result.separation > threshold) return null;
   const normal = toArray(result.separatingAxis), distance = result.separation;
   const position = middle(toArray(result.pointA), toArray(result.pointB));
@@ -138,7 +150,8 @@ function prepareScene(a, b, threshold) {
   const shapes = geometries.map((geometry) => scene.physics.createShape(geometry, material, true));
   shapes[0].setContactOffset(threshold + smallest(a) / 1000);
   shapes[1].setContactOffset(1e-30);
-  const actors = [scene.physics.createRigidDynamic(poseOfA), scene.physics.createRigidStatic(poseOfB)];
+  const { physics } = scene;
+  const actors = [physics.createRigidDynamic(poseOfA), physics.createRigidStatic(poseOfB)];
   actors.forEach((actor, i) => actor.attachShape(shapes[i]));
   return { geometries, shapes, actors, b, threshold };
 }
@@ -165,14 +178,16 @@ const inWorld = process.argv[2] === 'world';
 run({
   name: inWorld ? 'physx-world' : 'physx',
   version: `5.6.1 (${versionOf('physx-js-webidl')})`,
-  settings: inWorld ? 'contact report of a step of a scene, convex core of margin 0, single precision' :
-    'PxGjkQuery::proximityInfo, convex core of margin 0, single precision, one point midway between the ' +
-    'bodies; the plane: contact report of a step of a scene',
+  settings: inWorld ?
+    'contact report of a step of a scene, convex core of margin 0, single precision' :
+    'PxGjkQuery::proximityInfo, convex core of margin 0, single precision, one point midway ' +
+    'between the bodies; the plane: contact report of a step of a scene',
   precision: 'float',
   runs: 'wasm',
-  pairs: ['cylinder-plane', 'cylinder-sphere', 'cylinder-capsule', 'cylinder-cylinder', 'cylinder-box'],
+  pairs: ALL_PAIRS,
 
-  prepare: (a, b, threshold) => (inWorld || b.shape === 'plane' ? prepareScene : prepareQuery)(a, b, threshold),
+  prepare: (a, b, threshold) => inWorld || b.shape === 'plane' ?
+    prepareScene(a, b, threshold) : prepareQuery(a, b, threshold),
 
   query: (prepared, poseA, poseB) => (prepared.actors ? step : ask)(prepared, poseA, poseB),
 

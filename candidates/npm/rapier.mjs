@@ -1,25 +1,25 @@
 // Rapier (npm's @dimforge/rapier3d-compat, compiled to WebAssembly), single precision.
 //
-// Calls        rapier: Shape.contactShape, which is parry's contact query: GJK, then EPA for bodies that
-//              overlap, closed forms for the plane's and the sphere's pairs.
-//              rapier-world: both bodies are added to a world without gravity, which takes one step of
-//              1 µs, and the manifolds of World.contactPair are taken; then they are removed, so that
-//              nothing is left of the pair. All of it is timed.
-// Shapes       Cylinder and Capsule along y, turned to ours; Ball, Cuboid; HalfSpace, which passes through
-//              the origin of its frame: displaced along its normal.
+// Calls        rapier: Shape.contactShape, which is parry's contact query: GJK, then EPA for bodies
+//              that overlap, closed forms for the plane's and the sphere's pairs.
+//              rapier-world: both bodies are added to a world without gravity, which takes one step
+//              of 1 µs, and the manifolds of World.contactPair are taken; then they are removed, so
+//              that nothing is left of the pair. All of it is timed.
+// Shapes       Cylinder and Capsule along y, turned to ours; Ball, Cuboid; HalfSpace, which passes
+//              through the origin of its frame: displaced along its normal.
 // Margin       None; Rapier's round shapes (RoundCylinder) are others.
-// Conventions  The normal is normal1 of B if B is the plane, which has to come first, otherwise normal2,
-//              which points out of B as well.
-//              A manifold's normal points from its first body to its second, which may be either.
+// Conventions  The normal is normal1 of B if B is the plane, which has to come first, otherwise
+//              normal2, which points out of B as well. A manifold's normal points from its first
+//              body to its second, which may be either.
 // Points       Midway between those on both bodies; of a query one.
-// Threshold    The query's prediction; the world's prediction distance, at least its own of 2 mm. What lies
-//              beyond the threshold nevertheless is dropped.
+// Threshold    The query's prediction; the world's prediction distance, at least its own of 2 mm.
+//              What lies beyond the threshold nevertheless is dropped.
 // Precision    Poses are rounded to float.
 // Traps        A panic of Rust is a trap of WebAssembly: the client ends and is started again.
 //
 // node rapier.mjs [world]
 import { run } from '../clients/touchstone_candidate.mjs';
-import { Y_TO_Z, load, middle, multiply, rotate, versionOf } from './packages.mjs';
+import { ALL_PAIRS, Y_TO_Z, load, middle, multiply, rotate, versionOf } from './packages.mjs';
 
 const { default: RAPIER } = await load('@dimforge/rapier3d-compat');
 await RAPIER.init();
@@ -50,7 +50,8 @@ function onPlane(plane, pose) {
 
 const byQuery = {
   name: 'rapier',
-  settings: 'contactShape, single precision, no margin; one point, midway between those on both bodies',
+  settings: 'contactShape, single precision, no margin; one point, midway between those on both ' +
+    'bodies',
 
   prepare: (a, b, threshold) => ({ b, shapeA: makeShape(a), shapeB: makeShape(b), threshold }),
 
@@ -78,7 +79,8 @@ const OWN_PREDICTION = world.integrationParameters.normalizedPredictionDistance;
 
 const byWorld = {
   name: 'rapier-world',
-  settings: 'contactPair after a step of a world, single precision, no margin; points midway between the bodies',
+  settings: 'contactPair after a step of a world, single precision, no margin; points midway ' +
+    'between the bodies',
 
   prepare: (a, b, threshold) => ({ b, threshold, bodyA: RAPIER.RigidBodyDesc.dynamic(),
     bodyB: RAPIER.RigidBodyDesc.fixed(), colliderA: new RAPIER.ColliderDesc(makeShape(a)),
@@ -92,11 +94,13 @@ const byWorld = {
     bodyA.setTranslation(atA.x, atA.y, atA.z).setRotation(turnA);
     bodyB.setTranslation(atB.x, atB.y, atB.z).setRotation(turnB);
     const [madeB, madeA] = [bodyB, bodyA].map((body) => world.createRigidBody(body));
-    const inB = world.createCollider(colliderB, madeB), inA = world.createCollider(colliderA, madeA);
+    const inB = world.createCollider(colliderB, madeB);
+    const inA = world.createCollider(colliderA, madeA);
     try {
       world.step();
       const points = [];
-      const place = ({ x, y, z, w }, at, v) => rotate([w, x, y, z], toArray(v)).map((u, i) => u + at[i]);
+      const place = ({ x, y, z, w }, at, v) =>
+        rotate([w, x, y, z], toArray(v)).map((u, i) => u + at[i]);
       world.contactPair(inA, inB, (manifold, flipped) => {
         const sign = flipped ? 1 : -1;
         const normal = toArray(manifold.normal()).map((x) => sign * x);
@@ -124,5 +128,5 @@ run({
   version: versionOf('@dimforge/rapier3d-compat'),
   precision: 'float',
   runs: 'wasm',
-  pairs: ['cylinder-plane', 'cylinder-sphere', 'cylinder-capsule', 'cylinder-cylinder', 'cylinder-box'],
+  pairs: ALL_PAIRS,
 });

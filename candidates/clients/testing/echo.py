@@ -42,7 +42,8 @@ class Echo(Candidate):
             assert sys.stdin.read() == ""
         if asked == 5:
             return Contact("far", (0, 0, 1))
-        points = [Point(pose_a.position, pose_b.position, prepared[i % len(prepared)]) for i in range(16)]
+        points = [Point(pose_a.position, pose_b.position, prepared[i % len(prepared)])
+                  for i in range(16)]
         points[0] = Point((math.nan, math.inf, -math.inf), hint or (-0.0, 0.0, 5e-324), -0.0)
         return Contact(pose_a.orientation[0], pose_b.orientation[1:], points)
 

@@ -73,8 +73,8 @@ class Child:
             return self.ask_line(PREPARE, [
                 {"handle": handle, "threshold": threshold, "parameter": parameter, "a": a, "b": b}
                 for handle, a, b, threshold, parameter in entries])["supported"]
-        packed = [struct.pack("<II2d", handle, 0, threshold, parameter) + pack_shape(a) + pack_shape(b)
-                  for handle, a, b, threshold, parameter in entries]
+        packed = [struct.pack("<II2d", handle, 0, threshold, parameter)
+                  + pack_shape(a) + pack_shape(b) for handle, a, b, threshold, parameter in entries]
         return [flag == 1 for (flag,) in struct.iter_unpack("<I", self.ask_frame(PREPARE, packed))]
 
     def query(self, questions: list[tuple[int, dict, dict, tuple | None]]) -> list[Answer]:
@@ -114,7 +114,8 @@ class Child:
     def ask_frame(self, operation: int, entries: list[bytes], passes: int = 0) -> bytes:
         self.ticket += 2**40
         body = b"".join(entries)
-        self.send(struct.pack("<IIQII", 20 + len(body), operation, self.ticket, len(entries), passes) + body)
+        header = (20 + len(body), operation, self.ticket, len(entries), passes)
+        self.send(struct.pack("<IIQII", *header) + body)
         size, *rest = struct.unpack("<IIQII", self.receive(24))
         assert rest == [operation, self.ticket, len(entries), passes], rest
         return self.receive(size - 20)
@@ -149,7 +150,8 @@ def pack(questions: list[tuple[int, dict, dict, tuple | None]]) -> list[bytes]:
 
 
 def describe(questions: list[tuple[int, dict, dict, tuple | None]]) -> list[dict]:
-    return [{"handle": handle, "pose_a": a, "pose_b": b, "hint": hint} for handle, a, b, hint in questions]
+    return [{"handle": handle, "pose_a": a, "pose_b": b, "hint": hint}
+            for handle, a, b, hint in questions]
 
 
 def unpack_answer(data: bytes) -> Answer:
@@ -167,5 +169,7 @@ def read_answer(answer: dict) -> Answer:
     model_distance = float(answer.get("model_distance", math.nan))
     if answer["status"] != "contact":
         return Answer(answer["status"], model_distance=model_distance)
-    points = tuple((*floats(p["position"]), *floats(p["normal"]), float(p["depth"])) for p in answer["points"])
-    return Answer("contact", float(answer["signed_distance"]), floats(answer["normal"]), points, model_distance)
+    points = tuple((*floats(p["position"]), *floats(p["normal"]), float(p["depth"]))
+                   for p in answer["points"])
+    return Answer("contact", float(answer["signed_distance"]), floats(answer["normal"]), points,
+                  model_distance)
