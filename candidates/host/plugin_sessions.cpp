@@ -252,6 +252,10 @@ std::optional<PluginSessions::SessionFailure> PluginSessions::obey(SessionComman
 void PluginSessions::kill_session() {
   using Received = PluginProcess::State::Received;
   PluginProcess::State& s = *plugin_.state_;
+  if (s.unforked) {
+    session_ = -1;
+    return s.stop();
+  }
   const auto end = Clock::now() + finish_timeout;
   for (bool waits = kill(std::exchange(session_, -1), SIGKILL) == 0; waits && Clock::now() < end;) {
     Reply reply;
