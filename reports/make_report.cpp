@@ -86,7 +86,7 @@ std::vector<ResultRow> rows_of(const Campaign& campaign,
     row.candidate = campaign.candidates[k]->name;
     row.statistics = tally.statistics();
     row.time = time_of(campaign, times, cells, k);
-    if (cells.size() == 1) row.worst_index = worst_failure(tally);
+    if (cells.size() == 1 && pose_class != given_class) row.worst_index = worst_failure(tally);
   }
   return rows;
 }
@@ -107,14 +107,25 @@ std::vector<Trend> trends_of(const Campaign& campaign,
   return result;
 }
 
+/// The id of a configuration that came in a file with others; otherwise its identity.
+std::string name_of(const Campaign& campaign, const Identity& identity) {
+  if (identity.pose_class != given_class) return to_string(identity);
+  const auto& answers = answers_in(*campaign.given, {identity.pair, identity.pose_class});
+  return std::find_if(answers.begin(), answers.end(),
+                      [&](const GivenAnswer& a) { return a.index == identity.index; })
+      ->id;
+}
+
 WorstCase worst_case(const Campaign& campaign, const Sample& sample, const Identity& identity,
                      std::size_t candidate) {
   auto [configuration, truth, answers] = sample.examined(candidate, identity.index);
-  const std::string id = to_string(identity);
+  const std::string id = name_of(campaign, identity);
+  const std::string replay =
+      identity.pose_class == given_class ? replay_command(configuration) : replay_command(id);
   WorstCase result{
       pair_name(identity.pair), group_name(group_of(identity.pair, identity.pose_class)),
       identity.pose_class,      campaign.candidates[candidate]->name,
-      answers.front().second,   {id, configuration, std::move(truth), {}, replay_command(id)}};
+      answers.front().second,   {id, configuration, std::move(truth), {}, replay}};
   std::size_t shown = candidate;
   for (auto& [answer, score] : answers) {
     result.examination.answers.push_back(
@@ -193,7 +204,8 @@ Report make_report(const Campaign& campaign, const std::string& command) {
   report.machine = describe_machine();
   report.partial = interrupted();
   for (const Candidate* c : campaign.candidates) {
-    report.candidates.push_back({c->name, c->family, c->version, c->settings, c->models});
+    report.candidates.push_back(
+        {c->name, c->family, c->version, c->settings, c->models, campaign.given != nullptr});
   }
 
   std::vector<double> oracle_times;
@@ -232,7 +244,7 @@ Report make_report(const Campaign& campaign, const std::string& command) {
     if (std::any_of(of_groups.begin(), of_groups.end(), is_of)) report.recorded.push_back(s);
   }
   report.worst = worst_of(campaign, all, samples, of_groups);
-  if (!report.partial) report.drake_protocol = drake_protocol(campaign);
+  if (!report.partial && !campaign.given) report.drake_protocol = drake_protocol(campaign);
   report.wall_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return report;

@@ -29,6 +29,7 @@ struct Machine {
 
 struct CandidateDescription {
   std::string name, family, version, settings, models;
+  bool given = false;  ///< its answers came in a file: it cannot be asked again
 };
 
 struct PoseClassDescription {

@@ -183,6 +183,29 @@ Sample Sample::from_bytes(const std::string& bytes, std::size_t candidates, Purp
   return result;
 }
 
+namespace {
+
+/// Scores a unit of answers that came in a file.
+Sample sample_given(const Campaign& campaign, Purpose purpose, const Cell& cell, const Unit& unit) {
+  const std::span all(answers_in(*campaign.given, cell));
+  Sample result(1, purpose);
+  for (const GivenAnswer& given : all.subspan(unit.first, unit.last - unit.first)) {
+    const Configuration c =
+        given.configuration
+            ? *given.configuration
+            : make_configuration({cell.pair, cell.pose_class, campaign.seed, given.index});
+    try {
+      score_answers({&c, 1}, {{given.answer()}}, campaign.bar, truth_width,
+                    [&](const ScoredConfiguration& s) { result.add(unit.cell, given.index, s); });
+    } catch (const std::exception& e) {
+      throw std::runtime_error(given.id + ": " + e.what());
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
 Sample sample_unit(const Campaign& campaign, Purpose purpose,
                    std::span<CandidateProcess* const> candidates, const Cell& cell,
                    const Unit& unit) {
@@ -214,10 +237,12 @@ bool sample(const Campaign& campaign, Purpose purpose, std::uint64_t count,
       count, campaign.workers,
       [&](std::uint64_t task) {
         const Unit u = unit(task);
+        if (campaign.given) return sample_given(campaign, purpose, all[u.cell], u).bytes();
         return sample_unit(campaign, purpose, pointers(candidates.get()), all[u.cell], u).bytes();
       },
       [&](std::uint64_t task) {
         const auto [cell, first, last] = unit(task);
+        if (campaign.given) return answers_in(*campaign.given, all[cell])[first].id;
         return to_string(Identity{all[cell].pair, all[cell].pose_class, campaign.seed, first});
       },
       [&](std::uint64_t task, const std::string& bytes) {
