@@ -79,8 +79,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_export(Program& program) {
-  Command command =
-      program.command("export", "Write configurations with their truths, to test elsewhere");
+  Command command = program.command("export", "Write configurations with their truths");
   const auto options = std::make_shared<Options>(command);
   command.text("--out", options->out,
                "File: .jsonl (JSON Lines), .csv or .npz (NumPy); - is standard output");
@@ -90,7 +89,7 @@ void add_export(Program& program) {
   command.footer(
       "Examples:\n"
       "  touchstone export --out truth.csv\n"
-      "  touchstone export --pair cylinder-box --group everyday --count 100 --out truth.npz\n"
+      "  touchstone export --pair cylinder-box --count 100 --out truth.npz\n"
       "  touchstone export --suite | gzip -9n > touchstone-suite-1.csv.gz\n"
       "What the files hold: docs/suite.md.");
   command.runs([options] { return run(*options); });

@@ -111,8 +111,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_score(Program& program) {
-  Command command =
-      program.command("score", "Score answers that were computed elsewhere; write out/report.html");
+  Command command = program.command("score", "Score answers that were computed elsewhere");
   const auto options = std::make_shared<Options>(command);
   command.text("file", options->file, "JSON Lines; - is standard input").required();
   command.text("--configurations", options->configurations,

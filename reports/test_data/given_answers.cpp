@@ -96,7 +96,8 @@ class AnswerReader {
                          fmt::format("must be answered once; line {} did", first->second));
     }
     if (lines_.size() > max_answers) {
-      throw InvalidInput("id", shown_id(id), fmt::format("must be among the first {}", max_answers));
+      throw InvalidInput("id", shown_id(id),
+                         fmt::format("must be among the first {}", max_answers));
     }
     missing_.erase(name);
     cells_[{cell.pair, cell.pose_class}].push_back(std::move(answer));
@@ -217,6 +218,8 @@ ReadAnswers read_answers(std::istream& in, const GivenDescription& description,
         reader.take(line, lines.number());
       }
     } catch (const InvalidInput& e) {
+      // It may be the line that says whose answers these are.
+      if (is_first && !description.name) throw e.within(fmt::format("line {}", lines.number()));
       result.errors.push_back(error_of(lines.number(), e));
     }
   }
