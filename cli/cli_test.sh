@@ -114,6 +114,23 @@ sed -i 's/"missed"/"overdeep"/; s/"shallow"/"overdeep"/' "$folder"/corpus/*.json
 expect 1 'changed' check --corpus "$folder/corpus"
 echo '{' > "$folder/corpus/broken.json"
 expect 2 'broken.json' check --corpus "$folder/corpus"
+# Known failures are expected, new ones are not; a fixed one is told; what cannot be asked fails the run.
+rm -r "$folder/corpus"
+edges=(check --candidate bullet --pair cylinder-box --class edge-cap,edge-side --count 3 --law agreement)
+expect 1 'start with the first' "${edges[@]}" --save "$folder/known"
+expect 0 'causes of failures are known' "${edges[@]}" --known "$folder/known"
+expect 0 'as expected' check --known "$folder/known"
+cp -r "$folder/known" "$folder/less" && rm "$(ls "$folder"/less/*.json | head -n 1)"
+expect 1 'broken by' "${edges[@]}" --known "$folder/less" --junit "$folder/less.xml"
+grep -q 'failures="1"' "$folder/less.xml" || { echo "FAILED: JUnit XML of a new failure"; failures=$((failures + 1)); }
+cp -r "$folder/known" "$folder/other" && sed -i 's/"candidate": "bullet"/"candidate": "reference"/' "$folder"/other/*.json
+expect 0 'fixed  *reference' check --known "$folder/other" --junit "$folder/fixed.xml"
+grep -q 'failures="0"' "$folder/fixed.xml" || { echo "FAILED: JUnit XML of a fixed failure"; failures=$((failures + 1)); }
+expect 1 'broken by' "${edges[@]}" --known "$folder/other"
+sed -i 's/"candidate": "reference"/"candidate": "havok"/' "$folder"/other/*.json
+expect 1 'skipped  *havok.*not installed' check --known "$folder/other"
+expect 0 'skipped  *havok.*not installed' check --corpus "$folder/other"
+expect 2 '--known.*must be a folder' check --known "$folder/none"
 # A plug-in's file names its first candidate, and a known name comes before a file of that name.
 plugin=$(dirname "$program")/candidates/testing/touchstone-sabotage.so
 expect 1 '^misdeed:[0-9]* 1, seed' check --candidate "$plugin" --pair cylinder-sphere --class cap --count 1 \

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "properties/laws/cause.hpp"
 #include "properties/simplify.hpp"
 
 namespace touchstone {
@@ -19,11 +20,11 @@ std::vector<Identity> identities(const CheckOptions& options, Pair pair) {
 }
 
 Failure simplest(const Law& law, const Identity& identity, const Violation& violation,
-                 CandidateProcess& candidate, const Bar& bar) {
+                 const std::string& features, CandidateProcess& candidate, const Bar& bar) {
   constexpr int max_trials = 500;
   const auto fails_alike = [&](const Configuration& c) {
     const auto v = broken(law, c, candidate, bar);
-    return v && v->failure == violation.failure;
+    return v && v->failure == violation.failure && meeting_features(c) == features;
   };
   const Configuration c = simplified(make_configuration(identity), fails_alike, max_trials);
   const Violation of_simplest = broken(law, c, candidate, bar).value_or(violation);
@@ -37,7 +38,8 @@ Failure simplest(const Law& law, const Identity& identity, const Violation& viol
           of_simplest,
           bar,
           answer,
-          score(c, oracle::truth(c), answer, bar)};
+          score(c, oracle::truth(c), answer, bar),
+          features};
 }
 
 }  // namespace
@@ -61,9 +63,18 @@ std::vector<LawResult> check(CandidateProcess& candidate, const CheckOptions& op
         const auto violation = broken(*result->law, c, candidate, options.bar);
         if (!violation) continue;
         ++result->broken;
-        if (result->counts[violation->failure]++ > 0) continue;
+        ++result->counts[violation->failure];
+        const std::string features = meeting_features(c);
+        const auto alike =
+            std::find_if(result->failures.begin(), result->failures.end(), [&](const Failure& f) {
+              return f.violation.failure == violation->failure && f.features == features;
+            });
+        if (alike != result->failures.end()) {
+          ++alike->met;
+          continue;
+        }
         result->failures.push_back(
-            simplest(*result->law, identity, *violation, candidate, options.bar));
+            simplest(*result->law, identity, *violation, features, candidate, options.bar));
       }
       progress(++done, all);
     }

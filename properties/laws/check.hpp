@@ -32,6 +32,8 @@ struct Failure {
   Bar bar;
   std::optional<ts_answer> answer;  ///< to the simpler one; absent where it is not known
   Score score;                      ///< of that answer
+  std::string features = {};        ///< that meet (cause.hpp); empty where nobody has looked
+  std::uint64_t met = 1;            ///< configurations that failed alike, at the same features
 };
 
 /// One law on one pair.
@@ -40,11 +42,12 @@ struct LawResult {
   Pair pair;
   std::uint64_t tried = 0, broken = 0;
   std::map<std::string, std::uint64_t> counts;  ///< of configurations, by the failure's name
-  std::vector<Failure> failures;                ///< one of each name, the simplest first
+  std::vector<Failure> failures;  ///< one of each name and features, the simplest first
 };
 
-/// Tries every law on every configuration and simplifies the first failure of each name, keeping
-/// the name. `progress` is told how many configurations are done, of how many.
+/// Tries every law on every configuration and simplifies the first failure of each name and each
+/// pair of features that meet, keeping both. `progress` is told how many configurations are done,
+/// of how many.
 std::vector<LawResult> check(CandidateProcess& candidate, const CheckOptions& options,
                              const std::function<void(std::uint64_t, std::uint64_t)>& progress);
 
