@@ -40,6 +40,7 @@ struct Options {
     c.count = hostile && !sample.count_is_given() ? usual_count_of_hostile : sample.count();
     c.seed = sample.seed();
     c.bar = bar.get();
+    c.by_features = !save.empty() || !known.empty();  // which takes twice as long
     return c;
   }
 };

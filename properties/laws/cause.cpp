@@ -51,6 +51,11 @@ std::string meeting_features(const Configuration& c) {
          std::visit(FeatureAlong{in_frame(c.pose_b, n)}, c.b);
 }
 
+bool Cause::operator<(const Cause& other) const {
+  return std::tie(law, pair, features, failure) <
+         std::tie(other.law, other.pair, other.features, other.failure);
+}
+
 Cause cause_of(const Failure& f) {
   const std::string features = f.features.empty() ? meeting_features(f.configuration) : f.features;
   return {f.law, pair_of(f.configuration), features, f.violation.failure};

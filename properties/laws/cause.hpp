@@ -20,7 +20,8 @@ struct Cause {
   Pair pair;
   std::string features, failure;
 
-  auto operator<=>(const Cause&) const = default;
+  bool operator==(const Cause&) const = default;
+  bool operator<(const Cause& other) const;
 };
 Cause cause_of(const Failure& failure);
 /// "agreement, cylinder-box, rim-face, missed"

@@ -42,6 +42,7 @@ CheckOptions options(std::vector<const char*> laws) {
   o.pairs = {Pair::box};
   o.classes = {"rim-face", "edge-cap", "edge-side"};
   o.count = 3;
+  o.by_features = true;
   return o;
 }
 

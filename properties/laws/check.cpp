@@ -19,12 +19,17 @@ std::vector<Identity> identities(const CheckOptions& options, Pair pair) {
   return result;
 }
 
+/// How hard a failure is simplified: the first of its name, which is shown; and one of other
+/// features, of which there may be a hundred.
+constexpr int trials_of_first = 500, trials_of_others = 100;
+
 Failure simplest(const Law& law, const Identity& identity, const Violation& violation,
-                 const std::string& features, CandidateProcess& candidate, const Bar& bar) {
-  constexpr int max_trials = 500;
+                 const std::string& features, int max_trials, CandidateProcess& candidate,
+                 const Bar& bar) {
   const auto fails_alike = [&](const Configuration& c) {
     const auto v = broken(law, c, candidate, bar);
-    return v && v->failure == violation.failure && meeting_features(c) == features;
+    return v && v->failure == violation.failure &&
+           (features.empty() || meeting_features(c) == features);
   };
   const Configuration c = simplified(make_configuration(identity), fails_alike, max_trials);
   const Violation of_simplest = broken(law, c, candidate, bar).value_or(violation);
@@ -63,8 +68,8 @@ std::vector<LawResult> check(CandidateProcess& candidate, const CheckOptions& op
         const auto violation = broken(*result->law, c, candidate, options.bar);
         if (!violation) continue;
         ++result->broken;
-        ++result->counts[violation->failure];
-        const std::string features = meeting_features(c);
+        const bool is_first = result->counts[violation->failure]++ == 0;
+        const std::string features = options.by_features ? meeting_features(c) : "";
         const auto alike =
             std::find_if(result->failures.begin(), result->failures.end(), [&](const Failure& f) {
               return f.violation.failure == violation->failure && f.features == features;
@@ -73,8 +78,9 @@ std::vector<LawResult> check(CandidateProcess& candidate, const CheckOptions& op
           ++alike->met;
           continue;
         }
-        result->failures.push_back(
-            simplest(*result->law, identity, *violation, features, candidate, options.bar));
+        result->failures.push_back(simplest(*result->law, identity, *violation, features,
+                                            is_first ? trials_of_first : trials_of_others,
+                                            candidate, options.bar));
       }
       progress(++done, all);
     }

@@ -156,7 +156,7 @@ class AnswerReader {
     const char* const remedy =
         file_ ? "must be an id of the configurations' file, or an identity" : nullptr;
     try {
-      const Identity identity = parse_identity(id);
+      Identity identity = parse_identity(id);
       if (!is_closed_ || lines_.contains(to_string(identity)) ||
           missing_.contains(to_string(identity))) {
         return identity;
