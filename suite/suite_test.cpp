@@ -135,7 +135,7 @@ struct PlantedFault {
   const char* name;
   /// Null where the fault need not show, as where several normals are right.
   const char* verdict;
-  void (*plant)(ts_answer& answer, const AnswerLimits& limits);
+  void (*plant)(ts_answer& answer, const TestDatum& datum);
 };
 
 void set(double (&to)[3], const Vec3& v) {
@@ -147,49 +147,74 @@ void shift(ts_answer& a, double distance) {
   for (int i = 0; i < a.point_count; ++i) a.points[i].depth -= distance;
 }
 
+/// Turns the best normal, about the axis that costs more, until its regret is so many limits.
+void turn_to_regret(ts_answer& a, const TestDatum& d, double limits) {
+  const Vec3 best = d.truth.normals.front().n, e = best.unitOrthogonal();
+  const auto turned = [&](const Vec3& axis, double angle) {
+    return Vec3(Eigen::AngleAxisd(angle, axis) * best);
+  };
+  const auto regret = [&](const Vec3& axis, double angle) {
+    return oracle::normal_regret(d.configuration, d.truth, turned(axis, angle));
+  };
+  const Vec3 other = best.cross(e);
+  const Vec3& axis = regret(e, 1) > regret(other, 1) ? e : other;
+  double low = 0, high = 1;
+  while (high - low > 1e-15 * high) {
+    const double middle = (low + high) / 2;
+    if (middle == low || middle == high) break;
+    (regret(axis, middle) < limits * d.limits.max_regret ? low : high) = middle;
+  }
+  set(a.normal, turned(axis, low));
+}
+
 /// On an answer that is a contact where one is required.
 const PlantedFault faults[] = {
-    {"none", "agree", [](ts_answer&, const AnswerLimits&) {}},
+    {"none", "agree", [](ts_answer&, const TestDatum&) {}},
     {"two limits too shallow", "shallow",
-     [](ts_answer& a, const AnswerLimits& l) { shift(a, 2 * l.max_regret); }},
+     [](ts_answer& a, const TestDatum& d) { shift(a, 2 * d.limits.max_regret); }},
     {"two limits too deep", "overdeep",
-     [](ts_answer& a, const AnswerLimits& l) { shift(a, -2 * l.max_regret); }},
+     [](ts_answer& a, const TestDatum& d) { shift(a, -2 * d.limits.max_regret); }},
+    {"normal turned to 0.95 limits of regret", "agree",
+     [](ts_answer& a, const TestDatum& d) { turn_to_regret(a, d, 0.95); }},
+    {"normal turned to 1.05 limits of regret", "wrong-normal",
+     [](ts_answer& a, const TestDatum& d) { turn_to_regret(a, d, 1.05); }},
     {"normal turned by 20 degrees", nullptr,
-     [](ts_answer& a, const AnswerLimits&) {
+     [](ts_answer& a, const TestDatum&) {
        const Vec3 n(a.normal);
        set(a.normal, Eigen::AngleAxisd(std::numbers::pi / 9, n.unitOrthogonal()) * n);
      }},
     {"normal reversed", nullptr,
-     [](ts_answer& a, const AnswerLimits&) { set(a.normal, -Vec3(a.normal)); }},
+     [](ts_answer& a, const TestDatum&) { set(a.normal, -Vec3(a.normal)); }},
     {"normal too long", "wrong-normal",
-     [](ts_answer& a, const AnswerLimits&) { set(a.normal, 1.01 * Vec3(a.normal)); }},
+     [](ts_answer& a, const TestDatum&) { set(a.normal, 1.01 * Vec3(a.normal)); }},
     {"no normal", "wrong-normal",
-     [](ts_answer& a, const AnswerLimits&) { set(a.normal, Vec3::Zero()); }},
-    {"missed", "missed", [](ts_answer& a, const AnswerLimits&) { a.status = TS_NONE; }},
-    {"no points", "shallow-points", [](ts_answer& a, const AnswerLimits&) { a.point_count = 0; }},
+     [](ts_answer& a, const TestDatum&) { set(a.normal, Vec3::Zero()); }},
+    {"missed", "missed", [](ts_answer& a, const TestDatum&) { a.status = TS_NONE; }},
+    {"no points", "shallow-points", [](ts_answer& a, const TestDatum&) { a.point_count = 0; }},
     {"points two limits too shallow", "shallow-points",
-     [](ts_answer& a, const AnswerLimits& l) {
+     [](ts_answer& a, const TestDatum& d) {
        for (int i = 0; i < a.point_count; ++i) {
-         a.points[i].depth = std::min(a.points[i].depth, -l.max_distance) - l.max_regret;
+         a.points[i].depth =
+             std::min(a.points[i].depth, -d.limits.max_distance) - d.limits.max_regret;
        }
      }},
     {"a point two limits too deep", "overdeep-points",
-     [](ts_answer& a, const AnswerLimits& l) {
-       a.points[0].depth = -l.min_distance + l.max_regret;
+     [](ts_answer& a, const TestDatum& d) {
+       a.points[0].depth = -d.limits.min_distance + d.limits.max_regret;
      }},
     {"a point beyond the threshold", "phantom-points",
-     [](ts_answer& a, const AnswerLimits& l) {
+     [](ts_answer& a, const TestDatum& d) {
        ts_point& p = a.points[a.point_count++];
        p = a.points[0];
-       p.depth = 2 * l.min_point_depth;
+       p.depth = 2 * d.limits.min_point_depth;
      }},
     {"not finite", "not-finite",
-     [](ts_answer& a, const AnswerLimits&) { a.points[0].position[1] = std::nan(""); }},
+     [](ts_answer& a, const TestDatum&) { a.points[0].position[1] = std::nan(""); }},
     {"infinite", "not-finite",
-     [](ts_answer& a, const AnswerLimits&) { a.signed_distance = -INFINITY; }},
-    {"failed", "failed", [](ts_answer& a, const AnswerLimits&) { a.status = TS_FAILED; }},
+     [](ts_answer& a, const TestDatum&) { a.signed_distance = -INFINITY; }},
+    {"failed", "failed", [](ts_answer& a, const TestDatum&) { a.status = TS_FAILED; }},
     {"unsupported", "unsupported",
-     [](ts_answer& a, const AnswerLimits&) { a.status = TS_UNSUPPORTED; }},
+     [](ts_answer& a, const TestDatum&) { a.status = TS_UNSUPPORTED; }},
 };
 
 ts_answer contact_made_up(const TestDatum& d) {
@@ -202,7 +227,8 @@ ts_answer contact_made_up(const TestDatum& d) {
 
 /// JSON has no number for what is not finite.
 json number_json(double x) {
-  return std::isfinite(x) ? json(x) : json(std::isnan(x) ? "nan" : x > 0 ? "inf" : "-inf");
+  if (std::isnan(x)) return nullptr;
+  return std::isfinite(x) ? json(x) : json(x > 0 ? "inf" : "-inf");
 }
 
 json vector_json(const double (&v)[3]) {
@@ -271,7 +297,7 @@ const Answers& answers() {
       const PlantedFault* fault = nullptr;
       if (d.limits.contact == AnswerLimits::Contact::required && a.status == TS_CONTACT) {
         fault = &faults[turn++ % std::size(faults)];
-        fault->plant(a, d.limits);
+        fault->plant(a, d);
       } else if (i % 2 == 0) {
         a = contact_made_up(d);
       }
@@ -283,6 +309,9 @@ const Answers& answers() {
     }
     return made;
   }();
+  static const struct Removal {
+    ~Removal() { fs::remove(result.file); }
+  } at_the_end;
   return result;
 }
 
