@@ -36,7 +36,7 @@ TEST(MeetingFeatures, OfTiedNormalsAreTied) {
   EXPECT_EQ(meeting_features(ball_in_can), "tied");
 }
 
-CheckOptions options(std::vector<const char*> laws) {
+CheckOptions options(const std::vector<const char*>& laws) {
   CheckOptions o;
   for (const char* law : laws) o.laws.push_back(&find_law(law));
   o.pairs = {Pair::box};
@@ -46,9 +46,9 @@ CheckOptions options(std::vector<const char*> laws) {
   return o;
 }
 
-std::vector<LawResult> failures_of_bullet(std::vector<const char*> laws) {
+std::vector<LawResult> failures_of_bullet(const std::vector<const char*>& laws) {
   CandidateProcess bullet(find_candidate("bullet"), 0);
-  return check(bullet, options(std::move(laws)), [](auto, auto) {});
+  return check(bullet, options(laws), [](auto, auto) {});
 }
 
 TEST(Causes, EachHasOneFailureWithItsOwnFeaturesAndAllAreCounted) {
