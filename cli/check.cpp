@@ -1,5 +1,3 @@
-#include "properties/laws/check.hpp"
-
 #include <algorithm>
 #include <fmt/format.h>
 #include <memory>
@@ -8,6 +6,7 @@
 #include "cli/command.hpp"
 #include "cli/options.hpp"
 #include "properties/files/disk.hpp"
+#include "properties/laws/cause.hpp"
 #include "properties/laws/failure_file.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/check_report.hpp"
@@ -27,7 +26,7 @@ struct Options {
   std::string candidate;
   std::vector<std::string> laws;
   bool hostile = false;
-  std::string save, corpus, junit, json;
+  std::string save, corpus, known, junit, json;
 
   CheckOptions check() const {
     CheckOptions c;
@@ -41,23 +40,68 @@ struct Options {
     c.count = hostile && !sample.count_is_given() ? usual_count_of_hostile : sample.count();
     c.seed = sample.seed();
     c.bar = bar.get();
+    c.by_features = !save.empty() || !known.empty();  // which takes twice as long
     return c;
   }
 };
 
-/// Replays the failures of the candidate, or all of them if it is null.
-std::vector<ReplayedFailure> replay_corpus(const Options& options, const Candidate* candidate) {
-  if (options.corpus.empty()) return {};
-  std::vector<Failure> corpus = read_corpus(options.corpus);
+/// Asks for the failures that are saved there again: those of the candidate, or all if it is null.
+std::vector<ReplayedFailure> replay_all(const std::string& path, const char* field,
+                                        const Candidate* candidate) {
+  if (path.empty()) return {};
+  std::vector<Failure> failures = read_corpus(path, field);
   if (candidate) {
-    std::erase_if(corpus, [&](const Failure& f) { return f.candidate != candidate->name; });
+    std::erase_if(failures, [&](const Failure& f) { return f.candidate != candidate->name; });
   }
-  std::vector<ReplayedFailure> replayed = replay(corpus, {});
-  fmt::print("{}:\n{}", options.corpus, corpus_text(replayed));
+  std::vector<ReplayedFailure> replayed = replay(failures, {});
+  fmt::print("{}:\n{}", path, corpus_text(replayed));
   return replayed;
 }
 
-std::vector<LawResult> check_laws(const Candidate* candidate, const CheckOptions& checks) {
+/// Saves one failure of each cause, and says with which to start.
+void save_all(const std::vector<LawResult>& results, const std::string& folder) {
+  const std::vector<Failure> failures = in_order(results);
+  if (failures.empty()) return;
+  fmt::print("\nSaved, one of each cause; start with the first:\n");
+  for (const Failure& f : failures) {
+    fmt::print("  {}, {} configurations\n    {}\n", to_string(cause_of(f)), f.met,
+               save(f, folder).string());
+  }
+}
+
+bool has(const std::vector<ReplayedFailure>& failures, ReplayedFailure::Result result) {
+  return std::any_of(failures.begin(), failures.end(),
+                     [&](const ReplayedFailure& r) { return r.result == result; });
+}
+
+std::vector<ReplayedFailure> joined(std::vector<ReplayedFailure> first,
+                                    const std::vector<ReplayedFailure>& second) {
+  first.insert(first.end(), second.begin(), second.end());
+  return first;
+}
+
+/// Known failures that still fail: one that is fixed excuses no other.
+std::vector<Failure> still_failing(const std::vector<ReplayedFailure>& known) {
+  std::vector<Failure> result;
+  for (const ReplayedFailure& r : known) {
+    if (r.result == ReplayedFailure::Result::as_expected) result.push_back(r.expected);
+  }
+  return result;
+}
+
+/// As they count in a run that knows them: what is fixed is welcome, what cannot be asked is not.
+std::vector<ReplayedFailure> judged_as_known(std::vector<ReplayedFailure> known) {
+  using Result = ReplayedFailure::Result;
+  for (ReplayedFailure& r : known) {
+    if (r.result == Result::fixed) r.result = Result::as_expected;
+    if (r.result == Result::skipped) r.result = Result::changed;
+  }
+  return known;
+}
+
+/// Without the failures that are known.
+std::vector<LawResult> check_laws(const Candidate* candidate, const CheckOptions& checks,
+                                  const std::vector<Failure>& known) {
   if (!candidate) return {};
   CandidateProcess process(*candidate, checks.bar.threshold);
   fmt::print("{} {}, seed {}, {} configurations of each pair and pose class, tolerance {}\n",
@@ -69,38 +113,40 @@ std::vector<LawResult> check_laws(const Candidate* candidate, const CheckOptions
     progress->update(done);
   });
   progress.reset();
+  if (!known.empty()) {
+    const std::size_t all = in_order(results).size();
+    results = new_ones(std::move(results), known);
+    fmt::print("{} of {} causes of failures are known and not shown\n",
+               all - in_order(results).size(), all);
+  }
   fmt::print("{}", check_text(results));
   return results;
 }
 
 int run(const Options& options) {
-  if (options.candidate.empty() && options.corpus.empty()) {
-    throw InvalidInput("--candidate", "nothing", "must name what to check, or --corpus a folder");
+  if (options.candidate.empty() && options.corpus.empty() && options.known.empty()) {
+    throw InvalidInput("--candidate", "nothing",
+                       "must name what to check, or --corpus or --known a folder");
   }
   const CheckOptions checks = options.check();
   const Candidate* const candidate =
       options.candidate.empty() ? nullptr : &named_candidate(options.candidate);
-  const auto corpus = replay_corpus(options, candidate);
-  const auto results = check_laws(candidate, checks);
-  if (!options.save.empty()) {
-    for (const LawResult& result : results) {
-      for (const Failure& failure : result.failures) {
-        fmt::print("saved {}\n", save(failure, options.save).string());
-      }
-    }
-  }
+  const auto corpus = replay_all(options.corpus, "--corpus", candidate);
+  const auto known = replay_all(options.known, "--known", candidate);
+  const auto judged = joined(corpus, judged_as_known(known));
+  const auto results = check_laws(candidate, checks, still_failing(known));
+  if (!options.save.empty()) save_all(results, options.save);
   if (!options.junit.empty()) {
-    write_file(options.junit, junit_xml(options.candidate, results, corpus), "--junit");
+    write_file(options.junit, junit_xml(options.candidate, results, judged), "--junit");
   }
   if (!options.json.empty()) {
-    write_file(options.json, check_json(options.candidate, checks, results, corpus), "--json");
+    write_file(options.json, check_json(options.candidate, checks, results, joined(corpus, known)),
+               "--json");
   }
   const bool broken =
       std::any_of(results.begin(), results.end(), [](const LawResult& r) { return r.broken > 0; });
-  const bool changed = std::any_of(corpus.begin(), corpus.end(), [](const ReplayedFailure& r) {
-    return r.result == ReplayedFailure::Result::fixed ||
-           r.result == ReplayedFailure::Result::changed;
-  });
+  const bool changed =
+      has(judged, ReplayedFailure::Result::fixed) || has(judged, ReplayedFailure::Result::changed);
   return broken || changed ? something_failed : 0;
 }
 
@@ -126,7 +172,9 @@ void add_check(Program& program) {
   command.text("--corpus", options->corpus,
                "First replay the failures saved in this folder, or in this file of JSON Lines: "
                "each must fail as it did");
-  command.text("--save", options->save, "Save failures into this folder, one file each");
+  command.text("--known", options->known,
+               "Failures saved in this folder or file are expected: only new ones fail");
+  command.text("--save", options->save, "Save failures into this folder, one of each cause");
   command.text("--junit", options->junit, "Write the result as JUnit XML");
   command.text("--json", options->json, "Write the result as JSON");
   command.footer(
@@ -134,8 +182,11 @@ void add_check(Program& program) {
       "  touchstone check --candidate bullet\n"
       "  touchstone check --candidate ./my_engine.so --save failures\n"
       "  touchstone check --candidate ./my_engine.so --hostile\n"
+      "  touchstone check --candidate ./my_engine.so --known failures\n"
       "  touchstone check --corpus failures\n" +
-      law_list() + "Exit code 1: a law was broken, or a saved failure has changed.");
+      law_list() +
+      "Exit code 1: a law was broken, or a saved failure has changed; with --known: a\n"
+      "law was broken in a new way, or a known failure has changed or cannot be asked.");
   command.runs([options] { return run(*options); });
 }
 

@@ -49,6 +49,28 @@ expect 2 '--width' solve --width 0
 # A list takes one argument: what follows is another.
 echo '{"a":{"shape":"cylinder","radius":1,"half_length":1},"b":{"shape":"sphere","radius":1}}' >"$folder/one.jsonl"
 expect 0 '"reference":{' solve --candidates reference "$folder/one.jsonl"
+# Test data for others, and the answers of others.
+lying="--pair cylinder-plane --class lying"
+# shellcheck disable=SC2086
+expect 0 '^2 configurations: ' export $lying --count 2 --out "$folder/truth.csv"
+[ "$(grep -c '^cylinder-plane/lying/1/[01],degenerate,' "$folder/truth.csv")" = 2 ] ||
+  { echo "FAILED: export writes other configurations"; failures=$((failures + 1)); }
+# shellcheck disable=SC2086
+expect 0 '"id":"cylinder-plane/lying/1/1"' export $lying --count 2
+expect 2 '--out is "txt": must be one of jsonl, csv, npz' export --out "$folder/truth.txt"
+expect 2 '--format is "xml": must be one of' export --format xml
+expect 2 '--suite' export --suite --count 3
+# shellcheck disable=SC2086
+expect 2 '--out.*No space left' export $lying --count 1 --format csv --out /dev/full
+printf '{"id":"cylinder-plane/lying/1/0","status":"none"}\nno JSON\n' >"$folder/given.jsonl"
+expect 2 'line 2: line is no JSON' score "$folder/given.jsonl" --name mine --out "$folder/given"
+grep -q '"configurations": 1,' "$folder/given/report.json" ||
+  { echo "FAILED: score loses what is good beside a bad line"; failures=$((failures + 1)); }
+sed -i 2d "$folder/given.jsonl"
+expect 0 'cylinder-plane, degenerate poses' score "$folder/given.jsonl" --name mine --out "$folder/given"
+expect 2 '--name is missing' score "$folder/given.jsonl" --out "$folder/given"
+expect 2 'missing for 5105 configurations' score "$folder/given.jsonl" --name mine --suite --out "$folder/given"
+expect 2 'could not be opened' score "$folder/none.jsonl" --out "$folder/given"
 expect 2 '--count' report --count 0
 expect 2 '--pair.*cylinder-box' report --pair cylinder-cone
 expect 2 '--class' report --class nowhere --out "$folder/r"
@@ -92,6 +114,23 @@ sed -i 's/"missed"/"overdeep"/; s/"shallow"/"overdeep"/' "$folder"/corpus/*.json
 expect 1 'changed' check --corpus "$folder/corpus"
 echo '{' > "$folder/corpus/broken.json"
 expect 2 'broken.json' check --corpus "$folder/corpus"
+# Known failures are expected, new ones are not; a fixed one is told; what cannot be asked fails the run.
+rm -r "$folder/corpus"
+edges=(check --candidate bullet --pair cylinder-box --class edge-cap,edge-side --count 3 --law agreement)
+expect 1 'start with the first' "${edges[@]}" --save "$folder/known"
+expect 0 'causes of failures are known' "${edges[@]}" --known "$folder/known"
+expect 0 'as expected' check --known "$folder/known"
+cp -r "$folder/known" "$folder/less" && rm "$(ls "$folder"/less/*.json | head -n 1)"
+expect 1 'broken by' "${edges[@]}" --known "$folder/less" --junit "$folder/less.xml"
+grep -q 'failures="1"' "$folder/less.xml" || { echo "FAILED: JUnit XML of a new failure"; failures=$((failures + 1)); }
+cp -r "$folder/known" "$folder/other" && sed -i 's/"candidate": "bullet"/"candidate": "reference"/' "$folder"/other/*.json
+expect 0 'fixed  *reference' check --known "$folder/other" --junit "$folder/fixed.xml"
+grep -q 'failures="0"' "$folder/fixed.xml" || { echo "FAILED: JUnit XML of a fixed failure"; failures=$((failures + 1)); }
+expect 1 'broken by' "${edges[@]}" --known "$folder/other"
+sed -i 's/"candidate": "reference"/"candidate": "havok"/' "$folder"/other/*.json
+expect 1 'skipped  *havok.*not installed' check --known "$folder/other"
+expect 0 'skipped  *havok.*not installed' check --corpus "$folder/other"
+expect 2 '--known.*must be a folder' check --known "$folder/none"
 # A plug-in's file names its first candidate, and a known name comes before a file of that name.
 plugin=$(dirname "$program")/candidates/testing/touchstone-sabotage.so
 expect 1 '^misdeed:[0-9]* 1, seed' check --candidate "$plugin" --pair cylinder-sphere --class cap --count 1 \
@@ -237,6 +276,7 @@ rim=cylinder-box/rim-face/1/2
 "$program" replay $rim | grep '^{' | tail -n 1 >"$folder/line.jsonl"
 for command in candidates --help --version --manual "--completion bash" "replay $rim" \
   "replay $rim --json" "replay $rim --emit bullet" "solve $folder/line.jsonl" "certify $rim" \
+  "export $lying --count 1" "score $folder/given.jsonl --name mine --out $folder/lost" \
   "check --corpus $folder/found" "simulate rolling --candidates reference --step 0.01" \
   "search --candidate reference --pair cylinder-sphere --class cap --count 4" \
   "stability $rim --candidates reference --count 1 --out $folder/lost" \
@@ -271,7 +311,7 @@ for number in -1 nan "" 0x1.8p-1z; do
     "solve --threshold" "campaign --checkpoint" "certify $rim --cells" "certify $rim --width" \
     "compare a b --max-error-factor" "compare a b --max-time-factor" "compare a b --min-agree" \
     "render a --every" "simulate --step" "simulate --count" "simulate --seed" "choose a --depth" "choose a --angle" "choose a --count" \
-    "choose a --seed" "search --candidate bullet --count" "stability --count"; do
+    "choose a --seed" "search --candidate bullet --count" "stability --count" "export --count" "export --threshold"; do
     # shellcheck disable=SC2086
     expect 2 "${option##* } is \".*\": must be a .*number from .* to " $option "$number" --out "$folder/none"
   done
@@ -286,7 +326,7 @@ expect 2 'must be at most .*campaign scores any number' report --count 1e7 --out
 # Names of any length, and what only begins as a configuration, a scene or a report.
 cp "$r" "$folder/report.json"
 long=$(printf 'x%.0s' {1..10000})
-for command in replay solve choose render merge certify stability "check --corpus" "compare $folder/report.json" \
+for command in replay solve score choose render merge certify stability "check --corpus" "compare $folder/report.json" \
   "report --out" "replay $rim --html" "check --candidate reference --law" "report --class" "search --candidate"; do
   # shellcheck disable=SC2086
   expect 2 'xxx\.\.\.' $command "$long"

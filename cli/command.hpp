@@ -105,6 +105,8 @@ void add_replay(Program& program);
 void add_solve(Program& program);
 void add_certify(Program& program);
 void add_check(Program& program);
+void add_export(Program& program);
+void add_score(Program& program);
 void add_compare(Program& program);
 void add_campaign(Program& program);
 void add_merge(Program& program);

@@ -17,7 +17,7 @@ import tempfile
 import time
 
 PAGES = ["README.md", "CONTRIBUTING.md", "docs/*.md", "oracle/README.md", "oracle/audit/README.md",
-         "reference/README.md", "reference/proofs.md"]
+         "reference/README.md", "reference/proofs.md", "suite/README.md"]
 
 # Options of the subcommands that take long; one that the page gives itself stays, but for --count.
 SHORTER = {
@@ -54,6 +54,8 @@ EXIT_CODES = {
     "./touchstone search": {0, 1},
     "./touchstone compare": {0, 1},
     "./touchstone choose": {0, 1},
+    "python3 suite/judge.py": {1},
+    "node suite/judge.js": {1},
 }
 
 # Words in a command, and how the file that it supposes is made.
@@ -61,8 +63,16 @@ KNOWN_FAILURE = "ode-cylinder-sphere-agreement-wrong-normal"
 SUPPOSED = {
     "my_engine": "cp candidates/example/cylinder_plane.c my_engine.c && "
                  "cc -shared -fPIC -I build/release/include my_engine.c -o my_engine.so -lm",
+    # Of a routine that never finds a contact.
+    "answers.jsonl": """python3 -Bc '
+import sys; sys.path.insert(0, "suite")
+import json, judge
+for case in judge.read("suite/touchstone-suite-1.csv.gz"):
+    print(json.dumps({"id": case["id"], "status": "none"}))' > answers.jsonl""",
     "poses.jsonl": "./touchstone replay cylinder-plane/lying/1/0 | grep '^{' | tail -n 1 "
                    "> poses.jsonl",
+    "mine.jsonl": """sed -i 's/^{/{"id":"p1",/' poses.jsonl &&
+        echo '{"id":"p1","status":"none"}' > mine.jsonl""",
     "robot.urdf": "cp simulation/scenes/gripper.urdf robot.urdf",
     "world.sdf": "cp simulation/scenes/warehouse.sdf world.sdf",
     "failures": f"mkdir failures && grep -m 1 {KNOWN_FAILURE} properties/known_failures.jsonl "

@@ -32,6 +32,7 @@
 #include "reports/report_json.hpp"
 #include "reports/solve.hpp"
 #include "reports/terminal_table.hpp"
+#include "reports/test_data/given_answers.hpp"
 #include "simulation/scenes/shapes_file.hpp"
 #include "simulation/world.hpp"
 
@@ -184,6 +185,29 @@ TEST(HostileInput, WholeFilesOfSolve) {
     for (std::string line; std::getline(out, line); ++answered) require_numbers(json::parse(line));
     if (answered != expected) throw std::runtime_error("not one answer a line");
     if (!good) throw InvalidInput("line", "bad", "was answered with an error");
+  });
+}
+
+TEST(HostileInput, FilesOfAnswers) {
+  const std::string file =
+      R"({"candidate":"gpu","version":"2","settings":"float"})"
+      "\n"
+      R"({"id":"cylinder-sphere/touching/1/0","status":"contact","signed_distance":-0.1,)"
+      R"("normal":[0,0,1],"points":[{"position":[0,"nan",null],"normal":[0,0,1],"depth":0.1}]})"
+      "\n"
+      R"({"id":"cylinder-plane/general-deep/1/3","status":"none"})"
+      "\n"
+      R"({"id":"cylinder-plane/touching/1/1","status":"failed"})"
+      "\n";
+  expect_answer_or_refusal("answers", 6, {file}, [](const std::string& text, std::uint64_t) {
+    std::istringstream in(text);
+    const ReadAnswers read_ones = read_answers(in, {}, {});
+    Campaign campaign;
+    campaign.given = &read_ones.answers;
+    std::uint64_t count = 0;
+    for (const Cell& cell : cells(campaign)) count += count_of(campaign, cell);
+    if (count != read_ones.count) throw std::runtime_error("not one answer a good line");
+    if (!read_ones.errors.empty()) throw InvalidInput("line", "bad", "was told");
   });
 }
 

@@ -81,6 +81,8 @@ int run(int argc, char** argv) {
   add_merge(program);
   add_simulate(program);
   add_choose(program);
+  add_export(program);
+  add_score(program);
   add_search(program);
   add_render(program);
   add_stability(program);

@@ -15,7 +15,8 @@ for file in bin/touchstone lib/touchstone/touchstone-reference.so include/touchs
   lib/cmake/touchstone/touchstoneConfig.cmake share/man/man1/touchstone.1 \
   share/bash-completion/completions/touchstone share/zsh/vendor-completions/_touchstone \
   share/doc/touchstone/copyright share/touchstone/check_certificate.py \
-  share/touchstone/scenes/wheel-on-road.json; do
+  share/touchstone/scenes/wheel-on-road.json share/touchstone/suite/touchstone-suite-1.csv.gz \
+  share/touchstone/suite/touchstone_suite.hpp; do
   grep -qx "./usr/$file" "$folder/files" || fail "the package lacks $file"
 done
 for plugin in "$1"/candidates/touchstone-*.so; do

@@ -166,14 +166,17 @@ void check_pose_classes(const std::vector<Pair>& pairs, const std::vector<std::s
 }
 
 std::string describe_pose_class(Pair pair, std::string_view pose_class) {
+  if (pose_class == given_class) return "Configurations that came in a file.";
   return find_pose_class(pair, pose_class).description();
 }
 
 Group group_of(Pair pair, std::string_view pose_class) {
+  if (pose_class == given_class) return Group::recorded;
   return find_pose_class(pair, pose_class).group();
 }
 
 ClassParts parts_of(Pair pair, std::string_view pose_class) {
+  if (pose_class == given_class) return {std::string(given_class), {}};
   const PoseClass c = find_pose_class(pair, pose_class);
   ClassParts result{c.arrangement->name, {}};
   for (const Modifier* m : c.modifiers.list()) result.modifiers.push_back(m->name);

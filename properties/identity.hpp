@@ -61,6 +61,10 @@ std::vector<std::string> selected_classes(Pair pair, const ClassSelection& selec
 /// least one of the pairs.
 void check_pose_classes(const std::vector<Pair>& pairs, const std::vector<std::string>& classes);
 
+/// The class in a report of configurations that came in a file. It has no arrangement and no
+/// identities, and belongs to the group recorded.
+inline constexpr std::string_view given_class = "given";
+
 /// Sentences: the geometry that the class makes, why it is hard, and how it is modified.
 std::string describe_pose_class(Pair pair, std::string_view pose_class);
 

@@ -1,12 +1,27 @@
 #include "reports/campaign.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 
 namespace touchstone {
 
+Answer GivenAnswer::answer() const {
+  Answer result{};
+  result.status = status;
+  result.signed_distance = signed_distance;
+  for (int i = 0; i < 3; ++i) result.normal[i] = normal[i];
+  result.point_count = static_cast<int>(points.size());
+  std::copy(points.begin(), points.end(), result.points);
+  return result;
+}
+
 std::vector<Cell> cells(const Campaign& campaign) {
   std::vector<Cell> result;
+  if (campaign.given) {
+    for (const auto& of_cell : campaign.given->cells) result.push_back(of_cell.cell);
+    return result;
+  }
   check_pose_classes(campaign.pairs, campaign.classes);
   for (const Pair pair : campaign.pairs) {
     for (const auto& name :
@@ -18,11 +33,19 @@ std::vector<Cell> cells(const Campaign& campaign) {
 }
 
 std::uint64_t count_of(const Campaign& campaign, const Cell& cell) {
+  if (campaign.given) return answers_in(*campaign.given, cell).size();
   const Group group = group_of(cell.pair, cell.pose_class);
   const bool everyday = group == Group::everyday || group == Group::recorded;
   const auto modifiers = parts_of(cell.pair, cell.pose_class).modifiers;
   const bool aligned = modifiers == std::vector<std::string>{"aligned"};
   return campaign.count * (everyday || aligned ? campaign.everyday_times : 1);
+}
+
+const std::vector<GivenAnswer>& answers_in(const GivenAnswers& given, const Cell& cell) {
+  const auto found =
+      std::find_if(given.cells.begin(), given.cells.end(),
+                   [&](const GivenAnswers::OfCell& of_cell) { return of_cell.cell == cell; });
+  return found->answers;
 }
 
 void score_configurations(std::span<const Configuration> configurations,
@@ -33,6 +56,12 @@ void score_configurations(std::span<const Configuration> configurations,
   for (CandidateProcess* candidate : candidates) {
     answers.push_back(candidate->answers(configurations));
   }
+  score_answers(configurations, std::move(answers), bar, width, take);
+}
+
+void score_answers(std::span<const Configuration> configurations,
+                   std::vector<std::vector<Answer>> answers, const Bar& bar, double width,
+                   const std::function<void(const ScoredConfiguration&)>& take) {
   for (std::size_t i = 0; i < configurations.size(); ++i) {
     const Configuration& c = configurations[i];
     const auto start = std::chrono::steady_clock::now();

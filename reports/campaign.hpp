@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -12,6 +13,40 @@
 #include "properties/identity.hpp"
 
 namespace touchstone {
+
+/// One pair × class.
+struct Cell {
+  Pair pair;
+  std::string pose_class;
+
+  bool operator==(const Cell&) const = default;
+};
+
+/// An answer that was computed elsewhere; smaller than an Answer, for there may be a million.
+struct GivenAnswer {
+  std::string id;
+  std::uint64_t index;  ///< of the identity; in the class "given", of the configuration in its file
+  std::optional<Configuration> configuration;  ///< absent: the identity's
+  ts_status status;
+  double signed_distance;
+  Vec3 normal;
+  std::vector<ts_point> points;
+
+  Answer answer() const;
+};
+
+/// Answers that were computed elsewhere, to be scored like those of a candidate that is asked.
+struct GivenAnswers {
+  struct OfCell {
+    Cell cell;
+    std::vector<GivenAnswer> answers;  ///< no two with the same index
+  };
+  Candidate candidate;  ///< what is said of it: name, version, settings
+  std::vector<OfCell> cells;
+};
+
+/// Precondition: the cell is one of theirs.
+const std::vector<GivenAnswer>& answers_in(const GivenAnswers& given, const Cell& cell);
 
 /// Which configurations are scored, by whom, and how strictly.
 struct Campaign {
@@ -28,13 +63,11 @@ struct Campaign {
   unsigned workers = 1;
   Bar bar;
   Limits limits;  ///< of each candidate on one configuration
+  /// Scored instead: pairs, classes, groups and counts are then those of these answers, and the
+  /// only candidate is theirs.
+  const GivenAnswers* given = nullptr;
 };
 
-/// One pair × class.
-struct Cell {
-  Pair pair;
-  std::string pose_class;
-};
 /// Lists the cells in report order. Throws InvalidInput when a class belongs to none of the pairs.
 std::vector<Cell> cells(const Campaign& campaign);
 std::uint64_t count_of(const Campaign& campaign, const Cell& cell);
@@ -50,6 +83,12 @@ struct ScoredConfiguration {
   std::vector<Answer> answers;
   std::vector<Score> scores;
 };
+
+/// Hands over the scored configurations in order. `answers`: of each candidate to each
+/// configuration. `width`: of the truth, relative to the larger size. Throws like the oracle.
+void score_answers(std::span<const Configuration> configurations,
+                   std::vector<std::vector<Answer>> answers, const Bar& bar, double width,
+                   const std::function<void(const ScoredConfiguration&)>& take);
 
 /// Asks each candidate for all configurations in a new session, so that the scores depend on these
 /// configurations alone, and hands the scored ones over in order. `width`: of the truth, relative

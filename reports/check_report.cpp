@@ -82,8 +82,8 @@ const char* result_name(ReplayedFailure::Result result) {
 }
 
 std::string corpus_name(const Failure& f) {
-  return fmt::format("{}, {}, {}, {}", f.candidate, pair_name(pair_of(f.configuration)), f.law,
-                     f.violation.failure);
+  return fmt::format("{}, {}, {}, {}{}{}", f.candidate, pair_name(pair_of(f.configuration)), f.law,
+                     f.violation.failure, f.features.empty() ? "" : ", ", f.features);
 }
 
 }  // namespace

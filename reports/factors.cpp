@@ -45,7 +45,7 @@ class Table {
  public:
   Table(const Report& report, const std::string& pair) : report_(report), pair_(pair) {
     for (const PoseClassDescription& c : report.classes) {
-      if (c.pair == pair) classes_.push_back(taken_apart(c));
+      if (c.pair == pair && c.pose_class != given_class) classes_.push_back(taken_apart(c));
     }
   }
 

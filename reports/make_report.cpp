@@ -100,7 +100,7 @@ std::vector<ResultRow> rows_of(const Campaign& campaign,
     row.candidate = campaign.candidates[k]->name;
     row.statistics = tally.statistics();
     row.time = time_of(campaign, times, cells, k);
-    if (cells.size() == 1) row.worst_index = worst_failure(tally);
+    if (cells.size() == 1 && pose_class != given_class) row.worst_index = worst_failure(tally);
   }
   return rows;
 }
@@ -121,14 +121,25 @@ std::vector<Trend> trends_of(const Campaign& campaign,
   return result;
 }
 
+/// The id of a configuration that came in a file with others; otherwise its identity.
+std::string name_of(const Campaign& campaign, const Identity& identity) {
+  if (identity.pose_class != given_class) return to_string(identity);
+  const auto& answers = answers_in(*campaign.given, {identity.pair, identity.pose_class});
+  return std::find_if(answers.begin(), answers.end(),
+                      [&](const GivenAnswer& a) { return a.index == identity.index; })
+      ->id;
+}
+
 WorstCase worst_case(const Campaign& campaign, const Sample& sample, const Identity& identity,
                      std::size_t candidate) {
   auto [configuration, truth, answers] = sample.examined(candidate, identity.index);
-  const std::string id = to_string(identity);
+  const std::string id = name_of(campaign, identity);
+  const std::string replay =
+      identity.pose_class == given_class ? replay_command(configuration) : replay_command(id);
   WorstCase result{
       pair_name(identity.pair), group_name(group_of(identity.pair, identity.pose_class)),
       identity.pose_class,      campaign.candidates[candidate]->name,
-      answers.front().second,   {id, configuration, std::move(truth), {}, replay_command(id)}};
+      answers.front().second,   {id, configuration, std::move(truth), {}, replay}};
   std::size_t shown = candidate;
   for (auto& [answer, score] : answers) {
     result.examination.answers.push_back(
@@ -197,7 +208,9 @@ Report make_report(const Campaign& campaign, const std::string& command) {
   const std::vector<Cell> all = cells(campaign);
   // Started before samples fill the memory: a session is a fork of a fork of this process, and
   // costs the more the larger that was.
-  auto candidates = touchstone::start(campaign.candidates, campaign.bar.threshold, campaign.limits);
+  auto candidates = campaign.given ? std::vector<CandidateProcess>()
+                                   : touchstone::start(campaign.candidates, campaign.bar.threshold,
+                                                       campaign.limits);
   const std::vector<std::optional<Sample>> samples = sample_cells(campaign, all);
   const Times times = time_queries(campaign, all, samples, candidates);
 
@@ -210,8 +223,8 @@ Report make_report(const Campaign& campaign, const std::string& command) {
   report.machine = describe_machine();
   report.partial = interrupted();
   for (const Candidate* c : campaign.candidates) {
-    report.candidates.push_back(
-        {c->name, c->family, c->version, c->settings, c->models, c->precision, c->runs});
+    report.candidates.push_back({c->name, c->family, c->version, c->settings, c->models,
+                                 c->precision, c->runs, campaign.given != nullptr});
   }
 
   std::vector<double> oracle_times;
@@ -254,7 +267,9 @@ Report make_report(const Campaign& campaign, const std::string& command) {
     if (std::any_of(of_groups.begin(), of_groups.end(), is_of)) report.recorded.push_back(s);
   }
   report.worst = worst_of(campaign, all, samples, of_groups);
-  if (!report.partial) report.drake_protocol = drake_protocol(campaign, candidates);
+  if (!report.partial && !campaign.given) {
+    report.drake_protocol = drake_protocol(campaign, candidates);
+  }
   report.wall_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return report;

@@ -134,9 +134,11 @@ json to_json(const DrakeProtocol::Result& r) {
 }
 
 json to_json(const CandidateDescription& c) {
-  return {{"name", c.name},         {"family", c.family}, {"version", c.version},
-          {"settings", c.settings}, {"models", c.models}, {"precision", c.precision},
-          {"runs", c.runs}};
+  json result = {{"name", c.name},         {"family", c.family}, {"version", c.version},
+                 {"settings", c.settings}, {"models", c.models}, {"precision", c.precision},
+                 {"runs", c.runs}};
+  if (c.given) result["given"] = true;
+  return result;
 }
 
 json to_json(const RecordedShare& s) {

@@ -183,6 +183,39 @@ Sample Sample::from_bytes(const std::string& bytes, std::size_t candidates, Purp
   return result;
 }
 
+namespace {
+
+/// Scores a unit of answers that came in a file.
+Sample sample_given(const Campaign& campaign, Purpose purpose, const Cell& cell, const Unit& unit) {
+  const std::span all(answers_in(*campaign.given, cell));
+  Sample result(1, purpose);
+  for (const GivenAnswer& given : all.subspan(unit.first, unit.last - unit.first)) {
+    const Configuration c =
+        given.configuration
+            ? *given.configuration
+            : make_configuration({cell.pair, cell.pose_class, campaign.seed, given.index});
+    try {
+      score_answers({&c, 1}, {{given.answer()}}, campaign.bar, truth_width,
+                    [&](const ScoredConfiguration& s) { result.add(unit.cell, given.index, s); });
+    } catch (const std::exception& e) {
+      throw std::runtime_error(given.id + ": " + e.what());
+    }
+  }
+  return result;
+}
+
+/// Scores a run of them. Returns a sample of each unit.
+std::vector<Sample> sample_given(const Campaign& campaign, Purpose purpose,
+                                 const std::vector<Cell>& cells, const UnitRun& run) {
+  std::vector<Sample> result;
+  for (const Unit& unit : run) {
+    result.push_back(sample_given(campaign, purpose, cells[unit.cell], unit));
+  }
+  return result;
+}
+
+}  // namespace
+
 std::vector<UnitRun> runs_of(const std::vector<Unit>& units, std::uint64_t max_size) {
   std::vector<UnitRun> runs;
   std::uint64_t room = 0;
@@ -242,15 +275,17 @@ bool sample(const Campaign& campaign, Purpose purpose, std::uint64_t count,
   return stream_from_processes(
       count, campaign.workers,
       [&](std::uint64_t task) {
+        const std::vector<Sample> samples =
+            campaign.given
+                ? sample_given(campaign, purpose, all, run(task))
+                : sample_run(campaign, purpose, pointers(candidates.get()), all, run(task));
         ByteWriter out;
-        for (const Sample& of_unit :
-             sample_run(campaign, purpose, pointers(candidates.get()), all, run(task))) {
-          out.put(of_unit.bytes());
-        }
+        for (const Sample& of_unit : samples) out.put(of_unit.bytes());
         return out.take();
       },
       [&](std::uint64_t task) {
         const auto [cell, first, last] = run(task).front();
+        if (campaign.given) return answers_in(*campaign.given, all[cell])[first].id;
         return to_string(Identity{all[cell].pair, all[cell].pose_class, campaign.seed, first});
       },
       [&](std::uint64_t task, const std::string& bytes) {

@@ -1,7 +1,5 @@
 #include "reports/solve.hpp"
 
-#include <cstdio>
-#include <fmt/format.h>
 #include <istream>
 #include <ostream>
 #include <string>
@@ -51,44 +49,19 @@ json error(std::size_t number, const json& line, const InvalidInput& e) {
   return result;
 }
 
-/// A thousand times what a configuration takes.
-constexpr std::size_t max_line = std::size_t{1} << 20;
-
-/// A line without its end, of which no more than one byte beyond `max_line` is kept; false where
-/// there is none.
-bool read_line(std::istream& in, std::string& line) {
-  line.clear();
-  std::streambuf& buffer = *in.rdbuf();
-  int c = buffer.sbumpc();
-  if (c == EOF) return false;
-  for (; c != EOF && c != '\n'; c = buffer.sbumpc()) {
-    if (line.size() <= max_line) line += static_cast<char>(c);
-  }
-  return true;
-}
-
-json parse_line(const std::string& text) {
-  if (text.size() > max_line) {
-    throw InvalidInput("line", printable(text, 30),
-                       fmt::format("must have at most {} bytes", max_line));
-  }
-  return parse_json(text, "line");
-}
-
 }  // namespace
 
 bool solve(std::istream& in, std::ostream& out, const SolveOptions& options) {
   auto candidates = start(options.candidates, options.bar.threshold, options.limits);
   bool good = true;
-  std::string text;
-  for (std::size_t number = 1; read_line(in, text); ++number) {
-    if (text.size() <= max_line && text.find_first_not_of(" \t\r") == text.npos) continue;
+  JsonLines lines(in);
+  while (lines.next()) {
     json line, result;
     try {
-      line = parse_line(text);
+      line = lines.parse();
       result = solved(line, options, candidates);
     } catch (const InvalidInput& e) {
-      result = error(number, line, e);
+      result = error(lines.number(), line, e);
     }
     // Anything else is our own contradiction and ends the program.
     good = good && !result.contains("error");

@@ -165,6 +165,12 @@ std::string failures_text(const Report& report) {
              : "\nWorst failure of each candidate, in everyday poses if it has one there:\n" + text;
 }
 
+bool can_be_asked(const Report& report, const std::string& candidate) {
+  return std::none_of(
+      report.candidates.begin(), report.candidates.end(),
+      [&](const CandidateDescription& c) { return c.name == candidate && c.given; });
+}
+
 /// What candidates pass as it is and fail turned or tilted.
 std::string contrasts_text(const Report& report) {
   constexpr int max_shown = 3;  // of a candidate
@@ -182,7 +188,9 @@ std::string contrasts_text(const Report& report) {
     }
     last = c->candidate;
     if (++shown > max_shown) continue;
-    text += fmt::format("    {}\n      {}\n", contrast_text(*c), contrast_command(*c));
+    text += fmt::format(
+        "    {}\n      {}\n", contrast_text(*c),
+        can_be_asked(report, c->candidate) ? contrast_command(*c) : replay_command(c->worst));
   }
   leave_out();
   return text.empty() ? text : "\nPassed as it is, failed once turned or tilted:\n" + text;

@@ -7,7 +7,10 @@
 #include <tuple>
 #include <utility>
 
+#include <nlohmann/json.hpp>
+
 #include "candidates/candidates.hpp"
+#include "properties/files/configuration_json.hpp"
 
 namespace touchstone {
 namespace {
@@ -87,6 +90,10 @@ std::string program_name() {
 
 std::string replay_command(const std::string& name) {
   return program_name() + " replay " + shell_quoted(name);
+}
+
+std::string replay_command(const Configuration& configuration) {
+  return "echo '" + to_json(configuration).dump() + "' | " + program_name() + " replay -";
 }
 
 }  // namespace touchstone

@@ -49,5 +49,7 @@ std::string program_name();
 
 /// "./touchstone replay cylinder-box/rim-face/1/17".
 std::string replay_command(const std::string& name);
+/// The command for a configuration that has no identity: "echo '{…}' | ./touchstone replay -".
+std::string replay_command(const Configuration& configuration);
 
 }  // namespace touchstone

@@ -78,7 +78,12 @@ auto numbers_of(AnyScore& score) {
                     std::pair("coverage", &score.coverage)};
 }
 
+/// JSON has no number for what is not finite: null, or one of these texts.
 double number_or_nan(const json& value, const std::string& field) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  if (value == "nan") return std::numeric_limits<double>::quiet_NaN();
+  if (value == "inf") return infinity;
+  if (value == "-inf") return -infinity;
   return number_or_null(value, field).value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
@@ -176,23 +181,28 @@ json to_json(const Answer& answer, const Score& score, Order order) {
 }
 
 ts_answer answer_from_json(const json& value, const std::string& path) {
+  const std::string prefix = path.empty() ? "" : path + '.';
   ts_answer answer{};
-  answer.status = status_from_json(member(value, "status", path), path + ".status");
+  answer.status = status_from_json(member(value, "status", path), prefix + "status");
   if (answer.status != TS_CONTACT) return answer;
   answer.signed_distance =
-      number_or_nan(member(value, "signed_distance", path), path + ".signed_distance");
-  read_vector(member(value, "normal", path), path + ".normal", answer.normal);
-  const json& points = array(member(value, "points", path), path + ".points");
+      number_or_nan(member(value, "signed_distance", path), prefix + "signed_distance");
+  read_vector(member(value, "normal", path), prefix + "normal", answer.normal);
+  const json& points = array(member(value, "points", path), prefix + "points");
   if (points.size() > std::size(answer.points)) {
-    throw InvalidInput(path + ".points", fmt::format("{} of them", points.size()),
+    throw InvalidInput(prefix + "points", fmt::format("{} of them", points.size()),
                        fmt::format("must be at most {}", std::size(answer.points)));
   }
   for (const json& point : points) {
-    const std::string at = fmt::format("{}.points[{}]", path, answer.point_count);
+    const std::string at = fmt::format("{}points[{}]", prefix, answer.point_count);
     require_object(point, at);
     ts_point& p = answer.points[answer.point_count++];
     read_vector(member(point, "position", at), at + ".position", p.position);
-    read_vector(member(point, "normal", at), at + ".normal", p.normal);
+    if (point.contains("normal")) {
+      read_vector(point["normal"], at + ".normal", p.normal);
+    } else {
+      std::copy(std::begin(answer.normal), std::end(answer.normal), p.normal);
+    }
     p.depth = number_or_nan(member(point, "depth", at), at + ".depth");
   }
   return answer;

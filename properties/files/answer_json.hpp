@@ -33,7 +33,8 @@ nlohmann::json to_json(const ts_answer& answer, const Score& score, Order order 
 nlohmann::json to_json(const Answer& answer, const Score& score, Order order = Order::as_ours);
 
 /// Reads what to_json wrote, with Order::as_ours; of the score members may be missing, as they are
-/// in files of older versions. `path` names the answer in errors, which are InvalidInput.
+/// in files of older versions. A number may be null, "nan", "inf" or "-inf", too; a point without a
+/// normal has the answer's. `path` names the answer in errors, which are InvalidInput.
 ts_answer answer_from_json(const nlohmann::json& answer, const std::string& path);
 Score score_from_json(const nlohmann::json& answer, const std::string& path);
 /// Reads an outcome's name. Throws InvalidInput with this field.

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <fmt/format.h>
+#include <istream>
 #include <optional>
 #include <set>
 #include <sstream>
@@ -225,6 +227,41 @@ std::vector<json> parse_json_lines(const std::string& text, const std::string& s
   }
   if (values.empty()) throw *not_one_value;
   return values;
+}
+
+namespace {
+
+/// A thousand times what a configuration takes.
+constexpr std::size_t max_line = std::size_t{1} << 20;
+
+}  // namespace
+
+/// Keeps no more than one byte beyond `max_line`.
+bool JsonLines::read_line() {
+  line_.clear();
+  std::streambuf& buffer = *in_.rdbuf();
+  int c = buffer.sbumpc();
+  if (c == EOF) return false;
+  for (; c != EOF && c != '\n'; c = buffer.sbumpc()) {
+    if (line_.size() <= max_line) line_ += static_cast<char>(c);
+  }
+  ++number_;
+  return true;
+}
+
+bool JsonLines::next() {
+  while (read_line()) {
+    if (line_.size() > max_line || line_.find_first_not_of(" \t\r") != line_.npos) return true;
+  }
+  return false;
+}
+
+json JsonLines::parse() const {
+  if (line_.size() > max_line) {
+    throw InvalidInput("line", printable(line_, 30),
+                       fmt::format("must have at most {} bytes", max_line));
+  }
+  return parse_json(line_, "line");
 }
 
 }  // namespace touchstone

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <iosfwd>
 #include <optional>
 #include <span>
 #include <string>
@@ -30,6 +31,23 @@ nlohmann::json parse_json(std::string_view text, const std::string& source);
 /// one. Throws InvalidInput: of the text as a whole where not even its first line is JSON,
 /// otherwise of the first line ("line 7") that is none.
 std::vector<nlohmann::json> parse_json_lines(const std::string& text, const std::string& source);
+
+/// Lines of JSON that come one by one, of any number; blank ones do not count.
+class JsonLines {
+ public:
+  explicit JsonLines(std::istream& in) : in_(in) {}
+  /// Goes on to the next line; false where there is none.
+  bool next();
+  std::uint64_t number() const { return number_; }  ///< of the line, from 1
+  /// Throws InvalidInput (field "line") where the line is no JSON or longer than 1 MiB.
+  nlohmann::json parse() const;
+
+ private:
+  bool read_line();
+  std::istream& in_;
+  std::string line_;
+  std::uint64_t number_ = 0;
+};
 
 // Members of JSON that a person or another program wrote. Every reader throws InvalidInput with the
 // full path of the field ("bodies[3].shape.radius"), what stood there and what would be right.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "properties/laws/cause.hpp"
 #include "properties/simplify.hpp"
 
 namespace touchstone {
@@ -18,12 +19,17 @@ std::vector<Identity> identities(const CheckOptions& options, Pair pair) {
   return result;
 }
 
+/// How hard a failure is simplified: the first of its name, which is shown; and one of other
+/// features, of which there may be a hundred.
+constexpr int trials_of_first = 500, trials_of_others = 100;
+
 Failure simplest(const Law& law, const Identity& identity, const Violation& violation,
-                 CandidateProcess& candidate, const Bar& bar) {
-  constexpr int max_trials = 500;
+                 const std::string& features, int max_trials, CandidateProcess& candidate,
+                 const Bar& bar) {
   const auto fails_alike = [&](const Configuration& c) {
     const auto v = broken(law, c, candidate, bar);
-    return v && v->failure == violation.failure;
+    return v && v->failure == violation.failure &&
+           (features.empty() || meeting_features(c) == features);
   };
   const Configuration c = simplified(make_configuration(identity), fails_alike, max_trials);
   const Violation of_simplest = broken(law, c, candidate, bar).value_or(violation);
@@ -37,7 +43,8 @@ Failure simplest(const Law& law, const Identity& identity, const Violation& viol
           of_simplest,
           bar,
           answer,
-          score(c, oracle::truth(c), answer, bar)};
+          score(c, oracle::truth(c), answer, bar),
+          features};
 }
 
 }  // namespace
@@ -61,9 +68,19 @@ std::vector<LawResult> check(CandidateProcess& candidate, const CheckOptions& op
         const auto violation = broken(*result->law, c, candidate, options.bar);
         if (!violation) continue;
         ++result->broken;
-        if (result->counts[violation->failure]++ > 0) continue;
-        result->failures.push_back(
-            simplest(*result->law, identity, *violation, candidate, options.bar));
+        const bool is_first = result->counts[violation->failure]++ == 0;
+        const std::string features = options.by_features ? meeting_features(c) : "";
+        const auto alike =
+            std::find_if(result->failures.begin(), result->failures.end(), [&](const Failure& f) {
+              return f.violation.failure == violation->failure && f.features == features;
+            });
+        if (alike != result->failures.end()) {
+          ++alike->met;
+          continue;
+        }
+        result->failures.push_back(simplest(*result->law, identity, *violation, features,
+                                            is_first ? trials_of_first : trials_of_others,
+                                            candidate, options.bar));
       }
       progress(++done, all);
     }

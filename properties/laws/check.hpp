@@ -20,6 +20,7 @@ struct CheckOptions {
   std::uint64_t count = 10;          ///< configurations of each pair and pose class
   std::uint64_t seed = 1;
   Bar bar;
+  bool by_features = false;  ///< tell failures of one name apart by the features that meet
 };
 
 /// A configuration that breaks a law: the first one met, and a simpler one that fails alike.
@@ -32,6 +33,8 @@ struct Failure {
   Bar bar;
   std::optional<ts_answer> answer;  ///< to the simpler one; absent where it is not known
   Score score;                      ///< of that answer
+  std::string features = {};        ///< that meet (cause.hpp); empty where nobody has looked
+  std::uint64_t met = 1;            ///< configurations that failed alike
 };
 
 /// One law on one pair.
@@ -40,11 +43,12 @@ struct LawResult {
   Pair pair;
   std::uint64_t tried = 0, broken = 0;
   std::map<std::string, std::uint64_t> counts;  ///< of configurations, by the failure's name
-  std::vector<Failure> failures;                ///< one of each name, the simplest first
+  std::vector<Failure> failures;  ///< one of each name (and features), the simplest first
 };
 
-/// Tries every law on every configuration and simplifies the first failure of each name, keeping
-/// the name. `progress` is told how many configurations are done, of how many.
+/// Tries every law on every configuration and simplifies the first failure of each name, or of each
+/// name and features, keeping both. `progress` is told how many configurations are done,
+/// of how many.
 std::vector<LawResult> check(CandidateProcess& candidate, const CheckOptions& options,
                              const std::function<void(std::uint64_t, std::uint64_t)>& progress);
 

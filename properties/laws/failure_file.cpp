@@ -34,11 +34,10 @@ double bar_number(const json& object, const char* name) {
   return x;
 }
 
-std::vector<std::filesystem::path> files_of(const std::filesystem::path& path) {
+std::vector<std::filesystem::path> files_of(const std::filesystem::path& path, const char* field) {
   if (is_file(path)) return {path};
   if (!is_folder(path)) {
-    throw InvalidInput("--corpus", '"' + path.string() + '"',
-                       "must be a folder, or a file of failures");
+    throw InvalidInput(field, '"' + path.string() + '"', "must be a folder, or a file of failures");
   }
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator(path)) {
@@ -56,6 +55,9 @@ ReplayedFailure replayed(const Failure& expected, const Limits& limits) {
                                                  expected.bar.threshold, limits);
   } catch (const InvalidInput&) {
     return {expected, ReplayedFailure::Result::skipped, "the candidate is not installed"};
+  }
+  if (!process->candidate().has_routine_for(pair_of(expected.configuration))) {
+    return {expected, ReplayedFailure::Result::changed, "unsupported"};
   }
   const auto v = broken(find_law(expected.law), expected.configuration, *process, expected.bar);
   if (!v) return {expected, ReplayedFailure::Result::fixed, ""};
@@ -79,18 +81,20 @@ void append_failures(const std::string& text, std::vector<Failure>& corpus) {
 }  // namespace
 
 json to_json(const Failure& f) {
-  return {{"schema", schema},
-          {"candidate", f.candidate},
-          {"version", f.version},
-          {"law", f.law},
-          {"failure", f.violation.failure},
-          {"detail", f.violation.detail},
-          {"tolerance", f.bar.tolerance},
-          {"threshold", f.bar.threshold},
-          {"found", f.identity},
-          {"configuration", to_hex_json(f.configuration)},
-          {"decimal", to_json(f.configuration)},
-          {"answer", f.answer ? to_json(*f.answer, f.score) : json(nullptr)}};
+  json result = {{"schema", schema},
+                 {"candidate", f.candidate},
+                 {"version", f.version},
+                 {"law", f.law},
+                 {"failure", f.violation.failure},
+                 {"detail", f.violation.detail},
+                 {"tolerance", f.bar.tolerance},
+                 {"threshold", f.bar.threshold},
+                 {"found", f.identity},
+                 {"configuration", to_hex_json(f.configuration)},
+                 {"decimal", to_json(f.configuration)},
+                 {"answer", f.answer ? to_json(*f.answer, f.score) : json(nullptr)}};
+  if (!f.features.empty()) result["features"] = f.features;
+  return result;
 }
 
 Failure failure_from_json(const json& object) {
@@ -113,6 +117,7 @@ Failure failure_from_json(const json& object) {
                  {bar_number(object, "tolerance"), bar_number(object, "threshold")},
                  {},
                  {}};
+  if (object.contains("features")) result.features = text(object, "features");
   const json answer = object.value("answer", json());
   if (answer.is_null()) return result;
   require_object(answer, "answer");
@@ -123,21 +128,22 @@ Failure failure_from_json(const json& object) {
 
 std::filesystem::path save(const Failure& f, const std::filesystem::path& folder) {
   check_writable(folder, "--save");
-  std::string name = fmt::format("{}-{}-{}-{}.json", f.candidate,
-                                 pair_name(pair_of(f.configuration)), f.law, f.violation.failure);
+  std::string name =
+      fmt::format("{}-{}-{}-{}{}{}.json", f.candidate, pair_name(pair_of(f.configuration)), f.law,
+                  f.violation.failure, f.features.empty() ? "" : "-", f.features);
   std::replace(name.begin(), name.end(), ':', '-');
   auto path = folder / name;
   write_file(path, to_json(f).dump(2) + '\n', "--save");
   return path;
 }
 
-std::vector<Failure> read_corpus(const std::filesystem::path& path) {
+std::vector<Failure> read_corpus(const std::filesystem::path& path, const char* field) {
   std::vector<Failure> corpus;
-  for (const auto& file : files_of(path)) {
+  for (const auto& file : files_of(path, field)) {
     try {
-      append_failures(read_file(file, "--corpus"), corpus);
+      append_failures(read_file(file, field), corpus);
     } catch (const InvalidInput& e) {
-      throw InvalidInput("--corpus", '"' + file.string() + '"', e.what());
+      throw InvalidInput(field, '"' + file.string() + '"', e.what());
     }
   }
   return corpus;

@@ -16,13 +16,13 @@ nlohmann::json to_json(const Failure& failure);
 Failure failure_from_json(const nlohmann::json& json);
 
 /// Writes one file into the folder, which is made if need be; named after candidate, law, pair and
-/// failure, so that the same failure replaces itself.
+/// failure, and after its features where they are known, so that the same failure replaces itself.
 std::filesystem::path save(const Failure& failure, const std::filesystem::path& folder);
 
 /// The failures of a file, or of a folder's .json and .jsonl files in order of their names. A file
-/// holds one failure, or JSON Lines with one each. Throws InvalidInput naming the file that cannot
-/// be read or understood.
-std::vector<Failure> read_corpus(const std::filesystem::path& path);
+/// holds one failure, or JSON Lines with one each. Throws InvalidInput naming the option `field`
+/// and the file that cannot be read or understood.
+std::vector<Failure> read_corpus(const std::filesystem::path& path, const char* field = "--corpus");
 
 /// A saved failure, and what its candidate does today.
 struct ReplayedFailure {

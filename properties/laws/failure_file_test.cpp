@@ -144,6 +144,15 @@ TEST(Corpus, SeesWhatIsFixedAndWhatHasChanged) {
   EXPECT_EQ(replay({kept}, {}).at(0).result, ReplayedFailure::Result::fixed);
 }
 
+TEST(FailureFile, KeepsTheFeaturesAndIsNamedAfterThem) {
+  Failure f = failure();
+  f.features = "rim-edge";
+  EXPECT_EQ(failure_from_json(to_json(f)).features, "rim-edge");
+  const auto folder = std::filesystem::path(testing::TempDir()) / "features";
+  EXPECT_THAT(save(f, folder).string(), testing::EndsWith("-agreement-missed-rim-edge.json"));
+  EXPECT_FALSE(to_json(failure()).contains("features"));
+}
+
 // A new version of an engine that mends or breaks one of these is to be noticed.
 TEST(Corpus, KnownFailuresFailAsTheyDid) {
   const auto corpus = read_corpus(TOUCHSTONE_KNOWN_FAILURES);

@@ -6,6 +6,7 @@
 #include "candidates/candidates.hpp"
 #include "properties/arbitrary.hpp"
 #include "properties/laws/check.hpp"
+#include "properties/laws/failure_file.hpp"
 #include "properties/moves.hpp"
 #include "properties/simplify.hpp"
 #include "reference/contact_of.hpp"
@@ -218,8 +219,30 @@ TEST(Check, HoldsHostileConfigurationsToTheLawsThatApply) {
   EXPECT_LT(moved, options.count);
 }
 
+/// Adds the plug-in once.
+void add_sabotage() {
+  [[maybe_unused]] static const bool added =
+      (add_file(TOUCHSTONE_TEST_PLUGINS "/touchstone-sabotage.so"), true);
+}
+
+TEST(Corpus, APairThatIsNotSupportedAnyMoreIsNotFixed) {
+  add_sabotage();  // supports no boxes
+  const Failure f{"agreement",
+                  "misdeed:5",
+                  "1",
+                  "cylinder-box/edge-cap/1/0",
+                  make_configuration({Pair::box, "edge-cap", 1, 0}),
+                  {"missed", 0.5, "far off"},
+                  {1e-4, 0},
+                  {},
+                  {}};
+  const auto replayed = replay({f}, {});
+  EXPECT_EQ(replayed.at(0).result, ReplayedFailure::Result::changed);
+  EXPECT_EQ(replayed.at(0).now, "unsupported");
+}
+
 TEST(Check, ACrashIsAFailureOfTheLawAnswersAlone) {
-  add_file(TOUCHSTONE_TEST_PLUGINS "/touchstone-sabotage.so");
+  add_sabotage();
   CandidateProcess crashing(find_candidate("misdeed:2"), 0, {10, 256});
   const Configuration c = make_configuration({Pair::sphere, "general-shallow", 1, 0});
   for (const Law& law : all_laws()) {

@@ -22,7 +22,8 @@ function worstErrorCell(r) {
 const millimetres = metres => metres === null ? 'refuses' : `${exponent(1000 * metres)}`;
 function drakeProtocol() {
   const protocol = report.drake_protocol;
-  if (!protocol) return byId('drake-table').append('Not measured: the run was interrupted.');
+  if (!protocol) return byId('drake-table').append(
+      report.candidates.some(c => c.given) ? 'Not measured: the answers came in a file.' : 'Not measured: the run was interrupted.');
   const published = query => element('tr', {class: 'published'}, rowHead(`Drake, ${query === 'penetration' ? 'point pair' : 'signed distance'}`),
       ...protocol.pairs.map(p => element('td', {}, millimetres(p.published[query]))));
   const rows = candidates.map(name => [rowHead(named(name)),

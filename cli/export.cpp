@@ -1,0 +1,98 @@
+#include <cstdio>
+#include <filesystem>
+#include <fmt/format.h>
+#include <memory>
+
+#include "candidates/host/interruption.hpp"
+#include "cli/command.hpp"
+#include "cli/options.hpp"
+#include "cli/standard_streams.hpp"
+#include "properties/files/disk.hpp"
+#include "reference/invalid_input.hpp"
+#include "reports/test_data/test_data_file.hpp"
+
+namespace touchstone {
+namespace {
+
+struct Options {
+  explicit Options(Command& command)
+      : sample(command, 20, 1000000000), bar(command), workers(command) {}
+  SampleOption sample;
+  BarOption bar;
+  WorkersOption workers;
+  std::string out = "-", format_name;
+  bool suite = false;
+
+  Campaign campaign() const {
+    if (suite && (sample.is_narrowed() || sample.count_is_given())) {
+      throw InvalidInput("--suite", "given with --pair, --class, --group or --count",
+                         "must stand without them: it is always the same configurations");
+    }
+    Campaign c = suite ? suite_1() : sample.campaign();
+    c.bar = bar.get();
+    c.workers = workers.get();
+    return c;
+  }
+
+  TestDataFormat format() const {
+    if (!format_name.empty()) return parse_test_data_format(format_name, "--format");
+    const std::string ending = std::filesystem::path(out).extension().string();
+    if (out != "-" && !ending.empty()) return parse_test_data_format(ending.substr(1), "--out");
+    return suite ? TestDataFormat::csv : TestDataFormat::json_lines;
+  }
+};
+
+/// A file is written as a whole or not at all, standard output as it comes.
+int run(const Options& options) {
+  const Campaign campaign = options.campaign();
+  const auto writer =
+      test_data_writer(options.format(), options.suite ? CsvColumns::suite : CsvColumns::all);
+  const bool streams = options.out == "-";
+  if (!streams) {
+    const auto folder = std::filesystem::path(options.out).parent_path();
+    check_writable(folder.empty() ? "." : folder);
+  }
+  const Interruption interruption;
+  std::string text;
+  std::uint64_t count = 0;
+  make_test_data(campaign, [&](const TestDatum& datum) {
+    text += writer->add(datum);
+    ++count;
+    if (!streams) return;
+    std::fwrite(text.data(), 1, text.size(), stdout);
+    text.clear();
+  });
+  if (interrupted()) {
+    complain(streams ? "Interrupted: the rest is missing." : "Interrupted: no file was written.");
+    return interrupted_exit_code();
+  }
+  text += writer->finish();
+  if (streams) {
+    std::fwrite(text.data(), 1, text.size(), stdout);
+  } else {
+    write_file(options.out, text, "--out");
+    fmt::print("{} configurations: {}\n", count, options.out);
+  }
+  return 0;
+}
+
+}  // namespace
+
+void add_export(Program& program) {
+  Command command = program.command("export", "Write configurations with their truths");
+  const auto options = std::make_shared<Options>(command);
+  command.text("--out", options->out,
+               "File: .jsonl (JSON Lines), .csv or .npz (NumPy); - is standard output");
+  command.text("--format", options->format_name, "jsonl, csv or npz, whatever the file's name");
+  command.flag("--suite", options->suite,
+               "touchstone-suite-1, as suite/ has it, by default as CSV");
+  command.footer(
+      "Examples:\n"
+      "  touchstone export --out truth.csv\n"
+      "  touchstone export --pair cylinder-box --count 100 --out truth.npz\n"
+      "  touchstone export --suite | gzip -9n > touchstone-suite-1.csv.gz\n"
+      "What the files hold: docs/suite.md.");
+  command.runs([options] { return run(*options); });
+}
+
+}  // namespace touchstone

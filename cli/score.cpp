@@ -1,0 +1,137 @@
+#include <algorithm>
+#include <fmt/format.h>
+#include <fstream>
+#include <iostream>
+#include <memory>
+
+#include "candidates/host/interruption.hpp"
+#include "cli/command.hpp"
+#include "cli/options.hpp"
+#include "cli/standard_streams.hpp"
+#include "properties/files/disk.hpp"
+#include "reference/invalid_input.hpp"
+#include "reports/make_report.hpp"
+#include "reports/report_file.hpp"
+#include "reports/terminal_table.hpp"
+#include "reports/test_data/given_answers.hpp"
+#include "reports/test_data/test_data.hpp"
+#include "reports/worst.hpp"
+
+namespace touchstone {
+namespace {
+
+constexpr int bad_input = 2;
+
+struct Options {
+  explicit Options(Command& command) : bar(command), workers(command) {}
+  BarOption bar;
+  WorkersOption workers;
+  std::string file, configurations, out = "out", name, version, settings;
+  bool suite = false;
+
+  std::string command_line() const {
+    std::string line = program_name() + " score " + shell_quoted(file);
+    if (!configurations.empty()) line += " --configurations " + shell_quoted(configurations);
+    if (suite) line += " --suite";
+    for (const auto& [option, value] :
+         {std::pair("--name", name), std::pair("--of-version", version),
+          std::pair("--settings", settings)}) {
+      if (!value.empty()) line += fmt::format(" {} {}", option, shell_quoted(value));
+    }
+    return line + bar.command_line();
+  }
+};
+
+std::ifstream opened(const std::string& file, const char* field) {
+  std::ifstream in(file);
+  if (!in || is_folder(file)) {
+    throw InvalidInput(field, '"' + file + '"', "could not be opened for reading");
+  }
+  return in;
+}
+
+ReadAnswers read(const Options& options) {
+  const auto given = [](const std::string& text) {
+    return text.empty() ? std::nullopt : std::optional(text);
+  };
+  const GivenDescription description{given(options.name), given(options.version),
+                                     given(options.settings)};
+  ConfigurationFile configurations;
+  Wanted wanted;
+  if (!options.configurations.empty()) {
+    std::ifstream in = opened(options.configurations, "--configurations");
+    configurations = ConfigurationFile(in);
+    wanted.file = &configurations;
+  }
+  if (options.suite) wanted.identities = identities(suite_1());
+  if (options.file == "-") return read_answers(std::cin, description, wanted);
+  std::ifstream in = opened(options.file, "file");
+  return read_answers(in, description, wanted);
+}
+
+void tell(const std::vector<AnswerError>& errors) {
+  constexpr std::size_t max_told = 20;
+  for (std::size_t i = 0; i < std::min(errors.size(), max_told); ++i) {
+    const std::string where =
+        errors[i].line > 0 ? fmt::format("line {}: ", errors[i].line) : std::string();
+    complain("error: " + where + errors[i].error);
+  }
+  if (errors.size() > max_told) complain(fmt::format("and {} more", errors.size() - max_told));
+}
+
+/// Bad lines make exit code 2, after all others are scored.
+int run(const Options& options) {
+  check_writable(options.out);
+  const ReadAnswers read_ones = read(options);
+  tell(read_ones.errors);
+  if (read_ones.count == 0) {
+    throw InvalidInput("file", '"' + options.file + '"', "must hold at least one answer");
+  }
+  Campaign campaign;
+  campaign.given = &read_ones.answers;
+  campaign.candidates = {&read_ones.answers.candidate};
+  campaign.seed = read_ones.seed;
+  campaign.bar = options.bar.get();
+  campaign.workers = options.workers.get();
+
+  const Interruption interruption;
+  const Report report = make_report(campaign, options.command_line());
+  if (report.results.empty()) {
+    complain("Interrupted before any pose class was done: there is no report.");
+    return interrupted_exit_code();
+  }
+  write_report(report, options.out);
+  fmt::print("{}\n{} answers, truth certified to 1e-30 of the larger size, {:.0f} s.\n",
+             terminal_table(report), report.configurations, report.wall_seconds);
+  fmt::print("Report: {}/report.html, {}/report.json\n", options.out, options.out);
+  if (report.partial) return interrupted_exit_code();
+  return read_ones.errors.empty() ? 0 : bad_input;
+}
+
+}  // namespace
+
+void add_score(Program& program) {
+  Command command = program.command("score", "Score answers that were computed elsewhere");
+  const auto options = std::make_shared<Options>(command);
+  command.text("file", options->file, "JSON Lines; - is standard input").required();
+  command.text("--configurations", options->configurations,
+               "What the ids mean that are no identities: a file as for solve");
+  command.flag("--suite", options->suite, "All of touchstone-suite-1 has to be answered");
+  command.text("--name", options->name, "Whose answers these are, unless the first line says it");
+  command.text("--of-version", options->version, "Its version");
+  command.text("--settings", options->settings, "How it was called");
+  command.text("--out", options->out, "Folder for report.json and report.html");
+  command.footer(
+      "Examples:\n"
+      "  touchstone score answers.jsonl\n"
+      "  touchstone score answers.jsonl --suite --name my-gpu --of-version 3\n"
+      "  touchstone score answers.jsonl --configurations poses.jsonl --name mine\n"
+      "An answer: {\"id\": \"cylinder-box/rim-face/1/0\", \"status\": \"contact\",\n"
+      "\"signed_distance\": -0.1, \"normal\": [0, 0, 1],\n"
+      "\"points\": [{\"position\": [0, 0, 0], \"depth\": 0.1}]}, or\n"
+      "{\"id\": …, \"status\": \"none\"}; docs/suite.md says more.\n"
+      "Exit code 2: a line was bad, or an answer is missing; the others are scored.");
+  command.runs([options] { return run(*options); });
+}
+
+}  // namespace touchstone

@@ -1,0 +1,243 @@
+#include "reports/test_data/given_answers.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <fmt/format.h>
+#include <set>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "properties/files/answer_json.hpp"
+#include "properties/files/error_text.hpp"
+#include "properties/files/strict_json.hpp"
+#include "reference/invalid_input.hpp"
+
+namespace touchstone {
+namespace {
+
+using nlohmann::json;
+
+/// About a third of a gigabyte in memory.
+constexpr std::uint64_t max_answers = 1000000;
+
+constexpr std::size_t max_shown_id = 100;
+
+std::string shown_id(const std::string& id) { return '"' + printable(id, max_shown_id) + '"'; }
+
+}  // namespace
+
+ConfigurationFile::ConfigurationFile(std::istream& in) {
+  JsonLines lines(in);
+  while (lines.next()) {
+    try {
+      const json line = lines.parse();
+      require_object(line, "line");
+      const std::string id = string(member(line, "id", ""), "id");
+      GivenConfiguration given =
+          configuration_from_json(line.contains("configuration") ? line["configuration"] : line);
+      if (!entries_.try_emplace(id, Entry{entries_.size(), std::move(given)}).second) {
+        throw InvalidInput("id", shown_id(id), "must differ from those of the lines before");
+      }
+    } catch (const InvalidInput& e) {
+      throw e.within(fmt::format("line {}", lines.number()));
+    }
+  }
+}
+
+const ConfigurationFile::Entry* ConfigurationFile::find(const std::string& id) const {
+  const auto entry = entries_.find(id);
+  return entry == entries_.end() ? nullptr : &entry->second;
+}
+
+namespace {
+
+void require_name(const std::string& name, const char* field) {
+  const auto plain = [](unsigned char c) { return std::isgraph(c) && c != ':' && c != ','; };
+  if (name.empty() || !std::all_of(name.begin(), name.end(), plain)) {
+    throw InvalidInput(field, shown_id(name),
+                       "must be printable ASCII without colon, comma and space");
+  }
+}
+
+/// Normals of a person's file whose body a is our body B.
+void reverse(GivenAnswer& answer) {
+  answer.normal = -answer.normal;
+  for (ts_point& p : answer.points) {
+    for (double& x : p.normal) x = -x;
+  }
+}
+
+GivenAnswer answer_of(const json& line, const std::string& id) {
+  refuse_others(line, {"id", "status", "signed_distance", "normal", "points"}, "");
+  const ts_answer a = answer_from_json(line, "");
+  return {
+      id, 0, {}, a.status, a.signed_distance, Vec3(a.normal), {a.points, a.points + a.point_count}};
+}
+
+/// Takes the lines of a file of answers one by one.
+class AnswerReader {
+ public:
+  explicit AnswerReader(const Wanted& wanted) : file_(wanted.file) {
+    for (const Identity& identity : wanted.identities) missing_.insert(to_string(identity));
+    is_closed_ = !missing_.empty();
+    if (!file_) return;
+    for (const auto& [id, entry] : file_->entries()) missing_.insert(id);
+  }
+
+  void take(const json& line, std::uint64_t number) {
+    const std::string id = string(member(line, "id", ""), "id");
+    GivenAnswer answer = answer_of(line, id);
+    const Cell cell = place(answer);
+    const std::string name =
+        answer.configuration ? id : to_string({cell.pair, cell.pose_class, *seed_, answer.index});
+    if (const auto [first, is_new] = lines_.try_emplace(name, number); !is_new) {
+      throw InvalidInput("id", shown_id(id),
+                         fmt::format("must be answered once; line {} did", first->second));
+    }
+    if (lines_.size() > max_answers) {
+      throw InvalidInput("id", shown_id(id),
+                         fmt::format("must be among the first {}", max_answers));
+    }
+    missing_.erase(name);
+    cells_[{cell.pair, cell.pose_class}].push_back(std::move(answer));
+  }
+
+  std::uint64_t count() const { return lines_.size(); }
+  std::uint64_t seed() const { return seed_.value_or(1); }
+  const std::set<std::string>& missing() const { return missing_; }
+
+  /// In report order: classes of a default report in its order, others by name, what came in a
+  /// file.
+  std::vector<GivenAnswers::OfCell> cells() {
+    std::vector<GivenAnswers::OfCell> result;
+    const auto add = [&](Pair pair, const std::string& name) {
+      const auto found = cells_.find({pair, name});
+      if (found == cells_.end()) return;
+      auto& answers = found->second;
+      std::sort(answers.begin(), answers.end(),
+                [](const GivenAnswer& a, const GivenAnswer& b) { return a.index < b.index; });
+      result.push_back({{pair, name}, std::move(answers)});
+      cells_.erase(found);
+    };
+    for (const Pair pair : all_pairs) {
+      for (const std::string& name : pose_classes(pair)) add(pair, name);
+      std::vector<std::string> others;
+      for (const auto& [key, answers] : cells_) {
+        if (key.first == pair && key.second != given_class) others.push_back(key.second);
+      }
+      for (const std::string& name : others) add(pair, name);
+      add(pair, std::string(given_class));
+    }
+    return result;
+  }
+
+ private:
+  /// Sets the answer's index and configuration; returns its cell.
+  Cell place(GivenAnswer& answer) {
+    if (const auto* entry = file_ ? file_->find(answer.id) : nullptr) {
+      answer.index = entry->number;
+      answer.configuration = entry->given.configuration;
+      if (entry->given.swapped) reverse(answer);
+      return {pair_of(*answer.configuration), std::string(given_class)};
+    }
+    const Identity identity = identity_of(answer.id);
+    if (!seed_) seed_ = identity.seed;
+    if (identity.seed != *seed_) {
+      throw InvalidInput(
+          "id", shown_id(answer.id),
+          fmt::format("must have the seed {}, as the first: a report has one", *seed_));
+    }
+    answer.index = identity.index;
+    return {identity.pair, identity.pose_class};
+  }
+
+  Identity identity_of(const std::string& id) const {
+    const char* const remedy =
+        file_ ? "must be an id of the configurations' file, or an identity" : nullptr;
+    try {
+      Identity identity = parse_identity(id);
+      if (!is_closed_ || lines_.contains(to_string(identity)) ||
+          missing_.contains(to_string(identity))) {
+        return identity;
+      }
+    } catch (const InvalidInput& e) {
+      throw InvalidInput("id", shown_id(id), remedy ? remedy : e.what());
+    }
+    throw InvalidInput("id", shown_id(id), "must be of the configurations that were asked for");
+  }
+
+  const ConfigurationFile* file_;
+  bool is_closed_ = false;         ///< only identities that are wanted are known
+  std::set<std::string> missing_;  ///< ids that are wanted and not answered yet
+  std::optional<std::uint64_t> seed_;
+  std::map<std::string, std::uint64_t> lines_;  ///< of what is answered, by name
+  std::map<std::pair<Pair, std::string>, std::vector<GivenAnswer>> cells_;
+};
+
+Candidate described(const GivenDescription& description, const json& header) {
+  refuse_others(header, {"candidate", "version", "settings"}, "");
+  const auto text = [&](const std::optional<std::string>& option, const char* name) {
+    if (option) return *option;
+    return header.contains(name) ? string(header[name], name) : std::string();
+  };
+  const bool is_named = description.name || header.contains("candidate");
+  if (!is_named) {
+    throw InvalidInput("--name", "missing",
+                       "must say whose answers these are, or a first line "
+                       "{\"candidate\": …, \"version\": …, \"settings\": …}");
+  }
+  Candidate result;
+  result.name = text(description.name, "candidate");
+  require_name(result.name, description.name ? "--name" : "line 1.candidate");
+  result.family = result.name;
+  result.version = text(description.version, "version");
+  result.settings = text(description.settings, "settings");
+  return result;
+}
+
+AnswerError error_of(std::uint64_t line, const InvalidInput& e) {
+  return {line, e.field(), error_text(e)};
+}
+
+}  // namespace
+
+ReadAnswers read_answers(std::istream& in, const GivenDescription& description,
+                         const Wanted& wanted) {
+  ReadAnswers result;
+  AnswerReader reader(wanted);
+  json header = json::object();
+  JsonLines lines(in);
+  for (bool is_first = true; lines.next(); is_first = false) {
+    try {
+      const json line = lines.parse();
+      require_object(line, "line");
+      if (is_first && !line.contains("id")) {
+        header = line;
+      } else {
+        reader.take(line, lines.number());
+      }
+    } catch (const InvalidInput& e) {
+      // It may be the line that says whose answers these are.
+      if (is_first && !description.name) throw e.within(fmt::format("line {}", lines.number()));
+      result.errors.push_back(error_of(lines.number(), e));
+    }
+  }
+  try {
+    result.answers.candidate = described(description, header);
+  } catch (const InvalidInput& e) {
+    throw e.field().starts_with("-") || e.field().starts_with("line") ? e : e.within("line 1");
+  }
+  if (const auto& missing = reader.missing(); !missing.empty()) {
+    const std::string value =
+        fmt::format("missing for {} configurations, as {}", missing.size(), *missing.begin());
+    result.errors.push_back(error_of(
+        0, {"answer", value, "must be given; its status may be \"failed\" or \"unsupported\""}));
+  }
+  result.count = reader.count();
+  result.seed = reader.seed();
+  result.answers.cells = reader.cells();
+  return result;
+}
+
+}  // namespace touchstone

@@ -1,0 +1,121 @@
+#include "reports/test_data/test_data.hpp"
+
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <map>
+#include <stdexcept>
+#include <vector>
+
+#include "candidates/host/interruption.hpp"
+#include "candidates/host/progress.hpp"
+#include "candidates/host/worker_processes.hpp"
+#include "reports/bytes.hpp"
+
+namespace touchstone {
+
+AnswerLimits answer_limits(const Configuration& c, const oracle::Truth& truth, const Bar& bar) {
+  const double size = error_size(c, bar), slack = bar.tolerance * size;
+  const double distance = truth.signed_distance.midpoint();
+  using Contact = AnswerLimits::Contact;
+  const Contact contact = distance < -slack                  ? Contact::required
+                          : distance > bar.threshold + slack ? Contact::forbidden
+                                                             : Contact::optional;
+  return {contact, distance - slack, distance + slack, slack, -(bar.threshold + slack)};
+}
+
+const char* contact_name(AnswerLimits::Contact contact) {
+  switch (contact) {
+    case AnswerLimits::Contact::required:
+      return "required";
+    case AnswerLimits::Contact::optional:
+      return "optional";
+    case AnswerLimits::Contact::forbidden:
+      return "forbidden";
+  }
+  return "";
+}
+
+double midpoint_error(const oracle::Enclosure& e) {
+  const mpq_class middle(e.midpoint());
+  const mpq_class error = std::max<mpq_class>(e.hi - middle, middle - e.lo);
+  const double rounded = error.get_d();  // towards zero
+  if (mpq_class(rounded) == error) return rounded;
+  return std::nextafter(rounded, std::numeric_limits<double>::infinity());
+}
+
+Campaign suite_1() {
+  Campaign c;
+  c.pairs.assign(std::begin(all_pairs), std::end(all_pairs));
+  c.count = 3;
+  c.everyday_times = 5;
+  c.seed = 1;
+  return c;
+}
+
+std::vector<Identity> identities(const Campaign& campaign) {
+  std::vector<Identity> result;
+  for (const Cell& cell : cells(campaign)) {
+    for (std::uint64_t i = 0; i < count_of(campaign, cell); ++i) {
+      result.push_back({cell.pair, cell.pose_class, campaign.seed, i});
+    }
+  }
+  return result;
+}
+
+namespace {
+
+std::string datum_bytes(const Identity& identity) {
+  const Configuration c = make_configuration(identity);
+  ByteWriter out;
+  out.put(c);
+  try {
+    out.put(oracle::truth(c, truth_width));
+  } catch (const std::exception& e) {
+    throw std::runtime_error(to_string(identity) + ": " + e.what());
+  }
+  return out.take();
+}
+
+}  // namespace
+
+void make_test_data(const Campaign& campaign, const std::function<void(const TestDatum&)>& take) {
+  const std::vector<Identity> all = identities(campaign);
+  constexpr std::uint64_t unit = 32;
+  Progress progress("configurations", all.size());
+  std::map<std::uint64_t, std::string> waiting;  // units that came before their turn
+  std::uint64_t next = 0;
+  const auto last_of = [&](std::uint64_t first) {
+    return std::min<std::uint64_t>(first + unit, all.size());
+  };
+  const auto take_unit = [&](const std::string& bytes) {
+    ByteReader in(bytes);
+    for (const std::uint64_t last = last_of(next); next < last; ++next) {
+      const Configuration c = in.get_configuration();
+      const oracle::Truth truth = in.get_truth();
+      take({all[next], c, truth, answer_limits(c, truth, campaign.bar)});
+    }
+    progress.update(next);
+  };
+  stream_from_processes((all.size() + unit - 1) / unit, campaign.workers,
+                        [&](std::uint64_t number) {
+                          std::string bytes;
+                          for (std::uint64_t i = number * unit; i < last_of(number * unit); ++i) {
+                            bytes += datum_bytes(all[i]);
+                          }
+                          return bytes;
+                        },
+                        [&](std::uint64_t number) { return to_string(all[number * unit]); },
+                        [&](std::uint64_t number, std::string bytes) {
+                          waiting[number] = std::move(bytes);
+                          for (auto first = waiting.begin();
+                               first != waiting.end() && first->first * unit == next;
+                               first = waiting.begin()) {
+                            take_unit(first->second);
+                            waiting.erase(first);
+                          }
+                        },
+                        [] { return !interrupted(); });
+}
+
+}  // namespace touchstone

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "oracle/judge/score.hpp"
+#include "oracle/truth.hpp"
+#include "properties/identity.hpp"
+#include "reports/campaign.hpp"
+
+namespace touchstone {
+
+// Configurations with their truths, for those who test elsewhere (docs/suite.md).
+
+/// The numbers that score() compares an answer with, metres.
+struct AnswerLimits {
+  enum class Contact { required, optional, forbidden };
+
+  Contact contact;
+  double min_distance, max_distance;  ///< of the signed distance
+  double max_regret;                  ///< of the normal
+  double min_point_depth;             ///< of every contact point
+};
+AnswerLimits answer_limits(const Configuration& configuration, const oracle::Truth& truth,
+                           const Bar& bar);
+/// "required", "optional", "forbidden"
+const char* contact_name(AnswerLimits::Contact contact);
+
+/// Error of the signed distance as a double (Enclosure::midpoint), metres, rounded up.
+double midpoint_error(const oracle::Enclosure& signed_distance);
+
+/// One configuration of a file of test data.
+struct TestDatum {
+  Identity identity;
+  Configuration configuration;
+  oracle::Truth truth;
+  AnswerLimits limits;
+};
+
+/// touchstone-suite-1: of every pair and pose class of a default report, 3 configurations; of
+/// everyday and recorded classes and of arrangements along the world's axes, 15.
+Campaign suite_1();
+
+/// Those of all configurations that a campaign selects, in report order.
+std::vector<Identity> identities(const Campaign& campaign);
+
+/// Hands over the test data of a campaign's configurations, in their order; the truths are computed
+/// in its workers. Ends early, without the rest, on an interruption (interruption.hpp). Throws like
+/// sample().
+void make_test_data(const Campaign& campaign, const std::function<void(const TestDatum&)>& take);
+
+}  // namespace touchstone

@@ -1,0 +1,235 @@
+#include "reports/test_data/test_data_file.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <fmt/format.h>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "oracle/patch/contact_patch.hpp"
+#include "properties/files/answer_json.hpp"
+#include "properties/files/configuration_json.hpp"
+#include "reference/invalid_input.hpp"
+#include "reports/test_data/npz.hpp"
+
+namespace touchstone {
+namespace {
+
+using nlohmann::json;
+
+class JsonLinesWriter : public TestDataWriter {
+ public:
+  std::string add(const TestDatum& d) override {
+    const json line = {{"id", to_string(d.identity)},
+                       {"group", group_name(group_of(d.identity.pair, d.identity.pose_class))},
+                       {"configuration", to_json(d.configuration)},
+                       {"signed_distance", d.truth.signed_distance.midpoint()},
+                       {"signed_distance_error", midpoint_error(d.truth.signed_distance)},
+                       {"truth", to_json(d.configuration, d.truth)},
+                       {"limits",
+                        {{"contact", contact_name(d.limits.contact)},
+                         {"min_distance", d.limits.min_distance},
+                         {"max_distance", d.limits.max_distance},
+                         {"max_regret", d.limits.max_regret},
+                         {"min_point_depth", d.limits.min_point_depth}}}};
+    return line.dump() + '\n';
+  }
+};
+
+/// Sizes of body B; what a shape has fewer of is zero.
+struct SizesOfB {
+  using Sizes = std::array<double, 4>;
+  Sizes operator()(const Plane& s) const {
+    return {s.normal().x(), s.normal().y(), s.normal().z(), s.displacement()};
+  }
+  Sizes operator()(const Sphere& s) const { return {s.radius()}; }
+  Sizes operator()(const Capsule& s) const { return {s.radius(), s.half_length()}; }
+  Sizes operator()(const Cylinder& s) const { return {s.radius(), s.half_length()}; }
+  Sizes operator()(const Box& s) const {
+    return {s.half_extents().x(), s.half_extents().y(), s.half_extents().z()};
+  }
+};
+
+/// "box" of cylinder-box.
+const char* shape_of_b(Pair pair) { return std::strchr(pair_name(pair), '-') + 1; }
+
+void append(std::vector<double>& numbers, const Vec3& v) {
+  for (int i = 0; i < 3; ++i) numbers.push_back(v[i]);
+}
+
+template <class Fields>
+void put_pose(const std::string& body, const Pose& pose, Fields& fields) {
+  const auto& q = pose.orientation();
+  std::vector<double> position;
+  append(position, pose.position());
+  fields.numbers("position_" + body, "xyz", position);
+  fields.numbers("orientation_" + body, "wxyz", {q.w(), q.x(), q.y(), q.z()});
+}
+
+template <class Fields>
+void put_patches(const TestDatum& d, CsvColumns columns, Fields& fields) {
+  std::vector<std::string> kinds;
+  std::vector<double> areas, perimeters, centroids;
+  for (const auto& normal : d.truth.normals) {
+    const oracle::ContactPatch patch = oracle::contact_patch(d.configuration, normal);
+    kinds.emplace_back(patch_kind_name(patch.kind()));
+    areas.push_back(patch.area());
+    perimeters.push_back(patch.perimeter());
+    append(centroids, patch.centroid());
+  }
+  fields.texts("patch_kind", kinds);
+  if (columns == CsvColumns::suite) return;
+  fields.vectors("patch_area", 1, areas);
+  fields.vectors("patch_perimeter", 1, perimeters);
+  fields.vectors("patch_centroid", 3, centroids);
+}
+
+/// Hands over the columns of CSV and the arrays of NumPy in their order: a text, numbers with a
+/// letter for each (none for a single one), then lists with as many members as there are normals.
+template <class Fields>
+void put_fields(const TestDatum& d, CsvColumns columns, Fields& fields) {
+  const Configuration& c = d.configuration;
+  const auto number = [&](const char* name, double value) { fields.numbers(name, "", {value}); };
+  fields.text("id", to_string(d.identity));
+  fields.text("group", group_name(group_of(d.identity.pair, d.identity.pose_class)));
+  number("radius_a", c.a.radius());
+  number("half_length_a", c.a.half_length());
+  put_pose("a", c.pose_a, fields);
+  fields.text("shape_b", shape_of_b(d.identity.pair));
+  const auto sizes = std::visit(SizesOfB{}, c.b);
+  fields.numbers("size_b", "1234", {sizes.begin(), sizes.end()});
+  put_pose("b", c.pose_b, fields);
+  number("signed_distance", d.truth.signed_distance.midpoint());
+  number("signed_distance_error", midpoint_error(d.truth.signed_distance));
+  const auto [low, high] = decimals(d.truth.signed_distance);
+  fields.text("signed_distance_low", low);
+  fields.text("signed_distance_high", high);
+  fields.text("contact", contact_name(d.limits.contact));
+  number("min_distance", d.limits.min_distance);
+  number("max_distance", d.limits.max_distance);
+  number("max_regret", d.limits.max_regret);
+  number("min_point_depth", d.limits.min_point_depth);
+  fields.text("ties", ties_name(d.truth.ties));
+  fields.lists_of(d.truth.normals.size());
+  std::vector<double> normals;
+  for (const auto& normal : d.truth.normals) append(normals, normal.n);
+  fields.vectors("normal", 3, normals);
+  put_patches(d, columns, fields);
+}
+
+/// A row of CSV and the header above it. Numbers are the shortest decimals that give the same
+/// doubles back; of a list, members are separated by semicolons and their numbers by spaces, so
+/// that no cell needs quotes.
+class CsvRow {
+ public:
+  void text(const std::string& name, const std::string& value) { put(name, value); }
+  void numbers(const std::string& name, const std::string& letters,
+               const std::vector<double>& values) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      put(letters.empty() ? name : name + '_' + letters[i], fmt::format("{}", values[i]));
+    }
+  }
+  void lists_of(std::size_t) {}
+  void texts(const std::string& name, const std::vector<std::string>& values) {
+    put(name, fmt::format("{}", fmt::join(values, ";")));
+  }
+  void vectors(const std::string& name, std::size_t width, const std::vector<double>& values) {
+    std::string cell;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      cell += fmt::format("{}{}", i == 0 ? "" : i % width == 0 ? ";" : " ", values[i]);
+    }
+    put(name, cell);
+  }
+  const std::string& header() const { return header_; }
+  const std::string& row() const { return row_; }
+
+ private:
+  void put(const std::string& name, const std::string& cell) {
+    header_ += (header_.empty() ? "" : ",") + name;
+    row_ += (row_.empty() ? "" : ",") + cell;
+  }
+  std::string header_, row_;
+};
+
+class CsvWriter : public TestDataWriter {
+ public:
+  explicit CsvWriter(CsvColumns columns) : columns_(columns) {}
+  std::string add(const TestDatum& d) override {
+    CsvRow row;
+    put_fields(d, columns_, row);
+    const std::string header = has_header_ ? "" : row.header() + '\n';
+    has_header_ = true;
+    return header + row.row() + '\n';
+  }
+
+ private:
+  CsvColumns columns_;
+  bool has_header_ = false;
+};
+
+/// Arrays that grow by one entry with each datum; those of lists by one for each normal, where
+/// `first_normal` says which belong to which datum.
+class Arrays {
+ public:
+  void text(const std::string& name, const std::string& value) {
+    file_.texts(name).push_back(value);
+  }
+  void numbers(const std::string& name, const std::string& letters,
+               const std::vector<double>& values) {
+    vectors(name, std::max<std::size_t>(1, letters.size()), values);
+  }
+  void lists_of(std::size_t count) {
+    auto& first = file_.integers("first_normal");
+    if (first.empty()) first.push_back(0);
+    first.push_back(first.back() + static_cast<std::int64_t>(count));
+  }
+  void texts(const std::string& name, const std::vector<std::string>& values) {
+    auto& all = file_.texts(name);
+    all.insert(all.end(), values.begin(), values.end());
+  }
+  void vectors(const std::string& name, std::size_t width, const std::vector<double>& values) {
+    auto& all = file_.doubles(name, width);
+    all.insert(all.end(), values.begin(), values.end());
+  }
+  const NpzFile& file() const { return file_; }
+
+ private:
+  NpzFile file_;
+};
+
+class NumPyWriter : public TestDataWriter {
+ public:
+  std::string add(const TestDatum& d) override {
+    put_fields(d, CsvColumns::all, arrays_);
+    return {};
+  }
+  std::string finish() override { return arrays_.file().bytes(); }
+
+ private:
+  Arrays arrays_;
+};
+
+}  // namespace
+
+TestDataFormat parse_test_data_format(std::string_view name, const char* field) {
+  if (name == "jsonl") return TestDataFormat::json_lines;
+  if (name == "csv") return TestDataFormat::csv;
+  if (name == "npz") return TestDataFormat::npz;
+  throw InvalidInput(field, '"' + std::string(name) + '"', "must be one of jsonl, csv, npz");
+}
+
+std::unique_ptr<TestDataWriter> test_data_writer(TestDataFormat format, CsvColumns columns) {
+  switch (format) {
+    case TestDataFormat::json_lines:
+      return std::make_unique<JsonLinesWriter>();
+    case TestDataFormat::csv:
+      return std::make_unique<CsvWriter>(columns);
+    case TestDataFormat::npz:
+      return std::make_unique<NumPyWriter>();
+  }
+  return nullptr;
+}
+
+}  // namespace touchstone

@@ -1,0 +1,388 @@
+// touchstone-suite-1: that the committed file is the one that `touchstone export --suite` writes,
+// covers what it says, and that its three readers judge answers as the scores of our reports do.
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <map>
+#include <numbers>
+#include <set>
+#include <sstream>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <nlohmann/json.hpp>
+
+#include "candidates/candidates.hpp"
+#include "properties/files/answer_json.hpp"
+#include "reports/make_report.hpp"
+#include "reports/test_data/given_answers.hpp"
+#include "reports/test_data/test_data_file.hpp"
+#include "suite/touchstone_suite.hpp"
+
+namespace touchstone {
+namespace {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+const std::string suite_file = TOUCHSTONE_SUITE "/touchstone-suite-1.csv.gz";
+
+/// What a command prints. Its exit code must be one of 0 and 1.
+std::string printed_by(const std::string& command) {
+  FILE* const pipe = popen(command.c_str(), "r");
+  std::string text, block(1 << 16, '\0');
+  for (std::size_t n; (n = std::fread(block.data(), 1, block.size(), pipe)) > 0;) {
+    text.append(block, 0, n);
+  }
+  const int status = pclose(pipe);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) <= 1) << command;
+  return text;
+}
+
+const std::string& committed() {
+  static const std::string text = printed_by("gzip -dc " + suite_file);
+  return text;
+}
+
+const std::vector<TestDatum>& data() {
+  static const std::vector<TestDatum> all = [] {
+    Campaign campaign = suite_1();
+    campaign.workers = 2;
+    std::vector<TestDatum> result;
+    make_test_data(campaign, [&](const TestDatum& datum) { result.push_back(datum); });
+    return result;
+  }();
+  return all;
+}
+
+const std::vector<touchstone_suite::Case>& cases_read() {
+  static const auto all = [] {
+    std::istringstream in(committed());
+    return touchstone_suite::read(in);
+  }();
+  return all;
+}
+
+TEST(Suite1, IsWhatExportWritesToTheByte) {
+  const auto writer = test_data_writer(TestDataFormat::csv, CsvColumns::suite);
+  std::string text;
+  for (const TestDatum& datum : data()) text += writer->add(datum);
+  text += writer->finish();
+  ASSERT_EQ(text.size(), committed().size());
+  EXPECT_TRUE(text == committed());
+}
+
+TEST(Suite1, HasTheChecksumsThatAreWrittenDown) {
+  std::ifstream file(TOUCHSTONE_SUITE "/SHA256SUMS");
+  const std::string sums{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_EQ(sums, printed_by("cd " TOUCHSTONE_SUITE " && sha256sum touchstone-suite-1.csv.gz && "
+                             "gzip -dc touchstone-suite-1.csv.gz | sha256sum | "
+                             "sed 's/-$/touchstone-suite-1.csv/'"));
+  std::ifstream readme(TOUCHSTONE_SUITE "/README.md");
+  const std::string page{std::istreambuf_iterator<char>(readme), {}};
+  EXPECT_THAT(page, testing::HasSubstr(sums.substr(0, 64)));
+}
+
+TEST(Suite1, IsSmallEnoughForARepository) {
+  EXPECT_LT(fs::file_size(suite_file), 1500000u);
+  EXPECT_NEAR(static_cast<double>(data().size()), 5000, 500);
+}
+
+TEST(Suite1, HasEveryPoseClassAndEveryKindOfAnswer) {
+  std::set<std::pair<Pair, std::string>> classes;
+  std::set<std::string> groups, contacts, ties;
+  for (const TestDatum& d : data()) {
+    classes.insert({d.identity.pair, d.identity.pose_class});
+    groups.insert(group_name(group_of(d.identity.pair, d.identity.pose_class)));
+    contacts.insert(contact_name(d.limits.contact));
+    ties.insert(ties_name(d.truth.ties));
+  }
+  std::size_t count = 0;
+  for (const Pair pair : all_pairs) count += pose_classes(pair).size();
+  EXPECT_EQ(classes.size(), count);
+  EXPECT_EQ(groups.size(), std::size(all_groups));
+  EXPECT_EQ(contacts.size(), 3u);
+  EXPECT_EQ(ties.size(), 3u);
+}
+
+/// Bound of the error of a reader's gap, relative to the largest regret allowed; README.md has it.
+constexpr double gap_error = 0.01;
+
+TEST(Suite1, ReadersKnowTheRegretOfAnyNormal) {
+  ASSERT_EQ(cases_read().size(), data().size());
+  for (std::size_t i = 0; i < data().size(); ++i) {
+    const TestDatum& d = data()[i];
+    const touchstone_suite::Case& c = cases_read()[i];
+    for (const double angle : {0.0, 1e-3, 2.0}) {
+      const Vec3 best = d.truth.normals.front().n;
+      const Vec3 n = Eigen::AngleAxisd(angle, best.unitOrthogonal()) * best;
+      const double expected = oracle::normal_regret(d.configuration, d.truth, n);
+      const double regret = c.signed_distance - touchstone_suite::gap(c, {n.x(), n.y(), n.z()});
+      // Beyond the limit only the verdict counts: an error relative to the regret.
+      EXPECT_NEAR(std::max(0.0, regret), expected,
+                  std::max(gap_error * c.max_regret, 1e-12 * expected))
+          << c.id << ' ' << angle;
+    }
+  }
+}
+
+// Answers: those of our own routines, and such as are wrong in a certain way.
+
+struct PlantedFault {
+  const char* name;
+  /// Null where the fault need not show, as where several normals are right.
+  const char* verdict;
+  void (*plant)(ts_answer& answer, const TestDatum& datum);
+};
+
+void set(double (&to)[3], const Vec3& v) {
+  for (int i = 0; i < 3; ++i) to[i] = v[i];
+}
+
+void shift(ts_answer& a, double distance) {
+  a.signed_distance += distance;
+  for (int i = 0; i < a.point_count; ++i) a.points[i].depth -= distance;
+}
+
+/// Turns the best normal, about the axis that costs more, until its regret is so many limits.
+void turn_to_regret(ts_answer& a, const TestDatum& d, double limits) {
+  const Vec3 best = d.truth.normals.front().n, e = best.unitOrthogonal();
+  const auto turned = [&](const Vec3& axis, double angle) {
+    return Vec3(Eigen::AngleAxisd(angle, axis) * best);
+  };
+  const auto regret = [&](const Vec3& axis, double angle) {
+    return oracle::normal_regret(d.configuration, d.truth, turned(axis, angle));
+  };
+  const Vec3 other = best.cross(e);
+  const Vec3& axis = regret(e, 1) > regret(other, 1) ? e : other;
+  double low = 0, high = 1;
+  while (high - low > 1e-15 * high) {
+    const double middle = (low + high) / 2;
+    if (middle == low || middle == high) break;
+    (regret(axis, middle) < limits * d.limits.max_regret ? low : high) = middle;
+  }
+  set(a.normal, turned(axis, low));
+}
+
+/// On an answer that is a contact where one is required.
+const PlantedFault faults[] = {
+    {"none", "agree", [](ts_answer&, const TestDatum&) {}},
+    {"two limits too shallow", "shallow",
+     [](ts_answer& a, const TestDatum& d) { shift(a, 2 * d.limits.max_regret); }},
+    {"two limits too deep", "overdeep",
+     [](ts_answer& a, const TestDatum& d) { shift(a, -2 * d.limits.max_regret); }},
+    {"normal turned to 0.95 limits of regret", "agree",
+     [](ts_answer& a, const TestDatum& d) { turn_to_regret(a, d, 0.95); }},
+    {"normal turned to 1.05 limits of regret", "wrong-normal",
+     [](ts_answer& a, const TestDatum& d) { turn_to_regret(a, d, 1.05); }},
+    {"normal turned by 20 degrees", nullptr,
+     [](ts_answer& a, const TestDatum&) {
+       const Vec3 n(a.normal);
+       set(a.normal, Eigen::AngleAxisd(std::numbers::pi / 9, n.unitOrthogonal()) * n);
+     }},
+    {"normal reversed", nullptr,
+     [](ts_answer& a, const TestDatum&) { set(a.normal, -Vec3(a.normal)); }},
+    {"normal too long", "wrong-normal",
+     [](ts_answer& a, const TestDatum&) { set(a.normal, 1.01 * Vec3(a.normal)); }},
+    {"no normal", "wrong-normal",
+     [](ts_answer& a, const TestDatum&) { set(a.normal, Vec3::Zero()); }},
+    {"missed", "missed", [](ts_answer& a, const TestDatum&) { a.status = TS_NONE; }},
+    {"no points", "shallow-points", [](ts_answer& a, const TestDatum&) { a.point_count = 0; }},
+    {"points two limits too shallow", "shallow-points",
+     [](ts_answer& a, const TestDatum& d) {
+       for (int i = 0; i < a.point_count; ++i) {
+         a.points[i].depth =
+             std::min(a.points[i].depth, -d.limits.max_distance) - d.limits.max_regret;
+       }
+     }},
+    {"a point two limits too deep", "overdeep-points",
+     [](ts_answer& a, const TestDatum& d) {
+       a.points[0].depth = -d.limits.min_distance + d.limits.max_regret;
+     }},
+    {"a point beyond the threshold", "phantom-points",
+     [](ts_answer& a, const TestDatum& d) {
+       ts_point& p = a.points[a.point_count++];
+       p = a.points[0];
+       p.depth = 2 * d.limits.min_point_depth;
+     }},
+    {"not finite", "not-finite",
+     [](ts_answer& a, const TestDatum&) { a.points[0].position[1] = std::nan(""); }},
+    {"infinite", "not-finite",
+     [](ts_answer& a, const TestDatum&) { a.signed_distance = -INFINITY; }},
+    {"failed", "failed", [](ts_answer& a, const TestDatum&) { a.status = TS_FAILED; }},
+    {"unsupported", "unsupported",
+     [](ts_answer& a, const TestDatum&) { a.status = TS_UNSUPPORTED; }},
+};
+
+ts_answer contact_made_up(const TestDatum& d) {
+  ts_answer a{};
+  a.status = TS_CONTACT;
+  a.signed_distance = -d.limits.max_regret / 2;
+  set(a.normal, d.truth.normals.front().n);
+  return a;
+}
+
+/// JSON has no number for what is not finite.
+json number_json(double x) {
+  if (std::isnan(x)) return nullptr;
+  return std::isfinite(x) ? json(x) : json(x > 0 ? "inf" : "-inf");
+}
+
+json vector_json(const double (&v)[3]) {
+  return {number_json(v[0]), number_json(v[1]), number_json(v[2])};
+}
+
+json line_of(const std::string& id, const ts_answer& a) {
+  json line = {{"id", id}, {"status", status_name(a.status)}};
+  if (a.status != TS_CONTACT) return line;
+  line["signed_distance"] = number_json(a.signed_distance);
+  line["normal"] = vector_json(a.normal);
+  line["points"] = json::array();
+  for (int i = 0; i < a.point_count; ++i) {
+    line["points"].push_back({{"position", vector_json(a.points[i].position)},
+                              {"depth", number_json(a.points[i].depth)}});
+  }
+  return line;
+}
+
+touchstone_suite::Answer for_the_reader(const ts_answer& a) {
+  touchstone_suite::Answer result{
+      status_name(a.status), a.signed_distance, {a.normal[0], a.normal[1], a.normal[2]}, {}};
+  for (int i = 0; i < a.point_count; ++i) {
+    const ts_point& p = a.points[i];
+    result.points.push_back({p.position[0], p.position[1], p.position[2], p.depth});
+  }
+  return result;
+}
+
+/// Second words of lines such as "cylinder-box/rim-face/1/0 agree".
+std::vector<std::string> verdicts_in(const std::string& lines) {
+  std::vector<std::string> result;
+  std::istringstream in(lines);
+  for (std::string line; std::getline(in, line);) {
+    std::istringstream words(line);
+    std::string id, verdict, right;
+    words >> id >> verdict >> right;
+    EXPECT_EQ(right.empty(), verdict == "agree") << line;
+    result.push_back(verdict);
+  }
+  return result;
+}
+
+/// An answer to each configuration of the suite, with the faults in turns; where there need not be
+/// a contact, our own answer and one that is made up.
+struct Answers {
+  std::vector<ts_answer> all;
+  std::vector<const PlantedFault*> planted;  ///< null: none that is in the list
+  std::vector<std::string> verdicts;         ///< by score()
+  std::string file;
+};
+
+const Answers& answers() {
+  static const Answers result = [] {
+    std::vector<Configuration> configurations;
+    for (const TestDatum& d : data()) configurations.push_back(d.configuration);
+    const auto own = CandidateProcess(find_candidate("reference"), suite_1().bar.threshold)
+                         .answers(configurations);
+    Answers made;
+    made.file = (fs::temp_directory_path() / ("suite_test." + std::to_string(getpid()))).string();
+    std::ofstream out(made.file);
+    out << R"({"candidate": "planted", "version": "1", "settings": "by suite_test.cpp"})" << '\n';
+    for (std::size_t i = 0, turn = 0; i < data().size(); ++i) {
+      const TestDatum& d = data()[i];
+      ts_answer a = own[i];
+      const PlantedFault* fault = nullptr;
+      if (d.limits.contact == AnswerLimits::Contact::required && a.status == TS_CONTACT) {
+        fault = &faults[turn++ % std::size(faults)];
+        fault->plant(a, d);
+      } else if (i % 2 == 0) {
+        a = contact_made_up(d);
+      }
+      made.verdicts.emplace_back(
+          outcome_name(score(d.configuration, d.truth, a, suite_1().bar).outcome));
+      out << line_of(to_string(d.identity), a).dump() << '\n';
+      made.all.push_back(a);
+      made.planted.push_back(fault);
+    }
+    return made;
+  }();
+  static const struct Removal {
+    ~Removal() { fs::remove(result.file); }
+  } at_the_end;
+  return result;
+}
+
+TEST(Verdicts, OfTheScoreNameThePlantedFault) {
+  std::map<std::string, int> seen;
+  for (std::size_t i = 0; i < data().size(); ++i) {
+    const PlantedFault* const fault = answers().planted[i];
+    ++seen[answers().verdicts[i]];
+    if (fault && fault->verdict) {
+      EXPECT_EQ(answers().verdicts[i], fault->verdict)
+          << to_string(data()[i].identity) << ' ' << fault->name;
+    } else if (!fault && data()[i].limits.contact == AnswerLimits::Contact::forbidden) {
+      EXPECT_EQ(answers().verdicts[i], answers().all[i].status == TS_NONE ? "agree" : "phantom");
+    }
+  }
+  for (const char* verdict :
+       {"agree", "missed", "phantom", "shallow", "overdeep", "wrong-normal", "not-finite", "failed",
+        "unsupported", "shallow-points", "overdeep-points", "phantom-points"}) {
+    EXPECT_GT(seen[verdict], 30) << verdict;
+  }
+}
+
+TEST(Verdicts, OfTheThreeReadersAreThoseOfTheScore) {
+  const std::string files = suite_file + ' ' + answers().file;
+  const auto by_python =
+      verdicts_in(printed_by(TOUCHSTONE_PYTHON " " TOUCHSTONE_SUITE "/judge.py " + files));
+  const auto by_node = verdicts_in(printed_by("node " TOUCHSTONE_SUITE "/judge.js " + files));
+  ASSERT_EQ(by_python.size(), data().size());
+  ASSERT_EQ(by_node.size(), data().size());
+  for (std::size_t i = 0; i < data().size(); ++i) {
+    const auto& c = cases_read()[i];
+    const std::string& expected = answers().verdicts[i];
+    EXPECT_EQ(touchstone_suite::verdict(c, for_the_reader(answers().all[i])), expected) << c.id;
+    EXPECT_EQ(by_python[i], expected) << c.id;
+    EXPECT_EQ(by_node[i], expected) << c.id;
+  }
+}
+
+TEST(Verdicts, OfTouchstoneScoreAreThoseOfTheScore) {
+  std::ifstream in(answers().file);
+  const ReadAnswers read = read_answers(in, {}, {nullptr, identities(suite_1())});
+  EXPECT_TRUE(read.errors.empty());
+  Campaign campaign;
+  campaign.given = &read.answers;
+  campaign.candidates = {&read.answers.candidate};
+  campaign.seed = read.seed;
+  campaign.workers = 2;
+  const Report report = make_report(campaign, "x");
+  using Counts = std::map<std::string, std::uint64_t>;
+  std::map<std::string, Counts> expected, reported;
+  for (std::size_t i = 0; i < data().size(); ++i) {
+    const Identity& id = data()[i].identity;
+    ++expected[std::string(pair_name(id.pair)) + id.pose_class][answers().verdicts[i]];
+  }
+  for (const ResultRow& row : report.results) {
+    EXPECT_EQ(row.candidate, "planted");
+    for (const Outcome o : all_outcomes) {
+      if (const auto count = row.statistics.of(o)) {
+        reported[row.pair + row.pose_class][outcome_name(o)] = count;
+      }
+    }
+  }
+  EXPECT_EQ(reported, expected);
+}
+
+TEST(Readers, SayWhatWouldBeRight) {
+  const auto& c = cases_read().front();
+  const std::string text = touchstone_suite::right(c);
+  EXPECT_THAT(text, testing::HasSubstr("contact " + c.contact + ", signed distance "));
+  EXPECT_THAT(text, testing::HasSubstr(", normal "));
+}
+
+}  // namespace
+}  // namespace touchstone
