@@ -25,6 +25,7 @@ namespace {
 
 using nlohmann::json;
 using testing::HasSubstr;
+using testing::Not;
 
 json report_of(const Campaign& campaign) { return to_json(make_report(campaign, "x")); }
 
@@ -140,6 +141,19 @@ TEST(Report, TheTablesWorstFailureIsTheOneWithoutAnAnswer) {
   add("everyday", Outcome::crashed, 0, "second");
   add("extreme", Outcome::crashed, 0, "third");
   EXPECT_THAT(terminal_table(report), HasSubstr("mine crashed, everyday\n    second\n"));
+}
+
+TEST(Report, TheTableSaysWhichTimeLimitsWereExceeded) {
+  Report report;
+  ResultRow row;
+  row.pair = "all";
+  row.pose_class = "everyday";
+  row.candidate = "mine";
+  row.statistics.count = 1;
+  report.summary = {row};
+  EXPECT_THAT(terminal_table(report), Not(HasSubstr("a thousand times the median")));
+  report.summary[0].statistics.outcomes[static_cast<std::size_t>(Outcome::timed_out)] = 1;
+  EXPECT_THAT(terminal_table(report), HasSubstr("a thousand times the median"));
 }
 
 TEST(Report, RanksNobodyWithinTheSpreads) {

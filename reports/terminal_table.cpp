@@ -219,6 +219,14 @@ std::string terminal_table(const Report& report) {
         "  of {} to {} repetitions overlap: a tie\n",
         min_repetitions, max_repetitions);
   }
+  const bool has_timeouts =
+      std::any_of(report.summary.begin(), report.summary.end(),
+                  [](const ResultRow& row) { return row.statistics.of(Outcome::timed_out) > 0; });
+  if (has_timeouts) {
+    text +=
+        "timed-out: no answer within the limit of processor time; soon after another\n"
+        "  such answer, within a thousand times the median, at least a tenth of the limit\n";
+  }
   return text + commands_text(report, timed) + contrasts_text(report) + failures_text(report);
 }
 

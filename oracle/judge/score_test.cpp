@@ -322,19 +322,25 @@ TEST(PointDistance, OfEveryShape) {
   EXPECT_DOUBLE_EQ(distance(Plane({0, 0, 2}, 2), {0, 0, 5}), 1);
 }
 
-/// Two crossed cans, and two coaxial ones, along whose sides all radial normals tie.
+/// Two crossed cans; two coaxial ones, along whose sides all radial normals tie; and one in the
+/// middle of a cube, where caps and sides tie, along which patches differ.
 const Configuration crossed{Cylinder(0.5, 1), Pose(), Cylinder(0.4, 1.5),
                             Pose({0.1, 0.7, 0.2}, {1, 0.3, 0.1, 0.5})},
-    coaxial{Cylinder(0.5, 1), Pose(), Cylinder(0.4, 1), Pose({0, 0, 0.25}, {1, 0, 0, 0})};
+    coaxial{Cylinder(0.5, 1), Pose(), Cylinder(0.4, 1), Pose({0, 0, 0.25}, {1, 0, 0, 0})},
+    tied{Cylinder(0.5, 0.5), Pose(), Box({2, 2, 2}), Pose()};
 
 TEST(Judge, SaysOfEachOfManyAnswersWhatItSaysOfThatAlone) {
-  for (const Configuration& c : {standing, crossed, coaxial, lifted(1)}) {
+  for (const Configuration& c : {standing, crossed, coaxial, tied, lifted(1)}) {
     const oracle::Truth truth = oracle::truth(c);
     const double distance = truth.signed_distance.midpoint();
     std::vector<ts_answer> answers = {none()};
-    for (const double turn : {0.0, 0.3, 1e-5, 2.0, 0.3, 0.0}) {
-      const Vec3 n = Eigen::AngleAxisd(turn, Vec3(0.6, 0, 0.8)) * truth.normals.front().n;
-      answers.push_back(contact(distance, n));
+    std::vector<Vec3> normals;
+    for (const double turn : {0.0, 0.3, 1e-5, 2.0, 0.3}) {
+      for (const oracle::OptimalNormal& optimal : truth.normals) {
+        normals.push_back(Eigen::AngleAxisd(turn, Vec3::UnitZ()) * optimal.n);
+      }
+    }
+    for (const Vec3& n : normals) {
       answers.push_back(contact(distance / 2, Vec3(n.y(), -n.z(), n.x())));
       ts_answer spread = contact(distance, n);
       spread.point_count = 4;
