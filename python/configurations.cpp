@@ -88,7 +88,7 @@ The configuration of an identity, "pair/class/seed/index", as reports name it: a
 Returns the pose classes of a pair that a report scores: a dict of names and descriptions.
 
 >>> touchstone.classes("cylinder-plane")["lying"]
-'The side lies flat on the plane: a contact segment.'
+'A generator lies exactly on the plane: a line of equally deep points.'
 )");
   m.def("configurations", &configurations_of, py::arg("pair"), py::arg("classes") = py::none(),
         py::arg("seed") = 1, py::arg("count") = 10,

@@ -192,7 +192,7 @@ cannot end compiled code, and what crashes ends the report. For such engines the
 ...     return None
 >>> r = touchstone.report(nothing, "nothing", ["cylinder-plane"], ["lying"], count=2, candidates=[])
 >>> [row["outcomes"] for row in r.to_dict()["results"]]
-[{'missed': 2}]
+[{'agree': 1, 'missed': 1}]
 )");
 }
 
