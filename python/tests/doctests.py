@@ -1,9 +1,15 @@
-"""Runs the examples in the module's docstrings, which other test runners do not find."""
+"""Runs the examples of docs/python.md, and those in the module's docstrings, which other test runners
+do not find."""
 import doctest
+import pathlib
+import re
 import sys
 
 import numpy
 import touchstone
+
+
+PAGE = pathlib.Path(__file__).resolve().parents[2] / "docs" / "python.md"
 
 
 def docstrings():
@@ -27,6 +33,8 @@ def main():
             continue
         names = {"touchstone": touchstone, "numpy": numpy}
         runner.run(parser.get_doctest(text, names, name, None, 0))
+    examples = re.findall(r"^```python\n(.*?)^```$", PAGE.read_text(), re.MULTILINE | re.DOTALL)
+    runner.run(parser.get_doctest("\n".join(examples), {}, PAGE.name, None, 0))
     print(*faults, sep="\n", end="\n" if faults else "")
     return 1 if faults or runner.summarize().failed or runner.tries < 20 else 0
 

@@ -1,5 +1,7 @@
-"""The module's values, routines, truth, configurations and scores."""
+"""The module's values, routines, truth, configurations and scores, and its stubs."""
+import ast
 import math
+import pathlib
 import pickle
 import sys
 import threading
@@ -341,6 +343,36 @@ class Scores(unittest.TestCase):
         self.assertEqual([s.outcome for s in scores], ["missed", "unsupported"])
         with self.assertRaisesRegex(ValueError, "answers is a sequence of 1: must be as many"):
             touchstone.scores([self.deep] * 2, [None])
+
+
+class Stubs(unittest.TestCase):
+    """The stubs say what the module has; of functions, what the first line of a docstring says."""
+
+    stub = ast.parse(pathlib.Path(touchstone.__file__).with_suffix(".pyi").read_text())
+
+    @staticmethod
+    def parameters(function):
+        """Names, and defaults as text where the stubs give them."""
+        names = [argument.arg for argument in function.args.args]
+        return names, [ast.unparse(default) for default in function.args.defaults]
+
+    def test_names_and_members_are_the_modules(self):
+        classes = {node.name: node for node in self.stub.body if isinstance(node, ast.ClassDef)}
+        functions = {n.name for n in self.stub.body if isinstance(n, ast.FunctionDef)}
+        self.assertEqual(functions | classes.keys() | {"PAIRS"}, set(touchstone.__all__))
+        for name, node in classes.items():
+            members = {member.name for member in node.body if not member.name.startswith("_")}
+            actual = {m for m in vars(getattr(touchstone, name)) if not m.startswith("_")}
+            self.assertEqual(members, actual, name)
+
+    def test_parameters_are_those_of_the_docstrings(self):
+        for node in self.stub.body:
+            if isinstance(node, ast.FunctionDef):
+                signature = getattr(touchstone, node.name).__doc__.split("\n\n")[0]
+                [documented] = ast.parse(f"def {signature}: ...").body
+                names, defaults = self.parameters(documented)
+                self.assertEqual(self.parameters(node)[0], names)
+                self.assertEqual(self.parameters(node)[1], defaults)
 
 
 if __name__ == "__main__":
