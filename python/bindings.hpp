@@ -59,7 +59,7 @@ void check_threshold(double threshold);
 /// __repr__, __eq__, __hash__ and pickling of a value that its constructor's arguments define.
 /// `arguments` gives them as plain numbers and tuples.
 template <class T>
-void define_value(py::class_<T>& type, std::vector<std::string> names,
+void define_value(py::class_<T>& type, const std::vector<std::string>& names,
                   py::tuple (*arguments)(const T&)) {
   const auto name = type.attr("__name__").template cast<std::string>();
   type.def("__repr__", [name, names, arguments](const T& value) {

@@ -11,6 +11,12 @@ NamedConfiguration own(const Cylinder& a, const Pose& pose_a, py::handle b, cons
   return {"", "", {a, pose_a, shape_from_python("b", b), pose_b}};
 }
 
+/// What makes two configurations equal.
+py::tuple bodies(const NamedConfiguration& named) {
+  const Configuration& c = named.configuration;
+  return py::make_tuple(c.a, c.pose_a, shape_to_python(c.b), c.pose_b);
+}
+
 py::dict classes_of(const std::string& name) {
   const Pair pair = parse_pair(name);
   py::dict result;
@@ -68,14 +74,19 @@ The configuration of an identity, "pair/class/seed/index", as reports name it: a
       "The other shape.");
   configuration.def_property_readonly(
       "pose_b", [](const NamedConfiguration& c) { return c.configuration.pose_b; }, "Its pose.");
+  configuration.def("__eq__", [](const NamedConfiguration& c, py::handle other) {
+    return py::isinstance<NamedConfiguration>(other) &&
+           bodies(c).equal(bodies(other.cast<const NamedConfiguration&>()));
+  });
+  configuration.def("__hash__", [](const NamedConfiguration& c) { return py::hash(bodies(c)); });
   configuration.def("__repr__", [](const NamedConfiguration& c) {
-    const auto text = [](const auto& value) {
-      return py::repr(py::cast(value)).template cast<std::string>();
-    };
     if (!c.name.empty()) return "Configuration.of('" + c.name + "')";
-    return "Configuration(" + text(c.configuration.a) + ", " + text(c.configuration.pose_a) + ", " +
-           py::repr(shape_to_python(c.configuration.b)).cast<std::string>() + ", " +
-           text(c.configuration.pose_b) + ")";
+    return "Configuration" + py::repr(bodies(c)).cast<std::string>();
+  });
+  configuration.def("__reduce__", [](const py::object& self) {
+    const auto& c = self.cast<const NamedConfiguration&>();
+    if (!c.name.empty()) return py::make_tuple(self.attr("of"), py::make_tuple(c.name));
+    return py::make_tuple(py::type::of(self), bodies(c));
   });
 
   m.attr("PAIRS") = [] {

@@ -30,7 +30,7 @@ void set_alarm(double seconds) {
 
 /// "ValueError: what it says".
 std::string text_of(const py::error_already_set& error) {
-  const auto type = error.type().attr("__name__").cast<std::string>();
+  auto type = error.type().attr("__name__").cast<std::string>();
   try {
     const auto text = py::str(error.value()).cast<std::string>();
     return readable(text.empty() ? type : type + ": " + text);

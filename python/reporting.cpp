@@ -1,4 +1,5 @@
 // Scores a Python function as a report does every candidate.
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <pybind11/stl.h>
@@ -59,12 +60,15 @@ Candidate candidate_of(const Request& request) {
   return candidate;
 }
 
-/// All of what `parse` makes of the names; of none, all there is.
+/// What `parse` makes of the names, each once; without names, all there is.
 template <class Value, class Parse>
 std::vector<Value> parsed(const Names& names, std::span<const Value> all, const Parse& parse) {
   if (!names) return {all.begin(), all.end()};
   std::vector<Value> result;
-  for (const std::string& name : *names) result.push_back(parse(name));
+  for (const std::string& name : *names) {
+    const Value value = parse(name);
+    if (std::find(result.begin(), result.end(), value) == result.end()) result.push_back(value);
+  }
   return result;
 }
 
@@ -93,10 +97,10 @@ std::string call_of(const Request& request) {
     return py::repr(py::cast(value)).template cast<std::string>();
   };
   return fmt::format(
-      "touchstone.report({}, pairs={}, classes={}, groups={}, count={}, seed={}, "
+      "touchstone.report({}, pairs={}, classes={}, groups={}, count={}, seed={}, candidates={}, "
       "tolerance={}, threshold={})",
       request.name, text(request.pairs), text(request.classes), text(request.groups), request.count,
-      request.seed, text(request.tolerance), text(request.threshold));
+      request.seed, text(request.candidates), text(request.tolerance), text(request.threshold));
 }
 
 Report report_of(const Request& request) {

@@ -85,6 +85,9 @@ class Reports(unittest.TestCase):
 
         self.assertEqual(outcomes(far, threshold=0.5), {"agree": 4})
 
+    def test_a_pair_named_twice_is_scored_once(self):
+        self.assertEqual(outcomes(ours, pairs=["cylinder-plane"] * 2), {"agree": 4})
+
     def test_the_call_is_recorded(self):
         self.assertIn("touchstone.report(mine, pairs=['cylinder-plane'], classes=['lying'], ",
                       report(ours)["command"])
