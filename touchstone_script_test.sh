@@ -180,4 +180,10 @@ times 1 "ninja all"
 has "$calls" "-R near parallel"
 [ "$(tail -n 1 "$folder/out")" = "100% tests passed" ] || fail "CTest's line is not the last"
 
+fact="python builds the module and hands its arguments to a Python that finds it"
+new_machine
+PYTHONPATH=/mine call 3 python -c 'import os, sys; print(os.environ["PYTHONPATH"], sys.argv[1]); sys.exit(3)' "a b"
+times 1 "ninja python_module"
+has "$folder/out" "$folder/a b/build/release/python:/mine a b"
+
 exit "$failures"

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <deque>
+#include <dlfcn.h>
 #include <fstream>
 #include <system_error>
 
@@ -25,16 +26,28 @@ constexpr struct {
     {"ode", "libode-dev"},       {"fcl", "libfcl-dev"},       {"libccd", "libccd-dev"},
     {"mujoco", "libmujoco-dev"}, {"simplified", ""},          {"box-parts", ""}};
 
-/// The folder of the standard plug-ins: in the build tree above the program (tests lie two folders
-/// deep), or under the prefix of an installed program.
+/// The folder of this code's file: of the program or, in Python, of the module.
+std::filesystem::path own_folder() {
+  static const char here = 0;
+  Dl_info of_here;
+  // Of a program, the name may be the one that it was started by, without its folder.
+  if (dladdr(&here, &of_here) != 0) {
+    const std::filesystem::path file = of_here.dli_fname;
+    if (file.extension() == ".so") return std::filesystem::canonical(file).parent_path();
+  }
+  return std::filesystem::read_symlink("/proc/self/exe").parent_path();
+}
+
+/// The folder of the standard plug-ins: in the build tree above the program (tests and the Python
+/// module lie two folders deep), or under the prefix of an installed one.
 std::filesystem::path standard_folder() {
-  auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path();
-  for (const char* folder :
-       {"candidates", "../candidates", "../../candidates", "../lib/touchstone"}) {
-    const auto path = program / folder;
+  const auto own = own_folder();
+  for (const char* folder : {"candidates", "../candidates", "../../candidates", "../lib/touchstone",
+                             "../../../touchstone"}) {
+    const auto path = own / folder;
     if (std::filesystem::exists(path / "touchstone-reference.so")) return path.lexically_normal();
   }
-  return program;
+  return own;
 }
 
 /// The shortest text that reads back as the same double.

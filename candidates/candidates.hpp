@@ -2,6 +2,8 @@
 
 #include <array>
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,8 +14,11 @@
 
 namespace touchstone {
 
-/// The description of one candidate: of a plug-in, or a command. The routine itself is called in
-/// other processes only (candidate_process.hpp).
+struct Limits;
+class Respondent;
+
+/// The description of one candidate: of a plug-in, a command, or a function of this program. What
+/// is not ours is called in other processes only (candidate_process.hpp).
 struct Candidate {
   struct Parameter {
     std::string meaning;
@@ -37,6 +42,8 @@ struct Candidate {
   std::filesystem::path folder = {};  ///< in which it runs, absolute
   std::string precision = {};         ///< "double" or "float"
   std::string runs = "native";        ///< "native", "wasm" or "script"
+  /// Of a function of this program (python/): makes what answers, with a threshold.
+  std::function<std::unique_ptr<Respondent>(double, const Limits&)> respondent = {};
 
   bool has_routine_for(Pair pair) const;
 };

@@ -219,5 +219,9 @@ def main(source, program):
 if __name__ == "__main__":
     if sys.argv[1] == "--as":
         signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # which Python ignores
+        if sys.argv[3:4] == ["python"]:
+            python = "/usr/bin/python3" if os.access("/usr/bin/python3", os.X_OK) else "python3"
+            os.environ["PYTHONPATH"] = str(pathlib.Path(sys.argv[2]).parent / "python")
+            os.execvp(python, [python, *sys.argv[4:]])
         os.execv(sys.argv[2], [sys.argv[2], *shortened(sys.argv[3:])])
     sys.exit(main(*(pathlib.Path(argument).resolve() for argument in sys.argv[1:3])))

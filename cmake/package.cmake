@@ -1,5 +1,6 @@
 # cpack --config build/release/CPackConfig.cmake: a Debian package of the program, its plug-ins and
-# the reference library. It depends on what the files are linked with, as dpkg-shlibdeps says.
+# the reference library, and one of the Python module where that is built. They depend on what their
+# files are linked with, as dpkg-shlibdeps says.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME touchstone)
 set(CPACK_PACKAGE_CONTACT "Touchstone maintainers")
@@ -10,7 +11,18 @@ set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 # For those who compile against the library or plug-ins of their own, or check a certificate.
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "g++, libeigen3-dev, python3")
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME touchstone)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-touchstone)  # python/ says what it depends on
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 include(CPack)
+cpack_add_component_group(program)
+cpack_add_component(Unspecified GROUP program)
+cpack_add_component(touchstone_reference GROUP program)
+if(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS)
+  cpack_add_component_group(python)
+  cpack_add_component(touchstone_python GROUP python)
+endif()
 
 install(FILES LICENSE DESTINATION share/doc/touchstone RENAME copyright)
 install(FILES reference/LICENSE DESTINATION share/doc/touchstone RENAME copyright.reference)

@@ -8,7 +8,7 @@ fail() { echo "FAILED: $*"; exit 1; }
 
 (cd "$folder" && cpack --config "$1/CPackConfig.cmake" -B "$folder/made" >log 2>&1) ||
   { cat "$folder/log"; fail "cpack"; }
-package=("$folder"/made/*.deb)
+package=("$folder"/made/touchstone_*.deb)
 dpkg-deb -c "${package[0]}" | awk '{print $6}' >"$folder/files"
 for file in bin/touchstone lib/touchstone/touchstone-reference.so include/touchstone/candidate.h \
   include/touchstone/touchstone.hpp lib/libtouchstone_reference.a \
@@ -43,3 +43,17 @@ python3 "$prefix/share/touchstone/check_certificate.py" "$folder/proof.json" >/d
 cmake -S "$here/../reference/example" -B "$folder/example" -DCMAKE_PREFIX_PATH="$prefix" >/dev/null
 cmake --build "$folder/example" >/dev/null
 "$folder/example/standing_can" | grep -q 'depth 0.001' || fail "the package's library"
+
+# The Python module, where it is built: it finds the plug-ins of the program beside it.
+[ -e "$1"/python/touchstone/__init__.py ] || exit 0
+module=("$folder"/made/python3-touchstone_*.deb)
+! grep -q dist-packages "$folder/files" || fail "the program's package holds the module"
+dpkg-deb -x "${module[0]}" "$folder/root"
+[[ $(dpkg-deb -f "${module[0]}" Depends) == *python3-numpy*"touchstone (= "*libc6* ]] ||
+  fail "the module's package depends on $(dpkg-deb -f "${module[0]}" Depends)"
+PYTHONPATH=$prefix/lib/python3/dist-packages /usr/bin/python3 - <<'CODE' || fail "the module"
+import touchstone
+assert "/root/" in touchstone.__file__, touchstone.__file__
+report = touchstone.report(touchstone.contact, pairs=["cylinder-plane"], classes=["lying"], count=1)
+assert [c["name"] for c in report.to_dict()["candidates"]] == ["reference", "function"]
+CODE

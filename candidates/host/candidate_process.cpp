@@ -8,7 +8,9 @@ namespace touchstone {
 CandidateProcess::CandidateProcess(const Candidate& candidate, double threshold,
                                    const Limits& limits)
     : candidate_(candidate) {
-  if (candidate.command.empty()) {
+  if (candidate.respondent) {
+    respondent_ = candidate.respondent(threshold, limits);
+  } else if (candidate.command.empty()) {
     respondent_ = std::make_unique<PluginSessions>(candidate, threshold, limits);
   } else {
     respondent_ = std::make_unique<CommandRespondent>(candidate, threshold, limits);

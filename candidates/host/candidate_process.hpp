@@ -27,7 +27,8 @@ struct Limits {
 
 /// A candidate's answer, or the reason why there is none.
 struct Answer : ts_answer {
-  std::string reason;  ///< for TS_CRASHED and TS_TIMED_OUT: "Segmentation fault", "threw …"
+  /// For TS_CRASHED and TS_TIMED_OUT, and where it is known for TS_FAILED: "Segmentation fault".
+  std::string reason;
   std::optional<double> model_distance;  ///< signed distance of a simplified model's shapes, metres
 };
 
@@ -46,7 +47,8 @@ struct QueryCost {
 };
 
 /// One candidate that is asked in processes of its own: sessions of its plug-in's process
-/// (plugin_sessions.hpp) or a command (command_process.hpp).
+/// (plugin_sessions.hpp) or a command (command_process.hpp). Alone a function of this program is
+/// asked in the process that this is used in (Candidate::respondent).
 class CandidateProcess {
  public:
   CandidateProcess(const Candidate& candidate, double threshold, const Limits& limits = {});

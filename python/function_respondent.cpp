@@ -1,0 +1,157 @@
+#include "python/function_respondent.hpp"
+
+#include <chrono>
+#include <signal.h>
+#include <sys/time.h>
+
+#include "candidates/host/plugin_process.hpp"
+
+namespace touchstone::python {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Raised in a function that takes too long: no Exception, which it may catch.
+PyObject* too_long() {
+  static PyObject* const type =
+      PyErr_NewException("touchstone.TooLong", PyExc_BaseException, nullptr);
+  return type;
+}
+
+/// Sets the alarm; it rings again and again, lest a function catches everything.
+void set_alarm(double seconds) {
+  const auto interval = [](double length) {
+    const auto whole = static_cast<time_t>(length);
+    return timeval{whole, static_cast<suseconds_t>((length - static_cast<double>(whole)) * 1e6)};
+  };
+  const itimerval timer{interval(seconds / 4), interval(seconds)};
+  setitimer(ITIMER_REAL, &timer, nullptr);
+}
+
+/// "ValueError: what it says".
+std::string text_of(const py::error_already_set& error) {
+  auto type = error.type().attr("__name__").cast<std::string>();
+  try {
+    const auto text = py::str(error.value()).cast<std::string>();
+    return readable(text.empty() ? type : type + ": " + text);
+  } catch (const std::exception&) {  // its text raises, too
+    return type;
+  }
+}
+
+}  // namespace
+
+FunctionRespondent::FunctionRespondent(py::function function, double threshold, double seconds)
+    : function_(std::move(function)), threshold_(threshold), seconds_(seconds) {
+  const auto ring = py::cpp_function([](int, const py::object&) {
+    PyErr_SetNone(too_long());
+    throw py::error_already_set();
+  });
+  try {
+    previous_handler_ = py::module_::import("signal").attr("signal")(SIGALRM, ring);
+  } catch (const py::error_already_set& error) {
+    if (!error.matches(PyExc_ValueError)) throw;  // not the main thread
+  }
+}
+
+FunctionRespondent::~FunctionRespondent() {
+  if (!previous_handler_ || previous_handler_.is_none()) return;
+  py::module_::import("signal").attr("signal")(SIGALRM, previous_handler_);
+}
+
+template <class Action>
+void FunctionRespondent::call_within(double seconds, const Action& action) const {
+  if (!previous_handler_) return action();
+  /// An alarm that has rung must be heard before this ends, or it would end other code.
+  struct Alarm {
+    explicit Alarm(double length) { set_alarm(length); }
+    ~Alarm() {
+      set_alarm(0);
+      if (PyErr_CheckSignals() != 0) PyErr_Clear();
+    }
+  };
+  const Alarm alarm(seconds);
+  action();
+}
+
+void FunctionRespondent::ask_within(double threshold) { threshold_ = threshold; }
+
+py::tuple FunctionRespondent::arguments_of(const Configuration& c) const {
+  // What every candidate is given: unit orientations, a plane's unit normal.
+  const auto unit = [](const Pose& p) { return Pose(p.position(), p.unit_orientation()); };
+  Shape b = c.b;
+  if (const auto* const plane = std::get_if<Plane>(&c.b)) {
+    b = Plane(plane->unit_normal(), plane->unit_displacement());
+  }
+  return py::make_tuple(c.a, unit(c.pose_a), shape_to_python(b), unit(c.pose_b), threshold_);
+}
+
+Answer FunctionRespondent::answer_to(const py::tuple& arguments) const {
+  Answer answer{};
+  try {
+    call_within(seconds_, [&] { answer = answer_from_python(function_(*arguments)); });
+  } catch (const py::error_already_set& error) {
+    const bool was_ended = error.matches(too_long());
+    answer.status = was_ended ? TS_TIMED_OUT : TS_FAILED;
+    answer.reason =
+        was_ended ? "no answer within " + py::str(py::float_(seconds_)).cast<std::string>() + " s"
+                  : "raised " + text_of(error);
+  }
+  return answer;
+}
+
+std::vector<Answer> FunctionRespondent::answers(std::span<const Configuration> configurations) {
+  return answer(configurations, {});
+}
+
+std::vector<Answer> FunctionRespondent::answer(std::span<const Configuration> configurations,
+                                               std::span<const Vec3* const> /*previous_normals*/) {
+  std::vector<Answer> result;
+  for (const Configuration& c : configurations) result.push_back(answer_to(arguments_of(c)));
+  // A worker ends without Python's knowledge: what the function printed would be lost.
+  py::module_::import("sys").attr("stdout").attr("flush")();
+  return result;
+}
+
+bool FunctionRespondent::prepare_timing(std::span<const Configuration> configurations) {
+  constexpr std::size_t min_timed = 10;
+  constexpr auto max_once = std::chrono::microseconds(500),
+                 min_round = std::chrono::microseconds(500);
+  timed_.clear();
+  Clock::duration once{};
+  for (const Configuration& c : configurations) {
+    if (timed_.size() >= min_timed && once > max_once) break;
+    const py::tuple arguments = arguments_of(c);
+    const auto start = Clock::now();
+    if (answer_to(arguments).status == TS_TIMED_OUT) return false;
+    once += Clock::now() - start;
+    timed_.push_back(arguments);
+  }
+  passes_ = 1 + static_cast<std::size_t>(min_round / std::max(once, Clock::duration(1)));
+  return true;
+}
+
+std::optional<QueryCost> FunctionRespondent::cost_per_query() {
+  const double queries = static_cast<double>(passes_ * timed_.size());
+  Clock::duration spent{};
+  try {
+    call_within(seconds_ * queries, [&] {
+      const auto start = Clock::now();
+      for (std::size_t pass = 0; pass < passes_; ++pass) {
+        for (const py::tuple& arguments : timed_) {
+          // What fails takes its time, too.
+          PyObject* const result = PyObject_Call(function_.ptr(), arguments.ptr(), nullptr);
+          if (!result && PyErr_ExceptionMatches(too_long())) throw py::error_already_set();
+          if (!result) PyErr_Clear();
+          Py_XDECREF(result);
+        }
+      }
+      spent = Clock::now() - start;
+    });
+  } catch (const py::error_already_set&) {
+    return std::nullopt;
+  }
+  return QueryCost{std::chrono::duration<double, std::nano>(spent).count() / queries, {}, {}};
+}
+
+}  // namespace touchstone::python

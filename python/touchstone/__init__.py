@@ -1,0 +1,24 @@
+"""Cylinder contacts: the exact truth, Touchstone's own routines, and scores of yours.
+
+A cylinder (body A) meets a plane, sphere, capsule, cylinder or box (body B). Lengths are in metres;
+poses map a body's frame to the world's; normals are unit vectors from B to A in the world's frame,
+along which A moves to come free; signed distances are positive apart and negative inside.
+
+>>> def mine(a, pose_a, b, pose_b, threshold):
+...     return touchstone.contact(a, pose_a, b, pose_b, threshold)
+>>> r = touchstone.report(mine, "mine", pairs=["cylinder-plane"], classes=["lying"], count=1)
+>>> r
+<touchstone.Report: 1 configurations, 2 candidates>
+
+`print(r)` shows a table, `r.save("out")` writes out/report.html. docs/python.md explains it.
+"""
+
+from ._touchstone import (PAIRS, Box, Capsule, Configuration, Contact, Contacts, Cylinder, Patch,
+                          Plane, Point, Pose, Report, Score, Sphere, Truth, __version__, classes,
+                          configurations, contact, overlaps, report, score, scores,
+                          signed_distance, truth)
+
+__all__ = ["PAIRS", "Box", "Capsule", "Configuration", "Contact", "Contacts", "Cylinder", "Patch",
+           "Plane", "Point", "Pose", "Report", "Score", "Sphere", "Truth", "classes",
+           "configurations", "contact", "overlaps", "report", "score", "scores",
+           "signed_distance", "truth"]
