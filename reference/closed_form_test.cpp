@@ -4,6 +4,8 @@
 #include <vector>
 
 #include "reference/contact_of.hpp"
+#include "reference/facing_feature.hpp"
+#include "reference/manifold.hpp"
 
 namespace touchstone {
 namespace {
@@ -149,6 +151,54 @@ TEST(CylinderOnPlane, PosedPlaneWithALongNormalIsTheSameHalfSpace) {
   const Configuration c{Cylinder(1, 2), Pose({5, 6, 4}, upright), Plane({0, 0, 8}, 4),
                         Pose({1, 2, 1}, upright)};  // 8 (z − 1) <= 4
   EXPECT_NEAR(signed_distance(c).value, 0.5, 1e-15);
+}
+
+// One's end lies 0.002 beyond the other's axis: its rim meets the side, and both generators all but
+// face each other. Of cylinders as wide the shorter one comes first.
+TEST(CylinderCylinder, GeneratorsThatCrossBeyondAnEndMeetAtThatEnd) {
+  constexpr double beyond = 0.002, height = 0.49;
+  const double distance = std::hypot(beyond, height), middle = (distance + 0.5) / (2 * distance);
+  for (const double side : {1.0, -1.0}) {
+    for (const double half_length : {0.9, 1.5}) {
+      const Contact answer =
+          contact({Cylinder(0.5, 1), Pose({side * (1 + beyond), 0, height}, along_x),
+                   Cylinder(0.5, half_length), Pose({0, 0, -0.5}, along_y)},
+                  0);
+      EXPECT_NEAR(answer.signed_distance, distance - 0.5, 1e-14);
+      ASSERT_EQ(answer.points().size(), 1u);
+      const ContactPoint& point = answer.points()[0];
+      EXPECT_NEAR(point.depth, 0.5 - distance, 1e-7);
+      EXPECT_NEAR(point.position.x(), side * beyond * middle, 1e-4);
+      EXPECT_NEAR(point.position.z(), height * middle - 0.5, 1e-5);
+    }
+  }
+}
+
+TEST(SupportPoint, IsAsSharpAsTheBodysOtherPointsLieBehindIt) {
+  const Pose pose({1, 2, 3}, upright);
+  const Vec3 leaning(0.6, 0, 0.8);
+  const SupportPoint on_cylinder =
+      support_point(posed(Cylinder(1, 2), pose, Vec3::Zero()), leaning);
+  EXPECT_NEAR((on_cylinder.position - Vec3(1, 0, 2)).norm(), 0, 1e-15);
+  EXPECT_NEAR(on_cylinder.sharpness, 0.6, 1e-15);  // of 1.6 along the axis, 0.6 across
+  const SupportPoint on_capsule = support_point(posed(Capsule(1, 2), pose, Vec3::Zero()), -leaning);
+  EXPECT_NEAR((on_capsule.position - Vec3(-0.6, 0, -2.8)).norm(), 0, 1e-15);
+  EXPECT_NEAR(on_capsule.sharpness, 1.6, 1e-15);
+  const SupportPoint on_box =
+      support_point(posed(Box({1, 2, 3}), pose, Vec3::Zero()), Vec3(0.48, -0.6, 0.64));
+  EXPECT_EQ(on_box.position, Vec3(1, -2, 3));
+  EXPECT_NEAR(on_box.sharpness, 0.48, 1e-15);
+}
+
+TEST(Margins, AreOfTheSmallerBody) {
+  const Extents needle{1e-3, 2}, cube{1, 1};
+  for (const bool exchanged : {false, true}) {
+    const Margins margins(exchanged ? cube : needle, exchanged ? needle : cube, 0, -0.5, 0);
+    EXPECT_EQ(margins.slack, 1e-3);
+    EXPECT_EQ(margins.flat, 1e-3);
+    EXPECT_NEAR(margins.clear_rise(), 1e-9, 1e-24);
+    EXPECT_NEAR(margins.unseen_depth(), 0.5e-9 + margins.rounding, 1e-24);
+  }
 }
 
 // The axis is parallel to an edge, in rounded rotations all but parallel, which must not hide that

@@ -1,9 +1,12 @@
-#include "ellipse_normal.hpp"
-
+// Where a point faces an ellipse, and how far a proof of deep normals reaches, in numbers worked
+// out by hand; deep_normals_test.cpp holds the proofs against the pose classes.
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
 #include <rapidcheck.h>
+
+#include "reference/deep_normals.hpp"
+#include "reference/ellipse_normal.hpp"
 
 namespace touchstone {
 namespace {
@@ -52,6 +55,27 @@ TEST(EllipseNormal, OnTheMajorAxisBetweenTheCentresOfCurvatureLeansToTheFlatSide
   ASSERT_TRUE(n);
   // The foot is at cos t = a x/(a² − b²) = 1/2.
   EXPECT_NEAR(n->x() / n->y(), std::tan(std::numbers::pi / 6) / 2, 1e-14);
+}
+
+/// Two cylinders with r = h = R = H = 1, whose axes lean by this sine and whose centres lie 0.5
+/// apart along one of them.
+AboutAxis half_way_in(double sine) {
+  return {1, 1, 1, 1, std::sqrt(1 - sine * sine), sine, 0.5, 0};
+}
+
+TEST(DeepNormals, OffTheAxisAreProvenUpToTheDepthAtItsCone) {
+  // At 0.05 from the axis F is at least 0.5 cos + sin + cos (0.05 − γ) + sin (0.05 − γ) = 1.588.
+  const AboutAxis nearly_parallel = half_way_in(0.01);
+  const double cone = std::asin(0.05), gamma = std::asin(0.01);
+  const double bound =
+      0.5 * std::cos(cone) + std::sin(cone) + std::cos(cone - gamma) + std::sin(cone - gamma);
+  EXPECT_TRUE(no_normal_off_axis_beats(nearly_parallel, bound - 1e-9));
+  EXPECT_FALSE(no_normal_off_axis_beats(nearly_parallel, bound + 1e-9));
+}
+
+TEST(DeepNormals, OffTheAxisAreProvenOnlyOfNearlyParallelAxes) {
+  EXPECT_TRUE(no_normal_off_axis_beats(half_way_in(0.02), 1.5));
+  EXPECT_FALSE(no_normal_off_axis_beats(half_way_in(0.021), 1.5));
 }
 
 }  // namespace
