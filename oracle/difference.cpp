@@ -6,8 +6,10 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <stdexcept>
 #include <string>
 
+#include "oracle/truth.hpp"
 #include "oracle/vector3.hpp"
 #include "reference/invalid_input.hpp"
 
@@ -104,6 +106,26 @@ struct Lengths {
   void include(const Box& s) { scale.include(s.half_extents()); }
   void include(const Plane& s) { scale.include(s.displacement()); }
 };
+
+constexpr long first_bits = 128;
+constexpr long last_bits = 1L << 16;
+
+/// The gap against the column of the half-space beneath the cylinder's circumsphere (see
+/// oracle::certified_gap). With α between n and the plane's normal, D the centre's height and ρ the
+/// circumradius: D cos α − h_A(n) − ρ sin α − 2ρ max(0, −cos α).
+Ball gap_above_column(const Difference& difference, const BallDifference& balls,
+                      const BallVector& n) {
+  const BallVector up = to_balls(difference.plane_normal);
+  const Ball length = norm(n), up_length = norm(up);
+  const Ball cosine = dot(n, up) / (length * up_length);
+  const Ball sine = norm(cross(n, up)) / (length * up_length);
+  const Ball height = balls.along(up).centre_distance / up_length;
+  const Ball radius(difference.discs.front().radius);
+  const Ball half_length(difference.segments.front().half_length);
+  const Ball circumradius = sqrt(square(radius) + square(half_length));
+  const Ball below = (abs(cosine) - cosine) * circumradius;  // twice max(0, −cos α) times ρ
+  return height * cosine - balls.along(n).half_width / length - circumradius * sine - below;
+}
 
 }  // namespace
 
@@ -228,6 +250,33 @@ BallDifference::Along BallDifference::along(const BallVector& n) const {
 Ball BallDifference::gap(const BallVector& n) const {
   const Along a = along(n);
   return (a.centre_distance - a.half_width) / norm(n);
+}
+
+Enclosure certified_gap(const Configuration& configuration, const Vec3& n, double width) {
+  if (!n.allFinite() || n.isZero(0)) {
+    throw InvalidInput("n", "not a direction", "must be finite and not zero");
+  }
+  const Difference difference = make_difference(configuration);
+  const mpq_class wanted = width_in_units(difference, configuration, width);
+  const IntegerVector direction = in_frame_of_a(difference, n);
+  for (long bits = first_bits; bits <= last_bits; bits *= 2) {
+    const WorkingPrecision precision(bits);
+    const BallDifference balls(difference);
+    const BallVector along = to_balls(direction);
+    const Ball value =
+        difference.is_plane ? gap_above_column(difference, balls, along) : balls.gap(along);
+    if (!value.is_finite()) continue;
+    const mpq_class lo = value.lower(), hi = value.upper();
+    if (hi - lo <= wanted) return {lo * difference.unit, hi * difference.unit};
+  }
+  throw std::logic_error("oracle: the gap could not be enclosed");
+}
+
+double normal_regret(const Configuration& configuration, const Truth& truth, const Vec3& n) {
+  const Enclosure g = certified_gap(configuration, n);
+  const mpq_class middle = (truth.signed_distance.lo + truth.signed_distance.hi) / 2;
+  const mpq_class regret = middle - (g.lo + g.hi) / 2;
+  return std::max(0.0, regret.get_d());
 }
 
 }  // namespace touchstone::oracle

@@ -5,8 +5,8 @@
 #include <numbers>
 #include <rapidcheck.h>
 
+#include "reference/curves.hpp"
 #include "reference/deep_normals.hpp"
-#include "reference/ellipse_normal.hpp"
 
 namespace touchstone {
 namespace {
@@ -73,9 +73,42 @@ TEST(DeepNormals, OffTheAxisAreProvenUpToTheDepthAtItsCone) {
   EXPECT_FALSE(no_normal_off_axis_beats(nearly_parallel, bound + 1e-9));
 }
 
+// A thin body about the axis, as long as it lies across it: the least depth is that of its own end.
+TEST(DeepNormals, OffTheAxisAreProvenUpToTheDepthOfTheOtherEnd) {
+  constexpr double r = 3, h = 0.1, thin = 0.001, s = 0.02;
+  const double c = std::sqrt(1 - s * s);
+  const AboutAxis about{r, h, thin, 1, c, s, 0, 0};
+  const double bound = h * c + r * s + (c * c - s * s) + thin * 2 * s * c;
+  EXPECT_TRUE(no_normal_off_axis_beats(about, bound - 1e-9));
+  EXPECT_FALSE(no_normal_off_axis_beats(about, bound + 1e-9));
+}
+
 TEST(DeepNormals, OffTheAxisAreProvenOnlyOfNearlyParallelAxes) {
   EXPECT_TRUE(no_normal_off_axis_beats(half_way_in(0.02), 1.5));
   EXPECT_FALSE(no_normal_off_axis_beats(half_way_in(0.021), 1.5));
+}
+
+// Left over, a slope lowers the proven depth by its square over λ, here 0.5: no more than rounding.
+TEST(DeepNormals, OfRimsAreProvenWhereNoSlopeIsLeftThatRoundingShows) {
+  const Rim rim{1, 1};
+  EXPECT_TRUE(bends_away(rim, rim, 1, 0, 4.4e-9));
+  EXPECT_FALSE(bends_away(rim, rim, 1, 0, 4.5e-9));
+  constexpr double lean = 0.05, depth = 1.5;
+  EXPECT_TRUE(bends_away_near_axis(rim, rim, lean, 1, depth, 0.99e-8, half_way_in(0.01)));
+  EXPECT_FALSE(bends_away_near_axis(rim, rim, lean, 1, depth, 1.01e-8, half_way_in(0.01)));
+}
+
+TEST(DeepNormals, OfRimsAreProvenUpToTheDepthThatTheyBendAway) {
+  const Rim rim{1, 1}, flat{1, 0.1};
+  EXPECT_TRUE(bends_away(rim, rim, 1, 0.199, 0));  // 2 λ / 5
+  EXPECT_FALSE(bends_away(rim, rim, 1, 0.201, 0));
+  EXPECT_TRUE(bends_away(flat, flat, 1, 0.036, 0));  // 0.2 of both half lengths, over 1.1
+  EXPECT_FALSE(bends_away(flat, flat, 1, 0.037, 0));
+  const AboutAxis about = half_way_in(0.01);
+  EXPECT_TRUE(bends_away_near_axis(rim, rim, 0.05, 1, 1.5, 0, about));
+  EXPECT_FALSE(bends_away_near_axis(rim, rim, 0.051, 1, 1.5, 0, about));
+  EXPECT_TRUE(bends_away_near_axis(rim, rim, 0.05, 0.91, 1.5, 0, about));  // 2 δ 0.15 <= λ
+  EXPECT_FALSE(bends_away_near_axis(rim, rim, 0.05, 0.89, 1.5, 0, about));
 }
 
 }  // namespace

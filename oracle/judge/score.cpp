@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "oracle/patch/convex_set.hpp"
 #include "oracle/patch/support_feature.hpp"
 
 namespace touchstone {
@@ -38,6 +39,41 @@ struct Distance {
   }
   double operator()(const Plane& s) const { return s.unit_normal().dot(p) - s.unit_displacement(); }
 };
+
+using oracle::ConvexSet;
+using oracle::Vec2;
+
+Vec2 across(const Vec2& d) { return {d.y(), -d.x()}; }
+
+double width(const ConvexSet& set, const Vec2& direction) {
+  return set.support(direction) + set.support(-direction);
+}
+
+/// Direction in which a convex set is narrowest, up to sampling: a polygon is narrowest
+/// perpendicular to one of its sides.
+Vec2 narrowest_direction(const ConvexSet& set) {
+  constexpr int chords_per_quarter = 8;
+  const std::vector<Vec2> outline = set.outline(chords_per_quarter);
+  Vec2 best(1, 0);
+  double min_width = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Vec2 side = outline[(i + 1) % outline.size()] - outline[i];
+    if (!(side.norm() > 0)) continue;
+    const Vec2 direction = across(side.normalized());
+    const double here = width(set, direction);
+    if (here < min_width) {
+      min_width = here;
+      best = direction;
+    }
+  }
+  return best;
+}
+
+double reach(const std::vector<Vec2>& points, const Vec2& centre, const Vec2& direction) {
+  double max = -std::numeric_limits<double>::infinity();
+  for (const Vec2& p : points) max = std::max(max, (p - centre).dot(direction));
+  return max;
+}
 
 }  // namespace
 
@@ -307,6 +343,35 @@ Score score(const Configuration& c, const oracle::Truth& truth, const Answer& an
     s.solver_error = relative(answer.signed_distance - *answer.model_distance, size);
   }
   return s;
+}
+
+double coverage(const oracle::ContactPatch& patch, const std::vector<Vec3>& points,
+                double resolution) {
+  if (points.empty()) return 0;
+  const ConvexSet& set = patch.shape();
+  const Vec2 centre = set.centroid();
+  std::vector<Vec2> flat;
+  flat.reserve(points.size());
+  for (const Vec3& p : points) flat.push_back(patch.in_plane(p));
+
+  std::vector<Vec2> directions;
+  const Vec2 narrow = narrowest_direction(set), wide = across(narrow);
+  if (width(set, wide) <= resolution) return 1;
+  if (width(set, narrow) <= resolution) {
+    directions = {wide, -wide};
+  } else {
+    // The shrunk patch lies within the hull if it lies inside each of the hull's sides.
+    const std::vector<Vec2> hull = oracle::convex_hull(flat);
+    if (hull.size() < 3) return 0;
+    for (std::size_t i = 0; i < hull.size(); ++i) {
+      directions.push_back(across(hull[(i + 1) % hull.size()] - hull[i]).normalized());
+    }
+  }
+  double smallest = 1;
+  for (const Vec2& d : directions) {
+    smallest = std::min(smallest, reach(flat, centre, d) / (set.support(d) - centre.dot(d)));
+  }
+  return std::max(0.0, smallest);
 }
 
 }  // namespace touchstone

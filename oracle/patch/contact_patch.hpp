@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "oracle/optimal_normal.hpp"
 #include "oracle/patch/convex_set.hpp"
+#include "oracle/truth.hpp"
 
 namespace touchstone::oracle {
 

@@ -6,7 +6,7 @@
 #include "oracle/patch/contact_patch.hpp"
 #include "oracle/patch/convex_set.hpp"
 #include "oracle/patch/support_feature.hpp"
-#include "properties/turns.hpp"
+#include "properties/moves.hpp"
 
 namespace touchstone::oracle {
 namespace {
