@@ -264,5 +264,24 @@ TEST(PreviousNormal, IsKeptAsLongAsItIsAsGood) {
   EXPECT_EQ(hinted(beyond_rim, oblique, 1e-6).normal, oblique);
 }
 
+// Two parallel sides as seen along a normal off the line between the axes: where their surfaces
+// have fallen off by more than three quarters of the radii they hardly face each other. Of needles,
+// whose radii are less than what a surface may lie above the deepest point.
+TEST(PreviousNormal, OffTheLineBetweenParallelSidesLeavesTheirEndsAsLongAsTheyFaceEachOther) {
+  constexpr double r = 1e-4;
+  const Cylinder needle(r, 2);
+  const Configuration c{needle, Pose({1.9 * r, 0, 0}, upright), needle, Pose()};
+  for (const double side : {1.0, -1.0}) {
+    const auto points = [&](double sine) {
+      const Vec3 previous(std::sqrt(1 - sine * sine), side * sine, 0);
+      const Contact answer = contact(c, 2, &previous);
+      EXPECT_NEAR((answer.normal - previous).norm(), 0, 1e-15);
+      return answer.points().size();
+    };
+    EXPECT_EQ(points(1.49 / 1.9), 2u);
+    EXPECT_EQ(points(1.51 / 1.9), 1u);
+  }
+}
+
 }  // namespace
 }  // namespace touchstone

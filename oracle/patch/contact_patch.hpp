@@ -32,6 +32,9 @@ class ContactPatch {
   /// The boundary in order, for drawing; arcs as chords, at least `per_quarter` in a quarter turn.
   std::vector<Vec3> outline(int per_quarter = 8) const;
 
+  /// The same patch with all lengths times a power of two.
+  ContactPatch scaled(int exponent) const;
+
   /// The patch in coordinates of its plane.
   const ConvexSet& shape() const { return shape_; }
   Vec2 in_plane(const Vec3& point) const;
