@@ -153,23 +153,24 @@ TEST(CylinderOnPlane, PosedPlaneWithALongNormalIsTheSameHalfSpace) {
   EXPECT_NEAR(signed_distance(c).value, 0.5, 1e-15);
 }
 
-// One's end lies 0.002 beyond the other's axis: its rim meets the side, and both generators all but
-// face each other. Of cylinders as wide the shorter one comes first.
-TEST(CylinderCylinder, GeneratorsThatCrossBeyondAnEndMeetAtThatEnd) {
-  constexpr double beyond = 0.002, height = 0.49;
-  const double distance = std::hypot(beyond, height), middle = (distance + 0.5) / (2 * distance);
+// One's end lies 0.002 beyond the other's axis. Along the vertical, which the previous normal asks
+// for, the generators would cross there: the end and the other's axis share what is between them.
+// Of cylinders as wide the shorter one comes first.
+TEST(CylinderCylinder, GeneratorsThatCrossBeyondAnEndMeetBetweenThatEndAndTheCrossing) {
+  constexpr double beyond = 0.002;
+  const Vec3 vertical(0, 0, 1);
   for (const double side : {1.0, -1.0}) {
     for (const double half_length : {0.9, 1.5}) {
       const Contact answer =
-          contact({Cylinder(0.5, 1), Pose({side * (1 + beyond), 0, height}, along_x),
+          contact({Cylinder(0.5, 1), Pose({side * (1 + beyond), 0, 0.49}, along_x),
                    Cylinder(0.5, half_length), Pose({0, 0, -0.5}, along_y)},
-                  0);
-      EXPECT_NEAR(answer.signed_distance, distance - 0.5, 1e-14);
+                  1e-3, &vertical);
+      EXPECT_NEAR((answer.normal - vertical).norm(), 0, 1e-15);
+      EXPECT_NEAR(answer.signed_distance, -0.01, 1e-15);
       ASSERT_EQ(answer.points().size(), 1u);
       const ContactPoint& point = answer.points()[0];
-      EXPECT_NEAR(point.depth, 0.5 - distance, 1e-7);
-      EXPECT_NEAR(point.position.x(), side * beyond * middle, 1e-4);
-      EXPECT_NEAR(point.position.z(), height * middle - 0.5, 1e-5);
+      EXPECT_NEAR(point.depth, 0.01, 1e-15);
+      EXPECT_NEAR((point.position - Vec3(side * beyond / 2, 0, -0.005)).norm(), 0, 1e-8);
     }
   }
 }
