@@ -6,6 +6,7 @@
 #include "reference/contact_of.hpp"
 #include "reference/facing_feature.hpp"
 #include "reference/manifold.hpp"
+#include "reference/support.hpp"
 
 namespace touchstone {
 namespace {
@@ -189,6 +190,13 @@ TEST(SupportPoint, IsAsSharpAsTheBodysOtherPointsLieBehindIt) {
       support_point(posed(Box({1, 2, 3}), pose, Vec3::Zero()), Vec3(0.48, -0.6, 0.64));
   EXPECT_EQ(on_box.position, Vec3(1, -2, 3));
   EXPECT_NEAR(on_box.sharpness, 0.48, 1e-15);
+}
+
+TEST(Support, OfAHalfSpaceIsInfiniteButAlongItsNormal) {
+  const Plane plane({0, 0, 2}, 3);  // z <= 1.5
+  EXPECT_EQ(support(plane, Pose({5, 6, 1}, upright), Vec3(0, 0, 1)), 2.5);
+  EXPECT_TRUE(std::isinf(support(plane, Pose(), Vec3(0, 0, -1))));
+  EXPECT_TRUE(std::isinf(support(plane, Pose(), Vec3(0.6, 0, 0.8))));
 }
 
 TEST(Margins, AreOfTheSmallerBody) {
