@@ -6,7 +6,7 @@
 
 #include "oracle/brute_force.hpp"
 #include "oracle/truth.hpp"
-#include "properties/turns.hpp"
+#include "properties/moves.hpp"
 
 namespace touchstone::oracle {
 namespace {

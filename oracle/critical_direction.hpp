@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "oracle/difference.hpp"
-#include "oracle/optimal_normal.hpp"
+#include "oracle/truth.hpp"
 
 namespace touchstone::oracle {
 

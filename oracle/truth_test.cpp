@@ -6,7 +6,7 @@
 #include <string>
 
 #include "oracle/brute_force.hpp"
-#include "properties/turns.hpp"
+#include "properties/moves.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone::oracle {

@@ -10,8 +10,8 @@
 
 #include "properties/arrangement.hpp"
 #include "properties/features.hpp"
-#include "properties/known_failures.hpp"
 #include "properties/pose_class.hpp"
+#include "properties/recorded.hpp"
 
 namespace touchstone {
 namespace {

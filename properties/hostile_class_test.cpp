@@ -9,7 +9,7 @@
 
 #include "properties/draw.hpp"
 #include "properties/identity.hpp"
-#include "properties/known_failures.hpp"
+#include "properties/recorded.hpp"
 
 namespace touchstone {
 namespace {

@@ -1,9 +1,8 @@
-#include "properties/nearest_arrangement.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "properties/recorded.hpp"
 #include "reference/contact_of.hpp"
 
 namespace touchstone {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "circle.hpp"
+#include "curves.hpp"
 
 namespace touchstone {
 

@@ -28,8 +28,6 @@ struct CylinderInBoxFrame {
     for (int i = 0; i < 3; ++i) {
       const double y = u[(i + 1) % 3], z = u[(i + 2) % 3];
       s[i] = std::sqrt(y * y + z * z);
-      constexpr double vanishing = 1e-140;  // its square has lost digits
-      if (s[i] < vanishing) s[i] = 0;
     }
   }
   double gap(const Vec3& n) const {

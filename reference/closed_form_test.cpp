@@ -4,6 +4,9 @@
 #include <vector>
 
 #include "reference/contact_of.hpp"
+#include "reference/facing_feature.hpp"
+#include "reference/manifold.hpp"
+#include "reference/support.hpp"
 
 namespace touchstone {
 namespace {
@@ -151,6 +154,62 @@ TEST(CylinderOnPlane, PosedPlaneWithALongNormalIsTheSameHalfSpace) {
   EXPECT_NEAR(signed_distance(c).value, 0.5, 1e-15);
 }
 
+// One's end lies 0.002 beyond the other's axis. Along the vertical, which the previous normal asks
+// for, the generators would cross there: the end and the other's axis share what is between them.
+// Of cylinders as wide the shorter one comes first.
+TEST(CylinderCylinder, GeneratorsThatCrossBeyondAnEndMeetBetweenThatEndAndTheCrossing) {
+  constexpr double beyond = 0.002;
+  const Vec3 vertical(0, 0, 1);
+  for (const double side : {1.0, -1.0}) {
+    for (const double half_length : {0.9, 1.5}) {
+      const Contact answer =
+          contact({Cylinder(0.5, 1), Pose({side * (1 + beyond), 0, 0.49}, along_x),
+                   Cylinder(0.5, half_length), Pose({0, 0, -0.5}, along_y)},
+                  1e-3, &vertical);
+      EXPECT_NEAR((answer.normal - vertical).norm(), 0, 1e-15);
+      EXPECT_NEAR(answer.signed_distance, -0.01, 1e-15);
+      ASSERT_EQ(answer.points().size(), 1u);
+      const ContactPoint& point = answer.points()[0];
+      EXPECT_NEAR(point.depth, 0.01, 1e-15);
+      EXPECT_NEAR((point.position - Vec3(side * beyond / 2, 0, -0.005)).norm(), 0, 1e-8);
+    }
+  }
+}
+
+TEST(SupportPoint, IsAsSharpAsTheBodysOtherPointsLieBehindIt) {
+  const Pose pose({1, 2, 3}, upright);
+  const Vec3 leaning(0.6, 0, 0.8);
+  const SupportPoint on_cylinder =
+      support_point(posed(Cylinder(1, 2), pose, Vec3::Zero()), leaning);
+  EXPECT_NEAR((on_cylinder.position - Vec3(1, 0, 2)).norm(), 0, 1e-15);
+  EXPECT_NEAR(on_cylinder.sharpness, 0.6, 1e-15);  // of 1.6 along the axis, 0.6 across
+  const SupportPoint on_capsule = support_point(posed(Capsule(1, 2), pose, Vec3::Zero()), -leaning);
+  EXPECT_NEAR((on_capsule.position - Vec3(-0.6, 0, -2.8)).norm(), 0, 1e-15);
+  EXPECT_NEAR(on_capsule.sharpness, 1.6, 1e-15);
+  const SupportPoint on_box =
+      support_point(posed(Box({1, 2, 3}), pose, Vec3::Zero()), Vec3(0.48, -0.6, 0.64));
+  EXPECT_EQ(on_box.position, Vec3(1, -2, 3));
+  EXPECT_NEAR(on_box.sharpness, 0.48, 1e-15);
+}
+
+TEST(Support, OfAHalfSpaceIsInfiniteButAlongItsNormal) {
+  const Plane plane({0, 0, 2}, 3);  // z <= 1.5
+  EXPECT_EQ(support(plane, Pose({5, 6, 1}, upright), Vec3(0, 0, 1)), 2.5);
+  EXPECT_TRUE(std::isinf(support(plane, Pose(), Vec3(0, 0, -1))));
+  EXPECT_TRUE(std::isinf(support(plane, Pose(), Vec3(0.6, 0, 0.8))));
+}
+
+TEST(Margins, AreOfTheSmallerBody) {
+  const Extents needle{1e-3, 2}, cube{1, 1};
+  for (const bool exchanged : {false, true}) {
+    const Margins margins(exchanged ? cube : needle, exchanged ? needle : cube, 0, -0.5, 0);
+    EXPECT_EQ(margins.slack, 1e-3);
+    EXPECT_EQ(margins.flat, 1e-3);
+    EXPECT_NEAR(margins.clear_rise(), 1e-9, 1e-24);
+    EXPECT_NEAR(margins.unseen_depth(), 0.5e-9 + margins.rounding, 1e-24);
+  }
+}
+
 // The axis is parallel to an edge, in rounded rotations all but parallel, which must not hide that
 // the edge touches the side.
 TEST(CylinderBox, EdgeParallelToTheAxisTouchesTheSide) {
@@ -212,6 +271,25 @@ TEST(PreviousNormal, IsKeptAsLongAsItIsAsGood) {
   // Nor is any oblique one, of no axis or face.
   const Vec3 oblique = Vec3(-0.3, 0, -1).normalized();
   EXPECT_EQ(hinted(beyond_rim, oblique, 1e-6).normal, oblique);
+}
+
+// Two parallel sides as seen along a normal off the line between the axes: where their surfaces
+// have fallen off by more than three quarters of the radii they hardly face each other. Of needles,
+// whose radii are less than what a surface may lie above the deepest point.
+TEST(PreviousNormal, OffTheLineBetweenParallelSidesLeavesTheirEndsAsLongAsTheyFaceEachOther) {
+  constexpr double r = 1e-4;
+  const Cylinder needle(r, 2);
+  const Configuration c{needle, Pose({1.9 * r, 0, 0}, upright), needle, Pose()};
+  for (const double side : {1.0, -1.0}) {
+    const auto points = [&](double sine) {
+      const Vec3 previous(std::sqrt(1 - sine * sine), side * sine, 0);
+      const Contact answer = contact(c, 2, &previous);
+      EXPECT_NEAR((answer.normal - previous).norm(), 0, 1e-15);
+      return answer.points().size();
+    };
+    EXPECT_EQ(points(1.49 / 1.9), 2u);
+    EXPECT_EQ(points(1.51 / 1.9), 1u);
+  }
 }
 
 }  // namespace

@@ -7,9 +7,8 @@
 #include <numbers>
 
 #include "box_sides.hpp"
-#include "circle.hpp"
+#include "curves.hpp"
 #include "deep_normals.hpp"
-#include "ellipse_normal.hpp"
 #include "pair.hpp"
 
 // In the box's frame the largest gap lies at one normal of six kinds:

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "ellipse_normal.hpp"
+#include "curves.hpp"
 #include "folded_axes.hpp"
 #include "pair.hpp"
 

@@ -4,12 +4,11 @@
 #include <cmath>
 #include <optional>
 
-#include "circle.hpp"
+#include "curves.hpp"
 #include "deep_normals.hpp"
-#include "ellipse_normal.hpp"
 #include "largest_gap.hpp"
 #include "pair.hpp"
-#include "rim_rim.hpp"
+#include "rims.hpp"
 
 // The largest gap lies at one normal of four kinds. In the frame of both axes they are
 //

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "circle.hpp"
+#include "curves.hpp"
 
 namespace touchstone {
 

@@ -1,7 +1,7 @@
-#include "ellipse_normal.hpp"
-
 #include <algorithm>
 #include <cmath>
+
+#include "curves.hpp"
 
 namespace touchstone {
 namespace {

@@ -59,7 +59,6 @@ bool add_leaning(const ContactPlane& plane, ArcPolygon region, const Surfaces& s
   const double bottom = -lowest.dot(deepest), top = -lowest.dot(region.farthest(-lowest));
   const double room = plane.room_above(s.clearance(deepest));
   if (steepness * (top - bottom) <= room) return false;
-  if (!(room > 0)) return true;
   if (is_one_point(room, steepness * (top - bottom))) {
     plane.add(deepest, s);
     return true;

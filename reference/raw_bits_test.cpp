@@ -1,6 +1,8 @@
 // Any finite sizes and poses, among them denormals, 1e±308 and their mixtures: the answer is a
-// number, its normal a unit vector. Run under the sanitizers too (CONTRIBUTING.md).
-// TOUCHSTONE_COUNT sets how many are tried for each pair.
+// number, its normal a unit vector. And bodies of ordinary sizes whose lengths are all multiplied
+// by a power of two, which rounds nothing: the answer is the same to the last bit.
+// Run under the sanitizers too (CONTRIBUTING.md). TOUCHSTONE_COUNT sets how many are tried for each
+// pair.
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -11,9 +13,15 @@
 
 #include "reference/contact_of.hpp"
 #include "reference/invalid_input.hpp"
+#include "reference/support.hpp"
 
 namespace touchstone {
 namespace {
+
+std::uint64_t count_of_each(std::uint64_t by_default) {
+  const char* text = std::getenv("TOUCHSTONE_COUNT");
+  return text ? std::strtoull(text, nullptr, 10) : by_default;
+}
 
 class RawBits {
  public:
@@ -104,8 +112,7 @@ void expect_numbers(const Configuration& c) {
 class AnyBits : public testing::TestWithParam<Pair> {};
 
 TEST_P(AnyBits, AreAnsweredWithNumbers) {
-  const char* text = std::getenv("TOUCHSTONE_COUNT");
-  const std::uint64_t count = text ? std::strtoull(text, nullptr, 10) : 20000;
+  const std::uint64_t count = count_of_each(20000);
   std::uint64_t tried = 0;
   for (std::uint64_t seed = 0; tried < count; ++seed) {
     const std::optional<Configuration> c = configuration(seed, GetParam());
@@ -114,6 +121,97 @@ TEST_P(AnyBits, AreAnsweredWithNumbers) {
     expect_numbers(*c);
     if (HasFatalFailure()) return;
     ++tried;
+  }
+}
+
+/// Bodies of ordinary sizes that overlap or are apart by less than one of them, their axes at any
+/// angle or one that is small.
+Configuration ordinary(std::uint64_t seed, Pair pair) {
+  std::mt19937_64 random(seed);
+  const auto uniform = [&](double lo, double hi) {
+    return std::uniform_real_distribution(lo, hi)(random);
+  };
+  const auto size = [&] { return std::pow(10, uniform(-1.5, 1)); };
+  const auto any_turn = [&] {
+    const double w = uniform(-1, 1), x = uniform(-1, 1), y = uniform(-1, 1);
+    return Eigen::Quaterniond(w, x, y, uniform(-1, 1)).normalized();
+  };
+  const auto shape = [&]() -> Shape {
+    const double x = size(), y = size();
+    switch (pair) {
+      case Pair::plane:
+        return Plane(Vec3::UnitX(), x);  // a normal that is not rounded again
+      case Pair::sphere:
+        return Sphere(x);
+      case Pair::capsule:
+        return Capsule(x, y);
+      case Pair::cylinder:
+        return Cylinder(x, y);
+      default:
+        return Box(Vec3(x, y, size()));
+    }
+  };
+  const double radius = size();
+  Configuration c{Cylinder(radius, size()), Pose(), shape(), Pose()};
+  const Eigen::Quaterniond turn_b = any_turn();
+  const double tilt = std::pow(10, uniform(-9, 0));
+  const Eigen::Quaterniond lean(Eigen::AngleAxisd(tilt, any_turn() * Vec3::UnitX()));
+  const Eigen::Quaterniond turn_a = seed % 2 == 0 ? lean * turn_b : any_turn();
+  const Vec3 n = any_turn() * Vec3::UnitX();
+  c.pose_b = Pose(Vec3(size(), size(), size()), turn_b);
+  c.pose_a = Pose(c.pose_b.position(), turn_a);
+  const double room = pair == Pair::plane ? radius : -gap(c, n);
+  c.pose_a = Pose(c.pose_b.position() + uniform(0, 1.2) * room * n, turn_a);
+  return c;
+}
+
+Shape scaled(const Shape& shape, double factor) {
+  if (const auto* s = std::get_if<Plane>(&shape)) {
+    return Plane(s->unit_normal(), factor * s->unit_displacement());
+  }
+  if (const auto* s = std::get_if<Sphere>(&shape)) return Sphere(factor * s->radius());
+  if (const auto* s = std::get_if<Capsule>(&shape)) {
+    return Capsule(factor * s->radius(), factor * s->half_length());
+  }
+  if (const auto* s = std::get_if<Cylinder>(&shape)) {
+    return Cylinder(factor * s->radius(), factor * s->half_length());
+  }
+  return Box(factor * std::get<Box>(shape).half_extents());
+}
+
+void expect_same_but_for_scale(const Configuration& c, double factor) {
+  const auto moved = [&](const Pose& pose) {
+    return Pose(factor * pose.position(), pose.orientation());
+  };
+  const Configuration other{std::get<Cylinder>(scaled(c.a, factor)), moved(c.pose_a),
+                            scaled(c.b, factor), moved(c.pose_b)};
+  const SignedDistance one = signed_distance(c), two = signed_distance(other);
+  ASSERT_EQ(two.value, factor * one.value);
+  ASSERT_EQ(two.normal, one.normal);
+  const CertifiedDistance sure1 = certified_distance(c), sure2 = certified_distance(other);
+  ASSERT_EQ(sure2.value, factor * sure1.value);
+  ASSERT_EQ(sure2.error_bound, factor * sure1.error_bound);
+  ASSERT_EQ(overlaps(other), overlaps(c));
+  for (const double threshold : {0.0, 0.25}) {
+    const Contact contact1 = contact(c, threshold), contact2 = contact(other, factor * threshold);
+    ASSERT_EQ(contact2.signed_distance, factor * contact1.signed_distance);
+    ASSERT_EQ(contact2.normal, contact1.normal);
+    ASSERT_EQ(contact2.points().size(), contact1.points().size());
+    for (std::size_t i = 0; i < contact1.points().size(); ++i) {
+      ASSERT_EQ(contact2.points()[i].position, factor * contact1.points()[i].position);
+      ASSERT_EQ(contact2.points()[i].depth, factor * contact1.points()[i].depth);
+    }
+  }
+}
+
+// Terms of different dimensions that are added or compared would show.
+TEST_P(AnyBits, AreTheSameWhateverTheUnitOfLength) {
+  for (std::uint64_t seed = 0; seed < count_of_each(10000); ++seed) {
+    SCOPED_TRACE(seed);
+    const Configuration c = ordinary(seed, GetParam());
+    expect_same_but_for_scale(c, 0x1p40);
+    expect_same_but_for_scale(c, 0x1p-40);
+    if (HasFatalFailure()) return;
   }
 }
 

@@ -1,10 +1,9 @@
-#include "rim_rim.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "deep_normals.hpp"
+#include "rims.hpp"
 
 namespace touchstone {
 namespace {

@@ -3,7 +3,6 @@
 // Everything a user needs: shapes, poses, and for a cylinder against each other shape the three
 // questions `overlaps`, `contact` and `signed_distance`.
 
-#include "aabb.hpp"
 #include "contact.hpp"
 #include "cylinder_box.hpp"
 #include "cylinder_capsule.hpp"
@@ -13,3 +12,4 @@
 #include "invalid_input.hpp"
 #include "pose.hpp"
 #include "shape.hpp"
+#include "support.hpp"

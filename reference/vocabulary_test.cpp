@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "properties/identity.hpp"
-#include "reference/aabb.hpp"
 #include "reference/contact_of.hpp"
 #include "reference/invalid_input.hpp"
 #include "reference/support.hpp"

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "properties/turns.hpp"
+#include "properties/moves.hpp"
 #include "simulation/world.hpp"
 
 // What the experiments share: the bodies of their scenes, and the bounds within which exact

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "candidates/ode_library.hpp"
-#include "reference/aabb.hpp"
 #include "reference/invalid_input.hpp"
+#include "reference/support.hpp"
 
 namespace touchstone {
 namespace {

@@ -5,7 +5,7 @@
 #include "oracle/audit/cell_program.hpp"
 #include "oracle/audit/certain_bounds.hpp"
 #include "oracle/audit/enclose.hpp"
-#include "properties/turns.hpp"
+#include "properties/moves.hpp"
 #include "reference/invalid_input.hpp"
 #include "reference/support.hpp"
 

@@ -5,8 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "oracle/audit/certain_bounds.hpp"
 #include "oracle/audit/closest_pair.hpp"
-#include "oracle/audit/direction_cell.hpp"
 
 namespace touchstone::audit {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-#include "properties/turns.hpp"
+#include "properties/moves.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone::audit {

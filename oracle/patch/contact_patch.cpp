@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "oracle/patch/convex_set.hpp"
@@ -162,7 +163,53 @@ bool points_are_right(const SupportFeatures& features, const Vec3& n, double tol
   return b.kind != Kind::point || distance_beside(a, b.point, n) <= tolerance;
 }
 
+// Squares of lengths near either end of the doubles overflow or vanish. They are brought into range
+// by a power of two, which rounds nothing, and the patch back.
+
+/// Of the largest length, if it is out of range; otherwise 0.
+int exponent_out_of_range(const Configuration& c) {
+  const double largest = std::max({larger_size(c), c.pose_a.position().cwiseAbs().maxCoeff(),
+                                   c.pose_b.position().cwiseAbs().maxCoeff()});
+  constexpr int in_range = 300;
+  const int exponent = std::ilogb(largest);
+  return std::abs(exponent) <= in_range ? 0 : exponent;
+}
+
+struct ScaledShape {
+  int exponent;
+
+  double length(double x) const { return std::scalbn(x, exponent); }
+  /// What vanishes against the largest length has the least size that there is.
+  double size(double x) const { return std::max(length(x), std::numeric_limits<double>::min()); }
+  Cylinder operator()(const Cylinder& s) const { return {size(s.radius()), size(s.half_length())}; }
+  Shape operator()(const Capsule& s) const {
+    return Capsule(size(s.radius()), size(s.half_length()));
+  }
+  Shape operator()(const Sphere& s) const { return Sphere(size(s.radius())); }
+  Shape operator()(const Plane& s) const { return Plane(s.normal(), length(s.displacement())); }
+  Shape operator()(const Box& s) const {
+    const Vec3& e = s.half_extents();
+    return Box(Vec3(size(e.x()), size(e.y()), size(e.z())));
+  }
+  Pose operator()(const Pose& pose) const {
+    const Vec3& p = pose.position();
+    return {Vec3(length(p.x()), length(p.y()), length(p.z())), pose.orientation()};
+  }
+};
+
+Configuration scaled(const Configuration& c, int exponent) {
+  const ScaledShape times{exponent};
+  return {times(c.a), times(c.pose_a),
+          std::visit([&](const auto& s) { return Shape(times(s)); }, c.b), times(c.pose_b)};
+}
+
 }  // namespace
+
+ContactPatch ContactPatch::scaled(int exponent) const {
+  Plane plane = plane_;
+  plane.origin = plane.origin.unaryExpr([&](double x) { return std::scalbn(x, exponent); });
+  return {plane, shape_.scaled(exponent)};
+}
 
 double ContactPatch::extent(const Vec3& direction) const {
   const Vec2 d(direction.dot(plane_.e1), direction.dot(plane_.e2));
@@ -182,6 +229,9 @@ std::vector<Vec3> ContactPatch::outline(int per_quarter) const {
 
 ContactPatch contact_patch(const Configuration& configuration, const OptimalNormal& normal) {
   const Configuration c = rounded_configuration(configuration).configuration;
+  if (const int exponent = exponent_out_of_range(c)) {
+    return contact_patch(scaled(c, -exponent), normal).scaled(exponent);
+  }
   const SupportFeatures features = support_features(c, normal);
   const double lengths = larger_size(c) + (c.pose_a.position() - c.pose_b.position()).norm();
   constexpr double beside = 1e-9;     // farther away, rounding has decided where the point is
@@ -197,6 +247,9 @@ ContactPatch contact_patch(const Configuration& configuration, const OptimalNorm
 }
 
 ContactPatch contact_patch(const Configuration& c, const Vec3& n, double epsilon) {
+  if (const int exponent = exponent_out_of_range(c)) {
+    return contact_patch(scaled(c, -exponent), n, std::scalbn(epsilon, -exponent)).scaled(exponent);
+  }
   // Relative to a body, so that the distance from the world's origin costs no digits.
   const Vec3 origin = c.pose_a.position();
   const ContactPatch::Plane plane = patch_plane(c, n, origin, n.unitOrthogonal());

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "oracle/optimal_normal.hpp"
 #include "oracle/patch/convex_set.hpp"
+#include "oracle/truth.hpp"
 
 namespace touchstone::oracle {
 
@@ -31,6 +31,9 @@ class ContactPatch {
   double distance(const Vec3& point) const { return shape_.distance(in_plane(point)); }
   /// The boundary in order, for drawing; arcs as chords, at least `per_quarter` in a quarter turn.
   std::vector<Vec3> outline(int per_quarter = 8) const;
+
+  /// The same patch with all lengths times a power of two.
+  ContactPatch scaled(int exponent) const;
 
   /// The patch in coordinates of its plane.
   const ConvexSet& shape() const { return shape_; }

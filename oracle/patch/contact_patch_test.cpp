@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
-#include "properties/turns.hpp"
+#include "properties/moves.hpp"
 
 namespace touchstone::oracle {
 namespace {

@@ -79,6 +79,16 @@ ConvexSet ConvexSet::polygon(const std::vector<Vec2>& vertices) {
   return region(std::move(sides));
 }
 
+ConvexSet ConvexSet::scaled(int exponent) const {
+  const auto times = [&](double x) { return std::scalbn(x, exponent); };
+  std::vector<Side> sides = sides_;
+  for (Side& s : sides) {
+    s.from = s.from.unaryExpr(times), s.to = s.to.unaryExpr(times);
+    s.centre = s.centre.unaryExpr(times), s.radius = times(s.radius);
+  }
+  return {kind_, std::move(sides)};
+}
+
 double ConvexSet::area() const {
   if (kind_ != Kind::region) return 0;
   // Relative to a corner of the set, so that its distance from the origin costs no digits.

@@ -48,6 +48,8 @@ class ConvexSet {
   double distance(const Vec2& p) const;         ///< to the set; zero inside
   /// The boundary as points in order; arcs as chords of at most 90°/per_quarter.
   std::vector<Vec2> outline(int per_quarter) const;
+  /// The same set with all lengths times a power of two.
+  ConvexSet scaled(int exponent) const;
 
  private:
   ConvexSet(Kind kind, std::vector<Side> sides) : kind_(kind), sides_(std::move(sides)) {}

@@ -4,7 +4,7 @@
 #include <gmpxx.h>
 #include <vector>
 
-#include "oracle/optimal_normal.hpp"
+#include "oracle/truth.hpp"
 #include "oracle/vector3.hpp"
 #include "reference/configuration.hpp"
 #include "reference/pose.hpp"

@@ -2,11 +2,12 @@
 #include <gtest/gtest.h>
 #include <numbers>
 #include <random>
+#include <vector>
 
 #include "oracle/patch/contact_patch.hpp"
 #include "oracle/patch/convex_set.hpp"
 #include "oracle/patch/support_feature.hpp"
-#include "properties/turns.hpp"
+#include "properties/moves.hpp"
 
 namespace touchstone::oracle {
 namespace {
@@ -51,6 +52,21 @@ TEST(TiltedPatch, OfASideIsABand) {
   EXPECT_NEAR(p.extent(Vec3(1, 0, 0)), 2 * h, 1e-12);
   EXPECT_NEAR(p.extent(Vec3(0, 1, 0)) / (2 * std::sqrt(epsilon * (2 * r - epsilon))), 1, 1e-9);
   EXPECT_NEAR(p.distance(Vec3(0, 0, 0)), 0, 0);
+}
+
+// Where the squares of lengths overflow or vanish.
+TEST(TiltedPatch, OfLengthsNearTheEndsOfTheDoublesIsThatOfOrdinaryOnesScaled) {
+  const auto outline = [](double unit) {
+    const Configuration c{Cylinder(unit, unit / 4), Pose(unit * Vec3(0.25, 0, 3.2), along_x),
+                          Sphere(3 * unit), Pose()};
+    return contact_patch(c, up, unit / 128).outline();
+  };
+  const std::vector<Vec3> expected = outline(1);
+  for (const double unit : {0x1p1022, 0x1p-1000}) {
+    const std::vector<Vec3> found = outline(unit);
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t i = 0; i < found.size(); ++i) EXPECT_EQ(found[i] / unit, expected[i]);
+  }
 }
 
 TEST(TiltedPatch, OfASphereIsADisc) {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "properties/draw.hpp"
+#include "properties/moves.hpp"
 #include "properties/named.hpp"
-#include "properties/turns.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone {

@@ -141,7 +141,7 @@ def plant_branches(s):
         s.around("result inverted", found.start(1), found.start(1), found.end(1),
                  "::touchstone::planted::is({0}) != (")
     for found in s.matches(r" \? "):
-        begin = s.start_of_operand(found.start(), [" = ", "return ", ", ", " ? ", " : ", "; "])
+        begin = s.start_of_operand(found.start(), [" = ", "return ", ", ", " ? ", " : ", "; ", ";\n", "{\n"])
         s.around("alternatives exchanged", found.start() + 1, begin, found.start(),
                  "::touchstone::planted::is({0}) != bool(")
 

@@ -3,7 +3,6 @@
 
 #include <string>
 
-#include "reference/aabb.hpp"
 #include "reference/contact_of.hpp"
 #include "reference/invalid_input.hpp"
 #include "reference/rims.hpp"

@@ -11,8 +11,8 @@
 #include "properties/files/configuration_json.hpp"
 #include "properties/files/disk.hpp"
 #include "properties/files/strict_json.hpp"
-#include "reference/aabb.hpp"
 #include "reference/invalid_input.hpp"
+#include "reference/support.hpp"
 
 namespace touchstone {
 namespace {

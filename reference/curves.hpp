@@ -2,12 +2,13 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include <Eigen/Core>
 
 namespace touchstone {
 
-// What contact patches are made of: the plane across a contact's normal.
+// Vectors of a plane, and the curves that cylinders show there: circles, and ellipses at a slant.
 
 using Vec2 = Eigen::Vector2d;
 
@@ -27,5 +28,13 @@ struct Circle {
   Vec2 centre;
   double radius;
 };
+
+/// A point (x, y) against the ellipse with half axes a >= b >= 0, a > 0, along the frame's axes.
+///
+/// The unit normal n, inside the first quadrant, at which x n_x + y n_y − √(a² n_x² + b² n_y²) has
+/// a local maximum, if there is one. At its foot the ellipse is nearest to the point, from outside
+/// or from inside. With x < 0 there is none. Accurate to about the square root of rounding at
+/// worst, so that the maximum itself, which is flat there, is accurate to rounding.
+std::optional<Vec2> ellipse_normal(double a, double b, double x, double y);
 
 }  // namespace touchstone
