@@ -29,7 +29,7 @@ struct Machine {
 
 struct CandidateDescription {
   std::string name, family, version, settings, models;
-  std::string precision;        ///< "double" or "float"; empty: its settings say it
+  std::string precision = {};   ///< "double" or "float"; empty: its settings say it
   std::string runs = "native";  ///< or "wasm", "script"
   bool given = false;           ///< its answers came in a file: it cannot be asked again
 };
