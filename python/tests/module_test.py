@@ -211,7 +211,7 @@ class Batches(unittest.TestCase):
             touchstone.overlaps(CAN, Pose(), FLOOR, poses)
 
     def test_other_threads_run_meanwhile(self):
-        poses, counts, seen = random_poses(300000, 9), [0], []
+        poses, counts, seen = random_poses(1000000, 9), [0], []
 
         def ask():
             before = counts[0]
@@ -228,7 +228,7 @@ class Batches(unittest.TestCase):
                 time.sleep(0)
         finally:
             sys.setswitchinterval(interval)
-        self.assertGreater(seen[0][1], seen[0][0])
+        self.assertGreater(seen[0][1], seen[0][0] + 1)  # one: the lock is given up on the way in
 
 
 class TheTruth(unittest.TestCase):
