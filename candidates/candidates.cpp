@@ -41,7 +41,7 @@ std::filesystem::path own_folder() {
 /// The folder of the standard plug-ins: in the build tree above the program (tests and the Python
 /// module lie two folders deep), or under the prefix of an installed one.
 std::filesystem::path standard_folder() {
-  const auto own = own_folder();
+  auto own = own_folder();
   for (const char* folder : {"candidates", "../candidates", "../../candidates", "../lib/touchstone",
                              "../../../touchstone"}) {
     const auto path = own / folder;

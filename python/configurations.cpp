@@ -85,8 +85,10 @@ The configuration of an identity, "pair/class/seed/index", as reports name it: a
   });
   configuration.def("__reduce__", [](const py::object& self) {
     const auto& c = self.cast<const NamedConfiguration&>();
-    if (!c.name.empty()) return py::make_tuple(self.attr("of"), py::make_tuple(c.name));
-    return py::make_tuple(py::type::of(self), bodies(c));
+    const py::object type = py::type::of(self);
+    if (c.name.empty()) return py::make_tuple(type, bodies(c));
+    const auto make = py::module_::import("operator").attr("methodcaller")("of", c.name);
+    return py::make_tuple(make, py::make_tuple(type));
   });
 
   m.attr("PAIRS") = [] {

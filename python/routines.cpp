@@ -155,7 +155,9 @@ struct Contacts {
   py::array_t<double> positions, depths;
 };
 
+/// None beyond the threshold.
 py::object contact_to_python(const Contact& contact) {
+  if (contact.points().empty()) return py::none();
   ContactValue value{contact.signed_distance, contact.normal, {}};
   for (const ContactPoint& p : contact.points()) {
     value.points.push_back({p.position, contact.normal, p.depth});
@@ -237,9 +239,9 @@ shapes (n,) and (n, 3). Within 1e-13 of the larger size of the truth.
 
 Returns signed distance, normal and contact points where the distance is at most `threshold` metres.
 
-Bodies and poses as in `overlaps`. With two Poses a Contact, else Contacts, whose members are
-arrays. Beyond the threshold there are no points, and the signed distance is the clearance along the
-normal, which may be less than the distance.
+Bodies and poses as in `overlaps`. With two Poses a Contact, or None beyond the threshold; else
+Contacts, whose members are arrays: beyond the threshold a row has no points, and its signed distance
+is the clearance along its normal, which may be less than the distance.
 
 >>> touchstone.contact(touchstone.Cylinder(0.5, 1), touchstone.Pose((0, 0, 1.75)),
 ...                    touchstone.Sphere(1), touchstone.Pose()).points

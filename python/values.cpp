@@ -162,7 +162,7 @@ the world frame, along which A moves to come free, and up to 16 contact points.
       "Unit, from B to A, world frame; an array of three.");
   contact.def_property_readonly(
       "points", [](const ContactValue& c) { return py::tuple(arguments(c)[2]); },
-      "A tuple of Point; empty where the bodies are further apart than the threshold.");
+      "A tuple of Point.");
   define_value<ContactValue>(contact, {"signed_distance", "normal", "points"}, arguments);
 }
 

@@ -125,7 +125,7 @@ class OnePairOfPoses(unittest.TestCase):
 
     def test_points_are_given_up_to_the_threshold(self):
         bodies = CAN, Pose((0, 0, 1.5)), FLOOR, Pose()
-        self.assertEqual(touchstone.contact(*bodies).points, ())
+        self.assertIsNone(touchstone.contact(*bodies))
         self.assertEqual(touchstone.contact(*bodies, threshold=0.5).points[0].depth, -0.5)
         for threshold in (-1, math.nan, math.inf):
             with self.assertRaisesRegex(ValueError, "threshold is .*: must be finite and not neg"):
@@ -149,14 +149,18 @@ class Batches(unittest.TestCase):
                 self.assertEqual(overlap[i], touchstone.overlaps(*bodies))
                 contact = touchstone.contact(*bodies, 0.1)
                 count = contacts.counts[i]
+                self.assertTrue(numpy.isnan(contacts.positions[i, count:]).all())
+                self.assertTrue(numpy.isnan(contacts.depths[i, count:]).all())
+                self.assertEqual(contact is None, distance > 0.1)
+                if contact is None:
+                    self.assertEqual(count, 0)
+                    continue
                 self.assertEqual(contacts.signed_distances[i], contact.signed_distance)
                 self.assertEqual(contacts.normals[i].tobytes(), contact.normal.tobytes())
                 self.assertEqual(count, len(contact.points))
                 for k, point in enumerate(contact.points):
                     self.assertEqual(contacts.positions[i, k].tobytes(), point.position.tobytes())
                     self.assertEqual(contacts.depths[i, k], point.depth)
-                self.assertTrue(numpy.isnan(contacts.positions[i, count:]).all())
-                self.assertTrue(numpy.isnan(contacts.depths[i, count:]).all())
 
     def test_one_pose_stands_for_all_rows(self):
         poses, one = random_poses(50, 3), random_poses(1, 4)
@@ -207,7 +211,7 @@ class Batches(unittest.TestCase):
             touchstone.overlaps(CAN, Pose(), FLOOR, poses)
 
     def test_other_threads_run_meanwhile(self):
-        poses, counts, seen = random_poses(300000, 9), [0], []
+        poses, counts, seen = random_poses(1000000, 9), [0], []
 
         def ask():
             before = counts[0]
@@ -224,7 +228,7 @@ class Batches(unittest.TestCase):
                 time.sleep(0)
         finally:
             sys.setswitchinterval(interval)
-        self.assertGreater(seen[0][1], seen[0][0])
+        self.assertGreater(seen[0][1], seen[0][0] + 1)  # one: the lock is given up on the way in
 
 
 class TheTruth(unittest.TestCase):
