@@ -92,10 +92,15 @@ class Registry {
   const std::vector<Skipped>& skipped() const { return skipped_; }
   std::vector<Added> added;
 
-  const Candidate& find(std::string_view name) {
+  const Candidate* known(std::string_view name) const {
     for (const Candidate& c : known_) {
-      if (c.name == name) return c;
+      if (c.name == name) return &c;
     }
+    return nullptr;
+  }
+
+  const Candidate& find(std::string_view name) {
+    if (const Candidate* const c = known(name)) return *c;
     const auto colon = name.find(':');
     for (const Candidate& c : known_) {
       if (c.family != name.substr(0, colon)) continue;
@@ -263,6 +268,11 @@ bool Candidate::has_routine_for(Pair pair) const { return supports[other_shape(p
 std::vector<const Candidate*> all_candidates() { return Registry::get().listed(); }
 
 const Candidate& find_candidate(std::string_view name) { return Registry::get().find(name); }
+
+std::string runs_as(std::string_view name) {
+  const Candidate* const known = Registry::get().known(name);
+  return known ? known->runs : "native";
+}
 
 std::vector<const Candidate*> find_candidates(const std::vector<std::string>& names) {
   std::vector<const Candidate*> result;

@@ -56,6 +56,10 @@ std::vector<const Candidate*> all_candidates();
 /// InvalidInput (field "--candidates") that lists the existing names or the parameter's range.
 const Candidate& find_candidate(std::string_view name);
 
+/// How a candidate of that name runs ("native", "wasm", "script"), if it is known by now; "native"
+/// otherwise.
+std::string runs_as(std::string_view name);
+
 /// Candidates by name, and families by several numbers: {"bullet", "prism:8", "16",
 /// "spheres:1..64"} are bullet, prism:8, prism:16 and spheres of 1, 2, 4, … 64. A range doubles
 /// where the parameter is a whole number and goes by factors of ten otherwise. Throws like

@@ -95,7 +95,7 @@ std::string replay_page(const Examination& examination, const std::string& descr
   for (const ScoredAnswer& answer : examination.answers) names.push_back(answer.candidate);
   data["marks"] = marks(names);
   for (const std::string& name : names) {
-    const std::string& runs = find_candidate(name).runs;
+    const std::string runs = runs_as(name);
     if (runs != "native") data["runs"][name] = runs;
   }
   return render_page(Page::replay, data);

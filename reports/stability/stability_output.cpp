@@ -345,7 +345,7 @@ void write_stability(const Stability& stability, const std::string& command,
   const std::vector<std::string> names = whole["candidates"];
   whole["marks"] = marks(names);
   for (const std::string& name : names) {
-    const std::string& runs = find_candidate(name).runs;
+    const std::string runs = runs_as(name);
     if (runs != "native") whole["runs"][name] = runs;
   }
   write_file(folder / "stability.html", render_page(Page::stability, whole), "--out");
