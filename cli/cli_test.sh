@@ -32,7 +32,7 @@ expect 2 'report, replay, solve, certify, check, compare, ' nonsense
 expect 2 'identity.pair' replay cylinder-cone/rim/1/2
 expect 2 'identity.class' replay cylinder-box/none/1/2
 expect 2 'input is required' replay
-expect 2 'must be one of reference, bullet, ' replay cylinder-box/rim-face/1/2 --candidates havok
+expect 2 'must be one of reference, bullet, ' replay cylinder-box/rim-face/1/2 --candidates no-such-engine
 expect 2 'prism:1.* must be' replay cylinder-box/rim-face/1/2 --candidates prism:1
 expect 0 'prism:32: ' replay cylinder-box/rim-face/1/2 --candidates prism:8,16,32
 expect 2 'must be a plug-in' --candidate /etc/passwd candidates
@@ -127,9 +127,9 @@ cp -r "$folder/known" "$folder/other" && sed -i 's/"candidate": "bullet"/"candid
 expect 0 'fixed  *reference' check --known "$folder/other" --junit "$folder/fixed.xml"
 grep -q 'failures="0"' "$folder/fixed.xml" || { echo "FAILED: JUnit XML of a fixed failure"; failures=$((failures + 1)); }
 expect 1 'broken by' "${edges[@]}" --known "$folder/other"
-sed -i 's/"candidate": "reference"/"candidate": "havok"/' "$folder"/other/*.json
-expect 1 'skipped  *havok.*not installed' check --known "$folder/other"
-expect 0 'skipped  *havok.*not installed' check --corpus "$folder/other"
+sed -i 's/"candidate": "reference"/"candidate": "no-such-engine"/' "$folder"/other/*.json
+expect 1 'skipped  *no-such-engine.*not installed' check --known "$folder/other"
+expect 0 'skipped  *no-such-engine.*not installed' check --corpus "$folder/other"
 expect 2 '--known.*must be a folder' check --known "$folder/none"
 # A plug-in's file names its first candidate, and a known name comes before a file of that name.
 plugin=$(dirname "$program")/candidates/testing/touchstone-sabotage.so
@@ -175,7 +175,7 @@ expect 0 "choose '$folder/my scenes/can.json' --candidates capsule --time-limit 
 [ -s "$folder/choice/choose.html" ] || { echo "FAILED: no choose.html"; failures=$((failures + 1)); }
 sed 's/"degrees":1/"degrees":1e-30/; s/0.2\]}/0.2],"orientation":[1,0.1,0,0]}/' "$folder/can.json" > "$folder/fall.json"
 expect 1 'Not even exact contacts' choose "$folder/fall.json" --candidates capsule --out "$folder/choice"
-expect 2 'must be one of reference' render "$folder/can.json" --contacts havok
+expect 2 'must be one of reference' render "$folder/can.json" --contacts no-such-engine
 expect 0 '4 frames' render "$folder/can.json" --every 0.1 --out "$folder/frames"
 [ -s "$folder/frames/frame-00004.inc" ] || { echo "FAILED: no frame"; failures=$((failures + 1)); }
 
@@ -225,8 +225,8 @@ expect 2 'proof.json: schema is .* must be 1' compare "$folder/proof.json" "$r"
 expect 2 '--max-error-factor is "0.5"' compare "$r" "$r" --max-error-factor 0.5
 expect 2 '--html' compare "$r" "$r" --html "$folder/none/compare.html"
 
-expect 2 '--emit.*havok.*must be one of bullet, ode, fcl, libccd, mujoco' \
-  replay cylinder-box/rim-face/1/2 --emit havok
+expect 2 '--emit.*no-such-engine.*must be one of bullet, ode, fcl, libccd, mujoco' \
+  replay cylinder-box/rim-face/1/2 --emit no-such-engine
 expect 2 '--emit.*libccd.*half-space' replay cylinder-plane/general-deep/1/2 --emit libccd
 expect 2 'identity.class' replay cylinder-box/none/1/2 --emit bullet
 expect 2 'standard input is no JSON' replay - --emit bullet

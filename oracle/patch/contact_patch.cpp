@@ -168,8 +168,10 @@ bool points_are_right(const SupportFeatures& features, const Vec3& n, double tol
 
 /// Of the largest length, if it is out of range; otherwise 0.
 int exponent_out_of_range(const Configuration& c) {
+  const auto* const plane = std::get_if<Plane>(&c.b);
   const double largest = std::max({larger_size(c), c.pose_a.position().cwiseAbs().maxCoeff(),
-                                   c.pose_b.position().cwiseAbs().maxCoeff()});
+                                   c.pose_b.position().cwiseAbs().maxCoeff(),
+                                   plane ? std::abs(plane->unit_displacement()) : 0});
   constexpr int in_range = 300;
   const int exponent = std::ilogb(largest);
   return std::abs(exponent) <= in_range ? 0 : exponent;
@@ -186,7 +188,9 @@ struct ScaledShape {
     return Capsule(size(s.radius()), size(s.half_length()));
   }
   Shape operator()(const Sphere& s) const { return Sphere(size(s.radius())); }
-  Shape operator()(const Plane& s) const { return Plane(s.normal(), length(s.displacement())); }
+  Shape operator()(const Plane& s) const {
+    return Plane(s.unit_normal(), length(s.unit_displacement()));
+  }
   Shape operator()(const Box& s) const {
     const Vec3& e = s.half_extents();
     return Box(Vec3(size(e.x()), size(e.y()), size(e.z())));

@@ -55,6 +55,12 @@ TEST(TiltedPatch, OfASideIsABand) {
 }
 
 // Where the squares of lengths overflow or vanish.
+TEST(TiltedPatch, OfATinyCylinderAndAPlaneFarFromItsOriginExists) {
+  const Configuration c{Cylinder(0x1p-600, 0x1p-600), Pose(Vec3(0, 0, 1e300), along_x),
+                        Plane(up, 1e300), Pose()};
+  EXPECT_FALSE(contact_patch(c, up, 0x1p-640).outline().empty());
+}
+
 TEST(TiltedPatch, OfLengthsNearTheEndsOfTheDoublesIsThatOfOrdinaryOnesScaled) {
   const auto outline = [](double unit) {
     const Configuration c{Cylinder(unit, unit / 4), Pose(unit * Vec3(0.25, 0, 3.2), along_x),

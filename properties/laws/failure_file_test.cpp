@@ -133,7 +133,7 @@ TEST(FailureFile, MayHoldOneFailureALine) {
 
 TEST(Corpus, ACandidateThatIsNotInstalledIsSkipped) {
   Failure f = failure();
-  f.candidate = "havok";
+  f.candidate = "no-such-engine";
   const auto replayed = replay({f}, {});
   EXPECT_EQ(replayed.at(0).result, ReplayedFailure::Result::skipped);
 }
