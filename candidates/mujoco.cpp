@@ -14,6 +14,7 @@
 // Threshold    Passed as the function's margin. Only the plane answers separate bodies.
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdio>
 #include <cstring>
 #include <map>
@@ -106,14 +107,15 @@ ts_prepared* prepare(void*, const ts_shape* a, const ts_shape* b, double thresho
   return p;
 }
 
-void place(const Scene& scene, int geom, const double* position, const double* orientation) {
+void place(const Scene& scene, std::ptrdiff_t geom, const double* position,
+           const double* orientation) {
   mju_copy3(scene.data->geom_xpos + 3 * geom, position);
   mju_quat2Mat(scene.data->geom_xmat + 9 * geom, orientation);
 }
 
 void query(ts_prepared* p, const ts_pose* a, const ts_pose* b, const double*, ts_answer* answer) {
   // A model serves all pairs of the same kinds, so that its sizes are set with every query.
-  mju_copy3(p->scene.model->geom_size + 3 * geom_a, p->a.size);
+  mju_copy3(p->scene.model->geom_size + std::ptrdiff_t{3} * geom_a, p->a.size);
   place(p->scene, geom_a, a->position, a->orientation);
   if (p->b.kind == TS_PLANE) {
     double orientation[4], normal[3], position[3];
@@ -122,7 +124,7 @@ void query(ts_prepared* p, const ts_pose* a, const ts_pose* b, const double*, ts
     mju_addScl3(position, b->position, normal, p->b.size[3]);
     place(p->scene, geom_b, position, orientation);
   } else {
-    mju_copy3(p->scene.model->geom_size + 3 * geom_b, p->b.size);
+    mju_copy3(p->scene.model->geom_size + std::ptrdiff_t{3} * geom_b, p->b.size);
     place(p->scene, geom_b, b->position, b->orientation);
   }
   mjContact contacts[mjMAXCONPAIR];

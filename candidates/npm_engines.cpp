@@ -49,11 +49,11 @@ const NpmEngine* find_npm_engine(std::string_view family) {
 }
 
 std::filesystem::path npm_folder() {
-  const auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path();
+  auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path();
   // The program of a build tree, a test in it, the installed program.
   for (const char* folder : {"../../candidates/npm", "../../../candidates/npm",
                              "../../../../candidates/npm", "../share/touchstone/candidates/npm"}) {
-    const auto path = (program / folder).lexically_normal();
+    auto path = (program / folder).lexically_normal();
     if (std::filesystem::exists(path / "package.json")) return path;
   }
   return program;

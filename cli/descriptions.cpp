@@ -168,7 +168,7 @@ std::string zsh_options(const CLI::App& app) {
 }  // namespace
 
 std::string manual(const CLI::App& program) {
-  const std::string name = program.get_name();
+  const std::string& name = program.get_name();
   const std::string description = program.get_description();
   // "Touchstone: what it is.\nMore." is listed as "touchstone - what it is".
   const auto start = description.find(": ") + 2, end = description.find(".\n");

@@ -26,7 +26,7 @@ class LatticePoses {
   double length() { return integer(1, 4) / 2; }
   Eigen::Quaterniond orientation() {
     for (;;) {
-      const Eigen::Quaterniond q(integer(-2, 2), integer(-2, 2), integer(-2, 2), integer(-2, 2));
+      Eigen::Quaterniond q(integer(-2, 2), integer(-2, 2), integer(-2, 2), integer(-2, 2));
       if (q.squaredNorm() > 0) return q;
     }
   }

@@ -239,7 +239,7 @@ Vec3 draw_offset(Draw& draw, const Numbers& n) {
 Vec3 draw_place(Draw& draw) {
   const std::int64_t kind = draw.integer(0, 15);
   if (kind < 8) return Vec3::Zero();
-  const Vec3 direction = draw.direction();
+  Vec3 direction = draw.direction();
   if (kind < 13) return direction;
   if (kind < 15) return draw.log_uniform(1e-17, 1e17) * direction;
   return Vec3(std::ldexp(direction.x(), -1070), 0, 0);

@@ -69,7 +69,8 @@ struct Errors {
 /// The family under which the table of README.md counts a pose class.
 std::string family_of(Pair pair, const std::string& pose_class) {
   if (pose_class == "hostile" || pose_class == "recorded") return pose_class;
-  const auto [arrangement, modifiers] = parts_of(pair, pose_class);
+  const auto parts = parts_of(pair, pose_class);
+  const auto& modifiers = parts.modifiers;
   const auto has = [&](std::initializer_list<std::string_view> starts) {
     return std::any_of(starts.begin(), starts.end(), [&](std::string_view start) {
       return std::any_of(modifiers.begin(), modifiers.end(),
@@ -79,7 +80,7 @@ std::string family_of(Pair pair, const std::string& pose_class) {
   if (has({"needle", "coin", "plate", "uneven"})) return "needles, coins, plates, uneven sizes";
   if (has({"tiny", "huge", "far"})) return "tiny, huge or far away";
   if (has({"tilted"})) return "tilted by 1e-1 to 1e-15";
-  return arrangement == "general" ? "general" : "features that meet, alignments";
+  return parts.arrangement == "general" ? "general" : "features that meet, alignments";
 }
 
 /// The figures of one pair in README.md by "quantity | family".

@@ -324,7 +324,7 @@ json report_of_declining(const char* by) {
   c.classes = {"lying", "standing", "general-shallow"};
   c.candidates = find_candidates({"bullet", "declining"});
   c.count = 20;
-  const json report = to_json(make_report(c, "x"));
+  json report = to_json(make_report(c, "x"));
   unsetenv("TOUCHSTONE_DECLINE");
   return report;
 }

@@ -44,7 +44,7 @@ std::vector<Site> sites(const Capsule& c) {
 }
 
 std::vector<Site> sites(const Box& b) {
-  const Vec3 h = b.half_extents();
+  const Vec3& h = b.half_extents();
   const double from_edge = 1.01 * std::max(0.25 * h.minCoeff(), depth);
   return {{"box vertex", h.cwiseProduct(Vec3(1, -1, 1)), Vec3(0.5, -2, 1).normalized(), 0},
           {"box edge", h.cwiseProduct(Vec3(1, -1, 0.75)), Vec3(2, -2, 0).normalized(), 0},

@@ -69,7 +69,7 @@ std::string text_member(const Json& json, const char* name, bool required) {
 
 std::string choice_member(const Json& json, const char* name,
                           std::initializer_list<const char*> of) {
-  const std::string text = text_member(json, name, true);
+  std::string text = text_member(json, name, true);
   std::string remedy;
   for (const char* choice : of) {
     if (text == choice) return text;
@@ -270,7 +270,7 @@ Json answer_line(std::uint64_t ticket, const std::string& line) {
 
 /// A list of `count` entries. Throws Garbage.
 Json list_member(const Json& json, const char* name, std::size_t count) {
-  const Json list = json.value(name, Json());
+  Json list = json.value(name, Json());
   if (!list.is_array() || list.size() != count) {
     refuse("its \"" + std::string(name) + "\" is no list of " + std::to_string(count));
   }

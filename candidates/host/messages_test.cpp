@@ -49,10 +49,10 @@ TEST(Hello, IsRefusedWithTheMemberTheValueAndTheRemedy) {
       {"\"later\": []", "\"parameter\": {\"meaning\": \"m\", \"min\": 2, \"max\": 1, \"usual\": 1}",
        "with min <= usual <= max"},
       {"{\"touch", "Welcome!{\"touch", "no JSON object"}};
-  for (const auto& [from, to, message] : cases) {
-    EXPECT_THAT([&] { read_hello(hello_with(from, to)); },
-                ThrowsMessage<Garbage>(HasSubstr(message)))
-        << to;
+  for (const auto& c : cases) {
+    EXPECT_THAT([&] { read_hello(hello_with(c.from, c.to)); },
+                ThrowsMessage<Garbage>(HasSubstr(c.message)))
+        << c.to;
   }
 }
 

@@ -273,7 +273,7 @@ void PluginSessions::kill_session() {
 
 PluginSessions::TimeLimit PluginSessions::time_limit(const SessionCommand& command,
                                                      std::uint32_t current, bool alone) const {
-  const TimeLimit full = {limits_.seconds, "no answer within " + seconds_text(limits_.seconds)};
+  TimeLimit full = {limits_.seconds, "no answer within " + seconds_text(limits_.seconds)};
   if (command.kind != SessionCommand::answer) return full;
   // A session that others rely on (it keeps shapes) is not ended on suspicion.
   const bool is_suspicion = !alone && command.release;

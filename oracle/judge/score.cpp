@@ -1,8 +1,10 @@
 #include "oracle/judge/score.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
-#include <cstring>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -241,7 +243,11 @@ struct NormalPatch {
 
 /// Zeros of either sign differ: a patch's axes may depend on the sign.
 bool same_bits(const Vec3& n, const Vec3& m) {
-  return std::memcmp(n.data(), m.data(), 3 * sizeof(double)) == 0;
+  using Bits = std::array<std::uint64_t, 3>;
+  const auto bits = [](const Vec3& v) {
+    return std::bit_cast<Bits>(std::array{v.x(), v.y(), v.z()});
+  };
+  return bits(n) == bits(m);
 }
 
 NormalPatch patch_along(const Configuration& c, const Vec3& n) {

@@ -130,7 +130,7 @@ TEST(TiltedPatch, PartsHaveTheSupportThatDualityGivesThem) {
       const Eigen::Quaterniond q(symmetric(random), symmetric(random), symmetric(random),
                                  symmetric(random));
       const Pose pose(Vec3::Zero(), q);
-      const Eigen::Matrix3d axes = pose.rotation();
+      const Eigen::Matrix3d& axes = pose.rotation();
       // Every third nearly aligned with an axis, every third nearly across it.
       Vec3 n = Vec3(symmetric(random), symmetric(random), symmetric(random)).normalized();
       const double tilt = std::pow(10, exponent(random) - 2);

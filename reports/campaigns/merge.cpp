@@ -265,7 +265,7 @@ std::string campaign_json(const ShardState& whole) {
 }
 
 std::filesystem::path write_result(const ShardState& whole, const std::filesystem::path& folder) {
-  const std::filesystem::path file = folder / "campaign.json";
+  std::filesystem::path file = folder / "campaign.json";
   write_file(file, campaign_json(whole), "--out");
   return file;
 }
