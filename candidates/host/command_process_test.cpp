@@ -41,8 +41,11 @@ std::vector<Configuration> configurations(std::size_t count,
     const double x = 0.1 * static_cast<double>(i);
     const bool is_marked = std::find(marked.begin(), marked.end(), i) != marked.end();
     const Pose pose_b({is_marked ? mark : x, 1, 0}, Eigen::Quaterniond(1, 0, 0, 0));
-    result.push_back({Cylinder(0.5 + x, 1), Pose({x, 2, 3}, Eigen::Quaterniond(0, 1, 0, 0)),
-                      Sphere(0.25), pose_b});
+    // Neighbours have one body's shape in common, or none.
+    const double radius_a = 0.5 + static_cast<double>(i / 2),
+                 radius_b = 0.25 + static_cast<double>(i % 3);
+    result.push_back({Cylinder(radius_a, 1), Pose({x, 2, 3}, Eigen::Quaterniond(0, 1, 0, 0)),
+                      Sphere(radius_b), pose_b});
   }
   return result;
 }

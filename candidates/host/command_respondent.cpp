@@ -89,7 +89,8 @@ auto CommandRespondent::send(Operation operation, const std::string& request, st
                                ? messages::frame_size(operation, static_cast<std::uint32_t>(count))
                                : 0;
   const auto text =
-      process_.ask(request, size, {seconds, wait_factor * seconds, limits_.mebibytes});
+      process_.ask(request, size,
+                   {seconds, std::max(seconds, wait_factor * limits_.seconds), limits_.mebibytes});
   if (const auto* const failure = std::get_if<Failure>(&text)) {
     ready_.clear();
     return *failure;
