@@ -42,7 +42,8 @@ std::vector<Configuration> configurations(std::size_t count,
     const bool is_marked = std::find(marked.begin(), marked.end(), i) != marked.end();
     const Pose pose_b({is_marked ? mark : x, 1, 0}, Eigen::Quaterniond(1, 0, 0, 0));
     // Neighbours have one body's shape in common, or none.
-    const double radius_a = 0.5 + static_cast<double>(i / 2),
+    const std::size_t pair_of_neighbours = i / 2;
+    const double radius_a = 0.5 + static_cast<double>(pair_of_neighbours),
                  radius_b = 0.25 + static_cast<double>(i % 3);
     result.push_back({Cylinder(radius_a, 1), Pose({x, 2, 3}, Eigen::Quaterniond(0, 1, 0, 0)),
                       Sphere(radius_b), pose_b});
