@@ -111,7 +111,8 @@ void add_campaign(Program& program) {
   Command command =
       program.command("campaign", "Score any number of configurations, on many machines");
   const auto options = std::make_shared<Options>(command);
-  command.text("--out", options->out, "Folder for the checkpoints and campaign.json");
+  command.text("--out", options->out, "Folder for the checkpoints and campaign.json")
+      .value("FOLDER");
   command.text("--shard", options->shard_text,
                "Only this part, as in 3/7; put together by touchstone merge");
   command.flag("--resume", options->resume,

@@ -35,6 +35,13 @@ void print(const Candidate& c) {
 
 void add_candidates(Program& program) {
   Command command = program.command("candidates", "List the contact routines there are");
+  command.footer(
+      "Examples:\n"
+      "  touchstone candidates\n"
+      "  touchstone --candidate ./my_engine.so candidates\n"
+      "  touchstone report --candidates reference,bullet,prism:8,16\n"
+      "A family with a parameter is named with its number, as prism:16; what is skipped\n"
+      "or unavailable says why.");
   command.runs([] {
     for (const Candidate* c : all_candidates()) print(*c);
     for (const Skipped& s : skipped_plugins()) fmt::print("{}: skipped; {}\n", s.name, s.reason);

@@ -30,7 +30,7 @@ void add_certify(Program& program) {
   Command command =
       program.command("certify", "Prove one signed distance: a file that others can check");
   const auto options = std::make_shared<Options>();
-  command.text("input", options->input, given_help).required();
+  command.text("input", options->input, given_help).value("IDENTITY").required();
   command.number("--width", options->width, {1e-60, 1e30},
                  "Width to prove, relative to the larger size; down to 1e-60");
   command.count("--cells", options->cells, {0, 1000000},

@@ -131,17 +131,17 @@ int run(const Options& options) {
   const CheckOptions checks = options.check();
   const Candidate* const candidate =
       options.candidate.empty() ? nullptr : &named_candidate(options.candidate);
+  const std::string name = candidate ? candidate->name : "";
   const auto corpus = replay_all(options.corpus, "--corpus", candidate);
   const auto known = replay_all(options.known, "--known", candidate);
   const auto judged = joined(corpus, judged_as_known(known));
   const auto results = check_laws(candidate, checks, still_failing(known));
   if (!options.save.empty()) save_all(results, options.save);
   if (!options.junit.empty()) {
-    write_file(options.junit, junit_xml(options.candidate, results, judged), "--junit");
+    write_file(options.junit, junit_xml(name, results, judged), "--junit");
   }
   if (!options.json.empty()) {
-    write_file(options.json, check_json(options.candidate, checks, results, joined(corpus, known)),
-               "--json");
+    write_file(options.json, check_json(name, checks, results, joined(corpus, known)), "--json");
   }
   const bool broken =
       std::any_of(results.begin(), results.end(), [](const LawResult& r) { return r.broken > 0; });
@@ -161,22 +161,28 @@ std::string law_list() {
 void add_check(Program& program) {
   Command command = program.command("check", "Hold one candidate to the laws of contacts");
   const auto options = std::make_shared<Options>(command);
-  command.text("--candidate", options->candidate, "Its name, or a plug-in's file");
+  command.text("--candidate", options->candidate, "Its name, or a plug-in's file")
+      .value("CANDIDATE");
   command
       .flag("--hostile", options->hostile,
             fmt::format("On the pose class hostile alone, {} configurations of each pair unless "
                         "--count says otherwise",
                         usual_count_of_hostile))
       .excludes(options->sample.class_option());
-  command.list("--law", options->laws, "Only these laws");
-  command.text("--corpus", options->corpus,
-               "First replay the failures saved in this folder, or in this file of JSON Lines: "
-               "each must fail as it did");
-  command.text("--known", options->known,
-               "Failures saved in this folder or file are expected: only new ones fail");
-  command.text("--save", options->save, "Save failures into this folder, one of each cause");
-  command.text("--junit", options->junit, "Write the result as JUnit XML");
-  command.text("--json", options->json, "Write the result as JSON");
+  command.list("--law", options->laws, "Only these laws").value("LAW");
+  command
+      .text("--corpus", options->corpus,
+            "First replay the failures saved in this folder, or in this file of JSON Lines: "
+            "each must fail as it did")
+      .value("PATH");
+  command
+      .text("--known", options->known,
+            "Failures saved in this folder or file are expected: only new ones fail")
+      .value("PATH");
+  command.text("--save", options->save, "Save failures into this folder, one of each cause")
+      .value("FOLDER");
+  command.text("--junit", options->junit, "Write the result as JUnit XML").value("FILE");
+  command.text("--json", options->json, "Write the result as JSON").value("FILE");
   command.footer(
       "Examples:\n"
       "  touchstone check --candidate bullet\n"

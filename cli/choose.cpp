@@ -83,8 +83,9 @@ void add_choose(Program& program) {
   command
       .text("scene", options->scene,
             "A scene file (docs/scenes.md), or a robot or world (.urdf, .sdf)")
+      .value("FILE")
       .required();
-  command.text("--out", options->out, "Folder for choose.json and choose.html");
+  command.text("--out", options->out, "Folder for choose.json and choose.html").value("FOLDER");
   command.flag("--json", options->json, "Print choose.json instead of text");
   const char* robots = "Of a robot or world";
   PairNeeds& pairs = options->pairs;

@@ -78,7 +78,7 @@ int run(const std::string& pair) {
 void add_classes(Program& program) {
   Command command = program.command("classes", "List the pose classes: arrangements and modifiers");
   const auto pair = std::make_shared<std::string>();
-  command.text("pair", *pair, "Only of this pair, as cylinder-box");
+  command.text("pair", *pair, "Only of this pair, as cylinder-box").value("PAIR");
   command.footer(
       "Examples:\n"
       "  touchstone classes\n"

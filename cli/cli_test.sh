@@ -32,6 +32,16 @@ expect 2 'report, replay, solve, certify, check, compare, ' nonsense
 expect 2 'identity.pair' replay cylinder-cone/rim/1/2
 expect 2 'identity.class' replay cylinder-box/none/1/2
 expect 2 'input is required' replay
+expect 2 'nosuch.json.*no such file' replay nosuch.json
+expect 0 'touchstone report --candidates reference' candidates --help
+expect 0 '^reference  *contact  *agree ' replay cylinder-box/rim-face/1/2
+# One line for each candidate comes first; lines of JSON alone, which come last, are longer than a terminal.
+shown=$("$program" replay cylinder-box/rim-face/1/2)
+[ "$(sed -n 4p <<<"$shown" | cut -c 1-9)" = candidate ] || { echo "FAILED: replay begins with $shown"; failures=$((failures + 1)); }
+if grep -v '^{' <<<"$shown" | awk 'length($0) > 80 { exit 1 }'; then :; else
+  echo "FAILED: replay is wider than 80 columns"
+  failures=$((failures + 1))
+fi
 expect 2 'must be one of reference, bullet, ' replay cylinder-box/rim-face/1/2 --candidates no-such-engine
 expect 2 'prism:1.* must be' replay cylinder-box/rim-face/1/2 --candidates prism:1
 expect 0 'prism:32: ' replay cylinder-box/rim-face/1/2 --candidates prism:8,16,32
@@ -109,6 +119,9 @@ expect 0 'agreement .* passed' check --candidate reference --pair cylinder-spher
 expect 1 'broken by' check --candidate bullet --pair cylinder-box --class edge-cap --count 1 \
   --law agreement --save "$folder/corpus" --junit "$folder/junit.xml" --json "$folder/check.json"
 expect 0 'as expected' check --corpus "$folder/corpus"
+# A distance of exactly -2 is written so, whichever side of it the proven bounds lie.
+expect 1 'truth: signed distance -2 m' check --candidate bullet --pair cylinder-sphere --class concentric \
+  --count 1 --law agreement
 expect 0 'bullet: .*missed\|bullet: contact, shallow' replay "$(ls "$folder"/corpus/*.json | head -n 1)" --candidates bullet
 sed -i 's/"missed"/"overdeep"/; s/"shallow"/"overdeep"/' "$folder"/corpus/*.json
 expect 1 'changed' check --corpus "$folder/corpus"
@@ -134,7 +147,7 @@ expect 2 '--known.*must be a folder' check --known "$folder/none"
 # A plug-in's file names its first candidate, and a known name comes before a file of that name.
 plugin=$(dirname "$program")/candidates/testing/touchstone-sabotage.so
 expect 1 '^misdeed:[0-9]* 1, seed' check --candidate "$plugin" --pair cylinder-sphere --class cap --count 1 \
-  --law agreement --save "$folder/engine"
+  --law agreement --save "$folder/engine" --junit "$folder/engine.xml"
 expect 1 'as expected  misdeed:' check --candidate "$plugin" --corpus "$folder/engine" \
   --pair cylinder-sphere --class cap --count 1 --law agreement
 touch "$folder/bullet"
@@ -146,6 +159,10 @@ python3 - "$folder" <<'END' || { echo "FAILED: JUnit XML or JSON of check"; fail
 import json, sys, xml.etree.ElementTree as tree
 suite = tree.parse(sys.argv[1] + "/junit.xml").getroot()[0]
 assert suite.get("failures") == "1" and suite[0][0].tag == "failure"
+assert suite[0].get("classname") == "bullet.cylinder-box"
+assert 0 < float(suite[0].get("time")) <= float(suite.get("time"))
+plugin = tree.parse(sys.argv[1] + "/engine.xml").getroot()[0]
+assert plugin[0].get("classname").startswith("misdeed:"), plugin[0].get("classname")
 assert json.load(open(sys.argv[1] + "/check.json"))["laws"][0]["broken"] == 1
 END
 
@@ -217,6 +234,8 @@ row["depth_error"] = {q: v if q == "histogram" else 3 * v + 1e-3 for q, v in row
 json.dump(report, open(sys.argv[2], "w"))
 END
 expect 1 'cylinder-plane/lying  bullet' compare "$r" "$folder/worse.json"
+expect 2 '--fail-on is "speed": must be accuracy' compare "$r" "$r" --fail-on speed
+expect 0 '"fail_on":\["accuracy","time"\]' compare "$r" "$r" --json --fail-on time
 expect 0 'smaller changes' compare "$r" "$folder/worse.json" --max-error-factor 1e300
 expect 0 'Better: 1' compare "$folder/worse.json" "$r"
 expect 2 'none.json.*could not be opened' compare "$r" "$folder/none.json"
@@ -407,6 +426,12 @@ for command in $commands; do
     grep -q -e "'$option\[" <<<"$zsh" || failed "zsh: $command $option"
   done
 done
+[ "$(completed report --pair cylinder-b)" = cylinder-box ] || failed "pairs: $(completed report --pair cylinder-b)"
+[ "$(completed report --pair cylinder-box,cylinder-p)" = cylinder-box,cylinder-plane ] || failed "a second pair"
+[ "$(completed replay --candidates fcl-d)" = fcl-distance ] || failed "candidates: $(completed replay --candidates fcl-d)"
+[ "$(completed report --class rim-r)" = rim-rim ] || failed "pose classes: $(completed report --class rim-r)"
+[ "$(completed check --law sm)" = small-steps ] || failed "laws: $(completed check --law sm)"
+grep -q -e "'--group\[.*:GROUP:_sequence compadd - .*everyday" "$folder/_touchstone" || failed "zsh: groups"
 [ -z "$(completed report --out '')" ] || failed "a value is completed as something but a file"
 [ -z "$(completed --candidate '')" ] || failed "a plug-in is completed as something but a file"
 [ "$(completed check --cor)" = --corpus ] || failed "check --cor: $(completed check --cor)"

@@ -79,6 +79,10 @@ Option& Option::group(const std::string& heading) {
   option_->group(heading);
   return *this;
 }
+Option& Option::value(const std::string& name) {
+  option_->type_name(name);
+  return *this;
+}
 Option& Option::default_text(const std::string& text) {
   option_->default_str(text);
   return *this;

@@ -27,6 +27,9 @@ class Option {
   Option& excludes(const Option& other);
   /// Puts it under a heading of its own in --help.
   Option& group(const std::string& heading);
+  /// What its value is called in --help, "PAIR"; completion offers what descriptions.cpp knows of
+  /// that name, and files otherwise.
+  Option& value(const std::string& name);
   /// Says in words what the default is.
   Option& default_text(const std::string& text);
   /// Is it on the command line? Known once the program runs.
@@ -124,7 +127,7 @@ void add_classes(Program& program);
 /// The manual page, in troff with the man macros.
 std::string manual(const CLI::App& program);
 
-/// Completion scripts: subcommands, options, files.
+/// Completion scripts: subcommands, options, their values, files.
 std::string bash_completion(const CLI::App& program);
 std::string zsh_completion(const CLI::App& program);
 

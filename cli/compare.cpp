@@ -5,6 +5,7 @@
 
 #include "cli/command.hpp"
 #include "properties/files/disk.hpp"
+#include "reference/invalid_input.hpp"
 #include "reports/report_file.hpp"
 
 namespace touchstone {
@@ -13,12 +14,26 @@ namespace {
 struct Options {
   std::string before, after, html;
   CompareLimits limits;
+  std::vector<std::string> fail_on;
   bool json = false;
+
+  CompareLimits chosen() const {
+    CompareLimits result = limits;
+    for (const auto& name : fail_on) {
+      if (name == "time") {
+        result.time_counts = true;
+      } else if (name != "accuracy") {
+        throw InvalidInput("--fail-on", '"' + name + '"',
+                           "must be accuracy, which is always meant, or time");
+      }
+    }
+    return result;
+  }
 };
 
 int run(const Options& options) {
   const Report before = read_report(options.before), after = read_report(options.after);
-  const Comparison comparison = compare(before, after, options.limits);
+  const Comparison comparison = compare(before, after, options.chosen());
   if (!options.html.empty()) {
     write_file(options.html, comparison_page(comparison, before, after), "--html");
   }
@@ -32,8 +47,8 @@ void add_compare(Program& program) {
   Command command =
       program.command("compare", "What is better, worse or slower than in another report");
   const auto options = std::make_shared<Options>();
-  command.text("OLD", options->before, "report.json to compare with").required();
-  command.text("NEW", options->after, "report.json that may be worse").required();
+  command.text("OLD", options->before, "report.json to compare with").value("FILE").required();
+  command.text("NEW", options->after, "report.json that may be worse").value("FILE").required();
   constexpr NumberRange factors{1, 1e300}, shares{0, 1};
   command.number(
       "--max-error-factor", options->limits.error_factor, factors,
@@ -44,15 +59,21 @@ void add_compare(Program& program) {
                  "grow, by the nearest ends of their spreads");
   command.number("--min-agree", options->limits.agreement, shares,
                  "Share of the configurations that agreed before that must agree still");
-  command.text("--baseline", options->limits.baseline, "Candidate that times are related to");
+  command.text("--baseline", options->limits.baseline, "Candidate that times are related to")
+      .value("CANDIDATE");
+  command
+      .list("--fail-on", options->fail_on,
+            "With time, exit code 1 also where something is slower; accuracy always counts")
+      .value("FAILURE");
   command.flag("--json", options->json, "Print one JSON object with every change");
-  command.text("--html", options->html, "Write a page too: both Pareto fronts, all changes");
+  command.text("--html", options->html, "Write a page too: both Pareto fronts, all changes")
+      .value("FILE");
   command.footer(
       "Examples:\n"
       "  touchstone compare old/report.json out/report.json\n"
       "  touchstone compare old/report.json out/report.json --html compare.html\n"
       "  touchstone compare old.json new.json --min-agree 0.99 --max-time-factor 1.2\n"
-      "Exit code 1: something is worse or slower beyond the limits.");
+      "Exit code 1: something is worse beyond the limits (with --fail-on time: or slower).");
   command.runs([options] { return run(*options); });
 }
 

@@ -1,10 +1,18 @@
 #include <algorithm>
 #include <fmt/format.h>
+#include <map>
+#include <set>
+#include <string>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 
+#include "candidates/candidates.hpp"
+#include "candidates/npm_engines.hpp"
 #include "cli/command.hpp"
+#include "properties/laws/law.hpp"
+#include "properties/pose_class.hpp"
+#include "simulation/experiment.hpp"
 
 namespace touchstone {
 namespace {
@@ -106,6 +114,44 @@ Options named_options(const CLI::App& app) {
   return options;
 }
 
+using Words = std::set<std::string>;
+
+Words candidate_names() {
+  Words names;
+  for (const Candidate* c : all_candidates()) names.insert(c->name);
+  for (const NpmEngine& engine : npm_engines()) names.emplace(engine.family);
+  return names;
+}
+
+Words arrangement_names() {
+  Words names;
+  for (const Pair pair : all_pairs) {
+    for (const Arrangement& a : arrangements(pair)) names.insert(a.name);
+  }
+  return names;
+}
+
+/// What can be the value of an option that calls it so; nothing for files and numbers. Of pose
+/// classes the arrangements, which any modifiers may follow.
+Words words_for(const std::string& value) {
+  Words words;
+  if (value == "CANDIDATE") return candidate_names();
+  if (value == "CLASS") return arrangement_names();
+  if (value == "GROUP") return {"everyday", "degenerate", "extreme", "recorded"};
+  if (value == "PART") return {"amplification", "maps", "sequences"};
+  if (value == "FAILURE") return {"accuracy", "time"};
+  if (value == "FORMAT") return {"jsonl", "csv", "npz"};
+  if (value == "SHELL") return {"bash", "zsh"};
+  if (value == "PAIR") {
+    for (const Pair pair : all_pairs) words.insert(pair_name(pair));
+  } else if (value == "LAW") {
+    for (const Law& law : all_laws()) words.insert(law.name);
+  } else if (value == "EXPERIMENT") {
+    for (const Experiment& e : all_experiments()) words.insert(e.name);
+  }
+  return words;
+}
+
 /// "-h --help" of "-h,--help".
 std::string spellings(const CLI::Option& option) {
   std::string text = option.get_name(false, true);
@@ -144,13 +190,19 @@ std::string quoted(const std::string& text) {
   return result;
 }
 
+/// What zsh offers for a value: words, several of them separated by commas, or files.
+std::string zsh_value(const std::string& name) {
+  const Words words = words_for(name);
+  if (words.empty()) return fmt::format(":{}:_files", quoted(name));
+  return fmt::format(":{}:_sequence compadd - {}", quoted(name), fmt::join(words, " "));
+}
+
 /// `_arguments` of zsh: '--count[how many]:UINT:_files' for each spelling.
 std::string zsh_options(const CLI::App& app) {
   std::string text;
   for (const CLI::Option* option : named_options(app)) {
     const bool takes_value = option->get_items_expected_max() > 0;
-    const std::string value =
-        takes_value ? fmt::format(":{}:_files", quoted(option->get_type_name())) : "";
+    const std::string value = takes_value ? zsh_value(option->get_type_name()) : "";
     std::string spelling;
     for (const char c : spellings(*option) + ' ') {
       if (c != ' ') {
@@ -189,13 +241,28 @@ std::string manual(const CLI::App& program) {
 }
 
 std::string bash_completion(const CLI::App& program) {
+  std::map<std::string, std::set<std::string>> spelt;  // of the options with a value of that name
+  std::vector<const CLI::App*> apps = program.get_subcommands({});
+  apps.push_back(&program);
+  for (const CLI::App* app : apps) {
+    for (const CLI::Option* option : named_options(*app)) {
+      if (option->get_items_expected_max() > 0 && !words_for(option->get_type_name()).empty()) {
+        spelt[option->get_type_name()].insert(spellings(*option));
+      }
+    }
+  }
+  std::string values;
+  for (const auto& [value, options] : spelt) {
+    values += fmt::format("    {}) values='{}' ;;\n", fmt::join(options, "|"),
+                          fmt::join(words_for(value), " "));
+  }
   std::string cases;
   for (const CLI::App* command : program.get_subcommands({})) {
     cases += fmt::format("    {}) options='{}' ;;\n", command->get_name(), all_spellings(*command));
   }
   return fmt::format(R"(# bash completion of {0}; made by {0} --completion bash.
 _{0}() {{
-  local word=${{COMP_WORDS[COMP_CWORD]}} command='' options i
+  local word=${{COMP_WORDS[COMP_CWORD]}} command='' options values='' listed='' i
   for ((i = 1; i < COMP_CWORD; ++i)); do
     case ${{COMP_WORDS[i]}} in
       {1}) command=${{COMP_WORDS[i]}} && break ;;
@@ -204,8 +271,14 @@ _{0}() {{
   case $command in
 {2}    *) options='{3}' ;;
   esac
+  case ${{COMP_WORDS[COMP_CWORD - 1]}} in
+{5}  esac
   COMPREPLY=()
-  if [[ $word == -* ]]; then
+  if [[ -n $values ]]; then
+    # Of a list with commas the last part is completed.
+    [[ $word == *,* ]] && listed=${{word%,*}},
+    mapfile -t COMPREPLY < <(compgen -P "$listed" -W "$values" -- "${{word##*,}}")
+  elif [[ $word == -* ]]; then
     mapfile -t COMPREPLY < <(compgen -W "$options" -- "$word")
   elif [[ -z $command && ${{COMP_WORDS[COMP_CWORD - 1]}} != -* ]]; then
     mapfile -t COMPREPLY < <(compgen -W '{4}' -- "$word")
@@ -214,7 +287,7 @@ _{0}() {{
 complete -o default -F _{0} {0}
 )",
                      program.get_name(), command_names(program, "|"), cases, all_spellings(program),
-                     command_names(program, " "));
+                     command_names(program, " "), values);
 }
 
 std::string zsh_completion(const CLI::App& program) {
@@ -222,8 +295,12 @@ std::string zsh_completion(const CLI::App& program) {
   for (const CLI::App* command : program.get_subcommands({})) {
     commands +=
         fmt::format("    '{}:{}'\n", command->get_name(), quoted(command->get_description()));
-    cases += fmt::format("    {}) _arguments{} \\\n      '*:file:_files' ;;\n", command->get_name(),
-                         zsh_options(*command));
+    std::string positional = ":file:_files";
+    for (const CLI::Option* option : command->get_options()) {
+      if (option->get_positional()) positional = zsh_value(option->get_type_name());
+    }
+    cases += fmt::format("    {}) _arguments{} \\\n      '*{}' ;;\n", command->get_name(),
+                         zsh_options(*command), positional);
   }
   return fmt::format(R"(#compdef {0}
 # zsh completion of {0}; made by {0} --completion zsh.

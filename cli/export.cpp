@@ -81,9 +81,12 @@ int run(const Options& options) {
 void add_export(Program& program) {
   Command command = program.command("export", "Write configurations with their truths");
   const auto options = std::make_shared<Options>(command);
-  command.text("--out", options->out,
-               "File: .jsonl (JSON Lines), .csv or .npz (NumPy); - is standard output");
-  command.text("--format", options->format_name, "jsonl, csv or npz, whatever the file's name");
+  command
+      .text("--out", options->out,
+            "File: .jsonl (JSON Lines), .csv or .npz (NumPy); - is standard output")
+      .value("FILE");
+  command.text("--format", options->format_name, "jsonl, csv or npz, whatever the file's name")
+      .value("FORMAT");
   command.flag("--suite", options->suite,
                "touchstone-suite-1, as suite/ has it, by default as CSV");
   command.footer(

@@ -36,8 +36,11 @@ int run(const Options& options) {
 void add_merge(Program& program) {
   Command command = program.command("merge", "Put the parts of a campaign together");
   const auto options = std::make_shared<Options>();
-  command.arguments("inputs", options->inputs, "Shard files, or folders that hold some").required();
-  command.text("--out", options->out, "Folder for campaign.json and the merged shard file");
+  command.arguments("inputs", options->inputs, "Shard files, or folders that hold some")
+      .value("PATH")
+      .required();
+  command.text("--out", options->out, "Folder for campaign.json and the merged shard file")
+      .value("FOLDER");
   command.flag("--partial", options->partial, "Even if parts are missing");
   command.footer(
       "Examples:\n"

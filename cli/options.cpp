@@ -11,9 +11,11 @@
 namespace touchstone {
 
 CandidateOption::CandidateOption(Command& command)
-    : option_(command.list("--candidates", names_,
-                           "Only these, separated by commas (default: all); families by several "
-                           "numbers, as in prism:8,16,32 or spheres:1..64")) {
+    : option_(command
+                  .list("--candidates", names_,
+                        "Only these, separated by commas (default: all); families by several "
+                        "numbers, as in prism:8,16,32 or spheres:1..64")
+                  .value("CANDIDATE")) {
   constexpr NumberRange seconds{1e-3, 1e6}, mebibytes{1, 1e9};
   command.number("--time-limit", limits_.seconds, seconds,
                  "Processor time that a candidate may take for one configuration, seconds");
@@ -63,13 +65,17 @@ std::string BarOption::command_line() const {
 
 SampleOption::SampleOption(Command& command, std::uint64_t count, std::uint64_t max_count)
     : count_(count),
-      pair_option_(command.list("--pair", pairs_, "Only these pairs, as in cylinder-box")),
-      class_option_(command.list("--class", classes_,
-                                 "Only these pose classes; touchstone classes lists them")),
+      pair_option_(
+          command.list("--pair", pairs_, "Only these pairs, as in cylinder-box").value("PAIR")),
+      class_option_(
+          command
+              .list("--class", classes_, "Only these pose classes; touchstone classes lists them")
+              .value("CLASS")),
       count_option_(command.count("--count", count_, {1, max_count},
                                   "Configurations of each pair and pose class; 1e6 is understood "
                                   "too")) {
-  command.list("--group", groups_, "Only everyday, degenerate, extreme or recorded pose classes");
+  command.list("--group", groups_, "Only everyday, degenerate, extreme or recorded pose classes")
+      .value("GROUP");
   command.count("--seed", seed_, all_counts, "Same seed, same configurations");
 }
 

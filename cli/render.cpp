@@ -38,10 +38,13 @@ void add_render(Program& program) {
       program.command("render", "Run a scene and write it for POV-Ray, frame by frame");
   const auto options = std::make_shared<Options>();
   command.text("scene", options->scene, "A scene file, or a robot or world (.urdf, .sdf)")
+      .value("FILE")
       .required();
   command.number("--every", options->every, {1e-6, 1e6}, "Seconds between frames");
-  command.text("--contacts", options->contacts, "The candidate that contacts come from");
-  command.text("--out", options->out, "Folder for scene.pov, scene.ini and the frames");
+  command.text("--contacts", options->contacts, "The candidate that contacts come from")
+      .value("CANDIDATE");
+  command.text("--out", options->out, "Folder for scene.pov, scene.ini and the frames")
+      .value("FOLDER");
   command.footer(
       "Examples:\n"
       "  touchstone render simulation/scenes/thesis-knock.json\n"

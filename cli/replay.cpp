@@ -43,13 +43,15 @@ int run(const Options& options, bool emits) {
 void add_replay(Program& program) {
   Command command = program.command("replay", "Show one configuration again: truth and answers");
   const auto options = std::make_shared<Options>(command);
-  command.text("input", options->input, given_help).required();
+  command.text("input", options->input, given_help).value("IDENTITY").required();
   const Option json = command.flag("--json", options->json, "Print one JSON object");
   Option emit = command.text("--emit", options->engine,
                              fmt::format("Write a C++ program that asks this engine alone: {}",
                                          fmt::join(reproducer_engines(), ", ")));
-  const Option html = command.text(
-      "--html", options->html, "Write a page too: both bodies in 3-D, a slice, and all numbers");
+  const Option html = command
+                          .text("--html", options->html,
+                                "Write a page too: both bodies in 3-D, a slice, and all numbers")
+                          .value("FILE");
   emit.excludes(json).excludes(html);
   command.footer(
       "Examples:\n"

@@ -99,9 +99,11 @@ int run(const Options& options) {
 void add_report(Program& program) {
   Command command = program.command("report", "Score all candidates; write out/report.html");
   const auto options = std::make_shared<Options>(command);
-  command.text("--out", options->out, "Folder for report.json and report.html");
-  command.text("--figures", options->figures,
-               "Folder for figures as SVG, PNG and CSV, made by gnuplot");
+  command.text("--out", options->out, "Folder for report.json and report.html").value("FOLDER");
+  command
+      .text("--figures", options->figures,
+            "Folder for figures as SVG, PNG and CSV, made by gnuplot")
+      .value("FOLDER");
   command.footer(
       "Examples:\n"
       "  touchstone report\n"

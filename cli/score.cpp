@@ -113,14 +113,16 @@ int run(const Options& options) {
 void add_score(Program& program) {
   Command command = program.command("score", "Score answers that were computed elsewhere");
   const auto options = std::make_shared<Options>(command);
-  command.text("file", options->file, "JSON Lines; - is standard input").required();
-  command.text("--configurations", options->configurations,
-               "What the ids mean that are no identities: a file as for solve");
+  command.text("file", options->file, "JSON Lines; - is standard input").value("FILE").required();
+  command
+      .text("--configurations", options->configurations,
+            "What the ids mean that are no identities: a file as for solve")
+      .value("FILE");
   command.flag("--suite", options->suite, "All of touchstone-suite-1 has to be answered");
   command.text("--name", options->name, "Whose answers these are, unless the first line says it");
   command.text("--of-version", options->version, "Its version");
   command.text("--settings", options->settings, "How it was called");
-  command.text("--out", options->out, "Folder for report.json and report.html");
+  command.text("--out", options->out, "Folder for report.json and report.html").value("FOLDER");
   command.footer(
       "Examples:\n"
       "  touchstone score answers.jsonl\n"

@@ -73,10 +73,14 @@ int run(const Options& options) {
 void add_search(Program& program) {
   Command command = program.command("search", "Look for one candidate's worst configurations");
   const auto options = std::make_shared<Options>(command);
-  command.text("--candidate", options->candidate, "Its name, or a plug-in's file").required();
-  command.text("--save", options->save,
-               "Save the worst failure of each kind and pair into this folder");
-  command.text("--json", options->json, "Write all that was found as JSON");
+  command.text("--candidate", options->candidate, "Its name, or a plug-in's file")
+      .value("CANDIDATE")
+      .required();
+  command
+      .text("--save", options->save,
+            "Save the worst failure of each kind and pair into this folder")
+      .value("FOLDER");
+  command.text("--json", options->json, "Write all that was found as JSON").value("FILE");
   command.footer(
       "Examples:\n"
       "  touchstone search --candidate bullet --pair cylinder-box --save failures\n"

@@ -90,16 +90,20 @@ std::string experiment_list() {
 void add_simulate(Program& program) {
   Command command = program.command("simulate", "Rigid-body experiments with an answer on paper");
   const auto options = std::make_shared<Options>(command);
-  command.arguments("experiments", options->names,
-                    "Only these experiments; with --record, scene files");
+  command
+      .arguments("experiments", options->names,
+                 "Only these experiments; with --record, scene files")
+      .value("EXPERIMENT");
   command.numbers("--step", options->steps, {1e-5, 0.1},
                   "Steps of time, seconds, separated by commas (default: 1/60, 1/240, 1/960)");
-  const Option out = command.text("--out", options->out, "Folder for experiments.json");
+  const Option out =
+      command.text("--out", options->out, "Folder for experiments.json").value("FOLDER");
   const Option json = command.flag("--json", options->json, "Print one JSON object");
   const char* recording = "Of scenes, with exact contacts";
   command
       .text("--record", options->record,
             "File for configurations near contact that occur in the scenes (docs/scenes.md)")
+      .value("FILE")
       .excludes(out)
       .excludes(json)
       .group(recording);

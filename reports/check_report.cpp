@@ -1,5 +1,6 @@
 #include "reports/check_report.hpp"
 
+#include <cmath>
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
@@ -30,6 +31,14 @@ std::string answer_text(const std::optional<ts_answer>& answer) {
                      answer->point_count);
 }
 
+/// The middle, rounded to nearest: -2 where bounds of 1e-30 lie about it.
+double nearest(const oracle::Enclosure& e) {
+  const mpq_class middle = (e.lo + e.hi) / 2;
+  const double inside = middle.get_d();  // towards zero
+  const double outside = std::nextafter(inside, middle < 0 ? -INFINITY : INFINITY);
+  return abs(middle - inside) <= abs(middle - outside) ? inside : outside;
+}
+
 std::string failure_text(const Failure& f) {
   const oracle::Enclosure truth = oracle::truth(f.configuration).signed_distance;
   std::string text = fmt::format("{}, {}: {}\n", f.law, f.violation.failure, f.violation.detail);
@@ -37,7 +46,7 @@ std::string failure_text(const Failure& f) {
   text += fmt::format("  first met as {}; simplified:\n", f.identity);
   text += fmt::format("  {}\n  {}\n", to_json(f.configuration).dump(),
                       to_hex_json(f.configuration).dump());
-  text += fmt::format("  truth: signed distance {} m\n", oracle::decimal_below(truth.lo, 17));
+  text += fmt::format("  truth: signed distance {} m\n", nearest(truth));
   text += fmt::format("  answer: {}\n", answer_text(f.answer));
   text += fmt::format("  echo '{}' | ./touchstone replay - --candidates {} --threshold {}\n",
                       to_hex_json(f.configuration).dump(), f.candidate, f.bar.threshold);
@@ -121,9 +130,11 @@ std::string junit_xml(const std::string& candidate, const std::vector<LawResult>
                       const std::vector<ReplayedFailure>& corpus) {
   std::string cases;
   int failures = 0, skipped = 0;
+  double seconds = 0;
   for (const LawResult& r : results) {
-    cases += fmt::format("    <testcase classname=\"{}.{}\" name=\"{}\">", escaped(candidate),
-                         pair_name(r.pair), r.law->name);
+    seconds += r.seconds;
+    cases += fmt::format("    <testcase classname=\"{}.{}\" name=\"{}\" time=\"{:.3f}\">",
+                         escaped(candidate), pair_name(r.pair), r.law->name, r.seconds);
     if (r.broken > 0) {
       ++failures;
       cases += fmt::format("<failure type=\"{}\" message=\"{}\">{}</failure>",
@@ -147,9 +158,10 @@ std::string junit_xml(const std::string& candidate, const std::vector<LawResult>
   }
   return fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n"
-      "  <testsuite name=\"touchstone check\" tests=\"{}\" failures=\"{}\" skipped=\"{}\">\n{}"
+      "  <testsuite name=\"touchstone check\" tests=\"{}\" failures=\"{}\" skipped=\"{}\" "
+      "time=\"{:.3f}\">\n{}"
       "  </testsuite>\n</testsuites>\n",
-      results.size() + corpus.size(), failures, skipped, cases);
+      results.size() + corpus.size(), failures, skipped, seconds, cases);
 }
 
 std::string check_json(const std::string& candidate, const CheckOptions& options,

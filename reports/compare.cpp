@@ -324,8 +324,9 @@ const char* verdict_name(Verdict verdict) {
 }
 
 bool Comparison::has_regressed() const {
-  return std::any_of(changes.begin(), changes.end(), [](const Change& c) {
-    return c.beyond_limits && (c.verdict == Verdict::worse || c.verdict == Verdict::slower);
+  return std::any_of(changes.begin(), changes.end(), [this](const Change& c) {
+    return c.beyond_limits &&
+           (c.verdict == Verdict::worse || (c.verdict == Verdict::slower && limits.time_counts));
   });
 }
 

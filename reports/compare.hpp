@@ -9,11 +9,12 @@
 
 namespace touchstone {
 
-/// From where on a change is a regression.
+/// From where on a change is worth telling, and which are regressions.
 struct CompareLimits {
   double error_factor = 2;   ///< by which an error may grow
   double time_factor = 1.5;  ///< by which a time, as a multiple of the baseline's, may grow
   double agreement = 1;      ///< share of the old agreement that must be kept
+  bool time_counts = false;  ///< is what is slower beyond the limit a regression?
   std::string baseline = "bullet";
 };
 

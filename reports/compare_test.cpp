@@ -179,7 +179,11 @@ TEST(Compare, TimesCountAsMultiplesOfTheBaseline) {
   now["results"][1] = row("rim-face", "mine", 80, 1e-6, 400);
   EXPECT_THAT(changes(compare(small_report(), now, {})),
               testing::ElementsAre("slower rim-face mine time"));
-  EXPECT_TRUE(compare(small_report(), now, {}).has_regressed());
+  EXPECT_FALSE(compare(small_report(), now, {}).has_regressed());
+  CompareLimits strict;
+  strict.time_counts = true;
+  EXPECT_TRUE(compare(small_report(), now, strict).has_regressed());
+  EXPECT_FALSE(compare(now, small_report(), strict).has_regressed());
 }
 
 TEST(Compare, TimesWhoseSpreadsReachWithinTheFactorAreNoChange) {

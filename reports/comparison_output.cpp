@@ -97,6 +97,7 @@ json to_json(const Comparison& c) {
            {{"error_factor", c.limits.error_factor},
             {"time_factor", c.limits.time_factor},
             {"agreement", c.limits.agreement},
+            {"fail_on", c.limits.time_counts ? json{"accuracy", "time"} : json{"accuracy"}},
             {"baseline", c.limits.baseline}}},
           {"remarks", c.remarks},
           {"compared", c.compared},

@@ -17,8 +17,13 @@ using nlohmann::json;
 
 std::string coordinate(double x) { return std::isfinite(x) ? fmt::format("{:.17g}", x) : "nan"; }
 
-std::string vector(const Vec3& v) {
-  return fmt::format("({}, {}, {})", coordinate(v.x()), coordinate(v.y()), coordinate(v.z()));
+/// After a label; the last component on a line of its own where it would not fit into 80 columns.
+std::string vector_line(const std::string& label, const Vec3& v) {
+  constexpr std::size_t columns = 80;
+  const std::string start = fmt::format("{}({}, {},", label, coordinate(v.x()), coordinate(v.y()));
+  const std::string end = coordinate(v.z()) + ")";
+  const bool fits = start.size() + 1 + end.size() <= columns;
+  return start + (fits ? " " : '\n' + std::string(label.size() + 1, ' ')) + end + '\n';
 }
 
 std::string number(double x) { return std::isfinite(x) ? fmt::format("{:.17g}", x) : "-"; }
@@ -32,17 +37,31 @@ std::string patch_text(const oracle::ContactPatch& patch) {
   std::string text = patch_kind_name(patch.kind());
   if (patch.kind() == Kind::segment) text += " of length " + rounded(patch.perimeter());
   if (patch.kind() == Kind::region) text += " of area " + rounded(patch.area());
-  return text + " about " + vector(patch.centroid());
+  return fmt::format("    patch: {} about\n{}", text, vector_line("    ", patch.centroid()));
+}
+
+/// One line for each candidate: what it makes of the configuration, and how far it is off.
+std::string overview(const std::vector<ScoredAnswer>& answers) {
+  std::string text = fmt::format("{:<25} {:<10} {:<12} {:>9} {:>9} {:>7}\n", "candidate", "answer",
+                                 "outcome", "depth err", "regret", "points");
+  for (const auto& [candidate, answer, score] : answers) {
+    const bool has_contact = answer.status == TS_CONTACT;
+    text += fmt::format("{:<25} {:<10} {:<12} {:>9} {:>9} {:>7}\n", candidate,
+                        status_name(answer.status), outcome_name(score.outcome),
+                        rounded(score.depth_error), rounded(score.normal_regret),
+                        has_contact ? fmt::format("{}", answer.point_count) : "-");
+  }
+  return text + "Errors are relative to the smaller size.\n";
 }
 
 std::string truth_text(const Configuration& c, const oracle::Truth& truth) {
   const auto [low, high] = decimals(truth.signed_distance);
-  std::string text = fmt::format("truth: signed distance between\n  {}\n  {}\n", low, high);
+  std::string text = fmt::format("truth: signed distance between\n  {}\n  {}\n  ties: {}\n", low,
+                                 high, ties_name(truth.ties));
   for (const auto& normal : truth.normals) {
-    text += fmt::format("  normal {}\n    patch: {}\n", vector(normal.n),
-                        patch_text(oracle::contact_patch(c, normal)));
+    text += vector_line("  normal ", normal.n) + patch_text(oracle::contact_patch(c, normal));
   }
-  return text + fmt::format("  ties: {}\n\n", ties_name(truth.ties));
+  return text;
 }
 
 std::string answer_text(const ScoredAnswer& scored) {
@@ -51,17 +70,18 @@ std::string answer_text(const ScoredAnswer& scored) {
                                  outcome_name(score.outcome));
   if (!answer.reason.empty()) text += fmt::format("  {}\n", answer.reason);
   if (answer.status != TS_CONTACT) return text;
-  text += fmt::format("  signed distance {}\n  normal          {}\n",
-                      number(answer.signed_distance), vector(Vec3(answer.normal)));
-  text += fmt::format("  depth error {}, normal regret {} (of the smaller size), angle {} deg\n",
-                      rounded(score.depth_error), rounded(score.normal_regret),
-                      rounded(score.normal_angle));
+  text += fmt::format("  signed distance {}\n{}", number(answer.signed_distance),
+                      vector_line("  normal ", Vec3(answer.normal)));
+  text +=
+      fmt::format("  depth error {}, normal regret {}, angle {} deg\n", rounded(score.depth_error),
+                  rounded(score.normal_regret), rounded(score.normal_angle));
   text += fmt::format("  coverage {} of the contact patch, points off the bodies by {}\n",
                       rounded(score.coverage), rounded(score.point_error));
   text += fmt::format("  deepest point's error {}\n", rounded(score.deepest_error));
   for (int i = 0; i < answer.point_count; ++i) {
     const ts_point& p = answer.points[i];
-    text += fmt::format("  point {}\n    depth {}\n", vector(Vec3(p.position)), number(p.depth));
+    text +=
+        vector_line("  point ", Vec3(p.position)) + fmt::format("    depth {}\n", number(p.depth));
   }
   return text;
 }
@@ -73,13 +93,13 @@ std::string replay_text(const Examination& e, const std::string& description) {
   line["id"] = e.id;
   std::string text = e.id + '\n';
   if (!description.empty()) text += description + '\n';
-  text += fmt::format(
-      "\nconfiguration (a line for touchstone solve, as exact fractions, in hexadecimal):\n"
-      "{}\n{}\n{}\n\n",
-      line.dump(), to_exact_json(e.configuration).dump(), to_hex_json(e.configuration).dump());
-  text += truth_text(e.configuration, *e.truth);
+  text += '\n' + overview(e.answers) + '\n' + truth_text(e.configuration, *e.truth) + '\n';
   for (const ScoredAnswer& answer : e.answers) text += answer_text(answer);
-  return text;
+  return text + fmt::format(
+                    "\nconfiguration (a line for touchstone solve, as exact fractions, in "
+                    "hexadecimal):\n{}\n{}\n{}\n",
+                    line.dump(), to_exact_json(e.configuration).dump(),
+                    to_hex_json(e.configuration).dump());
 }
 
 std::string replay_json(const Examination& examination) {

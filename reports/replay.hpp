@@ -13,8 +13,9 @@ namespace touchstone {
 // One configuration shown to a person. `description` is that of its pose class; empty without one.
 // Preconditions: the examination has its truth.
 
-/// Its numbers (as a line for `solve`, as exact fractions, in hexadecimal floats), the truth, and
-/// each candidate's answer and score.
+/// One line for each candidate, then the truth, all of each candidate's answer and score, and last
+/// the configuration's numbers (as a line for `solve`, as exact fractions, in hexadecimal floats),
+/// whose lines alone are longer than 80 columns.
 std::string replay_text(const Examination& examination, const std::string& description);
 
 /// One JSON object, as in a report's worst cases.

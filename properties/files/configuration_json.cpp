@@ -1,5 +1,6 @@
 #include "properties/files/configuration_json.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <functional>
 #include <gmpxx.h>
@@ -159,6 +160,13 @@ json to_json(const Vec3& v) { return write_vector(v, or_null); }
 
 namespace {
 
+/// Is it a path rather than an identity? Those have four parts, and a number at the end.
+bool is_meant_as_file(const std::string& name) {
+  const bool has_parts = std::count(name.begin(), name.end(), '/') == 3;
+  const bool ends_with_number = !name.empty() && name.back() >= '0' && name.back() <= '9';
+  return !has_parts && !ends_with_number;
+}
+
 /// An identity, a name of the stability room, or either and a perturbation.
 Subject named(const std::string& name) {
   constexpr std::size_t max_name = 1000;  // perturbations of perturbations stand one within another
@@ -172,6 +180,10 @@ Subject named(const std::string& name) {
     return {name, base.description, perturbed(base.configuration, perturbation)};
   }
   if (const auto stability = named_configuration(name)) return *stability;
+  if (is_meant_as_file(name)) {
+    throw InvalidInput("input", '"' + name + '"',
+                       "there is no such file; an identity reads pair/class/seed/index");
+  }
   return subject(parse_identity(name));
 }
 

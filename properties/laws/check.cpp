@@ -1,6 +1,7 @@
 #include "properties/laws/check.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
 #include "properties/laws/cause.hpp"
@@ -47,6 +48,20 @@ Failure simplest(const Law& law, const Identity& identity, const Violation& viol
           features};
 }
 
+/// Adds the time of its life.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& seconds) : seconds_(seconds), start_(Clock::now()) {}
+  ~Stopwatch() { seconds_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  double& seconds_;
+  Clock::time_point start_;
+};
+
 }  // namespace
 
 std::vector<LawResult> check(CandidateProcess& candidate, const CheckOptions& options,
@@ -59,12 +74,13 @@ std::vector<LawResult> check(CandidateProcess& candidate, const CheckOptions& op
     const std::vector<Identity> tried = identities(options, pair);
     if (tried.empty()) continue;
     const auto first = static_cast<std::ptrdiff_t>(results.size());
-    for (const Law* law : options.laws) results.push_back({law, pair, 0, 0, {}, {}});
+    for (const Law* law : options.laws) results.push_back({law, pair, 0, 0, {}, {}, 0});
     for (const Identity& identity : tried) {
       const Configuration c = make_configuration(identity);
       for (auto result = results.begin() + first; result != results.end(); ++result) {
         if (!result->law->applies(c)) continue;
         ++result->tried;
+        const Stopwatch stopwatch(result->seconds);
         const auto violation = broken(*result->law, c, candidate, options.bar);
         if (!violation) continue;
         ++result->broken;

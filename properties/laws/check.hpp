@@ -44,6 +44,7 @@ struct LawResult {
   std::uint64_t tried = 0, broken = 0;
   std::map<std::string, std::uint64_t> counts;  ///< of configurations, by the failure's name
   std::vector<Failure> failures;  ///< one of each name (and features), the simplest first
+  double seconds = 0;             ///< that trying and simplifying took
 };
 
 /// Tries every law on every configuration and simplifies the first failure of each name, or of each
