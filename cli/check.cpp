@@ -119,7 +119,7 @@ std::vector<LawResult> check_laws(const Candidate* candidate, const CheckOptions
     fmt::print("{} of {} causes of failures are known and not shown\n",
                all - in_order(results).size(), all);
   }
-  fmt::print("{}", check_text(results));
+  fmt::print("{}", check_text(results, standard_output()));
   return results;
 }
 

@@ -406,6 +406,16 @@ completed() {
 # The first column of a list of --help: words at the start of lines that are indented by two.
 options_of() { sed -n 's/^  \(-[^ ]*\).*/\1/p' | tr , '\n'; }
 
+# on_terminal COLUMNS ARGUMENTS: what is seen on a terminal of that width.
+on_terminal() { TERM=xterm script -qec "stty cols $1; '$program' $2" /dev/null </dev/null; }
+[[ $(on_terminal 80 "replay cylinder-box/rim-face/1/2 --candidates reference") == *$'\e[32magree'* ]] ||
+  failed "no colour on a terminal"
+[[ $(NO_COLOR=1 on_terminal 80 "replay cylinder-box/rim-face/1/2 --candidates reference") != *$'\e'* ]] ||
+  failed "colour in spite of NO_COLOR"
+narrow=$(on_terminal 40 "check --help" | tr -d '\r' | sed -n '/^Options:/,/^Examples:/p')
+[ "$(wc -l <<<"$narrow")" -gt 20 ] || failed "no options of check"
+awk 'length($0) > 40 { exit 1 }' <<<"$narrow" || failed "--help is wider than a terminal of 40 columns"
+
 commands=$("$program" --help | sed -n '/^Subcommands/,/^Examples/s/^  \([a-z]*\) .*/\1/p')
 [ "$(wc -l <<<"$commands")" -ge 6 ] || failed "--help lists no subcommands"
 [ "$(completed '')" = "$commands" ] || failed "subcommands: $(completed '')"

@@ -10,11 +10,14 @@
 #include "cli/standard_streams.hpp"
 #include "properties/files/error_text.hpp"
 #include "reference/invalid_input.hpp"
+#include "reports/terminal.hpp"
 
 namespace touchstone {
 namespace {
 
 constexpr std::size_t page_width = 80, name_width = 24;
+/// On a terminal narrower than this, descriptions stand below names.
+constexpr std::size_t min_width_beside = 60, narrow_name_width = 6;
 
 /// The text with its lines broken between words, where `line_end` comes.
 std::string wrapped(const std::string& text, std::size_t width, const std::string& line_end) {
@@ -30,14 +33,20 @@ std::string wrapped(const std::string& text, std::size_t width, const std::strin
   return result;
 }
 
-/// Options and subcommands within 80 columns, long descriptions on several lines.
+/// Options and subcommands within the terminal's columns, long descriptions on several lines.
 class HelpFormat : public CLI::Formatter {
  public:
-  HelpFormat() { column_width(name_width); }
+  explicit HelpFormat(std::size_t columns)
+      : width_(columns < min_width_beside ? narrow_name_width : name_width), columns_(columns) {
+    column_width(width_);
+  }
   std::string make_option_desc(const CLI::Option* option) const override {
     // CLI11 indents what follows a line's end.
-    return wrapped(CLI::Formatter::make_option_desc(option), page_width - name_width, "\n");
+    return wrapped(CLI::Formatter::make_option_desc(option), columns_ - width_, "\n");
   }
+
+ private:
+  std::size_t width_, columns_;
 };
 
 /// CLI11 would only say that a subcommand is required.
@@ -169,7 +178,7 @@ Program::Program(const std::string& name, const std::string& description)
                                          "Print what bash or zsh completes this program with")
       ->type_name("SHELL");
   app_->require_subcommand(1);
-  app_->formatter(std::make_shared<HelpFormat>());
+  app_->formatter(std::make_shared<HelpFormat>(standard_output().columns));
   app_->fallthrough();
 }
 

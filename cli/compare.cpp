@@ -37,7 +37,8 @@ int run(const Options& options) {
   if (!options.html.empty()) {
     write_file(options.html, comparison_page(comparison, before, after), "--html");
   }
-  fmt::print("{}", options.json ? comparison_json(comparison) : comparison_text(comparison));
+  fmt::print("{}", options.json ? comparison_json(comparison)
+                                : comparison_text(comparison, standard_output()));
   return comparison.has_regressed() ? 1 : 0;
 }
 
@@ -73,7 +74,8 @@ void add_compare(Program& program) {
       "  touchstone compare old/report.json out/report.json\n"
       "  touchstone compare old/report.json out/report.json --html compare.html\n"
       "  touchstone compare old.json new.json --min-agree 0.99 --max-time-factor 1.2\n"
-      "Exit code 1: something is worse beyond the limits (with --fail-on time: or slower).");
+      "Exit code 1: something is worse beyond the limits, or, with --fail-on time,\n"
+      "slower.");
   command.runs([options] { return run(*options); });
 }
 

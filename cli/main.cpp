@@ -58,6 +58,8 @@ int run(int argc, char** argv) {
       "  touchstone choose scene.json                    the cheapest model that serves\n"
       "  touchstone stability                            tiny steps, slow motions\n"
       "  touchstone compare old.json out/report.json     better, worse, slower\n"
+      "In a clone, ./touchstone test builds and runs all tests, and ./touchstone python\n"
+      "starts Python with the module touchstone.\n"
       "Exit codes:\n"
       "  0    done\n"
       "  1    a law was broken, a result is worse, or needs are not met\n"

@@ -34,7 +34,8 @@ int run(const Options& options, bool emits) {
   if (!options.html.empty()) {
     write_file(options.html, replay_page(shown, given.description), "--html");
   }
-  fmt::print("{}", options.json ? replay_json(shown) : replay_text(shown, given.description));
+  fmt::print("{}", options.json ? replay_json(shown)
+                                : replay_text(shown, given.description, standard_output()));
   return 0;
 }
 

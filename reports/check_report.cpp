@@ -97,16 +97,18 @@ std::string corpus_name(const Failure& f) {
 
 }  // namespace
 
-std::string check_text(const std::vector<LawResult>& results) {
+std::string check_text(const std::vector<LawResult>& results, const Terminal& terminal) {
   std::string text;
   const char* last = "";
   for (const LawResult& r : results) {
     const char* pair = pair_name(r.pair);
-    if (pair != last) text += fmt::format("\n{}\n", pair);
+    if (pair != last) text += '\n' + terminal.heading(pair) + '\n';
     last = pair;
-    const std::string verdict = r.broken == 0 ? "passed" : fmt::format("broken by {}", r.broken);
-    text += fmt::format("  {:<13}{:>6} tried  {:<16} {}\n", r.law->name, r.tried, verdict,
-                        counts_text(r));
+    const std::string verdict =
+        r.broken == 0 ? terminal.good(fmt::format("{:<16}", "passed"))
+                      : terminal.bad(fmt::format("{:<16}", fmt::format("broken by {}", r.broken)));
+    text +=
+        fmt::format("  {:<13}{:>6} tried  {} {}\n", r.law->name, r.tried, verdict, counts_text(r));
   }
   for (const LawResult& r : results) {
     if (r.failures.empty()) continue;

@@ -4,12 +4,13 @@
 #include <vector>
 
 #include "properties/laws/failure_file.hpp"
+#include "reports/terminal.hpp"
 
 namespace touchstone {
 
 /// A line for each law and pair, and the simplest failure of each law with what is needed to see it
 /// again.
-std::string check_text(const std::vector<LawResult>& results);
+std::string check_text(const std::vector<LawResult>& results, const Terminal& terminal = {});
 std::string corpus_text(const std::vector<ReplayedFailure>& corpus);
 
 /// For continuous integration: a test suite per candidate, a test case per law and pair, and one

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "reports/report.hpp"
+#include "reports/terminal.hpp"
 
 namespace touchstone {
 
@@ -57,7 +58,7 @@ struct Comparison {
 Comparison compare(const Report& before, const Report& after, const CompareLimits& limits);
 
 /// For a terminal of 80 columns.
-std::string comparison_text(const Comparison& comparison);
+std::string comparison_text(const Comparison& comparison, const Terminal& terminal = {});
 /// One JSON object (docs/compare.md).
 std::string comparison_json(const Comparison& comparison);
 /// A page, usable offline: the changes, and both fronts of speed and accuracy one over the other.

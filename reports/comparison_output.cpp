@@ -44,7 +44,8 @@ std::string wrapped(const std::string& text) {
 }
 
 /// Changes of one verdict beyond the limits, the largest first; those of one row stand together.
-std::string section(const char* title, Verdict verdict, const std::vector<Change>& changes) {
+std::string section(const char* title, Verdict verdict, const std::vector<Change>& changes,
+                    const Terminal& terminal) {
   constexpr std::size_t max_shown = 20;
   std::vector<std::pair<std::string, std::string>> shown;  // a row, its changes
   for (const Change& c : changes) {
@@ -57,7 +58,9 @@ std::string section(const char* title, Verdict verdict, const std::vector<Change
                               value_text(c, c.before), value_text(c, c.after), factor_text(c));
   }
   if (shown.empty()) return "";
-  std::string text = fmt::format("\n{}: {}\n", title, shown.size());
+  const std::string heading = fmt::format("{}: {}", title, shown.size());
+  const bool is_bad = verdict == Verdict::worse || verdict == Verdict::slower;
+  std::string text = '\n' + (is_bad ? terminal.bad(heading) : terminal.good(heading)) + '\n';
   for (std::size_t i = 0; i < std::min(shown.size(), max_shown); ++i) {
     text += "  " + shown[i].first + '\n' + shown[i].second;
   }
@@ -127,16 +130,17 @@ json places(const Report& report) {
 
 }  // namespace
 
-std::string comparison_text(const Comparison& c) {
+std::string comparison_text(const Comparison& c, const Terminal& terminal) {
   std::string text;
   for (const auto& [name, side] : {std::pair("before", &c.before), std::pair("after", &c.after)}) {
     text +=
         fmt::format("{:<7} {} configurations, seed {}\n", name, side->configurations, side->seed);
   }
   for (const std::string& remark : c.remarks) text += wrapped(remark);
-  text +=
-      section("Worse", Verdict::worse, c.changes) + section("Slower", Verdict::slower, c.changes) +
-      section("Better", Verdict::better, c.changes) + section("Faster", Verdict::faster, c.changes);
+  text += section("Worse", Verdict::worse, c.changes, terminal) +
+          section("Slower", Verdict::slower, c.changes, terminal) +
+          section("Better", Verdict::better, c.changes, terminal) +
+          section("Faster", Verdict::faster, c.changes, terminal);
   const auto within = std::count_if(c.changes.begin(), c.changes.end(),
                                     [](const Change& change) { return !change.beyond_limits; });
   text += '\n';

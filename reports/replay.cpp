@@ -41,15 +41,23 @@ std::string patch_text(const oracle::ContactPatch& patch) {
 }
 
 /// One line for each candidate: what it makes of the configuration, and how far it is off.
-std::string overview(const std::vector<ScoredAnswer>& answers) {
-  std::string text = fmt::format("{:<25} {:<10} {:<12} {:>9} {:>9} {:>7}\n", "candidate", "answer",
-                                 "outcome", "depth err", "regret", "points");
+std::string overview(const std::vector<ScoredAnswer>& answers, const Terminal& terminal) {
+  std::string text =
+      terminal.heading(fmt::format("{:<25} {:<10} {:<12} {:>9} {:>9} {:>7}", "candidate", "answer",
+                                   "outcome", "depth err", "regret", "points"));
+  text += '\n';
   for (const auto& [candidate, answer, score] : answers) {
     const bool has_contact = answer.status == TS_CONTACT;
-    text += fmt::format("{:<25} {:<10} {:<12} {:>9} {:>9} {:>7}\n", candidate,
-                        status_name(answer.status), outcome_name(score.outcome),
-                        rounded(score.depth_error), rounded(score.normal_regret),
-                        has_contact ? fmt::format("{}", answer.point_count) : "-");
+    std::string outcome = fmt::format("{:<12}", outcome_name(score.outcome));
+    if (score.outcome == Outcome::agree) {
+      outcome = terminal.good(outcome);
+    } else if (score.outcome != Outcome::unsupported) {
+      outcome = terminal.bad(outcome);
+    }
+    text +=
+        fmt::format("{:<25} {:<10} {} {:>9} {:>9} {:>7}\n", candidate, status_name(answer.status),
+                    outcome, rounded(score.depth_error), rounded(score.normal_regret),
+                    has_contact ? fmt::format("{}", answer.point_count) : "-");
   }
   return text + "Errors are relative to the smaller size.\n";
 }
@@ -88,12 +96,14 @@ std::string answer_text(const ScoredAnswer& scored) {
 
 }  // namespace
 
-std::string replay_text(const Examination& e, const std::string& description) {
+std::string replay_text(const Examination& e, const std::string& description,
+                        const Terminal& terminal) {
   json line = to_json(e.configuration);
   line["id"] = e.id;
   std::string text = e.id + '\n';
   if (!description.empty()) text += description + '\n';
-  text += '\n' + overview(e.answers) + '\n' + truth_text(e.configuration, *e.truth) + '\n';
+  text +=
+      '\n' + overview(e.answers, terminal) + '\n' + truth_text(e.configuration, *e.truth) + '\n';
   for (const ScoredAnswer& answer : e.answers) text += answer_text(answer);
   return text + fmt::format(
                     "\nconfiguration (a line for touchstone solve, as exact fractions, in "

@@ -7,6 +7,7 @@
 #include "candidates/host/candidate_process.hpp"
 #include "oracle/judge/score.hpp"
 #include "reports/report.hpp"
+#include "reports/terminal.hpp"
 
 namespace touchstone {
 
@@ -16,7 +17,8 @@ namespace touchstone {
 /// One line for each candidate, then the truth, all of each candidate's answer and score, and last
 /// the configuration's numbers (as a line for `solve`, as exact fractions, in hexadecimal floats),
 /// whose lines alone are longer than 80 columns.
-std::string replay_text(const Examination& examination, const std::string& description);
+std::string replay_text(const Examination& examination, const std::string& description,
+                        const Terminal& terminal = {});
 
 /// One JSON object, as in a report's worst cases.
 std::string replay_json(const Examination& examination);

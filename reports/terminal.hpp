@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+namespace touchstone {
+
+/// What text is written for: how wide it may be, and whether colours are seen.
+struct Terminal {
+  std::size_t columns = 80;
+  bool has_colours = false;
+
+  /// The text, in colour where colours are seen. It may be padded with blanks.
+  std::string heading(const std::string& text) const;
+  std::string good(const std::string& text) const;
+  std::string bad(const std::string& text) const;
+};
+
+/// Standard output: on a terminal of 40 to 80 columns as wide as it is, otherwise 80. In colour on
+/// a terminal, unless NO_COLOR is set (https://no-color.org) or TERM is "dumb".
+Terminal standard_output();
+
+}  // namespace touchstone
