@@ -54,10 +54,12 @@ std::string overview(const std::vector<ScoredAnswer>& answers, const Terminal& t
     } else if (score.outcome != Outcome::unsupported) {
       outcome = terminal.bad(outcome);
     }
-    text +=
-        fmt::format("{:<25} {:<10} {} {:>9} {:>9} {:>7}\n", candidate, status_name(answer.status),
-                    outcome, rounded(score.depth_error), rounded(score.normal_regret),
-                    has_contact ? fmt::format("{}", answer.point_count) : "-");
+    // Without either the outcome says why.
+    const bool has_answered = has_contact || answer.status == TS_NONE;
+    text += fmt::format("{:<25} {:<10} {} {:>9} {:>9} {:>7}\n", candidate,
+                        has_answered ? status_name(answer.status) : "-", outcome,
+                        rounded(score.depth_error), rounded(score.normal_regret),
+                        has_contact ? fmt::format("{}", answer.point_count) : "-");
   }
   return text + "Errors are relative to the smaller size.\n";
 }
