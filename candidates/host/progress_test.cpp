@@ -24,6 +24,24 @@ TEST(Progress, PromisesNothingBeforeAnythingIsDone) {
   EXPECT_EQ(progress_text("cells", 0, 0, 0), "0 of 0 cells");
 }
 
+/// What a process writes to its terminal until it ends.
+std::string all_of(int terminal, pid_t pid) {
+  std::string text;
+  char part[256];
+  for (ssize_t got; (got = read(terminal, part, sizeof part)) > 0;) text.append(part, got);
+  waitpid(pid, nullptr, 0);
+  close(terminal);
+  return text;
+}
+
+TEST(Progress, OfTheWholeHasABarAndTheTimeLeft) {
+  EXPECT_EQ(overall_text(0.25, 30, "1 of 4 cells"),
+            "[=====>              ] 25%, 1 min 30 s left: 1 of 4 cells");
+  EXPECT_EQ(overall_text(0, 30, "0 of 4 cells"), "[>                   ] 0%: 0 of 4 cells");
+  EXPECT_EQ(overall_text(1, 30, "4 of 4 cells"),
+            "[====================] 100%, 0 s left: 4 of 4 cells");
+}
+
 /// The output of half a second of progress on a terminal of that many columns.
 std::string on_terminal(unsigned short columns) {
   winsize size{24, columns, 0, 0};
@@ -39,12 +57,7 @@ std::string on_terminal(unsigned short columns) {
     }
     _exit(0);
   }
-  std::string text;
-  char part[256];
-  for (ssize_t got; (got = read(terminal, part, sizeof part)) > 0;) text.append(part, got);
-  waitpid(pid, nullptr, 0);
-  close(terminal);
-  return text;
+  return all_of(terminal, pid);
 }
 
 TEST(Progress, RewritesOneLineOnATerminalAndClearsIt) {
@@ -57,6 +70,28 @@ TEST(Progress, RewritesOneLineOnATerminalAndClearsIt) {
 
 TEST(Progress, KeepsToTheWidthOfTheTerminal) {
   EXPECT_THAT(on_terminal(20), testing::Not(testing::HasSubstr("configurations,")));
+}
+
+TEST(Progress, OfAPartTellsOfTheWhole) {
+  const auto shown = [](const char* unit) {
+    winsize size{24, 80, 0, 0};
+    int terminal = -1;
+    const pid_t pid = forkpty(&terminal, nullptr, nullptr, &size);
+    if (pid == 0) {
+      {
+        const OverallProgress overall({{"cells", 3}, {"maps", 1}, {"runs", 4}});
+        Progress progress(unit, 2);
+        std::this_thread::sleep_for(std::chrono::milliseconds(300));
+        progress.update(1);
+      }
+      _exit(0);
+    }
+    return all_of(terminal, pid);
+  };
+  // What comes before counts as done, what comes after as not.
+  EXPECT_THAT(shown("cells"), testing::HasSubstr("] 18%, 2 s left: 1 of 2 cells"));
+  EXPECT_THAT(shown("maps"), testing::HasSubstr("] 43%, 1 s left: 1 of 2 maps"));
+  EXPECT_THAT(shown("runs"), testing::HasSubstr("] 75%, 1 s left: 1 of 2 runs"));
 }
 
 TEST(Progress, OfShortWorkIsSilentElsewhere) {
