@@ -82,6 +82,17 @@ expect 2 '--name is missing' score "$folder/given.jsonl" --out "$folder/given"
 expect 2 'missing for 5105 configurations' score "$folder/given.jsonl" --name mine --suite --out "$folder/given"
 expect 2 'could not be opened' score "$folder/none.jsonl" --out "$folder/given"
 expect 2 '--count' report --count 0
+expect 2 '--only is "speed": must be of scores' report --only speed
+plane="--pair cylinder-plane --class lying --count 1 --candidates reference --out $folder/only"
+for only in scores timing stability experiments; do
+  # shellcheck disable=SC2086
+  expect 0 '^1 configurations' report $plane --only $only
+  for part in '"ratio_to_bullet"' '"amplification"' '"experiments": {'; do
+    case $only:$part in timing:*ratio* | stability:*ampl* | experiments:*expe*) wanted=0 ;; *) wanted=1 ;; esac
+    grep -q "$part" "$folder/only/report.json"
+    [ $? -eq $wanted ] || { echo "FAILED: report --only $only, $part"; failures=$((failures + 1)); }
+  done
+done
 expect 2 '--pair.*cylinder-box' report --pair cylinder-cone
 expect 2 '--class' report --class nowhere --out "$folder/r"
 expect 2 '--out' report --out /proc/none

@@ -138,6 +138,7 @@ Words words_for(const std::string& value) {
   if (value == "CANDIDATE") return candidate_names();
   if (value == "CLASS") return arrangement_names();
   if (value == "GROUP") return {"everyday", "degenerate", "extreme", "recorded"};
+  if (value == "REPORT-PART") return {"scores", "timing", "stability", "experiments"};
   if (value == "PART") return {"amplification", "maps", "sequences"};
   if (value == "FAILURE") return {"accuracy", "time"};
   if (value == "FORMAT") return {"jsonl", "csv", "npz"};

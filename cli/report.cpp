@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "candidates/host/interruption.hpp"
+#include "candidates/host/progress.hpp"
 #include "cli/command.hpp"
 #include "cli/options.hpp"
 #include "cli/standard_streams.hpp"
@@ -28,17 +29,49 @@ constexpr std::uint64_t max_answers = 100000000;
 /// many times the count are scored.
 constexpr std::uint64_t usual_count = 20, everyday_times = 5;
 
+/// Parts of a report with the share of its time that each takes about, by what its progress counts.
+struct Part {
+  const char* name;
+  std::vector<OverallProgress::Part> shares;
+};
+const std::vector<Part>& parts() {
+  static const std::vector<Part> all = {
+      {"scores", {{"configurations", 45}}},
+      {"timing", {{"pose classes timed", 20}}},
+      {"stability", {{"perturbed poses", 8}, {"pixels", 6}, {"steps", 4}}},
+      {"experiments", {{"experiments", 17}}},
+  };
+  return all;
+}
+
 struct Options {
   explicit Options(Command& command)
       : scored(command, usual_count, max_answers), workers(command) {}
   CampaignOption scored;
   WorkersOption workers;
+  std::vector<std::string> only;
   std::string out = "out", figures;
+
+  /// Scores always. The parts that are not of single pose classes are left out where some are
+  /// chosen, unless --only names them.
+  bool has(const std::string& part) const {
+    for (const std::string& name : only) {
+      const auto is = [&](const Part& p) { return p.name == name; };
+      if (std::none_of(parts().begin(), parts().end(), is)) {
+        throw InvalidInput("--only", '"' + name + '"',
+                           "must be of scores, timing, stability, experiments");
+      }
+    }
+    if (part == "scores") return true;
+    if (!only.empty()) return std::find(only.begin(), only.end(), part) != only.end();
+    return part == "timing" || !scored.sample.is_narrowed();
+  }
 
   Campaign campaign() const {
     Campaign c = scored.get();
     if (c.classes.empty()) c.everyday_times = everyday_times;
     c.workers = workers.get();
+    c.is_timed = has("timing");
     const std::uint64_t max_count =
         max_answers /
         std::max<std::uint64_t>(1, cells(c).size() * c.everyday_times * c.candidates.size());
@@ -61,7 +94,18 @@ struct Options {
   }
 
   /// The command that gives the same report again.
-  std::string command_line() const { return program_name() + " report" + scored.command_line(); }
+  std::string command_line() const {
+    return program_name() + " report" + scored.command_line() +
+           (only.empty() ? "" : fmt::format(" --only {}", fmt::join(only, ",")));
+  }
+
+  OverallProgress progress() const {
+    std::vector<OverallProgress::Part> shares;
+    for (const Part& part : parts()) {
+      if (has(part.name)) shares.insert(shares.end(), part.shares.begin(), part.shares.end());
+    }
+    return OverallProgress(std::move(shares));
+  }
 };
 
 int run(const Options& options) {
@@ -69,19 +113,22 @@ int run(const Options& options) {
   check_writable(options.out);
   if (!options.figures.empty()) check_figures(options.figures);
   const Interruption interruption;
+  const OverallProgress progress = options.progress();
   Report report = make_report(campaign, options.command_line());
   if (report.results.empty()) {
     complain("Interrupted before any pose class was done: there is no report.");
     return interrupted_exit_code();
   }
-  if (!options.scored.sample.is_narrowed() && !interrupted()) {
-    const auto start = std::chrono::steady_clock::now();
+  const auto start = std::chrono::steady_clock::now();
+  if (options.has("stability") && !interrupted()) {
     const Study study{campaign.candidates, campaign.bar, campaign.limits, campaign.workers};
     report.stability = measure(brief(study, campaign.pairs, campaign.seed));
-    report.experiments = run_experiments(options.experiments());
-    report.wall_seconds +=
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
+  if (options.has("experiments") && !interrupted()) {
+    report.experiments = run_experiments(options.experiments());
+  }
+  report.wall_seconds +=
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   report.partial = report.partial || interrupted();
   write_report(report, options.out);
   fmt::print("{}\n{} configurations, truth certified to 1e-30 of the larger size, {:.0f} s.\n",
@@ -99,6 +146,10 @@ int run(const Options& options) {
 void add_report(Program& program) {
   Command command = program.command("report", "Score all candidates; write out/report.html");
   const auto options = std::make_shared<Options>(command);
+  command
+      .list("--only", options->only,
+            "Only these parts of scores (always made), timing, stability, experiments")
+      .value("REPORT-PART");
   command.text("--out", options->out, "Folder for report.json and report.html").value("FOLDER");
   command
       .text("--figures", options->figures,
@@ -111,6 +162,7 @@ void add_report(Program& program) {
       "  touchstone report --candidates reference,bullet --class rim-rim,touching\n"
       "  touchstone report --group everyday --count 100\n"
       "  touchstone report --figures figures\n"
+      "  touchstone report --only scores,timing\n"
       "Of everyday pose classes, recorded ones and arrangements along the world's axes\n"
       "that --class does not name, five times as many configurations are scored.\n"
       "Ctrl-C or SIGTERM ends with a report of what is done, marked partial.\n"

@@ -56,6 +56,7 @@ struct Campaign {
   Coverage coverage = Coverage::pairs;
   std::vector<const Candidate*> candidates;
   std::uint64_t count = 100;  ///< configurations of each pair × class
+  bool is_timed = true;       ///< are answers timed in a report?
   /// As many of a class of the everyday and recorded groups and of arrangements along the world's
   /// own axes, to which their turned ones are compared.
   std::uint64_t everyday_times = 1;

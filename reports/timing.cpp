@@ -96,7 +96,7 @@ Times time_queries(const Campaign& campaign, const std::vector<Cell>& cells,
                    const std::vector<std::optional<Sample>>& samples,
                    std::vector<CandidateProcess>& candidates) {
   Times times(samples.size(), std::vector<Repetitions>(campaign.candidates.size()));
-  if (interrupted() || campaign.given) return times;
+  if (interrupted() || campaign.given || !campaign.is_timed) return times;
   std::vector<std::size_t> timed;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const bool wanted = !campaign.classes.empty() || is_timed(cells[i]);
