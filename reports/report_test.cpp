@@ -239,7 +239,7 @@ TEST(Report, PrintsCommandsWithTheOptionsOfTheirOwnCandidatesAlone) {
   EXPECT_EQ(replay_command("a/b/1/2", {"reference", "prism:8"}), "./touchstone replay a/b/1/2");
   EXPECT_EQ(replay_command("a/b/1/2", {"reference", "sabotage", "obedient"}),
             added("touchstone-sabotage.so") + " replay a/b/1/2");
-  EXPECT_EQ(program_name({"threads-unforked"}), added("touchstone-hostile.so"));
+  EXPECT_EQ(program_name({"hostile:2"}), added("touchstone-hostile.so"));
   // What is asked only when it is named has to be named.
   EXPECT_EQ(replay_command("a/b/1/2", {"reference", "prism:5"}),
             "./touchstone replay a/b/1/2 --candidates reference,'prism:5'");
