@@ -78,14 +78,15 @@ class Registry {
     return registry;
   }
 
-  void add_plugin(const std::filesystem::path& file) {
-    add(PluginProcess(file).candidates(), {"--candidate", file.string()}, true);
+  /// `by`: what brings the plug-in; absent for a standard one.
+  void add_plugin(const std::filesystem::path& file, const std::optional<Added>& by) {
+    add(PluginProcess(file).candidates(), {"--candidate", file.string()}, by, true);
   }
 
   /// `subject`: the option and value that are to blame.
   void add_command(const std::string& command, const std::filesystem::path& folder,
-                   const Added& subject) {
-    add({told_by(command, folder, subject)}, subject, true);
+                   const Added& subject, const Added& by) {
+    add({told_by(command, folder, subject)}, subject, by, true);
   }
 
   const std::vector<const Candidate*>& listed() const { return listed_; }
@@ -130,7 +131,9 @@ class Registry {
           "must be a command that speaks as docs/process-candidates.md says, but it " +
               failure->reason);
     }
-    Candidate candidate = std::get<messages::Hello>(hello).candidate;
+    const auto& [said, format] = std::get<messages::Hello>(hello);
+    Candidate candidate = said;
+    candidate.in_frames = format == messages::Format::frames;
     candidate.command = command;
     candidate.folder = folder;
     return candidate;
@@ -147,10 +150,11 @@ class Registry {
       throw InvalidInput(subject.option, '"' + subject.value + '"',
                          "is unavailable: its adapter says that it is " + candidate.family);
     }
-    add({candidate}, subject, false);
+    add({candidate}, subject, {}, false);
   }
 
-  void add(const std::vector<Candidate>& candidates, const Added& subject, bool listed) {
+  void add(std::vector<Candidate> candidates, const Added& subject, const std::optional<Added>& by,
+           bool listed) {
     for (const Candidate& c : candidates) {
       const auto same = [&](const Candidate& other) { return other.family == c.family; };
       if (std::any_of(known_.begin(), known_.end(), same)) {
@@ -158,7 +162,8 @@ class Registry {
                            "must not bring \"" + c.family + "\", a name that is taken");
       }
     }
-    for (const Candidate& c : candidates) {
+    for (Candidate& c : candidates) {
+      c.added = by;
       known_.push_back(c.parameter ? member(c, c.parameter->usual) : c);
       if (listed) listed_.push_back(&known_.back());
     }
@@ -174,7 +179,7 @@ class Registry {
         continue;
       }
       try {
-        add_plugin(file);
+        add_plugin(file, {});
       } catch (const InvalidInput& e) {
         skipped_.push_back({name, e.what()});
       }
@@ -269,8 +274,10 @@ std::vector<const Candidate*> all_candidates() { return Registry::get().listed()
 
 const Candidate& find_candidate(std::string_view name) { return Registry::get().find(name); }
 
+const Candidate* known_candidate(std::string_view name) { return Registry::get().known(name); }
+
 std::string runs_as(std::string_view name) {
-  const Candidate* const known = Registry::get().known(name);
+  const Candidate* const known = known_candidate(name);
   return known ? known->runs : "native";
 }
 
@@ -311,7 +318,8 @@ void add_list(const std::filesystem::path& file) {
     const std::string where = file.string() + " line " + std::to_string(number + 1);
     const std::string command = line.substr(first, line.find_last_not_of(" \t\r") + 1 - first);
     try {
-      Registry::get().add_command(command, file.parent_path(), {"--candidate", command});
+      Registry::get().add_command(command, file.parent_path(), {"--candidate", command},
+                                  {"--candidate", file.string()});
     } catch (const InvalidInput& e) {
       throw InvalidInput("--candidate", where + ": " + e.value(), e.remedy());
     }
@@ -329,17 +337,18 @@ void add_file(const std::filesystem::path& file) {
   if (!std::filesystem::is_regular_file(path)) {  // opening a FIFO would wait for a writer
     throw InvalidInput("--candidate", '"' + file.string() + '"', "must be a regular file");
   }
+  const Added added{"--candidate", path.string()};
   if (path.extension() == ".txt") {
     add_list(path);
   } else {
-    Registry::get().add_plugin(path);
+    Registry::get().add_plugin(path, added);
   }
-  Registry::get().added.push_back({"--candidate", path.string()});
+  Registry::get().added.push_back(added);
 }
 
 void add_command(const std::string& command, const std::filesystem::path& folder) {
   const Added added{"--candidate-command", command};
-  Registry::get().add_command(command, folder, added);
+  Registry::get().add_command(command, folder, added, added);
   Registry::get().added.push_back(added);
 }
 

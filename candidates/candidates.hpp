@@ -17,6 +17,12 @@ namespace touchstone {
 struct Limits;
 class Respondent;
 
+/// An option that added candidates.
+struct Added {
+  std::string option;  ///< "--candidate", "--candidate-command"
+  std::string value;   ///< a file's absolute path, or the command
+};
+
 /// The description of one candidate: of a plug-in, a command, or a function of this program. What
 /// is not ours is called in other processes only (candidate_process.hpp).
 struct Candidate {
@@ -42,8 +48,10 @@ struct Candidate {
   std::filesystem::path folder = {};  ///< in which it runs, absolute
   std::string precision = {};         ///< "double" or "float"
   std::string runs = "native";        ///< "native", "wasm" or "script"
+  bool in_frames = false;             ///< its messages are frames; otherwise lines of JSON
   /// Of a function of this program (python/): makes what answers, with a threshold.
   std::function<std::unique_ptr<Respondent>(double, const Limits&)> respondent = {};
+  std::optional<Added> added = {};  ///< what brought it; absent for those that Touchstone has
 
   bool has_routine_for(Pair pair) const;
 };
@@ -55,6 +63,9 @@ std::vector<const Candidate*> all_candidates();
 /// The candidate of that name, "bullet" or "prism:32"; valid as long as the program runs. Throws
 /// InvalidInput (field "--candidates") that lists the existing names or the parameter's range.
 const Candidate& find_candidate(std::string_view name);
+
+/// The candidate of that name if it is known by now, be it added or found; null otherwise.
+const Candidate* known_candidate(std::string_view name);
 
 /// How a candidate of that name runs ("native", "wasm", "script"), if it is known by now; "native"
 /// otherwise.
@@ -78,12 +89,7 @@ void add_file(const std::filesystem::path& file);
 void add_command(const std::string& command,
                  const std::filesystem::path& folder = std::filesystem::current_path());
 
-/// An option that added candidates.
-struct Added {
-  std::string option;  ///< "--candidate", "--candidate-command"
-  std::string value;   ///< a file's absolute path, or the command
-};
-/// In order.
+/// The options that added candidates, in order.
 const std::vector<Added>& added_candidates();
 
 /// A standard plug-in that could not be used.

@@ -258,6 +258,14 @@ expect 2 '--html' compare "$r" "$r" --html "$folder/none/compare.html"
 expect 2 '--emit.*no-such-engine.*must be one of bullet, ode, fcl, libccd, mujoco' \
   replay cylinder-box/rim-face/1/2 --emit no-such-engine
 expect 2 '--emit.*libccd.*half-space' replay cylinder-plane/general-deep/1/2 --emit libccd
+expect 2 '--emit.*havok.*half-space' replay cylinder-plane/general-deep/1/2 --emit havok
+expect 2 '--emit.*bullet:3.*takes no number' replay cylinder-box/rim-face/1/2 --emit bullet:3
+expect 2 '--language.*must be c++ for bullet' replay cylinder-box/rim-face/1/2 --emit bullet --language python
+expect 2 '--language.*must be javascript or c++ for jolt' replay cylinder-box/rim-face/1/2 --emit jolt --language c
+expect 2 '--language.*must stand beside --emit' replay cylinder-box/rim-face/1/2 --language c++
+expect 0 'npm install jolt-physics@' replay cylinder-box/rim-face/1/2 --emit jolt
+expect 0 'TEST_CASE("TestCollideCylinderVsBox")' replay cylinder-box/rim-face/1/2 --emit jolt-margin:0.01 --language c++
+expect 0 'touchstone-bullet.so' replay cylinder-box/rim-face/1/2 --emit bullet-margin-0
 expect 2 'identity.class' replay cylinder-box/none/1/2 --emit bullet
 expect 2 'standard input is no JSON' replay - --emit bullet
 expect 2 'excludes' replay cylinder-box/rim-face/1/2 --emit bullet --json

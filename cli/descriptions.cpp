@@ -140,6 +140,7 @@ Words words_for(const std::string& value) {
   if (value == "GROUP") return {"everyday", "degenerate", "extreme", "recorded"};
   if (value == "REPORT-PART") return {"scores", "timing", "stability", "experiments"};
   if (value == "PART") return {"amplification", "maps", "sequences"};
+  if (value == "LANGUAGE") return {"c++", "javascript", "python"};
   if (value == "FAILURE") return {"accuracy", "time"};
   if (value == "FORMAT") return {"jsonl", "csv", "npz"};
   if (value == "SHELL") return {"bash", "zsh"};

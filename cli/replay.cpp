@@ -7,6 +7,7 @@
 #include "cli/options.hpp"
 #include "properties/files/configuration_json.hpp"
 #include "properties/files/disk.hpp"
+#include "reference/invalid_input.hpp"
 #include "reports/worst.hpp"
 
 namespace touchstone {
@@ -16,17 +17,20 @@ struct Options {
   explicit Options(Command& command) : candidates(command), bar(command) {}
   CandidateOption candidates;
   BarOption bar;
-  std::string input, engine;
+  std::string input, engine, language;
   bool json = false;
   std::string html;
 };
 
 int run(const Options& options, bool emits) {
+  if (!emits && !options.language.empty()) {
+    throw InvalidInput("--language", options.language, "must stand beside --emit");
+  }
   const Bar bar = options.bar.get();
   const Subject given = given_configuration(options.input);
   if (emits) {
-    fmt::print("{}", reproducer(options.engine, given.configuration, given.name, bar,
-                                options.candidates.limits()));
+    fmt::print("{}", reproducer(options.engine, options.language, given.configuration, given.name,
+                                bar, options.candidates.limits()));
     return 0;
   }
   auto candidates = start(options.candidates.get(), bar.threshold, options.candidates.limits());
@@ -46,9 +50,17 @@ void add_replay(Program& program) {
   const auto options = std::make_shared<Options>(command);
   command.text("input", options->input, given_help).value("IDENTITY").required();
   const Option json = command.flag("--json", options->json, "Print one JSON object");
-  Option emit = command.text("--emit", options->engine,
-                             fmt::format("Write a C++ program that asks this engine alone: {}",
-                                         fmt::join(reproducer_engines(), ", ")));
+  Option emit =
+      command
+          .text("--emit", options->engine,
+                fmt::format("Write a program that asks this engine alone: {}; or a candidate's "
+                            "plug-in or command",
+                            fmt::join(reproducer_engines(), ", ")))
+          .value("CANDIDATE");
+  command
+      .text("--language", options->language,
+            "Language of that program, where there are several: c++, javascript, python")
+      .value("LANGUAGE");
   const Option html = command
                           .text("--html", options->html,
                                 "Write a page too: both bodies in 3-D, a slice, and all numbers")
@@ -59,6 +71,7 @@ void add_replay(Program& program) {
       "  touchstone replay cylinder-box/parallel+tilted-1e-6/42/137\n"
       "  touchstone replay cylinder-cylinder/rim-rim/1/0 --candidates bullet --json\n"
       "  touchstone replay cylinder-box/rim-face/1/0 --emit bullet > reproducer.cpp\n"
+      "  touchstone replay cylinder-box/rim-face/1/0 --emit jolt > reproducer.mjs\n"
       "  touchstone replay cylinder-box/rim-face/1/0 --html page.html\n"
       "  touchstone replay failures/ode-cylinder-box-agreement-missed.json --emit ode");
   command.runs([options, emit] { return run(*options, emit.is_given()); });

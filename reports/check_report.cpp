@@ -8,6 +8,7 @@
 #include "oracle/truth.hpp"
 #include "properties/files/configuration_json.hpp"
 #include "properties/files/strict_json.hpp"
+#include "reports/worst.hpp"
 
 namespace touchstone {
 namespace {
@@ -48,8 +49,9 @@ std::string failure_text(const Failure& f) {
                       to_hex_json(f.configuration).dump());
   text += fmt::format("  truth: signed distance {} m\n", nearest(truth));
   text += fmt::format("  answer: {}\n", answer_text(f.answer));
-  text += fmt::format("  echo '{}' | ./touchstone replay - --candidates {} --threshold {}\n",
-                      to_hex_json(f.configuration).dump(), f.candidate, f.bar.threshold);
+  text += fmt::format("  echo '{}' | {} replay - --candidates {} --threshold {}\n",
+                      to_hex_json(f.configuration).dump(), program_name({f.candidate}), f.candidate,
+                      f.bar.threshold);
   return text;
 }
 

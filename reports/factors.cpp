@@ -321,7 +321,8 @@ std::string contrast_text(const Contrast& c) {
 }
 
 std::string contrast_command(const Contrast& c) {
-  return fmt::format("{} --candidates {}", replay_command(c.worst), shell_quoted(c.candidate));
+  return fmt::format("{} replay {} --candidates {}", program_name({c.candidate}),
+                     shell_quoted(c.worst), shell_quoted(c.candidate));
 }
 
 }  // namespace touchstone

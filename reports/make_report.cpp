@@ -134,8 +134,11 @@ WorstCase worst_case(const Campaign& campaign, const Sample& sample, const Ident
                      std::size_t candidate) {
   auto [configuration, truth, answers] = sample.examined(candidate, identity.index);
   const std::string id = name_of(campaign, identity);
-  const std::string replay =
-      identity.pose_class == given_class ? replay_command(configuration) : replay_command(id);
+  std::vector<std::string> names = {campaign.candidates[candidate]->name};
+  if (answers.size() > 1) names.insert(names.begin(), campaign.candidates.front()->name);
+  const std::string replay = identity.pose_class == given_class
+                                 ? replay_command(configuration, names)
+                                 : replay_command(id, names);
   WorstCase result{
       pair_name(identity.pair), group_name(group_of(identity.pair, identity.pose_class)),
       identity.pose_class,      campaign.candidates[candidate]->name,

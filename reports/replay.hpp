@@ -28,18 +28,22 @@ std::string replay_json(const Examination& examination);
 /// from elsewhere.
 std::string replay_page(const Examination& examination, const std::string& description);
 
-/// Engines that a reproducer can be written for: "bullet", "ode", "fcl", "libccd", "mujoco".
+/// Engines that a program can be written for that needs nothing of ours: "bullet", "jolt", …
 std::vector<std::string> reproducer_engines();
 
-/// One C++ file with a main that asks this engine alone, called as the candidate of that name is
-/// (libccd as libccd-gjk), and needs nothing of ours. It prints the engine's answer and what is
-/// true, with a proof, and exits with 1 while the answer's depth or normal regret is beyond the
-/// bar. Its comment says how to compile it, and what the candidate answered here and now.
-/// `asked` names the configuration there.
+/// A program that asks this engine alone, called as the candidate of that name is (libccd as
+/// libccd-gjk), and needs nothing of ours; for the name of any other candidate one that asks its
+/// plug-in or command once. It prints the answer and what is true, with a proof, and exits with 1
+/// while the answer's depth or normal regret is beyond the bar. Its comment says how to run it, and
+/// what the candidate answered here and now. `asked` names the configuration there.
+///
+/// `language`: "c++", "javascript" or "python", of those that there are for the engine; empty for
+/// the usual one. Jolt's in C++ is a test case for its own unit tests.
 ///
 /// Throws InvalidInput (field "--emit") for an engine that is not known or has no routine for the
-/// pair.
-std::string reproducer(std::string_view engine, const Configuration& configuration,
-                       const std::string& asked, const Bar& bar, const Limits& limits = {});
+/// pair, and (field "--language") for another language.
+std::string reproducer(std::string_view engine, std::string_view language,
+                       const Configuration& configuration, const std::string& asked, const Bar& bar,
+                       const Limits& limits = {});
 
 }  // namespace touchstone

@@ -14,6 +14,7 @@
 
 #include "reports/pages/page.hpp"
 #include "reports/report_json.hpp"
+#include "reports/worst.hpp"
 
 namespace touchstone {
 namespace {
@@ -199,6 +200,7 @@ std::string report_page(const Report& report) {
   data["marks"] = marks(names);
   for (const CandidateDescription& c : report.candidates) {
     if (c.runs != "native") data["runs"][c.name] = c.runs;
+    data["programs"][c.name] = program_name({c.name});
   }
   json& outcomes = data["outcomes"] = json::array();
   for (const Outcome outcome : all_outcomes) outcomes.push_back(outcome_name(outcome));

@@ -228,6 +228,23 @@ const Candidate& sabotage() {
   return find_candidate("sabotage");
 }
 
+TEST(Report, PrintsCommandsWithTheOptionsOfTheirOwnCandidatesAlone) {
+  add_test_plugin("touchstone-sabotage.so");
+  add_test_plugin("touchstone-hostile.so");
+  for (const char* name : {"hostile:2", "prism:5"}) find_candidate(name);  // known from now on
+  const auto added = [](const char* name) {
+    return "./touchstone --candidate " +
+           (std::filesystem::canonical(TOUCHSTONE_TEST_PLUGINS) / name).string();
+  };
+  EXPECT_EQ(replay_command("a/b/1/2", {"reference", "prism:8"}), "./touchstone replay a/b/1/2");
+  EXPECT_EQ(replay_command("a/b/1/2", {"reference", "sabotage", "obedient"}),
+            added("touchstone-sabotage.so") + " replay a/b/1/2");
+  EXPECT_EQ(program_name({"hostile:2"}), added("touchstone-hostile.so"));
+  // What is asked only when it is named has to be named.
+  EXPECT_EQ(replay_command("a/b/1/2", {"reference", "prism:5"}),
+            "./touchstone replay a/b/1/2 --candidates reference,'prism:5'");
+}
+
 TEST(Report, IsCompleteWhateverACandidateDoes) {
   Campaign c = small_campaign();
   c.count = 40;

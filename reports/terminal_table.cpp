@@ -190,7 +190,7 @@ std::string contrasts_text(const Report& report) {
     if (++shown > max_shown) continue;
     text += fmt::format(
         "    {}\n      {}\n", contrast_text(*c),
-        can_be_asked(report, c->candidate) ? contrast_command(*c) : replay_command(c->worst));
+        can_be_asked(report, c->candidate) ? contrast_command(*c) : replay_command(c->worst, {}));
   }
   leave_out();
   return text.empty() ? text : "\nPassed as it is, failed once turned or tilted:\n" + text;

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <cstring>
 #include <map>
+#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -23,6 +24,25 @@ auto rank(const Score& s) {
   const bool answered = o != Outcome::crashed && o != Outcome::timed_out && o != Outcome::failed &&
                         o != Outcome::not_finite;
   return std::tuple(o == Outcome::agree, answered, -s.severity);
+}
+
+std::string option_text(const Added& added) {
+  return ' ' + added.option + ' ' + shell_quoted(added.value);
+}
+
+/// " --candidates a,b" if one of them is asked only when it is named; otherwise all are asked.
+std::string choice_of(const std::vector<std::string>& candidates) {
+  const std::vector<const Candidate*> usual = all_candidates();
+  const bool is_special =
+      std::any_of(candidates.begin(), candidates.end(), [&](const std::string& name) {
+        const Candidate* const known = known_candidate(name);
+        return known && std::find(usual.begin(), usual.end(), known) == usual.end();
+      });
+  if (!is_special) return "";
+  std::string names;
+  for (const std::string& name : candidates)
+    names += (names.empty() ? "" : ",") + shell_quoted(name);
+  return " --candidates " + names;
 }
 
 }  // namespace
@@ -60,7 +80,10 @@ std::vector<Case> worst_of_heading(std::vector<Case> cases) {
 
 Examination examine(const Subject& subject, std::span<CandidateProcess* const> candidates,
                     const Bar& bar, double width) {
-  Examination result{subject.name, subject.configuration, {}, {}, replay_command(subject.name)};
+  std::vector<std::string> names;
+  for (const CandidateProcess* c : candidates) names.push_back(c->candidate().name);
+  Examination result{
+      subject.name, subject.configuration, {}, {}, replay_command(subject.name, names)};
   const auto take = [&](const ScoredConfiguration& scored) {
     result.truth = scored.truth;
     for (std::size_t k = 0; k < candidates.size(); ++k) {
@@ -82,18 +105,31 @@ std::string shell_quoted(const std::string& text) {
 
 std::string program_name() {
   std::string name = "./touchstone";
-  for (const auto& [option, value] : added_candidates()) {
-    name += ' ' + option + ' ' + shell_quoted(value);
-  }
+  for (const Added& added : added_candidates()) name += option_text(added);
   return name;
 }
 
-std::string replay_command(const std::string& name) {
-  return program_name() + " replay " + shell_quoted(name);
+std::string program_name(const std::vector<std::string>& candidates) {
+  std::vector<std::string> options;
+  for (const std::string& name : candidates) {
+    const Candidate* const known = known_candidate(name);
+    if (!known || !known->added) continue;
+    const std::string option = option_text(*known->added);
+    if (std::find(options.begin(), options.end(), option) == options.end()) {
+      options.push_back(option);
+    }
+  }
+  return std::accumulate(options.begin(), options.end(), std::string("./touchstone"));
 }
 
-std::string replay_command(const Configuration& configuration) {
-  return "echo '" + to_json(configuration).dump() + "' | " + program_name() + " replay -";
+std::string replay_command(const std::string& name, const std::vector<std::string>& candidates) {
+  return program_name(candidates) + " replay " + shell_quoted(name) + choice_of(candidates);
+}
+
+std::string replay_command(const Configuration& configuration,
+                           const std::vector<std::string>& candidates) {
+  return "echo '" + to_json(configuration).dump() + "' | " + program_name(candidates) +
+         " replay -" + choice_of(candidates);
 }
 
 }  // namespace touchstone

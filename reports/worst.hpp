@@ -44,12 +44,15 @@ Examination examine(const Subject& subject, std::span<CandidateProcess* const> c
 /// Quotes a word for a shell; left alone where it needs no quotes.
 std::string shell_quoted(const std::string& text);
 
-/// "./touchstone", with the plug-ins that were added to it.
+/// "./touchstone", with all options that added candidates.
 std::string program_name();
+/// "./touchstone", with those that added these.
+std::string program_name(const std::vector<std::string>& candidates);
 
-/// "./touchstone replay cylinder-box/rim-face/1/17".
-std::string replay_command(const std::string& name);
+/// "./touchstone replay cylinder-box/rim-face/1/17", which these candidates have to answer.
+std::string replay_command(const std::string& name, const std::vector<std::string>& candidates);
 /// The command for a configuration that has no identity: "echo '{…}' | ./touchstone replay -".
-std::string replay_command(const Configuration& configuration);
+std::string replay_command(const Configuration& configuration,
+                           const std::vector<std::string>& candidates);
 
 }  // namespace touchstone

@@ -43,13 +43,10 @@ export const Y_TO_Z = [Math.SQRT1_2, Math.SQRT1_2, 0, 0];
 export function turn(from, to) {
   const [a, b, c] = from, [x, y, z] = to;
   const w = 1 + a * x + b * y + c * z;
-  if (w < 1e-9) {  // opposite: half a turn about anything across
-    const across = Math.abs(a) < 0.8 ? [0, c, -b] : [-c, 0, a];
-    const length = Math.hypot(...across);
-    return [0, ...across.map((v) => v / length)];
-  }
-  const q = [w, b * z - c * y, c * x - a * z, a * y - b * x];
-  const length = Math.hypot(...q);
+  let q = [w, b * z - c * y, c * x - a * z, a * y - b * x];
+  if (w < 1e-9) q = Math.abs(a) < 0.8 ? [0, 0, c, -b] : [0, -c, 0, a];  // half a turn, across both
+  // Not Math.hypot, which versions of node compute differently.
+  const length = Math.sqrt(q.reduce((sum, v) => sum + v * v, 0));
   return q.map((v) => v / length);
 }
 

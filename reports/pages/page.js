@@ -1,7 +1,8 @@
 'use strict';
 // What all pages share: builders of elements, marks of candidates, numbers, tables, the tooltip.
 const byId = id => document.getElementById(id);
-const data = JSON.parse(byId('data').textContent), {marks, runs = {}} = data;
+// programs: how Touchstone is started so that it knows a candidate.
+const data = JSON.parse(byId('data').textContent), {marks, runs = {}, programs = {}} = data;
 
 // Builders of elements. Strings become text, never markup.
 function fillElement(e, attributes, children) {

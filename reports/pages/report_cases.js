@@ -32,6 +32,9 @@ function worstCase(w) {
           ...reasons.map(([name, a]) => element('p', {class: 'quiet'}, `${name}: ${a.reason}`)),
           element('p', {class: 'quiet'}, 'See it again, in numbers; with --html page.html also enlarged and in section:'),
           command(w.replay),
+          ...(isGiven(w.candidate) || w.outcome === 'agree' ? [] : [
+            element('p', {class: 'quiet'}, 'A program for its maintainers that shows this alone:'),
+            command(`${w.replay} --emit ${w.candidate}`)]),
           element('details', {}, element('summary', {}, 'Configuration'), element('pre', {}, JSON.stringify(w.configuration))))));
 }
 

@@ -1,174 +1,277 @@
-// Templates are C++ with two additions: @name@ stands for a text, and a line that begins with
-// [shape] or [shape,shape] is there only for these shapes of body B.
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <fmt/format.h>
-#include <functional>
-#include <map>
-#include <span>
+#include <fmt/ranges.h>
 
 #include "candidates/candidates.hpp"
-#include "oracle/patch/contact_patch.hpp"
+#include "candidates/npm_engines.hpp"
 #include "oracle/truth.hpp"
-#include "properties/files/answer_json.hpp"
+#include "properties/files/parse_number.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/replay.hpp"
+#include "reports/reproducer/question_texts.hpp"
 
 namespace touchstone {
 
-// Made by the build from the files NAME.in.
-extern const std::string_view head_template, question_template, judgement_template, bullet_template,
-    ode_template, fcl_template, libccd_template, mujoco_template;
+// Made by the build from the files NAME.in of candidates/reproducers, and npm's package.json.
+extern const std::string_view head_template, cpp_template, javascript_template, python_template;
+extern const std::string_view bullet_template, ode_template, fcl_template, libccd_template,
+    mujoco_template;
+extern const std::string_view jolt_mjs_template, jolt_doctest_template, rapier_mjs_template,
+    physx_mjs_template, havok_mjs_template, mujoco3_mjs_template, mujoco3_py_template,
+    mjcf_template;
+extern const std::string_view plugin_template, command_py_template;
+extern const std::string_view package_json;
 
 namespace {
 
-using Texts = std::map<std::string, std::string, std::less<>>;
+struct Language {
+  std::string_view name;    ///< for --language
+  std::string_view remark;  ///< begins one
+  const std::string_view& shared;
+  NumberStyle numbers;
+};
+const Language cpp = {"c++", "//", cpp_template, NumberStyle::hexadecimal};
+const Language javascript = {"javascript", "//", javascript_template, NumberStyle::decimal};
+const Language python = {"python", "#", python_template, NumberStyle::decimal};
 
-struct Engine {
-  const char* name;
-  const char* title;
-  const char* candidate;
+/// A program that asks an engine.
+struct Program {
+  std::string_view engine;     ///< name for --emit, without parameter
+  std::string_view candidate;  ///< gives the answers that it repeats
+  std::string_view title;
+  const Language& language;
   const std::string_view& source;
-  bool plane;  ///< it has a routine for the half-space
+  std::string_view tag;  ///< for its lines
+  bool plane = true;     ///< it has a routine for the half-space
 };
 
-const std::array engines = {Engine{"bullet", "Bullet", "bullet", bullet_template, true},
-                            Engine{"ode", "ODE", "ode", ode_template, true},
-                            Engine{"fcl", "FCL", "fcl", fcl_template, true},
-                            Engine{"libccd", "libccd", "libccd-gjk", libccd_template, false},
-                            Engine{"mujoco", "MuJoCo", "mujoco", mujoco_template, true}};
+/// Those that need nothing of ours. The first of an engine is the usual one.
+const std::array programs = {
+    Program{"bullet", "bullet", "Bullet", cpp, bullet_template, "deepest"},
+    Program{"ode", "ode", "ODE", cpp, ode_template, "deepest"},
+    Program{"fcl", "fcl", "FCL", cpp, fcl_template, "deepest"},
+    Program{"libccd", "libccd-gjk", "libccd", cpp, libccd_template, "deepest", false},
+    Program{"mujoco", "mujoco", "MuJoCo", cpp, mujoco_template, "deepest"},
+    Program{"jolt", "jolt", "Jolt", javascript, jolt_mjs_template, "query"},
+    Program{"jolt", "jolt", "Jolt", cpp, jolt_doctest_template, "doctest"},
+    Program{"jolt-margin-0", "jolt-margin-0", "Jolt", javascript, jolt_mjs_template, "query"},
+    Program{"jolt-margin-0", "jolt-margin-0", "Jolt", cpp, jolt_doctest_template, "doctest"},
+    Program{"jolt-margin", "jolt-margin", "Jolt", javascript, jolt_mjs_template, "query"},
+    Program{"jolt-margin", "jolt-margin", "Jolt", cpp, jolt_doctest_template, "doctest"},
+    Program{"jolt-world", "jolt-world", "Jolt", javascript, jolt_mjs_template, "world"},
+    Program{"rapier", "rapier", "Rapier", javascript, rapier_mjs_template, "query"},
+    Program{"rapier-world", "rapier-world", "Rapier", javascript, rapier_mjs_template, "world"},
+    Program{"physx", "physx", "PhysX", javascript, physx_mjs_template, "query"},
+    Program{"physx-world", "physx-world", "PhysX", javascript, physx_mjs_template, "world"},
+    Program{"havok", "havok", "Havok", javascript, havok_mjs_template, "", false},
+    Program{"mujoco3", "mujoco3", "MuJoCo", javascript, mujoco3_mjs_template, ""},
+    Program{"mujoco3", "mujoco3", "MuJoCo", python, mujoco3_py_template, ""},
+    Program{"mujoco3-single", "mujoco3-single", "MuJoCo", javascript, mujoco3_mjs_template,
+            "single"},
+    Program{"mujoco3-single", "mujoco3-single", "MuJoCo", python, mujoco3_py_template, "single"}};
 
-const Engine& find_engine(std::string_view name, bool with_plane) {
-  std::vector<std::string> names;
-  for (const Engine& e : engines) {
-    const bool able = e.plane || !with_plane;
-    if (e.name == name && able) return e;
-    if (able) names.emplace_back(e.name);
+std::string_view family_of(std::string_view name) { return name.substr(0, name.find(':')); }
+
+/// A string of C, JavaScript and Python.
+std::string string_literal(std::string_view text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '\n') {
+      result += "\\n";
+    } else {
+      if (c == '"' || c == '\\') result += '\\';
+      result += c;
+    }
   }
-  throw InvalidInput("--emit", fmt::format("\"{}\"", name),
-                     fmt::format("must be one of {}{}", fmt::join(names, ", "),
-                                 with_plane ? ", which know a half-space" : ""));
+  return result + '"';
 }
 
-std::string hex(std::span<const double> numbers) {
-  std::string text;
-  for (const double x : numbers) text += (text.empty() ? "" : ", ") + fmt::format("{:a}", x);
-  return text;
+/// Throws InvalidInput (field "--emit") with those that exist.
+[[noreturn]] void refuse(std::string_view name, bool with_plane) {
+  std::vector<std::string> names = reproducer_engines();
+  if (with_plane) {
+    std::erase_if(names, [](const std::string& n) {
+      return std::none_of(programs.begin(), programs.end(),
+                          [&](const Program& p) { return p.engine == n && p.plane; });
+    });
+  }
+  throw InvalidInput(
+      "--emit", string_literal(name),
+      fmt::format("must be one of {}, or another candidate{}", fmt::join(names, ", "),
+                  with_plane ? ", that knows a half-space" : ""));
 }
 
-std::string hex(double x) { return fmt::format("{:a}", x); }
+/// The candidate of that name; null if it cannot be asked here, which few programs need.
+const Candidate* askable_candidate(std::string_view name) {
+  const NpmEngine* const engine = find_npm_engine(family_of(name));
+  if (engine && !npm_obstacle(*engine).empty()) return nullptr;
+  try {
+    return &find_candidate(name);
+  } catch (const InvalidInput& e) {
+    if (name == family_of(name)) return nullptr;
+    throw InvalidInput("--emit", e.value(), e.remedy());  // about its parameter
+  }
+}
 
-/// The numbers that the candidates are given, unit normals and quaternions in double.
-Texts question(const Configuration& c) {
-  const ts_shape a = to_ts_shape(c.a), b = to_ts_shape(c.b);
-  const ts_pose pose_a = to_ts_pose(c.pose_a), pose_b = to_ts_pose(c.pose_b);
-  return {{"shape_b", shape_name(c.b)},
-          {"radius_a", hex(a.size[0])},
-          {"half_length_a", hex(a.size[1])},
-          {"position_a", hex(pose_a.position)},
-          {"orientation_a", hex(pose_a.orientation)},
-          {"radius_b", hex(b.size[0])},
-          {"half_length_b", hex(b.size[1])},
-          {"half_b", hex(std::span(b.size, 3))},
-          {"normal_b", hex(std::span(b.size, 3))},
-          {"displacement_b", hex(b.size[3])},
-          {"position_b", hex(pose_b.position)},
-          {"orientation_b", hex(pose_b.orientation)}};
+/// The program for an engine or candidate in a language, or the usual one.
+const Program& find_program(std::string_view name, std::string_view language,
+                            const Configuration& c, const Candidate* candidate) {
+  static const Program plugin{"", "", "", cpp, plugin_template, "points"};
+  static const Program command{"", "", "", python, command_py_template, "points"};
+  const Pair pair = pair_of(c);
+  std::vector<const Program*> of_engine;
+  for (const Program& p : programs) {
+    // Another setting of an engine is asked as the plug-in that it is.
+    if (p.engine == (find_npm_engine(family_of(name)) ? family_of(name) : name) ||
+        p.candidate == name) {
+      of_engine.push_back(&p);
+    }
+  }
+  if (of_engine.empty()) {
+    if (!candidate || (candidate->command.empty() && candidate->plugin.empty())) {
+      refuse(name, pair == Pair::plane);
+    }
+    of_engine.push_back(candidate->command.empty() ? &plugin : &command);
+  }
+  if (pair == Pair::plane && !of_engine[0]->plane) refuse(name, true);
+  if (candidate && !candidate->has_routine_for(pair)) {
+    throw InvalidInput("--emit", string_literal(name),
+                       fmt::format("must be a candidate with a routine for {}", pair_name(pair)));
+  }
+  std::string names;
+  for (const Program* p : of_engine) {
+    if (language.empty() || p->language.name == language) return *p;
+    names += (names.empty() ? "" : " or ") + std::string(p->language.name);
+  }
+  throw InvalidInput("--language", string_literal(language),
+                     fmt::format("must be {} for {}", names, name));
 }
 
 /// The candidate's answer here and now, for a comment.
-std::string seen(const Engine& engine, const Configuration& c, const oracle::Truth& truth,
-                 const Bar& bar, const Limits& limits) {
-  const Candidate* candidate = nullptr;
-  try {
-    candidate = &find_candidate(engine.candidate);
-  } catch (const InvalidInput&) {
-    return fmt::format("{} is not installed where this was written", engine.title);
-  }
+std::string seen(std::string_view title, NumberStyle numbers, const Candidate* candidate,
+                 const Configuration& c, const oracle::Truth& truth, const Bar& bar,
+                 const Limits& limits) {
+  if (!candidate) return fmt::format("{} is not installed where this was written", title);
   const Answer answer = CandidateProcess(*candidate, bar.threshold, limits).answer(c);
   const Outcome outcome = score(c, truth, answer, bar).outcome;
-  std::string text =
-      fmt::format("{} {}: {}", engine.title, candidate->version, outcome_name(outcome));
-  if (answer.status == TS_CONTACT)
-    text += fmt::format(", signed distance {:.17g}", answer.signed_distance);
+  std::string text = fmt::format("{} {}: {}", title, candidate->version, outcome_name(outcome));
+  if (answer.status == TS_CONTACT) {
+    text += ", signed distance ";
+    text += numbers == NumberStyle::decimal ? fmt::format("{}", answer.signed_distance)
+                                            : fmt::format("{:.17g}", answer.signed_distance);
+  }
   return text;
 }
 
-bool names_shape(std::string_view list, std::string_view shape) {
-  while (!list.empty()) {
-    const auto comma = list.find(',');
-    if (list.substr(0, comma) == shape) return true;
-    list = comma == list.npos ? "" : list.substr(comma + 1);
-  }
-  return false;
+/// How far the true distance lies from what may be answered.
+std::string_view tag_of_distance(double distance, double allowed, double threshold) {
+  if (distance > threshold + allowed) return "apart";
+  return distance < -allowed ? "overlapping" : "touching";
 }
 
-/// The template's lines for this shape, without the brackets.
-std::string lines_for(std::string_view shape, std::string_view source) {
-  std::string result;
-  while (!source.empty()) {
-    const auto end = std::min(source.find('\n'), source.size() - 1) + 1;
-    std::string_view line = source.substr(0, end);
-    source.remove_prefix(end);
-    if (line.front() == '[') {
-      const auto close = line.find("] ");
-      if (!names_shape(line.substr(1, close - 1), shape)) continue;
-      line.remove_prefix(close + 2);
+/// The version of one of npm's packages that candidates/npm is made for.
+std::string package_version(std::string_view package) {
+  const std::string member = fmt::format("\"{}\": \"", package);
+  const std::string_view rest = package_json.substr(package_json.find(member) + member.size());
+  return std::string(rest.substr(0, rest.find('"')));
+}
+
+/// The folder of touchstone/candidate.h, of a build or an installed program.
+std::string include_folder() {
+  const auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path();
+  for (const char* folder : {"include", "../include", "../../include"}) {
+    const auto path = (program / folder).lexically_normal();
+    if (std::filesystem::exists(path / "touchstone/candidate.h")) return path.string();
+  }
+  return "PREFIX/include";
+}
+
+/// What stands in the programs of npm's engines alone.
+Texts npm_texts(const Program& program, std::string_view name, const Candidate* candidate,
+                const Configuration& c) {
+  const NpmEngine* const engine = find_npm_engine(program.candidate);
+  if (!engine) return {};
+  const std::string version = package_version(engine->package);
+  Texts texts{{"npm", std::string(engine->package)},
+              {"version", version},
+              {"package", fmt::format("{}@{}", engine->package, version)},
+              {"multiccd", program.tag == "single" ? "off" : "on, as by default"}};
+  std::function<double(double)> rule = [](double smallest) { return std::min(0.05, smallest / 2); };
+  texts["convex_rule"] = "0.05 m, at most half of the smallest half extent";
+  if (program.engine == "jolt-margin-0") {
+    texts["convex_rule"] = "0";
+    rule = [](double) { return 0.0; };
+  } else if (program.engine == "jolt-margin") {
+    const auto given = parse_double(name.substr(name.find(':') + 1));
+    if (!candidate && !given) {
+      throw InvalidInput("--emit", string_literal(name),
+                         "must be jolt-margin: and the radius, metres");
     }
-    result += line;
+    const double radius = candidate ? candidate->value : *given;
+    texts["convex_rule"] = fmt::format("{} m, at most the smallest half extent", radius);
+    rule = [radius](double smallest) { return std::min(radius, smallest); };
   }
-  return result;
+  texts.merge(convex_radius_texts(c, rule));
+  return texts;
 }
 
-/// With every @name@ replaced; what is put in is not searched again.
-std::string filled(std::string_view source, const Texts& texts) {
-  std::string result;
-  for (;;) {
-    const auto at = source.find('@');
-    result += source.substr(0, at);
-    if (at == source.npos) return result;
-    const auto end = source.find('@', at + 1);
-    result += texts.find(source.substr(at + 1, end - at - 1))->second;
-    source.remove_prefix(end + 1);
-  }
+/// What stands in the programs that ask a plug-in or a command.
+Texts candidate_texts(const Candidate* candidate) {
+  if (!candidate) return {};
+  return {{"name", candidate->name},
+          {"index", std::to_string(candidate->index)},
+          {"parameter", fmt::format("{}", candidate->value)},
+          {"plugin", string_literal(candidate->plugin.string())},
+          {"include", include_folder()},
+          {"command", string_literal(candidate->command)},
+          {"folder", string_literal(candidate->folder.string())}};
 }
 
 }  // namespace
 
 std::vector<std::string> reproducer_engines() {
   std::vector<std::string> names;
-  for (const Engine& e : engines) names.emplace_back(e.name);
+  for (const Program& p : programs) {
+    if (names.empty() || names.back() != p.engine) names.emplace_back(p.engine);
+  }
   return names;
 }
 
-std::string reproducer(std::string_view name, const Configuration& c, const std::string& asked,
-                       const Bar& bar, const Limits& limits) {
-  const Engine& engine = find_engine(name, pair_of(c) == Pair::plane);
+std::string reproducer(std::string_view name, std::string_view language, const Configuration& c,
+                       const std::string& asked, const Bar& bar, const Limits& limits) {
+  const auto same = [&](const Program& p) { return p.engine == name; };
+  const auto of_engine = std::find_if(programs.begin(), programs.end(), same);
+  const Candidate* const candidate =
+      askable_candidate(of_engine == programs.end() ? name : of_engine->candidate);
+  const Program& program = find_program(name, language, c, candidate);
+  const std::string title(program.title.empty() ? "The candidate" : program.title);
+
   const oracle::Truth truth = oracle::truth(c);
-  const auto [low, high] = decimals(truth.signed_distance);
-  const Vec3 n = truth.normals.front().n;
-  const Vec3 middle = oracle::contact_patch(c, truth.normals.front()).centroid();
-  Texts texts = question(c);
-  texts.insert({{"engine", engine.title},
-                {"asked", asked},
-                {"truth_low", low},
-                {"truth_high", high},
-                {"true_distance", hex(truth.signed_distance.midpoint())},
-                {"true_normal", hex(std::span(n.data(), 3))},
-                {"middle", hex(std::span(middle.data(), 3))},
-                {"tolerance", fmt::format("{}", bar.tolerance)},
-                {"allowed", hex(bar.tolerance * error_size(c, bar))},
-                {"threshold", hex(bar.threshold)},
-                {"seen", seen(engine, c, truth, bar, limits)}});
-  const std::string_view shape = shape_name(c.b);
-  const auto part = [&](std::string_view source) {
-    std::string text = filled(lines_for(shape, source), texts);
-    return text.substr(0, text.find_last_not_of('\n') + 1);
-  };
+  const double allowed = bar.tolerance * error_size(c, bar);
+  const NumberStyle numbers = program.language.numbers;
+  Texts texts = question_texts(c, numbers);
+  texts.merge(truth_texts(c, truth, bar, numbers));
+  texts.merge(npm_texts(program, name, candidate, c));
+  texts.merge(candidate_texts(candidate));
+  const std::string shape = shape_name(c.b);
+  // PhysX's query knows no plane, which its candidate asks a scene about.
+  const bool in_scene = program.engine == "physx" && pair_of(c) == Pair::plane;
+  const Tags tags{shape, in_scene ? "world" : program.tag,
+                  tag_of_distance(truth.signed_distance.midpoint(), allowed, bar.threshold),
+                  candidate && candidate->in_frames ? "frames" : "lines",
+                  program.tag == "doctest" ? "" : "program"};
+  texts.merge(Texts{{"engine", title},
+                    {"asked", asked},
+                    {"remark", std::string(program.language.remark)},
+                    {"seen", seen(title, numbers, candidate, c, truth, bar, limits)}});
+  const auto part = [&](std::string_view source) { return fill_template(source, tags, texts); };
+  texts["mjcf"] = part(mjcf_template);
   texts["head"] = part(head_template);
-  texts["question"] = part(question_template) + '\n';
-  texts["judgement"] = part(judgement_template);
-  return part(engine.source) + '\n';
+  texts["question"] = part(section(program.language.shared, "question")) + '\n';
+  texts["judgement"] = part(section(program.language.shared, "judgement"));
+  return part(program.source) + '\n';
 }
 
 }  // namespace touchstone

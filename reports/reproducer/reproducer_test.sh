@@ -1,10 +1,12 @@
 #!/usr/bin/env bash
-# Writes, compiles (by the line in its comment) and runs reproducers for one engine:
-# reproducer_test.sh PROGRAM ENGINE CONFIGURATION OUTCOME … with pairs of a configuration (an
-# identity, or FILE.jsonl:ID for a line of a file) and the outcome that its candidate is known for.
+# Writes and runs programs for one engine, by the line in their comment:
+# reproducer_test.sh PROGRAM "OPTIONS" ENGINE LANGUAGE CONFIGURATION OUTCOME … with pairs of a
+# configuration (an identity, FILE.jsonl:ID for a line of a file, or the line) and the outcome that
+# its candidate is known for. OPTIONS are Touchstone's own, those that add a candidate. Packages of npm
+# are found in TOUCHSTONE_NPM.
 set -u
-program=$1 engine=$2
-shift 2
+program=$1 options=$2 engine=$3 language=$4
+shift 4
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 failures=0
@@ -14,42 +16,135 @@ fail() {
   failures=$((failures + 1))
 }
 
+# Stands in for Python's package mujoco, asking that of npm.
+stand_in_for_mujoco() {
+  cat >"$folder/mujoco.py" <<'END'
+import json, pathlib, subprocess
+from types import SimpleNamespace
+
+class MjModel:
+    @staticmethod
+    def from_xml_string(xml):
+        return SimpleNamespace(xml=xml)
+
+def MjData(model):
+    return SimpleNamespace(ncon=0, contact=[])
+
+def mj_kinematics(model, data):
+    pass
+
+def mj_collision(model, data):
+    script = """import start from '@mujoco/mujoco';
+        import fs from 'node:fs';
+        const mujoco = await start(), model = mujoco.MjModel.from_xml_string(String(fs.readFileSync(0)));
+        const data = new mujoco.MjData(model);
+        mujoco.mj_kinematics(model, data);
+        mujoco.mj_collision(model, data);
+        console.log(JSON.stringify(Array.from({length: data.ncon}, (_, i) => data.contact.get(i)).map(
+          c => ({dist: c.dist, frame: [...c.frame], geom: [c.geom1, c.geom2]}))));"""
+    file = pathlib.Path(__file__).with_name("ask.mjs")
+    file.write_text(script)
+    printed = subprocess.run(["node", file], input=model.xml, capture_output=True, text=True, check=True)
+    data.contact = [SimpleNamespace(**c) for c in json.loads(printed.stdout)]
+    data.ncon = len(data.contact)
+END
+}
+
+# prepare: compiles what needs it, and makes the packages be found, as the file's comment says.
+prepare() {
+  local compile
+  case $language in
+    c++)
+      compile=$(sed -n 's|^// Compile  ||p' "$folder/reproducer")
+      mv "$folder/reproducer" "$folder/reproducer.cpp"
+      source=$folder/reproducer.cpp
+      (cd "$folder" && eval "$compile") && [ -x "$folder/reproducer" ] ||
+        { fail "does not compile by: $compile"; return 1; }
+      run() { "$folder/reproducer"; }
+      ;;
+    javascript)
+      mv "$folder/reproducer" "$folder/reproducer.mjs"
+      source=$folder/reproducer.mjs
+      local package
+      package=$(sed -n 's|^// Run      npm install \(.*\)@\(.*\) && node reproducer.mjs|\1 \2|p' "$source")
+      grep -qF "\"version\": \"${package#* }\"" "$TOUCHSTONE_NPM/node_modules/${package% *}/package.json" ||
+        { fail "no such package: $package"; return 1; }
+      mkdir -p "$folder/node_modules/$(dirname "${package% *}")"
+      ln -sfn "$TOUCHSTONE_NPM/node_modules/${package% *}" "$folder/node_modules/${package% *}"
+      run() { node "$folder/reproducer.mjs"; }
+      ;;
+    python)
+      mv "$folder/reproducer" "$folder/reproducer.py"
+      source=$folder/reproducer.py
+      if grep -q '^import mujoco' "$source" && ! python3 -c 'import mujoco' 2>/dev/null; then
+        stand_in_for_mujoco
+        ln -sfn "$TOUCHSTONE_NPM/node_modules" "$folder/node_modules"
+      fi
+      run() { python3 -B "$folder/reproducer.py" 2>/dev/null; }
+      ;;
+  esac
+}
+
+# The same program with an engine that is right.
+plant_a_right_engine() {
+  sed -i -e 's|= ask()\.reduce|= [{ distance: trueDistance, normal: trueNormal }].reduce|' \
+    -e 's|^        answer = ask()|        answer = Answer(*[true_distance, true_normal, [-true_distance], True][:len(Answer._fields)])|' \
+    -e 's|^  const Answer answer = ask();|  Answer answer; add_truth(answer);|' "$source"
+  [ "$language" = c++ ] || return 0
+  sed -i 's|^int main() {|void add_truth(Answer\& answer) {\n  answer.kind = Answer::contact;\n  answer.distance = true_distance;\n  for (int i = 0; i < 3; ++i) answer.normal[i] = true_normal[i];\n  POINTS\n}\n&|' "$source"
+  local points=""
+  grep -q '  int points = 0;' "$source" &&
+    points="answer.points = 1; answer.deepest = answer.shallowest = -true_distance;"
+  sed -i "s|^  POINTS|  $points|" "$source"
+  mv "$source" "$folder/reproducer" && prepare
+}
+
 while [ $# -gt 0 ]; do
   configuration=$1 outcome=$2
   shift 2
-  rm -f "$folder"/*
-  if [[ $configuration == *.jsonl:* ]]; then
+  rm -rf "${folder:?}"/*
+  if [[ $configuration == {* ]]; then
+    echo "$configuration" >"$folder/line.json"
+    configuration=$folder/line.json
+  elif [[ $configuration == *.jsonl:* ]]; then
     grep -F "\"id\":\"${configuration##*:}\"" "${configuration%:*}" >"$folder/line.json"
     configuration=$folder/line.json
   fi
-  if ! "$program" replay "$configuration" --emit "$engine" >"$folder/reproducer.cpp"; then
+  # shellcheck disable=SC2086 # several words
+  if ! eval "\"$program\" $options replay \"$configuration\" --emit \"$engine\" --language $language" \
+    >"$folder/reproducer"; then
     fail "nothing was written"
     continue
   fi
-  compile=$(sed -n 's|^// Compile  ||p' "$folder/reproducer.cpp")
-  if ! (cd "$folder" && eval "$compile") || [ ! -x "$folder/reproducer" ]; then
-    fail "does not compile by: $compile"
-    continue
-  fi
-  printed=$("$folder/reproducer")
+  prepare || continue
+  printed=$(run)
   code=$?
   [ "$outcome" = agree ] && expected=0 || expected=1
   [ "$code" -eq "$expected" ] || fail "exit code $code, expected $expected: $printed"
-  seen=$(sed -n 's|^// Seen     ||p' "$folder/reproducer.cpp")
+  verdict="WRONG: ${outcome//-/ }"
+  case $outcome in
+    agree) verdict=Right ;;
+    not-finite) verdict="WRONG: not a finite number" ;;
+    failed) verdict="WRONG: the engine" ;;
+  esac
+  grep -q "^$verdict" <<<"$(tail -n 1 <<<"$printed")" || fail "expected $outcome: $(tail -n 1 <<<"$printed")"
+  seen=$(sed -n 's/^\(\/\/\|#\) Seen     //p' "$source")
   grep -q ": $outcome\\(,\\|\$\\)" <<<"$seen" || fail "seen: $seen, expected $outcome"
-  # To the last bit what the candidate answers.
-  answer=$(sed 's/.*, signed distance //' <<<"$seen")
-  if grep -q ', signed distance ' <<<"$seen" && ! grep -qF "signed distance $answer," <<<"$printed"; then
-    fail "the candidate answers $answer: $printed"
-  fi
-  # Both bounds of the proof, in plain double arithmetic, agree with the certified distance.
-  python3 - "$printed" <<'END' || fail "the proof does not prove the distance: $printed"
+  python3 - "$seen" "$printed" <<'END' || fail "see above: $printed"
 import re, sys
-number = lambda pattern: float(re.search(pattern, sys.argv[1]).group(1))
-truth = number(r"signed distance (\S+) = ")
-assert abs(number(r"Their difference is +(\S+)") - truth) < 1e-12 * max(1, abs(truth))
-if "no less than" in sys.argv[1]:
-    assert 0 <= number(r"no less than (\S+)\.\n") <= -truth + 1e-12
+seen, printed = sys.argv[1:]
+number = lambda pattern, text=printed: float(re.search(pattern, text).group(1))
+# To the last bit what the candidate answers.
+if ", signed distance " in seen:
+    answer = number(r", signed distance (\S+)$", seen)
+    assert number(r"contact, signed distance (\S+),") == answer, f"not the candidate's answer {answer}"
+# Both bounds of the proof, in plain double arithmetic, agree with the certified distance.
+truth = number(r"\(signed distance ([^ )]+)")
+assert abs(number(r"Their difference is +(\S+)") - truth) < 1e-12 * max(1, abs(truth)), "no proof"
+if "no less than" in printed:
+    assert 0 <= number(r"no less than (\S+)\.\n") <= -truth + 1e-12, "no proof of the depth"
 END
+  [ "$expected" -eq 0 ] && continue
+  plant_a_right_engine && printed=$(run) || fail "a right engine is judged wrong: $printed"
 done
 exit "$failures"

@@ -171,8 +171,9 @@ std::string worst_steps(const std::vector<Amplification::WorstStep>& worst,
       if (!max || w.value > max->value) max = &w;
     }
     if (!max || max->value <= 1 + 1e-9) continue;
-    text += fmt::format("  {}: depth x {}\n    {}\n    {}\n", candidate, number(max->value),
-                        replay_command(max->from), replay_command(max->to));
+    text +=
+        fmt::format("  {}: depth x {}\n    {}\n    {}\n", candidate, number(max->value),
+                    replay_command(max->from, {candidate}), replay_command(max->to, {candidate}));
   }
   return text.empty() ? text : "\nWorst step of each candidate, from and to:\n" + text;
 }
@@ -347,6 +348,7 @@ void write_stability(const Stability& stability, const std::string& command,
   for (const std::string& name : names) {
     const std::string runs = runs_as(name);
     if (runs != "native") whole["runs"][name] = runs;
+    whole["programs"][name] = program_name({name});
   }
   write_file(folder / "stability.html", render_page(Page::stability, whole), "--out");
 }
