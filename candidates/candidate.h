@@ -15,7 +15,7 @@
  * (docs/process-candidates.md).
  *
  *   cc -shared -fPIC -I PREFIX/include my_engine.c -o my_engine.so -lm
- *   touchstone --candidate ./my_engine.so report */
+ *   touchstone --load ./my_engine.so report */
 #ifndef TOUCHSTONE_CANDIDATE_H
 #define TOUCHSTONE_CANDIDATE_H
 

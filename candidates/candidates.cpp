@@ -80,7 +80,7 @@ class Registry {
 
   /// `by`: what brings the plug-in; absent for a standard one.
   void add_plugin(const std::filesystem::path& file, const std::optional<Added>& by) {
-    add(PluginProcess(file).candidates(), {"--candidate", file.string()}, by, true);
+    add(PluginProcess(file).candidates(), {"--load", file.string()}, by, true);
   }
 
   /// `subject`: the option and value that are to blame.
@@ -318,14 +318,14 @@ void add_list(const std::filesystem::path& file) {
     const std::string where = file.string() + " line " + std::to_string(number + 1);
     const std::string command = line.substr(first, line.find_last_not_of(" \t\r") + 1 - first);
     try {
-      Registry::get().add_command(command, file.parent_path(), {"--candidate", command},
-                                  {"--candidate", file.string()});
+      Registry::get().add_command(command, file.parent_path(), {"--load", command},
+                                  {"--load", file.string()});
     } catch (const InvalidInput& e) {
-      throw InvalidInput("--candidate", where + ": " + e.value(), e.remedy());
+      throw InvalidInput("--load", where + ": " + e.value(), e.remedy());
     }
   }
   if (lines.bad())
-    throw InvalidInput("--candidate", file.string(), "must be a file that can be read");
+    throw InvalidInput("--load", file.string(), "must be a file that can be read");
 }
 
 }  // namespace
@@ -333,11 +333,11 @@ void add_list(const std::filesystem::path& file) {
 void add_file(const std::filesystem::path& file) {
   std::error_code error;
   const auto path = std::filesystem::canonical(file, error);
-  if (error) throw InvalidInput("--candidate", '"' + file.string() + '"', "must be a file");
+  if (error) throw InvalidInput("--load", '"' + file.string() + '"', "must be a file");
   if (!std::filesystem::is_regular_file(path)) {  // opening a FIFO would wait for a writer
-    throw InvalidInput("--candidate", '"' + file.string() + '"', "must be a regular file");
+    throw InvalidInput("--load", '"' + file.string() + '"', "must be a regular file");
   }
-  const Added added{"--candidate", path.string()};
+  const Added added{"--load", path.string()};
   if (path.extension() == ".txt") {
     add_list(path);
   } else {

@@ -19,7 +19,7 @@ class Respondent;
 
 /// An option that added candidates.
 struct Added {
-  std::string option;  ///< "--candidate", "--candidate-command"
+  std::string option;  ///< "--load", "--candidate-command"
   std::string value;   ///< a file's absolute path, or the command
 };
 
@@ -79,7 +79,7 @@ std::vector<const Candidate*> find_candidates(const std::vector<std::string>& na
 
 /// Adds the candidates of a file: a plug-in, or, if its name ends in ".txt", a list of commands,
 /// one a line, which run in the file's folder; "#" begins a comment. Throws InvalidInput (field
-/// "--candidate") if a plug-in is not one of this interface version, dies while it is loaded, or
+/// "--load") if a plug-in is not one of this interface version, dies while it is loaded, or
 /// has a candidate whose name is taken; for a list like add_command, with the line.
 void add_file(const std::filesystem::path& file);
 

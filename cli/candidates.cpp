@@ -38,7 +38,7 @@ void add_candidates(Program& program) {
   command.footer(
       "Examples:\n"
       "  touchstone candidates\n"
-      "  touchstone --candidate ./my_engine.so candidates\n"
+      "  touchstone --load ./my_engine.so candidates\n"
       "  touchstone report --candidates reference,bullet,prism:8,16\n"
       "A family with a parameter is named with its number, as prism:16; what is skipped\n"
       "or unavailable says why.");

@@ -45,7 +45,7 @@ fi
 expect 2 'must be one of reference, bullet, ' replay cylinder-box/rim-face/1/2 --candidates no-such-engine
 expect 2 'prism:1.* must be' replay cylinder-box/rim-face/1/2 --candidates prism:1
 expect 0 'prism:32: ' replay cylinder-box/rim-face/1/2 --candidates prism:8,16,32
-expect 2 'must be a plug-in' --candidate /etc/passwd candidates
+expect 2 'must be a plug-in' --load /etc/passwd candidates
 expect 2 '--time-limit' solve --time-limit 0
 expect 2 '--tolerance' replay cylinder-box/rim-face/1/2 --tolerance=-1
 expect 0 'reference: contact, agree' replay cylinder-box/rim-face/1/2
@@ -462,7 +462,7 @@ done
 [ "$(completed check --law sm)" = small-steps ] || failed "laws: $(completed check --law sm)"
 grep -q -e "'--group\[.*:GROUP:_sequence compadd - .*everyday" "$folder/_touchstone" || failed "zsh: groups"
 [ -z "$(completed report --out '')" ] || failed "a value is completed as something but a file"
-[ -z "$(completed --candidate '')" ] || failed "a plug-in is completed as something but a file"
+[ -z "$(completed --load '')" ] || failed "a plug-in is completed as something but a file"
 [ "$(completed check --cor)" = --corpus ] || failed "check --cor: $(completed check --cor)"
 if command -v zsh >/dev/null && ! zsh -n "$folder/_touchstone"; then failed "zsh reads no completion"; fi
 exit "$failures"

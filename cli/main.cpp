@@ -68,7 +68,7 @@ int run(int argc, char** argv) {
       "       no process or memory to be had, a worker killed\n"
       "  130  interrupted by Ctrl-C; 143 by SIGTERM");
   program.repeated(
-      "--candidate", "FILE", [](const std::string& file) { add_file(file); },
+      "--load", "FILE", [](const std::string& file) { add_file(file); },
       "A plug-in with candidates of your own, or a list of commands (.txt); may be repeated");
   program.repeated(
       "--candidate-command", "COMMAND", [](const std::string& command) { add_command(command); },

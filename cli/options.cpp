@@ -47,7 +47,11 @@ const Candidate& named_candidate(const std::string& name) {
     if (!is_file(name)) throw;
   }
   const std::size_t known = all_candidates().size();
-  add_file(name);
+  try {
+    add_file(name);
+  } catch (const InvalidInput& e) {
+    throw InvalidInput("--candidate", e.value(), e.remedy());
+  }
   return *all_candidates()[known];
 }
 

@@ -233,7 +233,7 @@ TEST(Report, PrintsCommandsWithTheOptionsOfTheirOwnCandidatesAlone) {
   add_test_plugin("touchstone-hostile.so");
   for (const char* name : {"hostile:2", "prism:5"}) find_candidate(name);  // known from now on
   const auto added = [](const char* name) {
-    return "./touchstone --candidate " +
+    return "./touchstone --load " +
            (std::filesystem::canonical(TOUCHSTONE_TEST_PLUGINS) / name).string();
   };
   EXPECT_EQ(replay_command("a/b/1/2", {"reference", "prism:8"}), "./touchstone replay a/b/1/2");
@@ -274,7 +274,7 @@ TEST(Report, IsCompleteWhateverACandidateDoes) {
     const json again = to_json(
         examine(subject(parse_identity(w["id"].get<std::string>())), pointers(processes), Bar()));
     EXPECT_EQ(again["answers"]["sabotage"], w["answers"]["sabotage"]);
-    EXPECT_THAT(w["replay"].get<std::string>(), HasSubstr("--candidate"));
+    EXPECT_THAT(w["replay"].get<std::string>(), HasSubstr("--load"));
   }
   for (const char* name : {"crashed", "not-finite", "failed"}) EXPECT_GT(shown[name], 0) << name;
   // The others lose nothing.

@@ -3,7 +3,7 @@
 //! Needs Rust 1.63.
 //!
 //! rustc --edition 2021 -O --crate-type cdylib candidates/clients/example.rs -o my_engine.so
-//! touchstone --candidate ./my_engine.so report --pair cylinder-plane
+//! touchstone --load ./my_engine.so report --pair cylinder-plane
 use std::ffi::{c_char, c_double, c_int, c_void};
 
 #[repr(C)] #[derive(Clone, Copy)] pub struct Shape { kind: c_int, size: [c_double; 4] } // 0 cylinder, 1 plane, 2 sphere

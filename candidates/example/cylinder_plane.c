@@ -2,7 +2,7 @@
  * highest on each cap. Build and try it:
  *
  *   cc -O2 -shared -fPIC -I PREFIX/include cylinder_plane.c -o my_engine.so -lm
- *   touchstone --candidate ./my_engine.so report --pair cylinder-plane */
+ *   touchstone --load ./my_engine.so report --pair cylinder-plane */
 #include <math.h>
 #include <stdlib.h>
 #include <touchstone/candidate.h>

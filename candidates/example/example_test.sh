@@ -13,10 +13,10 @@ cd "$folder"
 
 touchstone=$folder/prefix/bin/touchstone
 "$touchstone" candidates | grep -q '^reference '  # the installed plug-ins are found
-"$touchstone" --candidate ./my_engine.so candidates | grep -A 1 '^my-engine 1.0' |
+"$touchstone" --load ./my_engine.so candidates | grep -A 1 '^my-engine 1.0' |
   grep -qx '  cylinder against plane'
-"$touchstone" report --candidate ./my_engine.so --candidates reference,my-engine \
+"$touchstone" report --load ./my_engine.so --candidates reference,my-engine \
   --pair cylinder-plane --class touching-tilted,general-shallow,lying,standing --count 20 --out out \
   >table 2>messages || { cat messages; exit 1; }
 grep -Eq 'my-engine +100\.0' table || { cat table; exit 1; }
-grep -q -- '--candidate' out/report.json  # its worst cases can be replayed
+grep -q -- '--load' out/report.json  # its worst cases can be replayed

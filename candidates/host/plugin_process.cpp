@@ -213,7 +213,7 @@ void PluginProcess::State::start(std::chrono::milliseconds loading) {
 
   const auto refuse = [&](const std::string& why) {
     stop();
-    throw InvalidInput("--candidate", '"' + file.string() + '"',
+    throw InvalidInput("--load", '"' + file.string() + '"',
                        "must be a plug-in made with candidate.h, but " + why);
   };
   const auto told = [](const Reply& r) {

@@ -14,7 +14,7 @@
 namespace touchstone {
 
 /// A plug-in, loaded in a process of its own: its symbols, global state and crashes affect neither
-/// other plug-ins nor this process. Throws InvalidInput (field "--candidate") when it cannot be
+/// other plug-ins nor this process. Throws InvalidInput (field "--load") when it cannot be
 /// loaded.
 class PluginProcess {
  public:
@@ -58,7 +58,7 @@ struct PluginProcess::State {
   State(const State&) = delete;
   State& operator=(const State&) = delete;
 
-  /// Loads the plug-in and reads its descriptions. Throws InvalidInput (field "--candidate").
+  /// Loads the plug-in and reads its descriptions. Throws InvalidInput (field "--load").
   void start(std::chrono::milliseconds loading);
   bool runs() const { return guard > 0; }
   void stop();

@@ -32,7 +32,7 @@ std::string checksum_of_plugin(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(in), {}};
   if (!in.is_open() || in.bad() || is_folder(file)) {
-    throw InvalidInput("--candidate", '"' + file.string() + '"', "could not be read");
+    throw InvalidInput("--load", '"' + file.string() + '"', "could not be read");
   }
   return checksum(text);
 }
