@@ -3,11 +3,12 @@
 
 Each kind of output is validated as it is; then with faults planted, one at a time, in a short version of it (lists cut to
 their first entries of each form): every member is left out, is of another type, and has one beside it that no schema
-knows. A schema that does not see a fault is too weak.
+knows. A schema that does not see a fault is too weak. The Python of the pages that describe the output reads it.
 """
 import copy
 import json
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -126,6 +127,8 @@ class Schema(unittest.TestCase):
     def test_reports_stability_and_experiments(self):
         self.run_program("report", "--count", "1", "--candidates", "reference,capsule,bullet", "--out", "whole")
         report = json.loads((self.path / "whole/report.json").read_text())
+        text = self.run_example("report-schema.md", {"out/report.json": report})
+        self.assertRegex(text, r"standing agrees on \d+%, worst depth error \d")
         for member in ("stability", "experiments", "drake_protocol", "factors", "contrasts", "trends", "recorded", "worst"):
             self.assertTrue(report[member], member)
         self.check("report", report)
@@ -165,6 +168,7 @@ class Schema(unittest.TestCase):
             answers = [json.loads(line) for line in answers.splitlines()]
             self.assertEqual(["error" in a for a in answers], [False] * 4 + [True] * 2)
             self.assertEqual(answers[2]["truth"]["ties"], "continuum")
+            self.assertIn("box reference agree", self.run_example("solve.md", {"answers.jsonl": [answers[0]]}))
             for answer in answers:
                 self.check_line(answer, bool(options))
 
@@ -179,6 +183,16 @@ class Schema(unittest.TestCase):
         # Two of the candidates are enough for planted faults.
         self.assertTrue(validator("solve").is_valid(answer))
         self.check("solve", {**answer, "answers": {k: answer["answers"][k] for k in ("reference", "ode")}})
+
+    def run_example(self, page, files):
+        """Runs the Python of a page of docs in a folder with these files; what it prints."""
+        (block,) = re.findall(r"```python\n(.*?)```", (docs / page).read_text(), re.DOTALL)
+        with tempfile.TemporaryDirectory() as folder:
+            for name, values in files.items():
+                file = pathlib.Path(folder) / name
+                file.parent.mkdir(exist_ok=True)
+                file.write_text("\n".join(map(json.dumps, values if isinstance(values, list) else [values])))
+            return subprocess.run([sys.executable, "-c", block], cwd=folder, check=True, capture_output=True, text=True).stdout
 
     def test_comparisons(self):
         for seed in ("1", "2"):

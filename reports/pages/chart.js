@@ -111,7 +111,7 @@ function lineMarks(data, by, look, name) {
   return {name, ...(by ? {type: 'group', from: {facet: {name: part, data, groupby: by}}, marks: [line(part)]} : line(data))};
 }
 // A dashed horizontal line.
-const limitMark = y => ({type: 'rule', interactive: false, encode: {update: {x: {value: 0}, x2: {signal: 'width'},
+const limitMark = y => ({name: 'limit', type: 'rule', interactive: false, encode: {update: {x: {value: 0}, x2: {signal: 'width'},
     y: {scale: 'y', value: y}, stroke: {value: 'var(--quiet)'}, strokeDash: {value: [5, 4]}}}});
 const symbolMarks = (data, size, hovered, name) => ({type: 'symbol', name, from: {data}, encode: {
   enter: {tooltip: {field: 'tip'}, shape: {field: 'symbol'}, fill: {field: 'fill'}, stroke: {field: 'stroke'}},
@@ -139,7 +139,7 @@ function drawScatter(host, label, {height = 300, x, y, points, lines, limit}, on
       // The style sheet shows labels smaller than the size that they are placed with.
       {type: 'text', from: {data: 'marks'}, interactive: false, encode: {enter: {text: {field: 'datum.label'}, fontWeight: {field: 'datum.weight'},
                                                     fontSize: {value: 13}, fill: {value: 'var(--ink)'}}},
-       transform: [{type: 'label', size: {signal: '[width, height]'}, offset: [7], padding: 0, avoidMarks: ['marks', ...lines.map((_, i) => `lines-${i}`)],
+       transform: [{type: 'label', size: {signal: '[width, height]'}, offset: [7], padding: 0, avoidMarks: ['marks', ...(limit ? ['limit'] : []), ...lines.map((_, i) => `lines-${i}`)],
                     anchor: ['right', 'left', 'top-right', 'bottom-right', 'top-left', 'bottom-left', 'top', 'bottom'],
                     sort: {field: 'datum.datum.order'}}]},
     ]}, onClick);

@@ -27,10 +27,10 @@ function headline() {
 function answerTables() {
   byId('kind-table').append(table([textColumn('pairs'), textColumn('model'), 'ns a query', 'ns exactly', column('queries', {class: 'wide'}), textColumn('next cheaper one breaks a need')],
       data.kinds.map(k => [wide(`${k.name} (${k.bodies})`), exactName(k.chosen), whole(k.nanoseconds), whole(k.exact_nanoseconds),
-          whole(k.asked), k.next_cheaper === null ? 'there is none' : `${k.next_cheaper.name}, ${whole(k.next_cheaper.nanoseconds)} ns`]), 'The cheapest models'));
+          whole(k.asked), k.next_cheaper === null ? 'there is none' : `${k.next_cheaper.name}, ${whole(k.next_cheaper.nanoseconds)} ns`]), 'Times of a query, median'));
   byId('need-table').append(table(['', 'need', 'measured', 'at'].map(textColumn), answer.verdicts.map((v, i) => [
       element('td', {class: v.holds ? 'good text' : 'bad text'}, v.holds ? 'holds' : 'broken'), needs[i].text,
-      measured(v.value, needs[i]), `${v.time.toFixed(2)} s`]), 'Needs'));
+      measured(v.value, needs[i]), `${v.time.toFixed(2)} s`]), 'What was measured of each need, and when'));
 }
 
 function failures() {
@@ -50,7 +50,7 @@ function runTable() {
   byId('run-table').append(table([textColumn('model'), 'µs of a step', 'error / limit', textColumn('breaks first'), textColumn('worst answer before')],
       data.runs.filter(isUniform).map(r => [r.name, exponent(r.microseconds_per_step, 3),
           element('td', {class: r.holds ? 'good' : 'bad'}, r.error === null ? 'absurd' : exponent(r.error)),
-          wide(r.holds ? '' : failure(r)), wide(r.evidence ? `${r.evidence.bodies}: ${r.evidence.wrong}` : '')]), 'Runs with one model'));
+          wide(r.holds ? '' : failure(r)), wide(r.evidence ? `${r.evidence.bodies}: ${r.evidence.wrong}` : '')]), 'Each run with one model'));
   if (data.too_slow.length) byId('too-slow').textContent = `Not run, because their queries alone would take more than 3 s: ${data.too_slow.join(', ')}.`;
 }
 

@@ -26,7 +26,7 @@ function changeTable() {
       verdicts.flatMap(v => beyond.filter(c => c.verdict === v)).map(c => [
         element('td', {class: 'text ' + (c.verdict === 'worse' || c.verdict === 'slower' ? 'bad' : 'good')}, c.verdict),
         c.pair, c.class, named(c.candidate), c.measure, value(c, 'before'), value(c, 'after'),
-        c.factor === null ? '–' : '× ' + exponent(c.factor, 3)]), 'Changes beyond the limits'));
+        c.factor === null ? '–' : '× ' + exponent(c.factor, 3)]), `${beyond.length} changes; a factor is what is now, divided by what was`));
 }
 
 // A chart of each pair, on the same axes.

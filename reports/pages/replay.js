@@ -143,7 +143,7 @@ function answerTables() {
   byId('reasons').append(...answers.filter(([, a]) => a.reason)
       .map(([n, a]) => element('p', {class: 'quiet'}, `${n}: ${a.reason}`)));
   byId('point-table').append(table([textColumn('candidate'), textColumn('position'), 'depth', textColumn('normal')],
-      answers.flatMap(([n, a]) => a.points.map(p => [named(n), vectorCell(p.position), shortest(p.depth), vectorCell(p.normal)])), 'Contact points'));
+      answers.flatMap(([n, a]) => a.points.map(p => [named(n), vectorCell(p.position), shortest(p.depth), vectorCell(p.normal)])), 'Positions and depths in metres'));
 }
 
 // Every number of the configuration with its path, such as "pose_a.position[2]".

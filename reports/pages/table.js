@@ -9,7 +9,7 @@ const rowHead = (...children) => element('th', {scope: 'row'}, ...children);
 function table(heads, rows, caption) {
   const columns = heads.map(h => h instanceof Element ? h : column(h));
   const cell = (c, i) => c instanceof HTMLTableCellElement ? c : element('td', {class: columns[i].className}, c);
-  const made = element('table', {}, caption && element('caption', {}, caption),
+  const made = element('table', {}, caption && element('caption', {}, element('span', {}, caption)),
       element('thead', {}, element('tr', {}, ...columns)),
       element('tbody', {}, ...rows.map(r => r instanceof Element ? r : element('tr', {}, ...r.map(cell)))));
   if (rows.length > 2) {  // two rows are compared at a glance
