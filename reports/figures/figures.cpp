@@ -27,6 +27,20 @@ struct Rectangle {
   bool meets(const Rectangle& o) const {
     return left < o.right && o.left < right && bottom < o.top && o.bottom < top;
   }
+  /// Clips the segment to the rectangle (Liang and Barsky, ACM Transactions on Graphics 3, 1984).
+  bool meets(const Segment& s) const {
+    const double dx = s.x2 - s.x1, dy = s.y2 - s.y1;
+    double from = 0, to = 1;
+    for (const auto& [along, room] : {std::pair{-dx, s.x1 - left},
+                                      {dx, right - s.x1},
+                                      {-dy, s.y1 - bottom},
+                                      {dy, top - s.y1}}) {
+      if (along == 0 && room < 0) return false;
+      if (along < 0) from = std::max(from, room / along);
+      if (along > 0) to = std::min(to, room / along);
+    }
+    return from < to;
+  }
 };
 
 constexpr LabelPlace choices[] = {{true, 1, 0},      {false, -1, 0},     {true, 0.6, 0.8},
@@ -40,8 +54,9 @@ Rectangle text_at(const Label& l, const LabelPlace& p) {
 }  // namespace
 
 std::vector<std::optional<LabelPlace>> label_places(const std::vector<Label>& labels, double width,
-                                                    double height) {
-  const Rectangle chart{0, -0.5, width, height + 1.5};  // a line more, below the title
+                                                    double height,
+                                                    const std::vector<Segment>& lines) {
+  const Rectangle chart{0, 0, width, height + 0.5};  // half a line below the title
   std::vector<Rectangle> taken;
   for (const Label& l : labels) taken.push_back({l.x - 0.7, l.y - 0.35, l.x + 0.7, l.y + 0.35});
   std::vector<std::size_t> order(labels.size());
@@ -55,9 +70,11 @@ std::vector<std::optional<LabelPlace>> label_places(const std::vector<Label>& la
       const Rectangle text = text_at(labels[i], p);
       const auto hits = std::count_if(taken.begin(), taken.end(),
                                       [&](const Rectangle& r) { return r.meets(text); });
+      const auto crossed = std::count_if(lines.begin(), lines.end(),
+                                         [&](const Segment& s) { return text.meets(s); });
       const bool cut = text.left < chart.left || text.right > chart.right ||
                        text.bottom < chart.bottom || text.top > chart.top;
-      return hits + (cut ? 100 : 0);
+      return hits + 10 * crossed + (cut ? 100 : 0);
     };
     const LabelPlace* best = std::min_element(
         std::begin(choices), std::end(choices),
@@ -71,13 +88,26 @@ std::vector<std::optional<LabelPlace>> label_places(const std::vector<Label>& la
 
 namespace {
 
-/// "pointtype 7 linecolor '#0072b2'": a candidate's mark, coloured as on the report's page.
-std::string style_of(const std::string& candidate) {
+/// "pointtype 7 linecolor '#0072b2'": a candidate's mark, coloured as on the report's page; of its
+/// engine's variants each has a symbol, and where there are lines a dash of its own.
+std::string style_of(const std::string& candidate, bool with_lines = false) {
   constexpr const char* colours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                      "#a67c00", "#3a9bdc", "#7a5195", "#555555"};
   constexpr int symbols[] = {7, 5, 9, 13, 1, 11};  // gnuplot's circle, square, triangle, …
+  constexpr const char* dashes[] = {"solid",     "(9,3)",  "(4,4)",
+                                    "(9,3,2,3)", "(16,4)", "(9,3,2,3,2,3)"};
   const Mark mark = mark_of(candidate);
-  return fmt::format("pointtype {} linecolor '{}'", symbols[mark.symbol], colours[mark.colour]);
+  return fmt::format("pointtype {} linecolor '{}'{}", symbols[mark.symbol], colours[mark.colour],
+                     with_lines ? fmt::format(" dashtype {}", dashes[mark.symbol]) : "");
+}
+
+/// Tics at every `step`-th power of ten, as the pages write them: "'1e-4' 1e-4, …".
+std::string power_tics(double low, double high, int step) {
+  std::string text;
+  for (int power = static_cast<int>(low); power <= high; power += step) {
+    text += fmt::format("{}'1e{}' 1e{}", text.empty() ? "" : ", ", power, power);
+  }
+  return text;
 }
 
 /// "errors-cylinder-box", and of another group of pose classes than everyday
@@ -175,6 +205,10 @@ Range decades(const std::vector<double>& values) {
   return {first, std::max(first + 1, std::ceil(std::log10(*high)))};
 }
 
+/// The dashed line through the candidates that no other beats in time and error.
+constexpr const char* front_style =
+    "with lines title 'Pareto front' dashtype 2 linecolor '#5a6472'";
+
 /// The panel's commands; `width` and `height` are of its axes, in characters of its labels.
 std::string speed_panel(const std::string& title, const std::vector<Point>& points, const Range& x,
                         const Range& y, double width, double height) {
@@ -183,35 +217,44 @@ std::string speed_panel(const std::string& title, const std::vector<Point>& poin
       "[1e{}:1e{}]\n"
       "set grid xtics ytics linecolor '#d9dee5'\nset border 3\nset tics nomirror\n"
       "set xtics ('10 ns' 10, '100 ns' 100, '1 µs' 1e3, '10 µs' 1e4, '100 µs' 1e5, '1 ms' 1e6)\n"
-      "set ytics 1e{} format '%.0e'\nset xlabel 'time per query'\n"
-      "set ylabel 'depth error, p99 (sizes)'\nset key off\nunset label\nunset mxtics\nunset "
-      "mytics\n",
-      quoted(title), x.low, x.high, y.low, y.high, std::max(1.0, std::ceil((y.high - y.low) / 6)));
-  std::vector<Label> labels;
-  for (const Point& p : points) {
-    labels.push_back({(std::log10(p.time) - x.low) / (x.high - x.low) * width,
-                      (std::log10(p.error) - y.low) / (y.high - y.low) * height,
-                      static_cast<double>(p.candidate.size()), p.front});
-  }
-  const auto places = label_places(labels, width, height);
-  std::string marks;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Point& p = points[i];
-    marks += fmt::format("{}'-' with points pointsize 1 {}",
-                         i ? ", " : "plot '-' with lines dashtype 2 linecolor '#5a6472', ",
-                         style_of(p.candidate));
-    if (!places[i]) continue;
-    text +=
-        fmt::format("set label {} at {:.6g},{:.6g} {} offset character {:.2f},{:.2f} front{}\n",
-                    quoted(p.candidate), p.time, p.error, places[i]->rightwards ? "left" : "right",
-                    places[i]->dx, places[i]->dy, p.front ? "" : " textcolor '#5a6472'");
-  }
+      "set ytics ({})\nset xlabel 'time per query'\n"
+      "set ylabel 'depth error, p99 (relative to size)'\nunset label\nunset mxtics\nunset "
+      "mytics\nset style textbox opaque noborder fillcolor '#ffffff' margins 0.3,0.1\n",
+      quoted(title), x.low, x.high, y.low, y.high,
+      power_tics(y.low, y.high, std::max(1, static_cast<int>(std::ceil((y.high - y.low) / 6)))));
   std::vector<Point> front;
   for (const Point& p : points) {
     if (p.front) front.push_back(p);
   }
   std::sort(front.begin(), front.end(),
             [](const Point& a, const Point& b) { return a.time < b.time; });
+  const auto across = [&](const Point& p) {
+    return (std::log10(p.time) - x.low) / (x.high - x.low) * width;
+  };
+  const auto up = [&](const Point& p) {
+    return (std::log10(p.error) - y.low) / (y.high - y.low) * height;
+  };
+  std::vector<Label> labels;
+  for (const Point& p : points) {
+    labels.push_back({across(p), up(p), static_cast<double>(p.candidate.size()), p.front});
+  }
+  std::vector<Segment> lines;
+  for (std::size_t i = 1; i < front.size(); ++i) {
+    lines.push_back({across(front[i - 1]), up(front[i - 1]), across(front[i]), up(front[i])});
+  }
+  const auto places = label_places(labels, width, height, lines);
+  std::string marks;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Point& p = points[i];
+    marks += fmt::format("{}'-' with points title {} pointsize 1 {}",
+                         i ? ", " : fmt::format("plot '-' {}, ", front_style), quoted(p.candidate),
+                         style_of(p.candidate));
+    if (!places[i]) continue;
+    text += fmt::format(
+        "set label {} at {:.6g},{:.6g} {} offset character {:.2f},{:.2f} front boxed{}\n",
+        quoted(p.candidate), p.time, p.error, places[i]->rightwards ? "left" : "right",
+        places[i]->dx, places[i]->dy, p.front ? "" : " textcolor '#5a6472'");
+  }
   text += marks + '\n';
   for (const Point& p : front) text += fmt::format("{:.6g} {:.6g}\n", p.time, p.error);
   text += "e\n";
@@ -226,9 +269,9 @@ std::string key_panel(const std::vector<std::string>& candidates, double share) 
       "unset xlabel\nunset ylabel\nunset grid\nset key center center horizontal Left reverse "
       "samplen 1 width 1 font ',9'\n",
       share);
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    text += fmt::format("{}1/0 with points title {} pointsize 1 {}", i ? ", " : "plot ",
-                        quoted(candidates[i]), style_of(candidates[i]));
+  text += fmt::format("plot 1/0 {}", front_style);
+  for (const std::string& name : candidates) {
+    text += fmt::format(", 1/0 with points title {} pointsize 1 {}", quoted(name), style_of(name));
   }
   return text + '\n';
 }
@@ -264,16 +307,17 @@ std::string speed_figures(const Report& report, const std::string& group,
   const double share = 1.0 * key_height / (340 * rows + key_height);
   std::vector<std::string> candidates;
   for (const CandidateDescription& c : report.candidates) candidates.push_back(c.name);
+  const std::string key = "set key outside right top maxcols 1 Left reverse samplen 1 font ',9'\n";
   int panel = 0;
   for (const auto& pair : drawn) {
     const std::string title = figure_title(pair, group);
     const std::string name = figure_name("speed-accuracy-" + pair, group);
     const auto points = points_of(report, group, pair);
-    script += in_both_forms(name, 640, 440, speed_panel(title, points, x, y, 64, 18));
+    script += in_both_forms(name, 860, 440, key + speed_panel(title, points, x, y, 64, 18));
     panels += fmt::format("set size {},{}\nset origin {},{}\n", 1.0 / columns, (1 - share) / rows,
                           1.0 / columns * (panel % columns),
                           1 - (1 - share) / rows * (panel / columns + 1)) +
-              speed_panel(title, points, x, y, 50, 13);
+              "set key off\n" + speed_panel(title, points, x, y, 50, 13);
     ++panel;
     std::string data = "candidate,nanoseconds,depth_error_p99,agreement,on_front\n";
     for (const Point& p : points) {
@@ -302,9 +346,9 @@ std::string error_figure(const Report& report, const std::string& group, const s
                                Outcome::crashed, Outcome::timed_out}) {
       owed += static_cast<double>(s.of(lost));
     }
-    plot +=
-        fmt::format("{}'-' with linespoints title {} pointsize 0.5 {}",
-                    plot.empty() ? "plot " : ", ", quoted(row.candidate), style_of(row.candidate));
+    plot += fmt::format("{}'-' with linespoints title {} pointsize 0.7 {}",
+                        plot.empty() ? "plot " : ", ", quoted(row.candidate),
+                        style_of(row.candidate, true));
     int bin = histogram.first;
     const auto add = [&](double error) {
       data += fmt::format("{},{:.4g},{:.6g}\n", csv_cell(row.candidate), error, sum / owed);
@@ -322,12 +366,12 @@ std::string error_figure(const Report& report, const std::string& group, const s
   write_file(folder / (name + ".csv"), data, "--figures");
   return in_both_forms(
       name, 900, 520,
-      fmt::format("set title {}\nset logscale x\nset xtics 1e4 format '%.0e'\nunset mxtics\n"
+      fmt::format("set title {}\nset logscale x\nset xtics ('0' 1e-18, {})\nunset mxtics\n"
                   "set yrange [0:1]\nset grid linecolor '#d9dee5'\nset border 3\n"
-                  "set tics nomirror\nset xlabel 'depth error (sizes)'\n"
+                  "set tics nomirror\nset xlabel 'depth error (relative to size)'\n"
                   "set ylabel 'share of contacts with at most this error'\n"
-                  "set key outside right top maxcols 1 font ',9'\n",
-                  quoted(figure_title(pair, group))) +
+                  "set key outside right top maxcols 1 Left reverse samplen 5 font ',9'\n",
+                  quoted(figure_title(pair, group)), power_tics(-16, 16, 4)) +
           plot + '\n' + points);
 }
 
@@ -365,18 +409,30 @@ std::string class_figure(const Report& report, const std::string& group, const s
     }
     return text;
   };
-  const int width = 320 + 26 * static_cast<int>(candidates.size());
-  const int height = 200 + 15 * static_cast<int>(classes.size());
+  // Pixels: a row is as high as its name, and the margins have room for the longest names.
+  constexpr int letter = 8, row = 18, column = 26, title = 40, scale = 110;
+  const auto longest = [](const std::vector<std::string>& names) {
+    std::size_t result = 0;
+    for (const std::string& each : names) result = std::max(result, each.size());
+    return letter * static_cast<int>(result) + 20;
+  };
+  const int left = longest(classes), bottom = longest(candidates);
+  const int width = left + column * static_cast<int>(candidates.size()) + scale;
+  const int height = title + row * static_cast<int>(classes.size()) + bottom;
   return in_both_forms(
       name, width, height,
-      fmt::format("set title {}\nset palette defined (0 '#ffffff', 1 '#b3321f')\n"
-                  "set cbrange [0:1]\nset cblabel 'share that disagrees'\n"
-                  "set xrange [-0.5:{}]\nset yrange [{}:-0.5]\nset tics scale 0\n"
-                  "set xtics rotate by 90 right ({})\nset ytics ({})\n"
-                  "plot '-' using 1:2:3 with image pixels notitle\n{}e\n",
-                  quoted(figure_title(pair, group)), static_cast<double>(candidates.size()) - 0.5,
-                  static_cast<double>(classes.size()) - 0.5, tics(candidates), tics(classes),
-                  cells));
+      fmt::format("set lmargin at screen {:.4f}\nset rmargin at screen {:.4f}\n"
+                  "set bmargin at screen {:.4f}\nset tmargin at screen {:.4f}\n",
+                  1.0 * left / width, 1 - 1.0 * scale / width, 1.0 * bottom / height,
+                  1 - 1.0 * title / height) +
+          fmt::format(
+              "set title {}\nset palette defined (0 '#ffffff', 1 '#b3321f')\n"
+              "set cbrange [0:1]\nset cblabel 'share that disagrees'\n"
+              "set xrange [-0.5:{}]\nset yrange [{}:-0.5]\nset tics scale 0\n"
+              "set xtics rotate by 90 right ({})\nset ytics ({})\n"
+              "plot '-' using 1:2:3 with image pixels notitle\n{}e\n",
+              quoted(figure_title(pair, group)), static_cast<double>(candidates.size()) - 0.5,
+              static_cast<double>(classes.size()) - 0.5, tics(candidates), tics(classes), cells));
 }
 
 }  // namespace

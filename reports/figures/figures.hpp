@@ -26,15 +26,21 @@ struct Label {
   bool important;  ///< chooses its place before those that are not
 };
 
+/// A straight part of a line in the chart, in the same units; no label may lie on it.
+struct Segment {
+  double x1, y1, x2, y2;
+};
+
 /// Where a label's text begins (or ends, unless rightwards), from its mark.
 struct LabelPlace {
   bool rightwards;
   double dx, dy;
 };
 
-/// Places in which no label lies on another, on a mark or beyond the chart. Absent where there is
-/// no such place, except for important labels: they get the best there is.
+/// Places in which no label lies on another, on a mark, on a line or beyond the chart. Absent where
+/// there is no such place, except for important labels: they get the best there is.
 std::vector<std::optional<LabelPlace>> label_places(const std::vector<Label>& labels, double width,
-                                                    double height);
+                                                    double height,
+                                                    const std::vector<Segment>& lines = {});
 
 }  // namespace touchstone

@@ -40,6 +40,16 @@ TEST(Figures, EachComesAsPictureTwiceAndAsData) {
                            "errors-cylinder-plane", "classes-cylinder-box"}) {
     EXPECT_THAT(text_of(folder / (std::string(name) + ".svg")), HasSubstr("</svg>")) << name;
     EXPECT_THAT(text_of(folder / (std::string(name) + ".png")), StartsWith("\x89PNG")) << name;
+    // Every mark has its name in the figure, which may stand alone.
+    const std::string svg = text_of(folder / (std::string(name) + ".svg"));
+    const std::string csv = text_of(folder / (std::string(name) + ".csv"));
+    for (const auto& [in_csv, in_svg] : {std::pair{"reference,", ">reference<"},
+                                         {"bullet,", ">bullet<"},
+                                         {"{c}\\\",", ">a\"b,{c}\\<"}}) {
+      if (csv.find(in_csv) == std::string::npos) continue;  // no contact in this figure
+      EXPECT_THAT(svg, HasSubstr(in_svg)) << name;
+    }
+    EXPECT_THAT(svg, testing::Not(HasSubstr("e-0"))) << name;
     EXPECT_THAT(text_of(folder / (std::string(name) + ".csv")), HasSubstr("reference,")) << name;
   }
   EXPECT_TRUE(std::filesystem::exists(folder / "errors-cylinder-box-degenerate.svg"));
@@ -79,6 +89,18 @@ TEST(LabelPlaces, NoTwoLabelsMeet) {
   }
   EXPECT_GE(shown, 2);
   EXPECT_LT(shown, 8);
+}
+
+TEST(LabelPlaces, NoLineRunsThroughALabel) {
+  // A front that comes from the upper left and goes on to the right, where labels stand first.
+  const std::vector<Label> labels = {{20, 5, 9, true}};
+  const auto place_beside = [&](const Segment& s) { return *label_places(labels, 40, 10, {s})[0]; };
+  EXPECT_EQ(place_beside({0, 9, 20, 5}).dx, label_places(labels, 40, 10)[0]->dx);
+  EXPECT_FALSE(place_beside({20, 5, 40, 5.1}).rightwards);
+  EXPECT_TRUE(place_beside({0, 5, 20, 5}).rightwards);
+  EXPECT_FALSE(place_beside({20, 5, 40, 3}).rightwards);
+  const std::vector<Segment> lines = {{0, 5, 40, 5}, {0, 6, 40, 6}, {0, 4, 40, 4}};
+  EXPECT_FALSE(label_places({{20, 5, 9, false}}, 40, 10, lines)[0]);
 }
 
 TEST(LabelPlaces, AnImportantLabelIsAlwaysShown) {

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """Opens the pages in Chromium as a reader does: browser_test.py PROGRAM. Fails without a browser to drive."""
 import json
+import re
 import shutil
 import subprocess
 import sys
@@ -14,6 +15,7 @@ try:
     from selenium.webdriver.chrome.service import Service
     from selenium.webdriver.common.action_chains import ActionChains
     from selenium.webdriver.common.by import By
+    from selenium.webdriver.common.keys import Keys
     from selenium.webdriver.support.select import Select
 except ImportError:
     sys.exit("python3-selenium is missing (packages-test.txt)")
@@ -38,24 +40,56 @@ def browser(width, height):
     return driver
 
 
-# Contrast of elements' text with what is behind it, as WCAG defines it. A canvas tells what a colour is.
-contrasts_of = """
+# Contrast of all text with what is behind it, as WCAG defines it, as [contrast, text]: the colours of an element's
+# ancestors lie on each other. A canvas tells what a colour is.
+contrasts_of_text = """
 const pen = document.createElement('canvas').getContext('2d', {willReadFrequently: true});
-const paint = (colour, opacity = 1) => {
-  pen.globalAlpha = opacity;
-  pen.fillStyle = colour;
-  pen.fillRect(0, 0, 1, 1);
+const known = new Map();
+const lightness = (...colours) => {
+  const key = colours.join();
+  if (known.has(key)) return known.get(key);
+  for (const colour of colours) {
+    pen.fillStyle = colour;
+    pen.fillRect(0, 0, 1, 1);
+  }
   const [r, g, b] = [...pen.getImageData(0, 0, 1, 1).data].map(c => c / 255)
       .map(c => c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4);
-  return 0.2126 * r + 0.7152 * g + 0.0722 * b;
+  known.set(key, 0.2126 * r + 0.7152 * g + 0.0722 * b);
+  return known.get(key);
 };
-return [...document.querySelectorAll(arguments[0])].map(e => {
-  paint(getComputedStyle(document.documentElement).backgroundColor);
-  const behind = paint(getComputedStyle(e.closest('td')).backgroundColor);
-  const text = paint(getComputedStyle(e).color, Number(getComputedStyle(e).opacity));
-  return (Math.max(text, behind) + 0.05) / (Math.min(text, behind) + 0.05);
-});
+const result = [], walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+for (let node = walker.nextNode(); node; node = walker.nextNode()) {
+  const e = node.parentElement;
+  if (!node.data.trim() || e.closest('script, noscript, option, title, :disabled') || !e.checkVisibility({opacityProperty: true})) continue;
+  const layers = [], style = getComputedStyle(e);
+  for (let a = e; a; a = a.parentElement) {
+    layers.unshift(getComputedStyle(a).backgroundColor);
+    if (Number(getComputedStyle(a).opacity) < 1) throw new Error('translucent: ' + node.data);
+  }
+  const text = lightness(...layers, e.closest('svg') ? style.fill : style.color), behind = lightness(...layers);
+  result.push([(Math.max(text, behind) + 0.05) / (Math.min(text, behind) + 0.05), node.data.trim()]);
+}
+return result;
 """
+
+# What can be reached by Tab, and pictures without a role and a name.
+tab_stops = """return [...document.querySelectorAll('a[href], button, input, select, summary, [tabindex]')]
+    .filter(e => e.tabIndex >= 0 && e.checkVisibility())"""
+nameless_pictures = """return [...document.querySelectorAll('svg, canvas')]
+    .filter(e => e.getAttribute('aria-hidden') !== 'true')
+    .filter(e => !['img', 'graphics-document'].includes(e.getAttribute('role')) || (e.getAttribute('aria-label') || '').length < 10)
+    .map(e => e.outerHTML.slice(0, 100))"""
+# Text beyond the window or its chart, and tables with columns out of sight.
+hidden_text = """
+const shown = e => e.checkVisibility({opacityProperty: true}) && e.textContent.trim();
+const within = (e, box) => { const r = e.getBoundingClientRect(); return r.left >= box.left - 1 && r.right <= box.right + 1; };
+return [
+  ...[...document.querySelectorAll('.chart svg')].flatMap(svg => [...svg.querySelectorAll('text')]
+      .filter(t => shown(t) && !within(t, svg.getBoundingClientRect()))),
+  ...[...document.querySelectorAll('body *')].filter(e => shown(e) && !e.closest('.scroll, nav') && !within(e, {left: 0, right: innerWidth})),
+].map(e => e.textContent.slice(0, 40))
+    .concat([...document.querySelectorAll(':not(details) > .scroll')].filter(e => e.scrollWidth > e.clientWidth && innerWidth > 1000)
+        .map(e => `${e.textContent.slice(0, 40)}: ${e.scrollWidth} of ${e.clientWidth}`))"""
 
 
 class PageTest(unittest.TestCase):
@@ -113,6 +147,12 @@ class PageTest(unittest.TestCase):
         self.assertEqual(self.load(page), [])
         width = "return Math.max(document.documentElement.scrollWidth, innerWidth)"
         self.assertEqual(self.driver.execute_script(width), 390)
+        self.assertEqual(self.driver.execute_script(hidden_text), [])
+
+    def assert_pictures_and_keys(self, max_stops):
+        """Every picture has a name, every table and chart is one tab stop."""
+        self.assertEqual(self.driver.execute_script(nameless_pictures), [])
+        self.assertLess(len(self.driver.execute_script(tab_stops)), max_stops)
 
 
 class Report(PageTest):
@@ -144,22 +184,183 @@ class Report(PageTest):
         for chart in ("#distribution-cumulative", "#distribution-histogram", "#trend-chart"):
             self.assertGreater(len(self.all(f"{chart} svg path")), 3, chart)
 
-    def test_charts_have_names_and_fill_their_places(self):
+    def test_charts_fill_their_places_and_that_of_all_pairs_the_page(self):
         charts = self.all(".chart")
         self.assertGreater(len(charts), 8)
         for chart in charts:
-            self.assertEqual(chart.get_attribute("role"), "figure")
-            self.assertGreater(len(chart.get_attribute("aria-label")), 10)
             drawn = chart.find_element(By.CSS_SELECTOR, "svg").size["width"]
             self.assertAlmostEqual(drawn, chart.size["width"], delta=2)
+        whole = self.find("#chart-panels .whole svg")
+        self.assertGreater(whole.size["width"], 1000)
+        self.assertEqual(len(self.all("#chart-panels .whole")), 1)
 
-    def test_numbers_in_coloured_cells_can_be_read_in_both_themes(self):
+    def test_text_can_be_read_in_both_themes(self):
         for theme in ("light", "dark"):
             self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {
                 "features": [{"name": "prefers-color-scheme", "value": theme}]})
-            contrasts = self.driver.execute_script(contrasts_of, "td.heat, td.heat small")
-            self.assertGreater(len(contrasts), 100)
-            self.assertGreaterEqual(min(contrasts), min_contrast, theme)
+            contrasts = self.driver.execute_script(contrasts_of_text)
+            self.assertGreater(len(contrasts), 2000)
+            self.assertEqual([c for c in contrasts if c[0] < min_contrast], [], theme)
+            self.assertTrue(any("lost" in text for _, text in contrasts))
+
+    def test_every_outcome_has_one_colour_and_only_agreement_is_green(self):
+        for theme in ("light", "dark"):
+            self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {
+                "features": [{"name": "prefers-color-scheme", "value": theme}]})
+            colours = self.driver.execute_script("""return outcomes.map(o => {
+                const pen = document.createElement('canvas').getContext('2d');
+                pen.fillStyle = getComputedStyle(document.documentElement).getPropertyValue(outcomeColour(o));
+                pen.fillRect(0, 0, 1, 1);
+                return [o, ...pen.getImageData(0, 0, 1, 1).data];
+              })""")
+            greenest = [o for o, r, g, b, _ in colours if g > max(r, b)]
+            self.assertEqual(greenest, ["agree"], theme)
+            for i, (name, *colour) in enumerate(colours):
+                for other, *there in colours[:i]:
+                    self.assertGreater(sum(abs(x - y) for x, y in zip(colour, there)), 40,
+                                       (theme, name, other))
+        # The same colour in the bars, the maps and the worst cases.
+        for place in ("#outcome-bars .swatch", "#stability .swatch", "#worst-cases .swatch"):
+            for swatch in self.all(place):
+                name = self.driver.execute_script("return arguments[0].nextSibling.data", swatch)
+                self.assertIn(f"var(--outcome-{name})", swatch.get_attribute("style"))
+
+    def test_numbers_are_written_in_one_way(self):
+        text = self.find("body").text
+        self.assertEqual(re.findall(r"[\d.]+e\+\d+", text), [])
+        self.assertEqual(re.findall(r"−\d.*", text), [])  # a hyphen, as programs read it
+        written = self.driver.execute_script(
+            "return [0, 600, 6000, -0.06, 0.996, 999.6, 75, 1e21, null].map(x => exponent(x))")
+        self.assertEqual(written, ["0", "600", "6.0e3", "-6.0e-2", "1.0", "1.0e3", "75", "1.0e21", "–"])
+
+    def test_the_contents_stay_in_sight(self):
+        for section in ("summary", "outcomes"):
+            self.press(self.find(f"#contents a[href='#{section}']"))
+            time.sleep(0.3)
+            bar = self.find("#bar").rect
+            top = self.driver.execute_script(
+                "return [document.getElementById('bar'), document.getElementById(arguments[0])]"
+                ".map(e => e.getBoundingClientRect()).map(r => [r.top, r.bottom])", section)
+            self.assertAlmostEqual(top[0][0], 0, delta=1)
+            self.assertLess(bar["height"], 110)
+            self.assertGreaterEqual(top[1][0], top[0][1])  # the section begins below the bar
+            self.assertEqual([a.get_attribute("hash") for a in self.all("#contents [aria-current]")],
+                             [f"#{section}"])
+
+    def test_tables_sort_by_mouse_and_keyboard(self):
+        self.choose("#summary-pair", "all")
+        def values():
+            return [row.find_elements(By.CSS_SELECTOR, "th, td")[9].text.replace(",", "")
+                    for row in self.all("#summary-table tbody tr")]
+        def head():
+            return self.all("#summary-table thead th")[9]
+        before = values()
+        self.assertEqual(head().get_attribute("aria-sort"), "none")
+        self.press(head())
+        self.assertEqual(head().get_attribute("aria-sort"), "ascending")
+        numbers = [int(v) for v in values() if v != "–"]
+        self.assertEqual(numbers, sorted(numbers))
+        self.assertNotEqual(values(), before)
+        head().send_keys(Keys.ENTER)
+        self.assertEqual(head().get_attribute("aria-sort"), "descending")
+        self.assertEqual([int(v) for v in values() if v != "–"], numbers[::-1])
+        self.assertEqual(values()[len(numbers):], ["–"] * (len(before) - len(numbers)))
+        head().send_keys(Keys.SPACE)
+        self.assertEqual(values(), before)
+        # Published numbers stay on top, however the others are sorted; names sort with their numbers.
+        heads = self.all("#drake-table thead th")
+        self.press(heads[-1])
+        rows = [row.text for row in self.all("#drake-table tbody tr")]
+        self.assertTrue(rows[0].startswith("Drake") and rows[1].startswith("Drake"))
+        self.press(heads[0])
+        names = [row.text.split()[0] for row in self.all("#drake-table tbody tr")][2:]
+        self.assertEqual(names, sorted(names))
+        for _ in range(2):
+            self.press(heads[0])
+
+    def test_a_table_and_a_chart_are_one_tab_stop_each(self):
+        stops = self.driver.execute_script(tab_stops)
+        self.assertLess(len(stops), 150)
+        for name in ("table", ".chart svg", "[role=toolbar]"):
+            inside = self.driver.execute_script(
+                """return [...document.querySelectorAll(arguments[0])].filter(e => e.checkVisibility())
+                    .map(e => [...e.querySelectorAll('[tabindex="0"], button:not([tabindex])')].length)""", name)
+            self.assertGreater(len(inside), 3, name)
+            self.assertLessEqual(max(inside), 1, name)
+        self.assertEqual(self.driver.execute_script(
+            """return [...document.querySelectorAll('table')].filter(t => t.rows.length > 3)
+                .filter(t => t.getAttribute('role') !== 'grid').length"""), 0)
+
+    def test_arrow_keys_move_within_a_table(self):
+        focused = self.driver.switch_to
+        first = self.find("#worst-error-table th")
+        first.send_keys(Keys.ARROW_DOWN, Keys.END)
+        cell = focused.active_element
+        self.assertEqual(cell, self.all("#worst-error-table tbody tr:first-child td")[-1])
+        self.assertIn("reference, cylinder–box", self.find("#tooltip").text)
+        cell.send_keys(Keys.ARROW_DOWN, Keys.ARROW_LEFT, Keys.ENTER)
+        self.assertEqual(focused.active_element, self.all("#worst-error-table tbody tr:nth-child(2) td")[-2])
+        self.assertEqual(self.find("#worst-pair").get_attribute("value"), "cylinder-cylinder")
+        self.assertEqual(self.find("#worst-candidate").get_attribute("value"),
+                         self.all("#worst-error-table tbody th")[1].text)
+
+    def test_arrow_keys_move_within_a_chart(self):
+        def label():
+            return self.driver.switch_to.active_element.get_attribute("aria-label")
+        # From mark to mark, and along a line and between lines.
+        chart = self.find("#chart-panels .whole svg")
+        chart.find_element(By.CSS_SELECTOR, "[tabindex='0']").send_keys(Keys.HOME)
+        seen = {label()}
+        for _ in range(len(chart.find_elements(By.CSS_SELECTOR, ".mark-symbol path"))):
+            self.driver.switch_to.active_element.send_keys(Keys.ARROW_RIGHT)
+            seen.add(label())
+        self.assertEqual(seen, {m.get_attribute("aria-label")
+                                for m in chart.find_elements(By.CSS_SELECTOR, ".mark-symbol path")})
+        self.assertTrue(self.find("#tooltip").is_displayed())
+        lines = self.find("#distribution-cumulative svg")
+        lines.find_element(By.CSS_SELECTOR, "[tabindex='0']").send_keys(Keys.HOME)
+        name = label().split("\n")[0]
+        self.driver.switch_to.active_element.send_keys(Keys.ARROW_RIGHT)
+        self.assertEqual(label().split("\n")[0], name)
+        names = set()
+        for key in [Keys.ARROW_UP] * 12 + [Keys.ARROW_DOWN] * 12:
+            self.driver.switch_to.active_element.send_keys(key)
+            names.add(label().split("\n")[0])
+        self.assertGreater(len(names), 3)
+        self.find("#distribution-histogram svg [tabindex='0']").send_keys(Keys.END)
+        self.assertIn("contacts", label())
+
+    def test_pictures_have_a_role_and_a_name(self):
+        self.assertEqual(self.driver.execute_script(nameless_pictures), [])
+
+    def test_nothing_is_clipped_on_a_desktop(self):
+        everything = (("#class-candidate", "all"), ("#contrast-pair", "cylinder-cylinder"),
+                      ("#trend-variable", "distance"))
+        for control, value in everything:
+            self.choose(control, value)
+        time.sleep(0.3)
+        self.assertEqual(self.driver.execute_script(hidden_text), [])
+        self.choose("#class-candidate", "bullet")
+
+    def test_labels_do_not_lie_on_the_front(self):
+        """Whether points of a line lie within a label's letters."""
+        crossed = self.driver.execute_script("""
+            const result = [];
+            for (const svg of document.querySelectorAll('#chart-panels svg')) {
+              const texts = [...svg.querySelectorAll('.role-mark text')].filter(t => t.textContent && getComputedStyle(t).opacity > 0.5);
+              for (const line of svg.querySelectorAll('.role-mark .mark-line path, .mark-line.role-mark path')) {
+                const matrix = line.getScreenCTM();
+                for (let at = 0; at < line.getTotalLength(); at += 1) {
+                  const p = line.getPointAtLength(at).matrixTransform(matrix);
+                  for (const t of texts) {
+                    const b = t.getBoundingClientRect();
+                    if (p.x > b.left && p.x < b.right && p.y > b.top + 3 && p.y < b.bottom - 3) result.push(t.textContent);
+                  }
+                }
+              }
+            }
+            return [...new Set(result)];""")
+        self.assertEqual(crossed, [])
 
     def test_a_mark_tells_its_numbers_and_leads_to_its_worst_cases(self):
         mark = next(m for m in self.all("#chart-panels figure:last-child .mark-symbol path")
@@ -292,6 +493,10 @@ class OtherPages(PageTest):
     def open(self, page):
         self.assertEqual(self.load(page), [])
         self.assertEqual(self.console(), [])
+        self.assertEqual(self.driver.execute_script(hidden_text), [])
+        self.assert_pictures_and_keys(50)
+        contrasts = self.driver.execute_script(contrasts_of_text)
+        self.assertEqual([c for c in contrasts if c[0] < min_contrast], [])
 
     def picture(self, selector):
         return self.driver.execute_script("return arguments[0].toDataURL()", self.find(selector))
@@ -305,6 +510,27 @@ class OtherPages(PageTest):
         self.find("#view-contact").click()
         self.assertNotEqual(self.picture("#view"), before)
         self.assert_no_sideways_scrolling_on_a_phone(page)
+
+    def test_needles_and_coins_are_seen(self):
+        page = Path(self.folder.name) / "thin.html"
+        for name in ("cylinder-box/general+needle/1/0", "cylinder-capsule/coaxial+needle+tilted-1e-8+turned/1/0",
+                     "cylinder-cylinder/touching-tilted+coin+huge+far/1/0"):
+            self.run_program("replay", name, "--html", page)
+            self.driver.get(page.as_uri())
+            # The smallest width of each body's outline, in pixels, and how far the thinner one is from the middle.
+            widths = self.driver.execute_script("""
+                const scale = view.zoom * Math.min(view.canvas.clientWidth, view.canvas.clientHeight) / 2;
+                return scene.bodies.map(b => {
+                  const points = b.faces.flat().map(p => [dot(p, view.right), dot(p, view.up)]);
+                  let width = Infinity;
+                  const directions = b.axes.flatMap(e => { const x = dot(e, view.right), y = dot(e, view.up); return [[x, y], [-y, x]]; });
+                  for (const [x, y] of directions) {
+                    const along = points.map(p => (p[0] * x + p[1] * y) / Math.hypot(x, y));
+                    width = Math.min(width, Math.max(...along) - Math.min(...along));
+                  }
+                  return scale * width;
+                });""")
+            self.assertGreater(min(widths), 20, name)
 
     def test_comparison(self):
         reports = [Path(self.folder.name) / name for name in ("before", "after")]

@@ -21,23 +21,44 @@ function drawChart(host, label, spec, onClick = () => {}) {
   chart.tooltip((handler, event, item, text) => text ? showTip(text, event.clientX, event.clientY) : hideTip());
   chart.addEventListener('click', (event, item) => { if (datumOf(item) && datumOf(item).tip) onClick(datumOf(item)); });
   chart.initialize(host).renderer('svg').hover().runAsync().then(() => {
-    host.setAttribute('role', 'figure');
-    host.setAttribute('aria-label', label);
-    reachByKeys(host, onClick);
+    const svg = host.querySelector('svg');
+    for (const name of ['role', 'aria-label', 'aria-roledescription']) host.removeAttribute(name);  // Vega's; the picture has them
+    svg.setAttribute('role', 'graphics-document');
+    svg.setAttribute('aria-label', label);
+    reachByKeys(svg, onClick);
   });
 }
-// Makes the symbols of a chart reachable by keyboard.
-function reachByKeys(host, onClick) {
-  for (const path of host.querySelectorAll('.mark-symbol path')) {
-    const datum = path.__data__ && path.__data__.datum;
-    if (!datum || !datum.tip) continue;
-    path.setAttribute('tabindex', 0);
-    path.setAttribute('role', 'img');
-    path.setAttribute('aria-label', datum.tip);
-    path.addEventListener('focus', () => { const box = path.getBoundingClientRect(); showTip(datum.tip, box.right, box.bottom); });
+// Makes the symbols and bars of a chart one tab stop, within which arrow keys move. Left and right keep to a line, up and
+// down change to what other lines have nearby; where there are no lines, every mark is a neighbour.
+function reachByKeys(svg, onClick) {
+  const datumOf = path => path.__data__ && path.__data__.datum;
+  const paths = [...svg.querySelectorAll(':is(.mark-symbol, .mark-rect) path')].filter(p => datumOf(p) && datumOf(p).tip);
+  if (paths.length === 0) return;
+  for (const path of paths) {
+    const {tip} = datumOf(path);
+    path.parentElement.setAttribute('role', 'graphics-object');  // Vega makes it a symbol, whose parts would not be read
+    path.setAttribute('tabindex', -1);
+    path.setAttribute('role', 'graphics-symbol');
+    path.setAttribute('aria-label', tip);
+    path.addEventListener('focus', () => { const box = path.getBoundingClientRect(); showTip(tip, box.right, box.bottom); });
     path.addEventListener('blur', hideTip);
-    path.addEventListener('keydown', e => { if (e.key === 'Enter') onClick(datum); });
+    path.addEventListener('keydown', e => {
+      if (e.key === 'Enter') onClick(datumOf(path));
+      if (e.key === 'Escape') hideTip();
+    });
   }
+  const lineOf = path => datumOf(path).candidate, hasLines = new Set(paths.map(lineOf)).size < paths.length;
+  const place = path => { const box = path.getBoundingClientRect(); return [box.left + box.width / 2, box.top + box.height / 2]; };
+  const ways = {ArrowLeft: [0, -1], ArrowRight: [0, 1], ArrowUp: [1, -1], ArrowDown: [1, 1], Home: [0, -Infinity], End: [0, Infinity]};
+  rove(svg, paths[0], (from, key) => {
+    if (!ways[key]) return null;
+    const [axis, way] = ways[key], at = new Map(paths.map(p => [p, place(p)])), x = at.get(from)[0];
+    const aside = p => Math.abs(at.get(p)[0] - x), nearestOfEachLine = () => [...new Set(paths.map(lineOf))].map(line =>
+        line === lineOf(from) ? from : paths.filter(p => lineOf(p) === line).sort((a, b) => aside(a) - aside(b))[0]);
+    const list = !hasLines ? [...paths] : axis === 0 ? paths.filter(p => lineOf(p) === lineOf(from)) : nearestOfEachLine();
+    list.sort((a, b) => at.get(a)[axis] - at.get(b)[axis]);
+    return list[Math.max(0, Math.min(list.length - 1, list.indexOf(from) + way))];
+  });
 }
 // Draws now, and again whenever the width or the choice of candidates changes.
 const redrawn = [];
@@ -77,18 +98,20 @@ function powerAxis(title, values) {
   const count = decadesOf(values).ticks.length - 1;
   return {title, ...decadesOf(values, Math.max(1, Math.ceil(count / 8))), label: powerLabel};
 }
+// Numbers as `exponent` writes them, on an axis of a few decades.
+const numberLabel = "datum.value >= 0.1 && datum.value < 1000 ? format(datum.value, '~g') : '1e' + round(log(datum.value) / LN10)";
 const shareAxis = title => ({title, type: 'linear', domain: [0, 1], format: '%', tickCount: 5});
 
 // Marks of data that has x and y.
 const place = {x: {scale: 'x', field: 'x'}, y: {scale: 'y', field: 'y'}};
 // A line through the rows of `data`, or one for each value of `by`, as `look` says.
-function lineMarks(data, by, look) {
+function lineMarks(data, by, look, name) {
   const line = from => ({type: 'line', from: {data: from}, interactive: false, encode: {update: {...place, ...look}}});
   const part = `${data}-part`;
-  return by ? {type: 'group', from: {facet: {name: part, data, groupby: by}}, marks: [line(part)]} : line(data);
+  return {name, ...(by ? {type: 'group', from: {facet: {name: part, data, groupby: by}}, marks: [line(part)]} : line(data))};
 }
 // A dashed horizontal line.
-const limitMark = y => ({type: 'rule', interactive: false, encode: {update: {x: {value: 0}, x2: {signal: 'width'},
+const limitMark = y => ({name: 'limit', type: 'rule', interactive: false, encode: {update: {x: {value: 0}, x2: {signal: 'width'},
     y: {scale: 'y', value: y}, stroke: {value: 'var(--quiet)'}, strokeDash: {value: [5, 4]}}}});
 const symbolMarks = (data, size, hovered, name) => ({type: 'symbol', name, from: {data}, encode: {
   enter: {tooltip: {field: 'tip'}, shape: {field: 'symbol'}, fill: {field: 'fill'}, stroke: {field: 'stroke'}},
@@ -111,16 +134,21 @@ function drawScatter(host, label, {height = 300, x, y, points, lines, limit}, on
     ...axes(x, y), marks: [
       ...(limit ? [limitMark(limit)] : []),
       ...lines.map(({by, dash, colour = 'var(--quiet)', width = 1}, i) => lineMarks(`line-${i}`, by,
-          {stroke: {value: colour}, strokeWidth: {value: width}, ...(dash && {strokeDash: {value: dash}})})),
+          {stroke: {value: colour}, strokeWidth: {value: width}, ...(dash && {strokeDash: {value: dash}})}, `lines-${i}`)),
       symbolMarks('points', 30, 110, 'marks'),
       // The style sheet shows labels smaller than the size that they are placed with.
       {type: 'text', from: {data: 'marks'}, interactive: false, encode: {enter: {text: {field: 'datum.label'}, fontWeight: {field: 'datum.weight'},
                                                     fontSize: {value: 13}, fill: {value: 'var(--ink)'}}},
-       transform: [{type: 'label', size: {signal: '[width, height]'}, offset: [7], padding: 0, avoidMarks: ['marks'],
+       transform: [{type: 'label', size: {signal: '[width, height]'}, offset: [7], padding: 0, avoidMarks: ['marks', ...(limit ? ['limit'] : []), ...lines.map((_, i) => `lines-${i}`)],
                     anchor: ['right', 'left', 'top-right', 'bottom-right', 'top-left', 'bottom-left', 'top', 'bottom'],
                     sort: {field: 'datum.datum.order'}}]},
     ]}, onClick);
 }
+
+// The panel of a pair; that of all pairs, with the most marks, is as wide as the page.
+const pairPanel = (pair, place) => element('figure', {class: pair === 'all' ? 'whole' : ''},
+    element('figcaption', {}, pair === 'all' ? 'all pairs' : dashed(pair)), place);
+const panelHeight = pair => pair === 'all' && innerWidth > 640 ? 420 : 300;
 
 // The candidates whose lines are shown, chosen by the buttons of any legend.
 const usual = ['reference', 'bullet', 'bullet-margin-0', 'ode', 'fcl', 'fcl-distance', 'libccd-mpr', 'mujoco', 'prism:16', 'capsule'];
@@ -139,4 +167,6 @@ function shownLegend(host, names) {
     toggles.push([name, button]);
     host.append(button);
   }
+  host.setAttribute('role', 'toolbar');
+  roveButtons(host, [...host.children]);
 }

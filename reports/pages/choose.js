@@ -25,12 +25,12 @@ function headline() {
 }
 
 function answerTables() {
-  byId('kind-table').append(table([textColumn('pairs'), textColumn('model'), 'ns a query', 'ns exactly', 'queries', textColumn('next cheaper one breaks a need')],
-      data.kinds.map(k => [wide(`${k.name} (${k.bodies})`), exactName(k.chosen), String(Math.round(k.nanoseconds)), String(Math.round(k.exact_nanoseconds)),
-          String(k.asked), k.next_cheaper === null ? 'there is none' : `${k.next_cheaper.name}, ${Math.round(k.next_cheaper.nanoseconds)} ns`])));
+  byId('kind-table').append(table([textColumn('pairs'), textColumn('model'), 'ns a query', 'ns exactly', column('queries', {class: 'wide'}), textColumn('next cheaper one breaks a need')],
+      data.kinds.map(k => [wide(`${k.name} (${k.bodies})`), exactName(k.chosen), whole(k.nanoseconds), whole(k.exact_nanoseconds),
+          whole(k.asked), k.next_cheaper === null ? 'there is none' : `${k.next_cheaper.name}, ${whole(k.next_cheaper.nanoseconds)} ns`]), 'Times of a query, median'));
   byId('need-table').append(table(['', 'need', 'measured', 'at'].map(textColumn), answer.verdicts.map((v, i) => [
       element('td', {class: v.holds ? 'good text' : 'bad text'}, v.holds ? 'holds' : 'broken'), needs[i].text,
-      measured(v.value, needs[i]), `${v.time.toFixed(2)} s`])));
+      measured(v.value, needs[i]), `${v.time.toFixed(2)} s`]), 'What was measured of each need, and when'));
 }
 
 function failures() {
@@ -48,9 +48,9 @@ function failures() {
 const isUniform = run => !run.name.includes(' ') && run.name !== 'combination';
 function runTable() {
   byId('run-table').append(table([textColumn('model'), 'µs of a step', 'error / limit', textColumn('breaks first'), textColumn('worst answer before')],
-      data.runs.filter(isUniform).map(r => [r.name, String(Number(r.microseconds_per_step.toPrecision(3))),
+      data.runs.filter(isUniform).map(r => [r.name, exponent(r.microseconds_per_step, 3),
           element('td', {class: r.holds ? 'good' : 'bad'}, r.error === null ? 'absurd' : exponent(r.error)),
-          wide(r.holds ? '' : failure(r)), wide(r.evidence ? `${r.evidence.bodies}: ${r.evidence.wrong}` : '')])));
+          wide(r.holds ? '' : failure(r)), wide(r.evidence ? `${r.evidence.bodies}: ${r.evidence.wrong}` : '')]), 'Each run with one model'));
   if (data.too_slow.length) byId('too-slow').textContent = `Not run, because their queries alone would take more than 3 s: ${data.too_slow.join(', ')}.`;
 }
 
@@ -69,10 +69,9 @@ function costChart() {
             tip: `${run.name}\n${exponent(cost[i])} µs, ${run.holds ? 'all needs hold' : failure(run)}`};
   });
   if (data.possible) points.unshift({...at(data.answer), fill: 'none', stroke: 'var(--ink)', size: 320, symbol: symbolPath('circle', 0, 0, 1), label: '', order: 1e6});
-  const plain = "format(datum.value, '~g')";
   drawScatter(byId('front'), 'Error of each run against its cost', {height: 420, points, limit: 1, lines: [{rows: data.front.map(at)}],
-      x: {title: 'contacts of a step, µs', domain: [Math.min(...cost) * 0.8, Math.max(...cost) * 1.3], ticks: decadesOf(cost).ticks, label: plain},
-      y: {title: 'error / limit', domain: [low, high], ticks: decadesOf([low, high]).ticks, label: plain}});
+      x: {title: 'contacts of a step, µs', domain: [Math.min(...cost) * 0.8, Math.max(...cost) * 1.3], ticks: decadesOf(cost).ticks, label: numberLabel},
+      y: {title: 'error / limit', domain: [low, high], ticks: decadesOf([low, high]).ticks, label: numberLabel}});
 }
 
 // The motion: two runs side by side, seen from the same place.

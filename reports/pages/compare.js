@@ -18,7 +18,7 @@ function words() {
 function value(c, which) {
   if (c.measure === 'has a routine') return c[which] ? 'yes' : 'no';
   if (c.measure === 'agreement') return (100 * c[which]).toFixed(1) + '%';
-  return c.measure === 'instructions' ? String(Math.round(c[which])) : exponent(c[which]);
+  return c.measure === 'instructions' ? whole(c[which]) : exponent(c[which]);
 }
 function changeTable() {
   if (beyond.length === 0) return;
@@ -26,7 +26,7 @@ function changeTable() {
       verdicts.flatMap(v => beyond.filter(c => c.verdict === v)).map(c => [
         element('td', {class: 'text ' + (c.verdict === 'worse' || c.verdict === 'slower' ? 'bad' : 'good')}, c.verdict),
         c.pair, c.class, named(c.candidate), c.measure, value(c, 'before'), value(c, 'after'),
-        c.factor === null ? '–' : '× ' + c.factor.toPrecision(3)])));
+        c.factor === null ? '–' : '× ' + exponent(c.factor, 3)]), `${beyond.length} changes; a factor is what is now, divided by what was`));
 }
 
 // A chart of each pair, on the same axes.
@@ -48,10 +48,11 @@ function charts() {
   host.replaceChildren();
   if (all.length === 0) return host.append(`No times relative to ${limits.baseline}.`);
   legend.replaceChildren(...names.filter(n => all.some(p => p.candidate === n)).map(n => named(n)));
-  const x = {title: `time, × ${limits.baseline}`, ...decadesOf(all.map(p => p.x)), label: "'× ' + format(datum.value, '~g')"};
+  const x = {title: `time, × ${limits.baseline}`, ...decadesOf(all.map(p => p.x)), label: `'× ' + (${numberLabel})`};
   const y = powerAxis('depth error, p99 (sizes)', all.map(p => p.y));
-  const places = [...new Set(all.map(p => p.pair))].map(pair => [pair, element('div', {class: 'chart'})]);
-  host.append(...places.map(([pair, place]) => element('figure', {}, element('figcaption', {}, pair === 'all' ? 'all pairs' : dashed(pair)), place)));
+  const pairs = [...new Set(all.map(p => p.pair))].sort((a, b) => (b === 'all') - (a === 'all'));
+  const places = pairs.map(pair => [pair, element('div', {class: 'chart'})]);
+  host.append(...places.map(([pair, place]) => pairPanel(pair, place)));
   const of = (list, pair) => list.filter(p => p.pair === pair);
   for (const [pair, place] of places) keepDrawn(() => changeChart(place, pair, of(was, pair), of(is, pair), x, y));
 }
@@ -61,7 +62,7 @@ function changeChart(place, pair, was, is, x, y) {
   const points = names.flatMap((name, i) => {
     const [old, now] = [was, is].map(list => list.find(p => p.candidate === name)), latest = now || old;
     if (!latest) return [];
-    const way = moved(old, now), mark = markData(name), where = p => p ? `depth error p99 ${exponent(p.y)}, × ${p.x.toPrecision(3)}` : 'not measured';
+    const way = moved(old, now), mark = markData(name), where = p => p ? `depth error p99 ${exponent(p.y)}, × ${exponent(p.x, 3)}` : 'not measured';
     const tip = `${name}, ${dashed(pair)}\nbefore: ${where(old)}\nnow: ${where(now)}`;
     const label = {label: name, weight: latest.front ? 'bold' : 'normal', order: latest.front ? i : way > 0.05 ? 100 + i : 1000 + i};
     return [...(old && way > 0.01 ? [{...mark, ...old, tip, label: '', order: 2000 + i, ...(!now && label), fill: 'var(--panel)', stroke: colour(name), size: 55}] : []),
@@ -69,7 +70,7 @@ function changeChart(place, pair, was, is, x, y) {
   });
   const front = list => list.filter(p => p.front).sort((a, b) => a.x - b.x);
   const moves = names.map(n => [was, is].map(list => list.find(p => p.candidate === n))).filter(([a, b]) => a && b && moved(a, b) > 0.01).flat();
-  drawScatter(place, `Depth error against time, before and now, ${dashed(pair)}`, {x, y, points, lines: [
+  drawScatter(place, `Depth error against time, before and now, ${dashed(pair)}`, {height: panelHeight(pair), x, y, points, lines: [
     {rows: front(was), dash: [4, 3], width: 1.2}, {rows: front(is), colour: 'var(--ink)', width: 1.2}, {rows: moves, by: 'candidate', width: 0.8}]});
 }
 words();

@@ -10,7 +10,7 @@
 namespace touchstone {
 
 // Made by the build from the files of the same names.
-extern const std::string_view page_html, pages_css, page_js;
+extern const std::string_view page_html, pages_css, page_js, table_js;
 extern const std::string_view report_html, compare_html, replay_html, choose_html;
 extern const std::string_view report_js, report_tables_js, report_charts_js, report_cases_js;
 extern const std::string_view compare_js, replay_js, stability_js, choose_js;
@@ -74,6 +74,7 @@ std::string script_safe(const nlohmann::json& json) {
 std::string render_page(Page page, const nlohmann::json& data) {
   const PageParts parts = parts_of(page);
   std::string scripts(page_js);
+  scripts += table_js;
   if (parts.charts) scripts += chart_js;
   for (const std::string_view script : parts.scripts) scripts += script;
   std::string text(page_html);

@@ -1,5 +1,5 @@
 'use strict';
-// What all pages share: builders of elements, marks of candidates, numbers, tables, the tooltip.
+// What all pages share: builders of elements, marks of candidates, outcomes, numbers, the contents, the tooltip, keys.
 const byId = id => document.getElementById(id);
 // programs: how Touchstone is started so that it knows a candidate.
 const data = JSON.parse(byId('data').textContent), {marks, runs = {}, programs = {}} = data;
@@ -18,10 +18,22 @@ function definitions(id, entries) {
 }
 // Options of a select box: values or [value, text].
 const options = values => values.map(v => Array.isArray(v) ? element('option', {value: v[0]}, v[1]) : element('option', {value: v}, v));
-// Lists the visible sections in the header.
+// Lists the visible sections in the bar that stays in sight, and marks the one that is being read.
 function listSections() {
-  byId('contents').append(...[...document.querySelectorAll('main > section')].filter(s => !s.hidden)
-      .map(s => element('a', {href: `#${s.id}`}, s.querySelector('h2').textContent)));
+  const sections = [...document.querySelectorAll('main > section')].filter(s => !s.hidden);
+  const links = new Map(sections.map(s => [s, element('a', {href: `#${s.id}`}, s.querySelector('h2').textContent)]));
+  const contents = byId('contents'), bar = byId('bar');
+  contents.append(...links.values());
+  const isRead = new IntersectionObserver(entries => {
+    for (const {target, isIntersecting} of entries) {
+      const link = links.get(target);
+      if (!isIntersecting) { link.removeAttribute('aria-current'); continue; }
+      link.setAttribute('aria-current', 'true');
+      contents.scrollLeft = link.offsetLeft - contents.clientWidth / 3;  // on a phone the contents are one line
+    }
+  }, {rootMargin: '-30% 0px -69.9% 0px'});  // a line at three tenths of the window
+  for (const s of sections) isRead.observe(s);
+  new ResizeObserver(() => { document.documentElement.style.scrollPaddingTop = `${bar.offsetHeight + 8}px`; }).observe(bar);
 }
 
 // Marks of candidates: the colour and symbol that mark_of in C++ gives each name.
@@ -46,41 +58,34 @@ const sign = name => symbolSign(markOf(name));
 const runsText = name => runs[name] ? ` (${runs[name]})` : '';
 const named = (name, ...rest) => element('span', {class: 'named'}, sign(name), name + runsText(name), ...rest);
 
-// The colour of an outcome, as a variable of the style sheet.
-const outcomeColours = {agree: '--agree', 'few-points': '--few-points', missed: '--c1', phantom: '--c3', shallow: '--c4',
-  overdeep: '--c6', 'wrong-normal': '--c0', 'shallow-points': '--c8', 'overdeep-points': '--c9', 'phantom-points': '--c10',
-  'not-finite': '--ink', failed: '--c7', crashed: '--bad', 'timed-out': '--timed-out', unsupported: '--line'};
+// Outcomes, in the order of legends; each has one colour everywhere, a variable of the style sheet.
+const outcomes = ['agree', 'few-points', 'missed', 'phantom', 'shallow', 'overdeep', 'wrong-normal', 'shallow-points', 'overdeep-points',
+  'phantom-points', 'not-finite', 'failed', 'crashed', 'timed-out', 'unsupported'];
+const outcomeColour = outcome => `--outcome-${outcome}`;
 const isFailure = outcome => outcome !== 'agree' && outcome !== 'unsupported';
-const outcomeLegend = outcomes => element('div', {class: 'legend'}, ...outcomes.map(o => element('span', {},
-    element('span', {class: 'swatch', style: `background:var(${outcomeColours[o]})`, 'aria-hidden': 'true'}), o)));
+const swatch = outcome => element('span', {class: 'swatch', style: `background:var(${outcomeColour(outcome)})`, 'aria-hidden': 'true'});
+const outcomeLegend = names => element('div', {class: 'legend'}, ...names.map(o => element('span', {}, swatch(o), o)));
 
-// Numbers as a person reads them. null: not measured.
-function exponent(x) {
+// Numbers as a person reads them, with two significant digits or as many as asked: 0.012 is 1.2e-2, 620 is 620, 6200 is
+// 6.2e3. null: not measured.
+function exponent(x, digits = 2) {
   if (x === null) return '–';
-  if (x === 0) return '0';
-  return Math.abs(x) >= 0.1 && Math.abs(x) < 1000 ? x.toPrecision(2).replace('+', '') : x.toExponential(1).replace('+', '');
+  const rounded = Number(x.toPrecision(digits)), size = Math.abs(rounded);
+  if (size === 0) return '0';
+  if (size < 0.1 || size >= 1000) return x.toExponential(digits - 1).replace('+', '');
+  return size >= 10 ** digits ? String(rounded) : x.toPrecision(digits);
+}
+// A number to be calculated with: all of its digits or as many as asked, with an exponent outside of [1e-3, 1e6).
+function plainNumber(x, digits) {
+  const size = Math.abs(x);
+  if (size !== 0 && (size < 1e-3 || size >= 1e6)) return x.toExponential(digits && digits - 1).replace('+', '');
+  return digits ? x.toPrecision(digits) : String(x);
 }
 const whole = x => x === null ? '–' : Math.round(x).toLocaleString('en');
 // Both round down, so that 1.00 means the whole patch and 100% no failure.
 const cutShare = share => share === null ? '–' : (Math.floor(share * 100 + 1e-6) / 100).toFixed(2);
 const percent = share => share === 1 ? '100%' : (Math.floor(share * 1000 + 1e-6) / 10).toFixed(1) + '%';
 const dashed = pair => pair.replace('-', '–');
-
-// Tables. A head is a string or a cell; a row is an element or a list of strings and cells. A string takes the class
-// of its column's head.
-const column = (text, attributes = {}) => element('th', {scope: 'col', ...attributes}, text);
-const textColumn = text => column(text, {class: 'text'});
-const rowHead = (...children) => element('th', {scope: 'row'}, ...children);
-function table(heads, rows, caption) {
-  const columns = heads.map(h => h instanceof Element ? h : column(h));
-  const cell = (c, i) => c instanceof HTMLTableCellElement ? c : element('td', {class: columns[i].className}, c);
-  return element('table', {}, caption && element('caption', {}, caption),
-      element('thead', {}, element('tr', {}, ...columns)),
-      element('tbody', {}, ...rows.map(r => r instanceof Element ? r : element('tr', {}, ...r.map(cell)))));
-}
-const outcomeCell = outcome => element('td', {class: isFailure(outcome) ? 'text bad' : 'text'}, outcome);
-// The background of a cell: pale at 0, full at 1.
-const heated = level => `background: color-mix(in srgb, var(--heat) ${Math.round(70 * Math.min(1, Math.max(0, level)))}%, transparent)`;
 
 // A command with a button that copies it.
 function command(text) {
@@ -89,10 +94,39 @@ function command(text) {
       () => { copy.textContent = 'Copied'; }, () => { copy.textContent = 'Select and copy'; }));
   return element('div', {class: 'command'}, element('code', {}, text), copy);
 }
-// Calls `act` when an element is clicked or Enter is pressed on it.
+// Calls `act` when an element is clicked, or Enter or the space bar is pressed on it.
 function whenPressed(target, act) {
   target.addEventListener('click', act);
-  target.addEventListener('keydown', e => { if (e.key === 'Enter') act(); });
+  target.addEventListener('keydown', e => {
+    if (e.key !== 'Enter' && e.key !== ' ') return;
+    e.preventDefault();
+    act();
+  });
+}
+// Makes many elements within `host` one tab stop: Tab reaches one of them, at first `first`, and keys lead on to the
+// others. `next` gives the neighbour of an element to which a key leads, if there is one.
+function rove(host, first, next) {
+  let current = first;
+  const makeCurrent = item => {
+    current.setAttribute('tabindex', -1);
+    current = item;
+    current.setAttribute('tabindex', 0);
+  };
+  makeCurrent(first);
+  host.addEventListener('focusin', e => { if (e.target.hasAttribute('tabindex')) makeCurrent(e.target); });
+  host.addEventListener('keydown', e => {
+    const item = e.altKey || e.ctrlKey || e.metaKey ? null : next(current, e.key);
+    if (!item) return;
+    e.preventDefault();
+    makeCurrent(item);
+    item.focus();
+  });
+}
+// Makes buttons in a row one tab stop.
+function roveButtons(host, buttons) {
+  const ways = {ArrowLeft: -1, ArrowUp: -1, ArrowRight: 1, ArrowDown: 1, Home: -Infinity, End: Infinity};
+  for (const b of buttons) b.setAttribute('tabindex', -1);
+  if (buttons.length) rove(host, buttons[0], (b, key) => ways[key] && buttons[Math.max(0, Math.min(buttons.length - 1, buttons.indexOf(b) + ways[key]))]);
 }
 
 // Groups of pose classes: one is shown at a time, for no number over all of them means anything. `grouped` holds what is
@@ -120,7 +154,9 @@ function groupControl(host, groups) {
     for (const b of buttons) b.setAttribute('aria-pressed', b.value === group);
   };
   for (const b of buttons) b.addEventListener('click', () => { choose(b.value); for (const draw of grouped) draw(); });
-  host.append(element('span', {}, 'Poses: '), element('span', {class: 'choice', role: 'group', 'aria-label': 'Poses'}, ...buttons), meaning);
+  const choice = element('span', {class: 'choice', role: 'toolbar', 'aria-label': 'Poses'}, ...buttons);
+  roveButtons(choice, buttons);
+  host.append(element('span', {}, 'Poses: '), choice, meaning);
   choose(group);
 }
 const onThemeChange = act => matchMedia('(prefers-color-scheme: dark)').addEventListener('change', act);
@@ -136,6 +172,6 @@ function showTip(text, x, y) {
 function hideTip() { byId('tooltip').hidden = true; }
 function explain(target, text) {
   const show = () => { const box = target.getBoundingClientRect(); showTip(text, box.right - 4, box.bottom - 4); };
-  for (const start of ['mouseenter', 'focus']) target.addEventListener(start, show);
-  for (const end of ['mouseleave', 'blur']) target.addEventListener(end, hideTip);
+  for (const start of ['mouseenter', 'focusin']) target.addEventListener(start, show);
+  for (const end of ['mouseleave', 'focusout']) target.addEventListener(end, hideTip);
 }

@@ -4,11 +4,11 @@
 const slice = {svg: byId('slice'), across: [1, 0, 0], metres: 1, pan: [0, 0, 0], stretch: false};
 
 const sliceWidth = 480, sliceHeight = 360;
-// Fits the slice to these bodies or, without any, to `reach` about the contact. `metres` is the width shown.
-function fitSlice(bodies, n, reach) {
+// Fits the slice to these bodies or, without any, to `reach` about a point, at first the contact. `metres` is the width shown.
+function fitSlice(bodies, n, reach, about = [0, 0, 0]) {
   const points = bodies.flatMap(b => b.faces.flat());
   const {centre, half} = points.length ? bounds(points, [slice.across, n, cross(slice.across, n)])
-      : {centre: [0, 0, 0], half: [reach, reach]};
+      : {centre: about, half: [reach, reach]};
   slice.pan = centre;
   slice.metres = 2.2 * Math.max(half[0], half[1] * sliceWidth / sliceHeight);
 }
@@ -78,8 +78,9 @@ function drawSlice(scene) {
 
 const view = makeView(byId('view'));
 const truth = data.truth, given = data.configuration, answers = Object.entries(data.answers);
-const shortest = v => v === null ? '–' : v !== 0 && Math.abs(v) < 1e-3 ? v.toExponential() : String(v);
-const vector = v => v === null ? '–' : `(${v.map(c => c === null ? 'nan' : String(c)).join(', ')})`;
+const shortest = v => v === null ? '–' : plainNumber(v);
+const vectorCell = v => element('td', {class: 'text wrap'}, vector(v));
+const vector = v => v === null ? '–' : `(${v.map(c => c === null ? 'nan' : plainNumber(c)).join(', ')})`;
 
 // The candidates shown: at first those that fail, and our own.
 const shown = new Set(answers.filter(([name, a]) => a.status === 'contact' && (name === 'reference' || a.score.outcome !== 'agree'))
@@ -92,8 +93,9 @@ function aim(index) {
   aimView(view, scene.normal, scene.across);
   slice.across = scene.across;
   shows = {contact: [], smaller: [smallerBody(scene)], whole: scene.bodies};
-  fitView(view, mainBodies(scene));
-  fitSlice(mainBodies(scene), scene.normal);
+  const thin = closeUp(view, scene), bodies = thin ? [] : mainBodies(scene);
+  fitView(view, bodies, thin?.reach, thin?.about);
+  fitSlice(bodies, scene.normal, thin?.reach, thin?.about);
   turnSlice();
 }
 function turnSlice() {
@@ -113,7 +115,7 @@ function legend() {
     box.checked = shown.has(name);
     box.disabled = a.status !== 'contact';
     box.addEventListener('change', () => { box.checked ? shown.add(name) : shown.delete(name); redraw(); });
-    return element('label', {}, box, sign(name), name, element('span', {class: 'quiet'}, a.score.outcome));
+    return element('label', {}, box, sign(name), name, element('span', {class: 'quiet'}, swatch(a.score.outcome), a.score.outcome));
   }));
 }
 function showAll(all) {
@@ -133,15 +135,15 @@ function truthValues() {
   ]);
 }
 function answerTables() {
-    byId('answer-table').append(table([textColumn('candidate'), textColumn('outcome'), 'signed distance', 'depth error',
+  byId('answer-table').append(table([textColumn('candidate'), textColumn('outcome'), 'signed distance', 'depth error',
       'normal regret', 'angle, °', 'coverage', 'points', textColumn('normal')],
       answers.map(([n, a]) => [named(n), outcomeCell(a.score.outcome), a.status === 'contact' ? shortest(a.signed_distance) : a.status,
           exponent(a.score.depth_error), exponent(a.score.normal_regret), exponent(a.score.normal_angle),
-          cutShare(a.score.coverage), String(a.points.length), vector(a.normal)])));
+          cutShare(a.score.coverage), String(a.points.length), vectorCell(a.normal)]), 'Answers and their scores'));
   byId('reasons').append(...answers.filter(([, a]) => a.reason)
       .map(([n, a]) => element('p', {class: 'quiet'}, `${n}: ${a.reason}`)));
   byId('point-table').append(table([textColumn('candidate'), textColumn('position'), 'depth', textColumn('normal')],
-      answers.flatMap(([n, a]) => a.points.map(p => [named(n), vector(p.position), shortest(p.depth), vector(p.normal)]))));
+      answers.flatMap(([n, a]) => a.points.map(p => [named(n), vectorCell(p.position), shortest(p.depth), vectorCell(p.normal)])), 'Positions and depths in metres'));
 }
 
 // Every number of the configuration with its path, such as "pose_a.position[2]".
@@ -156,7 +158,7 @@ function configuration() {
   const hex = new Map(leaves(data.hexadecimal)), exact = new Map(leaves(data.exact));
   byId('number-table').append(table(['field', 'decimal', 'hexadecimal', 'exact'].map(textColumn), leaves(given).map(([path, value]) =>
       path.endsWith('.shape') ? [path, element('td', {class: 'text', colspan: 3}, value)]
-          : [path, value, hex.get(path), element('td', {class: 'exact text'}, exact.get(path))])));
+          : [path, value, hex.get(path), element('td', {class: 'exact text'}, exact.get(path))]), 'Every number of the configuration'));
   byId('line').append(command(JSON.stringify({id: data.id, ...given})));
   byId('replay').append(command(data.replay));
 }

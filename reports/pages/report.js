@@ -48,7 +48,7 @@ const supported = r => r.count - (r.outcomes.unsupported || 0);
 const agreeing = r => (r.outcomes.agree || 0) / supported(r);
 const withoutAnswer = ['not-finite', 'failed', 'crashed', 'timed-out'];
 const lost = r => withoutAnswer.reduce((sum, o) => sum + (r.outcomes[o] || 0), 0);
-const vector = v => v === null ? '–' : `(${v.map(c => c === null ? 'nan' : c.toPrecision(6)).join(', ')})`;
+const vector = v => v === null ? '–' : `(${v.map(c => c === null ? 'nan' : plainNumber(c, 6)).join(', ')})`;
 const outcomesText = r => Object.entries(r.outcomes).map(([name, n]) => `${name} ${n}`).join(', ');
 
 // Fills a select box of the page and listens to it.
@@ -107,7 +107,7 @@ function costOf(pair) {
   if (!first) return [element('b', {}, dashed(pair)), ': not timed.'];
   const fastest = [...timed].sort((a, b) => time(a) - time(b))[0];
   const asFast = r => r === fastest || fastest.tied_with.includes(r.candidate);  // within the spreads
-  const against = (words, r) => [`; ${words}, `, named(r.candidate), `, ${whole(time(r))} ns (${(time(r) / time(first)).toPrecision(2)} times that, ` +
+  const against = (words, r) => [`; ${words}, `, named(r.candidate), `, ${whole(time(r))} ns (${exponent(time(r) / time(first))} times that, ` +
       `agrees on ${percent(agreeing(r))})`];
   return [element('b', {}, dashed(pair)), ': ', named(first.candidate), ` takes ${whole(time(first))} ns`,
           ...(second ? against('the next most accurate', second) : []),

@@ -12,17 +12,17 @@ function gallery() {
   byId('worst-cases').replaceChildren(...(chosen.length ? chosen.slice(0, galleryCount).map(worstCase) : ['None.']),
       ...(chosen.length > galleryCount ? [more] : []));
 }
-const metres = d => Math.abs(d) < 1e-3 && d !== 0 ? d.toExponential(6) : d.toPrecision(7);
+const metres = d => plainNumber(d, 7);
 function worstCase(w) {
   const rows = Object.entries(w.answers).map(([name, a]) => [rowHead(named(name)),
       outcomeCell(a.score.outcome),
       a.signed_distance === null ? a.status : metres(a.signed_distance), exponent(a.score.depth_error),
       exponent(a.score.normal_regret), exponent(a.score.normal_angle), String(a.points.length), cutShare(a.score.coverage)]);
   const wide = text => column(text, {class: 'wide'});
-  const heads = [textColumn('candidate'), textColumn('outcome'), 'signed distance', 'error', wide('regret'), wide('angle, °'), 'points', wide('coverage')];
+  const heads = [textColumn('candidate'), textColumn('outcome'), 'signed distance', 'error', wide('regret'), wide('angle, °'), wide('points'), wide('coverage')];
   const reasons = Object.entries(w.answers).filter(([, a]) => a.reason);
   return element('article', {},
-      element('h3', {}, named(w.candidate), `: ${w.outcome}`, element('span', {class: 'quiet'}, ` ${dashed(w.pair)}, ${w.class}`)),
+      element('h3', {}, named(w.candidate), ': ', swatch(w.outcome), w.outcome, element('span', {class: 'quiet'}, ` ${dashed(w.pair)}, ${w.class}`)),
       element('div', {class: 'case'}, caseView(w), element('div', {},
           element('p', {}, `True signed distance ${metres(Number(w.truth.signed_distance[0]))} m, ` +
               (w.truth.ties === 'unique' ? 'one optimal normal: ' : `optimal normals (${w.truth.ties}): `) +
@@ -49,19 +49,28 @@ function caseView(w) {
     const scene = makeScene(w.configuration, w.truth, 0), view = makeView(canvas);
     scene.marks = marksOf(scene, w.truth, Object.entries(w.answers));
     aimView(view, scene.normal, scene.across);
-    fitView(view, mainBodies(scene));
+    const thin = closeUp(view, scene), views = [['Whole bodies', () => fitView(view, mainBodies(scene))],
+      ['Contact', () => fitView(view, [], scene.reaches.contact)], ...(thin ? [['Thin body', () => fitView(view, [], thin.reach, thin.about)]] : [])];
+    let at = thin ? 2 : 0;
+    views[at][1]();
     const redraw = () => drawContact(view, scene);
     steerView(view, redraw);
     onThemeChange(redraw);
     redraw();
-    close.addEventListener('click', () => { fitView(view, close.wide ? mainBodies(scene) : [], scene.reaches.contact); close.wide = !close.wide; redraw();
-        close.textContent = close.wide ? 'Whole bodies' : 'Contact'; });
+    const offerNext = () => { other.textContent = views[(at + 1) % views.length][0]; };
+    offerNext();
+    other.addEventListener('click', () => {
+      at = (at + 1) % views.length;
+      views[at][1]();
+      offerNext();
+      redraw();
+    });
   };
   const inSight = new IntersectionObserver(entries => { if (entries.some(e => e.isIntersecting)) draw(); }, {rootMargin: '200px'});
   inSight.observe(canvas);
   undrawn.push(draw);
-  const close = element('button', {type: 'button'}, 'Contact');
-  return element('figure', {}, canvas, element('p', {class: 'controls quiet'}, close, element('span', {class: 'body-a'}, 'cylinder A'),
+  const other = element('button', {type: 'button'}, 'Contact');
+  return element('figure', {}, canvas, element('p', {class: 'controls quiet'}, other, element('span', {class: 'body-a'}, 'cylinder A'),
       element('span', {class: 'body-b'}, `${w.configuration.b.shape} B`), element('span', {}, '◆ truth; drag to turn')));
 }
 function showWorst(pair, candidate) {

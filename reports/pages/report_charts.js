@@ -21,7 +21,7 @@ function speedAccuracy() {
   const y = powerAxis('depth error, p99 (sizes)', rows.map(chartedError));
   const places = [...new Set(rows.map(r => r.pair))].reverse().map(pair => [pair, element('div', {class: 'chart'})]);
   // All places exist before the first chart is drawn, so that each has its final width.
-  host.append(...places.map(([pair, place]) => element('figure', {}, element('figcaption', {}, pair === 'all' ? 'all pairs' : dashed(pair)), place)));
+  host.append(...places.map(([pair, place]) => pairPanel(pair, place)));
   for (const [pair, place] of places) {
     const draw = () => speedChart(place, pair, rows.filter(r => r.pair === pair), x, y);
     panels.push(draw);
@@ -42,7 +42,7 @@ function speedChart(place, pair, rows, x, y) {
            `\nClick for its worst cases`}));
   // The members of a family, in the order of their parameter.
   const members = report.candidates.map(c => ({family: c.family, row: rows.find(r => r.candidate === c.name)})).filter(m => m.row);
-  drawScatter(place, `Depth error against time per query, ${dashed(pair)}`, {x, y, points, lines: [
+  drawScatter(place, `Depth error against time per query, ${dashed(pair)}`, {height: panelHeight(pair), x, y, points, lines: [
     {rows: members.map(m => ({family: m.family, ...at(m.row)})), by: 'family', width: 0.8},
     {rows: front.map(at), dash: [4, 3]}]}, r => showWorst(pair, r.candidate));
 }

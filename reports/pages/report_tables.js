@@ -11,7 +11,7 @@ function worstErrors() {
 }
 function worstErrorCell(r) {
   if (!r || supported(r) === 0) return notAvailable();
-  const worst = quantile(r.severity, 'max'), cell = element('td', {class: 'heat', tabindex: 0, style: heated(1 + Math.log10(worst) / 16)},
+  const worst = quantile(r.severity, 'max'), cell = element('td', {class: 'heat', style: heated(1 + Math.log10(worst) / 16)},
       exponent(worst), r.outcomes.missed || lost(r) ? element('small', {}, `${whole((r.outcomes.missed || 0) + lost(r))} lost`) : null);
   explain(cell, `${r.candidate}, ${dashed(r.pair)}\n${outcomesText(r)}\nworst error ${exponent(worst)}, 99th percentile ` +
       `${exponent(quantile(r.severity, 'p99'))}\nClick for its worst cases`);
@@ -24,7 +24,7 @@ function drakeProtocol() {
   const protocol = report.drake_protocol;
   if (!protocol) return byId('drake-table').append(
       report.candidates.some(c => c.given) ? 'Not measured: the answers came in a file.' : 'Not measured: the run was interrupted.');
-  const published = query => element('tr', {class: 'published'}, rowHead(`Drake, ${query === 'penetration' ? 'point pair' : 'signed distance'}`),
+  const published = query => element('tr', {class: 'pinned published'}, rowHead(`Drake, ${query === 'penetration' ? 'point pair' : 'signed distance'}`),
       ...protocol.pairs.map(p => element('td', {}, millimetres(p.published[query]))));
   const rows = candidates.map(name => [rowHead(named(name)),
       ...protocol.pairs.map(p => drakeCell(p, protocol.results.find(r => r.pair === p.pair && r.candidate === name)))]);
@@ -33,7 +33,7 @@ function drakeProtocol() {
 }
 function drakeCell(pair, r) {
   if (supported(r) === 0) return notAvailable();
-  const missed = r.outcomes.missed || 0, cell = element('td', {class: 'heat', tabindex: 0,
+  const missed = r.outcomes.missed || 0, cell = element('td', {class: 'heat',
       style: heated(r.max_error === null ? 1 : decade(1e3 * r.max_error))}, r.max_error === null ? '–' : millimetres(r.max_error),
       missed || lost(r) ? element('small', {}, `${missed + lost(r)} lost`) : null);
   const worst = r.worst === null ? null : pair.configurations[r.worst];
@@ -57,7 +57,7 @@ function summaryTable() {
   const rows = summary().filter(r => r.pair === pair && supported(r)).map(r => {
     const share = agreeing(r), ratio = r.nanoseconds && r.nanoseconds.ratio_to_bullet;
     return [rowHead(named(r.candidate)), element('td', {class: share === 1 ? 'good' : ''}, percent(share)),
-            element('td', {class: r.outcomes.missed || r.outcomes.phantom ? 'bad' : ''},
+            element('td', {class: r.outcomes.missed || r.outcomes.phantom ? 'bad' : '', 'data-value': (r.outcomes.phantom || 0) + (r.outcomes.missed || 0)},
                 `${whole(r.outcomes.phantom || 0)} / ${whole(r.outcomes.missed || 0)}`),
             exponent(quantile(r.depth_error, 'p99')), element('td', {class: 'wide'}, exponent(quantile(r.depth_error, 'max'))),
             biasText(r), exponent(quantile(r.normal_regret, 'p99')), exponent(quantile(r.point_error, 'p99')), cutShare(quantile(r.coverage, 'mean')), timeCell(r),
@@ -70,17 +70,17 @@ function summaryTable() {
 function timeCell(r) {
   const t = r.nanoseconds;
   if (!t || t.floor === null) return whole(time(r));
-  const cell = element('td', {tabindex: 0}, whole(time(r)), element('small', {}, `floor ${whole(t.floor)}`));
+  const cell = element('td', {}, whole(time(r)), element('small', {}, `floor ${whole(t.floor)}`));
   explain(cell, `${r.candidate}, ${dashed(r.pair)}: ${whole(time(r))} ns` + floorText(r));
   return cell;
 }
-const biasText = r => r.bias === null ? '–' : r.bias.median > 0 ? `+${exponent(r.bias.median)}` : exponent(r.bias.median).replace('-', '−');
+const biasText = r => r.bias === null ? '–' : `${r.bias.median > 0 ? '+' : ''}${exponent(r.bias.median)}`;
 
 // The errors of a simplified model and of its solver.
 const modelled = report.summary.filter(r => r.model_error !== null && report.candidates.some(c => c.name === r.candidate && c.models));
 function modelTable() {
   const rows = modelled.filter(r => r.class === group && r.pair === byId('model-pair').value).map(r => {
-    const name = element('th', {scope: 'row', tabindex: 0}, named(r.candidate));
+    const name = rowHead(named(r.candidate));
     explain(name, report.candidates.find(c => c.name === r.candidate).models);
     return [name, ...[r.model_error, r.solver_error].flatMap(q => ['median', 'p99'].map(which => exponent(quantile(q, which))))];
   });
@@ -117,7 +117,7 @@ function classTable() {
   const classes = [...new Map(report.classes.filter(c => c.group === group && (ofOne || c.pair === pair)).map(c => [c.class, c])).values()];
   const columns = ofOne ? pairs.map(p => [p, candidate]) : candidates.map(c => [pair, c]);
   const rows = classes.map(c => {
-    const name = element('th', {scope: 'row', tabindex: 0}, ...c.class.split('+').flatMap((part, i) => i ? [element('wbr'), `+${part}`] : [part]));
+    const name = rowHead(...c.class.split('+').flatMap((part, i) => i ? [element('wbr'), `+${part}`] : [part]));
     explain(name, c.description);
     return [name, ...columns.map(([p, k]) => classCell(c, resultAt.get(`${p}/${c.class}/${k}`), quantity))];
   });
@@ -127,7 +127,7 @@ function classTable() {
 function classCell(c, r, quantity) {
   if (!r || supported(r) === 0) return notAvailable();
   const value = quantity.value(r), level = value === null ? 0 : quantity.level(value);
-  const cell = element('td', {class: 'heat', tabindex: 0, style: heated(level)}, quantity.text(r));
+  const cell = element('td', {class: 'heat', style: heated(level)}, quantity.text(r));
   explain(cell, `${r.candidate}, ${dashed(r.pair)}, ${c.class}\n${c.description}\n${outcomesText(r)}\n` +
       `worst error ${exponent(quantile(r.severity, 'max'))}, depth error p99 ${exponent(quantile(r.depth_error, 'p99'))}, regret p99 ` +
       `${exponent(quantile(r.normal_regret, 'p99'))}\npatch covered: mean ${cutShare(quantile(r.coverage, 'mean'))}; ${whole(time(r))} ns` +
@@ -145,7 +145,7 @@ function factorTable() {
   const candidate = byId('factor-candidate').value, entries = report.factors.filter(f => f.candidate === candidate && f.group === group);
   byId('factor-command').replaceChildren();
   const rows = entries.map(f => {
-    const row = element('tr', {tabindex: 0}, rowHead(dashed(f.pair)), element('td', {class: 'text'}, f.name),
+    const row = element('tr', {}, rowHead(dashed(f.pair)), element('td', {class: 'text'}, f.name),
         element('td', {}, failing(f.with.failed / f.with.count)), element('td', {}, failing(f.without)), element('td', {class: 'text wide'}, f.kind));
     explain(row, `${f.kind} ${f.name}: ${whole(f.with.failed)} of ${whole(f.with.count)} fail\nworst: ${f.worst}\nClick for the command`);
     whenPressed(row, () => byId('factor-command').replaceChildren(command(replayOf(f.worst, candidate))));
@@ -172,7 +172,7 @@ function contrastTable() {
 }
 function contrastCell(c) {
   if (!c) return notAvailable();
-  const alone = agreed(c.plain), modified = agreed(c.modified), cell = element('td', {class: 'heat', tabindex: 0, style: heated(Math.max(0, alone - modified))},
+  const alone = agreed(c.plain), modified = agreed(c.modified), cell = element('td', {class: 'heat', 'data-value': modified - alone, style: heated(Math.max(0, alone - modified))},
       element('span', c.fails ? {class: 'strong'} : {}, `${Math.floor(100 * alone)} → ${Math.floor(100 * modified)}`));
   explain(cell, `${c.candidate}, ${dashed(c.pair)}, ${c.arrangement}\nalone: agrees on ${percent(alone)} of ${whole(c.plain.count)}\n` +
       `${c.modifier}: on ${percent(modified)} of ${whole(c.modified.count)}\nchance of as many failures there by accident: ${exponent(c.chance)}` +
@@ -217,7 +217,7 @@ function manifold() {
   const other = candidate === 'reference' ? candidates.find(c => c !== 'reference') : candidates.includes('reference') ? 'reference' : null;
   const compared = [candidate, ...(other ? [other] : [])];
   const rows = thesisCases.filter(([pair, poseClass]) => resultAt.has(`${pair}/${poseClass}/${candidate}`)).map(([pair, poseClass, words, points]) => {
-    const name = element('th', {scope: 'row', tabindex: 0}, words);
+    const name = rowHead(words);
     explain(name, `${dashed(pair)}, class ${poseClass}`);
     return [name, points, ...compared.flatMap(c => manifoldCells(resultAt.get(`${pair}/${poseClass}/${c}`)))];
   });
@@ -226,7 +226,7 @@ function manifold() {
 }
 function manifoldCells(r) {
   if (!r || supported(r) === 0) return [notAvailable(), notAvailable()];
-  const mean = quantile(r.coverage, 'mean'), points = element('td', {tabindex: 0}, pointCounts(r));
+  const mean = quantile(r.coverage, 'mean'), points = element('td', {}, pointCounts(r));
   explain(points, `${r.candidate}: ${Object.entries(r.points).map(([n, count]) => `${count} × ${n} points`).join(', ') || 'no contacts'}`);
   return [points, element('td', mean === null ? {} : {class: 'heat', style: heated(1 - mean)}, cutShare(mean))];
 }
@@ -237,6 +237,7 @@ manifold();
 // and the numbers of one experiment. Errors below what an experiment resolves are equal.
 const experimentCell = {
   text: r => r.outcome === 'unsupported' ? '–' : r.exact ? 'held' : r.error === null || r.outcome === 'unsound' ? 'lost' : exponent(r.error),
+  key: r => r.outcome === 'unsupported' ? '' : r.exact ? 0 : r.error === null || r.outcome === 'unsound' ? Infinity : r.error,
   // Pale at the experiment's resolution, full at an error of 1.
   style: (r, resolution) => r.exact ? '' : heated(r.error === null ? 1
       : 0.2 + 0.8 * Math.max(0, 1 - Math.log(r.error) / Math.log(resolution))),
@@ -254,13 +255,13 @@ function experimentTables({experiments, results, steps}) {
   const of = (experiment, name) => results.find(r => r.experiment === experiment.name && r.candidate === name && r.step === steps[0]);
   const rows = candidates.map(name => [rowHead(named(name)),
       ...experiments.map(e => {
-        const r = of(e, name), cell = element('td', {class: r.exact ? 'heat good' : r.outcome === 'unsupported' ? 'quiet' : 'heat', tabindex: 0,
-            style: experimentCell.style(r, e.resolution[0])}, experimentCell.text(r));
+        const r = of(e, name), cell = element('td', {class: r.exact ? 'heat good' : r.outcome === 'unsupported' ? 'quiet' : 'heat',
+            'data-value': experimentCell.key(r), style: experimentCell.style(r, e.resolution[0])}, experimentCell.text(r));
         explain(cell, experimentTip(r, e, 0));
         whenPressed(cell, () => { byId('experiment-name').value = e.name; one(); });
         return cell;
       })]);
-  const resolved = element('tr', {class: 'quiet'}, rowHead('resolves'),
+  const resolved = element('tr', {class: 'pinned quiet'}, rowHead('resolves'),
       ...experiments.map(e => element('td', {}, exponent(e.resolution[0]))));
   byId('experiment-errors').append(table([textColumn('candidate'), ...experiments.map(e => e.name)], [resolved, ...rows],
       'Error of each experiment in its own unit; held: below what the experiment resolves, where all are equal'));
@@ -270,10 +271,10 @@ function experimentTables({experiments, results, steps}) {
     byId('experiment-statement').textContent = `${e.statement} Value: ${e.quantity}; on paper ${exponent(e.expected[0])}. ` +
         `Error in ${e.unit}; errors below ${exponent(e.resolution[0])} are equal: the experiment resolves no more.`;
     const measured = candidates.map(name => of(e, name)).filter(r => r.outcome !== 'unsupported');
-    byId('experiment-table').replaceChildren(table([textColumn('candidate'), 'value', 'error', 'points', 'flicker',
+    byId('experiment-table').replaceChildren(table([textColumn('candidate'), 'value', 'error', 'points', column('flicker', {class: 'wide'}),
         column('one point', {class: 'wide'}), column('energy gained', {class: 'wide'}), 'ns per query', 'µs per step'],
       measured.map(r => [rowHead(named(r.candidate)), exponent(r.value),
-          element('td', {class: r.exact ? 'good' : ''}, r.exact ? `held (${exponent(r.error)})` : experimentCell.text(r)),
+          element('td', {class: r.exact ? 'good' : '', 'data-value': r.error ?? ''}, r.exact ? `held (${exponent(r.error)})` : experimentCell.text(r)),
           r.points.toFixed(1), percent(r.flicker), percent(r.single), exponent(r.energy_gained),
           whole(r.nanoseconds), whole(r.microseconds_per_step)]), 'One experiment'));
     byId('experiment-command').replaceChildren(command(`./touchstone simulate ${e.name} --step ${steps[0]}`));
@@ -309,13 +310,13 @@ if (report.recorded && report.recorded.length) {
 
 // The outcomes of all configurations, as bars.
 function outcomeBars() {
-  const pair = byId('outcome-pair').value, seen = Object.keys(outcomeColours).filter(o => report.summary.some(r => r.outcomes[o]));
+  const pair = byId('outcome-pair').value, seen = outcomes.filter(o => report.summary.some(r => r.outcomes[o]));
   const rows = summary().filter(r => r.pair === pair && supported(r)).map(r => {
     const bar = element('div', {class: 'bar', role: 'img', 'aria-label': outcomesText(r)});
     for (const o of seen) {
       const n = r.outcomes[o] || 0;
       if (n === 0) continue;
-      const part = element('div', {style: `width:${100 * n / r.count}%;background:var(${outcomeColours[o]})`});
+      const part = element('div', {style: `width:${100 * n / r.count}%;background:var(${outcomeColour(o)})`});
       explain(part, `${r.candidate}, ${dashed(r.pair)}\n${o}: ${whole(n)} of ${whole(r.count)}`);
       bar.append(part);
     }

@@ -23,7 +23,7 @@ function labelledSelect(label, values, change) {
 
 // The head of a column that tells more on hover and focus.
 function explainedHead(text, more) {
-  const head = column(text, {class: 'text pose', tabindex: 0});
+  const head = column(text, {class: 'text pose'});
   explain(head, more);
   return head;
 }
@@ -82,13 +82,13 @@ function worstSteps(worst) {
   if (rows.length === 0) return '';
   return element('details', {}, element('summary', {}, 'Worst steps, by change of depth over what the step allows'),
       element('div', {class: 'scroll'}, table([...['candidate', 'pair', 'from', 'to'].map(textColumn), 'times'], rows.map(w =>
-          [named(w.candidate), w.pair, element('code', {}, w.from), element('code', {}, w.to), exponent(w.value)]))));
+          [named(w.candidate), w.pair, ...[w.from, w.to].map(id => element('td', {class: 'text wrap'}, element('code', {}, id))), exponent(w.value)]), 'Worst steps')));
 }
 
 // Maps of failure: one row per candidate, one column per critical pose.
 function drawMaps(into, maps, names) {
   const place = element('div', {class: 'scroll'});
-  const shown = element('p', {class: 'command', role: 'status'}, 'Point at a pixel for its outcome; click for the command that replays it.');
+  const shown = element('p', {class: 'command', role: 'status'}, 'Point at a pixel for its outcome; click for the command that replays it (with the keyboard, Enter: the middle).');
   const [label, zoom] = labelledSelect('Zoom', maps.zooms.map((z, i) => [i, z]), draw);
   zoom.value = Math.max(0, maps.zooms.indexOf('1e-8'));
   const seen = Object.entries(maps.letters).filter(([letter]) =>
@@ -102,10 +102,12 @@ function drawMaps(into, maps, names) {
       element('code', {}, `${programs[result.candidate]} replay ${pixel.name} --candidates ${result.candidate}`));
   function draw() {
     const heads = maps.poses.map(p => explainedHead(p.pose, `${p.description} Across: ${p.columns}. Up: ${p.rows}.`));
-    place.replaceChildren(table([textColumn(''), ...heads], names.map(name => [rowHead(named(name)), ...maps.poses.map(p => {
+    place.replaceChildren(table([textColumn('candidate'), ...heads], names.map(name => [rowHead(named(name)), ...maps.poses.map(p => {
       const result = p.results.find(r => r.candidate === name);
-      return element('td', {class: 'map-cell'}, result ? mapPicture(maps, p, result, Number(zoom.value), show) : '–');
-    })])));
+      const picture = result ? mapPicture(maps, p, result, Number(zoom.value), show) : '–', cell = element('td', {class: 'map-cell'}, picture);
+      if (result) cell.addEventListener('keydown', e => { if (e.key === 'Enter') picture.showMiddle(); });
+      return cell;
+    })]), `Zoom ${maps.zooms[zoom.value]}`));
   }
   draw();
   onThemeChange(draw);
@@ -114,22 +116,25 @@ function mapPicture(maps, pose, result, zoom, show) {
   const side = 2 * maps.reach / maps.stride + 1;
   const letters = result.maps[zoom].replace(/(\d+)(\D)/g, (_, n, letter) => letter.repeat(n));  // "3m2." is mmm..
   const counts = Object.entries(maps.letters).map(([letter, outcome]) => [outcome, letters.split(letter).length - 1]).filter(c => c[1]);
-  const canvas = element('canvas', {class: 'map', width: side, height: side, role: 'img', style: `width:${4 * side}px;height:${4 * side}px`,
+  const pixel = Math.max(2, Math.min(4, Math.floor(112 / side)));  // nine maps side by side fit the page
+  const canvas = element('canvas', {class: 'map', width: side, height: side, role: 'img', style: `width:${pixel * side}px;height:${pixel * side}px`,
     'aria-label': `${result.candidate}, ${pose.pose}: ${counts.map(c => c.join(' ')).join(', ')}`});
   const context = canvas.getContext('2d'), style = getComputedStyle(document.documentElement);
   [...letters].forEach((letter, i) => {
-    context.fillStyle = style.getPropertyValue(outcomeColours[maps.letters[letter]]);
+    context.fillStyle = style.getPropertyValue(outcomeColour(maps.letters[letter]));
     context.fillRect(i % side, Math.floor(i / side), 1, 1);
   });
+  const pixelAt = (column, row) => ({letter: letters[row * side + column],
+    name: `map/${pose.pose}/${maps.zooms[zoom]}/${column * maps.stride - maps.reach}/${maps.reach - row * maps.stride}`});
   const at = event => {
     const box = canvas.getBoundingClientRect();
     const column = Math.min(side - 1, Math.floor((event.clientX - box.left) / box.width * side));
     const row = Math.min(side - 1, Math.floor((event.clientY - box.top) / box.height * side));
-    return {letter: letters[row * side + column],
-      name: `map/${pose.pose}/${maps.zooms[zoom]}/${column * maps.stride - maps.reach}/${maps.reach - row * maps.stride}`};
+    return pixelAt(column, row);
   };
   canvas.addEventListener('mousemove', event => { canvas.title = `${maps.letters[at(event).letter]}  ${at(event).name}`; });
   canvas.addEventListener('click', event => show(result, at(event)));
+  canvas.showMiddle = () => show(result, pixelAt((side - 1) / 2, (side - 1) / 2));
   return canvas;
 }
 
@@ -154,7 +159,7 @@ function drawMotions(into, sequences, names) {
     const value = result ? motionMeasures[measure.value][1](result) : null;
     if (value === null) return element('td', {}, '–');
     if (typeof value === 'number') return element('td', {style: heated(value / sequences.steps)}, String(value));
-    const shown = element('td', {tabindex: 0, style: heated(value.value > 0 ? (Math.log10(value.value) + 6) / 6 : 0)}, exponent(value.value));
+    const shown = element('td', {style: heated(value.value > 0 ? (Math.log10(value.value) + 6) / 6 : 0)}, exponent(value.value));
     explain(shown, `${step(m, value.step - 1)} to\n${step(m, value.step)}`);
     return shown;
   }
@@ -162,8 +167,9 @@ function drawMotions(into, sequences, names) {
     const heads = sequences.motions.map(m => explainedHead(m.motion, m.description));
     const truth = sequences.motions.map(m => element('td', {}, measure.value === 'jump' ? exponent(m.truth.depth)
         : measure.value.startsWith('hull') ? exponent(m.truth.patch) : ''));
-    place.replaceChildren(table([textColumn(''), ...heads], [[rowHead('truth, a step'), ...truth],
-        ...names.map(name => [rowHead(named(name)), ...sequences.motions.map(m => cell(m, m.results.find(r => r.candidate === name)))])]));
+    place.replaceChildren(table([textColumn('candidate'), ...heads], [element('tr', {class: 'pinned'}, rowHead('truth, a step'), ...truth),
+        ...names.map(name => [rowHead(named(name)), ...sequences.motions.map(m => cell(m, m.results.find(r => r.candidate === name)))])],
+        `Each motion: ${motionMeasures[measure.value][0]}`));
   }
   draw();
 }

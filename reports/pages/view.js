@@ -25,11 +25,21 @@ function bounds(points, axes) {
   const ends = axes.map(e => points.map(p => dot(p, e))).map(v => [Math.min(...v), Math.max(...v)]);
   return {centre: combine(axes, ends.map(([lo, hi]) => (lo + hi) / 2)), half: ends.map(([lo, hi]) => (hi - lo) / 2)};
 }
-// Fits the view to these bodies or, without any, to `reach` metres about the contact.
-function fitView(view, bodies, reach) {
+// Fits the view to these bodies or, without any, to `reach` metres about a point, at first the contact.
+function fitView(view, bodies, reach, about = [0, 0, 0]) {
   const points = bodies.flatMap(b => b.faces.flat());
-  view.pan = points.length ? bounds(points, [view.right, view.up, view.towards]).centre : [0, 0, 0];
+  view.pan = points.length ? bounds(points, [view.right, view.up, view.towards]).centre : about;
   view.zoom = 0.9 / (points.length ? Math.max(...points.map(p => length(add(p, view.pan, -1)))) : reach);
+}
+// What a view shows at first of a needle, or of a coin seen on its edge, which would be a hair beside the other body:
+// {reach, about}, so that it takes a seventh of the view, about its point of contact; null where all bodies are well seen.
+function closeUp(view, scene) {
+  // A body's outline is thinnest across the picture of one of its axes, or along it.
+  const directionsOf = body => body.axes.flatMap(e => [cross(view.towards, e), add(e, view.towards, -dot(e, view.towards))]).filter(d => length(d) > 1e-9).map(unit);
+  const widths = scene.bodies.map(b => b.shape.shape === 'plane' ? Infinity : Math.min(...directionsOf(b).map(n => extentAlong(b, n))));
+  const thin = widths[0] < widths[1] ? 0 : 1, reach = 6 * widths[thin];
+  if (reach > 0.375 * Math.max(...mainBodies(scene).map(b => scene.radii[scene.bodies.indexOf(b)]))) return null;
+  return {reach, about: times(scene.normal, (thin === 0 ? 0.5 : -0.5) * scene.signedDistance)};
 }
 // Zooms about the contact, which keeps its place on the screen.
 function zoomView(view, factor) {
