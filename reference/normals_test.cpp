@@ -50,6 +50,18 @@ TEST(EllipseNormal, OfAnyPointHasTheLargestGapOfItsQuadrant) {
   }));
 }
 
+TEST(EllipseNormal, NextToTheCuspOfTheEvoluteHasTheLargestGapOfItsQuadrant) {
+  for (const double b : {0.99, 0.5, 1e-3, 1e-9}) {
+    for (int i = 0; i <= 16; i += 2) {
+      for (int j = 0; j <= 16; j += 2) {
+        const double cusp = (1 - b) * (1 + b), away = std::pow(10, -i), y = std::pow(10, -j);
+        expect_largest_in_quadrant(b, cusp * (1 + away), cusp * y / b);
+        expect_largest_in_quadrant(b, cusp * (1 - away), cusp * y / b);
+      }
+    }
+  }
+}
+
 TEST(EllipseNormal, OnTheMajorAxisBetweenTheCentresOfCurvatureLeansToTheFlatSide) {
   const auto n = ellipse_normal(2, 1, 0.75, 0);
   ASSERT_TRUE(n);
