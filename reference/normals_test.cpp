@@ -96,8 +96,8 @@ TEST(DeepNormals, OffTheAxisAreProvenUpToTheDepthOfTheOtherEnd) {
 }
 
 TEST(DeepNormals, OffTheAxisAreProvenOnlyOfNearlyParallelAxes) {
-  EXPECT_TRUE(no_normal_off_axis_beats(half_way_in(0.02), 1.5));
-  EXPECT_FALSE(no_normal_off_axis_beats(half_way_in(0.021), 1.5));
+  EXPECT_TRUE(no_normal_off_axis_beats(half_way_in(0.11), 1.4));
+  EXPECT_FALSE(no_normal_off_axis_beats(half_way_in(0.111), 1.4));
 }
 
 // Left over, a slope lowers the proven depth by its square over λ, here 0.5: no more than rounding.
@@ -119,8 +119,8 @@ TEST(DeepNormals, OfRimsAreProvenUpToTheDepthThatTheyBendAway) {
   const AboutAxis about = half_way_in(0.01);
   EXPECT_TRUE(bends_away_near_axis(rim, rim, 0.05, 1, 1.5, 0, about));
   EXPECT_FALSE(bends_away_near_axis(rim, rim, 0.051, 1, 1.5, 0, about));
-  EXPECT_TRUE(bends_away_near_axis(rim, rim, 0.05, 0.91, 1.5, 0, about));  // 2 δ 0.15 <= λ
-  EXPECT_FALSE(bends_away_near_axis(rim, rim, 0.05, 0.89, 1.5, 0, about));
+  EXPECT_TRUE(bends_away_near_axis(rim, rim, 0.05, 0.226, 1.5, 0, about));  // 5 δ 0.06 <= 4 λ
+  EXPECT_FALSE(bends_away_near_axis(rim, rim, 0.05, 0.224, 1.5, 0, about));
 }
 
 }  // namespace
