@@ -62,9 +62,9 @@ struct ScaledPoint {
       const Anomaly next = towards(std::max(c, 0.0), s);
       const double step = t.c * next.s - t.s * next.c;
       t = next;
-      // The next step is the square of this: below rounding.
-      constexpr double small_step = 1e-8;
-      if (std::abs(step) < small_step) break;
+      // The next step would be about the square of this over the smaller one.
+      constexpr double small_step = 1e-8, small_part = 2e-6;
+      if (std::abs(step) < std::max(small_step, small_part * std::min(t.c, t.s))) break;
     }
     return t;
   }
