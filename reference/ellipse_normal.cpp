@@ -63,7 +63,7 @@ struct ScaledPoint {
       const double step = t.c * next.s - t.s * next.c;
       t = next;
       // The next step would be about the square of this over the smaller one.
-      constexpr double small_step = 1e-8, small_part = 2e-6;
+      constexpr double small_step = 1e-8, small_part = 2e-7;
       if (std::abs(step) < std::max(small_step, small_part * std::min(t.c, t.s))) break;
     }
     return t;
