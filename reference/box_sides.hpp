@@ -58,6 +58,33 @@ inline Vec3 point_facing(const BestFace& face, const CylinderInBoxFrame& p) {
   const double rim = p.s[i] > flat ? p.r / p.s[i] : 0;
   return p.d + (end + rim * along) * p.u;
 }
+/// Does a cap or generator that lies flat on that face share a point with it, which lies the depth
+/// away from the face's edges, or, on the cap, from its rim, or, on the generator, from its ends?
+inline bool is_shared(const BestFace& face, const CylinderInBoxFrame& p) {
+  const double delta = depth(face.gap);
+  const int i = face.axis, j = (i + 1) % 3, k = (i + 2) % 3;
+  constexpr double flat = 1e-15;
+  if (p.s[i] <= flat) {
+    const auto is_near = [&](double inset, double reach) {
+      const double x = std::max(std::abs(p.d[j]) - (p.e[j] - inset), 0.0);
+      const double y = std::max(std::abs(p.d[k]) - (p.e[k] - inset), 0.0);
+      return inset <= std::min(p.e[j], p.e[k]) && reach >= 0 && x * x + y * y <= reach * reach;
+    };
+    return (delta <= p.e[i] && is_near(delta, p.r)) || (delta <= p.h && is_near(0, p.r - delta));
+  }
+  if (!(std::abs(p.u[i]) <= flat)) return false;
+  const auto is_crossed = [&](double inset, double half_length) {
+    double lo = -half_length, hi = half_length;
+    for (const int x : {j, k}) {
+      const double u = std::abs(p.u[x]), d = std::copysign(1, p.u[x]) * p.d[x], e = p.e[x] - inset;
+      if (!(e >= 0) || (u == 0 && std::abs(d) > e)) return false;
+      if (u > 0) lo = std::max(lo, (-e - d) / u), hi = std::min(hi, (e - d) / u);
+    }
+    return lo <= hi;
+  };
+  return (delta <= p.e[i] && is_crossed(delta, p.h)) ||
+         (delta <= p.r && is_crossed(0, p.h - delta));
+}
 /// A point of A that faces the box lies on the face, its depth away from the edges; or a cylinder
 /// about the face's axis is proven for the box, as wide as the centre's distance from the nearest
 /// edge: from there the box reaches at least as far in every direction.
@@ -68,6 +95,7 @@ inline bool is_proven(const BestFace& face, const CylinderInBoxFrame& p) {
   if (delta <= p.e[i] && std::abs(x[j]) <= p.e[j] - delta && std::abs(x[k]) <= p.e[k] - delta) {
     return true;
   }
+  if (is_shared(face, p)) return true;
   const double beside = std::min(p.e[j] - std::abs(p.d[j]), p.e[k] - std::abs(p.d[k]));
   return face.gap < 0 && beside >= 0 &&
          no_normal_beats_cap(
@@ -162,8 +190,20 @@ struct BoxSides {
     if (edge.gap > face.gap && edge.gap > cap) return Kind::edge;
     return cap > face.gap ? Kind::cap : Kind::face;
   }
-  /// The proof is left out where the gap is above `stop_above`.
+  /// The proof is left out where the gap is above `stop_above`. Of a face whose gap is less by
+  /// rounding only it is as good.
   StageResult best(const CylinderInBoxFrame& p, double stop_above) const {
+    StageResult found = best_of_kind(p, stop_above);
+    const double lengths = p.d.cwiseAbs().sum() + p.e.sum() + p.r + p.h;
+    if (!found.is_proven && found.gap <= stop_above && kind() != Kind::face &&
+        found.gap - face.gap <= rounding_part / 16 * lengths) {
+      found.is_proven = is_proven(face, p);
+    }
+    return found;
+  }
+
+ private:
+  StageResult best_of_kind(const CylinderInBoxFrame& p, double stop_above) const {
     switch (kind()) {
       case Kind::edge: {
         const Vec3 n = edge.normal(p.u);

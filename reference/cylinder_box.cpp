@@ -92,16 +92,28 @@ struct SeenAlong {
   }
 };
 
-/// The proof of `bends_away` for a normal at which a rim and an edge meet.
-bool is_proven_at_rim(const Frame& p, const EdgeAndRim& at, double x, double y, double gap) {
-  const int i = at.i;
-  const double nu = at.end * p.s[i] * y;                   // n·u
-  const double squared = x * x + p.u[i] * p.u[i] * y * y;  // 1 − nu²
+/// The proofs of `bends_away` for a normal at which a rim and an edge meet; near the axis with the
+/// thickest cylinder in the box that stands on the face there. `nu` is n·u, `squared` 1 − nu².
+bool is_proven_at_rim(const Frame& p, const EdgeAndRim& at, const Vec3& n, double nu,
+                      double squared, double gap) {
+  const int i = at.i, j = (i + 1) % 3, k = (i + 2) % 3;
   const double where = p.d[i] - at.end * p.h * p.u[i] + p.r * nu * p.u[i] / std::sqrt(squared);
   const double beyond = p.e[i] - std::abs(where);
-  return beyond > 0 &&
-         bends_away({p.r, p.h}, {2 * beyond, std::min(p.e[(i + 1) % 3], p.e[(i + 2) % 3])},
-                    p.u[i] * p.u[i] / squared, depth(gap), 0);
+  if (!(beyond > 0)) return false;
+  const double squared_sine = p.u[i] * p.u[i] / squared;
+  const Rim rim{p.r, p.h}, edge{2 * beyond, std::min(p.e[j], p.e[k])};
+  if (bends_away(rim, edge, squared_sine, depth(gap), 0)) return true;
+  const int axis = std::abs(n[j]) > std::abs(n[k]) ? j : k, other = 3 - i - axis;
+  const double radius = std::min(p.e[i], p.e[other]);
+  Vec3 arm = p.d;
+  for (const int x : {i, other}) {
+    arm[x] -= std::clamp(p.d[x], radius - p.e[x], p.e[x] - radius);
+  }
+  const double along = arm.dot(p.u), lean = std::max(std::sqrt(squared), std::abs(n[other]));
+  return along * nu >= 0 &&
+         bends_away_near_axis(rim, edge, lean, squared_sine, depth(gap), 0,
+                              {p.r, p.h, radius, p.e[axis], std::abs(p.u[axis]), p.s[axis],
+                               std::abs(along), (arm - along * p.u).norm()});
 }
 
 /// The corner lies at q from the middle of the rim.
@@ -118,11 +130,12 @@ StageResult rim_and_edge(const Frame& p, const EdgeAndRim& at, const Vec2& axis,
   const double gap = p.d[j] * nj + p.d[k] * nk - p.e[j] * std::abs(nj) - p.e[k] * std::abs(nk) -
                      p.h * p.s[i] * y - std::sqrt(p.r * p.r * x * x + b * b * y * y);
   if (!(gap > best)) return {};
-  const bool is_proven =
-      nj * at.sign_j >= 0 && nk * at.sign_k >= 0 && is_proven_at_rim(p, at, x, y, gap);
-  if (i == 0) return {gap, 0, nj, nk, is_proven};
-  if (i == 1) return {gap, nk, 0, nj, is_proven};
-  return {gap, nj, nk, 0, is_proven};
+  Vec3 n;
+  n[i] = 0, n[j] = nj, n[k] = nk;
+  return {
+      gap, n.x(), n.y(), n.z(),
+      nj * at.sign_j >= 0 && nk * at.sign_k >= 0 &&
+          is_proven_at_rim(p, at, n, at.end * p.s[i] * y, x * x + p.u[i] * p.u[i] * y * y, gap)};
 }
 
 /// Two chords of the ellipse's quadrant meet at (r, b)/√2: is the point (x, y) further behind both
@@ -175,10 +188,11 @@ StageResult rim_and_edge_along(const Frame& p, int i, double best) {
 StageResult likely_rim_and_edge(const Frame& p, const BoxSides& sides, double best) {
   using Kind = BoxSides::Kind;
   const Kind kind = sides.kind();
-  if (kind == Kind::cap) return {};
+  constexpr double nearly_flat = 0.1;
+  if (kind == Kind::cap && !(p.s[sides.face.axis] < nearly_flat)) return {};
   Vec3 sign;  // of a vertex
   EdgeAndRim at;
-  if (kind == Kind::face) {
+  if (kind != Kind::edge) {
     const int face = sides.face.axis, j = (face + 1) % 3, k = (face + 2) % 3;
     sign = point_facing(sides.face, p);
     at.i = std::abs(sign[j]) - p.e[j] > std::abs(sign[k]) - p.e[k] ? k : j;

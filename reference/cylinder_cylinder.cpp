@@ -50,6 +50,8 @@ bool is_proven_at_cap(const FoldedAxes& f, double gap, double offset, double sid
   if (delta <= x.h && delta <= x.r && squared <= reach * reach) return true;
   if (gap > 0) return false;
   if (no_normal_beats_cap(x, delta)) return true;
+  const double holds = x.s > flat ? x.r : x.r + x.R;
+  if (no_normal_beats_held_cap(x, std::sqrt(squared), holds, delta)) return true;
   return squared <= x.r * x.r && x.s > flat &&
          bends_away_near_axis({x.R, x.H}, {x.r, x.h}, x.s, f.d3 * f.d3 / squared, delta, 0, x);
 }

@@ -42,16 +42,31 @@ inline bool no_normal_beats_cap(const AboutAxis& x, double depth) {
   return x.bound(x.c, x.s, at_gamma) >= depth && x.holds_further_on(depth);
 }
 
-/// Proves that no normal further than 0.05 from the axis has less depth; for nearly parallel axes.
+/// Sine of an angle from the axis, of a cone that is wide against the angle between nearly parallel
+/// axes.
+inline double sine_of_cone(const AboutAxis& x) {
+  return std::max(std::min(std::max(50 * x.s, 1e-10), 0.05), 2.5 * x.s);
+}
+
+/// Proves that no normal outside the cone has less depth; for nearly parallel axes.
 inline bool no_normal_off_axis_beats(const AboutAxis& x, double depth) {
-  constexpr double sine = 0.05, cosine = 0.99874921777190894;
-  constexpr double nearly_parallel = 0.02;
+  constexpr double nearly_parallel = 0.11;
   if (!(x.s <= nearly_parallel)) return false;
+  const double sine = sine_of_cone(x), cosine = std::sqrt((1 - sine) * (1 + sine));
   const double reach = std::min(x.reach(cosine * x.c + sine * x.s, sine * x.c - cosine * x.s),
                                 x.reach(cosine * x.c - sine * x.s, sine * x.c + cosine * x.s));
   const double other_end = (x.h + x.along) * x.c + (x.r - x.across) * x.s +
                            std::min(x.H, x.reach((x.c - x.s) * (x.c + x.s), 2 * x.c * x.s));
   return x.bound(cosine, sine, reach) >= depth && other_end >= depth && x.holds_further_on(depth);
+}
+
+/// Proves that no normal has less depth than that of the cap of this axis, for nearly parallel
+/// axes. All else has a slope of this length there, and a rim of this radius holds the normal
+/// against it.
+inline bool no_normal_beats_held_cap(const AboutAxis& x, double slope, double radius,
+                                     double depth) {
+  constexpr double half = 0.52;  // and what a tangent is more than its sine
+  return slope <= radius - half * sine_of_cone(x) * depth && no_normal_off_axis_beats(x, depth);
 }
 
 /// Proves that no normal has less depth than e3, across both sides.
@@ -85,8 +100,9 @@ inline bool bends_away(const Rim& a, const Rim& b, double squared_sine, double d
 inline bool bends_away_near_axis(const Rim& a, const Rim& b, double lean, double squared_sine,
                                  double depth, double slope, const AboutAxis& about) {
   const double lambda = a.r * b.r * squared_sine / (a.r + b.r);
-  constexpr double rounding = 1e-16, angle = 0.1, max_lean = 0.05;
-  return lean <= max_lean && 2 * depth * (angle + lean) <= lambda &&
+  const double cone = sine_of_cone(about);
+  constexpr double rounding = 1e-16;
+  return lean <= cone && 5 * depth * (cone + about.s) <= 4 * lambda &&
          slope * slope <= rounding * (a.r + b.r) * lambda && no_normal_off_axis_beats(about, depth);
 }
 

@@ -50,6 +50,18 @@ TEST(EllipseNormal, OfAnyPointHasTheLargestGapOfItsQuadrant) {
   }));
 }
 
+TEST(EllipseNormal, NextToTheCuspOfTheEvoluteHasTheLargestGapOfItsQuadrant) {
+  for (const double b : {0.99, 0.5, 1e-3, 1e-9}) {
+    for (int i = 0; i <= 16; i += 2) {
+      for (int j = 0; j <= 16; j += 2) {
+        const double cusp = (1 - b) * (1 + b), away = std::pow(10, -i), y = std::pow(10, -j);
+        expect_largest_in_quadrant(b, cusp * (1 + away), cusp * y / b);
+        expect_largest_in_quadrant(b, cusp * (1 - away), cusp * y / b);
+      }
+    }
+  }
+}
+
 TEST(EllipseNormal, OnTheMajorAxisBetweenTheCentresOfCurvatureLeansToTheFlatSide) {
   const auto n = ellipse_normal(2, 1, 0.75, 0);
   ASSERT_TRUE(n);
@@ -84,8 +96,8 @@ TEST(DeepNormals, OffTheAxisAreProvenUpToTheDepthOfTheOtherEnd) {
 }
 
 TEST(DeepNormals, OffTheAxisAreProvenOnlyOfNearlyParallelAxes) {
-  EXPECT_TRUE(no_normal_off_axis_beats(half_way_in(0.02), 1.5));
-  EXPECT_FALSE(no_normal_off_axis_beats(half_way_in(0.021), 1.5));
+  EXPECT_TRUE(no_normal_off_axis_beats(half_way_in(0.11), 1.4));
+  EXPECT_FALSE(no_normal_off_axis_beats(half_way_in(0.111), 1.4));
 }
 
 // Left over, a slope lowers the proven depth by its square over λ, here 0.5: no more than rounding.
@@ -107,8 +119,8 @@ TEST(DeepNormals, OfRimsAreProvenUpToTheDepthThatTheyBendAway) {
   const AboutAxis about = half_way_in(0.01);
   EXPECT_TRUE(bends_away_near_axis(rim, rim, 0.05, 1, 1.5, 0, about));
   EXPECT_FALSE(bends_away_near_axis(rim, rim, 0.051, 1, 1.5, 0, about));
-  EXPECT_TRUE(bends_away_near_axis(rim, rim, 0.05, 0.91, 1.5, 0, about));  // 2 δ 0.15 <= λ
-  EXPECT_FALSE(bends_away_near_axis(rim, rim, 0.05, 0.89, 1.5, 0, about));
+  EXPECT_TRUE(bends_away_near_axis(rim, rim, 0.05, 0.226, 1.5, 0, about));  // 5 δ 0.06 <= 4 λ
+  EXPECT_FALSE(bends_away_near_axis(rim, rim, 0.05, 0.224, 1.5, 0, about));
 }
 
 }  // namespace

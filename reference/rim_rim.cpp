@@ -99,8 +99,8 @@ bool is_largest_at_shallow_depth(const FoldedCylinders& pair, const Stationary& 
                                std::sqrt(across * across + d.z() * d.z())});
 }
 
-bool is_largest(const FoldedCylinders& pair, const Stationary& found, const LargestGap& best) {
-  return is_largest_at_shallow_depth(pair, found, best.gap) || is_largest_where_round(pair, best);
+bool is_largest(const FoldedCylinders& pair, const Stationary& found, const LargestGap& there) {
+  return is_largest_at_shallow_depth(pair, found, there.gap) || is_largest_where_round(pair, there);
 }
 
 /// Ends whose rims meet: +1 or −1 along each axis, as the normal points.
@@ -130,9 +130,12 @@ Ends likely_ends(const FoldedCylinders& pair, const Vec3& n) {
 /// `stop_above`.
 bool offer_where_likely(const FoldedCylinders& pair, const Rims& rims, double stop_above,
                         LargestGap& best) {
-  // As deep in each other as this, bodies hardly ever come free where rims meet.
-  constexpr double deep = 0.3;
-  if (-best.gap > deep * (std::min(pair.r1, pair.h1) + std::min(pair.r2, pair.h2))) return false;
+  // As deep in each other as this, bodies hardly ever come free where rims meet, but for caps that
+  // lean to each other by a hair.
+  constexpr double deep = 0.3, hair = 0.11;
+  if (pair.axes.s > hair &&
+      -best.gap > deep * (std::min(pair.r1, pair.h1) + std::min(pair.r2, pair.h2)))
+    return false;
   Vec3 start;
   if (const auto crossing = rims.crossing_normal()) {
     start = *crossing;
@@ -152,9 +155,13 @@ bool offer_where_likely(const FoldedCylinders& pair, const Rims& rims, double st
   const double before = best.gap;
   constexpr int few_steps = 8;
   const Stationary found = rims.polished(start, few_steps);
-  if (found.normal.z() >= 0) best.offer(pair.gap(found.normal), found.normal);
+  if (!(found.normal.z() >= 0)) return false;
+  const LargestGap there{pair.gap(found.normal), found.normal};
+  best.offer(there.gap, there.normal);
+  // Along axes that are parallel but for rounding the best one may be as good.
   return best.gap > stop_above ||
-         (found.maximum && best.gap > before && is_largest(pair, found, best));
+         (found.maximum && there.gap >= before - rounding_part / 16 * pair.lengths() &&
+          is_largest(pair, found, there));
 }
 
 /// Searches one pair of rims for every normal at which they meet, and offers them to `best`.
@@ -181,7 +188,11 @@ class RimScan {
     // The ends of the range are rounded, and a minimum may lie at one of them.
     constexpr double beyond = 0.01;
     const double from = std::acos(cosines.hi) - beyond, to = std::acos(cosines.lo) + beyond;
-    arc((from + to) / 2, (to - from) / 2);
+    // On wider arcs the bounds are hardly ever narrow enough.
+    constexpr double wide = 0.8;
+    const double pieces = std::ceil((to - from) / wide);
+    const Angle half((to - from) / (2 * pieces));
+    for (double i = 0.5; i < pieces; ++i) search(arc({from + i * 2 * half.radians}, half));
   }
 
   /// By how much the largest gap where these rims meet may exceed the best one, but for rounding;
@@ -193,9 +204,26 @@ class RimScan {
   static constexpr double small_step = 1e-9;      // rad; its square is below rounding
   static constexpr int max_samples = 20000;
 
-  RimSample at(double angle) {
+  /// With its cosine and sine: those of a bisected arc cost less than new ones.
+  struct Angle {
+    double radians, cosine, sine;
+
+    Angle(double angle) : radians(angle), cosine(std::cos(angle)), sine(std::sin(angle)) {}
+    Angle(double angle, double cos, double sin) : radians(angle), cosine(cos), sine(sin) {}
+    Angle half() const {
+      const double c = std::sqrt((1 + cosine) / 2);
+      return {radians / 2, c, sine / (2 * c)};
+    }
+    Angle operator+(const Angle& x) const {
+      return {radians + x.radians, cosine * x.cosine - sine * x.sine,
+              sine * x.cosine + cosine * x.sine};
+    }
+    Angle operator-() const { return {-radians, cosine, -sine}; }
+  };
+
+  RimSample at(const Angle& x) {
     ++samples_;
-    RimSample sample = rims_.at(angle);
+    RimSample sample = rims_.at(x.radians, x.cosine, x.sine);
     limit_ = std::min(limit_, sample.distance);
     return sample;
   }
@@ -213,37 +241,54 @@ class RimScan {
            (least_depth_ <= 0 && rims_.may_meet(middle, 1, half_width, passage));
   }
 
-  void arc(double angle, double half_width) {
+  /// An arc up to `half` from its middle, with bounds on all of it.
+  struct Arc {
+    Angle angle, half;
+    RimSample middle;
+    Passage passage;
+    double bend, change;
+  };
+  Arc arc(const Angle& angle, const Angle& half) {
     const RimSample middle = at(angle);
-    const double reach = rims_.radius1() * half_width;
-    if (!matters(middle.distance - reach, middle.distance + reach)) return;
-    const Passage passage = rims_.passage(middle, half_width);
-    const double bend = rims_.max_bend(middle, half_width, passage);
-    const double change = (std::abs(middle.curvature) + bend / 2) * half_width;
-    if (std::abs(middle.slope) > change + noise_) return;  // no stationary distance
-    undecided(middle, half_width, passage, bend, change);
+    const Passage passage = rims_.passage(middle, half.radians);
+    const double bend = rims_.max_bend(middle, half.radians, passage);
+    return {angle,   half, middle,
+            passage, bend, (std::abs(middle.curvature) + bend / 2) * half.radians};
   }
 
-  /// Treats an arc that may have a stationary distance. Few have, so that this stays out of `arc`.
-  [[gnu::noinline]] void undecided(const RimSample& middle, double half_width,
-                                   const Passage& passage, double bend, double change) {
-    if (middle.curvature + bend < 0) return;  // only maxima
-    if (least_depth_ > 0 && rims_.points_inward(middle, half_width, passage)) return;
-    if (!may_meet(middle, half_width, passage)) return;
+  void search(const Arc& x) {
+    const double reach = rims_.radius1() * x.half.radians;
+    if (!matters(x.middle.distance - reach, x.middle.distance + reach)) return;
+    if (std::abs(x.middle.slope) > x.change + noise_) return;  // no stationary distance
+    if (is_decided(x.middle, x.half.radians, x.passage, x.bend, x.change)) return;
+    // Both before either is searched: the processor computes them at once.
+    const Angle quarter = x.half.half();
+    const Arc left = arc(x.angle + -quarter, quarter), right = arc(x.angle + quarter, quarter);
+    search(left);
+    search(right);
+  }
+
+  /// Treats an arc that may have a stationary distance; false where it has to be bisected.
+  [[gnu::noinline]] bool is_decided(const RimSample& middle, double half_width,
+                                    const Passage& passage, double bend, double change) {
+    if (middle.curvature + bend < 0) return true;  // only maxima
+    if (least_depth_ > 0 && rims_.points_inward(middle, half_width, passage)) return true;
+    if (!may_meet(middle, half_width, passage)) return true;
     const double slope = std::abs(middle.slope), way = rims_.radius1() * half_width;
     const double reach =
         std::min(way, reach_of_squares(middle.distance, (slope + change / 2) * way));
-    if (!matters(middle.distance - reach, middle.distance + reach)) return;
-    if (slope + change <= noise_ && reach <= noise_) {  // one distance
-      return leave(middle, reach, half_width);
+    if (!matters(middle.distance - reach, middle.distance + reach)) return true;
+    const bool has_one_distance = slope + change <= noise_ && reach <= noise_;
+    if (!has_one_distance) {
+      if (middle.curvature > bend) {
+        converge(middle, half_width, middle.curvature - bend);
+        return true;
+      }
+      if (rims_.has_only_maxima_beside_axis(middle, half_width, passage)) return true;
+      if (half_width > min_half_width && samples_ <= max_samples) return false;
     }
-    if (middle.curvature > bend) return converge(middle, half_width, middle.curvature - bend);
-    if (rims_.has_only_maxima_beside_axis(middle, half_width, passage)) return;
-    if (half_width <= min_half_width || samples_ > max_samples) {
-      return leave(middle, reach, half_width);
-    }
-    arc(middle.angle - half_width / 2, half_width / 2);
-    arc(middle.angle + half_width / 2, half_width / 2);
+    leave(middle, reach, half_width);
+    return true;
   }
 
   /// The distance is convex on the arc: Newton's method finds the one minimum or leaves the arc.
@@ -260,7 +305,7 @@ class RimScan {
       double next = std::clamp(x.angle - x.slope / x.curvature, lo, hi);
       if (std::abs(next - x.angle) > previous / 2) next = (lo + hi) / 2;
       previous = std::abs(next - x.angle);
-      x = at(next);
+      x = at({next});
       if (previous <= small_step) break;
     }
     // Beyond an end of the arc the minimum is the neighbouring arc's.
@@ -292,10 +337,13 @@ class RimScan {
     return 2 * change / (distance + std::sqrt(least));
   }
 
-  /// Offers the normal along the rims' difference, which is noise where they nearly touch, and that
-  /// across their tangents, which is noise where these are parallel.
+  /// Offers the normal along the rims' difference, which is noise where they nearly touch, or that
+  /// across their tangents, which is noise where these are parallel: both, unless the first leads
+  /// to a maximum.
   void offer(const RimSample& x) {
-    for (Vec3 n : {x.apart, rims_.across_tangents(x.cos1, x.sin1, x.cos2, x.sin2)}) {
+    const Vec3 across = rims_.across_tangents(x.cos1, x.sin1, x.cos2, x.sin2);
+    const bool nearly_touch = x.distance < 1e6 * noise_;
+    for (Vec3 n : {nearly_touch ? across : x.apart, nearly_touch ? x.apart : across}) {
       const double length = n.norm();
       if (!(length > 0)) continue;
       // The one of ±n towards A has the larger gap; so has, of mirror images, the one on A's side
@@ -303,10 +351,11 @@ class RimScan {
       n *= (n.dot(pair_.axes.d()) < 0 ? -1 : 1) / length;
       n.z() = std::abs(n.z());
       best_.offer(pair_.gap(n), n);
-      const Vec3 better = rims_.polished(n).normal;
-      best_.offer(pair_.gap(better), better);
-      const double distance = rims_.distance_at(better);
+      const Stationary found = rims_.polished(n);
+      best_.offer(pair_.gap(found.normal), found.normal);
+      const double distance = rims_.distance_at(found.normal);
       if (distance < limit_) limit_ = distance;
+      if (found.maximum) return;
     }
   }
 
@@ -335,6 +384,17 @@ struct DistanceBounds {
   double highest_gap() const { return least_depth > 0 ? -least_depth : limit; }
 };
 
+/// Whether no normal where rims of these ends meet can be a local maximum of the gap, of bodies
+/// that overlap by no less than this (proofs.md, "Rims that overlap deeply").
+bool overlap_too_deeply(const FoldedCylinders& pair, bool same_ends, double least_depth) {
+  const FoldedAxes& f = pair.axes;
+  const double r1 = pair.r1, r2 = pair.r2, product = r1 * r2;
+  const double squared = r1 * r1 + r2 * r2 + 2 * (same_ends ? f.c : -f.c) * product;
+  constexpr double rounding = 1e-9;
+  return f.d3 * f.d3 * squared * std::sqrt(squared) <
+         (1 - rounding) * least_depth * product * product * f.s;
+}
+
 // Tilts that only rounding makes cost no more than rounding.
 constexpr double parallel = 2e-16;
 
@@ -350,6 +410,7 @@ void offer_rim_rim_normals(const FoldedCylinders& pair, double stop_above, Large
   if (-best.gap <= bounds.least_depth) return;
   for (const double end1 : {likely.one, -likely.one}) {
     for (const double end2 : {likely.two, -likely.two}) {
+      if (overlap_too_deeply(pair, end1 == end2, bounds.least_depth)) continue;
       const Rims rims(pair, end1, end2);
       const Range useful = rims.useful_cosines(best.gap, bounds.highest_gap());
       if (useful.empty()) continue;

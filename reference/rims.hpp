@@ -68,7 +68,8 @@ struct Passage {
   double min_speed, max_speed;
   double min_radial, max_radial;  ///< distance from axis 2
   // Valid where min_radial is positive:
-  double turn;        ///< bound of the speed of turning about axis 2
+  double inverse_radial;  ///< 1 / min_radial
+  double turn;            ///< bound of the speed of turning about axis 2
   double wave;        ///< the same for the squared distance from axis 2 of nearly concentric rims
   double max_rate;    ///< bound of the distance's first derivative
   double max_second;  ///< bound of its second derivative
@@ -95,14 +96,18 @@ class Rims {
     const FoldedAxes& f = pair.axes;
     q_ = f.d() - end1 * pair.h1 * Vec3(1, 0, 0) - end2 * pair.h2 * Vec3(f.c, f.s, 0);
     size_ = pair.r1 + pair.r2 + q_.norm();
+    const double k = f.along_k2(q_), lean = f.s * pair.r1;
+    amplitude_ = 2 * pair.r1 * std::sqrt(k * k + q_.z() * q_.z()) + 4 * lean * lean;
+    inverse_r1_ = 1 / pair.r1;
   }
 
-  RimSample at(double angle) const {
+  RimSample at(double angle) const { return at(angle, std::cos(angle), std::sin(angle)); }
+  RimSample at(double angle, double cosine, double sine) const {
     const double c = pair_.axes.c, s = pair_.axes.s, r1 = pair_.r1, r2 = pair_.r2;
     RimSample x;
     x.angle = angle;
-    x.cos1 = std::cos(angle);
-    x.sin1 = std::sin(angle);
+    x.cos1 = cosine;
+    x.sin1 = sine;
     const double v2 = q_.y() - r1 * x.cos1, v3 = q_.z() - r1 * x.sin1;
     const double height = c * q_.x() + s * v2, k = c * v2 - s * q_.x();
     const double radial = std::sqrt(k * k + v3 * v3);
@@ -127,8 +132,9 @@ class Rims {
   /// G(n) = q·n − r1 |n − n·u1 u1| − r2 |n − n·u2 u2| is smooth. On the sphere G has the gradient
   /// q − p1 − p2 less its part along n, and the Hessian −(r1/ρ1) t1 t1ᵀ − (r2/ρ2) t2 t2ᵀ − G. The
   /// components of n that are small keep their digits. A step is at most half of n's distance from
-  /// an axis, where G has its kinks. Steps are few except where rims nearly touch along nearly
-  /// parallel axes, in a valley that n has to go down by orders of magnitude.
+  /// an axis, where G has its kinks; n that falls towards one which is a maximum itself, a cap's
+  /// normal, is left there. Steps are few except where rims nearly touch along nearly parallel
+  /// axes, in a valley that n has to go down by orders of magnitude.
   Stationary polished(Vec3 n, int steps = 40) const {
     const double c = pair_.axes.c, s = pair_.axes.s;
     double previous = std::numeric_limits<double>::infinity();
@@ -159,7 +165,11 @@ class Rims {
       const double length = std::sqrt(step1 * step1 + step2 * step2);
       const double max_length = std::min(rho1, rho2) / 2;
       const bool too_long = length > max_length;
-      if (too_long) step1 *= max_length / length, step2 *= max_length / length;
+      if (too_long) {
+        constexpr double next_to = 0.1;
+        if (max_length < next_to * pair_.axes.s && is_maximum_at_axis(n, rho1 < rho2)) break;
+        step1 *= max_length / length, step2 *= max_length / length;
+      }
       n += step1 * t1 + step2 * other;
       // Converged, or as far as rounding lets it. A short step alone says nothing: next to an axis
       // n may first turn about it by a hair and then leave it by far.
@@ -171,6 +181,18 @@ class Rims {
     n.normalize();
     const bool outward = end1_ * n.x() >= 0 && end2_ * pair_.axes.along_u2(n) >= 0;
     return {n, converged && outward, slope};
+  }
+
+  /// Whether G has a maximum at the axis that n leans away from, the first or the second: there the
+  /// own rim holds its place against the slope of all else, which is as long as its radius at most.
+  bool is_maximum_at_axis(const Vec3& n, bool first) const {
+    const double c = pair_.axes.c, r1 = pair_.r1, r2 = pair_.r2;
+    if (first) {
+      const double y = q_.y() + std::copysign(c * r2, n.x());
+      return y * y + q_.z() * q_.z() <= r1 * r1;
+    }
+    const double y = pair_.axes.along_k2(q_) - std::copysign(c * r1, pair_.axes.along_u2(n));
+    return y * y + q_.z() * q_.z() <= r2 * r2;
   }
 
   /// Distance of the rims' points at a normal: the bodies are no further apart.
@@ -197,7 +219,7 @@ class Rims {
     if (!(p.min_radial > 0)) return true;
     const double c = pair_.axes.c, moved = p.max_rate * half_width;
     const double turn = half_width * p.turn;  // of rim 2's point, at most
-    const double slack = half_width + turn + margin() / p.min_radial;
+    const double slack = half_width + turn + margin() * p.inverse_radial;
     const double error = pair_.axes.s * pair_.r1 * half_width + moved +
                          (std::abs(x.radial - pair_.r2) + moved) * turn + x.distance * half_width +
                          margin();
@@ -228,9 +250,9 @@ class Rims {
     p.max_speed = r1 * std::min(1.0, one + two + half_width);
     p.min_radial = x.radial - p.max_speed * half_width;
     p.max_radial = x.radial + p.max_speed * half_width;
-    const double inverse = 1 / p.min_radial;
-    p.turn = p.max_speed * inverse;
-    p.wave = amplitude() * inverse * inverse;
+    p.inverse_radial = 1 / p.min_radial;
+    p.turn = p.max_speed * p.inverse_radial;
+    p.wave = amplitude_ * p.inverse_radial * p.inverse_radial;
     const double rate = r1 * std::abs(c * x.cos2 * x.sin1 - x.sin2 * x.cos1);
     const double wave_rate = p.min_radial * p.wave / 2;
     p.max_second = std::min(r1 + p.max_speed * p.turn, wave_rate * (1 + 0.5 * p.wave));
@@ -246,15 +268,16 @@ class Rims {
     const double sine = std::min(0.5, std::abs(x.sin1) + half_width);
     const double height = std::abs(x.height) + s * r1 * half_width;
     const double beside = std::abs(x.radial - pair_.r2) + p.max_rate * half_width;
-    return s * (height + 3 * s * r1 * sine) + (beside * third + 3 * p.max_rate * p.max_second) / r1;
+    return s * (height + 3 * s * r1 * sine) +
+           (beside * third + 3 * p.max_rate * p.max_second) * inverse_r1_;
   }
 
   /// Bound of how far curvatures on the arc are from the middle's, rounding included; infinite
   /// where the arc may cross axis 2.
   double max_bend(const RimSample& x, double half_width, const Passage& p) const {
     if (!(p.min_radial > 0)) return std::numeric_limits<double>::infinity();
-    const double part = pair_.r1 / p.min_radial;
-    const double conditioning = 1 + part + part * pair_.r2 / p.min_radial;
+    const double part = pair_.r1 * p.inverse_radial;
+    const double conditioning = 1 + part + part * pair_.r2 * p.inverse_radial;
     return max_third_derivative(x, half_width, p) * half_width + margin() * conditioning;
   }
 
@@ -285,12 +308,6 @@ class Rims {
   double margin() const { return 8 * noise(); }
 
  private:
-  /// Bound of each derivative of the squared distance of rim 1 from axis 2.
-  double amplitude() const {
-    const double k = pair_.axes.along_k2(q_), lean = pair_.axes.s * pair_.r1;
-    return 2 * pair_.r1 * std::sqrt(k * k + q_.z() * q_.z()) + 4 * lean * lean;
-  }
-
   /// `crossing_normal` of nearly parallel axes, where the rims cross as seen along the axes.
   std::optional<Vec3> crossing_along_axes() const;
 
@@ -304,6 +321,8 @@ class Rims {
   double end1_, end2_;
   Vec3 q_;
   double size_;
+  double amplitude_;  ///< bound of each derivative of the squared distance of rim 1 from axis 2
+  double inverse_r1_;
 };
 
 /// Offers `best` the normals at which the rims of two cylinders meet, wherever one of them may have
