@@ -44,7 +44,7 @@ class RationalDirection : public CriticalDirection {
     const bool forth = dot(difference.d, n_) >= 0;
     return gap_is_zero(difference, forth ? n_ : -n_) ? ZeroGap::zero : ZeroGap::unknown;
   }
-  bool is_across(const IntegerVector& v) const override { return dot(n_, v) == 0; }
+  bool is_across(const IntegerVector& v) override { return dot(n_, v) == 0; }
   std::optional<DirectionFamily> family() const override { return family_; }
 
  private:
@@ -64,7 +64,7 @@ class PlaneDirection : public CriticalDirection {
   ZeroGap zero_gap(const Difference& difference) override {
     return gap_is_zero(difference, normal_) ? ZeroGap::zero : ZeroGap::unknown;
   }
-  bool is_across(const IntegerVector& v) const override { return dot(normal_, v) == 0; }
+  bool is_across(const IntegerVector& v) override { return dot(normal_, v) == 0; }
 
  private:
   IntegerVector normal_;

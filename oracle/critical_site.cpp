@@ -34,6 +34,10 @@ class Search {
   void search_rim_vertices();
   void search_radial();
   void search_curves();
+  std::vector<CriticalSite> curve_sites() const;
+  void isolate(const CriticalSite& site, std::vector<CriticalSite>& out);
+  bool isolate_line(const CriticalSite& site);
+  bool isolate_rims(const CriticalSite& site);
   IntervalVector vertex(unsigned signs) const;
 
   const Difference& exact_;
@@ -57,6 +61,7 @@ class Search {
   };
   // Enough for poses without a degeneracy.
   boost::container::small_vector<OpenPiece, 256> pieces_, next_;
+  std::vector<SlopeBracket> brackets_;  // of one site
 };
 
 double relative(double metres, const Difference& difference, const Integer& scale) {
@@ -174,20 +179,15 @@ unsigned all_signs(unsigned others, unsigned segment) {
   return below | (others & ~((1U << segment) - 1)) << 1;
 }
 
-std::vector<CriticalSite> Search::run() {
-  search_directions();
-  search_rim_vertices();
-  if (difference_.segments.size() == 1) {
-    search_radial();
-  } else {
-    search_curves();
-  }
+/// The inverse: removes the bit of `segment`.
+unsigned other_signs(unsigned signs, unsigned segment) {
+  const unsigned below = signs & ((1U << segment) - 1);
+  return below | (signs >> 1 & ~((1U << segment) - 1));
+}
 
+/// The open pieces of curves as sites; adjacent ones of one curve at one vertex become one site.
+std::vector<CriticalSite> Search::curve_sites() const {
   std::vector<CriticalSite> sites;
-  for (const auto& [site, gap] : directions_) {
-    if (!threshold_.is_above(gap)) sites.push_back(site);
-  }
-  // Adjacent pieces of one curve at one vertex become one site.
   const auto extend = [&](const CriticalSite& site) {
     for (auto& known : sites) {
       if (known.kind == site.kind && known.first == site.first && known.signs == site.signs &&
@@ -221,6 +221,70 @@ std::vector<CriticalSite> Search::run() {
       }
     }
   }
+  return sites;
+}
+
+bool Search::isolate_line(const CriticalSite& site) {
+  const LineSearch& line = lines_[site.first];
+  const unsigned vertex = other_signs(site.signs, site.first);
+  for (const int branch : {1, -1}) {
+    if (!isolate_slope_roots(line.slope(vertex, site.second, branch), AngleParameter::tangent,
+                             branch, {site.first, site.turn, site.lo, site.hi}, brackets_)) {
+      return false;
+    }
+  }
+  std::erase_if(brackets_, [&](const SlopeBracket& b) {
+    return !line.reaches({site.first, site.turn, b.lo, b.hi}, threshold_);
+  });
+  return true;
+}
+
+bool Search::isolate_rims(const CriticalSite& site) {
+  const RimSearch& rims = rims_[site.signs];
+  for (const int branch : {1, -1}) {
+    if (!isolate_slope_roots(rims.slope(branch), AngleParameter::half_tangent, branch,
+                             {site.first, site.turn, site.lo, site.hi}, brackets_)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Replaces a piece of a curve by brackets of the roots in it that reach the threshold, if double
+/// intervals separate all of them.
+void Search::isolate(const CriticalSite& site, std::vector<CriticalSite>& out) {
+  brackets_.clear();
+  const bool is_line = site.kind == Kind::rim_line, is_rims = site.kind == Kind::rim_rim;
+  if (!(is_line && isolate_line(site)) && !(is_rims && isolate_rims(site))) {
+    out.push_back(site);
+    return;
+  }
+  std::sort(brackets_.begin(), brackets_.end(),
+            [](const SlopeBracket& a, const SlopeBracket& b) { return a.lo + a.hi < b.lo + b.hi; });
+  for (const SlopeBracket& bracket : brackets_) {
+    CriticalSite root = site;
+    root.lo = bracket.lo;
+    root.hi = bracket.hi;
+    root.branch = bracket.branch;
+    root.rising = bracket.rising;
+    out.push_back(root);
+  }
+}
+
+std::vector<CriticalSite> Search::run() {
+  search_directions();
+  search_rim_vertices();
+  if (difference_.segments.size() == 1) {
+    search_radial();
+  } else {
+    search_curves();
+  }
+
+  std::vector<CriticalSite> sites;
+  for (const auto& [site, gap] : directions_) {
+    if (!threshold_.is_above(gap)) sites.push_back(site);
+  }
+  for (const CriticalSite& site : curve_sites()) isolate(site, sites);
   return sites;
 }
 

@@ -152,17 +152,31 @@ unsigned long LineSearch::open_vertices(const Piece& piece, GapThreshold& thresh
   return open;
 }
 
+StationarySlope<Interval> LineSearch::slope(unsigned vertex, unsigned disc, int branch) const {
+  Planar q = d_;
+  for (std::size_t i = 0; i < segments_.size(); ++i) {
+    const auto& s = segments_[i];
+    const Interval end = (vertex >> i & 1U) ? s.half_length : -s.half_length;
+    q = {q.e - end * s.axis.e, q.f - end * s.axis.f};
+  }
+  const Disc& u = discs_[disc];
+  return {{0, q.f, -q.e},
+          {0, u.axis.f, -u.axis.e},
+          {u.along, 0, 0},
+          Interval(branch) * u.radius};
+}
+
+bool LineSearch::reaches(const Piece& piece, const GapThreshold& threshold) const {
+  return !threshold.is_above(gap(direction(piece, Interval(piece.lo, piece.hi))));
+}
+
 namespace {
 
 Interval length(const IntervalVector& v) { return sqrt(square(v.x) + square(v.y) + square(v.z)); }
 
-struct Angle {
-  Interval cosine, sine;
-};
-
 /// Cosine and sine from t = tan(angle/2) within [-1, 1], where the sine is monotone and the cosine
 /// decreases with |t|.
-Angle angle(double lo, double hi) {
+Angle<Interval> half_angle(double lo, double hi) {
   const auto cosine = [](double t) {
     const Interval square_t = square(Interval(t));
     return (Interval(1) - square_t) / (Interval(1) + square_t);
@@ -191,7 +205,7 @@ RimSearch::RimSearch(const IntervalDifference& difference, unsigned signs)
 }
 
 RimSearch::Point RimSearch::at(unsigned turn, double lo, double hi) const {
-  const Angle a = angle(lo, hi);
+  const Angle<Interval> a = half_angle(lo, hi);
   const auto& rim1 = difference_.discs[0].frame;
   const auto& axis2 = difference_.discs[1].frame.axis;
   Point p;
@@ -206,6 +220,18 @@ RimSearch::Point RimSearch::at(unsigned turn, double lo, double hi) const {
   p.off_axis = p.w - p.w_u * axis2;
   p.off_axis_length = length(p.off_axis);
   return p;
+}
+
+StationarySlope<Interval> RimSearch::slope(int branch) const {
+  const auto& rim1 = difference_.discs[0].frame;
+  const auto& rim2 = difference_.discs[1].frame;
+  const auto coordinate = [&](const IntervalVector& axis) -> Harmonic<Interval> {
+    return {-dot(q_, axis), radius1_ * dot(rim1.e, axis), radius1_ * dot(rim1.f, axis)};
+  };
+  return {{0, -dot(q_, rim1.f), dot(q_, rim1.e)},
+          coordinate(rim2.e),
+          coordinate(rim2.f),
+          Interval(branch) * radius2_ / radius1_};
 }
 
 /// Raises the threshold to the gaps along the directions at the middle of a piece.

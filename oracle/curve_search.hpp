@@ -5,8 +5,10 @@
 #include <array>
 #include <boost/container/static_vector.hpp>
 #include <limits>
+#include <vector>
 
 #include "oracle/difference.hpp"
+#include "oracle/slope_root.hpp"
 
 namespace touchstone::oracle {
 
@@ -84,6 +86,11 @@ class LineSearch {
   /// Number of other segments.
   std::size_t others() const { return segments_.size(); }
 
+  /// The slope of the gap at one vertex, for the one disc that is not perpendicular to the line.
+  StationarySlope<Interval> slope(unsigned vertex, unsigned disc, int branch) const;
+  /// May the gap along some direction of the piece reach the threshold?
+  bool reaches(const Piece& piece, const GapThreshold& threshold) const;
+
  private:
   /// A direction perpendicular to the line, of that length.
   struct Direction {
@@ -127,6 +134,9 @@ class RimSearch {
   /// Can the piece contain such a pair with a gap that reaches the threshold? Raises the threshold.
   bool is_open(const Piece& piece, GapThreshold& threshold) const;
 
+  /// The slope of half the squared distance from rim 1's point to rim 2.
+  StationarySlope<Interval> slope(int branch) const;
+
  private:
   struct Point {
     IntervalVector radial, tangent, w,
@@ -140,5 +150,12 @@ class RimSearch {
   IntervalVector q_, up1_, up2_;
   Interval radius1_, radius2_;
 };
+
+/// Appends, in rising order, a bracket for each root of a slope in a piece of its curve, and for
+/// one that lies just beyond an end. False where double intervals do not separate all roots:
+/// multiple ones, slopes that vanish identically, and directions at which the square root
+/// vanishes.
+bool isolate_slope_roots(const StationarySlope<Interval>& slope, AngleParameter parameter,
+                         int branch, const Piece& piece, std::vector<SlopeBracket>& out);
 
 }  // namespace touchstone::oracle

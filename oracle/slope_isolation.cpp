@@ -1,0 +1,137 @@
+// The roots of a slope in double intervals: bisection until the slope is monotone, then interval
+// Newton. A root is proven by the signs at both ends of a piece on which the slope is monotone.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include <boost/container/static_vector.hpp>
+
+#include "oracle/curve_search.hpp"
+
+namespace touchstone::oracle {
+namespace {
+
+/// Turns an angle by that many quarters.
+Angle<Interval> turned(const Angle<Interval>& a, unsigned quarters) {
+  switch (quarters) {
+    case 0:
+      return a;
+    case 1:
+      return {-a.sine, a.cosine};
+    case 2:
+      return {-a.cosine, -a.sine};
+    default:
+      return {a.sine, -a.cosine};
+  }
+}
+
+int sign(const Interval& x) { return x.inf() > 0 ? 1 : x.sup() < 0 ? -1 : 0; }
+
+class SlopeIsolation {
+ public:
+  SlopeIsolation(const StationarySlope<Interval>& slope, AngleParameter parameter, unsigned turn)
+      : slope_(slope),
+        parameter_(parameter),
+        quarters_(parameter == AngleParameter::tangent ? turn : 2 * turn) {}
+
+  bool run(double lo, double hi, int branch, std::vector<SlopeBracket>& out);
+
+ private:
+  struct Part {
+    double lo, hi;
+    int sign_at_lo, sign_at_hi;  // certain
+  };
+  Angle<Interval> angle(const Interval& t) const {
+    return turned(angle_of(parameter_, t), quarters_);
+  }
+  Interval value(double t) const { return slope_.value(angle(t)); }
+  Interval change(const Interval& t) const {
+    return slope_.change(angle(t)) * angle_per_parameter(parameter_, t);
+  }
+  bool move_outward(double& end, double step, int& sign_there) const;
+  std::optional<double> between(const Part& part, int& sign_there) const;
+  void narrow(SlopeBracket& bracket, Interval change) const;
+
+  const StationarySlope<Interval>& slope_;
+  AngleParameter parameter_;
+  unsigned quarters_;
+};
+
+/// Moves the end of a piece to a near point outside it at which the slope's sign is certain.
+bool SlopeIsolation::move_outward(double& end, double step, int& sign_there) const {
+  for (const double factor : {1.0, 3.0, 9.0}) {
+    const double t = end + factor * step;
+    sign_there = sign(value(t));
+    if (sign_there == 0) continue;
+    end = t;
+    return true;
+  }
+  return false;
+}
+
+/// A point inside at which the slope's sign is certain.
+std::optional<double> SlopeIsolation::between(const Part& part, int& sign_there) const {
+  for (const double at : {0.5, 0.375, 0.6875}) {
+    const double t = part.lo + at * (part.hi - part.lo);
+    sign_there = sign(value(t));
+    if (sign_there != 0 && part.lo < t && t < part.hi) return t;
+  }
+  return std::nullopt;
+}
+
+/// Interval Newton while it gains much.
+void SlopeIsolation::narrow(SlopeBracket& bracket, Interval change_here) const {
+  constexpr double narrow_enough = 1e-13, gain = 0.25;
+  for (;;) {
+    const double width = bracket.hi - bracket.lo, middle = bracket.lo + width / 2;
+    const Interval next = Interval(middle) - value(middle) / change_here;
+    if (!(next.inf() <= bracket.hi && next.sup() >= bracket.lo)) return;
+    bracket.lo = std::max(bracket.lo, next.inf());
+    bracket.hi = std::min(bracket.hi, next.sup());
+    if (bracket.hi - bracket.lo < narrow_enough || bracket.hi - bracket.lo > gain * width) return;
+    change_here = change(Interval(bracket.lo, bracket.hi));
+    if (sign(change_here) == 0) return;
+  }
+}
+
+bool SlopeIsolation::run(double lo, double hi, int branch, std::vector<SlopeBracket>& out) {
+  constexpr int max_parts = 96;
+  constexpr double margin = 0x1p-20;
+  const double step = margin * (hi - lo);
+  Part whole{lo, hi, 0, 0};
+  if (!move_outward(whole.lo, -step, whole.sign_at_lo)) return false;
+  if (!move_outward(whole.hi, step, whole.sign_at_hi)) return false;
+
+  boost::container::static_vector<Part, max_parts> open{whole};
+  for (int parts = 0; !open.empty(); ++parts) {
+    if (parts == max_parts) return false;
+    const Part part = open.back();
+    open.pop_back();
+    const Interval range(part.lo, part.hi);
+    const Interval change_here = change(range);
+    if (sign(change_here) != 0) {
+      if (part.sign_at_lo == part.sign_at_hi) continue;
+      SlopeBracket bracket{part.lo, part.hi, branch, part.sign_at_lo < 0};
+      narrow(bracket, change_here);
+      out.push_back(bracket);
+      continue;
+    }
+    if (sign(slope_.value(angle(range))) != 0) continue;
+    int sign_there = 0;
+    const auto middle = between(part, sign_there);
+    if (!middle) return false;
+    open.push_back({*middle, part.hi, sign_there, part.sign_at_hi});
+    open.push_back({part.lo, *middle, part.sign_at_lo, sign_there});
+  }
+  return true;
+}
+
+}  // namespace
+
+bool isolate_slope_roots(const StationarySlope<Interval>& slope, AngleParameter parameter,
+                         int branch, const Piece& piece, std::vector<SlopeBracket>& out) {
+  return SlopeIsolation(slope, parameter, piece.turn).run(piece.lo, piece.hi, branch, out);
+}
+
+}  // namespace touchstone::oracle
