@@ -80,18 +80,24 @@ std::optional<double> SlopeIsolation::between(const Part& part, int& sign_there)
   return std::nullopt;
 }
 
-/// Interval Newton while it gains much.
+/// Interval Newton, and bisection where that gains little: the slope may be far from linear.
 void SlopeIsolation::narrow(SlopeBracket& bracket, Interval change_here) const {
-  constexpr double narrow_enough = 1e-13, gain = 0.25;
-  for (;;) {
+  constexpr double narrow_enough = 0x1p-52, gain = 0.25;
+  const int sign_at_lo = bracket.rising ? -1 : 1;
+  while (bracket.hi - bracket.lo > narrow_enough) {
     const double width = bracket.hi - bracket.lo, middle = bracket.lo + width / 2;
-    const Interval next = Interval(middle) - value(middle) / change_here;
-    if (!(next.inf() <= bracket.hi && next.sup() >= bracket.lo)) return;
-    bracket.lo = std::max(bracket.lo, next.inf());
-    bracket.hi = std::min(bracket.hi, next.sup());
-    if (bracket.hi - bracket.lo < narrow_enough || bracket.hi - bracket.lo > gain * width) return;
+    const Interval there = value(middle);
+    if (sign(change_here) != 0) {
+      const Interval next = Interval(middle) - there / change_here;
+      bracket.lo = std::max(bracket.lo, next.inf());
+      bracket.hi = std::min(bracket.hi, next.sup());
+    }
+    if (!(bracket.hi - bracket.lo <= gain * width)) {
+      if (sign(there) == sign_at_lo) bracket.lo = std::max(bracket.lo, middle);
+      if (sign(there) == -sign_at_lo) bracket.hi = std::min(bracket.hi, middle);
+    }
+    if (!(bracket.hi - bracket.lo < width)) return;
     change_here = change(Interval(bracket.lo, bracket.hi));
-    if (sign(change_here) == 0) return;
   }
 }
 
