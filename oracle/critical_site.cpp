@@ -109,7 +109,7 @@ void Search::search_rim_vertices() {
     const IntervalVector q = vertex(signs);
     const IntervalVector off_axis =
         dot(q, disc.frame.e) * disc.frame.e + dot(q, disc.frame.f) * disc.frame.f;
-    const Interval length = sqrt(square(off_axis.x) + square(off_axis.y) + square(off_axis.z));
+    const Interval length = square_root<Interval>(square(off_axis.x) + square(off_axis.y) + square(off_axis.z));
     if ((length - disc.radius).sup() < 0) continue;
     const IntervalVector n = q - (disc.radius / length) * off_axis;
     const Interval gap = difference_.gap(n);

@@ -69,7 +69,7 @@ IntervalDifference::IntervalDifference(const Difference& difference) : scale(dif
 }
 
 Interval IntervalDifference::gap(const IntervalVector& n) const {
-  const Interval length = sqrt(square(n.x) + square(n.y) + square(n.z));
+  const Interval length = square_root<Interval>(square(n.x) + square(n.y) + square(n.z));
   return (dot(d, n) - add_half_width(Interval(0), segments, discs, n)) / length - inflation;
 }
 
@@ -89,7 +89,7 @@ LineSearch::LineSearch(const IntervalDifference& difference, unsigned segment)
 }
 
 LineSearch::Direction LineSearch::direction(const Piece& piece, const Interval& t) {
-  const Interval length = sqrt(Interval(1) + square(t));
+  const Interval length = square_root<Interval>(Interval(1) + square(t));
   switch (piece.turn) {
     case 0:
       return {1, t, length};
@@ -107,10 +107,6 @@ Interval LineSearch::gap(const Direction& n) const {
 }
 
 unsigned long LineSearch::open_vertices(const Piece& piece, GapThreshold& threshold) const {
-  const Direction middle = direction(piece, Interval((piece.lo + piece.hi) / 2));
-  const Interval at_middle = gap(middle);
-  threshold.raise(at_middle);
-
   const Direction n = direction(piece, Interval(piece.lo, piece.hi));
   // Slope of the gap along the circle, times n.length. The segments' part depends on their signs.
   Interval smooth = d_.across(n);
@@ -140,15 +136,18 @@ unsigned long LineSearch::open_vertices(const Piece& piece, GapThreshold& thresh
     count *= 2;
   }
 
-  // Since dφ <= dt, the largest slope of all smooth parts bounds the change of g.
-  const Interval half = Interval(piece.hi) - Interval(piece.lo);
-  const Interval ahead = at_middle + abs(any_slope / n.length) * half * Interval(0.5);
-  if (threshold.is_above(ahead) || threshold.is_above(gap(n))) return 0;
-
   for (std::size_t v = 0; v < count; ++v) {
     const Interval& slope = slopes[v];
     if (slope.inf() > 0 || slope.sup() < 0) open &= ~(1UL << v);
   }
+  if (open == 0) return 0;
+
+  const Interval at_middle = gap(direction(piece, Interval((piece.lo + piece.hi) / 2)));
+  threshold.raise(at_middle);
+  // Since dφ <= dt, the largest slope of all smooth parts bounds the change of g.
+  const Interval half = Interval(piece.hi) - Interval(piece.lo);
+  const Interval ahead = at_middle + abs(any_slope / n.length) * half * Interval(0.5);
+  if (threshold.is_above(ahead) || threshold.is_above(gap(n))) return 0;
   return open;
 }
 
@@ -172,7 +171,7 @@ bool LineSearch::reaches(const Piece& piece, const GapThreshold& threshold) cons
 
 namespace {
 
-Interval length(const IntervalVector& v) { return sqrt(square(v.x) + square(v.y) + square(v.z)); }
+Interval length(const IntervalVector& v) { return square_root<Interval>(square(v.x) + square(v.y) + square(v.z)); }
 
 /// Cosine and sine from t = tan(angle/2) within [-1, 1], where the sine is monotone and the cosine
 /// decreases with |t|.
@@ -270,7 +269,7 @@ bool RimSearch::is_open(const Piece& piece, GapThreshold& threshold) const {
     if (slope.inf() > 0 || slope.sup() < 0) continue;
     const Interval beyond =
         p.off_axis_length - reach;  // distance of rim 1's point beyond rim 2's, seen along u2
-    const Interval distance = sqrt(square(p.w_u) + square(beyond));
+    const Interval distance = square_root<Interval>(square(p.w_u) + square(beyond));
     const Interval apart_radial = radius1_ - dot(q_, p.radial) - reach * y_radial;
     const Interval apart_up = -dot(q_, up1_) - reach * y_up;
     const Interval apart_y = branch * beyond;

@@ -9,6 +9,11 @@ enum class AngleParameter {
 };
 
 template <class Number>
+Number square_root(const Number& x) {
+  return sqrt(x);
+}
+
+template <class Number>
 struct Angle {
   Number cosine, sine;
 };
@@ -20,7 +25,7 @@ Angle<Number> angle_of(AngleParameter parameter, const Number& t) {
   if (parameter == AngleParameter::half_tangent) {
     return {(Number(1) - square(t)) * scale, Number(2) * t * scale};
   }
-  const Number cosine = sqrt(scale);
+  const Number cosine = square_root(scale);
   return {cosine, t * cosine};
 }
 
@@ -62,7 +67,7 @@ struct StationarySlope {
 
   Number value(const Angle<Number>& a) const {
     const Number u = x.value(a), v = y.value(a);
-    const Number length = sqrt(square(u) + square(v));
+    const Number length = square_root<Number>(square(u) + square(v));
     return linear.periodic(a) - factor * ((u * x.slope(a) + v * y.slope(a)) / length);
   }
 
@@ -72,7 +77,7 @@ struct StationarySlope {
     const Number px = x.periodic(a), py = y.periodic(a);
     const Number u = x.constant + px, v = y.constant + py;
     const Number squared = square(u) + square(v);
-    const Number length = sqrt(squared);
+    const Number length = square_root(squared);
     const Number turning = square(u * y.slope(a) - v * x.slope(a)) / squared;
     return linear.slope(a) - factor * ((turning - (u * px + v * py)) / length);
   }
