@@ -2,6 +2,7 @@
 #include "oracle/critical_direction.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "oracle/real_roots.hpp"
@@ -74,6 +75,15 @@ class PlaneDirection : public CriticalDirection {
 
 IntegerVector off_axis(const IntegerVector& q, const Frame& frame) {
   return dot(q, frame.e) * frame.e + dot(q, frame.f) * frame.f;
+}
+
+TurnedFrame turned_frame(const Frame& frame, double heading) {
+  if (heading == 0) return {frame, 1};
+  const Integer tangent(std::ldexp(heading, heading_bits));
+  const Integer one = Integer(1) << heading_bits;
+  const Integer cosine = one * one - tangent * tangent, sine = 2 * one * tangent;
+  return {{frame.axis, cosine * frame.e + sine * frame.f, cosine * frame.f - sine * frame.e},
+          one * one + tangent * tangent};
 }
 
 IntegerVector reduced_point(const Difference& difference, unsigned signs,

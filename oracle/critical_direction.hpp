@@ -30,10 +30,22 @@ struct CriticalSite {
   /// circle if `turn` is 1. In both, lo <= t <= hi, and within [-1, 1] if `branch` is 0.
   unsigned turn = 0;
   double lo = 0, hi = 0;
+  /// rim_line: the segment's frame is first turned about its axis by 2 arctan(heading), a multiple
+  /// of 2^-heading_bits.
+  double heading = 0;
   /// 0: any number of roots of the site's polynomial, of either branch. 1 or −1: a SlopeBracket.
   int branch = 0;
   bool rising = false;
 };
+
+/// A frame turned about its axis by 2 arctan(heading), exactly. e and f are longer by the factor
+/// `stretch`.
+struct TurnedFrame {
+  Frame frame;
+  Integer stretch;
+};
+inline constexpr int heading_bits = 26;
+TurnedFrame turned_frame(const Frame& frame, double heading);
 
 /// Every site that could hold a direction whose gap is within `slack` (metres, >= 0) of the signed
 /// distance: all sites that double intervals cannot exclude. Complete (oracle/README.md); a site

@@ -109,7 +109,8 @@ void Search::search_rim_vertices() {
     const IntervalVector q = vertex(signs);
     const IntervalVector off_axis =
         dot(q, disc.frame.e) * disc.frame.e + dot(q, disc.frame.f) * disc.frame.f;
-    const Interval length = square_root<Interval>(square(off_axis.x) + square(off_axis.y) + square(off_axis.z));
+    const Interval length =
+        square_root<Interval>(square(off_axis.x) + square(off_axis.y) + square(off_axis.z));
     if ((length - disc.radius).sup() < 0) continue;
     const IntervalVector n = q - (disc.radius / length) * off_axis;
     const Interval gap = difference_.gap(n);
@@ -133,7 +134,7 @@ void Search::search_radial() {
 
 void Search::search_curves() {
   for (unsigned i = 0; i < difference_.segments.size(); ++i) {
-    lines_.emplace_back(difference_, i);
+    lines_.emplace_back(difference_, exact_, i, tilted_disc(exact_, i));
   }
   if (difference_.discs.size() == 2) {
     for (unsigned signs = 0; signs < 4; ++signs) rims_.emplace_back(difference_, signs);
@@ -205,12 +206,12 @@ std::vector<CriticalSite> Search::curve_sites() const {
       extend({Kind::rim_rim, 0, 1, signs, turn, lo, hi});
       continue;
     }
-    const auto tilted = tilted_disc(exact_, curve);
+    const auto tilted = lines_[curve].tilted_disc();
     for (unsigned v = 0; v < 1U << lines_[curve].others(); ++v) {
       if (!(open.vertices >> v & 1UL)) continue;
       const unsigned signs = all_signs(v, curve);
       if (tilted) {
-        extend({Kind::rim_line, curve, *tilted, signs, turn, lo, hi});
+        extend({Kind::rim_line, curve, *tilted, signs, turn, lo, hi, lines_[curve].heading()});
       } else {
         // One rational direction serves the whole circle.
         const CriticalSite site{Kind::radial, curve, 0, signs};
@@ -228,8 +229,8 @@ bool Search::isolate_line(const CriticalSite& site) {
   const LineSearch& line = lines_[site.first];
   const unsigned vertex = other_signs(site.signs, site.first);
   for (const int branch : {1, -1}) {
-    if (!isolate_slope_roots(line.slope(vertex, site.second, branch), AngleParameter::tangent,
-                             branch, {site.first, site.turn, site.lo, site.hi}, brackets_)) {
+    if (!isolate_slope_roots(line.slope(vertex, branch), AngleParameter::tangent, branch,
+                             {site.first, site.turn, site.lo, site.hi}, brackets_)) {
       return false;
     }
   }

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+
+#include "oracle/critical_direction.hpp"
 
 namespace touchstone::oracle {
 
@@ -73,18 +76,65 @@ Interval IntervalDifference::gap(const IntervalVector& n) const {
   return (dot(d, n) - add_half_width(Interval(0), segments, discs, n)) / length - inflation;
 }
 
-LineSearch::LineSearch(const IntervalDifference& difference, unsigned segment)
-    : inflation_(difference.inflation) {
-  const auto& line = difference.segments[segment].frame;
+namespace {
+
+/// tan(φ/2) of the angle φ, within an eighth of a turn, by which a frame has to be turned so that
+/// the planar vector (e, f) lies along one of its axes, to within rounding.
+double heading_of(double e, double f) {
+  if (std::abs(f) > std::abs(e)) {
+    std::swap(e, f);
+    f = -f;
+  }
+  const double tangent = f / (e + std::copysign(std::sqrt(e * e + f * f), e));
+  return std::ldexp(std::nearbyint(std::ldexp(tangent, heading_bits)), -heading_bits);
+}
+
+}  // namespace
+
+LineSearch::LineSearch(const IntervalDifference& difference, const Difference& exact,
+                       unsigned segment, std::optional<unsigned> tilted_disc)
+    : inflation_(difference.inflation), tilted_disc_(tilted_disc) {
+  auto line = difference.segments[segment].frame;
   const auto planar = [&](const IntervalVector& v) {
     return Planar{dot(v, line.e), dot(v, line.f)};
   };
+  bool is_nearly_perpendicular = false;
+  if (tilted_disc) {
+    // The gap bends sharply where the direction passes the axis of a disc that is nearly
+    // perpendicular to the line. There t has to be near zero, where doubles are dense, and the
+    // disc's axis is needed to a small relative error.
+    constexpr double nearly_perpendicular = 0x1p-6;
+    const IntervalVector& u = difference.discs[*tilted_disc].frame.axis;
+    is_nearly_perpendicular = abs(dot(u, line.axis)).sup() < nearly_perpendicular;
+    if (is_nearly_perpendicular) {
+      const Planar before = planar(u);
+      heading_ = heading_of(before.e.sup(), before.f.sup());
+      const Interval scale = Interval(1) / (Interval(1) + square(Interval(heading_)));
+      const Interval cosine = (Interval(1) - square(Interval(heading_))) * scale;
+      const Interval sine = Interval(2 * heading_) * scale;
+      const IntervalVector e = cosine * line.e + sine * line.f;
+      line.f = cosine * line.f - sine * line.e;
+      line.e = e;
+    }
+  }
   d_ = planar(difference.d);
-  for (const auto& s : difference.segments) {
-    if (&s.frame != &line) segments_.push_back({planar(s.frame.axis), s.half_length});
+  for (unsigned i = 0; i < difference.segments.size(); ++i) {
+    const auto& s = difference.segments[i];
+    if (i != segment) segments_.push_back({planar(s.frame.axis), s.half_length});
   }
   for (const auto& disc : difference.discs) {
     discs_.push_back({planar(disc.frame.axis), dot(disc.frame.axis, line.axis), disc.radius});
+  }
+  if (is_nearly_perpendicular) {
+    const Integer& norm = exact.norm;
+    const TurnedFrame turned = turned_frame(exact.segments[segment].frame, heading_);
+    const IntegerVector& u = exact.discs[*tilted_disc].frame.axis;
+    const Integer along = dot(u, turned.frame.axis);
+    const ScaledInterval length = scaled(norm * norm * turned.stretch);
+    Disc& disc = discs_[*tilted_disc];
+    disc.axis = {ratio(dot(u, turned.frame.e), length), ratio(dot(u, turned.frame.f), length)};
+    disc.along = ratio(along, scaled(norm * norm));
+    is_flat_ = along == 0;
   }
 }
 
@@ -151,18 +201,19 @@ unsigned long LineSearch::open_vertices(const Piece& piece, GapThreshold& thresh
   return open;
 }
 
-StationarySlope<Interval> LineSearch::slope(unsigned vertex, unsigned disc, int branch) const {
+StationarySlope<Interval> LineSearch::slope(unsigned vertex, int branch) const {
   Planar q = d_;
   for (std::size_t i = 0; i < segments_.size(); ++i) {
     const auto& s = segments_[i];
     const Interval end = (vertex >> i & 1U) ? s.half_length : -s.half_length;
     q = {q.e - end * s.axis.e, q.f - end * s.axis.f};
   }
-  const Disc& u = discs_[disc];
+  const Disc& u = discs_[*tilted_disc_];
   return {{0, q.f, -q.e},
           {0, u.axis.f, -u.axis.e},
           {u.along, 0, 0},
-          Interval(branch) * u.radius};
+          Interval(branch) * u.radius,
+          is_flat_};
 }
 
 bool LineSearch::reaches(const Piece& piece, const GapThreshold& threshold) const {
@@ -171,7 +222,9 @@ bool LineSearch::reaches(const Piece& piece, const GapThreshold& threshold) cons
 
 namespace {
 
-Interval length(const IntervalVector& v) { return square_root<Interval>(square(v.x) + square(v.y) + square(v.z)); }
+Interval length(const IntervalVector& v) {
+  return square_root<Interval>(square(v.x) + square(v.y) + square(v.z));
+}
 
 /// Cosine and sine from t = tan(angle/2) within [-1, 1], where the sine is monotone and the cosine
 /// decreases with |t|.

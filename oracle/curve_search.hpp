@@ -3,9 +3,10 @@
 #include <CGAL/Interval_nt.h>
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <boost/container/static_vector.hpp>
+#include <cmath>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "oracle/difference.hpp"
@@ -87,7 +88,9 @@ struct Piece {
 /// critical direction of the other parts, and at which vertices.
 class LineSearch {
  public:
-  LineSearch(const IntervalDifference& difference, unsigned segment);
+  /// `tilted_disc`: the disc that is not perpendicular to the segment, if there is one.
+  LineSearch(const IntervalDifference& difference, const Difference& exact, unsigned segment,
+             std::optional<unsigned> tilted_disc);
 
   /// Bit v is set if at vertex v (one sign for each of the other segments, in order) the gap along
   /// this circle may be stationary somewhere in the piece and reach the threshold. Raises the
@@ -97,8 +100,12 @@ class LineSearch {
   /// Number of other segments.
   std::size_t others() const { return segments_.size(); }
 
-  /// The slope of the gap at one vertex, for the one disc that is not perpendicular to the line.
-  StationarySlope<Interval> slope(unsigned vertex, unsigned disc, int branch) const;
+  /// See CriticalSite.
+  double heading() const { return heading_; }
+  std::optional<unsigned> tilted_disc() const { return tilted_disc_; }
+
+  /// The slope of the gap at one vertex. Precondition: there is a tilted disc.
+  StationarySlope<Interval> slope(unsigned vertex, int branch) const;
   /// May the gap along some direction of the piece reach the threshold?
   bool reaches(const Piece& piece, const GapThreshold& threshold) const;
 
@@ -129,11 +136,15 @@ class LineSearch {
   };
   static Direction direction(const Piece& piece, const Interval& t);
   Interval gap(const Direction& n) const;
+  void turn_towards(const Difference& exact, unsigned segment);
 
   Planar d_;
   boost::container::static_vector<Segment, max_segments - 1> segments_;
   boost::container::static_vector<Disc, max_discs> discs_;
   Interval inflation_;
+  std::optional<unsigned> tilted_disc_;
+  double heading_ = 0;
+  bool is_flat_ = false;  // the tilted disc's axis is exactly perpendicular to the line
 };
 
 /// The angles of a point on the first of two rims, at one vertex of the two segments. Decides which

@@ -85,10 +85,13 @@ struct Profile {
 
   /// Whose roots are the critical directions of both branches.
   Polynomial polynomial() const;
-  /// Times norm².
+  /// Times norm² stretch.
   StationarySlope<Ball> slope(int branch) const;
+  /// (norm² stretch)² n·n
+  Polynomial length_squared() const;
 
   Integer norm;
+  Integer stretch;  ///< e and f of the line's frame have the length norm · stretch
   Frame line;
   const Difference::Segment* segment;
   unsigned signs;
@@ -104,29 +107,30 @@ struct Profile {
   }
 };
 
-/// norm⁴ n·n
-Polynomial length_squared(const Integer& norm) {
-  const Integer norm_squared = norm * norm;
-  const Integer norm_fourth = norm_squared * norm_squared;
-  return {norm_fourth, 0, norm_fourth};
+Polynomial Profile::length_squared() const {
+  const Integer length = norm * norm * stretch;
+  const Integer squared = length * length;
+  return {squared, 0, squared};
 }
 
-// Scale factors: q by norm², u·n by norm², both sides by norm⁸.
+// Scale factors: q·n and u·n by norm² stretch, both sides by its fourth power.
 Polynomial Profile::polynomial() const {
   const Polynomial q_slope = across(q);
   const Polynomial u_n = along(disc.axis);
   const Polynomial u_slope = across(disc.axis);
   const Polynomial u_part = u_n * u_n;
-  return q_slope * q_slope * (length_squared(norm) - u_part) -
+  return q_slope * q_slope * (length_squared() - u_part) -
          Integer(radius * radius) * (u_part * (u_slope * u_slope));
 }
 
 StationarySlope<Ball> Profile::slope(int branch) const {
   const auto ball = [](const Integer& x) { return Ball(x, WorkingPrecision::bits()); };
+  const Integer across_line = stretch * dot(disc.axis, line.axis);
   return {{0, ball(dot(q, line.f)), ball(-dot(q, line.e))},
           {0, ball(dot(disc.axis, line.f)), ball(-dot(disc.axis, line.e))},
-          {ball(dot(disc.axis, line.axis)), 0, 0},
-          ball(branch * radius)};
+          {ball(across_line), 0, 0},
+          ball(branch * radius),
+          across_line == 0};
 }
 
 class RimLineDirection : public CriticalDirection {
@@ -140,11 +144,11 @@ class RimLineDirection : public CriticalDirection {
     out.push_back({balls.gap(n), n});
   }
 
-  // q·n − radius |u × n| − flat |n|, times norm².
+  // q·n − radius |u × n| − flat |n|, times norm² stretch.
   ZeroGap zero_gap(const Difference& difference) override {
     const Polynomial a = profile_.along(profile_.q);
     const Polynomial u_n = profile_.along(profile_.disc.axis);
-    const Polynomial n_n = length_squared(difference.norm);
+    const Polynomial n_n = profile_.length_squared();
     const Polynomial b = Integer(profile_.radius * profile_.radius) * (n_n - u_n * u_n);
     const Polynomial c = Integer(profile_.flat * profile_.flat) * n_n;
     if (!is_zero_here(a, b, c)) return ZeroGap::unknown;
@@ -245,14 +249,10 @@ void append_rim_line(const Difference& difference, const CriticalSite& site,
   for (const auto& other : difference.discs) {
     if (&other != &disc) flat += other.radius;
   }
-  Profile profile{difference.norm,
-                  turned(segment.frame, site.turn),
-                  &segment,
-                  site.signs,
-                  reduced_point(difference, site.signs, &segment),
-                  disc.frame,
-                  disc.radius,
-                  std::move(flat)};
+  const TurnedFrame frame = turned_frame(segment.frame, site.heading);
+  Profile profile{difference.norm, frame.stretch, turned(frame.frame, site.turn),
+                  &segment,        site.signs,    reduced_point(difference, site.signs, &segment),
+                  disc.frame,      disc.radius,   std::move(flat)};
   if (site.branch != 0) {
     const SlopeBracket bracket{site.lo, site.hi, site.branch, site.rising};
     out.push_back(std::make_unique<RimLineDirection>(std::move(profile), CurveRoot(bracket)));

@@ -247,7 +247,8 @@ class RimRimDirection : public CriticalDirection {
   // Touching rims share a point of both bodies, so that no gap is above zero.
   ZeroGap zero_gap(const Difference&) override {
     const OnRim2 on = on_rim2(rims_);
-    if (!t_.is_root_of(rims_, on.in_plane) || !t_.is_root_of(rims_, on.at_radius)) return ZeroGap::unknown;
+    if (!t_.is_root_of(rims_, on.in_plane) || !t_.is_root_of(rims_, on.at_radius))
+      return ZeroGap::unknown;
     return pair().touches_outward() ? ZeroGap::zero : ZeroGap::at_most_zero;
   }
 

@@ -2,10 +2,10 @@
 // Newton. A root is proven by the signs at both ends of a piece on which the slope is monotone.
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <optional>
-
 #include <boost/container/static_vector.hpp>
+#include <cmath>
+#include <limits>
+#include <optional>
 
 #include "oracle/curve_search.hpp"
 
@@ -33,7 +33,9 @@ class SlopeIsolation {
   SlopeIsolation(const StationarySlope<Interval>& slope, AngleParameter parameter, unsigned turn)
       : slope_(slope),
         parameter_(parameter),
-        quarters_(parameter == AngleParameter::tangent ? turn : 2 * turn) {}
+        quarters_(parameter == AngleParameter::tangent ? turn : 2 * turn) {
+    if (parameter == AngleParameter::tangent) find_bend();
+  }
 
   bool run(double lo, double hi, int branch, std::vector<SlopeBracket>& out);
 
@@ -49,6 +51,8 @@ class SlopeIsolation {
   Interval change(const Interval& t) const {
     return slope_.change(angle(t)) * angle_per_parameter(parameter_, t);
   }
+  void find_bend();
+  double cut(const Part& part) const;
   bool move_outward(double& end, double step, int& sign_there) const;
   std::optional<double> between(const Part& part, int& sign_there) const;
   void narrow(SlopeBracket& bracket, Interval change) const;
@@ -56,7 +60,34 @@ class SlopeIsolation {
   const StationarySlope<Interval>& slope_;
   AngleParameter parameter_;
   unsigned quarters_;
+  /// Where the slope of a line's gap changes fast: within `bend_radius_` of `bend_`.
+  double bend_ = 0, bend_radius_ = std::numeric_limits<double>::infinity();
 };
+
+/// Around the zero of x, within a few |y|: elsewhere ρ is nearly |x|.
+void SlopeIsolation::find_bend() {
+  if (slope_.is_flat) return;
+  constexpr double several = 16;
+  const bool odd = quarters_ % 2 == 1;
+  const double e = slope_.x.cosine.sup(), f = slope_.x.sine.sup();
+  const double numerator = odd ? f : -e, denominator = odd ? e : f;
+  const double radius = several * std::abs(slope_.y.constant.sup() / denominator);
+  if (!(radius < 1) || !(std::abs(numerator) < std::abs(denominator))) return;
+  bend_ = numerator / denominator;
+  bend_radius_ = radius;
+}
+
+/// Where to split a part: at the ends of the bend, and outside it by the geometric mean of the
+/// distances from it, so that a few splits lead from any scale to that of the bend.
+double SlopeIsolation::cut(const Part& part) const {
+  for (const double end : {bend_ - bend_radius_, bend_ + bend_radius_}) {
+    if (part.lo < end && end < part.hi) return end;
+  }
+  const double lo = part.lo - bend_, hi = part.hi - bend_;
+  if (lo > 0 && hi > 4 * lo) return bend_ + std::sqrt(lo) * std::sqrt(hi);
+  if (hi < 0 && lo < 4 * hi) return bend_ - std::sqrt(-lo) * std::sqrt(-hi);
+  return part.lo + 0.5 * (part.hi - part.lo);
+}
 
 /// Moves the end of a piece to a near point outside it at which the slope's sign is certain.
 bool SlopeIsolation::move_outward(double& end, double step, int& sign_there) const {
@@ -72,8 +103,9 @@ bool SlopeIsolation::move_outward(double& end, double step, int& sign_there) con
 
 /// A point inside at which the slope's sign is certain.
 std::optional<double> SlopeIsolation::between(const Part& part, int& sign_there) const {
-  for (const double at : {0.5, 0.375, 0.6875}) {
-    const double t = part.lo + at * (part.hi - part.lo);
+  const double first = cut(part);
+  for (const double towards_hi : {0.0, 0.375, -0.3125}) {
+    const double t = first + towards_hi * (towards_hi > 0 ? part.hi - first : first - part.lo);
     sign_there = sign(value(t));
     if (sign_there != 0 && part.lo < t && t < part.hi) return t;
   }
@@ -82,9 +114,9 @@ std::optional<double> SlopeIsolation::between(const Part& part, int& sign_there)
 
 /// Interval Newton, and bisection where that gains little: the slope may be far from linear.
 void SlopeIsolation::narrow(SlopeBracket& bracket, Interval change_here) const {
-  constexpr double narrow_enough = 0x1p-52, gain = 0.25;
+  constexpr double gain = 0.25;
   const int sign_at_lo = bracket.rising ? -1 : 1;
-  while (bracket.hi - bracket.lo > narrow_enough) {
+  for (;;) {
     const double width = bracket.hi - bracket.lo, middle = bracket.lo + width / 2;
     const Interval there = value(middle);
     if (sign(change_here) != 0) {
@@ -93,6 +125,7 @@ void SlopeIsolation::narrow(SlopeBracket& bracket, Interval change_here) const {
       bracket.hi = std::min(bracket.hi, next.sup());
     }
     if (!(bracket.hi - bracket.lo <= gain * width)) {
+      if (sign(there) == 0) return;
       if (sign(there) == sign_at_lo) bracket.lo = std::max(bracket.lo, middle);
       if (sign(there) == -sign_at_lo) bracket.hi = std::min(bracket.hi, middle);
     }

@@ -63,9 +63,13 @@ struct Harmonic {
 template <class Number>
 struct StationarySlope {
   Harmonic<Number> linear, x, y;
-  Number factor;  // κ
+  Number factor;  ///< κ
+  /// y is exactly zero, so that ρ = |x|. S is then continued smoothly through the zero of x, where
+  /// the branches change places: ρ' is replaced by x'.
+  bool is_flat = false;
 
   Number value(const Angle<Number>& a) const {
+    if (is_flat) return linear.periodic(a) - factor * x.slope(a);
     const Number u = x.value(a), v = y.value(a);
     const Number length = square_root<Number>(square(u) + square(v));
     return linear.periodic(a) - factor * ((u * x.slope(a) + v * y.slope(a)) / length);
@@ -74,6 +78,7 @@ struct StationarySlope {
   /// dS/dφ. Since x'' = −(x − constant), ρ'' = (x y' − y x')²/ρ³ − (x, y)·(periodic parts)/ρ,
   /// without cancellation where ρ is small.
   Number change(const Angle<Number>& a) const {
+    if (is_flat) return linear.slope(a) + factor * x.periodic(a);
     const Number px = x.periodic(a), py = y.periodic(a);
     const Number u = x.constant + px, v = y.constant + py;
     const Number squared = square(u) + square(v);
