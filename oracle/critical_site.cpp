@@ -229,7 +229,7 @@ bool Search::isolate_line(const CriticalSite& site) {
   const LineSearch& line = lines_[site.first];
   const unsigned vertex = other_signs(site.signs, site.first);
   for (const int branch : {1, -1}) {
-    if (!isolate_slope_roots(line.slope(vertex, branch), AngleParameter::tangent, branch,
+    if (!isolate_slope_roots(line.slope(vertex, branch), branch,
                              {site.first, site.turn, site.lo, site.hi}, brackets_)) {
       return false;
     }
@@ -243,8 +243,8 @@ bool Search::isolate_line(const CriticalSite& site) {
 bool Search::isolate_rims(const CriticalSite& site) {
   const RimSearch& rims = rims_[site.signs];
   for (const int branch : {1, -1}) {
-    if (!isolate_slope_roots(rims.slope(branch), AngleParameter::half_tangent, branch,
-                             {site.first, site.turn, site.lo, site.hi}, brackets_)) {
+    if (!isolate_slope_roots(rims.slope(branch), branch, {site.first, site.turn, site.lo, site.hi},
+                             brackets_)) {
       return false;
     }
   }

@@ -201,7 +201,7 @@ unsigned long LineSearch::open_vertices(const Piece& piece, GapThreshold& thresh
   return open;
 }
 
-StationarySlope<Interval> LineSearch::slope(unsigned vertex, int branch) const {
+LineSlope<Interval> LineSearch::slope(unsigned vertex, int branch) const {
   Planar q = d_;
   for (std::size_t i = 0; i < segments_.size(); ++i) {
     const auto& s = segments_[i];
@@ -209,11 +209,7 @@ StationarySlope<Interval> LineSearch::slope(unsigned vertex, int branch) const {
     q = {q.e - end * s.axis.e, q.f - end * s.axis.f};
   }
   const Disc& u = discs_[*tilted_disc_];
-  return {{0, q.f, -q.e},
-          {0, u.axis.f, -u.axis.e},
-          {u.along, 0, 0},
-          Interval(branch) * u.radius,
-          is_flat_};
+  return {{q.f, -q.e}, {u.axis.f, -u.axis.e}, u.along, Interval(branch) * u.radius, is_flat_};
 }
 
 bool LineSearch::reaches(const Piece& piece, const GapThreshold& threshold) const {
@@ -243,16 +239,53 @@ Angle<Interval> half_angle(double lo, double hi) {
 
 }  // namespace
 
-RimSearch::RimSearch(const IntervalDifference& difference, unsigned signs)
-    : difference_(difference),
-      q_(difference.d),
-      radius1_(difference.discs[0].radius),
-      radius2_(difference.discs[1].radius) {
-  IntervalVector* ups[] = {&up1_, &up2_};
+namespace {
+
+/// The reduced point at one vertex of the two segments.
+IntervalVector reduced_point(const IntervalDifference& difference, unsigned signs) {
+  IntervalVector q = difference.d;
   for (unsigned i = 0; i < 2; ++i) {
     const auto& s = difference.segments[i];
-    *ups[i] = (signs >> i & 1U) ? s.frame.axis : -s.frame.axis;
-    q_ = q_ - s.half_length * *ups[i];
+    const Interval end = (signs >> i & 1U) ? s.half_length : -s.half_length;
+    q = q - end * s.frame.axis;
+  }
+  return q;
+}
+
+RimSlope<Interval> rim_slope(const IntervalDifference& difference, const IntervalVector& q,
+                             int branch) {
+  const auto& [disc1, disc2] = std::pair(difference.discs[0], difference.discs[1]);
+  const auto place = [&, &rim1 = disc1](const IntervalVector& axis) -> RimSlope<Interval>::Place {
+    return {-dot(q, axis),
+            {rim1.radius * dot(rim1.frame.e, axis), rim1.radius * dot(rim1.frame.f, axis)}};
+  };
+  const auto x = place(disc2.frame.e), y = place(disc2.frame.f);
+  // The root of ρ²'s mean over rim 1.
+  const Interval mean =
+      square(x.centre) + square(y.centre) +
+      (square(x.p.cosine) + square(x.p.sine) + square(y.p.cosine) + square(y.p.sine)) *
+          Interval(0.5);
+  const double inverse_length = 1 / std::sqrt(mean.sup());
+  return {{-dot(q, disc1.frame.f), dot(q, disc1.frame.e)},
+          x,
+          y,
+          Interval(branch) * disc2.radius / disc1.radius,
+          Interval(inverse_length)};
+}
+
+}  // namespace
+
+RimSearch::RimSearch(const IntervalDifference& difference, unsigned signs)
+    : difference_(difference),
+      q_(reduced_point(difference, signs)),
+      radius1_(difference.discs[0].radius),
+      radius2_(difference.discs[1].radius),
+      nearest_(rim_slope(difference, q_, 1)),
+      farthest_(rim_slope(difference, q_, -1)) {
+  IntervalVector* ups[] = {&up1_, &up2_};
+  for (unsigned i = 0; i < 2; ++i) {
+    const IntervalVector& axis = difference.segments[i].frame.axis;
+    *ups[i] = (signs >> i & 1U) ? axis : -axis;
   }
 }
 
@@ -272,18 +305,6 @@ RimSearch::Point RimSearch::at(unsigned turn, double lo, double hi) const {
   p.off_axis = p.w - p.w_u * axis2;
   p.off_axis_length = length(p.off_axis);
   return p;
-}
-
-StationarySlope<Interval> RimSearch::slope(int branch) const {
-  const auto& rim1 = difference_.discs[0].frame;
-  const auto& rim2 = difference_.discs[1].frame;
-  const auto coordinate = [&](const IntervalVector& axis) -> Harmonic<Interval> {
-    return {-dot(q_, axis), radius1_ * dot(rim1.e, axis), radius1_ * dot(rim1.f, axis)};
-  };
-  return {{0, -dot(q_, rim1.f), dot(q_, rim1.e)},
-          coordinate(rim2.e),
-          coordinate(rim2.f),
-          Interval(branch) * radius2_ / radius1_};
 }
 
 /// Raises the threshold to the gaps along the directions at the middle of a piece.

@@ -29,6 +29,17 @@ inline Interval square_root(const Interval& x) {
   return {(Interval(rounded_up) * Interval(below)).inf(), std::sqrt(x.sup())};
 }
 
+/// Rises with x, towards zero with |y|: taken at the ends, so that no width is added.
+template <>
+inline Interval cosine_towards(const Interval& x, const Interval& y) {
+  const Interval beside = abs(y);
+  const auto at = [](double u, double v) {
+    return Interval(u) / square_root<Interval>(square(Interval(u)) + square(Interval(v)));
+  };
+  return {at(x.inf(), x.inf() > 0 ? beside.sup() : beside.inf()).inf(),
+          at(x.sup(), x.sup() > 0 ? beside.inf() : beside.sup()).sup()};
+}
+
 /// A Difference in double intervals; all lengths are relative to `scale`.
 struct IntervalDifference {
   struct IntervalFrame {
@@ -105,7 +116,7 @@ class LineSearch {
   std::optional<unsigned> tilted_disc() const { return tilted_disc_; }
 
   /// The slope of the gap at one vertex. Precondition: there is a tilted disc.
-  StationarySlope<Interval> slope(unsigned vertex, int branch) const;
+  LineSlope<Interval> slope(unsigned vertex, int branch) const;
   /// May the gap along some direction of the piece reach the threshold?
   bool reaches(const Piece& piece, const GapThreshold& threshold) const;
 
@@ -157,7 +168,7 @@ class RimSearch {
   bool is_open(const Piece& piece, GapThreshold& threshold) const;
 
   /// The slope of half the squared distance from rim 1's point to rim 2.
-  StationarySlope<Interval> slope(int branch) const;
+  const RimSlope<Interval>& slope(int branch) const { return branch > 0 ? nearest_ : farthest_; }
 
  private:
   struct Point {
@@ -171,13 +182,16 @@ class RimSearch {
   const IntervalDifference& difference_;
   IntervalVector q_, up1_, up2_;
   Interval radius1_, radius2_;
+  RimSlope<Interval> nearest_, farthest_;
 };
 
 /// Appends, in rising order, a bracket for each root of a slope in a piece of its curve, and for
 /// one that lies just beyond an end. False where double intervals do not separate all roots:
 /// multiple ones, slopes that vanish identically, and directions at which the square root
 /// vanishes.
-bool isolate_slope_roots(const StationarySlope<Interval>& slope, AngleParameter parameter,
-                         int branch, const Piece& piece, std::vector<SlopeBracket>& out);
+bool isolate_slope_roots(const LineSlope<Interval>& slope, int branch, const Piece& piece,
+                         std::vector<SlopeBracket>& out);
+bool isolate_slope_roots(const RimSlope<Interval>& slope, int branch, const Piece& piece,
+                         std::vector<SlopeBracket>& out);
 
 }  // namespace touchstone::oracle

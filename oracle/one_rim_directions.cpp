@@ -81,12 +81,10 @@ Frame turned(const Frame& frame, unsigned quarters) {
 
 /// The gap along directions perpendicular to one line, at one vertex of the other segments.
 struct Profile {
-  static constexpr AngleParameter parameter = AngleParameter::tangent;
-
   /// Whose roots are the critical directions of both branches.
   Polynomial polynomial() const;
   /// Times norm² stretch.
-  StationarySlope<Ball> slope(int branch) const;
+  LineSlope<Ball> slope(int branch) const;
   /// (norm² stretch)² n·n
   Polynomial length_squared() const;
 
@@ -123,12 +121,12 @@ Polynomial Profile::polynomial() const {
          Integer(radius * radius) * (u_part * (u_slope * u_slope));
 }
 
-StationarySlope<Ball> Profile::slope(int branch) const {
+LineSlope<Ball> Profile::slope(int branch) const {
   const auto ball = [](const Integer& x) { return Ball(x, WorkingPrecision::bits()); };
   const Integer across_line = stretch * dot(disc.axis, line.axis);
-  return {{0, ball(dot(q, line.f)), ball(-dot(q, line.e))},
-          {0, ball(dot(disc.axis, line.f)), ball(-dot(disc.axis, line.e))},
-          {ball(across_line), 0, 0},
+  return {{ball(dot(q, line.f)), ball(-dot(q, line.e))},
+          {ball(dot(disc.axis, line.f)), ball(-dot(disc.axis, line.e))},
+          ball(across_line),
           ball(branch * radius),
           across_line == 0};
 }

@@ -24,12 +24,10 @@ namespace {
 /// Both rims for one choice of the segments' ends, and the cell of directions that belongs to that
 /// choice.
 struct RimPair {
-  static constexpr AngleParameter parameter = AngleParameter::half_tangent;
-
   /// Whose roots are the angles of rim 1 with stationary pairs, of both branches.
   Polynomial polynomial() const;
   /// Times norm².
-  StationarySlope<Ball> slope(int branch) const;
+  RimSlope<Ball> slope(int branch) const;
 
   Frame rim1;
   Frame rim2;
@@ -183,16 +181,17 @@ Polynomial RimPair::polynomial() const {
   return q_t * q_t * across_squared - Integer(radius2 * radius2) * (across_t * across_t);
 }
 
-StationarySlope<Ball> RimPair::slope(int branch) const {
+RimSlope<Ball> RimPair::slope(int branch) const {
   const auto ball = [](const Integer& x) { return Ball(x, WorkingPrecision::bits()); };
-  const auto coordinate = [&](const IntegerVector& axis) -> Harmonic<Ball> {
-    return {ball(-dot(q, axis)), ball(radius1 * dot(rim1.e, axis)),
-            ball(radius1 * dot(rim1.f, axis))};
+  const auto place = [&](const IntegerVector& axis) -> RimSlope<Ball>::Place {
+    return {ball(-dot(q, axis)),
+            {ball(radius1 * dot(rim1.e, axis)), ball(radius1 * dot(rim1.f, axis))}};
   };
-  return {{0, ball(-dot(q, rim1.f)), ball(dot(q, rim1.e))},
-          coordinate(rim2.e),
-          coordinate(rim2.f),
-          ball(branch * radius2) / ball(radius1)};
+  return {{ball(-dot(q, rim1.f)), ball(dot(q, rim1.e))},
+          place(rim2.e),
+          place(rim2.f),
+          ball(branch * radius2) / ball(radius1),
+          0};
 }
 
 /// Exact t = tan(θ/2) of the spurious roots of F: where rim 1's tangent is parallel to u2 and its

@@ -28,13 +28,12 @@ Angle<Interval> turned(const Angle<Interval>& a, unsigned quarters) {
 
 int sign(const Interval& x) { return x.inf() > 0 ? 1 : x.sup() < 0 ? -1 : 0; }
 
+template <class Slope>
 class SlopeIsolation {
  public:
-  SlopeIsolation(const StationarySlope<Interval>& slope, AngleParameter parameter, unsigned turn)
-      : slope_(slope),
-        parameter_(parameter),
-        quarters_(parameter == AngleParameter::tangent ? turn : 2 * turn) {
-    if (parameter == AngleParameter::tangent) find_bend();
+  SlopeIsolation(const Slope& slope, unsigned turn)
+      : slope_(slope), quarters_(Slope::parameter == AngleParameter::tangent ? turn : 2 * turn) {
+    if constexpr (Slope::parameter == AngleParameter::tangent) find_bend();
   }
 
   bool run(double lo, double hi, int branch, std::vector<SlopeBracket>& out);
@@ -45,11 +44,11 @@ class SlopeIsolation {
     int sign_at_lo, sign_at_hi;  // certain
   };
   Angle<Interval> angle(const Interval& t) const {
-    return turned(angle_of(parameter_, t), quarters_);
+    return turned(angle_of(Slope::parameter, t), quarters_);
   }
   Interval value(double t) const { return slope_.value(angle(t)); }
   Interval change(const Interval& t) const {
-    return slope_.change(angle(t)) * angle_per_parameter(parameter_, t);
+    return slope_.change(angle(t)) * angle_per_parameter(Slope::parameter, t);
   }
   void find_bend();
   double cut(const Part& part) const;
@@ -57,21 +56,21 @@ class SlopeIsolation {
   std::optional<double> between(const Part& part, int& sign_there) const;
   void narrow(SlopeBracket& bracket, Interval change) const;
 
-  const StationarySlope<Interval>& slope_;
-  AngleParameter parameter_;
+  const Slope& slope_;
   unsigned quarters_;
   /// Where the slope of a line's gap changes fast: within `bend_radius_` of `bend_`.
   double bend_ = 0, bend_radius_ = std::numeric_limits<double>::infinity();
 };
 
 /// Around the zero of x, within a few |y|: elsewhere ρ is nearly |x|.
-void SlopeIsolation::find_bend() {
+template <class Slope>
+void SlopeIsolation<Slope>::find_bend() {
   if (slope_.is_flat) return;
   constexpr double several = 16;
   const bool odd = quarters_ % 2 == 1;
   const double e = slope_.x.cosine.sup(), f = slope_.x.sine.sup();
   const double numerator = odd ? f : -e, denominator = odd ? e : f;
-  const double radius = several * std::abs(slope_.y.constant.sup() / denominator);
+  const double radius = several * std::abs(slope_.y.sup() / denominator);
   if (!(radius < 1) || !(std::abs(numerator) < std::abs(denominator))) return;
   bend_ = numerator / denominator;
   bend_radius_ = radius;
@@ -79,7 +78,8 @@ void SlopeIsolation::find_bend() {
 
 /// Where to split a part: at the ends of the bend, and outside it by the geometric mean of the
 /// distances from it, so that a few splits lead from any scale to that of the bend.
-double SlopeIsolation::cut(const Part& part) const {
+template <class Slope>
+double SlopeIsolation<Slope>::cut(const Part& part) const {
   for (const double end : {bend_ - bend_radius_, bend_ + bend_radius_}) {
     if (part.lo < end && end < part.hi) return end;
   }
@@ -90,7 +90,8 @@ double SlopeIsolation::cut(const Part& part) const {
 }
 
 /// Moves the end of a piece to a near point outside it at which the slope's sign is certain.
-bool SlopeIsolation::move_outward(double& end, double step, int& sign_there) const {
+template <class Slope>
+bool SlopeIsolation<Slope>::move_outward(double& end, double step, int& sign_there) const {
   for (const double factor : {1.0, 3.0, 9.0}) {
     const double t = end + factor * step;
     sign_there = sign(value(t));
@@ -102,7 +103,8 @@ bool SlopeIsolation::move_outward(double& end, double step, int& sign_there) con
 }
 
 /// A point inside at which the slope's sign is certain.
-std::optional<double> SlopeIsolation::between(const Part& part, int& sign_there) const {
+template <class Slope>
+std::optional<double> SlopeIsolation<Slope>::between(const Part& part, int& sign_there) const {
   const double first = cut(part);
   for (const double towards_hi : {0.0, 0.375, -0.3125}) {
     const double t = first + towards_hi * (towards_hi > 0 ? part.hi - first : first - part.lo);
@@ -113,7 +115,8 @@ std::optional<double> SlopeIsolation::between(const Part& part, int& sign_there)
 }
 
 /// Interval Newton, and bisection where that gains little: the slope may be far from linear.
-void SlopeIsolation::narrow(SlopeBracket& bracket, Interval change_here) const {
+template <class Slope>
+void SlopeIsolation<Slope>::narrow(SlopeBracket& bracket, Interval change_here) const {
   constexpr double gain = 0.25;
   const int sign_at_lo = bracket.rising ? -1 : 1;
   for (;;) {
@@ -134,7 +137,8 @@ void SlopeIsolation::narrow(SlopeBracket& bracket, Interval change_here) const {
   }
 }
 
-bool SlopeIsolation::run(double lo, double hi, int branch, std::vector<SlopeBracket>& out) {
+template <class Slope>
+bool SlopeIsolation<Slope>::run(double lo, double hi, int branch, std::vector<SlopeBracket>& out) {
   constexpr int max_parts = 96;
   constexpr double margin = 0x1p-20;
   const double step = margin * (hi - lo);
@@ -168,9 +172,14 @@ bool SlopeIsolation::run(double lo, double hi, int branch, std::vector<SlopeBrac
 
 }  // namespace
 
-bool isolate_slope_roots(const StationarySlope<Interval>& slope, AngleParameter parameter,
-                         int branch, const Piece& piece, std::vector<SlopeBracket>& out) {
-  return SlopeIsolation(slope, parameter, piece.turn).run(piece.lo, piece.hi, branch, out);
+bool isolate_slope_roots(const LineSlope<Interval>& slope, int branch, const Piece& piece,
+                         std::vector<SlopeBracket>& out) {
+  return SlopeIsolation(slope, piece.turn).run(piece.lo, piece.hi, branch, out);
+}
+
+bool isolate_slope_roots(const RimSlope<Interval>& slope, int branch, const Piece& piece,
+                         std::vector<SlopeBracket>& out) {
+  return SlopeIsolation(slope, piece.turn).run(piece.lo, piece.hi, branch, out);
 }
 
 }  // namespace touchstone::oracle

@@ -45,18 +45,17 @@ bool CurveRoot::may_be(const mpq_class& number) const {
   return !bracket_ || (t_ - Ball(number)).contains_zero();
 }
 
-void CurveRoot::narrow(const StationarySlope<Ball>& slope, AngleParameter parameter,
-                       long wanted_bits) {
-  while (!is_narrow(wanted_bits) && (newton_step(slope, parameter) || trisect(slope, parameter))) {
+void CurveRoot::narrow(const SlopeInBalls& slope, long wanted_bits) {
+  while (!is_narrow(wanted_bits) && (newton_step(slope) || trisect(slope))) {
   }
 }
 
 /// Interval Newton. False if it does not halve the ball.
-bool CurveRoot::newton_step(const StationarySlope<Ball>& slope, AngleParameter parameter) {
-  const Ball change = slope.change(angle_of(parameter, t_)) * angle_per_parameter(parameter, t_);
+bool CurveRoot::newton_step(const SlopeInBalls& slope) {
+  const Ball change = slope.change(t_);
   if (change.contains_zero()) return false;
   const Ball middle = middle_of(t_);
-  const Ball next = middle - slope.value(angle_of(parameter, middle)) / change;
+  const Ball next = middle - slope.value(middle) / change;
   if (!next.is_finite()) return false;
   Ball narrowed;
   // Both contain the root.
@@ -74,7 +73,7 @@ bool CurveRoot::newton_step(const StationarySlope<Ball>& slope, AngleParameter p
 
 /// Cuts off what the slope's signs at two points inside say: the root may be one of them, but not
 /// both. False if neither sign is certain at this precision.
-bool CurveRoot::trisect(const StationarySlope<Ball>& slope, AngleParameter parameter) {
+bool CurveRoot::trisect(const SlopeInBalls& slope) {
   Point lo, hi, offset;
   arb_get_lbound_arf(lo.value, t_.get(), WorkingPrecision::bits());
   arb_get_ubound_arf(hi.value, t_.get(), WorkingPrecision::bits());
@@ -89,7 +88,7 @@ bool CurveRoot::trisect(const StationarySlope<Ball>& slope, AngleParameter param
     } else {
       arf_add(at.value, arb_midref(t_.get()), offset.value, ARF_PREC_EXACT, ARF_RND_DOWN);
     }
-    const int here = sign(slope.value(angle_of(parameter, at.ball())));
+    const int here = sign(slope.value(at.ball()));
     if (here == 0) continue;
     moved = true;
     Point& end = here == sign_at_lo ? lo : hi;

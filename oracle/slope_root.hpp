@@ -9,20 +9,40 @@
 
 namespace touchstone::oracle {
 
-/// A simple root of a StationarySlope, the only one between the doubles lo < hi, at which the
-/// slope's signs differ.
+/// A simple root of a slope (stationary_slope.hpp), the only one between the doubles lo < hi, at
+/// which the slope's signs differ.
 struct SlopeBracket {
   double lo, hi;
   int branch;   ///< 1 or −1: the sign of κ
   bool rising;  ///< negative at lo, positive at hi
 };
 
+/// A slope as a function of the curve's parameter, at the working precision.
+class SlopeInBalls {
+ public:
+  virtual ~SlopeInBalls() = default;
+  virtual Ball value(const Ball& t) const = 0;
+  virtual Ball change(const Ball& t) const = 0;
+};
+
+template <class Slope>
+class SlopeOfParameter : public SlopeInBalls {
+ public:
+  explicit SlopeOfParameter(Slope slope) : slope_(std::move(slope)) {}
+  Ball value(const Ball& t) const override { return slope_.value(angle_of(Slope::parameter, t)); }
+  Ball change(const Ball& t) const override {
+    return slope_.change(angle_of(Slope::parameter, t)) * angle_per_parameter(Slope::parameter, t);
+  }
+
+ private:
+  Slope slope_;
+};
+
 /// The parameter of a critical direction on its curve: a root of the curve's polynomial, or of the
 /// slope of one of its branches. A curve supplies
 ///
 ///   Polynomial polynomial() const;
-///   StationarySlope<Ball> slope(int branch) const;  // at the working precision
-///   static constexpr AngleParameter parameter;
+///   LineSlope<Ball> or RimSlope<Ball> slope(int branch) const;  // at the working precision
 class CurveRoot {
  public:
   CurveRoot(RealRoot root) : exact_(std::move(root)) {}
@@ -39,7 +59,7 @@ class CurveRoot {
     const long wanted = WorkingPrecision::bits();
     for (long bits = wanted + extra_bits; !is_narrow(wanted); bits += extra_bits) {
       const WorkingPrecision precision(bits);
-      narrow(curve.slope(branch()), Curve::parameter, wanted);
+      narrow(SlopeOfParameter(curve.slope(branch())), wanted);
     }
     return t_;
   }
@@ -70,9 +90,9 @@ class CurveRoot {
 
   bool is_narrow(long bits) const;
   bool may_be(const mpq_class& number) const;
-  void narrow(const StationarySlope<Ball>& slope, AngleParameter parameter, long wanted_bits);
-  bool newton_step(const StationarySlope<Ball>& slope, AngleParameter parameter);
-  bool trisect(const StationarySlope<Ball>& slope, AngleParameter parameter);
+  void narrow(const SlopeInBalls& slope, long wanted_bits);
+  bool newton_step(const SlopeInBalls& slope);
+  bool trisect(const SlopeInBalls& slope);
   bool take_only_root(const Polynomial& polynomial);
 
   /// Working precision beyond the wanted one.

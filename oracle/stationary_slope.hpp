@@ -13,12 +13,17 @@ Number square_root(const Number& x) {
   return sqrt(x);
 }
 
+/// x / |(x, y)|
+template <class Number>
+Number cosine_towards(const Number& x, const Number& y) {
+  return x / square_root<Number>(square(x) + square(y));
+}
+
 template <class Number>
 struct Angle {
   Number cosine, sine;
 };
 
-/// The angle of t. With half tangents Number has no square root to take.
 template <class Number>
 Angle<Number> angle_of(AngleParameter parameter, const Number& t) {
   const Number scale = Number(1) / (Number(1) + square(t));
@@ -35,57 +40,122 @@ Number angle_per_parameter(AngleParameter parameter, const Number& t) {
   return Number(parameter == AngleParameter::tangent ? 1 : 2) / (Number(1) + square(t));
 }
 
-/// constant + cosine cos φ + sine sin φ
+/// cosine cos φ + sine sin φ
 template <class Number>
 struct Harmonic {
-  Number constant, cosine, sine;
+  Number cosine, sine;
 
-  Number periodic(const Angle<Number>& a) const { return cosine * a.cosine + sine * a.sine; }
-  Number value(const Angle<Number>& a) const { return constant + periodic(a); }
+  Number value(const Angle<Number>& a) const { return cosine * a.cosine + sine * a.sine; }
   Number slope(const Angle<Number>& a) const { return sine * a.cosine - cosine * a.sine; }
 };
 
-/// The function whose roots are the critical directions of one curve, up to a positive factor:
+/// The slope of the gap along the circle of directions n across a line, whose roots are critical
+/// directions. At one vertex, with the reduced point q and one disc that is not perpendicular to
+/// the line,
 ///
-///   S(φ) = L(φ) − κ ρ'(φ),   ρ = |(x, y)|,
+///   S(φ) = q·n' − κ ρ',   ρ = |u × n| = |(x, y)|,   x = u·n',   y = u·line,
 ///
-/// with L, x and y harmonic. Its sign of κ is the branch of a square root.
-///
-/// - Directions n across a line: q·n − radius |u × n| has the slope q·n' − radius ρ', where u's
-///   part across n has the coordinates x = u·n' and y = u·line.
-/// - A point w (from rim 2's centre) of rim 1, and the point y of rim 2 nearest to it (κ > 0) or
-///   farthest from it: half the squared distance has the slope −q·t − (±radius2/radius1) ρ', where
-///   w's part across rim 2's axis has the length ρ, and t is rim 1's tangent.
-///
-/// Both branches multiplied give the polynomial of real_roots.hpp. For nearly parallel axes ρ' is
-/// nearly zero, so that each root of one branch has one of the other beside it: a cluster for the
-/// polynomial, but a simple root of S.
+/// where κ is the disc's radius. Negative κ is the other branch of the square root: both slopes
+/// multiplied give the quartic of one_rim_directions.cpp. For u nearly along the line ρ' is nearly
+/// zero, so that each root of one branch has one of the other beside it: a cluster for the quartic,
+/// but a simple root of S.
 template <class Number>
-struct StationarySlope {
-  Harmonic<Number> linear, x, y;
-  Number factor;  ///< κ
+struct LineSlope {
+  static constexpr AngleParameter parameter = AngleParameter::tangent;
+
+  Harmonic<Number> linear;  ///< q·n'
+  Harmonic<Number> x;
+  Number y, factor;
   /// y is exactly zero, so that ρ = |x|. S is then continued smoothly through the zero of x, where
   /// the branches change places: ρ' is replaced by x'.
-  bool is_flat = false;
+  bool is_flat;
 
   Number value(const Angle<Number>& a) const {
-    if (is_flat) return linear.periodic(a) - factor * x.slope(a);
-    const Number u = x.value(a), v = y.value(a);
-    const Number length = square_root<Number>(square(u) + square(v));
-    return linear.periodic(a) - factor * ((u * x.slope(a) + v * y.slope(a)) / length);
+    const Number dx = x.slope(a);
+    if (is_flat) return linear.value(a) - factor * dx;
+    return linear.value(a) - factor * (cosine_towards(x.value(a), y) * dx);
   }
 
-  /// dS/dφ. Since x'' = −(x − constant), ρ'' = (x y' − y x')²/ρ³ − (x, y)·(periodic parts)/ρ,
-  /// without cancellation where ρ is small.
+  /// dS/dφ. With x'' = −x, ρ'' = (y x')²/ρ³ − x²/ρ, without cancellation where ρ is small.
   Number change(const Angle<Number>& a) const {
-    if (is_flat) return linear.slope(a) + factor * x.periodic(a);
-    const Number px = x.periodic(a), py = y.periodic(a);
-    const Number u = x.constant + px, v = y.constant + py;
-    const Number squared = square(u) + square(v);
-    const Number length = square_root(squared);
-    const Number turning = square(u * y.slope(a) - v * x.slope(a)) / squared;
-    return linear.slope(a) - factor * ((turning - (u * px + v * py)) / length);
+    const Number u = x.value(a);
+    if (is_flat) return linear.slope(a) + factor * u;
+    const Number squared = square(u) + square(y);
+    const Number bend = square(y * x.slope(a)) / (squared * square_root(squared));
+    return linear.slope(a) - factor * (bend - u * cosine_towards(u, y));
   }
+};
+
+/// The slope of half the squared distance of a point p of rim 1 from a rim, as p moves along
+/// rim 1, whose roots are stationary pairs. With p's place w relative to rim 2's centre, of which
+/// the part across rim 2's axis has the coordinates (x, y) and the length ρ,
+///
+///   S(φ) = L − κ ρ',   L = −q·t,   κ = radius2/radius1,
+///
+/// where t is rim 1's tangent and q rim 2's centre. Negative κ is the branch of rim 2's farthest
+/// point. Both slopes multiplied give the octic of rim_rim_directions.cpp.
+///
+/// L and κ ρ' nearly cancel where rim 1 is small beside ρ, and where the rims are nearly coaxial.
+/// So what is nearly constant of 1/ρ, `inverse_length`, is taken out (any number will do): with
+/// ρ ρ' = M + N, where the harmonic M = x0 x' + y0 y' belongs to the centre (x0, y0) and N has the
+/// double angle,
+///
+///   S = (L − κ inverse_length M) − κ ((1/ρ − inverse_length) M + N/ρ).
+template <class Number>
+class RimSlope {
+ public:
+  static constexpr AngleParameter parameter = AngleParameter::half_tangent;
+
+  /// The part of w across rim 2's axis is centre + p.
+  struct Place {
+    Number centre;
+    Harmonic<Number> p;
+  };
+  RimSlope(const Harmonic<Number>& tangential, const Place& x, const Place& y, const Number& factor,
+           const Number& inverse_length)
+      : x_(x),
+        y_(y),
+        of_centre_{x.centre * x.p.sine + y.centre * y.p.sine,
+                   -(x.centre * x.p.cosine + y.centre * y.p.cosine)},
+        factor_(factor),
+        inverse_length_(inverse_length) {
+    // M = of_centre · (cos, sin), since x' = sine cos φ − cosine sin φ.
+    const Number part = factor * inverse_length;
+    linear_ = {tangential.cosine - part * of_centre_.cosine,
+               tangential.sine - part * of_centre_.sine};
+    // N = sine2 cos φ sin φ + cosine2 (cos² φ − sin² φ)
+    cosine2_ = x.p.cosine * x.p.sine + y.p.cosine * y.p.sine;
+    sine2_ = square(x.p.sine) + square(y.p.sine) - square(x.p.cosine) - square(y.p.cosine);
+  }
+
+  Number value(const Angle<Number>& a) const {
+    const Number inverse = Number(1) / length(a);
+    return linear_.value(a) - factor_ * ((inverse - inverse_length_) * of_centre_.value(a) +
+                                         double_angle(a) * inverse);
+  }
+
+  /// dS/dφ = L' − κ ρ'', ρ'' = (M' + N' − ρ'²)/ρ
+  Number change(const Angle<Number>& a) const {
+    const Number inverse = Number(1) / length(a);
+    const Number slope = (of_centre_.value(a) + double_angle(a)) * inverse;
+    const Number double_angle_slope =
+        sine2_ * (square(a.cosine) - square(a.sine)) - Number(4) * cosine2_ * (a.cosine * a.sine);
+    return linear_.slope(a) - factor_ * ((inverse - inverse_length_) * of_centre_.slope(a) +
+                                         (double_angle_slope - square(slope)) * inverse);
+  }
+
+ private:
+  Number length(const Angle<Number>& a) const {
+    return square_root<Number>(square(x_.centre + x_.p.value(a)) +
+                               square(y_.centre + y_.p.value(a)));
+  }
+  Number double_angle(const Angle<Number>& a) const {
+    return sine2_ * (a.cosine * a.sine) + cosine2_ * (square(a.cosine) - square(a.sine));
+  }
+
+  Place x_, y_;
+  Harmonic<Number> of_centre_, linear_;
+  Number factor_, inverse_length_, sine2_, cosine2_;
 };
 
 }  // namespace touchstone::oracle
