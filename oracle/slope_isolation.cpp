@@ -28,13 +28,62 @@ Angle<Interval> turned(const Angle<Interval>& a, unsigned quarters) {
 
 int sign(const Interval& x) { return x.inf() > 0 ? 1 : x.sup() < 0 ? -1 : 0; }
 
+/// A slope as a function of its curve's parameter, in the form that is tightest there.
+class LineOfParameter {
+ public:
+  LineOfParameter(const LineSlope<Interval>& slope, unsigned turn)
+      : forms_{slope.beside(-1), slope, slope.beside(1)}, turn_(turn) {}
+
+  Interval value(const Interval& t) const {
+    const Angle<Interval> a = angle(t);
+    return form(a).value(a);
+  }
+  Interval change(const Interval& t) const {
+    const Angle<Interval> a = angle(t);
+    return form(a).change(a) * angle_per_parameter(AngleParameter::tangent, t);
+  }
+
+ private:
+  Angle<Interval> angle(const Interval& t) const {
+    return turned(angle_of(AngleParameter::tangent, t), turn_);
+  }
+  const LineSlope<Interval>& form(const Angle<Interval>& a) const {
+    const Interval x = forms_[1].x(a);
+    const double beside = abs(forms_[1].y()).sup();
+    return forms_[x.inf() > beside ? 2 : x.sup() < -beside ? 0 : 1];
+  }
+
+  std::array<LineSlope<Interval>, 3> forms_;
+  unsigned turn_;
+};
+
+class RimOfParameter {
+ public:
+  RimOfParameter(const RimSlope<Interval>& slope, unsigned turn) : slope_(slope), turn_(turn) {}
+
+  Interval value(const Interval& t) const { return slope_.value(angle(t)); }
+  Interval change(const Interval& t) const {
+    return slope_.change(angle(t)) * angle_per_parameter(AngleParameter::half_tangent, t);
+  }
+
+ private:
+  Angle<Interval> angle(const Interval& t) const {
+    return turned(angle_of(AngleParameter::half_tangent, t), 2 * turn_);
+  }
+
+  const RimSlope<Interval>& slope_;
+  unsigned turn_;
+};
+
+/// Where a slope changes fast: within `radius` of `centre`.
+struct Bend {
+  double centre = 0, radius = std::numeric_limits<double>::infinity();
+};
+
 template <class Slope>
 class SlopeIsolation {
  public:
-  SlopeIsolation(const Slope& slope, unsigned turn)
-      : slope_(slope), quarters_(Slope::parameter == AngleParameter::tangent ? turn : 2 * turn) {
-    if constexpr (Slope::parameter == AngleParameter::tangent) find_bend();
-  }
+  SlopeIsolation(const Slope& slope, const Bend& bend) : slope_(slope), bend_(bend) {}
 
   bool run(double lo, double hi, int branch, std::vector<SlopeBracket>& out);
 
@@ -43,49 +92,25 @@ class SlopeIsolation {
     double lo, hi;
     int sign_at_lo, sign_at_hi;  // certain
   };
-  Angle<Interval> angle(const Interval& t) const {
-    return turned(angle_of(Slope::parameter, t), quarters_);
-  }
-  Interval value(double t) const { return slope_.value(angle(t)); }
-  Interval change(const Interval& t) const {
-    return slope_.change(angle(t)) * angle_per_parameter(Slope::parameter, t);
-  }
-  void find_bend();
   double cut(const Part& part) const;
   bool move_outward(double& end, double step, int& sign_there) const;
-  std::optional<double> between(const Part& part, int& sign_there) const;
+  std::optional<double> between(const Part& part, Interval& there) const;
   void narrow(SlopeBracket& bracket, Interval change) const;
 
   const Slope& slope_;
-  unsigned quarters_;
-  /// Where the slope of a line's gap changes fast: within `bend_radius_` of `bend_`.
-  double bend_ = 0, bend_radius_ = std::numeric_limits<double>::infinity();
+  Bend bend_;
 };
-
-/// Around the zero of x, within a few |y|: elsewhere ρ is nearly |x|.
-template <class Slope>
-void SlopeIsolation<Slope>::find_bend() {
-  if (slope_.is_flat) return;
-  constexpr double several = 16;
-  const bool odd = quarters_ % 2 == 1;
-  const double e = slope_.x.cosine.sup(), f = slope_.x.sine.sup();
-  const double numerator = odd ? f : -e, denominator = odd ? e : f;
-  const double radius = several * std::abs(slope_.y.sup() / denominator);
-  if (!(radius < 1) || !(std::abs(numerator) < std::abs(denominator))) return;
-  bend_ = numerator / denominator;
-  bend_radius_ = radius;
-}
 
 /// Where to split a part: at the ends of the bend, and outside it by the geometric mean of the
 /// distances from it, so that a few splits lead from any scale to that of the bend.
 template <class Slope>
 double SlopeIsolation<Slope>::cut(const Part& part) const {
-  for (const double end : {bend_ - bend_radius_, bend_ + bend_radius_}) {
+  for (const double end : {bend_.centre - bend_.radius, bend_.centre + bend_.radius}) {
     if (part.lo < end && end < part.hi) return end;
   }
-  const double lo = part.lo - bend_, hi = part.hi - bend_;
-  if (lo > 0 && hi > 4 * lo) return bend_ + std::sqrt(lo) * std::sqrt(hi);
-  if (hi < 0 && lo < 4 * hi) return bend_ - std::sqrt(-lo) * std::sqrt(-hi);
+  const double lo = part.lo - bend_.centre, hi = part.hi - bend_.centre;
+  if (lo > 0 && hi > 4 * lo) return bend_.centre + std::sqrt(lo) * std::sqrt(hi);
+  if (hi < 0 && lo < 4 * hi) return bend_.centre - std::sqrt(-lo) * std::sqrt(-hi);
   return part.lo + 0.5 * (part.hi - part.lo);
 }
 
@@ -94,7 +119,7 @@ template <class Slope>
 bool SlopeIsolation<Slope>::move_outward(double& end, double step, int& sign_there) const {
   for (const double factor : {1.0, 3.0, 9.0}) {
     const double t = end + factor * step;
-    sign_there = sign(value(t));
+    sign_there = sign(slope_.value(t));
     if (sign_there == 0) continue;
     end = t;
     return true;
@@ -102,14 +127,14 @@ bool SlopeIsolation<Slope>::move_outward(double& end, double step, int& sign_the
   return false;
 }
 
-/// A point inside at which the slope's sign is certain.
+/// A point inside at which the slope's sign is certain, and the slope there.
 template <class Slope>
-std::optional<double> SlopeIsolation<Slope>::between(const Part& part, int& sign_there) const {
+std::optional<double> SlopeIsolation<Slope>::between(const Part& part, Interval& there) const {
   const double first = cut(part);
   for (const double towards_hi : {0.0, 0.375, -0.3125}) {
     const double t = first + towards_hi * (towards_hi > 0 ? part.hi - first : first - part.lo);
-    sign_there = sign(value(t));
-    if (sign_there != 0 && part.lo < t && t < part.hi) return t;
+    there = slope_.value(t);
+    if (sign(there) != 0 && part.lo < t && t < part.hi) return t;
   }
   return std::nullopt;
 }
@@ -121,7 +146,7 @@ void SlopeIsolation<Slope>::narrow(SlopeBracket& bracket, Interval change_here) 
   const int sign_at_lo = bracket.rising ? -1 : 1;
   for (;;) {
     const double width = bracket.hi - bracket.lo, middle = bracket.lo + width / 2;
-    const Interval there = value(middle);
+    const Interval there = slope_.value(middle);
     if (sign(change_here) != 0) {
       const Interval next = Interval(middle) - there / change_here;
       bracket.lo = std::max(bracket.lo, next.inf());
@@ -133,13 +158,13 @@ void SlopeIsolation<Slope>::narrow(SlopeBracket& bracket, Interval change_here) 
       if (sign(there) == -sign_at_lo) bracket.hi = std::min(bracket.hi, middle);
     }
     if (!(bracket.hi - bracket.lo < width)) return;
-    change_here = change(Interval(bracket.lo, bracket.hi));
+    change_here = slope_.change(Interval(bracket.lo, bracket.hi));
   }
 }
 
 template <class Slope>
 bool SlopeIsolation<Slope>::run(double lo, double hi, int branch, std::vector<SlopeBracket>& out) {
-  constexpr int max_parts = 96;
+  constexpr int max_parts = 256;
   constexpr double margin = 0x1p-20;
   const double step = margin * (hi - lo);
   Part whole{lo, hi, 0, 0};
@@ -152,7 +177,7 @@ bool SlopeIsolation<Slope>::run(double lo, double hi, int branch, std::vector<Sl
     const Part part = open.back();
     open.pop_back();
     const Interval range(part.lo, part.hi);
-    const Interval change_here = change(range);
+    const Interval change_here = slope_.change(range);
     if (sign(change_here) != 0) {
       if (part.sign_at_lo == part.sign_at_hi) continue;
       SlopeBracket bracket{part.lo, part.hi, branch, part.sign_at_lo < 0};
@@ -160,26 +185,40 @@ bool SlopeIsolation<Slope>::run(double lo, double hi, int branch, std::vector<Sl
       out.push_back(bracket);
       continue;
     }
-    if (sign(slope_.value(angle(range))) != 0) continue;
-    int sign_there = 0;
-    const auto middle = between(part, sign_there);
+    if (sign(slope_.value(range)) != 0) continue;
+    Interval there = 0;
+    const auto middle = between(part, there);
     if (!middle) return false;
-    open.push_back({*middle, part.hi, sign_there, part.sign_at_hi});
-    open.push_back({part.lo, *middle, part.sign_at_lo, sign_there});
+    if (sign(there + change_here * (range - Interval(*middle))) != 0) continue;
+    open.push_back({*middle, part.hi, sign(there), part.sign_at_hi});
+    open.push_back({part.lo, *middle, part.sign_at_lo, sign(there)});
   }
   return true;
+}
+
+/// Around the zero of x, within a few |y|: elsewhere ρ is nearly |x|.
+Bend bend_of(const LineSlope<Interval>& slope, unsigned turn) {
+  constexpr double several = 16;
+  const bool odd = turn % 2 == 1;
+  const double e = slope.x().cosine.sup(), f = slope.x().sine.sup();
+  const double numerator = odd ? f : -e, denominator = odd ? e : f;
+  const double radius = several * std::abs(slope.y().sup() / denominator);
+  if (!(radius < 1) || !(std::abs(numerator) < std::abs(denominator))) return {};
+  return {numerator / denominator, radius};
 }
 
 }  // namespace
 
 bool isolate_slope_roots(const LineSlope<Interval>& slope, int branch, const Piece& piece,
                          std::vector<SlopeBracket>& out) {
-  return SlopeIsolation(slope, piece.turn).run(piece.lo, piece.hi, branch, out);
+  const LineOfParameter line(slope, piece.turn);
+  return SlopeIsolation(line, bend_of(slope, piece.turn)).run(piece.lo, piece.hi, branch, out);
 }
 
 bool isolate_slope_roots(const RimSlope<Interval>& slope, int branch, const Piece& piece,
                          std::vector<SlopeBracket>& out) {
-  return SlopeIsolation(slope, piece.turn).run(piece.lo, piece.hi, branch, out);
+  const RimOfParameter rim(slope, piece.turn);
+  return SlopeIsolation(rim, Bend{}).run(piece.lo, piece.hi, branch, out);
 }
 
 }  // namespace touchstone::oracle

@@ -59,31 +59,69 @@ struct Harmonic {
 /// multiplied give the quartic of one_rim_directions.cpp. For u nearly along the line ρ' is nearly
 /// zero, so that each root of one branch has one of the other beside it: a cluster for the quartic,
 /// but a simple root of S.
+///
+/// Where x keeps its sign and y is small, L and κ ρ' may nearly cancel. There `side` is that sign:
+///
+///   S = (q·n' − κ side x') − κ (x/ρ − side) x',
+///
+/// of which the first part is one harmonic. Elsewhere `side` is 0.
 template <class Number>
-struct LineSlope {
+class LineSlope {
+ public:
   static constexpr AngleParameter parameter = AngleParameter::tangent;
 
-  Harmonic<Number> linear;  ///< q·n'
-  Harmonic<Number> x;
-  Number y, factor;
-  /// y is exactly zero, so that ρ = |x|. S is then continued smoothly through the zero of x, where
-  /// the branches change places: ρ' is replaced by x'.
-  bool is_flat;
+  /// If y is exactly zero, ρ is |x|, and S is continued smoothly through the zero of x, where the
+  /// branches change places: ρ' is replaced by x'.
+  LineSlope(const Harmonic<Number>& linear, const Harmonic<Number>& x, const Number& y,
+            const Number& factor, bool is_flat)
+      : linear_(linear), x_(x), y_(y), factor_(factor), is_flat_(is_flat) {
+    if (is_flat) take_out(1);
+  }
+
+  /// The same slope, for directions at which x has this sign.
+  LineSlope beside(int side) const {
+    LineSlope result = *this;
+    if (!is_flat_ && side != 0) result.take_out(side);
+    return result;
+  }
+
+  Number x(const Angle<Number>& a) const { return x_.value(a); }
+  const Harmonic<Number>& x() const { return x_; }
+  const Number& y() const { return y_; }
 
   Number value(const Angle<Number>& a) const {
-    const Number dx = x.slope(a);
-    if (is_flat) return linear.value(a) - factor * dx;
-    return linear.value(a) - factor * (cosine_towards(x.value(a), y) * dx);
+    if (is_flat_) return linear_.value(a);
+    const Number u = x_.value(a);
+    return linear_.value(a) - factor_ * (bent_part(u) * x_.slope(a));
   }
 
   /// dS/dφ. With x'' = −x, ρ'' = (y x')²/ρ³ − x²/ρ, without cancellation where ρ is small.
   Number change(const Angle<Number>& a) const {
-    const Number u = x.value(a);
-    if (is_flat) return linear.slope(a) + factor * u;
-    const Number squared = square(u) + square(y);
-    const Number bend = square(y * x.slope(a)) / (squared * square_root(squared));
-    return linear.slope(a) - factor * (bend - u * cosine_towards(u, y));
+    if (is_flat_) return linear_.slope(a);
+    const Number u = x_.value(a);
+    const Number squared = square(u) + square(y_);
+    const Number bend = square(y_ * x_.slope(a)) / (squared * square_root(squared));
+    return linear_.slope(a) - factor_ * (bend - u * bent_part(u));
   }
+
+ private:
+  /// x' has the coefficients (sine, −cosine).
+  void take_out(int side) {
+    side_ = side;
+    const Number part = factor_ * Number(side);
+    linear_ = {linear_.cosine - part * x_.sine, linear_.sine + part * x_.cosine};
+  }
+  /// x/ρ − side
+  Number bent_part(const Number& u) const {
+    if (side_ == 0) return cosine_towards(u, y_);
+    const Number length = square_root<Number>(square(u) + square(y_));
+    return Number(-side_) * square(y_) / (length * (length + Number(side_) * u));
+  }
+
+  Harmonic<Number> linear_, x_;
+  Number y_, factor_;
+  bool is_flat_;
+  int side_ = 0;
 };
 
 /// The slope of half the squared distance of a point p of rim 1 from a rim, as p moves along
