@@ -240,15 +240,14 @@ bool Search::isolate_line(const CriticalSite& site) {
   return true;
 }
 
+/// Only the branch of rim 2's nearest point has maxima. Where g has one, of depth λ = −g > 0, the
+/// boundary of the sum of both bodies is curved no more than a sphere of radius λ. Of its matrix of
+/// radii of curvature, Σ radius_j / |u_j × n| t_j t_jᵀ, the second part alone is left across rim
+/// 1's tangent t_1, so that radius2 >= λ |u_2 × n|: rim 1's point, at −λ n from rim 2's, lies on
+/// the same side of rim 2's axis. Apart (λ < 0) it lies beyond it.
 bool Search::isolate_rims(const CriticalSite& site) {
-  const RimSearch& rims = rims_[site.signs];
-  for (const int branch : {1, -1}) {
-    if (!isolate_slope_roots(rims.slope(branch), branch, {site.first, site.turn, site.lo, site.hi},
-                             brackets_)) {
-      return false;
-    }
-  }
-  return true;
+  return isolate_slope_roots(rims_[site.signs].slope(1), 1,
+                             {site.first, site.turn, site.lo, site.hi}, brackets_);
 }
 
 /// Replaces a piece of a curve by brackets of the roots in it that reach the threshold, if double

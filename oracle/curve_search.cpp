@@ -252,36 +252,13 @@ IntervalVector reduced_point(const IntervalDifference& difference, unsigned sign
   return q;
 }
 
-RimSlope<Interval> rim_slope(const IntervalDifference& difference, const IntervalVector& q,
-                             int branch) {
-  const auto& [disc1, disc2] = std::pair(difference.discs[0], difference.discs[1]);
-  const auto place = [&, &rim1 = disc1](const IntervalVector& axis) -> RimSlope<Interval>::Place {
-    return {-dot(q, axis),
-            {rim1.radius * dot(rim1.frame.e, axis), rim1.radius * dot(rim1.frame.f, axis)}};
-  };
-  const auto x = place(disc2.frame.e), y = place(disc2.frame.f);
-  // The root of ρ²'s mean over rim 1.
-  const Interval mean =
-      square(x.centre) + square(y.centre) +
-      (square(x.p.cosine) + square(x.p.sine) + square(y.p.cosine) + square(y.p.sine)) *
-          Interval(0.5);
-  const double inverse_length = 1 / std::sqrt(mean.sup());
-  return {{-dot(q, disc1.frame.f), dot(q, disc1.frame.e)},
-          x,
-          y,
-          Interval(branch) * disc2.radius / disc1.radius,
-          Interval(inverse_length)};
-}
-
 }  // namespace
 
 RimSearch::RimSearch(const IntervalDifference& difference, unsigned signs)
     : difference_(difference),
       q_(reduced_point(difference, signs)),
       radius1_(difference.discs[0].radius),
-      radius2_(difference.discs[1].radius),
-      nearest_(rim_slope(difference, q_, 1)),
-      farthest_(rim_slope(difference, q_, -1)) {
+      radius2_(difference.discs[1].radius) {
   IntervalVector* ups[] = {&up1_, &up2_};
   for (unsigned i = 0; i < 2; ++i) {
     const IntervalVector& axis = difference.segments[i].frame.axis;
@@ -305,6 +282,27 @@ RimSearch::Point RimSearch::at(unsigned turn, double lo, double hi) const {
   p.off_axis = p.w - p.w_u * axis2;
   p.off_axis_length = length(p.off_axis);
   return p;
+}
+
+RimSlope<Interval> RimSearch::slope(int branch) const {
+  const auto& disc1 = difference_.discs[0];
+  const auto& disc2 = difference_.discs[1];
+  const auto place = [&](const IntervalVector& axis) -> RimSlope<Interval>::Place {
+    return {-dot(q_, axis),
+            {disc1.radius * dot(disc1.frame.e, axis), disc1.radius * dot(disc1.frame.f, axis)}};
+  };
+  const auto x = place(disc2.frame.e), y = place(disc2.frame.f);
+  // The root of ρ²'s mean over rim 1.
+  const Interval mean =
+      square(x.centre) + square(y.centre) +
+      (square(x.p.cosine) + square(x.p.sine) + square(y.p.cosine) + square(y.p.sine)) *
+          Interval(0.5);
+  const double inverse_length = 1 / std::sqrt(mean.sup());
+  return {{-dot(q_, disc1.frame.f), dot(q_, disc1.frame.e)},
+          x,
+          y,
+          Interval(branch) * disc2.radius / disc1.radius,
+          Interval(inverse_length)};
 }
 
 /// Raises the threshold to the gaps along the directions at the middle of a piece.

@@ -168,7 +168,7 @@ class RimSearch {
   bool is_open(const Piece& piece, GapThreshold& threshold) const;
 
   /// The slope of half the squared distance from rim 1's point to rim 2.
-  const RimSlope<Interval>& slope(int branch) const { return branch > 0 ? nearest_ : farthest_; }
+  RimSlope<Interval> slope(int branch) const;
 
  private:
   struct Point {
@@ -182,7 +182,6 @@ class RimSearch {
   const IntervalDifference& difference_;
   IntervalVector q_, up1_, up2_;
   Interval radius1_, radius2_;
-  RimSlope<Interval> nearest_, farthest_;
 };
 
 /// Appends, in rising order, a bracket for each root of a slope in a piece of its curve, and for

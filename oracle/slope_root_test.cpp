@@ -286,17 +286,20 @@ TEST(CurveRoot, EnclosesARootOfASlopeAsNarrowlyAsAsked) {
 }
 
 TEST(CurveRoot, IsDecidedByThePolynomialAlone) {
-  // Another root of the polynomial, but not of the slope, 2^-150 away.
+  // Another root of the polynomial, but not of the slope, 2^-150 away on either side.
   const mpz_class big = mpz_class(1) << 150U;
-  const MadeUpCurve curve{Polynomial{-1, 3} * Polynomial{mpz_class(-big - 3), mpz_class(3 * big)}};
-  const mpq_class third(1, 3), beside = third + mpq_class(1, big);
-  const auto made = [] { return CurveRoot(SlopeBracket{0.25, 0.5, 1, false}); };
-  EXPECT_TRUE(made().is(curve, third));
-  EXPECT_FALSE(made().is(curve, beside));
-  EXPECT_FALSE(made().is(curve, mpq_class(1, 2)));
-  EXPECT_TRUE(made().is_root_of(curve, Polynomial{-1, 3} * Polynomial{-2, 0, 1}));
-  EXPECT_FALSE(made().is_root_of(curve, {mpz_class(-big - 3), mpz_class(3 * big)}));
-  EXPECT_TRUE(made().is_root_of(curve, {0}));
+  for (const int side : {1, -1}) {
+    const Polynomial other{mpz_class(-big - 3 * side), mpz_class(3 * big)};
+    const MadeUpCurve curve{Polynomial{-1, 3} * other};
+    const mpq_class third(1, 3), beside = third + mpq_class(side, big);
+    const auto made = [] { return CurveRoot(SlopeBracket{0.25, 0.5, 1, false}); };
+    EXPECT_TRUE(made().is(curve, third));
+    EXPECT_FALSE(made().is(curve, beside));
+    EXPECT_FALSE(made().is(curve, mpq_class(1, 2)));
+    EXPECT_TRUE(made().is_root_of(curve, Polynomial{-1, 3} * Polynomial{-2, 0, 1}));
+    EXPECT_FALSE(made().is_root_of(curve, other));
+    EXPECT_TRUE(made().is_root_of(curve, {0}));
+  }
 }
 
 TEST(CurveRoot, AMultipleRootOfThePolynomialIsRecognised) {
@@ -325,6 +328,18 @@ TEST(SlopeIsolation, GivesUpWhereTheSlopeVanishesIdentically) {
   EXPECT_FALSE(isolate_slope_roots(line, 1, {0, 0, -1, 1}, brackets));
   const RimSlope<Interval> coaxial({0, 0}, {0, {1, 0}}, {0, {0, 1}}, 1, 1);
   EXPECT_FALSE(isolate_slope_roots(coaxial, 1, {0, 0, -1, 1}, brackets));
+}
+
+// S and dS/dφ vanish at φ = 0.3, up to rounding: doubles cannot tell no root from two.
+TEST(SlopeIsolation, GivesUpAtADoubleRoot) {
+  const double phi = 0.3, c = std::cos(phi), s = std::sin(phi);
+  // ρ' and ρ'' of x = sin φ, y = 1
+  const double length = std::hypot(s, 1), d = s * c / length;
+  const double dd = c * c / (length * length * length) - s * s / length;
+  const CGAL::Protect_FPU_rounding<true> rounding;
+  const LineSlope<Interval> line({d * c - dd * s, d * s + dd * c}, {0, 1}, 1, 1, false);
+  std::vector<SlopeBracket> brackets;
+  EXPECT_FALSE(isolate_slope_roots(line, 1, {0, 0, 0.25, 0.375}, brackets));
 }
 
 TEST(SlopeIsolation, ARootAtAnEndOfAPieceIsFoundFromBothSides) {
