@@ -4,7 +4,6 @@
 #include <array>
 #include <boost/container/static_vector.hpp>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "oracle/curve_search.hpp"
@@ -75,15 +74,10 @@ class RimOfParameter {
   unsigned turn_;
 };
 
-/// Where a slope changes fast: within `radius` of `centre`.
-struct Bend {
-  double centre = 0, radius = std::numeric_limits<double>::infinity();
-};
-
 template <class Slope>
 class SlopeIsolation {
  public:
-  SlopeIsolation(const Slope& slope, const Bend& bend) : slope_(slope), bend_(bend) {}
+  explicit SlopeIsolation(const Slope& slope) : slope_(slope) {}
 
   bool run(double lo, double hi, int branch, std::vector<SlopeBracket>& out);
 
@@ -92,27 +86,12 @@ class SlopeIsolation {
     double lo, hi;
     int sign_at_lo, sign_at_hi;  // certain
   };
-  double cut(const Part& part) const;
   bool move_outward(double& end, double step, int& sign_there) const;
   std::optional<double> between(const Part& part, Interval& there) const;
   void narrow(SlopeBracket& bracket, Interval change) const;
 
   const Slope& slope_;
-  Bend bend_;
 };
-
-/// Where to split a part: at the ends of the bend, and outside it by the geometric mean of the
-/// distances from it, so that a few splits lead from any scale to that of the bend.
-template <class Slope>
-double SlopeIsolation<Slope>::cut(const Part& part) const {
-  for (const double end : {bend_.centre - bend_.radius, bend_.centre + bend_.radius}) {
-    if (part.lo < end && end < part.hi) return end;
-  }
-  const double lo = part.lo - bend_.centre, hi = part.hi - bend_.centre;
-  if (lo > 0 && hi > 4 * lo) return bend_.centre + std::sqrt(lo) * std::sqrt(hi);
-  if (hi < 0 && lo < 4 * hi) return bend_.centre - std::sqrt(-lo) * std::sqrt(-hi);
-  return part.lo + 0.5 * (part.hi - part.lo);
-}
 
 /// Moves the end of a piece to a near point outside it at which the slope's sign is certain.
 template <class Slope>
@@ -130,9 +109,8 @@ bool SlopeIsolation<Slope>::move_outward(double& end, double step, int& sign_the
 /// A point inside at which the slope's sign is certain, and the slope there.
 template <class Slope>
 std::optional<double> SlopeIsolation<Slope>::between(const Part& part, Interval& there) const {
-  const double first = cut(part);
-  for (const double towards_hi : {0.0, 0.375, -0.3125}) {
-    const double t = first + towards_hi * (towards_hi > 0 ? part.hi - first : first - part.lo);
+  for (const double at : {0.5, 0.6875, 0.34375}) {
+    const double t = part.lo + at * (part.hi - part.lo);
     there = slope_.value(t);
     if (sign(there) != 0 && part.lo < t && t < part.hi) return t;
   }
@@ -196,29 +174,18 @@ bool SlopeIsolation<Slope>::run(double lo, double hi, int branch, std::vector<Sl
   return true;
 }
 
-/// Around the zero of x, within a few |y|: elsewhere ρ is nearly |x|.
-Bend bend_of(const LineSlope<Interval>& slope, unsigned turn) {
-  constexpr double several = 16;
-  const bool odd = turn % 2 == 1;
-  const double e = slope.x().cosine.sup(), f = slope.x().sine.sup();
-  const double numerator = odd ? f : -e, denominator = odd ? e : f;
-  const double radius = several * std::abs(slope.y().sup() / denominator);
-  if (!(radius < 1) || !(std::abs(numerator) < std::abs(denominator))) return {};
-  return {numerator / denominator, radius};
-}
-
 }  // namespace
 
 bool isolate_slope_roots(const LineSlope<Interval>& slope, int branch, const Piece& piece,
                          std::vector<SlopeBracket>& out) {
   const LineOfParameter line(slope, piece.turn);
-  return SlopeIsolation(line, bend_of(slope, piece.turn)).run(piece.lo, piece.hi, branch, out);
+  return SlopeIsolation(line).run(piece.lo, piece.hi, branch, out);
 }
 
 bool isolate_slope_roots(const RimSlope<Interval>& slope, int branch, const Piece& piece,
                          std::vector<SlopeBracket>& out) {
   const RimOfParameter rim(slope, piece.turn);
-  return SlopeIsolation(rim, Bend{}).run(piece.lo, piece.hi, branch, out);
+  return SlopeIsolation(rim).run(piece.lo, piece.hi, branch, out);
 }
 
 }  // namespace touchstone::oracle
