@@ -2,6 +2,7 @@
 #include "oracle/critical_direction.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "oracle/real_roots.hpp"
@@ -44,7 +45,7 @@ class RationalDirection : public CriticalDirection {
     const bool forth = dot(difference.d, n_) >= 0;
     return gap_is_zero(difference, forth ? n_ : -n_) ? ZeroGap::zero : ZeroGap::unknown;
   }
-  bool is_across(const IntegerVector& v) const override { return dot(n_, v) == 0; }
+  bool is_across(const IntegerVector& v) override { return dot(n_, v) == 0; }
   std::optional<DirectionFamily> family() const override { return family_; }
 
  private:
@@ -64,7 +65,7 @@ class PlaneDirection : public CriticalDirection {
   ZeroGap zero_gap(const Difference& difference) override {
     return gap_is_zero(difference, normal_) ? ZeroGap::zero : ZeroGap::unknown;
   }
-  bool is_across(const IntegerVector& v) const override { return dot(normal_, v) == 0; }
+  bool is_across(const IntegerVector& v) override { return dot(normal_, v) == 0; }
 
  private:
   IntegerVector normal_;
@@ -74,6 +75,15 @@ class PlaneDirection : public CriticalDirection {
 
 IntegerVector off_axis(const IntegerVector& q, const Frame& frame) {
   return dot(q, frame.e) * frame.e + dot(q, frame.f) * frame.f;
+}
+
+TurnedFrame turned_frame(const Frame& frame, double heading) {
+  if (heading == 0) return {frame, 1};
+  const Integer tangent(std::ldexp(heading, heading_bits));
+  const Integer one = Integer(1) << heading_bits;
+  const Integer cosine = one * one - tangent * tangent, sine = 2 * one * tangent;
+  return {{frame.axis, cosine * frame.e + sine * frame.f, cosine * frame.f - sine * frame.e},
+          one * one + tangent * tangent};
 }
 
 IntegerVector reduced_point(const Difference& difference, unsigned signs,

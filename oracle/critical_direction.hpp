@@ -27,10 +27,25 @@ struct CriticalSite {
   unsigned signs = 0;  ///< bit i: the direction is on the positive side of segment i's axis
   /// rim_line: the direction is x e + y f in the segment's frame, with (x, y) = (1, t) turned by
   /// `turn` quarters. rim_rim: the point of the first rim is at the angle 2 arctan t, plus half a
-  /// circle if `turn` is 1. In both, lo <= t <= hi within [-1, 1].
+  /// circle if `turn` is 1. In both, lo <= t <= hi, and within [-1, 1] if `branch` is 0.
   unsigned turn = 0;
   double lo = 0, hi = 0;
+  /// rim_line: the segment's frame is first turned about its axis by 2 arctan(heading), a multiple
+  /// of 2^-heading_bits.
+  double heading = 0;
+  /// 0: any number of roots of the site's polynomial, of either branch. 1 or −1: a SlopeBracket.
+  int branch = 0;
+  bool rising = false;
 };
+
+/// A frame turned about its axis by 2 arctan(heading), exactly. e and f are longer by the factor
+/// `stretch`.
+struct TurnedFrame {
+  Frame frame;
+  Integer stretch;
+};
+inline constexpr int heading_bits = 26;
+TurnedFrame turned_frame(const Frame& frame, double heading);
 
 /// Every site that could hold a direction whose gap is within `slack` (metres, >= 0) of the signed
 /// distance: all sites that double intervals cannot exclude. Complete (oracle/README.md); a site
@@ -74,7 +89,7 @@ class CriticalDirection {
 
   /// Is the direction exactly perpendicular to this vector? May be false if the same direction also
   /// has a site of a simpler kind.
-  virtual bool is_across(const IntegerVector& v) const = 0;
+  virtual bool is_across(const IntegerVector& v) = 0;
 
   /// The family that this direction stands for.
   virtual std::optional<DirectionFamily> family() const { return std::nullopt; }

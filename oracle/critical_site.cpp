@@ -34,6 +34,10 @@ class Search {
   void search_rim_vertices();
   void search_radial();
   void search_curves();
+  std::vector<CriticalSite> curve_sites() const;
+  void isolate(const CriticalSite& site, std::vector<CriticalSite>& out);
+  bool isolate_line(const CriticalSite& site);
+  bool isolate_rims(const CriticalSite& site);
   IntervalVector vertex(unsigned signs) const;
 
   const Difference& exact_;
@@ -57,6 +61,7 @@ class Search {
   };
   // Enough for poses without a degeneracy.
   boost::container::small_vector<OpenPiece, 256> pieces_, next_;
+  std::vector<SlopeBracket> brackets_;  // of one site
 };
 
 double relative(double metres, const Difference& difference, const Integer& scale) {
@@ -104,7 +109,8 @@ void Search::search_rim_vertices() {
     const IntervalVector q = vertex(signs);
     const IntervalVector off_axis =
         dot(q, disc.frame.e) * disc.frame.e + dot(q, disc.frame.f) * disc.frame.f;
-    const Interval length = sqrt(square(off_axis.x) + square(off_axis.y) + square(off_axis.z));
+    const Interval length =
+        square_root<Interval>(square(off_axis.x) + square(off_axis.y) + square(off_axis.z));
     if ((length - disc.radius).sup() < 0) continue;
     const IntervalVector n = q - (disc.radius / length) * off_axis;
     const Interval gap = difference_.gap(n);
@@ -128,7 +134,7 @@ void Search::search_radial() {
 
 void Search::search_curves() {
   for (unsigned i = 0; i < difference_.segments.size(); ++i) {
-    lines_.emplace_back(difference_, i);
+    lines_.emplace_back(difference_, exact_, i, tilted_disc(exact_, i));
   }
   if (difference_.discs.size() == 2) {
     for (unsigned signs = 0; signs < 4; ++signs) rims_.emplace_back(difference_, signs);
@@ -174,20 +180,15 @@ unsigned all_signs(unsigned others, unsigned segment) {
   return below | (others & ~((1U << segment) - 1)) << 1;
 }
 
-std::vector<CriticalSite> Search::run() {
-  search_directions();
-  search_rim_vertices();
-  if (difference_.segments.size() == 1) {
-    search_radial();
-  } else {
-    search_curves();
-  }
+/// The inverse: removes the bit of `segment`.
+unsigned other_signs(unsigned signs, unsigned segment) {
+  const unsigned below = signs & ((1U << segment) - 1);
+  return below | (signs >> 1 & ~((1U << segment) - 1));
+}
 
+/// The open pieces of curves as sites; adjacent ones of one curve at one vertex become one site.
+std::vector<CriticalSite> Search::curve_sites() const {
   std::vector<CriticalSite> sites;
-  for (const auto& [site, gap] : directions_) {
-    if (!threshold_.is_above(gap)) sites.push_back(site);
-  }
-  // Adjacent pieces of one curve at one vertex become one site.
   const auto extend = [&](const CriticalSite& site) {
     for (auto& known : sites) {
       if (known.kind == site.kind && known.first == site.first && known.signs == site.signs &&
@@ -205,12 +206,12 @@ std::vector<CriticalSite> Search::run() {
       extend({Kind::rim_rim, 0, 1, signs, turn, lo, hi});
       continue;
     }
-    const auto tilted = tilted_disc(exact_, curve);
+    const auto tilted = lines_[curve].tilted_disc();
     for (unsigned v = 0; v < 1U << lines_[curve].others(); ++v) {
       if (!(open.vertices >> v & 1UL)) continue;
       const unsigned signs = all_signs(v, curve);
       if (tilted) {
-        extend({Kind::rim_line, curve, *tilted, signs, turn, lo, hi});
+        extend({Kind::rim_line, curve, *tilted, signs, turn, lo, hi, lines_[curve].heading()});
       } else {
         // One rational direction serves the whole circle.
         const CriticalSite site{Kind::radial, curve, 0, signs};
@@ -221,6 +222,69 @@ std::vector<CriticalSite> Search::run() {
       }
     }
   }
+  return sites;
+}
+
+bool Search::isolate_line(const CriticalSite& site) {
+  const LineSearch& line = lines_[site.first];
+  const unsigned vertex = other_signs(site.signs, site.first);
+  for (const int branch : {1, -1}) {
+    if (!isolate_slope_roots(line.slope(vertex, branch), branch,
+                             {site.first, site.turn, site.lo, site.hi}, brackets_)) {
+      return false;
+    }
+  }
+  std::erase_if(brackets_, [&](const SlopeBracket& b) {
+    return !line.reaches({site.first, site.turn, b.lo, b.hi}, threshold_);
+  });
+  return true;
+}
+
+/// Only the branch of rim 2's nearest point has maxima. Where g has one, of depth λ = −g > 0, the
+/// boundary of the sum of both bodies is curved no more than a sphere of radius λ. Of its matrix of
+/// radii of curvature, Σ radius_j / |u_j × n| t_j t_jᵀ, the second part alone is left across rim
+/// 1's tangent t_1, so that radius2 >= λ |u_2 × n|: rim 1's point, at −λ n from rim 2's, lies on
+/// the same side of rim 2's axis. Apart (λ < 0) it lies beyond it.
+bool Search::isolate_rims(const CriticalSite& site) {
+  return isolate_slope_roots(rims_[site.signs].slope(1), 1,
+                             {site.first, site.turn, site.lo, site.hi}, brackets_);
+}
+
+/// Replaces a piece of a curve by brackets of the roots in it that reach the threshold, if double
+/// intervals separate all of them.
+void Search::isolate(const CriticalSite& site, std::vector<CriticalSite>& out) {
+  brackets_.clear();
+  const bool is_line = site.kind == Kind::rim_line, is_rims = site.kind == Kind::rim_rim;
+  if (!(is_line && isolate_line(site)) && !(is_rims && isolate_rims(site))) {
+    out.push_back(site);
+    return;
+  }
+  std::sort(brackets_.begin(), brackets_.end(),
+            [](const SlopeBracket& a, const SlopeBracket& b) { return a.lo + a.hi < b.lo + b.hi; });
+  for (const SlopeBracket& bracket : brackets_) {
+    CriticalSite root = site;
+    root.lo = bracket.lo;
+    root.hi = bracket.hi;
+    root.branch = bracket.branch;
+    root.rising = bracket.rising;
+    out.push_back(root);
+  }
+}
+
+std::vector<CriticalSite> Search::run() {
+  search_directions();
+  search_rim_vertices();
+  if (difference_.segments.size() == 1) {
+    search_radial();
+  } else {
+    search_curves();
+  }
+
+  std::vector<CriticalSite> sites;
+  for (const auto& [site, gap] : directions_) {
+    if (!threshold_.is_above(gap)) sites.push_back(site);
+  }
+  for (const CriticalSite& site : curve_sites()) isolate(site, sites);
   return sites;
 }
 

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+
+#include "oracle/critical_direction.hpp"
 
 namespace touchstone::oracle {
 
@@ -69,27 +72,74 @@ IntervalDifference::IntervalDifference(const Difference& difference) : scale(dif
 }
 
 Interval IntervalDifference::gap(const IntervalVector& n) const {
-  const Interval length = sqrt(square(n.x) + square(n.y) + square(n.z));
+  const Interval length = square_root<Interval>(square(n.x) + square(n.y) + square(n.z));
   return (dot(d, n) - add_half_width(Interval(0), segments, discs, n)) / length - inflation;
 }
 
-LineSearch::LineSearch(const IntervalDifference& difference, unsigned segment)
-    : inflation_(difference.inflation) {
-  const auto& line = difference.segments[segment].frame;
+namespace {
+
+/// tan(φ/2) of the angle φ, within an eighth of a turn, by which a frame has to be turned so that
+/// the planar vector (e, f) lies along one of its axes, to within rounding.
+double heading_of(double e, double f) {
+  if (std::abs(f) > std::abs(e)) {
+    std::swap(e, f);
+    f = -f;
+  }
+  const double tangent = f / (e + std::copysign(std::sqrt(e * e + f * f), e));
+  return std::ldexp(std::nearbyint(std::ldexp(tangent, heading_bits)), -heading_bits);
+}
+
+}  // namespace
+
+LineSearch::LineSearch(const IntervalDifference& difference, const Difference& exact,
+                       unsigned segment, std::optional<unsigned> tilted_disc)
+    : inflation_(difference.inflation), tilted_disc_(tilted_disc) {
+  auto line = difference.segments[segment].frame;
   const auto planar = [&](const IntervalVector& v) {
     return Planar{dot(v, line.e), dot(v, line.f)};
   };
+  bool is_nearly_perpendicular = false;
+  if (tilted_disc) {
+    // The gap bends sharply where the direction passes the axis of a disc that is nearly
+    // perpendicular to the line. There t has to be near zero, where doubles are dense, and the
+    // disc's axis is needed to a small relative error.
+    constexpr double nearly_perpendicular = 0x1p-6;
+    const IntervalVector& u = difference.discs[*tilted_disc].frame.axis;
+    is_nearly_perpendicular = abs(dot(u, line.axis)).sup() < nearly_perpendicular;
+    if (is_nearly_perpendicular) {
+      const Planar before = planar(u);
+      heading_ = heading_of(before.e.sup(), before.f.sup());
+      const Interval scale = Interval(1) / (Interval(1) + square(Interval(heading_)));
+      const Interval cosine = (Interval(1) - square(Interval(heading_))) * scale;
+      const Interval sine = Interval(2 * heading_) * scale;
+      const IntervalVector e = cosine * line.e + sine * line.f;
+      line.f = cosine * line.f - sine * line.e;
+      line.e = e;
+    }
+  }
   d_ = planar(difference.d);
-  for (const auto& s : difference.segments) {
-    if (&s.frame != &line) segments_.push_back({planar(s.frame.axis), s.half_length});
+  for (unsigned i = 0; i < difference.segments.size(); ++i) {
+    const auto& s = difference.segments[i];
+    if (i != segment) segments_.push_back({planar(s.frame.axis), s.half_length});
   }
   for (const auto& disc : difference.discs) {
     discs_.push_back({planar(disc.frame.axis), dot(disc.frame.axis, line.axis), disc.radius});
   }
+  if (is_nearly_perpendicular) {
+    const Integer& norm = exact.norm;
+    const TurnedFrame turned = turned_frame(exact.segments[segment].frame, heading_);
+    const IntegerVector& u = exact.discs[*tilted_disc].frame.axis;
+    const Integer along = dot(u, turned.frame.axis);
+    const ScaledInterval length = scaled(norm * norm * turned.stretch);
+    Disc& disc = discs_[*tilted_disc];
+    disc.axis = {ratio(dot(u, turned.frame.e), length), ratio(dot(u, turned.frame.f), length)};
+    disc.along = ratio(along, scaled(norm * norm));
+    is_flat_ = along == 0;
+  }
 }
 
 LineSearch::Direction LineSearch::direction(const Piece& piece, const Interval& t) {
-  const Interval length = sqrt(Interval(1) + square(t));
+  const Interval length = square_root<Interval>(Interval(1) + square(t));
   switch (piece.turn) {
     case 0:
       return {1, t, length};
@@ -107,10 +157,6 @@ Interval LineSearch::gap(const Direction& n) const {
 }
 
 unsigned long LineSearch::open_vertices(const Piece& piece, GapThreshold& threshold) const {
-  const Direction middle = direction(piece, Interval((piece.lo + piece.hi) / 2));
-  const Interval at_middle = gap(middle);
-  threshold.raise(at_middle);
-
   const Direction n = direction(piece, Interval(piece.lo, piece.hi));
   // Slope of the gap along the circle, times n.length. The segments' part depends on their signs.
   Interval smooth = d_.across(n);
@@ -140,29 +186,45 @@ unsigned long LineSearch::open_vertices(const Piece& piece, GapThreshold& thresh
     count *= 2;
   }
 
-  // Since dφ <= dt, the largest slope of all smooth parts bounds the change of g.
-  const Interval half = Interval(piece.hi) - Interval(piece.lo);
-  const Interval ahead = at_middle + abs(any_slope / n.length) * half * Interval(0.5);
-  if (threshold.is_above(ahead) || threshold.is_above(gap(n))) return 0;
-
   for (std::size_t v = 0; v < count; ++v) {
     const Interval& slope = slopes[v];
     if (slope.inf() > 0 || slope.sup() < 0) open &= ~(1UL << v);
   }
+  if (open == 0) return 0;
+
+  const Interval at_middle = gap(direction(piece, Interval((piece.lo + piece.hi) / 2)));
+  threshold.raise(at_middle);
+  // Since dφ <= dt, the largest slope of all smooth parts bounds the change of g.
+  const Interval half = Interval(piece.hi) - Interval(piece.lo);
+  const Interval ahead = at_middle + abs(any_slope / n.length) * half * Interval(0.5);
+  if (threshold.is_above(ahead) || threshold.is_above(gap(n))) return 0;
   return open;
+}
+
+LineSlope<Interval> LineSearch::slope(unsigned vertex, int branch) const {
+  Planar q = d_;
+  for (std::size_t i = 0; i < segments_.size(); ++i) {
+    const auto& s = segments_[i];
+    const Interval end = (vertex >> i & 1U) ? s.half_length : -s.half_length;
+    q = {q.e - end * s.axis.e, q.f - end * s.axis.f};
+  }
+  const Disc& u = discs_[*tilted_disc_];
+  return {{q.f, -q.e}, {u.axis.f, -u.axis.e}, u.along, Interval(branch) * u.radius, is_flat_};
+}
+
+bool LineSearch::reaches(const Piece& piece, const GapThreshold& threshold) const {
+  return !threshold.is_above(gap(direction(piece, Interval(piece.lo, piece.hi))));
 }
 
 namespace {
 
-Interval length(const IntervalVector& v) { return sqrt(square(v.x) + square(v.y) + square(v.z)); }
-
-struct Angle {
-  Interval cosine, sine;
-};
+Interval length(const IntervalVector& v) {
+  return square_root<Interval>(square(v.x) + square(v.y) + square(v.z));
+}
 
 /// Cosine and sine from t = tan(angle/2) within [-1, 1], where the sine is monotone and the cosine
 /// decreases with |t|.
-Angle angle(double lo, double hi) {
+Angle<Interval> half_angle(double lo, double hi) {
   const auto cosine = [](double t) {
     const Interval square_t = square(Interval(t));
     return (Interval(1) - square_t) / (Interval(1) + square_t);
@@ -177,21 +239,35 @@ Angle angle(double lo, double hi) {
 
 }  // namespace
 
+namespace {
+
+/// The reduced point at one vertex of the two segments.
+IntervalVector reduced_point(const IntervalDifference& difference, unsigned signs) {
+  IntervalVector q = difference.d;
+  for (unsigned i = 0; i < 2; ++i) {
+    const auto& s = difference.segments[i];
+    const Interval end = (signs >> i & 1U) ? s.half_length : -s.half_length;
+    q = q - end * s.frame.axis;
+  }
+  return q;
+}
+
+}  // namespace
+
 RimSearch::RimSearch(const IntervalDifference& difference, unsigned signs)
     : difference_(difference),
-      q_(difference.d),
+      q_(reduced_point(difference, signs)),
       radius1_(difference.discs[0].radius),
       radius2_(difference.discs[1].radius) {
   IntervalVector* ups[] = {&up1_, &up2_};
   for (unsigned i = 0; i < 2; ++i) {
-    const auto& s = difference.segments[i];
-    *ups[i] = (signs >> i & 1U) ? s.frame.axis : -s.frame.axis;
-    q_ = q_ - s.half_length * *ups[i];
+    const IntervalVector& axis = difference.segments[i].frame.axis;
+    *ups[i] = (signs >> i & 1U) ? axis : -axis;
   }
 }
 
 RimSearch::Point RimSearch::at(unsigned turn, double lo, double hi) const {
-  const Angle a = angle(lo, hi);
+  const Angle<Interval> a = half_angle(lo, hi);
   const auto& rim1 = difference_.discs[0].frame;
   const auto& axis2 = difference_.discs[1].frame.axis;
   Point p;
@@ -206,6 +282,27 @@ RimSearch::Point RimSearch::at(unsigned turn, double lo, double hi) const {
   p.off_axis = p.w - p.w_u * axis2;
   p.off_axis_length = length(p.off_axis);
   return p;
+}
+
+RimSlope<Interval> RimSearch::slope(int branch) const {
+  const auto& disc1 = difference_.discs[0];
+  const auto& disc2 = difference_.discs[1];
+  const auto place = [&](const IntervalVector& axis) -> RimSlope<Interval>::Place {
+    return {-dot(q_, axis),
+            {disc1.radius * dot(disc1.frame.e, axis), disc1.radius * dot(disc1.frame.f, axis)}};
+  };
+  const auto x = place(disc2.frame.e), y = place(disc2.frame.f);
+  // The root of ρ²'s mean over rim 1.
+  const Interval mean =
+      square(x.centre) + square(y.centre) +
+      (square(x.p.cosine) + square(x.p.sine) + square(y.p.cosine) + square(y.p.sine)) *
+          Interval(0.5);
+  const double inverse_length = 1 / std::sqrt(mean.sup());
+  return {{-dot(q_, disc1.frame.f), dot(q_, disc1.frame.e)},
+          x,
+          y,
+          Interval(branch) * disc2.radius / disc1.radius,
+          Interval(inverse_length)};
 }
 
 /// Raises the threshold to the gaps along the directions at the middle of a piece.
@@ -244,7 +341,7 @@ bool RimSearch::is_open(const Piece& piece, GapThreshold& threshold) const {
     if (slope.inf() > 0 || slope.sup() < 0) continue;
     const Interval beyond =
         p.off_axis_length - reach;  // distance of rim 1's point beyond rim 2's, seen along u2
-    const Interval distance = sqrt(square(p.w_u) + square(beyond));
+    const Interval distance = square_root<Interval>(square(p.w_u) + square(beyond));
     const Interval apart_radial = radius1_ - dot(q_, p.radial) - reach * y_radial;
     const Interval apart_up = -dot(q_, up1_) - reach * y_up;
     const Interval apart_y = branch * beyond;

@@ -4,9 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <boost/container/static_vector.hpp>
+#include <cmath>
 #include <limits>
+#include <optional>
+#include <vector>
 
 #include "oracle/difference.hpp"
+#include "oracle/slope_root.hpp"
 
 namespace touchstone::oracle {
 
@@ -14,6 +18,27 @@ namespace touchstone::oracle {
 /// CGAL::Protect_FPU_rounding is alive and in code compiled with -frounding-math.
 using Interval = CGAL::Interval_nt<false>;
 using IntervalVector = Vector3<Interval>;
+
+/// Without changing the rounding mode, which CGAL's square root does twice: it costs more than the
+/// root. The root rounded up exceeds the exact one by less than an ulp, which is at least 2^-52 of
+/// it.
+template <>
+inline Interval square_root(const Interval& x) {
+  constexpr double below = 1 - 0x1p-52;
+  const double rounded_up = x.inf() > 0 ? std::sqrt(x.inf()) : 0;
+  return {(Interval(rounded_up) * Interval(below)).inf(), std::sqrt(x.sup())};
+}
+
+/// Rises with x, towards zero with |y|: taken at the ends, so that no width is added.
+template <>
+inline Interval cosine_towards(const Interval& x, const Interval& y) {
+  const Interval beside = abs(y);
+  const auto at = [](double u, double v) {
+    return Interval(u) / square_root<Interval>(square(Interval(u)) + square(Interval(v)));
+  };
+  return {at(x.inf(), x.inf() > 0 ? beside.sup() : beside.inf()).inf(),
+          at(x.sup(), x.sup() > 0 ? beside.inf() : beside.sup()).sup()};
+}
 
 /// A Difference in double intervals; all lengths are relative to `scale`.
 struct IntervalDifference {
@@ -29,7 +54,7 @@ struct IntervalDifference {
     IntervalFrame frame;
     Interval radius;
     Interval projection(const IntervalVector& n) const {
-      return sqrt(square(dot(frame.e, n)) + square(dot(frame.f, n)));
+      return square_root<Interval>(square(dot(frame.e, n)) + square(dot(frame.f, n)));
     }
   };
 
@@ -74,7 +99,9 @@ struct Piece {
 /// critical direction of the other parts, and at which vertices.
 class LineSearch {
  public:
-  LineSearch(const IntervalDifference& difference, unsigned segment);
+  /// `tilted_disc`: the disc that is not perpendicular to the segment, if there is one.
+  LineSearch(const IntervalDifference& difference, const Difference& exact, unsigned segment,
+             std::optional<unsigned> tilted_disc);
 
   /// Bit v is set if at vertex v (one sign for each of the other segments, in order) the gap along
   /// this circle may be stationary somewhere in the piece and reach the threshold. Raises the
@@ -83,6 +110,15 @@ class LineSearch {
 
   /// Number of other segments.
   std::size_t others() const { return segments_.size(); }
+
+  /// See CriticalSite.
+  double heading() const { return heading_; }
+  std::optional<unsigned> tilted_disc() const { return tilted_disc_; }
+
+  /// The slope of the gap at one vertex. Precondition: there is a tilted disc.
+  LineSlope<Interval> slope(unsigned vertex, int branch) const;
+  /// May the gap along some direction of the piece reach the threshold?
+  bool reaches(const Piece& piece, const GapThreshold& threshold) const;
 
  private:
   /// A direction perpendicular to the line, of that length.
@@ -106,16 +142,20 @@ class LineSearch {
     Interval radius;
     /// |axis × n|, without cancellation for a disc that is nearly perpendicular to n.
     Interval projection(const Direction& n) const {
-      return sqrt(square(axis.across(n)) + square(along * n.length));
+      return square_root<Interval>(square(axis.across(n)) + square(along * n.length));
     }
   };
   static Direction direction(const Piece& piece, const Interval& t);
   Interval gap(const Direction& n) const;
+  void turn_towards(const Difference& exact, unsigned segment);
 
   Planar d_;
   boost::container::static_vector<Segment, max_segments - 1> segments_;
   boost::container::static_vector<Disc, max_discs> discs_;
   Interval inflation_;
+  std::optional<unsigned> tilted_disc_;
+  double heading_ = 0;
+  bool is_flat_ = false;  // the tilted disc's axis is exactly perpendicular to the line
 };
 
 /// The angles of a point on the first of two rims, at one vertex of the two segments. Decides which
@@ -126,6 +166,9 @@ class RimSearch {
 
   /// Can the piece contain such a pair with a gap that reaches the threshold? Raises the threshold.
   bool is_open(const Piece& piece, GapThreshold& threshold) const;
+
+  /// The slope of half the squared distance from rim 1's point to rim 2.
+  RimSlope<Interval> slope(int branch) const;
 
  private:
   struct Point {
@@ -140,5 +183,14 @@ class RimSearch {
   IntervalVector q_, up1_, up2_;
   Interval radius1_, radius2_;
 };
+
+/// Appends, in rising order, a bracket for each root of a slope in a piece of its curve, and for
+/// one that lies just beyond an end. False where double intervals do not separate all roots:
+/// multiple ones, slopes that vanish identically, and directions at which the square root
+/// vanishes.
+bool isolate_slope_roots(const LineSlope<Interval>& slope, int branch, const Piece& piece,
+                         std::vector<SlopeBracket>& out);
+bool isolate_slope_roots(const RimSlope<Interval>& slope, int branch, const Piece& piece,
+                         std::vector<SlopeBracket>& out);
 
 }  // namespace touchstone::oracle

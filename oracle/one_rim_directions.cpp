@@ -5,6 +5,7 @@
 
 #include "oracle/critical_direction.hpp"
 #include "oracle/real_roots.hpp"
+#include "oracle/slope_root.hpp"
 
 namespace touchstone::oracle {
 namespace {
@@ -37,7 +38,7 @@ class RimVertexDirection : public CriticalDirection {
   }
 
   // n·v = q·v − radius (across·v) / |across|
-  bool is_across(const IntegerVector& v) const override {
+  bool is_across(const IntegerVector& v) override {
     const Integer whole = dot(q_, v), part = radius_ * dot(across_, v);
     return sgn(whole) == sgn(part) && whole * whole * dot(across_, across_) == part * part;
   }
@@ -78,9 +79,17 @@ Frame turned(const Frame& frame, unsigned quarters) {
   }
 }
 
-/// The data of the gap along directions perpendicular to one line, at one vertex of the other
-/// segments.
+/// The gap along directions perpendicular to one line, at one vertex of the other segments.
 struct Profile {
+  /// Whose roots are the critical directions of both branches.
+  Polynomial polynomial() const;
+  /// Times norm² stretch.
+  LineSlope<Ball> slope(int branch) const;
+  /// (norm² stretch)² n·n
+  Polynomial length_squared() const;
+
+  Integer norm;
+  Integer stretch;  ///< e and f of the line's frame have the length norm · stretch
   Frame line;
   const Difference::Segment* segment;
   unsigned signs;
@@ -96,26 +105,35 @@ struct Profile {
   }
 };
 
-/// norm⁴ n·n
-Polynomial length_squared(const Integer& norm) {
-  const Integer norm_squared = norm * norm;
-  const Integer norm_fourth = norm_squared * norm_squared;
-  return {norm_fourth, 0, norm_fourth};
+Polynomial Profile::length_squared() const {
+  const Integer length = norm * norm * stretch;
+  const Integer squared = length * length;
+  return {squared, 0, squared};
 }
 
-// Scale factors: q by norm², u·n by norm², both sides by norm⁸.
-Polynomial stationary_quartic(const Profile& profile, const Integer& norm) {
-  const Polynomial q_slope = profile.across(profile.q);
-  const Polynomial u_n = profile.along(profile.disc.axis);
-  const Polynomial u_slope = profile.across(profile.disc.axis);
+// Scale factors: q·n and u·n by norm² stretch, both sides by its fourth power.
+Polynomial Profile::polynomial() const {
+  const Polynomial q_slope = across(q);
+  const Polynomial u_n = along(disc.axis);
+  const Polynomial u_slope = across(disc.axis);
   const Polynomial u_part = u_n * u_n;
-  return q_slope * q_slope * (length_squared(norm) - u_part) -
-         Integer(profile.radius * profile.radius) * (u_part * (u_slope * u_slope));
+  return q_slope * q_slope * (length_squared() - u_part) -
+         Integer(radius * radius) * (u_part * (u_slope * u_slope));
+}
+
+LineSlope<Ball> Profile::slope(int branch) const {
+  const auto ball = [](const Integer& x) { return Ball(x, WorkingPrecision::bits()); };
+  const Integer across_line = stretch * dot(disc.axis, line.axis);
+  return {{ball(dot(q, line.f)), ball(-dot(q, line.e))},
+          {ball(dot(disc.axis, line.f)), ball(-dot(disc.axis, line.e))},
+          ball(across_line),
+          ball(branch * radius),
+          across_line == 0};
 }
 
 class RimLineDirection : public CriticalDirection {
  public:
-  RimLineDirection(Profile profile, RealRoot t) : profile_(std::move(profile)), t_(std::move(t)) {}
+  RimLineDirection(Profile profile, CurveRoot t) : profile_(std::move(profile)), t_(std::move(t)) {}
 
   void enclose(const Difference& difference, const BallDifference& balls,
                std::vector<DirectionBound>& out) override {
@@ -124,11 +142,11 @@ class RimLineDirection : public CriticalDirection {
     out.push_back({balls.gap(n), n});
   }
 
-  // q·n − radius |u × n| − flat |n|, times norm².
+  // q·n − radius |u × n| − flat |n|, times norm² stretch.
   ZeroGap zero_gap(const Difference& difference) override {
     const Polynomial a = profile_.along(profile_.q);
     const Polynomial u_n = profile_.along(profile_.disc.axis);
-    const Polynomial n_n = length_squared(difference.norm);
+    const Polynomial n_n = profile_.length_squared();
     const Polynomial b = Integer(profile_.radius * profile_.radius) * (n_n - u_n * u_n);
     const Polynomial c = Integer(profile_.flat * profile_.flat) * n_n;
     if (!is_zero_here(a, b, c)) return ZeroGap::unknown;
@@ -137,32 +155,32 @@ class RimLineDirection : public CriticalDirection {
                : ZeroGap::at_most_zero;
   }
 
-  bool is_across(const IntegerVector& v) const override {
+  bool is_across(const IntegerVector& v) override {
     const Integer constant = dot(v, profile_.line.e), slope = dot(v, profile_.line.f);
     if (slope == 0) return constant == 0;
     mpq_class t(Integer(-constant), slope);
     t.canonicalize();
-    return t_.is(t);
+    return t_.is(profile_, t);
   }
 
  private:
   /// Is a − √b − √c zero at this root?
   bool is_zero_here(const Polynomial& a, const Polynomial& b, const Polynomial& c) {
-    if (t_.is_root_of(b)) {
+    if (t_.is_root_of(profile_, b)) {
       // The direction is the disc's axis.
-      return is_zero(c) ? t_.is_root_of(a) : is_zero_here(a, c, {0});
+      return is_zero(c) ? t_.is_root_of(profile_, a) : is_zero_here(a, c, {0});
     }
-    if (!t_.is_root_of(root_sum_norm(a, b, c))) return false;
-    const Ball t = t_.enclose();
+    if (!t_.is_root_of(profile_, root_sum_norm(a, b, c))) return false;
+    const Ball t = t_.enclose(profile_);
     return has_no_other_zero(value_at(a, t), value_at(b, t), value_at(c, t));
   }
 
   BallVector direction() {
-    return to_balls(profile_.line.e) + t_.enclose() * to_balls(profile_.line.f);
+    return to_balls(profile_.line.e) + t_.enclose(profile_) * to_balls(profile_.line.f);
   }
 
   Profile profile_;
-  RealRoot t_;
+  CurveRoot t_;
 };
 
 }  // namespace
@@ -229,14 +247,16 @@ void append_rim_line(const Difference& difference, const CriticalSite& site,
   for (const auto& other : difference.discs) {
     if (&other != &disc) flat += other.radius;
   }
-  Profile profile{turned(segment.frame, site.turn),
-                  &segment,
-                  site.signs,
-                  reduced_point(difference, site.signs, &segment),
-                  disc.frame,
-                  disc.radius,
-                  std::move(flat)};
-  const Polynomial quartic = stationary_quartic(profile, difference.norm);
+  const TurnedFrame frame = turned_frame(segment.frame, site.heading);
+  Profile profile{difference.norm, frame.stretch, turned(frame.frame, site.turn),
+                  &segment,        site.signs,    reduced_point(difference, site.signs, &segment),
+                  disc.frame,      disc.radius,   std::move(flat)};
+  if (site.branch != 0) {
+    const SlopeBracket bracket{site.lo, site.hi, site.branch, site.rising};
+    out.push_back(std::make_unique<RimLineDirection>(std::move(profile), CurveRoot(bracket)));
+    return;
+  }
+  const Polynomial quartic = profile.polynomial();
   if (is_zero(quartic)) {
     // The line lies in the disc's plane, and the end of the projected disc coincides with the
     // reduced point (or its mirror image does): the gap is constant over all directions of that

@@ -16,6 +16,7 @@
 
 #include "oracle/critical_direction.hpp"
 #include "oracle/real_roots.hpp"
+#include "oracle/slope_root.hpp"
 
 namespace touchstone::oracle {
 namespace {
@@ -23,6 +24,11 @@ namespace {
 /// Both rims for one choice of the segments' ends, and the cell of directions that belongs to that
 /// choice.
 struct RimPair {
+  /// Whose roots are the angles of rim 1 with stationary pairs, of both branches.
+  Polynomial polynomial() const;
+  /// Times norm².
+  RimSlope<Ball> slope(int branch) const;
+
   Frame rim1;
   Frame rim2;
   IntegerVector q;           // reduced point times norm
@@ -36,14 +42,16 @@ class StationaryPair {
  public:
   StationaryPair(const RimPair& rims, const Ball& cosine, const Ball& sine);
 
-  /// Appends the directions to all points of rim 2 that are stationary for rim 1's point.
-  void enclose(const BallDifference& difference, std::vector<DirectionBound>& out) const;
+  /// Appends the directions to all points of rim 2 that are stationary for rim 1's point; those of
+  /// one branch alone if it is not 0.
+  void enclose(const BallDifference& difference, int branch,
+               std::vector<DirectionBound>& out) const;
 
   /// Is the common normal outward for both rims? Precondition: rim 1's point lies on rim 2.
   bool touches_outward() const;
 
  private:
-  std::vector<BallVector> points_of_rim2(bool& undecided) const;
+  std::vector<BallVector> points_of_rim2(int branch, bool& undecided) const;
   void enclose(const BallVector& y, const BallDifference& difference,
                std::vector<DirectionBound>& out) const;
   /// Is n an outward normal of both rims at their points?
@@ -71,13 +79,14 @@ StationaryPair::StationaryPair(const RimPair& rims, const Ball& cosine, const Ba
   }
 }
 
-std::vector<BallVector> StationaryPair::points_of_rim2(bool& undecided) const {
+std::vector<BallVector> StationaryPair::points_of_rim2(int branch, bool& undecided) const {
   undecided = false;
   std::vector<BallVector> points;
   const BallVector across = w_ - dot(w_, axis2_) * axis2_;
   const Ball across_length = norm(across);
   if (!across_length.contains_zero()) {
     const BallVector y = (radius2_ / across_length) * across;
+    if (branch != 0) return {branch > 0 ? y : -y};
     for (const BallVector& candidate : {y, -y}) {
       if (dot(w_ - candidate, tangent_).contains_zero()) points.push_back(candidate);
     }
@@ -134,10 +143,10 @@ void StationaryPair::enclose(const BallVector& y, const BallDifference& differen
   if (is_outward(-n, y) != Side::no) out.push_back({difference.gap(-n), -n});
 }
 
-void StationaryPair::enclose(const BallDifference& difference,
+void StationaryPair::enclose(const BallDifference& difference, int branch,
                              std::vector<DirectionBound>& out) const {
   bool undecided = false;
-  for (const BallVector& y : points_of_rim2(undecided)) enclose(y, difference, out);
+  for (const BallVector& y : points_of_rim2(branch, undecided)) enclose(y, difference, out);
   if (undecided) out.push_back({Ball(1) / Ball(0), std::nullopt});
 }
 
@@ -152,13 +161,13 @@ Polynomial in_half_angle(const Integer& constant, const Integer& cosine, const I
 }
 
 // Every dot product of two vectors carries a factor norm²; F is scaled by norm^8 (1 + t²)⁴.
-Polynomial stationary_octic(const RimPair& rims) {
-  const Integer n2 = rims.norm * rims.norm;
-  const Integer q_e = dot(rims.q, rims.rim1.e), q_f = dot(rims.q, rims.rim1.f);
-  const Integer u_e = dot(rims.rim2.axis, rims.rim1.e), u_f = dot(rims.rim2.axis, rims.rim1.f);
-  const Integer q_u = dot(rims.q, rims.rim2.axis);
-  const Integer q_q = dot(rims.q, rims.q);
-  const Integer& r1 = rims.radius1;
+Polynomial RimPair::polynomial() const {
+  const Integer n2 = norm * norm;
+  const Integer q_e = dot(q, rim1.e), q_f = dot(q, rim1.f);
+  const Integer u_e = dot(rim2.axis, rim1.e), u_f = dot(rim2.axis, rim1.f);
+  const Integer q_u = dot(q, rim2.axis);
+  const Integer q_q = dot(q, q);
+  const Integer& r1 = radius1;
 
   const Polynomial one{1, 0, 1};
   const Polynomial q_t = in_half_angle(0, q_f, Integer(-q_e));  // norm² q·t1
@@ -169,7 +178,20 @@ Polynomial stationary_octic(const RimPair& rims) {
 
   const Polynomial across_squared = n2 * (w_w * one) - w_u * w_u;  // norm⁴ |w⊥|²
   const Polynomial across_t = n2 * (q_t * one) + w_u * u_t;        // −norm⁴ w⊥·t1
-  return q_t * q_t * across_squared - Integer(rims.radius2 * rims.radius2) * (across_t * across_t);
+  return q_t * q_t * across_squared - Integer(radius2 * radius2) * (across_t * across_t);
+}
+
+RimSlope<Ball> RimPair::slope(int branch) const {
+  const auto ball = [](const Integer& x) { return Ball(x, WorkingPrecision::bits()); };
+  const auto place = [&](const IntegerVector& axis) -> RimSlope<Ball>::Place {
+    return {ball(-dot(q, axis)),
+            {ball(radius1 * dot(rim1.e, axis)), ball(radius1 * dot(rim1.f, axis))}};
+  };
+  return {{ball(-dot(q, rim1.f)), ball(dot(q, rim1.e))},
+          place(rim2.e),
+          place(rim2.f),
+          ball(branch * radius2) / ball(radius1),
+          0};
 }
 
 /// Exact t = tan(θ/2) of the spurious roots of F: where rim 1's tangent is parallel to u2 and its
@@ -213,23 +235,24 @@ OnRim2 on_rim2(const RimPair& rims) {
 
 class RimRimDirection : public CriticalDirection {
  public:
-  RimRimDirection(const RimPair& rims, RealRoot t, bool of_a_family)
+  RimRimDirection(const RimPair& rims, CurveRoot t, bool of_a_family)
       : rims_(rims), t_(std::move(t)), of_a_family_(of_a_family) {}
 
   void enclose(const Difference&, const BallDifference& balls,
                std::vector<DirectionBound>& out) override {
-    pair().enclose(balls, out);
+    pair().enclose(balls, t_.branch(), out);
   }
 
   // Touching rims share a point of both bodies, so that no gap is above zero.
   ZeroGap zero_gap(const Difference&) override {
     const OnRim2 on = on_rim2(rims_);
-    if (!t_.is_root_of(on.in_plane) || !t_.is_root_of(on.at_radius)) return ZeroGap::unknown;
+    if (!t_.is_root_of(rims_, on.in_plane) || !t_.is_root_of(rims_, on.at_radius))
+      return ZeroGap::unknown;
     return pair().touches_outward() ? ZeroGap::zero : ZeroGap::at_most_zero;
   }
 
   // A direction perpendicular to an axis also belongs to that axis's line directions.
-  bool is_across(const IntegerVector&) const override { return false; }
+  bool is_across(const IntegerVector&) override { return false; }
 
   std::optional<DirectionFamily> family() const override {
     if (!of_a_family_) return std::nullopt;
@@ -238,13 +261,13 @@ class RimRimDirection : public CriticalDirection {
 
  private:
   StationaryPair pair() {
-    const Ball t = t_.enclose();
+    const Ball t = t_.enclose(rims_);
     const Ball scale = Ball(1) / (Ball(1) + square(t));
     return {rims_, (Ball(1) - square(t)) * scale, Ball(2) * t * scale};
   }
 
   RimPair rims_;
-  RealRoot t_;
+  CurveRoot t_;
   bool of_a_family_;
 };
 
@@ -274,8 +297,13 @@ void append_rim_rim(const Difference& difference, const CriticalSite& site,
     const IntegerVector& axis = difference.segments[i].frame.axis;
     rims.up[i] = (site.signs >> i & 1U) ? axis : -axis;
   }
+  if (site.branch != 0) {
+    const SlopeBracket bracket{site.lo, site.hi, site.branch, site.rising};
+    out.push_back(std::make_unique<RimRimDirection>(rims, CurveRoot(bracket), false));
+    return;
+  }
   const mpq_class lo(site.lo), hi(site.hi);
-  const Polynomial octic = stationary_octic(rims);
+  const Polynomial octic = rims.polynomial();
   const std::vector<mpq_class> spurious = spurious_points(rims);
   if (is_zero(octic)) {
     // A continuous family of stationary pairs at constant distance. Where it leaves the cell it

@@ -130,15 +130,15 @@ Vec3 in_world(const Difference& difference, const BallVector& n) {
       .normalized();
 }
 
-Alignment alignment(const CriticalDirection& direction, const IntegerVector& axis,
-                    const IntegerVector& e, const IntegerVector& f) {
+Alignment alignment(CriticalDirection& direction, const IntegerVector& axis, const IntegerVector& e,
+                    const IntegerVector& f) {
   if (direction.is_across(axis)) return Alignment::perpendicular;
   if (direction.is_across(e) && direction.is_across(f)) return Alignment::parallel;
   return Alignment::oblique;
 }
 
 OptimalNormal optimal_normal(const Difference& difference, const Shape& b,
-                             const CriticalDirection& direction, const Vec3& n) {
+                             CriticalDirection& direction, const Vec3& n) {
   OptimalNormal result;
   result.n = n;
   result.to_a = alignment(direction, {0, 0, 1}, {1, 0, 0}, {0, 1, 0});
