@@ -63,8 +63,12 @@ TEST(ReducePoints, KeepsTheLargestHullThatHasADeepestPoint) {
     Contact all;
     all.normal = Vec3::UnitZ();
     const int count = 5 + i % 4;
-    for (int k = 0; k < count; ++k)
-      all.add_point({uniform(random), uniform(random), 0}, uniform(random));
+    const bool has_inner = i % 2 == 0;
+    for (int k = has_inner ? 1 : 0; k < count; ++k) {  // on an ellipse
+      const double angle = 2 * M_PI * (k + uniform(random) / 4) / (count - 1);
+      all.add_point({std::cos(angle), 0.3 * std::sin(angle), 0}, uniform(random));
+    }
+    if (has_inner) all.add_point({uniform(random) / 5, uniform(random) / 20, 0}, 1);  // and deepest
     double deepest = -1;
     for (const ContactPoint& p : all.points()) deepest = std::max(deepest, p.depth);
     for (int limit = 3; limit < count; ++limit) {
@@ -117,7 +121,7 @@ TEST(ReducePoints, KeepsTheEndsOfALineAndTheDeepestAlone) {
 
 TEST(ReducePoints, RoundingExchangesNoPoint) {
   std::mt19937_64 random(1);
-  std::uniform_real_distribution<double> hair(-1e-9, 1e-9);
+  std::uniform_real_distribution<double> hair(-1e-10, 1e-10);
   for (int limit = 1; limit < 8; ++limit) {
     Contact exact = corners(8);
     reduce_points(exact, limit);

@@ -10,8 +10,8 @@
 // Points       Up to 4; of more, those that span most. They are those of this step, each in the
 //              place of an old one, whose impulses, lifetime and user data it keeps. (Bullet keeps
 //              points until they have slid by the breaking threshold: that disturbs a rolling log.)
-// Threshold    The manifold's breaking threshold: bodies closer than that have points of positive
-//              distance (with contactPairTest, also its own distance), as with Bullet.
+// Threshold    The manifold's breaking threshold, as with Bullet (contactPairTest adds its own): up
+//              to there bodies that are apart have points, of positive distance.
 // Conventions  The normal points from the manifold's second body to its first; friction, materials
 //              and callbacks are btManifoldResult's. CF_HAS_FRICTION_ANCHOR keeps points as ever.
 #include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
@@ -30,13 +30,11 @@ inline Vec3 to_vec3(const btVector3& v) { return Vec3(v.x(), v.y(), v.z()); }
 inline btVector3 to_bullet(const Vec3& v) {
   return btVector3(btScalar(v.x()), btScalar(v.y()), btScalar(v.z()));
 }
-
 /// The pose of a shape whose axis is the body's x, y or z (0, 1, 2): Touchstone's is its z.
 inline Pose pose_of(const btTransform& transform, int up_axis = 2) {
   Eigen::Matrix3d rotation;
-  for (int i = 0; i < 3; ++i) {
+  for (int i = 0; i < 3; ++i)
     rotation.col(i) = to_vec3(transform.getBasis().getColumn((up_axis + 1 + i) % 3));
-  }
   return Pose(to_vec3(transform.getOrigin()), Eigen::Quaterniond(rotation));
 }
 
@@ -89,7 +87,7 @@ inline void hand_over(btPersistentManifold& manifold, const btManifoldPoint* poi
                                       points[k].m_localPointB.distance2(old.m_localPointB));
       if (!is_kept[i] && distance < least) least = distance, nearest = i;
     }
-    if (nearest < 0) continue;
+    if (nearest < 0) break;  // none is left
     is_kept[nearest] = true;
     manifold.getContactPoint(nearest).m_localPointA = points[k].m_localPointA;
   }
@@ -122,7 +120,7 @@ class Algorithm : public btCollisionAlgorithm {
     const bool is_a = first->getCollisionShape()->getShapeType() == CYLINDER_SHAPE_PROXYTYPE;
     Contact c = contact_of(is_a ? *first : *second, is_a ? *second : *first,
                            breaking + result->m_closestPointDistanceThreshold);
-    reduce_points(c, MANIFOLD_CACHE_SIZE);
+    reduce_points(c, MANIFOLD_CACHE_SIZE, sizeof(btScalar) == 4 ? 1e-6 : 1e-9);
     if ((manifold_->getBody0() == object) != is_a) c.normal = -c.normal;
     add_points(c, *result);
     result->refreshContactPoints();
@@ -143,15 +141,15 @@ class Algorithm : public btCollisionAlgorithm {
           body0.getWorldTransform().invXform(to.m_positionWorldOnB + normal * to.m_distance1);
       to.m_localPointB = body1.getWorldTransform().invXform(to.m_positionWorldOnB);
     }
-    const int flags = body0.getCollisionFlags() | body1.getCollisionFlags();
-    const bool is_anchored = (flags & btCollisionObject::CF_HAS_FRICTION_ANCHOR) != 0;
+    constexpr int anchor = btCollisionObject::CF_HAS_FRICTION_ANCHOR;
+    const bool is_anchored = (body0.getCollisionFlags() | body1.getCollisionFlags()) & anchor;
     if (!is_anchored) hand_over(*manifold_, points, count);
     const btScalar breaking = manifold_->getContactBreakingThreshold();
     for (int i = 0; i < count; ++i) {
       // What is nearer than the threshold counts as the same point: of a thin body, all would.
-      const btScalar distance = points[i].m_distance1, near = btMax(distance, breaking / 1000);
-      manifold_->setContactBreakingThreshold(is_anchored ? breaking : btMin(near, breaking));
-      result.addContactPoint(normal, points[i].m_positionWorldOnB, distance);
+      const btScalar near = btMin(btMax(points[i].m_distance1, breaking / 1000), breaking);
+      manifold_->setContactBreakingThreshold(is_anchored ? breaking : near);
+      result.addContactPoint(normal, points[i].m_positionWorldOnB, points[i].m_distance1);
     }
     manifold_->setContactBreakingThreshold(breaking);
   }
@@ -171,8 +169,7 @@ template <class Call>
 void for_pairs(Call call) {
   for (const int other : {CYLINDER_SHAPE_PROXYTYPE, BOX_SHAPE_PROXYTYPE, CAPSULE_SHAPE_PROXYTYPE,
                           SPHERE_SHAPE_PROXYTYPE, STATIC_PLANE_PROXYTYPE}) {
-    call(CYLINDER_SHAPE_PROXYTYPE, other);
-    call(other, CYLINDER_SHAPE_PROXYTYPE);
+    call(CYLINDER_SHAPE_PROXYTYPE, other), call(other, CYLINDER_SHAPE_PROXYTYPE);
   }
 }
 
