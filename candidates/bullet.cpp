@@ -208,30 +208,16 @@ constexpr bool single_precision = sizeof(btScalar) == sizeof(float);
 
 int supports(void*, ts_shape_kind) { return 1; }
 
-constexpr Setting usual, sharp{true, false}, rocked{false, true};
+constexpr Setting usual;
 
 template <Setting setting>
 ts_prepared* prepare(void*, const ts_shape* a, const ts_shape* b, double threshold, double) {
   return new ts_prepared{{*a, *b, threshold, setting}, nullptr};
 }
 
-[[maybe_unused]] ts_prepared* prepare_hull(void*, const ts_shape* a, const ts_shape* b,
-                                           double threshold, double sides) {
-  const int n = static_cast<int>(sides);
-  const auto prism = [n](double radius, double half_length) {
-    return touchstone::inscribed_prism(n, radius, half_length);
-  };
-  return new ts_prepared{{*a, *b, threshold, {true, false, n}},
-                         std::make_unique<touchstone::ModelPair>(*a, *b, prism)};
-}
-
 void query(ts_prepared* prepared, const ts_pose* a, const ts_pose* b, const double*,
            ts_answer* answer) {
   prepared->pair.query(*a, *b, *answer);
-}
-
-[[maybe_unused]] double hull_distance(ts_prepared* prepared, const ts_pose* a, const ts_pose* b) {
-  return prepared->model->separation(*a, *b).distance;
 }
 
 void release(ts_prepared* prepared) { delete prepared; }
@@ -252,6 +238,22 @@ const ts_candidate candidates[] = {
 const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 1, candidates, nullptr, 0};
 
 #else
+
+constexpr Setting sharp{true, false}, rocked{false, true};
+
+ts_prepared* prepare_hull(void*, const ts_shape* a, const ts_shape* b, double threshold,
+                          double sides) {
+  const int n = static_cast<int>(sides);
+  const auto prism = [n](double radius, double half_length) {
+    return touchstone::inscribed_prism(n, radius, half_length);
+  };
+  return new ts_prepared{{*a, *b, threshold, {true, false, n}},
+                         std::make_unique<touchstone::ModelPair>(*a, *b, prism)};
+}
+
+double hull_distance(ts_prepared* prepared, const ts_pose* a, const ts_pose* b) {
+  return prepared->model->separation(*a, *b).distance;
+}
 
 const ts_parameter sides = {"number of sides", 3, 128, 16, 1, 0};
 

@@ -178,30 +178,32 @@ ts_prepared* prepare(void*, const ts_shape* a, const ts_shape* b, double, double
   return new ts_prepared(*a, *b);
 }
 
-[[maybe_unused]] ts_prepared* prepare_mesh(void*, const ts_shape* a, const ts_shape* b, double,
-                                           double sides) {
-  touchstone::initialise_ode();
-  return new ts_prepared(*a, *b, static_cast<int>(sides));
-}
-
 void query(ts_prepared* prepared, const ts_pose* a, const ts_pose* b, const double*,
            ts_answer* answer) {
   prepared->query(*a, *b, *answer);
 }
 
-[[maybe_unused]] double model_distance(ts_prepared* prepared, const ts_pose* a, const ts_pose* b) {
-  return prepared->model_distance(*a, *b);
-}
-
 void release(ts_prepared* prepared) { delete prepared; }
 
 #ifdef TOUCHSTONE_CURED
+
 const ts_candidate candidates[] = {
     {"ode+touchstone", TOUCHSTONE_ODE_VERSION,
      "double precision; dCollide with Touchstone's contacts of cylinders installed, asked for 16; "
      "positions halfway between the surfaces",
      nullptr, nullptr, supports, prepare, query, release, nullptr, nullptr}};
+
 #else
+
+ts_prepared* prepare_mesh(void*, const ts_shape* a, const ts_shape* b, double, double sides) {
+  touchstone::initialise_ode();
+  return new ts_prepared(*a, *b, static_cast<int>(sides));
+}
+
+double model_distance(ts_prepared* prepared, const ts_pose* a, const ts_pose* b) {
+  return prepared->model_distance(*a, *b);
+}
+
 const ts_parameter sides = {"number of sides", 3, 128, 16, 1, 0};
 
 const ts_candidate candidates[] = {
@@ -215,7 +217,9 @@ const ts_candidate candidates[] = {
      "the 16 deepest are kept",
      "the cylinder A as the triangle mesh of the regular prism with its corners on the rims",
      &sides, supports, prepare_mesh, query, release, model_distance, nullptr}};
+
 #endif
+
 const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, std::size(candidates), candidates, nullptr,
                           0};
 

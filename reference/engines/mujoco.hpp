@@ -20,9 +20,8 @@
 //              mjPreContact from then on, and its mjData is const before 3.7. mj_geomDistance
 //              of 3.x does not ask the table if native CCD is on and the pair is one that MuJoCo
 //              gives it; Touchstone's functions are not, so that it asks them.
-#include <algorithm>
+#include <cstddef>
 #include <mujoco/mujoco.h>
-#include <type_traits>
 
 #include "../reduce_points.hpp"
 #include "../touchstone.hpp"
@@ -76,7 +75,7 @@ inline Plane shape_of(const mjtNum*) {  // its sizes are drawn only
   return Plane(Vec3::UnitZ(), 0);
 }
 
-inline Pose pose_of(const mjData* d, int geom) {
+inline Pose pose_of(const mjData* d, std::ptrdiff_t geom) {
   const mjtNum *x = d->geom_xpos + 3 * geom, *r = d->geom_xmat + 9 * geom;
   Eigen::Matrix3d rotation;
   rotation << r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8];
@@ -86,7 +85,7 @@ inline Pose pose_of(const mjData* d, int geom) {
 /// A function of the table: MuJoCo gives it the geom of the lower type first.
 template <class Other, bool cylinder_is_first>
 int collide(const mjModel* m, Data* d, Written* contacts, int g1, int g2, mjtNum margin) try {
-  const int a = cylinder_is_first ? g1 : g2, b = cylinder_is_first ? g2 : g1;
+  const std::ptrdiff_t a = cylinder_is_first ? g1 : g2, b = cylinder_is_first ? g2 : g1;
   Contact c = contact(shape_of<Cylinder>(m->geom_size + 3 * a), pose_of(d, a),
                       shape_of<Other>(m->geom_size + 3 * b), pose_of(d, b), margin, nullptr,
                       PointRange::within_threshold);
