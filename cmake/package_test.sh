@@ -11,7 +11,8 @@ fail() { echo "FAILED: $*"; exit 1; }
 package=("$folder"/made/touchstone_*.deb)
 dpkg-deb -c "${package[0]}" | awk '{print $6}' >"$folder/files"
 for file in bin/touchstone lib/touchstone/touchstone-reference.so include/touchstone/candidate.h \
-  include/touchstone/touchstone.hpp lib/libtouchstone_reference.a \
+  include/touchstone/touchstone.hpp include/touchstone/engines/{bullet,mujoco,ode}.hpp \
+  lib/libtouchstone_reference.a \
   lib/cmake/touchstone/touchstoneConfig.cmake share/man/man1/touchstone.1 \
   share/bash-completion/completions/touchstone share/zsh/vendor-completions/_touchstone \
   share/doc/touchstone/copyright share/touchstone/check_certificate.py \
@@ -43,6 +44,9 @@ python3 "$prefix/share/touchstone/check_certificate.py" "$folder/proof.json" >/d
 cmake -S "$here/../reference/example" -B "$folder/example" -DCMAKE_PREFIX_PATH="$prefix" >/dev/null
 cmake --build "$folder/example" >/dev/null
 "$folder/example/standing_can" | grep -q 'depth 0.001' || fail "the package's library"
+if [ -e "$folder/example/ode_pillar" ]; then
+  "$folder/example/ode_pillar" | grep -q 'with Touchstone: 2.0 2.0' || fail "the package's drop-in"
+fi
 
 # The Python module, where it is built: it finds the plug-ins of the program beside it.
 [ -e "$1"/python/touchstone/__init__.py ] || exit 0

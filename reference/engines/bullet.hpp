@@ -1,0 +1,199 @@
+#pragma once
+
+// Exact contacts of cylinders inside Bullet (3.24; single precision and BT_USE_DOUBLE_PRECISION):
+// touchstone::bullet::install(dispatcher), before the world's bodies meet. The dispatcher then asks
+// Touchstone for a btCylinderShape (X and Z too) against a cylinder, box, capsule, sphere or static
+// plane, in both orders and as children of compounds. Hulls, triangles and sweeps stay Bullet's.
+//
+// Shapes       With sharp edges: Bullet's margins round them and keep the faces, so that they
+//              change nothing here. What is not finite or has no size has no contacts.
+// Points       Up to 4; of more, those that span most. They are those of this step, each in the
+//              place of an old one, whose impulses, lifetime and user data it keeps. (Bullet keeps
+//              points until they have slid by the breaking threshold: that disturbs a rolling log.)
+// Threshold    The manifold's breaking threshold, as with Bullet (contactPairTest adds its own): up
+//              to there bodies that are apart have points, of positive distance.
+// Conventions  The normal points from the manifold's second body to its first; friction, materials
+//              and callbacks are btManifoldResult's. CF_HAS_FRICTION_ANCHOR keeps points as ever.
+#include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
+#include <BulletCollision/CollisionDispatch/btManifoldResult.h>
+#include <btBulletCollisionCommon.h>
+#include <limits>
+
+#include "../reduce_points.hpp"
+#include "../touchstone.hpp"
+
+namespace touchstone::bullet::detail {
+
+using Wrapper = btCollisionObjectWrapper;
+
+inline Vec3 to_vec3(const btVector3& v) { return Vec3(v.x(), v.y(), v.z()); }
+inline btVector3 to_bullet(const Vec3& v) {
+  return btVector3(btScalar(v.x()), btScalar(v.y()), btScalar(v.z()));
+}
+/// The pose of a shape whose axis is the body's x, y or z (0, 1, 2): Touchstone's is its z.
+inline Pose pose_of(const btTransform& transform, int up_axis = 2) {
+  Eigen::Matrix3d rotation;
+  for (int i = 0; i < 3; ++i)
+    rotation.col(i) = to_vec3(transform.getBasis().getColumn((up_axis + 1 + i) % 3));
+  return Pose(to_vec3(transform.getOrigin()), Eigen::Quaterniond(rotation));
+}
+
+/// The shape as one of this type, or null.
+template <class Shape>
+const Shape* as(const btCollisionShape* shape, int type) {
+  return shape->getShapeType() == type ? static_cast<const Shape*>(shape) : nullptr;
+}
+inline Cylinder to_cylinder(const btCylinderShape& s) {
+  return Cylinder(s.getRadius(), s.getHalfExtentsWithMargin()[s.getUpAxis()]);
+}
+
+/// Contact of a cylinder A with another shape B, with all points up to `threshold` apart.
+inline Contact contact_of(const Wrapper& a, const Wrapper& b, double threshold) try {
+  const auto& cylinder = static_cast<const btCylinderShape&>(*a.getCollisionShape());
+  const btCollisionShape* const other = b.getCollisionShape();
+  const btTransform& at_b = b.getWorldTransform();
+  const auto with = [&](const auto& shape_b, const Pose& pose_b) {
+    return contact(to_cylinder(cylinder), pose_of(a.getWorldTransform(), cylinder.getUpAxis()),
+                   shape_b, pose_b, threshold, nullptr, PointRange::within_threshold);
+  };
+  if (const auto* s = as<btCylinderShape>(other, CYLINDER_SHAPE_PROXYTYPE)) {
+    return with(to_cylinder(*s), pose_of(at_b, s->getUpAxis()));
+  }
+  if (const auto* s = as<btCapsuleShape>(other, CAPSULE_SHAPE_PROXYTYPE)) {
+    return with(Capsule(s->getRadius(), s->getHalfHeight()), pose_of(at_b, s->getUpAxis()));
+  }
+  if (const auto* s = as<btSphereShape>(other, SPHERE_SHAPE_PROXYTYPE)) {
+    return with(Sphere(s->getRadius()), Pose(to_vec3(at_b.getOrigin())));
+  }
+  if (const auto* s = as<btBoxShape>(other, BOX_SHAPE_PROXYTYPE)) {
+    return with(Box(to_vec3(s->getHalfExtentsWithMargin())), pose_of(at_b));
+  }
+  const auto& s = static_cast<const btStaticPlaneShape&>(*other);
+  return with(Plane(to_vec3(s.getPlaneNormal()), s.getPlaneConstant()), pose_of(at_b));
+} catch (const InvalidInput&) {
+  return {};
+}
+
+/// Hands a manifold over to new points: the nearest old point of each (in the frame of either body,
+/// for one may roll) moves to where the manifold will look for it, and other old ones are removed.
+inline void hand_over(btPersistentManifold& manifold, const btManifoldPoint* points, int count) {
+  bool is_kept[MANIFOLD_CACHE_SIZE] = {};
+  for (int k = 0; k < count; ++k) {
+    int nearest = -1;
+    btScalar least = std::numeric_limits<btScalar>::infinity();
+    for (int i = 0; i < manifold.getNumContacts(); ++i) {
+      const btManifoldPoint& old = manifold.getContactPoint(i);
+      const btScalar distance = btMin(points[k].m_localPointA.distance2(old.m_localPointA),
+                                      points[k].m_localPointB.distance2(old.m_localPointB));
+      if (!is_kept[i] && distance < least) least = distance, nearest = i;
+    }
+    if (nearest < 0) break;  // none is left
+    is_kept[nearest] = true;
+    manifold.getContactPoint(nearest).m_localPointA = points[k].m_localPointA;
+  }
+  for (int i = manifold.getNumContacts() - 1; i >= 0; --i) {
+    if (!is_kept[i]) manifold.removeContactPoint(i);
+  }
+}
+
+/// What Bullet keeps with a pair that has a cylinder; it touches its own manifold alone.
+class Algorithm : public btCollisionAlgorithm {
+ public:
+  using btCollisionAlgorithm::btCollisionAlgorithm;
+  ~Algorithm() override {
+    if (manifold_) m_dispatcher->releaseManifold(manifold_);
+  }
+  void getAllContactManifolds(btManifoldArray& manifolds) override {
+    if (manifold_) manifolds.push_back(manifold_);
+  }
+  btScalar calculateTimeOfImpact(btCollisionObject*, btCollisionObject*, const btDispatcherInfo&,
+                                 btManifoldResult*) override {
+    return 1;
+  }
+  void processCollision(const Wrapper* first, const Wrapper* second, const btDispatcherInfo&,
+                        btManifoldResult* result) override {
+    const auto *object = first->getCollisionObject(), *other = second->getCollisionObject();
+    if (!manifold_) manifold_ = m_dispatcher->getNewManifold(object, other);
+    if (!manifold_) return;  // Bullet's pool is full and may not grow
+    result->setPersistentManifold(manifold_);
+    const btScalar breaking = manifold_->getContactBreakingThreshold();
+    const bool is_a = first->getCollisionShape()->getShapeType() == CYLINDER_SHAPE_PROXYTYPE;
+    Contact c = contact_of(is_a ? *first : *second, is_a ? *second : *first,
+                           breaking + result->m_closestPointDistanceThreshold);
+    reduce_points(c, MANIFOLD_CACHE_SIZE, sizeof(btScalar) == 4 ? 1e-6 : 1e-9);
+    if ((manifold_->getBody0() == object) != is_a) c.normal = -c.normal;
+    add_points(c, *result);
+    result->refreshContactPoints();
+  }
+
+ private:
+  /// Adds the points of a contact whose normal points from the manifold's second body to its first.
+  void add_points(const Contact& c, btManifoldResult& result) {
+    const btCollisionObject &body0 = *manifold_->getBody0(), &body1 = *manifold_->getBody1();
+    const btVector3 normal = to_bullet(c.normal);
+    btManifoldPoint points[MANIFOLD_CACHE_SIZE];
+    int count = 0;
+    for (const ContactPoint& p : c.points()) {
+      btManifoldPoint& to = points[count++];
+      to.m_positionWorldOnB = to_bullet(p.position + p.depth / 2 * c.normal);
+      to.m_distance1 = btScalar(-p.depth);
+      to.m_localPointA =
+          body0.getWorldTransform().invXform(to.m_positionWorldOnB + normal * to.m_distance1);
+      to.m_localPointB = body1.getWorldTransform().invXform(to.m_positionWorldOnB);
+    }
+    constexpr int anchor = btCollisionObject::CF_HAS_FRICTION_ANCHOR;
+    const bool is_anchored = (body0.getCollisionFlags() | body1.getCollisionFlags()) & anchor;
+    if (!is_anchored) hand_over(*manifold_, points, count);
+    const btScalar breaking = manifold_->getContactBreakingThreshold();
+    for (int i = 0; i < count; ++i) {
+      // What is nearer than the threshold counts as the same point: of a thin body, all would.
+      const btScalar near = btMin(btMax(points[i].m_distance1, breaking / 1000), breaking);
+      manifold_->setContactBreakingThreshold(is_anchored ? breaking : near);
+      result.addContactPoint(normal, points[i].m_positionWorldOnB, points[i].m_distance1);
+    }
+    manifold_->setContactBreakingThreshold(breaking);
+  }
+
+  btPersistentManifold* manifold_ = nullptr;
+};
+
+struct CreateAlgorithm : btCollisionAlgorithmCreateFunc {
+  btCollisionAlgorithm* CreateCollisionAlgorithm(btCollisionAlgorithmConstructionInfo& info,
+                                                 const Wrapper*, const Wrapper*) override {
+    return new (info.m_dispatcher1->allocateCollisionAlgorithm(sizeof(Algorithm))) Algorithm(info);
+  }
+};
+
+/// Calls with the types of every pair that has a cylinder, in both orders.
+template <class Call>
+void for_pairs(Call call) {
+  for (const int other : {CYLINDER_SHAPE_PROXYTYPE, BOX_SHAPE_PROXYTYPE, CAPSULE_SHAPE_PROXYTYPE,
+                          SPHERE_SHAPE_PROXYTYPE, STATIC_PLANE_PROXYTYPE}) {
+    call(CYLINDER_SHAPE_PROXYTYPE, other), call(other, CYLINDER_SHAPE_PROXYTYPE);
+  }
+}
+
+}  // namespace touchstone::bullet::detail
+
+namespace touchstone::bullet {
+
+/// Gives every pair with a cylinder to Touchstone, while no thread collides. Pairs whose bounding
+/// boxes overlap already keep the algorithm that they have until these part.
+inline void install(btCollisionDispatcher& dispatcher) {
+  static detail::CreateAlgorithm create;
+  detail::for_pairs([&](int i, int j) {
+    dispatcher.registerCollisionCreateFunc(i, j, &create);
+    dispatcher.registerClosestPointsCreateFunc(i, j, &create);
+  });
+}
+
+/// Gives them back to what the dispatcher's configuration names.
+inline void uninstall(btCollisionDispatcher& dispatcher) {
+  btCollisionConfiguration& own = *dispatcher.getCollisionConfiguration();
+  detail::for_pairs([&](int i, int j) {
+    dispatcher.registerCollisionCreateFunc(i, j, own.getCollisionAlgorithmCreateFunc(i, j));
+    dispatcher.registerClosestPointsCreateFunc(i, j, own.getClosestPointsAlgorithmCreateFunc(i, j));
+  });
+}
+
+}  // namespace touchstone::bullet
