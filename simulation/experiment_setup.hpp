@@ -49,6 +49,12 @@ inline constexpr double touching = 1e-9;
 /// residual of the solver opens no contact. Nothing depends on this overlap.
 inline double middle_of_layer(const Scene& scene) { return scene.surface_layer / 2; }
 
+/// Kinetic energy, in weight × size, below which a body is at rest: a thousandth of what a fall of
+/// one step gives, which is about what an iterative solver leaves of it.
+inline double rest_energy(double step, double size) {
+  return 1e-3 * gravity * step * step / (2 * size);
+}
+
 // Resolution of an experiment: how far from the value on paper exact contacts may end, whichever
 // points they consist of. It follows from the overlap at the start, the world's settings, the step
 // and the bisection alone, never from what a candidate did. docs/simulation.md has the sums.

@@ -4,6 +4,7 @@
 
 #include "simulation/experiment.hpp"
 #include "simulation/experiment_setup.hpp"
+#include "simulation/world.hpp"
 
 namespace touchstone {
 namespace {
@@ -34,7 +35,7 @@ double ripple(const std::vector<double>& speeds) {
   return speeds.empty() || speeds.back() == 0 ? 0 : largest / std::abs(speeds.back());
 }
 
-Measurement rolling(ContactModel& model, double step) {
+Measurement rolling(const Simulator& simulator, double step) {
   Scene scene;
   scene.step = step;
   scene.duration = rolling_time;
@@ -46,10 +47,10 @@ Measurement rolling(ContactModel& model, double step) {
   scene.bodies = {fixed_body("slope", Plane(Vec3::UnitZ(), 0), 0.5, Pose(Vec3::Zero(), turn)),
                   moving_body("can", Cylinder(can_radius, can_half_length), 0.5,
                               Pose(start, turn * across * about(Vec3::UnitZ(), 0.7)))};
-  Run run(scene, model, can_radius);
+  Run run(scene, simulator, can_radius);
   std::vector<double> speeds;
-  while (run.step()) speeds.push_back(down.dot(run.world().states()[1].velocity));
-  const Vec3 way = run.world().states()[1].pose.position() - start;
+  while (run.step()) speeds.push_back(down.dot(run.states()[1].velocity));
+  const Vec3 way = run.states()[1].pose.position() - start;
   const double expected = rolling_distance(step), found = down.dot(way);
   return {
       found, (way - expected * down).norm() / expected, run.tally(), {{"ripple", ripple(speeds)}}};
@@ -73,7 +74,7 @@ double coin_rate(double lean) {
 constexpr int coin_substeps = 8;
 constexpr double coin_time = 2;  // s
 
-Measurement spinning_coin(ContactModel& model, double step) {
+Measurement spinning_coin(const Simulator& simulator, double step) {
   Scene scene;
   scene.step = step / coin_substeps;
   scene.duration = coin_time;
@@ -85,11 +86,11 @@ Measurement spinning_coin(ContactModel& model, double step) {
   body.angular_velocity = -rate * std::sin(coin_lean) / r * (r * to_lowest - h * axis);
   scene.bodies = {ground(1), body};
 
-  Run run(scene, model, r);
+  Run run(scene, simulator, r);
   double angle = 0;
   Vec3 last = axis;
   while (run.step()) {
-    const Vec3 now = run.world().states()[1].pose.axis();
+    const Vec3 now = run.states()[1].pose.axis();
     angle += std::atan2(last.x() * now.y() - last.y() * now.x(),
                         last.x() * now.x() + last.y() * now.y());
     last = now;
@@ -126,7 +127,7 @@ class LowestPoint : public ContactModel {
 /// Twice the error of the integrator, which is measured with the closed form.
 double coin_resolution(double step) {
   LowestPoint exact;
-  return 2 * spinning_coin(exact, step).error;
+  return 2 * spinning_coin(in_our_world(exact), step).error;
 }
 
 }  // namespace

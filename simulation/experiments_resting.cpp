@@ -26,16 +26,16 @@ double distance_from(const Pose& now, const Pose& home, double reach) {
 /// Runs to the end. In the second half the rocking must be over: the value is the mean kinetic
 /// energy that is left, the error the largest distance of any body from its home, in radii.
 /// `homes`: those of the last bodies of the scene.
-Measurement stay(const Scene& scene, const std::vector<Pose>& homes, ContactModel& model) {
+Measurement stay(const Scene& scene, const std::vector<Pose>& homes, const Simulator& simulator) {
   const std::size_t first = scene.bodies.size() - homes.size();
-  Run run(scene, model, can_radius);
+  Run run(scene, simulator, can_radius);
   double farthest = 0, energy = 0;
   std::uint64_t counted = 0;
   while (run.step()) {
-    if (run.world().time() < scene.duration / 2) continue;
+    if (run.time() < scene.duration / 2) continue;
     for (std::size_t i = 0; i < homes.size(); ++i) {
-      farthest = std::max(
-          farthest, distance_from(run.world().states()[first + i].pose, homes[i], can_half_length));
+      farthest = std::max(farthest,
+                          distance_from(run.states()[first + i].pose, homes[i], can_half_length));
     }
     energy += run.kinetic_energy();
     ++counted;
@@ -53,20 +53,20 @@ Scene resting(double step) {
 
 const Cylinder can(can_radius, can_half_length);
 
-Measurement standing(ContactModel& model, double step) {
+Measurement standing(const Simulator& simulator, double step) {
   Scene scene = resting(step);
   const Vec3 centre(0.1, -0.2, can_half_length - touching);
   const Pose home(centre, about(Vec3::UnitZ(), 0.3));
   const Vec3 pivot = centre + Vec3(0.6 * can_radius, 0.8 * can_radius, -can_half_length);
   const Pose start = turned_about(home, pivot, Vec3(-0.8, 0.6, 0), lean);
   scene.bodies = {ground(0.5), moving_body("can", can, 0.5, start)};
-  return stay(scene, {home}, model);
+  return stay(scene, {home}, simulator);
 }
 
 /// A quarter of the cap's width hangs over the lower edge of a box whose slope is well within
 /// friction. Lifted on that side, the can rocks in one plane and, without slip, returns to its
 /// place.
-Measurement standing_on_box(ContactModel& model, double step) {
+Measurement standing_on_box(const Simulator& simulator, double step) {
   Scene scene = resting(step);
   const Eigen::Quaterniond turn = about(Vec3::UnitZ(), 0.4) * about(Vec3::UnitY(), radians(3));
   const Vec3 half(0.4, 0.4, 0.3);
@@ -76,12 +76,12 @@ Measurement standing_on_box(ContactModel& model, double step) {
   const Pose start = turned_about(home, pivot, turn * Vec3::UnitY(), -lean);
   scene.bodies = {fixed_body("box", Box(half), 0.5, Pose(Vec3::Zero(), turn)),
                   moving_body("can", can, 0.5, start)};
-  return stay(scene, {home}, model);
+  return stay(scene, {home}, simulator);
 }
 
 /// One end is lifted. Until it has landed, the rim of the other end needs a friction of 0.77 to
 /// stick.
-Measurement lying(ContactModel& model, double step) {
+Measurement lying(const Simulator& simulator, double step) {
   Scene scene = resting(step);
   const Vec3 centre(0.1, -0.2, can_radius - touching);
   const Eigen::Quaterniond turn = about(Vec3::UnitZ(), 0.4);
@@ -89,13 +89,13 @@ Measurement lying(ContactModel& model, double step) {
   const Vec3 pivot = centre + turn * Vec3(can_half_length, 0, -can_radius);
   const Pose start = turned_about(home, pivot, turn * Vec3::UnitY(), lean);
   scene.bodies = {ground(1), moving_body("can", can, 1, start)};
-  return stay(scene, {home}, model);
+  return stay(scene, {home}, simulator);
 }
 
 constexpr double stacked_half_length = can_radius;  // as high as wide
 constexpr double max_offset = 0.1;                  // m, between stacked axes
 
-Measurement stack(ContactModel& model, double step) {
+Measurement stack(const Simulator& simulator, double step) {
   Scene scene = resting(step);
   // With 200 the residual of the solver moved the bodies ten thousand times as far.
   scene.solver_iterations = 1000;
@@ -109,7 +109,7 @@ Measurement stack(ContactModel& model, double step) {
     homes.emplace_back(offset[i] + height * Vec3::UnitZ(), about(Vec3::UnitZ(), 0.3 + i));
     scene.bodies.push_back(moving_body(names[i], Cylinder(can_radius, half), 0.5, homes.back()));
   }
-  return stay(scene, homes, model);
+  return stay(scene, homes, simulator);
 }
 
 // Resolutions, in radii of the can.

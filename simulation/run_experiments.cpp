@@ -7,13 +7,10 @@
 #include "candidates/host/worker_processes.hpp"
 #include "simulation/experiment.hpp"
 #include "simulation/experiment_setup.hpp"
+#include "simulation/world.hpp"
 
 namespace touchstone {
 namespace {
-
-/// Kinetic energy, in weight × radius, below which a body is at rest: a thousandth of what a fall
-/// of one step gives, which is about what an iterative solver leaves of it.
-double rest_energy(double step) { return 1e-3 * gravity * step * step / (2 * can_radius); }
 
 struct Trial {
   const Experiment* experiment;
@@ -79,7 +76,7 @@ ExperimentResult run(const Trial& trial, CandidateProcess& process) {
   CandidateModel model(process);
   SamplingModel sampling(model);
   const Experiment& experiment = *trial.experiment;
-  const Measurement m = experiment.run(sampling, trial.step);
+  const Measurement m = experiment.run(in_our_world(sampling), trial.step);
   const RunTally& t = m.tally;
   const double steps = static_cast<double>(std::max<std::uint64_t>(t.steps, 1));
   const auto share = [&](std::uint64_t count) { return static_cast<double>(count) / steps; };
@@ -95,7 +92,7 @@ ExperimentResult run(const Trial& trial, CandidateProcess& process) {
   r.value = m.value;
   r.error = m.error;
   r.exact = !t.unsound && m.error <= experiment.resolution(trial.step) &&
-            !(experiment.rests && m.value > rest_energy(trial.step));
+            !(experiment.rests && m.value > rest_energy(trial.step, experiment.radius));
   r.energy_gained = t.energy_gained;
   r.points = share(t.points);
   r.flicker = share(t.flickers);
