@@ -8,6 +8,7 @@
 #include "cli/options.hpp"
 #include "properties/files/disk.hpp"
 #include "reference/invalid_input.hpp"
+#include "simulation/engines/run_engines.hpp"
 #include "simulation/experiment.hpp"
 #include "simulation/run_experiments.hpp"
 #include "simulation/scenes/choose.hpp"
@@ -22,6 +23,7 @@ struct Options {
   WorkersOption workers;
   std::vector<std::string> names;
   std::vector<double> steps = {1.0 / 60, 1.0 / 240, 1.0 / 960};
+  std::vector<std::string> engines;
   std::string out, record;
   RecordingOptions recording;
   bool json = false;
@@ -35,6 +37,16 @@ struct Options {
     e.candidates = candidates.get();
     e.limits = candidates.limits();
     e.steps = steps;
+    e.workers = workers.get();
+    return e;
+  }
+
+  EngineOptions in_engines() const {
+    EngineOptions e;
+    for (const auto& name : names) e.experiments.push_back(&find_experiment(name));
+    if (names.empty()) e.experiments = engine_experiments();
+    e.engines = engines;
+    if (steps.size() == 1) e.step = steps.front();
     e.workers = workers.get();
     return e;
   }
@@ -65,8 +77,16 @@ int record(const Options& options) {
   return 0;
 }
 
+int simulate_in_engines(const Options& options) {
+  const EngineResults results = run_engines(options.in_engines());
+  const nlohmann::json json = to_json(results);
+  fmt::print("{}", options.json ? json.dump() + '\n' : engines_table(results));
+  return 0;
+}
+
 int run(const Options& options) {
   if (!options.record.empty()) return record(options);
+  if (!options.engines.empty()) return simulate_in_engines(options);
   const ExperimentOptions experiments = options.experiments();
   if (!options.out.empty()) check_writable(options.out);
   const ExperimentResults results = run_experiments(experiments);
@@ -92,6 +112,8 @@ void add_simulate(Program& program) {
   const auto options = std::make_shared<Options>(command);
   command.arguments("experiments", options->names,
                     "Only these experiments; with --record, scene files");
+  command.list("--engine", options->engines,
+               "Run in the engines' own worlds: bullet, bullet-float, ode, mujoco");
   command.numbers("--step", options->steps, {1e-5, 0.1},
                   "Steps of time, seconds, separated by commas (default: 1/60, 1/240, 1/960)");
   const Option out = command.text("--out", options->out, "Folder for experiments.json");

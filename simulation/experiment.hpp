@@ -83,15 +83,21 @@ struct Experiment {
   double radius = 0.25;  ///< of its cylinders, m
 };
 
-/// All experiments in report order.
+/// All experiments of a report on candidates, in its order.
 const std::vector<Experiment>& all_experiments();
+
+/// Those for the engines' own worlds, in report order: most of all_experiments(), and what users of
+/// engines complain about.
+const std::vector<const Experiment*>& engine_experiments();
 
 /// Throws InvalidInput (field "experiment") that lists the names there are.
 const Experiment& find_experiment(const std::string& name);
 
-// The parts of all_experiments, by the question they ask.
+// The parts of both, by the question they ask.
 std::vector<Experiment> resting_experiments();    ///< does a body at rest stay at rest?
 std::vector<Experiment> moving_experiments();     ///< does a moving body obey its law of motion?
 std::vector<Experiment> threshold_experiments();  ///< up to which angle, friction, overhang, speed?
+std::vector<Experiment> resting_in_engines();
+std::vector<Experiment> moving_in_engines();
 
 }  // namespace touchstone

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "properties/moves.hpp"
 #include "simulation/world.hpp"
@@ -17,11 +18,12 @@ inline constexpr double steel = 7800;  ///< kg/m³
 
 inline double radians(double degrees) { return degrees * std::numbers::pi / 180; }
 
-inline Body fixed_body(const char* name, const Shape& shape, double friction,
+inline Body fixed_body(const std::string& name, const Shape& shape, double friction,
                        const Pose& pose = {}) {
   return {name, shape, steel, {friction, 0}, pose, Vec3::Zero(), Vec3::Zero(), true};
 }
-inline Body moving_body(const char* name, const Shape& shape, double friction, const Pose& pose) {
+inline Body moving_body(const std::string& name, const Shape& shape, double friction,
+                        const Pose& pose) {
   return {name, shape, steel, {friction, 0}, pose};
 }
 inline Body ground(double friction) {

@@ -20,6 +20,10 @@ const char* name_of(Outcome outcome) {
       return "unsupported";
     case Outcome::unsound:
       return "unsound";
+    case Outcome::crashed:
+      return "crashed";
+    case Outcome::timed_out:
+      return "timed-out";
   }
   return "";
 }
@@ -32,6 +36,10 @@ json result_json(const ExperimentResult& r) {
                  {"step", r.step},
                  {"outcome", name_of(r.outcome)}};
   if (r.outcome == Outcome::unsupported) return result;
+  if (r.outcome == Outcome::crashed || r.outcome == Outcome::timed_out) {
+    result["reason"] = r.reason;
+    return result;
+  }
   json details = json::object();
   for (const auto& [name, value] : r.details) details[name] = finite(value);
   result.update({{"value", finite(r.value)},
@@ -46,7 +54,8 @@ json result_json(const ExperimentResult& r) {
                  {"details", details},
                  {"steps", r.steps},
                  {"nanoseconds", r.nanoseconds ? json(*r.nanoseconds) : json(nullptr)},
-                 {"microseconds_per_step", r.microseconds_per_step}});
+                 {"microseconds_per_step", r.microseconds_per_step},
+                 {"last_motion", r.last_motion}});
   return result;
 }
 
@@ -78,10 +87,12 @@ ExperimentResult result_from_text(const std::string& text) {
   r.experiment = value["experiment"];
   r.candidate = value["candidate"];
   r.step = value["step"];
-  for (const Outcome outcome : {Outcome::measured, Outcome::unsupported, Outcome::unsound}) {
+  for (const Outcome outcome : {Outcome::measured, Outcome::unsupported, Outcome::unsound,
+                                Outcome::crashed, Outcome::timed_out}) {
     if (value["outcome"] == name_of(outcome)) r.outcome = outcome;
   }
-  if (r.outcome == Outcome::unsupported) return r;
+  if (value.contains("reason")) r.reason = value["reason"];
+  if (!value.contains("value")) return r;
   r.value = number(value["value"]);
   r.error = number(value["error"]);
   r.exact = value["exact"];
@@ -95,6 +106,7 @@ ExperimentResult result_from_text(const std::string& text) {
   r.steps = value["steps"];
   if (!value["nanoseconds"].is_null()) r.nanoseconds = value["nanoseconds"].get<double>();
   r.microseconds_per_step = value["microseconds_per_step"];
+  r.last_motion = value["last_motion"];
   return r;
 }
 
