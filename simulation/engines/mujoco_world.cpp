@@ -57,11 +57,13 @@ std::string body_xml(const Body& body) {
 }
 
 std::string scene_xml(const Scene& scene) {
+  // Room for contacts; MuJoCo's memory grows with the square of the rows, four to a contact.
+  const std::size_t contacts = 16 * (scene.bodies.size() + 1);
   const Vec3& g = scene.gravity;
   std::string xml = fmt::format(
-      "<mujoco><option timestep='{}' gravity='{} {} {}'/><size nconmax='1000' njmax='5000'/>"
+      "<mujoco><option timestep='{}' gravity='{} {} {}'/><size nconmax='{}' njmax='{}'/>"
       "<worldbody>",
-      scene.step, g.x(), g.y(), g.z());
+      scene.step, g.x(), g.y(), g.z(), contacts, 4 * contacts);
   for (const Body& body : scene.bodies) xml += body_xml(body);
   return xml + "</worldbody></mujoco>";
 }
