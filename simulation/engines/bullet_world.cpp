@@ -12,6 +12,7 @@
 #include <btBulletDynamicsCommon.h>
 #include <cmath>
 
+#include "reference/engines/bullet.hpp"
 #include "simulation/engines/engine_world.hpp"
 
 namespace touchstone {
@@ -46,7 +47,8 @@ struct MakeShape {
 
 class BulletWorld : public EngineWorld {
  public:
-  explicit BulletWorld(const Scene& scene) : EngineWorld(scene), dispatcher_(&configuration_) {
+  BulletWorld(const Scene& scene, bool cured) : EngineWorld(scene), dispatcher_(&configuration_) {
+    if (cured) bullet::install(dispatcher_);
     world_.setGravity(to_vector(scene.gravity));
     for (const Body& body : scene.bodies) add(body);
   }
@@ -103,8 +105,8 @@ class BulletWorld : public EngineWorld {
   std::vector<std::unique_ptr<btRigidBody>> bodies_;
 };
 
-std::unique_ptr<Simulation> begin(const Scene& scene, bool) {
-  return std::make_unique<BulletWorld>(scene);
+std::unique_ptr<Simulation> begin(const Scene& scene, bool cured) {
+  return std::make_unique<BulletWorld>(scene, cured);
 }
 
 constexpr bool is_single = sizeof(btScalar) == sizeof(float);
