@@ -14,6 +14,18 @@ struct ContactPoint {
   double depth;   ///< Penetration at this point, metres; negative when the surfaces are apart.
 };
 
+/// Which places of the features that face each other carry contact points: all are within the
+/// contact threshold.
+enum class PointRange {
+  /// Within a thousandth of the smaller body's largest half extent above the deepest point, so that
+  /// the points draw together as a body tilts, and are all on both surfaces.
+  near_deepest,
+  /// All, while caps, sides and faces lean by at most 0.1: for engines whose bodies sink into one
+  /// another, or whose steps are so long that a body rocks from edge to edge. Of round bodies that
+  /// lean by θ, points are off the surface by θ²/2 of the size.
+  within_threshold
+};
+
 /// How far two bodies are apart, and along what.
 struct SignedDistance {
   double value;  ///< Metres; positive apart, negative inside (minus the penetration depth).

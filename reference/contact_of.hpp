@@ -26,10 +26,11 @@ inline bool overlaps(const Configuration& c) {
 }
 
 inline Contact contact(const Configuration& c, double contact_threshold,
-                       const Vec3* previous_normal = nullptr) {
+                       const Vec3* previous_normal = nullptr,
+                       PointRange range = PointRange::near_deepest) {
   return std::visit(
       [&](const auto& b) {
-        return contact(c.a, c.pose_a, b, c.pose_b, contact_threshold, previous_normal);
+        return contact(c.a, c.pose_a, b, c.pose_b, contact_threshold, previous_normal, range);
       },
       c.b);
 }

@@ -30,6 +30,7 @@ bool overlaps(const Cylinder& a, const Pose& pose_a, const Box& b, const Pose& p
 /// in a fixed order is taken, or, given `previous_normal`, the nearest to it of those within the
 /// threshold. Some 70 ns apart, 150 to 300 overlapping.
 Contact contact(const Cylinder& a, const Pose& pose_a, const Box& b, const Pose& pose_b,
-                double contact_threshold, const Vec3* previous_normal = nullptr);
+                double contact_threshold, const Vec3* previous_normal = nullptr,
+                PointRange range = PointRange::near_deepest);
 
 }  // namespace touchstone

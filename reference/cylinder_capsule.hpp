@@ -30,6 +30,7 @@ bool overlaps(const Cylinder& a, const Pose& pose_a, const Capsule& b, const Pos
 /// given `previous_normal`, the nearest to it of those within the threshold. Some 40 ns apart, 90
 /// overlapping.
 Contact contact(const Cylinder& a, const Pose& pose_a, const Capsule& b, const Pose& pose_b,
-                double contact_threshold, const Vec3* previous_normal = nullptr);
+                double contact_threshold, const Vec3* previous_normal = nullptr,
+                PointRange range = PointRange::near_deepest);
 
 }  // namespace touchstone

@@ -34,10 +34,11 @@ class Routine {
   }
   CertifiedDistance find_certified() const { return {find(no_early_exit), 0}; }
 
-  void add_points(Contact& contact, const Vec3& origin, double contact_threshold) const {
+  void add_points(Contact& contact, const Vec3& origin, double contact_threshold,
+                  PointRange range) const {
     const Extents size = extents(a_);
-    const Margins margins(size, size, std::abs(height_), contact.signed_distance,
-                          contact_threshold);
+    const Margins margins(size, size, std::abs(height_), contact.signed_distance, contact_threshold,
+                          range);
     const auto add = [&](double x, double y, double z, double height) {
       const Vec3 arm = x * a_.axes.col(0) + y * a_.axes.col(1) + z * a_.axes.col(2);
       contact.add_point(origin + (a_.centre + (arm - height / 2 * normal_)), -height);

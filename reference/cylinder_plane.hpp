@@ -28,6 +28,7 @@ bool overlaps(const Cylinder& a, const Pose& pose_a, const Plane& b, const Pose&
 /// The deepest has the whole depth (point_contract_test.cpp). There is one normal, so
 /// `previous_normal` changes nothing. Some 12 ns.
 Contact contact(const Cylinder& a, const Pose& pose_a, const Plane& b, const Pose& pose_b,
-                double contact_threshold, const Vec3* previous_normal = nullptr);
+                double contact_threshold, const Vec3* previous_normal = nullptr,
+                PointRange range = PointRange::near_deepest);
 
 }  // namespace touchstone

@@ -64,7 +64,7 @@ class Routine {
   }
   CertifiedDistance find_certified() const { return {find(no_early_exit), 0}; }
 
-  void add_points(Contact& contact, const Vec3& origin, double) const {
+  void add_points(Contact& contact, const Vec3& origin, double, PointRange) const {
     // From the centre towards the cylinder: the sphere's surface, then half of the way between.
     const double way = b_.radius + contact.signed_distance / 2;
     contact.add_point(origin + way * contact.normal, -contact.signed_distance);

@@ -28,6 +28,7 @@ bool overlaps(const Cylinder& a, const Pose& pose_a, const Sphere& b, const Pose
 /// `previous_normal`, of normals whose gaps are within the threshold of the largest the one nearest
 /// to it is taken. Some 10 ns.
 Contact contact(const Cylinder& a, const Pose& pose_a, const Sphere& b, const Pose& pose_b,
-                double contact_threshold, const Vec3* previous_normal = nullptr);
+                double contact_threshold, const Vec3* previous_normal = nullptr,
+                PointRange range = PointRange::near_deepest);
 
 }  // namespace touchstone

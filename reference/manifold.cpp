@@ -87,10 +87,10 @@ void hold_depth(Contact& contact, const PosedCylinder& a, const Body& b, const V
 
 template <class Body>
 void add_facing_points(Contact& contact, const PosedCylinder& a, const Body& b, const Vec3& origin,
-                       double contact_threshold) {
+                       double contact_threshold, PointRange range) {
   const Vec3 &n = contact.normal, between = a.centre - b.centre;
   const Margins margins(extents(a), extents(b), between.cwiseAbs().sum(), contact.signed_distance,
-                        contact_threshold);
+                        contact_threshold, range);
   // A well-known point is all there is to say, whatever the other body turns towards it. Asked
   // first is the body that has one more often.
   const auto is_known = [](const FacingFeature& x) {
@@ -114,10 +114,10 @@ void add_facing_points(Contact& contact, const PosedCylinder& a, const Body& b, 
 }
 
 template void add_facing_points(Contact&, const PosedCylinder&, const PosedCapsule&, const Vec3&,
-                                double);
+                                double, PointRange);
 template void add_facing_points(Contact&, const PosedCylinder&, const PosedCylinder&, const Vec3&,
-                                double);
+                                double, PointRange);
 template void add_facing_points(Contact&, const PosedCylinder&, const PosedBox&, const Vec3&,
-                                double);
+                                double, PointRange);
 
 }  // namespace touchstone

@@ -24,8 +24,8 @@ inline Extents extents(const PosedBox& s) {
 struct Margins {
   /// How far above the deepest point a surface may lie and still carry a point: a thousandth of the
   /// smaller body's largest half extent, so that a standing or lying body keeps its points when a
-  /// step of a simulation tilts it, as long as they overlap: no more than the contact threshold
-  /// leaves above the deepest point; never less than rounding.
+  /// step of a simulation tilts it, as long as they overlap (or as far as the range asks): no more
+  /// than the contact threshold leaves above the deepest point; never less than rounding.
   double slack;
   /// A feature that leans by no more counts as facing the other body, even where the threshold
   /// leaves less room: so little decides which of a cap's or generator's points is the deepest, and
@@ -36,12 +36,14 @@ struct Margins {
 
   /// `offset` is how far the bodies' centres are apart, or somewhat more.
   Margins(const Extents& a, const Extents& b, double offset, double signed_distance,
-          double contact_threshold) {
+          double contact_threshold, PointRange range = PointRange::near_deepest) {
     constexpr double hair = 1e-3, invisible = 1e-4,
                      epsilon = std::numeric_limits<double>::epsilon();
     rounding = 16 * epsilon * (std::max(a.largest, b.largest) + offset);
     const double smaller = std::min(a.largest, b.largest);
-    slack = std::max(rounding, std::min(hair * smaller, contact_threshold - signed_distance));
+    const double room = contact_threshold - signed_distance;
+    const bool is_near = range == PointRange::near_deepest;
+    slack = std::max(rounding, is_near ? std::min(hair * smaller, room) : room);
     flat = std::max(slack, invisible * smaller);
     smallest = std::min(a.smallest, b.smallest);
   }
@@ -68,6 +70,6 @@ struct Margins {
 /// between the surfaces along the normal, and one has the whole depth.
 template <class Body>
 void add_facing_points(Contact& contact, const PosedCylinder& a, const Body& b, const Vec3& origin,
-                       double contact_threshold);
+                       double contact_threshold, PointRange range);
 
 }  // namespace touchstone

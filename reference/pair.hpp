@@ -23,7 +23,7 @@ namespace touchstone {
 //   CertifiedDistance find_certified() const
 //       the same without short cuts; the bound is by how much the search may have missed the
 //       largest gap, but for rounding
-//   void add_points(Contact&, const Vec3& origin, double contact_threshold) const
+//   void add_points(Contact&, const Vec3& origin, double contact_threshold, PointRange) const
 //       to a contact whose normal and signed distance are set; `origin` is where the bodies' frame
 //       lies in the world
 
@@ -40,8 +40,9 @@ class SearchRoutine {
     return {found.value, found.normal};
   }
   CertifiedDistance find_certified() const { return find_largest(a_, b_, no_short_cuts); }
-  void add_points(Contact& contact, const Vec3& origin, double contact_threshold) const {
-    add_facing_points(contact, a_, b_, origin, contact_threshold);
+  void add_points(Contact& contact, const Vec3& origin, double contact_threshold,
+                  PointRange range) const {
+    add_facing_points(contact, a_, b_, origin, contact_threshold, range);
   }
 
  private:
@@ -279,7 +280,7 @@ bool find_overlap(const Cylinder& a, const Pose& pose_a, const Other& b, const P
 
 template <class Routine, class Other>
 Contact contact_in_range(const PosedPair<Other>& pair, double contact_threshold,
-                         const Vec3* previous_normal) {
+                         const Vec3* previous_normal, PointRange range) {
   const Routine routine(pair.a, pair.b);
   SignedDistance found = routine.find(contact_threshold);
   if (previous_normal && found.value <= contact_threshold) {
@@ -291,7 +292,7 @@ Contact contact_in_range(const PosedPair<Other>& pair, double contact_threshold,
   result.normal = found.normal;
   result.signed_distance = found.value;
   if (found.value <= contact_threshold) {
-    routine.add_points(result, pair.origin, contact_threshold);
+    routine.add_points(result, pair.origin, contact_threshold, range);
   }
   pair.turn_as_given(result.normal);
   return result;
@@ -299,33 +300,33 @@ Contact contact_in_range(const PosedPair<Other>& pair, double contact_threshold,
 
 template <class Routine, class Other>
 Contact find_contact(const Cylinder& a, const Pose& pose_a, const Other& b, const Pose& pose_b,
-                     double contact_threshold, const Vec3* previous_normal) {
+                     double contact_threshold, const Vec3* previous_normal, PointRange range) {
   const auto pair = posed_pair(a, pose_a, b, pose_b);
   if (!powers_in_range(pair)) {
     const auto again = [=](double threshold, const auto&... bodies) {
-      return contact(bodies..., threshold, previous_normal);
+      return contact(bodies..., threshold, previous_normal, range);
     };
     return answer_scaled(contact_threshold, again, a, pose_a, b, pose_b);
   }
-  return contact_in_range<Routine>(pair, contact_threshold, previous_normal);
+  return contact_in_range<Routine>(pair, contact_threshold, previous_normal, range);
 }
 
 /// Defines the functions that a pair's header declares; below its `Routine`.
-#define TOUCHSTONE_DEFINE_QUESTIONS(Other)                                                    \
-  SignedDistance signed_distance(const Cylinder& a, const Pose& pose_a, const Other& b,       \
-                                 const Pose& pose_b) {                                        \
-    return find_signed_distance<Routine>(a, pose_a, b, pose_b);                               \
-  }                                                                                           \
-  CertifiedDistance certified_distance(const Cylinder& a, const Pose& pose_a, const Other& b, \
-                                       const Pose& pose_b) {                                  \
-    return find_certified_distance<Routine>(a, pose_a, b, pose_b);                            \
-  }                                                                                           \
-  bool overlaps(const Cylinder& a, const Pose& pose_a, const Other& b, const Pose& pose_b) {  \
-    return find_overlap<Routine>(a, pose_a, b, pose_b);                                       \
-  }                                                                                           \
-  Contact contact(const Cylinder& a, const Pose& pose_a, const Other& b, const Pose& pose_b,  \
-                  double contact_threshold, const Vec3* previous_normal) {                    \
-    return find_contact<Routine>(a, pose_a, b, pose_b, contact_threshold, previous_normal);   \
+#define TOUCHSTONE_DEFINE_QUESTIONS(Other)                                                         \
+  SignedDistance signed_distance(const Cylinder& a, const Pose& pose_a, const Other& b,            \
+                                 const Pose& pose_b) {                                             \
+    return find_signed_distance<Routine>(a, pose_a, b, pose_b);                                    \
+  }                                                                                                \
+  CertifiedDistance certified_distance(const Cylinder& a, const Pose& pose_a, const Other& b,      \
+                                       const Pose& pose_b) {                                       \
+    return find_certified_distance<Routine>(a, pose_a, b, pose_b);                                 \
+  }                                                                                                \
+  bool overlaps(const Cylinder& a, const Pose& pose_a, const Other& b, const Pose& pose_b) {       \
+    return find_overlap<Routine>(a, pose_a, b, pose_b);                                            \
+  }                                                                                                \
+  Contact contact(const Cylinder& a, const Pose& pose_a, const Other& b, const Pose& pose_b,       \
+                  double contact_threshold, const Vec3* previous_normal, PointRange range) {       \
+    return find_contact<Routine>(a, pose_a, b, pose_b, contact_threshold, previous_normal, range); \
   }
 
 }  // namespace touchstone

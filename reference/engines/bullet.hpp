@@ -1,37 +1,30 @@
 #pragma once
 
-// Exact contacts of cylinders inside Bullet: include this and call
-// touchstone::bullet::install(dispatcher) before the world's bodies meet. The dispatcher then asks
-// Touchstone for every pair with a btCylinderShape, X or Z (against cylinder, box, capsule, sphere,
-// static plane, in both orders, as children of compounds too); other pairs, hulls and triangles
-// among them, stay Bullet's own, and so do sweeps and continuous detection.
+// Exact contacts of cylinders inside Bullet (3.24; single precision and BT_USE_DOUBLE_PRECISION):
+// touchstone::bullet::install(dispatcher), before the world's bodies meet. The dispatcher then asks
+// Touchstone for a btCylinderShape (X and Z too) against a cylinder, box, capsule, sphere or static
+// plane, in both orders and as children of compounds. Hulls, triangles and sweeps stay Bullet's.
 //
-// Shapes       As users give them, with sharp edges: Bullet keeps the faces where they are and
-//              rounds edges by the margin, so that margins change nothing here.
-// Points       Up to 4, as a manifold holds; of more, those that span most (reduce_points.hpp). A
-//              manifold has the points of this step alone, each in the place of the nearest of the
-//              last step, whose impulses, lifetime and user data it keeps; Bullet's own keeps
-//              points until they have slid by the breaking threshold, which holds a rolling log
-//              back.
-// Threshold    The manifold's contact breaking threshold: bodies closer than it have points of
-//              positive distance, as with Bullet's own (with contactPairTest also its distance).
-// Conventions  Bullet's: the normal points from the manifold's second body to its first. Friction
-//              directions, materials and callbacks are those of btManifoldResult.
-// Anchors      Of bodies with CF_HAS_FRICTION_ANCHOR, points stay as long as Bullet lets them.
-// Threads      An algorithm touches its own manifold alone. Install while no thread collides.
-// Invalid      Sizes of zero, and poses that are not finite, have no contacts.
-// Versions     3.24, in single precision and with BT_USE_DOUBLE_PRECISION.
+// Shapes       With sharp edges: Bullet's margins round them and keep the faces, so that they
+//              change nothing here. What is not finite or has no size has no contacts.
+// Points       Up to 4; of more, those that span most. They are those of this step, each in the
+//              place of an old one, whose impulses, lifetime and user data it keeps. (Bullet keeps
+//              points until they have slid by the breaking threshold: that disturbs a rolling log.)
+// Threshold    The manifold's breaking threshold: bodies closer than that have points of positive
+//              distance (with contactPairTest, also its own distance), as with Bullet.
+// Conventions  The normal points from the manifold's second body to its first; friction, materials
+//              and callbacks are btManifoldResult's. CF_HAS_FRICTION_ANCHOR keeps points as ever.
 #include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
 #include <BulletCollision/CollisionDispatch/btManifoldResult.h>
 #include <btBulletCollisionCommon.h>
 #include <limits>
-#include <utility>
 
 #include "../reduce_points.hpp"
 #include "../touchstone.hpp"
 
-namespace touchstone::bullet {
-namespace detail {
+namespace touchstone::bullet::detail {
+
+using Wrapper = btCollisionObjectWrapper;
 
 inline Vec3 to_vec3(const btVector3& v) { return Vec3(v.x(), v.y(), v.z()); }
 inline btVector3 to_bullet(const Vec3& v) {
@@ -47,104 +40,92 @@ inline Pose pose_of(const btTransform& transform, int up_axis = 2) {
   return Pose(to_vec3(transform.getOrigin()), Eigen::Quaterniond(rotation));
 }
 
-template <class BulletShape>
-const BulletShape& as(const btCollisionShape* shape) {
-  return *static_cast<const BulletShape*>(shape);
+/// The shape as one of this type, or null.
+template <class Shape>
+const Shape* as(const btCollisionShape* shape, int type) {
+  return shape->getShapeType() == type ? static_cast<const Shape*>(shape) : nullptr;
 }
 inline Cylinder to_cylinder(const btCylinderShape& s) {
   return Cylinder(s.getRadius(), s.getHalfExtentsWithMargin()[s.getUpAxis()]);
 }
 
 /// Contact of a cylinder A with another shape B, with all points up to `threshold` apart.
-inline Contact contact_of(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b,
-                          double threshold) try {
-  const auto& cylinder = as<btCylinderShape>(a.getCollisionShape());
+inline Contact contact_of(const Wrapper& a, const Wrapper& b, double threshold) try {
+  const auto& cylinder = static_cast<const btCylinderShape&>(*a.getCollisionShape());
   const btCollisionShape* const other = b.getCollisionShape();
   const btTransform& at_b = b.getWorldTransform();
   const auto with = [&](const auto& shape_b, const Pose& pose_b) {
     return contact(to_cylinder(cylinder), pose_of(a.getWorldTransform(), cylinder.getUpAxis()),
-                   shape_b, pose_b, threshold);
+                   shape_b, pose_b, threshold, nullptr, PointRange::within_threshold);
   };
-  switch (other->getShapeType()) {
-    case CYLINDER_SHAPE_PROXYTYPE:
-      return with(to_cylinder(as<btCylinderShape>(other)),
-                  pose_of(at_b, as<btCylinderShape>(other).getUpAxis()));
-    case BOX_SHAPE_PROXYTYPE:
-      return with(Box(to_vec3(as<btBoxShape>(other).getHalfExtentsWithMargin())), pose_of(at_b));
-    case CAPSULE_SHAPE_PROXYTYPE: {
-      const auto& capsule = as<btCapsuleShape>(other);
-      return with(Capsule(capsule.getRadius(), capsule.getHalfHeight()),
-                  pose_of(at_b, capsule.getUpAxis()));
-    }
-    case SPHERE_SHAPE_PROXYTYPE:
-      return with(Sphere(as<btSphereShape>(other).getRadius()), Pose(to_vec3(at_b.getOrigin())));
-    default: {
-      const auto& plane = as<btStaticPlaneShape>(other);
-      return with(Plane(to_vec3(plane.getPlaneNormal()), plane.getPlaneConstant()), pose_of(at_b));
-    }
+  if (const auto* s = as<btCylinderShape>(other, CYLINDER_SHAPE_PROXYTYPE)) {
+    return with(to_cylinder(*s), pose_of(at_b, s->getUpAxis()));
   }
+  if (const auto* s = as<btCapsuleShape>(other, CAPSULE_SHAPE_PROXYTYPE)) {
+    return with(Capsule(s->getRadius(), s->getHalfHeight()), pose_of(at_b, s->getUpAxis()));
+  }
+  if (const auto* s = as<btSphereShape>(other, SPHERE_SHAPE_PROXYTYPE)) {
+    return with(Sphere(s->getRadius()), Pose(to_vec3(at_b.getOrigin())));
+  }
+  if (const auto* s = as<btBoxShape>(other, BOX_SHAPE_PROXYTYPE)) {
+    return with(Box(to_vec3(s->getHalfExtentsWithMargin())), pose_of(at_b));
+  }
+  const auto& s = static_cast<const btStaticPlaneShape&>(*other);
+  return with(Plane(to_vec3(s.getPlaneNormal()), s.getPlaneConstant()), pose_of(at_b));
 } catch (const InvalidInput&) {
-  Contact none;
-  none.normal.setZero();
-  none.signed_distance = 0;
-  return none;
+  return {};
 }
 
-/// Hands a manifold of the last step over to these points. The nearest old point of each (in the
-/// frame of either body, for one of them may roll) moves to where the manifold will look for it;
-/// the other old points are removed.
+/// Hands a manifold over to new points: the nearest old point of each (in the frame of either body,
+/// for one may roll) moves to where the manifold will look for it, and other old ones are removed.
 inline void hand_over(btPersistentManifold& manifold, const btManifoldPoint* points, int count) {
-  bool is_kept[MANIFOLD_CACHE_SIZE] = {}, is_placed[MANIFOLD_CACHE_SIZE] = {};
-  for (int n = btMin(count, manifold.getNumContacts()); n > 0; --n) {
-    int nearest = -1, next = -1;
+  bool is_kept[MANIFOLD_CACHE_SIZE] = {};
+  for (int k = 0; k < count; ++k) {
+    int nearest = -1;
     btScalar least = std::numeric_limits<btScalar>::infinity();
     for (int i = 0; i < manifold.getNumContacts(); ++i) {
       const btManifoldPoint& old = manifold.getContactPoint(i);
-      for (int k = 0; k < count && !is_kept[i]; ++k) {
-        const btScalar distance = btMin(points[k].m_localPointA.distance2(old.m_localPointA),
-                                        points[k].m_localPointB.distance2(old.m_localPointB));
-        if (!is_placed[k] && distance < least) least = distance, nearest = i, next = k;
-      }
+      const btScalar distance = btMin(points[k].m_localPointA.distance2(old.m_localPointA),
+                                      points[k].m_localPointB.distance2(old.m_localPointB));
+      if (!is_kept[i] && distance < least) least = distance, nearest = i;
     }
-    if (nearest < 0) break;
-    is_kept[nearest] = is_placed[next] = true;
-    manifold.getContactPoint(nearest).m_localPointA = points[next].m_localPointA;
+    if (nearest < 0) continue;
+    is_kept[nearest] = true;
+    manifold.getContactPoint(nearest).m_localPointA = points[k].m_localPointA;
   }
   for (int i = manifold.getNumContacts() - 1; i >= 0; --i) {
     if (!is_kept[i]) manifold.removeContactPoint(i);
   }
 }
 
-/// What Bullet keeps with a pair of shapes of which one is a cylinder.
+/// What Bullet keeps with a pair that has a cylinder; it touches its own manifold alone.
 class Algorithm : public btCollisionAlgorithm {
  public:
-  explicit Algorithm(const btCollisionAlgorithmConstructionInfo& info)
-      : btCollisionAlgorithm(info), manifold_(info.m_manifold), is_shared_(manifold_) {}
+  using btCollisionAlgorithm::btCollisionAlgorithm;
   ~Algorithm() override {
-    if (manifold_ && !is_shared_) m_dispatcher->releaseManifold(manifold_);
+    if (manifold_) m_dispatcher->releaseManifold(manifold_);
   }
   void getAllContactManifolds(btManifoldArray& manifolds) override {
-    if (manifold_ && !is_shared_) manifolds.push_back(manifold_);
+    if (manifold_) manifolds.push_back(manifold_);
   }
   btScalar calculateTimeOfImpact(btCollisionObject*, btCollisionObject*, const btDispatcherInfo&,
                                  btManifoldResult*) override {
     return 1;
   }
-  void processCollision(const btCollisionObjectWrapper* first,
-                        const btCollisionObjectWrapper* second, const btDispatcherInfo&,
+  void processCollision(const Wrapper* first, const Wrapper* second, const btDispatcherInfo&,
                         btManifoldResult* result) override {
-    const btCollisionObject* const object = first->getCollisionObject();
-    if (!manifold_) manifold_ = m_dispatcher->getNewManifold(object, second->getCollisionObject());
+    const auto *object = first->getCollisionObject(), *other = second->getCollisionObject();
+    if (!manifold_) manifold_ = m_dispatcher->getNewManifold(object, other);
     if (!manifold_) return;  // Bullet's pool is full and may not grow
     result->setPersistentManifold(manifold_);
+    const btScalar breaking = manifold_->getContactBreakingThreshold();
     const bool is_a = first->getCollisionShape()->getShapeType() == CYLINDER_SHAPE_PROXYTYPE;
-    Contact c = contact_of(
-        is_a ? *first : *second, is_a ? *second : *first,
-        manifold_->getContactBreakingThreshold() + result->m_closestPointDistanceThreshold);
+    Contact c = contact_of(is_a ? *first : *second, is_a ? *second : *first,
+                           breaking + result->m_closestPointDistanceThreshold);
     reduce_points(c, MANIFOLD_CACHE_SIZE);
     if ((manifold_->getBody0() == object) != is_a) c.normal = -c.normal;
     add_points(c, *result);
-    if (!is_shared_) result->refreshContactPoints();
+    result->refreshContactPoints();
   }
 
  private:
@@ -163,59 +144,58 @@ class Algorithm : public btCollisionAlgorithm {
       to.m_localPointB = body1.getWorldTransform().invXform(to.m_positionWorldOnB);
     }
     const int flags = body0.getCollisionFlags() | body1.getCollisionFlags();
-    const bool is_ours = !is_shared_ && !(flags & btCollisionObject::CF_HAS_FRICTION_ANCHOR);
-    if (is_ours) hand_over(*manifold_, points, count);
+    const bool is_anchored = (flags & btCollisionObject::CF_HAS_FRICTION_ANCHOR) != 0;
+    if (!is_anchored) hand_over(*manifold_, points, count);
     const btScalar breaking = manifold_->getContactBreakingThreshold();
     for (int i = 0; i < count; ++i) {
-      // A manifold takes what is nearer than its threshold for the same point: of thin bodies, all.
-      const btScalar near = btMax(points[i].m_distance1, breaking / 1000);
-      if (is_ours) manifold_->setContactBreakingThreshold(btMin(near, breaking));
-      result.addContactPoint(normal, points[i].m_positionWorldOnB, points[i].m_distance1);
+      // What is nearer than the threshold counts as the same point: of a thin body, all would.
+      const btScalar distance = points[i].m_distance1, near = btMax(distance, breaking / 1000);
+      manifold_->setContactBreakingThreshold(is_anchored ? breaking : btMin(near, breaking));
+      result.addContactPoint(normal, points[i].m_positionWorldOnB, distance);
     }
     manifold_->setContactBreakingThreshold(breaking);
   }
 
   btPersistentManifold* manifold_ = nullptr;
-  bool is_shared_ = false;  ///< the manifold is another algorithm's
 };
 
 struct CreateAlgorithm : btCollisionAlgorithmCreateFunc {
   btCollisionAlgorithm* CreateCollisionAlgorithm(btCollisionAlgorithmConstructionInfo& info,
-                                                 const btCollisionObjectWrapper*,
-                                                 const btCollisionObjectWrapper*) override {
+                                                 const Wrapper*, const Wrapper*) override {
     return new (info.m_dispatcher1->allocateCollisionAlgorithm(sizeof(Algorithm))) Algorithm(info);
   }
 };
 
-/// Registers for every pair what `create_function` names, twice: for contacts, and for closest
-/// points.
-template <class CreateFunction>
-void register_pairs(btCollisionDispatcher& dispatcher, const CreateFunction& create_function) {
+/// Calls with the types of every pair that has a cylinder, in both orders.
+template <class Call>
+void for_pairs(Call call) {
   for (const int other : {CYLINDER_SHAPE_PROXYTYPE, BOX_SHAPE_PROXYTYPE, CAPSULE_SHAPE_PROXYTYPE,
                           SPHERE_SHAPE_PROXYTYPE, STATIC_PLANE_PROXYTYPE}) {
-    for (const auto& [i, j] : {std::pair(int{CYLINDER_SHAPE_PROXYTYPE}, other),
-                               std::pair(other, int{CYLINDER_SHAPE_PROXYTYPE})}) {
-      dispatcher.registerCollisionCreateFunc(i, j, create_function(i, j, false));
-      dispatcher.registerClosestPointsCreateFunc(i, j, create_function(i, j, true));
-    }
+    call(CYLINDER_SHAPE_PROXYTYPE, other);
+    call(other, CYLINDER_SHAPE_PROXYTYPE);
   }
 }
 
-}  // namespace detail
+}  // namespace touchstone::bullet::detail
 
-/// Gives every pair with a cylinder to Touchstone. Pairs that overlap already keep the algorithm
-/// that they have until their bounding boxes part.
+namespace touchstone::bullet {
+
+/// Gives every pair with a cylinder to Touchstone, while no thread collides. Pairs whose bounding
+/// boxes overlap already keep the algorithm that they have until these part.
 inline void install(btCollisionDispatcher& dispatcher) {
   static detail::CreateAlgorithm create;
-  detail::register_pairs(dispatcher, [](int, int, bool) { return &create; });
+  detail::for_pairs([&](int i, int j) {
+    dispatcher.registerCollisionCreateFunc(i, j, &create);
+    dispatcher.registerClosestPointsCreateFunc(i, j, &create);
+  });
 }
 
 /// Gives them back to what the dispatcher's configuration names.
 inline void uninstall(btCollisionDispatcher& dispatcher) {
   btCollisionConfiguration& own = *dispatcher.getCollisionConfiguration();
-  detail::register_pairs(dispatcher, [&](int i, int j, bool is_for_closest_points) {
-    return is_for_closest_points ? own.getClosestPointsAlgorithmCreateFunc(i, j)
-                                 : own.getCollisionAlgorithmCreateFunc(i, j);
+  detail::for_pairs([&](int i, int j) {
+    dispatcher.registerCollisionCreateFunc(i, j, own.getCollisionAlgorithmCreateFunc(i, j));
+    dispatcher.registerClosestPointsCreateFunc(i, j, own.getClosestPointsAlgorithmCreateFunc(i, j));
   });
 }
 

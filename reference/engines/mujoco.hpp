@@ -88,7 +88,8 @@ template <class Other, bool cylinder_is_first>
 int collide(const mjModel* m, Data* d, Written* contacts, int g1, int g2, mjtNum margin) try {
   const int a = cylinder_is_first ? g1 : g2, b = cylinder_is_first ? g2 : g1;
   Contact c = contact(shape_of<Cylinder>(m->geom_size + 3 * a), pose_of(d, a),
-                      shape_of<Other>(m->geom_size + 3 * b), pose_of(d, b), margin);
+                      shape_of<Other>(m->geom_size + 3 * b), pose_of(d, b), margin, nullptr,
+                      PointRange::within_threshold);
   if (c.points().empty()) return 0;
   reduce_points(c, room(m, g1, g2, margin));
   const Vec3 normal = cylinder_is_first ? Vec3(-c.normal) : c.normal;

@@ -104,7 +104,7 @@ struct Posed<Plane> {  // has no pose
 template <class Other>
 int collide(dGeomID a, dGeomID b, int flags, dContactGeom* contacts, int skip) try {
   Contact c = contact(Posed<Cylinder>::shape(a), Posed<Cylinder>::pose(a), Posed<Other>::shape(b),
-                      Posed<Other>::pose(b), 0);
+                      Posed<Other>::pose(b), 0, nullptr, PointRange::within_threshold);
   constexpr int count_mask = 0xffff;
   reduce_points(c, std::max(1, flags & count_mask));
   char* at = reinterpret_cast<char*>(contacts);
