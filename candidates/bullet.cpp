@@ -20,6 +20,8 @@
 //              queried four times, rocked by 1 mrad about the world's x and y axes, then as it is;
 //              Bullet refreshes the manifold's points, up to four. Its time is that of all five
 //              queries.
+// Cured        With TOUCHSTONE_CURED, Touchstone's contacts are installed in the dispatcher
+//              (reference/engines/bullet.hpp), and the candidate is bullet+touchstone.
 // Precision    In single precision the poses are rounded to float, as an engine holds them.
 #include <BulletCollision/BroadphaseCollision/btCollisionAlgorithm.h>
 #include <BulletCollision/CollisionDispatch/btCollisionDispatcher.h>
@@ -38,6 +40,9 @@
 
 #include "candidates/candidate.h"
 #include "candidates/model.hpp"
+#ifdef TOUCHSTONE_CURED
+#include "reference/engines/bullet.hpp"
+#endif
 
 namespace {
 
@@ -113,6 +118,9 @@ class Pair {
         dispatcher_(&configuration_),
         shape_a_(make_shape(a, setting)),
         shape_b_(make_shape(b, setting)) {
+#ifdef TOUCHSTONE_CURED
+    touchstone::bullet::install(dispatcher_);
+#endif
     object_a_.setCollisionShape(shape_a_.get());
     object_b_.setCollisionShape(shape_b_.get());
     const btCollisionObjectWrapper wrap_a = wrap(object_a_), wrap_b = wrap(object_b_);
@@ -207,8 +215,8 @@ ts_prepared* prepare(void*, const ts_shape* a, const ts_shape* b, double thresho
   return new ts_prepared{{*a, *b, threshold, setting}, nullptr};
 }
 
-ts_prepared* prepare_hull(void*, const ts_shape* a, const ts_shape* b, double threshold,
-                          double sides) {
+[[maybe_unused]] ts_prepared* prepare_hull(void*, const ts_shape* a, const ts_shape* b,
+                                           double threshold, double sides) {
   const int n = static_cast<int>(sides);
   const auto prism = [n](double radius, double half_length) {
     return touchstone::inscribed_prism(n, radius, half_length);
@@ -222,7 +230,7 @@ void query(ts_prepared* prepared, const ts_pose* a, const ts_pose* b, const doub
   prepared->pair.query(*a, *b, *answer);
 }
 
-double hull_distance(ts_prepared* prepared, const ts_pose* a, const ts_pose* b) {
+[[maybe_unused]] double hull_distance(ts_prepared* prepared, const ts_pose* a, const ts_pose* b) {
   return prepared->model->separation(*a, *b).distance;
 }
 
@@ -232,6 +240,18 @@ void release(ts_prepared* prepared) { delete prepared; }
 #define SETTINGS(rest) (single_precision ? "single precision; " rest : "double precision; " rest)
 #define CALLS \
   "the world's narrow phase (GJK/EPA, plane analytic); points midway between the two surfaces; "
+
+#ifdef TOUCHSTONE_CURED
+
+const ts_candidate candidates[] = {
+    {NAME("+touchstone"), TOUCHSTONE_BULLET_VERSION,
+     SETTINGS("the world's narrow phase with Touchstone's contacts of cylinders installed, at most "
+              "4 points, midway between the two surfaces; one query with an empty manifold; sharp "
+              "edges"),
+     nullptr, nullptr, supports, prepare<usual>, query, release, nullptr, nullptr}};
+const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 1, candidates, nullptr, 0};
+
+#else
 
 const ts_parameter sides = {"number of sides", 3, 128, 16, 1, 0};
 
@@ -255,6 +275,8 @@ const ts_candidate candidates[] = {
 // In single precision the last two would show nothing new.
 const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, single_precision ? 2 : 4, candidates,
                           nullptr, 0};
+
+#endif
 
 }  // namespace
 

@@ -26,6 +26,11 @@ constexpr struct {
     {"ode", "libode-dev"},       {"fcl", "libfcl-dev"},       {"libccd", "libccd-dev"},
     {"mujoco", "libmujoco-dev"}, {"simplified", ""},          {"box-parts", ""}};
 
+/// Engines whose cylinders are Touchstone's (reference/engines): like those from npm, they are part
+/// of a report only if they are named, and nothing is loaded before.
+constexpr const char* cured_plugins[] = {"bullet+touchstone", "bullet-float+touchstone",
+                                         "ode+touchstone", "mujoco+touchstone"};
+
 /// The folder of this code's file: of the program or, in Python, of the module.
 std::filesystem::path own_folder() {
   static const char here = 0;
@@ -52,6 +57,10 @@ std::filesystem::path standard_folder() {
 }
 
 namespace {
+
+std::filesystem::path standard_file(std::string_view name) {
+  return standard_folder() / ("touchstone-" + std::string(name) + ".so");
+}
 
 /// The shortest text that reads back as the same double.
 std::string number(double value) {
@@ -111,12 +120,19 @@ class Registry {
       return find_member(c, name, name.substr(colon + 1));
     }
     const std::string family(name.substr(0, colon));
+    if (const auto cured = cured_engines();
+        std::find(cured.begin(), cured.end(), family) != cured.end()) {
+      const std::filesystem::path file = standard_file(family);
+      add(PluginProcess(file).candidates(), {"--candidates", family}, false);
+      return find(name);
+    }
     if (const NpmEngine* const engine = find_npm_engine(family)) {
       add_npm_engine(*engine, name);
       return find(name);
     }
     std::string names;
     for (const Candidate* c : listed_) names += (names.empty() ? "" : ", ") + c->name;
+    for (const std::string& cured : cured_engines()) names += ", " + cured;
     for (const NpmEngine& engine : npm_engines()) names += ", " + std::string(engine.family);
     throw InvalidInput("--candidates", '"' + std::string(name) + '"', "must be one of " + names);
   }
@@ -168,9 +184,8 @@ class Registry {
   }
 
   Registry() {
-    const auto folder = standard_folder();
     for (const auto& [name, package] : standard_plugins) {
-      const auto file = folder / ("touchstone-" + std::string(name) + ".so");
+      const auto file = standard_file(name);
       if (!std::filesystem::exists(file)) {
         skipped_.push_back(
             {name, std::string("was not built; install Debian's ") + package + " and build again"});
@@ -267,6 +282,14 @@ ts_shape_kind other_shape(Pair pair) {
 }  // namespace
 
 bool Candidate::has_routine_for(Pair pair) const { return supports[other_shape(pair)]; }
+
+std::vector<std::string> cured_engines() {
+  std::vector<std::string> names;
+  for (const char* name : cured_plugins) {
+    if (std::filesystem::exists(standard_file(name))) names.emplace_back(name);
+  }
+  return names;
+}
 
 std::vector<const Candidate*> all_candidates() { return Registry::get().listed(); }
 

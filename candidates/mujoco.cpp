@@ -10,6 +10,9 @@
 //              xy-plane; ours is given such a frame.
 // Conventions  The lower geom type comes first; the normal points from it to the other one, and is
 //              reversed if the cylinder is first.
+// Cured        With TOUCHSTONE_CURED, Touchstone's contacts are installed in the table
+//              (reference/engines/mujoco.hpp), and the candidate is mujoco+touchstone, which
+//              answers separate bodies for all pairs.
 // Points       Midway between the two surfaces.
 // Threshold    Passed as the function's margin. Only the plane answers separate bodies.
 #include <algorithm>
@@ -24,6 +27,9 @@
 #include <string>
 
 #include "candidates/candidate.h"
+#ifdef TOUCHSTONE_CURED
+#include "reference/engines/mujoco.hpp"
+#endif
 
 namespace {
 
@@ -96,6 +102,9 @@ struct ts_prepared {
 namespace {
 
 ts_prepared* prepare(void*, const ts_shape* a, const ts_shape* b, double threshold, double) {
+#ifdef TOUCHSTONE_CURED
+  touchstone::mujoco::install();
+#endif
   const mjtGeom type = geom_type(b->kind);
   const bool cylinder_first = type >= mjGEOM_CYLINDER;
   const mjfCollision collide = cylinder_first ? mjCOLLISIONFUNC[mjGEOM_CYLINDER][type]
@@ -149,10 +158,17 @@ int supports(void*, ts_shape_kind) { return 1; }
 void release(ts_prepared* prepared) { delete prepared; }
 
 const ts_candidate candidates[] = {
+#ifdef TOUCHSTONE_CURED
+    {"mujoco+touchstone", mj_versionString(),
+     "double precision; the pair's function in mjCOLLISIONFUNC with Touchstone's contacts of "
+     "cylinders installed",
+     nullptr, nullptr, supports, prepare, query, release, nullptr, nullptr}};
+#else
     {"mujoco", mj_versionString(),
      "double precision; the pair's function in mjCOLLISIONFUNC; plane analytic, others "
      "by libccd's MPR with MuJoCo's tolerance 1e-6; multiccd off",
      nullptr, nullptr, supports, prepare, query, release, nullptr, nullptr}};
+#endif
 const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 1, candidates, nullptr, 0};
 
 }  // namespace

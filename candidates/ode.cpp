@@ -11,10 +11,13 @@
 // Meshes       ode-mesh:N is the cylinder A as the triangle mesh of the prism with N sides, against
 //              B's own geom. A mesh is a surface: a body wholly inside it is not in contact.
 // Threshold    ODE has none: it answers only if it finds the bodies touching.
+// Cured        With TOUCHSTONE_CURED, Touchstone's contacts are installed in ODE
+//              (reference/engines/ode.hpp), and the candidate is ode+touchstone.
 // Planes       A plane geom has no pose, so that a posed plane is transformed to world coordinates
 //              at every query.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <ode/ode.h>
@@ -24,6 +27,9 @@
 #include "candidates/candidate.h"
 #include "candidates/model.hpp"
 #include "candidates/ode_library.hpp"
+#ifdef TOUCHSTONE_CURED
+#include "reference/engines/ode.hpp"
+#endif
 
 namespace {
 
@@ -166,10 +172,14 @@ int supports(void*, ts_shape_kind) { return 1; }
 
 ts_prepared* prepare(void*, const ts_shape* a, const ts_shape* b, double, double) {
   touchstone::initialise_ode();
+#ifdef TOUCHSTONE_CURED
+  touchstone::ode::install();
+#endif
   return new ts_prepared(*a, *b);
 }
 
-ts_prepared* prepare_mesh(void*, const ts_shape* a, const ts_shape* b, double, double sides) {
+[[maybe_unused]] ts_prepared* prepare_mesh(void*, const ts_shape* a, const ts_shape* b, double,
+                                           double sides) {
   touchstone::initialise_ode();
   return new ts_prepared(*a, *b, static_cast<int>(sides));
 }
@@ -179,12 +189,19 @@ void query(ts_prepared* prepared, const ts_pose* a, const ts_pose* b, const doub
   prepared->query(*a, *b, *answer);
 }
 
-double model_distance(ts_prepared* prepared, const ts_pose* a, const ts_pose* b) {
+[[maybe_unused]] double model_distance(ts_prepared* prepared, const ts_pose* a, const ts_pose* b) {
   return prepared->model_distance(*a, *b);
 }
 
 void release(ts_prepared* prepared) { delete prepared; }
 
+#ifdef TOUCHSTONE_CURED
+const ts_candidate candidates[] = {
+    {"ode+touchstone", TOUCHSTONE_ODE_VERSION,
+     "double precision; dCollide with Touchstone's contacts of cylinders installed, asked for 16; "
+     "positions halfway between the surfaces",
+     nullptr, nullptr, supports, prepare, query, release, nullptr, nullptr}};
+#else
 const ts_parameter sides = {"number of sides", 3, 128, 16, 1, 0};
 
 const ts_candidate candidates[] = {
@@ -198,7 +215,9 @@ const ts_candidate candidates[] = {
      "the 16 deepest are kept",
      "the cylinder A as the triangle mesh of the regular prism with its corners on the rims",
      &sides, supports, prepare_mesh, query, release, model_distance, nullptr}};
-const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 2, candidates, nullptr, 0};
+#endif
+const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, std::size(candidates), candidates, nullptr,
+                          0};
 
 }  // namespace
 

@@ -22,6 +22,7 @@ void RunTally::add(const RunTally& other) {
   unsupported = unsupported || other.unsupported;
   if (!unsound) unsound = other.unsound;
   last_motion = other.last_motion;
+  last_time = other.last_time;
   seconds += other.seconds;
 }
 
@@ -89,6 +90,7 @@ bool Run::step() {
   simulation_->step();
   tally_.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   ++tally_.steps;
+  tally_.last_time = time();
   if (!simulation_->sound()) {
     tally_.unsound = time();
     return false;

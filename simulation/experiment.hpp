@@ -22,8 +22,9 @@ struct RunTally {
   double energy_gained = 0;       ///< largest rise above an earlier energy, in weight × size
   bool unsupported = false;       ///< the candidate has no routine for a pair that occurred
   std::optional<double> unsound;  ///< time at which the simulation became unsound, s
-  double last_motion = 0;         ///< time of the last run's last step above `rest_energy`, s
-  double seconds = 0;             ///< wall-clock time of all steps
+  // Of the last run, s: the time of its last step above `rest_energy`, and its end.
+  double last_motion = 0, last_time = 0;
+  double seconds = 0;  ///< wall-clock time of all steps
 
   void add(const RunTally& other);
 };

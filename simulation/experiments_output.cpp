@@ -30,7 +30,9 @@ const char* name_of(Outcome outcome) {
 
 json finite(double x) { return std::isfinite(x) ? json(x) : json(nullptr); }
 
-json result_json(const ExperimentResult& r) {
+}  // namespace
+
+json to_json(const ExperimentResult& r) {
   json result = {{"experiment", r.experiment},
                  {"candidate", r.candidate},
                  {"step", r.step},
@@ -55,9 +57,18 @@ json result_json(const ExperimentResult& r) {
                  {"steps", r.steps},
                  {"nanoseconds", r.nanoseconds ? json(*r.nanoseconds) : json(nullptr)},
                  {"microseconds_per_step", r.microseconds_per_step},
-                 {"last_motion", r.last_motion}});
+                 {"last_motion", r.last_motion},
+                 {"last_time", r.last_time}});
   return result;
 }
+
+json to_json(const ExperimentDescription& e) {
+  return {{"name", e.name},  {"statement", e.statement}, {"quantity", e.quantity},
+          {"unit", e.unit},  {"expected", e.expected},   {"resolution", e.resolution},
+          {"rests", e.rests}};
+}
+
+namespace {
 
 double number(const json& value) {
   return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
@@ -67,19 +78,12 @@ double number(const json& value) {
 
 json to_json(const ExperimentResults& r) {
   json experiments = json::array(), results = json::array();
-  for (const ExperimentDescription& e : r.experiments) {
-    experiments.push_back({{"name", e.name},
-                           {"statement", e.statement},
-                           {"quantity", e.quantity},
-                           {"unit", e.unit},
-                           {"expected", e.expected},
-                           {"resolution", e.resolution}});
-  }
-  for (const ExperimentResult& each : r.results) results.push_back(result_json(each));
+  for (const ExperimentDescription& e : r.experiments) experiments.push_back(to_json(e));
+  for (const ExperimentResult& each : r.results) results.push_back(to_json(each));
   return {{"steps", r.steps}, {"experiments", experiments}, {"results", results}};
 }
 
-std::string to_text(const ExperimentResult& result) { return result_json(result).dump(); }
+std::string to_text(const ExperimentResult& result) { return to_json(result).dump(); }
 
 ExperimentResult result_from_text(const std::string& text) {
   const json value = json::parse(text);
@@ -107,6 +111,7 @@ ExperimentResult result_from_text(const std::string& text) {
   if (!value["nanoseconds"].is_null()) r.nanoseconds = value["nanoseconds"].get<double>();
   r.microseconds_per_step = value["microseconds_per_step"];
   r.last_motion = value["last_motion"];
+  r.last_time = value["last_time"];
   return r;
 }
 

@@ -113,12 +113,19 @@ ExperimentResult result_of(const Experiment& experiment, const std::string& cand
   r.steps = t.steps;
   r.microseconds_per_step = 1e6 * t.seconds / steps;
   r.last_motion = t.last_motion;
+  r.last_time = t.last_time;
   return r;
+}
+
+bool ExperimentResult::comes_to_rest() const {
+  constexpr double still = 0.5;  // s
+  return outcome == Outcome::measured && last_motion < last_time - still;
 }
 
 ExperimentDescription describe(const Experiment& experiment, const std::vector<double>& steps) {
   ExperimentDescription d{
-      experiment.name, experiment.statement, experiment.quantity, experiment.unit, {}, {}};
+      experiment.name, experiment.statement, experiment.quantity, experiment.unit, {}, {},
+      experiment.rests};
   for (const double step : steps) {
     d.expected.push_back(experiment.expected(step));
     d.resolution.push_back(experiment.resolution(step));

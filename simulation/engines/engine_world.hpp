@@ -6,6 +6,7 @@
 
 #include "candidates/candidate.h"
 #include "reference/invalid_input.hpp"
+#include "simulation/engines/run_engines.hpp"
 #include "simulation/simulation.hpp"
 
 // What the modules touchstone-world-NAME.so share with the program. Each holds one engine and is
@@ -48,10 +49,11 @@ class EngineWorld : public Simulation {
 
 /// What a module exports by its function `touchstone_engine`.
 struct EngineModule {
-  const char* version;   ///< of the engine
-  const char* settings;  ///< of its solver, and how its shapes are made
-  /// Begins a scene, which has passed check_scene; `cured`: with our contact routines installed.
-  std::unique_ptr<Simulation> (*begin)(const Scene& scene, bool cured);
+  const char* version;        ///< of the engine
+  const char* settings;       ///< of its world: how its shapes are made, its solver's defaults
+  const char* best_settings;  ///< what differs with its solver at its best
+  /// Begins a scene, which has passed check_scene.
+  std::unique_ptr<Simulation> (*begin)(const Scene& scene, const EngineSetup& setup);
 };
 
 }  // namespace touchstone

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -10,67 +12,97 @@ namespace {
 
 using Outcome = ExperimentResult::Outcome;
 
-const ExperimentResult* find(const EngineResults& all, const std::string& experiment,
-                             const std::string& candidate) {
-  for (const ExperimentResult& r : all.runs.results) {
-    if (r.experiment == experiment && r.candidate == candidate) return &r;
-  }
-  return nullptr;
-}
-
 std::string number(double value, const char* format) {
   return std::isfinite(value) ? fmt::format(fmt::runtime(format), value) : "-";
 }
 
-std::string row(const ExperimentResult& r) {
-  switch (r.outcome) {
-    case Outcome::crashed:
-      return fmt::format("  {:<24}crashed: {}\n", r.candidate, r.reason);
-    case Outcome::timed_out:
-      return fmt::format("  {:<24}took too long\n", r.candidate);
-    default:
-      break;
+/// The time after which nothing moved; "never" if it still did in the last steps, "-" where motion
+/// is what is measured.
+std::string time_to_rest(const ExperimentResult& r, const ExperimentDescription& e) {
+  if (!e.rests) return "-";
+  if (r.comes_to_rest()) return fmt::format("{:.2f}", r.last_motion);
+  return "never";
+}
+
+std::string row(const std::string& name, const ExperimentResult& r, const ExperimentDescription& e,
+                const std::string& cure) {
+  if (r.outcome == Outcome::crashed || r.outcome == Outcome::timed_out) {
+    return fmt::format("  {:<22}{}\n", name, r.reason);
   }
-  return fmt::format("  {:<24}{}{:>9} {:>8} {:>7.1f} {:>7.2f} {:>7} {:>7.1f}\n", r.candidate,
-                     r.exact ? '=' : ' ', number(r.value, "{:.3g}"),
-                     r.outcome == Outcome::unsound ? "unsound" : number(r.error, "{:.1e}"),
-                     r.points, r.last_motion, number(r.energy_gained, "{:.0e}"),
-                     r.microseconds_per_step);
+  const std::string error = r.outcome == Outcome::unsound ? "unsound" : number(r.error, "{:.1e}");
+  return fmt::format("  {:<22}{}{:>8} {:>8} {:>6.1f} {:>6} {:>6} {:>7.1f}  {}\n", name,
+                     r.exact ? '=' : ' ', number(r.value, "{:.3g}"), error, r.points,
+                     time_to_rest(r, e), number(r.energy_gained, "{:.0e}"), r.microseconds_per_step,
+                     cure);
+}
+
+std::string rows(const EngineResult& r, const ExperimentDescription& e) {
+  const std::string ours = r.engine + "+touchstone";
+  std::string text = row(r.engine, r.own, e, "") + row(ours, r.cured, e, cure_name(r.cure));
+  if (r.best) {
+    const bool is_halved = r.best->step < r.cured.step;
+    text += row(is_halved ? "  best, half the step" : "  solver at its best", *r.best, e, "");
+  }
+  return text;
+}
+
+std::string counts(const EngineResults& all) {
+  std::string text;
+  for (const Cure cure : {Cure::held, Cure::nearer, Cure::solver, Cure::alike, Cure::open}) {
+    const auto count = std::count_if(all.results.begin(), all.results.end(),
+                                     [&](const EngineResult& r) { return r.cure == cure; });
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, cure_name(cure));
+  }
+  return text;
 }
 
 }  // namespace
 
 std::string engines_table(const EngineResults& all) {
   std::string text =
-      fmt::format("{:<26}{:>10} {:>8} {:>7} {:>7} {:>7} {:>7}\n", "experiment, engine", "value",
-                  "error", "points", "moves s", "gained", "us/step");
-  for (const ExperimentDescription& e : all.runs.experiments) {
+      fmt::format("{:<24} {:>8} {:>8} {:>6} {:>6} {:>6} {:>7}\n", "experiment, contacts", "value",
+                  "error", "points", "rests", "gained", "us/step");
+  for (const ExperimentDescription& e : all.experiments) {
     text += fmt::format("\n{}: {}\n  on paper {:.4g}, resolved to {:.1g} ({})\n", e.name,
                         e.quantity, e.expected[0], e.resolution[0], e.unit);
-    for (const EngineDescription& engine : all.engines) {
-      for (const std::string& name : {engine.name, cured_name(engine.name)}) {
-        if (const ExperimentResult* r = find(all, e.name, name)) text += row(*r);
-      }
+    for (const EngineResult& r : all.results) {
+      if (r.experiment == e.name) text += rows(r, e);
     }
   }
-  text += fmt::format("\nEach engine in its own world and solver, steps of {:.3g} s.\n",
-                      all.runs.steps[0]);
+  text += fmt::format("\nEach engine in its own world, steps of {:.3g} s; {} in all: {}.\n",
+                      all.step, all.results.size(), counts(all));
   for (const EngineDescription& e : all.engines) {
-    text += fmt::format("{} {}: {}\n", e.name, e.version, e.settings);
+    text += fmt::format("{} {}: {}\n  solver at its best: {}\n", e.name, e.version, e.settings,
+                        e.best_settings);
   }
   return text +
-         "+touchstone: with our contact routines installed in it\n"
-         "=: held: within what the experiment resolves\n"
-         "moves: time after which all bodies were at rest\n";
+         "+touchstone: with our contact routines installed in the engine\n"
+         "=, held: within what the experiment resolves; nearer: ten times nearer or more\n"
+         "solver: held with the engine's solver at its best, which is thus what limits\n"
+         "alike: as near as the engine's own contacts, also with the solver at its best\n"
+         "rests: time after which nothing moves, s; gained: rise of energy, weight x size\n";
 }
 
 nlohmann::json to_json(const EngineResults& all) {
-  nlohmann::json result = to_json(all.runs), engines = nlohmann::json::array();
+  using nlohmann::json;
+  json engines = json::array(), experiments = json::array(), results = json::array();
   for (const EngineDescription& e : all.engines) {
-    engines.push_back({{"name", e.name}, {"version", e.version}, {"settings", e.settings}});
+    engines.push_back({{"name", e.name},
+                       {"version", e.version},
+                       {"settings", e.settings},
+                       {"best_settings", e.best_settings}});
   }
-  result["engines"] = engines;
-  return result;
+  for (const ExperimentDescription& e : all.experiments) experiments.push_back(to_json(e));
+  for (const EngineResult& r : all.results) {
+    results.push_back({{"experiment", r.experiment},
+                       {"engine", r.engine},
+                       {"cure", cure_name(r.cure)},
+                       {"own", to_json(r.own)},
+                       {"cured", to_json(r.cured)},
+                       {"best", r.best ? to_json(*r.best) : json(nullptr)}});
+  }
+  return {
+      {"step", all.step}, {"engines", engines}, {"experiments", experiments}, {"results", results}};
 }
 
 }  // namespace touchstone

@@ -34,62 +34,69 @@ const EngineModule& load(const std::string& engine) {
   return *reinterpret_cast<const EngineModule* (*)()>(entry)();
 }
 
-Simulator in_engine(const EngineModule& engine, bool cured) {
-  return [&engine, cured](const Scene& scene) {
+Simulator in_engine(const EngineModule& engine, const EngineSetup& setup) {
+  return [&engine, setup](const Scene& scene) {
     check_scene(scene);
-    return engine.begin(scene, cured);
+    return engine.begin(scene, setup);
   };
 }
 
-struct Trial {
-  const Experiment* experiment;
-  std::string engine;
-  bool cured;
-  std::string candidate() const { return cured ? cured_name(engine) : engine; }
-};
-
-/// Ordered by experiment, then engine.
-std::vector<Trial> trials(const EngineOptions& options) {
-  std::vector<Trial> result;
-  for (const Experiment* e : options.experiments) {
-    for (const std::string& engine : options.engines) {
-      for (const bool cured : {false, true}) result.push_back({e, engine, cured});
-    }
-  }
-  return result;
-}
-
-std::string run(const Trial& trial, double step) {
+ExperimentResult run(const Experiment& experiment, const std::string& engine,
+                     const EngineSetup& setup, double step) {
+  const std::string name = setup.cured ? engine + "+touchstone" : engine;
   const Contained ran = run_contained(
       [&] {
-        const Simulator simulator = in_engine(load(trial.engine), trial.cured);
-        const Measurement measured = trial.experiment->run(simulator, step);
-        return to_text(result_of(*trial.experiment, trial.candidate(), step, measured));
+        const Measurement measured = experiment.run(in_engine(load(engine), setup), step);
+        return to_text(result_of(experiment, name, step, measured));
       },
       max_seconds);
-  if (ran.end == Contained::End::returned) return ran.text;
+  if (ran.end == Contained::End::returned) return result_from_text(ran.text);
   ExperimentResult failed;
-  failed.experiment = trial.experiment->name;
-  failed.candidate = trial.candidate();
+  failed.experiment = experiment.name;
+  failed.candidate = name;
   failed.step = step;
   failed.outcome = ran.end == Contained::End::crashed ? ExperimentResult::Outcome::crashed
                                                       : ExperimentResult::Outcome::timed_out;
   failed.reason = ran.text;
-  return to_text(failed);
+  return failed;
+}
+
+EngineResult run(const Experiment& experiment, const std::string& engine, double step) {
+  EngineResult r{experiment.name,
+                 engine,
+                 Cure::open,
+                 run(experiment, engine, {}, step),
+                 run(experiment, engine, {.cured = true}, step),
+                 {}};
+  r.cure = cure_of(r.own, r.cured, r.best);
+  if (r.cure == Cure::held || r.cure == Cure::nearer) return r;
+  for (const double tried : {step, step / 2}) {
+    r.best = run(experiment, engine, {.cured = true, .best_solver = true}, tried);
+    if (r.best->exact) break;
+  }
+  r.cure = cure_of(r.own, r.cured, r.best);
+  return r;
+}
+
+/// The runs as text, on their way from the process that made them.
+std::string to_text(const EngineResult& r) {
+  nlohmann::json runs = {to_text(r.own), to_text(r.cured)};
+  if (r.best) runs.push_back(to_text(*r.best));
+  return runs.dump();
 }
 
 EngineDescription describe(const std::string& engine) {
   const Contained told = run_contained(
       [&] {
         const EngineModule& module = load(engine);
-        return nlohmann::json{module.version, module.settings}.dump();
+        return nlohmann::json{module.version, module.settings, module.best_settings}.dump();
       },
       max_seconds);
   if (told.end != Contained::End::returned) {
     throw InvalidInput("--engine", '"' + engine + '"', "cannot be loaded: " + told.text);
   }
   const auto text = nlohmann::json::parse(told.text);
-  return {engine, text[0], text[1]};
+  return {engine, text[0], text[1], text[2]};
 }
 
 /// Ends a run before its first step, having shown its scene.
@@ -162,29 +169,71 @@ std::vector<std::string> all_engines() {
   return result;
 }
 
-std::string cured_name(const std::string& engine) { return engine + "+touchstone"; }
+const char* cure_name(Cure cure) {
+  switch (cure) {
+    case Cure::held:
+      return "held";
+    case Cure::nearer:
+      return "nearer";
+    case Cure::solver:
+      return "solver";
+    case Cure::alike:
+      return "alike";
+    case Cure::open:
+      return "open";
+  }
+  return "";
+}
+
+Cure cure_of(const ExperimentResult& own, const ExperimentResult& cured,
+             const std::optional<ExperimentResult>& best) {
+  using Outcome = ExperimentResult::Outcome;
+  constexpr double much_nearer = 10, equally_near = 1.5;
+  constexpr double lost = 1;  // a radius, or all of what is measured: no nearness counts
+  const auto is_measured = [](const ExperimentResult& r) { return r.outcome == Outcome::measured; };
+  if (cured.exact) return Cure::held;
+  if (!is_measured(cured)) return Cure::open;
+  const bool is_nearer = !is_measured(own) || !(own.error < much_nearer * cured.error);
+  if (is_nearer && cured.error < lost) return Cure::nearer;
+  if (best && best->exact) return Cure::solver;
+  const double ratio = cured.error / own.error;
+  if (ratio < equally_near && ratio > 1 / equally_near) return Cure::alike;
+  return Cure::open;
+}
 
 EngineResults run_engines(const EngineOptions& options) {
-  EngineResults results;
+  EngineResults results{options.step, {}, {}, {}};
   for (const std::string& engine : options.engines) results.engines.push_back(describe(engine));
-  const std::vector<Trial> all = trials(options);
-  Progress progress("experiments in engines", all.size());
-  const auto texts = run_in_processes(
-      all.size(), options.workers, [&](std::size_t i) { return run(all[i], options.step); },
-      [&](std::size_t i) { return all[i].experiment->name + " in " + all[i].candidate(); },
-      [&](std::size_t done) { progress.update(done); });
-  results.runs.steps = {options.step};
   for (const Experiment* e : options.experiments) {
-    results.runs.experiments.push_back(describe(*e, results.runs.steps));
+    results.experiments.push_back(touchstone::describe(*e, {options.step}));
   }
-  for (const std::string& text : texts) {
-    if (!text.empty()) results.runs.results.push_back(result_from_text(text));
+  const std::size_t engines = options.engines.size();
+  const auto experiment_of = [&](std::size_t i) { return options.experiments[i / engines]; };
+  const auto engine_of = [&](std::size_t i) { return options.engines[i % engines]; };
+  Progress progress("experiments in engines", options.experiments.size() * engines);
+  const auto texts = run_in_processes(
+      options.experiments.size() * engines, options.workers,
+      [&](std::size_t i) { return to_text(run(*experiment_of(i), engine_of(i), options.step)); },
+      [&](std::size_t i) { return experiment_of(i)->name + " in " + engine_of(i); },
+      [&](std::size_t done) { progress.update(done); });
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    if (texts[i].empty()) continue;
+    const auto runs = nlohmann::json::parse(texts[i]);
+    EngineResult r{experiment_of(i)->name,
+                   engine_of(i),
+                   Cure::open,
+                   result_from_text(runs[0]),
+                   result_from_text(runs[1]),
+                   {}};
+    if (runs.size() > 2) r.best = result_from_text(runs[2]);
+    r.cure = cure_of(r.own, r.cured, r.best);
+    results.results.push_back(std::move(r));
   }
   return results;
 }
 
-Motion record_motion(const Experiment& experiment, const std::string& engine, bool cured,
-                     double step) {
+Motion record_motion(const Experiment& experiment, const std::string& engine,
+                     const EngineSetup& setup, double step) {
   constexpr double frames_per_second = 60;
   Motion motion{scene_of(experiment, step), 0, {}};
   const int every =
@@ -193,7 +242,7 @@ Motion record_motion(const Experiment& experiment, const std::string& engine, bo
   const Contained ran = run_contained(
       [&] {
         std::vector<float> poses;
-        const Simulator simulator = in_engine(load(engine), cured);
+        const Simulator simulator = in_engine(load(engine), setup);
         experiment.run(
             [&](const Scene& scene) {
               return std::make_unique<Recorded>(scene, simulator(scene), every, poses);

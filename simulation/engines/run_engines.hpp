@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,25 +20,54 @@ struct EngineOptions {
 /// Engines whose worlds there are here, in report order.
 std::vector<std::string> all_engines();
 
-/// An engine's name with our contact routines installed in it: "bullet+touchstone".
-std::string cured_name(const std::string& engine);
+/// How an engine's world is set up.
+struct EngineSetup {
+  bool cured = false;        ///< with our contact routines installed in it
+  bool best_solver = false;  ///< with its solver at its best, whatever that costs
+};
 
 struct EngineDescription {
-  std::string name, version, settings;
+  std::string name, version;
+  std::string settings, best_settings;  ///< of its solver: as usual, at its best
 };
 
-/// Outcomes of the experiments in the engines' own worlds. The candidates are the engines, each
-/// without and with our contact routines.
+/// What our contacts do to an experiment in an engine.
+enum class Cure {
+  held,    ///< the answer on paper, within what the experiment resolves
+  nearer,  ///< at least ten times nearer to it than the engine's own contacts, and not lost
+  solver,  ///< held with the engine's solver at its best: its defaults are what limits
+  alike,   ///< as near as the engine's own contacts, also with the solver at its best
+  open,    ///< none of these
+};
+const char* cure_name(Cure cure);
+
+/// One experiment in one engine's own world.
+struct EngineResult {
+  std::string experiment, engine;
+  Cure cure;
+  ExperimentResult own;    ///< with the engine's contacts
+  ExperimentResult cured;  ///< with ours
+  /// With ours and the solver at its best, and half the step where that alone is not held; absent
+  /// where the usual solver already holds the experiment or is ten times nearer.
+  std::optional<ExperimentResult> best;
+};
+
 struct EngineResults {
+  double step = 0;  ///< s
   std::vector<EngineDescription> engines;
-  ExperimentResults runs;
+  std::vector<ExperimentDescription> experiments;
+  std::vector<EngineResult> results;  ///< by experiment, then engine
 };
 
-/// Runs every experiment in every engine, without and with our contact routines, each run in a
-/// process of its own. Times aside the results depend on the options alone. Progress goes to
-/// standard error. After an interruption (interruption.hpp) the results of what was not done are
-/// missing. Throws InvalidInput (field "--engine") where there is no such engine.
+/// Runs every experiment in every engine, each run in a process of its own. Times aside the results
+/// depend on the options alone. Progress goes to standard error. After an interruption
+/// (interruption.hpp) the results of what was not done are missing. Throws InvalidInput (field
+/// "--engine") where an engine's world is not there.
 EngineResults run_engines(const EngineOptions& options);
+
+/// Judges the runs of an experiment.
+Cure cure_of(const ExperimentResult& own, const ExperimentResult& cured,
+             const std::optional<ExperimentResult>& best);
 
 /// The motion of one run, as a page shows it.
 struct Motion {
@@ -49,8 +79,8 @@ struct Motion {
 };
 
 /// Runs an experiment that is a single run once more, and keeps its motion.
-Motion record_motion(const Experiment& experiment, const std::string& engine, bool cured,
-                     double step);
+Motion record_motion(const Experiment& experiment, const std::string& engine,
+                     const EngineSetup& setup, double step);
 
 /// Table for a terminal of 80 columns.
 std::string engines_table(const EngineResults& results);

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+#include <string>
+#include <vector>
+
+#include "properties/identity.hpp"
+#include "reference/contact_of.hpp"
+#include "reference/reduce_points.hpp"
+
+namespace touchstone {
+
+/// A point as an engine reports it, with the normal from B to A.
+struct EnginePoint {
+  Vec3 position;  ///< halfway between the surfaces
+  Vec3 normal;
+  double depth;
+};
+
+/// Configurations of every kind of everyday pose: general, aligned, at rest, apart.
+inline std::vector<Identity> everyday_poses(Pair pair, std::uint64_t count) {
+  std::vector<Identity> identities;
+  for (const std::string& name : selected_classes(pair, {.groups = {Group::everyday}})) {
+    for (std::uint64_t i = 0; i < count; ++i) identities.push_back({pair, name, 21, i});
+  }
+  return identities;
+}
+
+/// An engine's points are those of our routine: the normal has the same clearance (where several
+/// tie it may be another), as many points as the engine's limit lets through, the deepest as deep.
+/// `precision` is that of the poses as the engine holds them, relative to the larger size.
+inline void expect_as_ours(const Configuration& c, double threshold, int max_points,
+                           const std::vector<EnginePoint>& points, double precision) {
+  const double rounding =
+      precision * (larger_size(c) + c.pose_a.position().norm() + c.pose_b.position().norm());
+  Contact ours = contact(c, threshold, nullptr, PointRange::within_threshold);
+  if (std::abs(ours.signed_distance - threshold) <= rounding) return;
+  reduce_points(ours, max_points);
+  ASSERT_LE(static_cast<int>(points.size()), max_points);
+  ASSERT_EQ(points.empty(), ours.points().empty());
+  if (precision < 1e-9) {
+    ASSERT_LE(points.size(), ours.points().size());
+    // The engine's rounding may drop a point that is as far apart as the threshold.
+    const auto is_within = [&](const ContactPoint& p) { return p.depth > rounding - threshold; };
+    ASSERT_GE(std::ssize(points),
+              std::count_if(ours.points().begin(), ours.points().end(), is_within));
+  }
+  if (points.empty()) return;
+  double deepest = points[0].depth;
+  for (const EnginePoint& p : points) {
+    EXPECT_NEAR(p.normal.norm(), 1, precision);
+    deepest = std::max(deepest, p.depth);
+    if (!std::holds_alternative<Plane>(c.b)) {
+      EXPECT_NEAR(gap(c, p.normal), ours.signed_distance, rounding);
+    }
+  }
+  // Three points of a body at rest lack up to a millionth of the depth (reduce_points.hpp).
+  EXPECT_NEAR(deepest, -ours.signed_distance, rounding + 2e-6 * larger_size(c));
+  if ((points[0].normal - ours.normal).norm() > 1e-6 || precision > 1e-9) return;
+  for (const EnginePoint& p : points) {
+    double nearest = INFINITY;
+    for (const ContactPoint& q : ours.points()) {
+      nearest = std::min(nearest, (q.position - p.position).norm() + std::abs(q.depth - p.depth));
+    }
+    EXPECT_LE(nearest, 1e-7 * larger_size(c));
+  }
+}
+
+}  // namespace touchstone

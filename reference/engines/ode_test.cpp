@@ -1,0 +1,180 @@
+// ODE's dCollide with the drop-in.
+#include "reference/engines/ode.hpp"
+
+#include <thread>
+
+#include "candidates/ode_library.hpp"
+#include "reference/engines/drop_in_test.hpp"
+
+namespace touchstone {
+namespace {
+
+dGeomID make_geom(const Shape& shape, const Pose& pose) {
+  const auto at = [&](dGeomID geom) {
+    const Vec3& x = pose.position();
+    const Eigen::Quaterniond q = pose.unit_orientation();
+    const dQuaternion turned = {q.w(), q.x(), q.y(), q.z()};
+    dGeomSetPosition(geom, x.x(), x.y(), x.z());
+    dGeomSetQuaternion(geom, turned);
+    return geom;
+  };
+  if (const auto* s = std::get_if<Cylinder>(&shape)) {
+    return at(dCreateCylinder(nullptr, s->radius(), 2 * s->half_length()));
+  }
+  if (const auto* s = std::get_if<Capsule>(&shape)) {
+    return at(dCreateCapsule(nullptr, s->radius(), 2 * s->half_length()));
+  }
+  if (const auto* s = std::get_if<Sphere>(&shape)) return at(dCreateSphere(nullptr, s->radius()));
+  if (const auto* s = std::get_if<Box>(&shape)) {
+    const Vec3 lengths = 2 * s->half_extents();
+    return at(dCreateBox(nullptr, lengths.x(), lengths.y(), lengths.z()));
+  }
+  const auto& plane = std::get<Plane>(shape);
+  const Vec3 n = pose.rotation() * plane.unit_normal();
+  return dCreatePlane(nullptr, n.x(), n.y(), n.z(),
+                      plane.unit_displacement() + n.dot(pose.position()));
+}
+
+class Geoms {
+ public:
+  explicit Geoms(const Configuration& c)
+      : a(make_geom(c.a, c.pose_a)), b(make_geom(c.b, c.pose_b)) {}
+  ~Geoms() {
+    dGeomDestroy(a);
+    dGeomDestroy(b);
+  }
+  Geoms(const Geoms&) = delete;
+  Geoms& operator=(const Geoms&) = delete;
+  dGeomID a, b;
+};
+
+constexpr int all_points = 16;
+
+/// Normals from the second geom to the first.
+std::vector<EnginePoint> collide(dGeomID first, dGeomID second, int max_points = all_points) {
+  dContact contacts[all_points];  // the geometry lies at a stride within them
+  const int count = dCollide(first, second, max_points, &contacts[0].geom, sizeof(dContact));
+  std::vector<EnginePoint> points;
+  for (int i = 0; i < count; ++i) {
+    const dContactGeom& c = contacts[i].geom;
+    EXPECT_EQ(c.g1, first);
+    EXPECT_EQ(c.g2, second);
+    points.push_back({Vec3(c.pos), Vec3(c.normal), c.depth});
+  }
+  return points;
+}
+
+class OdeDropIn : public testing::Test {
+ protected:
+  static void SetUpTestSuite() { initialise_ode(); }
+  void SetUp() override { ode::install(); }
+  void TearDown() override { ode::uninstall(); }
+};
+
+TEST_F(OdeDropIn, AnswersEveryPairInBothOrders) {
+  for (const Pair pair : all_pairs) {
+    for (const Identity& id : everyday_poses(pair, 10)) {
+      const Configuration c = make_configuration(id);
+      SCOPED_TRACE(to_string(id));
+      const Geoms geoms(c);
+      expect_as_ours(c, 0, 8, collide(geoms.a, geoms.b), 1e-12);
+      auto points = collide(geoms.b, geoms.a);
+      for (EnginePoint& p : points) p.normal = -p.normal;
+      expect_as_ours(c, 0, 8, points, 1e-12);
+    }
+  }
+}
+
+/// A face's edges cut a cap that stands on it: more points than most callers ask for.
+const Configuration cut_cap{Cylinder(1, 1), Pose(Vec3(0.3, 0.2, 1.99)), Box({1, 0.9, 1}), Pose()};
+
+TEST_F(OdeDropIn, GivesAsManyPointsAsAreAskedForAndWritesNoMore) {
+  const Geoms geoms(cut_cap);
+  const std::size_t all = collide(geoms.a, geoms.b).size();
+  ASSERT_GT(all, 4u);
+  for (int limit = 1; limit <= 8; ++limit) {
+    const auto points = collide(geoms.a, geoms.b, limit);
+    EXPECT_EQ(points.size(), std::min<std::size_t>(limit, all));
+    for (const EnginePoint& p : points) EXPECT_NEAR(p.depth, 0.01, 1e-12);
+    dContactGeom contacts[9] = {};
+    contacts[limit].depth = -1;
+    dCollide(geoms.a, geoms.b, limit, contacts, sizeof(dContactGeom));
+    EXPECT_EQ(contacts[limit].depth, -1);
+  }
+}
+
+TEST_F(OdeDropIn, AnswersGeomsWithOffsetsAndInSpaces) {
+  const dWorldID world = dWorldCreate();
+  const dBodyID body = dBodyCreate(world);
+  const dSpaceID space = dSimpleSpaceCreate(nullptr);
+  const dGeomID box = dCreateBox(nullptr, 4, 4, 2), can = dCreateCylinder(space, 0.5, 2);
+  dGeomSetBody(can, body);
+  dGeomSetOffsetPosition(can, 0, 0, 0.5);
+  dBodySetPosition(body, 0, 0, 1.49);
+  EXPECT_EQ(collide(can, box).size(), 3u);
+  dContactGeom contacts[8];
+  EXPECT_EQ(dCollide(reinterpret_cast<dGeomID>(space), box, 8, contacts, sizeof(dContactGeom)), 3);
+  EXPECT_NEAR(contacts[0].depth, 0.01, 1e-12);
+  dSpaceDestroy(space);
+  dGeomDestroy(box);
+  dWorldDestroy(world);
+}
+
+TEST_F(OdeDropIn, HasNoContactWithAPoseThatIsNotFinite) {
+  const Geoms geoms(cut_cap);
+  dGeomSetPosition(geoms.a, NAN, 0, 0);
+  EXPECT_TRUE(collide(geoms.a, geoms.b).empty());
+}
+
+TEST_F(OdeDropIn, LetsThreadsCollideAtOnce) {
+  const auto answers = [] {
+    std::vector<double> depths;
+    for (const Identity& id : everyday_poses(Pair::cylinder, 2)) {
+      const Configuration c = make_configuration(id);
+      const Geoms geoms(c);
+      for (const EnginePoint& p : collide(geoms.a, geoms.b)) depths.push_back(p.depth);
+    }
+    return depths;
+  };
+  const auto alone = answers();
+  std::vector<double> at_once[2];
+  std::vector<std::thread> threads;
+  for (auto& result : at_once) {
+    threads.emplace_back([&] {
+      dAllocateODEDataForThread(dAllocateMaskAll);
+      result = answers();
+      dCleanupODEAllDataForThread();
+    });
+  }
+  for (std::thread& t : threads) t.join();
+  for (const auto& result : at_once) EXPECT_EQ(result, alone);
+}
+
+TEST_F(OdeDropIn, UninstallGivesBackOdesOwnAnswers) {
+  ode::uninstall();
+  const auto answers = [] {
+    std::vector<double> numbers;
+    for (const Pair pair : all_pairs) {
+      for (const Identity& id : everyday_poses(pair, 3)) {
+        const Geoms geoms(make_configuration(id));
+        for (const auto& points : {collide(geoms.a, geoms.b), collide(geoms.b, geoms.a)}) {
+          for (const EnginePoint& p : points) {
+            for (int i = 0; i < 3; ++i)
+              numbers.push_back(p.position[i]), numbers.push_back(p.normal[i]);
+            numbers.push_back(p.depth);
+          }
+        }
+      }
+    }
+    return numbers;
+  };
+  const auto before = answers();
+  ode::install();
+  ode::install();
+  EXPECT_NE(answers(), before);
+  EXPECT_TRUE(ode::uninstall());
+  EXPECT_EQ(answers(), before);
+}
+
+}  // namespace
+}  // namespace touchstone
