@@ -15,6 +15,7 @@
 #include "reports/stability/measure.hpp"
 #include "reports/terminal_table.hpp"
 #include "reports/worst.hpp"
+#include "simulation/engines/run_engines.hpp"
 #include "simulation/experiment.hpp"
 #include "simulation/run_experiments.hpp"
 
@@ -60,6 +61,22 @@ struct Options {
     return e;
   }
 
+  /// Those of the engines that are among the candidates.
+  EngineOptions engines() const {
+    EngineOptions e;
+    e.experiments = engine_experiments();
+    for (const std::string& engine : all_engines()) {
+      // In single precision nothing but rounding would be new.
+      const auto is_it = [&](const Candidate* c) { return c->name == engine; };
+      const auto candidates = scored.candidates.get();
+      if (engine != "bullet-float" && std::any_of(candidates.begin(), candidates.end(), is_it)) {
+        e.engines.push_back(engine);
+      }
+    }
+    e.workers = workers.get();
+    return e;
+  }
+
   /// The command that gives the same report again.
   std::string command_line() const { return program_name() + " report" + scored.command_line(); }
 };
@@ -79,6 +96,8 @@ int run(const Options& options) {
     const Study study{campaign.candidates, campaign.bar, campaign.limits, campaign.workers};
     report.stability = measure(brief(study, campaign.pairs, campaign.seed));
     report.experiments = run_experiments(options.experiments());
+    const EngineOptions engines = options.engines();
+    if (!engines.engines.empty() && !interrupted()) report.engines = run_engines(engines);
     report.wall_seconds +=
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
@@ -86,6 +105,7 @@ int run(const Options& options) {
   write_report(report, options.out);
   fmt::print("{}\n{} configurations, truth certified to 1e-30 of the larger size, {:.0f} s.\n",
              terminal_table(report), report.configurations, report.wall_seconds);
+  if (report.engines) fmt::print("\n{}\n", engines_summary(*report.engines));
   fmt::print("Report: {}/report.html, {}/report.json\n", options.out, options.out);
   if (!options.figures.empty()) {
     write_figures(report, options.figures);

@@ -151,10 +151,8 @@ const std::vector<const Experiment*>& engine_experiments() {
 }
 
 const Experiment& find_experiment(const std::string& name) {
-  for (const Experiment& e : added_for_engines()) {
-    if (e.name == name) return e;
-  }
-  return named(all_experiments(), name, "experiment");
+  static const std::vector<Experiment> known = joined({all_experiments(), added_for_engines()});
+  return named(known, name, "experiment");
 }
 
 }  // namespace touchstone

@@ -43,6 +43,11 @@ TEST_P(EveryExperiment, IsPassedByOurContacts) {
 std::vector<std::string> names() {
   std::vector<std::string> result;
   for (const Experiment& e : all_experiments()) result.push_back(e.name);
+  // Of those for engines, the others ask more of the solver than QuickStep gives: engines_test.cpp
+  // holds them with solvers at their best.
+  for (const char* name : {"log", "small-log", "disc-on-log", "sliding", "wheel"}) {
+    result.emplace_back(name);
+  }
   return result;
 }
 INSTANTIATE_TEST_SUITE_P(, EveryExperiment, testing::ValuesIn(names()), [](const auto& name) {

@@ -83,6 +83,29 @@ std::string engines_table(const EngineResults& all) {
          "rests: time after which nothing moves, s; gained: rise of energy, weight x size\n";
 }
 
+std::string engines_summary(const EngineResults& all) {
+  std::string text = fmt::format("{:<16}", "error");
+  for (const EngineDescription& e : all.engines) text += fmt::format(" {:<20}", e.name);
+  const auto brief = [](const ExperimentResult& r) {
+    return r.outcome == Outcome::measured ? number(r.error, "{:.1e}") : std::string("lost");
+  };
+  for (const ExperimentDescription& e : all.experiments) {
+    text += fmt::format("\n{:<16}", e.name);
+    for (const EngineResult& r : all.results) {
+      if (r.experiment != e.name) continue;
+      const char* mark = r.cure == Cure::held     ? " ="
+                         : r.cure == Cure::nearer ? " +"
+                         : r.cure == Cure::solver ? " *"
+                                                  : "";
+      text += fmt::format(" {:<20}", brief(r.own) + " -> " + brief(r.cured) + mark);
+    }
+    text.erase(text.find_last_not_of(' ') + 1);
+  }
+  return text +
+         "\n\nIn each engine's own world, with its contacts -> with ours: = held, as on paper;\n"
+         "+ ten times nearer; * held with the engine's solver at its best\n";
+}
+
 nlohmann::json to_json(const EngineResults& all) {
   using nlohmann::json;
   json engines = json::array(), experiments = json::array(), results = json::array();

@@ -86,6 +86,11 @@ std::string to_text(const EngineResult& r) {
 }
 
 EngineDescription describe(const std::string& engine) {
+  if (!std::filesystem::exists(module_file(engine))) {
+    std::string names;
+    for (const std::string& name : all_engines()) names += (names.empty() ? "" : ", ") + name;
+    throw InvalidInput("--engine", '"' + engine + '"', "must be one of " + names);
+  }
   const Contained told = run_contained(
       [&] {
         const EngineModule& module = load(engine);
@@ -93,7 +98,8 @@ EngineDescription describe(const std::string& engine) {
       },
       max_seconds);
   if (told.end != Contained::End::returned) {
-    throw InvalidInput("--engine", '"' + engine + '"', "cannot be loaded: " + told.text);
+    throw InvalidInput("--engine", '"' + engine + '"',
+                       "must be an engine that can be loaded: " + told.text);
   }
   const auto text = nlohmann::json::parse(told.text);
   return {engine, text[0], text[1], text[2]};
@@ -114,15 +120,16 @@ class Glimpse : public Simulation {
   std::vector<BodyState> states_;
 };
 
-Scene scene_of(const Experiment& experiment, double step) {
-  std::optional<Scene> scene;
+/// The scenes that an experiment begins.
+std::vector<Scene> scenes_of(const Experiment& experiment, double step) {
+  std::vector<Scene> scenes;
   experiment.run(
-      [&](const Scene& begun) {
-        if (!scene) scene = begun;
-        return std::make_unique<Glimpse>(begun);
+      [&](const Scene& scene) {
+        scenes.push_back(scene);
+        return std::make_unique<Glimpse>(scene);
       },
       step);
-  return *scene;
+  return scenes;
 }
 
 /// Another simulation, with every `every`-th frame kept.
@@ -142,16 +149,7 @@ class Recorded : public Simulation {
   bool sound() const override { return other_->sound(); }
 
  private:
-  void keep() {
-    for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
-      if (scene_.bodies[i].fixed) continue;
-      const Vec3& p = states()[i].pose.position();
-      const Eigen::Quaterniond q = states()[i].pose.unit_orientation();
-      for (const double x : {p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z()}) {
-        poses_.push_back(static_cast<float>(x));
-      }
-    }
-  }
+  void keep() { append_poses(scene_, states(), poses_); }
 
   const Scene& scene_;
   std::unique_ptr<Simulation> other_;
@@ -232,10 +230,26 @@ EngineResults run_engines(const EngineOptions& options) {
   return results;
 }
 
+void append_poses(const Scene& scene, const std::vector<BodyState>& states,
+                  std::vector<float>& poses) {
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    if (scene.bodies[i].fixed) continue;
+    const Vec3& p = states[i].pose.position();
+    const Eigen::Quaterniond q = states[i].pose.unit_orientation();
+    for (const double x : {p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z()}) {
+      poses.push_back(static_cast<float>(x));
+    }
+  }
+}
+
+bool is_one_run(const Experiment& experiment, double step) {
+  return scenes_of(experiment, step).size() == 1;
+}
+
 Motion record_motion(const Experiment& experiment, const std::string& engine,
                      const EngineSetup& setup, double step) {
   constexpr double frames_per_second = 60;
-  Motion motion{scene_of(experiment, step), 0, {}};
+  Motion motion{scenes_of(experiment, step).front(), 0, {}};
   const int every =
       std::max(1, static_cast<int>(1 / (frames_per_second * motion.scene.step) + 0.5));
   motion.interval = every * motion.scene.step;

@@ -72,18 +72,25 @@ Cure cure_of(const ExperimentResult& own, const ExperimentResult& cured,
 /// The motion of one run, as a page shows it.
 struct Motion {
   Scene scene;
-  double interval = 0;  ///< s, between frames
-  /// Position and orientation (w, x, y, z) of every moving body, frame by frame; the frames end
-  /// where the run did.
-  std::vector<float> poses;
+  double interval = 0;       ///< s, between frames
+  std::vector<float> poses;  ///< of all frames (append_poses); they end where the run did
 };
 
-/// Runs an experiment that is a single run once more, and keeps its motion.
+/// Appends position and orientation (w, x, y, z) of every moving body.
+void append_poses(const Scene& scene, const std::vector<BodyState>& states,
+                  std::vector<float>& poses);
+
+/// Whether an experiment is a single run of one scene, which can be shown.
+bool is_one_run(const Experiment& experiment, double step);
+
+/// Runs such an experiment once more, and keeps its motion. Throws std::runtime_error if the engine
+/// ends it.
 Motion record_motion(const Experiment& experiment, const std::string& engine,
                      const EngineSetup& setup, double step);
 
-/// Table for a terminal of 80 columns.
+/// Tables for a terminal of 80 columns: of all that is measured; of the errors alone, for a report.
 std::string engines_table(const EngineResults& results);
+std::string engines_summary(const EngineResults& results);
 
 /// The member `engines` of report.json (docs/inside-the-engines.md).
 nlohmann::json to_json(const EngineResults& results);
