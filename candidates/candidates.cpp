@@ -43,8 +43,9 @@ std::filesystem::path own_folder() {
   return std::filesystem::read_symlink("/proc/self/exe").parent_path();
 }
 
-/// The folder of the standard plug-ins: in the build tree above the program (tests and the Python
-/// module lie two folders deep), or under the prefix of an installed one.
+}  // namespace
+
+// Tests and the Python module lie two folders deep.
 std::filesystem::path standard_folder() {
   auto own = own_folder();
   for (const char* folder : {"candidates", "../candidates", "../../candidates", "../lib/touchstone",
@@ -54,6 +55,8 @@ std::filesystem::path standard_folder() {
   }
   return own;
 }
+
+namespace {
 
 std::filesystem::path standard_file(std::string_view name) {
   return standard_folder() / ("touchstone-" + std::string(name) + ".so");

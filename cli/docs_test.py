@@ -87,7 +87,7 @@ for case in judge.read("suite/touchstone-suite-1.csv.gz"):
 def shortened(arguments):
     """The arguments that the program is given in place of a page's."""
     command = next((a for a in arguments if a in SHORTER), None)
-    if command is None or "--help" in arguments:
+    if command is None or "--help" in arguments or "--engine" in arguments:
         return arguments
     for option, value in SHORTER[command].items():
         if option not in arguments:

@@ -16,6 +16,7 @@
 #include "reports/stability/measure.hpp"
 #include "reports/terminal_table.hpp"
 #include "reports/worst.hpp"
+#include "simulation/engines/run_engines.hpp"
 #include "simulation/experiment.hpp"
 #include "simulation/run_experiments.hpp"
 
@@ -39,7 +40,8 @@ const std::vector<Part>& parts() {
       {"scores", {{"configurations", 45}}},
       {"timing", {{"pose classes timed", 20}}},
       {"stability", {{"perturbed poses", 8}, {"pixels", 6}, {"steps", 4}}},
-      {"experiments", {{"experiments", 17}}},
+      {"experiments", {{"experiments", 14}}},
+      {"engines", {{"experiments in engines", 6}}},
   };
   return all;
 }
@@ -59,7 +61,7 @@ struct Options {
       const auto is = [&](const Part& p) { return p.name == name; };
       if (std::none_of(parts().begin(), parts().end(), is)) {
         throw InvalidInput("--only", '"' + name + '"',
-                           "must be of scores, timing, stability, experiments");
+                           "must be of scores, timing, stability, experiments, engines");
       }
     }
     if (part == "scores") return true;
@@ -90,6 +92,22 @@ struct Options {
     e.candidates = scored.candidates.get();
     e.workers = workers.get();
     e.limits = scored.candidates.limits();
+    return e;
+  }
+
+  /// Those of the engines that are among the candidates.
+  EngineOptions engines() const {
+    EngineOptions e;
+    e.experiments = engine_experiments();
+    for (const std::string& engine : all_engines()) {
+      // In single precision nothing but rounding would be new.
+      const auto is_it = [&](const Candidate* c) { return c->name == engine; };
+      const auto candidates = scored.candidates.get();
+      if (engine != "bullet-float" && std::any_of(candidates.begin(), candidates.end(), is_it)) {
+        e.engines.push_back(engine);
+      }
+    }
+    e.workers = workers.get();
     return e;
   }
 
@@ -127,12 +145,17 @@ int run(const Options& options) {
   if (options.has("experiments") && !interrupted()) {
     report.experiments = run_experiments(options.experiments());
   }
+  const EngineOptions engines = options.engines();
+  if (options.has("engines") && !engines.engines.empty() && !interrupted()) {
+    report.engines = run_engines(engines);
+  }
   report.wall_seconds +=
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   report.partial = report.partial || interrupted();
   write_report(report, options.out);
   fmt::print("{}\n{} configurations, truth certified to 1e-30 of the larger size, {:.0f} s.\n",
              terminal_table(report), report.configurations, report.wall_seconds);
+  if (report.engines) fmt::print("\n{}\n", engines_summary(*report.engines));
   fmt::print("Report: {}/report.html, {}/report.json\n", options.out, options.out);
   if (!options.figures.empty()) {
     write_figures(report, options.figures);
@@ -148,7 +171,7 @@ void add_report(Program& program) {
   const auto options = std::make_shared<Options>(command);
   command
       .list("--only", options->only,
-            "Only these parts of scores (always made), timing, stability, experiments")
+            "Only these parts of scores (always made), timing, stability, experiments, engines")
       .value("REPORT-PART");
   command.text("--out", options->out, "Folder for report.json and report.html").value("FOLDER");
   command

@@ -4,10 +4,14 @@
 
 #include <nlohmann/json.hpp>
 
+#include "candidates/host/interruption.hpp"
 #include "cli/command.hpp"
 #include "cli/options.hpp"
 #include "properties/files/disk.hpp"
 #include "reference/invalid_input.hpp"
+#include "reports/engines_page.hpp"
+#include "reports/worst.hpp"
+#include "simulation/engines/run_engines.hpp"
 #include "simulation/experiment.hpp"
 #include "simulation/run_experiments.hpp"
 #include "simulation/scenes/choose.hpp"
@@ -16,12 +20,15 @@
 namespace touchstone {
 namespace {
 
+const std::vector<double> default_steps = {1.0 / 60, 1.0 / 240, 1.0 / 960};
+
 struct Options {
   explicit Options(Command& command) : candidates(command), workers(command) {}
   CandidateOption candidates;
   WorkersOption workers;
   std::vector<std::string> names;
-  std::vector<double> steps = {1.0 / 60, 1.0 / 240, 1.0 / 960};
+  std::vector<double> steps = default_steps;
+  std::vector<std::string> engines;
   std::string out, record;
   RecordingOptions recording;
   bool json = false;
@@ -37,6 +44,32 @@ struct Options {
     e.steps = steps;
     e.workers = workers.get();
     return e;
+  }
+
+  EngineOptions in_engines() const {
+    EngineOptions e;
+    for (const auto& name : names) e.experiments.push_back(&find_experiment(name));
+    if (names.empty()) e.experiments = engine_experiments();
+    e.engines = engines;
+    if (candidates.is_given()) {
+      throw InvalidInput("--engine", fmt::format("{}", fmt::join(engines, ",")),
+                         "leaves no choice of --candidates: each has its own contacts and ours");
+    }
+    if (steps != default_steps && steps.size() > 1) {
+      throw InvalidInput("--step", fmt::format("{}", fmt::join(steps, ",")),
+                         "must be one number with --engine");
+    }
+    if (steps.size() == 1) e.step = steps.front();
+    e.workers = workers.get();
+    return e;
+  }
+
+  /// The command that gives the same result in the engines again.
+  std::string engines_command() const {
+    std::string line = program_name() + " simulate";
+    for (const auto& name : names) line += ' ' + name;
+    line += fmt::format(" --engine {}", fmt::join(engines, ","));
+    return steps.size() == 1 ? line + fmt::format(" --step {}", steps.front()) : line;
   }
 };
 
@@ -65,8 +98,25 @@ int record(const Options& options) {
   return 0;
 }
 
+int simulate_in_engines(const Options& options) {
+  const EngineOptions chosen = options.in_engines();
+  if (!options.out.empty()) check_writable(options.out);
+  const Interruption interruption;
+  const EngineResults results = run_engines(chosen);
+  const nlohmann::json json = to_json(results);
+  fmt::print("{}", options.json ? json.dump() + '\n' : engines_table(results));
+  if (interrupted()) return interrupted_exit_code();
+  if (options.out.empty()) return 0;
+  write_file(options.out + "/engines.json", json.dump(1) + '\n', "--out");
+  write_file(options.out + "/engines.html", engines_page(results, options.engines_command()),
+             "--out");
+  if (!options.json) fmt::print("\nPage: {0}/engines.html; data: {0}/engines.json\n", options.out);
+  return 0;
+}
+
 int run(const Options& options) {
   if (!options.record.empty()) return record(options);
+  if (!options.engines.empty()) return simulate_in_engines(options);
   const ExperimentOptions experiments = options.experiments();
   if (!options.out.empty()) check_writable(options.out);
   const ExperimentResults results = run_experiments(experiments);
@@ -79,10 +129,9 @@ int run(const Options& options) {
 
 std::string experiment_list() {
   std::string text = "Experiments:\n";
-  for (const Experiment& e : all_experiments()) {
-    text += list_entry(e.name, 15, e.statement);
-  }
-  return text;
+  for (const Experiment* e : engine_experiments()) text += list_entry(e->name, 15, e->statement);
+  const Experiment& tunnelling = find_experiment("tunnelling");
+  return text + list_entry(tunnelling.name, 15, tunnelling.statement);
 }
 
 }  // namespace
@@ -94,10 +143,20 @@ void add_simulate(Program& program) {
       .arguments("experiments", options->names,
                  "Only these experiments; with --record, scene files")
       .value("EXPERIMENT");
+  const Option engine =
+      command
+          .list("--engine", options->engines,
+                "Run in these engines' own worlds, with their contacts and with ours: bullet, "
+                "bullet-float, ode, mujoco (docs/inside-the-engines.md)")
+          .value("ENGINE");
   command.numbers("--step", options->steps, {1e-5, 0.1},
-                  "Steps of time, seconds, separated by commas (default: 1/60, 1/240, 1/960)");
+                  "Steps of time, seconds, separated by commas (default: 1/60, 1/240, 1/960; with "
+                  "--engine 1/240)");
   const Option out =
-      command.text("--out", options->out, "Folder for experiments.json").value("FOLDER");
+      command
+          .text("--out", options->out,
+                "Folder for experiments.json; with --engine for engines.json, engines.html")
+          .value("FOLDER");
   const Option json = command.flag("--json", options->json, "Print one JSON object");
   const char* recording = "Of scenes, with exact contacts";
   command
@@ -105,6 +164,7 @@ void add_simulate(Program& program) {
             "File for configurations near contact that occur in the scenes (docs/scenes.md)")
       .value("FILE")
       .excludes(out)
+      .excludes(engine)
       .excludes(json)
       .group(recording);
   command
@@ -118,6 +178,7 @@ void add_simulate(Program& program) {
       "  touchstone simulate rolling\n"
       "  touchstone simulate standing --candidates reference,bullet --step 0.004\n"
       "  touchstone simulate --out out\n"
+      "  touchstone simulate small-log --engine bullet --out out\n"
       "  touchstone simulate simulation/scenes/conveyor.json --record recorded.jsonl\n" +
       experiment_list());
   command.runs([options] { return run(*options); });

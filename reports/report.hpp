@@ -13,6 +13,7 @@
 #include "properties/recorded.hpp"
 #include "reports/stability/stability.hpp"
 #include "reports/statistics.hpp"
+#include "simulation/engines/run_engines.hpp"
 #include "simulation/run_experiments.hpp"
 
 namespace touchstone {
@@ -184,6 +185,7 @@ struct Report {
   // Of a whole report, all pairs and classes:
   std::optional<Stability> stability;
   std::optional<ExperimentResults> experiments;
+  std::optional<EngineResults> engines;
 };
 
 }  // namespace touchstone

@@ -285,6 +285,7 @@ json to_json(const Report& report) {
                  {"worst", array_of(report.worst)}};
   if (report.stability) result["stability"] = to_json(*report.stability);
   if (report.experiments) result["experiments"] = to_json(*report.experiments);
+  if (report.engines) result["engines"] = to_json(*report.engines);
   return result;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "properties/moves.hpp"
 #include "simulation/world.hpp"
@@ -17,11 +18,12 @@ inline constexpr double steel = 7800;  ///< kg/m³
 
 inline double radians(double degrees) { return degrees * std::numbers::pi / 180; }
 
-inline Body fixed_body(const char* name, const Shape& shape, double friction,
+inline Body fixed_body(const std::string& name, const Shape& shape, double friction,
                        const Pose& pose = {}) {
   return {name, shape, steel, {friction, 0}, pose, Vec3::Zero(), Vec3::Zero(), true};
 }
-inline Body moving_body(const char* name, const Shape& shape, double friction, const Pose& pose) {
+inline Body moving_body(const std::string& name, const Shape& shape, double friction,
+                        const Pose& pose) {
   return {name, shape, steel, {friction, 0}, pose};
 }
 inline Body ground(double friction) {
@@ -48,6 +50,12 @@ inline constexpr double touching = 1e-9;
 /// Overlap, metres, of stacked bodies at the start: the middle of the surface layer, so that the
 /// residual of the solver opens no contact. Nothing depends on this overlap.
 inline double middle_of_layer(const Scene& scene) { return scene.surface_layer / 2; }
+
+/// Kinetic energy, in weight × size, below which a body is at rest: a thousandth of what a fall of
+/// one step gives, which is about what an iterative solver leaves of it.
+inline double rest_energy(double step, double size) {
+  return 1e-3 * gravity * step * step / (2 * size);
+}
 
 // Resolution of an experiment: how far from the value on paper exact contacts may end, whichever
 // points they consist of. It follows from the overlap at the start, the world's settings, the step

@@ -1,9 +1,11 @@
 // Rolling and spinning bodies obey their laws of motion.
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "simulation/experiment.hpp"
 #include "simulation/experiment_setup.hpp"
+#include "simulation/world.hpp"
 
 namespace touchstone {
 namespace {
@@ -34,7 +36,7 @@ double ripple(const std::vector<double>& speeds) {
   return speeds.empty() || speeds.back() == 0 ? 0 : largest / std::abs(speeds.back());
 }
 
-Measurement rolling(ContactModel& model, double step) {
+Measurement rolling(const Simulator& simulator, double step) {
   Scene scene;
   scene.step = step;
   scene.duration = rolling_time;
@@ -46,10 +48,10 @@ Measurement rolling(ContactModel& model, double step) {
   scene.bodies = {fixed_body("slope", Plane(Vec3::UnitZ(), 0), 0.5, Pose(Vec3::Zero(), turn)),
                   moving_body("can", Cylinder(can_radius, can_half_length), 0.5,
                               Pose(start, turn * across * about(Vec3::UnitZ(), 0.7)))};
-  Run run(scene, model, can_radius);
+  Run run(scene, simulator, can_radius);
   std::vector<double> speeds;
-  while (run.step()) speeds.push_back(down.dot(run.world().states()[1].velocity));
-  const Vec3 way = run.world().states()[1].pose.position() - start;
+  while (run.step()) speeds.push_back(down.dot(run.states()[1].velocity));
+  const Vec3 way = run.states()[1].pose.position() - start;
   const double expected = rolling_distance(step), found = down.dot(way);
   return {
       found, (way - expected * down).norm() / expected, run.tally(), {{"ripple", ripple(speeds)}}};
@@ -73,7 +75,7 @@ double coin_rate(double lean) {
 constexpr int coin_substeps = 8;
 constexpr double coin_time = 2;  // s
 
-Measurement spinning_coin(ContactModel& model, double step) {
+Measurement spinning_coin(const Simulator& simulator, double step) {
   Scene scene;
   scene.step = step / coin_substeps;
   scene.duration = coin_time;
@@ -85,11 +87,11 @@ Measurement spinning_coin(ContactModel& model, double step) {
   body.angular_velocity = -rate * std::sin(coin_lean) / r * (r * to_lowest - h * axis);
   scene.bodies = {ground(1), body};
 
-  Run run(scene, model, r);
+  Run run(scene, simulator, r);
   double angle = 0;
   Vec3 last = axis;
   while (run.step()) {
-    const Vec3 now = run.world().states()[1].pose.axis();
+    const Vec3 now = run.states()[1].pose.axis();
     angle += std::atan2(last.x() * now.y() - last.y() * now.x(),
                         last.x() * now.x() + last.y() * now.y());
     last = now;
@@ -126,7 +128,97 @@ class LowestPoint : public ContactModel {
 /// Twice the error of the integrator, which is measured with the closed form.
 double coin_resolution(double step) {
   LowestPoint exact;
-  return 2 * spinning_coin(exact, step).error;
+  return 2 * spinning_coin(in_our_world(exact), step).error;
+}
+
+// A can slides on end over a level box, along a direction in which a friction pyramid is exact,
+// until friction has stopped it. It does not tip: friction times height is less than its radius.
+constexpr double sliding_friction = 0.3, sliding_speed = 2;  // m/s
+constexpr double sliding_half_length = 0.25;
+
+/// Semi-implicit Euler: each step's way is with the speed at its end.
+double sliding_distance(double step) {
+  double way = 0, speed = sliding_speed;
+  while ((speed -= sliding_friction * gravity * step) > 0) way += speed * step;
+  return way;
+}
+
+Measurement sliding(const Simulator& simulator, double step) {
+  Scene scene;
+  scene.step = step;
+  scene.duration = 2;
+  const Vec3 half(3, 1, 0.25), start(-0.5, 0.2, half.z() + sliding_half_length - touching);
+  Body can = moving_body("can", Cylinder(can_radius, sliding_half_length), sliding_friction,
+                         Pose(start, about(Vec3::UnitZ(), 0.3)));
+  can.velocity = sliding_speed * Vec3::UnitX();
+  scene.bodies = {fixed_body("box", Box(half), sliding_friction), can};
+  Run run(scene, simulator, can_radius);
+  while (run.step()) {
+  }
+  const Vec3 way = run.states()[1].pose.position() - start;
+  const double expected = sliding_distance(step);
+  return {way.x(), (way - expected * Vec3::UnitX()).norm() / expected, run.tally()};
+}
+
+/// The can may lean and sink in the surface layer, and stops within a step.
+double sliding_resolution(double step) {
+  const double leaning = displacement_within_layer(Scene{}.surface_layer, 1.5 * can_radius,
+                                                   sliding_half_length, sliding_half_length);
+  return (leaning + sliding_friction * gravity * step * step) / sliding_distance(step);
+}
+
+// A wheel rolls up three steps of height s. At each it turns about the step's edge, about which its
+// angular momentum stays: its speed v becomes v (1 − 2 s / (3 r)) at the impact; then it climbs,
+// and its energy 3/4 m v² loses m g s. It is slow enough not to leave the edge: v² < g (r − s).
+constexpr double wheel_radius = 0.3, wheel_half_length = 0.06, wheel_speed = 1.2;  // m, m, m/s
+constexpr double step_height = 0.015, step_distance = 0.4;                         // m
+constexpr int road_steps = 3;
+
+/// Speeds before each step, and after the last.
+std::vector<double> wheel_speeds() {
+  std::vector<double> speeds = {wheel_speed};
+  for (int i = 0; i < road_steps; ++i) {
+    const double left = speeds.back() * (1 - 2 * step_height / (3 * wheel_radius));
+    speeds.push_back(std::sqrt(left * left - 4.0 / 3 * gravity * step_height));
+  }
+  return speeds;
+}
+
+Measurement wheel(const Simulator& simulator, double step) {
+  Scene scene;
+  scene.step = step;
+  scene.duration = 2;
+  const Vec3 start(0, 0, wheel_radius - touching);
+  Body body = moving_body("wheel", Cylinder(wheel_radius, wheel_half_length), 0.9,
+                          Pose(start, about(Vec3::UnitX(), -std::numbers::pi / 2)));
+  body.velocity = wheel_speed * Vec3::UnitX();
+  body.angular_velocity = wheel_speed / wheel_radius * Vec3::UnitY();
+  scene.bodies = {ground(0.9)};
+  for (int i = 1; i <= road_steps; ++i) {
+    const Vec3 half(1.5, 0.5, i * step_height / 2);
+    scene.bodies.push_back(fixed_body("step-" + std::to_string(i), Box(half), 0.9,
+                                      Pose(Vec3(i * step_distance + half.x(), 0, half.z()))));
+  }
+  scene.bodies.push_back(body);
+  Run run(scene, simulator, wheel_radius);
+  while (run.step()) {
+  }
+  const Vec3 velocity = run.states().back().velocity;
+  const double expected = wheel_speeds().back();
+  return {velocity.x(), (velocity - expected * Vec3::UnitX()).norm() / expected, run.tally()};
+}
+
+/// An edge is met up to one step late, at an angle φ that is less by v step / (r cos φ), and the
+/// turn about it consists of chords; the overlap is pushed apart at a fifth of its depth per step.
+double wheel_resolution(double step) {
+  const double cosine = 1 - step_height / wheel_radius, angle = std::acos(cosine);
+  const std::vector<double> speeds = wheel_speeds();
+  double squares = 0;  // errors of v²
+  for (int i = 0; i < road_steps; ++i) {
+    const double v = speeds[i], late = v * step / wheel_radius, push = 0.2 * v * std::sin(angle);
+    squares += (4.0 / 3 * std::tan(angle) + angle) * late * v * v + push * push;
+  }
+  return squares / (2 * speeds.back() * speeds.back());
 }
 
 }  // namespace
@@ -139,6 +231,17 @@ std::vector<Experiment> moving_experiments() {
            "and keeps its lean.",
            "angle gone round in 2 s, radians", "relative, of angle or lean", spinning_coin,
            [](double) { return coin_rate(coin_lean) * coin_time; }, coin_resolution}};
+}
+
+std::vector<Experiment> moving_in_engines() {
+  return {
+      {"sliding", "A can that slides on end over a box stops after v²/(2 μ g), straight.",
+       "distance, m", "relative", sliding, sliding_distance, sliding_resolution},
+      {"wheel",
+       "A wheel that rolls up three low steps loses 2 s/(3 r) of its speed at each edge, and the "
+       "energy of its climb.",
+       "speed at the end, m/s", "relative", wheel, [](double) { return wheel_speeds().back(); },
+       wheel_resolution}};
 }
 
 }  // namespace touchstone

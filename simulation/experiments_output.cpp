@@ -20,18 +20,28 @@ const char* name_of(Outcome outcome) {
       return "unsupported";
     case Outcome::unsound:
       return "unsound";
+    case Outcome::crashed:
+      return "crashed";
+    case Outcome::timed_out:
+      return "timed-out";
   }
   return "";
 }
 
 json finite(double x) { return std::isfinite(x) ? json(x) : json(nullptr); }
 
-json result_json(const ExperimentResult& r) {
+}  // namespace
+
+json to_json(const ExperimentResult& r) {
   json result = {{"experiment", r.experiment},
                  {"candidate", r.candidate},
                  {"step", r.step},
                  {"outcome", name_of(r.outcome)}};
   if (r.outcome == Outcome::unsupported) return result;
+  if (r.outcome == Outcome::crashed || r.outcome == Outcome::timed_out) {
+    result["reason"] = r.reason;
+    return result;
+  }
   json details = json::object();
   for (const auto& [name, value] : r.details) details[name] = finite(value);
   result.update({{"value", finite(r.value)},
@@ -46,9 +56,19 @@ json result_json(const ExperimentResult& r) {
                  {"details", details},
                  {"steps", r.steps},
                  {"nanoseconds", r.nanoseconds ? json(*r.nanoseconds) : json(nullptr)},
-                 {"microseconds_per_step", r.microseconds_per_step}});
+                 {"microseconds_per_step", r.microseconds_per_step},
+                 {"last_motion", r.last_motion},
+                 {"last_time", r.last_time}});
   return result;
 }
+
+json to_json(const ExperimentDescription& e) {
+  return {{"name", e.name},  {"statement", e.statement}, {"quantity", e.quantity},
+          {"unit", e.unit},  {"expected", e.expected},   {"resolution", e.resolution},
+          {"rests", e.rests}};
+}
+
+namespace {
 
 double number(const json& value) {
   return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
@@ -58,19 +78,12 @@ double number(const json& value) {
 
 json to_json(const ExperimentResults& r) {
   json experiments = json::array(), results = json::array();
-  for (const ExperimentDescription& e : r.experiments) {
-    experiments.push_back({{"name", e.name},
-                           {"statement", e.statement},
-                           {"quantity", e.quantity},
-                           {"unit", e.unit},
-                           {"expected", e.expected},
-                           {"resolution", e.resolution}});
-  }
-  for (const ExperimentResult& each : r.results) results.push_back(result_json(each));
+  for (const ExperimentDescription& e : r.experiments) experiments.push_back(to_json(e));
+  for (const ExperimentResult& each : r.results) results.push_back(to_json(each));
   return {{"steps", r.steps}, {"experiments", experiments}, {"results", results}};
 }
 
-std::string to_text(const ExperimentResult& result) { return result_json(result).dump(); }
+std::string to_text(const ExperimentResult& result) { return to_json(result).dump(); }
 
 ExperimentResult result_from_text(const std::string& text) {
   const json value = json::parse(text);
@@ -78,10 +91,12 @@ ExperimentResult result_from_text(const std::string& text) {
   r.experiment = value["experiment"];
   r.candidate = value["candidate"];
   r.step = value["step"];
-  for (const Outcome outcome : {Outcome::measured, Outcome::unsupported, Outcome::unsound}) {
+  for (const Outcome outcome : {Outcome::measured, Outcome::unsupported, Outcome::unsound,
+                                Outcome::crashed, Outcome::timed_out}) {
     if (value["outcome"] == name_of(outcome)) r.outcome = outcome;
   }
-  if (r.outcome == Outcome::unsupported) return r;
+  if (value.contains("reason")) r.reason = value["reason"];
+  if (!value.contains("value")) return r;
   r.value = number(value["value"]);
   r.error = number(value["error"]);
   r.exact = value["exact"];
@@ -95,6 +110,8 @@ ExperimentResult result_from_text(const std::string& text) {
   r.steps = value["steps"];
   if (!value["nanoseconds"].is_null()) r.nanoseconds = value["nanoseconds"].get<double>();
   r.microseconds_per_step = value["microseconds_per_step"];
+  r.last_motion = value["last_motion"];
+  r.last_time = value["last_time"];
   return r;
 }
 

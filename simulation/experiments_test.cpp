@@ -11,6 +11,7 @@
 #include "simulation/experiment.hpp"
 #include "simulation/experiment_setup.hpp"
 #include "simulation/run_experiments.hpp"
+#include "simulation/world.hpp"
 
 namespace touchstone {
 namespace {
@@ -42,6 +43,11 @@ TEST_P(EveryExperiment, IsPassedByOurContacts) {
 std::vector<std::string> names() {
   std::vector<std::string> result;
   for (const Experiment& e : all_experiments()) result.push_back(e.name);
+  // Of those for engines, the others ask more of the solver than QuickStep gives: engines_test.cpp
+  // holds them with solvers at their best.
+  for (const char* name : {"log", "small-log", "disc-on-log", "sliding", "wheel"}) {
+    result.emplace_back(name);
+  }
   return result;
 }
 INSTANTIATE_TEST_SUITE_P(, EveryExperiment, testing::ValuesIn(names()), [](const auto& name) {
@@ -90,7 +96,8 @@ TEST(Experiments, DoNotJudgeWhereInTheOverlapPointsLie) {
     const Experiment& experiment = find_experiment(name);
     for (const double share : {-0.5, 0.5}) {
       ChangedModel model(moved(share));
-      EXPECT_LT(experiment.run(model, usual_step).error, experiment.resolution(usual_step))
+      EXPECT_LT(experiment.run(in_our_world(model), usual_step).error,
+                experiment.resolution(usual_step))
           << name << ' ' << share;
     }
   }
@@ -103,7 +110,8 @@ TEST(Experiments, DoNotJudgeDepthsWithinTheSurfaceLayer) {
     wrong = -wrong;
     for (int i = 0; i < answer.point_count; ++i) answer.points[i].depth += wrong;
   });
-  EXPECT_LT(experiment.run(model, usual_step).error, experiment.resolution(usual_step));
+  EXPECT_LT(experiment.run(in_our_world(model), usual_step).error,
+            experiment.resolution(usual_step));
 }
 
 // The solver has converged and nothing slips: only CFM and the layer leave an error.
@@ -124,7 +132,7 @@ TEST(Experiments, JudgeALeverThatIsWrong) {
     }
   });
   // Shorter by 4e-6 radii, of which two thirds are seen.
-  EXPECT_NEAR(experiment.run(model, usual_step).error, 2.67e-6, 1e-8);
+  EXPECT_NEAR(experiment.run(in_our_world(model), usual_step).error, 2.67e-6, 1e-8);
 }
 
 TEST(Experiments, SeeAPrismThatDoesNotRoll) {

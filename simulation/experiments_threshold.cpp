@@ -25,10 +25,10 @@ double threshold(double holds, double fails, const Test& test) {
 
 /// Runs while `still` holds; true if it held to the end.
 template <class Still>
-bool lasts(const Scene& scene, ContactModel& model, RunTally& tally, const Still& still) {
-  Run run(scene, model, can_radius);
+bool lasts(const Scene& scene, const Simulator& simulator, RunTally& tally, const Still& still) {
+  Run run(scene, simulator, can_radius);
   bool held = true;
-  while (held && run.step()) held = still(run.world());
+  while (held && run.step()) held = still(run.states());
   tally.add(run.tally());
   return held && !run.tally().unsound && !run.tally().unsupported;
 }
@@ -40,7 +40,7 @@ double angle_between(const Vec3& a, const Vec3& b) {
 // The centre of mass is above the rim where tan θ = r / h.
 double tipping_angle(double) { return std::atan2(can_radius, can_half_length); }
 
-Measurement tipping(ContactModel& model, double step) {
+Measurement tipping(const Simulator& simulator, double step) {
   RunTally tally;
   const auto stands = [&](double slope) {
     Scene scene;
@@ -53,8 +53,8 @@ Measurement tipping(ContactModel& model, double step) {
     scene.bodies = {
         fixed_body("slope", Plane(Vec3::UnitZ(), 0), friction, Pose(Vec3::Zero(), turn)),
         moving_body("can", can, friction, Pose(centre, turn * about(Vec3::UnitZ(), 0.3)))};
-    return lasts(scene, model, tally, [&](const World& world) {
-      const Pose& pose = world.states()[1].pose;
+    return lasts(scene, simulator, tally, [&](const std::vector<BodyState>& states) {
+      const Pose& pose = states[1].pose;
       return angle_between(pose.axis(), up) < radians(3) &&
              (pose.position() - centre).norm() < can_radius / 4;
     });
@@ -88,7 +88,7 @@ constexpr double pile_time = 1;                              // s
 constexpr double max_pile_displacement = 0.02 * can_radius;  // m, of a pile that holds
 double pile_friction(double) { return std::tan(std::asin(half_spacing / (2 * can_radius)) / 2); }
 
-Measurement log_pile(ContactModel& model, double step) {
+Measurement log_pile(const Simulator& simulator, double step) {
   RunTally tally;
   const auto holds = [&](double friction) {
     Scene scene;
@@ -103,9 +103,9 @@ Measurement log_pile(ContactModel& model, double step) {
     };
     scene.bodies = {ground(friction), log("left", -half_spacing, low),
                     log("right", half_spacing, low), log("top", 0, high)};
-    return lasts(scene, model, tally, [&](const World& world) {
+    return lasts(scene, simulator, tally, [&](const std::vector<BodyState>& states) {
       for (int i = 1; i <= 3; ++i) {
-        if ((world.states()[i].pose.position() - scene.bodies[i].pose.position()).norm() >
+        if ((states[i].pose.position() - scene.bodies[i].pose.position()).norm() >
             max_pile_displacement) {
           return false;
         }
@@ -139,7 +139,7 @@ double edge_resolution(double) {
   return unseen / can_half_length + 2 * bisected(halvings);
 }
 
-Measurement across_edge(ContactModel& model, double step) {
+Measurement across_edge(const Simulator& simulator, double step) {
   RunTally tally;
   const auto stays = [&](double overhang) {
     Scene scene;
@@ -150,8 +150,8 @@ Measurement across_edge(ContactModel& model, double step) {
     const Vec3 centre(half.x() + overhang, 0, half.z() + can_radius - touching);
     scene.bodies = {fixed_body("box", Box(half), 0.5, Pose(Vec3::Zero(), turn)),
                     moving_body("can", can, 0.5, Pose(turn * centre, turn * level()))};
-    return lasts(scene, model, tally, [&](const World& world) {
-      return std::abs(world.states()[1].pose.axis().z()) < std::sin(toppled);
+    return lasts(scene, simulator, tally, [&](const std::vector<BodyState>& states) {
+      return std::abs(states[1].pose.axis().z()) < std::sin(toppled);
     });
   };
   const double found = threshold(-can_half_length, can_half_length, stays);
@@ -165,7 +165,7 @@ constexpr double plate_half_thickness = 0.01;
 constexpr double min_phase = 0.001;  // distance from touching at the start, in steps
 double tunnelling_speed(double step) { return (can_half_length + plate_half_thickness) / step; }
 
-Measurement tunnelling(ContactModel& model, double step) {
+Measurement tunnelling(const Simulator& simulator, double step) {
   RunTally tally;
   const double expected = tunnelling_speed(step);
   const auto is_stopped = [&](double speed) {
@@ -181,8 +181,8 @@ Measurement tunnelling(ContactModel& model, double step) {
       scene.bodies = {
           fixed_body("plate", Box(Vec3(2, 2, plate_half_thickness)), 0.5, Pose(Vec3::Zero(), turn)),
           flying};
-      if (!lasts(scene, model, tally, [&](const World& world) {
-            return world.states()[1].pose.position().dot(turn * Vec3::UnitZ()) > -can_half_length;
+      if (!lasts(scene, simulator, tally, [&](const std::vector<BodyState>& states) {
+            return states[1].pose.position().dot(turn * Vec3::UnitZ()) > -can_half_length;
           })) {
         return false;
       }

@@ -7,13 +7,10 @@
 #include "candidates/host/worker_processes.hpp"
 #include "simulation/experiment.hpp"
 #include "simulation/experiment_setup.hpp"
+#include "simulation/world.hpp"
 
 namespace touchstone {
 namespace {
-
-/// Kinetic energy, in weight × radius, below which a body is at rest: a thousandth of what a fall
-/// of one step gives, which is about what an iterative solver leaves of it.
-double rest_energy(double step) { return 1e-3 * gravity * step * step / (2 * can_radius); }
 
 struct Trial {
   const Experiment* experiment;
@@ -78,24 +75,34 @@ ExperimentResult run(const Trial& trial, CandidateProcess& process) {
   process.ask_within(simulation_threshold);  // as if it had been asked nothing before
   CandidateModel model(process);
   SamplingModel sampling(model);
-  const Experiment& experiment = *trial.experiment;
-  const Measurement m = experiment.run(sampling, trial.step);
+  const Measurement measured = trial.experiment->run(in_our_world(sampling), trial.step);
+  ExperimentResult r = result_of(*trial.experiment, trial.candidate->name, trial.step, measured);
+  if (r.outcome != ExperimentResult::Outcome::unsupported) {
+    r.nanoseconds = query_time(process, sampling.sample());
+  }
+  return r;
+}
+
+}  // namespace
+
+ExperimentResult result_of(const Experiment& experiment, const std::string& candidate, double step,
+                           const Measurement& m) {
   const RunTally& t = m.tally;
   const double steps = static_cast<double>(std::max<std::uint64_t>(t.steps, 1));
   const auto share = [&](std::uint64_t count) { return static_cast<double>(count) / steps; };
 
   ExperimentResult r;
   r.experiment = experiment.name;
-  r.candidate = trial.candidate->name;
-  r.step = trial.step;
+  r.candidate = candidate;
+  r.step = step;
   r.outcome = t.unsupported ? ExperimentResult::Outcome::unsupported
               : t.unsound   ? ExperimentResult::Outcome::unsound
                             : ExperimentResult::Outcome::measured;
   if (t.unsupported) return r;
   r.value = m.value;
   r.error = m.error;
-  r.exact = !t.unsound && m.error <= experiment.resolution(trial.step) &&
-            !(experiment.rests && m.value > rest_energy(trial.step));
+  r.exact = !t.unsound && m.error <= experiment.resolution(step) &&
+            !(experiment.rests && m.value > rest_energy(step, experiment.radius));
   r.energy_gained = t.energy_gained;
   r.points = share(t.points);
   r.flicker = share(t.flickers);
@@ -104,22 +111,27 @@ ExperimentResult run(const Trial& trial, CandidateProcess& process) {
   r.failures = t.failures;
   r.details = {m.details.begin(), m.details.end()};
   r.steps = t.steps;
-  r.nanoseconds = query_time(process, sampling.sample());
   r.microseconds_per_step = 1e6 * t.seconds / steps;
+  r.last_motion = t.last_motion;
+  r.last_time = t.last_time;
   return r;
+}
+
+bool ExperimentResult::comes_to_rest() const {
+  constexpr double still = 0.5;  // s
+  return outcome == Outcome::measured && last_motion < last_time - still;
 }
 
 ExperimentDescription describe(const Experiment& experiment, const std::vector<double>& steps) {
   ExperimentDescription d{
-      experiment.name, experiment.statement, experiment.quantity, experiment.unit, {}, {}};
+      experiment.name, experiment.statement, experiment.quantity, experiment.unit, {}, {},
+      experiment.rests};
   for (const double step : steps) {
     d.expected.push_back(experiment.expected(step));
     d.resolution.push_back(experiment.resolution(step));
   }
   return d;
 }
-
-}  // namespace
 
 ExperimentResults run_experiments(const ExperimentOptions& options) {
   const std::vector<Trial> all = trials(options);

@@ -13,6 +13,7 @@
 namespace touchstone {
 
 struct Experiment;
+struct Measurement;
 
 /// Which experiments to run, with which candidates, at which steps.
 struct ExperimentOptions {
@@ -24,12 +25,14 @@ struct ExperimentOptions {
 };
 
 /// Outcome of one experiment with one candidate at one step (docs/simulation.md). If the outcome is
-/// `unsupported`, the members after it have no meaning.
+/// `unsupported`, `crashed` or `timed_out`, the numbers after it have no meaning.
 struct ExperimentResult {
   enum class Outcome {
     measured,
     unsupported,  ///< the candidate has no routine for a pair that occurred
     unsound,      ///< the motion ended beyond all bounds
+    crashed,      ///< an engine ended its process (`reason`)
+    timed_out,    ///< an engine took too long
   };
   std::string experiment, candidate;
   double step = 0;  ///< s
@@ -44,11 +47,18 @@ struct ExperimentResult {
   std::uint64_t steps = 0;            ///< of all runs
   std::optional<double> nanoseconds;  ///< median of a query; absent: could not be timed
   double microseconds_per_step = 0;   ///< wall-clock time, solver and communication included
+  double last_motion = 0;             ///< time, s, after which nothing moved in the last run
+  double last_time = 0;               ///< end of that run, s
+  std::string reason = {};            ///< of a crash
+
+  /// Whether nothing moved in the last half second of the last run.
+  bool comes_to_rest() const;
 };
 
 struct ExperimentDescription {
   std::string name, statement, quantity, unit;  ///< as in Experiment
   std::vector<double> expected, resolution;     ///< for each step
+  bool rests = false;                           ///< as in Experiment
 };
 
 /// Results of all experiments with all candidates at all steps.
@@ -63,11 +73,20 @@ struct ExperimentResults {
 /// results of what was not done are missing.
 ExperimentResults run_experiments(const ExperimentOptions& options);
 
+/// Judges a measurement. `candidate`: whose contacts it was made with.
+ExperimentResult result_of(const Experiment& experiment, const std::string& candidate, double step,
+                           const Measurement& measurement);
+
+ExperimentDescription describe(const Experiment& experiment, const std::vector<double>& steps);
+
 /// Table for a terminal of 80 columns.
 std::string experiments_table(const ExperimentResults& results);
 
-/// The member `experiments` of report.json (docs/simulation.md); null for what is not finite.
+/// The member `experiments` of report.json (docs/simulation.md), and parts of it; null for what is
+/// not finite.
 nlohmann::json to_json(const ExperimentResults& results);
+nlohmann::json to_json(const ExperimentDescription& experiment);
+nlohmann::json to_json(const ExperimentResult& result);
 
 // One result as text, on its way from the process that measured it. What is not finite comes back
 // as NaN.

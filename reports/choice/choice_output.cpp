@@ -1,8 +1,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <cstdint>
-#include <cstring>
 #include <filesystem>
 #include <fmt/format.h>
 #include <limits>
@@ -13,8 +11,10 @@
 #include "properties/files/disk.hpp"
 #include "reports/choice/choice.hpp"
 #include "reports/make_report.hpp"
+#include "reports/motion_json.hpp"
 #include "reports/pages/page.hpp"
 #include "reports/report_json.hpp"
+#include "simulation/engines/run_engines.hpp"
 
 namespace touchstone {
 namespace {
@@ -243,44 +243,13 @@ void write_evidence(const PairsChoice& choice, const std::string& folder) {
 
 namespace {
 
-/// RFC 4648.
-std::string base64(const std::string& bytes) {
-  constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t three = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      three = three << 8 | (i + k < bytes.size() ? static_cast<std::uint8_t>(bytes[i + k]) : 0U);
-    }
-    for (std::size_t k = 0; k < 4; ++k) {
-      text += i + k > bytes.size() ? '=' : digits[three >> (18 - 6 * k) & 63U];
-    }
-  }
-  return text;
-}
-
-/// Poses of the moving bodies in every `every`-th frame: position and orientation (w, x, y, z) as
-/// floats, in base64.
+/// Poses of the moving bodies in every `every`-th frame.
 std::string poses(const Scene& scene, const Trajectory& run, std::size_t every) {
-  std::string bytes;
-  const auto append = [&](double value) {
-    const auto single = static_cast<float>(value);
-    char raw[sizeof single];
-    std::memcpy(raw, &single, sizeof single);
-    bytes.append(raw, sizeof raw);
-  };
+  std::vector<float> numbers;
   for (std::size_t i = 0; i < run.frames.size(); i += every) {
-    for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
-      if (scene.bodies[b].fixed) continue;
-      const Pose& pose = run.frames[i][b].pose;
-      const Eigen::Quaterniond q = pose.unit_orientation();
-      for (const double x : {pose.position().x(), pose.position().y(), pose.position().z(), q.w(),
-                             q.x(), q.y(), q.z()}) {
-        append(x);
-      }
-    }
+    append_poses(scene, run.frames[i], numbers);
   }
-  return base64(bytes);
+  return base64(numbers);
 }
 
 /// Indices of the runs to show beside the exact one: the answer, some with the next cheaper model
@@ -310,16 +279,6 @@ std::string note(const Choice& choice, std::size_t index) {
 json motion_json(const Choice& choice, const Limits& limits) {
   const SceneFile& file = choice.file;
   const Scene& scene = file.scene;
-  json bodies = json::array();
-  for (const Body& b : scene.bodies) {
-    const auto& q = b.pose.orientation();
-    bodies.push_back({{"name", b.name},
-                      {"shape", to_json(b.shape)},
-                      {"fixed", b.fixed},
-                      {"pose",
-                       {{"position", to_json(b.pose.position())},
-                        {"orientation", {q.w(), q.x(), q.y(), q.z()}}}}});
-  }
   constexpr double frames_per_second = 60;
   const auto every = std::max<std::size_t>(
       1, static_cast<std::size_t>(1 / (frames_per_second * scene.step) + 0.5));
@@ -336,7 +295,7 @@ json motion_json(const Choice& choice, const Limits& limits) {
                     {"poses", poses(scene, run, every)}});
   }
   return {
-      {"bodies", bodies},
+      {"bodies", bodies_json(scene)},
       {"interval", static_cast<double>(every) * scene.step},
       {"duration", scene.duration},
       {"camera",

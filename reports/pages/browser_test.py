@@ -468,6 +468,13 @@ class Report(PageTest):
         self.all("#drake-table tbody tr:nth-child(4) td")[-1].click()
         self.assertIn("./touchstone replay -", self.find("#drake-command code").text)
 
+    def test_engines_are_shown_before_and_after(self):
+        rows = self.all("#engines table:first-of-type tbody tr")
+        self.assertIn("8.5e+3 → held", next(r.text for r in rows if r.text.startswith("small-log")))
+        self.choose("#engine-experiment", "rolling")
+        self.assertIn("./touchstone simulate rolling --engine bullet,ode,mujoco",
+                      self.find("#engines .command code").text)
+
     def test_y_a_page_without_contacts_or_times_loads_too(self):
         small = Path(self.folder.name) / "small"
         self.run_program("report", "--count", "1", "--pair", "cylinder-plane", "--class", "standing",
@@ -575,6 +582,21 @@ class OtherPages(PageTest):
         self.find("#play").click()
         self.assertEqual(self.find("#play").text, "Pause")
         self.assert_no_sideways_scrolling_on_a_phone(folder / "choose.html")
+
+    def test_engines(self):
+        folder = Path(self.folder.name) / "engines"
+        self.run_program("simulate", "small-log", "stack-of-five", "--engine", "bullet,mujoco",
+                         "--out", folder)
+        self.open(folder / "engines.html")
+        self.assertEqual(len(self.all("#scene option")), 2)
+        self.driver.execute_script("""const scrub = document.getElementById('scrub'); scrub.value = 5;
+                                      scrub.dispatchEvent(new Event('input'))""")
+        self.assertNotEqual(self.picture("#left"), self.picture("#right"))
+        before = self.picture("#right")
+        self.choose("#scene", "1")
+        self.assertNotEqual(self.picture("#right"), before)
+        self.assertIn("small-log", self.find("#engines table").text)
+        self.assert_no_sideways_scrolling_on_a_phone(folder / "engines.html")
 
 
 if __name__ == "__main__":

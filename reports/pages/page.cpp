@@ -11,9 +11,9 @@ namespace touchstone {
 
 // Made by the build from the files of the same names.
 extern const std::string_view page_html, pages_css, page_js, table_js;
-extern const std::string_view report_html, compare_html, replay_html, choose_html;
+extern const std::string_view report_html, compare_html, replay_html, choose_html, engines_html;
 extern const std::string_view report_js, report_tables_js, report_charts_js, report_cases_js;
-extern const std::string_view compare_js, replay_js, stability_js, choose_js;
+extern const std::string_view compare_js, replay_js, stability_js, choose_js, engines_js, motion_js;
 extern const std::string_view bodies_js, view_js, chart_js, vega_js;
 
 namespace {
@@ -32,8 +32,8 @@ PageParts parts_of(Page page) {
               "How right, and how fast, are cylinder contacts?",
               report_html,
               true,
-              {bodies_js, view_js, stability_js, report_js, report_tables_js, report_charts_js,
-               report_cases_js}};
+              {bodies_js, view_js, stability_js, engines_js, report_js, report_tables_js,
+               report_charts_js, report_cases_js}};
     case Page::comparison:
       return {"two reports compared", "What has changed?", compare_html, true, {compare_js}};
     case Page::replay:
@@ -45,7 +45,14 @@ PageParts parts_of(Page page) {
               true,
               {stability_js, "drawStabilityPage();\n"}};
     case Page::choice:
-      return {"what a scene needs", "", choose_html, true, {bodies_js, view_js, choose_js}};
+      return {
+          "what a scene needs", "", choose_html, true, {bodies_js, view_js, motion_js, choose_js}};
+    case Page::engines:
+      return {"inside the engines",
+              "What do exact contacts change inside the engines?",
+              engines_html,
+              false,
+              {bodies_js, view_js, motion_js, engines_js, "drawEnginesPage();\n"}};
   }
   return {};
 }

@@ -10,7 +10,7 @@
 
 namespace touchstone {
 
-enum class Page { report, comparison, replay, stability, choice };
+enum class Page { report, comparison, replay, stability, choice, engines };
 
 /// One self-contained HTML file: the shell that all pages share (page.html), filled with a page's
 /// own part, its scripts and its data. It loads nothing from elsewhere, and no string of the data

@@ -287,6 +287,8 @@ if (report.experiments) {
   experimentTables(report.experiments);
 }
 
+if (report.engines) drawEngines(report.engines);
+
 // How often each arrangement occurs in the recorded scenes, and how far the bodies are tilted out of it.
 function recordedTable(recorded) {
   const byArrangement = new Map();

@@ -1,0 +1,277 @@
+#include "simulation/engines/run_engines.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <dlfcn.h>
+#include <filesystem>
+#include <stdexcept>
+
+#include <nlohmann/json.hpp>
+
+#include "candidates/candidates.hpp"
+#include "candidates/host/contained.hpp"
+#include "candidates/host/progress.hpp"
+#include "candidates/host/worker_processes.hpp"
+#include "reference/invalid_input.hpp"
+#include "simulation/engines/engine_world.hpp"
+#include "simulation/experiment.hpp"
+
+namespace touchstone {
+namespace {
+
+/// Processor time of one run, after which it is ended. The longest take about a second.
+constexpr double max_seconds = 60;
+
+std::filesystem::path module_file(const std::string& engine) {
+  return standard_folder() / ("touchstone-world-" + engine + ".so");
+}
+
+/// Loads an engine's module; for a contained process only.
+const EngineModule& load(const std::string& engine) {
+  void* const handle = dlopen(module_file(engine).c_str(), RTLD_NOW | RTLD_LOCAL);
+  void* const entry = handle ? dlsym(handle, "touchstone_engine") : nullptr;
+  if (!entry) throw std::runtime_error(dlerror());
+  return *reinterpret_cast<const EngineModule* (*)()>(entry)();
+}
+
+Simulator in_engine(const EngineModule& engine, const EngineSetup& setup) {
+  return [&engine, setup](const Scene& scene) {
+    check_scene(scene);
+    return engine.begin(scene, setup);
+  };
+}
+
+ExperimentResult run(const Experiment& experiment, const std::string& engine,
+                     const EngineSetup& setup, double step) {
+  const std::string name = setup.cured ? engine + "+touchstone" : engine;
+  const Contained ran = run_contained(
+      [&] {
+        const Measurement measured = experiment.run(in_engine(load(engine), setup), step);
+        return to_text(result_of(experiment, name, step, measured));
+      },
+      max_seconds);
+  if (ran.end == Contained::End::returned) return result_from_text(ran.text);
+  ExperimentResult failed;
+  failed.experiment = experiment.name;
+  failed.candidate = name;
+  failed.step = step;
+  failed.outcome = ran.end == Contained::End::crashed ? ExperimentResult::Outcome::crashed
+                                                      : ExperimentResult::Outcome::timed_out;
+  failed.reason = ran.text;
+  return failed;
+}
+
+EngineResult run(const Experiment& experiment, const std::string& engine, double step) {
+  EngineResult r{experiment.name,
+                 engine,
+                 Cure::open,
+                 run(experiment, engine, {}, step),
+                 run(experiment, engine, {.cured = true}, step),
+                 {}};
+  r.cure = cure_of(r.own, r.cured, r.best);
+  if (r.cure == Cure::held || r.cure == Cure::nearer) return r;
+  for (const double tried : {step, step / 2}) {
+    r.best = run(experiment, engine, {.cured = true, .best_solver = true}, tried);
+    if (r.best->exact) break;
+  }
+  r.cure = cure_of(r.own, r.cured, r.best);
+  return r;
+}
+
+/// The runs as text, on their way from the process that made them.
+std::string to_text(const EngineResult& r) {
+  nlohmann::json runs = {to_text(r.own), to_text(r.cured)};
+  if (r.best) runs.push_back(to_text(*r.best));
+  return runs.dump();
+}
+
+EngineDescription describe(const std::string& engine) {
+  if (!std::filesystem::exists(module_file(engine))) {
+    std::string names;
+    for (const std::string& name : all_engines()) names += (names.empty() ? "" : ", ") + name;
+    throw InvalidInput("--engine", '"' + engine + '"', "must be one of " + names);
+  }
+  const Contained told = run_contained(
+      [&] {
+        const EngineModule& module = load(engine);
+        return nlohmann::json{module.version, module.settings, module.best_settings}.dump();
+      },
+      max_seconds);
+  if (told.end != Contained::End::returned) {
+    throw InvalidInput("--engine", '"' + engine + '"',
+                       "must be an engine that can be loaded: " + told.text);
+  }
+  const auto text = nlohmann::json::parse(told.text);
+  return {engine, text[0], text[1], text[2]};
+}
+
+/// Ends a run before its first step, having shown its scene.
+class Glimpse : public Simulation {
+ public:
+  explicit Glimpse(const Scene& scene) {
+    for (const Body& b : scene.bodies) states_.push_back({b.pose, b.velocity, b.angular_velocity});
+  }
+  void step() override {}
+  const std::vector<BodyState>& states() const override { return states_; }
+  Contacts contacts() const override { return {}; }
+  bool sound() const override { return false; }
+
+ private:
+  std::vector<BodyState> states_;
+};
+
+/// The scenes that an experiment begins.
+std::vector<Scene> scenes_of(const Experiment& experiment, double step) {
+  std::vector<Scene> scenes;
+  experiment.run(
+      [&](const Scene& scene) {
+        scenes.push_back(scene);
+        return std::make_unique<Glimpse>(scene);
+      },
+      step);
+  return scenes;
+}
+
+/// Another simulation, with every `every`-th frame kept.
+class Recorded : public Simulation {
+ public:
+  Recorded(const Scene& scene, std::unique_ptr<Simulation> other, int every,
+           std::vector<float>& poses)
+      : scene_(scene), other_(std::move(other)), every_(every), poses_(poses) {
+    keep();
+  }
+  void step() override {
+    other_->step();
+    if (++steps_ % every_ == 0 && sound()) keep();
+  }
+  const std::vector<BodyState>& states() const override { return other_->states(); }
+  Contacts contacts() const override { return other_->contacts(); }
+  bool sound() const override { return other_->sound(); }
+
+ private:
+  void keep() { append_poses(scene_, states(), poses_); }
+
+  const Scene& scene_;
+  std::unique_ptr<Simulation> other_;
+  int every_, steps_ = 0;
+  std::vector<float>& poses_;
+};
+
+}  // namespace
+
+std::vector<std::string> all_engines() {
+  std::vector<std::string> result;
+  for (const char* engine : {"bullet", "bullet-float", "ode", "mujoco"}) {
+    if (std::filesystem::exists(module_file(engine))) result.emplace_back(engine);
+  }
+  return result;
+}
+
+const char* cure_name(Cure cure) {
+  switch (cure) {
+    case Cure::held:
+      return "held";
+    case Cure::nearer:
+      return "nearer";
+    case Cure::solver:
+      return "solver";
+    case Cure::alike:
+      return "alike";
+    case Cure::open:
+      return "open";
+  }
+  return "";
+}
+
+Cure cure_of(const ExperimentResult& own, const ExperimentResult& cured,
+             const std::optional<ExperimentResult>& best) {
+  using Outcome = ExperimentResult::Outcome;
+  constexpr double much_nearer = 10, equally_near = 1.5;
+  constexpr double lost = 1;  // a radius, or all of what is measured: no nearness counts
+  const auto is_measured = [](const ExperimentResult& r) { return r.outcome == Outcome::measured; };
+  if (cured.exact) return Cure::held;
+  if (!is_measured(cured)) return Cure::open;
+  const bool is_nearer = !is_measured(own) || !(own.error < much_nearer * cured.error);
+  if (is_nearer && cured.error < lost) return Cure::nearer;
+  if (best && best->exact) return Cure::solver;
+  const double ratio = cured.error / own.error;
+  if (ratio < equally_near && ratio > 1 / equally_near) return Cure::alike;
+  return Cure::open;
+}
+
+EngineResults run_engines(const EngineOptions& options) {
+  EngineResults results{options.step, {}, {}, {}};
+  for (const std::string& engine : options.engines) results.engines.push_back(describe(engine));
+  for (const Experiment* e : options.experiments) {
+    results.experiments.push_back(touchstone::describe(*e, {options.step}));
+  }
+  const std::size_t engines = options.engines.size();
+  const auto experiment_of = [&](std::size_t i) { return options.experiments[i / engines]; };
+  const auto engine_of = [&](std::size_t i) { return options.engines[i % engines]; };
+  Progress progress("experiments in engines", options.experiments.size() * engines);
+  const auto texts = run_in_processes(
+      options.experiments.size() * engines, options.workers,
+      [&](std::size_t i) { return to_text(run(*experiment_of(i), engine_of(i), options.step)); },
+      [&](std::size_t i) { return experiment_of(i)->name + " in " + engine_of(i); },
+      [&](std::size_t done) { progress.update(done); });
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    if (texts[i].empty()) continue;
+    const auto runs = nlohmann::json::parse(texts[i]);
+    EngineResult r{experiment_of(i)->name,
+                   engine_of(i),
+                   Cure::open,
+                   result_from_text(runs[0]),
+                   result_from_text(runs[1]),
+                   {}};
+    if (runs.size() > 2) r.best = result_from_text(runs[2]);
+    r.cure = cure_of(r.own, r.cured, r.best);
+    results.results.push_back(std::move(r));
+  }
+  return results;
+}
+
+void append_poses(const Scene& scene, const std::vector<BodyState>& states,
+                  std::vector<float>& poses) {
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    if (scene.bodies[i].fixed) continue;
+    const Vec3& p = states[i].pose.position();
+    const Eigen::Quaterniond q = states[i].pose.unit_orientation();
+    for (const double x : {p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z()}) {
+      poses.push_back(static_cast<float>(x));
+    }
+  }
+}
+
+bool is_one_run(const Experiment& experiment, double step) {
+  return scenes_of(experiment, step).size() == 1;
+}
+
+Motion record_motion(const Experiment& experiment, const std::string& engine,
+                     const EngineSetup& setup, double step) {
+  constexpr double frames_per_second = 60;
+  Motion motion{scenes_of(experiment, step).front(), 0, {}};
+  const int every =
+      std::max(1, static_cast<int>(1 / (frames_per_second * motion.scene.step) + 0.5));
+  motion.interval = every * motion.scene.step;
+  const Contained ran = run_contained(
+      [&] {
+        std::vector<float> poses;
+        const Simulator simulator = in_engine(load(engine), setup);
+        experiment.run(
+            [&](const Scene& scene) {
+              return std::make_unique<Recorded>(scene, simulator(scene), every, poses);
+            },
+            step);
+        return std::string(reinterpret_cast<const char*>(poses.data()),
+                           poses.size() * sizeof(float));
+      },
+      max_seconds);
+  if (ran.end != Contained::End::returned) {
+    throw std::runtime_error(experiment.name + " in " + engine + ": " + ran.text);
+  }
+  motion.poses.resize(ran.text.size() / sizeof(float));
+  std::memcpy(motion.poses.data(), ran.text.data(), ran.text.size());
+  return motion;
+}
+
+}  // namespace touchstone

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "simulation/run_experiments.hpp"
+#include "simulation/scene.hpp"
+
+namespace touchstone {
+
+/// Which experiments to run in which engines' own worlds.
+struct EngineOptions {
+  std::vector<const Experiment*> experiments;
+  std::vector<std::string> engines;
+  double step = 1.0 / 240;  ///< s
+  unsigned workers = 1;     ///< processes; the results do not depend on them
+};
+
+/// Engines whose worlds there are here, in report order.
+std::vector<std::string> all_engines();
+
+/// How an engine's world is set up.
+struct EngineSetup {
+  bool cured = false;        ///< with our contact routines installed in it
+  bool best_solver = false;  ///< with its solver at its best, whatever that costs
+};
+
+struct EngineDescription {
+  std::string name, version;
+  std::string settings, best_settings;  ///< of its solver: as usual, at its best
+};
+
+/// What our contacts do to an experiment in an engine.
+enum class Cure {
+  held,    ///< the answer on paper, within what the experiment resolves
+  nearer,  ///< at least ten times nearer to it than the engine's own contacts, and not lost
+  solver,  ///< held with the engine's solver at its best: its defaults are what limits
+  alike,   ///< as near as the engine's own contacts, also with the solver at its best
+  open,    ///< none of these
+};
+const char* cure_name(Cure cure);
+
+/// One experiment in one engine's own world.
+struct EngineResult {
+  std::string experiment, engine;
+  Cure cure;
+  ExperimentResult own;    ///< with the engine's contacts
+  ExperimentResult cured;  ///< with ours
+  /// With ours and the solver at its best, and half the step where that alone is not held; absent
+  /// where the usual solver already holds the experiment or is ten times nearer.
+  std::optional<ExperimentResult> best;
+};
+
+struct EngineResults {
+  double step = 0;  ///< s
+  std::vector<EngineDescription> engines;
+  std::vector<ExperimentDescription> experiments;
+  std::vector<EngineResult> results;  ///< by experiment, then engine
+};
+
+/// Runs every experiment in every engine, each run in a process of its own. Times aside the results
+/// depend on the options alone. Progress goes to standard error. After an interruption
+/// (interruption.hpp) the results of what was not done are missing. Throws InvalidInput (field
+/// "--engine") where an engine's world is not there.
+EngineResults run_engines(const EngineOptions& options);
+
+/// Judges the runs of an experiment.
+Cure cure_of(const ExperimentResult& own, const ExperimentResult& cured,
+             const std::optional<ExperimentResult>& best);
+
+/// The motion of one run, as a page shows it.
+struct Motion {
+  Scene scene;
+  double interval = 0;       ///< s, between frames
+  std::vector<float> poses;  ///< of all frames (append_poses); they end where the run did
+};
+
+/// Appends position and orientation (w, x, y, z) of every moving body.
+void append_poses(const Scene& scene, const std::vector<BodyState>& states,
+                  std::vector<float>& poses);
+
+/// Whether an experiment is a single run of one scene, which can be shown.
+bool is_one_run(const Experiment& experiment, double step);
+
+/// Runs such an experiment once more, and keeps its motion. Throws std::runtime_error if the engine
+/// ends it.
+Motion record_motion(const Experiment& experiment, const std::string& engine,
+                     const EngineSetup& setup, double step);
+
+/// Tables for a terminal of 80 columns: of all that is measured; of the errors alone, for a report.
+std::string engines_table(const EngineResults& results);
+std::string engines_summary(const EngineResults& results);
+
+/// The member `engines` of report.json (docs/inside-the-engines.md).
+nlohmann::json to_json(const EngineResults& results);
+
+}  // namespace touchstone
