@@ -115,7 +115,13 @@ class Registry {
     }
     std::string names;
     for (const Candidate* c : listed_) names += (names.empty() ? "" : ", ") + c->name;
-    for (const NpmEngine& engine : npm_engines()) names += ", " + std::string(engine.family);
+    for (const NpmEngine& engine : npm_engines()) {
+      // A command of one's own may have taken the name.
+      const auto has_name = [&](const Candidate* c) { return c->family == engine.family; };
+      if (std::none_of(listed_.begin(), listed_.end(), has_name)) {
+        names += ", " + std::string(engine.family);
+      }
+    }
     throw InvalidInput("--candidates", '"' + std::string(name) + '"', "must be one of " + names);
   }
 
