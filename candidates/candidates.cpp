@@ -133,8 +133,17 @@ class Registry {
     }
     std::string names;
     for (const Candidate* c : listed_) names += (names.empty() ? "" : ", ") + c->name;
-    for (const std::string& cured : cured_engines()) names += ", " + cured;
-    for (const NpmEngine& engine : npm_engines()) names += ", " + std::string(engine.family);
+    const auto has_family = [&](std::string_view family) {
+      const auto is = [&](const Candidate* c) { return c->family == family; };
+      return std::any_of(listed_.begin(), listed_.end(), is);
+    };
+    for (const std::string& cured : cured_engines()) {
+      if (!has_family(cured)) names += ", " + cured;
+    }
+    for (const NpmEngine& engine : npm_engines()) {
+      // A command of one's own may have taken the name.
+      if (!has_family(engine.family)) names += ", " + std::string(engine.family);
+    }
     throw InvalidInput("--candidates", '"' + std::string(name) + '"', "must be one of " + names);
   }
 
@@ -350,8 +359,7 @@ void add_list(const std::filesystem::path& file) {
       throw InvalidInput("--load", where + ": " + e.value(), e.remedy());
     }
   }
-  if (lines.bad())
-    throw InvalidInput("--load", file.string(), "must be a file that can be read");
+  if (lines.bad()) throw InvalidInput("--load", file.string(), "must be a file that can be read");
 }
 
 }  // namespace

@@ -53,6 +53,20 @@ TEST(FindCandidates, ReadSweeps) {
   EXPECT_THROW(names({"8"}), InvalidInput);
 }
 
+TEST(FindCandidate, ListsANameOnceThatACommandHasTaken) {
+  add_command(R"(echo '{"touchstone": 1, "name": "havok", "version": "1", "settings": "mine",)"
+              R"( "precision": "float", "runs": "script", "format": "lines",)"
+              R"( "pairs": ["cylinder-plane"]}')");
+  try {
+    find_candidate("no-such-candidate");
+    FAIL();
+  } catch (const InvalidInput& e) {
+    const auto first = e.remedy().find("havok");
+    EXPECT_NE(first, std::string::npos);
+    EXPECT_EQ(e.remedy().find("havok", first + 1), std::string::npos) << e.remedy();
+  }
+}
+
 TEST(Candidates, EveryStandardPluginIsThereWhereItsEngineIs) {
   for (const Skipped& s : skipped_plugins()) {
     EXPECT_THAT(s.reason, HasSubstr("was not built")) << s.name;

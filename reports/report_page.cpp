@@ -200,7 +200,9 @@ std::string report_page(const Report& report) {
   data["marks"] = marks(names);
   for (const CandidateDescription& c : report.candidates) {
     if (c.runs != "native") data["runs"][c.name] = c.runs;
-    data["programs"][c.name] = program_name({c.name});
+    // Needs an option before it is known.
+    const std::string program = program_name({c.name});
+    if (program != program_name({})) data["programs"][c.name] = program;
   }
   json& outcomes = data["outcomes"] = json::array();
   for (const Outcome outcome : all_outcomes) outcomes.push_back(outcome_name(outcome));

@@ -2,9 +2,12 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <set>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
+#include "candidates/npm_engines.hpp"
 #include "reports/pages/page.hpp"
 #include "reports/report_json.hpp"
 
@@ -85,6 +88,15 @@ TEST(Marks, AreAnEnginesColourAndASettingsSymbol) {
   EXPECT_NE(mark_of("ode").colour, mark_of("bullet").colour);
   EXPECT_EQ(mark_of("prism:8").symbol, mark_of("prism:64").symbol);
   EXPECT_EQ(mark_of("my-engine").colour, 7u);
+  std::set<std::pair<std::size_t, std::size_t>> seen;
+  std::set<std::size_t> colours;
+  for (const NpmEngine& engine : npm_engines()) {
+    const Mark mark = mark_of(engine.family);
+    EXPECT_TRUE(seen.insert({mark.colour, mark.symbol}).second) << engine.family;
+    EXPECT_NE(mark.colour, 7u) << engine.family;
+    colours.insert(mark.colour);
+  }
+  EXPECT_EQ(colours.size(), 5u);  // jolt, rapier, physx, havok, mujoco3
   EXPECT_LT(mark_of("").symbol, 6u);
 }
 

@@ -1,12 +1,9 @@
-// Reads touchstone-suite-1 and judges answers: node judge.js SUITE.csv[.gz] ANSWERS.jsonl
-//
-// Or from a program: for (const c of read('touchstone-suite-1.csv.gz')) verdict(c, answer), where an answer is {status:
-// 'contact', signed_distance, normal: [x, y, z], points: [{position, depth}, …]} or {status: 'none'}. README.md has the
-// format. CC0: do with it what you like.
+// Reads touchstone-suite-1 and judges answers: node judge.js SUITE.csv[.gz] ANSWERS.jsonl. README.md has its format.
+// Or from a program: for (const c of read('touchstone-suite-1.csv.gz')) verdict(c, answer), where an answer is
+// {status: 'contact', signed_distance, normal: [x, y, z], points: [{position, depth}, …]} or {status: 'none'}. CC0.
 'use strict';
 const fs = require('fs'), zlib = require('zlib'), {abs, hypot, max, min} = Math;
 const texts = ['id', 'group', 'shape_b', 'contact', 'ties', 'normal', 'patch_kind'];
-
 function read(file) {
   const bytes = fs.readFileSync(file), text = (file.endsWith('.gz') ? zlib.gunzipSync(bytes) : bytes).toString();
   const [header, ...rows] = text.trimEnd().split('\n').map(row => row.split(','));
@@ -52,10 +49,10 @@ function verdict(c, answer) {
 }
 const right = c => `contact ${c.contact}, signed distance ${c.min_distance} to ${c.max_distance}, normal ${c.normal}`;
 module.exports = {read, gap, verdict, right};
-
 if (require.main === module) {
   const cases = new Map(read(process.argv[2]).map(c => [c.id, c]));
-  for (const answer of fs.readFileSync(process.argv[3], 'utf8').trimEnd().split('\n').map(line => JSON.parse(line)).filter(a => 'id' in a)) {
+  const answers = fs.readFileSync(process.argv[3], 'utf8').trimEnd().split('\n').map(line => JSON.parse(line));
+  for (const answer of answers.filter(a => 'id' in a)) {
     const c = cases.get(answer.id), judged = verdict(c, answer);
     console.log(answer.id, judged, judged === 'agree' ? '' : `right: ${right(c)}`);
     if (judged !== 'agree') process.exitCode = 1;

@@ -3,27 +3,20 @@
 Or from Python: for case in read("touchstone-suite-1.csv.gz"): verdict(case, answer), where an answer
 is {"status": "contact", "signed_distance": d, "normal": [x, y, z], "points": [{"position": …,
 "depth": …}, …]} or {"status": "none"}. README.md has the format. CC0: do with it what you like."""
-import csv, gzip, json, math, sys
-from math import hypot
-
+import csv, gzip, json, sys
+from math import hypot, isfinite, nan
 def read(file):
     texts = ("id", "group", "shape_b", "contact", "ties", "normal", "patch_kind")
     with (gzip.open if str(file).endswith(".gz") else open)(file, "rt", newline="") as rows:
         for row in csv.DictReader(rows):
             yield {name: cell if name in texts else float(cell) for name, cell in row.items()}
-
-def numbers(case, name, letters="xyz"):
-    return [case[f"{name}_{letter}"] for letter in letters]
-
+def numbers(case, name, letters="xyz"): return [case[f"{name}_{letter}"] for letter in letters]
 def in_frame(q, v):  # q may have any length
     (w, x, y, z), s = q, 2 / sum(e * e for e in q)
     return (v[0] + s * (v[1] * (x * y + w * z) + v[2] * (x * z - w * y) - v[0] * (y * y + z * z)),
             v[1] + s * (v[2] * (y * z + w * x) + v[0] * (x * y - w * z) - v[1] * (x * x + z * z)),
             v[2] + s * (v[0] * (x * z + w * y) + v[1] * (y * z - w * x) - v[2] * (x * x + y * y)))
-
-def dot(a, b):
-    return sum(x * y for x, y in zip(a, b))
-
+def dot(a, b): return sum(x * y for x, y in zip(a, b))
 def gap(case, n):  # g(n): clearance along the unit vector n
     r, h, size, shape = case["radius_a"], case["half_length_a"], numbers(case, "size_b", "1234"), case["shape_b"]
     a, q_b = in_frame(numbers(case, "orientation_a", "wxyz"), n), numbers(case, "orientation_b", "wxyz")
@@ -40,13 +33,12 @@ def gap(case, n):  # g(n): clearance along the unit vector n
     return dot(d, n) - half_a - half_b
 
 def verdict(case, answer):
-    number, required = lambda x: math.nan if x is None else float(x), case["contact"] == "required"
+    number, required = lambda x: nan if x is None else float(x), case["contact"] == "required"
     if answer["status"] == "none": return "missed" if required else "agree"
     if answer["status"] != "contact": return answer["status"]
-    n, distance = [number(x) for x in answer["normal"]], number(answer["signed_distance"])
-    depths = [number(p["depth"]) for p in answer["points"]]
-    places = [number(x) for p in answer["points"] for x in p["position"]]
-    if not all(map(math.isfinite, [*n, distance, *depths, *places])): return "not-finite"
+    n, distance, points = [number(x) for x in answer["normal"]], number(answer["signed_distance"]), answer["points"]
+    depths, places = [number(p["depth"]) for p in points], [number(x) for p in points for x in p["position"]]
+    if not all(map(isfinite, [*n, distance, *depths, *places])): return "not-finite"
     if case["contact"] == "forbidden": return "phantom"
     if distance > case["max_distance"]: return "shallow"
     if distance < case["min_distance"]: return "overdeep"
@@ -56,14 +48,13 @@ def verdict(case, answer):
     if max(depths) < -case["max_distance"]: return "shallow-points"
     if max(depths) > -case["min_distance"]: return "overdeep-points"
     return "phantom-points" if min(depths) < case["min_point_depth"] else "agree"
-
 def right(case):
     return "contact {contact}, signed distance {min_distance} to {max_distance}, normal {normal}".format(**case)
 
 if __name__ == "__main__":
-    cases = {case["id"]: case for case in read(sys.argv[1])}
-    answers = [line for line in map(json.loads, open(sys.argv[2])) if "id" in line]
-    verdicts = [verdict(cases[a["id"]], a) for a in answers]
-    for a, judged in zip(answers, verdicts):
-        print(a["id"], judged, "" if judged == "agree" else "right: " + right(cases[a["id"]]))
-    sys.exit(any(judged != "agree" for judged in verdicts))
+    cases, wrong = {case["id"]: case for case in read(sys.argv[1])}, False
+    for answer in (line for line in map(json.loads, open(sys.argv[2])) if "id" in line):
+        case, judged = cases[answer["id"]], verdict(cases[answer["id"]], answer)
+        print(case["id"], judged, "" if judged == "agree" else "right: " + right(case))
+        wrong |= judged != "agree"
+    sys.exit(wrong)

@@ -111,22 +111,90 @@ TEST(Suite1, HasEveryPoseClassAndEveryKindOfAnswer) {
 /// Bound of the error of a reader's gap, relative to the largest regret allowed; README.md has it.
 constexpr double gap_error = 0.01;
 
-TEST(Suite1, ReadersKnowTheRegretOfAnyNormal) {
-  ASSERT_EQ(cases_read().size(), data().size());
-  for (std::size_t i = 0; i < data().size(); ++i) {
-    const TestDatum& d = data()[i];
-    const touchstone_suite::Case& c = cases_read()[i];
-    for (const double angle : {0.0, 1e-3, 2.0}) {
-      const Vec3 best = d.truth.normals.front().n;
-      const Vec3 n = Eigen::AngleAxisd(angle, best.unitOrthogonal()) * best;
-      const double expected = oracle::normal_regret(d.configuration, d.truth, n);
-      const double regret = c.signed_distance - touchstone_suite::gap(c, {n.x(), n.y(), n.z()});
-      // Beyond the limit only the verdict counts: an error relative to the regret.
-      EXPECT_NEAR(std::max(0.0, regret), expected,
-                  std::max(gap_error * c.max_regret, 1e-12 * expected))
-          << c.id << ' ' << angle;
+/// Rotations of the best normal for which every reader has to know the regret: to all sides, and
+/// far enough that the reversed term of a plane's column counts.
+constexpr double angles[] = {0, 1e-3, -1e-3, 0.5, 2, -2};
+
+Vec3 rotated_best(const TestDatum& d, double angle) {
+  const Vec3 best = d.truth.normals.front().n;
+  const Vec3 axis = best.unitOrthogonal() + best.cross(best.unitOrthogonal()) / 2;
+  return Eigen::AngleAxisd(angle, axis.normalized()) * best;
+}
+
+/// Holds the gaps that a reader says for all data and angles, in order, to the exact regrets.
+void expect_gaps(const std::vector<TestDatum>& given,
+                 const std::vector<touchstone_suite::Case>& cases,
+                 const std::vector<double>& gaps) {
+  ASSERT_EQ(gaps.size(), given.size() * std::size(angles));
+  for (std::size_t i = 0; i < gaps.size(); ++i) {
+    const TestDatum& d = given[i / std::size(angles)];
+    const touchstone_suite::Case& c = cases[i / std::size(angles)];
+    const double angle = angles[i % std::size(angles)];
+    const double expected = oracle::normal_regret(d.configuration, d.truth, rotated_best(d, angle));
+    // Beyond the limit only the verdict counts: an error relative to the regret.
+    EXPECT_NEAR(std::max(0.0, c.signed_distance - gaps[i]), expected,
+                std::max(gap_error * c.max_regret, 1e-12 * expected))
+        << c.id << ' ' << angle;
+  }
+}
+
+/// The gaps of the reader in C++, and of those in Python and JavaScript, which are given a file.
+void expect_gaps_of_all_readers(const std::vector<TestDatum>& given, const std::string& csv) {
+  std::istringstream in(csv);
+  const auto cases = touchstone_suite::read(in);
+  ASSERT_EQ(cases.size(), given.size());
+  std::vector<double> by_cpp;
+  json normals = json::array();
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    for (const double angle : angles) {
+      const Vec3 n = rotated_best(given[i], angle);
+      by_cpp.push_back(touchstone_suite::gap(cases[i], {n.x(), n.y(), n.z()}));
+      normals.push_back({n.x(), n.y(), n.z()});
     }
   }
+  expect_gaps(given, cases, by_cpp);
+  const std::string folder =
+      (fs::temp_directory_path() / ("suite_gaps." + std::to_string(getpid()))).string();
+  fs::create_directory(folder);
+  std::ofstream(folder + "/suite.csv") << csv;
+  std::ofstream(folder + "/normals.json") << normals;
+  const std::string count = std::to_string(std::size(angles));
+  const auto said_by = [&](const std::string& command) {
+    return json::parse(printed_by("cd " TOUCHSTONE_SUITE " && FOLDER=" + folder + ' ' + command))
+        .get<std::vector<double>>();
+  };
+  expect_gaps(given, cases, said_by(TOUCHSTONE_PYTHON R"( -Bc '
+import json, os, judge
+folder = os.environ["FOLDER"]
+normals = iter(json.load(open(folder + "/normals.json")))
+print([judge.gap(case, next(normals)) for case in judge.read(folder + "/suite.csv")
+       for _ in range()" + count + R"()])')"));
+  expect_gaps(given, cases,
+              said_by(R"(node -e '
+const {read, gap} = require("./judge.js"), folder = process.env.FOLDER;
+const normals = JSON.parse(require("fs").readFileSync(folder + "/normals.json"));
+const cases = read(folder + "/suite.csv");
+console.log(JSON.stringify(normals.map((n, i) => gap(cases[Math.floor(i / )" +
+                      count + R"()], n))));')"));
+  fs::remove_all(folder);
+}
+
+TEST(Suite1, ReadersKnowTheRegretOfAnyNormal) { expect_gaps_of_all_readers(data(), committed()); }
+
+/// The suite's planes all have unit normals, so that these are not in it.
+TEST(Readers, KnowPlanesWhoseNormalsHaveAnyLength) {
+  const auto writer = test_data_writer(TestDataFormat::csv, CsvColumns::suite);
+  std::vector<TestDatum> made;
+  std::string csv;
+  for (const TestDatum& d : data()) {
+    const auto* const plane = std::get_if<Plane>(&d.configuration.b);
+    if (!plane || plane->unit_displacement() == 0) continue;
+    TestDatum& longer = made.emplace_back(d);
+    longer.configuration.b = Plane(4 * plane->normal(), 4 * plane->displacement());
+    csv += writer->add(longer);
+  }
+  ASSERT_GT(made.size(), 100u);
+  expect_gaps_of_all_readers(made, csv + writer->finish());
 }
 
 // Answers: those of our own routines, and such as are wrong in a certain way.

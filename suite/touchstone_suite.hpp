@@ -3,34 +3,30 @@
 // CC0: do with it what you like.
 #pragma once
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <istream>
 #include <sstream>
 #include <string>
+#include <valarray>
 #include <vector>
 
 namespace touchstone_suite {
 
-template <std::size_t N>
-using Numbers = std::array<double, N>;
-
+using Vector = std::valarray<double>;
 struct Case {  // the columns that judging needs; of the normals the first
   std::string id, shape_b, contact;
-  Numbers<2> size_a;
-  Numbers<3> position_a, position_b, normal;
-  Numbers<4> orientation_a, orientation_b, size_b;
+  Vector size_a = Vector(2), position_a = Vector(3), position_b = Vector(3), normal = Vector(3);
+  Vector orientation_a = Vector(4), orientation_b = Vector(4), size_b = Vector(4);
   double signed_distance, min_distance, max_distance, max_regret, min_point_depth;
 };
 struct Answer {
   std::string status;  // "contact", "none", …
   double signed_distance;
-  Numbers<3> normal;
-  std::vector<Numbers<4>> points;  // x, y, z, depth
+  Vector normal;
+  std::vector<Vector> points;  // x, y, z, depth
 };
 
-template <std::size_t N>
-std::istream& operator>>(std::istream& in, Numbers<N>& numbers) {
+inline std::istream& operator>>(std::istream& in, Vector& numbers) {
   for (double& x : numbers) in >> x;
   return in;
 }
@@ -49,63 +45,57 @@ inline std::vector<Case> read(std::istream& csv) {
   return cases;
 }
 
-inline Numbers<3> in_frame(const Numbers<4>& q, const Numbers<3>& v) {  // q may have any length
-  const auto [w, x, y, z] = q;
-  const double s = 2 / (w * w + x * x + y * y + z * z);
-  return {v[0] + s * (v[1] * (x * y + w * z) + v[2] * (x * z - w * y) - v[0] * (y * y + z * z)),
-          v[1] + s * (v[2] * (y * z + w * x) + v[0] * (x * y - w * z) - v[1] * (x * x + z * z)),
-          v[2] + s * (v[0] * (x * z + w * y) + v[1] * (y * z - w * x) - v[2] * (x * x + y * y))};
+inline double dot(const Vector& a, const Vector& b) { return (a * b).sum(); }
+inline double length(const Vector& v) { return std::sqrt(dot(v, v)); }
+inline Vector cross(const Vector& a, const Vector& b) {
+  return a.cshift(1) * b.cshift(2) - a.cshift(2) * b.cshift(1);
 }
-inline double dot(const Numbers<3>& a, const Numbers<3>& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+inline Vector in_frame(const Vector& q, const Vector& v) {  // q may have any length
+  const Vector u = {q[1], q[2], q[3]}, t = cross(u, v);
+  return v + 2 / dot(q, q) * (cross(u, t) - q[0] * t);
 }
-inline double gap(const Case& c, const Numbers<3>& n) {  // g(n): clearance along the unit vector n
-  const auto [r, h] = c.size_a;
-  const auto [b1, b2, b3, b4] = c.size_b;
-  const Numbers<3> a = in_frame(c.orientation_a, n), b = in_frame(c.orientation_b, n),
-                   &p = c.position_a, &q = c.position_b,
-                   d = {p[0] - q[0], p[1] - q[1], p[2] - q[2]};
-  const double half_a = h * std::abs(a[2]) + r * std::hypot(a[0], a[1]), g = dot(d, n) - half_a;
-  if (c.shape_b == "sphere") return g - b1;
-  if (c.shape_b == "capsule") return g - b1 - b2 * std::abs(b[2]);
-  if (c.shape_b == "cylinder") return g - b2 * std::abs(b[2]) - b1 * std::hypot(b[0], b[1]);
-  if (c.shape_b == "box")
-    return g - b1 * std::abs(b[0]) - b2 * std::abs(b[1]) - b3 * std::abs(b[2]);
-  // A plane: against the column of the half-space beneath the cylinder's circumsphere.
-  const double length = std::hypot(b1, b2, b3), rho = std::hypot(r, h);
-  const Numbers<3> up = {b1 / length, b2 / length, b3 / length};
-  const double cosine = dot(b, up), height = dot(in_frame(c.orientation_b, d), up) - b4 / length;
-  const double sine =
-      std::hypot(b[0] - cosine * up[0], b[1] - cosine * up[1], b[2] - cosine * up[2]);
-  return height * cosine - half_a - rho * sine - 2 * rho * std::max(0.0, -cosine);
+inline double gap(const Case& c, const Vector& n) {  // g(n): clearance along the unit vector n
+  const Vector a = in_frame(c.orientation_a, n), b = in_frame(c.orientation_b, n), &size = c.size_b;
+  const Vector d = c.position_a - c.position_b, xyz = {size[0], size[1], size[2]};
+  const double r = c.size_a[0], h = c.size_a[1], rho = std::hypot(r, h);
+  const double half_a = h * std::abs(a[2]) + r * std::hypot(a[0], a[1]);
+  if (c.shape_b ==
+      "plane") {  // against the half-space's column beneath the cylinder's circumsphere
+    const Vector up = xyz / length(xyz);
+    const double cosine = dot(b, up), sine = length(b - cosine * up);
+    const double height = dot(in_frame(c.orientation_b, d), up) - size[3] / length(xyz);
+    return height * cosine - half_a - rho * sine - 2 * rho * std::max(0.0, -cosine);
+  }
+  const double across = c.shape_b == "cylinder" ? std::hypot(b[0], b[1]) : 1;
+  const double half_round = size[0] * across + size[1] * std::abs(b[2]);  // a sphere's is size[0]
+  return dot(d, n) - half_a - (c.shape_b == "box" ? dot(xyz, std::abs(b)) : half_round);
 }
 
+inline bool is_finite(const Vector& v) {
+  return std::all_of(begin(v), end(v), [](double x) { return std::isfinite(x); });
+}
 inline std::string verdict(const Case& c, const Answer& answer) {
   const auto& [status, distance, normal, points] = answer;
   const bool required = c.contact == "required";
-  if (status == "none") return required ? "missed" : "agree";
-  if (status != "contact") return status;
+  if (status != "contact") return status != "none" ? status : required ? "missed" : "agree";
   double min_depth = HUGE_VAL, max_depth = -HUGE_VAL;
-  bool finite = std::isfinite(distance);
-  for (const double x : normal) finite = finite && std::isfinite(x);
-  for (const auto& p : points) {
-    for (const double x : p) finite = finite && std::isfinite(x);
+  bool finite = std::isfinite(distance) && is_finite(normal);
+  for (const Vector& p : points) {
     min_depth = std::min(min_depth, p[3]), max_depth = std::max(max_depth, p[3]);
+    finite = finite && is_finite(p);
   }
   if (!finite) return "not-finite";
   if (c.contact == "forbidden") return "phantom";
   if (distance > c.max_distance) return "shallow";
   if (distance < c.min_distance) return "overdeep";
-  const double length = std::hypot(normal[0], normal[1], normal[2]);
-  if (!(std::abs(length - 1) <= 1e-6)) return "wrong-normal";
-  const Numbers<3> n = {normal[0] / length, normal[1] / length, normal[2] / length};
-  if (c.signed_distance - gap(c, n) > c.max_regret) return "wrong-normal";
+  if (!(std::abs(length(normal) - 1) <= 1e-6)) return "wrong-normal";
+  const double regret = c.signed_distance - gap(c, normal / length(normal));
+  if (regret > c.max_regret) return "wrong-normal";
   if (points.empty()) return required ? "shallow-points" : "agree";
   if (max_depth < -c.max_distance) return "shallow-points";
   if (max_depth > -c.min_distance) return "overdeep-points";
   return min_depth < c.min_point_depth ? "phantom-points" : "agree";
 }
-
 inline std::string right(const Case& c) {  // what would be right
   std::ostringstream text;
   text.precision(17);

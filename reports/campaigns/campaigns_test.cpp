@@ -10,6 +10,7 @@
 #include "reference/invalid_input.hpp"
 #include "reports/campaigns/merge.hpp"
 #include "reports/campaigns/shard.hpp"
+#include "reports/terminal_table.hpp"
 
 namespace touchstone {
 namespace {
@@ -162,7 +163,7 @@ json plan(std::uint64_t seed = 1) {
           {"classes",
            {{{"pair", "cylinder-sphere"}, {"class", "general-shallow"}},
             {{"pair", "cylinder-box"}, {"class", "rim-face"}}}},
-          {"candidates", {{{"name", "one"}}, {{"name", "two"}}}}};
+          {"candidates", {{{"name", "one"}}, {{"name", "two"}, {"runs", "wasm"}}}}};
 }
 
 /// Units first … last − 1 of it, with scores that follow from their indices.
@@ -245,6 +246,13 @@ TEST(Merge, RefusesPartsThatAreCutIntoUnitsOfAnotherSize) {
   other["unit_size"] = 2 * Unit::max_size;
   EXPECT_THAT([&] { plan_from_json(other); },
               ThrowsMessage<InvalidInput>(HasSubstr("campaign.unit_size is 1024")));
+}
+
+TEST(Merge, MarksWhatDoesNotRunAsNativeCode) {
+  const Report report = campaign_result(part(0, 4));
+  EXPECT_EQ(report.candidates[0].runs, "native");
+  EXPECT_EQ(report.candidates[1].runs, "wasm");
+  EXPECT_THAT(terminal_table(report), HasSubstr("two* "));
 }
 
 TEST(Merge, MarksWhatIsPartial) {

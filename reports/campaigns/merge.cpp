@@ -214,8 +214,10 @@ Report campaign_result(const ShardState& whole) {
   report.planned = {plan.cut.cells, plan.cut.cells * plan.cut.count};
   report.completed = {plan.cut.cells, configurations(plan.cut, whole.done)};
   report.configurations = report.completed.configurations;
-  for (const std::string& name : plan.candidates) {
-    report.candidates.emplace_back().name = name;
+  for (std::size_t k = 0; k < candidates; ++k) {
+    CandidateDescription& candidate = report.candidates.emplace_back();
+    candidate.name = plan.candidates[k];
+    candidate.runs = plan.runs[k];
   }
   for (const Cell& cell : plan.cells) {
     report.classes.push_back(description_of(cell));

@@ -132,6 +132,8 @@ Plan make_plan(const Campaign& campaign, const std::string& command) {
                           {"models", c->models},
                           {"plugin_checksum", c->command.empty() ? checksum_of_plugin(c->plugin)
                                                                  : checksum(c->command)}});
+    // Left out where it is usual, as in campaigns that were begun before it was known.
+    if (c->runs != "native") candidates.back()["runs"] = c->runs;
   }
   return plan_from_json({{"version", TOUCHSTONE_VERSION},
                          {"command", command},
@@ -182,6 +184,7 @@ Plan plan_from_json(const json& j) {
   });
   each_of(j, "candidates", [&](const json& c, const std::string& path) {
     plan.candidates.push_back(string(member(c, "name", path), path + ".name"));
+    plan.runs.push_back(c.contains("runs") ? string(c["runs"], path + ".runs") : "native");
   });
   plan.cut.cells = plan.cells.size();
   if (plan.cells.empty() || plan.cut.count == 0) {

@@ -60,6 +60,7 @@ struct Plan {
   double tolerance = 0, threshold = 0;
   std::vector<Cell> cells;
   std::vector<std::string> candidates;
+  std::vector<std::string> runs;  ///< how each candidate does: "native", "wasm" or "script"
   Cut cut{};
   /// All of it in JSON, as the campaign's files have it: limits, descriptions, and checksums of the
   /// plug-ins and of the first configuration of each class, which changes when a generator does.

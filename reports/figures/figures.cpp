@@ -91,8 +91,9 @@ namespace {
 /// "pointtype 7 linecolor '#0072b2'": a candidate's mark, coloured as on the report's page; of its
 /// engine's variants each has a symbol, and where there are lines a dash of its own.
 std::string style_of(const std::string& candidate, bool with_lines = false) {
-  constexpr const char* colours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
-                                     "#a67c00", "#3a9bdc", "#7a5195", "#555555"};
+  constexpr const char* colours[] = {
+      "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#a67c00", "#3a9bdc", "#7a5195", "#555555",
+      "#8f5a1e", "#4b3f9e", "#b0477f", "#b3123c", "#5d7d00", "#00808a", "#a020a0", "#1f3a8a"};
   constexpr int symbols[] = {7, 5, 9, 13, 1, 11};  // gnuplot's circle, square, triangle, …
   constexpr const char* dashes[] = {"solid",     "(9,3)",  "(4,4)",
                                     "(9,3,2,3)", "(16,4)", "(9,3,2,3,2,3)"};

@@ -18,9 +18,9 @@ enum class Page { report, comparison, replay, stability, choice, engines };
 std::string render_page(Page page, const nlohmann::json& data);
 
 /// The mark of a candidate on every page and figure: a colour for each engine, a symbol for each of
-/// its settings. A candidate that is not known here has the last colour and a symbol by its name.
+/// its settings. A candidate that is not known here is grey and has a symbol by its name.
 struct Mark {
-  std::size_t colour;  ///< 0 … 7: --c0 … --c7 of the pages' style sheet
+  std::size_t colour;  ///< 0 … 15: --c0 … --c15 of the pages' style sheet
   std::size_t symbol;  ///< 0 … 5: of `symbols` in page.js
 };
 Mark mark_of(std::string_view candidate);

@@ -134,7 +134,7 @@ function failuresOf() {
 const agreed = rate => 1 - rate.failed / rate.count;
 const wholePercent = share => `${Math.floor(100 * share + 1e-9)}%`;
 const isGiven = name => report.candidates.some(c => c.name === name && c.given);  // its answers came in a file
-const replayOf = (id, candidate) => `${programs[candidate]} replay ${id}` + (isGiven(candidate) ? '' : ` --candidates ${candidate}`);
+const replayOf = (id, candidate) => `${programOf(candidate)} replay ${id}` + (isGiven(candidate) ? '' : ` --candidates ${candidate}`);
 // Every moving body is turned, so that all everyday arrangements that fail turned are shown, as far as there is room; of
 // others the worst, where few of those fail. The table "Exact against turned" has all.
 function contrastsFound() {

@@ -41,7 +41,7 @@ function drakeCell(pair, r) {
   if (worst) {
     whenPressed(cell, () => byId('drake-command').replaceChildren(
         element('p', {}, `${r.candidate}, ${worst.description}:`),
-        command(`echo '${JSON.stringify(worst.configuration)}' | ${programs[r.candidate]} replay - --candidates ${r.candidate}`)));
+        command(`echo '${JSON.stringify(worst.configuration)}' | ${programOf(r.candidate)} replay - --candidates ${r.candidate}`)));
   }
   return cell;
 }

@@ -99,7 +99,7 @@ function drawMaps(into, maps, names) {
       'covering less than 0.3 of the contact patch.'),
       element('p', {class: 'controls'}, label), outcomeLegend(seen), place, shown);
   const show = (result, pixel) => shown.replaceChildren(`${result.candidate}, ${maps.letters[pixel.letter]}: `,
-      element('code', {}, `${programs[result.candidate]} replay ${pixel.name} --candidates ${result.candidate}`));
+      element('code', {}, `${programOf(result.candidate)} replay ${pixel.name} --candidates ${result.candidate}`));
   function draw() {
     const heads = maps.poses.map(p => explainedHead(p.pose, `${p.description} Across: ${p.columns}. Up: ${p.rows}.`));
     place.replaceChildren(table([textColumn('candidate'), ...heads], names.map(name => [rowHead(named(name)), ...maps.poses.map(p => {

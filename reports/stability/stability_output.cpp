@@ -348,7 +348,8 @@ void write_stability(const Stability& stability, const std::string& command,
   for (const std::string& name : names) {
     const std::string runs = runs_as(name);
     if (runs != "native") whole["runs"][name] = runs;
-    whole["programs"][name] = program_name({name});
+    const std::string program = program_name({name});
+    if (program != program_name({})) whole["programs"][name] = program;
   }
   write_file(folder / "stability.html", render_page(Page::stability, whole), "--out");
 }
