@@ -124,7 +124,7 @@ class Registry {
     if (const auto cured = cured_engines();
         std::find(cured.begin(), cured.end(), family) != cured.end()) {
       const std::filesystem::path file = standard_file(family);
-      add(PluginProcess(file).candidates(), {"--candidates", family}, false);
+      add(PluginProcess(file).candidates(), {"--candidates", family}, std::nullopt, false);
       return find(name);
     }
     if (const NpmEngine* const engine = find_npm_engine(family)) {
@@ -133,16 +133,16 @@ class Registry {
     }
     std::string names;
     for (const Candidate* c : listed_) names += (names.empty() ? "" : ", ") + c->name;
-    const auto has_family = [&](std::string_view family) {
-      const auto is = [&](const Candidate* c) { return c->family == family; };
+    const auto is_listed = [&](std::string_view other) {
+      const auto is = [&](const Candidate* c) { return c->family == other; };
       return std::any_of(listed_.begin(), listed_.end(), is);
     };
     for (const std::string& cured : cured_engines()) {
-      if (!has_family(cured)) names += ", " + cured;
+      if (!is_listed(cured)) names += ", " + cured;
     }
     for (const NpmEngine& engine : npm_engines()) {
       // A command of one's own may have taken the name.
-      if (!has_family(engine.family)) names += ", " + std::string(engine.family);
+      if (!is_listed(engine.family)) names += ", " + std::string(engine.family);
     }
     throw InvalidInput("--candidates", '"' + std::string(name) + '"', "must be one of " + names);
   }
