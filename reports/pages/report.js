@@ -130,6 +130,10 @@ function failuresOf() {
       }).filter(Boolean)));
 }
 
+// What a command's own measurement of its time is worth.
+const floorText = ({nanoseconds: t}) => t && t.floor !== null ? `\nof bodies far apart ${whole(t.floor)} ns: what its binding costs; ` +
+    `by our clock ${t.our_clock.toFixed(2)} times, processor time ${t.processor.toFixed(2)} times what it says` : '';
+
 // What candidates pass as it is and fail with one modifier (factors.hpp).
 const agreed = rate => 1 - rate.failed / rate.count;
 const wholePercent = share => `${Math.floor(100 * share + 1e-9)}%`;

@@ -4,10 +4,6 @@ const chartedError = r => Math.max(r.depth_error.p99, minChartedError);
 const chartable = r => time(r) !== null && r.depth_error !== null;
 const timeLabel = "datum.value < 1e3 ? datum.value + ' ns' : datum.value < 1e6 ? datum.value / 1e3 + ' µs' : datum.value / 1e6 + ' ms'";
 
-// What a command's own measurement of its time is worth.
-const floorText = ({nanoseconds: t}) => t && t.floor !== null ? `\nof bodies far apart ${whole(t.floor)} ns: what its binding costs; ` +
-    `by our clock ${t.our_clock.toFixed(2)} times, processor time ${t.processor.toFixed(2)} times what it says` : '';
-
 // Speed and accuracy: a chart of each pair, on the same axes.
 const panels = [];
 function speedAccuracy() {
