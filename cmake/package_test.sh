@@ -12,6 +12,7 @@ package=("$folder"/made/touchstone_*.deb)
 dpkg-deb -c "${package[0]}" | awk '{print $6}' >"$folder/files"
 for file in bin/touchstone lib/touchstone/touchstone-reference.so include/touchstone/candidate.h \
   include/touchstone/touchstone.hpp include/touchstone/engines/{bullet,mujoco,ode}.hpp \
+  include/touchstone/touchstone_contacts.h \
   lib/libtouchstone_reference.a \
   lib/cmake/touchstone/touchstoneConfig.cmake share/man/man1/touchstone.1 \
   share/bash-completion/completions/touchstone share/zsh/vendor-completions/_touchstone \
