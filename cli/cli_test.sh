@@ -122,6 +122,12 @@ expect 2 '--out' simulate rolling --out /proc/none
 expect 0 'reference  *=' simulate rolling --candidates reference --step 0.01
 expect 0 '"exact":true' simulate rolling --candidates reference --step 0.01 --json --out "$folder/simulated"
 grep -q '"rolling"' "$folder/simulated/experiments.json" || { echo "FAILED: no experiments.json"; failures=$((failures + 1)); }
+expect 0 'ode+touchstone' simulate lying --engine ode --out "$folder/simulated"
+expect 2 '--engine.*must be one of bullet, ' simulate lying --engine havok
+expect 2 'must be one number with --engine' simulate lying --engine ode --step 0.01,0.02
+expect 2 'no choice of --candidates' simulate lying --engine ode --candidates bullet
+expect 2 'excludes' simulate lying --engine ode --record "$folder/recorded.jsonl"
+grep -q '"cure"' "$folder/simulated/engines.json" || { echo "FAILED: no engines.json"; failures=$((failures + 1)); }
 expect 2 '--candidate' check
 expect 2 '--law.*agreement' check --candidate bullet --law gravity
 expect 2 '--class' check --candidate bullet --class nowhere

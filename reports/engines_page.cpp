@@ -35,7 +35,7 @@ json camera_of(const Scene& scene) {
 json motion_json(const EngineResult& result, double step) {
   const Experiment& experiment = find_experiment(result.experiment);
   json runs = json::array();
-  Motion motion;
+  EngineMotion motion;
   for (const bool cured : {false, true}) {
     motion = record_motion(experiment, result.engine, {.cured = cured}, step);
     runs.push_back({{"poses", base64(motion.poses)}});

@@ -183,7 +183,7 @@ TEST(InsideAnEngine, SaysThatAnEngineIsNotThere) {
 
 TEST(InsideAnEngine, AMotionHasAFrameForEverySixtiethOfASecond) {
   if (!is_there("ode")) GTEST_SKIP();
-  const Motion motion =
+  const EngineMotion motion =
       record_motion(find_experiment("rolling"), "ode", {.cured = true}, usual_step);
   EXPECT_DOUBLE_EQ(motion.interval, 1.0 / 60);
   EXPECT_EQ(motion.poses.size(), 7U * (3 * 60 + 1));

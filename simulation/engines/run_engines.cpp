@@ -1,6 +1,7 @@
 #include "simulation/engines/run_engines.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <dlfcn.h>
 #include <filesystem>
@@ -246,12 +247,12 @@ bool is_one_run(const Experiment& experiment, double step) {
   return scenes_of(experiment, step).size() == 1;
 }
 
-Motion record_motion(const Experiment& experiment, const std::string& engine,
-                     const EngineSetup& setup, double step) {
+EngineMotion record_motion(const Experiment& experiment, const std::string& engine,
+                           const EngineSetup& setup, double step) {
   constexpr double frames_per_second = 60;
-  Motion motion{scenes_of(experiment, step).front(), 0, {}};
+  EngineMotion motion{scenes_of(experiment, step).front(), 0, {}};
   const int every =
-      std::max(1, static_cast<int>(1 / (frames_per_second * motion.scene.step) + 0.5));
+      std::max(1, static_cast<int>(std::lround(1 / (frames_per_second * motion.scene.step))));
   motion.interval = every * motion.scene.step;
   const Contained ran = run_contained(
       [&] {

@@ -70,7 +70,7 @@ Cure cure_of(const ExperimentResult& own, const ExperimentResult& cured,
              const std::optional<ExperimentResult>& best);
 
 /// The motion of one run, as a page shows it.
-struct Motion {
+struct EngineMotion {
   Scene scene;
   double interval = 0;       ///< s, between frames
   std::vector<float> poses;  ///< of all frames (append_poses); they end where the run did
@@ -85,8 +85,8 @@ bool is_one_run(const Experiment& experiment, double step);
 
 /// Runs such an experiment once more, and keeps its motion. Throws std::runtime_error if the engine
 /// ends it.
-Motion record_motion(const Experiment& experiment, const std::string& engine,
-                     const EngineSetup& setup, double step);
+EngineMotion record_motion(const Experiment& experiment, const std::string& engine,
+                           const EngineSetup& setup, double step);
 
 /// Tables for a terminal of 80 columns: of all that is measured; of the errors alone, for a report.
 std::string engines_table(const EngineResults& results);
