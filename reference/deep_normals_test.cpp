@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 #include <random>
+#include <string>
 
 #include "properties/identity.hpp"
 #include "reference/box_sides.hpp"
@@ -63,6 +64,57 @@ TEST(DeepNormals, AreProvenOnlyWhereNoNormalHasALargerGap) {
   EXPECT_GT(crossing.proven, 600);
   EXPECT_EQ(cap.contradicted, 0);
   EXPECT_EQ(crossing.contradicted, 0);
+}
+
+/// Is there a larger gap than this? The answer takes none of the short cuts.
+bool has_larger_gap(const Configuration& x, double gap) {
+  return certified_distance(x).value > gap + 1e-13 * larger_size(x);
+}
+
+TEST(DeepNormals, OfCapsThatTheirRimHoldsHaveTheLargestGap) {
+  int proven = 0, contradicted = 0, unproven = 0;
+  for (const char* tilt : {"1e-1", "1e-2", "1e-3", "1e-5", "1e-9", "1e-13"}) {
+    for (std::uint64_t i = 0; i < 600; ++i) {
+      const std::string name = std::string("parallel+tilted-") + tilt;
+      const Configuration x = make_configuration({Pair::cylinder, name, 3, i});
+      const FoldedCylinders pair = folded(x);
+      const FoldedAxes& f = pair.axes;
+      const double side = f.d1 < 0 ? -1 : 1, gap = pair.gap({side, 0, 0});
+      if (gap > 0) continue;
+      // Of all else at the cap: the other rim's point, as seen along the axis.
+      const double slope = std::hypot(f.d2 - side * (pair.h2 * f.s - pair.r2 * f.c), f.d3);
+      const AboutAxis about{pair.r1, pair.h1, pair.r2,        pair.h2,
+                            f.c,     f.s,     std::abs(f.d1), std::hypot(f.d2, f.d3)};
+      if (no_normal_beats_held_cap(about, slope, pair.r1, -gap)) {
+        ++proven;
+        contradicted += has_larger_gap(x, gap);
+      } else {
+        unproven += has_larger_gap(x, gap);
+      }
+    }
+  }
+  EXPECT_GT(proven, 200);
+  EXPECT_GT(unproven, 300);
+  EXPECT_EQ(contradicted, 0);
+}
+
+TEST(DeepNormals, OfRimsThatOverlapDeeplyAreNotMissed) {
+  for (const char* name : {"general+deep", "general+deep+coin", "general+deep+needle", "rim-rim"}) {
+    for (std::uint64_t i = 0; i < 1000; ++i) {
+      const Configuration x = make_configuration({Pair::cylinder, name, 3, i});
+      EXPECT_FALSE(has_larger_gap(x, signed_distance(x).value)) << name << " " << i;
+    }
+  }
+}
+
+TEST(DeepNormals, OfRimsOnABoxesEdgeAreNotMissed) {
+  for (const char* name : {"parallel+tilted-1e-2", "parallel+tilted-1e-4", "cap-on-face-offset",
+                           "coaxial+tilted-1e-4+aligned+huge+not-quite-unit"}) {
+    for (std::uint64_t i = 0; i < 1000; ++i) {
+      const Configuration x = make_configuration({Pair::box, name, 3, i});
+      EXPECT_FALSE(has_larger_gap(x, signed_distance(x).value)) << name << " " << i;
+    }
+  }
 }
 
 /// The largest gap's normal in the folded frame.
@@ -186,7 +238,8 @@ TEST(DeepNormals, OfBoxesThatProveThemselvesHaveTheLargestGap) {
   std::mt19937_64 random(4);
   Counts counts;
   int deep = 0;
-  for (const char* name : {"general-shallow", "general-deep", "concentric"}) {
+  for (const char* name : {"general-shallow", "general-deep", "concentric", "cap-on-face-offset",
+                           "side-on-face", "coaxial", "touching"}) {
     for (std::uint64_t i = 0; i < 1000; ++i) {
       const Configuration x = make_configuration({Pair::box, name, 3, i});
       const auto& b = std::get<Box>(x.b);
