@@ -107,6 +107,38 @@ TEST(DeepNormals, OfRimsThatOverlapDeeplyAreNotMissed) {
   }
 }
 
+/// Cylinders of any sizes and axes whose rims meet at a normal, where the gap has a maximum.
+TEST(DeepNormals, OfRimsAreNeverTooDeepForAMaximum) {
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> exponent(-0.5, 0.5), part(0, 1);
+  const auto unit = [&] {
+    return Vec3(normal(random), normal(random), normal(random)).normalized();
+  };
+  int maxima = 0, too_deep_by_10 = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Vec3 n = unit(), u1 = unit(), u2 = unit();
+    const double r1 = std::pow(10, exponent(random)), r2 = std::pow(10, exponent(random));
+    const double rho1 = u1.cross(n).norm(), rho2 = u2.cross(n).norm();
+    const double k1 = r1 / rho1, k2 = r2 / rho2;
+    const double squared = u1.cross(n).cross(u2.cross(n)).squaredNorm() / std::pow(rho1 * rho2, 2);
+    // The smaller eigenvalue of the rims' Hessian.
+    const double deepest = (k1 + k2 - std::sqrt((k1 + k2) * (k1 + k2) - 4 * k1 * k2 * squared)) / 2;
+    const double depth = part(random) * deepest;
+    const auto rim = [&](const Vec3& u, double r) {
+      return Vec3(std::copysign(1, u.dot(n)) * u + r * (n - n.dot(u) * u).normalized());
+    };
+    const FoldedAxes axes(u1, u2, rim(u1, r1) + rim(u2, r2) - depth * n);
+    const FoldedCylinders pair{axes, r1, 1, r2, 1};
+    const Vec3 folded(n.dot(axes.e1), n.dot(axes.e2), n.dot(axes.e3));
+    const bool same_ends = folded.x() * axes.along_u2(folded) > 0;
+    ++maxima;
+    EXPECT_FALSE(overlap_too_deeply(pair, same_ends, depth));
+    too_deep_by_10 += overlap_too_deeply(pair, same_ends, 10 * depth);
+  }
+  EXPECT_GT(too_deep_by_10, maxima / 50);
+}
+
 TEST(DeepNormals, OfRimsOnABoxesEdgeAreNotMissed) {
   for (const char* name : {"parallel+tilted-1e-2", "parallel+tilted-1e-4", "cap-on-face-offset",
                            "coaxial+tilted-1e-4+aligned+huge+not-quite-unit"}) {
