@@ -106,4 +106,15 @@ inline bool bends_away_near_axis(const Rim& a, const Rim& b, double lean, double
          slope * slope <= rounding * (a.r + b.r) * lambda && no_normal_off_axis_beats(about, depth);
 }
 
+/// Proves that no normal is a maximum of the gap where rims of these ends meet, of bodies that
+/// overlap by no less than this (proofs.md, "Rims that overlap deeply").
+inline bool overlap_too_deeply(const FoldedCylinders& pair, bool same_ends, double least_depth) {
+  const FoldedAxes& f = pair.axes;
+  const double r1 = pair.r1, r2 = pair.r2, product = r1 * r2;
+  const double squared = r1 * r1 + r2 * r2 + 2 * (same_ends ? f.c : -f.c) * product;
+  constexpr double rounding = 1e-9;
+  return f.d3 * f.d3 * squared * std::sqrt(squared) <
+         (1 - rounding) * least_depth * product * product * f.s;
+}
+
 }  // namespace touchstone

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 #include <random>
+#include <string>
 
 #include "properties/identity.hpp"
 #include "reference/box_sides.hpp"
@@ -63,6 +64,89 @@ TEST(DeepNormals, AreProvenOnlyWhereNoNormalHasALargerGap) {
   EXPECT_GT(crossing.proven, 600);
   EXPECT_EQ(cap.contradicted, 0);
   EXPECT_EQ(crossing.contradicted, 0);
+}
+
+/// Is there a larger gap than this? The answer takes none of the short cuts.
+bool has_larger_gap(const Configuration& x, double gap) {
+  return certified_distance(x).value > gap + 1e-13 * larger_size(x);
+}
+
+TEST(DeepNormals, OfCapsThatTheirRimHoldsHaveTheLargestGap) {
+  int proven = 0, contradicted = 0, unproven = 0;
+  for (const char* tilt : {"1e-1", "1e-2", "1e-3", "1e-5", "1e-9", "1e-13"}) {
+    for (std::uint64_t i = 0; i < 600; ++i) {
+      const std::string name = std::string("parallel+tilted-") + tilt;
+      const Configuration x = make_configuration({Pair::cylinder, name, 3, i});
+      const FoldedCylinders pair = folded(x);
+      const FoldedAxes& f = pair.axes;
+      const double side = f.d1 < 0 ? -1 : 1, gap = pair.gap({side, 0, 0});
+      if (gap > 0) continue;
+      // Of all else at the cap: the other rim's point, as seen along the axis.
+      const double slope = std::hypot(f.d2 - side * (pair.h2 * f.s - pair.r2 * f.c), f.d3);
+      const AboutAxis about{pair.r1, pair.h1, pair.r2,        pair.h2,
+                            f.c,     f.s,     std::abs(f.d1), std::hypot(f.d2, f.d3)};
+      if (no_normal_beats_held_cap(about, slope, pair.r1, -gap)) {
+        ++proven;
+        contradicted += has_larger_gap(x, gap);
+      } else {
+        unproven += has_larger_gap(x, gap);
+      }
+    }
+  }
+  EXPECT_GT(proven, 200);
+  EXPECT_GT(unproven, 300);
+  EXPECT_EQ(contradicted, 0);
+}
+
+TEST(DeepNormals, OfRimsThatOverlapDeeplyAreNotMissed) {
+  for (const char* name : {"general+deep", "general+deep+coin", "general+deep+needle", "rim-rim"}) {
+    for (std::uint64_t i = 0; i < 1000; ++i) {
+      const Configuration x = make_configuration({Pair::cylinder, name, 3, i});
+      EXPECT_FALSE(has_larger_gap(x, signed_distance(x).value)) << name << " " << i;
+    }
+  }
+}
+
+/// Cylinders of any sizes and axes whose rims meet at a normal, where the gap has a maximum.
+TEST(DeepNormals, OfRimsAreNeverTooDeepForAMaximum) {
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> exponent(-0.5, 0.5), part(0, 1);
+  const auto unit = [&] {
+    return Vec3(normal(random), normal(random), normal(random)).normalized();
+  };
+  int maxima = 0, too_deep_by_10 = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Vec3 n = unit(), u1 = unit(), u2 = unit();
+    const double r1 = std::pow(10, exponent(random)), r2 = std::pow(10, exponent(random));
+    const double rho1 = u1.cross(n).norm(), rho2 = u2.cross(n).norm();
+    const double k1 = r1 / rho1, k2 = r2 / rho2;
+    const double squared = u1.cross(n).cross(u2.cross(n)).squaredNorm() / std::pow(rho1 * rho2, 2);
+    // The smaller eigenvalue of the rims' Hessian.
+    const double deepest = (k1 + k2 - std::sqrt((k1 + k2) * (k1 + k2) - 4 * k1 * k2 * squared)) / 2;
+    const double depth = part(random) * deepest;
+    const auto rim = [&](const Vec3& u, double r) {
+      return Vec3(std::copysign(1, u.dot(n)) * u + r * (n - n.dot(u) * u).normalized());
+    };
+    const FoldedAxes axes(u1, u2, rim(u1, r1) + rim(u2, r2) - depth * n);
+    const FoldedCylinders pair{axes, r1, 1, r2, 1};
+    const Vec3 folded(n.dot(axes.e1), n.dot(axes.e2), n.dot(axes.e3));
+    const bool same_ends = folded.x() * axes.along_u2(folded) > 0;
+    ++maxima;
+    EXPECT_FALSE(overlap_too_deeply(pair, same_ends, depth));
+    too_deep_by_10 += overlap_too_deeply(pair, same_ends, 10 * depth);
+  }
+  EXPECT_GT(too_deep_by_10, maxima / 50);
+}
+
+TEST(DeepNormals, OfRimsOnABoxesEdgeAreNotMissed) {
+  for (const char* name : {"parallel+tilted-1e-2", "parallel+tilted-1e-4", "cap-on-face-offset",
+                           "coaxial+tilted-1e-4+aligned+huge+not-quite-unit"}) {
+    for (std::uint64_t i = 0; i < 1000; ++i) {
+      const Configuration x = make_configuration({Pair::box, name, 3, i});
+      EXPECT_FALSE(has_larger_gap(x, signed_distance(x).value)) << name << " " << i;
+    }
+  }
 }
 
 /// The largest gap's normal in the folded frame.
@@ -186,7 +270,8 @@ TEST(DeepNormals, OfBoxesThatProveThemselvesHaveTheLargestGap) {
   std::mt19937_64 random(4);
   Counts counts;
   int deep = 0;
-  for (const char* name : {"general-shallow", "general-deep", "concentric"}) {
+  for (const char* name : {"general-shallow", "general-deep", "concentric", "cap-on-face-offset",
+                           "side-on-face", "coaxial", "touching"}) {
     for (std::uint64_t i = 0; i < 1000; ++i) {
       const Configuration x = make_configuration({Pair::box, name, 3, i});
       const auto& b = std::get<Box>(x.b);

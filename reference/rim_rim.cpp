@@ -384,17 +384,6 @@ struct DistanceBounds {
   double highest_gap() const { return least_depth > 0 ? -least_depth : limit; }
 };
 
-/// Whether no normal where rims of these ends meet can be a local maximum of the gap, of bodies
-/// that overlap by no less than this (proofs.md, "Rims that overlap deeply").
-bool overlap_too_deeply(const FoldedCylinders& pair, bool same_ends, double least_depth) {
-  const FoldedAxes& f = pair.axes;
-  const double r1 = pair.r1, r2 = pair.r2, product = r1 * r2;
-  const double squared = r1 * r1 + r2 * r2 + 2 * (same_ends ? f.c : -f.c) * product;
-  constexpr double rounding = 1e-9;
-  return f.d3 * f.d3 * squared * std::sqrt(squared) <
-         (1 - rounding) * least_depth * product * product * f.s;
-}
-
 // Tilts that only rounding makes cost no more than rounding.
 constexpr double parallel = 2e-16;
 
