@@ -21,6 +21,7 @@ struct CheckOptions {
   std::uint64_t seed = 1;
   Bar bar;
   bool by_features = false;  ///< tell failures of one name apart by the features that meet
+  unsigned workers = 1;      ///< processes that ask; they do not change the result
 };
 
 /// A configuration that breaks a law: the first one met, and a simpler one that fails alike.
@@ -47,8 +48,9 @@ struct LawResult {
 };
 
 /// Tries every law on every configuration and simplifies the first failure of each name, or of each
-/// name and features, keeping both. `progress` is told how many configurations are done,
-/// of how many.
+/// name and features, keeping both. The configurations of a chunk are asked in one session of
+/// `candidate`, or of a worker's own process; what is said to fail fails in a session of its own,
+/// too. `progress` is told how many configurations are done, of how many.
 std::vector<LawResult> check(CandidateProcess& candidate, const CheckOptions& options,
                              const std::function<void(std::uint64_t, std::uint64_t)>& progress);
 
