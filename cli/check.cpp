@@ -17,12 +17,14 @@ namespace {
 constexpr int something_failed = 1;
 
 /// About as much work: there is one hostile class, and of others some two hundred to a pair.
-constexpr std::uint64_t usual_count = 2, usual_count_of_hostile = 500;
+constexpr std::uint64_t usual_count = 20, usual_count_of_hostile = 5000;
 
 struct Options {
-  explicit Options(Command& command) : sample(command, usual_count, 1000000000), bar(command) {}
+  explicit Options(Command& command)
+      : sample(command, usual_count, 1000000000), bar(command), workers(command) {}
   SampleOption sample;
   BarOption bar;
+  WorkersOption workers;
   std::string candidate;
   std::vector<std::string> laws;
   bool hostile = false;
@@ -40,6 +42,7 @@ struct Options {
     c.count = hostile && !sample.count_is_given() ? usual_count_of_hostile : sample.count();
     c.seed = sample.seed();
     c.bar = bar.get();
+    c.workers = workers.get();
     c.by_features = !save.empty() || !known.empty();  // which takes twice as long
     return c;
   }

@@ -18,6 +18,7 @@ class FunctionRespondent : public Respondent {
   FunctionRespondent& operator=(const FunctionRespondent&) = delete;
 
   void ask_within(double threshold) override;
+  void go_on_within(double threshold) override { ask_within(threshold); }
   std::vector<Answer> answers(std::span<const Configuration> configurations) override;
   /// A function takes no hints.
   std::vector<Answer> answer(std::span<const Configuration> configurations,

@@ -23,6 +23,8 @@ CandidateProcess& CandidateProcess::operator=(CandidateProcess&&) noexcept = def
 
 void CandidateProcess::ask_within(double threshold) { respondent_->ask_within(threshold); }
 
+void CandidateProcess::go_on_within(double threshold) { respondent_->go_on_within(threshold); }
+
 std::vector<Answer> CandidateProcess::answers(std::span<const Configuration> configurations) {
   return respondent_->answers(configurations);
 }

@@ -60,6 +60,8 @@ class CandidateProcess {
 
   /// Ends the session. The next one reports contacts up to `threshold` metres apart.
   void ask_within(double threshold);
+  /// From now on contacts up to `threshold` metres apart are reported, in the same session.
+  void go_on_within(double threshold);
 
   /// Answers in a new session, so that the answers depend on these configurations alone.
   std::vector<Answer> answers(std::span<const Configuration> configurations);

@@ -213,6 +213,19 @@ TEST(CandidateProcess, PreparesShapesOnceForManyPosesAndKeepsFewOfThem) {
   EXPECT_LT(last.points[0].depth, 20);    // pairs that are not released
 }
 
+TEST(CandidateProcess, AnotherThresholdPreparesShapesAnewInTheSameSession) {
+  CandidateProcess process(sabotage("counting"), 0);
+  EXPECT_EQ(process.answer(standing).signed_distance, -1);
+  process.go_on_within(0);  // as before
+  EXPECT_EQ(process.answer(standing).signed_distance, -1);
+  process.go_on_within(0.5);
+  const Answer again = process.answer(standing);
+  EXPECT_EQ(again.signed_distance, -2);  // counted in the session
+  EXPECT_EQ(again.points[0].depth, 1);   // the pair of the other threshold is released
+  process.ask_within(0);
+  EXPECT_EQ(process.answer(standing).signed_distance, -1);
+}
+
 TEST(CandidateProcess, LeavesNoFileOpen) {
   const auto open_files = [] {
     int count = 0;

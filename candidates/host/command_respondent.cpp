@@ -76,6 +76,11 @@ void CommandRespondent::ask_within(double threshold) {
   threshold_ = threshold;
 }
 
+void CommandRespondent::go_on_within(double threshold) {
+  if (threshold != threshold_ && process_.runs()) release_all_but(0);
+  threshold_ = threshold;
+}
+
 void CommandRespondent::restart() {
   if (process_.runs()) release_all_but(0);
   failures_ = 0;

@@ -16,6 +16,7 @@ class CommandRespondent : public Respondent {
   CommandRespondent(const Candidate& candidate, double threshold, const Limits& limits);
 
   void ask_within(double threshold) override;
+  void go_on_within(double threshold) override;
   std::vector<Answer> answers(std::span<const Configuration> configurations) override;
   std::vector<Answer> answer(std::span<const Configuration> configurations,
                              std::span<const Vec3* const> previous_normals) override;

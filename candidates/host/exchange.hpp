@@ -77,8 +77,8 @@ struct SessionCommand {
   std::uint64_t ticket;  ///< unique to the command
   bool release;          ///< `answer`: keep no shapes ready for later commands
   std::int32_t index;
-  double threshold, parameter;
-  std::uint64_t memory;  ///< growth in bytes that a session is allowed
+  double threshold, parameter;  ///< `answer`: from now on contacts up to that threshold
+  std::uint64_t memory;         ///< growth in bytes that a session is allowed
 };
 
 /// A message to the harness. Everything else on the socket is noise, as from a routine that writes

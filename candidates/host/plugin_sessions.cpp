@@ -178,6 +178,7 @@ std::optional<PluginSessions::SessionFailure> PluginSessions::obey(SessionComman
   const bool fresh = session_ < 0;
   if (fresh) begin_failure = begin();
   command.ticket = ++ticket_;
+  command.threshold = threshold_;
   s.exchange->progress = progress_of(ticket_, command.first);
   if (begin_failure) return begin_failure;
   const auto stopped = [&](ts_status status, std::string reason) {

@@ -20,6 +20,7 @@ class PluginSessions : public Respondent {
   PluginSessions(const Candidate& candidate, double threshold, const Limits& limits);
 
   void ask_within(double threshold) override;
+  void go_on_within(double threshold) override { threshold_ = threshold; }
   std::vector<Answer> answers(std::span<const Configuration> configurations) override;
   std::vector<Answer> answer(std::span<const Configuration> configurations,
                              std::span<const Vec3* const> previous_normals) override;

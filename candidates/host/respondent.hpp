@@ -9,6 +9,7 @@ class Respondent {
  public:
   virtual ~Respondent() = default;
   virtual void ask_within(double threshold) = 0;
+  virtual void go_on_within(double threshold) = 0;
   virtual std::vector<Answer> answers(std::span<const Configuration> configurations) = 0;
   virtual std::vector<Answer> answer(std::span<const Configuration> configurations,
                                      std::span<const Vec3* const> previous_normals) = 0;

@@ -157,6 +157,7 @@ class Session {
   };
 
   void obey(const SessionCommand& command);
+  void ask_within(double threshold);
   ts_prepared* prepare(const Question& question);
   ts_prepared* ready(const Question& question);
   void answer(std::uint32_t slot);
@@ -213,6 +214,7 @@ void Session::serve() {
 void Session::obey(const SessionCommand& command) {
   switch (command.kind) {
     case SessionCommand::answer:
+      ask_within(command.threshold);
       for (std::uint32_t i = command.first; i < command.count; ++i) {
         const double before = processor_seconds();
         answer(i);
@@ -235,6 +237,16 @@ void Session::obey(const SessionCommand& command) {
     case SessionCommand::finish:
       _exit(0);
   }
+}
+
+/// Shapes are prepared for a threshold.
+void Session::ask_within(double threshold) {
+  if (threshold == threshold_) return;
+  threshold_ = threshold;
+  for (const PreparedPair& r : ready_) {
+    if (r.prepared) candidate_.release(r.prepared);
+  }
+  ready_.clear();
 }
 
 ts_prepared* Session::prepare(const Question& q) {

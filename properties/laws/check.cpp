@@ -2,22 +2,141 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
+#include <fmt/format.h>
+#include <sstream>
 #include <utility>
 
+#include "candidates/host/worker_processes.hpp"
 #include "properties/laws/cause.hpp"
 #include "properties/simplify.hpp"
 
 namespace touchstone {
 namespace {
 
-std::vector<Identity> identities(const CheckOptions& options, Pair pair) {
-  std::vector<Identity> result;
-  for (const std::string& name : selected_classes(pair, {options.classes, options.groups})) {
-    for (std::uint64_t i = 0; i < options.count; ++i) {
-      result.push_back({pair, name, options.seed, i});
+/// Configurations of one pair, which are asked in one session: what a worker does at a time. Few
+/// enough to share the work out, and always the same ones, whatever the number of workers.
+struct Chunk {
+  Pair pair;
+  std::vector<Identity> identities;
+};
+constexpr std::size_t max_chunk = 16;
+
+std::vector<Chunk> chunks(const CheckOptions& options) {
+  std::vector<Chunk> result;
+  for (const Pair pair : options.pairs) {
+    bool is_new_pair = true;
+    for (const std::string& name : selected_classes(pair, {options.classes, options.groups})) {
+      for (std::uint64_t i = 0; i < options.count; ++i) {
+        if (is_new_pair || result.back().identities.size() == max_chunk) {
+          result.push_back({pair, {}});
+          is_new_pair = false;
+        }
+        result.back().identities.push_back({pair, name, options.seed, i});
+      }
     }
   }
   return result;
+}
+
+/// A law that a configuration of a chunk breaks.
+struct Broken {
+  std::size_t configuration, law;  ///< places in the chunk and in the options
+  Violation violation;
+  std::string features;
+};
+
+/// What the configurations of a chunk break, in their order.
+struct ChunkResult {
+  std::vector<std::uint64_t> tried;  ///< of each law, the configurations that it applies to
+  std::vector<Broken> broken;
+  double seconds = 0;  ///< that all of it took
+};
+
+ChunkResult tried(const Chunk& chunk, const CheckOptions& options, CandidateProcess& candidate) {
+  const auto start = std::chrono::steady_clock::now();
+  ChunkResult result{std::vector<std::uint64_t>(options.laws.size()), {}, 0};
+  candidate.ask_within(options.bar.threshold);
+  for (std::size_t i = 0; i < chunk.identities.size(); ++i) {
+    const Configuration c = make_configuration(chunk.identities[i]);
+    const auto violations = broken(options.laws, c, candidate, options.bar);
+    for (std::size_t law = 0; law < options.laws.size(); ++law) {
+      if (options.laws[law]->applies(c)) ++result.tried[law];
+      if (!violations[law]) continue;
+      result.broken.push_back(
+          {i, law, *violations[law], options.by_features ? meeting_features(c) : ""});
+    }
+  }
+  const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
+  result.seconds = passed.count();
+  return result;
+}
+
+// A worker's result as text: numbers, and strings after their length.
+
+void put(std::ostream& out, const std::string& text) { out << text.size() << ' ' << text << ' '; }
+std::string get_string(std::istream& in) {
+  std::size_t size = 0;
+  in >> size;
+  std::string text(size, ' ');
+  in.get();
+  in.read(text.data(), static_cast<std::streamsize>(size));
+  return text;
+}
+
+std::string to_text(const ChunkResult& result) {
+  std::ostringstream out;
+  for (const std::uint64_t count : result.tried) out << count << ' ';
+  out << result.seconds << ' ' << result.broken.size() << ' ';
+  for (const Broken& b : result.broken) {
+    out << b.configuration << ' ' << b.law << ' ';
+    put(out, fmt::format("{:a}", b.violation.amount));
+    put(out, b.violation.failure);
+    put(out, b.violation.detail);
+    put(out, b.features);
+  }
+  return out.str();
+}
+
+ChunkResult from_text(const std::string& text, std::size_t laws) {
+  ChunkResult result{std::vector<std::uint64_t>(laws), {}, 0};
+  std::istringstream in(text);
+  for (std::uint64_t& count : result.tried) in >> count;
+  std::size_t count = 0;
+  in >> result.seconds >> count;
+  for (std::size_t i = 0; i < count; ++i) {
+    Broken b{};
+    in >> b.configuration >> b.law;
+    b.violation.amount = std::strtod(get_string(in).c_str(), nullptr);
+    b.violation.failure = get_string(in);
+    b.violation.detail = get_string(in);
+    b.features = get_string(in);
+    result.broken.push_back(std::move(b));
+  }
+  return result;
+}
+
+std::vector<ChunkResult> tried(const std::vector<Chunk>& all, const CheckOptions& options,
+                               CandidateProcess& candidate,
+                               const std::function<void(std::uint64_t)>& done) {
+  std::vector<ChunkResult> results;
+  std::uint64_t count = 0;
+  if (options.workers <= 1) {
+    for (const Chunk& chunk : all) {
+      results.push_back(tried(chunk, options, candidate));
+      done(count += chunk.identities.size());
+    }
+    return results;
+  }
+  for (const Chunk& chunk : all) count += chunk.identities.size();
+  WorkerCandidates own({&candidate.candidate()}, options.bar.threshold, {});
+  const auto texts = run_in_processes(
+      all.size(), options.workers,
+      [&](std::size_t i) { return to_text(tried(all[i], options, own.get().front())); },
+      [&](std::size_t i) { return to_string(all[i].identities.front()); },
+      [&](std::size_t finished) { done(std::min<std::uint64_t>(finished * max_chunk, count)); });
+  for (const std::string& text : texts) results.push_back(from_text(text, options.laws.size()));
+  return results;
 }
 
 /// How hard a failure is simplified: the first of its name, which is shown; and one of other
@@ -48,58 +167,47 @@ Failure simplest(const Law& law, const Identity& identity, const Violation& viol
           features};
 }
 
-/// Adds the time of its life.
-class Stopwatch {
- public:
-  explicit Stopwatch(double& seconds) : seconds_(seconds), start_(Clock::now()) {}
-  ~Stopwatch() { seconds_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
-  Stopwatch(const Stopwatch&) = delete;
-  Stopwatch& operator=(const Stopwatch&) = delete;
-
- private:
-  using Clock = std::chrono::steady_clock;
-  double& seconds_;
-  Clock::time_point start_;
-};
+/// Adds what a chunk has broken; simplifies what failed first.
+void add(const Chunk& chunk, const ChunkResult& of_chunk, const CheckOptions& options,
+         CandidateProcess& candidate, std::span<LawResult> results) {
+  for (std::size_t law = 0; law < results.size(); ++law) {
+    results[law].tried += of_chunk.tried[law];
+    results[law].seconds += of_chunk.seconds / static_cast<double>(results.size());
+  }
+  for (const Broken& b : of_chunk.broken) {
+    LawResult& result = results[b.law];
+    ++result.broken;
+    const bool is_first = result.counts[b.violation.failure]++ == 0;
+    const auto alike =
+        std::find_if(result.failures.begin(), result.failures.end(), [&](const Failure& f) {
+          return f.violation.failure == b.violation.failure && f.features == b.features;
+        });
+    if (alike != result.failures.end()) {
+      ++alike->met;
+      continue;
+    }
+    result.failures.push_back(simplest(*result.law, chunk.identities[b.configuration], b.violation,
+                                       b.features, is_first ? trials_of_first : trials_of_others,
+                                       candidate, options.bar));
+  }
+}
 
 }  // namespace
 
 std::vector<LawResult> check(CandidateProcess& candidate, const CheckOptions& options,
                              const std::function<void(std::uint64_t, std::uint64_t)>& progress) {
-  std::uint64_t all = 0, done = 0;
-  for (const Pair pair : options.pairs) all += identities(options, pair).size();
+  const std::vector<Chunk> all = chunks(options);
+  std::uint64_t count = 0;
+  for (const Chunk& chunk : all) count += chunk.identities.size();
+  const std::vector<ChunkResult> of_chunks =
+      tried(all, options, candidate, [&](std::uint64_t done) { progress(done, count); });
 
   std::vector<LawResult> results;
-  for (const Pair pair : options.pairs) {
-    const std::vector<Identity> tried = identities(options, pair);
-    if (tried.empty()) continue;
-    const auto first = static_cast<std::ptrdiff_t>(results.size());
-    for (const Law* law : options.laws) results.push_back({law, pair, 0, 0, {}, {}, 0});
-    for (const Identity& identity : tried) {
-      const Configuration c = make_configuration(identity);
-      for (auto result = results.begin() + first; result != results.end(); ++result) {
-        if (!result->law->applies(c)) continue;
-        ++result->tried;
-        const Stopwatch stopwatch(result->seconds);
-        const auto violation = broken(*result->law, c, candidate, options.bar);
-        if (!violation) continue;
-        ++result->broken;
-        const bool is_first = result->counts[violation->failure]++ == 0;
-        const std::string features = options.by_features ? meeting_features(c) : "";
-        const auto alike =
-            std::find_if(result->failures.begin(), result->failures.end(), [&](const Failure& f) {
-              return f.violation.failure == violation->failure && f.features == features;
-            });
-        if (alike != result->failures.end()) {
-          ++alike->met;
-          continue;
-        }
-        result->failures.push_back(simplest(*result->law, identity, *violation, features,
-                                            is_first ? trials_of_first : trials_of_others,
-                                            candidate, options.bar));
-      }
-      progress(++done, all);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (i == 0 || all[i].pair != all[i - 1].pair) {
+      for (const Law* law : options.laws) results.push_back({law, all[i].pair, 0, 0, {}, {}, 0});
     }
+    add(all[i], of_chunks[i], options, candidate, std::span(results).last(options.laws.size()));
   }
   std::erase_if(results, [](const LawResult& result) { return result.tried == 0; });
   for (LawResult& result : results) {

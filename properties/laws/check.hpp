@@ -21,6 +21,7 @@ struct CheckOptions {
   std::uint64_t seed = 1;
   Bar bar;
   bool by_features = false;  ///< tell failures of one name apart by the features that meet
+  unsigned workers = 1;      ///< processes that ask; they do not change the result
 };
 
 /// A configuration that breaks a law: the first one met, and a simpler one that fails alike.
@@ -44,12 +45,14 @@ struct LawResult {
   std::uint64_t tried = 0, broken = 0;
   std::map<std::string, std::uint64_t> counts;  ///< of configurations, by the failure's name
   std::vector<Failure> failures;  ///< one of each name (and features), the simplest first
-  double seconds = 0;             ///< that trying and simplifying took
+  /// An equal part of what the pair's configurations took, which all laws are asked about together.
+  double seconds = 0;
 };
 
 /// Tries every law on every configuration and simplifies the first failure of each name, or of each
-/// name and features, keeping both. `progress` is told how many configurations are done,
-/// of how many.
+/// name and features, keeping both. The configurations of a chunk are asked in one session of
+/// `candidate`, or of a worker's own process; what is said to fail fails in a session of its own,
+/// too. `progress` is told how many configurations are done, of how many.
 std::vector<LawResult> check(CandidateProcess& candidate, const CheckOptions& options,
                              const std::function<void(std::uint64_t, std::uint64_t)>& progress);
 

@@ -51,7 +51,7 @@ std::optional<Violation> judge_hint(const Configuration& c, std::span<const Answ
   if (answers.size() < 4) return std::nullopt;
   const Answer &first = answers[0], &plain = answers[1], &hinted = answers[2], &misled = answers[3];
   const Configuration next = pressed_in(c, first, bar);
-  const oracle::Truth truth = oracle::truth(next);
+  const oracle::Truth& truth = truth_of(next);
 
   if (score(next, truth, plain, bar).outcome == Outcome::agree) {
     for (const Answer* answer : {&hinted, &misled}) {

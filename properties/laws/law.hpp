@@ -64,4 +64,15 @@ const std::vector<std::string>& all_failures();
 std::optional<Violation> broken(const Law& law, const Configuration& configuration,
                                 CandidateProcess& candidate, const Bar& bar);
 
+/// The same of several laws, in their order, at a fraction of the cost: the questions of all laws
+/// are asked together, in the candidate's present session. What seems to break a law is asked again
+/// by that law alone, in sessions of its own, and only that counts.
+std::vector<std::optional<Violation>> broken(std::span<const Law* const> laws,
+                                             const Configuration& configuration,
+                                             CandidateProcess& candidate, const Bar& bar);
+
+/// The truth of a configuration. The last few are remembered, on each thread: laws ask for the
+/// same ones.
+const oracle::Truth& truth_of(const Configuration& configuration);
+
 }  // namespace touchstone

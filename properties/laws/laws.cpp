@@ -2,7 +2,9 @@
 // otherwise.
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <fmt/format.h>
+#include <limits>
 
 #include "oracle/judge/score.hpp"
 #include "oracle/patch/contact_patch.hpp"
@@ -10,7 +12,9 @@
 #include "properties/laws/law.hpp"
 #include "properties/moves.hpp"
 #include "properties/named.hpp"
+#include "properties/numbers.hpp"
 #include "reference/invalid_input.hpp"
+#include "reference/support.hpp"
 
 namespace touchstone {
 namespace {
@@ -41,7 +45,7 @@ double distance(const Answer& answer, const Bar& bar) {
                                      : bar.threshold;
 }
 
-double truth_of(const Configuration& c) { return oracle::truth(c).signed_distance.midpoint(); }
+double signed_distance(const Configuration& c) { return truth_of(c).signed_distance.midpoint(); }
 
 // answers
 
@@ -69,7 +73,7 @@ std::optional<Violation> judge_answers(const Configuration&, Answers answers, co
 // agreement
 
 std::optional<Violation> judge_agreement(const Configuration& c, Answers answers, const Bar& bar) {
-  const Score s = score(c, oracle::truth(c), answers[0], bar);
+  const Score s = score(c, truth_of(c), answers[0], bar);
   if (s.outcome == Outcome::agree || s.outcome == Outcome::unsupported) return std::nullopt;
   if (is_of_points(s.outcome)) return std::nullopt;  // that is the law "points"
   return Violation{outcome_name(s.outcome), s.severity,
@@ -78,6 +82,24 @@ std::optional<Violation> judge_agreement(const Configuration& c, Answers answers
 }
 
 // Invariance: the same distance and as good a normal.
+
+/// A bound of the error of gap() in double, and of normals being unit to 1e-6 only: the gap along a
+/// vector is taken, not that along its direction.
+double gap_error(const Configuration& c, const Vec3& n) {
+  constexpr double roundings = 64 * std::numeric_limits<double>::epsilon();
+  const double reach = c.pose_a.position().norm() + c.pose_b.position().norm() + 4 * larger_size(c);
+  return (roundings + 2 * std::abs(n.norm() - 1)) * reach;
+}
+
+/// Do the gaps along two normals certainly differ by no more than this? Only in double, so that few
+/// have to be certified.
+bool are_gaps_alike(const Configuration& c, const Vec3& n, const Configuration& other,
+                    const Vec3& other_n, double unit, double most) {
+  if (pair_of(c) == Pair::plane) return false;  // certified_gap says how a plane is judged
+  const double difference = gap(other, other_n) / unit - gap(c, n);
+  const double error = gap_error(other, other_n) / unit + gap_error(c, n);
+  return std::abs(difference) + error <= most;
+}
 
 std::optional<Violation> differs(const Configuration& c, const Answer& answer,
                                  const Configuration& other, const Answer& other_answer,
@@ -89,6 +111,10 @@ std::optional<Violation> differs(const Configuration& c, const Answer& answer,
                      fmt::format("the distance changes by {:.3g} of the smaller size", change)};
   }
   if (answer.status != TS_CONTACT || other_answer.status != TS_CONTACT) return std::nullopt;
+  if (are_gaps_alike(c, vector(answer.normal), other, vector(other_answer.normal), unit,
+                     bar.tolerance * size)) {
+    return std::nullopt;
+  }
   const double gap = oracle::certified_gap(c, vector(answer.normal)).midpoint();
   const double other_gap = oracle::certified_gap(other, vector(other_answer.normal)).midpoint();
   const double regret = std::abs(other_gap / unit - gap) / size;
@@ -200,7 +226,8 @@ std::optional<Violation> judge_way_out(const Configuration& c, Answers answers, 
   const Answer& a = answers[0];
   if (a.status != TS_CONTACT || a.signed_distance >= 0) return std::nullopt;
   const double size = error_size(c, bar);
-  const double left = truth_of(with_a_moved(c, -a.signed_distance * vector(a.normal))) / size;
+  const double left =
+      signed_distance(with_a_moved(c, -a.signed_distance * vector(a.normal))) / size;
   if (std::abs(left) <= bar.tolerance) return std::nullopt;
   return Violation{left < 0 ? "shallow" : "overdeep", std::abs(left),
                    fmt::format("after the way out the distance is {:.3g} of the smaller size, not "
@@ -212,7 +239,7 @@ std::optional<Violation> judge_way_out(const Configuration& c, Answers answers, 
 
 /// Moves A along an optimal normal until its distance from B exceeds threshold and tolerance.
 Questions ask_apart(const Configuration& c, const Bar& bar) {
-  const oracle::Truth truth = oracle::truth(c);
+  const oracle::Truth& truth = truth_of(c);
   const double clear = bar.threshold + 10 * bar.tolerance * error_size(c, bar);
   const double way = clear - truth.signed_distance.midpoint();
   if (way <= 0) return {};
@@ -224,7 +251,7 @@ std::optional<Violation> judge_apart(const Configuration& c, Answers answers, co
   for (std::size_t i = 0; i < answers.size(); ++i) {
     const Configuration& asked = i == 0 ? c : questions[i - 1];
     if (answers[i].status != TS_CONTACT || distance(answers[i], bar) >= bar.threshold) continue;
-    const double apart = (truth_of(asked) - bar.threshold) / size;
+    const double apart = (signed_distance(asked) - bar.threshold) / size;
     if (apart <= bar.tolerance) continue;
     return Violation{
         "phantom", apart,
@@ -249,7 +276,7 @@ std::string points_text(const Score& s) {
 
 std::optional<Violation> judge_points(const Configuration& c, Answers answers, const Bar& bar) {
   const Answer& a = answers[0];
-  const Score s = score(c, oracle::truth(c), a, bar);
+  const Score s = score(c, truth_of(c), a, bar);
   if (is_of_points(s.outcome)) {
     return Violation{outcome_name(s.outcome), s.severity, points_text(s)};
   }
@@ -270,7 +297,7 @@ std::optional<Violation> judge_points(const Configuration& c, Answers answers, c
 std::optional<Violation> judge_manifold(const Configuration& c, Answers answers, const Bar& bar) {
   constexpr double min_coverage = 0.3;
   // Only for exact alignments: near one the right number of points is a matter of degree.
-  const oracle::Truth truth = oracle::truth(c);
+  const oracle::Truth& truth = truth_of(c);
   const bool is_aligned =
       std::all_of(truth.normals.begin(), truth.normals.end(), [&](const auto& normal) {
         return oracle::contact_patch(c, normal).kind() != oracle::ContactPatch::Kind::point;
@@ -364,16 +391,46 @@ const std::vector<std::string>& all_failures() {
   return failures;
 }
 
-std::optional<Violation> broken(const Law& law, const Configuration& c, CandidateProcess& candidate,
-                                const Bar& given) {
-  if (!law.applies(c)) return std::nullopt;
+namespace {
+
+bool are_same(const Configuration& first, const Configuration& second) {
+  const Numbers x = numbers_of(first), y = numbers_of(second);
+  return x.pair == y.pair && x.sizes == y.sizes && x.position_a == y.position_a &&
+         x.position_b == y.position_b && x.orientation_a.coeffs() == y.orientation_a.coeffs() &&
+         x.orientation_b.coeffs() == y.orientation_b.coeffs() && x.normal == y.normal &&
+         x.displacement == y.displacement;
+}
+
+}  // namespace
+
+const oracle::Truth& truth_of(const Configuration& configuration) {
+  struct Known {
+    Configuration configuration;
+    oracle::Truth truth;
+  };
+  constexpr std::size_t remembered = 4;
+  static thread_local std::deque<Known> known;
+  const auto found = std::find_if(known.begin(), known.end(), [&](const Known& k) {
+    return are_same(k.configuration, configuration);
+  });
+  if (found != known.end()) return found->truth;
+  if (known.size() == remembered) known.pop_front();
+  known.push_back({configuration, oracle::truth(configuration)});
+  return known.back().truth;
+}
+
+namespace {
+
+/// The law's own bar: it may ask within another threshold.
+Bar bar_of(const Law& law, const Configuration& c, const Bar& given) {
   Bar bar = given;
   if (law.threshold) bar.threshold = law.threshold(c, given);
-  std::vector<Configuration> asked{c};
-  for (Configuration& question : law.questions(c, bar)) asked.push_back(std::move(question));
-  candidate.ask_within(bar.threshold);
-  std::vector<Answer> answers = candidate.answers(asked);
-  if (answers[0].status == TS_UNSUPPORTED) return std::nullopt;
+  return bar;
+}
+
+/// Asks the last questions of a law, in the same session, and judges all answers.
+std::optional<Violation> judged(const Law& law, const Configuration& c, CandidateProcess& candidate,
+                                std::vector<Answer> answers, const Bar& bar) {
   if (law.hinted_questions && !judge_answers(c, {&answers[0], 1}, bar)) {
     for (const HintedQuestion& frame : law.hinted_questions(c, answers[0], bar)) {
       const auto& hint = frame.previous_normal;
@@ -386,6 +443,63 @@ std::optional<Violation> broken(const Law& law, const Configuration& c, Candidat
     }
   }
   return law.judge(c, answers, bar);
+}
+
+/// The configuration and the law's questions about it.
+std::vector<Configuration> asked_by(const Law& law, const Configuration& c, const Bar& bar) {
+  std::vector<Configuration> asked{c};
+  for (Configuration& question : law.questions(c, bar)) asked.push_back(std::move(question));
+  return asked;
+}
+
+}  // namespace
+
+std::optional<Violation> broken(const Law& law, const Configuration& c, CandidateProcess& candidate,
+                                const Bar& given) {
+  if (!law.applies(c)) return std::nullopt;
+  const Bar bar = bar_of(law, c, given);
+  candidate.ask_within(bar.threshold);
+  std::vector<Answer> answers = candidate.answers(asked_by(law, c, bar));
+  if (answers[0].status == TS_UNSUPPORTED) return std::nullopt;
+  return judged(law, c, candidate, std::move(answers), bar);
+}
+
+std::vector<std::optional<Violation>> broken(std::span<const Law* const> laws,
+                                             const Configuration& c, CandidateProcess& candidate,
+                                             const Bar& given) {
+  std::vector<std::optional<Violation>> result(laws.size());
+  // The configuration itself is asked once, for all laws that ask within the same threshold.
+  std::vector<Configuration> asked{c};
+  std::vector<std::size_t> counts(laws.size());
+  for (std::size_t i = 0; i < laws.size(); ++i) {
+    if (!laws[i]->applies(c) || laws[i]->threshold) continue;
+    for (Configuration& question : laws[i]->questions(c, given)) {
+      asked.push_back(std::move(question));
+      ++counts[i];
+    }
+  }
+  candidate.go_on_within(given.threshold);
+  const std::vector<Answer> answers = candidate.answer(asked);
+  if (answers[0].status == TS_UNSUPPORTED) return result;
+  auto next = answers.begin() + 1;
+  for (std::size_t i = 0; i < laws.size(); ++i) {
+    const Law& law = *laws[i];
+    if (!law.applies(c)) continue;
+    const Bar bar = bar_of(law, c, given);
+    std::vector<Answer> own;
+    if (law.threshold) {
+      candidate.go_on_within(bar.threshold);
+      own = candidate.answer(asked_by(law, c, bar));
+    } else {
+      const auto last = next + static_cast<std::ptrdiff_t>(counts[i]);
+      own.push_back(answers[0]);
+      own.insert(own.end(), next, last);
+      next = last;
+    }
+    if (judged(law, c, candidate, std::move(own), bar))
+      result[i] = broken(law, c, candidate, given);
+  }
+  return result;
 }
 
 }  // namespace touchstone

@@ -197,6 +197,69 @@ TEST(Check, SimplifiesAFailureToOneThatFailsAlike) {
   }
 }
 
+/// All that a run of `check` tells, as text.
+std::string told(const std::vector<LawResult>& results) {
+  std::string text;
+  for (const LawResult& r : results) {
+    text += r.law->name + ' ' + pair_name(r.pair) + ' ' + std::to_string(r.tried) + ' ' +
+            std::to_string(r.broken) + '\n';
+    for (const auto& [failure, count] : r.counts) text += failure + std::to_string(count) + '\n';
+    for (const Failure& f : r.failures) {
+      text += f.identity + ' ' + std::to_string(f.met) + ' ' + f.features + ' ' +
+              f.violation.detail + '\n';
+    }
+  }
+  return text;
+}
+
+TEST(Check, WorkersDoNotChangeTheResult) {
+  CheckOptions options;
+  for (const Law& law : all_laws()) options.laws.push_back(&law);
+  options.pairs = {Pair::sphere, Pair::box};
+  options.classes = {"general+shallow", "edge-cap"};
+  options.count = 20;  // more than one chunk
+  options.by_features = true;
+  const auto result_with = [&](unsigned workers) {
+    options.workers = workers;
+    CandidateProcess bullet(find_candidate("bullet"), 0);
+    std::uint64_t most = 0, all = 0;
+    const auto results = check(bullet, options, [&](std::uint64_t done, std::uint64_t of) {
+      most = std::max(most, done);
+      all = of;
+    });
+    EXPECT_EQ(all, 60u);
+    EXPECT_EQ(most, all);
+    return told(results);
+  };
+  const std::string alone = result_with(1);
+  EXPECT_NE(alone.find("off-body"), std::string::npos) << alone;
+  EXPECT_EQ(result_with(2), alone);
+  EXPECT_EQ(result_with(5), alone);
+}
+
+// What a law finds does not depend on the laws beside it.
+TEST(Check, LawsFindTogetherWhatEachFindsAlone) {
+  std::vector<const Law*> laws;
+  for (const Law& law : all_laws()) laws.push_back(&law);
+  int found = 0;
+  for (const char* name : {"bullet", "ode", "reference"}) {
+    CandidateProcess candidate(find_candidate(name), 0);
+    for (const Pair pair : all_pairs) {
+      for (std::uint64_t i = 0; i < 4; ++i) {
+        const Configuration c = make_configuration({pair, "general+shallow", 3, i});
+        const auto together = broken(laws, c, candidate, {});
+        for (std::size_t law = 0; law < laws.size(); ++law) {
+          const auto alone = broken(*laws[law], c, candidate, {});
+          EXPECT_EQ(together[law] ? together[law]->failure : "", alone ? alone->failure : "")
+              << name << ' ' << pair_name(pair) << ' ' << i << ' ' << laws[law]->name;
+          found += alone.has_value();
+        }
+      }
+    }
+  }
+  EXPECT_GT(found, 3);
+}
+
 // If bodies are so large, small or far away that rounding would decide, the laws that move them do
 // not apply; the others do, and no number overflows.
 TEST(Check, HoldsHostileConfigurationsToTheLawsThatApply) {
