@@ -291,6 +291,18 @@ class Report(PageTest):
             """return [...document.querySelectorAll('table')].filter(t => t.rows.length > 3)
                 .filter(t => t.getAttribute('role') !== 'grid').length"""), 0)
 
+    def test_whatever_tells_more_can_be_reached_by_keyboard(self):
+        out_of_reach = """return [...document.querySelectorAll('.explained')]
+            .filter(e => e.closest('table') && !e.closest('table').querySelector('[tabindex="0"]'))
+            .map(e => e.textContent)"""
+        options = [o.get_attribute("value") for o in Select(self.find("#factor-candidate")).options]
+        rows = []
+        for candidate in options:  # some have few rows
+            self.choose("#factor-candidate", candidate)
+            rows.append(len(self.all("#factor-table tbody tr")))
+            self.assertEqual(self.driver.execute_script(out_of_reach), [], candidate)
+        self.assertTrue(any(0 < n < 3 for n in rows), rows)
+
     def test_arrow_keys_move_within_a_table(self):
         focused = self.driver.switch_to
         first = self.find("#worst-error-table th")
