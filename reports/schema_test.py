@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """What the program writes is what docs/*.schema.json say: schema_test.py SOURCE-FOLDER PROGRAM
 
-Each kind of output is validated as it is; then with faults planted, one at a time, in a short version of it (lists cut to
-their first entries of each form): every member is left out, is of another type, and has one beside it that no schema
+Each kind of output is validated as it is; then with faults planted, one at a time, in a short
+version of it (lists cut to their first entries of each form): every member is left out, is of another type, and has one beside it that no schema
 knows. A schema that does not see a fault is too weak. The Python of the pages that describe the output reads it.
 """
 import copy
@@ -129,14 +129,15 @@ class Schema(unittest.TestCase):
         report = json.loads((self.path / "whole/report.json").read_text())
         text = self.run_example("report-schema.md", {"out/report.json": report})
         self.assertRegex(text, r"standing agrees on \d+%, worst depth error \d")
-        for member in ("stability", "experiments", "drake_protocol", "factors", "contrasts", "trends", "recorded", "worst"):
+        for member in ("stability", "experiments", "drake_protocol", "factors", "contrasts",
+                       "trends", "recorded", "worst"):
             self.assertTrue(report[member], member)
         self.check("report", report)
 
     def test_a_report_of_one_class_with_a_command(self):
         # A command's times have more members that are numbers.
-        self.run_program("--candidate-command", f"python3 {source}/candidates/clients/example.py", "report", "--count", "2",
-                         "--pair", "cylinder-plane", "--class", "lying", "--out", "small", "--candidates",
+        self.run_program("--candidate-command", f"python3 {source}/candidates/clients/example.py",
+                         "report", "--count", "2", "--pair", "cylinder-plane", "--class", "lying", "--out", "small", "--candidates",
                          "reference,fcl-distance,example-gjk-epa")
         report = json.loads((self.path / "small/report.json").read_text())
         self.assertNotIn("experiments", report)
@@ -159,7 +160,8 @@ class Schema(unittest.TestCase):
             {"id": "box", "a": cylinder, "pose_a": pose(0, 0, 1.9), "b": {"shape": "box", "half_extents": [1, 1, 1]}},
             {"a": cylinder, "b": {"shape": "plane", "normal": [0, 0, 1], "displacement": 0}},
             {"id": 3, "a": {"shape": "sphere", "radius": 1}, "b": cylinder},  # a circle of normals
-            {"id": {"my": "own"}, "a": cylinder, "pose_a": pose(0, 0, 9), "b": {"shape": "capsule", "radius": 1, "half_length": 2}},
+            {"id": {"my": "own"}, "a": cylinder, "pose_a": pose(0, 0, 9),
+             "b": {"shape": "capsule", "radius": 1, "half_length": 2}},
             {"id": "wrong", "a": {"shape": "cylinder", "radius": -1, "half_length": 1}, "b": cylinder},
             {"a": cylinder},
         ]
@@ -192,12 +194,13 @@ class Schema(unittest.TestCase):
                 file = pathlib.Path(folder) / name
                 file.parent.mkdir(exist_ok=True)
                 file.write_text("\n".join(map(json.dumps, values if isinstance(values, list) else [values])))
-            return subprocess.run([sys.executable, "-c", block], cwd=folder, check=True, capture_output=True, text=True).stdout
+            return subprocess.run([sys.executable, "-c", block], cwd=folder, check=True,
+                                  capture_output=True, text=True).stdout
 
     def test_comparisons(self):
         for seed in ("1", "2"):
-            self.run_program("report", "--count", "3", "--pair", "cylinder-plane", "--class", "standing,lying,general-shallow",
-                             "--candidates", "reference,bullet,ode", "--seed", seed, "--out", f"seed{seed}")
+            self.run_program("report", "--count", "3", "--pair", "cylinder-plane", "--class",
+                             "standing,lying,general-shallow", "--candidates", "reference,bullet,ode", "--seed", seed, "--out", f"seed{seed}")
         for options in ([], ["--fail-on", "time"]):
             text = self.run_program("compare", "seed1/report.json", "seed2/report.json", "--json",
                                     "--max-error-factor", "1.01", *options, codes=(0, 1))
@@ -209,7 +212,8 @@ class Schema(unittest.TestCase):
         self.run_program("stability", "--count", "1", "--candidates", "reference,bullet", "--part",
                          "amplification,sequences", "--out", "stability")
         self.check("stability", json.loads((self.path / "stability/stability.json").read_text()))
-        text = self.run_program("simulate", "standing", "--candidates", "reference,fcl-distance", "--step", "0.016", "--json")
+        text = self.run_program("simulate", "standing", "--candidates", "reference,fcl-distance",
+                                "--step", "0.016", "--json")
         self.check("experiments", json.loads(text))
 
 

@@ -315,9 +315,9 @@ std::string speed_figures(const Report& report, const std::string& group,
     const std::string name = figure_name("speed-accuracy-" + pair, group);
     const auto points = points_of(report, group, pair);
     script += in_both_forms(name, 860, 440, key + speed_panel(title, points, x, y, 64, 18));
+    const int row = panel / columns;
     panels += fmt::format("set size {},{}\nset origin {},{}\n", 1.0 / columns, (1 - share) / rows,
-                          1.0 / columns * (panel % columns),
-                          1 - (1 - share) / rows * (panel / columns + 1)) +
+                          1.0 / columns * (panel % columns), 1 - (1 - share) / rows * (row + 1)) +
               "set key off\n" + speed_panel(title, points, x, y, 50, 13);
     ++panel;
     std::string data = "candidate,nanoseconds,depth_error_p99,agreement,on_front\n";

@@ -60,7 +60,8 @@ const lightness = (...colours) => {
 const result = [], walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
 for (let node = walker.nextNode(); node; node = walker.nextNode()) {
   const e = node.parentElement;
-  if (!node.data.trim() || e.closest('script, noscript, option, title, :disabled') || !e.checkVisibility({opacityProperty: true})) continue;
+  if (!node.data.trim() || e.closest('script, noscript, option, title, :disabled')) continue;
+  if (!e.checkVisibility({opacityProperty: true})) continue;
   const layers = [], style = getComputedStyle(e);
   for (let a = e; a; a = a.parentElement) {
     layers.unshift(getComputedStyle(a).backgroundColor);
@@ -77,18 +78,24 @@ tab_stops = """return [...document.querySelectorAll('a[href], button, input, sel
     .filter(e => e.tabIndex >= 0 && e.checkVisibility())"""
 nameless_pictures = """return [...document.querySelectorAll('svg, canvas')]
     .filter(e => e.getAttribute('aria-hidden') !== 'true')
-    .filter(e => !['img', 'graphics-document'].includes(e.getAttribute('role')) || (e.getAttribute('aria-label') || '').length < 10)
+    .filter(e => !['img', 'graphics-document'].includes(e.getAttribute('role'))
+                 || (e.getAttribute('aria-label') || '').length < 10)
     .map(e => e.outerHTML.slice(0, 100))"""
 # Text beyond the window or its chart, and tables with columns out of sight.
 hidden_text = """
 const shown = e => e.checkVisibility({opacityProperty: true}) && e.textContent.trim();
-const within = (e, box) => { const r = e.getBoundingClientRect(); return r.left >= box.left - 1 && r.right <= box.right + 1; };
+const within = (e, box) => {
+  const r = e.getBoundingClientRect();
+  return r.left >= box.left - 1 && r.right <= box.right + 1;
+};
 return [
   ...[...document.querySelectorAll('.chart svg')].flatMap(svg => [...svg.querySelectorAll('text')]
       .filter(t => shown(t) && !within(t, svg.getBoundingClientRect()))),
-  ...[...document.querySelectorAll('body *')].filter(e => shown(e) && !e.closest('.scroll, nav') && !within(e, {left: 0, right: innerWidth})),
+  ...[...document.querySelectorAll('body *')]
+      .filter(e => shown(e) && !e.closest('.scroll, nav') && !within(e, {left: 0, right: innerWidth})),
 ].map(e => e.textContent.slice(0, 40))
-    .concat([...document.querySelectorAll(':not(details) > .scroll')].filter(e => e.scrollWidth > e.clientWidth && innerWidth > 1000)
+    .concat([...document.querySelectorAll(':not(details) > .scroll')]
+        .filter(e => e.scrollWidth > e.clientWidth && innerWidth > 1000)
         .map(e => `${e.textContent.slice(0, 40)}: ${e.scrollWidth} of ${e.clientWidth}`))"""
 
 
@@ -291,6 +298,18 @@ class Report(PageTest):
             """return [...document.querySelectorAll('table')].filter(t => t.rows.length > 3)
                 .filter(t => t.getAttribute('role') !== 'grid').length"""), 0)
 
+    def test_whatever_tells_more_can_be_reached_by_keyboard(self):
+        out_of_reach = """return [...document.querySelectorAll('.explained')]
+            .filter(e => e.closest('table') && !e.closest('table').querySelector('[tabindex="0"]'))
+            .map(e => e.textContent)"""
+        options = [o.get_attribute("value") for o in Select(self.find("#factor-candidate")).options]
+        rows = []
+        for candidate in options:  # some have few rows
+            self.choose("#factor-candidate", candidate)
+            rows.append(len(self.all("#factor-table tbody tr")))
+            self.assertEqual(self.driver.execute_script(out_of_reach), [], candidate)
+        self.assertTrue(any(0 < n < 3 for n in rows), rows)
+
     def test_arrow_keys_move_within_a_table(self):
         focused = self.driver.switch_to
         first = self.find("#worst-error-table th")
@@ -347,14 +366,16 @@ class Report(PageTest):
         crossed = self.driver.execute_script("""
             const result = [];
             for (const svg of document.querySelectorAll('#chart-panels svg')) {
-              const texts = [...svg.querySelectorAll('.role-mark text')].filter(t => t.textContent && getComputedStyle(t).opacity > 0.5);
+              const texts = [...svg.querySelectorAll('.role-mark text')]
+                  .filter(t => t.textContent && getComputedStyle(t).opacity > 0.5);
               for (const line of svg.querySelectorAll('.role-mark .mark-line path, .mark-line.role-mark path')) {
                 const matrix = line.getScreenCTM();
                 for (let at = 0; at < line.getTotalLength(); at += 1) {
                   const p = line.getPointAtLength(at).matrixTransform(matrix);
                   for (const t of texts) {
                     const b = t.getBoundingClientRect();
-                    if (p.x > b.left && p.x < b.right && p.y > b.top + 3 && p.y < b.bottom - 3) result.push(t.textContent);
+                    const isWithin = p.x > b.left && p.x < b.right && p.y > b.top + 3 && p.y < b.bottom - 3;
+                    if (isWithin) result.push(t.textContent);
                   }
                 }
               }
@@ -530,7 +551,8 @@ class OtherPages(PageTest):
                 return scene.bodies.map(b => {
                   const points = b.faces.flat().map(p => [dot(p, view.right), dot(p, view.up)]);
                   let width = Infinity;
-                  const directions = b.axes.flatMap(e => { const x = dot(e, view.right), y = dot(e, view.up); return [[x, y], [-y, x]]; });
+                  const directions = b.axes.map(e => [dot(e, view.right), dot(e, view.up)])
+                      .flatMap(([x, y]) => [[x, y], [-y, x]]);
                   for (const [x, y] of directions) {
                     const along = points.map(p => (p[0] * x + p[1] * y) / Math.hypot(x, y));
                     width = Math.min(width, Math.max(...along) - Math.min(...along));

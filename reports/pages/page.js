@@ -173,6 +173,7 @@ function showTip(text, x, y) {
 function hideTip() { byId('tooltip').hidden = true; }
 function explain(target, text) {
   const show = () => { const box = target.getBoundingClientRect(); showTip(text, box.right - 4, box.bottom - 4); };
+  target.classList.add('explained');
   for (const start of ['mouseenter', 'focusin']) target.addEventListener(start, show);
   for (const end of ['mouseleave', 'focusout']) target.addEventListener(end, hideTip);
 }

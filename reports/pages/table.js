@@ -12,10 +12,9 @@ function table(heads, rows, caption) {
   const made = element('table', {}, caption && element('caption', {}, element('span', {}, caption)),
       element('thead', {}, element('tr', {}, ...columns)),
       element('tbody', {}, ...rows.map(r => r instanceof Element ? r : element('tr', {}, ...r.map(cell)))));
-  if (rows.length > 2) {  // two rows are compared at a glance
-    makeSortable(made);
-    makeGrid(made);
-  }
+  const isSortable = rows.length > 2;  // two rows are compared at a glance
+  if (isSortable) makeSortable(made);
+  if (isSortable || made.querySelector('.explained')) makeGrid(made);
   new ResizeObserver(() => showMore(made.parentElement)).observe(made);
   return made;
 }
