@@ -43,8 +43,8 @@ TEST(Contained, TakesAnExceptionForACrashWithItsText) {
 TEST(Contained, EndsATaskThatHangs) {
   const Contained ran = run_contained(
       []() -> std::string {
-        for (volatile int i = 0;; i = i + 1) {
-        }
+        volatile int i = 0;
+        for (;;) i = 1 - i;
       },
       1);
   EXPECT_EQ(ran.end, End::timed_out);
