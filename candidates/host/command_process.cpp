@@ -65,12 +65,6 @@ bool is_simple(const std::string& command) {
   return !has_operator && !has_assignment;
 }
 
-std::string seconds_text(double seconds) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g s", seconds);
-  return text;
-}
-
 }  // namespace
 
 CommandProcess::CommandProcess(std::string command, std::filesystem::path folder)
@@ -223,7 +217,7 @@ std::variant<std::string, CommandProcess::Failure> CommandProcess::ask(const std
 
 CommandProcess::Failure CommandProcess::failure(ts_status status, std::string reason) {
   stop();
-  const std::string line = last_line();
+  const std::string line = last_line(log_);
   if (!line.empty()) reason += "; standard error: " + line;
   return {status, readable(reason)};
 }
@@ -236,17 +230,6 @@ CommandProcess::Failure CommandProcess::ended() {
   Reply reply{};
   const bool told = recv(report_, &reply, sizeof reply, 0) == sizeof reply;
   return failure(TS_CRASHED, told ? how_it_ended(reply.value) : "ended");
-}
-
-/// The last line that the child wrote to standard error.
-std::string CommandProcess::last_line() const {
-  std::array<char, 4096> buffer;
-  const off_t size = lseek(log_, 0, SEEK_END);
-  const ssize_t got = pread(log_, buffer.data(), buffer.size(),
-                            std::max<off_t>(0, size - static_cast<off_t>(buffer.size())));
-  std::string line(buffer.data(), static_cast<std::size_t>(std::max<ssize_t>(0, got)));
-  while (!line.empty() && line.back() == '\n') line.pop_back();
-  return line.substr(line.rfind('\n') + 1);
 }
 
 }  // namespace touchstone

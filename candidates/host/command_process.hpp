@@ -54,7 +54,6 @@ class CommandProcess {
   [[noreturn]] void run(int input, int output, int report) const;
   Failure failure(ts_status status, std::string reason);
   Failure ended();
-  std::string last_line() const;
 
   std::string command_;
   std::filesystem::path folder_;

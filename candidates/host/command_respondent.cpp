@@ -34,11 +34,6 @@ constexpr int clock_rounds = 3;
 constexpr double max_ratio = 1e6;  ///< of clocks
 constexpr double steady = 0.05;    ///< relative difference of three rounds of a warm child
 
-bool same(const ts_shape& x, const ts_shape& y) {
-  using Bits = std::array<std::uint64_t, 4>;
-  return x.kind == y.kind && std::bit_cast<Bits>(x.size) == std::bit_cast<Bits>(y.size);
-}
-
 /// An upper bound of a shape's extent from its centre; that of a plane's displacement.
 double extent(const ts_shape& shape) {
   double sum = 0;

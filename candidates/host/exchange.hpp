@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <atomic>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -110,6 +112,12 @@ struct Description {
 
 /// Exit code of a session that ended by an exception.
 inline constexpr int exit_thrown = 97;
+
+/// Are the shapes equal to the bit?
+inline bool same(const ts_shape& x, const ts_shape& y) {
+  using Bits = std::array<std::uint64_t, 4>;
+  return x.kind == y.kind && std::bit_cast<Bits>(x.size) == std::bit_cast<Bits>(y.size);
+}
 
 // Messages on the candidate's side. They end the process if the harness has gone.
 void send(int socket, const void* message, std::size_t size);

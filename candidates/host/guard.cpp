@@ -1,5 +1,6 @@
 #include "candidates/host/guard.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <cstdio>
@@ -111,6 +112,15 @@ void become_plain_process(unsigned long max_file) {
   setrlimit(RLIMIT_FSIZE, &file_size);
   signal(SIGXFSZ, SIG_IGN);
   prctl(PR_SET_PDEATHSIG, SIGKILL);
+}
+
+std::string last_line(int file) {
+  char buffer[4096];
+  const off_t size = lseek(file, 0, SEEK_END);
+  const ssize_t got = pread(file, buffer, sizeof buffer, std::max<off_t>(0, size - 4096));
+  std::string line(buffer, static_cast<std::size_t>(std::max<ssize_t>(0, got)));
+  while (!line.empty() && line.back() == '\n') line.pop_back();
+  return line.substr(line.rfind('\n') + 1);
 }
 
 void end_guard(pid_t guard) {

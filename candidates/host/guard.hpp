@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <sys/types.h>
 
 namespace touchstone {
@@ -24,6 +25,9 @@ void fork_guarded(int socket);
 /// Undoes in a guarded process what a program should not inherit: blocked and ignored signals, core
 /// files. What it writes to one file is limited to `max_file` bytes.
 void become_plain_process(unsigned long max_file);
+
+/// The last line of what such a process has printed to a file, without its end.
+std::string last_line(int file);
 
 /// Ends a guard that this process has forked, with all that it guards, and waits for its end.
 void end_guard(pid_t guard);

@@ -167,14 +167,7 @@ bool PluginProcess::State::send(const SessionCommand& command) const {
   return ::send(socket, &command, sizeof command, MSG_NOSIGNAL) == sizeof command;
 }
 
-std::string PluginProcess::State::last_line() const {
-  char buffer[4096];
-  const off_t size = lseek(text, 0, SEEK_END);
-  const ssize_t got = pread(text, buffer, sizeof buffer, std::max<off_t>(0, size - 4096));
-  std::string line(buffer, static_cast<std::size_t>(std::max<ssize_t>(0, got)));
-  while (!line.empty() && line.back() == '\n') line.pop_back();
-  return line.substr(line.rfind('\n') + 1);
-}
+std::string PluginProcess::State::last_line() const { return touchstone::last_line(text); }
 
 /// Main function of the first process forked for the plug-in.
 void PluginProcess::State::serve(int other_end) const {

@@ -79,12 +79,6 @@ SessionCommand answer_command(std::uint32_t first, std::uint32_t count, bool rel
   return command;
 }
 
-std::string seconds_text(double seconds) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g s", seconds);
-  return text;
-}
-
 }  // namespace
 
 PluginSessions::PluginSessions(const Candidate& candidate, double threshold, const Limits& limits)

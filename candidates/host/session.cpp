@@ -91,12 +91,6 @@ double processor_seconds() {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-/// Are the shapes equal to the bit?
-bool same(const ts_shape& x, const ts_shape& y) {
-  using Bits = std::array<std::uint64_t, 4>;
-  return x.kind == y.kind && std::bit_cast<Bits>(x.size) == std::bit_cast<Bits>(y.size);
-}
-
 /// Allocates the answer that a candidate fills. The page behind it is inaccessible, so that one
 /// point too many is a crash, the same one on every run.
 ts_answer* make_answer() {

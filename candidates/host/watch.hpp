@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <optional>
+#include <string>
 #include <sys/types.h>
 #include <vector>
 
@@ -38,5 +39,8 @@ class Watch {
   std::optional<double> starved_;
   std::chrono::steady_clock::time_point start_;
 };
+
+/// "0.05 s", of a limit.
+std::string seconds_text(double seconds);
 
 }  // namespace touchstone
