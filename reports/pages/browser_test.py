@@ -491,7 +491,7 @@ class Report(PageTest):
 
     def test_engines_are_shown_before_and_after(self):
         rows = self.all("#engines table:first-of-type tbody tr")
-        self.assertIn("8.5e+3 → held", next(r.text for r in rows if r.text.startswith("small-log")))
+        self.assertIn("8.5e3 → held", next(r.text for r in rows if r.text.startswith("small-log")))
         self.choose("#engine-experiment", "rolling")
         self.assertIn("./touchstone simulate rolling --engine bullet,ode,mujoco",
                       self.find("#engines .command code").text)
