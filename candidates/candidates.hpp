@@ -103,8 +103,8 @@ struct Skipped {
 };
 const std::vector<Skipped>& skipped_plugins();
 
-/// The folder of the standard plug-ins, and of what else this program loads: in the build tree above
-/// the program, or under the prefix of an installed one.
+/// The folder of the standard plug-ins, and of what else this program loads: in the build tree
+/// above the program, or under the prefix of an installed one.
 std::filesystem::path standard_folder();
 
 /// Convert a shape or a pose to the C interface; quaternions and plane normals are normalised in
