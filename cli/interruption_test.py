@@ -100,7 +100,7 @@ def processes_of_session(session):
 
 def ctrl_c_while_scoring(program, folder):
     run = Run(program, folder)
-    progress = run.wait_for(r"(?<!\d)[1-9]\d* of (\d+) configurations, .*/s, .* left")
+    progress = run.wait_for(r"\d%, .* left: [1-9]\d* of (\d+) configurations")
     assert len(processes_of_session(run.pid)) > 3  # workers, and engines in processes of their own
     run.ctrl_c()
     status = run.end()
@@ -142,7 +142,7 @@ def ctrl_c_after_timing(program, folder):
     assert report["partial"] is True
     assert report["completed"]["classes"] == report["planned"]["classes"] == listed_classes(program)
     assert report["completed"]["timed_classes"] == timed_classes(report)
-    assert report["experiments"]["results"] == []
+    assert report.get("experiments") is None and report.get("engines") is None
     assert "PARTIAL" in run.printed
 
 

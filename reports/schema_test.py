@@ -26,7 +26,7 @@ source = pathlib.Path(sys.argv.pop(1)).resolve()
 docs = source / "docs"
 
 # Members that may be absent.
-OPTIONAL = {"reason", "audit", "given", "stability", "experiments", "amplification", "maps", "sequences"}
+OPTIONAL = {"reason", "audit", "given", "stability", "experiments", "engines", "amplification", "maps", "sequences"}
 # Objects whose members are names or numbers.
 MAPS = {"answers", "outcomes", "points", "details", "letters"}
 
@@ -129,7 +129,7 @@ class Schema(unittest.TestCase):
         report = json.loads((self.path / "whole/report.json").read_text())
         text = self.run_example("report-schema.md", {"out/report.json": report})
         self.assertRegex(text, r"standing agrees on \d+%, worst depth error \d")
-        for member in ("stability", "experiments", "drake_protocol", "factors", "contrasts",
+        for member in ("stability", "experiments", "engines", "drake_protocol", "factors", "contrasts",
                        "trends", "recorded", "worst"):
             self.assertTrue(report[member], member)
         self.check("report", report)
@@ -215,6 +215,8 @@ class Schema(unittest.TestCase):
         text = self.run_program("simulate", "standing", "--candidates", "reference,fcl-distance",
                                 "--step", "0.016", "--json")
         self.check("experiments", json.loads(text))
+        text = self.run_program("simulate", "small-log", "--engine", "bullet,ode", "--json")
+        self.check("engines", json.loads(text))
 
 
 if __name__ == "__main__":

@@ -86,8 +86,10 @@ TEST(Recording, DependsOnTheSeedAlone) {
   EXPECT_NE(recorded_lines(file, {20, 1}), recorded_lines(file, {20, 2}));
 }
 
-// Another processor may round ODE's sines otherwise; a scene that comes to rest forgets it.
-constexpr double other_processor = 1e-9;  // metres
+// Another processor may round ODE's sines otherwise, and a change of our routines the last bits of
+// contacts; either can decide in which step a log of 0.15 m has a contact point more. The largest
+// difference that such a change has made is 2e-5 m.
+constexpr double other_rounding = 1e-4;  // metres
 
 TEST(Recording, TheSampleInTheProgramIsWhatASceneGives) {
   const SceneFile file = read_scene(TOUCHSTONE_SCENES "/log-pile.json");
@@ -111,7 +113,7 @@ TEST(Recording, TheSampleInTheProgramIsWhatASceneGives) {
     const auto all_x = every_number(x), all_y = every_number(y);
     ASSERT_EQ(all_x.size(), all_y.size());
     for (std::size_t k = 0; k < all_x.size(); ++k) {
-      EXPECT_NEAR(*all_x[k], *all_y[k], other_processor) << given[i]["id"];
+      EXPECT_NEAR(*all_x[k], *all_y[k], other_rounding) << given[i]["id"];
     }
   }
 }
