@@ -326,8 +326,8 @@ INSTANTIATE_TEST_SUITE_P(Plugin, Threads, testing::Values("after_fork", "unforke
 
 TEST(PluginProcess, RefusesWhatIsNoPlugin) {
   const auto refused = [](const std::string& file, const std::string& why) {
-    EXPECT_THAT([&] { add_file(file); }, testing::ThrowsMessage<InvalidInput>(
-                                             AllOf(HasSubstr("--load"), HasSubstr(why))))
+    EXPECT_THAT([&] { add_file(file); },
+                testing::ThrowsMessage<InvalidInput>(AllOf(HasSubstr("--load"), HasSubstr(why))))
         << file;
   };
   const std::string folder = TOUCHSTONE_TEST_PLUGINS;
