@@ -88,7 +88,7 @@ void reduce_points(Contact& contact, int max_points, double level) {
   constexpr double clearly_more = 1.001;
   unsigned best = 0;
   double best_span = 0;
-  // All sets of this size in the order of their bits (Gosper's hack: HAKMEM, item 175).
+  // All sets of this size in the order of their bits (R. W. Gosper in HAKMEM, item 175).
   for (unsigned set = (1u << max_points) - 1; set < 1u << count;) {
     if (const unsigned deep = set & deepest; deep != 0) {
       // One of the deepest, which has to be kept, may lie inside.
