@@ -7,15 +7,14 @@
 #include "candidates/host/interruption.hpp"
 #include "cli/command.hpp"
 #include "cli/options.hpp"
-#include "cli/standard_streams.hpp"
 #include "properties/files/disk.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/make_report.hpp"
-#include "reports/report_file.hpp"
-#include "reports/terminal_table.hpp"
+#include "reports/replay.hpp"
+#include "reports/report_json.hpp"
+#include "reports/terminal.hpp"
 #include "reports/test_data/given_answers.hpp"
 #include "reports/test_data/test_data.hpp"
-#include "reports/worst.hpp"
 
 namespace touchstone {
 namespace {

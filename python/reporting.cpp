@@ -14,9 +14,8 @@
 #include "python/function_respondent.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/make_report.hpp"
-#include "reports/report_file.hpp"
 #include "reports/report_json.hpp"
-#include "reports/terminal_table.hpp"
+#include "reports/terminal.hpp"
 
 namespace touchstone::python {
 namespace {

@@ -1,5 +1,3 @@
-#include "reports/report_file.hpp"
-
 #include <algorithm>
 #include <cstdint>
 #include <fmt/format.h>

@@ -14,11 +14,9 @@
 #include "reference/invalid_input.hpp"
 #include "reports/make_report.hpp"
 #include "reports/replay.hpp"
-#include "reports/report_file.hpp"
 #include "reports/report_json.hpp"
 #include "reports/solve.hpp"
-#include "reports/terminal_table.hpp"
-#include "reports/worst.hpp"
+#include "reports/terminal.hpp"
 
 namespace touchstone {
 namespace {

@@ -5,6 +5,8 @@
 
 namespace touchstone {
 
+struct Report;
+
 /// What text is written for: how wide it may be, and whether colours are seen.
 struct Terminal {
   std::size_t columns = 80;
@@ -19,5 +21,10 @@ struct Terminal {
 /// Standard output: on a terminal of 40 to 80 columns as wide as it is, otherwise 80. In colour on
 /// a terminal, unless NO_COLOR is set (https://no-color.org) or TERM is "dumb".
 Terminal standard_output();
+
+/// The summary of a report for a terminal of 80 columns: a row for each pair and candidate in
+/// everyday poses, and for all pairs in those of the other groups; what a candidate passes and
+/// fails once turned or tilted; its worst failure. Commands replay both.
+std::string terminal_table(const Report& report);
 
 }  // namespace touchstone

@@ -76,7 +76,10 @@ function costChart() {
 
 // The motion of the exact run beside that of another one.
 function startMotion(motion) {
-  const select = byId('other'), {runs} = motion;
+  const select = element('select', {id: 'other'}), {runs} = motion;
+  byId('left-caption').textContent = 'Exact contacts';
+  byId('right-caption').append(element('label', {}, 'With ', select));
+  describeMotions('The scene with exact contacts', 'The scene with the models that are selected');
   select.append(...options(runs.map((r, i) => [i, r.name]).slice(runs.length > 1 ? 1 : 0)));
   const note = () => { byId('other-note').textContent = runs[select.value].note; };
   const draw = playMotions(() => ({motion, pair: [runs[0], runs[select.value]]}));

@@ -72,14 +72,16 @@ function drawEnginesPage() {
   byId('headline').textContent = 'Every run is the engine’s own world; the two differ by one line, which installs exact contacts of cylinders.';
   byId('provenance').textContent = data.command;
   drawEngines(data.engines);
-  const select = byId('scene'), {motions} = data;
+  const select = element('select', {id: 'scene'}), {motions} = data;
   byId('motion').hidden = motions.length === 0;
   if (motions.length) {
     select.append(...options(motions.map((m, i) => [i, `${m.experiment} in ${m.engine}`])));
+    byId('motion').querySelector('.controls').prepend(element('label', {}, 'Experiment ', select));
+    describeMotions('The experiment with the engine’s own contacts', 'The experiment with our contacts in the engine');
     const captions = () => {
       const {engine} = motions[select.value];
-      byId('own-caption').textContent = `${engine}, its own contacts`;
-      byId('cured-caption').textContent = `${engine} with our contacts`;
+      byId('left-caption').textContent = `${engine}, its own contacts`;
+      byId('right-caption').textContent = `${engine} with our contacts`;
     };
     captions();
     const draw = playMotions(() => ({motion: motions[select.value], pair: motions[select.value].runs}));

@@ -4,7 +4,7 @@ let galleryCount = atOnce;
 function gallery() {
   const pair = byId('worst-pair').value, candidate = byId('worst-candidate').value;
   const chosen = report.worst.filter(w => w.group === group && (pair === 'all' || w.pair === pair) && (candidate === 'all' || w.candidate === candidate));
-  const rank = w => w.outcome === 'agree' ? 2 : withoutAnswer.includes(w.outcome) ? 0 : 1;  // as is_worse in worst.hpp
+  const rank = w => w.outcome === 'agree' ? 2 : withoutAnswer.includes(w.outcome) ? 0 : 1;  // as is_worse in tally.hpp
   chosen.sort((a, b) => rank(a) - rank(b) || b.severity - a.severity);
   undrawn = [];
   const more = element('button', {type: 'button'}, `Show more (${chosen.length - galleryCount})`);

@@ -25,7 +25,7 @@ function speedAccuracy() {
   }
 }
 function speedChart(place, pair, rows, x, y) {
-  // Candidates whose spreads of time overlap tie (reports/pareto.hpp).
+  // Candidates whose spreads of time overlap tie (reports/statistics.hpp).
   const front = rows.filter(r => r.pareto).sort((a, b) => time(a) - time(b));
   const at = r => ({x: time(r), y: chartedError(r)});
   const points = rows.map((r, i) => ({...markData(r.candidate), ...at(r), order: front.includes(r) ? i : 1000 + i,
