@@ -99,7 +99,7 @@ int run(const Options& options) {
   const Report result = campaign_result(whole);
   const auto file = write_result(whole, options.out);
   fmt::print("{}\n{} configurations, truth certified to 1e-30 of the larger size.\nResult: {}\n",
-             terminal_table(result), result.configurations, file.string());
+             terminal_table(result, standard_output()), result.configurations, file.string());
   return 0;
 }
 
@@ -142,7 +142,7 @@ int run_merge(const MergeOptions& options) {
   const Report result = campaign_result(whole);
   const auto file = write_result(whole, options.out);
   const bool complete = result.completed.configurations == result.planned.configurations;
-  fmt::print("{}\n{} configurations{}.\nResult: {}\n", terminal_table(result),
+  fmt::print("{}\n{} configurations{}.\nResult: {}\n", terminal_table(result, standard_output()),
              result.configurations, complete ? "" : ", which is not all of the campaign",
              file.string());
   return 0;

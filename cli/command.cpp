@@ -23,20 +23,6 @@ constexpr std::size_t page_width = 80, name_width = 24;
 /// On a terminal narrower than this, descriptions stand below names.
 constexpr std::size_t min_width_beside = 60, narrow_name_width = 6;
 
-/// The text with its lines broken between words, where `line_end` comes.
-std::string wrapped(const std::string& text, std::size_t width, const std::string& line_end) {
-  std::istringstream words(text);
-  std::string result, word;
-  std::size_t column = 0;
-  while (words >> word) {
-    const bool fits = column + 1 + word.size() <= width;
-    if (column > 0) result += fits ? " " : line_end;
-    column = (column > 0 && fits ? column + 1 : 0) + word.size();
-    result += word;
-  }
-  return result;
-}
-
 /// Options and subcommands within the terminal's columns, long descriptions on several lines.
 class HelpFormat : public CLI::Formatter {
  public:

@@ -153,7 +153,7 @@ int run(const Options& options) {
   report.partial = report.partial || interrupted();
   write_report(report, options.out);
   fmt::print("{}\n{} configurations, truth certified to 1e-30 of the larger size, {:.0f} s.\n",
-             terminal_table(report), report.configurations, report.wall_seconds);
+             terminal_table(report, standard_output()), report.configurations, report.wall_seconds);
   if (report.engines) fmt::print("\n{}\n", engines_summary(*report.engines));
   fmt::print("Report: {}/report.html, {}/report.json\n", options.out, options.out);
   if (!options.figures.empty()) {

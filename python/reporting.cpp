@@ -150,7 +150,7 @@ Printed, it is a table with a row for each pair and candidate.
 
 Writes report.json and report.html, which needs no network, into a folder; makes the folder.
 )");
-  type.def("__str__", &terminal_table);
+  type.def("__str__", [](const Report& report) { return terminal_table(report); });
   type.def("__repr__", [](const Report& report) {
     return fmt::format("<touchstone.Report: {} configurations, {} candidates>",
                        report.configurations, report.candidates.size());

@@ -240,6 +240,20 @@ TEST(QueryTime, GoesAgainThroughTheRepetitionsOfACellThatSettledEarly) {
             20 / 1007.0);  // the sixth of the ratios
 }
 
+TEST(QueryTime, HasTheTailOfTheLastRepetitionAndOfSeveralCellsTheLongest) {
+  Repetitions quick = repetitions(100, 0), slow = repetitions(200, 0);
+  for (QueryCost& cost : quick) cost.tail = 900;
+  quick.back().tail = 150;
+  slow.back().tail = 799;
+  const Times times = {{quick}, {slow}, {repetitions(10, 0)}};
+  EXPECT_EQ(query_time(times, {0}, 0)->p95, 150);
+  EXPECT_EQ(query_time(times, {0, 1, 2}, 0)->p95, 799);
+  EXPECT_FALSE(query_time(times, {2}, 0)->p95);
+  EXPECT_FALSE(has_slow_tail(*query_time(times, {1}, 0)));
+  slow.back().tail = 801;
+  EXPECT_TRUE(has_slow_tail(*query_time({{slow}}, {0}, 0)));
+}
+
 TEST(QueryTime, HasInstructionsWhereAllWereCounted) {
   const Times times = {{repetitions(1, 0, true)}, {repetitions(1, 0)}};
   EXPECT_EQ(query_time(times, {0}, 0)->instructions, 1000);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <fmt/format.h>
+#include <functional>
+#include <sstream>
 #include <string_view>
 #include <sys/ioctl.h>
 #include <unistd.h>
@@ -37,6 +39,19 @@ bool is_dumb() {
 
 }  // namespace
 
+std::string wrapped(const std::string& text, std::size_t width, const std::string& line_end) {
+  std::istringstream words(text);
+  std::string result, word;
+  std::size_t column = 0;
+  while (words >> word) {
+    const bool fits = column + 1 + word.size() <= width;
+    if (column > 0) result += fits ? " " : line_end;
+    column = (column > 0 && fits ? column + 1 : 0) + word.size();
+    result += word;
+  }
+  return result;
+}
+
 std::string Terminal::heading(const std::string& text) const { return rendered(*this, "1", text); }
 std::string Terminal::good(const std::string& text) const { return rendered(*this, "32", text); }
 std::string Terminal::bad(const std::string& text) const { return rendered(*this, "31", text); }
@@ -60,8 +75,12 @@ std::string scientific(const std::optional<Quantiles>& quantiles, double Quantil
   return value == 0 ? "0" : fmt::format("{:.1e}", value);
 }
 
-std::string nanoseconds(const std::optional<QueryTime>& time) {
-  return time ? fmt::format("{:.0f}", time->nanoseconds.median) : "-";
+std::string whole(const std::optional<double>& value) {
+  return value ? fmt::format("{:.0f}", *value) : "-";
+}
+
+std::string median_time(const ResultRow& row) {
+  return row.time ? whole(row.time->nanoseconds.median) : "-";
 }
 
 std::string ratio(const ResultRow& row) {
@@ -117,10 +136,6 @@ std::string signed_median(const std::optional<SignedMedian>& bias) {
   return bias->value == 0 ? "0" : fmt::format("{:+.1e}", bias->value);
 }
 
-std::string time_columns(const std::string& time, const std::string& times_bullet) {
-  return fmt::format(" {:>6} {:>5}", time, times_bullet);
-}
-
 /// Candidates that do not run as native code have a star.
 bool is_starred(const Report& report, const std::string& candidate) {
   return std::any_of(
@@ -128,19 +143,84 @@ bool is_starred(const Report& report, const std::string& candidate) {
       [&](const CandidateDescription& c) { return c.name == candidate && c.runs != "native"; });
 }
 
-std::string row_text(const Report& report, const ResultRow& row, bool timed) {
-  const Statistics& s = row.statistics;
+/// A column of the table, and what it means, of which the text stands below.
+struct Column {
+  const char* heading;
+  std::size_t width;
+  int rank;  ///< where there is no room for all, those with the highest are left out
+  bool is_of_time;
+  std::function<std::string(const ResultRow&)> text;
+  std::function<bool(const ResultRow&)> is_bad = {};  ///< drawn in red
+};
+
+bool has_wrong_answers(const ResultRow& row) {
+  return row.statistics.of(Outcome::phantom) + row.statistics.of(Outcome::missed) > 0;
+}
+
+/// In the order of the table.
+std::vector<Column> all_columns() {
+  const auto of = [](auto text, auto member) {
+    return [=](const ResultRow& row) { return text(row.statistics.*member); };
+  };
+  const auto p99 = [](const std::optional<Quantiles>& q) { return scientific(q, &Quantiles::p99); };
+  return {
+      {"agree%", 6, 0, false, [](const ResultRow& r) { return agreement(r.statistics); }},
+      {"yes/no", 7, 3, false, [](const ResultRow& r) { return wrong_answers(r.statistics); },
+       has_wrong_answers},
+      {"err", 7, 1, false, of(p99, &Statistics::depth_error)},
+      {"bias", 8, 6, false, of(signed_median, &Statistics::bias)},
+      {"pts", 7, 7, false, of(p99, &Statistics::point_error)},
+      {"cover", 5, 8, false, of(mean_coverage, &Statistics::coverage)},
+      {"ns", 5, 2, true, median_time},
+      {"p95", 5, 4, true,
+       [](const ResultRow& r) { return whole(r.time ? r.time->p95 : std::nullopt); }},
+      {"times", 5, 5, true, ratio},
+  };
+}
+
+/// The columns that the terminal has room for beside the names.
+struct Layout {
+  std::size_t name_width = 0;
+  std::vector<Column> columns;
+
+  Layout(const Report& report, const Terminal& terminal) {
+    for (const CandidateDescription& c : report.candidates) {
+      name_width = std::max(name_width, c.name.size() + (c.runs == "native" ? 0 : 1));
+    }
+    name_width = std::max(name_width, std::string_view("candidate").size());
+    columns = all_columns();
+    if (!is_timed(report)) std::erase_if(columns, [](const Column& c) { return c.is_of_time; });
+    while (columns.size() > 1 && width() > terminal.columns) {
+      columns.erase(std::max_element(columns.begin(), columns.end(),
+                                     [](auto& a, auto& b) { return a.rank < b.rank; }));
+    }
+  }
+  std::size_t width() const {
+    std::size_t sum = name_width;
+    for (const Column& c : columns) sum += 1 + c.width;
+    return sum;
+  }
+  bool has(std::string_view heading) const {
+    return std::any_of(columns.begin(), columns.end(),
+                       [&](const Column& c) { return c.heading == heading; });
+  }
+};
+
+std::string row_text(const Report& report, const ResultRow& row, const Layout& layout,
+                     const Terminal& terminal) {
   const std::string name = row.candidate + (is_starred(report, row.candidate) ? "*" : "");
-  return fmt::format("{:<21} {:>6} {:>7} {:>7} {:>8} {:>7} {:>5}{}\n", name, agreement(s),
-                     wrong_answers(s), scientific(s.depth_error, &Quantiles::p99),
-                     signed_median(s.bias), scientific(s.point_error, &Quantiles::p99),
-                     mean_coverage(s.coverage),
-                     timed ? time_columns(nanoseconds(row.time), ratio(row)) : "");
+  std::string text = fmt::format("{:<{}}", name, layout.name_width);
+  if (agreement(row.statistics) == "100.0") text = terminal.good(text);
+  for (const Column& c : layout.columns) {
+    const std::string value = fmt::format(" {:>{}}", c.text(row), c.width);
+    text += c.is_bad && c.is_bad(row) ? terminal.bad(value) : value;
+  }
+  return text + '\n';
 }
 
 /// One table for each pair of the first group that was scored, then one for all pairs; of the other
 /// groups, one for all pairs, or of the only one.
-std::string summary_text(const Report& report, bool timed) {
+std::string summary_text(const Report& report, const Layout& layout, const Terminal& terminal) {
   std::string text, first_group, last;
   const auto has_all = [&](const std::string& group) {
     return std::any_of(report.summary.begin(), report.summary.end(), [&](const ResultRow& row) {
@@ -153,12 +233,71 @@ std::string summary_text(const Report& report, bool timed) {
     if (row.pose_class != first_group && row.pair != "all" && has_all(row.pose_class)) continue;
     if (s.of(Outcome::unsupported) == s.count) continue;
     const std::string heading =
-        fmt::format("\n{}, {} poses\n", row.pair == "all" ? "all pairs" : row.pair, row.pose_class);
-    if (heading != last) text += heading;
+        fmt::format("{}, {} poses", row.pair == "all" ? "all pairs" : row.pair, row.pose_class);
+    if (heading != last) text += '\n' + terminal.heading(heading) + '\n';
     last = heading;
-    text += row_text(report, row, timed);
+    text += row_text(report, row, layout, terminal);
   }
   return text;
+}
+
+/// The text within the terminal's columns, all lines but the first indented by two.
+std::string indented(const std::string& text, const Terminal& terminal) {
+  return wrapped(text, terminal.columns - 2, "\n  ");
+}
+
+/// What the columns mean, of those that are shown.
+std::string columns_text(const Report& report, const Layout& layout, const Terminal& terminal) {
+  std::string text = "\n";
+  const auto explain = [&](const char* column, const std::string& meaning) {
+    if (!layout.has(column)) return;
+    text += indented(fmt::format("{}: {}", column, meaning), terminal) + '\n';
+  };
+  explain("agree%", fmt::format("depth, normal and deepest point within {:g} of the smaller size",
+                                report.tolerance));
+  explain("yes/no", "wrong answers to whether bodies touch: contacts made up, and missed");
+  explain("err", "99th percentile of the reported contacts' depth error, in that size");
+  explain("bias", "its median with its sign: negative is too deep");
+  explain("pts",
+          "99th percentile of how far a contact's worst point is off both surfaces and its "
+          "depth");
+  explain("cover", "mean share of the contact patch that the contact points span");
+  explain("ns", "median time of a query");
+  explain("p95", "what 95% of the queries do not exceed in the pose class where that is the most");
+  explain("times", fmt::format("the median as a multiple of Bullet's, ~ where the spreads of {} to "
+                               "{} repetitions overlap: a tie",
+                               min_repetitions, max_repetitions));
+  if (layout.columns.size() < all_columns().size() && terminal.columns < 80) {
+    text += indented("Wider terminals show more columns, up to 80 characters.", terminal) + '\n';
+  }
+  return text;
+}
+
+/// The pose classes in which a candidate's slow queries take much longer than its median.
+std::string tails_text(const Report& report, const Terminal& terminal) {
+  std::string text;
+  for (const CandidateDescription& candidate : report.candidates) {
+    std::size_t timed = 0, slow = 0;
+    const ResultRow* slowest = nullptr;
+    for (const ResultRow& row : report.results) {
+      if (row.candidate != candidate.name || !row.time || !row.time->p95) continue;
+      ++timed;
+      if (!has_slow_tail(*row.time)) continue;
+      ++slow;
+      if (!slowest || *row.time->p95 > *slowest->time->p95) slowest = &row;
+    }
+    if (!slowest) continue;
+    text +=
+        "  " +
+        wrapped(fmt::format("{} in {} of {} pose classes; {}/{}: median {} ns, p95 {} ns",
+                            candidate.name, slow, timed, slowest->pair, slowest->pose_class,
+                            whole(slowest->time->nanoseconds.median), whole(slowest->time->p95)),
+                terminal.columns - 4, "\n    ") +
+        '\n';
+  }
+  if (text.empty()) return text;
+  return '\n' + terminal.heading("Slow tails: 5% of the queries take over four medians") + '\n' +
+         text;
 }
 
 /// What a candidate that is a command says of its time, against what is known of it.
@@ -195,7 +334,7 @@ const WorstCase* worst_failure(const Report& report, const std::string& candidat
   return worst;
 }
 
-std::string failures_text(const Report& report) {
+std::string failures_text(const Report& report, const Terminal& terminal) {
   std::string text;
   for (const CandidateDescription& candidate : report.candidates) {
     const WorstCase* worst = worst_failure(report, candidate.name);
@@ -203,9 +342,10 @@ std::string failures_text(const Report& report) {
     text += fmt::format("  {} {}, {}\n    {}\n", candidate.name, outcome_name(worst->score.outcome),
                         worst->group, worst->examination.replay);
   }
-  return text.empty()
-             ? text
-             : "\nWorst failure of each candidate, in everyday poses if it has one there:\n" + text;
+  if (text.empty()) return text;
+  const std::string title =
+      "Worst failure of each candidate, in everyday poses if it has one there";
+  return '\n' + terminal.heading(wrapped(title, terminal.columns, "\n")) + '\n' + text;
 }
 
 bool can_be_asked(const Report& report, const std::string& candidate) {
@@ -215,7 +355,7 @@ bool can_be_asked(const Report& report, const std::string& candidate) {
 }
 
 /// What candidates pass as it is and fail turned or tilted.
-std::string contrasts_text(const Report& report) {
+std::string contrasts_text(const Report& report, const Terminal& terminal) {
   constexpr int max_shown = 3;  // of a candidate
   std::string text, last;
   int shown = 0;
@@ -236,41 +376,33 @@ std::string contrasts_text(const Report& report) {
         can_be_asked(report, c->candidate) ? contrast_command(*c) : replay_command(c->worst, {}));
   }
   leave_out();
-  return text.empty() ? text : "\nPassed as it is, failed once turned or tilted:\n" + text;
+  if (text.empty()) return text;
+  return '\n' + terminal.heading("Passed as it is, failed once turned or tilted") + '\n' + text;
 }
 
 }  // namespace
 
-std::string terminal_table(const Report& report) {
+std::string terminal_table(const Report& report, const Terminal& terminal) {
   const bool timed = is_timed(report);
+  const Layout layout(report, terminal);
   std::string text = partial_text(report);
-  text +=
-      fmt::format("{:<21} {:>6} {:>7} {:>7} {:>8} {:>7} {:>5}{}\n", "candidate", "agree%", "yes/no",
-                  "err p99", "bias", "pts p99", "cover", timed ? time_columns("ns", "times") : "");
-  text += summary_text(report, timed);
-  text += fmt::format(
-      "\nagree%: depth, normal and deepest point within {:g} of the smaller size\n"
-      "yes/no: wrong answers to whether bodies touch: contacts made up, and missed\n"
-      "err, bias: depth error of the contacts that were reported, in the same unit;\n"
-      "  its median with its sign: negative is too deep\n"
-      "pts: by how much the worst contact point is off both surfaces and its depth\n"
-      "cover: mean share of the contact patch that the contact points span\n",
-      report.tolerance);
-  if (timed) {
-    text += fmt::format(
-        "ns, times: median of one query; as a multiple of Bullet's, ~ where the spreads\n"
-        "  of {} to {} repetitions overlap: a tie\n",
-        min_repetitions, max_repetitions);
-  }
+  std::string headings = fmt::format("{:<{}}", "candidate", layout.name_width);
+  for (const Column& c : layout.columns) headings += fmt::format(" {:>{}}", c.heading, c.width);
+  text += terminal.heading(headings) + '\n' + summary_text(report, layout, terminal);
+  text += columns_text(report, layout, terminal);
   const bool has_timeouts =
       std::any_of(report.summary.begin(), report.summary.end(),
                   [](const ResultRow& row) { return row.statistics.of(Outcome::timed_out) > 0; });
   if (has_timeouts) {
-    text +=
-        "timed-out: no answer within the limit of processor time; soon after another\n"
-        "  such answer, within a thousand times the median, at least a tenth of the limit\n";
+    text += indented(
+                "timed-out: no answer within the limit of processor time; soon after another "
+                "such answer, within a thousand times the median, at least a tenth of the "
+                "limit",
+                terminal) +
+            '\n';
   }
-  return text + commands_text(report, timed) + contrasts_text(report) + failures_text(report);
+  return text + commands_text(report, timed) + tails_text(report, terminal) +
+         contrasts_text(report, terminal) + failures_text(report, terminal);
 }
 
 }  // namespace touchstone

@@ -22,9 +22,14 @@ struct Terminal {
 /// a terminal, unless NO_COLOR is set (https://no-color.org) or TERM is "dumb".
 Terminal standard_output();
 
-/// The summary of a report for a terminal of 80 columns: a row for each pair and candidate in
-/// everyday poses, and for all pairs in those of the other groups; what a candidate passes and
-/// fails once turned or tilted; its worst failure. Commands replay both.
-std::string terminal_table(const Report& report);
+/// The text with its lines broken between words, where `line_end` comes, which may indent the next
+/// one: what it adds does not count in the width.
+std::string wrapped(const std::string& text, std::size_t width, const std::string& line_end);
+
+/// The summary of a report: a row for each pair and candidate in everyday poses, and for all pairs
+/// in those of the other groups, with the columns that fit; the pose classes in which a candidate
+/// is slow now and then; what a candidate passes and fails once turned or tilted; its worst
+/// failure. Commands replay both, each in a line however long.
+std::string terminal_table(const Report& report, const Terminal& terminal = {});
 
 }  // namespace touchstone
