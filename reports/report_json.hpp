@@ -42,8 +42,8 @@ Report read_report(const std::filesystem::path& file);
 /// Reads the text of such a file; `name` is what errors call it.
 Report report_from_text(std::string_view text, const std::string& name);
 
-/// Writes report.json and report.html into the folder, each as a whole or not at
-/// all. Throws InvalidInput (field "--out") where that cannot be done.
+/// Writes report.json and report.html into the folder, each as a whole or not at all. Throws
+/// InvalidInput (field "--out") where that cannot be done.
 void write_report(const Report& report, const std::filesystem::path& folder);
 
 }  // namespace touchstone
