@@ -1,3 +1,5 @@
+#include "properties/laws/check.hpp"
+
 #include <algorithm>
 #include <fmt/format.h>
 #include <memory>
@@ -6,7 +8,6 @@
 #include "cli/command.hpp"
 #include "cli/options.hpp"
 #include "properties/files/disk.hpp"
-#include "properties/laws/cause.hpp"
 #include "properties/laws/failure_file.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/check_report.hpp"

@@ -8,7 +8,7 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/standard_streams.hpp"
-#include "properties/files/error_text.hpp"
+#include "properties/files/given_text.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/terminal.hpp"
 

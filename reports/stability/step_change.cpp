@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "oracle/patch/convex_set.hpp"
-#include "properties/motions/perturbation.hpp"
+#include "properties/motions/motion.hpp"
 #include "reports/campaign.hpp"
 
 namespace touchstone {

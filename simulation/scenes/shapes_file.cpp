@@ -10,7 +10,7 @@
 #include <urdf_parser/urdf_parser.h>
 
 #include "properties/files/disk.hpp"
-#include "properties/files/error_text.hpp"
+#include "properties/files/given_text.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone {
