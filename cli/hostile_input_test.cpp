@@ -32,7 +32,7 @@
 #include "reports/solve.hpp"
 #include "reports/terminal_table.hpp"
 #include "reports/test_data/given_answers.hpp"
-#include "simulation/scenes/shapes_file.hpp"
+#include "simulation/scenes/scene_file.hpp"
 #include "simulation/world.hpp"
 
 namespace touchstone {

@@ -4,8 +4,7 @@
 #include "candidates/candidates.hpp"
 #include "cli/command.hpp"
 #include "properties/files/disk.hpp"
-#include "simulation/scenes/povray.hpp"
-#include "simulation/scenes/shapes_file.hpp"
+#include "simulation/scenes/scene_file.hpp"
 
 namespace touchstone {
 namespace {

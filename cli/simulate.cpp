@@ -15,7 +15,7 @@
 #include "simulation/experiment.hpp"
 #include "simulation/run_experiments.hpp"
 #include "simulation/scenes/choose.hpp"
-#include "simulation/scenes/recording.hpp"
+#include "simulation/scenes/trajectory.hpp"
 
 namespace touchstone {
 namespace {
