@@ -1,3 +1,5 @@
+#include "properties/laws/check.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -12,7 +14,6 @@
 #include "properties/files/configuration_json.hpp"
 #include "properties/files/disk.hpp"
 #include "properties/files/strict_json.hpp"
-#include "properties/laws/cause.hpp"
 #include "properties/laws/failure_file.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/replay.hpp"

@@ -12,7 +12,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "properties/files/error_text.hpp"
+#include "properties/files/given_text.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/terminal.hpp"
 

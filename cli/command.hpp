@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "properties/files/parse_number.hpp"
+#include "properties/files/given_text.hpp"
 
 namespace CLI {
 class App;

@@ -19,8 +19,7 @@
 #include "candidates/candidates.hpp"
 #include "cli/mutation.hpp"
 #include "properties/files/configuration_json.hpp"
-#include "properties/files/error_text.hpp"
-#include "properties/files/parse_number.hpp"
+#include "properties/files/given_text.hpp"
 #include "properties/files/strict_json.hpp"
 #include "properties/laws/failure_file.hpp"
 #include "reference/contact_of.hpp"
@@ -32,7 +31,7 @@
 #include "reports/solve.hpp"
 #include "reports/terminal.hpp"
 #include "reports/test_data/given_answers.hpp"
-#include "simulation/scenes/shapes_file.hpp"
+#include "simulation/scenes/scene_file.hpp"
 #include "simulation/world.hpp"
 
 namespace touchstone {

@@ -8,7 +8,7 @@
 #include "candidates/candidates.hpp"
 #include "cli/command.hpp"
 #include "oracle/truth.hpp"
-#include "properties/files/error_text.hpp"
+#include "properties/files/given_text.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone {

@@ -16,9 +16,8 @@
 #include "simulation/experiment.hpp"
 #include "simulation/run_experiments.hpp"
 #include "simulation/scenes/choose.hpp"
-#include "simulation/scenes/povray.hpp"
-#include "simulation/scenes/recording.hpp"
-#include "simulation/scenes/shapes_file.hpp"
+#include "simulation/scenes/scene_file.hpp"
+#include "simulation/scenes/trajectory.hpp"
 
 namespace touchstone {
 namespace {

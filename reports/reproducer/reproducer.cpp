@@ -7,7 +7,7 @@
 #include "candidates/candidates.hpp"
 #include "candidates/npm_engines.hpp"
 #include "oracle/truth.hpp"
-#include "properties/files/parse_number.hpp"
+#include "properties/files/given_text.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/replay.hpp"
 #include "reports/reproducer/question_texts.hpp"

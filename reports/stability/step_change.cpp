@@ -9,7 +9,6 @@
 
 #include "oracle/patch/convex_set.hpp"
 #include "properties/motions/motion.hpp"
-#include "properties/motions/perturbation.hpp"
 #include "properties/pose_class.hpp"
 #include "reports/bytes.hpp"
 #include "reports/campaign.hpp"

@@ -15,7 +15,7 @@
 #include <nlohmann/json.hpp>
 
 #include "properties/files/configuration_json.hpp"
-#include "properties/files/parse_number.hpp"
+#include "properties/files/given_text.hpp"
 #include "properties/files/strict_json.hpp"
 #include "reference/invalid_input.hpp"
 
