@@ -90,11 +90,22 @@ std::string ratio(const ResultRow& row) {
   return fmt::format("{}{:.2f}", is_tied ? "~" : "", row.time->ratio_to_bullet->median);
 }
 
-std::string partial_text(const Report& report) {
+/// The text within the terminal's columns, all lines but the first indented by two.
+std::string indented(const std::string& text, const Terminal& terminal) {
+  return wrapped(text, terminal.columns - 2, "\n  ");
+}
+
+std::string titled(const std::string& text, const Terminal& terminal) {
+  return terminal.heading(wrapped(text, terminal.columns, "\n"));
+}
+
+std::string partial_text(const Report& report, const Terminal& terminal) {
   if (!report.partial) return "";
-  return fmt::format(
-      "PARTIAL: interrupted when {} of {} pose classes were scored and {} timed.\n\n",
-      report.completed.classes, report.planned.classes, report.timed_classes);
+  return indented(fmt::format(
+                      "PARTIAL: interrupted when {} of {} pose classes were scored and {} timed.",
+                      report.completed.classes, report.planned.classes, report.timed_classes),
+                  terminal) +
+         "\n\n";
 }
 
 /// Cut downwards like agreement: 1.00 covers every patch.
@@ -241,11 +252,6 @@ std::string summary_text(const Report& report, const Layout& layout, const Termi
   return text;
 }
 
-/// The text within the terminal's columns, all lines but the first indented by two.
-std::string indented(const std::string& text, const Terminal& terminal) {
-  return wrapped(text, terminal.columns - 2, "\n  ");
-}
-
 /// What the columns mean, of those that are shown.
 std::string columns_text(const Report& report, const Layout& layout, const Terminal& terminal) {
   std::string text = "\n";
@@ -296,12 +302,12 @@ std::string tails_text(const Report& report, const Terminal& terminal) {
         '\n';
   }
   if (text.empty()) return text;
-  return '\n' + terminal.heading("Slow tails: 5% of the queries take over four medians") + '\n' +
+  return '\n' + titled("Slow tails: 5% of the queries take over four medians", terminal) + '\n' +
          text;
 }
 
 /// What a candidate that is a command says of its time, against what is known of it.
-std::string commands_text(const Report& report, bool timed) {
+std::string commands_text(const Report& report, bool timed, const Terminal& terminal) {
   std::string text;
   for (const CandidateDescription& c : report.candidates) {
     if (c.runs != "native") text += fmt::format("* {} runs as {}\n", c.name, c.runs);
@@ -316,8 +322,11 @@ std::string commands_text(const Report& report, bool timed) {
     }
     if (floor > 0) text += fmt::format("  bodies far apart: up to {:.0f} ns\n", floor);
     if (low < 0.9 || high > 1.1) {
-      text += fmt::format("  its times are doubtful: ours are {:.2f} to {:.2f} times as long\n",
-                          low, high);
+      text += "  " +
+              wrapped(fmt::format("its times are doubtful: ours are {:.2f} to {:.2f} times as long",
+                                  low, high),
+                      terminal.columns - 4, "\n    ") +
+              '\n';
     }
   }
   return text;
@@ -372,12 +381,12 @@ std::string contrasts_text(const Report& report, const Terminal& terminal) {
     last = c->candidate;
     if (++shown > max_shown) continue;
     text += fmt::format(
-        "    {}\n      {}\n", contrast_text(*c),
+        "    {}\n      {}\n", wrapped(contrast_text(*c), terminal.columns - 6, "\n      "),
         can_be_asked(report, c->candidate) ? contrast_command(*c) : replay_command(c->worst, {}));
   }
   leave_out();
   if (text.empty()) return text;
-  return '\n' + terminal.heading("Passed as it is, failed once turned or tilted") + '\n' + text;
+  return '\n' + titled("Passed as it is, failed once turned or tilted", terminal) + '\n' + text;
 }
 
 }  // namespace
@@ -385,7 +394,7 @@ std::string contrasts_text(const Report& report, const Terminal& terminal) {
 std::string terminal_table(const Report& report, const Terminal& terminal) {
   const bool timed = is_timed(report);
   const Layout layout(report, terminal);
-  std::string text = partial_text(report);
+  std::string text = partial_text(report, terminal);
   std::string headings = fmt::format("{:<{}}", "candidate", layout.name_width);
   for (const Column& c : layout.columns) headings += fmt::format(" {:>{}}", c.heading, c.width);
   text += terminal.heading(headings) + '\n' + summary_text(report, layout, terminal);
@@ -401,7 +410,7 @@ std::string terminal_table(const Report& report, const Terminal& terminal) {
                 terminal) +
             '\n';
   }
-  return text + commands_text(report, timed) + tails_text(report, terminal) +
+  return text + commands_text(report, timed, terminal) + tails_text(report, terminal) +
          contrasts_text(report, terminal) + failures_text(report, terminal);
 }
 

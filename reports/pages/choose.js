@@ -20,8 +20,9 @@ function headline() {
           ? `The exact cylinder is itself the cheapest model that meets all needs: contacts take ${exponent(exact)} µs of a step.`
           : `The cheapest models that meet all needs save ${Math.round(100 * data.time_saved)}% of the contacts' time: ` +
             `${exponent(answer.microseconds_per_step)} µs of a step instead of ${exponent(exact)} µs.`;
-  byId('provenance').textContent = `${data.command}; ${data.machine.cpu}, ${data.machine.compiler}. ` +
+  byId('provenance').textContent = `${data.machine.cpu}, ${data.machine.compiler}. ` +
       `The rest of a step, solver and harness, takes ${exponent(data.rest_of_step_microseconds)} µs.`;
+  byId('provenance').after(element('details', {}, element('summary', {}, 'The command'), command(data.command)));
 }
 
 function answerTables() {

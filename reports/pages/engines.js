@@ -1,6 +1,6 @@
 // The section "Inside the engines": every experiment in each engine's own world, with the engine's contacts and with ours.
 const cureWords = {
-  held: 'held: within what the experiment resolves',
+  held: 'held: within what the experiment resolves, and the body rests where it should',
   nearer: 'at least ten times nearer to the answer on paper',
   solver: 'held with the engine’s solver at its best: its defaults limit, not the contacts',
   alike: 'as near as the engine’s own contacts, also with the solver at its best',
@@ -39,7 +39,7 @@ function drawEngines({engines, experiments, results, step}) {
   section.append(element('h2', {}, 'Inside the engines'), element('p', {},
       `Each engine steps its own world, in steps of ${exponent(step)} s: its broad phase, its solver, its defaults; first with its own ` +
       'contacts, then with our routines installed by one call. A cell has the error before and after; held (green): within what the ' +
-      'experiment resolves. *: held once the engine’s solver is at its best, so that its defaults are what limits. ' +
+      'experiment resolves, and the body rests where it should. *: held once the engine’s solver is at its best, so that its defaults are what limits. ' +
       `Of ${results.length}, ${count('held')} are held, ${count('nearer')} at least ten times nearer, ${count('solver')} limited by the ` +
       `solver’s defaults, ${count('alike')} alike with both contacts, ${count('open')} open.`));
   const select = element('select', {id: 'engine-experiment'}), statement = element('p', {class: 'quiet'}), one = element('div', {class: 'scroll'});
