@@ -303,7 +303,8 @@ function recordedTable(recorded) {
   const tilt = k => k === 15 ? 'exact' : `1e-${k}`;
   const rows = [...byArrangement.values()].sort((x, y) => pairs.indexOf(x.pair) - pairs.indexOf(y.pair) || y.share - x.share)
       .map(({pair, arrangement, share, tilts}) => [rowHead(otherShape(pair)), arrangement, percent(share),
-          element('td', {class: 'text wrap'}, tilts.sort((x, y) => x.tilt - y.tilt).map(t => `${tilt(t.tilt)}: ${percent(t.share / share)}`).join(', ') || '–')]);
+          element('td', {class: 'text wrap'}, ...tilts.sort((x, y) => x.tilt - y.tilt)
+              .flatMap((t, i) => [i ? ', ' : '', element('span', {class: 'unbroken'}, `${tilt(t.tilt)}: ${percent(t.share / share)}`)]), tilts.length ? '' : '–')]);
   byId('recorded-table').append(table([textColumn('pair'), textColumn('arrangement'), 'share', textColumn('tilts out of it')], rows,
       'Arrangements in recorded scenes'));
 }
