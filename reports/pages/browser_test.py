@@ -383,6 +383,18 @@ class Report(PageTest):
             return [...new Set(result)];""")
         self.assertEqual(crossed, [])
 
+    def test_the_chart_shows_the_time_that_95_of_100_queries_keep_too(self):
+        def places():
+            return {m.get_attribute("aria-label").split(",")[0]: m.location["x"]
+                    for m in self.all("#chart-panels .whole .mark-symbol path")}
+        medians = places()
+        self.choose("#chart-time", "p95")
+        tails = places()
+        self.choose("#chart-time", "median")
+        self.assertEqual(medians.keys(), tails.keys())
+        self.assertNotEqual(tails, medians)
+        self.assertEqual(places(), medians)
+
     def test_a_mark_tells_its_numbers_and_leads_to_its_worst_cases(self):
         mark = next(m for m in self.all("#chart-panels figure:last-child .mark-symbol path")
                     if m.get_attribute("aria-label").startswith("bullet-margin-0,"))

@@ -1,7 +1,9 @@
 // The report's charts: speed and accuracy, distributions of errors, what errors depend on.
 const minChartedError = 1e-17;
 const chartedError = r => Math.max(r.depth_error.p99, minChartedError);
-const chartable = r => time(r) !== null && r.depth_error !== null;
+// The median or, as chosen, what 95% of the queries keep.
+const chartedTime = () => byId('chart-time').value === 'p95' ? tail : time;
+const chartable = r => chartedTime()(r) !== null && r.depth_error !== null;
 const timeLabel = "datum.value < 1e3 ? datum.value + ' ns' : datum.value < 1e6 ? datum.value / 1e3 + ' µs' : datum.value / 1e6 + ' ms'";
 
 // Speed and accuracy: a chart of each pair, on the same axes.
@@ -13,7 +15,7 @@ function speedAccuracy() {
   byId('chart-legend').replaceChildren();
   if (rows.length === 0) return host.append('No candidate was timed.');
   byId('chart-legend').append(...candidates.filter(name => rows.some(r => r.candidate === name)).map(name => named(name)));
-  const x = {title: 'time per query', ...decadesOf(rows.flatMap(r => tail(r) === null ? [time(r)] : [time(r), tail(r)])), label: timeLabel};
+  const x = {title: `time per query${chartedTime() === tail ? ', p95' : ''}`, ...decadesOf(rows.map(chartedTime())), label: timeLabel};
   const y = powerAxis('depth error, p99 (sizes)', rows.map(chartedError));
   const places = [...new Set(rows.map(r => r.pair))].reverse().map(pair => [pair, element('div', {class: 'chart'})]);
   // All places exist before the first chart is drawn, so that each has its final width.
@@ -26,8 +28,9 @@ function speedAccuracy() {
 }
 function speedChart(place, pair, rows, x, y) {
   // Candidates whose spreads of time overlap tie (reports/statistics.hpp).
-  const front = rows.filter(r => r.pareto).sort((a, b) => time(a) - time(b));
-  const at = r => ({x: time(r), y: chartedError(r)});
+  // The front is that of the medians.
+  const charted = chartedTime(), front = charted === time ? rows.filter(r => r.pareto).sort((a, b) => time(a) - time(b)) : [];
+  const at = r => ({x: charted(r), y: chartedError(r)});
   const points = rows.map((r, i) => ({...markData(r.candidate), ...at(r), order: front.includes(r) ? i : 1000 + i,
       label: `${r.candidate}${runsText(r.candidate)} ${percent(agreeing(r))}`, weight: front.includes(r) ? 'bold' : 'normal',
       tip: `${r.candidate}, ${dashed(r.pair)}\nagrees on ${percent(agreeing(r))}, missed ${r.outcomes.missed || 0}\n` +
@@ -37,14 +40,13 @@ function speedChart(place, pair, rows, x, y) {
            floorText(r) +
            (r.tied_with.length ? `\nno faster or slower, within the spreads, than ${r.tied_with.join(', ')}` : '') +
            `\nClick for its worst cases`}));
-  const tailed = rows.filter(r => tail(r) !== null);
   // The members of a family, in the order of their parameter.
   const members = report.candidates.map(c => ({family: c.family, row: rows.find(r => r.candidate === c.name)})).filter(m => m.row);
   drawScatter(place, `Depth error against time per query, ${dashed(pair)}`, {height: panelHeight(pair), x, y, points, lines: [
     {rows: members.map(m => ({family: m.family, ...at(m.row)})), by: 'family', width: 0.8},
-    {rows: front.map(at), dash: [4, 3]},
-    {rows: tailed.flatMap(r => [{candidate: r.candidate, ...at(r)}, {candidate: r.candidate, ...at(r), x: tail(r)}]), by: 'candidate', width: 0.4, isCrossed: true}]}, r => showWorst(pair, r.candidate));
+    ...(front.length ? [{rows: front.map(at), dash: [4, 3]}] : [])]}, r => showWorst(pair, r.candidate));
 }
+byId('chart-time').addEventListener('change', speedAccuracy);
 keepGrouped(speedAccuracy);
 
 // The distribution of errors: cumulative for several candidates, a histogram for one.
