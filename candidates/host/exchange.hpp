@@ -43,7 +43,7 @@ struct Exchange {
   /// Number of finished slots of this batch; the upper half is the lower half of the command's
   /// ticket, which reveals overwriting.
   std::atomic<std::uint64_t> progress;
-  char thrown[240];     ///< text of an uncaught exception
+  char thrown[240];         ///< text of an uncaught exception
   double nanoseconds;       ///< per query, in the last timed round
   double instructions;      ///< likewise; NaN if they cannot be counted
   double tail_nanoseconds;  ///< 95th percentile over the queries of each one's least time so far
