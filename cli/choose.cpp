@@ -5,11 +5,10 @@
 
 #include "cli/command.hpp"
 #include "cli/options.hpp"
-#include "cli/standard_streams.hpp"
 #include "properties/files/disk.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/choice/choice.hpp"
-#include "reports/worst.hpp"
+#include "reports/replay.hpp"
 
 namespace touchstone {
 namespace {

@@ -1,14 +1,18 @@
 #include "cli/command.hpp"
 
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <iostream>
 #include <sstream>
+#include <unistd.h>
 #include <utility>
 
 #include <CLI/CLI.hpp>
 
-#include "cli/standard_streams.hpp"
-#include "properties/files/error_text.hpp"
+#include "properties/files/given_text.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/terminal.hpp"
 
@@ -18,20 +22,6 @@ namespace {
 constexpr std::size_t page_width = 80, name_width = 24;
 /// On a terminal narrower than this, descriptions stand below names.
 constexpr std::size_t min_width_beside = 60, narrow_name_width = 6;
-
-/// The text with its lines broken between words, where `line_end` comes.
-std::string wrapped(const std::string& text, std::size_t width, const std::string& line_end) {
-  std::istringstream words(text);
-  std::string result, word;
-  std::size_t column = 0;
-  while (words >> word) {
-    const bool fits = column + 1 + word.size() <= width;
-    if (column > 0) result += fits ? " " : line_end;
-    column = (column > 0 && fits ? column + 1 : 0) + word.size();
-    result += word;
-  }
-  return result;
-}
 
 /// Options and subcommands within the terminal's columns, long descriptions on several lines.
 class HelpFormat : public CLI::Formatter {
@@ -220,6 +210,31 @@ std::string list_entry(const std::string& name, std::size_t width, const std::st
   std::string entry = "  " + name;
   entry.resize(indent, ' ');
   return entry + wrapped(text, page_width - indent, '\n' + std::string(indent, ' ')) + '\n';
+}
+
+void open_closed_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (fcntl(stream, F_GETFD) != -1) continue;
+    // For the other direction, and the lowest descriptor that is free: this one.
+    open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+  }
+}
+
+bool standard_output_is_written() {
+  errno = 0;
+  const bool flushed = std::fflush(stdout) == 0;
+  const int reason = errno;
+  std::cout.flush();
+  if (flushed && std::cout.good() && std::ferror(stdout) == 0) return true;
+  // An earlier failure has left no reason.
+  const std::string why = flushed ? "" : std::string(" (") + std::strerror(reason) + ")";
+  complain("error: standard output is incomplete: it could not be written" + why);
+  return false;
+}
+
+void complain(const std::string& text) {
+  std::fputs((text + '\n').c_str(), stderr);
+  std::fflush(stderr);
 }
 
 }  // namespace touchstone

@@ -6,7 +6,7 @@
 #include "cli/command.hpp"
 #include "properties/files/disk.hpp"
 #include "reference/invalid_input.hpp"
-#include "reports/report_file.hpp"
+#include "reports/report_json.hpp"
 
 namespace touchstone {
 namespace {

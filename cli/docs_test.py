@@ -47,7 +47,7 @@ ELSEWHERE = {
     "python3 oracle/check_certificate_test.py": "check_certificate",
     "python3 oracle/forge_certificates.py": "forge_certificates",
     "apt-get install": "nothing: it needs the network",
-    "cd out/render": "simulation/scenes/povray_test.cpp, which writes what POV-Ray reads",
+    "cd out/render": "simulation/scenes/scene_formats_test.cpp, which writes what POV-Ray reads",
 }
 
 # Commands that may find what they look for, or have to.

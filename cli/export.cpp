@@ -6,10 +6,9 @@
 #include "candidates/host/interruption.hpp"
 #include "cli/command.hpp"
 #include "cli/options.hpp"
-#include "cli/standard_streams.hpp"
 #include "properties/files/disk.hpp"
 #include "reference/invalid_input.hpp"
-#include "reports/test_data/test_data_file.hpp"
+#include "reports/test_data/test_data.hpp"
 
 namespace touchstone {
 namespace {

@@ -7,9 +7,8 @@
 
 #include "candidates/candidates.hpp"
 #include "cli/command.hpp"
-#include "cli/standard_streams.hpp"
 #include "oracle/truth.hpp"
-#include "properties/files/error_text.hpp"
+#include "properties/files/given_text.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone {

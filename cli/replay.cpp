@@ -8,7 +8,6 @@
 #include "properties/files/configuration_json.hpp"
 #include "properties/files/disk.hpp"
 #include "reference/invalid_input.hpp"
-#include "reports/worst.hpp"
 
 namespace touchstone {
 namespace {

@@ -7,15 +7,14 @@
 #include "candidates/host/progress.hpp"
 #include "cli/command.hpp"
 #include "cli/options.hpp"
-#include "cli/standard_streams.hpp"
 #include "properties/files/disk.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/figures/figures.hpp"
 #include "reports/make_report.hpp"
-#include "reports/report_file.hpp"
+#include "reports/replay.hpp"
+#include "reports/report_json.hpp"
 #include "reports/stability/measure.hpp"
-#include "reports/terminal_table.hpp"
-#include "reports/worst.hpp"
+#include "reports/terminal.hpp"
 #include "simulation/engines/run_engines.hpp"
 #include "simulation/experiment.hpp"
 #include "simulation/run_experiments.hpp"
@@ -154,7 +153,7 @@ int run(const Options& options) {
   report.partial = report.partial || interrupted();
   write_report(report, options.out);
   fmt::print("{}\n{} configurations, truth certified to 1e-30 of the larger size, {:.0f} s.\n",
-             terminal_table(report), report.configurations, report.wall_seconds);
+             terminal_table(report, standard_output()), report.configurations, report.wall_seconds);
   if (report.engines) fmt::print("\n{}\n", engines_summary(*report.engines));
   fmt::print("Report: {}/report.html, {}/report.json\n", options.out, options.out);
   if (!options.figures.empty()) {

@@ -7,15 +7,14 @@
 #include "candidates/host/interruption.hpp"
 #include "cli/command.hpp"
 #include "cli/options.hpp"
-#include "cli/standard_streams.hpp"
 #include "properties/files/disk.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/make_report.hpp"
-#include "reports/report_file.hpp"
-#include "reports/terminal_table.hpp"
+#include "reports/replay.hpp"
+#include "reports/report_json.hpp"
+#include "reports/terminal.hpp"
 #include "reports/test_data/given_answers.hpp"
 #include "reports/test_data/test_data.hpp"
-#include "reports/worst.hpp"
 
 namespace touchstone {
 namespace {
@@ -102,7 +101,7 @@ int run(const Options& options) {
   }
   write_report(report, options.out);
   fmt::print("{}\n{} answers, truth certified to 1e-30 of the larger size, {:.0f} s.\n",
-             terminal_table(report), report.configurations, report.wall_seconds);
+             terminal_table(report, standard_output()), report.configurations, report.wall_seconds);
   fmt::print("Report: {}/report.html, {}/report.json\n", options.out, options.out);
   if (report.partial) return interrupted_exit_code();
   return read_ones.errors.empty() ? 0 : bad_input;

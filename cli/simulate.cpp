@@ -4,18 +4,20 @@
 
 #include <nlohmann/json.hpp>
 
+#include "candidates/candidates.hpp"
 #include "candidates/host/interruption.hpp"
 #include "cli/command.hpp"
 #include "cli/options.hpp"
 #include "properties/files/disk.hpp"
 #include "reference/invalid_input.hpp"
-#include "reports/engines_page.hpp"
-#include "reports/worst.hpp"
+#include "reports/replay.hpp"
+#include "reports/report_page.hpp"
 #include "simulation/engines/run_engines.hpp"
 #include "simulation/experiment.hpp"
 #include "simulation/run_experiments.hpp"
 #include "simulation/scenes/choose.hpp"
-#include "simulation/scenes/recording.hpp"
+#include "simulation/scenes/scene_file.hpp"
+#include "simulation/scenes/trajectory.hpp"
 
 namespace touchstone {
 namespace {
@@ -182,6 +184,51 @@ void add_simulate(Program& program) {
       "  touchstone simulate simulation/scenes/conveyor.json --record recorded.jsonl\n" +
       experiment_list());
   command.runs([options] { return run(*options); });
+}
+
+namespace {
+
+struct RenderOptions {
+  std::string scene, out = "out/render", contacts = "reference";
+  double every = 0.04;
+};
+
+SceneFile read(const std::string& file) {
+  return is_shapes_file(file) ? still_scene(read_shapes(file)) : read_scene(file);
+}
+
+int run_render(const RenderOptions& options) {
+  const Candidate& candidate = find_candidate(options.contacts);
+  const SceneFile file = read(options.scene);
+  check_writable(options.out);
+  CandidateProcess process(candidate, simulation_threshold);
+  CandidateModel model(process);
+  const int frames = write_povray(file, run_scene(file.scene, model), options.every, options.out);
+  fmt::print("{} frames. To draw them with Debian's povray:\n  cd {} && povray scene.ini\n", frames,
+             options.out);
+  return 0;
+}
+
+}  // namespace
+
+void add_render(Program& program) {
+  Command command =
+      program.command("render", "Run a scene and write it for POV-Ray, frame by frame");
+  const auto options = std::make_shared<RenderOptions>();
+  command.text("scene", options->scene, "A scene file, or a robot or world (.urdf, .sdf)")
+      .value("FILE")
+      .required();
+  command.number("--every", options->every, {1e-6, 1e6}, "Seconds between frames");
+  command.text("--contacts", options->contacts, "The candidate that contacts come from")
+      .value("CANDIDATE");
+  command.text("--out", options->out, "Folder for scene.pov, scene.ini and the frames")
+      .value("FOLDER");
+  command.footer(
+      "Examples:\n"
+      "  touchstone render simulation/scenes/thesis-knock.json\n"
+      "  touchstone render simulation/scenes/log-pile.json --contacts capsule\n"
+      "  touchstone render simulation/scenes/gripper.urdf");
+  command.runs([options] { return run_render(*options); });
 }
 
 }  // namespace touchstone

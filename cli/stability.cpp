@@ -8,8 +8,8 @@
 #include "properties/files/configuration_json.hpp"
 #include "properties/files/disk.hpp"
 #include "reference/invalid_input.hpp"
+#include "reports/replay.hpp"
 #include "reports/stability/measure.hpp"
-#include "reports/worst.hpp"
 
 namespace touchstone {
 namespace {

@@ -8,7 +8,6 @@
 #include <limits>
 #include <string>
 
-#include "oracle/vector3.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone::oracle {

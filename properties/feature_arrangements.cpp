@@ -1,7 +1,7 @@
 #include <initializer_list>
 
-#include "properties/arrangement.hpp"
 #include "properties/features.hpp"
+#include "properties/pose_class.hpp"
 
 namespace touchstone {
 namespace {

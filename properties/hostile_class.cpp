@@ -8,7 +8,6 @@
 #include <cmath>
 #include <utility>
 
-#include "properties/arrangement.hpp"
 #include "properties/features.hpp"
 #include "properties/pose_class.hpp"
 #include "properties/recorded.hpp"

@@ -5,8 +5,8 @@
 // at whole steps, so that nothing is rounded.
 #include <cassert>
 
-#include "properties/arrangement.hpp"
 #include "properties/lattice.hpp"
+#include "properties/pose_class.hpp"
 
 namespace touchstone {
 namespace {

@@ -14,9 +14,8 @@
 #include "python/function_respondent.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/make_report.hpp"
-#include "reports/report_file.hpp"
 #include "reports/report_json.hpp"
-#include "reports/terminal_table.hpp"
+#include "reports/terminal.hpp"
 
 namespace touchstone::python {
 namespace {
@@ -151,7 +150,7 @@ Printed, it is a table with a row for each pair and candidate.
 
 Writes report.json and report.html, which needs no network, into a folder; makes the folder.
 )");
-  type.def("__str__", &terminal_table);
+  type.def("__str__", [](const Report& report) { return terminal_table(report); });
   type.def("__repr__", [](const Report& report) {
     return fmt::format("<touchstone.Report: {} configurations, {} candidates>",
                        report.configurations, report.candidates.size());

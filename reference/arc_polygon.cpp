@@ -100,27 +100,26 @@ ArcPolygon::ArcPolygon(const Lens& lens) : circles_{lens.circle1, lens.circle2} 
 }
 
 void ArcPolygon::clip(const Vec2& normal, double bound) {
-  // Of a circle, how far along the normal the line is, and where the circle leaves and returns.
-  struct Crossing {
-    double cosine;
-    Vec2 leaves, returns;
+  // How far along the normal the line passes a circle's centre, in radii; the circle leaves the
+  // half plane and returns to it at these places.
+  const auto cosine = [&](const Circle& circle) {
+    return (bound - normal.dot(circle.centre)) / circle.radius;
   };
-  const auto crossing = [&](const Circle& circle) -> Crossing {
-    const double cosine = (bound - normal.dot(circle.centre)) / circle.radius;
-    const double sine = std::sqrt(std::max(0.0, (1 - cosine) * (1 + cosine)));
-    const Vec2 middle = circle.centre + circle.radius * cosine * normal;
-    const Vec2 aside = circle.radius * sine * turned_left(normal);
-    return {cosine, middle - aside, middle + aside};
+  const auto place = [&](const Circle& circle, double at, double side) -> Vec2 {
+    const double sine = std::sqrt(std::max(0.0, (1 - at) * (1 + at)));
+    return circle.centre + circle.radius * (at * normal + side * sine * turned_left(normal));
   };
+  const auto leaves = [&](const Circle& circle, double at) { return place(circle, at, -1); };
+  const auto returns = [&](const Circle& circle, double at) { return place(circle, at, 1); };
   constexpr double sliver = 1e-12;
 
   if (is_disc_) {
-    const Crossing at = crossing(circles_[0]);
-    if (at.cosine >= 1 - sliver) return;
+    const double at = cosine(circles_[0]);
+    if (at >= 1 - sliver) return;
     is_disc_ = false;
-    if (at.cosine <= -1) return;
-    add(at.leaves, straight);
-    add(at.returns, 0);
+    if (at <= -1) return;
+    add(leaves(circles_[0], at), straight);
+    add(returns(circles_[0], at), 0);
     return;
   }
   const ArcPolygon before = *this;
@@ -139,31 +138,32 @@ void ArcPolygon::clip(const Vec2& normal, double bound) {
       if (p_stays != q_stays) add(p + p_beyond / (p_beyond - q_beyond) * (q - p), straight);
       continue;
     }
-    const Crossing at = crossing(circles_[vertex.circle]);
-    if (at.cosine >= 1 - sliver) {
+    const Circle& circle = circles_[vertex.circle];
+    const double at = cosine(circle);
+    if (at >= 1 - sliver) {
       if (!p_stays) add(p, vertex.circle);
       continue;
     }
-    if (at.cosine <= -1) continue;
+    if (at <= -1) continue;
     if (p_stays && !q_stays) {
-      add(at.leaves, straight);
+      add(leaves(circle, at), straight);
       continue;
     }
     if (!p_stays && q_stays) {
-      add(at.returns, vertex.circle);
+      add(returns(circle, at), vertex.circle);
       continue;
     }
-    const auto& [centre, radius] = circles_[vertex.circle];
-    const Arc arc(centre, p, q);
+    const Arc arc(circle.centre, p, q);
     // Does it pass the place that is the farthest along the normal, or the least far? (Where the
     // line meets an end of the arc, rounding may put a crossing beyond it.)
-    if (!arc.holds(centre + (p_stays ? radius : -radius) * normal)) continue;
+    if (!arc.holds(circle.centre + (p_stays ? circle.radius : -circle.radius) * normal)) continue;
+    const Vec2 out = leaves(circle, at), back = returns(circle, at);
     if (p_stays) {
-      add(arc.holds(at.leaves) ? at.leaves : p, straight);
-      add(arc.holds(at.returns) ? at.returns : q, vertex.circle);
+      add(arc.holds(out) ? out : p, straight);
+      add(arc.holds(back) ? back : q, vertex.circle);
     } else {
-      add(arc.holds(at.returns) ? at.returns : p, vertex.circle);
-      add(arc.holds(at.leaves) ? at.leaves : q, straight);
+      add(arc.holds(back) ? back : p, vertex.circle);
+      add(arc.holds(out) ? out : q, straight);
     }
   }
 }
@@ -209,6 +209,8 @@ namespace {
 
 /// An arc that is not longer than this is covered well by its ends.
 constexpr double long_arc = 0.4 * std::numbers::pi;
+/// The square of its chord where the radius is 1: 2 - 2 cos 72° = (5 - √5) / 2.
+constexpr double long_chord = 1.3819660112501051;
 /// An arc's piece that stands out by less than this part of the region's width is covered by its
 /// ends.
 constexpr double flat_part = 0.14;
@@ -232,7 +234,9 @@ int ArcPolygon::spread(const Vec2& first, std::array<Vec2, 8>& points) const {
   struct Edge {
     Vec2 from;
     int circle;
-    double angle;
+    double chord_squared;
+    bool beyond_half_a_turn;
+    double angle;         // of an arc that is divided
     int inside;           // points on it, ends not counted
     double standing_out;  // how far its pieces do, as a part of the region's width there
   };
@@ -242,23 +246,38 @@ int ArcPolygon::spread(const Vec2& first, std::array<Vec2, 8>& points) const {
   for (int i = 1; i < count_; ++i) {
     if (first.dot(vertices_[i].at - vertices_[corner].at) > 0) corner = i;
   }
+  const auto angle = [&](int i) {
+    const Edge& e = edges[i];
+    const Vec2& centre = circles_[e.circle].centre;
+    return angle_between(e.from - centre, edges[i + 1 < count_ ? i + 1 : 0].from - centre);
+  };
   for (int i = 0; i < count_; ++i, corner = next(corner)) {
     const auto& [from, circle] = vertices_[corner];
-    double angle = 0;
+    const Vec2& to = vertices_[next(corner)].at;
+    edges[i] = {from, circle, (to - from).squaredNorm(), false, 0, 0, 0};
     if (circle != straight) {
-      const Vec2& centre = circles_[circle].centre;
-      angle = angle_between(from - centre, vertices_[next(corner)].at - centre);
+      edges[i].beyond_half_a_turn = Arc(circles_[circle].centre, from, to).beyond_half_a_turn;
     }
-    edges[i] = {from, circle, angle, 0, 0};
   }
   for (int i = 0; i < count_; ++i) {
     Edge& e = edges[i];
-    e.inside = std::max(0, static_cast<int>(std::ceil(e.angle / long_arc - 1e-9)) - 1);
+    if (e.circle != straight) {
+      const double radius = circles_[e.circle].radius;
+      const bool is_long = e.beyond_half_a_turn || e.chord_squared > long_chord * radius * radius;
+      if (is_long) {
+        e.angle = angle(i);
+        e.inside = std::max(0, static_cast<int>(std::ceil(e.angle / long_arc - 1e-9)) - 1);
+      }
+    }
     total += 1 + e.inside;
   }
   const auto piece = [](const Edge& e) { return e.angle / (e.inside + 1); };
-  const auto rise = [&](const Edge& e, double angle) {  // of an arc above its chord
-    return circles_[e.circle].radius * (1 - std::cos(angle / 2));
+  // How far an arc stands out above its chord: 1 - cos = sin² / (1 + cos) of half its angle.
+  const auto whole_rise = [&](const Edge& e) {
+    const double radius = circles_[e.circle].radius;
+    const double sine2 = std::min(e.chord_squared / (4 * radius * radius), 1.0);
+    const double cosine = std::sqrt(1 - sine2);
+    return radius * (e.beyond_half_a_turn ? 1 + cosine : sine2 / (1 + cosine));
   };
   const auto measure = [&](int i) {
     Edge& e = edges[i];
@@ -267,10 +286,13 @@ int ArcPolygon::spread(const Vec2& first, std::array<Vec2, 8>& points) const {
     const double length = chord.norm();
     double width = 0;
     for (int k = 0; k < count_ && length > 0; ++k) {
-      width = std::max(width, cross2(chord, edges[k].from - e.from) / length);
+      width = std::max(width, cross2(chord, edges[k].from - e.from));
     }
-    const double whole = rise(e, e.angle);
-    e.standing_out = (e.inside == 0 ? whole : rise(e, piece(e))) / (width + whole);
+    if (length > 0) width /= length;
+    const double whole = whole_rise(e);
+    const double of_piece =
+        e.inside == 0 ? whole : circles_[e.circle].radius * (1 - std::cos(piece(e) / 2));
+    e.standing_out = of_piece / (width + whole);
   };
   for (int i = 0; i < count_ && total < sufficient_points; ++i) measure(i);
   while (total < sufficient_points) {
@@ -279,6 +301,7 @@ int ArcPolygon::spread(const Vec2& first, std::array<Vec2, 8>& points) const {
       if (edges[i].standing_out > edges[most].standing_out) most = i;
     }
     if (!(edges[most].standing_out > flat_part)) break;
+    if (edges[most].angle == 0) edges[most].angle = angle(most);
     ++edges[most].inside;
     ++total;
     measure(most);
@@ -291,7 +314,7 @@ int ArcPolygon::spread(const Vec2& first, std::array<Vec2, 8>& points) const {
     all[count++] = e.from;
     if (e.inside == 0) continue;
     const Vec2& centre = circles_[e.circle].centre;
-    const double c = std::cos(piece(e)), s = std::sin(piece(e));
+    const double step = piece(e), c = std::cos(step), s = std::sin(step);
     Vec2 arm = e.from - centre;
     for (int k = 1; k <= e.inside; ++k) {
       arm = Vec2(c * arm.x() - s * arm.y(), s * arm.x() + c * arm.y());

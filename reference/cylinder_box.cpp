@@ -68,8 +68,12 @@ StageResult side_and_any_vertex(const Frame& p, double best) {
 StageResult side_and_nearest_vertex(const Frame& p, const BestEdge& edge, double best) {
   // Sides of about one direction, or of no length, cannot be told apart.
   constexpr double flat = 0.01;
-  if (!(p.u.cwiseAbs().minCoeff() > flat)) return side_and_any_vertex(p, best);
-  if (!(edge.gap + p.r > 0)) return {};  // the axis passes through the polygon
+  const bool is_pierced = !(edge.gap + p.r > 0);  // the axis passes through the polygon
+  if (!(p.u.cwiseAbs().minCoeff() > flat)) {
+    // Then no normal across the axis has a larger gap than -r.
+    return is_pierced && best >= -p.r ? StageResult{} : side_and_any_vertex(p, best);
+  }
+  if (is_pierced) return {};
   const EdgeCrossing c = crossing(edge, p);
   if (std::abs(c.along_edge) <= p.e[edge.axis]) return {};
   return side_and_vertex(p, c.corner, best);
@@ -280,13 +284,24 @@ StageResult largest_gap(const Frame& p, EarlyExit exit) {
   const BoxSides sides(p);
   StageResult best = sides.best(p, exit.stop_above);
   if (exit.ends_with(best)) return best;
+  // As deep in each other as this, bodies hardly ever come free where a rim meets an edge.
+  constexpr double deep = 0.3;
+  const auto try_likely = [&] {
+    if (depth(best.gap) < deep * (std::min(p.r, p.h) + p.e.minCoeff())) {
+      best.improve(likely_rim_and_edge(p, sides, best.gap));
+    }
+  };
+  // A body that stands over an edge of a face comes free there sooner than at a vertex.
+  const bool stands = sides.kind() != BoxSides::Kind::edge;
+  if (stands) {
+    try_likely();
+    if (exit.ends_with(best)) return best;
+  }
   best.improve(exit.trusts_proofs ? side_and_nearest_vertex(p, sides.edge, best.gap)
                                   : side_and_any_vertex(p, best.gap));
   if (exit.ends_with(best)) return best;
-  // As deep in each other as this, bodies hardly ever come free where a rim meets an edge.
-  constexpr double deep = 0.3;
-  if (depth(best.gap) < deep * (std::min(p.r, p.h) + p.e.minCoeff())) {
-    best.improve(likely_rim_and_edge(p, sides, best.gap));
+  if (!stands) {
+    try_likely();
     if (exit.ends_with(best)) return best;
   }
   const Vec3 between = between_near_points(p);

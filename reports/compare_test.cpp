@@ -10,7 +10,6 @@
 #include "candidates/candidates.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/make_report.hpp"
-#include "reports/report_file.hpp"
 #include "reports/report_json.hpp"
 
 namespace touchstone {

@@ -7,6 +7,7 @@
 #include "reports/compare.hpp"
 #include "reports/pages/page.hpp"
 #include "reports/report_json.hpp"
+#include "reports/terminal.hpp"
 
 namespace touchstone {
 namespace {
@@ -24,23 +25,6 @@ std::string value_text(const Change& change, double value) {
 
 std::string factor_text(const Change& change) {
   return change.factor ? fmt::format("x {:.3g}", *change.factor) : "";
-}
-
-/// Broken at blanks, indented by two.
-std::string wrapped(const std::string& text) {
-  constexpr std::size_t width = 76;
-  std::string result;
-  std::size_t at = 0;
-  while (at < text.size()) {
-    std::size_t end = text.size();
-    if (end - at > width) {
-      end = text.rfind(' ', at + width);
-      if (end == std::string::npos || end <= at) end = std::min(text.find(' ', at), text.size());
-    }
-    result += (at == 0 ? "- " : "  ") + text.substr(at, end - at) + '\n';
-    at = end + 1;
-  }
-  return result;
 }
 
 /// Changes of one verdict beyond the limits, the largest first; those of one row stand together.
@@ -136,7 +120,7 @@ std::string comparison_text(const Comparison& c, const Terminal& terminal) {
     text +=
         fmt::format("{:<7} {} configurations, seed {}\n", name, side->configurations, side->seed);
   }
-  for (const std::string& remark : c.remarks) text += wrapped(remark);
+  for (const std::string& remark : c.remarks) text += "- " + wrapped(remark, 76, "\n  ") + '\n';
   text += section("Worse", Verdict::worse, c.changes, terminal) +
           section("Slower", Verdict::slower, c.changes, terminal) +
           section("Better", Verdict::better, c.changes, terminal) +

@@ -110,8 +110,11 @@ void add(DrakeProtocol::Result& result, std::size_t configuration, const oracle:
          const Answer& answer, const Score& score) {
   ++result.count;
   ++result.outcomes[score.outcome];
-  if (!score.depth_error) return;
-  const double error = std::abs(answer.signed_distance - truth.signed_distance.midpoint());
+  // A missed contact is as wrong as the bodies are deep.
+  const bool is_missed = score.outcome == Outcome::missed;
+  if (!score.depth_error && !is_missed) return;
+  const double answered = is_missed ? 0 : answer.signed_distance;
+  const double error = std::abs(answered - truth.signed_distance.midpoint());
   if (result.worst && error <= *result.max_error) return;
   result.max_error = error;
   result.worst = configuration;

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "properties/pose_class.hpp"
-#include "reports/worst.hpp"
+#include "reports/replay.hpp"
 
 namespace touchstone {
 namespace {

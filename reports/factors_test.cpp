@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "reports/headings.hpp"
+#include "reports/make_report.hpp"
 
 namespace touchstone {
 namespace {

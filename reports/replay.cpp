@@ -1,10 +1,15 @@
 #include "reports/replay.hpp"
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <cstring>
 #include <fmt/format.h>
+#include <numeric>
 
 #include <nlohmann/json.hpp>
 
+#include "candidates/candidates.hpp"
 #include "properties/files/answer_json.hpp"
 #include "properties/files/configuration_json.hpp"
 #include "reports/pages/page.hpp"
@@ -131,6 +136,83 @@ std::string replay_page(const Examination& examination, const std::string& descr
     if (runs != "native") data["runs"][name] = runs;
   }
   return render_page(Page::replay, data);
+}
+
+namespace {
+
+std::string option_text(const Added& added) {
+  return ' ' + added.option + ' ' + shell_quoted(added.value);
+}
+
+/// " --candidates a,b" if one of them is asked only when it is named; otherwise all are asked.
+std::string choice_of(const std::vector<std::string>& candidates) {
+  const std::vector<const Candidate*> usual = all_candidates();
+  const bool is_special =
+      std::any_of(candidates.begin(), candidates.end(), [&](const std::string& name) {
+        const Candidate* const known = known_candidate(name);
+        return known && std::find(usual.begin(), usual.end(), known) == usual.end();
+      });
+  if (!is_special) return "";
+  std::string names;
+  for (const std::string& name : candidates)
+    names += (names.empty() ? "" : ",") + shell_quoted(name);
+  return " --candidates " + names;
+}
+
+}  // namespace
+
+Examination examine(const Subject& subject, std::span<CandidateProcess* const> candidates,
+                    const Bar& bar, double width) {
+  std::vector<std::string> names;
+  for (const CandidateProcess* c : candidates) names.push_back(c->candidate().name);
+  Examination result{
+      subject.name, subject.configuration, {}, {}, replay_command(subject.name, names)};
+  const auto take = [&](const ScoredConfiguration& scored) {
+    result.truth = scored.truth;
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+      result.answers.push_back(
+          {candidates[k]->candidate().name, scored.answers[k], scored.scores[k]});
+    }
+  };
+  score_configurations({&subject.configuration, 1}, candidates, bar, width, take);
+  return result;
+}
+
+std::string shell_quoted(const std::string& text) {
+  const auto plain = [](unsigned char c) { return std::isalnum(c) || std::strchr("/._-+@", c); };
+  if (!text.empty() && std::all_of(text.begin(), text.end(), plain)) return text;
+  std::string result = "'";
+  for (const char c : text) result += c == '\'' ? "'\\''" : std::string(1, c);
+  return result + "'";
+}
+
+std::string program_name() {
+  std::string name = "./touchstone";
+  for (const Added& added : added_candidates()) name += option_text(added);
+  return name;
+}
+
+std::string program_name(const std::vector<std::string>& candidates) {
+  std::vector<std::string> options;
+  for (const std::string& name : candidates) {
+    const Candidate* const known = known_candidate(name);
+    if (!known || !known->added) continue;
+    const std::string option = option_text(*known->added);
+    if (std::find(options.begin(), options.end(), option) == options.end()) {
+      options.push_back(option);
+    }
+  }
+  return std::accumulate(options.begin(), options.end(), std::string("./touchstone"));
+}
+
+std::string replay_command(const std::string& name, const std::vector<std::string>& candidates) {
+  return program_name(candidates) + " replay " + shell_quoted(name) + choice_of(candidates);
+}
+
+std::string replay_command(const Configuration& configuration,
+                           const std::vector<std::string>& candidates) {
+  return "echo '" + to_json(configuration).dump() + "' | " + program_name(candidates) +
+         " replay -" + choice_of(candidates);
 }
 
 }  // namespace touchstone

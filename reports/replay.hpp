@@ -1,18 +1,26 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "candidates/host/candidate_process.hpp"
 #include "oracle/judge/score.hpp"
+#include "properties/identity.hpp"
+#include "reports/campaign.hpp"
 #include "reports/report.hpp"
 #include "reports/terminal.hpp"
 
 namespace touchstone {
 
-// One configuration shown to a person. `description` is that of its pose class; empty without one.
-// Preconditions: the examination has its truth.
+/// Examines one configuration, as in a report's worst cases and `replay`: each candidate answers in
+/// a new session. `width`: of the truth, relative to the larger size.
+Examination examine(const Subject& subject, std::span<CandidateProcess* const> candidates,
+                    const Bar& bar, double width = truth_width);
+
+// An examination shown to a person. `description` is that of its pose class; empty without one.
+// Precondition: the examination has its truth.
 
 /// One line for each candidate, then the truth, all of each candidate's answer and score, and last
 /// the configuration's numbers (as a line for `solve`, as exact fractions, in hexadecimal floats),
@@ -45,5 +53,21 @@ std::vector<std::string> reproducer_engines();
 std::string reproducer(std::string_view engine, std::string_view language,
                        const Configuration& configuration, const std::string& asked, const Bar& bar,
                        const Limits& limits = {});
+
+// Commands that a person would repeat.
+
+/// Quotes a word for a shell; left alone where it needs no quotes.
+std::string shell_quoted(const std::string& text);
+
+/// "./touchstone", with all options that added candidates.
+std::string program_name();
+/// "./touchstone", with those that added these.
+std::string program_name(const std::vector<std::string>& candidates);
+
+/// "./touchstone replay cylinder-box/rim-face/1/17", which these candidates have to answer.
+std::string replay_command(const std::string& name, const std::vector<std::string>& candidates);
+/// The command for a configuration that has no identity: "echo '{…}' | ./touchstone replay -".
+std::string replay_command(const Configuration& configuration,
+                           const std::vector<std::string>& candidates);
 
 }  // namespace touchstone

@@ -49,10 +49,14 @@ struct Spread {
 struct QueryTime {
   Spread nanoseconds;
   std::size_t repetitions = 0;
-  std::optional<double> instructions;  ///< median, in user space; absent: they cannot be counted
-  std::optional<Spread> ratio_to_bullet;
+  /// What 95% of a class's configurations do not exceed, nanoseconds; in a summary, of the class
+  /// where that is the most. Absent: they cannot be timed singly.
+  std::optional<double> p95 = {};
+  /// Median, in user space; absent: they cannot be counted.
+  std::optional<double> instructions = {};
+  std::optional<Spread> ratio_to_bullet = {};
   /// Of a candidate that is a command: medians over classes and repetitions.
-  std::optional<QueryCost::Measured> measured;
+  std::optional<QueryCost::Measured> measured = {};
 };
 
 /// The scores and times of one candidate: on one class or, in a summary, on the classes of one

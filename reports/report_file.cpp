@@ -1,5 +1,3 @@
-#include "reports/report_file.hpp"
-
 #include <algorithm>
 #include <cstdint>
 #include <fmt/format.h>
@@ -143,8 +141,9 @@ Spread spread(const Reader& time, const char* median, const char* low, const cha
 
 std::optional<QueryTime> query_time(const Reader& time) {
   if (time.is_null()) return std::nullopt;
-  QueryTime result{spread(time, "median", "low", "high"), 0, {}, {}, {}};
+  QueryTime result{.nanoseconds = spread(time, "median", "low", "high")};
   if (time.has("repetitions")) result.repetitions = time.at("repetitions").whole();
+  if (time.has("p95") && !time.at("p95").is_null()) result.p95 = time.at("p95").number();
   if (const Reader n = time.at("instructions"); !n.is_null()) result.instructions = n.positive();
   if (!time.at("ratio_to_bullet").is_null()) {
     result.ratio_to_bullet = spread(time, "ratio_to_bullet", "ratio_low", "ratio_high");

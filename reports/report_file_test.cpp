@@ -1,5 +1,3 @@
-#include "reports/report_file.hpp"
-
 #include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -72,6 +72,7 @@ json to_json(const std::optional<QueryTime>& time) {
                  {"low", low},
                  {"high", high},
                  {"spread", high - low},
+                 {"p95", or_null(time->p95)},
                  {"repetitions", time->repetitions},
                  {"instructions", or_null(time->instructions)},
                  {"ratio_to_bullet", nullptr},

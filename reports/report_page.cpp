@@ -12,9 +12,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include "properties/files/configuration_json.hpp"
 #include "reports/pages/page.hpp"
+#include "reports/replay.hpp"
 #include "reports/report_json.hpp"
-#include "reports/worst.hpp"
+#include "simulation/experiment.hpp"
 
 namespace touchstone {
 namespace {
@@ -115,10 +117,9 @@ json shown_of_classes(const json& results, const json& classes) {
           std::pair("normal_regret", "p99")}) {
       shown[member] = row[member].is_null() ? json(nullptr) : rounded(row[member][value], digits);
     }
-    for (const auto& [member, value] :
-         {std::pair("coverage", "mean"), std::pair("nanoseconds", "median")}) {
-      shown[member] = row[member].is_null() ? json(nullptr) : row[member][value];
-    }
+    shown["coverage"] = row["coverage"].is_null() ? json(nullptr) : row["coverage"]["mean"];
+    const json& time = row["nanoseconds"];
+    shown["nanoseconds"] = time.is_null() ? time : json{time["median"], time["p95"]};
     // The thesis, beside which they are shown, has no more modifiers.
     const auto name = row["class"].get<std::string>();
     const bool is_plain = name.find('+') == std::string::npos || name.ends_with("+shallow");
@@ -207,6 +208,80 @@ std::string report_page(const Report& report) {
   json& outcomes = data["outcomes"] = json::array();
   for (const Outcome outcome : all_outcomes) outcomes.push_back(outcome_name(outcome));
   return render_page(Page::report, data);
+}
+
+namespace {
+
+/// Looks from a little above at all moving bodies.
+json camera_of(const Scene& scene) {
+  Vec3 middle = Vec3::Zero();
+  int moving = 0;
+  for (const Body& b : scene.bodies) {
+    if (!b.fixed) middle += b.pose.position(), ++moving;
+  }
+  middle /= std::max(moving, 1);
+  double reach = 0;
+  for (const Body& b : scene.bodies) {
+    if (b.fixed) continue;
+    reach = std::max(reach, (b.pose.position() - middle).norm() + largest_half_extent(b.shape));
+  }
+  const Vec3 from = middle + 6 * reach * Vec3(0.5, -0.8, 0.33);
+  return {{"position", to_json(from)}, {"look_at", to_json(middle)}};
+}
+
+json motion_json(const EngineResult& result, double step) {
+  const Experiment& experiment = find_experiment(result.experiment);
+  json runs = json::array();
+  EngineMotion motion;
+  for (const bool cured : {false, true}) {
+    motion = record_motion(experiment, result.engine, {.cured = cured}, step);
+    runs.push_back({{"poses", base64(motion.poses)}});
+  }
+  return {{"experiment", result.experiment},
+          {"engine", result.engine},
+          {"bodies", bodies_json(motion.scene)},
+          {"camera", camera_of(motion.scene)},
+          {"interval", motion.interval},
+          {"duration", motion.scene.duration},
+          {"runs", runs}};
+}
+
+/// The results whose motion is worth seeing, the most striking first: those that are cured, by how
+/// far they were from the answer on paper. Each experiment is shown once.
+std::vector<const EngineResult*> worth_seeing(const EngineResults& results) {
+  constexpr std::size_t max_shown = 4;
+  std::vector<const EngineResult*> all, shown;
+  for (const EngineResult& r : results.results) {
+    if (is_one_run(find_experiment(r.experiment), results.step)) all.push_back(&r);
+  }
+  const auto gain = [](const EngineResult& r) { return r.cured.exact ? r.own.error : 0; };
+  std::stable_sort(all.begin(), all.end(), [&](const EngineResult* x, const EngineResult* y) {
+    return gain(*x) > gain(*y);
+  });
+  for (const EngineResult* r : all) {
+    const bool is_new = std::none_of(shown.begin(), shown.end(), [&](const EngineResult* s) {
+      return s->experiment == r->experiment;
+    });
+    if (is_new && shown.size() < max_shown) shown.push_back(r);
+  }
+  return shown;
+}
+
+}  // namespace
+
+std::string engines_page(const EngineResults& results, const std::string& command) {
+  json motions = json::array();
+  for (const EngineResult* r : worth_seeing(results)) {
+    const auto ended = [](const ExperimentResult& run) {
+      return run.outcome == ExperimentResult::Outcome::crashed ||
+             run.outcome == ExperimentResult::Outcome::timed_out;
+    };
+    if (!ended(r->own) && !ended(r->cured)) motions.push_back(motion_json(*r, results.step));
+  }
+  return render_page(Page::engines, {{"command", command},
+                                     {"marks", json::object()},
+                                     {"engines", to_json(results)},
+                                     {"motions", motions}});
 }
 
 }  // namespace touchstone

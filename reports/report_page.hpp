@@ -16,4 +16,9 @@ std::string report_page(const Report& report);
 /// null (as it is) or an object, whose values a row gives in its order.
 nlohmann::json packed(const nlohmann::json& report);
 
+/// One self-contained page of the part `engines`: what our contacts change in the engines, and some
+/// of the experiments in motion, without and with them; runs these again. `command` is the command
+/// line that a person would repeat.
+std::string engines_page(const EngineResults& results, const std::string& command);
+
 }  // namespace touchstone

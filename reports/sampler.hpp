@@ -8,8 +8,7 @@
 #include <vector>
 
 #include "reports/campaign.hpp"
-#include "reports/score_tally.hpp"
-#include "reports/trends.hpp"
+#include "reports/tally.hpp"
 
 namespace touchstone {
 

@@ -12,7 +12,7 @@
 #include "properties/files/configuration_json.hpp"
 #include "properties/files/strict_json.hpp"
 #include "reports/report_json.hpp"
-#include "reports/worst.hpp"
+#include "reports/tally.hpp"
 
 namespace touchstone {
 namespace {

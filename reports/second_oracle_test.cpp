@@ -3,8 +3,6 @@
 //
 // TOUCHSTONE_COUNT sets how many configurations of each class are certified; by default, for CI,
 // one of every fourth class.
-#include "reports/second_oracle.hpp"
-
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>

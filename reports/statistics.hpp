@@ -55,7 +55,7 @@ struct LogHistogram {
 /// Histogram of finite values that are not negative.
 LogHistogram log_histogram(const std::vector<double>& values);
 
-/// Summary of the scores of one candidate on any set of configurations (score_tally.hpp).
+/// Summary of the scores of one candidate on any set of configurations (tally.hpp).
 struct Statistics {
   std::uint64_t count = 0;
   std::array<std::uint64_t, all_outcomes.size()> outcomes{};  ///< in the order of all_outcomes

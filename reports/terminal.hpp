@@ -5,6 +5,8 @@
 
 namespace touchstone {
 
+struct Report;
+
 /// What text is written for: how wide it may be, and whether colours are seen.
 struct Terminal {
   std::size_t columns = 80;
@@ -19,5 +21,15 @@ struct Terminal {
 /// Standard output: on a terminal of 40 to 80 columns as wide as it is, otherwise 80. In colour on
 /// a terminal, unless NO_COLOR is set (https://no-color.org) or TERM is "dumb".
 Terminal standard_output();
+
+/// The text with its lines broken between words, where `line_end` comes, which may indent the next
+/// one: what it adds does not count in the width.
+std::string wrapped(const std::string& text, std::size_t width, const std::string& line_end);
+
+/// The summary of a report: a row for each pair and candidate in everyday poses, and for all pairs
+/// in those of the other groups, with the columns that fit; the pose classes in which a candidate
+/// is slow now and then; what a candidate passes and fails once turned or tilted; its worst
+/// failure. Commands replay both, each in a line however long.
+std::string terminal_table(const Report& report, const Terminal& terminal = {});
 
 }  // namespace touchstone

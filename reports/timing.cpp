@@ -138,7 +138,12 @@ std::optional<QueryTime> query_time(const Times& times, const std::vector<std::s
   const std::size_t repetitions = repetitions_on(times, timed, candidate);
   const auto time = spread(over_cells(times, timed, candidate, repetitions, nanoseconds));
   if (!time) return std::nullopt;
-  QueryTime result{*time, repetitions, std::nullopt, std::nullopt, std::nullopt};
+  QueryTime result{.nanoseconds = *time, .repetitions = repetitions};
+  for (const std::size_t cell : timed) {
+    // The least times of all repetitions are those of the last one.
+    const std::optional<double>& tail = times[cell][candidate].back().tail;
+    if (tail) result.p95 = std::max(result.p95.value_or(0), *tail);
+  }
   if (counted == timed) {
     const auto instructions = [](const QueryCost& c) { return *c.instructions; };
     result.instructions =
@@ -155,6 +160,8 @@ std::optional<QueryTime> query_time(const Times& times, const std::vector<std::s
   }
   return result;
 }
+
+bool has_slow_tail(const QueryTime& time) { return *time.p95 > 4 * time.nanoseconds.median; }
 
 std::optional<Spread> time_ratio(const Times& times, const std::vector<std::size_t>& cells,
                                  std::size_t candidate, std::size_t other) {

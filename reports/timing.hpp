@@ -38,6 +38,10 @@ std::optional<Spread> spread(std::vector<double> values);
 std::optional<QueryTime> query_time(const Times& times, const std::vector<std::size_t>& cells,
                                     std::size_t candidate);
 
+/// Do 5% of the queries take more than four medians? The median is one of repetitions, p95 one of
+/// configurations. Precondition: there is a p95.
+bool has_slow_tail(const QueryTime& time);
+
 /// Ratio of a candidate's time to another's, on the cells where both were timed. Both values of a
 /// repetition were measured at nearly the same moment, so that disturbances of both cancel.
 std::optional<Spread> time_ratio(const Times& times, const std::vector<std::size_t>& cells,

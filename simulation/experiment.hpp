@@ -7,9 +7,14 @@
 #include <utility>
 #include <vector>
 
-#include "simulation/simulation.hpp"
+#include "simulation/scene.hpp"
 
 namespace touchstone {
+
+class ContactModel;
+
+/// Simulates in our own world with the contacts of `model`, which must outlive the simulations.
+Simulator in_our_world(ContactModel& model);
 
 /// Counts over the steps of one or more runs.
 struct RunTally {

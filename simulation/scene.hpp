@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -73,5 +75,28 @@ Vec3 angular_velocity(const Pose& pose, const Inertia& inertia, const Vec3& spin
 /// angular velocity is evaluated at the orientation half way (implicit midpoint rule, second
 /// order).
 Vec3 free_angular_velocity(const Pose& pose, const Inertia& inertia, const Vec3& spin, double step);
+
+/// The bodies of a scene in motion, whatever moves them: our own world, or an engine's.
+class Simulation {
+ public:
+  /// What the contacts of one step consisted of.
+  struct Contacts {
+    int points = 0;
+    int failures = 0;          ///< answers other than contact or none
+    bool unsupported = false;  ///< there is no routine for a pair that occurred
+  };
+
+  virtual ~Simulation() = default;
+  virtual void step() = 0;
+  /// In the order of the scene's bodies.
+  virtual const std::vector<BodyState>& states() const = 0;
+  virtual Contacts contacts() const = 0;
+  /// False once a position or velocity has left `max_in_world` or is not a number; the states then
+  /// stay what they last were.
+  virtual bool sound() const = 0;
+};
+
+/// Begins a simulation of a scene.
+using Simulator = std::function<std::unique_ptr<Simulation>(const Scene& scene)>;
 
 }  // namespace touchstone

@@ -19,7 +19,7 @@
 #include "properties/files/answer_json.hpp"
 #include "reports/make_report.hpp"
 #include "reports/test_data/given_answers.hpp"
-#include "reports/test_data/test_data_file.hpp"
+#include "reports/test_data/test_data.hpp"
 #include "suite/touchstone_suite.hpp"
 
 namespace touchstone {

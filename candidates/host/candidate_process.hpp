@@ -36,6 +36,9 @@ struct Answer : ts_answer {
 struct QueryCost {
   double nanoseconds;
   std::optional<double> instructions;  ///< in user space; absent if they cannot be counted
+  /// 95th percentile over the configurations, nanoseconds: each was timed singly, once after every
+  /// round, and counts with its least time up to now. Absent where they cannot be timed singly.
+  std::optional<double> tail = {};
 
   /// What is known of a time that a command measured itself.
   struct Measured {

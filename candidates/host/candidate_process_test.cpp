@@ -80,13 +80,18 @@ TEST(CandidateProcess, WaitsAsLongWhateverItWaitedForBefore) {
   EXPECT_EQ(process.answers({&standing, 1}).at(0).reason, first);
 }
 
-/// Answers of the candidate stalling, where A is at these x.
-std::vector<Answer> after_stalling(CandidateProcess& process, const std::vector<double>& at) {
-  std::vector<Configuration> configurations;
+/// Configurations with A at these x.
+std::vector<Configuration> standing_at(const std::vector<double>& at) {
+  std::vector<Configuration> result;
   for (const double x : at) {
-    configurations.push_back({standing.a, Pose({x, 0, 1.9}, upright), standing.b, standing.pose_b});
+    result.push_back({standing.a, Pose({x, 0, 1.9}, upright), standing.b, standing.pose_b});
   }
-  return process.answers(configurations);
+  return result;
+}
+
+/// Answers of the candidate stalling.
+std::vector<Answer> after_stalling(CandidateProcess& process, const std::vector<double>& at) {
+  return process.answers(standing_at(at));
 }
 
 constexpr double answered = 0, endless = -1, slow = 2;
@@ -250,6 +255,7 @@ TEST(CandidateProcess, TimesTheQueriesAndNothingElse) {
   for (int i = 0; i < 9; ++i) {
     const QueryCost cost = process.cost_per_query().value();
     min_nanoseconds = std::min(min_nanoseconds, cost.nanoseconds);
+    EXPECT_LT(cost.tail.value(), 200);
     // Absent where instructions cannot be counted; otherwise a few dozen per query.
     min_instructions = std::min(min_instructions, cost.instructions.value_or(20));
   }
@@ -266,6 +272,19 @@ TEST(CandidateProcess, TimesWhatIsSlowButWithinTheLimit) {
   const auto cost = process.cost_per_query();
   ASSERT_TRUE(cost);
   EXPECT_GT(cost->nanoseconds, 9e6);
+}
+
+TEST(CandidateProcess, ATailLeavesOutOneQueryInTwentyAndNoMore) {
+  const auto tail = [](std::size_t slow_one) {
+    std::vector<double> at(20, answered);
+    at[slow_one] = slow;
+    CandidateProcess process(sabotage("stalling"), 0);
+    EXPECT_TRUE(process.prepare_timing(standing_at(at)));
+    EXPECT_TRUE(process.cost_per_query());
+    return process.cost_per_query().value().tail.value();
+  };
+  EXPECT_LT(tail(19), 1e6);
+  EXPECT_GT(tail(5), 9e6);  // only the first ten are kept: they take long
 }
 
 TEST(CandidateProcess, ACrashWhileTimingIsNoTime) {

@@ -44,8 +44,9 @@ struct Exchange {
   /// ticket, which reveals overwriting.
   std::atomic<std::uint64_t> progress;
   char thrown[240];     ///< text of an uncaught exception
-  double nanoseconds;   ///< per query, in the last timed round
-  double instructions;  ///< likewise; NaN if they cannot be counted
+  double nanoseconds;       ///< per query, in the last timed round
+  double instructions;      ///< likewise; NaN if they cannot be counted
+  double tail_nanoseconds;  ///< 95th percentile over the queries of each one's least time so far
   Slot slots[batch_size];
 };
 

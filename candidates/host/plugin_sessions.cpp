@@ -446,6 +446,7 @@ std::optional<QueryCost> PluginSessions::cost_per_query() {
   if (!std::isfinite(exchange.nanoseconds)) return std::nullopt;
   QueryCost cost{exchange.nanoseconds, std::nullopt};
   if (std::isfinite(exchange.instructions)) cost.instructions = exchange.instructions;
+  if (std::isfinite(exchange.tail_nanoseconds)) cost.tail = exchange.tail_nanoseconds;
   return cost;
 }
 

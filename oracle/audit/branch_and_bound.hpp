@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "oracle/audit/cell_program.hpp"
 #include "oracle/audit/certain_bounds.hpp"
-#include "oracle/audit/closest_pair.hpp"
+#include "oracle/audit/pair_search.hpp"
 
 namespace touchstone::audit {
 

@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 #include <random>
 
-#include "oracle/audit/cell_program.hpp"
 #include "oracle/audit/certain_bounds.hpp"
 #include "oracle/audit/enclose.hpp"
+#include "oracle/audit/pair_search.hpp"
 #include "properties/moves.hpp"
 #include "reference/invalid_input.hpp"
 #include "reference/support.hpp"

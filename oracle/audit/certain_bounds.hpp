@@ -1,11 +1,187 @@
 #pragma once
 
+#include <CGAL/Interval_nt.h>
+#include <algorithm>
 #include <array>
+#include <boost/multiprecision/eigen.hpp>
+#include <boost/multiprecision/mpfr.hpp>
 #include <cmath>
+#include <string>
 
-#include "oracle/audit/bodies.hpp"
+#include <Eigen/Core>
+
+#include "reference/configuration.hpp"
+#include "reference/invalid_input.hpp"
 
 namespace touchstone::audit {
+
+/// Double intervals that round outward while a Protect_FPU_rounding<true> is alive: their
+/// enclosures are certain. Brönnimann, Burnikel, Pion, "Interval arithmetic yields efficient
+/// dynamic filters for computational geometry", Discrete Applied Mathematics 109, 2001.
+using Interval = CGAL::Interval_nt<false>;
+
+/// Floating point of about 400 bits, for searches in which doubles are too coarse.
+using Multiprecision = boost::multiprecision::number<
+    boost::multiprecision::mpfr_float_backend<120, boost::multiprecision::allocate_stack>,
+    boost::multiprecision::et_off>;
+
+template <class T>
+using Vector = Eigen::Matrix<T, 3, 1>;
+template <class T>
+using Matrix = Eigen::Matrix<T, 3, 3>;
+
+/// The search's numbers that belong to an arithmetic T of certain results: points, cells and
+/// directions are computed in them without any guarantee.
+template <class T>
+struct SearchNumber {
+  using type = T;
+};
+template <>
+struct SearchNumber<Interval> {
+  using type = double;
+};
+template <class T>
+using Real = typename SearchNumber<T>::type;
+
+/// Certain lower (upper) bound of a value in T. For all types but intervals: the value itself.
+template <class T>
+const T& lower(const T& x) {
+  return x;
+}
+template <class T>
+const T& upper(const T& x) {
+  return x;
+}
+inline double lower(const Interval& x) { return x.inf(); }
+inline double upper(const Interval& x) { return x.sup(); }
+
+/// Converts a vector to another arithmetic; exact if that one is finer.
+template <class To, class From>
+Vector<To> as(const Vector<From>& v) {
+  return {To(v.x()), To(v.y()), To(v.z())};
+}
+
+// A configuration in any arithmetic: enclosed in intervals, exact in rationals, rounded in doubles.
+// Every shape but the half-space is the Minkowski sum of a box, a disc perpendicular to the local z
+// axis and a ball, any of which may be a point; a cylinder is a segment plus a disc.
+
+template <class T>
+struct Body {
+  Matrix<T> axes;  ///< columns: the body's axes in world coordinates, orthonormal
+  Vector<T> half_extents = Vector<T>(T(0), T(0), T(0));
+  T disc_radius{0}, ball_radius{0};
+};
+
+template <class T>
+struct Bodies {
+  Body<T> a, b;
+  Vector<T> offset;  ///< centre A − centre B, world coordinates
+};
+
+/// A point of A and a point of B, each in its own body frame. Their difference w = a − b bounds the
+/// gap along every unit vector: g(n) <= w·n.
+template <class T>
+struct PointPair {
+  Vector<T> a, b;
+};
+
+/// The rotation of a quaternion of any length, R(q)/|q|², by Euler–Rodrigues.
+template <class T>
+Matrix<T> rotation(const Eigen::Quaterniond& quaternion) {
+  // Divide by a power of two, which cancels, so that no square overflows.
+  const T scale(std::ldexp(1.0, std::ilogb(quaternion.coeffs().cwiseAbs().maxCoeff())));
+  const T w = T(quaternion.w()) / scale, x = T(quaternion.x()) / scale;
+  const T y = T(quaternion.y()) / scale, z = T(quaternion.z()) / scale;
+  const T two(2);
+  Matrix<T> r;
+  r << w * w + x * x - y * y - z * z, two * (x * y - w * z), two * (x * z + w * y),
+      two * (x * y + w * z), w * w - x * x + y * y - z * z, two * (y * z - w * x),
+      two * (x * z - w * y), two * (y * z + w * x), w * w - x * x - y * y + z * z;
+  const T squared = w * w + x * x + y * y + z * z;
+  for (int i = 0; i < 9; ++i) r(i) = r(i) / squared;
+  return r;
+}
+
+/// Sets a body's sizes from its shape, in multiples of a unit; a half-space has none.
+template <class T>
+struct Sizes {
+  Body<T>& body;
+  T unit;
+
+  void operator()(const Cylinder& s) const {
+    body.half_extents.z() = T(s.half_length()) / unit;
+    body.disc_radius = T(s.radius()) / unit;
+  }
+  void operator()(const Capsule& s) const {
+    body.half_extents.z() = T(s.half_length()) / unit;
+    body.ball_radius = T(s.radius()) / unit;
+  }
+  void operator()(const Sphere& s) const { body.ball_radius = T(s.radius()) / unit; }
+  void operator()(const Box& s) const {
+    for (int i = 0; i < 3; ++i) body.half_extents[i] = T(s.half_extents()[i]) / unit;
+  }
+  void operator()(const Plane&) const {}
+};
+
+/// A power of two near the configuration's largest length, metres. Lengths in multiples of it do
+/// not overflow.
+inline double unit_of(const Configuration& c) {
+  const Vec3 quarter_apart = c.pose_a.position() / 4 - c.pose_b.position() / 4;
+  double length = std::max(larger_size(c), quarter_apart.cwiseAbs().maxCoeff());
+  if (const auto* plane = std::get_if<Plane>(&c.b)) {
+    const double offset = plane->displacement() / plane->normal().cwiseAbs().maxCoeff();
+    length = std::max(length, std::abs(offset));
+  }
+  return std::ldexp(1.0, std::clamp(std::ilogb(length), -1000, 1000));
+}
+
+/// Throws InvalidInput unless the width is positive and finite.
+inline void check_width(double width) {
+  if (std::isfinite(width) && width > 0) return;
+  throw InvalidInput("width", std::to_string(width), "must be positive and finite");
+}
+
+/// Converts a configuration, with lengths in multiples of `unit`, a power of two in metres.
+template <class T>
+Bodies<T> make_bodies(const Configuration& c, double unit) {
+  Bodies<T> bodies;
+  bodies.a.axes = rotation<T>(c.pose_a.orientation());
+  bodies.b.axes = rotation<T>(c.pose_b.orientation());
+  Sizes<T>{bodies.a, T(unit)}(c.a);
+  std::visit(Sizes<T>{bodies.b, T(unit)}, c.b);
+  // Quarters, because the difference of two doubles may overflow.
+  for (int i = 0; i < 3; ++i) {
+    bodies.offset[i] =
+        (T(c.pose_a.position()[i]) / T(4) - T(c.pose_b.position()[i]) / T(4)) / (T(unit) / T(4));
+  }
+  return bodies;
+}
+
+/// Support of a body about its centre: max of p·n over its points p, with n in the body's frame.
+template <class T>
+T support(const Body<T>& body, const Vector<T>& n) {
+  using std::abs, std::sqrt;
+  T sum(0);
+  for (int i = 0; i < 3; ++i) sum += body.half_extents[i] * T(abs(n[i]));
+  const T across = n.x() * n.x() + n.y() * n.y();
+  sum += body.disc_radius * T(sqrt(across));
+  sum += body.ball_radius * T(sqrt(T(across + n.z() * n.z())));
+  return sum;
+}
+
+/// The difference a − b of a pair of points, world coordinates.
+template <class T>
+Vector<T> difference(const Bodies<T>& bodies, const PointPair<T>& pair) {
+  const Vector<T> a = bodies.a.axes * pair.a, b = bodies.b.axes * pair.b;
+  return bodies.offset + a - b;
+}
+
+/// g(n) |n| for a world vector n of any length.
+template <class T>
+T gap_times_length(const Bodies<T>& bodies, const Vector<T>& n) {
+  const Vector<T> n_a = bodies.a.axes.transpose() * n, n_b = bodies.b.axes.transpose() * n;
+  return bodies.offset.dot(n) - support(bodies.a, n_a) - support(bodies.b, n_b);
+}
 
 /// The directions through a dyadic square on a face of the cube [−1, 1]³. All coordinates are exact
 /// in R as long as the level is below its number of bits.

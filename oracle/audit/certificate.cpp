@@ -8,7 +8,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "oracle/audit/bodies.hpp"
 #include "oracle/audit/branch_and_bound.hpp"
 #include "oracle/audit/certain_bounds.hpp"
 

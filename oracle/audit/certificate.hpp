@@ -27,7 +27,7 @@ struct Certificate {
   /// Present if hi >= 0 or B is a plane: points at most hi apart (for a plane: along its normal).
   std::optional<RationalPair> pair;
   struct Cell {
-    /// The face of the cube, 0 to 5, then for each level the quarter, 0 to 3 (direction_cell.hpp).
+    /// The face of the cube, 0 to 5, then for each level the quarter, 0 to 3 (DirectionCell).
     std::string path;
     RationalPair pair;  ///< bounds the gap by hi along the cell's directions
   };

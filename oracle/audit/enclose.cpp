@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "oracle/audit/bodies.hpp"
 #include "oracle/audit/branch_and_bound.hpp"
+#include "oracle/audit/certain_bounds.hpp"
 
 namespace touchstone::audit {
 namespace {

@@ -1,8 +1,16 @@
 #include "oracle/patch/convex_set.hpp"
 
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <CGAL/General_polygon_set_2.h>
+#include <CGAL/Gps_circle_segment_traits_2.h>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <iterator>
 #include <numbers>
+#include <random>
+#include <vector>
+
+#include "oracle/patch/feature_overlap.hpp"
 
 namespace touchstone::oracle {
 namespace {
@@ -94,6 +102,179 @@ TEST(ConvexPolygon, IntersectionWithASegmentIsWhatLiesInside) {
     ASSERT_EQ(common.size(), 2u);
     EXPECT_EQ((common[0] - common[1]).norm(), 1);
   }
+}
+
+// Overlaps of discs, rectangles and segments against CGAL's exact polygons of circles and lines, on
+// small integers, where tangent discs and circles through corners are frequent.
+
+using Kernel = CGAL::Exact_predicates_exact_constructions_kernel;
+using Traits = CGAL::Gps_circle_segment_traits_2<Kernel>;
+using PolygonSet = CGAL::General_polygon_set_2<Traits>;
+using Polygon = Traits::Polygon_2;
+using Point = Kernel::Point_2;
+
+Polygon exact_disc(int x, int y, int radius) {
+  const Traits::Curve_2 circle(
+      Kernel::Circle_2(Point(x, y), radius * radius, CGAL::COUNTERCLOCKWISE));
+  std::vector<CGAL::Object> pieces;
+  Traits().make_x_monotone_2_object()(circle, std::back_inserter(pieces));
+  Polygon result;
+  for (const CGAL::Object& piece : pieces) {
+    result.push_back(*CGAL::object_cast<Traits::X_monotone_curve_2>(&piece));
+  }
+  return result;
+}
+
+Polygon exact_rectangle(int a, int b) {
+  const Point corners[] = {Point(-a, -b), Point(a, -b), Point(a, b), Point(-a, b)};
+  Polygon result;
+  for (int i = 0; i < 4; ++i) {
+    result.push_back(Traits::X_monotone_curve_2(corners[i], corners[(i + 1) % 4]));
+  }
+  return result;
+}
+
+Vec2 rounded(const Traits::Point_2& p) { return {CGAL::to_double(p.x()), CGAL::to_double(p.y())}; }
+
+/// CGAL's intersection: the number of its lines and arcs, and its area.
+struct Region {
+  int lines = 0, arcs = 0;
+  double area = 0;
+};
+
+Region intersection(const Polygon& p, const Polygon& q) {
+  PolygonSet set(p);
+  set.intersection(q);
+  std::vector<Traits::Polygon_with_holes_2> parts;
+  set.polygons_with_holes(std::back_inserter(parts));
+  Region region;
+  for (const auto& part : parts) {
+    // CGAL cuts circles at their left and right ends: pieces of one circle are one arc.
+    std::vector<Traits::X_monotone_curve_2> curves(part.outer_boundary().curves_begin(),
+                                                   part.outer_boundary().curves_end());
+    for (std::size_t i = 0; i < curves.size(); ++i) {
+      const auto& c = curves[i];
+      const auto& before = curves[(i + curves.size() - 1) % curves.size()];
+      const Vec2 a = rounded(c.source()), b = rounded(c.target());
+      region.area += (a.x() * b.y() - a.y() * b.x()) / 2;
+      if (c.is_linear()) {
+        ++region.lines;
+        continue;
+      }
+      const Vec2 centre(CGAL::to_double(c.supporting_circle().center().x()),
+                        CGAL::to_double(c.supporting_circle().center().y()));
+      const double radius2 = CGAL::to_double(c.supporting_circle().squared_radius());
+      const double half = std::asin(std::min(1.0, (a - b).norm() / 2 / std::sqrt(radius2)));
+      region.area += radius2 * (half - std::sin(2 * half) / 2);
+      const bool continues = before.is_circular() && curves.size() > 1 &&
+                             before.supporting_circle() == c.supporting_circle();
+      if (!continues) ++region.arcs;
+    }
+    if (region.arcs == 0 && region.lines == 0) region.arcs = 1;  // a whole circle
+  }
+  return region;
+}
+
+void expect_same(const ConvexSet& ours, const Region& theirs) {
+  if (theirs.lines + theirs.arcs == 0) {
+    EXPECT_EQ(ours.kind(), ConvexSet::Kind::point);
+    return;
+  }
+  ASSERT_EQ(ours.kind(), ConvexSet::Kind::region);
+  int lines = 0;
+  for (const Side& s : ours.sides()) lines += s.is_line() ? 1 : 0;
+  EXPECT_EQ(lines, theirs.lines);
+  EXPECT_EQ(static_cast<int>(ours.sides().size()) - lines, theirs.arcs);
+  EXPECT_NEAR(ours.area(), theirs.area, 1e-12 * (1 + theirs.area));
+}
+
+TEST(FeatureOverlap, DiscsAreAsCgalHasThem) {
+  for (int r = 1; r <= 4; ++r) {
+    for (int s = 1; s <= 4; ++s) {
+      for (int x = 0; x <= 9; ++x) {
+        SCOPED_TRACE(testing::Message() << r << ' ' << s << ' ' << x);
+        expect_same(overlap_of_discs(r, s, x * x),
+                    intersection(exact_disc(0, 0, r), exact_disc(x, 0, s)));
+      }
+    }
+  }
+}
+
+TEST(FeatureOverlap, DiscAndRectangleAreAsCgalHasThem) {
+  std::mt19937 random(1);
+  const auto draw = [&](int lo, int hi) {
+    return static_cast<int>(lo + random() % static_cast<unsigned>(hi - lo + 1));
+  };
+  for (int i = 0; i < 1500; ++i) {
+    const int x = draw(-7, 7), y = draw(-7, 7), r = draw(1, 6), a = draw(1, 6), b = draw(1, 6);
+    SCOPED_TRACE(testing::Message() << x << ' ' << y << ' ' << r << ' ' << a << ' ' << b);
+    expect_same(overlap_of_disc_and_rectangle(x, y, r, a, b),
+                intersection(exact_disc(x, y, r), exact_rectangle(a, b)));
+  }
+}
+
+/// Every side starts where the previous one ends, and lies on the right disc or line.
+void expect_closed(const ConvexSet& set) {
+  for (std::size_t i = 0; i < set.sides().size(); ++i) {
+    const Side& s = set.sides()[i];
+    EXPECT_LE((s.to - set.sides()[(i + 1) % set.sides().size()].from).norm(), 1e-14 * 10);
+    if (s.is_line()) continue;
+    EXPECT_NEAR((s.from - s.centre).norm(), s.radius, 1e-14 * 10);
+    EXPECT_NEAR((s.to - s.centre).norm(), s.radius, 1e-14 * 10);
+    const Side again = Side::arc(s.centre, s.radius, s.start, s.sweep);
+    EXPECT_LE((again.from - s.from).norm() + (again.to - s.to).norm(), 1e-14 * 20);
+  }
+}
+
+TEST(FeatureOverlap, BoundariesAreClosed) {
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> anywhere(-3, 3), length(0.1, 3);
+  for (int i = 0; i < 5000; ++i) {
+    const double x = anywhere(random), y = anywhere(random), r = length(random);
+    expect_closed(overlap_of_disc_and_rectangle(x, y, r, length(random), length(random)));
+    expect_closed(overlap_of_discs(r, length(random), x * x));
+  }
+}
+
+TEST(FeatureOverlap, ACornerJustWithinTheCircleLeavesNoFullTurn) {
+  // The circle passes the corner (3, 4) at 1e-16 of its radius, on either side.
+  for (const double r : {std::nextafter(5, 4), 5.0, std::nextafter(5, 6)}) {
+    const ConvexSet set = overlap_of_disc_and_rectangle(0, 0, r, 3, 4);
+    EXPECT_NEAR(set.area(), 48, 1e-13);
+    EXPECT_NEAR(set.perimeter(), 28, 1e-13);
+  }
+}
+
+TEST(FeatureOverlap, DiscAndSegmentOnSmallIntegers) {
+  // Against the square roots in double; ties are integers and exact there too.
+  for (int along = -6; along <= 6; ++along) {
+    for (int off = 0; off <= 6; ++off) {
+      for (int r = 1; r <= 5; ++r) {
+        for (int h = 1; h <= 4; ++h) {
+          const double half = r >= off ? std::sqrt(r * r - off * off) : -1;
+          const double lo = std::max<double>(-h, along - half);
+          const double hi = std::min<double>(h, along + half);
+          const ConvexSet set = overlap_of_disc_and_segment(along, off * off, r, h);
+          const bool is_segment = half > 0 && lo < hi;
+          EXPECT_EQ(set.kind(), is_segment ? ConvexSet::Kind::segment : ConvexSet::Kind::point);
+          EXPECT_NEAR(set.perimeter(), is_segment ? hi - lo : 0, 1e-14 * 10);
+        }
+      }
+    }
+  }
+}
+
+TEST(FeatureOverlap, SegmentAndRectangle) {
+  using Kind = ConvexSet::Kind;
+  // Across the corner, diagonally; through the corner; beyond it.
+  EXPECT_NEAR(overlap_of_segment_and_rectangle(1, 1, 1, -1, 5, 2, 2).perimeter(), 2 * std::sqrt(2),
+              1e-14);
+  const ConvexSet corner = overlap_of_segment_and_rectangle(2, 2, 1, -1, 5, 2, 2);
+  EXPECT_EQ(corner.kind(), Kind::point);
+  EXPECT_EQ(corner.centroid(), Vec2(2, 2));
+  EXPECT_EQ(overlap_of_segment_and_rectangle(3, 2, 1, -1, 5, 2, 2).kind(), Kind::point);
+  EXPECT_EQ(overlap_of_segment_and_rectangle(0, 0, 1, 0, 1, 2, 2).perimeter(), 2);
+  EXPECT_EQ(overlap_of_segment_and_rectangle(3, 0, 1, 0, 1, 2, 2).centroid(), Vec2(2, 0));
 }
 
 }  // namespace

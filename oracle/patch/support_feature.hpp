@@ -4,8 +4,8 @@
 #include <gmpxx.h>
 #include <vector>
 
+#include "oracle/ball.hpp"
 #include "oracle/truth.hpp"
-#include "oracle/vector3.hpp"
 #include "reference/configuration.hpp"
 #include "reference/pose.hpp"
 

@@ -13,7 +13,6 @@
 #include "properties/files/strict_json.hpp"
 #include "properties/identity.hpp"
 #include "properties/motions/motion.hpp"
-#include "properties/motions/perturbation.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone {

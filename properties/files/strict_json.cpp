@@ -12,8 +12,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "properties/files/error_text.hpp"
-#include "properties/files/parse_number.hpp"
+#include "properties/files/given_text.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone {

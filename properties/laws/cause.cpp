@@ -1,5 +1,4 @@
-#include "properties/laws/cause.hpp"
-
+// Causes of failures: what tells them apart, and their order.
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -7,6 +6,7 @@
 #include <utility>
 
 #include "oracle/truth.hpp"
+#include "properties/laws/check.hpp"
 #include "properties/simplify.hpp"
 
 namespace touchstone {

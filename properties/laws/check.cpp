@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "candidates/host/worker_processes.hpp"
-#include "properties/laws/cause.hpp"
+#include "oracle/truth.hpp"
 #include "properties/numbers.hpp"
 #include "properties/simplify.hpp"
 

@@ -5,7 +5,6 @@
 #include "oracle/truth.hpp"
 #include "properties/arbitrary.hpp"
 #include "properties/motions/motion.hpp"
-#include "properties/motions/perturbation.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone {

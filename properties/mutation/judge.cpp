@@ -3,8 +3,6 @@
 #include <cstring>
 #include <limits>
 
-#include "properties/mutation/geometry.hpp"
-
 namespace touchstone::mutation {
 namespace {
 

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "properties/mutation/geometry.hpp"
 #include "properties/mutation/judge.hpp"
 
 namespace touchstone::mutation {

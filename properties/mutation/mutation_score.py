@@ -41,7 +41,8 @@ REFERENCE = ROOT / "reference"
 LIMIT = 60  # seconds of each net
 CHECK_COUNT = "3"  # configurations of each pair, pose class and law
 FOR_TESTS = "points_on_both.hpp"
-NOT_ROUTINES = ("_test.cpp", "_benchmark.cpp", FOR_TESTS)
+C_INTERFACE = "touchstone_contacts.cpp"  # hands on; has a test of its own in C
+NOT_ROUTINES = ("_test.cpp", "_benchmark.cpp", C_INTERFACE, FOR_TESTS)
 FLAGS = ["-std=c++20", "-O1", "-D_GLIBCXX_ASSERTIONS", "-fPIC", "-fno-math-errno", "-fvisibility=hidden", "-w",
          # What a fault leaves unset is the same in every run, and no valid value.
          "-ftrivial-auto-var-init=pattern",

@@ -8,9 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "reference/invalid_input.hpp"
-#include "reports/campaigns/merge.hpp"
 #include "reports/campaigns/shard.hpp"
-#include "reports/terminal_table.hpp"
+#include "reports/terminal.hpp"
 
 namespace touchstone {
 namespace {

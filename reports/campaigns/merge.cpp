@@ -1,5 +1,3 @@
-#include "reports/campaigns/merge.hpp"
-
 #include <algorithm>
 #include <charconv>
 #include <cstdio>
@@ -14,8 +12,9 @@
 
 #include "properties/files/disk.hpp"
 #include "reference/invalid_input.hpp"
+#include "reports/campaigns/shard.hpp"
 #include "reports/factors.hpp"
-#include "reports/headings.hpp"
+#include "reports/make_report.hpp"
 #include "reports/report_json.hpp"
 
 namespace touchstone {

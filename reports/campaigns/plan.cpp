@@ -14,7 +14,7 @@
 #include "properties/files/strict_json.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/campaigns/shard.hpp"
-#include "reports/worst.hpp"
+#include "reports/replay.hpp"
 
 namespace touchstone {
 namespace {

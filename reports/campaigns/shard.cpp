@@ -11,7 +11,7 @@
 
 #include "properties/files/answer_json.hpp"
 #include "properties/files/disk.hpp"
-#include "properties/files/error_text.hpp"
+#include "properties/files/given_text.hpp"
 #include "properties/files/strict_json.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/report_json.hpp"

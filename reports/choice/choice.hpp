@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "simulation/scenes/choose.hpp"
-#include "simulation/scenes/shapes_file.hpp"
+#include "simulation/scenes/scene_file.hpp"
 
 // Outputs of `touchstone choose`. `folder` holds the configurations of failures, one file each,
 // for `touchstone replay`; `command` is the command line that a person would repeat.

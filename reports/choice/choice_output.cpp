@@ -11,7 +11,6 @@
 #include "properties/files/disk.hpp"
 #include "reports/choice/choice.hpp"
 #include "reports/make_report.hpp"
-#include "reports/motion_json.hpp"
 #include "reports/pages/page.hpp"
 #include "reports/report_json.hpp"
 #include "simulation/engines/run_engines.hpp"

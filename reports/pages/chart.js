@@ -128,7 +128,9 @@ function drawLines(host, label, {height = 280, x, y, points, limit}, onClick) {
 }
 
 // A chart of points {x, y, symbol, fill, stroke, size, tip, label, weight, order} and of lines {rows, by, dash, colour,
-// width} beneath them. Only labels that find room are shown; labels of a lower order are placed first.
+// width, isCrossed} beneath them. Only labels that find room are shown, near the mark or somewhat farther off, over no line
+// but those that may be crossed; labels of a lower order are placed first.
+const labelPlaces = ['right', 'left', 'top-right', 'bottom-right', 'top-left', 'bottom-left', 'top', 'bottom'];
 function drawScatter(host, label, {height = 300, x, y, points, lines, limit}, onClick) {
   drawChart(host, label, {height, data: [{name: 'points', values: points}, ...lines.map(({rows}, i) => ({name: `line-${i}`, values: rows}))],
     ...axes(x, y), marks: [
@@ -139,8 +141,8 @@ function drawScatter(host, label, {height = 300, x, y, points, lines, limit}, on
       // The style sheet shows labels smaller than the size that they are placed with.
       {type: 'text', from: {data: 'marks'}, interactive: false, encode: {enter: {text: {field: 'datum.label'}, fontWeight: {field: 'datum.weight'},
                                                     fontSize: {value: 13}, fill: {value: 'var(--ink)'}}},
-       transform: [{type: 'label', size: {signal: '[width, height]'}, offset: [7], padding: 0, avoidMarks: ['marks', ...(limit ? ['limit'] : []), ...lines.map((_, i) => `lines-${i}`)],
-                    anchor: ['right', 'left', 'top-right', 'bottom-right', 'top-left', 'bottom-left', 'top', 'bottom'],
+       transform: [{type: 'label', size: {signal: '[width, height]'}, offset: [...labelPlaces.map(() => 7), ...labelPlaces.map(() => 20)], padding: 0, avoidMarks: ['marks', ...(limit ? ['limit'] : []), ...lines.flatMap(({isCrossed}, i) => isCrossed ? [] : [`lines-${i}`])],
+                    anchor: [...labelPlaces, ...labelPlaces],
                     sort: {field: 'datum.datum.order'}}]},
     ]}, onClick);
 }

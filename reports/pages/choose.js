@@ -20,8 +20,9 @@ function headline() {
           ? `The exact cylinder is itself the cheapest model that meets all needs: contacts take ${exponent(exact)} µs of a step.`
           : `The cheapest models that meet all needs save ${Math.round(100 * data.time_saved)}% of the contacts' time: ` +
             `${exponent(answer.microseconds_per_step)} µs of a step instead of ${exponent(exact)} µs.`;
-  byId('provenance').textContent = `${data.command}; ${data.machine.cpu}, ${data.machine.compiler}. ` +
+  byId('provenance').textContent = `${data.machine.cpu}, ${data.machine.compiler}. ` +
       `The rest of a step, solver and harness, takes ${exponent(data.rest_of_step_microseconds)} µs.`;
+  byId('provenance').after(element('details', {}, element('summary', {}, 'The command'), command(data.command)));
 }
 
 function answerTables() {
@@ -76,7 +77,10 @@ function costChart() {
 
 // The motion of the exact run beside that of another one.
 function startMotion(motion) {
-  const select = byId('other'), {runs} = motion;
+  const select = element('select', {id: 'other'}), {runs} = motion;
+  byId('left-caption').textContent = 'Exact contacts';
+  byId('right-caption').append(element('label', {}, 'With ', select));
+  describeMotions('The scene with exact contacts', 'The scene with the models that are selected');
   select.append(...options(runs.map((r, i) => [i, r.name]).slice(runs.length > 1 ? 1 : 0)));
   const note = () => { byId('other-note').textContent = runs[select.value].note; };
   const draw = playMotions(() => ({motion, pair: [runs[0], runs[select.value]]}));

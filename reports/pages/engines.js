@@ -1,6 +1,6 @@
 // The section "Inside the engines": every experiment in each engine's own world, with the engine's contacts and with ours.
 const cureWords = {
-  held: 'held: within what the experiment resolves',
+  held: 'held: within what the experiment resolves, and the body rests where it should',
   nearer: 'at least ten times nearer to the answer on paper',
   solver: 'held with the engine’s solver at its best: its defaults limit, not the contacts',
   alike: 'as near as the engine’s own contacts, also with the solver at its best',
@@ -39,7 +39,7 @@ function drawEngines({engines, experiments, results, step}) {
   section.append(element('h2', {}, 'Inside the engines'), element('p', {},
       `Each engine steps its own world, in steps of ${exponent(step)} s: its broad phase, its solver, its defaults; first with its own ` +
       'contacts, then with our routines installed by one call. A cell has the error before and after; held (green): within what the ' +
-      'experiment resolves. *: held once the engine’s solver is at its best, so that its defaults are what limits. ' +
+      'experiment resolves, and the body rests where it should. *: held once the engine’s solver is at its best, so that its defaults are what limits. ' +
       `Of ${results.length}, ${count('held')} are held, ${count('nearer')} at least ten times nearer, ${count('solver')} limited by the ` +
       `solver’s defaults, ${count('alike')} alike with both contacts, ${count('open')} open.`));
   const select = element('select', {id: 'engine-experiment'}), statement = element('p', {class: 'quiet'}), one = element('div', {class: 'scroll'});
@@ -72,14 +72,16 @@ function drawEnginesPage() {
   byId('headline').textContent = 'Every run is the engine’s own world; the two differ by one line, which installs exact contacts of cylinders.';
   byId('provenance').textContent = data.command;
   drawEngines(data.engines);
-  const select = byId('scene'), {motions} = data;
+  const select = element('select', {id: 'scene'}), {motions} = data;
   byId('motion').hidden = motions.length === 0;
   if (motions.length) {
     select.append(...options(motions.map((m, i) => [i, `${m.experiment} in ${m.engine}`])));
+    byId('motion').querySelector('.controls').prepend(element('label', {}, 'Experiment ', select));
+    describeMotions('The experiment with the engine’s own contacts', 'The experiment with our contacts in the engine');
     const captions = () => {
       const {engine} = motions[select.value];
-      byId('own-caption').textContent = `${engine}, its own contacts`;
-      byId('cured-caption').textContent = `${engine} with our contacts`;
+      byId('left-caption').textContent = `${engine}, its own contacts`;
+      byId('right-caption').textContent = `${engine} with our contacts`;
     };
     captions();
     const draw = playMotions(() => ({motion: motions[select.value], pair: motions[select.value].runs}));

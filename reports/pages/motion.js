@@ -65,7 +65,12 @@ function turnCamera(view, sideways, upwards) {
 }
 const zoomCamera = (view, factor) => { view.zoom *= factor; };
 
-// Plays two runs at once on the canvases `left` and `right`, with the controls `play`, `scrub`, `clock` and `speed`.
+// Says what the canvases `left` and `right` of motion.html show, for those who cannot see them.
+function describeMotions(left, right) {
+  byId('left').setAttribute('aria-label', left);
+  byId('right').setAttribute('aria-label', right);
+}
+// Plays two runs at once on these canvases, with the controls `play`, `scrub`, `clock` and `speed`.
 // `shown()`: {motion, pair: the two of its runs that are to be seen}. Returns a function that draws anew.
 function playMotions(shown) {
   const views = ['left', 'right'].map(id => makeView(byId(id)));

@@ -1,17 +1,23 @@
 #include "reports/pages/page.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <cstring>
 #include <numeric>
 #include <string_view>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
+#include "properties/files/configuration_json.hpp"
+#include "simulation/scene.hpp"
+
 namespace touchstone {
 
 // Made by the build from the files of the same names.
 extern const std::string_view page_html, pages_css, page_js, table_js;
-extern const std::string_view report_html, compare_html, replay_html, choose_html, engines_html;
+extern const std::string_view report_html, compare_html, replay_html, choose_html, engines_html,
+    motion_html;
 extern const std::string_view report_js, report_tables_js, report_charts_js, report_cases_js;
 extern const std::string_view compare_js, replay_js, stability_js, choose_js, engines_js, motion_js;
 extern const std::string_view bodies_js, view_js, chart_js, vega_js;
@@ -79,6 +85,7 @@ std::string script_safe(const nlohmann::json& json) {
 }  // namespace
 
 std::string render_page(Page page, const nlohmann::json& data) {
+  constexpr std::string_view motion_place = "/* motion */";  // of pages that play motions
   const PageParts parts = parts_of(page);
   std::string scripts(page_js);
   scripts += table_js;
@@ -89,6 +96,7 @@ std::string render_page(Page page, const nlohmann::json& data) {
   fill(text, "/* pages.css */", pages_css);
   fill(text, "/* heading */", parts.heading);
   fill(text, "/* main */", parts.main);
+  if (parts.main.find(motion_place) != parts.main.npos) fill(text, motion_place, motion_html);
   fill(text, "/* vega.js */", parts.charts ? vega_js : std::string_view());
   fill(text, "/* scripts */", scripts);
   // Last, so that nothing in it is taken for a placeholder.
@@ -142,6 +150,37 @@ std::map<std::string, std::array<std::size_t, 2>> marks(
     result[name] = {mark.colour, mark.symbol};
   }
   return result;
+}
+
+nlohmann::json bodies_json(const Scene& scene) {
+  nlohmann::json bodies = nlohmann::json::array();
+  for (const Body& b : scene.bodies) {
+    const auto& q = b.pose.orientation();
+    bodies.push_back({{"name", b.name},
+                      {"shape", to_json(b.shape)},
+                      {"fixed", b.fixed},
+                      {"pose",
+                       {{"position", to_json(b.pose.position())},
+                        {"orientation", {q.w(), q.x(), q.y(), q.z()}}}}});
+  }
+  return bodies;
+}
+
+std::string base64(const std::vector<float>& numbers) {
+  constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::vector<std::uint8_t> bytes(numbers.size() * sizeof(float));
+  if (!bytes.empty()) std::memcpy(bytes.data(), numbers.data(), bytes.size());
+  std::string text;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t three = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      three = three << 8 | (i + k < bytes.size() ? bytes[i + k] : 0U);
+    }
+    for (std::size_t k = 0; k < 4; ++k) {
+      text += i + k > bytes.size() ? '=' : digits[three >> (18 - 6 * k) & 63U];
+    }
+  }
+  return text;
 }
 
 }  // namespace touchstone

@@ -10,6 +10,8 @@
 
 namespace touchstone {
 
+struct Scene;
+
 enum class Page { report, comparison, replay, stability, choice, engines };
 
 /// One self-contained HTML file: the shell that all pages share (page.html), filled with a page's
@@ -27,5 +29,13 @@ Mark mark_of(std::string_view candidate);
 
 /// By name the colour and the symbol, for a page's script.
 std::map<std::string, std::array<std::size_t, 2>> marks(const std::vector<std::string>& candidates);
+
+// Motions as pages read them (pages/motion.js):
+
+/// Names, shapes and initial poses of a scene's bodies.
+nlohmann::json bodies_json(const Scene& scene);
+
+/// The bytes of numbers in base64 (RFC 4648).
+std::string base64(const std::vector<float>& numbers);
 
 }  // namespace touchstone

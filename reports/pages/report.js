@@ -21,8 +21,8 @@ function unpackReport(packed) {
       r.outcomes[whole.outcomes[outcomes[i]]] = outcomes[i + 1];
       r.count += outcomes[i + 1];
     }
-    for (const [member, name] of [['severity', 'max'], ['depth_error', 'p99'], ['normal_regret', 'p99'], ['coverage', 'mean'],
-                                  ['nanoseconds', 'median']]) r[member] = only(r[member], name);
+    for (const [member, name] of [['severity', 'max'], ['depth_error', 'p99'], ['normal_regret', 'p99'], ['coverage', 'mean']]) r[member] = only(r[member], name);
+    r.nanoseconds = r.nanoseconds && {median: r.nanoseconds[0], p95: r.nanoseconds[1]};
   }
   return whole;
 }
@@ -43,6 +43,8 @@ const otherShape = pair => pair.replace('cylinder-', '');
 // null stands for what was not measured.
 const quantile = (q, which) => q === null ? null : q[which];
 const time = r => r.nanoseconds === null ? null : r.nanoseconds.median;
+const tail = r => r.nanoseconds === null ? null : r.nanoseconds.p95;
+const hasSlowTail = r => tail(r) !== null && tail(r) > 4 * time(r);  // as in timing.hpp
 // The number of configurations that a candidate has a routine for.
 const supported = r => r.count - (r.outcomes.unsupported || 0);
 const agreeing = r => (r.outcomes.agree || 0) / supported(r);
@@ -82,11 +84,13 @@ function findings() {
   contrastsFound();
 }
 
-// Candidates by agreement, then by worst error.
+// Candidates by agreement, then by worst error; of those that are right but for rounding the faster one.
 function ranked(pair) {
-  const worst = r => r.severity === null ? Infinity : r.severity.max;
+  const rounding = 1e-12;
+  const worst = r => r.severity === null ? Infinity : Math.max(r.severity.max, rounding);
+  const slow = r => time(r) === null ? Infinity : time(r);
   return summary().filter(r => r.pair === pair && supported(r))
-      .sort((a, b) => agreeing(b) - agreeing(a) || worst(a) - worst(b));
+      .sort((a, b) => agreeing(b) - agreeing(a) || worst(a) - worst(b) || slow(a) - slow(b));
 }
 const brief = r => `agrees on ${percent(agreeing(r))}, worst error ${exponent(quantile(r.severity, 'max'))}`;
 function link(text, act) {
@@ -110,6 +114,7 @@ function costOf(pair) {
   const against = (words, r) => [`; ${words}, `, named(r.candidate), `, ${whole(time(r))} ns (${exponent(time(r) / time(first))} times that, ` +
       `agrees on ${percent(agreeing(r))})`];
   return [element('b', {}, dashed(pair)), ': ', named(first.candidate), ` takes ${whole(time(first))} ns`,
+          tail(first) === null ? '' : `, 95% of the queries in each pose class at most ${whole(tail(first))} ns`,
           ...(second ? against('the next most accurate', second) : []),
           ...(asFast(first) ? ['; none is faster'] : second && asFast(second) ? ['; none is faster than that'] : against('the fastest', fastest)), '.'];
 }
@@ -127,7 +132,16 @@ function failuresOf() {
         return element('li', {}, element('b', {}, dashed(pair)), `: disagrees in ${here.length} of ${classesOf(pair).length} ${group} pose classes, most in `,
             ...here.slice(0, 3).flatMap((r, i) => [i ? ', ' : '', `${r.class} (${percent(1 - agreeing(r))}, ${main(r)})`]),
             '. ', link('See its worst cases', () => showWorst(pair, candidate)));
-      }).filter(Boolean)));
+      }).filter(Boolean)), ...slowTailsOf(candidate));
+}
+
+// The pose classes in which 5% of a candidate's queries take more than four medians.
+function slowTailsOf(candidate) {
+  const timed = report.results.filter(r => r.candidate === candidate && inGroup(r) && tail(r) !== null);
+  const slow = timed.filter(hasSlowTail).sort((a, b) => tail(b) - tail(a));
+  if (slow.length === 0) return [];
+  return [element('li', {}, element('b', {}, 'slow tails'), `: in ${slow.length} of ${timed.length} ${group} pose classes 5% of the queries take more than four medians, most in `,
+      ...slow.slice(0, 3).flatMap((r, i) => [i ? ', ' : '', `${r.pair}/${r.class} (median ${whole(time(r))} ns, p95 ${whole(tail(r))} ns)`]), '.')];
 }
 
 // What a command's own measurement of its time is worth.

@@ -4,7 +4,7 @@ let galleryCount = atOnce;
 function gallery() {
   const pair = byId('worst-pair').value, candidate = byId('worst-candidate').value;
   const chosen = report.worst.filter(w => w.group === group && (pair === 'all' || w.pair === pair) && (candidate === 'all' || w.candidate === candidate));
-  const rank = w => w.outcome === 'agree' ? 2 : withoutAnswer.includes(w.outcome) ? 0 : 1;  // as is_worse in worst.hpp
+  const rank = w => w.outcome === 'agree' ? 2 : withoutAnswer.includes(w.outcome) ? 0 : 1;  // as is_worse in tally.hpp
   chosen.sort((a, b) => rank(a) - rank(b) || b.severity - a.severity);
   undrawn = [];
   const more = element('button', {type: 'button'}, `Show more (${chosen.length - galleryCount})`);
@@ -119,7 +119,7 @@ function method() {
     ['not-finite, failed, unsupported', 'A NaN or infinity in the answer; the candidate says that it could not answer; it has no routine for the pair, which does not count against it.'],
     ['crashed, timed-out', 'The candidate ended its process (a signal, an exception, too much memory), or took longer than 50 ms of processor time, unless asked otherwise; after a first time-out among up to 256 configurations, a thousand times its median there, at least a tenth of that. Each candidate has a process of its own.'],
     ['model error, solver error', 'Of a simplified model: the true signed distance of what it models against that of the cylinder, and its answer against that of what it models.'],
-    ['time', 'Narrow phase alone, one thread, shapes prepared beforehand, candidates in random turns on the same configurations, each in its own process, which reads the clock itself: median and quartiles of repeated measurements, in each of which the classes’ median counts. Candidates whose quartiles overlap tie (~: with Bullet).'],
+    ['time', 'Narrow phase alone, one thread, shapes prepared beforehand, candidates in random turns on the same configurations, each in its own process, which reads the clock itself: median and quartiles of repeated measurements, in each of which the classes’ median counts. p95: each configuration timed singly, with its least time; what 95% of a class keep, and of several classes the longest (in the chart a thin line from the median). Candidates whose quartiles overlap tie (~: with Bullet).'],
   ]);
   const m = report.machine, o = report.oracle_microseconds;
   definitions('machine', [

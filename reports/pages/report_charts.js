@@ -13,7 +13,7 @@ function speedAccuracy() {
   byId('chart-legend').replaceChildren();
   if (rows.length === 0) return host.append('No candidate was timed.');
   byId('chart-legend').append(...candidates.filter(name => rows.some(r => r.candidate === name)).map(name => named(name)));
-  const x = {title: 'time per query', ...decadesOf(rows.map(time)), label: timeLabel};
+  const x = {title: 'time per query', ...decadesOf(rows.flatMap(r => tail(r) === null ? [time(r)] : [time(r), tail(r)])), label: timeLabel};
   const y = powerAxis('depth error, p99 (sizes)', rows.map(chartedError));
   const places = [...new Set(rows.map(r => r.pair))].reverse().map(pair => [pair, element('div', {class: 'chart'})]);
   // All places exist before the first chart is drawn, so that each has its final width.
@@ -25,7 +25,7 @@ function speedAccuracy() {
   }
 }
 function speedChart(place, pair, rows, x, y) {
-  // Candidates whose spreads of time overlap tie (reports/pareto.hpp).
+  // Candidates whose spreads of time overlap tie (reports/statistics.hpp).
   const front = rows.filter(r => r.pareto).sort((a, b) => time(a) - time(b));
   const at = r => ({x: time(r), y: chartedError(r)});
   const points = rows.map((r, i) => ({...markData(r.candidate), ...at(r), order: front.includes(r) ? i : 1000 + i,
@@ -33,14 +33,17 @@ function speedChart(place, pair, rows, x, y) {
       tip: `${r.candidate}, ${dashed(r.pair)}\nagrees on ${percent(agreeing(r))}, missed ${r.outcomes.missed || 0}\n` +
            `depth error p99 ${exponent(r.depth_error.p99)}, worst ${exponent(r.depth_error.max)}\n` +
            `${whole(time(r))} ns per query (quartiles ${whole(r.nanoseconds.low)} to ${whole(r.nanoseconds.high)})` +
+           (tail(r) === null ? '' : `\n95% of the queries in each pose class at most ${whole(tail(r))} ns`) +
            floorText(r) +
            (r.tied_with.length ? `\nno faster or slower, within the spreads, than ${r.tied_with.join(', ')}` : '') +
            `\nClick for its worst cases`}));
+  const tailed = rows.filter(r => tail(r) !== null);
   // The members of a family, in the order of their parameter.
   const members = report.candidates.map(c => ({family: c.family, row: rows.find(r => r.candidate === c.name)})).filter(m => m.row);
   drawScatter(place, `Depth error against time per query, ${dashed(pair)}`, {height: panelHeight(pair), x, y, points, lines: [
     {rows: members.map(m => ({family: m.family, ...at(m.row)})), by: 'family', width: 0.8},
-    {rows: front.map(at), dash: [4, 3]}]}, r => showWorst(pair, r.candidate));
+    {rows: front.map(at), dash: [4, 3]},
+    {rows: tailed.flatMap(r => [{candidate: r.candidate, ...at(r)}, {candidate: r.candidate, ...at(r), x: tail(r)}]), by: 'candidate', width: 0.4, isCrossed: true}]}, r => showWorst(pair, r.candidate));
 }
 keepGrouped(speedAccuracy);
 

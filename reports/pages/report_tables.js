@@ -53,7 +53,7 @@ function summaryTable() {
   const pair = byId('summary-pair').value;
   const wide = text => column(text, {class: 'wide'});
   const heads = [textColumn('candidate'), 'agrees', 'wrong yes/no', 'error, p99', wide('error, max'), 'bias', wide('regret, p99'),
-                 'points, p99', wide('coverage'), 'ns', wide('× Bullet')];
+                 'points, p99', wide('coverage'), 'ns', wide('ns, p95'), wide('× Bullet')];
   const rows = summary().filter(r => r.pair === pair && supported(r)).map(r => {
     const share = agreeing(r), ratio = r.nanoseconds && r.nanoseconds.ratio_to_bullet;
     return [rowHead(named(r.candidate)), element('td', {class: share === 1 ? 'good' : ''}, percent(share)),
@@ -61,6 +61,7 @@ function summaryTable() {
                 `${whole(r.outcomes.phantom || 0)} / ${whole(r.outcomes.missed || 0)}`),
             exponent(quantile(r.depth_error, 'p99')), element('td', {class: 'wide'}, exponent(quantile(r.depth_error, 'max'))),
             biasText(r), exponent(quantile(r.normal_regret, 'p99')), exponent(quantile(r.point_error, 'p99')), cutShare(quantile(r.coverage, 'mean')), timeCell(r),
+            element('td', {class: 'wide'}, whole(tail(r))),
             ratio ? (r.tied_with.includes('bullet') ? '~' : '') + ratio.toFixed(2) : '–'];
   });
   byId('summary-table').replaceChildren(table(heads, rows,
@@ -106,6 +107,7 @@ const quantities = {
   regret: {value: r => quantile(r.normal_regret, 'p99'), text: r => exponent(quantile(r.normal_regret, 'p99')), level: decade},
   coverage: {value: r => quantile(r.coverage, 'mean'), text: r => cutShare(quantile(r.coverage, 'mean')), level: v => 1 - v},
   time: {value: time, text: r => whole(time(r)), level: v => (Math.log10(v) - 1) / 4},
+  tail: {value: tail, text: r => whole(tail(r)), level: v => (Math.log10(Math.max(v, 10)) - 1) / 4},
 };
 const resultAt = new Map(report.results.map(r => [`${r.pair}/${r.class}/${r.candidate}`, r]));
 
@@ -130,7 +132,7 @@ function classCell(c, r, quantity) {
   const cell = element('td', {class: 'heat', style: heated(level)}, quantity.text(r));
   explain(cell, `${r.candidate}, ${dashed(r.pair)}, ${c.class}\n${c.description}\n${outcomesText(r)}\n` +
       `worst error ${exponent(quantile(r.severity, 'max'))}, depth error p99 ${exponent(quantile(r.depth_error, 'p99'))}, regret p99 ` +
-      `${exponent(quantile(r.normal_regret, 'p99'))}\npatch covered: mean ${cutShare(quantile(r.coverage, 'mean'))}; ${whole(time(r))} ns` +
+      `${exponent(quantile(r.normal_regret, 'p99'))}\npatch covered: mean ${cutShare(quantile(r.coverage, 'mean'))}; ${whole(time(r))} ns, p95 ${whole(tail(r))} ns` +
       (r.worst_index === null ? '' : `\nworst: ${r.pair}/${r.class}/${report.seed}/${r.worst_index}`));
   whenPressed(cell, () => showWorst(r.pair, r.candidate));
   return cell;

@@ -1,13 +1,17 @@
 #pragma once
 
 #include <functional>
+#include <map>
+#include <string>
 
 #include "oracle/judge/score.hpp"
 #include "oracle/truth.hpp"
 #include "reference/configuration.hpp"
-#include "reports/reproducer/fill_template.hpp"
 
 namespace touchstone {
+
+/// What stands for the names in a template.
+using Texts = std::map<std::string, std::string, std::less<>>;
 
 /// How a language writes doubles to the last bit.
 enum class NumberStyle { hexadecimal, decimal };

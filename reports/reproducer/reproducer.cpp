@@ -7,7 +7,7 @@
 #include "candidates/candidates.hpp"
 #include "candidates/npm_engines.hpp"
 #include "oracle/truth.hpp"
-#include "properties/files/parse_number.hpp"
+#include "properties/files/given_text.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/replay.hpp"
 #include "reports/reproducer/question_texts.hpp"
@@ -227,6 +227,63 @@ Texts candidate_texts(const Candidate* candidate) {
           {"include", include_folder()},
           {"command", string_literal(candidate->command)},
           {"folder", string_literal(candidate->folder.string())}};
+}
+
+// Templates are programs with two additions: @name@ stands for a text, and a line that begins with
+// [tag] or [tag,tag] is there only where one of the tags applies; with several brackets, one of
+// each. A file may have sections, each after a line "=== name".
+
+using Tags = std::vector<std::string_view>;
+
+/// Does one of the names in a list with commas stand among the tags?
+bool names_one(std::string_view list, const Tags& tags) {
+  while (!list.empty()) {
+    const auto comma = list.find(',');
+    if (std::find(tags.begin(), tags.end(), list.substr(0, comma)) != tags.end()) return true;
+    list = comma == list.npos ? "" : list.substr(comma + 1);
+  }
+  return false;
+}
+
+/// The lines for these tags, without the brackets.
+std::string lines_for(const Tags& tags, std::string_view source) {
+  std::string result;
+  while (!source.empty()) {
+    const auto end = std::min(source.find('\n'), source.size() - 1) + 1;
+    std::string_view line = source.substr(0, end);
+    source.remove_prefix(end);
+    bool applies = true;
+    while (applies && line.starts_with('[')) {
+      const auto close = line.find(']');
+      applies = names_one(line.substr(1, close - 1), tags);
+      line.remove_prefix(close + (line[close + 1] == ' ' ? 2 : 1));
+    }
+    if (applies) result += line;
+  }
+  return result;
+}
+
+/// The lines of a section, without the last line's end.
+std::string_view section(std::string_view source, std::string_view name) {
+  const std::string heading = "=== " + std::string(name) + '\n';
+  source.remove_prefix(source.find(heading) + heading.size());
+  return source.substr(0, source.find("\n=== "));
+}
+
+/// The template's lines for these tags with every @name@ replaced, without empty lines at the end;
+/// what is put in is not searched again. Throws std::out_of_range for an unknown name.
+std::string fill_template(std::string_view source, const Tags& tags, const Texts& texts) {
+  const std::string lines = lines_for(tags, source);
+  std::string result;
+  for (std::string_view rest = lines;;) {
+    const auto at = rest.find('@');
+    result += rest.substr(0, at);
+    if (at == rest.npos) break;
+    const auto end = rest.find('@', at + 1);
+    result += texts.at(std::string(rest.substr(at + 1, end - at - 1)));
+    rest.remove_prefix(end + 1);
+  }
+  return result.substr(0, result.find_last_not_of('\n') + 1);
 }
 
 }  // namespace

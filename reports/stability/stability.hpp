@@ -9,7 +9,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "properties/motions/perturbation.hpp"
+#include "properties/motions/motion.hpp"
 
 namespace touchstone {
 

@@ -10,8 +10,8 @@
 #include "properties/files/disk.hpp"
 #include "properties/motions/motion.hpp"
 #include "reports/pages/page.hpp"
+#include "reports/replay.hpp"
 #include "reports/stability/stability.hpp"
-#include "reports/worst.hpp"
 
 namespace touchstone {
 namespace {

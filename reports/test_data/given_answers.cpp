@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "properties/files/answer_json.hpp"
-#include "properties/files/error_text.hpp"
+#include "properties/files/given_text.hpp"
 #include "properties/files/strict_json.hpp"
 #include "reference/invalid_input.hpp"
 

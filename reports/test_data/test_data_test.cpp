@@ -1,4 +1,6 @@
 // What export writes: the limits of a right answer, and files that others read as what they mean.
+#include "reports/test_data/test_data.hpp"
+
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -13,10 +15,9 @@
 #include <nlohmann/json.hpp>
 
 #include "properties/files/configuration_json.hpp"
-#include "properties/files/parse_number.hpp"
+#include "properties/files/given_text.hpp"
 #include "properties/files/strict_json.hpp"
 #include "reference/invalid_input.hpp"
-#include "reports/test_data/test_data_file.hpp"
 
 namespace touchstone {
 namespace {

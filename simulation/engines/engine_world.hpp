@@ -7,7 +7,7 @@
 #include "candidates/candidate.h"
 #include "reference/invalid_input.hpp"
 #include "simulation/engines/run_engines.hpp"
-#include "simulation/simulation.hpp"
+#include "simulation/scene.hpp"
 
 // What the modules touchstone-world-NAME.so share with the program. Each holds one engine and is
 // loaded in a process of its own alone (run_engines.hpp), for the engine may crash or hang, and two

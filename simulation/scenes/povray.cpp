@@ -1,13 +1,12 @@
 // POV-Ray's coordinate system is left-handed. A camera with reversed `right` makes it right-handed
 // with z up, so that poses are written unchanged.
-#include "simulation/scenes/povray.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
 #include "properties/files/disk.hpp"
 #include "reference/invalid_input.hpp"
+#include "simulation/scenes/scene_file.hpp"
 
 namespace touchstone {
 namespace {

@@ -1,5 +1,3 @@
-#include "simulation/scenes/recording.hpp"
-
 #include <algorithm>
 #include <fmt/format.h>
 #include <tuple>
@@ -8,6 +6,7 @@
 
 #include "properties/draw.hpp"
 #include "properties/files/configuration_json.hpp"
+#include "simulation/scenes/trajectory.hpp"
 
 namespace touchstone {
 namespace {

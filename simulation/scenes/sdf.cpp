@@ -5,7 +5,7 @@
 #include <set>
 
 #include "reference/invalid_input.hpp"
-#include "simulation/scenes/shapes_file.hpp"
+#include "simulation/scenes/scene_file.hpp"
 
 namespace touchstone {
 namespace {

@@ -1,5 +1,3 @@
-#include "simulation/scenes/shapes_file.hpp"
-
 #include <algorithm>
 #include <boost/property_tree/xml_parser.hpp>
 #include <exception>
@@ -10,8 +8,9 @@
 #include <urdf_parser/urdf_parser.h>
 
 #include "properties/files/disk.hpp"
-#include "properties/files/error_text.hpp"
+#include "properties/files/given_text.hpp"
 #include "reference/invalid_input.hpp"
+#include "simulation/scenes/scene_file.hpp"
 
 namespace touchstone {
 namespace {

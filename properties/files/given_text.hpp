@@ -1,10 +1,13 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
+
+#include "reference/invalid_input.hpp"
 
 namespace touchstone {
 
@@ -31,5 +34,12 @@ inline constexpr CountRange all_counts{0, std::numeric_limits<std::uint64_t>::ma
 
 double read_number(const std::string& option, const std::string& text, NumberRange range);
 std::uint64_t read_count(const std::string& option, const std::string& text, CountRange range);
+
+/// The text for one line of a terminal or log: control characters as \x1b, and at most `max_length`
+/// bytes, of which the last are "..." where some were cut. UTF-8 stays whole.
+std::string printable(std::string_view text, std::size_t max_length);
+
+/// "radius is -1: must be positive and finite", printable, whatever a file or command line held.
+std::string error_text(const InvalidInput& error);
 
 }  // namespace touchstone

@@ -1,4 +1,4 @@
-#include "reports/score_tally.hpp"
+#include "reports/tally.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -6,11 +6,15 @@
 #include <gtest/gtest.h>
 #include <limits>
 #include <rapidcheck.h>
+#include <rapidcheck/gtest.h>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
+#include "candidates/candidates.hpp"
+#include "reports/make_report.hpp"
 #include "reports/report_json.hpp"
+#include "reports/statistics.hpp"
 
 namespace touchstone {
 namespace {
@@ -199,6 +203,165 @@ TEST(Magnitudes, BoundEveryValue) {
     EXPECT_LE(bounds->upper, bounds->lower * 1.125 + 1e-307) << value;
   }
   EXPECT_FALSE(Magnitudes(Precision::binned).percentile(50));
+}
+
+Configuration turned(double angle, const Shape& b) {
+  const Eigen::Quaterniond q(std::cos(angle / 2), std::sin(angle / 2), 0, 0);
+  return {Cylinder(0.5, 2), Pose(Vec3(3, 0, 4), q), b, Pose()};
+}
+
+TEST(Variables, TiltIsMeasuredFromParallelAndFromPerpendicular) {
+  const double quarter = std::acos(0.0);
+  const Shape plane = Plane(Vec3(0, 0, 2), 0);
+  for (const double tilt : {1e-9, 1e-3, 0.7}) {
+    for (const Shape& b : {plane, Shape(Capsule(1, 1)), Shape(Cylinder(1, 1))}) {
+      EXPECT_NEAR(*value_of(Variable::tilt, turned(tilt, b), -1), tilt, 1e-15);
+      EXPECT_NEAR(*value_of(Variable::tilt, turned(quarter - tilt, b), -1), tilt, 1e-15);
+    }
+  }
+  EXPECT_FALSE(value_of(Variable::tilt, turned(1, Sphere(1)), -1));
+  // Of a box's axes the nearest counts: turned about x, the cylinder stays perpendicular to x.
+  const Shape box = Box(Vec3(1, 1, 1));
+  EXPECT_EQ(*value_of(Variable::tilt, turned(0.7, box), -1), 0);
+  const Eigen::Quaterniond skew(1, 0.1, 0.2, 0);
+  const Configuration c{Cylinder(0.5, 2), Pose(Vec3(0, 0, 0), skew), box, Pose()};
+  EXPECT_NEAR(*value_of(Variable::tilt, c, -1), std::asin(0.2 / 1.05), 1e-15);
+}
+
+TEST(Variables, AreRelativeToSize) {
+  const Configuration c = turned(0, Box(Vec3(1, 1, 10)));
+  EXPECT_DOUBLE_EQ(*value_of(Variable::depth, c, -0.1), 0.2);
+  EXPECT_FALSE(value_of(Variable::depth, c, 0.1));
+  EXPECT_DOUBLE_EQ(*value_of(Variable::aspect, c, -0.1), 10);
+  EXPECT_DOUBLE_EQ(*value_of(Variable::aspect, turned(0, Plane(Vec3(0, 0, 1), 0)), -0.1), 4);
+  EXPECT_DOUBLE_EQ(*value_of(Variable::distance, c, -0.1), 0.5);
+}
+
+TEST(Trends, HaveTheLastDecadeForWhatIsBeyondTheLargestDouble) {
+  Score missed;
+  missed.outcome = Outcome::missed;
+  missed.severity = 1;
+  TrendTally tally;
+  tally.add({Cylinder(1e-9, 1e-9), Pose(Vec3(1e300, 0, 0)), Sphere(1e-9), Pose()}, -1e-9, {missed});
+  std::vector<int> decades;
+  for (const Trend& trend : tally.trends("cylinder-sphere", "extreme", {"far"})) {
+    if (trend.variable == "distance") decades.push_back(trend.bins.at(0).decade.value());
+  }
+  EXPECT_EQ(decades, std::vector{308});
+}
+
+TEST(Trends, EveryJudgedAnswerLiesInOneDecade) {
+  Campaign campaign;
+  campaign.pairs = {Pair::plane, Pair::sphere};
+  campaign.classes = {"general-shallow", "far-from-origin"};
+  campaign.candidates = find_candidates({"reference", "capsule"});
+  campaign.count = 5;
+  std::size_t missed = 0;
+  for (const Trend& trend : make_report(campaign, "x").trends) {
+    EXPECT_FALSE(trend.pair == "cylinder-sphere" && trend.variable == "tilt");
+    std::size_t count = 0;
+    for (const TrendBin& bin : trend.bins) {
+      count += bin.count;
+      EXPECT_LE(bin.missed, bin.count);
+      EXPECT_LE(bin.median, bin.max);
+      if (trend.variable == "distance") missed += bin.missed;
+    }
+    if (trend.variable != "depth") {
+      EXPECT_EQ(count, 5u);  // one class in each group
+    }
+  }
+  // The inscribed capsule misses the shallow contacts at the rim.
+  EXPECT_GT(missed, 0u);
+}
+
+TEST(Statistics, SharesCountFromBelow) {
+  std::vector<double> values;
+  for (int i = 0; i <= 200; ++i) values.push_back(i / 200.0);
+  const Shares s = *shares(values);
+  EXPECT_NEAR(s.mean, 0.5, 1e-12);
+  EXPECT_NEAR(s.median, 0.5, 1e-12);
+  EXPECT_NEAR(s.p1, 0.01, 1e-12);
+  EXPECT_EQ(s.min, 0);
+  EXPECT_FALSE(shares({}));
+}
+
+TEST(Statistics, QuantilesAreNearestRank) {
+  std::vector<double> values;
+  for (int i = 200; i >= 1; --i) values.push_back(i);
+  const Quantiles q = *quantiles(values);
+  EXPECT_EQ(q.median, 100);
+  EXPECT_EQ(q.p99, 198);
+  EXPECT_EQ(q.max, 200);
+  EXPECT_EQ(quantiles({7})->p99, 7);
+  EXPECT_FALSE(quantiles({}));
+}
+
+TEST(LogHistogram, CountsHalfDecadesAndZerosApart) {
+  const LogHistogram h = log_histogram({0, 1e-3, 2e-3, 5e-3, 0.5, 0});
+  EXPECT_EQ(h.zero, 2u);
+  EXPECT_EQ(h.first, -6);
+  EXPECT_EQ(h.counts, (std::vector<std::uint64_t>{2, 1, 0, 0, 0, 1}));
+}
+
+TEST(LogHistogram, KeepsWhatIsBeyondItsEnds) {
+  const LogHistogram h = log_histogram({1e-300, 1e300});
+  EXPECT_EQ(h.first, -36);
+  EXPECT_EQ(h.counts.size(), 48u);
+  EXPECT_EQ(h.counts.front() + h.counts.back(), 2u);
+  EXPECT_EQ(log_histogram({}), LogHistogram{});
+  EXPECT_EQ(log_histogram({0}), (LogHistogram{1, 0, {}}));
+}
+
+using testing::ElementsAre;
+
+TEST(Pareto, KeepsWhatIsFasterOrMoreAccurate) {
+  const SpeedAccuracy fast{1, 2, 1e-3}, exact{10, 11, 1e-15}, worse{12, 13, 1e-3};
+  EXPECT_THAT(pareto_front({fast, worse, exact}), ElementsAre(true, false, true));
+  EXPECT_TRUE(pareto_front({}).empty());
+}
+
+TEST(Pareto, WhatTiesInTimeIsJudgedByItsAccuracy) {
+  const SpeedAccuracy rough{10, 12, 1e-3}, exact{11, 13, 1e-15};
+  EXPECT_TRUE(tied_in_time(rough, exact));
+  EXPECT_THAT(pareto_front({rough, exact}), ElementsAre(false, true));
+}
+
+TEST(ParetoFront, WhatIsNoNativeCodeTakesNoNativeCodeOffIt) {
+  const SpeedAccuracy slow{200, 210, 1e-6};
+  SpeedAccuracy compiled_to_wasm{90, 100, 1e-9}, slower_script{900, 910, 1e-6};
+  compiled_to_wasm.is_native = slower_script.is_native = false;
+  EXPECT_THAT(pareto_front({slow, compiled_to_wasm, slower_script}),
+              ElementsAre(true, true, false));
+}
+
+TEST(Pareto, RefusesToRankWhatTiesInBoth) {
+  const SpeedAccuracy a{10, 12, 1e-3}, b{12, 13, 1e-3}, slower{12.5, 14, 1e-3};
+  EXPECT_THAT(pareto_front({a, b}), ElementsAre(true, true));
+  // a is faster than the third beyond the spreads.
+  EXPECT_THAT(pareto_front({slower, b, a}), ElementsAre(false, true, true));
+}
+
+TEST(Pareto, AChainOfTiesDoesNotHideTheFastest) {
+  const SpeedAccuracy fastest{1, 3, 1e-2}, middle{2, 6, 1e-3}, exact{5, 8, 1e-4};
+  EXPECT_THAT(pareto_front({fastest, middle, exact}), ElementsAre(true, false, true));
+}
+
+RC_GTEST_PROP(Pareto, ExactlyWhatTheFrontBeatsIsOffIt, ()) {
+  // Few values, so that ties of every kind come up.
+  const auto candidates = *rc::gen::container<std::vector<SpeedAccuracy>>(rc::gen::map(
+      rc::gen::tuple(rc::gen::inRange(1, 9), rc::gen::inRange(0, 4), rc::gen::inRange(0, 4)),
+      [](const std::tuple<int, int, int>& t) {
+        const auto [low, width, error] = t;
+        return SpeedAccuracy{1.0 * low, 1.0 * (low + width), 1.0 * error};
+      }));
+  const auto front = pareto_front(candidates);
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    bool beaten = false;
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+      beaten = beaten || (front[k] && beats(candidates[k], candidates[i]));
+    }
+    RC_ASSERT(front[i] == !beaten);
+  }
 }
 
 }  // namespace
