@@ -45,7 +45,7 @@ Geometry make_geometry(const ts_shape& shape) {
 
 coal::Transform3s to_transform(const ts_pose& p) {
   const double* q = p.orientation;
-  return {coal::Quats(q[0], q[1], q[2], q[3]).toRotationMatrix(),
+  return {Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix(),
           Vector(p.position[0], p.position[1], p.position[2])};
 }
 
