@@ -35,7 +35,9 @@ bool supports(const Candidate& c, const Configuration& k) { return c.has_routine
 /// Those of a report, and those that have to be named.
 std::vector<const Candidate*> candidates_built_here() {
   std::vector<const Candidate*> candidates = all_candidates();
-  for (const std::string& name : cured_engines()) candidates.push_back(&find_candidate(name));
+  for (const auto& names : {cured_engines(), peer_engines()}) {
+    for (const std::string& name : names) candidates.push_back(&find_candidate(name));
+  }
   return candidates;
 }
 

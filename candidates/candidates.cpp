@@ -31,6 +31,17 @@ constexpr struct {
 constexpr const char* cured_plugins[] = {"bullet+touchstone", "bullet-float+touchstone",
                                          "ode+touchstone", "mujoco+touchstone"};
 
+/// Candidates of engines that Debian does not have, and their plug-ins, which are built where CMake
+/// finds the engine. They have to be named, too, so that a default report is the same everywhere.
+constexpr struct {
+  const char* name;
+  const char* plugin;
+} peer_candidates[] = {{"coal", "coal"},
+                       {"coal-patch", "coal"},
+                       {"jolt-native", "jolt-native"},
+                       {"jolt-native-margin-0", "jolt-native"},
+                       {"box3d", "box3d"}};
+
 /// The folder of this code's file: of the program or, in Python, of the module.
 std::filesystem::path own_folder() {
   static const char here = 0;
@@ -73,6 +84,19 @@ std::optional<double> to_number(std::string_view text) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
   return value;
+}
+
+/// The plug-in of a family that is loaded once it is named; absent if it was not built.
+std::optional<std::filesystem::path> plugin_to_name(const std::string& family) {
+  std::string plugin;
+  for (const char* name : cured_plugins) {
+    if (family == name) plugin = name;
+  }
+  for (const auto& peer : peer_candidates) {
+    if (family == peer.name) plugin = peer.plugin;
+  }
+  if (plugin.empty() || !std::filesystem::exists(standard_file(plugin))) return std::nullopt;
+  return standard_file(plugin);
 }
 
 Candidate member(const Candidate& family, double value) {
@@ -121,10 +145,8 @@ class Registry {
       return find_member(c, name, name.substr(colon + 1));
     }
     const std::string family(name.substr(0, colon));
-    if (const auto cured = cured_engines();
-        std::find(cured.begin(), cured.end(), family) != cured.end()) {
-      const std::filesystem::path file = standard_file(family);
-      add(PluginProcess(file).candidates(), {"--candidates", family}, std::nullopt, false);
+    if (const auto file = plugin_to_name(family)) {
+      add(PluginProcess(*file).candidates(), {"--candidates", family}, std::nullopt, false);
       return find(name);
     }
     if (const NpmEngine* const engine = find_npm_engine(family)) {
@@ -137,8 +159,10 @@ class Registry {
       const auto is = [&](const Candidate* c) { return c->family == other; };
       return std::any_of(listed_.begin(), listed_.end(), is);
     };
-    for (const std::string& cured : cured_engines()) {
-      if (!is_listed(cured)) names += ", " + cured;
+    for (const auto& to_name : {cured_engines(), peer_engines()}) {
+      for (const std::string& other : to_name) {
+        if (!is_listed(other)) names += ", " + other;
+      }
     }
     for (const NpmEngine& engine : npm_engines()) {
       // A command of one's own may have taken the name.
@@ -300,7 +324,15 @@ bool Candidate::has_routine_for(Pair pair) const { return supports[other_shape(p
 std::vector<std::string> cured_engines() {
   std::vector<std::string> names;
   for (const char* name : cured_plugins) {
-    if (std::filesystem::exists(standard_file(name))) names.emplace_back(name);
+    if (plugin_to_name(name)) names.emplace_back(name);
+  }
+  return names;
+}
+
+std::vector<std::string> peer_engines() {
+  std::vector<std::string> names;
+  for (const auto& peer : peer_candidates) {
+    if (plugin_to_name(peer.name)) names.emplace_back(peer.name);
   }
   return names;
 }

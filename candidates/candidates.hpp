@@ -64,6 +64,9 @@ std::vector<const Candidate*> all_candidates();
 /// "ode+touchstone". They are candidates once they are named, and in no list before or after.
 std::vector<std::string> cured_engines();
 
+/// Likewise the candidates built here of engines that Debian does not have: "coal", "jolt-native".
+std::vector<std::string> peer_engines();
+
 /// The candidate of that name, "bullet" or "prism:32"; valid as long as the program runs. Throws
 /// InvalidInput (field "--candidates") that lists the existing names or the parameter's range.
 const Candidate& find_candidate(std::string_view name);

@@ -4,7 +4,9 @@
 Runs every command of the pages: the blocks marked `sh`, the `run:` of blocks marked `yaml`, and
 what begins with `./touchstone` within a sentence. A block has a folder of its own, which looks like
 a clone after its build. An unmarked block that follows holds lines which its commands print; other
-blocks are not read. Commands that take long are shortened (SHORTER); the few that cannot run here
+blocks are not read. A block that is a scheduler's job file (Slurm's array, Kubernetes' indexed job)
+runs as three of its jobs, the last one first, and what they did is merged: it must be what one
+command makes. Commands that take long are shortened (SHORTER); the few that cannot run here
 are named with what does run them (ELSEWHERE). Links, names of source files and options must exist.
 """
 import os
@@ -14,6 +16,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import textwrap
 import time
 
 PAGES = ["README.md", "CONTRIBUTING.md", "docs/*.md", "oracle/README.md", "oracle/audit/README.md",
@@ -24,7 +27,7 @@ SHORTER = {
     "report": {"--pair": "cylinder-plane", "--class": "lying", "--count": "1",
                "--candidates": "reference,bullet"},
     "check": {"--law": "agreement", "--pair": "cylinder-sphere", "--count": "1"},
-    "campaign": {"--pair": "cylinder-plane", "--class": "lying", "--count": "7",
+    "campaign": {"--pair": "cylinder-plane", "--class": "lying", "--count": "1600",
                  "--candidates": "reference"},
     "search": {"--pair": "cylinder-plane", "--class": "general-shallow", "--count": "8"},
     "stability": {"--part": "amplification", "--count": "1", "--candidates": "reference"},
@@ -103,18 +106,61 @@ def commands_of(block):
     return [c for c in (re.sub(r"(^|\s+)#.*", "", line).strip() for line in lines) if c]
 
 
+FENCE = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+JOBS = 3  # of a job file that says how many by itself
+
+
+def is_job_file(text):
+    return "#SBATCH" in text or "kind: Job" in text
+
+
+def job_of(text):
+    """A job file's script, and the environment of each of its jobs."""
+    if "#SBATCH" in text:
+        return text, [{"SLURM_ARRAY_TASK_ID": str(i + 1), "SLURM_ARRAY_TASK_COUNT": str(JOBS),
+                       "SLURM_CPUS_PER_TASK": "1"} for i in range(JOBS)]
+    script = re.search(r"^( *)- \|\n((?:\1 .*\n|\n)+)", text, re.MULTILINE)
+    named = dict(re.findall(r'name: (\w+), value: "(\d+)"', text))
+    completions = re.search(r"^ *completions: (\d+)$", text, re.MULTILINE)
+    if not script or "completionMode: Indexed" not in text or not completions:
+        raise ValueError("is no indexed job with a script")
+    if named != {"SHARDS": completions[1]}:
+        raise ValueError("has another number of completions than of shards")
+    return textwrap.dedent(script[2]), [{"JOB_COMPLETION_INDEX": str(i), "SHARDS": str(JOBS)}
+                                        for i in range(JOBS)]
+
+
+def faults_of_job_file(clone, text):
+    """What is wrong with a job file, a sentence each."""
+    try:
+        script, jobs = job_of(text)
+    except ValueError as error:
+        return [f"a job file {error}"]
+    for environment in reversed(jobs):
+        code, printed = clone.run(script, environment)
+        if code != 0:
+            return [f"{environment}: exit code {code}: {printed[-500:]}"]
+    alone = re.sub(r'--(shard|workers) ("[^"]*"|\S+)|--resume', "", re.sub(r"\\\n\s*", "", script))
+    folder = re.search(r"--out (\S+)", alone)[1]
+    alone = alone.replace(f"--out {folder}", "--out alone")
+    code, printed = clone.run(f"touchstone merge {folder} --out merged && {alone}\n"
+                              "cmp alone/campaign.json merged/campaign.json")
+    return [] if code == 0 else [f"merged, its jobs make something else: {printed[-500:]}"]
+
+
 def blocks_of(page):
     """Pairs of commands and the lines that they print, from a page's text."""
-    fence = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
     blocks = []
-    for mark, text in fence.findall(page):
+    for mark, text in FENCE.findall(page):
+        if is_job_file(text):
+            continue
         if mark == "sh":
             blocks.append((commands_of(text), []))
         elif mark == "yaml":
             blocks.append((commands_of(text.split("run: |\n")[1]), []))
         elif mark == "":
             blocks[-1][1].extend(text.splitlines())
-    within_sentences = re.findall(r"`(\./touchstone [^`]*)`", fence.sub("", page))
+    within_sentences = re.findall(r"`(\./touchstone [^`]*)`", FENCE.sub("", page))
     return blocks + [([c], []) for c in dict.fromkeys(within_sentences)]
 
 
@@ -134,11 +180,12 @@ class Clone:
         script.write_text(f'#!/bin/sh\nexec "{sys.executable}" "{this}" --as "{program}" "$@"\n')
         script.chmod(0o755)
 
-    def run(self, command):
-        """Exit code and what was printed."""
+    def run(self, command, of_job=None):
+        """Exit code and what was printed. `of_job`: more of the environment."""
         command = re.sub(r"^mpirun -n \d+", "mpirun --oversubscribe -n 2", command)
-        environment = dict(os.environ, SLURM_ARRAY_TASK_ID="1", OMPI_ALLOW_RUN_AS_ROOT="1",
-                           OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
+        environment = dict(os.environ, PATH=f"{self.folder}:{os.environ['PATH']}",
+                           OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
+                           **(of_job or {}))
         result = subprocess.run(["timeout", "60", "bash", "-o", "pipefail", "-c", command],
                                 cwd=self.folder, env=environment, stdin=subprocess.DEVNULL,
                                 stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
@@ -197,20 +244,28 @@ def main(source, program):
     files = [str(f.relative_to(source)) for f in source.rglob("*")
              if f.relative_to(source).parts[0] != "build"]
     files += [str(f) for f in program.parent.glob("include/**/*.h")]
-    faults, elsewhere_used = [], set()
+    faults, elsewhere_used, job_files = [], set(), 0
     with tempfile.TemporaryDirectory() as scratch:
         for page in [page for pattern in PAGES for page in sorted(source.glob(pattern))]:
             name = page.relative_to(source)
             faults += [f"{name}: there is no {missing}" for missing in missing_files(page, files)]
             faults += [f"{name}: there is no {option}" for option in unknown_options(page, program)]
+            new_clone = lambda: Clone(source, program,
+                                      pathlib.Path(tempfile.mkdtemp(dir=scratch)) / "clone")
+            for _, text in FENCE.findall(page.read_text()):
+                if is_job_file(text):
+                    faults += [f"{name}: {fault}"
+                               for fault in faults_of_job_file(new_clone(), text)]
+                    job_files += 1
             for commands, expected_lines in blocks_of(page.read_text()):
-                clone = Clone(source, program,
-                              pathlib.Path(tempfile.mkdtemp(dir=scratch)) / "clone")
+                clone = new_clone()
                 start = time.monotonic()
                 faults += [f"{name}: {fault}" for fault in faults_of_block(
                     clone, commands, expected_lines, elsewhere_used)]
                 print(f"{time.monotonic() - start:5.1f} s  {name}: {commands[0]}", flush=True)
     faults += [f"no page has \"{start}\"" for start in ELSEWHERE if start not in elsewhere_used]
+    if job_files != 2:
+        faults.append(f"the pages have {job_files} job files: one of Slurm and one of Kubernetes")
     for fault in faults:
         print("FAILED:", fault)
     return 1 if faults else 0

@@ -50,6 +50,9 @@ void add_candidates(Program& program) {
     for (const Skipped& s : skipped_plugins()) fmt::print("{}: skipped; {}\n", s.name, s.reason);
     fmt::print("With Touchstone's contacts installed, when one is named:\n");
     for (const std::string& name : cured_engines()) fmt::print("  {}\n", name);
+    const std::vector<std::string> peers = peer_engines();
+    if (!peers.empty()) fmt::print("Of engines outside Debian, when one is named:\n");
+    for (const std::string& name : peers) fmt::print("  {}\n", name);
     fmt::print("From npm, when one is named:\n");
     for (const NpmEngine& engine : npm_engines()) {
       const std::string obstacle = npm_obstacle(engine);

@@ -269,7 +269,7 @@ std::vector<Sample> sample_run(const Campaign& campaign, Purpose purpose,
 bool sample(const Campaign& campaign, Purpose purpose, std::uint64_t count,
             const std::function<UnitRun(std::uint64_t)>& run,
             const std::function<void(std::uint64_t, std::vector<Sample>)>& take,
-            const std::function<bool()>& go_on) {
+            const std::function<bool()>& go_on, const std::function<void()>& forget) {
   const std::vector<Cell> all = cells(campaign);
   WorkerCandidates candidates(campaign.candidates, campaign.bar.threshold, campaign.limits);
   return stream_from_processes(
@@ -296,7 +296,7 @@ bool sample(const Campaign& campaign, Purpose purpose, std::uint64_t count,
         }
         take(task, std::move(samples));
       },
-      go_on);
+      go_on, forget);
 }
 
 }  // namespace touchstone

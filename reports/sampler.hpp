@@ -79,11 +79,13 @@ struct Sample {
 /// nor on other candidates. Ends early, without the runs in hand, once `go_on` returns false; it is
 /// called every 100 ms or more often. Returns whether all runs were scored. Throws
 /// std::runtime_error naming the configuration whose truth contradicts itself, or the run in which
-/// a worker died by its first configuration.
-bool sample(const Campaign& campaign, Purpose purpose, std::uint64_t count,
-            const std::function<UnitRun(std::uint64_t)>& run,
-            const std::function<void(std::uint64_t, std::vector<Sample>)>& take,
-            const std::function<bool()>& go_on);
+/// a worker died by its first configuration. `forget` is called in each worker before the first
+/// run.
+bool sample(
+    const Campaign& campaign, Purpose purpose, std::uint64_t count,
+    const std::function<UnitRun(std::uint64_t)>& run,
+    const std::function<void(std::uint64_t, std::vector<Sample>)>& take,
+    const std::function<bool()>& go_on, const std::function<void()>& forget = [] {});
 
 /// Scores one run in this process; `cells` are those of the campaign. Returns a sample of each
 /// unit.

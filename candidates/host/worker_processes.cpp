@@ -153,16 +153,14 @@ bool stream_from_processes(std::uint64_t count, unsigned workers,
                            const std::function<std::string(std::uint64_t)>& task,
                            const std::function<std::string(std::uint64_t)>& name,
                            const std::function<void(std::uint64_t, std::string)>& take,
-                           const std::function<bool()>& go_on) {
+                           const std::function<bool()>& go_on,
+                           const std::function<void()>& forget) {
   constexpr int max_milliseconds = 100;
   workers = static_cast<unsigned>(
       std::clamp<std::uint64_t>(workers, 1, std::max<std::uint64_t>(count, 1)));
   Shared shared(workers);
   Workers pool(workers);
   const pid_t parent = getpid();
-  // Every process begun from here on, sessions of candidates included, copies the page tables of
-  // memory that was freed but not given back.
-  malloc_trim(0);
   for (unsigned i = 0; i < workers; ++i) {
     int ends[2];
     if (pipe(ends) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
@@ -172,6 +170,8 @@ bool stream_from_processes(std::uint64_t count, unsigned workers,
       follow(parent);
       close(ends[0]);
       shared.withhold_from_children();
+      forget();
+      malloc_trim(0);  // what was freed but not given back has page tables, too
       work(shared, i, count, ends[1], task);
     }
     close(ends[1]);

@@ -164,6 +164,12 @@ void query_declining(ts_prepared* prepared, const ts_pose* a, const ts_pose* b, 
   answer->point_count = 0;
   std::memcpy(answer->normal, n, sizeof n);
 }
+void query_tiring(ts_prepared* prepared, const ts_pose* a, const ts_pose* b, const double* hint,
+                  ts_answer* answer) {
+  static int asked = 0;
+  query_declining(prepared, a, b, hint, answer);
+  if (++asked >= 40) answer->signed_distance -= 0.1;
+}
 void release_declining(ts_prepared* p) { delete reinterpret_cast<Declining*>(p); }
 
 void query_stalling(ts_prepared*, const ts_pose* a, const ts_pose*, const double*,
@@ -198,11 +204,13 @@ const ts_candidate candidates[] = {
      query_obedient, release, nullptr, nullptr},
     {"declining", "1", "exact for planes but where a cylinder lies", nullptr, nullptr,
      supports_planes, prepare_declining, query_declining, release_declining, nullptr, nullptr},
+    {"tiring", "1", "wrong from the fortieth question on", nullptr, nullptr, supports_planes,
+     prepare_declining, query_tiring, release_declining, nullptr, nullptr},
     {"counting", "1", "answers how many pairs it has prepared", nullptr, nullptr, supports,
      prepare_counted, query_counted, release_counted, nullptr, nullptr},
     {"stalling", "1", "is slow or endless in places", nullptr, nullptr, supports, prepare,
      query_stalling, release, nullptr, nullptr}};
-const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 6, candidates, nullptr, 0};
+const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 7, candidates, nullptr, 0};
 
 }  // namespace
 

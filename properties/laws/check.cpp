@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstdlib>
 #include <fmt/format.h>
 #include <set>
@@ -12,6 +11,7 @@
 
 #include "candidates/host/worker_processes.hpp"
 #include "oracle/truth.hpp"
+#include "properties/numbers.hpp"
 #include "properties/simplify.hpp"
 
 namespace touchstone {
@@ -42,17 +42,17 @@ std::vector<Chunk> chunks(const CheckOptions& options) {
   return result;
 }
 
-/// A law that a configuration of a chunk breaks.
-struct Broken {
+/// A configuration that seems to break a law: it does in the session of its chunk.
+struct Suspect {
   std::size_t configuration, law;  ///< places in the chunk and in the options
   Violation violation;
   std::string features;
 };
 
-/// What the configurations of a chunk break, in their order.
+/// What the configurations of a chunk seem to break, in their order.
 struct ChunkResult {
   std::vector<std::uint64_t> tried;  ///< of each law, the configurations that it applies to
-  std::vector<Broken> broken;
+  std::vector<Suspect> suspects;
   double seconds = 0;  ///< that all of it took
 };
 
@@ -62,11 +62,11 @@ ChunkResult tried(const Chunk& chunk, const CheckOptions& options, CandidateProc
   candidate.ask_within(options.bar.threshold);
   for (std::size_t i = 0; i < chunk.identities.size(); ++i) {
     const Configuration c = make_configuration(chunk.identities[i]);
-    const auto violations = broken(options.laws, c, candidate, options.bar);
+    const auto violations = broken_in_session(options.laws, c, candidate, options.bar);
     for (std::size_t law = 0; law < options.laws.size(); ++law) {
       if (options.laws[law]->applies(c)) ++result.tried[law];
       if (!violations[law]) continue;
-      result.broken.push_back(
+      result.suspects.push_back(
           {i, law, *violations[law], options.by_features ? meeting_features(c) : ""});
     }
   }
@@ -87,112 +87,270 @@ std::string get_string(std::istream& in) {
   return text;
 }
 
+void put(std::ostream& out, double x) { put(out, fmt::format("{:a}", x)); }
+double get_double(std::istream& in) { return std::strtod(get_string(in).c_str(), nullptr); }
+
+void put(std::ostream& out, const Violation& v) {
+  put(out, v.failure);
+  put(out, v.amount);
+  put(out, v.detail);
+}
+Violation get_violation(std::istream& in) {
+  Violation v;
+  v.failure = get_string(in);
+  v.amount = get_double(in);
+  v.detail = get_string(in);
+  return v;
+}
+
 std::string to_text(const ChunkResult& result) {
   std::ostringstream out;
   for (const std::uint64_t count : result.tried) out << count << ' ';
-  out << result.seconds << ' ' << result.broken.size() << ' ';
-  for (const Broken& b : result.broken) {
-    out << b.configuration << ' ' << b.law << ' ';
-    put(out, fmt::format("{:a}", b.violation.amount));
-    put(out, b.violation.failure);
-    put(out, b.violation.detail);
-    put(out, b.features);
+  out << result.seconds << ' ' << result.suspects.size() << ' ';
+  for (const Suspect& s : result.suspects) {
+    out << s.configuration << ' ' << s.law << ' ';
+    put(out, s.violation);
+    put(out, s.features);
   }
   return out.str();
 }
 
-ChunkResult from_text(const std::string& text, std::size_t laws) {
+ChunkResult chunk_result(const std::string& text, std::size_t laws) {
   ChunkResult result{std::vector<std::uint64_t>(laws), {}, 0};
   std::istringstream in(text);
   for (std::uint64_t& count : result.tried) in >> count;
   std::size_t count = 0;
   in >> result.seconds >> count;
   for (std::size_t i = 0; i < count; ++i) {
-    Broken b{};
-    in >> b.configuration >> b.law;
-    b.violation.amount = std::strtod(get_string(in).c_str(), nullptr);
-    b.violation.failure = get_string(in);
-    b.violation.detail = get_string(in);
-    b.features = get_string(in);
-    result.broken.push_back(std::move(b));
+    Suspect s{};
+    in >> s.configuration >> s.law;
+    s.violation = get_violation(in);
+    s.features = get_string(in);
+    result.suspects.push_back(std::move(s));
   }
   return result;
 }
 
-std::vector<ChunkResult> tried(const std::vector<Chunk>& all, const CheckOptions& options,
-                               CandidateProcess& candidate,
-                               const std::function<void(std::uint64_t)>& done) {
-  std::vector<ChunkResult> results;
-  std::uint64_t count = 0;
-  if (options.workers <= 1) {
-    for (const Chunk& chunk : all) {
-      results.push_back(tried(chunk, options, candidate));
-      done(count += chunk.identities.size());
-    }
-    return results;
+std::string to_text(Configuration c) {
+  Numbers numbers = numbers_of(c);
+  std::ostringstream out;
+  for (const double* x : every_number(numbers)) put(out, *x);
+  return out.str();
+}
+
+/// `alike`: a configuration of the same pair.
+Configuration configuration(const std::string& text, const Configuration& alike) {
+  Numbers numbers = numbers_of(alike);
+  std::istringstream in(text);
+  for (double* x : every_number(numbers)) *x = get_double(in);
+  return configuration_of(numbers);
+}
+
+/// Runs task(i, candidate) for every i < count, in processes with a candidate of their own if there
+/// is more than one worker.
+std::vector<std::string> run(
+    std::size_t count, const CheckOptions& options, CandidateProcess& candidate,
+    const std::function<std::string(std::size_t, CandidateProcess&)>& task,
+    const std::function<std::string(std::size_t)>& name,
+    const std::function<void(std::size_t)>& done = [](std::size_t) {}) {
+  if (options.workers > 1) {
+    WorkerCandidates own({&candidate.candidate()}, options.bar.threshold, {});
+    return run_in_processes(
+        count, options.workers, [&](std::size_t i) { return task(i, own.get().front()); }, name,
+        done);
   }
-  for (const Chunk& chunk : all) count += chunk.identities.size();
-  WorkerCandidates own({&candidate.candidate()}, options.bar.threshold, {});
-  const auto texts = run_in_processes(
-      all.size(), options.workers,
-      [&](std::size_t i) { return to_text(tried(all[i], options, own.get().front())); },
-      [&](std::size_t i) { return to_string(all[i].identities.front()); },
-      [&](std::size_t finished) { done(std::min<std::uint64_t>(finished * max_chunk, count)); });
-  for (const std::string& text : texts) results.push_back(from_text(text, options.laws.size()));
+  std::vector<std::string> results;
+  for (std::size_t i = 0; i < count; ++i) {
+    results.push_back(task(i, candidate));
+    done(i + 1);
+  }
   return results;
+}
+
+/// A run's failures, before they are simplified.
+struct Found {
+  const Law* law;
+  Identity identity;
+  Violation violation;
+  std::string features;
+  bool is_doubtful;  ///< the law "memory" is broken in its chunk, or a failure of its kind is none
+
+  auto kind() const { return std::tuple(identity.pair, law, violation.failure, features); }
+};
+using Kind = decltype(std::declval<Found>().kind());
+
+/// The places of each kind's failures.
+std::map<Kind, std::vector<std::size_t>> by_kind(const std::vector<Found>& found) {
+  std::map<Kind, std::vector<std::size_t>> places;
+  for (std::size_t i = 0; i < found.size(); ++i) places[found[i].kind()].push_back(i);
+  return places;
+}
+
+std::vector<Found> found(const std::vector<Chunk>& all, const std::vector<ChunkResult>& results,
+                         const CheckOptions& options) {
+  std::vector<Found> result;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const auto& suspects = results[i].suspects;
+    const bool remembers = std::any_of(suspects.begin(), suspects.end(), [&](const Suspect& s) {
+      return options.laws[s.law]->name == "memory";
+    });
+    for (const Suspect& s : suspects) {
+      result.push_back({options.laws[s.law], all[i].identities[s.configuration], s.violation,
+                        s.features, remembers});
+    }
+  }
+  return result;
+}
+
+/// Of each kind so many are asked again alone, the first and the last among them.
+constexpr std::size_t asked_again_of_kind = 8;
+
+std::vector<std::size_t> sample(const std::vector<std::size_t>& places) {
+  if (places.size() <= asked_again_of_kind) return places;
+  std::vector<std::size_t> result;
+  for (std::size_t i = 0; i < asked_again_of_kind; ++i) {
+    result.push_back(places[i * (places.size() - 1) / (asked_again_of_kind - 1)]);
+  }
+  return result;
+}
+
+/// Asks those at `places` again, each by its law alone in a session of its own. Absent: it holds.
+std::vector<std::optional<Violation>> asked_again(const std::vector<Found>& all,
+                                                  const std::vector<std::size_t>& places,
+                                                  const CheckOptions& options,
+                                                  CandidateProcess& candidate) {
+  const auto texts = run(
+      places.size(), options, candidate,
+      [&](std::size_t i, CandidateProcess& asked) {
+        const Found& f = all[places[i]];
+        const auto v = broken(*f.law, make_configuration(f.identity), asked, options.bar);
+        std::ostringstream out;
+        if (v) put(out, *v);
+        return out.str();
+      },
+      [&](std::size_t i) { return to_string(all[places[i]].identity); });
+  std::vector<std::optional<Violation>> result;
+  for (const std::string& text : texts) {
+    std::istringstream in(text);
+    result.push_back(text.empty() ? std::nullopt : std::optional(get_violation(in)));
+  }
+  return result;
+}
+
+/// Drops those that fail in the session of their chunk alone. A candidate whose answers do not
+/// depend on earlier questions has none, so that a sample of each kind is asked again; all of a
+/// kind are if one of the sample does not fail alike, and all of a chunk that breaks "memory".
+void drop_unconfirmed(std::vector<Found>& all, const CheckOptions& options,
+                      CandidateProcess& candidate) {
+  const auto kinds = by_kind(all);
+  std::vector<std::optional<Violation>> verdicts(all.size());
+  std::vector<bool> is_asked(all.size());
+  const auto ask = [&](const std::vector<std::size_t>& places) {
+    const auto answers = asked_again(all, places, options, candidate);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      is_asked[places[i]] = true;
+      verdicts[places[i]] = answers[i];
+    }
+  };
+  std::set<std::size_t> places;
+  for (const auto& [kind, of_kind] : kinds) {
+    for (const std::size_t i : sample(of_kind)) places.insert(i);
+    for (const std::size_t i : of_kind) {
+      if (all[i].is_doubtful) places.insert(i);
+    }
+  }
+  ask({places.begin(), places.end()});
+  std::vector<std::size_t> others;
+  for (const auto& [kind, of_kind] : kinds) {
+    const bool is_trusted = std::all_of(of_kind.begin(), of_kind.end(), [&](std::size_t i) {
+      return !is_asked[i] || (verdicts[i] && verdicts[i]->failure == all[i].violation.failure);
+    });
+    if (is_trusted) continue;
+    for (const std::size_t i : of_kind) {
+      if (!is_asked[i]) others.push_back(i);
+    }
+  }
+  ask(others);
+  std::vector<Found> confirmed;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (is_asked[i] && !verdicts[i]) continue;
+    if (is_asked[i]) all[i].violation = *verdicts[i];
+    confirmed.push_back(std::move(all[i]));
+  }
+  all = std::move(confirmed);
 }
 
 /// How hard a failure is simplified: the first of its name, which is shown; and one of other
 /// features, of which there may be a hundred.
 constexpr int trials_of_first = 500, trials_of_others = 100;
 
-Failure simplest(const Law& law, const Identity& identity, const Violation& violation,
-                 const std::string& features, int max_trials, CandidateProcess& candidate,
-                 const Bar& bar) {
-  const auto fails_alike = [&](const Configuration& c) {
-    const auto v = broken(law, c, candidate, bar);
-    return v && v->failure == violation.failure &&
-           (features.empty() || meeting_features(c) == features);
+Configuration simplest(const Found& f, int max_trials, CandidateProcess& candidate,
+                       const Bar& bar) {
+  const auto fails_alike = [&](const std::optional<Violation>& v, const Configuration& c) {
+    return v && v->failure == f.violation.failure &&
+           (f.features.empty() || meeting_features(c) == f.features);
   };
-  const Configuration c = simplified(make_configuration(identity), fails_alike, max_trials);
-  const Violation of_simplest = broken(law, c, candidate, bar).value_or(violation);
+  // All trials in one session; what it finds has to fail alone.
   candidate.ask_within(bar.threshold);
-  const Answer answer = candidate.answers({&c, 1}).front();
-  return {law.name,
-          candidate.candidate().name,
-          candidate.candidate().version,
-          to_string(identity),
-          c,
-          of_simplest,
-          bar,
-          answer,
-          score(c, oracle::truth(c), answer, bar),
-          features};
+  const Configuration met = make_configuration(f.identity);
+  const Law* const law[] = {f.law};
+  Configuration simple = simplified(
+      met,
+      [&](const Configuration& c) {
+        return fails_alike(broken_in_session(law, c, candidate, bar).front(), c);
+      },
+      max_trials);
+  if (fails_alike(broken(*f.law, simple, candidate, bar), simple)) return simple;
+  return simplified(
+      met,
+      [&](const Configuration& c) { return fails_alike(broken(*f.law, c, candidate, bar), c); },
+      max_trials);
 }
 
-/// Adds what a chunk has broken; simplifies what failed first.
-void add(const Chunk& chunk, const ChunkResult& of_chunk, const CheckOptions& options,
-         CandidateProcess& candidate, std::span<LawResult> results) {
-  for (std::size_t law = 0; law < results.size(); ++law) {
-    results[law].tried += of_chunk.tried[law];
-    results[law].seconds += of_chunk.seconds / static_cast<double>(results.size());
+Failure failure(const Found& f, const Configuration& simple, CandidateProcess& candidate,
+                const Bar& bar) {
+  const Violation violation = broken(*f.law, simple, candidate, bar).value_or(f.violation);
+  candidate.ask_within(bar.threshold);
+  const Answer answer = candidate.answers({&simple, 1}).front();
+  return {f.law->name,
+          candidate.candidate().name,
+          candidate.candidate().version,
+          to_string(f.identity),
+          simple,
+          violation,
+          bar,
+          answer,
+          score(simple, oracle::truth(simple), answer, bar),
+          f.features};
+}
+
+/// Simplifies the first of each kind, and counts the others.
+std::vector<Failure> simplified(const std::vector<Found>& all, const CheckOptions& options,
+                                CandidateProcess& candidate) {
+  std::set<std::tuple<Pair, const Law*, std::string>> names;
+  std::set<Kind> kinds;
+  std::vector<std::pair<const Found*, int>> first;  // with its number of trials
+  for (const Found& f : all) {
+    if (!kinds.insert(f.kind()).second) continue;
+    const bool is_first_of_name =
+        names.insert({f.identity.pair, f.law, f.violation.failure}).second;
+    first.emplace_back(&f, is_first_of_name ? trials_of_first : trials_of_others);
   }
-  for (const Broken& b : of_chunk.broken) {
-    LawResult& result = results[b.law];
-    ++result.broken;
-    const bool is_first = result.counts[b.violation.failure]++ == 0;
-    const auto alike =
-        std::find_if(result.failures.begin(), result.failures.end(), [&](const Failure& f) {
-          return f.violation.failure == b.violation.failure && f.features == b.features;
-        });
-    if (alike != result.failures.end()) {
-      ++alike->met;
-      continue;
-    }
-    result.failures.push_back(simplest(*result.law, chunk.identities[b.configuration], b.violation,
-                                       b.features, is_first ? trials_of_first : trials_of_others,
-                                       candidate, options.bar));
+  const auto texts = run(
+      first.size(), options, candidate,
+      [&](std::size_t i, CandidateProcess& asked) {
+        return to_text(simplest(*first[i].first, first[i].second, asked, options.bar));
+      },
+      [&](std::size_t i) { return to_string(first[i].first->identity); });
+  const auto places = by_kind(all);
+  std::vector<Failure> result;
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    const Found& f = *first[i].first;
+    result.push_back(failure(f, configuration(texts[i], make_configuration(f.identity)), candidate,
+                             options.bar));
+    result.back().met = places.at(f.kind()).size();
   }
+  return result;
 }
 
 }  // namespace
@@ -202,104 +360,48 @@ std::vector<LawResult> check(CandidateProcess& candidate, const CheckOptions& op
   const std::vector<Chunk> all = chunks(options);
   std::uint64_t count = 0;
   for (const Chunk& chunk : all) count += chunk.identities.size();
-  const std::vector<ChunkResult> of_chunks =
-      tried(all, options, candidate, [&](std::uint64_t done) { progress(done, count); });
+  const auto texts = run(
+      all.size(), options, candidate,
+      [&](std::size_t i, CandidateProcess& asked) {
+        return to_text(tried(all[i], options, asked));
+      },
+      [&](std::size_t i) { return to_string(all[i].identities.front()); },
+      [&](std::size_t done) { progress(std::min<std::uint64_t>(done * max_chunk, count), count); });
+  std::vector<ChunkResult> of_chunks;
+  for (const std::string& text : texts) {
+    of_chunks.push_back(chunk_result(text, options.laws.size()));
+  }
+  std::vector<Found> failures = found(all, of_chunks, options);
+  drop_unconfirmed(failures, options, candidate);
 
   std::vector<LawResult> results;
+  const auto result_of = [&](Pair pair, const Law* law) -> LawResult& {
+    return *std::find_if(results.begin(), results.end(),
+                         [&](const LawResult& r) { return r.pair == pair && r.law == law; });
+  };
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (i == 0 || all[i].pair != all[i - 1].pair) {
       for (const Law* law : options.laws) results.push_back({law, all[i].pair, 0, 0, {}, {}, 0});
     }
-    add(all[i], of_chunks[i], options, candidate, std::span(results).last(options.laws.size()));
+    const auto of_pair = std::span(results).last(options.laws.size());
+    for (std::size_t law = 0; law < of_pair.size(); ++law) {
+      of_pair[law].tried += of_chunks[i].tried[law];
+      of_pair[law].seconds += of_chunks[i].seconds / static_cast<double>(of_pair.size());
+    }
+  }
+  for (const Found& f : failures) {
+    LawResult& result = result_of(f.identity.pair, f.law);
+    ++result.broken;
+    ++result.counts[f.violation.failure];
+  }
+  for (Failure& f : simplified(failures, options, candidate)) {
+    result_of(pair_of(f.configuration), &find_law(f.law)).failures.push_back(std::move(f));
   }
   std::erase_if(results, [](const LawResult& result) { return result.tried == 0; });
   for (LawResult& result : results) {
     std::sort(result.failures.begin(), result.failures.end(), [](const auto& a, const auto& b) {
       return complexity(a.configuration) < complexity(b.configuration);
     });
-  }
-  return results;
-}
-
-namespace {
-
-constexpr double aligned = 1e-6;  // radians
-
-/// The unit normal in a body's frame.
-Vec3 in_frame(const Pose& pose, const Vec3& n) { return pose.rotation().transpose() * n; }
-
-bool is_along(const Vec3& local) { return std::hypot(local.x(), local.y()) < aligned; }
-bool is_across(const Vec3& local) { return std::abs(local.z()) < aligned; }
-
-struct FeatureAlong {
-  Vec3 n;  // in the body's frame
-
-  std::string operator()(const Cylinder&) const {
-    return is_along(n) ? "cap" : is_across(n) ? "side" : "rim";
-  }
-  std::string operator()(const Capsule&) const { return is_across(n) ? "side" : "end"; }
-  std::string operator()(const Sphere&) const { return "sphere"; }
-  std::string operator()(const Plane&) const { return "plane"; }
-  std::string operator()(const Box&) const {
-    switch ((n.array().abs() < aligned).count()) {
-      case 2:
-        return "face";
-      case 1:
-        return "edge";
-      default:
-        return "vertex";
-    }
-  }
-};
-
-}  // namespace
-
-std::string meeting_features(const Configuration& c) {
-  const oracle::Truth truth = oracle::truth(c);
-  if (truth.ties != oracle::Ties::unique) return "tied";
-  const Vec3& n = truth.normals.front().n;
-  return FeatureAlong{in_frame(c.pose_a, n)}(c.a) + '-' +
-         std::visit(FeatureAlong{in_frame(c.pose_b, n)}, c.b);
-}
-
-bool Cause::operator<(const Cause& other) const {
-  return std::tie(law, pair, features, failure) <
-         std::tie(other.law, other.pair, other.features, other.failure);
-}
-
-Cause cause_of(const Failure& f) {
-  const std::string features = f.features.empty() ? meeting_features(f.configuration) : f.features;
-  return {f.law, pair_of(f.configuration), features, f.violation.failure};
-}
-
-std::string to_string(const Cause& cause) {
-  return cause.law + ", " + pair_name(cause.pair) + ", " + cause.features + ", " + cause.failure;
-}
-
-std::vector<Failure> in_order(const std::vector<LawResult>& results) {
-  std::vector<Failure> all;
-  for (const LawResult& result : results) {
-    all.insert(all.end(), result.failures.begin(), result.failures.end());
-  }
-  const auto rank = [](const Failure& f) {
-    return std::tuple(&find_law(f.law), ~f.met, complexity(f.configuration));
-  };
-  std::stable_sort(all.begin(), all.end(),
-                   [&](const Failure& a, const Failure& b) { return rank(a) < rank(b); });
-  return all;
-}
-
-std::vector<LawResult> new_ones(std::vector<LawResult> results, const std::vector<Failure>& known) {
-  std::set<Cause> causes;
-  for (const Failure& failure : known) causes.insert(cause_of(failure));
-  for (LawResult& result : results) {
-    result.broken = 0;
-    result.counts.clear();
-    std::erase_if(result.failures, [&](const Failure& f) { return causes.contains(cause_of(f)); });
-    for (const Failure& f : result.failures) {
-      result.broken += f.met;
-      result.counts[f.violation.failure] += f.met;
-    }
   }
   return results;
 }

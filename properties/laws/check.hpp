@@ -51,8 +51,10 @@ struct LawResult {
 
 /// Tries every law on every configuration and simplifies the first failure of each name, or of each
 /// name and features, keeping both. The configurations of a chunk are asked in one session of
-/// `candidate`, or of a worker's own process; what is said to fail fails in a session of its own,
-/// too. `progress` is told how many configurations are done, of how many.
+/// `candidate`, or of a worker's own process. What is shown fails in a session of its own, too, and
+/// so does a sample of what is counted; all of it where the sample or the law "memory" says that
+/// answers depend on earlier questions. `progress` is told how many configurations are done, of how
+/// many.
 std::vector<LawResult> check(CandidateProcess& candidate, const CheckOptions& options,
                              const std::function<void(std::uint64_t, std::uint64_t)>& progress);
 

@@ -59,17 +59,17 @@ const Law& find_law(std::string_view name);
 /// All failures that a law or a score can report.
 const std::vector<std::string>& all_failures();
 
-/// Asks one candidate and judges its answers. None if the law holds, does not apply, or the
-/// candidate has no routine for the pair.
+/// Asks one candidate in a session of its own and judges its answers. None if the law holds, does
+/// not apply, or the candidate has no routine for the pair.
 std::optional<Violation> broken(const Law& law, const Configuration& configuration,
                                 CandidateProcess& candidate, const Bar& bar);
 
-/// The same of several laws, in their order, at a fraction of the cost: the questions of all laws
-/// are asked together, in the candidate's present session. What seems to break a law is asked again
-/// by that law alone, in sessions of its own, and only that counts.
-std::vector<std::optional<Violation>> broken(std::span<const Law* const> laws,
-                                             const Configuration& configuration,
-                                             CandidateProcess& candidate, const Bar& bar);
+/// Judges several laws, in their order, at a fraction of the cost: the questions of all of them are
+/// asked together in the candidate's present session, so that what was asked before may matter.
+std::vector<std::optional<Violation>> broken_in_session(std::span<const Law* const> laws,
+                                                        const Configuration& configuration,
+                                                        CandidateProcess& candidate,
+                                                        const Bar& bar);
 
 /// The truth of a configuration. The last few are remembered, on each thread: laws ask for the
 /// same ones.

@@ -464,40 +464,42 @@ std::optional<Violation> broken(const Law& law, const Configuration& c, Candidat
   return judged(law, c, candidate, std::move(answers), bar);
 }
 
-std::vector<std::optional<Violation>> broken(std::span<const Law* const> laws,
-                                             const Configuration& c, CandidateProcess& candidate,
-                                             const Bar& given) {
+std::vector<std::optional<Violation>> broken_in_session(std::span<const Law* const> laws,
+                                                        const Configuration& c,
+                                                        CandidateProcess& candidate,
+                                                        const Bar& given) {
   std::vector<std::optional<Violation>> result(laws.size());
-  // The configuration itself is asked once, for all laws that ask within the same threshold.
-  std::vector<Configuration> asked{c};
+  candidate.go_on_within(given.threshold);
+  const Answer first = candidate.answer(c);
+  if (first.status == TS_UNSUPPORTED) return result;
+  // Where there is no answer to judge, the other questions could only time out or crash as well.
+  const bool is_answered = !judge_answers(c, {&first, 1}, given);
+  std::vector<Configuration> asked;
   std::vector<std::size_t> counts(laws.size());
   for (std::size_t i = 0; i < laws.size(); ++i) {
-    if (!laws[i]->applies(c) || laws[i]->threshold) continue;
+    if (!is_answered || !laws[i]->applies(c) || laws[i]->threshold) continue;
     for (Configuration& question : laws[i]->questions(c, given)) {
       asked.push_back(std::move(question));
       ++counts[i];
     }
   }
-  candidate.go_on_within(given.threshold);
   const std::vector<Answer> answers = candidate.answer(asked);
-  if (answers[0].status == TS_UNSUPPORTED) return result;
-  auto next = answers.begin() + 1;
+  auto next = answers.begin();
   for (std::size_t i = 0; i < laws.size(); ++i) {
     const Law& law = *laws[i];
     if (!law.applies(c)) continue;
     const Bar bar = bar_of(law, c, given);
     std::vector<Answer> own;
-    if (law.threshold) {
+    if (law.threshold && is_answered) {
       candidate.go_on_within(bar.threshold);
       own = candidate.answer(asked_by(law, c, bar));
     } else {
       const auto last = next + static_cast<std::ptrdiff_t>(counts[i]);
-      own.push_back(answers[0]);
+      own.push_back(first);
       own.insert(own.end(), next, last);
       next = last;
     }
-    if (judged(law, c, candidate, std::move(own), bar))
-      result[i] = broken(law, c, candidate, given);
+    result[i] = judged(law, c, candidate, std::move(own), bar);
   }
   return result;
 }

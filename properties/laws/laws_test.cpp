@@ -251,7 +251,7 @@ TEST(Check, LawsFindTogetherWhatEachFindsAlone) {
     for (const Pair pair : all_pairs) {
       for (std::uint64_t i = 0; i < 4; ++i) {
         const Configuration c = make_configuration({pair, "general+shallow", 3, i});
-        const auto together = broken(laws, c, candidate, {});
+        const auto together = broken_in_session(laws, c, candidate, {});
         for (std::size_t law = 0; law < laws.size(); ++law) {
           const auto alone = broken(*laws[law], c, candidate, {});
           EXPECT_EQ(together[law] ? together[law]->failure : "", alone ? alone->failure : "")
@@ -316,6 +316,42 @@ TEST(Check, ACrashIsAFailureOfTheLawAnswersAlone) {
     const auto v = broken(law, c, crashing, {});
     EXPECT_EQ(v.has_value(), law.name == "answers") << law.name;
     EXPECT_TRUE(!v || v->failure == "crashed");
+  }
+}
+
+// A session that has been asked forty questions breaks every law; a new one does not.
+TEST(Check, AFailureThatNeedsEarlierQuestionsIsNone) {
+  add_sabotage();
+  CandidateProcess tiring(find_candidate("tiring"), 0);
+  CheckOptions options;
+  options.laws = {&find_law("agreement"), &find_law("translation")};
+  options.pairs = {Pair::plane};
+  options.classes = {"general+shallow"};
+  options.count = 40;
+  int seen = 0;
+  for (std::uint64_t i = 0; i < options.count; ++i) {
+    const Configuration c = make_configuration({Pair::plane, "general+shallow", 1, i});
+    for (const auto& v : broken_in_session(options.laws, c, tiring, options.bar))
+      seen += v.has_value();
+  }
+  EXPECT_GT(seen, 5);
+  for (const LawResult& result : check(tiring, options, [](auto, auto) {})) {
+    EXPECT_EQ(result.tried, options.count);
+    EXPECT_EQ(result.broken, 0u) << result.law->name;
+    EXPECT_TRUE(result.failures.empty()) << result.law->name;
+  }
+}
+
+// Where a configuration is not answered, nothing else is asked about it.
+TEST(Check, ACrashEndsTheQuestionsAboutAConfiguration) {
+  add_sabotage();
+  CandidateProcess crashing(find_candidate("misdeed:2"), 0, {10, 256});
+  std::vector<const Law*> laws;
+  for (const Law& law : all_laws()) laws.push_back(&law);
+  const Configuration c = make_configuration({Pair::sphere, "general-shallow", 1, 0});
+  const auto violations = broken_in_session(laws, c, crashing, {});
+  for (std::size_t i = 0; i < laws.size(); ++i) {
+    EXPECT_EQ(violations[i].has_value(), laws[i]->name == "answers") << laws[i]->name;
   }
 }
 

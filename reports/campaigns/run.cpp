@@ -131,7 +131,8 @@ bool run_shard(const Campaign& campaign, ShardState& state, const std::filesyste
             checkpoint();
           }
         },
-        go_on);
+        go_on,
+        [&] { state.tallies = {}; });  // of a hundred megabytes, in which workers have no part
   } catch (const InvalidInput&) {
     throw;  // the file cannot be written
   } catch (const std::exception&) {

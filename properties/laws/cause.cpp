@@ -1,0 +1,96 @@
+// Causes of failures: what tells them apart, and their order.
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <tuple>
+#include <utility>
+
+#include "oracle/truth.hpp"
+#include "properties/laws/check.hpp"
+#include "properties/simplify.hpp"
+
+namespace touchstone {
+namespace {
+
+constexpr double aligned = 1e-6;  // radians
+
+/// The unit normal in a body's frame.
+Vec3 in_frame(const Pose& pose, const Vec3& n) { return pose.rotation().transpose() * n; }
+
+bool is_along(const Vec3& local) { return std::hypot(local.x(), local.y()) < aligned; }
+bool is_across(const Vec3& local) { return std::abs(local.z()) < aligned; }
+
+struct FeatureAlong {
+  Vec3 n;  // in the body's frame
+
+  std::string operator()(const Cylinder&) const {
+    return is_along(n) ? "cap" : is_across(n) ? "side" : "rim";
+  }
+  std::string operator()(const Capsule&) const { return is_across(n) ? "side" : "end"; }
+  std::string operator()(const Sphere&) const { return "sphere"; }
+  std::string operator()(const Plane&) const { return "plane"; }
+  std::string operator()(const Box&) const {
+    switch ((n.array().abs() < aligned).count()) {
+      case 2:
+        return "face";
+      case 1:
+        return "edge";
+      default:
+        return "vertex";
+    }
+  }
+};
+
+}  // namespace
+
+std::string meeting_features(const Configuration& c) {
+  const oracle::Truth truth = oracle::truth(c);
+  if (truth.ties != oracle::Ties::unique) return "tied";
+  const Vec3& n = truth.normals.front().n;
+  return FeatureAlong{in_frame(c.pose_a, n)}(c.a) + '-' +
+         std::visit(FeatureAlong{in_frame(c.pose_b, n)}, c.b);
+}
+
+bool Cause::operator<(const Cause& other) const {
+  return std::tie(law, pair, features, failure) <
+         std::tie(other.law, other.pair, other.features, other.failure);
+}
+
+Cause cause_of(const Failure& f) {
+  const std::string features = f.features.empty() ? meeting_features(f.configuration) : f.features;
+  return {f.law, pair_of(f.configuration), features, f.violation.failure};
+}
+
+std::string to_string(const Cause& cause) {
+  return cause.law + ", " + pair_name(cause.pair) + ", " + cause.features + ", " + cause.failure;
+}
+
+std::vector<Failure> in_order(const std::vector<LawResult>& results) {
+  std::vector<Failure> all;
+  for (const LawResult& result : results) {
+    all.insert(all.end(), result.failures.begin(), result.failures.end());
+  }
+  const auto rank = [](const Failure& f) {
+    return std::tuple(&find_law(f.law), ~f.met, complexity(f.configuration));
+  };
+  std::stable_sort(all.begin(), all.end(),
+                   [&](const Failure& a, const Failure& b) { return rank(a) < rank(b); });
+  return all;
+}
+
+std::vector<LawResult> new_ones(std::vector<LawResult> results, const std::vector<Failure>& known) {
+  std::set<Cause> causes;
+  for (const Failure& failure : known) causes.insert(cause_of(failure));
+  for (LawResult& result : results) {
+    result.broken = 0;
+    result.counts.clear();
+    std::erase_if(result.failures, [&](const Failure& f) { return causes.contains(cause_of(f)); });
+    for (const Failure& f : result.failures) {
+      result.broken += f.met;
+      result.counts[f.violation.failure] += f.met;
+    }
+  }
+  return results;
+}
+
+}  // namespace touchstone
