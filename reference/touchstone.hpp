@@ -1,8 +1,9 @@
 #pragma once
 
 // Everything a user needs: shapes, poses, and for a cylinder against each other shape the three
-// questions `overlaps`, `contact` and `signed_distance`.
+// questions `overlaps`, `contact` and `signed_distance`, of one pair of poses or of many.
 
+#include "batch.hpp"
 #include "contact.hpp"
 #include "cylinder_box.hpp"
 #include "cylinder_capsule.hpp"

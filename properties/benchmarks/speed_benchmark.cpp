@@ -3,11 +3,20 @@
 // quiet machine,
 //
 //   build/release/properties/benchmarks/speed_benchmark --benchmark_filter=box
+//
+// "mixed" is what a broad phase finds: one pair of shapes in poses of which 83% are apart, asked
+// about one by one and in a batch. Its figures are per pair of poses:
+//
+//   build/release/properties/benchmarks/speed_benchmark --benchmark_filter=mixed
+//       --benchmark_repetitions=9 --benchmark_enable_random_interleaving=true
 #include <benchmark/benchmark.h>
+#include <memory>
+#include <random>
 #include <string>
 #include <vector>
 
 #include "properties/identity.hpp"
+#include "reference/batch.hpp"
 #include "reference/contact_of.hpp"
 #include "reference/cylinder_box.hpp"
 #include "reference/cylinder_capsule.hpp"
@@ -66,7 +75,84 @@ void add(Pair pair, const std::string& pose_class) {
   add_question("overlaps", [](const auto&... bodies) { return overlaps(bodies...); });
 }
 
+/// Poses of both bodies, at random within the reach of one another's bounding spheres.
+struct MixedPoses {
+  std::vector<Pose> a, b;
+
+  template <class Other>
+  MixedPoses(const Cylinder& shape_a, const Other& shape_b) {
+    constexpr auto overlapping = static_cast<std::uint64_t>(0.17 * poses);
+    std::mt19937_64 random(1);
+    std::normal_distribution<double> normal;
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    const auto turn = [&] {
+      const double w = normal(random), x = normal(random), y = normal(random);
+      return Eigen::Quaterniond(w, x, y, normal(random));
+    };
+    const double reach = std::hypot(shape_a.radius(), shape_a.half_length()) + 0.9;
+    for (std::uint64_t met = 0, apart = 0; met + apart < poses;) {
+      const double x = uniform(random), y = uniform(random), z = uniform(random);
+      if (Vec3(x, y, z).norm() > 1) continue;
+      const Pose pose_a(reach * Vec3(x, y, z), turn()), pose_b(Vec3::Zero(), turn());
+      std::uint64_t& count = overlaps(shape_a, pose_a, shape_b, pose_b) ? met : apart;
+      if (count >= (&count == &met ? overlapping : poses - overlapping)) continue;
+      ++count;
+      a.push_back(pose_a), b.push_back(pose_b);
+    }
+  }
+};
+
+/// Each iteration answers all poses; the time is divided by their number.
+template <class Ask>
+void add_mixed_question(const std::string& name, Ask ask) {
+  benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) {
+    for (auto _ : state) ask();
+    state.counters["per_pair"] = benchmark::Counter(
+        static_cast<double>(poses),
+        benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  });
+}
+
+/// Bodies of about one size.
+template <class Other>
+void add_mixed(const char* pair, const Other& b) {
+  const Cylinder a(0.5, 0.6);
+  const auto all = std::make_shared<MixedPoses>(a, b);
+  const auto distances = std::make_shared<std::vector<SignedDistance>>(poses);
+  const auto contacts = std::make_shared<std::vector<Contact>>(poses);
+  const auto overlap = std::shared_ptr<bool[]>(new bool[poses]);
+  const auto one_by_one = [=](const char* question, auto ask) {
+    add_mixed_question(std::string(pair) + "/mixed/" + question + "/single", [=] {
+      for (std::size_t i = 0; i < poses; ++i) ask(i, all->a[i], all->b[i]);
+      benchmark::ClobberMemory();
+    });
+  };
+  const auto batch = [=](const char* question, auto ask) {
+    add_mixed_question(std::string(pair) + "/mixed/" + question + "/batch", [=] {
+      ask();
+      benchmark::ClobberMemory();
+    });
+  };
+  one_by_one("signed_distance", [=](std::size_t i, const Pose& pose_a, const Pose& pose_b) {
+    (*distances)[i] = signed_distance(a, pose_a, b, pose_b);
+  });
+  batch("signed_distance", [=] { signed_distance(a, all->a, b, all->b, *distances); });
+  one_by_one("overlaps", [=](std::size_t i, const Pose& pose_a, const Pose& pose_b) {
+    overlap[i] = overlaps(a, pose_a, b, pose_b);
+  });
+  batch("overlaps", [=] { overlaps(a, all->a, b, all->b, std::span(overlap.get(), poses)); });
+  one_by_one("contact", [=](std::size_t i, const Pose& pose_a, const Pose& pose_b) {
+    (*contacts)[i] = contact(a, pose_a, b, pose_b, 0);
+  });
+  batch("contact", [=] { contact(a, all->a, b, all->b, 0, *contacts); });
+}
+
 void add_all() {
+  add_mixed("cylinder-plane", Plane(Vec3(0, 0.6, 0.8), -0.1));
+  add_mixed("cylinder-sphere", Sphere(0.6));
+  add_mixed("cylinder-capsule", Capsule(0.4, 0.5));
+  add_mixed("cylinder-cylinder", Cylinder(0.4, 0.8));
+  add_mixed("cylinder-box", Box(Vec3(0.6, 0.5, 0.4)));
   for (const Pair pair : all_pairs) {
     add(pair, "apart");
     for (const std::string& pose_class : pose_classes(pair)) {
