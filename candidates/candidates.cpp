@@ -26,10 +26,12 @@ constexpr struct {
     {"ode", "libode-dev"},       {"fcl", "libfcl-dev"},       {"libccd", "libccd-dev"},
     {"mujoco", "libmujoco-dev"}, {"simplified", ""},          {"box-parts", ""}};
 
-/// Engines whose cylinders are Touchstone's (reference/engines): like those from npm, they are part
-/// of a report only if they are named, and nothing is loaded before.
-constexpr const char* cured_plugins[] = {"bullet+touchstone", "bullet-float+touchstone",
-                                         "ode+touchstone", "mujoco+touchstone"};
+/// Our routines in single precision, and engines whose cylinders are Touchstone's
+/// (reference/engines): like engines from npm, they are part of a report only if they are named,
+/// and nothing is loaded before.
+constexpr const char* named_plugins[] = {"reference-float", "bullet+touchstone",
+                                         "bullet-float+touchstone", "ode+touchstone",
+                                         "mujoco+touchstone"};
 
 /// The folder of this code's file: of the program or, in Python, of the module.
 std::filesystem::path own_folder() {
@@ -121,8 +123,8 @@ class Registry {
       return find_member(c, name, name.substr(colon + 1));
     }
     const std::string family(name.substr(0, colon));
-    if (const auto cured = cured_engines();
-        std::find(cured.begin(), cured.end(), family) != cured.end()) {
+    if (const auto named = named_candidates();
+        std::find(named.begin(), named.end(), family) != named.end()) {
       const std::filesystem::path file = standard_file(family);
       add(PluginProcess(file).candidates(), {"--candidates", family}, std::nullopt, false);
       return find(name);
@@ -137,8 +139,8 @@ class Registry {
       const auto is = [&](const Candidate* c) { return c->family == other; };
       return std::any_of(listed_.begin(), listed_.end(), is);
     };
-    for (const std::string& cured : cured_engines()) {
-      if (!is_listed(cured)) names += ", " + cured;
+    for (const std::string& named : named_candidates()) {
+      if (!is_listed(named)) names += ", " + named;
     }
     for (const NpmEngine& engine : npm_engines()) {
       // A command of one's own may have taken the name.
@@ -297,9 +299,9 @@ ts_shape_kind other_shape(Pair pair) {
 
 bool Candidate::has_routine_for(Pair pair) const { return supports[other_shape(pair)]; }
 
-std::vector<std::string> cured_engines() {
+std::vector<std::string> named_candidates() {
   std::vector<std::string> names;
-  for (const char* name : cured_plugins) {
+  for (const char* name : named_plugins) {
     if (std::filesystem::exists(standard_file(name))) names.emplace_back(name);
   }
   return names;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 
 #include "contact.hpp"
@@ -12,13 +13,13 @@ namespace touchstone {
 // answer, the same to the last bit as that of the function for one pair. `Other` is Plane, Sphere,
 // Capsule, Cylinder or Box.
 //
-// Nothing is allocated. All spans must have one length, which may be zero: else InvalidInput is
-// thrown and nothing written. Results must not overlap the poses.
+// Nothing is allocated. All spans must have the same length, which may be zero: else InvalidInput
+// is thrown and nothing written. Results must not overlap the poses.
 //
-// What that saves: where several pairs at once tell cheaply which bodies are apart by more than
-// asked for, `overlaps` and `contact` answer those and ask the function for one pair about the
-// others; spheres are answered so altogether. The signed distance of a capsule, cylinder or box has
-// nothing to leave out, and takes the same time as one by one. README.md has the figures.
+// What that saves: several pairs at once are asked whether they are apart by more than was asked
+// for, along the normals by which that mostly shows. Planes and spheres are answered so altogether;
+// cylinders and boxes that are apart by `overlaps` and `contact`. The rest, and all capsules, take
+// the same time as one by one. README.md has the figures.
 
 template <class Other>
 void signed_distance(const Cylinder& a, std::span<const Pose> poses_a, const Other& b,
@@ -33,16 +34,7 @@ void contact(const Cylinder& a, std::span<const Pose> poses_a, const Other& b,
              std::span<const Pose> poses_b, double contact_threshold, std::span<Contact> results,
              PointRange range = PointRange::near_deepest);
 
-// Of planes they stand in cylinder_plane.cpp.
-template <>
-void signed_distance(const Cylinder& a, std::span<const Pose> poses_a, const Plane& b,
-                     std::span<const Pose> poses_b, std::span<SignedDistance> results);
-template <>
-void overlaps(const Cylinder& a, std::span<const Pose> poses_a, const Plane& b,
-              std::span<const Pose> poses_b, std::span<bool> results);
-template <>
-void contact(const Cylinder& a, std::span<const Pose> poses_a, const Plane& b,
-             std::span<const Pose> poses_b, double contact_threshold, std::span<Contact> results,
-             PointRange range);
+/// Throws InvalidInput unless a batch has as many poses of B and results as poses of A.
+void check_lengths(std::size_t poses_a, std::size_t poses_b, std::size_t results);
 
 }  // namespace touchstone

@@ -1,12 +1,15 @@
 // A batch has the same bits as single pairs: in every pose class, hostile ones, at every distance
-// and threshold, at every length of a batch.
+// and threshold, at every length of a batch. And the same in single precision.
 #include "reference/batch.hpp"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <gtest/gtest.h>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -14,6 +17,7 @@
 #include "properties/identity.hpp"
 #include "reference/contact_of.hpp"
 #include "reference/invalid_input.hpp"
+#include "reference/single_precision.hpp"
 
 namespace touchstone {
 namespace {
@@ -210,6 +214,75 @@ TEST_P(Batch, RefusesSpansOfDifferentLengthsAndWritesNothing) {
   EXPECT_EQ(distances[0].value, 7);
   EXPECT_TRUE(overlap[0]);
   EXPECT_EQ(contacts[0].signed_distance, 7);
+}
+
+FloatPose to_float(const Pose& p) {
+  return FloatPose(p.position().cast<float>(), p.orientation().cast<float>());
+}
+template <class Answer>
+bool same_bytes(const Answer& x, const Answer& y) {
+  return std::memcmp(&x, &y, sizeof(Answer)) == 0;
+}
+bool same_bytes(const FloatContact& x, const FloatContact& y) {
+  return same_bytes(x.normal, y.normal) && same_bytes(x.signed_distance, y.signed_distance) &&
+         std::equal(x.points().begin(), x.points().end(), y.points().begin(), y.points().end(),
+                    same_bytes<FloatContactPoint>);
+}
+
+TEST_P(Batch, InFloatHasTheBitsOfSinglePairsAndThoseOfDoubleRounded) {
+  for (std::uint64_t k = 0; k < 50; ++k) {
+    const Configuration c = make_configuration({GetParam(), "general", 5, k});
+    const auto threshold = static_cast<float>(0.05 * smaller_size(c));
+    std::vector<FloatPose> poses_a, poses_b;
+    for (std::uint64_t i = 0; i < k; ++i) {
+      const Configuration other = make_configuration({GetParam(), "general", 7, i});
+      poses_a.push_back(to_float(other.pose_a)), poses_b.push_back(to_float(other.pose_b));
+    }
+    std::vector<FloatSignedDistance> distances(k);
+    std::vector<FloatContact> contacts(k);
+    const auto overlap = std::make_unique<bool[]>(k);
+    std::visit(
+        [&](const auto& b) {
+          signed_distance(c.a, poses_a, b, poses_b, distances);
+          overlaps(c.a, poses_a, b, poses_b, std::span(overlap.get(), k));
+          contact(c.a, poses_a, b, poses_b, threshold, contacts);
+          for (std::size_t i = 0; i < k; ++i) {
+            const FloatPose &pose_a = poses_a[i], &pose_b = poses_b[i];
+            const auto one = signed_distance(c.a, pose_a, b, pose_b);
+            ASSERT_TRUE(same_bytes(distances[i], one));
+            ASSERT_EQ(overlap[i], overlaps(c.a, pose_a, b, pose_b));
+            ASSERT_TRUE(same_bytes(contacts[i], contact(c.a, pose_a, b, pose_b, threshold)));
+            const auto exact = signed_distance(c.a, pose_a.in_double(), b, pose_b.in_double());
+            ASSERT_EQ(one.value, static_cast<float>(exact.value));
+            ASSERT_EQ(one.normal, Eigen::Vector3f(exact.normal.template cast<float>()));
+          }
+        },
+        c.b);
+  }
+}
+
+TEST(SinglePrecision, RefusesWhatNoPoseIs) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const Eigen::Quaternionf upright = Eigen::Quaternionf::Identity();
+  EXPECT_THROW(FloatPose({0, nan, 0}, upright), InvalidInput);
+  EXPECT_THROW(FloatPose({0, 0, 0}, {nan, 0, 0, 0}), InvalidInput);
+  EXPECT_THROW(FloatPose({0, 0, 0}, {0, 0, 0, 0}), InvalidInput);
+  EXPECT_EQ(FloatPose({1, 2, 3}, {0, 0, 2, 0}).in_double().position(), Vec3(1, 2, 3));
+}
+
+TEST(SinglePrecision, AnswersWhatOverflowsWithTheLargestFloat) {
+  const float most = std::numeric_limits<float>::max();
+  const FloatPose far({most, 0, 0}, Eigen::Quaternionf::Identity());
+  const FloatPose opposite({-most, 0, 0}, Eigen::Quaternionf::Identity());
+  EXPECT_EQ(signed_distance(Cylinder(1, 1), far, Sphere(1), opposite).value, most);
+}
+
+TEST(SinglePrecision, PassesThePreviousNormalOn) {
+  // The centres coincide: all radial normals tie.
+  const Eigen::Vector3f previous(0.6F, 0.8F, 0);
+  const FloatContact found =
+      contact(Cylinder(1, 3), FloatPose(), Cylinder(1, 3), FloatPose(), 0.0F, &previous);
+  EXPECT_LT((found.normal - previous).norm(), 1e-6F);
 }
 
 INSTANTIATE_TEST_SUITE_P(, Batch, testing::ValuesIn(all_pairs), [](const auto& pair) {

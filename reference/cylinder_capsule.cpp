@@ -7,7 +7,6 @@
 #include "curves.hpp"
 #include "folded_axes.hpp"
 #include "pair.hpp"
-#include "separations.hpp"
 
 // The capsule less its radius is a segment, so that the largest gap lies at one normal of five
 // kinds. In the frame of both axes each has a closed form, but for the segment over a rim, which is
@@ -122,20 +121,31 @@ StageResult largest_gap(const Folded& p, EarlyExit exit) {
   return best;
 }
 
-/// A normal with a clearance of clearly more than `stop_above`: what most bodies that are apart
-/// need, before they are folded. `d` is A's centre less B's.
+/// A normal with a clearance of clearly more than `stop_above`, of those along one axis and across
+/// both: what most bodies that are apart need, before they are folded. `d` is A's centre less B's.
 std::optional<SignedDistance> separation(const PosedCylinder& a, const PosedCapsule& b,
                                          const Vec3& d, double stop_above) {
-  const CapsuleClearances x(d, a.axis(), b.axis(), a.radius, a.half_length, b.radius, b.half_length,
-                            stop_above);
-  if (x.is_apart_along_axis()) {
-    if (x.gap1 > x.gap2) return SignedDistance{x.gap1, std::copysign(1, x.along1) * a.axis()};
-    return SignedDistance{x.gap2, std::copysign(1, x.along2) * b.axis()};
+  const auto u = a.axis(), v = b.axis();
+  // Component by component: Eigen would load in pairs what was just stored singly, which stalls.
+  const double x = u.y() * v.z() - u.z() * v.y(), y = u.z() * v.x() - u.x() * v.z();
+  const double z = u.x() * v.y() - u.y() * v.x();
+  const double c = std::abs(u.dot(v)), s = std::sqrt(x * x + y * y + z * z);
+  const double along1 = d.dot(u), along2 = d.dot(v), radii = a.radius + b.radius;
+  const double more =
+      stop_above + clear_part * (d.cwiseAbs().sum() + a.half_length + b.half_length + radii);
+  const double gap1 = std::abs(along1) - a.half_length - b.half_length * c - b.radius;
+  const double gap2 =
+      std::abs(along2) - a.half_length * c - a.radius * s - b.half_length - b.radius;
+  if (std::max(gap1, gap2) > more) {
+    if (gap1 > gap2) return SignedDistance{gap1, std::copysign(1, along1) * u};
+    return SignedDistance{gap2, std::copysign(1, along2) * v};
   }
-  if (x.is_apart_across()) {
-    const double scale = x.scale_across();
-    return SignedDistance{
-        x.gap_across(), Vec3(scale * x.product.x(), scale * x.product.y(), scale * x.product.z())};
+  // The product of nearly parallel axes has few digits left.
+  constexpr double few_digits = 0.1;
+  const double across = d.x() * x + d.y() * y + d.z() * z;
+  if (s > few_digits && std::abs(across) > (radii + more) * s) {
+    const double scale = std::copysign(1, across) / s;
+    return SignedDistance{std::abs(across) / s - radii, Vec3(scale * x, scale * y, scale * z)};
   }
   return std::nullopt;
 }

@@ -9,7 +9,6 @@
 #include "largest_gap.hpp"
 #include "pair.hpp"
 #include "rims.hpp"
-#include "separations.hpp"
 
 // The largest gap lies at one normal of four kinds. In the frame of both axes they are
 //

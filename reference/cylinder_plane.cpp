@@ -3,7 +3,6 @@
 #include <array>
 #include <cmath>
 
-#include "batch.hpp"
 #include "disc_layout.hpp"
 #include "facing_feature.hpp"
 #include "manifold.hpp"
@@ -100,35 +99,5 @@ class Routine {
 }  // namespace
 
 TOUCHSTONE_DEFINE_QUESTIONS(Plane)
-
-// Batches: the same in a loop, inlined. Vectors of several pairs take longer, 4.7 ns instead of
-// 3.7, because of the 24 numbers that have to be copied for each first.
-
-template <>
-void signed_distance(const Cylinder& a, std::span<const Pose> poses_a, const Plane& b,
-                     std::span<const Pose> poses_b, std::span<SignedDistance> results) {
-  check_batch(poses_a.size(), poses_b.size(), results.size());
-  for (std::size_t i = 0; i < results.size(); ++i) {
-    results[i] = find_signed_distance<Routine>(a, poses_a[i], b, poses_b[i]);
-  }
-}
-template <>
-void overlaps(const Cylinder& a, std::span<const Pose> poses_a, const Plane& b,
-              std::span<const Pose> poses_b, std::span<bool> results) {
-  check_batch(poses_a.size(), poses_b.size(), results.size());
-  for (std::size_t i = 0; i < results.size(); ++i) {
-    results[i] = find_overlap<Routine>(a, poses_a[i], b, poses_b[i]);
-  }
-}
-template <>
-void contact(const Cylinder& a, std::span<const Pose> poses_a, const Plane& b,
-             std::span<const Pose> poses_b, double contact_threshold, std::span<Contact> results,
-             PointRange range) {
-  check_batch(poses_a.size(), poses_b.size(), results.size());
-  for (std::size_t i = 0; i < results.size(); ++i) {
-    results[i] =
-        find_contact<Routine>(a, poses_a[i], b, poses_b[i], contact_threshold, nullptr, range);
-  }
-}
 
 }  // namespace touchstone

@@ -7,22 +7,24 @@
 namespace touchstone {
 
 FoldedAxes::FoldedAxes(const Vec3& axis1, const Vec3& axis2, const Vec3& difference) {
-  const double side = multiply(axis1, axis2);
-  if (crosses()) {
-    fold_crossing(axis1, side, difference);
+  const Product product(axis1, axis2);
+  if (product.sine > few_digits) {
+    fold_crossing(axis1, product, difference);
   } else {
-    fold_nearly_parallel(axis1, axis2, side, difference);
+    fold_nearly_parallel(axis1, axis2, product, difference);
   }
 }
 
 // The product of nearly parallel axes has few digits left; across the first it must stay. What is
 // then left along the second is lost in the second's own rounding.
-void FoldedAxes::fold_nearly_parallel(const Vec3& u1, const Vec3& axis2, double side,
+void FoldedAxes::fold_nearly_parallel(const Vec3& u1, const Vec3& axis2, const Product& product,
                                       const Vec3& difference) {
+  c = without_vanishing(product.cosine), s = product.sine;
+  const double side = product.side;
   const double ux = u1.x(), uy = u1.y(), uz = u1.z();
   const double dx = difference.x(), dy = difference.y(), dz = difference.z();
   const double along = dx * ux + dy * uy + dz * uz;
-  double x = side * e3.x(), y = side * e3.y(), z = side * e3.z();
+  double x = side * product.x, y = side * product.y, z = side * product.z;
   constexpr double none = 1e-15;
   if (!(s > none)) {
     // Parallel: the plane of the axes is that which holds the centres.

@@ -23,20 +23,13 @@ struct FoldedAxes {
   /// Branch-free, for batches.
   static FoldedAxes of_crossing_axes(const Vec3& axis1, const Vec3& axis2, const Vec3& d) {
     FoldedAxes f;
-    f.fold_crossing(axis1, f.multiply(axis1, axis2), d);
+    f.fold_crossing(axis1, Product(axis1, axis2), d);
     return f;
   }
   /// Has the product of the axes enough digits?
-  bool crosses() const {
-    constexpr double few_digits = 0.1;
-    return s > few_digits;
-  }
+  bool crosses() const { return s > few_digits; }
 
-  Vec3 to_world(const Vec3& n) const {
-    return {n.x() * e1.x() + n.y() * e2.x() + n.z() * e3.x(),
-            n.x() * e1.y() + n.y() * e2.y() + n.z() * e3.y(),
-            n.x() * e1.z() + n.y() * e2.z() + n.z() * e3.z()};
-  }
+  Vec3 to_world(const Vec3& n) const { return n.x() * e1 + n.y() * e2 + n.z() * e3; }
   Vec3 d() const { return {d1, d2, d3}; }
   /// Along u2, and across it within the plane of the axes (k2 = −s e1 + c e2).
   double along_u2(const Vec3& v) const { return c * v.x() + s * v.y(); }
@@ -53,35 +46,39 @@ struct FoldedAxes {
   }
 
  private:
-  FoldedAxes() = default;
   // Component by component throughout: Eigen would load in pairs what was just stored singly, which
-  // stalls, and no compiler makes vectors of several pairs of bodies of it.
+  // stalls, and no compiler would make vectors of several pairs of bodies of it.
 
-  /// Sets c, s and e3 = axis1 × axis2, not scaled; returns the sign of the cosine.
-  double multiply(const Vec3& axis1, const Vec3& axis2);
-  /// These fold what `multiply` has left; `side` is the sign that it returned.
-  void fold_crossing(const Vec3& u1, double side, const Vec3& difference);
-  void fold_nearly_parallel(const Vec3& u1, const Vec3& axis2, double side, const Vec3& difference);
+  static constexpr double few_digits = 0.1;  ///< a sine
+  struct Product {
+    double side, cosine;   ///< the sign of the axes' product, ±1; the product's absolute value
+    double x, y, z, sine;  ///< axis1 × axis2 and its length
+
+    Product(const Vec3& axis1, const Vec3& axis2) {
+      const double ux = axis1.x(), uy = axis1.y(), uz = axis1.z();
+      const double vx = axis2.x(), vy = axis2.y(), vz = axis2.z();
+      const double product = ux * vx + uy * vy + uz * vz;
+      side = std::copysign(1, product), cosine = std::abs(product);
+      x = uy * vz - uz * vy, y = uz * vx - ux * vz, z = ux * vy - uy * vx;
+      sine = std::sqrt(x * x + y * y + z * z);
+    }
+  };
+
+  FoldedAxes() = default;
+  void fold_crossing(const Vec3& u1, const Product& product, const Vec3& difference);
+  void fold_nearly_parallel(const Vec3& u1, const Vec3& axis2, const Product& product,
+                            const Vec3& difference);
 };
 
-[[gnu::always_inline]] inline double FoldedAxes::multiply(const Vec3& axis1, const Vec3& axis2) {
-  const double ux = axis1.x(), uy = axis1.y(), uz = axis1.z();
-  const double vx = axis2.x(), vy = axis2.y(), vz = axis2.z();
-  const double cosine = ux * vx + uy * vy + uz * vz;
-  c = without_vanishing(std::abs(cosine));
-  const double x = uy * vz - uz * vy, y = uz * vx - ux * vz, z = ux * vy - uy * vx;
-  s = std::sqrt(x * x + y * y + z * z);
-  e3 = Vec3(x, y, z);
-  return std::copysign(1, cosine);
-}
-
-[[gnu::always_inline]] inline void FoldedAxes::fold_crossing(const Vec3& u1, double side,
+[[gnu::always_inline]] inline void FoldedAxes::fold_crossing(const Vec3& u1, const Product& product,
                                                              const Vec3& difference) {
-  const double ux = u1.x(), uy = u1.y(), uz = u1.z(), x3 = e3.x(), y3 = e3.y(), z3 = e3.z();
+  c = without_vanishing(product.cosine), s = product.sine;
+  const double ux = u1.x(), uy = u1.y(), uz = u1.z();
+  const double x3 = product.x, y3 = product.y, z3 = product.z;
   const double x2 = y3 * uz - z3 * uy, y2 = z3 * ux - x3 * uz, z2 = x3 * uy - y3 * ux;
   // Lengths are divided by last: until then nothing waits for the square root. Signs are multiplied
   // with, for which pose needs them is unpredictable.
-  const double scale = side / s;
+  const double scale = product.side / s;
   const double dx = difference.x(), dy = difference.y(), dz = difference.z();
   d1 = without_vanishing(dx * ux + dy * uy + dz * uz);
   d2 = without_vanishing(scale * (dx * x2 + dy * y2 + dz * z2));

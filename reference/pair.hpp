@@ -316,9 +316,6 @@ Contact find_contact(const Cylinder& a, const Pose& pose_a, const Other& b, cons
   return contact_in_range<Routine>(pair, contact_threshold, previous_normal, range);
 }
 
-/// Throws InvalidInput unless a batch has as many poses of B and results as poses of A.
-void check_batch(std::size_t poses_a, std::size_t poses_b, std::size_t results);
-
 /// Defines the functions that a pair's header declares; below its `Routine`.
 #define TOUCHSTONE_DEFINE_QUESTIONS(Other)                                                         \
   SignedDistance signed_distance(const Cylinder& a, const Pose& pose_a, const Other& b,            \

@@ -5,7 +5,8 @@
 //   build/release/properties/benchmarks/speed_benchmark --benchmark_filter=box
 //
 // "mixed" is what a broad phase finds: one pair of shapes in poses of which 83% are apart, asked
-// about one by one and in a batch. Its figures are per pair of poses:
+// about one by one and in a batch, in double, in float, and in double with poses made for each
+// question as those in float are. Its figures are per pair of poses:
 //
 //   build/release/properties/benchmarks/speed_benchmark --benchmark_filter=mixed
 //       --benchmark_repetitions=9 --benchmark_enable_random_interleaving=true
@@ -23,6 +24,7 @@
 #include "reference/cylinder_cylinder.hpp"
 #include "reference/cylinder_plane.hpp"
 #include "reference/cylinder_sphere.hpp"
+#include "reference/single_precision.hpp"
 
 namespace touchstone {
 namespace {
@@ -106,45 +108,68 @@ struct MixedPoses {
 template <class Ask>
 void add_mixed_question(const std::string& name, Ask ask) {
   benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) {
-    for (auto _ : state) ask();
-    state.counters["per_pair"] = benchmark::Counter(
-        static_cast<double>(poses),
-        benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+    for (auto _ : state) {
+      ask();
+      benchmark::ClobberMemory();
+    }
+    using benchmark::Counter;
+    state.counters["per_pair"] =
+        Counter(static_cast<double>(poses), Counter::kIsIterationInvariantRate | Counter::kInvert);
   });
+}
+
+/// One by one and in a batch; `as_asked` makes of a stored pose what the functions take.
+template <class Distance, class Manifold, class OnePose, class Other, class AsAsked>
+void add_mixed_questions(const std::string& name, const Cylinder& a, const Other& b,
+                         const std::vector<OnePose>& poses_a, const std::vector<OnePose>& poses_b,
+                         AsAsked as_asked, bool has_batches) {
+  const auto distances = std::make_shared<std::vector<Distance>>(poses);
+  const auto contacts = std::make_shared<std::vector<Manifold>>(poses);
+  const auto overlap = std::shared_ptr<bool[]>(new bool[poses]);
+  const auto one_by_one = [=](const char* question, auto ask) {
+    add_mixed_question(name + question + "/single", [=] {
+      for (std::size_t i = 0; i < poses; ++i) ask(i, as_asked(poses_a[i]), as_asked(poses_b[i]));
+    });
+  };
+  one_by_one("signed_distance", [=](std::size_t i, const auto& pose_a, const auto& pose_b) {
+    (*distances)[i] = signed_distance(a, pose_a, b, pose_b);
+  });
+  one_by_one("overlaps", [=](std::size_t i, const auto& pose_a, const auto& pose_b) {
+    overlap[i] = overlaps(a, pose_a, b, pose_b);
+  });
+  one_by_one("contact", [=](std::size_t i, const auto& pose_a, const auto& pose_b) {
+    (*contacts)[i] = contact(a, pose_a, b, pose_b, 0);
+  });
+  if (!has_batches) return;
+  add_mixed_question(name + "signed_distance/batch",
+                     [=] { signed_distance(a, poses_a, b, poses_b, *distances); });
+  add_mixed_question(name + "overlaps/batch",
+                     [=] { overlaps(a, poses_a, b, poses_b, std::span(overlap.get(), poses)); });
+  add_mixed_question(name + "contact/batch",
+                     [=] { contact(a, poses_a, b, poses_b, 0, *contacts); });
 }
 
 /// Bodies of about one size.
 template <class Other>
-void add_mixed(const char* pair, const Other& b) {
+void add_mixed(const std::string& pair, const Other& b) {
   const Cylinder a(0.5, 0.6);
-  const auto all = std::make_shared<MixedPoses>(a, b);
-  const auto distances = std::make_shared<std::vector<SignedDistance>>(poses);
-  const auto contacts = std::make_shared<std::vector<Contact>>(poses);
-  const auto overlap = std::shared_ptr<bool[]>(new bool[poses]);
-  const auto one_by_one = [=](const char* question, auto ask) {
-    add_mixed_question(std::string(pair) + "/mixed/" + question + "/single", [=] {
-      for (std::size_t i = 0; i < poses; ++i) ask(i, all->a[i], all->b[i]);
-      benchmark::ClobberMemory();
-    });
+  const MixedPoses all(a, b);
+  const auto to_float = [](const std::vector<Pose>& in_double) {
+    std::vector<FloatPose> result;
+    for (const Pose& p : in_double) {
+      result.emplace_back(p.position().template cast<float>(),
+                          p.orientation().template cast<float>());
+    }
+    return result;
   };
-  const auto batch = [=](const char* question, auto ask) {
-    add_mixed_question(std::string(pair) + "/mixed/" + question + "/batch", [=] {
-      ask();
-      benchmark::ClobberMemory();
-    });
-  };
-  one_by_one("signed_distance", [=](std::size_t i, const Pose& pose_a, const Pose& pose_b) {
-    (*distances)[i] = signed_distance(a, pose_a, b, pose_b);
-  });
-  batch("signed_distance", [=] { signed_distance(a, all->a, b, all->b, *distances); });
-  one_by_one("overlaps", [=](std::size_t i, const Pose& pose_a, const Pose& pose_b) {
-    overlap[i] = overlaps(a, pose_a, b, pose_b);
-  });
-  batch("overlaps", [=] { overlaps(a, all->a, b, all->b, std::span(overlap.get(), poses)); });
-  one_by_one("contact", [=](std::size_t i, const Pose& pose_a, const Pose& pose_b) {
-    (*contacts)[i] = contact(a, pose_a, b, pose_b, 0);
-  });
-  batch("contact", [=] { contact(a, all->a, b, all->b, 0, *contacts); });
+  const auto as_it_is = [](const auto& pose) -> const auto& { return pose; };
+  const auto made_anew = [](const Pose& p) { return Pose(p.position(), p.orientation()); };
+  const std::string mixed = pair + "/mixed/";
+  add_mixed_questions<SignedDistance, Contact>(mixed, a, b, all.a, all.b, as_it_is, true);
+  add_mixed_questions<SignedDistance, Contact>(mixed + "poses_made/", a, b, all.a, all.b, made_anew,
+                                               false);
+  add_mixed_questions<FloatSignedDistance, FloatContact>(mixed + "float/", a, b, to_float(all.a),
+                                                         to_float(all.b), as_it_is, true);
 }
 
 void add_all() {
