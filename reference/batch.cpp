@@ -25,8 +25,8 @@
 // for vectors is needed for that, and all steps round as they do for one pair: contraction is off.
 // A sphere takes 5 ns with AVX2, 10 with SSE2 and 11 alone.
 //
-// A capsule is not looked at: of its own first normals that saved 1 ns of 33, and of one between
-// near points 6.
+// A capsule is not looked at: along its own first normals that saved 6 ns of 45 in `contact` and 1
+// of 33 in `overlaps`, and there 6 along a normal between near points.
 
 #if defined(__x86_64__) && defined(__GLIBC__) && defined(__has_attribute)
 #if __has_attribute(target_clones)
@@ -51,7 +51,7 @@ struct Vectors {
 };
 
 /// What `look` finds: gaps above `stop_above` with their normals, as the function for one pair
-/// finds them, or `undecided`; of spheres all gaps.
+/// finds them, or `undecided`; of planes and spheres all gaps.
 struct Findings {
   double gap[width];
   Vectors normal;

@@ -29,6 +29,8 @@ template <class Other>
 void overlaps(const Cylinder& a, std::span<const Pose> poses_a, const Other& b,
               std::span<const Pose> poses_b, std::span<bool> results);
 
+/// Without a hint of previous normals: pairs that have one touch already, and are not looked at in
+/// passing.
 template <class Other>
 void contact(const Cylinder& a, std::span<const Pose> poses_a, const Other& b,
              std::span<const Pose> poses_b, double contact_threshold, std::span<Contact> results,
