@@ -35,7 +35,7 @@ bool supports(const Candidate& c, const Configuration& k) { return c.has_routine
 /// Those of a report, and those that have to be named.
 std::vector<const Candidate*> candidates_built_here() {
   std::vector<const Candidate*> candidates = all_candidates();
-  for (const auto& names : {cured_engines(), peer_engines()}) {
+  for (const auto& names : {named_candidates(), peer_engines()}) {
     for (const std::string& name : names) candidates.push_back(&find_candidate(name));
   }
   return candidates;
@@ -110,8 +110,8 @@ TEST(Adapters, SayNoneWhenApart) {
 
 TEST(Adapters, AnswerThresholdWhereTheySayThatTheyDo) {
   const Configuration apart{Cylinder(0.5, 1), Pose({0, 0, 2.001}, upright), Box({2, 2, 1}), Pose()};
-  for (const char* name : {"reference", "bullet", "fcl-distance", "bullet+touchstone",
-                           "bullet-float+touchstone", "mujoco+touchstone"}) {
+  for (const char* name : {"reference", "reference-float", "bullet", "fcl-distance",
+                           "bullet+touchstone", "bullet-float+touchstone", "mujoco+touchstone"}) {
     const Answer a = answer(name, apart, 0.01);
     ASSERT_EQ(a.status, TS_CONTACT) << name;
     EXPECT_NEAR(a.signed_distance, 0.001, 1e-6) << name;
@@ -158,6 +158,7 @@ struct Fairness {
 constexpr double deep_enough = 2e-3;
 constexpr Fairness documented[] = {
     {"reference", 1e-13, 0},
+    {"reference-float", 1e-6, 0},
     // Edges rounded by a tenth of the smallest half extent; most generic contacts are on edges.
     {"bullet", 0.05, 1},
     {"bullet-persistent", 0.05, 1},

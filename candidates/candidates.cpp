@@ -26,10 +26,12 @@ constexpr struct {
     {"ode", "libode-dev"},       {"fcl", "libfcl-dev"},       {"libccd", "libccd-dev"},
     {"mujoco", "libmujoco-dev"}, {"simplified", ""},          {"box-parts", ""}};
 
-/// Engines whose cylinders are Touchstone's (reference/engines): like those from npm, they are part
-/// of a report only if they are named, and nothing is loaded before.
-constexpr const char* cured_plugins[] = {"bullet+touchstone", "bullet-float+touchstone",
-                                         "ode+touchstone", "mujoco+touchstone"};
+/// Our routines in single precision, and engines whose cylinders are Touchstone's
+/// (reference/engines): like engines from npm, they are part of a report only if they are named,
+/// and nothing is loaded before.
+constexpr const char* named_plugins[] = {"reference-float", "bullet+touchstone",
+                                         "bullet-float+touchstone", "ode+touchstone",
+                                         "mujoco+touchstone"};
 
 /// Candidates of engines that Debian does not have, and their plug-ins, which are built where CMake
 /// finds the engine. They have to be named, too, so that a default report is the same everywhere.
@@ -89,7 +91,7 @@ std::optional<double> to_number(std::string_view text) {
 /// The plug-in of a family that is loaded once it is named; absent if it was not built.
 std::optional<std::filesystem::path> plugin_to_name(const std::string& family) {
   std::string plugin;
-  for (const char* name : cured_plugins) {
+  for (const char* name : named_plugins) {
     if (family == name) plugin = name;
   }
   for (const auto& peer : peer_candidates) {
@@ -159,7 +161,7 @@ class Registry {
       const auto is = [&](const Candidate* c) { return c->family == other; };
       return std::any_of(listed_.begin(), listed_.end(), is);
     };
-    for (const auto& to_name : {cured_engines(), peer_engines()}) {
+    for (const auto& to_name : {named_candidates(), peer_engines()}) {
       for (const std::string& other : to_name) {
         if (!is_listed(other)) names += ", " + other;
       }
@@ -321,9 +323,9 @@ ts_shape_kind other_shape(Pair pair) {
 
 bool Candidate::has_routine_for(Pair pair) const { return supports[other_shape(pair)]; }
 
-std::vector<std::string> cured_engines() {
+std::vector<std::string> named_candidates() {
   std::vector<std::string> names;
-  for (const char* name : cured_plugins) {
+  for (const char* name : named_plugins) {
     if (plugin_to_name(name)) names.emplace_back(name);
   }
   return names;

@@ -60,9 +60,10 @@ struct Candidate {
 /// plug-ins, with the usual member of each family, then the added ones.
 std::vector<const Candidate*> all_candidates();
 
-/// The engines built here that answer with Touchstone's contacts of cylinders (reference/engines):
-/// "ode+touchstone". They are candidates once they are named, and in no list before or after.
-std::vector<std::string> cured_engines();
+/// Those built here that are candidates once they are named, and in no list before or after: our
+/// routines in single precision, "reference-float", and engines that answer with Touchstone's
+/// contacts of cylinders (reference/engines), "ode+touchstone".
+std::vector<std::string> named_candidates();
 
 /// Likewise the candidates built here of engines that Debian does not have: "coal", "jolt-native".
 std::vector<std::string> peer_engines();

@@ -1,4 +1,5 @@
-// Our own routines (reference/), called through their public headers.
+// Our own routines (reference/), called through their public headers: in double precision, or
+// (-DTOUCHSTONE_SINGLE_PRECISION, the candidate reference-float) with poses and answers in float.
 //
 // Calls        touchstone::contact, one overload for each pair.
 // Conventions  Those of candidate.h: normal from B to A, points halfway between the surfaces.
@@ -12,11 +13,27 @@
 #include "candidates/candidate.h"
 #include "reference/touchstone.hpp"
 
-using touchstone::Contact;
 using touchstone::Cylinder;
-using touchstone::Pose;
 using touchstone::Sphere;
+
+#ifdef TOUCHSTONE_SINGLE_PRECISION
+using Scalar = float;
+using Pose = touchstone::FloatPose;
+using Vec3 = Eigen::Vector3f;
+using Contact = touchstone::FloatContact;
+constexpr const char* name = "reference-float";
+constexpr const char* settings =
+    "Touchstone's own routines, poses and answers in single precision; points halfway between the "
+    "surfaces";
+#else
+using Scalar = double;
+using touchstone::Contact;
+using touchstone::Pose;
 using touchstone::Vec3;
+constexpr const char* name = "reference";
+constexpr const char* settings =
+    "Touchstone's own routines, double precision; points halfway between the surfaces";
+#endif
 
 /// One class per pair, so that a query needs no switch over the shape's kind.
 struct ts_prepared {
@@ -28,14 +45,22 @@ struct ts_prepared {
 
 namespace {
 
+Vec3 to_vector(const double (&x)[3]) {
+  return {static_cast<Scalar>(x[0]), static_cast<Scalar>(x[1]), static_cast<Scalar>(x[2])};
+}
+
 template <class Shape>
 Pose to_pose(const ts_pose& p) {
-  const Vec3 position(p.position[0], p.position[1], p.position[2]);
+  const Vec3 position = to_vector(p.position);
+#ifndef TOUCHSTONE_SINGLE_PRECISION
   if constexpr (std::is_same_v<Shape, Sphere>) {  // a sphere's orientation does not matter
     return Pose(position);
   }
+#endif
   const double* q = p.orientation;
-  return Pose(position, Eigen::Quaterniond(q[0], q[1], q[2], q[3]));
+  return Pose(position,
+              Eigen::Quaternion<Scalar>(static_cast<Scalar>(q[0]), static_cast<Scalar>(q[1]),
+                                        static_cast<Scalar>(q[2]), static_cast<Scalar>(q[3])));
 }
 
 void copy(const Vec3& from, double (&to)[3]) {
@@ -60,8 +85,8 @@ struct PreparedPair : ts_prepared {
   PreparedPair(const Cylinder& cylinder, Other shape) : a(cylinder), b(std::move(shape)) {}
   void query(const ts_pose& pose_a, const ts_pose& pose_b, const Vec3* previous_normal,
              ts_answer& answer) const override {
-    copy(contact(a, to_pose<Cylinder>(pose_a), b, to_pose<Other>(pose_b), threshold,
-                 previous_normal),
+    copy(contact(a, to_pose<Cylinder>(pose_a), b, to_pose<Other>(pose_b),
+                 static_cast<Scalar>(threshold), previous_normal),
          threshold, answer);
   }
   Cylinder a;
@@ -76,7 +101,7 @@ ts_prepared* prepare(void*, const ts_shape* a, const ts_shape* b, double thresho
   ts_prepared* prepared = nullptr;
   switch (b->kind) {
     case TS_PLANE:
-      prepared = new PreparedPair(cylinder, touchstone::Plane(Vec3(s[0], s[1], s[2]), s[3]));
+      prepared = new PreparedPair(cylinder, touchstone::Plane({s[0], s[1], s[2]}, s[3]));
       break;
     case TS_SPHERE:
       prepared = new PreparedPair(cylinder, Sphere(s[0]));
@@ -88,7 +113,7 @@ ts_prepared* prepare(void*, const ts_shape* a, const ts_shape* b, double thresho
       prepared = new PreparedPair(cylinder, Cylinder(s[0], s[1]));
       break;
     case TS_BOX:
-      prepared = new PreparedPair(cylinder, touchstone::Box(Vec3(s[0], s[1], s[2])));
+      prepared = new PreparedPair(cylinder, touchstone::Box({s[0], s[1], s[2]}));
       break;
   }
   if (prepared) prepared->threshold = threshold;
@@ -96,21 +121,21 @@ ts_prepared* prepare(void*, const ts_shape* a, const ts_shape* b, double thresho
 }
 
 void query(ts_prepared* prepared, const ts_pose* a, const ts_pose* b, const double* previous_normal,
-           ts_answer* answer) {
+           ts_answer* answer) try {
   if (previous_normal) {
-    const Vec3 previous(previous_normal[0], previous_normal[1], previous_normal[2]);
+    const Vec3 previous = to_vector({previous_normal[0], previous_normal[1], previous_normal[2]});
     prepared->query(*a, *b, &previous, *answer);
   } else {
     prepared->query(*a, *b, nullptr, *answer);
   }
+} catch (const touchstone::InvalidInput&) {
+  answer->status = TS_FAILED;  // a position beyond what float holds
 }
 
 void release(ts_prepared* prepared) { delete prepared; }
 
-const ts_candidate candidates[] = {
-    {"reference", TOUCHSTONE_VERSION,
-     "Touchstone's own routines, double precision; points halfway between the surfaces", nullptr,
-     nullptr, supports, prepare, query, release, nullptr, nullptr}};
+const ts_candidate candidates[] = {{name, TOUCHSTONE_VERSION, settings, nullptr, nullptr, supports,
+                                    prepare, query, release, nullptr, nullptr}};
 const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 1, candidates, nullptr, 0};
 
 }  // namespace

@@ -48,8 +48,9 @@ void add_candidates(Program& program) {
   command.runs([] {
     for (const Candidate* c : all_candidates()) print(*c);
     for (const Skipped& s : skipped_plugins()) fmt::print("{}: skipped; {}\n", s.name, s.reason);
-    fmt::print("With Touchstone's contacts installed, when one is named:\n");
-    for (const std::string& name : cured_engines()) fmt::print("  {}\n", name);
+    fmt::print(
+        "In single precision, or with Touchstone's contacts installed, when one is named:\n");
+    for (const std::string& name : named_candidates()) fmt::print("  {}\n", name);
     const std::vector<std::string> peers = peer_engines();
     if (!peers.empty()) fmt::print("Of engines outside Debian, when one is named:\n");
     for (const std::string& name : peers) fmt::print("  {}\n", name);

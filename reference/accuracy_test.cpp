@@ -12,6 +12,7 @@
 #include <initializer_list>
 #include <limits>
 #include <map>
+#include <optional>
 #include <random>
 #include <sstream>
 #include <string>
@@ -20,7 +21,9 @@
 #include "oracle/truth.hpp"
 #include "properties/identity.hpp"
 #include "reference/contact_of.hpp"
+#include "reference/invalid_input.hpp"
 #include "reference/points_on_both.hpp"
+#include "reference/single_precision.hpp"
 #include "reference/support.hpp"
 
 namespace touchstone {
@@ -45,12 +48,13 @@ struct Errors {
 
   Errors() = default;
   explicit Errors(const Configuration& c) : Errors(c, size_of(c)) {}
-  Errors(const Configuration& c, double size) {
+  Errors(const Configuration& c, double size) : Errors(c, size, signed_distance(c)) {}
+  Errors(const Configuration& c, double size, const SignedDistance& answer)
+      : Errors(c, size, answer, contact(c, std::max(answer.value, 0.0) + 1e-6 * smaller_size(c))) {}
+  Errors(const Configuration& c, double size, const SignedDistance& answer, const Contact& touch) {
     const oracle::Truth t = oracle::truth(c);
-    const SignedDistance answer = signed_distance(c);
     distance = std::abs(answer.value - t.signed_distance.midpoint()) / size;
     regret = oracle::normal_regret(c, t, answer.normal) / size;
-    const Contact touch = contact(c, std::max(answer.value, 0.0) + 1e-6 * smaller_size(c));
     double depth = -std::numeric_limits<double>::infinity();
     for (const ContactPoint& p : touch.points()) {
       depth = std::max(depth, p.depth);
@@ -83,8 +87,8 @@ std::string family_of(Pair pair, const std::string& pose_class) {
   return parts.arrangement == "general" ? "general" : "features that meet, alignments";
 }
 
-/// The figures of one pair in README.md by "quantity | family".
-std::map<std::string, double> documented_errors(Pair pair) {
+/// The figures of one pair in README.md by "quantity | family", in float or in double.
+std::map<std::string, double> documented_errors(Pair pair, bool in_float) {
   std::ifstream file(TOUCHSTONE_ACCURACY_TABLE);
   std::map<std::string, double> figures;
   for (std::string line; std::getline(file, line);) {
@@ -97,6 +101,7 @@ std::map<std::string, double> documented_errors(Pair pair) {
     // An empty cell before the first bar, two words, then a figure of each pair.
     const std::size_t column = 3 + static_cast<std::size_t>(pair);
     if (cells.size() != 3 + std::size(all_pairs)) continue;
+    if (cells[1].ends_with("in float") != in_float) continue;
     char* rest = nullptr;
     const double figure = std::strtod(cells[column].c_str(), &rest);
     if (rest != cells[column].c_str()) figures[cells[1] + " | " + cells[2]] = figure;
@@ -148,13 +153,109 @@ TEST_P(Accuracy, IsWithinRoundingOfTheLargerSizeAndAsDocumented) {
   }
   if (std::getenv("TOUCHSTONE_COUNT"))
     return;  // the table's figures are those of the default count
-  std::map<std::string, double> figures = documented_errors(GetParam());
+  std::map<std::string, double> figures = documented_errors(GetParam(), false);
   for (const auto& [family, errors] : worst) {
     expect_documented(figures, "signed distance | " + family, errors.distance);
     expect_documented(figures, "normal regret | " + family, errors.regret);
     if (family == "hostile") continue;
     expect_documented(figures, "depth of the deepest point | " + family, errors.deepest);
     expect_documented(figures, "places of points | " + family, errors.places);
+  }
+  EXPECT_TRUE(figures.empty()) << "a row of README.md has a figure of nothing that is measured";
+}
+
+/// With all numbers rounded to float; none where a size is then zero or infinite, or answers would
+/// leave the range in which floats have all their digits.
+std::optional<Configuration> rounded_to_float(const Configuration& c) {
+  // Volatile: GCC 12 leaves out both conversions of two neighbours that it makes a vector of.
+  const auto rounded = [](double x) -> double {
+    const volatile float stored = static_cast<float>(x);
+    return stored;
+  };
+  const auto vector = [&](const Vec3& x) {
+    return Vec3(rounded(x.x()), rounded(x.y()), rounded(x.z()));
+  };
+  const auto pose = [&](const Pose& p) {
+    const auto& q = p.orientation();
+    return Pose(vector(p.position()),
+                {rounded(q.w()), rounded(q.x()), rounded(q.y()), rounded(q.z())});
+  };
+  const auto shape = [&](const Shape& other) -> Shape {
+    if (const auto* s = std::get_if<Plane>(&other)) {
+      return Plane(vector(s->normal()), rounded(s->displacement()));
+    }
+    if (const auto* s = std::get_if<Sphere>(&other)) return Sphere(rounded(s->radius()));
+    if (const auto* s = std::get_if<Box>(&other)) return Box(vector(s->half_extents()));
+    if (const auto* s = std::get_if<Capsule>(&other)) {
+      return Capsule(rounded(s->radius()), rounded(s->half_length()));
+    }
+    const auto& s = std::get<Cylinder>(other);
+    return Cylinder(rounded(s.radius()), rounded(s.half_length()));
+  };
+  try {
+    const Configuration result{std::get<Cylinder>(shape(c.a)), pose(c.pose_a), shape(c.b),
+                               pose(c.pose_b)};
+    const double far = result.pose_a.position().norm() + result.pose_b.position().norm();
+    const bool is_in_range = larger_size(result) > 1e-30 && size_of(result) + far < 1e30;
+    return is_in_range ? std::optional(result) : std::nullopt;
+  } catch (const InvalidInput&) {
+    return std::nullopt;
+  }
+}
+
+/// Of answers in float about bodies that floats hold exactly.
+Errors errors_in_float(const Configuration& c, double size) {
+  const auto to_float = [](const Pose& p) {
+    return FloatPose(p.position().cast<float>(), p.orientation().cast<float>());
+  };
+  const FloatPose pose_a = to_float(c.pose_a), pose_b = to_float(c.pose_b);
+  return std::visit(
+      [&](const auto& b) {
+        const FloatSignedDistance found = signed_distance(c.a, pose_a, b, pose_b);
+        // Further than the distance, however that was rounded.
+        const double more = 1e-6 * (smaller_size(c) + std::abs(double(found.value)));
+        const auto threshold = static_cast<float>(std::max(double(found.value), 0.0) + more);
+        const FloatContact points = contact(c.a, pose_a, b, pose_b, threshold);
+        Contact touch;
+        touch.normal = points.normal.template cast<double>().normalized();
+        touch.signed_distance = points.signed_distance;
+        for (const FloatContactPoint& p : points.points()) {
+          touch.add_point(p.position.template cast<double>(), p.depth);
+        }
+        const Vec3 normal = found.normal.template cast<double>().normalized();
+        return Errors(c, size, {found.value, normal}, touch);
+      },
+      c.b);
+}
+
+TEST_P(Accuracy, InFloatIsThatOfRoundingAndAsDocumented) {
+  constexpr double promised = 1e-6;
+  std::map<std::string, Errors> worst;
+  std::vector<std::string> classes = pose_classes(GetParam());
+  classes.push_back("hostile");
+  for (const auto& name : classes) {
+    const bool is_far = name.find("+far") != name.npos || name.find("far+") != name.npos;
+    Errors& of_family = worst[name == "hostile" ? name : is_far ? "far away" : "all others"];
+    const std::uint64_t count = count_per_class() / 5 * (name == "hostile" ? 20 : 1);
+    for (std::uint64_t i = 0; i < count; ++i) {
+      const Identity id{GetParam(), name, 7, i};
+      const auto c = rounded_to_float(make_configuration(id));
+      if (!c) continue;
+      const double apart = (c->pose_a.position() - c->pose_b.position()).norm();
+      const Errors errors = errors_in_float(*c, std::max(size_of(*c), apart));
+      EXPECT_LE(errors.distance, promised) << to_string(id);
+      EXPECT_LE(errors.regret, promised) << to_string(id);
+      of_family.keep_larger(errors);
+    }
+  }
+  if (std::getenv("TOUCHSTONE_COUNT")) return;
+  std::map<std::string, double> figures = documented_errors(GetParam(), true);
+  for (const auto& [family, errors] : worst) {
+    expect_documented(figures, "signed distance in float | " + family, errors.distance);
+    expect_documented(figures, "normal regret in float | " + family, errors.regret);
+    if (family == "hostile") continue;
+    expect_documented(figures, "depth of the deepest point in float | " + family, errors.deepest);
+    expect_documented(figures, "places of points in float | " + family, errors.places);
   }
   EXPECT_TRUE(figures.empty()) << "a row of README.md has a figure of nothing that is measured";
 }

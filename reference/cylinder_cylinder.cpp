@@ -85,22 +85,13 @@ bool is_proven_at_sides(const FoldedCylinders& p, double gap) {
          no_normal_beats_crossing(p);
 }
 
-/// The best of the three closed forms.
 StageResult caps_and_sides(const FoldedCylinders& p, double stop_above) {
   const FoldedAxes& f = p.axes;
-  const double along2 = f.along_u2(f.d());
-  const double cap1 = std::abs(f.d1) - p.h1 - p.h2 * f.c - p.r2 * f.s;
-  const double cap2 = std::abs(along2) - p.h2 - p.h1 * f.c - p.r1 * f.s;
-  const double sides = f.d3 - p.r1 - p.r2, gap = std::max(std::max(cap1, cap2), sides);
-  const double side1 = std::copysign(1, f.d1), side2 = std::copysign(1, along2);
-  if (gap > stop_above) {
-    // Branch-free: the winner is unpredictable.
-    const double is1 = gap == cap1 ? 1 : 0, is3 = gap == sides ? 1 - is1 : 0;
-    const double is2 = side2 * (1 - is1 - is3);
-    return {gap, side1 * is1 + is2 * f.c, is2 * f.s, is3};
-  }
-  if (gap == cap1) return {gap, side1, 0, 0, is_proven_at_cap1(p, gap, side1)};
-  if (gap == cap2) {
+  const CapsAndSides best(f, p.r1, p.h1, p.r2, p.h2);
+  const double gap = best.gap, side1 = best.side1, side2 = best.side2;
+  if (gap > stop_above) return best.without_proof();
+  if (gap == best.cap1) return {gap, side1, 0, 0, is_proven_at_cap1(p, gap, side1)};
+  if (gap == best.cap2) {
     return {gap, side2 * f.c, side2 * f.s, 0, is_proven_at_cap2(p, gap, side2)};
   }
   return {gap, 0, 0, 1, is_proven_at_sides(p, gap)};

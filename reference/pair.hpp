@@ -99,13 +99,18 @@ inline PosedPair<Cylinder> posed_pair(const Cylinder& a, const Pose& pose_a, con
 /// Does no power of a length overflow or vanish? The largest are the eighth (`ellipse_normal` takes
 /// lengths of fourth powers): with all lengths within these bounds none leaves 1e-200 to 1e200,
 /// whichever lengths it multiplies.
+inline constexpr double min_length_in_range = 1e-25, max_length_in_range = 1e25;
+inline bool are_in_range(const Lengths& a, const Lengths& b) {
+  return std::min(a.smallest, b.smallest) > min_length_in_range &&
+         a.sum + b.sum < max_length_in_range;
+}
+inline bool is_in_range(const Vec3& d) {
+  return d.x() * d.x() + d.y() * d.y() + d.z() * d.z() < max_length_in_range * max_length_in_range;
+}
 template <class Other>
 inline bool powers_in_range(const PosedPair<Other>& pair) {
-  constexpr double min_length = 1e-25, max_length = 1e25;
-  const Lengths of_a = lengths(pair.a), of_b = lengths(pair.b);
-  const Vec3 d = pair.a.centre - pair.b.centre;
-  return std::min(of_a.smallest, of_b.smallest) > min_length && of_a.sum + of_b.sum < max_length &&
-         d.x() * d.x() + d.y() * d.y() + d.z() * d.z() < max_length * max_length;
+  return are_in_range(lengths(pair.a), lengths(pair.b)) &&
+         is_in_range(pair.a.centre - pair.b.centre);
 }
 
 /// The bodies about the origin of their frame, with all lengths times a power of two so that the

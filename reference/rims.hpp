@@ -52,6 +52,28 @@ struct FoldedCylinders {
   }
 };
 
+/// Of two cylinders: the best of the normals along either axis and across both.
+struct CapsAndSides {
+  double cap1, cap2, sides, gap;
+  double side1, side2;  ///< ±1: whether cap 1 (2) has its normal along u1 (u2) or against it
+  double c, s;
+
+  CapsAndSides(const FoldedAxes& f, double r1, double h1, double r2, double h2) : c(f.c), s(f.s) {
+    const double along2 = f.c * f.d1 + f.s * f.d2;
+    cap1 = std::abs(f.d1) - h1 - h2 * f.c - r2 * f.s;
+    cap2 = std::abs(along2) - h2 - h1 * f.c - r1 * f.s;
+    sides = f.d3 - r1 - r2;
+    gap = std::max(std::max(cap1, cap2), sides);
+    side1 = std::copysign(1, f.d1), side2 = std::copysign(1, along2);
+  }
+  /// Branch-free: the winner is unpredictable.
+  StageResult without_proof() const {
+    const double is1 = gap == cap1 ? 1 : 0, is3 = gap == sides ? 1 - is1 : 0;
+    const double is2 = side2 * (1 - is1 - is3);
+    return {gap, side1 * is1 + is2 * c, is2 * s, is3};
+  }
+};
+
 /// A point of rim 1 with the nearest point of rim 2.
 struct RimSample {
   double angle;

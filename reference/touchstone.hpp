@@ -1,8 +1,10 @@
 #pragma once
 
 // Everything a user needs: shapes, poses, and for a cylinder against each other shape the three
-// questions `overlaps`, `contact` and `signed_distance`.
+// questions `overlaps`, `contact` and `signed_distance`, of one pair of poses or of many, in
+// double or float.
 
+#include "batch.hpp"
 #include "contact.hpp"
 #include "cylinder_box.hpp"
 #include "cylinder_capsule.hpp"
@@ -12,4 +14,5 @@
 #include "invalid_input.hpp"
 #include "pose.hpp"
 #include "shape.hpp"
+#include "single_precision.hpp"
 #include "support.hpp"

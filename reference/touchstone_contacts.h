@@ -7,6 +7,8 @@
 #ifndef TOUCHSTONE_CONTACTS_H
 #define TOUCHSTONE_CONTACTS_H
 
+#include <stddef.h>
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -55,6 +57,69 @@ int touchstone_find_signed_distance(const touchstone_body* a, const touchstone_b
 
 /* 1 if the bodies share a point, else 0. */
 int touchstone_find_overlap(const touchstone_body* a, const touchstone_body* b, int* overlap);
+
+/* The same of many poses of one pair of bodies, as a broad phase finds them, which takes less time
+ * than one by one (batch.hpp). Poses and answers are arrays of `count`, which may be 0; the poses
+ * of the bodies themselves do not count. Each returns 0 and writes all answers, with the bits of
+ * those above; or 1, and writes nothing, if a body or any pose is invalid. */
+
+typedef struct touchstone_pose {
+  double position[3];
+  double orientation[4]; /* quaternion w, x, y, z of any length but zero */
+} touchstone_pose;
+
+typedef struct touchstone_distance {
+  double value; /* positive apart, negative inside */
+  double normal[3];
+} touchstone_distance;
+
+int touchstone_find_contacts(const touchstone_body* a, const touchstone_pose* poses_a,
+                             const touchstone_body* b, const touchstone_pose* poses_b, size_t count,
+                             double threshold, touchstone_contact* contacts);
+int touchstone_find_signed_distances(const touchstone_body* a, const touchstone_pose* poses_a,
+                                     const touchstone_body* b, const touchstone_pose* poses_b,
+                                     size_t count, touchstone_distance* distances);
+int touchstone_find_overlaps(const touchstone_body* a, const touchstone_pose* poses_a,
+                             const touchstone_body* b, const touchstone_pose* poses_b, size_t count,
+                             int* overlaps);
+
+/* The same for programs that keep poses in float. Answers are found in double, for the bodies as
+ * they are given, and rounded (single_precision.hpp). */
+
+typedef struct touchstone_float_pose {
+  float position[3];
+  float orientation[4];
+} touchstone_float_pose;
+
+typedef struct touchstone_float_distance {
+  float value;
+  float normal[3];
+} touchstone_float_distance;
+
+typedef struct touchstone_float_contact_point {
+  float position[3];
+  float depth;
+} touchstone_float_contact_point;
+
+typedef struct touchstone_float_contact {
+  float normal[3];
+  float signed_distance;
+  int point_count;
+  touchstone_float_contact_point points[TOUCHSTONE_CONTACT_MAX_POINTS];
+} touchstone_float_contact;
+
+int touchstone_find_float_contacts(const touchstone_body* a, const touchstone_float_pose* poses_a,
+                                   const touchstone_body* b, const touchstone_float_pose* poses_b,
+                                   size_t count, float threshold,
+                                   touchstone_float_contact* contacts);
+int touchstone_find_float_signed_distances(const touchstone_body* a,
+                                           const touchstone_float_pose* poses_a,
+                                           const touchstone_body* b,
+                                           const touchstone_float_pose* poses_b, size_t count,
+                                           touchstone_float_distance* distances);
+int touchstone_find_float_overlaps(const touchstone_body* a, const touchstone_float_pose* poses_a,
+                                   const touchstone_body* b, const touchstone_float_pose* poses_b,
+                                   size_t count, int* overlaps);
 
 #ifdef __cplusplus
 }

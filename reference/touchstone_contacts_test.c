@@ -27,6 +27,82 @@ static const touchstone_body others[] = {
     {TOUCHSTONE_BOX, {1, 1, 0.5, 0}, {0, 0, -0.5}, {1, 0, 0, 0}}};
 static const int point_counts[] = {3, 1, 2, 3, 3};
 
+/* As many as need more than one round of a batch, the can ever higher. */
+enum { count = 37 };
+
+static void test_batches(const touchstone_body* b) {
+  touchstone_pose poses_a[count], poses_b[count];
+  touchstone_float_pose float_poses_a[count], float_poses_b[count];
+  touchstone_contact contacts[count], one;
+  touchstone_float_contact float_contacts[count];
+  touchstone_distance distances[count];
+  touchstone_float_distance float_distances[count];
+  int overlaps[count], float_overlaps[count];
+  for (int i = 0; i < count; ++i) {
+    for (int k = 0; k < 3; ++k) {
+      poses_a[i].position[k] = can.position[k] + (k == 2 ? 0.001 * i : 0);
+      poses_b[i].position[k] = b->position[k];
+      float_poses_a[i].position[k] = (float)poses_a[i].position[k];
+      float_poses_b[i].position[k] = (float)poses_b[i].position[k];
+    }
+    for (int k = 0; k < 4; ++k) {
+      poses_a[i].orientation[k] = can.orientation[k];
+      poses_b[i].orientation[k] = b->orientation[k];
+      float_poses_a[i].orientation[k] = (float)can.orientation[k];
+      float_poses_b[i].orientation[k] = (float)b->orientation[k];
+    }
+  }
+  expect(touchstone_find_contacts(&can, poses_a, b, poses_b, count, 0.005, contacts) == 0 &&
+             touchstone_find_signed_distances(&can, poses_a, b, poses_b, count, distances) == 0 &&
+             touchstone_find_overlaps(&can, poses_a, b, poses_b, count, overlaps) == 0,
+         "a batch is answered");
+  expect(touchstone_find_float_contacts(&can, float_poses_a, b, float_poses_b, count, 0.005F,
+                                        float_contacts) == 0 &&
+             touchstone_find_float_signed_distances(&can, float_poses_a, b, float_poses_b, count,
+                                                    float_distances) == 0 &&
+             touchstone_find_float_overlaps(&can, float_poses_a, b, float_poses_b, count,
+                                            float_overlaps) == 0,
+         "a batch in float is answered");
+  for (int i = 0; i < count; ++i) {
+    touchstone_body a = can;
+    const double gap = -0.01 + 0.001 * i;
+    a.position[2] = poses_a[i].position[2];
+    touchstone_find_contact(&a, b, 0.005, &one);
+    expect(contacts[i].signed_distance == one.signed_distance &&
+               contacts[i].point_count == one.point_count &&
+               contacts[i].normal[2] == one.normal[2] &&
+               (one.point_count == 0 || contacts[i].points[0].depth == one.points[0].depth),
+           "as one by one");
+    expect(near_to(distances[i].value, gap) && near_to(distances[i].normal[2], 1),
+           "the signed distance in a batch");
+    expect(i == 10 || overlaps[i] == (gap < 0), "an overlap in a batch");
+    expect(fabs(float_distances[i].value - gap) < 1e-6 &&
+               fabs(float_distances[i].normal[2] - 1) < 1e-6,
+           "the signed distance in float");
+    expect(i == 10 || float_overlaps[i] == (gap < 0), "an overlap in float");
+    expect(i == 15 || float_contacts[i].point_count == one.point_count, "as many points in float");
+    for (int k = 0; k < float_contacts[i].point_count; ++k) {
+      expect(fabs(float_contacts[i].points[k].depth + gap) < 1e-6, "each as deep in float");
+      expect(fabs(float_contacts[i].points[k].position[2] - gap / 2) < 1e-6, "halfway in float");
+    }
+  }
+  expect(touchstone_find_contacts(&can, poses_a, b, poses_b, 0, 0, contacts) == 0, "no pose");
+  contacts[0].point_count = -1;
+  float_overlaps[0] = -1;
+  poses_b[count - 1].orientation[0] = NAN;
+  float_poses_a[count - 1].position[0] = NAN;
+  expect(touchstone_find_contacts(&can, poses_a, b, poses_b, count, 0, contacts) == 1 &&
+             contacts[0].point_count == -1,
+         "no orientation of one pose, and nothing written");
+  expect(touchstone_find_float_overlaps(&can, float_poses_a, b, float_poses_b, count,
+                                        float_overlaps) == 1 &&
+             float_overlaps[0] == -1,
+         "no position of one pose, and nothing written");
+  expect(touchstone_find_overlaps(b, poses_b, &can, poses_a, 1, overlaps) ==
+             (b->kind != TOUCHSTONE_CYLINDER),
+         "A must be a cylinder in a batch");
+}
+
 int main(void) {
   touchstone_contact contact;
   double distance = 0, normal[3] = {0, 0, 0};
@@ -55,6 +131,7 @@ int main(void) {
 
     expect(touchstone_find_overlap(b, &can, &overlap) == (b->kind != TOUCHSTONE_CYLINDER),
            "A must be a cylinder");
+    test_batches(b);
   }
   touchstone_body invalid = can;
   invalid.size[0] = 0;

@@ -113,7 +113,7 @@ Mark mark_of(std::string_view candidate) {
   // The simplified models have colour 6, what is not known here 7, some outcomes 8 to 10. Where two
   // colours are alike, the symbols are not.
   static const std::vector<Engine> engines = {
-      {0, 0, {"reference"}},
+      {0, 0, {"reference", "reference-float"}},
       {1,
        0,
        {"bullet", "bullet-margin-0", "bullet-persistent", "bullet-hull", "bullet-float",
