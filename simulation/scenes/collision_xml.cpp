@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <boost/property_tree/xml_parser.hpp>
 #include <fmt/format.h>
+#include <optional>
 #include <sstream>
 #include <string_view>
 #include <utility>
@@ -75,17 +76,21 @@ std::string names_of(const List& list) {
   return names;
 }
 
-/// Throws InvalidInput unless the text is so many decimal numbers between spaces.
-void check_numbers(const std::string& text, int count, const std::string& field) {
+/// Number of decimal numbers between spaces; none if anything else is among them.
+std::optional<int> count_of_numbers(const std::string& text) {
   std::istringstream words(text);
-  int found = 0;
-  bool are_numbers = true;
-  for (std::string word; words >> word; ++found) {
+  int count = 0;
+  for (std::string word; words >> word; ++count) {
     const bool is_hexadecimal = word.find_first_of("xX") != word.npos;  // unknown to the libraries
     const std::string_view digits = std::string_view(word).substr(word[0] == '+' ? 1 : 0);
-    are_numbers = are_numbers && !is_hexadecimal && parse_double(digits);
+    if (is_hexadecimal || !parse_double(digits)) return {};
   }
-  if (are_numbers && found == count) return;
+  return count;
+}
+
+/// Throws InvalidInput unless the text is so many numbers.
+void check_numbers(const std::string& text, int count, const std::string& field) {
+  if (count_of_numbers(text) == count) return;
   throw InvalidInput(field, shown(text),
                      count == 1 ? "must be a number, with a decimal point and without a unit"
                                 : fmt::format("must be {} numbers between spaces", count));
@@ -152,16 +157,26 @@ std::string name_of(const ptree& element) {
   return printable(element.get<std::string>("<xmlattr>.name", ""), max_shown);
 }
 
+/// Checks a pose as far as its reader does not, which knows how many numbers it must have.
+void check_sdf_pose(const ptree& element, const std::string& where) {
+  const std::string text = element.get<std::string>("pose", "");
+  if (count_of_numbers(text)) return;
+  throw InvalidInput(where + ".pose", shown(text), "must be numbers between spaces, without units");
+}
+
 /// Checks the collisions of all links, at any depth; `path` names the models around them.
 void check_sdf_links(const ptree& element, const std::string& path) {
   for (const auto& [tag, content] : element) {
+    const std::string name = path + name_of(content);
     if (tag == "world") check_sdf_links(content, path);
-    if (tag == "model") check_sdf_links(content, path + name_of(content) + "::");
+    if (tag == "model" || tag == "link") check_sdf_pose(content, tag + ' ' + name);
+    if (tag == "model") check_sdf_links(content, name + "::");
     if (tag != "link") continue;
     for (const auto& [child, collision] : content) {
       if (child != "collision") continue;
-      check_collision(collision, sdf_shapes, false,
-                      "collision " + path + name_of(content) + '/' + name_of(collision));
+      const std::string where = "collision " + name + '/' + name_of(collision);
+      check_sdf_pose(collision, where);
+      check_collision(collision, sdf_shapes, false, where);
     }
   }
 }

@@ -147,6 +147,11 @@ TEST(Urdf, RefusesAShapeThatItsReaderWouldDrop) {
   EXPECT_THAT(urdf_refusal("<geometri/>"), HasSubstr("mid/broken.geometry is missing"));
 }
 
+TEST(Urdf, LeavesItToTheReaderToSayWhyItIsNotXml) {
+  EXPECT_THAT(refusal_of("part.urdf", "<robot name='r'><link"),
+              HasSubstr("must be a URDF robot; the lines above say what is wrong"));
+}
+
 TEST(Urdf, RefusesALinkOfWhichItsReaderDropsACollision) {
   const std::string ball = "<geometry><sphere radius='1'/></geometry>";
   EXPECT_THAT(urdf_refusal("<origin xyz='0 0 oops'/>" + ball),
@@ -200,6 +205,13 @@ TEST(Sdf, ChecksTheModelsThatItIncludes) {
               HasSubstr((folder / "model.sdf").string() +
                         ": collision can::l/c.sphere.radiu is unknown: must be one of radius"));
   std::filesystem::remove_all(folder);
+}
+
+TEST(Sdf, RefusesAPoseOfWhichItsReaderWouldIgnoreAUnit) {
+  const std::string ball = "<geometry><sphere><radius>1</radius></sphere></geometry>";
+  EXPECT_EQ(sdf_refusal("<pose>0 0 1 0 0 0</pose>" + ball), "accepted with 1 shapes");
+  EXPECT_THAT(sdf_refusal("<pose>0 0 1m 0 0 0</pose>" + ball),
+              HasSubstr("collision m::mid/broken.pose is \"0 0 1m 0 0 0\": must be numbers"));
 }
 
 TEST(Sdf, RefusesAVersionThatItsReaderDoesNotKnow) {

@@ -1,6 +1,7 @@
 #include <boost/property_tree/xml_parser.hpp>
 #include <exception>
 #include <fmt/format.h>
+#include <map>
 #include <optional>
 #include <sstream>
 #include <urdf_parser/urdf_parser.h>
@@ -102,7 +103,12 @@ ShapesFile read_urdf(const std::filesystem::path& file) {
     throw InvalidInput("scene", '"' + file.string() + '"',
                        "must not hold a percent sign, which its reader takes for a format");
   }
-  const auto collision_counts = check_urdf_collisions(text);
+  std::map<std::string, std::size_t> collision_counts;
+  try {
+    collision_counts = check_urdf_collisions(text);
+  } catch (const boost::property_tree::xml_parser_error&) {
+    // Not XML: urdfdom says more of it.
+  }
   const urdf::ModelInterfaceSharedPtr robot = urdf::parseURDF(text);
   if (!robot || !robot->getRoot()) {
     throw InvalidInput("scene", '"' + file.string() + '"',
