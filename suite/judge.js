@@ -3,11 +3,63 @@
 // {status: 'contact', signed_distance, normal: [x, y, z], points: [{position, depth}, …]} or {status: 'none'}. CC0.
 'use strict';
 const fs = require('fs'), zlib = require('zlib'), {abs, hypot, max, min} = Math;
+const rowCount = 5106;  // of touchstone-suite-1; other test data of Touchstone have further columns
+const columns = `id group radius_a half_length_a position_a_x position_a_y position_a_z orientation_a_w orientation_a_x
+orientation_a_y orientation_a_z shape_b size_b_1 size_b_2 size_b_3 size_b_4 position_b_x position_b_y position_b_z
+orientation_b_w orientation_b_x orientation_b_y orientation_b_z signed_distance signed_distance_error signed_distance_low
+signed_distance_high contact min_distance max_distance max_regret min_point_depth ties normal patch_kind`.split(/\s/);
 const texts = ['id', 'group', 'shape_b', 'contact', 'ties', 'normal', 'patch_kind'];
-function read(file) {
-  const bytes = fs.readFileSync(file), text = (file.endsWith('.gz') ? zlib.gunzipSync(bytes) : bytes).toString();
-  const [header, ...rows] = text.trimEnd().split('\n').map(row => row.split(','));
-  return rows.map(row => Object.fromEntries(row.map((cell, i) => [header[i], texts.includes(header[i]) ? cell : Number(cell)])));
+function textOf(file) {
+  try {
+    const bytes = fs.readFileSync(file);
+    return (file.endsWith('.gz') ? zlib.gunzipSync(bytes) : bytes).toString();
+  } catch (e) { throw Error(`${file}: cannot be read: ${e.message}`); }
+}
+function read(file) {  // throws an Error with the line and column of what is wrong
+  const [header, ...rows] = textOf(file).trimEnd().split('\n').map(row => row.replace(/\r$/, '').split(','));
+  if (columns.some((name, i) => header[i] !== name))
+    throw Error(`${file}:1: must be the columns of touchstone-suite-1, "id,group,…"; a packed file ends in .gz`);
+  const value = (line, name, cell) => {
+    if (texts.includes(name) || !columns.includes(name)) return cell;
+    if (cell.trim() === '' || Number.isNaN(Number(cell))) throw Error(`${file}:${line}: ${name} is "${cell}": must be a number`);
+    return Number(cell);
+  };
+  const cases = rows.map((row, i) => {
+    if (row.length !== header.length)
+      throw Error(`${file}:${i + 2}: has ${row.length} cells: must have ${header.length}; the file is cut off or damaged`);
+    return Object.fromEntries(row.map((cell, k) => [header[k], value(i + 2, header[k], cell)]));
+  });
+  if (header.length === columns.length && cases.length !== rowCount)
+    throw Error(`${file}: has ${cases.length} configurations: must have ${rowCount}; the file is cut off`);
+  return cases;
+}
+function readAnswers(file, cases) {  // cases by id; throws an Error with the line and field of what is wrong
+  const isObject = v => typeof v === 'object' && v !== null && !Array.isArray(v);
+  const number = x => x === null || ['nan', 'inf', '-inf'].includes(x) || typeof x === 'number';
+  const vector = v => Array.isArray(v) && v.length === 3 && v.every(number);
+  const point = p => isObject(p) && vector(p.position) && number(p.depth);
+  const kinds = {signed_distance: [number, 'a number'], normal: [vector, '[x, y, z]'],
+    points: [v => Array.isArray(v) && v.every(point), '[{"position": [x, y, z], "depth": d}, …]']};
+  const text = textOf(file), answers = [];
+  if (text.startsWith('\ufeff')) throw Error(`${file}:1: starts with a byte order mark: write UTF-8 without one`);
+  for (const [i, row] of text.split('\n').entries()) {
+    const wrong = what => Error(`${file}:${i + 1}: ${what}`);
+    if (row.trim() === '') continue;
+    let answer;
+    try { answer = JSON.parse(row); } catch (e) { throw wrong(`is not JSON (${e.message}): write an object on each line`); }
+    if (!isObject(answer)) throw wrong('is no object: write {"id": …, "status": …}');
+    if (i === 0 && !('id' in answer) && 'candidate' in answer) continue;
+    if (typeof answer.id !== 'string') throw wrong('id is missing: must be that of a configuration');
+    if (!cases.has(answer.id)) throw wrong(`id is ${JSON.stringify(answer.id)}: must be that of a configuration of the suite`);
+    if (typeof answer.status !== 'string') throw wrong('status is missing: must be "contact", "none" or why there is no answer');
+    for (const [name, [isRight, rightForm]] of answer.status === 'contact' ? Object.entries(kinds) : []) {
+      if (!(name in answer)) throw wrong(`${name} is missing: must be ${rightForm}`);
+      if (!isRight(answer[name])) throw wrong(`${name} is not usable: must be ${rightForm}`);
+    }
+    answers.push(answer);
+  }
+  if (answers.length === 0) throw Error(`${file}: has no answers: write an object on each line`);
+  return answers;
 }
 const numbers = (c, name, letters = 'xyz') => [...letters].map(letter => c[`${name}_${letter}`]);
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -50,9 +102,15 @@ function verdict(c, answer) {
 const right = c => `contact ${c.contact}, signed distance ${c.min_distance} to ${c.max_distance}, normal ${c.normal}`;
 module.exports = {read, gap, verdict, right};
 if (require.main === module) {
-  const cases = new Map(read(process.argv[2]).map(c => [c.id, c]));
-  const answers = fs.readFileSync(process.argv[3], 'utf8').trimEnd().split('\n').map(line => JSON.parse(line));
-  for (const answer of answers.filter(a => 'id' in a)) {
+  const fail = message => { console.error(message); process.exit(2); };
+  if (process.argv.length !== 4) fail('usage: node judge.js SUITE.csv[.gz] ANSWERS.jsonl');
+  const [cases, answers] = (() => {
+    try {
+      const byId = new Map(read(process.argv[2]).map(c => [c.id, c]));
+      return [byId, readAnswers(process.argv[3], byId)];
+    } catch (e) { return fail(e.message); }
+  })();
+  for (const answer of answers) {
     const c = cases.get(answer.id), judged = verdict(c, answer);
     console.log(answer.id, judged, judged === 'agree' ? '' : `right: ${right(c)}`);
     if (judged !== 'agree') process.exitCode = 1;

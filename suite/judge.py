@@ -3,13 +3,57 @@
 Or from Python: for case in read("touchstone-suite-1.csv.gz"): verdict(case, answer), where an answer
 is {"status": "contact", "signed_distance": d, "normal": [x, y, z], "points": [{"position": …,
 "depth": …}, …]} or {"status": "none"}. README.md has the format. CC0: do with it what you like."""
-import csv, gzip, json, sys
+import gzip, json, sys
 from math import hypot, isfinite, nan
-def read(file):
-    texts = ("id", "group", "shape_b", "contact", "ties", "normal", "patch_kind")
-    with (gzip.open if str(file).endswith(".gz") else open)(file, "rt", newline="") as rows:
-        for row in csv.DictReader(rows):
-            yield {name: cell if name in texts else float(cell) for name, cell in row.items()}
+from zlib import error as ZlibError
+ROW_COUNT = 5106  # of touchstone-suite-1; other test data of Touchstone have further columns
+COLUMNS = """id group radius_a half_length_a position_a_x position_a_y position_a_z orientation_a_w orientation_a_x
+orientation_a_y orientation_a_z shape_b size_b_1 size_b_2 size_b_3 size_b_4 position_b_x position_b_y position_b_z
+orientation_b_w orientation_b_x orientation_b_y orientation_b_z signed_distance signed_distance_error signed_distance_low
+signed_distance_high contact min_distance max_distance max_regret min_point_depth ties normal patch_kind""".split()
+TEXTS = ("id", "group", "shape_b", "contact", "ties", "normal", "patch_kind")
+def text_of(file):
+    try:
+        with (gzip.open if str(file).endswith(".gz") else open)(file, "rb") as stream: return stream.read().decode()
+    except (OSError, EOFError, ZlibError, UnicodeDecodeError) as e: raise ValueError(f"{file}: cannot be read: {e}")
+def read(file):  # raises ValueError with the line and column of what is wrong
+    header, *rows = [row.rstrip("\r").split(",") for row in text_of(file).rstrip().split("\n")]
+    if header[:len(COLUMNS)] != COLUMNS:
+        raise ValueError(f'{file}:1: must be the columns of touchstone-suite-1, "id,group,…"; a packed file ends in .gz')
+    def value(line, name, cell):
+        try: return cell if name in TEXTS or name not in COLUMNS else float(cell)
+        except ValueError: raise ValueError(f'{file}:{line}: {name} is "{cell}": must be a number')
+    for line, row in enumerate(rows, 2):
+        if len(row) != len(header):
+            raise ValueError(f"{file}:{line}: has {len(row)} cells: must have {len(header)}; the file is cut off or damaged")
+        yield {name: value(line, name, cell) for name, cell in zip(header, row)}
+    if header == COLUMNS and len(rows) != ROW_COUNT:
+        raise ValueError(f"{file}: has {len(rows)} configurations: must have {ROW_COUNT}; the file is cut off")
+def read_answers(file, cases):  # by id; raises ValueError with the line and field of what is wrong
+    number = lambda x: x is None or x in ("nan", "inf", "-inf") or type(x) is float
+    vector = lambda v: isinstance(v, list) and len(v) == 3 and all(map(number, v))
+    point = lambda p: isinstance(p, dict) and vector(p.get("position")) and number(p.get("depth", []))
+    kinds = {"signed_distance": (number, "a number"), "normal": (vector, "[x, y, z]"),
+             "points": (lambda v: isinstance(v, list) and all(map(point, v)), '[{"position": [x, y, z], "depth": d}, …]')}
+    text = text_of(file)
+    if text.startswith("\ufeff"): raise ValueError(f"{file}:1: starts with a byte order mark: write UTF-8 without one")
+    answers = []
+    for line, row in enumerate(text.split("\n"), 1):
+        def wrong(what): return ValueError(f"{file}:{line}: {what}")
+        if not row.strip(): continue
+        try: answer = json.loads(row, parse_int=float)
+        except (ValueError, RecursionError) as e: raise wrong(f"is not JSON ({e}): write an object on each line")
+        if not isinstance(answer, dict): raise wrong('is no object: write {"id": …, "status": …}')
+        if line == 1 and "id" not in answer and "candidate" in answer: continue
+        if not isinstance(answer.get("id"), str): raise wrong("id is missing: must be that of a configuration")
+        if answer["id"] not in cases: raise wrong(f'id is {json.dumps(answer["id"])}: must be that of a configuration of the suite')
+        if not isinstance(answer.get("status"), str): raise wrong('status is missing: must be "contact", "none" or why there is no answer')
+        for name, (is_right, right_form) in kinds.items() if answer["status"] == "contact" else ():
+            if name not in answer: raise wrong(f"{name} is missing: must be {right_form}")
+            if not is_right(answer[name]): raise wrong(f"{name} is not usable: must be {right_form}")
+        answers.append(answer)
+    if not answers: raise ValueError(f"{file}: has no answers: write an object on each line")
+    return answers
 def numbers(case, name, letters="xyz"): return [case[f"{name}_{letter}"] for letter in letters]
 def in_frame(q, v):  # q may have any length
     (w, x, y, z), s = q, 2 / sum(e * e for e in q)
@@ -52,8 +96,12 @@ def right(case):
     return "contact {contact}, signed distance {min_distance} to {max_distance}, normal {normal}".format(**case)
 
 if __name__ == "__main__":
-    cases, wrong = {case["id"]: case for case in read(sys.argv[1])}, False
-    for answer in (line for line in map(json.loads, open(sys.argv[2])) if "id" in line):
+    if len(sys.argv) != 3: sys.exit(print("usage: judge.py SUITE.csv[.gz] ANSWERS.jsonl", file=sys.stderr) or 2)
+    try:
+        cases = {case["id"]: case for case in read(sys.argv[1])}
+        answers, wrong = read_answers(sys.argv[2], cases), False
+    except ValueError as e: sys.exit(print(e, file=sys.stderr) or 2)
+    for answer in answers:
         case, judged = cases[answer["id"]], verdict(cases[answer["id"]], answer)
         print(case["id"], judged, "" if judged == "agree" else "right: " + right(case))
         wrong |= judged != "agree"

@@ -183,7 +183,8 @@ TEST(Suite1, ReadersKnowTheRegretOfAnyNormal) { expect_gaps_of_all_readers(data(
 
 /// The suite's planes all have unit normals, so that these are not in it.
 TEST(Readers, KnowPlanesWhoseNormalsHaveAnyLength) {
-  const auto writer = test_data_writer(TestDataFormat::csv, CsvColumns::suite);
+  // With the suite's columns alone it would have to be the whole suite.
+  const auto writer = test_data_writer(TestDataFormat::csv, CsvColumns::all);
   std::vector<TestDatum> made;
   std::string csv;
   for (const TestDatum& d : data()) {
@@ -443,6 +444,109 @@ TEST(Verdicts, OfTouchstoneScoreAreThoseOfTheScore) {
     }
   }
   EXPECT_EQ(reported, expected);
+}
+
+// Files that are none: a reader says in one line where and what is wrong.
+
+/// Files of a test in a folder of their own.
+struct Folder {
+  Folder() { fs::create_directory(path); }
+  ~Folder() { fs::remove_all(path); }
+  std::string with(const std::string& name, const std::string& text) const {
+    std::ofstream(path / name, std::ios::binary) << text;
+    return (path / name).string();
+  }
+  const fs::path path = fs::temp_directory_path() / ("suite_files." + std::to_string(getpid()));
+};
+
+/// What both judges say of a suite and answers, which has to be one line, with exit code 2.
+void expect_refusal(const std::string& suite, const std::string& answers,
+                    const std::string& expected) {
+  for (const std::string judge : {TOUCHSTONE_PYTHON " " TOUCHSTONE_SUITE "/judge.py ",
+                                  "node " TOUCHSTONE_SUITE "/judge.js "}) {
+    SCOPED_TRACE(judge + suite + ' ' + answers);
+    const std::string said =
+        printed_by("{ " + judge + suite + ' ' + answers + " 2>&1; echo \"exit $?\"; }");
+    EXPECT_THAT(said, testing::HasSubstr(expected));
+    EXPECT_THAT(said, testing::EndsWith("\nexit 2\n"));
+    EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 2) << said;
+  }
+}
+
+std::string refusal_in_cpp(const std::string& csv) {
+  std::istringstream in(csv);
+  try {
+    return std::to_string(touchstone_suite::read(in, "given").size()) + " cases";
+  } catch (const std::runtime_error& e) {
+    return e.what();
+  }
+}
+
+TEST(Readers, RefuseASuiteThatIsCutOffDamagedOrNone) {
+  const Folder folder;
+  const std::string answer =
+      folder.with("answers", R"({"id": "cylinder-box/recorded/1/13", "status": "none"})");
+  std::string damaged = committed();
+  damaged.replace(damaged.find("0.5297436105760894"), 18, "0,5297436105760894");
+  std::string no_number = committed();
+  no_number.replace(no_number.find("0.5297436105760894"), 3, "O.5");
+  const std::string row =
+      committed().substr(0, committed().rfind('\n', committed().size() - 2) + 1);
+  const auto expect_refused = [&](const std::string& csv, const std::string& judges_say,
+                                  const std::string& cpp_says) {
+    expect_refusal(folder.with("suite.csv", csv), answer, judges_say);
+    EXPECT_THAT(refusal_in_cpp(csv), testing::StartsWith("given:" + cpp_says));
+  };
+  expect_refused("", "suite.csv:1: must be the columns", "1: nothing can be read");
+  expect_refused("a,b\n1,2\n", "suite.csv:1: must be the columns", "1: must be the columns");
+  expect_refused(committed().substr(0, 100000), "suite.csv:147: has 18 cells: must have 35",
+                 "147: position_b_z is missing");
+  expect_refused(row, "suite.csv: has 5105 configurations: must have 5106",
+                 " has 5105 configurations: must have 5106");
+  expect_refused(no_number, "suite.csv:2: radius_a is \"O.5297436105760894\": must be a number",
+                 "2: radius_a is \"O.5297436105760894\": must be a number");
+  expect_refused(damaged, "suite.csv:2: has 36 cells: must have 35",
+                 "2: size_b_1 is \"plane\": must be a number");
+  expect_refusal((folder.path / "none.csv").string(), answer, "none.csv: cannot be read: ");
+  std::ifstream packed(suite_file, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(packed), {}};
+  EXPECT_THAT(refusal_in_cpp(bytes), testing::EndsWith("unpack a .gz by gzip -d"));
+  expect_refusal(folder.with("packed.csv", bytes), answer, "packed.csv:");
+  expect_refusal(folder.with("cut.csv.gz", bytes.substr(0, 50000)), answer,
+                 "cut.csv.gz: cannot be read: ");
+  std::ifstream missing((folder.path / "none.csv").string());
+  EXPECT_THROW(touchstone_suite::read(missing), std::runtime_error);
+}
+
+TEST(Readers, RefuseAnswersThatAreNoneAndNameTheLineAndTheField) {
+  const Folder folder;
+  const auto expect_refused = [&](const std::string& text, const std::string& expected) {
+    expect_refusal(suite_file, folder.with("answers", text), "answers" + expected);
+  };
+  const std::string id = R"({"id": "cylinder-box/recorded/1/13")";
+  const std::string good = id + R"(, "status": "none"})" + '\n';
+  const std::string contact = good + id + R"(, "status": "contact")";
+  expect_refused("", ": has no answers");
+  expect_refused(R"({"candidate": "mine"})", ": has no answers");
+  expect_refused("[1]", ":1: is no object");
+  expect_refused(good + "hello", ":2: is not JSON (");
+  expect_refused("\xef\xbb\xbf" + good, ":1: starts with a byte order mark");
+  expect_refused(good + R"({"status": "none"})", ":2: id is missing");
+  expect_refused(R"({"id": "mine/1", "status": "none"})",
+                 ":1: id is \"mine/1\": must be that of a configuration");
+  expect_refused(id + "}", ":1: status is missing");
+  expect_refused(contact + "}", ":2: signed_distance is missing: must be a number");
+  expect_refused(contact + R"(, "signed_distance": -1, "points": []})",
+                 ":2: normal is missing: must be [x, y, z]");
+  expect_refused(contact + R"(, "signed_distance": "-1", "normal": [0, 0, 1], "points": []})",
+                 ":2: signed_distance is not usable: must be a number");
+  expect_refused(contact + R"(, "signed_distance": -1, "normal": [0, 1], "points": []})",
+                 ":2: normal is not usable");
+  expect_refused(contact + R"(, "signed_distance": -1, "normal": [0, 0, 1]})",
+                 ":2: points is missing");
+  expect_refused(
+      contact + R"(, "signed_distance": -1, "normal": [0, 0, 1], "points": [{"depth": 1}]})",
+      ":2: points is not usable");
 }
 
 TEST(Readers, SayWhatWouldBeRight) {

@@ -4,8 +4,11 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <istream>
+#include <locale>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <valarray>
 #include <vector>
@@ -26,21 +29,83 @@ struct Answer {
   std::vector<Vector> points;  // x, y, z, depth
 };
 
-inline std::istream& operator>>(std::istream& in, Vector& numbers) {
-  for (double& x : numbers) in >> x;
-  return in;
-}
-inline std::vector<Case> read(std::istream& csv) {
+constexpr std::size_t row_count = 5106;
+// What touchstone-suite-1 starts with. Other test data of Touchstone have further columns.
+inline const std::string columns =
+    "id,group,radius_a,half_length_a,position_a_x,position_a_y,position_a_z,orientation_a_w,"
+    "orientation_a_x,orientation_a_y,orientation_a_z,shape_b,size_b_1,size_b_2,size_b_3,"
+    "size_b_4,position_b_x,position_b_y,position_b_z,orientation_b_w,orientation_b_x,"
+    "orientation_b_y,orientation_b_z,signed_distance,signed_distance_error,"
+    "signed_distance_low,signed_distance_high,contact,min_distance,max_distance,max_regret,"
+    "min_point_depth,ties,normal,patch_kind";
+
+class Row {  // hands out its cells one by one; what is wrong with one is a std::runtime_error
+ public:
+  Row(const std::string& line, const std::string& place) : cells_(line), place_(place) {
+    number_.imbue(std::locale::classic());
+  }
+  Row& operator>>(std::string& cell) {
+    std::getline(names_, name_, ',');
+    if (!std::getline(cells_, cell, ',') || cell.empty()) {
+      throw std::runtime_error(place_ + ": " + name_ +
+                               " is missing: the file is cut off or damaged");
+    }
+    return *this;
+  }
+  Row& operator>>(double& x) {
+    std::string cell;
+    *this >> cell;
+    return parse(cell, &x, 1);
+  }
+  Row& operator>>(Vector& numbers) {
+    for (double& x : numbers) *this >> x;
+    return *this;
+  }
+  Row& parse(const std::string& text, double* x, int count) {
+    number_.clear();
+    number_.str(text);
+    for (int i = 0; i < count; ++i) number_ >> x[i];
+    if (number_.fail() || number_.peek() != EOF) {
+      throw std::runtime_error(place_ + ": " + name_ + " is \"" + text + "\": must be " +
+                               (count == 1 ? "a number" : "numbers"));
+    }
+    return *this;
+  }
+
+ private:
+  std::istringstream cells_, names_{columns}, number_;
+  std::string place_, name_;
+};
+
+// Reads the unpacked file; `file` is its name in messages. Throws std::runtime_error, with the line
+// and what was expected there, if that is not what it gives.
+inline std::vector<Case> read(std::istream& csv, const std::string& file = "the suite's file") {
+  const auto next_line = [&csv](std::string& line) {
+    if (!std::getline(csv, line)) return false;
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    return true;
+  };
   std::vector<Case> cases;
-  std::string line, skipped;
-  for (std::getline(csv, line); std::getline(csv, line);) {  // below the header
-    std::replace(line.begin(), line.end(), ',', ' ');
-    std::istringstream row(line);
+  std::string line, skipped, normals;
+  if (!next_line(line)) throw std::runtime_error(file + ":1: nothing can be read");
+  if (line.compare(0, columns.size(), columns) != 0) {
+    throw std::runtime_error(file + ":1: must be the columns of touchstone-suite-1, \"" +
+                             columns.substr(0, 17) + "…\"; unpack a .gz by gzip -d");
+  }
+  const bool is_suite = line == columns;
+  while (next_line(line)) {
+    Row row(line, file + ':' + std::to_string(cases.size() + 2));
     Case& c = cases.emplace_back();
     row >> c.id >> skipped >> c.size_a >> c.position_a >> c.orientation_a >> c.shape_b >>
         c.size_b >> c.position_b >> c.orientation_b >> c.signed_distance >> skipped >> skipped >>
         skipped >> c.contact >> c.min_distance >> c.max_distance >> c.max_regret >>
-        c.min_point_depth >> skipped >> c.normal;
+        c.min_point_depth >> skipped >> normals;
+    row.parse(normals.substr(0, normals.find(';')), &c.normal[0], 3) >> skipped;
+  }
+  if (csv.bad() || (is_suite && cases.size() != row_count)) {
+    throw std::runtime_error(file + ": has " + std::to_string(cases.size()) +
+                             " configurations: must have " + std::to_string(row_count) +
+                             "; the file is cut off or not touchstone-suite-1");
   }
   return cases;
 }

@@ -5,8 +5,9 @@
 // Touchstone for a btCylinderShape (X and Z too) against a cylinder, box, capsule, sphere or static
 // plane, in both orders and as children of compounds. Hulls, triangles and sweeps stay Bullet's.
 //
-// Shapes       With sharp edges: Bullet's margins round them and keep the faces, so that they
-//              change nothing here. What is not finite or has no size has no contacts.
+// Shapes       Have sharp edges: Bullet's margins round them but keep the faces, so that they count
+//              for nothing here. A capsule of height 0 is a sphere; pairs with other sizes of 0 as
+//              they begin to overlap stay Bullet's. Poses that are not finite have no contacts.
 // Points       Up to 4; of more, those that span most. They are those of this step, each in the
 //              place of an old one, whose impulses, lifetime and user data it keeps. (Bullet keeps
 //              points until they have slid by the breaking threshold: that disturbs a rolling log.)
@@ -18,7 +19,9 @@
 #include <BulletCollision/CollisionDispatch/btManifoldResult.h>
 #include <btBulletCollisionCommon.h>
 #include <limits>
+#include <utility>
 
+#include "../contact_of.hpp"
 #include "../reduce_points.hpp"
 #include "../touchstone.hpp"
 
@@ -31,45 +34,41 @@ inline btVector3 to_bullet(const Vec3& v) {
   return btVector3(btScalar(v.x()), btScalar(v.y()), btScalar(v.z()));
 }
 /// The pose of a shape whose axis is the body's x, y or z (0, 1, 2): Touchstone's is its z.
-inline Pose pose_of(const btTransform& transform, int up_axis = 2) {
+inline Pose pose_of(const btTransform& transform, int up_axis) {
   Eigen::Matrix3d rotation;
   for (int i = 0; i < 3; ++i)
     rotation.col(i) = to_vec3(transform.getBasis().getColumn((up_axis + 1 + i) % 3));
   return Pose(to_vec3(transform.getOrigin()), Eigen::Quaterniond(rotation));
 }
 
-/// The shape as one of this type, or null.
-template <class Shape>
-const Shape* as(const btCollisionShape* shape, int type) {
-  return shape->getShapeType() == type ? static_cast<const Shape*>(shape) : nullptr;
-}
-inline Cylinder to_cylinder(const btCylinderShape& s) {
-  return Cylinder(s.getRadius(), s.getHalfExtentsWithMargin()[s.getUpAxis()]);
+/// A shape and its up axis. Throws InvalidInput for a shape that has no interior.
+inline std::pair<Shape, int> to_shape(const btCollisionShape* shape) {
+  const int type = shape->getShapeType();
+  if (type == CYLINDER_SHAPE_PROXYTYPE) {
+    const auto& s = static_cast<const btCylinderShape&>(*shape);
+    const int up = s.getUpAxis();
+    return {Cylinder(s.getRadius(), s.getHalfExtentsWithMargin()[up]), up};
+  }
+  if (type == CAPSULE_SHAPE_PROXYTYPE) {
+    const auto& s = static_cast<const btCapsuleShape&>(*shape);
+    if (s.getHalfHeight() == 0) return {Sphere(s.getRadius()), 2};
+    return {Capsule(s.getRadius(), s.getHalfHeight()), s.getUpAxis()};
+  }
+  if (type == SPHERE_SHAPE_PROXYTYPE)
+    return {Sphere(static_cast<const btSphereShape*>(shape)->getRadius()), 2};
+  if (type == BOX_SHAPE_PROXYTYPE)
+    return {Box(to_vec3(static_cast<const btBoxShape*>(shape)->getHalfExtentsWithMargin())), 2};
+  const auto& s = static_cast<const btStaticPlaneShape&>(*shape);
+  return {Plane(to_vec3(s.getPlaneNormal()), s.getPlaneConstant()), 2};
 }
 
 /// Contact of a cylinder A with another shape B, with all points up to `threshold` apart.
 inline Contact contact_of(const Wrapper& a, const Wrapper& b, double threshold) try {
-  const auto& cylinder = static_cast<const btCylinderShape&>(*a.getCollisionShape());
-  const btCollisionShape* const other = b.getCollisionShape();
-  const btTransform& at_b = b.getWorldTransform();
-  const auto with = [&](const auto& shape_b, const Pose& pose_b) {
-    return contact(to_cylinder(cylinder), pose_of(a.getWorldTransform(), cylinder.getUpAxis()),
-                   shape_b, pose_b, threshold, nullptr, PointRange::within_threshold);
-  };
-  if (const auto* s = as<btCylinderShape>(other, CYLINDER_SHAPE_PROXYTYPE)) {
-    return with(to_cylinder(*s), pose_of(at_b, s->getUpAxis()));
-  }
-  if (const auto* s = as<btCapsuleShape>(other, CAPSULE_SHAPE_PROXYTYPE)) {
-    return with(Capsule(s->getRadius(), s->getHalfHeight()), pose_of(at_b, s->getUpAxis()));
-  }
-  if (const auto* s = as<btSphereShape>(other, SPHERE_SHAPE_PROXYTYPE)) {
-    return with(Sphere(s->getRadius()), Pose(to_vec3(at_b.getOrigin())));
-  }
-  if (const auto* s = as<btBoxShape>(other, BOX_SHAPE_PROXYTYPE)) {
-    return with(Box(to_vec3(s->getHalfExtentsWithMargin())), pose_of(at_b));
-  }
-  const auto& s = static_cast<const btStaticPlaneShape&>(*other);
-  return with(Plane(to_vec3(s.getPlaneNormal()), s.getPlaneConstant()), pose_of(at_b));
+  const auto [shape_a, up_a] = to_shape(a.getCollisionShape());
+  const auto [shape_b, up_b] = to_shape(b.getCollisionShape());
+  return contact({std::get<Cylinder>(shape_a), pose_of(a.getWorldTransform(), up_a), shape_b,
+                  pose_of(b.getWorldTransform(), up_b)},
+                 threshold, nullptr, PointRange::within_threshold);
 } catch (const InvalidInput&) {
   return {};
 }
@@ -157,10 +156,19 @@ class Algorithm : public btCollisionAlgorithm {
   btPersistentManifold* manifold_ = nullptr;
 };
 
+/// Makes algorithms; the pair of a shape that has no interior gets Bullet's own.
 struct CreateAlgorithm : btCollisionAlgorithmCreateFunc {
+  btCollisionAlgorithmCreateFunc* (btCollisionConfiguration::*own)(int, int);
+  explicit CreateAlgorithm(decltype(own) of_configuration) : own(of_configuration) {}
   btCollisionAlgorithm* CreateCollisionAlgorithm(btCollisionAlgorithmConstructionInfo& info,
-                                                 const Wrapper*, const Wrapper*) override {
+                                                 const Wrapper* a, const Wrapper* b) override try {
+    to_shape(a->getCollisionShape()), to_shape(b->getCollisionShape());
     return new (info.m_dispatcher1->allocateCollisionAlgorithm(sizeof(Algorithm))) Algorithm(info);
+  } catch (const InvalidInput&) {
+    const auto type = [](const Wrapper* w) { return w->getCollisionShape()->getShapeType(); };
+    auto& all =
+        *static_cast<btCollisionDispatcher*>(info.m_dispatcher1)->getCollisionConfiguration();
+    return (all.*own)(type(a), type(b))->CreateCollisionAlgorithm(info, a, b);
   }
 };
 
@@ -180,10 +188,12 @@ namespace touchstone::bullet {
 /// Gives every pair with a cylinder to Touchstone, while no thread collides. Pairs whose bounding
 /// boxes overlap already keep the algorithm that they have until these part.
 inline void install(btCollisionDispatcher& dispatcher) {
-  static detail::CreateAlgorithm create;
+  using Own = btCollisionConfiguration;
+  static detail::CreateAlgorithm create(&Own::getCollisionAlgorithmCreateFunc);
+  static detail::CreateAlgorithm closest(&Own::getClosestPointsAlgorithmCreateFunc);
   detail::for_pairs([&](int i, int j) {
     dispatcher.registerCollisionCreateFunc(i, j, &create);
-    dispatcher.registerClosestPointsCreateFunc(i, j, &create);
+    dispatcher.registerClosestPointsCreateFunc(i, j, &closest);
   });
 }
 

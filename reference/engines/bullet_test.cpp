@@ -317,6 +317,52 @@ TEST(DROP_IN, AnswersContactPairTestWithItsDistance) {
   EXPECT_NEAR(nearest.distances[0], 0.3, 10 * precision);
 }
 
+/// Contacts of a can at the origin, upright along y, with another shape, as depths of the points.
+std::vector<double> depths_with(btCollisionShape& other, double y, bool is_cured,
+                                const btVector3& half_lengths) {
+  btCylinderShape upright(half_lengths);
+  Bodies bodies(can, crate, is_cured);
+  bodies.object(0).setCollisionShape(&upright);
+  bodies.object(1).setCollisionShape(&other);
+  bodies.object(1).setWorldTransform(
+      btTransform(btQuaternion::getIdentity(), btVector3(btScalar(0.1), btScalar(y), 0)));
+  bodies.step();
+  std::vector<double> depths;
+  for (const EnginePoint& p : bodies.points()) depths.push_back(p.depth);
+  bodies.release();
+  return depths;
+}
+
+constexpr btScalar half = btScalar(0.5);
+
+TEST(DROP_IN, ACapsuleOfHeightZeroIsASphere) {
+  btCapsuleShape ball(btScalar(0.25), 0);
+  const auto depths = depths_with(ball, 0.7, true, {half, half, half});
+  ASSERT_EQ(depths.size(), 1u);
+  EXPECT_NEAR(depths[0], 0.05, 10 * precision);
+}
+
+TEST(DROP_IN, OtherSizesOfZeroStayBulletsOwn) {
+  btSphereShape point(0);
+  btCapsuleShape line(0, 1);
+  btBoxShape plate(btVector3(2, 0, 2));
+  btStaticPlaneShape ground(btVector3(0, 1, 0), 0);
+  struct Case {
+    btCollisionShape& other;
+    double y;
+    btVector3 half_lengths;
+  };
+  for (const auto& [other, y, half_lengths] :
+       {Case{point, 0.45, {half, half, half}}, Case{line, 0.9, {half, half, half}},
+        Case{plate, -0.45, {half, half, half}}, Case{ground, 0.01, {half, 0, half}}}) {
+    SCOPED_TRACE(other.getName());
+    const auto ours = depths_with(other, y, true, half_lengths);
+    const bool bullet_has_none = &other == &point && !is_double;
+    EXPECT_EQ(ours.empty(), bullet_has_none);
+    EXPECT_EQ(ours, depths_with(other, y, false, half_lengths));
+  }
+}
+
 TEST(DROP_IN, UninstallGivesBackBulletsOwnAnswers) {
   const auto answers = [](bool is_between) {
     std::vector<double> numbers;

@@ -4,10 +4,9 @@
 // Its table mjCOLLISIONFUNC then asks Touchstone for a cylinder against a plane, sphere, capsule,
 // cylinder or box; other pairs, height fields, meshes and ellipsoids among them, stay MuJoCo's own.
 //
-// Points       All of them, at most eight, where MuJoCo's own functions have 1 (with
-// mjENBL_MULTICCD
-//              up to 5) and 4 with a plane. MuJoCo 3.9 and later leave room for as many as its
-//              mj_maxContact says: of more than that, those that span most (reduce_points.hpp).
+// Points       All of them, at most eight, where MuJoCo's own functions have 4 with a plane and 1
+//              otherwise (up to 5 by mjENBL_MULTICCD). MuJoCo 3.9 and later leave room for as many
+//              as mj_maxContact says: of more, those that span most (reduce_points.hpp).
 // Conventions  MuJoCo's: the normal is the frame's first axis and points from the first geom to
 //              the second; positions are halfway; the second axis is left to mju_makeFrame, as
 //              MuJoCo's own functions for cylinders leave it.
@@ -15,7 +14,8 @@
 //              of positive distance. What the gap excludes MuJoCo decides from that.
 // Threads      The functions keep nothing, so that threads may step models at once. The table is
 //              one for the process: install while no thread steps.
-// Invalid      Poses that are not finite have no contacts.
+// Invalid      Poses that are not finite have no contacts. Sizes of zero, which a program may
+//              write into a model, stay MuJoCo's.
 // Versions     2.2.2. 3.0 to 3.12 by their headers: mjfCollision writes mjContact before 3.9 and
 //              mjPreContact from then on, and its mjData is const before 3.7. mj_geomDistance
 //              of 3.x does not ask the table if native CCD is on and the pair is one that MuJoCo
@@ -82,13 +82,29 @@ inline Pose pose_of(const mjData* d, std::ptrdiff_t geom) {
   return Pose(Vec3(x[0], x[1], x[2]), Eigen::Quaterniond(rotation));
 }
 
+/// MuJoCo's own function for a cylinder and this shape, once it is replaced.
+template <class Other>
+inline mjfCollision own = nullptr;
+
+/// A shape without an interior, which XML cannot make but a program can, stays MuJoCo's own.
+template <class Other>
+bool has_interior(const mjtNum* size) try {
+  shape_of<Other>(size);
+  return true;
+} catch (const InvalidInput&) {
+  return false;
+}
+
 /// A function of the table: MuJoCo gives it the geom of the lower type first.
 template <class Other, bool cylinder_is_first>
 int collide(const mjModel* m, Data* d, Written* contacts, int g1, int g2, mjtNum margin) try {
   const std::ptrdiff_t a = cylinder_is_first ? g1 : g2, b = cylinder_is_first ? g2 : g1;
-  Contact c = contact(shape_of<Cylinder>(m->geom_size + 3 * a), pose_of(d, a),
-                      shape_of<Other>(m->geom_size + 3 * b), pose_of(d, b), margin, nullptr,
-                      PointRange::within_threshold);
+  const mjtNum *size_a = m->geom_size + 3 * a, *size_b = m->geom_size + 3 * b;
+  if (!has_interior<Cylinder>(size_a) || !has_interior<Other>(size_b)) {
+    return own<Other>(m, d, contacts, g1, g2, margin);
+  }
+  Contact c = contact(shape_of<Cylinder>(size_a), pose_of(d, a), shape_of<Other>(size_b),
+                      pose_of(d, b), margin, nullptr, PointRange::within_threshold);
   if (c.points().empty()) return 0;
   reduce_points(c, room(m, g1, g2, margin));
   const Vec3 normal = cylinder_is_first ? Vec3(-c.normal) : c.normal;
@@ -103,22 +119,24 @@ int collide(const mjModel* m, Data* d, Written* contacts, int g1, int g2, mjtNum
   return 0;
 }
 
-/// A place of the table, its function here, and MuJoCo's own once that is replaced.
+/// A place of the table, its function here, and where MuJoCo's own is kept.
 struct Entry {
   int type1, type2;
-  mjfCollision ours, own;
+  mjfCollision ours;
+  mjfCollision& own;
 };
-inline Entry entries[] = {{mjGEOM_PLANE, mjGEOM_CYLINDER, collide<Plane, false>, nullptr},
-                          {mjGEOM_SPHERE, mjGEOM_CYLINDER, collide<Sphere, false>, nullptr},
-                          {mjGEOM_CAPSULE, mjGEOM_CYLINDER, collide<Capsule, false>, nullptr},
-                          {mjGEOM_CYLINDER, mjGEOM_CYLINDER, collide<Cylinder, true>, nullptr},
-                          {mjGEOM_CYLINDER, mjGEOM_BOX, collide<Box, true>, nullptr}};
+inline const Entry entries[] = {
+    {mjGEOM_PLANE, mjGEOM_CYLINDER, collide<Plane, false>, own<Plane>},
+    {mjGEOM_SPHERE, mjGEOM_CYLINDER, collide<Sphere, false>, own<Sphere>},
+    {mjGEOM_CAPSULE, mjGEOM_CYLINDER, collide<Capsule, false>, own<Capsule>},
+    {mjGEOM_CYLINDER, mjGEOM_CYLINDER, collide<Cylinder, true>, own<Cylinder>},
+    {mjGEOM_CYLINDER, mjGEOM_BOX, collide<Box, true>, own<Box>}};
 
 }  // namespace detail
 
 /// Gives every pair with a cylinder to Touchstone, of all models. While no thread steps.
 inline void install() {
-  for (auto& [type1, type2, ours, own] : detail::entries) {
+  for (const auto& [type1, type2, ours, own] : detail::entries) {
     mjfCollision& place = mjCOLLISIONFUNC[type1][type2];
     if (place == ours) continue;
     own = place;

@@ -144,6 +144,23 @@ TEST_F(MujocoDropIn, HasNoContactWithAPoseThatIsNotFinite) {
   EXPECT_EQ(collide(scene.model, scene.data, contacts, 0, 1, 1), 0);
 }
 
+TEST_F(MujocoDropIn, SizesOfZeroStayMujocosOwn) {
+  const Scene scene({Cylinder(0.5, 1), Pose(Vec3(0, 0, 1.24)), Capsule(0.25, 1), Pose()}, true, 0);
+  const int a = mj_name2id(scene.model, mjOBJ_GEOM, "a");
+  const int b = mj_name2id(scene.model, mjOBJ_GEOM, "b");
+  scene.model->geom_size[3 * b + 1] = 0;  // a program may write a model's sizes
+  mjContact ours[mjMAXCONPAIR] = {}, own[mjMAXCONPAIR] = {};
+  const auto collide = [&](mjContact* contacts) {
+    return mjCOLLISIONFUNC[mjGEOM_CAPSULE][mjGEOM_CYLINDER](scene.model, scene.data, contacts, b, a,
+                                                            0);
+  };
+  ASSERT_EQ(collide(ours), 1);
+  mujoco::uninstall();
+  ASSERT_EQ(collide(own), 1);
+  EXPECT_EQ(ours[0].dist, own[0].dist);
+  EXPECT_NEAR(ours[0].dist, -0.01, 1e-4);
+}
+
 TEST_F(MujocoDropIn, LetsThreadsCollideAtOnce) {
   const auto answers = [] {
     std::vector<double> depths;

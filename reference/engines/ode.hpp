@@ -5,20 +5,21 @@
 // sphere, plane, in both orders, in spaces and transforms); other pairs stay ODE's own.
 //
 // Points       As many as dCollide is asked for, at most eight; of more than that those that span
-//              most (reduce_points.hpp). ODE's own colliders give 1 to 8. CONTACTS_UNIMPORTANT
-//              changes nothing.
+//              most (reduce_points.hpp). CONTACTS_UNIMPORTANT changes nothing.
 // Conventions  ODE's: the normal points into the first geom, depths are positive, positions are
 //              halfway between the surfaces. The sides (triangles) are -1.
 // Margin       None, as in ODE: bodies that are apart have no contact.
-// Threads      The colliders keep nothing, so that threads may collide at once. The table is one
-// for
-//              the process: install while no thread collides.
-// Invalid      Lengths of zero, and poses that are not finite, have no contacts.
+// Threads      Threads may collide at once. The table is the process's: install while none does.
+// Sizes        A capsule of zero length is a sphere. Other sizes of zero stay with ODE's own
+//              colliders; where it has none that can take them, they have no contacts.
+// Invalid      Poses that are not finite have no contacts.
 // Versions     0.16.2, double precision; single precision compiles and is rounded.
 #include <algorithm>
 #include <ode/ode.h>
+#include <optional>
 #include <utility>
 
+#include "../contact_of.hpp"
 #include "../reduce_points.hpp"
 #include "../touchstone.hpp"
 
@@ -40,95 +41,46 @@ TOUCHSTONE_ODE_COLLIDER(dCollideBoxCylinderCCD)
 namespace touchstone::ode {
 namespace detail {
 
+/// A geom's pose. dGeomGetQuaternion would not do: inside a dGeomTransform it gives the body's.
 inline Pose pose_of(dGeomID geom) {
-  const dReal* x = dGeomGetPosition(geom);
-  dQuaternion q;
-  dGeomGetQuaternion(geom, q);
-  return Pose(Vec3(x[0], x[1], x[2]), Eigen::Quaterniond(q[0], q[1], q[2], q[3]));
+  const dReal *x = dGeomGetPosition(geom), *r = dGeomGetRotation(geom);  // rows of four
+  Eigen::Matrix3d rotation;
+  rotation << r[0], r[1], r[2], r[4], r[5], r[6], r[8], r[9], r[10];
+  return Pose(Vec3(x[0], x[1], x[2]), Eigen::Quaterniond(rotation));
 }
 
-/// A geom's shape and pose; ODE's lengths are full, those of capsules without their caps.
-template <class Shape>
-struct Posed;
-
-template <>
-struct Posed<Cylinder> {
-  static Cylinder shape(dGeomID geom) {
-    dReal radius, length;
-    dGeomCylinderGetParams(geom, &radius, &length);
-    return Cylinder(radius, length / 2);
+/// A geom's shape; none if a size is zero. ODE's lengths are full, those of capsules without caps.
+inline std::optional<Shape> shape_of(dGeomID geom) try {
+  dReal radius, length;
+  dVector4 v;
+  switch (dGeomGetClass(geom)) {
+    case dCylinderClass:
+      dGeomCylinderGetParams(geom, &radius, &length);
+      return Cylinder(radius, length / 2);
+    case dCapsuleClass:
+      dGeomCapsuleGetParams(geom, &radius, &length);
+      if (length == 0) return Sphere(radius);
+      return Capsule(radius, length / 2);
+    case dSphereClass:
+      return Sphere(dGeomSphereGetRadius(geom));
+    case dBoxClass:
+      dGeomBoxGetLengths(geom, v);
+      return Box(Vec3(v[0], v[1], v[2]) / 2);
+    default:
+      dGeomPlaneGetParams(geom, v);
+      return Plane(Vec3(v[0], v[1], v[2]), v[3]);
   }
-  static Pose pose(dGeomID geom) { return pose_of(geom); }
-};
-
-template <>
-struct Posed<Capsule> {
-  static Capsule shape(dGeomID geom) {
-    dReal radius, length;
-    dGeomCapsuleGetParams(geom, &radius, &length);
-    return Capsule(radius, length / 2);
-  }
-  static Pose pose(dGeomID geom) { return pose_of(geom); }
-};
-
-template <>
-struct Posed<Box> {
-  static Box shape(dGeomID geom) {
-    dVector3 lengths;
-    dGeomBoxGetLengths(geom, lengths);
-    return Box(Vec3(lengths[0], lengths[1], lengths[2]) / 2);
-  }
-  static Pose pose(dGeomID geom) { return pose_of(geom); }
-};
-
-template <>
-struct Posed<Sphere> {
-  static Sphere shape(dGeomID geom) { return Sphere(dGeomSphereGetRadius(geom)); }
-  static Pose pose(dGeomID geom) {
-    const dReal* x = dGeomGetPosition(geom);
-    return Pose(Vec3(x[0], x[1], x[2]));
-  }
-};
-
-template <>
-struct Posed<Plane> {  // has no pose
-  static Plane shape(dGeomID geom) {
-    dVector4 p;
-    dGeomPlaneGetParams(geom, p);
-    return Plane(Vec3(p[0], p[1], p[2]), p[3]);
-  }
-  static Pose pose(dGeomID) { return Pose(); }
-};
-
-/// A collider as ODE calls it: of a cylinder and another geom.
-template <class Other>
-int collide(dGeomID a, dGeomID b, int flags, dContactGeom* contacts, int skip) try {
-  Contact c = contact(Posed<Cylinder>::shape(a), Posed<Cylinder>::pose(a), Posed<Other>::shape(b),
-                      Posed<Other>::pose(b), 0, nullptr, PointRange::within_threshold);
-  constexpr int count_mask = 0xffff;
-  reduce_points(c, std::max(1, flags & count_mask));
-  char* at = reinterpret_cast<char*>(contacts);
-  for (const ContactPoint& p : c.points()) {
-    dContactGeom& out = *reinterpret_cast<dContactGeom*>(at);
-    for (int i = 0; i < 3; ++i) {
-      out.pos[i] = static_cast<dReal>(p.position[i]);
-      out.normal[i] = static_cast<dReal>(c.normal[i]);
-    }
-    out.depth = static_cast<dReal>(std::max(0.0, p.depth));
-    out.g1 = a, out.g2 = b;
-    out.side1 = out.side2 = -1;
-    at += skip;
-  }
-  return static_cast<int>(c.points().size());
 } catch (const InvalidInput&) {
-  return 0;
+  return {};
 }
+
+using Collider = int(dGeomID, dGeomID, int, dContactGeom*, int);
 
 #ifdef TOUCHSTONE_ODE_CAN_UNINSTALL
-/// dSetColliderOverride marks a collider of one class twice as one for exchanged geoms, which
-/// ODE's own is not: exchanged once more, bit for bit as before.
-inline int collide_exchanged(dGeomID a, dGeomID b, int flags, dContactGeom* contacts, int skip) {
-  const int count = dCollideCylinderCylinder(b, a, flags, contacts, skip);
+/// Calls a collider with the geoms exchanged and turns its contacts round, as dCollide does.
+template <Collider* collider>
+int exchanged(dGeomID a, dGeomID b, int flags, dContactGeom* contacts, int skip) {
+  const int count = collider ? collider(b, a, flags, contacts, skip) : 0;
   char* at = reinterpret_cast<char*>(contacts);
   for (int i = 0; i < count; ++i, at += skip) {
     dContactGeom& c = *reinterpret_cast<dContactGeom*>(at);
@@ -151,8 +103,62 @@ inline bool box_is_asked_of_libccd() {
 }
 #endif
 
-inline bool is_installed = false;
-inline bool libccd_had_box = false;
+inline bool is_installed = false, libccd_had_box = false;
+
+/// ODE's own collider of a cylinder and a geom of another class, in this order; null where its
+/// library does not show it. (dSetColliderOverride takes that of two cylinders for exchanged.)
+inline Collider* own_collider([[maybe_unused]] int other_class) {
+#ifdef TOUCHSTONE_ODE_CAN_UNINSTALL
+  if (!dCollideCylinderPlane) return nullptr;
+  if (other_class == dPlaneClass) return dCollideCylinderPlane;
+  if (other_class == dSphereClass) return dCollideCylinderSphere;
+  if (other_class == dCapsuleClass) return exchanged<dCollideCapsuleCylinder>;
+  if (other_class == dCylinderClass) return exchanged<dCollideCylinderCylinder>;
+  return libccd_had_box ? exchanged<dCollideBoxCylinderCCD> : dCollideCylinderBox;
+#else
+  return nullptr;
+#endif
+}
+
+/// Answers for a cylinder and a geom of another class of which one has a size of zero. ODE ends the
+/// process for a flat box, and where it would ask libccd for a flat cylinder.
+inline int collide_flat(dGeomID a, dGeomID b, int flags, dContactGeom* contacts, int skip) {
+  const int other = dGeomGetClass(b);
+  const bool has_answer = other == dPlaneClass || other == dSphereClass ||
+                          (other == dCapsuleClass && shape_of(a)) ||
+                          (other == dBoxClass && shape_of(b) && !libccd_had_box);
+  Collider* const own = has_answer ? own_collider(other) : nullptr;
+  return own ? own(a, b, flags, contacts, skip) : 0;
+}
+
+/// A collider as ODE calls it: of a cylinder and another geom.
+inline int collide(dGeomID a, dGeomID b, int flags, dContactGeom* contacts, int skip) try {
+  const std::optional<Shape> shape_a = shape_of(a), shape_b = shape_of(b);
+  if (!shape_a || !shape_b) return collide_flat(a, b, flags, contacts, skip);
+  const Pose pose_b = dGeomGetClass(b) == dPlaneClass ? Pose() : pose_of(b);  // a plane has none
+  Contact c = contact({std::get<Cylinder>(*shape_a), pose_of(a), *shape_b, pose_b}, 0, nullptr,
+                      PointRange::within_threshold);
+  constexpr int count_mask = 0xffff;
+  reduce_points(c, std::max(1, flags & count_mask));
+  char* at = reinterpret_cast<char*>(contacts);
+  for (const ContactPoint& p : c.points()) {
+    dContactGeom& out = *reinterpret_cast<dContactGeom*>(at);
+    for (int i = 0; i < 3; ++i) {
+      out.pos[i] = static_cast<dReal>(p.position[i]);
+      out.normal[i] = static_cast<dReal>(c.normal[i]);
+    }
+    out.depth = static_cast<dReal>(std::max(0.0, p.depth));
+    out.g1 = a, out.g2 = b;
+    out.side1 = out.side2 = -1;
+    at += skip;
+  }
+  return static_cast<int>(c.points().size());
+} catch (const InvalidInput&) {  // of a pose
+  return 0;
+}
+
+inline constexpr int other_classes[] = {dPlaneClass, dSphereClass, dCapsuleClass, dCylinderClass,
+                                        dBoxClass};
 
 }  // namespace detail
 
@@ -161,34 +167,21 @@ inline void install() {
 #ifdef TOUCHSTONE_ODE_CAN_UNINSTALL
   if (!detail::is_installed) detail::libccd_had_box = detail::box_is_asked_of_libccd();
 #endif
-  dSetColliderOverride(dCylinderClass, dPlaneClass, detail::collide<Plane>);
-  dSetColliderOverride(dCylinderClass, dSphereClass, detail::collide<Sphere>);
-  dSetColliderOverride(dCylinderClass, dCapsuleClass, detail::collide<Capsule>);
-  dSetColliderOverride(dCylinderClass, dCylinderClass, detail::collide<Cylinder>);
-  dSetColliderOverride(dCylinderClass, dBoxClass, detail::collide<Box>);
+  for (const int other : detail::other_classes) {
+    dSetColliderOverride(dCylinderClass, other, detail::collide);
+  }
   detail::is_installed = true;
 }
 
 /// Gives them back to ODE; false where its library does not show its own colliders.
 inline bool uninstall() {
   if (!detail::is_installed) return true;
-#ifdef TOUCHSTONE_ODE_CAN_UNINSTALL
-  if (!dCollideCylinderPlane) return false;
-  dSetColliderOverride(dCylinderClass, dPlaneClass, dCollideCylinderPlane);
-  dSetColliderOverride(dCylinderClass, dSphereClass, dCollideCylinderSphere);
-  dSetColliderOverride(dCapsuleClass, dCylinderClass, dCollideCapsuleCylinder);
-  dSetColliderOverride(dCylinderClass, dCylinderClass,
-                       dCollideCylinderCylinder ? detail::collide_exchanged : nullptr);
-  if (detail::libccd_had_box) {
-    dSetColliderOverride(dBoxClass, dCylinderClass, dCollideBoxCylinderCCD);
-  } else {
-    dSetColliderOverride(dCylinderClass, dBoxClass, dCollideCylinderBox);
+  if (!detail::own_collider(dPlaneClass)) return false;
+  for (const int other : detail::other_classes) {
+    dSetColliderOverride(dCylinderClass, other, detail::own_collider(other));
   }
   detail::is_installed = false;
   return true;
-#else
-  return false;
-#endif
 }
 
 }  // namespace touchstone::ode

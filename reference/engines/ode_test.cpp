@@ -120,6 +120,127 @@ TEST_F(OdeDropIn, AnswersGeomsWithOffsetsAndInSpaces) {
   dWorldDestroy(world);
 }
 
+/// A body somewhere in a world, for geoms that are not where their body is.
+struct TurnedBody {
+  TurnedBody() : world(dWorldCreate()), body(dBodyCreate(world)) {
+    const dQuaternion turned = {0.5, 0.1, -0.7, 0.5};
+    dBodySetPosition(body, 0.3, -0.2, 0.1);
+    dBodySetQuaternion(body, turned);
+  }
+  ~TurnedBody() { dWorldDestroy(world); }
+  TurnedBody(const TurnedBody&) = delete;
+  TurnedBody& operator=(const TurnedBody&) = delete;
+
+  /// Lends the body to a geom that stays where it is; returns the geom to collide.
+  dGeomID with_offset(dGeomID geom) const {
+    const dVector3 x = {dGeomGetPosition(geom)[0], dGeomGetPosition(geom)[1],
+                        dGeomGetPosition(geom)[2]};
+    dQuaternion q;
+    dGeomGetQuaternion(geom, q);
+    dGeomSetBody(geom, body);
+    dGeomSetOffsetWorldPosition(geom, x[0], x[1], x[2]);
+    dGeomSetOffsetWorldQuaternion(geom, q);
+    return geom;
+  }
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wdeprecated-declarations"  // of dGeomTransform, still in use
+  dGeomID in_transform(dGeomID geom) const {
+    dVector3 x;
+    const dReal* at = dGeomGetPosition(geom);
+    dBodyGetPosRelPoint(body, at[0], at[1], at[2], x);
+    dMatrix3 rotation;
+    dMultiply1_333(rotation, dBodyGetRotation(body), dGeomGetRotation(geom));
+    dGeomSetPosition(geom, x[0], x[1], x[2]);
+    dGeomSetRotation(geom, rotation);
+    const dGeomID transform = dCreateGeomTransform(nullptr);
+    dGeomTransformSetGeom(transform, geom);
+    dGeomTransformSetInfo(transform, 1);  // contacts name the transform
+    dGeomSetBody(transform, body);
+    return transform;
+  }
+#pragma GCC diagnostic pop
+  dWorldID world;
+  dBodyID body;
+};
+
+TEST_F(OdeDropIn, AnswersTurnedGeomsInTransformsAndWithOffsetsInBothOrders) {
+  const auto expect_in_both_orders = [](const Configuration& c, dGeomID a, dGeomID b) {
+    expect_as_ours(c, 0, 8, collide(a, b), 1e-12);
+    auto points = collide(b, a);
+    for (EnginePoint& p : points) p.normal = -p.normal;
+    expect_as_ours(c, 0, 8, points, 1e-12);
+  };
+  for (const Pair pair : all_pairs) {
+    for (const Identity& id : everyday_poses(pair, 3)) {
+      const Configuration c = make_configuration(id);
+      SCOPED_TRACE(to_string(id));
+      for (const auto attach : {&TurnedBody::with_offset, &TurnedBody::in_transform}) {
+        const Geoms geoms(c);
+        const TurnedBody body, other_body;
+        const dGeomID a = (body.*attach)(geoms.a);
+        expect_in_both_orders(c, a, geoms.b);
+        const dGeomID b = pair == Pair::plane ? geoms.b : (other_body.*attach)(geoms.b);
+        expect_in_both_orders(c, a, b);
+        if (a != geoms.a) dGeomDestroy(a);
+        if (b != geoms.b) dGeomDestroy(b);
+      }
+    }
+  }
+}
+
+TEST_F(OdeDropIn, ACapsuleOfZeroLengthIsASphere) {
+  const Configuration c{Cylinder(0.5, 0.5), Pose(), Sphere(0.25), Pose(Vec3(0, 0.1, 0.7))};
+  const dGeomID can = make_geom(c.a, c.pose_a), capsule = dCreateCapsule(nullptr, 0.25, 0);
+  dGeomSetPosition(capsule, 0, 0.1, 0.7);
+  expect_as_ours(c, 0, 8, collide(can, capsule), 1e-12);
+  const auto points = collide(capsule, can);
+  ASSERT_EQ(points.size(), 1u);
+  EXPECT_NEAR(points[0].depth, 0.05, 1e-12);
+  EXPECT_NEAR(points[0].normal.z(), 1, 1e-12);
+  dGeomDestroy(can);
+  dGeomDestroy(capsule);
+}
+
+TEST_F(OdeDropIn, OtherSizesOfZeroStayOdesOwnWhereItHasAnAnswer) {
+  const dGeomID can = dCreateCylinder(nullptr, 0.5, 1), disc = dCreateCylinder(nullptr, 0.5, 0);
+  const dGeomID plane = dCreatePlane(nullptr, 0, 0, 1, -0.45), box = dCreateBox(nullptr, 4, 4, 2);
+  const dGeomID point = dCreateSphere(nullptr, 0), line = dCreateCapsule(nullptr, 0, 1);
+  dGeomSetPosition(disc, 0, 0, -0.46);
+  dGeomSetPosition(box, 0, 0, -1.4);
+  dGeomSetPosition(point, 0, 0, 0.45);
+  dGeomSetPosition(line, 0.1, 0, 0.9);
+  const auto answer = [](dGeomID a, dGeomID b) {
+    std::vector<double> numbers;
+    for (const EnginePoint& p : collide(a, b)) {
+      for (int i = 0; i < 3; ++i) numbers.push_back(p.position[i]), numbers.push_back(p.normal[i]);
+      numbers.push_back(p.depth);
+    }
+    return numbers;
+  };
+  for (const auto& [a, b] : {std::pair(can, point), std::pair(can, line), std::pair(disc, plane),
+                             std::pair(disc, box)}) {
+    const auto in_order = answer(a, b), exchanged = answer(b, a);
+    ode::uninstall();
+    EXPECT_FALSE(in_order.empty());
+    EXPECT_EQ(in_order, answer(a, b));
+    EXPECT_EQ(exchanged, answer(b, a));
+    ode::install();
+  }
+  for (const dGeomID geom : {can, disc, plane, box, point, line}) dGeomDestroy(geom);
+}
+
+TEST_F(OdeDropIn, HasNoContactWhereOdeWouldEndTheProcess) {
+  const dGeomID can = dCreateCylinder(nullptr, 0.5, 1), disc = dCreateCylinder(nullptr, 0.5, 0);
+  const dGeomID plate = dCreateBox(nullptr, 4, 4, 0), capsule = dCreateCapsule(nullptr, 0.3, 1);
+  dGeomSetPosition(capsule, 0, 0, 0.3);
+  for (const auto& [a, b] :
+       {std::pair(can, plate), std::pair(can, disc), std::pair(disc, capsule)}) {
+    EXPECT_TRUE(collide(a, b).empty());
+    EXPECT_TRUE(collide(b, a).empty());
+  }
+  for (const dGeomID geom : {can, disc, plate, capsule}) dGeomDestroy(geom);
+}
+
 TEST_F(OdeDropIn, HasNoContactWithAPoseThatIsNotFinite) {
   const Geoms geoms(cut_cap);
   dGeomSetPosition(geoms.a, NAN, 0, 0);

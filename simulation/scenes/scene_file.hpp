@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <set>
 #include <string>
@@ -72,6 +74,11 @@ ShapesFile read_sdf(const std::filesystem::path& file);
 /// Text of an XML file. Throws InvalidInput if its elements are nested so deeply that a parser
 /// would overflow the stack.
 std::string read_xml(const std::filesystem::path& file);
+/// Throws InvalidInput, with the collision and the field, unless each collision's shape is known
+/// and has the lengths it needs, and no others. Returns the number of collisions of each link.
+std::map<std::string, std::size_t> check_urdf_collisions(const std::string& text);
+/// Checks those of SDF, and that its version is not above that which its reader knows.
+void check_sdf_collisions(const std::string& text, std::string_view newest_version);
 
 /// A scene of the shapes as fixed bodies.
 SceneFile still_scene(const ShapesFile& shapes);

@@ -1,4 +1,5 @@
 // The only file that includes libsdformat's headers, which take seconds to compile.
+#include <filesystem>
 #include <fmt/format.h>
 #include <functional>
 #include <sdf/sdf.hh>
@@ -100,10 +101,32 @@ void note_ignored_elements(const sdf::ElementPtr& element, ShapesFile& result) {
   }
 }
 
+/// Adds the files that the element and those within it were read from.
+void add_files(const sdf::ElementPtr& element, std::set<std::filesystem::path>& files) {
+  files.insert(element->FilePath());
+  for (auto child = element->GetFirstElement(); child; child = child->GetNextElement()) {
+    add_files(child, files);
+  }
+}
+
+/// Checks the collisions of the models that a file includes.
+void check_included(const sdf::Root& root, const std::filesystem::path& file) {
+  std::set<std::filesystem::path> files;
+  add_files(root.Element(), files);
+  for (const std::filesystem::path& included : files) {
+    if (included.extension() != ".sdf" || std::filesystem::equivalent(included, file)) continue;
+    try {
+      check_sdf_collisions(read_xml(included), sdf::SDF::Version());
+    } catch (const InvalidInput& e) {
+      throw InvalidInput(included.string() + ": " + e.field(), e.value(), e.remedy());
+    }
+  }
+}
+
 }  // namespace
 
 ShapesFile read_sdf(const std::filesystem::path& file) {
-  read_xml(file);  // refuses elements nested too deeply
+  const std::string text = read_xml(file);
   sdf::Root root;
   // By a relative name libsdformat finds its own description first, which has one of world.sdf and
   // model.sdf.
@@ -112,6 +135,8 @@ ShapesFile read_sdf(const std::filesystem::path& file) {
     throw InvalidInput("scene", '"' + file.string() + '"',
                        "must be SDF: " + errors.front().Message());
   }
+  check_sdf_collisions(text, sdf::SDF::Version());
+  check_included(root, file);
   ShapesFile result;
   result.name = file.stem().string();
   if (const sdf::Model* model = root.Model()) {

@@ -1,37 +1,17 @@
-#include <algorithm>
 #include <boost/property_tree/xml_parser.hpp>
 #include <exception>
 #include <fmt/format.h>
+#include <map>
 #include <optional>
 #include <sstream>
-#include <string_view>
 #include <urdf_parser/urdf_parser.h>
 
-#include "properties/files/disk.hpp"
 #include "properties/files/given_text.hpp"
 #include "reference/invalid_input.hpp"
 #include "simulation/scenes/scene_file.hpp"
 
 namespace touchstone {
 namespace {
-
-/// Depth of nesting of the elements; an element that is never closed counts as open.
-std::size_t depth_of(std::string_view xml) {
-  std::size_t depth = 0, max_depth = 0;
-  for (std::size_t at = xml.find('<'); at != xml.npos; at = xml.find('<', at + 1)) {
-    const std::string_view tag = xml.substr(at);
-    if (tag.starts_with("<!--")) {
-      at = std::min(xml.find("-->", at), xml.size());
-    } else if (tag.starts_with("</")) {
-      depth -= depth > 0 ? 1 : 0;
-    } else if (!tag.starts_with("<!") && !tag.starts_with("<?")) {
-      max_depth = std::max(max_depth, ++depth);
-      const std::size_t end = xml.find('>', at);
-      if (end != xml.npos && xml[end - 1] == '/') --depth;
-    }
-  }
-  return max_depth;
-}
 
 Eigen::Isometry3d isometry(const urdf::Pose& pose) {
   Eigen::Quaterniond q;
@@ -116,19 +96,6 @@ void note_ignored_elements(const std::string& text, ShapesFile& result) {
 
 }  // namespace
 
-std::string read_xml(const std::filesystem::path& file) {
-  std::string text = read_file(file, "scene");
-  constexpr std::size_t max_depth = 100;
-  if (text.find('\0') != text.npos) {
-    throw InvalidInput("scene", '"' + file.string() + '"', "must be text: it holds a NUL byte");
-  }
-  if (depth_of(text) > max_depth) {
-    throw InvalidInput("scene", '"' + file.string() + '"',
-                       fmt::format("must have elements at most {} levels deep", max_depth));
-  }
-  return text;
-}
-
 ShapesFile read_urdf(const std::filesystem::path& file) {
   const std::string text = read_xml(file);
   if (text.find('%') != text.npos) {
@@ -136,10 +103,23 @@ ShapesFile read_urdf(const std::filesystem::path& file) {
     throw InvalidInput("scene", '"' + file.string() + '"',
                        "must not hold a percent sign, which its reader takes for a format");
   }
+  std::map<std::string, std::size_t> collision_counts;
+  try {
+    collision_counts = check_urdf_collisions(text);
+  } catch (const boost::property_tree::xml_parser_error&) {
+    // Not XML: urdfdom says more of it.
+  }
   const urdf::ModelInterfaceSharedPtr robot = urdf::parseURDF(text);
   if (!robot || !robot->getRoot()) {
     throw InvalidInput("scene", '"' + file.string() + '"',
                        "must be a URDF robot; the lines above say what is wrong");
+  }
+  for (const auto& [name, count] : collision_counts) {
+    const auto link = robot->getLink(name);
+    const std::size_t read = link ? link->collision_array.size() : 0;
+    if (read == count) continue;  // of a link with a faulty origin or visual it drops collisions
+    throw InvalidInput("link " + name, fmt::format("read with {} of {} collisions", read, count),
+                       "the lines above say what is wrong in it");
   }
   ShapesFile result;
   result.name = robot->getName();
@@ -157,8 +137,9 @@ ShapesFile read_shapes(const std::filesystem::path& file) {
   ShapesFile shapes;
   try {
     shapes = file.extension() == ".urdf" ? read_urdf(file) : read_sdf(file);
-  } catch (const InvalidInput&) {
-    throw;
+  } catch (const InvalidInput& e) {
+    if (e.field() == "scene") throw;  // names the file already
+    throw InvalidInput(file.string() + ": " + e.field(), e.value(), e.remedy());
   } catch (const std::exception& e) {  // thrown by the libraries
     constexpr std::size_t max_reason = 200;
     throw InvalidInput(
