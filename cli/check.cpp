@@ -113,6 +113,15 @@ std::string check_text(const std::vector<LawResult>& results, const Terminal& te
   for (const LawResult& r : results) {
     const char* pair = pair_name(r.pair);
     if (pair != last) text += '\n' + terminal.heading(pair) + '\n';
+    if (r.tried == 0) {
+      if (pair != last) text += "  no routine: no law was tried\n";
+      last = pair;
+      continue;
+    }
+    if (pair != last && r.unsupported > 0) {
+      text += fmt::format("  no routine for {} configurations, which no law was tried on\n",
+                          r.unsupported);
+    }
     last = pair;
     const std::string verdict =
         r.broken == 0 ? terminal.good(fmt::format("{:<16}", "passed"))
@@ -149,6 +158,10 @@ std::string junit_xml(const std::string& candidate, const std::vector<LawResult>
     seconds += r.seconds;
     cases += fmt::format("    <testcase classname=\"{}.{}\" name=\"{}\" time=\"{:.3f}\">",
                          escaped(candidate), pair_name(r.pair), r.law->name, r.seconds);
+    if (r.tried == 0) {
+      ++skipped;
+      cases += "<skipped message=\"no routine for the pair\"/>";
+    }
     if (r.broken > 0) {
       ++failures;
       cases += fmt::format("<failure type=\"{}\" message=\"{}\">{}</failure>",
@@ -189,6 +202,7 @@ std::string check_json(const std::string& candidate, const CheckOptions& options
     laws.push_back({{"law", r.law->name},
                     {"pair", pair_name(r.pair)},
                     {"tried", r.tried},
+                    {"unsupported", r.unsupported},
                     {"broken", r.broken},
                     {"outcomes", r.counts},
                     {"failures", failures}});
@@ -319,6 +333,10 @@ std::vector<LawResult> check_laws(const Candidate* candidate, const CheckOptions
                all - in_order(results).size(), all);
   }
   fmt::print("{}", check_text(results, standard_output()));
+  if (std::none_of(results.begin(), results.end(), [](auto& r) { return r.tried > 0; })) {
+    throw InvalidInput("--candidate", process.candidate().name,
+                       "must have a routine for a pair that is asked");
+  }
   return results;
 }
 
@@ -326,6 +344,10 @@ int run(const Options& options) {
   if (options.candidate.empty() && options.corpus.empty() && options.known.empty()) {
     throw InvalidInput("--candidate", "nothing",
                        "must name what to check, or --corpus or --known a folder");
+  }
+  for (const auto& [file, field] :
+       {std::pair(&options.junit, "--junit"), {&options.json, "--json"}}) {
+    if (!file->empty()) check_file_writable(*file, field);
   }
   const CheckOptions checks = options.check();
   const Candidate* const candidate =

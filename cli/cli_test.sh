@@ -52,7 +52,9 @@ expect 0 'reference: contact, agree' replay cylinder-box/rim-face/1/2
 expect 0 '"id":"cylinder-box/rim-face/1/2"' replay cylinder-box/rim-face/1/2 --json
 expect 0 'reference: contact' replay cylinder-box/rim-face/1/2 --html "$folder/page.html"
 grep -q 'cylinder-box/rim-face/1/2' "$folder/page.html" || { echo "FAILED: no page"; failures=$((failures + 1)); }
-expect 2 '--html' replay cylinder-box/rim-face/1/2 --html "$folder/none/page.html"
+expect 2 '--html.*must be a folder that can be written' replay cylinder-box/rim-face/1/2 --html /proc/none/page.html
+expect 2 '--html.*must be a file, not a folder' replay cylinder-box/rim-face/1/2 --html "$folder"
+expect 2 '--junit.*must be a folder that can be written' check --candidate reference --count 1000000 --junit /proc/none/x.xml
 expect 0 'reference: contact' replay <("$program" replay cylinder-box/rim-face/1/2 --json) --candidates reference
 expect 2 'could not be opened' solve "$folder/none.jsonl"
 expect 2 '--width' solve --width 0
@@ -132,6 +134,12 @@ expect 2 '--candidate' check
 expect 2 '--law.*agreement' check --candidate bullet --law gravity
 expect 2 '--class' check --candidate bullet --class nowhere
 expect 2 '--corpus.*must be a folder' check --corpus "$folder/none"
+expect 2 'must have a routine for a pair' check --candidate libccd-gjk --pair cylinder-plane --count 1
+expect 0 'no routine: no law was tried' check --candidate libccd-gjk --pair cylinder-plane,cylinder-sphere \
+  --class general --count 1 --law answers --junit "$folder/none.xml"
+grep -q 'skipped="1"' "$folder/none.xml" || { echo "FAILED: not skipped in JUnit"; failures=$((failures + 1)); }
+expect 1 'missed *: wrong by [0-9.e-]* of the smaller size' check --candidate box-spheres:8 --class rim-face \
+  --count 1 --law agreement
 expect 0 'agreement .* passed' check --candidate reference --pair cylinder-sphere --count 1
 expect 1 'broken by' check --candidate bullet --pair cylinder-box --class edge-cap --count 1 \
   --law agreement --save "$folder/corpus" --junit "$folder/junit.xml" --json "$folder/check.json"

@@ -26,7 +26,7 @@ PAGES = ["README.md", "CONTRIBUTING.md", "docs/*.md", "oracle/README.md", "oracl
 SHORTER = {
     "report": {"--pair": "cylinder-plane", "--class": "lying", "--count": "1",
                "--candidates": "reference,bullet"},
-    "check": {"--law": "agreement", "--pair": "cylinder-sphere", "--count": "1"},
+    "check": {"--law": "agreement", "--pair": "cylinder-plane", "--count": "1"},
     "campaign": {"--pair": "cylinder-plane", "--class": "lying", "--count": "1600",
                  "--candidates": "reference"},
     "search": {"--pair": "cylinder-plane", "--class": "general-shallow", "--count": "8"},

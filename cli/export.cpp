@@ -47,10 +47,7 @@ int run(const Options& options) {
   const auto writer =
       test_data_writer(options.format(), options.suite ? CsvColumns::suite : CsvColumns::all);
   const bool streams = options.out == "-";
-  if (!streams) {
-    const auto folder = std::filesystem::path(options.out).parent_path();
-    check_writable(folder.empty() ? "." : folder);
-  }
+  if (!streams) check_file_writable(options.out, "--out");
   const Interruption interruption;
   std::string text;
   std::uint64_t count = 0;

@@ -151,13 +151,26 @@ def ctrl_c_twice(program, folder):
     run.wait_for(r"of \d{7,} configurations")
     run.ctrl_c()
     run.wait_for("once more")
-    os.kill(run.pid, signal.SIGINT)
+    os.kill(run.pid, signal.SIGTERM)  # a second Ctrl-C at once would be the same request
     status = run.end()
-    assert os.WIFSIGNALED(status) and os.WTERMSIG(status) == signal.SIGINT, status
+    assert os.WIFSIGNALED(status) and os.WTERMSIG(status) == signal.SIGTERM, status
     assert not os.path.exists(f"{folder}/report.json")
 
 
-for case in (ctrl_c_while_scoring, termination_while_timing, ctrl_c_after_timing, ctrl_c_twice):
+def ctrl_c_where_nothing_is_kept(program, _):
+    run = Run.__new__(Run)
+    run.printed = ""
+    run.pid, run.terminal = pty.fork()
+    if run.pid == 0:
+        os.execv(program, [program, "check", "--candidate", "reference", "--count", "5000"])
+    run.wait_for(r"of \d{7,} configurations")
+    run.ctrl_c()
+    status = run.end()
+    assert os.WIFSIGNALED(status) and os.WTERMSIG(status) == signal.SIGINT, status
+    assert run.printed.count("touchstone: interrupted; only what was written before is kept") == 1, run.printed
+
+
+for case in (ctrl_c_where_nothing_is_kept, ctrl_c_while_scoring, termination_while_timing, ctrl_c_after_timing, ctrl_c_twice):
     with tempfile.TemporaryDirectory() as folder:
         case(sys.argv[1], folder)
         print("passed:", case.__name__)

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "candidates/candidates.hpp"
+#include "candidates/host/interruption.hpp"
 #include "cli/command.hpp"
 #include "oracle/truth.hpp"
 #include "properties/files/given_text.hpp"
@@ -110,6 +111,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   touchstone::open_closed_streams();
+  touchstone::say_when_interrupted();
   const int code = touchstone::run(argc, argv);
   if (touchstone::standard_output_is_written()) return code;
   return code == touchstone::contradiction ? code : touchstone::unwritten_output;

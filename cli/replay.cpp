@@ -32,6 +32,7 @@ int run(const Options& options, bool emits) {
                                 bar, options.candidates.limits()));
     return 0;
   }
+  if (!options.html.empty()) check_file_writable(options.html, "--html");
   auto candidates = start(options.candidates.get(), bar.threshold, options.candidates.limits());
   const Examination shown = examine(given, pointers(candidates), bar, 1e-30);
   if (!options.html.empty()) {

@@ -81,8 +81,7 @@ int record(const Options& options) {
     throw InvalidInput("--record", options.record,
                        "needs scene files, as simulation/scenes/conveyor.json");
   }
-  const auto folder = std::filesystem::path(options.record).parent_path();
-  check_writable(folder.empty() ? "." : folder, "--record");
+  check_file_writable(options.record, "--record");
   std::vector<SceneFile> files;
   for (const std::string& name : options.names) files.push_back(read_scene(name));
   Processes processes(options.candidates.limits());

@@ -103,6 +103,8 @@ std::map<std::string, double> documented_errors(Pair pair, bool in_float) {
     if (cells.size() != 3 + std::size(all_pairs)) continue;
     if (cells[1].ends_with("in float") != in_float) continue;
     char* rest = nullptr;
+    std::strtod(cells[2].c_str(), &rest);
+    if (rest != cells[2].c_str()) continue;  // a row of times
     const double figure = std::strtod(cells[column].c_str(), &rest);
     if (rest != cells[column].c_str()) figures[cells[1] + " | " + cells[2]] = figure;
   }

@@ -3,8 +3,9 @@
 namespace touchstone {
 
 /// During its lifetime the first SIGINT (Ctrl-C) or SIGTERM only requests an end, upon which long
-/// work returns its partial result; a second one ends the program at once. A signal that was
-/// ignored when the program began stays ignored. There may be one object at a time.
+/// work returns its partial result; a second one, of the same kind not within 0.3 s, ends the
+/// program at once. A signal that was ignored when the program began stays ignored. There may be
+/// one object at a time.
 class Interruption {
  public:
   Interruption();
@@ -12,6 +13,10 @@ class Interruption {
   Interruption(const Interruption&) = delete;
   Interruption& operator=(const Interruption&) = delete;
 };
+
+/// From now on this process, where no Interruption catches SIGINT and SIGTERM, says on standard
+/// error that they end it.
+void say_when_interrupted();
 
 /// Has an end been requested? False without an Interruption.
 bool interrupted();

@@ -154,6 +154,31 @@ TEST(InterruptionDeathTest, ASecondSignalEndsAtOnce) {
   EXPECT_EXIT(twice(), testing::KilledBySignal(SIGTERM), "once more");
 }
 
+TEST(InterruptionDeathTest, TheSameSignalAtOnceIsTheSameRequest) {
+  const auto at_once = [] {
+    const Interruption interruption;
+    raise(SIGINT);
+    raise(SIGINT);
+    _exit(interrupted_exit_code());
+  };
+  EXPECT_EXIT(at_once(), testing::ExitedWithCode(130), "ending with what there is");
+  const auto later = [] {
+    const Interruption interruption;
+    raise(SIGINT);
+    usleep(350000);
+    raise(SIGINT);
+  };
+  EXPECT_EXIT(later(), testing::KilledBySignal(SIGINT), "once more");
+}
+
+TEST(InterruptionDeathTest, SaysThatItEndsWhereNothingCatchesIt) {
+  const auto ended = [] {
+    say_when_interrupted();
+    raise(SIGTERM);
+  };
+  EXPECT_EXIT(ended(), testing::KilledBySignal(SIGTERM), "interrupted; only what was written");
+}
+
 TEST(InterruptionDeathTest, LeavesWhatWasIgnored) {
   const auto ignored = [] {
     signal(SIGINT, SIG_IGN);

@@ -91,6 +91,16 @@ void check_writable(const std::filesystem::path& folder, const char* field) {
   }
 }
 
+void check_file_writable(const std::filesystem::path& file, const char* field) {
+  if (is_folder(file)) {
+    throw InvalidInput(field, '"' + file.string() + '"', "must be a file, not a folder");
+  }
+  std::error_code error;
+  const bool is_special = std::filesystem::exists(file, error) &&
+                          !std::filesystem::is_regular_file(file, error);  // as /dev/stdout is
+  if (!is_special) check_writable(file.has_parent_path() ? file.parent_path() : ".", field);
+}
+
 std::string read_file(const std::filesystem::path& file, const char* field) {
   const std::string name = '"' + file.string() + '"';
   if (is_folder(file)) throw InvalidInput(field, name, "must be a file, not a folder");

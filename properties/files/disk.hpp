@@ -18,6 +18,9 @@ void write_file(const std::filesystem::path& file, std::string_view text, const 
 /// written there; makes the folder.
 void check_writable(const std::filesystem::path& folder, const char* field = "--out");
 
+/// Likewise for a file, before the work of which it is to hold the result; makes its folder.
+void check_file_writable(const std::filesystem::path& file, const char* field);
+
 /// Ten times the largest that we write; without a bound, a wrong file (/dev/zero) would take all
 /// memory.
 inline constexpr std::size_t max_file_size = std::size_t{1} << 27;

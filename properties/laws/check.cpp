@@ -51,18 +51,25 @@ struct Suspect {
 
 /// What the configurations of a chunk seem to break, in their order.
 struct ChunkResult {
-  std::vector<std::uint64_t> tried;  ///< of each law, the configurations that it applies to
+  /// Of each law, the configurations that it applies to; but for those without a routine.
+  std::vector<std::uint64_t> tried;
+  std::uint64_t unsupported = 0;
   std::vector<Suspect> suspects;
   double seconds = 0;  ///< that all of it took
 };
 
 ChunkResult tried(const Chunk& chunk, const CheckOptions& options, CandidateProcess& candidate) {
   const auto start = std::chrono::steady_clock::now();
-  ChunkResult result{std::vector<std::uint64_t>(options.laws.size()), {}, 0};
+  ChunkResult result;
+  result.tried.resize(options.laws.size());
   candidate.ask_within(options.bar.threshold);
   for (std::size_t i = 0; i < chunk.identities.size(); ++i) {
     const Configuration c = make_configuration(chunk.identities[i]);
     const auto violations = broken_in_session(options.laws, c, candidate, options.bar);
+    if (violations.empty()) {
+      ++result.unsupported;
+      continue;
+    }
     for (std::size_t law = 0; law < options.laws.size(); ++law) {
       if (options.laws[law]->applies(c)) ++result.tried[law];
       if (!violations[law]) continue;
@@ -106,7 +113,7 @@ Violation get_violation(std::istream& in) {
 std::string to_text(const ChunkResult& result) {
   std::ostringstream out;
   for (const std::uint64_t count : result.tried) out << count << ' ';
-  out << result.seconds << ' ' << result.suspects.size() << ' ';
+  out << result.unsupported << ' ' << result.seconds << ' ' << result.suspects.size() << ' ';
   for (const Suspect& s : result.suspects) {
     out << s.configuration << ' ' << s.law << ' ';
     put(out, s.violation);
@@ -116,11 +123,12 @@ std::string to_text(const ChunkResult& result) {
 }
 
 ChunkResult chunk_result(const std::string& text, std::size_t laws) {
-  ChunkResult result{std::vector<std::uint64_t>(laws), {}, 0};
+  ChunkResult result;
+  result.tried.resize(laws);
   std::istringstream in(text);
   for (std::uint64_t& count : result.tried) in >> count;
   std::size_t count = 0;
-  in >> result.seconds >> count;
+  in >> result.unsupported >> result.seconds >> count;
   for (std::size_t i = 0; i < count; ++i) {
     Suspect s{};
     in >> s.configuration >> s.law;
@@ -297,7 +305,8 @@ Configuration simplest(const Found& f, int max_trials, CandidateProcess& candida
   Configuration simple = simplified(
       met,
       [&](const Configuration& c) {
-        return fails_alike(broken_in_session(law, c, candidate, bar).front(), c);
+        const auto violations = broken_in_session(law, c, candidate, bar);
+        return !violations.empty() && fails_alike(violations.front(), c);
       },
       max_trials);
   if (fails_alike(broken(*f.law, simple, candidate, bar), simple)) return simple;
@@ -381,11 +390,12 @@ std::vector<LawResult> check(CandidateProcess& candidate, const CheckOptions& op
   };
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (i == 0 || all[i].pair != all[i - 1].pair) {
-      for (const Law* law : options.laws) results.push_back({law, all[i].pair, 0, 0, {}, {}, 0});
+      for (const Law* law : options.laws) results.push_back({law, all[i].pair, 0, 0, 0, {}, {}, 0});
     }
     const auto of_pair = std::span(results).last(options.laws.size());
     for (std::size_t law = 0; law < of_pair.size(); ++law) {
       of_pair[law].tried += of_chunks[i].tried[law];
+      of_pair[law].unsupported += of_chunks[i].unsupported;
       of_pair[law].seconds += of_chunks[i].seconds / static_cast<double>(of_pair.size());
     }
   }
@@ -397,7 +407,7 @@ std::vector<LawResult> check(CandidateProcess& candidate, const CheckOptions& op
   for (Failure& f : simplified(failures, options, candidate)) {
     result_of(pair_of(f.configuration), &find_law(f.law)).failures.push_back(std::move(f));
   }
-  std::erase_if(results, [](const LawResult& result) { return result.tried == 0; });
+  std::erase_if(results, [](const LawResult& r) { return r.tried + r.unsupported == 0; });
   for (LawResult& result : results) {
     std::sort(result.failures.begin(), result.failures.end(), [](const auto& a, const auto& b) {
       return complexity(a.configuration) < complexity(b.configuration);

@@ -43,6 +43,7 @@ struct LawResult {
   const Law* law;
   Pair pair;
   std::uint64_t tried = 0, broken = 0;
+  std::uint64_t unsupported = 0;  ///< configurations that the candidate has no routine for
   std::map<std::string, std::uint64_t> counts;  ///< of configurations, by the failure's name
   std::vector<Failure> failures;  ///< one of each name (and features), the simplest first
   /// An equal part of what the pair's configurations took, which all laws are asked about together.

@@ -66,6 +66,7 @@ std::optional<Violation> broken(const Law& law, const Configuration& configurati
 
 /// Judges several laws, in their order, at a fraction of the cost: the questions of all of them are
 /// asked together in the candidate's present session, so that what was asked before may matter.
+/// Empty where the candidate has no routine for the pair.
 std::vector<std::optional<Violation>> broken_in_session(std::span<const Law* const> laws,
                                                         const Configuration& configuration,
                                                         CandidateProcess& candidate,

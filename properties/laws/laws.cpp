@@ -76,9 +76,14 @@ std::optional<Violation> judge_agreement(const Configuration& c, Answers answers
   const Score s = score(c, truth_of(c), answers[0], bar);
   if (s.outcome == Outcome::agree || s.outcome == Outcome::unsupported) return std::nullopt;
   if (is_of_points(s.outcome)) return std::nullopt;  // that is the law "points"
-  return Violation{outcome_name(s.outcome), s.severity,
-                   fmt::format("depth error {:.3g}, normal regret {:.3g} of the smaller size",
-                               s.depth_error.value_or(NAN), s.normal_regret.value_or(NAN))};
+  std::string detail;
+  if (s.depth_error) detail += fmt::format("depth error {:.3g}", *s.depth_error);
+  if (s.normal_regret) {
+    detail += fmt::format("{}normal regret {:.3g}", detail.empty() ? "" : ", ", *s.normal_regret);
+  }
+  detail += detail.empty() ? fmt::format("wrong by {:.3g} of the smaller size", s.severity)
+                           : " of the smaller size";
+  return Violation{outcome_name(s.outcome), s.severity, detail};
 }
 
 // Invariance: the same distance and as good a normal.
@@ -468,10 +473,10 @@ std::vector<std::optional<Violation>> broken_in_session(std::span<const Law* con
                                                         const Configuration& c,
                                                         CandidateProcess& candidate,
                                                         const Bar& given) {
-  std::vector<std::optional<Violation>> result(laws.size());
   candidate.go_on_within(given.threshold);
   const Answer first = candidate.answer(c);
-  if (first.status == TS_UNSUPPORTED) return result;
+  if (first.status == TS_UNSUPPORTED) return {};
+  std::vector<std::optional<Violation>> result(laws.size());
   // Where there is no answer to judge, the other questions could only time out or crash as well.
   const bool is_answered = !judge_answers(c, {&first, 1}, given);
   std::vector<Configuration> asked;
