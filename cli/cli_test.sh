@@ -448,6 +448,16 @@ on_terminal() { TERM=xterm script -qec "stty cols $1; '$program' $2" /dev/null <
 narrow=$(on_terminal 40 "check --help" | tr -d '\r' | sed -n '/^Options:/,/^Examples:/p')
 [ "$(wc -l <<<"$narrow")" -gt 20 ] || failed "no options of check"
 awk 'length($0) > 40 { exit 1 }' <<<"$narrow" || failed "--help is wider than a terminal of 40 columns"
+for command in candidates "classes cylinder-box"; do
+  # But for a long word, as of a path.
+  wide=$(on_terminal 40 "$command" | tr -d '\r' | grep -v '[^ ]\{30\}' | LC_ALL=C.UTF-8 awk 'length($0) > 40')
+  [ -z "$wide" ] || failed "$command is wider than a terminal of 40 columns: $wide"
+done
+for command in candidates "classes cylinder-box" "replay cylinder-box/edge-cap+aligned/1/2 --candidates reference,bullet"; do
+  # shellcheck disable=SC2086
+  wide=$("$program" $command | grep -v '^{\|[^ ]\{60\}' | LC_ALL=C.UTF-8 awk 'length($0) > 80')
+  [ -z "$wide" ] || failed "$command is wider than 80 columns: $wide"
+done
 
 commands=$("$program" --help | sed -n '/^Subcommands/,/^Examples/s/^  \([a-z]*\) .*/\1/p')
 [ "$(wc -l <<<"$commands")" -ge 6 ] || failed "--help lists no subcommands"

@@ -19,7 +19,7 @@
 namespace touchstone {
 namespace {
 
-constexpr std::size_t page_width = 80, name_width = 24;
+constexpr std::size_t name_width = 24;
 /// On a terminal narrower than this, descriptions stand below names.
 constexpr std::size_t min_width_beside = 60, narrow_name_width = 6;
 
@@ -206,10 +206,17 @@ int Program::run(int argc, char** argv) {
 }
 
 std::string list_entry(const std::string& name, std::size_t width, const std::string& text) {
-  const std::size_t indent = width + 4;
+  const std::size_t columns = standard_output().columns;
+  const bool is_below = columns < min_width_beside;
+  const std::size_t indent = is_below ? narrow_name_width : width + 4;
+  const std::string line_end = '\n' + std::string(indent, ' ');
   std::string entry = "  " + name;
-  entry.resize(indent, ' ');
-  return entry + wrapped(text, page_width - indent, '\n' + std::string(indent, ' ')) + '\n';
+  if (is_below) {
+    entry += line_end;
+  } else {
+    entry.resize(indent, ' ');
+  }
+  return entry + wrapped(text, columns - indent, line_end) + '\n';
 }
 
 void open_closed_streams() {

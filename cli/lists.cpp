@@ -9,6 +9,7 @@
 #include "cli/command.hpp"
 #include "properties/pose_class.hpp"
 #include "reference/invalid_input.hpp"
+#include "reports/terminal.hpp"
 
 namespace touchstone {
 namespace {
@@ -24,14 +25,24 @@ std::string other_shapes(const Candidate& candidate) {
   return text;
 }
 
+/// A line, or several on a narrow terminal, below a name.
+void print_below(const std::string& text) {
+  fmt::print("  {}\n", wrapped(text, standard_output().columns - 4, "\n    "));
+}
+
 void print(const Candidate& c) {
-  fmt::print("{} {}\n  cylinder against {}\n  {}\n", c.name, c.version, other_shapes(c),
-             c.settings);
-  if (!c.models.empty()) fmt::print("  models {}\n", c.models);
+  fmt::print("{} {}\n", c.name, c.version);
+  print_below("cylinder against " + other_shapes(c));
+  print_below(c.settings);
+  if (!c.models.empty()) print_below("models " + c.models);
   if (c.parameter) {
-    fmt::print("  {}:N with N the {}, {} to {}\n", c.family, c.parameter->meaning, c.parameter->min,
-               c.parameter->max);
+    print_below(fmt::format("{}:N with N the {}, {} to {}", c.family, c.parameter->meaning,
+                            c.parameter->min, c.parameter->max));
   }
+}
+
+void print_heading(const std::string& text) {
+  fmt::print("{}\n", wrapped(text, standard_output().columns, "\n"));
 }
 
 }  // namespace
@@ -47,17 +58,18 @@ void add_candidates(Program& program) {
       "or unavailable says why.");
   command.runs([] {
     for (const Candidate* c : all_candidates()) print(*c);
-    for (const Skipped& s : skipped_plugins()) fmt::print("{}: skipped; {}\n", s.name, s.reason);
-    fmt::print(
-        "In single precision, or with Touchstone's contacts installed, when one is named:\n");
-    for (const std::string& name : named_candidates()) fmt::print("  {}\n", name);
+    for (const Skipped& s : skipped_plugins()) print_heading(s.name + ": skipped; " + s.reason);
+    print_heading(
+        "In single precision, or with Touchstone's contacts installed, when one is named:");
+    for (const std::string& name : named_candidates()) print_below(name);
     const std::vector<std::string> peers = peer_engines();
-    if (!peers.empty()) fmt::print("Of engines outside Debian, when one is named:\n");
-    for (const std::string& name : peers) fmt::print("  {}\n", name);
-    fmt::print("From npm, when one is named:\n");
+    if (!peers.empty()) print_heading("Of engines outside Debian, when one is named:");
+    for (const std::string& name : peers) print_below(name);
+    print_heading("From npm, when one is named:");
     for (const NpmEngine& engine : npm_engines()) {
       const std::string obstacle = npm_obstacle(engine);
-      fmt::print("  {}{}\n", engine.family, obstacle.empty() ? "" : ": unavailable; " + obstacle);
+      print_below(std::string(engine.family) +
+                  (obstacle.empty() ? "" : ": unavailable; " + obstacle));
     }
     return 0;
   });
@@ -120,11 +132,12 @@ int run(const std::string& pair) {
     }
   }
   for (const Pair each : pairs) fmt::print("{}\n", arrangement_list(each));
-  fmt::print("Modifiers, any number of them in any order, as in parallel-side+turned:\n{}\n{}",
-             modifier_list(pairs), group_list());
+  print_heading("Modifiers, any number of them in any order, as in parallel-side+turned:");
+  fmt::print("{}\n{}", modifier_list(pairs), group_list());
   for (const Pair each : pairs) {
-    fmt::print("A report scores {} classes of {}, a campaign {}.\n", pose_classes(each).size(),
-               pair_name(each), pose_classes(each, Coverage::triples).size());
+    print_heading(fmt::format("A report scores {} classes of {}, a campaign {}.",
+                              pose_classes(each).size(), pair_name(each),
+                              pose_classes(each, Coverage::triples).size()));
   }
   return 0;
 }

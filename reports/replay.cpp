@@ -108,13 +108,13 @@ std::string replay_text(const Examination& e, const std::string& description,
   json line = to_json(e.configuration);
   line["id"] = e.id;
   std::string text = e.id + '\n';
-  if (!description.empty()) text += description + '\n';
+  if (!description.empty()) text += wrapped(description, terminal.columns, "\n") + '\n';
   text +=
       '\n' + overview(e.answers, terminal) + '\n' + truth_text(e.configuration, *e.truth) + '\n';
   for (const ScoredAnswer& answer : e.answers) text += answer_text(answer);
   return text + fmt::format(
-                    "\nconfiguration (a line for touchstone solve, as exact fractions, in "
-                    "hexadecimal):\n{}\n{}\n{}\n",
+                    "\nconfiguration, a line for touchstone solve:\n{}\nits exact "
+                    "fractions:\n{}\nin hexadecimal, for touchstone solve too:\n{}\n",
                     line.dump(), to_exact_json(e.configuration).dump(),
                     to_hex_json(e.configuration).dump());
 }
