@@ -139,7 +139,7 @@ ChunkResult chunk_result(const std::string& text, std::size_t laws) {
   return result;
 }
 
-std::string to_text(Configuration c) {
+std::string to_text(const Configuration& c) {
   Numbers numbers = numbers_of(c);
   std::ostringstream out;
   for (const double* x : every_number(numbers)) put(out, *x);

@@ -280,7 +280,7 @@ json motion_json(const Choice& choice, const Limits& limits) {
   const Scene& scene = file.scene;
   constexpr double frames_per_second = 60;
   const auto every = std::max<std::size_t>(
-      1, static_cast<std::size_t>(1 / (frames_per_second * scene.step) + 0.5));
+      1, static_cast<std::size_t>(std::lround(1 / (frames_per_second * scene.step))));
   json runs = json::array();
   runs.push_back({{"name", "exact"},
                   {"note", "The exact cylinder for all pairs."},

@@ -107,7 +107,8 @@ bool is_meta(std::string_view name) { return name.starts_with('<'); }  // attrib
 
 /// Checks the fields of a shape that is read; those are its attributes or its elements.
 void check_fields(const ptree& fields, const ShapeForm& form, const std::string& where) {
-  for (const auto& [name, unused] : fields) {
+  for (const auto& entry : fields) {
+    const std::string& name = entry.first;
     const bool is_foreign = name.find(':') != name.npos;  // of a name space, an extension
     const auto is_it = [&](const Field& f) { return f.name == name; };
     if (is_meta(name) || is_foreign || std::ranges::any_of(form.fields, is_it)) continue;
@@ -134,7 +135,9 @@ void check_collision(const ptree& collision, const std::vector<ShapeForm>& forms
     throw InvalidInput(where + ".geometry", "missing", "must hold one of " + names_of(forms));
   }
   int count = 0;
-  for (const auto& [name, content] : *geometry) {
+  for (const auto& entry : *geometry) {
+    const std::string& name = entry.first;
+    const ptree& content = entry.second;
     if (is_meta(name)) continue;
     ++count;
     const auto is_it = [&](const ShapeForm& f) { return f.name == name; };

@@ -32,6 +32,7 @@ struct ComparedRuns {
 /// another describes them as JSON Schema. Bodies are indices into the scene, times seconds.
 class NeedMembers {
  public:
+  virtual ~NeedMembers() = default;
   virtual void body(std::vector<int>& bodies) = 0;           ///< "body": one
   virtual void bodies(std::vector<int>& bodies) = 0;         ///< "bodies": one or more
   virtual void moving_bodies(std::vector<int>& bodies) = 0;  ///< likewise; default: all that move
@@ -42,9 +43,6 @@ class NeedMembers {
   virtual void positive(const char* name, std::optional<double>& value) = 0;  ///< default: none
   virtual void time_or_default(const char* name, double& value) = 0;  ///< within the duration
   virtual void point(const char* name, Vec3& value) = 0;
-
- protected:
-  ~NeedMembers() = default;
 };
 
 /// A requirement on the motion of a scene (docs/scenes.md). need.cpp has one class for each kind.

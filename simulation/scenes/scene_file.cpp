@@ -29,7 +29,9 @@ std::map<std::string, NamedMaterial> read_materials(const json& file) {
   std::map<std::string, NamedMaterial> result;
   if (!file.contains("materials")) return result;
   require_object(file["materials"], "materials");
-  for (const auto& [name, value] : file["materials"].items()) {
+  for (const auto& entry : file["materials"].items()) {
+    const std::string& name = entry.key();
+    const json& value = entry.value();
     const std::string path = "materials." + name;
     require_object(value, path);
     refuse_others(value, {"density", "friction", "restitution"}, path);
@@ -257,8 +259,8 @@ std::shared_ptr<const Need> read_need(const json& value, const std::string& path
 Camera read_camera(const json& value) {
   require_object(value, "camera");
   refuse_others(value, {"position", "look_at"}, "camera");
-  const Camera camera{vector(member(value, "position", "camera"), "camera.position"),
-                      vector(member(value, "look_at", "camera"), "camera.look_at")};
+  Camera camera{vector(member(value, "position", "camera"), "camera.position"),
+                vector(member(value, "look_at", "camera"), "camera.look_at")};
   const double apart = (camera.position - camera.look_at).norm();
   if (!(std::isfinite(apart) && apart > 0)) {
     throw InvalidInput("camera.position", shown(value["position"]),
