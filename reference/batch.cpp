@@ -126,7 +126,8 @@ TOUCHSTONE_CLONES void look(Block<Sphere>& block, double stop_above) {
     const bool is_plain = on_cap | ((rho > vanishing) & (rho >= few_digits * std::abs(along)) &
                                     (!off_the_rim | (distance > vanishing)));
     const double gap = (on_cap ? beyond_cap : off_the_rim ? distance : beyond_side) - radius;
-    block.gap[i] = is_plain & is_in_range(block.arm[i]) ? gap : undecided;
+    const bool in_range = is_in_range(block.arm[i]);
+    block.gap[i] = (is_plain & in_range) ? gap : undecided;
   }
 }
 
@@ -165,7 +166,8 @@ TOUCHSTONE_CLONES void look(Block<Cylinder>& block, double stop_above) {
     block.normal.x[i] = in_world(f.e1.x(), f.e2.x(), f.e3.x());
     block.normal.y[i] = in_world(f.e1.y(), f.e2.y(), f.e3.y());
     block.normal.z[i] = in_world(f.e1.z(), f.e2.z(), f.e3.z());
-    block.gap[i] = f.crosses() & (found.gap > stop_above) & is_in_range(d) ? found.gap : undecided;
+    const bool crosses = f.crosses(), in_range = is_in_range(d);
+    block.gap[i] = (crosses & (found.gap > stop_above) & in_range) ? found.gap : undecided;
   }
 }
 
@@ -236,7 +238,8 @@ TOUCHSTONE_CLONES void look(Block<Box>& block, double stop_above) {
     block.normal.y[i] = of_kind(edge_ny, cap_side * uy, face_side * is_y);
     block.normal.z[i] = of_kind(edge_nz, cap_side * uz, face_side * is_z);
     const double gap = std::max(edge, plain);
-    block.gap[i] = (gap > stop_above) & is_in_range(block.far[i]) ? gap : undecided;
+    const bool in_range = is_in_range(block.far[i]);
+    block.gap[i] = ((gap > stop_above) & in_range) ? gap : undecided;
   }
 }
 

@@ -221,7 +221,7 @@ FloatPose to_float(const Pose& p) {
 }
 template <class Answer>
 bool same_bytes(const Answer& x, const Answer& y) {
-  return std::memcmp(&x, &y, sizeof(Answer)) == 0;
+  return std::memcmp(&x, &y, sizeof(Answer)) == 0;  // NOLINT(bugprone-suspicious-memory-comparison)
 }
 bool same_bytes(const FloatContact& x, const FloatContact& y) {
   return same_bytes(x.normal, y.normal) && same_bytes(x.signed_distance, y.signed_distance) &&
