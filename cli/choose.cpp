@@ -21,6 +21,7 @@ struct Options {
   WorkersOption workers;
   std::string scene, out = "out";
   bool json = false;
+  std::uint64_t disturbances = Trials().disturbances, seed = Trials().seed;
   PairNeeds pairs;
 
   std::vector<const Candidate*> contestants() const {
@@ -34,10 +35,15 @@ struct Options {
   }
 };
 
-int choose_scene(const Options& options, const std::string& command) {
+int choose_scene(const Options& options) {
+  const std::string command =
+      options.command_line() +
+      fmt::format(" --disturbances {} --seed {}", options.disturbances, options.seed);
   const SceneFile file = read_scene(options.scene);
   const Limits limits = options.candidates.limits();
-  const Choice choice = choose(file, {options.contestants(), options.workers.get(), limits});
+  const Choice choice = choose(
+      file,
+      {options.contestants(), options.workers.get(), limits, {options.disturbances, options.seed}});
   const std::string folder = options.folder();
   write_evidence(choice, folder);
   write_file(options.out + "/choose.json", choice_json(choice, command, folder, 1) + '\n', "--out");
@@ -48,13 +54,18 @@ int choose_scene(const Options& options, const std::string& command) {
   return choice.impossible ? not_served : 0;
 }
 
-int choose_pairs(const Options& options, const std::string& command) {
+int choose_pairs(const Options& options) {
+  PairNeeds needs = options.pairs;
+  needs.seed = options.seed;
+  const std::string command =
+      options.command_line() + fmt::format(" --depth {} --angle {} --count {} --seed {}",
+                                           needs.depth, needs.angle, needs.count, needs.seed);
   const ShapesFile file = read_shapes(options.scene);
   for (const std::string& ignored : file.ignored) {
     complain(fmt::format("warning: {}: {}", options.scene, ignored));
   }
   const PairsChoice choice =
-      choose_for_pairs(file, options.pairs, options.contestants(), options.candidates.limits());
+      choose_for_pairs(file, needs, options.contestants(), options.candidates.limits());
   const std::string folder = options.folder();
   write_evidence(choice, folder);
   write_file(options.out + "/choose.json", pairs_json(choice, command, folder, 1) + '\n', "--out");
@@ -65,13 +76,7 @@ int choose_pairs(const Options& options, const std::string& command) {
 
 int run(const Options& options) {
   check_writable(options.out);
-  if (!is_shapes_file(options.scene)) {
-    return choose_scene(options, options.command_line());
-  }
-  const PairNeeds& n = options.pairs;
-  return choose_pairs(
-      options, options.command_line() + fmt::format(" --depth {} --angle {} --count {} --seed {}",
-                                                    n.depth, n.angle, n.count, n.seed));
+  return is_shapes_file(options.scene) ? choose_pairs(options) : choose_scene(options);
 }
 
 }  // namespace
@@ -86,6 +91,9 @@ void add_choose(Program& program) {
       .required();
   command.text("--out", options->out, "Folder for choose.json and choose.html").value("FOLDER");
   command.flag("--json", options->json, "Print choose.json instead of text");
+  command.count("--seed", options->seed, all_counts, "Same seed, same disturbances or poses");
+  command.count("--disturbances", options->disturbances, {0, 1000},
+                "Runs of a scene beside the one as it is written; needs must hold in all");
   const char* robots = "Of a robot or world";
   PairNeeds& pairs = options->pairs;
   command.number("--depth", pairs.depth, positive_numbers, "Largest depth error, metres")
@@ -94,7 +102,6 @@ void add_choose(Program& program) {
       .group(robots);
   command.count("--count", pairs.count, {1, 1000000}, "Sampled poses of each pair of shapes")
       .group(robots);
-  command.count("--seed", pairs.seed, all_counts, "Same seed, same poses").group(robots);
   command.footer(
       "Examples:\n"
       "  touchstone choose simulation/scenes/log-pile.json\n"

@@ -62,6 +62,9 @@ PairsChoice choose_for_pairs(const ShapesFile& file, const PairNeeds& needs,
 std::string choice_text(const Choice& choice, const std::string& folder);
 std::string pairs_text(const PairsChoice& choice, const std::string& folder);
 
+/// ", disturbance 3"; empty for the scene as it is written.
+std::string in_disturbance(const SceneRun& run);
+
 /// choose.json (docs/scenes.md); on one line, or indented.
 std::string choice_json(const Choice& choice, const std::string& command, const std::string& folder,
                         int indent = -1);

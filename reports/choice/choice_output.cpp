@@ -37,6 +37,9 @@ json run_json(const Choice& choice, std::size_t index, const std::string& folder
                  {"microseconds_per_step", run.nanoseconds / 1000 / steps},
                  {"error", finite(run.error())},
                  {"holds", run.holds()},
+                 {"trials", run.trials},
+                 {"held", run.held},
+                 {"disturbance", run.disturbance},
                  {"verdicts", verdicts},
                  {"first_broken", nullptr},
                  {"evidence", nullptr}};
@@ -163,6 +166,8 @@ std::string choice_json(const Choice& choice, const std::string& command, const 
                          {"bodies", file.scene.bodies.size()},
                          {"step", file.scene.step},
                          {"duration", file.scene.duration},
+                         {"disturbances", choice.trials.disturbances},
+                         {"seed", choice.trials.seed},
                          {"needs", needs}}},
                        {"possible", !choice.impossible},
                        {"exact_is_cheapest", choice.answer == 0},
@@ -270,7 +275,7 @@ std::string note(const Choice& choice, std::size_t index) {
   const SceneRun& run = choice.runs[index];
   if (run.holds()) return "All needs hold.";
   const int broken = run.first_broken();
-  return fmt::format("Breaks at {:.2f} s: {}.", run.verdicts[broken].time,
+  return fmt::format("Breaks at {:.2f} s{}: {}.", run.verdicts[broken].time, in_disturbance(run),
                      choice.file.needs[broken]->text(choice.file.scene));
 }
 
@@ -287,8 +292,9 @@ json motion_json(const Choice& choice, const Limits& limits) {
                   {"poses", poses(scene, choice.exact_run, every)}});
   Processes processes(limits);
   for (const std::size_t i : worth_showing(choice)) {
-    const Trajectory run =
-        run_with(scene, choice.kinds, choice.runs[i].models, *choice.candidates[0], processes);
+    const DisturbedScene disturbed(scene, choice.trials.seed, choice.runs[i].disturbance);
+    const Trajectory run = disturbed.turned_back(
+        run_with(disturbed, choice.kinds, choice.runs[i].models, *choice.candidates[0], processes));
     runs.push_back({{"name", i == choice.answer ? "the answer" : choice.runs[i].name},
                     {"note", note(choice, i)},
                     {"poses", poses(scene, run, every)}});

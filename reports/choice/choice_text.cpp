@@ -17,14 +17,15 @@ std::string failure(const Choice& choice, const SceneRun& run) {
   const int broken = run.first_broken();
   const Need& need = *choice.file.needs[broken];
   const Verdict& verdict = run.verdicts[broken];
-  return fmt::format("{}: {} at {:.2f} s", need.text(choice.file.scene), measured(verdict, need),
-                     verdict.time);
+  return fmt::format("{}: {} at {:.2f} s{}", need.text(choice.file.scene), measured(verdict, need),
+                     verdict.time, in_disturbance(run));
 }
 
 /// "need 3 at 0.71 s"
 std::string first_failure(const SceneRun& run) {
   const int broken = run.first_broken();
-  return fmt::format("need {} at {:.2f} s", broken + 1, run.verdicts[broken].time);
+  return fmt::format("need {} at {:.2f} s{}", broken + 1, run.verdicts[broken].time,
+                     in_disturbance(run));
 }
 
 std::string needs_of(const Choice& choice, const SceneRun& run) {
@@ -107,12 +108,20 @@ std::string errors(const ReplayScore& s) {
 
 }  // namespace
 
+std::string in_disturbance(const SceneRun& run) {
+  return run.disturbance == 0 ? "" : fmt::format(", disturbance {}", run.disturbance);
+}
+
 std::string choice_text(const Choice& choice, const std::string& folder) {
   const SceneFile& file = choice.file;
   const SceneRun& answer = choice.runs[choice.answer];
-  std::string lines =
-      fmt::format("{}: {} bodies, {:g} s in steps of {:.2g} s\n\n{}", file.name,
-                  file.scene.bodies.size(), file.scene.duration, file.scene.step, headline(choice));
+  std::string lines = fmt::format("{}: {} bodies, {:g} s in steps of {:.2g} s\n", file.name,
+                                  file.scene.bodies.size(), file.scene.duration, file.scene.step);
+  if (const Trials& t = choice.trials; t.disturbances > 0) {
+    lines += fmt::format("Each run as it is written, then under {} disturbances (seed {})\n",
+                         t.disturbances, t.seed);
+  }
+  lines += '\n' + headline(choice);
   lines += needs_of(choice, answer);
   if (choice.impossible) return lines;
   const auto steps = static_cast<double>(choice.exact_run.frames.size() - 1);

@@ -19,7 +19,9 @@ using Models = std::vector<const Candidate*>;
 class Search {
  public:
   Search(const ChooseOptions& options, Choice& choice)
-      : options_(options), choice_(choice), exact_(*choice.candidates[0]) {}
+      : choice_(choice),
+        exact_(*choice.candidates[0]),
+        judge_(choice.file, choice.kinds, exact_, options) {}
 
   void run() {
     judge_new({named("exact", all_exact())});
@@ -66,8 +68,7 @@ class Search {
       });
       if (!twice && !find(run.models)) fresh.push_back(run);
     }
-    judge(fresh, choice_.file, choice_.exact_run, choice_.kinds, exact_, options_.limits,
-          options_.workers);
+    judge_.judge(fresh, choice_.trials.disturbances);
     choice_.runs.insert(choice_.runs.end(), fresh.begin(), fresh.end());
   }
 
@@ -183,13 +184,23 @@ class Search {
         choice_.cheaper[k] = static_cast<std::size_t>(run - choice_.runs.data());
         better = better || run->holds();
       }
-      if (!better) return;
+      if (!better && is_confirmed()) return;
     }
   }
 
-  const ChooseOptions& options_;
+  /// Does the answer hold under the further disturbances?
+  bool is_confirmed() {
+    SceneRun& answer = choice_.runs[choice_.answer];
+    if (choice_.answer == 0) return true;  // exact contacts are what the others are held to
+    std::vector<SceneRun> run = {answer};
+    judge_.judge(run, choice_.trials.of_answer());
+    answer = run[0];
+    return answer.holds();
+  }
+
   Choice& choice_;
   const Candidate& exact_;
+  const SceneJudge judge_;
 };
 
 }  // namespace
@@ -236,6 +247,7 @@ Choice choose(const SceneFile& file, const ChooseOptions& options) {
   }
   auto replayed = replay(file.scene, exact_run, kinds.all(), candidates, options.limits);
   Choice choice{file, std::move(exact_run), std::move(kinds), candidates, std::move(replayed)};
+  choice.trials = options.trials;
   Search(options, choice).run();
   return choice;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <optional>
@@ -49,11 +50,38 @@ struct Evidence {
   double time;        ///< s
 };
 
-/// A whole run of a scene with a candidate for each kind of pairs.
+/// A scene as it might as well have been: every moving body up to 1e-4 of its smallest width from
+/// where it was written and up to 1e-3 rad askew, with a kick of up to 1e-3 of the speed that a
+/// fall of that width gives; the whole world turned at random about the origin; the bodies in
+/// another order. What holds in the scene as it is written alone is luck.
+struct DisturbedScene {
+  Scene scene;
+  Eigen::Quaterniond turn;  ///< of the world
+  std::vector<int> origin;  ///< by body of `scene`: its index in the scene as it is written
+
+  /// Disturbance 0 is none: the scene as it is written.
+  DisturbedScene(const Scene& written, std::uint64_t seed, std::size_t disturbance);
+  /// A run of `scene` as seen in the scene as it is written: turned back, bodies in their order.
+  Trajectory turned_back(const Trajectory& run) const;
+};
+
+/// Repetitions of a run under disturbances: a need holds if it holds in all.
+struct Trials {
+  std::size_t disturbances = 16;  ///< beside the scene as it is written
+  std::uint64_t seed = 1;
+
+  /// The answer is held to more, because it is the best of many: of 50 models that break one run in
+  /// 30, every second is lucky in 16.
+  std::size_t of_answer() const { return 5 * disturbances; }
+};
+
+/// A candidate for each kind of pairs, and whole runs of a scene with them.
 struct SceneRun {
   std::string name;                      ///< of its models: "capsule", "combination", …
   std::vector<const Candidate*> models;  ///< by kind
   double nanoseconds = 0;                ///< cost of its models for all questions of the exact run
+  std::size_t trials = 0, held = 0;      ///< runs that were made, and those in which all needs held
+  std::size_t disturbance = 0;           ///< the worst run, which verdicts and evidence are of
   std::vector<Verdict> verdicts = {};    ///< by need
   std::optional<Evidence> evidence = {};
 
@@ -77,20 +105,37 @@ class Processes {
 
 /// Runs the scene with a model for each kind, and `exact` for kinds whose model is null and for
 /// pairs that the exact run never asked about.
-Trajectory run_with(const Scene& scene, const PairKinds& kinds,
+Trajectory run_with(const DisturbedScene& scene, const PairKinds& kinds,
                     const std::vector<const Candidate*>& models, const Candidate& exact,
                     Processes& processes);
-
-/// Runs the scene with the models of each run and fills in the verdicts and, where a need is
-/// broken, the evidence. The result does not depend on the number of worker processes.
-void judge(std::vector<SceneRun>& runs, const SceneFile& file, const Trajectory& exact_run,
-           const PairKinds& kinds, const Candidate& exact, const Limits& limits, unsigned workers);
 
 /// Which models to try in a scene.
 struct ChooseOptions {
   std::vector<const Candidate*> candidates;  ///< beside the exact one
   unsigned workers = 1;                      ///< processes; the runs do not depend on them
   Limits limits = {};
+  Trials trials = {};
+};
+
+/// Judges runs of one scene, as it is written and disturbed.
+class SceneJudge {
+ public:
+  /// Runs the scene exactly under every disturbance, those of the answer, too: needs are measured
+  /// against these runs. All arguments must outlive it.
+  SceneJudge(const SceneFile& file, const PairKinds& kinds, const Candidate& exact,
+             const ChooseOptions& options);
+
+  /// Adds what the runs with their models come to under the disturbances up to `last` that they
+  /// have not had; those that broke a need get no more. Neither depends on the number of worker
+  /// processes.
+  void judge(std::vector<SceneRun>& runs, std::size_t last) const;
+
+ private:
+  const SceneFile& file_;
+  const PairKinds& kinds_;
+  const Candidate& exact_;
+  const ChooseOptions& options_;
+  std::vector<Trajectory> exact_runs_;  ///< by disturbance: first and last frames alone
 };
 
 /// All candidates, with the families of simplified models swept: 1 to 64 spheres, prisms of 8 to
@@ -112,6 +157,7 @@ struct Choice {
   std::vector<SceneRun> runs = {};
   /// Candidates whose run of the scene would take too long.
   std::vector<const Candidate*> too_slow = {};
+  Trials trials = {};
   std::size_t answer = 0;   ///< index of the cheapest run that meets all needs; 0 if `impossible`
   bool impossible = false;  ///< exact contacts do not meet the needs either
   /// By kind: index of the run in which only this kind's model is the next cheaper one; it breaks a
@@ -126,11 +172,11 @@ struct Choice {
 inline constexpr double cheaper_share = 0.9;
 
 /// Runs the scene exactly, replays what occurred with every candidate, runs the whole scene with
-/// each of them, then searches by kind of pairs: the cheapest model of each kind that serves while
-/// the others are exact, all of these together, and step by step back where they do not serve
-/// together. Ends when the answer has been run and no single kind can take its next cheaper model.
-/// Progress goes to standard error. Throws InvalidInput if the scene has no needs or no cylinder
-/// touches anything.
+/// each of them under all disturbances, then searches by kind of pairs: the cheapest model of each
+/// kind that serves while the others are exact, all of these together, and step by step back where
+/// they do not serve together. Ends when the answer has been run and no single kind can take its
+/// next cheaper model. Progress goes to standard error. Throws InvalidInput if the scene has no
+/// needs or no cylinder touches anything.
 Choice choose(const SceneFile& file, const ChooseOptions& options);
 
 }  // namespace touchstone

@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <numbers>
+#include <set>
 
 #include <nlohmann/json.hpp>
 
@@ -234,7 +235,8 @@ TEST(RunWith, AsksTheCandidateOfEachKindOfPairs) {
   CandidateModel model(processes.of(exact));
   const PairKinds kinds(scene, run_scene(scene, model));
   ASSERT_EQ(kinds.all().size(), 2U);
-  const Trajectory run = run_with(scene, kinds, {nullptr, &capsule}, exact, processes);
+  const Trajectory run =
+      run_with(DisturbedScene(scene, 1, 0), kinds, {nullptr, &capsule}, exact, processes);
   ASSERT_GE(run.answers.size(), 2U);
   EXPECT_EQ(run.answers[0].points, 3);  // a cap
   EXPECT_EQ(run.answers[1].points, 1);  // a round end
@@ -281,6 +283,117 @@ TEST(Choose, RunsDoNotDependOnTheNumberOfWorkers) {
       EXPECT_EQ(to_json(a.evidence->configuration), to_json(b.evidence->configuration)) << name;
     }
   }
+}
+
+/// Cans that stand upright on the cap of a fixed cylinder each, and must go on to.
+SceneFile cans_on_pedestals(const std::vector<Vec3>& places) {
+  json scene = {{"duration", 1}, {"bodies", json::array()}, {"needs", json::array()}};
+  const auto add = [&](const std::string& name, double half_length, const Vec3& at, bool fixed) {
+    scene["bodies"].push_back(
+        {{"name", name},
+         {"shape", {{"shape", "cylinder"}, {"radius", 0.03}, {"half_length", half_length}}},
+         {"pose", {{"position", {at.x(), at.y(), at.z()}}, {"orientation", {1, 0, 0, 0}}}},
+         {"fixed", fixed}});
+  };
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const std::string can = "can-" + std::to_string(i);
+    add("pedestal-" + std::to_string(i), 0.1, places[i] - Vec3(0, 0, 0.1), true);
+    add(can, 0.06, places[i] + Vec3(0, 0, 0.06), false);
+    scene["needs"].push_back({{"need", "stands"}, {"body", can}, {"degrees", 2}});
+  }
+  return scene_from_text(scene.dump(), "pedestals.json");
+}
+
+// Both axes are the same line, on which a capsule's pole stands on the other's.
+TEST(Choose, ACapsuleThatBalancesOnItsPoleDoesNotStand) {
+  for (const auto& places :
+       {std::vector{Vec3(0, 0, 0)},
+        std::vector{Vec3(0.2, 0, 0), Vec3(-0.2, 0, 0), Vec3(0, 0.2, 0), Vec3(0, -0.2, 0)}}) {
+    const SceneFile file = cans_on_pedestals(places);
+    ChooseOptions options{find_candidates({"capsule"}), 2};
+    const Choice disturbed = choose(file, options);
+    options.trials.disturbances = 0;
+    const Choice as_written = choose(file, options);
+    EXPECT_TRUE(run_of(as_written, "capsule").holds());
+    EXPECT_EQ(run_of(as_written, "capsule").trials, 1U);
+
+    const SceneRun& capsule = run_of(disturbed, "capsule");
+    EXPECT_FALSE(capsule.holds());
+    EXPECT_GT(capsule.disturbance, 0U);
+    EXPECT_LT(capsule.held, capsule.trials);
+    EXPECT_LT(capsule.trials, 17U);  // it ended early
+    ASSERT_TRUE(capsule.evidence);
+    EXPECT_EQ(capsule.evidence->candidate, "capsule");
+    EXPECT_FALSE(disturbed.impossible);
+    EXPECT_EQ(disturbed.answer, 0U);
+    EXPECT_EQ(disturbed.runs[0].held, 17U);
+  }
+}
+
+TEST(DisturbedScenes, AreTheSceneAsItIsWrittenFirst) {
+  const Scene scene = cans_on_pedestals({Vec3(0.5, 0, 0)}).scene;
+  const DisturbedScene none(scene, 7, 0);
+  EXPECT_EQ(none.origin, (std::vector{0, 1}));
+  EXPECT_EQ(none.scene.gravity, scene.gravity);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(none.scene.bodies[i].pose.position(), scene.bodies[i].pose.position());
+    EXPECT_EQ(none.scene.bodies[i].pose.orientation().coeffs(),
+              scene.bodies[i].pose.orientation().coeffs());
+  }
+}
+
+TEST(DisturbedScenes, TurnedBackAreTheSceneButForASmallShiftTurnAndKickOfWhatMoves) {
+  const Scene scene = cans_on_pedestals({Vec3(0.5, 0, 0), Vec3(0, 0.7, 0.3)}).scene;
+  double largest_shift = 0, largest_angle = 0, largest_kick = 0;
+  std::set<std::vector<int>> orders;
+  for (std::size_t d = 1; d <= 100; ++d) {
+    const DisturbedScene disturbed(scene, 7, d);
+    orders.insert(disturbed.origin);
+    EXPECT_NEAR(disturbed.scene.gravity.norm(), 9.81, 1e-12);
+    Trajectory start;
+    start.frames.emplace_back();
+    start.answers = {{0, 1, 2, 0.01, TS_CONTACT, -0.01, 3.0, 1}};
+    for (const Body& b : disturbed.scene.bodies) {
+      start.frames[0].push_back({b.pose, b.velocity, b.angular_velocity});
+    }
+    const Trajectory back = disturbed.turned_back(start);
+    EXPECT_EQ(back.answers[0].a, disturbed.origin[1]);
+    EXPECT_EQ(back.answers[0].b, disturbed.origin[2]);
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+      const BodyState& s = back.frames[0][i];
+      const Pose& written = scene.bodies[i].pose;
+      const double shift = (s.pose.position() - written.position()).norm();
+      const double angle = s.pose.unit_orientation().angularDistance(written.unit_orientation());
+      const double rounding = scene.bodies[i].fixed ? 1e-15 : 1;
+      EXPECT_LE(shift, std::min(0.06e-4, rounding));
+      EXPECT_LE(angle, std::min(1e-3, 1e8 * rounding));
+      largest_shift = std::max(largest_shift, shift);
+      largest_angle = std::max(largest_angle, angle);
+      largest_kick = std::max(largest_kick, s.velocity.norm());
+    }
+  }
+  EXPECT_GT(largest_shift, 0.05e-4);
+  EXPECT_GT(largest_angle, 0.8e-3);
+  EXPECT_NEAR(largest_kick, 1e-3 * std::sqrt(2 * 9.81 * 0.06), 1e-4);
+  EXPECT_EQ(orders.size(), 24U);  // of four bodies
+}
+
+TEST(DisturbedScenes, AreOthersForEverySeedAndTheSameForTheSame) {
+  const Scene scene = cans_on_pedestals({Vec3(0.5, 0, 0)}).scene;
+  const auto gravity = [&](std::uint64_t seed, std::size_t d) {
+    return DisturbedScene(scene, seed, d).scene.gravity;
+  };
+  EXPECT_EQ(gravity(1, 3), gravity(1, 3));
+  EXPECT_NE(gravity(1, 3), gravity(2, 3));
+  EXPECT_NE(gravity(1, 3), gravity(1, 4));
+}
+
+// An ending that is compared with the exact run is compared with the same disturbance of it.
+TEST(Choose, ExactContactsAreAlwaysWhereTheyEndThemselves) {
+  json need = {{"need", "ends-near"}, {"body", "can"}, {"metres", 1e-9}};
+  const Choice choice = chosen(standing_can(need), 2);
+  EXPECT_FALSE(choice.impossible);
+  EXPECT_EQ(choice.runs[0].held, 17U);
 }
 
 TEST(Choose, SaysWhenExactContactsDoNotServe) {
