@@ -155,8 +155,6 @@ std::string choice_json(const Choice& choice, const std::string& command, const 
   for (const Candidate* c : choice.too_slow) too_slow.push_back(c->name);
   const double exact = choice.runs[0].nanoseconds;
   const double chosen = choice.runs[choice.answer].nanoseconds;
-  const auto steps = static_cast<double>(choice.exact_run.frames.size() - 1);
-  const double rest = choice.exact_run.seconds - choice.exact_run.contact_seconds;
   const json result = {{"schema", "touchstone-choice-1"},
                        {"command", command},
                        {"machine", to_json(describe_machine())},
@@ -172,7 +170,9 @@ std::string choice_json(const Choice& choice, const std::string& command, const 
                        {"possible", !choice.impossible},
                        {"exact_is_cheapest", choice.answer == 0},
                        {"time_saved", choice.impossible ? 0 : 1 - chosen / exact},
-                       {"rest_of_step_microseconds", rest * 1e6 / steps},
+                       {"step_saved", choice.impossible ? 0 : choice.step_saved()},
+                       {"worthwhile", choice.is_worthwhile()},
+                       {"rest_of_step_microseconds", choice.rest_of_step() * 1e6},
                        {"kinds", kinds},
                        {"answer", choice.answer},
                        {"runs", runs},

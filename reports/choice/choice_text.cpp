@@ -74,28 +74,37 @@ std::string kinds_of(const Choice& choice, const std::string& folder) {
 }
 
 std::string headline(const Choice& choice) {
-  if (choice.impossible) return "Not even exact contacts meet the needs of this scene:\n";
-  if (choice.answer == 0) {
-    return "The exact cylinder is itself the cheapest model that meets all needs:\n";
+  if (choice.impossible) {
+    return fmt::format("Not even exact contacts meet the needs of this scene{}:\n",
+                       in_disturbance(choice.runs[0]));
+  }
+  if (choice.answer == 0) return "Exact: no cheaper model meets all needs:\n";
+  const double of_contacts =
+      1 - choice.runs[choice.answer].nanoseconds / choice.runs[0].nanoseconds;
+  if (!choice.is_worthwhile()) {
+    return fmt::format(
+        "Exact: nothing cheaper that meets all needs saves more than {:.1g}% of a step.\n"
+        "The cheapest, which save {:.0f}% of the contacts' time:\n",
+        100 * choice.step_saved(), 100 * of_contacts);
   }
   return fmt::format(
-      "The cheapest models that meet all needs save {:.0f}% of the contacts' time:\n",
-      100 * (1 - choice.runs[choice.answer].nanoseconds / choice.runs[0].nanoseconds));
+      "The cheapest models that meet all needs save {:.0f}% of a step ({:.0f}% of its contacts):\n",
+      100 * choice.step_saved(), 100 * of_contacts);
 }
 
 /// One row for each candidate that was run for all pairs.
 std::string candidates_table(const Choice& choice, double steps) {
-  std::string lines = "\nOne model for all pairs      µs/step   error/limit  breaks first\n";
+  std::string lines = "\nOne model for all pairs  µs/step error/limit  breaks first\n";
   for (const SceneRun& run : choice.runs) {
     const bool of_search = run.name.find(' ') != std::string::npos || run.name == "combination";
     if (of_search) continue;
     const double error = run.error();
-    lines += fmt::format("  {:<24} {:>9.2f} {:>13}  {}\n", run.name, run.nanoseconds / 1000 / steps,
+    lines += fmt::format("  {:<22} {:>8.2f} {:>11}  {}\n", run.name, run.nanoseconds / 1000 / steps,
                          std::isfinite(error) ? fmt::format("{:.3g}", error) : "absurd",
                          run.holds() ? "" : first_failure(run));
   }
   for (const Candidate* c : choice.too_slow) {
-    lines += fmt::format("  {:<24} takes too long to run\n", c->name);
+    lines += fmt::format("  {:<22} takes too long to run\n", c->name);
   }
   return lines;
 }
@@ -126,12 +135,11 @@ std::string choice_text(const Choice& choice, const std::string& folder) {
   if (choice.impossible) return lines;
   const auto steps = static_cast<double>(choice.exact_run.frames.size() - 1);
   const double exact = choice.runs[0].nanoseconds / 1000 / steps;
-  const double rest = choice.exact_run.seconds - choice.exact_run.contact_seconds;
   lines +=
       fmt::format("Contacts take {:.2g} µs of a step{}; the rest of it takes {:.0f} µs.\n\n{}",
                   answer.nanoseconds / 1000 / steps,
                   choice.answer == 0 ? "" : fmt::format(" instead of {:.2g} µs exactly", exact),
-                  rest * 1e6 / steps, kinds_of(choice, folder));
+                  choice.rest_of_step() * 1e6, kinds_of(choice, folder));
   return lines + candidates_table(choice, steps);
 }
 

@@ -8,20 +8,25 @@ const wide = text => element('td', {class: 'text wrap'}, text);
 // Words such as "can stands within 0.5°: 12° at 0.71 s".
 function failure(run) {
   const need = needs[run.first_broken], verdict = run.verdicts[run.first_broken];
-  return `${need.text}: ${measured(verdict.value, need)} at ${verdict.time.toFixed(2)} s`;
+  return `${need.text}: ${measured(verdict.value, need)} at ${verdict.time.toFixed(2)} s` +
+      (run.disturbance ? `, disturbance ${run.disturbance}` : '');
 }
 
 function headline() {
   byId('title').textContent = `What does the scene ${data.scene.name} need?`;
   byId('description').textContent = data.scene.description;
   const exact = data.runs[0].microseconds_per_step;
+  const microseconds = `${exponent(answer.microseconds_per_step)} µs of a step instead of ${exponent(exact)} µs`;
+  const ofContacts = `${Math.round(100 * data.time_saved)}% of the contacts' time: ${microseconds}.`;
   byId('headline').textContent = !data.possible ? 'Not even exact contacts meet the needs of this scene.'
-      : data.exact_is_cheapest
-          ? `The exact cylinder is itself the cheapest model that meets all needs: contacts take ${exponent(exact)} µs of a step.`
-          : `The cheapest models that meet all needs save ${Math.round(100 * data.time_saved)}% of the contacts' time: ` +
-            `${exponent(answer.microseconds_per_step)} µs of a step instead of ${exponent(exact)} µs.`;
+      : data.exact_is_cheapest ? `Exact: no cheaper model meets all needs. Contacts take ${exponent(exact)} µs of a step.`
+      : data.worthwhile ? `The cheapest models that meet all needs save ${Math.round(100 * data.step_saved)}% of a step, ${ofContacts}`
+      : `Exact: nothing cheaper that meets all needs saves more than ${exponent(100 * data.step_saved, 1)}% of a step. ` +
+        `The cheapest save ${ofContacts}`;
   byId('provenance').textContent = `${data.machine.cpu}, ${data.machine.compiler}. ` +
-      `The rest of a step, solver and harness, takes ${exponent(data.rest_of_step_microseconds)} µs.`;
+      `The rest of a step, ODE's solver, takes ${exponent(data.rest_of_step_microseconds)} µs.` + (data.scene.disturbances
+      ? ` Every run is repeated under ${data.scene.disturbances} disturbances (seed ${data.scene.seed}), the answer under five times as many; ` +
+        'a need holds if it holds in all, and what breaks one is not run further.' : '');
   byId('provenance').after(element('details', {}, element('summary', {}, 'The command'), command(data.command)));
 }
 
@@ -48,10 +53,10 @@ function failures() {
 // Whether a run has one candidate for all pairs; runs of the search have longer names.
 const isUniform = run => !run.name.includes(' ') && run.name !== 'combination';
 function runTable() {
-  byId('run-table').append(table([textColumn('model'), 'µs of a step', 'error / limit', textColumn('breaks first'), textColumn('worst answer before')],
+  byId('run-table').append(table([textColumn('model'), 'µs of a step', 'error / limit', 'held', textColumn('breaks first'), textColumn('worst answer before')],
       data.runs.filter(isUniform).map(r => [r.name, exponent(r.microseconds_per_step, 3),
           element('td', {class: r.holds ? 'good' : 'bad'}, r.error === null ? 'absurd' : exponent(r.error)),
-          wide(r.holds ? '' : failure(r)), wide(r.evidence ? `${r.evidence.bodies}: ${r.evidence.wrong}` : '')]), 'Each run with one model'));
+          `${r.held} of ${r.trials}`, wide(r.holds ? '' : failure(r)), wide(r.evidence ? `${r.evidence.bodies}: ${r.evidence.wrong}` : '')]), 'Each run with one model'));
   if (data.too_slow.length) byId('too-slow').textContent = `Not run, because their queries alone would take more than 3 s: ${data.too_slow.join(', ')}.`;
 }
 

@@ -211,6 +211,17 @@ double Choice::nanoseconds(std::size_t kind, const Candidate& candidate) const {
       infinity);
 }
 
+double Choice::rest_of_step() const {
+  return exact_run.solver_seconds / static_cast<double>(exact_run.frames.size() - 1);
+}
+
+double Choice::step_saved() const {
+  const double exact = 1e-9 * runs[0].nanoseconds;
+  return (exact - 1e-9 * runs[answer].nanoseconds) / (exact + exact_run.solver_seconds);
+}
+
+bool Choice::is_worthwhile() const { return answer != 0 && step_saved() >= noise_of_step; }
+
 std::vector<const Candidate*> swept_candidates() {
   std::vector<std::string> names;
   for (const Candidate* c : all_candidates()) {

@@ -165,7 +165,17 @@ struct Choice {
   std::vector<std::optional<std::size_t>> cheaper = {};
   /// Time of a query of this kind; infinite where the candidate has no routine.
   double nanoseconds(std::size_t kind, const Candidate& candidate) const;
+  /// Seconds that a step of the exact run takes beside its contacts, in the mean.
+  double rest_of_step() const;
+  /// Share of the time of a whole step with exact contacts that the answer saves.
+  double step_saved() const;
+  /// Does the answer save more of a step than the noise of a machine?
+  bool is_worthwhile() const;
 };
+
+/// Share of a step's time below which a saving cannot be told from noise: the advice then is the
+/// exact cylinder.
+inline constexpr double noise_of_step = 0.02;
 
 /// Share of another candidate's time below which a candidate counts as cheaper: smaller differences
 /// are noise of the machine.

@@ -330,6 +330,35 @@ TEST(Choose, ACapsuleThatBalancesOnItsPoleDoesNotStand) {
   }
 }
 
+TEST(Choose, TheAnswerDoesNotDependOnTheSeed) {
+  const SceneFile file = cans_on_pedestals({Vec3(0, 0, 0)});
+  ChooseOptions options{find_candidates({"capsule"}), 2};
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    options.trials.seed = seed;
+    const Choice choice = choose(file, options);
+    EXPECT_FALSE(choice.impossible) << seed;
+    EXPECT_FALSE(choice.is_worthwhile()) << seed;
+    EXPECT_FALSE(run_of(choice, "capsule").holds()) << seed;
+  }
+}
+
+TEST(Choose, AdvisesAgainstWhatSavesNoMoreThanTheNoiseOfAStep) {
+  Choice choice = chosen(standing_can(stays));
+  choice.runs.resize(2);
+  choice.runs[0].nanoseconds = 1e6;
+  choice.runs[1].nanoseconds = 0.5e6;
+  choice.exact_run.solver_seconds = 0.009;
+  choice.answer = 1;
+  EXPECT_DOUBLE_EQ(choice.step_saved(), 0.05);
+  EXPECT_TRUE(choice.is_worthwhile());
+  choice.exact_run.solver_seconds = 0.099;
+  EXPECT_DOUBLE_EQ(choice.step_saved(), 0.005);
+  EXPECT_FALSE(choice.is_worthwhile());
+  choice.answer = 0;
+  EXPECT_EQ(choice.step_saved(), 0);
+  EXPECT_FALSE(choice.is_worthwhile());
+}
+
 TEST(DisturbedScenes, AreTheSceneAsItIsWrittenFirst) {
   const Scene scene = cans_on_pedestals({Vec3(0.5, 0, 0)}).scene;
   const DisturbedScene none(scene, 7, 0);

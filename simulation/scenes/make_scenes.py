@@ -134,7 +134,7 @@ def rod_in_corner():
             {"need": "ends-near", "body": "rod", "metres": 0.002},
             {"need": "ends-tilted", "body": "rod", "degrees": 2},
             {"need": "normals", "bodies": ["rod", "floor"], "degrees": 5},
-            {"need": "penetration", "metres": 0.001},
+            {"need": "penetration", "metres": 0.0015},
         ],
     }
 
@@ -161,10 +161,10 @@ def log_pile():
         "materials": {"earth": {"friction": 0.6}, "post": {"friction": 0.4},
                       "wood": {"friction": 0.5, "density": 700}},
         "bodies": bodies,
-        "needs": [{"need": "rests", "bodies": logs, "speed": 0.02, "by": 1.5}]
+        "needs": [{"need": "rests", "bodies": logs, "speed": 0.1, "by": 1.5}]
                  + [{"need": "ends-near", "body": b, "metres": 0.01} for b in logs]
                  + [{"need": "ends-tilted", "body": "log-3a", "degrees": 1},
-                    {"need": "penetration", "metres": 0.003}],
+                    {"need": "penetration", "metres": 0.006}],
         "camera": {"position": [1.6, -3.0, 1.3], "look_at": [0, 0, 0.3]},
     }
 
@@ -193,8 +193,8 @@ def pill_dispenser():
         "duration": 1.5,
         "materials": {"plastic": {"friction": 0.25}, "pill": {"friction": 0.25, "density": 1200}},
         "bodies": bodies,
-        "needs": [{"need": "rests", "bodies": tablets, "speed": 0.05, "by": 1.4},
-                  {"need": "penetration", "metres": 0.002}]
+        "needs": [{"need": "rests", "bodies": tablets, "speed": 0.5, "by": 1.4},
+                  {"need": "penetration", "metres": 0.003}]
                  + [{"need": "stays-in", "body": p, "lower": [-0.04, -0.04, 0],
                      "upper": [0.08, 0.04, 0.03], "from": 1.4} for p in tablets],
     }

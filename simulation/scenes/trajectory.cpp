@@ -29,12 +29,15 @@ class JudgedModel : public ContactModel {
   std::vector<Answer> answers(std::span<const PairQuestion> questions) override {
     const auto start = Clock::now();
     auto result = model_.answers(questions);
-    trajectory_.contact_seconds += seconds_since(start);
     for (std::size_t i = 0; i < questions.size(); ++i) {
       trajectory_.answers.push_back(judge(questions[i], result[i]));
     }
+    seconds_ += seconds_since(start);
     return result;
   }
+
+  /// In the model and in judging it.
+  double seconds() const { return seconds_; }
 
  private:
   JudgedAnswer judge(const PairQuestion& question, const Answer& answer) const {
@@ -62,6 +65,7 @@ class JudgedModel : public ContactModel {
 
   ContactModel& model_;
   Trajectory& trajectory_;
+  double seconds_ = 0;
 };
 
 struct ShapeText {
@@ -104,16 +108,18 @@ Trajectory run_scene(const Scene& scene, ContactModel& model) {
   JudgedModel judged(model, trajectory);
   World world(scene, judged);
   trajectory.frames.push_back(world.states());
-  const auto start = Clock::now();
+  double seconds = 0;
   while (world.time() < scene.duration - scene.step / 2) {
+    const auto start = Clock::now();
     world.step();
+    seconds += seconds_since(start);
     if (!world.sound()) {
       trajectory.sound = false;
       break;
     }
     trajectory.frames.push_back(world.states());
   }
-  trajectory.seconds = seconds_since(start);
+  trajectory.solver_seconds = seconds - judged.seconds();
   return trajectory;
 }
 

@@ -36,9 +36,8 @@ struct Trajectory {
   double step = 0;                             ///< s
   std::vector<std::vector<BodyState>> frames;  ///< the start, then one for each step
   std::vector<JudgedAnswer> answers;           ///< in order of time
-  bool sound = true;           ///< false: the motion left all bounds, and the frames end there
-  double seconds = 0;          ///< wall-clock time of the run
-  double contact_seconds = 0;  ///< the part of it in the contact model
+  bool sound = true;          ///< false: the motion left all bounds, and the frames end there
+  double solver_seconds = 0;  ///< wall-clock time of the steps without the contact model
 
   double end() const { return step * static_cast<double>(frames.size() - 1); }
   Configuration configuration(const Scene& scene, const JudgedAnswer& answer) const;
