@@ -27,11 +27,24 @@ expect 0 '^libraries: CGAL 5.*, GMP .*, MPFR .*, FLINT .*, Arb .*, Eigen 3' --ve
 expect 2 '--completion.*bash or zsh' --completion fish
 expect 0 '^\.TH touchstone 1' --manual
 expect 0 'bullet 3' candidates
-expect 2 'subcommand is required'
+expect 2 '^error: subcommand is missing: must be one of report, replay, '
+# Usage errors name what was given and the remedy, as all others do.
+expect 2 '^error: option is "--cout": must be one of touchstone report, as --count, .*--help' report --cout 3
+expect 2 '^error: option is "--candidats=x": must be .* as --candidates, ' replay --candidats=x
+expect 2 '^error: option is "--nosuch"' --nosuch
+expect 2 '^error: option is "--laod": .* as --load, ' candidates --laod x.so
+expect 2 '^error: argument is "more": must be left out: touchstone replay takes IDENTITY and ' \
+  replay cylinder-box/rim-face/1/2 more
+expect 2 '^error: argument is "more": must be left out: touchstone candidates takes no more than its name' candidates more
+expect 2 '^error: --seed is given no value: must be followed by UINT: Same seed' report --seed
+expect 2 '^error: --candidates is given no value: must be followed by CANDIDATE' solve --candidates
+expect 2 '^error: --load is given no value: must be followed by FILE' --load
+expect 2 '^error: --seed is given 2 times: must be given once' report --seed 1 --seed 2
+expect 2 '^error: --hostile is given a value: must stand alone' check --hostile=bullet
 expect 2 'report, replay, solve, certify, check, compare, ' nonsense
 expect 2 'identity.pair' replay cylinder-cone/rim/1/2
 expect 2 'identity.class' replay cylinder-box/none/1/2
-expect 2 'input is required' replay
+expect 2 '^error: input is missing: must be given, IDENTITY: pair/class/seed/index' replay
 expect 2 'nosuch.json.*no such file' replay nosuch.json
 expect 0 'touchstone report --candidates reference' candidates --help
 expect 0 '^reference  *contact  *agree ' replay cylinder-box/rim-face/1/2
@@ -111,7 +124,7 @@ expect 0 '^4 configurations' campaign --pair cylinder-sphere --class cap,side --
 expect 2 'already holds a campaign' campaign --out "$folder/c"
 expect 0 '^4 configurations' merge "$folder/c" --out "$folder/m"
 expect 2 'could not be opened' merge "$folder/none" --out "$folder/n"
-expect 2 'candidate is required' search
+expect 2 '^error: --candidate is missing: must be given, CANDIDATE: Its name' search
 expect 1 'shallow\|overdeep\|missed' search --candidate capsule --pair cylinder-sphere \
   --class general-deep --count 40 --save "$folder/found"
 expect 0 'as expected' check --corpus "$folder/found"
@@ -128,7 +141,7 @@ expect 0 'ode+touchstone' simulate lying --engine ode --out "$folder/simulated"
 expect 2 '--engine.*must be one of bullet, ' simulate lying --engine havok
 expect 2 'must be one number with --engine' simulate lying --engine ode --step 0.01,0.02
 expect 2 'no choice of --candidates' simulate lying --engine ode --candidates bullet
-expect 2 'excludes' simulate lying --engine ode --record "$folder/recorded.jsonl"
+expect 2 'is given with --.*: must stand without it' simulate lying --engine ode --record "$folder/recorded.jsonl"
 grep -q '"cure"' "$folder/simulated/engines.json" || { echo "FAILED: no engines.json"; failures=$((failures + 1)); }
 expect 2 '--candidate' check
 expect 2 '--law.*agreement' check --candidate bullet --law gravity
@@ -207,7 +220,7 @@ expect 0 '"id":"can/can and ground/' solve --candidates reference "$folder/recor
 expect 0 'truth: signed distance' replay "$folder/recorded.jsonl" --candidates reference
 expect 2 '--record.*needs scene files' simulate --record "$folder/recorded.jsonl"
 expect 2 '--record' simulate "$folder/can.json" --record /proc/none/recorded.jsonl
-expect 2 'excludes --record' simulate "$folder/can.json" --record "$folder/r.jsonl" --out "$folder"
+expect 2 'is given with --record: must stand without it' simulate "$folder/can.json" --record "$folder/r.jsonl" --out "$folder"
 expect 2 'scene.*could not be opened' simulate "$folder/none.json" --record "$folder/recorded.jsonl"
 expect 0 'can stands within 1' choose "$folder/can.json" --candidates capsule --out "$folder/choice"
 mkdir "$folder/my scenes"
@@ -282,7 +295,7 @@ expect 0 'TEST_CASE("TestCollideCylinderVsBox")' replay cylinder-box/rim-face/1/
 expect 0 'touchstone-bullet.so' replay cylinder-box/rim-face/1/2 --emit bullet-margin-0
 expect 2 'identity.class' replay cylinder-box/none/1/2 --emit bullet
 expect 2 'standard input is no JSON' replay - --emit bullet
-expect 2 'excludes' replay cylinder-box/rim-face/1/2 --emit bullet --json
+expect 2 '^error: --.* is given with --.*: must stand without it' replay cylinder-box/rim-face/1/2 --emit bullet --json
 expect 0 '#include <BulletCollision' replay cylinder-box/rim-face/1/2 --emit bullet
 echo '{"configuration":{"a":{"shape":"cylinder","radius":1,"half_length":1},"b":{"shape":"sphere","radius":1}}}' \
   >"$folder/saved.json"
