@@ -379,9 +379,11 @@ namespace {
 /// Adds the commands of a list.
 void add_list(const std::filesystem::path& file) {
   std::ifstream lines(file);
-  int number = 0;
+  int number = 0, commands = 0;
   std::string line;
   for (; std::getline(lines, line); ++number) {
+    constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+    if (number == 0 && line.starts_with(byte_order_mark)) line.erase(0, byte_order_mark.size());
     const auto first = line.find_first_not_of(" \t\r");
     if (first == std::string::npos || line[first] == '#') continue;
     const std::string where = file.string() + " line " + std::to_string(number + 1);
@@ -392,8 +394,24 @@ void add_list(const std::filesystem::path& file) {
     } catch (const InvalidInput& e) {
       throw InvalidInput("--load", where + ": " + e.value(), e.remedy());
     }
+    ++commands;
   }
   if (lines.bad()) throw InvalidInput("--load", file.string(), "must be a file that can be read");
+  if (commands == 0) {
+    throw InvalidInput("--load", '"' + file.string() + '"',
+                       "must list a command, one a line; lines that begin with # are comments");
+  }
+}
+
+/// Does it begin as the shared objects of Linux do?
+bool is_elf(const std::filesystem::path& file) {
+  constexpr std::string_view magic =
+      "\x7f"
+      "ELF";
+  std::string start(magic.size(), '\0');
+  std::ifstream(file, std::ios::binary)
+      .read(start.data(), static_cast<std::streamsize>(start.size()));
+  return start == magic;
 }
 
 }  // namespace
@@ -406,6 +424,11 @@ void add_file(const std::filesystem::path& file) {
     throw InvalidInput("--load", '"' + file.string() + '"', "must be a regular file");
   }
   const Added added{"--load", path.string()};
+  if (path.extension() != ".txt" && !is_elf(path)) {
+    throw InvalidInput("--load", '"' + file.string() + '"',
+                       "must be a plug-in, which is a shared object (.so), or a list of commands, "
+                       "whose name ends in .txt");
+  }
   if (path.extension() == ".txt") {
     add_list(path);
   } else {

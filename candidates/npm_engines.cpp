@@ -60,12 +60,23 @@ std::filesystem::path npm_folder() {
 }
 
 std::string npm_obstacle(const NpmEngine& engine) {
-  if (!is_on_path("node")) return "node is not installed; ./touchstone installs it when it can";
+  const bool is_source_tree = std::filesystem::exists(npm_folder() / "../../touchstone");
+  if (!is_on_path("node")) {
+    return std::string("node is not installed; ") +
+           (is_source_tree ? "./touchstone installs it when it can"
+                           : "install Debian's packages nodejs and npm");
+  }
   const auto package = packages() / "node_modules" / engine.package / "package.json";
   if (std::filesystem::exists(package)) return "";
-  return "npm's package " + std::string(engine.package) + " is not in " +
-         packages().lexically_normal().string() +
-         "; ./touchstone installs it there, or name a folder in TOUCHSTONE_NPM that has it";
+  const std::string missing = "npm's package " + std::string(engine.package) + " is not in ";
+  if (is_source_tree) {
+    return missing + packages().lexically_normal().string() +
+           "; ./touchstone installs it there, or name a folder in TOUCHSTONE_NPM that has it";
+  }
+  const char* const given = std::getenv("TOUCHSTONE_NPM");
+  return missing + (given ? given : "a folder that TOUCHSTONE_NPM names") +
+         "; copy package.json and package-lock.json from " + npm_folder().string() +
+         " into a folder, run npm ci --ignore-scripts there, and set TOUCHSTONE_NPM to it";
 }
 
 std::string npm_command(const NpmEngine& engine) { return "node " + std::string(engine.script); }

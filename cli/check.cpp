@@ -48,15 +48,18 @@ double nearest(const oracle::Enclosure& e) {
   return abs(middle - inside) <= abs(middle - outside) ? inside : outside;
 }
 
-std::string failure_text(const Failure& f) {
+/// Commands and configurations stand in lines of their own, however long.
+std::string failure_text(const Failure& f, const Terminal& terminal) {
   const oracle::Enclosure truth = oracle::truth(f.configuration).signed_distance;
-  std::string text = fmt::format("{}, {}: {}\n", f.law, f.violation.failure, f.violation.detail);
-  text += fmt::format("  {}\n", find_law(f.law).statement);
-  text += fmt::format("  first met as {}; simplified:\n", f.identity);
+  std::string text =
+      terminal.folded(fmt::format("{} {}, {}: {}", pair_name(pair_of(f.configuration)), f.law,
+                                  f.violation.failure, f.violation.detail));
+  text += terminal.below(find_law(f.law).statement);
+  text += terminal.below(fmt::format("first met as {}; simplified:", f.identity));
   text += fmt::format("  {}\n  {}\n", to_json(f.configuration).dump(),
                       to_hex_json(f.configuration).dump());
-  text += fmt::format("  truth: signed distance {} m\n", nearest(truth));
-  text += fmt::format("  answer: {}\n", answer_text(f.answer));
+  text += terminal.below(fmt::format("truth: signed distance {} m", nearest(truth)));
+  text += terminal.below("answer: " + answer_text(f.answer));
   text += fmt::format("  echo '{}' | {} replay - --candidates {} --threshold {}\n",
                       to_hex_json(f.configuration).dump(), program_name({f.candidate}), f.candidate,
                       f.bar.threshold);
@@ -105,6 +108,27 @@ std::string corpus_name(const Failure& f) {
                      f.violation.failure, f.features.empty() ? "" : ", ", f.features);
 }
 
+/// What came of a law, beside its name or, on a narrow terminal, below it.
+std::string law_text(const LawResult& r, const Terminal& terminal) {
+  constexpr std::size_t verdict_at = 29, counts_at = 46, min_room = 24;
+  const std::string verdict = r.broken == 0 ? "passed" : fmt::format("broken by {}", r.broken);
+  const auto coloured = [&](const std::string& text) {
+    return r.broken == 0 ? terminal.good(text) : terminal.bad(text);
+  };
+  const std::string name = fmt::format("  {:<13}{:>6} tried", r.law->name, r.tried);
+  const std::string counts = counts_text(r);
+  if (terminal.columns >= counts_at + min_room) {
+    const std::string beside =
+        wrapped(counts, terminal.columns - counts_at, '\n' + std::string(counts_at, ' '));
+    return name + "  " + coloured(fmt::format("{:<16}", verdict)) + ' ' + beside + '\n';
+  }
+  std::string text = terminal.columns >= verdict_at + verdict.size()
+                         ? name + "  " + coloured(verdict) + '\n'
+                         : name + "\n    " + coloured(verdict) + '\n';
+  return counts.empty() ? text
+                        : text + "    " + wrapped(counts, terminal.columns - 4, "\n    ") + '\n';
+}
+
 /// A line for each law and pair, and the simplest failure of each law with what is needed to see it
 /// again.
 std::string check_text(const std::vector<LawResult>& results, const Terminal& terminal) {
@@ -114,35 +138,32 @@ std::string check_text(const std::vector<LawResult>& results, const Terminal& te
     const char* pair = pair_name(r.pair);
     if (pair != last) text += '\n' + terminal.heading(pair) + '\n';
     if (r.tried == 0) {
-      if (pair != last) text += "  no routine: no law was tried\n";
+      if (pair != last) text += terminal.below("no routine: no law was tried");
       last = pair;
       continue;
     }
     if (pair != last && r.unsupported > 0) {
-      text += fmt::format("  no routine for {} configurations, which no law was tried on\n",
-                          r.unsupported);
+      text += terminal.below(fmt::format(
+          "no routine for {} configurations, which no law was tried on", r.unsupported));
     }
     last = pair;
-    const std::string verdict =
-        r.broken == 0 ? terminal.good(fmt::format("{:<16}", "passed"))
-                      : terminal.bad(fmt::format("{:<16}", fmt::format("broken by {}", r.broken)));
-    text +=
-        fmt::format("  {:<13}{:>6} tried  {} {}\n", r.law->name, r.tried, verdict, counts_text(r));
+    text += law_text(r, terminal);
   }
   for (const LawResult& r : results) {
     if (r.failures.empty()) continue;
-    text += fmt::format("\n{} {}", pair_name(r.pair), failure_text(r.failures.front()));
+    text += '\n' + failure_text(r.failures.front(), terminal);
   }
   return text;
 }
 
-std::string corpus_text(const std::vector<ReplayedFailure>& corpus) {
+std::string corpus_text(const std::vector<ReplayedFailure>& corpus, const Terminal& terminal) {
   std::string text;
   for (const ReplayedFailure& r : corpus) {
-    text += fmt::format("  {:<12} {}{}\n", result_name(r.result), corpus_name(r.expected),
-                        r.now.empty() || r.result == ReplayedFailure::Result::as_expected
-                            ? ""
-                            : fmt::format(" ({})", r.now));
+    const bool is_known = r.now.empty() || r.result == ReplayedFailure::Result::as_expected;
+    const std::string name =
+        corpus_name(r.expected) + (is_known ? "" : fmt::format(" ({})", r.now));
+    text += fmt::format("  {:<12} {}\n", result_name(r.result),
+                        wrapped(name, terminal.columns - 15, '\n' + std::string(15, ' ')));
   }
   return text;
 }
@@ -151,6 +172,7 @@ std::string corpus_text(const std::vector<ReplayedFailure>& corpus) {
 /// per saved failure.
 std::string junit_xml(const std::string& candidate, const std::vector<LawResult>& results,
                       const std::vector<ReplayedFailure>& corpus) {
+  const Terminal unbounded{.columns = 1000000};
   std::string cases;
   int failures = 0, skipped = 0;
   double seconds = 0;
@@ -166,7 +188,7 @@ std::string junit_xml(const std::string& candidate, const std::vector<LawResult>
       ++failures;
       cases += fmt::format("<failure type=\"{}\" message=\"{}\">{}</failure>",
                            escaped(r.failures.front().violation.failure), escaped(counts_text(r)),
-                           escaped(failure_text(r.failures.front())));
+                           escaped(failure_text(r.failures.front(), unbounded)));
     }
     cases += "</testcase>\n";
   }
@@ -242,7 +264,7 @@ struct Options {
 
   CheckOptions check() const {
     CheckOptions c;
-    for (const auto& name : laws) c.laws.push_back(&find_law(name));
+    for (const auto& name : laws) add_once(c.laws, &find_law(name));
     if (laws.empty()) {
       for (const Law& law : all_laws()) c.laws.push_back(&law);
     }
@@ -267,7 +289,7 @@ std::vector<ReplayedFailure> replay_all(const std::string& path, const char* fie
     std::erase_if(failures, [&](const Failure& f) { return f.candidate != candidate->name; });
   }
   std::vector<ReplayedFailure> replayed = replay(failures, {});
-  fmt::print("{}:\n{}", path, corpus_text(replayed));
+  fmt::print("{}:\n{}", path, corpus_text(replayed, standard_output()));
   return replayed;
 }
 
@@ -277,7 +299,9 @@ void save_all(const std::vector<LawResult>& results, const std::string& folder) 
   if (failures.empty()) return;
   fmt::print("\nSaved, one of each cause; start with the first:\n");
   for (const Failure& f : failures) {
-    fmt::print("  {}, {} configurations\n    {}\n", to_string(cause_of(f)), f.met,
+    fmt::print("{}    {}\n",
+               standard_output().below(
+                   fmt::format("{}, {} configurations", to_string(cause_of(f)), f.met)),
                save(f, folder).string());
   }
 }
@@ -317,9 +341,12 @@ std::vector<LawResult> check_laws(const Candidate* candidate, const CheckOptions
                                   const std::vector<Failure>& known) {
   if (!candidate) return {};
   CandidateProcess process(*candidate, checks.bar.threshold);
-  fmt::print("{} {}, seed {}, {} configurations of each pair and pose class, tolerance {}\n",
-             process.candidate().name, process.candidate().version, checks.seed, checks.count,
-             checks.bar.tolerance);
+  const Terminal terminal = standard_output();
+  fmt::print("{}",
+             terminal.folded(fmt::format(
+                 "{} {}, seed {}, {} configurations of each pair and pose class, tolerance {}",
+                 process.candidate().name, process.candidate().version, checks.seed, checks.count,
+                 checks.bar.tolerance)));
   std::unique_ptr<Progress> progress;
   auto results = check(process, checks, [&](std::uint64_t done, std::uint64_t all) {
     if (!progress) progress = std::make_unique<Progress>("configurations", all);
@@ -329,10 +356,11 @@ std::vector<LawResult> check_laws(const Candidate* candidate, const CheckOptions
   if (!known.empty()) {
     const std::size_t all = in_order(results).size();
     results = new_ones(std::move(results), known);
-    fmt::print("{} of {} causes of failures are known and not shown\n",
-               all - in_order(results).size(), all);
+    fmt::print("{}",
+               terminal.folded(fmt::format("{} of {} causes of failures are known and not shown",
+                                           all - in_order(results).size(), all)));
   }
-  fmt::print("{}", check_text(results, standard_output()));
+  fmt::print("{}", check_text(results, terminal));
   if (std::none_of(results.begin(), results.end(), [](auto& r) { return r.tried > 0; })) {
     throw InvalidInput("--candidate", process.candidate().name,
                        "must have a routine for a pair that is asked");
@@ -342,8 +370,9 @@ std::vector<LawResult> check_laws(const Candidate* candidate, const CheckOptions
 
 int run(const Options& options) {
   if (options.candidate.empty() && options.corpus.empty() && options.known.empty()) {
-    throw InvalidInput("--candidate", "nothing",
-                       "must name what to check, or --corpus or --known a folder");
+    throw InvalidInput("--candidate", "missing",
+                       "must be given: a name, as bullet (touchstone candidates lists them), or "
+                       "the file of a plug-in; or else --corpus or --known with saved failures");
   }
   for (const auto& [file, field] :
        {std::pair(&options.junit, "--junit"), {&options.json, "--json"}}) {

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Runs the program as a person does: cli_test.sh PROGRAM.
 set -u
+unset COLUMNS
 program=$(readlink -f "$1")
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
@@ -27,11 +28,24 @@ expect 0 '^libraries: CGAL 5.*, GMP .*, MPFR .*, FLINT .*, Arb .*, Eigen 3' --ve
 expect 2 '--completion.*bash or zsh' --completion fish
 expect 0 '^\.TH touchstone 1' --manual
 expect 0 'bullet 3' candidates
-expect 2 'subcommand is required'
+expect 2 '^error: subcommand is missing: must be one of report, replay, '
+# Usage errors name what was given and the remedy, as all others do.
+expect 2 '^error: option is "--cout": must be an option of touchstone report, as --count, .*--help' report --cout 3
+expect 2 '^error: option is "--candidats=x": must be .* as --candidates, ' replay --candidats=x
+expect 2 '^error: option is "--nosuch"' --nosuch
+expect 2 '^error: option is "--laod": .* as --load, ' candidates --laod x.so
+expect 2 '^error: argument is "more": must be left out: touchstone replay takes IDENTITY and ' \
+  replay cylinder-box/rim-face/1/2 more
+expect 2 '^error: argument is "more": must be left out: touchstone candidates takes no more than its name' candidates more
+expect 2 '^error: --seed is given no value: must be followed by UINT: Same seed' report --seed
+expect 2 '^error: --candidates is given no value: must be followed by CANDIDATE' solve --candidates
+expect 2 '^error: --load is given no value: must be followed by FILE' --load
+expect 2 '^error: --seed is given 2 times: must be given once' report --seed 1 --seed 2
+expect 2 '^error: --hostile is given a value: must stand alone' check --hostile=bullet
 expect 2 'report, replay, solve, certify, check, compare, ' nonsense
 expect 2 'identity.pair' replay cylinder-cone/rim/1/2
 expect 2 'identity.class' replay cylinder-box/none/1/2
-expect 2 'input is required' replay
+expect 2 '^error: input is missing: must be given: pair/class/seed/index' replay
 expect 2 'nosuch.json.*no such file' replay nosuch.json
 expect 0 'touchstone report --candidates reference' candidates --help
 expect 0 '^reference  *contact  *agree ' replay cylinder-box/rim-face/1/2
@@ -46,6 +60,16 @@ expect 2 'must be one of reference, bullet, ' replay cylinder-box/rim-face/1/2 -
 expect 2 'prism:1.* must be' replay cylinder-box/rim-face/1/2 --candidates prism:1
 expect 0 'prism:32: ' replay cylinder-box/rim-face/1/2 --candidates prism:8,16,32
 expect 2 'must be a plug-in' --load /etc/passwd candidates
+echo '{}' >"$folder/p.json"
+expect 2 'p.json": must be a plug-in, which is a shared object (.so), or a list of commands, .*\.txt' \
+  --load "$folder/p.json" candidates
+expect 2 '^error: --candidate is ".*p.json": must be a plug-in' check --candidate "$folder/p.json"
+printf '\xef\xbb\xbf# nothing but a byte order mark\n' >"$folder/empty.txt"
+expect 2 '^error: --load is ".*empty.txt": must list a command' --load "$folder/empty.txt" candidates
+expect 2 '^error: --candidate is ".*empty.txt": must list a command' check --candidate "$folder/empty.txt"
+expect 2 '^error: --candidate is "bullet,ode": must be one name, not a list' check --candidate bullet,ode
+expect 2 '^error: --candidate is "bulet": must be one of reference, ' search --candidate bulet
+expect 2 '^error: input is ".*": must be a file, not a folder' replay "$folder"
 expect 2 '--time-limit' solve --time-limit 0
 expect 2 '--tolerance' replay cylinder-box/rim-face/1/2 --tolerance=-1
 expect 0 'reference: contact, agree' replay cylinder-box/rim-face/1/2
@@ -81,6 +105,10 @@ grep -q '"configurations": 1,' "$folder/given/report.json" ||
 sed -i 2d "$folder/given.jsonl"
 expect 0 'cylinder-plane, degenerate poses' score "$folder/given.jsonl" --name mine --out "$folder/given"
 expect 2 '--name is missing' score "$folder/given.jsonl" --out "$folder/given"
+: >"$folder/none.jsonl"
+expect 2 'none.jsonl": must have a line that is an answer, as {"id"' score "$folder/none.jsonl" --name mine \
+  --out "$folder/given"
+rm "$folder/none.jsonl"
 expect 2 'missing for 5105 configurations' score "$folder/given.jsonl" --name mine --suite --out "$folder/given"
 expect 2 'could not be opened' score "$folder/none.jsonl" --out "$folder/given"
 expect 2 '--count' report --count 0
@@ -108,10 +136,12 @@ expect 2 '--count' campaign --count 1.5e0 --out "$folder/c"
 expect 2 '--shard.*3/7' campaign --shard 8/7 --out "$folder/c"
 expect 0 '^4 configurations' campaign --pair cylinder-sphere --class cap,side --count 2e0 \
   --candidates reference --out "$folder/c"
-expect 2 'already holds a campaign' campaign --out "$folder/c"
+expect 2 'already holds a campaign, in shard-.*jsonl: ./touchstone campaign .*--class cap,side.*choose another folder' \
+  campaign --out "$folder/c"
+expect 2 'already holds a campaign, in shard-.*choose another folder' merge "$folder/c" --out "$folder/c"
 expect 0 '^4 configurations' merge "$folder/c" --out "$folder/m"
 expect 2 'could not be opened' merge "$folder/none" --out "$folder/n"
-expect 2 'candidate is required' search
+expect 2 '^error: --candidate is missing: must be given: Its name' search
 expect 1 'shallow\|overdeep\|missed' search --candidate capsule --pair cylinder-sphere \
   --class general-deep --count 40 --save "$folder/found"
 expect 0 'as expected' check --corpus "$folder/found"
@@ -128,9 +158,15 @@ expect 0 'ode+touchstone' simulate lying --engine ode --out "$folder/simulated"
 expect 2 '--engine.*must be one of bullet, ' simulate lying --engine havok
 expect 2 'must be one number with --engine' simulate lying --engine ode --step 0.01,0.02
 expect 2 'no choice of --candidates' simulate lying --engine ode --candidates bullet
-expect 2 'excludes' simulate lying --engine ode --record "$folder/recorded.jsonl"
+expect 2 'is given with --.*: must stand without it' simulate lying --engine ode --record "$folder/recorded.jsonl"
 grep -q '"cure"' "$folder/simulated/engines.json" || { echo "FAILED: no engines.json"; failures=$((failures + 1)); }
-expect 2 '--candidate' check
+expect 2 '^error: --candidate is missing: must be given: a name, as bullet' check
+# What is given twice counts once.
+[ "$("$program" check --candidate reference --pair cylinder-sphere --class cap,cap --count 1 \
+  --law agreement,agreement | grep -c agreement)" = 1 ] ||
+  { echo "FAILED: check --law agreement,agreement"; failures=$((failures + 1)); }
+[ "$("$program" simulate rolling rolling --candidates reference,reference --step 0.01,0.01 |
+  grep -c '^ *reference ')" = 2 ] || { echo "FAILED: simulate rolling rolling"; failures=$((failures + 1)); }
 expect 2 '--law.*agreement' check --candidate bullet --law gravity
 expect 2 '--class' check --candidate bullet --class nowhere
 expect 2 '--corpus.*must be a folder' check --corpus "$folder/none"
@@ -166,8 +202,10 @@ expect 0 'fixed  *reference' check --known "$folder/other" --junit "$folder/fixe
 grep -q 'failures="0"' "$folder/fixed.xml" || { echo "FAILED: JUnit XML of a fixed failure"; failures=$((failures + 1)); }
 expect 1 'broken by' "${edges[@]}" --known "$folder/other"
 sed -i 's/"candidate": "reference"/"candidate": "no-such-engine"/' "$folder"/other/*.json
-expect 1 'skipped  *no-such-engine.*not installed' check --known "$folder/other"
-expect 0 'skipped  *no-such-engine.*not installed' check --corpus "$folder/other"
+expect 1 'skipped  *no-such-engine' check --known "$folder/other"
+expect 1 'candidate is not installed' check --known "$folder/other"
+expect 0 'skipped  *no-such-engine' check --corpus "$folder/other"
+expect 0 'candidate is not installed' check --corpus "$folder/other"
 expect 2 '--known.*must be a folder' check --known "$folder/none"
 # A plug-in's file names its first candidate, and a known name comes before a file of that name.
 plugin=$(dirname "$program")/candidates/testing/touchstone-sabotage.so
@@ -207,7 +245,7 @@ expect 0 '"id":"can/can and ground/' solve --candidates reference "$folder/recor
 expect 0 'truth: signed distance' replay "$folder/recorded.jsonl" --candidates reference
 expect 2 '--record.*needs scene files' simulate --record "$folder/recorded.jsonl"
 expect 2 '--record' simulate "$folder/can.json" --record /proc/none/recorded.jsonl
-expect 2 'excludes --record' simulate "$folder/can.json" --record "$folder/r.jsonl" --out "$folder"
+expect 2 'is given with --record: must stand without it' simulate "$folder/can.json" --record "$folder/r.jsonl" --out "$folder"
 expect 2 'scene.*could not be opened' simulate "$folder/none.json" --record "$folder/recorded.jsonl"
 expect 0 'can stands within 1' choose "$folder/can.json" --candidates capsule --out "$folder/choice"
 mkdir "$folder/my scenes"
@@ -240,6 +278,18 @@ expect 2 'identity.class' certify cylinder-box/none/1/2
 expect 2 '--width' certify cylinder-box/rim-face/1/2 --width 0
 expect 2 '--cells' certify cylinder-box/rim-face/1/2 --cells -1
 expect 2 'standard input is no JSON' certify -
+# There no ./touchstone installs what an engine from npm needs.
+mkdir -p "$folder/there/bin" "$folder/there/lib" "$folder/there/share/touchstone/candidates"
+cp "$program" "$folder/there/bin/"
+cp -r "$folder/part/candidates" "$folder/there/lib/touchstone"
+cp -r "$(dirname "$0")/../candidates/npm" "$folder/there/share/touchstone/candidates/"
+PATH=/nowhere "$folder/there/bin/touchstone" replay cylinder-box/rim-face/1/2 --candidates jolt 2>&1 |
+  grep -q 'is unavailable: node is not installed; install Debian.s packages nodejs and npm' ||
+  { echo "FAILED: no remedy without node"; failures=$((failures + 1)); }
+printf '#!/bin/sh\n' >"$folder/there/bin/node" && chmod +x "$folder/there/bin/node"
+PATH="$folder/there/bin" "$folder/there/bin/touchstone" replay cylinder-box/rim-face/1/2 --candidates jolt 2>&1 |
+  grep -q "jolt-physics is not in .*; copy package.json and package-lock.json from .*/share/touchstone/candidates/npm into" ||
+  { echo "FAILED: no remedy for an engine from npm"; failures=$((failures + 1)); }
 expect 0 '"schema":"touchstone-certificate-1"' certify cylinder-box/rim-face/1/2
 if [ "$("$program" certify - <<<"$line")" != "$("$program" certify cylinder-box/general-deep/3/4)" ]; then
   echo "FAILED: certify proves something else of a line than of its identity"
@@ -262,10 +312,13 @@ expect 1 'cylinder-plane/lying  bullet' compare "$r" "$folder/worse.json"
 expect 2 '--fail-on is "speed": must be accuracy' compare "$r" "$r" --fail-on speed
 expect 0 '"fail_on":\["accuracy","time"\]' compare "$r" "$r" --json --fail-on time
 expect 0 'smaller changes' compare "$r" "$folder/worse.json" --max-error-factor 1e300
+expect 0 '100% of what agreed must agree still' compare "$r" "$r"
+expect 2 'campaign.json": must be the report.json of touchstone report, but has schema "touchstone-camp' \
+  compare "$r" "$folder/c/campaign.json"
 expect 0 'Better: 1' compare "$folder/worse.json" "$r"
 expect 2 'none.json.*could not be opened' compare "$r" "$folder/none.json"
 expect 2 'junit.xml.*is no JSON' compare "$folder/junit.xml" "$r"
-expect 2 'proof.json: schema is .* must be 1' compare "$folder/proof.json" "$r"
+expect 2 'proof.json": must be the report.json of touchstone report, but has schema "touchstone-cert' compare "$folder/proof.json" "$r"
 expect 2 '--max-error-factor is "0.5"' compare "$r" "$r" --max-error-factor 0.5
 expect 2 '--html' compare "$r" "$r" --html "$folder/none/compare.html"
 
@@ -282,7 +335,7 @@ expect 0 'TEST_CASE("TestCollideCylinderVsBox")' replay cylinder-box/rim-face/1/
 expect 0 'touchstone-bullet.so' replay cylinder-box/rim-face/1/2 --emit bullet-margin-0
 expect 2 'identity.class' replay cylinder-box/none/1/2 --emit bullet
 expect 2 'standard input is no JSON' replay - --emit bullet
-expect 2 'excludes' replay cylinder-box/rim-face/1/2 --emit bullet --json
+expect 2 '^error: --.* is given with --.*: must stand without it' replay cylinder-box/rim-face/1/2 --emit bullet --json
 expect 0 '#include <BulletCollision' replay cylinder-box/rim-face/1/2 --emit bullet
 echo '{"configuration":{"a":{"shape":"cylinder","radius":1,"half_length":1},"b":{"shape":"sphere","radius":1}}}' \
   >"$folder/saved.json"
@@ -445,6 +498,7 @@ on_terminal() { TERM=xterm script -qec "stty cols $1; '$program' $2" /dev/null <
   failed "no colour on a terminal"
 [[ $(NO_COLOR=1 on_terminal 80 "replay cylinder-box/rim-face/1/2 --candidates reference") != *$'\e'* ]] ||
   failed "colour in spite of NO_COLOR"
+replayed_rim="replay cylinder-box/edge-cap/1/2 --candidates reference,bullet"
 narrow=$(on_terminal 40 "check --help" | tr -d '\r' | sed -n '/^Options:/,/^Examples:/p')
 [ "$(wc -l <<<"$narrow")" -gt 20 ] || failed "no options of check"
 awk 'length($0) > 40 { exit 1 }' <<<"$narrow" || failed "--help is wider than a terminal of 40 columns"
@@ -453,7 +507,21 @@ for command in candidates "classes cylinder-box"; do
   wide=$(on_terminal 40 "$command" | tr -d '\r' | grep -v '[^ ]\{30\}' | LC_ALL=C.UTF-8 awk 'length($0) > 40')
   [ -z "$wide" ] || failed "$command is wider than a terminal of 40 columns: $wide"
 done
-for command in candidates "classes cylinder-box" "replay cylinder-box/edge-cap+aligned/1/2 --candidates reference,bullet"; do
+broken="check --candidate bullet --pair cylinder-box,cylinder-sphere --class edge-cap,cap,concentric --count 2"
+changed="compare $folder/report.json $folder/worse.json"
+for command in "$replayed_rim" "$broken" "$changed" "check --known $folder/known"; do
+  # shellcheck disable=SC2086
+  printed=$(COLUMNS=40 "$program" $command)
+  [ "$(wc -l <<<"$printed")" -gt 3 ] || failed "$command prints nothing"
+  wide=$(grep -v '[^ ]\{30\}' <<<"$printed" | LC_ALL=C.UTF-8 awk 'length($0) > 40')
+  [ -z "$wide" ] || failed "$command is wider than COLUMNS=40: $wide"
+done
+[[ $(COLUMNS=40 on_terminal 80 "$broken --law agreement" | tr -d '\r') == *$'\e[0m\n    '[0-9]* ]] ||
+  failed "COLUMNS is not heard on a terminal"
+[ "$(COLUMNS=many "$program" $replayed_rim)" = "$("$program" $replayed_rim)" ] || failed "COLUMNS=many"
+[[ $(on_terminal 80 "export --format npz --count 1 $lying") == *'--out is a terminal: must be a file or a pipe for npz'* ]] ||
+  failed "npz goes to a terminal"
+for command in candidates "classes cylinder-box" "$replayed_rim"; do
   # shellcheck disable=SC2086
   wide=$("$program" $command | grep -v '^{\|[^ ]\{60\}' | LC_ALL=C.UTF-8 awk 'length($0) > 80')
   [ -z "$wide" ] || failed "$command is wider than 80 columns: $wide"

@@ -1,18 +1,18 @@
 #include "cli/command.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <iostream>
-#include <sstream>
 #include <unistd.h>
 #include <utility>
 
 #include <CLI/CLI.hpp>
 
-#include "properties/files/given_text.hpp"
+#include "properties/named.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/terminal.hpp"
 
@@ -39,30 +39,127 @@ class HelpFormat : public CLI::Formatter {
   std::size_t width_, columns_;
 };
 
+using Names = std::vector<std::string>;
+
+Names command_names(const CLI::App& program) {
+  Names names;
+  for (const CLI::App* command : program.get_subcommands({})) names.push_back(command->get_name());
+  return names;
+}
+
+/// Those that may stand after this subcommand, the program's own included.
+std::vector<const CLI::Option*> options_of(const CLI::App& command) {
+  std::vector<const CLI::Option*> options = command.get_options();
+  const CLI::App* const program = command.get_parent();
+  if (program) {
+    for (const CLI::Option* option : program->get_options()) {
+      if (option != program->get_help_ptr()) options.push_back(option);
+    }
+  }
+  return options;
+}
+
+std::string quoted(const std::string& text) { return '"' + text + '"'; }
+
 /// CLI11 would only say that a subcommand is required.
 void refuse_unknown_command(const CLI::App& program, int argc, char** argv) {
   if (argc < 2 || argv[1][0] == '-') return;
-  std::string names;
-  for (const CLI::App* command : program.get_subcommands({})) {
-    if (command->get_name() == argv[1]) return;
-    names += (names.empty() ? "" : ", ") + command->get_name();
-  }
-  throw InvalidInput("subcommand", '"' + std::string(argv[1]) + '"', "must be one of " + names);
+  const Names names = command_names(program);
+  if (std::find(names.begin(), names.end(), argv[1]) != names.end()) return;
+  throw InvalidInput("subcommand", quoted(argv[1]),
+                     fmt::format("must be one of {}", fmt::join(names, ", ")));
 }
 
-/// Prints what --help and --version ask for, errors to CLI11, or a usage error; its messages repeat
-/// what was given.
-int tell(const CLI::App& program, const CLI::ParseError& error) {
-  constexpr int bad_usage = 2;
-  constexpr std::size_t max_message = 400;
-  std::ostringstream out, message;
-  const int code = program.exit(error, out, message);
-  std::fputs(out.str().c_str(), stdout);
-  if (code == 0) return 0;
-  std::istringstream lines(message.str());
-  for (std::string line; std::getline(lines, line);) complain(printable(line, max_message));
-  return bad_usage;
-}
+/// What CLI11 met on the command line, as an error of ours: its own words name neither what was
+/// given nor the remedy. `program` is as parsing left it.
+class UsageError {
+ public:
+  explicit UsageError(const CLI::App& program) : program_(program), command_(&program) {
+    if (!program.get_subcommands().empty()) command_ = program.get_subcommands().front();
+    name_ =
+        command_ == &program ? program.get_name() : program.get_name() + ' ' + command_->get_name();
+  }
+
+  InvalidInput of(const CLI::ParseError& error) const {
+    const Names rest = program_.remaining(true);
+    const auto option = std::find_if(rest.begin(), rest.end(),
+                                     [](const std::string& word) { return word.starts_with('-'); });
+    // What is missing may be what an unknown option has swallowed.
+    if (option != rest.end()) return unknown_option(*option);
+    if (!rest.empty()) return not_expected(rest.front());
+    if (dynamic_cast<const CLI::RequiredError*>(&error)) return missing();
+    if (dynamic_cast<const CLI::ExcludesError*>(&error)) return excluded();
+    return of_option(error);
+  }
+
+ private:
+  InvalidInput unknown_option(const std::string& word) const {
+    Names known;
+    for (const CLI::Option* option : options_of(*command_)) {
+      for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+    }
+    return {"option", quoted(word),
+            fmt::format("must be an option of {}, as {}; {} --help lists them", name_,
+                        nearest(word.substr(0, word.find('=')), known), name_)};
+  }
+
+  InvalidInput not_expected(const std::string& word) const {
+    Names taken;
+    for (const CLI::Option* option : command_->get_options()) {
+      if (option->get_positional()) taken.push_back(option->get_type_name());
+    }
+    return {"argument", quoted(word),
+            fmt::format("must be left out: {} takes {} and options", name_,
+                        taken.empty() ? "no more than its name"
+                                      : fmt::format("{}", fmt::join(taken, ", ")))};
+  }
+
+  InvalidInput missing() const {
+    for (const CLI::Option* option : command_->get_options()) {
+      if (!option->get_required() || option->count() > 0) continue;
+      return {option->get_name(), "missing", "must be given: " + option->get_description()};
+    }
+    return {"subcommand", "missing",
+            fmt::format("must be one of {}", fmt::join(command_names(program_), ", "))};
+  }
+
+  InvalidInput excluded() const {
+    for (const CLI::Option* option : command_->get_options()) {
+      if (option->count() == 0) continue;
+      for (const CLI::Option* other : option->get_excludes()) {
+        if (other->count() == 0) continue;
+        return {option->get_name(), "given with " + other->get_name(), "must stand without it"};
+      }
+    }
+    return {"command line", "contradictory", name_ + " --help says what goes together"};
+  }
+
+  /// CLI11's text has the option's name, "--count: 1 required UINT missing" or "Could not convert:
+  /// --hostile = 7".
+  InvalidInput of_option(const CLI::ParseError& error) const {
+    const std::string text = error.what();
+    const bool is_of_value = dynamic_cast<const CLI::ConversionError*>(&error) != nullptr;
+    const std::size_t start = is_of_value ? std::min(text.find("--"), text.size()) : 0;
+    const std::string name = text.substr(start, text.find_first_of(": ", start) - start);
+    for (const CLI::Option* option : options_of(*command_)) {
+      if (option->get_name() != name) continue;
+      if (option->get_items_expected_max() == 0) {
+        return {name, "given a value", "must stand alone"};
+      }
+      if (option->count() > 1) {
+        return {name, fmt::format("given {} times", option->count()), "must be given once"};
+      }
+      return {name, "given no value",
+              fmt::format("must be followed by {}: {}", option->get_type_name(),
+                          option->get_description())};
+    }
+    return {"command line", quoted(text), "must be as " + name_ + " --help says"};
+  }
+
+  const CLI::App& program_;
+  const CLI::App* command_;
+  std::string name_;
+};
 
 }  // namespace
 
@@ -199,8 +296,10 @@ int Program::run(int argc, char** argv) {
   refuse_unknown_command(*app_, argc, argv);
   try {
     app_->parse(argc, argv);
+  } catch (const CLI::Success& e) {
+    app_->exit(e);  // prints what --help and --version ask for
   } catch (const CLI::ParseError& e) {
-    return tell(*app_, e);
+    throw UsageError(*app_).of(e);
   }
   return exit_code_;
 }

@@ -87,8 +87,8 @@ class Program {
                 const std::string& description);
   void footer(const std::string& text);
 
-  /// Parses and runs the command that is named. Usage errors, --help and the like are told and end
-  /// with their exit code; what a command throws is thrown on.
+  /// Parses and runs the command that is named, or prints what --help and --version ask for. Throws
+  /// InvalidInput on a usage error, and what a command throws.
   int run(int argc, char** argv);
 
  private:

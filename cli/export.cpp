@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <memory>
+#include <unistd.h>
 
 #include "candidates/host/interruption.hpp"
 #include "cli/command.hpp"
@@ -47,6 +48,11 @@ int run(const Options& options) {
   const auto writer =
       test_data_writer(options.format(), options.suite ? CsvColumns::suite : CsvColumns::all);
   const bool streams = options.out == "-";
+  if (streams && options.format() == TestDataFormat::npz && isatty(STDOUT_FILENO) != 0) {
+    throw InvalidInput("--out", "a terminal",
+                       "must be a file or a pipe for npz, which is binary; or choose another "
+                       "--format");
+  }
   if (!streams) check_file_writable(options.out, "--out");
   const Interruption interruption;
   std::string text;

@@ -26,9 +26,7 @@ std::string other_shapes(const Candidate& candidate) {
 }
 
 /// A line, or several on a narrow terminal, below a name.
-void print_below(const std::string& text) {
-  fmt::print("  {}\n", wrapped(text, standard_output().columns - 4, "\n    "));
-}
+void print_below(const std::string& text) { fmt::print("{}", standard_output().below(text)); }
 
 void print(const Candidate& c) {
   fmt::print("{} {}\n", c.name, c.version);
@@ -41,9 +39,7 @@ void print(const Candidate& c) {
   }
 }
 
-void print_heading(const std::string& text) {
-  fmt::print("{}\n", wrapped(text, standard_output().columns, "\n"));
-}
+void print_heading(const std::string& text) { fmt::print("{}", standard_output().folded(text)); }
 
 }  // namespace
 

@@ -40,19 +40,30 @@ std::string CandidateOption::command_line(const std::vector<const Candidate*>& c
                      limits_.seconds, limits_.mebibytes);
 }
 
-const Candidate& named_candidate(const std::string& name) {
-  try {
-    return find_candidate(name);
-  } catch (const InvalidInput&) {
-    if (!is_file(name)) throw;
-  }
+namespace {
+
+const Candidate& first_of_file(const std::string& file) {
   const std::size_t known = all_candidates().size();
   try {
-    add_file(name);
+    add_file(file);
   } catch (const InvalidInput& e) {
     throw InvalidInput("--candidate", e.value(), e.remedy());
   }
   return *all_candidates()[known];
+}
+
+}  // namespace
+
+const Candidate& named_candidate(const std::string& name) {
+  try {
+    return find_candidate(name);
+  } catch (const InvalidInput& e) {
+    if (is_file(name)) return first_of_file(name);
+    if (name.find(',') != std::string::npos) {
+      throw InvalidInput("--candidate", '"' + name + '"', "must be one name, not a list");
+    }
+    throw InvalidInput("--candidate", e.value(), e.remedy());
+  }
 }
 
 BarOption::BarOption(Command& command) {
@@ -88,8 +99,7 @@ std::vector<Pair> SampleOption::pairs() const {
   std::vector<Pair> result;
   for (const auto& name : pairs_) {
     try {
-      const Pair pair = parse_pair(name);
-      if (std::find(result.begin(), result.end(), pair) == result.end()) result.push_back(pair);
+      add_once(result, parse_pair(name));
     } catch (const InvalidInput& e) {
       throw InvalidInput("--pair", e.value(), e.remedy());
     }

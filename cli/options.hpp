@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -30,6 +31,12 @@ struct CandidateOption {
   Limits limits_;
   Option option_;
 };
+
+/// What is named several times counts once, in every list.
+template <class T>
+void add_once(std::vector<T>& list, const T& value) {
+  if (std::find(list.begin(), list.end(), value) == list.end()) list.push_back(value);
+}
 
 /// The candidate of that name, or, where there is none, the first of the plug-in in that file,
 /// which is added. Throws InvalidInput.

@@ -84,7 +84,10 @@ int run(const Options& options) {
   const ReadAnswers read_ones = read(options);
   tell(read_ones.errors);
   if (read_ones.count == 0) {
-    throw InvalidInput("file", '"' + options.file + '"', "must hold at least one answer");
+    throw InvalidInput("file", '"' + options.file + '"',
+                       "must have a line that is an answer, as {\"id\": "
+                       "\"cylinder-box/rim-face/1/0\", \"status\": \"none\"}; docs/suite.md "
+                       "says more");
   }
   Campaign campaign;
   campaign.given = &read_ones.answers;

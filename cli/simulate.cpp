@@ -37,22 +37,22 @@ struct Options {
 
   ExperimentOptions experiments() const {
     ExperimentOptions e;
-    for (const auto& name : names) e.experiments.push_back(&find_experiment(name));
+    for (const auto& name : names) add_once(e.experiments, &find_experiment(name));
     if (names.empty()) {
       for (const Experiment& each : all_experiments()) e.experiments.push_back(&each);
     }
     e.candidates = candidates.get();
     e.limits = candidates.limits();
-    e.steps = steps;
+    for (const double step : steps) add_once(e.steps, step);
     e.workers = workers.get();
     return e;
   }
 
   EngineOptions in_engines() const {
     EngineOptions e;
-    for (const auto& name : names) e.experiments.push_back(&find_experiment(name));
+    for (const auto& name : names) add_once(e.experiments, &find_experiment(name));
     if (names.empty()) e.experiments = engine_experiments();
-    e.engines = engines;
+    for (const auto& engine : engines) add_once(e.engines, engine);
     if (candidates.is_given()) {
       throw InvalidInput("--engine", fmt::format("{}", fmt::join(engines, ",")),
                          "leaves no choice of --candidates: each has its own contacts and ours");

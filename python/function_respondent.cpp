@@ -1,9 +1,11 @@
 #include "python/function_respondent.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <signal.h>
 #include <sys/time.h>
 
+#include "candidates/host/interruption.hpp"
 #include "candidates/host/plugin_process.hpp"
 
 namespace touchstone::python {
@@ -18,13 +20,16 @@ PyObject* too_long() {
   return type;
 }
 
-/// Sets the alarm; it rings again and again, lest a function catches everything.
+/// Sets the alarm, which rings once an interrupt may have to be heard, and again and again, lest a
+/// function catches everything; no seconds end it.
 void set_alarm(double seconds) {
+  constexpr double max_deaf = 0.1;
   const auto interval = [](double length) {
     const auto whole = static_cast<time_t>(length);
     return timeval{whole, static_cast<suseconds_t>((length - static_cast<double>(whole)) * 1e6)};
   };
-  const itimerval timer{interval(seconds / 4), interval(seconds)};
+  const itimerval timer{interval(std::min(seconds / 4, max_deaf)),
+                        interval(std::min(seconds, max_deaf))};
   setitimer(ITIMER_REAL, &timer, nullptr);
 }
 
@@ -43,7 +48,8 @@ std::string text_of(const py::error_already_set& error) {
 
 FunctionRespondent::FunctionRespondent(py::function function, double threshold, double seconds)
     : function_(std::move(function)), threshold_(threshold), seconds_(seconds) {
-  const auto ring = py::cpp_function([](int, const py::object&) {
+  const auto ring = py::cpp_function([this](int, const py::object&) {
+    if (Clock::now() < end_ && !interrupted()) return;
     PyErr_SetNone(too_long());
     throw py::error_already_set();
   });
@@ -70,6 +76,9 @@ void FunctionRespondent::call_within(double seconds, const Action& action) const
       if (PyErr_CheckSignals() != 0) PyErr_Clear();
     }
   };
+  constexpr double forever = 1e8;  // of Clock's nanoseconds, without overflow
+  end_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                            std::chrono::duration<double>(std::min(seconds, forever)));
   const Alarm alarm(seconds);
   action();
 }
@@ -88,6 +97,11 @@ py::tuple FunctionRespondent::arguments_of(const Configuration& c) const {
 
 Answer FunctionRespondent::answer_to(const py::tuple& arguments) const {
   Answer answer{};
+  if (interrupted()) {  // what is left to ask would keep the person waiting
+    answer.status = TS_FAILED;
+    answer.reason = "was interrupted";
+    return answer;
+  }
   try {
     call_within(seconds_, [&] { answer = answer_from_python(function_(*arguments)); });
   } catch (const py::error_already_set& error) {
@@ -137,7 +151,7 @@ std::optional<QueryCost> FunctionRespondent::cost_per_query() {
   try {
     call_within(seconds_ * queries, [&] {
       const auto start = Clock::now();
-      for (std::size_t pass = 0; pass < passes_; ++pass) {
+      for (std::size_t pass = 0; pass < passes_ && !interrupted(); ++pass) {
         for (const py::tuple& arguments : timed_) {
           // What fails takes its time, too.
           PyObject* const result = PyObject_Call(function_.ptr(), arguments.ptr(), nullptr);

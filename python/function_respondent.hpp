@@ -1,5 +1,7 @@
 #pragma once
 
+#include <chrono>
+
 #include "candidates/host/respondent.hpp"
 #include "python/bindings.hpp"
 
@@ -36,7 +38,8 @@ class FunctionRespondent : public Respondent {
 
   py::function function_;
   double threshold_, seconds_;
-  py::object previous_handler_;   ///< of the alarm; null: there is no limit
+  mutable std::chrono::steady_clock::time_point end_;  ///< of the call under way
+  py::object previous_handler_;                        ///< of the alarm; null: there is no limit
   std::vector<py::tuple> timed_;  ///< arguments of the questions that are timed
   std::size_t passes_ = 1;        ///< over them, in a round
 };

@@ -121,7 +121,7 @@ Report report_of(const Request& request) {
   }
   const Interruption interruption;
   Report report = make_report(campaign, call_of(request));
-  if (report.results.empty() && interrupted()) {
+  if (interrupted()) {
     PyErr_SetNone(PyExc_KeyboardInterrupt);
     throw py::error_already_set();
   }

@@ -30,7 +30,7 @@ std::string factor_text(const Change& change) {
 /// Changes of one verdict beyond the limits, the largest first; those of one row stand together.
 std::string section(const char* title, Verdict verdict, const std::vector<Change>& changes,
                     const Terminal& terminal) {
-  constexpr std::size_t max_shown = 20;
+  constexpr std::size_t max_shown = 20, table_width = 64;
   std::vector<std::pair<std::string, std::string>> shown;  // a row, its changes
   for (const Change& c : changes) {
     if (c.verdict != verdict || !c.beyond_limits) continue;
@@ -38,15 +38,23 @@ std::string section(const char* title, Verdict verdict, const std::vector<Change
     auto at =
         std::find_if(shown.begin(), shown.end(), [&](const auto& s) { return s.first == row; });
     if (at == shown.end()) at = shown.insert(at, {row, ""});
-    at->second += fmt::format("    {:<24} {:>10} -> {:>10}  {}\n", c.measure,
-                              value_text(c, c.before), value_text(c, c.after), factor_text(c));
+    const std::string before = value_text(c, c.before), after = value_text(c, c.after);
+    at->second +=
+        terminal.columns < table_width
+            ? fmt::format("    {}\n      {} -> {}  {}\n", c.measure, before, after, factor_text(c))
+            : fmt::format("    {:<24} {:>10} -> {:>10}  {}\n", c.measure, before, after,
+                          factor_text(c));
   }
   if (shown.empty()) return "";
   const std::string heading = fmt::format("{}: {}", title, shown.size());
   const bool is_bad = verdict == Verdict::worse || verdict == Verdict::slower;
   std::string text = '\n' + (is_bad ? terminal.bad(heading) : terminal.good(heading)) + '\n';
   for (std::size_t i = 0; i < std::min(shown.size(), max_shown); ++i) {
-    text += "  " + shown[i].first + '\n' + shown[i].second;
+    // Its two blanks stay where it fits.
+    const std::string& row = shown[i].first;
+    const bool fits = row.size() + 2 <= terminal.columns;
+    text +=
+        "  " + (fits ? row : wrapped(row, terminal.columns - 4, "\n    ")) + '\n' + shown[i].second;
   }
   if (shown.size() > max_shown) {
     text += fmt::format("  and {} more, which --json lists\n", shown.size() - max_shown);
@@ -117,10 +125,13 @@ json places(const Report& report) {
 std::string comparison_text(const Comparison& c, const Terminal& terminal) {
   std::string text;
   for (const auto& [name, side] : {std::pair("before", &c.before), std::pair("after", &c.after)}) {
-    text +=
-        fmt::format("{:<7} {} configurations, seed {}\n", name, side->configurations, side->seed);
+    const std::string counts =
+        fmt::format("{} configurations, seed {}", side->configurations, side->seed);
+    text += fmt::format("{:<8}{}\n", name, wrapped(counts, terminal.columns - 8, "\n        "));
   }
-  for (const std::string& remark : c.remarks) text += "- " + wrapped(remark, 76, "\n  ") + '\n';
+  for (const std::string& remark : c.remarks) {
+    text += "- " + wrapped(remark, terminal.columns - 4, "\n  ") + '\n';
+  }
   text += section("Worse", Verdict::worse, c.changes, terminal) +
           section("Slower", Verdict::slower, c.changes, terminal) +
           section("Better", Verdict::better, c.changes, terminal) +
@@ -128,14 +139,14 @@ std::string comparison_text(const Comparison& c, const Terminal& terminal) {
   const auto within = std::count_if(c.changes.begin(), c.changes.end(),
                                     [](const Change& change) { return !change.beyond_limits; });
   text += '\n';
-  if (c.changes.empty()) text += "No change. ";
-  if (within > 0) text += fmt::format("{} smaller changes, within the limits.\n", within);
-  text += fmt::format(
-      "{} rows of pair, class and candidate compared.\n"
-      "Limits: errors {:g} times; times {:g} times, as multiples of {}'s and by the\n"
-      "nearest ends of their spreads; {:g} of the agreement kept.\n",
-      c.compared, c.limits.error_factor, c.limits.time_factor, c.limits.baseline,
-      c.limits.agreement);
+  const auto add = [&](const std::string& line) { text += terminal.folded(line); };
+  if (within > 0) add(fmt::format("{} smaller changes, within the limits.", within));
+  add(fmt::format("{}{} rows of pair, class and candidate compared.",
+                  c.changes.empty() ? "No change. " : "", c.compared));
+  add(fmt::format(
+      "Limits: errors {:g} times; times {:g} times, as multiples of {}'s and by the "
+      "nearest ends of their spreads; at least {:g}% of what agreed must agree still.",
+      c.limits.error_factor, c.limits.time_factor, c.limits.baseline, 100 * c.limits.agreement));
   return text;
 }
 

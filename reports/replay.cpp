@@ -22,13 +22,14 @@ using nlohmann::json;
 
 std::string coordinate(double x) { return std::isfinite(x) ? fmt::format("{:.17g}", x) : "nan"; }
 
-/// After a label; the last component on a line of its own where it would not fit into 80 columns.
-std::string vector_line(const std::string& label, const Vec3& v) {
-  constexpr std::size_t columns = 80;
-  const std::string start = fmt::format("{}({}, {},", label, coordinate(v.x()), coordinate(v.y()));
-  const std::string end = coordinate(v.z()) + ")";
-  const bool fits = start.size() + 1 + end.size() <= columns;
-  return start + (fits ? " " : '\n' + std::string(label.size() + 1, ' ')) + end + '\n';
+/// After a label; components that do not fit beside it stand on lines of their own.
+std::string vector_line(const std::string& label, const Vec3& v, const Terminal& terminal) {
+  const std::string text =
+      fmt::format("({}, {}, {})", coordinate(v.x()), coordinate(v.y()), coordinate(v.z()));
+  return label +
+         wrapped(text, terminal.columns - label.size() - 1,
+                 '\n' + std::string(label.size() + 1, ' ')) +
+         '\n';
 }
 
 std::string number(double x) { return std::isfinite(x) ? fmt::format("{:.17g}", x) : "-"; }
@@ -37,66 +38,85 @@ std::string rounded(const std::optional<double>& x) {
   return x && std::isfinite(*x) ? fmt::format("{:.3g}", *x) : "-";
 }
 
-std::string patch_text(const oracle::ContactPatch& patch) {
+/// In colour, padded to this width.
+std::string outcome_text(Outcome outcome, int width, const Terminal& terminal) {
+  const std::string text = fmt::format("{:<{}}", outcome_name(outcome), width);
+  if (outcome == Outcome::agree) return terminal.good(text);
+  return outcome == Outcome::unsupported ? text : terminal.bad(text);
+}
+
+/// One line for each candidate: what it makes of the configuration, and how far it is off. On a
+/// terminal that is too narrow for the line, three.
+std::string overview(const std::vector<ScoredAnswer>& answers, const Terminal& terminal) {
+  constexpr std::size_t table_width = 77;
+  const bool has_room = terminal.columns >= table_width;
+  std::string text;
+  if (has_room) {
+    text = terminal.heading(fmt::format("{:<25} {:<10} {:<12} {:>9} {:>9} {:>7}", "candidate",
+                                        "answer", "outcome", "depth err", "regret", "points")) +
+           '\n';
+  }
+  for (const auto& [candidate, answer, score] : answers) {
+    const bool has_contact = answer.status == TS_CONTACT;
+    // Without either the outcome says why.
+    const bool has_answered = has_contact || answer.status == TS_NONE;
+    const std::string status = has_answered ? status_name(answer.status) : "-";
+    const std::string depth_error = rounded(score.depth_error),
+                      regret = rounded(score.normal_regret),
+                      points = has_contact ? fmt::format("{}", answer.point_count) : "-";
+    if (has_room) {
+      text += fmt::format("{:<25} {:<10} {} {:>9} {:>9} {:>7}\n", candidate, status,
+                          outcome_text(score.outcome, 12, terminal), depth_error, regret, points);
+    } else {
+      text += fmt::format("{}\n  answer {}, outcome {}\n", candidate, status,
+                          outcome_text(score.outcome, 0, terminal));
+      text += terminal.below(
+          fmt::format("depth err {}, regret {}, points {}", depth_error, regret, points));
+    }
+  }
+  return text + terminal.folded("Errors are relative to the smaller size.");
+}
+
+std::string patch_text(const oracle::ContactPatch& patch, const Terminal& terminal) {
   using Kind = oracle::ContactPatch::Kind;
   std::string text = patch_kind_name(patch.kind());
   if (patch.kind() == Kind::segment) text += " of length " + rounded(patch.perimeter());
   if (patch.kind() == Kind::region) text += " of area " + rounded(patch.area());
-  return fmt::format("    patch: {} about\n{}", text, vector_line("    ", patch.centroid()));
+  return fmt::format("    patch: {} about\n{}", text,
+                     vector_line("    ", patch.centroid(), terminal));
 }
 
-/// One line for each candidate: what it makes of the configuration, and how far it is off.
-std::string overview(const std::vector<ScoredAnswer>& answers, const Terminal& terminal) {
-  std::string text =
-      terminal.heading(fmt::format("{:<25} {:<10} {:<12} {:>9} {:>9} {:>7}", "candidate", "answer",
-                                   "outcome", "depth err", "regret", "points"));
-  text += '\n';
-  for (const auto& [candidate, answer, score] : answers) {
-    const bool has_contact = answer.status == TS_CONTACT;
-    std::string outcome = fmt::format("{:<12}", outcome_name(score.outcome));
-    if (score.outcome == Outcome::agree) {
-      outcome = terminal.good(outcome);
-    } else if (score.outcome != Outcome::unsupported) {
-      outcome = terminal.bad(outcome);
-    }
-    // Without either the outcome says why.
-    const bool has_answered = has_contact || answer.status == TS_NONE;
-    text += fmt::format("{:<25} {:<10} {} {:>9} {:>9} {:>7}\n", candidate,
-                        has_answered ? status_name(answer.status) : "-", outcome,
-                        rounded(score.depth_error), rounded(score.normal_regret),
-                        has_contact ? fmt::format("{}", answer.point_count) : "-");
-  }
-  return text + "Errors are relative to the smaller size.\n";
-}
-
-std::string truth_text(const Configuration& c, const oracle::Truth& truth) {
+std::string truth_text(const Configuration& c, const oracle::Truth& truth,
+                       const Terminal& terminal) {
   const auto [low, high] = decimals(truth.signed_distance);
   std::string text = fmt::format("truth: signed distance between\n  {}\n  {}\n  ties: {}\n", low,
                                  high, ties_name(truth.ties));
   for (const auto& normal : truth.normals) {
-    text += vector_line("  normal ", normal.n) + patch_text(oracle::contact_patch(c, normal));
+    text += vector_line("  normal ", normal.n, terminal) +
+            patch_text(oracle::contact_patch(c, normal), terminal);
   }
   return text;
 }
 
-std::string answer_text(const ScoredAnswer& scored) {
+std::string answer_text(const ScoredAnswer& scored, const Terminal& terminal) {
   const auto& [candidate, answer, score] = scored;
-  std::string text = fmt::format("{}: {}, {}\n", candidate, status_name(answer.status),
-                                 outcome_name(score.outcome));
-  if (!answer.reason.empty()) text += fmt::format("  {}\n", answer.reason);
+  std::string text = terminal.folded(fmt::format(
+      "{}: {}, {}", candidate, status_name(answer.status), outcome_name(score.outcome)));
+  if (!answer.reason.empty()) text += terminal.below(answer.reason);
   if (answer.status != TS_CONTACT) return text;
-  text += fmt::format("  signed distance {}\n{}", number(answer.signed_distance),
-                      vector_line("  normal ", Vec3(answer.normal)));
+  text += terminal.below("signed distance " + number(answer.signed_distance)) +
+          vector_line("  normal ", Vec3(answer.normal), terminal);
+  text += terminal.below(fmt::format("depth error {}, normal regret {}, angle {} deg",
+                                     rounded(score.depth_error), rounded(score.normal_regret),
+                                     rounded(score.normal_angle)));
   text +=
-      fmt::format("  depth error {}, normal regret {}, angle {} deg\n", rounded(score.depth_error),
-                  rounded(score.normal_regret), rounded(score.normal_angle));
-  text += fmt::format("  coverage {} of the contact patch, points off the bodies by {}\n",
-                      rounded(score.coverage), rounded(score.point_error));
-  text += fmt::format("  deepest point's error {}\n", rounded(score.deepest_error));
+      terminal.below(fmt::format("coverage {} of the contact patch, points off the bodies by {}",
+                                 rounded(score.coverage), rounded(score.point_error)));
+  text += terminal.below("deepest point's error " + rounded(score.deepest_error));
   for (int i = 0; i < answer.point_count; ++i) {
     const ts_point& p = answer.points[i];
-    text +=
-        vector_line("  point ", Vec3(p.position)) + fmt::format("    depth {}\n", number(p.depth));
+    text += vector_line("  point ", Vec3(p.position), terminal) +
+            fmt::format("    depth {}\n", number(p.depth));
   }
   return text;
 }
@@ -108,15 +128,14 @@ std::string replay_text(const Examination& e, const std::string& description,
   json line = to_json(e.configuration);
   line["id"] = e.id;
   std::string text = e.id + '\n';
-  if (!description.empty()) text += wrapped(description, terminal.columns, "\n") + '\n';
-  text +=
-      '\n' + overview(e.answers, terminal) + '\n' + truth_text(e.configuration, *e.truth) + '\n';
-  for (const ScoredAnswer& answer : e.answers) text += answer_text(answer);
-  return text + fmt::format(
-                    "\nconfiguration, a line for touchstone solve:\n{}\nits exact "
-                    "fractions:\n{}\nin hexadecimal, for touchstone solve too:\n{}\n",
-                    line.dump(), to_exact_json(e.configuration).dump(),
-                    to_hex_json(e.configuration).dump());
+  if (!description.empty()) text += terminal.folded(description);
+  text += '\n' + overview(e.answers, terminal) + '\n' +
+          truth_text(e.configuration, *e.truth, terminal) + '\n';
+  for (const ScoredAnswer& answer : e.answers) text += answer_text(answer, terminal);
+  return text + '\n' + terminal.folded("configuration, a line for touchstone solve:") +
+         line.dump() + "\nits exact fractions:\n" + to_exact_json(e.configuration).dump() + '\n' +
+         terminal.folded("in hexadecimal, for touchstone solve too:") +
+         to_hex_json(e.configuration).dump() + '\n';
 }
 
 std::string replay_json(const Examination& examination) {

@@ -22,9 +22,9 @@ Examination examine(const Subject& subject, std::span<CandidateProcess* const> c
 // An examination shown to a person. `description` is that of its pose class; empty without one.
 // Precondition: the examination has its truth.
 
-/// One line for each candidate, then the truth, all of each candidate's answer and score, and last
-/// the configuration's numbers (as a line for `solve`, as exact fractions, in hexadecimal floats),
-/// whose lines alone are longer than 80 columns.
+/// One line for each candidate (three on a narrow terminal), then the truth, all of each
+/// candidate's answer and score, and last the configuration's numbers (as a line for `solve`, as
+/// exact fractions, in hexadecimal floats), whose lines alone are longer than the terminal's.
 std::string replay_text(const Examination& examination, const std::string& description,
                         const Terminal& terminal = {});
 

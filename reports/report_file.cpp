@@ -83,6 +83,11 @@ class Reader {
     if (!value_.is_object()) refuse("must be an object");
     return value_;
   }
+  /// The whole file, which is of another kind.
+  [[noreturn]] void refuse_file(const std::string& why) const {
+    throw InvalidInput("file", '"' + file_ + '"',
+                       "must be the report.json of touchstone report, but " + why);
+  }
   [[noreturn]] void refuse(const std::string& what) const {
     throw InvalidInput(file_ + ": " + path_, shown(value_),
                        what + "; make the report again with this version of touchstone");
@@ -198,6 +203,8 @@ Machine machine(const Reader& m) {
 
 Report report(const Reader& r) {
   const Reader schema = r.at("schema");
+  // Other files of ours name what they are.
+  if (schema.value().is_string()) r.refuse_file("has schema " + shown(schema.value()));
   constexpr int old_schema = 1;
   Report result;
   result.is_old = schema.value() == old_schema;

@@ -1,8 +1,10 @@
 #include "reports/terminal.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <fmt/format.h>
 #include <functional>
 #include <sstream>
@@ -32,6 +34,16 @@ bool is_set(const char* variable) {
   return value && *value != '\0';
 }
 
+/// Zero where COLUMNS says nothing.
+std::size_t given_columns() {
+  const char* const value = std::getenv("COLUMNS");
+  std::size_t columns = 0;
+  if (!value) return columns;
+  const char* const end = value + std::strlen(value);
+  const auto [parsed_end, error] = std::from_chars(value, end, columns);
+  return error == std::errc() && parsed_end == end ? columns : 0;
+}
+
 bool is_dumb() {
   const char* name = std::getenv("TERM");
   return !name || std::string_view(name) == "dumb";
@@ -56,14 +68,23 @@ std::string Terminal::heading(const std::string& text) const { return rendered(*
 std::string Terminal::good(const std::string& text) const { return rendered(*this, "32", text); }
 std::string Terminal::bad(const std::string& text) const { return rendered(*this, "31", text); }
 
+std::string Terminal::folded(const std::string& text) const {
+  return wrapped(text, columns, "\n") + '\n';
+}
+std::string Terminal::below(const std::string& text) const {
+  return "  " + wrapped(text, columns - 4, "\n    ") + '\n';
+}
+
 Terminal standard_output() {
   Terminal result;
-  if (isatty(STDOUT_FILENO) == 0) return result;
-  result.has_colours = !is_set("NO_COLOR") && !is_dumb();
+  const bool is_terminal = isatty(STDOUT_FILENO) != 0;
+  result.has_colours = is_terminal && !is_set("NO_COLOR") && !is_dumb();
+  std::size_t columns = given_columns();
   winsize size{};
-  if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) {
-    result.columns = std::clamp<std::size_t>(size.ws_col, min_columns, max_columns);
+  if (columns == 0 && is_terminal && ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0) {
+    columns = size.ws_col;
   }
+  if (columns > 0) result.columns = std::clamp(columns, min_columns, max_columns);
   return result;
 }
 

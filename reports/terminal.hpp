@@ -16,10 +16,16 @@ struct Terminal {
   std::string heading(const std::string& text) const;
   std::string good(const std::string& text) const;
   std::string bad(const std::string& text) const;
+
+  /// The text in lines that are no wider, broken between words, with a line's end.
+  std::string folded(const std::string& text) const;
+  /// Likewise, the first line indented by two blanks, others by four.
+  std::string below(const std::string& text) const;
 };
 
-/// Standard output: on a terminal of 40 to 80 columns as wide as it is, otherwise 80. In colour on
-/// a terminal, unless NO_COLOR is set (https://no-color.org) or TERM is "dumb".
+/// Standard output: as wide as COLUMNS says, otherwise as the terminal is, otherwise 80; 40 at
+/// least, 80 at most. In colour on a terminal, unless NO_COLOR is set (https://no-color.org) or
+/// TERM is "dumb".
 Terminal standard_output();
 
 /// The text with its lines broken between words, where `line_end` comes, which may indent the next

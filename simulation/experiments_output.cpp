@@ -161,12 +161,13 @@ std::string experiments_table(const ExperimentResults& all) {
 
 namespace {
 
-/// The time after which nothing moved; "never" if it still did in the last steps, "-" where motion
-/// is what is measured.
+/// The time after which nothing moved; "jitter" if it is at rest in the mean, as it should, but
+/// single steps still move it; "never" if it moved in the last steps; "-" where motion is what is
+/// measured.
 std::string time_to_rest(const ExperimentResult& r, const ExperimentDescription& e) {
   if (!e.rests) return "-";
   if (r.comes_to_rest()) return fmt::format("{:.2f}", r.last_motion);
-  return "never";
+  return r.exact ? "jitter" : "never";
 }
 
 std::string row(const std::string& name, const ExperimentResult& r, const ExperimentDescription& e,
@@ -225,7 +226,8 @@ std::string engines_table(const EngineResults& all) {
          "=, held: within what the experiment resolves; nearer: ten times nearer or more\n"
          "solver: held with the engine's solver at its best, which is thus what limits\n"
          "alike: as near as the engine's own contacts, also with the solver at its best\n"
-         "rests: time after which nothing moves, s; gained: rise of energy, weight x size\n";
+         "rests: time after which nothing moves, s; jitter: at rest in the mean, as it should,\n"
+         "but single steps still move; gained: rise of energy, weight x size\n";
 }
 
 std::string engines_summary(const EngineResults& all) {

@@ -162,6 +162,7 @@ namespace {
 /// Is it a path rather than an identity? Those have four parts, and a number at the end.
 bool is_meant_as_file(const std::string& name) {
   const bool has_parts = std::count(name.begin(), name.end(), '/') == 3;
+  if (is_folder(name) && !has_parts) return true;
   const bool ends_with_number = !name.empty() && name.back() >= '0' && name.back() <= '9';
   return !has_parts && !ends_with_number;
 }
@@ -180,8 +181,10 @@ Subject named(const std::string& name) {
   }
   if (const auto stability = named_configuration(name)) return *stability;
   if (is_meant_as_file(name)) {
-    throw InvalidInput("input", '"' + name + '"',
-                       "there is no such file; an identity reads pair/class/seed/index");
+    throw InvalidInput(
+        "input", '"' + name + '"',
+        std::string(is_folder(name) ? "must be a file, not a folder" : "there is no such file") +
+            "; an identity reads pair/class/seed/index");
   }
   return subject(parse_identity(name));
 }

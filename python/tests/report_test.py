@@ -214,6 +214,16 @@ class Calls(unittest.TestCase):
         with self.assertRaises(KeyboardInterrupt):
             report(interrupting, workers=1)
         self.assertIs(signal.getsignal(signal.SIGINT), signal.default_int_handler)
+        def slow_here(*asked):  # in this process, where it is timed
+            if os.getpid() == this:
+                os.kill(this, signal.SIGINT)
+                time.sleep(1000)
+            return ours(*asked)
+
+        start = time.monotonic()
+        with self.assertRaises(KeyboardInterrupt):
+            report(slow_here, workers=1)
+        self.assertLess(time.monotonic() - start, 4)  # less than the limit of one call
         with self.assertRaises(KeyboardInterrupt):  # Python's own handler is back
             os.kill(this, signal.SIGINT)
             time.sleep(10)

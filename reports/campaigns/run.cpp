@@ -40,6 +40,14 @@ json head_of(const std::filesystem::path& file) {
   }
 }
 
+/// What began the campaign of a shard file.
+std::string command_in(const std::filesystem::path& file) {
+  const json campaign = head_of(file).value("campaign", json());
+  const bool says =
+      campaign.is_object() && campaign.contains("command") && campaign["command"].is_string();
+  return says ? campaign["command"].get<std::string>() : "a damaged file";
+}
+
 [[noreturn]] void refuse(const std::filesystem::path& file, int error) {
   throw InvalidInput("--out", '"' + file.string() + '"',
                      fmt::format("could not be locked: {}", std::strerror(error)));
@@ -84,9 +92,10 @@ ShardState ShardPlace::begin(const Plan& plan, bool resume) const {
   }
   if (!std::filesystem::exists(file_)) return ShardState(plan, shard_);
   if (!resume) {
-    throw InvalidInput(
-        "--out", '"' + folder_.string() + '"',
-        "already holds a campaign; go on with campaign --resume, or choose another folder");
+    throw InvalidInput("--out", '"' + folder_.string() + '"',
+                       fmt::format("already holds a campaign, in {}: {}; choose another folder, or "
+                                   "go on with that one: the same command with --resume",
+                                   file_.filename().string(), command_in(file_)));
   }
   ShardState found = shard_from_text(read_file(file_, "--out"), file_.string());
   require_same_plan(plan, json::parse(found.plan.text), file_.string());

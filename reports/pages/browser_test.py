@@ -495,7 +495,10 @@ class Report(PageTest):
 
     def test_a_pixel_of_a_map_tells_its_command(self):
         picture = self.find("canvas.map")
-        self.assertIn("agree", picture.get_attribute("aria-label"))
+        self.assertRegex(picture.get_attribute("aria-label"),
+                         "^Map of failure, reference, lying, zoom 1e-8; pixels: agree ")
+        for words in "t: a cap across a side", "x: sides that cross":  # not a letter alone
+            self.assertIn(words, [e.text for e in self.all("#stability th")])
         self.driver.execute_script("arguments[0].scrollIntoView({block: 'center'})", picture)
         picture.click()
         self.assertIn("./touchstone replay map/lying/", self.find("#stability .command").text)
@@ -636,6 +639,9 @@ class OtherPages(PageTest):
         self.choose("#scene", "1")
         self.assertNotEqual(self.picture("#right"), before)
         self.assertIn("small-log", self.find("#engines table").text)
+        rest_of = "return restOf({exact: arguments[0], last_motion: 10, last_time: 10}, {rests: true})"
+        self.assertIn("jitters", self.driver.execute_script(rest_of, True))  # held contradicts never
+        self.assertEqual(self.driver.execute_script(rest_of, False), "never")
         self.assert_no_sideways_scrolling_on_a_phone(folder / "engines.html")
 
 

@@ -9,7 +9,9 @@ const cureWords = {
 const wasMeasured = r => r.outcome === 'measured';
 const errorOf = r => wasMeasured(r) && r.error !== null ? exponent(r.error) : r.outcome === 'measured' ? 'lost' : r.outcome;
 const stillMoves = r => r.last_motion >= r.last_time - 0.5;
-const restOf = (r, experiment) => !experiment.rests ? '–' : stillMoves(r) ? 'never' : `${r.last_motion.toFixed(2)} s`;
+// What is held rests in the mean, though single steps may move it.
+const restOf = (r, experiment) => !experiment.rests ? '–' : !stillMoves(r) ? `${r.last_motion.toFixed(2)} s` :
+    r.exact ? 'jitters, at rest in the mean' : 'never';
 
 // A cell with both errors; green where ours is held.
 function cureCell(r, experiment) {

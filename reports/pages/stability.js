@@ -85,6 +85,8 @@ function worstSteps(worst) {
           [named(w.candidate), w.pair, ...[w.from, w.to].map(id => element('td', {class: 'text wrap'}, element('code', {}, id))), exponent(w.value)]), 'Worst steps')));
 }
 
+// What letters alone would not tell.
+const poseWords = {t: 't: a cap across a side', x: 'x: sides that cross'};
 // Maps of failure: one row per candidate, one column per critical pose.
 function drawMaps(into, maps, names) {
   const place = element('div', {class: 'scroll'});
@@ -101,7 +103,7 @@ function drawMaps(into, maps, names) {
   const show = (result, pixel) => shown.replaceChildren(`${result.candidate}, ${maps.letters[pixel.letter]}: `,
       element('code', {}, `${programOf(result.candidate)} replay ${pixel.name} --candidates ${result.candidate}`));
   function draw() {
-    const heads = maps.poses.map(p => explainedHead(p.pose, `${p.description} Across: ${p.columns}. Up: ${p.rows}.`));
+    const heads = maps.poses.map(p => explainedHead(poseWords[p.pose] || p.pose, `${p.description} Across: ${p.columns}. Up: ${p.rows}.`));
     place.replaceChildren(table([textColumn('candidate'), ...heads], names.map(name => [rowHead(named(name)), ...maps.poses.map(p => {
       const result = p.results.find(r => r.candidate === name);
       const picture = result ? mapPicture(maps, p, result, Number(zoom.value), show) : '–', cell = element('td', {class: 'map-cell'}, picture);
@@ -118,7 +120,7 @@ function mapPicture(maps, pose, result, zoom, show) {
   const counts = Object.entries(maps.letters).map(([letter, outcome]) => [outcome, letters.split(letter).length - 1]).filter(c => c[1]);
   const pixel = Math.max(2, Math.min(4, Math.floor(112 / side)));  // nine maps side by side fit the page
   const canvas = element('canvas', {class: 'map', width: side, height: side, role: 'img', style: `width:${pixel * side}px;height:${pixel * side}px`,
-    'aria-label': `${result.candidate}, ${pose.pose}: ${counts.map(c => c.join(' ')).join(', ')}`});
+    'aria-label': `Map of failure, ${result.candidate}, ${pose.pose}, zoom ${maps.zooms[zoom]}; pixels: ${counts.map(c => c.join(' ')).join(', ')}`});
   const context = canvas.getContext('2d'), style = getComputedStyle(document.documentElement);
   [...letters].forEach((letter, i) => {
     context.fillStyle = style.getPropertyValue(outcomeColour(maps.letters[letter]));
