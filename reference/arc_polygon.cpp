@@ -75,60 +75,114 @@ namespace {
 
 /// The part of the circle about `centre` counter-clockwise from p to q.
 struct Arc {
-  Vec2 centre, to_p, to_q;
-  bool beyond_half_a_turn;
+  Vec2 to_p, to_q;
 
-  Arc(const Vec2& middle, const Vec2& p, const Vec2& q)
-      : centre(middle), to_p(p - middle), to_q(q - middle) {
+  Arc(const Vec2& centre, const Vec2& p, const Vec2& q) : to_p(p - centre), to_q(q - centre) {}
+  bool beyond_half_a_turn() const {
     const double cross = cross2(to_p, to_q), dot = to_p.dot(to_q);
     constexpr double hair = 1e-7;  // as in angle_between
-    beyond_half_a_turn = cross < 0 && (dot < 0 || cross < -hair * dot);
+    return cross < 0 && (dot < 0 || cross < -hair * dot);
   }
-  /// Is a point of the circle on the arc?
-  bool holds(const Vec2& x) const {
-    const Vec2 to_x = x - centre;
-    const bool after_p = cross2(to_p, to_x) >= 0, before_q = cross2(to_x, to_q) >= 0;
-    return beyond_half_a_turn ? after_p || before_q : after_p && before_q;
+  /// Is the circle's place in this direction from the centre on the arc?
+  bool holds(const Vec2& direction) const {
+    return holds(cross2(to_p, direction), cross2(direction, to_q));
+  }
+  /// The same of a direction with these products: of p with it, and of it with q.
+  bool holds(double after_p, double before_q) const {
+    if (after_p >= 0) return before_q >= 0 || beyond_half_a_turn();
+    return before_q >= 0 && beyond_half_a_turn();
   }
 };
 
+/// A part of a circle that is no farther than this from its end is not cut off, in radii.
+constexpr double sliver = 1e-12;
+
 }  // namespace
 
-ArcPolygon::ArcPolygon(const Lens& lens) : circles_{lens.circle1, lens.circle2} {
+ArcPolygon::ArcPolygon(const Lens& lens) : circles_{lens.circle1, lens.circle2}, circle_count_(2) {
   add(lens.right, 0);
   add(lens.left, 1);
 }
 
+// Without branches on what is unpredictable: which edges cut the disc, and which corners lie in it.
+ArcPolygon::ArcPolygon(const Circle& circle, const Strip& first, const Strip& second) {
+  circles_[0] = circle;
+  const double r = circle.radius, x1 = first.across.x(), y1 = first.across.y();
+  const double turn = cross2(first.across, second.across), side = std::copysign(1, turn);
+  const double x2 = side * second.across.x(), y2 = side * second.across.y();
+  const double offset1 = first.across.dot(circle.centre) - first.middle;
+  const double offset2 = side * (second.across.dot(circle.centre) - second.middle);
+  // Counter-clockwise, seen from the circle's centre: the edges' outward normals and distances.
+  const double nx[4] = {x1, x2, -x1, -x2}, ny[4] = {y1, y2, -y1, -y2};
+  const double distance[4] = {first.half_width - offset1, second.half_width - offset2,
+                              first.half_width + offset1, second.half_width + offset2};
+  const double inverse_sine = 1 / std::abs(turn), cosine = x1 * x2 + y1 * y2;
+  // Where an edge begins and ends, along itself from the foot of the perpendicular.
+  double begin[4], end[4];
+  bool end_is_inside[4];
+  for (int i = 0; i < 4; ++i) {
+    const double d = distance[i], before = distance[(i + 3) % 4], after = distance[(i + 1) % 4];
+    const double slant = i % 2 == 0 ? cosine : -cosine;
+    begin[i] = -(before + d * slant) * inverse_sine;
+    end[i] = (after - d * slant) * inverse_sine;
+    end_is_inside[i] = d * d + end[i] * end[i] < r * r;
+  }
+  for (int i = 0; i < 4; ++i) {
+    const double d = distance[i], half = std::sqrt(std::max(0.0, (r - d) * (r + d)));
+    const bool begins_inside = end_is_inside[(i + 3) % 4], ends_inside = end_is_inside[i];
+    const bool is_cut = begins_inside | ends_inside |
+                        ((std::abs(d) < (1 - sliver) * r) & (begin[i] <= 0) & (end[i] >= 0));
+    const auto add_if = [&](bool is_there, double along, int edge) {
+      vertices_[count_] = {Vec2(circle.centre.x() + d * nx[i] - along * ny[i],
+                                circle.centre.y() + d * ny[i] + along * nx[i]),
+                           edge};
+      count_ += is_there;
+    };
+    add_if(is_cut, begins_inside ? begin[i] : -half, straight);
+    add_if(is_cut & !ends_inside, half, 0);
+  }
+  is_disc_ = count_ == 0 && *std::min_element(distance, distance + 4) >= 0;
+}
+
 void ArcPolygon::clip(const Vec2& normal, double bound) {
+  // Component by component: Eigen would load in pairs what was just stored singly, which stalls.
+  const double nx = normal.x(), ny = normal.y();
   // How far along the normal the line passes a circle's centre, in radii; the circle leaves the
-  // half plane and returns to it at these places.
-  const auto cosine = [&](const Circle& circle) {
-    return (bound - normal.dot(circle.centre)) / circle.radius;
+  // half plane and returns to it at these places, as seen from the centre.
+  struct Crossing {
+    double cosine;
+    Vec2 leaves, returns;
   };
-  const auto place = [&](const Circle& circle, double at, double side) -> Vec2 {
+  const auto crossing = [&](const Circle& circle) -> Crossing {
+    const double r = circle.radius;
+    const double at = (bound - (nx * circle.centre.x() + ny * circle.centre.y())) / r;
     const double sine = std::sqrt(std::max(0.0, (1 - at) * (1 + at)));
-    return circle.centre + circle.radius * (at * normal + side * sine * turned_left(normal));
+    return {at,
+            {r * (at * nx + sine * ny), r * (at * ny - sine * nx)},
+            {r * (at * nx - sine * ny), r * (at * ny + sine * nx)}};
   };
-  const auto leaves = [&](const Circle& circle, double at) { return place(circle, at, -1); };
-  const auto returns = [&](const Circle& circle, double at) { return place(circle, at, 1); };
-  constexpr double sliver = 1e-12;
+  std::array<Crossing, 2> crossings;
+  for (int i = 0; i < circle_count_; ++i) crossings[i] = crossing(circles_[i]);
 
   if (is_disc_) {
-    const double at = cosine(circles_[0]);
-    if (at >= 1 - sliver) return;
+    const Crossing& c = crossings[0];
+    if (c.cosine >= 1 - sliver) return;
     is_disc_ = false;
-    if (at <= -1) return;
-    add(leaves(circles_[0], at), straight);
-    add(returns(circles_[0], at), 0);
+    if (c.cosine <= -1) return;
+    add(circles_[0].centre + c.leaves, straight);
+    add(circles_[0].centre + c.returns, 0);
     return;
   }
-  const ArcPolygon before = *this;
+  const int count = count_;
+  if (count == 0) return;
+  std::array<Vertex, max_vertices> before;
+  std::copy_n(vertices_.begin(), count, before.begin());
   count_ = 0;
-  const auto beyond = [&](const Vec2& x) { return normal.dot(x) - bound; };
-  double q_beyond = before.count_ > 0 ? beyond(before.vertices_[0].at) : 0;
-  for (int i = 0; i < before.count_; ++i) {
-    const Vertex& vertex = before.vertices_[i];
-    const Vec2 &p = vertex.at, &q = before.vertices_[before.next(i)].at;
+  const auto beyond = [&](const Vec2& x) { return nx * x.x() + ny * x.y() - bound; };
+  double q_beyond = beyond(before[0].at);
+  for (int i = 0; i < count; ++i) {
+    const Vertex& vertex = before[i];
+    const Vec2 &p = vertex.at, &q = before[i + 1 < count ? i + 1 : 0].at;
     const double p_beyond = q_beyond;
     q_beyond = beyond(q);
     const bool p_stays = p_beyond <= 0, q_stays = q_beyond <= 0;
@@ -138,53 +192,61 @@ void ArcPolygon::clip(const Vec2& normal, double bound) {
       if (p_stays != q_stays) add(p + p_beyond / (p_beyond - q_beyond) * (q - p), straight);
       continue;
     }
-    const Circle& circle = circles_[vertex.circle];
-    const double at = cosine(circle);
+    const Vec2& centre = circles_[vertex.circle].centre;
+    const auto& [at, leaves, returns] = crossings[vertex.circle];
     if (at >= 1 - sliver) {
       if (!p_stays) add(p, vertex.circle);
       continue;
     }
     if (at <= -1) continue;
     if (p_stays && !q_stays) {
-      add(leaves(circle, at), straight);
+      add(centre + leaves, straight);
       continue;
     }
     if (!p_stays && q_stays) {
-      add(returns(circle, at), vertex.circle);
+      add(centre + returns, vertex.circle);
       continue;
     }
-    const Arc arc(circle.centre, p, q);
+    const Arc arc(centre, p, q);
     // Does it pass the place that is the farthest along the normal, or the least far? (Where the
     // line meets an end of the arc, rounding may put a crossing beyond it.)
-    if (!arc.holds(circle.centre + (p_stays ? circle.radius : -circle.radius) * normal)) continue;
-    const Vec2 out = leaves(circle, at), back = returns(circle, at);
+    if (!arc.holds(p_stays ? normal : Vec2(-normal))) continue;
+    const bool holds_out = arc.holds(leaves), holds_back = arc.holds(returns);
     if (p_stays) {
-      add(arc.holds(out) ? out : p, straight);
-      add(arc.holds(back) ? back : q, vertex.circle);
+      add(holds_out ? Vec2(centre + leaves) : p, straight);
+      add(holds_back ? Vec2(centre + returns) : q, vertex.circle);
     } else {
-      add(arc.holds(back) ? back : p, vertex.circle);
-      add(arc.holds(out) ? out : q, straight);
+      add(holds_back ? Vec2(centre + returns) : p, vertex.circle);
+      add(holds_out ? Vec2(centre + leaves) : q, straight);
     }
   }
 }
 
-Vec2 ArcPolygon::farthest(const Vec2& direction) const {
-  const Vec2 unit = direction.normalized();
-  if (is_disc_) return circles_[0].centre + circles_[0].radius * unit;
-  Vec2 best = vertices_[0].at;
-  double most = unit.dot(best);
-  const auto offer = [&](const Vec2& x) {
-    if (unit.dot(x) > most) most = unit.dot(x), best = x;
+ArcPolygon::Extremes ArcPolygon::extremes(const Vec2& unit) const {
+  if (is_disc_) {
+    const auto& [centre, radius] = circles_[0];
+    return {centre + radius * unit, centre - radius * unit};
+  }
+  Extremes found{vertices_[0].at, vertices_[0].at};
+  double highest = unit.dot(found.top), lowest = highest;
+  const auto offer_top = [&](const Vec2& x) {
+    if (const double height = unit.dot(x); height > highest) highest = height, found.top = x;
+  };
+  const auto offer_bottom = [&](const Vec2& x) {
+    if (const double height = unit.dot(x); height < lowest) lowest = height, found.bottom = x;
   };
   for (int i = 0; i < count_; ++i) {
     const Vertex& vertex = vertices_[i];
-    offer(vertex.at);
+    offer_top(vertex.at);
+    offer_bottom(vertex.at);
     if (vertex.circle == straight) continue;
     const auto& [centre, radius] = circles_[vertex.circle];
-    const Vec2 top = centre + radius * unit;
-    if (Arc(centre, vertex.at, vertices_[next(i)].at).holds(top)) offer(top);
+    const Arc arc(centre, vertex.at, vertices_[next(i)].at);
+    const double after_p = cross2(arc.to_p, unit), before_q = cross2(unit, arc.to_q);
+    if (arc.holds(after_p, before_q)) offer_top(centre + radius * unit);
+    if (arc.holds(-after_p, -before_q)) offer_bottom(centre - radius * unit);
   }
-  return best;
+  return found;
 }
 
 void ArcPolygon::mark_farthest(const Vec2& direction) {
@@ -193,11 +255,10 @@ void ArcPolygon::mark_farthest(const Vec2& direction) {
     const Vertex& vertex = vertices_[i];
     if (vertex.circle == straight) continue;
     const auto& [centre, radius] = circles_[vertex.circle];
-    const Vec2 top = centre + radius * unit;
-    if (!Arc(centre, vertex.at, vertices_[next(i)].at).holds(top)) continue;
+    if (!Arc(centre, vertex.at, vertices_[next(i)].at).holds(unit)) continue;
     std::copy_backward(vertices_.begin() + i + 1, vertices_.begin() + count_,
                        vertices_.begin() + count_ + 1);
-    vertices_[i + 1] = {top, vertices_[i].circle};
+    vertices_[i + 1] = {centre + radius * unit, vertices_[i].circle};
     ++count_;
     return;
   }
@@ -209,8 +270,9 @@ namespace {
 
 /// An arc that is not longer than this is covered well by its ends.
 constexpr double long_arc = 0.4 * std::numbers::pi;
-/// The square of its chord where the radius is 1: 2 - 2 cos 72° = (5 - √5) / 2.
-constexpr double long_chord = 1.3819660112501051;
+/// The squares of its chord and of that of two such, where the radius is 1:
+/// 2 - 2 cos 72° = (5 - √5) / 2 and 2 - 2 cos 144° = (5 + √5) / 2.
+constexpr double long_chord = 1.3819660112501051, chord_of_two = 3.618033988749895;
 /// An arc's piece that stands out by less than this part of the region's width is covered by its
 /// ends.
 constexpr double flat_part = 0.14;
@@ -232,46 +294,42 @@ int ArcPolygon::spread(const Vec2& first, std::array<Vec2, 8>& points) const {
   }
 
   struct Edge {
-    Vec2 from;
+    Vec2 from, to;
     int circle;
-    double chord_squared;
     bool beyond_half_a_turn;
-    double angle;         // of an arc that is divided
+    double chord_squared;
     int inside;           // points on it, ends not counted
     double standing_out;  // how far its pieces do, as a part of the region's width there
   };
   std::array<Edge, max_vertices> edges;
   int total = 0;
   int corner = 0;
+  double most = first.dot(vertices_[0].at);
   for (int i = 1; i < count_; ++i) {
-    if (first.dot(vertices_[i].at - vertices_[corner].at) > 0) corner = i;
+    const double along = first.dot(vertices_[i].at);
+    corner = along > most ? i : corner;
+    most = std::max(most, along);
   }
-  const auto angle = [&](int i) {
-    const Edge& e = edges[i];
+  const auto angle = [&](const Edge& e) {
     const Vec2& centre = circles_[e.circle].centre;
-    return angle_between(e.from - centre, edges[i + 1 < count_ ? i + 1 : 0].from - centre);
+    return angle_between(e.from - centre, e.to - centre);
   };
-  for (int i = 0; i < count_; ++i, corner = next(corner)) {
-    const auto& [from, circle] = vertices_[corner];
-    const Vec2& to = vertices_[next(corner)].at;
-    edges[i] = {from, circle, (to - from).squaredNorm(), false, 0, 0, 0};
-    if (circle != straight) {
-      edges[i].beyond_half_a_turn = Arc(circles_[circle].centre, from, to).beyond_half_a_turn;
-    }
-  }
   for (int i = 0; i < count_; ++i) {
-    Edge& e = edges[i];
-    if (e.circle != straight) {
-      const double radius = circles_[e.circle].radius;
-      const bool is_long = e.beyond_half_a_turn || e.chord_squared > long_chord * radius * radius;
-      if (is_long) {
-        e.angle = angle(i);
-        e.inside = std::max(0, static_cast<int>(std::ceil(e.angle / long_arc - 1e-9)) - 1);
-      }
+    const auto& [from, circle] = vertices_[corner];
+    corner = next(corner);
+    Edge& e = edges[i] = {from, vertices_[corner].at, circle, false, 0, 0, 0};
+    ++total;
+    if (circle == straight) continue;
+    e.chord_squared = (e.to - from).squaredNorm();
+    e.beyond_half_a_turn = Arc(circles_[circle].centre, from, e.to).beyond_half_a_turn();
+    const double squared = circles_[circle].radius * circles_[circle].radius;
+    if (e.beyond_half_a_turn || e.chord_squared > chord_of_two * squared) {
+      e.inside = std::max(0, static_cast<int>(std::ceil(angle(e) / long_arc - 1e-9)) - 1);
+    } else {
+      e.inside = e.chord_squared > long_chord * squared;
     }
-    total += 1 + e.inside;
+    total += e.inside;
   }
-  const auto piece = [](const Edge& e) { return e.angle / (e.inside + 1); };
   // How far an arc stands out above its chord: 1 - cos = sin² / (1 + cos) of half its angle.
   const auto whole_rise = [&](const Edge& e) {
     const double radius = circles_[e.circle].radius;
@@ -279,32 +337,35 @@ int ArcPolygon::spread(const Vec2& first, std::array<Vec2, 8>& points) const {
     const double cosine = std::sqrt(1 - sine2);
     return radius * (e.beyond_half_a_turn ? 1 + cosine : sine2 / (1 + cosine));
   };
+  const auto rise_of_piece = [&](const Edge& e, double whole) {
+    const double radius = circles_[e.circle].radius;
+    if (e.inside == 0) return whole;
+    if (e.inside > 1) return radius * (1 - std::cos(angle(e) / (2 * (e.inside + 1))));
+    const double sine2 = whole / (2 * radius);  // 1 - cos = 2 sin² of the half
+    return radius * sine2 / (1 + std::sqrt(1 - sine2));
+  };
   const auto measure = [&](int i) {
     Edge& e = edges[i];
     if (e.circle == straight) return;
-    const Vec2 chord = edges[i + 1 < count_ ? i + 1 : 0].from - e.from;
-    const double length = chord.norm();
+    const Vec2 chord = e.to - e.from;
     double width = 0;
-    for (int k = 0; k < count_ && length > 0; ++k) {
+    for (int k = 0; k < count_; ++k) {
       width = std::max(width, cross2(chord, edges[k].from - e.from));
     }
-    if (length > 0) width /= length;
+    if (e.chord_squared > 0) width /= std::sqrt(e.chord_squared);
     const double whole = whole_rise(e);
-    const double of_piece =
-        e.inside == 0 ? whole : circles_[e.circle].radius * (1 - std::cos(piece(e) / 2));
-    e.standing_out = of_piece / (width + whole);
+    e.standing_out = rise_of_piece(e, whole) / (width + whole);
   };
   for (int i = 0; i < count_ && total < sufficient_points; ++i) measure(i);
   while (total < sufficient_points) {
-    int most = 0;
+    int outermost = 0;
     for (int i = 1; i < count_; ++i) {
-      if (edges[i].standing_out > edges[most].standing_out) most = i;
+      if (edges[i].standing_out > edges[outermost].standing_out) outermost = i;
     }
-    if (!(edges[most].standing_out > flat_part)) break;
-    if (edges[most].angle == 0) edges[most].angle = angle(most);
-    ++edges[most].inside;
+    if (!(edges[outermost].standing_out > flat_part)) break;
+    ++edges[outermost].inside;
     ++total;
-    measure(most);
+    measure(outermost);
   }
 
   std::array<Vec2, std::size_t{2} * max_vertices> all;
@@ -313,9 +374,17 @@ int ArcPolygon::spread(const Vec2& first, std::array<Vec2, 8>& points) const {
     const Edge& e = edges[i];
     all[count++] = e.from;
     if (e.inside == 0) continue;
-    const Vec2& centre = circles_[e.circle].centre;
-    const double step = piece(e), c = std::cos(step), s = std::sin(step);
+    const auto& [centre, radius] = circles_[e.circle];
     Vec2 arm = e.from - centre;
+    if (e.inside == 1) {
+      // Of a short arc the ends' sum keeps more digits than their difference.
+      const Vec2 end = e.to - centre;
+      const bool is_short = !e.beyond_half_a_turn && arm.dot(end) > 0;
+      const Vec2 middle = is_short ? Vec2(arm + end) : turned_left(e.from - e.to);
+      all[count++] = centre + radius / middle.norm() * middle;
+      continue;
+    }
+    const double step = angle(e) / (e.inside + 1), c = std::cos(step), s = std::sin(step);
     for (int k = 1; k <= e.inside; ++k) {
       arm = Vec2(c * arm.x() - s * arm.y(), s * arm.x() + c * arm.y());
       all[count++] = centre + arm;

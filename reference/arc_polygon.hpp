@@ -21,31 +21,41 @@ struct Lens {
   std::array<Vec2, 4> spread() const;
 };
 
+/// The points of a plane with |across·p − middle| <= half_width: what lies between two opposite
+/// edges of a face.
+struct Strip {
+  Vec2 across;
+  double middle, half_width;
+};
+
 /// A convex region of a plane, bounded counter-clockwise by straight edges and by arcs of at most
 /// two circles: a contact patch. Fixed size, no allocation.
 class ArcPolygon {
  public:
   static constexpr int max_vertices = 16;
 
-  /// Copies the vertices there are.
-  ArcPolygon(const ArcPolygon& other)
-      : circles_(other.circles_), count_(other.count_), is_disc_(other.is_disc_) {
-    std::copy_n(other.vertices_.begin(), count_, vertices_.begin());
-  }
-  ArcPolygon& operator=(const ArcPolygon&) = delete;
-
   /// The disc within `circle`.
   explicit ArcPolygon(const Circle& circle) : is_disc_(true) { circles_[0] = circle; }
+  /// What the disc shares with two strips that cross, whose `across` are unit vectors. A sliver is
+  /// not cut off (`clip`).
+  ArcPolygon(const Circle& circle, const Strip& first, const Strip& second);
   /// Two corners and an arc of each circle.
   explicit ArcPolygon(const Lens& lens);
+  ArcPolygon(const ArcPolygon&) = delete;
+  ArcPolygon& operator=(const ArcPolygon&) = delete;
 
   /// Keeps the points with normal·x <= bound; `normal` is a unit vector. A sliver thinner than
   /// 1e-12 of an arc's radius is not cut off.
   void clip(const Vec2& normal, double bound);
 
   bool empty() const { return count_ == 0 && !is_disc_; }
+  /// The points that are farthest along and against a direction.
+  struct Extremes {
+    Vec2 top, bottom;
+  };
+  Extremes extremes(const Vec2& unit) const;
   /// The point that is farthest along a direction (of any length, not zero).
-  Vec2 farthest(const Vec2& direction) const;
+  Vec2 farthest(const Vec2& direction) const { return extremes(direction.normalized()).top; }
 
   /// Makes the point that is farthest along a direction a corner, so that `spread` keeps it; not of
   /// a whole disc, of which it is the first one anyway.
@@ -68,6 +78,7 @@ class ArcPolygon {
   void add(const Vec2& at, int circle) { vertices_[count_++] = {at, circle}; }
 
   std::array<Circle, 2> circles_ = {Circle{Vec2::Zero(), 0}, Circle{Vec2::Zero(), 0}};
+  int circle_count_ = 1;
   std::array<Vertex, max_vertices> vertices_;
   int count_ = 0;
   bool is_disc_ = false;  ///< then it has no vertices

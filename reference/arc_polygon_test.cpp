@@ -189,5 +189,57 @@ TEST(ArcPolygon, PointsOfADiscInARectangleLieInBothAndCoverHalfOfIt) {
   }));
 }
 
+// As though cut by one line after the other; the strips cross at any angle.
+TEST(ArcPolygon, DiscInTwoStripsIsTheDiscCutByTheirFourLines) {
+  const auto number = [](int lo, int hi) { return 1e-3 * *rc::gen::inRange(lo, hi) + 0.00037; };
+  const auto size = [](const ArcPolygon& region) -> Vec2 {
+    std::array<Vec2, 8> points;
+    const int count = region.spread(Vec2(1, 0.37), points);
+    return {count, (points[0] - points[count - 1]).norm()};
+  };
+  EXPECT_TRUE(rc::check([&] {
+    const Circle circle{Vec2(number(-1000, 1000), number(-1000, 1000)), number(500, 2000)};
+    ArcPolygon expected(circle);
+    std::array<Strip, 2> strips;
+    double angle = number(0, 6283);
+    for (Strip& s : strips) {
+      s = {direction(angle), number(-2500, 2500), number(1, 2500)};
+      angle += (*rc::gen::inRange(0, 2) ? 1 : -1) * number(600, 2500);
+      expected.clip(s.across, s.half_width + s.middle);
+      expected.clip(-s.across, s.half_width - s.middle);
+    }
+    const ArcPolygon region(circle, strips[0], strips[1]);
+    RC_ASSERT(region.empty() == expected.empty());
+    if (region.empty()) return;
+    RC_ASSERT((size(region) - size(expected)).norm() < 1e-9);
+    for (int i = 0; i < 32; ++i) {
+      const auto [top, bottom] = region.extremes(direction(i));
+      RC_ASSERT((top - expected.farthest(direction(i))).norm() < 1e-9);
+      RC_ASSERT((bottom - expected.farthest(-direction(i))).norm() < 1e-9);
+    }
+  }));
+}
+
+TEST(ArcPolygon, DiscThatTwoStripsHoldIsWhole) {
+  for (const double half_width : {1.0, 1 - 1e-14, 3.0}) {
+    const ArcPolygon region(unit, {Vec2(1, 0), 0, half_width}, {Vec2(0, -1), 0, half_width});
+    std::array<Vec2, 8> points;
+    EXPECT_EQ(region.spread(Vec2(1, 0), points), 3) << half_width;
+  }
+}
+
+TEST(ArcPolygon, PointInsideAnArcIsItsMiddle) {
+  for (const double degrees : {40.0, 44.9, 45.1, 55.0}) {  // half of the arc
+    const double half = degrees * std::numbers::pi / 180;
+    for (const double turn : {0.0, 0.7, 2.9}) {
+      const Vec2 x = direction(turn), y = turned_left(x);
+      const ArcPolygon region(unit, {y, 0, std::sin(half)}, {x, 1, 1.4});
+      std::array<Vec2, 8> points;
+      ASSERT_EQ(region.spread(-x + 0.1 * y, points), 5);  // four corners
+      EXPECT_NEAR((points[3] - x).norm(), 0, 1e-15) << degrees << " " << turn;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace touchstone

@@ -26,13 +26,6 @@ struct Surfaces {
   double clearance(const Vec2& p) const { return a.at(p) - b.at(p); }
 };
 
-/// The points of a plane with |across·p − middle| <= half_width: what lies between two opposite
-/// edges of a face.
-struct Strip {
-  Vec2 across;
-  double middle, half_width;
-};
-
 /// p(t) = middle + t along, z(t) = height + t rise, |t| <= half_length.
 struct Line {
   Vec2 middle, along;

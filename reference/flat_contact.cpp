@@ -50,13 +50,14 @@ void add_layout(const ContactPlane& plane, std::array<Vec2, 8>& layout, int coun
 }
 
 /// Adds, of a region over which the clearance has a slope, points of the part that does not rise
-/// above the slack, the deepest among them. False, and no points, where all of it is within.
-bool add_leaning(const ContactPlane& plane, ArcPolygon region, const Surfaces& s) {
+/// above the slack, the deepest among them; to that it is clipped. False, and no points, where all
+/// of it is within.
+bool add_leaning(const ContactPlane& plane, ArcPolygon& region, const Surfaces& s) {
   const Vec2 slope = s.slope();
   const double steepness = slope.norm();
   const Vec2 lowest = -slope / steepness;
-  const Vec2 deepest = region.farthest(lowest);
-  const double bottom = -lowest.dot(deepest), top = -lowest.dot(region.farthest(-lowest));
+  const auto [deepest, highest] = region.extremes(lowest);
+  const double bottom = -lowest.dot(deepest), top = -lowest.dot(highest);
   const double room = plane.room_above(s.clearance(deepest));
   if (steepness * (top - bottom) <= room) return false;
   if (is_one_point(room, steepness * (top - bottom))) {
@@ -89,14 +90,13 @@ void disc_on_rectangle(const Manifold& to, const FacingFeature& cap, const Facin
   const Circle disc{plane.to_plane(cap.middle), cap.radius};
   // How far the disc's centre lies from the middle between two opposite edges, and how far from
   // there on the disc is beyond them.
-  struct Edges {
-    Vec2 across;  // unit
-    double middle, half_width, offset, beyond;
+  struct Edges : Strip {
+    double offset, beyond;
   };
   const auto edges = [&](const Strip& strip) -> Edges {
     const double x = strip.across.x(), y = strip.across.y(), inverse = 1 / std::sqrt(x * x + y * y);
     const double middle = inverse * strip.middle, half_width = inverse * strip.half_width;
-    return {Vec2(inverse * x, inverse * y), middle, half_width,
+    return {{Vec2(inverse * x, inverse * y), middle, half_width},
             inverse * (x * disc.centre.x() + y * disc.centre.y()) - middle,
             half_width - disc.radius};
   };
@@ -106,11 +106,7 @@ void disc_on_rectangle(const Manifold& to, const FacingFeature& cap, const Facin
     return add_disc(plane, disc, sides[0].across, s);
   }
 
-  ArcPolygon region(disc);
-  for (const Edges& e : sides) {
-    if (e.offset > e.beyond) region.clip(e.across, e.half_width + e.middle);
-    if (-e.offset > e.beyond) region.clip(-e.across, e.half_width - e.middle);
-  }
+  ArcPolygon region(disc, sides[0], sides[1]);
   if (region.empty()) {
     // The rim only touches the face's edge: the face's point that is nearest to the cap's middle.
     Vec2 p = disc.centre;
@@ -155,7 +151,10 @@ void disc_on_disc(const Manifold& to, const FacingFeature& first, const FacingFe
   const Vec2 slope = s.slope();
   const double steepness = slope.norm(), max_rise = 2 * smaller * steepness;
   const Lens lens(c1, c2, apart, towards);
-  if (max_rise > plane.margins().slack && add_leaning(plane, ArcPolygon(lens), s)) return;
+  if (max_rise > plane.margins().slack) {
+    ArcPolygon region(lens);
+    if (add_leaning(plane, region, s)) return;
+  }
   std::array<Vec2, 8> points;
   int count = 0;
   for (const Vec2& p : lens.spread()) {

@@ -9,16 +9,15 @@
 //              for nothing here. A capsule of height 0 is a sphere; pairs with other sizes of 0 as
 //              they begin to overlap stay Bullet's. Poses that are not finite have no contacts.
 // Points       Up to 4; of more, those that span most. They are those of this step, each in the
-//              place of an old one, whose impulses, lifetime and user data it keeps. (Bullet keeps
-//              points until they have slid by the breaking threshold: that disturbs a rolling log.)
+//              place of an old one, whose impulses, lifetime and user data it keeps.
 // Threshold    The manifold's breaking threshold, as with Bullet (contactPairTest adds its own): up
 //              to there bodies that are apart have points, of positive distance.
 // Conventions  The normal points from the manifold's second body to its first; friction, materials
 //              and callbacks are btManifoldResult's. CF_HAS_FRICTION_ANCHOR keeps points as ever.
 #include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
+#include <BulletCollision/CollisionDispatch/btEmptyCollisionAlgorithm.h>
 #include <BulletCollision/CollisionDispatch/btManifoldResult.h>
 #include <btBulletCollisionCommon.h>
-#include <limits>
 #include <utility>
 
 #include "../contact_of.hpp"
@@ -46,8 +45,7 @@ inline std::pair<Shape, int> to_shape(const btCollisionShape* shape) {
   const int type = shape->getShapeType();
   if (type == CYLINDER_SHAPE_PROXYTYPE) {
     const auto& s = static_cast<const btCylinderShape&>(*shape);
-    const int up = s.getUpAxis();
-    return {Cylinder(s.getRadius(), s.getHalfExtentsWithMargin()[up]), up};
+    return {Cylinder(s.getRadius(), s.getHalfExtentsWithMargin()[s.getUpAxis()]), s.getUpAxis()};
   }
   if (type == CAPSULE_SHAPE_PROXYTYPE) {
     const auto& s = static_cast<const btCapsuleShape&>(*shape);
@@ -76,38 +74,32 @@ inline Contact contact_of(const Wrapper& a, const Wrapper& b, double threshold) 
 /// Hands a manifold over to new points: the nearest old point of each (in the frame of either body,
 /// for one may roll) moves to where the manifold will look for it, and other old ones are removed.
 inline void hand_over(btPersistentManifold& manifold, const btManifoldPoint* points, int count) {
-  bool is_kept[MANIFOLD_CACHE_SIZE] = {};
-  for (int k = 0; k < count; ++k) {
-    int nearest = -1;
-    btScalar least = std::numeric_limits<btScalar>::infinity();
-    for (int i = 0; i < manifold.getNumContacts(); ++i) {
+  int kept = 0;
+  for (; kept < btMin(count, manifold.getNumContacts()); ++kept) {
+    const auto distance = [&](int i) {
       const btManifoldPoint& old = manifold.getContactPoint(i);
-      const btScalar distance = btMin(points[k].m_localPointA.distance2(old.m_localPointA),
-                                      points[k].m_localPointB.distance2(old.m_localPointB));
-      if (!is_kept[i] && distance < least) least = distance, nearest = i;
+      return btMin(points[kept].m_localPointA.distance2(old.m_localPointA),
+                   points[kept].m_localPointB.distance2(old.m_localPointB));
+    };
+    int nearest = kept;
+    for (int i = kept + 1; i < manifold.getNumContacts(); ++i) {
+      if (distance(i) < distance(nearest)) nearest = i;
     }
-    if (nearest < 0) break;  // none is left
-    is_kept[nearest] = true;
-    manifold.getContactPoint(nearest).m_localPointA = points[k].m_localPointA;
+    btSwap(manifold.getContactPoint(kept), manifold.getContactPoint(nearest));
+    manifold.getContactPoint(kept).m_localPointA = points[kept].m_localPointA;
   }
-  for (int i = manifold.getNumContacts() - 1; i >= 0; --i) {
-    if (!is_kept[i]) manifold.removeContactPoint(i);
-  }
+  for (int i = manifold.getNumContacts(); i-- > kept;) manifold.removeContactPoint(i);
 }
 
 /// What Bullet keeps with a pair that has a cylinder; it touches its own manifold alone.
-class Algorithm : public btCollisionAlgorithm {
+class Algorithm : public btEmptyAlgorithm {  // which names no time of impact
  public:
-  using btCollisionAlgorithm::btCollisionAlgorithm;
+  using btEmptyAlgorithm::btEmptyAlgorithm;
   ~Algorithm() override {
     if (manifold_) m_dispatcher->releaseManifold(manifold_);
   }
   void getAllContactManifolds(btManifoldArray& manifolds) override {
     if (manifold_) manifolds.push_back(manifold_);
-  }
-  btScalar calculateTimeOfImpact(btCollisionObject*, btCollisionObject*, const btDispatcherInfo&,
-                                 btManifoldResult*) override {
-    return 1;
   }
   void processCollision(const Wrapper* first, const Wrapper* second, const btDispatcherInfo&,
                         btManifoldResult* result) override {
@@ -157,18 +149,16 @@ class Algorithm : public btCollisionAlgorithm {
 };
 
 /// Makes algorithms; the pair of a shape that has no interior gets Bullet's own.
+template <auto own>  // the configuration's member function that names those
 struct CreateAlgorithm : btCollisionAlgorithmCreateFunc {
-  btCollisionAlgorithmCreateFunc* (btCollisionConfiguration::*own)(int, int);
-  explicit CreateAlgorithm(decltype(own) of_configuration) : own(of_configuration) {}
-  btCollisionAlgorithm* CreateCollisionAlgorithm(btCollisionAlgorithmConstructionInfo& info,
+  btCollisionAlgorithm* CreateCollisionAlgorithm(btCollisionAlgorithmConstructionInfo& ci,
                                                  const Wrapper* a, const Wrapper* b) override try {
     to_shape(a->getCollisionShape()), to_shape(b->getCollisionShape());
-    return new (info.m_dispatcher1->allocateCollisionAlgorithm(sizeof(Algorithm))) Algorithm(info);
+    return new (ci.m_dispatcher1->allocateCollisionAlgorithm(sizeof(Algorithm))) Algorithm(ci);
   } catch (const InvalidInput&) {
     const auto type = [](const Wrapper* w) { return w->getCollisionShape()->getShapeType(); };
-    auto& all =
-        *static_cast<btCollisionDispatcher*>(info.m_dispatcher1)->getCollisionConfiguration();
-    return (all.*own)(type(a), type(b))->CreateCollisionAlgorithm(info, a, b);
+    auto* all = static_cast<btCollisionDispatcher*>(ci.m_dispatcher1)->getCollisionConfiguration();
+    return (all->*own)(type(a), type(b))->CreateCollisionAlgorithm(ci, a, b);
   }
 };
 
@@ -189,8 +179,8 @@ namespace touchstone::bullet {
 /// boxes overlap already keep the algorithm that they have until these part.
 inline void install(btCollisionDispatcher& dispatcher) {
   using Own = btCollisionConfiguration;
-  static detail::CreateAlgorithm create(&Own::getCollisionAlgorithmCreateFunc);
-  static detail::CreateAlgorithm closest(&Own::getClosestPointsAlgorithmCreateFunc);
+  static detail::CreateAlgorithm<&Own::getCollisionAlgorithmCreateFunc> create;
+  static detail::CreateAlgorithm<&Own::getClosestPointsAlgorithmCreateFunc> closest;
   detail::for_pairs([&](int i, int j) {
     dispatcher.registerCollisionCreateFunc(i, j, &create);
     dispatcher.registerClosestPointsCreateFunc(i, j, &closest);

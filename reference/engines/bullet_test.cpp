@@ -2,7 +2,9 @@
 // contactPairTest. Compiled once in double and once in single precision.
 #include "reference/engines/bullet.hpp"
 
+#include <btBulletDynamicsCommon.h>
 #include <memory>
+#include <thread>
 
 #include "reference/engines/drop_in_test.hpp"
 
@@ -361,6 +363,64 @@ TEST(DROP_IN, OtherSizesOfZeroStayBulletsOwn) {
     EXPECT_EQ(ours.empty(), bullet_has_none);
     EXPECT_EQ(ours, depths_with(other, y, false, half_lengths));
   }
+}
+
+/// Cans that fall on one another, a log that rolls and a capsule across a can, on a floor; returns
+/// where they are after each second.
+std::vector<btScalar> positions_of_falling_bodies() {
+  btDefaultCollisionConfiguration configuration;
+  btCollisionDispatcher dispatcher(&configuration);
+  btDbvtBroadphase broadphase;
+  btSequentialImpulseConstraintSolver solver;
+  btDiscreteDynamicsWorld world(&dispatcher, &broadphase, &solver, &configuration);
+  bullet::install(dispatcher);
+  struct Thing {
+    std::unique_ptr<btCollisionShape> shape;
+    std::unique_ptr<btRigidBody> body;
+  };
+  std::vector<Thing> things;
+  const auto add = [&](const Shape& shape, btScalar mass, int up, const btVector3& position) {
+    Thing& thing = things.emplace_back();
+    thing.shape = make_shape(shape, up);
+    btVector3 inertia(0, 0, 0);
+    if (mass > 0) thing.shape->calculateLocalInertia(mass, inertia);
+    thing.body = std::make_unique<btRigidBody>(
+        btRigidBody::btRigidBodyConstructionInfo(mass, nullptr, thing.shape.get(), inertia));
+    thing.body->setWorldTransform(btTransform(btQuaternion::getIdentity(), position));
+    world.addRigidBody(thing.body.get());
+  };
+  world.setGravity(btVector3(0, 0, -10));
+  add(Box(Vec3(9, 9, 1)), 0, 2, btVector3(0, 0, -1));
+  for (const int i : {0, 1, 2}) {
+    add(can, 1, 2, btVector3(btScalar(0.1 * i), 0, btScalar(1.01 + 2.02 * i)));
+  }
+  add(can, 1, 1, btVector3(-3, 0, btScalar(0.6)));
+  add(Capsule(0.2, 0.5), 1, 0, btVector3(btScalar(-3.2), 0, btScalar(1.4)));
+  things[4].body->setLinearVelocity(btVector3(btScalar(0.5), 0, 0));
+  std::vector<btScalar> numbers;
+  for (int second = 0; second < 3; ++second) {
+    for (int step = 0; step < 60; ++step) world.stepSimulation(btScalar(1.0 / 60), 0);
+    for (const Thing& thing : things) {
+      const btVector3& x = thing.body->getWorldTransform().getOrigin();
+      for (int i = 0; i < 3; ++i) numbers.push_back(x[i]);
+    }
+  }
+  for (const Thing& thing : things) world.removeRigidBody(thing.body.get());
+  return numbers;
+}
+
+// One world in each thread. Threads in one world are for a Bullet that is built with BT_THREADSAFE:
+// without it, as Debian's is, the lock of btCollisionDispatcherMt is none and it has no scheduler.
+TEST(DROP_IN, LetsThreadsStepWorldsAtOnce) {
+  const auto alone = positions_of_falling_bodies();
+  std::vector<btScalar> at_once[2];
+  std::vector<std::thread> threads;
+  for (auto& result : at_once) {
+    threads.emplace_back([&] { result = positions_of_falling_bodies(); });
+  }
+  for (std::thread& t : threads) t.join();
+  for (const auto& result : at_once) EXPECT_EQ(result, alone);
+  for (const btScalar x : alone) EXPECT_TRUE(std::abs(x) < 9);  // nothing has fallen off the floor
 }
 
 TEST(DROP_IN, UninstallGivesBackBulletsOwnAnswers) {
