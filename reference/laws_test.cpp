@@ -214,6 +214,28 @@ TEST(CylinderCylinder, RimsWithCloseStationaryPointsAreResolved) {
   }
 }
 
+TEST(Aabb, ReachesAsFarAsTheSupportsAlongTheWorldsAxes) {
+  for (const Pair pair : {Pair::sphere, Pair::capsule, Pair::cylinder, Pair::box}) {
+    for (std::uint64_t i = 0; i < 50; ++i) {
+      const Configuration c = make_configuration({pair, "general-deep", 5, i});
+      const Aabb box = aabb(c.b, c.pose_b);
+      for (int k = 0; k < 3; ++k) {
+        EXPECT_NEAR(box.upper[k], support(c.b, c.pose_b, Vec3::Unit(k)), 1e-14);
+        EXPECT_NEAR(-box.lower[k], support(c.b, c.pose_b, -Vec3::Unit(k)), 1e-14);
+      }
+    }
+  }
+}
+
+TEST(Aabb, OfBodiesThatTouchOverlap) {
+  for (const Pair pair : all_pairs) {
+    for (std::uint64_t i = 0; i < 200; ++i) {
+      const Configuration c = make_configuration({pair, "general-shallow", 6, i});
+      EXPECT_TRUE(aabb(c.a, c.pose_a).overlaps(aabb(c.b, c.pose_b)));
+    }
+  }
+}
+
 // What `certified_distance` says of itself, held against the oracle on every pair and pose class
 // and on hostile configurations: the truth lies within the bound, the bound is rounding (the search
 // is proven complete), and the fast routine's answer lies within it, too.

@@ -15,8 +15,8 @@ Four nets are held under each fault, at most 60 s of processor time each:
   tests    the unit tests beside the routines that look at nothing else, neither truth nor pose
            class, for faults that the first two do not find
   laws     `touchstone check`, for faults that none of these finds
-The first two are mutation_probe's: every answer against the exact truth (judge.hpp), but for what is
-wrong without a fault. What no net finds is either listed in equivalent.json, with the reason why no
+The first two are mutation_probe's: every answer against the exact truth, and batches and single
+precision against single answers (judge.hpp), but for what is wrong without a fault. What no net finds is either listed in equivalent.json, with the reason why no
 answer can change, or survives.
 
 Exit code: 0 done; 1 the score is below --bar, or equivalent.json is out of date; 2 bad usage or a
