@@ -123,8 +123,7 @@ TOUCHSTONE_CLONES void look(Block<Sphere>& block, double stop_above) {
     block.normal.z[i] = on_cap ? -outwards * uz : off_the_rim ? rim_z : -rz;
     // Near the axis, what rounding leaves along it counts; lengths that vanish have no direction.
     constexpr double few_digits = 0.1, vanishing = 1e-140;
-    const bool is_plain = on_cap | ((rho > vanishing) & (rho >= few_digits * std::abs(along)) &
-                                    (!off_the_rim | (distance > vanishing)));
+    const bool is_plain = on_cap | ((rho > vanishing) & (rho >= few_digits * std::abs(along)));
     const double gap = (on_cap ? beyond_cap : off_the_rim ? distance : beyond_side) - radius;
     const bool in_range = is_in_range(block.arm[i]);
     block.gap[i] = (is_plain & in_range) ? gap : undecided;

@@ -155,23 +155,49 @@ TEST(CylinderOnPlane, PosedPlaneWithALongNormalIsTheSameHalfSpace) {
 }
 
 // One's end lies 0.002 beyond the other's axis. Along the vertical, which the previous normal asks
-// for, the generators would cross there: the end and the other's axis share what is between them.
-// Of cylinders as wide the shorter one comes first.
+// for, the generators would cross there: the end and the other's axis share what is between them by
+// the radii, and both surfaces have fallen off there. Of cylinders as wide the shorter one comes
+// first.
 TEST(CylinderCylinder, GeneratorsThatCrossBeyondAnEndMeetBetweenThatEndAndTheCrossing) {
   constexpr double beyond = 0.002;
+  const double fall = 1 - std::sqrt(1 - beyond * beyond);  // part of radii that add up to 1
   const Vec3 vertical(0, 0, 1);
   for (const double side : {1.0, -1.0}) {
     for (const double half_length : {0.9, 1.5}) {
+      for (const double radius : {0.5, 0.25, 0.75}) {
+        const Contact answer =
+            contact({Cylinder(radius, 1), Pose({side * (1 + beyond), 0, radius - 0.01}, along_x),
+                     Cylinder(1 - radius, half_length), Pose({0, 0, radius - 1}, along_y)},
+                    1e-3, &vertical);
+        EXPECT_NEAR((answer.normal - vertical).norm(), 0, 1e-15);
+        EXPECT_NEAR(answer.signed_distance, -0.01, 1e-15);
+        ASSERT_EQ(answer.points().size(), 1u);
+        const ContactPoint& point = answer.points()[0];
+        EXPECT_NEAR(point.depth, 0.01, 1e-15);
+        const double height = -0.005 + (2 * radius - 1) * fall / 2;
+        const Vec3 between(side * beyond * (1 - radius), 0, height);
+        EXPECT_NEAR((point.position - between).norm(), 0, 1e-8);
+      }
+    }
+  }
+}
+
+// Likewise of generators along one line, the end of one of which lies 0.002 beyond that of the
+// other.
+TEST(CylinderCylinder, GeneratorsEndToEndMeetBetweenTheirEnds) {
+  constexpr double beyond = 0.002;
+  const Vec3 vertical(0, 0, 1);
+  for (const double side : {1.0, -1.0}) {
+    for (const double radius : {0.25, 0.75}) {
       const Contact answer =
-          contact({Cylinder(0.5, 1), Pose({side * (1 + beyond), 0, 0.49}, along_x),
-                   Cylinder(0.5, half_length), Pose({0, 0, -0.5}, along_y)},
-                  1e-3, &vertical);
+          contact({Cylinder(radius, 1), Pose({side * (2.5 + beyond), 0, radius - 0.01}, along_x),
+                   Cylinder(1 - radius, 1.5), Pose({0, 0, radius - 1}, along_x)},
+                  0.02, &vertical);
       EXPECT_NEAR((answer.normal - vertical).norm(), 0, 1e-15);
       EXPECT_NEAR(answer.signed_distance, -0.01, 1e-15);
       ASSERT_EQ(answer.points().size(), 1u);
-      const ContactPoint& point = answer.points()[0];
-      EXPECT_NEAR(point.depth, 0.01, 1e-15);
-      EXPECT_NEAR((point.position - Vec3(side * beyond / 2, 0, -0.005)).norm(), 0, 1e-8);
+      const double x = answer.points()[0].position.x();
+      EXPECT_NEAR(x, side * (1.5 + beyond * (1 - radius)), 1e-8);
     }
   }
 }

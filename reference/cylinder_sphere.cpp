@@ -47,8 +47,9 @@ constexpr double vanishing = 1e-140;
   if (!off_the_rim && beyond_cap >= beyond_side) return {beyond_cap, -outwards * a.axis()};
   const Vec3 radial = radial_direction(a, across, rho, z);
   if (!off_the_rim) return {beyond_side, -radial};
+  // Differences of lengths above 1e-25 (`are_in_range`): as far as they are not zero, their squares
+  // keep their digits.
   const double distance = std::sqrt(beyond_cap * beyond_cap + beyond_side * beyond_side);
-  if (!(distance > vanishing)) return {std::max(beyond_cap, beyond_side), -outwards * a.axis()};
   return {distance,
           (-beyond_cap / distance * outwards) * a.axis() - (beyond_side / distance) * radial};
 }

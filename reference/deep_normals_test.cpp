@@ -131,6 +131,56 @@ TEST(DeepNormals, OfRimsAreProvenUpToTheDepthThatTheyBendAway) {
   EXPECT_FALSE(bends_away_near_axis(rim, rim, 0.05, 0.224, 1.5, 0, about));
 }
 
+/// A cylinder with r = 1 and h = 4 that leans by 45 degrees over the upper right edge of a cube
+/// with half extents of 3, along y, which lies at (1, 1)/√2 from it; the depth there is 1 −
+/// `apart`.
+CylinderInBoxFrame leaning_over_an_edge(double apart, double along_axis = 0,
+                                        double along_edge = 0) {
+  const double half = std::sqrt(0.5);
+  const Vec3 axis(half, 0, -half), out(half, 0, half), edge(3, 0, 3);
+  return CylinderInBoxFrame(1, 4, Vec3(3, 3, 3),
+                            edge + apart * out - along_axis * axis + along_edge * Vec3::UnitY(),
+                            axis);
+}
+
+// Of the ball about the place where edge and side meet, as wide as the bodies overlap: it has to
+// lie in the cylinder.
+TEST(BoxSides, EdgesAreProvenWithinBothOfThemDownToTheAxis) {
+  const auto is_edge_proven = [](const CylinderInBoxFrame& p) {
+    const BoxSides sides(p);
+    EXPECT_EQ(sides.kind(), BoxSides::Kind::edge);
+    return sides.best(p, no_early_exit).is_proven;
+  };
+  EXPECT_TRUE(is_edge_proven(leaning_over_an_edge(0.2)));
+  EXPECT_TRUE(is_edge_proven(leaning_over_an_edge(1e-6)));
+  EXPECT_FALSE(is_edge_proven(leaning_over_an_edge(-1e-6)));  // deeper than the radius
+  for (const double side : {1.0, -1.0}) {
+    EXPECT_TRUE(is_edge_proven(leaning_over_an_edge(0.2, side * 3.1999)));  // h − 0.8
+    EXPECT_FALSE(is_edge_proven(leaning_over_an_edge(0.2, side * 3.2001)));
+    EXPECT_TRUE(is_edge_proven(leaning_over_an_edge(0.2, 0, side * 2.9999)));
+    EXPECT_FALSE(is_edge_proven(leaning_over_an_edge(0.2, 0, side * 3.0001)));
+  }
+}
+
+// The lowest point of a cylinder with r = h = 1 that leans by 45 degrees lies at (x, y, 3 − depth)
+// over a cube's upper face.
+TEST(BoxSides, FacesAreProvenAsFarFromTheirEdgesAsTheDepth) {
+  const double half = std::sqrt(0.5);
+  const auto is_face_proven = [&](double x, double y, double depth) {
+    const Vec3 axis(half, 0, half), lowest(x, y, 3 - depth);
+    const CylinderInBoxFrame p(1, 1, Vec3(3, 3, 3), lowest + axis + Vec3(-half, 0, half), axis);
+    const BoxSides sides(p);
+    EXPECT_EQ(sides.kind(), BoxSides::Kind::face);
+    return sides.best(p, no_early_exit).is_proven;
+  };
+  EXPECT_TRUE(is_face_proven(0, 0, 0.5));
+  for (const double side : {1.0, -1.0}) {
+    EXPECT_TRUE(is_face_proven(side * 2.4999, 0, 0.5));
+    EXPECT_TRUE(is_face_proven(0, side * 2.4999, 0.5));
+    EXPECT_FALSE(is_face_proven(0, side * 2.9, 0.5));
+  }
+}
+
 struct Counts {
   int proven = 0, contradicted = 0;
 };

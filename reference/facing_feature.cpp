@@ -19,9 +19,8 @@ FacingFeature facing(const PosedCylinder& body, const Vec3& outward, double slac
   FacingFeature feature;
   feature.sine = std::sqrt(x * x + y * y + z * z);
   if (lies_flat(body.radius, feature.sine, slack)) {
-    const double side = std::copysign(1, along);
     feature.kind = Kind::disc;
-    feature.axis = Vec3(side * u.x(), side * u.y(), side * u.z());
+    feature.axis = u;
     feature.middle = Vec3(c.x() + end * u.x(), c.y() + end * u.y(), c.z() + end * u.z());
     feature.mark = body.axes.col(0);
     feature.radius = body.radius;
@@ -73,7 +72,7 @@ FacingFeature facing(const PosedBox& body, const Vec3& outward, double slack) {
       continue;
     }
     feature.middle += std::copysign(body.half_extents[i], along) * axis;
-    feature.axis = std::copysign(1, along) * axis;  // of a rectangle there is one that is no side
+    feature.axis = axis;  // of a rectangle there is one that is no side
   }
   if (free == 1) {
     feature.kind = Kind::segment;

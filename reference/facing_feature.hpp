@@ -12,8 +12,8 @@ struct FacingFeature {
   enum class Kind {
     point,
     segment,   ///< a generator or an edge: middle, axis, half_length; radius of curvature across it
-    disc,      ///< a cap: middle, axis (its normal), radius
-    rectangle  ///< a face: middle, axis (its normal), two sides with their half lengths
+    disc,      ///< a cap: middle, axis (its normal or the opposite), radius
+    rectangle  ///< a face: middle, axis (likewise), two sides with their half lengths
   };
   Kind kind = Kind::point;
   Vec3 middle;  ///< The point itself; on the surface.

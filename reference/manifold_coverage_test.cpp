@@ -127,6 +127,26 @@ TEST(Manifold, CoversTheDiscsThatLeaningCapsShare) {
   }
 }
 
+// Where the threshold admits less and less of a cap that leans, its points draw together: they span
+// the chord up to which it is admitted, whose half is sin φ of the radius if 1 - cos φ is admitted.
+TEST(Manifold, CoversThePartOfALeaningCapThatTheThresholdAdmits) {
+  constexpr double tilt = 1e-5;
+  const Quaternion leaning(Eigen::AngleAxisd(tilt, Vec3::UnitY()));
+  const double lowest = std::cos(tilt) + std::sin(tilt);
+  const Configuration c{Cylinder(1, 1), Pose({0.3, 0.2, 1 + lowest - 0.01}, leaning),
+                        Box({3, 3, 1}), Pose()};
+  for (const double admitted : {0.5, 0.1, 1e-2, 1e-3, 1e-4, 1e-5}) {
+    const Contact answer = contact(c, -0.01 + admitted * tilt);
+    double lower = 0, upper = 0;
+    for (const auto& p : answer.points()) {
+      lower = std::min(lower, p.position.y() - 0.2), upper = std::max(upper, p.position.y() - 0.2);
+    }
+    const double half_chord = std::sqrt(admitted * (2 - admitted));
+    EXPECT_NEAR(upper, half_chord, 1e-3 * half_chord) << admitted;
+    EXPECT_NEAR(lower, -half_chord, 1e-3 * half_chord) << admitted;
+  }
+}
+
 TEST(Manifold, CoversTheOctagonThatFourEdgesCut) {
   const Configuration c{Cylinder(1, 2), Pose({0, 0, 2.9}, upright), Box({0.9, 0.9, 1}), Pose()};
   const Patch patch{Vec2(0, 0), [](const Vec2& unit) {

@@ -82,6 +82,22 @@ TEST_P(PointContract, HoldsInEveryPoseClassAtEveryThreshold) {
 
 // For engines: features that lean by up to 0.1 have all their points, off round surfaces by half
 // its square.
+TEST_P(PointContract, LiesOnBothBodiesInEveryPoseClass) {
+  for (const auto& name : pose_classes(GetParam())) {
+    for (std::uint64_t i = 0; i < 10; ++i) {
+      const Identity id{GetParam(), name, 11, i};
+      const Configuration c = make_configuration(id);
+      const Contact answer = contact(c, 0);
+      SCOPED_TRACE(to_string(id));
+      ASSERT_EQ(answer.points().empty(), answer.signed_distance > 0);
+      // Where rims meet at a small tilt, rounding of the normal over the tilt says where on the
+      // rim.
+      const double aside = name.find("+tilted") != name.npos ? 1e-6 : 3e-8;
+      expect_points_on_both(c, answer, aside * larger_size(c) + position_rounding(c));
+    }
+  }
+}
+
 TEST_P(PointContract, HoldsOfAllPointsWithinTheThreshold) {
   constexpr double leans_most = 0.1;
   for (const auto& name : pose_classes(GetParam())) {

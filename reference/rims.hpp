@@ -167,7 +167,6 @@ class Rims {
       const double m = c * n.y() - s * n.x();  // n along k2
       const double rho1 = std::sqrt(n.y() * n.y() + n.z() * n.z());
       const double rho2 = std::sqrt(m * m + n.z() * n.z());
-      if (!(rho1 > 0 && rho2 > 0)) break;
       const double inverse1 = 1 / rho1, inverse2 = 1 / rho2;
       const double k1 = pair_.r1 * inverse1, k2 = pair_.r2 * inverse2;
       const Vec3 residual(q_.x() + k2 * s * m, q_.y() - k1 * n.y() - k2 * c * m,
@@ -179,7 +178,7 @@ class Rims {
       const double x = t2.dot(t1), y = t2.dot(other);
       const double a = k1 + k2 * x * x + value, b = k2 * x * y, e = k2 * y * y + value;
       const double determinant = a * e - b * b;
-      if (!(a > 0 && determinant > 0)) break;
+      if (!(a > 0 && determinant > 0)) break;  // NaN where n lies along an axis
       const double g1 = residual.dot(t1), g2 = residual.dot(other), inverse = 1 / determinant;
       slope = std::sqrt(g1 * g1 + g2 * g2);
       double step1 = (e * g1 - b * g2) * inverse, step2 = (a * g2 - b * g1) * inverse;

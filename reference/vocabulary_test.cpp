@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "properties/identity.hpp"
 #include "reference/contact_of.hpp"
 #include "reference/invalid_input.hpp"
 #include "reference/support.hpp"
@@ -148,28 +147,6 @@ TEST(Gap, IsTheClearanceAlongTheNormalFromBToA) {
                         Pose()};
   EXPECT_EQ(gap(c, Vec3(0, 0, 1)), 3);
   EXPECT_EQ(gap(c, Vec3(0, 0, -1)), -7);
-}
-
-TEST(Aabb, ReachesAsFarAsTheSupportsAlongTheWorldsAxes) {
-  for (const Pair pair : {Pair::sphere, Pair::capsule, Pair::cylinder, Pair::box}) {
-    for (std::uint64_t i = 0; i < 50; ++i) {
-      const Configuration c = make_configuration({pair, "general-deep", 5, i});
-      const Aabb box = aabb(c.b, c.pose_b);
-      for (int k = 0; k < 3; ++k) {
-        EXPECT_NEAR(box.upper[k], support(c.b, c.pose_b, Vec3::Unit(k)), 1e-14);
-        EXPECT_NEAR(-box.lower[k], support(c.b, c.pose_b, -Vec3::Unit(k)), 1e-14);
-      }
-    }
-  }
-}
-
-TEST(Aabb, OfBodiesThatTouchOverlap) {
-  for (const Pair pair : all_pairs) {
-    for (std::uint64_t i = 0; i < 200; ++i) {
-      const Configuration c = make_configuration({pair, "general-shallow", 6, i});
-      EXPECT_TRUE(aabb(c.a, c.pose_a).overlaps(aabb(c.b, c.pose_b)));
-    }
-  }
 }
 
 TEST(Aabb, OfAHalfSpaceIsBoundedOnlyAlongItsNormal) {

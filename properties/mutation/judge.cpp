@@ -53,6 +53,8 @@ class Judge {
     judge_hints();
     judge_steadiness();
     if (geometry_.pair == cylinder) judge_exchange();
+    judge_batches(case_, made_, routines_,
+                  [&](bool holds, Check check, int variant) { expect(holds, check, variant); });
     routines_.release(made_);
     return findings_;
   }
@@ -113,7 +115,7 @@ class Judge {
     Real worst = 0;
     for (int i = 0; i < 3; ++i) {
       for (int j = 0; j < 3; ++j) {
-        const auto k = static_cast<std::size_t>(3 * i + j);
+        const auto k = 3 * static_cast<std::size_t>(i) + static_cast<std::size_t>(j);
         worst = std::max(worst, std::abs(facts.rotation_a[k] - geometry_.axes_a(i, j)));
         worst = std::max(worst, std::abs(facts.rotation_b[k] - geometry_.axes_b(i, j)));
       }
@@ -181,7 +183,7 @@ class Judge {
     for (const double threshold : thresholds) {
       const RawContact answer = routines_.contact(made_, threshold, nullptr);
       judge_contact(answer, threshold, variant);
-      if (variant < 2) judge_coverage(answer, variant);
+      if (variant < 2 || threshold == distance_) judge_coverage(answer, variant);
       ++variant;
     }
   }
@@ -338,8 +340,7 @@ class Judge {
   void judge_exchange() {
     RawConfiguration raw = case_.raw;
     std::swap(raw.sizes[0], raw.sizes[2]), std::swap(raw.sizes[1], raw.sizes[3]);
-    std::swap(raw.position_a, raw.position_b);
-    std::swap(raw.orientation_a, raw.orientation_b);
+    raw = with_poses_exchanged(raw);
     const char* field = nullptr;
     const void* other = routines_.make(raw, &field);
     if (!other) return fail(Check::exchange, 0);
@@ -375,9 +376,9 @@ class Judge {
 
 const char* check_name(int check) {
   static const char* const names[check_count] = {
-      "finite",    "distance",   "regret",   "certified", "overlaps",   "threshold",
-      "clearance", "points",     "surfaces", "coverage",  "steadiness", "hint",
-      "exchange",  "vocabulary", "bounds",   "agreement", "refusal"};
+      "finite", "distance",  "regret",   "certified",  "overlaps", "threshold", "clearance",
+      "points", "surfaces",  "coverage", "steadiness", "hint",     "exchange",  "vocabulary",
+      "bounds", "agreement", "refusal",  "batch",      "in-float"};
   return names[check];
 }
 
@@ -408,73 +409,6 @@ Findings judge_agreement(const Case& c, const Routines& routines) {
     findings.set(static_cast<std::size_t>(Check::certified) * max_variants + 2);
   }
   routines.release(made);
-  return findings;
-}
-
-Findings judge_refusals(const Routines& routines) {
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  Findings findings;
-  const auto refuse = [&](const RawConfiguration& raw, const char* expected) {
-    const char* field = "";
-    const void* made = routines.make(raw, &field);
-    if (made || std::strcmp(field, expected) != 0) {
-      findings.set(static_cast<std::size_t>(Check::refusal) * max_variants + 1);
-    }
-  };
-  RawConfiguration valid;
-  valid.sizes = {1, 1, 1, 1, 1};
-  valid.orientation_a = valid.orientation_b = {1, 0, 0, 0};
-  valid.normal = {0, 0, 1};
-  static const char* const fields[][5] = {
-      {"radius", "half_length"},
-      {"radius", "half_length", "radius"},
-      {"radius", "half_length", "radius", "half_length"},
-      {"radius", "half_length", "radius", "half_length"},
-      {"radius", "half_length", "half_extents[0]", "half_extents[1]", "half_extents[2]"}};
-  for (int pair = plane; pair <= box; ++pair) {
-    valid.pair = pair;
-    for (std::size_t i = 0; i < 5 && fields[pair][i]; ++i) {
-      for (const double bad : {0.0, -1.0, nan, infinity}) {
-        RawConfiguration raw = valid;
-        raw.sizes[i] = bad;
-        refuse(raw, fields[pair][i]);
-      }
-    }
-    for (const double bad : {nan, infinity, -infinity}) {
-      static const char* const positions[] = {"position[0]", "position[1]", "position[2]"};
-      static const char* const orientations[] = {"orientation[0]", "orientation[1]",
-                                                 "orientation[2]", "orientation[3]"};
-      for (std::size_t i = 0; i < 3; ++i) {
-        RawConfiguration raw = valid;
-        raw.position_a[i] = bad;
-        refuse(raw, positions[i]);
-      }
-      for (std::size_t i = 0; i < 4; ++i) {
-        RawConfiguration raw = valid;
-        raw.orientation_b[i] = bad;
-        refuse(raw, orientations[i]);
-      }
-    }
-    RawConfiguration raw = valid;
-    raw.orientation_a = {0, 0, 0, 0};
-    refuse(raw, "orientation");
-  }
-  valid.pair = plane;
-  for (const double bad : {nan, infinity}) {
-    static const char* const normals[] = {"normal[0]", "normal[1]", "normal[2]"};
-    for (std::size_t i = 0; i < 3; ++i) {
-      RawConfiguration raw = valid;
-      raw.normal[i] = bad;
-      refuse(raw, normals[i]);
-    }
-    RawConfiguration raw = valid;
-    raw.displacement = bad;
-    refuse(raw, "displacement");
-  }
-  RawConfiguration raw = valid;
-  raw.normal = {0, 0, 0};
-  refuse(raw, "normal");
   return findings;
 }
 

@@ -174,9 +174,11 @@ enum class Check {
   vocabulary,  ///< sizes, rotations, supports, gaps, names
   bounds,      ///< axis-aligned boxes
   agreement,   ///< among the routines themselves, the proven one being right
-  refusal      ///< what is no shape or pose is refused, and its field named
+  refusal,     ///< what is no shape, pose or batch is refused, and its field named
+  batch,       ///< batches have the bits of single pairs
+  in_float     ///< answers in single precision are those in double, rounded
 };
-constexpr int check_count = 17;
+constexpr int check_count = 19;
 const char* check_name(int check);
 
 /// Each check is made at most this many times of one case, at different thresholds or hints.
@@ -191,11 +193,18 @@ enum class ArcCheck { passage, derivatives, minima, directions };
 void judge_arcs(const void* made, const Routines& routines, std::size_t index,
                 const std::function<void(bool, ArcCheck)>& expect);
 
+/// Batches and single precision, held against the answers in double one by one: calls
+/// expect(whether it holds, the check, its variant).
+void judge_batches(const Case& c, const void* made, const Routines& routines,
+                   const std::function<void(bool, Check, int)>& expect);
+
+RawConfiguration with_poses_exchanged(RawConfiguration raw);
+
 /// Without a truth: do the routines agree with each other, and is the proven one sure? Finds only
 /// `agreement` and `certified`.
 Findings judge_agreement(const Case& c, const Routines& routines);
 
-/// Of shapes and poses that cannot be; independent of the cases.
+/// Of shapes, poses and batches that cannot be; independent of the cases.
 Findings judge_refusals(const Routines& routines);
 
 }  // namespace touchstone::mutation

@@ -15,8 +15,8 @@ Four nets are held under each fault, at most 60 s of processor time each:
   tests    the unit tests beside the routines that look at nothing else, neither truth nor pose
            class, for faults that the first two do not find
   laws     `touchstone check`, for faults that none of these finds
-The first two are mutation_probe's: every answer against the exact truth (judge.hpp), but for what is
-wrong without a fault. What no net finds is either listed in equivalent.json, with the reason why no
+The first two are mutation_probe's: every answer against the exact truth, and batches and single
+precision against single answers (judge.hpp), but for what is wrong without a fault. What no net finds is either listed in equivalent.json, with the reason why no
 answer can change, or survives.
 
 Exit code: 0 done; 1 the score is below --bar, or equivalent.json is out of date; 2 bad usage or a
@@ -276,8 +276,29 @@ def parse_words():
     words.add_argument("--handful", action="store_true",
                        help="only faults in .cpp files, the rest from the build, without laws")
     words.add_argument("--list", action="store_true", help="only list the faults")
-    words.add_argument("--table", type=pathlib.Path, help="write one line a fault there")
+    words.add_argument("--table", type=pathlib.Path,
+                       help="add one line a fault there; faults that it has are not tried again")
     return words.parse_args()
+
+
+class Table:
+    """What was found of each fault: a file of lines that a run which was stopped goes on with."""
+    NETS = ("classes", "hostile", "tests", "laws")
+
+    def __init__(self, file):
+        self.file, self.found = file, {}
+        if file and file.exists():
+            for line in file.read_text().splitlines():
+                place, operator, column, text, *found = line.split("\t")
+                name = mutants.Mutant(place.split(":")[0], 0, operator, text, int(column), ()).name
+                self.found[name] = {n: None if f == "-" else f for n, f in zip(self.NETS, found)}
+
+    def add(self, mutant, found):
+        if self.file:
+            cells = [mutant.place, mutant.operator, str(mutant.column), mutant.text]
+            cells += [found[net] or "-" for net in self.NETS]
+            with self.file.open("a") as file:
+                file.write("\t".join(cells) + "\n")
 
 
 def draw(words):
@@ -333,8 +354,12 @@ def score(words, drawn, reasons, work, program, touchstone):
     if words.laws == "yes" and (broken := law_finding(touchstone, library, 0, None)):
         raise BuildFailed(f"laws are broken without a fault: {broken}")
 
+    table = Table(words.table)
+
     def findings(item):
         number, mutant = item
+        if mutant.name in table.found:
+            return mutant, table.found[mutant.name]
         pair = PAIRS.get(mutant.file.split(".")[0])
         found = {p.net: p.finding(library, number, pair) for p in probes}
         found["tests"] = tests.finding(number) if tests and not any(found.values()) else None
@@ -347,6 +372,8 @@ def score(words, drawn, reasons, work, program, touchstone):
         results = []
         for mutant, found in pool.map(findings, sorted(library.faults.items())):
             results.append((mutant, found))
+            if mutant.name not in table.found:
+                table.add(mutant, found)
             text = "; ".join(f"{net}: {f}" for net, f in found.items() if f)
             if not text:
                 text = "equivalent: " + reasons[mutant.name] if mutant.name in reasons else "SURVIVES"
@@ -386,10 +413,6 @@ def summary(words, results, reasons):
         print(f"  survives: {mutant.place} {mutant.name}")
     for text in wrong:
         print(f"  equivalent.json: {text}")
-    if words.table:
-        words.table.write_text("".join(
-            f"{m.place}\t{m.operator}\t{m.text}\t" + "\t".join(str(f or "-") for f in found.values())
-            + "\n" for m, found in results))
     return 0 if value >= words.bar and not wrong else 1
 
 

@@ -1,18 +1,25 @@
 // The routines of reference/ behind plain numbers; built once as they are and once with faults.
 #include "properties/mutation/routines.hpp"
 
+#include <memory>
 #include <string>
+#include <vector>
 
+#include "reference/batch.hpp"
 #include "reference/contact_of.hpp"
 #include "reference/invalid_input.hpp"
 #include "reference/rims.hpp"
+#include "reference/single_precision.hpp"
 #include "reference/support.hpp"
 
 namespace touchstone::mutation {
 namespace {
 
 Vec3 vector(const Numbers3& v) { return {v[0], v[1], v[2]}; }
-Numbers3 numbers(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+template <class Vector>
+Numbers3 numbers(const Vector& v) {
+  return {v.x(), v.y(), v.z()};
+}
 Pose pose(const Numbers3& position, const Numbers4& q) {
   return Pose(vector(position), Eigen::Quaterniond(q[0], q[1], q[2], q[3]));
 }
@@ -60,16 +67,17 @@ RawDistance certified_distance(const void* made) {
 }
 bool overlaps(const void* made) { return touchstone::overlaps(of(made)); }
 
+template <class Answer>
+RawContact raw_contact(const Answer& answer) {
+  RawContact raw{answer.signed_distance, numbers(answer.normal), 0, {}};
+  for (const auto& p : answer.points()) raw.points[raw.count++] = {numbers(p.position), p.depth};
+  return raw;
+}
 RawContact contact(const void* made, double threshold, const Numbers3* previous_normal) {
   Vec3 previous;
   if (previous_normal) previous = vector(*previous_normal);
-  const Contact answer =
-      touchstone::contact(of(made), threshold, previous_normal ? &previous : nullptr);
-  RawContact raw{answer.signed_distance, numbers(answer.normal), 0, {}};
-  for (const ContactPoint& p : answer.points()) {
-    raw.points[raw.count++] = {numbers(p.position), p.depth};
-  }
-  return raw;
+  return raw_contact(
+      touchstone::contact(of(made), threshold, previous_normal ? &previous : nullptr));
 }
 
 double gap(const void* made, const Numbers3& n) { return touchstone::gap(of(made), vector(n)); }
@@ -130,9 +138,106 @@ RawArc arc(const void* made, double end1, double end2, double angle, double half
           rims.may_meet(x, 1, half_width, p)};
 }
 
+/// The types of one precision.
+template <class PoseType, class DistanceType, class ContactType, class NumberType>
+struct Precision {
+  using Number = NumberType;
+  using Pose = PoseType;
+  using Distance = DistanceType;
+  using Contact = ContactType;
+  using Vector = Eigen::Matrix<Number, 3, 1>;
+
+  static Pose pose(const touchstone::Pose& p) {
+    return Pose(p.position().cast<Number>(), p.orientation().cast<Number>());
+  }
+};
+using Double = Precision<Pose, SignedDistance, Contact, double>;
+using Float = Precision<FloatPose, FloatSignedDistance, FloatContact, float>;
+
+template <class In>
+void ask_batch(const Configuration& c, std::size_t count, double threshold, RawAnswers* results) {
+  const auto pose_a = In::pose(c.pose_a), pose_b = In::pose(c.pose_b);
+  std::vector<typename In::Pose> a, b;
+  for (std::size_t i = 0; i < count; ++i) {
+    a.push_back(i % 2 == 0 ? pose_a : pose_b), b.push_back(i % 2 == 0 ? pose_b : pose_a);
+  }
+  std::vector<typename In::Distance> distances(count);
+  std::vector<typename In::Contact> contacts(count);
+  const auto overlap = std::make_unique<bool[]>(count);
+  std::visit(
+      [&](const auto& shape) {
+        touchstone::signed_distance(c.a, a, shape, b, distances);
+        touchstone::overlaps(c.a, a, shape, b, std::span(overlap.get(), count));
+        touchstone::contact(c.a, a, shape, b, static_cast<typename In::Number>(threshold),
+                            contacts);
+      },
+      c.b);
+  for (std::size_t i = 0; i < count; ++i) {
+    results[i] = {{distances[i].value, numbers(distances[i].normal), 0},
+                  overlap[i],
+                  raw_contact(contacts[i])};
+  }
+}
+
+void ask_in_float(const Configuration& c, std::size_t count, double threshold,
+                  const Numbers3* previous_normal, RawAnswers* results) {
+  const auto pose_a = Float::pose(c.pose_a), pose_b = Float::pose(c.pose_b);
+  Float::Vector previous;
+  if (previous_normal) previous = vector(*previous_normal).cast<float>();
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto &a = i % 2 == 0 ? pose_a : pose_b, &b = i % 2 == 0 ? pose_b : pose_a;
+    std::visit(
+        [&](const auto& shape) {
+          const auto distance = touchstone::signed_distance(c.a, a, shape, b);
+          results[i] = {
+              {distance.value, numbers(distance.normal), 0},
+              touchstone::overlaps(c.a, a, shape, b),
+              raw_contact(touchstone::contact(c.a, a, shape, b, static_cast<float>(threshold),
+                                              previous_normal ? &previous : nullptr))};
+        },
+        c.b);
+  }
+}
+
+void batch(const void* made, Batch how, std::size_t count, double threshold,
+           const Numbers3* previous_normal, RawAnswers* results) {
+  const Configuration& c = of(made);
+  if (how == Batch::in_double) return ask_batch<Double>(c, count, threshold, results);
+  if (how == Batch::in_float) return ask_batch<Float>(c, count, threshold, results);
+  ask_in_float(c, count, threshold, previous_normal, results);
+}
+
+template <class In>
+void ask_lengths(const Configuration& c, int question, std::size_t count_b, std::size_t count) {
+  const std::vector<typename In::Pose> a(3), b(count_b);
+  std::vector<typename In::Distance> distances(count);
+  std::vector<typename In::Contact> contacts(count);
+  const auto overlap = std::make_unique<bool[]>(count);
+  std::visit(
+      [&](const auto& shape) {
+        if (question == 0) touchstone::signed_distance(c.a, a, shape, b, distances);
+        if (question == 1) touchstone::overlaps(c.a, a, shape, b, std::span(overlap.get(), count));
+        if (question == 2) touchstone::contact(c.a, a, shape, b, 0, contacts);
+      },
+      c.b);
+}
+const char* refused_batch(const void* made, Batch how, int question, std::size_t poses_b,
+                          std::size_t results) {
+  static std::string name;
+  name.clear();
+  try {
+    if (how == Batch::in_double) ask_lengths<Double>(of(made), question, poses_b, results);
+    if (how == Batch::in_float) ask_lengths<Float>(of(made), question, poses_b, results);
+  } catch (const InvalidInput& error) {
+    name = error.field();
+  }
+  return name.c_str();
+}
+
 const Routines routines = {
-    make, release,      signed_distance, certified_distance, overlaps, contact,
-    gap,  support_of_a, bounds,          bounds_overlap,     facts,    arc};
+    make,  release,      signed_distance, certified_distance, overlaps, contact,
+    gap,   support_of_a, bounds,          bounds_overlap,     facts,    arc,
+    batch, refused_batch};
 
 }  // namespace
 }  // namespace touchstone::mutation

@@ -62,6 +62,16 @@ struct RawArc {
   bool only_maxima, points_inward, may_meet_overlapping, may_meet_apart;
 };
 
+/// The answers to three questions of one pair.
+struct RawAnswers {
+  RawDistance distance;
+  bool overlaps;
+  RawContact contact;
+};
+
+/// Which of the routines for many poses, or for poses in single precision, is asked.
+enum class Batch { in_double, in_float, in_float_one_by_one };
+
 /// The routines of one library.
 struct Routines {
   /// Null where a shape or a pose refuses its numbers, and `field` then says which.
@@ -78,6 +88,14 @@ struct Routines {
   RawFacts (*facts)(const void*);
   /// Two cylinders only; ends are +1 or −1, the angle and half width radians along the rim.
   RawArc (*arc)(const void*, double end1, double end2, double angle, double half_width);
+  /// Answers of `count` pairs of the same shapes, every second one with the poses exchanged; in
+  /// float of poses, threshold and hint that are floats. One by one with the hint, if any.
+  void (*batch)(const void*, Batch how, std::size_t count, double threshold,
+                const Numbers3* previous_normal, RawAnswers* results);
+  /// The field that is refused of a batch of three poses of A and so many of B and results, empty
+  /// if none; `question` counts the members of RawAnswers.
+  const char* (*refused_batch)(const void*, Batch how, int question, std::size_t poses_b,
+                               std::size_t results);
 };
 
 }  // namespace touchstone::mutation
