@@ -109,11 +109,17 @@ void disc_on_rectangle(const Manifold& to, const FacingFeature& cap, const Facin
   ArcPolygon region(disc, sides[0], sides[1]);
   if (region.empty()) {
     // The rim only touches the face's edge: the face's point that is nearest to the cap's middle.
-    Vec2 p = disc.centre;
-    for (const Edges& e : sides) {
-      p += (std::clamp(e.offset, -e.half_width, e.half_width) - e.offset) * e.across;
-    }
-    return plane.add(p, s);
+    const auto way = [](const Edges& e) {
+      return std::clamp(e.offset, -e.half_width, e.half_width) - e.offset;
+    };
+    const Vec2 &across0 = sides[0].across, &across1 = sides[1].across;
+    const double way0 = way(sides[0]), way1 = way(sides[1]);
+    // At a corner both edges count, which are not quite at right angles where the face leans.
+    const bool is_corner = way0 != 0 && way1 != 0;
+    const Vec2 arm = is_corner ? Vec2((way1 * turned_left(across0) - way0 * turned_left(across1)) /
+                                      cross2(across0, across1))
+                               : Vec2(way0 * across0 + way1 * across1);
+    return plane.add(disc.centre + arm, s);
   }
   const Vec2 slope = s.slope();
   const double max_rise = 2 * disc.radius * slope.norm();

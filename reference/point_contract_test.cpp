@@ -80,6 +80,13 @@ TEST_P(PointContract, HoldsInEveryPoseClassAtEveryThreshold) {
   }
 }
 
+// The corner of a plate's face, which leans, is on the cap's rim but for rounding.
+TEST(PointsWhereACornerTouchesARim, LieOnBothBodies) {
+  const Configuration c = make_configuration(
+      parse_identity("cylinder-box/vertex-rim+touching+plate+not-quite-unit/13/2486"));
+  expect_contract(c, 1e-6 * smaller_size(c), 3e-8 * larger_size(c));
+}
+
 // For engines: features that lean by up to 0.1 have all their points, off round surfaces by half
 // its square.
 TEST_P(PointContract, LiesOnBothBodiesInEveryPoseClass) {
