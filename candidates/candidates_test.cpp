@@ -3,7 +3,12 @@
 #include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <random>
 
+#include "candidates/model.hpp"
+#include "candidates/testing/plain_contacts.hpp"
+#include "oracle/truth.hpp"
+#include "properties/identity.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone {
@@ -87,6 +92,189 @@ TEST(Candidates, QuaternionsAndNormalsThatOverflowWhenSquaredArePassedWithUnitLe
     EXPECT_DOUBLE_EQ(pose.orientation[2], -std::sqrt(0.5)) << length;
     const ts_shape plane = to_ts_shape(Plane({0, 0, -length}, 0));
     EXPECT_EQ(plane.size[2], -1) << length;
+  }
+}
+
+// The simplified models against closed forms, and their exact routine against the definition of the
+// signed distance, the largest gap over all directions.
+
+constexpr double rounding = 1e-12;
+
+const ts_shape can = to_ts_shape(Cylinder(0.5, 1)), ball = to_ts_shape(Sphere(0.25)),
+               floor_below = to_ts_shape(Plane({0, 0, 1}, 0));
+
+ts_pose at(const Vec3& position, const Quaternion& orientation = upright) {
+  return to_ts_pose(Pose(position, orientation));
+}
+
+Separation between(const CylinderModel& model, const ts_shape& a, const ts_pose& pose_a,
+                   const ts_shape& b, const ts_pose& pose_b) {
+  return ModelPair(a, b, model).separation(pose_a, pose_b);
+}
+
+CylinderModel prism(int sides) {
+  return [=](double r, double h) { return inscribed_prism(sides, r, h); };
+}
+CylinderModel spheres(int count) {
+  return [=](double r, double h) { return inscribed_spheres(count, r, h); };
+}
+
+TEST(Models, InscribedCapsuleLosesTheRimAndKeepsCapAndSide) {
+  EXPECT_NEAR(between(inscribed_capsule, can, at({0, 0, 0.9}), floor_below, at({0, 0, 0})).distance,
+              -0.1, rounding);
+  EXPECT_NEAR(between(inscribed_capsule, can, at({0, 0, 0.4}, along_x), floor_below, at({0, 0, 0}))
+                  .distance,
+              -0.1, rounding);
+  // A sphere beside the upper rim: its distance is that of the round end from the corner.
+  const auto s = between(inscribed_capsule, can, at({0, 0, 0}), ball, at({0.75, 0, 1}));
+  EXPECT_NEAR(s.distance, std::hypot(0.75, 0.5) - 0.75, rounding);
+}
+
+TEST(Models, CircumscribedCapsuleStandsOnItsRoundEnd) {
+  const auto s = between(circumscribed_capsule, can, at({0, 0, 1.5}), floor_below, at({0, 0, 0}));
+  EXPECT_NEAR(s.distance, 0, rounding);
+}
+
+TEST(Models, AFlatCylinderIsASphereOfItsHalfLengthAsACapsule) {
+  const ts_shape coin = to_ts_shape(Cylinder(1, 0.1));
+  EXPECT_NEAR(
+      between(inscribed_capsule, coin, at({0, 0, 0}, along_x), floor_below, at({0, 0, 0})).distance,
+      -0.1, rounding);
+}
+
+TEST(Models, AWheelOfSpheresRollsWithARipple) {
+  // Between two of k spheres of radius h on a ring of radius r − h, the wheel's height is lower by
+  // (r − h)(1 − cos(π/k)).
+  const ts_shape wheel = to_ts_shape(Cylinder(1, 0.2));
+  const auto height = [&](double angle) {
+    const Quaternion turned = Quaternion(Eigen::AngleAxisd(M_PI / 2, Vec3::UnitX())) *
+                              Quaternion(Eigen::AngleAxisd(angle, Vec3::UnitZ()));
+    return -between(spheres(8), wheel, at({0, 0, 0}, turned), floor_below, at({0, 0, 0})).distance;
+  };
+  EXPECT_NEAR(height(M_PI / 2), 1, rounding);
+  EXPECT_NEAR(height(M_PI / 2 + M_PI / 8), 0.2 + 0.8 * std::cos(M_PI / 8), rounding);
+}
+
+TEST(Models, SpheresInARowReachBothCaps) {
+  EXPECT_NEAR(between(spheres(4), can, at({0, 0, 0.9}), floor_below, at({0, 0, 0})).distance, -0.1,
+              rounding);
+  EXPECT_NEAR(between(spheres(1), can, at({0, 0, 0}), ball, at({0, 0, 0.8})).distance, 0.05,
+              rounding);
+}
+
+TEST(Models, APrismIsShallowerByItsSagitta) {
+  for (const int sides : {8, 16, 128}) {
+    // With z up and an even number of sides, lying along y on the middle of a side.
+    const Quaternion flat = Quaternion(Eigen::AngleAxisd(M_PI / 2, Vec3::UnitX())) *
+                            Quaternion(Eigen::AngleAxisd(M_PI / 2 + M_PI / sides, Vec3::UnitZ()));
+    EXPECT_NEAR(
+        between(prism(sides), can, at({0, 0, 0}, flat), floor_below, at({0, 0, 0})).distance,
+        -0.5 * std::cos(M_PI / sides), rounding)
+        << sides;
+  }
+}
+
+TEST(Models, APrismApartFromASphereKnowsFacesEdgesAndCorners) {
+  const auto distance = [&](const Vec3& centre) {
+    return between(prism(4), can, at({0, 0, 0}), ball, at(centre)).distance + 0.25;
+  };
+  EXPECT_NEAR(distance({0.1, 0.1, 2}), 1, rounding);  // cap
+  EXPECT_NEAR(distance({1, 0, 0.3}), 0.5, rounding);  // edge along the axis
+  EXPECT_NEAR(distance({1, 1, 0}), std::sqrt(2.0) - 0.5 / std::sqrt(2.0), rounding);  // side
+  EXPECT_NEAR(distance({1, 0, 1.5}), std::hypot(0.5, 0.5), rounding);                 // corner
+  EXPECT_NEAR(distance({0, 0, 0}), -0.5 / std::sqrt(2.0), rounding);                  // inside
+}
+
+TEST(Models, FourSidesAreABox) {
+  // The prism's code against the box's, for the same solid.
+  std::mt19937 random(2);
+  std::normal_distribution<double> normal;
+  auto square = RoundedPolytope::prism(4, std::sqrt(2.0) * 0.4, 0.7);
+  auto box = RoundedPolytope::box({0.4, 0.4, 0.7});
+  const Eigen::Matrix3d eighth = Eigen::AngleAxisd(M_PI / 4, Vec3::UnitZ()).toRotationMatrix();
+  auto other = RoundedPolytope::prism(5, 0.6, 0.3);
+  for (int i = 0; i < 200; ++i) {
+    const Eigen::Matrix3d turn =
+        Quaternion(normal(random), normal(random), normal(random), normal(random))
+            .normalized()
+            .toRotationMatrix();
+    const Vec3 shift = 0.4 * Vec3(normal(random), normal(random), normal(random));
+    square.place(turn * eighth, shift);
+    box.place(turn, shift);
+    const Separation x = separation(square, other), y = separation(box, other);
+    EXPECT_NEAR(x.distance, y.distance, rounding);
+  }
+}
+
+TEST(Models, NoDirectionHasALargerGapThanTheAnswer) {
+  std::mt19937 random(1);
+  std::normal_distribution<double> normal;
+  for (const Pair pair : {Pair::capsule, Pair::cylinder, Pair::box}) {
+    for (const CylinderModel& model :
+         {CylinderModel(inscribed_capsule), CylinderModel(circumscribed_capsule), prism(7)}) {
+      for (std::uint64_t i = 0; i < 10; ++i) {
+        const Configuration c = make_configuration({pair, "general-deep", 4, i});
+        const ts_pose a = to_ts_pose(c.pose_a), b = to_ts_pose(c.pose_b);
+        const Separation s = between(model, to_ts_shape(c.a), a, to_ts_shape(c.b), b);
+        auto part_a = model(c.a.radius(), c.a.half_length())[0];
+        part_a.place(rotation_of(a), position_of(a));
+        ASSERT_NEAR(s.normal.norm(), 1, rounding);
+        EXPECT_NEAR((s.on_a - s.on_b).dot(s.normal), s.distance, 1e-9);
+        if (pair == Pair::box) {
+          auto part_b = RoundedPolytope::box(std::get<Box>(c.b).half_extents());
+          part_b.place(rotation_of(b), position_of(b));
+          for (int k = 0; k < 500; ++k) {
+            const Vec3 n = Vec3(normal(random), normal(random), normal(random)).normalized();
+            const double gap =
+                part_a.support(-n).dot(n) - part_a.radius() - part_b.support(n).dot(n);
+            EXPECT_LE(gap, s.distance + 1e-9);
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(Models, ABoxOfPartsReachesItsFacesAndLosesItsEdges) {
+  const Box plank({0.2, 1, 3});
+  const Cylinder rod(0.1, 0.5);
+  for (const char* name : {"box-spheres:8", "box-capsules:4"}) {
+    // Across the plank at its faces' middles, where there is a part: parts are exact there.
+    for (const double x : {0.299, -0.299}) {
+      const Answer a = answer(name, {rod, Pose({x, 0.8, 3 - 0.2}, along_y), plank, Pose()});
+      ASSERT_EQ(a.status, TS_CONTACT) << name;
+      EXPECT_NEAR(a.signed_distance, -0.001, rounding) << name;
+      EXPECT_NEAR(std::abs(a.normal[0]), 1, rounding) << name;
+    }
+    // Beside a long edge of the plank, 45° off its corner: the round is a corner's distance away.
+    const double beyond = 0.07;
+    const Configuration edge{rod, Pose({0.2 + beyond, 1 + beyond, 3 - 0.2}, upright), plank,
+                             Pose()};
+    EXPECT_NEAR(answer("reference", edge).signed_distance, std::sqrt(2.0) * beyond - 0.1, 1e-9);
+    const Answer a = answer(name, edge);
+    EXPECT_EQ(a.status, TS_NONE) << name;
+    ASSERT_TRUE(a.model_distance);
+    EXPECT_NEAR(*a.model_distance, std::sqrt(2.0) * (0.2 + beyond) - 0.2 - 0.1, rounding) << name;
+  }
+}
+
+TEST(Models, ManySidesComeToTheCylinder) {
+  for (const Pair pair : all_pairs) {
+    for (std::uint64_t i = 0; i < 10; ++i) {
+      const Configuration c = make_configuration({pair, "general-shallow", 5, i});
+      const Answer a = answer("prism:128", c);
+      ASSERT_TRUE(a.model_distance);
+      const double truth = oracle::truth(c).signed_distance.midpoint();
+      // An inscribed prism is not deeper, and shallower by at most the sagittas of both.
+      EXPECT_GE(*a.model_distance, truth - 1e-9 * larger_size(c));
+      const double sagitta = larger_size(c) * (1 - std::cos(M_PI / 128));
+      if (pair != Pair::box && pair != Pair::cylinder) {
+        EXPECT_LE(*a.model_distance, truth + 2 * sagitta);
+      }
+      if (a.status == TS_CONTACT) {
+        EXPECT_EQ(a.signed_distance, *a.model_distance);
+      }
+    }
   }
 }
 
