@@ -426,7 +426,7 @@ std::string terminal_table(const Report& report, const Terminal& terminal) {
   if (has_timeouts) {
     text += indented(
                 "timed-out: no answer within the limit of processor time; soon after another "
-                "such answer, within a thousand times the median, at least a tenth of the "
+                "such answer, within a hundred times the median, at least a tenth of the "
                 "limit",
                 terminal) +
             '\n';

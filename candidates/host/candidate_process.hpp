@@ -17,7 +17,7 @@ class Respondent;
 struct Limits {
   /// Processor time: three frames of a simulation, thousands of times that of a query. Once a
   /// candidate has exceeded it within one call of CandidateProcess::answers, it is lower for the
-  /// rest of the call: a thousand times the candidate's median there, at least a tenth. A query may
+  /// rest of the call: a hundred times the candidate's median there, at least a tenth. A query may
   /// wait for something else ten times as long; for a candidate that does so repeatedly within one
   /// call of CandidateProcess::answers this is halved each time, down to the limit itself. Waiting
   /// for a processor does not count.
@@ -78,8 +78,9 @@ class CandidateProcess {
   /// Ends the session. The next call begins a new one.
   void restart();
 
-  /// Prepares shapes for timing in a new session and queries them once, untimed. Keeps as many as
-  /// take about half a millisecond together, at least ten. False if the session died.
+  /// Prepares shapes for timing in a session in which nothing is answered and queries them once,
+  /// untimed. Keeps as many as take about half a millisecond together, at least ten. False if the
+  /// session died.
   bool prepare_timing(std::span<const Configuration> configurations);
   /// Times one round over the prepared shapes: the candidate's process reads the clock around a
   /// loop that contains only calls. Absent if the session died.

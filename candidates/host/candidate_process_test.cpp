@@ -107,7 +107,7 @@ TEST(CandidateProcess, ATimeOutLowersTheLimitForTheRestOfTheCall) {
     }
     EXPECT_EQ(answers[1].reason, "no answer within 0.2 s");
     for (const int i : {20, 21, 25}) {
-      EXPECT_EQ(answers[i].reason, "no answer within 0.02 s and a thousand times its median") << i;
+      EXPECT_EQ(answers[i].reason, "no answer within 0.02 s and a hundred times its median") << i;
     }
   }
 }
@@ -285,6 +285,27 @@ TEST(CandidateProcess, ATailLeavesOutOneQueryInTwentyAndNoMore) {
   };
   EXPECT_LT(tail(19), 1e6);
   EXPECT_GT(tail(5), 9e6);  // only the first ten are kept: they take long
+}
+
+TEST(CandidateProcess, TimesOnlyWhatItWasLastPreparedFor) {
+  // More often than one session serves.
+  CandidateProcess process(sabotage("stalling"), 0);
+  for (int i = 0; i < 18; ++i) {
+    const double at = i % 9 == 0 ? slow : answered;
+    ASSERT_TRUE(process.prepare_timing(standing_at({at, at})));
+    const QueryCost cost = process.cost_per_query().value();
+    EXPECT_EQ(cost.nanoseconds > 9e6, at == slow) << i;
+    EXPECT_EQ(cost.tail.value() > 9e6, at == slow) << i;
+  }
+}
+
+TEST(CandidateProcess, ATimingThatEndedItsSessionDoesNotHarmTheNext) {
+  CandidateProcess process(sabotage("stalling"), 0, {0.02, 256});
+  ASSERT_TRUE(process.prepare_timing(standing_at({answered})));
+  EXPECT_FALSE(process.prepare_timing(standing_at({answered, endless})));
+  EXPECT_FALSE(process.cost_per_query());
+  ASSERT_TRUE(process.prepare_timing(standing_at({answered})));
+  EXPECT_TRUE(process.cost_per_query());
 }
 
 TEST(CandidateProcess, ACrashWhileTimingIsNoTime) {

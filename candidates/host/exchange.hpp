@@ -78,7 +78,7 @@ struct SessionCommand {
   Kind kind;
   std::uint32_t first, count;
   std::uint64_t ticket;  ///< unique to the command
-  bool release;          ///< `answer`: keep no shapes ready for later commands
+  bool release;  ///< `answer`: keep no shapes ready for later commands; `keep`: none kept before
   std::int32_t index;
   double threshold, parameter;  ///< `answer`: from now on contacts up to that threshold
   std::uint64_t memory;         ///< growth in bytes that a session is allowed

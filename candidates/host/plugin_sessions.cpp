@@ -30,7 +30,7 @@ constexpr std::chrono::milliseconds check_interval(1), wait_interval(20);
 /// The lower limit of processor time of a candidate that has exceeded the full one, and beyond
 /// which a configuration is asked again alone: a multiple of the median of its answers, if so many
 /// are known, but at least a share of the full one.
-constexpr double median_factor = 1000, min_share = 0.1;
+constexpr double median_factor = 100, min_share = 0.1;
 constexpr std::size_t min_known = 15, max_known = 255;
 
 /// Time in which a plug-in's process must fork a session.
@@ -47,6 +47,10 @@ constexpr double initial_wait_factor = 10, clock_factor = 100;
 /// session.cpp: to warm up and in one measured pass. Passes are repeated only where they take
 /// microseconds.
 constexpr std::size_t queries_per_round = 2;
+
+/// Calls of prepare_timing that one session serves: a new session takes longer than a timed round,
+/// and a routine that leaks must not end all of them.
+constexpr std::size_t max_timings = 16;
 
 /// Can the signal come from a timer, another process or the kernel, and not only from the routine
 /// that dies of it?
@@ -285,7 +289,7 @@ PluginSessions::TimeLimit PluginSessions::time_limit(const SessionCommand& comma
   if (learnt >= limits_.seconds) return full;
   // Without the number, which is measured and differs from run to run.
   return {std::max(least, learnt),
-          "no answer within " + seconds_text(least) + " and a thousand times its median"};
+          "no answer within " + seconds_text(least) + " and a hundred times its median"};
 }
 
 void PluginSessions::learn(std::uint32_t i) {
@@ -424,7 +428,20 @@ std::vector<Answer> PluginSessions::answer(std::span<const Configuration> config
 }
 
 bool PluginSessions::prepare_timing(std::span<const Configuration> configurations) {
-  end();
+  if (session_ticket_ != timing_ticket_ || timings_ == max_timings) end();
+  const bool is_reused = session_ >= 0;
+  timings_ = is_reused ? timings_ + 1 : 1;
+  bool is_ready = keep_for_timing(configurations);
+  if (!is_ready && is_reused) {  // what the session did before may be the cause
+    end();
+    timings_ = 1;
+    is_ready = keep_for_timing(configurations);
+  }
+  timing_ticket_ = session_ticket_;
+  return is_ready;
+}
+
+bool PluginSessions::keep_for_timing(std::span<const Configuration> configurations) {
   timed_ = configurations.size();
   for (std::size_t at = 0; at < configurations.size(); at += batch_size) {
     const auto batch =
@@ -432,6 +449,7 @@ bool PluginSessions::prepare_timing(std::span<const Configuration> configuration
     for (std::uint32_t i = 0; i < batch.size(); ++i) put(i, batch[i]);
     SessionCommand keep = plain_command(SessionCommand::keep);
     keep.count = static_cast<std::uint32_t>(batch.size());
+    keep.release = at == 0;
     if (obey(keep)) return false;
   }
   return !configurations.empty() &&

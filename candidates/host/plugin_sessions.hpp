@@ -68,6 +68,8 @@ class PluginSessions : public Respondent {
   /// Why a command that makes no progress has waited too long for so many configurations; empty if
   /// it has not.
   std::string judge(const Watch& watch, std::size_t configurations);
+  /// Hands over what is timed and warms up; false if the session died.
+  bool keep_for_timing(std::span<const Configuration> configurations);
   /// Kills the session; its plug-in's process, too, if that does not leave a clean one.
   void kill_session();
 
@@ -81,7 +83,9 @@ class PluginSessions : public Respondent {
   double max_wait_;                     ///< seconds that a query may wait
   std::vector<double> answer_seconds_;  ///< that the first answers took
   bool has_timed_out_ = false;
-  std::size_t timed_ = 0;  ///< configurations of prepare_timing
+  std::size_t timed_ = 0;            ///< configurations of prepare_timing
+  std::size_t timings_ = 0;          ///< calls of prepare_timing that the session has served
+  std::uint64_t timing_ticket_ = 0;  ///< session_ticket_ of the session that serves them
 };
 
 }  // namespace touchstone

@@ -170,6 +170,7 @@ class Session {
   ts_prepared* ready(const Question& question);
   void answer(std::uint32_t slot);
   void release_all_but_of(const SessionCommand& command, std::uint32_t first);
+  void forget_timed();
   void warm_up();
   void query_all();  ///< queries everything kept for timing once
   void time();
@@ -234,6 +235,7 @@ void Session::obey(const SessionCommand& command) {
       }
       return;
     case SessionCommand::keep:
+      if (command.release) forget_timed();
       for (std::uint32_t i = 0; i < command.count; ++i) {
         questions_.push_back(asked_.slots[i]);
       }
@@ -307,6 +309,12 @@ void Session::answer(std::uint32_t i) {
     }
   }
   slot.answer = *answer_;
+}
+
+void Session::forget_timed() {
+  for (const TimedQuery& k : kept_) candidate_.release(k.prepared);
+  kept_.clear();
+  questions_.clear();
 }
 
 void Session::warm_up() {
