@@ -15,11 +15,12 @@ struct Anomaly {
   double c, s;
 };
 
+/// c, s >= 0
 Anomaly towards(double c, double s) {
   const double squared = c * c + s * s;
   constexpr double vanishing = 1e-250;  // digits are lost
-  if (squared < vanishing && (c != 0 || s != 0)) {
-    const double largest = std::max(std::abs(c), std::abs(s));
+  if (squared < vanishing && (c > 0 || s > 0)) {
+    const double largest = std::max(c, s);
     return towards(c / largest, s / largest);
   }
   const double inverse = 1 / std::sqrt(squared);
