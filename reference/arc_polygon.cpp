@@ -105,10 +105,21 @@ ArcPolygon::ArcPolygon(const Lens& lens) : circles_{lens.circle1, lens.circle2},
 }
 
 // Without branches on what is unpredictable: which edges cut the disc, and which corners lie in it.
+// Where rounding puts one end of an edge in the disc and the other, no farther out, off it, the
+// edge still ends where it ends.
 ArcPolygon::ArcPolygon(const Circle& circle, const Strip& first, const Strip& second) {
   circles_[0] = circle;
   const double r = circle.radius, x1 = first.across.x(), y1 = first.across.y();
   const double turn = cross2(first.across, second.across), side = std::copysign(1, turn);
+  constexpr double min_turn = 0.1;
+  if (!(std::abs(turn) > min_turn)) {  // corners lie too far off to be placed
+    is_disc_ = true;
+    for (const Strip& strip : {first, second}) {
+      clip(strip.across, strip.half_width + strip.middle);
+      clip(-strip.across, strip.half_width - strip.middle);
+    }
+    return;
+  }
   const double x2 = side * second.across.x(), y2 = side * second.across.y();
   const double offset1 = first.across.dot(circle.centre) - first.middle;
   const double offset2 = side * (second.across.dot(circle.centre) - second.middle);
@@ -138,8 +149,8 @@ ArcPolygon::ArcPolygon(const Circle& circle, const Strip& first, const Strip& se
                            edge};
       count_ += is_there;
     };
-    add_if(is_cut, begins_inside ? begin[i] : -half, straight);
-    add_if(is_cut & !ends_inside, half, 0);
+    add_if(is_cut, begins_inside ? begin[i] : std::max(begin[i], -half), straight);
+    add_if(is_cut & !ends_inside, std::min(end[i], half), 0);
   }
   is_disc_ = count_ == 0 && *std::min_element(distance, distance + 4) >= 0;
 }

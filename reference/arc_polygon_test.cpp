@@ -220,6 +220,34 @@ TEST(ArcPolygon, DiscInTwoStripsIsTheDiscCutByTheirFourLines) {
   }));
 }
 
+// Where a strip is as thin as rounding, which corners are in the disc is rounding, too. A sliver of
+// 1e-12, which is not cut off, is 2.9e-6 long.
+TEST(ArcPolygon, DiscInThinStripsAtItsRimIsWithinBoth) {
+  const auto power = [](int lo) { return std::pow(10, 0.1 * *rc::gen::inRange(10 * lo, 1)); };
+  EXPECT_TRUE(rc::check([&] {
+    const double angle = 0.001 * *rc::gen::inRange(0, 6283), apart = *rc::gen::element(0.0, 1.0);
+    const double off = (*rc::gen::element(-1, 1)) * apart * power(-20);
+    const Vec2 middle = (1 + off) * direction(*rc::gen::element(angle, angle + 0.5, angle + 1.5));
+    const double turn = *rc::gen::element(0.02, 0.5, 1.0, 1.5, 2.5) * std::numbers::pi / 3;
+    std::array<Strip, 2> strips;
+    for (Strip& s : strips) {
+      const Vec2 across = direction(&s == strips.data() ? angle : angle + turn);
+      s = {across, across.dot(middle), *rc::gen::element(1.0, 0.0) * power(-20) + 1e-238};
+    }
+    const ArcPolygon region(unit, strips[0], strips[1]);
+    if (region.empty()) return;
+    std::array<Vec2, 8> points;
+    const int count = region.spread(Vec2(1, 0.37), points);
+    RC_ASSERT(count > 0);
+    for (int i = 0; i < count; ++i) {
+      RC_ASSERT(points[i].norm() <= 1 + 1e-12);
+      for (const Strip& s : strips) {
+        RC_ASSERT(std::abs(s.across.dot(points[i]) - s.middle) <= s.half_width + 2.9e-6);
+      }
+    }
+  }));
+}
+
 TEST(ArcPolygon, DiscThatTwoStripsHoldIsWhole) {
   for (const double half_width : {1.0, 1 - 1e-14, 3.0}) {
     const ArcPolygon region(unit, {Vec2(1, 0), 0, half_width}, {Vec2(0, -1), 0, half_width});
