@@ -321,6 +321,12 @@ expect 2 'junit.xml.*is no JSON' compare "$folder/junit.xml" "$r"
 expect 2 'proof.json": must be the report.json of touchstone report, but has schema "touchstone-cert' compare "$folder/proof.json" "$r"
 expect 2 '--max-error-factor is "0.5"' compare "$r" "$r" --max-error-factor 0.5
 expect 2 '--html' compare "$r" "$r" --html "$folder/none/compare.html"
+# Another count, and one report has another pair as well: the groups of the common pair are compared.
+expect 0 '2 configurations' report --candidates reference --count 1 --pair cylinder-plane,cylinder-sphere \
+  --class lying,cap --only scores --out "$folder/both"
+expect 0 '2 configurations' report --candidates reference --count 2 --pair cylinder-plane --class lying \
+  --only scores --out "$folder/one"
+expect 0 'compared' compare "$folder/both/report.json" "$folder/one/report.json"
 
 expect 2 '--emit.*no-such-engine.*must be one of bullet, ode, fcl, libccd, mujoco' \
   replay cylinder-box/rim-face/1/2 --emit no-such-engine
@@ -408,6 +414,17 @@ case ${PIPESTATUS[0]} in 0 | 141) ;; *) echo "FAILED: | true"; failures=$((failu
 "$program" replay nonsense 2>/dev/full
 [ $? -eq 2 ] || { echo "FAILED: 2>/dev/full"; failures=$((failures + 1)); }
 expect 2 '--html.*No space left' replay $rim --html /dev/full --candidates reference
+
+# Input that cannot be read is an error, not an empty file: a folder, or a closed standard input.
+for command in solve "score - --name mine --out $folder/lost" "replay -" "certify -"; do
+  # shellcheck disable=SC2086
+  "$program" $command <"$folder" >/dev/null 2>"$folder/lost.log"
+  lost_input=$?
+  # shellcheck disable=SC2086
+  "$program" $command <&- >/dev/null 2>>"$folder/lost.log"
+  [ "$lost_input $? $(grep -c 'is "*standard input"*: could not be read' "$folder/lost.log")" = "2 2 2" ] ||
+    { echo "FAILED: touchstone $command without standard input"; failures=$((failures + 1)); }
+done
 
 # Every number of every option is read alike: refused by its name, with the range.
 for number in -1 nan "" 0x1.8p-1z; do
