@@ -57,7 +57,7 @@ TEST(ChoiceText, AndJsonNameTheSameReplayOfAFailure) {
     if (run["name"] != "capsule") continue;
     EXPECT_EQ(run["holds"], false);
     EXPECT_THAT(run["evidence"]["replay"].get<std::string>(),
-                HasSubstr("touchstone replay out/can-"));
+                HasSubstr("./touchstone replay out/can-"));
     return;
   }
   FAIL() << "no run with capsules";
@@ -113,7 +113,8 @@ TEST_F(WarehousePairs, NameTheConfigurationOfWhatDoesNotServe) {
     }
   }
   EXPECT_GT(failures, 0);
-  EXPECT_THAT(pairs_text(choice, "out"), HasSubstr("touchstone replay out/warehouse-"));
+  EXPECT_THAT(pairs_text(choice, "out"), HasSubstr("./touchstone replay out/warehouse-"));
+  EXPECT_THAT(pairs_text(choice, "my out"), HasSubstr("./touchstone replay 'my out/warehouse-"));
 }
 
 }  // namespace

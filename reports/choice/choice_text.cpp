@@ -75,8 +75,9 @@ std::string kinds_of(const Choice& choice, const std::string& folder) {
 
 std::string headline(const Choice& choice) {
   if (choice.impossible) {
+    const std::size_t disturbance = choice.runs[0].disturbance;
     return fmt::format("Not even exact contacts meet the needs of this scene{}:\n",
-                       in_disturbance(choice.runs[0]));
+                       disturbance == 0 ? "" : fmt::format(" under disturbance {}", disturbance));
   }
   if (choice.answer == 0) return "Exact: no cheaper model meets all needs:\n";
   const double of_contacts =
@@ -127,8 +128,9 @@ std::string choice_text(const Choice& choice, const std::string& folder) {
   std::string lines = fmt::format("{}: {} bodies, {:g} s in steps of {:.2g} s\n", file.name,
                                   file.scene.bodies.size(), file.scene.duration, file.scene.step);
   if (const Trials& t = choice.trials; t.disturbances > 0) {
-    lines += fmt::format("Each run as it is written, then under {} disturbances (seed {})\n",
-                         t.disturbances, t.seed);
+    lines += fmt::format(
+        "Each run as it is written, then under {} disturbances, the answer under {}\n(seed {})\n",
+        t.disturbances, t.of_answer(), t.seed);
   }
   lines += '\n' + headline(choice);
   lines += needs_of(choice, answer);
