@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <gmock/gmock.h>
+#include <sstream>
 
 #include <nlohmann/json.hpp>
 
@@ -61,6 +62,19 @@ TEST(ChoiceText, AndJsonNameTheSameReplayOfAFailure) {
     return;
   }
   FAIL() << "no run with capsules";
+}
+
+TEST(ChoiceText, FitsIntoTheTerminalButForCommandsToPaste) {
+  const Choice choice = choice_of(stands);
+  for (const std::size_t columns : {std::size_t{40}, std::size_t{80}}) {
+    std::istringstream lines(choice_text(choice, "out", columns));
+    for (std::string line; std::getline(lines, line);) {
+      const bool is_command = line.find("./touchstone") != line.npos;
+      EXPECT_TRUE(is_command || line.size() <= columns) << line;
+    }
+  }
+  EXPECT_THAT(choice_text(choice, "out"),
+              HasSubstr("under 16 disturbances, the answer under 80 (seed 1)\n"));
 }
 
 struct WarehousePairs : testing::Test {
