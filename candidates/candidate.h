@@ -83,7 +83,7 @@ typedef struct ts_parameter {
 typedef struct ts_prepared ts_prepared;
 
 typedef struct ts_candidate {
-  const char* name;     /* as on the command line: "bullet"; ASCII, no colon, comma, space */
+  const char* name;     /* as on the command line: "bullet"; ASCII, no colon, comma, slash, space */
   const char* version;  /* of the engine: "3.24" */
   const char* settings; /* how it is called: precision, margin, algorithm, conventions */
 

@@ -209,9 +209,12 @@ class Registry {
 
   void add(std::vector<Candidate> candidates, const Added& subject, const std::optional<Added>& by,
            bool listed) {
-    for (const Candidate& c : candidates) {
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      const Candidate& c = candidates[i];
       const auto same = [&](const Candidate& other) { return other.family == c.family; };
-      if (std::any_of(known_.begin(), known_.end(), same)) {
+      if (std::any_of(known_.begin(), known_.end(), same) ||
+          std::any_of(candidates.begin(), candidates.begin() + static_cast<std::ptrdiff_t>(i),
+                      same)) {
         throw InvalidInput(subject.option, '"' + subject.value + '"',
                            "must not bring \"" + c.family + "\", a name that is taken");
       }

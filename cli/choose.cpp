@@ -9,6 +9,7 @@
 #include "reference/invalid_input.hpp"
 #include "reports/choice/choice.hpp"
 #include "reports/replay.hpp"
+#include "reports/terminal.hpp"
 
 namespace touchstone {
 namespace {
@@ -48,7 +49,7 @@ int choose_scene(const Options& options) {
   write_evidence(choice, folder);
   write_file(options.out + "/choose.json", choice_json(choice, command, folder, 1) + '\n', "--out");
   fmt::print("{}", options.json ? choice_json(choice, command, folder) + '\n'
-                                : choice_text(choice, folder));
+                                : choice_text(choice, folder, standard_output().columns));
   write_file(options.out + "/choose.html", choice_page(choice, command, folder, limits), "--out");
   if (!options.json) fmt::print("\nPage: {0}/choose.html; data: {0}/choose.json\n", options.out);
   return choice.impossible ? not_served : 0;
@@ -69,8 +70,8 @@ int choose_pairs(const Options& options) {
   const std::string folder = options.folder();
   write_evidence(choice, folder);
   write_file(options.out + "/choose.json", pairs_json(choice, command, folder, 1) + '\n', "--out");
-  fmt::print(
-      "{}", options.json ? pairs_json(choice, command, folder) + '\n' : pairs_text(choice, folder));
+  fmt::print("{}", options.json ? pairs_json(choice, command, folder) + '\n'
+                                : pairs_text(choice, folder, standard_output().columns));
   return choice.all_served() ? 0 : not_served;
 }
 

@@ -93,7 +93,7 @@ expect 0 '^2 configurations: ' export $lying --count 2 --out "$folder/truth.csv"
   { echo "FAILED: export writes other configurations"; failures=$((failures + 1)); }
 # shellcheck disable=SC2086
 expect 0 '"id":"cylinder-plane/lying/1/1"' export $lying --count 2
-expect 2 '--out is "txt": must be one of jsonl, csv, npz' export --out "$folder/truth.txt"
+expect 2 '--out is ".*/truth.txt": must end in .jsonl, .csv or .npz' export --out "$folder/truth.txt"
 expect 2 '--format is "xml": must be one of' export --format xml
 expect 2 '--suite' export --suite --count 3
 # shellcheck disable=SC2086
@@ -141,6 +141,7 @@ expect 2 'already holds a campaign, in shard-.*jsonl: ./touchstone campaign .*--
 expect 2 'already holds a campaign, in shard-.*choose another folder' merge "$folder/c" --out "$folder/c"
 expect 0 '^4 configurations' merge "$folder/c" --out "$folder/m"
 expect 2 'could not be opened' merge "$folder/none" --out "$folder/n"
+expect 2 'campaign.json" is the result of a campaign: must be a shard file' merge "$folder/m/campaign.json" --out "$folder/n"
 expect 2 '^error: --candidate is missing: must be given: Its name' search
 expect 1 'shallow\|overdeep\|missed' search --candidate capsule --pair cylinder-sphere \
   --class general-deep --count 40 --save "$folder/found"
@@ -248,14 +249,19 @@ expect 2 '--record' simulate "$folder/can.json" --record /proc/none/recorded.jso
 expect 2 'is given with --record: must stand without it' simulate "$folder/can.json" --record "$folder/r.jsonl" --out "$folder"
 expect 2 'scene.*could not be opened' simulate "$folder/none.json" --record "$folder/recorded.jsonl"
 expect 0 'can stands within 1' choose "$folder/can.json" --candidates capsule --out "$folder/choice"
+# Neither a file's name of other bytes than text nor one with a control character disturbs what is printed.
+odd="$folder/$(printf 'caf\xe9\x1b[2J').json"
+cp "$folder/can.json" "$odd"
+expect 0 'can stands within 1' choose "$odd" --candidates capsule --out "$folder/odd"
+expect 0 '^caf? \[2J: 3 of 72' simulate "$odd" --count 3 --record "$folder/odd.jsonl"
 mkdir "$folder/my scenes"
 cp "$folder/can.json" "$folder/my scenes/"
-expect 0 "choose '$folder/my scenes/can.json' --candidates capsule --time-limit 0.1 --memory-limit 1024\"" \
+expect 0 "choose '$folder/my scenes/can.json' --candidates capsule --time-limit 0.1 --memory-limit 1024 --disturbances 16 --seed 1\"" \
   choose "$folder/my scenes/can.json" --candidates capsule --time-limit 0.1 --json --out "$folder/choice"
 [ -s "$folder/choice/choose.html" ] || { echo "FAILED: no choose.html"; failures=$((failures + 1)); }
 sed 's/"degrees":1/"degrees":1e-30/; s/0.2\]}/0.2],"orientation":[1,0.1,0,0]}/' "$folder/can.json" > "$folder/fall.json"
-expect 1 'Not even exact contacts' choose "$folder/fall.json" --candidates capsule --out "$folder/choice"
-expect 2 'must be one of reference' render "$folder/can.json" --contacts no-such-engine
+expect 1 'Not even exact contacts meet the needs of this scene' choose "$folder/fall.json" --candidates capsule --out "$folder/choice"
+expect 2 '--contacts is "no-such-engine": must be one of reference' render "$folder/can.json" --contacts no-such-engine
 expect 0 '4 frames' render "$folder/can.json" --every 0.1 --out "$folder/frames"
 [ -s "$folder/frames/frame-00004.inc" ] || { echo "FAILED: no frame"; failures=$((failures + 1)); }
 
@@ -321,6 +327,12 @@ expect 2 'junit.xml.*is no JSON' compare "$folder/junit.xml" "$r"
 expect 2 'proof.json": must be the report.json of touchstone report, but has schema "touchstone-cert' compare "$folder/proof.json" "$r"
 expect 2 '--max-error-factor is "0.5"' compare "$r" "$r" --max-error-factor 0.5
 expect 2 '--html' compare "$r" "$r" --html "$folder/none/compare.html"
+# Another count, and one report has another pair as well: the groups of the common pair are compared.
+expect 0 '2 configurations' report --candidates reference --count 1 --pair cylinder-plane,cylinder-sphere \
+  --class lying,cap --only scores --out "$folder/both"
+expect 0 '2 configurations' report --candidates reference --count 2 --pair cylinder-plane --class lying \
+  --only scores --out "$folder/one"
+expect 0 'compared' compare "$folder/both/report.json" "$folder/one/report.json"
 
 expect 2 '--emit.*no-such-engine.*must be one of bullet, ode, fcl, libccd, mujoco' \
   replay cylinder-box/rim-face/1/2 --emit no-such-engine
@@ -408,6 +420,17 @@ case ${PIPESTATUS[0]} in 0 | 141) ;; *) echo "FAILED: | true"; failures=$((failu
 "$program" replay nonsense 2>/dev/full
 [ $? -eq 2 ] || { echo "FAILED: 2>/dev/full"; failures=$((failures + 1)); }
 expect 2 '--html.*No space left' replay $rim --html /dev/full --candidates reference
+
+# Input that cannot be read is an error, not an empty file: a folder, or a closed standard input.
+for command in solve "score - --name mine --out $folder/lost" "replay -" "certify -"; do
+  # shellcheck disable=SC2086
+  "$program" $command <"$folder" >/dev/null 2>"$folder/lost.log"
+  lost_input=$?
+  # shellcheck disable=SC2086
+  "$program" $command <&- >/dev/null 2>>"$folder/lost.log"
+  [ "$lost_input $? $(grep -c 'is "*standard input"*: could not be read' "$folder/lost.log")" = "2 2 2" ] ||
+    { echo "FAILED: touchstone $command without standard input"; failures=$((failures + 1)); }
+done
 
 # Every number of every option is read alike: refused by its name, with the range.
 for number in -1 nan "" 0x1.8p-1z; do

@@ -37,7 +37,14 @@ struct Options {
   TestDataFormat format() const {
     if (!format_name.empty()) return parse_test_data_format(format_name, "--format");
     const std::string ending = std::filesystem::path(out).extension().string();
-    if (out != "-" && !ending.empty()) return parse_test_data_format(ending.substr(1), "--out");
+    if (out != "-" && !ending.empty()) {
+      try {
+        return parse_test_data_format(ending.substr(1), "--out");
+      } catch (const InvalidInput&) {
+        throw InvalidInput("--out", '"' + out + '"',
+                           "must end in .jsonl, .csv or .npz, or stand beside --format");
+      }
+    }
     return suite ? TestDataFormat::csv : TestDataFormat::json_lines;
   }
 };

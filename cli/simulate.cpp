@@ -196,8 +196,16 @@ SceneFile read(const std::string& file) {
   return is_shapes_file(file) ? still_scene(read_shapes(file)) : read_scene(file);
 }
 
+const Candidate& contacts_of(const RenderOptions& options) {
+  try {
+    return find_candidate(options.contacts);
+  } catch (const InvalidInput& e) {
+    throw InvalidInput("--contacts", e.value(), e.remedy());
+  }
+}
+
 int run_render(const RenderOptions& options) {
-  const Candidate& candidate = find_candidate(options.contacts);
+  const Candidate& candidate = contacts_of(options);
   const SceneFile file = read(options.scene);
   check_writable(options.out);
   CandidateProcess process(candidate, simulation_threshold);

@@ -1,8 +1,10 @@
 // Configurations: drawn from pose classes, or of the caller's own.
+#include <algorithm>
 #include <pybind11/stl.h>
 
 #include "properties/identity.hpp"
 #include "python/bindings.hpp"
+#include "reference/invalid_input.hpp"
 
 namespace touchstone::python {
 namespace {
@@ -26,15 +28,26 @@ py::dict classes_of(const std::string& name) {
   return result;
 }
 
+/// As many as the command line's reports have answers.
+constexpr std::uint64_t max_configurations = 100000000;
+
 py::list configurations_of(const std::string& name,
                            const std::optional<std::vector<std::string>>& classes,
                            std::uint64_t seed, std::uint64_t count) {
   const Pair pair = parse_pair(name);
   const std::vector<std::string> wanted = classes.value_or(pose_classes(pair));
   check_pose_classes({pair}, wanted);
+  if (count < 1 || count > max_configurations / std::max<std::size_t>(1, wanted.size())) {
+    throw InvalidInput("count", std::to_string(count),
+                       "must be from 1 to as many as make " + std::to_string(max_configurations) +
+                           " configurations in all");
+  }
   py::list result;
   for (const std::string& each : wanted) {
-    for (std::uint64_t i = 0; i < count; ++i) result.append(subject({pair, each, seed, i}));
+    for (std::uint64_t i = 0; i < count; ++i) {
+      if (PyErr_CheckSignals() != 0) throw py::error_already_set();  // as by Ctrl-C
+      result.append(subject({pair, each, seed, i}));
+    }
   }
   return result;
 }

@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "candidates/host/exchange.hpp"
 #include "candidates/host/interruption.hpp"
 #include "properties/files/disk.hpp"
 #include "python/bindings.hpp"
@@ -36,10 +37,9 @@ struct Request {
 
 /// Throws InvalidInput unless reports and command lines can name a candidate so.
 void check_name(const std::string& name) {
-  const auto is_plain = [](char c) { return c > ' ' && c <= '~' && c != ':' && c != ','; };
-  if (!name.empty() && std::all_of(name.begin(), name.end(), is_plain)) return;
+  if (is_candidate_name(name)) return;
   throw InvalidInput("name", py::repr(py::str(name)).cast<std::string>(),
-                     "must be printable ASCII without colon, comma or space");
+                     std::string("must be ") + candidate_names);
 }
 
 Candidate candidate_of(const Request& request) {

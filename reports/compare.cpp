@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include "properties/identity.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone {
@@ -16,14 +17,15 @@ namespace {
 
 using Verdict = Change::Verdict;
 using Names = std::set<std::string>;
+using Groups = std::set<std::pair<std::string, std::string>>;  // pair or "all", group
 
 /// The common ground of two reports, and everything else that a person must know before reading
 /// differences into them.
 struct Basis {
   bool same_configurations = true;  ///< seed, and count of each class that both have
   bool same_bar = true;             ///< tolerance and threshold
-  bool same_classes = true;
-  bool times = true;  ///< both have the baseline that times are related to
+  Groups split;                     ///< those with a class that only one of the reports has
+  bool times = true;                ///< both have the baseline that times are related to
   std::vector<std::string> remarks;
 };
 
@@ -36,6 +38,31 @@ Names candidate_names(const Report& report) {
 Names class_names(const Report& report) {
   Names result;
   for (const ResultRow& row : report.results) result.insert(row.pair + '/' + row.pose_class);
+  return result;
+}
+
+/// The group of a class; all where this version does not know it, for it may be of any.
+std::vector<Group> possible_groups(const std::string& pair, const std::string& pose_class) {
+  try {
+    return {group_of(parse_pair(pair), pose_class)};
+  } catch (const InvalidInput&) {
+    return {std::begin(all_groups), std::end(all_groups)};
+  }
+}
+
+Groups split_groups(const Names& old_classes, const Names& new_classes) {
+  Names uncommon;
+  std::set_symmetric_difference(old_classes.begin(), old_classes.end(), new_classes.begin(),
+                                new_classes.end(), std::inserter(uncommon, uncommon.end()));
+  Groups result;
+  for (const std::string& name : uncommon) {
+    const std::size_t slash = name.find('/');
+    const std::string pair = name.substr(0, slash);
+    for (const Group group : possible_groups(pair, name.substr(slash + 1))) {
+      result.insert({pair, group_name(group)});
+      result.insert({"all", group_name(group)});
+    }
+  }
   return result;
 }
 
@@ -112,7 +139,7 @@ Basis basis_of(const Report& before, const Report& after, const std::string& bas
   const Names old_classes = class_names(before), new_classes = class_names(after);
   remark_only(basis, "candidates", old_names, new_names);
   remark_only(basis, "classes", old_classes, new_classes);
-  basis.same_classes = old_classes == new_classes;
+  basis.split = split_groups(old_classes, new_classes);
   const auto counts = other_counts(before, after);
   basis.same_configurations = before.seed == after.seed && !counts;
   if (!basis.same_configurations) {
@@ -126,6 +153,9 @@ Basis basis_of(const Report& before, const Report& after, const std::string& bas
         fmt::format("The configurations differ ({}): only groups of classes as a whole are "
                     "compared, by median and 99th percentile, and agreement beyond chance.",
                     why));
+    if (!basis.split.empty()) {
+      basis.remarks.push_back("Groups with a class that only one report has are not compared.");
+    }
   }
   for (const auto& [report, which] : {std::pair(&before, "old"), std::pair(&after, "new")}) {
     if (!report->is_old) continue;
@@ -267,14 +297,16 @@ void compare_instructions(Changes& changes, const ResultRow& before, const Resul
               true);
 }
 
-/// Compares the rows that both lists have.
+/// Compares the rows that both lists have and that cover the same classes.
 void compare_rows(Comparison& comparison, const std::vector<ResultRow>& before,
                   const std::vector<ResultRow>& after, const Basis& basis, bool with_errors) {
   const CompareLimits& limits = comparison.limits;
   const Rows old_rows = rows_of(before), new_rows = rows_of(after);
   for (const auto& [key, old_row] : old_rows) {
     const auto found = new_rows.find(key);
-    if (found == new_rows.end()) continue;
+    if (found == new_rows.end() || basis.split.contains({std::get<0>(key), std::get<1>(key)})) {
+      continue;
+    }
     const ResultRow &old = *old_row, &now = *found->second;
     const bool had = supported(old.statistics) > 0, has = supported(now.statistics) > 0;
     if (!had && !has) continue;
@@ -334,9 +366,7 @@ Comparison compare(const Report& before, const Report& after, const CompareLimit
   const Basis basis = basis_of(before, after, limits.baseline);
   Comparison result{side(before), side(after), limits, basis.remarks, 0, {}};
   if (basis.same_configurations) compare_rows(result, before.results, after.results, basis, true);
-  if (basis.same_classes) {
-    compare_rows(result, before.summary, after.summary, basis, !basis.same_configurations);
-  }
+  compare_rows(result, before.summary, after.summary, basis, !basis.same_configurations);
   if (result.compared == 0 && (before.is_old || after.is_old) && !basis.same_configurations) {
     throw InvalidInput(before.is_old ? "OLD" : "NEW", "of schema 1",
                        "must be made again with this version of touchstone, for it knows no groups "
@@ -344,7 +374,10 @@ Comparison compare(const Report& before, const Report& after, const CompareLimit
   }
   if (result.compared == 0) {
     throw InvalidInput("NEW", "of other things",
-                       "must have a candidate and a class in common with OLD");
+                       basis.same_configurations
+                           ? "must have a candidate and a class in common with OLD"
+                           : "must have a candidate and all classes of a group of some pair in "
+                             "common with OLD, for its seed or count is another");
   }
   std::stable_sort(result.changes.begin(), result.changes.end(),
                    [](const Change& a, const Change& b) { return size_of(a) > size_of(b); });

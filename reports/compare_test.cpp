@@ -245,6 +245,32 @@ TEST(Compare, OfOtherConfigurationsTakesPairsAsAWholeBeyondChance) {
               testing::ElementsAre("worse everyday mine agreement"));
 }
 
+TEST(Compare, OfOtherConfigurationsTakesEveryGroupOfWhichBothReportsHaveAllClasses) {
+  json now = small_report();
+  now["seed"] = 2;
+  now["summary"][1] = row("everyday", "mine", 50, 1e-6, 200);
+  for (const char* list : {"results", "summary"}) {  // another pair, and with it all pairs
+    now[list].push_back(
+        row(list == std::string("results") ? "cap" : "everyday", "mine", 1, 1, 200));
+    now[list].back()["pair"] = "cylinder-sphere";
+  }
+  json old = small_report();
+  for (json* report : {&old, &now}) {
+    (*report)["summary"].push_back(row("everyday", "mine", report == &old ? 80 : 10, 1, 200));
+    (*report)["summary"].back()["pair"] = "all";
+  }
+  EXPECT_THAT(changes(compare(old, now, {})),
+              testing::ElementsAre("worse everyday mine agreement"));
+
+  // A class of another group, and one that this version does not know.
+  now["results"].push_back(row("general+far", "mine", 1, 1, 200));
+  EXPECT_THAT(changes(compare(old, now, {})),
+              testing::ElementsAre("worse everyday mine agreement"));
+  now["results"].back()["class"] = "of-tomorrow";
+  EXPECT_THAT([&] { compare(old, now, {}); },
+              testing::ThrowsMessage<InvalidInput>(HasSubstr("all classes of a group")));
+}
+
 TEST(Compare, AReportOfTheOldSchemaIsComparedByClassesUnderTheirNamesOfToday) {
   json old = small_report(), now = small_report();
   old["schema"] = 1;

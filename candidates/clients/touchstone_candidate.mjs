@@ -21,7 +21,7 @@
 //
 // A candidate has these members; only `name` to `pairs` and `query` are required.
 //
-//   name        as on the command line: printable ASCII without colon, comma or space
+//   name        as on the command line: printable ASCII without colon, comma, slash or space, not "-…"
 //   version     of the engine
 //   settings    how it is called: algorithm, margin, tolerance, where its contact points lie
 //   pairs       of cylinder-plane, cylinder-sphere, cylinder-capsule, cylinder-cylinder and

@@ -111,7 +111,7 @@ class Candidate:
     """An engine. A subclass sets `name` to `pairs` and defines `query`; the rest is optional."""
 
     name: str
-    """As on the command line: printable ASCII without colon, comma or space."""
+    """As on the command line: printable ASCII without colon, comma, slash or space, not "-…"."""
     version: str
     settings: str
     """How the engine is called: algorithm, margin, tolerance, where its contact points lie."""

@@ -372,9 +372,11 @@ TEST(PluginProcess, RefusesWhatIsNoPlugin) {
   };
   const std::string folder = TOUCHSTONE_TEST_PLUGINS;
   refused("nowhere.so", "must be a file");
-  refused("/etc/passwd", "invalid ELF header");
+  refused("/etc/passwd", "must be a plug-in, which is a shared object (.so)");
   refused(folder + "/touchstone-old.so", "version 2 of candidate.h; this is version 4");
   refused(folder + "/touchstone-deadly.so", "Aborted");
+  refused(folder + "/touchstone-outside.so", "whose name is not of up to 63 characters");
+  refused(folder + "/touchstone-twins.so", "must not bring \"twin\", a name that is taken");
   sabotage("sabotage");
   refused(folder + "/touchstone-sabotage.so", "a name that is taken");
 }

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <string_view>
 #include <sys/types.h>
 
 #include "candidates/candidate.h"
@@ -32,6 +33,20 @@ struct Slot {
 
 /// Number of questions and answers in one batch.
 inline constexpr std::uint32_t batch_size = 64;
+
+/// The rule for a candidate's name, which command lines, lists and files hold; in words, after
+/// "must be".
+constexpr bool is_candidate_name(std::string_view name) {
+  constexpr std::size_t max_length = 63;
+  if (name.empty() || name.size() > max_length || name.front() == '-') return false;
+  for (const char c : name) {
+    if (c <= ' ' || c > '~' || c == ':' || c == ',' || c == '/') return false;
+  }
+  return true;
+}
+inline constexpr const char* candidate_names =
+    "up to 63 characters of printable ASCII without colon, comma, slash or space, not beginning "
+    "with a hyphen";
 
 /// Shared memory that the candidate's processes cannot write to.
 struct Questions {

@@ -344,11 +344,7 @@ Hello read_hello(const std::string& line) {
   if (version != 1) refuse_member("touchstone", version, "1, the version of this protocol");
   Candidate c;
   c.name = c.family = text_member(json, "name", true);
-  const auto plain = [](unsigned char x) { return std::isgraph(x) && x != ':' && x != ','; };
-  if (c.name.empty() || c.name.size() > 63 || !std::all_of(c.name.begin(), c.name.end(), plain)) {
-    refuse_member("name", c.name,
-                  "up to 63 characters of printable ASCII without colon, comma or space");
-  }
+  if (!is_candidate_name(c.name)) refuse_member("name", c.name, candidate_names);
   c.version = readable(text_member(json, "version", true));
   c.precision = choice_member(json, "precision", {"double", "float"});
   c.runs = choice_member(json, "runs", {"native", "wasm", "script"});

@@ -40,6 +40,8 @@ TEST(Hello, IsRefusedWithTheMemberTheValueAndTheRemedy) {
   } cases[] = {
       {"\"touchstone\": 1", "\"touchstone\": 2", "\"touchstone\": \"2\", which must be 1"},
       {"\"mine\"", "\"my engine\"", "\"name\": \"\"my engine\"\", which must be up to 63"},
+      {"\"mine\"", "\"../mine\"", "which must be up to 63"},
+      {"\"mine\"", "\"-mine\"", "which must be up to 63"},
       {"\"mine\"", "7", "\"name\": \"7\", which must be a text"},
       {"\"version\": \"2\", ", "", "\"version\": nothing, which must be a text"},
       {"\"float\"", "\"half\"", "must be \"double\" or \"float\""},

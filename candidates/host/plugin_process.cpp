@@ -85,7 +85,8 @@ std::string readable(const std::string& text) {
     if (length == 1) {
       result += lead < 0x20 || lead == 0x7f ? ' ' : static_cast<char>(lead);
     } else {
-      result.append(text, i, length);
+      const bool is_control = lead == 0xc2 && static_cast<unsigned char>(text[i + 1]) < 0xa0;
+      result.append(is_control ? std::string(length, ' ') : text.substr(i, length));
     }
     i += length;
   }

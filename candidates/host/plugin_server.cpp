@@ -1,6 +1,4 @@
 // The plug-in's side: the server that loads it, describes it, and forks sessions of it.
-#include <algorithm>
-#include <cctype>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -114,12 +112,9 @@ void copy(const char* from, char (&to)[size]) {
 
 Description describe(const ts_candidate& c) {
   const std::string name = c.name ? c.name : "";
-  const auto plain = [](unsigned char x) { return std::isgraph(x) && x != ':' && x != ','; };
-  if (name.empty() || name.size() >= sizeof Description::name ||
-      !std::all_of(name.begin(), name.end(), plain)) {
-    throw std::runtime_error("has a candidate whose name is not of up to " +
-                             std::to_string(sizeof Description::name - 1) +
-                             " characters of printable ASCII without colon, comma or space");
+  if (!is_candidate_name(name)) {
+    throw std::runtime_error(std::string("has a candidate whose name is not of ") +
+                             candidate_names);
   }
   if (!c.version || !c.settings || !c.supports || !c.prepare || !c.query || !c.release) {
     throw std::runtime_error(std::string("leaves something out in the candidate ") + c.name);

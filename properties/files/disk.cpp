@@ -1,11 +1,12 @@
 #include "properties/files/disk.hpp"
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <fstream>
-#include <istream>
+#include <iostream>
 #include <string>
 #include <system_error>
 #include <unistd.h>
@@ -113,6 +114,10 @@ std::string read_file(const std::filesystem::path& file, const char* field) {
   return read_stream(in, name, field);
 }
 
+bool ended_by_error(const std::istream& in) {
+  return in.bad() || (&in == &std::cin && std::ferror(stdin) != 0);
+}
+
 std::string read_stream(std::istream& in, const std::string& name, const char* field) {
   std::string text, block(1 << 16, '\0');
   while (in) {
@@ -122,7 +127,7 @@ std::string read_stream(std::istream& in, const std::string& name, const char* f
       throw InvalidInput(field, name, fmt::format("must have at most {} bytes", max_file_size));
     }
   }
-  if (in.bad()) throw InvalidInput(field, name, "could not be read to its end");
+  if (ended_by_error(in)) throw InvalidInput(field, name, "could not be read to its end");
   return text;
 }
 

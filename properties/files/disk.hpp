@@ -30,6 +30,8 @@ inline constexpr std::size_t max_file_size = std::size_t{1} << 27;
 std::string read_file(const std::filesystem::path& file, const char* field);
 /// The rest of an open stream; `name` is what errors call it.
 std::string read_stream(std::istream& in, const std::string& name, const char* field);
+/// Has an error rather than its end ended the stream? std::cin keeps that from its readers.
+bool ended_by_error(const std::istream& in);
 
 /// True for the name of anything that exists and is not a folder, a pipe for example.
 bool is_file(const std::filesystem::path& name);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <fmt/format.h>
-#include <istream>
+#include <iostream>
 #include <optional>
 #include <set>
 #include <sstream>
@@ -12,6 +12,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "properties/files/disk.hpp"
 #include "properties/files/given_text.hpp"
 #include "reference/invalid_input.hpp"
 
@@ -251,6 +252,10 @@ bool JsonLines::read_line() {
 bool JsonLines::next() {
   while (read_line()) {
     if (line_.size() > max_line || line_.find_first_not_of(" \t\r") != line_.npos) return true;
+  }
+  if (ended_by_error(in_)) {
+    throw InvalidInput("file", &in_ == &std::cin ? "standard input" : "unreadable",
+                       "could not be read to its end");
   }
   return false;
 }

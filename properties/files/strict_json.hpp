@@ -36,7 +36,8 @@ std::vector<nlohmann::json> parse_json_lines(const std::string& text, const std:
 class JsonLines {
  public:
   explicit JsonLines(std::istream& in) : in_(in) {}
-  /// Goes on to the next line; false where there is none.
+  /// Goes on to the next line; false where there is none. Throws InvalidInput (field "file") where
+  /// an error ended the input, of which the lines before it are good.
   bool next();
   std::uint64_t number() const { return number_; }  ///< of the line, from 1
   /// Throws InvalidInput (field "line") where the line is no JSON or longer than 1 MiB.

@@ -3,6 +3,7 @@ import ast
 import math
 import pathlib
 import pickle
+import signal
 import sys
 import threading
 import time
@@ -295,6 +296,19 @@ class Configurations(unittest.TestCase):
         self.assertEqual(len(touchstone.configurations(pair, count=2)),
                          2 * len(touchstone.classes(pair)))
         self.assertEqual(len(touchstone.configurations(pair, ["general-shallow"])), 10)
+        for count in (0, 10**12, 10**8 + 1):
+            with self.assertRaisesRegex(ValueError, f"count is {count}: must be from 1 to as many"):
+                touchstone.configurations(pair, ["general-shallow"], count=count)
+
+    def test_ctrl_c_ends_a_long_drawing(self):
+        alarm = signal.signal(signal.SIGALRM, signal.default_int_handler)
+        try:
+            signal.setitimer(signal.ITIMER_REAL, 0.05)
+            with self.assertRaises(KeyboardInterrupt):
+                touchstone.configurations("cylinder-sphere", ["general-shallow"], count=10**7)
+        finally:
+            signal.setitimer(signal.ITIMER_REAL, 0)
+            signal.signal(signal.SIGALRM, alarm)
 
     def test_your_own_have_no_identity(self):
         own = Configuration(CAN, Pose((0, 0, 1)), Sphere(1), Pose())

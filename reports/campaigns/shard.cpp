@@ -179,12 +179,20 @@ std::string checksum_line(std::string_view text) {
       "that part again");
 }
 
+/// Refuses what merge or campaign wrote beside the shard files, which is good but none of them.
+void refuse_result(std::string_view text, const std::string& file) {
+  if (text.find("\"touchstone-campaign-") == text.npos) return;
+  throw InvalidInput('"' + file + '"', "the result of a campaign",
+                     "must be a shard file, shard-….jsonl, as there is one beside it");
+}
+
 /// What comes before the last line, which must be its checksum.
 std::string_view intact(std::string_view text, const std::string& file) {
   const std::size_t last_line =
       text.size() < 2 ? std::string_view::npos : text.rfind('\n', text.size() - 2);
   if (last_line == std::string_view::npos ||
       text.substr(last_line + 1) != checksum_line(text.substr(0, last_line + 1))) {
+    refuse_result(text, file);
     refuse(file, "damaged, cut short, or something else");
   }
   return text.substr(0, last_line + 1);

@@ -57,10 +57,11 @@ struct PairsChoice {
 PairsChoice choose_for_pairs(const ShapesFile& file, const PairNeeds& needs,
                              const std::vector<const Candidate*>& candidates, const Limits& limits);
 
-/// Text for a terminal of 80 columns: the answer, what fails first with cheaper models, and the run
-/// of each candidate.
-std::string choice_text(const Choice& choice, const std::string& folder);
-std::string pairs_text(const PairsChoice& choice, const std::string& folder);
+/// Text for a terminal: the answer, what fails first with cheaper models, and the run of each
+/// candidate.
+std::string choice_text(const Choice& choice, const std::string& folder, std::size_t columns = 80);
+std::string pairs_text(const PairsChoice& choice, const std::string& folder,
+                       std::size_t columns = 80);
 
 /// ", disturbance 3"; empty for the scene as it is written.
 std::string in_disturbance(const SceneRun& run);

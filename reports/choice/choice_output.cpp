@@ -12,6 +12,7 @@
 #include "reports/choice/choice.hpp"
 #include "reports/make_report.hpp"
 #include "reports/pages/page.hpp"
+#include "reports/replay.hpp"
 #include "reports/report_json.hpp"
 #include "simulation/engines/run_engines.hpp"
 
@@ -134,6 +135,11 @@ std::string as_file_name(std::string name) {
   return name;
 }
 
+/// The names of files and folders may be of any bytes; JSON is UTF-8.
+std::string dumped(const json& value, int indent) {
+  return value.dump(indent, ' ', false, json::error_handler_t::replace);
+}
+
 void write_configuration(const std::string& file, const Configuration& configuration) {
   write_file(file, to_json(configuration).dump() + '\n', "--out");
 }
@@ -178,7 +184,7 @@ std::string choice_json(const Choice& choice, const std::string& command, const 
                        {"runs", runs},
                        {"front", front(choice)},
                        {"too_slow", too_slow}};
-  return result.dump(indent);
+  return dumped(result, indent);
 }
 
 std::string pairs_json(const PairsChoice& choice, const std::string& command,
@@ -208,7 +214,7 @@ std::string pairs_json(const PairsChoice& choice, const std::string& command,
                          {"count", choice.needs.count},
                          {"seed", choice.needs.seed}}},
                        {"pairs", pairs}};
-  return result.dump(indent);
+  return dumped(result, indent);
 }
 
 std::string evidence_file(const Choice& choice, std::size_t run, const std::string& folder) {
@@ -223,7 +229,8 @@ std::string evidence_file(const PairsChoice& choice, std::size_t pair,
 }
 
 std::string replay_command(const std::string& file, const std::string& candidate) {
-  return fmt::format("touchstone replay {} --candidates reference,{}", file, candidate);
+  return fmt::format("{} replay {} --candidates reference,{}", program_name({candidate}),
+                     shell_quoted(file), shell_quoted(candidate));
 }
 
 void write_evidence(const Choice& choice, const std::string& folder) {

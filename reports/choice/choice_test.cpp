@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <gmock/gmock.h>
+#include <sstream>
 
 #include <nlohmann/json.hpp>
 
@@ -57,10 +58,23 @@ TEST(ChoiceText, AndJsonNameTheSameReplayOfAFailure) {
     if (run["name"] != "capsule") continue;
     EXPECT_EQ(run["holds"], false);
     EXPECT_THAT(run["evidence"]["replay"].get<std::string>(),
-                HasSubstr("touchstone replay out/can-"));
+                HasSubstr("./touchstone replay out/can-"));
     return;
   }
   FAIL() << "no run with capsules";
+}
+
+TEST(ChoiceText, FitsIntoTheTerminalButForCommandsToPaste) {
+  const Choice choice = choice_of(stands);
+  for (const std::size_t columns : {std::size_t{40}, std::size_t{80}}) {
+    std::istringstream lines(choice_text(choice, "out", columns));
+    for (std::string line; std::getline(lines, line);) {
+      const bool is_command = line.find("./touchstone") != line.npos;
+      EXPECT_TRUE(is_command || line.size() <= columns) << line;
+    }
+  }
+  EXPECT_THAT(choice_text(choice, "out"),
+              HasSubstr("under 16 disturbances, the answer under 80 (seed 1)\n"));
 }
 
 struct WarehousePairs : testing::Test {
@@ -113,7 +127,8 @@ TEST_F(WarehousePairs, NameTheConfigurationOfWhatDoesNotServe) {
     }
   }
   EXPECT_GT(failures, 0);
-  EXPECT_THAT(pairs_text(choice, "out"), HasSubstr("touchstone replay out/warehouse-"));
+  EXPECT_THAT(pairs_text(choice, "out"), HasSubstr("./touchstone replay out/warehouse-"));
+  EXPECT_THAT(pairs_text(choice, "my out"), HasSubstr("./touchstone replay 'my out/warehouse-"));
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <sstream>
 
 #include "reports/choice/choice.hpp"
 
@@ -75,8 +76,9 @@ std::string kinds_of(const Choice& choice, const std::string& folder) {
 
 std::string headline(const Choice& choice) {
   if (choice.impossible) {
+    const std::size_t disturbance = choice.runs[0].disturbance;
     return fmt::format("Not even exact contacts meet the needs of this scene{}:\n",
-                       in_disturbance(choice.runs[0]));
+                       disturbance == 0 ? "" : fmt::format(" under disturbance {}", disturbance));
   }
   if (choice.answer == 0) return "Exact: no cheaper model meets all needs:\n";
   const double of_contacts =
@@ -115,24 +117,43 @@ std::string errors(const ReplayScore& s) {
                      s.normal_angle);
 }
 
+/// Breaks what is wider than a terminal between words, the rest further in. Commands stay whole, to
+/// be pasted.
+std::string folded(const std::string& text, std::size_t columns) {
+  std::string result, line;
+  for (std::istringstream lines(text); std::getline(lines, line);) {
+    const std::size_t indent = std::min(line.find_first_not_of(' '), line.size());
+    const bool is_command = line.compare(indent, 2, "./") == 0;
+    while (!is_command && line.size() > columns) {
+      const std::size_t at = line.rfind(' ', columns);
+      if (at == line.npos || at <= indent + 2) break;  // a long word
+      result += line.substr(0, at) + '\n';
+      line = std::string(indent + 2, ' ') + line.substr(at + 1);
+    }
+    result += line + '\n';
+  }
+  return result;
+}
+
 }  // namespace
 
 std::string in_disturbance(const SceneRun& run) {
   return run.disturbance == 0 ? "" : fmt::format(", disturbance {}", run.disturbance);
 }
 
-std::string choice_text(const Choice& choice, const std::string& folder) {
+std::string choice_text(const Choice& choice, const std::string& folder, std::size_t columns) {
   const SceneFile& file = choice.file;
   const SceneRun& answer = choice.runs[choice.answer];
   std::string lines = fmt::format("{}: {} bodies, {:g} s in steps of {:.2g} s\n", file.name,
                                   file.scene.bodies.size(), file.scene.duration, file.scene.step);
   if (const Trials& t = choice.trials; t.disturbances > 0) {
-    lines += fmt::format("Each run as it is written, then under {} disturbances (seed {})\n",
-                         t.disturbances, t.seed);
+    lines += fmt::format(
+        "Each run as written, then under {} disturbances, the answer under {} (seed {})\n",
+        t.disturbances, t.of_answer(), t.seed);
   }
   lines += '\n' + headline(choice);
   lines += needs_of(choice, answer);
-  if (choice.impossible) return lines;
+  if (choice.impossible) return folded(lines, columns);
   const auto steps = static_cast<double>(choice.exact_run.frames.size() - 1);
   const double exact = choice.runs[0].nanoseconds / 1000 / steps;
   lines +=
@@ -140,10 +161,10 @@ std::string choice_text(const Choice& choice, const std::string& folder) {
                   answer.nanoseconds / 1000 / steps,
                   choice.answer == 0 ? "" : fmt::format(" instead of {:.2g} µs exactly", exact),
                   choice.rest_of_step() * 1e6, kinds_of(choice, folder));
-  return lines + candidates_table(choice, steps);
+  return folded(lines + candidates_table(choice, steps), columns);
 }
 
-std::string pairs_text(const PairsChoice& choice, const std::string& folder) {
+std::string pairs_text(const PairsChoice& choice, const std::string& folder, std::size_t columns) {
   std::string lines = fmt::format(
       "{}: {} collision shapes, {} kinds of pairs with a cylinder\n"
       "Needs: depth within {:g} m, normals within {:g}°, on {} sampled poses of each\n",
@@ -169,7 +190,7 @@ std::string pairs_text(const PairsChoice& choice, const std::string& folder) {
                       errors(c.score), replay_command(evidence_file(choice, i, c, folder), c.name));
     }
   }
-  return lines;
+  return folded(lines, columns);
 }
 
 }  // namespace touchstone

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "candidates/host/plugin_process.hpp"
 #include "properties/files/disk.hpp"
 #include "properties/files/given_text.hpp"
 #include "reference/invalid_input.hpp"
@@ -223,6 +224,22 @@ void check_sdf_collisions(const std::string& text, std::string_view newest_versi
   check_sdf_links(sdf, "");
 }
 
+namespace {
+
+/// Refuses other encodings: names go into JSON, and the file's readers do not convert them.
+void check_utf8(const std::string& text, const std::filesystem::path& file) {
+  const std::string good = readable(text);
+  for (std::size_t i = 0, line = 1; i < text.size(); ++i) {
+    if (text[i] == '\n') ++line;
+    const bool is_ascii = static_cast<unsigned char>(text[i]) < 0x80;
+    if (is_ascii || good[i] != '?') continue;
+    throw InvalidInput("scene", '"' + file.string() + '"',
+                       fmt::format("must be UTF-8, whatever it says itself: line {} is not", line));
+  }
+}
+
+}  // namespace
+
 std::string read_xml(const std::filesystem::path& file) {
   std::string text = read_file(file, "scene");
   constexpr std::size_t max_depth = 100;
@@ -233,6 +250,7 @@ std::string read_xml(const std::filesystem::path& file) {
     throw InvalidInput("scene", '"' + file.string() + '"',
                        fmt::format("must have elements at most {} levels deep", max_depth));
   }
+  check_utf8(text, file);
   return text;
 }
 

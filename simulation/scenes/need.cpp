@@ -99,7 +99,12 @@ struct Stands : Need {
     members.time_or_default("from", from);
     members.time_or_default("until", until);
   }
-  void check(const Scene& scene) const override { require_vertical(scene, name); }
+  void check(const Scene& scene) const override {
+    require_vertical(scene, name);
+    if (until >= from) return;
+    throw InvalidInput("until", fmt::format("{:g}", until),
+                       fmt::format("must not lie before from, which is {:g}", from));
+  }
   std::string text(const Scene& scene) const override {
     return fmt::format("{} stands within {:g}°{}{}", names(scene, bodies), degrees, from_text(from),
                        until < scene.duration ? fmt::format(" until {:g} s", until) : "");

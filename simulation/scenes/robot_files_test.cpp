@@ -126,6 +126,21 @@ std::string sdf_refusal(const std::string& geometry, const std::string& version 
                                     geometry + "</collision></link></model></world></sdf>");
 }
 
+TEST(RobotFiles, OfAnotherEncodingOrWithControlCharactersInNamesAreRefused) {
+  const auto urdf = [](const std::string& robot, const std::string& link) {
+    return refusal_of("part.urdf", "<?xml version='1.0' encoding='ISO-8859-1'?>\n<robot name='" +
+                                       robot + "'><link name='" + link +
+                                       "'><collision><geometry><sphere radius='1'/></geometry>"
+                                       "</collision></link></robot>");
+  };
+  EXPECT_THAT(urdf("r", "caf\xe9"), HasSubstr("must be UTF-8, whatever it says itself: line 2"));
+  EXPECT_EQ(urdf("r", "café"), "accepted with 1 shapes");
+  EXPECT_THAT(urdf("r\x1b[2J", "l"), HasSubstr("name is "));
+  EXPECT_THAT(urdf("r", "l\x1b[2J"), HasSubstr("must be without control characters"));
+  EXPECT_THAT(refusal_of("part.sdf", "<sdf version='1.7'><model name='caf\xe9'/></sdf>"),
+              HasSubstr("must be UTF-8"));
+}
+
 TEST(Urdf, RefusesAShapeThatItsReaderWouldDrop) {
   const auto of = [](const std::string& shape) {
     return urdf_refusal("<geometry>" + shape + "</geometry>");

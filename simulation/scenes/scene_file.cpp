@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "candidates/host/plugin_process.hpp"
 #include "properties/files/configuration_json.hpp"
 #include "properties/files/disk.hpp"
 #include "properties/files/strict_json.hpp"
@@ -40,8 +41,9 @@ std::map<std::string, NamedMaterial> read_materials(const json& file) {
       if (!value.contains(field)) return otherwise;
       const double x = number(value[field], path + '.' + field);
       if (!(std::isfinite(x) && x >= 0 && x <= max)) {
-        throw InvalidInput(path + '.' + field, shown(value[field]),
-                           max == 1 ? "must lie between 0 and 1" : "must be finite and positive");
+        throw InvalidInput(
+            path + '.' + field, shown(value[field]),
+            max == 1 ? "must lie between 0 and 1" : "must be finite and not negative");
       }
       return x;
     };
@@ -60,6 +62,7 @@ Body read_body(const json& value, const std::string& path,
       value, {"name", "shape", "material", "pose", "velocity", "angular_velocity", "fixed"}, path);
   Body body{string(member(value, "name", path), path + ".name"),
             shape_from_json(member(value, "shape", path), path + ".shape")};
+  check_printable(path + ".name", body.name);
   if (value.contains("material")) {
     const std::string name = string(value["material"], path + ".material");
     if (!materials.contains(name)) {
@@ -101,14 +104,17 @@ class NeedReader final : public NeedMembers {
 
   void body(std::vector<int>& bodies) override {
     bodies = {index(member(value_, "body", path_), at("body"))};
+    require_motion(bodies, value_["body"], at("body"));
   }
   void bodies(std::vector<int>& bodies) override {
     constexpr std::size_t no_limit = 1000000;
     bodies = array(1, no_limit);
+    require_motion(bodies, value_["bodies"], at("bodies"));
   }
   void moving_bodies(std::vector<int>& bodies) override {
     if (value_.contains("bodies")) {
       bodies = array(1, scene_.bodies.size());
+      require_motion(bodies, value_["bodies"], at("bodies"));
       return;
     }
     for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
@@ -118,10 +124,15 @@ class NeedReader final : public NeedMembers {
   /// One of them must be a cylinder: contacts of other pairs are not judged.
   void pair(std::vector<int>& bodies) override {
     bodies = array(2, 2);
-    for (const int b : bodies) {
-      if (std::holds_alternative<Cylinder>(scene_.bodies[b].shape)) return;
+    const auto is_cylinder = [&](int b) {
+      return std::holds_alternative<Cylinder>(scene_.bodies[b].shape);
+    };
+    if (!is_cylinder(bodies[0]) && !is_cylinder(bodies[1])) {
+      throw InvalidInput(at("bodies"), shown(value_["bodies"]), "one of them must be a cylinder");
     }
-    throw InvalidInput(at("bodies"), shown(value_["bodies"]), "one of them must be a cylinder");
+    if (bodies[0] == bodies[1]) {
+      throw InvalidInput(at("bodies"), shown(value_["bodies"]), "must be two bodies");
+    }
   }
   void any_pair(std::vector<int>& bodies) override {
     if (value_.contains("bodies")) pair(bodies);
@@ -155,6 +166,14 @@ class NeedReader final : public NeedMembers {
  private:
   std::string at(const char* name) const { return path_ + '.' + name; }
 
+  /// What a need says of a motion, a fixed body would meet or break from the start.
+  void require_motion(const std::vector<int>& bodies, const json& given,
+                      const std::string& field) const {
+    for (const int b : bodies) {
+      if (!scene_.bodies[b].fixed) continue;
+      throw InvalidInput(field, shown(given), "must move: " + scene_.bodies[b].name + " is fixed");
+    }
+  }
   int index(const json& name, const std::string& field) const {
     for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
       if (name == scene_.bodies[i].name) return static_cast<int>(i);
@@ -285,6 +304,11 @@ Camera camera_for(const Scene& scene) {
   return {centre + 2.6 * reach * Vec3(0.45, -0.8, 0.4), centre};
 }
 
+void check_printable(const std::string& field, const std::string& name) {
+  if (readable(name) == name) return;
+  throw InvalidInput(field, shown(name), "must be without control characters");
+}
+
 SceneFile scene_from_text(std::string_view text, const std::filesystem::path& path) {
   const json file = parse_json(text, path.string());
   require_object(file, "scene");
@@ -293,7 +317,7 @@ SceneFile scene_from_text(std::string_view text, const std::filesystem::path& pa
                  "materials", "bodies", "needs", "camera"},
                 "");
   SceneFile result;
-  result.name = path.stem().string();
+  result.name = readable(path.stem().string());
   if (file.contains("description")) result.description = string(file["description"], "description");
   Scene& scene = result.scene;
   if (file.contains("gravity")) scene.gravity = vector(file["gravity"], "gravity");
@@ -314,6 +338,10 @@ SceneFile scene_from_text(std::string_view text, const std::filesystem::path& pa
   check_scene(scene);
   constexpr double max_steps = 1e6, max_states = 4e6;  // a state of a body takes 200 bytes
   const double steps = scene.duration / scene.step;
+  if (std::round(steps) < 1) {
+    throw InvalidInput("duration", shown(file["duration"]),
+                       fmt::format("must be at least one step, which is {:g} s", scene.step));
+  }
   if (steps > max_steps || steps * static_cast<double>(scene.bodies.size()) > max_states) {
     throw InvalidInput("duration", shown(file["duration"]),
                        "must be at most a million steps, and four million divided by the number of "

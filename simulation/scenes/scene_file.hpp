@@ -65,6 +65,10 @@ struct ShapesFile {
 /// Is it the name of a robot or world file (.urdf, .sdf, .world)?
 bool is_shapes_file(const std::filesystem::path& file);
 
+/// Throws InvalidInput with this field unless a terminal shows the name as it is: valid UTF-8
+/// without control characters.
+void check_printable(const std::string& field, const std::string& name);
+
 /// Reads URDF or SDF, by the extension. Throws InvalidInput with the element's name.
 ShapesFile read_shapes(const std::filesystem::path& file);
 // The libraries behind them may print on standard error what is wrong.

@@ -94,6 +94,8 @@ TEST(SceneFile, ErrorsNameThePathOfTheField) {
   EXPECT_THAT(refusal([](json& s) { s["bodies"] = 3; }), HasSubstr("bodies is 3"));
   EXPECT_THAT(refusal([](json& s) { s["materials"]["steel"]["restitution"] = 2; }),
               HasSubstr("materials.steel.restitution is 2: must lie between 0 and 1"));
+  EXPECT_THAT(refusal([](json& s) { s["materials"]["steel"]["friction"] = -1; }),
+              HasSubstr("steel.friction is -1: must be finite and not negative"));
   EXPECT_THAT(refusal([](json& s) { s.erase("duration"); }), HasSubstr("duration is missing"));
   EXPECT_THAT(refusal([](json& s) { s["step"] = 1e-6; }), HasSubstr("a million steps"));
   EXPECT_THAT(refusal([](json& s) {
@@ -134,6 +136,46 @@ TEST(SceneFile, ErrorsOfNeedsNameThePathOfTheField) {
       refusal(need(
           {{"need", "stays-in"}, {"body", "can"}, {"lower", {0, 0, 1}}, {"upper", {1, 1, 0}}})),
       HasSubstr("needs[0].upper"));
+}
+
+TEST(SceneFile, RefusesNeedsThatWouldHoldOrBreakWhateverMoves) {
+  const auto need = [](const json& value) { return [=](json& s) { s["needs"][0] = value; }; };
+  EXPECT_THAT(
+      refusal(
+          need({{"need", "stands"}, {"body", "can"}, {"degrees", 1}, {"from", 1}, {"until", 0.5}})),
+      HasSubstr("needs[0].until is 0.5: must not lie before from, which is 1"));
+  EXPECT_THAT(refusal(need({{"need", "penetration"}, {"bodies", {"can", "can"}}, {"metres", 1}})),
+              HasSubstr("needs[0].bodies is [\"can\",\"can\"]: must be two bodies"));
+  for (const json& of_ground :
+       {json{{"need", "stands"}, {"body", "ground"}, {"degrees", 1}},
+        json{{"need", "rolls"}, {"body", "ground"}, {"share", 0.1}},
+        json{{"need", "rests"}, {"bodies", {"can", "ground"}}, {"speed", 1}},
+        json{{"need", "ends-near"}, {"body", "ground"}, {"metres", 1}},
+        json{{"need", "ends-tilted"}, {"body", "ground"}, {"degrees", 1}},
+        json{{"need", "falls-in-order"}, {"bodies", {"ground"}}}}) {
+    EXPECT_THAT(refusal(need(of_ground)), HasSubstr("must move: ground is fixed")) << of_ground;
+  }
+}
+
+TEST(SceneFile, IsAtLeastAStepLong) {
+  for (const double duration : {0.0, 0.001}) {
+    EXPECT_THAT(refusal([&](json& s) {
+                  s["duration"] = duration;
+                  s["needs"] = json::array();
+                }),
+                HasSubstr("duration is " + json(duration).dump() + ": must be at least one step"));
+  }
+  EXPECT_THAT(refusal([](json& s) { s["duration"] = -1; }), HasSubstr("duration is -1"));
+}
+
+TEST(SceneFile, NamesAreWithoutControlCharacters) {
+  for (const char* name : {"can\n", "\x1b[2J", "\u009b2J"}) {
+    EXPECT_THAT(refusal([&](json& s) { s["bodies"][1]["name"] = name; }),
+                HasSubstr("bodies[1].name is "))
+        << name;
+  }
+  // A file's name may be of any bytes; what is shown of it is text.
+  EXPECT_EQ(scene_from_text(small_scene().dump(), "caf\xe9\n.json").name, "caf? ");
 }
 
 TEST(SceneFile, ThatIsNoneIsRefused) {

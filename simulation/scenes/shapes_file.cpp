@@ -6,6 +6,7 @@
 #include <sstream>
 #include <urdf_parser/urdf_parser.h>
 
+#include "candidates/host/plugin_process.hpp"
 #include "properties/files/given_text.hpp"
 #include "reference/invalid_input.hpp"
 #include "simulation/scenes/scene_file.hpp"
@@ -152,6 +153,12 @@ ShapesFile read_shapes(const std::filesystem::path& file) {
                        fmt::format("must have at most {} collision shapes, not {}", max_shapes,
                                    shapes.shapes.size()));
   }
+  check_printable(file.string() + ": name", shapes.name);
+  for (const PlacedShape& s : shapes.shapes) {
+    check_printable(file.string() + ": collision", s.name);
+    check_printable(file.string() + ": link", s.link);
+  }
+  for (std::string& note : shapes.ignored) note = readable(note);
   return shapes;
 }
 
