@@ -337,7 +337,8 @@ Configuration tipping_can(int i) {
 }
 /// Two cans lie one upon the other, the upper tilted out of parallel by 0.2 mrad a step.
 Configuration seesaw(int i) {
-  return {can, Pose({0.01, 0, 0.0655}, turn(y, 2e-4 * (i - poses / 2)) * lying), can,
+  constexpr int level = poses / 2;
+  return {can, Pose({0.01, 0, 0.0655}, turn(y, 2e-4 * (i - level)) * lying), can,
           Pose({0, 0, 0}, lying)};
 }
 /// A battery lies on a table, 0.2 mm deep, and turns by ten microradians a step.
