@@ -2,11 +2,13 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "reference/pose.hpp"
 #include "reference/shape.hpp"
+#include "simulation/mechanism.hpp"
 
 namespace touchstone {
 
@@ -27,11 +29,21 @@ struct Body {
   Vec3 velocity = Vec3::Zero();          ///< m/s
   Vec3 angular_velocity = Vec3::Zero();  ///< rad/s
   bool fixed = false;                    ///< immovable; a plane must be
+  std::optional<Drive> drive = {};       ///< instead of forces; the body is not fixed then
+  /// Velocity of the surface in the body's own frame, m/s, as that of a conveyor's belt; its part
+  /// along the contact normal has no effect.
+  Vec3 surface_velocity = Vec3::Zero();
+  bool collides = true;  ///< false: it has mass, but touches nothing
+
+  /// Do forces move it?
+  bool is_free() const { return !fixed && !drive; }
 };
 
-/// Bodies under gravity, and the settings of the solver that moves them.
+/// Bodies under gravity, what else moves them, and the settings of the solver.
 struct Scene {
   std::vector<Body> bodies;
+  std::vector<Joint> joints = {};
+  std::vector<Push> pushes = {};
   Vec3 gravity = Vec3(0, 0, -9.81);  ///< m/s²
   double step = 1.0 / 240;           ///< s
   double duration = 1;               ///< s

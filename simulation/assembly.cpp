@@ -1,0 +1,148 @@
+#include "simulation/assembly.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <utility>
+
+#include <Eigen/Eigenvalues>
+
+namespace touchstone {
+namespace {
+
+/// Pose of frame B in frame A, from both in the world.
+Pose relative(const Pose& X_WA, const Pose& X_WB) {
+  const Eigen::Quaterniond back = X_WA.unit_orientation().conjugate();
+  return {back * (X_WB.position() - X_WA.position()), back * X_WB.unit_orientation()};
+}
+
+/// By body: the first body of its assembly, or the number of bodies if that holds the world.
+std::vector<int> first_of_assembly(const Scene& scene) {
+  const int world = static_cast<int>(scene.bodies.size());
+  std::vector<int> group(scene.bodies.size() + 1);
+  std::iota(group.begin(), group.end(), 0);
+  const auto root = [&](int i) {
+    while (group[i] != i) i = group[i];
+    return i;
+  };
+  for (const Joint& joint : scene.joints) {
+    if (joint.kind != JointKind::fixed) continue;
+    const int a = root(joint.a), b = root(joint.b == world_body ? world : joint.b);
+    if (a == world || b == world) {
+      group[a] = group[b] = world;
+    } else {
+      group[std::max(a, b)] = std::min(a, b);
+    }
+  }
+  for (int& g : group) g = root(g);
+  group.pop_back();
+  return group;
+}
+
+/// Centre of mass and principal axes of bodies that are rigidly joined; the moment of a point mass
+/// is m (r² 1 − r rᵀ) (parallel axis theorem).
+void join(const Scene& scene, Assembly& assembly) {
+  double mass = 0;
+  Vec3 moment = Vec3::Zero();
+  for (const int b : assembly.bodies) {
+    const Body& body = scene.bodies[b];
+    const double m = inertia(body.shape, body.density).mass;
+    mass += m;
+    moment += m * body.pose.position();
+  }
+  const Vec3 centre = moment / mass;
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  for (const int b : assembly.bodies) {
+    const Body& body = scene.bodies[b];
+    const Inertia i = inertia(body.shape, body.density);
+    const Eigen::Matrix3d& r = body.pose.rotation();
+    const Vec3 arm = body.pose.position() - centre;
+    sum += r * i.principal.asDiagonal() * r.transpose();
+    sum += i.mass * (arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose());
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(sum);
+  Eigen::Matrix3d axes = principal.eigenvectors();
+  if (axes.determinant() < 0) axes.col(0) *= -1;
+  assembly.inertia = {mass, principal.eigenvalues()};
+  assembly.X_WF = Pose(centre, Eigen::Quaterniond(axes));
+}
+
+}  // namespace
+
+std::vector<Assembly> assemblies(const Scene& scene) {
+  const std::vector<int> first = first_of_assembly(scene);
+  const int world = static_cast<int>(scene.bodies.size());
+  std::vector<int> place(scene.bodies.size() + 1, -1);
+  std::vector<Assembly> result;
+  for (int b = 0; b < world; ++b) {
+    // What holds the world is one rigid body, too, but each of its bodies can stand for itself.
+    int& index = first[b] == world ? place[b] : place[first[b]];
+    if (index < 0) {
+      index = static_cast<int>(result.size());
+      result.emplace_back();
+    }
+    Assembly& assembly = result[index];
+    assembly.bodies.push_back(b);
+    assembly.fixed = assembly.fixed || first[b] == world || scene.bodies[b].fixed;
+    if (scene.bodies[b].drive) assembly.driven = b;
+  }
+  for (Assembly& assembly : result) {
+    const int first_body = assembly.bodies.front();
+    const Body& lead = scene.bodies[assembly.driven < 0 ? first_body : assembly.driven];
+    assembly.X_WF = lead.pose;
+    if (assembly.is_free()) {
+      assembly.inertia = inertia(lead.shape, lead.density);
+      if (assembly.bodies.size() > 1) join(scene, assembly);
+    }
+    for (const int b : assembly.bodies) {
+      assembly.X_FB.push_back(
+          assembly.bodies.size() == 1 ? Pose() : relative(assembly.X_WF, scene.bodies[b].pose));
+    }
+  }
+  return result;
+}
+
+BodyState state_within(const BodyState& assembly, const Pose& X_FB) {
+  const Vec3 arm = assembly.pose.rotation() * X_FB.position();
+  return {Pose(assembly.pose.position() + arm,
+               assembly.pose.unit_orientation() * X_FB.unit_orientation()),
+          assembly.velocity + assembly.angular_velocity.cross(arm), assembly.angular_velocity};
+}
+
+BodyState driven_state(const Drive& drive, const Pose& start, double time, double step) {
+  const Pose before = driven_pose(drive, start, time - step);
+  const Pose after = driven_pose(drive, start, time);
+  const Eigen::AngleAxisd turn(after.unit_orientation() * before.unit_orientation().conjugate());
+  // An angle of up to 2π about some axis: the shorter way is meant.
+  const double angle = std::remainder(turn.angle(), 2 * std::numbers::pi);
+  return {after, (after.position() - before.position()) / step, angle / step * turn.axis()};
+}
+
+Touching::Touching(const Scene& scene)
+    : count_(scene.bodies.size()), allowed_(count_ * count_, true) {
+  const std::vector<Assembly> all = assemblies(scene);
+  std::vector<std::size_t> of(count_);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    for (const int b : all[i].bodies) of[b] = i;
+  }
+  for (std::size_t a = 0; a < count_; ++a) {
+    for (std::size_t b = 0; b < count_; ++b) {
+      const bool is_one = of[a] == of[b];
+      const bool is_moved = all[of[a]].is_free() || all[of[b]].is_free();
+      if (is_one || !is_moved || !scene.bodies[a].collides || !scene.bodies[b].collides) {
+        allowed_[a * count_ + b] = false;
+      }
+    }
+  }
+  for (const Joint& joint : scene.joints) {
+    if (joint.b == world_body) continue;
+    for (const int a : all[of[joint.a]].bodies) {
+      for (const int b : all[of[joint.b]].bodies) {
+        allowed_[a * count_ + b] = allowed_[b * count_ + a] = false;
+      }
+    }
+  }
+}
+
+}  // namespace touchstone

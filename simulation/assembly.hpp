@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "simulation/scene.hpp"
+
+namespace touchstone {
+
+/// Bodies that fixed joints make one rigid body; most often a single body. Its frame F has its
+/// origin in the centre of mass and its axes along the principal ones; of a single
+/// body it is that body's, of bodies that forces do not move that of the driven or the first one.
+struct Assembly {
+  std::vector<int> bodies;              ///< ascending indices
+  bool fixed = false;                   ///< to the world
+  int driven = -1;                      ///< the body whose drive moves all of them; −1: none
+  Inertia inertia = {0, Vec3::Zero()};  ///< zero unless forces move it
+  Pose X_WF = {};                       ///< at the start
+  std::vector<Pose> X_FB = {};          ///< by body
+
+  bool is_free() const { return !fixed && driven < 0; }
+};
+
+/// The assemblies of a scene that check_scene accepts, in the order of their first bodies.
+std::vector<Assembly> assemblies(const Scene& scene);
+
+/// State of a body that is at X_FB in the frame of an assembly with this state.
+BodyState state_within(const BodyState& assembly, const Pose& X_FB);
+
+/// State of a driven body in the step that ends at a time: the pose then, and the mean velocities
+/// that lead to it from the pose one step before.
+BodyState driven_state(const Drive& drive, const Pose& start, double time, double step);
+
+/// May the two bodies touch? Not if neither is moved by forces, if one of them does not collide, or
+/// if they are of one assembly or of two with a joint between them.
+class Touching {
+ public:
+  explicit Touching(const Scene& scene);
+  bool operator()(int a, int b) const { return allowed_[a * count_ + b]; }
+
+ private:
+  std::size_t count_;
+  std::vector<bool> allowed_;
+};
+
+}  // namespace touchstone

@@ -1,0 +1,72 @@
+#include "simulation/mechanism.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numbers>
+
+namespace touchstone {
+namespace {
+
+Eigen::Quaterniond turned_by(const Vec3& rotation_vector) {
+  const double angle = rotation_vector.norm();
+  if (angle == 0) return Eigen::Quaterniond::Identity();
+  return Eigen::Quaterniond(Eigen::AngleAxisd(angle, rotation_vector / angle));
+}
+
+struct PoseAt {
+  const Pose& start;
+  double time;
+
+  Pose operator()(const SteadyMotion& m) const {
+    return {start.position() + time * m.velocity,
+            turned_by(time * m.angular_velocity) * start.unit_orientation()};
+  }
+  Pose operator()(const Oscillation& o) const {
+    const double s = std::sin(2 * std::numbers::pi * o.frequency * time);
+    return {start.position() + s * o.amplitude, turned_by(s * o.turn) * start.unit_orientation()};
+  }
+  Pose operator()(const Waypoints& waypoints) const {
+    Waypoint from{0, start};
+    for (const Waypoint& to : waypoints) {
+      if (time < to.time) {
+        const double share = std::max(0.0, (time - from.time) / (to.time - from.time));
+        const double s = share * share * (3 - 2 * share);
+        return {from.pose.position() + s * (to.pose.position() - from.pose.position()),
+                from.pose.unit_orientation().slerp(s, to.pose.unit_orientation())};
+      }
+      from = to;
+    }
+    return from.pose;
+  }
+};
+
+}  // namespace
+
+Pose driven_pose(const Drive& drive, const Pose& start, double time) {
+  return std::visit(PoseAt{start, time}, drive);
+}
+
+const char* joint_kind_name(JointKind kind) {
+  switch (kind) {
+    case JointKind::fixed:
+      return "fixed";
+    case JointKind::hinge:
+      return "hinge";
+    case JointKind::slider:
+      break;
+  }
+  return "slider";
+}
+
+double Motor::target_at(double time) const {
+  const auto after = std::find_if(course.begin(), course.end(),
+                                  [&](const auto& entry) { return time < entry.first; });
+  if (after == course.begin()) return after->second;
+  const auto before = std::prev(after);
+  if (after == course.end()) return before->second;
+  const double share = (time - before->first) / (after->first - before->first);
+  return before->second + share * (after->second - before->second);
+}
+
+}  // namespace touchstone
