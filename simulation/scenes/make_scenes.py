@@ -229,6 +229,14 @@ def conveyor():
     }
 
 
+def product(p, q):
+    """Quaternion of turning by q, then by p."""
+    w, x, y, z = p
+    a, b, d, e = q
+    return [round(v, 9) for v in (w * a - x * b - y * d - z * e, w * b + x * a + y * e - z * d,
+                                  w * d - x * e + y * a + z * b, w * e + x * d - y * b + z * a)]
+
+
 def waypoints(*poses):
     """A drive through (time, position[, orientation]), at rest in each."""
     result = []
@@ -278,7 +286,7 @@ def gripper():
             {"need": "rests", "bodies": ["can"], "speed": 0.005, "by": 2.7},
             {"need": "penetration", "metres": 0.001},
         ],
-        "camera": {"position": [0.5, -0.75, 0.55], "look_at": [0.14, 0, 0.2]},
+        "camera": {"position": [0.42, -0.68, 0.42], "look_at": [0.12, 0, 0.17]},
     }
 
 
@@ -344,43 +352,47 @@ def rover():
              "upper": [1.5, 0.05, 0.1], "from": 3.15},
             {"need": "penetration", "metres": 0.004},
         ],
-        "camera": {"position": [1.3, -1.5, 0.8], "look_at": [0.6, 0, 0.05]},
+        "camera": {"position": [1.3, -0.95, 0.5], "look_at": [0.72, 0, 0.03]},
     }
 
 
 def drum():
-    """Granular: a drum of twelve staves between two walls, of which nothing but the drum moves."""
-    radius, half, staves = 0.1, 0.05, 12
-    bodies = [body("axle", {"shape": "sphere", "radius": 0.005}, "steel", (0, 0, 0), collides=False,
-                   drive={"angular_velocity": [0, 4, 0]})]
+    """Granular: an open drum of twelve staves and a back, whose axis leans back by 45 degrees."""
+    radius, half, staves, lean = 0.1, 0.06, 12, 45
+    c, s = math.cos(math.radians(lean)), math.sin(math.radians(lean))
+
+    def in_drum(x, y, z):
+        """A point of the drum's frame, whose y points along the axis into it, in the world."""
+        return x, c * y + s * z, -s * y + c * z
+
+    leant = turned([1, 0, 0], -lean)
+    bodies = [body("back", cylinder(radius + 0.016, 0.006), "steel", in_drum(0, half + 0.006, 0),
+                   product(leant, ALONG_Y),
+                   drive={"angular_velocity": [round(4 * v, 9) for v in in_drum(0, 1, 0)]})]
     joints = []
     for i in range(staves):
         angle = 360 * i / staves
         x, z = math.sin(math.radians(angle)), math.cos(math.radians(angle))
-        bodies.append(body(f"stave-{i + 1}", box(0.036, half + 0.02, 0.008), "steel",
-                           ((radius + 0.008) * x, 0, (radius + 0.008) * z),
-                           turned([0, 1, 0], angle)))
-        joints.append({"joint": "fixed", "bodies": [f"stave-{i + 1}", "axle"]})
-    for y, name in ((-1, "front"), (1, "back")):
-        bodies.append(fixed(f"{name}-wall", box(0.12, 0.005, 0.12), "glass",
-                            (0, y * (half + 0.026), 0)))
-    count, side = 16, 0.062
+        bodies.append(body(f"stave-{i + 1}", box(0.036, half, 0.008), "steel",
+                           in_drum((radius + 0.008) * x, 0, (radius + 0.008) * z),
+                           product(leant, turned([0, 1, 0], angle))))
+        joints.append({"joint": "fixed", "bodies": [f"stave-{i + 1}", "back"]})
+    count = 16
     rods = [f"rod-{i + 1}" for i in range(count)]
     return {
-        "description": "Sixteen rods, dropped at random, tumble in a drum that turns.",
+        "description": "Sixteen rods, dropped at random, tumble in an open drum that leans and turns.",
         "step": 0.002,
         "duration": 3,
-        "materials": {"steel": {"friction": 0.5}, "glass": {"friction": 0.1},
-                      "rod": {"friction": 0.4, "density": 1200}},
+        "materials": {"steel": {"friction": 0.5}, "rod": {"friction": 0.4, "density": 1200}},
         "bodies": bodies,
         "drops": [{"name": "rod", "shape": cylinder(0.008, 0.016), "material": "rod",
-                   "count": count, "seed": 1, "lower": [-side, -half, -side],
-                   "upper": [side, half, side]}],
+                   "count": count, "seed": 1, "lower": [-0.045, -0.08, 0.15],
+                   "upper": [0.045, -0.02, 0.5]}],
         "joints": joints,
-        "needs": [{"need": "stays-in", "body": rod, "lower": [-0.1, -half - 0.02, -0.1],
-                   "upper": [0.1, half + 0.02, 0.1]} for rod in rods]
+        "needs": [{"need": "stays-in", "body": rod, "lower": [-0.12, -0.12, -0.12],
+                   "upper": [0.12, 0.12, 0.12], "from": 1} for rod in rods]
                  + [{"need": "penetration", "metres": 0.006}],
-        "camera": {"position": [0.22, -0.55, 0.25], "look_at": [0, 0, 0]},
+        "camera": {"position": [0.12, -0.42, 0.42], "look_at": [0, 0, -0.01]},
     }
 
 
@@ -394,12 +406,6 @@ def bowling():
         """A point of the tray's frame in the world: tilted about y, then turned about z."""
         x, z = ct * x + st * z, -st * x + ct * z
         return c * x - s * y, s * x + c * y, z
-
-    def product(p, q):
-        w, x, y, z = p
-        a, b, d, e = q
-        return [round(v, 9) for v in (w * a - x * b - y * d - z * e, w * b + x * a + y * e - z * d,
-                                      w * d - x * e + y * a + z * b, w * e + x * d - y * b + z * a)]
 
     level = product(away, turned([0, 1, 0], tilt))
     bodies = [fixed("tray", box(0.45, 0.2, 0.01), "wood", on_tray(0, 0, -0.01), level)]
