@@ -195,10 +195,78 @@ StageResult largest_gap_beside_rims(const FoldedCylinders& p, EarlyExit exit) {
   return best;
 }
 
+/// A cap of one of two cylinders whose axes are nearly parallel, which may meet the other one.
+/// About the middle between the centres either looks the same, so that the way from B to A serves
+/// both.
+struct FacingCap {
+  const PosedCylinder &own, &other;
+  const FoldedAxes::Product& axes;  ///< of both axes, in either order
+  double along, x, y, z;            ///< the way's parts along the own axis and across it
+  double gap;                       ///< along the own axis
+
+  FacingCap(const PosedCylinder& o, const PosedCylinder& p, const FoldedAxes::Product& product,
+            const Vec3& d)
+      : own(o), other(p), axes(product) {
+    const auto u = own.axis();
+    along = d.x() * u.x() + d.y() * u.y() + d.z() * u.z();
+    x = d.x() - along * u.x(), y = d.y() - along * u.y(), z = d.z() - along * u.z();
+    gap = std::abs(along) - own.half_length - axes.cosine * other.half_length -
+          axes.sine * other.radius;
+  }
+  /// Is it larger than the gap across the axes, if these were parallel?
+  bool exceeds_sides() const {
+    const double beyond = gap + own.radius + other.radius;
+    return beyond > 0 && beyond * beyond > x * x + y * y + z * z;
+  }
+  /// Does the other's deepest point lie on the cap, its depth away from the rim; of parallel axes,
+  /// any point of its cap?
+  bool is_proven() const {
+    const double delta = depth(gap), reach = own.radius - delta;
+    if (!(delta <= own.half_length && reach >= 0)) return false;
+    if (axes.sine <= flat) {
+      return x * x + y * y + z * z <= (reach + other.radius) * (reach + other.radius);
+    }
+    // Across the own axis that point lies from the other's centre as the other axis does, by so
+    // much: at the end of the axis, and at the rim on the other side.
+    const auto u = own.axis(), v = other.axis();
+    const double scale = std::copysign(1, along) * axes.side *
+                         (other.half_length - other.radius * axes.cosine / axes.sine);
+    const double along_u = axes.side * axes.cosine;
+    const double px = scale * (v.x() - along_u * u.x()) - x;
+    const double py = scale * (v.y() - along_u * u.y()) - y;
+    const double pz = scale * (v.z() - along_u * u.z()) - z;
+    return px * px + py * py + pz * pz <= reach * reach;
+  }
+  LargestGap largest_gap() const {
+    const auto u = own.axis();
+    const double side = std::copysign(1, along);
+    return {gap, Vec3(side * u.x(), side * u.y(), side * u.z())};
+  }
+};
+
+/// The largest gap of bodies that stand on each other, where a cap along a nearly parallel axis
+/// is proven as it is: no frame has to be made.
+std::optional<LargestGap> standing(const PosedCylinder& a, const PosedCylinder& b,
+                                   const FoldedAxes::Product& axes, const Vec3& d,
+                                   double stop_above) {
+  const FacingCap on_a(a, b, axes, d);
+  if (!on_a.exceeds_sides()) return std::nullopt;
+  const FacingCap on_b(b, a, axes, d);
+  const FacingCap& best = on_a.gap >= on_b.gap ? on_a : on_b;
+  if (!(best.gap > stop_above || best.is_proven())) return std::nullopt;
+  return best.largest_gap();
+}
+
 /// `a` has the smaller radius or the same.
 CertifiedDistance find_largest(const PosedCylinder& a, const PosedCylinder& b, EarlyExit exit) {
-  const FoldedCylinders p{FoldedAxes(a.axis(), b.axis(), a.centre - b.centre), a.radius,
-                          a.half_length, b.radius, b.half_length};
+  const FoldedAxes::Product axes(a.axis(), b.axis());
+  const Vec3 d = a.centre - b.centre;
+  if (exit.trusts_proofs && !axes.crosses()) {
+    if (const auto found = standing(a, b, axes, d, exit.stop_above))
+      return {{found->gap, found->normal}, 0};
+  }
+  const FoldedCylinders p{FoldedAxes(a.axis(), b.axis(), axes, d), a.radius, a.half_length,
+                          b.radius, b.half_length};
   const StageResult found = largest_gap_beside_rims(p, exit);
   if (exit.ends_with(found)) return {{found.gap, p.axes.to_world(found.normal())}, 0};
   LargestGap best{found.gap, found.normal()};

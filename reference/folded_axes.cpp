@@ -6,9 +6,9 @@
 
 namespace touchstone {
 
-FoldedAxes::FoldedAxes(const Vec3& axis1, const Vec3& axis2, const Vec3& difference) {
-  const Product product(axis1, axis2);
-  if (product.sine > few_digits) {
+FoldedAxes::FoldedAxes(const Vec3& axis1, const Vec3& axis2, const Product& product,
+                       const Vec3& difference) {
+  if (product.crosses()) {
     fold_crossing(axis1, product, difference);
   } else {
     fold_nearly_parallel(axis1, axis2, product, difference);

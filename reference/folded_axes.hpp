@@ -18,7 +18,28 @@ struct FoldedAxes {
   double d1, d2, d3;
   Vec3 e1, e2, e3;  ///< unit, in the world
 
-  FoldedAxes(const Vec3& axis1, const Vec3& axis2, const Vec3& d);
+  // Component by component throughout: Eigen would load in pairs what was just stored singly, which
+  // stalls, and no compiler would make vectors of several pairs of bodies of it.
+
+  struct Product {
+    double side, cosine;   ///< the sign of the axes' product, ±1; the product's absolute value
+    double x, y, z, sine;  ///< axis1 × axis2 and its length
+
+    Product(const Vec3& axis1, const Vec3& axis2) {
+      const double ux = axis1.x(), uy = axis1.y(), uz = axis1.z();
+      const double vx = axis2.x(), vy = axis2.y(), vz = axis2.z();
+      const double product = ux * vx + uy * vy + uz * vz;
+      side = std::copysign(1, product), cosine = std::abs(product);
+      x = uy * vz - uz * vy, y = uz * vx - ux * vz, z = ux * vy - uy * vx;
+      sine = std::sqrt(x * x + y * y + z * z);
+    }
+    /// Has the product enough digits?
+    bool crosses() const { return sine > few_digits; }
+  };
+
+  FoldedAxes(const Vec3& axis1, const Vec3& axis2, const Vec3& d)
+      : FoldedAxes(axis1, axis2, Product(axis1, axis2), d) {}
+  FoldedAxes(const Vec3& axis1, const Vec3& axis2, const Product& product, const Vec3& d);
   /// Folds axes as if they crossed; what comes of nearly parallel ones, `crosses` tells apart.
   /// Branch-free, for batches.
   static FoldedAxes of_crossing_axes(const Vec3& axis1, const Vec3& axis2, const Vec3& d) {
@@ -46,23 +67,7 @@ struct FoldedAxes {
   }
 
  private:
-  // Component by component throughout: Eigen would load in pairs what was just stored singly, which
-  // stalls, and no compiler would make vectors of several pairs of bodies of it.
-
   static constexpr double few_digits = 0.1;  ///< a sine
-  struct Product {
-    double side, cosine;   ///< the sign of the axes' product, ±1; the product's absolute value
-    double x, y, z, sine;  ///< axis1 × axis2 and its length
-
-    Product(const Vec3& axis1, const Vec3& axis2) {
-      const double ux = axis1.x(), uy = axis1.y(), uz = axis1.z();
-      const double vx = axis2.x(), vy = axis2.y(), vz = axis2.z();
-      const double product = ux * vx + uy * vy + uz * vz;
-      side = std::copysign(1, product), cosine = std::abs(product);
-      x = uy * vz - uz * vy, y = uz * vx - ux * vz, z = ux * vy - uy * vx;
-      sine = std::sqrt(x * x + y * y + z * z);
-    }
-  };
 
   FoldedAxes() = default;
   void fold_crossing(const Vec3& u1, const Product& product, const Vec3& difference);
