@@ -242,10 +242,14 @@ bool JsonLines::read_line() {
   std::streambuf& buffer = *in_.rdbuf();
   int c = buffer.sbumpc();
   if (c == EOF) return false;
-  for (; c != EOF && c != '\n'; c = buffer.sbumpc()) {
+  ++number_;
+  for (std::size_t length = 0; c != EOF && c != '\n'; c = buffer.sbumpc()) {
+    if (++length > max_file_size) {
+      throw InvalidInput(fmt::format("line {}", number_), "without an end",
+                         fmt::format("must have at most {} bytes", max_line));
+    }
     if (line_.size() <= max_line) line_ += static_cast<char>(c);
   }
-  ++number_;
   return true;
 }
 
