@@ -37,6 +37,9 @@ expect 2 '^error: option is "--laod": .* as --load, ' candidates --laod x.so
 expect 2 '^error: argument is "more": must be left out: touchstone replay takes IDENTITY and ' \
   replay cylinder-box/rim-face/1/2 more
 expect 2 '^error: argument is "more": must be left out: touchstone candidates takes no more than its name' candidates more
+expect 2 '^error: argument is "bullet": must follow an option, as --candidate bullet' check bullet
+expect 2 '^error: argument is "bullet": must follow an option, as --candidates bullet' report bullet
+expect 2 '^error: subcommand is "help": must be one of report, .*; touchstone --help says what they do' help
 expect 2 '^error: --seed is given no value: must be followed by UINT: Same seed' report --seed
 expect 2 '^error: --candidates is given no value: must be followed by CANDIDATE' solve --candidates
 expect 2 '^error: --load is given no value: must be followed by FILE' --load

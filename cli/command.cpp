@@ -99,7 +99,8 @@ void refuse_unknown_command(const CLI::App& program, int argc, char** argv) {
   const Names names = command_names(program);
   if (std::find(names.begin(), names.end(), argv[1]) != names.end()) return;
   throw InvalidInput("subcommand", quoted(argv[1]),
-                     fmt::format("must be one of {}", fmt::join(names, ", ")));
+                     fmt::format("must be one of {}; {} --help says what they do",
+                                 fmt::join(names, ", "), program.get_name()));
 }
 
 /// What CLI11 met on the command line, as an error of ours: its own words name neither what was
@@ -145,6 +146,11 @@ class UsageError {
       return {"argument", quoted(word),
               "must be left out; --json prints on standard output, which goes into a file by > " +
                   word};
+    }
+    for (const char* const option : {"--candidate", "--candidates"}) {
+      if (!taken.empty() || command_->get_option_no_throw(option) == nullptr) continue;
+      return {"argument", quoted(word),
+              fmt::format("must follow an option, as {} {}", option, word)};
     }
     return {"argument", quoted(word),
             fmt::format("must be left out: {} takes {} and options", name_,

@@ -92,10 +92,13 @@ TEST(StrictJson, AByteOrderMarkMayStandBeforeTheValue) {
   const std::string mark = "\xef\xbb\xbf";
   EXPECT_EQ(parse_json(mark + "{\"a\":1}", "file"), json({{"a", 1}}));
   EXPECT_EQ(parse_json_lines(mark + "{}\n{}\n", "file").size(), 2u);
-  std::istringstream in(mark + "{\"a\":1}\n");
+  EXPECT_THROW(parse_json_lines("{}\n" + mark + "{}\n", "file"), InvalidInput);
+  std::istringstream in(mark + "{\"a\":1}\n" + mark + "{}\n");
   JsonLines lines(in);
   ASSERT_TRUE(lines.next());
   EXPECT_EQ(lines.parse(), json({{"a", 1}}));
+  ASSERT_TRUE(lines.next());
+  EXPECT_THROW(lines.parse(), InvalidInput);
   for (const std::string& elsewhere : {mark + mark + "1", "[1," + mark + "2]", "1" + mark}) {
     EXPECT_EQ(refusal(elsewhere).field, "file") << elsewhere;
   }
