@@ -99,9 +99,11 @@ int run(const Options& options) {
   const ShardState whole = merge.whole(false);
   const Report result = campaign_result(whole);
   const auto file = write_result(whole, options.out);
-  fmt::print("{}\n{}, truth certified to 1e-30 of the larger size.\nResult: {}\n",
-             terminal_table(result, standard_output()),
-             counted(result.configurations, "configuration"), file.string());
+  const Terminal terminal = standard_output();
+  fmt::print("{}\n{}Result: {}\n", terminal_table(result, terminal),
+             terminal.folded(counted(result.configurations, "configuration") +
+                             ", truth certified to 1e-30 of the larger size."),
+             file.string());
   return 0;
 }
 

@@ -601,7 +601,8 @@ for command in "$replayed_rim" "$broken" "$changed" "check --known $folder/known
   "simulate rolling --candidates reference,capsule-circumscribed --step 0.01" "simulate lying --engine ode" \
   "search --candidate bullet --pair cylinder-cylinder --class perpendicular-t-centred+turned --count 4" \
   "stability cylinder-box/rim-face/1/2 --candidates reference --count 1 --out $folder/s" \
-  "choose $folder/can.json --candidates capsule --disturbances 1 --out $folder/s"; do
+  "choose $folder/can.json --candidates capsule --disturbances 1 --out $folder/s" \
+  "report --pair cylinder-plane --class lying --count 1 --candidates reference,bullet --out $folder/s"; do
   # shellcheck disable=SC2086
   printed=$(COLUMNS=40 "$program" $command)
   [ "$(wc -l <<<"$printed")" -gt 3 ] || failed "$command prints nothing"

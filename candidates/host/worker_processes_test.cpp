@@ -213,7 +213,7 @@ using End = Contained::End;
 
 TEST(Contained, GivesWhatTheTaskReturnsHoweverLong) {
   const std::string text(1 << 20, 'x');
-  const Contained ran = run_contained([&] { return text; }, 10);
+  const Contained ran = run_contained([&] { return std::string(text); }, 10);
   EXPECT_EQ(ran.end, End::returned);
   EXPECT_EQ(ran.text, text);
 }

@@ -43,8 +43,11 @@ struct Rectangle {
   }
 };
 
-constexpr LabelPlace choices[] = {{true, 1, 0},      {false, -1, 0},     {true, 0.6, 0.8},
-                                  {true, 0.6, -0.8}, {false, -0.6, 0.8}, {false, -0.6, -0.8}};
+/// The last four are clear of marks at the same height, the label's own among them.
+constexpr LabelPlace choices[] = {{true, 1, 0},       {false, -1, 0},     {true, 0.6, 0.8},
+                                  {true, 0.6, -0.8},  {false, -0.6, 0.8}, {false, -0.6, -0.8},
+                                  {true, 0.2, 1.1},   {false, -0.2, 1.1}, {true, 0.2, -1.1},
+                                  {false, -0.2, -1.1}};
 
 Rectangle text_at(const Label& l, const LabelPlace& p) {
   const double end = l.x + p.dx, other = end + (p.rightwards ? l.length : -l.length);
