@@ -173,6 +173,25 @@ has_not "$calls" "at once"
 times 1 "cmake"
 times 1 "ninja touchstone"
 
+fact="in a clone that cannot be written to, nothing is built and no tool's words are shown"
+new_machine
+mkdir -p "$folder/a b/build/release/.lock" # what even root cannot write to
+call 2 report
+has "$folder/err" "touchstone: nothing can be built here: "
+has "$folder/err" "cannot be written to; clone into a folder of your own"
+[ "$(wc -l <"$folder/err")" -eq 1 ] || fail "more than one line"
+[ ! -s "$calls" ] || fail "something was called"
+
+fact="there the program that is built already runs, and tests do not"
+printf '#!/usr/bin/env bash\necho "program <$1>"; exit 7\n' >"$folder/a b/build/release/touchstone"
+chmod +x "$folder/a b/build/release/touchstone"
+call 7 report
+has "$folder/out" "program <report>"
+call 7
+has "$folder/out" "program <--help>"
+call 2 test
+has "$folder/err" "cannot be written to"
+
 fact="test builds everything and hands its arguments to CTest"
 new_machine
 call 0 test -R "near parallel"

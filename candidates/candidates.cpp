@@ -155,6 +155,10 @@ class Registry {
       add_npm_engine(*engine, name);
       return find(name);
     }
+    if (name.find('/') != std::string_view::npos || name.ends_with(".so")) {
+      throw InvalidInput("--candidates", '"' + std::string(name) + '"',
+                         "must be a name; a plug-in's file is given by --load");
+    }
     std::string names;
     for (const Candidate* c : listed_) names += (names.empty() ? "" : ", ") + c->name;
     const auto is_listed = [&](std::string_view other) {

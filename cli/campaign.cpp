@@ -19,7 +19,7 @@ struct Options {
   explicit Options(Command& command)
       : scored(command, 1000, Plan::max_count),
         workers(command, under_mpirun() ? 1 : std::max(1U, std::thread::hardware_concurrency()),
-                "one a core, or one a rank under mpirun") {}
+                "one a core or rank") {}
   CampaignOption scored;
   WorkersOption workers;
   std::string out = "out", shard_text;
@@ -57,8 +57,9 @@ void print_plan(const Options& options, const ShardState& state) {
   const Shard& shard = state.shard;
   const UnitSet all = shard.units(plan.cut), done = state.done;
   std::string text =
-      fmt::format("{} pose classes × {} = {} configurations, {} candidates", plan.cells.size(),
-                  plan.cut.count, plan.cells.size() * plan.cut.count, plan.candidates.size());
+      fmt::format("{} × {} = {}, {}", counted(plan.cells.size(), "pose class"), plan.cut.count,
+                  counted(plan.cells.size() * plan.cut.count, "configuration"),
+                  counted(plan.candidates.size(), "candidate"));
   if (shard.of > 1) {
     text += fmt::format("; shard {}: {}", to_string(shard), configurations(plan.cut, all));
   }
@@ -98,8 +99,11 @@ int run(const Options& options) {
   const ShardState whole = merge.whole(false);
   const Report result = campaign_result(whole);
   const auto file = write_result(whole, options.out);
-  fmt::print("{}\n{} configurations, truth certified to 1e-30 of the larger size.\nResult: {}\n",
-             terminal_table(result, standard_output()), result.configurations, file.string());
+  const Terminal terminal = standard_output();
+  fmt::print("{}\n{}Result: {}\n", terminal_table(result, terminal),
+             terminal.folded(counted(result.configurations, "configuration") +
+                             ", truth certified to 1e-30 of the larger size."),
+             file.string());
   return 0;
 }
 
@@ -142,9 +146,9 @@ int run_merge(const MergeOptions& options) {
   const Report result = campaign_result(whole);
   const auto file = write_result(whole, options.out);
   const bool complete = result.completed.configurations == result.planned.configurations;
-  fmt::print("{}\n{} configurations{}.\nResult: {}\n", terminal_table(result, standard_output()),
-             result.configurations, complete ? "" : ", which is not all of the campaign",
-             file.string());
+  fmt::print("{}\n{}{}.\nResult: {}\n", terminal_table(result, standard_output()),
+             counted(result.configurations, "configuration"),
+             complete ? "" : ", which is not all of the campaign", file.string());
   return 0;
 }
 

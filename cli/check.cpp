@@ -35,9 +35,8 @@ std::string counts_text(const LawResult& result) {
 std::string answer_text(const std::optional<ts_answer>& answer) {
   if (!answer) return "-";
   if (answer->status != TS_CONTACT) return status_name(answer->status);
-  return fmt::format("signed distance {} m, normal {}, {} points",
-                     or_null(answer->signed_distance).dump(), to_json(Vec3(answer->normal)).dump(),
-                     answer->point_count);
+  return fmt::format("signed distance {} m, normal {}, {}", or_null(answer->signed_distance).dump(),
+                     to_json(Vec3(answer->normal)).dump(), counted(answer->point_count, "point"));
 }
 
 /// The middle, rounded to nearest: -2 where bounds of 1e-30 lie about it.
@@ -143,8 +142,8 @@ std::string check_text(const std::vector<LawResult>& results, const Terminal& te
       continue;
     }
     if (pair != last && r.unsupported > 0) {
-      text += terminal.below(fmt::format(
-          "no routine for {} configurations, which no law was tried on", r.unsupported));
+      text += terminal.below(fmt::format("no routine for {}, which no law was tried on",
+                                         counted(r.unsupported, "configuration")));
     }
     last = pair;
     text += law_text(r, terminal);
@@ -259,8 +258,8 @@ struct Options {
   WorkersOption workers;
   std::string candidate;
   std::vector<std::string> laws;
-  bool hostile = false;
-  std::string save, corpus, known, junit, json;
+  bool hostile = false, json = false;
+  std::string save, corpus, known, junit;
 
   CheckOptions check() const {
     CheckOptions c;
@@ -280,29 +279,37 @@ struct Options {
   }
 };
 
+/// Prints what a person reads, as it comes, unless JSON is asked for.
+struct Teller {
+  bool is_silent;
+  void tell(const std::string& text) const {
+    if (!is_silent) fmt::print("{}", text);
+  }
+};
+
 /// Asks for the failures that are saved there again: those of the candidate, or all if it is null.
 std::vector<ReplayedFailure> replay_all(const std::string& path, const char* field,
-                                        const Candidate* candidate) {
+                                        const Candidate* candidate, const Teller& teller) {
   if (path.empty()) return {};
   std::vector<Failure> failures = read_corpus(path, field);
   if (candidate) {
     std::erase_if(failures, [&](const Failure& f) { return f.candidate != candidate->name; });
   }
   std::vector<ReplayedFailure> replayed = replay(failures, {});
-  fmt::print("{}:\n{}", path, corpus_text(replayed, standard_output()));
+  teller.tell(path + ":\n" + corpus_text(replayed, standard_output()));
   return replayed;
 }
 
 /// Saves one failure of each cause, and says with which to start.
-void save_all(const std::vector<LawResult>& results, const std::string& folder) {
+void save_all(const std::vector<LawResult>& results, const std::string& folder,
+              const Teller& teller) {
   const std::vector<Failure> failures = in_order(results);
   if (failures.empty()) return;
-  fmt::print("\nSaved, one of each cause; start with the first:\n");
+  teller.tell("\nSaved, one of each cause; start with the first:\n");
   for (const Failure& f : failures) {
-    fmt::print("{}    {}\n",
-               standard_output().below(
-                   fmt::format("{}, {} configurations", to_string(cause_of(f)), f.met)),
-               save(f, folder).string());
+    teller.tell(standard_output().below(fmt::format("{}, {}", to_string(cause_of(f)),
+                                                    counted(f.met, "configuration"))) +
+                "    " + save(f, folder).string() + '\n');
   }
 }
 
@@ -338,15 +345,14 @@ std::vector<ReplayedFailure> judged_as_known(std::vector<ReplayedFailure> known)
 
 /// Without the failures that are known.
 std::vector<LawResult> check_laws(const Candidate* candidate, const CheckOptions& checks,
-                                  const std::vector<Failure>& known) {
+                                  const std::vector<Failure>& known, const Teller& teller) {
   if (!candidate) return {};
   CandidateProcess process(*candidate, checks.bar.threshold);
   const Terminal terminal = standard_output();
-  fmt::print("{}",
-             terminal.folded(fmt::format(
-                 "{} {}, seed {}, {} configurations of each pair and pose class, tolerance {}",
-                 process.candidate().name, process.candidate().version, checks.seed, checks.count,
-                 checks.bar.tolerance)));
+  teller.tell(terminal.folded(
+      fmt::format("{} {}, seed {}, {} of each pair and pose class, tolerance {}",
+                  process.candidate().name, process.candidate().version, checks.seed,
+                  counted(checks.count, "configuration"), checks.bar.tolerance)));
   std::unique_ptr<Progress> progress;
   auto results = check(process, checks, [&](std::uint64_t done, std::uint64_t all) {
     if (!progress) progress = std::make_unique<Progress>("configurations", all);
@@ -356,11 +362,10 @@ std::vector<LawResult> check_laws(const Candidate* candidate, const CheckOptions
   if (!known.empty()) {
     const std::size_t all = in_order(results).size();
     results = new_ones(std::move(results), known);
-    fmt::print("{}",
-               terminal.folded(fmt::format("{} of {} causes of failures are known and not shown",
-                                           all - in_order(results).size(), all)));
+    teller.tell(terminal.folded(fmt::format("{} of {} causes of failures are known and not shown",
+                                            all - in_order(results).size(), all)));
   }
-  fmt::print("{}", check_text(results, terminal));
+  teller.tell(check_text(results, terminal));
   if (std::none_of(results.begin(), results.end(), [](auto& r) { return r.tried > 0; })) {
     throw InvalidInput("--candidate", process.candidate().name,
                        "must have a routine for a pair that is asked");
@@ -374,25 +379,21 @@ int run(const Options& options) {
                        "must be given: a name, as bullet (touchstone candidates lists them), or "
                        "the file of a plug-in; or else --corpus or --known with saved failures");
   }
-  for (const auto& [file, field] :
-       {std::pair(&options.junit, "--junit"), {&options.json, "--json"}}) {
-    if (!file->empty()) check_file_writable(*file, field);
-  }
+  if (!options.junit.empty()) check_file_writable(options.junit, "--junit");
   const CheckOptions checks = options.check();
   const Candidate* const candidate =
       options.candidate.empty() ? nullptr : &named_candidate(options.candidate);
   const std::string name = candidate ? candidate->name : "";
-  const auto corpus = replay_all(options.corpus, "--corpus", candidate);
-  const auto known = replay_all(options.known, "--known", candidate);
+  const Teller teller{options.json};
+  const auto corpus = replay_all(options.corpus, "--corpus", candidate, teller);
+  const auto known = replay_all(options.known, "--known", candidate, teller);
   const auto judged = joined(corpus, judged_as_known(known));
-  const auto results = check_laws(candidate, checks, still_failing(known));
-  if (!options.save.empty()) save_all(results, options.save);
+  const auto results = check_laws(candidate, checks, still_failing(known), teller);
+  if (!options.save.empty()) save_all(results, options.save, teller);
   if (!options.junit.empty()) {
     write_file(options.junit, junit_xml(name, results, judged), "--junit");
   }
-  if (!options.json.empty()) {
-    write_file(options.json, check_json(name, checks, results, joined(corpus, known)), "--json");
-  }
+  if (options.json) fmt::print("{}", check_json(name, checks, results, joined(corpus, known)));
   const bool broken =
       std::any_of(results.begin(), results.end(), [](const LawResult& r) { return r.broken > 0; });
   const bool changed =
@@ -418,7 +419,8 @@ void add_check(Program& program) {
             fmt::format("On the pose class hostile alone, {} configurations of each pair unless "
                         "--count says otherwise",
                         usual_count_of_hostile))
-      .excludes(options->sample.class_option());
+      .excludes(options->sample.class_option())
+      .excludes(options->sample.group_option());
   command.list("--law", options->laws, "Only these laws").value("LAW");
   command
       .text("--corpus", options->corpus,
@@ -432,7 +434,7 @@ void add_check(Program& program) {
   command.text("--save", options->save, "Save failures into this folder, one of each cause")
       .value("FOLDER");
   command.text("--junit", options->junit, "Write the result as JUnit XML").value("FILE");
-  command.text("--json", options->json, "Write the result as JSON").value("FILE");
+  command.flag("--json", options->json, "Print one JSON object instead of text");
   command.footer(
       "Examples:\n"
       "  touchstone check --candidate bullet\n"

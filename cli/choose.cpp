@@ -24,6 +24,7 @@ struct Options {
   bool json = false;
   std::uint64_t disturbances = Trials().disturbances, seed = Trials().seed;
   PairNeeds pairs;
+  std::vector<Option> of_scenes, of_robots;  // that say nothing of the other
 
   std::vector<const Candidate*> contestants() const {
     return candidates.is_given() ? candidates.get() : swept_candidates();
@@ -76,8 +77,15 @@ int choose_pairs(const Options& options) {
 }
 
 int run(const Options& options) {
+  const bool is_robot = is_shapes_file(options.scene);
+  for (const Option& option : is_robot ? options.of_scenes : options.of_robots) {
+    if (!option.is_given()) continue;
+    throw InvalidInput(option.name(), "given with \"" + options.scene + '"',
+                       is_robot ? "must be left out: a robot or world has no motion to disturb"
+                                : "must be left out: a scene's needs stand in its file");
+  }
   check_writable(options.out);
-  return is_shapes_file(options.scene) ? choose_pairs(options) : choose_scene(options);
+  return is_robot ? choose_pairs(options) : choose_scene(options);
 }
 
 }  // namespace
@@ -93,16 +101,18 @@ void add_choose(Program& program) {
   command.text("--out", options->out, "Folder for choose.json and choose.html").value("FOLDER");
   command.flag("--json", options->json, "Print choose.json instead of text");
   command.count("--seed", options->seed, all_counts, "Same seed, same disturbances or poses");
-  command.count("--disturbances", options->disturbances, {0, 1000},
-                "Runs of a scene beside the one as it is written; needs must hold in all");
+  options->of_scenes = {
+      command.count("--disturbances", options->disturbances, {0, 1000},
+                    "Runs of a scene beside the one as it is written; needs must hold in all")};
   const char* robots = "Of a robot or world";
   PairNeeds& pairs = options->pairs;
-  command.number("--depth", pairs.depth, positive_numbers, "Largest depth error, metres")
-      .group(robots);
-  command.number("--angle", pairs.angle, positive_numbers, "Largest error of a normal, degrees")
-      .group(robots);
-  command.count("--count", pairs.count, {1, 1000000}, "Sampled poses of each pair of shapes")
-      .group(robots);
+  options->of_robots = {
+      command.number("--depth", pairs.depth, positive_numbers, "Largest depth error, metres")
+          .group(robots),
+      command.number("--angle", pairs.angle, positive_numbers, "Largest error of a normal, degrees")
+          .group(robots),
+      command.count("--count", pairs.count, {1, 1000000}, "Sampled poses of each pair of shapes")
+          .group(robots)};
   command.footer(
       "Examples:\n"
       "  touchstone choose simulation/scenes/log-pile.json\n"

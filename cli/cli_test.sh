@@ -37,11 +37,16 @@ expect 2 '^error: option is "--laod": .* as --load, ' candidates --laod x.so
 expect 2 '^error: argument is "more": must be left out: touchstone replay takes IDENTITY and ' \
   replay cylinder-box/rim-face/1/2 more
 expect 2 '^error: argument is "more": must be left out: touchstone candidates takes no more than its name' candidates more
+expect 2 '^error: argument is "bullet": must follow an option, as --candidate bullet' check bullet
+expect 2 '^error: argument is "bullet": must follow an option, as --candidates bullet' report bullet
+expect 2 '^error: subcommand is "help": must be one of report, .*; touchstone --help says what they do' help
 expect 2 '^error: --seed is given no value: must be followed by UINT: Same seed' report --seed
 expect 2 '^error: --candidates is given no value: must be followed by CANDIDATE' solve --candidates
 expect 2 '^error: --load is given no value: must be followed by FILE' --load
 expect 2 '^error: --seed is given 2 times: must be given once' report --seed 1 --seed 2
 expect 2 '^error: --hostile is given a value: must stand alone' check --hostile=bullet
+expect 2 '^error: --hostile is given a value: must stand alone' check --hostile=7
+expect 2 '^error: --json is given a value: must stand alone' replay cylinder-box/rim-face/1/2 --json=false
 expect 2 'report, replay, solve, certify, check, compare, ' nonsense
 expect 2 'identity.pair' replay cylinder-cone/rim/1/2
 expect 2 'identity.class' replay cylinder-box/none/1/2
@@ -69,6 +74,26 @@ expect 2 '^error: --load is ".*empty.txt": must list a command' --load "$folder/
 expect 2 '^error: --candidate is ".*empty.txt": must list a command' check --candidate "$folder/empty.txt"
 expect 2 '^error: --candidate is "bullet,ode": must be one name, not a list' check --candidate bullet,ode
 expect 2 '^error: --candidate is "bulet": must be one of reference, ' search --candidate bulet
+for name in ./nope.so nope.so; do
+  expect 2 "^error: --candidate is \"$name\": must be a file that is there, or a name that" check --candidate $name
+  expect 2 "^error: --candidates is \"$name\": must be a name; a plug-in's file is given by --load" solve --candidates $name
+done
+# A class and a group that have nothing in common leave nothing to do: no empty result, no "interrupted".
+for command in "check --candidate bullet" "search --candidate bullet" stability export report campaign; do
+  # shellcheck disable=SC2086
+  expect 2 '^error: --group is "everyday": must be of these pose classes, which are degenerate' \
+    $command --group everyday --class lying
+done
+expect 2 '^error: --hostile is given with --group: must stand without it\|^error: --group is given with --hostile' \
+  check --candidate bullet --hostile --group everyday
+# Input that does not end.
+expect 2 '^error: --corpus is "/dev/zero": must have at most 134217728 bytes' check --corpus /dev/zero
+expect 2 'line 1 is without an end: must have at most 1048576 bytes' solve /dev/zero
+expect 2 'line 1 is without an end' score /dev/zero --name mine --out "$folder/given"
+for command in replay certify choose "check --corpus" merge "compare /dev/zero"; do
+  # shellcheck disable=SC2086
+  expect 2 '^error: .*/dev/zero.* must ' $command /dev/zero
+done
 expect 2 '^error: input is ".*": must be a file, not a folder' replay "$folder"
 expect 2 '--time-limit' solve --time-limit 0
 expect 2 '--tolerance' replay cylinder-box/rim-face/1/2 --tolerance=-1
@@ -116,7 +141,7 @@ expect 2 '--only is "speed": must be of scores' report --only speed
 plane="--pair cylinder-plane --class lying --count 1 --candidates reference --out $folder/only"
 for only in scores timing stability experiments; do
   # shellcheck disable=SC2086
-  expect 0 '^1 configurations' report $plane --only $only
+  expect 0 '^1 configuration, ' report $plane --only $only
   for part in '"ratio_to_bullet"' '"amplification"' '"experiments": {'; do
     case $only:$part in timing:*ratio* | stability:*ampl* | experiments:*expe*) wanted=0 ;; *) wanted=1 ;; esac
     grep -q "$part" "$folder/only/report.json"
@@ -128,7 +153,7 @@ expect 2 '--class' report --class nowhere --out "$folder/r"
 expect 2 '--out' report --out /proc/none
 expect 0 'report.html' report --pair cylinder-plane --count 1 --out "$folder/a b"
 [ -s "$folder/a b/report.html" ] || { echo "FAILED: no report.html"; failures=$((failures + 1)); }
-expect 0 '^1 configurations' report --pair cylinder-plane,cylinder-plane --class lying,lying --count 1 \
+expect 0 '^1 configuration, ' report --pair cylinder-plane,cylinder-plane --class lying,lying --count 1 \
   --candidates reference --out "$folder/twice"
 
 
@@ -149,6 +174,9 @@ expect 0 'as expected' check --corpus "$folder/found"
 expect 0 'capsule: contact, \|capsule: none, ' replay "$(ls "$folder"/found/*.json | head -n 1)" --candidates capsule
 
 expect 2 'must be one of standing, ' simulate juggling
+for name in robot.urdf ./scene.json; do
+  expect 2 "^error: experiment is \"$name\": must be a name, as rolling; a file is one for touchstone choose" simulate $name
+done
 expect 2 '--step.*from 1e-05 to 0.1' simulate rolling --step 0
 expect 2 '--workers' simulate rolling --workers 0
 expect 2 '--out' simulate rolling --out /proc/none
@@ -167,7 +195,7 @@ expect 2 '^error: --candidate is missing: must be given: a name, as bullet' chec
   --law agreement,agreement | grep -c agreement)" = 1 ] ||
   { echo "FAILED: check --law agreement,agreement"; failures=$((failures + 1)); }
 [ "$("$program" simulate rolling rolling --candidates reference,reference --step 0.01,0.01 |
-  grep -c '^ *reference ')" = 2 ] || { echo "FAILED: simulate rolling rolling"; failures=$((failures + 1)); }
+  grep -c '^ *reference ')" = 1 ] || { echo "FAILED: simulate rolling rolling"; failures=$((failures + 1)); }
 expect 2 '--law.*agreement' check --candidate bullet --law gravity
 expect 2 '--class' check --candidate bullet --class nowhere
 expect 2 '--corpus.*must be a folder' check --corpus "$folder/none"
@@ -179,7 +207,14 @@ expect 1 'missed *: wrong by [0-9.e-]* of the smaller size' check --candidate bo
   --count 1 --law agreement
 expect 0 'agreement .* passed' check --candidate reference --pair cylinder-sphere --count 1
 expect 1 'broken by' check --candidate bullet --pair cylinder-box --class edge-cap --count 1 \
-  --law agreement --save "$folder/corpus" --junit "$folder/junit.xml" --json "$folder/check.json"
+  --law agreement --save "$folder/corpus" --junit "$folder/junit.xml"
+# --json prints, everywhere; a file is the shell's.
+"$program" check --candidate bullet --pair cylinder-box --class edge-cap --count 1 --law agreement --json \
+  --save "$folder/corpus" --corpus "$folder/corpus" >"$folder/check.json"
+expect 2 '^error: argument is "check.json": must be left out; --json prints on standard output.*> check.json' \
+  check --candidate bullet --json check.json
+"$program" search --candidate capsule --pair cylinder-sphere --class general-deep --count 4 --json |
+  python3 -m json.tool >"$folder/found.json" || { echo "FAILED: search --json is no JSON"; failures=$((failures + 1)); }
 expect 0 'as expected' check --corpus "$folder/corpus"
 # A distance of exactly -2 is written so, whichever side of it the proven bounds lie.
 expect 1 'truth: signed distance -2 m' check --candidate bullet --pair cylinder-sphere --class concentric \
@@ -241,6 +276,31 @@ cat > "$folder/can.json" <<'END'
  {"name":"can","shape":{"shape":"cylinder","radius":0.1,"half_length":0.2},"pose":{"position":[0,0,0.2]}}],
  "needs":[{"need":"stands","body":"can","degrees":1}]}
 END
+sed 's/"degrees":1/"degrees":200/' "$folder/can.json" >"$folder/any.json"
+expect 2 'needs\[0\].degrees is 200: must be less than 90' choose "$folder/any.json"
+sed 's/"name":"can"/"name":" "/' "$folder/can.json" >"$folder/nameless.json"
+expect 2 'bodies\[1\].name is " ": must have a letter' choose "$folder/nameless.json"
+# What only the other kind of file knows is refused, not ignored.
+for option in "--depth 0.1" "--angle 3" "--count 7"; do
+  # shellcheck disable=SC2086
+  expect 2 "^error: ${option% *} is given with \".*can.json\": must be left out: a scene's needs" choose "$folder/can.json" $option
+done
+robot=$(dirname "$0")/../simulation/scenes/gripper.urdf
+expect 2 '^error: --disturbances is given with ".*gripper.urdf": must be left out' choose "$robot" --disturbances 3
+cp "$robot" "$folder/G.URDF"
+cp "$robot" "$folder/x.xml"
+for name in G.URDF x.xml; do
+  expect 2 "^error: scene is \".*$name\": is XML: the name of a robot must end in .urdf" choose "$folder/$name"
+  expect 2 "^error: scene is \".*$name\": is XML: the name of a robot must end in .urdf" render "$folder/$name"
+done
+# One thing is no plural.
+sed 's/"duration":0.3/"duration":0.0042/' "$folder/can.json" >"$folder/brief.json"
+expect 0 ': 1 of 1 configuration near' simulate "$folder/brief.json" --count 1 --record "$folder/recorded.jsonl"
+expect 0 '^1 frame\. ' render "$folder/can.json" --every 1 --out "$folder/frame"
+expect 0 '^1 configuration: ' export $lying --count 1 --out "$folder/one.csv"
+expect 0 '^1 pose class × 1 = 1 configuration, 1 candidate; ' campaign $lying --count 1 --candidates reference --out "$folder/one"
+expect 0 '^1 configuration, ' report $lying --count 1 --candidates reference --only scores --out "$folder/one"
+expect 0 ', 1 configuration of each' check --candidate reference $lying --count 1 --law agreement
 expect 0 'can: 3 of 72 configurations' simulate "$folder/can.json" --count 3 --record "$folder/recorded.jsonl"
 expect 0 '"id":"can/can and ground/' solve --candidates reference "$folder/recorded.jsonl"
 expect 0 'truth: signed distance' replay "$folder/recorded.jsonl" --candidates reference
@@ -522,21 +582,31 @@ on_terminal() { TERM=xterm script -qec "stty cols $1; '$program' $2" /dev/null <
 [[ $(NO_COLOR=1 on_terminal 80 "replay cylinder-box/rim-face/1/2 --candidates reference") != *$'\e'* ]] ||
   failed "colour in spite of NO_COLOR"
 replayed_rim="replay cylinder-box/edge-cap/1/2 --candidates reference,bullet"
-narrow=$(on_terminal 40 "check --help" | tr -d '\r' | sed -n '/^Options:/,/^Examples:/p')
-[ "$(wc -l <<<"$narrow")" -gt 20 ] || failed "no options of check"
-awk 'length($0) > 40 { exit 1 }' <<<"$narrow" || failed "--help is wider than a terminal of 40 columns"
+for command in "" $("$program" --help | sed -n '/^Subcommands/,/^Examples/s/^  \([a-z]*\) .*/\1/p'); do
+  # But for examples, which stay whole.
+  narrow=$(on_terminal 40 "$command --help" | tr -d '\r')
+  [ "$(wc -l <<<"$narrow")" -gt 7 ] || failed "no help of $command"
+  wide=$(grep -v '^  [a-z]* *touchstone \|^  *\(echo\|mpirun\|python3\|"b"\)\|touchstone solve$' <<<"$narrow" |
+    LC_ALL=C.UTF-8 grep '.\{41\}')
+  [ -z "$wide" ] || failed "$command --help is wider than a terminal of 40 columns: $wide"
+done
 for command in candidates "classes cylinder-box"; do
   # But for a long word, as of a path.
-  wide=$(on_terminal 40 "$command" | tr -d '\r' | grep -v '[^ ]\{30\}' | LC_ALL=C.UTF-8 awk 'length($0) > 40')
+  wide=$(on_terminal 40 "$command" | tr -d '\r' | grep -v '[^ ]\{30\}' | LC_ALL=C.UTF-8 grep '.\{41\}')
   [ -z "$wide" ] || failed "$command is wider than a terminal of 40 columns: $wide"
 done
 broken="check --candidate bullet --pair cylinder-box,cylinder-sphere --class edge-cap,cap,concentric --count 2"
 changed="compare $folder/report.json $folder/worse.json"
-for command in "$replayed_rim" "$broken" "$changed" "check --known $folder/known"; do
+for command in "$replayed_rim" "$broken" "$changed" "check --known $folder/known" \
+  "simulate rolling --candidates reference,capsule-circumscribed --step 0.01" "simulate lying --engine ode" \
+  "search --candidate bullet --pair cylinder-cylinder --class perpendicular-t-centred+turned --count 4" \
+  "stability cylinder-box/rim-face/1/2 --candidates reference --count 1 --out $folder/s" \
+  "choose $folder/can.json --candidates capsule --disturbances 1 --out $folder/s" \
+  "report --pair cylinder-plane --class lying --count 1 --candidates reference,bullet --out $folder/s"; do
   # shellcheck disable=SC2086
   printed=$(COLUMNS=40 "$program" $command)
   [ "$(wc -l <<<"$printed")" -gt 3 ] || failed "$command prints nothing"
-  wide=$(grep -v '[^ ]\{30\}' <<<"$printed" | LC_ALL=C.UTF-8 awk 'length($0) > 40')
+  wide=$(grep -v '[^ ]\{30\}' <<<"$printed" | LC_ALL=C.UTF-8 grep '.\{41\}')
   [ -z "$wide" ] || failed "$command is wider than COLUMNS=40: $wide"
 done
 [[ $(COLUMNS=40 on_terminal 80 "$broken --law agreement" | tr -d '\r') == *$'\e[0m\n    '[0-9]* ]] ||
@@ -544,9 +614,11 @@ done
 [ "$(COLUMNS=many "$program" $replayed_rim)" = "$("$program" $replayed_rim)" ] || failed "COLUMNS=many"
 [[ $(on_terminal 80 "export --format npz --count 1 $lying") == *'--out is a terminal: must be a file or a pipe for npz'* ]] ||
   failed "npz goes to a terminal"
-for command in candidates "classes cylinder-box" "$replayed_rim"; do
+for command in candidates "classes cylinder-box" "$replayed_rim" \
+  "simulate rolling --candidates reference,capsule-circumscribed --step 0.01" "simulate lying --engine ode" \
+  "search --candidate bullet --pair cylinder-cylinder --class perpendicular-t-centred+turned --count 4"; do
   # shellcheck disable=SC2086
-  wide=$("$program" $command | grep -v '^{\|[^ ]\{60\}' | LC_ALL=C.UTF-8 awk 'length($0) > 80')
+  wide=$("$program" $command | grep -v '^{\|[^ ]\{60\}' | LC_ALL=C.UTF-8 grep '.\{81\}')
   [ -z "$wide" ] || failed "$command is wider than 80 columns: $wide"
 done
 
@@ -556,7 +628,7 @@ commands=$("$program" --help | sed -n '/^Subcommands/,/^Examples/s/^  \([a-z]*\)
 [ "$(completed rep)" = "$(grep '^rep' <<<"$commands")" ] || failed "rep: $(completed rep)"
 for command in "" $commands; do
   # shellcheck disable=SC2086
-  long=$("$program" $command --help | LC_ALL=C.UTF-8 awk 'length($0) > 80')
+  long=$("$program" $command --help | LC_ALL=C.UTF-8 grep '.\{81\}')
   [ -z "$long" ] || failed "$command --help is wider than 80 columns: $long"
 done
 for command in $commands; do

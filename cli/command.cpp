@@ -7,6 +7,8 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <iostream>
+#include <set>
+#include <sstream>
 #include <unistd.h>
 #include <utility>
 
@@ -30,9 +32,39 @@ class HelpFormat : public CLI::Formatter {
       : width_(columns < min_width_beside ? narrow_name_width : name_width), columns_(columns) {
     column_width(width_);
   }
+  std::string make_description(const CLI::App* app) const override {
+    return Terminal{columns_}.folded(CLI::Formatter::make_description(app));
+  }
+  std::string make_usage(const CLI::App* app, std::string name) const override {
+    return Terminal{columns_}.folded(CLI::Formatter::make_usage(app, std::move(name)));
+  }
+  /// Examples stay whole, to be pasted; lists are made for the terminal.
+  std::string make_footer(const CLI::App* app) const override {
+    std::istringstream lines(CLI::Formatter::make_footer(app));
+    std::string result;
+    for (std::string line; std::getline(lines, line);) {
+      result += line.starts_with("  ") ? line + '\n' : Terminal{columns_}.folded(line + '\n');
+    }
+    return result;
+  }
+  std::string make_subcommand(const CLI::App* command) const override {
+    std::ostringstream out;
+    CLI::detail::format_help(out, command->get_name(),
+                             wrapped(command->get_description(), columns_ - width_, "\n"), width_);
+    return out.str();
+  }
+  /// What an option excludes stands in its description.
+  std::string make_option_opts(const CLI::Option* option) const override {
+    const std::string text = CLI::Formatter::make_option_opts(option);
+    return text.substr(0, text.find(" Excludes:"));
+  }
   std::string make_option_desc(const CLI::Option* option) const override {
+    std::set<std::string> excluded;
+    for (const CLI::Option* other : option->get_excludes()) excluded.insert(other->get_name());
+    std::string text = CLI::Formatter::make_option_desc(option);
+    if (!excluded.empty()) text += fmt::format("; not with {}", fmt::join(excluded, ", "));
     // CLI11 indents what follows a line's end.
-    return wrapped(CLI::Formatter::make_option_desc(option), columns_ - width_, "\n");
+    return wrapped(text, columns_ - width_, "\n");
   }
 
  private:
@@ -67,7 +99,8 @@ void refuse_unknown_command(const CLI::App& program, int argc, char** argv) {
   const Names names = command_names(program);
   if (std::find(names.begin(), names.end(), argv[1]) != names.end()) return;
   throw InvalidInput("subcommand", quoted(argv[1]),
-                     fmt::format("must be one of {}", fmt::join(names, ", ")));
+                     fmt::format("must be one of {}; {} --help says what they do",
+                                 fmt::join(names, ", "), program.get_name()));
 }
 
 /// What CLI11 met on the command line, as an error of ours: its own words name neither what was
@@ -108,6 +141,17 @@ class UsageError {
     for (const CLI::Option* option : command_->get_options()) {
       if (option->get_positional()) taken.push_back(option->get_type_name());
     }
+    const CLI::Option* const json = command_->get_option_no_throw("--json");
+    if (json && json->count() > 0) {
+      return {"argument", quoted(word),
+              "must be left out; --json prints on standard output, which goes into a file by > " +
+                  word};
+    }
+    for (const char* const option : {"--candidate", "--candidates"}) {
+      if (!taken.empty() || command_->get_option_no_throw(option) == nullptr) continue;
+      return {"argument", quoted(word),
+              fmt::format("must follow an option, as {} {}", option, word)};
+    }
     return {"argument", quoted(word),
             fmt::format("must be left out: {} takes {} and options", name_,
                         taken.empty() ? "no more than its name"
@@ -134,13 +178,12 @@ class UsageError {
     return {"command line", "contradictory", name_ + " --help says what goes together"};
   }
 
-  /// CLI11's text has the option's name, "--count: 1 required UINT missing" or "Could not convert:
-  /// --hostile = 7".
+  /// CLI11's text has the option's name, "--count: 1 required UINT missing"; that of a flag without
+  /// its dashes, "hostile was given a disallowed flag override".
   InvalidInput of_option(const CLI::ParseError& error) const {
     const std::string text = error.what();
-    const bool is_of_value = dynamic_cast<const CLI::ConversionError*>(&error) != nullptr;
-    const std::size_t start = is_of_value ? std::min(text.find("--"), text.size()) : 0;
-    const std::string name = text.substr(start, text.find_first_of(": ", start) - start);
+    const std::string word = text.substr(0, text.find_first_of(": "));
+    const std::string name = word.starts_with('-') ? word : "--" + word;
     for (const CLI::Option* option : options_of(*command_)) {
       if (option->get_name() != name) continue;
       if (option->get_items_expected_max() == 0) {
@@ -183,6 +226,7 @@ Option& Option::default_text(const std::string& text) {
   option_->default_str(text);
   return *this;
 }
+std::string Option::name() const { return option_->get_name(); }
 bool Option::is_given() const { return option_->count() > 0; }
 
 Option Command::text(const std::string& name, std::string& variable,
@@ -204,7 +248,7 @@ Option Command::arguments(const std::string& name, std::vector<std::string>& var
 }
 
 Option Command::flag(const std::string& name, bool& variable, const std::string& description) {
-  return Option(app_->add_flag(name, variable, description));
+  return Option(app_->add_flag(name, variable, description)->disable_flag_override());
 }
 
 Option Command::number(const std::string& name, double& variable, NumberRange range,

@@ -31,6 +31,8 @@ class Option {
   Option& value(const std::string& name);
   /// Says in words what the default is.
   Option& default_text(const std::string& text);
+  /// "--count"
+  std::string name() const;
   /// Is it on the command line? Known once the program runs.
   bool is_given() const;
 

@@ -80,7 +80,7 @@ int run(const Options& options) {
     std::fwrite(text.data(), 1, text.size(), stdout);
   } else {
     write_file(options.out, text, "--out");
-    fmt::print("{} configurations: {}\n", count, options.out);
+    fmt::print("{}: {}\n", counted(count, "configuration"), options.out);
   }
   return 0;
 }

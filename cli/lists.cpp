@@ -120,13 +120,7 @@ std::string group_list() {
 
 int run(const std::string& pair) {
   std::vector<Pair> pairs(std::begin(all_pairs), std::end(all_pairs));
-  if (!pair.empty()) {
-    try {
-      pairs = {parse_pair(pair)};
-    } catch (const InvalidInput& e) {
-      throw InvalidInput("pair", e.value(), e.remedy());
-    }
-  }
+  if (!pair.empty()) pairs = {parse_pair(pair, "pair")};
   for (const Pair each : pairs) fmt::print("{}\n", arrangement_list(each));
   print_heading("Modifiers, any number of them in any order, as in parallel-side+turned:");
   fmt::print("{}\n{}", modifier_list(pairs), group_list());

@@ -60,13 +60,15 @@ int run(int argc, char** argv) {
       "  touchstone compare old.json out/report.json     better, worse, slower\n"
       "In a clone, ./touchstone test builds and runs all tests, and ./touchstone python\n"
       "starts Python with the module touchstone.\n"
-      "Exit codes:\n"
-      "  0    done\n"
-      "  1    a law was broken, a result is worse, or needs are not met\n"
-      "  2    bad input or usage, or output that could not be written\n"
-      "  3    an internal contradiction, or another failure that is not the input's:\n"
-      "       no process or memory to be had, a worker killed\n"
-      "  130  interrupted by Ctrl-C; 143 by SIGTERM");
+      "Exit codes:\n" +
+      list_entry("0", 3, "done") +
+      list_entry("1", 3, "a law was broken, a result is worse, or needs are not met") +
+      list_entry("2", 3, "bad input or usage, or output that could not be written") +
+      list_entry(
+          "3", 3,
+          "an internal contradiction, or another failure that is not the input's: no process "
+          "or memory to be had, a worker killed") +
+      list_entry("130", 3, "interrupted by Ctrl-C; 143 by SIGTERM"));
   program.repeated(
       "--load", "FILE", [](const std::string& file) { add_file(file); },
       "A plug-in with candidates of your own, or a list of commands (.txt); may be repeated");

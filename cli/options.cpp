@@ -59,6 +59,11 @@ const Candidate& named_candidate(const std::string& name) {
     return find_candidate(name);
   } catch (const InvalidInput& e) {
     if (is_file(name)) return first_of_file(name);
+    if (name.ends_with(".so") || name.find('/') != std::string::npos) {
+      throw InvalidInput(
+          "--candidate", '"' + name + '"',
+          "must be a file that is there, or a name that touchstone candidates lists");
+    }
     if (name.find(',') != std::string::npos) {
       throw InvalidInput("--candidate", '"' + name + '"', "must be one name, not a list");
     }
@@ -88,22 +93,18 @@ SampleOption::SampleOption(Command& command, std::uint64_t count, std::uint64_t 
               .value("CLASS")),
       count_option_(command.count("--count", count_, {1, max_count},
                                   "Configurations of each pair and pose class; 1e6 is understood "
-                                  "too")) {
-  command.list("--group", groups_, "Only everyday, degenerate, extreme or recorded pose classes")
-      .value("GROUP");
+                                  "too")),
+      group_option_(command
+                        .list("--group", groups_,
+                              "Only everyday, degenerate, extreme or recorded pose classes")
+                        .value("GROUP")) {
   command.count("--seed", seed_, all_counts, "Same seed, same configurations");
 }
 
 std::vector<Pair> SampleOption::pairs() const {
   if (pairs_.empty()) return {std::begin(all_pairs), std::end(all_pairs)};
   std::vector<Pair> result;
-  for (const auto& name : pairs_) {
-    try {
-      add_once(result, parse_pair(name));
-    } catch (const InvalidInput& e) {
-      throw InvalidInput("--pair", e.value(), e.remedy());
-    }
-  }
+  for (const auto& name : pairs_) add_once(result, parse_pair(name, "--pair"));
   return result;
 }
 
@@ -115,6 +116,7 @@ const std::vector<std::string>& SampleOption::classes() const {
 std::vector<Group> SampleOption::groups() const {
   std::vector<Group> result;
   for (const auto& name : groups_) result.push_back(parse_group(name));
+  check_groups(pairs(), {classes(), result});
   return result;
 }
 

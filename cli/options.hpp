@@ -71,13 +71,14 @@ struct SampleOption {
   /// By --class or --group.
   bool has_some_classes() const { return !(classes_.empty() && groups_.empty()); }
   const Option& class_option() const { return class_option_; }
+  const Option& group_option() const { return group_option_; }
   /// The same options as text, to be repeated: " --seed 1 --count 100 --pair cylinder-box".
   std::string command_line() const;
 
  private:
   std::vector<std::string> pairs_, classes_, groups_;
   std::uint64_t count_, seed_ = 1;
-  Option pair_option_, class_option_, count_option_;
+  Option pair_option_, class_option_, count_option_, group_option_;
 };
 
 /// --workers

@@ -152,9 +152,12 @@ int run(const Options& options) {
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   report.partial = report.partial || interrupted();
   write_report(report, options.out);
-  fmt::print("{}\n{} configurations, truth certified to 1e-30 of the larger size, {:.0f} s.\n",
-             terminal_table(report, standard_output()), report.configurations, report.wall_seconds);
-  if (report.engines) fmt::print("\n{}\n", engines_summary(*report.engines));
+  const Terminal terminal = standard_output();
+  fmt::print("{}\n{}", terminal_table(report, terminal),
+             terminal.folded(fmt::format(
+                 "{}, truth certified to 1e-30 of the larger size, {:.0f} s.",
+                 counted(report.configurations, "configuration"), report.wall_seconds)));
+  if (report.engines) fmt::print("\n{}\n", engines_summary(*report.engines, terminal));
   fmt::print("Report: {}/report.html, {}/report.json\n", options.out, options.out);
   if (!options.figures.empty()) {
     write_figures(report, options.figures);

@@ -103,8 +103,9 @@ int run(const Options& options) {
     return interrupted_exit_code();
   }
   write_report(report, options.out);
-  fmt::print("{}\n{} answers, truth certified to 1e-30 of the larger size, {:.0f} s.\n",
-             terminal_table(report, standard_output()), report.configurations, report.wall_seconds);
+  fmt::print("{}\n{}, truth certified to 1e-30 of the larger size, {:.0f} s.\n",
+             terminal_table(report, standard_output()), counted(report.configurations, "answer"),
+             report.wall_seconds);
   fmt::print("Report: {}/report.html, {}/report.json\n", options.out, options.out);
   if (report.partial) return interrupted_exit_code();
   return read_ones.errors.empty() ? 0 : bad_input;

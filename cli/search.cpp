@@ -1,5 +1,6 @@
 #include "reports/search.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <map>
 #include <memory>
@@ -10,8 +11,8 @@
 #include "candidates/host/progress.hpp"
 #include "cli/command.hpp"
 #include "cli/options.hpp"
-#include "properties/files/disk.hpp"
 #include "properties/laws/failure_file.hpp"
+#include "reports/terminal.hpp"
 
 namespace touchstone {
 namespace {
@@ -22,8 +23,23 @@ struct Options {
   explicit Options(Command& command) : sample(command, 250, 1000000), bar(command) {}
   SampleOption sample;
   BarOption bar;
-  std::string candidate, save, json;
+  std::string candidate, save;
+  bool json = false;
 };
+
+std::string name_of(const Cell& cell) {
+  return std::string(pair_name(cell.pair)) + '/' + cell.pose_class;
+}
+
+TextTable table_of(const std::vector<Cell>& all, const Terminal& terminal) {
+  constexpr std::size_t numbers_width = 36;
+  std::size_t name_width = 0;
+  for (const Cell& cell : all) name_width = std::max(name_width, name_of(cell).size());
+  return {"class",
+          std::min(name_width, terminal.columns - numbers_width),
+          {{"outcome", 15, 0}, {"severity", 9, 1}, {"sampled", 9, 2}},
+          terminal};
+}
 
 int run(const Options& options) {
   const std::vector<Cell> all = cells(options.sample.campaign());
@@ -33,8 +49,9 @@ int run(const Options& options) {
 
   std::map<std::pair<Pair, std::string>, std::pair<double, Failure>> failures;  // the worst alike
   nlohmann::json found_json = nlohmann::json::array();
-  std::string table =
-      fmt::format("{:<46} {:>13} {:>9} {:>9}\n", "class", "outcome", "severity", "sampled");
+  const Terminal terminal = standard_output();
+  const TextTable table = table_of(all, terminal);
+  std::string text = table.headings();
   {
     Progress progress("configurations", all.size() * budget);
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -42,10 +59,9 @@ int run(const Options& options) {
           search(process, {all[i], options.sample.seed(), budget, bar},
                  [&](std::uint64_t asked) { progress.update(i * budget + asked); });
       found_json.push_back(to_json(found, all[i]));
-      table += fmt::format("{:<46} {:>13} {:>9.1e} {:>9.1e}\n",
-                           fmt::format("{}/{}", pair_name(all[i].pair), all[i].pose_class),
-                           outcome_name(found.score.outcome), found.score.severity,
-                           found.sampled.severity);
+      text += table.row(name_of(all[i]), {{outcome_name(found.score.outcome)},
+                                          {fmt::format("{:.1e}", found.score.severity)},
+                                          {fmt::format("{:.1e}", found.sampled.severity)}});
       const auto failure = failure_of(found, process, bar);
       if (!failure) continue;
       const auto [at, is_new] = failures.try_emplace({all[i].pair, failure->violation.failure},
@@ -55,16 +71,17 @@ int run(const Options& options) {
       }
     }
   }
-  fmt::print(
-      "{}\nseverity: the worst found, relative to the smaller size; sampled: the worst of "
-      "the\nfirst quarter, which were drawn and not changed\n",
-      table);
-  if (!options.save.empty()) {
-    for (const auto& [name, failure] : failures) {
-      fmt::print("saved {}\n", save(failure.second, options.save).string());
-    }
+  text += '\n' + terminal.folded("severity: the worst found, relative to the smaller size");
+  if (table.has("sampled")) {
+    text += terminal.folded(
+        "sampled: the worst of the first quarter, which were drawn and not changed");
   }
-  if (!options.json.empty()) write_file(options.json, found_json.dump(1) + '\n', "--json");
+  text += table.what_is_left_out();
+  for (const auto& [name, failure] : failures) {
+    if (options.save.empty()) break;
+    text += "saved " + save(failure.second, options.save).string() + '\n';
+  }
+  fmt::print("{}", options.json ? found_json.dump(1) + '\n' : text);
   return failures.empty() ? 0 : something_failed;
 }
 
@@ -80,7 +97,7 @@ void add_search(Program& program) {
       .text("--save", options->save,
             "Save the worst failure of each kind and pair into this folder")
       .value("FOLDER");
-  command.text("--json", options->json, "Write all that was found as JSON").value("FILE");
+  command.flag("--json", options->json, "Print all that was found as JSON instead of text");
   command.footer(
       "Examples:\n"
       "  touchstone search --candidate bullet --pair cylinder-box --save failures\n"

@@ -11,7 +11,8 @@
 #include "properties/files/disk.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/replay.hpp"
-#include "reports/report_page.hpp"
+#include "reports/report_json.hpp"
+#include "reports/terminal.hpp"
 #include "simulation/engines/run_engines.hpp"
 #include "simulation/experiment.hpp"
 #include "simulation/run_experiments.hpp"
@@ -35,14 +36,30 @@ struct Options {
   RecordingOptions recording;
   bool json = false;
 
+  /// Those named. Throws InvalidInput.
+  std::vector<const Experiment*> named_experiments() const {
+    std::vector<const Experiment*> result;
+    for (const auto& name : names) {
+      if (name.find_first_of("./") != name.npos) {
+        throw InvalidInput(
+            "experiment", '"' + name + '"',
+            "must be a name, as rolling; a file is one for touchstone choose, or for "
+            "--record");
+      }
+      add_once(result, &find_experiment(name));
+    }
+    return result;
+  }
+
   ExperimentOptions experiments() const {
     ExperimentOptions e;
-    for (const auto& name : names) add_once(e.experiments, &find_experiment(name));
+    e.experiments = named_experiments();
     if (names.empty()) {
       for (const Experiment& each : all_experiments()) e.experiments.push_back(&each);
     }
     e.candidates = candidates.get();
     e.limits = candidates.limits();
+    e.steps.clear();  // which are the report's
     for (const double step : steps) add_once(e.steps, step);
     e.workers = workers.get();
     return e;
@@ -50,7 +67,7 @@ struct Options {
 
   EngineOptions in_engines() const {
     EngineOptions e;
-    for (const auto& name : names) add_once(e.experiments, &find_experiment(name));
+    e.experiments = named_experiments();
     if (names.empty()) e.experiments = engine_experiments();
     for (const auto& engine : engines) add_once(e.engines, engine);
     if (candidates.is_given()) {
@@ -93,7 +110,8 @@ int record(const Options& options) {
     lines += recording_lines(file.name, file.scene, run, questions);
     std::uint64_t near = 0;
     for (const RecordedQuestion& q : questions) near += q.weight;
-    fmt::print("{}: {} of {} configurations near contact\n", file.name, questions.size(), near);
+    fmt::print("{}: {} of {} near contact\n", file.name, questions.size(),
+               counted(near, "configuration"));
   }
   write_file(options.record, lines, "--record");
   return 0;
@@ -105,7 +123,7 @@ int simulate_in_engines(const Options& options) {
   const Interruption interruption;
   const EngineResults results = run_engines(chosen);
   const nlohmann::json json = to_json(results);
-  fmt::print("{}", options.json ? json.dump() + '\n' : engines_table(results));
+  fmt::print("{}", options.json ? json.dump() + '\n' : engines_table(results, standard_output()));
   if (interrupted()) return interrupted_exit_code();
   if (options.out.empty()) return 0;
   write_file(options.out + "/engines.json", json.dump(1) + '\n', "--out");
@@ -122,7 +140,8 @@ int run(const Options& options) {
   if (!options.out.empty()) check_writable(options.out);
   const ExperimentResults results = run_experiments(experiments);
   const nlohmann::json json = to_json(results);
-  fmt::print("{}", options.json ? json.dump() + '\n' : experiments_table(results));
+  fmt::print("{}",
+             options.json ? json.dump() + '\n' : experiments_table(results, standard_output()));
   if (options.out.empty()) return 0;
   write_file(options.out + "/experiments.json", json.dump(1) + '\n', "--out");
   return 0;
@@ -211,8 +230,8 @@ int run_render(const RenderOptions& options) {
   CandidateProcess process(candidate, simulation_threshold);
   CandidateModel model(process);
   const int frames = write_povray(file, run_scene(file.scene, model), options.every, options.out);
-  fmt::print("{} frames. To draw them with Debian's povray:\n  cd {} && povray scene.ini\n", frames,
-             options.out);
+  fmt::print("{}. To draw with Debian's povray:\n  cd {} && povray scene.ini\n",
+             counted(frames, "frame"), shell_quoted(options.out));
   return 0;
 }
 

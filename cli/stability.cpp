@@ -10,6 +10,7 @@
 #include "reference/invalid_input.hpp"
 #include "reports/replay.hpp"
 #include "reports/stability/measure.hpp"
+#include "reports/terminal.hpp"
 
 namespace touchstone {
 namespace {
@@ -71,8 +72,8 @@ int run(const Options& options) {
     fmt::print("{}\n", json_text(result));
     return 0;
   }
-  fmt::print("{}\nWritten: {}/stability.html, {}/stability.json\n", stability_table(result),
-             options.out, options.out);
+  fmt::print("{}\nWritten: {}/stability.html, {}/stability.json\n",
+             stability_table(result, standard_output()), options.out, options.out);
   return 0;
 }
 

@@ -44,13 +44,13 @@ Configuration made(const Identity& identity, Tape* tape) {
 
 }  // namespace
 
-Pair parse_pair(std::string_view name) {
+Pair parse_pair(std::string_view name, const char* field) {
   std::vector<std::string> names;
   for (const Pair pair : all_pairs) {
     if (name == pair_name(pair)) return pair;
     names.emplace_back(pair_name(pair));
   }
-  throw InvalidInput("identity.pair", quoted(name), "must be one of " + joined(names));
+  throw InvalidInput(field, quoted(name), "must be one of " + joined(names));
 }
 
 std::string to_string(const Identity& identity) {
@@ -90,13 +90,13 @@ const char* group_name(Group group) {
   return "";
 }
 
-Group parse_group(std::string_view name) {
+Group parse_group(std::string_view name, const char* field) {
   std::vector<std::string> names;
   for (const Group group : all_groups) {
     if (name == group_name(group)) return group;
     names.emplace_back(group_name(group));
   }
-  throw InvalidInput("--group", quoted(name), "must be one of " + joined(names));
+  throw InvalidInput(field, quoted(name), "must be one of " + joined(names));
 }
 
 const std::vector<std::string>& pose_classes(Pair pair, Coverage coverage) {
@@ -163,6 +163,27 @@ void check_pose_classes(const std::vector<Pair>& pairs, const std::vector<std::s
       throw InvalidInput("--class", e.value(), e.remedy());
     }
   }
+}
+
+void check_groups(const std::vector<Pair>& pairs, const ClassSelection& selection) {
+  std::vector<Group> of_classes;
+  for (const Pair pair : pairs) {
+    if (!selected_classes(pair, selection).empty()) return;
+    for (const auto& name : selected_classes(pair, {selection.names, {}, selection.coverage})) {
+      const Group group = group_of(pair, name);
+      if (std::find(of_classes.begin(), of_classes.end(), group) == of_classes.end()) {
+        of_classes.push_back(group);
+      }
+    }
+  }
+  const auto names = [](const std::vector<Group>& groups) {
+    std::vector<std::string> result;
+    for (const Group group : groups) result.emplace_back(group_name(group));
+    return joined(result);
+  };
+  if (of_classes.empty()) return;  // no class of that name: check_pose_classes says what is near
+  throw InvalidInput("--group", quoted(names(selection.groups)),
+                     "must be of these pose classes, which are " + names(of_classes));
 }
 
 std::string describe_pose_class(Pair pair, std::string_view pose_class) {

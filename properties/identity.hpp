@@ -25,8 +25,8 @@ std::string to_string(const Identity& identity);
 /// Throws InvalidInput that names the part and its value, and for pairs and classes what is near.
 Identity parse_identity(std::string_view text);
 
-/// Reads a pair's name; throws InvalidInput that lists the existing ones.
-Pair parse_pair(std::string_view name);
+/// Reads a pair's name; throws InvalidInput with this field that lists the existing ones.
+Pair parse_pair(std::string_view name, const char* field = "identity.pair");
 
 /// What a user meets of a class: no figure is given over all groups.
 enum class Group {
@@ -38,8 +38,8 @@ enum class Group {
 inline constexpr Group all_groups[] = {Group::everyday, Group::degenerate, Group::extreme,
                                        Group::recorded};
 const char* group_name(Group group);
-/// Throws InvalidInput (field "--group") that lists the groups.
-Group parse_group(std::string_view name);
+/// Throws InvalidInput with this field that lists the groups.
+Group parse_group(std::string_view name, const char* field = "--group");
 
 /// How many of an arrangement and its modifiers occur together in every sensible combination.
 enum class Coverage { pairs = 2, triples = 3 };
@@ -60,6 +60,8 @@ std::vector<std::string> selected_classes(Pair pair, const ClassSelection& selec
 /// Throws InvalidInput (field "--class") that says what is near, unless every class belongs to at
 /// least one of the pairs.
 void check_pose_classes(const std::vector<Pair>& pairs, const std::vector<std::string>& classes);
+/// Likewise (field "--group") unless some class of the pairs belongs to one of the groups.
+void check_groups(const std::vector<Pair>& pairs, const ClassSelection& selection);
 
 /// The class in a report of configurations that came in a file. It has no arrangement and no
 /// identities, and belongs to the group recorded.

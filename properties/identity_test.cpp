@@ -131,6 +131,20 @@ TEST(Identity, OldNamesAreTheSameConfigurationsAsTodays) {
   }
 }
 
+TEST(Identity, AGroupWithoutAnyOfTheClassesIsRefused) {
+  EXPECT_NO_THROW(check_groups({Pair::plane}, {{"lying"}, {Group::degenerate}}));
+  EXPECT_NO_THROW(check_groups({Pair::plane}, {{}, {Group::everyday}}));
+  EXPECT_NO_THROW(
+      check_groups({Pair::plane, Pair::box}, {{"lying", "general"}, {Group::everyday}}));
+  EXPECT_THAT(
+      [] {
+        check_groups({Pair::plane}, {{"lying"}, {Group::everyday, Group::extreme}});
+      },
+      testing::ThrowsMessage<InvalidInput>(
+          HasSubstr("--group is \"everyday, extreme\": must be of these pose classes, "
+                    "which are degenerate")));
+}
+
 TEST(Identity, AClassThatNoPairHasIsRefusedWithWhatIsNearOfAll) {
   const std::vector<Pair> all(std::begin(all_pairs), std::end(all_pairs));
   const auto refused = [&](const std::string& name) -> std::string {

@@ -20,7 +20,7 @@ py::tuple bodies(const NamedConfiguration& named) {
 }
 
 py::dict classes_of(const std::string& name) {
-  const Pair pair = parse_pair(name);
+  const Pair pair = parse_pair(name, "pair");
   py::dict result;
   for (const std::string& each : pose_classes(pair)) {
     result[py::str(each)] = describe_pose_class(pair, each);
@@ -34,7 +34,7 @@ constexpr std::uint64_t max_configurations = 100000000;
 py::list configurations_of(const std::string& name,
                            const std::optional<std::vector<std::string>>& classes,
                            std::uint64_t seed, std::uint64_t count) {
-  const Pair pair = parse_pair(name);
+  const Pair pair = parse_pair(name, "pair");
   const std::vector<std::string> wanted = classes.value_or(pose_classes(pair));
   check_pose_classes({pair}, wanted);
   if (count < 1 || count > max_configurations / std::max<std::size_t>(1, wanted.size())) {

@@ -11,6 +11,7 @@
 #include "candidates/host/exchange.hpp"
 #include "candidates/host/interruption.hpp"
 #include "properties/files/disk.hpp"
+#include "properties/files/given_text.hpp"
 #include "python/bindings.hpp"
 #include "python/function_respondent.hpp"
 #include "reference/invalid_input.hpp"
@@ -73,9 +74,13 @@ std::vector<Value> parsed(const Names& names, std::span<const Value> all, const 
 
 Campaign campaign_of(const Request& request, const Candidate& candidate) {
   Campaign c;
-  c.pairs = parsed<Pair>(request.pairs, all_pairs, parse_pair);
+  c.pairs = parsed<Pair>(request.pairs, all_pairs,
+                         [](const std::string& name) { return parse_pair(name, "pairs"); });
   c.classes = request.classes.value_or(c.classes);
-  if (request.groups) c.groups = parsed<Group>(request.groups, all_groups, parse_group);
+  if (request.groups) {
+    c.groups = parsed<Group>(request.groups, all_groups,
+                             [](const std::string& name) { return parse_group(name); });
+  }
   c.candidates = find_candidates(request.candidates);
   for (const Candidate* const other : c.candidates) {
     if (other->name != candidate.name) continue;
@@ -152,8 +157,9 @@ Writes report.json and report.html, which needs no network, into a folder; makes
 )");
   type.def("__str__", [](const Report& report) { return terminal_table(report); });
   type.def("__repr__", [](const Report& report) {
-    return fmt::format("<touchstone.Report: {} configurations, {} candidates>",
-                       report.configurations, report.candidates.size());
+    return fmt::format("<touchstone.Report: {}, {}>",
+                       counted(report.configurations, "configuration"),
+                       counted(report.candidates.size(), "candidate"));
   });
 
   m.def(

@@ -23,6 +23,7 @@ std::vector<Cell> cells(const Campaign& campaign) {
     return result;
   }
   check_pose_classes(campaign.pairs, campaign.classes);
+  check_groups(campaign.pairs, {campaign.classes, campaign.groups, campaign.coverage});
   for (const Pair pair : campaign.pairs) {
     for (const auto& name :
          selected_classes(pair, {campaign.classes, campaign.groups, campaign.coverage})) {

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "properties/files/given_text.hpp"
 #include "reports/compare.hpp"
 #include "reports/pages/page.hpp"
 #include "reports/report_json.hpp"
@@ -126,7 +127,7 @@ std::string comparison_text(const Comparison& c, const Terminal& terminal) {
   std::string text;
   for (const auto& [name, side] : {std::pair("before", &c.before), std::pair("after", &c.after)}) {
     const std::string counts =
-        fmt::format("{} configurations, seed {}", side->configurations, side->seed);
+        fmt::format("{}, seed {}", counted(side->configurations, "configuration"), side->seed);
     text += fmt::format("{:<8}{}\n", name, wrapped(counts, terminal.columns - 8, "\n        "));
   }
   for (const std::string& remark : c.remarks) {
@@ -140,9 +141,9 @@ std::string comparison_text(const Comparison& c, const Terminal& terminal) {
                                     [](const Change& change) { return !change.beyond_limits; });
   text += '\n';
   const auto add = [&](const std::string& line) { text += terminal.folded(line); };
-  if (within > 0) add(fmt::format("{} smaller changes, within the limits.", within));
-  add(fmt::format("{}{} rows of pair, class and candidate compared.",
-                  c.changes.empty() ? "No change. " : "", c.compared));
+  if (within > 0) add(fmt::format("{}, within the limits.", counted(within, "smaller change")));
+  add(fmt::format("{}{} of pair, class and candidate compared.",
+                  c.changes.empty() ? "No change. " : "", counted(c.compared, "row")));
   add(fmt::format(
       "Limits: errors {:g} times; times {:g} times, as multiples of {}'s and by the "
       "nearest ends of their spreads; at least {:g}% of what agreed must agree still.",

@@ -1,10 +1,11 @@
-#include "reports/drake_protocol.hpp"
-
+// The shapes, points and poses on which Drake publishes its errors.
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <optional>
+
+#include "reports/make_report.hpp"
 
 namespace touchstone {
 namespace {

@@ -13,7 +13,6 @@
 #include "candidates/host/interruption.hpp"
 #include "candidates/host/progress.hpp"
 #include "properties/identity.hpp"
-#include "reports/drake_protocol.hpp"
 #include "reports/factors.hpp"
 #include "reports/replay.hpp"
 #include "reports/sampler.hpp"

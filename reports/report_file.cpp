@@ -11,7 +11,6 @@
 #include "properties/pose_class.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/report_json.hpp"
-#include "reports/report_page.hpp"
 
 namespace touchstone {
 namespace {

@@ -1,5 +1,4 @@
-#include "reports/report_page.hpp"
-
+// report.html and engines.html.
 #include <algorithm>
 #include <array>
 #include <cstdint>

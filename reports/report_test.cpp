@@ -1,3 +1,4 @@
+#include <cmath>
 #include <csignal>
 #include <dlfcn.h>
 #include <fstream>
@@ -12,6 +13,7 @@
 
 #include "candidates/candidates.hpp"
 #include "candidates/host/interruption.hpp"
+#include "oracle/truth.hpp"
 #include "properties/files/disk.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/make_report.hpp"
@@ -354,61 +356,6 @@ TEST(Report, EveryWorstCaseReplaysToTheSameAnswers) {
   }
 }
 
-TEST(Report, TableFitsIntoTheTerminalsColumns) {
-  Report report = make_report(small_campaign(), "x");
-  report.partial = true;
-  report.results[0].time->p95 = 1e5;
-  for (const std::size_t columns : {40, 57, 80}) {
-    std::istringstream table(terminal_table(report, {columns, false}));
-    for (std::string line; std::getline(table, line);) {
-      if (line.find("./touchstone") == std::string::npos) {  // a command is not broken
-        EXPECT_LE(line.size(), columns) << line;
-      }
-    }
-  }
-}
-
-TEST(Report, ANarrowTableKeepsWhatMattersMost) {
-  const Report report = make_report(small_campaign(), "x");
-  const auto headings = [&](std::size_t columns) {
-    const std::string table = terminal_table(report, {columns, false});
-    std::istringstream line(table.substr(0, table.find('\n')));
-    return std::vector<std::string>(std::istream_iterator<std::string>(line), {});
-  };
-  EXPECT_THAT(headings(80), testing::ElementsAre("candidate", "agree%", "yes/no", "err", "bias",
-                                                 "pts", "cover", "ns", "p95", "times"));
-  EXPECT_THAT(headings(40), testing::ElementsAre("candidate", "agree%", "yes/no", "err", "ns"));
-}
-
-TEST(Report, ColoursOfTheTableChangeNothingElse) {
-  const Report report = make_report(small_campaign(), "x");
-  const std::string coloured = terminal_table(report, {80, true});
-  EXPECT_NE(coloured, terminal_table(report));
-  EXPECT_EQ(std::regex_replace(coloured, std::regex("\x1b\\[[0-9]*m"), ""), terminal_table(report));
-}
-
-TEST(Report, NamesThePoseClassesWithASlowTail) {
-  Report report;
-  report.candidates = {{"mine", "mine", "1", "", ""}};
-  const auto add = [&](const char* pose_class, double median, std::optional<double> p95) {
-    ResultRow row;
-    row.pair = "cylinder-box";
-    row.pose_class = pose_class;
-    row.candidate = "mine";
-    row.statistics.count = 1;
-    row.time = QueryTime{.nanoseconds = {median, median, median}, .repetitions = 5, .p95 = p95};
-    report.results.push_back(row);
-  };
-  add("general", 100, 400);
-  add("parallel", 100, std::nullopt);
-  EXPECT_THAT(terminal_table(report), Not(HasSubstr("Slow tails")));
-  add("touching", 100, 401);
-  add("vertex-rim", 300, 1300);
-  EXPECT_THAT(terminal_table(report),
-              HasSubstr("mine in 2 of 3 pose classes; cylinder-box/vertex-rim: median 300 ns, p95\n"
-                        "    1300 ns\n"));
-}
-
 TEST(Report, IsWrittenAsAWhole) {
   const std::filesystem::path folder = testing::TempDir() + "touchstone report test";
   write_report(make_report(small_campaign(), "x"), folder);
@@ -562,6 +509,49 @@ TEST(Solve, EndsWhereItsAnswersAreLost) {
   solve(in, out, {some(), 1e-15, Bar()});
   std::string rest;
   EXPECT_TRUE(std::getline(in, rest)) << "all lines were answered to nobody";
+}
+
+// Drake's protocol
+
+/// Poses some 26 m from the origin, rounded to doubles.
+constexpr double rounding = 26 * 0x1p-50;
+
+TEST(DrakeProtocol, EveryPairIsTwoMillimetresDeep) {
+  for (const Pair pair : all_pairs) {
+    for (const DrakeCase& c : drake_cases(pair)) {
+      EXPECT_EQ(pair_of(c.configuration), pair);
+      EXPECT_NEAR(oracle::truth(c.configuration).signed_distance.midpoint(), -2e-3, rounding)
+          << pair_name(pair) << ": " << c.description;
+    }
+  }
+}
+
+TEST(DrakeProtocol, HasDrakesNumberOfPoses) {
+  // Two worlds; an edge or a vertex meets no other edge or vertex.
+  EXPECT_EQ(drake_cases(Pair::plane).size(), 2u * 3);
+  EXPECT_EQ(drake_cases(Pair::sphere).size(), 2u * 6);
+  EXPECT_EQ(drake_cases(Pair::capsule).size(), 2u * 6);
+  EXPECT_EQ(drake_cases(Pair::cylinder).size(), 2u * 8 * 2);
+  EXPECT_EQ(drake_cases(Pair::box).size(), 2u * 7);
+}
+
+TEST(DrakeProtocol, ReportsTheWorstErrorAndItsPose) {
+  Campaign campaign;
+  campaign.pairs = {Pair::plane, Pair::box};
+  campaign.candidates = find_candidates({"reference", "bullet"});
+  auto candidates = start(campaign.candidates, campaign.bar.threshold, campaign.limits);
+  const DrakeProtocol protocol = drake_protocol(campaign, candidates);
+  ASSERT_EQ(protocol.results.size(), 4u);
+  EXPECT_EQ(protocol.pairs[1].penetration, 1e-3);
+  const DrakeProtocol::Result& ours = protocol.results[2];
+  EXPECT_EQ(ours.candidate, "reference");
+  EXPECT_EQ(ours.outcomes, (std::map<Outcome, std::uint64_t>{{Outcome::agree, 14}}));
+  EXPECT_LT(ours.max_error, rounding);
+  // Bullet rounds edges by its margin: more than Drake's published error, less than its margin.
+  const DrakeProtocol::Result& bullet = protocol.results[3];
+  EXPECT_GT(bullet.max_error, 1e-5);
+  EXPECT_LT(bullet.max_error, 0.04);
+  EXPECT_LT(bullet.worst, protocol.pairs[1].configurations.size());
 }
 
 }  // namespace

@@ -2,21 +2,14 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <fmt/format.h>
-#include <functional>
 #include <sstream>
 #include <string_view>
 #include <sys/ioctl.h>
 #include <unistd.h>
-
-#include "reports/factors.hpp"
-#include "reports/replay.hpp"
-#include "reports/report.hpp"
-#include "reports/tally.hpp"
-#include "reports/timing.hpp"
+#include <utility>
 
 namespace touchstone {
 namespace {
@@ -44,6 +37,13 @@ std::size_t given_columns() {
   return error == std::errc() && parsed_end == end ? columns : 0;
 }
 
+/// Of UTF-8, of which each is taken to be a column wide.
+std::size_t letters(std::string_view text) {
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
+    return (static_cast<unsigned char>(c) & 0xc0U) != 0x80U;
+  }));
+}
+
 bool is_dumb() {
   const char* name = std::getenv("TERM");
   return !name || std::string_view(name) == "dumb";
@@ -56,9 +56,9 @@ std::string wrapped(const std::string& text, std::size_t width, const std::strin
   std::string result, word;
   std::size_t column = 0;
   while (words >> word) {
-    const bool fits = column + 1 + word.size() <= width;
+    const bool fits = column + 1 + letters(word) <= width;
     if (column > 0) result += fits ? " " : line_end;
-    column = (column > 0 && fits ? column + 1 : 0) + word.size();
+    column = (column > 0 && fits ? column + 1 : 0) + letters(word);
     result += word;
   }
   return result;
@@ -69,10 +69,73 @@ std::string Terminal::good(const std::string& text) const { return rendered(*thi
 std::string Terminal::bad(const std::string& text) const { return rendered(*this, "31", text); }
 
 std::string Terminal::folded(const std::string& text) const {
-  return wrapped(text, columns, "\n") + '\n';
+  std::string result;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t indent = std::min(line.find_first_not_of(' '), line.size());
+    const bool is_command = line.compare(indent, 2, "./") == 0;
+    if (letters(line) > columns && !is_command) {
+      const std::size_t further = indent == 0 ? 0 : indent + 2;
+      line = line.substr(0, indent) +
+             wrapped(line, columns - further, '\n' + std::string(further, ' '));
+    }
+    result += line + '\n';
+  }
+  return result;
 }
-std::string Terminal::below(const std::string& text) const {
-  return "  " + wrapped(text, columns - 4, "\n    ") + '\n';
+std::string Terminal::below(const std::string& text) const { return folded("  " + text); }
+
+TextTable::TextTable(std::string heading, std::size_t name_width, std::vector<Column> columns,
+                     const Terminal& terminal)
+    : terminal_(terminal),
+      heading_(std::move(heading)),
+      name_width_(std::max(name_width, letters(heading_))),
+      columns_(std::move(columns)) {
+  std::size_t width = name_width_, shown = columns_.size();
+  for (const Column& c : columns_) width += 1 + c.width;
+  for (; width > terminal.columns && shown > 1; --shown) {
+    Column& dropped =
+        *std::max_element(columns_.begin(), columns_.end(), [](const Column& a, const Column& b) {
+          return std::pair(a.is_shown, a.rank) < std::pair(b.is_shown, b.rank);
+        });
+    width -= 1 + dropped.width;
+    dropped.is_shown = false;
+  }
+}
+
+bool TextTable::has(std::string_view heading) const {
+  return std::any_of(columns_.begin(), columns_.end(),
+                     [&](const Column& c) { return c.is_shown && c.heading == heading; });
+}
+
+std::string TextTable::what_is_left_out() const {
+  const bool is_whole =
+      std::all_of(columns_.begin(), columns_.end(), [](const Column& c) { return c.is_shown; });
+  if (is_whole || terminal_.columns >= max_columns) return "";
+  return terminal_.folded("Wider terminals show more columns, up to 80 characters.");
+}
+
+std::string TextTable::headings() const {
+  std::string text = fmt::format("{:<{}}", heading_, name_width_);
+  for (const Column& c : columns_) {
+    if (c.is_shown) text += fmt::format(" {:>{}}", c.heading, c.width);
+  }
+  return terminal_.heading(text) + '\n';
+}
+
+std::string TextTable::row(const std::string& name, const std::vector<Cell>& cells,
+                           bool is_good) const {
+  const bool is_above = letters(name) > name_width_;
+  std::string text =
+      (is_above ? name + '\n' : "") + fmt::format("{:<{}}", is_above ? "" : name, name_width_);
+  if (is_good) text = terminal_.good(text);
+  for (std::size_t i = 0; i < columns_.size(); ++i) {
+    if (!columns_[i].is_shown) continue;
+    const std::string cell = fmt::format(" {:>{}}", cells[i].text, columns_[i].width);
+    text += cells[i].is_bad ? terminal_.bad(cell) : cell;
+  }
+  text.erase(text.find_last_not_of(' ') + 1);
+  return text + '\n';
 }
 
 Terminal standard_output() {
@@ -86,353 +149,6 @@ Terminal standard_output() {
   }
   if (columns > 0) result.columns = std::clamp(columns, min_columns, max_columns);
   return result;
-}
-
-namespace {
-
-std::string scientific(const std::optional<Quantiles>& quantiles, double Quantiles::*which) {
-  if (!quantiles) return "-";
-  const double value = (*quantiles).*which;
-  return value == 0 ? "0" : fmt::format("{:.1e}", value);
-}
-
-std::string whole(const std::optional<double>& value) {
-  return value ? fmt::format("{:.0f}", *value) : "-";
-}
-
-std::string median_time(const ResultRow& row) {
-  return row.time ? whole(row.time->nanoseconds.median) : "-";
-}
-
-std::string ratio(const ResultRow& row) {
-  if (!row.time || !row.time->ratio_to_bullet) return "-";
-  const auto& ties = row.tied_with;
-  const bool is_tied = std::find(ties.begin(), ties.end(), "bullet") != ties.end();
-  return fmt::format("{}{:.2f}", is_tied ? "~" : "", row.time->ratio_to_bullet->median);
-}
-
-/// The text within the terminal's columns, all lines but the first indented by two.
-std::string indented(const std::string& text, const Terminal& terminal) {
-  return wrapped(text, terminal.columns - 2, "\n  ");
-}
-
-std::string titled(const std::string& text, const Terminal& terminal) {
-  return terminal.heading(wrapped(text, terminal.columns, "\n"));
-}
-
-std::string partial_text(const Report& report, const Terminal& terminal) {
-  if (!report.partial) return "";
-  return indented(fmt::format(
-                      "PARTIAL: interrupted when {} of {} pose classes were scored and {} timed.",
-                      report.completed.classes, report.planned.classes, report.timed_classes),
-                  terminal) +
-         "\n\n";
-}
-
-/// Cut downwards like agreement: 1.00 covers every patch.
-std::string mean_coverage(const std::optional<Shares>& coverage) {
-  if (!coverage) return "-";
-  return fmt::format("{:.2f}", std::floor(100 * coverage->mean + 1e-6) / 100);
-}
-
-/// Percentage of the configurations that the candidate has a routine for; cut downwards, so that
-/// only a candidate without a failure shows 100%.
-std::string agreement(const Statistics& s) {
-  const auto count = static_cast<double>(s.count - s.of(Outcome::unsupported));
-  const auto agree = static_cast<double>(s.of(Outcome::agree));
-  const double percent = std::floor(1000 * agree / count + 1e-6) / 10;
-  return fmt::format("{:.1f}", agree == count ? 100.0 : std::min(percent, 99.9));
-}
-
-/// A campaign is not timed.
-bool is_timed(const Report& report) {
-  return std::any_of(report.summary.begin(), report.summary.end(),
-                     [](const ResultRow& row) { return row.time.has_value(); });
-}
-
-/// Few characters, cut downwards: "999", "1k", "340k".
-std::string brief_count(std::uint64_t count) {
-  constexpr std::uint64_t thousand = 1000, million = thousand * thousand;
-  if (count < thousand) return fmt::format("{}", count);
-  if (count < million) return fmt::format("{}k", count / thousand);
-  return fmt::format("{}M", count / million);
-}
-
-/// "0/12": contacts reported where there are none, and the other way round.
-std::string wrong_answers(const Statistics& s) {
-  return brief_count(s.of(Outcome::phantom)) + '/' + brief_count(s.of(Outcome::missed));
-}
-
-std::string signed_median(const std::optional<SignedMedian>& bias) {
-  if (!bias) return "-";
-  return bias->value == 0 ? "0" : fmt::format("{:+.1e}", bias->value);
-}
-
-/// Candidates that do not run as native code have a star.
-bool is_starred(const Report& report, const std::string& candidate) {
-  return std::any_of(
-      report.candidates.begin(), report.candidates.end(),
-      [&](const CandidateDescription& c) { return c.name == candidate && c.runs != "native"; });
-}
-
-/// A column of the table, and what it means, of which the text stands below.
-struct Column {
-  const char* heading;
-  std::size_t width;
-  int rank;  ///< where there is no room for all, those with the highest are left out
-  bool is_of_time;
-  std::function<std::string(const ResultRow&)> text;
-  std::function<bool(const ResultRow&)> is_bad = {};  ///< drawn in red
-};
-
-bool has_wrong_answers(const ResultRow& row) {
-  return row.statistics.of(Outcome::phantom) + row.statistics.of(Outcome::missed) > 0;
-}
-
-/// In the order of the table.
-std::vector<Column> all_columns() {
-  const auto of = [](auto text, auto member) {
-    return [=](const ResultRow& row) { return text(row.statistics.*member); };
-  };
-  const auto p99 = [](const std::optional<Quantiles>& q) { return scientific(q, &Quantiles::p99); };
-  return {
-      {"agree%", 6, 0, false, [](const ResultRow& r) { return agreement(r.statistics); }},
-      {"yes/no", 7, 3, false, [](const ResultRow& r) { return wrong_answers(r.statistics); },
-       has_wrong_answers},
-      {"err", 7, 1, false, of(p99, &Statistics::depth_error)},
-      {"bias", 8, 6, false, of(signed_median, &Statistics::bias)},
-      {"pts", 7, 7, false, of(p99, &Statistics::point_error)},
-      {"cover", 5, 8, false, of(mean_coverage, &Statistics::coverage)},
-      {"ns", 5, 2, true, median_time},
-      {"p95", 5, 4, true,
-       [](const ResultRow& r) { return whole(r.time ? r.time->p95 : std::nullopt); }},
-      {"times", 5, 5, true, ratio},
-  };
-}
-
-/// The columns that the terminal has room for beside the names.
-struct Layout {
-  std::size_t name_width = 0;
-  std::vector<Column> columns;
-
-  Layout(const Report& report, const Terminal& terminal) {
-    for (const CandidateDescription& c : report.candidates) {
-      name_width = std::max(name_width, c.name.size() + (c.runs == "native" ? 0 : 1));
-    }
-    name_width = std::max(name_width, std::string_view("candidate").size());
-    columns = all_columns();
-    if (!is_timed(report)) std::erase_if(columns, [](const Column& c) { return c.is_of_time; });
-    while (columns.size() > 1 && width() > terminal.columns) {
-      columns.erase(std::max_element(columns.begin(), columns.end(),
-                                     [](auto& a, auto& b) { return a.rank < b.rank; }));
-    }
-  }
-  std::size_t width() const {
-    std::size_t sum = name_width;
-    for (const Column& c : columns) sum += 1 + c.width;
-    return sum;
-  }
-  bool has(std::string_view heading) const {
-    return std::any_of(columns.begin(), columns.end(),
-                       [&](const Column& c) { return c.heading == heading; });
-  }
-};
-
-std::string row_text(const Report& report, const ResultRow& row, const Layout& layout,
-                     const Terminal& terminal) {
-  const std::string name = row.candidate + (is_starred(report, row.candidate) ? "*" : "");
-  std::string text = fmt::format("{:<{}}", name, layout.name_width);
-  if (agreement(row.statistics) == "100.0") text = terminal.good(text);
-  for (const Column& c : layout.columns) {
-    const std::string value = fmt::format(" {:>{}}", c.text(row), c.width);
-    text += c.is_bad && c.is_bad(row) ? terminal.bad(value) : value;
-  }
-  return text + '\n';
-}
-
-/// One table for each pair of the first group that was scored, then one for all pairs; of the other
-/// groups, one for all pairs, or of the only one.
-std::string summary_text(const Report& report, const Layout& layout, const Terminal& terminal) {
-  std::string text, first_group, last;
-  const auto has_all = [&](const std::string& group) {
-    return std::any_of(report.summary.begin(), report.summary.end(), [&](const ResultRow& row) {
-      return row.pose_class == group && row.pair == "all";
-    });
-  };
-  for (const ResultRow& row : report.summary) {
-    const Statistics& s = row.statistics;
-    if (first_group.empty()) first_group = row.pose_class;
-    if (row.pose_class != first_group && row.pair != "all" && has_all(row.pose_class)) continue;
-    if (s.of(Outcome::unsupported) == s.count) continue;
-    const std::string heading =
-        fmt::format("{}, {} poses", row.pair == "all" ? "all pairs" : row.pair, row.pose_class);
-    if (heading != last) text += '\n' + terminal.heading(heading) + '\n';
-    last = heading;
-    text += row_text(report, row, layout, terminal);
-  }
-  return text;
-}
-
-/// What the columns mean, of those that are shown.
-std::string columns_text(const Report& report, const Layout& layout, const Terminal& terminal) {
-  std::string text = "\n";
-  const auto explain = [&](const char* column, const std::string& meaning) {
-    if (!layout.has(column)) return;
-    text += indented(fmt::format("{}: {}", column, meaning), terminal) + '\n';
-  };
-  explain("agree%", fmt::format("depth, normal and deepest point within {:g} of the smaller size",
-                                report.tolerance));
-  explain("yes/no", "wrong answers to whether bodies touch: contacts made up, and missed");
-  explain("err", "99th percentile of the reported contacts' depth error, in that size");
-  explain("bias", "its median with its sign: negative is too deep");
-  explain("pts",
-          "99th percentile of how far a contact's worst point is off both surfaces and its "
-          "depth");
-  explain("cover", "mean share of the contact patch that the contact points span");
-  explain("ns", "median time of a query");
-  explain("p95", "what 95% of the queries do not exceed in the pose class where that is the most");
-  explain("times", fmt::format("the median as a multiple of Bullet's, ~ where the spreads of {} to "
-                               "{} repetitions overlap: a tie",
-                               min_repetitions, max_repetitions));
-  if (layout.columns.size() < all_columns().size() && terminal.columns < 80) {
-    text += indented("Wider terminals show more columns, up to 80 characters.", terminal) + '\n';
-  }
-  return text;
-}
-
-/// The pose classes in which a candidate's slow queries take much longer than its median.
-std::string tails_text(const Report& report, const Terminal& terminal) {
-  std::string text;
-  for (const CandidateDescription& candidate : report.candidates) {
-    std::size_t timed = 0, slow = 0;
-    const ResultRow* slowest = nullptr;
-    for (const ResultRow& row : report.results) {
-      if (row.candidate != candidate.name || !row.time || !row.time->p95) continue;
-      ++timed;
-      if (!has_slow_tail(*row.time)) continue;
-      ++slow;
-      if (!slowest || *row.time->p95 > *slowest->time->p95) slowest = &row;
-    }
-    if (!slowest) continue;
-    text +=
-        "  " +
-        wrapped(fmt::format("{} in {} of {} pose classes; {}/{}: median {} ns, p95 {} ns",
-                            candidate.name, slow, timed, slowest->pair, slowest->pose_class,
-                            whole(slowest->time->nanoseconds.median), whole(slowest->time->p95)),
-                terminal.columns - 4, "\n    ") +
-        '\n';
-  }
-  if (text.empty()) return text;
-  return '\n' + titled("Slow tails: 5% of the queries take over four medians", terminal) + '\n' +
-         text;
-}
-
-/// What a candidate that is a command says of its time, against what is known of it.
-std::string commands_text(const Report& report, bool timed, const Terminal& terminal) {
-  std::string text;
-  for (const CandidateDescription& c : report.candidates) {
-    if (c.runs != "native") text += fmt::format("* {} runs as {}\n", c.name, c.runs);
-    if (!timed) continue;
-    double floor = 0, low = 1, high = 1;
-    for (const ResultRow& row : report.summary) {
-      if (row.candidate != c.name || !row.time || !row.time->measured) continue;
-      const auto& [of_row, our_clock, processor] = *row.time->measured;
-      floor = std::max(floor, of_row);
-      low = std::min(low, our_clock);
-      high = std::max({high, our_clock, processor});  // less: it was kept waiting
-    }
-    if (floor > 0) text += fmt::format("  bodies far apart: up to {:.0f} ns\n", floor);
-    if (low < 0.9 || high > 1.1) {
-      text += "  " +
-              wrapped(fmt::format("its times are doubtful: ours are {:.2f} to {:.2f} times as long",
-                                  low, high),
-                      terminal.columns - 4, "\n    ") +
-              '\n';
-    }
-  }
-  return text;
-}
-
-/// The worst failure of a candidate in the first group in which it has one.
-const WorstCase* worst_failure(const Report& report, const std::string& candidate) {
-  const WorstCase* worst = nullptr;
-  for (const WorstCase& w : report.worst) {  // group by group
-    if (w.candidate != candidate || w.score.outcome == Outcome::agree) continue;
-    if (worst && worst->group != w.group) break;
-    if (!worst || is_worse(w.score, worst->score)) worst = &w;
-  }
-  return worst;
-}
-
-std::string failures_text(const Report& report, const Terminal& terminal) {
-  std::string text;
-  for (const CandidateDescription& candidate : report.candidates) {
-    const WorstCase* worst = worst_failure(report, candidate.name);
-    if (!worst) continue;
-    text += fmt::format("  {} {}, {}\n    {}\n", candidate.name, outcome_name(worst->score.outcome),
-                        worst->group, worst->examination.replay);
-  }
-  if (text.empty()) return text;
-  const std::string title =
-      "Worst failure of each candidate, in everyday poses if it has one there";
-  return '\n' + terminal.heading(wrapped(title, terminal.columns, "\n")) + '\n' + text;
-}
-
-bool can_be_asked(const Report& report, const std::string& candidate) {
-  return std::none_of(
-      report.candidates.begin(), report.candidates.end(),
-      [&](const CandidateDescription& c) { return c.name == candidate && c.given; });
-}
-
-/// What candidates pass as it is and fail turned or tilted.
-std::string contrasts_text(const Report& report, const Terminal& terminal) {
-  constexpr int max_shown = 3;  // of a candidate
-  std::string text, last;
-  int shown = 0;
-  const auto leave_out = [&] {
-    if (shown > max_shown)
-      text += fmt::format("    and {} more, in the report\n", shown - max_shown);
-  };
-  for (const Contrast* c : failing_contrasts(report)) {
-    if (c->candidate != last) {
-      leave_out();
-      text += fmt::format("  {}\n", c->candidate);
-      shown = 0;
-    }
-    last = c->candidate;
-    if (++shown > max_shown) continue;
-    text += fmt::format(
-        "    {}\n      {}\n", wrapped(contrast_text(*c), terminal.columns - 6, "\n      "),
-        can_be_asked(report, c->candidate) ? contrast_command(*c) : replay_command(c->worst, {}));
-  }
-  leave_out();
-  if (text.empty()) return text;
-  return '\n' + titled("Passed as it is, failed once turned or tilted", terminal) + '\n' + text;
-}
-
-}  // namespace
-
-std::string terminal_table(const Report& report, const Terminal& terminal) {
-  const bool timed = is_timed(report);
-  const Layout layout(report, terminal);
-  std::string text = partial_text(report, terminal);
-  std::string headings = fmt::format("{:<{}}", "candidate", layout.name_width);
-  for (const Column& c : layout.columns) headings += fmt::format(" {:>{}}", c.heading, c.width);
-  text += terminal.heading(headings) + '\n' + summary_text(report, layout, terminal);
-  text += columns_text(report, layout, terminal);
-  const bool has_timeouts =
-      std::any_of(report.summary.begin(), report.summary.end(),
-                  [](const ResultRow& row) { return row.statistics.of(Outcome::timed_out) > 0; });
-  if (has_timeouts) {
-    text += indented(
-                "timed-out: no answer within the limit of processor time; soon after another "
-                "such answer, within a hundred times the median, at least a tenth of the "
-                "limit",
-                terminal) +
-            '\n';
-  }
-  return text + commands_text(report, timed, terminal) + tails_text(report, terminal) +
-         contrasts_text(report, terminal) + failures_text(report, terminal);
 }
 
 }  // namespace touchstone

@@ -79,9 +79,6 @@ ExperimentResult result_of(const Experiment& experiment, const std::string& cand
 
 ExperimentDescription describe(const Experiment& experiment, const std::vector<double>& steps);
 
-/// Table for a terminal of 80 columns.
-std::string experiments_table(const ExperimentResults& results);
-
 /// The member `experiments` of report.json (docs/simulation.md), and parts of it; null for what is
 /// not finite.
 nlohmann::json to_json(const ExperimentResults& results);

@@ -530,7 +530,9 @@ TEST(Readers, RefuseAnswersThatAreNoneAndNameTheLineAndTheField) {
   expect_refused(R"({"candidate": "mine"})", ": has no answers");
   expect_refused("[1]", ":1: is no object");
   expect_refused(good + "hello", ":2: is not JSON (");
-  expect_refused("\xef\xbb\xbf" + good, ":1: starts with a byte order mark");
+  const std::string byte_order_mark = "\xef\xbb\xbf";  // which may stand before the first line
+  expect_refused(byte_order_mark + good + "hello", ":2: is not JSON (");
+  expect_refused(good + byte_order_mark + good, ":2: is not JSON (");
   expect_refused(good + R"({"status": "none"})", ":2: id is missing");
   expect_refused(R"({"id": "mine/1", "status": "none"})",
                  ":1: id is \"mine/1\": must be that of a configuration");

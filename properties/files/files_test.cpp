@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 #include <iterator>
 #include <limits>
+#include <sstream>
+#include <streambuf>
 #include <string>
 #include <sys/stat.h>
 
@@ -84,6 +86,55 @@ TEST(StrictJson, RefusesWhatIsNestedTooDeeply) {
   std::string objects;
   for (int i = 0; i < 100000; ++i) objects += "{\"a\":";
   EXPECT_THAT(refusal(objects).text, HasSubstr("nested too deeply"));
+}
+
+TEST(StrictJson, AByteOrderMarkMayStandBeforeTheValue) {
+  const std::string mark = "\xef\xbb\xbf";
+  EXPECT_EQ(parse_json(mark + "{\"a\":1}", "file"), json({{"a", 1}}));
+  EXPECT_EQ(parse_json_lines(mark + "{}\n{}\n", "file").size(), 2u);
+  EXPECT_THROW(parse_json_lines("{}\n" + mark + "{}\n", "file"), InvalidInput);
+  std::istringstream in(mark + "{\"a\":1}\n" + mark + "{}\n");
+  JsonLines lines(in);
+  ASSERT_TRUE(lines.next());
+  EXPECT_EQ(lines.parse(), json({{"a", 1}}));
+  ASSERT_TRUE(lines.next());
+  EXPECT_THROW(lines.parse(), InvalidInput);
+  for (const std::string& elsewhere : {mark + mark + "1", "[1," + mark + "2]", "1" + mark}) {
+    EXPECT_EQ(refusal(elsewhere).field, "file") << elsewhere;
+  }
+}
+
+/// A stream of zeros (/dev/zero), after a good line.
+class Endless : public std::streambuf {
+ public:
+  Endless() { setg(first_, first_, first_ + sizeof first_); }
+
+ private:
+  int_type underflow() override {
+    setg(zeros_, zeros_, zeros_ + sizeof zeros_);
+    return 0;
+  }
+  char first_[2] = {'1', '\n'}, zeros_[1 << 16] = {};
+};
+
+TEST(JsonLines, ALineWithoutAnEndEndsTheInputNotTheMemory) {
+  Endless zeros;
+  std::istream in(&zeros);
+  JsonLines lines(in);
+  ASSERT_TRUE(lines.next());
+  EXPECT_EQ(lines.parse(), 1);
+  EXPECT_THAT([&] { lines.next(); },
+              ThrowsMessage<InvalidInput>(HasSubstr("line 2 is without an end: must")));
+}
+
+TEST(JsonLines, GoesOnAfterALineThatIsTooLong) {
+  std::istringstream in(std::string(2 << 20, 'x') + "\n7\n");
+  JsonLines lines(in);
+  ASSERT_TRUE(lines.next());
+  EXPECT_THROW(lines.parse(), InvalidInput);
+  ASSERT_TRUE(lines.next());
+  EXPECT_EQ(lines.parse(), 7);
+  EXPECT_FALSE(lines.next());
 }
 
 TEST(ParseDouble, ReadsDecimalsAndHexadecimalFloats) {
@@ -232,6 +283,13 @@ TEST(Printable, CutsWhatIsLongBetweenCharacters) {
 
 TEST(Printable, WritesControlCharactersAsDigits) {
   EXPECT_EQ(printable(std::string_view("a\0\x1b[2J\n\x7f", 8), 40), "a\\x00\\x1b[2J\\x0a\\x7f");
+}
+
+TEST(CountedText, HasOneThingInTheSingular) {
+  EXPECT_EQ(counted(1, "configuration"), "1 configuration");
+  EXPECT_EQ(counted(0, "configuration"), "0 configurations");
+  EXPECT_EQ(counted(2, "pose class"), "2 pose classes");
+  EXPECT_EQ(counted(3, "body"), "3 bodies");
 }
 
 TEST(ErrorText, CutsEachPart) {

@@ -100,6 +100,12 @@ std::string printable(std::string_view text, std::size_t max_length) {
   return result.substr(0, end) + std::string(cut);
 }
 
+std::string counted(std::uint64_t count, std::string_view noun) {
+  if (count == 1) return fmt::format("1 {}", noun);
+  if (noun.ends_with('y')) return fmt::format("{} {}ies", count, noun.substr(0, noun.size() - 1));
+  return fmt::format("{} {}{}", count, noun, noun.ends_with('s') ? "es" : "s");
+}
+
 std::string error_text(const InvalidInput& error) {
   return printable(error.field(), max_field) + " is " + printable(error.value(), max_value) + ": " +
          printable(error.remedy(), max_remedy);

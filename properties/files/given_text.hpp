@@ -39,6 +39,10 @@ std::uint64_t read_count(const std::string& option, const std::string& text, Cou
 /// bytes, of which the last are "..." where some were cut. UTF-8 stays whole.
 std::string printable(std::string_view text, std::size_t max_length);
 
+/// "1 configuration", "2 configurations", "0 pose classes", "3 bodies": a count and the English
+/// noun that it counts, which is given in the singular.
+std::string counted(std::uint64_t count, std::string_view noun);
+
 /// "radius is -1: must be positive and finite", printable, whatever a file or command line held.
 std::string error_text(const InvalidInput& error);
 

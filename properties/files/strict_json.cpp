@@ -206,6 +206,16 @@ json parse_json(std::string_view text, const std::string& source) {
   }
 }
 
+namespace {
+
+/// A line of several: a byte order mark stands before the first alone.
+json parse_line(const std::string& line, std::uint64_t number, const std::string& source) {
+  if (number > 1 && line.starts_with("\xef\xbb\xbf")) refuse_syntax(line, 0, source);
+  return parse_json(line, source);
+}
+
+}  // namespace
+
 std::vector<json> parse_json_lines(const std::string& text, const std::string& source) {
   std::optional<InvalidInput> not_one_value;
   try {
@@ -219,7 +229,7 @@ std::vector<json> parse_json_lines(const std::string& text, const std::string& s
   for (std::size_t number = 1; std::getline(lines, line); ++number) {
     if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
     try {
-      values.push_back(parse_json(line, fmt::format("line {}", number)));
+      values.push_back(parse_line(line, number, fmt::format("line {}", number)));
     } catch (const InvalidInput&) {
       if (values.empty()) throw *not_one_value;
       throw;
@@ -242,10 +252,14 @@ bool JsonLines::read_line() {
   std::streambuf& buffer = *in_.rdbuf();
   int c = buffer.sbumpc();
   if (c == EOF) return false;
-  for (; c != EOF && c != '\n'; c = buffer.sbumpc()) {
+  ++number_;
+  for (std::size_t length = 0; c != EOF && c != '\n'; c = buffer.sbumpc()) {
+    if (++length > max_file_size) {
+      throw InvalidInput(fmt::format("line {}", number_), "without an end",
+                         fmt::format("must have at most {} bytes", max_line));
+    }
     if (line_.size() <= max_line) line_ += static_cast<char>(c);
   }
-  ++number_;
   return true;
 }
 
@@ -265,7 +279,7 @@ json JsonLines::parse() const {
     throw InvalidInput("line", printable(line_, 30),
                        fmt::format("must have at most {} bytes", max_line));
   }
-  return parse_json(line_, "line");
+  return parse_line(line_, number_, "line");
 }
 
 }  // namespace touchstone

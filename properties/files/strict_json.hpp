@@ -20,11 +20,11 @@ namespace touchstone {
 /// copied or printed.
 inline constexpr std::size_t max_json_depth = 64;
 
-/// Parses JSON that a person or another program wrote: exactly one value (RFC 8259) of valid UTF-8
-/// and nothing after it, no member given twice, no number beyond the doubles, at most
-/// `max_json_depth` deep. Throws InvalidInput: where the text is no JSON its field is `source` ("a
-/// file's name", "line") and its value says at which line and column; otherwise its field is the
-/// path of the member ("bodies[3].shape.radius").
+/// Parses JSON that a person or another program wrote: exactly one value (RFC 8259) of valid UTF-8,
+/// a byte order mark before it or not, and nothing after it, no member given twice, no number
+/// beyond the doubles, at most `max_json_depth` deep. Throws InvalidInput: where the text is no
+/// JSON its field is `source` ("a file's name", "line") and its value says at which line and
+/// column; otherwise its field is the path of the member ("bodies[3].shape.radius").
 nlohmann::json parse_json(std::string_view text, const std::string& source);
 
 /// The one value of the text, or those of JSON Lines, of which blank ones do not count; at least
@@ -36,8 +36,9 @@ std::vector<nlohmann::json> parse_json_lines(const std::string& text, const std:
 class JsonLines {
  public:
   explicit JsonLines(std::istream& in) : in_(in) {}
-  /// Goes on to the next line; false where there is none. Throws InvalidInput (field "file") where
-  /// an error ended the input, of which the lines before it are good.
+  /// Goes on to the next line; false where there is none. Throws InvalidInput where an error ended
+  /// the input (field "file"), of which the lines before it are good, and where a line does not end
+  /// (/dev/zero; "line 7").
   bool next();
   std::uint64_t number() const { return number_; }  ///< of the line, from 1
   /// Throws InvalidInput (field "line") where the line is no JSON or longer than 1 MiB.

@@ -140,8 +140,9 @@ std::filesystem::path save(const Failure& f, const std::filesystem::path& folder
 std::vector<Failure> read_corpus(const std::filesystem::path& path, const char* field) {
   std::vector<Failure> corpus;
   for (const auto& file : files_of(path, field)) {
+    const std::string text = read_file(file, field);
     try {
-      append_failures(read_file(file, field), corpus);
+      append_failures(text, corpus);
     } catch (const InvalidInput& e) {
       throw InvalidInput(field, '"' + file.string() + '"', e.what());
     }

@@ -9,6 +9,7 @@
 #include "oracle/judge/score.hpp"
 #include "oracle/patch/contact_patch.hpp"
 #include "oracle/truth.hpp"
+#include "properties/files/given_text.hpp"
 #include "properties/laws/law.hpp"
 #include "properties/moves.hpp"
 #include "properties/named.hpp"
@@ -310,9 +311,9 @@ std::optional<Violation> judge_manifold(const Configuration& c, Answers answers,
   if (!is_aligned) return std::nullopt;
   const Score s = score(c, truth, answers[0], bar);
   if (!s.coverage || *s.coverage >= min_coverage) return std::nullopt;
-  return Violation{
-      "few-points", min_coverage - *s.coverage,
-      fmt::format("{} points cover {:.2f} of the contact patch", s.points, *s.coverage)};
+  return Violation{"few-points", min_coverage - *s.coverage,
+                   fmt::format("{} {} {:.2f} of the contact patch", counted(s.points, "point"),
+                               s.points == 1 ? "covers" : "cover", *s.coverage)};
 }
 
 // Memory

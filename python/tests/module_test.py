@@ -320,6 +320,8 @@ class Configurations(unittest.TestCase):
             touchstone.classes("cylinder-cone")
         with self.assertRaisesRegex(ValueError, "classes is .*lyng.*lying"):
             touchstone.configurations("cylinder-plane", ["lyng"])
+        with self.assertRaises(TypeError):  # not a list of letters
+            touchstone.configurations("cylinder-plane", "lying")
         with self.assertRaisesRegex(ValueError, "identity"):
             Configuration.of("nowhere")
 

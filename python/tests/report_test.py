@@ -180,8 +180,9 @@ class BadFunctions(unittest.TestCase):
 class Calls(unittest.TestCase):
     def test_bad_arguments_are_refused(self):
         for more, text in [({"classes": ["lyng"]}, "classes is .*lyng"),
-                           ({"pairs": ["cylinder-cone"]}, "pair is .*cylinder-cone"),
+                           ({"pairs": ["cylinder-cone"]}, "pairs is .*cylinder-cone"),
                            ({"groups": ["daily"]}, "groups is .*daily"),
+                           ({"groups": ["extreme"]}, "groups is .*extreme.* which are degenerate"),
                            ({"candidates": ["bulet"]}, "candidates is .*bulet.* must be one of"),
                            ({"count": 0}, "count is 0: must be at least 1"),
                            ({"tolerance": 0}, "tolerance is 0: must be positive"),

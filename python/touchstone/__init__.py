@@ -8,7 +8,7 @@ along which A moves to come free; signed distances are positive apart and negati
 ...     return None  # there is never a contact
 >>> r = touchstone.report(mine, "mine", pairs=["cylinder-plane"], classes=["lying"], count=1)
 >>> r
-<touchstone.Report: 1 configurations, 2 candidates>
+<touchstone.Report: 1 configuration, 2 candidates>
 
 `print(r)` shows a table, `r.save("out")` writes out/report.html. docs/python.md explains it.
 """

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "properties/files/disk.hpp"
+#include "properties/files/given_text.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/campaigns/shard.hpp"
 #include "reports/factors.hpp"
@@ -148,9 +149,10 @@ ShardState Merge::whole(bool may_be_partial) const {
   if (!missing.empty() && !may_be_partial) {
     throw InvalidInput(
         "input", "incomplete",
-        fmt::format("{} of {} configurations are missing, the first of them {}; give all parts, "
+        fmt::format("{} of {} are missing, the first of them {}; give all parts, "
                     "finish them with --resume, or take what there is with --partial",
-                    configurations(sum.plan.cut, missing), sum.plan.cut.cells * sum.plan.cut.count,
+                    configurations(sum.plan.cut, missing),
+                    counted(sum.plan.cut.cells * sum.plan.cut.count, "configuration"),
                     describe(sum.plan, missing.begin()->lower())));
   }
   return sum;

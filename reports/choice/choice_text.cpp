@@ -1,9 +1,10 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <sstream>
 
+#include "properties/files/given_text.hpp"
 #include "reports/choice/choice.hpp"
+#include "reports/terminal.hpp"
 
 namespace touchstone {
 namespace {
@@ -117,24 +118,6 @@ std::string errors(const ReplayScore& s) {
                      s.normal_angle);
 }
 
-/// Breaks what is wider than a terminal between words, the rest further in. Commands stay whole, to
-/// be pasted.
-std::string folded(const std::string& text, std::size_t columns) {
-  std::string result, line;
-  for (std::istringstream lines(text); std::getline(lines, line);) {
-    const std::size_t indent = std::min(line.find_first_not_of(' '), line.size());
-    const bool is_command = line.compare(indent, 2, "./") == 0;
-    while (!is_command && line.size() > columns) {
-      const std::size_t at = line.rfind(' ', columns);
-      if (at == line.npos || at <= indent + 2) break;  // a long word
-      result += line.substr(0, at) + '\n';
-      line = std::string(indent + 2, ' ') + line.substr(at + 1);
-    }
-    result += line + '\n';
-  }
-  return result;
-}
-
 }  // namespace
 
 std::string in_disturbance(const SceneRun& run) {
@@ -144,8 +127,9 @@ std::string in_disturbance(const SceneRun& run) {
 std::string choice_text(const Choice& choice, const std::string& folder, std::size_t columns) {
   const SceneFile& file = choice.file;
   const SceneRun& answer = choice.runs[choice.answer];
-  std::string lines = fmt::format("{}: {} bodies, {:g} s in steps of {:.2g} s\n", file.name,
-                                  file.scene.bodies.size(), file.scene.duration, file.scene.step);
+  std::string lines =
+      fmt::format("{}: {}, {:g} s in steps of {:.2g} s\n", file.name,
+                  counted(file.scene.bodies.size(), "body"), file.scene.duration, file.scene.step);
   if (const Trials& t = choice.trials; t.disturbances > 0) {
     lines += fmt::format(
         "Each run as written, then under {} disturbances, the answer under {} (seed {})\n",
@@ -153,7 +137,7 @@ std::string choice_text(const Choice& choice, const std::string& folder, std::si
   }
   lines += '\n' + headline(choice);
   lines += needs_of(choice, answer);
-  if (choice.impossible) return folded(lines, columns);
+  if (choice.impossible) return Terminal{columns}.folded(lines);
   const auto steps = static_cast<double>(choice.exact_run.frames.size() - 1);
   const double exact = choice.runs[0].nanoseconds / 1000 / steps;
   lines +=
@@ -161,15 +145,15 @@ std::string choice_text(const Choice& choice, const std::string& folder, std::si
                   answer.nanoseconds / 1000 / steps,
                   choice.answer == 0 ? "" : fmt::format(" instead of {:.2g} µs exactly", exact),
                   choice.rest_of_step() * 1e6, kinds_of(choice, folder));
-  return folded(lines + candidates_table(choice, steps), columns);
+  return Terminal{columns}.folded(lines + candidates_table(choice, steps));
 }
 
 std::string pairs_text(const PairsChoice& choice, const std::string& folder, std::size_t columns) {
   std::string lines = fmt::format(
-      "{}: {} collision shapes, {} kinds of pairs with a cylinder\n"
-      "Needs: depth within {:g} m, normals within {:g}°, on {} sampled poses of each\n",
-      choice.name, choice.shapes, choice.pairs.size(), choice.needs.depth, choice.needs.angle,
-      choice.needs.count);
+      "{}: {}, {} of pairs with a cylinder\n"
+      "Needs: depth within {:g} m, normals within {:g}°, on {} of each\n",
+      choice.name, counted(choice.shapes, "collision shape"), counted(choice.pairs.size(), "kind"),
+      choice.needs.depth, choice.needs.angle, counted(choice.needs.count, "sampled pose"));
   for (std::size_t i = 0; i < choice.pairs.size(); ++i) {
     const PairChoice& pair = choice.pairs[i];
     lines +=
@@ -190,7 +174,7 @@ std::string pairs_text(const PairsChoice& choice, const std::string& folder, std
                       errors(c.score), replay_command(evidence_file(choice, i, c, folder), c.name));
     }
   }
-  return folded(lines, columns);
+  return Terminal{columns}.folded(lines);
 }
 
 }  // namespace touchstone

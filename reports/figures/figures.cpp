@@ -43,8 +43,13 @@ struct Rectangle {
   }
 };
 
+/// From the seventh on they are clear of marks at the same height, but stand apart from their own:
+/// for important labels alone.
 constexpr LabelPlace choices[] = {{true, 1, 0},      {false, -1, 0},     {true, 0.6, 0.8},
-                                  {true, 0.6, -0.8}, {false, -0.6, 0.8}, {false, -0.6, -0.8}};
+                                  {true, 0.6, -0.8}, {false, -0.6, 0.8}, {false, -0.6, -0.8},
+                                  {true, 0.2, 1.1},  {false, -0.2, 1.1}, {true, 0.2, 2.1},
+                                  {false, -0.2, 2.1}};
+constexpr std::size_t choices_beside = 6;
 
 Rectangle text_at(const Label& l, const LabelPlace& p) {
   const double end = l.x + p.dx, other = end + (p.rightwards ? l.length : -l.length);
@@ -77,7 +82,8 @@ std::vector<std::optional<LabelPlace>> label_places(const std::vector<Label>& la
       return hits + 10 * crossed + (cut ? 100 : 0);
     };
     const LabelPlace* best = std::min_element(
-        std::begin(choices), std::end(choices),
+        std::begin(choices),
+        labels[i].important ? std::end(choices) : std::begin(choices) + choices_beside,
         [&](const LabelPlace& a, const LabelPlace& b) { return badness(a) < badness(b); });
     if (badness(*best) > 0 && !labels[i].important) continue;
     result[i] = *best;

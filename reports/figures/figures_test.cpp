@@ -103,6 +103,21 @@ TEST(LabelPlaces, NoLineRunsThroughALabel) {
   EXPECT_FALSE(label_places({{20, 5, 9, false}}, 40, 10, lines)[0]);
 }
 
+TEST(LabelPlaces, ALabelHidesNoMarkBesideItsOwn) {
+  // No room to the left, another mark to the right at the same height.
+  const std::vector<Label> labels = {{3, 2, 9, true}, {8, 2, 3, false}};
+  const auto place = label_places(labels, 40, 10)[0];
+  ASSERT_TRUE(place);
+  EXPECT_TRUE(place->rightwards);
+  EXPECT_GE(std::abs(place->dy), 0.5 + 0.35);  // half a line of text, half a mark
+}
+
+TEST(LabelPlaces, ImportantLabelsOfMarksAtOnePlaceStandAboveEachOther) {
+  const std::vector<Label> labels = {{3, 2, 9, true}, {3.1, 2, 9, true}, {8, 2, 3, false}};
+  const auto places = label_places(labels, 40, 10);
+  EXPECT_GE(std::abs(places[0]->dy - places[1]->dy), 1);
+}
+
 TEST(LabelPlaces, AnImportantLabelIsAlwaysShown) {
   const std::vector<Label> labels = {{1, 1, 30, false}, {1, 1, 30, true}};
   const auto places = label_places(labels, 10, 2);

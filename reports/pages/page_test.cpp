@@ -16,7 +16,6 @@
 #include "properties/files/disk.hpp"
 #include "reports/replay.hpp"
 #include "reports/report_json.hpp"
-#include "reports/report_page.hpp"
 
 namespace touchstone {
 namespace {

@@ -93,7 +93,7 @@ if (report.stability) {
 function clockText(name) {
   const off = report.summary.filter(r => r.candidate === name && r.nanoseconds && r.nanoseconds.floor !== null)
       .map(r => r.nanoseconds).flatMap(t => [t.our_clock, Math.max(t.processor, 1)]).filter(x => Math.abs(x - 1) > 0.1);
-  return off.length ? `; its own times are doubtful: ours are ${Math.min(...off).toFixed(2)} to ${Math.max(...off).toFixed(2)} times as long` : '';
+  return off.length ? `; the times it gives are doubtful: by our clocks they are ${Math.min(...off).toFixed(2)} to ${Math.max(...off).toFixed(2)} times as long` : '';
 }
 
 // How it was measured.

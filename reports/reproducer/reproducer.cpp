@@ -1,24 +1,18 @@
 #include <algorithm>
 #include <array>
-#include <cctype>
-#include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <functional>
-#include <map>
-#include <span>
 #include <string>
 
 #include "candidates/candidates.hpp"
 #include "candidates/npm_engines.hpp"
-#include "oracle/patch/contact_patch.hpp"
 #include "oracle/truth.hpp"
-#include "properties/files/answer_json.hpp"
-#include "properties/files/configuration_json.hpp"
 #include "properties/files/given_text.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/replay.hpp"
+#include "reports/reproducer/texts.hpp"
 
 namespace touchstone {
 
@@ -33,160 +27,6 @@ extern const std::string_view plugin_template, command_py_template;
 extern const std::string_view package_json;
 
 namespace {
-
-// The texts that stand for the names in a template.
-
-using Texts = std::map<std::string, std::string, std::less<>>;
-
-/// How a language writes doubles to the last bit.
-enum class NumberStyle { hexadecimal, decimal };
-
-using Quaternion = std::array<double, 4>;  // w, x, y, z
-using Vector = std::array<double, 3>;
-
-/// Which quaternion turns an engine's axis into our z axis.
-const Quaternion y_to_z = {M_SQRT1_2, M_SQRT1_2, 0, 0}, x_to_z = {M_SQRT1_2, 0, -M_SQRT1_2, 0};
-
-// As in candidates/npm/packages.mjs, operation for operation, so that engines get the same bits.
-
-Quaternion multiply(const double* p, const Quaternion& q) {
-  const auto [w, x, y, z] = q;
-  return {p[0] * w - p[1] * x - p[2] * y - p[3] * z, p[0] * x + p[1] * w + p[2] * z - p[3] * y,
-          p[0] * y - p[1] * z + p[2] * w + p[3] * x, p[0] * z + p[1] * y - p[2] * x + p[3] * w};
-}
-
-Vector rotate(const double* q, const double* v) {
-  const double w = q[0], x = q[1], y = q[2], z = q[3], a = v[0], b = v[1], c = v[2];
-  const double s = 2 * (y * c - z * b), t = 2 * (z * a - x * c), u = 2 * (x * b - y * a);
-  return {a + w * s + y * u - z * t, b + w * t + z * s - x * u, c + w * u + x * t - y * s};
-}
-
-/// A rotation that turns one unit vector into another.
-Quaternion turn(const Vector& from, const double* to) {
-  const auto [a, b, c] = from;
-  const double w = 1 + a * to[0] + b * to[1] + c * to[2];
-  Quaternion q = {w, b * to[2] - c * to[1], c * to[0] - a * to[2], a * to[1] - b * to[0]};
-  if (w < 1e-9) {  // opposite: half a turn about anything across
-    q = std::abs(a) < 0.8 ? Quaternion{0, 0, c, -b} : Quaternion{0, -c, 0, a};
-  }
-  const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-  for (double& x : q) x /= length;
-  return q;
-}
-
-/// The shortest decimals that give the same number; zero keeps its sign in Python, too.
-std::string decimal(double x) { return x == 0 && std::signbit(x) ? "-0.0" : fmt::format("{}", x); }
-
-std::string single(double x) {
-  const std::string text = fmt::format("{}", static_cast<float>(x));
-  return text + (text.find_first_of(".e") == text.npos ? ".0f" : "f");
-}
-
-std::string hexadecimal(double x) { return fmt::format("{:a}", x); }
-
-class Writer {
- public:
-  explicit Writer(NumberStyle numbers) : numbers_(numbers) {}
-
-  /// As the language writes it; for C++ with floats also, as "name_float", and for MJCF with spaces
-  /// alone, as "name_xml".
-  void put(const std::string& name, std::span<const double> values) {
-    std::vector<std::string> own, floats, decimals;
-    for (const double x : values) {
-      own.push_back(numbers_ == NumberStyle::hexadecimal ? hexadecimal(x) : decimal(x));
-      floats.push_back(single(x));
-      decimals.push_back(decimal(x));
-    }
-    texts[name] = fmt::format("{}", fmt::join(own, ", "));
-    texts[name + "_float"] = fmt::format("{}", fmt::join(floats, ", "));
-    texts[name + "_xml"] = fmt::format("{}", fmt::join(decimals, " "));
-  }
-  void put(const std::string& name, double value) { put(name, {&value, 1}); }
-
-  /// A rotation, x, y, z, w, as engines take it.
-  void put_xyzw(const std::string& name, const Quaternion& q) {
-    put(name, std::array{q[1], q[2], q[3], q[0]});
-  }
-
-  Texts texts;
-
- private:
-  NumberStyle numbers_;
-};
-
-/// Where engines have their half-spaces: through the origin of a frame of their own.
-void put_plane(Writer& writer, const ts_shape& plane, const ts_pose& pose) {
-  const Vector up = rotate(pose.orientation, plane.size);
-  Vector point;
-  for (std::size_t i = 0; i < 3; ++i) point[i] = pose.position[i] + plane.size[3] * up[i];
-  writer.put("plane_point", point);
-  writer.put_xyzw("plane_along_x", multiply(pose.orientation, turn({1, 0, 0}, plane.size)));
-  writer.put("plane_along_z", multiply(pose.orientation, turn({0, 0, 1}, plane.size)));
-}
-
-/// The numbers that the candidates are given (unit normals and quaternions in double), and what
-/// engines with other axes get.
-Texts question_texts(const Configuration& c, NumberStyle numbers) {
-  const ts_shape a = to_ts_shape(c.a), b = to_ts_shape(c.b);
-  const ts_pose pose_a = to_ts_pose(c.pose_a), pose_b = to_ts_pose(c.pose_b);
-  Writer writer(numbers);
-  writer.put("radius_a", a.size[0]);
-  writer.put("half_length_a", a.size[1]);
-  writer.put("radius_b", b.size[0]);
-  writer.put("half_length_b", b.size[1]);
-  writer.put("half_b", std::span(b.size, 3));
-  writer.put("normal_b", std::span(b.size, 3));
-  writer.put("displacement_b", b.size[3]);
-  writer.put("constant_b", -b.size[3]);
-  for (const auto& [body, pose] : {std::pair("a", pose_a), std::pair("b", pose_b)}) {
-    const std::string name = body;
-    const double* const q = pose.orientation;
-    writer.put("position_" + name, pose.position);
-    writer.put("orientation_" + name, pose.orientation);
-    writer.put_xyzw("xyzw_" + name, {q[0], q[1], q[2], q[3]});
-    writer.put_xyzw(name + "_along_y", multiply(q, y_to_z));
-    writer.put_xyzw(name + "_along_x", multiply(q, x_to_z));
-  }
-  if (b.kind == TS_PLANE) put_plane(writer, b, pose_b);
-  std::string shape = shape_name(c.b);
-  writer.texts["shape_b"] = shape;
-  shape[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(shape[0])));
-  writer.texts["Shape_b"] = shape;
-  return writer.texts;
-}
-
-/// The truth, and what is allowed.
-Texts truth_texts(const Configuration& c, const oracle::Truth& truth, const Bar& bar,
-                  NumberStyle numbers) {
-  const auto [low, high] = decimals(truth.signed_distance);
-  const double distance = truth.signed_distance.midpoint();
-  const Vec3 n = truth.normals.front().n;
-  const Vec3 middle = oracle::contact_patch(c, truth.normals.front()).centroid();
-  Writer writer(numbers);
-  writer.put("true_distance", distance);
-  writer.put("true_depth", -distance);
-  writer.put("true_normal", std::span(n.data(), 3));
-  writer.put("true_axis", std::array{-n.x(), -n.y(), -n.z()});
-  writer.put("middle", std::span(middle.data(), 3));
-  writer.put("allowed", bar.tolerance * error_size(c, bar));
-  writer.put("threshold", bar.threshold);
-  writer.texts["truth_low"] = low;
-  writer.texts["truth_high"] = high;
-  writer.texts["tolerance"] = fmt::format("{}", bar.tolerance);
-  return writer.texts;
-}
-
-/// Jolt's convex radii, by a rule for the smallest half extent of a shape.
-Texts convex_radius_texts(const Configuration& c, const std::function<double(double)>& rule) {
-  const auto smallest = [](const ts_shape& shape) {
-    const int count = shape.kind == TS_BOX ? 3 : 2;
-    return *std::min_element(shape.size, shape.size + count);
-  };
-  Writer writer(NumberStyle::decimal);
-  writer.put("convex_radius_a", rule(smallest(to_ts_shape(c.a))));
-  writer.put("convex_radius_b", rule(smallest(to_ts_shape(c.b))));
-  return writer.texts;
-}
 
 // The programs.
 

@@ -13,6 +13,8 @@
 
 namespace touchstone {
 
+struct Terminal;
+
 // How answers change at tiny steps and along slow motions (docs/stability.md): measured once
 // (measure.hpp), then read by the table, the page and the JSON. Lengths are in sizes of the smaller
 // shape; a measure is absent where there was nothing to measure.
@@ -120,8 +122,8 @@ double short_number(double value);
 /// A ratio to a bound, to two decimals upwards: 1 stands for at most 1 + 1e-9.
 double rounded_up(double ratio);
 
-/// What a person reads of it in a terminal, 80 columns wide.
-std::string stability_table(const Stability& stability);
+/// What a person reads of it in a terminal.
+std::string stability_table(const Stability& stability, const Terminal& terminal);
 
 /// Member "stability" of report.json, and stability.json without its header.
 nlohmann::json to_json(const Stability& stability);

@@ -12,6 +12,7 @@
 #include "reports/pages/page.hpp"
 #include "reports/replay.hpp"
 #include "reports/stability/stability.hpp"
+#include "reports/terminal.hpp"
 
 namespace touchstone {
 namespace {
@@ -54,34 +55,55 @@ struct PairRow {
   }
 };
 
-std::string amplification_table(const Amplification& a, const Names& candidates) {
+/// Of a row in which a candidate's name is indented below a pair's.
+std::size_t name_width(const Names& candidates) {
+  std::size_t width = 0;
+  for (const std::string& name : candidates) width = std::max(width, 2 + name.size());
+  return width;
+}
+
+std::string amplification_table(const Amplification& a, const Names& candidates,
+                                const Terminal& terminal) {
   std::map<std::string, std::map<std::string, PairRow>> rows;
   Names pairs;
   for (const Amplification::Row& row : a.results) {
     if (std::find(pairs.begin(), pairs.end(), row.pair) == pairs.end()) pairs.push_back(row.pair);
     rows[row.pair][row.candidate].add(row, static_cast<int>(a.count));
   }
-  std::string text = fmt::format("{:<23}{:>8} {:>8} {:>8} {:>8} {:>8} {:>6} {:>5}\n", "small steps",
-                                 "depth x", "jump", "regret", "hull", "flicker%", "missed", "none");
+  const TextTable table("small steps", name_width(candidates),
+                        {{"depth x", 8, 0},
+                         {"jump", 8, 1},
+                         {"regret", 8, 3},
+                         {"hull", 8, 4},
+                         {"flicker%", 8, 5},
+                         {"missed", 6, 2},
+                         {"none", 5, 6}},
+                        terminal);
+  std::string text = table.headings();
   for (const std::string& pair : pairs) {
     text += '\n' + pair + '\n';
     for (const std::string& candidate : candidates) {
       const auto found = rows[pair].find(candidate);
       if (found == rows[pair].end()) continue;
       const PairRow& r = found->second;
-      text += fmt::format("  {:<21}{:>8} {:>8} {:>8} {:>8} {:>8} {:>6} {:>5}\n", candidate,
-                          amplification_text(r.amplification), short_text(r.jump),
-                          short_text(r.regret), short_text(r.hull_excess),
-                          r.tiny_steps > 0 ? percent(r.flickers, r.tiny_steps) : "-", r.missed,
-                          r.unanswered);
+      text +=
+          table.row("  " + candidate, {{amplification_text(r.amplification)},
+                                       {short_text(r.jump)},
+                                       {short_text(r.regret)},
+                                       {short_text(r.hull_excess)},
+                                       {r.tiny_steps > 0 ? percent(r.flickers, r.tiny_steps) : "-"},
+                                       {std::to_string(r.missed)},
+                                       {std::to_string(r.unanswered)}});
     }
   }
-  return text +
-         "\ndepth x: largest change of the answered depth over what the step allows (the\n"
-         "truth: 1). jump: of depth, beyond the true change. regret: of the normal. hull:\n"
-         "by how much more the contact points' hull moved than the contact patch. All in\n"
-         "sizes of the smaller shape. flicker: steps up to 1e-8 that change the number of\n"
-         "points. none: steps without an answer in numbers at one end.\n";
+  return text + '\n' +
+         terminal.folded(
+             "depth x: largest change of the answered depth over what the step allows (the truth: "
+             "1). jump: of depth, beyond the true change. regret: of the normal. hull: by how much "
+             "more the contact points' hull moved than the contact patch. All in sizes of the "
+             "smaller shape. flicker: steps up to 1e-8 that change the number of points. none: "
+             "steps without an answer in numbers at one end.") +
+         table.what_is_left_out();
 }
 
 /// All pixels of one candidate.
@@ -108,22 +130,28 @@ std::map<std::string, PixelCounts> count_pixels(const FailureMaps& maps) {
   return counts;
 }
 
-std::string maps_table(const FailureMaps& maps, const Names& candidates) {
+std::string maps_table(const FailureMaps& maps, const Names& candidates, const Terminal& terminal) {
   const auto counts = count_pixels(maps);
-  std::string text = fmt::format("{:<23}", "maps, pixels that agree");
-  for (const Decade& zoom : maps.zooms) text += fmt::format("{:>8}", zoom.name());
-  text += fmt::format("{:>9}\n\n", "missed");
+  std::vector<TextTable::Column> columns;
+  for (const Decade& zoom : maps.zooms) {
+    columns.push_back({zoom.name(), 7, static_cast<int>(columns.size())});
+  }
+  columns.push_back({"missed", 8});
+  const TextTable table("maps, % that agree", name_width(candidates), columns, terminal);
+  std::string text = table.headings() + '\n';
   for (const std::string& candidate : candidates) {
     const auto found = counts.find(candidate);
     if (found == counts.end()) continue;
     const PixelCounts& c = found->second;
-    text += fmt::format("  {:<21}", candidate);
+    std::vector<TextTable::Cell> cells;
     for (std::size_t z = 0; z < maps.zooms.size(); ++z) {
-      text += fmt::format("{:>8}", percent(c.agreed[z], c.asked[z]));
+      cells.push_back({percent(c.agreed[z], c.asked[z])});
     }
-    text += fmt::format("{:>9}\n", c.missed);
+    cells.push_back({std::to_string(c.missed)});
+    text += table.row("  " + candidate, cells);
   }
-  return text + "\npercent of the pixels of all poses, at each zoom\n";
+  return text + '\n' + terminal.folded("percent of the pixels of all poses, at each zoom") +
+         table.what_is_left_out();
 }
 
 /// The largest value of a measure over all motions, as it is shown, and the first motion that has
@@ -137,9 +165,20 @@ struct LargestPeak {
   }
 };
 
-std::string sequences_table(const Sequences& sequences, const Names& candidates) {
-  std::string text = fmt::format("{:<23}{:>8} {:<21} {:>8} {:<11}{:>6}\n\n", "motions", "jump",
-                                 "in", "hull", "in", "missed");
+std::string sequences_table(const Sequences& sequences, const Names& candidates,
+                            const Terminal& terminal) {
+  std::size_t motion_width = 0;
+  for (const Sequences::Course& course : sequences.motions) {
+    motion_width = std::max(motion_width, course.motion.size());
+  }
+  const TextTable table("motions", name_width(candidates),
+                        {{"jump", 8, 0},
+                         {"in", motion_width, 3},
+                         {"hull", 8, 2},
+                         {"in", motion_width, 4},
+                         {"missed", 6, 1}},
+                        terminal);
+  std::string text = table.headings() + '\n';
   for (const std::string& candidate : candidates) {
     LargestPeak jump, hull;
     int missed = 0;
@@ -154,15 +193,20 @@ std::string sequences_table(const Sequences& sequences, const Names& candidates)
       }
     }
     if (!any) continue;
-    text += fmt::format("  {:<21}{:>8} {:<21} {:>8} {:<11}{:>6}\n", candidate, number(jump.value),
-                        jump.motion, number(hull.value), hull.motion.substr(0, 11), missed);
+    text += table.row("  " + candidate, {{number(jump.value)},
+                                         {jump.motion},
+                                         {number(hull.value)},
+                                         {hull.motion},
+                                         {std::to_string(missed)}});
   }
-  return text + fmt::format("\nlargest at one of {} steps of each motion, in sizes; as above\n",
-                            sequences.steps);
+  return text + '\n' +
+         terminal.folded(fmt::format(
+             "largest at one of {} steps of each motion, in sizes; as above", sequences.steps)) +
+         table.what_is_left_out();
 }
 
-std::string worst_steps(const std::vector<Amplification::WorstStep>& worst,
-                        const Names& candidates) {
+std::string worst_steps(const std::vector<Amplification::WorstStep>& worst, const Names& candidates,
+                        const Terminal& terminal) {
   std::string text;
   for (const std::string& candidate : candidates) {
     const Amplification::WorstStep* max = nullptr;
@@ -175,17 +219,18 @@ std::string worst_steps(const std::vector<Amplification::WorstStep>& worst,
         fmt::format("  {}: depth x {}\n    {}\n    {}\n", candidate, number(max->value),
                     replay_command(max->from, {candidate}), replay_command(max->to, {candidate}));
   }
-  return text.empty() ? text : "\nWorst step of each candidate, from and to:\n" + text;
+  return text.empty() ? text
+                      : '\n' + terminal.folded("Worst step of each candidate, from and to:") + text;
 }
 
 }  // namespace
 
-std::string stability_table(const Stability& s) {
+std::string stability_table(const Stability& s, const Terminal& terminal) {
   std::string text;
-  if (s.amplification) text += amplification_table(*s.amplification, s.candidates);
-  if (s.maps) text += '\n' + maps_table(*s.maps, s.candidates);
-  if (s.sequences) text += '\n' + sequences_table(*s.sequences, s.candidates);
-  if (s.amplification) text += worst_steps(s.amplification->worst, s.candidates);
+  if (s.amplification) text += amplification_table(*s.amplification, s.candidates, terminal);
+  if (s.maps) text += '\n' + maps_table(*s.maps, s.candidates, terminal);
+  if (s.sequences) text += '\n' + sequences_table(*s.sequences, s.candidates, terminal);
+  if (s.amplification) text += worst_steps(s.amplification->worst, s.candidates, terminal);
   return text;
 }
 

@@ -229,8 +229,8 @@ ReadAnswers read_answers(std::istream& in, const GivenDescription& description,
     throw e.field().starts_with("-") || e.field().starts_with("line") ? e : e.within("line 1");
   }
   if (const auto& missing = reader.missing(); !missing.empty()) {
-    const std::string value =
-        fmt::format("missing for {} configurations, as {}", missing.size(), *missing.begin());
+    const std::string value = fmt::format(
+        "missing for {}, as {}", counted(missing.size(), "configuration"), *missing.begin());
     result.errors.push_back(error_of(
         0, {"answer", value, "must be given; its status may be \"failed\" or \"unsupported\""}));
   }

@@ -197,19 +197,6 @@ ExperimentResult with_error(double error, bool exact = false) {
   return r;
 }
 
-TEST(EnginesTable, SaysOfWhatIsHeldAndStillMovesThatItJitters) {
-  ExperimentResult held = with_error(1e-4, true), restless = with_error(1);
-  held.last_time = restless.last_time = 10;
-  held.last_motion = restless.last_motion = 9.9;
-  ExperimentDescription standing{"standing", "", "", "", {0}, {0}, true};
-  EngineResults results{
-      1.0 / 240, {}, {standing}, {{"standing", "ode", Cure::held, held, held, {}}}};
-  EXPECT_NE(engines_table(results).find(" jitter "), std::string::npos);
-  EXPECT_EQ(engines_table(results).find("never"), std::string::npos);
-  results.results[0].own = restless;
-  EXPECT_NE(engines_table(results).find(" never "), std::string::npos);
-}
-
 TEST(Cure, IsJudgedByTheErrors) {
   const ExperimentResult held = with_error(1e-3, true);
   EXPECT_EQ(cure_of(with_error(1), held, {}), Cure::held);

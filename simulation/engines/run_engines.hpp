@@ -88,10 +88,6 @@ bool is_one_run(const Experiment& experiment, double step);
 EngineMotion record_motion(const Experiment& experiment, const std::string& engine,
                            const EngineSetup& setup, double step);
 
-/// Tables for a terminal of 80 columns: of all that is measured; of the errors alone, for a report.
-std::string engines_table(const EngineResults& results);
-std::string engines_summary(const EngineResults& results);
-
 /// The member `engines` of report.json (docs/inside-the-engines.md).
 nlohmann::json to_json(const EngineResults& results);
 

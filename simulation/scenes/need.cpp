@@ -81,6 +81,13 @@ void require_vertical(const Scene& scene, const char* need) {
                      "has no meaning in a scene without gravity");
 }
 
+/// An angle beyond which nothing can be would make a need that cannot fail, or cannot hold.
+void require_angle(double degrees, double below) {
+  if (degrees < below) return;
+  throw InvalidInput("degrees", fmt::format("{:g}", degrees),
+                     fmt::format("must be less than {:g}: no angle here is larger", below));
+}
+
 std::string names(const Scene& scene, const std::vector<int>& bodies) {
   std::vector<std::string> all;
   for (const int b : bodies) all.push_back(scene.bodies[b].name);
@@ -101,6 +108,7 @@ struct Stands : Need {
   }
   void check(const Scene& scene) const override {
     require_vertical(scene, name);
+    require_angle(degrees, 90);
     if (until >= from) return;
     throw InvalidInput("until", fmt::format("{:g}", until),
                        fmt::format("must not lie before from, which is {:g}", from));
@@ -187,6 +195,7 @@ struct FallsInOrder : Need {
     members.bodies(bodies);
     members.number_or_default("degrees", degrees);
   }
+  void check(const Scene&) const override { require_angle(degrees, 180); }
   std::string text(const Scene& scene) const override {
     return bodies.size() == 1 ? names(scene, bodies) + " falls"
                               : "fall in the order " + names(scene, bodies);
@@ -250,6 +259,7 @@ struct Normals : Need {
     members.pair(bodies);
     members.number("degrees", degrees);
   }
+  void check(const Scene&) const override { require_angle(degrees, 180); }
   std::string text(const Scene& scene) const override {
     return fmt::format("normals of {} within {:g}°", names(scene, bodies), degrees);
   }
@@ -291,6 +301,7 @@ struct EndsTilted : Need {
     members.body(bodies);
     members.number("degrees", degrees);
   }
+  void check(const Scene&) const override { require_angle(degrees, 180); }
   std::string text(const Scene& scene) const override {
     return fmt::format("{} ends within {:g}° of the exact tilt", names(scene, bodies), degrees);
   }

@@ -68,6 +68,9 @@ Body read_kind_of_body(const json& value, const std::string& path,
   Body body{string(member(value, "name", path), path + ".name"),
             shape_from_json(member(value, "shape", path), path + ".shape")};
   check_printable(path + ".name", body.name);
+  if (body.name.find_first_not_of(' ') == body.name.npos) {
+    throw InvalidInput(path + ".name", shown(body.name), "must have a letter, to be told by");
+  }
   if (value.contains("material")) {
     const std::string name = string(value["material"], path + ".material");
     if (!materials.contains(name)) {
@@ -321,7 +324,21 @@ void check_printable(const std::string& field, const std::string& name) {
   throw InvalidInput(field, shown(name), "must be without control characters");
 }
 
+namespace {
+
+/// What is meant is told by the name's ending.
+void refuse_xml(std::string_view text, const std::filesystem::path& path) {
+  const auto first = text.find_first_not_of("\xef\xbb\xbf \t\r\n");
+  if (first == text.npos || text[first] != '<') return;
+  throw InvalidInput("scene", '"' + path.string() + '"',
+                     "is XML: the name of a robot must end in .urdf, that of a world in .sdf or "
+                     ".world; a scene is JSON (docs/scenes.md)");
+}
+
+}  // namespace
+
 SceneFile scene_from_text(std::string_view text, const std::filesystem::path& path) {
+  refuse_xml(text, path);
   const json file = parse_json(text, path.string());
   require_object(file, "scene");
   refuse_others(file,

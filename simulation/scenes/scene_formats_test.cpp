@@ -307,6 +307,28 @@ TEST(SceneFile, ErrorsOfWhatMovesItsBodiesNameThePathOfTheField) {
   EXPECT_THAT(refusal_at("/drops/0/pose", json::object()), HasSubstr("drops[0].pose"));
 }
 
+TEST(SceneFile, AnglesOfNeedsAreSmallerThanTheLargestThereIs) {
+  const auto need = [](const json& value) { return [=](json& s) { s["needs"][0] = value; }; };
+  EXPECT_THAT(refusal(need({{"need", "stands"}, {"body", "can"}, {"degrees", 90}})),
+              HasSubstr("needs[0].degrees is 90: must be less than 90"));
+  EXPECT_EQ(refusal(need({{"need", "stands"}, {"body", "can"}, {"degrees", 89.9}})), "accepted");
+  for (const json& of_turns :
+       {json{{"need", "falls-in-order"}, {"bodies", {"can"}}, {"degrees", 180}},
+        json{{"need", "normals"}, {"bodies", {"can", "ground"}}, {"degrees", 180}},
+        json{{"need", "ends-tilted"}, {"body", "can"}, {"degrees", 180}}}) {
+    EXPECT_THAT(refusal(need(of_turns)),
+                HasSubstr("needs[0].degrees is 180: must be less than 180"))
+        << of_turns;
+  }
+}
+
+TEST(SceneFile, ThatIsXmlIsRefusedWithTheEndingsOfRobots) {
+  for (const char* text : {"<?xml version=\"1.0\"?><robot/>", "\xef\xbb\xbf <sdf/>"}) {
+    EXPECT_THAT([&] { scene_from_text(text, "G.URDF"); },
+                testing::ThrowsMessage<InvalidInput>(HasSubstr("must end in .urdf")));
+  }
+}
+
 TEST(SceneFile, IsAtLeastAStepLong) {
   for (const double duration : {0.0, 0.001}) {
     EXPECT_THAT(refusal([&](json& s) {
@@ -323,6 +345,10 @@ TEST(SceneFile, NamesAreWithoutControlCharacters) {
     EXPECT_THAT(refusal([&](json& s) { s["bodies"][1]["name"] = name; }),
                 HasSubstr("bodies[1].name is "))
         << name;
+  }
+  for (const char* name : {"", " "}) {
+    EXPECT_THAT(refusal([&](json& s) { s["bodies"][1]["name"] = name; }),
+                HasSubstr("must have a letter"));
   }
   // A file's name may be of any bytes; what is shown of it is text.
   EXPECT_EQ(scene_from_text(small_scene().dump(), "caf\xe9\n.json").name, "caf? ");

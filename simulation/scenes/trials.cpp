@@ -150,7 +150,9 @@ std::string in_words(const Score& s, const Configuration& c) {
     default:
       return text;
   }
-  if (s.coverage.value_or(1) >= poor_coverage) return text;
+  if (s.coverage.value_or(1) >= poor_coverage) {
+    return s.outcome == Outcome::agree ? "even the worst answer looked at is right" : text;
+  }
   return text + fmt::format(", but {} {:.2f} of the contact patch",
                             s.points == 1 ? "its 1 point spans"
                                           : fmt::format("its {} points span", s.points),

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+
+#include "oracle/truth.hpp"
+#include "reference/configuration.hpp"
+#include "reports/replay.hpp"
+
+namespace touchstone {
+
+/// What stands for the names in a reproducer's template.
+using Texts = std::map<std::string, std::string, std::less<>>;
+
+/// How a language writes doubles to the last bit.
+enum class NumberStyle { hexadecimal, decimal };
+
+/// The numbers that the candidates are given (unit normals and quaternions in double), and what
+/// engines with other axes get.
+Texts question_texts(const Configuration& c, NumberStyle numbers);
+
+/// The truth, and what is allowed.
+Texts truth_texts(const Configuration& c, const oracle::Truth& truth, const Bar& bar,
+                  NumberStyle numbers);
+
+/// Jolt's convex radii, by a rule for the smallest half extent of a shape.
+Texts convex_radius_texts(const Configuration& c, const std::function<double(double)>& rule);
+
+}  // namespace touchstone
