@@ -29,8 +29,8 @@ struct Case {
 };
 
 /// Selects from the cases of one class the two worst and the worst of each outcome, worst first.
-/// Cases that a candidate does not support are left out. The worst of two sets together are the
-/// worst of the worst of each.
+/// Cases that a candidate does not support or was not asked are left out. The worst of two sets
+/// together are the worst of the worst of each.
 std::vector<Case> worst_of_class(std::vector<Case> cases);
 
 /// Selects from what worst_of_class gave of all classes under a heading (pair × group) the worst of
@@ -122,8 +122,10 @@ struct SignedTally {
 struct ScoreTally {
   explicit ScoreTally(Precision precision);
 
-  /// Adds the score of a configuration: `index` of its cell.
-  void add(std::size_t cell, std::uint64_t index, const Score& score);
+  /// Adds the score of a configuration: `index` of its cell. `represented`: for how many others,
+  /// which were not asked, it stands, too.
+  void add(std::size_t cell, std::uint64_t index, const Score& score,
+           std::uint64_t represented = 0);
   /// Adds a tally of the same precision.
   void add(const ScoreTally& other);
 
@@ -145,7 +147,7 @@ struct ScoreTally {
        {"solver_error", &Score::solver_error, &Statistics::solver_error}}};
 
   std::uint64_t count = 0;
-  std::array<std::uint64_t, all_outcomes.size()> outcomes{};
+  OutcomeCounts outcomes{}, represented{};  ///< as in Statistics
   std::map<int, std::uint64_t> points;
   std::vector<Magnitudes> errors;  ///< of each of the quantities
   SignedTally bias;                ///< of depth errors
@@ -194,7 +196,7 @@ class TrendTally {
     std::size_t candidate;
     Variable variable;
     std::optional<int> decade;  ///< absent, which comes first: zero, and what is lost in rounding
-    auto operator<=>(const Key&) const = default;
+    auto operator<=>(const Key&) const = default;  // NOLINT(modernize-use-nullptr): not written
   };
   struct Bin {
     std::vector<double> severity;
