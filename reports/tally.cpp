@@ -211,7 +211,15 @@ void ScoreTally::add(std::size_t cell, std::uint64_t index, const Score& s,
   if (s.depth_error) bias.add(*s.depth_error);
   if (is_judged(s.outcome)) severity.add(s.severity);
   if (s.coverage) coverage.add(*s.coverage);
-  worst.push_back({cell, index, essence(s)});
+  const Case added{cell, index, essence(s)};
+  // Most are not among the worst, which is cheap to tell.
+  const auto worse = [&](const Case& c) { return c < added; };
+  const bool has_worse_like_it = std::any_of(worst.begin(), worst.end(), [&](const Case& c) {
+    return c.score.outcome == s.outcome && worse(c);
+  });
+  const auto worse_ones = std::count_if(worst.begin(), worst.end(), worse);
+  if (has_worse_like_it && worse_ones >= static_cast<std::ptrdiff_t>(kept_of_class)) return;
+  worst.push_back(added);
   worst = worst_of_class(std::move(worst));
 }
 

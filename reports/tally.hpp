@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <boost/container/flat_map.hpp>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -53,7 +54,7 @@ class Magnitudes {
   static constexpr std::uint64_t max_count = 1'000'000'000;
   /// The first 15 bits of a double that is not negative (sign, exponent, three of the mantissa)
   /// number its bin.
-  using Bins = std::map<std::uint16_t, std::uint64_t>;
+  using Bins = boost::container::flat_map<std::uint16_t, std::uint64_t>;
   static std::uint16_t bin_of(double magnitude);
 
   explicit Magnitudes(Precision precision) : precision_(precision) {}
