@@ -33,6 +33,9 @@ void set_alarm(double seconds) {
   setitimer(ITIMER_REAL, &timer, nullptr);
 }
 
+/// A worker ends without Python's knowledge: what the function printed would be lost.
+void flush_output() { py::module_::import("sys").attr("stdout").attr("flush")(); }
+
 /// "ValueError: what it says".
 std::string text_of(const py::error_already_set& error) {
   auto type = error.type().attr("__name__").cast<std::string>();
@@ -118,12 +121,22 @@ std::vector<Answer> FunctionRespondent::answers(std::span<const Configuration> c
   return answer(configurations, {});
 }
 
+std::vector<Answer> FunctionRespondent::answers_until_timeout(
+    std::span<const Configuration> configurations, bool /*in_new_session*/) {
+  std::vector<Answer> result;
+  for (const Configuration& c : configurations) {
+    result.push_back(answer_to(arguments_of(c)));
+    if (result.back().status == TS_TIMED_OUT) break;
+  }
+  flush_output();
+  return result;
+}
+
 std::vector<Answer> FunctionRespondent::answer(std::span<const Configuration> configurations,
                                                std::span<const Vec3* const> /*previous_normals*/) {
   std::vector<Answer> result;
   for (const Configuration& c : configurations) result.push_back(answer_to(arguments_of(c)));
-  // A worker ends without Python's knowledge: what the function printed would be lost.
-  py::module_::import("sys").attr("stdout").attr("flush")();
+  flush_output();
   return result;
 }
 

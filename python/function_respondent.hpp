@@ -22,6 +22,8 @@ class FunctionRespondent : public Respondent {
   void ask_within(double threshold) override;
   void go_on_within(double threshold) override { ask_within(threshold); }
   std::vector<Answer> answers(std::span<const Configuration> configurations) override;
+  std::vector<Answer> answers_until_timeout(std::span<const Configuration> configurations,
+                                            bool in_new_session) override;
   /// A function takes no hints.
   std::vector<Answer> answer(std::span<const Configuration> configurations,
                              std::span<const Vec3* const> previous_normals) override;

@@ -190,9 +190,22 @@ Basis basis_of(const Report& before, const Report& after, const std::string& bas
   return basis;
 }
 
-/// Number of configurations that the candidate has a routine for.
-double supported(const Statistics& s) {
-  return static_cast<double>(s.count - s.of(Outcome::unsupported));
+/// Was the candidate asked a sample only? Then rows of the same configurations may tell of others.
+bool is_sampled(const Statistics& s) { return s.of(Outcome::not_asked) > 0; }
+
+void remark_sampled(Basis& basis, const Report& before, const Report& after) {
+  std::set<std::string> names;
+  for (const Report* report : {&before, &after}) {
+    for (const ResultRow& row : report->results) {
+      if (is_sampled(row.statistics)) names.insert(row.candidate);
+    }
+  }
+  for (const std::string& name : names) {
+    basis.remarks.push_back(fmt::format(
+        "{} times out so often that it was asked a sample of some classes: its agreement there "
+        "is compared beyond chance, its errors by median and 99th percentile.",
+        name));
+  }
 }
 
 /// Collects the changes of one row.
@@ -226,17 +239,19 @@ double chance(double p, double n, double q, double m) {
 }
 
 void compare_agreement(Changes& changes, const Statistics& before, const Statistics& after,
-                       const Basis& basis, const CompareLimits& limits) {
-  const double n = supported(before), m = supported(after);
-  const double p = static_cast<double>(before.of(Outcome::agree)) / n;
-  const double q = static_cast<double>(after.of(Outcome::agree)) / m;
-  if (p == q || (!basis.same_configurations && std::abs(p - q) <= chance(p, n, q, m))) return;
+                       bool same_configurations, const CompareLimits& limits) {
+  const auto n = static_cast<double>(before.asked()), m = static_cast<double>(after.asked());
+  const auto share = [](const Statistics& s) {
+    return static_cast<double>(s.agreeing()) / static_cast<double>(s.supported());
+  };
+  const double p = share(before), q = share(after);
+  if (p == q || (!same_configurations && std::abs(p - q) <= chance(p, n, q, m))) return;
   changes.add("agreement", p, q, p > 0 ? std::optional(q / p) : std::nullopt,
               q < p ? Verdict::worse : Verdict::better, q > p || q < limits.agreement * p);
 }
 
 void compare_errors(Changes& changes, const Statistics& before, const Statistics& after,
-                    const Basis& basis, const CompareLimits& limits) {
+                    const Basis& basis, bool same_configurations, const CompareLimits& limits) {
   constexpr struct {
     std::optional<Quantiles> Statistics::*member;
     double Quantiles::*which;
@@ -254,7 +269,7 @@ void compare_errors(Changes& changes, const Statistics& before, const Statistics
       {&Statistics::deepest_error, &Quantiles::max, "deepest point's error, max", false}};
   for (const auto& m : measures) {
     const auto &old = before.*m.member, &now = after.*m.member;
-    if (!old || !now || !(m.of_any_sample || basis.same_configurations)) continue;
+    if (!old || !now || !(m.of_any_sample || same_configurations)) continue;
     changes.smaller_is_better(m.measure, (*old).*m.which, (*now).*m.which, negligible_error,
                               limits.error_factor);
   }
@@ -308,7 +323,9 @@ void compare_rows(Comparison& comparison, const std::vector<ResultRow>& before,
       continue;
     }
     const ResultRow &old = *old_row, &now = *found->second;
-    const bool had = supported(old.statistics) > 0, has = supported(now.statistics) > 0;
+    const bool had = old.statistics.supported() > 0, has = now.statistics.supported() > 0;
+    const bool same_configurations =
+        basis.same_configurations && !is_sampled(old.statistics) && !is_sampled(now.statistics);
     if (!had && !has) continue;
     ++comparison.compared;
     Changes changes(old, comparison.changes);
@@ -318,9 +335,9 @@ void compare_rows(Comparison& comparison, const std::vector<ResultRow>& before,
     }
     if (with_errors) {
       if (basis.same_bar) {
-        compare_agreement(changes, old.statistics, now.statistics, basis, limits);
+        compare_agreement(changes, old.statistics, now.statistics, same_configurations, limits);
       }
-      compare_errors(changes, old.statistics, now.statistics, basis, limits);
+      compare_errors(changes, old.statistics, now.statistics, basis, same_configurations, limits);
     }
     if (basis.times) {
       compare_times(changes, relative_time(old_rows, old, limits.baseline),
@@ -363,7 +380,8 @@ bool Comparison::has_regressed() const {
 }
 
 Comparison compare(const Report& before, const Report& after, const CompareLimits& limits) {
-  const Basis basis = basis_of(before, after, limits.baseline);
+  Basis basis = basis_of(before, after, limits.baseline);
+  remark_sampled(basis, before, after);
   Comparison result{side(before), side(after), limits, basis.remarks, 0, {}};
   if (basis.same_configurations) compare_rows(result, before.results, after.results, basis, true);
   compare_rows(result, before.summary, after.summary, basis, !basis.same_configurations);

@@ -126,6 +126,26 @@ TEST(Compare, ADeepestPointThatLosesItsDepthIsARegressionWhereBothReportsKnowIt)
   EXPECT_TRUE(compare(with_deepest(1e-3), small_report(), {}).changes.empty());
 }
 
+TEST(Compare, OfACandidateThatWasAskedASampleCountsChangesBeyondChanceAlone) {
+  // Of 100, so many of the 40 asked agree, and stand for so many of the 60 that were not.
+  const auto sampled = [](int agree, int represented) {
+    json report = small_report();
+    json& row = report["results"][1];
+    row["outcomes"] = {{"agree", agree}, {"timed-out", 40 - agree}, {"not-asked", 60}};
+    row["represented"] = {{"agree", represented}, {"timed-out", 60 - represented}};
+    row["depth_error"]["max"] = 1e-3;
+    return report;
+  };
+  // 80% before; of what was asked 83%, of all it stands for 70%: within three deviations.
+  const Comparison c = compare(small_report(), sampled(33, 37), {});
+  EXPECT_TRUE(c.changes.empty());
+  EXPECT_THAT(remarks(c), HasSubstr("mine times out so often"));
+  const Comparison far = compare(small_report(), sampled(33, 0), {});
+  EXPECT_THAT(changes(far), testing::ElementsAre("worse rim-face mine agreement"));
+  EXPECT_DOUBLE_EQ(far.changes[0].after, 0.33);
+  EXPECT_TRUE(compare(sampled(33, 0), sampled(33, 0), {}).changes.empty());
+}
+
 TEST(Compare, RoundingIsNoChange) {
   json old = small_report(), now = small_report();
   old["results"][1] = row("rim-face", "mine", 80, 0, 200);

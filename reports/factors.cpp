@@ -31,10 +31,7 @@ constexpr const char *turned = "turned", *aligned = "aligned";
 
 bool is_tilt(const std::string& modifier) { return modifier.starts_with("tilted-"); }
 
-FailureRate rate_of(const Statistics& s) {
-  const std::uint64_t count = s.count - s.of(Outcome::unsupported);
-  return {count, count - s.of(Outcome::agree)};
-}
+FailureRate rate_of(const Statistics& s) { return {s.asked(), s.asked() - s.of(Outcome::agree)}; }
 
 FailureRate operator+(const FailureRate& a, const FailureRate& b) {
   return {a.count + b.count, a.failed + b.failed};

@@ -108,25 +108,33 @@ std::optional<Quantiles> quantiles_if_any(const Reader& row, const char* name) {
   return row.has(name) ? quantiles(row.at(name)) : std::nullopt;
 }
 
-/// Every configuration has one outcome.
-void read_outcomes(const Reader& row, Statistics& statistics) {
-  constexpr std::uint64_t max_count = std::uint64_t{1} << 53;  // exact as a double
-  const Reader count = row.at("count"), outcomes = row.at("outcomes");
-  statistics.count = count.whole();
-  if (statistics.count < 1 || statistics.count > max_count) {
-    count.refuse("must be positive and at most 2^53");
-  }
-  std::uint64_t left = statistics.count;
+/// Numbers by outcome that add up to `sum`.
+OutcomeCounts outcome_counts(const Reader& outcomes, std::uint64_t sum) {
+  OutcomeCounts result{};
   for (const auto& [name, value] : outcomes.object().items()) {
     const Reader number = outcomes.at(name);
     const auto outcome = find_outcome(name);
     if (!outcome) number.refuse("must belong to an outcome");
-    const std::uint64_t of_outcome = number.whole();
-    if (of_outcome > left) outcomes.refuse("must be numbers whose sum is the count");
-    left -= of_outcome;
-    statistics.outcomes[static_cast<std::size_t>(*outcome)] = of_outcome;
+    const std::uint64_t count = number.whole();
+    if (count > sum) outcomes.refuse("must be numbers whose sum is the count");
+    sum -= count;
+    result[static_cast<std::size_t>(*outcome)] = count;
   }
-  if (left != 0) outcomes.refuse("must be numbers whose sum is the count");
+  if (sum != 0) outcomes.refuse("must be numbers whose sum is the count");
+  return result;
+}
+
+/// Every configuration has one outcome, and what was not asked another one's.
+void read_outcomes(const Reader& row, Statistics& statistics) {
+  constexpr std::uint64_t max_count = std::uint64_t{1} << 53;  // exact as a double
+  const Reader count = row.at("count");
+  statistics.count = count.whole();
+  if (statistics.count < 1 || statistics.count > max_count) {
+    count.refuse("must be positive and at most 2^53");
+  }
+  statistics.outcomes = outcome_counts(row.at("outcomes"), statistics.count);
+  const std::uint64_t not_asked = statistics.of(Outcome::not_asked);
+  if (not_asked > 0) statistics.represented = outcome_counts(row.at("represented"), not_asked);
 }
 
 std::optional<Shares> shares(const Reader& coverage) {

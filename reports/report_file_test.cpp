@@ -41,6 +41,23 @@ class ReportFile : public testing::Test {
       testing::TempDir() + testing::UnitTest::GetInstance()->current_test_info()->name() + ".json";
 };
 
+TEST_F(ReportFile, SaysWhatRepresentsThoseThatWereNotAsked) {
+  json report = good();
+  json& row = report["results"][0];
+  row["outcomes"] = {{"agree", 1}, {"not-asked", 1}};
+  row["represented"] = {{"agree", 1}};
+  write(report.dump());
+  const Statistics s = read_report(file).results[0].statistics;
+  EXPECT_EQ(s.asked(), 1u);
+  EXPECT_EQ(s.agreeing(), 2u);
+  row["represented"] = {{"agree", 2}};
+  write(report.dump());
+  expect_refusal("represented", "must be numbers whose sum is the count");
+  row.erase("represented");
+  write(report.dump());
+  expect_refusal("represented", "");
+}
+
 TEST_F(ReportFile, IsReadAsItWasWritten) {
   write(good().dump());
   const json read = to_json(read_report(file)), written = good();

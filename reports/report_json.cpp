@@ -44,25 +44,33 @@ json to_json(const std::optional<SignedMedian>& m) {
   return result;
 }
 
-json to_json(const Statistics& s) {
-  json outcomes = json::object(), points = json::object();
+json to_json(const OutcomeCounts& counts) {
+  json result = json::object();
   for (const Outcome outcome : all_outcomes) {
-    if (s.of(outcome) > 0) outcomes[outcome_name(outcome)] = s.of(outcome);
+    const std::uint64_t count = counts[static_cast<std::size_t>(outcome)];
+    if (count > 0) result[outcome_name(outcome)] = count;
   }
+  return result;
+}
+
+json to_json(const Statistics& s) {
+  json points = json::object();
   for (const auto& [number, count] : s.points) points[std::to_string(number)] = count;
-  return {{"count", s.count},
-          {"outcomes", outcomes},
-          {"severity", to_json(s.severity)},
-          {"depth_error", to_json(s.depth_error, s.depth_histogram)},
-          {"bias", to_json(s.bias)},
-          {"normal_regret", to_json(s.normal_regret, s.regret_histogram)},
-          {"normal_angle", to_json(s.normal_angle)},
-          {"point_error", to_json(s.point_error)},
-          {"deepest_error", to_json(s.deepest_error)},
-          {"model_error", to_json(s.model_error)},
-          {"solver_error", to_json(s.solver_error)},
-          {"points", points},
-          {"coverage", to_json(s.coverage)}};
+  json result = {{"count", s.count},
+                 {"outcomes", to_json(s.outcomes)},
+                 {"severity", to_json(s.severity)},
+                 {"depth_error", to_json(s.depth_error, s.depth_histogram)},
+                 {"bias", to_json(s.bias)},
+                 {"normal_regret", to_json(s.normal_regret, s.regret_histogram)},
+                 {"normal_angle", to_json(s.normal_angle)},
+                 {"point_error", to_json(s.point_error)},
+                 {"deepest_error", to_json(s.deepest_error)},
+                 {"model_error", to_json(s.model_error)},
+                 {"solver_error", to_json(s.solver_error)},
+                 {"points", points},
+                 {"coverage", to_json(s.coverage)}};
+  if (s.of(Outcome::not_asked) > 0) result["represented"] = to_json(s.represented);
+  return result;
 }
 
 json to_json(const std::optional<QueryTime>& time) {

@@ -92,6 +92,11 @@ class Packer {
   json strings_ = json::array();
 };
 
+/// How many that were not asked count as agreeing, which is what the page's shares need.
+json agreeing_unasked(const json& row) {
+  return row.contains("represented") ? row["represented"].value("agree", 0) : 0;
+}
+
 /// Of the rows of classes, of which there are twenty thousand, what the page shows of a class, with
 /// as many digits: the class by its index, outcomes as [index in all_outcomes, count, …], of each
 /// error one number.
@@ -117,6 +122,7 @@ json shown_of_classes(const json& results, const json& classes) {
       shown[member] = row[member].is_null() ? json(nullptr) : rounded(row[member][value], digits);
     }
     shown["coverage"] = row["coverage"].is_null() ? json(nullptr) : row["coverage"]["mean"];
+    shown["represented"] = agreeing_unasked(row);
     const json& time = row["nanoseconds"];
     shown["nanoseconds"] = time.is_null() ? time : json{time["median"], time["p95"]};
     // The thesis, beside which they are shown, has no more modifiers.
@@ -192,6 +198,7 @@ json packed(const json& report) {
 std::string report_page(const Report& report) {
   json whole = to_json(report);
   whole["results"] = shown_of_classes(whole["results"], whole["classes"]);
+  for (json& row : whole["summary"]) row["represented"] = agreeing_unasked(row);
   whole["worst"] = shown_worst(whole["worst"]);
   whole["trends"] = shown_trends(std::move(whole["trends"]));
   json data = packed(whole);

@@ -8,6 +8,7 @@
 #include "reports/factors.hpp"
 #include "reports/replay.hpp"
 #include "reports/report.hpp"
+#include "reports/sampler.hpp"
 #include "reports/tally.hpp"
 #include "reports/terminal.hpp"
 #include "reports/timing.hpp"
@@ -63,8 +64,8 @@ std::string mean_coverage(const std::optional<Shares>& coverage) {
 /// Percentage of the configurations that the candidate has a routine for; cut downwards, so that
 /// only a candidate without a failure shows 100%.
 std::string agreement(const Statistics& s) {
-  const auto count = static_cast<double>(s.count - s.of(Outcome::unsupported));
-  const auto agree = static_cast<double>(s.of(Outcome::agree));
+  const auto count = static_cast<double>(s.supported());
+  const auto agree = static_cast<double>(s.agreeing());
   const double percent = std::floor(1000 * agree / count + 1e-6) / 10;
   return fmt::format("{:.1f}", agree == count ? 100.0 : std::min(percent, 99.9));
 }
@@ -173,7 +174,7 @@ std::string summary_text(const Report& report, const std::vector<Measure>& measu
     const Statistics& s = row.statistics;
     if (first_group.empty()) first_group = row.pose_class;
     if (row.pose_class != first_group && row.pair != "all" && has_all(row.pose_class)) continue;
-    if (s.of(Outcome::unsupported) == s.count) continue;
+    if (s.supported() == 0) continue;
     const std::string heading =
         fmt::format("{}, {} poses", row.pair == "all" ? "all pairs" : row.pair, row.pose_class);
     if (heading != last) text += '\n' + terminal.heading(heading) + '\n';
@@ -313,6 +314,30 @@ std::string contrasts_text(const Report& report, const Terminal& terminal) {
   return '\n' + titled("Passed as it is, failed once turned or tilted", terminal) + '\n' + text;
 }
 
+/// Says of which candidates only a sample was asked.
+std::string sampled_text(const Report& report, const Terminal& terminal) {
+  std::string text;
+  for (const CandidateDescription& c : report.candidates) {
+    std::uint64_t classes = 0, configurations = 0;
+    for (const ResultRow& row : report.results) {
+      if (row.candidate != c.name) continue;
+      configurations += row.statistics.of(Outcome::not_asked);
+      classes += row.statistics.of(Outcome::not_asked) > 0;
+    }
+    if (classes == 0) continue;
+    text +=
+        indented(
+            fmt::format("not-asked: {}, on {} of {}. After {} time-outs among up to {} "
+                        "configurations of a class it is asked every {}th, which counts in "
+                        "agree% for those that are not asked",
+                        c.name, counted(configurations, "configuration"),
+                        counted(classes, "pose class"), max_timeouts, Unit::max_size, sample_block),
+            terminal) +
+        '\n';
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string terminal_table(const Report& report, const Terminal& terminal) {
@@ -333,8 +358,9 @@ std::string terminal_table(const Report& report, const Terminal& terminal) {
                 terminal) +
             '\n';
   }
-  return text + commands_text(report, timed, terminal) + tails_text(report, terminal) +
-         contrasts_text(report, terminal) + failures_text(report, terminal);
+  return text + sampled_text(report, terminal) + commands_text(report, timed, terminal) +
+         tails_text(report, terminal) + contrasts_text(report, terminal) +
+         failures_text(report, terminal);
 }
 
 }  // namespace touchstone

@@ -36,6 +36,7 @@ Magnitudes get_magnitudes(ByteReader& in, Precision precision) {
 void put(ByteWriter& out, const ScoreTally& t) {
   out.put(t.count);
   out.put(t.outcomes);
+  out.put(t.represented);
   out.put(t.points.size());
   for (const auto& [number, count] : t.points) {
     out.put(number);
@@ -55,6 +56,7 @@ ScoreTally get_tally(ByteReader& in, Precision precision) {
   ScoreTally t(precision);
   t.count = in.get<std::uint64_t>();
   t.outcomes = in.get<decltype(t.outcomes)>();
+  t.represented = in.get<decltype(t.represented)>();
   for (auto left = in.get<std::size_t>(); left > 0; --left) {
     const auto number = in.get<int>();
     t.points[number] = in.get<std::uint64_t>();
@@ -79,7 +81,7 @@ std::string examined_bytes(const ScoredConfiguration& scored, std::size_t candid
   out.put(scored.configuration);
   out.put(scored.truth);
   std::vector<std::size_t> shown = {candidate};
-  if (candidate > 0) shown.push_back(0);
+  if (candidate > 0 && scored.answers[0].was_asked) shown.push_back(0);
   out.put(shown.size());
   for (const std::size_t k : shown) {
     out.put(scored.answers[k]);
@@ -93,10 +95,16 @@ std::string examined_bytes(const ScoredConfiguration& scored, std::size_t candid
 Sample::Sample(std::size_t candidates, Purpose purpose)
     : tallies(candidates, ScoreTally(precision_for(purpose))),
       timed_outcomes(candidates),
-      purpose_(purpose) {}
+      purpose_(purpose),
+      waiting_(candidates) {}
 
 void Sample::add(std::size_t cell, std::uint64_t index, const ScoredConfiguration& scored) {
-  for (std::size_t k = 0; k < tallies.size(); ++k) tallies[k].add(cell, index, scored.scores[k]);
+  for (std::size_t k = 0; k < tallies.size(); ++k) {
+    const Score& score = scored.scores[k];
+    const bool was_asked = score.outcome != Outcome::not_asked;
+    tallies[k].add(cell, index, score, was_asked ? waiting_[k] : 0);
+    waiting_[k] = was_asked ? 0 : waiting_[k] + 1;
+  }
   if (purpose_ == Purpose::campaign) return;
   oracle_microseconds.push_back(scored.oracle_microseconds);
   trends.add(scored.configuration, scored.truth.signed_distance.midpoint(), scored.scores);
@@ -241,6 +249,7 @@ std::vector<Sample> sample_run(const Campaign& campaign, Purpose purpose,
   };
   std::vector<Configuration> configurations;
   std::vector<Place> places;
+  std::vector<std::size_t> unit_ends;
   const auto identity = [&](const Place& place) {
     const Cell& cell = cells[run[place.unit].cell];
     return Identity{cell.pair, cell.pose_class, campaign.seed, place.index};
@@ -250,16 +259,24 @@ std::vector<Sample> sample_run(const Campaign& campaign, Purpose purpose,
       places.push_back({unit, i});
       configurations.push_back(make_configuration(identity(places.back())));
     }
+    unit_ends.push_back(places.size());
   }
   std::vector<Sample> result(run.size(), Sample(candidates.size(), purpose));
   std::size_t at = 0;
   try {
-    score_configurations(configurations, candidates, campaign.bar, truth_width,
-                         [&](const ScoredConfiguration& scored) {
-                           const auto [unit, index] = places[at];
-                           result[unit].add(run[unit].cell, index, scored);
-                           ++at;
-                         });
+    std::vector<std::vector<Answer>> answers;
+    for (CandidateProcess* const candidate : candidates) {
+      const auto ask = [&](std::span<const Configuration> asked, bool in_new_session) {
+        return candidate->answers_until_timeout(asked, in_new_session);
+      };
+      answers.push_back(sampled_answers(ask, configurations, unit_ends));
+    }
+    score_answers(configurations, std::move(answers), campaign.bar, truth_width,
+                  [&](const ScoredConfiguration& scored) {
+                    const auto [unit, index] = places[at];
+                    result[unit].add(run[unit].cell, index, scored);
+                    ++at;
+                  });
   } catch (const std::exception& e) {
     throw std::runtime_error(to_string(identity(places[at])) + ": " + e.what());
   }

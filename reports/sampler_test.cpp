@@ -1,7 +1,11 @@
 #include "reports/sampler.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <random>
 
 #include <nlohmann/json.hpp>
 
@@ -186,6 +190,142 @@ TEST(Sampler, MakesConfigurationsOfEveryShapeAgainToTheLastBit) {
       again.put(read);
       EXPECT_EQ(again.take(), bytes) << name;
     }
+  }
+}
+
+/// Planes under A at these x; below zero, the candidate of the tests never answers.
+std::vector<Configuration> planes_under(const std::vector<double>& xs) {
+  std::vector<Configuration> result;
+  for (const double x : xs) {
+    const Configuration c = make_configuration({Pair::plane, "lying", 1, 0});
+    result.push_back({c.a, Pose({x, 0, 0}, {1, 0, 0, 0}), c.b, c.pose_b});
+  }
+  return result;
+}
+
+/// A letter for each configuration: answered, timed out, or not asked. `sessions` counts.
+std::string asked(const std::vector<double>& xs, const std::vector<std::size_t>& unit_ends,
+                  int* sessions = nullptr) {
+  const auto ask = [&](std::span<const Configuration> configurations, bool in_new_session) {
+    if (sessions) *sessions += in_new_session;
+    std::vector<Answer> answers;
+    for (const Configuration& c : configurations) {
+      const bool hangs = c.pose_a.position().x() < 0;
+      answers.emplace_back().status = hangs ? TS_TIMED_OUT : TS_NONE;
+      if (hangs) break;
+    }
+    return answers;
+  };
+  std::string letters;
+  for (const Answer& a : sampled_answers(ask, planes_under(xs), unit_ends)) {
+    letters += !a.was_asked ? '.' : a.status == TS_TIMED_OUT ? 't' : 'a';
+  }
+  return letters;
+}
+
+TEST(SampledAnswers, AreAllWhereFewTimeOut) {
+  EXPECT_EQ(asked({1, -1, 1, 1, -1, 1}, {6}), "ataata");
+}
+
+TEST(SampledAnswers, AreTheLastOfEverySixteenAndOfTheUnitOnceThreeHaveTimedOut) {
+  std::vector<double> xs(40, -1);
+  EXPECT_EQ(asked(xs, {40}), "ttt............t...............t.......t");
+  xs[0] = xs[31] = 1;
+  EXPECT_EQ(asked(xs, {40}), "attt...........t...............a.......t");
+  xs[1] = 1;  // the third time-out is the one before a sampled one
+  for (int i = 4; i < 14; ++i) xs[i] = 1;
+  EXPECT_EQ(asked(xs, {40}), "aattaaaaaaaaaatt...............a.......t");
+}
+
+TEST(SampledAnswers, BeginAnewInEveryUnitAndGoOnInOneSession) {
+  int sessions = 0;
+  std::vector<double> xs(29, 1);
+  for (const int i : {1, 2, 5, 6, 7, 8}) xs[i] = -1;
+  EXPECT_EQ(asked(xs, {6, 11, 29}, &sessions),
+            "attaat"
+            "ttt.a"
+            "aaaaaaaaaaaaaaaaaa");
+  EXPECT_EQ(sessions, 1);
+}
+
+TEST(SampledAnswers, GiveSharesWithoutBias) {
+  // Half of the answers time out, by chance; a share over the asked ones alone would be above 0.53.
+  constexpr int trials = 4000, count = 20;
+  std::mt19937_64 random(1);
+  ScoreTally sum(Precision::binned);
+  for (int trial = 0; trial < trials; ++trial) {
+    std::vector<double> xs;
+    for (int i = 0; i < count; ++i) xs.push_back(random() % 2 == 0 ? 1 : -1);
+    Sample unit(1, Purpose::campaign);
+    std::uint64_t index = 0;
+    for (const char letter : asked(xs, {count})) {
+      ScoredConfiguration scored{planes_under({1}).front(), {}, 0, {}, std::vector<Score>(1)};
+      if (letter != 'a') {
+        scored.scores[0].outcome = letter == 't' ? Outcome::timed_out : Outcome::not_asked;
+      }
+      unit.add(0, index++, scored);
+    }
+    sum.add(unit.tallies[0]);
+  }
+  const Statistics s = sum.statistics();
+  EXPECT_EQ(s.count, static_cast<std::uint64_t>(trials * count));
+  EXPECT_GT(s.of(Outcome::not_asked), s.count / 3);
+  std::uint64_t represented = 0;
+  for (const std::uint64_t n : s.represented) represented += n;
+  EXPECT_EQ(represented, s.of(Outcome::not_asked));
+  // Four standard errors: a trial's share has a standard deviation of less than 1/3.
+  const auto share = static_cast<double>(s.agreeing()) / static_cast<double>(s.supported());
+  EXPECT_NEAR(share, 0.5, 4.0 / 3 / std::sqrt(trials));
+}
+
+/// A candidate that never answers where A's x is negative.
+Campaign stalling_campaign() {
+  const auto file = std::filesystem::canonical(TOUCHSTONE_TEST_PLUGINS "/touchstone-sabotage.so");
+  const auto& added = added_candidates();  // other tests may have added it
+  if (std::none_of(added.begin(), added.end(), [&](const Added& x) { return x.value == file; })) {
+    add_file(file);
+  }
+  Campaign c;
+  c.pairs = {Pair::plane};
+  c.classes = {"general-shallow"};
+  c.candidates = find_candidates({"stalling", "reference"});
+  c.count = 40;
+  c.limits.seconds = 0.2;  // beyond its slow answers even when lowered to a tenth
+  return c;
+}
+
+TEST(Sampler, AsksACandidateThatHangsASampleWhateverTheNumberOfWorkers) {
+  Campaign campaign = stalling_campaign();
+  std::vector<double> xs;
+  for (std::uint64_t i = 0; i < 40; ++i) {
+    const Identity identity{Pair::plane, "general-shallow", campaign.seed, i};
+    xs.push_back(make_configuration(identity).pose_a.position().x());
+  }
+  const std::string expected = asked(xs, {20, 40});
+  ASSERT_GT(std::count(expected.begin(), expected.end(), '.'), 4);
+  for (const unsigned workers : {1u, 2u}) {
+    campaign.workers = workers;
+    std::string found;
+    sample(
+        campaign, Purpose::report, 1,
+        [](std::uint64_t) {
+          return UnitRun{{0, 0, 20}, {0, 20, 40}};
+        },
+        [&](std::uint64_t, const std::vector<Sample>& samples) {
+          for (const Sample& s : samples) {
+            for (const Outcome o : s.timed_outcomes[0]) {
+              found += o == Outcome::not_asked ? '.' : o == Outcome::timed_out ? 't' : 'a';
+            }
+            // The reference is asked everything, and is shown beside no answer that there is not.
+            EXPECT_EQ(s.tallies[1].outcomes[0], 20u);
+            for (const Case& c : s.tallies[1].worst) {
+              const bool both = expected[c.index] != '.';
+              EXPECT_EQ(s.examined(1, c.index).answers.size(), both ? 2u : 1u);
+            }
+          }
+        },
+        [] { return true; });
+    EXPECT_EQ(found, expected);
   }
 }
 

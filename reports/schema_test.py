@@ -26,9 +26,10 @@ source = pathlib.Path(sys.argv.pop(1)).resolve()
 docs = source / "docs"
 
 # Members that may be absent.
-OPTIONAL = {"reason", "audit", "given", "stability", "experiments", "engines", "amplification", "maps", "sequences"}
+OPTIONAL = {"reason", "audit", "given", "stability", "experiments", "engines", "amplification", "maps", "sequences",
+            "represented"}
 # Objects whose members are names or numbers.
-MAPS = {"answers", "outcomes", "points", "details", "letters"}
+MAPS = {"answers", "outcomes", "represented", "points", "details", "letters"}
 
 
 def validator(name):

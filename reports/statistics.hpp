@@ -55,10 +55,14 @@ struct LogHistogram {
 /// Histogram of finite values that are not negative.
 LogHistogram log_histogram(const std::vector<double>& values);
 
+using OutcomeCounts = std::array<std::uint64_t, all_outcomes.size()>;  ///< in the order of these
+
 /// Summary of the scores of one candidate on any set of configurations (tally.hpp).
 struct Statistics {
   std::uint64_t count = 0;
-  std::array<std::uint64_t, all_outcomes.size()> outcomes{};  ///< in the order of all_outcomes
+  OutcomeCounts outcomes{};
+  /// Of those not asked, how many are represented by one of each outcome (sampled_answers).
+  OutcomeCounts represented{};
   std::map<int, std::uint64_t> points;  ///< contacts by their number of points
   std::optional<Quantiles> depth_error, normal_regret, normal_angle, point_error, deepest_error,
       model_error, solver_error;  ///< of magnitudes
@@ -70,6 +74,13 @@ struct Statistics {
   std::optional<Shares> coverage;
 
   std::uint64_t of(Outcome outcome) const { return outcomes[static_cast<std::size_t>(outcome)]; }
+  /// Configurations that the candidate has a routine for, and those of them that it was asked.
+  std::uint64_t supported() const { return count - of(Outcome::unsupported); }
+  std::uint64_t asked() const { return supported() - of(Outcome::not_asked); }
+  /// On how many of those supported it agrees; those not asked count as what represents them.
+  std::uint64_t agreeing() const {
+    return of(Outcome::agree) + represented[static_cast<std::size_t>(Outcome::agree)];
+  }
 };
 
 /// A candidate's place in the chart of speed and accuracy.

@@ -32,7 +32,9 @@ bool Case::operator<(const Case& other) const {
 }
 
 std::vector<Case> worst_of_class(std::vector<Case> cases) {
-  std::erase_if(cases, [](const Case& c) { return c.score.outcome == Outcome::unsupported; });
+  std::erase_if(cases, [](const Case& c) {
+    return c.score.outcome == Outcome::unsupported || c.score.outcome == Outcome::not_asked;
+  });
   std::sort(cases.begin(), cases.end());
   std::map<Outcome, std::size_t> seen;
   std::size_t at = 0;
@@ -197,9 +199,11 @@ ScoreTally::ScoreTally(Precision precision)
       severity(precision),
       coverage(precision) {}
 
-void ScoreTally::add(std::size_t cell, std::uint64_t index, const Score& s) {
+void ScoreTally::add(std::size_t cell, std::uint64_t index, const Score& s,
+                     std::uint64_t of_others) {
   ++count;
   ++outcomes[static_cast<std::size_t>(s.outcome)];
+  represented[static_cast<std::size_t>(s.outcome)] += of_others;
   if (s.points > 0) ++points[s.points];
   for (std::size_t i = 0; i < quantities.size(); ++i) {
     if (const auto& error = s.*quantities[i].value) errors[i].add(*error);
@@ -207,13 +211,24 @@ void ScoreTally::add(std::size_t cell, std::uint64_t index, const Score& s) {
   if (s.depth_error) bias.add(*s.depth_error);
   if (is_judged(s.outcome)) severity.add(s.severity);
   if (s.coverage) coverage.add(*s.coverage);
-  worst.push_back({cell, index, essence(s)});
+  const Case added{cell, index, essence(s)};
+  // Most are not among the worst, which is cheap to tell.
+  const auto worse = [&](const Case& c) { return c < added; };
+  const bool has_worse_like_it = std::any_of(worst.begin(), worst.end(), [&](const Case& c) {
+    return c.score.outcome == s.outcome && worse(c);
+  });
+  const auto worse_ones = std::count_if(worst.begin(), worst.end(), worse);
+  if (has_worse_like_it && worse_ones >= static_cast<std::ptrdiff_t>(kept_of_class)) return;
+  worst.push_back(added);
   worst = worst_of_class(std::move(worst));
 }
 
 void ScoreTally::add(const ScoreTally& other) {
   count += other.count;
-  for (std::size_t i = 0; i < outcomes.size(); ++i) outcomes[i] += other.outcomes[i];
+  for (std::size_t i = 0; i < outcomes.size(); ++i) {
+    outcomes[i] += other.outcomes[i];
+    represented[i] += other.represented[i];
+  }
   for (const auto& [number, times] : other.points) points[number] += times;
   for (std::size_t i = 0; i < errors.size(); ++i) errors[i].add(other.errors[i]);
   bias.add(other.bias);
@@ -227,6 +242,7 @@ Statistics ScoreTally::statistics() const {
   Statistics result;
   result.count = count;
   result.outcomes = outcomes;
+  result.represented = represented;
   result.points = points;
   for (std::size_t i = 0; i < errors.size(); ++i) {
     result.*quantities[i].quantiles = errors[i].quantiles();

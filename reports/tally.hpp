@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <boost/container/flat_map.hpp>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -29,8 +30,8 @@ struct Case {
 };
 
 /// Selects from the cases of one class the two worst and the worst of each outcome, worst first.
-/// Cases that a candidate does not support are left out. The worst of two sets together are the
-/// worst of the worst of each.
+/// Cases that a candidate does not support or was not asked are left out. The worst of two sets
+/// together are the worst of the worst of each.
 std::vector<Case> worst_of_class(std::vector<Case> cases);
 
 /// Selects from what worst_of_class gave of all classes under a heading (pair × group) the worst of
@@ -53,7 +54,7 @@ class Magnitudes {
   static constexpr std::uint64_t max_count = 1'000'000'000;
   /// The first 15 bits of a double that is not negative (sign, exponent, three of the mantissa)
   /// number its bin.
-  using Bins = std::map<std::uint16_t, std::uint64_t>;
+  using Bins = boost::container::flat_map<std::uint16_t, std::uint64_t>;
   static std::uint16_t bin_of(double magnitude);
 
   explicit Magnitudes(Precision precision) : precision_(precision) {}
@@ -122,8 +123,10 @@ struct SignedTally {
 struct ScoreTally {
   explicit ScoreTally(Precision precision);
 
-  /// Adds the score of a configuration: `index` of its cell.
-  void add(std::size_t cell, std::uint64_t index, const Score& score);
+  /// Adds the score of a configuration: `index` of its cell. `represented`: for how many others,
+  /// which were not asked, it stands, too.
+  void add(std::size_t cell, std::uint64_t index, const Score& score,
+           std::uint64_t represented = 0);
   /// Adds a tally of the same precision.
   void add(const ScoreTally& other);
 
@@ -145,7 +148,7 @@ struct ScoreTally {
        {"solver_error", &Score::solver_error, &Statistics::solver_error}}};
 
   std::uint64_t count = 0;
-  std::array<std::uint64_t, all_outcomes.size()> outcomes{};
+  OutcomeCounts outcomes{}, represented{};  ///< as in Statistics
   std::map<int, std::uint64_t> points;
   std::vector<Magnitudes> errors;  ///< of each of the quantities
   SignedTally bias;                ///< of depth errors
@@ -194,7 +197,7 @@ class TrendTally {
     std::size_t candidate;
     Variable variable;
     std::optional<int> decade;  ///< absent, which comes first: zero, and what is lost in rounding
-    auto operator<=>(const Key&) const = default;
+    auto operator<=>(const Key&) const = default;  // NOLINT(modernize-use-nullptr): not written
   };
   struct Bin {
     std::vector<double> severity;

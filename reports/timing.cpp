@@ -16,7 +16,10 @@ std::vector<Configuration> survived(const Sample& sample, std::size_t candidate)
   for (std::size_t i = 0; i < sample.timed.size(); ++i) {
     const Outcome outcome = sample.timed_outcomes[candidate][i];
     if (outcome == Outcome::unsupported) return {};
-    if (outcome == Outcome::crashed || outcome == Outcome::timed_out) continue;
+    if (outcome == Outcome::crashed || outcome == Outcome::timed_out ||
+        outcome == Outcome::not_asked) {
+      continue;
+    }
     result.push_back(sample.timed[i]);
   }
   return result;

@@ -23,10 +23,10 @@ bool is_settled(const Repetitions& repetitions);
 /// random order within each (drawn from the campaign's seed), one at a time. Shapes are prepared
 /// beforehand, a cell's configurations are queried one after the other. Each candidate reads the
 /// clock in its own process around the loop of its queries; what isolation costs lies outside.
-/// Configurations that ended a candidate's process, as the samples of the cells say, are not asked
-/// of it. Timed are everyday and recorded classes, all arrangements alone, and those of general,
-/// parallel and perpendicular with one modifier, of the tilts three; and all classes of a campaign
-/// that names them. `candidates` are the campaign's.
+/// Configurations that ended a candidate's process or that it was not asked, as the samples of the
+/// cells say, are left out. Timed are everyday and recorded classes, all arrangements alone, and
+/// those of general, parallel and perpendicular with one modifier, of the tilts three; and all
+/// classes of a campaign that names them. `candidates` are the campaign's.
 Times time_queries(const Campaign& campaign, const std::vector<Cell>& cells,
                    const std::vector<std::optional<Sample>>& samples,
                    std::vector<CandidateProcess>& candidates);

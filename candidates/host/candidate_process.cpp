@@ -29,6 +29,11 @@ std::vector<Answer> CandidateProcess::answers(std::span<const Configuration> con
   return respondent_->answers(configurations);
 }
 
+std::vector<Answer> CandidateProcess::answers_until_timeout(
+    std::span<const Configuration> configurations, bool in_new_session) {
+  return respondent_->answers_until_timeout(configurations, in_new_session);
+}
+
 Answer CandidateProcess::answer(const Configuration& configuration, const Vec3* previous_normal) {
   return respondent_->answer({&configuration, 1}, {&previous_normal, 1}).front();
 }

@@ -17,10 +17,11 @@ class Respondent;
 struct Limits {
   /// Processor time: three frames of a simulation, thousands of times that of a query. Once a
   /// candidate has exceeded it within one call of CandidateProcess::answers, it is lower for the
-  /// rest of the call: a hundred times the candidate's median there, at least a tenth. A query may
-  /// wait for something else ten times as long; for a candidate that does so repeatedly within one
-  /// call of CandidateProcess::answers this is halved each time, down to the limit itself. Waiting
-  /// for a processor does not count.
+  /// rest of the call: a hundred times the candidate's median there, at least a tenth, as soon as
+  /// it has given fifteen answers or exceeded a limit three times. A query may wait for something
+  /// else ten times as long; for a candidate that does so repeatedly within one call of
+  /// CandidateProcess::answers this is halved each time, down to the limit itself. Waiting for a
+  /// processor does not count.
   double seconds = 0.05;
   double mebibytes = 1024;  ///< growth of its memory
 };
@@ -30,6 +31,7 @@ struct Answer : ts_answer {
   /// For TS_CRASHED and TS_TIMED_OUT, and where it is known for TS_FAILED: "Segmentation fault".
   std::string reason;
   std::optional<double> model_distance;  ///< signed distance of a simplified model's shapes, metres
+  bool was_asked = true;  ///< false: there is no answer, for a sample was asked (sampled_answers)
 };
 
 /// The cost of one query.
@@ -68,6 +70,10 @@ class CandidateProcess {
 
   /// Answers in a new session, so that the answers depend on these configurations alone.
   std::vector<Answer> answers(std::span<const Configuration> configurations);
+  /// Answers the first of these configurations, up to and including one that times out, as
+  /// `answers` does: in a new session, or in that of the last call if there is one.
+  std::vector<Answer> answers_until_timeout(std::span<const Configuration> configurations,
+                                            bool in_new_session);
   /// Answers in the session of the last call, if there is one. `previous_normal` (unit, world
   /// frame, from B to A) is the candidate's hint; null means that there was no contact before.
   Answer answer(const Configuration& configuration, const Vec3* previous_normal = nullptr);

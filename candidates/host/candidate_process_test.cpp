@@ -123,6 +123,41 @@ TEST(CandidateProcess, SlowAnswersCountUnlessAnAnswerHasTimedOut) {
   EXPECT_EQ(answers.back().status, TS_TIMED_OUT);
 }
 
+TEST(CandidateProcess, ThreeTimeOutsLowerTheLimitOfACandidateThatHardlyEverAnswers) {
+  CandidateProcess process(sabotage("stalling"), 0, {0.1, 256});
+  const auto never = after_stalling(process, std::vector<double>(5, endless));
+  EXPECT_EQ(never[2].reason, "no answer within 0.1 s");
+  EXPECT_EQ(never[3].reason, "no answer within 0.01 s, as others within 0.1 s");
+  EXPECT_EQ(never[4].reason, never[3].reason);
+  // A single slow answer is known to be its kind.
+  const auto rarely = after_stalling(process, {slow, endless, endless, endless, slow});
+  EXPECT_EQ(rarely[4].status, TS_CONTACT);
+}
+
+TEST(CandidateProcess, AnswersUntilOneTimesOutAndGoesOnInTheSameSession) {
+  CandidateProcess process(sabotage("stalling"), 0, {0.05, 256});
+  std::vector<double> at(150, answered);  // more than one message
+  at[2] = at[100] = endless;
+  const std::vector<Configuration> asked = standing_at(at);
+  const std::span all(asked);
+  const auto first = process.answers_until_timeout(all, true);
+  ASSERT_EQ(first.size(), 3u);
+  EXPECT_EQ(first[1].status, TS_CONTACT);
+  EXPECT_EQ(first[2].status, TS_TIMED_OUT);
+  const auto second = process.answers_until_timeout(all.subspan(3), false);
+  ASSERT_EQ(second.size(), 98u);
+  // What was learnt in the first call holds in the second.
+  EXPECT_EQ(second.back().reason, "no answer within 0.005 s and a hundred times its median");
+  EXPECT_EQ(process.answers_until_timeout(all.subspan(101), false).size(), 49u);
+
+  CandidateProcess counting(sabotage("counting"), 0);
+  for (const bool in_new_session : {true, false, true}) {
+    const double prepared =
+        -counting.answers_until_timeout(all.first(1), in_new_session)[0].signed_distance;
+    EXPECT_EQ(prepared, in_new_session ? 1 : 2);
+  }
+}
+
 TEST(CandidateProcess, TheLimitOfACandidateThatIsAlwaysSlowStays) {
   CandidateProcess process(sabotage("stalling"), 0, {0.09, 256});
   std::vector<double> at(16, slow);

@@ -277,7 +277,15 @@ std::vector<Answer> CommandRespondent::answers(std::span<const Configuration> co
   restart();
   std::vector<Question> questions;
   for (const Configuration& c : configurations) questions.push_back(question_of(c, nullptr));
-  return answer(std::move(questions), true);
+  return answer(std::move(questions), true, false);
+}
+
+std::vector<Answer> CommandRespondent::answers_until_timeout(
+    std::span<const Configuration> configurations, bool in_new_session) {
+  if (in_new_session) restart();
+  std::vector<Question> questions;
+  for (const Configuration& c : configurations) questions.push_back(question_of(c, nullptr));
+  return answer(std::move(questions), true, true);
 }
 
 std::vector<Answer> CommandRespondent::answer(std::span<const Configuration> configurations,
@@ -287,10 +295,11 @@ std::vector<Answer> CommandRespondent::answer(std::span<const Configuration> con
     questions.push_back(
         question_of(configurations[i], previous_normals.empty() ? nullptr : previous_normals[i]));
   }
-  return answer(std::move(questions), false);
+  return answer(std::move(questions), false, false);
 }
 
-std::vector<Answer> CommandRespondent::answer(std::vector<Question> questions, bool release) {
+std::vector<Answer> CommandRespondent::answer(std::vector<Question> questions, bool release,
+                                              bool until_timeout) {
   std::vector<Answer> result;
   for (std::span<Question> left = questions; !left.empty();) {
     if (!candidate_.supports[left.front().b.kind]) {
@@ -302,6 +311,7 @@ std::vector<Answer> CommandRespondent::answer(std::vector<Question> questions, b
     const std::size_t max_size = std::min(batch(), left.size());
     while (size < max_size && candidate_.supports[left[size].b.kind]) ++size;
     answer_all(left.first(size), release, result);
+    if (until_timeout && end_after_timeout(result)) break;
     left = left.subspan(size);
   }
   return result;

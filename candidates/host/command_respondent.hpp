@@ -18,6 +18,8 @@ class CommandRespondent : public Respondent {
   void ask_within(double threshold) override;
   void go_on_within(double threshold) override;
   std::vector<Answer> answers(std::span<const Configuration> configurations) override;
+  std::vector<Answer> answers_until_timeout(std::span<const Configuration> configurations,
+                                            bool in_new_session) override;
   std::vector<Answer> answer(std::span<const Configuration> configurations,
                              std::span<const Vec3* const> previous_normals) override;
   void restart() override;
@@ -41,7 +43,7 @@ class CommandRespondent : public Respondent {
   };
 
   Question question_of(const Configuration& configuration, const Vec3* previous_normal) const;
-  std::vector<Answer> answer(std::vector<Question> questions, bool release);
+  std::vector<Answer> answer(std::vector<Question> questions, bool release, bool until_timeout);
   /// Appends the answers to these questions, after bisection where the child does not survive.
   void answer_all(std::span<Question> questions, bool release, std::vector<Answer>& answers);
   /// Asks them at once.

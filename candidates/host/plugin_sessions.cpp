@@ -28,10 +28,13 @@ using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds check_interval(1), wait_interval(20);
 
 /// The lower limit of processor time of a candidate that has exceeded the full one, and beyond
-/// which a configuration is asked again alone: a multiple of the median of its answers, if so many
-/// are known, but at least a share of the full one.
-constexpr double median_factor = 100, min_share = 0.1;
+/// which a configuration is asked again alone: a multiple of the median of its answers, but at
+/// least a share of the full one. So many answers must be known, or so many must have timed out: of
+/// a candidate that hardly ever answers, the median is never well known. The few answers that are
+/// known then came first in their sessions, where they take ten times as long.
+constexpr double median_factor = 100, first_median_factor = 10, min_share = 0.1;
 constexpr std::size_t min_known = 15, max_known = 255;
+constexpr int many_timeouts = 3;
 
 /// Time in which a plug-in's process must fork a session.
 constexpr std::chrono::seconds fork_timeout(10);
@@ -276,20 +279,26 @@ PluginSessions::TimeLimit PluginSessions::time_limit(const SessionCommand& comma
   if (command.kind != SessionCommand::answer) return full;
   // A session that others rely on (it keeps shapes) is not ended on suspicion.
   const bool is_suspicion = !alone && command.release;
-  if (!has_timed_out_ && !is_suspicion) return full;
+  if (timeouts_ == 0 && !is_suspicion) return full;
   std::vector<double> sorted = answer_seconds_;
   for (std::uint32_t i = command.first; i < current; ++i) {
     const double seconds = plugin_.state_->exchange->slots[i].seconds;
     if (std::isfinite(seconds)) sorted.push_back(seconds);
   }
-  if (sorted.size() < min_known) return full;
+  const bool are_few = sorted.size() < min_known;
+  if (are_few && timeouts_ < many_timeouts) return full;
+  const double least = min_share * limits_.seconds;
+  if (sorted.empty()) {
+    return {least, "no answer within " + seconds_text(least) + ", as others within " +
+                       seconds_text(limits_.seconds)};
+  }
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
   std::nth_element(sorted.begin(), middle, sorted.end());
-  const double least = min_share * limits_.seconds, learnt = median_factor * *middle;
+  const double learnt = (are_few ? first_median_factor : median_factor) * *middle;
   if (learnt >= limits_.seconds) return full;
   // Without the number, which is measured and differs from run to run.
-  return {std::max(least, learnt),
-          "no answer within " + seconds_text(least) + " and a hundred times its median"};
+  return {std::max(least, learnt), "no answer within " + seconds_text(least) + " and " +
+                                       (are_few ? "ten" : "a hundred") + " times its median"};
 }
 
 void PluginSessions::learn(std::uint32_t i) {
@@ -300,12 +309,12 @@ void PluginSessions::learn(std::uint32_t i) {
 }
 
 void PluginSessions::learn(const SessionFailure& verdict) {
-  has_timed_out_ = has_timed_out_ || verdict.status == TS_TIMED_OUT;
+  timeouts_ += verdict.status == TS_TIMED_OUT;
 }
 
 void PluginSessions::forget_times() {
   answer_seconds_.clear();
-  has_timed_out_ = false;
+  timeouts_ = 0;
   max_wait_ = initial_wait_factor * limits_.seconds;
 }
 
@@ -374,11 +383,12 @@ Answer PluginSessions::answer_alone(std::uint32_t i) {
   return answer_of(failure.value_or(SessionFailure{TS_CRASHED, "wrote over its own answer", true}));
 }
 
-void PluginSessions::answer_batch(std::uint32_t count, bool release, std::vector<Answer>& answers) {
+void PluginSessions::answer_batch(std::uint32_t count, Manner manner,
+                                  std::vector<Answer>& answers) {
   std::vector<std::optional<Answer>> given(count);
   for (std::uint32_t first = 0; first < count;) {
     const bool fresh = session_ < 0;
-    const auto failure = obey(answer_command(first, count, release));
+    const auto failure = obey(answer_command(first, count, manner.release));
     for (std::uint32_t i = first; i < count; ++i) {
       if ((given[i] = answer_in(i))) learn(i);
     }
@@ -390,6 +400,10 @@ void PluginSessions::answer_batch(std::uint32_t count, bool release, std::vector
       if (certain) learn(*failure);
       given[in_hand] = certain ? answer_of(*failure) : answer_alone(in_hand);
       first = in_hand + 1;
+      if (manner.until_timeout && given[in_hand]->status == TS_TIMED_OUT) {
+        given.resize(first);
+        break;
+      }
       continue;
     }
     // An unknown query has overwritten answers.
@@ -404,17 +418,26 @@ void PluginSessions::answer_batch(std::uint32_t count, bool release, std::vector
 std::vector<Answer> PluginSessions::answers(std::span<const Configuration> configurations) {
   end();
   forget_times();
-  return answer(configurations, {}, true);
+  return answer(configurations, {}, Manner{.release = true});
+}
+
+std::vector<Answer> PluginSessions::answers_until_timeout(
+    std::span<const Configuration> configurations, bool in_new_session) {
+  if (in_new_session) {
+    end();
+    forget_times();
+  }
+  return answer(configurations, {}, Manner{.release = true, .until_timeout = true});
 }
 
 std::vector<Answer> PluginSessions::answer(std::span<const Configuration> configurations,
                                            std::span<const Vec3* const> previous_normals) {
-  return answer(configurations, previous_normals, false);
+  return answer(configurations, previous_normals, Manner{.release = false});
 }
 
 std::vector<Answer> PluginSessions::answer(std::span<const Configuration> configurations,
                                            std::span<const Vec3* const> previous_normals,
-                                           bool release) {
+                                           Manner manner) {
   std::vector<Answer> result;
   for (std::size_t at = 0; at < configurations.size(); at += batch_size) {
     const auto batch =
@@ -422,7 +445,8 @@ std::vector<Answer> PluginSessions::answer(std::span<const Configuration> config
     for (std::uint32_t i = 0; i < batch.size(); ++i) {
       put(i, batch[i], previous_normals.empty() ? nullptr : previous_normals[at + i]);
     }
-    answer_batch(static_cast<std::uint32_t>(batch.size()), release, result);
+    answer_batch(static_cast<std::uint32_t>(batch.size()), manner, result);
+    if (manner.until_timeout && end_after_timeout(result)) break;
   }
   return result;
 }

@@ -22,6 +22,8 @@ class PluginSessions : public Respondent {
   void ask_within(double threshold) override;
   void go_on_within(double threshold) override { threshold_ = threshold; }
   std::vector<Answer> answers(std::span<const Configuration> configurations) override;
+  std::vector<Answer> answers_until_timeout(std::span<const Configuration> configurations,
+                                            bool in_new_session) override;
   std::vector<Answer> answer(std::span<const Configuration> configurations,
                              std::span<const Vec3* const> previous_normals) override;
   void restart() override { end(); }
@@ -41,9 +43,14 @@ class PluginSessions : public Respondent {
   void end();
   void put(std::uint32_t slot, const Configuration& configuration,
            const Vec3* previous_normal = nullptr);
+  /// How a call asks its questions.
+  struct Manner {
+    bool release;                ///< shapes are released once they are not needed
+    bool until_timeout = false;  ///< nothing is answered after a time-out
+  };
   std::vector<Answer> answer(std::span<const Configuration> configurations,
-                             std::span<const Vec3* const> previous_normals, bool release);
-  void answer_batch(std::uint32_t count, bool release, std::vector<Answer>& answers);
+                             std::span<const Vec3* const> previous_normals, Manner manner);
+  void answer_batch(std::uint32_t count, Manner manner, std::vector<Answer>& answers);
   /// The answer in this slot, if it belongs to the last command.
   std::optional<Answer> answer_in(std::uint32_t slot) const;
   /// Answers this slot's question in a session of its own.
@@ -82,10 +89,10 @@ class PluginSessions : public Respondent {
   std::uint64_t session_ticket_ = 0;    ///< ticket of the command that began the session
   double max_wait_;                     ///< seconds that a query may wait
   std::vector<double> answer_seconds_;  ///< that the first answers took
-  bool has_timed_out_ = false;
-  std::size_t timed_ = 0;            ///< configurations of prepare_timing
-  std::size_t timings_ = 0;          ///< calls of prepare_timing that the session has served
-  std::uint64_t timing_ticket_ = 0;  ///< session_ticket_ of the session that serves them
+  int timeouts_ = 0;                    ///< verdicts since
+  std::size_t timed_ = 0;               ///< configurations of prepare_timing
+  std::size_t timings_ = 0;             ///< calls of prepare_timing that the session has served
+  std::uint64_t timing_ticket_ = 0;     ///< session_ticket_ of the session that serves them
 };
 
 }  // namespace touchstone

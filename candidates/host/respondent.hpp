@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "candidates/host/candidate_process.hpp"
 
 namespace touchstone {
@@ -11,11 +13,22 @@ class Respondent {
   virtual void ask_within(double threshold) = 0;
   virtual void go_on_within(double threshold) = 0;
   virtual std::vector<Answer> answers(std::span<const Configuration> configurations) = 0;
+  virtual std::vector<Answer> answers_until_timeout(std::span<const Configuration> configurations,
+                                                    bool in_new_session) = 0;
   virtual std::vector<Answer> answer(std::span<const Configuration> configurations,
                                      std::span<const Vec3* const> previous_normals) = 0;
   virtual void restart() = 0;
   virtual bool prepare_timing(std::span<const Configuration> configurations) = 0;
   virtual std::optional<QueryCost> cost_per_query() = 0;
 };
+
+/// Drops the answers after the first one that timed out. Returns whether there is such a one.
+inline bool end_after_timeout(std::vector<Answer>& answers) {
+  const auto timeout = std::find_if(answers.begin(), answers.end(),
+                                    [](const Answer& a) { return a.status == TS_TIMED_OUT; });
+  if (timeout == answers.end()) return false;
+  answers.erase(timeout + 1, answers.end());
+  return true;
+}
 
 }  // namespace touchstone

@@ -17,6 +17,7 @@
 #include <sys/socket.h>
 #include <sys/syscall.h>
 #include <unistd.h>
+#include <utility>
 #include <vector>
 
 #include "candidates/host/exchange.hpp"
@@ -168,6 +169,7 @@ class Session {
   void ask_within(double threshold);
   ts_prepared* prepare(const Question& question);
   ts_prepared* ready(const Question& question);
+  void answer(const SessionCommand& command);
   void answer(std::uint32_t slot);
   void release_all_but_of(const SessionCommand& command, std::uint32_t first);
   void forget_timed();
@@ -224,16 +226,7 @@ void Session::serve() {
 void Session::obey(const SessionCommand& command) {
   switch (command.kind) {
     case SessionCommand::answer:
-      ask_within(command.threshold);
-      for (std::uint32_t i = command.first; i < command.count; ++i) {
-        const double before = processor_seconds();
-        answer(i);
-        if (command.release) release_all_but_of(command, i + 1);
-        exchange_.slots[i].seconds = processor_seconds() - before;
-        exchange_.slots[i].seal = seal_of(exchange_.slots[i], command.ticket);
-        exchange_.progress = progress_of(command.ticket, i + 1);
-      }
-      return;
+      return answer(command);
     case SessionCommand::keep:
       if (command.release) forget_timed();
       for (std::uint32_t i = 0; i < command.count; ++i) {
@@ -292,6 +285,19 @@ void Session::release_all_but_of(const SessionCommand& command, std::uint32_t fi
     if (r.prepared) candidate_.release(r.prepared);
     return true;
   });
+}
+
+void Session::answer(const SessionCommand& command) {
+  ask_within(command.threshold);
+  double before = processor_seconds();
+  for (std::uint32_t i = command.first; i < command.count; ++i) {
+    answer(i);
+    if (command.release) release_all_but_of(command, i + 1);
+    const double now = processor_seconds();
+    exchange_.slots[i].seconds = now - std::exchange(before, now);
+    exchange_.slots[i].seal = seal_of(exchange_.slots[i], command.ticket);
+    exchange_.progress = progress_of(command.ticket, i + 1);
+  }
 }
 
 void Session::answer(std::uint32_t i) {

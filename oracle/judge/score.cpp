@@ -174,6 +174,8 @@ const char* outcome_name(Outcome outcome) {
       return "overdeep-points";
     case Outcome::phantom_points:
       return "phantom-points";
+    case Outcome::not_asked:
+      return "not-asked";
   }
   return "";
 }
@@ -196,6 +198,7 @@ bool is_judged(Outcome outcome) {
     case Outcome::crashed:
     case Outcome::timed_out:
     case Outcome::unsupported:
+    case Outcome::not_asked:
       return false;
     default:
       return true;
@@ -363,6 +366,7 @@ Score Judge::score(const ts_answer& answer) {
 }
 
 Score Judge::score(const Answer& answer) {
+  if (!answer.was_asked) return only(Outcome::not_asked);
   Score s = score(static_cast<const ts_answer&>(answer));
   if (s.depth_error && answer.model_distance) {
     const double truth = state_->truth.signed_distance.midpoint();

@@ -38,14 +38,17 @@ enum class Outcome {
   // Depth and normal are right, but the contact points, on which a solver acts, are not:
   shallow_points,   ///< no point is as deep as the bodies
   overdeep_points,  ///< a point is deeper than the bodies
-  phantom_points    ///< a point is beyond the threshold
+  phantom_points,   ///< a point is beyond the threshold
+  not_asked         ///< the candidate times out in this class: it was asked a sample
+                    ///< (reports/campaign.hpp)
 };
 // Saved files refer to outcomes by name; even so, add new ones at the end.
 inline constexpr std::array all_outcomes = {
-    Outcome::agree,           Outcome::missed,        Outcome::phantom,     Outcome::shallow,
-    Outcome::overdeep,        Outcome::wrong_normal,  Outcome::not_finite,  Outcome::failed,
-    Outcome::crashed,         Outcome::timed_out,     Outcome::unsupported, Outcome::shallow_points,
-    Outcome::overdeep_points, Outcome::phantom_points};
+    Outcome::agree,           Outcome::missed,         Outcome::phantom,
+    Outcome::shallow,         Outcome::overdeep,       Outcome::wrong_normal,
+    Outcome::not_finite,      Outcome::failed,         Outcome::crashed,
+    Outcome::timed_out,       Outcome::unsupported,    Outcome::shallow_points,
+    Outcome::overdeep_points, Outcome::phantom_points, Outcome::not_asked};
 /// "agree", "missed", "wrong-normal", …
 const char* outcome_name(Outcome outcome);
 /// The outcome of that name, if there is one.

@@ -7,6 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "candidates/candidates.hpp"
+#include "properties/files/disk.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/campaigns/shard.hpp"
 #include "reports/terminal.hpp"
@@ -88,11 +90,18 @@ TEST(Shards, AreReadOrRefused) {
   }
 }
 
-ScoreTally tally_of(const std::vector<Score>& scores) {
+/// One that was not asked is represented by the next one that was.
+ScoreTally tally_of(const std::vector<Score>& scores, std::size_t first, std::size_t last) {
   ScoreTally tally(Precision::binned);
-  for (std::size_t i = 0; i < scores.size(); ++i) tally.add(3, i, scores[i]);
+  std::uint64_t waiting = 0;
+  for (std::size_t i = first; i < last; ++i) {
+    const bool was_asked = scores[i].outcome != Outcome::not_asked;
+    tally.add(3, i, scores[i], was_asked ? waiting : 0);
+    waiting = was_asked ? 0 : waiting + 1;
+  }
   return tally;
 }
+ScoreTally tally_of(const std::vector<Score>& scores) { return tally_of(scores, 0, scores.size()); }
 
 /// Every outcome, errors of any magnitude and sign, present or not.
 Score some_score(std::mt19937_64& random) {
@@ -114,13 +123,31 @@ TEST(TallyJson, IsReadBackToTheLastBitAndAddsUp) {
   std::mt19937_64 random(1);
   std::vector<Score> scores(300);
   for (Score& s : scores) s = some_score(random);
+  for (const std::size_t last : {99, 199, 299}) scores[last].outcome = Outcome::agree;
   ScoreTally sum(Precision::binned);
   for (std::size_t first = 0; first < scores.size(); first += 100) {
-    ScoreTally part(Precision::binned);
-    for (std::size_t i = first; i < first + 100; ++i) part.add(3, i, scores[i]);
+    const ScoreTally part = tally_of(scores, first, first + 100);
     sum.add(tally_from_json(json::parse(to_json(part).dump()), 3));
   }
-  EXPECT_EQ(to_json(sum).dump(), to_json(tally_of(scores)).dump());
+  const json whole = to_json(tally_of(scores));
+  EXPECT_EQ(to_json(sum).dump(), whole.dump());
+  EXPECT_GT(whole["outcomes"]["not-asked"], 0);
+}
+
+TEST(TallyJson, RefusesOthersThanThoseThatWereNotAskedAsRepresented) {
+  Score unasked;
+  unasked.outcome = Outcome::not_asked;
+  const json good = to_json(tally_of({unasked, unasked, Score()}));
+  EXPECT_EQ(good["represented"], json({{"agree", 2}}));
+  EXPECT_EQ(tally_from_json(good, 3).statistics().agreeing(), 3u);
+  json bad = good;
+  bad["represented"] = {{"agree", 1}};
+  EXPECT_THROW(tally_from_json(bad, 3), InvalidInput);
+  bad.erase("represented");
+  EXPECT_THROW(tally_from_json(bad, 3), InvalidInput);
+  json old = to_json(tally_of({Score()}));
+  old.erase("represented");
+  EXPECT_EQ(tally_from_json(old, 3).count, 1u);
 }
 
 TEST(TallyJson, OfAFileWithoutTheDeepestPointHasTheRest) {
@@ -199,6 +226,37 @@ TEST(Merge, DoesNotDependOnTheSplitNorOnTheOrder) {
   EXPECT_EQ(merged({part(3, 4), part(1, 3), part(0, 1)}), whole);
   EXPECT_EQ(json::parse(whole)["configurations"], 2000);
   EXPECT_EQ(json::parse(whole)["summary"][4]["outcomes"]["shallow"], 400);
+}
+
+TEST(Merge, OfACandidateThatHangsIsTheSameForEverySplit) {
+  add_file(TOUCHSTONE_TEST_PLUGINS "/touchstone-sabotage.so");
+  Campaign campaign;
+  campaign.pairs = {Pair::sphere};
+  campaign.classes = {"touching", "cap"};
+  campaign.candidates = find_candidates({"reference", "misdeed:5"});
+  campaign.limits.seconds = 0.01;
+  campaign.count = Unit::max_size + 20;
+  const Plan plan = make_plan(campaign, "x");
+  const auto split = [&](std::uint64_t shards, unsigned workers) {
+    campaign.workers = workers;
+    Merge merge;
+    for (std::uint64_t number = 1; number <= shards; ++number) {
+      ShardState state(plan, {number, shards});
+      const std::filesystem::path file = testing::TempDir() + "shard of a candidate that hangs";
+      EXPECT_TRUE(run_shard(campaign, state, file, {.progress = false}, [] { return true; }));
+      merge.add(shard_from_text(read_file(file, "file"), "file"), "file");
+      std::filesystem::remove(file);
+    }
+    return campaign_json(merge.whole(false));
+  };
+  const std::string whole = split(1, 2);
+  EXPECT_EQ(split(3, 1), whole);
+  for (const json& row : json::parse(whole)["results"]) {
+    if (row["candidate"] == "reference") continue;
+    // Of 512: three, the last of each of 32 sixteens. Of 20: three, the last of 16, the last.
+    EXPECT_EQ(row["outcomes"], json({{"timed-out", 40}, {"not-asked", 492}}));
+    EXPECT_EQ(row["represented"], json({{"timed-out", 492}}));
+  }
 }
 
 TEST(Merge, SumsUpByGroupsAlone) {

@@ -178,8 +178,7 @@ std::string in_both_forms(const std::string& name, int width, int height,
 
 /// Share of the configurations with a routine on which the candidate agrees.
 double agreement(const Statistics& s) {
-  return static_cast<double>(s.of(Outcome::agree)) /
-         static_cast<double>(s.count - s.of(Outcome::unsupported));
+  return static_cast<double>(s.agreeing()) / static_cast<double>(s.supported());
 }
 
 struct Point {
@@ -400,7 +399,7 @@ std::string class_figure(const Report& report, const std::string& group, const s
   for (const ResultRow& row : report.results) {
     const Statistics& s = row.statistics;
     if (row.pair != pair || !of_group.contains(row.pose_class)) continue;
-    if (s.of(Outcome::unsupported) == s.count) continue;
+    if (s.supported() == 0) continue;
     const double share = 1 - agreement(s);
     data += fmt::format("{},{},{:.6g}\n", row.pose_class, csv_cell(row.candidate), share);
     const auto y = place(classes, row.pose_class), x = place(candidates, row.candidate);

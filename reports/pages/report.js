@@ -47,7 +47,8 @@ const tail = r => r.nanoseconds === null ? null : r.nanoseconds.p95;
 const hasSlowTail = r => tail(r) !== null && tail(r) > 4 * time(r);  // as in timing.hpp
 // The number of configurations that a candidate has a routine for.
 const supported = r => r.count - (r.outcomes.unsupported || 0);
-const agreeing = r => (r.outcomes.agree || 0) / supported(r);
+// What was not asked counts as what represents it.
+const agreeing = r => ((r.outcomes.agree || 0) + r.represented) / supported(r);
 const withoutAnswer = ['not-finite', 'failed', 'crashed', 'timed-out'];
 const lost = r => withoutAnswer.reduce((sum, o) => sum + (r.outcomes[o] || 0), 0);
 const vector = v => v === null ? '–' : `(${v.map(c => c === null ? 'nan' : plainNumber(c, 6)).join(', ')})`;
@@ -128,7 +129,7 @@ function failuresOf() {
       : pairs.map(pair => {
         const here = failing.filter(r => r.pair === pair);
         if (here.length === 0) return null;
-        const main = r => Object.entries(r.outcomes).filter(([o]) => o !== 'agree').sort((a, b) => b[1] - a[1])[0][0];
+        const main = r => Object.entries(r.outcomes).filter(([o]) => isFailure(o)).sort((a, b) => b[1] - a[1])[0][0];
         return element('li', {}, element('b', {}, dashed(pair)), `: disagrees in ${here.length} of ${classesOf(pair).length} ${group} pose classes, most in `,
             ...here.slice(0, 3).flatMap((r, i) => [i ? ', ' : '', `${r.class} (${percent(1 - agreeing(r))}, ${main(r)})`]),
             '. ', link('See its worst cases', () => showWorst(pair, candidate)));
