@@ -134,6 +134,7 @@ DisturbedScene::DisturbedScene(const Scene& written, std::uint64_t seed, std::si
     joint.a = place[joint.a];
     if (joint.b != world_body) joint.b = place[joint.b];
   }
+  for (auto& [a, b] : scene.apart) a = place[a], b = place[b];
   for (Push& push : scene.pushes) {
     push.body = place[push.body];
     push.force = turn * push.force;
