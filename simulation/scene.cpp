@@ -34,7 +34,8 @@ struct InertiaOf {
     return {side.mass + ball.mass, Vec3(across, across, side.principal.z() + ball.principal.z())};
   }
   Inertia operator()(const Box& s) const {
-    const Vec3 h = s.half_extents(), squared = h.cwiseProduct(h);
+    const Vec3& h = s.half_extents();
+    const Vec3 squared = h.cwiseProduct(h);
     const double mass = density * 8 * h.prod();
     return {mass, mass / 3 * (Vec3::Constant(squared.sum()) - squared)};
   }

@@ -242,6 +242,32 @@ TEST(RunWith, AsksTheCandidateOfEachKindOfPairs) {
   EXPECT_EQ(run.answers[1].points, 1);  // a round end
 }
 
+// The kinds are those of the scene as it is written, whatever the order of the disturbed bodies.
+TEST(RunWith, AsksTheCandidateOfEachKindInEveryOrderOfTheBodies) {
+  Scene scene;
+  scene.duration = scene.step;
+  const auto at = [](double x) { return Pose(Vec3(x, 0, 0.2995)); };
+  scene.bodies = {{"ground", Plane(Vec3::UnitZ(), 0), 1000, {}, {}, {}, {}, true},
+                  {"left", Cylinder(0.2, 0.3), 1000, {}, at(-1)},
+                  {"right", Cylinder(0.3, 0.3), 1000, {}, at(1)}};
+  const Candidate &exact = find_candidate("reference"), &capsule = find_candidate("capsule");
+  Processes processes({});
+  CandidateModel model(processes.of(exact));
+  const PairKinds kinds(scene, run_scene(scene, model));
+  std::set<std::vector<int>> orders;
+  for (std::size_t d = 1; d <= 20; ++d) {
+    const DisturbedScene disturbed(scene, 1, d);
+    orders.insert(disturbed.origin);
+    const Trajectory run = run_with(disturbed, kinds, {nullptr, &capsule}, exact, processes);
+    ASSERT_GE(run.answers.size(), 2U);
+    for (const JudgedAnswer& answer : run.answers) {
+      const std::string& name = disturbed.scene.bodies[answer.a].name;
+      EXPECT_EQ(answer.points == 1, name == "right") << name << ", disturbance " << d;
+    }
+  }
+  EXPECT_EQ(orders.size(), 6U);
+}
+
 TEST(Choose, CapsulesCannotStand) {
   const Choice choice = chosen(standing_can(stands));
   EXPECT_TRUE(choice.runs[0].holds());
@@ -260,6 +286,7 @@ TEST(Choose, TheAnswerHoldsAndNothingCheaperThatWasRunDoes) {
     const Choice choice = chosen(standing_can(need));
     const SceneRun& answer = choice.runs[choice.answer];
     EXPECT_TRUE(answer.holds());
+    EXPECT_EQ(answer.held, 1 + (choice.answer == 0 ? 16U : choice.trials.of_answer()));
     for (const SceneRun& run : choice.runs) {
       if (!run.holds()) continue;
       EXPECT_GE(run.nanoseconds, cheaper_share * answer.nanoseconds) << run.name;
@@ -328,6 +355,29 @@ TEST(Choose, ACapsuleThatBalancesOnItsPoleDoesNotStand) {
     EXPECT_EQ(disturbed.answer, 0U);
     EXPECT_EQ(disturbed.runs[0].held, 17U);
   }
+}
+
+/// The model of the first kind of pairs whose bodies' text has this in it.
+std::string model_of(const Choice& choice, const std::string& bodies) {
+  const auto& kinds = choice.kinds.all();
+  for (std::size_t k = 0; k < kinds.size(); ++k) {
+    if (kinds[k].bodies.find(bodies) == std::string::npos) continue;
+    return choice.runs[choice.answer].models[k]->name;
+  }
+  throw std::runtime_error("no pair " + bodies);
+}
+
+// A can that is pushed along a shelf falls over if its end is round, whatever its side is.
+TEST(Choose, ACanThatIsPushedAlongAShelfNeedsItsFlatEnd) {
+  const SceneFile file = read_scene(TOUCHSTONE_SCENES "/shelf-push.json");
+  const Choice choice =
+      choose(file, {find_candidates({"capsule", "capsule-circumscribed", "spheres:1"}), 2});
+  EXPECT_FALSE(choice.impossible);
+  EXPECT_EQ(model_of(choice, "shelf"), "reference");
+  for (const char* name : {"capsule", "capsule-circumscribed", "spheres:1"}) {
+    EXPECT_FALSE(run_of(choice, name).holds()) << name;
+  }
+  EXPECT_FALSE(choice.is_worthwhile());
 }
 
 TEST(Choose, TheAnswerDoesNotDependOnTheSeed) {

@@ -346,7 +346,7 @@ TEST(SceneFile, ShippedScenesAreReadAndSayWhatTheyNeed) {
     EXPECT_FALSE(file.description.empty());
     ++count;
   }
-  EXPECT_EQ(count, 7);
+  EXPECT_EQ(count, 12);
 }
 
 // TOUCHSTONE_WRITE_SCHEMA=1 writes the file.

@@ -169,13 +169,14 @@ double badness(const Score& s) {
 struct Trial {
   std::vector<Verdict> verdicts;
   std::optional<Evidence> evidence;
-
-  double error() const {
-    double largest = 0;
-    for (const Verdict& v : verdicts) largest = std::max(largest, v.share());
-    return largest;
-  }
 };
+
+/// Largest share of its limit that a need takes.
+double max_share(const std::vector<Verdict>& verdicts) {
+  double largest = 0;
+  for (const Verdict& v : verdicts) largest = std::max(largest, v.share());
+  return largest;
+}
 
 /// Index of the need that broke first; −1: all hold.
 int first_broken(const std::vector<Verdict>& verdicts) {
@@ -285,7 +286,7 @@ void add(const Trial& trial, std::size_t disturbance, SceneRun& run) {
   const bool broke_before = run.held < run.trials;
   const bool holds = first_broken(trial.verdicts) < 0;
   const bool is_worse = run.trials == 0 || (!broke_before && !holds) ||
-                        (!broke_before && trial.error() > run.error());
+                        (!broke_before && max_share(trial.verdicts) > run.error());
   ++run.trials;
   run.held += holds;
   if (!is_worse) return;
@@ -339,11 +340,7 @@ std::vector<std::vector<ReplayScore>> replay(const Scene& scene, const Trajector
 
 bool SceneRun::holds() const { return first_broken() < 0; }
 
-double SceneRun::error() const {
-  double largest = 0;
-  for (const Verdict& v : verdicts) largest = std::max(largest, v.share());
-  return largest;
-}
+double SceneRun::error() const { return max_share(verdicts); }
 
 int SceneRun::first_broken() const { return touchstone::first_broken(verdicts); }
 
