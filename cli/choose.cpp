@@ -49,11 +49,12 @@ int choose_scene(const Options& options) {
   if (is_robot_file(options.scene)) {
     Processes processes(limits);
     CandidateModel exact(processes.of(*exact_first({}).front()));
-    add_robot_needs(file, run_scene(file.scene, exact));
-    if (file.needs.empty()) {
+    const Trajectory exact_run = run_scene(file.scene, exact);
+    add_robot_needs(file, exact_run);
+    if (exact_run.answers.empty() || file.needs.empty()) {
       throw InvalidInput("scene", '"' + options.scene + '"',
-                         "must have a part that moves and touches something: see --drive; --depth "
-                         "scores poses at random instead");
+                         "must have a cylinder that moves and touches something: see --drive; "
+                         "--depth scores poses at random instead");
     }
   }
   const Choice choice = choose(

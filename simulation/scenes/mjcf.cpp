@@ -291,13 +291,12 @@ class Reading {
 
   /// MuJoCo's `exclude`, and bodies whose masks do not meet.
   void keep_apart() {
-    constexpr int no_more = 500;  // the pairs of all bodies are gone through
     for (int i = 0; i < m_.nexclude; ++i) {
       const int signature = m_.exclude_signature[i];
       constexpr int bits = 16;
       result_.apart.emplace_back((signature >> bits) - 1, (signature & ((1 << bits) - 1)) - 1);
     }
-    if (m_.nbody > no_more) return;
+    if (m_.nbody > static_cast<int>(max_links)) return;  // such a file is refused
     for (int b = 0; b < m_.nbody; ++b) {
       for (int other = b + 1; other < m_.nbody; ++other) {
         if (!masks_meet(m_, b, other)) result_.apart.emplace_back(b, other);

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <sstream>
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <type_traits>
 #include <unistd.h>
 
@@ -218,7 +219,21 @@ void check_robot(RobotFile& robot, const std::filesystem::path& file) {
         "scene", '"' + file.string() + '"',
         fmt::format("must have at most {} collision shapes, not {}", max_shapes, shapes));
   }
+  if (robot.links.size() > max_links || robot.joints.size() > max_links) {
+    throw InvalidInput("scene", '"' + file.string() + '"',
+                       fmt::format("must have at most {} links and joints, not {} and {}",
+                                   max_links, robot.links.size(), robot.joints.size()));
+  }
   for (std::string& note : robot.ignored) note = readable(note);
+}
+
+/// Bounds the memory of the process that reads: a number in a file may ask for any amount.
+void bound_memory() {
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // these map terabytes
+  constexpr rlim_t max_bytes = rlim_t{4} << 30;
+  const rlimit memory{max_bytes, max_bytes};
+  setrlimit(RLIMIT_AS, &memory);
+#endif
 }
 
 enum class Format { urdf, sdf, mjcf };
@@ -260,6 +275,7 @@ RobotFile read_format(Format format, const std::filesystem::path& file,
 std::string read_as_bytes(Format format, const std::filesystem::path& file,
                           const std::vector<std::filesystem::path>& folders, int log) {
   library_log = log;
+  bound_memory();
   for (const int standard : {STDOUT_FILENO, STDERR_FILENO}) dup2(log, standard);
   Writer result;
   try {

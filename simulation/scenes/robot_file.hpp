@@ -65,6 +65,9 @@ struct RobotFile {
   std::vector<std::string> ignored;
 };
 
+/// Bound on the links of a file, and on its joints.
+inline constexpr std::size_t max_links = 2000;
+
 /// Is it the name of a robot or world file (.urdf, .sdf, .world, .mjcf, .xml, .xacro)?
 bool is_robot_file(const std::filesystem::path& file);
 

@@ -490,6 +490,25 @@ TEST(Mjcf, ABodyWithSeveralJointsGetsLinksInBetween) {
   EXPECT_FALSE(x.holds);  // MuJoCo has no motor there
 }
 
+TEST(Mjcf, ThatAsksForAllMemoryIsRefused) {
+  EXPECT_THAT(refusal_of("part.xml",
+                         "<mujoco><size nstack='2000000000'/><worldbody><geom "
+                         "size='1'/></worldbody></mujoco>"),
+              HasSubstr("scene is"));
+}
+
+TEST(RobotFiles, WithTooManyLinksAreRefused) {
+  std::string text = "<robot name='r'><link name='l0'/>";
+  for (std::size_t i = 1; i <= max_links; ++i) {
+    text += fmt::format(
+        "<link name='l{0}'/><joint name='j{0}' type='fixed'><parent link='l0'/>"
+        "<child link='l{0}'/></joint>",
+        i);
+  }
+  EXPECT_THAT(refusal_of("part.urdf", text + "</robot>"),
+              HasSubstr("must have at most 2000 links and joints, not 2001 and 2000"));
+}
+
 TEST(Mjcf, WhatIsNoMjcfIsRefusedInMujocosWords) {
   const auto refusal = [](const std::string& body) {
     return refusal_of("part.xml", "<mujoco><worldbody>" + body + "</worldbody></mujoco>");

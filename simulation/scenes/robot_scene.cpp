@@ -57,6 +57,7 @@ double clearance(const Body& a, const Body& b, const Vec3& n) {
 /// Do the convex bodies overlap? Of bodies apart the clearance has one maximum over the directions,
 /// which a search from the line between their centres finds.
 bool overlap(const Body& a, const Body& b) {
+  if (!aabb(a.shape, a.pose).overlaps(aabb(b.shape, b.pose))) return false;
   Vec3 n = a.pose.position() - b.pose.position();
   n = n.norm() > 0 ? Vec3(n.normalized()) : Vec3(Vec3::UnitZ());
   double best = clearance(a, b, n);

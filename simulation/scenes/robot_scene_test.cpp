@@ -121,6 +121,25 @@ TEST(RobotScene, AJointIsDrivenOrLooseByOption) {
   EXPECT_FALSE(joint(robot_scene(two_balls(), motion).scene, "elbow").motor);
 }
 
+TEST(RobotScene, TheRootIsHeldByOption) {
+  RobotMotion motion;
+  EXPECT_FALSE(body(robot_scene(two_balls(), motion).scene, "a").fixed);
+  motion.has_fixed_base = true;
+  EXPECT_TRUE(body(robot_scene(two_balls(), motion).scene, "a").fixed);
+  EXPECT_FALSE(body(robot_scene(two_balls(), motion).scene, "b").fixed);
+}
+
+TEST(RobotScene, ALengthOfTooManyStepsIsRefused) {
+  RobotFile robot = two_balls();
+  robot.step = 1e-6;
+  try {
+    robot_scene(robot, {});
+    FAIL() << "accepted";
+  } catch (const InvalidInput& e) {
+    EXPECT_THAT(e.what(), HasSubstr("--duration is 2: must be shorter"));
+  }
+}
+
 TEST(RobotScene, AJointThatIsNotThereIsRefusedWithTheNearestNames) {
   RobotFile robot = two_balls();
   robot.links.push_back(ball("c", Vec3(1, 0, 1)));
