@@ -49,7 +49,8 @@ int choose_scene(const Options& options) {
   if (is_robot_file(options.scene)) {
     Processes processes(limits);
     CandidateModel exact(processes.of(*exact_first({}).front()));
-    const Trajectory exact_run = run_scene(file.scene, exact);
+    const Trajectory exact_run =
+        run_disturbed(file.scene, exact, {options.disturbances, options.seed});
     add_robot_needs(file, exact_run);
     if (exact_run.answers.empty() || file.needs.empty()) {
       throw InvalidInput("scene", '"' + options.scene + '"',

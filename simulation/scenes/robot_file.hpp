@@ -92,9 +92,9 @@ struct RobotMotion {
 /// (field "--drive") on an unknown joint, with the nearest names.
 SceneFile robot_scene(const RobotFile& robot, const RobotMotion& motion);
 
-/// Gives the scene of a robot needs derived from its run with exact contacts: every moving body
-/// that touches something overlaps little more than it does there, and what no joint holds ends
-/// near where it does there.
+/// Gives the scene of a robot needs derived from its run with exact contacts, whose answers may
+/// include those of disturbed runs (run_disturbed): every moving body that touches something
+/// overlaps little more than it does there, and what no joint holds ends near where it does there.
 void add_robot_needs(SceneFile& file, const Trajectory& exact);
 
 /// "left out: 1 of 8 collision shapes (volume unknown)"; empty if nothing was.
