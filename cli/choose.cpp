@@ -1,7 +1,9 @@
 #include "simulation/scenes/choose.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <memory>
+#include <vector>
 
 #include "cli/command.hpp"
 #include "cli/options.hpp"
@@ -17,15 +19,20 @@ namespace {
 constexpr int not_served = 1;
 
 struct Options {
-  explicit Options(Command& command) : candidates(command), workers(command) {}
+  explicit Options(Command& command) : candidates(command), workers(command), robot(command) {}
   CandidateOption candidates;
   WorkersOption workers;
+  RobotOption robot;
   std::string scene, out = "out";
   bool json = false;
   std::uint64_t disturbances = Trials().disturbances, seed = Trials().seed;
   PairNeeds pairs;
-  std::vector<Option> of_scenes, of_robots;  // that say nothing of the other
+  std::vector<Option> of_motions, of_samples;  // that say nothing of the other
 
+  /// Are poses sampled, instead of a motion simulated?
+  bool is_sampled() const {
+    return std::ranges::any_of(of_samples, [](const Option& option) { return option.is_given(); });
+  }
   std::vector<const Candidate*> contestants() const {
     return candidates.is_given() ? candidates.get() : swept_candidates();
   }
@@ -33,7 +40,7 @@ struct Options {
   /// The command that gives the same choice again.
   std::string command_line() const {
     return program_name() + " choose " + shell_quoted(scene) +
-           candidates.command_line(contestants());
+           candidates.command_line(contestants()) + robot.command_line();
   }
 };
 
@@ -41,8 +48,20 @@ int choose_scene(const Options& options) {
   const std::string command =
       options.command_line() +
       fmt::format(" --disturbances {} --seed {}", options.disturbances, options.seed);
-  const SceneFile file = read_scene(options.scene);
   const Limits limits = options.candidates.limits();
+  SceneFile file = options.robot.scene(options.scene);
+  if (is_robot_file(options.scene)) {
+    Processes processes(limits);
+    CandidateModel exact(processes.of(*exact_first({}).front()));
+    const Trajectory exact_run =
+        run_disturbed(file.scene, exact, {options.disturbances, options.seed});
+    add_robot_needs(file, exact_run);
+    if (exact_run.answers.empty() || file.needs.empty()) {
+      throw InvalidInput("scene", '"' + options.scene + '"',
+                         "must have a cylinder that moves and touches something: see --drive; "
+                         "--depth scores poses at random instead");
+    }
+  }
   const Choice choice = choose(
       file,
       {options.contestants(), options.workers.get(), limits, {options.disturbances, options.seed}});
@@ -62,10 +81,7 @@ int choose_pairs(const Options& options) {
   const std::string command =
       options.command_line() + fmt::format(" --depth {} --angle {} --count {} --seed {}",
                                            needs.depth, needs.angle, needs.count, needs.seed);
-  const ShapesFile file = read_shapes(options.scene);
-  for (const std::string& ignored : file.ignored) {
-    complain(fmt::format("warning: {}: {}", options.scene, ignored));
-  }
+  const RobotFile file = options.robot.robot(options.scene);
   const PairsChoice choice =
       choose_for_pairs(file, needs, options.contestants(), options.candidates.limits());
   const std::string folder = options.folder();
@@ -77,15 +93,16 @@ int choose_pairs(const Options& options) {
 }
 
 int run(const Options& options) {
-  const bool is_robot = is_shapes_file(options.scene);
-  for (const Option& option : is_robot ? options.of_scenes : options.of_robots) {
-    if (!option.is_given()) continue;
+  const bool is_robot = is_robot_file(options.scene);
+  for (const Option& option : is_robot ? options.of_motions : options.of_samples) {
+    if (!option.is_given() || (is_robot && !options.is_sampled())) continue;
     throw InvalidInput(option.name(), "given with \"" + options.scene + '"',
-                       is_robot ? "must be left out: a robot or world has no motion to disturb"
+                       is_robot ? "must be left out: sampled poses have no motion to disturb"
                                 : "must be left out: a scene's needs stand in its file");
   }
   check_writable(options.out);
-  return is_robot ? choose_pairs(options) : choose_scene(options);
+  if (options.is_sampled()) return choose_pairs(options);
+  return choose_scene(options);
 }
 
 }  // namespace
@@ -95,28 +112,29 @@ void add_choose(Program& program) {
   const auto options = std::make_shared<Options>(command);
   command
       .text("scene", options->scene,
-            "A scene file (docs/scenes.md), or a robot or world (.urdf, .sdf)")
+            "A scene file (docs/scenes.md), or a robot or world (.urdf, .sdf, MJCF)")
       .value("FILE")
       .required();
   command.text("--out", options->out, "Folder for choose.json and choose.html").value("FOLDER");
   command.flag("--json", options->json, "Print choose.json instead of text");
   command.count("--seed", options->seed, all_counts, "Same seed, same disturbances or poses");
-  options->of_scenes = {
+  options->of_motions = {
       command.count("--disturbances", options->disturbances, {0, 1000},
                     "Runs of a scene beside the one as it is written; needs must hold in all")};
-  const char* robots = "Of a robot or world";
+  const char* sampled = "Of a robot or world whose shapes meet at random instead of in a motion";
   PairNeeds& pairs = options->pairs;
-  options->of_robots = {
+  options->of_samples = {
       command.number("--depth", pairs.depth, positive_numbers, "Largest depth error, metres")
-          .group(robots),
+          .group(sampled),
       command.number("--angle", pairs.angle, positive_numbers, "Largest error of a normal, degrees")
-          .group(robots),
+          .group(sampled),
       command.count("--count", pairs.count, {1, 1000000}, "Sampled poses of each pair of shapes")
-          .group(robots)};
+          .group(sampled)};
   command.footer(
       "Examples:\n"
       "  touchstone choose simulation/scenes/log-pile.json\n"
       "  touchstone choose simulation/scenes/conveyor.json --candidates spheres:1..16\n"
+      "  touchstone choose simulation/scenes/rover.urdf --drive left_wheel=5,right_wheel=5\n"
       "  touchstone choose simulation/scenes/gripper.urdf --depth 0.002 --angle 10\n"
       "Exit code 1: not even exact contacts meet the needs.");
   command.runs([options] { return run(*options); });

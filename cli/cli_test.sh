@@ -269,6 +269,31 @@ expect 2 'scene.*could not be opened' choose "$folder/none.json"
 echo '{"duration":1,"bodies":[{"name":"a","shape":{"shape":"sphere","radius":-1}}]}' > "$folder/bad.json"
 expect 2 'bodies\[0\].shape.radius is -1' choose "$folder/bad.json"
 expect 2 '--depth' choose "$folder/bad.json" --depth 0
+# A robot: two wheels on an axle, and what is asked of it.
+cat > "$folder/cart.urdf" <<'URDF'
+<robot name="cart"><link name="base"><collision><origin xyz="0 0 0.1"/><geometry><box size="0.2 0.2 0.02"/></geometry></collision></link>
+<joint name="left_wheel" type="continuous"><parent link="base"/><child link="left"/><origin xyz="0 0.2 0" rpy="-1.5708 0 0"/><axis xyz="0 0 1"/></joint>
+<link name="left"><collision><geometry><cylinder radius="0.1" length="0.05"/></geometry></collision></link>
+<joint name="right_wheel" type="continuous"><parent link="base"/><child link="right"/><origin xyz="0 -0.2 0" rpy="-1.5708 0 0"/><axis xyz="0 0 1"/></joint>
+<link name="right"><collision><geometry><cylinder radius="0.1" length="0.05"/></geometry></collision></link>
+<transmission name="t"/></robot>
+URDF
+expect 0 'left  *0' simulate "$folder/cart.urdf" --duration 0.1 --drive left_wheel=3 --drive right_wheel=loose
+expect 0 'warning: .*cart.urdf: transmission t: not read' simulate "$folder/cart.urdf" --duration 0.1
+expect 0 'left and ground' choose "$folder/cart.urdf" --duration 0.1 --disturbances 1 --candidates capsule --out "$folder/cart"
+expect 0 'cylinder .* on cylinder ' choose "$folder/cart.urdf" --count 5 --candidates reference --out "$folder/cart"
+expect 2 '^error: --drive is "left_whel": must be a joint that moves, as left_wheel, right_wheel$' \
+  simulate "$folder/cart.urdf" --drive left_whel=3
+expect 2 '^error: --drive is "left_wheel": must be a joint and its rate, as in left_wheel=5$' \
+  simulate "$folder/cart.urdf" --drive left_wheel
+expect 2 '^error: --drive is "fast": must be a number' simulate "$folder/cart.urdf" --drive left_wheel=fast
+expect 2 '^error: --model-path is .*none": must be a folder$' simulate "$folder/cart.urdf" --model-path "$folder/none"
+expect 2 'must be a robot or world .* with --drive' choose "$folder/bad.json" --drive left_wheel=3
+expect 2 'must be a robot or world .* with --depth' choose "$folder/bad.json" --depth 1
+expect 2 'scene is .*none.urdf": .*could not be opened' simulate "$folder/none.urdf"
+sed 's/<cylinder radius="0.1" length="0.05"/<sphere radius="0.1"/' "$folder/cart.urdf" > "$folder/balls.urdf"
+expect 2 'must have a cylinder that moves and touches something: see --drive' \
+  choose "$folder/balls.urdf" --duration 0.1 --candidates capsule --out "$folder/cart"
 expect 2 '--every' render "$folder/bad.json" --every 0
 cat > "$folder/can.json" <<'END'
 {"duration":0.3,"bodies":[

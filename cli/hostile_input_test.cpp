@@ -31,6 +31,7 @@
 #include "reports/solve.hpp"
 #include "reports/terminal.hpp"
 #include "reports/test_data/given_answers.hpp"
+#include "simulation/scenes/robot_file.hpp"
 #include "simulation/scenes/scene_file.hpp"
 #include "simulation/world.hpp"
 
@@ -423,33 +424,40 @@ class Written {
   std::filesystem::path path_;
 };
 
-/// The libraries print a line on standard error for much of what is wrong.
-struct Quiet {
-  Quiet() { testing::internal::CaptureStderr(); }
-  ~Quiet() { testing::internal::GetCapturedStderr(); }
-};
-
-void read_robot(const std::filesystem::path& file) {
-  const ShapesFile shapes = read_shapes(file);
-  if (!shapes.shapes.empty()) step_through(still_scene(shapes));
+/// A robot is read, and its scene simulated for a few steps. Nothing is printed, whatever a library
+/// has to say.
+void simulate_robot(const std::filesystem::path& file) {
+  testing::internal::CaptureStderr();
+  std::exception_ptr refused;
+  try {
+    const std::filesystem::path models = std::filesystem::path(TOUCHSTONE_SCENES) / "models";
+    step_through(robot_scene(read_robot(file, {models}), {}));
+  } catch (...) {
+    refused = std::current_exception();
+  }
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  if (refused) std::rethrow_exception(refused);
 }
 
 TEST(HostileInput, Urdf) {
   const Written file(".urdf");
-  expect_answer_or_refusal("URDF", 1.8, files_of(TOUCHSTONE_SCENES, ".urdf"),
-                           [&](const std::string& text, std::uint64_t) {
-                             const Quiet quiet;
-                             read_robot(file.with(text));
-                           });
+  expect_answer_or_refusal(
+      "URDF", 1.8, files_of(TOUCHSTONE_SCENES, ".urdf"),
+      [&](const std::string& text, std::uint64_t) { simulate_robot(file.with(text)); });
 }
 
 TEST(HostileInput, Sdf) {
   const Written file(".sdf");
-  expect_answer_or_refusal("SDF", 0.2, files_of(TOUCHSTONE_SCENES, ".sdf"),
-                           [&](const std::string& text, std::uint64_t) {
-                             const Quiet quiet;
-                             read_robot(file.with(text));
-                           });
+  expect_answer_or_refusal(
+      "SDF", 0.2, files_of(TOUCHSTONE_SCENES, ".sdf"),
+      [&](const std::string& text, std::uint64_t) { simulate_robot(file.with(text)); });
+}
+
+TEST(HostileInput, Mjcf) {
+  const Written file(".xml");
+  expect_answer_or_refusal(
+      "MJCF", 0.5, files_of(TOUCHSTONE_SCENES, ".xml"),
+      [&](const std::string& text, std::uint64_t) { simulate_robot(file.with(text)); });
 }
 
 }  // namespace

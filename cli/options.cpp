@@ -7,6 +7,7 @@
 #include "candidates/candidates.hpp"
 #include "properties/files/disk.hpp"
 #include "reference/invalid_input.hpp"
+#include "reports/replay.hpp"
 
 namespace touchstone {
 
@@ -146,6 +147,88 @@ WorkersOption::WorkersOption(Command& command, unsigned usual, const std::string
   const std::uint64_t max = std::max(1024U, usual);  // each is a process with candidates of its own
   command.count("--workers", workers_, {1, max}, "Worker processes; they do not change the result")
       .default_text(meaning);
+}
+
+RobotOption::RobotOption(Command& command) : seconds_(RobotMotion().duration) {
+  const char* robots = "Of a robot or world";
+  constexpr NumberRange durations{1e-3, 1000};
+  options_ = {
+      command
+          .list(
+              "--drive", drives_,
+              "Turn or move joints at these rates, rad/s or m/s, as in left_wheel=5,right_wheel=5; "
+              "a joint with =loose has no motor, all others hold")
+          .value("JOINT=RATE")
+          .group(robots),
+      command.number("--duration", seconds_, durations, "Simulated time, seconds").group(robots),
+      command.flag("--fixed-base", has_fixed_base_, "Hold the root link where it is").group(robots),
+      command
+          .list("--model-path", folders_,
+                "Folders to look for included models in, before those of SDF_PATH, "
+                "GZ_SIM_RESOURCE_PATH, GAZEBO_MODEL_PATH and the file's own")
+          .value("FOLDER")
+          .group(robots)};
+}
+
+RobotMotion RobotOption::motion() const {
+  RobotMotion motion;
+  motion.duration = seconds_;
+  motion.has_fixed_base = has_fixed_base_;
+  for (const std::string& drive : drives_) {
+    const std::size_t equals = drive.rfind('=');
+    if (equals == drive.npos || equals == 0) {
+      throw InvalidInput("--drive", '"' + drive + '"',
+                         "must be a joint and its rate, as in left_wheel=5");
+    }
+    const std::string joint = drive.substr(0, equals), rate = drive.substr(equals + 1);
+    constexpr double max_rate = 1e6;
+    if (rate == "loose") {
+      motion.loose.push_back(joint);
+    } else {
+      motion.rates.emplace_back(joint, read_number("--drive", rate, {-max_rate, max_rate}));
+    }
+  }
+  return motion;
+}
+
+RobotFile RobotOption::robot(const std::string& file) const {
+  std::vector<std::filesystem::path> folders;
+  for (const std::string& folder : folders_) {
+    if (!is_folder(folder))
+      throw InvalidInput("--model-path", '"' + folder + '"', "must be a folder");
+    folders.emplace_back(folder);
+  }
+  RobotFile robot = read_robot(file, folders);
+  if (const std::string left = left_out_text(robot); !left.empty()) {
+    complain(fmt::format("warning: {}: {}", file, left));
+  }
+  for (const std::string& ignored : robot.ignored) {
+    complain(fmt::format("warning: {}: {}", file, ignored));
+  }
+  return robot;
+}
+
+SceneFile RobotOption::scene(const std::string& file) const {
+  if (is_robot_file(file)) return robot_scene(robot(file), motion());
+  for (const Option& option : options_) {
+    if (!option.is_given()) continue;
+    throw InvalidInput("scene", '"' + file + '"',
+                       "must be a robot or world (.urdf, .sdf, .xml) with --drive, --duration, "
+                       "--fixed-base and --model-path");
+  }
+  return read_scene(file);
+}
+
+std::string RobotOption::command_line() const {
+  std::string line;
+  if (!drives_.empty())
+    line += " --drive " + shell_quoted(fmt::format("{}", fmt::join(drives_, ",")));
+  if (options_[1].is_given()) line += fmt::format(" --duration {}", seconds_);
+  if (has_fixed_base_) line += " --fixed-base";
+  if (!folders_.empty()) {
+    line += " --model-path " + shell_quoted(fmt::format("{}", fmt::join(folders_, ",")));
+  }
+  return line;
 }
 
 CampaignOption::CampaignOption(Command& command, std::uint64_t count, std::uint64_t max_count)

@@ -9,6 +9,7 @@
 #include "cli/command.hpp"
 #include "properties/identity.hpp"
 #include "reports/campaign.hpp"
+#include "simulation/scenes/robot_file.hpp"
 
 namespace touchstone {
 
@@ -90,6 +91,26 @@ struct WorkersOption {
 
  private:
   std::uint64_t workers_;
+};
+
+/// How a robot or world is simulated: --drive, --duration, --fixed-base, --model-path.
+struct RobotOption {
+  explicit RobotOption(Command& command);
+  /// Reads a robot or world; says on standard error what of it is not read.
+  RobotFile robot(const std::string& file) const;
+  /// A scene file as it is written, or the scene of a robot or world. Throws InvalidInput, also for
+  /// one of these options with a scene file.
+  SceneFile scene(const std::string& file) const;
+  /// These options as text, to be repeated.
+  std::string command_line() const;
+
+ private:
+  RobotMotion motion() const;
+
+  std::vector<std::string> drives_, folders_;
+  bool has_fixed_base_ = false;
+  double seconds_;
+  std::vector<Option> options_;
 };
 
 /// What is scored, by whom, and how strictly.

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
 #include <memory>
@@ -26,9 +27,10 @@ namespace {
 const std::vector<double> default_steps = {1.0 / 60, 1.0 / 240, 1.0 / 960};
 
 struct Options {
-  explicit Options(Command& command) : candidates(command), workers(command) {}
+  explicit Options(Command& command) : candidates(command), workers(command), robot(command) {}
   CandidateOption candidates;
   WorkersOption workers;
+  RobotOption robot;
   std::vector<std::string> names;
   std::vector<double> steps = default_steps;
   std::vector<std::string> engines;
@@ -100,7 +102,7 @@ int record(const Options& options) {
   }
   check_file_writable(options.record, "--record");
   std::vector<SceneFile> files;
-  for (const std::string& name : options.names) files.push_back(read_scene(name));
+  for (const std::string& name : options.names) files.push_back(options.robot.scene(name));
   Processes processes(options.candidates.limits());
   CandidateModel exact(processes.of(*exact_first({}).front()));
   std::string lines;
@@ -114,6 +116,33 @@ int record(const Options& options) {
                counted(near, "configuration"));
   }
   write_file(options.record, lines, "--record");
+  return 0;
+}
+
+/// Is one of the names that of a file rather than of an experiment?
+bool has_files(const Options& options) {
+  return std::ranges::any_of(options.names, [](const std::string& name) {
+    return is_robot_file(name) || std::filesystem::path(name).extension() == ".json";
+  });
+}
+
+/// Runs the scenes and prints where their bodies end.
+int simulate_scenes(const Options& options) {
+  if (options.json || !options.out.empty()) {
+    throw InvalidInput(options.json ? "--json" : "--out", "given",
+                       "must be with experiments, not with scene files");
+  }
+  const std::vector<const Candidate*> candidates =
+      options.candidates.is_given() ? options.candidates.get() : exact_first({});
+  Processes processes(options.candidates.limits());
+  for (const std::string& name : options.names) {
+    const SceneFile file = options.robot.scene(name);
+    for (const Candidate* candidate : candidates) {
+      CandidateModel model(processes.of(*candidate));
+      fmt::print("{}, {}\n{}", file.name, candidate->name,
+                 motion_table(file.scene, run_scene(file.scene, model)));
+    }
+  }
   return 0;
 }
 
@@ -136,6 +165,7 @@ int simulate_in_engines(const Options& options) {
 int run(const Options& options) {
   if (!options.record.empty()) return record(options);
   if (!options.engines.empty()) return simulate_in_engines(options);
+  if (has_files(options)) return simulate_scenes(options);
   const ExperimentOptions experiments = options.experiments();
   if (!options.out.empty()) check_writable(options.out);
   const ExperimentResults results = run_experiments(experiments);
@@ -160,8 +190,9 @@ void add_simulate(Program& program) {
   Command command = program.command("simulate", "Rigid-body experiments with an answer on paper");
   const auto options = std::make_shared<Options>(command);
   command
-      .arguments("experiments", options->names,
-                 "Only these experiments; with --record, scene files")
+      .arguments(
+          "experiments", options->names,
+          "Only these experiments; or scene files, robots and worlds (.json, .urdf, .sdf, MJCF)")
       .value("EXPERIMENT");
   const Option engine =
       command
@@ -199,6 +230,7 @@ void add_simulate(Program& program) {
       "  touchstone simulate standing --candidates reference,bullet --step 0.004\n"
       "  touchstone simulate --out out\n"
       "  touchstone simulate small-log --engine bullet --out out\n"
+      "  touchstone simulate simulation/scenes/rover.urdf --drive left_wheel=5,right_wheel=5\n"
       "  touchstone simulate simulation/scenes/conveyor.json --record recorded.jsonl\n" +
       experiment_list());
   command.runs([options] { return run(*options); });
@@ -207,13 +239,11 @@ void add_simulate(Program& program) {
 namespace {
 
 struct RenderOptions {
+  explicit RenderOptions(Command& command) : robot(command) {}
+  RobotOption robot;
   std::string scene, out = "out/render", contacts = "reference";
   double every = 0.04;
 };
-
-SceneFile read(const std::string& file) {
-  return is_shapes_file(file) ? still_scene(read_shapes(file)) : read_scene(file);
-}
 
 const Candidate& contacts_of(const RenderOptions& options) {
   try {
@@ -225,7 +255,7 @@ const Candidate& contacts_of(const RenderOptions& options) {
 
 int run_render(const RenderOptions& options) {
   const Candidate& candidate = contacts_of(options);
-  const SceneFile file = read(options.scene);
+  const SceneFile file = options.robot.scene(options.scene);
   check_writable(options.out);
   CandidateProcess process(candidate, simulation_threshold);
   CandidateModel model(process);
@@ -240,8 +270,8 @@ int run_render(const RenderOptions& options) {
 void add_render(Program& program) {
   Command command =
       program.command("render", "Run a scene and write it for POV-Ray, frame by frame");
-  const auto options = std::make_shared<RenderOptions>();
-  command.text("scene", options->scene, "A scene file, or a robot or world (.urdf, .sdf)")
+  const auto options = std::make_shared<RenderOptions>(command);
+  command.text("scene", options->scene, "A scene file, or a robot or world (.urdf, .sdf, MJCF)")
       .value("FILE")
       .required();
   command.number("--every", options->every, {1e-6, 1e6}, "Seconds between frames");

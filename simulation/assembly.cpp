@@ -143,6 +143,9 @@ Touching::Touching(const Scene& scene)
       }
     }
   }
+  for (const auto& [a, b] : scene.apart) {
+    allowed_[a * count_ + b] = allowed_[b * count_ + a] = false;
+  }
   for (const Joint& joint : scene.joints) {
     if (joint.b == world_body) continue;
     for (const int a : all[of[joint.a]].bodies) {

@@ -34,8 +34,8 @@ BodyState state_within(const BodyState& assembly, const Pose& X_FB);
 /// that lead to it from the pose one step before.
 BodyState driven_state(const Drive& drive, const Pose& start, double time, double step);
 
-/// May the two bodies touch? Not if neither is moved by forces, if one of them does not collide, or
-/// if they are of one assembly or of two with a joint between them.
+/// May the two bodies touch? Not if neither is moved by forces, if one of them does not collide, if
+/// the scene keeps them apart, or if they are of one assembly or of two with a joint between them.
 class Touching {
  public:
   explicit Touching(const Scene& scene);

@@ -216,6 +216,10 @@ void check_scene(const Scene& scene) {
   for (std::size_t i = 0; i < scene.joints.size(); ++i) {
     check_joint(fmt::format("joints[{}]", i), scene.joints[i], scene);
   }
+  for (const auto& [a, b] : scene.apart) {
+    check_index("apart", a, 0, scene);
+    check_index("apart", b, 0, scene);
+  }
   for (const Assembly& assembly : assemblies(scene)) check_assembly(assembly, scene);
   for (std::size_t i = 0; i < scene.pushes.size(); ++i) {
     const Push& push = scene.pushes[i];

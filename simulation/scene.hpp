@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "reference/pose.hpp"
@@ -44,9 +45,10 @@ struct Scene {
   std::vector<Body> bodies;
   std::vector<Joint> joints = {};
   std::vector<Push> pushes = {};
-  Vec3 gravity = Vec3(0, 0, -9.81);  ///< m/s²
-  double step = 1.0 / 240;           ///< s
-  double duration = 1;               ///< s
+  std::vector<std::pair<int, int>> apart = {};  ///< bodies that never touch each other
+  Vec3 gravity = Vec3(0, 0, -9.81);             ///< m/s²
+  double step = 1.0 / 240;                      ///< s
+  double duration = 1;                          ///< s
   /// Depth that the solver tolerates, metres: only deeper contacts are pushed apart.
   double surface_layer = 1e-4;
   int solver_iterations = 100;  ///< of ODE's solver, per step; stacks need more

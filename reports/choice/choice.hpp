@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "simulation/scenes/choose.hpp"
+#include "simulation/scenes/robot_file.hpp"
 #include "simulation/scenes/scene_file.hpp"
 
 // Outputs of `touchstone choose`. `folder` holds the configurations of failures, one file each,
@@ -54,7 +55,7 @@ struct PairsChoice {
 /// the smaller size or four times the depth limit), scored against the oracle and timed. The exact
 /// candidate is chosen unless another one is cheaper by more than the machine's noise. Throws
 /// InvalidInput if no cylinder can touch anything.
-PairsChoice choose_for_pairs(const ShapesFile& file, const PairNeeds& needs,
+PairsChoice choose_for_pairs(const RobotFile& file, const PairNeeds& needs,
                              const std::vector<const Candidate*>& candidates, const Limits& limits);
 
 /// Text for a terminal: the answer, what fails first with cheaper models, and the run of each

@@ -84,7 +84,7 @@ struct WarehousePairs : testing::Test {
     PairNeeds needs;
     needs.count = 20;
     const std::filesystem::path file = std::filesystem::path(TOUCHSTONE_SCENES) / "warehouse.sdf";
-    return choose_for_pairs(read_shapes(file), needs, find_candidates({"capsule"}), {});
+    return choose_for_pairs(read_robot(file), needs, find_candidates({"capsule"}), {});
   }
 };
 

@@ -23,17 +23,30 @@ struct ShapePair {
   int count = 1;
 };
 
-bool can_touch(const ShapesFile& file, const PlacedShape& x, const PlacedShape& y) {
-  if (x.link == y.link || (x.fixed && y.fixed)) return false;
-  return !file.joined.contains({x.link, y.link}) && !file.joined.contains({y.link, x.link});
+/// A shape with the link that it is part of.
+struct Part {
+  const LinkShape* shape;
+  int link;
+};
+
+bool can_touch(const RobotFile& file, const Part& x, const Part& y) {
+  if (x.link == y.link || (file.links[x.link].fixed && file.links[y.link].fixed)) return false;
+  return std::ranges::none_of(file.joints, [&](const LinkJoint& joint) {
+    return (joint.child == x.link && joint.parent == y.link) ||
+           (joint.child == y.link && joint.parent == x.link);
+  });
 }
 
-std::vector<ShapePair> shape_pairs(const ShapesFile& file) {
+std::vector<ShapePair> shape_pairs(const RobotFile& file) {
+  std::vector<Part> parts;
+  for (std::size_t l = 0; l < file.links.size(); ++l) {
+    for (const LinkShape& s : file.links[l].shapes) parts.push_back({&s, static_cast<int>(l)});
+  }
   std::vector<ShapePair> result;
-  for (std::size_t i = 0; i < file.shapes.size(); ++i) {
-    for (std::size_t j = i + 1; j < file.shapes.size(); ++j) {
-      const PlacedShape *a = &file.shapes[i], *b = &file.shapes[j];
-      if (!can_touch(file, *a, *b)) continue;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    for (std::size_t j = i + 1; j < parts.size(); ++j) {
+      if (!can_touch(file, parts[i], parts[j])) continue;
+      const LinkShape *a = parts[i].shape, *b = parts[j].shape;
       if (!std::holds_alternative<Cylinder>(a->shape)) std::swap(a, b);
       if (!std::holds_alternative<Cylinder>(a->shape)) continue;
       std::string first = shape_text(a->shape), second = shape_text(b->shape);
@@ -114,7 +127,7 @@ bool PairsChoice::all_served() const {
   return std::all_of(pairs.begin(), pairs.end(), [](const PairChoice& p) { return p.chosen; });
 }
 
-PairsChoice choose_for_pairs(const ShapesFile& file, const PairNeeds& needs,
+PairsChoice choose_for_pairs(const RobotFile& file, const PairNeeds& needs,
                              const std::vector<const Candidate*>& given, const Limits& limits) {
   const auto pairs = shape_pairs(file);
   if (pairs.empty()) {
@@ -125,7 +138,9 @@ PairsChoice choose_for_pairs(const ShapesFile& file, const PairNeeds& needs,
   const auto candidates = exact_first(given);
   auto processes = start(candidates, simulation_threshold, limits);
   Progress progress("pairs of shapes", pairs.size());
-  PairsChoice result{file.name, file.shapes.size(), file.ignored, needs, {}};
+  std::size_t shapes = 0;
+  for (const Link& link : file.links) shapes += link.shapes.size();
+  PairsChoice result{file.name, shapes, file.ignored, needs, {}};
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const ShapePair& pair = pairs[i];
     const auto sampled = sample(pair, i, needs);

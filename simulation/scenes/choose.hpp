@@ -76,6 +76,10 @@ struct Trials {
   std::size_t of_answer() const { return 5 * disturbances; }
 };
 
+/// Runs a scene as it is written, and adds the answers of its runs under the disturbances: frames
+/// of the one, answers of all.
+Trajectory run_disturbed(const Scene& scene, ContactModel& model, const Trials& trials);
+
 /// A candidate for each kind of pairs, and whole runs of a scene with them.
 struct SceneRun {
   std::string name;                      ///< of its models: "capsule", "combination", …

@@ -134,6 +134,7 @@ DisturbedScene::DisturbedScene(const Scene& written, std::uint64_t seed, std::si
     joint.a = place[joint.a];
     if (joint.b != world_body) joint.b = place[joint.b];
   }
+  for (auto& [a, b] : scene.apart) a = place[a], b = place[b];
   for (Push& push : scene.pushes) {
     push.body = place[push.body];
     push.force = turn * push.force;
@@ -154,6 +155,16 @@ Trajectory DisturbedScene::turned_back(const Trajectory& run) const {
     }
   }
   for (JudgedAnswer& a : result.answers) a.a = origin[a.a], a.b = origin[a.b];
+  return result;
+}
+
+Trajectory run_disturbed(const Scene& scene, ContactModel& model, const Trials& trials) {
+  Trajectory result = run_scene(scene, model);
+  for (std::size_t d = 1; d <= trials.disturbances; ++d) {
+    const DisturbedScene disturbed(scene, trials.seed, d);
+    const Trajectory run = disturbed.turned_back(run_scene(disturbed.scene, model));
+    result.answers.insert(result.answers.end(), run.answers.begin(), run.answers.end());
+  }
   return result;
 }
 

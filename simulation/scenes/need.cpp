@@ -68,8 +68,10 @@ void each_state(const Trajectory& run, int body, double from, F f) {
   each_frame(run, from, [&](const auto& frame, double time) { f(frame[body], time); });
 }
 
-/// Is the answer about these bodies, in either order? True for all answers if none are given.
+/// Is the answer about this body, or these two in either order? True for all answers if none are
+/// given.
 bool concerns(const std::vector<int>& bodies, const JudgedAnswer& answer) {
+  if (bodies.size() == 1) return answer.a == bodies[0] || answer.b == bodies[0];
   return bodies.empty() || (answer.a == bodies[0] && answer.b == bodies[1]) ||
          (answer.a == bodies[1] && answer.b == bodies[0]);
 }
@@ -238,8 +240,9 @@ struct Penetration : Need {
     members.time_or_default("from", from);
   }
   std::string text(const Scene& scene) const override {
-    return fmt::format("{} overlap by less than {:g} m{}",
-                       bodies.empty() ? "bodies" : names(scene, bodies), metres, from_text(from));
+    return fmt::format("{} overlap{} by less than {:g} m{}",
+                       bodies.empty() ? "bodies" : names(scene, bodies),
+                       bodies.size() == 1 ? "s others" : "", metres, from_text(from));
   }
   Verdict measure(const ComparedRuns& runs) const override {
     Largest largest(metres);
@@ -357,6 +360,20 @@ Verdict Need::judge(const ComparedRuns& runs) const {
     verdict.value = infinity;
   }
   return verdict;
+}
+
+std::shared_ptr<const Need> penetration_need(int body, double metres) {
+  auto need = std::make_shared<Penetration>();
+  need->bodies = {body};
+  need->metres = metres;
+  return need;
+}
+
+std::shared_ptr<const Need> ends_near_need(int body, double metres) {
+  auto need = std::make_shared<EndsNear>();
+  need->bodies = {body};
+  need->metres = metres;
+  return need;
 }
 
 std::vector<std::unique_ptr<Need>> all_needs() {

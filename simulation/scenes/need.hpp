@@ -74,4 +74,10 @@ class Need {
 /// One need of each kind with its default members, in the order of docs/scenes.md.
 std::vector<std::unique_ptr<Need>> all_needs();
 
+// Needs that are derived from a scene rather than read:
+
+/// The true depth of the body in any other one, of pairs with a cylinder.
+std::shared_ptr<const Need> penetration_need(int body, double metres);
+std::shared_ptr<const Need> ends_near_need(int body, double metres);
+
 }  // namespace touchstone

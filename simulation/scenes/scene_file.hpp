@@ -1,17 +1,11 @@
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
-#include <map>
 #include <memory>
-#include <set>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
-#include "reference/pose.hpp"
-#include "reference/shape.hpp"
 #include "simulation/scene.hpp"
 #include "simulation/scenes/need.hpp"
 #include "simulation/scenes/trajectory.hpp"
@@ -44,48 +38,9 @@ std::string schema_with_needs(const std::string& schema);
 /// A camera that sees all bodies but the planes, from the front right above.
 Camera camera_for(const Scene& scene);
 
-/// A collision shape of a robot or world file, with every joint in its default position.
-struct PlacedShape {
-  std::string name;  ///< "link/collision", of a world "model::link/collision"
-  std::string link;  ///< the body that it is part of
-  Shape shape;
-  Pose pose;           ///< in the world; for a robot, in its root link
-  bool fixed = false;  ///< part of a static model
-};
-
-/// Collision shapes of a URDF or SDF file.
-struct ShapesFile {
-  std::string name;  ///< of the robot or world
-  std::vector<PlacedShape> shapes;
-  std::set<std::pair<std::string, std::string>> joined;  ///< links with a joint between them
-  /// Elements that were not read: "collision upper/hull: a mesh".
-  std::vector<std::string> ignored;
-};
-
-/// Is it the name of a robot or world file (.urdf, .sdf, .world)?
-bool is_shapes_file(const std::filesystem::path& file);
-
 /// Throws InvalidInput with this field unless a terminal shows the name as it is: valid UTF-8
 /// without control characters.
 void check_printable(const std::string& field, const std::string& name);
-
-/// Reads URDF or SDF, by the extension. Throws InvalidInput with the element's name.
-ShapesFile read_shapes(const std::filesystem::path& file);
-// The libraries behind them may print on standard error what is wrong.
-ShapesFile read_urdf(const std::filesystem::path& file);
-ShapesFile read_sdf(const std::filesystem::path& file);
-
-/// Text of an XML file. Throws InvalidInput if its elements are nested so deeply that a parser
-/// would overflow the stack.
-std::string read_xml(const std::filesystem::path& file);
-/// Throws InvalidInput, with the collision and the field, unless each collision's shape is known
-/// and has the lengths it needs, and no others. Returns the number of collisions of each link.
-std::map<std::string, std::size_t> check_urdf_collisions(const std::string& text);
-/// Checks those of SDF, and that its version is not above that which its reader knows.
-void check_sdf_collisions(const std::string& text, std::string_view newest_version);
-
-/// A scene of the shapes as fixed bodies.
-SceneFile still_scene(const ShapesFile& shapes);
 
 /// Writes a run for POV-Ray 3.7: scene.pov (camera, light), frame-00001.inc, … (the bodies at
 /// intervals of `every` seconds), and scene.ini; `povray scene.ini` draws all frames. Returns the

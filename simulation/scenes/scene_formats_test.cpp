@@ -20,6 +20,7 @@
 #include "reference/invalid_input.hpp"
 #include "reference/support.hpp"
 #include "simulation/scenes/choose.hpp"
+#include "simulation/scenes/robot_file.hpp"
 #include "simulation/scenes/scene_file.hpp"
 #include "simulation/scenes/trajectory.hpp"
 
@@ -439,7 +440,7 @@ TEST_F(PovrayTest, FoldersThatAreNotThereAreRefused) {
 
 TEST_F(PovrayTest, PovrayDrawsAFrame) {
   if (std::system("command -v povray >/dev/null") != 0) GTEST_SKIP() << "povray is not installed";
-  const SceneFile file = still_scene(read_shapes(scenes / "warehouse.sdf"));
+  const SceneFile file = robot_scene(read_robot(scenes / "warehouse.sdf"), {});
   write_povray(file, one_frame(file), 0.04, folder);
   const std::string command =
       "cd " + folder.string() + " && povray scene.ini +W64 +H48 >povray.log 2>&1";

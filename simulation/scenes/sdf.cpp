@@ -1,31 +1,44 @@
 // The only file that includes libsdformat's headers, which take seconds to compile.
+#include <algorithm>
+#include <boost/property_tree/xml_parser.hpp>
+#include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fmt/format.h>
-#include <functional>
+#include <limits>
+#include <numbers>
 #include <sdf/sdf.hh>
 #include <set>
+#include <sstream>
 
+#include "properties/files/disk.hpp"
+#include "properties/files/given_text.hpp"
 #include "reference/invalid_input.hpp"
-#include "simulation/scenes/scene_file.hpp"
+#include "simulation/scenes/robot_file.hpp"
 
 namespace touchstone {
 namespace {
 
+using boost::property_tree::ptree;
 using ignition::math::Pose3d;
+using Folders = std::vector<std::filesystem::path>;
 
 void refuse(const sdf::Errors& errors, const std::string& field) {
   if (errors.empty()) return;
   throw InvalidInput(field, "not usable", errors.front().Message());
 }
 
-Pose3d resolved(const sdf::SemanticPose& pose, const std::string& name) {
+Pose3d resolved(const sdf::SemanticPose& pose, const std::string& name,
+                const std::string& in = "") {
   Pose3d result;
-  refuse(pose.Resolve(result), name + ".pose");
+  refuse(pose.Resolve(result, in), name + ".pose");
   return result;
 }
 
+Vec3 to_vector(const ignition::math::Vector3d& v) { return {v.X(), v.Y(), v.Z()}; }
+
 Pose to_pose(const Pose3d& p) {
-  return {Vec3(p.Pos().X(), p.Pos().Y(), p.Pos().Z()),
+  return {to_vector(p.Pos()),
           Eigen::Quaterniond(p.Rot().W(), p.Rot().X(), p.Rot().Y(), p.Rot().Z())};
 }
 
@@ -34,62 +47,155 @@ std::optional<Shape> shape_of(const sdf::Geometry& geometry) {
   if (const auto* s = geometry.SphereShape()) return Sphere(s->Radius());
   if (const auto* s = geometry.CylinderShape()) return Cylinder(s->Radius(), s->Length() / 2);
   if (const auto* s = geometry.CapsuleShape()) return Capsule(s->Radius(), s->Length() / 2);
-  if (const auto* s = geometry.BoxShape()) {
-    return Box(Vec3(s->Size().X(), s->Size().Y(), s->Size().Z()) / 2);
-  }
-  if (const auto* s = geometry.PlaneShape()) {
-    return Plane(Vec3(s->Normal().X(), s->Normal().Y(), s->Normal().Z()), 0);
-  }
+  if (const auto* s = geometry.BoxShape()) return Box(to_vector(s->Size()) / 2);
+  if (const auto* s = geometry.PlaneShape()) return Plane(to_vector(s->Normal()), 0);
   return std::nullopt;
 }
 
+/// The element at a path below this one that the file itself has; null otherwise.
+sdf::ElementPtr descendant(sdf::ElementPtr element, std::initializer_list<const char*> path) {
+  for (const char* name : path) {
+    if (!element || !element->HasElement(name)) return nullptr;
+    element = element->GetElement(name);
+  }
+  return element;
+}
+
+void leave_out(const sdf::Geometry& geometry, const std::string& name, RobotFile& result) {
+  ++result.left_out.shapes;
+  if (const auto* s = geometry.EllipsoidShape()) {
+    result.ignored.push_back(fmt::format("collision {}: an ellipsoid", name));
+    const Vec3 r = to_vector(s->Radii());
+    result.left_out.volume += 4 * std::numbers::pi / 3 * r.prod();
+    return;
+  }
+  result.ignored.push_back(fmt::format("collision {}: a mesh, a heightmap or another shape", name));
+  ++result.left_out.unknown;
+}
+
+void add_link(const sdf::Link& link, const std::string& link_name, const Pose3d& X_WL,
+              bool is_static, RobotFile& result) {
+  Link made{link_name, to_pose(X_WL)};
+  made.fixed = is_static;
+  made.mass = link.Inertial().MassMatrix().Mass();  // 1 kg by default, as Gazebo has it
+  for (std::uint64_t k = 0; k < link.CollisionCount(); ++k) {
+    const sdf::Collision& collision = *link.CollisionByIndex(k);
+    const std::string name = link_name + '/' + collision.Name();
+    try {
+      const auto shape = shape_of(*collision.Geom());
+      if (!shape) {
+        leave_out(*collision.Geom(), name, result);
+        continue;
+      }
+      const Pose3d X_WC = X_WL * resolved(collision.SemanticPose(), name);
+      made.shapes.push_back({name, *shape, to_pose(X_WC)});
+      if (const auto mu = descendant(collision.Element(), {"surface", "friction", "ode", "mu"})) {
+        made.shapes.back().friction = mu->Get<double>();
+      }
+      // Gazebo's planes do not move, whatever the model.
+      made.fixed = made.fixed || std::holds_alternative<Plane>(*shape);
+    } catch (const InvalidInput& e) {
+      throw e.within("collision " + name);
+    }
+  }
+  result.links.push_back(std::move(made));
+}
+
+const char* other_type(sdf::JointType type) {
+  switch (type) {
+    case sdf::JointType::BALL:
+      return "ball";
+    case sdf::JointType::UNIVERSAL:
+      return "universal";
+    case sdf::JointType::SCREW:
+      return "screw";
+    case sdf::JointType::GEARBOX:
+      return "gearbox";
+    case sdf::JointType::REVOLUTE2:
+      return "revolute2";
+    default:
+      return "of an unknown type";
+  }
+}
+
+/// Limits beyond which SDF has none.
+constexpr double no_limit = 1e15;
+
+void add_axis(const sdf::Joint& joint, const Pose3d& X_WJ, LinkJoint& made) {
+  const sdf::JointAxis* axis = joint.Axis();
+  if (!axis) throw InvalidInput("joint " + made.name + ".axis", "missing", "must be there");
+  ignition::math::Vector3d direction;
+  refuse(axis->ResolveXyz(direction), "joint " + made.name + ".axis");
+  made.anchor = to_vector(X_WJ.Pos());
+  made.axis = to_vector(X_WJ.Rot() * direction);
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  made.lower = axis->Lower() <= -no_limit ? -infinity : axis->Lower();
+  made.upper = axis->Upper() >= no_limit ? infinity : axis->Upper();
+  if (axis->Effort() > 0 && axis->Effort() < no_limit) made.effort = axis->Effort();
+}
+
+void add_joint(const sdf::Joint& joint, const std::string& path, const Pose3d& X_WM,
+               RobotFile& result) {
+  LinkJoint made;
+  made.name = path + "::" + joint.Name();
+  const std::string field = "joint " + made.name;
+  std::string parent, child;
+  refuse(joint.ResolveParentLink(parent), field + ".parent");
+  refuse(joint.ResolveChildLink(child), field + ".child");
+  const auto index = [&](const std::string& link) {
+    if (link == "world") return world_body;
+    const std::string full = path + "::" + link;
+    const auto is_it = [&](const Link& l) { return l.name == full; };
+    const auto at = std::ranges::find_if(result.links, is_it);
+    if (at == result.links.end()) {
+      throw InvalidInput(field, '"' + printable(link, 60) + '"', "must join links of the model");
+    }
+    return static_cast<int>(at - result.links.begin());
+  };
+  made.parent = index(parent);
+  made.child = index(child);
+  if (made.child == world_body) std::swap(made.child, made.parent);
+  const Pose3d X_WJ = X_WM * resolved(joint.SemanticPose(), field, "__model__");
+  switch (joint.Type()) {
+    case sdf::JointType::FIXED:
+      break;
+    case sdf::JointType::REVOLUTE:
+    case sdf::JointType::CONTINUOUS:
+      made.kind = JointKind::hinge;
+      add_axis(joint, X_WJ, made);
+      break;
+    case sdf::JointType::PRISMATIC:
+      made.kind = JointKind::slider;
+      add_axis(joint, X_WJ, made);
+      break;
+    default:
+      result.ignored.push_back(
+          fmt::format("joint {}: {}; taken as fixed", made.name, other_type(joint.Type())));
+  }
+  result.joints.push_back(std::move(made));
+}
+
 void add_model(const sdf::Model& model, const std::string& outer, const Pose3d& X_WO,
-               ShapesFile& result) {
+               bool is_static, RobotFile& result) {
   const std::string path = outer + model.Name();
   const Pose3d X_WM = X_WO * resolved(model.SemanticPose(), path);
+  is_static = is_static || model.Static();
   for (std::uint64_t i = 0; i < model.LinkCount(); ++i) {
     const sdf::Link& link = *model.LinkByIndex(i);
-    const std::string link_name = path + "::" + link.Name();
-    const Pose3d X_WL = X_WM * resolved(link.SemanticPose(), link_name);
-    for (std::uint64_t k = 0; k < link.CollisionCount(); ++k) {
-      const sdf::Collision& collision = *link.CollisionByIndex(k);
-      const std::string name = link_name + '/' + collision.Name();
-      try {
-        const auto shape = shape_of(*collision.Geom());
-        if (!shape) {
-          result.ignored.push_back(
-              fmt::format("collision {}: a mesh, a heightmap or another shape", name));
-          continue;
-        }
-        const Pose3d X_WC = X_WL * resolved(collision.SemanticPose(), name);
-        result.shapes.push_back({name, link_name, *shape, to_pose(X_WC), model.Static()});
-      } catch (const InvalidInput& e) {
-        throw e.within("collision " + name);
-      }
-    }
-  }
-  for (std::uint64_t i = 0; i < model.JointCount(); ++i) {
-    const sdf::Joint& joint = *model.JointByIndex(i);
-    std::string parent, child;
-    refuse(joint.ResolveParentLink(parent), path + "::" + joint.Name());
-    refuse(joint.ResolveChildLink(child), path + "::" + joint.Name());
-    const auto full = [&](const std::string& link) {
-      return link == "world" ? link : path + "::" + link;
-    };
-    result.joined.insert({full(parent), full(child)});
-    if (joint.Type() != sdf::JointType::FIXED) {
-      result.ignored.push_back(
-          fmt::format("joint {}::{}: held in its default position", path, joint.Name()));
-    }
+    const std::string name = path + "::" + link.Name();
+    add_link(link, name, X_WM * resolved(link.SemanticPose(), name), is_static, result);
   }
   for (std::uint64_t i = 0; i < model.ModelCount(); ++i) {
-    add_model(*model.ModelByIndex(i), path + "::", X_WM, result);
+    add_model(*model.ModelByIndex(i), path + "::", X_WM, is_static, result);
+  }
+  for (std::uint64_t i = 0; i < model.JointCount(); ++i) {
+    add_joint(*model.JointByIndex(i), path, X_WM, result);
   }
 }
 
 /// Adds elements that have no part in contacts.
-void note_ignored_elements(const sdf::ElementPtr& element, ShapesFile& result) {
-  static const std::set<std::string> ignored = {"plugin", "sensor", "actor", "wind"};
+void note_ignored_elements(const sdf::ElementPtr& element, RobotFile& result) {
+  static const std::set<std::string> ignored = {"plugin", "sensor", "actor", "wind", "light"};
   for (auto child = element->GetFirstElement(); child; child = child->GetNextElement()) {
     if (ignored.contains(child->GetName())) {
       const std::string name = child->HasAttribute("name") ? child->Get<std::string>("name")
@@ -101,53 +207,152 @@ void note_ignored_elements(const sdf::ElementPtr& element, ShapesFile& result) {
   }
 }
 
-/// Adds the files that the element and those within it were read from.
-void add_files(const sdf::ElementPtr& element, std::set<std::filesystem::path>& files) {
-  files.insert(element->FilePath());
-  for (auto child = element->GetFirstElement(); child; child = child->GetNextElement()) {
-    add_files(child, files);
+/// Folders that a variable of the environment names, between colons.
+void add_folders(const char* variable, Folders& folders) {
+  const char* value = std::getenv(variable);
+  std::istringstream names(value ? value : "");
+  for (std::string name; std::getline(names, name, ':');) {
+    if (!name.empty()) folders.emplace_back(name);
   }
 }
 
-/// Checks the collisions of the models that a file includes.
-void check_included(const sdf::Root& root, const std::filesystem::path& file) {
-  std::set<std::filesystem::path> files;
-  add_files(root.Element(), files);
-  for (const std::filesystem::path& included : files) {
-    if (included.extension() != ".sdf" || std::filesystem::equivalent(included, file)) continue;
+/// What an include's URI names; empty if there is no such file or folder.
+std::filesystem::path resolved_uri(const std::string& uri, const Folders& folders) {
+  std::string name = uri;
+  for (const char* scheme : {"model://", "package://", "file://"}) {
+    if (name.starts_with(scheme)) name.erase(0, std::strlen(scheme));
+  }
+  std::error_code error;
+  if (std::filesystem::path(name).is_absolute()) {
+    return std::filesystem::exists(name, error) ? std::filesystem::path(name)
+                                                : std::filesystem::path();
+  }
+  for (const std::filesystem::path& folder : folders) {
+    if (std::filesystem::exists(folder / name, error)) return folder / name;
+  }
+  return {};
+}
+
+/// Checks a file and what it includes, each before libsdformat reads it.
+class IncludedFiles {
+ public:
+  explicit IncludedFiles(const Folders& folders) : folders_(folders) {}
+
+  void check(const std::filesystem::path& file) {
+    const std::filesystem::path here = std::filesystem::weakly_canonical(file);
+    if (std::ranges::find(open_, here) != open_.end()) {
+      throw InvalidInput("include", '"' + here.string() + '"',
+                         "must not include itself, directly or through others");
+    }
+    if (!done_.insert(here).second) return;
+    open_.push_back(here);
+    const std::string text = read_xml(here);
+    const bool is_first = open_.size() == 1;
     try {
-      check_sdf_collisions(read_xml(included), sdf::SDF::Version());
+      check_sdf_collisions(text, sdf::SDF::Version());
+    } catch (const boost::property_tree::xml_parser_error& e) {
+      throw InvalidInput("scene", '"' + here.string() + '"',
+                         fmt::format("must be XML: {} at line {}", e.message(), e.line()));
     } catch (const InvalidInput& e) {
-      throw InvalidInput(included.string() + ": " + e.field(), e.value(), e.remedy());
+      if (is_first) throw;
+      throw InvalidInput(here.string() + ": " + e.field(), e.value(), e.remedy());
+    }
+    std::istringstream in(text);
+    ptree tree;
+    boost::property_tree::read_xml(in, tree);
+    check_includes(tree);
+    open_.pop_back();
+  }
+
+ private:
+  void check_includes(const ptree& element) {
+    for (const auto& [tag, content] : element) {
+      if (tag != "include") {
+        check_includes(content);
+        continue;
+      }
+      check_include(content.get<std::string>("uri", ""));
     }
   }
-}
+
+  void check_include(const std::string& given) {
+    const std::size_t first = given.find_first_not_of(" \t\r\n");
+    const std::size_t last = given.find_last_not_of(" \t\r\n");
+    const std::string uri = first == given.npos ? "" : given.substr(first, last - first + 1);
+    const std::string shown = '"' + printable(uri, 200) + '"';
+    if (uri.starts_with("http://") || uri.starts_with("https://")) {
+      throw InvalidInput("include.uri", shown,
+                         "must be on this machine: download the model and name its folder with "
+                         "--model-path");
+    }
+    std::filesystem::path model = uri.empty() ? "" : resolved_uri(uri, folders_);
+    if (model.empty()) {
+      throw InvalidInput("include.uri", shown,
+                         "must name a model in a folder of --model-path, SDF_PATH, "
+                         "GZ_SIM_RESOURCE_PATH or GAZEBO_MODEL_PATH, or beside the file");
+    }
+    if (is_folder(model)) {
+      const std::string file = sdf::getModelFilePath(model.string());
+      if (file.empty() || !is_file(file)) {
+        throw InvalidInput(
+            "include.uri", shown,
+            "must be a folder with model.config and the SDF file that it names: " + model.string());
+      }
+      model = file;
+    }
+    const std::string text = read_xml(model);
+    if (text.find("<sdf") == text.npos) {
+      throw InvalidInput("include.uri", shown, "must be an SDF model, not " + model.string());
+    }
+    check(model);
+  }
+
+  const Folders& folders_;
+  std::vector<std::filesystem::path> open_;
+  std::set<std::filesystem::path> done_;
+};
 
 }  // namespace
 
-ShapesFile read_sdf(const std::filesystem::path& file) {
-  const std::string text = read_xml(file);
-  sdf::Root root;
+RobotFile read_sdf(const std::filesystem::path& file, const Folders& given) {
+  Folders folders = given;
+  for (const char* variable : {"SDF_PATH", "GZ_SIM_RESOURCE_PATH", "GAZEBO_MODEL_PATH",
+                               "IGN_GAZEBO_RESOURCE_PATH", "ROS_PACKAGE_PATH"}) {
+    add_folders(variable, folders);
+  }
   // By a relative name libsdformat finds its own description first, which has one of world.sdf and
   // model.sdf.
-  const sdf::Errors errors = root.Load(std::filesystem::absolute(file).string());
+  const std::filesystem::path here = std::filesystem::absolute(file);
+  folders.push_back(here.parent_path());
+  folders.push_back(here.parent_path() / "models");
+  folders.push_back(here.parent_path().parent_path());
+  IncludedFiles(folders).check(here);
+
+  sdf::ParserConfig config;
+  config.SetFindCallback(
+      [&](const std::string& uri) { return resolved_uri(uri, folders).string(); });
+  sdf::Root root;
+  const sdf::Errors errors = root.Load(here.string(), config);
   if (!errors.empty()) {
-    throw InvalidInput("scene", '"' + file.string() + '"',
-                       "must be SDF: " + errors.front().Message());
+    std::string reason = errors.front().Message();
+    const std::string complaint = library_complaint();
+    const bool is_vague = reason.starts_with("Error reading element");
+    if (is_vague && !complaint.empty()) reason += "; its reader says: " + complaint;
+    throw InvalidInput("scene", '"' + file.string() + '"', "must be SDF: " + reason);
   }
-  check_sdf_collisions(text, sdf::SDF::Version());
-  check_included(root, file);
-  ShapesFile result;
+  RobotFile result;
   result.name = file.stem().string();
   if (const sdf::Model* model = root.Model()) {
     result.name = model->Name();
-    add_model(*model, "", Pose3d::Zero, result);
+    add_model(*model, "", Pose3d::Zero, false, result);
   }
   for (std::uint64_t w = 0; w < root.WorldCount(); ++w) {
     const sdf::World& world = *root.WorldByIndex(w);
     result.name = world.Name();
+    result.is_world = true;
+    result.gravity = to_vector(world.Gravity());
     for (std::uint64_t i = 0; i < world.ModelCount(); ++i) {
-      add_model(*world.ModelByIndex(i), "", Pose3d::Zero, result);
+      add_model(*world.ModelByIndex(i), "", Pose3d::Zero, false, result);
     }
   }
   note_ignored_elements(root.Element(), result);

@@ -157,4 +157,27 @@ int PairKinds::of(int a, int b) const {
   return -1;
 }
 
+std::string motion_table(const Scene& scene, const Trajectory& run) {
+  std::vector<std::optional<double>> depth(scene.bodies.size());
+  for (const JudgedAnswer& answer : run.answers) {
+    for (const int b : {answer.a, answer.b}) {
+      depth[b] = std::max(depth[b].value_or(0), answer.depth);
+    }
+  }
+  std::size_t width = 4;
+  for (const Body& body : scene.bodies) width = std::max(width, body.name.size());
+  std::string text = fmt::format("  {:<{}}  {:>26}  {:>8}  {:>9}\n", "body", width, "ends at, m",
+                                 "moved, m", "depth, m");
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    if (scene.bodies[i].fixed) continue;
+    const Vec3 from = run.frames.front()[i].pose.position();
+    const Vec3 to = run.frames.back()[i].pose.position();
+    text += fmt::format("  {:<{}}  {:>8.4f} {:>8.4f} {:>8.4f}  {:>8.4f}  {:>9}\n",
+                        scene.bodies[i].name, width, to.x(), to.y(), to.z(), (to - from).norm(),
+                        depth[i] ? fmt::format("{:.2g}", *depth[i]) : "");
+  }
+  if (!run.sound) text += fmt::format("  The motion becomes absurd at {:.3f} s.\n", run.end());
+  return text;
+}
+
 }  // namespace touchstone

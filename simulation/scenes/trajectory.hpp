@@ -47,6 +47,10 @@ struct Trajectory {
 /// to 1e-13).
 Trajectory run_scene(const Scene& scene, ContactModel& model);
 
+/// A line for each body that moves: where it ends, how far that is from its start, and the largest
+/// true depth of its contacts with or as a cylinder.
+std::string motion_table(const Scene& scene, const Trajectory& run);
+
 /// All body pairs of a scene whose shapes have the same kind and, to six digits, the same sizes:
 /// they share a contact model.
 struct PairKind {

@@ -1,0 +1,395 @@
+// Reading a robot or world in a process of its own, and what its numbers must be.
+#include "simulation/scenes/robot_file.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <exception>
+#include <fmt/format.h>
+#include <sstream>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <type_traits>
+#include <unistd.h>
+
+#include "candidates/host/contained.hpp"
+#include "candidates/host/plugin_process.hpp"
+#include "properties/files/given_text.hpp"
+#include "reference/invalid_input.hpp"
+
+namespace touchstone {
+namespace {
+
+// The members of each type, once for writing and reading.
+template <class Archive, class T>
+void members(Archive& a, T& x) requires std::is_same_v<std::remove_const_t<T>, LinkShape> {
+  a(x.name, x.shape, x.pose, x.friction);
+}
+template <class Archive, class T>
+void members(Archive& a, T& x) requires std::is_same_v<std::remove_const_t<T>, Link> {
+  a(x.name, x.pose, x.shapes, x.mass, x.fixed);
+}
+template <class Archive, class T>
+void members(Archive& a, T& x) requires std::is_same_v<std::remove_const_t<T>, LinkJoint> {
+  a(x.name, x.kind, x.child, x.parent, x.anchor, x.axis, x.lower, x.upper, x.effort, x.holds);
+}
+template <class Archive, class T>
+void members(Archive& a, T& x) requires std::is_same_v<std::remove_const_t<T>, LeftOut> {
+  a(x.shapes, x.unknown, x.volume);
+}
+template <class Archive, class T>
+void members(Archive& a, T& x) requires std::is_same_v<std::remove_const_t<T>, RobotFile> {
+  a(x.name, x.links, x.joints, x.apart, x.is_world, x.gravity, x.step, x.left_out, x.ignored);
+}
+
+template <class T>
+concept Plain = std::is_arithmetic_v<T> || std::is_enum_v<T> || std::is_same_v<T, ts_shape>;
+
+/// Values as bytes, for a process of the same program.
+struct Writer {
+  std::string bytes;
+
+  template <class... T>
+  void operator()(const T&... values) {
+    (write(values), ...);
+  }
+  template <Plain T>
+  void write(const T& x) {
+    bytes.append(reinterpret_cast<const char*>(&x), sizeof x);
+  }
+  void write(const std::string& x) {
+    write(x.size());
+    bytes += x;
+  }
+  void write(const Shape& x) { write(to_ts_shape(x)); }
+  void write(const Vec3& x) { (*this)(x.x(), x.y(), x.z()); }
+  void write(const Pose& x) {
+    const Eigen::Quaterniond& q = x.orientation();
+    (*this)(x.position(), q.w(), q.x(), q.y(), q.z());
+  }
+  template <class A, class B>
+  void write(const std::pair<A, B>& x) {
+    (*this)(x.first, x.second);
+  }
+  template <class T>
+  void write(const std::optional<T>& x) {
+    write(x.has_value());
+    if (x) write(*x);
+  }
+  template <class T>
+  void write(const std::vector<T>& x) {
+    write(x.size());
+    for (const T& each : x) write(each);
+  }
+  template <class T>
+  requires(std::is_class_v<T> && !Plain<T>) void write(const T& x) { members(*this, x); }
+};
+
+/// What a Writer wrote, in its order.
+struct Reader {
+  std::string_view bytes;
+
+  template <class... T>
+  void operator()(T&... values) {
+    (read(values), ...);
+  }
+  std::string_view take(std::size_t size) {
+    const std::string_view taken = bytes.substr(0, size);
+    bytes.remove_prefix(taken.size());
+    return taken;
+  }
+  template <Plain T>
+  void read(T& x) {
+    std::memcpy(&x, take(sizeof x).data(), sizeof x);
+  }
+  std::size_t read_size() {
+    std::size_t size = 0;
+    read(size);
+    return size;
+  }
+  void read(std::string& x) { x = take(read_size()); }
+  void read(Shape& x) {
+    ts_shape s{};
+    read(s);
+    const double* size = s.size;
+    switch (s.kind) {
+      case TS_CYLINDER:
+        x = Cylinder(size[0], size[1]);
+        break;
+      case TS_PLANE:
+        x = Plane(Vec3(size[0], size[1], size[2]), size[3]);
+        break;
+      case TS_SPHERE:
+        x = Sphere(size[0]);
+        break;
+      case TS_CAPSULE:
+        x = Capsule(size[0], size[1]);
+        break;
+      case TS_BOX:
+        x = Box(Vec3(size[0], size[1], size[2]));
+        break;
+    }
+  }
+  void read(Vec3& x) { (*this)(x.x(), x.y(), x.z()); }
+  void read(Pose& x) {
+    Vec3 p;
+    Eigen::Quaterniond q;
+    (*this)(p, q.w(), q.x(), q.y(), q.z());
+    x = Pose(p, q);
+  }
+  template <class A, class B>
+  void read(std::pair<A, B>& x) {
+    (*this)(x.first, x.second);
+  }
+  template <class T>
+  void read(std::optional<T>& x) {
+    bool is_there = false;
+    read(is_there);
+    if (is_there) read(x.emplace());
+  }
+  template <class T>
+  void read(std::vector<T>& x) {
+    const std::size_t size = read_size();
+    for (std::size_t i = 0; i < size; ++i) {
+      if constexpr (std::is_same_v<T, LinkShape>) {
+        x.push_back({"", Sphere(1), Pose()});
+      } else {
+        x.emplace_back();
+      }
+      read(x.back());
+    }
+  }
+  template <class T>
+  requires(std::is_class_v<T> && !Plain<T>) void read(T& x) { members(*this, x); }
+};
+
+/// File in memory that standard error of a reading process goes to; −1 outside of one.
+int library_log = -1;
+
+[[noreturn]] void refuse(const std::string& field, double value, const char* remedy) {
+  throw InvalidInput(field, fmt::format("{:g}", value), remedy);
+}
+
+void check_link(const Link& link) {
+  const std::string name = "link " + link.name;
+  check_printable("link", link.name);
+  if (link.mass && !(*link.mass >= 0 && *link.mass <= std::numeric_limits<double>::max())) {
+    refuse(name + ".mass", *link.mass, "must be finite and not negative");
+  }
+  for (const LinkShape& s : link.shapes) {
+    check_printable("collision", s.name);
+    if (s.friction && !(*s.friction >= 0)) {
+      refuse("collision " + s.name + ".friction", *s.friction, "must not be negative");
+    }
+  }
+}
+
+void check_joint(const LinkJoint& joint) {
+  const std::string name = "joint " + joint.name;
+  check_printable("joint", joint.name);
+  if (!(joint.anchor.allFinite() && joint.axis.allFinite() && joint.axis.norm() > 0)) {
+    throw InvalidInput(
+        name + ".axis",
+        fmt::format("\"{:g} {:g} {:g}\"", joint.axis.x(), joint.axis.y(), joint.axis.z()),
+        "must be three finite numbers, not all zero");
+  }
+  if (std::isnan(joint.lower)) refuse(name + ".limit.lower", joint.lower, "must be a number");
+  if (std::isnan(joint.upper)) refuse(name + ".limit.upper", joint.upper, "must be a number");
+  if (joint.lower > joint.upper) {
+    refuse(name + ".limit.lower", joint.lower, "must not lie above the upper limit");
+  }
+  if (joint.effort && !(*joint.effort > 0)) {
+    refuse(name + ".limit.effort", *joint.effort, "must be positive");
+  }
+}
+
+/// Throws InvalidInput unless the numbers make sense; readers pass on what their libraries give.
+void check_robot(RobotFile& robot, const std::filesystem::path& file) {
+  std::size_t shapes = 0;
+  check_printable("name", robot.name);
+  for (const Link& link : robot.links) {
+    check_link(link);
+    shapes += link.shapes.size();
+  }
+  for (const LinkJoint& joint : robot.joints) check_joint(joint);
+  if (!robot.gravity.allFinite()) throw InvalidInput("gravity", "not finite", "must be finite");
+  constexpr std::size_t max_shapes = 2000;  // all pairs are tested
+  if (shapes > max_shapes) {
+    throw InvalidInput(
+        "scene", '"' + file.string() + '"',
+        fmt::format("must have at most {} collision shapes, not {}", max_shapes, shapes));
+  }
+  if (robot.links.size() > max_links || robot.joints.size() > max_links) {
+    throw InvalidInput("scene", '"' + file.string() + '"',
+                       fmt::format("must have at most {} links and joints, not {} and {}",
+                                   max_links, robot.links.size(), robot.joints.size()));
+  }
+  for (std::string& note : robot.ignored) note = readable(note);
+}
+
+/// Bounds the memory of the process that reads: a number in a file may ask for any amount.
+void bound_memory() {
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // these map terabytes
+  constexpr rlim_t max_bytes = rlim_t{4} << 30;
+  const rlimit memory{max_bytes, max_bytes};
+  setrlimit(RLIMIT_AS, &memory);
+#endif
+}
+
+enum class Format { urdf, sdf, mjcf };
+
+/// Format of a file by its ending, of .xml by its root element.
+Format format_of(const std::filesystem::path& file, const std::string& text) {
+  const auto ending = file.extension();
+  if (text.find("<xacro:") != text.npos || ending == ".xacro") {
+    throw InvalidInput("scene", '"' + file.string() + '"',
+                       "must be expanded first: it is a xacro file, of which "
+                       "`xacro FILE > robot.urdf` makes a URDF");
+  }
+  if (ending == ".urdf") return Format::urdf;
+  if (ending == ".sdf" || ending == ".world") return Format::sdf;
+  const auto root_is = [&](const char* name) {
+    return text.find(std::string("<") + name) != text.npos;
+  };
+  if (ending == ".mjcf" || root_is("mujoco")) return Format::mjcf;
+  if (root_is("robot")) return Format::urdf;
+  if (root_is("sdf")) return Format::sdf;
+  throw InvalidInput("scene", '"' + file.string() + '"',
+                     "must be MJCF, URDF or SDF: it has no element mujoco, robot or sdf");
+}
+
+RobotFile read_format(Format format, const std::filesystem::path& file,
+                      const std::vector<std::filesystem::path>& folders) {
+  switch (format) {
+    case Format::urdf:
+      return read_urdf(file);
+    case Format::sdf:
+      return read_sdf(file, folders);
+    case Format::mjcf:
+      break;
+  }
+  return read_mjcf(file);
+}
+
+/// Runs in the process that reads: a robot, or why there is none, as bytes.
+std::string read_as_bytes(Format format, const std::filesystem::path& file,
+                          const std::vector<std::filesystem::path>& folders, int log) {
+  library_log = log;
+  bound_memory();
+  for (const int standard : {STDOUT_FILENO, STDERR_FILENO}) dup2(log, standard);
+  Writer result;
+  try {
+    RobotFile robot = read_format(format, file, folders);
+    check_robot(robot, file);
+    result(true, robot);
+  } catch (const InvalidInput& e) {
+    result = {};
+    result(false, e.field(), e.value(), e.remedy());
+  } catch (const std::exception& e) {  // thrown by the libraries
+    constexpr std::size_t max_reason = 200;
+    result = {};
+    result(false, std::string("scene"), '"' + file.string() + '"',
+           "must be a URDF, SDF or MJCF file; its reader says: " + printable(e.what(), max_reason));
+  }
+  return result.bytes;
+}
+
+std::string text_of_log(int log) {
+  constexpr std::size_t max_text = 1 << 16;
+  std::string text(max_text, '\0');
+  const ssize_t size = pread(log, text.data(), text.size(), 0);
+  text.resize(static_cast<std::size_t>(std::max<ssize_t>(size, 0)));
+  return text;
+}
+
+/// Without the colours of a terminal: "\x1b[1;31mError" is "Error".
+std::string uncoloured(std::string text) {
+  for (std::size_t at = text.find("\x1b["); at != text.npos; at = text.find("\x1b[", at)) {
+    text.erase(at, text.find('m', at) - at + 1);
+  }
+  return text;
+}
+
+/// The first line that says Error, without that word and the library's own file and line; without
+/// one, the first line.
+std::string complaint_in(const std::string& log) {
+  std::istringstream lines(uncoloured(log));
+  std::string chosen;
+  for (std::string line; std::getline(lines, line);) {
+    const bool is_error = line.starts_with("Error");
+    if (chosen.empty() || is_error) chosen = line;
+    if (is_error) break;
+  }
+  if (chosen.starts_with("Error")) {
+    // "Error [parser.cc:123] what", "Error:   what", and with "Error Code 17: Msg: what" after it.
+    const std::size_t bracket = chosen.starts_with("Error [") ? chosen.find(']') : chosen.find(':');
+    if (bracket != chosen.npos) chosen.erase(0, bracket + 1);
+    if (const std::size_t message = chosen.find("Msg: "); message != chosen.npos) {
+      chosen.erase(0, message + 5);
+    }
+  }
+  chosen.erase(0, chosen.find_first_not_of(" \t"));
+  constexpr std::size_t max_shown = 300;
+  return printable(chosen, max_shown);
+}
+
+}  // namespace
+
+std::string library_complaint() {
+  return library_log < 0 ? "" : complaint_in(text_of_log(library_log));
+}
+
+bool is_robot_file(const std::filesystem::path& file) {
+  const auto ending = file.extension();
+  for (const char* known : {".urdf", ".sdf", ".world", ".mjcf", ".xml", ".xacro"}) {
+    if (ending == known) return true;
+  }
+  return false;
+}
+
+RobotFile read_robot(const std::filesystem::path& file,
+                     const std::vector<std::filesystem::path>& folders) {
+  const Format format = format_of(file, read_xml(file));
+  const int log = memfd_create("library-log", MFD_CLOEXEC);
+  if (log < 0) fail("memfd_create");
+  constexpr double max_seconds = 20;
+  const Contained read =
+      run_contained([&] { return read_as_bytes(format, file, folders, log); }, max_seconds);
+  const std::string complaint = complaint_in(text_of_log(log));
+  close(log);
+  if (read.end != Contained::End::returned) {
+    throw InvalidInput("scene", '"' + file.string() + '"',
+                       "must be a file that its reader survives: " + read.text +
+                           (complaint.empty() ? "" : "; it says: " + complaint));
+  }
+  Reader reader{read.text};
+  bool is_read = false;
+  reader(is_read);
+  if (!is_read) {
+    std::string field, value, remedy;
+    reader(field, value, remedy);
+    if (field != "scene" && !field.starts_with(file.string()))
+      field.insert(0, file.string() + ": ");
+    throw InvalidInput(field, value, remedy);
+  }
+  RobotFile robot;
+  reader(robot);
+  return robot;
+}
+
+std::string left_out_text(const RobotFile& robot) {
+  const LeftOut& left = robot.left_out;
+  if (left.shapes == 0) return "";
+  std::size_t count = left.shapes;
+  double volume = left.volume;
+  for (const Link& link : robot.links) {
+    count += link.shapes.size();
+    for (const LinkShape& s : link.shapes) volume += inertia(s.shape, 1).mass;
+  }
+  const std::string share = left.unknown > 0 || !(volume > 0)
+                                ? std::string("volume unknown")
+                                : fmt::format("{:.2g}% of the volume", 100 * left.volume / volume);
+  return fmt::format("left out: {} of {} collision shapes ({})", left.shapes, count, share);
+}
+
+}  // namespace touchstone

@@ -1,0 +1,125 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "reference/pose.hpp"
+#include "reference/shape.hpp"
+#include "simulation/mechanism.hpp"
+#include "simulation/scenes/scene_file.hpp"
+
+namespace touchstone {
+
+/// A collision shape of a link, with every joint in its default position.
+struct LinkShape {
+  std::string name;  ///< "link/collision", of a world "model::link/collision"
+  Shape shape;
+  Pose pose;                            ///< in the world; for a robot, in its root link
+  std::optional<double> friction = {};  ///< Coulomb's coefficient, where the file gives it
+};
+
+/// A rigid part of a robot or world.
+struct Link {
+  std::string name;  ///< of a world "model::link"
+  Pose pose = {};    ///< of its frame, as that of its shapes
+  std::vector<LinkShape> shapes = {};
+  std::optional<double> mass = {};  ///< kg, where the file gives it
+  bool fixed = false;               ///< to the world
+};
+
+/// A joint of two links; its position is zero as the file places them.
+struct LinkJoint {
+  std::string name;  ///< of a world "model::joint"
+  JointKind kind = JointKind::fixed;
+  int child = 0, parent = world_body;  ///< indices of links
+  Vec3 anchor = Vec3::Zero();          ///< of a hinge: a point of its axis; world frame
+  Vec3 axis = Vec3::UnitZ();           ///< world frame, of any length but zero
+  double lower = 0, upper = 0;         ///< of the position, rad or m; may be infinite
+  std::optional<double> effort = {};   ///< N or N m, where the file gives a positive one
+  bool holds = true;                   ///< by a motor; else nothing acts in it
+};
+
+/// Collision shapes that are not read.
+struct LeftOut {
+  std::size_t shapes = 0, unknown = 0;  ///< number; of these, without a known volume
+  double volume = 0;                    ///< of the others, m³
+};
+
+/// Robot or world of a URDF, SDF or MJCF file.
+struct RobotFile {
+  std::string name;
+  std::vector<Link> links;
+  std::vector<LinkJoint> joints;
+  std::vector<std::pair<int, int>> apart;  ///< links that the file keeps from touching each other
+  bool is_world = false;             ///< its ground is whatever it says; a robot stands on one
+  Vec3 gravity = Vec3(0, 0, -9.81);  ///< m/s²
+  std::optional<double> step;        ///< s, where the file gives it for use here
+  LeftOut left_out;
+  /// Elements that were not read, and what was done instead: "collision upper/hull: a mesh".
+  std::vector<std::string> ignored;
+};
+
+/// Bound on the links of a file, and on its joints.
+inline constexpr std::size_t max_links = 2000;
+
+/// Is it the name of a robot or world file (.urdf, .sdf, .world, .mjcf, .xml, .xacro)?
+bool is_robot_file(const std::filesystem::path& file);
+
+/// Reads URDF, SDF or MJCF, in a process of its own: whatever a library does to a bad file, nothing
+/// of it is seen here but InvalidInput with the element's name. Included models are looked for in
+/// the folders given, then in those of SDF_PATH, GZ_SIM_RESOURCE_PATH, GAZEBO_MODEL_PATH and
+/// ROS_PACKAGE_PATH, then beside the file.
+RobotFile read_robot(const std::filesystem::path& file,
+                     const std::vector<std::filesystem::path>& folders = {});
+
+/// How a robot or world is simulated.
+struct RobotMotion {
+  double duration = 2;                                ///< s
+  std::vector<std::pair<std::string, double>> rates;  ///< of driven joints, rad/s or m/s
+  std::vector<std::string> loose;                     ///< joints in which no motor holds
+  bool has_fixed_base = false;                        ///< the root link of a robot is held
+};
+
+/// A scene of the robot, at rest at the start: a body for each shape, fixed joints between those of
+/// a link, motors that hold the other joints or drive them; under a robot a ground plane, which it
+/// touches with its lowest point. What overlaps at the start never touches. Throws InvalidInput
+/// (field "--drive") on an unknown joint, with the nearest names.
+SceneFile robot_scene(const RobotFile& robot, const RobotMotion& motion);
+
+/// Gives the scene of a robot needs derived from its run with exact contacts, whose answers may
+/// include those of disturbed runs (run_disturbed): every moving body that touches something
+/// overlaps little more than it does there, and what no joint holds ends near where it does there.
+void add_robot_needs(SceneFile& file, const Trajectory& exact);
+
+/// "left out: 1 of 8 collision shapes (volume unknown)"; empty if nothing was.
+std::string left_out_text(const RobotFile& robot);
+
+// The readers; only `read_robot` calls them. They may crash, hang and print.
+
+RobotFile read_urdf(const std::filesystem::path& file);
+RobotFile read_sdf(const std::filesystem::path& file,
+                   const std::vector<std::filesystem::path>& folders);
+RobotFile read_mjcf(const std::filesystem::path& file);
+
+/// What a library has said on standard error up to now, in one line: its first error. Empty outside
+/// of `read_robot`.
+std::string library_complaint();
+
+// Checks before a library reads:
+
+/// Text of an XML file. Throws InvalidInput if its elements are nested so deeply that a parser
+/// would overflow the stack.
+std::string read_xml(const std::filesystem::path& file);
+/// Throws InvalidInput, with the collision and the field, unless each collision's shape is known
+/// and has the lengths it needs, and no others. Returns the number of collisions of each link.
+std::map<std::string, std::size_t> check_urdf_collisions(const std::string& text);
+/// Checks those of SDF, and that its version is not above that which its reader knows.
+void check_sdf_collisions(const std::string& text, std::string_view newest_version);
+
+}  // namespace touchstone

@@ -1,0 +1,346 @@
+// Robots and worlds as scenes: their bodies, joints, motors and ground, and the advice for them.
+#include <cmath>
+#include <filesystem>
+#include <gmock/gmock.h>
+#include <stdexcept>
+
+#include "candidates/candidates.hpp"
+#include "reference/invalid_input.hpp"
+#include "simulation/scenes/choose.hpp"
+#include "simulation/scenes/robot_file.hpp"
+
+namespace touchstone {
+namespace {
+
+using testing::HasSubstr;
+
+const std::filesystem::path scenes = TOUCHSTONE_SCENES;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+const Body& body(const Scene& scene, const std::string& name) {
+  for (const Body& b : scene.bodies) {
+    if (b.name == name) return b;
+  }
+  throw std::runtime_error("no body " + name);
+}
+int index(const Scene& scene, const std::string& name) {
+  return static_cast<int>(&body(scene, name) - scene.bodies.data());
+}
+const Joint& joint(const Scene& scene, const std::string& name) {
+  for (const Joint& j : scene.joints) {
+    if (j.name == name) return j;
+  }
+  throw std::runtime_error("no joint " + name);
+}
+
+Link ball(const std::string& name, const Vec3& position, double radius = 0.1) {
+  Link link{name, Pose(position)};
+  link.shapes.push_back({name, Sphere(radius), Pose(position)});
+  return link;
+}
+LinkJoint hinge(const std::string& name, int parent, int child) {
+  LinkJoint made;
+  made.name = name;
+  made.kind = JointKind::hinge;
+  made.parent = parent;
+  made.child = child;
+  made.lower = -infinity;
+  made.upper = infinity;
+  return made;
+}
+/// Two balls of 2 kg in all, half a metre apart, and a hinge between them.
+RobotFile two_balls() {
+  RobotFile robot;
+  robot.name = "balls";
+  robot.links = {ball("a", Vec3(0, 0, 1)), ball("b", Vec3(0.5, 0, 1.2))};
+  for (Link& link : robot.links) link.mass = 1;
+  robot.joints = {hinge("elbow", 0, 1)};
+  return robot;
+}
+
+TEST(RobotScene, StandsOnAGroundThatItTouchesWithItsLowestPoint) {
+  const Scene scene = robot_scene(two_balls(), {}).scene;
+  const Body& ground = body(scene, "ground");
+  EXPECT_TRUE(ground.fixed);
+  EXPECT_NEAR(std::get<Plane>(ground.shape).displacement(), 0.9, 1e-15);
+}
+
+TEST(RobotScene, AWorldHasNoGroundButItsOwn) {
+  RobotFile world = two_balls();
+  world.is_world = true;
+  EXPECT_EQ(robot_scene(world, {}).scene.bodies.size(), 2U);
+  RobotFile robot = two_balls();
+  Link floor{"floor"};
+  floor.fixed = true;
+  floor.shapes.push_back({"floor", Plane(Vec3::UnitZ(), 0), Pose()});
+  robot.links.push_back(floor);
+  EXPECT_EQ(robot_scene(robot, {}).scene.bodies.size(), 3U);
+}
+
+TEST(RobotScene, ALinksMassIsSpreadOverItsShapesByTheirVolume) {
+  RobotFile robot = two_balls();
+  Link& link = robot.links[0];
+  link.mass = 9;
+  link.shapes.push_back({"small", Sphere(0.05), Pose(Vec3(0, 0, 2))});
+  const Scene scene = robot_scene(robot, {}).scene;
+  const double large = inertia(body(scene, "a").shape, body(scene, "a").density).mass;
+  const double small = inertia(body(scene, "small").shape, body(scene, "small").density).mass;
+  EXPECT_NEAR(large, 8, 1e-12);
+  EXPECT_NEAR(small, 1, 1e-12);
+  const Joint& both = joint(scene, "small in a");
+  EXPECT_EQ(both.kind, JointKind::fixed);
+  robot.links[0].mass = 0;
+  EXPECT_EQ(body(robot_scene(robot, {}).scene, "a").density, 1000);
+}
+
+TEST(RobotScene, AJointHoldsByItsEffortOrByTheRobotsWeight) {
+  RobotFile robot = two_balls();
+  robot.joints[0].effort = 7;
+  const auto motor = [&] { return joint(robot_scene(robot, {}).scene, "elbow").motor.value(); };
+  EXPECT_EQ(motor().target, Motor::Target::position);
+  EXPECT_EQ(motor().target_at(1), 0);
+  EXPECT_EQ(motor().max_force, 7);
+  robot.joints[0].effort.reset();
+  // 2 kg, and the diagonal of 0.7 × 0.2 × 0.4 m.
+  EXPECT_NEAR(motor().max_force, 2 * 9.81 * std::sqrt(0.49 + 0.04 + 0.16), 1e-9);
+  robot.joints[0].effort = 1e300;
+  EXPECT_EQ(motor().max_force, 1e9);
+  robot.joints[0].holds = false;
+  EXPECT_FALSE(joint(robot_scene(robot, {}).scene, "elbow").motor);
+}
+
+TEST(RobotScene, AJointIsDrivenOrLooseByOption) {
+  RobotMotion motion;
+  motion.rates = {{"elbow", -3}};
+  const Motor driven = joint(robot_scene(two_balls(), motion).scene, "elbow").motor.value();
+  EXPECT_EQ(driven.target, Motor::Target::rate);
+  EXPECT_EQ(driven.target_at(0), 0);
+  EXPECT_EQ(driven.target_at(1), -3);
+  motion.rates.clear();
+  motion.loose = {"elbow"};
+  EXPECT_FALSE(joint(robot_scene(two_balls(), motion).scene, "elbow").motor);
+}
+
+TEST(RobotScene, TheRootIsHeldByOption) {
+  RobotMotion motion;
+  EXPECT_FALSE(body(robot_scene(two_balls(), motion).scene, "a").fixed);
+  motion.has_fixed_base = true;
+  EXPECT_TRUE(body(robot_scene(two_balls(), motion).scene, "a").fixed);
+  EXPECT_FALSE(body(robot_scene(two_balls(), motion).scene, "b").fixed);
+}
+
+TEST(RobotScene, ALengthOfTooManyStepsIsRefused) {
+  RobotFile robot = two_balls();
+  robot.step = 1e-6;
+  try {
+    robot_scene(robot, {});
+    FAIL() << "accepted";
+  } catch (const InvalidInput& e) {
+    EXPECT_THAT(e.what(), HasSubstr("--duration is 2: must be shorter"));
+  }
+}
+
+TEST(RobotScene, AJointThatIsNotThereIsRefusedWithTheNearestNames) {
+  RobotFile robot = two_balls();
+  robot.links.push_back(ball("c", Vec3(1, 0, 1)));
+  robot.joints.push_back(hinge("left_wheel", 0, 2));
+  RobotMotion motion;
+  motion.rates = {{"left_whel", 1}};
+  try {
+    robot_scene(robot, motion);
+    FAIL() << "accepted";
+  } catch (const InvalidInput& e) {
+    EXPECT_STREQ(e.what(),
+                 "--drive is \"left_whel\": must be a joint that moves, as left_wheel, elbow");
+  }
+}
+
+TEST(RobotScene, LimitsHoldTheDefaultPosition) {
+  RobotFile robot = two_balls();
+  robot.joints[0].lower = 0.5;
+  robot.joints[0].upper = 2;
+  const Joint elbow = joint(robot_scene(robot, {}).scene, "elbow");
+  EXPECT_EQ(elbow.lower, 0);
+  EXPECT_EQ(elbow.upper, 2);
+}
+
+TEST(RobotScene, AJointToSomethingFixedCountsTheSameWay) {
+  RobotFile robot = two_balls();
+  robot.links[1].fixed = true;
+  robot.joints[0].lower = -1;
+  robot.joints[0].upper = 2;
+  const Scene scene = robot_scene(robot, {}).scene;
+  const Joint& elbow = joint(scene, "elbow");
+  EXPECT_EQ(elbow.a, index(scene, "a"));  // the parent, which moves the other way
+  EXPECT_EQ(elbow.b, index(scene, "b"));
+  EXPECT_EQ(elbow.axis, Vec3(-Vec3::UnitZ()));
+}
+
+TEST(RobotScene, ALinkWithoutShapesIsABallThatTouchesNothing) {
+  RobotFile robot = two_balls();
+  robot.links.push_back({"knuckle", Pose(Vec3(0.2, 0, 1))});
+  robot.joints = {hinge("steer", 0, 2), hinge("roll", 2, 1)};
+  const auto ghost = [&] { return body(robot_scene(robot, {}).scene, "knuckle"); };
+  EXPECT_FALSE(ghost().collides);
+  EXPECT_NEAR(inertia(ghost().shape, ghost().density).mass, 0.02, 1e-12);  // 1% of 2 kg
+  robot.links[2].mass = 0.3;
+  EXPECT_NEAR(inertia(ghost().shape, ghost().density).mass, 0.3, 1e-12);
+}
+
+TEST(RobotScene, FramesHaveNoBodies) {
+  RobotFile robot = two_balls();
+  robot.links.push_back({"optical_frame"});
+  robot.links.push_back({"lens_frame"});
+  LinkJoint mount, lens;
+  mount.name = "mount", mount.parent = 1, mount.child = 2;
+  lens.name = "lens", lens.parent = 2, lens.child = 3;
+  robot.joints.push_back(mount);
+  robot.joints.push_back(lens);
+  const Scene scene = robot_scene(robot, {}).scene;
+  EXPECT_EQ(scene.bodies.size(), 3U);
+  EXPECT_EQ(scene.joints.size(), 1U);
+}
+
+TEST(RobotScene, WhatOverlapsAtTheStartNeverTouches) {
+  RobotFile robot = two_balls();
+  robot.links.push_back(ball("built_in", Vec3(0.15, 0, 1)));
+  robot.links.push_back(ball("beside", Vec3(-0.21, 0, 1)));
+  robot.joints.push_back(hinge("h", 1, 2));
+  robot.joints.push_back(hinge("k", 1, 3));
+  const Scene scene = robot_scene(robot, {}).scene;
+  const std::pair<int, int> inside{index(scene, "a"), index(scene, "built_in")};
+  EXPECT_THAT(scene.apart, testing::ElementsAre(inside));
+}
+
+TEST(RobotScene, ARobotOfMeshesAloneIsRefused) {
+  RobotFile robot;
+  robot.name = "meshes";
+  robot.links = {{"base"}};
+  robot.left_out.shapes = 1;
+  try {
+    robot_scene(robot, {});
+    FAIL() << "accepted";
+  } catch (const InvalidInput& e) {
+    EXPECT_THAT(e.what(), HasSubstr("not only meshes: add cylinders"));
+  }
+}
+
+TEST(RobotScene, ErrorsNameTheLink) {
+  RobotFile robot = two_balls();
+  robot.links[1].mass = 1e30;
+  try {
+    robot_scene(robot, {});
+    FAIL() << "accepted";
+  } catch (const InvalidInput& e) {
+    EXPECT_THAT(e.what(), HasSubstr("link b.density is "));
+  }
+}
+
+/// Ends of a run with exact contacts.
+struct ExactRun {
+  SceneFile file;
+  Trajectory run;
+
+  explicit ExactRun(const std::string& name, const RobotMotion& motion = {})
+      : file(robot_scene(read_robot(scenes / name), motion)) {
+    Processes processes{Limits()};
+    CandidateModel exact(processes.of(find_candidate("reference")));
+    run = run_scene(file.scene, exact);
+  }
+  Vec3 way(const std::string& name) const {
+    const int b = index(file.scene, name);
+    return run.frames.back()[b].pose.position() - run.frames.front()[b].pose.position();
+  }
+};
+
+const std::vector<std::pair<std::string, double>> forward = {{"front_left_wheel_joint", 5},
+                                                             {"front_right_wheel_joint", 5},
+                                                             {"rear_left_wheel_joint", 5},
+                                                             {"rear_right_wheel_joint", 5}};
+
+TEST(Rover, StandsAndDrivesAsFarAsItsWheelsTurn) {
+  EXPECT_LT(ExactRun("rover.urdf").way("chassis").norm(), 2e-3);
+  RobotMotion motion;
+  motion.rates = forward;
+  const ExactRun driving("rover.urdf", motion);
+  // 5 rad/s on wheels of 0.1 m for 2 s, but for half of the 0.2 s in which they start.
+  constexpr double way = 5 * 0.1 * 1.9;
+  EXPECT_NEAR(driving.way("chassis").x(), way, 0.02 * way);
+  EXPECT_LT(std::abs(driving.way("chassis").y()), 0.01);
+}
+
+TEST(Rover, ClosesItsFingersOnEachOther) {
+  RobotMotion motion;
+  motion.rates = {{"left_finger_joint", 0.05}, {"right_finger_joint", 0.05}};
+  const ExactRun closing("rover.urdf", motion);
+  // Of the 80 mm between them, rods of 12 mm radius leave 56 mm. Equal motors do not say where.
+  EXPECT_NEAR(closing.way("right_finger").y() - closing.way("left_finger").y(), 0.056, 1e-3);
+}
+
+/// The advice for a robot or world, from few disturbances.
+Choice choice_of(const std::string& name, const RobotMotion& motion,
+                 const std::vector<std::string>& candidates) {
+  ChooseOptions options;
+  options.candidates = find_candidates(candidates);
+  options.trials.disturbances = 2;
+  SceneFile file = robot_scene(read_robot(scenes / name), motion);
+  Processes processes{Limits()};
+  CandidateModel exact(processes.of(find_candidate("reference")));
+  add_robot_needs(file, run_disturbed(file.scene, exact, options.trials));
+  return choose(file, options);
+}
+
+/// Name of the model that is chosen for pairs of which one body is called so.
+std::string chosen_for(const Choice& choice, const std::string& name) {
+  for (std::size_t k = 0; k < choice.kinds.all().size(); ++k) {
+    if (choice.kinds.all()[k].bodies.find(name) == std::string::npos) continue;
+    return choice.runs[choice.answer].models[k]->name;
+  }
+  return "nothing";
+}
+
+bool has_need(const Choice& choice, const std::string& text) {
+  for (const auto& need : choice.file.needs) {
+    if (need->text(choice.file.scene).starts_with(text)) return true;
+  }
+  return false;
+}
+
+TEST(Rover, GetsAdviceForItsWheelsAndItsFingers) {
+  RobotMotion motion;
+  motion.rates = forward;
+  motion.rates.emplace_back("left_finger_joint", 0.05);
+  motion.rates.emplace_back("right_finger_joint", 0.05);
+  const Choice choice = choice_of("rover.urdf", motion, {"capsule", "spheres:2", "prism:16"});
+  EXPECT_FALSE(choice.impossible);
+  EXPECT_TRUE(has_need(choice, "front_left_wheel overlaps"));
+  EXPECT_TRUE(has_need(choice, "left_finger overlaps"));
+  EXPECT_TRUE(has_need(choice, "chassis ends within"));
+  EXPECT_NE(chosen_for(choice, "wheel and ground"), "nothing");
+  EXPECT_NE(chosen_for(choice, "left_finger"), "nothing");
+  EXPECT_NE(chosen_for(choice, "wheel and ground"), "spheres:2");
+}
+
+TEST(LoadingBay, GetsAdviceForTheCartsWheelsAndTheBarrel) {
+  RobotMotion motion;
+  for (const char* wheel : {"front_left", "front_right", "rear_left", "rear_right"}) {
+    motion.rates.emplace_back(std::string("cart_1::") + wheel + "_wheel_axle", 4);
+  }
+  const Choice choice = choice_of("loading-bay.sdf", motion, {"capsule", "prism:16"});
+  EXPECT_FALSE(choice.impossible);
+  EXPECT_NE(chosen_for(choice, "_wheel and ground_plane"), "nothing");
+  EXPECT_NE(chosen_for(choice, "barrel::link and ground"), "nothing");
+  // 4 rad/s on wheels of 80 mm: it runs into the barrel.
+  EXPECT_NE(chosen_for(choice, "barrel::link and cart_1::tray"), "nothing");
+}
+
+TEST(Pincer, GetsAdviceForItsFingers) {
+  RobotMotion motion;
+  motion.rates = {{"left", 0.1}, {"right", 0.1}};
+  const Choice choice = choice_of("pincer.xml", motion, {"capsule", "prism:16"});
+  EXPECT_FALSE(choice.impossible);
+  EXPECT_NE(chosen_for(choice, "left_finger"), "nothing");
+}
+
+}  // namespace
+}  // namespace touchstone
