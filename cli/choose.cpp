@@ -10,6 +10,7 @@
 #include "reports/choice/choice.hpp"
 #include "reports/replay.hpp"
 #include "reports/terminal.hpp"
+#include "simulation/scenes/engine_choice.hpp"
 
 namespace touchstone {
 namespace {
@@ -20,7 +21,7 @@ struct Options {
   explicit Options(Command& command) : candidates(command), workers(command) {}
   CandidateOption candidates;
   WorkersOption workers;
-  std::string scene, out = "out";
+  std::string scene, engine, out = "out";
   bool json = false;
   std::uint64_t disturbances = Trials().disturbances, seed = Trials().seed;
   PairNeeds pairs;
@@ -55,6 +56,19 @@ int choose_scene(const Options& options) {
   return choice.impossible ? not_served : 0;
 }
 
+int choose_for_engine(const Options& options) {
+  const std::string command =
+      fmt::format("{} choose {} --engine {} --disturbances {} --seed {}", program_name(),
+                  shell_quoted(options.scene), options.engine, options.disturbances, options.seed);
+  const EngineChoice choice =
+      choose_in_engine(read_scene(options.scene), options.engine,
+                       {options.workers.get(), {options.disturbances, options.seed}});
+  write_file(options.out + "/choose.json", engine_choice_json(choice, command, 1) + '\n', "--out");
+  fmt::print("{}", options.json ? engine_choice_json(choice, command) + '\n'
+                                : engine_choice_text(choice, standard_output().columns));
+  return choice.answer ? 0 : not_served;
+}
+
 int choose_pairs(const Options& options) {
   PairNeeds needs = options.pairs;
   needs.seed = options.seed;
@@ -77,7 +91,11 @@ int choose_pairs(const Options& options) {
 
 int run(const Options& options) {
   check_writable(options.out);
-  return is_shapes_file(options.scene) ? choose_pairs(options) : choose_scene(options);
+  if (is_shapes_file(options.scene)) {
+    if (options.engine.empty()) return choose_pairs(options);
+    throw InvalidInput("--engine", '"' + options.engine + '"', "must come with a scene file");
+  }
+  return options.engine.empty() ? choose_scene(options) : choose_for_engine(options);
 }
 
 }  // namespace
@@ -95,6 +113,12 @@ void add_choose(Program& program) {
   command.count("--seed", options->seed, all_counts, "Same seed, same disturbances or poses");
   command.count("--disturbances", options->disturbances, {0, 1000},
                 "Runs of a scene beside the one as it is written; needs must hold in all");
+  command
+      .text("--engine", options->engine,
+            "The best setting of this engine's own world instead: bullet, bullet-float, ode, "
+            "mujoco")
+      .value("ENGINE")
+      .excludes(options->candidates.option());
   const char* robots = "Of a robot or world";
   PairNeeds& pairs = options->pairs;
   command.number("--depth", pairs.depth, positive_numbers, "Largest depth error, metres")
@@ -107,6 +131,7 @@ void add_choose(Program& program) {
       "Examples:\n"
       "  touchstone choose simulation/scenes/log-pile.json\n"
       "  touchstone choose simulation/scenes/conveyor.json --candidates spheres:1..16\n"
+      "  touchstone choose simulation/scenes/log-pile.json --engine bullet\n"
       "  touchstone choose simulation/scenes/gripper.urdf --depth 0.002 --angle 10\n"
       "Exit code 1: not even exact contacts meet the needs.");
   command.runs([options] { return run(*options); });

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "simulation/scenes/choose.hpp"
+#include "simulation/scenes/engine_choice.hpp"
 #include "simulation/scenes/scene_file.hpp"
 
 // Outputs of `touchstone choose`. `folder` holds the configurations of failures, one file each,
@@ -63,14 +64,23 @@ std::string choice_text(const Choice& choice, const std::string& folder, std::si
 std::string pairs_text(const PairsChoice& choice, const std::string& folder,
                        std::size_t columns = 80);
 
+std::string engine_choice_text(const EngineChoice& choice, std::size_t columns = 80);
+
+/// Breaks what is wider than a terminal between words, the rest further in. Commands stay whole, to
+/// be pasted.
+std::string folded(const std::string& text, std::size_t columns);
+
 /// ", disturbance 3"; empty for the scene as it is written.
-std::string in_disturbance(const SceneRun& run);
+std::string in_disturbance(const RepeatedRun& run);
 
 /// choose.json (docs/scenes.md); on one line, or indented.
 std::string choice_json(const Choice& choice, const std::string& command, const std::string& folder,
                         int indent = -1);
 std::string pairs_json(const PairsChoice& choice, const std::string& command,
                        const std::string& folder, int indent = -1);
+
+std::string engine_choice_json(const EngineChoice& choice, const std::string& command,
+                               int indent = -1);
 
 /// One self-contained page with the exact run and others in motion; runs the scene again for them.
 std::string choice_page(const Choice& choice, const std::string& command, const std::string& folder,

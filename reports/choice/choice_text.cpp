@@ -117,8 +117,12 @@ std::string errors(const ReplayScore& s) {
                      s.normal_angle);
 }
 
-/// Breaks what is wider than a terminal between words, the rest further in. Commands stay whole, to
-/// be pasted.
+}  // namespace
+
+std::string in_disturbance(const RepeatedRun& run) {
+  return run.disturbance == 0 ? "" : fmt::format(", disturbance {}", run.disturbance);
+}
+
 std::string folded(const std::string& text, std::size_t columns) {
   std::string result, line;
   for (std::istringstream lines(text); std::getline(lines, line);) {
@@ -133,12 +137,6 @@ std::string folded(const std::string& text, std::size_t columns) {
     result += line + '\n';
   }
   return result;
-}
-
-}  // namespace
-
-std::string in_disturbance(const SceneRun& run) {
-  return run.disturbance == 0 ? "" : fmt::format(", disturbance {}", run.disturbance);
 }
 
 std::string choice_text(const Choice& choice, const std::string& folder, std::size_t columns) {
