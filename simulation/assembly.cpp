@@ -103,6 +103,14 @@ std::vector<Assembly> assemblies(const Scene& scene) {
   return result;
 }
 
+std::vector<bool> moved_by_forces(const Scene& scene) {
+  std::vector<bool> result(scene.bodies.size());
+  for (const Assembly& assembly : assemblies(scene)) {
+    for (const int b : assembly.bodies) result[b] = assembly.is_free();
+  }
+  return result;
+}
+
 BodyState state_within(const BodyState& assembly, const Pose& X_FB) {
   const Vec3 arm = assembly.pose.rotation() * X_FB.position();
   return {Pose(assembly.pose.position() + arm,

@@ -24,6 +24,9 @@ struct Assembly {
 /// The assemblies of a scene that check_scene accepts, in the order of their first bodies.
 std::vector<Assembly> assemblies(const Scene& scene);
 
+/// By body: do forces move it? Not if it is fixed or driven, or rigidly joined to what is.
+std::vector<bool> moved_by_forces(const Scene& scene);
+
 /// State of a body that is at X_FB in the frame of an assembly with this state.
 BodyState state_within(const BodyState& assembly, const Pose& X_FB);
 

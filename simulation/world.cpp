@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <ode/ode.h>
 #include <utility>
 
 #include "candidates/ode_library.hpp"
 #include "reference/invalid_input.hpp"
 #include "reference/support.hpp"
+#include "simulation/assembly.hpp"
+#include "simulation/ode_scene.hpp"
 
 namespace touchstone {
 namespace {
@@ -27,86 +30,28 @@ Aabb candidate_box(const Shape& shape, const Pose& pose) {
   return aabb(shape, pose);
 }
 
-/// ODE's shape of a body, in the body's frame; null for a cylinder, whose contacts come from the
-/// contact model.
-struct MakeGeom {
-  dGeomID operator()(const Cylinder&) const { return nullptr; }
-  dGeomID operator()(const Plane& s) const {
-    return dCreatePlane(nullptr, s.normal().x(), s.normal().y(), s.normal().z(), s.displacement());
-  }
-  dGeomID operator()(const Sphere& s) const { return dCreateSphere(nullptr, s.radius()); }
-  dGeomID operator()(const Capsule& s) const {
-    return dCreateCapsule(nullptr, s.radius(), 2 * s.half_length());
-  }
-  dGeomID operator()(const Box& s) const {
-    const Vec3 side = 2 * s.half_extents();
-    return dCreateBox(nullptr, side.x(), side.y(), side.z());
-  }
-};
-
-/// The posed plane in world coordinates: ODE's planes have no pose.
-Plane in_world(const Plane& plane, const Pose& pose) {
-  const Vec3 normal = (pose.rotation() * plane.unit_normal()).normalized();
-  return Plane(normal, plane.unit_displacement() + normal.dot(pose.position()));
-}
-
-struct OdeQuaternion {
-  explicit OdeQuaternion(const Pose& pose) {
-    const Eigen::Quaterniond q = pose.unit_orientation();
-    wxyz[0] = q.w(), wxyz[1] = q.x(), wxyz[2] = q.y(), wxyz[3] = q.z();
-  }
-  dQuaternion wxyz;
-};
-
-dBodyID make_ode_body(dWorldID world, const Body& body, const Inertia& inertia) {
-  const dBodyID made = dBodyCreate(world);
-  const Vec3 &p = body.pose.position(), &v = body.velocity, &w = body.angular_velocity;
-  const Vec3& i = inertia.principal;
-  dMass mass;
-  dMassSetParameters(&mass, inertia.mass, 0, 0, 0, i.x(), i.y(), i.z(), 0, 0, 0);
-  dBodySetMass(made, &mass);
-  dBodySetPosition(made, p.x(), p.y(), p.z());
-  dBodySetQuaternion(made, OdeQuaternion(body.pose).wxyz);
-  dBodySetLinearVel(made, v.x(), v.y(), v.z());
-  dBodySetAngularVel(made, w.x(), w.y(), w.z());
-  dBodySetFiniteRotationMode(made, 1);  // exact finite rotations
-  dBodySetGyroscopicMode(made, 0);      // see World::State::move
-  return made;
-}
-
-/// A geometry that follows `moving`, or stays at the body's pose if that is null.
-dGeomID make_ode_geom(const Body& body, dBodyID moving) {
-  if (const auto* plane = std::get_if<Plane>(&body.shape)) {
-    return MakeGeom{}(in_world(*plane, body.pose));
-  }
-  const dGeomID made = std::visit(MakeGeom{}, body.shape);
-  if (!made) return nullptr;
-  if (moving) {
-    dGeomSetBody(made, moving);
-    return made;
-  }
-  const Vec3& p = body.pose.position();
-  dGeomSetPosition(made, p.x(), p.y(), p.z());
-  dGeomSetQuaternion(made, OdeQuaternion(body.pose).wxyz);
-  return made;
-}
-
-BodyState state_of(dBodyID body) {
-  const auto vector = [](const dReal* v) { return Vec3(v[0], v[1], v[2]); };
-  const dReal* q = dBodyGetQuaternion(body);
-  return {Pose(vector(dBodyGetPosition(body)), Eigen::Quaterniond(q[0], q[1], q[2], q[3])),
-          vector(dBodyGetLinearVel(body)), vector(dBodyGetAngularVel(body))};
-}
-
 }  // namespace
 
 struct World::State {
+  /// An assembly in motion.
+  struct Moving {
+    Assembly assembly;
+    dBodyID body;  ///< null if it is fixed
+    BodyState state;
+    Vec3 spin;  ///< about its centre of mass
+  };
+
   State(const Scene& given, ContactModel& contact_model);
   ~State();
   State(const State&) = delete;
   State& operator=(const State&) = delete;
 
-  void make_body(const Body& body);
+  void make_assembly(const Assembly& assembly);
+  double time() const { return static_cast<double>(steps) * scene.step; }
+  BodyState driven(const Moving& m) const;
+  void drive();
+  void run_motors();
+  void push();
   void find_contacts();
   std::vector<PairQuestion> find_pairs();
   void add_contacts(const PairContact& contact);
@@ -114,17 +59,20 @@ struct World::State {
   void add_joint(int a, int b, dContactGeom geom);
   void move();
   void read_states(const std::vector<Vec3>& free_angular_velocities);
+  void place_bodies(const Moving& m);
   Vec3 impending_slip(int a, int b, const Vec3& position) const;
+  dBodyID ode_body(int body) const { return moving[assembly_of[body]].body; }
 
   Scene scene;
+  Touching may_touch;
   ContactModel& model;
   dWorldID world;
-  dJointGroupID joints;
-  std::vector<dBodyID> bodies;  ///< null where the body is fixed
-  std::vector<dGeomID> geoms;   ///< null where it is a cylinder
-  std::vector<Inertia> inertias;
-  std::vector<BodyState> states;
-  std::vector<Vec3> spins;  ///< about the bodies' centres
+  dJointGroupID contact_joints;
+  std::vector<Moving> moving;
+  std::vector<std::size_t> assembly_of;  ///< by body: index of its assembly
+  std::vector<dGeomID> geoms;            ///< by body; null where it is a cylinder
+  std::vector<BodyState> states;         ///< by body
+  std::vector<dJointID> joints;          ///< by joint; null where it is fixed
   std::vector<PairContact> contacts;
   std::uint64_t steps = 0;
   std::size_t unusable = 0;
@@ -133,43 +81,98 @@ struct World::State {
 
 World::State::State(const Scene& given, ContactModel& contact_model)
     : scene(given),
+      may_touch((check_scene(given), given)),
       model(contact_model),
-      world((check_scene(given), initialise_ode(), dWorldCreate())),
-      joints(dJointGroupCreate(0)) {
+      world((initialise_ode(), dWorldCreate())),
+      contact_joints(dJointGroupCreate(0)),
+      assembly_of(given.bodies.size()),
+      geoms(given.bodies.size()) {
   dWorldSetGravity(world, scene.gravity.x(), scene.gravity.y(), scene.gravity.z());
   dWorldSetERP(world, error_reduction);
   dWorldSetContactSurfaceLayer(world, scene.surface_layer);
   dWorldSetAutoDisableFlag(world, 0);
   dWorldSetQuickStepNumIterations(world, scene.solver_iterations);
-  for (const Body& body : scene.bodies) make_body(body);
+  for (const Body& b : scene.bodies) states.push_back({b.pose, Vec3::Zero(), Vec3::Zero()});
+  for (const Assembly& assembly : assemblies(scene)) make_assembly(assembly);
   double heaviest = 0;
-  for (const Inertia& i : inertias) heaviest = std::max(heaviest, i.mass);
+  for (const Moving& m : moving) heaviest = std::max(heaviest, m.assembly.inertia.mass);
   if (heaviest > 0) dWorldSetCFM(world, constraint_mixing / heaviest);
+  for (const Joint& joint : scene.joints) {
+    const dBodyID other = joint.b == world_body ? nullptr : ode_body(joint.b);
+    joints.push_back(make_ode_joint(world, joint, ode_body(joint.a), other));
+  }
   model.begin();
 }
 
 World::State::~State() {
-  dJointGroupDestroy(joints);
+  dJointGroupDestroy(contact_joints);
   for (const dGeomID geom : geoms) {
     if (geom) dGeomDestroy(geom);
   }
   dWorldDestroy(world);
 }
 
-void World::State::make_body(const Body& body) {
-  const Vec3 zero = Vec3::Zero();
-  inertias.push_back(body.fixed ? Inertia{0, zero} : inertia(body.shape, body.density));
-  bodies.push_back(body.fixed ? nullptr : make_ode_body(world, body, inertias.back()));
-  geoms.push_back(make_ode_geom(body, bodies.back()));
-  states.push_back(
-      {body.pose, body.fixed ? zero : body.velocity, body.fixed ? zero : body.angular_velocity});
-  spins.push_back(spin(body.pose, inertias.back(), states.back().angular_velocity));
+void World::State::make_assembly(const Assembly& assembly) {
+  const Body& first = scene.bodies[assembly.bodies.front()];
+  BodyState state{assembly.X_WF, Vec3::Zero(), Vec3::Zero()};
+  const dBodyID body = make_ode_body(world, assembly);
+  if (assembly.is_free()) {
+    dBodySetFiniteRotationMode(body, 1);  // exact finite rotations
+    dBodySetGyroscopicMode(body, 0);      // see move
+    const Vec3 arm = assembly.X_WF.position() - first.pose.position();
+    state.velocity = first.velocity + first.angular_velocity.cross(arm);
+    state.angular_velocity = first.angular_velocity;
+  }
+  if (body) place(body, state);
+  moving.push_back(
+      {assembly, body, state, spin(state.pose, assembly.inertia, state.angular_velocity)});
+  for (std::size_t i = 0; i < assembly.bodies.size(); ++i) {
+    const int b = assembly.bodies[i];
+    assembly_of[b] = moving.size() - 1;
+    if (std::holds_alternative<Cylinder>(scene.bodies[b].shape)) continue;
+    geoms[b] = make_ode_geom(nullptr, scene.bodies[b], body, assembly.X_FB[i]);
+  }
+  place_bodies(moving.back());
+}
+
+/// State of a driven assembly after this step.
+BodyState World::State::driven(const Moving& m) const {
+  const Body& body = scene.bodies[m.assembly.driven];
+  return driven_state(*body.drive, body.pose, time() + scene.step, scene.step);
+}
+
+/// Gives driven assemblies the velocities that lead them to where they shall be after this step.
+void World::State::drive() {
+  for (Moving& m : moving) {
+    if (m.assembly.fixed || m.assembly.driven < 0) continue;
+    const BodyState next = driven(m);
+    m.state = {m.state.pose, next.velocity, next.angular_velocity};
+    place(m.body, m.state);
+    place_bodies(m);
+  }
+}
+
+void World::State::run_motors() {
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    if (joints[i]) run_motor(joints[i], scene.joints[i], time(), scene.step);
+  }
+}
+
+void World::State::push() {
+  for (const Push& p : scene.pushes) {
+    const dBodyID body = ode_body(p.body);
+    const double rounding = scene.step / 2;
+    if (!body || time() < p.from - rounding || time() > p.until - rounding) continue;
+    const Vec3& at = states[p.body].pose.position();
+    dBodyAddForceAtPos(body, p.force.x(), p.force.y(), p.force.z(), at.x(), at.y(), at.z());
+    dBodyAddTorque(body, p.torque.x(), p.torque.y(), p.torque.z());
+  }
 }
 
 /// All pairs with overlapping boxes: those with a cylinder as questions, the contacts of all others
 /// at once. Scenes have few bodies, and testing a pair takes a nanosecond: no broad phase.
 std::vector<PairQuestion> World::State::find_pairs() {
-  const int count = static_cast<int>(bodies.size());
+  const int count = static_cast<int>(states.size());
   std::vector<Aabb> boxes;
   for (int i = 0; i < count; ++i) {
     boxes.push_back(candidate_box(scene.bodies[i].shape, states[i].pose));
@@ -185,7 +188,7 @@ std::vector<PairQuestion> World::State::find_pairs() {
   std::vector<PairQuestion> questions;
   for (int i = 0; i < count; ++i) {
     for (int j = i + 1; j < count; ++j) {
-      if (!(bodies[i] || bodies[j]) || !boxes[i].overlaps(boxes[j])) continue;
+      if (!may_touch(i, j) || !boxes[i].overlaps(boxes[j])) continue;
       const bool i_is_cylinder = !geoms[i];
       if (!i_is_cylinder && geoms[j]) {
         add_ode_contacts(i, j);
@@ -205,7 +208,7 @@ std::vector<PairQuestion> World::State::find_pairs() {
 }
 
 void World::State::find_contacts() {
-  dJointGroupEmpty(joints);
+  dJointGroupEmpty(contact_joints);
   const std::vector<PairQuestion> questions = find_pairs();
   contacts.clear();
   if (questions.empty()) return;
@@ -245,14 +248,16 @@ void World::State::add_ode_contacts(int a, int b) {
   for (int i = 0; i < count; ++i) add_joint(a, b, found[i]);
 }
 
-/// Velocity of body a relative to body b at the end of the step without the contact, which friction
-/// acts against.
+/// Velocity of the surface of body a relative to that of body b at the end of the step without the
+/// contact, which friction acts against.
 Vec3 World::State::impending_slip(int a, int b, const Vec3& position) const {
   const auto velocity = [&](int i) {
-    if (!bodies[i]) return Vec3(Vec3::Zero());
+    const Moving& m = moving[assembly_of[i]];
+    if (!m.body) return Vec3(Vec3::Zero());
     const BodyState& s = states[i];
-    return Vec3(s.velocity + s.angular_velocity.cross(position - s.pose.position()) +
-                scene.step * scene.gravity);
+    Vec3 v = s.velocity + s.angular_velocity.cross(position - s.pose.position());
+    if (m.assembly.is_free()) v += scene.step * scene.gravity;
+    return v;
   };
   return velocity(a) - velocity(b);
 }
@@ -268,37 +273,55 @@ void World::State::add_joint(int a, int b, dContactGeom geom) {
     contact.surface.bounce = bounce;
     contact.surface.bounce_vel = min_bounce_speed;
   }
-  const Vec3 normal(geom.normal), slip = impending_slip(a, b, Vec3(geom.pos));
-  const Vec3 tangential = slip - slip.dot(normal) * normal;
+  const Vec3 normal(geom.normal);
+  const auto along = [&](const Vec3& v) { return Vec3(v - v.dot(normal) * normal); };
+  const auto surface_velocity = [&](int i) {
+    return Vec3(states[i].pose.rotation() * scene.bodies[i].surface_velocity);
+  };
+  const Vec3 belt = along(surface_velocity(a) - surface_velocity(b));
+  Vec3 tangential = along(impending_slip(a, b, Vec3(geom.pos))) + belt;
+  const bool has_belt = belt.norm() > min_slip;
+  if (has_belt && !(tangential.norm() > min_slip)) tangential = belt;
   if (const double speed = tangential.norm(); speed > min_slip) {
     contact.surface.mode |= dContactFDir1;
     for (int k = 0; k < 3; ++k) contact.fdir1[k] = tangential[k] / speed;
   }
-  const dJointID joint = dJointCreateContact(world, joints, &contact);
-  dJointAttach(joint, bodies[a], bodies[b]);
+  const dBodyID body_a = ode_body(a), body_b = ode_body(b);
+  if (has_belt) {
+    // ODE takes the velocity that its first body shall have, along fdir1 and normal × fdir1. If the
+    // first is null, the second stands in for it, and the normal is turned round.
+    contact.surface.mode |= dContactMotion1 | dContactMotion2;
+    const Vec3 first(contact.fdir1), second = normal.cross(first);
+    contact.surface.motion1 = (body_a ? -1 : 1) * belt.dot(first);
+    contact.surface.motion2 = -belt.dot(second);
+  }
+  const dJointID joint = dJointCreateContact(world, contact_joints, &contact);
+  dJointAttach(joint, body_a, body_b);
 }
 
 /// ODE starts from the mean angular velocity of the step without contacts, adds the change that
 /// contacts make, and rotates the body by the sum. Its own gyroscopic torque, which is off, loses
 /// energy and angular momentum.
 void World::State::move() {
-  std::vector<Vec3> free(bodies.size(), Vec3::Zero());
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (!bodies[i]) continue;
-    free[i] = free_angular_velocity(states[i].pose, inertias[i], spins[i], scene.step);
-    dBodySetAngularVel(bodies[i], free[i].x(), free[i].y(), free[i].z());
+  std::vector<Vec3> free(moving.size(), Vec3::Zero());
+  for (std::size_t i = 0; i < moving.size(); ++i) {
+    const Moving& m = moving[i];
+    if (!m.assembly.is_free()) continue;
+    free[i] = free_angular_velocity(m.state.pose, m.assembly.inertia, m.spin, scene.step);
+    dBodySetAngularVel(m.body, free[i].x(), free[i].y(), free[i].z());
   }
-  dRandSetSeed(steps);
+  dRandSetSeed(steps + 1);
   dWorldQuickStep(world, scene.step);
   read_states(free);
 }
 
 void World::State::read_states(const std::vector<Vec3>& free_angular_velocities) {
-  std::vector<BodyState> read = states;
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (!bodies[i]) continue;
+  std::vector<BodyState> read(moving.size());
+  for (std::size_t i = 0; i < moving.size(); ++i) {
+    const Moving& m = moving[i];
+    if (m.assembly.fixed) continue;
     try {
-      read[i] = state_of(bodies[i]);
+      read[i] = m.assembly.is_free() ? state_of(m.body) : driven(m);
     } catch (const InvalidInput&) {  // not a number
       sound = false;
       return;
@@ -308,13 +331,24 @@ void World::State::read_states(const std::vector<Vec3>& free_angular_velocities)
     }
   }
   if (!sound) return;
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (!bodies[i]) continue;
-    spins[i] +=
-        spin(states[i].pose, inertias[i], read[i].angular_velocity - free_angular_velocities[i]);
-    read[i].angular_velocity = angular_velocity(read[i].pose, inertias[i], spins[i]);
+  for (std::size_t i = 0; i < moving.size(); ++i) {
+    Moving& m = moving[i];
+    if (m.assembly.fixed) continue;
+    if (m.assembly.is_free()) {
+      m.spin += spin(m.state.pose, m.assembly.inertia,
+                     read[i].angular_velocity - free_angular_velocities[i]);
+      read[i].angular_velocity = angular_velocity(read[i].pose, m.assembly.inertia, m.spin);
+    }
+    m.state = read[i];
+    place_bodies(m);
   }
-  states = std::move(read);
+}
+
+void World::State::place_bodies(const Moving& m) {
+  for (std::size_t i = 0; i < m.assembly.bodies.size(); ++i) {
+    const bool is_single = m.assembly.bodies.size() == 1;
+    states[m.assembly.bodies[i]] = is_single ? m.state : state_within(m.state, m.assembly.X_FB[i]);
+  }
 }
 
 std::vector<Answer> CandidateModel::answers(std::span<const PairQuestion> questions) {
@@ -335,13 +369,17 @@ World& World::operator=(World&&) noexcept = default;
 
 void World::step() {
   State& s = *state_;
+  if (s.sound) {
+    s.drive();
+    s.run_motors();
+    s.push();
+    s.find_contacts();
+    s.move();
+  }
   ++s.steps;
-  if (!s.sound) return;
-  s.find_contacts();
-  s.move();
 }
 
-double World::time() const { return static_cast<double>(state_->steps) * state_->scene.step; }
+double World::time() const { return state_->time(); }
 const std::vector<BodyState>& World::states() const { return state_->states; }
 const std::vector<PairContact>& World::contacts() const { return state_->contacts; }
 bool World::sound() const { return state_->sound; }
@@ -349,33 +387,30 @@ std::size_t World::unusable_points() const { return state_->unusable; }
 
 double World::kinetic_energy() const {
   double sum = 0;
-  for (std::size_t i = 0; i < state_->states.size(); ++i) {
-    sum += touchstone::kinetic_energy(state_->states[i], state_->inertias[i]);
+  for (const auto& m : state_->moving) {
+    sum += touchstone::kinetic_energy(m.state, m.assembly.inertia);
   }
   return sum;
 }
 
 double World::potential_energy() const {
   double sum = 0;
-  for (std::size_t i = 0; i < state_->states.size(); ++i) {
-    sum -= state_->inertias[i].mass * state_->scene.gravity.dot(state_->states[i].pose.position());
+  for (const auto& m : state_->moving) {
+    sum -= m.assembly.inertia.mass * state_->scene.gravity.dot(m.state.pose.position());
   }
   return sum;
 }
 
 Vec3 World::momentum() const {
   Vec3 sum = Vec3::Zero();
-  for (std::size_t i = 0; i < state_->states.size(); ++i) {
-    sum += state_->inertias[i].mass * state_->states[i].velocity;
-  }
+  for (const auto& m : state_->moving) sum += m.assembly.inertia.mass * m.state.velocity;
   return sum;
 }
 
 Vec3 World::angular_momentum() const {
   Vec3 sum = Vec3::Zero();
-  for (std::size_t i = 0; i < state_->states.size(); ++i) {
-    const BodyState& s = state_->states[i];
-    sum += state_->inertias[i].mass * s.pose.position().cross(s.velocity) + state_->spins[i];
+  for (const auto& m : state_->moving) {
+    sum += m.assembly.inertia.mass * m.state.pose.position().cross(m.state.velocity) + m.spin;
   }
   return sum;
 }

@@ -229,9 +229,212 @@ def conveyor():
     }
 
 
+def product(p, q):
+    """Quaternion of turning by q, then by p."""
+    w, x, y, z = p
+    a, b, d, e = q
+    return [round(v, 9) for v in (w * a - x * b - y * d - z * e, w * b + x * a + y * e - z * d,
+                                  w * d - x * e + y * a + z * b, w * e + x * d - y * b + z * a)]
+
+
+def waypoints(*poses):
+    """A drive through (time, position[, orientation]), at rest in each."""
+    result = []
+    for time, position, *orientation in poses:
+        pose = {"position": [round(p, 6) for p in position]}
+        if orientation:
+            pose["orientation"] = orientation[0]
+        result.append({"time": time, "pose": pose})
+    return {"waypoints": result}
+
+
+def gripper():
+    r, half, top = 0.033, 0.06, 0.1  # of the can; of the tables
+    lift, way = 0.12, 0.3
+    hand, finger = top + half + 0.09, top + half + 0.005
+    bodies = [
+        fixed("table", box(0.12, 0.1, 0.05), "wood", (0, 0, 0.05)),
+        fixed("shelf", box(0.12, 0.1, 0.05), "wood", (way, 0, 0.05)),
+        body("hand", box(0.08, 0.03, 0.02), "steel", (0, 0, hand), drive=waypoints(
+            (0.3, (0, 0, hand)), (0.8, (0, 0, hand + lift)), (1.4, (way, 0, hand + lift)),
+            (1.9, (way, 0, hand + 0.0005)), (2.1, (way, 0, hand + 0.0005)),
+            (2.5, (way, 0, hand + lift)))),
+        body("left-finger", box(0.008, 0.015, 0.05), "rubber", (-r - 0.012, 0, finger)),
+        body("right-finger", box(0.008, 0.015, 0.05), "rubber", (r + 0.012, 0, finger)),
+        body("can", cylinder(r, half), "can", (0, 0, top + half)),
+    ]
+    motors = {"left": {"position": [[0, 0], [0.2, 0.004], [1.95, 0.004], [2.1, -0.015]],
+                       "max_force": 80},
+              "right": {"rate": [[0, 0.05], [1.95, 0.05], [1.96, -0.1]], "max_force": 12}}
+    joints = [{"joint": "slider", "name": side, "bodies": [f"{side}-finger", "hand"],
+               "axis": [1 if side == "left" else -1, 0, 0], "limits": [-0.02, 0.02],
+               "motor": motor} for side, motor in motors.items()]
+    return {
+        "description": "A gripper picks a can from a table, carries it to a shelf, sets it down and "
+                       "lets go.",
+        "step": 0.002,
+        "duration": 3,
+        "materials": {"wood": {"friction": 0.5}, "steel": {"friction": 0.4, "density": 7800},
+                      "rubber": {"friction": 1, "density": 1200},
+                      "can": {"friction": 0.5, "density": 800}},
+        "bodies": bodies,
+        "joints": joints,
+        "needs": [
+            {"need": "stands", "body": "can", "degrees": 3},
+            {"need": "stays-in", "body": "can", "lower": [way - 0.01, -0.01, top + half - 0.005],
+             "upper": [way + 0.01, 0.01, top + half + 0.005], "from": 2.6},
+            {"need": "rests", "bodies": ["can"], "speed": 0.005, "by": 2.7},
+            {"need": "penetration", "metres": 0.001},
+        ],
+        "camera": {"position": [0.42, -0.68, 0.42], "look_at": [0.12, 0, 0.17]},
+    }
+
+
+def shelf_push():
+    r, half = 0.033, 0.058
+    bodies = [
+        fixed("shelf", box(0.4, 0.06, 0.01), "wood", (0, 0, -0.01)),
+        body("pusher", box(0.01, 0.05, 0.03), "steel", (-0.3, 0, 0.035), drive=waypoints(
+            (1, (-0.1, 0, 0.035)), (1.4, (-0.16, 0, 0.035)))),
+    ]
+    cans = []
+    for i in range(3):
+        cans.append(f"can-{i + 1}")
+        bodies.append(body(cans[-1], cylinder(r, half), "can", (-0.25 + 0.075 * i, 0.002 * i, half)))
+    return {
+        "description": "A pusher moves a row of three upright cans along a shelf and draws back.",
+        "step": 0.002,
+        "duration": 2,
+        "materials": {"wood": {"friction": 0.4}, "steel": {"friction": 0.3},
+                      "can": {"friction": 0.3, "density": 900}},
+        "bodies": bodies,
+        "needs": [{"need": "stands", "body": c, "degrees": 4} for c in cans]
+                 + [{"need": "rests", "bodies": cans, "speed": 0.01, "by": 1.8},
+                    {"need": "penetration", "metres": 0.002}]
+                 + [{"need": "stays-in", "body": c, "from": 1.8,
+                     "lower": [-0.065 + 0.066 * i, -0.03, half - 0.005],
+                     "upper": [-0.02 + 0.066 * i, 0.03, half + 0.005]}
+                    for i, c in enumerate(cans)],
+        "camera": {"position": [0.35, -0.7, 0.45], "look_at": [-0.08, 0, 0.04]},
+    }
+
+
+def rover():
+    r, width = 0.06, 0.02  # of a wheel: radius and half width
+    bodies = [fixed("ground", GROUND, "earth"),
+              body("chassis", box(0.16, 0.08, 0.025), "aluminium", (0, 0, r + 0.03))]
+    joints = []
+    for x, front in ((0.12, "front"), (-0.12, "rear")):
+        for y, side in ((0.11, "left"), (-0.11, "right")):
+            bodies.append(body(f"{front}-{side}", cylinder(r, width), "rubber", (x, y, r), ALONG_Y))
+            joints.append({"joint": "hinge", "name": f"{front}-{side}",
+                           "bodies": [f"{front}-{side}", "chassis"], "anchor": [x, y, r],
+                           "axis": [0, 1, 0],
+                           "motor": {"rate": [[0, 0], [0.5, 8]], "max_force": 1.5}})
+    for i, x in enumerate((0.4, 0.65, 0.9)):
+        bodies.append(fixed(f"bump-{i + 1}", box(0.03 + 0.01 * i, 0.3, 0.004 + 0.003 * i), "earth",
+                            (x, 0, 0)))
+    bodies.append(fixed("pipe", cylinder(0.012, 0.3), "earth", (1.15, 0, 0), ALONG_Y))
+    return {
+        "description": "Four motors drive a rover over three flat bumps and a pipe half in the "
+                       "ground.",
+        "duration": 3.2,
+        "materials": {"earth": {"friction": 0.8}, "rubber": {"friction": 0.9, "density": 1100},
+                      "aluminium": {"friction": 0.3, "density": 1500}},
+        "bodies": bodies,
+        "joints": joints,
+        "needs": [
+            {"need": "ends-near", "body": "chassis", "metres": 0.05},
+            {"need": "ends-tilted", "body": "chassis", "degrees": 3},
+            {"need": "stays-in", "body": "chassis", "lower": [-0.1, -0.05, 0.07],
+             "upper": [3, 0.05, 0.14]},
+            {"need": "stays-in", "body": "chassis", "lower": [1.3, -0.05, 0.08],
+             "upper": [1.5, 0.05, 0.1], "from": 3.15},
+            {"need": "penetration", "metres": 0.004},
+        ],
+        "camera": {"position": [1.3, -0.95, 0.5], "look_at": [0.72, 0, 0.03]},
+    }
+
+
+def drum():
+    """Granular: an open drum of twelve staves and a back, whose axis leans back by 45 degrees."""
+    radius, half, staves, lean = 0.1, 0.06, 12, 45
+    c, s = math.cos(math.radians(lean)), math.sin(math.radians(lean))
+
+    def in_drum(x, y, z):
+        """A point of the drum's frame, whose y points along the axis into it, in the world."""
+        return x, c * y + s * z, -s * y + c * z
+
+    leant = turned([1, 0, 0], -lean)
+    bodies = [body("back", cylinder(radius + 0.016, 0.006), "steel", in_drum(0, half + 0.006, 0),
+                   product(leant, ALONG_Y),
+                   drive={"angular_velocity": [round(4 * v, 9) for v in in_drum(0, 1, 0)]})]
+    joints = []
+    for i in range(staves):
+        angle = 360 * i / staves
+        x, z = math.sin(math.radians(angle)), math.cos(math.radians(angle))
+        bodies.append(body(f"stave-{i + 1}", box(0.036, half, 0.008), "steel",
+                           in_drum((radius + 0.008) * x, 0, (radius + 0.008) * z),
+                           product(leant, turned([0, 1, 0], angle))))
+        joints.append({"joint": "fixed", "bodies": [f"stave-{i + 1}", "back"]})
+    count = 16
+    rods = [f"rod-{i + 1}" for i in range(count)]
+    return {
+        "description": "Sixteen rods, dropped at random, tumble in an open drum that leans and turns.",
+        "step": 0.002,
+        "duration": 3,
+        "materials": {"steel": {"friction": 0.5}, "rod": {"friction": 0.4, "density": 1200}},
+        "bodies": bodies,
+        "drops": [{"name": "rod", "shape": cylinder(0.008, 0.016), "material": "rod",
+                   "count": count, "seed": 1, "lower": [-0.045, -0.08, 0.15],
+                   "upper": [0.045, -0.02, 0.5]}],
+        "joints": joints,
+        "needs": [{"need": "stays-in", "body": rod, "lower": [-0.12, -0.12, -0.12],
+                   "upper": [0.12, 0.12, 0.12], "from": 1} for rod in rods]
+                 + [{"need": "penetration", "metres": 0.006}],
+        "camera": {"position": [0.12, -0.42, 0.42], "look_at": [0, 0, -0.01]},
+    }
+
+
+def bowling():
+    r, half, tilt, turn = 0.02, 0.04, 6, 30  # of a can; degrees
+    away = turned([0, 0, 1], turn)
+    c, s = math.cos(math.radians(turn)), math.sin(math.radians(turn))
+    ct, st = math.cos(math.radians(tilt)), math.sin(math.radians(tilt))
+
+    def on_tray(x, y, z):
+        """A point of the tray's frame in the world: tilted about y, then turned about z."""
+        x, z = ct * x + st * z, -st * x + ct * z
+        return c * x - s * y, s * x + c * y, z
+
+    level = product(away, turned([0, 1, 0], tilt))
+    bodies = [fixed("tray", box(0.45, 0.2, 0.01), "wood", on_tray(0, 0, -0.01), level)]
+    cans = []
+    for row in range(3):
+        for i in range(row + 1):
+            cans.append(f"can-{row + 1}{'abc'[i]}")
+            bodies.append(body(cans[-1], cylinder(r, half), "can",
+                               on_tray(0.1 + 0.055 * row, 0.06 * (i - row / 2), half), level))
+    bodies.append(body("roller", cylinder(0.035, 0.05), "steel", on_tray(-0.4, 0.004, 0.036),
+                       product(level, ALONG_Y)))
+    return {
+        "description": "A heavy roller runs down a tilted, turned tray into six standing cans.",
+        "step": 0.002,
+        "duration": 2,
+        "materials": {"wood": {"friction": 0.4}, "steel": {"friction": 0.4, "density": 4000},
+                      "can": {"friction": 0.4, "density": 400}},
+        "bodies": bodies,
+        "needs": [{"need": "stands", "body": can, "degrees": tilt + 1, "until": 0.7} for can in cans]
+                 + [{"need": "falls-in-order", "bodies": ["can-1a"]},
+                    {"need": "penetration", "metres": 0.01}],
+        "camera": {"position": [0.75, -0.75, 0.5], "look_at": [0, 0, 0]},
+    }
+
+
 SCENES = {"thesis-spheres": thesis_spheres, "thesis-knock": thesis_knock,
           "wheel-on-road": wheel_on_road, "rod-in-corner": rod_in_corner, "log-pile": log_pile,
-          "pill-dispenser": pill_dispenser, "conveyor": conveyor}
+          "pill-dispenser": pill_dispenser, "conveyor": conveyor, "gripper": gripper,
+          "shelf-push": shelf_push, "rover": rover, "drum": drum, "bowling": bowling}
 
 
 def dump(value, indent=""):

@@ -14,6 +14,8 @@
 #include "properties/files/strict_json.hpp"
 #include "reference/invalid_input.hpp"
 #include "reference/support.hpp"
+#include "simulation/assembly.hpp"
+#include "simulation/scenes/mechanism_json.hpp"
 
 namespace touchstone {
 namespace {
@@ -55,11 +57,14 @@ std::map<std::string, NamedMaterial> read_materials(const json& file) {
   return result;
 }
 
-Body read_body(const json& value, const std::string& path,
-               const std::map<std::string, NamedMaterial>& materials) {
-  require_object(value, path);
-  refuse_others(
-      value, {"name", "shape", "material", "pose", "velocity", "angular_velocity", "fixed"}, path);
+bool read_bool(const json& value, const std::string& field) {
+  if (!value.is_boolean()) throw InvalidInput(field, shown(value), "must be true or false");
+  return value.get<bool>();
+}
+
+/// Reads name, shape and material.
+Body read_kind_of_body(const json& value, const std::string& path,
+                       const std::map<std::string, NamedMaterial>& materials) {
   Body body{string(member(value, "name", path), path + ".name"),
             shape_from_json(member(value, "shape", path), path + ".shape")};
   check_printable(path + ".name", body.name);
@@ -74,17 +79,27 @@ Body read_body(const json& value, const std::string& path,
     body.material = materials.at(name).material;
     body.density = materials.at(name).density;
   }
-  if (value.contains("pose")) body.pose = pose_from_json(value["pose"], path + ".pose");
-  if (value.contains("velocity")) body.velocity = vector(value["velocity"], path + ".velocity");
-  if (value.contains("angular_velocity")) {
-    body.angular_velocity = vector(value["angular_velocity"], path + ".angular_velocity");
-  }
-  if (value.contains("fixed")) {
-    if (!value["fixed"].is_boolean()) {
-      throw InvalidInput(path + ".fixed", shown(value["fixed"]), "must be true or false");
-    }
-    body.fixed = value["fixed"].get<bool>();
-  }
+  return body;
+}
+
+Body read_body(const json& value, const std::string& path,
+               const std::map<std::string, NamedMaterial>& materials) {
+  require_object(value, path);
+  refuse_others(value,
+                {"name", "shape", "material", "pose", "velocity", "angular_velocity", "fixed",
+                 "drive", "surface_velocity", "collides"},
+                path);
+  Body body = read_kind_of_body(value, path, materials);
+  const auto read = [&](const char* name, auto& member, auto reader) {
+    if (value.contains(name)) member = reader(value[name], path + '.' + name);
+  };
+  read("pose", body.pose, pose_from_json);
+  read("velocity", body.velocity, vector);
+  read("angular_velocity", body.angular_velocity, vector);
+  read("fixed", body.fixed, read_bool);
+  read("drive", body.drive, drive_from_json);
+  read("surface_velocity", body.surface_velocity, vector);
+  read("collides", body.collides, read_bool);
   return body;
 }
 
@@ -100,10 +115,10 @@ void each_of(const json& file, const char* name, Read read) {
 class NeedReader final : public NeedMembers {
  public:
   NeedReader(const json& value, std::string path, const Scene& scene)
-      : value_(value), path_(std::move(path)), scene_(scene) {}
+      : value_(value), path_(std::move(path)), scene_(scene), is_free_(moved_by_forces(scene)) {}
 
   void body(std::vector<int>& bodies) override {
-    bodies = {index(member(value_, "body", path_), at("body"))};
+    bodies = {body_index(member(value_, "body", path_), at("body"), scene_)};
     require_motion(bodies, value_["body"], at("body"));
   }
   void bodies(std::vector<int>& bodies) override {
@@ -118,7 +133,7 @@ class NeedReader final : public NeedMembers {
       return;
     }
     for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
-      if (!scene_.bodies[i].fixed) bodies.push_back(static_cast<int>(i));
+      if (is_free_[i]) bodies.push_back(static_cast<int>(i));
     }
   }
   /// One of them must be a cylinder: contacts of other pairs are not judged.
@@ -166,19 +181,15 @@ class NeedReader final : public NeedMembers {
  private:
   std::string at(const char* name) const { return path_ + '.' + name; }
 
-  /// What a need says of a motion, a fixed body would meet or break from the start.
+  /// What a need says of a motion, a fixed or driven body would meet or break whatever it meets.
   void require_motion(const std::vector<int>& bodies, const json& given,
                       const std::string& field) const {
     for (const int b : bodies) {
-      if (!scene_.bodies[b].fixed) continue;
-      throw InvalidInput(field, shown(given), "must move: " + scene_.bodies[b].name + " is fixed");
+      if (is_free_[b]) continue;
+      throw InvalidInput(
+          field, shown(given),
+          fmt::format("must be moved by forces: {} is fixed or driven", scene_.bodies[b].name));
     }
-  }
-  int index(const json& name, const std::string& field) const {
-    for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
-      if (name == scene_.bodies[i].name) return static_cast<int>(i);
-    }
-    throw InvalidInput(field, shown(name), "must be the name of one of the bodies");
   }
   std::vector<int> array(std::size_t min, std::size_t max) const {
     const json& names = member(value_, "bodies", path_);
@@ -190,7 +201,7 @@ class NeedReader final : public NeedMembers {
     }
     std::vector<int> result;
     for (std::size_t i = 0; i < names.size(); ++i) {
-      result.push_back(index(names[i], fmt::format("{}[{}]", at("bodies"), i)));
+      result.push_back(body_index(names[i], fmt::format("{}[{}]", at("bodies"), i), scene_));
     }
     return result;
   }
@@ -198,6 +209,7 @@ class NeedReader final : public NeedMembers {
   const json& value_;
   std::string path_;
   const Scene& scene_;
+  const std::vector<bool> is_free_;  ///< by body
 };
 
 /// Describes the members of a need as JSON Schema.
@@ -314,7 +326,7 @@ SceneFile scene_from_text(std::string_view text, const std::filesystem::path& pa
   require_object(file, "scene");
   refuse_others(file,
                 {"$schema", "description", "gravity", "step", "duration", "surface_layer",
-                 "materials", "bodies", "needs", "camera"},
+                 "materials", "bodies", "drops", "joints", "pushes", "needs", "camera"},
                 "");
   SceneFile result;
   result.name = readable(path.stem().string());
@@ -330,6 +342,23 @@ SceneFile scene_from_text(std::string_view text, const std::filesystem::path& pa
   each_of(file, "bodies", [&](const json& value, const std::string& field) {
     scene.bodies.push_back(read_body(value, field, materials));
   });
+  if (file.contains("drops")) {
+    each_of(file, "drops", [&](const json& value, const std::string& field) {
+      require_object(value, field);
+      refuse_others(value, {"name", "shape", "material", "count", "seed", "lower", "upper"}, field);
+      add_drop(value, field, read_kind_of_body(value, field, materials), scene);
+    });
+  }
+  if (file.contains("joints")) {
+    each_of(file, "joints", [&](const json& value, const std::string& field) {
+      scene.joints.push_back(joint_from_json(value, field, scene));
+    });
+  }
+  if (file.contains("pushes")) {
+    each_of(file, "pushes", [&](const json& value, const std::string& field) {
+      scene.pushes.push_back(push_from_json(value, field, scene));
+    });
+  }
   constexpr std::size_t max_bodies = 1000;  // each step tests all pairs
   if (scene.bodies.size() > max_bodies) {
     throw InvalidInput("bodies", fmt::format("{} bodies", scene.bodies.size()),

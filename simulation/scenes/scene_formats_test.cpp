@@ -5,6 +5,7 @@
 #include <fstream>
 #include <gmock/gmock.h>
 #include <iterator>
+#include <numbers>
 #include <set>
 #include <sstream>
 #include <unistd.h>
@@ -17,6 +18,7 @@
 #include "properties/files/strict_json.hpp"
 #include "properties/numbers.hpp"
 #include "reference/invalid_input.hpp"
+#include "reference/support.hpp"
 #include "simulation/scenes/choose.hpp"
 #include "simulation/scenes/scene_file.hpp"
 #include "simulation/scenes/trajectory.hpp"
@@ -153,8 +155,156 @@ TEST(SceneFile, RefusesNeedsThatWouldHoldOrBreakWhateverMoves) {
         json{{"need", "ends-near"}, {"body", "ground"}, {"metres", 1}},
         json{{"need", "ends-tilted"}, {"body", "ground"}, {"degrees", 1}},
         json{{"need", "falls-in-order"}, {"bodies", {"ground"}}}}) {
-    EXPECT_THAT(refusal(need(of_ground)), HasSubstr("must move: ground is fixed")) << of_ground;
+    EXPECT_THAT(refusal(need(of_ground)), HasSubstr("must be moved by forces: ground is fixed"))
+        << of_ground;
   }
+}
+
+json gripper_scene() {
+  return json::parse(R"({
+    "duration": 2,
+    "bodies": [
+      {"name": "hand", "shape": {"shape": "box", "half_extents": [0.1, 0.1, 0.1]},
+       "drive": {"waypoints": [{"time": 1, "pose": {"position": [0, 0, 1]}},
+                                {"time": 1.5, "pose": {"position": [1, 0, 1]}}]}},
+      {"name": "finger", "shape": {"shape": "box", "half_extents": [0.01, 0.02, 0.05]},
+       "pose": {"position": [0, 0, -0.2]}},
+      {"name": "belt", "shape": {"shape": "plane", "normal": [0, 0, 1], "displacement": -1},
+       "fixed": true, "surface_velocity": [0.5, 0, 0]},
+      {"name": "shaker", "shape": {"shape": "box", "half_extents": [0.1, 0.1, 0.1]},
+       "pose": {"position": [5, 0, 0]}, "collides": false,
+       "drive": {"oscillation": {"amplitude": [0.1, 0, 0], "turn": [0, 0, 90], "frequency": 3}}},
+      {"name": "drum", "shape": {"shape": "cylinder", "radius": 0.1, "half_length": 0.2},
+       "pose": {"position": [-5, 0, 0]}, "drive": {"angular_velocity": [0, 0, 2]}}],
+    "drops": [{"name": "rod", "shape": {"shape": "cylinder", "radius": 0.01, "half_length": 0.05},
+               "count": 20, "seed": 3, "lower": [-0.3, -0.3, 0.3], "upper": [0.3, 0.3, 0.9]}],
+    "joints": [
+      {"joint": "slider", "name": "squeeze", "bodies": ["finger", "hand"], "axis": [0, 3, 0],
+       "limits": [-0.01, 0.02], "motor": {"position": [[0, 0], [1, 0.02]], "max_force": 5}},
+      {"joint": "hinge", "bodies": ["rod-1"], "anchor": [0, 0, 1], "axis": [0, 0, -2],
+       "limits": [-90, 180], "motor": {"rate": 4, "max_force": 1}},
+      {"joint": "fixed", "bodies": ["rod-2", "rod-3"]}],
+    "pushes": [{"body": "rod-4", "force": [1, 0, 0], "torque": [0, 0, 2], "from": 0.5, "until": 1}]
+    })");
+}
+
+TEST(SceneFile, HoldsWhatMovesItsBodies) {
+  const Scene scene = scene_from_text(gripper_scene().dump(), "gripper.json").scene;
+  ASSERT_EQ(scene.bodies.size(), 25U);
+  const auto& waypoints = std::get<Waypoints>(*scene.bodies[0].drive);
+  ASSERT_EQ(waypoints.size(), 2U);
+  EXPECT_EQ(waypoints[1].time, 1.5);
+  EXPECT_EQ(waypoints[1].pose.position(), Vec3(1, 0, 1));
+  EXPECT_EQ(scene.bodies[2].surface_velocity, Vec3(0.5, 0, 0));
+  const auto& shaker = std::get<Oscillation>(*scene.bodies[3].drive);
+  EXPECT_FALSE(scene.bodies[3].collides);
+  EXPECT_NEAR(shaker.turn.z(), std::numbers::pi / 2, 1e-15);
+  EXPECT_EQ(shaker.amplitude.x(), 0.1);
+  EXPECT_EQ(shaker.frequency, 3);
+  EXPECT_EQ(std::get<SteadyMotion>(*scene.bodies[4].drive).angular_velocity, Vec3(0, 0, 2));
+  ASSERT_EQ(scene.joints.size(), 3U);
+  const Joint &slider = scene.joints[0], &hinge = scene.joints[1], &rigid = scene.joints[2];
+  EXPECT_EQ(slider.kind, JointKind::slider);
+  EXPECT_EQ(slider.name, "squeeze");
+  EXPECT_EQ(slider.a, 1);
+  EXPECT_EQ(slider.b, 0);
+  EXPECT_EQ(slider.axis, Vec3(0, 1, 0));
+  EXPECT_EQ(slider.upper, 0.02);
+  EXPECT_EQ(slider.motor->target, Motor::Target::position);
+  EXPECT_EQ(slider.motor->target_at(0.5), 0.01);
+  EXPECT_EQ(hinge.b, world_body);
+  EXPECT_EQ(hinge.anchor, Vec3(0, 0, 1));
+  EXPECT_NEAR(hinge.lower, -std::numbers::pi / 2, 1e-15);
+  EXPECT_EQ(hinge.motor->target_at(7), 4);
+  EXPECT_EQ(rigid.kind, JointKind::fixed);
+  EXPECT_EQ(scene.pushes[0].body, 8);
+  EXPECT_EQ(scene.pushes[0].torque, Vec3(0, 0, 2));
+  EXPECT_EQ(scene.pushes[0].until, 1);
+}
+
+TEST(SceneFile, DropsItsBodiesApartWithinTheirBoxBySeed) {
+  json file = gripper_scene();
+  const auto poses = [&] {
+    std::vector<Body> rods = scene_from_text(file.dump(), "drop.json").scene.bodies;
+    rods.erase(rods.begin(), rods.begin() + 5);
+    return rods;
+  };
+  const std::vector<Body> rods = poses();
+  EXPECT_EQ(rods.front().name, "rod-1");
+  EXPECT_EQ(rods.back().name, "rod-20");
+  for (std::size_t i = 0; i < rods.size(); ++i) {
+    const Aabb box = aabb(rods[i].shape, rods[i].pose);
+    EXPECT_GE((box.lower - Vec3(-0.3, -0.3, 0.3)).minCoeff(), 0);
+    EXPECT_LE((box.upper - Vec3(0.3, 0.3, 0.9)).maxCoeff(), 0);
+    for (std::size_t j = 0; j < i; ++j) {
+      EXPECT_FALSE(box.overlaps(aabb(rods[j].shape, rods[j].pose)));
+    }
+  }
+  EXPECT_EQ(poses()[7].pose.position(), rods[7].pose.position());
+  file["drops"][0]["seed"] = 4;
+  EXPECT_NE(poses()[7].pose.position(), rods[7].pose.position());
+}
+
+TEST(SceneFile, ErrorsOfWhatMovesItsBodiesNameThePathOfTheField) {
+  const auto refusal_at = [](const char* pointer, const json& value) {
+    json scene = gripper_scene();
+    scene[json::json_pointer(pointer)] = value;
+    try {
+      scene_from_text(scene.dump(), "gripper.json");
+    } catch (const InvalidInput& e) {
+      return std::string(e.what());
+    }
+    return std::string("accepted");
+  };
+  EXPECT_THAT(refusal_at("/bodies/0/velocity", {1, 0, 0}),
+              HasSubstr("bodies[0].velocity is not zero: must be zero, for the body is driven"));
+  EXPECT_THAT(refusal_at("/bodies/2/velocity", {1, 0, 0}),
+              HasSubstr("bodies[2].velocity is not zero: must be zero, for the body is fixed"));
+  EXPECT_THAT(refusal_at("/bodies/0/fixed", true), HasSubstr("bodies[0].fixed"));
+  EXPECT_THAT(refusal_at("/bodies/0/drive", json::object()),
+              HasSubstr("bodies[0].drive is {}: must have one of"));
+  EXPECT_THAT(refusal_at("/bodies/0/drive/velocity", {1, 0, 0}), HasSubstr("must have one of"));
+  EXPECT_THAT(refusal_at("/bodies/0/drive/waypoints", json::array()),
+              HasSubstr("bodies[0].drive.waypoints is empty"));
+  EXPECT_THAT(refusal_at("/bodies/0/drive/waypoints/1/time", 0.5),
+              HasSubstr("bodies[0].drive.waypoints[1].time is 0.5: must be later than 1"));
+  EXPECT_THAT(refusal_at("/bodies/3/drive/oscillation/frequency", -1),
+              HasSubstr("frequency is -1: must lie between 0 and"));
+  EXPECT_THAT(refusal_at("/bodies/2/surface_velocity", {1, 2}),
+              HasSubstr("bodies[2].surface_velocity"));
+  EXPECT_THAT(refusal_at("/bodies/3/collides", 1), HasSubstr("bodies[3].collides is 1"));
+  EXPECT_THAT(refusal_at("/joints/0/joint", "ball"),
+              HasSubstr("joints[0].joint is \"ball\": must be \"fixed\", \"hinge\" or"));
+  EXPECT_THAT(refusal_at("/joints/0/bodies", {"finger", "thumb"}),
+              HasSubstr("joints[0].bodies[1] is \"thumb\": must be the name of one"));
+  EXPECT_THAT(refusal_at("/joints/0/bodies", {"hand", "hand"}), HasSubstr("joints[0] is one body"));
+  EXPECT_THAT(refusal_at("/joints/0/bodies", json::array()), HasSubstr("joints[0].bodies is []"));
+  EXPECT_THAT(refusal_at("/joints/0/axis", {0, 0, 0}), HasSubstr("must have a direction"));
+  EXPECT_THAT(refusal_at("/joints/0/anchor", {0, 0, 0}), HasSubstr("a slider has none"));
+  EXPECT_THAT(refusal_at("/joints/0/limits", {0.01, 0.02}), HasSubstr("must hold 0"));
+  EXPECT_THAT(refusal_at("/joints/1/limits", {-90, 270}),
+              HasSubstr("joints[1].limits[1] is 270: must lie between -180 and 180"));
+  EXPECT_THAT(refusal_at("/joints/0/motor/rate", 1),
+              HasSubstr("must have either a rate or a position"));
+  EXPECT_THAT(refusal_at("/joints/0/motor/max_force", -1), HasSubstr("motor.max_force is -1"));
+  EXPECT_THAT(refusal_at("/joints/0/motor/position", json::array()),
+              HasSubstr("joints[0].motor is without a target"));
+  EXPECT_THAT(refusal_at("/joints/0/motor/position/1", {-1, 0}),
+              HasSubstr("joints[0].motor: time"));
+  EXPECT_THAT(refusal_at("/joints/2/axis", {0, 0, 1}), HasSubstr("joints[2].axis"));
+  EXPECT_THAT(refusal_at("/joints/2/bodies", {"rod-2", "belt"}), HasSubstr("accepted"));
+  EXPECT_THAT(refusal_at("/joints/2/bodies", {"drum", "hand"}),
+              HasSubstr("bodies[4].drive is given: must not be: fixed joints make drum one with"));
+  EXPECT_THAT(refusal_at("/joints/2/bodies", {"drum", "belt"}), HasSubstr("what is fixed"));
+  EXPECT_THAT(refusal_at("/pushes/0/until", 0.25), HasSubstr("pushes[0].until is 0.25"));
+  EXPECT_THAT(refusal_at("/pushes/0/force", {1e13, 0, 0}), HasSubstr("pushes[0].force[0]"));
+  EXPECT_THAT(refusal_at("/pushes/0/body", "nobody"), HasSubstr("pushes[0].body is \"nobody\""));
+  EXPECT_THAT(refusal_at("/drops/0/upper", {-0.2, -0.2, 0.4}),
+              HasSubstr("drops[0].count is 20: the box has room for"));
+  EXPECT_THAT(refusal_at("/drops/0/upper", {0.3, 0.3, 0.3}), HasSubstr("drops[0].upper"));
+  EXPECT_THAT(refusal_at("/drops/0/count", -1), HasSubstr("drops[0].count is -1"));
+  EXPECT_THAT(refusal_at("/bodies/3/name", "rod-7"), HasSubstr("bodies[11].name is \"rod-7\""));
+  EXPECT_THAT(refusal_at("/drops/0/pose", json::object()), HasSubstr("drops[0].pose"));
 }
 
 TEST(SceneFile, IsAtLeastAStepLong) {
@@ -195,7 +345,7 @@ TEST(SceneFile, ShippedScenesAreReadAndSayWhatTheyNeed) {
     EXPECT_FALSE(file.description.empty());
     ++count;
   }
-  EXPECT_EQ(count, 7);
+  EXPECT_EQ(count, 12);
 }
 
 // TOUCHSTONE_WRITE_SCHEMA=1 writes the file.

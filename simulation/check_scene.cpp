@@ -1,0 +1,244 @@
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+#include <numbers>
+#include <set>
+#include <utility>
+
+#include "reference/invalid_input.hpp"
+#include "simulation/assembly.hpp"
+#include "simulation/scene.hpp"
+
+namespace touchstone {
+namespace {
+
+using std::numbers::pi;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Bounds for moving bodies, metres and kg/m³, within which masses and moments of inertia keep all
+/// their digits.
+constexpr double min_half_width = 1e-6, min_density = 1e-6, max_density = 1e9;
+/// Bound on the ratio of the smallest to the largest moment of inertia: that of a rod a million
+/// times as long as wide.
+constexpr double min_inertia_ratio = 1e-12;
+constexpr double max_friction = 1e6;
+/// Seconds.
+constexpr double min_step = 1e-6, max_step = 1;
+/// Bounds on a quaternion's entries, whose squares must not overflow or vanish.
+constexpr double min_length = 1e-100, max_length = 1e100;
+/// Bounds on forces and torques (N, N m), the frequency of an oscillation (Hz), and times (s).
+constexpr double max_force = 1e12, max_frequency = 1e6, max_time = 1e9;
+
+void check_between(const std::string& field, double value, double min, double max) {
+  if (value >= min && value <= max) return;  // false for NaN
+  throw InvalidInput(field, fmt::format("{}", value),
+                     fmt::format("must lie between {} and {}", min, max));
+}
+
+void check_vector(const std::string& field, const Vec3& v) {
+  for (int i = 0; i < 3; ++i) {
+    check_between(fmt::format("{}[{}]", field, i), v[i], -max_in_world, max_in_world);
+  }
+}
+
+void check_shape(const std::string& field, const Body& body) {
+  if (const auto* plane = std::get_if<Plane>(&body.shape)) {
+    check_between(field + ".displacement", plane->unit_displacement(), -max_in_world, max_in_world);
+    return;
+  }
+  const double smallest = smallest_half_extent(body.shape);
+  const double largest = largest_half_extent(body.shape);
+  if (!(smallest >= min_half_width && largest <= max_in_world)) {
+    throw InvalidInput(field, fmt::format("{} to {} m in half width", smallest, largest),
+                       fmt::format("must be from {} to {} m", min_half_width, max_in_world));
+  }
+  if (!body.is_free()) return;
+  const Vec3 moments = inertia(body.shape, body.density).principal;
+  if (!(moments.minCoeff() >= min_inertia_ratio * moments.maxCoeff())) {
+    throw InvalidInput(field, fmt::format("{} to {} m in half width", smallest, largest),
+                       "must be thicker for its length to be turned");
+  }
+}
+
+void check_pose(const std::string& field, const Pose& pose) {
+  check_vector(field + ".position", pose.position());
+  check_between(field + ".orientation", pose.orientation().coeffs().cwiseAbs().maxCoeff(),
+                min_length, max_length);
+}
+
+struct CheckDrive {
+  const std::string& field;
+
+  void operator()(const SteadyMotion& m) const {
+    check_vector(field + ".velocity", m.velocity);
+    check_vector(field + ".angular_velocity", m.angular_velocity);
+  }
+  void operator()(const Oscillation& o) const {
+    check_vector(field + ".amplitude", o.amplitude);
+    check_vector(field + ".turn", o.turn);
+    check_between(field + ".frequency", o.frequency, 0, max_frequency);
+  }
+  void operator()(const Waypoints& waypoints) const {
+    double before = 0;
+    for (std::size_t i = 0; i < waypoints.size(); ++i) {
+      const std::string at = fmt::format("{}.waypoints[{}]", field, i);
+      const double time = waypoints[i].time;
+      check_between(at + ".time", time, 0, max_time);
+      if (!(time > before)) {
+        throw InvalidInput(at + ".time", fmt::format("{}", time),
+                           fmt::format("must be later than {}", before));
+      }
+      before = time;
+      check_pose(at + ".pose", waypoints[i].pose);
+    }
+  }
+};
+
+/// Velocities of a body that forces do not move would have no effect.
+void check_at_rest(const std::string& field, const Body& body) {
+  if (body.is_free()) return;
+  const char* remedy = body.fixed
+                           ? "must be zero, for the body is fixed; a body that moves whatever "
+                             "meets it is driven"
+                           : "must be zero, for the body is driven";
+  if (!body.velocity.isZero(0)) throw InvalidInput(field + ".velocity", "not zero", remedy);
+  if (!body.angular_velocity.isZero(0)) {
+    throw InvalidInput(field + ".angular_velocity", "not zero", remedy);
+  }
+}
+
+void check_body(const std::string& field, const Body& body) {
+  const Material& m = body.material;
+  if (body.is_free()) check_between(field + ".density", body.density, min_density, max_density);
+  check_between(field + ".friction", m.friction, 0, max_friction);
+  check_between(field + ".restitution", m.restitution, 0, 1);
+  check_pose(field + ".pose", body.pose);
+  check_vector(field + ".velocity", body.velocity);
+  check_vector(field + ".angular_velocity", body.angular_velocity);
+  check_vector(field + ".surface_velocity", body.surface_velocity);
+  check_at_rest(field, body);
+  if (body.drive) {
+    if (body.fixed) throw InvalidInput(field + ".fixed", "true", "must be false, for it is driven");
+    std::visit(CheckDrive{field + ".drive"}, *body.drive);
+  }
+  check_shape(field + ".shape", body);
+  if (!body.fixed && inertia(body.shape, body.density).mass == 0) {
+    throw InvalidInput(field + ".fixed", "false",
+                       fmt::format("a {} has no mass and must be fixed", shape_name(body.shape)));
+  }
+}
+
+void check_index(const std::string& field, int index, int from, const Scene& scene) {
+  if (index >= from && index < static_cast<int>(scene.bodies.size())) return;
+  throw InvalidInput(field, fmt::format("{}", index), "must be the index of a body");
+}
+
+void check_motor(const std::string& field, const Motor& motor) {
+  check_between(field + ".max_force", motor.max_force, 0, max_force);
+  if (motor.course.empty()) throw InvalidInput(field, "without a target", "must have one");
+  double before = -infinity;
+  for (const auto& [time, target] : motor.course) {
+    check_between(field + ": time", time, 0, max_time);
+    check_between(field + ": target", target, -max_in_world, max_in_world);
+    if (!(time > before)) {
+      throw InvalidInput(field + ": time", fmt::format("{}", time),
+                         fmt::format("must be later than {}", before));
+    }
+    before = time;
+  }
+}
+
+void check_joint(const std::string& field, const Joint& joint, const Scene& scene) {
+  check_index(field + ".a", joint.a, 0, scene);
+  check_index(field + ".b", joint.b, world_body, scene);
+  if (joint.a == joint.b) throw InvalidInput(field, "one body", "must join two");
+  if (joint.kind == JointKind::fixed) {
+    if (joint.motor) throw InvalidInput(field + ".motor", "given", "must not be: it is fixed");
+    return;
+  }
+  check_vector(field + ".anchor", joint.anchor);
+  constexpr double rounding = 1e-6;
+  if (!(std::abs(joint.axis.norm() - 1) < rounding)) {
+    throw InvalidInput(field + ".axis", fmt::format("{} long", joint.axis.norm()),
+                       "must have unit length");
+  }
+  const double max = joint.kind == JointKind::hinge ? pi : max_in_world;
+  for (const auto& [name, limit] :
+       {std::pair{".lower", joint.lower}, std::pair{".upper", joint.upper}}) {
+    if (!std::isinf(limit)) check_between(field + name, limit, -max, max);
+  }
+  if (!(joint.lower <= 0 && joint.upper >= 0)) {
+    throw InvalidInput(field + ".limits", fmt::format("[{}, {}]", joint.lower, joint.upper),
+                       "must hold 0, where the joint is at the start");
+  }
+  if (joint.motor) check_motor(field + ".motor", *joint.motor);
+}
+
+/// What is joined rigidly must move as one at the start, and by one drive at most.
+void check_assembly(const Assembly& assembly, const Scene& scene) {
+  const Body& first = scene.bodies[assembly.bodies.front()];
+  int driven = -1;
+  for (const int b : assembly.bodies) {
+    const Body& body = scene.bodies[b];
+    const std::string field = fmt::format("bodies[{}]", b);
+    if (body.drive && (assembly.fixed || driven >= 0)) {
+      throw InvalidInput(field + ".drive", "given",
+                         fmt::format("must not be: fixed joints make {} one with {}", body.name,
+                                     driven >= 0 ? scene.bodies[driven].name : "what is fixed"));
+    }
+    if (body.drive) driven = b;
+    if (!assembly.is_free()) continue;
+    const Vec3 arm = body.pose.position() - first.pose.position();
+    const Vec3 difference = body.velocity - first.velocity - first.angular_velocity.cross(arm);
+    const double rounding = 1e-6 * (1 + first.velocity.norm());
+    if (difference.norm() > rounding ||
+        (body.angular_velocity - first.angular_velocity).norm() > rounding) {
+      throw InvalidInput(
+          field + ".velocity", fmt::format("{} m/s off", difference.norm()),
+          "must be that of " + first.name + ", which a fixed joint makes one with " + body.name);
+    }
+  }
+}
+
+}  // namespace
+
+void check_scene(const Scene& scene) {
+  if (scene.bodies.empty()) throw InvalidInput("bodies", "empty", "must hold at least one body");
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const std::string field = fmt::format("bodies[{}]", i);
+    check_body(field, scene.bodies[i]);
+    if (!names.insert(scene.bodies[i].name).second) {
+      throw InvalidInput(field + ".name", '"' + scene.bodies[i].name + '"',
+                         "must be another one: two bodies have this name");
+    }
+  }
+  for (std::size_t i = 0; i < scene.joints.size(); ++i) {
+    check_joint(fmt::format("joints[{}]", i), scene.joints[i], scene);
+  }
+  for (const Assembly& assembly : assemblies(scene)) check_assembly(assembly, scene);
+  for (std::size_t i = 0; i < scene.pushes.size(); ++i) {
+    const Push& push = scene.pushes[i];
+    const std::string field = fmt::format("pushes[{}]", i);
+    check_index(field + ".body", push.body, 0, scene);
+    for (int k = 0; k < 3; ++k) {
+      check_between(fmt::format("{}.force[{}]", field, k), push.force[k], -max_force, max_force);
+      check_between(fmt::format("{}.torque[{}]", field, k), push.torque[k], -max_force, max_force);
+    }
+    check_between(field + ".from", push.from, 0, max_time);
+    if (!(push.until > push.from)) {
+      throw InvalidInput(field + ".until", fmt::format("{}", push.until),
+                         fmt::format("must be later than {}", push.from));
+    }
+  }
+  check_vector("gravity", scene.gravity);
+  check_between("step", scene.step, min_step, max_step);
+  check_between("duration", scene.duration, 0, max_in_world);
+  check_between("surface_layer", scene.surface_layer, 0, max_in_world);
+  if (scene.solver_iterations < 1) {
+    throw InvalidInput("solver_iterations", fmt::format("{}", scene.solver_iterations),
+                       "must be at least 1");
+  }
+}
+
+}  // namespace touchstone

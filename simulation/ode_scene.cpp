@@ -1,0 +1,132 @@
+#include "simulation/ode_scene.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace touchstone {
+namespace {
+
+constexpr double error_reduction = 0.2;  // of a motor that holds a position, per step
+
+/// ODE's shape of a body, in the body's frame.
+struct MakeGeom {
+  dSpaceID space;
+
+  dGeomID operator()(const Cylinder& s) const {
+    return dCreateCylinder(space, s.radius(), 2 * s.half_length());
+  }
+  dGeomID operator()(const Plane& s) const {
+    return dCreatePlane(space, s.normal().x(), s.normal().y(), s.normal().z(), s.displacement());
+  }
+  dGeomID operator()(const Sphere& s) const { return dCreateSphere(space, s.radius()); }
+  dGeomID operator()(const Capsule& s) const {
+    return dCreateCapsule(space, s.radius(), 2 * s.half_length());
+  }
+  dGeomID operator()(const Box& s) const {
+    const Vec3 side = 2 * s.half_extents();
+    return dCreateBox(space, side.x(), side.y(), side.z());
+  }
+};
+
+/// The posed plane in world coordinates.
+Plane in_world(const Plane& plane, const Pose& pose) {
+  const Vec3 normal = (pose.rotation() * plane.unit_normal()).normalized();
+  return Plane(normal, plane.unit_displacement() + normal.dot(pose.position()));
+}
+
+}  // namespace
+
+OdeQuaternion::OdeQuaternion(const Pose& pose) {
+  const Eigen::Quaterniond q = pose.unit_orientation();
+  wxyz[0] = q.w(), wxyz[1] = q.x(), wxyz[2] = q.y(), wxyz[3] = q.z();
+}
+
+dBodyID make_ode_body(dWorldID world, const Assembly& assembly) {
+  if (assembly.fixed) return nullptr;
+  const dBodyID made = dBodyCreate(world);
+  if (!assembly.is_free()) {
+    dBodySetKinematic(made);
+    return made;
+  }
+  const Vec3& i = assembly.inertia.principal;
+  dMass mass;
+  dMassSetParameters(&mass, assembly.inertia.mass, 0, 0, 0, i.x(), i.y(), i.z(), 0, 0, 0);
+  dBodySetMass(made, &mass);
+  return made;
+}
+
+dGeomID make_ode_geom(dSpaceID space, const Body& body, dBodyID moving, const Pose& X_FB) {
+  if (const auto* plane = std::get_if<Plane>(&body.shape)) {
+    return MakeGeom{space}(in_world(*plane, body.pose));
+  }
+  const dGeomID made = std::visit(MakeGeom{space}, body.shape);
+  if (moving) {
+    const Vec3& p = X_FB.position();
+    dGeomSetBody(made, moving);
+    if (p.isZero(0) && X_FB.rotation().isIdentity(0)) return made;
+    dGeomSetOffsetPosition(made, p.x(), p.y(), p.z());
+    dGeomSetOffsetQuaternion(made, OdeQuaternion(X_FB).wxyz);
+    return made;
+  }
+  const Vec3& p = body.pose.position();
+  dGeomSetPosition(made, p.x(), p.y(), p.z());
+  dGeomSetQuaternion(made, OdeQuaternion(body.pose).wxyz);
+  return made;
+}
+
+dJointID make_ode_joint(dWorldID world, const Joint& joint, dBodyID a, dBodyID b) {
+  if (joint.kind == JointKind::fixed || (!a && !b)) return nullptr;
+  const bool is_turned = !a;
+  // ODE measures from its first body, which must not be null.
+  if (is_turned) std::swap(a, b);
+  const Vec3 &p = joint.anchor, axis = is_turned ? Vec3(-joint.axis) : joint.axis;
+  if (joint.kind == JointKind::hinge) {
+    const dJointID made = dJointCreateHinge(world, nullptr);
+    dJointAttach(made, a, b);
+    dJointSetHingeAnchor(made, p.x(), p.y(), p.z());
+    dJointSetHingeAxis(made, axis.x(), axis.y(), axis.z());
+    dJointSetHingeParam(made, dParamLoStop, joint.lower);
+    dJointSetHingeParam(made, dParamHiStop, joint.upper);
+    return made;
+  }
+  const dJointID made = dJointCreateSlider(world, nullptr);
+  dJointAttach(made, a, b);
+  dJointSetSliderAxis(made, axis.x(), axis.y(), axis.z());
+  dJointSetSliderParam(made, dParamLoStop, joint.lower);
+  dJointSetSliderParam(made, dParamHiStop, joint.upper);
+  return made;
+}
+
+void run_motor(dJointID made, const Joint& joint, double time, double step) {
+  if (!joint.motor) return;
+  const bool turns = joint.kind == JointKind::hinge;
+  const double now = joint.motor->target_at(time);
+  double rate = now;
+  if (joint.motor->target == Motor::Target::position) {
+    const double position = turns ? dJointGetHingeAngle(made) : dJointGetSliderPosition(made);
+    const double error =
+        turns ? std::remainder(now - position, 2 * std::numbers::pi) : now - position;
+    rate = (joint.motor->target_at(time + step) - now + error_reduction * error) / step;
+  }
+  const auto set = turns ? dJointSetHingeParam : dJointSetSliderParam;
+  set(made, dParamVel, rate);
+  set(made, dParamFMax, joint.motor->max_force);
+}
+
+void place(dBodyID body, const BodyState& state) {
+  const Vec3 &p = state.pose.position(), &v = state.velocity, &w = state.angular_velocity;
+  dBodySetPosition(body, p.x(), p.y(), p.z());
+  dBodySetQuaternion(body, OdeQuaternion(state.pose).wxyz);
+  dBodySetLinearVel(body, v.x(), v.y(), v.z());
+  dBodySetAngularVel(body, w.x(), w.y(), w.z());
+}
+
+BodyState state_of(dBodyID body) {
+  const auto vector = [](const dReal* v) { return Vec3(v[0], v[1], v[2]); };
+  const dReal* q = dBodyGetQuaternion(body);
+  return {Pose(vector(dBodyGetPosition(body)), Eigen::Quaterniond(q[0], q[1], q[2], q[3])),
+          vector(dBodyGetLinearVel(body)), vector(dBodyGetAngularVel(body))};
+}
+
+}  // namespace touchstone
