@@ -66,6 +66,8 @@ int choose_for_engine(const Options& options) {
   write_file(options.out + "/choose.json", engine_choice_json(choice, command, 1) + '\n', "--out");
   fmt::print("{}", options.json ? engine_choice_json(choice, command) + '\n'
                                 : engine_choice_text(choice, standard_output().columns));
+  write_file(options.out + "/choose.html", choice_page(choice, command), "--out");
+  if (!options.json) fmt::print("\nPage: {0}/choose.html; data: {0}/choose.json\n", options.out);
   return choice.answer ? 0 : not_served;
 }
 

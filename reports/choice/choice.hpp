@@ -64,6 +64,8 @@ std::string choice_text(const Choice& choice, const std::string& folder, std::si
 std::string pairs_text(const PairsChoice& choice, const std::string& folder,
                        std::size_t columns = 80);
 
+/// "capsule"; with several sizes "capsule; hull:16".
+std::string setting_name(const EngineSetting& setting);
 std::string engine_choice_text(const EngineChoice& choice, std::size_t columns = 80);
 
 /// Breaks what is wider than a terminal between words, the rest further in. Commands stay whole, to
@@ -85,6 +87,7 @@ std::string engine_choice_json(const EngineChoice& choice, const std::string& co
 /// One self-contained page with the exact run and others in motion; runs the scene again for them.
 std::string choice_page(const Choice& choice, const std::string& command, const std::string& folder,
                         const Limits& limits);
+std::string choice_page(const EngineChoice& choice, const std::string& command);
 
 /// Writes the configurations of failures. Throws InvalidInput (field "--out") where that fails.
 void write_evidence(const Choice& choice, const std::string& folder);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -17,14 +18,6 @@ using nlohmann::json;
 const Cylinder& cylinder_of(const EngineChoice& choice, std::size_t size) {
   return std::get<Cylinder>(
       choice.file.scene.bodies[static_cast<std::size_t>(choice.sizes[size].bodies[0])].shape);
-}
-
-/// "capsule"; with several sizes "capsule, hull:16".
-std::string name_of(const EngineSetting& setting) {
-  std::vector<std::string> names;
-  for (const EngineShape& shape : setting.shapes) names.push_back(engine_shape_name(shape));
-  const bool is_uniform = std::equal(names.begin() + 1, names.end(), names.begin());
-  return is_uniform ? names[0] : fmt::format("{}", fmt::join(names, "; "));
 }
 
 std::string bodies_of(const EngineChoice& choice, const CylinderSize& size) {
@@ -77,8 +70,9 @@ std::string headline(const EngineChoice& choice) {
         "less than nine tenths of that.\n",
         choice.engine.name, microseconds(usual));
   } else {
-    lines = fmt::format("{}: {} µs a step{}, {:.1f} contact points instead of {:.1f}.\n",
-                        name_of(answer), microseconds(answer), took, answer.points, usual.points);
+    lines =
+        fmt::format("{}: {} µs a step{}, {:.1f} contact points instead of {:.1f}.\n",
+                    setting_name(answer), microseconds(answer), took, answer.points, usual.points);
     lines += usual.holds()
                  ? "The default cylinder meets all needs, too.\n"
                  : fmt::format("The default cylinder breaks\n  {}\n", failure(choice, usual));
@@ -115,7 +109,7 @@ json setting_json(const EngineChoice& choice, const EngineSetting& setting) {
                         {"holds", v.holds()}});
   }
   const double error = setting.error();
-  return {{"name", name_of(setting)},
+  return {{"name", setting_name(setting)},
           {"shapes", shapes},
           {"step_microseconds",
            setting.step_seconds ? json(*setting.step_seconds * 1e6) : json(nullptr)},
@@ -132,6 +126,13 @@ json setting_json(const EngineChoice& choice, const EngineSetting& setting) {
 }
 
 }  // namespace
+
+std::string setting_name(const EngineSetting& setting) {
+  std::vector<std::string> names;
+  for (const EngineShape& shape : setting.shapes) names.push_back(engine_shape_name(shape));
+  const bool is_uniform = std::equal(names.begin() + 1, names.end(), names.begin());
+  return is_uniform ? names[0] : fmt::format("{}", fmt::join(names, "; "));
+}
 
 std::string engine_choice_text(const EngineChoice& choice, std::size_t columns) {
   const SceneFile& file = choice.file;
@@ -159,7 +160,7 @@ std::string engine_choice_text(const EngineChoice& choice, std::size_t columns) 
   if (choice.answer) text += lines_to_paste(choice);
   text += "\nAll that was run          µs/step points  breaks first\n";
   for (const EngineSetting& s : choice.settings) {
-    text += fmt::format("  {:<24} {:>6} {:>6.1f}  {}\n", name_of(s), microseconds(s), s.points,
+    text += fmt::format("  {:<24} {:>6} {:>6.1f}  {}\n", setting_name(s), microseconds(s), s.points,
                         s.holds() ? "" : first_failure(s));
   }
   return text;
