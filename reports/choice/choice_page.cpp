@@ -65,8 +65,8 @@ std::optional<Parting> parting(const Scene& scene, const std::vector<float>& one
     const bool leans =
         !std::holds_alternative<Sphere>(body.shape) && a.axis().dot(b.axis()) < min_cosine;
     if (leans || apart > far * 2 * smallest_half_extent(body.shape)) {
-      const auto frame = static_cast<double>(i / moving.size() * steps_of_frame(scene));
-      return Parting{frame * scene.step, body.name};
+      const std::size_t frame = i / moving.size();
+      return Parting{static_cast<double>(frame * steps_of_frame(scene)) * scene.step, body.name};
     }
   }
   return std::nullopt;

@@ -65,8 +65,9 @@ function runTable() {
   if (data.too_slow.length) byId('too-slow').textContent = `Not run, because their queries alone would take more than 3 s: ${data.too_slow.join(', ')}.`;
 }
 
-// Names in the chart: of few runs all, of many those on the front, whose names would not hide each other.
-const isNamed = (run, i) => data.runs.filter(isUniform).length <= 24 || data.front.includes(i) || i === 0;
+// Names in the chart: of few runs all, of many those that one looks for, so that they do not hide each other.
+const lookedFor = ['exact', 'capsule', 'spheres:8', 'prism:16', 'bullet', 'ode', 'mujoco'];
+const isNamed = (run, i) => data.runs.filter(isUniform).length <= 24 || data.front.includes(i) || lookedFor.includes(run.name);
 
 // Error and cost of all runs. A run whose motion became absurd is drawn at the top.
 function costChart() {

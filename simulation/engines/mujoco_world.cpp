@@ -219,8 +219,8 @@ class MujocoWorld : public EngineWorld {
         meshes.empty() ? "" : "<asset>" + meshes + "</asset>", bodies, exclusions_xml(scene_));
   }
 
-  std::vector<int> place_of_;  ///< by body: how many before it are not fixed
-  int places_ = 0;
+  std::vector<std::size_t> place_of_;  ///< by body: how many before it are not fixed
+  std::size_t places_ = 0;
   mjModel* model_;
   mjData* data_;
 };

@@ -138,7 +138,7 @@ class OdeWorld : public EngineWorld {
     if (parts.empty()) geoms.push_back(std::visit(MakeGeom{space_, body.pose}, shape(index)));
     for (const RoundedPolytope& part : parts) geoms.push_back(make_part(part));
     for (std::size_t i = 0; i < geoms.size(); ++i) {
-      dGeomSetData(geoms[i], reinterpret_cast<void*>(index));
+      dGeomSetData(geoms[i], const_cast<Body*>(&body));
       if (std::holds_alternative<Plane>(body.shape)) continue;
       const Vec3 centre = parts.size() > 1 ? parts[i].vertices()[0] : Vec3(0, 0, 0);
       if (body.fixed) {
@@ -154,9 +154,7 @@ class OdeWorld : public EngineWorld {
     }
   }
 
-  const Body& body_of(dGeomID geom) const {
-    return scene_.bodies[reinterpret_cast<std::size_t>(dGeomGetData(geom))];
-  }
+  static const Body& body_of(dGeomID geom) { return *static_cast<const Body*>(dGeomGetData(geom)); }
 
   void meet(dGeomID a, dGeomID b) {
     constexpr int max_points = 8;

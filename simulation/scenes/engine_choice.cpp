@@ -316,7 +316,7 @@ std::string ode_lines(const EngineShape& shape, const Cylinder& c) {
 
 std::string mujoco_lines(const EngineShape& shape, const Cylinder& c) {
   const double r = c.radius(), h = c.half_length(), inner = std::min(r, h);
-  const std::string cylinder = fmt::format("<geom type=\"cylinder\" size=\"{:g} {:g}\"/>", r, h);
+  std::string cylinder = fmt::format("<geom type=\"cylinder\" size=\"{:g} {:g}\"/>", r, h);
   switch (shape.kind) {
     case Kind::multipoint:
       return "<option><flag multiccd=\"enable\"/></option>\n" + cylinder;
