@@ -12,6 +12,7 @@
 #include "reports/choice/choice.hpp"
 #include "reports/replay.hpp"
 #include "reports/terminal.hpp"
+#include "simulation/scenes/engine_choice.hpp"
 
 namespace touchstone {
 namespace {
@@ -23,7 +24,7 @@ struct Options {
   CandidateOption candidates;
   WorkersOption workers;
   RobotOption robot;
-  std::string scene, out = "out";
+  std::string scene, engine, out = "out";
   bool json = false;
   std::uint64_t disturbances = Trials().disturbances, seed = Trials().seed;
   PairNeeds pairs;
@@ -75,6 +76,21 @@ int choose_scene(const Options& options) {
   return choice.impossible ? not_served : 0;
 }
 
+int choose_for_engine(const Options& options) {
+  const std::string command =
+      fmt::format("{} choose {} --engine {} --disturbances {} --seed {}", program_name(),
+                  shell_quoted(options.scene), options.engine, options.disturbances, options.seed);
+  const EngineChoice choice =
+      choose_in_engine(read_scene(options.scene), options.engine,
+                       {options.workers.get(), {options.disturbances, options.seed}});
+  write_file(options.out + "/choose.json", engine_choice_json(choice, command, 1) + '\n', "--out");
+  fmt::print("{}", options.json ? engine_choice_json(choice, command) + '\n'
+                                : engine_choice_text(choice, standard_output().columns));
+  write_file(options.out + "/choose.html", choice_page(choice, command), "--out");
+  if (!options.json) fmt::print("\nPage: {0}/choose.html; data: {0}/choose.json\n", options.out);
+  return choice.answer ? 0 : not_served;
+}
+
 int choose_pairs(const Options& options) {
   PairNeeds needs = options.pairs;
   needs.seed = options.seed;
@@ -102,7 +118,7 @@ int run(const Options& options) {
   }
   check_writable(options.out);
   if (options.is_sampled()) return choose_pairs(options);
-  return choose_scene(options);
+  return options.engine.empty() ? choose_scene(options) : choose_for_engine(options);
 }
 
 }  // namespace
@@ -120,7 +136,13 @@ void add_choose(Program& program) {
   command.count("--seed", options->seed, all_counts, "Same seed, same disturbances or poses");
   options->of_motions = {
       command.count("--disturbances", options->disturbances, {0, 1000},
-                    "Runs of a scene beside the one as it is written; needs must hold in all")};
+                    "Runs of a scene beside the one as it is written; needs must hold in all"),
+      command
+          .text("--engine", options->engine,
+                "The best setting of this engine's own world instead: bullet, bullet-float, ode, "
+                "mujoco")
+          .value("ENGINE")
+          .excludes(options->candidates.option())};
   const char* sampled = "Of a robot or world whose shapes meet at random instead of in a motion";
   PairNeeds& pairs = options->pairs;
   options->of_samples = {
@@ -135,6 +157,7 @@ void add_choose(Program& program) {
       "  touchstone choose simulation/scenes/log-pile.json\n"
       "  touchstone choose simulation/scenes/conveyor.json --candidates spheres:1..16\n"
       "  touchstone choose simulation/scenes/rover.urdf --drive left_wheel=5,right_wheel=5\n"
+      "  touchstone choose simulation/scenes/log-pile.json --engine bullet\n"
       "  touchstone choose simulation/scenes/gripper.urdf --depth 0.002 --angle 10\n"
       "Exit code 1: not even exact contacts meet the needs.");
   command.runs([options] { return run(*options); });

@@ -311,7 +311,7 @@ for option in "--depth 0.1" "--angle 3" "--count 7"; do
   expect 2 "^error: ${option% *} is given with \".*can.json\": must be left out: a scene's needs" choose "$folder/can.json" $option
 done
 robot=$(dirname "$0")/../simulation/scenes/gripper.urdf
-expect 2 '^error: --disturbances is given with ".*gripper.urdf": must be left out' choose "$robot" --disturbances 3
+expect 2 '^error: --disturbances is given with ".*gripper.urdf": must be left out' choose "$robot" --disturbances 3 --count 10
 cp "$robot" "$folder/G.URDF"
 cp "$robot" "$folder/x.xml"
 for name in G.URDF x.xml; do

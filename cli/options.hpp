@@ -22,6 +22,7 @@ struct CandidateOption {
   /// In the order given; all of them by default. Throws InvalidInput on an unknown name.
   std::vector<const Candidate*> get() const;
   const Limits& limits() const { return limits_; }
+  const Option& option() const { return option_; }
   /// These options as text, to be repeated, with every candidate's name.
   std::string command_line() const { return command_line(get()); }
   /// Likewise, with the names of these candidates.

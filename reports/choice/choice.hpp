@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "simulation/scenes/choose.hpp"
+#include "simulation/scenes/engine_choice.hpp"
 #include "simulation/scenes/robot_file.hpp"
 #include "simulation/scenes/scene_file.hpp"
 
@@ -64,8 +65,12 @@ std::string choice_text(const Choice& choice, const std::string& folder, std::si
 std::string pairs_text(const PairsChoice& choice, const std::string& folder,
                        std::size_t columns = 80);
 
+/// "capsule"; with several sizes "capsule; hull:16".
+std::string setting_name(const EngineSetting& setting);
+std::string engine_choice_text(const EngineChoice& choice, std::size_t columns = 80);
+
 /// ", disturbance 3"; empty for the scene as it is written.
-std::string in_disturbance(const SceneRun& run);
+std::string in_disturbance(const RepeatedRun& run);
 
 /// choose.json (docs/scenes.md); on one line, or indented.
 std::string choice_json(const Choice& choice, const std::string& command, const std::string& folder,
@@ -73,9 +78,13 @@ std::string choice_json(const Choice& choice, const std::string& command, const 
 std::string pairs_json(const PairsChoice& choice, const std::string& command,
                        const std::string& folder, int indent = -1);
 
+std::string engine_choice_json(const EngineChoice& choice, const std::string& command,
+                               int indent = -1);
+
 /// One self-contained page with the exact run and others in motion; runs the scene again for them.
 std::string choice_page(const Choice& choice, const std::string& command, const std::string& folder,
                         const Limits& limits);
+std::string choice_page(const EngineChoice& choice, const std::string& command);
 
 /// Writes the configurations of failures. Throws InvalidInput (field "--out") where that fails.
 void write_evidence(const Choice& choice, const std::string& folder);

@@ -11,10 +11,8 @@
 #include "properties/files/disk.hpp"
 #include "reports/choice/choice.hpp"
 #include "reports/make_report.hpp"
-#include "reports/pages/page.hpp"
 #include "reports/replay.hpp"
 #include "reports/report_json.hpp"
-#include "simulation/engines/run_engines.hpp"
 
 namespace touchstone {
 namespace {
@@ -38,6 +36,8 @@ json run_json(const Choice& choice, std::size_t index, const std::string& folder
                  {"microseconds_per_step", run.nanoseconds / 1000 / steps},
                  {"error", finite(run.error())},
                  {"holds", run.holds()},
+                 {"points_per_step", run.points},
+                 {"solver_microseconds_per_step", run.solver_seconds * 1e6 / steps},
                  {"trials", run.trials},
                  {"held", run.held},
                  {"disturbance", run.disturbance},
@@ -80,6 +80,7 @@ json kind_json(const Choice& choice, std::size_t k) {
                  {"pair", pair_name(kind.pair)},
                  {"asked", kind.answers.size()},
                  {"chosen", chosen.name},
+                 {"bytes", model_bytes(chosen)},
                  {"nanoseconds", choice.nanoseconds(k, chosen)},
                  {"exact_nanoseconds", choice.nanoseconds(k, exact)},
                  {"next_cheaper", nullptr},
@@ -161,29 +162,34 @@ std::string choice_json(const Choice& choice, const std::string& command, const 
   for (const Candidate* c : choice.too_slow) too_slow.push_back(c->name);
   const double exact = choice.runs[0].nanoseconds;
   const double chosen = choice.runs[choice.answer].nanoseconds;
-  const json result = {{"schema", "touchstone-choice-1"},
-                       {"command", command},
-                       {"machine", to_json(describe_machine())},
-                       {"scene",
-                        {{"name", file.name},
-                         {"description", file.description},
-                         {"bodies", file.scene.bodies.size()},
-                         {"step", file.scene.step},
-                         {"duration", file.scene.duration},
-                         {"disturbances", choice.trials.disturbances},
-                         {"seed", choice.trials.seed},
-                         {"needs", needs}}},
-                       {"possible", !choice.impossible},
-                       {"exact_is_cheapest", choice.answer == 0},
-                       {"time_saved", choice.impossible ? 0 : 1 - chosen / exact},
-                       {"step_saved", choice.impossible ? 0 : choice.step_saved()},
-                       {"worthwhile", choice.is_worthwhile()},
-                       {"rest_of_step_microseconds", choice.rest_of_step() * 1e6},
-                       {"kinds", kinds},
-                       {"answer", choice.answer},
-                       {"runs", runs},
-                       {"front", front(choice)},
-                       {"too_slow", too_slow}};
+  const json result = {
+      {"schema", "touchstone-choice-1"},
+      {"command", command},
+      {"machine", to_json(describe_machine())},
+      {"scene",
+       {{"name", file.name},
+        {"description", file.description},
+        {"bodies", file.scene.bodies.size()},
+        {"step", file.scene.step},
+        {"duration", file.scene.duration},
+        {"disturbances", choice.trials.disturbances},
+        {"seed", choice.trials.seed},
+        {"needs", needs}}},
+      {"possible", !choice.impossible},
+      {"exact_is_cheapest", choice.answer == 0},
+      {"time_saved", choice.impossible ? 0 : 1 - chosen / exact},
+      {"step_saved", choice.impossible ? 0 : choice.step_saved()},
+      {"worthwhile", choice.is_worthwhile()},
+      {"rest_of_step_microseconds", choice.rest_of_step() * 1e6},
+      {"frame_microseconds", choice.frame_seconds(choice.runs[choice.answer]) * 1e6},
+      {"exact_frame_microseconds", choice.frame_seconds(choice.runs[0]) * 1e6},
+      {"point_microseconds",
+       choice.point_seconds() ? json(*choice.point_seconds() * 1e6) : json(nullptr)},
+      {"kinds", kinds},
+      {"answer", choice.answer},
+      {"runs", runs},
+      {"front", front(choice)},
+      {"too_slow", too_slow}};
   return dumped(result, indent);
 }
 
@@ -250,80 +256,6 @@ void write_evidence(const PairsChoice& choice, const std::string& folder) {
       write_configuration(evidence_file(choice, i, c, folder), *c.worst);
     }
   }
-}
-
-namespace {
-
-/// Poses of the moving bodies in every `every`-th frame.
-std::string poses(const Scene& scene, const Trajectory& run, std::size_t every) {
-  std::vector<float> numbers;
-  for (std::size_t i = 0; i < run.frames.size(); i += every) {
-    append_poses(scene, run.frames[i], numbers);
-  }
-  return base64(numbers);
-}
-
-/// Indices of the runs to show beside the exact one: the answer, some with the next cheaper model
-/// of a kind, and well-known models for all pairs.
-std::vector<std::size_t> worth_showing(const Choice& choice) {
-  std::vector<std::size_t> result;
-  if (choice.answer != 0) result.push_back(choice.answer);
-  for (const auto& cheaper : choice.cheaper) {
-    if (cheaper && result.size() < 4) result.push_back(*cheaper);
-  }
-  for (std::size_t i = 0; i < choice.runs.size(); ++i) {
-    const std::string& name = choice.runs[i].name;
-    if (name == "capsule" || name == "spheres:8" || name == "prism:16") result.push_back(i);
-  }
-  return result;
-}
-
-std::string note(const Choice& choice, std::size_t index) {
-  const SceneRun& run = choice.runs[index];
-  if (run.holds()) return "All needs hold.";
-  const int broken = run.first_broken();
-  return fmt::format("Breaks at {:.2f} s{}: {}.", run.verdicts[broken].time, in_disturbance(run),
-                     choice.file.needs[broken]->text(choice.file.scene));
-}
-
-/// The runs that the page animates, and the bodies and camera that they share.
-json motion_json(const Choice& choice, const Limits& limits) {
-  const SceneFile& file = choice.file;
-  const Scene& scene = file.scene;
-  constexpr double frames_per_second = 60;
-  const auto every = std::max<std::size_t>(
-      1, static_cast<std::size_t>(std::lround(1 / (frames_per_second * scene.step))));
-  json runs = json::array();
-  runs.push_back({{"name", "exact"},
-                  {"note", "The exact cylinder for all pairs."},
-                  {"poses", poses(scene, choice.exact_run, every)}});
-  Processes processes(limits);
-  for (const std::size_t i : worth_showing(choice)) {
-    const DisturbedScene disturbed(scene, choice.trials.seed, choice.runs[i].disturbance);
-    const Trajectory run = disturbed.turned_back(
-        run_with(disturbed, choice.kinds, choice.runs[i].models, *choice.candidates[0], processes));
-    runs.push_back({{"name", i == choice.answer ? "the answer" : choice.runs[i].name},
-                    {"note", note(choice, i)},
-                    {"poses", poses(scene, run, every)}});
-  }
-  return {
-      {"bodies", bodies_json(scene)},
-      {"interval", static_cast<double>(every) * scene.step},
-      {"duration", scene.duration},
-      {"camera",
-       {{"position", to_json(file.camera.position)}, {"look_at", to_json(file.camera.look_at)}}},
-      {"runs", runs}};
-}
-
-}  // namespace
-
-std::string choice_page(const json& choice) { return render_page(Page::choice, choice); }
-
-std::string choice_page(const Choice& choice, const std::string& command, const std::string& folder,
-                        const Limits& limits) {
-  json data = json::parse(choice_json(choice, command, folder));
-  data["motion"] = motion_json(choice, limits);
-  return choice_page(data);
 }
 
 }  // namespace touchstone

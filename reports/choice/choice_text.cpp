@@ -67,12 +67,33 @@ std::string kinds_of(const Choice& choice, const std::string& folder) {
     const bool is_exact = &chosen == &exact;
     lines +=
         fmt::format("  {} ({}): {}\n", kind.name, kind.bodies, is_exact ? "exact" : chosen.name);
-    lines += is_exact ? fmt::format("    {:.0f} ns a query\n", ns)
-                      : fmt::format("    {:.0f} ns a query instead of {:.0f} ns exactly\n", ns,
-                                    choice.nanoseconds(k, exact));
+    lines +=
+        is_exact
+            ? fmt::format("    {:.0f} ns a query\n", ns)
+            : fmt::format("    {:.0f} ns a query instead of {:.0f} ns exactly; {} bytes a shape\n",
+                          ns, choice.nanoseconds(k, exact), model_bytes(chosen));
     lines += next_cheaper(choice, k, folder);
   }
   return lines;
+}
+
+/// What a frame takes, and what the solver is given and makes of it.
+std::string frame_and_points(const Choice& choice, double steps) {
+  const SceneRun &answer = choice.runs[choice.answer], &exact = choice.runs[0];
+  const auto microseconds = [](double seconds) { return seconds * 1e6; };
+  const bool differs = choice.answer != 0;
+  const auto point = choice.point_seconds();
+  return fmt::format(
+      "A frame of 1/60 s takes {:.0f} µs{}. The solver gets {:.1f} points a step{}{}.\n",
+      microseconds(choice.frame_seconds(answer)),
+      differs ? fmt::format(" instead of {:.0f} µs", microseconds(choice.frame_seconds(exact)))
+              : "",
+      answer.points,
+      differs ? fmt::format(" instead of {:.1f} and takes {:.0f} µs instead of {:.0f} µs",
+                            exact.points, microseconds(answer.solver_seconds / steps),
+                            microseconds(exact.solver_seconds / steps))
+              : "",
+      point ? fmt::format("; a point costs it about {:.2g} µs", microseconds(*point)) : "");
 }
 
 std::string headline(const Choice& choice) {
@@ -120,7 +141,7 @@ std::string errors(const ReplayScore& s) {
 
 }  // namespace
 
-std::string in_disturbance(const SceneRun& run) {
+std::string in_disturbance(const RepeatedRun& run) {
   return run.disturbance == 0 ? "" : fmt::format(", disturbance {}", run.disturbance);
 }
 
@@ -140,11 +161,11 @@ std::string choice_text(const Choice& choice, const std::string& folder, std::si
   if (choice.impossible) return Terminal{columns}.folded(lines);
   const auto steps = static_cast<double>(choice.exact_run.frames.size() - 1);
   const double exact = choice.runs[0].nanoseconds / 1000 / steps;
-  lines +=
-      fmt::format("Contacts take {:.2g} µs of a step{}; the rest of it takes {:.0f} µs.\n\n{}",
-                  answer.nanoseconds / 1000 / steps,
-                  choice.answer == 0 ? "" : fmt::format(" instead of {:.2g} µs exactly", exact),
-                  choice.rest_of_step() * 1e6, kinds_of(choice, folder));
+  lines += fmt::format(
+      "Contacts take {:.2g} µs of a step{}; the rest of it takes {:.0f} µs.\n{}\n{}",
+      answer.nanoseconds / 1000 / steps,
+      choice.answer == 0 ? "" : fmt::format(" instead of {:.2g} µs exactly", exact),
+      choice.rest_of_step() * 1e6, frame_and_points(choice, steps), kinds_of(choice, folder));
   return Terminal{columns}.folded(lines + candidates_table(choice, steps));
 }
 

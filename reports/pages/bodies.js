@@ -30,6 +30,7 @@ function meshOf(s, near, reach, segments = 48) {
     case 'cylinder': return cylinderMesh(s, near, segments);
     case 'box': return boxMesh(s);
     case 'plane': return planeMesh(s, near, reach);
+    case 'prism': return prismMesh(s);
     default: return capsuleMesh(s, near, segments);  // a sphere is a capsule of no length
   }
 }
@@ -113,6 +114,15 @@ function boxMesh({half_extents: h}) {
     }
   }
   return {faces, normals, edges: faces.map(f => [...f, f[0]]), stripe: faces.map(() => false)};
+}
+// A regular prism with its corners on the circle of its radius.
+function prismMesh({sides, radius, half_length: h}) {
+  const angles = Array.from({length: sides}, (_, i) => 2 * Math.PI * i / sides);
+  const [low, high] = [-h, h].map(z => angles.map(a => [radius * Math.cos(a), radius * Math.sin(a), z]));
+  const wall = angles.map((a, i) => [low[i], low[(i + 1) % sides], high[(i + 1) % sides], high[i]]);
+  const normals = angles.map(a => [Math.cos(a + Math.PI / sides), Math.sin(a + Math.PI / sides), 0]);
+  const faces = [...wall, low, high];
+  return {faces, normals: [...normals, [0, 0, -1], [0, 0, 1]], edges: faces.map(f => [...f, f[0]]), stripe: faces.map(() => false)};
 }
 // A square of the plane with a grid.
 function planeMesh({normal, displacement}, near, reach) {

@@ -610,10 +610,18 @@ class OtherPages(PageTest):
 
     def test_choice(self):
         folder = Path(self.folder.name) / "choose"
-        self.run_program("choose", scene, "--candidates", "reference,ode,capsule", "--out", folder)
+        self.run_program("choose", scene, "--candidates", "reference,ode,capsule",
+                         "--disturbances", "1", "--out", folder)
         self.open(folder / "choose.html")
         self.assertIn("error / limit", self.find("#front").text)
         self.assertGreater(len(self.all("#front .mark-symbol path")), 2)
+        self.assertEqual(self.find("#left-caption").text, "With exact")
+        self.choose("#other", self.driver.execute_script(
+            "return String(data.motion.runs.findIndex(r => r.name === 'capsule'))"))
+        self.assertIn("parts from the run beside it at", self.find("#other-note").text)
+        run = self.driver.execute_script("return data.motion.runs[document.getElementById('other').value]")
+        self.assertAlmostEqual(float(self.find("#scrub").get_attribute("value")),
+                               max(0, run["from"] - 0.1), places=3)
         start = self.picture("#left")
         self.driver.execute_script("""const scrub = document.getElementById('scrub'); scrub.value = 1;
                                       scrub.dispatchEvent(new Event('input'))""")
@@ -624,6 +632,20 @@ class OtherPages(PageTest):
         self.assertNotEqual(self.picture("#left"), later)
         self.find("#play").click()
         self.assertEqual(self.find("#play").text, "Pause")
+        self.assert_no_sideways_scrolling_on_a_phone(folder / "choose.html")
+
+    def test_choice_in_an_engine(self):
+        folder = Path(self.folder.name) / "choose-engine"
+        self.run_program("choose", scene.with_name("rod-on-table.json"), "--engine", "bullet",
+                         "--disturbances", "2", "--out", folder)
+        self.open(folder / "choose.html")
+        self.assertIn("The default cylinder breaks", self.find("#headline").text)
+        self.assertIn("btSphereShape", self.find("#kind-table pre").text)
+        self.assertGreater(len(self.all("#run-table tbody tr")), 10)
+        with_model = self.picture("#left")
+        self.driver.execute_script("""for (const run of data.motion.runs) run.meshes = new Map();
+                                      dispatchEvent(new Event('resize'))""")
+        self.assertNotEqual(self.picture("#left"), with_model)  # which draws spheres over the rod
         self.assert_no_sideways_scrolling_on_a_phone(folder / "choose.html")
 
     def test_engines(self):

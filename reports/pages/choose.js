@@ -1,5 +1,5 @@
 // The page of `touchstone choose`: its tables, the chart of error and cost, the motion.
-const needs = data.scene.needs, answer = data.runs[data.answer];
+const needs = data.scene.needs, answer = data.runs?.[data.answer];
 const exactName = name => name === 'reference' ? 'exact cylinder' : name;
 const measured = (value, need) => value === null ? 'the motion becomes absurd' : `${exponent(value)}${need.unit}`;
 
@@ -24,19 +24,24 @@ function headline() {
       : `Exact: nothing cheaper that meets all needs saves more than ${exponent(100 * data.step_saved, 1)}% of a step. ` +
         `The cheapest save ${ofContacts}`;
   byId('provenance').textContent = `${data.machine.cpu}, ${data.machine.compiler}. ` +
-      `The rest of a step, ODE's solver, takes ${exponent(data.rest_of_step_microseconds)} µs.` + (data.scene.disturbances
+      `The rest of a step, ODE's solver, takes ${exponent(data.rest_of_step_microseconds)} µs; a frame of 1/60 s takes ` +
+      `${exponent(data.frame_microseconds)} µs instead of ${exponent(data.exact_frame_microseconds)} µs with exact contacts. ` +
+      `The solver gets ${answer.points_per_step.toFixed(1)} contact points a step, exactly ${data.runs[0].points_per_step.toFixed(1)}` +
+      (data.point_microseconds === null ? '.' : `; a point costs it about ${exponent(data.point_microseconds)} µs.`) + (data.scene.disturbances
       ? ` Every run is repeated under ${data.scene.disturbances} disturbances (seed ${data.scene.seed}), the answer under five times as many; ` +
         'a need holds if it holds in all, and what breaks one is not run further.' : '');
   byId('provenance').after(element('details', {}, element('summary', {}, 'The command'), command(data.command)));
 }
 
+const needTable = verdicts => table(['', 'need', 'measured', 'at'].map(textColumn), verdicts.map((v, i) => [
+    element('td', {class: v.holds ? 'good text' : 'bad text'}, v.holds ? 'holds' : 'broken'), needs[i].text,
+    measured(v.value, needs[i]), `${v.time.toFixed(2)} s`]), 'What was measured of each need, and when');
+
 function answerTables() {
-  byId('kind-table').append(table([textColumn('pairs'), textColumn('model'), 'ns a query', 'ns exactly', column('queries', {class: 'wide'}), textColumn('next cheaper one breaks a need')],
-      data.kinds.map(k => [wide(`${k.name} (${k.bodies})`), exactName(k.chosen), whole(k.nanoseconds), whole(k.exact_nanoseconds),
+  byId('kind-table').append(table([textColumn('pairs'), textColumn('model'), 'bytes a shape', 'ns a query', 'ns exactly', column('queries', {class: 'wide'}), textColumn('next cheaper one breaks a need')],
+      data.kinds.map(k => [wide(`${k.name} (${k.bodies})`), exactName(k.chosen), whole(k.bytes), whole(k.nanoseconds), whole(k.exact_nanoseconds),
           whole(k.asked), k.next_cheaper === null ? 'there is none' : `${k.next_cheaper.name}, ${whole(k.next_cheaper.nanoseconds)} ns`]), 'Times of a query, median'));
-  byId('need-table').append(table(['', 'need', 'measured', 'at'].map(textColumn), answer.verdicts.map((v, i) => [
-      element('td', {class: v.holds ? 'good text' : 'bad text'}, v.holds ? 'holds' : 'broken'), needs[i].text,
-      measured(v.value, needs[i]), `${v.time.toFixed(2)} s`]), 'What was measured of each need, and when'));
+  byId('need-table').append(needTable(answer.verdicts));
 }
 
 function failures() {
@@ -53,12 +58,16 @@ function failures() {
 // Whether a run has one candidate for all pairs; runs of the search have longer names.
 const isUniform = run => !run.name.includes(' ') && run.name !== 'combination';
 function runTable() {
-  byId('run-table').append(table([textColumn('model'), 'µs of a step', 'error / limit', 'held', textColumn('breaks first'), textColumn('worst answer before')],
-      data.runs.filter(isUniform).map(r => [r.name, exponent(r.microseconds_per_step, 3),
+  byId('run-table').append(table([textColumn('model'), 'µs of a step', 'points', 'solver, µs', 'error / limit', 'held', textColumn('breaks first'), textColumn('worst answer before')],
+      data.runs.filter(isUniform).map(r => [r.name, exponent(r.microseconds_per_step, 3), r.points_per_step.toFixed(1), exponent(r.solver_microseconds_per_step),
           element('td', {class: r.holds ? 'good' : 'bad'}, r.error === null ? 'absurd' : exponent(r.error)),
           `${r.held} of ${r.trials}`, wide(r.holds ? '' : failure(r)), wide(r.evidence ? `${r.evidence.bodies}: ${r.evidence.wrong}` : '')]), 'Each run with one model'));
   if (data.too_slow.length) byId('too-slow').textContent = `Not run, because their queries alone would take more than 3 s: ${data.too_slow.join(', ')}.`;
 }
+
+// Names in the chart: of few runs all, of many those that one looks for, so that they do not hide each other.
+const lookedFor = ['exact', 'capsule', 'spheres:8', 'prism:16', 'bullet', 'ode', 'mujoco'];
+const isNamed = (run, i) => data.runs.filter(isUniform).length <= 24 || data.front.includes(i) || lookedFor.includes(run.name);
 
 // Error and cost of all runs. A run whose motion became absurd is drawn at the top.
 function costChart() {
@@ -70,7 +79,7 @@ function costChart() {
     const uniform = isUniform(run), isAnswer = i === data.answer;
     return {...at(i), fill: `var(${run.holds ? '--good' : '--bad'})`, stroke: null, size: uniform ? 60 : 30,
             symbol: symbolPath(uniform ? 'circle' : 'diamond', 0, 0, 1),
-            label: isAnswer ? (i === 0 ? 'exact, the answer' : 'the answer') : uniform ? run.name : '',
+            label: isAnswer ? (i === 0 ? 'exact, the answer' : 'the answer') : uniform && isNamed(run, i) ? run.name : '',
             weight: isAnswer ? 'bold' : 'normal', order: isAnswer ? -2 : data.front.includes(i) ? -1 : i,
             tip: `${run.name}\n${exponent(cost[i])} µs, ${run.holds ? 'all needs hold' : failure(run)}`};
   });
@@ -80,25 +89,68 @@ function costChart() {
       y: {title: 'error / limit', domain: [low, high], ticks: decadesOf([low, high]).ticks, label: numberLabel}});
 }
 
-// The motion of the exact run beside that of another one.
+// The motion of a run beside one that holds under the same disturbance, from shortly before they part.
 function startMotion(motion) {
-  const select = element('select', {id: 'other'}), {runs} = motion;
-  byId('left-caption').textContent = 'Exact contacts';
+  const select = element('select', {id: 'other'}), {runs} = motion, before = 0.1;  // seconds
   byId('right-caption').append(element('label', {}, 'With ', select));
-  describeMotions('The scene with exact contacts', 'The scene with the models that are selected');
-  select.append(...options(runs.map((r, i) => [i, r.name]).slice(runs.length > 1 ? 1 : 0)));
-  const note = () => { byId('other-note').textContent = runs[select.value].note; };
-  const draw = playMotions(() => ({motion, pair: [runs[0], runs[select.value]]}));
-  select.addEventListener('change', () => { note(); draw(); });
-  note();
+  describeMotions('The scene with models that meet its needs', 'The scene with the models that are selected');
+  const listed = runs.map((r, i) => [i, r.name]).filter(([i]) => runs[i].listed);
+  select.append(...options(listed));
+  const chosen = () => runs[select.value];
+  const begin = () => {
+    byId('other-note').textContent = chosen().note;
+    byId('left-caption').textContent = `With ${runs[chosen().beside].name}`;
+    byId('scrub').value = Math.max(0, (chosen().from ?? 0) - before);
+    byId('scrub').dispatchEvent(new Event('input'));
+  };
+  // A run that failed is what one wants to see first.
+  select.value = (listed.find(([i]) => runs[i].from !== null) ?? listed[0])[0];
+  playMotions(() => ({motion, pair: [runs[chosen().beside], chosen()]}));
+  select.addEventListener('change', begin);
+  if (!/[#&]t=/.test(location.hash)) begin();
+  else byId('other-note').textContent = chosen().note;
 }
 
-headline();
-if (data.possible) {
-  answerTables();
-  failures();
+// The page of `touchstone choose --engine`.
+function drawEngineChoice() {
+  const {engine, settings, sizes} = data, usual = settings[0], best = data.answer === null ? null : settings[data.answer];
+  const microseconds = s => s.step_microseconds === null ? '' : exponent(s.step_microseconds);
+  byId('title').textContent = `Which shape does the scene ${data.scene.name} need in ${engine.name}?`;
+  byId('description').textContent = data.scene.description;
+  byId('headline').textContent = best === null ? `No shape in ${engine.name} meets the needs, not even with our routines installed.`
+      : data.answer === 0 ? `${engine.name}’s default cylinder: nothing that meets all needs takes less than nine tenths of its ${microseconds(best)} µs a step.`
+      : `${best.name}: ${microseconds(best)} µs a step instead of ${microseconds(usual)} µs` +
+        (usual.holds ? '; the default cylinder meets all needs, too.' : `. The default cylinder breaks: ${usual.failure}.`);
+  byId('provenance').textContent = `${engine.name} ${engine.version}: ${engine.settings}. ${data.machine.cpu}, ${data.machine.compiler}. ` +
+      (data.scene.disturbances ? `Every run is repeated under ${data.scene.disturbances} disturbances (seed ${data.scene.seed}), the answer under five times as many.` : '') +
+      (data.scene.left_out.length ? ` Left out, for an engine’s normals are not judged: ${data.scene.left_out.join(', ')}.` : '');
+  byId('provenance').after(element('details', {}, element('summary', {}, 'The command'), command(data.command)));
+  byId('answer-note').textContent = 'The cheapest shape of each size of cylinder with which a whole run in the engine’s own world meets all needs, and the lines that make it.';
+  for (const size of sizes.filter(s => s.lines !== null)) {
+    byId('kind-table').append(element('h3', {}, `${size.name} (${size.bodies}): ${size.shape}`), element('pre', {}, size.lines));
+  }
+  const shown = best ?? settings[1];
+  byId('need-table').append(needTable(shown.verdicts));
+  byId('chart').remove();
+  byId('failures').remove();
+  byId('runs-title').textContent = 'All settings that were run';
+  byId('runs-note').textContent = 'Times of a step of the engine: its contacts, its solver, its integration. What broke a need was not timed, but for the default.';
+  byId('run-table').append(table([textColumn('setting'), 'µs a step', 'contact points', 'error / limit', 'held', textColumn('breaks first')],
+      settings.map(s => [s.name, microseconds(s), s.points.toFixed(1),
+          element('td', {class: s.holds ? 'good' : 'bad'}, s.error === null ? 'absurd' : exponent(s.error)), `${s.held} of ${s.trials}`,
+          wide(s.failure ?? '')]), 'Each setting of the engine'));
 }
-runTable();
-keepDrawn(costChart);
+
+if (data.engine) {
+  drawEngineChoice();
+} else {
+  headline();
+  if (data.possible) {
+    answerTables();
+    failures();
+  }
+  runTable();
+  keepDrawn(costChart);
+}
 startMotion(data.motion);
 listSections();

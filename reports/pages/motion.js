@@ -30,7 +30,27 @@ function sceneOf({bodies, camera}) {
   planes.forEach((plane, i) => { plane.faces = shown[i].length ? [shown[i]] : []; });
   return parts;
 }
-function drawMotion(view, parts, poses, frame) {
+// Meshes of what stands for the bodies in a run, by body.
+function modelsOf(models, parts) {
+  const segments = parts.length > 20 ? 12 : 24, meshes = new Map();
+  for (const {body, parts: stand} of models) {
+    meshes.set(parts[body], stand.map(({shape, centre}) => ({shape, centre, mesh: {...meshOf(shape, null, 1, segments)}})));
+  }
+  return meshes;
+}
+const modelTint = [214, 64, 90];
+// Paints what stands for a body over it, so that both are seen.
+function paintModel(canvas, body, model) {
+  for (const {shape, centre, mesh} of model) {
+    const placed = placeMesh(shape, mesh, [1, 0, 0, 0], [0, 0, 0]);
+    const toWorld = p => add(body.centre, combine(body.axes, add(p, centre)));
+    placed.faces = placed.faces.map(f => f.map(toWorld));
+    placed.edges = placed.edges.map(e => e.map(toWorld));
+    placed.outward = placed.outward.map(n => combine(body.axes, n));
+    paintBody(canvas, placed, {tint: modelTint, light: sun, opacity: 0.45});
+  }
+}
+function drawMotion(view, parts, poses, frame, models = new Map()) {
   const canvas = startFrame(view);
   if (canvas === null) return;
   const moving = parts.filter(p => !p.fixed);
@@ -46,6 +66,8 @@ function drawMotion(view, parts, poses, frame) {
     const tint = bodyTints[body.shape.shape], box = body.shape.shape === 'box', wall = box && !shadows.includes(body);
     paintBody(canvas, body, {tint, pale, light: sun, opacity: wall ? 0.55 : 1, shadows: wall ? shadows : [],
                              outline: box ? `rgb(${times(tint, 0.6).join(' ')} / .7)` : null});
+    const model = models.get(parts.find(p => p.body === body));
+    if (model) paintModel(canvas, body, model);
   }
 }
 
@@ -88,7 +110,8 @@ function playMotions(shown) {
     const moving = parts.filter(p => !p.fixed).length;
     pair.forEach((run, i) => {
       run.decoded = run.decoded ?? decodePoses(run.poses);
-      drawMotion(views[i], parts, run.decoded, Math.min(run.decoded.length / 7 / moving - 1, time / motion.interval));
+      run.meshes = run.meshes ?? modelsOf(run.models ?? [], parts);
+      drawMotion(views[i], parts, run.decoded, Math.min(run.decoded.length / 7 / moving - 1, time / motion.interval), run.meshes);
     });
     byId('scrub').value = time;
     byId('clock').textContent = `${time.toFixed(2)} s`;

@@ -7,8 +7,14 @@
 //           friction along two directions instead of the slip's alone.
 // Shapes    btCylinderShapeZ, btBoxShape, btCapsuleShapeZ, btSphereShape with Bullet's default
 //           margins; btStaticPlaneShape.
-// Masses    Inertia of the exact bodies. Bullet multiplies the friction of two bodies, so that each
-//           gets the square root of ours: together they have the geometric mean.
+//           A hull is a btConvexHullShape with margin 0: its margin, 0.04 whatever its size, would
+//           be added outside it; that of a cylinder lies inside it and rounds its edges. Spheres
+//           are children of a btCompoundShape.
+// Masses    Inertia of the exact bodies. Bullet multiplies the friction and the restitution of two
+//           bodies, so that each gets the square root of ours: together they have the geometric
+//           mean.
+// Drives    Kinematic objects, which Bullet gives the velocity that leads to their next pose; it
+//           finds their contacts there, one step ahead.
 #include <algorithm>
 #include <btBulletDynamicsCommon.h>
 #include <cmath>
@@ -25,8 +31,9 @@ btVector3 to_vector(const Vec3& v) {
 }
 Vec3 from_vector(const btVector3& v) { return Vec3(v.x(), v.y(), v.z()); }
 
+using Made = std::unique_ptr<btCollisionShape>;
+
 struct MakeShape {
-  using Made = std::unique_ptr<btCollisionShape>;
   Made operator()(const Cylinder& s) const {
     return std::make_unique<btCylinderShapeZ>(
         to_vector(Vec3(s.radius(), s.radius(), s.half_length())));
@@ -49,31 +56,24 @@ struct MakeShape {
 class BulletWorld : public EngineWorld {
  public:
   BulletWorld(const Scene& scene, const EngineSetup& setup)
-      : EngineWorld(scene), dispatcher_(&configuration_) {
-    if (setup.cured) bullet::install(dispatcher_);
+      : EngineWorld(scene, setup), dispatcher_(&configuration_) {
+    if (is_cured()) bullet::install(dispatcher_);
+    if (is_multipoint()) {
+      configuration_.setConvexConvexMultipointIterations(3, 3);
+      configuration_.setPlaneConvexMultipointIterations(3, 3);
+    }
     if (setup.best_solver) {
       world_.getSolverInfo().m_numIterations = 200;
       world_.getSolverInfo().m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS;
     }
     world_.setGravity(to_vector(scene.gravity));
-    for (const Body& body : scene.bodies) add(body);
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) add(i);
   }
   ~BulletWorld() override {
     for (const auto& body : bodies_) world_.removeRigidBody(body.get());
   }
   BulletWorld(const BulletWorld&) = delete;
   BulletWorld& operator=(const BulletWorld&) = delete;
-
-  void step() override {
-    world_.stepSimulation(to_scalar(scene_.step), 0);
-    for (std::size_t i = 0; i < bodies_.size(); ++i) {
-      if (scene_.bodies[i].fixed) continue;
-      const btRigidBody& body = *bodies_[i];
-      const btQuaternion q = body.getWorldTransform().getRotation();
-      set_state(i, from_vector(body.getWorldTransform().getOrigin()), {q.w(), q.x(), q.y(), q.z()},
-                from_vector(body.getLinearVelocity()), from_vector(body.getAngularVelocity()));
-    }
-  }
 
   Contacts contacts() const override {
     Contacts found;
@@ -83,19 +83,77 @@ class BulletWorld : public EngineWorld {
     return found;
   }
 
+ protected:
+  void advance() override {
+    world_.stepSimulation(to_scalar(scene_.step), 0);
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      if (!scene_.bodies[i].is_free()) continue;
+      const btRigidBody& body = *bodies_[i];
+      const btQuaternion q = body.getWorldTransform().getRotation();
+      set_state(i, from_vector(body.getWorldTransform().getOrigin()), {q.w(), q.x(), q.y(), q.z()},
+                from_vector(body.getLinearVelocity()), from_vector(body.getAngularVelocity()));
+    }
+  }
+  void drive(std::size_t body, const BodyState&, const Pose& after) override {
+    bodies_[body]->setWorldTransform(to_transform(after));
+  }
+  void push(std::size_t body, const Push& push) override {
+    bodies_[body]->applyCentralForce(to_vector(push.force));
+    bodies_[body]->applyTorque(to_vector(push.torque));
+  }
+
  private:
-  void add(const Body& body) {
-    shapes_.push_back(std::visit(MakeShape{}, body.shape));
-    const Inertia i = body.fixed ? Inertia{0, Vec3::Zero()} : inertia(body.shape, body.density);
-    btRigidBody::btRigidBodyConstructionInfo info(to_scalar(i.mass), nullptr, shapes_.back().get(),
-                                                  to_vector(i.principal));
-    const Eigen::Quaterniond q = body.pose.unit_orientation();
-    info.m_startWorldTransform = btTransform(
+  static btTransform to_transform(const Pose& pose) {
+    const Eigen::Quaterniond q = pose.unit_orientation();
+    return btTransform(
         btQuaternion(to_scalar(q.x()), to_scalar(q.y()), to_scalar(q.z()), to_scalar(q.w())),
-        to_vector(body.pose.position()));
+        to_vector(pose.position()));
+  }
+
+  static Made make_part(const RoundedPolytope& part) {
+    const auto& corners = part.vertices();
+    if (corners.size() == 1) return MakeShape{}(Sphere(part.radius()));
+    if (corners.size() == 2) {
+      return MakeShape{}(Capsule(part.radius(), (corners[1] - corners[0]).norm() / 2));
+    }
+    auto hull = std::make_unique<btConvexHullShape>();
+    for (const Vec3& corner : corners) hull->addPoint(to_vector(corner), false);
+    hull->setMargin(0);
+    hull->recalcLocalAabb();
+    return hull;
+  }
+
+  btCollisionShape* make_shape(std::size_t body) {
+    const auto parts = this->parts(body);
+    if (parts.empty()) {
+      shapes_.push_back(std::visit(MakeShape{}, shape(body)));
+      if (is_no_margin(body)) shapes_.back()->setMargin(0);
+    } else if (parts.size() == 1) {
+      shapes_.push_back(make_part(parts[0]));
+    } else {
+      auto compound = std::make_unique<btCompoundShape>();
+      for (const RoundedPolytope& part : parts) {
+        shapes_.push_back(make_part(part));
+        const btTransform place(btQuaternion::getIdentity(), to_vector(part.vertices()[0]));
+        compound->addChildShape(place, shapes_.back().get());
+      }
+      shapes_.push_back(std::move(compound));
+    }
+    return shapes_.back().get();
+  }
+
+  void add(std::size_t index) {
+    const Body& body = scene_.bodies[index];
+    const Inertia i = body.is_free() ? inertia(body.shape, body.density) : Inertia{0, Vec3::Zero()};
+    btRigidBody::btRigidBodyConstructionInfo info(to_scalar(i.mass), nullptr, make_shape(index),
+                                                  to_vector(i.principal));
+    info.m_startWorldTransform = to_transform(body.pose);
     info.m_friction = to_scalar(std::sqrt(body.material.friction));
-    info.m_restitution = to_scalar(body.material.restitution);
+    info.m_restitution = to_scalar(std::sqrt(body.material.restitution));
     bodies_.push_back(std::make_unique<btRigidBody>(info));
+    if (body.drive) {
+      bodies_.back()->setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
+    }
     bodies_.back()->setLinearVelocity(to_vector(body.velocity));
     bodies_.back()->setAngularVelocity(to_vector(body.angular_velocity));
     bodies_.back()->setActivationState(DISABLE_DEACTIVATION);

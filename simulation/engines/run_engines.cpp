@@ -20,9 +20,6 @@
 namespace touchstone {
 namespace {
 
-/// Processor time of one run, after which it is ended. The longest take about a second.
-constexpr double max_seconds = 60;
-
 std::filesystem::path module_file(const std::string& engine) {
   return standard_folder() / ("touchstone-world-" + engine + ".so");
 }
@@ -35,22 +32,15 @@ const EngineModule& load(const std::string& engine) {
   return *reinterpret_cast<const EngineModule* (*)()>(entry)();
 }
 
-Simulator in_engine(const EngineModule& engine, const EngineSetup& setup) {
-  return [&engine, setup](const Scene& scene) {
-    check_scene(scene);
-    return engine.begin(scene, setup);
-  };
-}
-
 ExperimentResult run(const Experiment& experiment, const std::string& engine,
                      const EngineSetup& setup, double step) {
   const std::string name = setup.cured ? engine + "+touchstone" : engine;
   const Contained ran = run_contained(
       [&] {
-        const Measurement measured = experiment.run(in_engine(load(engine), setup), step);
+        const Measurement measured = experiment.run(in_engine(engine, setup), step);
         return to_text(result_of(experiment, name, step, measured));
       },
-      max_seconds);
+      max_engine_seconds);
   if (ran.end == Contained::End::returned) return result_from_text(ran.text);
   ExperimentResult failed;
   failed.experiment = experiment.name;
@@ -86,7 +76,60 @@ std::string to_text(const EngineResult& r) {
   return runs.dump();
 }
 
-EngineDescription describe(const std::string& engine) {
+}  // namespace
+
+std::string engine_shape_name(const EngineShape& shape) {
+  switch (shape.kind) {
+    case EngineShape::Kind::cylinder:
+      return "cylinder";
+    case EngineShape::Kind::no_margin:
+      return "cylinder, margin 0";
+    case EngineShape::Kind::multipoint:
+      return "cylinder, many points";
+    case EngineShape::Kind::capsule:
+      return "capsule";
+    case EngineShape::Kind::box:
+      return "box";
+    case EngineShape::Kind::spheres:
+      return "spheres:" + std::to_string(shape.count);
+    case EngineShape::Kind::hull:
+      return "hull:" + std::to_string(shape.count);
+    case EngineShape::Kind::exact:
+      return "cylinder + touchstone";
+  }
+  return "";
+}
+
+void check_engine_scene(const std::string& engine, const Scene& scene) {
+  check_scene(scene);
+  const auto refuse = [&](const std::string& field, const std::string& what,
+                          const std::string& without) {
+    throw InvalidInput(
+        field, what,
+        "must not be there with --engine: the world of " + engine + " has " + without + " here");
+  };
+  if (!scene.joints.empty()) refuse("joints[0]", '"' + scene.joints[0].name + '"', "no joints");
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const Body& body = scene.bodies[i];
+    const std::string path = "bodies[" + std::to_string(i) + ']';
+    if (!body.surface_velocity.isZero(0)) {
+      refuse(path + ".surface_velocity", "not zero", "no moving surfaces");
+    }
+    if (!body.collides) refuse(path + ".collides", "false", "no bodies that touch nothing");
+    if (engine == "mujoco" && body.material.restitution > 0) {
+      refuse(path + ".restitution", std::to_string(body.material.restitution), "no restitution");
+    }
+  }
+}
+
+Simulator in_engine(const std::string& engine, const EngineSetup& setup) {
+  return [&module = load(engine), engine, setup](const Scene& scene) {
+    check_engine_scene(engine, scene);
+    return module.begin(scene, setup);
+  };
+}
+
+EngineDescription describe_engine(const std::string& engine) {
   if (!std::filesystem::exists(module_file(engine))) {
     std::string names;
     for (const std::string& name : all_engines()) names += (names.empty() ? "" : ", ") + name;
@@ -97,7 +140,7 @@ EngineDescription describe(const std::string& engine) {
         const EngineModule& module = load(engine);
         return nlohmann::json{module.version, module.settings, module.best_settings}.dump();
       },
-      max_seconds);
+      max_engine_seconds);
   if (told.end != Contained::End::returned) {
     throw InvalidInput("--engine", '"' + engine + '"',
                        "must be an engine that can be loaded: " + told.text);
@@ -105,6 +148,8 @@ EngineDescription describe(const std::string& engine) {
   const auto text = nlohmann::json::parse(told.text);
   return {engine, text[0], text[1], text[2]};
 }
+
+namespace {
 
 /// Ends a run before its first step, having shown its scene.
 class Glimpse : public Simulation {
@@ -202,7 +247,8 @@ Cure cure_of(const ExperimentResult& own, const ExperimentResult& cured,
 
 EngineResults run_engines(const EngineOptions& options) {
   EngineResults results{options.step, {}, {}, {}};
-  for (const std::string& engine : options.engines) results.engines.push_back(describe(engine));
+  for (const std::string& engine : options.engines)
+    results.engines.push_back(describe_engine(engine));
   for (const Experiment* e : options.experiments) {
     results.experiments.push_back(touchstone::describe(*e, {options.step}));
   }
@@ -257,7 +303,7 @@ EngineMotion record_motion(const Experiment& experiment, const std::string& engi
   const Contained ran = run_contained(
       [&] {
         std::vector<float> poses;
-        const Simulator simulator = in_engine(load(engine), setup);
+        const Simulator simulator = in_engine(engine, setup);
         experiment.run(
             [&](const Scene& scene) {
               return std::make_unique<Recorded>(scene, simulator(scene), every, poses);
@@ -266,7 +312,7 @@ EngineMotion record_motion(const Experiment& experiment, const std::string& engi
         return std::string(reinterpret_cast<const char*>(poses.data()),
                            poses.size() * sizeof(float));
       },
-      max_seconds);
+      max_engine_seconds);
   if (ran.end != Contained::End::returned) {
     throw std::runtime_error(experiment.name + " in " + engine + ": " + ran.text);
   }

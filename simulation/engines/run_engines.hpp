@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,10 +21,41 @@ struct EngineOptions {
 /// Engines whose worlds there are here, in report order.
 std::vector<std::string> all_engines();
 
+/// What stands for a cylinder in an engine's world.
+struct EngineShape {
+  enum class Kind {
+    cylinder,    ///< the engine's own, as it is by default
+    no_margin,   ///< Bullet's with margin 0
+    multipoint,  ///< the engine's own, with its option for several points of a pair
+    capsule,     ///< the largest of the cylinder's length inside it
+    box,         ///< the smallest around it
+    spheres,     ///< inside it: in a row, or in a ring when it is flat
+    hull,        ///< a regular prism with its corners on the rims
+    exact,       ///< the engine's own, with our routines installed
+  };
+  Kind kind = Kind::cylinder;
+  int count = 0;  ///< of spheres; sides of a hull
+
+  bool operator==(const EngineShape&) const = default;
+};
+
+/// "cylinder", "cylinder, margin 0", "spheres:8", "hull:16", "cylinder + touchstone", …
+std::string engine_shape_name(const EngineShape& shape);
+
 /// How an engine's world is set up.
 struct EngineSetup {
-  bool cured = false;        ///< with our contact routines installed in it
-  bool best_solver = false;  ///< with its solver at its best, whatever that costs
+  bool cured = false;                    ///< with our contact routines installed in it
+  bool best_solver = false;              ///< with its solver at its best, whatever that costs
+  std::vector<EngineShape> shapes = {};  ///< by body, of cylinders; empty: the engine's own
+
+  EngineShape shape_of(std::size_t body) const {
+    return shapes.empty() ? EngineShape{} : shapes[body];
+  }
+  /// Is there a body with this kind? Some settings are of a whole world.
+  bool has(EngineShape::Kind kind) const {
+    return std::any_of(shapes.begin(), shapes.end(),
+                       [&](const EngineShape& s) { return s.kind == kind; });
+  }
 };
 
 struct EngineDescription {
@@ -58,6 +90,22 @@ struct EngineResults {
   std::vector<ExperimentDescription> experiments;
   std::vector<EngineResult> results;  ///< by experiment, then engine
 };
+
+/// An engine's version and settings. Throws InvalidInput (field "--engine") where its world is not
+/// there.
+EngineDescription describe_engine(const std::string& engine);
+
+/// Begins scenes in an engine's own world, and throws as check_engine_scene does. Loads the engine:
+/// for a process of its own alone (run_contained), which may crash or hang.
+Simulator in_engine(const std::string& engine, const EngineSetup& setup);
+
+/// Throws InvalidInput with the path of the field unless the engine's world can do all that the
+/// scene asks for.
+void check_engine_scene(const std::string& engine, const Scene& scene);
+
+/// Processor time of one run in an engine, seconds, after which it is ended. The longest take about
+/// a second.
+inline constexpr double max_engine_seconds = 60;
 
 /// Runs every experiment in every engine, each run in a process of its own. Times aside the results
 /// depend on the options alone. Progress goes to standard error. After an interruption

@@ -220,7 +220,35 @@ double Choice::step_saved() const {
   return (exact - 1e-9 * runs[answer].nanoseconds) / (exact + exact_run.solver_seconds);
 }
 
+double Choice::frame_seconds(const SceneRun& run) const {
+  constexpr double frame = 1.0 / 60;
+  const auto steps = static_cast<double>(exact_run.frames.size() - 1);
+  return frame / file.scene.step * (1e-9 * run.nanoseconds / steps + rest_of_step());
+}
+
+std::optional<double> Choice::point_seconds() const {
+  constexpr double min_spread = 0.1;  // of the mean number of points
+  const auto steps = static_cast<double>(exact_run.frames.size() - 1);
+  double count = 0, x = 0, y = 0, xx = 0, xy = 0;
+  for (const SceneRun& run : runs) {
+    if (!run.holds()) continue;
+    const double points = run.points, seconds = run.solver_seconds / steps;
+    count += 1, x += points, y += seconds, xx += points * points, xy += points * seconds;
+  }
+  const double variance = count * xx - x * x;
+  if (count < 3 || !(variance > min_spread * min_spread * x * x)) return std::nullopt;
+  const double slope = (count * xy - x * y) / variance;
+  return slope > 0 ? std::optional(slope) : std::nullopt;
+}
+
 bool Choice::is_worthwhile() const { return answer != 0 && step_saved() >= noise_of_step; }
+
+std::size_t model_bytes(const Candidate& candidate) {
+  const auto count = static_cast<std::size_t>(candidate.value);
+  if (candidate.family == "spheres") return count * 4 * sizeof(double);    // centre and radius
+  if (candidate.family == "prism") return 2 * count * 3 * sizeof(double);  // corners
+  return 2 * sizeof(double);  // radius and half length of a cylinder or capsule
+}
 
 std::vector<const Candidate*> swept_candidates() {
   std::vector<std::string> names;

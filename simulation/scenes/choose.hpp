@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "candidates/host/candidate_process.hpp"
+#include "simulation/scenes/disturbed_scene.hpp"
 #include "simulation/scenes/scene_file.hpp"
 
 // How candidates do in a scene: query by query on the configurations of a run, and in whole runs.
@@ -42,59 +43,15 @@ std::vector<std::vector<ReplayScore>> replay(const Scene& scene, const Trajector
                                              const std::vector<const Candidate*>& candidates,
                                              const Limits& limits);
 
-/// The worst answer of a run's models before its first need broke.
-struct Evidence {
-  Configuration configuration;
-  std::string bodies, candidate;
-  std::string wrong;  ///< in words: "missed, 0.0012 m deep"
-  double time;        ///< s
-};
-
-/// A scene as it might as well have been: every moving body up to 1e-4 of its smallest width from
-/// where it was written and up to 1e-3 rad askew, with a kick of up to 1e-3 of the speed that a
-/// fall of that width gives, what joints connect as one, and not at all where it is held by the
-/// world or driven; the whole world turned at random about the origin; the bodies in another order.
-/// What holds in the scene as it is written alone is luck.
-struct DisturbedScene {
-  Scene scene;
-  Eigen::Quaterniond turn;  ///< of the world
-  std::vector<int> origin;  ///< by body of `scene`: its index in the scene as it is written
-
-  /// Disturbance 0 is none: the scene as it is written.
-  DisturbedScene(const Scene& written, std::uint64_t seed, std::size_t disturbance);
-  /// A run of `scene` as seen in the scene as it is written: turned back, bodies in their order.
-  Trajectory turned_back(const Trajectory& run) const;
-};
-
-/// Repetitions of a run under disturbances: a need holds if it holds in all.
-struct Trials {
-  std::size_t disturbances = 16;  ///< beside the scene as it is written
-  std::uint64_t seed = 1;
-
-  /// The answer is held to more, because it is the best of many: of 50 models that break one run in
-  /// 30, every second is lucky in 16.
-  std::size_t of_answer() const { return 5 * disturbances; }
-};
-
-/// Runs a scene as it is written, and adds the answers of its runs under the disturbances: frames
-/// of the one, answers of all.
-Trajectory run_disturbed(const Scene& scene, ContactModel& model, const Trials& trials);
-
 /// A candidate for each kind of pairs, and whole runs of a scene with them.
-struct SceneRun {
+struct SceneRun : RepeatedRun {
+  SceneRun() = default;
+  SceneRun(std::string run_name, std::vector<const Candidate*> run_models, double cost)
+      : name(std::move(run_name)), models(std::move(run_models)), nanoseconds(cost) {}
+
   std::string name;                      ///< of its models: "capsule", "combination", …
   std::vector<const Candidate*> models;  ///< by kind
   double nanoseconds = 0;                ///< cost of its models for all questions of the exact run
-  std::size_t trials = 0, held = 0;      ///< runs that were made, and those in which all needs held
-  std::size_t disturbance = 0;           ///< the worst run, which verdicts and evidence are of
-  std::vector<Verdict> verdicts = {};    ///< by need
-  std::optional<Evidence> evidence = {};
-
-  bool holds() const;
-  /// Largest share of its limit that a need takes; above one: broken.
-  double error() const;
-  /// Index of the need that broke first; −1: all hold.
-  int first_broken() const;
 };
 
 /// Processes of candidates, each started on first use.
@@ -143,6 +100,9 @@ class SceneJudge {
   std::vector<Trajectory> exact_runs_;  ///< by disturbance: first and last frames alone
 };
 
+/// Bytes that a cylinder's model takes in double precision: its corners, its spheres, or its sizes.
+std::size_t model_bytes(const Candidate& candidate);
+
 /// All candidates, with the families of simplified models swept: 1 to 64 spheres, prisms of 8 to
 /// 128 sides, boxes as spheres and capsules.
 std::vector<const Candidate*> swept_candidates();
@@ -174,6 +134,11 @@ struct Choice {
   double rest_of_step() const;
   /// Share of the time of a whole step with exact contacts that the answer saves.
   double step_saved() const;
+  /// Seconds that a frame of 1/60 s takes with the models of a run: contacts and the rest of it.
+  double frame_seconds(const SceneRun& run) const;
+  /// Seconds that the solver takes for each contact point that it gets: the slope of the line that
+  /// fits the runs in which all needs hold. Absent where they give it much the same points.
+  std::optional<double> point_seconds() const;
   /// Does the answer save more of a step than the noise of a machine?
   bool is_worthwhile() const;
 };

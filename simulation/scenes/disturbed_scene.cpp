@@ -1,17 +1,25 @@
-// A scene as it might as well have been.
+#include "simulation/scenes/disturbed_scene.hpp"
+
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <limits>
 #include <map>
 #include <numeric>
 #include <rapidcheck.h>
 #include <utility>
 
+#include <nlohmann/json.hpp>
+
+#include "candidates/host/progress.hpp"
+#include "candidates/host/worker_processes.hpp"
 #include "properties/draw.hpp"
-#include "simulation/scenes/choose.hpp"
+#include "properties/files/configuration_json.hpp"
 
 namespace touchstone {
 namespace {
+
+using nlohmann::json;
 
 constexpr double max_shift = 1e-4;  // of the smallest width
 constexpr double max_angle = 1e-3;  // radians
@@ -89,6 +97,32 @@ struct TurnDrive {
   }
 };
 
+double largest_share(const std::vector<Verdict>& verdicts) {
+  double largest = 0;
+  for (const Verdict& v : verdicts) largest = std::max(largest, v.share());
+  return largest;
+}
+
+/// Counts a trial in a run, and keeps it if it is the worst: the first that broke a need, or while
+/// none has, the one that came nearest.
+void add(const Trial& trial, std::size_t disturbance, RepeatedRun& run) {
+  const bool broke_before = run.held < run.trials;
+  const bool holds = first_broken(trial.verdicts) < 0;
+  const bool is_worse = run.trials == 0 || (!broke_before && !holds) ||
+                        (!broke_before && largest_share(trial.verdicts) > run.error());
+  if (disturbance == 0) run.points = trial.points;
+  // What else the machine does only adds to a time.
+  run.solver_seconds =
+      run.trials == 0 ? trial.solver_seconds : std::min(run.solver_seconds, trial.solver_seconds);
+  ++run.trials;
+  run.held += holds;
+  if (!is_worse) return;
+  run.disturbance = disturbance;
+  run.verdicts = trial.verdicts;
+  run.end = trial.end;
+  run.evidence = trial.evidence;
+}
+
 }  // namespace
 
 DisturbedScene::DisturbedScene(const Scene& written, std::uint64_t seed, std::size_t disturbance)
@@ -165,6 +199,132 @@ Trajectory run_disturbed(const Scene& scene, ContactModel& model, const Trials& 
     const Trajectory run = disturbed.turned_back(run_scene(disturbed.scene, model));
     result.answers.insert(result.answers.end(), run.answers.begin(), run.answers.end());
   }
+  return result;
+}
+
+std::string trial_text(const Trial& trial) {
+  json verdicts = json::array();
+  for (const Verdict& v : trial.verdicts) {
+    verdicts.push_back({std::isfinite(v.value) ? json(v.value) : json(nullptr), v.limit, v.time});
+  }
+  json result = {{"verdicts", verdicts},
+                 {"end", trial.end},
+                 {"points", trial.points},
+                 {"solver_seconds", trial.solver_seconds}};
+  if (const auto& e = trial.evidence) {
+    result["evidence"] = {{"configuration", to_json(e->configuration)},
+                          {"bodies", e->bodies},
+                          {"candidate", e->candidate},
+                          {"wrong", e->wrong},
+                          {"time", e->time}};
+  }
+  return result.dump();
+}
+
+Trial trial_from(const std::string& text) {
+  const json parsed = json::parse(text);
+  Trial trial;
+  for (const json& v : parsed["verdicts"]) {
+    trial.verdicts.push_back(
+        {v[0].is_null() ? std::numeric_limits<double>::infinity() : v[0].get<double>(),
+         v[1].get<double>(), v[2].get<double>()});
+  }
+  trial.end = parsed["end"].get<std::string>();
+  trial.points = parsed["points"].get<double>();
+  trial.solver_seconds = parsed["solver_seconds"].get<double>();
+  if (!parsed.contains("evidence")) return trial;
+  const json& e = parsed["evidence"];
+  trial.evidence = {configuration_from_json(e["configuration"]).configuration,
+                    e["bodies"].get<std::string>(), e["candidate"].get<std::string>(),
+                    e["wrong"].get<std::string>(), e["time"].get<double>()};
+  return trial;
+}
+
+std::string ends_text(const Trajectory& run) {
+  json result = json::array();
+  for (const auto* frame : {&run.frames.front(), &run.frames.back()}) {
+    json poses = json::array();
+    for (const BodyState& s : *frame) {
+      const Vec3& p = s.pose.position();
+      const Eigen::Quaterniond& q = s.pose.orientation();
+      poses.push_back({p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z()});
+    }
+    result.push_back(poses);
+  }
+  return result.dump();
+}
+
+Trajectory run_of_ends(const std::string& text, double step) {
+  Trajectory run;
+  run.step = step;
+  for (const json& frame : json::parse(text)) {
+    run.frames.emplace_back();
+    for (const json& p : frame) {
+      const auto at = [&](int i) { return p[static_cast<std::size_t>(i)].get<double>(); };
+      run.frames.back().push_back(
+          {Pose(Vec3(at(0), at(1), at(2)), Eigen::Quaterniond(at(3), at(4), at(5), at(6))),
+           Vec3::Zero(), Vec3::Zero()});
+    }
+  }
+  return run;
+}
+
+double RepeatedRun::error() const { return largest_share(verdicts); }
+
+int RepeatedRun::first_broken() const { return touchstone::first_broken(verdicts); }
+
+int first_broken(const std::vector<Verdict>& verdicts) {
+  int first = -1;
+  for (std::size_t i = 0; i < verdicts.size(); ++i) {
+    if (verdicts[i].holds()) continue;
+    if (first < 0 || verdicts[i].time < verdicts[first].time) first = static_cast<int>(i);
+  }
+  return first;
+}
+
+void repeat(const std::vector<RepeatedRun*>& runs, std::size_t last, unsigned workers,
+            const std::function<Trial(std::size_t run, std::size_t disturbance)>& trial,
+            const std::function<std::string(std::size_t run)>& name) {
+  struct Task {
+    std::size_t run, disturbance;
+  };
+  // In waves, so that what breaks early is not run to the last disturbance.
+  for (std::size_t from = 0, to = 1; from <= last; from = to, to = std::min(4 * to + 1, last + 1)) {
+    std::vector<Task> tasks;
+    for (std::size_t r = 0; r < runs.size(); ++r) {
+      if (runs[r]->held < runs[r]->trials) continue;
+      for (std::size_t d = std::max(from, runs[r]->trials); d < to; ++d) tasks.push_back({r, d});
+    }
+    if (tasks.empty()) continue;
+    Progress progress(from == 0 ? "runs of the scene" : "disturbed runs", tasks.size());
+    const auto results = run_in_processes(
+        tasks.size(), workers,
+        [&](std::size_t i) { return trial_text(trial(tasks[i].run, tasks[i].disturbance)); },
+        [&](std::size_t i) {
+          return fmt::format("{}, disturbance {}", name(tasks[i].run), tasks[i].disturbance);
+        },
+        [&](std::size_t done) { progress.update(done); });
+    for (std::size_t i = 0; i < tasks.size(); ++i) {
+      add(trial_from(results[i]), tasks[i].disturbance, *runs[tasks[i].run]);
+    }
+  }
+}
+
+std::vector<Trajectory> ends_of_runs(const Scene& scene, const Trials& trials, unsigned workers,
+                                     const std::function<Trajectory(const DisturbedScene&)>& run,
+                                     const std::string& name) {
+  const std::size_t count = trials.of_answer() + 1;
+  Progress progress("exact runs, disturbed", count);
+  const auto texts = run_in_processes(
+      count, workers,
+      [&](std::size_t i) {
+        const DisturbedScene disturbed(scene, trials.seed, i);
+        return ends_text(disturbed.turned_back(run(disturbed)));
+      },
+      [&](std::size_t i) { return fmt::format("{}, disturbance {}", name, i); },
+      [&](std::size_t done) { progress.update(done); });
+  std::vector<Trajectory> result;
+  for (const std::string& text : texts) result.push_back(run_of_ends(text, scene.step));
   return result;
 }
 

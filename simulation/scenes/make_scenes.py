@@ -431,10 +431,58 @@ def bowling():
     }
 
 
+def three_logs():
+    r, half = 0.1, 0.5
+    bodies = [fixed("ground", box(1, 1, 0.1), "earth", (0, 0, -0.1))]
+    for name, x in (("left", -1), ("right", 1)):
+        bodies.append(body(name, cylinder(r, half), "wood", (x * (r + 1e-4), 0, r), ALONG_Y))
+    bodies.append(body("top", cylinder(r, half), "wood", (0, 0.3, r + math.sqrt(3) * r), ALONG_Y))
+    return {
+        "description": "Two logs carry a third, as they do on paper where friction is above 0.268; it "
+                       "lies 0.3 m further along.",
+        "duration": 4,
+        "materials": {"earth": {"friction": 0.5}, "wood": {"friction": 0.5, "density": 700}},
+        "bodies": bodies,
+        "needs": [{"need": "stays-in", "body": "top", "lower": [-0.015, 0.285, 0.258],
+                   "upper": [0.015, 0.315, 0.285]}],
+        "camera": {"position": [1.2, -1.6, 0.9], "look_at": [0, 0, 0.15]},
+    }
+
+
+def rod_on_table():
+    r = 0.015
+    return {
+        "description": "A rod of 15 mm radius lies on a table.",
+        "duration": 3,
+        "materials": {"wood": {"friction": 0.5}},
+        "bodies": [fixed("table", box(0.5, 0.5, 0.05), "wood", (0, 0, -0.05)),
+                   body("rod", cylinder(r, 4 * r), "wood", (0, 0, r), ALONG_Y)],
+        "needs": [{"need": "ends-near", "body": "rod", "metres": 0.001},
+                  {"need": "penetration", "metres": 0.001}],
+    }
+
+
+def stack_of_cans():
+    r = 0.1
+    cans = [f"can-{i + 1}" for i in range(5)]
+    bodies = [fixed("table", box(0.5, 0.5, 0.05), "tin", (0, 0, -0.05))]
+    bodies += [body(c, cylinder(r, r), "tin", (0, 0, r + 2 * r * i)) for i, c in enumerate(cans)]
+    return {
+        "description": "Five cans stand on each other.",
+        "duration": 2,
+        "materials": {"tin": {"friction": 0.5}},
+        "bodies": bodies,
+        "needs": [{"need": "stands", "body": c, "degrees": 1} for c in cans],
+        "camera": {"position": [1.6, -2.4, 1.0], "look_at": [0, 0, 0.5]},
+    }
+
+
 SCENES = {"thesis-spheres": thesis_spheres, "thesis-knock": thesis_knock,
           "wheel-on-road": wheel_on_road, "rod-in-corner": rod_in_corner, "log-pile": log_pile,
           "pill-dispenser": pill_dispenser, "conveyor": conveyor, "gripper": gripper,
-          "shelf-push": shelf_push, "rover": rover, "drum": drum, "bowling": bowling}
+          "shelf-push": shelf_push, "rover": rover, "drum": drum, "bowling": bowling,
+          "three-logs": three_logs, "rod-on-table": rod_on_table,
+          "stack-of-cans": stack_of_cans}
 
 
 def dump(value, indent=""):

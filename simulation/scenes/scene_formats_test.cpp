@@ -372,7 +372,7 @@ TEST(SceneFile, ShippedScenesAreReadAndSayWhatTheyNeed) {
     EXPECT_FALSE(file.description.empty());
     ++count;
   }
-  EXPECT_EQ(count, 12);
+  EXPECT_EQ(count, 15);
 }
 
 // TOUCHSTONE_WRITE_SCHEMA=1 writes the file.

@@ -8,6 +8,7 @@
 
 #include "reference/contact_of.hpp"
 #include "reference/support.hpp"
+#include "simulation/assembly.hpp"
 
 namespace touchstone {
 namespace {
@@ -68,6 +69,30 @@ class JudgedModel : public ContactModel {
   double seconds_ = 0;
 };
 
+/// Appends the true depths of the last frame, of cylinders and what they may touch.
+void add_depths(const Scene& scene, const Touching& touching, Trajectory& trajectory) {
+  const int frame = static_cast<int>(trajectory.frames.size()) - 1;
+  const int count = static_cast<int>(scene.bodies.size());
+  const auto is_cylinder = [&](int i) {
+    return std::holds_alternative<Cylinder>(scene.bodies[i].shape);
+  };
+  const auto is_plane = [&](int i) { return std::holds_alternative<Plane>(scene.bodies[i].shape); };
+  for (int a = 0; a < count; ++a) {
+    for (int b = 0; is_cylinder(a) && b < count; ++b) {
+      if (a == b || (is_cylinder(b) && b < a) || !touching(a, b)) continue;
+      JudgedAnswer answer{frame, a, b, 0, TS_NONE, 0, std::nullopt, 0};
+      const Configuration c = trajectory.configuration(scene, answer);
+      if (!is_plane(b)) {
+        const double reach = std::numbers::sqrt3 * (largest_half_extent(scene.bodies[a].shape) +
+                                                    largest_half_extent(scene.bodies[b].shape));
+        if ((c.pose_a.position() - c.pose_b.position()).norm() > reach) continue;
+      }
+      answer.depth = -touchstone::signed_distance(c).value;
+      if (answer.depth > 0) trajectory.answers.push_back(answer);
+    }
+  }
+}
+
 struct ShapeText {
   std::string operator()(const Cylinder& s) const {
     return fmt::format("cylinder ⌀{:g}×{:g}", 2 * s.radius(), 2 * s.half_length());
@@ -120,6 +145,30 @@ Trajectory run_scene(const Scene& scene, ContactModel& model) {
     trajectory.frames.push_back(world.states());
   }
   trajectory.solver_seconds = seconds - judged.seconds();
+  for (const JudgedAnswer& answer : trajectory.answers) trajectory.points += answer.points;
+  trajectory.points /= std::max(1.0, static_cast<double>(trajectory.frames.size() - 1));
+  return trajectory;
+}
+
+Trajectory run_scene(const Scene& scene, const Simulator& simulator, bool with_depths) {
+  Trajectory trajectory;
+  trajectory.step = scene.step;
+  const auto world = simulator(scene);
+  const Touching touching(scene);
+  trajectory.frames.push_back(world->states());
+  if (with_depths) add_depths(scene, touching, trajectory);
+  const auto steps = static_cast<int>(std::lround(scene.duration / scene.step));
+  for (int i = 0; i < steps && trajectory.sound; ++i) {
+    const auto start = Clock::now();
+    world->step();
+    trajectory.step_seconds.push_back(seconds_since(start));
+    trajectory.points += world->contacts().points;
+    trajectory.sound = world->sound();
+    if (!trajectory.sound) break;
+    trajectory.frames.push_back(world->states());
+    if (with_depths) add_depths(scene, touching, trajectory);
+  }
+  trajectory.points /= std::max(1.0, static_cast<double>(trajectory.frames.size() - 1));
   return trajectory;
 }
 

@@ -38,6 +38,8 @@ struct Trajectory {
   std::vector<JudgedAnswer> answers;           ///< in order of time
   bool sound = true;          ///< false: the motion left all bounds, and the frames end there
   double solver_seconds = 0;  ///< wall-clock time of the steps without the contact model
+  double points = 0;          ///< contact points given to the solver, mean of a step
+  std::vector<double> step_seconds = {};  ///< wall-clock time of each step of an engine's world
 
   double end() const { return step * static_cast<double>(frames.size() - 1); }
   Configuration configuration(const Scene& scene, const JudgedAnswer& answer) const;
@@ -50,6 +52,10 @@ Trajectory run_scene(const Scene& scene, ContactModel& model);
 /// A line for each body that moves: where it ends, how far that is from its start, and the largest
 /// true depth of its contacts with or as a cylinder.
 std::string motion_table(const Scene& scene, const Trajectory& run);
+
+/// Runs the scene in another world, such as an engine's, which finds its own contacts. The answers,
+/// if they are asked for, have the true depths of pairs with a cylinder, and no contact.
+Trajectory run_scene(const Scene& scene, const Simulator& simulator, bool with_depths);
 
 /// All body pairs of a scene whose shapes have the same kind and, to six digits, the same sizes:
 /// they share a contact model.

@@ -4,20 +4,14 @@
 #include <functional>
 #include <limits>
 
-#include <nlohmann/json.hpp>
-
 #include "candidates/candidates.hpp"
 #include "candidates/host/progress.hpp"
-#include "candidates/host/worker_processes.hpp"
 #include "oracle/judge/score.hpp"
 #include "oracle/truth.hpp"
-#include "properties/files/configuration_json.hpp"
 #include "simulation/scenes/choose.hpp"
 
 namespace touchstone {
 namespace {
-
-using nlohmann::json;
 
 constexpr std::size_t timing_rounds = 9;
 
@@ -167,29 +161,6 @@ double badness(const Score& s) {
   return 10 * s.severity + 1 - s.coverage.value_or(1);
 }
 
-/// What one run came to.
-struct Trial {
-  std::vector<Verdict> verdicts;
-  std::optional<Evidence> evidence;
-};
-
-/// Largest share of its limit that a need takes.
-double max_share(const std::vector<Verdict>& verdicts) {
-  double largest = 0;
-  for (const Verdict& v : verdicts) largest = std::max(largest, v.share());
-  return largest;
-}
-
-/// Index of the need that broke first; −1: all hold.
-int first_broken(const std::vector<Verdict>& verdicts) {
-  int first = -1;
-  for (std::size_t i = 0; i < verdicts.size(); ++i) {
-    if (verdicts[i].holds()) continue;
-    if (first < 0 || verdicts[i].time < verdicts[first].time) first = static_cast<int>(i);
-  }
-  return first;
-}
-
 /// Worst answer of a run, against the oracle, up to the moment at which a need broke: of the need's
 /// own bodies if their models were asked. Absent when only the exact candidate was asked.
 /// `model_of` gives the candidate of two bodies of the disturbed scene.
@@ -217,84 +188,6 @@ std::optional<Evidence> find_evidence(const Need& need, double broken, const Dis
              run.step * a.frame};
   }
   return worst;
-}
-
-/// A trial as text, on its way from the process that made it.
-std::string to_text(const Trial& trial) {
-  json verdicts = json::array();
-  for (const Verdict& v : trial.verdicts) {
-    verdicts.push_back({std::isfinite(v.value) ? json(v.value) : json(nullptr), v.limit, v.time});
-  }
-  json result = {{"verdicts", verdicts}};
-  if (const auto& e = trial.evidence) {
-    result["evidence"] = {{"configuration", to_json(e->configuration)},
-                          {"bodies", e->bodies},
-                          {"candidate", e->candidate},
-                          {"wrong", e->wrong},
-                          {"time", e->time}};
-  }
-  return result.dump();
-}
-
-Trial trial_from(const std::string& text) {
-  const json parsed = json::parse(text);
-  Trial trial;
-  for (const json& v : parsed["verdicts"]) {
-    trial.verdicts.push_back(
-        {v[0].is_null() ? std::numeric_limits<double>::infinity() : v[0].get<double>(),
-         v[1].get<double>(), v[2].get<double>()});
-  }
-  if (!parsed.contains("evidence")) return trial;
-  const json& e = parsed["evidence"];
-  trial.evidence = {configuration_from_json(e["configuration"]).configuration,
-                    e["bodies"].get<std::string>(), e["candidate"].get<std::string>(),
-                    e["wrong"].get<std::string>(), e["time"].get<double>()};
-  return trial;
-}
-
-/// The poses at the start and at the end of a run as text, and back.
-std::string ends_text(const Trajectory& run) {
-  json result = json::array();
-  for (const auto* frame : {&run.frames.front(), &run.frames.back()}) {
-    json poses = json::array();
-    for (const BodyState& s : *frame) {
-      const Vec3& p = s.pose.position();
-      const Eigen::Quaterniond& q = s.pose.orientation();
-      poses.push_back({p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z()});
-    }
-    result.push_back(poses);
-  }
-  return result.dump();
-}
-
-Trajectory run_of_ends(const std::string& text, double step) {
-  Trajectory run;
-  run.step = step;
-  for (const json& frame : json::parse(text)) {
-    run.frames.emplace_back();
-    for (const json& p : frame) {
-      const auto at = [&](int i) { return p[static_cast<std::size_t>(i)].get<double>(); };
-      run.frames.back().push_back(
-          {Pose(Vec3(at(0), at(1), at(2)), Eigen::Quaterniond(at(3), at(4), at(5), at(6))),
-           Vec3::Zero(), Vec3::Zero()});
-    }
-  }
-  return run;
-}
-
-/// Counts a trial in a run, and keeps it if it is the worst: the first that broke a need, or while
-/// none has, the one that came nearest.
-void add(const Trial& trial, std::size_t disturbance, SceneRun& run) {
-  const bool broke_before = run.held < run.trials;
-  const bool holds = first_broken(trial.verdicts) < 0;
-  const bool is_worse = run.trials == 0 || (!broke_before && !holds) ||
-                        (!broke_before && max_share(trial.verdicts) > run.error());
-  ++run.trials;
-  run.held += holds;
-  if (!is_worse) return;
-  run.disturbance = disturbance;
-  run.verdicts = trial.verdicts;
-  run.evidence = trial.evidence;
 }
 
 }  // namespace
@@ -340,12 +233,6 @@ std::vector<std::vector<ReplayScore>> replay(const Scene& scene, const Trajector
   return result;
 }
 
-bool SceneRun::holds() const { return first_broken() < 0; }
-
-double SceneRun::error() const { return max_share(verdicts); }
-
-int SceneRun::first_broken() const { return touchstone::first_broken(verdicts); }
-
 CandidateProcess& Processes::of(const Candidate& candidate) {
   const auto found = processes_.find(&candidate);
   if (found != processes_.end()) return found->second;
@@ -366,66 +253,43 @@ Trajectory run_with(const DisturbedScene& scene, const PairKinds& kinds,
 SceneJudge::SceneJudge(const SceneFile& file, const PairKinds& kinds, const Candidate& exact,
                        const ChooseOptions& options)
     : file_(file), kinds_(kinds), exact_(exact), options_(options) {
-  const std::size_t count = options.trials.of_answer() + 1;
-  Progress progress("exact runs, disturbed", count);
   Processes processes(options.limits);  // each worker process starts its own candidates
-  const auto texts = run_in_processes(
-      count, options.workers,
-      [&](std::size_t i) {
-        const DisturbedScene scene(file.scene, options.trials.seed, i);
+  exact_runs_ = ends_of_runs(
+      file.scene, options.trials, options.workers,
+      [&](const DisturbedScene& scene) {
         CandidateModel model(processes.of(exact));
-        return ends_text(scene.turned_back(run_scene(scene.scene, model)));
+        return run_scene(scene.scene, model);
       },
-      [&](std::size_t i) { return fmt::format("{}, disturbance {}", file.name, i); },
-      [&](std::size_t done) { progress.update(done); });
-  for (const std::string& text : texts) exact_runs_.push_back(run_of_ends(text, file.scene.step));
+      file.name);
 }
 
 void SceneJudge::judge(std::vector<SceneRun>& runs, std::size_t last) const {
-  struct Task {
-    std::size_t run, disturbance;
-  };
   Processes processes(options_.limits);  // each worker process starts its own candidates
-  const auto trial_of = [&](const Task& task) {
-    const SceneRun& run = runs[task.run];
-    const DisturbedScene scene(file_.scene, options_.trials.seed, task.disturbance);
+  const auto trial_of = [&](std::size_t index, std::size_t disturbance) {
+    const SceneRun& run = runs[index];
+    const DisturbedScene scene(file_.scene, options_.trials.seed, disturbance);
     const Trajectory trajectory = run_with(scene, kinds_, run.models, exact_, processes);
     const Trajectory as_written = scene.turned_back(trajectory);
     Trial trial;
+    trial.points = trajectory.points;
+    trial.solver_seconds = trajectory.solver_seconds;
     for (const auto& need : file_.needs) {
-      trial.verdicts.push_back(
-          need->judge({file_.scene, as_written, exact_runs_[task.disturbance]}));
+      trial.verdicts.push_back(need->judge({file_.scene, as_written, exact_runs_[disturbance]}));
     }
     const int broken = first_broken(trial.verdicts);
-    if (broken < 0) return to_text(trial);
+    if (broken < 0) return trial;
     const auto model_of = [&](int a, int b) -> const Candidate& {
       const int kind = kinds_.of(scene.origin[a], scene.origin[b]);
       return kind >= 0 && run.models[kind] ? *run.models[kind] : exact_;
     };
     trial.evidence = find_evidence(*file_.needs[broken], trial.verdicts[broken].time, scene,
                                    trajectory, model_of, exact_, processes);
-    return to_text(trial);
+    return trial;
   };
-  // In waves, so that what breaks early is not run to the last disturbance.
-  for (std::size_t from = 0, to = 1; from <= last; from = to, to = std::min(4 * to + 1, last + 1)) {
-    std::vector<Task> tasks;
-    for (std::size_t r = 0; r < runs.size(); ++r) {
-      if (runs[r].held < runs[r].trials) continue;
-      for (std::size_t d = std::max(from, runs[r].trials); d < to; ++d) tasks.push_back({r, d});
-    }
-    if (tasks.empty()) continue;
-    Progress progress(from == 0 ? "runs of the scene" : "disturbed runs", tasks.size());
-    const auto results = run_in_processes(
-        tasks.size(), options_.workers, [&](std::size_t i) { return trial_of(tasks[i]); },
-        [&](std::size_t i) {
-          return fmt::format("{} with {}, disturbance {}", file_.name, runs[tasks[i].run].name,
-                             tasks[i].disturbance);
-        },
-        [&](std::size_t done) { progress.update(done); });
-    for (std::size_t i = 0; i < tasks.size(); ++i) {
-      add(trial_from(results[i]), tasks[i].disturbance, runs[tasks[i].run]);
-    }
-  }
+  std::vector<RepeatedRun*> repeated;
+  for (SceneRun& run : runs) repeated.push_back(&run);
+  repeat(repeated, last, options_.workers, trial_of,
+         [&](std::size_t run) { return file_.name + " with " + runs[run].name; });
 }
 
 }  // namespace touchstone

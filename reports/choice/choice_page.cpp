@@ -1,0 +1,312 @@
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <fmt/format.h>
+#include <functional>
+#include <map>
+#include <optional>
+#include <set>
+
+#include <nlohmann/json.hpp>
+
+#include "candidates/host/contained.hpp"
+#include "candidates/model.hpp"
+#include "properties/files/configuration_json.hpp"
+#include "reports/choice/choice.hpp"
+#include "reports/pages/page.hpp"
+#include "reports/report_json.hpp"
+#include "simulation/engines/run_engines.hpp"
+
+namespace touchstone {
+namespace {
+
+using nlohmann::json;
+
+constexpr double frames_per_second = 60;
+
+std::size_t steps_of_frame(const Scene& scene) {
+  return std::max<std::size_t>(
+      1, static_cast<std::size_t>(std::lround(1 / (frames_per_second * scene.step))));
+}
+
+/// Poses of the moving bodies in every frame that is shown.
+std::vector<float> poses(const Scene& scene, const Trajectory& run) {
+  std::vector<float> numbers;
+  for (std::size_t i = 0; i < run.frames.size(); i += steps_of_frame(scene)) {
+    append_poses(scene, run.frames[i], numbers);
+  }
+  return numbers;
+}
+
+/// Where two runs part: the first body that is a tenth of its smallest width from where it is in
+/// the other one, or leans by three degrees more.
+struct Parting {
+  double time;  ///< s
+  std::string body;
+};
+
+std::optional<Parting> parting(const Scene& scene, const std::vector<float>& one,
+                               const std::vector<float>& other) {
+  constexpr double far = 0.1, min_cosine = 0.9986;  // of 3°
+  constexpr std::size_t numbers = 7;
+  std::vector<const Body*> moving;
+  for (const Body& body : scene.bodies) {
+    if (!body.fixed) moving.push_back(&body);
+  }
+  const std::size_t count = std::min(one.size(), other.size()) / numbers;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Body& body = *moving[i % moving.size()];
+    const auto pose = [&](const std::vector<float>& all) {
+      const float* p = &all[numbers * i];
+      return Pose(Vec3(p[0], p[1], p[2]), Eigen::Quaterniond(p[3], p[4], p[5], p[6]));
+    };
+    const Pose a = pose(one), b = pose(other);
+    const double apart = (a.position() - b.position()).norm();
+    const bool leans =
+        !std::holds_alternative<Sphere>(body.shape) && a.axis().dot(b.axis()) < min_cosine;
+    if (leans || apart > far * 2 * smallest_half_extent(body.shape)) {
+      const std::size_t frame = i / moving.size();
+      return Parting{static_cast<double>(frame * steps_of_frame(scene)) * scene.step, body.name};
+    }
+  }
+  return std::nullopt;
+}
+
+/// Parts of what stands for a cylinder, in its frame; none where that is itself.
+json shape_parts(const std::string& family, int count, const Cylinder& c) {
+  const double r = c.radius(), h = c.half_length();
+  if (family == "prism") {
+    return {{{"shape", {{"shape", "prism"}, {"sides", count}, {"radius", r}, {"half_length", h}}},
+             {"centre", {0, 0, 0}}}};
+  }
+  if (family == "box") {
+    return {{{"shape", {{"shape", "box"}, {"half_extents", {r, r, h}}}}, {"centre", {0, 0, 0}}}};
+  }
+  std::vector<RoundedPolytope> parts;
+  if (family == "capsule") parts = inscribed_capsule(r, h);
+  if (family == "capsule-circumscribed") parts = circumscribed_capsule(r, h);
+  if (family == "spheres") parts = inscribed_spheres(count, r, h);
+  json result = json::array();
+  for (RoundedPolytope& part : parts) {
+    part.place(Eigen::Matrix3d::Identity(), Vec3::Zero());
+    const auto& core = part.vertices();
+    const Vec3 centre = (core.front() + core.back()) / 2;
+    json shape = {{"shape", "sphere"}, {"radius", part.radius()}};
+    if (core.size() == 2) {
+      shape = {{"shape", "capsule"},
+               {"radius", part.radius()},
+               {"half_length", (core[1] - core[0]).norm() / 2}};
+    }
+    result.push_back({{"shape", shape}, {"centre", to_json(centre)}});
+  }
+  return result;
+}
+
+/// What stands for the bodies in a run: [{body, parts}].
+json models_of(const Choice& choice, const SceneRun& run) {
+  const auto& bodies = choice.file.scene.bodies;
+  json result = json::array();
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const auto* c = std::get_if<Cylinder>(&bodies[i].shape);
+    if (!c) continue;
+    std::set<const Candidate*> models;
+    for (std::size_t k = 0; k < bodies.size(); ++k) {
+      const int kind = choice.kinds.of(static_cast<int>(i), static_cast<int>(k));
+      if (k != i && kind >= 0 && run.models[kind]) models.insert(run.models[kind]);
+    }
+    json parts = json::array();
+    for (const Candidate* m : models) {
+      for (const json& part : shape_parts(m->family, static_cast<int>(m->value), *c)) {
+        parts.push_back(part);
+      }
+    }
+    if (!parts.empty()) result.push_back({{"body", i}, {"parts", parts}});
+  }
+  return result;
+}
+
+json models_of(const EngineChoice& choice, const EngineSetting& setting) {
+  using Kind = EngineShape::Kind;
+  json result = json::array();
+  for (std::size_t size = 0; size < choice.sizes.size(); ++size) {
+    const auto [kind, count] = setting.shapes[size];
+    const std::string family = kind == Kind::capsule   ? "capsule"
+                               : kind == Kind::box     ? "box"
+                               : kind == Kind::spheres ? "spheres"
+                               : kind == Kind::hull    ? "prism"
+                                                       : "";
+    for (const int body : choice.sizes[size].bodies) {
+      const Shape& shape = choice.file.scene.bodies[static_cast<std::size_t>(body)].shape;
+      const json parts = shape_parts(family, count, std::get<Cylinder>(shape));
+      if (!parts.empty()) result.push_back({{"body", body}, {"parts", parts}});
+    }
+  }
+  return result;
+}
+
+/// Indices of the runs to show beside the exact one: the answer, some with the next cheaper model
+/// of a kind, and well-known models for all pairs.
+std::vector<std::size_t> worth_showing(const Choice& choice) {
+  std::vector<std::size_t> result;
+  if (choice.answer != 0) result.push_back(choice.answer);
+  for (const auto& cheaper : choice.cheaper) {
+    if (cheaper && result.size() < 4) result.push_back(*cheaper);
+  }
+  for (std::size_t i = 0; i < choice.runs.size(); ++i) {
+    const std::string& name = choice.runs[i].name;
+    const bool is_known = name == "capsule" || name == "spheres:8" || name == "prism:16";
+    if (is_known && std::find(result.begin(), result.end(), i) == result.end()) result.push_back(i);
+  }
+  return result;
+}
+
+/// The runs that a page animates. Each is shown beside one that holds under the same disturbance,
+/// from shortly before the moment at which they part.
+class Motions {
+ public:
+  explicit Motions(const SceneFile& file) : file_(file) {}
+
+  /// Adds a run and returns its index; `is_listed`: a person can choose it.
+  std::size_t add(const std::string& name, const std::string& note, std::vector<float> motion,
+                  const json& models, std::size_t beside, bool is_listed) {
+    json run = {{"name", name},     {"note", note},     {"poses", base64(motion)},
+                {"models", models}, {"beside", beside}, {"listed", is_listed},
+                {"from", nullptr}};
+    if (beside < poses_.size()) {
+      if (const auto at = parting(file_.scene, poses_[beside], motion)) {
+        run["from"] = at->time;
+        run["note"] = fmt::format("{} {} parts from the run beside it at {:.2f} s.", note, at->body,
+                                  at->time);
+      }
+    }
+    runs_.push_back(run);
+    poses_.push_back(std::move(motion));
+    return runs_.size() - 1;
+  }
+
+  json to_json() const {
+    const Scene& scene = file_.scene;
+    return {{"bodies", bodies_json(scene)},
+            {"interval", static_cast<double>(steps_of_frame(scene)) * scene.step},
+            {"duration", scene.duration},
+            {"camera",
+             {{"position", touchstone::to_json(file_.camera.position)},
+              {"look_at", touchstone::to_json(file_.camera.look_at)}}},
+            {"runs", runs_}};
+  }
+
+ private:
+  const SceneFile& file_;
+  json runs_ = json::array();
+  std::vector<std::vector<float>> poses_;
+};
+
+std::string note(const SceneFile& file, const RepeatedRun& run) {
+  if (run.holds()) return "All needs hold.";
+  if (!run.end.empty()) return run.end + '.';
+  const int broken = run.first_broken();
+  return fmt::format("Breaks at {:.2f} s{}: {}.", run.verdicts[broken].time, in_disturbance(run),
+                     file.needs[broken]->text(file.scene));
+}
+
+/// Runs of which one stands on the left where it was made under the same disturbance, made once.
+class RunsBeside {
+ public:
+  using Make = std::function<std::size_t(std::size_t disturbance)>;
+  explicit RunsBeside(Make make) : make_(std::move(make)) {}
+  std::size_t of(std::size_t disturbance) {
+    const auto found = index_.find(disturbance);
+    if (found != index_.end()) return found->second;
+    return index_[disturbance] = make_(disturbance);
+  }
+
+ private:
+  Make make_;
+  std::map<std::size_t, std::size_t> index_;
+};
+
+json motion_json(const Choice& choice, const Limits& limits) {
+  const Scene& scene = choice.file.scene;
+  Processes processes(limits);
+  const auto run = [&](const SceneRun& models, std::size_t disturbance) {
+    const DisturbedScene disturbed(scene, choice.trials.seed, disturbance);
+    return poses(scene, disturbed.turned_back(run_with(disturbed, choice.kinds, models.models,
+                                                       *choice.candidates[0], processes)));
+  };
+  Motions motions(choice.file);
+  motions.add("exact", "The exact cylinder for all pairs.", poses(scene, choice.exact_run),
+              json::array(), 0, choice.runs.size() == 1);
+  const SceneRun& answer = choice.runs[choice.answer];
+  const std::string name = choice.answer == 0 ? "exact" : "the answer";
+  RunsBeside holding([&](std::size_t disturbance) {
+    if (choice.answer == 0 && disturbance == 0) return std::size_t{0};
+    return motions.add(name, "", run(answer, disturbance), models_of(choice, answer), 0, false);
+  });
+  for (const std::size_t i : worth_showing(choice)) {
+    const SceneRun& shown = choice.runs[i];
+    const std::size_t beside = i == choice.answer ? 0 : holding.of(shown.disturbance);
+    const std::size_t disturbance = i == choice.answer ? 0 : shown.disturbance;
+    motions.add(i == choice.answer ? "the answer" : shown.name, note(choice.file, shown),
+                run(shown, disturbance), models_of(choice, shown), beside, true);
+  }
+  return motions.to_json();
+}
+
+/// Poses of a run in the engine, in a process of its own; none if the engine ended it.
+std::vector<float> contained_poses(const EngineChoice& choice, const EngineSetting& setting,
+                                   std::size_t disturbance) {
+  const Scene& scene = choice.file.scene;
+  const DisturbedScene disturbed(scene, choice.trials.seed, disturbance);
+  const Contained ran = run_contained(
+      [&] {
+        const auto numbers =
+            poses(scene, disturbed.turned_back(run_in_engine(choice, setting, disturbed, false)));
+        return std::string(reinterpret_cast<const char*>(numbers.data()),
+                           numbers.size() * sizeof(float));
+      },
+      max_engine_seconds);
+  if (ran.end != Contained::End::returned) return {};
+  std::vector<float> numbers(ran.text.size() / sizeof(float));
+  std::memcpy(numbers.data(), ran.text.data(), ran.text.size());
+  return numbers;
+}
+
+json motion_json(const EngineChoice& choice) {
+  constexpr std::size_t max_shown = 8;
+  Motions motions(choice.file);
+  const std::size_t best = choice.answer.value_or(1);
+  const EngineSetting& answer = choice.settings[best];
+  RunsBeside holding([&](std::size_t disturbance) {
+    return motions.add(setting_name(answer), note(choice.file, answer),
+                       contained_poses(choice, answer, disturbance), models_of(choice, answer), 0,
+                       false);
+  });
+  std::size_t listed = 0;
+  for (std::size_t i = 0; i < choice.settings.size() && listed < max_shown; ++i) {
+    const EngineSetting& shown = choice.settings[i];
+    if (i == best || !shown.end.empty()) continue;
+    const std::size_t beside = holding.of(shown.disturbance);
+    motions.add(setting_name(shown), note(choice.file, shown),
+                contained_poses(choice, shown, shown.disturbance), models_of(choice, shown), beside,
+                true);
+    ++listed;
+  }
+  return motions.to_json();
+}
+
+}  // namespace
+
+std::string choice_page(const Choice& choice, const std::string& command, const std::string& folder,
+                        const Limits& limits) {
+  json data = json::parse(choice_json(choice, command, folder));
+  data["motion"] = motion_json(choice, limits);
+  return render_page(Page::choice, data);
+}
+
+std::string choice_page(const EngineChoice& choice, const std::string& command) {
+  json data = json::parse(engine_choice_json(choice, command));
+  data["motion"] = motion_json(choice);
+  return render_page(Page::choice, data);
+}
+
+}  // namespace touchstone

@@ -1,0 +1,210 @@
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <sstream>
+
+#include <nlohmann/json.hpp>
+
+#include "reports/choice/choice.hpp"
+#include "reports/make_report.hpp"
+#include "reports/report_json.hpp"
+#include "reports/terminal.hpp"
+
+namespace touchstone {
+namespace {
+
+using nlohmann::json;
+
+const Cylinder& cylinder_of(const EngineChoice& choice, std::size_t size) {
+  return std::get<Cylinder>(
+      choice.file.scene.bodies[static_cast<std::size_t>(choice.sizes[size].bodies[0])].shape);
+}
+
+std::string bodies_of(const EngineChoice& choice, const CylinderSize& size) {
+  const std::string& first =
+      choice.file.scene.bodies[static_cast<std::size_t>(size.bodies[0])].name;
+  return size.bodies.size() == 1 ? first : fmt::format("{} such, as {}", size.bodies.size(), first);
+}
+
+std::string microseconds(const EngineSetting& setting) {
+  return setting.step_seconds ? fmt::format("{:.2g}", *setting.step_seconds * 1e6) : "";
+}
+
+std::string measured(const Verdict& verdict, const Need& need) {
+  if (!std::isfinite(verdict.value)) return "the motion becomes absurd";
+  return fmt::format("{:.3g}{}", verdict.value, need.unit);
+}
+
+/// "can stands within 0.5°: 12.3° at 0.71 s, disturbance 3"
+std::string failure(const EngineChoice& choice, const EngineSetting& setting) {
+  if (!setting.end.empty()) return setting.end + in_disturbance(setting);
+  const int broken = setting.first_broken();
+  const Need& need = *choice.file.needs[broken];
+  const Verdict& verdict = setting.verdicts[broken];
+  return fmt::format("{}: {} at {:.2f} s{}", need.text(choice.file.scene), measured(verdict, need),
+                     verdict.time, in_disturbance(setting));
+}
+
+/// "need 2 at 0.53 s, disturbance 3"
+std::string first_failure(const EngineSetting& setting) {
+  if (!setting.end.empty()) return setting.end + in_disturbance(setting);
+  const int broken = setting.first_broken();
+  return fmt::format("need {} at {:.2f} s{}", broken + 1, setting.verdicts[broken].time,
+                     in_disturbance(setting));
+}
+
+std::string headline(const EngineChoice& choice) {
+  const EngineSetting& usual = choice.default_setting();
+  if (!choice.answer) {
+    return fmt::format(
+        "No shape in {} meets the needs, not even with our routines installed:\n  {}\n",
+        choice.engine.name, failure(choice, choice.exact_setting()));
+  }
+  const EngineSetting& answer = choice.settings[*choice.answer];
+  const std::string took =
+      usual.step_seconds ? fmt::format(" instead of {} µs", microseconds(usual)) : "";
+  std::string lines;
+  if (*choice.answer == 0) {
+    lines = fmt::format(
+        "{}'s default cylinder, {} µs a step: nothing that meets all needs takes "
+        "less than nine tenths of that.\n",
+        choice.engine.name, microseconds(usual));
+  } else {
+    lines =
+        fmt::format("{}: {} µs a step{}, {:.1f} contact points instead of {:.1f}.\n",
+                    setting_name(answer), microseconds(answer), took, answer.points, usual.points);
+    lines += usual.holds()
+                 ? "The default cylinder meets all needs, too.\n"
+                 : fmt::format("The default cylinder breaks\n  {}\n", failure(choice, usual));
+  }
+  if (answer.has(EngineShape::Kind::exact)) {
+    lines += "None of the engine's own shapes meets all needs.\n";
+  } else if (const EngineSetting& exact = choice.exact_setting(); exact.holds()) {
+    lines += fmt::format("With our routines a step takes {} µs.\n", microseconds(exact));
+  }
+  return lines;
+}
+
+/// The answer's shape of each size, and the lines that make it.
+std::string lines_to_paste(const EngineChoice& choice) {
+  std::string text;
+  const EngineSetting& answer = choice.settings[*choice.answer];
+  for (std::size_t i = 0; i < choice.sizes.size(); ++i) {
+    const EngineShape& shape = answer.shapes[i];
+    text += fmt::format("\n{} ({}): {}\n", choice.sizes[i].name, bodies_of(choice, choice.sizes[i]),
+                        engine_shape_name(shape));
+    std::istringstream lines(engine_lines(choice.engine.name, shape, cylinder_of(choice, i)));
+    for (std::string line; std::getline(lines, line);) text += "    " + line + '\n';
+  }
+  return text;
+}
+
+json setting_json(const EngineChoice& choice, const EngineSetting& setting) {
+  json shapes = json::array(), verdicts = json::array();
+  for (const EngineShape& shape : setting.shapes) shapes.push_back(engine_shape_name(shape));
+  for (const Verdict& v : setting.verdicts) {
+    verdicts.push_back({{"value", std::isfinite(v.value) ? json(v.value) : json(nullptr)},
+                        {"limit", v.limit},
+                        {"time", v.time},
+                        {"holds", v.holds()}});
+  }
+  const double error = setting.error();
+  return {{"name", setting_name(setting)},
+          {"shapes", shapes},
+          {"step_microseconds",
+           setting.step_seconds ? json(*setting.step_seconds * 1e6) : json(nullptr)},
+          {"points", setting.points},
+          {"holds", setting.holds()},
+          {"error", std::isfinite(error) ? json(error) : json(nullptr)},
+          {"trials", setting.trials},
+          {"held", setting.held},
+          {"disturbance", setting.disturbance},
+          {"verdicts", verdicts},
+          {"first_broken", setting.holds() ? json(nullptr) : json(setting.first_broken())},
+          {"end", setting.end.empty() ? json(nullptr) : json(setting.end)},
+          {"failure", setting.holds() ? json(nullptr) : json(failure(choice, setting))}};
+}
+
+}  // namespace
+
+std::string setting_name(const EngineSetting& setting) {
+  std::vector<std::string> names;
+  for (const EngineShape& shape : setting.shapes) names.push_back(engine_shape_name(shape));
+  const bool is_uniform = std::equal(names.begin() + 1, names.end(), names.begin());
+  return is_uniform ? names[0] : fmt::format("{}", fmt::join(names, "; "));
+}
+
+std::string engine_choice_text(const EngineChoice& choice, std::size_t columns) {
+  const SceneFile& file = choice.file;
+  std::string text = fmt::format("{} in {} {}: {} bodies, {:g} s in steps of {:.2g} s\n", file.name,
+                                 choice.engine.name, choice.engine.version,
+                                 file.scene.bodies.size(), file.scene.duration, file.scene.step);
+  if (const Trials& t = choice.trials; t.disturbances > 0) {
+    text += fmt::format(
+        "Each run as written, then under {} disturbances, the answer under {} (seed {})\n",
+        t.disturbances, t.of_answer(), t.seed);
+  }
+  for (const std::string& need : choice.left_out) {
+    text += fmt::format("Left out, for an engine's normals are not judged: {}\n", need);
+  }
+  text += '\n' + headline(choice);
+  const EngineSetting& shown =
+      choice.answer ? choice.settings[*choice.answer] : choice.exact_setting();
+  for (std::size_t i = 0; i < shown.verdicts.size(); ++i) {
+    const Need& need = *file.needs[i];
+    const Verdict& verdict = shown.verdicts[i];
+    text += fmt::format("{:>3}. {:<6} {}: {}\n", i + 1, verdict.holds() ? "holds" : "BROKEN",
+                        need.text(file.scene), measured(verdict, need));
+  }
+  text = Terminal{columns}.folded(text);
+  if (choice.answer) text += lines_to_paste(choice);
+  text += "\nAll that was run          µs/step points  breaks first\n";
+  for (const EngineSetting& s : choice.settings) {
+    text += fmt::format("  {:<24} {:>6} {:>6.1f}  {}\n", setting_name(s), microseconds(s), s.points,
+                        s.holds() ? "" : first_failure(s));
+  }
+  return text;
+}
+
+std::string engine_choice_json(const EngineChoice& choice, const std::string& command, int indent) {
+  const SceneFile& file = choice.file;
+  json needs = json::array(), sizes = json::array(), settings = json::array();
+  for (const auto& need : file.needs) {
+    needs.push_back({{"text", need->text(file.scene)}, {"unit", need->unit}});
+  }
+  for (std::size_t i = 0; i < choice.sizes.size(); ++i) {
+    sizes.push_back({{"name", choice.sizes[i].name},
+                     {"bodies", bodies_of(choice, choice.sizes[i])},
+                     {"shape", nullptr},
+                     {"lines", nullptr}});
+    if (!choice.answer) continue;
+    const EngineShape& shape = choice.settings[*choice.answer].shapes[i];
+    sizes.back()["shape"] = engine_shape_name(shape);
+    sizes.back()["lines"] = engine_lines(choice.engine.name, shape, cylinder_of(choice, i));
+  }
+  for (const EngineSetting& s : choice.settings) settings.push_back(setting_json(choice, s));
+  const json result = {{"schema", "touchstone-engine-choice-1"},
+                       {"command", command},
+                       {"machine", to_json(describe_machine())},
+                       {"engine",
+                        {{"name", choice.engine.name},
+                         {"version", choice.engine.version},
+                         {"settings", choice.engine.settings}}},
+                       {"scene",
+                        {{"name", file.name},
+                         {"description", file.description},
+                         {"bodies", file.scene.bodies.size()},
+                         {"step", file.scene.step},
+                         {"duration", file.scene.duration},
+                         {"disturbances", choice.trials.disturbances},
+                         {"seed", choice.trials.seed},
+                         {"needs", needs},
+                         {"left_out", choice.left_out}}},
+                       {"sizes", sizes},
+                       {"answer", choice.answer ? json(*choice.answer) : json(nullptr)},
+                       {"settings", settings}};
+  return result.dump(indent, ' ', false, json::error_handler_t::replace);
+}
+
+}  // namespace touchstone

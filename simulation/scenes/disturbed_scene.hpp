@@ -1,0 +1,103 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "simulation/scenes/need.hpp"
+#include "simulation/scenes/trajectory.hpp"
+
+// Repetitions of a run: one run can be luck.
+
+namespace touchstone {
+
+/// A scene as it might as well have been: every moving body up to 1e-4 of its smallest width from
+/// where it was written and up to 1e-3 rad askew, with a kick of up to 1e-3 of the speed that a
+/// fall of that width gives, what joints connect as one, and not at all where it is held by the
+/// world or driven; the whole world turned at random about the origin; the bodies in another order.
+/// What holds in the scene as it is written alone is luck.
+struct DisturbedScene {
+  Scene scene;
+  Eigen::Quaterniond turn;  ///< of the world
+  std::vector<int> origin;  ///< by body of `scene`: its index in the scene as it is written
+
+  /// Disturbance 0 is none: the scene as it is written.
+  DisturbedScene(const Scene& written, std::uint64_t seed, std::size_t disturbance);
+  /// A run of `scene` as seen in the scene as it is written: turned back, bodies in their order.
+  Trajectory turned_back(const Trajectory& run) const;
+};
+
+/// Repetitions of a run under disturbances: a need holds if it holds in all.
+struct Trials {
+  std::size_t disturbances = 16;  ///< beside the scene as it is written
+  std::uint64_t seed = 1;
+
+  /// The answer is held to more, because it is the best of many: of 50 models that break one run in
+  /// 30, every second is lucky in 16.
+  std::size_t of_answer() const { return 5 * disturbances; }
+};
+
+/// Runs a scene as it is written, and adds the answers of its runs under the disturbances: frames
+/// of the one, answers of all.
+Trajectory run_disturbed(const Scene& scene, ContactModel& model, const Trials& trials);
+
+/// The worst answer of a run's models before its first need broke.
+struct Evidence {
+  Configuration configuration;
+  std::string bodies, candidate;
+  std::string wrong;  ///< in words: "missed, 0.0012 m deep"
+  double time;        ///< s
+};
+
+/// What one run came to.
+struct Trial {
+  std::vector<Verdict> verdicts;  ///< by need
+  std::optional<Evidence> evidence = {};
+  std::string end = {};  ///< why the run ended early: "Segmentation fault"
+  double points = 0;     ///< contact points given to the solver, mean of a step
+  double solver_seconds = 0;
+};
+
+// What a run came to as text, on its way from the process that made it, and back.
+std::string trial_text(const Trial& trial);
+Trial trial_from(const std::string& text);
+/// The poses at the start and at the end of a run.
+std::string ends_text(const Trajectory& run);
+Trajectory run_of_ends(const std::string& text, double step);
+
+/// Runs of a scene with the same models under several disturbances.
+struct RepeatedRun {
+  std::size_t trials = 0, held = 0;    ///< runs that were made, and those in which all needs held
+  std::size_t disturbance = 0;         ///< the worst run, which verdicts and evidence are of
+  std::vector<Verdict> verdicts = {};  ///< by need
+  std::optional<Evidence> evidence = {};
+  std::string end = {};  ///< why it ended early: "Segmentation fault"
+  double points = 0;     ///< contact points given to the solver, mean of a step, as it is written
+  double solver_seconds = 0;  ///< least of the runs that were made
+
+  bool holds() const { return first_broken() < 0; }
+  /// Largest share of its limit that a need takes; above one: broken.
+  double error() const;
+  /// Index of the need that broke first; −1: all hold.
+  int first_broken() const;
+};
+
+/// Index of the need that broke first; −1: all hold.
+int first_broken(const std::vector<Verdict>& verdicts);
+
+/// Adds to the runs what they come to under the disturbances up to `last` that they have not had;
+/// those that broke a need get no more. `trial` makes one run, by the index in `runs`, in one of
+/// the worker processes; the results do not depend on their number.
+void repeat(const std::vector<RepeatedRun*>& runs, std::size_t last, unsigned workers,
+            const std::function<Trial(std::size_t run, std::size_t disturbance)>& trial,
+            const std::function<std::string(std::size_t run)>& name);
+
+/// First and last frames of runs under all disturbances up to `last`, turned back; what relative
+/// needs are measured against. `run` makes one, in one of the worker processes.
+std::vector<Trajectory> ends_of_runs(const Scene& scene, const Trials& trials, unsigned workers,
+                                     const std::function<Trajectory(const DisturbedScene&)>& run,
+                                     const std::string& name);
+
+}  // namespace touchstone
