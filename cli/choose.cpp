@@ -143,7 +143,7 @@ void add_choose(Program& program) {
                 "mujoco")
           .value("ENGINE")
           .excludes(options->candidates.option())};
-  const char* sampled = "Of a robot or world whose shapes meet at random instead of in a motion";
+  const char* sampled = "Of a robot or world, at random poses";
   PairNeeds& pairs = options->pairs;
   options->of_samples = {
       command.number("--depth", pairs.depth, positive_numbers, "Largest depth error, metres")
@@ -156,7 +156,7 @@ void add_choose(Program& program) {
       "Examples:\n"
       "  touchstone choose simulation/scenes/log-pile.json\n"
       "  touchstone choose simulation/scenes/conveyor.json --candidates spheres:1..16\n"
-      "  touchstone choose simulation/scenes/rover.urdf --drive left_wheel=5,right_wheel=5\n"
+      "  touchstone choose simulation/scenes/rover.urdf --drive left_finger_joint=0.05\n"
       "  touchstone choose simulation/scenes/log-pile.json --engine bullet\n"
       "  touchstone choose simulation/scenes/gripper.urdf --depth 0.002 --angle 10\n"
       "Exit code 1: not even exact contacts meet the needs.");

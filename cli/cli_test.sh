@@ -175,7 +175,7 @@ expect 0 'capsule: contact, \|capsule: none, ' replay "$(ls "$folder"/found/*.js
 
 expect 2 'must be one of standing, ' simulate juggling
 for name in robot.urdf ./scene.json; do
-  expect 2 "^error: experiment is \"$name\": must be a name, as rolling; a file is one for touchstone choose" simulate $name
+  expect 2 "^error: scene is \"$name\": could not be opened for reading" simulate $name
 done
 expect 2 '--step.*from 1e-05 to 0.1' simulate rolling --step 0
 expect 2 '--workers' simulate rolling --workers 0
@@ -289,7 +289,6 @@ expect 2 '^error: --drive is "left_wheel": must be a joint and its rate, as in l
 expect 2 '^error: --drive is "fast": must be a number' simulate "$folder/cart.urdf" --drive left_wheel=fast
 expect 2 '^error: --model-path is .*none": must be a folder$' simulate "$folder/cart.urdf" --model-path "$folder/none"
 expect 2 'must be a robot or world .* with --drive' choose "$folder/bad.json" --drive left_wheel=3
-expect 2 'must be a robot or world .* with --depth' choose "$folder/bad.json" --depth 1
 expect 2 'scene is .*none.urdf": .*could not be opened' simulate "$folder/none.urdf"
 sed 's/<cylinder radius="0.1" length="0.05"/<sphere radius="0.1"/' "$folder/cart.urdf" > "$folder/balls.urdf"
 expect 2 'must have a cylinder that moves and touches something: see --drive' \
@@ -313,10 +312,8 @@ done
 robot=$(dirname "$0")/../simulation/scenes/gripper.urdf
 expect 2 '^error: --disturbances is given with ".*gripper.urdf": must be left out' choose "$robot" --disturbances 3 --count 10
 cp "$robot" "$folder/G.URDF"
-cp "$robot" "$folder/x.xml"
-for name in G.URDF x.xml; do
-  expect 2 "^error: scene is \".*$name\": is XML: the name of a robot must end in .urdf" choose "$folder/$name"
-  expect 2 "^error: scene is \".*$name\": is XML: the name of a robot must end in .urdf" render "$folder/$name"
+for command in choose render; do
+  expect 2 "^error: scene is \".*G.URDF\": is XML: the name of a robot must end in .urdf" $command "$folder/G.URDF"
 done
 # One thing is no plural.
 sed 's/"duration":0.3/"duration":0.0042/' "$folder/can.json" >"$folder/brief.json"

@@ -230,7 +230,7 @@ void add_simulate(Program& program) {
       "  touchstone simulate standing --candidates reference,bullet --step 0.004\n"
       "  touchstone simulate --out out\n"
       "  touchstone simulate small-log --engine bullet --out out\n"
-      "  touchstone simulate simulation/scenes/rover.urdf --drive left_wheel=5,right_wheel=5\n"
+      "  touchstone simulate simulation/scenes/rover.urdf --duration 1\n"
       "  touchstone simulate simulation/scenes/conveyor.json --record recorded.jsonl\n" +
       experiment_list());
   command.runs([options] { return run(*options); });

@@ -155,7 +155,7 @@ TEST(GivenAnswers, TellsWhatIsMissingAndWhatWasNotAskedFor) {
   ASSERT_EQ(r.errors.size(), 2u);
   EXPECT_THAT(r.errors[0].error, HasSubstr("of the configurations that were asked for"));
   EXPECT_EQ(r.errors[1].line, 0u);
-  EXPECT_THAT(r.errors[1].error, HasSubstr("missing for 1 configurations, as " + id + "0"));
+  EXPECT_THAT(r.errors[1].error, HasSubstr("missing for 1 configuration, as " + id + "0"));
 }
 
 // One configuration, with either body first.
