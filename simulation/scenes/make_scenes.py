@@ -107,7 +107,7 @@ def wheel_on_road():
         "needs": [
             {"need": "rolls", "body": "wheel", "share": 0.03},
             {"need": "ends-tilted", "body": "wheel", "degrees": 3},
-            {"need": "stays-in", "body": "wheel", "lower": [-1, -0.1, 0.25], "upper": [9, 0.1, 0.5]},
+            {"need": "stays-in", "body": "wheel", "lower": [-1, -0.25, 0.2], "upper": [9, 0.25, 0.6]},
             {"need": "penetration", "metres": 0.01},
         ],
         "camera": {"position": [1.2, -4.2, 1.5], "look_at": [2.2, 0, 0.2]},
