@@ -5,16 +5,7 @@
 namespace touchstone::oracle {
 namespace {
 
-/// Owners of FLINT's integers, rationals and floats.
-struct Integer {
-  Integer() { fmpz_init(value); }
-  explicit Integer(const mpz_class& z) : Integer() { fmpz_set_mpz(value, z.get_mpz_t()); }
-  ~Integer() { fmpz_clear(value); }
-  Integer(const Integer&) = delete;
-  Integer& operator=(const Integer&) = delete;
-  fmpz_t value;
-};
-
+/// An owner of one of FLINT's rationals.
 struct Rational {
   Rational() { fmpq_init(value); }
   explicit Rational(const mpq_class& q) : Rational() { fmpq_set_mpq(value, q.get_mpq_t()); }
@@ -24,34 +15,22 @@ struct Rational {
   fmpq_t value;
 };
 
-struct Float {
-  Float() { arf_init(value); }
-  ~Float() { arf_clear(value); }
-  Float(const Float&) = delete;
-  Float& operator=(const Float&) = delete;
-  arf_t value;
-};
+}  // namespace
 
-mpq_class exact(const arf_t value) {
+mpq_class Float::rational() const {
   Rational q;
-  arf_get_fmpq(q.value, value);
+  arf_get_fmpq(q.value, value_);
   mpq_class result;
   fmpq_get_mpq(result.get_mpq_t(), q.value);
   return result;
 }
 
-}  // namespace
-
-thread_local long WorkingPrecision::current_ = 64;
-
-Ball::Ball(const mpz_class& exact) : Ball() {
-  const Integer z(exact);
-  arb_set_fmpz(value_, z.value);
-}
+Ball::Ball(const mpz_class& exact) : Ball() { arf_set_mpz(arb_midref(value_), exact.get_mpz_t()); }
 
 Ball::Ball(const mpz_class& value, long bits) : Ball() {
-  const Integer z(value);
-  arb_set_round_fmpz(value_, z.value, bits);
+  if (arf_set_round_mpz(arb_midref(value_), value.get_mpz_t(), bits, ARF_RND_DOWN) != 0) {
+    arf_mag_set_ulp(arb_radref(value_), arb_midref(value_), bits);
+  }
 }
 
 Ball::Ball(const mpq_class& exact) : Ball() {
@@ -65,20 +44,23 @@ Ball::Ball(const mpq_class& lo, const mpq_class& hi) : Ball() {
 }
 
 // Floor and ceil round towards minus and plus infinity. (arb's "down" and "up" round by magnitude.)
-mpq_class Ball::lower() const {
+Float Ball::lower_end() const {
   Float end;
-  arb_get_lbound_arf(end.value, value_, WorkingPrecision::bits());
-  return exact(end.value);
+  arb_get_lbound_arf(end.get(), value_, WorkingPrecision::bits());
+  return end;
 }
 
-mpq_class Ball::upper() const {
+Float Ball::upper_end() const {
   Float end;
-  arb_get_ubound_arf(end.value, value_, WorkingPrecision::bits());
-  return exact(end.value);
+  arb_get_ubound_arf(end.get(), value_, WorkingPrecision::bits());
+  return end;
 }
 
 double Ball::midpoint() const { return arf_get_d(arb_midref(value_), ARF_RND_NEAR); }
 
-BallVector to_balls(const Vector3<mpz_class>& v) { return {Ball(v.x), Ball(v.y), Ball(v.z)}; }
+BallVector to_balls(const Vector3<mpz_class>& v) {
+  const long bits = WorkingPrecision::bits();
+  return {Ball(v.x, bits), Ball(v.y, bits), Ball(v.z, bits)};
+}
 
 }  // namespace touchstone::oracle

@@ -39,9 +39,31 @@ Vector3<T> cross(const Vector3<T>& a, const Vector3<T>& b) {
   return {T(a.y * b.z - a.z * b.y), T(a.z * b.x - a.x * b.z), T(a.x * b.y - a.y * b.x)};
 }
 
+/// Without temporary numbers.
+template <>
+inline mpz_class dot(const Vector3<mpz_class>& a, const Vector3<mpz_class>& b) {
+  mpz_class sum = a.x * b.x;
+  mpz_addmul(sum.get_mpz_t(), a.y.get_mpz_t(), b.y.get_mpz_t());
+  mpz_addmul(sum.get_mpz_t(), a.z.get_mpz_t(), b.z.get_mpz_t());
+  return sum;
+}
+template <>
+inline Vector3<mpz_class> cross(const Vector3<mpz_class>& a, const Vector3<mpz_class>& b) {
+  Vector3<mpz_class> result{a.y * b.z, a.z * b.x, a.x * b.y};
+  mpz_submul(result.x.get_mpz_t(), a.z.get_mpz_t(), b.y.get_mpz_t());
+  mpz_submul(result.y.get_mpz_t(), a.x.get_mpz_t(), b.z.get_mpz_t());
+  mpz_submul(result.z.get_mpz_t(), a.y.get_mpz_t(), b.x.get_mpz_t());
+  return result;
+}
+
 template <class T>
 bool is_zero(const Vector3<T>& a) {
   return a.x == 0 && a.y == 0 && a.z == 0;
+}
+
+/// Is their cross product zero?
+inline bool parallel(const Vector3<mpz_class>& a, const Vector3<mpz_class>& b) {
+  return a.y * b.z == a.z * b.y && a.z * b.x == a.x * b.z && a.x * b.y == a.y * b.x;
 }
 
 /// The rotation of a quaternion (w, x, y, z) other than zero, times its squared length `norm`: the
@@ -68,6 +90,52 @@ struct ExactRotation {
   std::array<Vector3<T>, 3> columns;
   T norm;
 };
+
+/// A binary floating-point number of any length (FLINT/arb's arf): sums, differences and products
+/// are exact.
+class Float {
+ public:
+  Float() { arf_init(value_); }
+  Float(const Float& other) : Float() { arf_set(value_, other.value_); }
+  Float(Float&& other) noexcept : Float() { arf_swap(value_, other.value_); }
+  Float& operator=(const Float& other) {
+    arf_set(value_, other.value_);
+    return *this;
+  }
+  Float& operator=(Float&& other) noexcept {
+    arf_swap(value_, other.value_);
+    return *this;
+  }
+  ~Float() { arf_clear(value_); }
+
+  explicit Float(double x) : Float() { arf_set_d(value_, x); }
+  explicit Float(const mpz_class& x) : Float() { arf_set_mpz(value_, x.get_mpz_t()); }
+
+  arf_ptr get() { return value_; }
+  arf_srcptr get() const { return value_; }
+  int sign() const { return arf_sgn(value_); }
+  mpq_class rational() const;
+
+ private:
+  arf_t value_;
+};
+
+inline Float operator+(const Float& a, const Float& b) {
+  Float r;
+  arf_add(r.get(), a.get(), b.get(), ARF_PREC_EXACT, ARF_RND_DOWN);
+  return r;
+}
+inline Float operator-(const Float& a, const Float& b) {
+  Float r;
+  arf_sub(r.get(), a.get(), b.get(), ARF_PREC_EXACT, ARF_RND_DOWN);
+  return r;
+}
+inline Float operator*(const Float& a, const Float& b) {
+  Float r;
+  arf_mul(r.get(), a.get(), b.get(), ARF_PREC_EXACT, ARF_RND_DOWN);
+  return r;
+}
+inline bool operator<(const Float& a, const Float& b) { return arf_cmp(a.get(), b.get()) < 0; }
 
 /// A real number known to lie within a radius of a midpoint: FLINT/arb's ball arithmetic, in which
 /// every operation encloses the exact result. Johansson, "Arb: efficient arbitrary-precision
@@ -98,9 +166,11 @@ class Ball {
   arb_ptr get() { return value_; }
   arb_srcptr get() const { return value_; }
 
-  /// Exact ends of the enclosure; the ball must be finite.
-  mpq_class lower() const;
-  mpq_class upper() const;
+  /// The ends of the enclosure, rounded outward; the ball must be finite.
+  Float lower_end() const;
+  Float upper_end() const;
+  mpq_class lower() const { return lower_end().rational(); }
+  mpq_class upper() const { return upper_end().rational(); }
   double midpoint() const;
 
   bool is_finite() const { return arb_is_finite(value_); }
@@ -125,7 +195,7 @@ class WorkingPrecision {
   static long bits() { return current_; }
 
  private:
-  static thread_local long current_;
+  static inline thread_local long current_ = 64;
   long previous_;
 };
 
@@ -174,7 +244,17 @@ inline Ball square(const Ball& a) {
 
 using BallVector = Vector3<Ball>;
 
-inline Ball norm(const BallVector& v) { return sqrt(square(v.x) + square(v.y) + square(v.z)); }
+template <>
+inline Ball dot(const BallVector& a, const BallVector& b) {
+  static_assert(sizeof(BallVector) == 3 * sizeof(arb_struct));
+  Ball r;
+  arb_dot(r.get(), nullptr, 0, a.x.get(), 1, b.x.get(), 1, 3, WorkingPrecision::bits());
+  return r;
+}
+
+inline Ball norm(const BallVector& v) { return sqrt(dot(v, v)); }
+
+/// Rounded to the working precision.
 BallVector to_balls(const Vector3<mpz_class>& v);
 
 }  // namespace touchstone::oracle

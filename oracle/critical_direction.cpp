@@ -37,9 +37,8 @@ class RationalDirection : public CriticalDirection {
                std::vector<DirectionBound>& out) override {
     const BallVector n = to_balls(n_);
     const auto [centre_distance, half_width] = balls.along(n);
-    const Ball length = norm(n);
-    out.push_back({(centre_distance - half_width) / length, n});
-    out.push_back({(-centre_distance - half_width) / length, -n});
+    out.push_back({centre_distance - half_width, n});
+    out.push_back({-centre_distance - half_width, -n});
   }
   ZeroGap zero_gap(const Difference& difference) override {
     const bool forth = dot(difference.d, n_) >= 0;
@@ -138,15 +137,15 @@ std::unique_ptr<CriticalDirection> rational_direction(IntegerVector n,
   return std::make_unique<RationalDirection>(std::move(n), std::move(family));
 }
 
-Side at_vertex(const Difference& difference, unsigned signs, const BallVector& n,
-               const Difference::Segment* skipped) {
+Side at_vertex(const BallDifference& balls, unsigned signs, const BallVector& n,
+               std::optional<unsigned> skipped) {
   Side result = Side::yes;
-  for (std::size_t i = 0; i < difference.segments.size(); ++i) {
-    if (&difference.segments[i] == skipped) continue;
-    const Ball along = dot(to_balls(difference.segments[i].frame.axis), n);
-    const Ball side = (signs >> i & 1U) ? along : -along;
-    if (side.is_negative()) return Side::no;
-    if (!side.is_positive()) result = Side::undecided;
+  for (unsigned i = 0; i < balls.segments(); ++i) {
+    if (i == skipped) continue;
+    const Ball along = dot(balls.axis(i), n);
+    const bool positive_side = (signs >> i & 1U) != 0;
+    if (positive_side ? along.is_negative() : along.is_positive()) return Side::no;
+    if (!(positive_side ? along.is_positive() : along.is_negative())) result = Side::undecided;
   }
   return result;
 }

@@ -139,7 +139,7 @@ enum class Side { no, undecided, yes };
 
 /// Is the direction on the side of every segment's axis that `signs` says? Undecided where balls
 /// contain zero.
-Side at_vertex(const Difference& difference, unsigned signs, const BallVector& n,
-               const Difference::Segment* skipped = nullptr);
+Side at_vertex(const BallDifference& balls, unsigned signs, const BallVector& n,
+               std::optional<unsigned> skipped = std::nullopt);
 
 }  // namespace touchstone::oracle

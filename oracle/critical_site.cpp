@@ -12,8 +12,6 @@ namespace {
 
 using Kind = CriticalSite::Kind;
 
-bool parallel(const IntegerVector& a, const IntegerVector& b) { return is_zero(cross(a, b)); }
-
 /// Index of the disc that is not perpendicular to this segment, if there is one.
 std::optional<unsigned> tilted_disc(const Difference& difference, unsigned segment) {
   for (unsigned i = 0; i < difference.discs.size(); ++i) {
@@ -57,21 +55,17 @@ class Search {
   boost::container::static_vector<RimSearch, 4> rims_;
   struct OpenPiece {
     Piece piece;
-    unsigned long vertices;  // of a line
+    LineSearch::Open vertices;  // of a line
   };
   // Enough for poses without a degeneracy.
   boost::container::small_vector<OpenPiece, 256> pieces_, next_;
   std::vector<SlopeBracket> brackets_;  // of one site
 };
 
-double relative(double metres, const Difference& difference, const Integer& scale) {
-  return mpq_class(mpq_class(metres) / (difference.unit * scale)).get_d();
-}
-
 Search::Search(const Difference& difference, double slack)
     : exact_(difference),
       difference_(difference),
-      threshold_(relative(slack, difference, difference_.scale)) {}
+      threshold_((Interval(slack) * difference_.metre).sup()) {}
 
 /// d minus the ends of the segments that `signs` selects.
 IntervalVector Search::vertex(unsigned signs) const {
@@ -86,7 +80,7 @@ IntervalVector Search::vertex(unsigned signs) const {
 
 void Search::search_directions() {
   const auto add = [&](const CriticalSite& site, const IntervalVector& n) {
-    const Interval forth = difference_.gap(n), back = difference_.gap(-n);
+    const auto [forth, back] = difference_.gaps(n);
     threshold_.raise(forth);
     threshold_.raise(back);
     directions_.push_back({site, max(forth, back)});
@@ -113,7 +107,7 @@ void Search::search_rim_vertices() {
         square_root<Interval>(square(off_axis.x) + square(off_axis.y) + square(off_axis.z));
     if ((length - disc.radius).sup() < 0) continue;
     const IntervalVector n = q - (disc.radius / length) * off_axis;
-    const Interval gap = difference_.gap(n);
+    const Interval gap = difference_.gaps(n).forth;
     threshold_.raise(gap);
     directions_.push_back({{Kind::rim_vertex, 0, 0, signs}, gap});
   }
@@ -127,7 +121,7 @@ void Search::search_radial() {
   const auto& frame = difference_.segments.front().frame;
   const IntervalVector n =
       dot(difference_.d, frame.e) * frame.e + dot(difference_.d, frame.f) * frame.f;
-  const Interval gap = difference_.gap(n);
+  const Interval gap = difference_.gaps(n).forth;
   threshold_.raise(gap);
   directions_.push_back({{Kind::radial, 0}, gap});
 }
@@ -139,25 +133,23 @@ void Search::search_curves() {
   if (difference_.discs.size() == 2) {
     for (unsigned signs = 0; signs < 4; ++signs) rims_.emplace_back(difference_, signs);
   }
-  const auto add = [&](unsigned curve, unsigned turns) {
-    for (unsigned turn = 0; turn < turns; ++turn) {
+  const auto add = [&](unsigned curve) {
+    for (unsigned turn = 0; turn < 2; ++turn) {
       for (int i = 0; i < first_pieces; ++i) {
         constexpr double width = 2.0 / first_pieces;
-        pieces_.push_back({{curve, turn, -1 + i * width, -1 + (i + 1) * width}, 0});
+        pieces_.push_back({{curve, turn, -1 + i * width, -1 + (i + 1) * width}, {1, 1}});
       }
     }
   };
-  for (unsigned i = 0; i < lines_.size(); ++i) add(i, 4);
-  for (unsigned i = 0; i < rims_.size(); ++i) {
-    add(static_cast<unsigned>(lines_.size()) + i, 2);
-  }
+  // Two turns of a line: the other two are opposite.
+  for (unsigned i = 0; i < lines_.size() + rims_.size(); ++i) add(i);
   for (int split = 0;; ++split) {
     next_.clear();
     for (OpenPiece& open : pieces_) {
       const Piece& piece = open.piece;
       if (piece.curve < lines_.size()) {
-        open.vertices = lines_[piece.curve].open_vertices(piece, threshold_);
-        if (open.vertices == 0) continue;
+        open.vertices = lines_[piece.curve].open_vertices(piece, open.vertices, threshold_);
+        if (open.vertices.forth == 0 && open.vertices.back == 0) continue;
       } else if (!rims_[piece.curve - lines_.size()].is_open(piece, threshold_)) {
         continue;
       }
@@ -168,8 +160,8 @@ void Search::search_curves() {
     for (const OpenPiece& open : next_) {
       const auto& [curve, turn, lo, hi] = open.piece;
       const double middle = (lo + hi) / 2;
-      pieces_.push_back({{curve, turn, lo, middle}, 0});
-      pieces_.push_back({{curve, turn, middle, hi}, 0});
+      pieces_.push_back({{curve, turn, lo, middle}, open.vertices});
+      pieces_.push_back({{curve, turn, middle, hi}, open.vertices});
     }
   }
 }
@@ -199,28 +191,32 @@ std::vector<CriticalSite> Search::curve_sites() const {
     }
     sites.push_back(site);
   };
-  for (const OpenPiece& open : next_) {
-    const auto& [curve, turn, lo, hi] = open.piece;
-    if (curve >= lines_.size()) {
-      const auto signs = static_cast<unsigned>(curve - lines_.size());
-      extend({Kind::rim_rim, 0, 1, signs, turn, lo, hi});
-      continue;
-    }
-    const auto tilted = lines_[curve].tilted_disc();
-    for (unsigned v = 0; v < 1U << lines_[curve].others(); ++v) {
-      if (!(open.vertices >> v & 1UL)) continue;
-      const unsigned signs = all_signs(v, curve);
-      if (tilted) {
-        extend({Kind::rim_line, curve, *tilted, signs, turn, lo, hi, lines_[curve].heading()});
+  const auto add = [&](const Piece& piece, unsigned turn, unsigned long vertices) {
+    const LineSearch& line = lines_[piece.curve];
+    for (unsigned v = 0; v < 1U << line.others(); ++v) {
+      if (!(vertices >> v & 1UL)) continue;
+      const unsigned signs = all_signs(v, piece.curve);
+      if (line.tilted_disc()) {
+        extend({Kind::rim_line, piece.curve, *line.tilted_disc(), signs, turn, piece.lo, piece.hi,
+                line.heading()});
       } else {
         // One rational direction serves the whole circle.
-        const CriticalSite site{Kind::radial, curve, 0, signs};
-        const bool known = std::any_of(sites.begin(), sites.end(), [&](const auto& s) {
-          return s.kind == site.kind && s.first == site.first && s.signs == site.signs;
-        });
-        if (!known) sites.push_back(site);
+        extend({Kind::radial, piece.curve, 0, signs});
       }
     }
+  };
+  for (unsigned curve = 0; curve < lines_.size(); ++curve) {
+    for (const auto& [piece, vertices] : next_) {
+      if (piece.curve == curve) add(piece, piece.turn, vertices.forth);
+    }
+    for (const auto& [piece, vertices] : next_) {
+      if (piece.curve == curve) add(piece, piece.turn + 2, vertices.back);
+    }
+  }
+  for (const auto& [piece, vertices] : next_) {
+    if (piece.curve < lines_.size()) continue;
+    const auto signs = static_cast<unsigned>(piece.curve - lines_.size());
+    extend({Kind::rim_rim, 0, 1, signs, piece.turn, piece.lo, piece.hi});
   }
   return sites;
 }
@@ -240,11 +236,6 @@ bool Search::isolate_line(const CriticalSite& site) {
   return true;
 }
 
-/// Only the branch of rim 2's nearest point has maxima. Where g has one, of depth λ = −g > 0, the
-/// boundary of the sum of both bodies is curved no more than a sphere of radius λ. Of its matrix of
-/// radii of curvature, Σ radius_j / |u_j × n| t_j t_jᵀ, the second part alone is left across rim
-/// 1's tangent t_1, so that radius2 >= λ |u_2 × n|: rim 1's point, at −λ n from rim 2's, lies on
-/// the same side of rim 2's axis. Apart (λ < 0) it lies beyond it.
 bool Search::isolate_rims(const CriticalSite& site) {
   return isolate_slope_roots(rims_[site.signs].slope(1), 1,
                              {site.first, site.turn, site.lo, site.hi}, brackets_);

@@ -61,6 +61,7 @@ IntervalDifference::IntervalDifference(const Difference& difference) : scale(dif
   const ScaledInterval norm = scaled(difference.norm);
   const ScaledInterval length = scaled(scale);
 
+  metre = ratio(difference.per_metre, length);
   d = ratio(difference.d, scaled(scale * difference.norm));
   for (const auto& s : difference.segments) {
     segments.push_back({unit(s.frame, norm), ratio(s.half_length, length)});
@@ -71,9 +72,11 @@ IntervalDifference::IntervalDifference(const Difference& difference) : scale(dif
   inflation = ratio(difference.inflation, length);
 }
 
-Interval IntervalDifference::gap(const IntervalVector& n) const {
+OppositeGaps IntervalDifference::gaps(const IntervalVector& n) const {
   const Interval length = square_root<Interval>(square(n.x) + square(n.y) + square(n.z));
-  return (dot(d, n) - add_half_width(Interval(0), segments, discs, n)) / length - inflation;
+  const Interval centre_distance = dot(d, n) / length;
+  const Interval half_width = add_half_width(Interval(0), segments, discs, n) / length + inflation;
+  return {centre_distance - half_width, -centre_distance - half_width};
 }
 
 namespace {
@@ -152,14 +155,20 @@ LineSearch::Direction LineSearch::direction(const Piece& piece, const Interval& 
   }
 }
 
-Interval LineSearch::gap(const Direction& n) const {
-  return (d_.along(n) - add_half_width(Interval(0), segments_, discs_, n)) / n.length - inflation_;
+OppositeGaps LineSearch::gaps(const Direction& n) const {
+  const Interval centre_distance = d_.along(n) / n.length;
+  const Interval half_width =
+      add_half_width(Interval(0), segments_, discs_, n) / n.length + inflation_;
+  return {centre_distance - half_width, -centre_distance - half_width};
 }
 
-unsigned long LineSearch::open_vertices(const Piece& piece, GapThreshold& threshold) const {
+LineSearch::Open LineSearch::open_vertices(const Piece& piece, const Open& asked,
+                                           GapThreshold& threshold) const {
   const Direction n = direction(piece, Interval(piece.lo, piece.hi));
-  // Slope of the gap along the circle, times n.length. The segments' part depends on their signs.
-  Interval smooth = d_.across(n);
+  // The slope of the gap along the circle, times n.length, is that of the half width with or
+  // against that of the centres' distance. The segments' part depends on their signs.
+  const Interval centres = d_.across(n);
+  Interval smooth = 0;
   for (const auto& disc : discs_) {
     const Interval u = disc.axis.along(n), du = disc.axis.across(n), s = disc.projection(n);
     // |du| <= s
@@ -167,37 +176,47 @@ unsigned long LineSearch::open_vertices(const Piece& piece, GapThreshold& thresh
     smooth += disc.radius * (s.inf() > 0 ? u * du / s : bounded);
   }
   Interval any_slope = smooth;
-  unsigned long open = 1;  // one bit for each vertex of the segments handled so far
+  unsigned long possible = 1;  // one bit for each vertex of the segments handled so far
   std::array<Interval, 8> slopes{smooth};
-  std::size_t count = 1;
+  unsigned count = 1;
   for (const auto& s : segments_) {
     const Interval side = s.axis.along(n);
     const Interval change = s.half_length * s.axis.across(n);
     any_slope += (side.inf() > 0   ? -change
                   : side.sup() < 0 ? change
                                    : abs(change) * Interval(-1, 1));
-    const unsigned long negative = side.inf() > 0 ? 0 : open;
-    const unsigned long positive = side.sup() < 0 ? 0 : open;
-    for (std::size_t v = 0; v < count; ++v) {
+    const unsigned long negative = side.inf() > 0 ? 0 : possible;
+    const unsigned long positive = side.sup() < 0 ? 0 : possible;
+    for (unsigned v = 0; v < count; ++v) {
       slopes[count + v] = slopes[v] - change;
       slopes[v] += change;
     }
-    open = negative | positive << count;
+    possible = negative | positive << count;
     count *= 2;
   }
 
-  for (std::size_t v = 0; v < count; ++v) {
-    const Interval& slope = slopes[v];
-    if (slope.inf() > 0 || slope.sup() < 0) open &= ~(1UL << v);
+  const auto may_be_zero = [](const Interval& x) { return !(x.inf() > 0 || x.sup() < 0); };
+  Open open{0, 0};
+  for (unsigned v = 0; v < count; ++v) {
+    if (!(possible >> v & 1UL)) continue;
+    if (asked.forth != 0 && may_be_zero(slopes[v] + centres)) open.forth |= 1UL << v;
+    // The opposite direction is on the other side of every segment.
+    if (asked.back != 0 && may_be_zero(slopes[v] - centres)) open.back |= 1UL << (count - 1 - v);
   }
-  if (open == 0) return 0;
+  if (open.forth == 0 && open.back == 0) return open;
 
-  const Interval at_middle = gap(direction(piece, Interval((piece.lo + piece.hi) / 2)));
-  threshold.raise(at_middle);
+  const OppositeGaps at_middle = gaps(direction(piece, Interval((piece.lo + piece.hi) / 2)));
+  threshold.raise(at_middle.forth);
+  threshold.raise(at_middle.back);
+  const OppositeGaps anywhere = gaps(n);
   // Since dφ <= dt, the largest slope of all smooth parts bounds the change of g.
-  const Interval half = Interval(piece.hi) - Interval(piece.lo);
-  const Interval ahead = at_middle + abs(any_slope / n.length) * half * Interval(0.5);
-  if (threshold.is_above(ahead) || threshold.is_above(gap(n))) return 0;
+  const Interval half_piece = (Interval(piece.hi) - Interval(piece.lo)) * Interval(0.5);
+  const auto is_below = [&](const Interval& middle, const Interval& slope, const Interval& gap) {
+    return threshold.is_above(gap) ||
+           threshold.is_above(middle + abs(slope / n.length) * half_piece);
+  };
+  if (is_below(at_middle.forth, any_slope + centres, anywhere.forth)) open.forth = 0;
+  if (is_below(at_middle.back, any_slope - centres, anywhere.back)) open.back = 0;
   return open;
 }
 
@@ -213,7 +232,7 @@ LineSlope<Interval> LineSearch::slope(unsigned vertex, int branch) const {
 }
 
 bool LineSearch::reaches(const Piece& piece, const GapThreshold& threshold) const {
-  return !threshold.is_above(gap(direction(piece, Interval(piece.lo, piece.hi))));
+  return !threshold.is_above(gaps(direction(piece, Interval(piece.lo, piece.hi))).forth);
 }
 
 namespace {
@@ -257,29 +276,19 @@ IntervalVector reduced_point(const IntervalDifference& difference, unsigned sign
 RimSearch::RimSearch(const IntervalDifference& difference, unsigned signs)
     : difference_(difference),
       q_(reduced_point(difference, signs)),
+      axis2_(difference.discs[1].frame.axis),
       radius1_(difference.discs[0].radius),
-      radius2_(difference.discs[1].radius) {
-  IntervalVector* ups[] = {&up1_, &up2_};
-  for (unsigned i = 0; i < 2; ++i) {
-    const IntervalVector& axis = difference.segments[i].frame.axis;
-    *ups[i] = (signs >> i & 1U) ? axis : -axis;
-  }
-}
+      radius2_(difference.discs[1].radius),
+      side1_((signs & 1U) ? 1 : -1),
+      side2_((signs & 2U) ? 1 : -1) {}
 
+// Rim 1 is body A's, in whose frame its axis is z.
 RimSearch::Point RimSearch::at(unsigned turn, double lo, double hi) const {
-  const Angle<Interval> a = half_angle(lo, hi);
-  const auto& rim1 = difference_.discs[0].frame;
-  const auto& axis2 = difference_.discs[1].frame.axis;
-  Point p;
-  p.radial = a.cosine * rim1.e + a.sine * rim1.f;
-  p.tangent = a.cosine * rim1.f - a.sine * rim1.e;
-  if (turn == 1) {
-    p.radial = -p.radial;
-    p.tangent = -p.tangent;
-  }
-  p.w = radius1_ * p.radial - q_;
-  p.w_u = dot(p.w, axis2);
-  p.off_axis = p.w - p.w_u * axis2;
+  Point p{half_angle(lo, hi), {}, {}, {}, {}};
+  if (turn == 1) p.angle = {-p.angle.cosine, -p.angle.sine};
+  p.w = {radius1_ * p.angle.cosine - q_.x, radius1_ * p.angle.sine - q_.y, -q_.z};
+  p.w_u = dot(p.w, axis2_);
+  p.off_axis = p.w - p.w_u * axis2_;
   p.off_axis_length = length(p.off_axis);
   return p;
 }
@@ -310,51 +319,47 @@ void RimSearch::sample(const Piece& piece, GapThreshold& threshold) const {
   const double middle = (piece.lo + piece.hi) / 2;
   const Point p = at(piece.turn, middle, middle);
   if (!(p.off_axis_length.inf() > 0)) return;
-  for (const double branch : {1.0, -1.0}) {
-    const IntervalVector apart =
-        p.w - (Interval(branch) * radius2_ / p.off_axis_length) * p.off_axis;
-    for (const IntervalVector& n : {apart, -apart}) {
-      threshold.raise(difference_.gap(n));
-    }
-  }
+  const auto gaps = difference_.gaps(p.w - (radius2_ / p.off_axis_length) * p.off_axis);
+  threshold.raise(gaps.forth);
+  threshold.raise(gaps.back);
 }
 
 bool RimSearch::is_open(const Piece& piece, GapThreshold& threshold) const {
   const Point p = at(piece.turn, piece.lo, piece.hi);
-  const auto& axis2 = difference_.discs[1].frame.axis;
   const Interval anywhere(-1, 1);
   const bool on_axis = !(p.off_axis_length.inf() > 0);
-  IntervalVector y{anywhere, anywhere,
-                   anywhere};  // unit, from rim 2's centre to its point nearest to rim 1's
-  if (!on_axis) y = (Interval(1) / p.off_axis_length) * p.off_axis;
+  // Along rim 1's tangent and radius.
+  const auto along_tangent = [&](const IntervalVector& v) {
+    return v.y * p.angle.cosine - v.x * p.angle.sine;
+  };
+  const auto along_radius = [&](const IntervalVector& v) {
+    return v.x * p.angle.cosine + v.y * p.angle.sine;
+  };
 
-  const Interval q_t = dot(q_, p.tangent);
+  // y: unit, from rim 2's centre to its point nearest to rim 1's.
+  const Interval q_t = along_tangent(q_);
   const Interval y_t =
-      on_axis ? anywhere : -(q_t + p.w_u * dot(axis2, p.tangent)) / p.off_axis_length;
-  const Interval y_radial = dot(y, p.radial), y_up = dot(y, up1_);
-  const Interval apart_u = dot(p.w, up2_);
+      on_axis ? anywhere : -(q_t + p.w_u * along_tangent(axis2_)) / p.off_axis_length;
+  const Interval slope = q_t + radius2_ * y_t;
+  if (slope.inf() > 0 || slope.sup() < 0) return false;
 
-  bool open = false;
-  for (const double branch : {1.0, -1.0}) {
-    const Interval reach = Interval(branch) * radius2_;
-    const Interval slope = q_t + reach * y_t;
-    if (slope.inf() > 0 || slope.sup() < 0) continue;
-    const Interval beyond =
-        p.off_axis_length - reach;  // distance of rim 1's point beyond rim 2's, seen along u2
-    const Interval distance = square_root<Interval>(square(p.w_u) + square(beyond));
-    const Interval apart_radial = radius1_ - dot(q_, p.radial) - reach * y_radial;
-    const Interval apart_up = -dot(q_, up1_) - reach * y_up;
-    const Interval apart_y = branch * beyond;
-    // The direction from rim 2's point to rim 1's has the gap −distance, its opposite +distance.
-    // The comparisons are written so that NaN excludes nothing.
-    const bool not_inside = threshold.is_above(-distance) || apart_radial.sup() < 0 ||
-                            apart_y.inf() > 0 || apart_up.sup() < 0 || apart_u.sup() < 0;
-    const bool not_outside = threshold.is_above(distance) || apart_radial.inf() > 0 ||
-                             apart_y.sup() < 0 || apart_up.inf() > 0 || apart_u.inf() > 0;
-    open = open || !not_inside || !not_outside;
-  }
-  if (open) sample(piece, threshold);
-  return open;
+  const Interval beyond =
+      p.off_axis_length - radius2_;  // distance of rim 1's point beyond rim 2's, seen along u2
+  const Interval distance = square_root<Interval>(square(p.w_u) + square(beyond));
+  IntervalVector y{anywhere, anywhere, anywhere};
+  if (!on_axis) y = (Interval(1) / p.off_axis_length) * p.off_axis;
+  const Interval apart_radial = radius1_ - along_radius(q_) - radius2_ * along_radius(y);
+  const Interval apart_up = side1_ * (-q_.z - radius2_ * y.z);
+  const Interval apart_u = side2_ * p.w_u;
+  // The direction from rim 2's point to rim 1's has the gap −distance, its opposite +distance.
+  // The comparisons are written so that NaN excludes nothing.
+  const bool not_inside = threshold.is_above(-distance) || apart_radial.sup() < 0 ||
+                          beyond.inf() > 0 || apart_up.sup() < 0 || apart_u.sup() < 0;
+  const bool not_outside = threshold.is_above(distance) || apart_radial.inf() > 0 ||
+                           beyond.sup() < 0 || apart_up.inf() > 0 || apart_u.inf() > 0;
+  if (not_inside && not_outside) return false;
+  sample(piece, threshold);
+  return true;
 }
 
 }  // namespace touchstone::oracle

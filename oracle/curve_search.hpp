@@ -40,6 +40,11 @@ inline Interval cosine_towards(const Interval& x, const Interval& y) {
           at(x.sup(), x.sup() > 0 ? beside.inf() : beside.sup()).sup()};
 }
 
+/// The gaps along a direction and along its opposite, which share the half width.
+struct OppositeGaps {
+  Interval forth, back;
+};
+
 /// A Difference in double intervals; all lengths are relative to `scale`.
 struct IntervalDifference {
   struct IntervalFrame {
@@ -60,10 +65,11 @@ struct IntervalDifference {
 
   explicit IntervalDifference(const Difference& difference);
 
-  /// g(n/|n|) relative to `scale`; all real numbers if n may be zero.
-  Interval gap(const IntervalVector& n) const;
+  /// g(n/|n|) and g(−n/|n|) relative to `scale`; all real numbers if n may be zero.
+  OppositeGaps gaps(const IntervalVector& n) const;
 
   Integer scale;  ///< in units: the sum of all half lengths, radii and the inflation
+  Interval metre;
   IntervalVector d;
   boost::container::static_vector<Segment, max_segments> segments;
   boost::container::static_vector<Disc, max_discs> discs;
@@ -104,9 +110,13 @@ class LineSearch {
              std::optional<unsigned> tilted_disc);
 
   /// Bit v is set if at vertex v (one sign for each of the other segments, in order) the gap along
-  /// this circle may be stationary somewhere in the piece and reach the threshold. Raises the
+  /// this circle may be stationary somewhere in a piece, or in the opposite one, and reach the
   /// threshold.
-  unsigned long open_vertices(const Piece& piece, GapThreshold& threshold) const;
+  struct Open {
+    unsigned long forth, back;
+  };
+  /// Nothing is open on a side on which nothing of `asked` is. Raises the threshold.
+  Open open_vertices(const Piece& piece, const Open& asked, GapThreshold& threshold) const;
 
   /// Number of other segments.
   std::size_t others() const { return segments_.size(); }
@@ -146,7 +156,7 @@ class LineSearch {
     }
   };
   static Direction direction(const Piece& piece, const Interval& t);
-  Interval gap(const Direction& n) const;
+  OppositeGaps gaps(const Direction& n) const;
   void turn_towards(const Difference& exact, unsigned segment);
 
   Planar d_;
@@ -160,6 +170,12 @@ class LineSearch {
 
 /// The angles of a point on the first of two rims, at one vertex of the two segments. Decides which
 /// of them can belong to a stationary pair of rim points whose common normal both rims have.
+///
+/// Only rim 2's nearest point is looked at, since its farthest one has no maxima. Where g has one,
+/// of depth λ = −g > 0, the boundary of the sum of both bodies is curved no more than a sphere of
+/// radius λ. Of its matrix of radii of curvature, Σ radius_j / |u_j × n| t_j t_jᵀ, the second part
+/// alone is left across rim 1's tangent t_1, so that radius2 >= λ |u_2 × n|: rim 1's point, at
+/// −λ n from rim 2's, lies on the same side of rim 2's axis. Apart (λ < 0) it lies beyond it.
 class RimSearch {
  public:
   RimSearch(const IntervalDifference& difference, unsigned signs);
@@ -172,16 +188,17 @@ class RimSearch {
 
  private:
   struct Point {
-    IntervalVector radial, tangent, w,
-        off_axis;  // unit radius and tangent of rim 1; w = point − q; its component across u2
+    Angle<Interval> angle;
+    IntervalVector w, off_axis;  // w = point − q; its component across u2
     Interval w_u, off_axis_length;
   };
   Point at(unsigned turn, double lo, double hi) const;
   void sample(const Piece& piece, GapThreshold& threshold) const;
 
   const IntervalDifference& difference_;
-  IntervalVector q_, up1_, up2_;
+  IntervalVector q_, axis2_;
   Interval radius1_, radius2_;
+  Interval side1_, side2_;  // of each segment's axis: 1 or −1
 };
 
 /// Appends, in rising order, a bracket for each root of a slope in a piece of its curve, and for

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "reference/invalid_input.hpp"
 
@@ -38,8 +39,10 @@ class DyadicScale {
   }
   Integer operator()(double value) const {
     const Dyadic dyadic(value);
+    Integer result(static_cast<long>(dyadic.mantissa));
     const int shift = dyadic.exponent + bits_;
-    return Integer(static_cast<long>(dyadic.mantissa)) << static_cast<mp_bitcnt_t>(shift);
+    result <<= static_cast<mp_bitcnt_t>(shift);
+    return result;
   }
   IntegerVector operator()(const Vec3& v) const {
     return {(*this)(v.x()), (*this)(v.y()), (*this)(v.z())};
@@ -58,40 +61,42 @@ IntegerRotation exact_rotation(const Eigen::Quaterniond& q) {
   return {scale(q.w()), scale(q.x()), scale(q.y()), scale(q.z())};
 }
 
-Frame scaled(const Integer& factor, const Frame& frame) {
-  return {factor * frame.axis, factor * frame.e, factor * frame.f};
-}
-
-bool parallel(const IntegerVector& a, const IntegerVector& b) { return is_zero(cross(a, b)); }
-
-void add_segment(Difference& difference, const Frame& frame, const Integer& half_length) {
+void add_segment(Difference& difference, Frame frame, const Integer& half_length) {
   for (auto& s : difference.segments) {
     if (parallel(s.frame.axis, frame.axis)) {
       s.half_length += half_length;
       return;
     }
   }
-  difference.segments.push_back({frame, half_length});
+  difference.segments.push_back({std::move(frame), half_length});
 }
 
-void add_disc(Difference& difference, const Frame& frame, const Integer& radius) {
+void add_disc(Difference& difference, Frame frame, const Integer& radius) {
   for (auto& disc : difference.discs) {
     if (parallel(disc.frame.axis, frame.axis)) {
       disc.radius += radius;
       return;
     }
   }
-  difference.discs.push_back({frame, radius});
+  difference.discs.push_back({std::move(frame), radius});
 }
 
 /// Divides by the common factor of all entries, which is large when the orientations are equal.
 void reduce(Integer& norm, std::array<IntegerVector, 3>& columns) {
   Integer g = norm;
   for (const auto& c : columns) {
-    g = gcd(g, gcd(c.x, gcd(c.y, c.z)));
+    for (const Integer* entry : {&c.x, &c.y, &c.z}) {
+      if (g == 1) return;
+      g = gcd(g, *entry);
+    }
   }
-  norm /= g;
-  for (auto& c : columns) c = {c.x / g, c.y / g, c.z / g};
+  const auto divide = [&](Integer& x) {
+    mpz_divexact(x.get_mpz_t(), x.get_mpz_t(), g.get_mpz_t());
+  };
+  divide(norm);
+  for (auto& c : columns) {
+    for (Integer* entry : {&c.x, &c.y, &c.z}) divide(*entry);
+  }
 }
 
 struct Lengths {
@@ -118,7 +123,6 @@ Difference make_difference(const Configuration& c) {
   const IntegerRotation b = exact_rotation(c.pose_b.orientation());
 
   Difference difference;
-  difference.unit = mpq_class(mpz_class(1), length.factor());
   for (int row = 0; row < 3; ++row) {
     const auto entry = [row](const IntegerVector& v) {
       return row == 0 ? v.x : row == 1 ? v.y : v.z;
@@ -143,7 +147,6 @@ Difference make_difference(const Configuration& c) {
   const IntegerVector centre_world = length(c.pose_a.position()) - length(c.pose_b.position());
   IntegerVector centre = a.apply_inverse(centre_world);
   Integer centre_denominator = a.norm;
-  Integer finer = 1;  // lengths are multiplied by this, the unit is divided by it
 
   if (const auto* plane = std::get_if<Plane>(&c.b)) {
     DyadicScale normal_scale;
@@ -162,13 +165,13 @@ Difference make_difference(const Configuration& c) {
     centre_denominator = plane_denominator;
   }
   const Integer g = gcd(centre_denominator, norm);
-  finer = centre_denominator / g;
+  const Integer finer = centre_denominator / g;  // lengths are multiplied by this
   const Integer multiplier = norm / g;
   difference.d = multiplier * centre;
-  difference.unit /= finer;
+  difference.per_metre = length.factor() * finer;
 
   const auto size = [&](double value) { return Integer(length(value) * finer); };
-  const Frame frame_a = scaled(norm, {{0, 0, 1}, {1, 0, 0}, {0, 1, 0}});
+  const Frame frame_a{{0, 0, norm}, {norm, 0, 0}, {0, norm, 0}};
   add_segment(difference, frame_a, size(c.a.half_length()));
   add_disc(difference, frame_a, size(c.a.radius()));
 
@@ -203,30 +206,32 @@ mpq_class width_in_units(const Difference& difference, const Configuration& conf
   if (!(std::isfinite(width) && width > 0)) {
     throw InvalidInput("width", std::to_string(width), "must be positive and finite");
   }
-  return mpq_class(width) * mpq_class(larger_size(configuration)) / difference.unit;
+  return mpq_class(width) * mpq_class(larger_size(configuration)) * difference.per_metre;
 }
 
-BallDifference::BallDifference(const Difference& difference) : inflation_(difference.inflation) {
-  const Ball norm(difference.norm);
-  const auto divided = [&](const IntegerVector& v) {
-    return BallVector{Ball(v.x) / norm, Ball(v.y) / norm, Ball(v.z) / norm};
-  };
+BallDifference::BallDifference(const Difference& difference)
+    : inflation_(difference.inflation, WorkingPrecision::bits()) {
+  const auto rounded = [](const Integer& x) { return Ball(x, WorkingPrecision::bits()); };
+  const Ball inverse_norm = Ball(1) / rounded(difference.norm);
+  const auto divided = [&](const IntegerVector& v) { return inverse_norm * to_balls(v); };
   d_ = divided(difference.d);
   for (const auto& s : difference.segments) {
-    segments_.push_back({divided(s.frame.axis), Ball(s.half_length)});
+    segments_.push_back({divided(s.frame.axis), rounded(s.half_length)});
   }
   for (const auto& disc : difference.discs) {
-    discs_.push_back({divided(disc.frame.axis), Ball(disc.radius)});
+    discs_.push_back({divided(disc.frame.axis), rounded(disc.radius)});
   }
 }
 
 BallDifference::Along BallDifference::along(const BallVector& n) const {
-  return {dot(d_, n), add_half_width(inflation_ * norm(n), segments_, discs_, n)};
+  const Ball inverse_length = Ball(1) / norm(n);
+  return {dot(d_, n) * inverse_length,
+          add_half_width(Ball(0), segments_, discs_, n) * inverse_length + inflation_};
 }
 
 Ball BallDifference::gap(const BallVector& n) const {
   const Along a = along(n);
-  return (a.centre_distance - a.half_width) / norm(n);
+  return a.centre_distance - a.half_width;
 }
 
 }  // namespace touchstone::oracle

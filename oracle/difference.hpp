@@ -1,7 +1,7 @@
 #pragma once
 
+#include <boost/container/static_vector.hpp>
 #include <gmpxx.h>
-#include <vector>
 
 #include "oracle/ball.hpp"
 #include "reference/configuration.hpp"
@@ -41,11 +41,12 @@ struct Difference {
     Integer radius;
   };
 
-  Integer norm;     ///< length of every Frame direction
-  mpq_class unit;   ///< metres per unit of the integer lengths below
-  IntegerVector d;  ///< centre A − centre B, in units, times norm
-  std::vector<Segment> segments;
-  std::vector<Disc> discs;
+  Integer norm;       ///< length of every Frame direction
+  Integer per_metre;  ///< units of the integer lengths below
+  IntegerVector d;    ///< centre A − centre B, in units, times norm
+  /// The first of each is body A's, with the frame (z; x, y).
+  boost::container::static_vector<Segment, max_segments> segments;
+  boost::container::static_vector<Disc, max_discs> discs;
   Integer inflation = 0;
   /// Body B's axes, each of the exact length `norm`; zero for a sphere or a plane.
   IntegerVector axes_b[3];
@@ -82,14 +83,18 @@ class BallDifference {
  public:
   explicit BallDifference(const Difference& difference);
 
-  /// d·n and the half width h(n) = d·n − g(n), both times |n|. n may have any length but zero.
+  /// d·n and the half width h(n) = d·n − g(n) along n/|n|, in units; not finite if n may be zero.
   struct Along {
     Ball centre_distance, half_width;
   };
   Along along(const BallVector& n) const;
 
-  /// g(n/|n|) in units; not finite if n may be zero.
+  /// g(n/|n|), likewise.
   Ball gap(const BallVector& n) const;
+
+  std::size_t segments() const { return segments_.size(); }
+  /// Of a segment; unit.
+  const BallVector& axis(std::size_t segment) const { return segments_[segment].axis; }
 
  private:
   struct Segment {
@@ -103,8 +108,8 @@ class BallDifference {
     Ball projection(const BallVector& n) const { return norm(cross(axis, n)); }
   };
   BallVector d_;
-  std::vector<Segment> segments_;
-  std::vector<Disc> discs_;
+  boost::container::static_vector<Segment, max_segments> segments_;
+  boost::container::static_vector<Disc, max_discs> discs_;
   Ball inflation_;
 };
 

@@ -1,5 +1,6 @@
 #include "oracle/enclosure.hpp"
 
+#include <algorithm>
 #include <cassert>
 
 namespace touchstone::oracle {
@@ -68,50 +69,60 @@ std::string decimal_above(const mpq_class& value, int digits) {
 
 namespace {
 
-/// The denominator is the prime 2^61 − 1, so that every number on the border of two cells has it in
-/// its own denominator. The fraction is far from 0, 1/2 and 1, near which numbers of few digits
-/// lie.
-const mpq_class shift(mpz_class("880753656798294016"), (mpz_class(1) << 61U) - 1);
+/// The grid is shifted by this fraction of its spacing. The denominator is the prime 2^61 − 1, so
+/// that every number on the border of two cells has it in its own denominator. The fraction is far
+/// from 0, 1/2 and 1, near which numbers of few digits lie.
+const mpz_class shift_numerator("880753656798294016");
+const mpz_class shift_denominator = (mpz_class(1) << 61U) - 1;
 
-mpz_class floor(const mpq_class& x) {
-  mpz_class result;
-  mpz_fdiv_q(result.get_mpz_t(), x.get_num_mpz_t(), x.get_den_mpz_t());
-  return result;
+mpq_class times_power_of_two(const mpq_class& x, long exponent) {
+  return exponent >= 0 ? mpq_class(x << static_cast<mp_bitcnt_t>(exponent))
+                       : mpq_class(x >> static_cast<mp_bitcnt_t>(-exponent));
 }
 
-/// The largest power of two not above x > 0.
-mpq_class power_of_two_below(const mpq_class& x) {
-  const auto bits = [](const mpz_class& z) {
-    return static_cast<long>(mpz_sizeinbase(z.get_mpz_t(), 2));
-  };
-  const long exponent = bits(x.get_num()) - bits(x.get_den());
-  mpq_class power = 1;
-  if (exponent >= 0) {
-    power <<= static_cast<mp_bitcnt_t>(exponent);
-  } else {
-    power >>= static_cast<mp_bitcnt_t>(-exponent);
-  }
-  return power <= x ? power : mpq_class(power / 2);
+/// The e with 2^e <= x < 2^(e+1), for x > 0.
+long binary_exponent(const Float& x) { return arf_abs_bound_lt_2exp_si(x.get()) - 1; }
+
+/// The largest integer not above a/b, for b > 0.
+mpz_class floor_of_quotient(const Float& a, const Float& b) {
+  // All digits before the binary point: rounding down to them does not pass an integer.
+  const long digits = a.sign() == 0 ? 0 : binary_exponent(a) - binary_exponent(b) + 1;
+  Float quotient;
+  arf_div(quotient.get(), a.get(), b.get(), std::max(digits, 2L), ARF_RND_FLOOR);
+  arf_floor(quotient.get(), quotient.get());
+  return quotient.rational().get_num();
 }
 
 }  // namespace
 
 GridCell::GridCell(double size, double width)
-    : size_(size), spacing_(power_of_two_below(mpq_class(width) * mpq_class(size))) {}
+    : size_exponent_(binary_exponent(Float(size))),
+      spacing_exponent_(binary_exponent(Float(width) * Float(size))) {}
 
-std::optional<Enclosure> GridCell::around(const mpq_class& lo, const mpq_class& hi) const {
-  if (lo <= 0 && 0 <= hi) return std::nullopt;
-  for (mpq_class spacing = spacing_;; spacing /= 2) {
-    const mpz_class cell = floor(lo / spacing - shift);
-    if (floor(hi / spacing - shift) != cell) return std::nullopt;
+std::optional<Enclosure> GridCell::around(const Float& lo, const Float& hi,
+                                          const mpz_class& divisor) const {
+  if (lo.sign() <= 0 && 0 <= hi.sign()) return std::nullopt;
+  const Float parts(shift_denominator);  // of a cell
+  for (long exponent = spacing_exponent_;; --exponent) {
+    Float spacing(divisor);
+    arf_mul_2exp_si(spacing.get(), spacing.get(), exponent);
+    const Float part_of_shift = Float(shift_numerator) * spacing, cell_parts = parts * spacing;
+    const auto cell_of = [&](const Float& x) {
+      return floor_of_quotient(parts * x - part_of_shift, cell_parts);
+    };
+    const mpz_class cell = cell_of(lo);
+    if (cell_of(hi) != cell) return std::nullopt;
     if (cell == -1) continue;
-    const mpq_class start = (cell + shift) * spacing;
-    return Enclosure{start, start + spacing};
+    const auto border = [&](const mpz_class& number) {
+      return times_power_of_two(
+          {mpz_class(number * shift_denominator + shift_numerator), shift_denominator}, exponent);
+    };
+    return Enclosure{border(cell), border(cell + 1)};
   }
 }
 
 Enclosure GridCell::nearly_zero(long bits) const {
-  const mpq_class end = power_of_two_below(size_) >> static_cast<mp_bitcnt_t>(bits);
+  const mpq_class end = times_power_of_two(1, size_exponent_ - bits);
   return {-end, end};
 }
 

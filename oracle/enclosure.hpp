@@ -4,6 +4,8 @@
 #include <optional>
 #include <string>
 
+#include "oracle/ball.hpp"
+
 namespace touchstone::oracle {
 
 /// A proven enclosure of a real number; both ends are exact rationals.
@@ -27,15 +29,15 @@ class GridCell {
   /// The spacing is the largest power of two not above `width` times `size`, both > 0.
   GridCell(double size, double width);
 
-  /// The cell that contains [lo, hi], halved until it does not reach zero. None if [lo, hi] spans
-  /// several cells or contains zero.
-  std::optional<Enclosure> around(const mpq_class& lo, const mpq_class& hi) const;
+  /// The cell that contains [lo, hi] / divisor, halved until it does not reach zero. None if that
+  /// spans several cells or contains zero.
+  std::optional<Enclosure> around(const Float& lo, const Float& hi, const mpz_class& divisor) const;
 
   /// ±2^-bits of the size.
   Enclosure nearly_zero(long bits) const;
 
  private:
-  mpq_class size_, spacing_;
+  long size_exponent_, spacing_exponent_;  // of the powers of two not above
 };
 
 }  // namespace touchstone::oracle

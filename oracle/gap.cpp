@@ -22,12 +22,12 @@ Ball gap_above_column(const Difference& difference, const BallDifference& balls,
   const Ball length = norm(n), up_length = norm(up);
   const Ball cosine = dot(n, up) / (length * up_length);
   const Ball sine = norm(cross(n, up)) / (length * up_length);
-  const Ball height = balls.along(up).centre_distance / up_length;
+  const Ball height = balls.along(up).centre_distance;
   const Ball radius(difference.discs.front().radius);
   const Ball half_length(difference.segments.front().half_length);
   const Ball circumradius = sqrt(square(radius) + square(half_length));
   const Ball below = (abs(cosine) - cosine) * circumradius;  // twice max(0, −cos α) times ρ
-  return height * cosine - balls.along(n).half_width / length - circumradius * sine - below;
+  return height * cosine - balls.along(n).half_width - circumradius * sine - below;
 }
 
 }  // namespace
@@ -51,7 +51,7 @@ struct Gaps::State {
           bits == first_bits ? gap(*first, direction) : gap(BallDifference(difference), direction);
       if (!value.is_finite()) continue;
       const mpq_class lo = value.lower(), hi = value.upper();
-      if (hi - lo <= wanted) return {lo * difference.unit, hi * difference.unit};
+      if (hi - lo <= wanted) return {lo / difference.per_metre, hi / difference.per_metre};
     }
     throw std::logic_error("oracle: the gap could not be enclosed");
   }

@@ -17,11 +17,11 @@ class RimVertexDirection : public CriticalDirection {
                      IntegerVector across)
       : q_(std::move(q)), signs_(signs), radius_(radius_times_norm), across_(std::move(across)) {}
 
-  void enclose(const Difference& difference, const BallDifference& balls,
+  void enclose(const Difference&, const BallDifference& balls,
                std::vector<DirectionBound>& out) override {
     const BallVector n = direction();
     // Outside the rim no direction is zero, although its ball may contain zero at this precision.
-    if (at_vertex(difference, signs_, n) != Side::no) out.push_back({balls.gap(n), n});
+    if (at_vertex(balls, signs_, n) != Side::no) out.push_back({balls.gap(n), n});
   }
 
   // |n| = inflation, that is |q|² + radius² − inflation² = 2 radius |q⊥|.
@@ -33,8 +33,9 @@ class RimVertexDirection : public CriticalDirection {
                         4 * radius_ * radius_ * dot(across_, across_)) {
       return ZeroGap::unknown;
     }
-    return at_vertex(difference, signs_, direction()) == Side::yes ? ZeroGap::zero
-                                                                   : ZeroGap::at_most_zero;
+    return at_vertex(BallDifference(difference), signs_, direction()) == Side::yes
+               ? ZeroGap::zero
+               : ZeroGap::at_most_zero;
   }
 
   // n·v = q·v − radius (across·v) / |across|
@@ -91,8 +92,7 @@ struct Profile {
   Integer norm;
   Integer stretch;  ///< e and f of the line's frame have the length norm · stretch
   Frame line;
-  const Difference::Segment* segment;
-  unsigned signs;
+  unsigned segment, signs;
   IntegerVector q;
   Frame disc;
   Integer radius;
@@ -135,10 +135,10 @@ class RimLineDirection : public CriticalDirection {
  public:
   RimLineDirection(Profile profile, CurveRoot t) : profile_(std::move(profile)), t_(std::move(t)) {}
 
-  void enclose(const Difference& difference, const BallDifference& balls,
+  void enclose(const Difference&, const BallDifference& balls,
                std::vector<DirectionBound>& out) override {
     const BallVector n = direction();
-    if (at_vertex(difference, profile_.signs, n, profile_.segment) == Side::no) return;
+    if (at_vertex(balls, profile_.signs, n, profile_.segment) == Side::no) return;
     out.push_back({balls.gap(n), n});
   }
 
@@ -150,7 +150,8 @@ class RimLineDirection : public CriticalDirection {
     const Polynomial b = Integer(profile_.radius * profile_.radius) * (n_n - u_n * u_n);
     const Polynomial c = Integer(profile_.flat * profile_.flat) * n_n;
     if (!is_zero_here(a, b, c)) return ZeroGap::unknown;
-    return at_vertex(difference, profile_.signs, direction(), profile_.segment) == Side::yes
+    const BallDifference balls(difference);
+    return at_vertex(balls, profile_.signs, direction(), profile_.segment) == Side::yes
                ? ZeroGap::zero
                : ZeroGap::at_most_zero;
   }
@@ -158,9 +159,7 @@ class RimLineDirection : public CriticalDirection {
   bool is_across(const IntegerVector& v) override {
     const Integer constant = dot(v, profile_.line.e), slope = dot(v, profile_.line.f);
     if (slope == 0) return constant == 0;
-    mpq_class t(Integer(-constant), slope);
-    t.canonicalize();
-    return t_.is(profile_, t);
+    return t_.is(profile_, -constant, slope);
   }
 
  private:
@@ -249,7 +248,7 @@ void append_rim_line(const Difference& difference, const CriticalSite& site,
   }
   const TurnedFrame frame = turned_frame(segment.frame, site.heading);
   Profile profile{difference.norm, frame.stretch, turned(frame.frame, site.turn),
-                  &segment,        site.signs,    reduced_point(difference, site.signs, &segment),
+                  site.first,      site.signs,    reduced_point(difference, site.signs, &segment),
                   disc.frame,      disc.radius,   std::move(flat)};
   if (site.branch != 0) {
     const SlopeBracket bracket{site.lo, site.hi, site.branch, site.rising};

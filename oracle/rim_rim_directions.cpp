@@ -34,48 +34,48 @@ struct RimPair {
   IntegerVector q;           // reduced point times norm
   Integer radius1, radius2;  // units
   Integer norm;
-  std::array<IntegerVector, 2> up;  // signed segment axes: up·n >= 0 in the cell
+  unsigned signs;  // of the segments: their axes' sides in the cell
 };
 
 /// Rim 1's point at one angle and its stationary partners on rim 2, in balls; lengths in units.
 class StationaryPair {
  public:
-  StationaryPair(const RimPair& rims, const Ball& cosine, const Ball& sine);
+  StationaryPair(const RimPair& rims, const BallDifference& difference, const Ball& cosine,
+                 const Ball& sine);
 
   /// Appends the directions to all points of rim 2 that are stationary for rim 1's point; those of
   /// one branch alone if it is not 0.
-  void enclose(const BallDifference& difference, int branch,
-               std::vector<DirectionBound>& out) const;
+  void enclose(int branch, std::vector<DirectionBound>& out) const;
 
   /// Is the common normal outward for both rims? Precondition: rim 1's point lies on rim 2.
   bool touches_outward() const;
 
  private:
   std::vector<BallVector> points_of_rim2(int branch, bool& undecided) const;
-  void enclose(const BallVector& y, const BallDifference& difference,
-               std::vector<DirectionBound>& out) const;
+  void enclose(const BallVector& y, std::vector<DirectionBound>& out) const;
   /// Is n an outward normal of both rims at their points?
   Side is_outward(const BallVector& n, const BallVector& y) const;
 
+  const BallDifference& difference_;
   BallVector radial_, tangent_, w_, axis2_;
   Ball radius1_, radius2_;
   std::array<BallVector, 2> up_;
 };
 
-BallVector direction(const IntegerVector& v, const Ball& norm) {
-  return {Ball(v.x) / norm, Ball(v.y) / norm, Ball(v.z) / norm};
-}
-
-StationaryPair::StationaryPair(const RimPair& rims, const Ball& cosine, const Ball& sine)
-    : radius1_(rims.radius1), radius2_(rims.radius2) {
-  const Ball norm(rims.norm);
-  const BallVector e = direction(rims.rim1.e, norm), f = direction(rims.rim1.f, norm);
+StationaryPair::StationaryPair(const RimPair& rims, const BallDifference& difference,
+                               const Ball& cosine, const Ball& sine)
+    : difference_(difference),
+      axis2_(difference.axis(1)),
+      radius1_(rims.radius1, WorkingPrecision::bits()),
+      radius2_(rims.radius2, WorkingPrecision::bits()) {
+  const Ball inverse_norm = Ball(1) / Ball(rims.norm, WorkingPrecision::bits());
+  const auto unit = [&](const IntegerVector& v) { return inverse_norm * to_balls(v); };
+  const BallVector e = unit(rims.rim1.e), f = unit(rims.rim1.f);
   radial_ = cosine * e + sine * f;
   tangent_ = cosine * f - sine * e;
-  axis2_ = direction(rims.rim2.axis, norm);
-  w_ = radius1_ * radial_ - direction(rims.q, norm);
-  for (int i = 0; i < 2; ++i) {
-    up_[i] = direction(rims.up[i], norm);
+  w_ = radius1_ * radial_ - unit(rims.q);
+  for (unsigned i = 0; i < 2; ++i) {
+    up_[i] = (rims.signs >> i & 1U) ? difference.axis(i) : -difference.axis(i);
   }
 }
 
@@ -119,8 +119,7 @@ Side StationaryPair::is_outward(const BallVector& n, const BallVector& y) const 
   return side;
 }
 
-void StationaryPair::enclose(const BallVector& y, const BallDifference& difference,
-                             std::vector<DirectionBound>& out) const {
+void StationaryPair::enclose(const BallVector& y, std::vector<DirectionBound>& out) const {
   const BallVector apart = w_ - y;
   const Ball distance = norm(apart);
   // For touching rims the cross product of the tangents is well defined, for parallel tangents the
@@ -139,14 +138,13 @@ void StationaryPair::enclose(const BallVector& y, const BallDifference& differen
     if (!dot(inner, outer).is_negative()) out.push_back({distance, std::nullopt});
     return;
   }
-  if (is_outward(n, y) != Side::no) out.push_back({difference.gap(n), n});
-  if (is_outward(-n, y) != Side::no) out.push_back({difference.gap(-n), -n});
+  if (is_outward(n, y) != Side::no) out.push_back({difference_.gap(n), n});
+  if (is_outward(-n, y) != Side::no) out.push_back({difference_.gap(-n), -n});
 }
 
-void StationaryPair::enclose(const BallDifference& difference, int branch,
-                             std::vector<DirectionBound>& out) const {
+void StationaryPair::enclose(int branch, std::vector<DirectionBound>& out) const {
   bool undecided = false;
-  for (const BallVector& y : points_of_rim2(branch, undecided)) enclose(y, difference, out);
+  for (const BallVector& y : points_of_rim2(branch, undecided)) enclose(y, out);
   if (undecided) out.push_back({Ball(1) / Ball(0), std::nullopt});
 }
 
@@ -240,15 +238,16 @@ class RimRimDirection : public CriticalDirection {
 
   void enclose(const Difference&, const BallDifference& balls,
                std::vector<DirectionBound>& out) override {
-    pair().enclose(balls, t_.branch(), out);
+    pair(balls).enclose(t_.branch(), out);
   }
 
   // Touching rims share a point of both bodies, so that no gap is above zero.
-  ZeroGap zero_gap(const Difference&) override {
+  ZeroGap zero_gap(const Difference& difference) override {
     const OnRim2 on = on_rim2(rims_);
     if (!t_.is_root_of(rims_, on.in_plane) || !t_.is_root_of(rims_, on.at_radius))
       return ZeroGap::unknown;
-    return pair().touches_outward() ? ZeroGap::zero : ZeroGap::at_most_zero;
+    const BallDifference balls(difference);
+    return pair(balls).touches_outward() ? ZeroGap::zero : ZeroGap::at_most_zero;
   }
 
   // A direction perpendicular to an axis also belongs to that axis's line directions.
@@ -260,10 +259,10 @@ class RimRimDirection : public CriticalDirection {
   }
 
  private:
-  StationaryPair pair() {
+  StationaryPair pair(const BallDifference& balls) {
     const Ball t = t_.enclose(rims_);
     const Ball scale = Ball(1) / (Ball(1) + square(t));
-    return {rims_, (Ball(1) - square(t)) * scale, Ball(2) * t * scale};
+    return {rims_, balls, (Ball(1) - square(t)) * scale, Ball(2) * t * scale};
   }
 
   RimPair rims_;
@@ -282,20 +281,12 @@ void append_rim_rim(const Difference& difference, const CriticalSite& site,
                     CriticalDirections& out) {
   // With two discs the segments are exactly two, with the same axes.
   const auto& [disc1, disc2] = std::pair(difference.discs[0], difference.discs[1]);
-  RimPair rims{disc1.frame,
-               disc2.frame,
-               reduced_point(difference, site.signs),
-               disc1.radius,
-               disc2.radius,
-               difference.norm,
-               {}};
+  RimPair rims{disc1.frame,  disc2.frame,  reduced_point(difference, site.signs),
+               disc1.radius, disc2.radius, difference.norm,
+               site.signs};
   if (site.turn == 1) {
     rims.rim1.e = -rims.rim1.e;
     rims.rim1.f = -rims.rim1.f;
-  }
-  for (unsigned i = 0; i < 2; ++i) {
-    const IntegerVector& axis = difference.segments[i].frame.axis;
-    rims.up[i] = (site.signs >> i & 1U) ? axis : -axis;
   }
   if (site.branch != 0) {
     const SlopeBracket bracket{site.lo, site.hi, site.branch, site.rising};

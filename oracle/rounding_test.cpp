@@ -148,10 +148,15 @@ TEST(Enclosure, MidpointAndWidthAreOfItsEnds) {
   EXPECT_EQ(e.width(), 0.5);
 }
 
+/// The cell around [lo, hi] / divisor, for doubles.
+std::optional<Enclosure> around(const GridCell& cell, double lo, double hi, long divisor = 1) {
+  return cell.around(Float(lo), Float(hi), divisor);
+}
+
 TEST(GridCell, IsTheSameHoweverNarrowlyTheNumberIsKnown) {
   const GridCell cell(1, 0.125);
-  const auto wide = cell.around(mpq_class(30, 100), mpq_class(33, 100));
-  const auto narrow = cell.around(mpq_class(32, 100), mpq_class(32, 100));
+  const auto wide = around(cell, 30, 33, 100);
+  const auto narrow = around(cell, 32, 32, 100);
   ASSERT_TRUE(wide && narrow);
   EXPECT_EQ(wide->lo, narrow->lo);
   EXPECT_EQ(wide->hi, narrow->hi);
@@ -161,7 +166,7 @@ TEST(GridCell, IsTheSameHoweverNarrowlyTheNumberIsKnown) {
 }
 
 TEST(GridCell, IsNoWiderThanAskedFor) {
-  const auto cell = GridCell(3, 0.1).around(5, 5);  // 0.3 → 1/4
+  const auto cell = around(GridCell(3, 0.1), 5, 5);  // 0.3 → 1/4
   ASSERT_TRUE(cell);
   EXPECT_EQ(cell->hi - cell->lo, mpq_class(1, 4));
 }
@@ -170,29 +175,50 @@ TEST(GridCell, DyadicNumbersAreNeverOnItsBorders) {
   const GridCell cell(1, 0.125);
   for (int i = -64; i <= 64; ++i) {
     if (i == 0) continue;
-    const mpq_class x(i, 16), epsilon(1, 1L << 40);
-    EXPECT_TRUE(cell.around(x - epsilon, x + epsilon)) << i;
+    const double x = i / 16.0, epsilon = 0x1p-40;
+    EXPECT_TRUE(around(cell, x - epsilon, x + epsilon)) << i;
   }
 }
 
 TEST(GridCell, NeverReachesZero) {
   const GridCell cell(1, 1);
-  for (const mpq_class& x : {mpq_class(1, 1000), mpq_class(-1, 1000)}) {
-    const auto around = cell.around(x, x);
-    ASSERT_TRUE(around);
-    EXPECT_GT(around->lo * around->hi, 0);
-    EXPECT_LE(around->lo, x);
-    EXPECT_GE(around->hi, x);
+  for (const int x : {1, -1}) {
+    const auto found = around(cell, x, x, 1000);
+    ASSERT_TRUE(found);
+    EXPECT_GT(found->lo * found->hi, 0);
+    EXPECT_LE(found->lo, mpq_class(x, 1000));
+    EXPECT_GE(found->hi, mpq_class(x, 1000));
   }
-  EXPECT_FALSE(cell.around(-1, 1));
-  EXPECT_FALSE(cell.around(0, 0));
+  EXPECT_FALSE(around(cell, -1, 1));
+  EXPECT_FALSE(around(cell, 0, 0));
   EXPECT_EQ(GridCell(3, 1).nearly_zero(10).hi, mpq_class(1, 512));
 }
 
+// The number of a cell may have as many digits as there are between a distance and the spacing.
+TEST(GridCell, ContainsItsNumberHoweverManyCellsThereAre) {
+  for (const double width : {0x1p-1000, 1e-30, 1e-13, 1.0, 1e30}) {
+    const GridCell cell(1, width);
+    for (const double x : {1e200, 7.0, 0x1p-60, 5e-324}) {
+      for (const double signed_x : {x, -x}) {
+        for (const long divisor : {1L, 3L, 1000003L}) {
+          const auto found = around(cell, signed_x, signed_x, divisor);
+          ASSERT_TRUE(found);
+          const mpq_class exact = mpq_class(signed_x) / divisor, spacing = found->hi - found->lo;
+          EXPECT_LT(found->lo, exact);
+          EXPECT_GT(found->hi, exact);
+          EXPECT_LE(spacing, mpq_class(width));
+          EXPECT_FALSE(cell.around(
+              Float(signed_x), Float(signed_x) + Float(mpz_class(divisor)) * Float(width), divisor))
+              << "at least as wide as a cell";
+        }
+      }
+    }
+  }
+}
+
 TEST(GridCell, ScalesWithPowersOfTwo) {
-  const mpq_class x(-37, 100);
-  const auto one = GridCell(1.5, 1e-3).around(x, x),
-             eight = GridCell(12, 1e-3).around(8 * x, 8 * x);
+  const auto one = around(GridCell(1.5, 1e-3), -37, -37, 100),
+             eight = around(GridCell(12, 1e-3), 8 * -37, 8 * -37, 100);
   ASSERT_TRUE(one && eight);
   EXPECT_EQ(8 * one->lo, eight->lo);
   EXPECT_EQ(8 * one->hi, eight->hi);

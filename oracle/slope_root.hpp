@@ -238,29 +238,35 @@ class SlopeOfParameter : public SlopeInBalls {
 ///   LineSlope<Ball> or RimSlope<Ball> slope(int branch) const;  // at the working precision
 class CurveRoot {
  public:
+  /// Bits of the working precision that rounding in the slope may cost.
+  static constexpr long spare_bits = 32;
+
   CurveRoot(RealRoot root) : exact_(std::move(root)) {}
   explicit CurveRoot(const SlopeBracket& bracket);
 
   /// The sign of κ; 0 for a root of the polynomial, which may belong to either branch.
   int branch() const { return bracket_ ? bracket_->branch : 0; }
 
-  /// A ball of width at most 2^-bits · max(1, |root|) that contains the root; `bits` is the working
-  /// precision.
+  /// A ball of width at most 2^(spare_bits − bits) · max(1, |root|) that contains the root; `bits`
+  /// is the working precision.
   template <class Curve>
   Ball enclose(const Curve& curve) {
     if (!bracket_) return exact_->enclose();
-    const long wanted = WorkingPrecision::bits();
-    for (long bits = wanted + extra_bits; !is_narrow(wanted); bits += extra_bits) {
+    const long wanted = WorkingPrecision::bits() - spare_bits;
+    for (long bits = WorkingPrecision::bits(); !is_narrow(wanted); bits += spare_bits) {
       const WorkingPrecision precision(bits);
       narrow(SlopeOfParameter(curve.slope(branch())), wanted);
     }
     return t_;
   }
 
-  /// Is the root exactly this number?
+  /// Is the root exactly numerator / denominator?
   template <class Curve>
-  bool is(const Curve& curve, const mpq_class& number) {
-    return may_be(number) && exact(curve).is(number);
+  bool is(const Curve& curve, const mpz_class& numerator, const mpz_class& denominator) {
+    if (!may_be(numerator, denominator)) return false;
+    mpq_class number(numerator, denominator);
+    number.canonicalize();
+    return exact(curve).is(number);
   }
   /// Is the root exactly a root of another polynomial, too?
   template <class Curve>
@@ -282,14 +288,14 @@ class CurveRoot {
   }
 
   bool is_narrow(long bits) const;
-  bool may_be(const mpq_class& number) const;
+  double width_bits() const;  ///< of the radius, about: what is_narrow decides exactly
+  bool may_be(const mpz_class& numerator, const mpz_class& denominator) const;
   void narrow(const SlopeInBalls& slope, long wanted_bits);
-  bool newton_step(const SlopeInBalls& slope);
+  Ball change(const SlopeInBalls& slope) const;
+  bool newton(const SlopeInBalls& slope, long wanted_bits);
+  bool newton_step(const SlopeInBalls& slope, const Ball& change);
   bool trisect(const SlopeInBalls& slope);
   bool take_only_root(const Polynomial& polynomial);
-
-  /// Working precision beyond the wanted one.
-  static constexpr long extra_bits = 32;
 
   std::optional<SlopeBracket> bracket_;
   Ball t_;  ///< with a bracket: contains the root and no other

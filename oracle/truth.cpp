@@ -32,11 +32,15 @@ constexpr long last_bits = 1L << 13;
 constexpr int bits_below_resolution = 8;
 
 /// Gaps this close to the largest tie with it; relative to the larger size.
-mpq_class tie_tolerance(double width) { return mpq_class(width) >> 20; }
+Float tie_tolerance(double width) {
+  Float result(width);
+  arf_mul_2exp_si(result.get(), result.get(), -20);
+  return result;
+}
 
 /// Initial working precision: a little more than ties at this width need.
 long first_bits(double width) {
-  return 112 + std::max(0L, static_cast<long>(-std::log2(width)) - 53);
+  return 128 + std::max(0L, static_cast<long>(-std::log2(width)) - 53);
 }
 
 /// Bits kept beyond the wanted width, so that rounding rarely leaves open in which cell a number
@@ -53,7 +57,7 @@ struct Survivor {
 
 /// Lower and upper bound of the largest gap, in units, if known.
 struct Maximum {
-  std::optional<mpq_class> lo, hi;
+  std::optional<Float> lo, hi;
 };
 
 /// Largest lower and upper ends over all bounds. A bound without a normal counts as an upper one
@@ -67,11 +71,11 @@ Maximum maximum(const std::vector<Survivor>& survivors) {
         open = true;
         continue;
       }
-      const mpq_class hi = bound.gap.upper();
-      if (!result.hi || hi > *result.hi) result.hi = hi;
+      Float hi = bound.gap.upper_end();
+      if (!result.hi || *result.hi < hi) result.hi = std::move(hi);
       if (!bound.normal) continue;
-      const mpq_class lo = bound.gap.lower();
-      if (!result.lo || lo > *result.lo) result.lo = lo;
+      Float lo = bound.gap.lower_end();
+      if (!result.lo || *result.lo < lo) result.lo = std::move(lo);
     }
   }
   if (open) result.hi.reset();
@@ -80,10 +84,10 @@ Maximum maximum(const std::vector<Survivor>& survivors) {
 
 /// Drops directions all of whose bounds lie below `limit`: they are not maxima and do not tie with
 /// one.
-void drop_below(std::vector<Survivor>& survivors, const mpq_class& limit) {
+void drop_below(std::vector<Survivor>& survivors, const Float& limit) {
   std::erase_if(survivors, [&](Survivor& survivor) {
     std::erase_if(survivor.bounds, [&](const DirectionBound& bound) {
-      return bound.gap.is_finite() && bound.gap.upper() < limit;
+      return bound.gap.is_finite() && bound.gap.upper_end() < limit;
     });
     return survivor.bounds.empty();
   });
@@ -91,13 +95,14 @@ void drop_below(std::vector<Survivor>& survivors, const mpq_class& limit) {
 
 /// Is it decided for every normal whether its gap is within `tie` of the largest?
 bool ties_are_decided(const std::vector<Survivor>& survivors, const Maximum& best,
-                      const mpq_class& tie) {
+                      const Float& tie) {
+  const Float may_tie = *best.lo - tie, ties = *best.hi - tie;
   std::size_t undecided = 0, reaching = 0;
   for (const auto& survivor : survivors) {
     for (const auto& bound : survivor.bounds) {
-      if (!bound.normal || bound.gap.upper() < *best.lo - tie) continue;
+      if (!bound.normal || bound.gap.upper_end() < may_tie) continue;
       ++reaching;
-      if (bound.gap.lower() < *best.hi - tie) ++undecided;
+      if (bound.gap.lower_end() < ties) ++undecided;
     }
   }
   // A single remaining normal is the largest, however wide its bound is.
@@ -124,10 +129,8 @@ Vec3 in_world(const Difference& difference, const BallVector& n) {
   // Rounding each coordinate and one normalisation: an error of a few ulp.
   const auto coordinate = [&](int row) { return dot(to_balls(difference.world_rows[row]), n); };
   const BallVector world{coordinate(0), coordinate(1), coordinate(2)};
-  const Ball length = norm(world);
-  return Vec3((world.x / length).midpoint(), (world.y / length).midpoint(),
-              (world.z / length).midpoint())
-      .normalized();
+  const BallVector unit = (Ball(1) / norm(world)) * world;
+  return Vec3(unit.x.midpoint(), unit.y.midpoint(), unit.z.midpoint()).normalized();
 }
 
 Alignment alignment(CriticalDirection& direction, const IntegerVector& axis, const IntegerVector& e,
@@ -249,21 +252,27 @@ struct Request {
   int resolution;  ///< bits kept by rounding (rounding.hpp)
 };
 
+/// Bound of what rounding and bringing nearer change.
+Float error_in_units(const RoundedConfiguration& question, const Difference& difference,
+                     const std::optional<FarBodies>& far) {
+  mpq_class error = question.error;
+  if (error != 0) error *= difference.per_metre;
+  if (far) error += far->error();
+  return error == 0 ? Float() : Ball(error).upper_end();
+}
+
 /// None if the rounding of `question` leaves the answer open.
 std::optional<Truth> truth_of(const RoundedConfiguration& question, const Request& wanted) {
   Difference difference = make_difference(question.configuration);
   const auto far = FarBodies::brought_nearer(difference, wanted.resolution);
-  mpq_class error = question.error;
-  if (far) error += far->error() * difference.unit;
   const double size = larger_size(wanted.configuration);
   const GridCell cell(size, wanted.width);
-  const auto in_units = [&](const mpq_class& metres) {
-    return mpq_class(metres / difference.unit);
-  };
+  // Lengths in units from here on.
+  const Float error = error_in_units(question, difference, far);
+  const Float larger = Float(size) * Float(difference.per_metre);
   const double slack = std::max(wanted.width, wanted.tie);
-  const mpq_class slack_in_units = in_units(mpq_class(slack) * mpq_class(size));
-  const mpq_class tie =
-      in_units(std::max(mpq_class(wanted.tie), tie_tolerance(wanted.width)) * mpq_class(size));
+  const Float slack_in_units = Float(slack) * larger;
+  const Float tie = std::max(Float(wanted.tie), tie_tolerance(wanted.width)) * larger;
 
   std::vector<Survivor> survivors = all_directions(difference, slack * size);
   std::optional<Enclosure> signed_distance;
@@ -280,21 +289,30 @@ std::optional<Truth> truth_of(const RoundedConfiguration& question, const Reques
     if (!best.hi) continue;
 
     if (!signed_distance) {
-      const Ball shift = far ? far->shift() : Ball(0);
-      const mpq_class lo = (*best.lo + shift.lower()) * difference.unit - error;
-      const mpq_class hi = (*best.hi + shift.upper()) * difference.unit + error;
-      signed_distance = cell.around(lo, hi);
-      const bool may_be_zero = lo <= 0 && 0 <= hi;
-      if (!signed_distance && may_be_zero && error == 0 && is_exactly_zero(survivors, difference)) {
+      Float lo = *best.lo - error, hi = *best.hi + error;
+      if (far) {
+        const Ball shift = far->shift();
+        lo = lo + shift.lower_end();
+        hi = hi + shift.upper_end();
+      }
+      signed_distance = cell.around(lo, hi, difference.per_metre);
+      const bool is_exact = error.sign() == 0;
+      const bool may_be_zero = lo.sign() <= 0 && 0 <= hi.sign();
+      if (!signed_distance && may_be_zero && is_exact && is_exactly_zero(survivors, difference)) {
         signed_distance = {0, 0};
       }
       // The rounding, not the precision, leaves the answer open.
-      const bool needs_resolution = error != 0 && hi - lo <= 4 * error;
+      const bool needs_resolution = !is_exact && !(Float(4) * error < hi - lo);
       if (!signed_distance && needs_resolution && !may_be_zero) return std::nullopt;
-      const Enclosure nearly_zero =
-          cell.nearly_zero(error == 0 ? zero_bits : wanted.resolution - bits_below_resolution);
-      if (!signed_distance && nearly_zero.lo <= lo && hi <= nearly_zero.hi) {
-        signed_distance = nearly_zero;
+      if (!signed_distance) {
+        const Enclosure nearly_zero =
+            cell.nearly_zero(is_exact ? zero_bits : wanted.resolution - bits_below_resolution);
+        const auto in_metres = [&](const Float& x) {
+          return mpq_class(x.rational() / difference.per_metre);
+        };
+        if (nearly_zero.lo <= in_metres(lo) && in_metres(hi) <= nearly_zero.hi) {
+          signed_distance = nearly_zero;
+        }
       }
       if (!signed_distance) continue;
     }

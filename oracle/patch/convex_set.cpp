@@ -1,7 +1,7 @@
 #include "oracle/patch/convex_set.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/convex_hull_2.h>
+#include <CGAL/ch_graham_andrew.h>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -197,7 +197,8 @@ std::vector<Vec2> convex_hull(const std::vector<Vec2>& points) {
   std::vector<Kernel::Point_2> all, extreme;
   all.reserve(points.size());
   for (const Vec2& p : points) all.emplace_back(p.x(), p.y());
-  CGAL::convex_hull_2(all.begin(), all.end(), std::back_inserter(extreme));
+  // Nearly all points are extreme: an algorithm that first looks for others takes twice as long.
+  CGAL::ch_graham_andrew(all.begin(), all.end(), std::back_inserter(extreme));
   std::vector<Vec2> hull;
   hull.reserve(extreme.size());
   for (const auto& p : extreme) hull.emplace_back(p.x(), p.y());

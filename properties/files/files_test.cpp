@@ -8,6 +8,7 @@
 #include <streambuf>
 #include <string>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <nlohmann/json.hpp>
 
@@ -219,7 +220,7 @@ struct WriteFile : testing::Test {
   long count() const { return std::distance(std::filesystem::directory_iterator(folder), {}); }
 
   const std::filesystem::path folder =
-      std::filesystem::path(testing::TempDir()) / "touchstone_write_file_test";
+      std::filesystem::path(testing::TempDir()) / ("write_file_test." + std::to_string(getpid()));
 };
 
 TEST_F(WriteFile, ReplacesWhatWasThereAndLeavesNothingElse) {
