@@ -153,10 +153,12 @@ class Rims {
   /// Newton's method for the stationary normal of these ends, about which
   /// G(n) = q·n − r1 |n − n·u1 u1| − r2 |n − n·u2 u2| is smooth. On the sphere G has the gradient
   /// q − p1 − p2 less its part along n, and the Hessian −(r1/ρ1) t1 t1ᵀ − (r2/ρ2) t2 t2ᵀ − G. The
-  /// components of n that are small keep their digits. A step is at most half of n's distance from
-  /// an axis, where G has its kinks; n that falls towards one which is a maximum itself, a cap's
-  /// normal, is left there. Steps are few except where rims nearly touch along nearly parallel
-  /// axes, in a valley that n has to go down by orders of magnitude.
+  /// components of n that are small keep their digits. Of a step d, which puts the linear part to
+  /// zero, the slope at n + d keeps the gradient's remainder alone: at most 0.58 |d|² r / ρ² of
+  /// each rim, with the least ρ on the way. A step is at most half of n's distance from an axis,
+  /// where G has its kinks; n that falls towards one which is a maximum itself, a cap's normal, is
+  /// left there. Steps are few except where rims nearly touch along nearly parallel axes, in a
+  /// valley that n has to go down by orders of magnitude.
   Stationary polished(Vec3 n, int steps = 40) const {
     const double c = pair_.axes.c, s = pair_.axes.s;
     double previous = std::numeric_limits<double>::infinity();
@@ -193,9 +195,13 @@ class Rims {
       }
       n += step1 * t1 + step2 * other;
       // Converged, or as far as rounding lets it. A short step alone says nothing: next to an axis
-      // n may first turn about it by a hair and then leave it by far.
-      constexpr double small_part = 1e-8;
-      converged = length <= small_part * max_length;
+      // n may first turn about it by a hair and then leave it by far. What a whole step leaves of
+      // the slope bounds the next one.
+      constexpr double small_part = 1e-8, rounding = 1e-14;
+      const double left = 3 * (k1 * inverse1 + k2 * inverse2) * length * length;
+      const bool is_there = !too_long && left * (a + e) * inverse <= rounding * max_length;
+      converged = is_there || length <= small_part * max_length;
+      if (is_there) slope = std::min(slope, left + noise());
       if (converged || (length >= previous / 2 && gain <= noise())) break;
       previous = too_long ? std::numeric_limits<double>::infinity() : length;
     }
