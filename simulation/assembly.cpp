@@ -11,12 +11,6 @@
 namespace touchstone {
 namespace {
 
-/// Pose of frame B in frame A, from both in the world.
-Pose relative(const Pose& X_WA, const Pose& X_WB) {
-  const Eigen::Quaterniond back = X_WA.unit_orientation().conjugate();
-  return {back * (X_WB.position() - X_WA.position()), back * X_WB.unit_orientation()};
-}
-
 /// By body: the first body of its assembly, or the number of bodies if that holds the world.
 std::vector<int> first_of_assembly(const Scene& scene) {
   const int world = static_cast<int>(scene.bodies.size());
@@ -69,6 +63,11 @@ void join(const Scene& scene, Assembly& assembly) {
 }
 
 }  // namespace
+
+Pose relative(const Pose& X_WA, const Pose& X_WB) {
+  const Eigen::Quaterniond back = X_WA.unit_orientation().conjugate();
+  return {back * (X_WB.position() - X_WA.position()), back * X_WB.unit_orientation()};
+}
 
 std::vector<Assembly> assemblies(const Scene& scene) {
   const std::vector<int> first = first_of_assembly(scene);

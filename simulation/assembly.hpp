@@ -27,6 +27,9 @@ std::vector<Assembly> assemblies(const Scene& scene);
 /// By body: do forces move it? Not if it is fixed or driven, or rigidly joined to what is.
 std::vector<bool> moved_by_forces(const Scene& scene);
 
+/// Pose of frame B in frame A, from both in the world.
+Pose relative(const Pose& X_WA, const Pose& X_WB);
+
 /// State of a body that is at X_FB in the frame of an assembly with this state.
 BodyState state_within(const BodyState& assembly, const Pose& X_FB);
 

@@ -77,6 +77,11 @@ struct Joint {
   std::optional<Motor> motor = {};
 };
 
+/// Rate at which the motor of a joint that is at a position shall turn or move it in the step that
+/// begins at a time. A motor that holds a position follows it at the position's own rate and
+/// corrects a fifth of the error in a step, as contacts do.
+double motor_rate(const Joint& joint, double position, double time, double step);
+
 /// Force and torque on a body for a time. World frame.
 struct Push {
   int body = 0;

@@ -5,9 +5,9 @@
 #include <gmock/gmock.h>
 #include <numbers>
 
-#include "candidates/candidates.hpp"
 #include "simulation/assembly.hpp"
-#include "simulation/world.hpp"
+#include "simulation/mechanism_scenes.hpp"
+#include "simulation/world_fixture.hpp"
 
 namespace touchstone {
 namespace {
@@ -16,31 +16,8 @@ using std::numbers::pi;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-Pose at(double x, double y, double z) { return Pose(Vec3(x, y, z)); }
 Eigen::Quaterniond about_z(double angle) {
   return Eigen::Quaterniond(Eigen::AngleAxisd(angle, Vec3::UnitZ()));
-}
-Body box(const char* name, const Vec3& half_extents, const Pose& pose) {
-  Body made{name, Box(half_extents)};
-  made.pose = pose;
-  return made;
-}
-Body fixed(Body body) {
-  body.fixed = true;
-  return body;
-}
-Joint hinge(int a, int b, const Vec3& anchor, const Vec3& axis) {
-  return {"hinge", JointKind::hinge, a, b, anchor, axis};
-}
-Joint rigid(int a, int b) { return {"rigid", JointKind::fixed, a, b}; }
-Motor rate(double target, double force) { return {Motor::Target::rate, {{0, target}}, force}; }
-Motor position(double target, double force) {
-  return {Motor::Target::position, {{0, 0}, {0.5, target}}, force};
-}
-
-/// Right-handed angle about z, −π … π.
-double angle_about_z(const Pose& pose) {
-  return std::atan2(pose.rotation()(1, 0), pose.rotation()(0, 0));
 }
 
 TEST(DriveTest, SteadyMotionMovesAndTurnsWithTime) {
@@ -150,34 +127,18 @@ TEST(TouchingTest, JoinedUnmovedAndUncollidingBodiesDoNot) {
   EXPECT_TRUE(may(can, mast));
 }
 
-/// Worlds with the contacts of `reference`.
-struct MechanismTest : testing::Test {
-  World run(const Scene& scene) {
-    World world(scene, model);
-    while (world.time() < scene.duration - scene.step / 2) world.step();
-    return world;
-  }
-  CandidateProcess process{find_candidate("reference"), simulation_threshold};
-  CandidateModel model{process};
-};
+using MechanismTest = WorldFixture;
 
 TEST_F(MechanismTest, AJoinedPairTumblesAsTheBoxThatItIs) {
-  Scene halves, whole;
-  halves.gravity = whole.gravity = Vec3::Zero();
-  const Vec3 v(0.2, 0, 0.1), w(1, 2, 3);
-  for (const double side : {-1.0, 1.0}) {
-    const Vec3 centre(side * 0.3, 0, 0);
-    halves.bodies.push_back(box(side < 0 ? "left" : "right", Vec3(0.3, 0.2, 0.1), Pose(centre)));
-    halves.bodies.back().velocity = v + w.cross(centre);
-    halves.bodies.back().angular_velocity = w;
-  }
-  halves.joints = {rigid(0, 1)};
-  whole.bodies = {box("whole", Vec3(0.6, 0.2, 0.1), Pose())};
-  whole.bodies[0].velocity = v;
-  whole.bodies[0].angular_velocity = w;
+  const auto [halves, whole] = TumblingBox();
   const World a = run(halves), b = run(whole);
   const Vec3 middle = (a.states()[0].pose.position() + a.states()[1].pose.position()) / 2;
   EXPECT_LT((middle - b.states()[0].pose.position()).norm(), 1e-12);
+  const BodyState& spun = b.states()[0];
+  for (const BodyState& half : a.states()) {
+    const Vec3 arm = half.pose.position() - spun.pose.position();
+    EXPECT_LT((half.velocity - spun.velocity - spun.angular_velocity.cross(arm)).norm(), 1e-9);
+  }
   EXPECT_LT((a.states()[1].pose.rotation() - b.states()[0].pose.rotation()).norm(), 1e-10);
   EXPECT_LT((a.angular_momentum() - b.angular_momentum()).norm(), 1e-9);
 }

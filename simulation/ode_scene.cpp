@@ -1,13 +1,9 @@
 #include "simulation/ode_scene.hpp"
 
-#include <cmath>
-#include <numbers>
 #include <utility>
 
 namespace touchstone {
 namespace {
-
-constexpr double error_reduction = 0.2;  // of a motor that holds a position, per step
 
 /// ODE's shape of a body, in the body's frame.
 struct MakeGeom {
@@ -56,22 +52,21 @@ dBodyID make_ode_body(dWorldID world, const Assembly& assembly) {
   return made;
 }
 
-dGeomID make_ode_geom(dSpaceID space, const Body& body, dBodyID moving, const Pose& X_FB) {
-  if (const auto* plane = std::get_if<Plane>(&body.shape)) {
-    return MakeGeom{space}(in_world(*plane, body.pose));
+dGeomID make_ode_geom(dSpaceID space, const Shape& shape, dBodyID moving, const Pose& pose) {
+  if (const auto* plane = std::get_if<Plane>(&shape)) {
+    return MakeGeom{space}(in_world(*plane, pose));
   }
-  const dGeomID made = std::visit(MakeGeom{space}, body.shape);
-  if (moving) {
-    const Vec3& p = X_FB.position();
-    dGeomSetBody(made, moving);
-    if (p.isZero(0) && X_FB.rotation().isIdentity(0)) return made;
-    dGeomSetOffsetPosition(made, p.x(), p.y(), p.z());
-    dGeomSetOffsetQuaternion(made, OdeQuaternion(X_FB).wxyz);
+  const dGeomID made = std::visit(MakeGeom{space}, shape);
+  const Vec3& p = pose.position();
+  if (!moving) {
+    dGeomSetPosition(made, p.x(), p.y(), p.z());
+    dGeomSetQuaternion(made, OdeQuaternion(pose).wxyz);
     return made;
   }
-  const Vec3& p = body.pose.position();
-  dGeomSetPosition(made, p.x(), p.y(), p.z());
-  dGeomSetQuaternion(made, OdeQuaternion(body.pose).wxyz);
+  dGeomSetBody(made, moving);
+  if (p.isZero(0) && pose.rotation().isIdentity(0)) return made;
+  dGeomSetOffsetPosition(made, p.x(), p.y(), p.z());
+  dGeomSetOffsetQuaternion(made, OdeQuaternion(pose).wxyz);
   return made;
 }
 
@@ -101,17 +96,18 @@ dJointID make_ode_joint(dWorldID world, const Joint& joint, dBodyID a, dBodyID b
 void run_motor(dJointID made, const Joint& joint, double time, double step) {
   if (!joint.motor) return;
   const bool turns = joint.kind == JointKind::hinge;
-  const double now = joint.motor->target_at(time);
-  double rate = now;
-  if (joint.motor->target == Motor::Target::position) {
-    const double position = turns ? dJointGetHingeAngle(made) : dJointGetSliderPosition(made);
-    const double error =
-        turns ? std::remainder(now - position, 2 * std::numbers::pi) : now - position;
-    rate = (joint.motor->target_at(time + step) - now + error_reduction * error) / step;
-  }
+  const double position = turns ? dJointGetHingeAngle(made) : dJointGetSliderPosition(made);
   const auto set = turns ? dJointSetHingeParam : dJointSetSliderParam;
-  set(made, dParamVel, rate);
+  set(made, dParamVel, motor_rate(joint, position, time, step));
   set(made, dParamFMax, joint.motor->max_force);
+}
+
+void set_belt(dContact& contact, const Vec3& belt, bool is_first_null) {
+  // ODE takes the velocity that its first body shall have, along fdir1 and normal × fdir1.
+  const Vec3 first(contact.fdir1), second = Vec3(contact.geom.normal).cross(first);
+  contact.surface.mode |= dContactMotion1 | dContactMotion2;
+  contact.surface.motion1 = (is_first_null ? 1 : -1) * belt.dot(first);
+  contact.surface.motion2 = -belt.dot(second);
 }
 
 void place(dBodyID body, const BodyState& state) {

@@ -130,7 +130,8 @@ void World::State::make_assembly(const Assembly& assembly) {
     const int b = assembly.bodies[i];
     assembly_of[b] = moving.size() - 1;
     if (std::holds_alternative<Cylinder>(scene.bodies[b].shape)) continue;
-    geoms[b] = make_ode_geom(nullptr, scene.bodies[b], body, assembly.X_FB[i]);
+    const Body& made = scene.bodies[b];
+    geoms[b] = make_ode_geom(nullptr, made.shape, body, body ? assembly.X_FB[i] : made.pose);
   }
   place_bodies(moving.back());
 }
@@ -282,19 +283,12 @@ void World::State::add_joint(int a, int b, dContactGeom geom) {
   Vec3 tangential = along(impending_slip(a, b, Vec3(geom.pos))) + belt;
   const bool has_belt = belt.norm() > min_slip;
   if (has_belt && !(tangential.norm() > min_slip)) tangential = belt;
+  const dBodyID body_a = ode_body(a), body_b = ode_body(b);
   if (const double speed = tangential.norm(); speed > min_slip) {
     contact.surface.mode |= dContactFDir1;
     for (int k = 0; k < 3; ++k) contact.fdir1[k] = tangential[k] / speed;
   }
-  const dBodyID body_a = ode_body(a), body_b = ode_body(b);
-  if (has_belt) {
-    // ODE takes the velocity that its first body shall have, along fdir1 and normal × fdir1. If the
-    // first is null, the second stands in for it, and the normal is turned round.
-    contact.surface.mode |= dContactMotion1 | dContactMotion2;
-    const Vec3 first(contact.fdir1), second = normal.cross(first);
-    contact.surface.motion1 = (body_a ? -1 : 1) * belt.dot(first);
-    contact.surface.motion2 = -belt.dot(second);
-  }
+  if (has_belt) set_belt(contact, belt, !body_a);
   const dJointID joint = dJointCreateContact(world, contact_joints, &contact);
   dJointAttach(joint, body_a, body_b);
 }

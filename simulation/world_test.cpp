@@ -1,12 +1,10 @@
-#include "simulation/world.hpp"
-
 #include <cmath>
 #include <gmock/gmock.h>
 #include <limits>
 #include <utility>
 
-#include "candidates/candidates.hpp"
 #include "reference/invalid_input.hpp"
+#include "simulation/world_fixture.hpp"
 
 namespace touchstone {
 namespace {
@@ -16,16 +14,7 @@ using testing::HasSubstr;
 Pose at(double x, double y, double z) { return {Vec3(x, y, z), Eigen::Quaterniond::Identity()}; }
 Body ground() { return {"ground", Plane(Vec3::UnitZ(), 0), 1000, {}, {}, {}, {}, true}; }
 
-/// Worlds with the contacts of `reference`.
-struct WorldTest : testing::Test {
-  World run(const Scene& scene) {
-    World world(scene, model);
-    while (world.time() < scene.duration - scene.step / 2) world.step();
-    return world;
-  }
-  CandidateProcess process{find_candidate("reference"), simulation_threshold};
-  CandidateModel model{process};
-};
+using WorldTest = WorldFixture;
 
 TEST_F(WorldTest, FreeFlightKeepsMomentumAndStraightLines) {
   Scene scene;

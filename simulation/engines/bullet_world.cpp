@@ -8,50 +8,31 @@
 // Shapes    btCylinderShapeZ, btBoxShape, btCapsuleShapeZ, btSphereShape with Bullet's default
 //           margins; btStaticPlaneShape.
 //           A hull is a btConvexHullShape with margin 0: its margin, 0.04 whatever its size, would
-//           be added outside it; that of a cylinder lies inside it and rounds its edges. Spheres
-//           are children of a btCompoundShape.
+//           be added outside it; that of a cylinder lies inside it and rounds its edges. Spheres,
+//           and bodies that fixed joints connect, are children of a btCompoundShape.
 // Masses    Inertia of the exact bodies. Bullet multiplies the friction and the restitution of two
 //           bodies, so that each gets the square root of ours: together they have the geometric
-//           mean.
+//           mean. What consists of several bodies has that of the parts that touch, by
+//           gContactAddedCallback.
+// Joints    btGeneric6DofSpring2Constraint with all but one direction locked, as Bullet's importer
+//           of URDF makes them.
+// Belts     What Bullet calls the conveyor belt effect: gContactAddedCallback sets a contact's
+//           friction direction and the velocity along it, for which the solver keeps directions
+//           and gets two of them in the whole world.
 // Drives    Kinematic objects, which Bullet gives the velocity that leads to their next pose; it
 //           finds their contacts there, one step ahead.
+#include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
+#include <BulletCollision/CollisionDispatch/btCompoundCompoundCollisionAlgorithm.h>
 #include <algorithm>
 #include <btBulletDynamicsCommon.h>
 #include <cmath>
+#include <numbers>
 
 #include "reference/engines/bullet.hpp"
-#include "simulation/engines/engine_world.hpp"
+#include "simulation/engines/bullet_shapes.hpp"
 
 namespace touchstone {
 namespace {
-
-btScalar to_scalar(double value) { return static_cast<btScalar>(value); }
-btVector3 to_vector(const Vec3& v) {
-  return {to_scalar(v.x()), to_scalar(v.y()), to_scalar(v.z())};
-}
-Vec3 from_vector(const btVector3& v) { return Vec3(v.x(), v.y(), v.z()); }
-
-using Made = std::unique_ptr<btCollisionShape>;
-
-struct MakeShape {
-  Made operator()(const Cylinder& s) const {
-    return std::make_unique<btCylinderShapeZ>(
-        to_vector(Vec3(s.radius(), s.radius(), s.half_length())));
-  }
-  Made operator()(const Plane& s) const {
-    return std::make_unique<btStaticPlaneShape>(to_vector(s.unit_normal()),
-                                                to_scalar(s.unit_displacement()));
-  }
-  Made operator()(const Sphere& s) const {
-    return std::make_unique<btSphereShape>(to_scalar(s.radius()));
-  }
-  Made operator()(const Capsule& s) const {
-    return std::make_unique<btCapsuleShapeZ>(to_scalar(s.radius()), to_scalar(2 * s.half_length()));
-  }
-  Made operator()(const Box& s) const {
-    return std::make_unique<btBoxShape>(to_vector(s.half_extents()));
-  }
-};
 
 class BulletWorld : public EngineWorld {
  public:
@@ -67,9 +48,16 @@ class BulletWorld : public EngineWorld {
       world_.getSolverInfo().m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS;
     }
     world_.setGravity(to_vector(scene.gravity));
-    for (std::size_t i = 0; i < scene.bodies.size(); ++i) add(i);
+    broadphase_.getOverlappingPairCache()->setOverlapFilterCallback(&filter_);
+    gCompoundChildShapePairCallback = gCompoundCompoundChildShapePairCallback = may_meet;
+    gContactAddedCallback = describe;
+    for (std::size_t i = 0; i < assemblies_.size(); ++i) add(i);
+    for (const Joint& joint : scene.joints) joints_.push_back(acts(joint) ? make(joint) : nullptr);
   }
   ~BulletWorld() override {
+    for (const auto& joint : joints_) {
+      if (joint) world_.removeConstraint(joint.get());
+    }
     for (const auto& body : bodies_) world_.removeRigidBody(body.get());
   }
   BulletWorld(const BulletWorld&) = delete;
@@ -87,77 +75,158 @@ class BulletWorld : public EngineWorld {
   void advance() override {
     world_.stepSimulation(to_scalar(scene_.step), 0);
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
-      if (!scene_.bodies[i].is_free()) continue;
+      if (!assemblies_[i].is_free()) continue;
       const btRigidBody& body = *bodies_[i];
       const btQuaternion q = body.getWorldTransform().getRotation();
       set_state(i, from_vector(body.getWorldTransform().getOrigin()), {q.w(), q.x(), q.y(), q.z()},
                 from_vector(body.getLinearVelocity()), from_vector(body.getAngularVelocity()));
     }
   }
-  void drive(std::size_t body, const BodyState&, const Pose& after) override {
-    bodies_[body]->setWorldTransform(to_transform(after));
+  void drive(std::size_t assembly, const BodyState&, const Pose& after) override {
+    bodies_[assembly]->setWorldTransform(to_transform(after));
   }
-  void push(std::size_t body, const Push& push) override {
-    bodies_[body]->applyCentralForce(to_vector(push.force));
-    bodies_[body]->applyTorque(to_vector(push.torque));
+  void push(std::size_t assembly, const Vec3& force, const Vec3& torque) override {
+    bodies_[assembly]->applyCentralForce(to_vector(force));
+    bodies_[assembly]->applyTorque(to_vector(torque));
+  }
+  void run_motor(std::size_t joint, double time) override {
+    const Joint& driven = scene_.joints[joint];
+    joints_[joint]->calculateTransforms();
+    const double position = driven.kind == JointKind::hinge
+                                ? joints_[joint]->getAngle(0)
+                                : -joints_[joint]->getRelativePivotPosition(0);
+    joints_[joint]->setTargetVelocity(free_axis(driven),
+                                      to_scalar(motor_rate(driven, position, time, scene_.step)));
   }
 
  private:
-  static btTransform to_transform(const Pose& pose) {
-    const Eigen::Quaterniond q = pose.unit_orientation();
-    return btTransform(
-        btQuaternion(to_scalar(q.x()), to_scalar(q.y()), to_scalar(q.z()), to_scalar(q.w())),
-        to_vector(pose.position()));
-  }
+  using Constraint = btGeneric6DofSpring2Constraint;
+  using Wrapper = btCollisionObjectWrapper;
 
-  static Made make_part(const RoundedPolytope& part) {
-    const auto& corners = part.vertices();
-    if (corners.size() == 1) return MakeShape{}(Sphere(part.radius()));
-    if (corners.size() == 2) {
-      return MakeShape{}(Capsule(part.radius(), (corners[1] - corners[0]).norm() / 2));
-    }
-    auto hull = std::make_unique<btConvexHullShape>();
-    for (const Vec3& corner : corners) hull->addPoint(to_vector(corner), false);
-    hull->setMargin(0);
-    hull->recalcLocalAabb();
-    return hull;
-  }
-
-  btCollisionShape* make_shape(std::size_t body) {
-    const auto parts = this->parts(body);
-    if (parts.empty()) {
-      shapes_.push_back(std::visit(MakeShape{}, shape(body)));
-      if (is_no_margin(body)) shapes_.back()->setMargin(0);
-    } else if (parts.size() == 1) {
-      shapes_.push_back(make_part(parts[0]));
-    } else {
-      auto compound = std::make_unique<btCompoundShape>();
-      for (const RoundedPolytope& part : parts) {
-        shapes_.push_back(make_part(part));
-        const btTransform place(btQuaternion::getIdentity(), to_vector(part.vertices()[0]));
-        compound->addChildShape(place, shapes_.back().get());
+  /// Asks for pairs of objects whether any of their bodies may touch.
+  struct Filter : btOverlapFilterCallback {
+    explicit Filter(const BulletWorld& of) : world(of) {}
+    bool needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy* b) const override {
+      const auto bodies = [&](const btBroadphaseProxy* proxy) -> const std::vector<int>& {
+        const auto* object = static_cast<const btCollisionObject*>(proxy->m_clientObject);
+        return world.assemblies_[object->getUserIndex()].bodies;
+      };
+      for (const int i : bodies(a)) {
+        for (const int j : bodies(b)) {
+          if (world.may_touch_(i, j)) return true;
+        }
       }
+      return false;
+    }
+    const BulletWorld& world;
+  };
+
+  // Bullet's callbacks have no argument of their own: a shape knows its world and body.
+
+  static const BulletWorld& world_of(const btCollisionShape* shape) {
+    return *static_cast<const BulletWorld*>(shape->getUserPointer());
+  }
+  /// For the children of compounds.
+  static bool may_meet(const btCollisionShape* a, const btCollisionShape* b) {
+    return world_of(a).may_touch_(a->getUserIndex(), b->getUserIndex());
+  }
+  /// Sets a contact's materials and belt, where one of the objects asks for it.
+  static bool describe(btManifoldPoint& point, const Wrapper* a, int, int, const Wrapper* b, int,
+                       int) {
+    const BulletWorld& world = world_of(a->getCollisionShape());
+    const int i = a->getCollisionShape()->getUserIndex(),
+              j = b->getCollisionShape()->getUserIndex();
+    const Material &first = world.scene_.bodies[i].material,
+                   &second = world.scene_.bodies[j].material;
+    point.m_combinedFriction = to_scalar(std::sqrt(first.friction * second.friction));
+    point.m_combinedRestitution = to_scalar(std::sqrt(first.restitution * second.restitution));
+    const Vec3 belt = world.belt(i, j, from_vector(point.m_normalWorldOnB));
+    if (const double speed = belt.norm(); speed > 0) {
+      point.m_contactPointFlags |= BT_CONTACT_FLAG_LATERAL_FRICTION_INITIALIZED;
+      point.m_lateralFrictionDir1 = to_vector(belt / speed);
+      point.m_lateralFrictionDir2 = point.m_lateralFrictionDir1.cross(point.m_normalWorldOnB);
+      point.m_contactMotion1 = to_scalar(-speed);  // of the first body along the second
+    }
+    return true;
+  }
+
+  btCollisionShape* make_shape(const Assembly& assembly) {
+    auto compound = std::make_unique<btCompoundShape>();
+    for (std::size_t i = 0; i < assembly.bodies.size(); ++i) {
+      const int body = assembly.bodies[i];
+      for (const Piece& piece : pieces(body)) {
+        shapes_.push_back(touchstone::make_shape(piece));
+        btCollisionShape* const made = shapes_.back().get();
+        if (is_no_margin(body)) made->setMargin(0);
+        made->setUserIndex(body);
+        made->setUserPointer(this);
+        compound->addChildShape(to_transform(shifted(assembly.X_FB[i], piece.centre)), made);
+      }
+    }
+    if (assembly.bodies.size() > 1 || compound->getNumChildShapes() > 1) {
       shapes_.push_back(std::move(compound));
     }
     return shapes_.back().get();
   }
 
   void add(std::size_t index) {
-    const Body& body = scene_.bodies[index];
-    const Inertia i = body.is_free() ? inertia(body.shape, body.density) : Inertia{0, Vec3::Zero()};
-    btRigidBody::btRigidBodyConstructionInfo info(to_scalar(i.mass), nullptr, make_shape(index),
-                                                  to_vector(i.principal));
-    info.m_startWorldTransform = to_transform(body.pose);
-    info.m_friction = to_scalar(std::sqrt(body.material.friction));
-    info.m_restitution = to_scalar(std::sqrt(body.material.restitution));
+    const Assembly& assembly = assemblies_[index];
+    const Material& material = scene_.bodies[assembly.bodies.front()].material;
+    const BodyState start = start_of(index);
+    btRigidBody::btRigidBodyConstructionInfo info(to_scalar(assembly.inertia.mass), nullptr,
+                                                  make_shape(assembly),
+                                                  to_vector(assembly.inertia.principal));
+    info.m_startWorldTransform = to_transform(start.pose);
+    info.m_friction = to_scalar(std::sqrt(material.friction));
+    info.m_restitution = to_scalar(std::sqrt(material.restitution));
     bodies_.push_back(std::make_unique<btRigidBody>(info));
-    if (body.drive) {
-      bodies_.back()->setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
+    btRigidBody& made = *bodies_.back();
+    made.setUserIndex(static_cast<int>(index));
+    if (assembly.driven >= 0) made.setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
+    const bool has_belt = std::any_of(assembly.bodies.begin(), assembly.bodies.end(), [&](int b) {
+      return !scene_.bodies[b].surface_velocity.isZero(0);
+    });
+    if (has_belt || assembly.bodies.size() > 1) {
+      made.setCollisionFlags(made.getCollisionFlags() |
+                             btCollisionObject::CF_CUSTOM_MATERIAL_CALLBACK);
     }
-    bodies_.back()->setLinearVelocity(to_vector(body.velocity));
-    bodies_.back()->setAngularVelocity(to_vector(body.angular_velocity));
-    bodies_.back()->setActivationState(DISABLE_DEACTIVATION);
-    world_.addRigidBody(bodies_.back().get());
+    if (has_belt) {
+      world_.getSolverInfo().m_solverMode |=
+          SOLVER_ENABLE_FRICTION_DIRECTION_CACHING | SOLVER_USE_2_FRICTION_DIRECTIONS;
+    }
+    made.setLinearVelocity(to_vector(start.velocity));
+    made.setAngularVelocity(to_vector(start.angular_velocity));
+    made.setActivationState(DISABLE_DEACTIVATION);
+    world_.addRigidBody(&made);
+  }
+
+  /// Index of the direction that a joint leaves free: along or about x.
+  static int free_axis(const Joint& joint) { return joint.kind == JointKind::hinge ? 3 : 0; }
+
+  std::unique_ptr<Constraint> make(const Joint& joint) {
+    btRigidBody& a = *bodies_[assembly_of(joint.a)];
+    btRigidBody& b =
+        joint.b == world_body ? btTypedConstraint::getFixedBody() : *bodies_[assembly_of(joint.b)];
+    const bool turns = joint.kind == JointKind::hinge;
+    const Vec3 anchor = turns ? joint.anchor : from_vector(a.getWorldTransform().getOrigin());
+    const btTransform frame =
+        to_transform(Pose(anchor, Eigen::Quaterniond::FromTwoVectors(Vec3::UnitX(), joint.axis)));
+    auto made = std::make_unique<Constraint>(a, b, a.getWorldTransform().inverse() * frame,
+                                             b.getWorldTransform().inverse() * frame);
+    for (int axis = 0; axis < 6; ++axis) made->setLimit(axis, 0, 0);
+    // Angles are of the first body relative to the second, positions of the second to the first.
+    const double max = turns ? std::numbers::pi : max_in_world;
+    const double lower = std::max(turns ? joint.lower : -joint.upper, -max);
+    const double upper = std::min(turns ? joint.upper : -joint.lower, max);
+    const bool is_limited = std::isfinite(joint.lower) || std::isfinite(joint.upper);
+    made->setLimit(free_axis(joint), to_scalar(is_limited ? lower : 1),
+                   to_scalar(is_limited ? upper : -1));
+    if (joint.motor) {
+      made->enableMotor(free_axis(joint), true);
+      made->setMaxMotorForce(free_axis(joint), to_scalar(joint.motor->max_force));
+    }
+    world_.addConstraint(made.get());
+    return made;
   }
 
   btDefaultCollisionConfiguration configuration_;
@@ -166,7 +235,9 @@ class BulletWorld : public EngineWorld {
   btSequentialImpulseConstraintSolver solver_;
   btDiscreteDynamicsWorld world_{&dispatcher_, &broadphase_, &solver_, &configuration_};
   std::vector<std::unique_ptr<btCollisionShape>> shapes_;
-  std::vector<std::unique_ptr<btRigidBody>> bodies_;
+  std::vector<std::unique_ptr<btRigidBody>> bodies_;  ///< by assembly
+  std::vector<std::unique_ptr<Constraint>> joints_;   ///< by joint; null where it does not act
+  Filter filter_{*this};
 };
 
 std::unique_ptr<Simulation> begin(const Scene& scene, const EngineSetup& setup) {

@@ -6,7 +6,6 @@
 
 #include "candidates/candidate.h"
 #include "candidates/model.hpp"
-#include "reference/invalid_input.hpp"
 #include "simulation/assembly.hpp"
 #include "simulation/engines/run_engines.hpp"
 #include "simulation/scene.hpp"
@@ -16,91 +15,80 @@
 // precisions of Bullet have the same symbols.
 namespace touchstone {
 
-/// A scene in an engine's own world, which finds the contacts, solves and moves the bodies.
+/// A part of what stands for a body in an engine.
+struct Piece {
+  Shape shape;
+  Vec3 centre = Vec3::Zero();      ///< in the body's frame
+  std::vector<Vec3> corners = {};  ///< of a hull, which it is instead of the shape
+};
+
+/// What stands for a body: its own shape, or what replaces a cylinder.
+std::vector<Piece> pieces(const Body& body, const EngineShape& engine_shape);
+
+/// Pose of what is at a point, and not turned, in a frame with a pose.
+inline Pose shifted(const Pose& pose, const Vec3& point) {
+  return {pose.position() + pose.rotation() * point, pose.orientation()};
+}
+
+/// A scene in an engine's own world, which finds the contacts, solves and moves the bodies. Each
+/// assembly is one body of the engine. What the engine has to do for one is by index in
+/// `assemblies_`.
 class EngineWorld : public Simulation {
  public:
-  void step() final {
-    const double begin = scene_.step * steps_, middle = begin + scene_.step / 2;
-    const double end = scene_.step * ++steps_;
-    for (std::size_t i = 0; i < states_.size(); ++i) {
-      const Body& body = scene_.bodies[i];
-      if (!body.drive) continue;
-      const BodyState after = driven_state(*body.drive, body.pose, end, scene_.step);
-      drive(i, {driven_pose(*body.drive, body.pose, begin), after.velocity, after.angular_velocity},
-            after.pose);
-    }
-    for (const Push& p : scene_.pushes) {
-      if (p.from <= middle && middle < p.until) push(static_cast<std::size_t>(p.body), p);
-    }
-    advance();
-    for (std::size_t i = 0; i < states_.size() && sound_; ++i) {
-      const Body& body = scene_.bodies[i];
-      if (body.drive) states_[i] = driven_state(*body.drive, body.pose, end, scene_.step);
-    }
-  }
+  void step() final;
   const std::vector<BodyState>& states() const override { return states_; }
   bool sound() const override { return sound_; }
 
  protected:
-  EngineWorld(const Scene& scene, EngineSetup setup) : scene_(scene), setup_(std::move(setup)) {
-    for (const Body& b : scene.bodies) states_.push_back({b.pose, b.velocity, b.angular_velocity});
-  }
+  EngineWorld(const Scene& scene, EngineSetup setup);
 
-  /// Steps the engine and reads its states with set_state; driven bodies do not need one.
+  /// Steps the engine and reads its states with set_state; only free assemblies need one.
   virtual void advance() = 0;
-  /// Before a step: a driven body's pose and its velocities in the step, and the pose after it.
-  virtual void drive(std::size_t body, const BodyState& state, const Pose& after) = 0;
-  /// Before a step: applies force and torque for it.
-  virtual void push(std::size_t body, const Push& push) = 0;
+  /// Before a step: a driven assembly's pose and its velocities in the step, and the pose after it.
+  virtual void drive(std::size_t assembly, const BodyState& state, const Pose& after) = 0;
+  /// Before a step: applies a force at a free assembly's centre of mass, and a torque, for it.
+  virtual void push(std::size_t assembly, const Vec3& force, const Vec3& torque) = 0;
+  /// Before a step: sets the motor of a joint, by index in the scene, for the step that begins at a
+  /// time.
+  virtual void run_motor(std::size_t joint, double time) = 0;
 
-  /// What stands for a cylinder instead of the engine's own, in the body's frame; empty where that
-  /// is used as it is. A capsule lies along z. A box is the core of one part.
-  std::vector<RoundedPolytope> parts(std::size_t body) const {
-    const auto* c = std::get_if<Cylinder>(&scene_.bodies[body].shape);
-    if (!c) return {};
-    const auto [kind, count] = setup_.shape_of(body);
-    std::vector<RoundedPolytope> result;
-    using Kind = EngineShape::Kind;
-    if (kind == Kind::capsule) result = inscribed_capsule(c->radius(), c->half_length());
-    if (kind == Kind::spheres) result = inscribed_spheres(count, c->radius(), c->half_length());
-    if (kind == Kind::hull) result = inscribed_prism(count, c->radius(), c->half_length());
-    for (RoundedPolytope& part : result) part.place(Eigen::Matrix3d::Identity(), Vec3::Zero());
-    return result;
+  /// Does a joint hold anything? Not if it is fixed, which assemblies obey, or between bodies that
+  /// forces do not move.
+  bool acts(const Joint& joint) const;
+  /// Index of a body's assembly, by index in the scene.
+  std::size_t assembly_of(int body) const { return assembly_of_[body]; }
+  /// State of an assembly at the start.
+  BodyState start_of(std::size_t assembly) const;
+  std::vector<Piece> pieces(int body) const {
+    return touchstone::pieces(scene_.bodies[body], setup_.shape_of(body));
   }
-  /// The shape of a body, with the box where that stands for a cylinder.
-  Shape shape(std::size_t body) const {
-    const Shape& shape = scene_.bodies[body].shape;
-    const auto* c = std::get_if<Cylinder>(&shape);
-    if (!c || setup_.shape_of(body).kind != EngineShape::Kind::box) return shape;
-    return Box(Vec3(c->radius(), c->radius(), c->half_length()));
-  }
+  /// Velocity of the surface of a body along that of another one in a contact, across its normal.
+  Vec3 belt(int body, int other, const Vec3& normal) const;
+
   bool is_no_margin(std::size_t body) const {
     return setup_.shape_of(body).kind == EngineShape::Kind::no_margin;
   }
   bool is_cured() const { return setup_.cured || setup_.has(EngineShape::Kind::exact); }
   bool is_multipoint() const { return setup_.has(EngineShape::Kind::multipoint); }
 
-  /// Reads one body's state from the engine; `orientation` is w, x, y, z.
-  void set_state(std::size_t body, const Vec3& position, const std::array<double, 4>& orientation,
-                 const Vec3& velocity, const Vec3& angular_velocity) {
-    for (const Vec3& v : {position, velocity, angular_velocity}) {
-      if (!(v.norm() < max_in_world)) sound_ = false;
-    }
-    if (!sound_) return;
-    try {
-      const auto& [w, x, y, z] = orientation;
-      states_[body] = {Pose(position, Eigen::Quaterniond(w, x, y, z)), velocity, angular_velocity};
-    } catch (const InvalidInput&) {  // not a number
-      sound_ = false;
-    }
-  }
+  /// Reads the state of an assembly from the engine; `orientation` is w, x, y, z.
+  void set_state(std::size_t assembly, const Vec3& position,
+                 const std::array<double, 4>& orientation, const Vec3& velocity,
+                 const Vec3& angular_velocity);
 
   const Scene scene_;
   const EngineSetup setup_;
+  const std::vector<Assembly> assemblies_;
+  const Touching may_touch_;
 
  private:
+  void place_bodies(std::size_t assembly, const BodyState& state);
+  const Body& driving(const Assembly& assembly) const { return scene_.bodies[assembly.driven]; }
+
   int steps_ = 0;
-  std::vector<BodyState> states_;
+  std::vector<std::size_t> assembly_of_;  ///< by body
+  std::vector<Vec3> centres_;             ///< by assembly: its origin
+  std::vector<BodyState> states_;         ///< by body
   bool sound_ = true;
 };
 

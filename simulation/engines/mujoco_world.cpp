@@ -1,18 +1,24 @@
 // MuJoCo 2.2.2's own world.
 //
 // World     A model made from XML, mj_step. All options are MuJoCo's defaults but for the time
-// step:
-//           Newton solver, pyramidal friction cones, condim 3, semi-implicit Euler. Its contacts
-//           are soft (solref 0.02 1, solimp 0.9 0.95 0.001): a body at rest sinks in by some tenths
-//           of a millimetre, and one that friction holds creeps; docs/inside-the-engines.md has the
-//           sums. At its best: as hard as the step allows (solref two steps, solimp 0.99 0.999),
-//           elliptic cones, impratio 10.
+//           step: Newton solver, pyramidal friction cones, condim 3, semi-implicit Euler. Its
+//           contacts are soft (solref 0.02 1, solimp 0.9 0.95 0.001): a body at rest sinks in by
+//           some tenths of a millimetre, and one that friction holds creeps;
+//           docs/inside-the-engines.md has the sums. At its best: as hard as the step allows
+//           (solref two steps, solimp 0.99 0.999), elliptic cones, impratio 10.
 // Shapes    cylinder, box, capsule, sphere with half lengths; a plane is infinite. A hull is a mesh
-//           asset, spheres are several geoms of one body.
+//           asset. Spheres, and bodies that fixed joints connect, are several geoms of one body.
 // Masses    Inertia of the exact bodies. MuJoCo takes the larger friction of two bodies.
-// Drives    A free body so heavy that no contact stops it, whose pose and velocity are set before
-//           each step: contacts with a mocap body know nothing of its velocity.
+// Joints    The tree of MuJoCo's users (mujoco_xml.hpp): hinge and slide, with limits as soft as
+//           contacts. What may touch is decided in mjcb_contactfilter.
+// Motors    Velocity actuators with a force range. Their gain is the largest with which the
+//           explicit step does not overshoot; what a load takes of the rate is integrated.
+// Drives    A free body so heavy that no contact stops it, whose pose is set before each step, and
+//           which a force gives its velocity: contacts with a mocap body know nothing of its
+//           velocity, and what hangs on a body whose velocity is set would be carried along.
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <fmt/format.h>
@@ -21,78 +27,10 @@
 #include <string>
 
 #include "reference/engines/mujoco.hpp"
-#include "simulation/engines/engine_world.hpp"
+#include "simulation/engines/mujoco_xml.hpp"
 
 namespace touchstone {
 namespace {
-
-/// The attributes `type`, `size` and, of a plane, its frame: MuJoCo's is solid below its xy-plane.
-struct GeomXml {
-  std::string operator()(const Cylinder& s) const {
-    return fmt::format("type='cylinder' size='{} {}'", s.radius(), s.half_length());
-  }
-  std::string operator()(const Plane& s) const {
-    const Vec3 &n = s.unit_normal(), p = s.unit_displacement() * n;
-    return fmt::format("type='plane' size='0 0 1' pos='{} {} {}' zaxis='{} {} {}'", p.x(), p.y(),
-                       p.z(), n.x(), n.y(), n.z());
-  }
-  std::string operator()(const Sphere& s) const {
-    return fmt::format("type='sphere' size='{}'", s.radius());
-  }
-  std::string operator()(const Capsule& s) const {
-    return fmt::format("type='capsule' size='{} {}'", s.radius(), s.half_length());
-  }
-  std::string operator()(const Box& s) const {
-    const Vec3& h = s.half_extents();
-    return fmt::format("type='box' size='{} {} {}'", h.x(), h.y(), h.z());
-  }
-};
-
-/// The same attributes of a part that stands for a cylinder; a hull's mesh has this name.
-std::string part_xml(const RoundedPolytope& part, const std::string& mesh) {
-  const auto& corners = part.vertices();
-  if (corners.size() == 1) {
-    const Vec3& p = corners[0];
-    return GeomXml{}(Sphere(part.radius())) + fmt::format(" pos='{} {} {}'", p.x(), p.y(), p.z());
-  }
-  if (corners.size() == 2) {
-    return GeomXml{}(Capsule(part.radius(), (corners[1] - corners[0]).norm() / 2));
-  }
-  return fmt::format("type='mesh' mesh='{}'", mesh);
-}
-
-std::string mesh_xml(const RoundedPolytope& hull, const std::string& name) {
-  std::string xml = fmt::format("<mesh name='{}' vertex='", name);
-  for (const Vec3& v : hull.vertices()) xml += fmt::format("{} {} {} ", v.x(), v.y(), v.z());
-  return xml + "'/>";
-}
-
-/// Options and defaults of a world whose contacts are as hard as the step allows: by MuJoCo's
-/// documentation the time constant of a contact has to be two steps at least.
-std::string best_xml(double step) {
-  return fmt::format(
-      "<option cone='elliptic' impratio='10'/><default><geom solref='{} 1' "
-      "solimp='0.99 0.999 0.001'/></default>",
-      2 * step);
-}
-
-/// Mass of a driven body as a multiple of all free ones': the share of an impulse that moves it.
-constexpr double driven_mass_ratio = 1e6;
-
-/// Pairs that MuJoCo would let touch though neither body yields to the other.
-std::string exclusions_xml(const Scene& scene) {
-  std::string xml;
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    if (!scene.bodies[i].drive) continue;
-    for (std::size_t j = 0; j < scene.bodies.size(); ++j) {
-      const Body& other = scene.bodies[j];
-      if (other.fixed || (other.drive && i < j)) {
-        xml += fmt::format("<exclude body1='b{}' body2='b{}'/>", i, j);
-      }
-    }
-  }
-  return xml.empty() ? "" : "<contact>" + xml + "</contact>";
-}
 
 mjModel* load_xml(const std::string& xml) {
   const auto files = std::make_unique<mjVFS>();
@@ -109,14 +47,17 @@ mjModel* load_xml(const std::string& xml) {
 class MujocoWorld : public EngineWorld {
  public:
   MujocoWorld(const Scene& scene, const EngineSetup& setup)
-      : EngineWorld(scene, setup), model_(load_xml(scene_xml())), data_(mj_makeData(model_)) {
-    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-      const Body& body = scene.bodies[i];
-      place_of_.push_back(places_);
-      if (body.fixed) continue;
-      ++places_;
-      set_velocity(i, {body.pose, body.velocity, body.angular_velocity});
+      : EngineWorld(scene, setup),
+        tree_(kinematic_tree(scene, assemblies_)),
+        model_(load_xml(mujoco_xml(scene, assemblies_, tree_, setup))),
+        data_(mj_makeData(model_)),
+        integrals_(scene.joints.size()) {
+    mjcb_contactfilter = keeps_apart;
+    for (std::size_t i = 0; i < assemblies_.size(); ++i) {
+      bodies_.push_back(id(mjOBJ_BODY, fmt::format("b{}", i)));
+      if (is_root(i)) set_velocity(i, start_of(i));
     }
+    update_tree();
   }
   ~MujocoWorld() override {
     mj_deleteData(data_);
@@ -129,100 +70,133 @@ class MujocoWorld : public EngineWorld {
 
  protected:
   void advance() override {
+    stepping = this;
     mj_step(model_, data_);
     std::fill_n(data_->xfrc_applied, 6 * model_->nbody, 0.0);
+    update_tree();
     const bool was_reset = data_->warning[mjWARN_BADQPOS].number > 0 ||
                            data_->warning[mjWARN_BADQVEL].number > 0 ||
                            data_->warning[mjWARN_BADQACC].number > 0;
-    for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
-      if (!scene_.bodies[i].is_free()) continue;
-      const double *q = data_->qpos + 7 * place_of_[i], *v = data_->qvel + 6 * place_of_[i];
-      const Vec3 position = was_reset ? Vec3::Constant(2 * max_in_world) : Vec3(q[0], q[1], q[2]);
-      const Eigen::Quaterniond turn(q[3], q[4], q[5], q[6]);
-      set_state(i, position, {q[3], q[4], q[5], q[6]}, Vec3(v[0], v[1], v[2]),
-                turn.normalized() * Vec3(v[3], v[4], v[5]));
+    for (std::size_t i = 0; i < assemblies_.size(); ++i) {
+      if (!assemblies_[i].is_free()) continue;
+      const double *p = &data_->xpos[3 * bodies_[i]], *q = &data_->xquat[4 * bodies_[i]];
+      Vec3 velocity, angular_velocity;
+      if (is_root(i)) {  // not yet in xpos and xquat unless there is a tree
+        p = position_of(i), q = p + 3;
+        angular_velocity = Vec3(velocity_of(i) + 3);
+        velocity = Vec3(velocity_of(i));
+        angular_velocity =
+            Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized() * angular_velocity;
+      } else {
+        std::array<double, 6> both;
+        mj_objectVelocity(model_, data_, mjOBJ_BODY, static_cast<int>(bodies_[i]), both.data(), 0);
+        angular_velocity = Vec3(both.data());
+        velocity = Vec3(both.data() + 3);
+      }
+      const Vec3 position = was_reset ? Vec3::Constant(2 * max_in_world) : Vec3(p);
+      set_state(i, position, {q[0], q[1], q[2], q[3]}, velocity, angular_velocity);
     }
   }
-  void drive(std::size_t body, const BodyState& state, const Pose&) override {
-    double* const q = data_->qpos + 7 * place_of_[body];
+
+  void drive(std::size_t assembly, const BodyState& state, const Pose&) override {
+    double* const q = position_of(assembly);
     const Eigen::Quaterniond turn = state.pose.unit_orientation();
+    const Vec3 before(velocity_of(assembly));
+    const Vec3 spin_before = turn * Vec3(velocity_of(assembly) + 3);
     mju_copy3(q, state.pose.position().data());
     q[3] = turn.w(), q[4] = turn.x(), q[5] = turn.y(), q[6] = turn.z();
-    set_velocity(body, state);
-    const Vec3 weight = model_->body_mass[body + 1] * scene_.gravity;
-    mju_addToScl3(force_on(body), weight.data(), -1);
+    const double mass = model_->body_mass[bodies_[assembly]];
+    const double moment = model_->body_inertia[3 * bodies_[assembly]];
+    push(assembly, mass * ((state.velocity - before) / scene_.step - scene_.gravity),
+         moment / scene_.step * (state.angular_velocity - spin_before));
   }
-  void push(std::size_t body, const Push& push) override {
-    mju_addTo3(force_on(body), push.force.data());
-    mju_addTo3(force_on(body) + 3, push.torque.data());
+
+  void push(std::size_t assembly, const Vec3& force, const Vec3& torque) override {
+    double* const on_body = &data_->xfrc_applied[6 * bodies_[assembly]];
+    mju_addTo3(on_body, force.data());
+    mju_addTo3(on_body + 3, torque.data());
+  }
+
+  void run_motor(std::size_t joint, double time) override {
+    constexpr double integrated_share = 0.1;  // of the rate's error, per step
+    const Joint& driven = scene_.joints[joint];
+    if (driven.motor->max_force <= 0) return;
+    const std::string name = fmt::format("j{}", joint);
+    const std::size_t motor = id(mjOBJ_ACTUATOR, name), moved = id(mjOBJ_JOINT, name);
+    const double position = data_->qpos[model_->jnt_qposadr[moved]];
+    const double wanted = motor_rate(driven, position, time, scene_.step);
+    const double error = wanted - data_->qvel[model_->jnt_dofadr[moved]];
+    const double force = data_->actuator_force[motor], max = driven.motor->max_force;
+    const bool is_at_most = error > 0 ? force >= max : force <= -max;
+    if (!is_at_most) integrals_[joint] += integrated_share * error;
+    const double gain = stable_gain(moved);
+    model_->actuator_gainprm[mjNGAIN * motor] = gain;
+    model_->actuator_biasprm[mjNBIAS * motor + 2] = -gain;
+    data_->ctrl[motor] = wanted + integrals_[joint];
   }
 
  private:
-  /// Force and torque on a body; MuJoCo's first body is the world.
-  double* force_on(std::size_t body) { return data_->xfrc_applied + 6 * (body + 1); }
-
-  /// The linear part in the world's frame, the angular one in the body's.
-  void set_velocity(std::size_t body, const BodyState& state) {
-    double* const velocity = data_->qvel + 6 * place_of_[body];
+  bool is_root(std::size_t assembly) const {
+    return tree_[assembly].joint < 0 && !assemblies_[assembly].fixed;
+  }
+  int freejoint(std::size_t assembly) const { return model_->body_jntadr[bodies_[assembly]]; }
+  /// Of a root: position and quaternion.
+  double* position_of(std::size_t assembly) const {
+    return data_->qpos + model_->jnt_qposadr[freejoint(assembly)];
+  }
+  /// Of a root: the linear part in the world's frame, the angular one in the body's.
+  double* velocity_of(std::size_t assembly) const {
+    return data_->qvel + model_->jnt_dofadr[freejoint(assembly)];
+  }
+  void set_velocity(std::size_t assembly, const BodyState& state) {
     const Vec3 spin = state.pose.rotation().transpose() * state.angular_velocity;
-    mju_copy3(velocity, state.velocity.data());
-    mju_copy3(velocity + 3, spin.data());
+    mju_copy3(velocity_of(assembly), state.velocity.data());
+    mju_copy3(velocity_of(assembly) + 3, spin.data());
+  }
+  std::size_t id(int type, const std::string& name) const {
+    return static_cast<std::size_t>(mj_name2id(model_, type, name.c_str()));
   }
 
-  std::string body_xml(std::size_t index, double driven_mass) const {
-    const Body& body = scene_.bodies[index];
-    const Vec3& p = body.pose.position();
-    const Eigen::Quaterniond q = body.pose.unit_orientation();
-    std::string xml = fmt::format("<body name='b{}' pos='{} {} {}' quat='{} {} {} {}'>", index,
-                                  p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z());
-    if (!body.fixed) {
-      Inertia i = inertia(body.shape, body.density);
-      if (body.drive) i.principal *= driven_mass / i.mass, i.mass = driven_mass;
-      xml += fmt::format("<freejoint/><inertial pos='0 0 0' mass='{}' diaginertia='{} {} {}'/>",
-                         i.mass, i.principal.x(), i.principal.y(), i.principal.z());
-    }
-    const auto parts = this->parts(index);
-    std::vector<std::string> geoms;
-    if (parts.empty()) geoms.push_back(std::visit(GeomXml{}, shape(index)));
-    for (const RoundedPolytope& part : parts) {
-      geoms.push_back(part_xml(part, fmt::format("m{}", index)));
-    }
-    for (const std::string& geom : geoms) {
-      xml += fmt::format("<geom {} friction='{} 0.005 0.0001'/>", geom, body.material.friction);
-    }
-    return xml + "</body>";
+  /// What mj_step leaves at the step's beginning: poses and velocities of nested bodies, and the
+  /// inertia that motors move.
+  void update_tree() {
+    const bool has_tree =
+        std::ranges::any_of(tree_, [](const Hanging& hanging) { return hanging.joint >= 0; });
+    if (!has_tree) return;
+    mj_kinematics(model_, data_);
+    mj_comPos(model_, data_);
+    mj_comVel(model_, data_);
+    if (model_->nu == 0) return;
+    mj_crb(model_, data_);
+    mj_factorM(model_, data_);
   }
 
-  std::string scene_xml() const {
-    std::string meshes, bodies;
-    double mass = 0;
-    std::size_t geoms = 1;
-    for (const Body& body : scene_.bodies) {
-      if (body.is_free()) mass += inertia(body.shape, body.density).mass;
+  /// The largest gain of a joint's motor with which no rate overshoots in an explicit step when all
+  /// motors have theirs: then the columns of M⁻¹ times the gains and the step sum up to one at
+  /// most.
+  double stable_gain(std::size_t joint) const {
+    std::vector<double> response(model_->nv), unit(model_->nv);
+    unit[model_->jnt_dofadr[joint]] = 1;
+    mj_solveM(model_, data_, response.data(), unit.data(), 1);
+    double sum = 0;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(model_->nu); ++i) {
+      sum += std::abs(response[model_->jnt_dofadr[model_->actuator_trnid[2 * i]]]);
     }
-    for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
-      const auto parts = this->parts(i);
-      geoms += std::max<std::size_t>(1, parts.size());
-      if (parts.size() == 1 && parts[0].vertices().size() > 2) {
-        meshes += mesh_xml(parts[0], fmt::format("m{}", i));
-      }
-      bodies += body_xml(i, driven_mass_ratio * std::max(mass, 1.0));
-    }
-    // Room for contacts; MuJoCo's memory grows with the square of the rows, four to a contact.
-    const std::size_t contacts = 16 * geoms;
-    const Vec3& g = scene_.gravity;
-    return fmt::format(
-        "<mujoco><option timestep='{}' gravity='{} {} {}'>{}</option>"
-        "<size nconmax='{}' njmax='{}'/>{}{}<worldbody>{}</worldbody>{}</mujoco>",
-        scene_.step, g.x(), g.y(), g.z(), is_multipoint() ? "<flag multiccd='enable'/>" : "",
-        contacts, 4 * contacts, setup_.best_solver ? best_xml(scene_.step) : "",
-        meshes.empty() ? "" : "<asset>" + meshes + "</asset>", bodies, exclusions_xml(scene_));
+    return 1 / (scene_.step * sum);
   }
 
-  std::vector<std::size_t> place_of_;  ///< by body: how many before it are not fixed
-  std::size_t places_ = 0;
+  /// MuJoCo's callback has no argument of its own: the world whose step it is.
+  static inline const MujocoWorld* stepping = nullptr;
+  static int keeps_apart(const mjModel* model, mjData*, int a, int b) {
+    const auto body = [&](int geom) { return static_cast<int>(model->geom_user[geom]); };
+    return stepping->may_touch_(body(a), body(b)) ? 0 : 1;
+  }
+
+  const std::vector<Hanging> tree_;
   mjModel* model_;
   mjData* data_;
+  std::vector<std::size_t> bodies_;  ///< by assembly: MuJoCo's index
+  std::vector<double> integrals_;    ///< by joint: what its motor adds to its rate for the load
 };
 
 std::unique_ptr<Simulation> begin(const Scene& scene, const EngineSetup& setup) {

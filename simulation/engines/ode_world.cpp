@@ -7,9 +7,11 @@
 // Contacts  dCollide is asked for 8 points, as in ODE's examples. Friction is Coulomb's as a
 //           pyramid (dContactApprox1), for without that flag a coefficient is a force; its
 //           directions are ODE's own. Two bodies have the geometric mean of their friction.
-// Shapes    dCreateCylinder and so on; a plane has no pose and is made in world coordinates.
-// Spheres
-//           are several geoms of one body.
+// Shapes    dCreateCylinder and so on (ode_scene.hpp); a plane has no pose and is made in world
+//           coordinates. Spheres are several geoms of one body, as are bodies that fixed joints
+//           connect.
+// Joints    Hinges and sliders with stops and motors (dParamVel, dParamFMax), as in our own world.
+// Belts     The velocity of a contact's surfaces (dContactMotion1) along its first direction.
 // Drives    Kinematic bodies with the velocity that leads to their next pose, where they are then
 //           put.
 #include <algorithm>
@@ -19,33 +21,10 @@
 #include "candidates/ode_library.hpp"
 #include "reference/engines/ode.hpp"
 #include "simulation/engines/engine_world.hpp"
+#include "simulation/ode_scene.hpp"
 
 namespace touchstone {
 namespace {
-
-struct MakeGeom {
-  dSpaceID space;
-  const Pose& pose;
-
-  dGeomID operator()(const Cylinder& s) const {
-    return dCreateCylinder(space, s.radius(), 2 * s.half_length());
-  }
-  dGeomID operator()(const Plane& s) const {
-    const Vec3 normal = (pose.rotation() * s.unit_normal()).normalized();
-    return dCreatePlane(space, normal.x(), normal.y(), normal.z(),
-                        s.unit_displacement() + normal.dot(pose.position()));
-  }
-  dGeomID operator()(const Sphere& s) const { return dCreateSphere(space, s.radius()); }
-  dGeomID operator()(const Capsule& s) const {
-    return dCreateCapsule(space, s.radius(), 2 * s.half_length());
-  }
-  dGeomID operator()(const Box& s) const {
-    const Vec3 side = 2 * s.half_extents();
-    return dCreateBox(space, side.x(), side.y(), side.z());
-  }
-};
-
-Vec3 from_vector(const dReal* v) { return Vec3(v[0], v[1], v[2]); }
 
 class OdeWorld : public EngineWorld {
  public:
@@ -54,14 +33,18 @@ class OdeWorld : public EngineWorld {
         is_direct_(setup.best_solver),
         world_(dWorldCreate()),
         space_(dHashSpaceCreate(nullptr)),
-        joints_(dJointGroupCreate(0)) {
+        contacts_(dJointGroupCreate(0)) {
     if (is_direct_) dWorldSetCFM(world_, 1e-12);
     dRandSetSeed(0);  // of the order in which QuickStep takes its rows
     dWorldSetGravity(world_, scene.gravity.x(), scene.gravity.y(), scene.gravity.z());
-    for (std::size_t i = 0; i < scene.bodies.size(); ++i) add(i);
+    for (std::size_t i = 0; i < assemblies_.size(); ++i) add(i);
+    for (const Joint& joint : scene.joints) {
+      const dBodyID b = joint.b == world_body ? nullptr : body_of(joint.b);
+      joints_.push_back(acts(joint) ? make_ode_joint(world_, joint, body_of(joint.a), b) : nullptr);
+    }
   }
   ~OdeWorld() override {
-    dJointGroupDestroy(joints_);
+    dJointGroupDestroy(contacts_);
     dSpaceDestroy(space_);
     dWorldDestroy(world_);
   }
@@ -72,114 +55,86 @@ class OdeWorld : public EngineWorld {
 
  protected:
   void advance() override {
-    dJointGroupEmpty(joints_);
+    dJointGroupEmpty(contacts_);
     points_ = 0;
     dSpaceCollide(space_, this, [](void* self, dGeomID a, dGeomID b) {
       static_cast<OdeWorld*>(self)->meet(a, b);
     });
     is_direct_ ? dWorldStep(world_, scene_.step) : dWorldQuickStep(world_, scene_.step);
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
-      if (!scene_.bodies[i].is_free()) continue;
+      if (!assemblies_[i].is_free()) continue;
       const dReal* q = dBodyGetQuaternion(bodies_[i]);
-      set_state(i, from_vector(dBodyGetPosition(bodies_[i])), {q[0], q[1], q[2], q[3]},
-                from_vector(dBodyGetLinearVel(bodies_[i])),
-                from_vector(dBodyGetAngularVel(bodies_[i])));
+      set_state(i, Vec3(dBodyGetPosition(bodies_[i])), {q[0], q[1], q[2], q[3]},
+                Vec3(dBodyGetLinearVel(bodies_[i])), Vec3(dBodyGetAngularVel(bodies_[i])));
     }
   }
 
-  void drive(std::size_t body, const BodyState& state, const Pose&) override {
-    set_state_of(bodies_[body], state);
+  void drive(std::size_t assembly, const BodyState& state, const Pose&) override {
+    place(bodies_[assembly], state);
   }
-  void push(std::size_t body, const Push& push) override {
-    const Vec3 &f = push.force, &t = push.torque;
-    dBodyAddForce(bodies_[body], f.x(), f.y(), f.z());
-    dBodyAddTorque(bodies_[body], t.x(), t.y(), t.z());
+  void push(std::size_t assembly, const Vec3& force, const Vec3& torque) override {
+    dBodyAddForce(bodies_[assembly], force.x(), force.y(), force.z());
+    dBodyAddTorque(bodies_[assembly], torque.x(), torque.y(), torque.z());
+  }
+  void run_motor(std::size_t joint, double time) override {
+    touchstone::run_motor(joints_[joint], scene_.joints[joint], time, scene_.step);
   }
 
  private:
-  /// A sphere or a capsule; hulls are not for ODE (engine_choice.cpp).
-  dGeomID make_part(const RoundedPolytope& part) {
-    const auto& corners = part.vertices();
-    if (corners.size() == 1) return dCreateSphere(space_, part.radius());
-    return dCreateCapsule(space_, part.radius(), (corners[1] - corners[0]).norm());
-  }
-
-  static void set_state_of(dBodyID body, const BodyState& state) {
-    const Vec3 &p = state.pose.position(), &v = state.velocity, &w = state.angular_velocity;
-    const Eigen::Quaterniond turn = state.pose.unit_orientation();
-    const dQuaternion q = {turn.w(), turn.x(), turn.y(), turn.z()};
-    dBodySetPosition(body, p.x(), p.y(), p.z());
-    dBodySetQuaternion(body, q);
-    dBodySetLinearVel(body, v.x(), v.y(), v.z());
-    dBodySetAngularVel(body, w.x(), w.y(), w.z());
-  }
-
-  void add_body(std::size_t index) {
-    const Body& body = scene_.bodies[index];
-    const dBodyID made = bodies_[index] = dBodyCreate(world_);
-    if (body.is_free()) {
-      const Inertia i = inertia(body.shape, body.density);
-      dMass mass;
-      dMassSetParameters(&mass, i.mass, 0, 0, 0, i.principal.x(), i.principal.y(), i.principal.z(),
-                         0, 0, 0);
-      dBodySetMass(made, &mass);
-    } else {
-      dBodySetKinematic(made);
-    }
-    set_state_of(made, {body.pose, body.velocity, body.angular_velocity});
-  }
+  dBodyID body_of(int body) const { return bodies_[assembly_of(body)]; }
 
   void add(std::size_t index) {
-    const Body& body = scene_.bodies[index];
-    bodies_.push_back(nullptr);
-    if (!body.fixed) add_body(index);
-    std::vector<dGeomID> geoms;
-    const auto parts = this->parts(index);
-    if (parts.empty()) geoms.push_back(std::visit(MakeGeom{space_, body.pose}, shape(index)));
-    for (const RoundedPolytope& part : parts) geoms.push_back(make_part(part));
-    for (std::size_t i = 0; i < geoms.size(); ++i) {
-      dGeomSetData(geoms[i], const_cast<Body*>(&body));
-      if (std::holds_alternative<Plane>(body.shape)) continue;
-      const Vec3 centre = parts.size() > 1 ? parts[i].vertices()[0] : Vec3(0, 0, 0);
-      if (body.fixed) {
-        const Vec3 place = body.pose.position() + body.pose.rotation() * centre;
-        const Eigen::Quaterniond turn = body.pose.unit_orientation();
-        const dQuaternion q = {turn.w(), turn.x(), turn.y(), turn.z()};
-        dGeomSetPosition(geoms[i], place.x(), place.y(), place.z());
-        dGeomSetQuaternion(geoms[i], q);
-      } else {
-        dGeomSetBody(geoms[i], bodies_[index]);
-        if (parts.size() > 1) dGeomSetOffsetPosition(geoms[i], centre.x(), centre.y(), centre.z());
+    const Assembly& assembly = assemblies_[index];
+    const dBodyID made = make_ode_body(world_, assembly);
+    bodies_.push_back(made);
+    if (made) place(made, start_of(index));
+    for (std::size_t i = 0; i < assembly.bodies.size(); ++i) {
+      const Body& body = scene_.bodies[assembly.bodies[i]];
+      const Pose& at = made ? assembly.X_FB[i] : body.pose;
+      for (const Piece& piece : pieces(assembly.bodies[i])) {
+        const dGeomID geom = make_ode_geom(space_, piece.shape, made, shifted(at, piece.centre));
+        dGeomSetData(geom, const_cast<Body*>(&body));
       }
     }
   }
 
-  static const Body& body_of(dGeomID geom) { return *static_cast<const Body*>(dGeomGetData(geom)); }
+  int index_of(dGeomID geom) const {
+    return static_cast<int>(static_cast<const Body*>(dGeomGetData(geom)) - scene_.bodies.data());
+  }
 
   void meet(dGeomID a, dGeomID b) {
     constexpr int max_points = 8;
-    const Body &first = body_of(a), &second = body_of(b);
-    if (&first == &second || (!first.is_free() && !second.is_free())) return;
+    const int first = index_of(a), second = index_of(b);
+    if (!may_touch_(first, second)) return;
     dContact contacts[max_points] = {};
     const int count = dCollide(a, b, max_points, &contacts[0].geom, sizeof(dContact));
     points_ += count;
-    for (int i = 0; i < count; ++i) {
-      dSurfaceParameters& surface = contacts[i].surface;
-      surface.mode = dContactApprox1;
-      surface.mu = std::sqrt(first.material.friction * second.material.friction);
-      surface.bounce = std::max(first.material.restitution, second.material.restitution);
-      surface.bounce_vel = 0.01;  // as in our own world
-      if (surface.bounce > 0) surface.mode |= dContactBounce;
-      dJointAttach(dJointCreateContact(world_, joints_, &contacts[i]), dGeomGetBody(a),
-                   dGeomGetBody(b));
+    for (int i = 0; i < count; ++i) add(contacts[i], first, second);
+  }
+
+  void add(dContact& contact, int a, int b) {
+    const Material &first = scene_.bodies[a].material, &second = scene_.bodies[b].material;
+    dSurfaceParameters& surface = contact.surface;
+    surface.mode = dContactApprox1;
+    surface.mu = std::sqrt(first.friction * second.friction);
+    surface.bounce = std::max(first.restitution, second.restitution);
+    surface.bounce_vel = 0.01;  // as in our own world
+    if (surface.bounce > 0) surface.mode |= dContactBounce;
+    const Vec3 moves = belt(a, b, Vec3(contact.geom.normal));
+    if (const double speed = moves.norm(); speed > 0) {
+      surface.mode |= dContactFDir1;
+      for (int k = 0; k < 3; ++k) contact.fdir1[k] = moves[k] / speed;
+      set_belt(contact, moves, !body_of(a));
     }
+    dJointAttach(dJointCreateContact(world_, contacts_, &contact), body_of(a), body_of(b));
   }
 
   bool is_direct_;
   dWorldID world_;
   dSpaceID space_;
-  dJointGroupID joints_;
-  std::vector<dBodyID> bodies_;  ///< null where the body is fixed
+  dJointGroupID contacts_;
+  std::vector<dBodyID> bodies_;   ///< by assembly; null where it is fixed
+  std::vector<dJointID> joints_;  ///< by joint; null where it does not act
   int points_ = 0;
 };
 

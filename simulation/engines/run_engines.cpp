@@ -5,6 +5,7 @@
 #include <cstring>
 #include <dlfcn.h>
 #include <filesystem>
+#include <fmt/format.h>
 #include <stdexcept>
 
 #include <nlohmann/json.hpp>
@@ -16,6 +17,7 @@
 #include "reference/invalid_input.hpp"
 #include "simulation/engines/engine_world.hpp"
 #include "simulation/experiment.hpp"
+#include "simulation/kinematic_tree.hpp"
 
 namespace touchstone {
 namespace {
@@ -108,16 +110,19 @@ void check_engine_scene(const std::string& engine, const Scene& scene) {
         field, what,
         "must not be there with --engine: the world of " + engine + " has " + without + " here");
   };
-  if (!scene.joints.empty()) refuse("joints[0]", '"' + scene.joints[0].name + '"', "no joints");
+  if (engine != "mujoco") return;
+  if (const auto loop = loop_closing_joint(scene)) {
+    refuse(fmt::format("joints[{}]", *loop), '"' + scene.joints[*loop].name + '"',
+           "trees of joints, and this one closes a loop");
+  }
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const Body& body = scene.bodies[i];
-    const std::string path = "bodies[" + std::to_string(i) + ']';
+    const std::string path = fmt::format("bodies[{}]", i);
     if (!body.surface_velocity.isZero(0)) {
       refuse(path + ".surface_velocity", "not zero", "no moving surfaces");
     }
-    if (!body.collides) refuse(path + ".collides", "false", "no bodies that touch nothing");
-    if (engine == "mujoco" && body.material.restitution > 0) {
-      refuse(path + ".restitution", std::to_string(body.material.restitution), "no restitution");
+    if (body.material.restitution > 0) {
+      refuse(path + ".restitution", fmt::format("{}", body.material.restitution), "no restitution");
     }
   }
 }

@@ -222,14 +222,20 @@ const SceneRun& run_of(const Choice& choice, const std::string& name) {
   throw std::runtime_error("no run " + name);
 }
 
-// Two cans on the same ground, of different sizes and so of different kinds of pairs.
-TEST(RunWith, AsksTheCandidateOfEachKindOfPairs) {
+/// Two cans on the same ground, of different sizes and so of different kinds of pairs, for some
+/// steps.
+Scene two_cans(int steps, double depth) {
   Scene scene;
-  scene.duration = 2 * scene.step;
-  const auto at = [](double x) { return Pose(Vec3(x, 0, 0.29995)); };
+  scene.duration = steps * scene.step;
+  const auto at = [&](double x) { return Pose(Vec3(x, 0, 0.3 - depth)); };
   scene.bodies = {{"ground", Plane(Vec3::UnitZ(), 0), 1000, {}, {}, {}, {}, true},
                   {"left", Cylinder(0.2, 0.3), 1000, {}, at(-1)},
                   {"right", Cylinder(0.3, 0.3), 1000, {}, at(1)}};
+  return scene;
+}
+
+TEST(RunWith, AsksTheCandidateOfEachKindOfPairs) {
+  const Scene scene = two_cans(2, 5e-5);
   const Candidate &exact = find_candidate("reference"), &capsule = find_candidate("capsule");
   Processes processes({});
   CandidateModel model(processes.of(exact));
@@ -244,12 +250,7 @@ TEST(RunWith, AsksTheCandidateOfEachKindOfPairs) {
 
 // The kinds are those of the scene as it is written, whatever the order of the disturbed bodies.
 TEST(RunWith, AsksTheCandidateOfEachKindInEveryOrderOfTheBodies) {
-  Scene scene;
-  scene.duration = scene.step;
-  const auto at = [](double x) { return Pose(Vec3(x, 0, 0.2995)); };
-  scene.bodies = {{"ground", Plane(Vec3::UnitZ(), 0), 1000, {}, {}, {}, {}, true},
-                  {"left", Cylinder(0.2, 0.3), 1000, {}, at(-1)},
-                  {"right", Cylinder(0.3, 0.3), 1000, {}, at(1)}};
+  const Scene scene = two_cans(1, 5e-4);
   const Candidate &exact = find_candidate("reference"), &capsule = find_candidate("capsule");
   Processes processes({});
   CandidateModel model(processes.of(exact));

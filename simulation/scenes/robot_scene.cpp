@@ -1,4 +1,4 @@
-// A robot or world as a scene: bodies, joints and motors, the ground, what has to come out right.
+// A robot or world as a scene: bodies, joints and motors, the ground.
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -101,6 +101,7 @@ class SceneMaker {
     keep_apart();
     check();
     file_.description = description();
+    file_.ignored = robot_.ignored;
     file_.camera = camera_for(scene);
     return std::move(file_);
   }
@@ -372,8 +373,13 @@ class SceneMaker {
       const auto index = static_cast<std::size_t>(std::stoul(field.substr(open + 1)));
       const bool is_body = field.starts_with("bodies");
       const std::string& name = is_body ? scene.bodies.at(index).name : scene.joints.at(index).name;
+      const char* const units =
+          field.ends_with(".density")
+              ? " kg/m³; it is the link's mass over its shapes' volume: are these in kilograms and "
+                "metres?"
+              : "";
       throw InvalidInput((is_body ? "link " : "joint ") + name + field.substr(close + 1), e.value(),
-                         e.remedy());
+                         e.remedy() + units);
     }
   }
 
@@ -401,56 +407,10 @@ class SceneMaker {
   SceneFile file_;
 };
 
-/// To two digits, upwards: a limit that a person can read.
-double rounded_up(double x) {
-  if (!(x > 0)) return 0;
-  const double unit = std::pow(10, std::floor(std::log10(x)) - 1);
-  return std::ceil(x / unit) * unit;
-}
-
 }  // namespace
 
 SceneFile robot_scene(const RobotFile& robot, const RobotMotion& motion) {
   return SceneMaker(robot, motion).make();
-}
-
-void add_robot_needs(SceneFile& file, const Trajectory& exact) {
-  const std::vector<Body>& bodies = file.scene.bodies;
-  // Which of four equal wheels carries more is left to chance.
-  std::map<std::string, double> depth_of_shape;
-  std::set<int> touching;
-  for (const JudgedAnswer& answer : exact.answers) {
-    if (!(answer.depth > 0)) continue;
-    for (const int b : {answer.a, answer.b}) {
-      touching.insert(b);
-      double& depth = depth_of_shape[shape_text(bodies[b].shape)];
-      depth = std::max(depth, answer.depth);
-    }
-  }
-  std::set<int> held;  // bodies that a joint holds to another one
-  for (const Joint& joint : file.scene.joints) held.insert(joint.a);
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const Body& body = bodies[i];
-    if (body.fixed) continue;
-    const int index = static_cast<int>(i);
-    constexpr double share_of_width = 0.01, of_exact = 2;
-    if (touching.contains(index)) {
-      const double depth = depth_of_shape.at(shape_text(body.shape));
-      const double width = 2 * smallest_half_extent(body.shape);
-      file.needs.push_back(
-          penetration_need(index, rounded_up(of_exact * depth + share_of_width * width)));
-    }
-    if (held.contains(index) || !body.collides) continue;
-    // Without contacts nothing could be wrong with the end of a flight.
-    constexpr double share_of_way = 0.02, share_of_size = 0.05;
-    double way = 0;
-    for (std::size_t f = 1; f < exact.frames.size(); ++f) {
-      way += (exact.frames[f][i].pose.position() - exact.frames[f - 1][i].pose.position()).norm();
-    }
-    const double size = 2 * largest_half_extent(body.shape);
-    file.needs.push_back(
-        ends_near_need(index, rounded_up(share_of_way * way + share_of_size * size)));
-  }
 }
 
 }  // namespace touchstone

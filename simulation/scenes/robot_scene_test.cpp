@@ -233,6 +233,7 @@ TEST(RobotScene, ErrorsNameTheLink) {
     FAIL() << "accepted";
   } catch (const InvalidInput& e) {
     EXPECT_THAT(e.what(), HasSubstr("link b.density is "));
+    EXPECT_THAT(e.what(), HasSubstr("are these in kilograms and metres?"));
   }
 }
 
@@ -304,6 +305,12 @@ bool has_need(const Choice& choice, const std::string& text) {
     if (need->text(choice.file.scene).starts_with(text)) return true;
   }
   return false;
+}
+
+TEST(RobotScene, SaysWhatOfTheFileWasNotRead) {
+  const RobotFile robot = read_robot(scenes / "gripper.urdf");
+  ASSERT_FALSE(robot.ignored.empty());
+  EXPECT_EQ(robot_scene(robot, {}).ignored, robot.ignored);
 }
 
 TEST(Rover, GetsAdviceForItsWheelsAndItsFingers) {

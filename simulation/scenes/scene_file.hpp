@@ -24,6 +24,8 @@ struct SceneFile {
   Scene scene;
   std::vector<std::shared_ptr<const Need>> needs;
   Camera camera;  ///< by default `camera_for` the scene
+  /// Elements of a robot's or world's file that were not read, and what was done instead.
+  std::vector<std::string> ignored = {};
 };
 
 /// Reads the text of a scene file. Throws InvalidInput with the path of the field

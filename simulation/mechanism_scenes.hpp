@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cmath>
+
+#include "simulation/scene.hpp"
+
+// Bodies, joints and scenes for the tests of mechanisms, in our own world and in the engines'.
+
+namespace touchstone {
+
+inline Pose at(double x, double y, double z) { return Pose(Vec3(x, y, z)); }
+inline Body box(const char* name, const Vec3& half_extents, const Pose& pose) {
+  return {.name = name, .shape = Box(half_extents), .pose = pose};
+}
+inline Body fixed(Body body) {
+  body.fixed = true;
+  return body;
+}
+inline Joint hinge(int a, int b, const Vec3& anchor, const Vec3& axis) {
+  return {"hinge", JointKind::hinge, a, b, anchor, axis};
+}
+inline Joint rigid(int a, int b) { return {"rigid", JointKind::fixed, a, b}; }
+inline Motor rate(double target, double force) {
+  return {Motor::Target::rate, {{0, target}}, force};
+}
+/// Reaches its position after half a second.
+inline Motor position(double target, double force) {
+  return {Motor::Target::position, {{0, 0}, {0.5, target}}, force};
+}
+
+/// Right-handed angle about z, −π … π.
+inline double angle_about_z(const Pose& pose) {
+  return std::atan2(pose.rotation()(1, 0), pose.rotation()(0, 0));
+}
+
+/// A box that tumbles freely, and the same box of two halves that a fixed joint connects.
+struct TumblingBox {
+  Scene halves, whole;
+
+  TumblingBox() {
+    halves.gravity = whole.gravity = Vec3::Zero();
+    const Vec3 v(0.2, 0, 0.1), w(1, 2, 3);
+    for (const double side : {-1.0, 1.0}) {
+      const Vec3 centre(side * 0.3, 0, 0);
+      halves.bodies.push_back(box(side < 0 ? "left" : "right", Vec3(0.3, 0.2, 0.1), Pose(centre)));
+      halves.bodies.back().velocity = v + w.cross(centre);
+      halves.bodies.back().angular_velocity = w;
+    }
+    halves.joints = {rigid(0, 1)};
+    whole.bodies = {box("whole", Vec3(0.6, 0.2, 0.1), Pose())};
+    whole.bodies[0].velocity = v;
+    whole.bodies[0].angular_velocity = w;
+  }
+};
+
+}  // namespace touchstone
