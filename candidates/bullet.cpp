@@ -100,7 +100,7 @@ void copy(const btVector3& from, double (&to)[3]) {
   for (int i = 0; i < 3; ++i) to[i] = from[i];
 }
 
-/// The default configuration keeps pools for thousands of pairs; ours has one.
+/// The default configuration keeps pools for thousands of pairs; a session has few.
 btDefaultCollisionConstructionInfo small_pools() {
   btDefaultCollisionConstructionInfo info;
   info.m_defaultMaxPersistentManifoldPoolSize = 1;
@@ -108,19 +108,33 @@ btDefaultCollisionConstructionInfo small_pools() {
   return info;
 }
 
-/// A dispatcher with the pair's own algorithm; released in reverse order.
+/// Made once: to ask for the algorithm of every pair of shapes takes longer than most answers.
+class NarrowPhase {
+ public:
+  NarrowPhase() : configuration_(small_pools()), dispatcher_(&configuration_) {
+#ifdef TOUCHSTONE_CURED
+    touchstone::bullet::install(dispatcher_);
+#endif
+  }
+  static btCollisionDispatcher& dispatcher() {
+    static NarrowPhase made;
+    return made.dispatcher_;
+  }
+
+ private:
+  btDefaultCollisionConfiguration configuration_;
+  btCollisionDispatcher dispatcher_;
+};
+
+/// The pair's own algorithm, which has its own manifolds; released in reverse order.
 class Pair {
  public:
   Pair(const ts_shape& a, const ts_shape& b, double threshold, const Setting& setting)
       : threshold_(threshold),
         rocked_(setting.rocked),
-        configuration_(small_pools()),
-        dispatcher_(&configuration_),
+        dispatcher_(NarrowPhase::dispatcher()),
         shape_a_(make_shape(a, setting)),
         shape_b_(make_shape(b, setting)) {
-#ifdef TOUCHSTONE_CURED
-    touchstone::bullet::install(dispatcher_);
-#endif
     object_a_.setCollisionShape(shape_a_.get());
     object_b_.setCollisionShape(shape_b_.get());
     const btCollisionObjectWrapper wrap_a = wrap(object_a_), wrap_b = wrap(object_b_);
@@ -134,9 +148,7 @@ class Pair {
   Pair& operator=(const Pair&) = delete;
 
   void query(const ts_pose& a, const ts_pose& b, ts_answer& answer) {
-    for (int i = 0; i < dispatcher_.getNumManifolds(); ++i) {
-      dispatcher_.getManifoldByIndexInternal(i)->clearManifold();
-    }
+    for (int i = 0; i < manifolds_.size(); ++i) manifolds_[i]->clearManifold();
     const btTransform at_a = to_transform(a);
     object_b_.setWorldTransform(to_transform(b));
     if (rocked_) {
@@ -147,11 +159,11 @@ class Pair {
       }
     }
     process(at_a);
+    // Some algorithms make it with their first answer.
+    if (manifolds_.size() == 0) algorithm_->getAllContactManifolds(manifolds_);
     answer.status = TS_NONE;
     answer.point_count = 0;
-    for (int i = 0; i < dispatcher_.getNumManifolds(); ++i) {
-      read(*dispatcher_.getManifoldByIndexInternal(i), answer);
-    }
+    for (int i = 0; i < manifolds_.size(); ++i) read(*manifolds_[i], answer);
   }
 
  private:
@@ -187,12 +199,12 @@ class Pair {
 
   double threshold_;
   bool rocked_;
-  btDefaultCollisionConfiguration configuration_;
-  btCollisionDispatcher dispatcher_;
+  btCollisionDispatcher& dispatcher_;
   btDispatcherInfo info_;
   std::unique_ptr<btCollisionShape> shape_a_, shape_b_;
   btCollisionObject object_a_, object_b_;
   btCollisionAlgorithm* algorithm_ = nullptr;
+  btManifoldArray manifolds_;  // the algorithm's
 };
 
 }  // namespace

@@ -159,6 +159,11 @@ class Registry {
       throw InvalidInput("--candidates", '"' + std::string(name) + '"',
                          "must be a name; a plug-in's file is given by --load");
     }
+    for (const Skipped& s : skipped_) {
+      if (family != s.name && !family.starts_with(s.name + '-')) continue;
+      throw InvalidInput("--candidates", '"' + std::string(name) + '"',
+                         "is unavailable; " + s.name + ": skipped; " + s.reason);
+    }
     std::string names;
     for (const Candidate* c : listed_) names += (names.empty() ? "" : ", ") + c->name;
     const auto is_listed = [&](std::string_view other) {

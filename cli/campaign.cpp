@@ -126,7 +126,8 @@ void add_campaign(Program& program) {
       "  touchstone campaign --candidates reference --count 1e6 --out run --resume\n"
       "  mpirun -n 64 touchstone campaign --count 1e6 --out run\n"
       "  touchstone campaign --count 1e6 --shard 3/7 --out run   then merge\n"
-      "Exit codes: 130, 143 when stopped by Ctrl-C, SIGTERM; what was done is saved.");
+      "Exit codes: 130, 143, 129 when stopped by Ctrl-C, SIGTERM, SIGHUP; what was\n"
+      "done is saved.");
   command.runs([options] { return run(*options); });
 }
 

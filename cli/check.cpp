@@ -31,12 +31,18 @@ std::string counts_text(const LawResult& result) {
   return text;
 }
 
-/// Numbers as in the answer's JSON.
+/// As in the answer's JSON, which has no word for what is not finite.
+std::string number_text(double x) {
+  return std::isfinite(x) ? json(x).dump() : std::isnan(x) ? "nan" : x > 0 ? "inf" : "-inf";
+}
+
 std::string answer_text(const std::optional<ts_answer>& answer) {
   if (!answer) return "-";
   if (answer->status != TS_CONTACT) return status_name(answer->status);
-  return fmt::format("signed distance {} m, normal {}, {}", or_null(answer->signed_distance).dump(),
-                     to_json(Vec3(answer->normal)).dump(), counted(answer->point_count, "point"));
+  const double* const n = answer->normal;
+  return fmt::format("signed distance {} m, normal [{},{},{}], {}",
+                     number_text(answer->signed_distance), number_text(n[0]), number_text(n[1]),
+                     number_text(n[2]), counted(answer->point_count, "point"));
 }
 
 /// The middle, rounded to nearest: -2 where bounds of 1e-30 lie about it.
@@ -116,7 +122,7 @@ std::string law_text(const LawResult& r, const Terminal& terminal) {
   };
   const std::string name = fmt::format("  {:<13}{:>6} tried", r.law->name, r.tried);
   const std::string counts = counts_text(r);
-  if (terminal.columns >= counts_at + min_room) {
+  if (!counts.empty() && terminal.columns >= counts_at + min_room) {
     const std::string beside =
         wrapped(counts, terminal.columns - counts_at, '\n' + std::string(counts_at, ' '));
     return name + "  " + coloured(fmt::format("{:<16}", verdict)) + ' ' + beside + '\n';

@@ -45,48 +45,60 @@ struct Options {
   }
 };
 
+/// The scene, with needs from its runs with exact contacts if it is a robot's.
+SceneFile scene_of(const Options& options) {
+  SceneFile file = options.robot.scene(options.scene);
+  if (!is_robot_file(options.scene)) return file;
+  Processes processes(options.candidates.limits());
+  CandidateModel exact(processes.of(*exact_first({}).front()));
+  const Trajectory exact_run =
+      run_disturbed(file.scene, exact, {options.disturbances, options.seed});
+  add_robot_needs(file, exact_run);
+  if (exact_run.answers.empty() || file.needs.empty()) {
+    throw InvalidInput("scene", '"' + options.scene + '"',
+                       "must have a cylinder that moves and touches something: see --drive; "
+                       "--depth scores poses at random instead");
+  }
+  return file;
+}
+
 int choose_scene(const Options& options) {
   const std::string command =
       options.command_line() +
       fmt::format(" --disturbances {} --seed {}", options.disturbances, options.seed);
   const Limits limits = options.candidates.limits();
-  SceneFile file = options.robot.scene(options.scene);
-  if (is_robot_file(options.scene)) {
-    Processes processes(limits);
-    CandidateModel exact(processes.of(*exact_first({}).front()));
-    const Trajectory exact_run =
-        run_disturbed(file.scene, exact, {options.disturbances, options.seed});
-    add_robot_needs(file, exact_run);
-    if (exact_run.answers.empty() || file.needs.empty()) {
-      throw InvalidInput("scene", '"' + options.scene + '"',
-                         "must have a cylinder that moves and touches something: see --drive; "
-                         "--depth scores poses at random instead");
-    }
-  }
+  const SceneFile file = scene_of(options);
   const Choice choice = choose(
       file,
       {options.contestants(), options.workers.get(), limits, {options.disturbances, options.seed}});
   const std::string folder = options.folder();
-  write_evidence(choice, folder);
-  write_file(options.out + "/choose.json", choice_json(choice, command, folder, 1) + '\n', "--out");
-  fmt::print("{}", options.json ? choice_json(choice, command, folder) + '\n'
-                                : choice_text(choice, folder, standard_output().columns));
-  write_file(options.out + "/choose.html", choice_page(choice, command, folder, limits), "--out");
+  const auto write = [&] {
+    write_evidence(choice, folder);
+    write_file(options.out + "/choose.json", choice_json(choice, command, folder, 1) + '\n',
+               "--out");
+    write_file(options.out + "/choose.html", choice_page(choice, command, folder, limits), "--out");
+  };
+  write_then_print(write, options.json ? choice_json(choice, command, folder) + '\n'
+                                       : choice_text(choice, folder, standard_output().columns));
   if (!options.json) fmt::print("\nPage: {0}/choose.html; data: {0}/choose.json\n", options.out);
   return choice.impossible ? not_served : 0;
 }
 
 int choose_for_engine(const Options& options) {
   const std::string command =
-      fmt::format("{} choose {} --engine {} --disturbances {} --seed {}", program_name(),
-                  shell_quoted(options.scene), options.engine, options.disturbances, options.seed);
+      fmt::format("{} choose {}{} --engine {} --disturbances {} --seed {}", program_name(),
+                  shell_quoted(options.scene), options.robot.command_line(), options.engine,
+                  options.disturbances, options.seed);
   const EngineChoice choice =
-      choose_in_engine(read_scene(options.scene), options.engine,
+      choose_in_engine(scene_of(options), options.engine,
                        {options.workers.get(), {options.disturbances, options.seed}});
-  write_file(options.out + "/choose.json", engine_choice_json(choice, command, 1) + '\n', "--out");
-  fmt::print("{}", options.json ? engine_choice_json(choice, command) + '\n'
-                                : engine_choice_text(choice, standard_output().columns));
-  write_file(options.out + "/choose.html", choice_page(choice, command), "--out");
+  const auto write = [&] {
+    write_file(options.out + "/choose.json", engine_choice_json(choice, command, 1) + '\n',
+               "--out");
+    write_file(options.out + "/choose.html", choice_page(choice, command), "--out");
+  };
+  write_then_print(write, options.json ? engine_choice_json(choice, command) + '\n'
+                                       : engine_choice_text(choice, standard_output().columns));
   if (!options.json) fmt::print("\nPage: {0}/choose.html; data: {0}/choose.json\n", options.out);
   return choice.answer ? 0 : not_served;
 }
@@ -101,10 +113,14 @@ int choose_pairs(const Options& options) {
   const PairsChoice choice =
       choose_for_pairs(file, needs, options.contestants(), options.candidates.limits());
   const std::string folder = options.folder();
-  write_evidence(choice, folder);
-  write_file(options.out + "/choose.json", pairs_json(choice, command, folder, 1) + '\n', "--out");
-  fmt::print("{}", options.json ? pairs_json(choice, command, folder) + '\n'
-                                : pairs_text(choice, folder, standard_output().columns));
+  const auto write = [&] {
+    write_evidence(choice, folder);
+    write_file(options.out + "/choose.json", pairs_json(choice, command, folder, 1) + '\n',
+               "--out");
+  };
+  write_then_print(write, options.json ? pairs_json(choice, command, folder) + '\n'
+                                       : pairs_text(choice, folder, standard_output().columns));
+  if (!options.json) fmt::print("\nData: {}/choose.json\n", options.out);
   return choice.all_served() ? 0 : not_served;
 }
 
@@ -115,6 +131,10 @@ int run(const Options& options) {
     throw InvalidInput(option.name(), "given with \"" + options.scene + '"',
                        is_robot ? "must be left out: sampled poses have no motion to disturb"
                                 : "must be left out: a scene's needs stand in its file");
+  }
+  if (is_robot && !options.engine.empty()) {
+    throw InvalidInput("--engine", "given with \"" + options.scene + '"',
+                       "must be left out: a robot or world is simulated by Touchstone alone");
   }
   check_writable(options.out);
   if (options.is_sampled()) return choose_pairs(options);

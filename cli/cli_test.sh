@@ -249,6 +249,11 @@ expect 1 '^misdeed:[0-9]* 1, seed' check --candidate "$plugin" --pair cylinder-s
   --law agreement --save "$folder/engine" --junit "$folder/engine.xml"
 expect 1 'as expected  misdeed:' check --candidate "$plugin" --corpus "$folder/engine" \
   --pair cylinder-sphere --class cap --count 1 --law agreement
+# What is not finite is named; a line has no blanks at its end.
+expect 1 '^  answer: signed distance .* normal \[nan,' --load "$plugin" check --candidate misdeed:11 \
+  --pair cylinder-sphere --class cap --count 1 --law answers
+"$program" check --candidate reference --pair cylinder-sphere --class cap --count 1 --law answers | grep ' $' &&
+  { echo "FAILED: check prints blanks at the end of a line"; failures=$((failures + 1)); }
 touch "$folder/bullet"
 pushd "$folder" >/dev/null || exit 1
 expect 0 'agreement .* passed' check --candidate bullet --pair cylinder-sphere --class cap --count 1 \
@@ -289,6 +294,15 @@ expect 2 '^error: --drive is "left_wheel": must be a joint and its rate, as in l
 expect 2 '^error: --drive is "fast": must be a number' simulate "$folder/cart.urdf" --drive left_wheel=fast
 expect 2 '^error: --model-path is .*none": must be a folder$' simulate "$folder/cart.urdf" --model-path "$folder/none"
 expect 2 'must be a robot or world .* with --drive' choose "$folder/bad.json" --drive left_wheel=3
+expect 2 'must be a robot or world .* with --drive' choose "$folder/bad.json" --engine bullet --drive left_wheel=3
+expect 2 '^error: --engine is given with ".*cart.urdf": must be left out: a robot or world is simulated by' \
+  choose "$folder/cart.urdf" --engine bullet
+# A robot in millimetres weighs too little for its size.
+sed 's/radius="0.1" length="0.05"/radius="100" length="50"/; s/<link name="left">/&<inertial><mass value="1"\/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"\/><\/inertial>/' \
+  "$folder/cart.urdf" >"$folder/millimetres.urdf"
+expect 2 '^error: .*millimetres.urdf: link left.density is .*: are these in kilograms and metres?' \
+  simulate "$folder/millimetres.urdf"
+expect 0 "^Data: $folder/cart/choose.json" choose "$folder/cart.urdf" --count 2 --candidates capsule --out "$folder/cart"
 expect 2 'scene is .*none.urdf": .*could not be opened' simulate "$folder/none.urdf"
 sed 's/<cylinder radius="0.1" length="0.05"/<sphere radius="0.1"/' "$folder/cart.urdf" > "$folder/balls.urdf"
 expect 2 'must have a cylinder that moves and touches something: see --drive' \
@@ -357,6 +371,14 @@ if ! grep -q "^fcl: skipped; .*libfcl-dev" <<<"$listed" || ! grep -q "^bullet 3"
   echo "FAILED: an engine that is not there is not skipped with a line"
   failures=$((failures + 1))
 fi
+
+expect_part() {
+  if "$folder/part/touchstone" replay cylinder-box/rim-face/1/2 --candidates "$1" 2>&1 | grep -q "$2"; then return; fi
+  echo "FAILED: --candidates $1 without its engine does not say \"$2\""
+  failures=$((failures + 1))
+}
+expect_part fcl-distance '"fcl-distance": is unavailable; fcl: skipped; was not built; install .*libfcl-dev'
+expect_part flc 'must be one of reference, '
 
 line=$("$program" replay cylinder-box/general-deep/3/4 | grep '^{' | tail -n 1)
 "$program" solve --audit <<<"$line" | grep -q '"audit":{"primal_dual_gap":null,"signed_distance":\["-' ||
@@ -496,6 +518,25 @@ done
 "$program" --manual 2>"$folder/lost.log" | true
 case ${PIPESTATUS[0]} in 0 | 141) ;; *) echo "FAILED: | true"; failures=$((failures + 1)) ;; esac
 [ -s "$folder/lost.log" ] && { echo "FAILED: | true is not quiet"; failures=$((failures + 1)); }
+# Results that took long to find are printed even where their file cannot be written.
+mkdir -p "$folder/blocked"/{choose,report,stability}.json
+blocked() {
+  local found=$1
+  shift
+  expect 2 "$found" "$@"
+  expect 2 '^error: --[a-z]* is .*: could not be written' "$@"
+}
+blocked 'can stands within' choose "$folder/can.json" --candidates capsule --disturbances 0 --out "$folder/blocked"
+blocked 'The default cylinder\|default cylinder, ' choose "$folder/can.json" --engine ode --disturbances 0 --out "$folder/blocked"
+blocked 'left on right\|cylinder .* on cylinder' choose "$folder/cart.urdf" --count 2 --candidates capsule --out "$folder/blocked"
+blocked '^1 configuration, ' report $lying --count 1 --candidates reference --only scores --out "$folder/blocked"
+blocked '^1 answer, ' score "$folder/given.jsonl" --name mine --out "$folder/blocked"
+blocked 'depth x' stability $rim --candidates reference --count 1 --out "$folder/blocked"
+blocked 'compared' compare "$r" "$r" --html /dev/full
+: >"$folder/a file"
+for found in '^severity: ' '^error: --save is ".*a file"'; do
+  expect 2 "$found" search --candidate capsule --pair cylinder-sphere --class general-deep --count 40 --save "$folder/a file"
+done
 # Standard error is where errors go; without it the exit code still tells.
 "$program" replay nonsense 2>&-
 [ $? -eq 2 ] || { echo "FAILED: 2>&-"; failures=$((failures + 1)); }

@@ -382,6 +382,16 @@ bool standard_output_is_written() {
   return false;
 }
 
+void write_then_print(const std::function<void()>& write, const std::string& text) {
+  try {
+    write();
+  } catch (const InvalidInput&) {
+    fmt::print("{}", text);
+    throw;
+  }
+  fmt::print("{}", text);
+}
+
 void complain(const std::string& text) {
   std::fputs((text + '\n').c_str(), stderr);
   std::fflush(stderr);

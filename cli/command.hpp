@@ -147,6 +147,10 @@ void open_closed_streams();
 /// ignored SIGPIPE, it is an output that cannot be written.
 bool standard_output_is_written();
 
+/// Runs `write`, which writes what was found into files, and prints it. Where it cannot be written
+/// it is printed all the same, before the error goes on: it may have taken long to find.
+void write_then_print(const std::function<void()>& write, const std::string& text);
+
 /// To standard error, with a newline. What cannot be written there is lost: there is nobody to
 /// tell.
 void complain(const std::string& text);

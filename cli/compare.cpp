@@ -34,11 +34,12 @@ struct Options {
 int run(const Options& options) {
   const Report before = read_report(options.before), after = read_report(options.after);
   const Comparison comparison = compare(before, after, options.chosen());
-  if (!options.html.empty()) {
+  const auto write = [&] {
+    if (options.html.empty()) return;
     write_file(options.html, comparison_page(comparison, before, after), "--html");
-  }
-  fmt::print("{}", options.json ? comparison_json(comparison)
-                                : comparison_text(comparison, standard_output()));
+  };
+  write_then_print(write, options.json ? comparison_json(comparison)
+                                       : comparison_text(comparison, standard_output()));
   return comparison.has_regressed() ? 1 : 0;
 }
 

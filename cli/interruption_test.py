@@ -132,6 +132,18 @@ def termination_while_timing(program, folder):
     assert 0 < report["completed"]["timed_classes"] < int(progress[1]) == timed_classes(report)
 
 
+def closed_terminal(program, folder):
+    """Of which the system tells by SIGHUP: what was done is kept, and nothing goes on unseen."""
+    run = Run(program, folder)
+    run.wait_for(r"\d%, .* left: [1-9]\d* of (\d+) configurations")
+    os.close(run.terminal)
+    run.end()
+    report = run.report()
+    assert report["partial"] is True
+    assert 0 < report["completed"]["classes"] < report["planned"]["classes"], report["completed"]
+    assert os.path.exists(f"{folder}/report.html")
+
+
 def ctrl_c_after_timing(program, folder):
     run = Run(program, folder, "--count", "1")
     run.wait_for(r"of \d+ perturbed poses")  # of the study of small steps, which comes after timing
@@ -170,7 +182,8 @@ def ctrl_c_where_nothing_is_kept(program, _):
     assert run.printed.count("touchstone: interrupted; only what was written before is kept") == 1, run.printed
 
 
-for case in (ctrl_c_where_nothing_is_kept, ctrl_c_while_scoring, termination_while_timing, ctrl_c_after_timing, ctrl_c_twice):
+for case in (ctrl_c_where_nothing_is_kept, ctrl_c_while_scoring, termination_while_timing, ctrl_c_after_timing,
+             ctrl_c_twice, closed_terminal):
     with tempfile.TemporaryDirectory() as folder:
         case(sys.argv[1], folder)
         print("passed:", case.__name__)

@@ -68,7 +68,7 @@ int run(int argc, char** argv) {
           "3", 3,
           "an internal contradiction, or another failure that is not the input's: no process "
           "or memory to be had, a worker killed") +
-      list_entry("130", 3, "interrupted by Ctrl-C; 143 by SIGTERM"));
+      list_entry("130", 3, "interrupted by Ctrl-C; 143 by SIGTERM, 129 by SIGHUP"));
   program.repeated(
       "--load", "FILE", [](const std::string& file) { add_file(file); },
       "A plug-in with candidates of your own, or a list of commands (.txt); may be repeated");

@@ -209,7 +209,15 @@ RobotFile RobotOption::robot(const std::string& file) const {
 }
 
 SceneFile RobotOption::scene(const std::string& file) const {
-  if (is_robot_file(file)) return robot_scene(robot(file), motion());
+  if (is_robot_file(file)) {
+    const RobotFile read = robot(file);
+    try {
+      return robot_scene(read, motion());
+    } catch (const InvalidInput& e) {
+      const bool is_in_file = e.field().starts_with("link ") || e.field().starts_with("joint ");
+      throw InvalidInput((is_in_file ? file + ": " : "") + e.field(), e.value(), e.remedy());
+    }
+  }
   for (const Option& option : options_) {
     if (!option.is_given()) continue;
     throw InvalidInput("scene", '"' + file + '"',

@@ -151,13 +151,13 @@ int run(const Options& options) {
   report.wall_seconds +=
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   report.partial = report.partial || interrupted();
-  write_report(report, options.out);
   const Terminal terminal = standard_output();
-  fmt::print("{}\n{}", terminal_table(report, terminal),
-             terminal.folded(fmt::format(
-                 "{}, truth certified to 1e-30 of the larger size, {:.0f} s.",
-                 counted(report.configurations, "configuration"), report.wall_seconds)));
-  if (report.engines) fmt::print("\n{}\n", engines_summary(*report.engines, terminal));
+  std::string text = terminal_table(report, terminal) + '\n' +
+                     terminal.folded(fmt::format(
+                         "{}, truth certified to 1e-30 of the larger size, {:.0f} s.",
+                         counted(report.configurations, "configuration"), report.wall_seconds));
+  if (report.engines) text += '\n' + engines_summary(*report.engines, terminal) + '\n';
+  write_then_print([&] { write_report(report, options.out); }, text);
   fmt::print("Report: {}/report.html, {}/report.json\n", options.out, options.out);
   if (!options.figures.empty()) {
     write_figures(report, options.figures);
@@ -190,8 +190,8 @@ void add_report(Program& program) {
       "  touchstone report --only scores,timing\n"
       "Of everyday pose classes, recorded ones and arrangements along the world's axes\n"
       "that --class does not name, five times as many configurations are scored.\n"
-      "Ctrl-C or SIGTERM ends with a report of what is done, marked partial.\n"
-      "Exit codes: 130, 143 when stopped by Ctrl-C, SIGTERM.");
+      "Ctrl-C, SIGTERM or SIGHUP ends with a report of what is done, marked partial.\n"
+      "Exit codes: 130, 143, 129 when stopped by Ctrl-C, SIGTERM, SIGHUP.");
   command.runs([options] { return run(*options); });
 }
 

@@ -77,11 +77,15 @@ int run(const Options& options) {
         "sampled: the worst of the first quarter, which were drawn and not changed");
   }
   text += table.what_is_left_out();
-  for (const auto& [name, failure] : failures) {
-    if (options.save.empty()) break;
-    text += "saved " + save(failure.second, options.save).string() + '\n';
-  }
-  fmt::print("{}", options.json ? found_json.dump(1) + '\n' : text);
+  std::string saved;
+  const auto write = [&] {
+    for (const auto& [name, failure] : failures) {
+      if (options.save.empty()) break;
+      saved += "saved " + save(failure.second, options.save).string() + '\n';
+    }
+  };
+  write_then_print(write, options.json ? found_json.dump(1) + '\n' : text);
+  if (!options.json) fmt::print("{}", saved);
   return failures.empty() ? 0 : something_failed;
 }
 

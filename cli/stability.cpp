@@ -67,13 +67,12 @@ int run(const Options& options) {
   const StabilityOptions chosen = options.stability();
   check_writable(options.out);
   const Stability result = measure(chosen);
-  write_stability(result, options.command_line(), options.out);
-  if (options.json) {
-    fmt::print("{}\n", json_text(result));
-    return 0;
+  const auto write = [&] { write_stability(result, options.command_line(), options.out); };
+  write_then_print(
+      write, options.json ? json_text(result) + '\n' : stability_table(result, standard_output()));
+  if (!options.json) {
+    fmt::print("\nWritten: {}/stability.html, {}/stability.json\n", options.out, options.out);
   }
-  fmt::print("{}\nWritten: {}/stability.html, {}/stability.json\n",
-             stability_table(result, standard_output()), options.out, options.out);
   return 0;
 }
 

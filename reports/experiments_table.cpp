@@ -26,25 +26,6 @@ std::string error_text(const ExperimentResult& r) {
   return r.outcome == Outcome::unsound ? "unsound" : number(r.error, "{:.1e}");
 }
 
-/// An explanation of columns, of which each is told where it is shown.
-class Legend {
- public:
-  Legend(const TextTable& table, const Terminal& terminal) : table_(table), terminal_(terminal) {}
-  Legend& of(std::string_view column, const std::string& meaning) {
-    return table_.has(column) ? line(fmt::format("{}: {}", column, meaning)) : *this;
-  }
-  Legend& line(const std::string& text) {
-    text_ += terminal_.folded(text);
-    return *this;
-  }
-  std::string text() const { return text_ + table_.what_is_left_out(); }
-
- private:
-  const TextTable& table_;
-  const Terminal& terminal_;
-  std::string text_;
-};
-
 std::string row(const ExperimentResult& r, const TextTable& table, const Terminal& terminal) {
   if (r.outcome == Outcome::unsupported) return terminal.below(r.candidate + " unsupported");
   if (r.outcome == Outcome::crashed || r.outcome == Outcome::timed_out) {

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <functional>
+#include <limits>
 #include <string_view>
 
 #include "properties/files/given_text.hpp"
@@ -16,10 +17,13 @@
 namespace touchstone {
 namespace {
 
+/// Below the normal doubles a campaign's histogram knows but the bin that zero is in.
+bool is_zero(double value) { return std::abs(value) < std::numeric_limits<double>::min(); }
+
 std::string scientific(const std::optional<Quantiles>& quantiles, double Quantiles::*which) {
   if (!quantiles) return "-";
   const double value = (*quantiles).*which;
-  return value == 0 ? "0" : fmt::format("{:.1e}", value);
+  return is_zero(value) ? "0" : fmt::format("{:.1e}", value);
 }
 
 std::string whole(const std::optional<double>& value) {
@@ -91,7 +95,7 @@ std::string wrong_answers(const Statistics& s) {
 
 std::string signed_median(const std::optional<SignedMedian>& bias) {
   if (!bias) return "-";
-  return bias->value == 0 ? "0" : fmt::format("{:+.1e}", bias->value);
+  return is_zero(bias->value) ? "0" : fmt::format("{:+.1e}", bias->value);
 }
 
 /// Candidates that do not run as native code have a star.

@@ -138,6 +138,14 @@ std::string TextTable::row(const std::string& name, const std::vector<Cell>& cel
   return text + '\n';
 }
 
+Legend& Legend::of(std::string_view column, const std::string& meaning) {
+  return table_.has(column) ? line(fmt::format("{}: {}", column, meaning)) : *this;
+}
+Legend& Legend::line(const std::string& text) {
+  text_ += terminal_.folded(text);
+  return *this;
+}
+
 Terminal standard_output() {
   Terminal result;
   const bool is_terminal = isatty(STDOUT_FILENO) != 0;

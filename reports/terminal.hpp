@@ -70,6 +70,20 @@ class TextTable {
   std::vector<Column> columns_;
 };
 
+/// What stands below a table: what its columns mean, of those that are shown.
+class Legend {
+ public:
+  Legend(const TextTable& table, const Terminal& terminal) : table_(table), terminal_(terminal) {}
+  Legend& of(std::string_view column, const std::string& meaning);
+  Legend& line(const std::string& text);
+  std::string text() const { return text_ + table_.what_is_left_out(); }
+
+ private:
+  const TextTable& table_;
+  const Terminal& terminal_;
+  std::string text_;
+};
+
 /// The summary of a report: a row for each pair and candidate in everyday poses, and for all pairs
 /// in those of the other groups, with the columns that fit; the pose classes in which a candidate
 /// is slow now and then; what a candidate passes and fails once turned or tilted; its worst

@@ -166,6 +166,16 @@ TEST(ReportTable, KeepsInANarrowTerminalWhatMattersMost) {
   EXPECT_THAT(headings(40), testing::ElementsAre("candidate", "agree%", "yes/no", "err", "ns"));
 }
 
+TEST(ReportTable, ShowsTheBinOfZeroAsZero) {
+  Report report = make_report(some_configurations(), "x");
+  constexpr double denormal = 2.8e-309;
+  for (ResultRow& row : report.summary) {
+    row.statistics.point_error = Quantiles{0, denormal, 1};
+    row.statistics.bias = SignedMedian{-denormal};
+  }
+  EXPECT_THAT(terminal_table(report), testing::Not(HasSubstr("e-3")));
+}
+
 TEST(ReportTable, ColoursChangeNothingElse) {
   const Report report = make_report(some_configurations(), "x");
   const std::string coloured = terminal_table(report, {80, true});

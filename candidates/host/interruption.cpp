@@ -2,6 +2,7 @@
 
 #include <cstring>
 #include <ctime>
+#include <iterator>
 #include <signal.h>
 #include <unistd.h>
 
@@ -11,8 +12,9 @@ namespace {
 volatile sig_atomic_t asked = 0;
 timespec when_asked;
 pid_t told_of;  ///< the process that says what it loses
-struct sigaction previous[2];
-constexpr int signals[] = {SIGINT, SIGTERM};
+constexpr int signals[] = {SIGINT, SIGTERM, SIGHUP};
+constexpr std::size_t signal_count = std::size(signals);
+struct sigaction previous[signal_count];
 
 // All that handlers call is async-signal-safe.
 
@@ -25,14 +27,16 @@ void end_at_once(int signal) {
   raise(signal);  // takes effect when the handler returns
 }
 
-/// One request may come as several signals, of `timeout` for example.
+/// One request may come as several signals, of `timeout` for example; at a logout SIGHUP comes with
+/// SIGTERM.
 bool is_the_same_request(int signal) {
   constexpr double at_least = 0.3;  // seconds between two requests of a person
   timespec now{};
   clock_gettime(CLOCK_MONOTONIC, &now);
   const double passed = static_cast<double>(now.tv_sec - when_asked.tv_sec) +
                         1e-9 * static_cast<double>(now.tv_nsec - when_asked.tv_nsec);
-  return signal == asked && passed < at_least;
+  const bool is_of_one_kind = signal == asked || signal == SIGHUP || asked == SIGHUP;
+  return is_of_one_kind && passed < at_least;
 }
 
 void on_signal(int signal) {
@@ -55,7 +59,7 @@ void handle(void (*handler)(int)) {
   struct sigaction action {};
   action.sa_handler = handler;  // without SA_RESTART: waiting calls return
   sigemptyset(&action.sa_mask);
-  for (int i = 0; i < 2; ++i) {
+  for (std::size_t i = 0; i < signal_count; ++i) {
     sigaction(signals[i], nullptr, &previous[i]);
     if (previous[i].sa_handler != SIG_IGN) sigaction(signals[i], &action, nullptr);
   }
@@ -69,7 +73,7 @@ Interruption::Interruption() {
 }
 
 Interruption::~Interruption() {
-  for (int i = 0; i < 2; ++i) sigaction(signals[i], &previous[i], nullptr);
+  for (std::size_t i = 0; i < signal_count; ++i) sigaction(signals[i], &previous[i], nullptr);
   asked = 0;
 }
 

@@ -68,13 +68,14 @@ void write_all(int fd, const void* data, std::size_t size) {
   }
 }
 
-/// Makes this process end with its parent, and leaves a terminal's Ctrl-C or a scheduler's SIGTERM
-/// to the parent: a candidate that died of those would be counted as crashed.
+/// Makes this process end with its parent, and leaves a terminal's Ctrl-C, its end or a scheduler's
+/// SIGTERM to the parent: a candidate that died of those would be counted as crashed.
 void follow(pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(0);  // the parent died before prctl
   signal(SIGINT, SIG_IGN);
   signal(SIGTERM, SIG_IGN);
+  signal(SIGHUP, SIG_IGN);
 }
 
 [[noreturn]] void work(Shared& shared, unsigned worker, std::uint64_t count, int fd,

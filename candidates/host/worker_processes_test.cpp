@@ -126,6 +126,7 @@ TEST(WorkerProcesses, DoNotObeyWhatIsMeantForTheirParent) {
   const auto hit = [](std::size_t) -> std::string {
     raise(SIGINT);
     raise(SIGTERM);
+    raise(SIGHUP);
     return "alive";
   };
   EXPECT_EQ(run_in_processes(1, 1, hit, name, ignore).front(), "alive");
@@ -133,7 +134,7 @@ TEST(WorkerProcesses, DoNotObeyWhatIsMeantForTheirParent) {
 
 TEST(Interruption, AsksOnceAndIsForgotten) {
   EXPECT_FALSE(interrupted());
-  for (const int signal : {SIGINT, SIGTERM}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     const Interruption interruption;
     EXPECT_FALSE(interrupted());
     testing::internal::CaptureStderr();
@@ -141,7 +142,7 @@ TEST(Interruption, AsksOnceAndIsForgotten) {
     EXPECT_THAT(testing::internal::GetCapturedStderr(), testing::HasSubstr("once more"));
     EXPECT_TRUE(interrupted());
     EXPECT_EQ(interrupting_signal(), signal);
-    EXPECT_EQ(interrupted_exit_code(), signal == SIGINT ? 130 : 143);
+    EXPECT_EQ(interrupted_exit_code(), 128 + signal);
   }
   EXPECT_FALSE(interrupted());
 }
@@ -163,6 +164,13 @@ TEST(InterruptionDeathTest, TheSameSignalAtOnceIsTheSameRequest) {
     _exit(interrupted_exit_code());
   };
   EXPECT_EXIT(at_once(), testing::ExitedWithCode(130), "ending with what there is");
+  const auto logout = [] {
+    const Interruption interruption;
+    raise(SIGTERM);
+    raise(SIGHUP);
+    _exit(interrupted_exit_code());
+  };
+  EXPECT_EXIT(logout(), testing::ExitedWithCode(143), "ending with what there is");
   const auto later = [] {
     const Interruption interruption;
     raise(SIGINT);

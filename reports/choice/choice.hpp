@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "simulation/scenes/choose.hpp"
 #include "simulation/scenes/engine_choice.hpp"
 #include "simulation/scenes/robot_file.hpp"
@@ -71,6 +73,9 @@ std::string engine_choice_text(const EngineChoice& choice, std::size_t columns =
 
 /// ", disturbance 3"; empty for the scene as it is written.
 std::string in_disturbance(const RepeatedRun& run);
+
+/// What choose.json says of a scene.
+nlohmann::json scene_json(const SceneFile& file, const Trials& trials);
 
 /// choose.json (docs/scenes.md); on one line, or indented.
 std::string choice_json(const Choice& choice, const std::string& command, const std::string& folder,

@@ -147,13 +147,24 @@ void write_configuration(const std::string& file, const Configuration& configura
 
 }  // namespace
 
-std::string choice_json(const Choice& choice, const std::string& command, const std::string& folder,
-                        int indent) {
-  const SceneFile& file = choice.file;
+json scene_json(const SceneFile& file, const Trials& trials) {
   json needs = json::array();
   for (const auto& need : file.needs) {
     needs.push_back({{"text", need->text(file.scene)}, {"unit", need->unit}});
   }
+  return {{"name", file.name},
+          {"description", file.description},
+          {"ignored", file.ignored},
+          {"bodies", file.scene.bodies.size()},
+          {"step", file.scene.step},
+          {"duration", file.scene.duration},
+          {"disturbances", trials.disturbances},
+          {"seed", trials.seed},
+          {"needs", needs}};
+}
+
+std::string choice_json(const Choice& choice, const std::string& command, const std::string& folder,
+                        int indent) {
   json runs = json::array(), kinds = json::array(), too_slow = json::array();
   for (std::size_t i = 0; i < choice.runs.size(); ++i) {
     runs.push_back(run_json(choice, i, folder));
@@ -166,15 +177,7 @@ std::string choice_json(const Choice& choice, const std::string& command, const 
       {"schema", "touchstone-choice-1"},
       {"command", command},
       {"machine", to_json(describe_machine())},
-      {"scene",
-       {{"name", file.name},
-        {"description", file.description},
-        {"bodies", file.scene.bodies.size()},
-        {"step", file.scene.step},
-        {"duration", file.scene.duration},
-        {"disturbances", choice.trials.disturbances},
-        {"seed", choice.trials.seed},
-        {"needs", needs}}},
+      {"scene", scene_json(choice.file, choice.trials)},
       {"possible", !choice.impossible},
       {"exact_is_cheapest", choice.answer == 0},
       {"time_saved", choice.impossible ? 0 : 1 - chosen / exact},

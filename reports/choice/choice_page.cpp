@@ -234,15 +234,16 @@ json motion_json(const Choice& choice, const Limits& limits) {
                                                        *choice.candidates[0], processes)));
   };
   Motions motions(choice.file);
+  const auto shown_runs = worth_showing(choice);
   motions.add("exact", "The exact cylinder for all pairs.", poses(scene, choice.exact_run),
-              json::array(), 0, choice.runs.size() == 1);
+              json::array(), 0, shown_runs.empty());
   const SceneRun& answer = choice.runs[choice.answer];
   const std::string name = choice.answer == 0 ? "exact" : "the answer";
   RunsBeside holding([&](std::size_t disturbance) {
     if (choice.answer == 0 && disturbance == 0) return std::size_t{0};
     return motions.add(name, "", run(answer, disturbance), models_of(choice, answer), 0, false);
   });
-  for (const std::size_t i : worth_showing(choice)) {
+  for (const std::size_t i : shown_runs) {
     const SceneRun& shown = choice.runs[i];
     const std::size_t beside = i == choice.answer ? 0 : holding.of(shown.disturbance);
     const std::size_t disturbance = i == choice.answer ? 0 : shown.disturbance;

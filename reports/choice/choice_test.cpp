@@ -1,6 +1,7 @@
 #include "reports/choice/choice.hpp"
 
 #include <filesystem>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <sstream>
 
@@ -15,7 +16,8 @@ using nlohmann::json;
 using testing::HasSubstr;
 
 /// A can that stands, slightly tilted, with one need.
-Choice choice_of(const std::string& need) {
+Choice choice_of(const std::string& need,
+                 const std::vector<std::string>& candidates = {"capsule", "prism:64"}) {
   const std::string scene = R"({
     "duration": 0.8,
     "bodies": [
@@ -24,7 +26,7 @@ Choice choice_of(const std::string& need) {
       {"name": "can", "shape": {"shape": "cylinder", "radius": 0.1, "half_length": 0.2},
        "pose": {"position": [0, 0, 0.2], "orientation": [1, 0.004, 0.001, 0]}}],
     "needs": [)" + need + "]}";
-  return choose(scene_from_text(scene, "can.json"), {find_candidates({"capsule", "prism:64"})});
+  return choose(scene_from_text(scene, "can.json"), {find_candidates(candidates)});
 }
 const char* const stands = R"({"need": "stands", "body": "can", "degrees": 2})";
 const char* const elsewhere =
@@ -47,8 +49,30 @@ TEST(ChoicePage, HoldsItsDataAndLoadsNothing) {
   EXPECT_EQ(page.find("src=\"http"), std::string::npos);
 }
 
+TEST(ChoicePage, ShowsTheExactRunWhereNoOtherIsWorthIt) {
+  // Sixty-four spheres serve, and take longer.
+  const json motion =
+      data_of(choice_page(choice_of(stands, {"spheres:64"}), "", "out", {}))["motion"];
+  ASSERT_EQ(motion["runs"].size(), 1U);
+  EXPECT_EQ(motion["runs"][0]["listed"], true);
+}
+
 TEST(ChoiceText, SaysWhenExactContactsDoNotServe) {
   EXPECT_THAT(choice_text(choice_of(elsewhere), "out"), HasSubstr("Not even exact contacts"));
+}
+
+TEST(ChoiceText, ShowsOfManyNeedsThoseNearestToTheirLimits) {
+  std::string many;
+  for (int degrees = 20; degrees > 0; --degrees) {
+    many += (many.empty() ? "" : ", ") +
+            fmt::format(R"({{"need": "stands", "body": "can", "degrees": {}}})", degrees);
+  }
+  const std::string text = choice_text(choice_of(many), "out");
+  EXPECT_THAT(text, HasSubstr("and 8 more, in choose.html, which take at most "));
+  EXPECT_THAT(text, HasSubstr(" 20. holds  can stands within 1°"));
+  EXPECT_THAT(text, HasSubstr("\n  9. holds  can stands within 12°"));
+  EXPECT_THAT(text, testing::Not(HasSubstr("can stands within 13°")));
+  EXPECT_THAT(choice_text(choice_of(stands), "out"), testing::Not(HasSubstr(" more")));
 }
 
 TEST(ChoiceText, AndJsonNameTheSameReplayOfAFailure) {

@@ -1,6 +1,10 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <functional>
+#include <limits>
+#include <numeric>
+#include <vector>
 
 #include "properties/files/given_text.hpp"
 #include "reports/choice/choice.hpp"
@@ -30,15 +34,38 @@ std::string first_failure(const SceneRun& run) {
                      in_disturbance(run));
 }
 
+/// What a need takes of its limit; above 1 it is broken.
+double share_of_limit(const Verdict& v) {
+  return std::isfinite(v.value) ? v.share() : std::numeric_limits<double>::infinity();
+}
+
+/// Of many needs those that are nearest to their limits, or beyond.
 std::string needs_of(const Choice& choice, const SceneRun& run) {
+  constexpr std::size_t max_shown = 12;
+  std::vector<std::size_t> order(run.verdicts.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto share = [&](std::size_t i) { return share_of_limit(run.verdicts[i]); };
+  std::string left_out;
+  if (order.size() > max_shown) {
+    std::ranges::stable_sort(order, std::greater(), share);
+    const double next = share(order[max_shown]);
+    left_out = fmt::format("     and {} more, in choose.html", order.size() - max_shown);
+    if (next <= 1) {
+      left_out +=
+          fmt::format(", which take at most {:.0f}% of their limits", std::ceil(100 * next));
+    }
+    left_out += '\n';
+    order.resize(max_shown);
+    std::ranges::sort(order);
+  }
   std::string lines;
-  for (std::size_t i = 0; i < run.verdicts.size(); ++i) {
+  for (const std::size_t i : order) {
     const Need& need = *choice.file.needs[i];
     const Verdict& verdict = run.verdicts[i];
     lines += fmt::format("{:>3}. {:<6} {}: {}\n", i + 1, verdict.holds() ? "holds" : "BROKEN",
                          need.text(choice.file.scene), measured(verdict, need));
   }
-  return lines;
+  return lines + left_out;
 }
 
 /// The next cheaper model of a kind, and how it fails.
@@ -152,9 +179,8 @@ std::string choice_text(const Choice& choice, const std::string& folder, std::si
       fmt::format("{}: {}, {:g} s in steps of {:.2g} s\n", file.name,
                   counted(file.scene.bodies.size(), "body"), file.scene.duration, file.scene.step);
   if (const Trials& t = choice.trials; t.disturbances > 0) {
-    lines += fmt::format(
-        "Each run as written, then under {} disturbances, the answer under {} (seed {})\n",
-        t.disturbances, t.of_answer(), t.seed);
+    lines += fmt::format("Each run as written, then under {}, the answer under {} (seed {})\n",
+                         counted(t.disturbances, "disturbance"), t.of_answer(), t.seed);
   }
   lines += '\n' + headline(choice);
   lines += needs_of(choice, answer);

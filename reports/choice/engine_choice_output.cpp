@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "properties/files/given_text.hpp"
 #include "reports/choice/choice.hpp"
 #include "reports/make_report.hpp"
 #include "reports/report_json.hpp"
@@ -137,13 +138,13 @@ std::string setting_name(const EngineSetting& setting) {
 
 std::string engine_choice_text(const EngineChoice& choice, std::size_t columns) {
   const SceneFile& file = choice.file;
-  std::string text = fmt::format("{} in {} {}: {} bodies, {:g} s in steps of {:.2g} s\n", file.name,
-                                 choice.engine.name, choice.engine.version,
-                                 file.scene.bodies.size(), file.scene.duration, file.scene.step);
+  std::string text =
+      fmt::format("{} in {} {}: {}, {:g} s in steps of {:.2g} s\n", file.name, choice.engine.name,
+                  choice.engine.version, counted(file.scene.bodies.size(), "body"),
+                  file.scene.duration, file.scene.step);
   if (const Trials& t = choice.trials; t.disturbances > 0) {
-    text += fmt::format(
-        "Each run as written, then under {} disturbances, the answer under {} (seed {})\n",
-        t.disturbances, t.of_answer(), t.seed);
+    text += fmt::format("Each run as written, then under {}, the answer under {} (seed {})\n",
+                        counted(t.disturbances, "disturbance"), t.of_answer(), t.seed);
   }
   for (const std::string& need : choice.left_out) {
     text += fmt::format("Left out, for an engine's normals are not judged: {}\n", need);
@@ -168,11 +169,9 @@ std::string engine_choice_text(const EngineChoice& choice, std::size_t columns) 
 }
 
 std::string engine_choice_json(const EngineChoice& choice, const std::string& command, int indent) {
-  const SceneFile& file = choice.file;
-  json needs = json::array(), sizes = json::array(), settings = json::array();
-  for (const auto& need : file.needs) {
-    needs.push_back({{"text", need->text(file.scene)}, {"unit", need->unit}});
-  }
+  json sizes = json::array(), settings = json::array();
+  json scene = scene_json(choice.file, choice.trials);
+  scene["left_out"] = choice.left_out;
   for (std::size_t i = 0; i < choice.sizes.size(); ++i) {
     sizes.push_back({{"name", choice.sizes[i].name},
                      {"bodies", bodies_of(choice, choice.sizes[i])},
@@ -191,16 +190,7 @@ std::string engine_choice_json(const EngineChoice& choice, const std::string& co
                         {{"name", choice.engine.name},
                          {"version", choice.engine.version},
                          {"settings", choice.engine.settings}}},
-                       {"scene",
-                        {{"name", file.name},
-                         {"description", file.description},
-                         {"bodies", file.scene.bodies.size()},
-                         {"step", file.scene.step},
-                         {"duration", file.scene.duration},
-                         {"disturbances", choice.trials.disturbances},
-                         {"seed", choice.trials.seed},
-                         {"needs", needs},
-                         {"left_out", choice.left_out}}},
+                       {"scene", scene},
                        {"sizes", sizes},
                        {"answer", choice.answer ? json(*choice.answer) : json(nullptr)},
                        {"settings", settings}};

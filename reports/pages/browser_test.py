@@ -76,6 +76,13 @@ return result;
 # What can be reached by Tab, and pictures without a role and a name.
 tab_stops = """return [...document.querySelectorAll('a[href], button, input, select, summary, [tabindex]')]
     .filter(e => e.tabIndex >= 0 && e.checkVisibility())"""
+# How near the texts of neighbouring cells of a table come to each other, in pixels, over all of its rows.
+nearest_cells = """
+const box = cell => { const r = document.createRange(); r.selectNodeContents(cell); return r.getBoundingClientRect(); };
+return Math.min(...[...arguments[0].querySelectorAll('tr')].flatMap(row => {
+  const boxes = [...row.cells].filter(c => c.checkVisibility() && c.textContent.trim()).map(box);
+  return boxes.slice(1).map((b, i) => b.left - boxes[i].right);
+}));"""
 nameless_pictures = """return [...document.querySelectorAll('svg, canvas')]
     .filter(e => e.getAttribute('aria-hidden') !== 'true')
     .filter(e => !['img', 'graphics-document'].includes(e.getAttribute('role'))
@@ -527,6 +534,8 @@ class Report(PageTest):
 
     def test_z_a_phone_needs_no_sideways_scrolling(self):
         self.assert_no_sideways_scrolling_on_a_phone(self.page)
+        for table in ("#summary-table", "#model-table"):
+            self.assertGreater(self.driver.execute_script(nearest_cells, self.find(table)), 5, table)
         for table in ("#worst-error-table", "#drake-table", "#summary-table", "#manifold-table"):
             hidden = self.driver.execute_script(
                 "return arguments[0].scrollWidth - arguments[0].clientWidth", self.find(table))
@@ -633,6 +642,32 @@ class OtherPages(PageTest):
         self.find("#play").click()
         self.assertEqual(self.find("#play").text, "Pause")
         self.assert_no_sideways_scrolling_on_a_phone(folder / "choose.html")
+
+    def test_choice_for_a_robot_lists_what_was_not_read(self):
+        folder = Path(self.folder.name) / "choose-robot"
+        self.run_program("choose", scene.with_name("rover.urdf"), "--candidates", "capsule",
+                         "--duration", "0.1", "--disturbances", "1", "--out", folder)
+        self.open(folder / "choose.html")
+        self.assertIn("mesh", self.driver.find_element(By.ID, "ignored").get_attribute("textContent"))
+        self.assert_no_sideways_scrolling_on_a_phone(folder / "choose.html")
+
+    def test_choice_of_many_needs(self):
+        folder = Path(self.folder.name) / "choose-needs"
+        scene = json.loads(Path(__file__).parents[2].joinpath("simulation/scenes/rod-on-table.json").read_text())
+        scene["duration"] = 0.2
+        scene["needs"] = [{"need": "rests", "speed": 1 + i, "by": 0.1, "bodies": ["rod"]} for i in range(100)]
+        Path(self.folder.name, "needs.json").write_text(json.dumps(scene))
+        self.run_program("choose", Path(self.folder.name) / "needs.json", "--candidates", "spheres:64",
+                         "--disturbances", "0", "--out", folder)
+        self.open(folder / "choose.html")
+        self.assertEqual(self.driver.execute_script("return data.answer"), 0)
+        self.assertNotIn("instead of", self.find("#provenance").text)  # exact contacts
+        self.assertLess(self.find("#need-table").size["height"], 600)
+        self.assert_no_sideways_scrolling_on_a_phone(folder / "choose.html")
+        for table in ("#kind-table", "#need-table"):
+            self.assertGreater(self.driver.execute_script(nearest_cells, self.find(table)), 5, table)
+            sideways = "return arguments[0].scrollWidth - arguments[0].clientWidth"
+            self.assertEqual(self.driver.execute_script(sideways, self.find(table)), 0, table)
 
     def test_choice_in_an_engine(self):
         folder = Path(self.folder.name) / "choose-engine"

@@ -4,12 +4,23 @@ const exactName = name => name === 'reference' ? 'exact cylinder' : name;
 const measured = (value, need) => value === null ? 'the motion becomes absurd' : `${exponent(value)}${need.unit}`;
 
 const wide = text => element('td', {class: 'text wrap'}, text);
+const disturbances = count => count === 1 ? 'one disturbance' : `${count} disturbances`;
 
 // Words such as "can stands within 0.5°: 12° at 0.71 s".
 function failure(run) {
   const need = needs[run.first_broken], verdict = run.verdicts[run.first_broken];
   return `${need.text}: ${measured(verdict.value, need)} at ${verdict.time.toFixed(2)} s` +
       (run.disturbance ? `, disturbance ${run.disturbance}` : '');
+}
+
+/// Behind the provenance: the command, and what it did not read of a robot's or world's file.
+function origin() {
+  const parts = [element('details', {}, element('summary', {}, 'The command'), command(data.command))];
+  if (data.scene.ignored.length) {
+    parts.push(element('details', {id: 'ignored'}, element('summary', {}, `What of the file was not read (${data.scene.ignored.length})`),
+        element('ul', {}, ...data.scene.ignored.map(text => element('li', {}, text)))));
+  }
+  byId('provenance').after(...parts);
 }
 
 function headline() {
@@ -25,16 +36,18 @@ function headline() {
         `The cheapest save ${ofContacts}`;
   byId('provenance').textContent = `${data.machine.cpu}, ${data.machine.compiler}. ` +
       `The rest of a step, ODE's solver, takes ${exponent(data.rest_of_step_microseconds)} µs; a frame of 1/60 s takes ` +
-      `${exponent(data.frame_microseconds)} µs instead of ${exponent(data.exact_frame_microseconds)} µs with exact contacts. ` +
-      `The solver gets ${answer.points_per_step.toFixed(1)} contact points a step, exactly ${data.runs[0].points_per_step.toFixed(1)}` +
+      exponent(data.frame_microseconds) + ' µs' +
+      (data.answer === 0 ? '. ' : ` instead of ${exponent(data.exact_frame_microseconds)} µs with exact contacts. `) +
+      `The solver gets ${answer.points_per_step.toFixed(1)} contact points a step` +
+      (data.answer === 0 ? '' : ` instead of ${data.runs[0].points_per_step.toFixed(1)}`) +
       (data.point_microseconds === null ? '.' : `; a point costs it about ${exponent(data.point_microseconds)} µs.`) + (data.scene.disturbances
-      ? ` Every run is repeated under ${data.scene.disturbances} disturbances (seed ${data.scene.seed}), the answer under five times as many; ` +
+      ? ` Every run is repeated under ${disturbances(data.scene.disturbances)} (seed ${data.scene.seed}), the answer under five times as many; ` +
         'a need holds if it holds in all, and what breaks one is not run further.' : '');
-  byId('provenance').after(element('details', {}, element('summary', {}, 'The command'), command(data.command)));
+  origin();
 }
 
 const needTable = verdicts => table(['', 'need', 'measured', 'at'].map(textColumn), verdicts.map((v, i) => [
-    element('td', {class: v.holds ? 'good text' : 'bad text'}, v.holds ? 'holds' : 'broken'), needs[i].text,
+    element('td', {class: v.holds ? 'good text' : 'bad text'}, v.holds ? 'holds' : 'broken'), wide(needs[i].text),
     measured(v.value, needs[i]), `${v.time.toFixed(2)} s`]), 'What was measured of each need, and when');
 
 function answerTables() {
@@ -122,9 +135,9 @@ function drawEngineChoice() {
       : `${best.name}: ${microseconds(best)} µs a step instead of ${microseconds(usual)} µs` +
         (usual.holds ? '; the default cylinder meets all needs, too.' : `. The default cylinder breaks: ${usual.failure}.`);
   byId('provenance').textContent = `${engine.name} ${engine.version}: ${engine.settings}. ${data.machine.cpu}, ${data.machine.compiler}. ` +
-      (data.scene.disturbances ? `Every run is repeated under ${data.scene.disturbances} disturbances (seed ${data.scene.seed}), the answer under five times as many.` : '') +
+      (data.scene.disturbances ? `Every run is repeated under ${disturbances(data.scene.disturbances)} (seed ${data.scene.seed}), the answer under five times as many.` : '') +
       (data.scene.left_out.length ? ` Left out, for an engine’s normals are not judged: ${data.scene.left_out.join(', ')}.` : '');
-  byId('provenance').after(element('details', {}, element('summary', {}, 'The command'), command(data.command)));
+  origin();
   byId('answer-note').textContent = 'The cheapest shape of each size of cylinder with which a whole run in the engine’s own world meets all needs, and the lines that make it.';
   for (const size of sizes.filter(s => s.lines !== null)) {
     byId('kind-table').append(element('h3', {}, `${size.name} (${size.bodies}): ${size.shape}`), element('pre', {}, size.lines));

@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <set>
+#include <unistd.h>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -206,7 +207,8 @@ std::string drawn(const std::filesystem::path& file) {
 
 TEST(ReplayPage, DrawsBothBodiesInABrowser) {
   if (std::system("command -v chromium >/dev/null") != 0) GTEST_SKIP() << "no chromium here";
-  const auto file = std::filesystem::temp_directory_path() / "touchstone_replay_page_test.html";
+  const auto file = std::filesystem::temp_directory_path() /
+                    ("replay_page_test." + std::to_string(getpid()) + ".html");
   for (const Pair pair : all_pairs) {
     write_file(file, page_of({pair, pose_classes(pair).front(), 1, 0}), "file");
     const std::string page = drawn(file);

@@ -52,7 +52,7 @@ drakeProtocol();
 function summaryTable() {
   const pair = byId('summary-pair').value;
   const wide = text => column(text, {class: 'wide'});
-  const heads = [textColumn('candidate'), 'agrees', 'wrong yes/no', 'error, p99', wide('error, max'), 'bias', wide('regret, p99'),
+  const heads = [textColumn('candidate'), 'agrees', 'wrong yes/no', 'error, p99', wide('error, max'), wide('bias'), wide('regret, p99'),
                  'points, p99', wide('coverage'), 'ns', wide('ns, p95'), wide('× Bullet')];
   const rows = summary().filter(r => r.pair === pair && supported(r)).map(r => {
     const share = agreeing(r), ratio = r.nanoseconds && r.nanoseconds.ratio_to_bullet;

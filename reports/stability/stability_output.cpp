@@ -97,13 +97,17 @@ std::string amplification_table(const Amplification& a, const Names& candidates,
     }
   }
   return text + '\n' +
-         terminal.folded(
-             "depth x: largest change of the answered depth over what the step allows (the truth: "
-             "1). jump: of depth, beyond the true change. regret: of the normal. hull: by how much "
-             "more the contact points' hull moved than the contact patch. All in sizes of the "
-             "smaller shape. flicker: steps up to 1e-8 that change the number of points. none: "
-             "steps without an answer in numbers at one end.") +
-         table.what_is_left_out();
+         Legend(table, terminal)
+             .of("depth x",
+                 "largest change of the answered depth over what the step allows (the truth: 1)")
+             .of("jump", "of depth, beyond the true change")
+             .of("regret", "of the normal, after the step")
+             .of("hull", "by how much more the contact points' hull moved than the contact patch")
+             .of("flicker%", "steps up to 1e-8 that change the number of points")
+             .of("missed", "steps that end in a missed contact")
+             .of("none", "steps without an answer in numbers at one end")
+             .line("Lengths in sizes of the smaller shape.")
+             .text();
 }
 
 /// All pixels of one candidate.
@@ -150,8 +154,11 @@ std::string maps_table(const FailureMaps& maps, const Names& candidates, const T
     cells.push_back({std::to_string(c.missed)});
     text += table.row("  " + candidate, cells);
   }
-  return text + '\n' + terminal.folded("percent of the pixels of all poses, at each zoom") +
-         table.what_is_left_out();
+  return text + '\n' +
+         Legend(table, terminal)
+             .line("percent of the pixels of all poses, at each zoom")
+             .of("missed", "pixels that are a missed contact, at all zooms")
+             .text();
 }
 
 /// The largest value of a measure over all motions, as it is shown, and the first motion that has
@@ -200,9 +207,15 @@ std::string sequences_table(const Sequences& sequences, const Names& candidates,
                                          {std::to_string(missed)}});
   }
   return text + '\n' +
-         terminal.folded(fmt::format(
-             "largest at one of {} steps of each motion, in sizes; as above", sequences.steps)) +
-         table.what_is_left_out();
+         Legend(table, terminal)
+             .line(fmt::format("largest at one of {} steps of each motion, in sizes of the smaller "
+                               "shape",
+                               sequences.steps))
+             .of("jump", "of depth, beyond the true change")
+             .of("hull", "by how much more the contact points' hull moved than the contact patch")
+             .of("in", "the motion")
+             .of("missed", "poses with a missed contact")
+             .text();
 }
 
 std::string worst_steps(const std::vector<Amplification::WorstStep>& worst, const Names& candidates,

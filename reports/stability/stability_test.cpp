@@ -188,6 +188,30 @@ TEST(StabilityTable, IsNoWiderThanATerminal) {
   }
 }
 
+TEST(StabilityTable, ExplainsTheColumnsThatItShowsAndNoOthers) {
+  Stability stability = measure(small(study({"reference"})));
+  stability.maps.reset();
+  stability.sequences.reset();
+  const std::string wide = stability_table(stability, {80}),
+                    narrow = stability_table(stability, {40});
+  for (const char* column : {"depth x", "jump", "regret", "hull", "flicker%", "missed", "none"}) {
+    EXPECT_NE(wide.find(std::string("\n") + column + ": "), wide.npos) << column;
+  }
+  EXPECT_NE(narrow.find("\ndepth x: "), narrow.npos);
+  for (const char* left_out : {"regret", "hull", "flicker%", "none"}) {
+    EXPECT_EQ(narrow.find(left_out), narrow.npos) << left_out << " in " << narrow;
+  }
+}
+
+TEST(StabilityTable, OfMotionsAloneNeedsNoOther) {
+  Stability stability = measure(small(study({"reference"})));
+  stability.amplification.reset();
+  stability.maps.reset();
+  const std::string text = stability_table(stability, {80});
+  EXPECT_EQ(text.find("above"), text.npos) << text;
+  EXPECT_NE(text.find("\njump: "), text.npos) << text;
+}
+
 TEST(StabilityFiles, HoldTheResultAsData) {
   const auto folder = std::filesystem::path(testing::TempDir()) / "stability";
   write_stability({{"ode"}, 1e-4, 0, {}, {}, Sequences{}}, "</script>x", folder);
