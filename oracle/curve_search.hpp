@@ -20,7 +20,7 @@ using Interval = CGAL::Interval_nt<false>;
 using IntervalVector = Vector3<Interval>;
 
 /// Without changing the rounding mode, which CGAL's square root does twice: it costs more than the
-/// root. The root rounded up exceeds the exact one by less than an ulp, which is at least 2^-52 of
+/// root. The root rounded up exceeds the exact one by less than an ulp, which is at most 2^-52 of
 /// it.
 template <>
 inline Interval square_root(const Interval& x) {
