@@ -1,6 +1,7 @@
 #include "oracle/ball.hpp"
 
 #include <flint/fmpq.h>
+#include <limits>
 
 namespace touchstone::oracle {
 namespace {
@@ -23,6 +24,13 @@ mpq_class Float::rational() const {
   mpq_class result;
   fmpq_get_mpq(result.get_mpq_t(), q.value);
   return result;
+}
+
+double quotient(const Float& a, const Float& b) {
+  constexpr long digits = std::numeric_limits<double>::digits;
+  Float r;
+  arf_div(r.get(), a.get(), b.get(), digits, ARF_RND_DOWN);
+  return arf_get_d(r.get(), ARF_RND_DOWN);
 }
 
 Ball::Ball(const mpz_class& exact) : Ball() { arf_set_mpz(arb_midref(value_), exact.get_mpz_t()); }

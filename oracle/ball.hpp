@@ -135,6 +135,8 @@ inline Float operator*(const Float& a, const Float& b) {
   arf_mul(r.get(), a.get(), b.get(), ARF_PREC_EXACT, ARF_RND_DOWN);
   return r;
 }
+/// a/b as a double, rounded towards zero.
+double quotient(const Float& a, const Float& b);
 inline bool operator<(const Float& a, const Float& b) { return arf_cmp(a.get(), b.get()) < 0; }
 
 /// A real number known to lie within a radius of a midpoint: FLINT/arb's ball arithmetic, in which

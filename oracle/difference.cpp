@@ -201,12 +201,12 @@ IntegerVector in_frame_of_a(const Difference& difference, const Vec3& world) {
   return v.x * rows[0] + v.y * rows[1] + v.z * rows[2];
 }
 
-mpq_class width_in_units(const Difference& difference, const Configuration& configuration,
-                         double width) {
+Float width_in_units(const Difference& difference, const Configuration& configuration,
+                     double width) {
   if (!(std::isfinite(width) && width > 0)) {
     throw InvalidInput("width", std::to_string(width), "must be positive and finite");
   }
-  return mpq_class(width) * mpq_class(larger_size(configuration)) * difference.per_metre;
+  return Float(width) * Float(larger_size(configuration)) * Float(difference.per_metre);
 }
 
 BallDifference::BallDifference(const Difference& difference)

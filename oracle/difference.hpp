@@ -65,8 +65,8 @@ Difference make_difference(const Configuration& configuration);
 IntegerVector in_frame_of_a(const Difference& difference, const Vec3& world);
 
 /// `width` times the larger size, in units. Throws InvalidInput unless it is positive and finite.
-mpq_class width_in_units(const Difference& difference, const Configuration& configuration,
-                         double width);
+Float width_in_units(const Difference& difference, const Configuration& configuration,
+                     double width);
 
 /// Adds Σ half_length |axis·n| + Σ radius |axis × n| to `sum`: the half width of a difference,
 /// times |n|, in any arithmetic. `projection` of a segment is |axis·n|, of a disc |axis × n|.

@@ -39,7 +39,12 @@ struct Gaps::State {
       : difference(make_difference(configuration)),
         wanted(width_in_units(difference, configuration, width)) {}
 
-  Enclosure along(const Vec3& n) {
+  /// In units.
+  struct Ends {
+    Float lo, hi;
+  };
+  /// No wider than wanted.
+  Ends along(const Vec3& n) {
     if (!n.allFinite() || n.isZero(0)) {
       throw InvalidInput("n", "not a direction", "must be finite and not zero");
     }
@@ -50,8 +55,8 @@ struct Gaps::State {
       const Ball value =
           bits == first_bits ? gap(*first, direction) : gap(BallDifference(difference), direction);
       if (!value.is_finite()) continue;
-      const mpq_class lo = value.lower(), hi = value.upper();
-      if (hi - lo <= wanted) return {lo / difference.per_metre, hi / difference.per_metre};
+      Ends ends{value.lower_end(), value.upper_end()};
+      if (!(wanted < ends.hi - ends.lo)) return ends;
     }
     throw std::logic_error("oracle: the gap could not be enclosed");
   }
@@ -62,7 +67,7 @@ struct Gaps::State {
   }
 
   Difference difference;
-  mpq_class wanted;  ///< width in units
+  Float wanted;  ///< width in units
   std::optional<BallDifference> first;
 };
 
@@ -72,13 +77,22 @@ Gaps::Gaps(Gaps&&) noexcept = default;
 Gaps& Gaps::operator=(Gaps&&) noexcept = default;
 Gaps::~Gaps() = default;
 
-Enclosure Gaps::along(const Vec3& n) { return state_->along(n); }
+Enclosure Gaps::along(const Vec3& n) {
+  const State::Ends gap = state_->along(n);
+  const Integer& metre = state_->difference.per_metre;
+  return {gap.lo.rational() / metre, gap.hi.rational() / metre};
+}
 
 double Gaps::regret(const Truth& truth, const Vec3& n) {
-  const Enclosure g = along(n);
-  const mpq_class middle = (truth.signed_distance.lo + truth.signed_distance.hi) / 2;
-  const mpq_class regret = middle - (g.lo + g.hi) / 2;
-  return std::max(0.0, regret.get_d());
+  const State::Ends gap = state_->along(n);
+  // (a/b + c/d)/2 − (lo + hi)/(2m) as one quotient, for a common factor costs more than the rest.
+  const auto number = [](const mpz_class& x) { return Float(x); };
+  const mpq_class &lo = truth.signed_distance.lo, &hi = truth.signed_distance.hi;
+  const Float b = number(lo.get_den()), d = number(hi.get_den());
+  const Float m = number(state_->difference.per_metre), bd = b * d;
+  const Float sum = (number(lo.get_num()) * d + number(hi.get_num()) * b) * m;
+  const Float regret = sum - (gap.lo + gap.hi) * bd;
+  return std::max(0.0, quotient(regret, Float(2.0) * bd * m));
 }
 
 Enclosure certified_gap(const Configuration& configuration, const Vec3& n, double width) {

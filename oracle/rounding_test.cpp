@@ -148,6 +148,15 @@ TEST(Enclosure, MidpointAndWidthAreOfItsEnds) {
   EXPECT_EQ(e.width(), 0.5);
 }
 
+TEST(Quotient, IsRoundedTowardsZero) {
+  const double third = 1.0 / 3;  // below a third
+  EXPECT_EQ(quotient(Float(1.0), Float(3.0)), third);
+  EXPECT_EQ(quotient(Float(-1.0), Float(3.0)), -third);
+  EXPECT_EQ(quotient(Float(2.0), Float(3.0)), std::nextafter(2.0 / 3, 0));
+  EXPECT_EQ(quotient(Float(0.0), Float(-3.0)), 0);
+  EXPECT_EQ(quotient(Float(std::ldexp(3, -1000)), Float(std::ldexp(1, 75))), std::ldexp(1, -1074));
+}
+
 /// The cell around [lo, hi] / divisor, for doubles.
 std::optional<Enclosure> around(const GridCell& cell, double lo, double hi, long divisor = 1) {
   return cell.around(Float(lo), Float(hi), divisor);

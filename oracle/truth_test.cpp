@@ -1,5 +1,6 @@
 #include "oracle/truth.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <random>
@@ -173,6 +174,25 @@ TEST(Gap, TiltedNormalOnAPlaneCostsToFirstOrderInTheAngle) {
               (4 * co + 3 * s) - 4 + 5 * s + 4 * (1 - co), 1e-14);
   EXPECT_EQ(normal_regret(c, truth(c), Vec3(0, 0, 1)), 0);
   EXPECT_GT(normal_regret(c, truth(c), Vec3(0, 0, -1)), 8);
+}
+
+TEST(Gap, RegretIsWhatExactFractionsSayRoundedTowardsZero) {
+  std::mt19937 random(11);
+  std::normal_distribution<double> normal;
+  const auto vector = [&] { return Vec3(normal(random), normal(random), normal(random)); };
+  for (int i = 0; i < 300; ++i) {
+    const Quaternion turn(normal(random), normal(random), normal(random), normal(random));
+    const Configuration c{Cylinder(1, 2), Pose(vector(), turn), Box(Vec3(1, 0.1, 3)), Pose()};
+    const Truth t = truth(c);
+    Gaps gaps(c);
+    const Vec3 right = t.normals.front().n;
+    for (const Vec3& n : {vector(), right, Vec3(right + 1e-9 * vector())}) {
+      const Enclosure g = gaps.along(n);
+      EXPECT_LT(g.width(), 1e-30);  // of the first precision
+      const mpq_class regret = (t.signed_distance.lo + t.signed_distance.hi - g.lo - g.hi) / 2;
+      EXPECT_EQ(gaps.regret(t, n), std::max(0.0, regret.get_d()));
+    }
+  }
 }
 
 TEST(Gap, RefusesWhatIsNoDirection) {

@@ -55,6 +55,7 @@ std::vector<Answer> sampled_answers(
         ask,
     std::span<const Configuration> configurations, std::span<const std::size_t> unit_ends) {
   std::vector<Answer> answers;
+  answers.reserve(configurations.size());
   const auto ask_for = [&](std::size_t count) {
     const bool in_new_session = answers.empty();
     auto given = ask(configurations.subspan(answers.size(), count), in_new_session);

@@ -439,6 +439,7 @@ std::vector<Answer> PluginSessions::answer(std::span<const Configuration> config
                                            std::span<const Vec3* const> previous_normals,
                                            Manner manner) {
   std::vector<Answer> result;
+  result.reserve(configurations.size());
   for (std::size_t at = 0; at < configurations.size(); at += batch_size) {
     const auto batch =
         configurations.subspan(at, std::min<std::size_t>(batch_size, configurations.size() - at));

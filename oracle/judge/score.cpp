@@ -271,8 +271,9 @@ struct Judge::State {
   const Configuration& c;
   const oracle::Truth& truth;
   const Bar bar;
-  const double size;      ///< to which errors are relative, metres
-  const double distance;  ///< true signed distance, relative to it
+  const double size;         ///< to which errors are relative, metres
+  const double true_metres;  ///< true signed distance
+  const double distance;     ///< the same, relative to `size`
   std::optional<oracle::Gaps> gaps;
   std::vector<NormalPatch> patches;
 
@@ -304,8 +305,9 @@ struct Judge::State {
 
 Judge::Judge(const Configuration& c, const oracle::Truth& truth, const Bar& bar) {
   const double size = error_size(c, bar);
-  const double distance = relative(truth.signed_distance.midpoint(), size);
-  state_ = std::make_unique<State>(State{c, truth, bar, size, distance, {}, {}});
+  const double metres = truth.signed_distance.midpoint();
+  state_ =
+      std::make_unique<State>(State{c, truth, bar, size, metres, relative(metres, size), {}, {}});
 }
 Judge::Judge(Judge&&) noexcept = default;
 Judge::~Judge() = default;
@@ -315,13 +317,13 @@ Score Judge::State::of_contact(const ts_answer& answer) {
   s.points = answer.point_count;
   const Vec3 n = vector(answer.normal);
   const bool unit = std::abs(n.norm() - 1) <= unit_slack;
-  s.depth_error = relative(answer.signed_distance - truth.signed_distance.midpoint(), size);
+  s.depth_error = relative(answer.signed_distance - true_metres, size);
   s.severity = std::abs(*s.depth_error);
   double beyond = 0;
   if (answer.point_count > 0) {
     const Depths depths = depths_of(answer);
     s.point_error = relative(worst_point_error(answer, c), size);
-    s.deepest_error = relative(depths.max + truth.signed_distance.midpoint(), size);
+    s.deepest_error = relative(depths.max + true_metres, size);
     s.severity = std::max(s.severity, std::abs(*s.deepest_error));
     beyond = relative(-depths.min - bar.threshold, size);
   }
@@ -369,8 +371,7 @@ Score Judge::score(const Answer& answer) {
   if (!answer.was_asked) return only(Outcome::not_asked);
   Score s = score(static_cast<const ts_answer&>(answer));
   if (s.depth_error && answer.model_distance) {
-    const double truth = state_->truth.signed_distance.midpoint();
-    s.model_error = relative(*answer.model_distance - truth, state_->size);
+    s.model_error = relative(*answer.model_distance - state_->true_metres, state_->size);
     s.solver_error = relative(answer.signed_distance - *answer.model_distance, state_->size);
   }
   return s;
