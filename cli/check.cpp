@@ -289,7 +289,7 @@ struct Options {
 struct Teller {
   bool is_silent;
   void tell(const std::string& text) const {
-    if (!is_silent) fmt::print("{}", text);
+    if (!is_silent) print(text);
   }
 };
 
@@ -399,7 +399,7 @@ int run(const Options& options) {
   if (!options.junit.empty()) {
     write_file(options.junit, junit_xml(name, results, judged), "--junit");
   }
-  if (options.json) fmt::print("{}", check_json(name, checks, results, joined(corpus, known)));
+  if (options.json) print(check_json(name, checks, results, joined(corpus, known)));
   const bool broken =
       std::any_of(results.begin(), results.end(), [](const LawResult& r) { return r.broken > 0; });
   const bool changed =

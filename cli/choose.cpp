@@ -80,7 +80,8 @@ int choose_scene(const Options& options) {
   };
   write_then_print(write, options.json ? choice_json(choice, command, folder) + '\n'
                                        : choice_text(choice, folder, standard_output().columns));
-  if (!options.json) fmt::print("\nPage: {0}/choose.html; data: {0}/choose.json\n", options.out);
+  if (!options.json)
+    print(fmt::format("\nPage: {0}/choose.html; data: {0}/choose.json\n", options.out));
   return choice.impossible ? not_served : 0;
 }
 
@@ -99,7 +100,8 @@ int choose_for_engine(const Options& options) {
   };
   write_then_print(write, options.json ? engine_choice_json(choice, command) + '\n'
                                        : engine_choice_text(choice, standard_output().columns));
-  if (!options.json) fmt::print("\nPage: {0}/choose.html; data: {0}/choose.json\n", options.out);
+  if (!options.json)
+    print(fmt::format("\nPage: {0}/choose.html; data: {0}/choose.json\n", options.out));
   return choice.answer ? 0 : not_served;
 }
 
@@ -120,7 +122,7 @@ int choose_pairs(const Options& options) {
   };
   write_then_print(write, options.json ? pairs_json(choice, command, folder) + '\n'
                                        : pairs_text(choice, folder, standard_output().columns));
-  if (!options.json) fmt::print("\nData: {}/choose.json\n", options.out);
+  if (!options.json) print(fmt::format("\nData: {}/choose.json\n", options.out));
   return choice.all_served() ? 0 : not_served;
 }
 

@@ -350,6 +350,17 @@ odd="$folder/$(printf 'caf\xe9\x1b[2J').json"
 cp "$folder/can.json" "$odd"
 expect 0 'can stands within 1' choose "$odd" --candidates capsule --out "$folder/odd"
 expect 0 '^caf? \[2J: 3 of 72' simulate "$odd" --count 3 --record "$folder/odd.jsonl"
+# Nor does one that turns the direction of what follows it: it is shown as digits, and quoted so in commands.
+turning="$folder/$(printf 'can\xe2\x80\xaenosj').json"
+cp "$folder/can.json" "$turning"
+expect 0 '^can   nosj: 3 of 72' simulate "$turning" --count 3 --record "$folder/odd.jsonl"
+expect 0 'Page: .*/left\\u202ethgir/choose.html' choose "$folder/can.json" --candidates capsule --out "$folder/$(printf 'left\xe2\x80\xaethgir')"
+expect 0 "choose \$'.*/can\\\\\\\\xe2\\\\\\\\x80\\\\\\\\xaenosj.json' --cand" choose "$turning" --candidates capsule --json --out "$folder/odd"
+expect 2 'file is ".*none\\u2066": could not be opened' solve "$folder/$(printf 'none\xe2\x81\xa6')"
+sed "s/\"can\"/\"c\xe2\x80\xaen\"/" "$folder/can.json" > "$folder/named.json"
+expect 2 'bodies\[.*\].name is "c\\u202en": must be without characters that are not seen' simulate "$folder/named.json"
+echo '{"id":"x\u202e\u001b","a":{"shape":"cylinder","radius":1,"half_length":1},"b":{"shape":"sphere","radius":1}}' > "$folder/turned.jsonl"
+expect 0 '"id":"x\\u202e\\u001b"' solve "$folder/turned.jsonl" --candidates capsule
 mkdir "$folder/my scenes"
 cp "$folder/can.json" "$folder/my scenes/"
 expect 0 "choose '$folder/my scenes/can.json' --candidates capsule --time-limit 0.1 --memory-limit 1024 --disturbances 16 --seed 1\"" \

@@ -158,10 +158,10 @@ int run(const Options& options) {
                          counted(report.configurations, "configuration"), report.wall_seconds));
   if (report.engines) text += '\n' + engines_summary(*report.engines, terminal) + '\n';
   write_then_print([&] { write_report(report, options.out); }, text);
-  fmt::print("Report: {}/report.html, {}/report.json\n", options.out, options.out);
+  print(fmt::format("Report: {}/report.html, {}/report.json\n", options.out, options.out));
   if (!options.figures.empty()) {
     write_figures(report, options.figures);
-    fmt::print("Figures: {}\n", options.figures);
+    print(fmt::format("Figures: {}\n", options.figures));
   }
   return report.partial ? interrupted_exit_code() : 0;
 }

@@ -85,7 +85,7 @@ int run(const Options& options) {
     }
   };
   write_then_print(write, options.json ? found_json.dump(1) + '\n' : text);
-  if (!options.json) fmt::print("{}", saved);
+  if (!options.json) print(saved);
   return failures.empty() ? 0 : something_failed;
 }
 

@@ -71,7 +71,8 @@ int run(const Options& options) {
   write_then_print(
       write, options.json ? json_text(result) + '\n' : stability_table(result, standard_output()));
   if (!options.json) {
-    fmt::print("\nWritten: {}/stability.html, {}/stability.json\n", options.out, options.out);
+    print(
+        fmt::format("\nWritten: {}/stability.html, {}/stability.json\n", options.out, options.out));
   }
   return 0;
 }

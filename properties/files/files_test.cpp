@@ -283,7 +283,9 @@ TEST(Printable, CutsWhatIsLongBetweenCharacters) {
 }
 
 TEST(Printable, WritesControlCharactersAsDigits) {
-  EXPECT_EQ(printable(std::string_view("a\0\x1b[2J\n\x7f", 8), 40), "a\\x00\\x1b[2J\\x0a\\x7f");
+  EXPECT_EQ(printable(std::string_view("a\0\x1b[2J\n\x7f", 8), 40),
+            "a\\u0000\\u001b[2J\\u000a\\u007f");
+  EXPECT_EQ(printable("left\u202ethgir", 40), "left\\u202ethgir");
 }
 
 TEST(CountedText, HasOneThingInTheSingular) {

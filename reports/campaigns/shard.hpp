@@ -142,8 +142,8 @@ class FileLock {
 /// Place of one shard: its file in a campaign's folder, locked as long as this lives.
 class ShardPlace {
  public:
-  /// Makes the folder. Throws InvalidInput (field "--out") where nothing can be written or another
-  /// process is at work on the same shard.
+  /// Makes the folder. Throws InvalidInput (field "--out") where nothing can be written, another
+  /// process is at work on the same shard, or it is one of another command.
   ShardPlace(std::filesystem::path folder, const Shard& shard);
 
   const std::filesystem::path& file() const { return file_; }

@@ -157,7 +157,7 @@ TEST(RobotFiles, OfAnotherEncodingOrWithControlCharactersInNamesAreRefused) {
   EXPECT_THAT(urdf("r", "caf\xe9"), HasSubstr("must be UTF-8, whatever it says itself: line 2"));
   EXPECT_EQ(urdf("r", "café"), "accepted with 1 shapes");
   EXPECT_THAT(urdf("r\x1b[2J", "l"), HasSubstr("name is "));
-  EXPECT_THAT(urdf("r", "l\x1b[2J"), HasSubstr("must be without control characters"));
+  EXPECT_THAT(urdf("r", "l\x1b[2J"), HasSubstr("must be without characters that are not seen"));
   EXPECT_THAT(refusal_of("part.sdf", "<sdf version='1.7'><model name='caf\xe9'/></sdf>"),
               HasSubstr("must be UTF-8"));
 }
