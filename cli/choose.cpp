@@ -116,6 +116,7 @@ int choose_pairs(const Options& options) {
       choose_for_pairs(file, needs, options.contestants(), options.candidates.limits());
   const std::string folder = options.folder();
   const auto write = [&] {
+    remove_older(options.out, "choose.", "html");
     write_evidence(choice, folder);
     write_file(options.out + "/choose.json", pairs_json(choice, command, folder, 1) + '\n',
                "--out");
@@ -138,7 +139,7 @@ int run(const Options& options) {
     throw InvalidInput("--engine", "given with \"" + options.scene + '"',
                        "must be left out: a robot or world is simulated by Touchstone alone");
   }
-  check_writable(options.out);
+  const OutputFolder out(options.out);
   if (options.is_sampled()) return choose_pairs(options);
   return options.engine.empty() ? choose_scene(options) : choose_for_engine(options);
 }

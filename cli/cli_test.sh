@@ -368,9 +368,38 @@ expect 0 "choose '$folder/my scenes/can.json' --candidates capsule --time-limit 
 [ -s "$folder/choice/choose.html" ] || { echo "FAILED: no choose.html"; failures=$((failures + 1)); }
 sed 's/"degrees":1/"degrees":1e-30/; s/0.2\]}/0.2],"orientation":[1,0.1,0,0]}/' "$folder/can.json" > "$folder/fall.json"
 expect 1 'Not even exact contacts meet the needs of this scene' choose "$folder/fall.json" --candidates capsule --out "$folder/choice"
+# What an earlier choice left is not taken for this one's.
+touch "$folder/choice/choose/fall-99.json" "$folder/choice/choose/cart-99-capsule.json" "$folder/choice/choose/mine.json"
+expect 1 'Not even' choose "$folder/fall.json" --candidates capsule --out "$folder/choice"
+"$program" choose "$folder/cart.urdf" --depth 1 --angle 90 --count 2 --candidates capsule --out "$folder/choice" >/dev/null 2>&1
+left=$(cd "$folder/choice" && ls -1 choose.* choose/*99* choose/mine.json 2>/dev/null | tr '\n' ' ')
+[ "$left" = "choose.json choose/mine.json " ] || { echo "FAILED: of earlier choices there is $left"; failures=$((failures + 1)); }
 expect 2 '--contacts is "no-such-engine": must be one of reference' render "$folder/can.json" --contacts no-such-engine
 expect 0 '4 frames' render "$folder/can.json" --every 0.1 --out "$folder/frames"
 [ -s "$folder/frames/frame-00004.inc" ] || { echo "FAILED: no frame"; failures=$((failures + 1)); }
+expect 0 '2 frames' render "$folder/can.json" --every 0.2 --out "$folder/frames"
+[ ! -e "$folder/frames/frame-00003.inc" ] || { echo "FAILED: frames of an earlier run are left"; failures=$((failures + 1)); }
+
+# One run at a time writes into a folder; what only reads is not kept out, nor are other folders.
+mkdir "$folder/busy"
+exec 8<"$folder/busy"
+flock 8
+busy="^error: --out is \"$folder/busy\": must be a folder that no other run of Touchstone is using; wait .* by --out\$"
+expect 2 "$busy" report --out "$folder/busy"
+expect 2 "$busy" stability --out "$folder/busy"
+expect 2 "$busy" campaign --count 1 --out "$folder/busy"
+expect 2 "$busy" campaign --count 1 --shard 1/2 --out "$folder/busy"
+expect 2 "$busy" score - --out "$folder/busy"
+expect 2 "$busy" choose "$folder/can.json" --out "$folder/busy"
+expect 2 "$busy" render "$folder/can.json" --out "$folder/busy"
+expect 2 "$busy" simulate lying --out "$folder/busy"
+expect 2 "$busy" simulate lying --engine ode --out "$folder/busy"
+expect 2 '^error: --figures is ".*busy": must be .* another folder by --figures$' report --out "$folder/free" --figures "$folder/busy"
+cp "$folder/recorded.jsonl" "$folder/busy/"
+expect 0 '"id"' solve "$folder/busy/recorded.jsonl" --candidates capsule
+expect 0 'choose.html' choose "$folder/can.json" --candidates capsule --out "$folder/busy/within"
+exec 8<&-
+expect 0 'choose.html' choose "$folder/can.json" --candidates capsule --out "$folder/busy"
 
 # Installed without an engine: a line says so, and the rest is there.
 mkdir "$folder/part" "$folder/part/candidates"

@@ -80,7 +80,7 @@ void tell(const std::vector<AnswerError>& errors) {
 
 /// Bad lines make exit code 2, after all others are scored.
 int run(const Options& options) {
-  check_writable(options.out);
+  const OutputFolder out(options.out);
   const ReadAnswers read_ones = read(options);
   tell(read_ones.errors);
   if (read_ones.count == 0) {

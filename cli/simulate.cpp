@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <memory>
+#include <optional>
 
 #include <nlohmann/json.hpp>
 
@@ -148,7 +149,8 @@ int simulate_scenes(const Options& options) {
 
 int simulate_in_engines(const Options& options) {
   const EngineOptions chosen = options.in_engines();
-  if (!options.out.empty()) check_writable(options.out);
+  std::optional<OutputFolder> out;
+  if (!options.out.empty()) out.emplace(options.out);
   const Interruption interruption;
   const EngineResults results = run_engines(chosen);
   const nlohmann::json json = to_json(results);
@@ -168,7 +170,8 @@ int run(const Options& options) {
   if (!options.engines.empty()) return simulate_in_engines(options);
   if (has_files(options)) return simulate_scenes(options);
   const ExperimentOptions experiments = options.experiments();
-  if (!options.out.empty()) check_writable(options.out);
+  std::optional<OutputFolder> out;
+  if (!options.out.empty()) out.emplace(options.out);
   const ExperimentResults results = run_experiments(experiments);
   const nlohmann::json json = to_json(results);
   print(options.json ? json.dump() + '\n' : experiments_table(results, standard_output()));
@@ -256,7 +259,7 @@ const Candidate& contacts_of(const RenderOptions& options) {
 int run_render(const RenderOptions& options) {
   const Candidate& candidate = contacts_of(options);
   const SceneFile file = options.robot.scene(options.scene);
-  check_writable(options.out);
+  const OutputFolder out(options.out);
   CandidateProcess process(candidate, simulation_threshold);
   CandidateModel model(process);
   const int frames = write_povray(file, run_scene(file.scene, model), options.every, options.out);

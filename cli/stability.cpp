@@ -65,7 +65,7 @@ struct Options {
 
 int run(const Options& options) {
   const StabilityOptions chosen = options.stability();
-  check_writable(options.out);
+  const OutputFolder out(options.out);
   const Stability result = measure(chosen);
   const auto write = [&] { write_stability(result, options.command_line(), options.out); };
   write_then_print(

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <iostream>
 #include <string>
+#include <sys/file.h>
 #include <system_error>
 #include <unistd.h>
 #include <utility>
@@ -89,6 +90,33 @@ void check_writable(const std::filesystem::path& folder, const char* field) {
   if (error || access(folder.c_str(), W_OK | X_OK) != 0) {
     throw InvalidInput(field, '"' + folder.string() + '"',
                        "must be a folder that can be written to");
+  }
+}
+
+OutputFolder::OutputFolder(const std::filesystem::path& folder, const char* field, Use use) {
+  check_writable(folder, field);
+  fd_ = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  // On the folder itself: nothing is left behind, and links and other names are the same place.
+  const int lock = (use == Use::alone ? LOCK_EX : LOCK_SH) | LOCK_NB;
+  if (fd_ < 0 || flock(fd_, lock) == 0 || errno != EWOULDBLOCK) return;
+  close(fd_);
+  throw InvalidInput(field, '"' + folder.string() + '"',
+                     fmt::format("must be a folder that no other run of Touchstone is using; wait "
+                                 "for its end, or name another folder by {}",
+                                 field));
+}
+
+OutputFolder::~OutputFolder() {
+  if (fd_ >= 0) close(fd_);
+}
+
+void remove_older(const std::filesystem::path& folder, std::string_view beginning,
+                  std::string_view ending) {
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with(beginning) || !name.ends_with(ending)) continue;
+    if (entry.is_regular_file(error)) std::filesystem::remove(entry.path(), error);
   }
 }
 

@@ -22,11 +22,6 @@ namespace {
 
 using nlohmann::json;
 
-std::filesystem::path writable(std::filesystem::path folder) {
-  check_writable(folder);
-  return folder;
-}
-
 /// The first line of a shard file alone: another process may be at work on the rest.
 json head_of(const std::filesystem::path& file) {
   std::ifstream in(file);
@@ -65,14 +60,17 @@ FileLock::FileLock(const std::filesystem::path& file)
   const int error = errno;
   close(fd_);
   if (error != EACCES && error != EAGAIN) refuse(file, error);
-  throw InvalidInput("--out", '"' + file.parent_path().string() + '"',
-                     "must be a folder to which no other campaign is writing");
+  throw InvalidInput(
+      "--out", '"' + file.parent_path().string() + '"',
+      "must be a folder to which no other campaign is writing; wait for its end, or name "
+      "another folder by --out");
 }
 
 FileLock::~FileLock() { close(fd_); }
 
 ShardPlace::ShardPlace(std::filesystem::path folder, const Shard& shard)
-    : folder_(writable(std::move(folder))),
+    : folder_(std::move(folder)),
+      claim_(folder_, "--out", OutputFolder::Use::shared),
       shard_(shard),
       file_(shard_file(folder_, shard)),
       lock_(std::filesystem::path(file_).replace_extension(".lock")) {}

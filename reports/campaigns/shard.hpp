@@ -10,6 +10,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "properties/files/disk.hpp"
 #include "reports/report.hpp"
 #include "reports/sampler.hpp"
 #include "reports/tally.hpp"
@@ -155,6 +156,7 @@ class ShardPlace {
 
  private:
   std::filesystem::path folder_;
+  OutputFolder claim_;
   Shard shard_;
   std::filesystem::path file_;
   FileLock lock_;

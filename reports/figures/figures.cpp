@@ -453,6 +453,9 @@ void check_figures(const path& folder) {
 
 void write_figures(const Report& report, const path& folder) {
   check_figures(folder);
+  for (const char* const name : {"speed-accuracy", "errors-", "classes-"}) {
+    for (const char* const form : {".csv", ".svg", ".png"}) remove_older(folder, name, form);
+  }
   std::string script;
   for (const Group group : all_groups) {
     const std::string name = group_name(group);
