@@ -386,6 +386,7 @@ int run(const Options& options) {
                        "the file of a plug-in; or else --corpus or --known with saved failures");
   }
   if (!options.junit.empty()) check_file_writable(options.junit, "--junit");
+  if (!options.save.empty()) check_writable(options.save, "--save");
   const CheckOptions checks = options.check();
   const Candidate* const candidate =
       options.candidate.empty() ? nullptr : &named_candidate(options.candidate);

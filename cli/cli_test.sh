@@ -44,6 +44,16 @@ expect 2 '^error: --seed is given no value: must be followed by UINT: Same seed'
 expect 2 '^error: --candidates is given no value: must be followed by CANDIDATE' solve --candidates
 expect 2 '^error: --load is given no value: must be followed by FILE' --load
 expect 2 '^error: --seed is given 2 times: must be given once' report --seed 1 --seed 2
+# A shell's variable that is not set: not a run without the option.
+for option in '--junit' '--save' '--corpus' '--known'; do
+  expect 2 "^error: $option is \"\": must be left out or have a value\$" check --candidate reference "$option" ''
+done
+expect 2 '^error: --shard is "": must be left out or' campaign --count 1 --shard '' --out "$folder/none"
+expect 2 '^error: pair is "": must be left out or' classes ''
+# Failures that could not be saved are known before they are looked for.
+for command in check search; do
+  expect 2 '^error: --save is "/proc/none": must be a folder that can be written to$' $command --candidate reference --save /proc/none
+done
 expect 2 '^error: --hostile is given a value: must stand alone' check --hostile=bullet
 expect 2 '^error: --hostile is given a value: must stand alone' check --hostile=7
 expect 2 '^error: --json is given a value: must stand alone' replay cylinder-box/rim-face/1/2 --json=false

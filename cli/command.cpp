@@ -232,8 +232,13 @@ bool Option::is_given() const { return option_->count() > 0; }
 
 Option Command::text(const std::string& name, std::string& variable,
                      const std::string& description) {
-  CLI::Option* option = app_->add_option(name, variable, description);
-  if (!variable.empty()) option->capture_default_str();
+  // Empty means not given, and a shell's variable that is not set must not mean that.
+  const auto read = [&variable, name](const std::string& text) {
+    if (text.empty()) throw InvalidInput(name, quoted(text), "must be left out or have a value");
+    variable = text;
+  };
+  CLI::Option* option = app_->add_option_function<std::string>(name, read, description);
+  if (!variable.empty()) option->default_str(variable);
   return Option(option);
 }
 

@@ -45,6 +45,7 @@ class Option {
 /// A subcommand. Names with leading dashes are options, others are arguments by position.
 class Command {
  public:
+  /// Refused where it is empty.
   Option text(const std::string& name, std::string& variable, const std::string& description);
   /// One argument, separated by commas.
   Option list(const std::string& name, std::vector<std::string>& variable,
