@@ -305,6 +305,7 @@ expect 2 '^error: --drive is "fast": must be a number' simulate "$folder/cart.ur
 expect 2 '^error: --model-path is .*none": must be a folder$' simulate "$folder/cart.urdf" --model-path "$folder/none"
 expect 2 'must be a robot or world .* with --drive' choose "$folder/bad.json" --drive left_wheel=3
 expect 2 'must be a robot or world .* with --drive' choose "$folder/bad.json" --engine bullet --drive left_wheel=3
+expect 2 '^error: --drive is "wheel": must be given one rate, not several' simulate "$folder/cart.urdf" --drive wheel=5,wheel=loose
 expect 2 '^error: --engine is given with ".*cart.urdf": must be left out: a robot or world is simulated by' \
   choose "$folder/cart.urdf" --engine bullet
 # A robot in millimetres weighs too little for its size.

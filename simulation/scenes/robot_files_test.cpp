@@ -317,6 +317,24 @@ TEST(Urdf, JointsThatMakeNoSenseAreRefused) {
               HasSubstr("nothing"));
 }
 
+TEST(Urdf, JointsThatFormNoTreeAreRefused) {
+  const auto of = [](const std::string& joints) {
+    std::string text = "<robot name='r'><link name='root'/><link name='a'/><link name='b'/>";
+    std::istringstream in(joints);
+    std::string parent, child;
+    for (int i = 1; in >> parent >> child; ++i) {
+      text += "<joint name='j" + std::to_string(i) + "' type='fixed'><parent link='" + parent +
+              "'/><child link='" + child + "'/></joint>";
+    }
+    return refusal_of("part.urdf", text + "</robot>");
+  };
+  EXPECT_EQ(of("root a a b"), "accepted with 0 shapes");
+  EXPECT_THAT(of("root a root b b a"),
+              HasSubstr("joint j3.child is \"a\": must be the child of no other joint"));
+  EXPECT_THAT(of("a b b a"),
+              HasSubstr("link a is in a circle of joints: must hang on link root by joints"));
+}
+
 TEST(Urdf, SaysWhatItDoesInsteadOfOtherJoints) {
   const auto ignored = [](const std::string& type) {
     const Written file("joint.urdf", wheeled(joint_of(type, "<axis xyz='0 0 1'/>")));
