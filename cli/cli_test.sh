@@ -489,6 +489,14 @@ expect 0 '2 configurations' report --candidates reference --count 2 --pair cylin
   --only scores --out "$folder/one"
 expect 0 'compared' compare "$folder/both/report.json" "$folder/one/report.json"
 
+# A file's name cannot become a line of a program, or of what is printed.
+lines="$folder/$(printf 'x\n#error\n').json"
+echo '{"a":{"shape":"cylinder","radius":1,"half_length":1},"b":{"shape":"sphere","radius":1}}' > "$lines"
+for way in "" "--emit bullet"; do
+  if "$program" replay "$lines" --candidates bullet $way | grep -q '^#error'; then
+    echo "FAILED: a file's name is a line of its own with replay $way"; failures=$((failures + 1))
+  fi
+done
 expect 2 '--emit.*no-such-engine.*must be one of bullet, ode, fcl, libccd, mujoco' \
   replay cylinder-box/rim-face/1/2 --emit no-such-engine
 expect 2 '--emit.*libccd.*half-space' replay cylinder-plane/general-deep/1/2 --emit libccd

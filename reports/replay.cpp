@@ -128,7 +128,7 @@ std::string replay_text(const Examination& e, const std::string& description,
                         const Terminal& terminal) {
   json line = to_json(e.configuration);
   line["id"] = e.id;
-  std::string text = e.id + '\n';
+  std::string text = escaped(e.id, Printed::one_line) + '\n';
   if (!description.empty()) text += terminal.folded(description);
   text += '\n' + overview(e.answers, terminal) + '\n' +
           truth_text(e.configuration, *e.truth, terminal) + '\n';
