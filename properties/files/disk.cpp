@@ -130,7 +130,7 @@ void check_file_writable(const std::filesystem::path& file, const char* field) {
   if (!is_special) check_writable(file.has_parent_path() ? file.parent_path() : ".", field);
 }
 
-std::string read_file(const std::filesystem::path& file, const char* field) {
+std::string read_file(const std::filesystem::path& file, const char* field, std::size_t max_size) {
   const std::string name = '"' + file.string() + '"';
   if (is_folder(file)) throw InvalidInput(field, name, "must be a file, not a folder");
   errno = 0;
@@ -139,20 +139,21 @@ std::string read_file(const std::filesystem::path& file, const char* field) {
     throw InvalidInput(field, name,
                        fmt::format("could not be opened for reading ({})", std::strerror(errno)));
   }
-  return read_stream(in, name, field);
+  return read_stream(in, name, field, max_size);
 }
 
 bool ended_by_error(const std::istream& in) {
   return in.bad() || (&in == &std::cin && std::ferror(stdin) != 0);
 }
 
-std::string read_stream(std::istream& in, const std::string& name, const char* field) {
+std::string read_stream(std::istream& in, const std::string& name, const char* field,
+                        std::size_t max_size) {
   std::string text, block(1 << 16, '\0');
   while (in) {
     in.read(block.data(), static_cast<std::streamsize>(block.size()));
     text.append(block, 0, static_cast<std::size_t>(in.gcount()));
-    if (text.size() > max_file_size) {
-      throw InvalidInput(field, name, fmt::format("must have at most {} bytes", max_file_size));
+    if (text.size() > max_size) {
+      throw InvalidInput(field, name, fmt::format("must have at most {} bytes", max_size));
     }
   }
   if (ended_by_error(in)) throw InvalidInput(field, name, "could not be read to its end");

@@ -51,10 +51,12 @@ void check_file_writable(const std::filesystem::path& file, const char* field);
 inline constexpr std::size_t max_file_size = std::size_t{1} << 27;
 
 /// The whole file. Throws InvalidInput with this field and the file's name unless it can be read
-/// and has at most `max_file_size` bytes.
-std::string read_file(const std::filesystem::path& file, const char* field);
+/// and has at most `max_size` bytes.
+std::string read_file(const std::filesystem::path& file, const char* field,
+                      std::size_t max_size = max_file_size);
 /// The rest of an open stream; `name` is what errors call it.
-std::string read_stream(std::istream& in, const std::string& name, const char* field);
+std::string read_stream(std::istream& in, const std::string& name, const char* field,
+                        std::size_t max_size = max_file_size);
 /// Has an error rather than its end ended the stream? std::cin keeps that from its readers.
 bool ended_by_error(const std::istream& in);
 

@@ -162,7 +162,7 @@ ShardState Merge::whole(bool may_be_partial) const {
 ShardState merge(const std::vector<std::filesystem::path>& inputs, bool may_be_partial) {
   Merge merge;
   const auto add = [&](const std::filesystem::path& file) {
-    merge.add(shard_from_text(read_file(file, "input"), file.string()), file.string());
+    merge.add(read_shard(file, "input"), file.string());
   };
   for (const auto& input : inputs) {
     if (!is_folder(input)) {

@@ -95,7 +95,7 @@ ShardState ShardPlace::begin(const Plan& plan, bool resume) const {
                                    "go on with that one: the same command with --resume",
                                    file_.filename().string(), command_in(file_)));
   }
-  ShardState found = shard_from_text(read_file(file_, "--out"), file_.string());
+  ShardState found = read_shard(file_, "--out");
   require_same_plan(plan, json::parse(found.plan.text), file_.string());
   if (found.shard != shard_) {
     throw InvalidInput('"' + file_.string() + '"', "shard " + to_string(found.shard),

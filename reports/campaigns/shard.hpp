@@ -116,6 +116,9 @@ std::string to_text(const ShardState& state);
 /// something else.
 ShardState shard_from_text(const std::string& text, const std::string& file);
 
+/// Reads a shard file. Throws InvalidInput, with this field where the file cannot be read.
+ShardState read_shard(const std::filesystem::path& file, const char* field);
+
 /// [[first, last], …], and back; throws InvalidInput on anything else.
 nlohmann::json to_json(const UnitSet& set);
 UnitSet unit_set_from_json(const nlohmann::json& json);
