@@ -592,9 +592,9 @@ blocked '^1 configuration, ' report $lying --count 1 --candidates reference --on
 blocked '^1 answer, ' score "$folder/given.jsonl" --name mine --out "$folder/blocked"
 blocked 'depth x' stability $rim --candidates reference --count 1 --out "$folder/blocked"
 blocked 'compared' compare "$r" "$r" --html /dev/full
-: >"$folder/a file"
-for found in '^severity: ' '^error: --save is ".*a file"'; do
-  expect 2 "$found" search --candidate capsule --pair cylinder-sphere --class general-deep --count 40 --save "$folder/a file"
+for saved in "$folder"/found/*.json; do mkdir -p "$folder/taken/$(basename "$saved")"; done
+for found in '^severity: ' '^error: --save is ".*/taken/capsule-'; do
+  expect 2 "$found" search --candidate capsule --pair cylinder-sphere --class general-deep --count 40 --save "$folder/taken"
 done
 # Standard error is where errors go; without it the exit code still tells.
 "$program" replay nonsense 2>&-
