@@ -86,7 +86,7 @@ bool continues_a_character(char c) { return (static_cast<unsigned char>(c) & 0xc
 
 std::string printable(std::string_view text, std::size_t max_length) {
   constexpr std::string_view cut = "...";
-  const std::string result = escaped(text.substr(0, max_length + 1), Printed::one_line);
+  std::string result = escaped(text.substr(0, max_length + 1), Printed::one_line);
   if (result.size() <= max_length) return result;
   std::size_t end = max_length - cut.size();
   while (end > 0 && continues_a_character(result[end])) --end;
