@@ -90,8 +90,8 @@ int run(const Options& options) {
   if (under_mpirun()) {
     if (!gather(state, merge)) return 0;
   } else if (shard.of > 1) {
-    fmt::print("Shard {} is done: {}\nWith the others: {} merge FOLDER... --out FOLDER\n",
-               to_string(shard), place.file().string(), program_name());
+    print(fmt::format("Shard {} is done: {}\nWith the others: {} merge FOLDER... --out FOLDER\n",
+                      to_string(shard), place.file().string(), program_name()));
     return 0;
   } else {
     merge.add(state, place.file().string());
@@ -100,10 +100,10 @@ int run(const Options& options) {
   const Report result = campaign_result(whole);
   const auto file = write_result(whole, options.out);
   const Terminal terminal = standard_output();
-  fmt::print("{}\n{}Result: {}\n", terminal_table(result, terminal),
-             terminal.folded(counted(result.configurations, "configuration") +
-                             ", truth certified to 1e-30 of the larger size."),
-             file.string());
+  print(fmt::format("{}\n{}Result: {}\n", terminal_table(result, terminal),
+                    terminal.folded(counted(result.configurations, "configuration") +
+                                    ", truth certified to 1e-30 of the larger size."),
+                    file.string()));
   return 0;
 }
 
@@ -147,9 +147,9 @@ int run_merge(const MergeOptions& options) {
   const Report result = campaign_result(whole);
   const auto file = write_result(whole, options.out);
   const bool complete = result.completed.configurations == result.planned.configurations;
-  fmt::print("{}\n{}{}.\nResult: {}\n", terminal_table(result, standard_output()),
-             counted(result.configurations, "configuration"),
-             complete ? "" : ", which is not all of the campaign", file.string());
+  print(fmt::format("{}\n{}{}.\nResult: {}\n", terminal_table(result, standard_output()),
+                    counted(result.configurations, "configuration"),
+                    complete ? "" : ", which is not all of the campaign", file.string()));
   return 0;
 }
 

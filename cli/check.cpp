@@ -289,7 +289,7 @@ struct Options {
 struct Teller {
   bool is_silent;
   void tell(const std::string& text) const {
-    if (!is_silent) fmt::print("{}", text);
+    if (!is_silent) print(text);
   }
 };
 
@@ -386,6 +386,7 @@ int run(const Options& options) {
                        "the file of a plug-in; or else --corpus or --known with saved failures");
   }
   if (!options.junit.empty()) check_file_writable(options.junit, "--junit");
+  if (!options.save.empty()) check_writable(options.save, "--save");
   const CheckOptions checks = options.check();
   const Candidate* const candidate =
       options.candidate.empty() ? nullptr : &named_candidate(options.candidate);
@@ -399,7 +400,7 @@ int run(const Options& options) {
   if (!options.junit.empty()) {
     write_file(options.junit, junit_xml(name, results, judged), "--junit");
   }
-  if (options.json) fmt::print("{}", check_json(name, checks, results, joined(corpus, known)));
+  if (options.json) print(check_json(name, checks, results, joined(corpus, known)));
   const bool broken =
       std::any_of(results.begin(), results.end(), [](const LawResult& r) { return r.broken > 0; });
   const bool changed =

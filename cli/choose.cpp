@@ -80,7 +80,8 @@ int choose_scene(const Options& options) {
   };
   write_then_print(write, options.json ? choice_json(choice, command, folder) + '\n'
                                        : choice_text(choice, folder, standard_output().columns));
-  if (!options.json) fmt::print("\nPage: {0}/choose.html; data: {0}/choose.json\n", options.out);
+  if (!options.json)
+    print(fmt::format("\nPage: {0}/choose.html; data: {0}/choose.json\n", options.out));
   return choice.impossible ? not_served : 0;
 }
 
@@ -99,7 +100,8 @@ int choose_for_engine(const Options& options) {
   };
   write_then_print(write, options.json ? engine_choice_json(choice, command) + '\n'
                                        : engine_choice_text(choice, standard_output().columns));
-  if (!options.json) fmt::print("\nPage: {0}/choose.html; data: {0}/choose.json\n", options.out);
+  if (!options.json)
+    print(fmt::format("\nPage: {0}/choose.html; data: {0}/choose.json\n", options.out));
   return choice.answer ? 0 : not_served;
 }
 
@@ -114,13 +116,14 @@ int choose_pairs(const Options& options) {
       choose_for_pairs(file, needs, options.contestants(), options.candidates.limits());
   const std::string folder = options.folder();
   const auto write = [&] {
+    remove_older(options.out, "choose.", "html");
     write_evidence(choice, folder);
     write_file(options.out + "/choose.json", pairs_json(choice, command, folder, 1) + '\n',
                "--out");
   };
   write_then_print(write, options.json ? pairs_json(choice, command, folder) + '\n'
                                        : pairs_text(choice, folder, standard_output().columns));
-  if (!options.json) fmt::print("\nData: {}/choose.json\n", options.out);
+  if (!options.json) print(fmt::format("\nData: {}/choose.json\n", options.out));
   return choice.all_served() ? 0 : not_served;
 }
 
@@ -136,7 +139,7 @@ int run(const Options& options) {
     throw InvalidInput("--engine", "given with \"" + options.scene + '"',
                        "must be left out: a robot or world is simulated by Touchstone alone");
   }
-  check_writable(options.out);
+  const OutputFolder out(options.out);
   if (options.is_sampled()) return choose_pairs(options);
   return options.engine.empty() ? choose_scene(options) : choose_for_engine(options);
 }

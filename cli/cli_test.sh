@@ -44,6 +44,16 @@ expect 2 '^error: --seed is given no value: must be followed by UINT: Same seed'
 expect 2 '^error: --candidates is given no value: must be followed by CANDIDATE' solve --candidates
 expect 2 '^error: --load is given no value: must be followed by FILE' --load
 expect 2 '^error: --seed is given 2 times: must be given once' report --seed 1 --seed 2
+# A shell's variable that is not set: not a run without the option.
+for option in '--junit' '--save' '--corpus' '--known'; do
+  expect 2 "^error: $option is \"\": must be left out or have a value\$" check --candidate reference "$option" ''
+done
+expect 2 '^error: --shard is "": must be left out or' campaign --count 1 --shard '' --out "$folder/none"
+expect 2 '^error: pair is "": must be left out or' classes ''
+# Failures that could not be saved are known before they are looked for.
+for command in check search; do
+  expect 2 '^error: --save is "/proc/none": must be a folder that can be written to$' $command --candidate reference --save /proc/none
+done
 expect 2 '^error: --hostile is given a value: must stand alone' check --hostile=bullet
 expect 2 '^error: --hostile is given a value: must stand alone' check --hostile=7
 expect 2 '^error: --json is given a value: must stand alone' replay cylinder-box/rim-face/1/2 --json=false
@@ -295,6 +305,7 @@ expect 2 '^error: --drive is "fast": must be a number' simulate "$folder/cart.ur
 expect 2 '^error: --model-path is .*none": must be a folder$' simulate "$folder/cart.urdf" --model-path "$folder/none"
 expect 2 'must be a robot or world .* with --drive' choose "$folder/bad.json" --drive left_wheel=3
 expect 2 'must be a robot or world .* with --drive' choose "$folder/bad.json" --engine bullet --drive left_wheel=3
+expect 2 '^error: --drive is "wheel": must be given one rate, not several' simulate "$folder/cart.urdf" --drive wheel=5,wheel=loose
 expect 2 '^error: --engine is given with ".*cart.urdf": must be left out: a robot or world is simulated by' \
   choose "$folder/cart.urdf" --engine bullet
 # A robot in millimetres weighs too little for its size.
@@ -350,6 +361,17 @@ odd="$folder/$(printf 'caf\xe9\x1b[2J').json"
 cp "$folder/can.json" "$odd"
 expect 0 'can stands within 1' choose "$odd" --candidates capsule --out "$folder/odd"
 expect 0 '^caf? \[2J: 3 of 72' simulate "$odd" --count 3 --record "$folder/odd.jsonl"
+# Nor does one that turns the direction of what follows it: it is shown as digits, and quoted so in commands.
+turning="$folder/$(printf 'can\xe2\x80\xaenosj').json"
+cp "$folder/can.json" "$turning"
+expect 0 '^can   nosj: 3 of 72' simulate "$turning" --count 3 --record "$folder/odd.jsonl"
+expect 0 'Page: .*/left\\u202ethgir/choose.html' choose "$folder/can.json" --candidates capsule --out "$folder/$(printf 'left\xe2\x80\xaethgir')"
+expect 0 "choose \$'.*/can\\\\\\\\xe2\\\\\\\\x80\\\\\\\\xaenosj.json' --cand" choose "$turning" --candidates capsule --json --out "$folder/odd"
+expect 2 'file is ".*none\\u2066": could not be opened' solve "$folder/$(printf 'none\xe2\x81\xa6')"
+sed "s/\"can\"/\"c\xe2\x80\xaen\"/" "$folder/can.json" > "$folder/named.json"
+expect 2 'bodies\[.*\].name is "c\\u202en": must be without characters that are not seen' simulate "$folder/named.json"
+echo '{"id":"x\u202e\u001b","a":{"shape":"cylinder","radius":1,"half_length":1},"b":{"shape":"sphere","radius":1}}' > "$folder/turned.jsonl"
+expect 0 '"id":"x\\u202e\\u001b"' solve "$folder/turned.jsonl" --candidates capsule
 mkdir "$folder/my scenes"
 cp "$folder/can.json" "$folder/my scenes/"
 expect 0 "choose '$folder/my scenes/can.json' --candidates capsule --time-limit 0.1 --memory-limit 1024 --disturbances 16 --seed 1\"" \
@@ -357,9 +379,38 @@ expect 0 "choose '$folder/my scenes/can.json' --candidates capsule --time-limit 
 [ -s "$folder/choice/choose.html" ] || { echo "FAILED: no choose.html"; failures=$((failures + 1)); }
 sed 's/"degrees":1/"degrees":1e-30/; s/0.2\]}/0.2],"orientation":[1,0.1,0,0]}/' "$folder/can.json" > "$folder/fall.json"
 expect 1 'Not even exact contacts meet the needs of this scene' choose "$folder/fall.json" --candidates capsule --out "$folder/choice"
+# What an earlier choice left is not taken for this one's.
+touch "$folder/choice/choose/fall-99.json" "$folder/choice/choose/cart-99-capsule.json" "$folder/choice/choose/mine.json"
+expect 1 'Not even' choose "$folder/fall.json" --candidates capsule --out "$folder/choice"
+"$program" choose "$folder/cart.urdf" --depth 1 --angle 90 --count 2 --candidates capsule --out "$folder/choice" >/dev/null 2>&1
+left=$(cd "$folder/choice" && ls -1 choose.* choose/*99* choose/mine.json 2>/dev/null | tr '\n' ' ')
+[ "$left" = "choose.json choose/mine.json " ] || { echo "FAILED: of earlier choices there is $left"; failures=$((failures + 1)); }
 expect 2 '--contacts is "no-such-engine": must be one of reference' render "$folder/can.json" --contacts no-such-engine
 expect 0 '4 frames' render "$folder/can.json" --every 0.1 --out "$folder/frames"
 [ -s "$folder/frames/frame-00004.inc" ] || { echo "FAILED: no frame"; failures=$((failures + 1)); }
+expect 0 '2 frames' render "$folder/can.json" --every 0.2 --out "$folder/frames"
+[ ! -e "$folder/frames/frame-00003.inc" ] || { echo "FAILED: frames of an earlier run are left"; failures=$((failures + 1)); }
+
+# One run at a time writes into a folder; what only reads is not kept out, nor are other folders.
+mkdir "$folder/busy"
+exec 8<"$folder/busy"
+flock 8
+busy="^error: --out is \"$folder/busy\": must be a folder that no other run of Touchstone is using; wait .* by --out\$"
+expect 2 "$busy" report --out "$folder/busy"
+expect 2 "$busy" stability --out "$folder/busy"
+expect 2 "$busy" campaign --count 1 --out "$folder/busy"
+expect 2 "$busy" campaign --count 1 --shard 1/2 --out "$folder/busy"
+expect 2 "$busy" score - --out "$folder/busy"
+expect 2 "$busy" choose "$folder/can.json" --out "$folder/busy"
+expect 2 "$busy" render "$folder/can.json" --out "$folder/busy"
+expect 2 "$busy" simulate lying --out "$folder/busy"
+expect 2 "$busy" simulate lying --engine ode --out "$folder/busy"
+expect 2 '^error: --figures is ".*busy": must be .* another folder by --figures$' report --out "$folder/free" --figures "$folder/busy"
+cp "$folder/recorded.jsonl" "$folder/busy/"
+expect 0 '"id"' solve "$folder/busy/recorded.jsonl" --candidates capsule
+expect 0 'choose.html' choose "$folder/can.json" --candidates capsule --out "$folder/busy/within"
+exec 8<&-
+expect 0 'choose.html' choose "$folder/can.json" --candidates capsule --out "$folder/busy"
 
 # Installed without an engine: a line says so, and the rest is there.
 mkdir "$folder/part" "$folder/part/candidates"
@@ -438,6 +489,14 @@ expect 0 '2 configurations' report --candidates reference --count 2 --pair cylin
   --only scores --out "$folder/one"
 expect 0 'compared' compare "$folder/both/report.json" "$folder/one/report.json"
 
+# A file's name cannot become a line of a program, or of what is printed.
+lines="$folder/$(printf 'x\n#error\n').json"
+echo '{"a":{"shape":"cylinder","radius":1,"half_length":1},"b":{"shape":"sphere","radius":1}}' > "$lines"
+for way in "" "--emit bullet"; do
+  if "$program" replay "$lines" --candidates bullet $way | grep -q '^#error'; then
+    echo "FAILED: a file's name is a line of its own with replay $way"; failures=$((failures + 1))
+  fi
+done
 expect 2 '--emit.*no-such-engine.*must be one of bullet, ode, fcl, libccd, mujoco' \
   replay cylinder-box/rim-face/1/2 --emit no-such-engine
 expect 2 '--emit.*libccd.*half-space' replay cylinder-plane/general-deep/1/2 --emit libccd
@@ -533,9 +592,9 @@ blocked '^1 configuration, ' report $lying --count 1 --candidates reference --on
 blocked '^1 answer, ' score "$folder/given.jsonl" --name mine --out "$folder/blocked"
 blocked 'depth x' stability $rim --candidates reference --count 1 --out "$folder/blocked"
 blocked 'compared' compare "$r" "$r" --html /dev/full
-: >"$folder/a file"
-for found in '^severity: ' '^error: --save is ".*a file"'; do
-  expect 2 "$found" search --candidate capsule --pair cylinder-sphere --class general-deep --count 40 --save "$folder/a file"
+for saved in "$folder"/found/*.json; do mkdir -p "$folder/taken/$(basename "$saved")"; done
+for found in '^severity: ' '^error: --save is ".*/taken/capsule-'; do
+  expect 2 "$found" search --candidate capsule --pair cylinder-sphere --class general-deep --count 40 --save "$folder/taken"
 done
 # Standard error is where errors go; without it the exit code still tells.
 "$program" replay nonsense 2>&-

@@ -14,6 +14,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "candidates/readable.hpp"
 #include "properties/named.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/terminal.hpp"
@@ -231,8 +232,13 @@ bool Option::is_given() const { return option_->count() > 0; }
 
 Option Command::text(const std::string& name, std::string& variable,
                      const std::string& description) {
-  CLI::Option* option = app_->add_option(name, variable, description);
-  if (!variable.empty()) option->capture_default_str();
+  // Empty means not given, and a shell's variable that is not set must not mean that.
+  const auto read = [&variable, name](const std::string& text) {
+    if (text.empty()) throw InvalidInput(name, quoted(text), "must be left out or have a value");
+    variable = text;
+  };
+  CLI::Option* option = app_->add_option_function<std::string>(name, read, description);
+  if (!variable.empty()) option->default_str(variable);
   return Option(option);
 }
 
@@ -294,7 +300,7 @@ Program::Program(const std::string& name, const std::string& description)
   app_->add_flag_callback(
       "--manual",
       [this] {
-        fmt::print("{}", manual(*app_));
+        print(manual(*app_));
         throw CLI::Success();
       },
       "Print the manual page in troff, as for man -l -");
@@ -302,7 +308,7 @@ Program::Program(const std::string& name, const std::string& description)
     if (shell != "bash" && shell != "zsh") {
       throw InvalidInput("--completion", '"' + shell + '"', "must be bash or zsh");
     }
-    fmt::print("{}", shell == "bash" ? bash_completion(*app_) : zsh_completion(*app_));
+    print(shell == "bash" ? bash_completion(*app_) : zsh_completion(*app_));
     throw CLI::Success();
   };
   app_->add_option_function<std::string>("--completion", complete,
@@ -386,14 +392,16 @@ void write_then_print(const std::function<void()>& write, const std::string& tex
   try {
     write();
   } catch (const InvalidInput&) {
-    fmt::print("{}", text);
+    print(text);
     throw;
   }
-  fmt::print("{}", text);
+  print(text);
 }
 
+void print(const std::string& text) { fmt::print("{}", escaped(text)); }
+
 void complain(const std::string& text) {
-  std::fputs((text + '\n').c_str(), stderr);
+  std::fputs((escaped(text) + '\n').c_str(), stderr);
   std::fflush(stderr);
 }
 

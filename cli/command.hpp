@@ -45,6 +45,7 @@ class Option {
 /// A subcommand. Names with leading dashes are options, others are arguments by position.
 class Command {
  public:
+  /// Refused where it is empty.
   Option text(const std::string& name, std::string& variable, const std::string& description);
   /// One argument, separated by commas.
   Option list(const std::string& name, std::vector<std::string>& variable,
@@ -151,8 +152,12 @@ bool standard_output_is_written();
 /// it is printed all the same, before the error goes on: it may have taken long to find.
 void write_then_print(const std::function<void()>& write, const std::string& text);
 
-/// To standard error, with a newline. What cannot be written there is lost: there is nobody to
-/// tell.
+/// To standard output, where nothing that came from outside is taken for a terminal's command or
+/// stays unseen (candidates/readable.hpp). JSON keeps its meaning.
+void print(const std::string& text);
+
+/// To standard error, likewise, with a newline. What cannot be written there is lost: there is
+/// nobody to tell.
 void complain(const std::string& text);
 
 }  // namespace touchstone

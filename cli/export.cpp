@@ -80,7 +80,7 @@ int run(const Options& options) {
     std::fwrite(text.data(), 1, text.size(), stdout);
   } else {
     write_file(options.out, text, "--out");
-    fmt::print("{}: {}\n", counted(count, "configuration"), options.out);
+    print(fmt::format("{}: {}\n", counted(count, "configuration"), options.out));
   }
   return 0;
 }

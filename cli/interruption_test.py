@@ -182,8 +182,25 @@ def ctrl_c_where_nothing_is_kept(program, _):
     assert run.printed.count("touchstone: interrupted; only what was written before is kept") == 1, run.printed
 
 
+def killed_while_it_has_a_folder(program, folder):
+    """Nobody else writes there meanwhile, and nothing is left of it afterwards."""
+    run = Run(program, folder)
+    run.wait_for(r"\d%, .* left: [1-9]\d* of (\d+) configurations")
+    for command in (["report"], ["stability"], ["campaign", "--count", "1"]):
+        second = subprocess.run([program, *command, "--out", folder], capture_output=True, text=True)
+        assert second.returncode == 2, second
+        assert f'--out is "{folder}": must be a folder that no other run' in second.stderr, second
+        assert "name another folder by --out" in second.stderr, second
+    os.kill(run.pid, signal.SIGKILL)
+    run.end()
+    assert not os.listdir(folder), os.listdir(folder)
+    subprocess.run([program, "report", "--class", "rim-face", "--count", "1", "--only", "scores",
+                    "--candidates", "reference", "--out", folder], check=True, capture_output=True)
+    assert sorted(os.listdir(folder)) == ["report.html", "report.json"], os.listdir(folder)
+
+
 for case in (ctrl_c_where_nothing_is_kept, ctrl_c_while_scoring, termination_while_timing, ctrl_c_after_timing,
-             ctrl_c_twice, closed_terminal):
+             ctrl_c_twice, closed_terminal, killed_while_it_has_a_folder):
     with tempfile.TemporaryDirectory() as folder:
         case(sys.argv[1], folder)
         print("passed:", case.__name__)

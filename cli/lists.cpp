@@ -26,10 +26,10 @@ std::string other_shapes(const Candidate& candidate) {
 }
 
 /// A line, or several on a narrow terminal, below a name.
-void print_below(const std::string& text) { fmt::print("{}", standard_output().below(text)); }
+void print_below(const std::string& text) { print(standard_output().below(text)); }
 
-void print(const Candidate& c) {
-  fmt::print("{} {}\n", c.name, c.version);
+void print_candidate(const Candidate& c) {
+  print(fmt::format("{} {}\n", c.name, c.version));
   print_below("cylinder against " + other_shapes(c));
   print_below(c.settings);
   if (!c.models.empty()) print_below("models " + c.models);
@@ -39,7 +39,7 @@ void print(const Candidate& c) {
   }
 }
 
-void print_heading(const std::string& text) { fmt::print("{}", standard_output().folded(text)); }
+void print_heading(const std::string& text) { print(standard_output().folded(text)); }
 
 }  // namespace
 
@@ -53,7 +53,7 @@ void add_candidates(Program& program) {
       "A family with a parameter is named with its number, as prism:16; what is skipped\n"
       "or unavailable says why.");
   command.runs([] {
-    for (const Candidate* c : all_candidates()) print(*c);
+    for (const Candidate* c : all_candidates()) print_candidate(*c);
     for (const Skipped& s : skipped_plugins()) print_heading(s.name + ": skipped; " + s.reason);
     print_heading(
         "In single precision, or with Touchstone's contacts installed, when one is named:");
@@ -121,9 +121,9 @@ std::string group_list() {
 int run(const std::string& pair) {
   std::vector<Pair> pairs(std::begin(all_pairs), std::end(all_pairs));
   if (!pair.empty()) pairs = {parse_pair(pair, "pair")};
-  for (const Pair each : pairs) fmt::print("{}\n", arrangement_list(each));
+  for (const Pair each : pairs) print(fmt::format("{}\n", arrangement_list(each)));
   print_heading("Modifiers, any number of them in any order, as in parallel-side+turned:");
-  fmt::print("{}\n{}", modifier_list(pairs), group_list());
+  print(fmt::format("{}\n{}", modifier_list(pairs), group_list()));
   for (const Pair each : pairs) {
     print_heading(fmt::format("A report scores {} classes of {}, a campaign {}.",
                               pose_classes(each).size(), pair_name(each),

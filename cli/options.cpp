@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <set>
 #include <thread>
 
 #include "candidates/candidates.hpp"
@@ -174,6 +175,7 @@ RobotMotion RobotOption::motion() const {
   RobotMotion motion;
   motion.duration = seconds_;
   motion.has_fixed_base = has_fixed_base_;
+  std::set<std::string> driven;
   for (const std::string& drive : drives_) {
     const std::size_t equals = drive.rfind('=');
     if (equals == drive.npos || equals == 0) {
@@ -182,6 +184,9 @@ RobotMotion RobotOption::motion() const {
     }
     const std::string joint = drive.substr(0, equals), rate = drive.substr(equals + 1);
     constexpr double max_rate = 1e6;
+    if (!driven.insert(joint).second) {
+      throw InvalidInput("--drive", '"' + joint + '"', "must be given one rate, not several");
+    }
     if (rate == "loose") {
       motion.loose.push_back(joint);
     } else {

@@ -28,8 +28,8 @@ int run(const Options& options, bool emits) {
   const Bar bar = options.bar.get();
   const Subject given = given_configuration(options.input);
   if (emits) {
-    fmt::print("{}", reproducer(options.engine, options.language, given.configuration, given.name,
-                                bar, options.candidates.limits()));
+    print(reproducer(options.engine, options.language, given.configuration, given.name, bar,
+                     options.candidates.limits()));
     return 0;
   }
   if (!options.html.empty()) check_file_writable(options.html, "--html");
@@ -38,8 +38,8 @@ int run(const Options& options, bool emits) {
   if (!options.html.empty()) {
     write_file(options.html, replay_page(shown, given.description), "--html");
   }
-  fmt::print("{}", options.json ? replay_json(shown)
-                                : replay_text(shown, given.description, standard_output()));
+  print(options.json ? replay_json(shown)
+                     : replay_text(shown, given.description, standard_output()));
   return 0;
 }
 

@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <fmt/format.h>
 #include <memory>
+#include <optional>
 
 #include "candidates/host/interruption.hpp"
 #include "candidates/host/progress.hpp"
@@ -127,8 +129,14 @@ struct Options {
 
 int run(const Options& options) {
   const Campaign campaign = options.campaign();
-  check_writable(options.out);
-  if (!options.figures.empty()) check_figures(options.figures);
+  const OutputFolder out(options.out);
+  std::optional<OutputFolder> figures;
+  if (!options.figures.empty()) {
+    check_figures(options.figures);
+    if (!std::filesystem::equivalent(options.figures, options.out)) {
+      figures.emplace(options.figures, "--figures");
+    }
+  }
   const Interruption interruption;
   const OverallProgress progress = options.progress();
   Report report = make_report(campaign, options.command_line());
@@ -158,10 +166,10 @@ int run(const Options& options) {
                          counted(report.configurations, "configuration"), report.wall_seconds));
   if (report.engines) text += '\n' + engines_summary(*report.engines, terminal) + '\n';
   write_then_print([&] { write_report(report, options.out); }, text);
-  fmt::print("Report: {}/report.html, {}/report.json\n", options.out, options.out);
+  print(fmt::format("Report: {}/report.html, {}/report.json\n", options.out, options.out));
   if (!options.figures.empty()) {
     write_figures(report, options.figures);
-    fmt::print("Figures: {}\n", options.figures);
+    print(fmt::format("Figures: {}\n", options.figures));
   }
   return report.partial ? interrupted_exit_code() : 0;
 }

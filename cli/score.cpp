@@ -80,7 +80,7 @@ void tell(const std::vector<AnswerError>& errors) {
 
 /// Bad lines make exit code 2, after all others are scored.
 int run(const Options& options) {
-  check_writable(options.out);
+  const OutputFolder out(options.out);
   const ReadAnswers read_ones = read(options);
   tell(read_ones.errors);
   if (read_ones.count == 0) {
@@ -106,7 +106,7 @@ int run(const Options& options) {
                    fmt::format("{}\n{}, truth certified to 1e-30 of the larger size, {:.0f} s.\n",
                                terminal_table(report, standard_output()),
                                counted(report.configurations, "answer"), report.wall_seconds));
-  fmt::print("Report: {}/report.html, {}/report.json\n", options.out, options.out);
+  print(fmt::format("Report: {}/report.html, {}/report.json\n", options.out, options.out));
   if (report.partial) return interrupted_exit_code();
   return read_ones.errors.empty() ? 0 : bad_input;
 }

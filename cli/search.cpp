@@ -11,6 +11,7 @@
 #include "candidates/host/progress.hpp"
 #include "cli/command.hpp"
 #include "cli/options.hpp"
+#include "properties/files/disk.hpp"
 #include "properties/laws/failure_file.hpp"
 #include "reports/terminal.hpp"
 
@@ -42,6 +43,7 @@ TextTable table_of(const std::vector<Cell>& all, const Terminal& terminal) {
 }
 
 int run(const Options& options) {
+  if (!options.save.empty()) check_writable(options.save, "--save");
   const std::vector<Cell> all = cells(options.sample.campaign());
   const Bar bar = options.bar.get();
   const std::uint64_t budget = options.sample.count();
@@ -85,7 +87,7 @@ int run(const Options& options) {
     }
   };
   write_then_print(write, options.json ? found_json.dump(1) + '\n' : text);
-  if (!options.json) fmt::print("{}", saved);
+  if (!options.json) print(saved);
   return failures.empty() ? 0 : something_failed;
 }
 

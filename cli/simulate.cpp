@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <memory>
+#include <optional>
 
 #include <nlohmann/json.hpp>
 
@@ -112,8 +113,8 @@ int record(const Options& options) {
     lines += recording_lines(file.name, file.scene, run, questions);
     std::uint64_t near = 0;
     for (const RecordedQuestion& q : questions) near += q.weight;
-    fmt::print("{}: {} of {} near contact\n", file.name, questions.size(),
-               counted(near, "configuration"));
+    print(fmt::format("{}: {} of {} near contact\n", file.name, questions.size(),
+                      counted(near, "configuration")));
   }
   write_file(options.record, lines, "--record");
   return 0;
@@ -139,8 +140,8 @@ int simulate_scenes(const Options& options) {
     const SceneFile file = options.robot.scene(name);
     for (const Candidate* candidate : candidates) {
       CandidateModel model(processes.of(*candidate));
-      fmt::print("{}, {}\n{}", file.name, candidate->name,
-                 motion_table(file.scene, run_scene(file.scene, model)));
+      print(fmt::format("{}, {}\n{}", file.name, candidate->name,
+                        motion_table(file.scene, run_scene(file.scene, model))));
     }
   }
   return 0;
@@ -148,17 +149,19 @@ int simulate_scenes(const Options& options) {
 
 int simulate_in_engines(const Options& options) {
   const EngineOptions chosen = options.in_engines();
-  if (!options.out.empty()) check_writable(options.out);
+  std::optional<OutputFolder> out;
+  if (!options.out.empty()) out.emplace(options.out);
   const Interruption interruption;
   const EngineResults results = run_engines(chosen);
   const nlohmann::json json = to_json(results);
-  fmt::print("{}", options.json ? json.dump() + '\n' : engines_table(results, standard_output()));
+  print(options.json ? json.dump() + '\n' : engines_table(results, standard_output()));
   if (interrupted()) return interrupted_exit_code();
   if (options.out.empty()) return 0;
   write_file(options.out + "/engines.json", json.dump(1) + '\n', "--out");
   write_file(options.out + "/engines.html", engines_page(results, options.engines_command()),
              "--out");
-  if (!options.json) fmt::print("\nPage: {0}/engines.html; data: {0}/engines.json\n", options.out);
+  if (!options.json)
+    print(fmt::format("\nPage: {0}/engines.html; data: {0}/engines.json\n", options.out));
   return 0;
 }
 
@@ -167,11 +170,11 @@ int run(const Options& options) {
   if (!options.engines.empty()) return simulate_in_engines(options);
   if (has_files(options)) return simulate_scenes(options);
   const ExperimentOptions experiments = options.experiments();
-  if (!options.out.empty()) check_writable(options.out);
+  std::optional<OutputFolder> out;
+  if (!options.out.empty()) out.emplace(options.out);
   const ExperimentResults results = run_experiments(experiments);
   const nlohmann::json json = to_json(results);
-  fmt::print("{}",
-             options.json ? json.dump() + '\n' : experiments_table(results, standard_output()));
+  print(options.json ? json.dump() + '\n' : experiments_table(results, standard_output()));
   if (options.out.empty()) return 0;
   write_file(options.out + "/experiments.json", json.dump(1) + '\n', "--out");
   return 0;
@@ -256,12 +259,12 @@ const Candidate& contacts_of(const RenderOptions& options) {
 int run_render(const RenderOptions& options) {
   const Candidate& candidate = contacts_of(options);
   const SceneFile file = options.robot.scene(options.scene);
-  check_writable(options.out);
+  const OutputFolder out(options.out);
   CandidateProcess process(candidate, simulation_threshold);
   CandidateModel model(process);
   const int frames = write_povray(file, run_scene(file.scene, model), options.every, options.out);
-  fmt::print("{}. To draw with Debian's povray:\n  cd {} && povray scene.ini\n",
-             counted(frames, "frame"), shell_quoted(options.out));
+  print(fmt::format("{}. To draw with Debian's povray:\n  cd {} && povray scene.ini\n",
+                    counted(frames, "frame"), shell_quoted(options.out)));
   return 0;
 }
 

@@ -70,7 +70,7 @@ int run_certify(const CertifyOptions& options) {
   const Configuration c = given_configuration(options.input).configuration;
   const audit::Certificate certificate =
       audit::certify(c, {options.width, static_cast<int>(options.cells)});
-  fmt::print("{}\n", certificate_json(certificate, c));
+  print(fmt::format("{}\n", certificate_json(certificate, c)));
   return 0;
 }
 

@@ -65,13 +65,14 @@ struct Options {
 
 int run(const Options& options) {
   const StabilityOptions chosen = options.stability();
-  check_writable(options.out);
+  const OutputFolder out(options.out);
   const Stability result = measure(chosen);
   const auto write = [&] { write_stability(result, options.command_line(), options.out); };
   write_then_print(
       write, options.json ? json_text(result) + '\n' : stability_table(result, standard_output()));
   if (!options.json) {
-    fmt::print("\nWritten: {}/stability.html, {}/stability.json\n", options.out, options.out);
+    print(
+        fmt::format("\nWritten: {}/stability.html, {}/stability.json\n", options.out, options.out));
   }
   return 0;
 }

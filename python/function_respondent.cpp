@@ -6,7 +6,7 @@
 #include <sys/time.h>
 
 #include "candidates/host/interruption.hpp"
-#include "candidates/host/plugin_process.hpp"
+#include "candidates/readable.hpp"
 
 namespace touchstone::python {
 namespace {

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "candidates/candidates.hpp"
+#include "candidates/readable.hpp"
 #include "properties/files/answer_json.hpp"
 #include "properties/files/configuration_json.hpp"
 #include "reports/pages/page.hpp"
@@ -127,7 +128,7 @@ std::string replay_text(const Examination& e, const std::string& description,
                         const Terminal& terminal) {
   json line = to_json(e.configuration);
   line["id"] = e.id;
-  std::string text = e.id + '\n';
+  std::string text = escaped(e.id, Printed::one_line) + '\n';
   if (!description.empty()) text += terminal.folded(description);
   text += '\n' + overview(e.answers, terminal) + '\n' +
           truth_text(e.configuration, *e.truth, terminal) + '\n';
@@ -197,9 +198,26 @@ Examination examine(const Subject& subject, std::span<CandidateProcess* const> c
   return result;
 }
 
+namespace {
+
+/// As bash and zsh read what is not seen: $'left\xe2\x80\xaethgir'.
+std::string dollar_quoted(const std::string& text) {
+  std::string result = "$'";
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool is_seen = byte >= 0x20 && byte < 0x7f;
+    result += is_seen ? (c == '\'' || c == '\\' ? "\\" : "") + std::string(1, c)
+                      : fmt::format("\\x{:02x}", byte);
+  }
+  return result + "'";
+}
+
+}  // namespace
+
 std::string shell_quoted(const std::string& text) {
   const auto plain = [](unsigned char c) { return std::isalnum(c) || std::strchr("/._-+@", c); };
   if (!text.empty() && std::all_of(text.begin(), text.end(), plain)) return text;
+  if (escaped(text, Printed::one_line) != text) return dollar_quoted(text);
   std::string result = "'";
   for (const char c : text) result += c == '\'' ? "'\\''" : std::string(1, c);
   return result + "'";

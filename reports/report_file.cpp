@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "candidates/readable.hpp"
 #include "properties/files/disk.hpp"
 #include "properties/files/strict_json.hpp"
 #include "properties/pose_class.hpp"
@@ -43,7 +44,7 @@ class Reader {
 
   std::string text() const {
     if (!value_.is_string()) refuse("must be a string");
-    return value_;
+    return readable(value_);
   }
   std::uint64_t whole() const {
     if (!value_.is_number_unsigned()) refuse("must be a whole number");

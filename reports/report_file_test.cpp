@@ -41,6 +41,13 @@ class ReportFile : public testing::Test {
       testing::TempDir() + testing::UnitTest::GetInstance()->current_test_info()->name() + ".json";
 };
 
+TEST_F(ReportFile, NoNameMakesALineOfItsOwnOrTurnsAround) {
+  json report = good();
+  report["candidates"][0]["name"] = "ode\nreference  100.0 \u202e";
+  write(report.dump());
+  EXPECT_EQ(read_report(file).candidates[0].name, "ode reference  100.0    ");
+}
+
 TEST_F(ReportFile, SaysWhatRepresentsThoseThatWereNotAsked) {
   json report = good();
   json& row = report["results"][0];

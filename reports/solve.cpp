@@ -9,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "candidates/readable.hpp"
 #include "properties/files/answer_json.hpp"
 #include "properties/files/configuration_json.hpp"
 #include "properties/files/given_text.hpp"
@@ -133,7 +134,7 @@ bool solve(std::istream& in, std::ostream& out, const SolveOptions& options) {
     }
     // Anything else is our own contradiction and ends the program.
     good = good && !result.contains("error");
-    out << result.dump(-1, ' ', false, json::error_handler_t::replace) << std::endl;
+    out << escaped(result.dump(-1, ' ', false, json::error_handler_t::replace)) << std::endl;
     if (!out) break;  // nobody would see the other answers
   }
   return good;

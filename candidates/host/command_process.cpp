@@ -19,6 +19,7 @@
 #include "candidates/host/exchange.hpp"
 #include "candidates/host/guard.hpp"
 #include "candidates/host/plugin_process.hpp"
+#include "candidates/readable.hpp"
 
 namespace touchstone {
 namespace {

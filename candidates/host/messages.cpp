@@ -9,7 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "candidates/host/plugin_process.hpp"
+#include "candidates/readable.hpp"
 
 namespace touchstone::messages {
 namespace {

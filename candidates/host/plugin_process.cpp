@@ -19,6 +19,7 @@
 
 #include "candidates/host/exchange.hpp"
 #include "candidates/host/guard.hpp"
+#include "candidates/readable.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone {
@@ -55,43 +56,6 @@ int poll_through(pollfd& polled, std::chrono::milliseconds time) {
 }  // namespace
 
 void fail(const char* call) { throw std::system_error(errno, std::generic_category(), call); }
-
-std::string readable(const std::string& text) {
-  std::string result;
-  for (std::size_t i = 0; i < text.size();) {
-    const auto lead = static_cast<unsigned char>(text[i]);
-    const std::size_t length = lead < 0x80                    ? 1
-                               : lead >= 0xc2 && lead <= 0xdf ? 2
-                               : lead >= 0xe0 && lead <= 0xef ? 3
-                               : lead >= 0xf0 && lead <= 0xf4 ? 4
-                                                              : 0;
-    bool good = length > 0 && i + length <= text.size();
-    for (std::size_t k = 1; good && k < length; ++k) {
-      good = (static_cast<unsigned char>(text[i + k]) & 0xc0) == 0x80;
-    }
-    if (good && length == 3) {  // neither an overlong form nor a surrogate
-      const auto second = static_cast<unsigned char>(text[i + 1]);
-      good = !(lead == 0xe0 && second < 0xa0) && !(lead == 0xed && second > 0x9f);
-    }
-    if (good && length == 4) {  // neither an overlong form nor beyond U+10FFFF
-      const auto second = static_cast<unsigned char>(text[i + 1]);
-      good = !(lead == 0xf0 && second < 0x90) && !(lead == 0xf4 && second > 0x8f);
-    }
-    if (!good) {
-      result += '?';
-      ++i;
-      continue;
-    }
-    if (length == 1) {
-      result += lead < 0x20 || lead == 0x7f ? ' ' : static_cast<char>(lead);
-    } else {
-      const bool is_control = lead == 0xc2 && static_cast<unsigned char>(text[i + 1]) < 0xa0;
-      result.append(is_control ? std::string(length, ' ') : text.substr(i, length));
-    }
-    i += length;
-  }
-  return result;
-}
 
 std::string how_it_ended(int status) {
   if (WIFSIGNALED(status)) return strsignal(WTERMSIG(status));

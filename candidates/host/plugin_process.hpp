@@ -76,9 +76,6 @@ struct PluginProcess::State {
   [[noreturn]] void serve(int other_end) const;
 };
 
-/// Makes a plug-in's text printable: invalid UTF-8 (a truncated text may end within a character)
-/// becomes "?", control characters become spaces. It stays as long as it is.
-std::string readable(const std::string& text);
 /// "Segmentation fault", "ended with exit code 3".
 std::string how_it_ended(int wait_status);
 /// Throws std::system_error of errno.

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <iostream>
 #include <string>
+#include <sys/file.h>
 #include <system_error>
 #include <unistd.h>
 #include <utility>
@@ -92,6 +93,33 @@ void check_writable(const std::filesystem::path& folder, const char* field) {
   }
 }
 
+OutputFolder::OutputFolder(const std::filesystem::path& folder, const char* field, Use use) {
+  check_writable(folder, field);
+  fd_ = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  // On the folder itself: nothing is left behind, and links and other names are the same place.
+  const int lock = (use == Use::alone ? LOCK_EX : LOCK_SH) | LOCK_NB;
+  if (fd_ < 0 || flock(fd_, lock) == 0 || errno != EWOULDBLOCK) return;
+  close(fd_);
+  throw InvalidInput(field, '"' + folder.string() + '"',
+                     fmt::format("must be a folder that no other run of Touchstone is using; wait "
+                                 "for its end, or name another folder by {}",
+                                 field));
+}
+
+OutputFolder::~OutputFolder() {
+  if (fd_ >= 0) close(fd_);
+}
+
+void remove_older(const std::filesystem::path& folder, std::string_view beginning,
+                  std::string_view ending) {
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with(beginning) || !name.ends_with(ending)) continue;
+    if (entry.is_regular_file(error)) std::filesystem::remove(entry.path(), error);
+  }
+}
+
 void check_file_writable(const std::filesystem::path& file, const char* field) {
   if (is_folder(file)) {
     throw InvalidInput(field, '"' + file.string() + '"', "must be a file, not a folder");
@@ -102,7 +130,7 @@ void check_file_writable(const std::filesystem::path& file, const char* field) {
   if (!is_special) check_writable(file.has_parent_path() ? file.parent_path() : ".", field);
 }
 
-std::string read_file(const std::filesystem::path& file, const char* field) {
+std::string read_file(const std::filesystem::path& file, const char* field, std::size_t max_size) {
   const std::string name = '"' + file.string() + '"';
   if (is_folder(file)) throw InvalidInput(field, name, "must be a file, not a folder");
   errno = 0;
@@ -111,20 +139,21 @@ std::string read_file(const std::filesystem::path& file, const char* field) {
     throw InvalidInput(field, name,
                        fmt::format("could not be opened for reading ({})", std::strerror(errno)));
   }
-  return read_stream(in, name, field);
+  return read_stream(in, name, field, max_size);
 }
 
 bool ended_by_error(const std::istream& in) {
   return in.bad() || (&in == &std::cin && std::ferror(stdin) != 0);
 }
 
-std::string read_stream(std::istream& in, const std::string& name, const char* field) {
+std::string read_stream(std::istream& in, const std::string& name, const char* field,
+                        std::size_t max_size) {
   std::string text, block(1 << 16, '\0');
   while (in) {
     in.read(block.data(), static_cast<std::streamsize>(block.size()));
     text.append(block, 0, static_cast<std::size_t>(in.gcount()));
-    if (text.size() > max_file_size) {
-      throw InvalidInput(field, name, fmt::format("must have at most {} bytes", max_file_size));
+    if (text.size() > max_size) {
+      throw InvalidInput(field, name, fmt::format("must have at most {} bytes", max_size));
     }
   }
   if (ended_by_error(in)) throw InvalidInput(field, name, "could not be read to its end");

@@ -272,6 +272,31 @@ TEST_F(WriteFile, AFolderIsMadeOrRefused) {
   EXPECT_THROW(check_writable(folder / "file"), InvalidInput);
 }
 
+TEST_F(WriteFile, AFolderIsOneRunsOrSharedByParts) {
+  using enum OutputFolder::Use;
+  {
+    const OutputFolder one(folder / "out");
+    EXPECT_THROW(OutputFolder(folder / "out" / ".." / "out"), InvalidInput);
+    EXPECT_THROW(OutputFolder(folder / "out", "--out", shared), InvalidInput);
+    EXPECT_NO_THROW(OutputFolder(folder / "out" / "within"));
+  }
+  const OutputFolder part(folder / "out", "--out", shared), other(folder / "out", "--out", shared);
+  EXPECT_THAT(
+      [&] { OutputFolder(folder / "out", "--figures"); },
+      testing::ThrowsMessage<InvalidInput>(testing::HasSubstr("name another folder by --figures")));
+}
+
+TEST_F(WriteFile, RemovesOlderFilesOfThatNameAlone) {
+  for (const char* name : {"log-1.json", "log-12.json", "log.json", "other-1.json", "log-1.txt"}) {
+    write_file(folder / name, "", "--out");
+  }
+  std::filesystem::create_directory(folder / "log-2.json");
+  remove_older(folder, "log-", ".json");
+  EXPECT_EQ(count(), 4);
+  EXPECT_FALSE(is_file(folder / "log-1.json"));
+  EXPECT_NO_THROW(remove_older(folder / "none", "", ""));
+}
+
 TEST(Printable, KeepsWhatIsShortAndHarmless) {
   EXPECT_EQ(printable("µ is 3", 20), "µ is 3");
   EXPECT_EQ(printable(std::string(20, 'x'), 20), std::string(20, 'x'));
@@ -283,7 +308,9 @@ TEST(Printable, CutsWhatIsLongBetweenCharacters) {
 }
 
 TEST(Printable, WritesControlCharactersAsDigits) {
-  EXPECT_EQ(printable(std::string_view("a\0\x1b[2J\n\x7f", 8), 40), "a\\x00\\x1b[2J\\x0a\\x7f");
+  EXPECT_EQ(printable(std::string_view("a\0\x1b[2J\n\x7f", 8), 40),
+            "a\\u0000\\u001b[2J\\u000a\\u007f");
+  EXPECT_EQ(printable("left\u202ethgir", 40), "left\\u202ethgir");
 }
 
 TEST(CountedText, HasOneThingInTheSingular) {

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "candidates/readable.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone {
@@ -85,15 +86,7 @@ bool continues_a_character(char c) { return (static_cast<unsigned char>(c) & 0xc
 
 std::string printable(std::string_view text, std::size_t max_length) {
   constexpr std::string_view cut = "...";
-  std::string result;
-  for (const char c : text.substr(0, max_length + 1)) {
-    const bool is_control = static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
-    if (is_control) {
-      result += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
-    } else {
-      result += c;
-    }
-  }
+  std::string result = escaped(text.substr(0, max_length + 1), Printed::one_line);
   if (result.size() <= max_length) return result;
   std::size_t end = max_length - cut.size();
   while (end > 0 && continues_a_character(result[end])) --end;

@@ -35,8 +35,8 @@ inline constexpr CountRange all_counts{0, std::numeric_limits<std::uint64_t>::ma
 double read_number(const std::string& option, const std::string& text, NumberRange range);
 std::uint64_t read_count(const std::string& option, const std::string& text, CountRange range);
 
-/// The text for one line of a terminal or log: control characters as \x1b, and at most `max_length`
-/// bytes, of which the last are "..." where some were cut. UTF-8 stays whole.
+/// The text for one line of a terminal or log: escaped, and at most `max_length` bytes, of which
+/// the last are "..." where some were cut. UTF-8 stays whole.
 std::string printable(std::string_view text, std::size_t max_length);
 
 /// "1 configuration", "2 configurations", "0 pose classes", "3 bodies": a count and the English

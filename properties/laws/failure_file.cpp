@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "candidates/candidates.hpp"
+#include "candidates/readable.hpp"
 #include "properties/files/answer_json.hpp"
 #include "properties/files/configuration_json.hpp"
 #include "properties/files/disk.hpp"
@@ -23,7 +24,7 @@ using nlohmann::json;
 constexpr const char* schema = "touchstone-failure-1";
 
 std::string text(const json& object, const char* name) {
-  return string(member(object, name, ""), name);
+  return readable(string(member(object, name, ""), name));
 }
 
 /// A member of a bar, which must be what its option takes.

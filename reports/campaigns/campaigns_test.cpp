@@ -244,7 +244,7 @@ TEST(Merge, OfACandidateThatHangsIsTheSameForEverySplit) {
       ShardState state(plan, {number, shards});
       const std::filesystem::path file = testing::TempDir() + "shard of a candidate that hangs";
       EXPECT_TRUE(run_shard(campaign, state, file, {.progress = false}, [] { return true; }));
-      merge.add(shard_from_text(read_file(file, "file"), "file"), "file");
+      merge.add(read_shard(file, "file"), "file");
       std::filesystem::remove(file);
     }
     return campaign_json(merge.whole(false));
@@ -257,6 +257,23 @@ TEST(Merge, OfACandidateThatHangsIsTheSameForEverySplit) {
     EXPECT_EQ(row["outcomes"], json({{"timed-out", 40}, {"not-asked", 492}}));
     EXPECT_EQ(row["represented"], json({{"timed-out", 492}}));
   }
+}
+
+TEST(Merge, ReadsAShardThatIsLargerThanOtherFiles) {
+  Campaign campaign;
+  campaign.pairs = {Pair::sphere};
+  campaign.classes = {"cap"};
+  campaign.candidates = find_candidates({"reference"});
+  campaign.count = 1;
+  std::string text = to_text(ShardState(make_plan(campaign, "x"), {}));
+  text.erase(text.rfind('\n', text.size() - 2) + 1);  // its checksum
+  text.insert(text.find('\n'), max_file_size, ' ');
+  text += json{{"crc32", checksum(text)}}.dump() + '\n';
+  const std::filesystem::path file = testing::TempDir() + "a large shard";
+  write_file(file, text, "file");
+  EXPECT_EQ(read_shard(file, "file").plan.candidates, std::vector<std::string>{"reference"});
+  std::filesystem::remove(file);
+  EXPECT_THROW(read_shard("/dev/zero", "file"), InvalidInput);
 }
 
 TEST(Merge, SumsUpByGroupsAlone) {

@@ -10,6 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "candidates/readable.hpp"
 #include "properties/files/disk.hpp"
 #include "properties/files/given_text.hpp"
 #include "reference/invalid_input.hpp"
@@ -161,7 +162,7 @@ ShardState Merge::whole(bool may_be_partial) const {
 ShardState merge(const std::vector<std::filesystem::path>& inputs, bool may_be_partial) {
   Merge merge;
   const auto add = [&](const std::filesystem::path& file) {
-    merge.add(shard_from_text(read_file(file, "input"), file.string()), file.string());
+    merge.add(read_shard(file, "input"), file.string());
   };
   for (const auto& input : inputs) {
     if (!is_folder(input)) {
@@ -197,7 +198,7 @@ bool gather(const ShardState& part, Merge& merge) {
     return first;
   } catch (const std::exception& e) {
     // The other ranks would wait for ever.
-    std::fputs(fmt::format("error: {}\n", e.what()).c_str(), stderr);
+    std::fputs(escaped(fmt::format("error: {}\n", e.what())).c_str(), stderr);
     MPI_Abort(MPI_COMM_WORLD, 2);
     throw;
   }

@@ -9,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "candidates/readable.hpp"
 #include "properties/files/configuration_json.hpp"
 #include "properties/files/disk.hpp"
 #include "properties/files/strict_json.hpp"
@@ -184,7 +185,7 @@ Plan plan_from_json(const json& j) {
     plan.cells.push_back(cell);
   });
   each_of(j, "candidates", [&](const json& c, const std::string& path) {
-    plan.candidates.push_back(string(member(c, "name", path), path + ".name"));
+    plan.candidates.push_back(readable(string(member(c, "name", path), path + ".name")));
     plan.runs.push_back(c.contains("runs") ? string(c["runs"], path + ".runs") : "native");
   });
   plan.cut.cells = plan.cells.size();

@@ -22,11 +22,6 @@ namespace {
 
 using nlohmann::json;
 
-std::filesystem::path writable(std::filesystem::path folder) {
-  check_writable(folder);
-  return folder;
-}
-
 /// The first line of a shard file alone: another process may be at work on the rest.
 json head_of(const std::filesystem::path& file) {
   std::ifstream in(file);
@@ -65,14 +60,17 @@ FileLock::FileLock(const std::filesystem::path& file)
   const int error = errno;
   close(fd_);
   if (error != EACCES && error != EAGAIN) refuse(file, error);
-  throw InvalidInput("--out", '"' + file.parent_path().string() + '"',
-                     "must be a folder to which no other campaign is writing");
+  throw InvalidInput(
+      "--out", '"' + file.parent_path().string() + '"',
+      "must be a folder to which no other campaign is writing; wait for its end, or name "
+      "another folder by --out");
 }
 
 FileLock::~FileLock() { close(fd_); }
 
 ShardPlace::ShardPlace(std::filesystem::path folder, const Shard& shard)
-    : folder_(writable(std::move(folder))),
+    : folder_(std::move(folder)),
+      claim_(folder_, "--out", OutputFolder::Use::shared),
       shard_(shard),
       file_(shard_file(folder_, shard)),
       lock_(std::filesystem::path(file_).replace_extension(".lock")) {}
@@ -97,7 +95,7 @@ ShardState ShardPlace::begin(const Plan& plan, bool resume) const {
                                    "go on with that one: the same command with --resume",
                                    file_.filename().string(), command_in(file_)));
   }
-  ShardState found = shard_from_text(read_file(file_, "--out"), file_.string());
+  ShardState found = read_shard(file_, "--out");
   require_same_plan(plan, json::parse(found.plan.text), file_.string());
   if (found.shard != shard_) {
     throw InvalidInput('"' + file_.string() + '"', "shard " + to_string(found.shard),

@@ -324,6 +324,15 @@ void write_shard(const ShardState& state, const std::filesystem::path& file) {
   write_file(file, to_text(state), "--out", "make room, then go on with --resume");
 }
 
+ShardState read_shard(const std::filesystem::path& file, const char* field) {
+  // Of all candidates and classes, 5 KB for each of 86,000 tallies once the histograms fill up.
+  constexpr std::size_t max_shard_size = std::size_t{1} << 32;
+  std::error_code error;
+  const bool ordinary = std::filesystem::is_regular_file(file, error);
+  return shard_from_text(read_file(file, field, ordinary ? max_shard_size : max_file_size),
+                         file.string());
+}
+
 ShardState shard_from_text(const std::string& text, const std::string& file) {
   const std::string body(intact(text, file));
   try {

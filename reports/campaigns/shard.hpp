@@ -10,6 +10,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "properties/files/disk.hpp"
 #include "reports/report.hpp"
 #include "reports/sampler.hpp"
 #include "reports/tally.hpp"
@@ -115,6 +116,9 @@ std::string to_text(const ShardState& state);
 /// something else.
 ShardState shard_from_text(const std::string& text, const std::string& file);
 
+/// Reads a shard file. Throws InvalidInput, with this field where the file cannot be read.
+ShardState read_shard(const std::filesystem::path& file, const char* field);
+
 /// [[first, last], …], and back; throws InvalidInput on anything else.
 nlohmann::json to_json(const UnitSet& set);
 UnitSet unit_set_from_json(const nlohmann::json& json);
@@ -142,8 +146,8 @@ class FileLock {
 /// Place of one shard: its file in a campaign's folder, locked as long as this lives.
 class ShardPlace {
  public:
-  /// Makes the folder. Throws InvalidInput (field "--out") where nothing can be written or another
-  /// process is at work on the same shard.
+  /// Makes the folder. Throws InvalidInput (field "--out") where nothing can be written, another
+  /// process is at work on the same shard, or it is one of another command.
   ShardPlace(std::filesystem::path folder, const Shard& shard);
 
   const std::filesystem::path& file() const { return file_; }
@@ -155,6 +159,7 @@ class ShardPlace {
 
  private:
   std::filesystem::path folder_;
+  OutputFolder claim_;
   Shard shard_;
   std::filesystem::path file_;
   FileLock lock_;

@@ -91,7 +91,8 @@ std::string choice_page(const Choice& choice, const std::string& command, const 
                         const Limits& limits);
 std::string choice_page(const EngineChoice& choice, const std::string& command);
 
-/// Writes the configurations of failures. Throws InvalidInput (field "--out") where that fails.
+/// Writes the configurations of failures in place of those of an earlier choice. Throws
+/// InvalidInput (field "--out") where that fails.
 void write_evidence(const Choice& choice, const std::string& folder);
 void write_evidence(const PairsChoice& choice, const std::string& folder);
 

@@ -244,6 +244,7 @@ std::string replay_command(const std::string& file, const std::string& candidate
 
 void write_evidence(const Choice& choice, const std::string& folder) {
   check_writable(folder);
+  remove_older(folder, choice.file.name + '-', ".json");
   for (std::size_t i = 0; i < choice.runs.size(); ++i) {
     if (const auto& e = choice.runs[i].evidence) {
       write_configuration(evidence_file(choice, i, folder), e->configuration);
@@ -252,6 +253,7 @@ void write_evidence(const Choice& choice, const std::string& folder) {
 }
 
 void write_evidence(const PairsChoice& choice, const std::string& folder) {
+  remove_older(folder, as_file_name(choice.name) + '-', ".json");
   for (std::size_t i = 0; i < choice.pairs.size(); ++i) {
     for (const PairCandidate& c : choice.pairs[i].candidates) {
       if (!c.worst) continue;

@@ -128,14 +128,12 @@ std::string figure_title(const std::string& pair, const std::string& group) {
   return fmt::format("{}, {} poses", pair == "all" ? "all pairs" : pair, group);
 }
 
-/// Text within double quotes, for gnuplot.
+/// Text within single quotes, for gnuplot, which would run what stands between backquotes within
+/// double ones.
 std::string quoted(const std::string& text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') result += '\\';
-    result += c;
-  }
-  return result + '"';
+  std::string result = "'";
+  for (const char c : text) result += c == '\'' ? "''" : std::string(1, c);
+  return result + '\'';
 }
 
 /// A cell of CSV.
@@ -453,6 +451,9 @@ void check_figures(const path& folder) {
 
 void write_figures(const Report& report, const path& folder) {
   check_figures(folder);
+  for (const char* const name : {"speed-accuracy", "errors-", "classes-"}) {
+    for (const char* const form : {".csv", ".svg", ".png"}) remove_older(folder, name, form);
+  }
   std::string script;
   for (const Group group : all_groups) {
     const std::string name = group_name(group);

@@ -31,11 +31,14 @@ TEST(Figures, EachComesAsPictureTwiceAndAsData) {
   // A plug-in may be called anything.
   for (auto* rows : {&report.summary, &report.results}) {
     for (ResultRow& row : *rows) {
-      if (row.candidate == "prism:8") row.candidate = "a\"b,{c}\\";
+      if (row.candidate == "prism:8") row.candidate = "a\"b,`touch run`'{c}\\";
     }
   }
   const std::filesystem::path folder = testing::TempDir() + "touchstone figures's test";
+  std::filesystem::create_directory(folder);
+  std::ofstream(folder / "errors-of-an-earlier-run.svg") << "x";
   write_figures(report, folder);
+  EXPECT_FALSE(std::filesystem::exists(folder / "errors-of-an-earlier-run.svg"));
   for (const char* name : {"speed-accuracy", "speed-accuracy-cylinder-box", "errors-all",
                            "errors-cylinder-plane", "classes-cylinder-box"}) {
     EXPECT_THAT(text_of(folder / (std::string(name) + ".svg")), HasSubstr("</svg>")) << name;
@@ -45,7 +48,7 @@ TEST(Figures, EachComesAsPictureTwiceAndAsData) {
     const std::string csv = text_of(folder / (std::string(name) + ".csv"));
     for (const auto& [in_csv, in_svg] : {std::pair{"reference,", ">reference<"},
                                          {"bullet,", ">bullet<"},
-                                         {"{c}\\\",", ">a\"b,{c}\\<"}}) {
+                                         {"{c}\\\",", ">a\"b,`touch run`'{c}\\<"}}) {
       if (csv.find(in_csv) == std::string::npos) continue;  // no contact in this figure
       EXPECT_THAT(svg, HasSubstr(in_svg)) << name;
     }
@@ -55,7 +58,8 @@ TEST(Figures, EachComesAsPictureTwiceAndAsData) {
   EXPECT_TRUE(std::filesystem::exists(folder / "errors-cylinder-box-degenerate.svg"));
   EXPECT_THAT(text_of(folder / "classes-cylinder-box.csv"),
               testing::AllOf(HasSubstr("general+shallow,"), testing::Not(HasSubstr("touching,"))));
-  EXPECT_THAT(text_of(folder / "errors-all.csv"), HasSubstr("\"a\"\"b,{c}\\\""));
+  EXPECT_THAT(text_of(folder / "errors-all.csv"), HasSubstr("\"a\"\"b,`touch run`'{c}\\\""));
+  EXPECT_FALSE(std::filesystem::exists(folder / "run"));
   EXPECT_FALSE(std::filesystem::exists(folder / "figures.gnuplot"));
   std::filesystem::remove_all(folder);
 }

@@ -9,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "candidates/readable.hpp"
 #include "properties/files/configuration_json.hpp"
 #include "simulation/scene.hpp"
 
@@ -69,10 +70,11 @@ void fill(std::string& page, std::string_view placeholder, std::string_view text
 }
 
 /// JSON for a script element, which no string of it can end: "<" only occurs in strings, where
-/// \u003c says the same.
+/// \u003c says the same. What is not seen in a string becomes text that is, as on a terminal.
 std::string script_safe(const nlohmann::json& json) {
+  const std::string dumped = json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   std::string text;
-  for (const char c : json.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace)) {
+  for (const char c : escaped(dumped, Printed::lines, "\\\\")) {
     if (c == '<') {
       text += "\\u003c";
     } else {

@@ -64,6 +64,14 @@ TEST(ReportPage, CarriesTheReport) {
   EXPECT_EQ(data, expected);
 }
 
+TEST(ReportPage, ShowsWhatWouldTurnTheDirectionOfALineAsDigits) {
+  Report report;
+  report.command = "touchstone report --out left\u202ethgir";
+  const std::string page = report_page(report);
+  EXPECT_EQ(page.find("\u202e"), page.npos);
+  EXPECT_EQ(data_of(page)["command"], "touchstone report --out left\\u202ethgir");
+}
+
 TEST(ReportPage, PacksRowsWithoutLoss) {
   const json row = {{"pair", "cylinder-box"},
                     {"outcomes", {{"agree", 3}}},

@@ -8,6 +8,7 @@
 
 #include "candidates/candidates.hpp"
 #include "candidates/npm_engines.hpp"
+#include "candidates/readable.hpp"
 #include "oracle/truth.hpp"
 #include "properties/files/given_text.hpp"
 #include "reference/invalid_input.hpp"
@@ -324,7 +325,7 @@ std::string reproducer(std::string_view name, std::string_view language, const C
                   candidate && candidate->in_frames ? "frames" : "lines",
                   program.tag == "doctest" ? "" : "program"};
   texts.merge(Texts{{"engine", title},
-                    {"asked", asked},
+                    {"asked", escaped(asked, Printed::one_line)},
                     {"remark", std::string(program.language.remark)},
                     {"seen", seen(title, numbers, candidate, c, truth, bar, limits)}});
   const auto part = [&](std::string_view source) { return fill_template(source, tags, texts); };

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <utility>
 
-#include "candidates/host/plugin_process.hpp"
+#include "candidates/readable.hpp"
 #include "properties/files/disk.hpp"
 #include "properties/files/given_text.hpp"
 #include "reference/invalid_input.hpp"

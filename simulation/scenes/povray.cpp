@@ -87,6 +87,7 @@ int write_povray(const SceneFile& file, const Trajectory& run, double every,
                  const std::filesystem::path& folder) {
   const auto stride =
       std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(every / run.step)));
+  remove_older(folder, "frame-", ".inc");
   write_file(folder / "scene.pov", view(file.camera), "--out");
   int count = 0;
   for (std::size_t i = 0; i < run.frames.size(); i += stride) {

@@ -14,6 +14,7 @@
 
 #include "candidates/host/contained.hpp"
 #include "candidates/host/plugin_process.hpp"
+#include "candidates/readable.hpp"
 #include "properties/files/given_text.hpp"
 #include "reference/invalid_input.hpp"
 

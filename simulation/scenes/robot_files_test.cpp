@@ -157,7 +157,7 @@ TEST(RobotFiles, OfAnotherEncodingOrWithControlCharactersInNamesAreRefused) {
   EXPECT_THAT(urdf("r", "caf\xe9"), HasSubstr("must be UTF-8, whatever it says itself: line 2"));
   EXPECT_EQ(urdf("r", "café"), "accepted with 1 shapes");
   EXPECT_THAT(urdf("r\x1b[2J", "l"), HasSubstr("name is "));
-  EXPECT_THAT(urdf("r", "l\x1b[2J"), HasSubstr("must be without control characters"));
+  EXPECT_THAT(urdf("r", "l\x1b[2J"), HasSubstr("must be without characters that are not seen"));
   EXPECT_THAT(refusal_of("part.sdf", "<sdf version='1.7'><model name='caf\xe9'/></sdf>"),
               HasSubstr("must be UTF-8"));
 }
@@ -315,6 +315,24 @@ TEST(Urdf, JointsThatMakeNoSenseAreRefused) {
   EXPECT_THAT(joint_refusal("hovering", good), HasSubstr("hovering"));
   EXPECT_THAT(refusal_of("joint.urdf", wheeled(joint_of("fixed", "", "nothing"))),
               HasSubstr("nothing"));
+}
+
+TEST(Urdf, JointsThatFormNoTreeAreRefused) {
+  const auto of = [](const std::string& joints) {
+    std::string text = "<robot name='r'><link name='root'/><link name='a'/><link name='b'/>";
+    std::istringstream in(joints);
+    std::string parent, child;
+    for (int i = 1; in >> parent >> child; ++i) {
+      text += "<joint name='j" + std::to_string(i) + "' type='fixed'><parent link='" + parent +
+              "'/><child link='" + child + "'/></joint>";
+    }
+    return refusal_of("part.urdf", text + "</robot>");
+  };
+  EXPECT_EQ(of("root a a b"), "accepted with 0 shapes");
+  EXPECT_THAT(of("root a root b b a"),
+              HasSubstr("joint j3.child is \"a\": must be the child of no other joint"));
+  EXPECT_THAT(of("a b b a"),
+              HasSubstr("link a is in a circle of joints: must hang on link root by joints"));
 }
 
 TEST(Urdf, SaysWhatItDoesInsteadOfOtherJoints) {

@@ -8,7 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "candidates/host/plugin_process.hpp"
+#include "candidates/readable.hpp"
 #include "properties/files/configuration_json.hpp"
 #include "properties/files/disk.hpp"
 #include "properties/files/strict_json.hpp"
@@ -321,7 +321,8 @@ Camera camera_for(const Scene& scene) {
 
 void check_printable(const std::string& field, const std::string& name) {
   if (readable(name) == name) return;
-  throw InvalidInput(field, shown(name), "must be without control characters");
+  throw InvalidInput(field, shown(name),
+                     "must be without characters that are not seen, as controls");
 }
 
 namespace {

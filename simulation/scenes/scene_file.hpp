@@ -41,7 +41,7 @@ std::string schema_with_needs(const std::string& schema);
 Camera camera_for(const Scene& scene);
 
 /// Throws InvalidInput with this field unless a terminal shows the name as it is: valid UTF-8
-/// without control characters.
+/// without characters that are not seen (candidates/readable.hpp).
 void check_printable(const std::string& field, const std::string& name);
 
 /// Writes a run for POV-Ray 3.7: scene.pov (camera, light), frame-00001.inc, … (the bodies at

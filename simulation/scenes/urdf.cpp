@@ -3,6 +3,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <urdf_parser/urdf_parser.h>
 
@@ -177,6 +178,27 @@ void read_other_elements(const std::string& text, RobotFile& result) {
   }
 }
 
+/// A link that two joints hold would be read twice, and its own links four times, and so on.
+void refuse_second_parents(const urdf::ModelInterface& robot) {
+  std::set<std::string> children;
+  for (const auto& [name, joint] : robot.joints_) {
+    if (children.insert(joint->child_link_name).second) continue;
+    throw InvalidInput("joint " + name + ".child", '"' + joint->child_link_name + '"',
+                       "must be the child of no other joint: a URDF robot is a tree");
+  }
+}
+
+/// Links in a circle of joints do not hang on the root: urdfdom keeps them to itself.
+void refuse_missing_links(const urdf::ModelInterface& robot, const RobotFile& result) {
+  std::set<std::string> found;
+  for (const Link& link : result.links) found.insert(link.name);
+  for (const auto& [name, link] : robot.links_) {
+    if (found.contains(name)) continue;
+    throw InvalidInput("link " + name, "in a circle of joints",
+                       "must hang on link " + robot.getRoot()->name + " by joints, as in a tree");
+  }
+}
+
 /// Throws InvalidInput with what urdfdom has printed.
 [[noreturn]] void refuse(const std::string& field, const std::string& value,
                          const std::string& otherwise) {
@@ -214,7 +236,9 @@ RobotFile read_urdf(const std::filesystem::path& file) {
   }
   RobotFile result;
   result.name = robot->getName();
+  refuse_second_parents(*robot);
   add_branch(*robot->getRoot(), Eigen::Isometry3d::Identity(), 0, result);
+  refuse_missing_links(*robot, result);
   // A root named so and without a shape holds the robot to the world, as Gazebo and MoveIt read it.
   Link& root = result.links.front();
   root.fixed = root.name == "world" && root.shapes.empty();
