@@ -21,6 +21,8 @@ constexpr double min_half_width = 1e-6, min_density = 1e-6, max_density = 1e9;
 /// Bound on the ratio of the smallest to the largest moment of inertia: that of a rod a million
 /// times as long as wide.
 constexpr double min_inertia_ratio = 1e-12;
+/// Bounds on the mass of a body whose inertia is given, kg.
+constexpr double min_mass = 1e-12, max_mass = 1e12;
 constexpr double max_friction = 1e6;
 /// Seconds.
 constexpr double min_step = 1e-6, max_step = 1;
@@ -41,6 +43,11 @@ void check_vector(const std::string& field, const Vec3& v) {
   }
 }
 
+bool can_turn(const Inertia& inertia) {
+  const Vec3& moments = inertia.principal;
+  return moments.minCoeff() >= min_inertia_ratio * moments.maxCoeff();
+}
+
 void check_shape(const std::string& field, const Body& body) {
   if (const auto* plane = std::get_if<Plane>(&body.shape)) {
     check_between(field + ".displacement", plane->unit_displacement(), -max_in_world, max_in_world);
@@ -52,9 +59,8 @@ void check_shape(const std::string& field, const Body& body) {
     throw InvalidInput(field, fmt::format("{} to {} m in half width", smallest, largest),
                        fmt::format("must be from {} to {} m", min_half_width, max_in_world));
   }
-  if (!body.is_free()) return;
-  const Vec3 moments = inertia(body.shape, body.density).principal;
-  if (!(moments.minCoeff() >= min_inertia_ratio * moments.maxCoeff())) {
+  if (!body.is_free() || body.inertia) return;
+  if (!can_turn(inertia(body.shape, body.density))) {
     throw InvalidInput(field, fmt::format("{} to {} m in half width", smallest, largest),
                        "must be thicker for its length to be turned");
   }
@@ -64,6 +70,23 @@ void check_pose(const std::string& field, const Pose& pose) {
   check_vector(field + ".position", pose.position());
   check_between(field + ".orientation", pose.orientation().coeffs().cwiseAbs().maxCoeff(),
                 min_length, max_length);
+}
+
+void check_inertia(const std::string& field, const PosedInertia& given) {
+  const auto& [mass, principal] = given.inertia;
+  check_pose(field + ".pose", given.X_BC);
+  if (mass == 0 && principal.isZero(0)) return;  // see check_assembly
+  check_between(field + ".mass", mass, min_mass, max_mass);
+  const std::string moments =
+      fmt::format("[{}, {}, {}]", principal.x(), principal.y(), principal.z());
+  if (const char* fault = impossible(principal)) {
+    throw InvalidInput(field + ".moments", moments,
+                       std::string("must be those of a body: ") + fault);
+  }
+  if (!can_turn(given.inertia)) {
+    throw InvalidInput(field + ".moments", moments,
+                       fmt::format("must not differ by more than {} times", 1 / min_inertia_ratio));
+  }
 }
 
 struct CheckDrive {
@@ -109,7 +132,10 @@ void check_at_rest(const std::string& field, const Body& body) {
 
 void check_body(const std::string& field, const Body& body) {
   const Material& m = body.material;
-  if (body.is_free()) check_between(field + ".density", body.density, min_density, max_density);
+  if (body.inertia) check_inertia(field + ".inertia", *body.inertia);
+  if (body.is_free() && !body.inertia) {
+    check_between(field + ".density", body.density, min_density, max_density);
+  }
   check_between(field + ".friction", m.friction, 0, max_friction);
   check_between(field + ".restitution", m.restitution, 0, 1);
   check_pose(field + ".pose", body.pose);
@@ -122,7 +148,7 @@ void check_body(const std::string& field, const Body& body) {
     std::visit(CheckDrive{field + ".drive"}, *body.drive);
   }
   check_shape(field + ".shape", body);
-  if (!body.fixed && inertia(body.shape, body.density).mass == 0) {
+  if (!body.fixed && inertia(body.shape, 1).mass == 0) {
     throw InvalidInput(field + ".fixed", "false",
                        fmt::format("a {} has no mass and must be fixed", shape_name(body.shape)));
   }
@@ -177,6 +203,11 @@ void check_joint(const std::string& field, const Joint& joint, const Scene& scen
 /// What is joined rigidly must move as one at the start, and by one drive at most.
 void check_assembly(const Assembly& assembly, const Scene& scene) {
   const Body& first = scene.bodies[assembly.bodies.front()];
+  if (assembly.is_free() && assembly.inertia.mass == 0) {
+    throw InvalidInput(fmt::format("bodies[{}].inertia.mass", assembly.bodies.front()), "0",
+                       "must be positive, unless a fixed joint makes " + first.name +
+                           " one with a body that has mass");
+  }
   int driven = -1;
   for (const int b : assembly.bodies) {
     const Body& body = scene.bodies[b];
