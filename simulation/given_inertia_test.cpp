@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 #include <numbers>
 
 #include <nlohmann/json.hpp>
@@ -20,6 +20,7 @@ namespace touchstone {
 namespace {
 
 using std::numbers::pi;
+using testing::HasSubstr;
 constexpr double gravity = 9.81;
 
 Eigen::Quaterniond about(const Vec3& axis, double angle) {
@@ -81,29 +82,26 @@ std::string refusal(const PosedInertia& given) {
   return "accepted";
 }
 
-TEST(GivenInertia, ThatIsOfNoBodyIsRefused) {
-  EXPECT_EQ(refusal({{1, Vec3(1, 1, 1)}}), "accepted");
-  EXPECT_EQ(refusal({{1, Vec3(1, 1, 2.01)}}), "accepted");  // 0.5 + 0.5 = 1, rounded
-  EXPECT_EQ(refusal({{1, Vec3(1, 1, 3)}}),
-            "bodies[0].inertia.moments is [1, 1, 3]: must be those of a body: one moment larger "
-            "than the sum of the others");
-  EXPECT_EQ(refusal({{1, Vec3(1, 0, 1)}}),
-            "bodies[0].inertia.moments is [1, 0, 1]: must be those of a body: not positive");
-  EXPECT_EQ(refusal({{1, Vec3(1, std::nan(""), 1)}}),
-            "bodies[0].inertia.moments is [1, nan, 1]: must be those of a body: not finite");
-  EXPECT_EQ(refusal({{1, Vec3(1, 1e-13, 1)}}),
-            "bodies[0].inertia.moments is [1, 1e-13, 1]: must not differ by more than "
-            "1000000000000 times");
-  EXPECT_EQ(refusal({{-1, Vec3(1, 1, 1)}}),
-            "bodies[0].inertia.mass is -1: must lie between 1e-12 and 1000000000000");
-  EXPECT_EQ(refusal({{0, Vec3(1, 1, 1)}}),
-            "bodies[0].inertia.mass is 0: must lie between 1e-12 and 1000000000000");
+TEST(GivenInertia, ThatNoBodyCanHaveIsRefused) {
+  const auto of_moments = [](double x, double y, double z) {
+    return refusal({{1, Vec3(x, y, z)}});
+  };
+  EXPECT_EQ(of_moments(1, 1, 1), "accepted");
+  EXPECT_EQ(of_moments(1, 1, 2.01), "accepted");  // a flat plate's, rounded
+  EXPECT_EQ(of_moments(1, 1, 3),
+            "bodies[0].inertia.moments is [1, 1, 3]: must be principal moments that a body can "
+            "have: they are not if one is larger than the sum of the others");
+  EXPECT_THAT(of_moments(1, 0, 1), HasSubstr("not if one is not positive"));
+  EXPECT_THAT(of_moments(1, std::nan(""), 1), HasSubstr("not if one is not finite"));
+  EXPECT_THAT(of_moments(1, 1e-13, 1), HasSubstr("next to nothing beside another"));
+  EXPECT_THAT(of_moments(1e30, 1e30, 1e30), HasSubstr("must lie between 1e-24 and 1e+24"));
+  EXPECT_THAT(refusal({{-1, Vec3(1, 1, 1)}}), HasSubstr("bodies[0].inertia.mass is -1: must lie"));
+  EXPECT_THAT(refusal({{0, Vec3(1, 1, 1)}}), HasSubstr("bodies[0].inertia.mass is 0: must lie"));
   EXPECT_EQ(refusal({{0, Vec3::Zero()}}),
             "bodies[0].inertia.mass is 0: must be positive, unless a fixed joint makes a one with "
             "a body that has mass");
-  EXPECT_EQ(refusal({{1, Vec3(1, 1, 1)}, at(0, 0, 1e7)}),
-            "bodies[0].inertia.pose.position[2] is 10000000: must lie between -1000000 and "
-            "1000000");
+  EXPECT_THAT(refusal({{1, Vec3(1, 1, 1)}, at(0, 0, 1e7)}),
+              HasSubstr("bodies[0].inertia.pose.position[2] is 10000000: must lie"));
 }
 
 using States = std::vector<BodyState>;

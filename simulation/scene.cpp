@@ -52,12 +52,12 @@ PosedInertia inertia(const Body& body) {
 }
 
 const char* impossible(const Vec3& principal) {
-  constexpr double rounding = 0.01;
+  constexpr double rounding = 0.01, min_ratio = 1e-12;  // as check_scene asks of shapes
+  const double largest = principal.maxCoeff(), others = principal.sum() - largest;
   if (!principal.allFinite()) return "not finite";
   if (!(principal.minCoeff() > 0)) return "not positive";
-  const double largest = principal.maxCoeff(), others = principal.sum() - largest;
-  return largest > (1 + rounding) * others ? "one moment larger than the sum of the others"
-                                           : nullptr;
+  if (principal.minCoeff() < min_ratio * largest) return "next to nothing beside another";
+  return largest > (1 + rounding) * others ? "larger than the sum of the others" : nullptr;
 }
 
 double kinetic_energy(const BodyState& state, const Inertia& inertia) {
