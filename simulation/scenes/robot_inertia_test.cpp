@@ -240,9 +240,9 @@ RobotFile tower() {
   RobotFile robot;
   robot.name = "tower";
   Link part{"tower"};
-  part.shapes = {{"foot", Box(Vec3(0.1, 0.1, 0.2)), Pose(Vec3(0, 0, 0.2))},
-                 {"head", Box(Vec3(0.1, 0.1, 0.4)),
-                  Pose(Vec3(0, 0, 0.8), about(Vec3::UnitX(), 3.14159265358979))}};
+  part.shapes = {
+      {"foot", Box(Vec3(0.1, 0.1, 0.2)), Pose(Vec3(0, 0, 0.2))},
+      {"head", Box(Vec3(0.1, 0.1, 0.4)), Pose(Vec3(0, 0, 0.8), about(Vec3::UnitZ(), 0.7))}};
   part.mass = 6;
   robot.links = {part};
   return robot;
