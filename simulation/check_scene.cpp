@@ -127,8 +127,8 @@ void check_at_rest(const std::string& field, const Body& body) {
 
 void check_body(const std::string& field, const Body& body) {
   const Material& m = body.material;
-  if (body.inertia) check_inertia(field + ".inertia", *body.inertia);
   if (body.is_free()) check_between(field + ".density", body.density, min_density, max_density);
+  if (body.inertia) check_inertia(field + ".inertia", *body.inertia);
   check_between(field + ".friction", m.friction, 0, max_friction);
   check_between(field + ".restitution", m.restitution, 0, 1);
   check_pose(field + ".pose", body.pose);

@@ -58,7 +58,7 @@ TEST(GivenInertia, OfTheFirstBodyStandsForAllThatIsJoinedToIt) {
                   box("mast", Vec3(0.1, 0.1, 0.5), at(0, 0, 2))};
   scene.joints = {rigid(1, 0)};
   scene.bodies[0].inertia = {{5, Vec3(0.3, 0.4, 0.5)}, at(0, 0, -0.2)};
-  scene.bodies[1].inertia = {{0, Vec3::Zero()}};
+  scene.bodies[1].inertia = PosedInertia{{0, Vec3::Zero()}};
   check_scene(scene);
   const Assembly all = assemblies(scene).at(0);
   EXPECT_NEAR(all.inertia.mass, 5, 1e-15);
@@ -176,7 +176,7 @@ TEST_P(GivenInertiaIn, MakesThePeriodOfAPendulumThatHangsAtItsShapesCentre) {
     Scene scene;
     scene.step = 1.0 / 1000;
     scene.bodies = {weight_below(), box("case", Vec3(0.1, 0.1, 0.3), at(0, 0, 0.2))};
-    scene.bodies[1].inertia = {{0, Vec3::Zero()}};
+    scene.bodies[1].inertia = PosedInertia{{0, Vec3::Zero()}};
     const Eigen::Quaterniond turn = about(Vec3::UnitY(), 0.02);
     for (Body& b : scene.bodies) b.pose = Pose(turn * b.pose.position(), turn);
     scene.joints = {hinge(0, world_body, Vec3::Zero(), Vec3::UnitY()), rigid(1, 0)};

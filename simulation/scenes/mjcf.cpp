@@ -190,15 +190,6 @@ class Reading {
   void add_body(int b) {
     Link link{body_name(b), pose_of(b)};
     link.fixed = m_.body_weldid[b] == 0;
-    if (m_.body_mass[b] > 0) {
-      const auto of_body = [&](const mjtNum* all, int count) {
-        return all + count * static_cast<std::ptrdiff_t>(b);
-      };
-      const Eigen::Matrix3d moments = to_vector(of_body(m_.body_inertia, 3)).asDiagonal();
-      link.mass = m_.body_mass[b];
-      set_inertia(link, within(link.pose, of_body(m_.body_ipos, 3), of_body(m_.body_iquat, 4)),
-                  moments, result_);
-    }
     for (int g = m_.body_geomadr[b]; g < m_.body_geomadr[b] + m_.body_geomnum[b]; ++g) {
       const std::string name = link.name + '/' + model_.name(mjOBJ_GEOM, "geom", g);
       if (!collides(m_, g)) continue;
@@ -211,6 +202,15 @@ class Reading {
                                m_.geom_quat + 4 * static_cast<std::ptrdiff_t>(g));
       link.shapes.push_back(
           {name, *shape, X_WG, m_.geom_friction[3 * static_cast<std::ptrdiff_t>(g)]});
+    }
+    if (m_.body_mass[b] > 0) {
+      const auto of_body = [&](const mjtNum* all, int count) {
+        return all + count * static_cast<std::ptrdiff_t>(b);
+      };
+      const Eigen::Matrix3d moments = to_vector(of_body(m_.body_inertia, 3)).asDiagonal();
+      link.mass = m_.body_mass[b];
+      set_inertia(link, within(link.pose, of_body(m_.body_ipos, 3), of_body(m_.body_iquat, 4)),
+                  moments, result_);
     }
     result_.links.push_back(std::move(link));
   }

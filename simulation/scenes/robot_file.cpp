@@ -341,6 +341,25 @@ std::string complaint_in(const std::string& log) {
 
 }  // namespace
 
+namespace {
+
+/// Why a link with a mass does not have these principal moments; null if it may. A radius of
+/// gyration of 3% of a shape's is a placeholder's, and contacts sink in with it.
+const char* fault_of(const Vec3& principal, const Link& link) {
+  if (const char* fault = impossible(principal)) return fault;
+  constexpr double min_share = 1e-3;
+  double of_shapes = 0;  // at most, kg m²
+  for (const LinkShape& s : link.shapes) {
+    const Inertia one = inertia(s.shape, 1);
+    if (one.mass > 0)
+      of_shapes = std::max(of_shapes, *link.mass / one.mass * one.principal.maxCoeff());
+  }
+  return principal.maxCoeff() < min_share * of_shapes ? "next to nothing beside its shapes'"
+                                                      : nullptr;
+}
+
+}  // namespace
+
 void set_inertia(Link& link, const Pose& frame, const Eigen::Matrix3d& moments, RobotFile& robot) {
   if (!(link.mass.value_or(0) > 0)) {
     if (!moments.isZero(0)) {
@@ -351,7 +370,7 @@ void set_inertia(Link& link, const Pose& frame, const Eigen::Matrix3d& moments, 
   link.inertia = {frame};
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(
       moments.allFinite() ? moments : Eigen::Matrix3d(Eigen::Matrix3d::Zero()));
-  if (const char* fault = impossible(principal.eigenvalues())) {
+  if (const char* fault = fault_of(principal.eigenvalues(), link)) {
     robot.ignored.push_back(
         fmt::format("link {}: its inertia, of which one principal moment is {}; that of its shapes "
                     "is taken, with its mass and centre of mass",

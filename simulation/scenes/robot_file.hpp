@@ -114,9 +114,9 @@ RobotFile read_sdf(const std::filesystem::path& file,
                    const std::vector<std::filesystem::path>& folders);
 RobotFile read_mjcf(const std::filesystem::path& file);
 
-/// Gives a link with a mass the moments and products of inertia of its file, which are about the
-/// axes of a frame in its centre of mass. If no body can have them, it only gets the centre, and
-/// the robot a note.
+/// Gives a link with its mass and shapes the moments and products of inertia of its file, which are
+/// about the axes of a frame in its centre of mass. If no body can have them, or hardly one of
+/// these shapes, it only gets the centre, and the robot a note.
 void set_inertia(Link& link, const Pose& frame, const Eigen::Matrix3d& moments, RobotFile& robot);
 
 /// What a library has said on standard error up to now, in one line: its first error. Empty outside

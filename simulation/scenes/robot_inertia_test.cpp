@@ -109,7 +109,8 @@ const std::vector<std::pair<Eigen::Matrix3d, std::string>> bad_moments = {
     {symmetric(1, 0, 0, 1, 0, -1), "not positive"},
     {symmetric(1, 0, 0, 1, 2, 1), "not positive"},  // 1 ± 2
     {symmetric(0.1, 0, 0, 0.1, 0, 0.3), "larger than the sum of the others"},
-    {symmetric(1, 0, 0, 1, 0, 1e-14), "next to nothing beside another"}};
+    {symmetric(1, 0, 0, 1, 0, 1e-14), "next to nothing beside another"},
+    {symmetric(1e-4, 0, 0, 1e-4, 0, 1e-4), "next to nothing beside its shapes'"}};
 
 TEST(UrdfInertia, ThatNoBodyCanHaveIsNamedAndLeavesMassAndCentre) {
   for (const auto& [m, fault] : bad_moments) {

@@ -237,7 +237,7 @@ class SceneMaker {
     if (!link.inertia || link.fixed) return;
     const auto& [pose, moments] = *link.inertia;
     if (moments) {
-      for (Body& body : bodies) body.inertia = {{0, Vec3::Zero()}};
+      for (Body& body : bodies) body.inertia = PosedInertia{{0, Vec3::Zero()}};
       bodies.front().inertia = {{*link.mass, *moments}, relative(bodies.front().pose, pose)};
       return;
     }

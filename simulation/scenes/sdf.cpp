@@ -92,17 +92,6 @@ void add_link(const sdf::Link& link, const std::string& link_name, const Pose3d&
   made.fixed = is_static;
   const auto& given = link.Inertial();
   made.mass = given.MassMatrix().Mass();  // 1 kg by default, as Gazebo has it
-  if (descendant(link.Element(), {"inertial", "inertia"})) {
-    const ignition::math::Vector3d on = given.MassMatrix().DiagonalMoments();
-    const ignition::math::Vector3d off = given.MassMatrix().OffDiagonalMoments();
-    Eigen::Matrix3d moments;
-    moments << on.X(), off.X(), off.Y(),  //
-        off.X(), on.Y(), off.Z(),         //
-        off.Y(), off.Z(), on.Z();
-    set_inertia(made, to_pose(X_WL * given.Pose()), moments, result);
-  } else if (*made.mass > 0 && descendant(link.Element(), {"inertial", "pose"})) {
-    made.inertia = {to_pose(X_WL * given.Pose())};
-  }
   for (std::uint64_t k = 0; k < link.CollisionCount(); ++k) {
     const sdf::Collision& collision = *link.CollisionByIndex(k);
     const std::string name = link_name + '/' + collision.Name();
@@ -122,6 +111,17 @@ void add_link(const sdf::Link& link, const std::string& link_name, const Pose3d&
     } catch (const InvalidInput& e) {
       throw e.within("collision " + name);
     }
+  }
+  if (descendant(link.Element(), {"inertial", "inertia"})) {
+    const ignition::math::Vector3d on = given.MassMatrix().DiagonalMoments();
+    const ignition::math::Vector3d off = given.MassMatrix().OffDiagonalMoments();
+    Eigen::Matrix3d moments;
+    moments << on.X(), off.X(), off.Y(),  //
+        off.X(), on.Y(), off.Z(),         //
+        off.Y(), off.Z(), on.Z();
+    set_inertia(made, to_pose(X_WL * given.Pose()), moments, result);
+  } else if (*made.mass > 0 && descendant(link.Element(), {"inertial", "pose"})) {
+    made.inertia = {to_pose(X_WL * given.Pose())};
   }
   result.links.push_back(std::move(made));
 }
