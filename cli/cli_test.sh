@@ -313,6 +313,11 @@ sed 's/radius="0.1" length="0.05"/radius="100" length="50"/; s/<link name="left"
   "$folder/cart.urdf" >"$folder/millimetres.urdf"
 expect 2 '^error: .*millimetres.urdf: link left.density is .*: are these in kilograms and metres?' \
   simulate "$folder/millimetres.urdf"
+# An inertia that no body can have is named; the run goes on.
+sed 's/<link name="left">/&<inertial><mass value="1"\/><inertia ixx="1" iyy="1" izz="3" ixy="0" ixz="0" iyz="0"\/><\/inertial>/' \
+  "$folder/cart.urdf" >"$folder/placeholder.urdf"
+expect 0 'warning: .*link left: its inertia, of which one principal moment is larger than the sum of the others' \
+  simulate "$folder/placeholder.urdf" --duration 0.1
 expect 0 "^Data: $folder/cart/choose.json" choose "$folder/cart.urdf" --count 2 --candidates capsule --out "$folder/cart"
 expect 2 'scene is .*none.urdf": .*could not be opened' simulate "$folder/none.urdf"
 sed 's/<cylinder radius="0.1" length="0.05"/<sphere radius="0.1"/' "$folder/cart.urdf" > "$folder/balls.urdf"

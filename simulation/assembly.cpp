@@ -35,23 +35,24 @@ std::vector<int> first_of_assembly(const Scene& scene) {
 }
 
 /// Centre of mass and principal axes of bodies that are rigidly joined; the moment of a point mass
-/// is m (r² 1 − r rᵀ) (parallel axis theorem).
+/// is m (r² 1 − r rᵀ) (parallel axis theorem). They stay the first body's if there is no mass.
 void join(const Scene& scene, Assembly& assembly) {
   double mass = 0;
   Vec3 moment = Vec3::Zero();
   for (const int b : assembly.bodies) {
     const Body& body = scene.bodies[b];
-    const double m = inertia(body.shape, body.density).mass;
-    mass += m;
-    moment += m * body.pose.position();
+    const auto [i, X_BC] = inertia(body);
+    mass += i.mass;
+    moment += i.mass * (body.pose.position() + body.pose.rotation() * X_BC.position());
   }
+  if (mass == 0) return;
   const Vec3 centre = moment / mass;
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   for (const int b : assembly.bodies) {
     const Body& body = scene.bodies[b];
-    const Inertia i = inertia(body.shape, body.density);
-    const Eigen::Matrix3d& r = body.pose.rotation();
-    const Vec3 arm = body.pose.position() - centre;
+    const auto [i, X_BC] = inertia(body);
+    const Eigen::Matrix3d r = body.pose.rotation() * X_BC.rotation();
+    const Vec3 arm = body.pose.position() + body.pose.rotation() * X_BC.position() - centre;
     sum += r * i.principal.asDiagonal() * r.transpose();
     sum += i.mass * (arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose());
   }
@@ -90,13 +91,14 @@ std::vector<Assembly> assemblies(const Scene& scene) {
     const int first_body = assembly.bodies.front();
     const Body& lead = scene.bodies[assembly.driven < 0 ? first_body : assembly.driven];
     assembly.X_WF = lead.pose;
+    const bool is_uniform = assembly.bodies.size() == 1 && !lead.inertia;
     if (assembly.is_free()) {
-      assembly.inertia = inertia(lead.shape, lead.density);
-      if (assembly.bodies.size() > 1) join(scene, assembly);
+      assembly.inertia = inertia(lead).inertia;
+      if (!is_uniform) join(scene, assembly);
     }
+    const bool is_body = assembly.bodies.size() == 1 && (is_uniform || !assembly.is_free());
     for (const int b : assembly.bodies) {
-      assembly.X_FB.push_back(
-          assembly.bodies.size() == 1 ? Pose() : relative(assembly.X_WF, scene.bodies[b].pose));
+      assembly.X_FB.push_back(is_body ? Pose() : relative(assembly.X_WF, scene.bodies[b].pose));
     }
   }
   return result;
@@ -110,11 +112,21 @@ std::vector<bool> moved_by_forces(const Scene& scene) {
   return result;
 }
 
-BodyState state_within(const BodyState& assembly, const Pose& X_FB) {
-  const Vec3 arm = assembly.pose.rotation() * X_FB.position();
-  return {Pose(assembly.pose.position() + arm,
-               assembly.pose.unit_orientation() * X_FB.unit_orientation()),
-          assembly.velocity + assembly.angular_velocity.cross(arm), assembly.angular_velocity};
+BodyState start_of(const Assembly& assembly, const Scene& scene) {
+  if (!assembly.is_free()) return {assembly.X_WF, Vec3::Zero(), Vec3::Zero()};
+  const Body& first = scene.bodies[assembly.bodies.front()];
+  const Vec3 arm = assembly.X_WF.position() - first.pose.position();
+  return {assembly.X_WF, first.velocity + first.angular_velocity.cross(arm),
+          first.angular_velocity};
+}
+
+BodyState state_within(const BodyState& state, const Pose& X_FB) {
+  // To the last digit the same where the frames are.
+  if (X_FB.position().isZero(0) && X_FB.orientation().vec().isZero(0)) return state;
+  const Vec3 arm = state.pose.rotation() * X_FB.position();
+  return {
+      Pose(state.pose.position() + arm, state.pose.unit_orientation() * X_FB.unit_orientation()),
+      state.velocity + state.angular_velocity.cross(arm), state.angular_velocity};
 }
 
 BodyState driven_state(const Drive& drive, const Pose& start, double time, double step) {

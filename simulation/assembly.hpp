@@ -8,8 +8,9 @@
 namespace touchstone {
 
 /// Bodies that fixed joints make one rigid body; most often a single body. Its frame F has its
-/// origin in the centre of mass and its axes along the principal ones; of a single
-/// body it is that body's, of bodies that forces do not move that of the driven or the first one.
+/// origin in the centre of mass and its axes along the principal ones: of a single body, its own
+/// unless its inertia is given. Of bodies that forces do not move it is that of the driven or the
+/// first one.
 struct Assembly {
   std::vector<int> bodies;              ///< ascending indices
   bool fixed = false;                   ///< to the world
@@ -30,8 +31,11 @@ std::vector<bool> moved_by_forces(const Scene& scene);
 /// Pose of frame B in frame A, from both in the world.
 Pose relative(const Pose& X_WA, const Pose& X_WB);
 
-/// State of a body that is at X_FB in the frame of an assembly with this state.
-BodyState state_within(const BodyState& assembly, const Pose& X_FB);
+/// State of the assembly's frame at the start.
+BodyState start_of(const Assembly& assembly, const Scene& scene);
+
+/// State of a frame that is at X_FB in a frame with this state, and moves with it.
+BodyState state_within(const BodyState& state, const Pose& X_FB);
 
 /// State of a driven body in the step that ends at a time: the pose then, and the mean velocities
 /// that lead to it from the pose one step before.

@@ -21,6 +21,9 @@ constexpr double min_half_width = 1e-6, min_density = 1e-6, max_density = 1e9;
 /// Bound on the ratio of the smallest to the largest moment of inertia: that of a rod a million
 /// times as long as wide.
 constexpr double min_inertia_ratio = 1e-12;
+/// Bounds on the mass of a body whose inertia is given, kg, and on its largest moment, kg m²: about
+/// those of the smallest and the largest shapes.
+constexpr double min_mass = 1e-24, max_mass = 1e24, min_moment = 1e-36, max_moment = 1e36;
 constexpr double max_friction = 1e6;
 /// Seconds.
 constexpr double min_step = 1e-6, max_step = 1;
@@ -52,7 +55,7 @@ void check_shape(const std::string& field, const Body& body) {
     throw InvalidInput(field, fmt::format("{} to {} m in half width", smallest, largest),
                        fmt::format("must be from {} to {} m", min_half_width, max_in_world));
   }
-  if (!body.is_free()) return;
+  if (!body.is_free() || body.inertia) return;
   const Vec3 moments = inertia(body.shape, body.density).principal;
   if (!(moments.minCoeff() >= min_inertia_ratio * moments.maxCoeff())) {
     throw InvalidInput(field, fmt::format("{} to {} m in half width", smallest, largest),
@@ -64,6 +67,21 @@ void check_pose(const std::string& field, const Pose& pose) {
   check_vector(field + ".position", pose.position());
   check_between(field + ".orientation", pose.orientation().coeffs().cwiseAbs().maxCoeff(),
                 min_length, max_length);
+}
+
+void check_inertia(const std::string& field, const PosedInertia& given) {
+  const auto& [mass, principal] = given.inertia;
+  check_pose(field + ".pose", given.X_BC);
+  if (mass == 0 && principal.isZero(0)) return;  // see check_assembly
+  check_between(field + ".mass", mass, min_mass, max_mass);
+  if (const char* fault = impossible(principal)) {
+    throw InvalidInput(
+        field + ".moments",
+        fmt::format("[{}, {}, {}]", principal.x(), principal.y(), principal.z()),
+        std::string("must be principal moments that a body can have: they are not if one is ") +
+            fault);
+  }
+  check_between(field + ".moments", principal.maxCoeff(), min_moment, max_moment);
 }
 
 struct CheckDrive {
@@ -110,6 +128,7 @@ void check_at_rest(const std::string& field, const Body& body) {
 void check_body(const std::string& field, const Body& body) {
   const Material& m = body.material;
   if (body.is_free()) check_between(field + ".density", body.density, min_density, max_density);
+  if (body.inertia) check_inertia(field + ".inertia", *body.inertia);
   check_between(field + ".friction", m.friction, 0, max_friction);
   check_between(field + ".restitution", m.restitution, 0, 1);
   check_pose(field + ".pose", body.pose);
@@ -122,7 +141,7 @@ void check_body(const std::string& field, const Body& body) {
     std::visit(CheckDrive{field + ".drive"}, *body.drive);
   }
   check_shape(field + ".shape", body);
-  if (!body.fixed && inertia(body.shape, body.density).mass == 0) {
+  if (!body.fixed && inertia(body.shape, 1).mass == 0) {
     throw InvalidInput(field + ".fixed", "false",
                        fmt::format("a {} has no mass and must be fixed", shape_name(body.shape)));
   }
@@ -177,6 +196,11 @@ void check_joint(const std::string& field, const Joint& joint, const Scene& scen
 /// What is joined rigidly must move as one at the start, and by one drive at most.
 void check_assembly(const Assembly& assembly, const Scene& scene) {
   const Body& first = scene.bodies[assembly.bodies.front()];
+  if (assembly.is_free() && assembly.inertia.mass == 0) {
+    throw InvalidInput(fmt::format("bodies[{}].inertia.mass", assembly.bodies.front()), "0",
+                       "must be positive, unless a fixed joint makes " + first.name +
+                           " one with a body that has mass");
+  }
   int driven = -1;
   for (const int b : assembly.bodies) {
     const Body& body = scene.bodies[b];

@@ -6,6 +6,7 @@
 
 #include "properties/named.hpp"
 #include "reference/invalid_input.hpp"
+#include "simulation/assembly.hpp"
 #include "simulation/experiment_setup.hpp"
 #include "simulation/world.hpp"
 
@@ -62,16 +63,20 @@ Run::Run(const Scene& scene, const Simulator& simulator, double size)
       size_(size),
       energy_unit_(0) {
   for (const Body& body : scene.bodies) {
-    inertias_.push_back(body.fixed ? Inertia{0, Vec3::Zero()} : inertia(body.shape, body.density));
-    energy_unit_ += inertias_.back().mass * gravity * size;
+    inertias_.push_back(body.fixed ? PosedInertia{{0, Vec3::Zero()}} : inertia(body));
+    energy_unit_ += inertias_.back().inertia.mass * gravity * size;
   }
   min_energy_ = energy();
+}
+
+BodyState Run::at_mass(std::size_t body) const {
+  return state_within(states()[body], inertias_[body].X_BC);
 }
 
 double Run::kinetic_joules() const {
   double sum = 0;
   for (std::size_t i = 0; i < states().size(); ++i) {
-    sum += touchstone::kinetic_energy(states()[i], inertias_[i]);
+    sum += touchstone::kinetic_energy(at_mass(i), inertias_[i].inertia);
   }
   return sum;
 }
@@ -79,7 +84,7 @@ double Run::kinetic_joules() const {
 double Run::energy() const {
   double potential = 0;
   for (std::size_t i = 0; i < states().size(); ++i) {
-    potential -= inertias_[i].mass * scene_.gravity.dot(states()[i].pose.position());
+    potential -= inertias_[i].inertia.mass * scene_.gravity.dot(at_mass(i).pose.position());
   }
   return kinetic_joules() + potential;
 }

@@ -50,10 +50,12 @@ class Run {
 
  private:
   double kinetic_joules() const;
+  /// State of a body's centre of mass.
+  BodyState at_mass(std::size_t body) const;
   double energy() const;  ///< J; that of gravity is zero at the origin
 
   Scene scene_;
-  std::vector<Inertia> inertias_;  ///< zero where the body is fixed
+  std::vector<PosedInertia> inertias_;  ///< by body; zero where it is fixed
   std::unique_ptr<Simulation> simulation_;
   std::uint64_t steps_;  ///< of the whole duration
   double size_, energy_unit_, min_energy_;

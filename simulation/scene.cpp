@@ -47,6 +47,19 @@ Inertia inertia(const Shape& shape, double density) {
   return std::visit(InertiaOf{density}, shape);
 }
 
+PosedInertia inertia(const Body& body) {
+  return body.inertia ? *body.inertia : PosedInertia{inertia(body.shape, body.density)};
+}
+
+const char* impossible(const Vec3& principal) {
+  constexpr double rounding = 0.01, min_ratio = 1e-12;  // as check_scene asks of shapes
+  const double largest = principal.maxCoeff(), others = principal.sum() - largest;
+  if (!principal.allFinite()) return "not finite";
+  if (!(principal.minCoeff() > 0)) return "not positive";
+  if (principal.minCoeff() < min_ratio * largest) return "next to nothing beside another";
+  return largest > (1 + rounding) * others ? "larger than the sum of the others" : nullptr;
+}
+
 double kinetic_energy(const BodyState& state, const Inertia& inertia) {
   return (inertia.mass * state.velocity.squaredNorm() +
           state.angular_velocity.dot(spin(state.pose, inertia, state.angular_velocity))) /

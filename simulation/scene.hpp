@@ -20,11 +20,25 @@ struct Material {
   double restitution = 0;  ///< ratio of the speeds after and before a bounce, 0 … 1
 };
 
-/// A rigid body and its initial state. Velocities: of the centre, world frame.
+/// Mass properties of a body about its centre of mass.
+struct Inertia {
+  double mass;     ///< kg
+  Vec3 principal;  ///< principal moments, kg m²
+};
+
+/// Mass properties with the frame in which they are: origin in the centre of mass, axes along the
+/// principal ones.
+struct PosedInertia {
+  Inertia inertia;
+  Pose X_BC = {};  ///< of that frame, in the body's frame
+};
+
+/// A rigid body and its initial state. Its centre is that of its shape, wherever its mass is.
+/// Velocities: of the centre, world frame.
 struct Body {
   std::string name;
   Shape shape;
-  double density = 1000;  ///< kg/m³; irrelevant if fixed
+  double density = 1000;  ///< kg/m³; irrelevant if fixed or if the inertia is given
   Material material = {};
   Pose pose = {};
   Vec3 velocity = Vec3::Zero();          ///< m/s
@@ -35,6 +49,9 @@ struct Body {
   /// along the contact normal has no effect.
   Vec3 surface_velocity = Vec3::Zero();
   bool collides = true;  ///< false: it has mass, but touches nothing
+  /// Instead of that of the shape at its density. All of it may be zero where a fixed joint makes
+  /// the body one with others that have mass.
+  std::optional<PosedInertia> inertia = {};
 
   /// Do forces move it?
   bool is_free() const { return !fixed && !drive; }
@@ -62,14 +79,16 @@ inline constexpr double max_in_world = 1e6;
 /// simulated: ODE ends the process where a product of its inputs overflows or vanishes.
 void check_scene(const Scene& scene);
 
-/// Mass properties of a solid body of uniform density, about its centre.
-struct Inertia {
-  double mass;     ///< kg
-  Vec3 principal;  ///< principal moments along the shape's own axes, kg m²
-};
-
-/// Closed forms for the solid shapes; zeros for a plane, as for any shape without a formula here.
+/// Of a solid shape of uniform density, about its centre and along its own axes: closed forms;
+/// zeros for a plane, as for any shape without a formula here.
 Inertia inertia(const Shape& shape, double density);
+
+/// Of a body: the given one, or that of its shape at its density.
+PosedInertia inertia(const Body& body);
+
+/// Why no body has these principal moments, as "not positive"; null if there can be one. The
+/// largest may exceed the sum of the others (triangle inequality) by a rounding to two digits.
+const char* impossible(const Vec3& principal);
 
 /// Pose and velocities of a body at one time.
 struct BodyState {

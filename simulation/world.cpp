@@ -113,15 +113,11 @@ World::State::~State() {
 }
 
 void World::State::make_assembly(const Assembly& assembly) {
-  const Body& first = scene.bodies[assembly.bodies.front()];
-  BodyState state{assembly.X_WF, Vec3::Zero(), Vec3::Zero()};
+  const BodyState state = start_of(assembly, scene);
   const dBodyID body = make_ode_body(world, assembly);
   if (assembly.is_free()) {
     dBodySetFiniteRotationMode(body, 1);  // exact finite rotations
     dBodySetGyroscopicMode(body, 0);      // see move
-    const Vec3 arm = assembly.X_WF.position() - first.pose.position();
-    state.velocity = first.velocity + first.angular_velocity.cross(arm);
-    state.angular_velocity = first.angular_velocity;
   }
   if (body) place(body, state);
   moving.push_back(
@@ -340,8 +336,7 @@ void World::State::read_states(const std::vector<Vec3>& free_angular_velocities)
 
 void World::State::place_bodies(const Moving& m) {
   for (std::size_t i = 0; i < m.assembly.bodies.size(); ++i) {
-    const bool is_single = m.assembly.bodies.size() == 1;
-    states[m.assembly.bodies[i]] = is_single ? m.state : state_within(m.state, m.assembly.X_FB[i]);
+    states[m.assembly.bodies[i]] = state_within(m.state, m.assembly.X_FB[i]);
   }
 }
 

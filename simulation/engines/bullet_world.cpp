@@ -163,7 +163,8 @@ class BulletWorld : public EngineWorld {
         compound->addChildShape(to_transform(shifted(assembly.X_FB[i], piece.centre)), made);
       }
     }
-    if (assembly.bodies.size() > 1 || compound->getNumChildShapes() > 1) {
+    const bool is_centred = compound->getChildTransform(0) == btTransform::getIdentity();
+    if (compound->getNumChildShapes() > 1 || !is_centred) {
       shapes_.push_back(std::move(compound));
     }
     return shapes_.back().get();

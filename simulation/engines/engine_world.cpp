@@ -85,13 +85,6 @@ bool EngineWorld::acts(const Joint& joint) const {
   return a != b && (is_free || assemblies_[b].is_free());
 }
 
-BodyState EngineWorld::start_of(std::size_t assembly) const {
-  const Assembly& a = assemblies_[assembly];
-  const Body& first = scene_.bodies[a.bodies.front()];
-  const Vec3 arm = a.X_WF.position() - first.pose.position();
-  return {a.X_WF, first.velocity + first.angular_velocity.cross(arm), first.angular_velocity};
-}
-
 Vec3 EngineWorld::belt(int body, int other, const Vec3& normal) const {
   const auto velocity = [&](int i) {
     return Vec3(states_[i].pose.rotation() * scene_.bodies[i].surface_velocity);
@@ -120,7 +113,7 @@ void EngineWorld::place_bodies(std::size_t assembly, const BodyState& state) {
   const Assembly& a = assemblies_[assembly];
   centres_[assembly] = state.pose.position();
   for (std::size_t i = 0; i < a.bodies.size(); ++i) {
-    states_[a.bodies[i]] = a.bodies.size() == 1 ? state : state_within(state, a.X_FB[i]);
+    states_[a.bodies[i]] = state_within(state, a.X_FB[i]);
   }
 }
 

@@ -58,7 +58,9 @@ class EngineWorld : public Simulation {
   /// Index of a body's assembly, by index in the scene.
   std::size_t assembly_of(int body) const { return assembly_of_[body]; }
   /// State of an assembly at the start.
-  BodyState start_of(std::size_t assembly) const;
+  BodyState start_of(std::size_t assembly) const {
+    return touchstone::start_of(assemblies_[assembly], scene_);
+  }
   std::vector<Piece> pieces(int body) const {
     return touchstone::pieces(scene_.bodies[body], setup_.shape_of(body));
   }

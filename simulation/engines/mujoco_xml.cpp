@@ -111,10 +111,14 @@ class Model {
     Inertia i = assembly.inertia;
     if (!assembly.is_free()) {
       const Body& body = scene_.bodies[assembly.driven];
-      const Inertia one = inertia(body.shape, body.density);
+      const Inertia one = inertia(body.shape, 1);
       i.mass = driven_mass_ratio * std::max(mass_, 1.0);
       i.principal.setConstant(i.mass / one.mass * one.principal.maxCoeff());
     }
+    // MuJoCo takes no moment that is larger than the sum of the others, be it by rounding.
+    constexpr double rounding = 1e-12;
+    const Vec3 others = Vec3::Constant(i.principal.sum()) - i.principal;
+    i.principal = i.principal.cwiseMin((1 - rounding) * others);
     return fmt::format("<inertial pos='0 0 0' mass='{}' diaginertia='{} {} {}'/>", i.mass,
                        i.principal.x(), i.principal.y(), i.principal.z());
   }

@@ -168,7 +168,23 @@ void check_sdf_pose(const ptree& element, const std::string& where) {
   throw InvalidInput(where + ".pose", shown(text), "must be numbers between spaces, without units");
 }
 
-/// Checks the collisions of all links, at any depth; `path` names the models around them.
+/// Checks the numbers of the inertials, in which libsdformat passes over a unit.
+void check_sdf_inertial(const ptree& link, const std::string& where) {
+  for (const auto& [tag, inertial] : link) {
+    if (tag != "inertial") continue;
+    check_sdf_pose(inertial, where);
+    for (const auto& [name, number] : inertial) {
+      if (name == "mass") check_numbers(number.data(), 1, where + '.' + name);
+      if (name != "inertia") continue;
+      for (const auto& [moment, value] : number) {
+        if (!is_meta(moment)) check_numbers(value.data(), 1, where + ".inertia." + moment);
+      }
+    }
+  }
+}
+
+/// Checks the inertials and collisions of all links, at any depth; `path` names the models around
+/// them.
 void check_sdf_links(const ptree& element, const std::string& path) {
   for (const auto& [tag, content] : element) {
     const std::string name = path + name_of(content);
@@ -176,6 +192,7 @@ void check_sdf_links(const ptree& element, const std::string& path) {
     if (tag == "model" || tag == "link") check_sdf_pose(content, tag + ' ' + name);
     if (tag == "model") check_sdf_links(content, name + "::");
     if (tag != "link") continue;
+    check_sdf_inertial(content, "link " + name + ".inertial");
     for (const auto& [child, collision] : content) {
       if (child != "collision") continue;
       const std::string where = "collision " + name + '/' + name_of(collision);

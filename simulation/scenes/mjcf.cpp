@@ -86,6 +86,12 @@ struct Model {
 
 Vec3 to_vector(const double* v) { return {v[0], v[1], v[2]}; }
 
+/// Pose in the world of what has a position and a quaternion in a body's frame.
+Pose within(const Pose& X_WB, const double* p, const double* q) {
+  const Eigen::Quaterniond turn = X_WB.unit_orientation();
+  return {X_WB.position() + turn * to_vector(p), turn * Eigen::Quaterniond(q[0], q[1], q[2], q[3])};
+}
+
 /// Half lengths; nothing for a mesh, a height field or an ellipsoid.
 std::optional<Shape> shape_of(const mjModel& m, int geom) {
   const double* const size = m.geom_size + 3 * static_cast<std::ptrdiff_t>(geom);
@@ -184,7 +190,6 @@ class Reading {
   void add_body(int b) {
     Link link{body_name(b), pose_of(b)};
     link.fixed = m_.body_weldid[b] == 0;
-    if (m_.body_mass[b] > 0) link.mass = m_.body_mass[b];
     for (int g = m_.body_geomadr[b]; g < m_.body_geomadr[b] + m_.body_geomnum[b]; ++g) {
       const std::string name = link.name + '/' + model_.name(mjOBJ_GEOM, "geom", g);
       if (!collides(m_, g)) continue;
@@ -193,14 +198,19 @@ class Reading {
         leave_out(model_, g, name, result_);
         continue;
       }
-      // The position relative to the body, of which the kinematics make that in the world.
-      const double* const p = m_.geom_pos + 3 * static_cast<std::ptrdiff_t>(g);
-      const double* const q = m_.geom_quat + 4 * static_cast<std::ptrdiff_t>(g);
-      const Eigen::Quaterniond turn = link.pose.unit_orientation();
-      const Pose X_WG(link.pose.position() + turn * to_vector(p),
-                      turn * Eigen::Quaterniond(q[0], q[1], q[2], q[3]));
+      const Pose X_WG = within(link.pose, m_.geom_pos + 3 * static_cast<std::ptrdiff_t>(g),
+                               m_.geom_quat + 4 * static_cast<std::ptrdiff_t>(g));
       link.shapes.push_back(
           {name, *shape, X_WG, m_.geom_friction[3 * static_cast<std::ptrdiff_t>(g)]});
+    }
+    if (m_.body_mass[b] > 0) {
+      const auto of_body = [&](const mjtNum* all, int count) {
+        return all + count * static_cast<std::ptrdiff_t>(b);
+      };
+      const Eigen::Matrix3d moments = to_vector(of_body(m_.body_inertia, 3)).asDiagonal();
+      link.mass = m_.body_mass[b];
+      set_inertia(link, within(link.pose, of_body(m_.body_ipos, 3), of_body(m_.body_iquat, 4)),
+                  moments, result_);
     }
     result_.links.push_back(std::move(link));
   }

@@ -12,6 +12,8 @@
 #include <type_traits>
 #include <unistd.h>
 
+#include <Eigen/Eigenvalues>
+
 #include "candidates/host/contained.hpp"
 #include "candidates/host/plugin_process.hpp"
 #include "candidates/readable.hpp"
@@ -27,8 +29,12 @@ void members(Archive& a, T& x) requires std::is_same_v<std::remove_const_t<T>, L
   a(x.name, x.shape, x.pose, x.friction);
 }
 template <class Archive, class T>
+void members(Archive& a, T& x) requires std::is_same_v<std::remove_const_t<T>, LinkInertia> {
+  a(x.pose, x.moments);
+}
+template <class Archive, class T>
 void members(Archive& a, T& x) requires std::is_same_v<std::remove_const_t<T>, Link> {
-  a(x.name, x.pose, x.shapes, x.mass, x.fixed);
+  a(x.name, x.pose, x.shapes, x.mass, x.inertia, x.fixed);
 }
 template <class Archive, class T>
 void members(Archive& a, T& x) requires std::is_same_v<std::remove_const_t<T>, LinkJoint> {
@@ -335,6 +341,48 @@ std::string complaint_in(const std::string& log) {
 }
 
 }  // namespace
+
+namespace {
+
+/// Why a link with a mass does not have these principal moments; null if it may. A radius of
+/// gyration of 3% of a shape's is a placeholder's, and contacts sink in with it.
+const char* fault_of(const Vec3& principal, const Link& link) {
+  if (const char* fault = impossible(principal)) return fault;
+  constexpr double min_share = 1e-3;
+  double of_shapes = 0;  // at most, kg m²
+  for (const LinkShape& s : link.shapes) {
+    const Inertia one = inertia(s.shape, 1);
+    if (one.mass > 0)
+      of_shapes = std::max(of_shapes, *link.mass / one.mass * one.principal.maxCoeff());
+  }
+  return principal.maxCoeff() < min_share * of_shapes ? "next to nothing beside its shapes'"
+                                                      : nullptr;
+}
+
+}  // namespace
+
+void set_inertia(Link& link, const Pose& frame, const Eigen::Matrix3d& moments, RobotFile& robot) {
+  if (!(link.mass.value_or(0) > 0)) {
+    if (!moments.isZero(0)) {
+      robot.ignored.push_back(fmt::format("link {}: an inertia without a mass", link.name));
+    }
+    return;
+  }
+  link.inertia = {frame};
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(
+      moments.allFinite() ? moments : Eigen::Matrix3d(Eigen::Matrix3d::Zero()));
+  if (const char* fault = fault_of(principal.eigenvalues(), link)) {
+    robot.ignored.push_back(
+        fmt::format("link {}: its inertia, of which one principal moment is {}; that of its shapes "
+                    "is taken, with its mass and centre of mass",
+                    link.name, fault));
+    return;
+  }
+  Eigen::Matrix3d axes = principal.eigenvectors();
+  if (axes.determinant() < 0) axes.col(0) *= -1;
+  link.inertia = {Pose(frame.position(), frame.unit_orientation() * Eigen::Quaterniond(axes)),
+                  principal.eigenvalues()};
+}
 
 std::string library_complaint() {
   return library_log < 0 ? "" : complaint_in(text_of_log(library_log));

@@ -24,13 +24,20 @@ struct LinkShape {
   std::optional<double> friction = {};  ///< Coulomb's coefficient, where the file gives it
 };
 
+/// Where the mass of a link is.
+struct LinkInertia {
+  Pose pose;                         ///< of its centre and principal axes, as that of its shapes
+  std::optional<Vec3> moments = {};  ///< principal, kg m²; without them, as its shapes have it
+};
+
 /// A rigid part of a robot or world.
 struct Link {
   std::string name;  ///< of a world "model::link"
   Pose pose = {};    ///< of its frame, as that of its shapes
   std::vector<LinkShape> shapes = {};
-  std::optional<double> mass = {};  ///< kg, where the file gives it
-  bool fixed = false;               ///< to the world
+  std::optional<double> mass = {};          ///< kg, where the file gives it
+  std::optional<LinkInertia> inertia = {};  ///< of a link with a mass, where the file gives it
+  bool fixed = false;                       ///< to the world
 };
 
 /// A joint of two links; its position is zero as the file places them.
@@ -106,6 +113,11 @@ RobotFile read_urdf(const std::filesystem::path& file);
 RobotFile read_sdf(const std::filesystem::path& file,
                    const std::vector<std::filesystem::path>& folders);
 RobotFile read_mjcf(const std::filesystem::path& file);
+
+/// Gives a link with its mass and shapes the moments and products of inertia of its file, which are
+/// about the axes of a frame in its centre of mass. If no body can have them, or hardly one of
+/// these shapes, it only gets the centre, and the robot a note.
+void set_inertia(Link& link, const Pose& frame, const Eigen::Matrix3d& moments, RobotFile& robot);
 
 /// What a library has said on standard error up to now, in one line: its first error. Empty outside
 /// of `read_robot`.

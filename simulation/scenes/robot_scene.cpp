@@ -12,6 +12,7 @@
 #include "properties/files/given_text.hpp"
 #include "reference/invalid_input.hpp"
 #include "reference/support.hpp"
+#include "simulation/assembly.hpp"
 #include "simulation/scenes/robot_file.hpp"
 
 namespace touchstone {
@@ -219,12 +220,34 @@ class SceneMaker {
     }
     double volume = 0;
     for (const LinkShape& s : link.shapes) volume += volume_of(s.shape);
+    std::vector<Body> bodies;
     for (const LinkShape& s : link.shapes) {
-      Body body{link.shapes.size() == 1 ? link.name : s.name, s.shape};
+      Body& body = bodies.emplace_back(link.shapes.size() == 1 ? link.name : s.name, s.shape);
       body.pose = s.pose;
       body.density = link.mass.value_or(0) > 0 ? *link.mass / volume : water;
       if (s.friction) body.material.friction = std::min(*s.friction, max_friction);
-      add_body(l, body);
+    }
+    set_inertia(link, bodies);
+    for (const Body& body : bodies) add_body(l, body);
+  }
+
+  /// Puts the mass of a link where the file has it: with its moments, all of it into the first
+  /// body; without them each body keeps its own, all of them moved to where their centre shall be.
+  static void set_inertia(const Link& link, std::vector<Body>& bodies) {
+    if (!link.inertia || link.fixed) return;
+    const auto& [pose, moments] = *link.inertia;
+    if (moments) {
+      for (Body& body : bodies) body.inertia = PosedInertia{{0, Vec3::Zero()}};
+      bodies.front().inertia = {{*link.mass, *moments}, relative(bodies.front().pose, pose)};
+      return;
+    }
+    Vec3 centre = Vec3::Zero();
+    for (const Body& body : bodies) {
+      centre += inertia(body).inertia.mass / *link.mass * body.pose.position();
+    }
+    for (Body& body : bodies) {
+      const Vec3 off = body.pose.rotation().transpose() * (pose.position() - centre);
+      body.inertia = {inertia(body).inertia, Pose(off)};
     }
   }
 
@@ -236,7 +259,9 @@ class SceneMaker {
     body.density = water;
     body.pose = links_[l].pose;
     body.collides = false;
-    add_body(l, body);
+    std::vector<Body> bodies = {body};
+    set_inertia(links_[l], bodies);
+    add_body(l, bodies.front());
   }
 
   void add_ground() {
@@ -269,7 +294,7 @@ class SceneMaker {
       if (robot_of_[l] != robot_of_[link]) continue;
       for (const int b : bodies_of_[l]) {
         const Body& body = file_.scene.bodies[b];
-        mass += inertia(body.shape, body.density).mass;
+        mass += inertia(body).inertia.mass;
       }
     }
     constexpr double earth = 9.81;  // m/s²

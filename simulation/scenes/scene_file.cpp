@@ -85,12 +85,21 @@ Body read_kind_of_body(const json& value, const std::string& path,
   return body;
 }
 
+PosedInertia inertia_from_json(const json& value, const std::string& path) {
+  require_object(value, path);
+  refuse_others(value, {"mass", "pose", "moments"}, path);
+  PosedInertia result{{number(member(value, "mass", path), path + ".mass"),
+                       vector(member(value, "moments", path), path + ".moments")}};
+  if (value.contains("pose")) result.X_BC = pose_from_json(value["pose"], path + ".pose");
+  return result;
+}
+
 Body read_body(const json& value, const std::string& path,
                const std::map<std::string, NamedMaterial>& materials) {
   require_object(value, path);
   refuse_others(value,
                 {"name", "shape", "material", "pose", "velocity", "angular_velocity", "fixed",
-                 "drive", "surface_velocity", "collides"},
+                 "drive", "surface_velocity", "collides", "inertia"},
                 path);
   Body body = read_kind_of_body(value, path, materials);
   const auto read = [&](const char* name, auto& member, auto reader) {
@@ -103,6 +112,7 @@ Body read_body(const json& value, const std::string& path,
   read("drive", body.drive, drive_from_json);
   read("surface_velocity", body.surface_velocity, vector);
   read("collides", body.collides, read_bool);
+  read("inertia", body.inertia, inertia_from_json);
   return body;
 }
 

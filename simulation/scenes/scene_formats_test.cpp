@@ -108,6 +108,32 @@ TEST(SceneFile, ErrorsNameThePathOfTheField) {
   EXPECT_THAT(refusal([](json& s) { s["gravitation"] = 1; }), HasSubstr("gravitation"));
 }
 
+TEST(SceneFile, GivesABodyItsInertia) {
+  const json inertia = json::parse(R"({"mass": 3, "moments": [0.1, 0.2, 0.25],
+    "pose": {"position": [0, 0, -0.15], "orientation": [0, 1, 0, 0]}})");
+  json scene = small_scene();
+  scene["bodies"][1]["inertia"] = inertia;
+  const PosedInertia read =
+      scene_from_text(scene.dump(), "small.json").scene.bodies[1].inertia.value();
+  EXPECT_EQ(read.inertia.mass, 3);
+  EXPECT_EQ(read.inertia.principal, Vec3(0.1, 0.2, 0.25));
+  EXPECT_EQ(read.X_BC.position(), Vec3(0, 0, -0.15));
+  EXPECT_EQ(read.X_BC.orientation().x(), 1);
+  const auto with = [&](const char* field, const json& value) {
+    return refusal([&](json& s) {
+      s["bodies"][1]["inertia"] = inertia;
+      s["bodies"][1]["inertia"][field] = value;
+    });
+  };
+  EXPECT_THAT(with("mass", "heavy"), HasSubstr("bodies[1].inertia.mass is \"heavy\""));
+  EXPECT_THAT(with("mass", 0), HasSubstr("bodies[1].inertia.mass is 0: must lie between"));
+  EXPECT_THAT(with("moments", {1, 1, 3}), HasSubstr("bodies[1].inertia.moments is [1, 1, 3]"));
+  EXPECT_THAT(with("moments", 1), HasSubstr("bodies[1].inertia.moments is 1"));
+  EXPECT_THAT(with("centre", {0, 0, 0}), HasSubstr("bodies[1].inertia.centre"));
+  EXPECT_THAT(refusal([](json& s) { s["bodies"][1]["inertia"] = json::object(); }),
+              HasSubstr("bodies[1].inertia.mass is missing"));
+}
+
 TEST(SceneFile, WithMoreBodiesThanCanBeHeldAgainstEachOtherIsRefused) {
   EXPECT_THAT(refusal([](json& s) {
                 for (int i = 0; i < 1000; ++i) {

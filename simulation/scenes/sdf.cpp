@@ -28,6 +28,19 @@ void refuse(const sdf::Errors& errors, const std::string& field) {
   throw InvalidInput(field, "not usable", errors.front().Message());
 }
 
+/// The first error that leaves something unread; null if there is none. An inertia that no body can
+/// have is read all the same, though with it a whole world counts as not loaded.
+const sdf::Error* first_fault(const sdf::Errors& errors) {
+  bool has_inertia = false;
+  for (const sdf::Error& error : errors) {
+    const bool is_of_inertia = error.Code() == sdf::ErrorCode::LINK_INERTIA_INVALID;
+    has_inertia = has_inertia || is_of_inertia;
+    const bool follows = has_inertia && error.Message() == "Failed to load a world.";
+    if (!is_of_inertia && !follows) return &error;
+  }
+  return nullptr;
+}
+
 Pose3d resolved(const sdf::SemanticPose& pose, const std::string& name,
                 const std::string& in = "") {
   Pose3d result;
@@ -77,7 +90,8 @@ void add_link(const sdf::Link& link, const std::string& link_name, const Pose3d&
               bool is_static, RobotFile& result) {
   Link made{link_name, to_pose(X_WL)};
   made.fixed = is_static;
-  made.mass = link.Inertial().MassMatrix().Mass();  // 1 kg by default, as Gazebo has it
+  const auto& given = link.Inertial();
+  made.mass = given.MassMatrix().Mass();  // 1 kg by default, as Gazebo has it
   for (std::uint64_t k = 0; k < link.CollisionCount(); ++k) {
     const sdf::Collision& collision = *link.CollisionByIndex(k);
     const std::string name = link_name + '/' + collision.Name();
@@ -97,6 +111,17 @@ void add_link(const sdf::Link& link, const std::string& link_name, const Pose3d&
     } catch (const InvalidInput& e) {
       throw e.within("collision " + name);
     }
+  }
+  if (descendant(link.Element(), {"inertial", "inertia"})) {
+    const ignition::math::Vector3d on = given.MassMatrix().DiagonalMoments();
+    const ignition::math::Vector3d off = given.MassMatrix().OffDiagonalMoments();
+    Eigen::Matrix3d moments;
+    moments << on.X(), off.X(), off.Y(),  //
+        off.X(), on.Y(), off.Z(),         //
+        off.Y(), off.Z(), on.Z();
+    set_inertia(made, to_pose(X_WL * given.Pose()), moments, result);
+  } else if (*made.mass > 0 && descendant(link.Element(), {"inertial", "pose"})) {
+    made.inertia = {to_pose(X_WL * given.Pose())};
   }
   result.links.push_back(std::move(made));
 }
@@ -333,8 +358,8 @@ RobotFile read_sdf(const std::filesystem::path& file, const Folders& given) {
       [&](const std::string& uri) { return resolved_uri(uri, folders).string(); });
   sdf::Root root;
   const sdf::Errors errors = root.Load(here.string(), config);
-  if (!errors.empty()) {
-    std::string reason = errors.front().Message();
+  if (const sdf::Error* error = first_fault(errors)) {
+    std::string reason = error->Message();
     const std::string complaint = library_complaint();
     const bool is_vague = reason.starts_with("Error reading element");
     if (is_vague && !complaint.empty()) reason += "; its reader says: " + complaint;

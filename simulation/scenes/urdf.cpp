@@ -64,7 +64,14 @@ int add_link(const urdf::Link& link, const Eigen::Isometry3d& X_RL, RobotFile& r
     result.ignored.push_back(fmt::format("collision {}: a mesh", name));
     ++result.left_out.shapes, ++result.left_out.unknown;
   }
-  if (link.inertial) made.mass = link.inertial->mass;
+  if (const auto& given = link.inertial) {
+    made.mass = given->mass;
+    Eigen::Matrix3d moments;
+    moments << given->ixx, given->ixy, given->ixz,  //
+        given->ixy, given->iyy, given->iyz,         //
+        given->ixz, given->iyz, given->izz;
+    set_inertia(made, to_pose(X_RL * isometry(given->origin)), moments, result);
+  }
   result.links.push_back(std::move(made));
   return static_cast<int>(result.links.size()) - 1;
 }
