@@ -222,7 +222,7 @@ class SceneMaker {
     for (const LinkShape& s : link.shapes) volume += volume_of(s.shape);
     std::vector<Body> bodies;
     for (const LinkShape& s : link.shapes) {
-      Body& body = bodies.emplace_back(link.shapes.size() == 1 ? link.name : s.name, s.shape);
+      Body& body = bodies.emplace_back(Body{link.shapes.size() == 1 ? link.name : s.name, s.shape});
       body.pose = s.pose;
       body.density = link.mass.value_or(0) > 0 ? *link.mass / volume : water;
       if (s.friction) body.material.friction = std::min(*s.friction, max_friction);
