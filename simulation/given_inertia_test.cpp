@@ -2,18 +2,14 @@
 // against paper.
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <gmock/gmock.h>
 #include <numbers>
 
-#include <nlohmann/json.hpp>
-
-#include "candidates/host/contained.hpp"
 #include "reference/invalid_input.hpp"
 #include "simulation/assembly.hpp"
-#include "simulation/engines/run_engines.hpp"
 #include "simulation/experiment.hpp"
 #include "simulation/mechanism_scenes.hpp"
+#include "simulation/probed_run.hpp"
 #include "simulation/world_fixture.hpp"
 
 namespace touchstone {
@@ -112,32 +108,17 @@ class GivenInertiaIn : public testing::TestWithParam<std::string> {
   bool is_ours() const { return GetParam() == "ours"; }
 
   /// What `probe` says after each step.
-  std::vector<double> run(const Scene& scene,
-                          const std::function<double(const States&)>& probe) const {
-    const Contained ran = run_contained(
-        [&] {
-          CandidateProcess process(find_candidate("reference"), simulation_threshold);
-          CandidateModel model(process);
-          const auto world = is_ours() ? in_our_world(model)(scene)
-                                       : in_engine(GetParam(), {.cured = true})(scene);
-          std::vector<double> told;
-          for (int i = 0; i < std::lround(scene.duration / scene.step); ++i) {
-            world->step();
-            told.push_back(world->sound() ? probe(world->states())
-                                          : std::numeric_limits<double>::max());
-          }
-          return nlohmann::json(told).dump();
-        },
-        max_engine_seconds);
-    EXPECT_EQ(ran.end, Contained::End::returned) << ran.text;
-    return nlohmann::json::parse(ran.text).get<std::vector<double>>();
+  std::vector<double> run(const Scene& scene, const Probe& probe) const {
+    if (!is_ours()) return probed_run(scene, probe, in_engine(GetParam(), {.cured = true}));
+    return probed_run(scene, probe, [](const Scene& begun) {
+      static CandidateProcess process(find_candidate("reference"), simulation_threshold);
+      static CandidateModel model(process);  // in the run's own process
+      return in_our_world(model)(begun);
+    });
   }
-  double end(const Scene& scene, const std::function<double(const States&)>& probe) const {
-    return run(scene, probe).back();
-  }
+  double end(const Scene& scene, const Probe& probe) const { return run(scene, probe).back(); }
   /// Time at which the probe's value, positive at the start, first is not.
-  double zero_crossing(const Scene& scene,
-                       const std::function<double(const States&)>& probe) const {
+  double zero_crossing(const Scene& scene, const Probe& probe) const {
     const std::vector<double> values = run(scene, probe);
     const auto at = std::find_if(values.begin(), values.end(), [](double v) { return v <= 0; });
     return static_cast<double>(at - values.begin() + 1) * scene.step;

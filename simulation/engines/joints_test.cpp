@@ -2,16 +2,12 @@
 // against paper. Contacts are ours, so that what is tested is what the worlds make of a scene.
 #include <cmath>
 #include <fmt/format.h>
-#include <functional>
 #include <gmock/gmock.h>
 #include <numbers>
 
-#include <nlohmann/json.hpp>
-
-#include "candidates/host/contained.hpp"
 #include "reference/invalid_input.hpp"
-#include "simulation/engines/run_engines.hpp"
 #include "simulation/mechanism_scenes.hpp"
+#include "simulation/probed_run.hpp"
 
 namespace touchstone {
 namespace {
@@ -33,24 +29,11 @@ class Joints : public testing::TestWithParam<std::string> {
   bool is_single() const { return GetParam() == "bullet-float"; }
 
   /// What `probe` says after each step of a run in a process of its own.
-  std::vector<double> run(const Scene& scene, const std::function<double(const States&)>& probe,
+  std::vector<double> run(const Scene& scene, const Probe& probe,
                           const EngineSetup& setup = {.cured = true}) const {
-    const Contained ran = run_contained(
-        [&] {
-          const auto world = in_engine(GetParam(), setup)(scene);
-          std::vector<double> told;
-          for (int i = 0; i < std::lround(scene.duration / scene.step); ++i) {
-            world->step();
-            told.push_back(world->sound() ? probe(world->states())
-                                          : std::numeric_limits<double>::max());
-          }
-          return nlohmann::json(told).dump();
-        },
-        max_engine_seconds);
-    EXPECT_EQ(ran.end, Contained::End::returned) << ran.text;
-    return nlohmann::json::parse(ran.text).get<std::vector<double>>();
+    return probed_run(scene, probe, in_engine(GetParam(), setup));
   }
-  double end(const Scene& scene, const std::function<double(const States&)>& probe,
+  double end(const Scene& scene, const Probe& probe,
              const EngineSetup& setup = {.cured = true}) const {
     return run(scene, probe, setup).back();
   }
