@@ -23,7 +23,7 @@ json finite(double x) { return std::isfinite(x) ? json(x) : json(nullptr); }
 
 json run_json(const Choice& choice, std::size_t index, const std::string& folder) {
   const SceneRun& run = choice.runs[index];
-  const auto steps = static_cast<double>(choice.exact_run.frames.size() - 1);
+  const double steps = choice.steps();
   json models = json::array();
   for (const Candidate* m : run.models) models.push_back(m->name);
   json verdicts = json::array();
@@ -34,10 +34,15 @@ json run_json(const Choice& choice, std::size_t index, const std::string& folder
   json result = {{"name", run.name},
                  {"models", models},
                  {"microseconds_per_step", run.nanoseconds / 1000 / steps},
+                 {"step_microseconds", run.seconds() * 1e6 / steps},
                  {"error", finite(run.error())},
                  {"holds", run.holds()},
                  {"points_per_step", run.points},
                  {"solver_microseconds_per_step", run.solver_seconds * 1e6 / steps},
+                 {"timed", run.timed},
+                 {"overlap", run.straying.overlap},
+                 {"strayed", run.straying.distance},
+                 {"strayed_body", run.straying.body},
                  {"trials", run.trials},
                  {"held", run.held},
                  {"disturbance", run.disturbance},
@@ -99,8 +104,8 @@ json front(const Choice& choice) {
   std::vector<std::size_t> order(choice.runs.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   std::sort(order.begin(), order.end(), [&](std::size_t x, std::size_t y) {
-    return std::pair(choice.runs[x].nanoseconds, choice.runs[x].error()) <
-           std::pair(choice.runs[y].nanoseconds, choice.runs[y].error());
+    return std::pair(choice.runs[x].seconds(), choice.runs[x].error()) <
+           std::pair(choice.runs[y].seconds(), choice.runs[y].error());
   });
   json result = json::array();
   double min_error = std::numeric_limits<double>::infinity();
@@ -171,19 +176,14 @@ std::string choice_json(const Choice& choice, const std::string& command, const 
   }
   for (std::size_t k = 0; k < choice.kinds.all().size(); ++k) kinds.push_back(kind_json(choice, k));
   for (const Candidate* c : choice.too_slow) too_slow.push_back(c->name);
-  const double exact = choice.runs[0].nanoseconds;
-  const double chosen = choice.runs[choice.answer].nanoseconds;
   const json result = {
       {"schema", "touchstone-choice-1"},
       {"command", command},
       {"machine", to_json(describe_machine())},
       {"scene", scene_json(choice.file, choice.trials)},
       {"possible", !choice.impossible},
-      {"exact_is_cheapest", choice.answer == 0},
-      {"time_saved", choice.impossible ? 0 : 1 - chosen / exact},
       {"step_saved", choice.impossible ? 0 : choice.step_saved()},
-      {"worthwhile", choice.is_worthwhile()},
-      {"rest_of_step_microseconds", choice.rest_of_step() * 1e6},
+      {"worthwhile", choice.answer != 0},
       {"frame_microseconds", choice.frame_seconds(choice.runs[choice.answer]) * 1e6},
       {"exact_frame_microseconds", choice.frame_seconds(choice.runs[0]) * 1e6},
       {"point_microseconds",

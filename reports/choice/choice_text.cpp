@@ -34,6 +34,10 @@ std::string first_failure(const SceneRun& run) {
                      in_disturbance(run));
 }
 
+double step_microseconds(const Choice& choice, const SceneRun& run) {
+  return 1e6 * run.seconds() / choice.steps();
+}
+
 /// What a need takes of its limit; above 1 it is broken.
 double share_of_limit(const Verdict& v) {
   return std::isfinite(v.value) ? v.share() : std::numeric_limits<double>::infinity();
@@ -68,15 +72,16 @@ std::string needs_of(const Choice& choice, const SceneRun& run) {
   return lines + left_out;
 }
 
-/// The next cheaper model of a kind, and how it fails.
+/// The model of a kind with the next cheaper query, and how it fails.
 std::string next_cheaper(const Choice& choice, std::size_t kind, const std::string& folder) {
   if (choice.cheaper.empty() || !choice.cheaper[kind]) return "    nothing is cheaper\n";
   const std::size_t index = *choice.cheaper[kind];
   const SceneRun& run = choice.runs[index];
   const Candidate& cheaper = *run.models[kind];
-  std::string lines =
-      fmt::format("    next cheaper: {}, {:.0f} ns, breaks\n      {}\n", cheaper.name,
-                  choice.nanoseconds(kind, cheaper), failure(choice, run));
+  std::string lines = fmt::format("    next cheaper: {}, {:.0f} ns, ", cheaper.name,
+                                  choice.nanoseconds(kind, cheaper));
+  if (run.holds()) return lines + "holds, but makes no step cheaper\n";
+  lines += "breaks\n      " + failure(choice, run) + '\n';
   if (const auto& e = run.evidence) {
     lines += fmt::format("      {} at {:.2f} s: {}\n      {}\n", e->bodies, e->time, e->wrong,
                          replay_command(evidence_file(choice, index, folder), e->candidate));
@@ -104,23 +109,35 @@ std::string kinds_of(const Choice& choice, const std::string& folder) {
   return lines;
 }
 
-/// What a frame takes, and what the solver is given and makes of it.
-std::string frame_and_points(const Choice& choice, double steps) {
+/// What a step takes, of which the solver, and a frame.
+std::string times_of(const Choice& choice) {
   const SceneRun &answer = choice.runs[choice.answer], &exact = choice.runs[0];
-  const auto microseconds = [](double seconds) { return seconds * 1e6; };
   const bool differs = choice.answer != 0;
+  const auto instead = [&](const char* format, double value) {
+    return differs ? fmt::format(fmt::runtime(format), value) : "";
+  };
+  const double unit = 1e6 / choice.steps();
   const auto point = choice.point_seconds();
-  return fmt::format(
-      "A frame of 1/60 s takes {:.0f} µs{}. The solver gets {:.1f} points a step{}{}.\n",
-      microseconds(choice.frame_seconds(answer)),
-      differs ? fmt::format(" instead of {:.0f} µs", microseconds(choice.frame_seconds(exact)))
-              : "",
-      answer.points,
-      differs ? fmt::format(" instead of {:.1f} and takes {:.0f} µs instead of {:.0f} µs",
-                            exact.points, microseconds(answer.solver_seconds / steps),
-                            microseconds(exact.solver_seconds / steps))
-              : "",
-      point ? fmt::format("; a point costs it about {:.2g} µs", microseconds(*point)) : "");
+  std::string text = fmt::format(
+      "A step takes {:.3g} µs{}: its contacts {:.2g} µs{}, the solver {:.3g} µs{}. The solver gets "
+      "{:.1f} points{}{}. A frame of 1/60 s takes {:.0f} µs{}.\n",
+      unit * answer.seconds(), instead(" instead of {:.3g} µs", unit * exact.seconds()),
+      1e-9 * unit * answer.nanoseconds,
+      instead(" instead of {:.2g} µs", 1e-9 * unit * exact.nanoseconds),
+      unit * answer.solver_seconds, instead(" instead of {:.3g} µs", unit * exact.solver_seconds),
+      answer.points, instead(" instead of {:.1f}", exact.points),
+      point ? fmt::format("; one costs it about {:.2g} µs", 1e6 * *point) : "",
+      1e6 * choice.frame_seconds(answer),
+      instead(" instead of {:.0f} µs", 1e6 * choice.frame_seconds(exact)));
+  if (!differs) return text;
+  const Straying& s = answer.straying;
+  text += fmt::format(
+      "Asked for or not: bodies overlap by up to {:.2g} m (exact: {:.2g} m){}.\n", s.overlap,
+      exact.straying.overlap,
+      s.distance > 0 ? fmt::format(", and {} ends {:.2g} m from where it does with exact contacts",
+                                   s.body, s.distance)
+                     : "");
+  return text;
 }
 
 std::string headline(const Choice& choice) {
@@ -129,28 +146,26 @@ std::string headline(const Choice& choice) {
     return fmt::format("Not even exact contacts meet the needs of this scene{}:\n",
                        disturbance == 0 ? "" : fmt::format(" under disturbance {}", disturbance));
   }
-  if (choice.answer == 0) return "Exact: no cheaper model meets all needs:\n";
-  const double of_contacts =
-      1 - choice.runs[choice.answer].nanoseconds / choice.runs[0].nanoseconds;
-  if (!choice.is_worthwhile()) {
-    return fmt::format(
-        "Exact: nothing cheaper that meets all needs saves more than {:.1g}% of a step.\n"
-        "The cheapest, which save {:.0f}% of the contacts' time:\n",
-        100 * choice.step_saved(), 100 * of_contacts);
+  const double percent = 100 * choice.step_saved();
+  if (choice.answer != 0) {
+    return fmt::format("The cheapest models that meet all needs save {:.0f}% of a step:\n",
+                       percent);
   }
+  if (!(percent > 0)) return "Exact: no model that meets all needs takes less of a step:\n";
   return fmt::format(
-      "The cheapest models that meet all needs save {:.0f}% of a step ({:.0f}% of its contacts):\n",
-      100 * choice.step_saved(), 100 * of_contacts);
+      "Exact: nothing cheaper that meets all needs saves more than {:.1f}% of a step:\n",
+      std::ceil(10 * percent) / 10);
 }
 
 /// One row for each candidate that was run for all pairs.
-std::string candidates_table(const Choice& choice, double steps) {
+std::string candidates_table(const Choice& choice) {
   std::string lines = "\nOne model for all pairs  µs/step error/limit  breaks first\n";
   for (const SceneRun& run : choice.runs) {
     const bool of_search = run.name.find(' ') != std::string::npos || run.name == "combination";
     if (of_search) continue;
     const double error = run.error();
-    lines += fmt::format("  {:<22} {:>8.2f} {:>11}  {}\n", run.name, run.nanoseconds / 1000 / steps,
+    lines += fmt::format("  {:<22} {:>8} {:>11}  {}\n", run.name,
+                         run.holds() ? fmt::format("{:.1f}", step_microseconds(choice, run)) : "",
                          std::isfinite(error) ? fmt::format("{:.3g}", error) : "absurd",
                          run.holds() ? "" : first_failure(run));
   }
@@ -185,14 +200,8 @@ std::string choice_text(const Choice& choice, const std::string& folder, std::si
   lines += '\n' + headline(choice);
   lines += needs_of(choice, answer);
   if (choice.impossible) return Terminal{columns}.folded(lines);
-  const auto steps = static_cast<double>(choice.exact_run.frames.size() - 1);
-  const double exact = choice.runs[0].nanoseconds / 1000 / steps;
-  lines += fmt::format(
-      "Contacts take {:.2g} µs of a step{}; the rest of it takes {:.0f} µs.\n{}\n{}",
-      answer.nanoseconds / 1000 / steps,
-      choice.answer == 0 ? "" : fmt::format(" instead of {:.2g} µs exactly", exact),
-      choice.rest_of_step() * 1e6, frame_and_points(choice, steps), kinds_of(choice, folder));
-  return Terminal{columns}.folded(lines + candidates_table(choice, steps));
+  return Terminal{columns}.folded(lines + times_of(choice) + '\n' + kinds_of(choice, folder) +
+                                  candidates_table(choice));
 }
 
 std::string pairs_text(const PairsChoice& choice, const std::string& folder, std::size_t columns) {

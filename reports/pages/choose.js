@@ -26,21 +26,21 @@ function origin() {
 function headline() {
   byId('title').textContent = `What does the scene ${data.scene.name} need?`;
   byId('description').textContent = data.scene.description;
-  const exact = data.runs[0].microseconds_per_step;
-  const microseconds = `${exponent(answer.microseconds_per_step)} µs of a step instead of ${exponent(exact)} µs`;
-  const ofContacts = `${Math.round(100 * data.time_saved)}% of the contacts' time: ${microseconds}.`;
+  const exact = data.runs[0], percent = 100 * data.step_saved;
+  const instead = (text, of) => text(answer) + (data.answer === 0 ? '' : ` instead of ${text(exact)}`) + of;
+  const microseconds = (member, of) => instead(run => `${exponent(run[member], 3)} µs`, of);
   byId('headline').textContent = !data.possible ? 'Not even exact contacts meet the needs of this scene.'
-      : data.exact_is_cheapest ? `Exact: no cheaper model meets all needs. Contacts take ${exponent(exact)} µs of a step.`
-      : data.worthwhile ? `The cheapest models that meet all needs save ${Math.round(100 * data.step_saved)}% of a step, ${ofContacts}`
-      : `Exact: nothing cheaper that meets all needs saves more than ${exponent(100 * data.step_saved, 1)}% of a step. ` +
-        `The cheapest save ${ofContacts}`;
+      : data.worthwhile ? `The cheapest models that meet all needs save ${Math.round(percent)}% of a step: ${microseconds('step_microseconds', '.')}`
+      : percent > 0 ? `Exact: nothing cheaper that meets all needs saves more than ${(Math.ceil(10 * percent) / 10).toFixed(1)}% of a step.`
+      : 'Exact: no model that meets all needs takes less of a step.';
   byId('provenance').textContent = `${data.machine.cpu}, ${data.machine.compiler}. ` +
-      `The rest of a step, ODE's solver, takes ${exponent(data.rest_of_step_microseconds)} µs; a frame of 1/60 s takes ` +
-      exponent(data.frame_microseconds) + ' µs' +
+      `Contacts take ${microseconds('microseconds_per_step', ' of a step, ')}ODE's solver ${microseconds('solver_microseconds_per_step', '; ')}` +
+      `a frame of 1/60 s takes ${exponent(data.frame_microseconds)} µs` +
       (data.answer === 0 ? '. ' : ` instead of ${exponent(data.exact_frame_microseconds)} µs with exact contacts. `) +
-      `The solver gets ${answer.points_per_step.toFixed(1)} contact points a step` +
-      (data.answer === 0 ? '' : ` instead of ${data.runs[0].points_per_step.toFixed(1)}`) +
-      (data.point_microseconds === null ? '.' : `; a point costs it about ${exponent(data.point_microseconds)} µs.`) + (data.scene.disturbances
+      `The solver gets ${instead(run => run.points_per_step.toFixed(1), ' contact points a step')}` +
+      (data.point_microseconds === null ? '.' : `; a point costs it about ${exponent(data.point_microseconds)} µs.`) +
+      (data.answer === 0 ? '' : ` Asked for or not: bodies overlap by up to ${exponent(answer.overlap)} m (exact: ${exponent(exact.overlap)} m)` +
+        (answer.strayed > 0 ? `, and ${answer.strayed_body} ends ${exponent(answer.strayed)} m from where it does with exact contacts.` : '.')) + (data.scene.disturbances
       ? ` Every run is repeated under ${disturbances(data.scene.disturbances)} (seed ${data.scene.seed}), the answer under five times as many; ` +
         'a need holds if it holds in all, and what breaks one is not run further.' : '');
   origin();
@@ -51,28 +51,29 @@ const needTable = verdicts => table(['', 'need', 'measured', 'at'].map(textColum
     measured(v.value, needs[i]), `${v.time.toFixed(2)} s`]), 'What was measured of each need, and when');
 
 function answerTables() {
-  byId('kind-table').append(table([textColumn('pairs'), textColumn('model'), 'bytes a shape', 'ns a query', 'ns exactly', column('queries', {class: 'wide'}), textColumn('next cheaper one breaks a need')],
+  byId('kind-table').append(table([textColumn('pairs'), textColumn('model'), 'bytes a shape', 'ns a query', 'ns exactly', column('queries', {class: 'wide'}), textColumn('next cheaper one')],
       data.kinds.map(k => [wide(`${k.name} (${k.bodies})`), exactName(k.chosen), whole(k.bytes), whole(k.nanoseconds), whole(k.exact_nanoseconds),
-          whole(k.asked), k.next_cheaper === null ? 'there is none' : `${k.next_cheaper.name}, ${whole(k.next_cheaper.nanoseconds)} ns`]), 'Times of a query, median'));
+          whole(k.asked), k.next_cheaper === null ? 'there is none' : `${k.next_cheaper.name}, ${whole(k.next_cheaper.nanoseconds)} ns, ` +
+            (data.runs[k.next_cheaper.run].holds ? `holds: ${exponent(data.runs[k.next_cheaper.run].step_microseconds, 3)} µs a step` : 'breaks a need')]), 'Times of a query, median'));
   byId('need-table').append(needTable(answer.verdicts));
 }
 
 function failures() {
   const list = byId('failure-list');
-  for (const kind of data.kinds.filter(k => k.next_cheaper !== null)) {
+  for (const kind of data.kinds.filter(k => k.next_cheaper !== null && !data.runs[k.next_cheaper.run].holds)) {
     const run = data.runs[kind.next_cheaper.run], e = run.evidence;
     list.append(element('article', {}, element('h3', {}, `${kind.next_cheaper.name} for ${kind.name}`),
         element('p', {}, failure(run)),
         e && element('p', {}, `${e.bodies} at ${e.time.toFixed(2)} s: ${e.wrong}.`), e && command(e.replay)));
   }
-  if (!list.children.length) list.append(element('p', {}, 'No cheaper model has a routine for any of these pairs.'));
+  if (!list.children.length) list.append(element('p', {}, 'No model with a cheaper query breaks a need.'));
 }
 
 // Whether a run has one candidate for all pairs; runs of the search have longer names.
 const isUniform = run => !run.name.includes(' ') && run.name !== 'combination';
 function runTable() {
-  byId('run-table').append(table([textColumn('model'), 'µs of a step', 'points', 'solver, µs', 'error / limit', 'held', textColumn('breaks first'), textColumn('worst answer before')],
-      data.runs.filter(isUniform).map(r => [r.name, exponent(r.microseconds_per_step, 3), r.points_per_step.toFixed(1), exponent(r.solver_microseconds_per_step),
+  byId('run-table').append(table([textColumn('model'), 'a step, µs', 'contacts, µs', 'points', 'solver, µs', 'error / limit', 'held', textColumn('breaks first'), textColumn('worst answer before')],
+      data.runs.filter(isUniform).map(r => [r.name, exponent(r.step_microseconds, 3), exponent(r.microseconds_per_step, 3), r.points_per_step.toFixed(1), exponent(r.solver_microseconds_per_step),
           element('td', {class: r.holds ? 'good' : 'bad'}, r.error === null ? 'absurd' : exponent(r.error)),
           `${r.held} of ${r.trials}`, wide(r.holds ? '' : failure(r)), wide(r.evidence ? `${r.evidence.bodies}: ${r.evidence.wrong}` : '')]), 'Each run with one model'));
   if (data.too_slow.length) byId('too-slow').textContent = `Not run, because their queries alone would take more than 3 s: ${data.too_slow.join(', ')}.`;
@@ -85,7 +86,7 @@ const isNamed = (run, i) => data.runs.filter(isUniform).length <= 24 || data.fro
 // Error and cost of all runs. A run whose motion became absurd is drawn at the top.
 function costChart() {
   const errors = data.runs.map(r => r.error).filter(e => e > 0 && e < 1e4).concat(1);
-  const cost = data.runs.map(r => r.microseconds_per_step);
+  const cost = data.runs.map(r => r.step_microseconds);
   const low = 10 ** Math.floor(Math.log10(Math.max(1e-3, Math.min(...errors)))), high = 10 ** Math.ceil(Math.log10(2 * Math.max(...errors)));
   const at = i => ({x: cost[i], y: Math.min(high, Math.max(low, data.runs[i].error === null ? high : data.runs[i].error))});
   const points = data.runs.map((run, i) => {
@@ -98,7 +99,7 @@ function costChart() {
   });
   if (data.possible) points.unshift({...at(data.answer), fill: 'none', stroke: 'var(--ink)', size: 320, symbol: symbolPath('circle', 0, 0, 1), label: '', order: 1e6});
   drawScatter(byId('front'), 'Error of each run against its cost', {height: 420, points, limit: 1, lines: [{rows: data.front.map(at)}],
-      x: {title: 'contacts of a step, µs', domain: [Math.min(...cost) * 0.8, Math.max(...cost) * 1.3], ticks: decadesOf(cost).ticks, label: numberLabel},
+      x: {title: 'a step, µs', domain: [Math.min(...cost) * 0.8, Math.max(...cost) * 1.3], ticks: decadesOf(cost).ticks, label: numberLabel},
       y: {title: 'error / limit', domain: [low, high], ticks: decadesOf([low, high]).ticks, label: numberLabel}});
 }
 

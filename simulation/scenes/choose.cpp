@@ -1,7 +1,9 @@
 #include "simulation/scenes/choose.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
+#include <utility>
 
 #include "candidates/candidates.hpp"
 #include "reference/invalid_input.hpp"
@@ -13,6 +15,9 @@ namespace {
 constexpr double max_run_time = 3;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Largest number of parts of a model that gives the solver few points.
+constexpr double max_simple = 2;
 
 using Models = std::vector<const Candidate*>;
 
@@ -30,8 +35,7 @@ class Search {
       return;
     }
     judge_new(uniform_runs());
-    const auto by_kind = one_kind_changed(all_exact());
-    judge_new(by_kind);
+    judge_promising(one_kind_changed());
     combine();
     settle();
   }
@@ -39,6 +43,7 @@ class Search {
  private:
   Models all_exact() const { return Models(choice_.kinds.all().size(), &exact_); }
 
+  /// Nanoseconds of all queries of a run.
   double cost(const Models& models) const {
     double sum = 0;
     for (std::size_t k = 0; k < models.size(); ++k) {
@@ -52,29 +57,59 @@ class Search {
     return {name, models, cost(models)};
   }
 
-  const SceneRun* find(const Models& models) const {
-    for (const SceneRun& run : choice_.runs) {
-      if (run.models == models) return &run;
+  std::optional<std::size_t> find(const Models& models) const {
+    for (std::size_t i = 0; i < choice_.runs.size(); ++i) {
+      if (choice_.runs[i].models == models) return i;
     }
-    return nullptr;
+    return std::nullopt;
+  }
+
+  /// Those that have not been run yet.
+  std::vector<SceneRun> fresh(const std::vector<SceneRun>& wanted) const {
+    std::vector<SceneRun> result;
+    for (const SceneRun& run : wanted) {
+      const bool twice = std::any_of(result.begin(), result.end(), [&](const SceneRun& other) {
+        return other.models == run.models;
+      });
+      if (!twice && !find(run.models)) result.push_back(run);
+    }
+    return result;
   }
 
   /// Runs and judges those that have not been run yet.
   void judge_new(const std::vector<SceneRun>& wanted) {
-    std::vector<SceneRun> fresh;
-    for (const SceneRun& run : wanted) {
-      const bool twice = std::any_of(fresh.begin(), fresh.end(), [&](const SceneRun& other) {
-        return other.models == run.models;
-      });
-      if (!twice && !find(run.models)) fresh.push_back(run);
-    }
-    judge_.judge(fresh, choice_.trials.disturbances);
-    choice_.runs.insert(choice_.runs.end(), fresh.begin(), fresh.end());
+    std::vector<SceneRun> runs = fresh(wanted);
+    judge_.judge(runs, choice_.trials.disturbances);
+    choice_.runs.insert(choice_.runs.end(), runs.begin(), runs.end());
+  }
+
+  /// The same, but leaves out those that hold as written and save neither queries' time nor points.
+  void judge_promising(const std::vector<SceneRun>& wanted) {
+    std::vector<SceneRun> runs = fresh(wanted);
+    judge_.judge(runs, 0);
+    std::erase_if(runs, [&](const SceneRun& r) { return r.holds() && !is_promising(r); });
+    judge_.judge(runs, choice_.trials.disturbances);
+    choice_.runs.insert(choice_.runs.end(), runs.begin(), runs.end());
+  }
+
+  /// Can the run be cheaper than the exact one?
+  bool is_promising(const SceneRun& run) const {
+    const SceneRun& exact = choice_.runs[0];
+    return run.nanoseconds < exact.nanoseconds || run.points < exact.points;
+  }
+
+  /// What a run takes, roughly, in seconds: one and the same time for every point, as the solver's
+  /// own has the noise of a single run.
+  double estimate(const SceneRun& run) const {
+    const SceneRun& exact = choice_.runs[0];
+    const double point = choice_.point_seconds().value_or(exact.solver_seconds / choice_.steps() /
+                                                          std::max(1.0, exact.points));
+    return 1e-9 * run.nanoseconds + choice_.steps() * point * run.points;
   }
 
   bool holds(const Models& models, const std::string& name) {
     judge_new({named(name, models)});
-    return find(models)->holds();
+    return choice_.runs[*find(models)].holds();
   }
 
   /// Each candidate for all kinds that it supports.
@@ -94,16 +129,15 @@ class Search {
     return result;
   }
 
-  /// Candidates cheaper than the model for the kind, the dearest first.
-  Models cheaper(std::size_t kind, const Candidate& model) const {
-    Models result;
+  /// The candidate whose query is the next cheaper than a model's.
+  const Candidate* next_cheaper(std::size_t kind, const Candidate& model) const {
+    const Candidate* result = nullptr;
+    double most = 0;
     const double max_time = cheaper_share * choice_.nanoseconds(kind, model);
     for (const Candidate* c : choice_.candidates) {
-      if (choice_.nanoseconds(kind, *c) < max_time) result.push_back(c);
+      const double time = choice_.nanoseconds(kind, *c);
+      if (c != &exact_ && time < max_time && time > most) most = time, result = c;
     }
-    std::stable_sort(result.begin(), result.end(), [&](const Candidate* x, const Candidate* y) {
-      return choice_.nanoseconds(kind, *x) > choice_.nanoseconds(kind, *y);
-    });
     return result;
   }
 
@@ -112,11 +146,20 @@ class Search {
     return named(to.name + " for " + choice_.kinds.all()[kind].name, models);
   }
 
-  std::vector<SceneRun> one_kind_changed(const Models& from) const {
+  /// One kind with another model: all whose queries are cheaper, and those that can save the solver
+  /// points, which are the models of few parts.
+  std::vector<SceneRun> one_kind_changed() const {
+    const Models exact = all_exact();
     std::vector<SceneRun> result;
-    for (std::size_t k = 0; k < from.size(); ++k) {
-      for (const Candidate* c : cheaper(k, *from[k])) result.push_back(changed(from, k, *c));
+    for (std::size_t k = 0; k < exact.size(); ++k) {
+      const double max_time = cheaper_share * choice_.nanoseconds(k, exact_);
+      for (const Candidate* c : choice_.candidates) {
+        const double time = choice_.nanoseconds(k, *c);
+        const bool is_simple = !c->models.empty() && c->value <= max_simple && time < infinity;
+        if (time < max_time || is_simple) result.push_back(changed(exact, k, *c));
+      }
     }
+    std::erase_if(result, [](const SceneRun& r) { return r.nanoseconds > max_run_time * 1e9; });
     return result;
   }
 
@@ -124,68 +167,104 @@ class Search {
   /// serve together, the kind with the smallest saving goes back to its next dearer model.
   void combine() {
     const Models exact = all_exact();
-    std::vector<Models> serving(exact.size());
+    std::vector<std::vector<std::size_t>> serving(exact.size());  // runs, the dearest first
     Models models = exact;
-    for (std::size_t k = 0; k < exact.size(); ++k) {
-      serving[k] = {&exact_};
-      for (const Candidate* c : cheaper(k, exact_)) {
-        if (find(changed(exact, k, *c).models)->holds()) serving[k].push_back(c);
+    std::vector<double> cost;
+    for (const SceneRun& run : choice_.runs) cost.push_back(estimate(run));
+    for (std::size_t i = 0; i < choice_.runs.size(); ++i) {
+      if (i > 0 && (!choice_.runs[i].holds() || !(cost[i] < cost[0]))) continue;
+      for (std::size_t k = 0; k < exact.size(); ++k) {
+        Models others = choice_.runs[i].models;
+        others[k] = &exact_;
+        if (others == exact) serving[k].push_back(i);
       }
-      models[k] = serving[k].back();
+    }
+    for (std::size_t k = 0; k < exact.size(); ++k) {
+      std::ranges::stable_sort(serving[k], std::greater(), [&](std::size_t i) { return cost[i]; });
+      models[k] = choice_.runs[serving[k].back()].models[k];
     }
     while (!holds(models, "combination")) {
       std::size_t back = exact.size();
       double min_saved = infinity;
       for (std::size_t k = 0; k < exact.size(); ++k) {
         if (serving[k].size() < 2) continue;
-        const Candidate& dearer = *serving[k][serving[k].size() - 2];
-        const double saved = (choice_.nanoseconds(k, dearer) - choice_.nanoseconds(k, *models[k])) *
-                             static_cast<double>(choice_.kinds.all()[k].answers.size());
+        const auto last = serving[k].rbegin();
+        const double saved = cost[last[1]] - cost[last[0]];
         if (saved < min_saved) min_saved = saved, back = k;
       }
       serving[back].pop_back();  // one was left, because the exact run holds
-      models[back] = serving[back].back();
+      models[back] = choice_.runs[serving[back].back()].models[back];
     }
   }
 
-  /// Is every model the exact one, or cheaper?
-  bool nowhere_dearer(const Models& models) const {
-    for (std::size_t k = 0; k < models.size(); ++k) {
-      const double max_time = cheaper_share * choice_.nanoseconds(k, exact_);
-      if (models[k] != &exact_ && !(choice_.nanoseconds(k, *models[k]) < max_time)) return false;
+  /// Order of preference of models that take much the same: exact ones, models in the order of the
+  /// candidates, then engines' routines.
+  std::size_t rank(const Models& models) const {
+    const auto& all = choice_.candidates;
+    std::size_t sum = 0;
+    for (const Candidate* m : models) {
+      const auto index =
+          static_cast<std::size_t>(std::find(all.begin(), all.end(), m) - all.begin());
+      sum += index == 0 || !m->models.empty() ? index : index + all.size() * models.size();
     }
-    return true;
+    return sum;
   }
 
-  /// Finds the cheapest run that holds and tries the next cheaper model of each kind, until none of
-  /// these holds.
+  /// The runs among which the answer is: the cheapest of those that hold, roughly.
+  std::vector<std::size_t> finalists() const {
+    constexpr std::size_t max_count = 5;
+    std::vector<std::pair<double, std::size_t>> holding;
+    for (std::size_t i = 1; i < choice_.runs.size(); ++i) {
+      const SceneRun& run = choice_.runs[i];
+      if (run.holds() && is_promising(run)) holding.emplace_back(estimate(run), i);
+    }
+    std::ranges::sort(holding);
+    std::vector<std::size_t> result;
+    for (const auto& [_, i] : holding) {
+      if (result.size() < max_count) result.push_back(i);
+    }
+    return result;
+  }
+
+  /// Times what has to be timed and returns the run that is the answer.
+  std::size_t best() {
+    const std::vector<std::size_t> last = finalists();
+    if (!std::ranges::all_of(last, [&](std::size_t i) { return choice_.runs[i].timed; })) {
+      std::vector<SceneRun*> timed = {&choice_.runs[0]};
+      for (const std::size_t i : last) timed.push_back(&choice_.runs[i]);
+      judge_.time(timed);
+    }
+    double limit = (1 - noise_of_step) * choice_.runs[0].seconds();
+    std::size_t result = 0;
+    for (const std::size_t i : last) {
+      limit = std::min(limit, choice_.runs[i].seconds() / cheaper_share);
+    }
+    for (const std::size_t i : last) {
+      const SceneRun& run = choice_.runs[i];
+      const bool is_simpler = result == 0 || rank(run.models) < rank(choice_.runs[result].models);
+      if (run.seconds() <= limit && is_simpler) result = i;
+    }
+    return result;
+  }
+
+  /// Finds the answer and tries the next cheaper model of each kind, until none of these is a
+  /// better one.
   void settle() {
-    for (;;) {
-      choice_.answer = 0;
-      for (std::size_t i = 0; i < choice_.runs.size(); ++i) {
-        const SceneRun &best = choice_.runs[choice_.answer], &run = choice_.runs[i];
-        if (run.holds() && nowhere_dearer(run.models) && run.nanoseconds < best.nanoseconds) {
-          choice_.answer = i;
-        }
-      }
+    do {
+      choice_.answer = best();
       const Models models = choice_.runs[choice_.answer].models;
       std::vector<SceneRun> next;
-      choice_.cheaper.assign(models.size(), std::nullopt);
       for (std::size_t k = 0; k < models.size(); ++k) {
-        const Models all = cheaper(k, *models[k]);
-        if (!all.empty()) next.push_back(changed(models, k, *all.front()));
+        if (const Candidate* c = next_cheaper(k, *models[k]))
+          next.push_back(changed(models, k, *c));
       }
       judge_new(next);
-      bool better = false;
-      std::size_t at = 0;
+      choice_.cheaper.assign(models.size(), std::nullopt);
       for (std::size_t k = 0; k < models.size(); ++k) {
-        if (cheaper(k, *models[k]).empty()) continue;
-        const SceneRun* run = find(next[at++].models);
-        choice_.cheaper[k] = static_cast<std::size_t>(run - choice_.runs.data());
-        better = better || run->holds();
+        const Candidate* c = next_cheaper(k, *models[k]);
+        if (c) choice_.cheaper[k] = find(changed(models, k, *c).models);
       }
-      if (!better && is_confirmed()) return;
-    }
+    } while (best() != choice_.answer || !is_confirmed());
   }
 
   /// Does the answer hold under the further disturbances?
@@ -200,7 +279,7 @@ class Search {
 
   Choice& choice_;
   const Candidate& exact_;
-  const SceneJudge judge_;
+  SceneJudge judge_;
 };
 
 }  // namespace
@@ -211,28 +290,25 @@ double Choice::nanoseconds(std::size_t kind, const Candidate& candidate) const {
       infinity);
 }
 
-double Choice::rest_of_step() const {
-  return exact_run.solver_seconds / static_cast<double>(exact_run.frames.size() - 1);
-}
-
 double Choice::step_saved() const {
-  const double exact = 1e-9 * runs[0].nanoseconds;
-  return (exact - 1e-9 * runs[answer].nanoseconds) / (exact + exact_run.solver_seconds);
+  double least = runs[answer].seconds();
+  for (const SceneRun& run : runs) {
+    if (answer == 0 && run.timed && run.holds()) least = std::min(least, run.seconds());
+  }
+  return 1 - least / runs[0].seconds();
 }
 
 double Choice::frame_seconds(const SceneRun& run) const {
   constexpr double frame = 1.0 / 60;
-  const auto steps = static_cast<double>(exact_run.frames.size() - 1);
-  return frame / file.scene.step * (1e-9 * run.nanoseconds / steps + rest_of_step());
+  return frame / file.scene.step * run.seconds() / steps();
 }
 
 std::optional<double> Choice::point_seconds() const {
   constexpr double min_spread = 0.1;  // of the mean number of points
-  const auto steps = static_cast<double>(exact_run.frames.size() - 1);
   double count = 0, x = 0, y = 0, xx = 0, xy = 0;
   for (const SceneRun& run : runs) {
     if (!run.holds()) continue;
-    const double points = run.points, seconds = run.solver_seconds / steps;
+    const double points = run.points, seconds = run.solver_seconds / steps();
     count += 1, x += points, y += seconds, xx += points * points, xy += points * seconds;
   }
   const double variance = count * xx - x * x;
@@ -240,8 +316,6 @@ std::optional<double> Choice::point_seconds() const {
   const double slope = (count * xy - x * y) / variance;
   return slope > 0 ? std::optional(slope) : std::nullopt;
 }
-
-bool Choice::is_worthwhile() const { return answer != 0 && step_saved() >= noise_of_step; }
 
 std::size_t model_bytes(const Candidate& candidate) {
   const auto count = static_cast<std::size_t>(candidate.value);

@@ -52,6 +52,11 @@ struct SceneRun : RepeatedRun {
   std::string name;                      ///< of its models: "capsule", "combination", …
   std::vector<const Candidate*> models;  ///< by kind
   double nanoseconds = 0;                ///< cost of its models for all questions of the exact run
+  /// Was its solver timed in turns with that of others? Otherwise in its first run alone.
+  bool timed = false;
+
+  /// Cost of the whole run: contacts and solver.
+  double seconds() const { return 1e-9 * nanoseconds + solver_seconds; }
 };
 
 /// Processes of candidates, each started on first use.
@@ -82,22 +87,24 @@ struct ChooseOptions {
 /// Judges runs of one scene, as it is written and disturbed.
 class SceneJudge {
  public:
-  /// Runs the scene exactly under every disturbance, those of the answer, too: needs are measured
-  /// against these runs. All arguments must outlive it.
+  /// All arguments must outlive it.
   SceneJudge(const SceneFile& file, const PairKinds& kinds, const Candidate& exact,
              const ChooseOptions& options);
 
   /// Adds what the runs with their models come to under the disturbances up to `last` that they
-  /// have not had; those that broke a need get no more. Neither depends on the number of worker
-  /// processes.
-  void judge(std::vector<SceneRun>& runs, std::size_t last) const;
+  /// have not had; those that broke a need get no more. Needs are measured against exact runs under
+  /// the same disturbances. Nothing depends on the number of worker processes.
+  void judge(std::vector<SceneRun>& runs, std::size_t last);
+
+  /// Times the solver in runs of the scene as it is written, in turns: of each step the least.
+  void time(const std::vector<SceneRun*>& runs) const;
 
  private:
   const SceneFile& file_;
   const PairKinds& kinds_;
   const Candidate& exact_;
   const ChooseOptions& options_;
-  std::vector<Trajectory> exact_runs_;  ///< by disturbance: first and last frames alone
+  std::vector<Trajectory> exact_runs_ = {};  ///< by disturbance: first and last frames alone
 };
 
 /// Bytes that a cylinder's model takes in double precision: its corners, its spheres, or its sizes.
@@ -123,38 +130,42 @@ struct Choice {
   /// Candidates whose run of the scene would take too long.
   std::vector<const Candidate*> too_slow = {};
   Trials trials = {};
-  std::size_t answer = 0;   ///< index of the cheapest run that meets all needs; 0 if `impossible`
+  /// Index of the cheapest run that meets all needs; 0 if `impossible`, or where no other saves
+  /// more of a step than the noise.
+  std::size_t answer = 0;
   bool impossible = false;  ///< exact contacts do not meet the needs either
-  /// By kind: index of the run in which only this kind's model is the next cheaper one; it breaks a
-  /// need. Absent where nothing cheaper supports the kind.
+  /// By kind: index of the run in which only this kind's model is the one with the next cheaper
+  /// query; it breaks a need, or saves nothing of a step. Absent where nothing cheaper supports the
+  /// kind.
   std::vector<std::optional<std::size_t>> cheaper = {};
   /// Time of a query of this kind; infinite where the candidate has no routine.
   double nanoseconds(std::size_t kind, const Candidate& candidate) const;
-  /// Seconds that a step of the exact run takes beside its contacts, in the mean.
-  double rest_of_step() const;
-  /// Share of the time of a whole step with exact contacts that the answer saves.
+  /// Number of steps of a run.
+  double steps() const { return static_cast<double>(exact_run.frames.size() - 1); }
+  /// Share of the time of a whole step with exact contacts that the answer saves, or if that is
+  /// exact, the cheapest other run that meets all needs; 0 where none saves anything.
   double step_saved() const;
-  /// Seconds that a frame of 1/60 s takes with the models of a run: contacts and the rest of it.
+  /// Seconds that a frame of 1/60 s takes with the models of a run: contacts and solver.
   double frame_seconds(const SceneRun& run) const;
   /// Seconds that the solver takes for each contact point that it gets: the slope of the line that
   /// fits the runs in which all needs hold. Absent where they give it much the same points.
   std::optional<double> point_seconds() const;
-  /// Does the answer save more of a step than the noise of a machine?
-  bool is_worthwhile() const;
 };
 
 /// Share of a step's time below which a saving cannot be told from noise: the advice then is the
 /// exact cylinder.
-inline constexpr double noise_of_step = 0.02;
+inline constexpr double noise_of_step = 0.05;
 
-/// Share of another candidate's time below which a candidate counts as cheaper: smaller differences
-/// are noise of the machine.
+/// Share of another's time below which a candidate or a run counts as cheaper: smaller differences
+/// are noise of the machine, and the simpler one is preferred.
 inline constexpr double cheaper_share = 0.9;
 
 /// Runs the scene exactly, replays what occurred with every candidate, runs the whole scene with
-/// each of them under all disturbances, then searches by kind of pairs: the cheapest model of each
-/// kind that serves while the others are exact, all of these together, and step by step back where
-/// they do not serve together. Ends when the answer has been run and no single kind can take its
+/// each of them under all disturbances, then searches by kind of pairs: the model of each kind with
+/// which a step is the cheapest while the others are exact, all of these together, and step by step
+/// back where they do not serve together. The runs among which the answer is are timed in turns. Of
+/// those that take much the same the simplest is taken: models before engines' routines, in the
+/// order of the candidates, for as few kinds as possible. Ends when no single kind can take its
 /// next cheaper model. Progress goes to standard error. Throws InvalidInput if the scene has no
 /// needs or no cylinder touches anything.
 Choice choose(const SceneFile& file, const ChooseOptions& options);

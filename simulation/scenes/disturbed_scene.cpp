@@ -110,10 +110,11 @@ void add(const Trial& trial, std::size_t disturbance, RepeatedRun& run) {
   const bool holds = first_broken(trial.verdicts) < 0;
   const bool is_worse = run.trials == 0 || (!broke_before && !holds) ||
                         (!broke_before && largest_share(trial.verdicts) > run.error());
-  if (disturbance == 0) run.points = trial.points;
-  // What else the machine does only adds to a time.
-  run.solver_seconds =
-      run.trials == 0 ? trial.solver_seconds : std::min(run.solver_seconds, trial.solver_seconds);
+  if (disturbance == 0) {
+    run.points = trial.points;
+    run.solver_seconds = trial.solver_seconds;
+    run.straying = trial.straying;
+  }
   ++run.trials;
   run.held += holds;
   if (!is_worse) return;
@@ -210,7 +211,10 @@ std::string trial_text(const Trial& trial) {
   json result = {{"verdicts", verdicts},
                  {"end", trial.end},
                  {"points", trial.points},
-                 {"solver_seconds", trial.solver_seconds}};
+                 {"solver_seconds", trial.solver_seconds},
+                 {"overlap", trial.straying.overlap},
+                 {"strayed", trial.straying.distance},
+                 {"strayed_body", trial.straying.body}};
   if (const auto& e = trial.evidence) {
     result["evidence"] = {{"configuration", to_json(e->configuration)},
                           {"bodies", e->bodies},
@@ -232,6 +236,8 @@ Trial trial_from(const std::string& text) {
   trial.end = parsed["end"].get<std::string>();
   trial.points = parsed["points"].get<double>();
   trial.solver_seconds = parsed["solver_seconds"].get<double>();
+  trial.straying = {parsed["overlap"].get<double>(), parsed["strayed"].get<double>(),
+                    parsed["strayed_body"].get<std::string>()};
   if (!parsed.contains("evidence")) return trial;
   const json& e = parsed["evidence"];
   trial.evidence = {configuration_from_json(e["configuration"]).configuration,
@@ -310,22 +316,40 @@ void repeat(const std::vector<RepeatedRun*>& runs, std::size_t last, unsigned wo
   }
 }
 
-std::vector<Trajectory> ends_of_runs(const Scene& scene, const Trials& trials, unsigned workers,
-                                     const std::function<Trajectory(const DisturbedScene&)>& run,
-                                     const std::string& name) {
-  const std::size_t count = trials.of_answer() + 1;
-  Progress progress("exact runs, disturbed", count);
+std::vector<std::vector<double>> least_step_seconds(
+    std::size_t runs, const std::function<std::vector<double>(std::size_t run)>& step_seconds) {
+  constexpr std::size_t rounds = 5;
+  Progress progress("rounds of timing", rounds);
+  std::vector<std::vector<double>> least(runs);
+  for (std::size_t round = 0; round < rounds; ++round) {
+    for (std::size_t turn = 0; turn < runs; ++turn) {
+      const std::size_t i = (round + turn) % runs;
+      const std::vector<double> times = step_seconds(i);
+      if (round == 0) least[i] = times;
+      for (std::size_t k = 0; k < std::min(times.size(), least[i].size()); ++k) {
+        least[i][k] = std::min(least[i][k], times[k]);
+      }
+    }
+    progress.update(round + 1);
+  }
+  return least;
+}
+
+void add_ends_of_runs(const Scene& scene, const Trials& trials, std::size_t last, unsigned workers,
+                      const std::function<Trajectory(const DisturbedScene&)>& run,
+                      const std::string& name, std::vector<Trajectory>& ends) {
+  const std::size_t first = ends.size();
+  if (first > last) return;
+  Progress progress("exact runs, disturbed", last + 1 - first);
   const auto texts = run_in_processes(
-      count, workers,
+      last + 1 - first, workers,
       [&](std::size_t i) {
-        const DisturbedScene disturbed(scene, trials.seed, i);
+        const DisturbedScene disturbed(scene, trials.seed, first + i);
         return ends_text(disturbed.turned_back(run(disturbed)));
       },
-      [&](std::size_t i) { return fmt::format("{}, disturbance {}", name, i); },
+      [&](std::size_t i) { return fmt::format("{}, disturbance {}", name, first + i); },
       [&](std::size_t done) { progress.update(done); });
-  std::vector<Trajectory> result;
-  for (const std::string& text : texts) result.push_back(run_of_ends(text, scene.step));
-  return result;
+  for (const std::string& text : texts) ends.push_back(run_of_ends(text, scene.step));
 }
 
 }  // namespace touchstone

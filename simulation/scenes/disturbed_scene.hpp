@@ -51,6 +51,14 @@ struct Evidence {
   double time;        ///< s
 };
 
+/// How a run differs from the one with exact contacts, asked for or not: a body that falls through
+/// the floor upright still stands.
+struct Straying {
+  double overlap = 0;     ///< largest true depth, metres
+  double distance = 0;    ///< metres, largest of a body's end from its end in the exact run
+  std::string body = {};  ///< the one with that distance
+};
+
 /// What one run came to.
 struct Trial {
   std::vector<Verdict> verdicts;  ///< by need
@@ -58,6 +66,7 @@ struct Trial {
   std::string end = {};  ///< why the run ended early: "Segmentation fault"
   double points = 0;     ///< contact points given to the solver, mean of a step
   double solver_seconds = 0;
+  Straying straying = {};
 };
 
 // What a run came to as text, on its way from the process that made it, and back.
@@ -75,7 +84,8 @@ struct RepeatedRun {
   std::optional<Evidence> evidence = {};
   std::string end = {};  ///< why it ended early: "Segmentation fault"
   double points = 0;     ///< contact points given to the solver, mean of a step, as it is written
-  double solver_seconds = 0;  ///< least of the runs that were made
+  double solver_seconds = 0;  ///< of the run as it is written
+  Straying straying = {};     ///< likewise
 
   bool holds() const { return first_broken() < 0; }
   /// Largest share of its limit that a need takes; above one: broken.
@@ -94,10 +104,16 @@ void repeat(const std::vector<RepeatedRun*>& runs, std::size_t last, unsigned wo
             const std::function<Trial(std::size_t run, std::size_t disturbance)>& trial,
             const std::function<std::string(std::size_t run)>& name);
 
-/// First and last frames of runs under all disturbances up to `last`, turned back; what relative
-/// needs are measured against. `run` makes one, in one of the worker processes.
-std::vector<Trajectory> ends_of_runs(const Scene& scene, const Trials& trials, unsigned workers,
-                                     const std::function<Trajectory(const DisturbedScene&)>& run,
-                                     const std::string& name);
+/// Runs made in turns, so that what else the machine does meets all alike: of each of them the
+/// least time of every step. `step_seconds` makes a run, by its index.
+std::vector<std::vector<double>> least_step_seconds(
+    std::size_t runs, const std::function<std::vector<double>(std::size_t run)>& step_seconds);
+
+/// Adds the first and last frames of runs, turned back, by disturbance, until those under `last`
+/// are there: what relative needs are measured against. `run` makes one, in one of the worker
+/// processes.
+void add_ends_of_runs(const Scene& scene, const Trials& trials, std::size_t last, unsigned workers,
+                      const std::function<Trajectory(const DisturbedScene&)>& run,
+                      const std::string& name, std::vector<Trajectory>& ends);
 
 }  // namespace touchstone

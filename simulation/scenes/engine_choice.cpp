@@ -10,7 +10,6 @@
 #include <nlohmann/json.hpp>
 
 #include "candidates/host/contained.hpp"
-#include "candidates/host/progress.hpp"
 #include "reference/invalid_input.hpp"
 #include "simulation/scenes/choose.hpp"
 
@@ -21,7 +20,6 @@ using nlohmann::json;
 using Kind = EngineShape::Kind;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr std::size_t timing_rounds = 5;
 
 bool is_bullet(const std::string& engine) { return engine.starts_with("bullet"); }
 
@@ -64,10 +62,6 @@ class Search {
 
   void run() {
     const EngineSetting exact = uniform({Kind::exact});
-    exact_runs_ = ends_of_runs(
-        choice_.file.scene, options_.trials, options_.workers,
-        [&](const DisturbedScene& scene) { return contained_ends(exact, scene); },
-        choice_.file.name + " in " + choice_.engine.name);
     std::vector<EngineSetting> fresh = {uniform({}), exact};
     for (const EngineShape& shape : own_shapes(choice_.engine.name)) {
       fresh.push_back(uniform(shape));
@@ -155,7 +149,12 @@ class Search {
     return true;
   }
 
-  void judge(std::vector<EngineSetting>& settings, std::size_t last) const {
+  void judge(std::vector<EngineSetting>& settings, std::size_t last) {
+    const EngineSetting exact = uniform({Kind::exact});
+    add_ends_of_runs(
+        choice_.file.scene, options_.trials, last, options_.workers,
+        [&](const DisturbedScene& scene) { return contained_ends(exact, scene); },
+        choice_.file.name + " in " + choice_.engine.name, exact_runs_);
     std::vector<RepeatedRun*> runs;
     for (EngineSetting& setting : settings) runs.push_back(&setting);
     repeat(
@@ -174,21 +173,9 @@ class Search {
     return json::parse(ran.text).get<std::vector<double>>();
   }
 
-  /// In turns, so that what else the machine does meets all alike.
   void time(const std::vector<EngineSetting*>& settings) const {
-    Progress progress("rounds of timing", timing_rounds);
-    std::vector<std::vector<double>> least(settings.size());
-    for (std::size_t round = 0; round < timing_rounds; ++round) {
-      for (std::size_t turn = 0; turn < settings.size(); ++turn) {
-        const std::size_t i = (round + turn) % settings.size();
-        const std::vector<double> times = step_seconds(*settings[i]);
-        if (round == 0) least[i] = times;
-        for (std::size_t k = 0; k < std::min(times.size(), least[i].size()); ++k) {
-          least[i][k] = std::min(least[i][k], times[k]);
-        }
-      }
-      progress.update(round + 1);
-    }
+    const auto least = least_step_seconds(
+        settings.size(), [&](std::size_t i) { return step_seconds(*settings[i]); });
     for (std::size_t i = 0; i < settings.size(); ++i) {
       if (least[i].empty()) continue;
       settings[i]->step_seconds = std::accumulate(least[i].begin(), least[i].end(), 0.0) /

@@ -133,18 +133,17 @@ Trajectory run_scene(const Scene& scene, ContactModel& model) {
   JudgedModel judged(model, trajectory);
   World world(scene, judged);
   trajectory.frames.push_back(world.states());
-  double seconds = 0;
   while (world.time() < scene.duration - scene.step / 2) {
+    const double before = judged.seconds();
     const auto start = Clock::now();
     world.step();
-    seconds += seconds_since(start);
+    trajectory.step_seconds.push_back(seconds_since(start) - (judged.seconds() - before));
     if (!world.sound()) {
       trajectory.sound = false;
       break;
     }
     trajectory.frames.push_back(world.states());
   }
-  trajectory.solver_seconds = seconds - judged.seconds();
   for (const JudgedAnswer& answer : trajectory.answers) trajectory.points += answer.points;
   trajectory.points /= std::max(1.0, static_cast<double>(trajectory.frames.size() - 1));
   return trajectory;

@@ -36,10 +36,10 @@ struct Trajectory {
   double step = 0;                             ///< s
   std::vector<std::vector<BodyState>> frames;  ///< the start, then one for each step
   std::vector<JudgedAnswer> answers;           ///< in order of time
-  bool sound = true;          ///< false: the motion left all bounds, and the frames end there
-  double solver_seconds = 0;  ///< wall-clock time of the steps without the contact model
-  double points = 0;          ///< contact points given to the solver, mean of a step
-  std::vector<double> step_seconds = {};  ///< wall-clock time of each step of an engine's world
+  bool sound = true;  ///< false: the motion left all bounds, and the frames end there
+  double points = 0;  ///< contact points given to the solver, mean of a step
+  /// Wall-clock time of each step: in our world without the contact model, in an engine's all.
+  std::vector<double> step_seconds = {};
 
   double end() const { return step * static_cast<double>(frames.size() - 1); }
   Configuration configuration(const Scene& scene, const JudgedAnswer& answer) const;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <functional>
 #include <limits>
+#include <numeric>
 
 #include "candidates/candidates.hpp"
 #include "candidates/host/progress.hpp"
@@ -83,6 +84,22 @@ class PairwiseModel : public ContactModel {
   Choice choice_;
   std::vector<CandidateProcess*> begun_;
 };
+
+Straying straying(const Scene& scene, const Trajectory& run, const Trajectory& exact) {
+  Straying result;
+  for (const JudgedAnswer& answer : run.answers) {
+    result.overlap = std::max(result.overlap, answer.depth);
+  }
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const auto end = [&](const Trajectory& t) { return t.frames.back()[i].pose.position(); };
+    const double distance = (end(run) - end(exact)).norm();
+    if (distance > result.distance) {
+      result.distance = distance;
+      result.body = scene.bodies[i].name;
+    }
+  }
+  return result;
+}
 
 /// Largest number of answers of a run that are compared with the oracle.
 constexpr std::size_t max_scored = 24;
@@ -252,19 +269,17 @@ Trajectory run_with(const DisturbedScene& scene, const PairKinds& kinds,
 
 SceneJudge::SceneJudge(const SceneFile& file, const PairKinds& kinds, const Candidate& exact,
                        const ChooseOptions& options)
-    : file_(file), kinds_(kinds), exact_(exact), options_(options) {
-  Processes processes(options.limits);  // each worker process starts its own candidates
-  exact_runs_ = ends_of_runs(
-      file.scene, options.trials, options.workers,
+    : file_(file), kinds_(kinds), exact_(exact), options_(options) {}
+
+void SceneJudge::judge(std::vector<SceneRun>& runs, std::size_t last) {
+  Processes processes(options_.limits);  // each worker process starts its own candidates
+  add_ends_of_runs(
+      file_.scene, options_.trials, last, options_.workers,
       [&](const DisturbedScene& scene) {
-        CandidateModel model(processes.of(exact));
+        CandidateModel model(processes.of(exact_));
         return run_scene(scene.scene, model);
       },
-      file.name);
-}
-
-void SceneJudge::judge(std::vector<SceneRun>& runs, std::size_t last) const {
-  Processes processes(options_.limits);  // each worker process starts its own candidates
+      file_.name, exact_runs_);
   const auto trial_of = [&](std::size_t index, std::size_t disturbance) {
     const SceneRun& run = runs[index];
     const DisturbedScene scene(file_.scene, options_.trials.seed, disturbance);
@@ -272,7 +287,9 @@ void SceneJudge::judge(std::vector<SceneRun>& runs, std::size_t last) const {
     const Trajectory as_written = scene.turned_back(trajectory);
     Trial trial;
     trial.points = trajectory.points;
-    trial.solver_seconds = trajectory.solver_seconds;
+    trial.solver_seconds =
+        std::accumulate(trajectory.step_seconds.begin(), trajectory.step_seconds.end(), 0.0);
+    trial.straying = straying(file_.scene, as_written, exact_runs_[disturbance]);
     for (const auto& need : file_.needs) {
       trial.verdicts.push_back(need->judge({file_.scene, as_written, exact_runs_[disturbance]}));
     }
@@ -290,6 +307,18 @@ void SceneJudge::judge(std::vector<SceneRun>& runs, std::size_t last) const {
   for (SceneRun& run : runs) repeated.push_back(&run);
   repeat(repeated, last, options_.workers, trial_of,
          [&](std::size_t run) { return file_.name + " with " + runs[run].name; });
+}
+
+void SceneJudge::time(const std::vector<SceneRun*>& runs) const {
+  Processes processes(options_.limits);
+  const DisturbedScene as_written(file_.scene, options_.trials.seed, 0);
+  const auto least = least_step_seconds(runs.size(), [&](std::size_t i) {
+    return run_with(as_written, kinds_, runs[i]->models, exact_, processes).step_seconds;
+  });
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    runs[i]->solver_seconds = std::accumulate(least[i].begin(), least[i].end(), 0.0);
+    runs[i]->timed = true;
+  }
 }
 
 }  // namespace touchstone
