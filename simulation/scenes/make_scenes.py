@@ -458,7 +458,7 @@ def rod_on_table():
         "bodies": [fixed("table", box(0.5, 0.5, 0.05), "wood", (0, 0, -0.05)),
                    body("rod", cylinder(r, 4 * r), "wood", (0, 0, r), ALONG_Y)],
         "needs": [{"need": "ends-near", "body": "rod", "metres": 0.001},
-                  {"need": "penetration", "metres": 0.001}],
+                  {"need": "penetration", "metres": 0.0004}],
     }
 
 
@@ -472,7 +472,8 @@ def stack_of_cans():
         "duration": 2,
         "materials": {"tin": {"friction": 0.5}},
         "bodies": bodies,
-        "needs": [{"need": "stands", "body": c, "degrees": 1} for c in cans],
+        "needs": [{"need": "stands", "body": c, "degrees": 1} for c in cans] +
+                 [{"need": "penetration", "metres": 0.01}],
         "camera": {"position": [1.6, -2.4, 1.0], "look_at": [0, 0, 0.5]},
     }
 
