@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 #include "candidates/candidates.hpp"
@@ -92,6 +93,11 @@ class Search {
     choice_.runs.insert(choice_.runs.end(), runs.begin(), runs.end());
   }
 
+  bool can_be_answer(const SceneRun& run) const {
+    return run.holds() &&
+           std::ranges::all_of(run.models, [&](const Candidate* c) { return is_model(c); });
+  }
+
   /// Can the run be cheaper than the exact one?
   bool is_promising(const SceneRun& run) const {
     const SceneRun& exact = choice_.runs[0];
@@ -129,14 +135,20 @@ class Search {
     return result;
   }
 
-  /// The candidate whose query is the next cheaper than a model's.
+  /// Is this what the answer can be? Engines' routines are run and judged, but are no models.
+  bool is_model(const Candidate* candidate) const {
+    return candidate == &exact_ || !candidate->models.empty();
+  }
+
+  /// The model whose query is the next cheaper than another's.
   const Candidate* next_cheaper(std::size_t kind, const Candidate& model) const {
     const Candidate* result = nullptr;
     double most = 0;
     const double max_time = cheaper_share * choice_.nanoseconds(kind, model);
     for (const Candidate* c : choice_.candidates) {
       const double time = choice_.nanoseconds(kind, *c);
-      if (c != &exact_ && time < max_time && time > most) most = time, result = c;
+      const bool is_next = is_model(c) && c != &exact_ && time < max_time && time > most;
+      if (is_next) most = time, result = c;
     }
     return result;
   }
@@ -146,8 +158,8 @@ class Search {
     return named(to.name + " for " + choice_.kinds.all()[kind].name, models);
   }
 
-  /// One kind with another model: all whose queries are cheaper, and those that can save the solver
-  /// points, which are the models of few parts.
+  /// One kind with another model: all whose queries are cheaper, and those of few parts, which can
+  /// save the solver points.
   std::vector<SceneRun> one_kind_changed() const {
     const Models exact = all_exact();
     std::vector<SceneRun> result;
@@ -155,8 +167,8 @@ class Search {
       const double max_time = cheaper_share * choice_.nanoseconds(k, exact_);
       for (const Candidate* c : choice_.candidates) {
         const double time = choice_.nanoseconds(k, *c);
-        const bool is_simple = !c->models.empty() && c->value <= max_simple && time < infinity;
-        if (time < max_time || is_simple) result.push_back(changed(exact, k, *c));
+        const bool is_simple = c->value <= max_simple && time < infinity;
+        if (is_model(c) && (time < max_time || is_simple)) result.push_back(changed(exact, k, *c));
       }
     }
     std::erase_if(result, [](const SceneRun& r) { return r.nanoseconds > max_run_time * 1e9; });
@@ -172,7 +184,7 @@ class Search {
     std::vector<double> cost;
     for (const SceneRun& run : choice_.runs) cost.push_back(estimate(run));
     for (std::size_t i = 0; i < choice_.runs.size(); ++i) {
-      if (i > 0 && (!choice_.runs[i].holds() || !(cost[i] < cost[0]))) continue;
+      if (i > 0 && (!can_be_answer(choice_.runs[i]) || !(cost[i] < cost[0]))) continue;
       for (std::size_t k = 0; k < exact.size(); ++k) {
         Models others = choice_.runs[i].models;
         others[k] = &exact_;
@@ -197,32 +209,33 @@ class Search {
     }
   }
 
-  /// Order of preference of models that take much the same: exact ones, models in the order of the
-  /// candidates, then engines' routines.
+  /// Order of preference of models that take much the same: exact ones first, then in the order of
+  /// the candidates.
   std::size_t rank(const Models& models) const {
     const auto& all = choice_.candidates;
     std::size_t sum = 0;
     for (const Candidate* m : models) {
-      const auto index =
-          static_cast<std::size_t>(std::find(all.begin(), all.end(), m) - all.begin());
-      sum += index == 0 || !m->models.empty() ? index : index + all.size() * models.size();
+      sum += static_cast<std::size_t>(std::find(all.begin(), all.end(), m) - all.begin());
     }
     return sum;
   }
 
-  /// The runs among which the answer is: the cheapest of those that hold, roughly.
+  /// The runs among which the answer is: the one that holds and is roughly the cheapest, and the
+  /// simplest of those that cost much the same.
   std::vector<std::size_t> finalists() const {
-    constexpr std::size_t max_count = 5;
-    std::vector<std::pair<double, std::size_t>> holding;
-    for (std::size_t i = 1; i < choice_.runs.size(); ++i) {
-      const SceneRun& run = choice_.runs[i];
-      if (run.holds() && is_promising(run)) holding.emplace_back(estimate(run), i);
-    }
-    std::ranges::sort(holding);
+    constexpr std::size_t max_count = 6;
     std::vector<std::size_t> result;
-    for (const auto& [_, i] : holding) {
-      if (result.size() < max_count) result.push_back(i);
+    for (std::size_t i = 1; i < choice_.runs.size(); ++i) {
+      if (can_be_answer(choice_.runs[i]) && is_promising(choice_.runs[i])) result.push_back(i);
     }
+    if (result.empty()) return result;
+    const auto cost = [&](std::size_t i) { return estimate(choice_.runs[i]); };
+    const std::size_t cheapest = *std::ranges::min_element(result, {}, cost);
+    std::erase_if(result, [&](std::size_t i) { return cost(i) > cost(cheapest) / cheaper_share; });
+    std::ranges::sort(result, {}, [&](std::size_t i) {
+      return std::tuple(i != cheapest, rank(choice_.runs[i].models), i);
+    });
+    if (result.size() > max_count) result.resize(max_count);
     return result;
   }
 

@@ -164,9 +164,9 @@ inline constexpr double cheaper_share = 0.9;
 /// each of them under all disturbances, then searches by kind of pairs: the model of each kind with
 /// which a step is the cheapest while the others are exact, all of these together, and step by step
 /// back where they do not serve together. The runs among which the answer is are timed in turns. Of
-/// those that take much the same the simplest is taken: models before engines' routines, in the
-/// order of the candidates, for as few kinds as possible. Ends when no single kind can take its
-/// next cheaper model. Progress goes to standard error. Throws InvalidInput if the scene has no
+/// those that take much the same the simplest is taken: for as few kinds as possible, in the order
+/// of the candidates. Ends when no single kind can take its next cheaper model. Engines' routines
+/// are run and judged for all kinds, but are no answer. Progress goes to standard error. Throws InvalidInput if the scene has no
 /// needs or no cylinder touches anything.
 Choice choose(const SceneFile& file, const ChooseOptions& options);
 
