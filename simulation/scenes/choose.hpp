@@ -166,8 +166,8 @@ inline constexpr double cheaper_share = 0.9;
 /// back where they do not serve together. The runs among which the answer is are timed in turns. Of
 /// those that take much the same the simplest is taken: for as few kinds as possible, in the order
 /// of the candidates. Ends when no single kind can take its next cheaper model. Engines' routines
-/// are run and judged for all kinds, but are no answer. Progress goes to standard error. Throws InvalidInput if the scene has no
-/// needs or no cylinder touches anything.
+/// are run and judged for all kinds, but are no answer. Progress goes to standard error. Throws
+/// InvalidInput if the scene has no needs or no cylinder touches anything.
 Choice choose(const SceneFile& file, const ChooseOptions& options);
 
 }  // namespace touchstone
