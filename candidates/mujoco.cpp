@@ -54,10 +54,13 @@ const char* type_name(ts_shape_kind kind) {
   return names[kind];
 }
 
-/// A model with a free cylinder and another geom in the world, both of size one. Its stack is
-/// small: the usual one of 10 MB is written with zeros, which takes longer than a thousand queries.
+/// A model with a free cylinder and another geom in the world, both of size one. Its stack and its
+/// room for constraints, which a collision function does not use, are small: the usual ones of many
+/// megabytes are written with zeros, which takes longer than a thousand queries.
 mjModel* make_model(ts_shape_kind other) {
-  const std::string xml = std::string("<mujoco><size nstack='10000'/><worldbody><geom type='") +
+  const std::string xml = std::string(
+                              "<mujoco><size nstack='10000' njmax='1' nconmax='1'/><worldbody>"
+                              "<geom type='") +
                           type_name(other) +
                           "' size='1 1 1'/><body><freejoint/><geom type='cylinder' size='1 1'/>"
                           "</body></worldbody></mujoco>";

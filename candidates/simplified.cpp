@@ -12,6 +12,10 @@
 // less
 //              than their distance if vertices are closest.
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <vector>
 
 #include "candidates/model.hpp"
 
@@ -22,7 +26,10 @@ using touchstone::Vec3;
 struct ts_prepared {
   ModelPair pair;
   double threshold;
-  std::vector<Separation> parts;
+  std::vector<Separation> parts = {};
+  /// Of the last query, whose distance is asked for next.
+  ts_pose pose_a = {}, pose_b = {};
+  double distance = 0;
 };
 
 namespace {
@@ -32,7 +39,7 @@ using MakeMany = std::vector<touchstone::RoundedPolytope> (*)(int, double, doubl
 
 template <Make make>
 ts_prepared* prepare(void*, const ts_shape* a, const ts_shape* b, double threshold, double) {
-  return new ts_prepared{ModelPair(*a, *b, make), threshold, {}};
+  return new ts_prepared{ModelPair(*a, *b, make), threshold};
 }
 
 template <MakeMany make>
@@ -41,7 +48,7 @@ ts_prepared* prepare_many(void*, const ts_shape* a, const ts_shape* b, double th
   const auto model = [number](double radius, double half_length) {
     return make(static_cast<int>(number), radius, half_length);
   };
-  return new ts_prepared{ModelPair(*a, *b, model), threshold, {}};
+  return new ts_prepared{ModelPair(*a, *b, model), threshold};
 }
 
 void copy(const Vec3& from, double (&to)[3]) { std::copy(from.data(), from.data() + 3, to); }
@@ -49,6 +56,9 @@ void copy(const Vec3& from, double (&to)[3]) { std::copy(from.data(), from.data(
 void query(ts_prepared* p, const ts_pose* a, const ts_pose* b, const double*, ts_answer* answer) {
   p->parts.clear();
   const Separation nearest = p->pair.separation(*a, *b, &p->parts);
+  p->pose_a = *a;
+  p->pose_b = *b;
+  p->distance = nearest.distance;
   answer->status = nearest.distance <= p->threshold ? TS_CONTACT : TS_NONE;
   answer->point_count = 0;
   if (answer->status == TS_NONE) return;
@@ -71,7 +81,14 @@ void query(ts_prepared* p, const ts_pose* a, const ts_pose* b, const double*, ts
   }
 }
 
+bool same(const ts_pose& x, const ts_pose& y) {
+  using Bits = std::array<std::uint64_t, sizeof(ts_pose) / sizeof(std::uint64_t)>;
+  return std::bit_cast<Bits>(x) == std::bit_cast<Bits>(y);
+}
+
+/// A pose that is all zeros, as that of no query, is none: its orientation is no rotation.
 double model_distance(ts_prepared* p, const ts_pose* a, const ts_pose* b) {
+  if (same(*a, p->pose_a) && same(*b, p->pose_b)) return p->distance;
   return p->pair.separation(*a, *b).distance;
 }
 

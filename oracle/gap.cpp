@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <optional>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include "oracle/difference.hpp"
 #include "oracle/truth.hpp"
@@ -30,77 +32,101 @@ Ball gap_above_column(const Difference& difference, const BallDifference& balls,
   return height * cosine - balls.along(n).half_width - circumradius * sine - below;
 }
 
-}  // namespace
+/// In units.
+struct Ends {
+  Float lo, hi;
+};
 
 /// The exact difference is made once; so are its balls of the first precision, which is nearly
 /// always enough.
-struct Gaps::State {
-  State(const Configuration& configuration, double width)
-      : difference(make_difference(configuration)),
-        wanted(width_in_units(difference, configuration, width)) {}
+class Gaps {
+ public:
+  Gaps(const Configuration& configuration, double width)
+      : difference_(make_difference(configuration)),
+        wanted_(width_in_units(difference_, configuration, width)) {}
 
-  /// In units.
-  struct Ends {
-    Float lo, hi;
-  };
   /// No wider than wanted.
   Ends along(const Vec3& n) {
     if (!n.allFinite() || n.isZero(0)) {
       throw InvalidInput("n", "not a direction", "must be finite and not zero");
     }
-    const IntegerVector direction = in_frame_of_a(difference, n);
+    const IntegerVector direction = in_frame_of_a(difference_, n);
     for (long bits = first_bits; bits <= last_bits; bits *= 2) {
       const WorkingPrecision precision(bits);
-      if (bits == first_bits && !first) first.emplace(difference);
-      const Ball value =
-          bits == first_bits ? gap(*first, direction) : gap(BallDifference(difference), direction);
+      if (bits == first_bits && !first_) first_.emplace(difference_);
+      const Ball value = bits == first_bits ? gap(*first_, direction)
+                                            : gap(BallDifference(difference_), direction);
       if (!value.is_finite()) continue;
       Ends ends{value.lower_end(), value.upper_end()};
-      if (!(wanted < ends.hi - ends.lo)) return ends;
+      if (!(wanted_ < ends.hi - ends.lo)) return ends;
     }
     throw std::logic_error("oracle: the gap could not be enclosed");
   }
 
-  Ball gap(const BallDifference& balls, const IntegerVector& direction) const {
-    const BallVector n = to_balls(direction);
-    return difference.is_plane ? gap_above_column(difference, balls, n) : balls.gap(n);
+  /// In metres.
+  Enclosure enclosure_along(const Vec3& n) {
+    const Ends gap = along(n);
+    return {gap.lo.rational() / per_metre(), gap.hi.rational() / per_metre()};
   }
 
-  Difference difference;
-  Float wanted;  ///< width in units
-  std::optional<BallDifference> first;
+  const Integer& per_metre() const { return difference_.per_metre; }
+
+ private:
+  Ball gap(const BallDifference& balls, const IntegerVector& direction) const {
+    const BallVector n = to_balls(direction);
+    return difference_.is_plane ? gap_above_column(difference_, balls, n) : balls.gap(n);
+  }
+
+  Difference difference_;
+  Float wanted_;  ///< width in units
+  std::optional<BallDifference> first_;
 };
 
-Gaps::Gaps(const Configuration& configuration, double width)
-    : state_(std::make_unique<State>(configuration, width)) {}
-Gaps::Gaps(Gaps&&) noexcept = default;
-Gaps& Gaps::operator=(Gaps&&) noexcept = default;
-Gaps::~Gaps() = default;
+constexpr double gap_width = 1e-15;
 
-Enclosure Gaps::along(const Vec3& n) {
-  const State::Ends gap = state_->along(n);
-  const Integer& metre = state_->difference.per_metre;
-  return {gap.lo.rational() / metre, gap.hi.rational() / metre};
-}
+}  // namespace
 
-double Gaps::regret(const Truth& truth, const Vec3& n) {
-  const State::Ends gap = state_->along(n);
-  // (a/b + c/d)/2 − (lo + hi)/(2m) as one quotient, for a common factor costs more than the rest.
-  const auto number = [](const mpz_class& x) { return Float(x); };
-  const mpq_class &lo = truth.signed_distance.lo, &hi = truth.signed_distance.hi;
-  const Float b = number(lo.get_den()), d = number(hi.get_den());
-  const Float m = number(state_->difference.per_metre), bd = b * d;
-  const Float sum = (number(lo.get_num()) * d + number(hi.get_num()) * b) * m;
-  const Float regret = sum - (gap.lo + gap.hi) * bd;
-  return std::max(0.0, quotient(regret, Float(2.0) * bd * m));
+struct Regrets::State {
+  /// (a/b + c/d)/2 − (lo + hi)/(2m) = ((ad + cb)m − (lo + hi)bd)/(2bdm) is one quotient, for a
+  /// common factor costs more than the rest.
+  State(const Configuration& configuration, const Truth& truth) : gaps(configuration, gap_width) {
+    const mpq_class &lo = truth.signed_distance.lo, &hi = truth.signed_distance.hi;
+    const Float b(lo.get_den()), d(hi.get_den()), m(gaps.per_metre());
+    denominators = b * d;
+    distances = (Float(lo.get_num()) * d + Float(hi.get_num()) * b) * m;
+    divisor = Float(2.0) * denominators * m;
+  }
+
+  double of(const Vec3& n) {
+    const Ends gap = gaps.along(n);
+    return std::max(0.0, quotient(distances - (gap.lo + gap.hi) * denominators, divisor));
+  }
+
+  Gaps gaps;
+  Float denominators, distances, divisor;  ///< bd, (ad + cb)m and 2bdm
+  std::vector<std::pair<Vec3, double>> known;
+};
+
+Regrets::Regrets(const Configuration& configuration, const Truth& truth)
+    : state_(std::make_unique<State>(configuration, truth)) {}
+Regrets::Regrets(Regrets&&) noexcept = default;
+Regrets::~Regrets() = default;
+
+Enclosure Regrets::gap(const Vec3& n) { return state_->gaps.enclosure_along(n); }
+
+double Regrets::of(const Vec3& n) {
+  for (const auto& [direction, regret] : state_->known) {
+    if (direction == n) return regret;
+  }
+  return state_->known.emplace_back(n, state_->of(n)).second;
 }
 
 Enclosure certified_gap(const Configuration& configuration, const Vec3& n, double width) {
-  return Gaps(configuration, width).along(n);
+  return Gaps(configuration, width).enclosure_along(n);
 }
 
 double normal_regret(const Configuration& configuration, const Truth& truth, const Vec3& n) {
-  return Gaps(configuration).regret(truth, n);
+  return Regrets(configuration, truth).of(n);
 }
 
 }  // namespace touchstone::oracle

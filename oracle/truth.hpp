@@ -80,18 +80,17 @@ Enclosure certified_gap(const Configuration& configuration, const Vec3& n, doubl
 /// Normal regret max(0, σ − g(n)) in metres, to within the widths of truth and gap.
 double normal_regret(const Configuration& configuration, const Truth& truth, const Vec3& n);
 
-/// Gaps of one configuration along any number of directions: the same numbers as certified_gap and
-/// normal_regret, at a fraction of the cost, since what depends on the configuration alone is made
-/// once.
-class Gaps {
+/// Gaps and regrets of one configuration along any number of directions: the same numbers as
+/// certified_gap and normal_regret, at a fraction of the cost, since what depends on configuration
+/// and truth alone is made once, and the regret along equal directions, too.
+class Regrets {
  public:
-  explicit Gaps(const Configuration& configuration, double width = 1e-15);
-  Gaps(Gaps&&) noexcept;
-  Gaps& operator=(Gaps&&) noexcept;
-  ~Gaps();
+  Regrets(const Configuration& configuration, const Truth& truth);
+  Regrets(Regrets&&) noexcept;
+  ~Regrets();
 
-  Enclosure along(const Vec3& n);
-  double regret(const Truth& truth, const Vec3& n);
+  Enclosure gap(const Vec3& n);
+  double of(const Vec3& n);
 
  private:
   struct State;

@@ -184,13 +184,14 @@ TEST(Gap, RegretIsWhatExactFractionsSayRoundedTowardsZero) {
     const Quaternion turn(normal(random), normal(random), normal(random), normal(random));
     const Configuration c{Cylinder(1, 2), Pose(vector(), turn), Box(Vec3(1, 0.1, 3)), Pose()};
     const Truth t = truth(c);
-    Gaps gaps(c);
+    Regrets regrets(c, t);
     const Vec3 right = t.normals.front().n;
     for (const Vec3& n : {vector(), right, Vec3(right + 1e-9 * vector())}) {
-      const Enclosure g = gaps.along(n);
+      const Enclosure g = regrets.gap(n);
       EXPECT_LT(g.width(), 1e-30);  // of the first precision
       const mpq_class regret = (t.signed_distance.lo + t.signed_distance.hi - g.lo - g.hi) / 2;
-      EXPECT_EQ(gaps.regret(t, n), std::max(0.0, regret.get_d()));
+      EXPECT_EQ(regrets.of(n), std::max(0.0, regret.get_d()));
+      EXPECT_EQ(regrets.of(n), regrets.of(n));
     }
   }
 }

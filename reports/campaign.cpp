@@ -55,11 +55,14 @@ std::vector<Answer> sampled_answers(
         ask,
     std::span<const Configuration> configurations, std::span<const std::size_t> unit_ends) {
   std::vector<Answer> answers;
-  answers.reserve(configurations.size());
   const auto ask_for = [&](std::size_t count) {
     const bool in_new_session = answers.empty();
     auto given = ask(configurations.subspan(answers.size(), count), in_new_session);
-    std::move(given.begin(), given.end(), std::back_inserter(answers));
+    if (answers.empty()) {  // most often all of them: an answer is large
+      answers = std::move(given);
+    } else {
+      std::move(given.begin(), given.end(), std::back_inserter(answers));
+    }
     return answers.back().status == TS_TIMED_OUT;
   };
   std::vector<int> timeouts(unit_ends.size());
@@ -102,6 +105,8 @@ void score_answers(std::span<const Configuration> configurations,
     const auto end = std::chrono::steady_clock::now();
     scored.oracle_microseconds = std::chrono::duration<double, std::micro>(end - start).count();
     Judge judge(c, scored.truth, bar);
+    scored.scores.reserve(answers.size());
+    scored.answers.reserve(answers.size());
     for (auto& of_candidate : answers) {
       scored.scores.push_back(judge.score(of_candidate[i]));
       scored.answers.push_back(std::move(of_candidate[i]));

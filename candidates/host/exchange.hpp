@@ -74,9 +74,13 @@ inline std::uint64_t progress_of(std::uint64_t ticket, std::uint32_t done) {
 /// forgery; a candidate may answer what it likes.
 inline std::uint64_t seal_of(const Slot& slot, std::uint64_t ticket) {
   constexpr std::size_t words = offsetof(Slot, seal) / sizeof(std::uint64_t);
-  std::uint64_t word[words], sum = ticket;
-  std::memcpy(word, &slot, sizeof word);
-  for (std::size_t i = 0; i < words; ++i) sum += (word[i] ^ ticket) * (0x9e3779b97f4a7c15u + 2 * i);
+  const auto* const bytes = reinterpret_cast<const unsigned char*>(&slot);
+  std::uint64_t sum = ticket;
+  for (std::size_t i = 0; i < words; ++i) {
+    std::uint64_t word;
+    std::memcpy(&word, bytes + i * sizeof word, sizeof word);
+    sum += (word ^ ticket) * (0x9e3779b97f4a7c15u + 2 * i);
+  }
   return sum;
 }
 

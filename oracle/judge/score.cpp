@@ -274,12 +274,12 @@ struct Judge::State {
   const double size;         ///< to which errors are relative, metres
   const double true_metres;  ///< true signed distance
   const double distance;     ///< the same, relative to `size`
-  std::optional<oracle::Gaps> gaps;
+  std::optional<oracle::Regrets> regrets;
   std::vector<NormalPatch> patches;
 
   double regret(const Vec3& n) {
-    if (!gaps) gaps.emplace(c);
-    return relative(gaps->regret(truth, n), size);
+    if (!regrets) regrets.emplace(c, truth);
+    return relative(regrets->of(n), size);
   }
 
   const NormalPatch& patch(const Vec3& n) {
