@@ -1,0 +1,71 @@
+#!/usr/bin/env python3
+"""Does `choose` give the same answer with other seeds? seed_check.py PROGRAM SCENE [OPTIONS]
+
+  simulation/scenes/seed_check.py ./touchstone simulation/scenes/rod-on-table.json --seeds 20
+
+The first seed tries every candidate. The others draw other disturbances of the same scene, so they
+try again the candidates that may be the answer: those with a run that gives the solver fewer points
+or has cheaper queries, and holds, or breaks a need under a disturbance alone, or by less than twice
+its limit. OPTIONS are those of `choose`, such as --drive. Exit code: 0 the same answer for all
+seeds; 1 not; 2 `choose` failed.
+"""
+import argparse
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+
+def choose(program, scene, seed, options, folder):
+    command = [program, "choose", scene, "--seed", str(seed), "--out", folder, *options]
+    done = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    if done.returncode not in (0, 1):
+        print(done.stderr, file=sys.stderr, end="")
+        sys.exit(2)
+    return json.loads((pathlib.Path(folder) / "choose.json").read_text())
+
+
+def may_serve(run, exact):
+    is_cheaper = (run["points_per_step"] < exact["points_per_step"]
+                  or run["microseconds_per_step"] < exact["microseconds_per_step"])
+    nearly_holds = run["error"] is not None and run["error"] < 2
+    return is_cheaper and (nearly_holds or run["disturbance"] > 0)
+
+
+def candidates_that_may_serve(choice):
+    exact = choice["runs"][0]
+    names = {name for run in choice["runs"] if may_serve(run, exact) for name in run["models"]}
+    names.add(exact["models"][0])
+    return ",".join(sorted(names))
+
+
+def answer(choice):
+    if not choice["possible"]:
+        return "impossible"
+    models = choice["runs"][choice["answer"]]["models"]
+    text = ", ".join(f"{kind['name']}: {model}" for kind, model in zip(choice["kinds"], models))
+    return "exact" if choice["answer"] == 0 else text
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program")
+    parser.add_argument("scene")
+    parser.add_argument("--seeds", type=int, default=20)
+    arguments, options = parser.parse_known_args()
+    answers = []
+    with tempfile.TemporaryDirectory() as folder:
+        for seed in range(1, arguments.seeds + 1):
+            choice = choose(arguments.program, arguments.scene, seed, options, folder)
+            answers.append(answer(choice))
+            print(f"{choice['scene']['name']}, seed {seed}: {answers[-1]} "
+                  f"({100 * choice['step_saved']:.1f}% of a step)", flush=True)
+            if seed == 1:
+                options += ["--candidates", candidates_that_may_serve(choice)]
+    return 0 if len(set(answers)) == 1 else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,96 @@
+#!/usr/bin/env python3
+"""seed_check.py against a made-up `choose`, and the real one: seed_check_test.py PROGRAM"""
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+HERE = pathlib.Path(__file__).resolve().parent
+PROGRAM = sys.argv.pop()
+
+EXACT = {"models": ["reference"], "points_per_step": 4, "microseconds_per_step": 1, "error": 0.5,
+         "disturbance": 0}
+RUNS = [  # as they differ from the exact one
+    {},
+    {"models": ["holds"], "points_per_step": 2},
+    {"models": ["cheaper-query"], "microseconds_per_step": 0.5},
+    {"models": ["dearer"], "points_per_step": 5},
+    {"models": ["breaks"], "points_per_step": 2, "error": 2.5},
+    {"models": ["breaks-disturbed"], "points_per_step": 2, "error": 2.5, "disturbance": 3},
+    {"models": ["nearly-holds"], "points_per_step": 2, "error": 1.5},
+    {"models": ["absurd"], "points_per_step": 2, "error": None},
+]
+
+# Writes what it was asked, and an answer that another seed may change.
+MADE_UP = """#!/usr/bin/env python3
+import json, pathlib, sys
+options = dict(zip(sys.argv[3::2], sys.argv[4::2]))
+folder = pathlib.Path(__file__).parent
+with open(folder / "asked", "a") as asked:
+    print(json.dumps(options), file=asked)
+choice = json.loads((folder / "choice.json").read_text())
+choice["answer"] = json.loads((folder / "answers.json").read_text())[int(options["--seed"]) - 1]
+if choice["answer"] is None:
+    print("error: refused", file=sys.stderr)
+    sys.exit(2)
+pathlib.Path(options["--out"], "choose.json").write_text(json.dumps(choice))
+"""
+
+
+class SeedCheck(unittest.TestCase):
+    def setUp(self):
+        self.temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(self.temporary.cleanup)
+        self.folder = pathlib.Path(self.temporary.name)
+
+    def check(self, answers, *options):
+        runs = [{**EXACT, **run} for run in RUNS]
+        choice = {"scene": {"name": "made-up"}, "possible": True, "step_saved": 0.1, "runs": runs,
+                  "kinds": [{"name": "can on table"}]}
+        (self.folder / "choice.json").write_text(json.dumps(choice))
+        (self.folder / "answers.json").write_text(json.dumps(answers))
+        program = self.folder / "choose"
+        program.write_text(MADE_UP)
+        program.chmod(0o755)
+        return self.run_check(program, "made-up.json", "--seeds", str(len(answers)), *options)
+
+    @staticmethod
+    def run_check(program, scene, *options):
+        return subprocess.run([sys.executable, HERE / "seed_check.py", program, scene, *options],
+                              capture_output=True, text=True)
+
+    def asked(self):
+        return [json.loads(line) for line in (self.folder / "asked").read_text().splitlines()]
+
+    def test_the_same_answer_for_all_seeds(self):
+        done = self.check([1, 1, 1])
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("made-up, seed 3: can on table: holds (10.0% of a step)", done.stdout)
+
+    def test_another_answer_for_one_seed(self):
+        self.assertEqual(self.check([1, 1, 0]).returncode, 1)
+
+    def test_what_choose_refuses(self):
+        done = self.check([1, None])
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("error: refused", done.stderr)
+
+    def test_later_seeds_try_what_may_serve(self):
+        self.check([0, 0, 0], "--drive", "wheel=1")
+        first, second, third = self.asked()
+        self.assertNotIn("--candidates", first)
+        self.assertEqual(second["--candidates"],
+                         "breaks-disturbed,cheaper-query,holds,nearly-holds,reference")
+        self.assertEqual(third["--candidates"], second["--candidates"])
+        self.assertEqual({asked["--drive"] for asked in (first, second, third)}, {"wheel=1"})
+
+    def test_a_scene_of_ours(self):
+        done = self.run_check(PROGRAM, HERE / "rod-on-table.json", "--seeds", "2")
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertIn("rod-on-table, seed 2: exact", done.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()
