@@ -1,6 +1,7 @@
 #include "candidates/candidates.hpp"
 
 #include <cmath>
+#include <dlfcn.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <random>
@@ -275,6 +276,35 @@ TEST(Models, ManySidesComeToTheCylinder) {
         EXPECT_EQ(a.signed_distance, *a.model_distance);
       }
     }
+  }
+}
+
+// Touchstone asks for the distance right after the query at the same poses; others need not.
+TEST(Models, TellTheDistanceAtAnyPosesWhateverWasAskedBefore) {
+  void* const library = dlopen(find_candidate("capsule").plugin.c_str(), RTLD_NOW | RTLD_LOCAL);
+  ASSERT_TRUE(library) << dlerror();
+  const auto plugin =
+      reinterpret_cast<const ts_plugin* (*)()>(dlsym(library, "touchstone_plugin"))();
+  ASSERT_GE(plugin->count, 4);
+  const ts_shape a = to_ts_shape(Cylinder(0.1, 0.5)), b = to_ts_shape(Sphere(0.2));
+  const ts_pose near = at({0.25, 0, 0}), far = at({3, 0, 0}), origin = at({0, 0, 0});
+  for (int i = 0; i < plugin->count; ++i) {
+    const ts_candidate& model = plugin->candidates[i];
+    const double parameter = model.parameter ? model.parameter->usual : 0;
+    const auto prepare = [&] { return model.prepare(model.context, &a, &b, 1, parameter); };
+    ts_prepared* const fresh = prepare();
+    const double at_near = model.model_distance(fresh, &near, &origin);
+    const double at_far = model.model_distance(fresh, &far, &origin);
+    model.release(fresh);
+    EXPECT_LT(at_near, 0.01) << model.name;
+    EXPECT_GT(at_far, 2.5) << model.name;
+    ts_prepared* const asked = prepare();
+    ts_answer answer;
+    model.query(asked, &near, &origin, nullptr, &answer);
+    EXPECT_EQ(model.model_distance(asked, &far, &origin), at_far) << model.name;
+    EXPECT_EQ(model.model_distance(asked, &near, &origin), at_near) << model.name;
+    EXPECT_GT(model.model_distance(asked, &near, &far), 2) << model.name;
+    model.release(asked);
   }
 }
 
