@@ -11,16 +11,18 @@ HERE = pathlib.Path(__file__).resolve().parent
 PROGRAM = sys.argv.pop()
 
 EXACT = {"models": ["reference"], "points_per_step": 4, "microseconds_per_step": 1, "error": 0.5,
-         "disturbance": 0}
+         "trials": 17, "held": 17}
 RUNS = [  # as they differ from the exact one
     {},
-    {"models": ["holds"], "points_per_step": 2},
-    {"models": ["cheaper-query"], "microseconds_per_step": 0.5},
-    {"models": ["dearer"], "points_per_step": 5},
-    {"models": ["breaks"], "points_per_step": 2, "error": 2.5},
-    {"models": ["breaks-disturbed"], "points_per_step": 2, "error": 2.5, "disturbance": 3},
-    {"models": ["nearly-holds"], "points_per_step": 2, "error": 1.5},
-    {"models": ["absurd"], "points_per_step": 2, "error": None},
+    {"models": ["capsule"], "points_per_step": 2},
+    {"models": ["spheres:1"], "microseconds_per_step": 0.5},
+    {"models": ["spheres:2"], "points_per_step": 5},
+    {"models": ["spheres:4"], "points_per_step": 2, "error": 2.5, "trials": 1, "held": 0},
+    {"models": ["prism:8"], "points_per_step": 2, "error": 2.5, "trials": 5, "held": 4},
+    {"models": ["prism:16"], "points_per_step": 2, "error": 2.5, "trials": 5, "held": 3},
+    {"models": ["box-capsules:1"], "points_per_step": 2, "error": 1.4, "trials": 1, "held": 0},
+    {"models": ["box-capsules:2"], "points_per_step": 2, "error": None, "trials": 1, "held": 0},
+    {"models": ["bullet"], "points_per_step": 2},
 ]
 
 # Writes what it was asked, and an answer that another seed may change.
@@ -67,7 +69,7 @@ class SeedCheck(unittest.TestCase):
     def test_the_same_answer_for_all_seeds(self):
         done = self.check([1, 1, 1])
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("made-up, seed 3: can on table: holds (10.0% of a step)", done.stdout)
+        self.assertIn("made-up, seed 3: can on table: capsule (10.0% of a step)", done.stdout)
 
     def test_another_answer_for_one_seed(self):
         self.assertEqual(self.check([1, 1, 0]).returncode, 1)
@@ -82,7 +84,7 @@ class SeedCheck(unittest.TestCase):
         first, second, third = self.asked()
         self.assertNotIn("--candidates", first)
         self.assertEqual(second["--candidates"],
-                         "breaks-disturbed,cheaper-query,holds,nearly-holds,reference")
+                         "box-capsules:1,capsule,prism:8,reference,spheres:1")
         self.assertEqual(third["--candidates"], second["--candidates"])
         self.assertEqual({asked["--drive"] for asked in (first, second, third)}, {"wheel=1"})
 
