@@ -72,8 +72,8 @@ function failures() {
 // Whether a run has one candidate for all pairs; runs of the search have longer names.
 const isUniform = run => !run.name.includes(' ') && run.name !== 'combination';
 function runTable() {
-  byId('run-table').append(table([textColumn('model'), 'a step, µs', 'contacts, µs', 'points', 'solver, µs', 'error / limit', 'held', textColumn('breaks first'), textColumn('worst answer before')],
-      data.runs.filter(isUniform).map(r => [r.name, exponent(r.step_microseconds, 3), exponent(r.microseconds_per_step, 3), r.points_per_step.toFixed(1), exponent(r.solver_microseconds_per_step),
+  byId('run-table').append(table([textColumn('model'), 'a step, µs', 'contacts, µs', 'points', 'error / limit', 'held', textColumn('breaks first'), textColumn('worst answer before')],
+      data.runs.filter(isUniform).map(r => [r.name, exponent(r.step_microseconds, 3), exponent(r.microseconds_per_step, 3), r.points_per_step.toFixed(1),
           element('td', {class: r.holds ? 'good' : 'bad'}, r.error === null ? 'absurd' : exponent(r.error)),
           `${r.held} of ${r.trials}`, wide(r.holds ? '' : failure(r)), wide(r.evidence ? `${r.evidence.bodies}: ${r.evidence.wrong}` : '')]), 'Each run with one model'));
   if (data.too_slow.length) byId('too-slow').textContent = `Not run, because their queries alone would take more than 3 s: ${data.too_slow.join(', ')}.`;
