@@ -576,6 +576,34 @@ TEST(DisturbedScenes, MoveMechanismsAsOneAndLeaveAloneWhatIsHeldOrDriven) {
   }
 }
 
+TEST(DisturbedScenes, TurnVelocitiesWithWhatMoves) {
+  const Vec3 spin(0, 6, 8), speed(0.5, -0.2, 0), arm(0.1, 0, 0);
+  Scene written;
+  for (const char* name : {"left", "right"}) {
+    Body half{name, Box(Vec3(0.04, 0.04, 0.04))};
+    half.velocity = speed;
+    half.angular_velocity = spin;
+    written.bodies.push_back(half);
+  }
+  written.bodies[1].pose = Pose(arm);
+  written.bodies[1].velocity += spin.cross(arm);
+  written.joints = {{"weld", JointKind::fixed, 1, 0}};
+  for (std::size_t d = 1; d <= 40; ++d) {
+    const DisturbedScene disturbed(written, 7, d);
+    ASSERT_NO_THROW(check_scene(disturbed.scene)) << d;
+    const bool is_in_order = disturbed.origin[0] == 0;
+    const Body& left = disturbed.scene.bodies[is_in_order ? 0 : 1];
+    const Body& right = disturbed.scene.bodies[is_in_order ? 1 : 0];
+    const Vec3 between = right.pose.position() - left.pose.position();
+    EXPECT_LT((right.velocity - left.velocity - left.angular_velocity.cross(between)).norm(), 1e-13)
+        << d;
+    // In its own frame each body spins as it is written.
+    for (const Body* body : {&left, &right}) {
+      EXPECT_LT((body->pose.rotation().transpose() * body->angular_velocity - spin).norm(), 1e-13);
+    }
+  }
+}
+
 TEST(DisturbedScenes, AreOthersForEverySeedAndTheSameForTheSame) {
   const Scene scene = cans_on_pedestals({Vec3(0.5, 0, 0)}).scene;
   const auto gravity = [&](std::uint64_t seed, std::size_t d) {
