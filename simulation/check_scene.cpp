@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
@@ -224,6 +225,26 @@ void check_assembly(const Assembly& assembly, const Scene& scene) {
   }
 }
 
+/// A hinge or slider must move something: no engine has a joint of a body with itself.
+void check_moves(const std::string& field, const Joint& joint, const Scene& scene,
+                 const std::vector<Assembly>& assemblies) {
+  if (joint.kind == JointKind::fixed) return;
+  const auto assembly_of = [&](int body) {
+    const auto holds = [&](const Assembly& a) { return std::ranges::count(a.bodies, body) > 0; };
+    return body == world_body ? nullptr : &*std::ranges::find_if(assemblies, holds);
+  };
+  const Assembly *a = assembly_of(joint.a), *b = assembly_of(joint.b);
+  const bool is_moved = a->is_free() || (b && b->is_free());
+  if (a != b && is_moved) return;
+  throw InvalidInput(
+      field,
+      fmt::format("a {} of {} and {}", joint_kind_name(joint.kind), scene.bodies[joint.a].name,
+                  b ? scene.bodies[joint.b].name : "the world"),
+      is_moved ? "must join what can move apart: fixed joints make these bodies one; leave this "
+                 "joint or one of those out"
+               : "must join something that forces move: these are fixed or driven; leave it out");
+}
+
 }  // namespace
 
 void check_scene(const Scene& scene) {
@@ -244,7 +265,11 @@ void check_scene(const Scene& scene) {
     check_index("apart", a, 0, scene);
     check_index("apart", b, 0, scene);
   }
-  for (const Assembly& assembly : assemblies(scene)) check_assembly(assembly, scene);
+  const std::vector<Assembly> all = assemblies(scene);
+  for (const Assembly& assembly : all) check_assembly(assembly, scene);
+  for (std::size_t i = 0; i < scene.joints.size(); ++i) {
+    check_moves(fmt::format("joints[{}]", i), scene.joints[i], scene, all);
+  }
   for (std::size_t i = 0; i < scene.pushes.size(); ++i) {
     const Push& push = scene.pushes[i];
     const std::string field = fmt::format("pushes[{}]", i);

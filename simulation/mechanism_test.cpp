@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <numbers>
 
+#include "reference/invalid_input.hpp"
 #include "simulation/assembly.hpp"
 #include "simulation/mechanism_scenes.hpp"
 #include "simulation/world_fixture.hpp"
@@ -13,6 +14,7 @@ namespace touchstone {
 namespace {
 
 using std::numbers::pi;
+using testing::HasSubstr;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -102,6 +104,48 @@ TEST(AssemblyTest, AJointToTheWorldOrAFixedBodyFixesAllThatHangsOnIt) {
   scene.bodies[3].fixed = true;
   scene.joints = {rigid(0, world_body), rigid(1, 0), rigid(2, 3)};
   for (const Assembly& a : assemblies(scene)) EXPECT_TRUE(a.fixed);
+}
+
+/// What check_scene says of a scene; empty if it accepts it.
+std::string refusal(const Scene& scene) {
+  try {
+    check_scene(scene);
+  } catch (const InvalidInput& e) {
+    return e.what();
+  }
+  return "";
+}
+
+TEST(CheckSceneTest, RefusesJointsWithinWhatIsRigid) {
+  Scene scene;
+  for (const char* name : {"arm", "wrist", "hand"}) {
+    scene.bodies.push_back(box(name, Vec3::Constant(0.1), at(0, 0, 0)));
+  }
+  const Joint slide = {"slide", JointKind::slider, 2, 0};
+  scene.joints = {rigid(0, 1), slide, rigid(1, 2)};
+  EXPECT_THAT(refusal(scene), HasSubstr("joints[1] is a slider of hand and arm: must join what can "
+                                        "move apart: fixed joints make these bodies one"));
+  scene.joints.pop_back();
+  EXPECT_EQ(refusal(scene), "");
+}
+
+TEST(CheckSceneTest, RefusesJointsOfWhatNoForceMoves) {
+  Scene scene;
+  for (const char* name : {"base", "column", "belt"}) {
+    scene.bodies.push_back(box(name, Vec3::Constant(0.1), at(0, 0, 0)));
+  }
+  scene.bodies[0].fixed = true;
+  scene.bodies[2].drive = SteadyMotion{};
+  const Joint to_world = hinge(1, world_body, Vec3::Zero(), Vec3::UnitZ());
+  scene.joints = {rigid(1, world_body), to_world};
+  EXPECT_THAT(refusal(scene), HasSubstr("joints[1] is a hinge of column and the world: must join "
+                                        "something that forces move"));
+  for (const auto& [a, b] : {std::pair{2, 0}, {1, 0}, {2, 1}}) {
+    scene.joints[1] = hinge(a, b, Vec3::Zero(), Vec3::UnitZ());
+    EXPECT_THAT(refusal(scene), HasSubstr("these are fixed or driven")) << a << b;
+  }
+  scene.joints = {to_world};
+  EXPECT_EQ(refusal(scene), "");
 }
 
 TEST(TouchingTest, JoinedUnmovedAndUncollidingBodiesDoNot) {

@@ -71,7 +71,7 @@ dGeomID make_ode_geom(dSpaceID space, const Shape& shape, dBodyID moving, const 
 }
 
 dJointID make_ode_joint(dWorldID world, const Joint& joint, dBodyID a, dBodyID b) {
-  if (joint.kind == JointKind::fixed || (!a && !b)) return nullptr;
+  if (joint.kind == JointKind::fixed) return nullptr;
   const bool is_turned = !a;
   // ODE measures from its first body, which must not be null.
   if (is_turned) std::swap(a, b);

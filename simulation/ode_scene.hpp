@@ -22,8 +22,8 @@ dBodyID make_ode_body(dWorldID world, const Assembly& assembly);
 /// world coordinates: ODE's have no pose.
 dGeomID make_ode_geom(dSpaceID space, const Shape& shape, dBodyID moving, const Pose& pose);
 
-/// Joint of two bodies at their initial poses, of which one may be null; null if both are, or if
-/// the joint is fixed, which assemblies obey.
+/// Joint of two bodies at their initial poses, of which one may be null; null if it is fixed, which
+/// assemblies obey.
 dJointID make_ode_joint(dWorldID world, const Joint& joint, dBodyID a, dBodyID b);
 
 /// Sets the rate and force of a joint's motor, if it has one, for the step that begins at a time.

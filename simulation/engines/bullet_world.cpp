@@ -52,7 +52,9 @@ class BulletWorld : public EngineWorld {
     gCompoundChildShapePairCallback = gCompoundCompoundChildShapePairCallback = may_meet;
     gContactAddedCallback = describe;
     for (std::size_t i = 0; i < assemblies_.size(); ++i) add(i);
-    for (const Joint& joint : scene.joints) joints_.push_back(acts(joint) ? make(joint) : nullptr);
+    for (const Joint& joint : scene.joints) {
+      joints_.push_back(joint.kind == JointKind::fixed ? nullptr : make(joint));
+    }
   }
   ~BulletWorld() override {
     for (const auto& joint : joints_) {
@@ -237,7 +239,7 @@ class BulletWorld : public EngineWorld {
   btDiscreteDynamicsWorld world_{&dispatcher_, &broadphase_, &solver_, &configuration_};
   std::vector<std::unique_ptr<btCollisionShape>> shapes_;
   std::vector<std::unique_ptr<btRigidBody>> bodies_;  ///< by assembly
-  std::vector<std::unique_ptr<Constraint>> joints_;   ///< by joint; null where it does not act
+  std::vector<std::unique_ptr<Constraint>> joints_;   ///< by joint; null where it is fixed
   Filter filter_{*this};
 };
 

@@ -60,7 +60,7 @@ void EngineWorld::step() {
           after.pose);
   }
   for (std::size_t i = 0; i < scene_.joints.size(); ++i) {
-    if (scene_.joints[i].motor && acts(scene_.joints[i])) run_motor(i, begin);
+    if (scene_.joints[i].motor && scene_.joints[i].kind != JointKind::fixed) run_motor(i, begin);
   }
   for (const Push& p : scene_.pushes) {
     const std::size_t pushed = assembly_of_[p.body];
@@ -74,15 +74,6 @@ void EngineWorld::step() {
     const Body& body = driving(assemblies_[i]);
     place_bodies(i, driven_state(*body.drive, body.pose, end, scene_.step));
   }
-}
-
-bool EngineWorld::acts(const Joint& joint) const {
-  const std::size_t a = assembly_of_[joint.a];
-  const bool is_free = assemblies_[a].is_free();
-  if (joint.kind == JointKind::fixed) return false;
-  if (joint.b == world_body) return is_free;
-  const std::size_t b = assembly_of_[joint.b];
-  return a != b && (is_free || assemblies_[b].is_free());
 }
 
 Vec3 EngineWorld::belt(int body, int other, const Vec3& normal) const {

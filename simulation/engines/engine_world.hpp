@@ -52,9 +52,6 @@ class EngineWorld : public Simulation {
   /// time.
   virtual void run_motor(std::size_t joint, double time) = 0;
 
-  /// Does a joint hold anything? Not if it is fixed, which assemblies obey, or between bodies that
-  /// forces do not move.
-  bool acts(const Joint& joint) const;
   /// Index of a body's assembly, by index in the scene.
   std::size_t assembly_of(int body) const { return assembly_of_[body]; }
   /// State of an assembly at the start.

@@ -40,7 +40,7 @@ class OdeWorld : public EngineWorld {
     for (std::size_t i = 0; i < assemblies_.size(); ++i) add(i);
     for (const Joint& joint : scene.joints) {
       const dBodyID b = joint.b == world_body ? nullptr : body_of(joint.b);
-      joints_.push_back(acts(joint) ? make_ode_joint(world_, joint, body_of(joint.a), b) : nullptr);
+      joints_.push_back(make_ode_joint(world_, joint, body_of(joint.a), b));
     }
   }
   ~OdeWorld() override {
@@ -134,7 +134,7 @@ class OdeWorld : public EngineWorld {
   dSpaceID space_;
   dJointGroupID contacts_;
   std::vector<dBodyID> bodies_;   ///< by assembly; null where it is fixed
-  std::vector<dJointID> joints_;  ///< by joint; null where it does not act
+  std::vector<dJointID> joints_;  ///< by joint; null where it is fixed
   int points_ = 0;
 };
 
