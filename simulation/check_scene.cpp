@@ -2,7 +2,6 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
-#include <numbers>
 #include <set>
 #include <utility>
 
@@ -13,7 +12,6 @@
 namespace touchstone {
 namespace {
 
-using std::numbers::pi;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Bounds for moving bodies, metres and kg/m³, within which masses and moments of inertia keep all
@@ -182,10 +180,9 @@ void check_joint(const std::string& field, const Joint& joint, const Scene& scen
     throw InvalidInput(field + ".axis", fmt::format("{} long", joint.axis.norm()),
                        "must have unit length");
   }
-  const double max = joint.kind == JointKind::hinge ? pi : max_in_world;
   for (const auto& [name, limit] :
        {std::pair{".lower", joint.lower}, std::pair{".upper", joint.upper}}) {
-    if (!std::isinf(limit)) check_between(field + name, limit, -max, max);
+    if (!std::isinf(limit)) check_between(field + name, limit, -max_in_world, max_in_world);
   }
   if (!(joint.lower <= 0 && joint.upper >= 0)) {
     throw InvalidInput(field + ".limits", fmt::format("[{}, {}]", joint.lower, joint.upper),

@@ -69,15 +69,17 @@ double Motor::target_at(double time) const {
   return before->second + share * (after->second - before->second);
 }
 
+double nearest_turn(double angle, double expected) {
+  constexpr double turn = 2 * std::numbers::pi;
+  return angle + turn * std::round((expected - angle) / turn);
+}
+
 double motor_rate(const Joint& joint, double position, double time, double step) {
   constexpr double error_reduction = 0.2;  // per step
   const Motor& motor = *joint.motor;
   const double now = motor.target_at(time);
   if (motor.target == Motor::Target::rate) return now;
-  const double error = joint.kind == JointKind::hinge
-                           ? std::remainder(now - position, 2 * std::numbers::pi)
-                           : now - position;
-  return (motor.target_at(time + step) - now + error_reduction * error) / step;
+  return (motor.target_at(time + step) - now + error_reduction * (now - position)) / step;
 }
 
 }  // namespace touchstone

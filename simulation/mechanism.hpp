@@ -65,7 +65,8 @@ struct Motor {
 /// Body index of the world, to which a joint may hold a body.
 inline constexpr int world_body = -1;
 
-/// Joint of two bodies, which then do not touch each other. Its position is zero at the start.
+/// Joint of two bodies, which then do not touch each other. Its position is zero at the start; that
+/// of a hinge counts all turns.
 struct Joint {
   std::string name;
   JointKind kind = JointKind::fixed;
@@ -76,6 +77,10 @@ struct Joint {
   double upper = std::numeric_limits<double>::infinity();
   std::optional<Motor> motor = {};
 };
+
+/// The angle, in radians, nearest to an expected one of those that differ from this one by whole
+/// turns: engines know a hinge's angle within one.
+double nearest_turn(double angle, double expected);
 
 /// Rate at which the motor of a joint that is at a position shall turn or move it in the step that
 /// begins at a time. A motor that holds a position follows it at the position's own rate and

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <numbers>
+#include <tuple>
 
 #include "reference/invalid_input.hpp"
 #include "simulation/assembly.hpp"
@@ -249,6 +250,42 @@ TEST_F(Driven, MotorsMoveTheFirstBodyRelativeToTheSecondWhicheverIsFixed) {
       EXPECT_NEAR(relative(scene, run(scene)), 0.3, 5e-3) << "limit";
     }
   }
+}
+
+TEST_F(Driven, HingesKeepTheirLimitsBeyondHalfATurn) {
+  for (const auto& limits : far_limits) {
+    for (const double speed : {-4.0, 4.0}) {
+      for (int fixed = 0; fixed < 4; ++fixed) {
+        Scene scene = motor_scene(JointKind::hinge, fixed == 1, fixed == 2, fixed == 3);
+        scene.joints[0].motor = rate(speed, 1000);
+        std::tie(scene.joints[0].lower, scene.joints[0].upper) = limits;
+        World world(scene, model);
+        double angle = 0;
+        while (world.time() < 2.5) {
+          world.step();
+          angle = nearest_turn(relative(scene, world), angle);
+        }
+        EXPECT_NEAR(angle, turned_within(limits, 2.5 * speed), 0.02)
+            << limits.first << " to " << limits.second << ", fixed " << fixed;
+      }
+    }
+  }
+}
+
+TEST_F(Driven, AMotorFollowsAPositionBeyondHalfATurnTheWayItIsTold) {
+  Scene scene = motor_scene(JointKind::hinge, false, true, false);
+  scene.joints[0].motor = position(3.6, 1000);
+  scene.joints[0].lower = -0.1;
+  EXPECT_NEAR(nearest_turn(relative(scene, run(scene)), 3), 3.6, 1e-5);
+  scene.joints[0].motor = Motor{Motor::Target::position, {{0, 8.0}}, 1000};
+  scene.duration = 2;
+  World world(scene, model);
+  double angle = 0;
+  while (world.time() < 2) {
+    world.step();
+    angle = nearest_turn(relative(scene, world), angle + 0.5);
+  }
+  EXPECT_NEAR(angle, 8, 1e-5);
 }
 
 TEST_F(Driven, AMotorPushesNoHarderThanItCan) {

@@ -50,7 +50,7 @@ struct World::State {
   double time() const { return static_cast<double>(steps) * scene.step; }
   BodyState driven(const Moving& m) const;
   void drive();
-  void run_motors();
+  void prepare_joints();
   void push();
   void find_contacts();
   std::vector<PairQuestion> find_pairs();
@@ -72,7 +72,7 @@ struct World::State {
   std::vector<std::size_t> assembly_of;  ///< by body: index of its assembly
   std::vector<dGeomID> geoms;            ///< by body; null where it is a cylinder
   std::vector<BodyState> states;         ///< by body
-  std::vector<dJointID> joints;          ///< by joint; null where it is fixed
+  std::vector<OdeJoint> joints;          ///< hinges and sliders
   std::vector<PairContact> contacts;
   std::uint64_t steps = 0;
   std::size_t unusable = 0;
@@ -98,8 +98,9 @@ World::State::State(const Scene& given, ContactModel& contact_model)
   for (const Moving& m : moving) heaviest = std::max(heaviest, m.assembly.inertia.mass);
   if (heaviest > 0) dWorldSetCFM(world, constraint_mixing / heaviest);
   for (const Joint& joint : scene.joints) {
+    if (joint.kind == JointKind::fixed) continue;  // assemblies obey it
     const dBodyID other = joint.b == world_body ? nullptr : ode_body(joint.b);
-    joints.push_back(make_ode_joint(world, joint, ode_body(joint.a), other));
+    joints.emplace_back(world, joint, ode_body(joint.a), other);
   }
   model.begin();
 }
@@ -149,10 +150,8 @@ void World::State::drive() {
   }
 }
 
-void World::State::run_motors() {
-  for (std::size_t i = 0; i < joints.size(); ++i) {
-    if (joints[i]) run_motor(joints[i], scene.joints[i], time(), scene.step);
-  }
+void World::State::prepare_joints() {
+  for (OdeJoint& joint : joints) joint.prepare(time(), scene.step);
 }
 
 void World::State::push() {
@@ -302,6 +301,7 @@ void World::State::move() {
   }
   dRandSetSeed(steps + 1);
   dWorldQuickStep(world, scene.step);
+  for (OdeJoint& joint : joints) joint.follow(scene.step);
   read_states(free);
 }
 
@@ -360,7 +360,7 @@ void World::step() {
   State& s = *state_;
   if (s.sound) {
     s.drive();
-    s.run_motors();
+    s.prepare_joints();
     s.push();
     s.find_contacts();
     s.move();

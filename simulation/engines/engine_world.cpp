@@ -60,7 +60,7 @@ void EngineWorld::step() {
           after.pose);
   }
   for (std::size_t i = 0; i < scene_.joints.size(); ++i) {
-    if (scene_.joints[i].motor && scene_.joints[i].kind != JointKind::fixed) run_motor(i, begin);
+    if (scene_.joints[i].kind != JointKind::fixed) prepare_joint(i, begin);
   }
   for (const Push& p : scene_.pushes) {
     const std::size_t pushed = assembly_of_[p.body];

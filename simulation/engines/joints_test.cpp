@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <numbers>
+#include <tuple>
 
 #include "reference/invalid_input.hpp"
 #include "simulation/mechanism_scenes.hpp"
@@ -14,6 +15,8 @@ namespace {
 
 using std::numbers::pi;
 constexpr double gravity = 9.81;
+/// Of a hinge from its limit or its place on paper, rad: MuJoCo's limits are soft.
+constexpr double near_limit = 0.05;
 
 Body ground() { return fixed({.name = "ground", .shape = Plane(Vec3::UnitZ(), 0)}); }
 Joint slider(int a, int b, const Vec3& axis) {
@@ -114,6 +117,40 @@ TEST_P(Joints, MotorsMoveTheFirstBodyRelativeToTheSecondWhicheverIsFixed) {
       EXPECT_NEAR(end(scene, relative), 0.3, 5e-3) << "limit";
     }
   }
+}
+
+TEST_P(Joints, HingesKeepTheirLimitsBeyondHalfATurn) {
+  for (const auto& limits : far_limits) {
+    for (const double speed : {-4.0, 4.0}) {
+      for (const char* fixed : {"none", "a", "world"}) {
+        SCOPED_TRACE(fmt::format("{} to {}, {}", limits.first, limits.second, fixed));
+        const MotorScene motor{JointKind::hinge, fixed};
+        Scene scene = motor.scene();
+        scene.duration = 2.5;
+        scene.joints[0].motor =
+            rate(speed, 50 * inertia(scene.bodies[0].shape, 1000).principal.z());
+        std::tie(scene.joints[0].lower, scene.joints[0].upper) = limits;
+        double angle = 0;
+        for (const double within_a_turn :
+             run(scene, [&](const States& s) { return motor.position(s); })) {
+          angle = nearest_turn(within_a_turn, angle);
+        }
+        // A start with a constant acceleration costs half of its time. Two free bodies are alike.
+        const double acceleration = std::string(fixed) == "none" ? 100 : 50;
+        const double free_way = speed * (scene.duration - std::abs(speed) / acceleration / 2);
+        EXPECT_NEAR(angle, turned_within(limits, free_way), near_limit);
+      }
+    }
+  }
+}
+
+TEST_P(Joints, AMotorFollowsAPositionBeyondHalfATurnTheWayItIsTold) {
+  const MotorScene motor{JointKind::hinge, "b"};
+  Scene scene = motor.scene();
+  scene.joints[0].motor = position(3.6, 50 * inertia(scene.bodies[0].shape, 1000).principal.z());
+  scene.joints[0].lower = -0.1;
+  EXPECT_NEAR(nearest_turn(end(scene, [&](const States& s) { return motor.position(s); }), 3), 3.6,
+              1e-3);
 }
 
 // v = F t / m and ω = M t / I.

@@ -147,12 +147,6 @@ Joint joint_from_json(const json& value, const std::string& path, const Scene& s
   result.axis = axis / length;
   if (value.contains("limits")) {
     const auto [lower, upper] = numbers<2>(value["limits"], path + ".limits");
-    for (int i = 0; turns && i < 2; ++i) {
-      const double limit = i == 0 ? lower : upper;
-      if (std::abs(limit) <= 180) continue;
-      throw InvalidInput(fmt::format("{}.limits[{}]", path, i), fmt::format("{}", limit),
-                         "must lie between -180 and 180");
-    }
     result.lower = unit * lower;
     result.upper = unit * upper;
   }

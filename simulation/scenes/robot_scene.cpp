@@ -339,9 +339,8 @@ class SceneMaker {
     if (joint.kind != JointKind::fixed) {
       made.anchor = joint.anchor;
       made.axis = (turned ? -1 : 1) * joint.axis.normalized();
-      const double max = joint.kind == JointKind::hinge ? std::numbers::pi : max_in_world;
-      made.lower = joint.lower < -max ? -infinity : std::min(joint.lower, 0.0);
-      made.upper = joint.upper > max ? infinity : std::max(joint.upper, 0.0);
+      made.lower = joint.lower < -max_in_world ? -infinity : std::min(joint.lower, 0.0);
+      made.upper = joint.upper > max_in_world ? infinity : std::max(joint.upper, 0.0);
       made.motor = motor_of(joint, turned ? joint.parent : joint.child);
     }
     file_.scene.joints.push_back(made);
