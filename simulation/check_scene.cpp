@@ -191,6 +191,20 @@ void check_joint(const std::string& field, const Joint& joint, const Scene& scen
   if (joint.motor) check_motor(field + ".motor", *joint.motor);
 }
 
+/// Velocities of what fixed joints make one with what is fixed or driven would have no effect.
+void check_at_rest(const std::string& field, const Body& body, const Assembly& assembly,
+                   const Scene& scene) {
+  const auto refuse = [&](const char* velocity) {
+    throw InvalidInput(field + velocity, "not zero",
+                       fmt::format("must be zero, for fixed joints make {} one with {}", body.name,
+                                   assembly.driven < 0
+                                       ? "what is fixed"
+                                       : scene.bodies[assembly.driven].name + ", which is driven"));
+  };
+  if (!body.velocity.isZero(0)) refuse(".velocity");
+  if (!body.angular_velocity.isZero(0)) refuse(".angular_velocity");
+}
+
 /// What is joined rigidly must move as one at the start, and by one drive at most.
 void check_assembly(const Assembly& assembly, const Scene& scene) {
   const Body& first = scene.bodies[assembly.bodies.front()];
@@ -209,7 +223,10 @@ void check_assembly(const Assembly& assembly, const Scene& scene) {
                                      driven >= 0 ? scene.bodies[driven].name : "what is fixed"));
     }
     if (body.drive) driven = b;
-    if (!assembly.is_free()) continue;
+    if (!assembly.is_free()) {
+      check_at_rest(field, body, assembly, scene);
+      continue;
+    }
     const Vec3 arm = body.pose.position() - first.pose.position();
     const Vec3 difference = body.velocity - first.velocity - first.angular_velocity.cross(arm);
     const double rounding = 1e-6 * (1 + first.velocity.norm());
@@ -219,6 +236,26 @@ void check_assembly(const Assembly& assembly, const Scene& scene) {
           field + ".velocity", fmt::format("{} m/s off", difference.norm()),
           "must be that of " + first.name + ", which a fixed joint makes one with " + body.name);
     }
+  }
+}
+
+void check_push(const std::string& field, const Push& push, const Scene& scene,
+                const std::vector<bool>& is_moved) {
+  check_index(field + ".body", push.body, 0, scene);
+  for (int k = 0; k < 3; ++k) {
+    check_between(fmt::format("{}.force[{}]", field, k), push.force[k], -max_force, max_force);
+    check_between(fmt::format("{}.torque[{}]", field, k), push.torque[k], -max_force, max_force);
+  }
+  check_between(field + ".from", push.from, 0, max_time);
+  if (!(push.until > push.from)) {
+    throw InvalidInput(field + ".until", fmt::format("{}", push.until),
+                       fmt::format("must be later than {}", push.from));
+  }
+  if (!is_moved[push.body]) {
+    throw InvalidInput(
+        field + ".body", '"' + scene.bodies[push.body].name + '"',
+        "must be moved by forces: it is fixed or driven, or fixed joints make it one "
+        "with what is");
   }
 }
 
@@ -267,19 +304,9 @@ void check_scene(const Scene& scene) {
   for (std::size_t i = 0; i < scene.joints.size(); ++i) {
     check_moves(fmt::format("joints[{}]", i), scene.joints[i], scene, all);
   }
+  const std::vector<bool> is_moved = moved_by_forces(scene);
   for (std::size_t i = 0; i < scene.pushes.size(); ++i) {
-    const Push& push = scene.pushes[i];
-    const std::string field = fmt::format("pushes[{}]", i);
-    check_index(field + ".body", push.body, 0, scene);
-    for (int k = 0; k < 3; ++k) {
-      check_between(fmt::format("{}.force[{}]", field, k), push.force[k], -max_force, max_force);
-      check_between(fmt::format("{}.torque[{}]", field, k), push.torque[k], -max_force, max_force);
-    }
-    check_between(field + ".from", push.from, 0, max_time);
-    if (!(push.until > push.from)) {
-      throw InvalidInput(field + ".until", fmt::format("{}", push.until),
-                         fmt::format("must be later than {}", push.from));
-    }
+    check_push(fmt::format("pushes[{}]", i), scene.pushes[i], scene, is_moved);
   }
   check_vector("gravity", scene.gravity);
   check_between("step", scene.step, min_step, max_step);

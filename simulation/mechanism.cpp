@@ -69,6 +69,11 @@ double Motor::target_at(double time) const {
   return before->second + share * (after->second - before->second);
 }
 
+double Push::share(double begin, double step) const {
+  const double first = std::max(from, begin), last = std::min(until, begin + step);
+  return std::max(0.0, (last - first) / step);
+}
+
 double nearest_turn(double angle, double expected) {
   constexpr double turn = 2 * std::numbers::pi;
   return angle + turn * std::round((expected - angle) / turn);

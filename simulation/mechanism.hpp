@@ -93,6 +93,10 @@ struct Push {
   Vec3 force = Vec3::Zero();                                         ///< N, at its centre
   Vec3 torque = Vec3::Zero();                                        ///< N m
   double from = 0, until = std::numeric_limits<double>::infinity();  ///< s
+
+  /// Share of the step from `begin` on in which it acts, 0 … 1: with that share of its force, a
+  /// push has its impulse whatever the step.
+  double share(double begin, double step) const;
 };
 
 }  // namespace touchstone

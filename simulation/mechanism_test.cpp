@@ -310,6 +310,46 @@ TEST_F(MechanismTest, APushGivesTheMomentumOfItsForceAndTime) {
   EXPECT_NEAR(run(scene).states()[0].angular_velocity.z(), 1.5, 1e-12);
 }
 
+TEST_F(MechanismTest, APushHasItsImpulseWhateverTheStep) {
+  Scene scene;
+  scene.gravity = Vec3::Zero();
+  scene.bodies = {box("a", Vec3::Constant(0.1), Pose())};
+  const Inertia i = inertia(scene.bodies[0].shape, 1000);
+  for (const auto& [from, until] :
+       {std::pair{0.1005, 0.1006}, {0.0999, 0.1001}, {0.1234, 0.4321}, {0.25, 0.5}}) {
+    scene.pushes = {{0, Vec3(2 * i.mass, 0, 0), Vec3(0, 3 * i.principal.y(), 0), from, until}};
+    const World world = run(scene);
+    EXPECT_NEAR(world.states()[0].velocity.x(), 2 * (until - from), 1e-12);
+    EXPECT_NEAR(world.states()[0].angular_velocity.y(), 3 * (until - from), 1e-12);
+  }
+}
+
+TEST(CheckSceneTest, RefusesPushesAndVelocitiesThatHaveNoEffect) {
+  Scene scene;
+  for (const char* name : {"floor", "lamp", "table", "cup", "can"}) {
+    scene.bodies.push_back(box(name, Vec3::Constant(0.1), at(0, 0, 0)));
+  }
+  scene.bodies[0].fixed = true;
+  scene.bodies[2].drive = SteadyMotion{};
+  scene.joints = {rigid(1, world_body), rigid(3, 2)};
+  for (int b = 0; b < 4; ++b) {
+    scene.pushes = {{.body = b, .force = Vec3(1, 0, 0)}};
+    EXPECT_THAT(refusal(scene), HasSubstr("pushes[0].body is \"" + scene.bodies[b].name +
+                                          "\": must be moved by forces"));
+  }
+  scene.pushes[0].body = 4;
+  EXPECT_EQ(refusal(scene), "");
+  Scene moving = scene;
+  moving.bodies[1].velocity = Vec3(1, 0, 0);
+  EXPECT_THAT(refusal(moving), HasSubstr("bodies[1].velocity is not zero: must be zero, for fixed "
+                                         "joints make lamp one with what is fixed"));
+  moving = scene;
+  moving.bodies[3].angular_velocity = Vec3(1, 0, 0);
+  EXPECT_THAT(refusal(moving),
+              HasSubstr("bodies[3].angular_velocity is not zero: must be zero, for "
+                        "fixed joints make cup one with table, which is driven"));
+}
+
 TEST_F(MechanismTest, ABeltCarriesWhatLiesOnItWhicheverBodyComesFirst) {
   const Vec3 belt(0.3, 0.1, 0);
   Body belt_body = fixed(box("belt", Vec3(5, 5, 0.1), Pose(Vec3(0, 0, -0.1), about_z(0.7))));

@@ -156,12 +156,13 @@ void World::State::prepare_joints() {
 
 void World::State::push() {
   for (const Push& p : scene.pushes) {
+    const double share = p.share(time(), scene.step);
+    if (share == 0) continue;
     const dBodyID body = ode_body(p.body);
-    const double rounding = scene.step / 2;
-    if (!body || time() < p.from - rounding || time() > p.until - rounding) continue;
-    const Vec3& at = states[p.body].pose.position();
-    dBodyAddForceAtPos(body, p.force.x(), p.force.y(), p.force.z(), at.x(), at.y(), at.z());
-    dBodyAddTorque(body, p.torque.x(), p.torque.y(), p.torque.z());
+    const Vec3 &at = states[p.body].pose.position(), force = share * p.force,
+               torque = share * p.torque;
+    dBodyAddForceAtPos(body, force.x(), force.y(), force.z(), at.x(), at.y(), at.z());
+    dBodyAddTorque(body, torque.x(), torque.y(), torque.z());
   }
 }
 

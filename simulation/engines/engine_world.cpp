@@ -50,8 +50,7 @@ EngineWorld::EngineWorld(const Scene& scene, EngineSetup setup)
 }
 
 void EngineWorld::step() {
-  const double begin = scene_.step * steps_, middle = begin + scene_.step / 2;
-  const double end = scene_.step * ++steps_;
+  const double begin = scene_.step * steps_, end = scene_.step * ++steps_;
   for (std::size_t i = 0; i < assemblies_.size(); ++i) {
     if (assemblies_[i].driven < 0) continue;
     const Body& body = driving(assemblies_[i]);
@@ -63,10 +62,11 @@ void EngineWorld::step() {
     if (scene_.joints[i].kind != JointKind::fixed) prepare_joint(i, begin);
   }
   for (const Push& p : scene_.pushes) {
+    const double share = p.share(begin, scene_.step);
+    if (share == 0) continue;
     const std::size_t pushed = assembly_of_[p.body];
-    if (middle < p.from || middle >= p.until || !assemblies_[pushed].is_free()) continue;
     const Vec3 arm = states_[p.body].pose.position() - centres_[pushed];
-    push(pushed, p.force, p.torque + arm.cross(p.force));
+    push(pushed, share * p.force, share * (p.torque + arm.cross(p.force)));
   }
   advance();
   for (std::size_t i = 0; i < assemblies_.size() && sound_; ++i) {

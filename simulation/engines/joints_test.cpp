@@ -167,6 +167,18 @@ TEST_P(Joints, AMotorPushesNoHarderThanItCan) {
   }
 }
 
+TEST_P(Joints, APushHasItsImpulseWhateverTheStep) {
+  Scene scene;
+  scene.gravity = Vec3::Zero();
+  scene.bodies = {box("a", Vec3::Constant(0.1), Pose())};
+  const double mass = mass_of(scene.bodies[0]);
+  for (const auto& [from, until] : {std::pair{0.1005, 0.1006}, {0.1234, 0.4321}}) {
+    scene.pushes = {{.body = 0, .force = Vec3(2 * mass, 0, 0), .from = from, .until = until}};
+    EXPECT_NEAR(end(scene, [](const States& s) { return s[0].velocity.x(); }), 2 * (until - from),
+                is_single() ? 1e-6 : 1e-12);
+  }
+}
+
 TEST_P(Joints, ALoadedMotorKeepsItsRate) {
   Scene scene = MotorScene{JointKind::slider, "b"}.scene();
   scene.gravity = Vec3(0, 0, -gravity);
