@@ -74,6 +74,7 @@ struct World::State {
   std::vector<BodyState> states;         ///< by body
   std::vector<OdeJoint> joints;          ///< hinges and sliders
   std::vector<PairContact> contacts;
+  std::size_t points = 0;  ///< contact joints of this step
   std::uint64_t steps = 0;
   std::size_t unusable = 0;
   bool sound = true;
@@ -206,6 +207,7 @@ std::vector<PairQuestion> World::State::find_pairs() {
 
 void World::State::find_contacts() {
   dJointGroupEmpty(contact_joints);
+  points = 0;
   const std::vector<PairQuestion> questions = find_pairs();
   contacts.clear();
   if (questions.empty()) return;
@@ -287,6 +289,7 @@ void World::State::add_joint(int a, int b, dContactGeom geom) {
   if (has_belt) set_belt(contact, belt, !body_a);
   const dJointID joint = dJointCreateContact(world, contact_joints, &contact);
   dJointAttach(joint, body_a, body_b);
+  ++points;
 }
 
 /// ODE starts from the mean angular velocity of the step without contacts, adds the change that
@@ -372,6 +375,7 @@ void World::step() {
 double World::time() const { return state_->time(); }
 const std::vector<BodyState>& World::states() const { return state_->states; }
 const std::vector<PairContact>& World::contacts() const { return state_->contacts; }
+std::size_t World::points() const { return state_->points; }
 bool World::sound() const { return state_->sound; }
 std::size_t World::unusable_points() const { return state_->unusable; }
 

@@ -179,6 +179,22 @@ TEST_P(Joints, APushHasItsImpulseWhateverTheStep) {
   }
 }
 
+TEST_P(Joints, CountsThePointsThatTheSolverGets) {
+  Scene scene;
+  scene.bodies = {ground(),
+                  box("brick", Vec3(0.1, 0.2, 0.3), at(5, 0, 0.3 - 5e-5)),
+                  {.name = "can", .shape = Cylinder(0.2, 0.3), .pose = at(0, 0, 0.3 - 5e-5)}};
+  const Contained ran = run_contained(
+      [&] {
+        const auto world = in_engine(GetParam(), {.cured = true})(scene);
+        for (int i = 0; i < 10; ++i) world->step();  // Bullet finds a box's corners one by one
+        return std::to_string(world->contacts().points);
+      },
+      max_engine_seconds);
+  // Of the brick's face four, and of the can's cap three, in MuJoCo six.
+  EXPECT_EQ(ran.text, is_mujoco() ? "10" : "7");
+}
+
 TEST_P(Joints, ALoadedMotorKeepsItsRate) {
   Scene scene = MotorScene{JointKind::slider, "b"}.scene();
   scene.gravity = Vec3(0, 0, -gravity);

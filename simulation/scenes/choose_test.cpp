@@ -248,6 +248,16 @@ TEST(RunWith, AsksTheCandidateOfEachKindOfPairs) {
   EXPECT_EQ(run.answers[1].points, 1);  // a round end
 }
 
+TEST(RunScene, CountsThePointsOfAllPairsThatTheSolverGets) {
+  Scene scene = two_cans(1, 5e-5);
+  Body brick{"brick", Box(Vec3(0.1, 0.2, 0.3))};
+  brick.pose = Pose(Vec3(5, 0, 0.3 - 5e-5));
+  scene.bodies.push_back(brick);
+  Processes processes({});
+  CandidateModel model(processes.of(find_candidate("reference")));
+  EXPECT_EQ(run_scene(scene, model).points, 3 + 3 + 4);
+}
+
 // The kinds are those of the scene as it is written, whatever the order of the disturbed bodies.
 TEST(RunWith, AsksTheCandidateOfEachKindInEveryOrderOfTheBodies) {
   const Scene scene = two_cans(1, 5e-4);
