@@ -43,6 +43,10 @@ using Drive = std::variant<SteadyMotion, Oscillation, Waypoints>;
 /// Pose at a time, seconds, of a body that starts at a pose.
 Pose driven_pose(const Drive& drive, const Pose& start, double time);
 
+/// Mean angular velocity, rad/s, from one time to another. Whole turns within a step count; between
+/// waypoints there are none.
+Vec3 driven_spin(const Drive& drive, const Pose& start, double from, double to);
+
 enum class JointKind {
   fixed,   ///< both bodies are one
   hinge,   ///< turns about an axis

@@ -53,6 +53,18 @@ inline double turned_within(const std::pair<double, double>& limits, double angl
   return std::clamp(angle, limits.first, limits.second);
 }
 
+/// A box lies on a driven drum that turns about y by 4.2 rad in a step, so that friction drags it
+/// along x.
+inline Scene fast_drum() {
+  Scene scene;
+  scene.duration = 0.1;
+  Body drum{.name = "drum", .shape = Cylinder(1, 1)};
+  drum.pose = Pose(Vec3::Zero(), Eigen::Quaterniond(Eigen::AngleAxisd(1.5707963, Vec3::UnitX())));
+  drum.drive = SteadyMotion{.angular_velocity = Vec3(0, 1000, 0)};
+  scene.bodies = {drum, box("brick", Vec3(0.1, 0.1, 0.05), at(0, 0, 1.05 - 1e-5))};
+  return scene;
+}
+
 /// A box that tumbles freely, and the same box of two halves that a fixed joint connects.
 struct TumblingBox {
   Scene halves, whole;

@@ -63,6 +63,18 @@ TEST(DriveTest, VelocitiesOfAStepLeadFromOnePoseToTheNext) {
   EXPECT_LT((state.angular_velocity - Vec3(-3, 1, 2)).norm(), 1e-11);
 }
 
+TEST(DriveTest, WhatTurnsByMoreThanHalfATurnInAStepKeepsItsSense) {
+  const double h = 1.0 / 240;
+  const Vec3 spin(0, -600, 800);  // 4.2 rad in a step
+  EXPECT_LT(
+      (driven_state(SteadyMotion{.angular_velocity = spin}, Pose(), 0.5, h).angular_velocity - spin)
+          .norm(),
+      1e-9);
+  const Oscillation o{.turn = Vec3(0, 0, 40), .frequency = 5};
+  const double rate = 40 * std::sin(2 * pi * 5 * h) / h;  // in the first step, by 5.2 rad
+  EXPECT_NEAR(driven_state(o, Pose(), h, h).angular_velocity.z(), rate, 1e-9);
+}
+
 TEST(MotorTest, TargetsAreLinearBetweenTheirTimes) {
   const Motor motor{Motor::Target::rate, {{1, 2}, {3, 6}}, 1};
   EXPECT_EQ(motor.target_at(0), 2);
@@ -400,6 +412,10 @@ TEST_F(MechanismTest, ALiftedCanRisesWithItsTable) {
   EXPECT_LT((world.states()[0].pose.position() - Vec3(0.2, 0, 0.25)).norm(), 1e-15);
   EXPECT_LT((world.states()[1].pose.position() - Vec3(0.2, 0, 0.4)).norm(), 2e-3);
   EXPECT_GT(world.states()[1].pose.axis().z(), 0.9999);
+}
+
+TEST_F(MechanismTest, ADrumThatTurnsByMoreThanHalfATurnInAStepDragsTheRightWay) {
+  EXPECT_NEAR(run(fast_drum()).states()[1].velocity.x(), 0.5 * 9.81 * 0.1, 0.1);
 }
 
 /// Two fingers on a driven hand squeeze a can, and the hand rises by 0.2 m.

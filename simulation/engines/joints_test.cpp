@@ -354,6 +354,22 @@ TEST_P(Joints, ABeltCarriesWhatLiesOnItWhicheverBodyComesFirst) {
   }
 }
 
+TEST_P(Joints, ADrumThatTurnsByMoreThanHalfATurnInAStepDragsTheRightWayOrIsRefused) {
+  const Scene scene = fast_drum();
+  if (GetParam().starts_with("bullet")) {
+    EXPECT_THAT([&] { check_engine_scene(GetParam(), scene); },
+                testing::ThrowsMessage<InvalidInput>(testing::HasSubstr(
+                    "bodies[0].drive is 4.17 rad in a step: must not be there")));
+    return;
+  }
+  const double speed = end(scene, [](const States& s) { return s[1].velocity.x(); });
+  if (is_mujoco()) {
+    EXPECT_GT(speed, 0) << "its pyramid of friction presses harder, the faster a surface slips";
+  } else {
+    EXPECT_NEAR(speed, 0.5 * gravity * 0.1, 0.1);
+  }
+}
+
 /// Two fingers on a driven hand squeeze a can, and the hand rises by 0.2 m.
 Scene gripper(double squeeze) {
   Body hand = box("hand", Vec3(0.1, 0.02, 0.02), at(0, 0, 0.3));
