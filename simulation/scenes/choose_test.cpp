@@ -92,6 +92,15 @@ TEST(Needs, RollsIsAShareOfTheHorizontalDistance) {
               1e-12);
 }
 
+TEST(Needs, WhatExactlyRollsNowhereMustNotRollEither) {
+  const std::string rolls = R"("need":"rolls","body":"can","share":0.1)";
+  EXPECT_EQ(judged(rolls, still).value, 0);
+  const Trajectory rolling = motion([](int, double t) { return tilted(0, Vec3(0.01 * t, 0, 0)); });
+  const Verdict verdict = judged(rolls, rolling, still);
+  EXPECT_FALSE(verdict.holds());
+  EXPECT_NEAR(verdict.value, 0.01 / (1e-6 * 0.2), 1e-6) << "of a millionth of its width";
+}
+
 TEST(Needs, RestsCountsSpeedAndSpinFromItsTime) {
   const Trajectory slowing = motion([](int body, double t) {
     BodyState s = tilted(0);
