@@ -90,13 +90,14 @@ struct RobotMotion {
   double duration = 2;                                ///< s
   std::vector<std::pair<std::string, double>> rates;  ///< of driven joints, rad/s or m/s
   std::vector<std::string> loose;                     ///< joints in which no motor holds
-  bool has_fixed_base = false;                        ///< the root link of a robot is held
+  bool has_fixed_base = false;                        ///< the root link of the robot is held
 };
 
 /// A scene of the robot, at rest at the start: a body for each shape, fixed joints between those of
 /// a link, motors that hold the other joints or drive them; under a robot a ground plane, which it
 /// touches with its lowest point. What overlaps at the start never touches. Throws InvalidInput
-/// (field "--drive") on an unknown joint, with the nearest names.
+/// (field "--drive") on an unknown joint, with the nearest names, and (field "--fixed-base") unless
+/// there is one base that it could hold.
 SceneFile robot_scene(const RobotFile& robot, const RobotMotion& motion);
 
 /// Gives the scene of a robot needs derived from its run with exact contacts, whose answers may

@@ -508,6 +508,18 @@ TEST(Mjcf, ABodyWithSeveralJointsGetsLinksInBetween) {
   EXPECT_FALSE(x.holds);  // MuJoCo has no motor there
 }
 
+TEST(Mjcf, ARootWithAFreejointIsABaseThatCanBeHeld) {
+  const Written file("free.xml", R"(<mujoco><worldbody><geom type="plane" size="1 1 1"/>
+    <body name="base" pos="0 0 1"><freejoint/><geom type="sphere" size="0.1"/>
+      <body name="arm" pos="0 0 1"><joint axis="0 1 0"/><geom type="sphere" size="0.1"/></body>
+    </body></worldbody></mujoco>)");
+  RobotMotion motion;
+  motion.has_fixed_base = true;
+  const Scene scene = robot_scene(read_robot(file.path), motion).scene;
+  EXPECT_TRUE(by_name(scene.bodies, "base").fixed);
+  EXPECT_FALSE(by_name(scene.bodies, "arm").fixed);
+}
+
 TEST(Mjcf, ThatAsksForAllMemoryIsRefused) {
   EXPECT_THAT(refusal_of("part.xml",
                          "<mujoco><size nstack='2000000000'/><worldbody><geom "

@@ -90,8 +90,11 @@ class SceneMaker {
     scene.gravity = robot_.gravity;
     scene.duration = motion_.duration;
     if (robot_.step) scene.step = *robot_.step;
-    if (motion_.has_fixed_base && !robot_.is_world) links_.front().fixed = true;
     find_robots();
+    if (motion_.has_fixed_base) {
+      links_[base()].fixed = true;
+      find_robots();
+    }
     find_kept();
     check_names();
     for (std::size_t l = 0; l < links_.size(); ++l) add_link(l);
@@ -111,6 +114,51 @@ class SceneMaker {
   bool is_moving(int link) const { return link != world_body && !links_[link].fixed; }
   bool has_body(int link) const { return link != world_body && !bodies_of_[link].empty(); }
 
+  /// The first link of a robot that is no joint's child.
+  std::size_t root_of(int robot) const {
+    std::set<int> children;
+    for (const LinkJoint& joint : robot_.joints) {
+      if (is_moving(joint.child) && is_moving(joint.parent)) children.insert(joint.child);
+    }
+    for (std::size_t l = 0; l < links_.size(); ++l) {
+      if (robot_of_[l] == robot && !children.contains(static_cast<int>(l))) return l;
+    }
+    return static_cast<std::size_t>(robot);  // a circle of joints
+  }
+
+  /// The link that --fixed-base holds: in a world, that of the only robot without a hold on it; a
+  /// loose part without joints counts only where there is nothing else.
+  std::size_t base() const {
+    if (!robot_.is_world) return root_of(robot_of_.front());
+    std::set<int> jointed, held;  // robots
+    for (const LinkJoint& joint : robot_.joints) {
+      for (const auto& [link, other] :
+           {std::pair{joint.child, joint.parent}, {joint.parent, joint.child}}) {
+        if (!is_moving(link)) continue;
+        jointed.insert(robot_of_[link]);
+        if (!is_moving(other)) held.insert(robot_of_[link]);
+      }
+    }
+    std::set<int> roots;
+    for (std::size_t l = 0; l < links_.size(); ++l) {
+      const bool counts = jointed.empty() || jointed.contains(robot_of_[l]);
+      if (!links_[l].fixed && counts && !held.contains(robot_of_[l])) {
+        roots.insert(static_cast<int>(root_of(robot_of_[l])));
+      }
+    }
+    if (roots.size() == 1) return static_cast<std::size_t>(*roots.begin());
+    std::vector<std::string> names;
+    for (const int root : roots) names.push_back(links_[root].name);
+    throw InvalidInput(
+        "--fixed-base", "given",
+        names.empty()
+            ? std::string("must not be: no robot here moves freely, so that there is no base to "
+                          "hold")
+            : fmt::format("must not be: {} robots move freely, with the bases {}; it holds that of "
+                          "one alone",
+                          names.size(), fmt::join(names, ", ")));
+  }
+
   /// Numbers the robots: links that joints connect, other than through the world.
   void find_robots() {
     robot_of_.resize(links_.size());
@@ -124,7 +172,7 @@ class SceneMaker {
         a = b = std::min(a, b);
       }
     }
-    masses_.resize(links_.size(), 0);
+    masses_.assign(links_.size(), 0);
     for (std::size_t l = 0; l < links_.size(); ++l) masses_[robot_of_[l]] += mass_of(links_[l]);
   }
 
