@@ -26,7 +26,7 @@ namespace {
 // The members of each type, once for writing and reading.
 template <class Archive, class T>
 void members(Archive& a, T& x) requires std::is_same_v<std::remove_const_t<T>, LinkShape> {
-  a(x.name, x.shape, x.pose, x.friction);
+  a(x.name, x.shape, x.pose, x.friction, x.mask.types, x.mask.meets);
 }
 template <class Archive, class T>
 void members(Archive& a, T& x) requires std::is_same_v<std::remove_const_t<T>, LinkInertia> {

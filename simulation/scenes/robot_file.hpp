@@ -16,12 +16,23 @@
 
 namespace touchstone {
 
+/// Bits that say what a shape may touch: what has one of its `meets` among its `types`, or the
+/// other way round. MuJoCo's contype and conaffinity.
+struct CollisionMask {
+  int types = 1, meets = 1;
+
+  bool touches(const CollisionMask& other) const {
+    return (types & other.meets) != 0 || (other.types & meets) != 0;
+  }
+};
+
 /// A collision shape of a link, with every joint in its default position.
 struct LinkShape {
   std::string name;  ///< "link/collision", of a world "model::link/collision"
   Shape shape;
   Pose pose;                            ///< in the world; for a robot, in its root link
   std::optional<double> friction = {};  ///< Coulomb's coefficient, where the file gives it
+  CollisionMask mask = {};
 };
 
 /// Where the mass of a link is.

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "reference/invalid_input.hpp"
+#include "simulation/assembly.hpp"
 #include "simulation/scenes/robot_file.hpp"
 
 namespace touchstone {
@@ -506,6 +507,47 @@ TEST(Mjcf, ABodyWithSeveralJointsGetsLinksInBetween) {
   EXPECT_EQ(x.child, turn.parent);
   EXPECT_EQ(robot.links[turn.child].name, "b");
   EXPECT_FALSE(x.holds);  // MuJoCo has no motor there
+}
+
+/// Which of the shapes of an MJCF world may touch, as "a b, a c": in the order of the file.
+std::string touching(const std::string& worldbody) {
+  const Written file("touch.xml", "<mujoco><worldbody>" + worldbody + "</worldbody></mujoco>");
+  const Scene scene = robot_scene(read_robot(file.path), {}).scene;
+  const Touching may(scene);
+  std::string pairs;
+  for (int a = 0; a < static_cast<int>(scene.bodies.size()); ++a) {
+    for (int b = a + 1; b < static_cast<int>(scene.bodies.size()); ++b) {
+      if (!may(a, b)) continue;
+      pairs += (pairs.empty() ? "" : ", ") + scene.bodies[a].name + ' ' + scene.bodies[b].name;
+    }
+  }
+  return pairs;
+}
+
+TEST(Mjcf, ABodyDoesNotTouchItsParentHoweverManyJointsAreBetween) {
+  const std::string geom = "<geom size='0.1'/>", two_joints = "<joint axis='1 0 0'/><joint/>";
+  EXPECT_EQ(
+      touching("<body name='a'><freejoint/>" + geom + "<body name='b' pos='1 0 0'>" + two_joints +
+               geom + "<body name='welded' pos='1 0 0'>" + geom + "<body name='c' pos='1 0 0'>" +
+               two_joints + geom + "</body></body></body></body>"),
+      "a c");
+}
+
+TEST(Mjcf, ABodyTouchesAParentThatTheWorldHolds) {
+  const std::string geom = "<geom size='0.1'/>";
+  EXPECT_EQ(touching("<body name='base'>" + geom + "<body name='arm' pos='1 0 0'><joint/>" + geom +
+                     "</body></body>"),
+            "base arm");
+}
+
+TEST(Mjcf, GeomsTouchByTheirOwnMasks) {
+  EXPECT_EQ(touching(R"(<body name="a"><freejoint/>
+      <geom name="low" size="0.1" contype="2" conaffinity="0"/>
+      <geom name="high" pos="0 0 1" size="0.1"/></body>
+    <body name="b" pos="3 0 0"><freejoint/>
+      <geom name="left" size="0.1" contype="0" conaffinity="2"/>
+      <geom name="right" pos="0 0 1" size="0.1"/></body>)"),
+            "a/low b/left, a/high b/right");
 }
 
 TEST(Mjcf, ARootWithAFreejointIsABaseThatCanBeHeld) {

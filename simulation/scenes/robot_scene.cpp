@@ -400,6 +400,17 @@ class SceneMaker {
     }
   }
 
+  /// Keeps apart the shapes of two links whose masks do not meet.
+  void keep_masks(std::size_t link, std::size_t other) {
+    const auto &shapes = links_[link].shapes, &others = links_[other].shapes;
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+      for (std::size_t j = 0; j < others.size(); ++j) {
+        if (shapes[i].mask.touches(others[j].mask)) continue;
+        file_.scene.apart.emplace_back(bodies_of_[link][i], bodies_of_[other][j]);
+      }
+    }
+  }
+
   /// Keeps apart what the file does, and links of a robot that overlap at the start: they stand for
   /// parts that are built into each other.
   void keep_apart() {
@@ -407,6 +418,7 @@ class SceneMaker {
     const std::vector<Body>& bodies = file_.scene.bodies;
     for (std::size_t l = 0; l < links_.size(); ++l) {
       for (std::size_t k = l + 1; k < links_.size(); ++k) {
+        keep_masks(l, k);
         if (robot_of_[l] != robot_of_[k]) continue;
         const bool is_one = std::ranges::any_of(bodies_of_[l], [&](int a) {
           return std::ranges::any_of(bodies_of_[k], [&](int b) {
@@ -471,7 +483,7 @@ class SceneMaker {
   const RobotFile& robot_;
   const RobotMotion& motion_;
   std::vector<Link> links_;
-  std::vector<std::vector<int>> bodies_of_;  ///< by link
+  std::vector<std::vector<int>> bodies_of_;  ///< by link: one for each shape, or a ball
   std::vector<int> robot_of_;                ///< by link
   std::vector<double> masses_;               ///< by robot, kg
   std::vector<bool> kept_;                   ///< by link
