@@ -315,10 +315,24 @@ class Reading {
     }
   }
 
+  void note_unread_of_joints() {
+    UnreadOfJoints unread;
+    for (int j = 0; j < m_.njnt; ++j) {
+      const std::string name = model_.name(mjOBJ_JOINT, "joint", j);
+      const int dof = m_.jnt_dofadr[j];
+      unread.add("damping", m_.dof_damping[dof], name);
+      unread.add("friction", m_.dof_frictionloss[dof], name);
+      unread.add("armature", m_.dof_armature[dof], name);
+      unread.add("the spring", m_.jnt_stiffness[j], name);
+    }
+    unread.note(result_);
+  }
+
   void note_others() {
     const auto note = [&](int count, const char* what) {
       if (count > 0) result_.ignored.push_back(fmt::format("{} {}: not read", count, what));
     };
+    note_unread_of_joints();
     note(m_.ntendon, m_.ntendon == 1 ? "tendon" : "tendons");
     note(m_.neq, m_.neq == 1 ? "equality constraint" : "equality constraints");
     note(m_.npair, m_.npair == 1 ? "contact pair" : "contact pairs");

@@ -131,6 +131,18 @@ RobotFile read_mjcf(const std::filesystem::path& file);
 /// these shapes, it only gets the centre, and the robot a note.
 void set_inertia(Link& link, const Pose& frame, const Eigen::Matrix3d& moments, RobotFile& robot);
 
+/// What joints have beside limits and motors, which nothing here obeys.
+class UnreadOfJoints {
+ public:
+  /// Notes a property of a joint ("damping") unless its value is zero or not finite.
+  void add(const char* property, double value, const std::string& joint);
+  /// Adds "damping of joints elbow and wrist: not read", one note for each property.
+  void note(RobotFile& robot) const;
+
+ private:
+  std::map<std::string, std::vector<std::string>> joints_;  ///< by property
+};
+
 /// What a library has said on standard error up to now, in one line: its first error. Empty outside
 /// of `read_robot`.
 std::string library_complaint();
