@@ -1,8 +1,6 @@
 #include "simulation/assembly.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <numeric>
 #include <utility>
 
@@ -132,10 +130,8 @@ BodyState state_within(const BodyState& state, const Pose& X_FB) {
 BodyState driven_state(const Drive& drive, const Pose& start, double time, double step) {
   const Pose before = driven_pose(drive, start, time - step);
   const Pose after = driven_pose(drive, start, time);
-  const Eigen::AngleAxisd turn(after.unit_orientation() * before.unit_orientation().conjugate());
-  // An angle of up to 2π about some axis: the shorter way is meant.
-  const double angle = std::remainder(turn.angle(), 2 * std::numbers::pi);
-  return {after, (after.position() - before.position()) / step, angle / step * turn.axis()};
+  return {after, (after.position() - before.position()) / step,
+          driven_spin(drive, start, time - step, time)};
 }
 
 Touching::Touching(const Scene& scene)

@@ -1,7 +1,7 @@
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
-#include <numbers>
 #include <set>
 #include <utility>
 
@@ -12,7 +12,6 @@
 namespace touchstone {
 namespace {
 
-using std::numbers::pi;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Bounds for moving bodies, metres and kg/m³, within which masses and moments of inertia keep all
@@ -181,16 +180,29 @@ void check_joint(const std::string& field, const Joint& joint, const Scene& scen
     throw InvalidInput(field + ".axis", fmt::format("{} long", joint.axis.norm()),
                        "must have unit length");
   }
-  const double max = joint.kind == JointKind::hinge ? pi : max_in_world;
   for (const auto& [name, limit] :
        {std::pair{".lower", joint.lower}, std::pair{".upper", joint.upper}}) {
-    if (!std::isinf(limit)) check_between(field + name, limit, -max, max);
+    if (!std::isinf(limit)) check_between(field + name, limit, -max_in_world, max_in_world);
   }
   if (!(joint.lower <= 0 && joint.upper >= 0)) {
     throw InvalidInput(field + ".limits", fmt::format("[{}, {}]", joint.lower, joint.upper),
                        "must hold 0, where the joint is at the start");
   }
   if (joint.motor) check_motor(field + ".motor", *joint.motor);
+}
+
+/// Velocities of what fixed joints make one with what is fixed or driven would have no effect.
+void check_at_rest(const std::string& field, const Body& body, const Assembly& assembly,
+                   const Scene& scene) {
+  const auto refuse = [&](const char* velocity) {
+    throw InvalidInput(field + velocity, "not zero",
+                       fmt::format("must be zero, for fixed joints make {} one with {}", body.name,
+                                   assembly.driven < 0
+                                       ? "what is fixed"
+                                       : scene.bodies[assembly.driven].name + ", which is driven"));
+  };
+  if (!body.velocity.isZero(0)) refuse(".velocity");
+  if (!body.angular_velocity.isZero(0)) refuse(".angular_velocity");
 }
 
 /// What is joined rigidly must move as one at the start, and by one drive at most.
@@ -211,7 +223,10 @@ void check_assembly(const Assembly& assembly, const Scene& scene) {
                                      driven >= 0 ? scene.bodies[driven].name : "what is fixed"));
     }
     if (body.drive) driven = b;
-    if (!assembly.is_free()) continue;
+    if (!assembly.is_free()) {
+      check_at_rest(field, body, assembly, scene);
+      continue;
+    }
     const Vec3 arm = body.pose.position() - first.pose.position();
     const Vec3 difference = body.velocity - first.velocity - first.angular_velocity.cross(arm);
     const double rounding = 1e-6 * (1 + first.velocity.norm());
@@ -222,6 +237,46 @@ void check_assembly(const Assembly& assembly, const Scene& scene) {
           "must be that of " + first.name + ", which a fixed joint makes one with " + body.name);
     }
   }
+}
+
+void check_push(const std::string& field, const Push& push, const Scene& scene,
+                const std::vector<bool>& is_moved) {
+  check_index(field + ".body", push.body, 0, scene);
+  for (int k = 0; k < 3; ++k) {
+    check_between(fmt::format("{}.force[{}]", field, k), push.force[k], -max_force, max_force);
+    check_between(fmt::format("{}.torque[{}]", field, k), push.torque[k], -max_force, max_force);
+  }
+  check_between(field + ".from", push.from, 0, max_time);
+  if (!(push.until > push.from)) {
+    throw InvalidInput(field + ".until", fmt::format("{}", push.until),
+                       fmt::format("must be later than {}", push.from));
+  }
+  if (!is_moved[push.body]) {
+    throw InvalidInput(
+        field + ".body", '"' + scene.bodies[push.body].name + '"',
+        "must be moved by forces: it is fixed or driven, or fixed joints make it one "
+        "with what is");
+  }
+}
+
+/// A hinge or slider must move something: no engine has a joint of a body with itself.
+void check_moves(const std::string& field, const Joint& joint, const Scene& scene,
+                 const std::vector<Assembly>& assemblies) {
+  if (joint.kind == JointKind::fixed) return;
+  const auto assembly_of = [&](int body) {
+    const auto holds = [&](const Assembly& a) { return std::ranges::count(a.bodies, body) > 0; };
+    return body == world_body ? nullptr : &*std::ranges::find_if(assemblies, holds);
+  };
+  const Assembly *a = assembly_of(joint.a), *b = assembly_of(joint.b);
+  const bool is_moved = a->is_free() || (b && b->is_free());
+  if (a != b && is_moved) return;
+  throw InvalidInput(
+      field,
+      fmt::format("a {} of {} and {}", joint_kind_name(joint.kind), scene.bodies[joint.a].name,
+                  b ? scene.bodies[joint.b].name : "the world"),
+      is_moved ? "must join what can move apart: fixed joints make these bodies one; leave this "
+                 "joint or one of those out"
+               : "must join something that forces move: these are fixed or driven; leave it out");
 }
 
 }  // namespace
@@ -244,20 +299,14 @@ void check_scene(const Scene& scene) {
     check_index("apart", a, 0, scene);
     check_index("apart", b, 0, scene);
   }
-  for (const Assembly& assembly : assemblies(scene)) check_assembly(assembly, scene);
+  const std::vector<Assembly> all = assemblies(scene);
+  for (const Assembly& assembly : all) check_assembly(assembly, scene);
+  for (std::size_t i = 0; i < scene.joints.size(); ++i) {
+    check_moves(fmt::format("joints[{}]", i), scene.joints[i], scene, all);
+  }
+  const std::vector<bool> is_moved = moved_by_forces(scene);
   for (std::size_t i = 0; i < scene.pushes.size(); ++i) {
-    const Push& push = scene.pushes[i];
-    const std::string field = fmt::format("pushes[{}]", i);
-    check_index(field + ".body", push.body, 0, scene);
-    for (int k = 0; k < 3; ++k) {
-      check_between(fmt::format("{}.force[{}]", field, k), push.force[k], -max_force, max_force);
-      check_between(fmt::format("{}.torque[{}]", field, k), push.torque[k], -max_force, max_force);
-    }
-    check_between(field + ".from", push.from, 0, max_time);
-    if (!(push.until > push.from)) {
-      throw InvalidInput(field + ".until", fmt::format("{}", push.until),
-                         fmt::format("must be later than {}", push.from));
-    }
+    check_push(fmt::format("pushes[{}]", i), scene.pushes[i], scene, is_moved);
   }
   check_vector("gravity", scene.gravity);
   check_between("step", scene.step, min_step, max_step);

@@ -43,6 +43,10 @@ using Drive = std::variant<SteadyMotion, Oscillation, Waypoints>;
 /// Pose at a time, seconds, of a body that starts at a pose.
 Pose driven_pose(const Drive& drive, const Pose& start, double time);
 
+/// Mean angular velocity, rad/s, from one time to another. Whole turns within a step count; between
+/// waypoints there are none.
+Vec3 driven_spin(const Drive& drive, const Pose& start, double from, double to);
+
 enum class JointKind {
   fixed,   ///< both bodies are one
   hinge,   ///< turns about an axis
@@ -65,7 +69,8 @@ struct Motor {
 /// Body index of the world, to which a joint may hold a body.
 inline constexpr int world_body = -1;
 
-/// Joint of two bodies, which then do not touch each other. Its position is zero at the start.
+/// Joint of two bodies, which then do not touch each other. Its position is zero at the start; that
+/// of a hinge counts all turns.
 struct Joint {
   std::string name;
   JointKind kind = JointKind::fixed;
@@ -76,6 +81,10 @@ struct Joint {
   double upper = std::numeric_limits<double>::infinity();
   std::optional<Motor> motor = {};
 };
+
+/// The angle, in radians, nearest to an expected one of those that differ from this one by whole
+/// turns: engines know a hinge's angle within one.
+double nearest_turn(double angle, double expected);
 
 /// Rate at which the motor of a joint that is at a position shall turn or move it in the step that
 /// begins at a time. A motor that holds a position follows it at the position's own rate and
@@ -88,6 +97,10 @@ struct Push {
   Vec3 force = Vec3::Zero();                                         ///< N, at its centre
   Vec3 torque = Vec3::Zero();                                        ///< N m
   double from = 0, until = std::numeric_limits<double>::infinity();  ///< s
+
+  /// Share of the step from `begin` on in which it acts, 0 … 1: with that share of its force, a
+  /// push has its impulse whatever the step.
+  double share(double begin, double step) const;
 };
 
 }  // namespace touchstone

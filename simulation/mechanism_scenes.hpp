@@ -1,6 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+#include <vector>
 
 #include "simulation/scene.hpp"
 
@@ -31,6 +36,33 @@ inline Motor position(double target, double force) {
 /// Right-handed angle about z, −π … π.
 inline double angle_about_z(const Pose& pose) {
   return std::atan2(pose.rotation()(1, 0), pose.rotation()(0, 0));
+}
+
+/// Limits of a hinge, rad, that no engine holds by the angle within a turn alone; also without one
+/// of them.
+inline const std::vector<std::pair<double, double>> far_limits = {
+    {-0.0175, 3.75},
+    {-std::numbers::pi, std::numbers::pi},
+    {-3, 3.2},
+    {-4, 7.5},
+    {-std::numeric_limits<double>::infinity(), 3.5},
+    {-6.5, std::numeric_limits<double>::infinity()}};
+
+/// Where a motor that turns a hinge by this angle leaves it.
+inline double turned_within(const std::pair<double, double>& limits, double angle) {
+  return std::clamp(angle, limits.first, limits.second);
+}
+
+/// A box lies on a driven drum that turns about y by 4.2 rad in a step, so that friction drags it
+/// along x.
+inline Scene fast_drum() {
+  Scene scene;
+  scene.duration = 0.1;
+  Body drum{.name = "drum", .shape = Cylinder(1, 1)};
+  drum.pose = Pose(Vec3::Zero(), Eigen::Quaterniond(Eigen::AngleAxisd(1.5707963, Vec3::UnitX())));
+  drum.drive = SteadyMotion{.angular_velocity = Vec3(0, 1000, 0)};
+  scene.bodies = {drum, box("brick", Vec3(0.1, 0.1, 0.05), at(0, 0, 1.05 - 1e-5))};
+  return scene;
 }
 
 /// A box that tumbles freely, and the same box of two halves that a fixed joint connects.

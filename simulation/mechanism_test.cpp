@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <numbers>
+#include <tuple>
 
+#include "reference/invalid_input.hpp"
 #include "simulation/assembly.hpp"
 #include "simulation/mechanism_scenes.hpp"
 #include "simulation/world_fixture.hpp"
@@ -13,6 +15,7 @@ namespace touchstone {
 namespace {
 
 using std::numbers::pi;
+using testing::HasSubstr;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -60,6 +63,18 @@ TEST(DriveTest, VelocitiesOfAStepLeadFromOnePoseToTheNext) {
   EXPECT_LT((state.angular_velocity - Vec3(-3, 1, 2)).norm(), 1e-11);
 }
 
+TEST(DriveTest, WhatTurnsByMoreThanHalfATurnInAStepKeepsItsSense) {
+  const double h = 1.0 / 240;
+  const Vec3 spin(0, -600, 800);  // 4.2 rad in a step
+  EXPECT_LT(
+      (driven_state(SteadyMotion{.angular_velocity = spin}, Pose(), 0.5, h).angular_velocity - spin)
+          .norm(),
+      1e-9);
+  const Oscillation o{.turn = Vec3(0, 0, 40), .frequency = 5};
+  const double rate = 40 * std::sin(2 * pi * 5 * h) / h;  // in the first step, by 5.2 rad
+  EXPECT_NEAR(driven_state(o, Pose(), h, h).angular_velocity.z(), rate, 1e-9);
+}
+
 TEST(MotorTest, TargetsAreLinearBetweenTheirTimes) {
   const Motor motor{Motor::Target::rate, {{1, 2}, {3, 6}}, 1};
   EXPECT_EQ(motor.target_at(0), 2);
@@ -102,6 +117,48 @@ TEST(AssemblyTest, AJointToTheWorldOrAFixedBodyFixesAllThatHangsOnIt) {
   scene.bodies[3].fixed = true;
   scene.joints = {rigid(0, world_body), rigid(1, 0), rigid(2, 3)};
   for (const Assembly& a : assemblies(scene)) EXPECT_TRUE(a.fixed);
+}
+
+/// What check_scene says of a scene; empty if it accepts it.
+std::string refusal(const Scene& scene) {
+  try {
+    check_scene(scene);
+  } catch (const InvalidInput& e) {
+    return e.what();
+  }
+  return "";
+}
+
+TEST(CheckSceneTest, RefusesJointsWithinWhatIsRigid) {
+  Scene scene;
+  for (const char* name : {"arm", "wrist", "hand"}) {
+    scene.bodies.push_back(box(name, Vec3::Constant(0.1), at(0, 0, 0)));
+  }
+  const Joint slide = {"slide", JointKind::slider, 2, 0};
+  scene.joints = {rigid(0, 1), slide, rigid(1, 2)};
+  EXPECT_THAT(refusal(scene), HasSubstr("joints[1] is a slider of hand and arm: must join what can "
+                                        "move apart: fixed joints make these bodies one"));
+  scene.joints.pop_back();
+  EXPECT_EQ(refusal(scene), "");
+}
+
+TEST(CheckSceneTest, RefusesJointsOfWhatNoForceMoves) {
+  Scene scene;
+  for (const char* name : {"base", "column", "belt"}) {
+    scene.bodies.push_back(box(name, Vec3::Constant(0.1), at(0, 0, 0)));
+  }
+  scene.bodies[0].fixed = true;
+  scene.bodies[2].drive = SteadyMotion{};
+  const Joint to_world = hinge(1, world_body, Vec3::Zero(), Vec3::UnitZ());
+  scene.joints = {rigid(1, world_body), to_world};
+  EXPECT_THAT(refusal(scene), HasSubstr("joints[1] is a hinge of column and the world: must join "
+                                        "something that forces move"));
+  for (const auto& [a, b] : {std::pair{2, 0}, {1, 0}, {2, 1}}) {
+    scene.joints[1] = hinge(a, b, Vec3::Zero(), Vec3::UnitZ());
+    EXPECT_THAT(refusal(scene), HasSubstr("these are fixed or driven")) << a << b;
+  }
+  scene.joints = {to_world};
+  EXPECT_EQ(refusal(scene), "");
 }
 
 TEST(TouchingTest, JoinedUnmovedAndUncollidingBodiesDoNot) {
@@ -207,6 +264,42 @@ TEST_F(Driven, MotorsMoveTheFirstBodyRelativeToTheSecondWhicheverIsFixed) {
   }
 }
 
+TEST_F(Driven, HingesKeepTheirLimitsBeyondHalfATurn) {
+  for (const auto& limits : far_limits) {
+    for (const double speed : {-4.0, 4.0}) {
+      for (int fixed = 0; fixed < 4; ++fixed) {
+        Scene scene = motor_scene(JointKind::hinge, fixed == 1, fixed == 2, fixed == 3);
+        scene.joints[0].motor = rate(speed, 1000);
+        std::tie(scene.joints[0].lower, scene.joints[0].upper) = limits;
+        World world(scene, model);
+        double angle = 0;
+        while (world.time() < 2.5) {
+          world.step();
+          angle = nearest_turn(relative(scene, world), angle);
+        }
+        EXPECT_NEAR(angle, turned_within(limits, 2.5 * speed), 0.02)
+            << limits.first << " to " << limits.second << ", fixed " << fixed;
+      }
+    }
+  }
+}
+
+TEST_F(Driven, AMotorFollowsAPositionBeyondHalfATurnTheWayItIsTold) {
+  Scene scene = motor_scene(JointKind::hinge, false, true, false);
+  scene.joints[0].motor = position(3.6, 1000);
+  scene.joints[0].lower = -0.1;
+  EXPECT_NEAR(nearest_turn(relative(scene, run(scene)), 3), 3.6, 1e-5);
+  scene.joints[0].motor = Motor{Motor::Target::position, {{0, 8.0}}, 1000};
+  scene.duration = 2;
+  World world(scene, model);
+  double angle = 0;
+  while (world.time() < 2) {
+    world.step();
+    angle = nearest_turn(relative(scene, world), angle + 0.5);
+  }
+  EXPECT_NEAR(angle, 8, 1e-5);
+}
+
 TEST_F(Driven, AMotorPushesNoHarderThanItCan) {
   Scene scene = motor_scene(JointKind::slider, false, true, false);
   const double mass = inertia(scene.bodies[0].shape, 1000).mass;
@@ -227,6 +320,46 @@ TEST_F(MechanismTest, APushGivesTheMomentumOfItsForceAndTime) {
   const Inertia i = inertia(scene.bodies[0].shape, 1000);
   scene.pushes = {{0, Vec3::Zero(), Vec3(0, 0, 3 * i.principal.z()), 0, infinity}};
   EXPECT_NEAR(run(scene).states()[0].angular_velocity.z(), 1.5, 1e-12);
+}
+
+TEST_F(MechanismTest, APushHasItsImpulseWhateverTheStep) {
+  Scene scene;
+  scene.gravity = Vec3::Zero();
+  scene.bodies = {box("a", Vec3::Constant(0.1), Pose())};
+  const Inertia i = inertia(scene.bodies[0].shape, 1000);
+  for (const auto& [from, until] :
+       {std::pair{0.1005, 0.1006}, {0.0999, 0.1001}, {0.1234, 0.4321}, {0.25, 0.5}}) {
+    scene.pushes = {{0, Vec3(2 * i.mass, 0, 0), Vec3(0, 3 * i.principal.y(), 0), from, until}};
+    const World world = run(scene);
+    EXPECT_NEAR(world.states()[0].velocity.x(), 2 * (until - from), 1e-12);
+    EXPECT_NEAR(world.states()[0].angular_velocity.y(), 3 * (until - from), 1e-12);
+  }
+}
+
+TEST(CheckSceneTest, RefusesPushesAndVelocitiesThatHaveNoEffect) {
+  Scene scene;
+  for (const char* name : {"floor", "lamp", "table", "cup", "can"}) {
+    scene.bodies.push_back(box(name, Vec3::Constant(0.1), at(0, 0, 0)));
+  }
+  scene.bodies[0].fixed = true;
+  scene.bodies[2].drive = SteadyMotion{};
+  scene.joints = {rigid(1, world_body), rigid(3, 2)};
+  for (int b = 0; b < 4; ++b) {
+    scene.pushes = {{.body = b, .force = Vec3(1, 0, 0)}};
+    EXPECT_THAT(refusal(scene), HasSubstr("pushes[0].body is \"" + scene.bodies[b].name +
+                                          "\": must be moved by forces"));
+  }
+  scene.pushes[0].body = 4;
+  EXPECT_EQ(refusal(scene), "");
+  Scene moving = scene;
+  moving.bodies[1].velocity = Vec3(1, 0, 0);
+  EXPECT_THAT(refusal(moving), HasSubstr("bodies[1].velocity is not zero: must be zero, for fixed "
+                                         "joints make lamp one with what is fixed"));
+  moving = scene;
+  moving.bodies[3].angular_velocity = Vec3(1, 0, 0);
+  EXPECT_THAT(refusal(moving),
+              HasSubstr("bodies[3].angular_velocity is not zero: must be zero, for "
+                        "fixed joints make cup one with table, which is driven"));
 }
 
 TEST_F(MechanismTest, ABeltCarriesWhatLiesOnItWhicheverBodyComesFirst) {
@@ -279,6 +412,10 @@ TEST_F(MechanismTest, ALiftedCanRisesWithItsTable) {
   EXPECT_LT((world.states()[0].pose.position() - Vec3(0.2, 0, 0.25)).norm(), 1e-15);
   EXPECT_LT((world.states()[1].pose.position() - Vec3(0.2, 0, 0.4)).norm(), 2e-3);
   EXPECT_GT(world.states()[1].pose.axis().z(), 0.9999);
+}
+
+TEST_F(MechanismTest, ADrumThatTurnsByMoreThanHalfATurnInAStepDragsTheRightWay) {
+  EXPECT_NEAR(run(fast_drum()).states()[1].velocity.x(), 0.5 * 9.81 * 0.1, 0.1);
 }
 
 /// Two fingers on a driven hand squeeze a can, and the hand rises by 0.2 m.

@@ -1,5 +1,7 @@
 #include "simulation/ode_scene.hpp"
 
+#include <algorithm>
+#include <numbers>
 #include <utility>
 
 namespace touchstone {
@@ -70,36 +72,52 @@ dGeomID make_ode_geom(dSpaceID space, const Shape& shape, dBodyID moving, const 
   return made;
 }
 
-dJointID make_ode_joint(dWorldID world, const Joint& joint, dBodyID a, dBodyID b) {
-  if (joint.kind == JointKind::fixed || (!a && !b)) return nullptr;
+OdeJoint::OdeJoint(dWorldID world, const Joint& joint, dBodyID a, dBodyID b) : joint_(joint) {
   const bool is_turned = !a;
   // ODE measures from its first body, which must not be null.
   if (is_turned) std::swap(a, b);
   const Vec3 &p = joint.anchor, axis = is_turned ? Vec3(-joint.axis) : joint.axis;
   if (joint.kind == JointKind::hinge) {
-    const dJointID made = dJointCreateHinge(world, nullptr);
-    dJointAttach(made, a, b);
-    dJointSetHingeAnchor(made, p.x(), p.y(), p.z());
-    dJointSetHingeAxis(made, axis.x(), axis.y(), axis.z());
-    dJointSetHingeParam(made, dParamLoStop, joint.lower);
-    dJointSetHingeParam(made, dParamHiStop, joint.upper);
-    return made;
+    made_ = dJointCreateHinge(world, nullptr);
+    dJointAttach(made_, a, b);
+    dJointSetHingeAnchor(made_, p.x(), p.y(), p.z());
+    dJointSetHingeAxis(made_, axis.x(), axis.y(), axis.z());
+    return;
   }
-  const dJointID made = dJointCreateSlider(world, nullptr);
-  dJointAttach(made, a, b);
-  dJointSetSliderAxis(made, axis.x(), axis.y(), axis.z());
-  dJointSetSliderParam(made, dParamLoStop, joint.lower);
-  dJointSetSliderParam(made, dParamHiStop, joint.upper);
-  return made;
+  made_ = dJointCreateSlider(world, nullptr);
+  dJointAttach(made_, a, b);
+  dJointSetSliderAxis(made_, axis.x(), axis.y(), axis.z());
+  dJointSetSliderParam(made_, dParamLoStop, joint.lower);
+  dJointSetSliderParam(made_, dParamHiStop, joint.upper);
 }
 
-void run_motor(dJointID made, const Joint& joint, double time, double step) {
-  if (!joint.motor) return;
-  const bool turns = joint.kind == JointKind::hinge;
-  const double position = turns ? dJointGetHingeAngle(made) : dJointGetSliderPosition(made);
+/// ODE compares an angle in [−π, π) with the stops, and only while one of them is at most half a
+/// turn from 0 and they are in order. At an upper one of π it never is.
+void OdeJoint::set_hinge_stops(double turns) {
+  if (std::isinf(joint_.lower) && std::isinf(joint_.upper)) return;
+  const double lower = joint_.lower - turns;
+  const double upper = std::max(lower, std::min(joint_.upper - turns, std::numbers::pi));
+  dJointSetHingeParam(made_, dParamLoStop, lower);
+  dJointSetHingeParam(made_, dParamHiStop, upper);
+}
+
+void OdeJoint::prepare(double time, double step) {
+  const bool turns = joint_.kind == JointKind::hinge;
+  if (turns) {
+    const double angle = dJointGetHingeAngle(made_);
+    position_ = nearest_turn(angle, position_);
+    set_hinge_stops(position_ - angle);
+  } else {
+    position_ = dJointGetSliderPosition(made_);
+  }
+  if (!joint_.motor) return;
   const auto set = turns ? dJointSetHingeParam : dJointSetSliderParam;
-  set(made, dParamVel, motor_rate(joint, position, time, step));
-  set(made, dParamFMax, joint.motor->max_force);
+  set(made_, dParamVel, motor_rate(joint_, position_, time, step));
+  set(made_, dParamFMax, joint_.motor->max_force);
+}
+
+void OdeJoint::follow(double step) {
+  if (joint_.kind == JointKind::hinge) position_ += step * dJointGetHingeAngleRate(made_);
 }
 
 void set_belt(dContact& contact, const Vec3& belt, bool is_first_null) {

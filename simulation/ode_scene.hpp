@@ -22,12 +22,24 @@ dBodyID make_ode_body(dWorldID world, const Assembly& assembly);
 /// world coordinates: ODE's have no pose.
 dGeomID make_ode_geom(dSpaceID space, const Shape& shape, dBodyID moving, const Pose& pose);
 
-/// Joint of two bodies at their initial poses, of which one may be null; null if both are, or if
-/// the joint is fixed, which assemblies obey.
-dJointID make_ode_joint(dWorldID world, const Joint& joint, dBodyID a, dBodyID b);
+/// A hinge or slider of two bodies at their initial poses, of which one may be null. ODE knows the
+/// angle of a hinge within a turn, and its stops must lie there; this one counts the turns.
+class OdeJoint {
+ public:
+  OdeJoint(dWorldID world, const Joint& joint, dBodyID a, dBodyID b);
 
-/// Sets the rate and force of a joint's motor, if it has one, for the step that begins at a time.
-void run_motor(dJointID made, const Joint& joint, double time, double step);
+  /// Sets the stops and the motor for the step that begins at a time.
+  void prepare(double time, double step);
+  /// Takes note of how far the bodies have turned; called after the step.
+  void follow(double step);
+
+ private:
+  void set_hinge_stops(double turns);
+
+  Joint joint_;
+  dJointID made_;
+  double position_ = 0;  ///< rad or m; once followed, where the step should have led
+};
 
 /// Lets the surface of a contact's first body move along that of the second at a velocity, as a
 /// belt does. The contact has its fdir1. If ODE's first body of the joint is null, the second

@@ -50,7 +50,7 @@ struct World::State {
   double time() const { return static_cast<double>(steps) * scene.step; }
   BodyState driven(const Moving& m) const;
   void drive();
-  void run_motors();
+  void prepare_joints();
   void push();
   void find_contacts();
   std::vector<PairQuestion> find_pairs();
@@ -72,8 +72,9 @@ struct World::State {
   std::vector<std::size_t> assembly_of;  ///< by body: index of its assembly
   std::vector<dGeomID> geoms;            ///< by body; null where it is a cylinder
   std::vector<BodyState> states;         ///< by body
-  std::vector<dJointID> joints;          ///< by joint; null where it is fixed
+  std::vector<OdeJoint> joints;          ///< hinges and sliders
   std::vector<PairContact> contacts;
+  std::size_t points = 0;  ///< contact joints of this step
   std::uint64_t steps = 0;
   std::size_t unusable = 0;
   bool sound = true;
@@ -98,8 +99,9 @@ World::State::State(const Scene& given, ContactModel& contact_model)
   for (const Moving& m : moving) heaviest = std::max(heaviest, m.assembly.inertia.mass);
   if (heaviest > 0) dWorldSetCFM(world, constraint_mixing / heaviest);
   for (const Joint& joint : scene.joints) {
+    if (joint.kind == JointKind::fixed) continue;  // assemblies obey it
     const dBodyID other = joint.b == world_body ? nullptr : ode_body(joint.b);
-    joints.push_back(make_ode_joint(world, joint, ode_body(joint.a), other));
+    joints.emplace_back(world, joint, ode_body(joint.a), other);
   }
   model.begin();
 }
@@ -149,20 +151,19 @@ void World::State::drive() {
   }
 }
 
-void World::State::run_motors() {
-  for (std::size_t i = 0; i < joints.size(); ++i) {
-    if (joints[i]) run_motor(joints[i], scene.joints[i], time(), scene.step);
-  }
+void World::State::prepare_joints() {
+  for (OdeJoint& joint : joints) joint.prepare(time(), scene.step);
 }
 
 void World::State::push() {
   for (const Push& p : scene.pushes) {
+    const double share = p.share(time(), scene.step);
+    if (share == 0) continue;
     const dBodyID body = ode_body(p.body);
-    const double rounding = scene.step / 2;
-    if (!body || time() < p.from - rounding || time() > p.until - rounding) continue;
-    const Vec3& at = states[p.body].pose.position();
-    dBodyAddForceAtPos(body, p.force.x(), p.force.y(), p.force.z(), at.x(), at.y(), at.z());
-    dBodyAddTorque(body, p.torque.x(), p.torque.y(), p.torque.z());
+    const Vec3 &at = states[p.body].pose.position(), force = share * p.force,
+               torque = share * p.torque;
+    dBodyAddForceAtPos(body, force.x(), force.y(), force.z(), at.x(), at.y(), at.z());
+    dBodyAddTorque(body, torque.x(), torque.y(), torque.z());
   }
 }
 
@@ -206,6 +207,7 @@ std::vector<PairQuestion> World::State::find_pairs() {
 
 void World::State::find_contacts() {
   dJointGroupEmpty(contact_joints);
+  points = 0;
   const std::vector<PairQuestion> questions = find_pairs();
   contacts.clear();
   if (questions.empty()) return;
@@ -287,6 +289,7 @@ void World::State::add_joint(int a, int b, dContactGeom geom) {
   if (has_belt) set_belt(contact, belt, !body_a);
   const dJointID joint = dJointCreateContact(world, contact_joints, &contact);
   dJointAttach(joint, body_a, body_b);
+  ++points;
 }
 
 /// ODE starts from the mean angular velocity of the step without contacts, adds the change that
@@ -302,6 +305,7 @@ void World::State::move() {
   }
   dRandSetSeed(steps + 1);
   dWorldQuickStep(world, scene.step);
+  for (OdeJoint& joint : joints) joint.follow(scene.step);
   read_states(free);
 }
 
@@ -360,7 +364,7 @@ void World::step() {
   State& s = *state_;
   if (s.sound) {
     s.drive();
-    s.run_motors();
+    s.prepare_joints();
     s.push();
     s.find_contacts();
     s.move();
@@ -371,6 +375,7 @@ void World::step() {
 double World::time() const { return state_->time(); }
 const std::vector<BodyState>& World::states() const { return state_->states; }
 const std::vector<PairContact>& World::contacts() const { return state_->contacts; }
+std::size_t World::points() const { return state_->points; }
 bool World::sound() const { return state_->sound; }
 std::size_t World::unusable_points() const { return state_->unusable; }
 

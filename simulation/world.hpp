@@ -76,6 +76,8 @@ class World {
   const std::vector<BodyState>& states() const;
   /// All pairs of the last step whose answer is not "none", failures included.
   const std::vector<PairContact>& contacts() const;
+  /// Contact points given to the solver in the last step, of all pairs.
+  std::size_t points() const;
 
   /// False once a position or velocity has left `max_in_world` or is not finite, through contacts
   /// that no solver can satisfy; the bodies then stay where they last were.

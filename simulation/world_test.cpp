@@ -274,6 +274,32 @@ TEST_F(WorldTest, DoesNotStopWhatIsStillApart) {
   EXPECT_NEAR(world.states()[1].velocity.z(), -9.81 / 240, 1e-12);
 }
 
+/// A box and a can stand beside each other on the ground.
+Scene box_and_can() {
+  Scene scene = two_cans_on_the_ground();
+  scene.bodies.pop_back();
+  Body brick{"brick", Box(Vec3(0.1, 0.2, 0.3))};
+  brick.pose = Pose(Vec3(5, 0, 0.3 - 1e-9));
+  scene.bodies.push_back(brick);
+  return scene;
+}
+
+TEST_F(WorldTest, CountsThePointsThatTheSolverGets) {
+  World world(box_and_can(), model);
+  world.step();
+  EXPECT_EQ(world.points(), 4U + 3U) << "of the box's face and the can's cap";
+  MadeUpModel apart({{-1, 0, 0}, {0, 0, 1}, -1e-9});
+  World other(box_and_can(), apart);
+  other.step();
+  EXPECT_EQ(other.points(), 4U) << "the can's point is still apart";
+  Scene flying = box_and_can();
+  for (Body& body : flying.bodies) body.pose = Pose(body.pose.position() + Vec3(0, 0, 9));
+  flying.bodies[0].pose = Pose();
+  World above(flying, model);
+  above.step();
+  EXPECT_EQ(above.points(), 0U);
+}
+
 TEST_F(WorldTest, EndsAMotionBeyondAllBounds) {
   MadeUpModel made_up({{-1, 0, 0}, {0, 0, 1}, 1e9});
   World world(two_cans_on_the_ground(), made_up);

@@ -15,7 +15,8 @@
 //           mean. What consists of several bodies has that of the parts that touch, by
 //           gContactAddedCallback.
 // Joints    btGeneric6DofSpring2Constraint with all but one direction locked, as Bullet's importer
-//           of URDF makes them.
+//           of URDF makes them. Bullet knows the angle of a hinge within a turn, to which its
+//           limits are shifted in each step.
 // Belts     What Bullet calls the conveyor belt effect: gContactAddedCallback sets a contact's
 //           friction direction and the velocity along it, for which the solver keeps directions
 //           and gets two of them in the whole world.
@@ -52,7 +53,9 @@ class BulletWorld : public EngineWorld {
     gCompoundChildShapePairCallback = gCompoundCompoundChildShapePairCallback = may_meet;
     gContactAddedCallback = describe;
     for (std::size_t i = 0; i < assemblies_.size(); ++i) add(i);
-    for (const Joint& joint : scene.joints) joints_.push_back(acts(joint) ? make(joint) : nullptr);
+    for (const Joint& joint : scene.joints) {
+      joints_.push_back(joint.kind == JointKind::fixed ? nullptr : make(joint));
+    }
   }
   ~BulletWorld() override {
     for (const auto& joint : joints_) {
@@ -74,6 +77,10 @@ class BulletWorld : public EngineWorld {
  protected:
   void advance() override {
     world_.stepSimulation(to_scalar(scene_.step), 0);
+    for (std::size_t i = 0; i < joints_.size(); ++i) {
+      if (scene_.joints[i].kind != JointKind::hinge) continue;
+      positions_[i] += scene_.step * angular_rate(*joints_[i]);
+    }
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       if (!assemblies_[i].is_free()) continue;
       const btRigidBody& body = *bodies_[i];
@@ -89,14 +96,21 @@ class BulletWorld : public EngineWorld {
     bodies_[assembly]->applyCentralForce(to_vector(force));
     bodies_[assembly]->applyTorque(to_vector(torque));
   }
-  void run_motor(std::size_t joint, double time) override {
-    const Joint& driven = scene_.joints[joint];
-    joints_[joint]->calculateTransforms();
-    const double position = driven.kind == JointKind::hinge
-                                ? joints_[joint]->getAngle(0)
-                                : -joints_[joint]->getRelativePivotPosition(0);
-    joints_[joint]->setTargetVelocity(free_axis(driven),
-                                      to_scalar(motor_rate(driven, position, time, scene_.step)));
+  void prepare_joint(std::size_t index, double time) override {
+    const Joint& joint = scene_.joints[index];
+    Constraint& made = *joints_[index];
+    double& position = positions_[index];
+    made.calculateTransforms();
+    if (joint.kind == JointKind::hinge) {
+      const double angle = made.getAngle(0);
+      position = nearest_turn(angle, position);
+      set_hinge_limits(made, joint, angle, position - angle);
+    } else {
+      position = -made.getRelativePivotPosition(0);
+    }
+    if (!joint.motor) return;
+    made.setTargetVelocity(free_axis(joint),
+                           to_scalar(motor_rate(joint, position, time, scene_.step)));
   }
 
  private:
@@ -204,6 +218,32 @@ class BulletWorld : public EngineWorld {
   /// Index of the direction that a joint leaves free: along or about x.
   static int free_axis(const Joint& joint) { return joint.kind == JointKind::hinge ? 3 : 0; }
 
+  /// Of a hinge: angular velocity of its first body relative to the second, about the axis.
+  static double angular_rate(const Constraint& made) {
+    const btVector3 axis = made.getCalculatedTransformA().getBasis().getColumn(0);
+    return axis.dot(made.getRigidBodyA().getAngularVelocity() -
+                    made.getRigidBodyB().getAngularVelocity());
+  }
+
+  /// Sets the limits of a hinge at an angle within one turn, and at its position that many radians
+  /// beyond. Bullet adds a turn to an angle beyond both limits if the other one is then nearer. So
+  /// of limits that are far from each other it gets the nearer one, with the other an odd number of
+  /// half turns away, beyond reach.
+  static void set_hinge_limits(Constraint& made, const Joint& joint, double angle, double turns) {
+    constexpr double beyond_reach = 2001 * std::numbers::pi;
+    double lower = joint.lower - turns, upper = joint.upper - turns;
+    if (std::isinf(lower) && std::isinf(upper)) return;
+    if (upper - lower > std::numbers::pi) {
+      const bool is_upper_nearer = upper - angle < angle - lower;
+      (is_upper_nearer ? lower : upper) =
+          is_upper_nearer ? upper - beyond_reach : lower + beyond_reach;
+    }
+    // Not by setLimit, which takes the turns away.
+    btRotationalLimitMotor2& limits = *made.getRotationalLimitMotor(0);
+    limits.m_loLimit = to_scalar(lower);
+    limits.m_hiLimit = to_scalar(upper);
+  }
+
   std::unique_ptr<Constraint> make(const Joint& joint) {
     btRigidBody& a = *bodies_[assembly_of(joint.a)];
     btRigidBody& b =
@@ -215,13 +255,12 @@ class BulletWorld : public EngineWorld {
     auto made = std::make_unique<Constraint>(a, b, a.getWorldTransform().inverse() * frame,
                                              b.getWorldTransform().inverse() * frame);
     for (int axis = 0; axis < 6; ++axis) made->setLimit(axis, 0, 0);
+    made->setLimit(free_axis(joint), 1, -1);  // none
     // Angles are of the first body relative to the second, positions of the second to the first.
-    const double max = turns ? std::numbers::pi : max_in_world;
-    const double lower = std::max(turns ? joint.lower : -joint.upper, -max);
-    const double upper = std::min(turns ? joint.upper : -joint.lower, max);
-    const bool is_limited = std::isfinite(joint.lower) || std::isfinite(joint.upper);
-    made->setLimit(free_axis(joint), to_scalar(is_limited ? lower : 1),
-                   to_scalar(is_limited ? upper : -1));
+    if (!turns && (std::isfinite(joint.lower) || std::isfinite(joint.upper))) {
+      made->setLimit(0, to_scalar(std::max(-joint.upper, -max_in_world)),
+                     to_scalar(std::min(-joint.lower, max_in_world)));
+    }
     if (joint.motor) {
       made->enableMotor(free_axis(joint), true);
       made->setMaxMotorForce(free_axis(joint), to_scalar(joint.motor->max_force));
@@ -237,7 +276,9 @@ class BulletWorld : public EngineWorld {
   btDiscreteDynamicsWorld world_{&dispatcher_, &broadphase_, &solver_, &configuration_};
   std::vector<std::unique_ptr<btCollisionShape>> shapes_;
   std::vector<std::unique_ptr<btRigidBody>> bodies_;  ///< by assembly
-  std::vector<std::unique_ptr<Constraint>> joints_;   ///< by joint; null where it does not act
+  std::vector<std::unique_ptr<Constraint>> joints_;   ///< by joint; null where it is fixed
+  /// By joint, rad or m; of a hinge, after a step, where it should have led.
+  std::vector<double> positions_ = std::vector<double>(scene_.joints.size());
   Filter filter_{*this};
 };
 

@@ -50,8 +50,7 @@ EngineWorld::EngineWorld(const Scene& scene, EngineSetup setup)
 }
 
 void EngineWorld::step() {
-  const double begin = scene_.step * steps_, middle = begin + scene_.step / 2;
-  const double end = scene_.step * ++steps_;
+  const double begin = scene_.step * steps_, end = scene_.step * ++steps_;
   for (std::size_t i = 0; i < assemblies_.size(); ++i) {
     if (assemblies_[i].driven < 0) continue;
     const Body& body = driving(assemblies_[i]);
@@ -60,13 +59,14 @@ void EngineWorld::step() {
           after.pose);
   }
   for (std::size_t i = 0; i < scene_.joints.size(); ++i) {
-    if (scene_.joints[i].motor && acts(scene_.joints[i])) run_motor(i, begin);
+    if (scene_.joints[i].kind != JointKind::fixed) prepare_joint(i, begin);
   }
   for (const Push& p : scene_.pushes) {
+    const double share = p.share(begin, scene_.step);
+    if (share == 0) continue;
     const std::size_t pushed = assembly_of_[p.body];
-    if (middle < p.from || middle >= p.until || !assemblies_[pushed].is_free()) continue;
     const Vec3 arm = states_[p.body].pose.position() - centres_[pushed];
-    push(pushed, p.force, p.torque + arm.cross(p.force));
+    push(pushed, share * p.force, share * (p.torque + arm.cross(p.force)));
   }
   advance();
   for (std::size_t i = 0; i < assemblies_.size() && sound_; ++i) {
@@ -74,15 +74,6 @@ void EngineWorld::step() {
     const Body& body = driving(assemblies_[i]);
     place_bodies(i, driven_state(*body.drive, body.pose, end, scene_.step));
   }
-}
-
-bool EngineWorld::acts(const Joint& joint) const {
-  const std::size_t a = assembly_of_[joint.a];
-  const bool is_free = assemblies_[a].is_free();
-  if (joint.kind == JointKind::fixed) return false;
-  if (joint.b == world_body) return is_free;
-  const std::size_t b = assembly_of_[joint.b];
-  return a != b && (is_free || assemblies_[b].is_free());
 }
 
 Vec3 EngineWorld::belt(int body, int other, const Vec3& normal) const {

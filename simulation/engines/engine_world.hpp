@@ -48,13 +48,10 @@ class EngineWorld : public Simulation {
   virtual void drive(std::size_t assembly, const BodyState& state, const Pose& after) = 0;
   /// Before a step: applies a force at a free assembly's centre of mass, and a torque, for it.
   virtual void push(std::size_t assembly, const Vec3& force, const Vec3& torque) = 0;
-  /// Before a step: sets the motor of a joint, by index in the scene, for the step that begins at a
-  /// time.
-  virtual void run_motor(std::size_t joint, double time) = 0;
+  /// Before a step: sets the motor and the stops of a hinge or slider, by index in the scene, for
+  /// the step that begins at a time.
+  virtual void prepare_joint(std::size_t joint, double time) = 0;
 
-  /// Does a joint hold anything? Not if it is fixed, which assemblies obey, or between bodies that
-  /// forces do not move.
-  bool acts(const Joint& joint) const;
   /// Index of a body's assembly, by index in the scene.
   std::size_t assembly_of(int body) const { return assembly_of_[body]; }
   /// State of an assembly at the start.

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <numbers>
+#include <tuple>
 
 #include "reference/invalid_input.hpp"
 #include "simulation/mechanism_scenes.hpp"
@@ -14,6 +15,8 @@ namespace {
 
 using std::numbers::pi;
 constexpr double gravity = 9.81;
+/// Of a hinge from its limit or its place on paper, rad: MuJoCo's limits are soft.
+constexpr double near_limit = 0.05;
 
 Body ground() { return fixed({.name = "ground", .shape = Plane(Vec3::UnitZ(), 0)}); }
 Joint slider(int a, int b, const Vec3& axis) {
@@ -116,6 +119,40 @@ TEST_P(Joints, MotorsMoveTheFirstBodyRelativeToTheSecondWhicheverIsFixed) {
   }
 }
 
+TEST_P(Joints, HingesKeepTheirLimitsBeyondHalfATurn) {
+  for (const auto& limits : far_limits) {
+    for (const double speed : {-4.0, 4.0}) {
+      for (const char* fixed : {"none", "a", "world"}) {
+        SCOPED_TRACE(fmt::format("{} to {}, {}", limits.first, limits.second, fixed));
+        const MotorScene motor{JointKind::hinge, fixed};
+        Scene scene = motor.scene();
+        scene.duration = 2.5;
+        scene.joints[0].motor =
+            rate(speed, 50 * inertia(scene.bodies[0].shape, 1000).principal.z());
+        std::tie(scene.joints[0].lower, scene.joints[0].upper) = limits;
+        double angle = 0;
+        for (const double within_a_turn :
+             run(scene, [&](const States& s) { return motor.position(s); })) {
+          angle = nearest_turn(within_a_turn, angle);
+        }
+        // A start with a constant acceleration costs half of its time. Two free bodies are alike.
+        const double acceleration = std::string(fixed) == "none" ? 100 : 50;
+        const double free_way = speed * (scene.duration - std::abs(speed) / acceleration / 2);
+        EXPECT_NEAR(angle, turned_within(limits, free_way), near_limit);
+      }
+    }
+  }
+}
+
+TEST_P(Joints, AMotorFollowsAPositionBeyondHalfATurnTheWayItIsTold) {
+  const MotorScene motor{JointKind::hinge, "b"};
+  Scene scene = motor.scene();
+  scene.joints[0].motor = position(3.6, 50 * inertia(scene.bodies[0].shape, 1000).principal.z());
+  scene.joints[0].lower = -0.1;
+  EXPECT_NEAR(nearest_turn(end(scene, [&](const States& s) { return motor.position(s); }), 3), 3.6,
+              1e-3);
+}
+
 // v = F t / m and ω = M t / I.
 TEST_P(Joints, AMotorPushesNoHarderThanItCan) {
   for (const JointKind kind : {JointKind::hinge, JointKind::slider}) {
@@ -128,6 +165,34 @@ TEST_P(Joints, AMotorPushesNoHarderThanItCan) {
     });
     EXPECT_NEAR(speed, 3, 1e-2) << joint_kind_name(kind);
   }
+}
+
+TEST_P(Joints, APushHasItsImpulseWhateverTheStep) {
+  Scene scene;
+  scene.gravity = Vec3::Zero();
+  scene.bodies = {box("a", Vec3::Constant(0.1), Pose())};
+  const double mass = mass_of(scene.bodies[0]);
+  for (const auto& [from, until] : {std::pair{0.1005, 0.1006}, {0.1234, 0.4321}}) {
+    scene.pushes = {{.body = 0, .force = Vec3(2 * mass, 0, 0), .from = from, .until = until}};
+    EXPECT_NEAR(end(scene, [](const States& s) { return s[0].velocity.x(); }), 2 * (until - from),
+                is_single() ? 1e-6 : 1e-12);
+  }
+}
+
+TEST_P(Joints, CountsThePointsThatTheSolverGets) {
+  Scene scene;
+  scene.bodies = {ground(),
+                  box("brick", Vec3(0.1, 0.2, 0.3), at(5, 0, 0.3 - 5e-5)),
+                  {.name = "can", .shape = Cylinder(0.2, 0.3), .pose = at(0, 0, 0.3 - 5e-5)}};
+  const Contained ran = run_contained(
+      [&] {
+        const auto world = in_engine(GetParam(), {.cured = true})(scene);
+        for (int i = 0; i < 10; ++i) world->step();  // Bullet finds a box's corners one by one
+        return std::to_string(world->contacts().points);
+      },
+      max_engine_seconds);
+  // Of the brick's face four, and of the can's cap three, in MuJoCo six.
+  EXPECT_EQ(ran.text, is_mujoco() ? "10" : "7");
 }
 
 TEST_P(Joints, ALoadedMotorKeepsItsRate) {
@@ -286,6 +351,22 @@ TEST_P(Joints, ABeltCarriesWhatLiesOnItWhicheverBodyComesFirst) {
     const double speed =
         end(scene, [&](const States& s) { return s[belt_is_first ? 1 : 0].velocity.norm(); });
     EXPECT_NEAR(speed, 0.5 * gravity * 0.25, 0.03);
+  }
+}
+
+TEST_P(Joints, ADrumThatTurnsByMoreThanHalfATurnInAStepDragsTheRightWayOrIsRefused) {
+  const Scene scene = fast_drum();
+  if (GetParam().starts_with("bullet")) {
+    EXPECT_THAT([&] { check_engine_scene(GetParam(), scene); },
+                testing::ThrowsMessage<InvalidInput>(testing::HasSubstr(
+                    "bodies[0].drive is 4.17 rad in a step: must not be there")));
+    return;
+  }
+  const double speed = end(scene, [](const States& s) { return s[1].velocity.x(); });
+  if (is_mujoco()) {
+    EXPECT_GT(speed, 0) << "its pyramid of friction presses harder, the faster a surface slips";
+  } else {
+    EXPECT_NEAR(speed, 0.5 * gravity * 0.1, 0.1);
   }
 }
 

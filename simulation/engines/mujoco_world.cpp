@@ -117,10 +117,10 @@ class MujocoWorld : public EngineWorld {
     mju_addTo3(on_body + 3, torque.data());
   }
 
-  void run_motor(std::size_t joint, double time) override {
+  void prepare_joint(std::size_t joint, double time) override {
     constexpr double integrated_share = 0.1;  // of the rate's error, per step
     const Joint& driven = scene_.joints[joint];
-    if (driven.motor->max_force <= 0) return;
+    if (!driven.motor || driven.motor->max_force <= 0) return;
     const std::string name = fmt::format("j{}", joint);
     const std::size_t motor = id(mjOBJ_ACTUATOR, name), moved = id(mjOBJ_JOINT, name);
     const double position = data_->qpos[model_->jnt_qposadr[moved]];

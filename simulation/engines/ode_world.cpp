@@ -10,13 +10,15 @@
 // Shapes    dCreateCylinder and so on (ode_scene.hpp); a plane has no pose and is made in world
 //           coordinates. Spheres are several geoms of one body, as are bodies that fixed joints
 //           connect.
-// Joints    Hinges and sliders with stops and motors (dParamVel, dParamFMax), as in our own world.
+// Joints    Hinges and sliders with stops and motors (dParamVel, dParamFMax), as in our own world,
+//           which counts a hinge's turns.
 // Belts     The velocity of a contact's surfaces (dContactMotion1) along its first direction.
 // Drives    Kinematic bodies with the velocity that leads to their next pose, where they are then
 //           put.
 #include <algorithm>
 #include <cmath>
 #include <ode/ode.h>
+#include <optional>
 
 #include "candidates/ode_library.hpp"
 #include "reference/engines/ode.hpp"
@@ -40,7 +42,9 @@ class OdeWorld : public EngineWorld {
     for (std::size_t i = 0; i < assemblies_.size(); ++i) add(i);
     for (const Joint& joint : scene.joints) {
       const dBodyID b = joint.b == world_body ? nullptr : body_of(joint.b);
-      joints_.push_back(acts(joint) ? make_ode_joint(world_, joint, body_of(joint.a), b) : nullptr);
+      joints_.emplace_back();
+      if (joint.kind == JointKind::fixed) continue;
+      joints_.back().emplace(world_, joint, body_of(joint.a), b);
     }
   }
   ~OdeWorld() override {
@@ -61,6 +65,9 @@ class OdeWorld : public EngineWorld {
       static_cast<OdeWorld*>(self)->meet(a, b);
     });
     is_direct_ ? dWorldStep(world_, scene_.step) : dWorldQuickStep(world_, scene_.step);
+    for (auto& joint : joints_) {
+      if (joint) joint->follow(scene_.step);
+    }
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       if (!assemblies_[i].is_free()) continue;
       const dReal* q = dBodyGetQuaternion(bodies_[i]);
@@ -76,8 +83,8 @@ class OdeWorld : public EngineWorld {
     dBodyAddForce(bodies_[assembly], force.x(), force.y(), force.z());
     dBodyAddTorque(bodies_[assembly], torque.x(), torque.y(), torque.z());
   }
-  void run_motor(std::size_t joint, double time) override {
-    touchstone::run_motor(joints_[joint], scene_.joints[joint], time, scene_.step);
+  void prepare_joint(std::size_t joint, double time) override {
+    joints_[joint]->prepare(time, scene_.step);
   }
 
  private:
@@ -133,8 +140,8 @@ class OdeWorld : public EngineWorld {
   dWorldID world_;
   dSpaceID space_;
   dJointGroupID contacts_;
-  std::vector<dBodyID> bodies_;   ///< by assembly; null where it is fixed
-  std::vector<dJointID> joints_;  ///< by joint; null where it does not act
+  std::vector<dBodyID> bodies_;                  ///< by assembly; null where it is fixed
+  std::vector<std::optional<OdeJoint>> joints_;  ///< by joint; none where it is fixed
   int points_ = 0;
 };
 

@@ -6,6 +6,7 @@
 #include <dlfcn.h>
 #include <filesystem>
 #include <fmt/format.h>
+#include <numbers>
 #include <stdexcept>
 
 #include <nlohmann/json.hpp>
@@ -78,6 +79,20 @@ std::string to_text(const EngineResult& r) {
   return runs.dump();
 }
 
+/// Largest angle that a drive turns a body by in a step. Between waypoints it is half a turn at
+/// most.
+struct AngleOfAStep {
+  double step;  // s
+
+  double operator()(const SteadyMotion& m) const { return step * m.angular_velocity.norm(); }
+  double operator()(const Oscillation& o) const {
+    constexpr double from_end_to_end = 2;
+    const double share = 2 * std::numbers::pi * o.frequency * step;
+    return std::min(share, from_end_to_end) * o.turn.norm();
+  }
+  double operator()(const Waypoints&) const { return 0; }
+};
+
 }  // namespace
 
 std::string engine_shape_name(const EngineShape& shape) {
@@ -110,6 +125,13 @@ void check_engine_scene(const std::string& engine, const Scene& scene) {
         field, what,
         "must not be there with --engine: the world of " + engine + " has " + without + " here");
   };
+  for (std::size_t i = 0; engine.starts_with("bullet") && i < scene.bodies.size(); ++i) {
+    const auto& drive = scene.bodies[i].drive;
+    const double angle = drive ? std::visit(AngleOfAStep{scene.step}, *drive) : 0;
+    if (angle < std::numbers::pi) continue;
+    refuse(fmt::format("bodies[{}].drive", i), fmt::format("{:.3g} rad in a step", angle),
+           "driven bodies that turn by less than half a turn in a step");
+  }
   if (engine != "mujoco") return;
   if (const auto loop = loop_closing_joint(scene)) {
     refuse(fmt::format("joints[{}]", *loop), '"' + scene.joints[*loop].name + '"',

@@ -92,6 +92,15 @@ TEST(Needs, RollsIsAShareOfTheHorizontalDistance) {
               1e-12);
 }
 
+TEST(Needs, WhatExactlyRollsNowhereMustNotRollEither) {
+  const std::string rolls = R"("need":"rolls","body":"can","share":0.1)";
+  EXPECT_EQ(judged(rolls, still).value, 0);
+  const Trajectory rolling = motion([](int, double t) { return tilted(0, Vec3(0.01 * t, 0, 0)); });
+  const Verdict verdict = judged(rolls, rolling, still);
+  EXPECT_FALSE(verdict.holds());
+  EXPECT_NEAR(verdict.value, 0.01 / (1e-6 * 0.2), 1e-6) << "of a millionth of its width";
+}
+
 TEST(Needs, RestsCountsSpeedAndSpinFromItsTime) {
   const Trajectory slowing = motion([](int body, double t) {
     BodyState s = tilted(0);
@@ -246,6 +255,16 @@ TEST(RunWith, AsksTheCandidateOfEachKindOfPairs) {
   ASSERT_GE(run.answers.size(), 2U);
   EXPECT_EQ(run.answers[0].points, 3);  // a cap
   EXPECT_EQ(run.answers[1].points, 1);  // a round end
+}
+
+TEST(RunScene, CountsThePointsOfAllPairsThatTheSolverGets) {
+  Scene scene = two_cans(1, 5e-5);
+  Body brick{"brick", Box(Vec3(0.1, 0.2, 0.3))};
+  brick.pose = Pose(Vec3(5, 0, 0.3 - 5e-5));
+  scene.bodies.push_back(brick);
+  Processes processes({});
+  CandidateModel model(processes.of(find_candidate("reference")));
+  EXPECT_EQ(run_scene(scene, model).points, 3 + 3 + 4);
 }
 
 // The kinds are those of the scene as it is written, whatever the order of the disturbed bodies.
@@ -572,6 +591,34 @@ TEST(DisturbedScenes, MoveMechanismsAsOneAndLeaveAloneWhatIsHeldOrDriven) {
       const Pose found = driven_pose(*is.drive, is.pose, 0.3);
       EXPECT_LT((back * found.position() - expected.position()).norm(), 1e-14);
       EXPECT_LT((back.toRotationMatrix() * found.rotation() - expected.rotation()).norm(), 1e-14);
+    }
+  }
+}
+
+TEST(DisturbedScenes, TurnVelocitiesWithWhatMoves) {
+  const Vec3 spin(0, 6, 8), speed(0.5, -0.2, 0), arm(0.1, 0, 0);
+  Scene written;
+  for (const char* name : {"left", "right"}) {
+    Body half{name, Box(Vec3(0.04, 0.04, 0.04))};
+    half.velocity = speed;
+    half.angular_velocity = spin;
+    written.bodies.push_back(half);
+  }
+  written.bodies[1].pose = Pose(arm);
+  written.bodies[1].velocity += spin.cross(arm);
+  written.joints = {{"weld", JointKind::fixed, 1, 0}};
+  for (std::size_t d = 1; d <= 40; ++d) {
+    const DisturbedScene disturbed(written, 7, d);
+    ASSERT_NO_THROW(check_scene(disturbed.scene)) << d;
+    const bool is_in_order = disturbed.origin[0] == 0;
+    const Body& left = disturbed.scene.bodies[is_in_order ? 0 : 1];
+    const Body& right = disturbed.scene.bodies[is_in_order ? 1 : 0];
+    const Vec3 between = right.pose.position() - left.pose.position();
+    EXPECT_LT((right.velocity - left.velocity - left.angular_velocity.cross(between)).norm(), 1e-13)
+        << d;
+    // In its own frame each body spins as it is written.
+    for (const Body* body : {&left, &right}) {
+      EXPECT_LT((body->pose.rotation().transpose() * body->angular_velocity - spin).norm(), 1e-13);
     }
   }
 }

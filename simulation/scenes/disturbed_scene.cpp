@@ -155,11 +155,11 @@ DisturbedScene::DisturbedScene(const Scene& written, std::uint64_t seed, std::si
       d.turn = draw_turn(draw, max_angle);
       d.kick = draw_vector(draw, max_kick * std::sqrt(2 * written.gravity.norm() * width));
     }
-    if (!held[which]) body.velocity += d.kick;
     body.pose =
         Pose(turn * d.moved(from.pose.position()), turn * d.turn * from.pose.unit_orientation());
-    body.velocity = turn * body.velocity;
-    body.angular_velocity = turn * body.angular_velocity;
+    // Turned with the poses: what is joined still moves as one.
+    body.velocity = turn * (d.turn * from.velocity + d.kick);
+    body.angular_velocity = turn * d.turn * from.angular_velocity;
     if (body.drive) body.drive = std::visit(TurnDrive{turn}, *from.drive);
   }
   for (Joint& joint : scene.joints) {

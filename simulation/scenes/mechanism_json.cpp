@@ -147,12 +147,6 @@ Joint joint_from_json(const json& value, const std::string& path, const Scene& s
   result.axis = axis / length;
   if (value.contains("limits")) {
     const auto [lower, upper] = numbers<2>(value["limits"], path + ".limits");
-    for (int i = 0; turns && i < 2; ++i) {
-      const double limit = i == 0 ? lower : upper;
-      if (std::abs(limit) <= 180) continue;
-      throw InvalidInput(fmt::format("{}.limits[{}]", path, i), fmt::format("{}", limit),
-                         "must lie between -180 and 180");
-    }
     result.lower = unit * lower;
     result.upper = unit * upper;
   }
@@ -172,6 +166,18 @@ Push push_from_json(const json& value, const std::string& path, const Scene& sce
   return result;
 }
 
+namespace {
+
+/// Does the body lie on the outer side of a plane?
+bool is_above(const Body& body, const Body& plane) {
+  const Plane& shape = std::get<Plane>(plane.shape);
+  const Vec3 normal = plane.pose.rotation() * shape.unit_normal();
+  const double height = shape.unit_displacement() + normal.dot(plane.pose.position());
+  return -support(body.shape, body.pose, -normal) >= height;
+}
+
+}  // namespace
+
 void add_drop(const json& value, const std::string& path, Body like, Scene& scene) {
   constexpr std::uint64_t max_count = 1000;
   constexpr int max_tries = 1000;  // for each body
@@ -185,8 +191,13 @@ void add_drop(const json& value, const std::string& path, Body like, Scene& scen
     throw InvalidInput(path + ".upper", shown(value["upper"]), "must be above lower in each part");
   }
   std::vector<Aabb> taken;
+  std::vector<Body> planes;
   for (const Body& body : scene.bodies) {
-    if (!std::holds_alternative<Plane>(body.shape)) taken.push_back(aabb(body.shape, body.pose));
+    if (std::holds_alternative<Plane>(body.shape)) {
+      planes.push_back(body);
+    } else {
+      taken.push_back(aabb(body.shape, body.pose));
+    }
   }
   const std::string name = like.name;
   Draw draw(rc::Random(rc::Random::Key{seed, 0, 0, 0}));
@@ -203,7 +214,8 @@ void add_drop(const json& value, const std::string& path, Body like, Scene& scen
       like.pose = Pose(position, turn);
       const Aabb box = aabb(like.shape, like.pose);
       const bool is_inside =
-          (box.lower - lower).minCoeff() >= 0 && (upper - box.upper).minCoeff() >= 0;
+          (box.lower - lower).minCoeff() >= 0 && (upper - box.upper).minCoeff() >= 0 &&
+          std::ranges::all_of(planes, [&](const Body& plane) { return is_above(like, plane); });
       if (is_inside && std::none_of(taken.begin(), taken.end(),
                                     [&](const Aabb& other) { return other.overlaps(box); })) {
         taken.push_back(box);

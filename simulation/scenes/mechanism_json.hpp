@@ -23,7 +23,7 @@ Joint joint_from_json(const nlohmann::json& value, const std::string& path, cons
 Push push_from_json(const nlohmann::json& value, const std::string& path, const Scene& scene);
 
 /// Reads an element of "drops" and adds its bodies, copies of `like`, to the scene: at random poses
-/// within a box, such that none overlaps another's axis-aligned bounding box.
+/// within a box, above all planes, such that none overlaps another's axis-aligned bounding box.
 void add_drop(const nlohmann::json& value, const std::string& path, Body like, Scene& scene);
 
 }  // namespace touchstone

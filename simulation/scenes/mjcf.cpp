@@ -147,16 +147,12 @@ bool collides(const mjModel& m, int geom) {
   return m.geom_contype[geom] != 0 || m.geom_conaffinity[geom] != 0;
 }
 
-/// By its masks, may one of the geoms of a body touch one of the other's?
-bool masks_meet(const mjModel& m, int body, int other) {
-  const auto end = [&](int b) { return m.body_geomadr[b] + m.body_geomnum[b]; };
-  for (int g = m.body_geomadr[body]; g < end(body); ++g) {
-    for (int h = m.body_geomadr[other]; h < end(other); ++h) {
-      if (m.geom_contype[g] & m.geom_conaffinity[h]) return true;
-      if (m.geom_contype[h] & m.geom_conaffinity[g]) return true;
-    }
-  }
-  return false;
+/// Does MuJoCo keep two bodies apart because one is welded to the parent of what the other one is
+/// welded to? Not from what the world holds.
+bool is_parent_and_child(const mjModel& m, int body, int other) {
+  const int a = m.body_weldid[body], b = m.body_weldid[other];
+  const auto parent = [&](int weld) { return m.body_weldid[m.body_parentid[weld]]; };
+  return a != 0 && b != 0 && (parent(a) == b || parent(b) == a);
 }
 
 class Reading {
@@ -200,8 +196,11 @@ class Reading {
       }
       const Pose X_WG = within(link.pose, m_.geom_pos + 3 * static_cast<std::ptrdiff_t>(g),
                                m_.geom_quat + 4 * static_cast<std::ptrdiff_t>(g));
-      link.shapes.push_back(
-          {name, *shape, X_WG, m_.geom_friction[3 * static_cast<std::ptrdiff_t>(g)]});
+      link.shapes.push_back({name,
+                             *shape,
+                             X_WG,
+                             m_.geom_friction[3 * static_cast<std::ptrdiff_t>(g)],
+                             {m_.geom_contype[g], m_.geom_conaffinity[g]}});
     }
     if (m_.body_mass[b] > 0) {
       const auto of_body = [&](const mjtNum* all, int count) {
@@ -251,7 +250,9 @@ class Reading {
       joint.name = "weld of " + body_name(b);
       joints.push_back(joint);
     }
-    int from = parent == 0 ? world_body : parent;
+    // What the world holds stands for it: MuJoCo lets a body touch that, though a joint of ours of
+    // the two would not.
+    int from = m_.body_weldid[parent] == 0 ? world_body : parent;
     for (std::size_t i = 0; i < joints.size(); ++i) {
       LinkJoint& joint = joints[i];
       joint.parent = from;
@@ -299,7 +300,7 @@ class Reading {
     }
   }
 
-  /// MuJoCo's `exclude`, and bodies whose masks do not meet.
+  /// MuJoCo's `exclude`, and parents and children, also with links in between.
   void keep_apart() {
     for (int i = 0; i < m_.nexclude; ++i) {
       const int signature = m_.exclude_signature[i];
@@ -309,21 +310,39 @@ class Reading {
     if (m_.nbody > static_cast<int>(max_links)) return;  // such a file is refused
     for (int b = 0; b < m_.nbody; ++b) {
       for (int other = b + 1; other < m_.nbody; ++other) {
-        if (!masks_meet(m_, b, other)) result_.apart.emplace_back(b, other);
+        if (is_parent_and_child(m_, b, other)) result_.apart.emplace_back(b, other);
       }
     }
+  }
+
+  void note_unread_of_joints() {
+    UnreadOfJoints unread;
+    for (int j = 0; j < m_.njnt; ++j) {
+      const std::string name = model_.name(mjOBJ_JOINT, "joint", j);
+      const int dof = m_.jnt_dofadr[j];
+      unread.add("damping", m_.dof_damping[dof], name);
+      unread.add("friction", m_.dof_frictionloss[dof], name);
+      unread.add("armature", m_.dof_armature[dof], name);
+      unread.add("the spring", m_.jnt_stiffness[j], name);
+    }
+    unread.note(result_);
   }
 
   void note_others() {
     const auto note = [&](int count, const char* what) {
       if (count > 0) result_.ignored.push_back(fmt::format("{} {}: not read", count, what));
     };
+    note_unread_of_joints();
     note(m_.ntendon, m_.ntendon == 1 ? "tendon" : "tendons");
     note(m_.neq, m_.neq == 1 ? "equality constraint" : "equality constraints");
     note(m_.npair, m_.npair == 1 ? "contact pair" : "contact pairs");
     note(m_.nsite, m_.nsite == 1 ? "site" : "sites");
     note(m_.nsensor, m_.nsensor == 1 ? "sensor" : "sensors");
     note(m_.nkey, m_.nkey == 1 ? "keyframe" : "keyframes");
+    if (m_.opt.disableflags & mjDSBL_FILTERPARENT) {
+      result_.ignored.emplace_back(
+          "flag filterparent: not read; a body does not touch its parent here");
+    }
   }
 
   Model model_;

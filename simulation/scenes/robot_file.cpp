@@ -6,6 +6,7 @@
 #include <cstring>
 #include <exception>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <sstream>
 #include <sys/mman.h>
 #include <sys/resource.h>
@@ -26,7 +27,7 @@ namespace {
 // The members of each type, once for writing and reading.
 template <class Archive, class T>
 void members(Archive& a, T& x) requires std::is_same_v<std::remove_const_t<T>, LinkShape> {
-  a(x.name, x.shape, x.pose, x.friction);
+  a(x.name, x.shape, x.pose, x.friction, x.mask.types, x.mask.meets);
 }
 template <class Archive, class T>
 void members(Archive& a, T& x) requires std::is_same_v<std::remove_const_t<T>, LinkInertia> {
@@ -382,6 +383,25 @@ void set_inertia(Link& link, const Pose& frame, const Eigen::Matrix3d& moments, 
   if (axes.determinant() < 0) axes.col(0) *= -1;
   link.inertia = {Pose(frame.position(), frame.unit_orientation() * Eigen::Quaterniond(axes)),
                   principal.eigenvalues()};
+}
+
+void UnreadOfJoints::add(const char* property, double value, const std::string& joint) {
+  if (value != 0 && std::isfinite(value)) joints_[property].push_back(joint);
+}
+
+void UnreadOfJoints::note(RobotFile& robot) const {
+  constexpr std::size_t max_named = 3;
+  for (const auto& [property, joints] : joints_) {
+    const std::size_t count = joints.size();
+    const bool names_all = count <= max_named + 1;
+    const std::vector<std::string> named(joints.begin(),
+                                         names_all ? joints.end() - 1 : joints.begin() + max_named);
+    const std::string last =
+        names_all ? joints.back() : fmt::format("{} others", count - max_named);
+    robot.ignored.push_back(count == 1 ? fmt::format("{} of joint {}: not read", property, last)
+                                       : fmt::format("{} of joints {} and {}: not read", property,
+                                                     fmt::join(named, ", "), last));
+  }
 }
 
 std::string library_complaint() {

@@ -16,12 +16,23 @@
 
 namespace touchstone {
 
+/// Bits that say what a shape may touch: what has one of its `meets` among its `types`, or the
+/// other way round. MuJoCo's contype and conaffinity.
+struct CollisionMask {
+  int types = 1, meets = 1;
+
+  bool touches(const CollisionMask& other) const {
+    return (types & other.meets) != 0 || (other.types & meets) != 0;
+  }
+};
+
 /// A collision shape of a link, with every joint in its default position.
 struct LinkShape {
   std::string name;  ///< "link/collision", of a world "model::link/collision"
   Shape shape;
   Pose pose;                            ///< in the world; for a robot, in its root link
   std::optional<double> friction = {};  ///< Coulomb's coefficient, where the file gives it
+  CollisionMask mask = {};
 };
 
 /// Where the mass of a link is.
@@ -90,13 +101,14 @@ struct RobotMotion {
   double duration = 2;                                ///< s
   std::vector<std::pair<std::string, double>> rates;  ///< of driven joints, rad/s or m/s
   std::vector<std::string> loose;                     ///< joints in which no motor holds
-  bool has_fixed_base = false;                        ///< the root link of a robot is held
+  bool has_fixed_base = false;                        ///< the root link of the robot is held
 };
 
 /// A scene of the robot, at rest at the start: a body for each shape, fixed joints between those of
 /// a link, motors that hold the other joints or drive them; under a robot a ground plane, which it
 /// touches with its lowest point. What overlaps at the start never touches. Throws InvalidInput
-/// (field "--drive") on an unknown joint, with the nearest names.
+/// (field "--drive") on an unknown joint, with the nearest names, and (field "--fixed-base") unless
+/// there is one base that it could hold.
 SceneFile robot_scene(const RobotFile& robot, const RobotMotion& motion);
 
 /// Gives the scene of a robot needs derived from its run with exact contacts, whose answers may
@@ -118,6 +130,18 @@ RobotFile read_mjcf(const std::filesystem::path& file);
 /// about the axes of a frame in its centre of mass. If no body can have them, or hardly one of
 /// these shapes, it only gets the centre, and the robot a note.
 void set_inertia(Link& link, const Pose& frame, const Eigen::Matrix3d& moments, RobotFile& robot);
+
+/// What joints have beside limits and motors, which nothing here obeys.
+class UnreadOfJoints {
+ public:
+  /// Notes a property of a joint ("damping") unless its value is zero or not finite.
+  void add(const char* property, double value, const std::string& joint);
+  /// Adds "damping of joints elbow and wrist: not read", one note for each property.
+  void note(RobotFile& robot) const;
+
+ private:
+  std::map<std::string, std::vector<std::string>> joints_;  ///< by property
+};
 
 /// What a library has said on standard error up to now, in one line: its first error. Empty outside
 /// of `read_robot`.

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "reference/invalid_input.hpp"
+#include "simulation/assembly.hpp"
 #include "simulation/scenes/robot_file.hpp"
 
 namespace touchstone {
@@ -81,7 +82,9 @@ TEST(Urdf, SaysWhatItIgnores) {
                        "moves by itself"));
   EXPECT_THAT(ignored, Contains("transmission shoulder_transmission: not read"));
   EXPECT_THAT(ignored, Contains("gazebo forearm_link: not read but for its mu1"));
-  EXPECT_EQ(ignored.size(), 4U);
+  EXPECT_THAT(ignored, Contains("the largest speed of joints elbow_joint, left_finger_joint, "
+                                "right_finger_joint and shoulder_pan_joint: not read"));
+  EXPECT_EQ(ignored.size(), 5U);
 }
 
 TEST(Sdf, GivesShapesWhereTheyAreInTheWorld) {
@@ -346,6 +349,33 @@ TEST(Urdf, SaysWhatItDoesInsteadOfOtherJoints) {
   EXPECT_TRUE(ignored("fixed").empty());
 }
 
+TEST(Urdf, SaysWhatOfItsJointsItIgnores) {
+  const auto ignored = [](const std::string& content) {
+    const Written file("joint.urdf", wheeled(joint_of("continuous", content)));
+    return read_robot(file.path).ignored;
+  };
+  EXPECT_THAT(ignored("<dynamics damping='0.5' friction='0.1'/><limit effort='1' velocity='9'/>"),
+              testing::UnorderedElementsAre("damping of joint axle: not read",
+                                            "friction of joint axle: not read",
+                                            "the largest speed of joint axle: not read"));
+  EXPECT_THAT(ignored("<dynamics damping='0' friction='0'/><limit effort='1' velocity='0'/>"),
+              testing::IsEmpty());
+}
+
+TEST(RobotFiles, SayOnceWhatOfManyJointsIsNotRead) {
+  UnreadOfJoints unread;
+  const auto said = [&] {
+    RobotFile robot;
+    unread.note(robot);
+    return robot.ignored.at(0);
+  };
+  unread.add("damping", 0, "none");
+  for (const char* joint : {"a", "b"}) unread.add("damping", 1, joint);
+  EXPECT_EQ(said(), "damping of joints a and b: not read");
+  for (const char* joint : {"c", "d", "e"}) unread.add("damping", 1, joint);
+  EXPECT_EQ(said(), "damping of joints a, b, c and 2 others: not read");
+}
+
 TEST(Urdf, ReadsTheFrictionOfGazebosElement) {
   const RobotFile robot = read_robot(scenes / "rover.urdf");
   EXPECT_EQ(named(robot, "front_left_wheel/tyre").friction, 0.9);
@@ -466,6 +496,41 @@ TEST(Sdf, SaysWhatItDoesInsteadOfOtherJoints) {
   EXPECT_EQ(by_name(robot.joints, "m::j").kind, JointKind::fixed);
 }
 
+TEST(Sdf, SaysWhatOfAWorldAndItsJointsItIgnores) {
+  const std::string link =
+      "<collision name='c'><geometry><sphere><radius>1</radius></sphere>"
+      "</geometry></collision></link>";
+  const auto ignored = [&](const std::string& of_world, const std::string& of_axis) {
+    const Written file("axis.sdf",
+                       "<sdf version='1.7'><world name='w'>" + of_world +
+                           "<model name='m'><link name='a'>" + link + "<link name='b'>" + link +
+                           "<joint name='j' type='revolute'><parent>a</parent><child>b</child>"
+                           "<axis><xyz>0 0 1</xyz>" +
+                           of_axis + "</axis></joint></model></world></sdf>");
+    return read_robot(file.path).ignored;
+  };
+  EXPECT_THAT(
+      ignored("<physics name='fast' type='ode'><max_step_size>0.002</max_step_size></physics>"
+              "<state world_name='w'/>",
+              "<limit><velocity>3</velocity></limit><dynamics><damping>1</damping>"
+              "<friction>2</friction><spring_stiffness>4</spring_stiffness></dynamics>"),
+      testing::UnorderedElementsAre(
+          "physics fast: not read", "state w: not read", "damping of joint m::j: not read",
+          "friction of joint m::j: not read", "the spring of joint m::j: not read",
+          "the largest speed of joint m::j: not read"));
+  EXPECT_THAT(ignored("", "<limit><velocity>-1</velocity></limit>"), testing::IsEmpty());
+}
+
+TEST(Mjcf, SaysWhatOfItsJointsItIgnores) {
+  const Written file("joint.xml", R"(<mujoco><worldbody><body>
+    <joint name="j" damping="1" frictionloss="2" armature="3" stiffness="4"/><geom size="0.1"/>
+    <body pos="1 0 0"><joint name="plain"/><geom size="0.1"/></body></body></worldbody></mujoco>)");
+  EXPECT_THAT(read_robot(file.path).ignored,
+              testing::UnorderedElementsAre(
+                  "damping of joint j: not read", "friction of joint j: not read",
+                  "armature of joint j: not read", "the spring of joint j: not read"));
+}
+
 TEST(Mjcf, GivesShapesJointsAndActuators) {
   const RobotFile robot = read_robot(scenes / "pincer.xml");
   EXPECT_EQ(robot.name, "pincer");
@@ -506,6 +571,59 @@ TEST(Mjcf, ABodyWithSeveralJointsGetsLinksInBetween) {
   EXPECT_EQ(x.child, turn.parent);
   EXPECT_EQ(robot.links[turn.child].name, "b");
   EXPECT_FALSE(x.holds);  // MuJoCo has no motor there
+}
+
+/// Which of the shapes of an MJCF world may touch, as "a b, a c": in the order of the file.
+std::string touching(const std::string& worldbody) {
+  const Written file("touch.xml", "<mujoco><worldbody>" + worldbody + "</worldbody></mujoco>");
+  const Scene scene = robot_scene(read_robot(file.path), {}).scene;
+  const Touching may(scene);
+  std::string pairs;
+  for (int a = 0; a < static_cast<int>(scene.bodies.size()); ++a) {
+    for (int b = a + 1; b < static_cast<int>(scene.bodies.size()); ++b) {
+      if (!may(a, b)) continue;
+      pairs += (pairs.empty() ? "" : ", ") + scene.bodies[a].name + ' ' + scene.bodies[b].name;
+    }
+  }
+  return pairs;
+}
+
+TEST(Mjcf, ABodyDoesNotTouchItsParentHoweverManyJointsAreBetween) {
+  const std::string geom = "<geom size='0.1'/>", two_joints = "<joint axis='1 0 0'/><joint/>";
+  EXPECT_EQ(
+      touching("<body name='a'><freejoint/>" + geom + "<body name='b' pos='1 0 0'>" + two_joints +
+               geom + "<body name='welded' pos='1 0 0'>" + geom + "<body name='c' pos='1 0 0'>" +
+               two_joints + geom + "</body></body></body></body>"),
+      "a c");
+}
+
+TEST(Mjcf, ABodyTouchesAParentThatTheWorldHolds) {
+  const std::string geom = "<geom size='0.1'/>";
+  EXPECT_EQ(touching("<body name='base'>" + geom + "<body name='arm' pos='1 0 0'><joint/>" + geom +
+                     "</body></body>"),
+            "base arm");
+}
+
+TEST(Mjcf, GeomsTouchByTheirOwnMasks) {
+  EXPECT_EQ(touching(R"(<body name="a"><freejoint/>
+      <geom name="low" size="0.1" contype="2" conaffinity="0"/>
+      <geom name="high" pos="0 0 1" size="0.1"/></body>
+    <body name="b" pos="3 0 0"><freejoint/>
+      <geom name="left" size="0.1" contype="0" conaffinity="2"/>
+      <geom name="right" pos="0 0 1" size="0.1"/></body>)"),
+            "a/low b/left, a/high b/right");
+}
+
+TEST(Mjcf, ARootWithAFreejointIsABaseThatCanBeHeld) {
+  const Written file("free.xml", R"(<mujoco><worldbody><geom type="plane" size="1 1 1"/>
+    <body name="base" pos="0 0 1"><freejoint/><geom type="sphere" size="0.1"/>
+      <body name="arm" pos="0 0 1"><joint axis="0 1 0"/><geom type="sphere" size="0.1"/></body>
+    </body></worldbody></mujoco>)");
+  RobotMotion motion;
+  motion.has_fixed_base = true;
+  const Scene scene = robot_scene(read_robot(file.path), motion).scene;
+  EXPECT_TRUE(by_name(scene.bodies, "base").fixed);
+  EXPECT_FALSE(by_name(scene.bodies, "arm").fixed);
 }
 
 TEST(Mjcf, ThatAsksForAllMemoryIsRefused) {

@@ -90,8 +90,11 @@ class SceneMaker {
     scene.gravity = robot_.gravity;
     scene.duration = motion_.duration;
     if (robot_.step) scene.step = *robot_.step;
-    if (motion_.has_fixed_base && !robot_.is_world) links_.front().fixed = true;
     find_robots();
+    if (motion_.has_fixed_base) {
+      links_[base()].fixed = true;
+      find_robots();
+    }
     find_kept();
     check_names();
     for (std::size_t l = 0; l < links_.size(); ++l) add_link(l);
@@ -111,6 +114,51 @@ class SceneMaker {
   bool is_moving(int link) const { return link != world_body && !links_[link].fixed; }
   bool has_body(int link) const { return link != world_body && !bodies_of_[link].empty(); }
 
+  /// The first link of a robot that is no joint's child.
+  std::size_t root_of(int robot) const {
+    std::set<int> children;
+    for (const LinkJoint& joint : robot_.joints) {
+      if (is_moving(joint.child) && is_moving(joint.parent)) children.insert(joint.child);
+    }
+    for (std::size_t l = 0; l < links_.size(); ++l) {
+      if (robot_of_[l] == robot && !children.contains(static_cast<int>(l))) return l;
+    }
+    return static_cast<std::size_t>(robot);  // a circle of joints
+  }
+
+  /// The link that --fixed-base holds: in a world, that of the only robot without a hold on it; a
+  /// loose part without joints counts only where there is nothing else.
+  std::size_t base() const {
+    if (!robot_.is_world) return root_of(robot_of_.front());
+    std::set<int> jointed, held;  // robots
+    for (const LinkJoint& joint : robot_.joints) {
+      for (const auto& [link, other] :
+           {std::pair{joint.child, joint.parent}, {joint.parent, joint.child}}) {
+        if (!is_moving(link)) continue;
+        jointed.insert(robot_of_[link]);
+        if (!is_moving(other)) held.insert(robot_of_[link]);
+      }
+    }
+    std::set<int> roots;
+    for (std::size_t l = 0; l < links_.size(); ++l) {
+      const bool counts = jointed.empty() || jointed.contains(robot_of_[l]);
+      if (!links_[l].fixed && counts && !held.contains(robot_of_[l])) {
+        roots.insert(static_cast<int>(root_of(robot_of_[l])));
+      }
+    }
+    if (roots.size() == 1) return static_cast<std::size_t>(*roots.begin());
+    std::vector<std::string> names;
+    for (const int root : roots) names.push_back(links_[root].name);
+    throw InvalidInput(
+        "--fixed-base", "given",
+        names.empty()
+            ? std::string("must not be: no robot here moves freely, so that there is no base to "
+                          "hold")
+            : fmt::format("must not be: {} robots move freely, with the bases {}; it holds that of "
+                          "one alone",
+                          names.size(), fmt::join(names, ", ")));
+  }
+
   /// Numbers the robots: links that joints connect, other than through the world.
   void find_robots() {
     robot_of_.resize(links_.size());
@@ -124,7 +172,7 @@ class SceneMaker {
         a = b = std::min(a, b);
       }
     }
-    masses_.resize(links_.size(), 0);
+    masses_.assign(links_.size(), 0);
     for (std::size_t l = 0; l < links_.size(); ++l) masses_[robot_of_[l]] += mass_of(links_[l]);
   }
 
@@ -339,9 +387,8 @@ class SceneMaker {
     if (joint.kind != JointKind::fixed) {
       made.anchor = joint.anchor;
       made.axis = (turned ? -1 : 1) * joint.axis.normalized();
-      const double max = joint.kind == JointKind::hinge ? std::numbers::pi : max_in_world;
-      made.lower = joint.lower < -max ? -infinity : std::min(joint.lower, 0.0);
-      made.upper = joint.upper > max ? infinity : std::max(joint.upper, 0.0);
+      made.lower = joint.lower < -max_in_world ? -infinity : std::min(joint.lower, 0.0);
+      made.upper = joint.upper > max_in_world ? infinity : std::max(joint.upper, 0.0);
       made.motor = motor_of(joint, turned ? joint.parent : joint.child);
     }
     file_.scene.joints.push_back(made);
@@ -353,6 +400,17 @@ class SceneMaker {
     }
   }
 
+  /// Keeps apart the shapes of two links whose masks do not meet.
+  void keep_masks(std::size_t link, std::size_t other) {
+    const auto &shapes = links_[link].shapes, &others = links_[other].shapes;
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+      for (std::size_t j = 0; j < others.size(); ++j) {
+        if (shapes[i].mask.touches(others[j].mask)) continue;
+        file_.scene.apart.emplace_back(bodies_of_[link][i], bodies_of_[other][j]);
+      }
+    }
+  }
+
   /// Keeps apart what the file does, and links of a robot that overlap at the start: they stand for
   /// parts that are built into each other.
   void keep_apart() {
@@ -360,6 +418,7 @@ class SceneMaker {
     const std::vector<Body>& bodies = file_.scene.bodies;
     for (std::size_t l = 0; l < links_.size(); ++l) {
       for (std::size_t k = l + 1; k < links_.size(); ++k) {
+        keep_masks(l, k);
         if (robot_of_[l] != robot_of_[k]) continue;
         const bool is_one = std::ranges::any_of(bodies_of_[l], [&](int a) {
           return std::ranges::any_of(bodies_of_[k], [&](int b) {
@@ -424,7 +483,7 @@ class SceneMaker {
   const RobotFile& robot_;
   const RobotMotion& motion_;
   std::vector<Link> links_;
-  std::vector<std::vector<int>> bodies_of_;  ///< by link
+  std::vector<std::vector<int>> bodies_of_;  ///< by link: one for each shape, or a ball
   std::vector<int> robot_of_;                ///< by link
   std::vector<double> masses_;               ///< by robot, kg
   std::vector<bool> kept_;                   ///< by link

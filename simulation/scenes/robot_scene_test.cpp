@@ -129,6 +129,47 @@ TEST(RobotScene, TheRootIsHeldByOption) {
   EXPECT_FALSE(body(robot_scene(two_balls(), motion).scene, "b").fixed);
 }
 
+TEST(RobotScene, TheRootIsHeldThoughItsChildrenAreListedFirst) {
+  RobotFile robot = two_balls();
+  std::swap(robot.joints[0].parent, robot.joints[0].child);
+  RobotMotion motion;
+  motion.has_fixed_base = true;
+  EXPECT_FALSE(body(robot_scene(robot, motion).scene, "a").fixed);
+  EXPECT_TRUE(body(robot_scene(robot, motion).scene, "b").fixed);
+}
+
+TEST(RobotScene, TheRootOfTheOnlyRobotOfAWorldIsHeld) {
+  RobotFile world = two_balls();
+  world.is_world = true;
+  world.links.insert(world.links.begin(), ball("barrel", Vec3(9, 9, 1)));
+  world.joints = {hinge("elbow", 1, 2)};
+  RobotMotion motion;
+  motion.has_fixed_base = true;
+  const Scene scene = robot_scene(world, motion).scene;
+  EXPECT_TRUE(body(scene, "a").fixed);
+  EXPECT_FALSE(body(scene, "b").fixed);
+  EXPECT_FALSE(body(scene, "barrel").fixed);
+
+  const auto refusal = [&] {
+    try {
+      robot_scene(world, motion);
+    } catch (const InvalidInput& e) {
+      return std::string(e.what());
+    }
+    return std::string("accepted");
+  };
+  world.links.push_back(ball("c", Vec3(5, 0, 1)));
+  world.links.push_back(ball("d", Vec3(6, 0, 1)));
+  world.joints.push_back(hinge("knee", 3, 4));
+  EXPECT_EQ(refusal(),
+            "--fixed-base is given: must not be: 2 robots move freely, with the bases "
+            "a, c; it holds that of one alone");
+  world.joints.push_back(hinge("hip", world_body, 3));
+  EXPECT_EQ(refusal(), "accepted") << "the second robot hangs on the world";
+  world.joints.push_back(hinge("waist", world_body, 1));
+  EXPECT_THAT(refusal(), HasSubstr("no robot here moves freely"));
+}
+
 TEST(RobotScene, ALengthOfTooManyStepsIsRefused) {
   RobotFile robot = two_balls();
   robot.step = 1e-6;

@@ -272,6 +272,23 @@ TEST(SceneFile, DropsItsBodiesApartWithinTheirBoxBySeed) {
   EXPECT_NE(poses()[7].pose.position(), rods[7].pose.position());
 }
 
+TEST(SceneFile, DropsNothingBelowAPlane) {
+  json file = gripper_scene();
+  json& tilted = file["bodies"][2];
+  tilted["shape"] = {{"shape", "plane"}, {"normal", {0, 3, 4}}, {"displacement", 0.5}};
+  tilted["pose"] = {{"position", {0, 0, 0.5}}};
+  file["drops"][0]["count"] = 10;
+  const Scene scene = scene_from_text(file.dump(), "drop.json").scene;
+  const Vec3 normal(0, 0.6, 0.8);
+  for (std::size_t i = 5; i < scene.bodies.size(); ++i) {
+    const Body& rod = scene.bodies[i];
+    EXPECT_GE(-support(rod.shape, rod.pose, -normal), 0.1 + 0.8 * 0.5) << rod.name;
+  }
+  tilted["pose"] = {{"position", {0, 0, 2}}};
+  EXPECT_THAT([&] { scene_from_text(file.dump(), "drop.json"); },
+              testing::ThrowsMessage<InvalidInput>(HasSubstr("the box has room for 0")));
+}
+
 TEST(SceneFile, ErrorsOfWhatMovesItsBodiesNameThePathOfTheField) {
   const auto refusal_at = [](const char* pointer, const json& value) {
     json scene = gripper_scene();
@@ -309,8 +326,8 @@ TEST(SceneFile, ErrorsOfWhatMovesItsBodiesNameThePathOfTheField) {
   EXPECT_THAT(refusal_at("/joints/0/axis", {0, 0, 0}), HasSubstr("must have a direction"));
   EXPECT_THAT(refusal_at("/joints/0/anchor", {0, 0, 0}), HasSubstr("a slider has none"));
   EXPECT_THAT(refusal_at("/joints/0/limits", {0.01, 0.02}), HasSubstr("must hold 0"));
-  EXPECT_THAT(refusal_at("/joints/1/limits", {-90, 270}),
-              HasSubstr("joints[1].limits[1] is 270: must lie between -180 and 180"));
+  EXPECT_THAT(refusal_at("/joints/1/limits", {-90, 270}), HasSubstr("accepted"));
+  EXPECT_THAT(refusal_at("/joints/1/limits", {-90, 1e9}), HasSubstr("joints[1].upper is"));
   EXPECT_THAT(refusal_at("/joints/0/motor/rate", 1),
               HasSubstr("must have either a rate or a position"));
   EXPECT_THAT(refusal_at("/joints/0/motor/max_force", -1), HasSubstr("motor.max_force is -1"));

@@ -146,6 +146,15 @@ const char* other_type(sdf::JointType type) {
 /// Limits beyond which SDF has none.
 constexpr double no_limit = 1e15;
 
+/// Notes what of a joint's axis is not read.
+void note_unread(const sdf::JointAxis& axis, const std::string& joint, UnreadOfJoints& unread) {
+  unread.add("damping", axis.Damping(), joint);
+  unread.add("friction", axis.Friction(), joint);
+  unread.add("the spring", axis.SpringStiffness(), joint);
+  const double speed = axis.MaxVelocity();
+  if (speed >= 0 && speed < no_limit) unread.add("the largest speed", speed, joint);
+}
+
 void add_axis(const sdf::Joint& joint, const Pose3d& X_WJ, LinkJoint& made) {
   const sdf::JointAxis* axis = joint.Axis();
   if (!axis) throw InvalidInput("joint " + made.name + ".axis", "missing", "must be there");
@@ -220,16 +229,45 @@ void add_model(const sdf::Model& model, const std::string& outer, const Pose3d& 
 
 /// Adds elements that have no part in contacts.
 void note_ignored_elements(const sdf::ElementPtr& element, RobotFile& result) {
-  static const std::set<std::string> ignored = {"plugin", "sensor", "actor", "wind", "light"};
+  static const std::set<std::string> ignored = {"plugin", "sensor", "actor",  "wind",
+                                                "light",  "state",  "physics"};
   for (auto child = element->GetFirstElement(); child; child = child->GetNextElement()) {
-    if (ignored.contains(child->GetName())) {
-      const std::string name = child->HasAttribute("name") ? child->Get<std::string>("name")
-                                                           : std::string("without a name");
+    const bool is_default = child->GetName() == "physics" && !child->GetExplicitlySetInFile();
+    if (ignored.contains(child->GetName()) && !is_default) {
+      std::string name = "without a name";
+      for (const char* attribute : {"name", "world_name"}) {
+        if (child->HasAttribute(attribute)) name = child->Get<std::string>(attribute);
+      }
       result.ignored.push_back(fmt::format("{} {}: not read", child->GetName(), name));
     } else {
       note_ignored_elements(child, result);
     }
   }
+}
+
+/// Calls f(path, joint) for each joint of a model and of those in it.
+template <class F>
+void each_joint(const sdf::Model& model, const std::string& outer, F f) {
+  const std::string path = outer + model.Name() + "::";
+  for (std::uint64_t i = 0; i < model.ModelCount(); ++i) {
+    each_joint(*model.ModelByIndex(i), path, f);
+  }
+  for (std::uint64_t i = 0; i < model.JointCount(); ++i) f(path, *model.JointByIndex(i));
+}
+
+void note_unread_of_joints(const sdf::Root& root, RobotFile& result) {
+  UnreadOfJoints unread;
+  const auto note = [&](const std::string& path, const sdf::Joint& joint) {
+    if (joint.Axis()) note_unread(*joint.Axis(), path + joint.Name(), unread);
+  };
+  if (root.Model()) each_joint(*root.Model(), "", note);
+  for (std::uint64_t w = 0; w < root.WorldCount(); ++w) {
+    const sdf::World& world = *root.WorldByIndex(w);
+    for (std::uint64_t i = 0; i < world.ModelCount(); ++i) {
+      each_joint(*world.ModelByIndex(i), "", note);
+    }
+  }
+  unread.note(result);
 }
 
 /// Folders that a variable of the environment names, between colons.
@@ -381,6 +419,7 @@ RobotFile read_sdf(const std::filesystem::path& file, const Folders& given) {
     }
   }
   note_ignored_elements(root.Element(), result);
+  note_unread_of_joints(root, result);
   return result;
 }
 

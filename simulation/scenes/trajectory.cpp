@@ -138,13 +138,13 @@ Trajectory run_scene(const Scene& scene, ContactModel& model) {
     const auto start = Clock::now();
     world.step();
     trajectory.step_seconds.push_back(seconds_since(start) - (judged.seconds() - before));
+    trajectory.points += static_cast<double>(world.points());
     if (!world.sound()) {
       trajectory.sound = false;
       break;
     }
     trajectory.frames.push_back(world.states());
   }
-  for (const JudgedAnswer& answer : trajectory.answers) trajectory.points += answer.points;
   trajectory.points /= std::max(1.0, static_cast<double>(trajectory.frames.size() - 1));
   return trajectory;
 }

@@ -37,7 +37,7 @@ struct Trajectory {
   std::vector<std::vector<BodyState>> frames;  ///< the start, then one for each step
   std::vector<JudgedAnswer> answers;           ///< in order of time
   bool sound = true;  ///< false: the motion left all bounds, and the frames end there
-  double points = 0;  ///< contact points given to the solver, mean of a step
+  double points = 0;  ///< contact points given to the solver, of all pairs, mean of a step
   /// Wall-clock time of each step: in our world without the contact model, in an engine's all.
   std::vector<double> step_seconds = {};
 

@@ -76,6 +76,16 @@ int add_link(const urdf::Link& link, const Eigen::Isometry3d& X_RL, RobotFile& r
   return static_cast<int>(result.links.size()) - 1;
 }
 
+/// Notes what of a joint is not read.
+void note_unread(const urdf::Joint& joint, UnreadOfJoints& unread) {
+  if (joint.dynamics) {
+    unread.add("damping", joint.dynamics->damping, joint.name);
+    unread.add("friction", joint.dynamics->friction, joint.name);
+  }
+  if (joint.limits) unread.add("the largest speed", joint.limits->velocity, joint.name);
+  unread.add("the safety controller", joint.safety ? 1 : 0, joint.name);
+}
+
 /// Adds the joint between two links that have been added; X_RJ is its frame.
 void add_joint(const urdf::Joint& joint, int parent, int child, const Eigen::Isometry3d& X_RJ,
                RobotFile& result) {
@@ -246,6 +256,11 @@ RobotFile read_urdf(const std::filesystem::path& file) {
   refuse_second_parents(*robot);
   add_branch(*robot->getRoot(), Eigen::Isometry3d::Identity(), 0, result);
   refuse_missing_links(*robot, result);
+  UnreadOfJoints unread;
+  for (const auto& [name, joint] : robot->joints_) {
+    if (joint->type != urdf::Joint::FIXED) note_unread(*joint, unread);
+  }
+  unread.note(result);
   // A root named so and without a shape holds the robot to the world, as Gazebo and MoveIt read it.
   Link& root = result.links.front();
   root.fixed = root.name == "world" && root.shapes.empty();
