@@ -280,14 +280,15 @@ class Search {
     } while (best() != choice_.answer || !is_confirmed());
   }
 
-  /// Does the answer hold under the further disturbances?
+  /// Does the answer hold under the further disturbances? Where exact contacts do not, there is
+  /// none.
   bool is_confirmed() {
     SceneRun& answer = choice_.runs[choice_.answer];
-    if (choice_.answer == 0) return true;  // exact contacts are what the others are held to
     std::vector<SceneRun> run = {answer};
     judge_.judge(run, choice_.trials.of_answer());
     answer = run[0];
-    return answer.holds();
+    choice_.impossible = choice_.answer == 0 && !answer.holds();
+    return choice_.impossible || answer.holds();
   }
 
   Choice& choice_;
