@@ -85,7 +85,7 @@ json kind_json(const Choice& choice, std::size_t k) {
                  {"pair", pair_name(kind.pair)},
                  {"asked", kind.answers.size()},
                  {"chosen", chosen.name},
-                 {"bytes", model_bytes(chosen)},
+                 {"bytes", choice.model_bytes(k, chosen)},
                  {"nanoseconds", choice.nanoseconds(k, chosen)},
                  {"exact_nanoseconds", choice.nanoseconds(k, exact)},
                  {"next_cheaper", nullptr},

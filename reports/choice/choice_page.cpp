@@ -102,13 +102,31 @@ json shape_parts(const std::string& family, int count, const Cylinder& c) {
   return result;
 }
 
+/// Parts of what stands for a box with a candidate, in its frame; none where that is itself.
+json parts_of_box(const Candidate& candidate, const Shape& box) {
+  json result = json::array();
+  const auto parts = box_parts(candidate, box);
+  if (!parts) return result;
+  json shape = {{"shape", "sphere"}, {"radius", parts->radius}};
+  if (parts->half_length > 0) {
+    shape["shape"] = "capsule";
+    shape["half_length"] = parts->half_length;
+  }
+  const Eigen::Quaterniond& q = parts->along;
+  for (const Vec3& centre : parts->centres) {
+    result.push_back({{"shape", shape},
+                      {"centre", to_json(centre)},
+                      {"orientation", {q.w(), q.x(), q.y(), q.z()}}});
+  }
+  return result;
+}
+
 /// What stands for the bodies in a run: [{body, parts}].
 json models_of(const Choice& choice, const SceneRun& run) {
   const auto& bodies = choice.file.scene.bodies;
   json result = json::array();
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const auto* c = std::get_if<Cylinder>(&bodies[i].shape);
-    if (!c) continue;
     std::set<const Candidate*> models;
     for (std::size_t k = 0; k < bodies.size(); ++k) {
       const int kind = choice.kinds.of(static_cast<int>(i), static_cast<int>(k));
@@ -116,7 +134,8 @@ json models_of(const Choice& choice, const SceneRun& run) {
     }
     json parts = json::array();
     for (const Candidate* m : models) {
-      for (const json& part : shape_parts(m->family, static_cast<int>(m->value), *c)) {
+      for (const json& part : c ? shape_parts(m->family, static_cast<int>(m->value), *c)
+                                : parts_of_box(*m, bodies[i].shape)) {
         parts.push_back(part);
       }
     }

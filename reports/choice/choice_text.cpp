@@ -103,7 +103,7 @@ std::string kinds_of(const Choice& choice, const std::string& folder) {
         is_exact
             ? fmt::format("    {:.0f} ns a query\n", ns)
             : fmt::format("    {:.0f} ns a query instead of {:.0f} ns exactly; {} bytes a shape\n",
-                          ns, choice.nanoseconds(k, exact), model_bytes(chosen));
+                          ns, choice.nanoseconds(k, exact), choice.model_bytes(k, chosen));
     lines += next_cheaper(choice, k, folder);
   }
   return lines;

@@ -331,11 +331,25 @@ std::optional<double> Choice::point_seconds() const {
   return slope > 0 ? std::optional(slope) : std::nullopt;
 }
 
-std::size_t model_bytes(const Candidate& candidate) {
+std::optional<BoxParts> box_parts(const Candidate& candidate, const Shape& shape) {
+  const auto* box = std::get_if<Box>(&shape);
+  const auto count = static_cast<int>(candidate.value);
+  if (box && candidate.family == "box-spheres") return spheres_in_box(box->half_extents(), count);
+  if (box && candidate.family == "box-capsules") return capsules_in_box(box->half_extents(), count);
+  return std::nullopt;
+}
+
+std::size_t Choice::model_bytes(std::size_t kind, const Candidate& candidate) const {
+  constexpr std::size_t sphere = 4, capsule = 7, corner = 3;  // numbers: centre, ends, radius
   const auto count = static_cast<std::size_t>(candidate.value);
-  if (candidate.family == "spheres") return count * 4 * sizeof(double);    // centre and radius
-  if (candidate.family == "prism") return 2 * count * 3 * sizeof(double);  // corners
-  return 2 * sizeof(double);  // radius and half length of a cylinder or capsule
+  const auto other = static_cast<std::size_t>(kinds.all()[kind].answers.front().b);
+  std::size_t numbers = 2;  // radius and half length of a cylinder or capsule on its axis
+  if (candidate.family == "spheres") numbers = count * sphere;
+  if (candidate.family == "prism") numbers = 2 * count * corner;
+  if (const auto parts = box_parts(candidate, file.scene.bodies[other].shape)) {
+    numbers = parts->centres.size() * (parts->half_length > 0 ? capsule : sphere);
+  }
+  return numbers * sizeof(double);
 }
 
 std::vector<const Candidate*> swept_candidates() {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "candidates/host/candidate_process.hpp"
+#include "candidates/model.hpp"
 #include "simulation/scenes/disturbed_scene.hpp"
 #include "simulation/scenes/scene_file.hpp"
 
@@ -107,8 +108,8 @@ class SceneJudge {
   std::vector<Trajectory> exact_runs_ = {};  ///< by disturbance: first and last frames alone
 };
 
-/// Bytes that a cylinder's model takes in double precision: its corners, its spheres, or its sizes.
-std::size_t model_bytes(const Candidate& candidate);
+/// What stands for a box in a model of boxes; absent with other candidates and for other shapes.
+std::optional<BoxParts> box_parts(const Candidate& candidate, const Shape& shape);
 
 /// All candidates, with the families of simplified models swept: 1 to 64 spheres, prisms of 8 to
 /// 128 sides, boxes as spheres and capsules.
@@ -140,6 +141,9 @@ struct Choice {
   std::vector<std::optional<std::size_t>> cheaper = {};
   /// Time of a query of this kind; infinite where the candidate has no routine.
   double nanoseconds(std::size_t kind, const Candidate& candidate) const;
+  /// Bytes that what a candidate puts in place of a cylinder, or of a kind's box, takes in double
+  /// precision: its corners, its spheres, its capsules, or its sizes.
+  std::size_t model_bytes(std::size_t kind, const Candidate& candidate) const;
   /// Number of steps of a run.
   double steps() const { return static_cast<double>(exact_run.frames.size() - 1); }
   /// Share of the time of a whole step with exact contacts that the answer saves, or if that is

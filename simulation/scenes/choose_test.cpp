@@ -631,6 +631,26 @@ TEST(Choose, ExactContactsThatFailUnderAFurtherDisturbanceDoNotServe) {
   EXPECT_EQ(distances[choice.runs[0].disturbance] > (early + late) / 2, true);
 }
 
+TEST(Choose, AModelsBytesAreThoseOfAllItsParts) {
+  SceneFile file = standing_can(stands);
+  file.scene.duration = 0.01;
+  file.scene.bodies[0].shape = Box(Vec3(0.4, 0.2, 0.1));
+  file.scene.bodies[0].pose = Pose(Vec3(0, 0, -0.1));
+  ChooseOptions options{find_candidates({"capsule"})};
+  options.trials.disturbances = 0;
+  const Choice choice = choose(file, options);
+  const auto numbers = [&](const char* name) {
+    return choice.model_bytes(0, find_candidate(name)) / sizeof(double);
+  };
+  EXPECT_EQ(numbers("reference"), 2U);
+  EXPECT_EQ(numbers("capsule"), 2U);
+  EXPECT_EQ(numbers("spheres:8"), 8U * 4);
+  EXPECT_EQ(numbers("prism:16"), 2U * 16 * 3);
+  EXPECT_EQ(numbers("box-capsules:3"), 3U * 7);
+  // Four along the longest axis, 0.2 m apart; in two rows as far apart.
+  EXPECT_EQ(numbers("box-spheres:4"), 2U * 4 * 4);
+}
+
 TEST(Choose, SaysWhenExactContactsDoNotServe) {
   const SceneFile file = standing_can(
       {{"need", "stays-in"}, {"body", "can"}, {"lower", {5, 5, 5}}, {"upper", {6, 6, 6}}});
