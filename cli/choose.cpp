@@ -49,10 +49,9 @@ struct Options {
 SceneFile scene_of(const Options& options) {
   SceneFile file = options.robot.scene(options.scene);
   if (!is_robot_file(options.scene)) return file;
-  Processes processes(options.candidates.limits());
-  CandidateModel exact(processes.of(*exact_first({}).front()));
   const Trajectory exact_run =
-      run_disturbed(file.scene, exact, {options.disturbances, options.seed});
+      run_exactly(file.scene, {options.disturbances, options.seed}, options.workers.get(),
+                  options.candidates.limits(), file.name);
   add_robot_needs(file, exact_run);
   if (exact_run.answers.empty() || file.needs.empty()) {
     throw InvalidInput("scene", '"' + options.scene + '"',
