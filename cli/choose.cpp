@@ -67,9 +67,10 @@ int choose_scene(const Options& options) {
       fmt::format(" --disturbances {} --seed {}", options.disturbances, options.seed);
   const Limits limits = options.candidates.limits();
   const SceneFile file = scene_of(options);
-  const Choice choice = choose(
+  Choice choice = choose(
       file,
       {options.contestants(), options.workers.get(), limits, {options.disturbances, options.seed}});
+  choice.arguments = shell_quoted(options.scene) + options.robot.command_line();
   const std::string folder = options.folder();
   const auto write = [&] {
     write_evidence(choice, folder);

@@ -390,6 +390,41 @@ expect 1 'Not even' choose "$folder/fall.json" --candidates capsule --out "$fold
 "$program" choose "$folder/cart.urdf" --depth 1 --angle 90 --count 2 --candidates capsule --out "$folder/choice" >/dev/null 2>&1
 left=$(cd "$folder/choice" && ls -1 choose.* choose/*99* choose/mine.json 2>/dev/null | tr '\n' ' ')
 [ "$left" = "choose.json choose/mine.json " ] || { echo "FAILED: of earlier choices there is $left"; failures=$((failures + 1)); }
+# The command that choose.json has for a run that breaks a need makes that run again: the tilt of the can is
+# the one that was measured. As it is written the can balances on the pole of its capsule.
+cat > "$folder/pedestal.json" <<'END'
+{"duration":0.8,"bodies":[
+ {"name":"pedestal","shape":{"shape":"cylinder","radius":0.03,"half_length":0.1},"pose":{"position":[0,0,-0.1]},"fixed":true},
+ {"name":"can","shape":{"shape":"cylinder","radius":0.03,"half_length":0.06},"pose":{"position":[0,0,0.06]}}],
+ "needs":[{"need":"stands","body":"can","degrees":2}]}
+END
+expect 0 'render .*pedestal.json --contacts capsule --disturbance [0-9]* --seed 3$' choose "$folder/pedestal.json" \
+  --candidates capsule --seed 3 --out "$folder/again"
+python3 - "$program" "$folder/again" <<'END' || failures=$((failures + 1))
+import json, math, pathlib, re, shlex, subprocess, sys
+program, folder = sys.argv[1], pathlib.Path(sys.argv[2])
+choice = json.loads((folder / "choose.json").read_text())
+run = next(r for r in choice["runs"] if r["name"] == "capsule")
+assert not run["holds"] and run["disturbance"] > 0, run
+command = shlex.split(run["render"])
+assert command[0] == "./touchstone" and run["render"] in (folder / "choose.html").read_text()
+subprocess.run([program, *command[1:], "--every", str(choice["scene"]["step"]), "--out", folder / "frames"],
+               check=True, stdout=subprocess.DEVNULL)
+verdict, largest, first = run["verdicts"][0], 0, None
+for i, frame in enumerate(sorted((folder / "frames").glob("frame-*.inc"))):
+    axis_z = float(re.findall(r"matrix <(.*)>", frame.read_text())[1].split(",")[8])
+    tilt = math.degrees(math.acos(min(1, abs(axis_z))))
+    largest = max(largest, tilt)
+    if first is None and tilt > verdict["limit"]: first = i * choice["scene"]["step"]
+# Frames have nine digits.
+if abs(largest - verdict["value"]) > 1e-5 or abs(first - verdict["time"]) > 1e-9:
+    sys.exit(f"FAILED: {run['render']} leans by {largest}, {first} s, not {verdict}")
+END
+simulated=$("$program" simulate "$folder/pedestal.json" --disturbance 0)
+[ "$(tail -n 1 <<<"$simulated")" = "$("$program" simulate "$folder/pedestal.json" | tail -n 1)" ] ||
+  { echo "FAILED: disturbance 0 is not the scene as it is written"; failures=$((failures + 1)); }
+expect 0 '^pedestal, capsule, disturbance 2 of seed 3$' simulate "$folder/pedestal.json" --candidates capsule --disturbance 2 --seed 3
+expect 2 '^error: --disturbance is 2: must be with scene files, robots or worlds' simulate rolling --disturbance 2
 expect 2 '--contacts is "no-such-engine": must be one of reference' render "$folder/can.json" --contacts no-such-engine
 expect 0 '4 frames' render "$folder/can.json" --every 0.1 --out "$folder/frames"
 [ -s "$folder/frames/frame-00004.inc" ] || { echo "FAILED: no frame"; failures=$((failures + 1)); }

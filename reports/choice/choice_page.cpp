@@ -188,9 +188,9 @@ class Motions {
   /// Adds a run and returns its index; `is_listed`: a person can choose it.
   std::size_t add(const std::string& name, const std::string& note, std::vector<float> motion,
                   const json& models, std::size_t beside, bool is_listed) {
-    json run = {{"name", name},     {"note", note},     {"poses", base64(motion)},
-                {"models", models}, {"beside", beside}, {"listed", is_listed},
-                {"from", nullptr}};
+    json run = {{"name", name},     {"note", note},      {"poses", base64(motion)},
+                {"models", models}, {"beside", beside},  {"listed", is_listed},
+                {"from", nullptr},  {"command", nullptr}};
     if (beside < poses_.size()) {
       if (const auto at = parting(file_.scene, poses_[beside], motion)) {
         run["from"] = at->time;
@@ -202,6 +202,9 @@ class Motions {
     poses_.push_back(std::move(motion));
     return runs_.size() - 1;
   }
+
+  /// The command that draws the run that was added last.
+  void add_command(const std::string& command) { runs_.back()["command"] = command; }
 
   json to_json() const {
     const Scene& scene = file_.scene;
@@ -253,10 +256,17 @@ json motion_json(const Choice& choice, const Limits& limits) {
                                                        *choice.candidates[0], processes)));
   };
   Motions motions(choice.file);
-  const auto shown_runs = worth_showing(choice);
-  motions.add("exact", "The exact cylinder for all pairs.", poses(scene, choice.exact_run),
-              json::array(), 0, shown_runs.empty());
+  // Where exact contacts fail, how they do is all that there is to see.
+  const auto shown_runs = choice.impossible ? std::vector<std::size_t>{} : worth_showing(choice);
   const SceneRun& answer = choice.runs[choice.answer];
+  const bool fails_disturbed = choice.impossible && answer.disturbance > 0;
+  motions.add("exact", "The exact cylinder for all pairs.", poses(scene, choice.exact_run),
+              json::array(), 0, shown_runs.empty() && !fails_disturbed);
+  if (fails_disturbed) {
+    motions.add("exact, disturbed", note(choice.file, answer), run(answer, answer.disturbance),
+                json::array(), 0, true);
+    motions.add_command(render_command(choice, answer));
+  }
   const std::string name = choice.answer == 0 ? "exact" : "the answer";
   RunsBeside holding([&](std::size_t disturbance) {
     if (choice.answer == 0 && disturbance == 0) return std::size_t{0};
@@ -268,6 +278,7 @@ json motion_json(const Choice& choice, const Limits& limits) {
     const std::size_t disturbance = i == choice.answer ? 0 : shown.disturbance;
     motions.add(i == choice.answer ? "the answer" : shown.name, note(choice.file, shown),
                 run(shown, disturbance), models_of(choice, shown), beside, true);
+    if (disturbance == shown.disturbance) motions.add_command(render_command(choice, shown));
   }
   return motions.to_json();
 }

@@ -102,6 +102,63 @@ TEST(ChoicePage, DrawsWhatStandsForABox) {
   }
 }
 
+// Exact contacts hold as the scene is written; what there is to see is the disturbed run that
+// fails.
+TEST(ChoicePage, ShowsTheDisturbedRunInWhichExactContactsFail) {
+  const auto stays_within = [](double metres) {
+    return fmt::format(R"({{"need": "stays-in", "body": "can", "lower": [0, 0, 0.2],
+                           "upper": [0, 0, 0.2], "metres": {}}})",
+                       metres);
+  };
+  ChooseOptions options{find_candidates({"spheres:64"})};
+  options.trials.disturbances = 0;
+  const double as_written = choose(can_with(stays_within(1)), options).runs[0].verdicts[0].value;
+  options.trials.disturbances = 16;
+  const Choice choice = choose(can_with(stays_within(as_written)), options);
+  ASSERT_TRUE(choice.impossible);
+  ASSERT_GT(choice.runs[0].disturbance, 0U);
+  const std::string page = choice_page(choice, "", "out", {});
+  const json runs = data_of(page)["motion"]["runs"];
+  ASSERT_EQ(runs.size(), 2U);
+  EXPECT_EQ(runs[0]["listed"], false);
+  EXPECT_EQ(runs[1]["listed"], true);
+  EXPECT_NE(runs[1]["poses"], runs[0]["poses"]);
+  const std::string which = fmt::format("disturbance {}", choice.runs[0].disturbance);
+  EXPECT_THAT(runs[1]["note"].get<std::string>(), HasSubstr(which));
+  EXPECT_THAT(runs[1]["command"].get<std::string>(), HasSubstr("--" + which + " --seed 1"));
+  const std::string text = choice_text(choice, "out");
+  EXPECT_THAT(text,
+              HasSubstr("Not even exact contacts meet the needs of this scene under " + which));
+  EXPECT_THAT(text, HasSubstr("--contacts reference --" + which + " --seed 1\n"));
+}
+
+TEST(ChoiceText, SaysInHowManyRunsAModelHeld) {
+  const Choice choice = choice_of(stands);
+  const SceneRun* capsule = nullptr;
+  for (const SceneRun& run : choice.runs) {
+    if (run.name == "capsule") capsule = &run;
+  }
+  ASSERT_TRUE(capsule);
+  const std::string held = fmt::format("{}/{}", capsule->held, capsule->trials);
+  const std::string wide = choice_text(choice, "out", 80), narrow = choice_text(choice, "out", 40);
+  EXPECT_THAT(wide, testing::ContainsRegex("\n  capsule +[0-9.]+ +" + held + "  need 1, "));
+  EXPECT_THAT(narrow,
+              testing::ContainsRegex("\n  capsule: breaks need 1, [^:]*held in[ \n]+" + held));
+}
+
+TEST(ChoiceText, AndJsonNameTheCommandThatMakesAFailureAgain) {
+  Choice choice = choice_of(stands);
+  choice.arguments = "can.json";
+  const json data = json::parse(choice_json(choice, "", "out"));
+  for (std::size_t i = 0; i < choice.runs.size(); ++i) {
+    const SceneRun& run = choice.runs[i];
+    const std::string which =
+        run.disturbance == 0 ? "" : fmt::format(" --disturbance {} --seed 1", run.disturbance);
+    EXPECT_EQ(data["runs"][i]["render"], fmt::format("./touchstone render can.json --contacts {}{}",
+                                                     shell_quoted(run.models[0]->name), which));
+  }
+}
+
 TEST(ChoiceText, SaysWhenExactContactsDoNotServe) {
   EXPECT_THAT(choice_text(choice_of(elsewhere), "out"), HasSubstr("Not even exact contacts"));
 }

@@ -29,7 +29,7 @@ function headline() {
   const exact = data.runs[0], percent = 100 * data.step_saved;
   const instead = (text, of) => text(answer) + (data.answer === 0 ? '' : ` instead of ${text(exact)}`) + of;
   const microseconds = (member, of) => instead(run => `${exponent(run[member], 3)} µs`, of);
-  byId('headline').textContent = !data.possible ? 'Not even exact contacts meet the needs of this scene.'
+  byId('headline').textContent = !data.possible ? `Not even exact contacts meet the needs of this scene: ${failure(exact)}.`
       : data.worthwhile ? `The cheapest models that meet all needs save ${Math.round(percent)}% of a step: ${microseconds('step_microseconds', '.')}`
       : percent > 0 ? `Exact: nothing cheaper that meets all needs saves more than ${(Math.ceil(10 * percent) / 10).toFixed(1)}% of a step.`
       : 'Exact: no model that meets all needs takes less of a step.';
@@ -63,7 +63,7 @@ function failures() {
   for (const kind of data.kinds.filter(k => k.next_cheaper !== null && !data.runs[k.next_cheaper.run].holds)) {
     const run = data.runs[kind.next_cheaper.run], e = run.evidence;
     list.append(element('article', {}, element('h3', {}, `${kind.next_cheaper.name} for ${kind.name}`),
-        element('p', {}, failure(run)),
+        element('p', {}, failure(run)), command(run.render),
         e && element('p', {}, `${e.bodies} at ${e.time.toFixed(2)} s: ${e.wrong}.`), e && command(e.replay)));
   }
   if (!list.children.length) list.append(element('p', {}, 'No model with a cheaper query breaks a need.'));
@@ -111,8 +111,12 @@ function startMotion(motion) {
   const listed = runs.map((r, i) => [i, r.name]).filter(([i]) => runs[i].listed);
   select.append(...options(listed));
   const chosen = () => runs[select.value];
-  const begin = () => {
+  const describe = () => {
     byId('other-note').textContent = chosen().note;
+    byId('other-command').replaceChildren(...(chosen().command === null ? [] : [command(chosen().command)]));
+  };
+  const begin = () => {
+    describe();
     byId('left-caption').textContent = `With ${runs[chosen().beside].name}`;
     byId('scrub').value = Math.max(0, (chosen().from ?? 0) - before);
     byId('scrub').dispatchEvent(new Event('input'));
@@ -122,7 +126,7 @@ function startMotion(motion) {
   playMotions(() => ({motion, pair: [runs[chosen().beside], chosen()]}));
   select.addEventListener('change', begin);
   if (!/[#&]t=/.test(location.hash)) begin();
-  else byId('other-note').textContent = chosen().note;
+  else describe();
 }
 
 // The page of `touchstone choose --engine`.

@@ -8,6 +8,7 @@
 
 #include "candidates/candidates.hpp"
 #include "reference/invalid_input.hpp"
+#include "simulation/assembly.hpp"
 
 namespace touchstone {
 namespace {
@@ -297,6 +298,30 @@ class Search {
 };
 
 }  // namespace
+
+std::vector<std::string> Choice::contacts_of(const SceneRun& run) const {
+  const Candidate& exact = *candidates[0];
+  const Scene& scene = file.scene;
+  const Touching may_touch(scene);
+  bool are_all_known = true;
+  for (int a = 0; a < static_cast<int>(scene.bodies.size()); ++a) {
+    for (int b = 0; b < a; ++b) {
+      const bool has_cylinder = std::holds_alternative<Cylinder>(scene.bodies[a].shape) ||
+                                std::holds_alternative<Cylinder>(scene.bodies[b].shape);
+      if (has_cylinder && may_touch(a, b) && kinds.of(a, b) < 0) are_all_known = false;
+    }
+  }
+  const auto are_all = [&](const Candidate& candidate) {
+    return std::ranges::all_of(run.models, [&](const Candidate* m) { return m == &candidate; });
+  };
+  if (are_all(exact)) return {exact.name};
+  if (are_all_known && are_all(*run.models[0])) return {run.models[0]->name};
+  std::vector<std::string> result;
+  for (std::size_t k = 0; k < run.models.size(); ++k) {
+    if (run.models[k] != &exact) result.push_back(kinds.all()[k].name + '=' + run.models[k]->name);
+  }
+  return result;
+}
 
 double Choice::nanoseconds(std::size_t kind, const Candidate& candidate) const {
   const auto at = std::find(candidates.begin(), candidates.end(), &candidate);

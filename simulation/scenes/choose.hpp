@@ -77,6 +77,20 @@ Trajectory run_with(const DisturbedScene& scene, const PairKinds& kinds,
                     const std::vector<const Candidate*>& models, const Candidate& exact,
                     Processes& processes);
 
+/// Contacts of a run, as they are named: of one candidate for all pairs, or of candidates for kinds
+/// of pairs (PairKind::name), with exact ones for all others.
+struct NamedContacts {
+  const Candidate* for_all = nullptr;
+  std::map<std::string, const Candidate*> by_kind = {};
+};
+
+/// Reads "capsule", or "cylinder ⌀0.1×0.3 on plane=capsule" and more of these. Throws InvalidInput
+/// (field "--contacts") for an unknown candidate, or a kind that no two bodies of the scene are of.
+NamedContacts read_contacts(const std::vector<std::string>& names, const Scene& scene);
+
+Trajectory run_with(const DisturbedScene& scene, const NamedContacts& contacts,
+                    const Candidate& exact, Processes& processes);
+
 /// Runs a scene with exact contacts as it is written, and under the disturbances in the worker
 /// processes: frames of the one, answers of all, whatever the number of these. `name` is that of
 /// the scene in errors.
@@ -137,6 +151,8 @@ struct Choice {
   /// Candidates whose run of the scene would take too long.
   std::vector<const Candidate*> too_slow = {};
   Trials trials = {};
+  /// What names the scene on a command line, with the options of a robot's motion.
+  std::string arguments = {};
   /// Index of the cheapest run that meets all needs; 0 if `impossible`, or where no other saves
   /// more of a step than the noise.
   std::size_t answer = 0;
@@ -145,6 +161,8 @@ struct Choice {
   /// query; it breaks a need, or saves nothing of a step. Absent where nothing cheaper supports the
   /// kind.
   std::vector<std::optional<std::size_t>> cheaper = {};
+  /// What read_contacts makes the contacts of a run of: one name if that says the same.
+  std::vector<std::string> contacts_of(const SceneRun& run) const;
   /// Time of a query of this kind; infinite where the candidate has no routine.
   double nanoseconds(std::size_t kind, const Candidate& candidate) const;
   /// Bytes that what a candidate puts in place of a cylinder, or of a kind's box, takes in double

@@ -675,6 +675,48 @@ TEST(Choose, AModelsBytesAreThoseOfAllItsParts) {
   EXPECT_EQ(numbers("box-spheres:4"), 2U * 4 * 4);
 }
 
+// What is printed to make a run again makes it again, to the last bit of what broke.
+TEST(Choose, ARunIsMadeAgainByTheNamesOfItsContacts) {
+  const SceneFile file = cans_on_pedestals({Vec3(0, 0, 0), Vec3(0.5, 0, 0)});
+  const Choice choice = choose(file, {find_candidates({"capsule", "spheres:2"}), 2});
+  Processes processes({});
+  int broken = 0;
+  for (const SceneRun& run : choice.runs) {
+    if (run.holds()) continue;
+    ++broken;
+    const DisturbedScene scene(file.scene, choice.trials.seed, run.disturbance);
+    const NamedContacts contacts = read_contacts(choice.contacts_of(run), file.scene);
+    const Trajectory again =
+        scene.turned_back(run_with(scene, contacts, find_candidate("reference"), processes));
+    for (std::size_t i = 0; i < file.needs.size(); ++i) {
+      const Verdict verdict = file.needs[i]->judge({file.scene, again, again});
+      EXPECT_EQ(verdict.value, run.verdicts[i].value) << run.name;
+      EXPECT_EQ(verdict.time, run.verdicts[i].time) << run.name;
+    }
+  }
+  EXPECT_GT(broken, 0);
+}
+
+TEST(NamedContacts, AreOfAllPairsOrOfKindsOfThem) {
+  const Scene scene = two_cans(1, 5e-5);
+  const Candidate& capsule = find_candidate("capsule");
+  EXPECT_EQ(read_contacts({"capsule"}, scene).for_all, &capsule);
+  const NamedContacts one = read_contacts({"cylinder ⌀0.4×0.6 on plane=capsule"}, scene);
+  EXPECT_EQ(one.for_all, nullptr);
+  Processes processes({});
+  const Trajectory run =
+      run_with(DisturbedScene(scene, 1, 0), one, find_candidate("reference"), processes);
+  ASSERT_GE(run.answers.size(), 2U);
+  EXPECT_EQ(run.answers[0].points, 1);  // a round end
+  EXPECT_EQ(run.answers[1].points, 3);  // a cap
+  for (const std::vector<std::string>& wrong : {std::vector<std::string>{"bulet"},
+                                                {"capsule", "prism:8"},
+                                                {"cylinder on plane=capsule"},
+                                                {"cylinder ⌀0.4×0.6 on plane=bulet"}}) {
+    EXPECT_THROW(read_contacts(wrong, scene), InvalidInput) << wrong[0];
+  }
+}
+
 TEST(Choose, SaysWhenExactContactsDoNotServe) {
   const SceneFile file = standing_can(
       {{"need", "stays-in"}, {"body", "can"}, {"lower", {5, 5, 5}}, {"upper", {6, 6, 6}}});

@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 #include <numeric>
+#include <set>
 #include <type_traits>
 
 #include "candidates/candidates.hpp"
@@ -12,6 +13,7 @@
 #include "candidates/host/worker_processes.hpp"
 #include "oracle/judge/score.hpp"
 #include "oracle/truth.hpp"
+#include "reference/invalid_input.hpp"
 #include "simulation/scenes/choose.hpp"
 
 namespace touchstone {
@@ -210,6 +212,11 @@ std::optional<Evidence> find_evidence(const Need& need, double broken, const Dis
   return worst;
 }
 
+/// As PairKind has it.
+std::string kind_name(const Body& a, const Body& b) {
+  return shape_text(a.shape) + " on " + shape_text(b.shape);
+}
+
 // Answers on their way from one process of this program to another.
 static_assert(std::is_trivially_copyable_v<JudgedAnswer>);
 
@@ -279,6 +286,54 @@ Trajectory run_with(const DisturbedScene& scene, const PairKinds& kinds,
   PairwiseModel model([&](int a, int b) -> CandidateProcess& {
     const int kind = kinds.of(scene.origin[a], scene.origin[b]);
     return processes.of(kind >= 0 && models[kind] ? *models[kind] : exact);
+  });
+  return run_scene(scene.scene, model);
+}
+
+NamedContacts read_contacts(const std::vector<std::string>& names, const Scene& scene) {
+  const auto candidate = [](const std::string& name) {
+    try {
+      return &find_candidate(name);
+    } catch (const InvalidInput& e) {
+      throw InvalidInput("--contacts", e.value(), e.remedy());
+    }
+  };
+  NamedContacts result;
+  if (names.size() == 1 && names[0].find('=') == names[0].npos) {
+    result.for_all = candidate(names[0]);
+    return result;
+  }
+  std::set<std::string> kinds;
+  for (const Body& a : scene.bodies) {
+    for (const Body& b : scene.bodies) {
+      if (&a != &b && std::holds_alternative<Cylinder>(a.shape)) kinds.insert(kind_name(a, b));
+    }
+  }
+  for (const std::string& name : names) {
+    const std::size_t equals = name.rfind('=');
+    const std::string kind = name.substr(0, equals);
+    if (equals == name.npos || !kinds.contains(kind)) {
+      throw InvalidInput(
+          "--contacts", '"' + name + '"',
+          fmt::format("must be one candidate, or a kind of pairs and a candidate, as "
+                      "\"{}=capsule\"",
+                      kinds.empty() ? "cylinder on plane" : *kinds.begin()));
+    }
+    result.by_kind[kind] = candidate(name.substr(equals + 1));
+  }
+  return result;
+}
+
+Trajectory run_with(const DisturbedScene& scene, const NamedContacts& contacts,
+                    const Candidate& exact, Processes& processes) {
+  const std::vector<Body>& bodies = scene.scene.bodies;
+  PairwiseModel model([&](int a, int b) -> CandidateProcess& {
+    if (contacts.for_all) return processes.of(*contacts.for_all);
+    for (const auto& [first, second] : {std::pair(a, b), std::pair(b, a)}) {
+      const auto found = contacts.by_kind.find(kind_name(bodies[first], bodies[second]));
+      if (found != contacts.by_kind.end()) return processes.of(*found->second);
+    }
+    return processes.of(exact);
   });
   return run_scene(scene.scene, model);
 }
