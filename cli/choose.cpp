@@ -45,10 +45,15 @@ struct Options {
   }
 };
 
-/// The scene, with needs from its runs with exact contacts if it is a robot's.
+/// The scene, with needs from its runs with exact contacts if it is a robot's; of these none is
+/// made if an engine that is named cannot do what the scene asks for.
 SceneFile scene_of(const Options& options) {
   SceneFile file = options.robot.scene(options.scene);
   if (!is_robot_file(options.scene)) return file;
+  if (!options.engine.empty()) {
+    describe_engine(options.engine);  // which has to be there
+    check_engine_scene(options.engine, file.scene);
+  }
   const Trajectory exact_run =
       run_exactly(file.scene, {options.disturbances, options.seed}, options.workers.get(),
                   options.candidates.limits(), file.name);
@@ -134,10 +139,6 @@ int run(const Options& options) {
     throw InvalidInput(option.name(), "given with \"" + options.scene + '"',
                        is_robot ? "must be left out: sampled poses have no motion to disturb"
                                 : "must be left out: a scene's needs stand in its file");
-  }
-  if (is_robot && !options.engine.empty()) {
-    throw InvalidInput("--engine", "given with \"" + options.scene + '"',
-                       "must be left out: a robot or world is simulated by Touchstone alone");
   }
   const OutputFolder out(options.out);
   if (options.is_sampled()) return choose_pairs(options);

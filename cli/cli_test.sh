@@ -306,8 +306,22 @@ expect 2 '^error: --model-path is .*none": must be a folder$' simulate "$folder/
 expect 2 'must be a robot or world .* with --drive' choose "$folder/bad.json" --drive left_wheel=3
 expect 2 'must be a robot or world .* with --drive' choose "$folder/bad.json" --engine bullet --drive left_wheel=3
 expect 2 '^error: --drive is "wheel": must be given one rate, not several' simulate "$folder/cart.urdf" --drive wheel=5,wheel=loose
-expect 2 '^error: --engine is given with ".*cart.urdf": must be left out: a robot or world is simulated by' \
-  choose "$folder/cart.urdf" --engine bullet
+expect 0 '^cart in bullet 3' \
+  choose "$folder/cart.urdf" --engine bullet --duration 0.1 --disturbances 1 --drive left_wheel=3 --out "$folder/cart"
+expect 0 "cart.urdf --drive 'left_wheel=3' --duration 0.1 --engine bullet --disturbances 1 --seed 1\"" \
+  choose "$folder/cart.urdf" --engine bullet --duration 0.1 --disturbances 1 --drive left_wheel=3 --json --out "$folder/cart"
+expect 2 '^error: --engine is "unity": must be one of bullet' choose "$folder/cart.urdf" --engine unity --duration 0.1
+# What an engine's world does not have is named before anything is run.
+cat >"$folder/loop.sdf" <<'SDF'
+<sdf version="1.7"><model name="loop">
+<link name="a"><collision name="a"><geometry><cylinder><radius>0.1</radius><length>0.2</length></cylinder></geometry></collision></link>
+<link name="b"><pose>1 0 0 0 0 0</pose><collision name="b"><geometry><box><size>0.2 0.2 0.2</size></box></geometry></collision></link>
+<joint name="one" type="revolute"><parent>a</parent><child>b</child><axis><xyz>0 0 1</xyz></axis></joint>
+<joint name="two" type="revolute"><parent>world</parent><child>b</child><axis><xyz>0 0 1</xyz></axis></joint>
+<joint name="three" type="revolute"><parent>world</parent><child>a</child><axis><xyz>0 0 1</xyz></axis></joint>
+</model></sdf>
+SDF
+expect 2 'must not be there with --engine: the world of mujoco has trees of joints' choose "$folder/loop.sdf" --engine mujoco
 # A robot in millimetres weighs too little for its size.
 sed 's/radius="0.1" length="0.05"/radius="100" length="50"/; s/<link name="left">/&<inertial><mass value="1"\/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"\/><\/inertial>/' \
   "$folder/cart.urdf" >"$folder/millimetres.urdf"

@@ -176,6 +176,44 @@ TEST(EngineChoices, AnUnknownEngineIsNamed) {
   EXPECT_THROW(choose_in_engine(file, "unity", {}), InvalidInput);
 }
 
+/// A robot or world with joints that are driven, and an engine that has all it needs.
+struct RobotInEngine {
+  const char *file, *engine;
+  std::vector<std::pair<std::string, double>> rates;
+};
+
+/// Settings with other shapes end at once, which spares their runs.
+Trajectory with_cylinders_alone(const std::string& engine, const std::vector<EngineShape>& shapes,
+                                const Scene& scene, bool with_depths) {
+  for (const EngineShape& shape : shapes) {
+    if (shape.kind != Kind::cylinder && shape.kind != Kind::exact) {
+      throw std::runtime_error("not run");
+    }
+  }
+  return run_in_world(engine, shapes, scene, with_depths);
+}
+
+TEST(EngineChoices, AreMadeForRobotsAndWorldsToo) {
+  for (const auto& [name, engine, rates] : std::vector<RobotInEngine>{
+           {"rover.urdf", "bullet", {{"front_left_wheel_joint", 5}, {"rear_left_wheel_joint", 5}}},
+           {"loading-bay.sdf", "ode", {{"cart_1::front_left_wheel_axle", 4}}},
+           {"pincer.xml", "mujoco", {{"left", 0.1}, {"right", 0.1}}}}) {
+    RobotMotion motion;
+    motion.rates = rates;
+    motion.duration = 0.1;
+    const std::filesystem::path scenes = TOUCHSTONE_SCENES;
+    SceneFile file = robot_scene(read_robot(scenes / name), motion);
+    add_robot_needs(file, run_exactly(file.scene, {1, 1}, 2, {}, file.name));
+    const EngineChoice choice = choose_in_engine(
+        file, engine, {.workers = 2, .trials = {.disturbances = 0}, .run = with_cylinders_alone});
+    EXPECT_EQ(choice.default_setting().end, "") << name;
+    EXPECT_EQ(choice.default_setting().verdicts.size(), file.needs.size()) << name;
+    EXPECT_GT(choice.default_setting().points, 0) << name;
+    EXPECT_EQ(choice.exact_end, "") << name;
+    EXPECT_FALSE(choice.sizes.empty()) << name;
+  }
+}
+
 /// What is made up of an engine: which shape a body stands with, and what a step takes with it.
 struct MadeUp {
   std::function<bool(const std::string& body, const EngineShape& shape)> stands;
