@@ -651,13 +651,8 @@ class OtherPages(PageTest):
         self.assertGreater(len(self.all("#front .mark-symbol path")), 2)
         self.assertGreater(self.assert_labels_apart(self.find("#front")), 3)
         self.assertEqual(self.find("#left-caption").text, "With exact")
-        for model in ("prism:16", "capsule"):
-            self.choose("#other", self.driver.execute_script(
-                "return String(data.motion.runs.findIndex(r => r.name === arguments[0]))", model))
-            self.assert_models_are_drawn()
-            self.assertRegex(self.find("#other-command").text, f"--contacts '?{model}\\b")
-        pictures = [self.with_capsule_over_a_body(turn) for turn in ([1, 0, 0, 0], [0.7, 0.7, 0, 0])]
-        self.assertNotEqual(*pictures)
+        self.choose("#other", self.driver.execute_script(
+            "return String(data.motion.runs.findIndex(r => r.name === 'capsule'))"))
         self.assertIn("parts from the run beside it at", self.find("#other-note").text)
         run = self.driver.execute_script("return data.motion.runs[document.getElementById('other').value]")
         self.assertAlmostEqual(float(self.find("#scrub").get_attribute("value")),
@@ -672,6 +667,15 @@ class OtherPages(PageTest):
         self.assertNotEqual(self.picture("#left"), later)
         self.find("#play").click()
         self.assertEqual(self.find("#play").text, "Pause")
+        for model in ("prism:16", "capsule"):
+            self.choose("#other", self.driver.execute_script(
+                "return String(data.motion.runs.findIndex(r => r.name === arguments[0]))", model))
+            self.driver.execute_script("""const scrub = document.getElementById('scrub'); scrub.value = 1;
+                                          scrub.dispatchEvent(new Event('input'))""")  # the wheel is in sight
+            self.assert_models_are_drawn()
+            self.assertRegex(self.find("#other-command").text, f"--contacts '?{model}\\b")
+        pictures = [self.with_capsule_over_a_body(turn) for turn in ([1, 0, 0, 0], [0.7, 0.7, 0, 0])]
+        self.assertNotEqual(*pictures)
         self.assert_no_sideways_scrolling_on_a_phone(folder / "choose.html")
 
     def test_choice_for_a_robot_lists_what_was_not_read(self):
