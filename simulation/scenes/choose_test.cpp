@@ -388,6 +388,7 @@ TEST(Choose, ACanThatIsPushedAlongAShelfNeedsItsFlatEnd) {
 TEST(Choose, TheAnswerDoesNotDependOnTheSeed) {
   const SceneFile file = cans_on_pedestals({Vec3(0, 0, 0)});
   ChooseOptions options{find_candidates({"capsule"}), 2};
+  options.trials.disturbances = 8;  // and forty of the answer
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     options.trials.seed = seed;
     const Choice choice = choose(file, options);
