@@ -1,16 +1,11 @@
 // The box replaced by spheres or capsules, against an unchanged cylinder: the third simplification
 // of the thesis from which Touchstone grew (its chapter 3.6.2).
 //
-// Models       The radius is the box's smallest half extent. box-capsules:N is N capsules along
-//              the longest axis, side by side along the middle one; box-spheres:N is N spheres
-//              along the longest axis, in enough rows along the middle one that gaps there are no
-//              wider. All lie inside the box and reach its faces; its edges and corners are lost.
+// Models       box-capsules:N and box-spheres:N are capsules_in_box and spheres_in_box (model.hpp).
 // Calls        Touchstone's own cylinder–sphere and cylinder–capsule routines, once for each part.
 // Conventions  Those of candidate.h; up to 16 points, the deepest.
 // Threshold    Passed on.
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -19,49 +14,12 @@
 #include "reference/cylinder_capsule.hpp"
 #include "reference/cylinder_sphere.hpp"
 
+using touchstone::BoxParts;
 using touchstone::Contact;
 using touchstone::Pose;
 using touchstone::Vec3;
 
 namespace {
-
-/// The parts in the box's frame, and the rotation of a capsule.
-struct Parts {
-  std::vector<Vec3> centres;
-  double radius, half_length;
-  Eigen::Quaterniond along;  ///< rotates z to the longest axis
-};
-
-double place(double reach, int i, int count) {
-  return count == 1 ? 0 : reach * (2.0 * i / (count - 1) - 1);
-}
-
-Parts parts_of(const ts_shape& box, int count, bool as_capsules) {
-  std::array<int, 3> axis = {0, 1, 2};  // axes of the smallest, middle and largest half extent
-  std::sort(axis.begin(), axis.end(), [&](int i, int j) { return box.size[i] < box.size[j]; });
-  const double radius = box.size[axis[0]];
-  const double middle = box.size[axis[1]] - radius, longest = box.size[axis[2]] - radius;
-  Parts parts{{},
-              radius,
-              as_capsules ? longest : 0,
-              Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), Vec3::Unit(axis[2]))};
-  const int in_row = as_capsules ? 1 : count;
-  int rows = count;
-  if (!as_capsules) {
-    rows = middle > 0 && longest > 0
-               ? 1 + static_cast<int>(std::ceil(middle / longest * (count - 1)))
-               : 1;
-  } else if (middle == 0) {
-    rows = 1;
-  }
-  for (int row = 0; row < rows; ++row) {
-    for (int i = 0; i < in_row; ++i) {
-      parts.centres.emplace_back(place(middle, row, rows) * Vec3::Unit(axis[1]) +
-                                 place(longest, i, in_row) * Vec3::Unit(axis[2]));
-    }
-  }
-  return parts;
-}
 
 Pose to_pose(const ts_pose& p) {
   const double* q = p.orientation;
@@ -74,7 +32,7 @@ void copy(const Vec3& from, double (&to)[3]) { std::copy(from.data(), from.data(
 
 struct ts_prepared {
   touchstone::Cylinder cylinder;
-  Parts parts;
+  BoxParts parts;
   double threshold;
 
   /// Contact of the cylinder with one part, up to `reach` apart.
@@ -92,8 +50,10 @@ namespace {
 
 template <bool as_capsules>
 ts_prepared* prepare(void*, const ts_shape* a, const ts_shape* b, double threshold, double count) {
+  const auto in_box = as_capsules ? touchstone::capsules_in_box : touchstone::spheres_in_box;
   return new ts_prepared{touchstone::Cylinder(a->size[0], a->size[1]),
-                         parts_of(*b, static_cast<int>(count), as_capsules), threshold};
+                         in_box(Vec3(b->size[0], b->size[1], b->size[2]), static_cast<int>(count)),
+                         threshold};
 }
 
 void query(ts_prepared* p, const ts_pose* a, const ts_pose* b, const double*, ts_answer* answer) {

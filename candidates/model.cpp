@@ -1,6 +1,7 @@
 #include "candidates/model.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -344,6 +345,49 @@ std::vector<RoundedPolytope> inscribed_spheres(int count, double radius, double 
 
 std::vector<RoundedPolytope> inscribed_prism(int sides, double radius, double half_length) {
   return {RoundedPolytope::prism(sides, radius, half_length)};
+}
+
+namespace {
+
+double place(double reach, int i, int count) {
+  return count == 1 ? 0 : reach * (2.0 * i / (count - 1) - 1);
+}
+
+BoxParts parts_in_box(const Vec3& box, int count, bool as_capsules) {
+  std::array<int, 3> axis = {0, 1, 2};  // axes of the smallest, middle and largest half extent
+  std::sort(axis.begin(), axis.end(), [&](int i, int j) { return box[i] < box[j]; });
+  const double radius = box[axis[0]];
+  const double middle = box[axis[1]] - radius, longest = box[axis[2]] - radius;
+  BoxParts parts{{},
+                 radius,
+                 as_capsules ? longest : 0,
+                 Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), Vec3::Unit(axis[2]))};
+  const int in_row = as_capsules ? 1 : count;
+  int rows = count;
+  if (!as_capsules) {
+    rows = middle > 0 && longest > 0
+               ? 1 + static_cast<int>(std::ceil(middle / longest * (count - 1)))
+               : 1;
+  } else if (middle == 0) {
+    rows = 1;
+  }
+  for (int row = 0; row < rows; ++row) {
+    for (int i = 0; i < in_row; ++i) {
+      parts.centres.emplace_back(place(middle, row, rows) * Vec3::Unit(axis[1]) +
+                                 place(longest, i, in_row) * Vec3::Unit(axis[2]));
+    }
+  }
+  return parts;
+}
+
+}  // namespace
+
+BoxParts spheres_in_box(const Vec3& half_extents, int count) {
+  return parts_in_box(half_extents, count, false);
+}
+
+BoxParts capsules_in_box(const Vec3& half_extents, int count) {
+  return parts_in_box(half_extents, count, true);
 }
 
 }  // namespace touchstone

@@ -101,4 +101,17 @@ std::vector<RoundedPolytope> inscribed_spheres(int count, double radius, double 
 /// The prism with its corners on the rims.
 std::vector<RoundedPolytope> inscribed_prism(int sides, double radius, double half_length);
 
+/// Spheres or capsules inside a box, of its smallest half extent, in the box's frame. All reach its
+/// faces; its edges and corners are lost.
+struct BoxParts {
+  std::vector<Vec3> centres;
+  double radius, half_length;  ///< half_length 0: spheres
+  Eigen::Quaterniond along;    ///< rotates a capsule's z to the longest axis
+};
+/// `count` spheres along the longest axis, in enough rows along the middle one that gaps there are
+/// no wider.
+BoxParts spheres_in_box(const Vec3& half_extents, int count);
+/// `count` capsules along the longest axis, side by side along the middle one.
+BoxParts capsules_in_box(const Vec3& half_extents, int count);
+
 }  // namespace touchstone

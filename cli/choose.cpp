@@ -45,14 +45,18 @@ struct Options {
   }
 };
 
-/// The scene, with needs from its runs with exact contacts if it is a robot's.
+/// The scene, with needs from its runs with exact contacts if it is a robot's; of these none is
+/// made if an engine that is named cannot do what the scene asks for.
 SceneFile scene_of(const Options& options) {
   SceneFile file = options.robot.scene(options.scene);
   if (!is_robot_file(options.scene)) return file;
-  Processes processes(options.candidates.limits());
-  CandidateModel exact(processes.of(*exact_first({}).front()));
+  if (!options.engine.empty()) {
+    describe_engine(options.engine);  // which has to be there
+    check_engine_scene(options.engine, file.scene);
+  }
   const Trajectory exact_run =
-      run_disturbed(file.scene, exact, {options.disturbances, options.seed});
+      run_exactly(file.scene, {options.disturbances, options.seed}, options.workers.get(),
+                  options.candidates.limits(), file.name);
   add_robot_needs(file, exact_run);
   if (exact_run.answers.empty() || file.needs.empty()) {
     throw InvalidInput("scene", '"' + options.scene + '"',
@@ -68,9 +72,10 @@ int choose_scene(const Options& options) {
       fmt::format(" --disturbances {} --seed {}", options.disturbances, options.seed);
   const Limits limits = options.candidates.limits();
   const SceneFile file = scene_of(options);
-  const Choice choice = choose(
+  Choice choice = choose(
       file,
       {options.contestants(), options.workers.get(), limits, {options.disturbances, options.seed}});
+  choice.arguments = shell_quoted(options.scene) + options.robot.command_line();
   const std::string folder = options.folder();
   const auto write = [&] {
     write_evidence(choice, folder);
@@ -134,10 +139,6 @@ int run(const Options& options) {
     throw InvalidInput(option.name(), "given with \"" + options.scene + '"',
                        is_robot ? "must be left out: sampled poses have no motion to disturb"
                                 : "must be left out: a scene's needs stand in its file");
-  }
-  if (is_robot && !options.engine.empty()) {
-    throw InvalidInput("--engine", "given with \"" + options.scene + '"',
-                       "must be left out: a robot or world is simulated by Touchstone alone");
   }
   const OutputFolder out(options.out);
   if (options.is_sampled()) return choose_pairs(options);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -25,13 +26,33 @@
 namespace touchstone {
 namespace {
 
+/// --disturbance, with the --seed of the command: the scene as `choose` disturbs it.
+struct DisturbanceOption {
+  explicit DisturbanceOption(Command& command)
+      : option(command.count("--disturbance", number, {0, 5000},
+                             "The scene under this one of choose's disturbances, of --seed; 0: as "
+                             "it is written")) {}
+
+  /// A run of the scene, as seen in the scene as it is written: `run` makes it.
+  Trajectory run_of(const Scene& scene, std::uint64_t seed,
+                    const std::function<Trajectory(const DisturbedScene&)>& run) const {
+    const DisturbedScene disturbed(scene, seed, number);
+    return number == 0 ? run(disturbed) : disturbed.turned_back(run(disturbed));
+  }
+
+  std::uint64_t number = 0;
+  Option option;
+};
+
 const std::vector<double> default_steps = {1.0 / 60, 1.0 / 240, 1.0 / 960};
 
 struct Options {
-  explicit Options(Command& command) : candidates(command), workers(command), robot(command) {}
+  explicit Options(Command& command)
+      : candidates(command), workers(command), robot(command), disturbance(command) {}
   CandidateOption candidates;
   WorkersOption workers;
   RobotOption robot;
+  DisturbanceOption disturbance;
   std::vector<std::string> names;
   std::vector<double> steps = default_steps;
   std::vector<std::string> engines;
@@ -140,8 +161,16 @@ int simulate_scenes(const Options& options) {
     const SceneFile file = options.robot.scene(name);
     for (const Candidate* candidate : candidates) {
       CandidateModel model(processes.of(*candidate));
-      print(fmt::format("{}, {}\n{}", file.name, candidate->name,
-                        motion_table(file.scene, run_scene(file.scene, model))));
+      const Trajectory run = options.disturbance.run_of(
+          file.scene, options.recording.seed,
+          [&](const DisturbedScene& scene) { return run_scene(scene.scene, model); });
+      const std::string which =
+          options.disturbance.option.is_given()
+              ? fmt::format(", disturbance {} of seed {}", options.disturbance.number,
+                            options.recording.seed)
+              : "";
+      print(fmt::format("{}, {}{}\n{}", file.name, candidate->name, which,
+                        motion_table(file.scene, run)));
     }
   }
   return 0;
@@ -169,6 +198,10 @@ int run(const Options& options) {
   if (!options.record.empty()) return record(options);
   if (!options.engines.empty()) return simulate_in_engines(options);
   if (has_files(options)) return simulate_scenes(options);
+  if (options.disturbance.option.is_given()) {
+    throw InvalidInput("--disturbance", std::to_string(options.disturbance.number),
+                       "must be with scene files, robots or worlds");
+  }
   const ExperimentOptions experiments = options.experiments();
   std::optional<OutputFolder> out;
   if (!options.out.empty()) out.emplace(options.out);
@@ -220,12 +253,16 @@ void add_simulate(Program& program) {
       .excludes(out)
       .excludes(engine)
       .excludes(json)
+      .excludes(options->disturbance.option)
       .group(recording);
+  options->disturbance.option.excludes(engine);
   command
       .count("--count", options->recording.count, {1, 1000000},
              "Configurations of each scene and pair of shapes")
       .group(recording);
-  command.count("--seed", options->recording.seed, all_counts, "Same seed, same configurations")
+  command
+      .count("--seed", options->recording.seed, all_counts,
+             "Same seed, same configurations; or same disturbances")
       .group(recording);
   command.footer(
       "Examples:\n"
@@ -234,6 +271,8 @@ void add_simulate(Program& program) {
       "  touchstone simulate --out out\n"
       "  touchstone simulate small-log --engine bullet --out out\n"
       "  touchstone simulate simulation/scenes/rover.urdf --duration 1\n"
+      "  touchstone simulate simulation/scenes/three-logs.json --candidates capsule --disturbance "
+      "3\n"
       "  touchstone simulate simulation/scenes/conveyor.json --record recorded.jsonl\n" +
       experiment_list());
   command.runs([options] { return run(*options); });
@@ -242,27 +281,25 @@ void add_simulate(Program& program) {
 namespace {
 
 struct RenderOptions {
-  explicit RenderOptions(Command& command) : robot(command) {}
+  explicit RenderOptions(Command& command) : robot(command), disturbance(command) {}
   RobotOption robot;
-  std::string scene, out = "out/render", contacts = "reference";
+  DisturbanceOption disturbance;
+  std::uint64_t seed = Trials().seed;
+  std::string scene, out = "out/render";
+  std::vector<std::string> contacts = {"reference"};
   double every = 0.04;
 };
 
-const Candidate& contacts_of(const RenderOptions& options) {
-  try {
-    return find_candidate(options.contacts);
-  } catch (const InvalidInput& e) {
-    throw InvalidInput("--contacts", e.value(), e.remedy());
-  }
-}
-
 int run_render(const RenderOptions& options) {
-  const Candidate& candidate = contacts_of(options);
   const SceneFile file = options.robot.scene(options.scene);
+  const NamedContacts contacts = read_contacts(options.contacts, file.scene);
   const OutputFolder out(options.out);
-  CandidateProcess process(candidate, simulation_threshold);
-  CandidateModel model(process);
-  const int frames = write_povray(file, run_scene(file.scene, model), options.every, options.out);
+  Processes processes({});
+  const Trajectory run =
+      options.disturbance.run_of(file.scene, options.seed, [&](const DisturbedScene& scene) {
+        return run_with(scene, contacts, *exact_first({}).front(), processes);
+      });
+  const int frames = write_povray(file, run, options.every, options.out);
   print(fmt::format("{}. To draw with Debian's povray:\n  cd {} && povray scene.ini\n",
                     counted(frames, "frame"), shell_quoted(options.out)));
   return 0;
@@ -278,14 +315,20 @@ void add_render(Program& program) {
       .value("FILE")
       .required();
   command.number("--every", options->every, {1e-6, 1e6}, "Seconds between frames");
-  command.text("--contacts", options->contacts, "The candidate that contacts come from")
+  command
+      .list(
+          "--contacts", options->contacts,
+          "The candidate that contacts come from; or candidates of kinds of pairs, as in choose's "
+          "commands, with exact contacts of all others")
       .value("CANDIDATE");
+  command.count("--seed", options->seed, all_counts, "Same seed, same disturbances");
   command.text("--out", options->out, "Folder for scene.pov, scene.ini and the frames")
       .value("FOLDER");
   command.footer(
       "Examples:\n"
       "  touchstone render simulation/scenes/thesis-knock.json\n"
       "  touchstone render simulation/scenes/log-pile.json --contacts capsule\n"
+      "  touchstone render simulation/scenes/log-pile.json --contacts capsule --disturbance 3\n"
       "  touchstone render simulation/scenes/gripper.urdf");
   command.runs([options] { return run_render(*options); });
 }

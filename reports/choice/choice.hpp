@@ -73,6 +73,12 @@ std::string engine_choice_text(const EngineChoice& choice, std::size_t columns =
 
 /// ", disturbance 3"; empty for the scene as it is written.
 std::string in_disturbance(const RepeatedRun& run);
+/// "16/17": the runs in which all needs held, of those that were made.
+std::string share_held(const RepeatedRun& run);
+/// A line of a table that a terminal is too narrow for, in words: "spheres:2: 3.1 µs a step, …".
+std::string narrow_row(const std::string& name, const std::vector<std::string>& parts);
+/// Terminals of less columns get tables in words.
+inline constexpr std::size_t columns_of_tables = 80;
 
 /// What choose.json says of a scene.
 nlohmann::json scene_json(const SceneFile& file, const Trials& trials);
@@ -100,6 +106,8 @@ void write_evidence(const PairsChoice& choice, const std::string& folder);
 std::string evidence_file(const Choice& choice, std::size_t run, const std::string& folder);
 std::string evidence_file(const PairsChoice& choice, std::size_t pair,
                           const PairCandidate& candidate, const std::string& folder);
+/// Command that makes the worst run of a choice again, and draws it.
+std::string render_command(const Choice& choice, const SceneRun& run);
 /// Command that shows the evidence.
 std::string replay_command(const std::string& file, const std::string& candidate);
 

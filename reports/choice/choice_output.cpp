@@ -3,6 +3,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <limits>
 
 #include <nlohmann/json.hpp>
@@ -46,6 +47,7 @@ json run_json(const Choice& choice, std::size_t index, const std::string& folder
                  {"trials", run.trials},
                  {"held", run.held},
                  {"disturbance", run.disturbance},
+                 {"render", render_command(choice, run)},
                  {"verdicts", verdicts},
                  {"first_broken", nullptr},
                  {"evidence", nullptr}};
@@ -85,7 +87,7 @@ json kind_json(const Choice& choice, std::size_t k) {
                  {"pair", pair_name(kind.pair)},
                  {"asked", kind.answers.size()},
                  {"chosen", chosen.name},
-                 {"bytes", model_bytes(chosen)},
+                 {"bytes", choice.model_bytes(k, chosen)},
                  {"nanoseconds", choice.nanoseconds(k, chosen)},
                  {"exact_nanoseconds", choice.nanoseconds(k, exact)},
                  {"next_cheaper", nullptr},
@@ -235,6 +237,16 @@ std::string evidence_file(const PairsChoice& choice, std::size_t pair,
   std::string name = candidate.name;
   std::replace(name.begin(), name.end(), ':', '-');
   return fmt::format("{}/{}-{}-{}.json", folder, as_file_name(choice.name), pair + 1, name);
+}
+
+std::string render_command(const Choice& choice, const SceneRun& run) {
+  std::vector<std::string> names;
+  for (const Candidate* m : run.models) names.push_back(m->name);
+  std::string command =
+      fmt::format("{} render {} --contacts {}", program_name(names), choice.arguments,
+                  shell_quoted(fmt::format("{}", fmt::join(choice.contacts_of(run), ","))));
+  if (run.disturbance == 0) return command;
+  return command + fmt::format(" --disturbance {} --seed {}", run.disturbance, choice.trials.seed);
 }
 
 std::string replay_command(const std::string& file, const std::string& candidate) {

@@ -102,13 +102,31 @@ json shape_parts(const std::string& family, int count, const Cylinder& c) {
   return result;
 }
 
+/// Parts of what stands for a box with a candidate, in its frame; none where that is itself.
+json parts_of_box(const Candidate& candidate, const Shape& box) {
+  json result = json::array();
+  const auto parts = box_parts(candidate, box);
+  if (!parts) return result;
+  json shape = {{"shape", "sphere"}, {"radius", parts->radius}};
+  if (parts->half_length > 0) {
+    shape["shape"] = "capsule";
+    shape["half_length"] = parts->half_length;
+  }
+  const Eigen::Quaterniond& q = parts->along;
+  for (const Vec3& centre : parts->centres) {
+    result.push_back({{"shape", shape},
+                      {"centre", to_json(centre)},
+                      {"orientation", {q.w(), q.x(), q.y(), q.z()}}});
+  }
+  return result;
+}
+
 /// What stands for the bodies in a run: [{body, parts}].
 json models_of(const Choice& choice, const SceneRun& run) {
   const auto& bodies = choice.file.scene.bodies;
   json result = json::array();
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const auto* c = std::get_if<Cylinder>(&bodies[i].shape);
-    if (!c) continue;
     std::set<const Candidate*> models;
     for (std::size_t k = 0; k < bodies.size(); ++k) {
       const int kind = choice.kinds.of(static_cast<int>(i), static_cast<int>(k));
@@ -116,7 +134,8 @@ json models_of(const Choice& choice, const SceneRun& run) {
     }
     json parts = json::array();
     for (const Candidate* m : models) {
-      for (const json& part : shape_parts(m->family, static_cast<int>(m->value), *c)) {
+      for (const json& part : c ? shape_parts(m->family, static_cast<int>(m->value), *c)
+                                : parts_of_box(*m, bodies[i].shape)) {
         parts.push_back(part);
       }
     }
@@ -169,9 +188,9 @@ class Motions {
   /// Adds a run and returns its index; `is_listed`: a person can choose it.
   std::size_t add(const std::string& name, const std::string& note, std::vector<float> motion,
                   const json& models, std::size_t beside, bool is_listed) {
-    json run = {{"name", name},     {"note", note},     {"poses", base64(motion)},
-                {"models", models}, {"beside", beside}, {"listed", is_listed},
-                {"from", nullptr}};
+    json run = {{"name", name},     {"note", note},      {"poses", base64(motion)},
+                {"models", models}, {"beside", beside},  {"listed", is_listed},
+                {"from", nullptr},  {"command", nullptr}};
     if (beside < poses_.size()) {
       if (const auto at = parting(file_.scene, poses_[beside], motion)) {
         run["from"] = at->time;
@@ -183,6 +202,9 @@ class Motions {
     poses_.push_back(std::move(motion));
     return runs_.size() - 1;
   }
+
+  /// The command that draws the run that was added last.
+  void add_command(const std::string& command) { runs_.back()["command"] = command; }
 
   json to_json() const {
     const Scene& scene = file_.scene;
@@ -234,10 +256,17 @@ json motion_json(const Choice& choice, const Limits& limits) {
                                                        *choice.candidates[0], processes)));
   };
   Motions motions(choice.file);
-  const auto shown_runs = worth_showing(choice);
-  motions.add("exact", "The exact cylinder for all pairs.", poses(scene, choice.exact_run),
-              json::array(), 0, shown_runs.empty());
+  // Where exact contacts fail, how they do is all that there is to see.
+  const auto shown_runs = choice.impossible ? std::vector<std::size_t>{} : worth_showing(choice);
   const SceneRun& answer = choice.runs[choice.answer];
+  const bool fails_disturbed = choice.impossible && answer.disturbance > 0;
+  motions.add("exact", "The exact cylinder for all pairs.", poses(scene, choice.exact_run),
+              json::array(), 0, shown_runs.empty() && !fails_disturbed);
+  if (fails_disturbed) {
+    motions.add("exact, disturbed", note(choice.file, answer), run(answer, answer.disturbance),
+                json::array(), 0, true);
+    motions.add_command(render_command(choice, answer));
+  }
   const std::string name = choice.answer == 0 ? "exact" : "the answer";
   RunsBeside holding([&](std::size_t disturbance) {
     if (choice.answer == 0 && disturbance == 0) return std::size_t{0};
@@ -249,6 +278,7 @@ json motion_json(const Choice& choice, const Limits& limits) {
     const std::size_t disturbance = i == choice.answer ? 0 : shown.disturbance;
     motions.add(i == choice.answer ? "the answer" : shown.name, note(choice.file, shown),
                 run(shown, disturbance), models_of(choice, shown), beside, true);
+    if (disturbance == shown.disturbance) motions.add_command(render_command(choice, shown));
   }
   return motions.to_json();
 }

@@ -1,5 +1,7 @@
 #include "reports/choice/choice.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -8,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "candidates/candidates.hpp"
+#include "reports/replay.hpp"
 
 namespace touchstone {
 namespace {
@@ -16,8 +19,7 @@ using nlohmann::json;
 using testing::HasSubstr;
 
 /// A can that stands, slightly tilted, with one need.
-Choice choice_of(const std::string& need,
-                 const std::vector<std::string>& candidates = {"capsule", "prism:64"}) {
+SceneFile can_with(const std::string& need) {
   const std::string scene = R"({
     "duration": 0.8,
     "bodies": [
@@ -26,7 +28,11 @@ Choice choice_of(const std::string& need,
       {"name": "can", "shape": {"shape": "cylinder", "radius": 0.1, "half_length": 0.2},
        "pose": {"position": [0, 0, 0.2], "orientation": [1, 0.004, 0.001, 0]}}],
     "needs": [)" + need + "]}";
-  return choose(scene_from_text(scene, "can.json"), {find_candidates(candidates)});
+  return scene_from_text(scene, "can.json");
+}
+Choice choice_of(const std::string& need,
+                 const std::vector<std::string>& candidates = {"capsule", "prism:64"}) {
+  return choose(can_with(need), {find_candidates(candidates)});
 }
 const char* const stands = R"({"need": "stands", "body": "can", "degrees": 2})";
 const char* const elsewhere =
@@ -55,6 +61,102 @@ TEST(ChoicePage, ShowsTheExactRunWhereNoOtherIsWorthIt) {
       data_of(choice_page(choice_of(stands, {"spheres:64"}), "", "out", {}))["motion"];
   ASSERT_EQ(motion["runs"].size(), 1U);
   EXPECT_EQ(motion["runs"][0]["listed"], true);
+}
+
+/// A brick that lies on a can's side, along the model's parts.
+TEST(ChoicePage, DrawsWhatStandsForABox) {
+  const std::string scene = R"({
+    "duration": 0.1,
+    "bodies": [
+      {"name": "table", "shape": {"shape": "box", "half_extents": [0.1, 0.4, 0.2]}, "fixed": true,
+       "pose": {"position": [0, 0, -0.2]}},
+      {"name": "can", "shape": {"shape": "cylinder", "radius": 0.05, "half_length": 0.1},
+       "pose": {"position": [0, 0, 0.1]}}],
+    "needs": [{"need": "stays-in", "body": "can", "lower": [-1, -1, -9], "upper": [1, 1, 1]}]})";
+  Choice choice = choose(scene_from_text(scene, "brick.json"),
+                         {find_candidates({"box-capsules:2", "box-spheres:3"}), 1, {}, {1, 1}});
+  for (std::size_t i = 0; i < choice.runs.size(); ++i) {
+    choice.answer = i;  // what is drawn, whichever is the cheapest here
+    const std::string& model = choice.runs[i].models[0]->name;
+    const json motion = data_of(choice_page(choice, "", "out", {}))["motion"];
+    const auto shown = std::ranges::find_if(
+        motion["runs"], [](const json& run) { return run["name"] == "the answer"; });
+    if (i == 0) continue;
+    ASSERT_NE(shown, motion["runs"].end()) << model;
+    ASSERT_EQ((*shown)["models"].size(), 1U) << model;
+    const json &stand = (*shown)["models"][0], &part = stand["parts"][0];
+    EXPECT_EQ(stand["body"], 0) << model;
+    if (model.starts_with("box-capsules")) {
+      EXPECT_EQ(stand["parts"].size(), 2U);
+      // Of the smallest half extent, as long as the box along its y, side by side along z.
+      EXPECT_EQ(part["shape"]["shape"], "capsule");
+      EXPECT_EQ(part["shape"]["radius"], 0.1);
+      EXPECT_NEAR(part["shape"]["half_length"].get<double>(), 0.3, 1e-12);
+      EXPECT_NEAR(part["centre"][2].get<double>(), -0.1, 1e-12);
+      // A quarter turn about x, which takes z to y.
+      EXPECT_NEAR(std::abs(part["orientation"][1].get<double>()), std::sqrt(0.5), 1e-12);
+    } else {
+      EXPECT_EQ(part["shape"], json({{"shape", "sphere"}, {"radius", 0.1}}));
+      EXPECT_NEAR(part["centre"][1].get<double>(), -0.3, 1e-12);
+    }
+  }
+}
+
+// Exact contacts hold as the scene is written; what there is to see is the disturbed run that
+// fails.
+TEST(ChoicePage, ShowsTheDisturbedRunInWhichExactContactsFail) {
+  const auto stays_within = [](double metres) {
+    return fmt::format(R"({{"need": "stays-in", "body": "can", "lower": [0, 0, 0.2],
+                           "upper": [0, 0, 0.2], "metres": {}}})",
+                       metres);
+  };
+  ChooseOptions options{find_candidates({"spheres:64"})};
+  options.trials.disturbances = 0;
+  const double as_written = choose(can_with(stays_within(1)), options).runs[0].verdicts[0].value;
+  options.trials.disturbances = 16;
+  const Choice choice = choose(can_with(stays_within(as_written)), options);
+  ASSERT_TRUE(choice.impossible);
+  ASSERT_GT(choice.runs[0].disturbance, 0U);
+  const std::string page = choice_page(choice, "", "out", {});
+  const json runs = data_of(page)["motion"]["runs"];
+  ASSERT_EQ(runs.size(), 2U);
+  EXPECT_EQ(runs[0]["listed"], false);
+  EXPECT_EQ(runs[1]["listed"], true);
+  EXPECT_NE(runs[1]["poses"], runs[0]["poses"]);
+  const std::string which = fmt::format("disturbance {}", choice.runs[0].disturbance);
+  EXPECT_THAT(runs[1]["note"].get<std::string>(), HasSubstr(which));
+  EXPECT_THAT(runs[1]["command"].get<std::string>(), HasSubstr("--" + which + " --seed 1"));
+  const std::string text = choice_text(choice, "out");
+  EXPECT_THAT(text,
+              HasSubstr("Not even exact contacts meet the needs of this scene under " + which));
+  EXPECT_THAT(text, HasSubstr("--contacts reference --" + which + " --seed 1\n"));
+}
+
+TEST(ChoiceText, SaysInHowManyRunsAModelHeld) {
+  const Choice choice = choice_of(stands);
+  const SceneRun* capsule = nullptr;
+  for (const SceneRun& run : choice.runs) {
+    if (run.name == "capsule") capsule = &run;
+  }
+  ASSERT_TRUE(capsule);
+  const std::string held = fmt::format("{}/{}", capsule->held, capsule->trials);
+  const std::string wide = choice_text(choice, "out", 80), narrow = choice_text(choice, "out", 40);
+  EXPECT_THAT(wide, testing::ContainsRegex("\n  capsule +[0-9.]+ +" + held + "  need 1, "));
+  EXPECT_THAT(narrow,
+              testing::ContainsRegex("\n  capsule: breaks need 1, [^:]*held in[ \n]+" + held));
+}
+
+TEST(ChoiceText, AndJsonNameTheCommandThatMakesAFailureAgain) {
+  Choice choice = choice_of(stands);
+  choice.arguments = "can.json";
+  const json data = json::parse(choice_json(choice, "", "out"));
+  for (std::size_t i = 0; i < choice.runs.size(); ++i) {
+    const SceneRun& run = choice.runs[i];
+    const std::string which =
+        run.disturbance == 0 ? "" : fmt::format(" --disturbance {} --seed 1", run.disturbance);
+    EXPECT_EQ(data["runs"][i]["render"], fmt::format("./touchstone render can.json --contacts {}{}",
+                                                     shell_quoted(run.models[0]->name), which));
+  }
 }
 
 TEST(ChoiceText, SaysWhenExactContactsDoNotServe) {

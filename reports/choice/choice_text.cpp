@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <functional>
 #include <limits>
 #include <numeric>
@@ -27,10 +28,10 @@ std::string failure(const Choice& choice, const SceneRun& run) {
                      verdict.time, in_disturbance(run));
 }
 
-/// "need 3 at 0.71 s"
+/// "need 3, 0.71 s"
 std::string first_failure(const SceneRun& run) {
   const int broken = run.first_broken();
-  return fmt::format("need {} at {:.2f} s{}", broken + 1, run.verdicts[broken].time,
+  return fmt::format("need {}, {:.2f} s{}", broken + 1, run.verdicts[broken].time,
                      in_disturbance(run));
 }
 
@@ -81,7 +82,8 @@ std::string next_cheaper(const Choice& choice, std::size_t kind, const std::stri
   std::string lines = fmt::format("    next cheaper: {}, {:.0f} ns, ", cheaper.name,
                                   choice.nanoseconds(kind, cheaper));
   if (run.holds()) return lines + "holds, but makes no step cheaper\n";
-  lines += "breaks\n      " + failure(choice, run) + '\n';
+  lines += fmt::format("breaks\n      {}\n      {}\n", failure(choice, run),
+                       render_command(choice, run));
   if (const auto& e = run.evidence) {
     lines += fmt::format("      {} at {:.2f} s: {}\n      {}\n", e->bodies, e->time, e->wrong,
                          replay_command(evidence_file(choice, index, folder), e->candidate));
@@ -103,7 +105,7 @@ std::string kinds_of(const Choice& choice, const std::string& folder) {
         is_exact
             ? fmt::format("    {:.0f} ns a query\n", ns)
             : fmt::format("    {:.0f} ns a query instead of {:.0f} ns exactly; {} bytes a shape\n",
-                          ns, choice.nanoseconds(k, exact), model_bytes(chosen));
+                          ns, choice.nanoseconds(k, exact), choice.model_bytes(k, chosen));
     lines += next_cheaper(choice, k, folder);
   }
   return lines;
@@ -158,21 +160,31 @@ std::string headline(const Choice& choice) {
 }
 
 /// One row for each candidate that was run for all pairs.
-std::string candidates_table(const Choice& choice) {
-  std::string lines = "\nOne model for all pairs  µs/step error/limit  breaks first\n";
+std::string candidates_table(const Choice& choice, std::size_t columns) {
+  const bool is_narrow = columns < columns_of_tables;
+  std::string lines = is_narrow
+                          ? "\nOne model for all pairs\n"
+                          : "\nOne model for all pairs µs/step of limit  held  breaks first\n";
   for (const SceneRun& run : choice.runs) {
     const bool of_search = run.name.find(' ') != std::string::npos || run.name == "combination";
     if (of_search) continue;
-    const double error = run.error();
-    lines += fmt::format("  {:<22} {:>8} {:>11}  {}\n", run.name,
-                         run.holds() ? fmt::format("{:.1f}", step_microseconds(choice, run)) : "",
-                         std::isfinite(error) ? fmt::format("{:.3g}", error) : "absurd",
-                         run.holds() ? "" : first_failure(run));
+    const std::string step =
+        run.holds() ? fmt::format("{:.1f}", step_microseconds(choice, run)) : "";
+    const std::string error =
+        std::isfinite(run.error()) ? fmt::format("{:.3g}", run.error()) : "absurd";
+    const std::string failed = run.holds() ? "" : first_failure(run);
+    lines += is_narrow
+                 ? narrow_row(run.name, {run.holds() ? step + " µs a step" : "breaks " + failed,
+                                         error + " of the limit", "held in " + share_held(run)})
+                 : fmt::format("  {:<21} {:>7} {:>8} {:>5}  {}\n", run.name, step, error,
+                               share_held(run), failed);
   }
   for (const Candidate* c : choice.too_slow) {
-    lines += fmt::format("  {:<22} takes too long to run\n", c->name);
+    lines += fmt::format("  {:<21} takes too long to run\n", c->name);
   }
-  return lines;
+  return lines +
+         "  (held: of the runs as written and disturbed; choose.json has the command that "
+         "draws each)\n";
 }
 
 std::string errors(const ReplayScore& s) {
@@ -187,6 +199,14 @@ std::string in_disturbance(const RepeatedRun& run) {
   return run.disturbance == 0 ? "" : fmt::format(", disturbance {}", run.disturbance);
 }
 
+std::string share_held(const RepeatedRun& run) {
+  return fmt::format("{}/{}", run.held, run.trials);
+}
+
+std::string narrow_row(const std::string& name, const std::vector<std::string>& parts) {
+  return fmt::format("  {}: {}\n", name, fmt::join(parts, ", "));
+}
+
 std::string choice_text(const Choice& choice, const std::string& folder, std::size_t columns) {
   const SceneFile& file = choice.file;
   const SceneRun& answer = choice.runs[choice.answer];
@@ -199,9 +219,11 @@ std::string choice_text(const Choice& choice, const std::string& folder, std::si
   }
   lines += '\n' + headline(choice);
   lines += needs_of(choice, answer);
-  if (choice.impossible) return Terminal{columns}.folded(lines);
+  if (choice.impossible) {
+    return Terminal{columns}.folded(lines + "  " + render_command(choice, answer) + '\n');
+  }
   return Terminal{columns}.folded(lines + times_of(choice) + '\n' + kinds_of(choice, folder) +
-                                  candidates_table(choice));
+                                  candidates_table(choice, columns));
 }
 
 std::string pairs_text(const PairsChoice& choice, const std::string& folder, std::size_t columns) {

@@ -47,11 +47,11 @@ std::string failure(const EngineChoice& choice, const EngineSetting& setting) {
                      verdict.time, in_disturbance(setting));
 }
 
-/// "need 2 at 0.53 s, disturbance 3"
+/// "need 2, 0.53 s, disturbance 3"
 std::string first_failure(const EngineSetting& setting) {
   if (!setting.end.empty()) return setting.end + in_disturbance(setting);
   const int broken = setting.first_broken();
-  return fmt::format("need {} at {:.2f} s{}", broken + 1, setting.verdicts[broken].time,
+  return fmt::format("need {}, {:.2f} s{}", broken + 1, setting.verdicts[broken].time,
                      in_disturbance(setting));
 }
 
@@ -99,6 +99,23 @@ std::string lines_to_paste(const EngineChoice& choice) {
     for (std::string line; std::getline(lines, line);) text += "    " + line + '\n';
   }
   return text;
+}
+
+std::string settings_table(const EngineChoice& choice, std::size_t columns) {
+  const bool is_narrow = columns < columns_of_tables;
+  std::string lines = is_narrow ? "\nAll that was run\n"
+                                : "\nAll that was run        µs/step points  held  breaks first\n";
+  for (const EngineSetting& s : choice.settings) {
+    const std::string failed = s.holds() ? "" : first_failure(s);
+    const std::string points = fmt::format("{:.1f}", s.points);
+    lines += is_narrow
+                 ? narrow_row(setting_name(s),
+                              {s.holds() ? microseconds(s) + " µs a step" : "breaks " + failed,
+                               points + " points", "held in " + share_held(s)})
+                 : fmt::format("  {:<22} {:>6} {:>6} {:>5}  {}\n", setting_name(s), microseconds(s),
+                               points, share_held(s), failed);
+  }
+  return Terminal{columns}.folded(lines);
 }
 
 json setting_json(const EngineChoice& choice, const EngineSetting& setting) {
@@ -149,6 +166,10 @@ std::string engine_choice_text(const EngineChoice& choice, std::size_t columns) 
   for (const std::string& need : choice.left_out) {
     text += fmt::format("Left out, for an engine's normals are not judged: {}\n", need);
   }
+  for (const std::string& need : choice.not_judged) {
+    text += fmt::format("Not judged, for {} ended a run with our routines ({}): {}\n",
+                        choice.engine.name, choice.exact_end, need);
+  }
   text += '\n' + headline(choice);
   const EngineSetting& shown =
       choice.answer ? choice.settings[*choice.answer] : choice.exact_setting();
@@ -160,18 +181,15 @@ std::string engine_choice_text(const EngineChoice& choice, std::size_t columns) 
   }
   text = Terminal{columns}.folded(text);
   if (choice.answer) text += lines_to_paste(choice);
-  text += "\nAll that was run          µs/step points  breaks first\n";
-  for (const EngineSetting& s : choice.settings) {
-    text += fmt::format("  {:<24} {:>6} {:>6.1f}  {}\n", setting_name(s), microseconds(s), s.points,
-                        s.holds() ? "" : first_failure(s));
-  }
-  return text;
+  return text + settings_table(choice, columns);
 }
 
 std::string engine_choice_json(const EngineChoice& choice, const std::string& command, int indent) {
   json sizes = json::array(), settings = json::array();
   json scene = scene_json(choice.file, choice.trials);
   scene["left_out"] = choice.left_out;
+  scene["not_judged"] = choice.not_judged;
+  scene["exact_end"] = choice.exact_end.empty() ? json(nullptr) : json(choice.exact_end);
   for (std::size_t i = 0; i < choice.sizes.size(); ++i) {
     sizes.push_back({{"name", choice.sizes[i].name},
                      {"bodies", bodies_of(choice, choice.sizes[i])},

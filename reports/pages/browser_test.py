@@ -139,6 +139,20 @@ class PageTest(unittest.TestCase):
     def all(self, selector):
         return self.driver.find_elements(By.CSS_SELECTOR, selector)
 
+    def assert_labels_apart(self, chart):
+        """No label of the chart lies on another one; their number."""
+        boxes = self.driver.execute_script(
+            """return [...arguments[0].querySelectorAll('.role-mark text')]
+               .filter(t => t.textContent && getComputedStyle(t).opacity > 0.5)
+               .map(t => t.getBoundingClientRect()).map(b => [b.left, b.top, b.right, b.bottom])""",
+            chart)
+        for i, a in enumerate(boxes):
+            for b in boxes[:i]:
+                # A box of text is higher than its letters.
+                apart = (a[0] >= b[2] or b[0] >= a[2] or a[1] + 3 >= b[3] or b[1] + 3 >= a[3])
+                self.assertTrue(apart, (a, b))
+        return len(boxes)
+
     def choose(self, selector, value):
         Select(self.find(selector)).select_by_value(value)
 
@@ -422,17 +436,7 @@ class Report(PageTest):
 
     def test_labels_do_not_lie_on_each_other(self):
         for panel in self.all("#chart-panels figure"):
-            boxes = self.driver.execute_script(
-                """return [...arguments[0].querySelectorAll('.role-mark text')]
-                   .filter(t => t.textContent && getComputedStyle(t).opacity > 0.5)
-                   .map(t => t.getBoundingClientRect()).map(b => [b.left, b.top, b.right, b.bottom])""",
-                panel)
-            self.assertGreater(len(boxes), 3)
-            for i, a in enumerate(boxes):
-                for b in boxes[:i]:
-                    # A box of text is higher than its letters.
-                    apart = (a[0] >= b[2] or b[0] >= a[2] or a[1] + 3 >= b[3] or b[1] + 3 >= a[3])
-                    self.assertTrue(apart, (a, b))
+            self.assertGreater(self.assert_labels_apart(panel), 3)
 
     def test_the_findings_answer_for_a_pair_and_a_candidate(self):
         box = next(li.text for li in self.all("#finding-accuracy li") if "cylinder–box" in li.text)
@@ -559,6 +563,27 @@ class OtherPages(PageTest):
     def picture(self, selector):
         return self.driver.execute_script("return arguments[0].toDataURL()", self.find(selector))
 
+    def assert_models_are_drawn(self):
+        """Without what stands for its bodies the picture on the right is another one."""
+        with_models = self.picture("#right")
+        self.driver.execute_script("""for (const run of data.motion.runs) run.meshes = new Map();
+                                      dispatchEvent(new Event('resize'))""")
+        self.assertNotEqual(self.picture("#right"), with_models)
+        self.driver.execute_script("""for (const run of data.motion.runs) delete run.meshes;
+                                      dispatchEvent(new Event('resize'))""")
+        self.assertEqual(self.picture("#right"), with_models)
+
+    def with_capsule_over_a_body(self, orientation):
+        """The picture on the right with such a capsule in place of what stands for the moving bodies."""
+        self.driver.execute_script("""
+            const {bodies, runs} = data.motion, run = runs[document.getElementById('other').value];
+            const parts = [{shape: {shape: 'capsule', radius: 0.02, half_length: 0.3}, centre: [0, 0, 0],
+                            orientation: arguments[0]}];
+            run.models = bodies.map((b, body) => ({body, parts})).filter(m => !bodies[m.body].fixed);
+            delete run.meshes;
+            dispatchEvent(new Event('resize'))""", orientation)
+        return self.picture("#right")
+
     def test_replay(self):
         page = Path(self.folder.name) / "replay.html"
         self.run_program("replay", "cylinder-box/rim-face/1/0", "--html", page)
@@ -619,11 +644,12 @@ class OtherPages(PageTest):
 
     def test_choice(self):
         folder = Path(self.folder.name) / "choose"
-        self.run_program("choose", scene, "--candidates", "reference,ode,capsule",
+        self.run_program("choose", scene, "--candidates", "reference,ode,capsule,prism:16,spheres:1..16",
                          "--disturbances", "1", "--out", folder)
         self.open(folder / "choose.html")
         self.assertIn("error / limit", self.find("#front").text)
         self.assertGreater(len(self.all("#front .mark-symbol path")), 2)
+        self.assertGreater(self.assert_labels_apart(self.find("#front")), 3)
         self.assertEqual(self.find("#left-caption").text, "With exact")
         self.choose("#other", self.driver.execute_script(
             "return String(data.motion.runs.findIndex(r => r.name === 'capsule'))"))
@@ -641,6 +667,15 @@ class OtherPages(PageTest):
         self.assertNotEqual(self.picture("#left"), later)
         self.find("#play").click()
         self.assertEqual(self.find("#play").text, "Pause")
+        for model in ("prism:16", "capsule"):
+            self.choose("#other", self.driver.execute_script(
+                "return String(data.motion.runs.findIndex(r => r.name === arguments[0]))", model))
+            self.driver.execute_script("""const scrub = document.getElementById('scrub'); scrub.value = 1;
+                                          scrub.dispatchEvent(new Event('input'))""")  # the wheel is in sight
+            self.assert_models_are_drawn()
+            self.assertRegex(self.find("#other-command").text, f"--contacts '?{model}\\b")
+        pictures = [self.with_capsule_over_a_body(turn) for turn in ([1, 0, 0, 0], [0.7, 0.7, 0, 0])]
+        self.assertNotEqual(*pictures)
         self.assert_no_sideways_scrolling_on_a_phone(folder / "choose.html")
 
     def test_choice_for_a_robot_lists_what_was_not_read(self):

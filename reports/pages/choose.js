@@ -29,7 +29,7 @@ function headline() {
   const exact = data.runs[0], percent = 100 * data.step_saved;
   const instead = (text, of) => text(answer) + (data.answer === 0 ? '' : ` instead of ${text(exact)}`) + of;
   const microseconds = (member, of) => instead(run => `${exponent(run[member], 3)} µs`, of);
-  byId('headline').textContent = !data.possible ? 'Not even exact contacts meet the needs of this scene.'
+  byId('headline').textContent = !data.possible ? `Not even exact contacts meet the needs of this scene: ${failure(exact)}.`
       : data.worthwhile ? `The cheapest models that meet all needs save ${Math.round(percent)}% of a step: ${microseconds('step_microseconds', '.')}`
       : percent > 0 ? `Exact: nothing cheaper that meets all needs saves more than ${(Math.ceil(10 * percent) / 10).toFixed(1)}% of a step.`
       : 'Exact: no model that meets all needs takes less of a step.';
@@ -63,7 +63,7 @@ function failures() {
   for (const kind of data.kinds.filter(k => k.next_cheaper !== null && !data.runs[k.next_cheaper.run].holds)) {
     const run = data.runs[kind.next_cheaper.run], e = run.evidence;
     list.append(element('article', {}, element('h3', {}, `${kind.next_cheaper.name} for ${kind.name}`),
-        element('p', {}, failure(run)),
+        element('p', {}, failure(run)), command(run.render),
         e && element('p', {}, `${e.bodies} at ${e.time.toFixed(2)} s: ${e.wrong}.`), e && command(e.replay)));
   }
   if (!list.children.length) list.append(element('p', {}, 'No model with a cheaper query breaks a need.'));
@@ -111,8 +111,12 @@ function startMotion(motion) {
   const listed = runs.map((r, i) => [i, r.name]).filter(([i]) => runs[i].listed);
   select.append(...options(listed));
   const chosen = () => runs[select.value];
-  const begin = () => {
+  const describe = () => {
     byId('other-note').textContent = chosen().note;
+    byId('other-command').replaceChildren(...(chosen().command === null ? [] : [command(chosen().command)]));
+  };
+  const begin = () => {
+    describe();
     byId('left-caption').textContent = `With ${runs[chosen().beside].name}`;
     byId('scrub').value = Math.max(0, (chosen().from ?? 0) - before);
     byId('scrub').dispatchEvent(new Event('input'));
@@ -122,7 +126,7 @@ function startMotion(motion) {
   playMotions(() => ({motion, pair: [runs[chosen().beside], chosen()]}));
   select.addEventListener('change', begin);
   if (!/[#&]t=/.test(location.hash)) begin();
-  else byId('other-note').textContent = chosen().note;
+  else describe();
 }
 
 // The page of `touchstone choose --engine`.
@@ -137,6 +141,7 @@ function drawEngineChoice() {
         (usual.holds ? '; the default cylinder meets all needs, too.' : `. The default cylinder breaks: ${usual.failure}.`);
   byId('provenance').textContent = `${engine.name} ${engine.version}: ${engine.settings}. ${data.machine.cpu}, ${data.machine.compiler}. ` +
       (data.scene.disturbances ? `Every run is repeated under ${disturbances(data.scene.disturbances)} (seed ${data.scene.seed}), the answer under five times as many.` : '') +
+      (data.scene.not_judged.length ? ` Not judged, for ${engine.name} ended a run with our routines (${data.scene.exact_end}): ${data.scene.not_judged.join(', ')}.` : '') +
       (data.scene.left_out.length ? ` Left out, for an engine’s normals are not judged: ${data.scene.left_out.join(', ')}.` : '');
   origin();
   byId('answer-note').textContent = 'The cheapest shape of each size of cylinder with which a whole run in the engine’s own world meets all needs, and the lines that make it.';

@@ -34,15 +34,16 @@ function sceneOf({bodies, camera}) {
 function modelsOf(models, parts) {
   const segments = parts.length > 20 ? 12 : 24, meshes = new Map();
   for (const {body, parts: stand} of models) {
-    meshes.set(parts[body], stand.map(({shape, centre}) => ({shape, centre, mesh: {...meshOf(shape, null, 1, segments)}})));
+    meshes.set(parts[body], stand.map(({shape, centre, orientation = [1, 0, 0, 0]}) =>
+        ({shape, centre, orientation, mesh: {...meshOf(shape, null, 1, segments)}})));
   }
   return meshes;
 }
 const modelTint = [214, 64, 90];
 // Paints what stands for a body over it, so that both are seen.
 function paintModel(canvas, body, model) {
-  for (const {shape, centre, mesh} of model) {
-    const placed = placeMesh(shape, mesh, [1, 0, 0, 0], [0, 0, 0]);
+  for (const {shape, centre, orientation, mesh} of model) {
+    const placed = placeMesh(shape, mesh, orientation, [0, 0, 0]);
     const toWorld = p => add(body.centre, combine(body.axes, add(p, centre)));
     placed.faces = placed.faces.map(f => f.map(toWorld));
     placed.edges = placed.edges.map(e => e.map(toWorld));

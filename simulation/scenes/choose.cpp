@@ -8,6 +8,7 @@
 
 #include "candidates/candidates.hpp"
 #include "reference/invalid_input.hpp"
+#include "simulation/assembly.hpp"
 
 namespace touchstone {
 namespace {
@@ -280,14 +281,15 @@ class Search {
     } while (best() != choice_.answer || !is_confirmed());
   }
 
-  /// Does the answer hold under the further disturbances?
+  /// Does the answer hold under the further disturbances? Where exact contacts do not, there is
+  /// none.
   bool is_confirmed() {
     SceneRun& answer = choice_.runs[choice_.answer];
-    if (choice_.answer == 0) return true;  // exact contacts are what the others are held to
     std::vector<SceneRun> run = {answer};
     judge_.judge(run, choice_.trials.of_answer());
     answer = run[0];
-    return answer.holds();
+    choice_.impossible = choice_.answer == 0 && !answer.holds();
+    return choice_.impossible || answer.holds();
   }
 
   Choice& choice_;
@@ -296,6 +298,30 @@ class Search {
 };
 
 }  // namespace
+
+std::vector<std::string> Choice::contacts_of(const SceneRun& run) const {
+  const Candidate& exact = *candidates[0];
+  const Scene& scene = file.scene;
+  const Touching may_touch(scene);
+  bool are_all_known = true;
+  for (int a = 0; a < static_cast<int>(scene.bodies.size()); ++a) {
+    for (int b = 0; b < a; ++b) {
+      const bool has_cylinder = std::holds_alternative<Cylinder>(scene.bodies[a].shape) ||
+                                std::holds_alternative<Cylinder>(scene.bodies[b].shape);
+      if (has_cylinder && may_touch(a, b) && kinds.of(a, b) < 0) are_all_known = false;
+    }
+  }
+  const auto are_all = [&](const Candidate& candidate) {
+    return std::ranges::all_of(run.models, [&](const Candidate* m) { return m == &candidate; });
+  };
+  if (are_all(exact)) return {exact.name};
+  if (are_all_known && are_all(*run.models[0])) return {run.models[0]->name};
+  std::vector<std::string> result;
+  for (std::size_t k = 0; k < run.models.size(); ++k) {
+    if (run.models[k] != &exact) result.push_back(kinds.all()[k].name + '=' + run.models[k]->name);
+  }
+  return result;
+}
 
 double Choice::nanoseconds(std::size_t kind, const Candidate& candidate) const {
   const auto at = std::find(candidates.begin(), candidates.end(), &candidate);
@@ -330,11 +356,25 @@ std::optional<double> Choice::point_seconds() const {
   return slope > 0 ? std::optional(slope) : std::nullopt;
 }
 
-std::size_t model_bytes(const Candidate& candidate) {
+std::optional<BoxParts> box_parts(const Candidate& candidate, const Shape& shape) {
+  const auto* box = std::get_if<Box>(&shape);
+  const auto count = static_cast<int>(candidate.value);
+  if (box && candidate.family == "box-spheres") return spheres_in_box(box->half_extents(), count);
+  if (box && candidate.family == "box-capsules") return capsules_in_box(box->half_extents(), count);
+  return std::nullopt;
+}
+
+std::size_t Choice::model_bytes(std::size_t kind, const Candidate& candidate) const {
+  constexpr std::size_t sphere = 4, capsule = 7, corner = 3;  // numbers: centre, ends, radius
   const auto count = static_cast<std::size_t>(candidate.value);
-  if (candidate.family == "spheres") return count * 4 * sizeof(double);    // centre and radius
-  if (candidate.family == "prism") return 2 * count * 3 * sizeof(double);  // corners
-  return 2 * sizeof(double);  // radius and half length of a cylinder or capsule
+  const auto other = static_cast<std::size_t>(kinds.all()[kind].answers.front().b);
+  std::size_t numbers = 2;  // radius and half length of a cylinder or capsule on its axis
+  if (candidate.family == "spheres") numbers = count * sphere;
+  if (candidate.family == "prism") numbers = 2 * count * corner;
+  if (const auto parts = box_parts(candidate, file.scene.bodies[other].shape)) {
+    numbers = parts->centres.size() * (parts->half_length > 0 ? capsule : sphere);
+  }
+  return numbers * sizeof(double);
 }
 
 std::vector<const Candidate*> swept_candidates() {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "candidates/host/candidate_process.hpp"
+#include "candidates/model.hpp"
 #include "simulation/scenes/disturbed_scene.hpp"
 #include "simulation/scenes/scene_file.hpp"
 
@@ -76,6 +77,26 @@ Trajectory run_with(const DisturbedScene& scene, const PairKinds& kinds,
                     const std::vector<const Candidate*>& models, const Candidate& exact,
                     Processes& processes);
 
+/// Contacts of a run, as they are named: of one candidate for all pairs, or of candidates for kinds
+/// of pairs (PairKind::name), with exact ones for all others.
+struct NamedContacts {
+  const Candidate* for_all = nullptr;
+  std::map<std::string, const Candidate*> by_kind = {};
+};
+
+/// Reads "capsule", or "cylinder ⌀0.1×0.3 on plane=capsule" and more of these. Throws InvalidInput
+/// (field "--contacts") for an unknown candidate, or a kind that no two bodies of the scene are of.
+NamedContacts read_contacts(const std::vector<std::string>& names, const Scene& scene);
+
+Trajectory run_with(const DisturbedScene& scene, const NamedContacts& contacts,
+                    const Candidate& exact, Processes& processes);
+
+/// Runs a scene with exact contacts as it is written, and under the disturbances in the worker
+/// processes: frames of the one, answers of all, whatever the number of these. `name` is that of
+/// the scene in errors.
+Trajectory run_exactly(const Scene& scene, const Trials& trials, unsigned workers,
+                       const Limits& limits, const std::string& name);
+
 /// Which models to try in a scene.
 struct ChooseOptions {
   std::vector<const Candidate*> candidates;  ///< beside the exact one
@@ -107,8 +128,8 @@ class SceneJudge {
   std::vector<Trajectory> exact_runs_ = {};  ///< by disturbance: first and last frames alone
 };
 
-/// Bytes that a cylinder's model takes in double precision: its corners, its spheres, or its sizes.
-std::size_t model_bytes(const Candidate& candidate);
+/// What stands for a box in a model of boxes; absent with other candidates and for other shapes.
+std::optional<BoxParts> box_parts(const Candidate& candidate, const Shape& shape);
 
 /// All candidates, with the families of simplified models swept: 1 to 64 spheres, prisms of 8 to
 /// 128 sides, boxes as spheres and capsules.
@@ -130,6 +151,8 @@ struct Choice {
   /// Candidates whose run of the scene would take too long.
   std::vector<const Candidate*> too_slow = {};
   Trials trials = {};
+  /// What names the scene on a command line, with the options of a robot's motion.
+  std::string arguments = {};
   /// Index of the cheapest run that meets all needs; 0 if `impossible`, or where no other saves
   /// more of a step than the noise.
   std::size_t answer = 0;
@@ -138,8 +161,13 @@ struct Choice {
   /// query; it breaks a need, or saves nothing of a step. Absent where nothing cheaper supports the
   /// kind.
   std::vector<std::optional<std::size_t>> cheaper = {};
+  /// What read_contacts makes the contacts of a run of: one name if that says the same.
+  std::vector<std::string> contacts_of(const SceneRun& run) const;
   /// Time of a query of this kind; infinite where the candidate has no routine.
   double nanoseconds(std::size_t kind, const Candidate& candidate) const;
+  /// Bytes that what a candidate puts in place of a cylinder, or of a kind's box, takes in double
+  /// precision: its corners, its spheres, its capsules, or its sizes.
+  std::size_t model_bytes(std::size_t kind, const Candidate& candidate) const;
   /// Number of steps of a run.
   double steps() const { return static_cast<double>(exact_run.frames.size() - 1); }
   /// Share of the time of a whole step with exact contacts that the answer saves, or if that is

@@ -193,16 +193,6 @@ Trajectory DisturbedScene::turned_back(const Trajectory& run) const {
   return result;
 }
 
-Trajectory run_disturbed(const Scene& scene, ContactModel& model, const Trials& trials) {
-  Trajectory result = run_scene(scene, model);
-  for (std::size_t d = 1; d <= trials.disturbances; ++d) {
-    const DisturbedScene disturbed(scene, trials.seed, d);
-    const Trajectory run = disturbed.turned_back(run_scene(disturbed.scene, model));
-    result.answers.insert(result.answers.end(), run.answers.begin(), run.answers.end());
-  }
-  return result;
-}
-
 std::string trial_text(const Trial& trial) {
   json verdicts = json::array();
   for (const Verdict& v : trial.verdicts) {

@@ -39,10 +39,6 @@ struct Trials {
   std::size_t of_answer() const { return 5 * disturbances; }
 };
 
-/// Runs a scene as it is written, and adds the answers of its runs under the disturbances: frames
-/// of the one, answers of all.
-Trajectory run_disturbed(const Scene& scene, ContactModel& model, const Trials& trials);
-
 /// The worst answer of a run's models before its first need broke.
 struct Evidence {
   Configuration configuration;

@@ -4,12 +4,15 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
-#include <numbers>
 #include <numeric>
+#include <stdexcept>
+#include <tuple>
 
 #include <nlohmann/json.hpp>
 
 #include "candidates/host/contained.hpp"
+#include "candidates/host/progress.hpp"
+#include "candidates/host/worker_processes.hpp"
 #include "reference/invalid_input.hpp"
 #include "simulation/scenes/choose.hpp"
 
@@ -23,9 +26,9 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 bool is_bullet(const std::string& engine) { return engine.starts_with("bullet"); }
 
-/// What an engine offers beside its default and our routines.
+/// What an engine offers beside our routines, the simplest first.
 std::vector<EngineShape> own_shapes(const std::string& engine) {
-  std::vector<EngineShape> result;
+  std::vector<EngineShape> result = {{Kind::cylinder}};
   if (is_bullet(engine)) result.push_back({Kind::no_margin});
   if (is_bullet(engine) || engine == "mujoco") result.push_back({Kind::multipoint});
   result.push_back({Kind::capsule});
@@ -51,26 +54,60 @@ std::vector<CylinderSize> cylinder_sizes(const Scene& scene) {
   return sizes;
 }
 
+std::vector<EngineShape> shapes_by_body(const EngineChoice& choice, const EngineSetting& setting,
+                                        const DisturbedScene& scene) {
+  std::vector<EngineShape> shapes(scene.origin.size());
+  for (std::size_t size = 0; size < choice.sizes.size(); ++size) {
+    for (const int written : choice.sizes[size].bodies) {
+      const auto at = std::ranges::find(scene.origin, written);
+      shapes[static_cast<std::size_t>(at - scene.origin.begin())] = setting.shapes[size];
+    }
+  }
+  return shapes;
+}
+
+/// Does a need ask how a run with exact contacts ends? It does if another end of that gives another
+/// value.
+bool is_relative(const Need& need, const Scene& scene) {
+  const auto still = [&](const Pose& moved_by) {
+    Trajectory run;
+    run.step = scene.duration;
+    run.frames.resize(2);
+    for (const Body& b : scene.bodies) {
+      run.frames[0].push_back({b.pose, Vec3::Zero(), Vec3::Zero()});
+      run.frames[1].push_back({Pose(b.pose.position() + moved_by.position(),
+                                    moved_by.unit_orientation() * b.pose.unit_orientation()),
+                               Vec3::Zero(), Vec3::Zero()});
+    }
+    return run;
+  };
+  const Trajectory run = still(Pose(Vec3(0.5, 0, 0)));
+  const auto value = [&](const Pose& moved_by) {
+    return need.judge({scene, run, still(moved_by)}).value;
+  };
+  const double near = value(Pose(Vec3(1, 2, 3), Eigen::Quaterniond(0.9, 0.3, 0.2, 0.1)));
+  return near != value(Pose(Vec3(3, 5, 8), Eigen::Quaterniond(0.6, 0.2, 0.7, 0.3)));
+}
+
 class Search {
  public:
   Search(const EngineChoiceOptions& options, EngineChoice& choice)
-      : options_(options), choice_(choice) {
+      : options_(options), choice_(choice), shapes_(own_shapes(choice.engine.name)) {
     for (const auto& need : choice.file.needs) {
       with_depths_ = with_depths_ || std::string(need->name) == "penetration";
     }
   }
 
   void run() {
-    const EngineSetting exact = uniform({Kind::exact});
-    std::vector<EngineSetting> fresh = {uniform({}), exact};
-    for (const EngineShape& shape : own_shapes(choice_.engine.name)) {
-      fresh.push_back(uniform(shape));
-    }
-    judge_and_time(std::move(fresh));
+    run_exactly();
+    std::vector<EngineSetting> fresh = {uniform({}), uniform({Kind::exact})};
+    for (const EngineShape& shape : shapes_) fresh.push_back(uniform(shape));
+    judge_and_time(fresh);
     for (;;) {
+      if (!has_own_that_holds()) try_mixed();
       choice_.answer = best();
       if (!choice_.answer) return;
-      if (choice_.sizes.size() > 1 && judge_and_time(neighbours())) continue;
+      if (choice_.sizes.size() > 1 && judge_and_time(neighbours(*choice_.answer))) continue;
       if (endures()) return;
     }
   }
@@ -80,17 +117,26 @@ class Search {
     return EngineSetting(std::vector<EngineShape>(choice_.sizes.size(), shape));
   }
 
-  /// Settings in which the answer's shape for one size is another one. What is of a whole world
-  /// stays as it is.
-  std::vector<EngineSetting> neighbours() const {
-    const EngineSetting& answer = choice_.settings[*choice_.answer];
+  static bool is_own(const EngineSetting& setting) { return !setting.has(Kind::exact); }
+
+  bool has_own_that_holds() const {
+    return std::ranges::any_of(choice_.settings,
+                               [](const EngineSetting& s) { return is_own(s) && s.holds(); });
+  }
+
+  /// Settings in which another one's shape for one size is another. What is of a whole world stays
+  /// as it is, and the engine's own cylinder has no effect where it is of a whole world.
+  std::vector<EngineSetting> neighbours(std::size_t index) const {
+    const EngineSetting& of = choice_.settings[index];
     std::vector<EngineSetting> result;
     for (std::size_t size = 0; size < choice_.sizes.size(); ++size) {
-      for (const EngineShape& shape : own_shapes(choice_.engine.name)) {
-        const bool is_of_world = shape.kind == Kind::multipoint;
-        const bool has_no_effect = shape.kind == Kind::no_margin && answer.has(Kind::exact);
-        if (is_of_world || has_no_effect) continue;
-        EngineSetting changed(answer.shapes);
+      for (const EngineShape& shape : shapes_) {
+        const bool is_cylinder = shape.kind == Kind::cylinder || shape.kind == Kind::no_margin;
+        const bool has_no_effect =
+            (is_cylinder && of.has(Kind::exact)) ||
+            (shape.kind == Kind::cylinder && of.shapes[size].kind == Kind::multipoint);
+        if (shape.kind == Kind::multipoint || has_no_effect) continue;
+        EngineSetting changed(of.shapes);
         changed.shapes[size] = shape;
         result.push_back(std::move(changed));
       }
@@ -98,28 +144,90 @@ class Search {
     return result;
   }
 
-  /// The first and the last frame of a run in a process of its own.
-  Trajectory contained_ends(const EngineSetting& setting, const DisturbedScene& scene) const {
-    const Contained ran =
-        run_contained([&] { return ends_text(run_in_engine(choice_, setting, scene, false)); },
-                      max_engine_seconds);
-    if (ran.end != Contained::End::returned) {
-      throw std::runtime_error("with our routines: " + ran.text);
+  /// Looks for a setting that holds where no shape serves for all sizes: changes one size at a time
+  /// in the settings that fail, those that break the fewest needs first. Of two sizes these are all
+  /// combinations.
+  void try_mixed() {
+    constexpr std::size_t max_settings = 300;  // bounds what more than two sizes may take
+    std::vector<bool> tried;
+    while (!has_own_that_holds() && choice_.settings.size() < max_settings) {
+      tried.resize(choice_.settings.size());
+      std::optional<std::size_t> next;
+      const auto failing = [&](std::size_t i) {
+        const EngineSetting& s = choice_.settings[i];
+        const auto broken = std::ranges::count_if(
+            s.verdicts, [](const Verdict& verdict) { return !verdict.holds(); });
+        return std::tuple(!s.end.empty(), broken, s.error());
+      };
+      for (std::size_t i = 0; i < choice_.settings.size(); ++i) {
+        if (tried[i] || !is_own(choice_.settings[i])) continue;
+        if (!next || failing(i) < failing(*next)) next = i;
+      }
+      if (!next || choice_.sizes.size() < 2) return;
+      tried[*next] = true;
+      judge_and_time(neighbours(*next));
     }
-    return run_of_ends(ran.text, scene.scene.step);
+  }
+
+  /// The ends of runs with our routines, if a need asks for them. Needs that do are left out where
+  /// the engine ends such a run.
+  void run_exactly() {
+    auto& needs = choice_.file.needs;
+    const Scene& scene = choice_.file.scene;
+    const auto asks = [&](const auto& need) { return is_relative(*need, scene); };
+    if (std::ranges::none_of(needs, asks)) return;
+    const EngineSetting exact = uniform({Kind::exact});
+    const std::size_t count = options_.trials.of_answer() + 1;
+    constexpr char ended = '!';  // before the reason, where there are no poses
+    Progress progress("exact runs, disturbed", count);
+    const auto texts = run_in_processes(
+        count, options_.workers,
+        [&](std::size_t disturbance) {
+          const DisturbedScene disturbed(scene, options_.trials.seed, disturbance);
+          const Contained ran = run_contained(
+              [&] { return ends_text(disturbed.turned_back(run_of(exact, disturbed, false))); },
+              max_engine_seconds);
+          return ran.end == Contained::End::returned ? ran.text : ended + ran.text;
+        },
+        [&](std::size_t i) { return fmt::format("{}, disturbance {}", name(), i); },
+        [&](std::size_t done) { progress.update(done); });
+    for (std::size_t i = 0; i < texts.size() && choice_.exact_end.empty(); ++i) {
+      if (texts[i].front() == ended) {
+        choice_.exact_end = texts[i].substr(1) + (i == 0 ? "" : fmt::format(", disturbance {}", i));
+      } else {
+        exact_runs_.push_back(run_of_ends(texts[i], scene.step));
+      }
+    }
+    if (choice_.exact_end.empty()) return;
+    exact_runs_.clear();
+    for (const auto& need : needs) {
+      if (asks(need)) choice_.not_judged.push_back(need->text(scene));
+    }
+    std::erase_if(needs, asks);
+    if (needs.empty()) {
+      throw std::runtime_error(name() + ": the engine ended a run with our routines (" +
+                               choice_.exact_end + "), and all needs ask how that ends");
+    }
+  }
+
+  std::string name() const { return choice_.file.name + " in " + choice_.engine.name; }
+
+  Trajectory run_of(const EngineSetting& setting, const DisturbedScene& scene,
+                    bool with_depths) const {
+    return options_.run(choice_.engine.name, shapes_by_body(choice_, setting, scene), scene.scene,
+                        with_depths);
   }
 
   Trial trial_of(const EngineSetting& setting, std::size_t disturbance) const {
     const DisturbedScene scene(choice_.file.scene, options_.trials.seed, disturbance);
     const Contained ran = run_contained(
         [&] {
-          const Trajectory run =
-              scene.turned_back(run_in_engine(choice_, setting, scene, with_depths_));
+          const Trajectory run = scene.turned_back(run_of(setting, scene, with_depths_));
+          const Trajectory& exact = exact_runs_.empty() ? run : exact_runs_[disturbance];
           Trial trial;
           trial.points = run.points;
           for (const auto& need : choice_.file.needs) {
-            trial.verdicts.push_back(
-                need->judge({choice_.file.scene, run, exact_runs_[disturbance]}));
+            trial.verdicts.push_back(need->judge({choice_.file.scene, run, exact}));
           }
           return trial_text(trial);
         },
@@ -132,70 +240,114 @@ class Search {
   }
 
   /// Adds those that are new, and returns whether there were any.
-  bool judge_and_time(std::vector<EngineSetting> wanted) {
-    std::erase_if(wanted, [&](const EngineSetting& setting) {
-      return std::any_of(choice_.settings.begin(), choice_.settings.end(),
-                         [&](const EngineSetting& s) { return s.shapes == setting.shapes; });
-    });
-    if (wanted.empty()) return false;
-    judge(wanted, options_.trials.disturbances);
+  bool judge_and_time(const std::vector<EngineSetting>& wanted) {
+    std::vector<EngineSetting> fresh;
+    for (const EngineSetting& setting : wanted) {
+      const auto is_same = [&](const EngineSetting& s) { return s.shapes == setting.shapes; };
+      if (std::ranges::none_of(choice_.settings, is_same) && std::ranges::none_of(fresh, is_same)) {
+        fresh.push_back(setting);
+      }
+    }
+    if (fresh.empty()) return false;
+    judge(fresh, options_.trials.disturbances);
     const std::size_t first = choice_.settings.size();
-    choice_.settings.insert(choice_.settings.end(), wanted.begin(), wanted.end());
-    std::vector<EngineSetting*> timed;
+    choice_.settings.insert(choice_.settings.end(), fresh.begin(), fresh.end());
+    std::vector<std::size_t> timed;
     for (std::size_t i = first; i < choice_.settings.size(); ++i) {
-      if (i < 2 || choice_.settings[i].holds()) timed.push_back(&choice_.settings[i]);
+      if (i < 2 || choice_.settings[i].holds()) timed.push_back(i);
     }
     time(timed);
     return true;
   }
 
   void judge(std::vector<EngineSetting>& settings, std::size_t last) {
-    const EngineSetting exact = uniform({Kind::exact});
-    add_ends_of_runs(
-        choice_.file.scene, options_.trials, last, options_.workers,
-        [&](const DisturbedScene& scene) { return contained_ends(exact, scene); },
-        choice_.file.name + " in " + choice_.engine.name, exact_runs_);
     std::vector<RepeatedRun*> runs;
     for (EngineSetting& setting : settings) runs.push_back(&setting);
     repeat(
         runs, last, options_.workers,
         [&](std::size_t i, std::size_t disturbance) { return trial_of(settings[i], disturbance); },
-        [&](std::size_t) { return choice_.file.name + " in " + choice_.engine.name; });
+        [&](std::size_t) { return name(); });
   }
 
   /// Times of all steps of one run; none if the engine ended it.
   std::vector<double> step_seconds(const EngineSetting& setting) const {
     const DisturbedScene scene(choice_.file.scene, options_.trials.seed, 0);
-    const Contained ran = run_contained(
-        [&] { return json(run_in_engine(choice_, setting, scene, false).step_seconds).dump(); },
-        max_engine_seconds);
+    const Contained ran =
+        run_contained([&] { return json(run_of(setting, scene, false).step_seconds).dump(); },
+                      max_engine_seconds);
     if (ran.end != Contained::End::returned) return {};
     return json::parse(ran.text).get<std::vector<double>>();
   }
 
-  void time(const std::vector<EngineSetting*>& settings) const {
-    const auto least = least_step_seconds(
-        settings.size(), [&](std::size_t i) { return step_seconds(*settings[i]); });
+  /// Times settings together, by their indices.
+  void time(const std::vector<std::size_t>& settings) {
+    if (settings.empty()) return;
+    const auto least = least_step_seconds(settings.size(), [&](std::size_t i) {
+      return step_seconds(choice_.settings[settings[i]]);
+    });
     for (std::size_t i = 0; i < settings.size(); ++i) {
       if (least[i].empty()) continue;
-      settings[i]->step_seconds = std::accumulate(least[i].begin(), least[i].end(), 0.0) /
-                                  static_cast<double>(least[i].size());
+      choice_.settings[settings[i]].step_seconds =
+          std::accumulate(least[i].begin(), least[i].end(), 0.0) /
+          static_cast<double>(least[i].size());
     }
+    timed_together_ = settings;
   }
 
-  std::optional<std::size_t> best() const {
-    std::optional<std::size_t> result;
+  /// Order of preference of settings that take much the same: in the order of the engine's shapes,
+  /// and our routines last.
+  std::size_t rank(std::size_t index) const {
+    std::size_t sum = 0;
+    for (const EngineShape& shape : choice_.settings[index].shapes) {
+      sum += static_cast<std::size_t>(std::ranges::find(shapes_, shape) - shapes_.begin());
+    }
+    return sum;
+  }
+
+  double seconds(std::size_t index) const {
+    return choice_.settings[index].step_seconds.value_or(infinity);
+  }
+
+  /// The settings among which the answer is: the engine's own, or where none of them holds those
+  /// with our routines, that take much the same as the cheapest; the simplest first.
+  std::vector<std::size_t> finalists() const {
+    constexpr std::size_t max_count = 6;
+    std::vector<std::size_t> result;
+    const bool are_own = has_own_that_holds();
     for (std::size_t i = 0; i < choice_.settings.size(); ++i) {
       const EngineSetting& s = choice_.settings[i];
-      if (!s.holds() || !s.step_seconds || s.has(Kind::exact)) continue;
-      const double share = result == 0U ? cheaper_share : 1;
-      if (!result || *s.step_seconds < share * *choice_.settings[*result].step_seconds) result = i;
+      if (s.holds() && s.step_seconds && is_own(s) == are_own) result.push_back(i);
     }
-    if (result) return result;
-    for (std::size_t i = 1; i < choice_.settings.size(); ++i) {
-      const EngineSetting& s = choice_.settings[i];
-      if (!s.holds() || !s.step_seconds) continue;
-      if (!result || *s.step_seconds < *choice_.settings[*result].step_seconds) result = i;
+    if (result.empty()) return result;
+    const std::size_t cheapest =
+        *std::ranges::min_element(result, {}, [&](std::size_t i) { return seconds(i); });
+    // Those timed at another time may differ by the noise twice.
+    const double limit = seconds(cheapest) / (cheaper_share * cheaper_share);
+    std::erase_if(result, [&](std::size_t i) { return seconds(i) > limit; });
+    std::ranges::sort(result, {},
+                      [&](std::size_t i) { return std::tuple(i != cheapest, rank(i), i); });
+    if (result.size() > max_count) result.resize(max_count);
+    return result;
+  }
+
+  /// Times the finalists together, and with them the default and our routines, which the answer is
+  /// compared with. Returns the simplest of those that take much the same as the cheapest.
+  std::optional<std::size_t> best() {
+    const std::vector<std::size_t> last = finalists();
+    if (last.empty()) return std::nullopt;
+    std::vector<std::size_t> timed = last;
+    for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) {
+      if (std::ranges::find(timed, i) == timed.end()) timed.push_back(i);
+    }
+    const auto is_timed = [&](std::size_t i) {
+      return std::ranges::find(timed_together_, i) != timed_together_.end();
+    };
+    if (!std::ranges::all_of(timed, is_timed)) time(timed);
+    double limit = infinity;
+    for (const std::size_t i : last) limit = std::min(limit, seconds(i) / cheaper_share);
+    std::optional<std::size_t> result;
+    for (const std::size_t i : last) {
+      if (seconds(i) <= limit && (!result || rank(i) < rank(*result))) result = i;
     }
     return result;
   }
@@ -210,139 +362,11 @@ class Search {
 
   const EngineChoiceOptions& options_;
   EngineChoice& choice_;
+  const std::vector<EngineShape> shapes_;
   bool with_depths_ = false;
-  std::vector<Trajectory> exact_runs_;  ///< by disturbance: first and last frames alone
+  std::vector<std::size_t> timed_together_;  ///< the settings that were timed last
+  std::vector<Trajectory> exact_runs_;  ///< by disturbance, if a need asks for them: their ends
 };
-
-std::string bullet_lines(const EngineShape& shape, const Cylinder& c) {
-  const double r = c.radius(), h = c.half_length(), inner = std::min(r, h);
-  switch (shape.kind) {
-    case Kind::cylinder:
-      return fmt::format("new btCylinderShapeZ(btVector3({0:g}, {0:g}, {1:g}))", r, h);
-    case Kind::no_margin:
-      return fmt::format(
-          "auto* shape = new btCylinderShapeZ(btVector3({0:g}, {0:g}, {1:g}));\n"
-          "shape->setMargin(0);  // its size stays; its edges are sharp",
-          r, h);
-    case Kind::multipoint:
-      return fmt::format(
-          "configuration.setConvexConvexMultipointIterations(3, 3);  // btDefaultCollision…\n"
-          "configuration.setPlaneConvexMultipointIterations(3, 3);\n"
-          "new btCylinderShapeZ(btVector3({0:g}, {0:g}, {1:g}))",
-          r, h);
-    case Kind::capsule:
-      return fmt::format("new btCapsuleShapeZ({:g}, {:g})", inner, 2 * (h - inner));
-    case Kind::box:
-      return fmt::format("new btBoxShape(btVector3({0:g}, {0:g}, {1:g}))", r, h);
-    case Kind::spheres:
-      return fmt::format(
-          "auto* shape = new btCompoundShape;\n"
-          "for (int i = 0; i < {0}; ++i) {{\n"
-          "  {1}\n"
-          "  shape->addChildShape(btTransform(btQuaternion::getIdentity(), centre),\n"
-          "                       new btSphereShape({2:g}));\n"
-          "}}",
-          shape.count,
-          h >= r ? fmt::format("const btVector3 centre(0, 0, {:g} * (2.0 * i / {} - 1));",
-                               h - inner, std::max(1, shape.count - 1))
-                 : fmt::format("const double a = SIMD_2_PI * i / {};\n"
-                               "  const btVector3 centre({:g} * cos(a), {:g} * sin(a), 0);",
-                               shape.count, r - inner, r - inner),
-          inner);
-    case Kind::hull:
-      return fmt::format(
-          "auto* shape = new btConvexHullShape;\n"
-          "for (int i = 0; i < {0}; ++i) {{\n"
-          "  const double a = SIMD_2_PI * i / {0}, x = {1:g} * cos(a), y = {1:g} * sin(a);\n"
-          "  shape->addPoint(btVector3(x, y, -{2:g}), false);\n"
-          "  shape->addPoint(btVector3(x, y, {2:g}), false);\n"
-          "}}\n"
-          "shape->setMargin(0);  // 0.04 would be added outside the hull\n"
-          "shape->recalcLocalAabb();",
-          shape.count, r, h);
-    case Kind::exact:
-      return fmt::format(
-          "#include <touchstone/engines/bullet.hpp>\n"
-          "touchstone::bullet::install(dispatcher);  // before the world's bodies meet\n"
-          "new btCylinderShapeZ(btVector3({0:g}, {0:g}, {1:g}))",
-          r, h);
-  }
-  return "";
-}
-
-std::string ode_lines(const EngineShape& shape, const Cylinder& c) {
-  const double r = c.radius(), h = c.half_length(), inner = std::min(r, h);
-  switch (shape.kind) {
-    case Kind::capsule:
-      return fmt::format("dCreateCapsule(space, {:g}, {:g});", inner, 2 * (h - inner));
-    case Kind::box:
-      return fmt::format("dCreateBox(space, {0:g}, {0:g}, {1:g});", 2 * r, 2 * h);
-    case Kind::spheres:
-      return fmt::format(
-          "for (int i = 0; i < {0}; ++i) {{\n"
-          "  dGeomID part = dCreateSphere(space, {1:g});\n"
-          "  dGeomSetBody(part, body);\n"
-          "  {2}\n"
-          "}}",
-          shape.count, inner,
-          h >= r ? fmt::format("dGeomSetOffsetPosition(part, 0, 0, {:g} * (2.0 * i / {} - 1));",
-                               h - inner, std::max(1, shape.count - 1))
-                 : fmt::format("const double a = 2 * M_PI * i / {0};\n"
-                               "  dGeomSetOffsetPosition(part, {1:g} * cos(a), {1:g} * sin(a), 0);",
-                               shape.count, r - inner));
-    case Kind::exact:
-      return fmt::format(
-          "#include <touchstone/engines/ode.hpp>\n"
-          "touchstone::ode::install();  // once, after dInitODE2\n"
-          "dCreateCylinder(space, {:g}, {:g});",
-          r, 2 * h);
-    default:
-      return fmt::format("dCreateCylinder(space, {:g}, {:g});", r, 2 * h);
-  }
-}
-
-std::string mujoco_lines(const EngineShape& shape, const Cylinder& c) {
-  const double r = c.radius(), h = c.half_length(), inner = std::min(r, h);
-  std::string cylinder = fmt::format("<geom type=\"cylinder\" size=\"{:g} {:g}\"/>", r, h);
-  switch (shape.kind) {
-    case Kind::multipoint:
-      return "<option><flag multiccd=\"enable\"/></option>\n" + cylinder;
-    case Kind::capsule:
-      return fmt::format("<geom type=\"capsule\" size=\"{:g} {:g}\"/>", inner, h - inner);
-    case Kind::box:
-      return fmt::format("<geom type=\"box\" size=\"{0:g} {0:g} {1:g}\"/>", r, h);
-    case Kind::spheres: {
-      std::string lines;
-      for (int i = 0; i < shape.count; ++i) {
-        Vec3 p = Vec3::Zero();
-        const double a = 2 * std::numbers::pi * i / shape.count;
-        if (h < r && shape.count > 1) p = (r - inner) * Vec3(std::cos(a), std::sin(a), 0);
-        if (h >= r && shape.count > 1) p.z() = (h - inner) * (2.0 * i / (shape.count - 1) - 1);
-        lines += fmt::format("{}<geom type=\"sphere\" size=\"{:g}\" pos=\"{:.4g} {:.4g} {:.4g}\"/>",
-                             i == 0 ? "" : "\n", inner, p.x(), p.y(), p.z());
-      }
-      return lines;
-    }
-    case Kind::hull: {
-      std::string vertices;
-      for (const double z : {-h, h}) {
-        for (int i = 0; i < shape.count; ++i) {
-          const double a = 2 * std::numbers::pi * i / shape.count;
-          vertices += fmt::format("{}{:.6g} {:.6g} {:g}", vertices.empty() ? "" : "  ",
-                                  r * std::cos(a), r * std::sin(a), z);
-        }
-      }
-      return "<asset><mesh name=\"prism\" vertex=\"" + vertices +
-             "\"/></asset>\n<geom type=\"mesh\" mesh=\"prism\"/>";
-    }
-    case Kind::exact:
-      return "// C++: #include <touchstone/engines/mujoco.hpp>\n"
-             "// touchstone::mujoco::install();  // once, before the first step\n" +
-             cylinder;
-    default:
-      return cylinder;
-  }
-}
 
 }  // namespace
 
@@ -351,23 +375,15 @@ bool EngineSetting::has(Kind kind) const {
                      [&](const EngineShape& s) { return s.kind == kind; });
 }
 
-Trajectory run_in_engine(const EngineChoice& choice, const EngineSetting& setting,
-                         const DisturbedScene& scene, bool with_depths) {
-  EngineSetup setup;
-  setup.shapes.resize(scene.origin.size());
-  for (std::size_t size = 0; size < choice.sizes.size(); ++size) {
-    for (const int written : choice.sizes[size].bodies) {
-      const auto at = std::find(scene.origin.begin(), scene.origin.end(), written);
-      setup.shapes[static_cast<std::size_t>(at - scene.origin.begin())] = setting.shapes[size];
-    }
-  }
-  return run_scene(scene.scene, in_engine(choice.engine.name, setup), with_depths);
+Trajectory run_in_world(const std::string& engine, const std::vector<EngineShape>& shapes,
+                        const Scene& scene, bool with_depths) {
+  return run_scene(scene, in_engine(engine, {.shapes = shapes}), with_depths);
 }
 
-std::string engine_lines(const std::string& engine, const EngineShape& shape,
-                         const Cylinder& cylinder) {
-  if (is_bullet(engine)) return bullet_lines(shape, cylinder);
-  return engine == "ode" ? ode_lines(shape, cylinder) : mujoco_lines(shape, cylinder);
+Trajectory run_in_engine(const EngineChoice& choice, const EngineSetting& setting,
+                         const DisturbedScene& scene, bool with_depths) {
+  return run_in_world(choice.engine.name, shapes_by_body(choice, setting, scene), scene.scene,
+                      with_depths);
 }
 
 EngineChoice choose_in_engine(const SceneFile& file, const std::string& engine,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,15 +25,25 @@ struct EngineSetting : RepeatedRun {
 
   std::vector<EngineShape> shapes;  ///< by size
   /// Time of a step of the engine: of each step the least of interleaved runs, then the mean;
-  /// absent where not measured.
+  /// absent where not measured. Those of the finalists were measured together.
   std::optional<double> step_seconds = {};
 
   bool has(EngineShape::Kind kind) const;
 };
 
+/// Makes one run of a scene with shapes by body of it, in a process that it may end.
+using EngineRun =
+    std::function<Trajectory(const std::string& engine, const std::vector<EngineShape>& shapes,
+                             const Scene& scene, bool with_depths)>;
+
+/// In the engine's own world.
+Trajectory run_in_world(const std::string& engine, const std::vector<EngineShape>& shapes,
+                        const Scene& scene, bool with_depths);
+
 struct EngineChoiceOptions {
   unsigned workers = 1;  ///< processes; the runs do not depend on them
   Trials trials = {};
+  EngineRun run = run_in_world;
 };
 
 /// The cheapest setting of an engine that meets the needs of a scene, and all that were tried.
@@ -41,6 +52,10 @@ struct EngineChoice {
   std::vector<std::string> left_out;  ///< texts of those that cannot: normals
   EngineDescription engine;
   std::vector<CylinderSize> sizes;
+  /// Why the engine ended a run with our routines: "Segmentation fault, disturbance 3". Then there
+  /// is nothing to compare with, and needs relative to exact contacts are not judged.
+  std::string exact_end = {};
+  std::vector<std::string> not_judged = {};  ///< texts of these
   std::vector<EngineSetting> settings = {};  ///< the engine's default first, then with our routines
   Trials trials = {};
   std::optional<std::size_t> answer = {};  ///< index of a setting; absent: none holds
@@ -50,11 +65,13 @@ struct EngineChoice {
 };
 
 /// Runs the scene in an engine's own world with each shape that it offers for all cylinders, under
-/// disturbances, each run in a process of its own; times those that hold; then searches by size.
-/// Relative needs compare with the engine with our routines. The answer is the cheapest setting of
-/// the engine's own; its default, unless that fails or another is cheaper by more than noise; our
-/// routines where nothing else holds. Throws InvalidInput if the engine is not there or cannot do
-/// what the scene asks for, if no need can be judged or no cylinder moves or touches.
+/// disturbances, each run in a process of its own; times those that hold; then searches by size,
+/// from the best settings that fail if none holds. Relative needs compare with the engine with our
+/// routines; where it ends such a run, they are not judged. The finalists are timed together. The
+/// answer is the simplest of the engine's own settings that take much the same as the cheapest, the
+/// default first; our routines where nothing else holds. Throws InvalidInput if the engine is not
+/// there or cannot do what the scene asks for, if no need can be judged or no cylinder moves or
+/// touches.
 EngineChoice choose_in_engine(const SceneFile& file, const std::string& engine,
                               const EngineChoiceOptions& options);
 
@@ -62,7 +79,8 @@ EngineChoice choose_in_engine(const SceneFile& file, const std::string& engine,
 Trajectory run_in_engine(const EngineChoice& choice, const EngineSetting& setting,
                          const DisturbedScene& scene, bool with_depths);
 
-/// Lines of C++ (Bullet, ODE) or XML (MuJoCo) that give the cylinders of a size their shape.
+/// Lines that give the cylinders of a size their shape: of C++, with `shape` in Bullet, and in ODE
+/// geoms of `body` in `space`; of MuJoCo's XML.
 std::string engine_lines(const std::string& engine, const EngineShape& shape,
                          const Cylinder& cylinder);
 

@@ -2,14 +2,22 @@
 // among these.
 #include "simulation/scenes/engine_choice.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <functional>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <numbers>
+#include <random>
+#include <stdexcept>
 
 #include <nlohmann/json.hpp>
 
 #include "candidates/host/contained.hpp"
 #include "reference/invalid_input.hpp"
+#include "simulation/scenes/choose.hpp"
+#include "simulation/scenes/robot_file.hpp"
 
 namespace touchstone {
 namespace {
@@ -150,7 +158,7 @@ TEST_P(InEngine, HasASceneThatNeedsAnotherShapeThanTheDefault) {
     const bool is_own = !s.has(Kind::exact) && s.holds();
     if (!is_own) continue;
     EXPECT_FALSE(answer.has(Kind::exact));
-    EXPECT_GE(*s.step_seconds, *answer.step_seconds);
+    EXPECT_GE(*s.step_seconds, cheaper_share * cheaper_share * *answer.step_seconds);
   }
 }
 
@@ -168,10 +176,202 @@ TEST(EngineChoices, AnUnknownEngineIsNamed) {
   EXPECT_THROW(choose_in_engine(file, "unity", {}), InvalidInput);
 }
 
+/// A robot or world with joints that are driven, and an engine that has all it needs.
+struct RobotInEngine {
+  const char *file, *engine;
+  std::vector<std::pair<std::string, double>> rates;
+};
+
+/// Settings with other shapes end at once, which spares their runs.
+Trajectory with_cylinders_alone(const std::string& engine, const std::vector<EngineShape>& shapes,
+                                const Scene& scene, bool with_depths) {
+  for (const EngineShape& shape : shapes) {
+    if (shape.kind != Kind::cylinder && shape.kind != Kind::exact) {
+      throw std::runtime_error("not run");
+    }
+  }
+  return run_in_world(engine, shapes, scene, with_depths);
+}
+
+TEST(EngineChoices, AreMadeForRobotsAndWorldsToo) {
+  for (const auto& [name, engine, rates] : std::vector<RobotInEngine>{
+           {"rover.urdf", "bullet", {{"front_left_wheel_joint", 5}, {"rear_left_wheel_joint", 5}}},
+           {"loading-bay.sdf", "ode", {{"cart_1::front_left_wheel_axle", 4}}},
+           {"pincer.xml", "mujoco", {{"left", 0.1}, {"right", 0.1}}}}) {
+    RobotMotion motion;
+    motion.rates = rates;
+    motion.duration = 0.1;
+    const std::filesystem::path scenes = TOUCHSTONE_SCENES;
+    SceneFile file = robot_scene(read_robot(scenes / name), motion);
+    add_robot_needs(file, run_exactly(file.scene, {1, 1}, 2, {}, file.name));
+    const EngineChoice choice = choose_in_engine(
+        file, engine, {.workers = 2, .trials = {.disturbances = 0}, .run = with_cylinders_alone});
+    EXPECT_EQ(choice.default_setting().end, "") << name;
+    EXPECT_EQ(choice.default_setting().verdicts.size(), file.needs.size()) << name;
+    EXPECT_GT(choice.default_setting().points, 0) << name;
+    EXPECT_EQ(choice.exact_end, "") << name;
+    EXPECT_FALSE(choice.sizes.empty()) << name;
+  }
+}
+
+/// What is made up of an engine: which shape a body stands with, and what a step takes with it.
+struct MadeUp {
+  std::function<bool(const std::string& body, const EngineShape& shape)> stands;
+  std::function<double(const std::vector<EngineShape>& shapes)> seconds =
+      [](const std::vector<EngineShape>&) { return 1e-5; };
+  bool ends_with_our_routines = false;
+
+  /// Bodies lean by 45° from the start if they do not stand.
+  Trajectory operator()(const std::string&, const std::vector<EngineShape>& shapes,
+                        const Scene& scene, bool) const {
+    Trajectory run;
+    run.step = scene.duration;
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+      if (shapes[i].kind == Kind::exact && ends_with_our_routines) {
+        throw std::runtime_error("made-up end");
+      }
+    }
+    for (const double leaning : {0.0, std::numbers::pi / 4}) {
+      run.frames.emplace_back();
+      for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+        const Body& b = scene.bodies[i];
+        const bool leans = !b.fixed && shapes[i].kind != Kind::exact && !stands(b.name, shapes[i]);
+        const Eigen::Quaterniond lean(Eigen::AngleAxisd(leans ? leaning : 0, Vec3::UnitX()));
+        run.frames.back().push_back({Pose(b.pose.position(), b.pose.unit_orientation() * lean),
+                                     Vec3::Zero(), Vec3::Zero()});
+      }
+    }
+    run.step_seconds = {seconds(shapes)};
+    return run;
+  }
+};
+
+/// Cylinders of different sizes that have to stand, and this beside.
+SceneFile standing(const std::vector<std::string>& names, const std::string& other_need = "") {
+  json scene = {{"duration", 1}, {"bodies", json::array()}, {"needs", json::array()}};
+  scene["bodies"].push_back(
+      {{"name", "ground"},
+       {"shape", {{"shape", "plane"}, {"normal", {0, 0, 1}}, {"displacement", 0}}},
+       {"fixed", true}});
+  double size = 0.1;
+  for (const std::string& name : names) {
+    scene["bodies"].push_back(
+        {{"name", name},
+         {"shape", {{"shape", "cylinder"}, {"radius", size}, {"half_length", size}}},
+         {"pose", {{"position", {10 * size, 0, size}}}}});
+    scene["needs"].push_back({{"need", "stands"}, {"body", name}, {"degrees", 5}});
+    size *= 2;
+  }
+  if (!other_need.empty()) scene["needs"].push_back(json::parse(other_need));
+  return scene_from_text(scene.dump(), "standing.json");
+}
+
+std::vector<std::string> names_of(const EngineChoice& choice) {
+  std::vector<std::string> names;
+  if (!choice.answer) return names;
+  for (const EngineShape& s : choice.settings[*choice.answer].shapes) {
+    names.push_back(engine_shape_name(s));
+  }
+  return names;
+}
+
+// No shape serves for all sizes.
+TEST(EngineChoices, FindAShapeForEachSize) {
+  const std::vector<std::pair<std::string, EngineShape>> serving = {
+      {"can", {Kind::capsule}}, {"pot", {Kind::cylinder}}, {"tin", {Kind::spheres, 8}}};
+  for (const std::size_t sizes : {std::size_t{2}, std::size_t{3}}) {
+    std::vector<std::string> names, expected;
+    for (std::size_t i = 0; i < sizes; ++i) {
+      names.push_back(serving[i].first);
+      expected.push_back(engine_shape_name(serving[i].second));
+    }
+    const MadeUp engine{.stands = [&](const std::string& body, const EngineShape& shape) {
+      return std::ranges::count(serving, std::pair(body, shape)) > 0;
+    }};
+    const EngineChoice choice = choose_in_engine(
+        standing(names), "ode", {.workers = 2, .trials = {.disturbances = 1}, .run = engine});
+    EXPECT_EQ(names_of(choice), expected);
+  }
+}
+
+TEST(EngineChoices, EndWhereNoShapeServesForASize) {
+  const MadeUp engine{
+      .stands = [](const std::string& body, const EngineShape&) { return body != "tin"; }};
+  const EngineChoice choice =
+      choose_in_engine(standing({"can", "pot", "tin"}), "ode",
+                       {.workers = 2, .trials = {.disturbances = 0}, .run = engine});
+  ASSERT_TRUE(choice.answer);
+  EXPECT_TRUE(choice.settings[*choice.answer].has(Kind::exact));
+  EXPECT_LT(choice.settings.size(), 400U);
+}
+
+/// Between 0 and 1, another one each time.
+double noise() {
+  static thread_local std::mt19937 random(std::random_device{}());
+  return std::uniform_real_distribution<double>(0, 1)(random);
+}
+
+// The default fails, and what the others take differs by less than noise.
+TEST(EngineChoices, DoNotDependOnNoise) {
+  constexpr double share_of_noise = 0.05;  // half of what a cheaper setting has to save
+  const MadeUp engine{
+      .stands = [](const std::string&,
+                   const EngineShape& shape) { return shape.kind != Kind::cylinder; },
+      .seconds =
+          [](const std::vector<EngineShape>&) { return 1e-5 * (1 + share_of_noise * noise()); }};
+  for (int i = 0; i < 10; ++i) {
+    const EngineChoice choice = choose_in_engine(
+        standing({"can"}), "ode", {.workers = 2, .trials = {.disturbances = 0}, .run = engine});
+    EXPECT_EQ(names_of(choice), std::vector<std::string>{"capsule"});
+  }
+}
+
+TEST(EngineChoices, TakeWhatIsCheaperByMoreThanNoise) {
+  const MadeUp engine{.stands = [](const std::string&, const EngineShape&) { return true; },
+                      .seconds =
+                          [](const std::vector<EngineShape>& shapes) {
+                            const bool has_box =
+                                std::ranges::count(shapes, EngineShape{Kind::box}) > 0;
+                            return has_box ? 0.8e-5 : 1e-5;
+                          }};
+  const EngineChoice choice =
+      choose_in_engine(standing({"can"}), "ode", {.trials = {.disturbances = 0}, .run = engine});
+  EXPECT_EQ(names_of(choice), std::vector<std::string>{"box"});
+}
+
+// Needs that ask how the run with our routines ends have nothing to be compared with.
+TEST(EngineChoices, JudgeTheOtherNeedsWhereTheEngineEndsARunWithOurRoutines) {
+  const std::string relative = R"({"need": "ends-near", "body": "can", "metres": 0.1})";
+  MadeUp engine{.stands = [](const std::string&, const EngineShape&) { return true; },
+                .ends_with_our_routines = true};
+  const EngineChoiceOptions options{.workers = 2, .trials = {.disturbances = 1}, .run = engine};
+  const EngineChoice choice = choose_in_engine(standing({"can"}, relative), "ode", options);
+  EXPECT_EQ(choice.exact_end, "made-up end");
+  EXPECT_THAT(choice.not_judged, testing::ElementsAre(HasSubstr("can ends within 0.1 m")));
+  EXPECT_EQ(choice.file.needs.size(), 1U);
+  EXPECT_EQ(names_of(choice), std::vector<std::string>{"cylinder"});
+  EXPECT_EQ(choice.exact_setting().end, "made-up end");
+
+  SceneFile relative_alone = standing({"can"}, relative);
+  relative_alone.needs.erase(relative_alone.needs.begin());
+  try {
+    choose_in_engine(relative_alone, "ode", options);
+    FAIL() << "was judged";
+  } catch (const std::runtime_error& e) {
+    EXPECT_THAT(e.what(), HasSubstr("ended a run with our routines (made-up end)"));
+  }
+  engine.ends_with_our_routines = false;
+  EXPECT_TRUE(
+      choose_in_engine(relative_alone, "ode", {.trials = {.disturbances = 1}, .run = engine})
+          .not_judged.empty());
+}
+
 TEST(EngineLines, MakeTheShapeInTheEnginesOwnWords) {
   EXPECT_THAT(engine_lines("bullet", {Kind::no_margin}, can), HasSubstr("setMargin(0)"));
-  EXPECT_EQ(engine_lines("bullet", {Kind::capsule}, can), "new btCapsuleShapeZ(0.05, 0.1)");
-  EXPECT_EQ(engine_lines("ode", {Kind::capsule}, can), "dCreateCapsule(space, 0.05, 0.1);");
+  EXPECT_EQ(engine_lines("bullet", {Kind::capsule}, can),
+            "auto* shape = new btCapsuleShapeZ(0.05, 0.1);");
+  EXPECT_EQ(engine_lines("ode", {Kind::capsule}, can),
+            "dGeomID geom = dCreateCapsule(space, 0.05, 0.1);\ndGeomSetBody(geom, body);");
   EXPECT_EQ(engine_lines("mujoco", {Kind::capsule}, can),
             R"(<geom type="capsule" size="0.05 0.05"/>)");
   EXPECT_THAT(engine_lines("mujoco", {Kind::multipoint}, can), HasSubstr("multiccd"));

@@ -112,7 +112,7 @@ struct RobotMotion {
 SceneFile robot_scene(const RobotFile& robot, const RobotMotion& motion);
 
 /// Gives the scene of a robot needs derived from its run with exact contacts, whose answers may
-/// include those of disturbed runs (run_disturbed): every moving body that touches something
+/// include those of disturbed runs (run_exactly): every moving body that touches something
 /// overlaps little more than it does there, and what no joint holds ends near where it does there.
 void add_robot_needs(SceneFile& file, const Trajectory& exact);
 

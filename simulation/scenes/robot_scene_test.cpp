@@ -326,9 +326,8 @@ Choice choice_of(const std::string& name, const RobotMotion& motion,
   options.candidates = find_candidates(candidates);
   options.trials.disturbances = 2;
   SceneFile file = robot_scene(read_robot(scenes / name), motion);
-  Processes processes{Limits()};
-  CandidateModel exact(processes.of(find_candidate("reference")));
-  add_robot_needs(file, run_disturbed(file.scene, exact, options.trials));
+  add_robot_needs(file,
+                  run_exactly(file.scene, options.trials, options.workers, options.limits, name));
   return choose(file, options);
 }
 

@@ -7,8 +7,11 @@ The first seed tries every candidate. The others draw other disturbances of the 
 try again the models that may be the answer: those with a run that gives the solver fewer points or
 has cheaper queries, and holds in four of five trials, or misses a limit by less than half of it. An
 answer holds in 81 trials; a model that breaks one in five does so once in ten million seeds.
-OPTIONS are those of `choose`, such as --drive. Exit code: 0 the same answer for all seeds; 1 not;
-2 `choose` failed.
+OPTIONS are those of `choose`, such as --drive. With --engine all seeds try every setting:
+
+  simulation/scenes/seed_check.py ./touchstone simulation/scenes/three-logs.json --engine ode
+
+Exit code: 0 the same answer for all seeds; 1 not; 2 `choose` failed.
 """
 import argparse
 import json
@@ -44,12 +47,27 @@ def candidates_that_may_serve(choice):
     return ",".join(sorted(models | {exact["models"][0]}))
 
 
+def is_of_engine(choice):
+    return choice["schema"] == "touchstone-engine-choice-1"
+
+
 def answer(choice):
+    if is_of_engine(choice):
+        return "none" if choice["answer"] is None else choice["settings"][choice["answer"]]["name"]
     if not choice["possible"]:
         return "impossible"
     models = choice["runs"][choice["answer"]]["models"]
     text = ", ".join(f"{kind['name']}: {model}" for kind, model in zip(choice["kinds"], models))
     return "exact" if choice["answer"] == 0 else text
+
+
+def cost(choice):
+    if not is_of_engine(choice):
+        return f"{100 * choice['step_saved']:.1f}% of a step"
+    if choice["answer"] is None:
+        return f"in {choice['engine']['name']}"
+    microseconds = choice["settings"][choice["answer"]]["step_microseconds"]
+    return f"in {choice['engine']['name']}, {microseconds:.2g} µs a step"
 
 
 def main():
@@ -64,9 +82,8 @@ def main():
         for seed in range(1, arguments.seeds + 1):
             choice = choose(arguments.program, arguments.scene, seed, options, folder)
             answers.append(answer(choice))
-            print(f"{choice['scene']['name']}, seed {seed}: {answers[-1]} "
-                  f"({100 * choice['step_saved']:.1f}% of a step)", flush=True)
-            if seed == 1:
+            print(f"{choice['scene']['name']}, seed {seed}: {answers[-1]} ({cost(choice)})", flush=True)
+            if seed == 1 and not is_of_engine(choice):
                 options += ["--candidates", candidates_that_may_serve(choice)]
     return 0 if len(set(answers)) == 1 else 1
 

@@ -34,7 +34,7 @@ with open(folder / "asked", "a") as asked:
     print(json.dumps(options), file=asked)
 choice = json.loads((folder / "choice.json").read_text())
 choice["answer"] = json.loads((folder / "answers.json").read_text())[int(options["--seed"]) - 1]
-if choice["answer"] is None:
+if choice["answer"] == "refused":
     print("error: refused", file=sys.stderr)
     sys.exit(2)
 pathlib.Path(options["--out"], "choose.json").write_text(json.dumps(choice))
@@ -49,8 +49,19 @@ class SeedCheck(unittest.TestCase):
 
     def check(self, answers, *options):
         runs = [{**EXACT, **run} for run in RUNS]
-        choice = {"scene": {"name": "made-up"}, "possible": True, "step_saved": 0.1, "runs": runs,
-                  "kinds": [{"name": "can on table"}]}
+        choice = {"schema": "touchstone-choice-1", "scene": {"name": "made-up"}, "possible": True,
+                  "step_saved": 0.1, "runs": runs, "kinds": [{"name": "can on table"}]}
+        return self.check_choice(choice, answers, *options)
+
+    def check_in_engine(self, answers, *options):
+        settings = [{"name": "cylinder", "step_microseconds": 9.5},
+                    {"name": "cylinder + touchstone", "step_microseconds": None},
+                    {"name": "capsule; box", "step_microseconds": 8.25}]
+        choice = {"schema": "touchstone-engine-choice-1", "scene": {"name": "made-up"},
+                  "engine": {"name": "ode"}, "settings": settings}
+        return self.check_choice(choice, answers, "--engine", "ode", *options)
+
+    def check_choice(self, choice, answers, *options):
         (self.folder / "choice.json").write_text(json.dumps(choice))
         (self.folder / "answers.json").write_text(json.dumps(answers))
         program = self.folder / "choose"
@@ -75,7 +86,7 @@ class SeedCheck(unittest.TestCase):
         self.assertEqual(self.check([1, 1, 0]).returncode, 1)
 
     def test_what_choose_refuses(self):
-        done = self.check([1, None])
+        done = self.check([1, "refused"])
         self.assertEqual(done.returncode, 2)
         self.assertIn("error: refused", done.stderr)
 
@@ -87,6 +98,29 @@ class SeedCheck(unittest.TestCase):
                          "box-capsules:1,capsule,prism:8,reference,spheres:1")
         self.assertEqual(third["--candidates"], second["--candidates"])
         self.assertEqual({asked["--drive"] for asked in (first, second, third)}, {"wheel=1"})
+
+    def test_the_same_setting_of_an_engine_for_all_seeds(self):
+        done = self.check_in_engine([2, 2, 2])
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("made-up, seed 3: capsule; box (in ode, 8.2 µs a step)", done.stdout)
+        for asked in self.asked():
+            self.assertEqual(asked["--engine"], "ode")
+            self.assertNotIn("--candidates", asked)
+
+    def test_another_setting_of_an_engine_for_one_seed(self):
+        self.assertEqual(self.check_in_engine([2, 0]).returncode, 1)
+
+    def test_no_setting_of_an_engine(self):
+        done = self.check_in_engine([None, None])
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("made-up, seed 1: none (in ode)", done.stdout)
+        self.assertEqual(self.check_in_engine([0, None]).returncode, 1)
+
+    def test_a_scene_of_ours_in_an_engine(self):
+        done = self.run_check(PROGRAM, HERE / "rod-on-table.json", "--seeds", "2", "--engine",
+                              "bullet", "--disturbances", "1")
+        self.assertIn("rod-on-table, seed 2: ", done.stdout + done.stderr)
+        self.assertIn(" (in bullet, ", done.stdout)
 
     def test_a_scene_of_ours(self):
         done = self.run_check(PROGRAM, HERE / "rod-on-table.json", "--seeds", "2")

@@ -1,14 +1,19 @@
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <fmt/format.h>
 #include <functional>
 #include <limits>
 #include <numeric>
+#include <set>
+#include <type_traits>
 
 #include "candidates/candidates.hpp"
 #include "candidates/host/progress.hpp"
+#include "candidates/host/worker_processes.hpp"
 #include "oracle/judge/score.hpp"
 #include "oracle/truth.hpp"
+#include "reference/invalid_input.hpp"
 #include "simulation/scenes/choose.hpp"
 
 namespace touchstone {
@@ -207,6 +212,24 @@ std::optional<Evidence> find_evidence(const Need& need, double broken, const Dis
   return worst;
 }
 
+/// As PairKind has it.
+std::string kind_name(const Body& a, const Body& b) {
+  return shape_text(a.shape) + " on " + shape_text(b.shape);
+}
+
+// Answers on their way from one process of this program to another.
+static_assert(std::is_trivially_copyable_v<JudgedAnswer>);
+
+std::string bytes_of(const std::vector<JudgedAnswer>& answers) {
+  return {reinterpret_cast<const char*>(answers.data()), answers.size() * sizeof(JudgedAnswer)};
+}
+
+void append_answers(const std::string& bytes, std::vector<JudgedAnswer>& answers) {
+  const std::size_t before = answers.size();
+  answers.resize(before + bytes.size() / sizeof(JudgedAnswer));
+  std::memcpy(answers.data() + before, bytes.data(), bytes.size());
+}
+
 }  // namespace
 
 std::vector<ReplayScore> replay(const std::vector<Configuration>& configurations,
@@ -265,6 +288,75 @@ Trajectory run_with(const DisturbedScene& scene, const PairKinds& kinds,
     return processes.of(kind >= 0 && models[kind] ? *models[kind] : exact);
   });
   return run_scene(scene.scene, model);
+}
+
+NamedContacts read_contacts(const std::vector<std::string>& names, const Scene& scene) {
+  const auto candidate = [](const std::string& name) {
+    try {
+      return &find_candidate(name);
+    } catch (const InvalidInput& e) {
+      throw InvalidInput("--contacts", e.value(), e.remedy());
+    }
+  };
+  NamedContacts result;
+  if (names.size() == 1 && names[0].find('=') == names[0].npos) {
+    result.for_all = candidate(names[0]);
+    return result;
+  }
+  std::set<std::string> kinds;
+  for (const Body& a : scene.bodies) {
+    for (const Body& b : scene.bodies) {
+      if (&a != &b && std::holds_alternative<Cylinder>(a.shape)) kinds.insert(kind_name(a, b));
+    }
+  }
+  for (const std::string& name : names) {
+    const std::size_t equals = name.rfind('=');
+    const std::string kind = name.substr(0, equals);
+    if (equals == name.npos || !kinds.contains(kind)) {
+      throw InvalidInput(
+          "--contacts", '"' + name + '"',
+          fmt::format("must be one candidate, or a kind of pairs and a candidate, as "
+                      "\"{}=capsule\"",
+                      kinds.empty() ? "cylinder on plane" : *kinds.begin()));
+    }
+    result.by_kind[kind] = candidate(name.substr(equals + 1));
+  }
+  return result;
+}
+
+Trajectory run_with(const DisturbedScene& scene, const NamedContacts& contacts,
+                    const Candidate& exact, Processes& processes) {
+  const std::vector<Body>& bodies = scene.scene.bodies;
+  PairwiseModel model([&](int a, int b) -> CandidateProcess& {
+    if (contacts.for_all) return processes.of(*contacts.for_all);
+    for (const auto& [first, second] : {std::pair(a, b), std::pair(b, a)}) {
+      const auto found = contacts.by_kind.find(kind_name(bodies[first], bodies[second]));
+      if (found != contacts.by_kind.end()) return processes.of(*found->second);
+    }
+    return processes.of(exact);
+  });
+  return run_scene(scene.scene, model);
+}
+
+Trajectory run_exactly(const Scene& scene, const Trials& trials, unsigned workers,
+                       const Limits& limits, const std::string& name) {
+  Processes processes(limits);  // each worker process starts its own
+  const auto run = [&](const Scene& of) {
+    CandidateModel model(processes.of(*exact_first({}).front()));
+    return run_scene(of, model);
+  };
+  Progress progress("exact runs, disturbed", trials.disturbances);
+  const auto answers = run_in_processes(
+      trials.disturbances, workers,
+      [&](std::size_t i) {
+        const DisturbedScene disturbed(scene, trials.seed, i + 1);
+        return bytes_of(disturbed.turned_back(run(disturbed.scene)).answers);
+      },
+      [&](std::size_t i) { return fmt::format("{}, disturbance {}", name, i + 1); },
+      [&](std::size_t done) { progress.update(done); });
+  Trajectory result = run(scene);
+  for (const std::string& bytes : answers) append_answers(bytes, result.answers);
+  return result;
 }
 
 SceneJudge::SceneJudge(const SceneFile& file, const PairKinds& kinds, const Candidate& exact,
