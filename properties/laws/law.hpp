@@ -76,4 +76,7 @@ std::vector<std::optional<Violation>> broken_in_session(std::span<const Law* con
 /// same ones.
 const oracle::Truth& truth_of(const Configuration& configuration);
 
+/// The score of an answer. The last one of each remembered configuration is remembered, too.
+const Score& score_of(const Configuration& configuration, const Answer& answer, const Bar& bar);
+
 }  // namespace touchstone

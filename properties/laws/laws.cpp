@@ -2,6 +2,7 @@
 // otherwise.
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <deque>
 #include <fmt/format.h>
 #include <limits>
@@ -74,7 +75,7 @@ std::optional<Violation> judge_answers(const Configuration&, Answers answers, co
 // agreement
 
 std::optional<Violation> judge_agreement(const Configuration& c, Answers answers, const Bar& bar) {
-  const Score s = score(c, truth_of(c), answers[0], bar);
+  const Score& s = score_of(c, answers[0], bar);
   if (s.outcome == Outcome::agree || s.outcome == Outcome::unsupported) return std::nullopt;
   if (is_of_points(s.outcome)) return std::nullopt;  // that is the law "points"
   std::string detail;
@@ -228,9 +229,21 @@ std::optional<Violation> judge_growth(const Configuration& c, Answers answers, c
 
 // Way out: moved by its depth along the normal, A touches B.
 
+/// Does the score of an overlap with this signed distance and normal show that A touches B after
+/// the way out? Moved by t along the unit vector n, A is between g(n) + t and σ + t from B. So the
+/// errors of depth and normal decide, but for the normal's length and for rounding.
+bool surely_leads_out(const Configuration& c, const Answer& a, const Bar& bar) {
+  if (pair_of(c) == Pair::plane) return false;  // certified_gap says how a plane is judged
+  const Score& s = score_of(c, a, bar);
+  if (!s.depth_error || !s.normal_regret) return false;
+  const double error = gap_error(c, vector(a.normal)) / error_size(c, bar);
+  return std::abs(*s.depth_error) + *s.normal_regret + error <= bar.tolerance;
+}
+
 std::optional<Violation> judge_way_out(const Configuration& c, Answers answers, const Bar& bar) {
   const Answer& a = answers[0];
   if (a.status != TS_CONTACT || a.signed_distance >= 0) return std::nullopt;
+  if (surely_leads_out(c, a, bar)) return std::nullopt;
   const double size = error_size(c, bar);
   const double left =
       signed_distance(with_a_moved(c, -a.signed_distance * vector(a.normal))) / size;
@@ -282,7 +295,7 @@ std::string points_text(const Score& s) {
 
 std::optional<Violation> judge_points(const Configuration& c, Answers answers, const Bar& bar) {
   const Answer& a = answers[0];
-  const Score s = score(c, truth_of(c), a, bar);
+  const Score& s = score_of(c, a, bar);
   if (is_of_points(s.outcome)) {
     return Violation{outcome_name(s.outcome), s.severity, points_text(s)};
   }
@@ -306,10 +319,12 @@ std::optional<Violation> judge_manifold(const Configuration& c, Answers answers,
   const oracle::Truth& truth = truth_of(c);
   const bool is_aligned =
       std::all_of(truth.normals.begin(), truth.normals.end(), [&](const auto& normal) {
-        return oracle::contact_patch(c, normal).kind() != oracle::ContactPatch::Kind::point;
+        // Along an oblique normal the cylinder has a single lowest point.
+        return normal.to_a != oracle::Alignment::oblique &&
+               oracle::contact_patch(c, normal).kind() != oracle::ContactPatch::Kind::point;
       });
   if (!is_aligned) return std::nullopt;
-  const Score s = score(c, truth, answers[0], bar);
+  const Score& s = score_of(c, answers[0], bar);
   if (!s.coverage || *s.coverage >= min_coverage) return std::nullopt;
   return Violation{"few-points", min_coverage - *s.coverage,
                    fmt::format("{} {} {:.2f} of the contact patch", counted(s.points, "point"),
@@ -409,20 +424,59 @@ bool are_same(const Configuration& first, const Configuration& second) {
 
 }  // namespace
 
-const oracle::Truth& truth_of(const Configuration& configuration) {
-  struct Known {
-    Configuration configuration;
-    oracle::Truth truth;
+namespace {
+
+/// What laws ask about one configuration again and again.
+struct Known {
+  struct Scored {
+    Answer answer;
+    Bar bar;
+    Score score;
   };
+  Configuration configuration;
+  oracle::Truth truth;
+  std::optional<Scored> last = {};
+};
+
+Known& known_of(const Configuration& configuration) {
   constexpr std::size_t remembered = 4;
   static thread_local std::deque<Known> known;
   const auto found = std::find_if(known.begin(), known.end(), [&](const Known& k) {
     return are_same(k.configuration, configuration);
   });
-  if (found != known.end()) return found->truth;
+  if (found != known.end()) return *found;
   if (known.size() == remembered) known.pop_front();
   known.push_back({configuration, oracle::truth(configuration)});
-  return known.back().truth;
+  return known.back();
+}
+
+/// Zeros of either sign differ, as they do for Judge.
+bool have_same_bits(const Answer& first, const Answer& second) {
+  static_assert(sizeof(ts_point) == 7 * sizeof(double));  // without padding
+  return first.status == second.status && first.point_count == second.point_count &&
+         first.was_asked == second.was_asked && first.model_distance == second.model_distance &&
+         std::memcmp(&first.signed_distance, &second.signed_distance, sizeof(double)) == 0 &&
+         std::memcmp(first.normal, second.normal, sizeof first.normal) == 0 &&
+         std::memcmp(first.points, second.points,
+                     static_cast<std::size_t>(first.point_count) * sizeof(ts_point)) == 0;
+}
+
+}  // namespace
+
+const oracle::Truth& truth_of(const Configuration& configuration) {
+  return known_of(configuration).truth;
+}
+
+const Score& score_of(const Configuration& configuration, const Answer& answer, const Bar& bar) {
+  Known& known = known_of(configuration);
+  auto& last = known.last;
+  const bool is_known = last && last->bar.tolerance == bar.tolerance &&
+                        last->bar.threshold == bar.threshold &&
+                        have_same_bits(last->answer, answer);
+  if (!is_known) {
+    last = Known::Scored{answer, bar, score(configuration, known.truth, answer, bar)};
+  }
+  return last->score;
 }
 
 namespace {
@@ -438,10 +492,14 @@ Bar bar_of(const Law& law, const Configuration& c, const Bar& given) {
 std::optional<Violation> judged(const Law& law, const Configuration& c, CandidateProcess& candidate,
                                 std::vector<Answer> answers, const Bar& bar) {
   if (law.hinted_questions && !judge_answers(c, {&answers[0], 1}, bar)) {
-    for (const HintedQuestion& frame : law.hinted_questions(c, answers[0], bar)) {
-      const auto& hint = frame.previous_normal;
-      answers.push_back(candidate.answer(frame.configuration, hint ? &*hint : nullptr));
+    std::vector<Configuration> asked;
+    std::vector<const Vec3*> hints;
+    const auto frames = law.hinted_questions(c, answers[0], bar);
+    for (const HintedQuestion& frame : frames) {
+      asked.push_back(frame.configuration);
+      hints.push_back(frame.previous_normal ? &*frame.previous_normal : nullptr);
     }
+    for (Answer& answer : candidate.answer(asked, hints)) answers.push_back(std::move(answer));
   }
   if (law.judge != judge_answers) {
     for (const Answer& a : answers) {
