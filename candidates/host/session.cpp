@@ -214,8 +214,8 @@ class Session {
   std::vector<PreparedPair> ready_;  ///< the last pairs of shapes queried, oldest first
   std::vector<Question> questions_;
   std::vector<TimedQuery> kept_;
-  std::size_t passes_ = 1;  ///< passes over kept_ in one timed round
-  InstructionCounter counter_;
+  std::size_t passes_ = 1;                     ///< passes over kept_ in one timed round
+  std::optional<InstructionCounter> counter_;  ///< once something is timed
 };
 
 Session::Session(const ts_candidate& candidate, const SessionCommand& begin, int socket,
@@ -372,12 +372,13 @@ void Session::query_all() {
 }
 
 void Session::time() {
+  if (!counter_) counter_.emplace();
   query_all();  // warms the caches, as the process has slept since the last round
-  counter_.start();
+  counter_->start();
   const auto start = std::chrono::steady_clock::now();
   for (std::size_t pass = 0; pass < passes_; ++pass) query_all();
   const auto end = std::chrono::steady_clock::now();
-  const auto instructions = counter_.stop();
+  const auto instructions = counter_->stop();
   const auto queries = static_cast<double>(passes_ * kept_.size());
   exchange_.nanoseconds = std::chrono::duration<double, std::nano>(end - start).count() / queries;
   exchange_.instructions = instructions ? static_cast<double>(*instructions) / queries
