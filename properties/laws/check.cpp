@@ -63,9 +63,14 @@ ChunkResult tried(const Chunk& chunk, const CheckOptions& options, CandidateProc
   ChunkResult result;
   result.tried.resize(options.laws.size());
   candidate.ask_within(options.bar.threshold);
-  for (std::size_t i = 0; i < chunk.identities.size(); ++i) {
-    const Configuration c = make_configuration(chunk.identities[i]);
-    const auto violations = broken_in_session(options.laws, c, candidate, options.bar);
+  std::vector<Configuration> configurations;
+  for (const Identity& identity : chunk.identities) {
+    configurations.push_back(make_configuration(identity));
+  }
+  const auto found = broken_in_session(options.laws, configurations, candidate, options.bar);
+  for (std::size_t i = 0; i < configurations.size(); ++i) {
+    const Configuration& c = configurations[i];
+    const Violations& violations = found[i];
     if (violations.empty()) {
       ++result.unsupported;
       continue;

@@ -415,16 +415,13 @@ const std::vector<std::string>& all_failures() {
 namespace {
 
 bool are_same(const Configuration& first, const Configuration& second) {
+  if (first.pose_a.position() != second.pose_a.position()) return false;  // most often
   const Numbers x = numbers_of(first), y = numbers_of(second);
   return x.pair == y.pair && x.sizes == y.sizes && x.position_a == y.position_a &&
          x.position_b == y.position_b && x.orientation_a.coeffs() == y.orientation_a.coeffs() &&
          x.orientation_b.coeffs() == y.orientation_b.coeffs() && x.normal == y.normal &&
          x.displacement == y.displacement;
 }
-
-}  // namespace
-
-namespace {
 
 /// What laws ask about one configuration again and again.
 struct Known {
@@ -439,12 +436,12 @@ struct Known {
 };
 
 Known& known_of(const Configuration& configuration) {
-  constexpr std::size_t remembered = 4;
+  constexpr std::size_t remembered = 128;
   static thread_local std::deque<Known> known;
-  const auto found = std::find_if(known.begin(), known.end(), [&](const Known& k) {
+  const auto found = std::find_if(known.rbegin(), known.rend(), [&](const Known& k) {
     return are_same(k.configuration, configuration);
   });
-  if (found != known.end()) return *found;
+  if (found != known.rend()) return *found;
   if (known.size() == remembered) known.pop_front();
   known.push_back({configuration, oracle::truth(configuration)});
   return known.back();
@@ -488,32 +485,78 @@ Bar bar_of(const Law& law, const Configuration& c, const Bar& given) {
   return bar;
 }
 
-/// Asks the last questions of a law, in the same session, and judges all answers.
-std::optional<Violation> judged(const Law& law, const Configuration& c, CandidateProcess& candidate,
-                                std::vector<Answer> answers, const Bar& bar) {
-  if (law.hinted_questions && !judge_answers(c, {&answers[0], 1}, bar)) {
-    std::vector<Configuration> asked;
+/// Questions that are asked together in a session.
+class QuestionList {
+ public:
+  void add(const HintedQuestion& question, double threshold) {
+    configurations_.push_back(question.configuration);
+    hints_.push_back(question.previous_normal);
+    thresholds_.push_back(threshold);
+  }
+  std::vector<Answer> ask(CandidateProcess& candidate) const {
     std::vector<const Vec3*> hints;
-    const auto frames = law.hinted_questions(c, answers[0], bar);
-    for (const HintedQuestion& frame : frames) {
-      asked.push_back(frame.configuration);
-      hints.push_back(frame.previous_normal ? &*frame.previous_normal : nullptr);
-    }
-    for (Answer& answer : candidate.answer(asked, hints)) answers.push_back(std::move(answer));
+    for (const auto& hint : hints_) hints.push_back(hint ? &*hint : nullptr);
+    return candidate.answer(configurations_, hints, thresholds_);
   }
-  if (law.judge != judge_answers) {
-    for (const Answer& a : answers) {
-      if (judge_answers(c, {&a, 1}, bar)) return std::nullopt;
+
+ private:
+  std::vector<Configuration> configurations_;
+  std::vector<std::optional<Vec3>> hints_;
+  std::vector<double> thresholds_;
+};
+
+/// A law and a configuration, and the answers up to now.
+struct Inquiry {
+  const Law& law;
+  const Configuration& configuration;
+  Bar bar;
+  std::vector<Answer> answers = {};
+  std::size_t asked = 0;  ///< questions whose answers are still to come
+
+  /// The law's questions besides the configuration itself.
+  void put_questions(QuestionList& list) {
+    for (Configuration& question : law.questions(configuration, bar)) {
+      put({std::move(question), {}}, list);
     }
   }
-  return law.judge(c, answers, bar);
+  /// Those that depend on the first answer.
+  void put_last_questions(QuestionList& list) {
+    if (!law.hinted_questions || judge_answers(configuration, {&answers[0], 1}, bar)) return;
+    for (const HintedQuestion& question : law.hinted_questions(configuration, answers[0], bar)) {
+      put(question, list);
+    }
+  }
+  void put(const HintedQuestion& question, QuestionList& list) {
+    list.add(question, bar.threshold);
+    ++asked;
+  }
+  /// Takes the answers to what it has put, from `next` on.
+  void take(std::vector<Answer>::iterator& next) {
+    for (; asked > 0; --asked) answers.push_back(std::move(*next++));
+  }
+
+  std::optional<Violation> verdict() const {
+    if (law.judge != judge_answers) {
+      for (const Answer& a : answers) {
+        if (judge_answers(configuration, {&a, 1}, bar)) return std::nullopt;
+      }
+    }
+    return law.judge(configuration, answers, bar);
+  }
+};
+
+/// Asks what the inquiries put by `put`, all together, and hands them the answers.
+template <class Put>
+void ask(std::span<Inquiry> inquiries, CandidateProcess& candidate, const Put& put) {
+  QuestionList list;
+  for (Inquiry& inquiry : inquiries) put(inquiry, list);
+  std::vector<Answer> answers = list.ask(candidate);
+  auto next = answers.begin();
+  for (Inquiry& inquiry : inquiries) inquiry.take(next);
 }
 
-/// The configuration and the law's questions about it.
-std::vector<Configuration> asked_by(const Law& law, const Configuration& c, const Bar& bar) {
-  std::vector<Configuration> asked{c};
-  for (Configuration& question : law.questions(c, bar)) asked.push_back(std::move(question));
-  return asked;
+void ask_last_questions(std::span<Inquiry> inquiries, CandidateProcess& candidate) {
+  ask(inquiries, candidate, [](Inquiry& i, QuestionList& list) { i.put_last_questions(list); });
 }
 
 }  // namespace
@@ -521,51 +564,58 @@ std::vector<Configuration> asked_by(const Law& law, const Configuration& c, cons
 std::optional<Violation> broken(const Law& law, const Configuration& c, CandidateProcess& candidate,
                                 const Bar& given) {
   if (!law.applies(c)) return std::nullopt;
-  const Bar bar = bar_of(law, c, given);
-  candidate.ask_within(bar.threshold);
-  std::vector<Answer> answers = candidate.answers(asked_by(law, c, bar));
-  if (answers[0].status == TS_UNSUPPORTED) return std::nullopt;
-  return judged(law, c, candidate, std::move(answers), bar);
+  Inquiry inquiry{law, c, bar_of(law, c, given)};
+  candidate.ask_within(inquiry.bar.threshold);
+  std::vector<Configuration> asked{c};
+  for (Configuration& question : law.questions(c, inquiry.bar)) {
+    asked.push_back(std::move(question));
+  }
+  inquiry.answers = candidate.answers(asked);
+  if (inquiry.answers[0].status == TS_UNSUPPORTED) return std::nullopt;
+  ask_last_questions({&inquiry, 1}, candidate);
+  return inquiry.verdict();
 }
 
-std::vector<std::optional<Violation>> broken_in_session(std::span<const Law* const> laws,
-                                                        const Configuration& c,
-                                                        CandidateProcess& candidate,
-                                                        const Bar& given) {
-  candidate.go_on_within(given.threshold);
-  const Answer first = candidate.answer(c);
-  if (first.status == TS_UNSUPPORTED) return {};
-  std::vector<std::optional<Violation>> result(laws.size());
+std::vector<Violations> broken_in_session(std::span<const Law* const> laws,
+                                          std::span<const Configuration> configurations,
+                                          CandidateProcess& candidate, const Bar& given) {
+  QuestionList list;
+  for (const Configuration& c : configurations) list.add({c, {}}, given.threshold);
+  const std::vector<Answer> first = list.ask(candidate);
   // Where there is no answer to judge, the other questions could only time out or crash as well.
-  const bool is_answered = !judge_answers(c, {&first, 1}, given);
-  std::vector<Configuration> asked;
-  std::vector<std::size_t> counts(laws.size());
-  for (std::size_t i = 0; i < laws.size(); ++i) {
-    if (!is_answered || !laws[i]->applies(c) || laws[i]->threshold) continue;
-    for (Configuration& question : laws[i]->questions(c, given)) {
-      asked.push_back(std::move(question));
-      ++counts[i];
+  std::vector<bool> is_answered;
+  for (std::size_t i = 0; i < configurations.size(); ++i) {
+    is_answered.push_back(!judge_answers(configurations[i], {&first[i], 1}, given));
+  }
+  std::vector<Violations> result(configurations.size());
+  std::vector<Inquiry> inquiries;
+  std::vector<std::optional<Violation>*> places;
+  for (std::size_t i = 0; i < configurations.size(); ++i) {
+    if (first[i].status == TS_UNSUPPORTED) continue;
+    result[i].resize(laws.size());
+    for (std::size_t k = 0; k < laws.size(); ++k) {
+      const Configuration& c = configurations[i];
+      if (!laws[k]->applies(c)) continue;
+      Inquiry& inquiry = inquiries.emplace_back(Inquiry{*laws[k], c, bar_of(*laws[k], c, given)});
+      // Within another threshold the configuration itself is asked again.
+      if (!laws[k]->threshold || !is_answered[i]) inquiry.answers.push_back(first[i]);
+      places.push_back(&result[i][k]);
     }
   }
-  const std::vector<Answer> answers = candidate.answer(asked);
-  auto next = answers.begin();
-  for (std::size_t i = 0; i < laws.size(); ++i) {
-    const Law& law = *laws[i];
-    if (!law.applies(c)) continue;
-    const Bar bar = bar_of(law, c, given);
-    std::vector<Answer> own;
-    if (law.threshold && is_answered) {
-      candidate.go_on_within(bar.threshold);
-      own = candidate.answer(asked_by(law, c, bar));
-    } else {
-      const auto last = next + static_cast<std::ptrdiff_t>(counts[i]);
-      own.push_back(first);
-      own.insert(own.end(), next, last);
-      next = last;
-    }
-    result[i] = judged(law, c, candidate, std::move(own), bar);
-  }
+  ask(inquiries, candidate, [&](Inquiry& inquiry, QuestionList& questions) {
+    const auto i = static_cast<std::size_t>(&inquiry.configuration - configurations.data());
+    if (!is_answered[i]) return;
+    if (inquiry.answers.empty()) inquiry.put({inquiry.configuration, {}}, questions);
+    inquiry.put_questions(questions);
+  });
+  ask_last_questions(inquiries, candidate);
+  for (std::size_t i = 0; i < inquiries.size(); ++i) *places[i] = inquiries[i].verdict();
   return result;
+}
+
+Violations broken_in_session(std::span<const Law* const> laws, const Configuration& configuration,
+                             CandidateProcess& candidate, const Bar& bar) {
+  return broken_in_session(laws, std::span(&configuration, 1), candidate, bar).front();
 }
 
 }  // namespace touchstone
