@@ -436,7 +436,7 @@ struct Known {
 };
 
 Known& known_of(const Configuration& configuration) {
-  constexpr std::size_t remembered = 128;
+  constexpr std::size_t remembered = 192;  // of a chunk of `check`, thrice
   static thread_local std::deque<Known> known;
   const auto found = std::find_if(known.rbegin(), known.rend(), [&](const Known& k) {
     return are_same(k.configuration, configuration);
