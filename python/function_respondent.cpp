@@ -88,14 +88,14 @@ void FunctionRespondent::call_within(double seconds, const Action& action) const
 
 void FunctionRespondent::ask_within(double threshold) { threshold_ = threshold; }
 
-py::tuple FunctionRespondent::arguments_of(const Configuration& c) const {
+py::tuple FunctionRespondent::arguments_of(const Configuration& c, double threshold) const {
   // What every candidate is given: unit orientations, a plane's unit normal.
   const auto unit = [](const Pose& p) { return Pose(p.position(), p.unit_orientation()); };
   Shape b = c.b;
   if (const auto* const plane = std::get_if<Plane>(&c.b)) {
     b = Plane(plane->unit_normal(), plane->unit_displacement());
   }
-  return py::make_tuple(c.a, unit(c.pose_a), shape_to_python(b), unit(c.pose_b), threshold_);
+  return py::make_tuple(c.a, unit(c.pose_a), shape_to_python(b), unit(c.pose_b), threshold);
 }
 
 Answer FunctionRespondent::answer_to(const py::tuple& arguments) const {
@@ -118,14 +118,14 @@ Answer FunctionRespondent::answer_to(const py::tuple& arguments) const {
 }
 
 std::vector<Answer> FunctionRespondent::answers(std::span<const Configuration> configurations) {
-  return answer(configurations, {});
+  return answer(configurations, {}, {});
 }
 
 std::vector<Answer> FunctionRespondent::answers_until_timeout(
     std::span<const Configuration> configurations, bool /*in_new_session*/) {
   std::vector<Answer> result;
   for (const Configuration& c : configurations) {
-    result.push_back(answer_to(arguments_of(c)));
+    result.push_back(answer_to(arguments_of(c, threshold_)));
     if (result.back().status == TS_TIMED_OUT) break;
   }
   flush_output();
@@ -133,9 +133,13 @@ std::vector<Answer> FunctionRespondent::answers_until_timeout(
 }
 
 std::vector<Answer> FunctionRespondent::answer(std::span<const Configuration> configurations,
-                                               std::span<const Vec3* const> /*previous_normals*/) {
+                                               std::span<const Vec3* const> /*previous_normals*/,
+                                               std::span<const double> thresholds) {
   std::vector<Answer> result;
-  for (const Configuration& c : configurations) result.push_back(answer_to(arguments_of(c)));
+  for (std::size_t i = 0; i < configurations.size(); ++i) {
+    const double threshold = thresholds.empty() ? threshold_ : thresholds[i];
+    result.push_back(answer_to(arguments_of(configurations[i], threshold)));
+  }
   flush_output();
   return result;
 }
@@ -148,7 +152,7 @@ bool FunctionRespondent::prepare_timing(std::span<const Configuration> configura
   Clock::duration once{};
   for (const Configuration& c : configurations) {
     if (timed_.size() >= min_timed && once > max_once) break;
-    const py::tuple arguments = arguments_of(c);
+    const py::tuple arguments = arguments_of(c, threshold_);
     const auto start = Clock::now();
     if (answer_to(arguments).status == TS_TIMED_OUT) return false;
     once += Clock::now() - start;

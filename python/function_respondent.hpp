@@ -20,19 +20,19 @@ class FunctionRespondent : public Respondent {
   FunctionRespondent& operator=(const FunctionRespondent&) = delete;
 
   void ask_within(double threshold) override;
-  void go_on_within(double threshold) override { ask_within(threshold); }
   std::vector<Answer> answers(std::span<const Configuration> configurations) override;
   std::vector<Answer> answers_until_timeout(std::span<const Configuration> configurations,
                                             bool in_new_session) override;
   /// A function takes no hints.
   std::vector<Answer> answer(std::span<const Configuration> configurations,
-                             std::span<const Vec3* const> previous_normals) override;
+                             std::span<const Vec3* const> previous_normals,
+                             std::span<const double> thresholds) override;
   void restart() override {}
   bool prepare_timing(std::span<const Configuration> configurations) override;
   std::optional<QueryCost> cost_per_query() override;
 
  private:
-  py::tuple arguments_of(const Configuration& configuration) const;
+  py::tuple arguments_of(const Configuration& configuration, double threshold) const;
   Answer answer_to(const py::tuple& arguments) const;
   /// Calls action(), which an exception ends after so many seconds.
   template <class Action>

@@ -232,7 +232,7 @@ class Changes {
   std::vector<Change>& list_;
 };
 
-/// Three standard deviations of the difference of two shares of different samples.
+/// Three standard deviations of the difference of two shares, of n and m configurations.
 double chance(double p, double n, double q, double m) {
   const double mean = (p * n + q * m) / (n + m);
   return 3 * std::sqrt(mean * (1 - mean) * (1 / n + 1 / m));
@@ -240,7 +240,10 @@ double chance(double p, double n, double q, double m) {
 
 void compare_agreement(Changes& changes, const Statistics& before, const Statistics& after,
                        bool same_configurations, const CompareLimits& limits) {
-  const auto n = static_cast<double>(before.asked()), m = static_cast<double>(after.asked());
+  const auto count = [](const Statistics& s) {
+    return effective_count(static_cast<double>(s.supported()), s.weight_squares());
+  };
+  const double n = count(before), m = count(after);
   const auto share = [](const Statistics& s) {
     return static_cast<double>(s.agreeing()) / static_cast<double>(s.supported());
   };

@@ -144,6 +144,8 @@ TEST(Compare, OfACandidateThatWasAskedASampleCountsChangesBeyondChanceAlone) {
   EXPECT_THAT(changes(far), testing::ElementsAre("worse rim-face mine agreement"));
   EXPECT_DOUBLE_EQ(far.changes[0].after, 0.33);
   EXPECT_TRUE(compare(sampled(33, 0), sampled(33, 0), {}).changes.empty());
+  // 40%, three deviations of 40 configurations away, but of few that stand for sixteen each.
+  EXPECT_TRUE(compare(small_report(), sampled(33, 7), {}).changes.empty());
 }
 
 TEST(Compare, RoundingIsNoChange) {

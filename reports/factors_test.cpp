@@ -27,6 +27,22 @@ class Rates {
     if (agree < of) row.worst_index = 3;
     return *this;
   }
+  /// A class of 512 of which three timed out and then the last of every 16 was asked, so many of
+  /// which agree (the first of these stands for 13, each other for 16).
+  Rates& add_sampled(const std::string& pose_class, std::uint64_t agree) {
+    add(pose_class, 0, 512);
+    Statistics& s = report_.results.back().statistics;
+    s.outcomes = {};
+    const auto set = [](OutcomeCounts& counts, Outcome o, std::uint64_t n) {
+      counts[static_cast<std::size_t>(o)] = n;
+    };
+    set(s.outcomes, Outcome::timed_out, 3 + 32 - agree);
+    set(s.outcomes, Outcome::agree, agree);
+    set(s.outcomes, Outcome::not_asked, 512 - 35);
+    set(s.represented, Outcome::timed_out, 12 + 15 * (31 - agree));
+    set(s.represented, Outcome::agree, 15 * agree);
+    return *this;
+  }
   const Report& get() const { return report_; }
 
  private:
@@ -86,6 +102,27 @@ TEST(Contrasts, PointOutNeitherChanceNorWhatFailsAnyway) {
   EXPECT_TRUE(
       texts(contrasts(Rates().add("perpendicular-t", 30).add("perpendicular-t+turned", 87).get()))
           .empty());
+}
+
+TEST(Contrasts, OfACandidateThatWasAskedASampleCountWhatItStandsFor) {
+  const auto found =
+      contrasts(Rates().add("perpendicular-t", 87).add_sampled("perpendicular-t+turned", 30).get());
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(contrast_text(found[0]),
+            "cylinder-cylinder/perpendicular-t agrees in 87%, turned in 93%");
+  EXPECT_EQ(found[0].modified.count, 512u);
+  EXPECT_EQ(found[0].modified.failed, 512u - 30 * 16);
+}
+
+TEST(Contrasts, OfASampleAreAsLikelyByChanceAsOfFewConfigurations) {
+  const auto found = contrasts(
+      Rates().add("perpendicular-t", 100).add_sampled("perpendicular-t+turned", 26).get());
+  ASSERT_EQ(found.size(), 1u);
+  // 96 of 512, known as well as from 32.
+  EXPECT_EQ(found[0].modified.failed, 96u);
+  EXPECT_NEAR(found[0].modified.effective_count(), 32, 0.5);
+  EXPECT_EQ(found[0].chance, chance({100, 0}, {32, 6}));
+  EXPECT_GT(found[0].chance, 1e3 * chance({100, 0}, {512, 96}));
 }
 
 TEST(Contrasts, TakeTheTiltThatIsWorst) {
@@ -179,6 +216,12 @@ TEST(Factors, CompareAnArrangementWithOthersUnderTheSameModifiers) {
 TEST(Factors, AreNotFoundWhereAllIsWell) {
   EXPECT_TRUE(factors(Rates().add("general", 100).add("rim-rim", 100).add("general+tiny", 99).get())
                   .empty());
+}
+
+TEST(Factors, OfASampleMustBeBeyondTheChanceOfFewConfigurations) {
+  const auto needles = [](Rates rates) { return factors(rates.add("general", 94).get()).size(); };
+  EXPECT_EQ(needles(Rates().add("general+needle", 448, 512)), 1u);
+  EXPECT_EQ(needles(Rates().add_sampled("general+needle", 28)), 0u);  // 448 of 512, too
 }
 
 TEST(Headings, AreOfOneGroupEach) {

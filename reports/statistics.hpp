@@ -57,6 +57,13 @@ LogHistogram log_histogram(const std::vector<double>& values);
 
 using OutcomeCounts = std::array<std::uint64_t, all_outcomes.size()>;  ///< in the order of these
 
+/// The number of configurations, each of which was asked, that tell a share as well as a sample in
+/// which each stands for some number of them: the square of these numbers' sum over the sum of
+/// their squares (Kish, "Survey Sampling", 1965).
+inline double effective_count(double weights, double weight_squares) {
+  return weights * (weights / weight_squares);
+}
+
 /// Summary of the scores of one candidate on any set of configurations (tally.hpp).
 struct Statistics {
   std::uint64_t count = 0;
@@ -77,6 +84,9 @@ struct Statistics {
   /// Configurations that the candidate has a routine for, and those of them that it was asked.
   std::uint64_t supported() const { return count - of(Outcome::unsupported); }
   std::uint64_t asked() const { return supported() - of(Outcome::not_asked); }
+  /// The sum of the squares of how many configurations each one that was asked stands for; at most
+  /// a little too large.
+  double weight_squares() const;
   /// On how many of those supported it agrees; those not asked count as what represents them.
   std::uint64_t agreeing() const {
     return of(Outcome::agree) + represented[static_cast<std::size_t>(Outcome::agree)];

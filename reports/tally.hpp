@@ -50,7 +50,7 @@ enum class Precision {
 class Magnitudes {
  public:
   /// Sums and percentiles do not overflow, not even of a thousand pose classes together: a coverage
-  /// sum has room for 2^64 units of 2^-24, which are 1.1e12 configurations.
+  /// sum has room for 2^64 of its units, which are 1.8e13 configurations.
   static constexpr std::uint64_t max_count = 1'000'000'000;
   /// The first 15 bits of a double that is not negative (sign, exponent, three of the mantissa)
   /// number its bin.

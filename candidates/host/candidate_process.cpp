@@ -23,8 +23,6 @@ CandidateProcess& CandidateProcess::operator=(CandidateProcess&&) noexcept = def
 
 void CandidateProcess::ask_within(double threshold) { respondent_->ask_within(threshold); }
 
-void CandidateProcess::go_on_within(double threshold) { respondent_->go_on_within(threshold); }
-
 std::vector<Answer> CandidateProcess::answers(std::span<const Configuration> configurations) {
   return respondent_->answers(configurations);
 }
@@ -35,12 +33,13 @@ std::vector<Answer> CandidateProcess::answers_until_timeout(
 }
 
 Answer CandidateProcess::answer(const Configuration& configuration, const Vec3* previous_normal) {
-  return respondent_->answer({&configuration, 1}, {&previous_normal, 1}).front();
+  return respondent_->answer({&configuration, 1}, {&previous_normal, 1}, {}).front();
 }
 
 std::vector<Answer> CandidateProcess::answer(std::span<const Configuration> configurations,
-                                             std::span<const Vec3* const> previous_normals) {
-  return respondent_->answer(configurations, previous_normals);
+                                             std::span<const Vec3* const> previous_normals,
+                                             std::span<const double> thresholds) {
+  return respondent_->answer(configurations, previous_normals, thresholds);
 }
 
 void CandidateProcess::restart() { respondent_->restart(); }

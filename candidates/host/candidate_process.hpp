@@ -65,8 +65,6 @@ class CandidateProcess {
 
   /// Ends the session. The next one reports contacts up to `threshold` metres apart.
   void ask_within(double threshold);
-  /// From now on contacts up to `threshold` metres apart are reported, in the same session.
-  void go_on_within(double threshold);
 
   /// Answers in a new session, so that the answers depend on these configurations alone.
   std::vector<Answer> answers(std::span<const Configuration> configurations);
@@ -77,10 +75,11 @@ class CandidateProcess {
   /// Answers in the session of the last call, if there is one. `previous_normal` (unit, world
   /// frame, from B to A) is the candidate's hint; null means that there was no contact before.
   Answer answer(const Configuration& configuration, const Vec3* previous_normal = nullptr);
-  /// Answers several configurations in that session; `previous_normals` is empty or has one for
-  /// each.
+  /// Answers several configurations in that session. `previous_normals` and `thresholds` (metres,
+  /// in place of the session's) are empty or have one for each.
   std::vector<Answer> answer(std::span<const Configuration> configurations,
-                             std::span<const Vec3* const> previous_normals = {});
+                             std::span<const Vec3* const> previous_normals = {},
+                             std::span<const double> thresholds = {});
   /// Ends the session. The next call begins a new one.
   void restart();
 

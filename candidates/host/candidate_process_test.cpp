@@ -256,12 +256,11 @@ TEST(CandidateProcess, PreparesShapesOnceForManyPosesAndKeepsFewOfThem) {
 TEST(CandidateProcess, AnotherThresholdPreparesShapesAnewInTheSameSession) {
   CandidateProcess process(sabotage("counting"), 0);
   EXPECT_EQ(process.answer(standing).signed_distance, -1);
-  process.go_on_within(0);  // as before
-  EXPECT_EQ(process.answer(standing).signed_distance, -1);
-  process.go_on_within(0.5);
-  const Answer again = process.answer(standing);
-  EXPECT_EQ(again.signed_distance, -2);  // counted in the session
-  EXPECT_EQ(again.points[0].depth, 1);   // the pair of the other threshold is released
+  const std::vector<Configuration> thrice(3, standing);
+  const auto answers = process.answer(thrice, {}, std::vector{0.0, 0.5, 0.0});
+  EXPECT_EQ(answers.at(0).signed_distance, -1);  // as before
+  EXPECT_EQ(answers.at(1).signed_distance, -2);  // counted in the session
+  EXPECT_EQ(answers.at(2).signed_distance, -2);  // both are kept
   process.ask_within(0);
   EXPECT_EQ(process.answer(standing).signed_distance, -1);
 }

@@ -71,11 +71,6 @@ void CommandRespondent::ask_within(double threshold) {
   threshold_ = threshold;
 }
 
-void CommandRespondent::go_on_within(double threshold) {
-  if (threshold != threshold_ && process_.runs()) release_all_but(0);
-  threshold_ = threshold;
-}
-
 void CommandRespondent::restart() {
   if (process_.runs()) release_all_but(0);
   failures_ = 0;
@@ -127,7 +122,7 @@ void CommandRespondent::warm_up() {
     if (!candidate_.supports[kind]) continue;
     ts_shape b{kind, {0.5, 0.5, 0.5}};
     if (kind == TS_PLANE) b = {kind, {0, 0, 1, 0}};
-    Question question{{TS_CYLINDER, {0.5, 0.5}}, b, {}};
+    Question question{{TS_CYLINDER, {0.5, 0.5}}, b, threshold_, {}};
     question.poses.a = {{0, 0.1, 0.4}, {0.8, 0.6, 0, 0}};
     question.poses.b = {{0, 0, 0}, {1, 0, 0, 0}};
     request_seconds_ = std::max(limits_.seconds, first_request);
@@ -141,7 +136,9 @@ std::optional<CommandRespondent::Failure> CommandRespondent::prepare(
     std::span<Question> questions) {
   std::vector<messages::PairOfShapes> pairs;
   const auto handle_of = [&](const Question& q) {
-    const auto is = [&](const auto& known) { return same(known.a, q.a) && same(known.b, q.b); };
+    const auto is = [&](const auto& known) {
+      return same(known.a, q.a) && same(known.b, q.b) && known.threshold == q.threshold;
+    };
     const auto found = std::find_if(ready_.begin(), ready_.end(), is);
     if (found != ready_.end()) {
       std::rotate(found, found + 1, ready_.end());
@@ -149,7 +146,7 @@ std::optional<CommandRespondent::Failure> CommandRespondent::prepare(
     }
     const auto wanted = std::find_if(pairs.begin(), pairs.end(), is);
     if (wanted != pairs.end()) return wanted->handle;
-    pairs.push_back({next_handle_++, threshold_, candidate_.value, q.a, q.b});
+    pairs.push_back({next_handle_++, q.threshold, candidate_.value, q.a, q.b});
     return pairs.back().handle;
   };
   for (Question& q : questions) q.poses.handle = handle_of(q);
@@ -163,8 +160,8 @@ std::optional<CommandRespondent::Failure> CommandRespondent::prepare(
                               });
   if (const auto* const failure = std::get_if<Failure>(&supported)) return *failure;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    ready_.push_back(
-        {pairs[i].a, pairs[i].b, pairs[i].handle, std::get<std::vector<bool>>(supported)[i]});
+    ready_.push_back({pairs[i].a, pairs[i].b, pairs[i].threshold, pairs[i].handle,
+                      std::get<std::vector<bool>>(supported)[i]});
   }
   return std::nullopt;
 }
@@ -261,9 +258,9 @@ void CommandRespondent::answer_all(std::span<Question> questions, bool release,
   }
 }
 
-CommandRespondent::Question CommandRespondent::question_of(const Configuration& c,
+CommandRespondent::Question CommandRespondent::question_of(const Configuration& c, double threshold,
                                                            const Vec3* previous_normal) const {
-  Question question{to_ts_shape(c.a), to_ts_shape(c.b), {}};
+  Question question{to_ts_shape(c.a), to_ts_shape(c.b), threshold, {}};
   question.poses.a = to_ts_pose(c.pose_a);
   question.poses.b = to_ts_pose(c.pose_b);
   question.poses.has_previous_normal = previous_normal != nullptr;
@@ -276,7 +273,8 @@ CommandRespondent::Question CommandRespondent::question_of(const Configuration& 
 std::vector<Answer> CommandRespondent::answers(std::span<const Configuration> configurations) {
   restart();
   std::vector<Question> questions;
-  for (const Configuration& c : configurations) questions.push_back(question_of(c, nullptr));
+  for (const Configuration& c : configurations)
+    questions.push_back(question_of(c, threshold_, nullptr));
   return answer(std::move(questions), true, false);
 }
 
@@ -284,16 +282,19 @@ std::vector<Answer> CommandRespondent::answers_until_timeout(
     std::span<const Configuration> configurations, bool in_new_session) {
   if (in_new_session) restart();
   std::vector<Question> questions;
-  for (const Configuration& c : configurations) questions.push_back(question_of(c, nullptr));
+  for (const Configuration& c : configurations)
+    questions.push_back(question_of(c, threshold_, nullptr));
   return answer(std::move(questions), true, true);
 }
 
 std::vector<Answer> CommandRespondent::answer(std::span<const Configuration> configurations,
-                                              std::span<const Vec3* const> previous_normals) {
+                                              std::span<const Vec3* const> previous_normals,
+                                              std::span<const double> thresholds) {
   std::vector<Question> questions;
   for (std::size_t i = 0; i < configurations.size(); ++i) {
-    questions.push_back(
-        question_of(configurations[i], previous_normals.empty() ? nullptr : previous_normals[i]));
+    questions.push_back(question_of(configurations[i],
+                                    thresholds.empty() ? threshold_ : thresholds[i],
+                                    previous_normals.empty() ? nullptr : previous_normals[i]));
   }
   return answer(std::move(questions), false, false);
 }
@@ -353,7 +354,8 @@ bool CommandRespondent::prepare_timing(std::span<const Configuration> configurat
   measured_.reset();
   std::vector<Question> questions;
   for (const Configuration& c : configurations) {
-    if (candidate_.supports[to_ts_shape(c.b).kind]) questions.push_back(question_of(c, nullptr));
+    if (candidate_.supports[to_ts_shape(c.b).kind])
+      questions.push_back(question_of(c, threshold_, nullptr));
   }
   if (questions.empty() || start()) return false;
   // Handles stay prepared until the next call, however many.

@@ -16,12 +16,12 @@ class CommandRespondent : public Respondent {
   CommandRespondent(const Candidate& candidate, double threshold, const Limits& limits);
 
   void ask_within(double threshold) override;
-  void go_on_within(double threshold) override;
   std::vector<Answer> answers(std::span<const Configuration> configurations) override;
   std::vector<Answer> answers_until_timeout(std::span<const Configuration> configurations,
                                             bool in_new_session) override;
   std::vector<Answer> answer(std::span<const Configuration> configurations,
-                             std::span<const Vec3* const> previous_normals) override;
+                             std::span<const Vec3* const> previous_normals,
+                             std::span<const double> thresholds) override;
   void restart() override;
   bool prepare_timing(std::span<const Configuration> configurations) override;
   std::optional<QueryCost> cost_per_query() override;
@@ -33,16 +33,19 @@ class CommandRespondent : public Respondent {
 
   struct Question {
     ts_shape a, b;
+    double threshold;
     messages::Poses poses;
   };
   /// Shapes that the child has prepared.
   struct Prepared {
     ts_shape a, b;
+    double threshold;
     std::uint32_t handle;
     bool is_supported;
   };
 
-  Question question_of(const Configuration& configuration, const Vec3* previous_normal) const;
+  Question question_of(const Configuration& configuration, double threshold,
+                       const Vec3* previous_normal) const;
   std::vector<Answer> answer(std::vector<Question> questions, bool release, bool until_timeout);
   /// Appends the answers to these questions, after bisection where the child does not survive.
   void answer_all(std::span<Question> questions, bool release, std::vector<Answer>& answers);

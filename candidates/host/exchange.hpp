@@ -16,10 +16,11 @@ namespace touchstone {
 // The messages between the harness and a candidate's process: plain bytes in shared memory and on a
 // socket that preserves message boundaries.
 
-/// Shapes and poses of one configuration, and the hint.
+/// Shapes and poses of one configuration, up to which distance contacts are wanted, and the hint.
 struct Question {
   ts_shape a, b;
   ts_pose pose_a, pose_b;
+  double threshold;
   bool has_previous_normal;
   double previous_normal[3];
 };
@@ -87,7 +88,7 @@ inline std::uint64_t seal_of(const Slot& slot, std::uint64_t ticket) {
 /// Sent to the process that has loaded the plug-in (`begin`) and to the session that it forks.
 struct SessionCommand {
   enum Kind : std::uint32_t {
-    begin,    ///< fork a session for the candidate `index` with `threshold` and `parameter`
+    begin,    ///< fork a session for the candidate `index` with `parameter`
     answer,   ///< answer slots first … count − 1
     keep,     ///< keep the questions of slots 0 … count − 1 for timing
     warm_up,  ///< prepare and query once as many of them as fit into the time of one round
@@ -99,8 +100,8 @@ struct SessionCommand {
   std::uint64_t ticket;  ///< unique to the command
   bool release;  ///< `answer`: keep no shapes ready for later commands; `keep`: none kept before
   std::int32_t index;
-  double threshold, parameter;  ///< `answer`: from now on contacts up to that threshold
-  std::uint64_t memory;         ///< growth in bytes that a session is allowed
+  double parameter;
+  std::uint64_t memory;  ///< growth in bytes that a session is allowed
 };
 
 /// A message to the harness. Everything else on the socket is noise, as from a routine that writes

@@ -146,13 +146,17 @@ Description describe(const ts_candidate& c) {
   return d;
 }
 
-void bound_memory(std::uint64_t growth) {
+/// Bytes of this process's address space.
+rlim_t address_space() {
   unsigned long pages = 0;
   if (std::FILE* file = std::fopen("/proc/self/statm", "r")) {
     if (std::fscanf(file, "%lu", &pages) != 1) pages = 0;
     std::fclose(file);
   }
-  const rlim_t bytes = pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + growth;
+  return pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
+}
+
+void bound_memory(rlim_t bytes) {
   const rlimit memory{bytes, bytes};
   setrlimit(RLIMIT_AS, &memory);
 }
@@ -199,11 +203,12 @@ void serve_plugin(const char* file, int socket, const Questions& questions, Exch
     reply(socket, Reply::refused, 0, 0, "threw something that is no exception");
     _exit(1);
   }
+  const rlim_t loaded = address_space();  // every session begins with this much
   for (;;) {
     const SessionCommand command = receive(socket);
     if (command.kind != SessionCommand::begin) continue;  // meant for a session that has died
     const auto serve = [&] {
-      bound_memory(command.memory);
+      bound_memory(loaded + command.memory);
       if (plugin.after_fork) plugin.after_fork();
       serve_session(plugin.candidates[static_cast<std::size_t>(command.index)], command, socket,
                     questions, exchange);

@@ -113,7 +113,6 @@ std::optional<PluginSessions::SessionFailure> PluginSessions::begin() {
     SessionCommand command = plain_command(SessionCommand::begin);
     command.ticket = session_ticket_ = ++ticket_;
     command.index = candidate_.index;
-    command.threshold = threshold_;
     command.parameter = candidate_.value;
     command.memory = static_cast<std::uint64_t>(limits_.mebibytes * (1 << 20));
     const auto end = Clock::now() + fork_timeout;
@@ -165,11 +164,16 @@ void PluginSessions::ask_within(double threshold) {
   threshold_ = threshold;
 }
 
-void PluginSessions::put(std::uint32_t slot, const Configuration& c, const Vec3* previous_normal) {
+void PluginSessions::put(std::uint32_t slot, const Configuration& c, double threshold,
+                         const Vec3* previous_normal) {
   const Vec3 hint = previous_normal ? *previous_normal : Vec3(Vec3::Zero());
-  plugin_.state_->questions->slots[slot] = {
-      to_ts_shape(c.a),     to_ts_shape(c.b),           to_ts_pose(c.pose_a),
-      to_ts_pose(c.pose_b), previous_normal != nullptr, {hint.x(), hint.y(), hint.z()}};
+  plugin_.state_->questions->slots[slot] = {to_ts_shape(c.a),
+                                            to_ts_shape(c.b),
+                                            to_ts_pose(c.pose_a),
+                                            to_ts_pose(c.pose_b),
+                                            threshold,
+                                            previous_normal != nullptr,
+                                            {hint.x(), hint.y(), hint.z()}};
 }
 
 std::optional<PluginSessions::SessionFailure> PluginSessions::obey(SessionCommand command,
@@ -180,7 +184,6 @@ std::optional<PluginSessions::SessionFailure> PluginSessions::obey(SessionComman
   const bool fresh = session_ < 0;
   if (fresh) begin_failure = begin();
   command.ticket = ++ticket_;
-  command.threshold = threshold_;
   s.exchange->progress = progress_of(ticket_, command.first);
   if (begin_failure) return begin_failure;
   const auto stopped = [&](ts_status status, std::string reason) {
@@ -419,7 +422,7 @@ void PluginSessions::answer_batch(std::uint32_t count, Manner manner,
 std::vector<Answer> PluginSessions::answers(std::span<const Configuration> configurations) {
   end();
   forget_times();
-  return answer(configurations, {}, Manner{.release = true});
+  return answer(configurations, {}, {}, Manner{.release = true});
 }
 
 std::vector<Answer> PluginSessions::answers_until_timeout(
@@ -428,24 +431,26 @@ std::vector<Answer> PluginSessions::answers_until_timeout(
     end();
     forget_times();
   }
-  return answer(configurations, {}, Manner{.release = true, .until_timeout = true});
-}
-
-std::vector<Answer> PluginSessions::answer(std::span<const Configuration> configurations,
-                                           std::span<const Vec3* const> previous_normals) {
-  return answer(configurations, previous_normals, Manner{.release = false});
+  return answer(configurations, {}, {}, Manner{.release = true, .until_timeout = true});
 }
 
 std::vector<Answer> PluginSessions::answer(std::span<const Configuration> configurations,
                                            std::span<const Vec3* const> previous_normals,
-                                           Manner manner) {
+                                           std::span<const double> thresholds) {
+  return answer(configurations, previous_normals, thresholds, Manner{.release = false});
+}
+
+std::vector<Answer> PluginSessions::answer(std::span<const Configuration> configurations,
+                                           std::span<const Vec3* const> previous_normals,
+                                           std::span<const double> thresholds, Manner manner) {
   std::vector<Answer> result;
   result.reserve(configurations.size());
   for (std::size_t at = 0; at < configurations.size(); at += batch_size) {
     const auto batch =
         configurations.subspan(at, std::min<std::size_t>(batch_size, configurations.size() - at));
     for (std::uint32_t i = 0; i < batch.size(); ++i) {
-      put(i, batch[i], previous_normals.empty() ? nullptr : previous_normals[at + i]);
+      put(i, batch[i], thresholds.empty() ? threshold_ : thresholds[at + i],
+          previous_normals.empty() ? nullptr : previous_normals[at + i]);
     }
     answer_batch(static_cast<std::uint32_t>(batch.size()), manner, result);
     if (manner.until_timeout && end_after_timeout(result)) break;
@@ -472,7 +477,7 @@ bool PluginSessions::keep_for_timing(std::span<const Configuration> configuratio
   for (std::size_t at = 0; at < configurations.size(); at += batch_size) {
     const auto batch =
         configurations.subspan(at, std::min<std::size_t>(batch_size, configurations.size() - at));
-    for (std::uint32_t i = 0; i < batch.size(); ++i) put(i, batch[i]);
+    for (std::uint32_t i = 0; i < batch.size(); ++i) put(i, batch[i], threshold_);
     SessionCommand keep = plain_command(SessionCommand::keep);
     keep.count = static_cast<std::uint32_t>(batch.size());
     keep.release = at == 0;

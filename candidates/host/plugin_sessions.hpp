@@ -20,12 +20,12 @@ class PluginSessions : public Respondent {
   PluginSessions(const Candidate& candidate, double threshold, const Limits& limits);
 
   void ask_within(double threshold) override;
-  void go_on_within(double threshold) override { threshold_ = threshold; }
   std::vector<Answer> answers(std::span<const Configuration> configurations) override;
   std::vector<Answer> answers_until_timeout(std::span<const Configuration> configurations,
                                             bool in_new_session) override;
   std::vector<Answer> answer(std::span<const Configuration> configurations,
-                             std::span<const Vec3* const> previous_normals) override;
+                             std::span<const Vec3* const> previous_normals,
+                             std::span<const double> thresholds) override;
   void restart() override { end(); }
   bool prepare_timing(std::span<const Configuration> configurations) override;
   std::optional<QueryCost> cost_per_query() override;
@@ -41,7 +41,7 @@ class PluginSessions : public Respondent {
   /// Begins a session; absent on success.
   std::optional<SessionFailure> begin();
   void end();
-  void put(std::uint32_t slot, const Configuration& configuration,
+  void put(std::uint32_t slot, const Configuration& configuration, double threshold,
            const Vec3* previous_normal = nullptr);
   /// How a call asks its questions.
   struct Manner {
@@ -49,7 +49,8 @@ class PluginSessions : public Respondent {
     bool until_timeout = false;  ///< nothing is answered after a time-out
   };
   std::vector<Answer> answer(std::span<const Configuration> configurations,
-                             std::span<const Vec3* const> previous_normals, Manner manner);
+                             std::span<const Vec3* const> previous_normals,
+                             std::span<const double> thresholds, Manner manner);
   void answer_batch(std::uint32_t count, Manner manner, std::vector<Answer>& answers);
   /// The answer in this slot, if it belongs to the last command.
   std::optional<Answer> answer_in(std::uint32_t slot) const;

@@ -11,12 +11,12 @@ class Respondent {
  public:
   virtual ~Respondent() = default;
   virtual void ask_within(double threshold) = 0;
-  virtual void go_on_within(double threshold) = 0;
   virtual std::vector<Answer> answers(std::span<const Configuration> configurations) = 0;
   virtual std::vector<Answer> answers_until_timeout(std::span<const Configuration> configurations,
                                                     bool in_new_session) = 0;
   virtual std::vector<Answer> answer(std::span<const Configuration> configurations,
-                                     std::span<const Vec3* const> previous_normals) = 0;
+                                     std::span<const Vec3* const> previous_normals,
+                                     std::span<const double> thresholds) = 0;
   virtual void restart() = 0;
   virtual bool prepare_timing(std::span<const Configuration> configurations) = 0;
   virtual std::optional<QueryCost> cost_per_query() = 0;

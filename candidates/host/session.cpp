@@ -182,7 +182,12 @@ class Session {
   /// Two prepared shapes, for one pose after another.
   struct PreparedPair {
     ts_shape a, b;
+    double threshold;
     ts_prepared* prepared;  ///< null if the pair is not supported
+
+    bool is_for(const Question& q) const {
+      return same(a, q.a) && same(b, q.b) && threshold == q.threshold;
+    }
   };
   /// Prepared shapes and poses for timing.
   struct TimedQuery {
@@ -192,7 +197,6 @@ class Session {
   };
 
   void obey(const SessionCommand& command);
-  void ask_within(double threshold);
   ts_prepared* prepare(const Question& question);
   ts_prepared* ready(const Question& question);
   void answer(const SessionCommand& command);
@@ -205,7 +209,7 @@ class Session {
   double tail();  ///< times each of them singly, for Exchange::tail_nanoseconds
 
   const ts_candidate& candidate_;
-  double threshold_, parameter_;
+  double parameter_;
   int socket_;
   const Questions& asked_;
   Exchange& exchange_;
@@ -214,14 +218,13 @@ class Session {
   std::vector<PreparedPair> ready_;  ///< the last pairs of shapes queried, oldest first
   std::vector<Question> questions_;
   std::vector<TimedQuery> kept_;
-  std::size_t passes_ = 1;  ///< passes over kept_ in one timed round
-  InstructionCounter counter_;
+  std::size_t passes_ = 1;                     ///< passes over kept_ in one timed round
+  std::optional<InstructionCounter> counter_;  ///< once something is timed
 };
 
 Session::Session(const ts_candidate& candidate, const SessionCommand& begin, int socket,
                  const Questions& questions, Exchange& exchange)
     : candidate_(candidate),
-      threshold_(begin.threshold),
       parameter_(begin.parameter),
       socket_(socket),
       asked_(questions),
@@ -269,26 +272,15 @@ void Session::obey(const SessionCommand& command) {
   }
 }
 
-/// Shapes are prepared for a threshold.
-void Session::ask_within(double threshold) {
-  if (threshold == threshold_) return;
-  threshold_ = threshold;
-  for (const PreparedPair& r : ready_) {
-    if (r.prepared) candidate_.release(r.prepared);
-  }
-  ready_.clear();
-}
-
 ts_prepared* Session::prepare(const Question& q) {
   if (!candidate_.supports(candidate_.context, q.b.kind)) return nullptr;
-  return candidate_.prepare(candidate_.context, &q.a, &q.b, threshold_, parameter_);
+  return candidate_.prepare(candidate_.context, &q.a, &q.b, q.threshold, parameter_);
 }
 
 /// Prepares the shapes, or returns them if an earlier question had the same ones.
 ts_prepared* Session::ready(const Question& q) {
-  const auto found = std::find_if(ready_.begin(), ready_.end(), [&](const PreparedPair& r) {
-    return same(r.a, q.a) && same(r.b, q.b);
-  });
+  const auto found = std::find_if(ready_.begin(), ready_.end(),
+                                  [&](const PreparedPair& r) { return r.is_for(q); });
   if (found != ready_.end()) {
     std::rotate(found, found + 1, ready_.end());
     return ready_.back().prepared;
@@ -297,7 +289,7 @@ ts_prepared* Session::ready(const Question& q) {
     if (ready_.front().prepared) candidate_.release(ready_.front().prepared);
     ready_.erase(ready_.begin());
   }
-  ready_.push_back({q.a, q.b, prepare(q)});
+  ready_.push_back({q.a, q.b, q.threshold, prepare(q)});
   return ready_.back().prepared;
 }
 
@@ -306,7 +298,7 @@ ts_prepared* Session::ready(const Question& q) {
 void Session::release_all_but_of(const SessionCommand& command, std::uint32_t first) {
   std::erase_if(ready_, [&](const PreparedPair& r) {
     for (std::uint32_t i = first; i < command.count; ++i) {
-      if (same(r.a, asked_.slots[i].a) && same(r.b, asked_.slots[i].b)) return false;
+      if (r.is_for(asked_.slots[i])) return false;
     }
     if (r.prepared) candidate_.release(r.prepared);
     return true;
@@ -314,7 +306,6 @@ void Session::release_all_but_of(const SessionCommand& command, std::uint32_t fi
 }
 
 void Session::answer(const SessionCommand& command) {
-  ask_within(command.threshold);
   LapClock clock;
   for (std::uint32_t i = command.first; i < command.count; ++i) {
     answer(i);
@@ -372,12 +363,13 @@ void Session::query_all() {
 }
 
 void Session::time() {
+  if (!counter_) counter_.emplace();
   query_all();  // warms the caches, as the process has slept since the last round
-  counter_.start();
+  counter_->start();
   const auto start = std::chrono::steady_clock::now();
   for (std::size_t pass = 0; pass < passes_; ++pass) query_all();
   const auto end = std::chrono::steady_clock::now();
-  const auto instructions = counter_.stop();
+  const auto instructions = counter_->stop();
   const auto queries = static_cast<double>(passes_ * kept_.size());
   exchange_.nanoseconds = std::chrono::duration<double, std::nano>(end - start).count() / queries;
   exchange_.instructions = instructions ? static_cast<double>(*instructions) / queries

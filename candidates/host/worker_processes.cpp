@@ -106,6 +106,11 @@ struct Worker {
   std::string buffer;
 };
 
+/// A task threw, or the worker that had it died.
+struct TaskFailure : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 std::string how_it_ended(int status) {
   if (WIFSIGNALED(status)) return std::string("died of ") + strsignal(WTERMSIG(status));
   return "ended with exit code " + std::to_string(WEXITSTATUS(status));
@@ -116,17 +121,22 @@ class Workers {
  public:
   explicit Workers(unsigned count) : workers_(count) {}
   ~Workers() {
+    end();
     for (Worker& w : workers_) {
       if (w.fd >= 0) close(w.fd);
-      if (w.pid > 0) {
-        kill(w.pid, SIGKILL);
-        waitpid(w.pid, nullptr, 0);
-      }
     }
   }
   Workers(const Workers&) = delete;
   Workers& operator=(const Workers&) = delete;
   std::vector<Worker>& all() { return workers_; }
+  /// Kills those that are still running. What they wrote can still be read.
+  void end() {
+    for (Worker& w : workers_) {
+      if (w.pid <= 0) continue;
+      kill(w.pid, SIGKILL);
+      waitpid(std::exchange(w.pid, -1), nullptr, 0);
+    }
+  }
 
  private:
   std::vector<Worker> workers_;
@@ -188,38 +198,58 @@ bool stream_from_processes(std::uint64_t count, unsigned workers,
       if (buffer.size() < sizeof header + header.size) break;
       std::string result = buffer.substr(sizeof header, header.size);
       buffer.erase(0, sizeof header + header.size);
-      if (header.failed) throw std::runtime_error(name(header.index) + ": " + result);
+      if (header.failed) throw TaskFailure(name(header.index) + ": " + result);
       take(header.index, std::move(result));
       ++taken;
     }
   };
-  while (open > 0) {
-    if (!go_on()) return false;
-    std::vector<pollfd> polled;
-    for (const Worker& w : pool.all()) polled.push_back({w.fd, POLLIN, 0});
-    if (poll(polled.data(), polled.size(), max_milliseconds) < 0) {
-      if (errno == EINTR) continue;
-      throw std::system_error(errno, std::generic_category(), "poll");
-    }
-    for (unsigned i = 0; i < workers; ++i) {
-      Worker& w = pool.all()[i];
-      if (w.fd < 0 || polled[i].revents == 0) continue;
-      char chunk[1 << 16];
-      const ssize_t size = read(w.fd, chunk, sizeof chunk);
-      if (size > 0) {
-        w.buffer.append(chunk, static_cast<std::size_t>(size));
-        take_records(w.buffer);
-      } else if (size == 0) {
-        close(w.fd);
-        w.fd = -1;
+  /// False at the end.
+  const auto read_from = [&](Worker& w) {
+    char chunk[1 << 16];
+    const ssize_t size = read(w.fd, chunk, sizeof chunk);
+    if (size > 0) w.buffer.append(chunk, static_cast<std::size_t>(size));
+    return size != 0;
+  };
+  const auto run = [&] {
+    while (open > 0) {
+      if (!go_on()) return false;
+      std::vector<pollfd> polled;
+      for (const Worker& w : pool.all()) polled.push_back({w.fd, POLLIN, 0});
+      if (poll(polled.data(), polled.size(), max_milliseconds) < 0) {
+        if (errno == EINTR) continue;
+        throw std::system_error(errno, std::generic_category(), "poll");
+      }
+      for (unsigned i = 0; i < workers; ++i) {
+        Worker& w = pool.all()[i];
+        if (w.fd < 0 || polled[i].revents == 0) continue;
+        if (read_from(w)) {
+          take_records(w.buffer);
+          continue;
+        }
+        close(std::exchange(w.fd, -1));
         --open;
         int status = 0;
         waitpid(std::exchange(w.pid, -1), &status, 0);
         const std::uint64_t at = shared.current(i);
-        if (at != 0)
-          throw std::runtime_error(name(at - 1) + ": the worker " + how_it_ended(status));
+        if (at != 0) throw TaskFailure(name(at - 1) + ": the worker " + how_it_ended(status));
       }
     }
+    return true;
+  };
+  try {
+    if (!run()) return false;
+  } catch (const TaskFailure&) {
+    // What the other workers have finished is not lost.
+    pool.end();
+    for (Worker& w : pool.all()) {
+      for (pollfd polled{w.fd, POLLIN, 0}; w.fd >= 0 && poll(&polled, 1, 0) > 0 && read_from(w);) {
+      }
+      try {
+        take_records(w.buffer);
+      } catch (const TaskFailure&) {  // the first one is told
+      }
+    }
+    throw;
   }
   if (taken != count) {  // a worker died between taking a task and noting that it has
     throw std::runtime_error("a worker died: only " + std::to_string(taken) + " of " +

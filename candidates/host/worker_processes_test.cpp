@@ -75,6 +75,25 @@ TEST(WorkerProcesses, ADeadWorkerNamesItsTaskAndSignal) {
                   testing::AllOf(HasSubstr("task 2"), HasSubstr("Killed"))));
 }
 
+TEST(WorkerProcesses, AFailureLosesNothingThatOthersHaveFinished) {
+  constexpr unsigned count = 8;
+  const auto first_fails = [](std::uint64_t i) -> std::string {
+    if (i == 0) throw std::runtime_error("no truth");
+    return "done";
+  };
+  std::size_t taken = 0;
+  const auto run = [&] {
+    stream_from_processes(
+        count, count, first_fails, name, [&](std::uint64_t, const std::string&) { ++taken; },
+        [] {
+          usleep(300'000);  // until all of them have ended
+          return true;
+        });
+  };
+  EXPECT_THAT(run, testing::ThrowsMessage<std::runtime_error>(HasSubstr("task 0: no truth")));
+  EXPECT_EQ(taken, count - 1);
+}
+
 TEST(WorkerProcesses, ATaskThatIsLostEndsTheRun) {
   // As if the worker were killed between taking a task and noting that it has: the note, behind the
   // number of the next task, is wiped.

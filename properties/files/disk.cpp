@@ -31,6 +31,23 @@ class Descriptor {
   Descriptor(const Descriptor&) = delete;
   Descriptor& operator=(const Descriptor&) = delete;
 
+  /// In large blocks.
+  void write(const std::vector<std::string_view>& texts) const {
+    constexpr std::size_t max_block = std::size_t{1} << 20;
+    std::string block;
+    for (const std::string_view text : texts) {
+      if (block.size() + text.size() > max_block) {
+        write(block);
+        block.clear();
+      }
+      if (text.size() > max_block) {
+        write(text);
+      } else {
+        block += text;
+      }
+    }
+    write(block);
+  }
   void write(std::string_view text) const {
     while (!text.empty()) {
       const ssize_t written = ::write(fd_, text.data(), text.size());
@@ -50,11 +67,11 @@ class Descriptor {
 
 constexpr int to_write = O_WRONLY | O_CREAT | O_TRUNC;
 
-void replace(const std::filesystem::path& file, std::string_view text) {
+void replace(const std::filesystem::path& file, const std::vector<std::string_view>& texts) {
   const std::filesystem::path partial = file.string() + ".partial";
   try {
     const Descriptor out(partial, to_write);
-    out.write(text);
+    out.write(texts);
     out.sync();
     if (rename(partial.c_str(), file.c_str()) != 0) fail();
   } catch (const std::system_error&) {
@@ -69,14 +86,19 @@ void replace(const std::filesystem::path& file, std::string_view text) {
 
 void write_file(const std::filesystem::path& file, std::string_view text, const char* field,
                 const char* remedy) {
+  write_file(file, std::vector{text}, field, remedy);
+}
+
+void write_file(const std::filesystem::path& file, const std::vector<std::string_view>& texts,
+                const char* field, const char* remedy) {
   std::error_code error;
   const bool ordinary =
       !std::filesystem::exists(file, error) || std::filesystem::is_regular_file(file, error);
   try {
     if (ordinary) {
-      replace(file, text);
+      replace(file, texts);
     } else {
-      Descriptor(file, to_write).write(text);
+      Descriptor(file, to_write).write(texts);
     }
   } catch (const std::system_error& e) {
     throw InvalidInput(field, '"' + file.string() + '"',

@@ -4,6 +4,7 @@
 #include <iosfwd>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace touchstone {
 
@@ -13,6 +14,9 @@ namespace touchstone {
 /// that asked for the file, the system's reason, such as a full disk, and the remedy.
 void write_file(const std::filesystem::path& file, std::string_view text, const char* field,
                 const char* remedy = "make room, or name another place");
+/// Writes these one after the other, so that they need not be put together in memory.
+void write_file(const std::filesystem::path& file, const std::vector<std::string_view>& texts,
+                const char* field, const char* remedy);
 
 /// Throws InvalidInput, with the option `field` that named the folder, if files could not be
 /// written there; makes the folder.

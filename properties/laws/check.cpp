@@ -17,27 +17,36 @@
 namespace touchstone {
 namespace {
 
-/// Configurations of one pair, which are asked in one session: what a worker does at a time. Few
-/// enough to share the work out, and always the same ones, whatever the number of workers.
+/// Configurations of one pair, which are asked in one session: what a worker does at a time. Always
+/// the same ones, whatever the number of workers.
 struct Chunk {
   Pair pair;
   std::vector<Identity> identities;
 };
-constexpr std::size_t max_chunk = 16;
+
+/// A session costs as much as some hundred answers, so that more configurations share one; but few
+/// enough to share the work out.
+std::size_t chunk_size(std::uint64_t configurations) {
+  constexpr std::uint64_t min = 16, max = 64, wanted_chunks = 64;
+  return std::clamp(configurations / wanted_chunks, min, max);
+}
 
 std::vector<Chunk> chunks(const CheckOptions& options) {
   std::vector<Chunk> result;
+  std::vector<Identity> all;
   for (const Pair pair : options.pairs) {
-    bool is_new_pair = true;
     for (const std::string& name : selected_classes(pair, {options.classes, options.groups})) {
       for (std::uint64_t i = 0; i < options.count; ++i) {
-        if (is_new_pair || result.back().identities.size() == max_chunk) {
-          result.push_back({pair, {}});
-          is_new_pair = false;
-        }
-        result.back().identities.push_back({pair, name, options.seed, i});
+        all.push_back({pair, name, options.seed, i});
       }
     }
+  }
+  const std::size_t size = chunk_size(all.size());
+  for (Identity& identity : all) {
+    const bool fits = !result.empty() && result.back().pair == identity.pair &&
+                      result.back().identities.size() < size;
+    if (!fits) result.push_back({identity.pair, {}});
+    result.back().identities.push_back(std::move(identity));
   }
   return result;
 }
@@ -63,9 +72,14 @@ ChunkResult tried(const Chunk& chunk, const CheckOptions& options, CandidateProc
   ChunkResult result;
   result.tried.resize(options.laws.size());
   candidate.ask_within(options.bar.threshold);
-  for (std::size_t i = 0; i < chunk.identities.size(); ++i) {
-    const Configuration c = make_configuration(chunk.identities[i]);
-    const auto violations = broken_in_session(options.laws, c, candidate, options.bar);
+  std::vector<Configuration> configurations;
+  for (const Identity& identity : chunk.identities) {
+    configurations.push_back(make_configuration(identity));
+  }
+  const auto found = broken_in_session(options.laws, configurations, candidate, options.bar);
+  for (std::size_t i = 0; i < configurations.size(); ++i) {
+    const Configuration& c = configurations[i];
+    const Violations& violations = found[i];
     if (violations.empty()) {
       ++result.unsupported;
       continue;
@@ -367,15 +381,18 @@ std::vector<Failure> simplified(const std::vector<Found>& all, const CheckOption
 std::vector<LawResult> check(CandidateProcess& candidate, const CheckOptions& options,
                              const std::function<void(std::uint64_t, std::uint64_t)>& progress) {
   const std::vector<Chunk> all = chunks(options);
-  std::uint64_t count = 0;
-  for (const Chunk& chunk : all) count += chunk.identities.size();
+  std::uint64_t count = 0, largest = 0;
+  for (const Chunk& chunk : all) {
+    count += chunk.identities.size();
+    largest = std::max<std::uint64_t>(largest, chunk.identities.size());
+  }
   const auto texts = run(
       all.size(), options, candidate,
       [&](std::size_t i, CandidateProcess& asked) {
         return to_text(tried(all[i], options, asked));
       },
       [&](std::size_t i) { return to_string(all[i].identities.front()); },
-      [&](std::size_t done) { progress(std::min<std::uint64_t>(done * max_chunk, count), count); });
+      [&](std::size_t done) { progress(std::min<std::uint64_t>(done * largest, count), count); });
   std::vector<ChunkResult> of_chunks;
   for (const std::string& text : texts) {
     of_chunks.push_back(chunk_result(text, options.laws.size()));

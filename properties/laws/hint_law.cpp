@@ -53,9 +53,10 @@ std::optional<Violation> judge_hint(const Configuration& c, std::span<const Answ
   const Configuration next = pressed_in(c, first, bar);
   const oracle::Truth& truth = truth_of(next);
 
-  if (score(next, truth, plain, bar).outcome == Outcome::agree) {
+  Judge judge(next, truth, bar);
+  if (judge.score(plain).outcome == Outcome::agree) {
     for (const Answer* answer : {&hinted, &misled}) {
-      const Score s = score(next, truth, *answer, bar);
+      const Score s = judge.score(*answer);
       if (s.outcome == Outcome::agree) continue;
       return Violation{
           outcome_name(s.outcome), s.severity,

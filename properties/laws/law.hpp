@@ -64,16 +64,25 @@ const std::vector<std::string>& all_failures();
 std::optional<Violation> broken(const Law& law, const Configuration& configuration,
                                 CandidateProcess& candidate, const Bar& bar);
 
-/// Judges several laws, in their order, at a fraction of the cost: the questions of all of them are
-/// asked together in the candidate's present session, so that what was asked before may matter.
-/// Empty where the candidate has no routine for the pair.
-std::vector<std::optional<Violation>> broken_in_session(std::span<const Law* const> laws,
-                                                        const Configuration& configuration,
-                                                        CandidateProcess& candidate,
-                                                        const Bar& bar);
+/// What each law finds, in their order; empty where the candidate has no routine for the pair.
+using Violations = std::vector<std::optional<Violation>>;
 
-/// The truth of a configuration. The last few are remembered, on each thread: laws ask for the
+/// Judges several laws about several configurations, at a fraction of the cost: the questions of
+/// all of them are asked together in the candidate's present session, so that what was asked before
+/// may matter: first the configurations, then what the laws ask about those that were answered,
+/// then the last questions. An exchange of messages costs more than most answers. Returns what is
+/// found about each configuration.
+std::vector<Violations> broken_in_session(std::span<const Law* const> laws,
+                                          std::span<const Configuration> configurations,
+                                          CandidateProcess& candidate, const Bar& bar);
+Violations broken_in_session(std::span<const Law* const> laws, const Configuration& configuration,
+                             CandidateProcess& candidate, const Bar& bar);
+
+/// The truth of a configuration. The last ones are remembered, on each thread: laws ask for the
 /// same ones.
 const oracle::Truth& truth_of(const Configuration& configuration);
+
+/// The score of an answer. The last one of each remembered configuration is remembered, too.
+const Score& score_of(const Configuration& configuration, const Answer& answer, const Bar& bar);
 
 }  // namespace touchstone

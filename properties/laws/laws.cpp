@@ -2,6 +2,7 @@
 // otherwise.
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <deque>
 #include <fmt/format.h>
 #include <limits>
@@ -74,7 +75,7 @@ std::optional<Violation> judge_answers(const Configuration&, Answers answers, co
 // agreement
 
 std::optional<Violation> judge_agreement(const Configuration& c, Answers answers, const Bar& bar) {
-  const Score s = score(c, truth_of(c), answers[0], bar);
+  const Score& s = score_of(c, answers[0], bar);
   if (s.outcome == Outcome::agree || s.outcome == Outcome::unsupported) return std::nullopt;
   if (is_of_points(s.outcome)) return std::nullopt;  // that is the law "points"
   std::string detail;
@@ -228,9 +229,21 @@ std::optional<Violation> judge_growth(const Configuration& c, Answers answers, c
 
 // Way out: moved by its depth along the normal, A touches B.
 
+/// Does the score of an overlap with this signed distance and normal show that A touches B after
+/// the way out? Moved by t along the unit vector n, A is between g(n) + t and σ + t from B. So the
+/// errors of depth and normal decide, but for the normal's length and for rounding.
+bool surely_leads_out(const Configuration& c, const Answer& a, const Bar& bar) {
+  if (pair_of(c) == Pair::plane) return false;  // certified_gap says how a plane is judged
+  const Score& s = score_of(c, a, bar);
+  if (!s.depth_error || !s.normal_regret) return false;
+  const double error = gap_error(c, vector(a.normal)) / error_size(c, bar);
+  return std::abs(*s.depth_error) + *s.normal_regret + error <= bar.tolerance;
+}
+
 std::optional<Violation> judge_way_out(const Configuration& c, Answers answers, const Bar& bar) {
   const Answer& a = answers[0];
   if (a.status != TS_CONTACT || a.signed_distance >= 0) return std::nullopt;
+  if (surely_leads_out(c, a, bar)) return std::nullopt;
   const double size = error_size(c, bar);
   const double left =
       signed_distance(with_a_moved(c, -a.signed_distance * vector(a.normal))) / size;
@@ -282,7 +295,7 @@ std::string points_text(const Score& s) {
 
 std::optional<Violation> judge_points(const Configuration& c, Answers answers, const Bar& bar) {
   const Answer& a = answers[0];
-  const Score s = score(c, truth_of(c), a, bar);
+  const Score& s = score_of(c, a, bar);
   if (is_of_points(s.outcome)) {
     return Violation{outcome_name(s.outcome), s.severity, points_text(s)};
   }
@@ -306,10 +319,12 @@ std::optional<Violation> judge_manifold(const Configuration& c, Answers answers,
   const oracle::Truth& truth = truth_of(c);
   const bool is_aligned =
       std::all_of(truth.normals.begin(), truth.normals.end(), [&](const auto& normal) {
-        return oracle::contact_patch(c, normal).kind() != oracle::ContactPatch::Kind::point;
+        // Along an oblique normal the cylinder has a single lowest point.
+        return normal.to_a != oracle::Alignment::oblique &&
+               oracle::contact_patch(c, normal).kind() != oracle::ContactPatch::Kind::point;
       });
   if (!is_aligned) return std::nullopt;
-  const Score s = score(c, truth, answers[0], bar);
+  const Score& s = score_of(c, answers[0], bar);
   if (!s.coverage || *s.coverage >= min_coverage) return std::nullopt;
   return Violation{"few-points", min_coverage - *s.coverage,
                    fmt::format("{} {} {:.2f} of the contact patch", counted(s.points, "point"),
@@ -400,6 +415,7 @@ const std::vector<std::string>& all_failures() {
 namespace {
 
 bool are_same(const Configuration& first, const Configuration& second) {
+  if (first.pose_a.position() != second.pose_a.position()) return false;  // most often
   const Numbers x = numbers_of(first), y = numbers_of(second);
   return x.pair == y.pair && x.sizes == y.sizes && x.position_a == y.position_a &&
          x.position_b == y.position_b && x.orientation_a.coeffs() == y.orientation_a.coeffs() &&
@@ -407,22 +423,57 @@ bool are_same(const Configuration& first, const Configuration& second) {
          x.displacement == y.displacement;
 }
 
+/// What laws ask about one configuration again and again.
+struct Known {
+  struct Scored {
+    Answer answer;
+    Bar bar;
+    Score score;
+  };
+  Configuration configuration;
+  oracle::Truth truth;
+  std::optional<Scored> last = {};
+};
+
+Known& known_of(const Configuration& configuration) {
+  constexpr std::size_t remembered = 192;  // of a chunk of `check`, thrice
+  static thread_local std::deque<Known> known;
+  const auto found = std::find_if(known.rbegin(), known.rend(), [&](const Known& k) {
+    return are_same(k.configuration, configuration);
+  });
+  if (found != known.rend()) return *found;
+  if (known.size() == remembered) known.pop_front();
+  known.push_back({configuration, oracle::truth(configuration)});
+  return known.back();
+}
+
+/// Zeros of either sign differ, as they do for Judge.
+bool have_same_bits(const Answer& first, const Answer& second) {
+  static_assert(sizeof(ts_point) == 7 * sizeof(double));  // without padding
+  return first.status == second.status && first.point_count == second.point_count &&
+         first.was_asked == second.was_asked && first.model_distance == second.model_distance &&
+         std::memcmp(&first.signed_distance, &second.signed_distance, sizeof(double)) == 0 &&
+         std::memcmp(first.normal, second.normal, sizeof first.normal) == 0 &&
+         std::memcmp(first.points, second.points,
+                     static_cast<std::size_t>(first.point_count) * sizeof(ts_point)) == 0;
+}
+
 }  // namespace
 
 const oracle::Truth& truth_of(const Configuration& configuration) {
-  struct Known {
-    Configuration configuration;
-    oracle::Truth truth;
-  };
-  constexpr std::size_t remembered = 4;
-  static thread_local std::deque<Known> known;
-  const auto found = std::find_if(known.begin(), known.end(), [&](const Known& k) {
-    return are_same(k.configuration, configuration);
-  });
-  if (found != known.end()) return found->truth;
-  if (known.size() == remembered) known.pop_front();
-  known.push_back({configuration, oracle::truth(configuration)});
-  return known.back().truth;
+  return known_of(configuration).truth;
+}
+
+const Score& score_of(const Configuration& configuration, const Answer& answer, const Bar& bar) {
+  Known& known = known_of(configuration);
+  auto& last = known.last;
+  const bool is_known = last && last->bar.tolerance == bar.tolerance &&
+                        last->bar.threshold == bar.threshold &&
+                        have_same_bits(last->answer, answer);
+  if (!is_known) {
+    last = Known::Scored{answer, bar, score(configuration, known.truth, answer, bar)};
+  }
+  return last->score;
 }
 
 namespace {
@@ -434,28 +485,78 @@ Bar bar_of(const Law& law, const Configuration& c, const Bar& given) {
   return bar;
 }
 
-/// Asks the last questions of a law, in the same session, and judges all answers.
-std::optional<Violation> judged(const Law& law, const Configuration& c, CandidateProcess& candidate,
-                                std::vector<Answer> answers, const Bar& bar) {
-  if (law.hinted_questions && !judge_answers(c, {&answers[0], 1}, bar)) {
-    for (const HintedQuestion& frame : law.hinted_questions(c, answers[0], bar)) {
-      const auto& hint = frame.previous_normal;
-      answers.push_back(candidate.answer(frame.configuration, hint ? &*hint : nullptr));
+/// Questions that are asked together in a session.
+class QuestionList {
+ public:
+  void add(const HintedQuestion& question, double threshold) {
+    configurations_.push_back(question.configuration);
+    hints_.push_back(question.previous_normal);
+    thresholds_.push_back(threshold);
+  }
+  std::vector<Answer> ask(CandidateProcess& candidate) const {
+    std::vector<const Vec3*> hints;
+    for (const auto& hint : hints_) hints.push_back(hint ? &*hint : nullptr);
+    return candidate.answer(configurations_, hints, thresholds_);
+  }
+
+ private:
+  std::vector<Configuration> configurations_;
+  std::vector<std::optional<Vec3>> hints_;
+  std::vector<double> thresholds_;
+};
+
+/// A law and a configuration, and the answers up to now.
+struct Inquiry {
+  const Law& law;
+  const Configuration& configuration;
+  Bar bar;
+  std::vector<Answer> answers = {};
+  std::size_t asked = 0;  ///< questions whose answers are still to come
+
+  /// The law's questions besides the configuration itself.
+  void put_questions(QuestionList& list) {
+    for (Configuration& question : law.questions(configuration, bar)) {
+      put({std::move(question), {}}, list);
     }
   }
-  if (law.judge != judge_answers) {
-    for (const Answer& a : answers) {
-      if (judge_answers(c, {&a, 1}, bar)) return std::nullopt;
+  /// Those that depend on the first answer.
+  void put_last_questions(QuestionList& list) {
+    if (!law.hinted_questions || judge_answers(configuration, {&answers[0], 1}, bar)) return;
+    for (const HintedQuestion& question : law.hinted_questions(configuration, answers[0], bar)) {
+      put(question, list);
     }
   }
-  return law.judge(c, answers, bar);
+  void put(const HintedQuestion& question, QuestionList& list) {
+    list.add(question, bar.threshold);
+    ++asked;
+  }
+  /// Takes the answers to what it has put, from `next` on.
+  void take(std::vector<Answer>::iterator& next) {
+    for (; asked > 0; --asked) answers.push_back(std::move(*next++));
+  }
+
+  std::optional<Violation> verdict() const {
+    if (law.judge != judge_answers) {
+      for (const Answer& a : answers) {
+        if (judge_answers(configuration, {&a, 1}, bar)) return std::nullopt;
+      }
+    }
+    return law.judge(configuration, answers, bar);
+  }
+};
+
+/// Asks what the inquiries put by `put`, all together, and hands them the answers.
+template <class Put>
+void ask(std::span<Inquiry> inquiries, CandidateProcess& candidate, const Put& put) {
+  QuestionList list;
+  for (Inquiry& inquiry : inquiries) put(inquiry, list);
+  std::vector<Answer> answers = list.ask(candidate);
+  auto next = answers.begin();
+  for (Inquiry& inquiry : inquiries) inquiry.take(next);
 }
 
-/// The configuration and the law's questions about it.
-std::vector<Configuration> asked_by(const Law& law, const Configuration& c, const Bar& bar) {
-  std::vector<Configuration> asked{c};
-  for (Configuration& question : law.questions(c, bar)) asked.push_back(std::move(question));
-  return asked;
+void ask_last_questions(std::span<Inquiry> inquiries, CandidateProcess& candidate) {
+  ask(inquiries, candidate, [](Inquiry& i, QuestionList& list) { i.put_last_questions(list); });
 }
 
 }  // namespace
@@ -463,51 +564,58 @@ std::vector<Configuration> asked_by(const Law& law, const Configuration& c, cons
 std::optional<Violation> broken(const Law& law, const Configuration& c, CandidateProcess& candidate,
                                 const Bar& given) {
   if (!law.applies(c)) return std::nullopt;
-  const Bar bar = bar_of(law, c, given);
-  candidate.ask_within(bar.threshold);
-  std::vector<Answer> answers = candidate.answers(asked_by(law, c, bar));
-  if (answers[0].status == TS_UNSUPPORTED) return std::nullopt;
-  return judged(law, c, candidate, std::move(answers), bar);
+  Inquiry inquiry{law, c, bar_of(law, c, given)};
+  candidate.ask_within(inquiry.bar.threshold);
+  std::vector<Configuration> asked{c};
+  for (Configuration& question : law.questions(c, inquiry.bar)) {
+    asked.push_back(std::move(question));
+  }
+  inquiry.answers = candidate.answers(asked);
+  if (inquiry.answers[0].status == TS_UNSUPPORTED) return std::nullopt;
+  ask_last_questions({&inquiry, 1}, candidate);
+  return inquiry.verdict();
 }
 
-std::vector<std::optional<Violation>> broken_in_session(std::span<const Law* const> laws,
-                                                        const Configuration& c,
-                                                        CandidateProcess& candidate,
-                                                        const Bar& given) {
-  candidate.go_on_within(given.threshold);
-  const Answer first = candidate.answer(c);
-  if (first.status == TS_UNSUPPORTED) return {};
-  std::vector<std::optional<Violation>> result(laws.size());
+std::vector<Violations> broken_in_session(std::span<const Law* const> laws,
+                                          std::span<const Configuration> configurations,
+                                          CandidateProcess& candidate, const Bar& given) {
+  QuestionList list;
+  for (const Configuration& c : configurations) list.add({c, {}}, given.threshold);
+  const std::vector<Answer> first = list.ask(candidate);
   // Where there is no answer to judge, the other questions could only time out or crash as well.
-  const bool is_answered = !judge_answers(c, {&first, 1}, given);
-  std::vector<Configuration> asked;
-  std::vector<std::size_t> counts(laws.size());
-  for (std::size_t i = 0; i < laws.size(); ++i) {
-    if (!is_answered || !laws[i]->applies(c) || laws[i]->threshold) continue;
-    for (Configuration& question : laws[i]->questions(c, given)) {
-      asked.push_back(std::move(question));
-      ++counts[i];
+  std::vector<bool> is_answered;
+  for (std::size_t i = 0; i < configurations.size(); ++i) {
+    is_answered.push_back(!judge_answers(configurations[i], {&first[i], 1}, given));
+  }
+  std::vector<Violations> result(configurations.size());
+  std::vector<Inquiry> inquiries;
+  std::vector<std::optional<Violation>*> places;
+  for (std::size_t i = 0; i < configurations.size(); ++i) {
+    if (first[i].status == TS_UNSUPPORTED) continue;
+    result[i].resize(laws.size());
+    for (std::size_t k = 0; k < laws.size(); ++k) {
+      const Configuration& c = configurations[i];
+      if (!laws[k]->applies(c)) continue;
+      Inquiry& inquiry = inquiries.emplace_back(Inquiry{*laws[k], c, bar_of(*laws[k], c, given)});
+      // Within another threshold the configuration itself is asked again.
+      if (!laws[k]->threshold || !is_answered[i]) inquiry.answers.push_back(first[i]);
+      places.push_back(&result[i][k]);
     }
   }
-  const std::vector<Answer> answers = candidate.answer(asked);
-  auto next = answers.begin();
-  for (std::size_t i = 0; i < laws.size(); ++i) {
-    const Law& law = *laws[i];
-    if (!law.applies(c)) continue;
-    const Bar bar = bar_of(law, c, given);
-    std::vector<Answer> own;
-    if (law.threshold && is_answered) {
-      candidate.go_on_within(bar.threshold);
-      own = candidate.answer(asked_by(law, c, bar));
-    } else {
-      const auto last = next + static_cast<std::ptrdiff_t>(counts[i]);
-      own.push_back(first);
-      own.insert(own.end(), next, last);
-      next = last;
-    }
-    result[i] = judged(law, c, candidate, std::move(own), bar);
-  }
+  ask(inquiries, candidate, [&](Inquiry& inquiry, QuestionList& questions) {
+    const auto i = static_cast<std::size_t>(&inquiry.configuration - configurations.data());
+    if (!is_answered[i]) return;
+    if (inquiry.answers.empty()) inquiry.put({inquiry.configuration, {}}, questions);
+    inquiry.put_questions(questions);
+  });
+  ask_last_questions(inquiries, candidate);
+  for (std::size_t i = 0; i < inquiries.size(); ++i) *places[i] = inquiries[i].verdict();
   return result;
+}
+
+Violations broken_in_session(std::span<const Law* const> laws, const Configuration& configuration,
+                             CandidateProcess& candidate, const Bar& bar) {
+  return broken_in_session(laws, std::span(&configuration, 1), candidate, bar).front();
 }
 
 }  // namespace touchstone

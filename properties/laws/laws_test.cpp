@@ -113,6 +113,38 @@ TEST(Laws, SeeWhatTheyAreThereFor) {
             "not-invariant");
 }
 
+// Scores are remembered, each for its own answer and bar.
+TEST(Laws, TellAnswersAndBarsApart) {
+  const Answer deep = contact(-0.1, {0, 0, 1}, triangle), shallow = contact(-0.09);
+  const auto outcome = [](const Answer& answer, double tolerance) {
+    return score_of(standing(), answer, {.tolerance = tolerance, .threshold = 0}).outcome;
+  };
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_EQ(outcome(deep, 1e-4), Outcome::agree);
+    EXPECT_EQ(outcome(shallow, 1e-4), Outcome::shallow);
+    EXPECT_EQ(outcome(shallow, 0.1), Outcome::agree);
+    EXPECT_EQ(outcome(shallow, 1e-4), Outcome::shallow);
+  }
+  Answer other_depth = deep;  // but for the depth of a point
+  other_depth.points[2].depth = 0.2;
+  EXPECT_EQ(outcome(deep, 1e-4), Outcome::agree);
+  EXPECT_EQ(outcome(other_depth, 1e-4), Outcome::overdeep_points);
+}
+
+// The same with and without the truth of where the way leads.
+TEST(Laws, WayOutIsJudgedAtTheTolerance) {
+  const double tolerance = Bar{}.tolerance;
+  for (const double error : {0.0, 0.999, 0.9999999, 1.0000001, 1.001}) {
+    for (const int sign : {-1, 1}) {
+      const std::string found = failure("way-out", {contact(-0.1 + sign * error * tolerance)});
+      EXPECT_EQ(found, error < 1 ? "" : sign > 0 ? "shallow" : "overdeep") << sign * error;
+    }
+  }
+  // A wrong normal may lead out all the same.
+  const double angle = 0.01;
+  EXPECT_EQ(failure("way-out", {contact(-0.1, {std::sin(angle), 0, std::cos(angle)})}), "");
+}
+
 TEST(Laws, HintSeesAFlickerAndAHintThatMisleads) {
   const Law& law = find_law("hint");
   // Every face of the cube is as near as the cylinder's caps.

@@ -73,6 +73,21 @@ TEST(Units, AreCountedAndNumberedInSets) {
   EXPECT_EQ(unit_set_from_json(to_json(set)), set);
 }
 
+TEST(Units, AreCountedByCells) {
+  EXPECT_TRUE(rc::check([] {
+    const Cut cut = arbitrary_cut();
+    UnitSet set;
+    std::vector<std::uint64_t> expected(cut.cells);
+    for (std::uint64_t number = 0; number < cut.units(); ++number) {
+      if (*rc::gen::inRange(0, 4) == 0) continue;
+      set += UnitSet::interval_type(number, number + 1);
+      const Unit unit = cut.unit(number);
+      expected[unit.cell] += unit.last - unit.first;
+    }
+    RC_ASSERT(configurations_by_cell(cut, set) == expected);
+  }));
+}
+
 TEST(Plans, HaveRoomForTheCoverageOfAllClasses) {
   Campaign all;
   all.pairs = {std::begin(all_pairs), std::end(all_pairs)};
@@ -340,6 +355,28 @@ TEST(Merge, MarksWhatIsPartial) {
 TEST(ShardFile, IsReadBackToTheLastBit) {
   const std::string text = to_text(part(0, 3));
   EXPECT_EQ(to_text(shard_from_text(text, "file")), text);
+}
+
+TEST(ShardFile, IsWrittenAgainFromTheLinesThatHaveChanged) {
+  ShardState state = part(0, 3);
+  ShardLines lines(state);
+  const auto text = [&] {
+    std::string result;
+    for (const std::string& line : lines.all()) result += line;
+    return result;
+  };
+  EXPECT_EQ(text(), to_text(state));
+  const ShardState more = part(3, 4);  // of the second class alone
+  state.add(more.done, more.tallies);
+  lines.renew(1);
+  EXPECT_EQ(text(), to_text(state));
+}
+
+TEST(ShardFile, IsRefusedWhenCountsBelongToAnotherClass) {
+  ShardState state = part(0, 3);  // 1000 of the first class, 512 of the second
+  for (std::size_t k = 0; k < 2; ++k) std::swap(state.tally(0, k), state.tally(1, k));
+  EXPECT_THAT([&] { shard_from_text(to_text(state), "file"); },
+              ThrowsMessage<InvalidInput>(HasSubstr("counts of less than what is done")));
 }
 
 TEST(ShardFile, IsRefusedWhenAnythingInItHasChanged) {

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fstream>
 #include <iterator>
+#include <numeric>
 #include <stdexcept>
 
 #include <nlohmann/json.hpp>
@@ -91,6 +92,31 @@ std::uint64_t configurations(const Cut& cut, const UnitSet& set) {
     count += full * Unit::max_size + (range.upper() - range.lower() - full) * last_size;
   }
   return count;
+}
+
+std::vector<std::uint64_t> configurations_by_cell(const Cut& cut, const UnitSet& set) {
+  // By differences between a cell and the one before: a range is so many rounds through all cells
+  // and a rest, which may go on from the last cell to the first. What wraps around cancels.
+  std::vector<std::uint64_t> result(cut.cells + 1);
+  const auto add = [&](std::uint64_t first, std::uint64_t last, std::uint64_t size) {
+    result[first] += size;
+    result[last] -= size;
+  };
+  const std::uint64_t last_row = cut.units() - cut.cells;
+  const std::uint64_t last_size = cut.count - last_row / cut.cells * Unit::max_size;
+  for (const Range& range : set) {
+    const std::uint64_t length = range.upper() - range.lower(), rest = length % cut.cells;
+    const std::uint64_t first = range.lower() % cut.cells, last = first + rest;
+    add(0, cut.cells, length / cut.cells * Unit::max_size);
+    add(first, std::min(last, cut.cells), Unit::max_size);
+    add(0, std::max(last, cut.cells) - cut.cells, Unit::max_size);
+    // Units of the last row have fewer configurations.
+    add(std::max(range.lower(), last_row) - last_row, std::max(range.upper(), last_row) - last_row,
+        last_size - Unit::max_size);
+  }
+  result.pop_back();
+  std::partial_sum(result.begin(), result.end(), result.begin());
+  return result;
 }
 
 UnitSet Shard::units(const Cut& cut) const {
@@ -214,6 +240,12 @@ void require_same_plan(const Plan& plan, const json& found, const std::string& f
 std::string checksum(std::string_view text) {
   boost::crc_32_type crc;
   crc.process_bytes(text.data(), text.size());
+  return fmt::format("{:08x}", crc.checksum());
+}
+
+std::string checksum(std::span<const std::string> texts) {
+  boost::crc_32_type crc;
+  for (const std::string& text : texts) crc.process_bytes(text.data(), text.size());
   return fmt::format("{:08x}", crc.checksum());
 }
 

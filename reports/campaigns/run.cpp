@@ -113,8 +113,9 @@ bool run_shard(const Campaign& campaign, ShardState& state, const std::filesyste
   if (options.progress) progress.emplace("configurations", configurations(cut, left));
   std::uint64_t scored = 0;
   Clock::time_point written = Clock::now();
+  ShardLines lines(state);
   const auto checkpoint = [&] {
-    write_shard(state, file);
+    write_shard(lines, file);
     written = Clock::now();
   };
   checkpoint();  // tells at once whether it can be done
@@ -131,6 +132,7 @@ bool run_shard(const Campaign& campaign, ShardState& state, const std::filesyste
           for (std::size_t k = 0; k < unit_sample.tallies.size(); ++k) {
             state.tally(cell, k).add(unit_sample.tallies[k]);
           }
+          lines.renew(cell);
           state.done += UnitSet::interval_type(number, number + 1);
           scored += last - first;
           if (progress) progress->update(scored);
@@ -139,7 +141,10 @@ bool run_shard(const Campaign& campaign, ShardState& state, const std::filesyste
           }
         },
         go_on,
-        [&] { state.tallies = {}; });  // of a hundred megabytes, in which workers have no part
+        [&] {  // hundreds of megabytes, in which workers have no part
+          state.tallies = {};
+          lines.forget();
+        });
   } catch (const InvalidInput&) {
     throw;  // the file cannot be written
   } catch (const std::exception&) {

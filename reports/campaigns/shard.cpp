@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <sstream>
 #include <stdexcept>
 #include <utility>
 
@@ -185,8 +184,8 @@ namespace {
 
 constexpr const char* schema = "touchstone-shard-1";
 
-std::string checksum_line(std::string_view text) {
-  return json{{"crc32", checksum(text)}}.dump() + '\n';
+std::string checksum_line(const std::string& checksum) {
+  return json{{"crc32", checksum}}.dump() + '\n';
 }
 
 [[noreturn]] void refuse(const std::string& file, const std::string& why) {
@@ -208,7 +207,7 @@ std::string_view intact(std::string_view text, const std::string& file) {
   const std::size_t last_line =
       text.size() < 2 ? std::string_view::npos : text.rfind('\n', text.size() - 2);
   if (last_line == std::string_view::npos ||
-      text.substr(last_line + 1) != checksum_line(text.substr(0, last_line + 1))) {
+      text.substr(last_line + 1) != checksum_line(checksum(text.substr(0, last_line + 1)))) {
     refuse_result(text, file);
     refuse(file, "damaged, cut short, or something else");
   }
@@ -227,31 +226,33 @@ Shard shard_from_json(const json& value) {
   return shard;
 }
 
-/// Each candidate has answered what is done, and nothing else.
+/// Each candidate has answered what is done of each class, and nothing else.
 void check_counts(const ShardState& p, const std::string& file) {
-  const std::uint64_t expected = configurations(p.plan.cut, p.done);
-  for (std::size_t k = 0; k < p.plan.candidates.size(); ++k) {
-    std::uint64_t left = expected;
-    for (std::size_t cell = 0; cell < p.plan.cells.size(); ++cell) {
+  const std::vector<std::uint64_t> expected = configurations_by_cell(p.plan.cut, p.done);
+  for (std::size_t cell = 0; cell < p.plan.cells.size(); ++cell) {
+    for (std::size_t k = 0; k < p.plan.candidates.size(); ++k) {
       const ScoreTally& tally = p.tally(cell, k);
-      if (tally.count > left) refuse(file, "with counts of more than what is done");
-      left -= tally.count;
+      if (tally.count > expected[cell]) refuse(file, "with counts of more than what is done");
+      if (tally.count < expected[cell]) refuse(file, "with counts of less than what is done");
       for (const Case& c : tally.worst) {
         if (c.index >= p.plan.cut.count) refuse(file, "with cases that the campaign has not");
       }
     }
-    if (left != 0) refuse(file, "with counts of less than what is done");
   }
 }
 
-ShardState parsed(const std::string& text, const std::string& file) {
-  std::istringstream lines{text};
-  std::string line;
-  std::getline(lines, line);
-  const json head = parse_json(line, "line 1");
+/// Takes the first line off a text of whole lines.
+std::string_view take_line(std::string_view& text) {
+  const std::string_view line = text.substr(0, text.find('\n'));
+  text.remove_prefix(std::min(text.size(), line.size() + 1));
+  return line;
+}
+
+ShardState parsed(std::string_view text, const std::string& file) {
+  const json head = parse_json(take_line(text), "line 1");
   if (member(head, "schema", "") != schema) refuse(file, "of schema " + shown(head["schema"]));
   const Plan plan = plan_from_json(member(head, "campaign", ""));
-  const auto tally_lines = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) - 1;
+  const auto tally_lines = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
   if (plan.candidates.empty() || tally_lines % plan.candidates.size() != 0 ||
       tally_lines / plan.candidates.size() != plan.cells.size()) {
     refuse(file, "without a line for each class and candidate");
@@ -262,7 +263,7 @@ ShardState parsed(const std::string& text, const std::string& file) {
     refuse(file, "with work done that is not its own");
   }
   for (std::size_t i = 0; i < result.tallies.size(); ++i) {
-    std::getline(lines, line);
+    const std::string_view line = take_line(text);
     const std::string name = fmt::format("line {}", i + 2);
     result.tallies[i] = at_path(name, [&] {
       const json object = parse_json(line, "it");
@@ -300,28 +301,58 @@ std::vector<std::filesystem::path> shard_files(const std::filesystem::path& fold
   return files;
 }
 
-std::string to_text(const ShardState& p) {
-  std::string text = json{{"schema", schema},
-                          {"shard", {p.shard.number, p.shard.of}},
-                          {"done", to_json(p.done)},
-                          {"campaign", json::parse(p.plan.text)}}
-                         .dump() +
-                     '\n';
-  for (std::size_t cell = 0; cell < p.plan.cells.size(); ++cell) {
-    for (std::size_t k = 0; k < p.plan.candidates.size(); ++k) {
-      text += json{{"pair", pair_name(p.plan.cells[cell].pair)},
-                   {"class", p.plan.cells[cell].pose_class},
-                   {"candidate", p.plan.candidates[k]},
-                   {"tally", to_json(p.tally(cell, k))}}
-                  .dump() +
-              '\n';
-    }
+namespace {
+
+std::string head_line(const ShardState& p) {
+  return json{{"schema", schema},
+              {"shard", {p.shard.number, p.shard.of}},
+              {"done", touchstone::to_json(p.done)},
+              {"campaign", json::parse(p.plan.text)}}
+             .dump() +
+         '\n';
+}
+
+std::string tally_line(const ShardState& p, std::size_t cell, std::size_t candidate) {
+  return json{{"pair", pair_name(p.plan.cells[cell].pair)},
+              {"class", p.plan.cells[cell].pose_class},
+              {"candidate", p.plan.candidates[candidate]},
+              {"tally", to_json(p.tally(cell, candidate))}}
+             .dump() +
+         '\n';
+}
+
+}  // namespace
+
+ShardLines::ShardLines(const ShardState& state) : state_(state), lines_(state.tallies.size() + 2) {}
+
+void ShardLines::renew(std::size_t cell) {
+  const std::size_t candidates = state_.plan.candidates.size();
+  for (std::size_t k = 0; k < candidates; ++k) lines_[1 + cell * candidates + k].clear();
+}
+
+const std::vector<std::string>& ShardLines::all() {
+  const std::size_t candidates = state_.plan.candidates.size();
+  lines_.front() = head_line(state_);
+  for (std::size_t i = 0; i < state_.tallies.size(); ++i) {
+    std::string& line = lines_[1 + i];
+    if (line.empty()) line = tally_line(state_, i / candidates, i % candidates);
   }
-  return text + checksum_line(text);
+  lines_.back() = checksum_line(checksum(std::span(lines_).first(lines_.size() - 1)));
+  return lines_;
+}
+
+std::string to_text(const ShardState& state) {
+  return fmt::format("{}", fmt::join(ShardLines(state).all(), ""));
+}
+
+void write_shard(ShardLines& lines, const std::filesystem::path& file) {
+  const std::vector<std::string>& all = lines.all();
+  write_file(file, {all.begin(), all.end()}, "--out", "make room, then go on with --resume");
 }
 
 void write_shard(const ShardState& state, const std::filesystem::path& file) {
-  write_file(file, to_text(state), "--out", "make room, then go on with --resume");
+  ShardLines lines(state);
+  write_shard(lines, file);
 }
 
 ShardState read_shard(const std::filesystem::path& file, const char* field) {
@@ -334,9 +365,8 @@ ShardState read_shard(const std::filesystem::path& file, const char* field) {
 }
 
 ShardState shard_from_text(const std::string& text, const std::string& file) {
-  const std::string body(intact(text, file));
   try {
-    return parsed(body, file);
+    return parsed(intact(text, file), file);
   } catch (const InvalidInput& e) {
     if (e.field() == '"' + file + '"') throw;
     refuse(file, fmt::format("not understood ({})", error_text(e)));

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -35,6 +36,8 @@ using UnitSet = boost::icl::interval_set<std::uint64_t, std::less,
 /// The number at a position among those of the set, in order.
 std::uint64_t nth(const UnitSet& set, std::uint64_t position);
 std::uint64_t configurations(const Cut& cut, const UnitSet& set);
+/// Of each cell.
+std::vector<std::uint64_t> configurations_by_cell(const Cut& cut, const UnitSet& set);
 
 /// One of `of` equal parts, numbered from 1.
 struct Shard {
@@ -79,6 +82,8 @@ void require_same_plan(const Plan& expected, const nlohmann::json& found, const 
 
 /// CRC-32 (as in zip and PNG) as eight hexadecimal digits: finds damage, not malice.
 std::string checksum(std::string_view text);
+/// Of all of them, one after the other.
+std::string checksum(std::span<const std::string> texts);
 
 /// How far one shard has come: the tallies of the units that are done, and no others.
 struct ShardState {
@@ -107,8 +112,28 @@ std::filesystem::path shard_file(const std::filesystem::path& folder, const Shar
 /// Those in a folder, by name.
 std::vector<std::filesystem::path> shard_files(const std::filesystem::path& folder);
 
+/// The lines of a shard file, for one that is written again and again: those of tallies stay as
+/// they are until they are made anew.
+class ShardLines {
+ public:
+  /// The state must outlive them.
+  explicit ShardLines(const ShardState& state);
+
+  /// Tallies of this cell have changed.
+  void renew(std::size_t cell);
+  /// Frees the memory.
+  void forget() { lines_ = {}; }
+  /// All of the file, each with its end; makes those that are missing.
+  const std::vector<std::string>& all();
+
+ private:
+  const ShardState& state_;
+  std::vector<std::string> lines_;  ///< in the file's order; empty: to be made anew
+};
+
 /// Writes a shard file as a whole or not at all. Throws InvalidInput (field "--out") where that
 /// cannot be done.
+void write_shard(ShardLines& lines, const std::filesystem::path& file);
 void write_shard(const ShardState& state, const std::filesystem::path& file);
 
 std::string to_text(const ShardState& state);

@@ -26,7 +26,8 @@ void raise(std::optional<Sequences::Peak>& peak, const std::optional<double>& va
   if (value && !(peak && peak->value >= *value)) peak = {*value, step};
 }
 
-Course course(const std::vector<ExaminedPose>& poses, std::size_t k, const Bar& bar) {
+/// `steps`: between these poses.
+Course course(const std::vector<ExaminedPose>& poses, std::vector<Step>& steps, std::size_t k) {
   Course result;
   result.is_supported = poses[0].answers[k].score.outcome != Outcome::unsupported;
   for (std::size_t i = 0; i < poses.size(); ++i) {
@@ -35,7 +36,7 @@ Course course(const std::vector<ExaminedPose>& poses, std::size_t k, const Bar& 
     result.wrong += pose.score.outcome != Outcome::agree;
     result.unanswered += !pose.is_answered();
     if (i == 0) continue;
-    const auto change = step_change(poses[i - 1], poses[i], k, bar);
+    const auto change = steps[i - 1].change(k);
     if (!change) continue;
     const int step = static_cast<int>(i);
     result.amplification = std::max(result.amplification.value_or(0), change->amplification);
@@ -51,12 +52,14 @@ TrueCourse true_course(const std::vector<ExaminedPose>& poses) {
   TrueCourse result;
   const double size = smaller_size(poses[0].configuration);
   const auto depth = [](const ExaminedPose& p) { return p.truth.signed_distance.midpoint(); };
+  std::vector<oracle::ContactPatch> patches;
+  for (const ExaminedPose& pose : poses) patches.push_back(true_patch(pose));
   for (std::size_t i = 1; i < poses.size(); ++i) {
     const ExaminedPose &from = poses[i - 1], &to = poses[i];
     const double displacement = largest_displacement(from.configuration, to.configuration);
     result.displacement = std::max(result.displacement, displacement / size);
     result.depth = std::max(result.depth, std::abs(depth(to) - depth(from)) / size);
-    result.patch = std::max(result.patch, patch_movement(from, to));
+    result.patch = std::max(result.patch, movement(patches[i - 1], patches[i]) / size);
   }
   return result;
 }
@@ -67,8 +70,10 @@ std::string follow(const Motion& motion, int steps, std::vector<CandidateProcess
   std::vector<Configuration> asked;
   for (int i = 0; i <= steps; ++i) asked.push_back(pose_at(motion, i, steps));
   const std::vector<ExaminedPose> poses = examine_poses(asked, candidates, bar);
+  std::vector<Step> between;
+  for (std::size_t i = 1; i < poses.size(); ++i) between.emplace_back(poses[i - 1], poses[i], bar);
   std::vector<Course> courses;
-  for (std::size_t k = 0; k < candidates.size(); ++k) courses.push_back(course(poses, k, bar));
+  for (std::size_t k = 0; k < candidates.size(); ++k) courses.push_back(course(poses, between, k));
   ByteWriter bytes;
   bytes.put(true_course(poses));
   bytes.put(courses);

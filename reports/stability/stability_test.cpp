@@ -5,6 +5,7 @@
 #include <functional>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <map>
 #include <numeric>
 #include <set>
 #include <sstream>
@@ -152,10 +153,36 @@ TEST(Stability, ReplaysItsWorstSteps) {
     const auto poses = examine_poses(
         {given_configuration(step.from).configuration, given_configuration(step.to).configuration},
         bullet, Bar{});
-    const StepChange change = step_change(poses[0], poses[1], 0, Bar{}).value();
+    const StepChange change = Step(poses[0], poses[1], Bar{}).change(0).value();
     const double value =
         step.measure == "amplification" ? change.amplification : change.hull_excess.value();
     EXPECT_EQ(value, step.value) << step.measure << " from " << step.from << " to " << step.to;
+  }
+}
+
+TEST(Stability, CandidatesAreMeasuredAsIfTheyWereAlone) {
+  const auto options = [](const std::vector<std::string>& names) {
+    StabilityOptions result = small(study(names));
+    result.parts = {StabilityPart::amplification, StabilityPart::sequences};
+    result.pairs = {Pair::capsule};
+    return result;
+  };
+  const auto rows = [&](const std::vector<std::string>& names) {
+    std::map<std::string, std::vector<json>> result;  // by candidate
+    const json written = to_json(measure(options(names)));
+    for (const json& row : written["amplification"]["results"]) {
+      result[row["candidate"]].push_back(row);
+    }
+    for (const json& motion : written["sequences"]["motions"]) {
+      for (const json& row : motion["results"]) result[row["candidate"]].push_back(row);
+    }
+    return result;
+  };
+  // Bullet's normals differ from the others', and so do the patches along them.
+  const auto together = rows({"reference", "bullet", "ode"});
+  for (const char* name : {"reference", "bullet", "ode"}) {
+    EXPECT_FALSE(together.at(name).empty());
+    EXPECT_EQ(rows({name}).at(name), together.at(name)) << name;
   }
 }
 

@@ -30,22 +30,9 @@ double answered_depth(const Answer& answer, const Bar& bar) {
   return answer.status == TS_CONTACT ? depth(answer.signed_distance, bar) : 0;
 }
 
-/// Patches of one configuration by their normals; most candidates answer the same normal.
-class Patches {
- public:
-  explicit Patches(const Configuration& c) : c_(c), depth_(patch_depth * smaller_size(c)) {}
-  const ContactPatch& along(const Vec3& n) {
-    for (const auto& [normal, patch] : known_) {
-      if (normal == n) return patch;
-    }
-    return known_.emplace_back(n, oracle::contact_patch(c_, n, depth_)).second;
-  }
-
- private:
-  const Configuration& c_;
-  double depth_;
-  std::vector<std::pair<Vec3, ContactPatch>> known_;
-};
+ContactPatch patch_along(const Configuration& c, const Vec3& n) {
+  return oracle::contact_patch(c, n, patch_depth * smaller_size(c));
+}
 
 /// The change of a depth by rounding alone, metres: four units in the last place of the bodies'
 /// coordinates and sizes.
@@ -78,8 +65,18 @@ std::vector<ExaminedPose> examine_poses(const std::vector<Configuration>& config
                                         std::vector<CandidateProcess>& candidates, const Bar& bar) {
   std::vector<ExaminedPose> poses;
   const auto take = [&](const ScoredConfiguration& scored) {
-    ExaminedPose& pose = poses.emplace_back(ExaminedPose{scored.configuration, scored.truth, {}});
-    Patches patches(pose.configuration);
+    ExaminedPose& pose =
+        poses.emplace_back(ExaminedPose{scored.configuration, scored.truth, {}, {}});
+    std::vector<Vec3> normals;  // of its patches
+    const auto patch_number = [&](const Vec3& n) {
+      const auto found = std::find(normals.begin(), normals.end(), n);
+      const auto number = static_cast<std::size_t>(found - normals.begin());
+      if (found == normals.end()) {
+        normals.push_back(n);
+        pose.patches.push_back(patch_along(pose.configuration, n));
+      }
+      return number;
+    };
     for (std::size_t k = 0; k < candidates.size(); ++k) {
       PoseAnswer& entry =
           pose.answers.emplace_back(PoseAnswer{scored.answers[k], scored.scores[k], {}, {}});
@@ -87,7 +84,7 @@ std::vector<ExaminedPose> examine_poses(const std::vector<Configuration>& config
       if (entry.answer.status == TS_CONTACT && entry.is_answered() &&
           entry.answer.point_count > 0 && !n.isZero(0)) {
         entry.hull = hull_of_points(entry.answer);
-        entry.patch = patches.along(patch_normal(pose.truth, n));
+        entry.patch = patch_number(patch_normal(pose.truth, n));
       }
     }
   };
@@ -95,35 +92,39 @@ std::vector<ExaminedPose> examine_poses(const std::vector<Configuration>& config
   return poses;
 }
 
-std::optional<StepChange> step_change(const ExaminedPose& from, const ExaminedPose& to,
-                                      std::size_t candidate, const Bar& bar) {
-  const PoseAnswer &a = from.answers[candidate], &b = to.answers[candidate];
+Step::Step(const ExaminedPose& from, const ExaminedPose& to, const Bar& bar)
+    : from_(from),
+      to_(to),
+      bar_(bar),
+      true_change_(true_depth(to, bar) - true_depth(from, bar)),
+      allowance_(allowance(from.configuration, to.configuration)) {}
+
+std::optional<StepChange> Step::change(std::size_t candidate) {
+  const PoseAnswer &a = from_.answers[candidate], &b = to_.answers[candidate];
   if (!a.is_answered() || !b.is_answered()) return std::nullopt;
-  const double size = smaller_size(from.configuration);
-  const double change = answered_depth(b.answer, bar) - answered_depth(a.answer, bar);
-  const double true_change = true_depth(to, bar) - true_depth(from, bar);
+  const double size = smaller_size(from_.configuration);
+  const double change = answered_depth(b.answer, bar_) - answered_depth(a.answer, bar_);
   StepChange result{};
-  result.amplification = std::abs(change) / allowance(from.configuration, to.configuration);
-  result.jump = std::abs(change - true_change) / size;
+  result.amplification = std::abs(change) / allowance_;
+  result.jump = std::abs(change - true_change_) / size;
   if (a.hull && b.hull) {
     result.points_changed = a.score.points != b.score.points;
     result.hull = movement(*a.hull, *b.hull) / size;
-    result.hull_excess = std::max(0.0, *result.hull - movement(*a.patch, *b.patch) / size);
+    result.hull_excess = std::max(0.0, *result.hull - patch_movement(*a.patch, *b.patch) / size);
   }
   return result;
 }
 
-double true_amplification(const ExaminedPose& from, const ExaminedPose& to, const Bar& bar) {
-  return std::abs(true_depth(to, bar) - true_depth(from, bar)) /
-         allowance(from.configuration, to.configuration);
+double Step::patch_movement(std::size_t from, std::size_t to) {
+  const auto [known, is_new] = patch_movements_.try_emplace({from, to});
+  if (is_new) known->second = movement(from_.patches[from], to_.patches[to]);
+  return known->second;
 }
 
-double patch_movement(const ExaminedPose& from, const ExaminedPose& to) {
-  const auto patch = [](const ExaminedPose& pose) {
-    const Configuration& c = pose.configuration;
-    return oracle::contact_patch(c, pose.truth.normals.front().n, patch_depth * smaller_size(c));
-  };
-  return movement(patch(from), patch(to)) / smaller_size(from.configuration);
+double Step::true_amplification() const { return std::abs(true_change_) / allowance_; }
+
+ContactPatch true_patch(const ExaminedPose& pose) {
+  return patch_along(pose.configuration, pose.truth.normals.front().n);
 }
 
 double movement(const ContactPatch& from, const ContactPatch& to) {
@@ -170,13 +171,11 @@ struct Climb {
   ByAmplitude<int> points_changed{}, missed{}, unanswered{};
   Worst worst_amplification, worst_hull_excess;
 
-  /// Adds the step that candidate `k` was asked about.
-  void add(const ExaminedPose& from, const ExaminedPose& to, std::size_t k, const Bar& bar,
-           std::size_t base, std::size_t rung) {
-    const Score& score = to.answers[k].score;
+  /// Adds a step by its candidate's score after it, and its change.
+  void add(const Score& score, const std::optional<StepChange>& change, std::size_t base,
+           std::size_t rung) {
     missed[rung] += score.outcome == Outcome::missed;
     raise(regret[rung], score.normal_regret);
-    const auto change = step_change(from, to, k, bar);
     if (!change) {
       ++unanswered[rung];
       return;
@@ -225,9 +224,10 @@ std::vector<Climb> climb(const Bases& bases, std::uint64_t seed,
     const ExaminedPose* const from = &poses[i * (1 + amplitude_count)];
     for (std::size_t rung = 0; rung < amplitude_count; ++rung) {
       const ExaminedPose& to = from[1 + rung];
-      raise(climbs[0].amplification[rung], true_amplification(*from, to, bar));
+      Step step(*from, to, bar);
+      raise(climbs[0].amplification[rung], step.true_amplification());
       for (std::size_t k = 0; k < candidates.size(); ++k) {
-        climbs[1 + k].add(*from, to, k, bar, i, rung);
+        climbs[1 + k].add(to.answers[k].score, step.change(k), i, rung);
       }
     }
   }

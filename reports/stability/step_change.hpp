@@ -1,6 +1,8 @@
 #pragma once
 
+#include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "oracle/judge/score.hpp"
@@ -12,9 +14,10 @@ namespace touchstone {
 struct PoseAnswer {
   Answer answer;
   Score score;
-  /// For a contact with points: their hull, and the contact patch along the optimal normal nearest
-  /// to the answered one, within patch_depth of the support planes.
-  std::optional<oracle::ContactPatch> hull, patch;
+  /// For a contact with points: their hull, and the number of the contact patch along the optimal
+  /// normal nearest to the answered one.
+  std::optional<oracle::ContactPatch> hull;
+  std::optional<std::size_t> patch;
 
   /// A contact in finite numbers, or none.
   bool is_answered() const {
@@ -28,6 +31,8 @@ struct ExaminedPose {
   Configuration configuration;
   oracle::Truth truth;
   std::vector<PoseAnswer> answers;
+  /// Within patch_depth of the support planes. Most answers have the same one.
+  std::vector<oracle::ContactPatch> patches;
 };
 
 /// Asks every candidate for all of them in one new session, in this order, and the oracle. Throws
@@ -49,15 +54,30 @@ struct StepChange {
   std::optional<double> hull, hull_excess;
 };
 
-/// Absent unless the candidate answered both.
-std::optional<StepChange> step_change(const ExaminedPose& from, const ExaminedPose& to,
-                                      std::size_t candidate, const Bar& bar);
+/// A step between two poses, which must outlive it. What the candidates' changes have in common is
+/// found once: how far a patch moves takes a thousand distances.
+class Step {
+ public:
+  Step(const ExaminedPose& from, const ExaminedPose& to, const Bar& bar);
 
-/// Amplification of the true depth.
-double true_amplification(const ExaminedPose& from, const ExaminedPose& to, const Bar& bar);
+  /// Absent unless the candidate answered both.
+  std::optional<StepChange> change(std::size_t candidate);
+  /// Amplification of the true depth.
+  double true_amplification() const;
 
-/// How far the true patch moved, along the first optimal normal of either pose.
-double patch_movement(const ExaminedPose& from, const ExaminedPose& to);
+ private:
+  /// Of two patches by their numbers, metres.
+  double patch_movement(std::size_t from, std::size_t to);
+
+  const ExaminedPose &from_, &to_;
+  Bar bar_;
+  double true_change_;  ///< of the depth, metres
+  double allowance_;    ///< largest change of the true depth, metres
+  std::map<std::pair<std::size_t, std::size_t>, double> patch_movements_;
+};
+
+/// The patch along the first optimal normal.
+oracle::ContactPatch true_patch(const ExaminedPose& pose);
 
 /// The Hausdorff distance of two plane convex sets in space, metres: the largest distance of a
 /// point of either set from the other. Exact for polygons; of arcs 32 points a circle are taken.
