@@ -469,7 +469,7 @@ expect 0 'choose.html' choose "$folder/can.json" --candidates capsule --out "$fo
 # Installed without an engine: a line says so, and the rest is there.
 mkdir "$folder/part" "$folder/part/candidates"
 cp "$program" "$folder/part/"
-cp "$(dirname "$program")"/candidates/touchstone-*.so "$folder/part/candidates/"
+cp "$(dirname "$program")"/candidates/touchstone-{*.so,host} "$folder/part/candidates/"
 rm -f "$folder/part/candidates/touchstone-fcl.so"
 listed=$("$folder/part/touchstone" candidates)
 if ! grep -q "^fcl: skipped; .*libfcl-dev" <<<"$listed" || ! grep -q "^bullet 3" <<<"$listed"; then
@@ -484,6 +484,9 @@ expect_part() {
 }
 expect_part fcl-distance '"fcl-distance": is unavailable; fcl: skipped; was not built; install .*libfcl-dev'
 expect_part flc 'must be one of reference, '
+mv "$folder/part/candidates/touchstone-host" "$folder/part/"
+expect_part bullet 'bullet: .*needs .*/candidates/touchstone-host: No such file or directory'
+mv "$folder/part/touchstone-host" "$folder/part/candidates/"
 
 line=$("$program" replay cylinder-box/general-deep/3/4 | grep '^{' | tail -n 1)
 "$program" solve --audit <<<"$line" | grep -q '"audit":{"primal_dual_gap":null,"signed_distance":\["-' ||

@@ -10,7 +10,7 @@ fail() { echo "FAILED: $*"; exit 1; }
   { cat "$folder/log"; fail "cpack"; }
 package=("$folder"/made/touchstone_*.deb)
 dpkg-deb -c "${package[0]}" | awk '{print $6}' >"$folder/files"
-for file in bin/touchstone lib/touchstone/touchstone-reference.so include/touchstone/candidate.h \
+for file in bin/touchstone lib/touchstone/touchstone-{host,reference.so} include/touchstone/candidate.h \
   include/touchstone/touchstone.hpp include/touchstone/engines/{bullet,mujoco,ode}.hpp \
   include/touchstone/touchstone_contacts.h \
   lib/libtouchstone_reference.a \

@@ -150,6 +150,13 @@ SessionCommand receive(int socket);
 [[noreturn]] void serve_session(const ts_candidate& candidate, const SessionCommand& begin,
                                 int socket, const Questions& questions, Exchange& exchange);
 
+/// Descriptors of a plug-in's process besides the standard three, when it is started: its end of
+/// the socket, and the shared memory.
+inline constexpr int host_socket = 3, host_questions = 4, host_exchange = 5;
+/// Environment variable by which the dynamic linker resolves all symbols at the start (ld.so(8)).
+/// Otherwise every session would do so again.
+inline constexpr const char* bind_now = "LD_BIND_NOW";
+
 /// Main function of a plug-in's process: loads the plug-in, describes it on the socket, then serves
 /// sessions until the other end is closed.
 [[noreturn]] void serve_plugin(const char* file, int socket, const Questions& questions,

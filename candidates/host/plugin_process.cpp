@@ -2,8 +2,10 @@
 #include "candidates/host/plugin_process.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <chrono>
+#include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
 #include <poll.h>
@@ -63,7 +65,8 @@ std::string how_it_ended(int status) {
   return "ended with exit code " + std::to_string(WEXITSTATUS(status));
 }
 
-PluginProcess::State::State(const std::filesystem::path& f) : file(f) {
+PluginProcess::State::State(const std::filesystem::path& f)
+    : file(f), host(standard_folder() / "touchstone-host") {
   text = memfd_create("candidate", MFD_CLOEXEC);
   if (text < 0 || fcntl(text, F_SETFL, O_APPEND) < 0) fail("memfd_create");
   questions_file = shared_file(sizeof(Questions));
@@ -138,23 +141,24 @@ std::string PluginProcess::State::last_line() const { return touchstone::last_li
 void PluginProcess::State::serve(int other_end) const {
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (getppid() != owner) _exit(0);  // the parent died before prctl
-  const Questions& asked =
-      *static_cast<Questions*>(map(questions_file, sizeof(Questions), PROT_READ));
-  Exchange& answered =
-      *static_cast<Exchange*>(map(exchange_file, sizeof(Exchange), PROT_READ | PROT_WRITE));
-  const int nothing = open("/dev/null", O_RDONLY);
-  dup2(nothing, STDIN_FILENO);
-  dup2(text, STDOUT_FILENO);
-  dup2(text, STDERR_FILENO);
-  constexpr int only = STDERR_FILENO + 1;  // the only descriptor besides the standard three
-  dup2(other_end, only);
-  close_range(only + 1, ~0u, 0);
+  const std::array given = {
+      open("/dev/null", O_RDONLY), text, text, other_end, questions_file, exchange_file};
+  // First out of each other's way.
+  std::array<int, given.size()> moved;
+  constexpr int behind = given.size();
+  for (std::size_t i = 0; i < given.size(); ++i) moved[i] = fcntl(given[i], F_DUPFD, behind);
+  for (std::size_t i = 0; i < given.size(); ++i) dup2(moved[i], static_cast<int>(i));
+  close_range(behind, ~0u, 0);
   setpgid(0, 0);
   // The namespace begins with the next process. Its first process must not run the plug-in, because
   // the kernel spares it fatal signals.
   if (begin_pid_namespace()) fork_guarded(-1);
-  fork_guarded(only);
-  serve_plugin(file.c_str(), only, asked, answered);
+  fork_guarded(host_socket);
+  setenv(bind_now, "1", 1);
+  execl(host.c_str(), host.c_str(), file.c_str(), static_cast<char*>(nullptr));
+  reply(host_socket, Reply::refused, 0, 0,
+        ("needs " + host.string() + ": " + std::strerror(errno)).c_str());
+  _exit(1);
 }
 
 void PluginProcess::State::start(std::chrono::milliseconds loading) {

@@ -41,6 +41,7 @@ struct PluginProcess::State {
   enum class Received { message, noise, nothing, end };
 
   std::filesystem::path file;
+  std::filesystem::path host;  ///< the program that loads it
   std::vector<Candidate> candidates;
   bool unforked = false;  ///< a session is the plug-in's process itself
   /// The process that made this. A candidate that calls exit runs our destructors in its own
