@@ -1,10 +1,13 @@
 // The laws. Each is judged at the bar's tolerance, relative to the smaller size, unless it says
 // otherwise.
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <deque>
 #include <fmt/format.h>
+#include <iterator>
 #include <limits>
 
 #include "oracle/judge/score.hpp"
@@ -449,11 +452,14 @@ Known& known_of(const Configuration& configuration) {
 
 /// Zeros of either sign differ, as they do for Judge.
 bool have_same_bits(const Answer& first, const Answer& second) {
+  const auto is_same = [](double x, double y) {
+    return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y);
+  };
   static_assert(sizeof(ts_point) == 7 * sizeof(double));  // without padding
   return first.status == second.status && first.point_count == second.point_count &&
          first.was_asked == second.was_asked && first.model_distance == second.model_distance &&
-         std::memcmp(&first.signed_distance, &second.signed_distance, sizeof(double)) == 0 &&
-         std::memcmp(first.normal, second.normal, sizeof first.normal) == 0 &&
+         is_same(first.signed_distance, second.signed_distance) &&
+         std::equal(std::begin(first.normal), std::end(first.normal), second.normal, is_same) &&
          std::memcmp(first.points, second.points,
                      static_cast<std::size_t>(first.point_count) * sizeof(ts_point)) == 0;
 }
