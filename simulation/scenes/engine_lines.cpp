@@ -33,7 +33,7 @@ Centres centres(int count, const Cylinder& c, const char* full_turn) {
 
 std::string bullet_lines(const EngineShape& shape, const Cylinder& c) {
   const double r = c.radius(), h = c.half_length(), inner = std::min(r, h);
-  const std::string cylinder =
+  std::string cylinder =
       fmt::format("auto* shape = new btCylinderShapeZ(btVector3({0}, {0}, {1}));", r, h);
   switch (shape.kind) {
     case Kind::cylinder:
@@ -83,7 +83,7 @@ std::string bullet_lines(const EngineShape& shape, const Cylinder& c) {
 std::string ode_lines(const EngineShape& shape, const Cylinder& c) {
   const double r = c.radius(), h = c.half_length(), inner = std::min(r, h);
   const std::string on_body = "\ndGeomSetBody(geom, body);";
-  const std::string cylinder =
+  std::string cylinder =
       fmt::format("dGeomID geom = dCreateCylinder(space, {}, {});", r, 2 * h) + on_body;
   switch (shape.kind) {
     case Kind::capsule:
@@ -117,7 +117,7 @@ std::string ode_lines(const EngineShape& shape, const Cylinder& c) {
 /// Spheres and hulls from the parts of which the simplified models consist.
 std::string mujoco_lines(const EngineShape& shape, const Cylinder& c) {
   const double r = c.radius(), h = c.half_length(), inner = std::min(r, h);
-  const std::string cylinder = fmt::format("<geom type=\"cylinder\" size=\"{} {}\"/>", r, h);
+  std::string cylinder = fmt::format("<geom type=\"cylinder\" size=\"{} {}\"/>", r, h);
   const auto placed = [](std::vector<RoundedPolytope> parts) {
     for (RoundedPolytope& part : parts) part.place(Eigen::Matrix3d::Identity(), Vec3::Zero());
     return parts;
