@@ -271,8 +271,7 @@ void add_simulate(Program& program) {
       "  touchstone simulate --out out\n"
       "  touchstone simulate small-log --engine bullet --out out\n"
       "  touchstone simulate simulation/scenes/rover.urdf --duration 1\n"
-      "  touchstone simulate simulation/scenes/three-logs.json --candidates capsule --disturbance "
-      "3\n"
+      "  touchstone simulate simulation/scenes/three-logs.json --disturbance 3\n"
       "  touchstone simulate simulation/scenes/conveyor.json --record recorded.jsonl\n" +
       experiment_list());
   command.runs([options] { return run(*options); });
@@ -328,7 +327,7 @@ void add_render(Program& program) {
       "Examples:\n"
       "  touchstone render simulation/scenes/thesis-knock.json\n"
       "  touchstone render simulation/scenes/log-pile.json --contacts capsule\n"
-      "  touchstone render simulation/scenes/log-pile.json --contacts capsule --disturbance 3\n"
+      "  touchstone render simulation/scenes/log-pile.json --disturbance 3\n"
       "  touchstone render simulation/scenes/gripper.urdf");
   command.runs([options] { return run_render(*options); });
 }
