@@ -22,7 +22,8 @@ import time
 PAGES = ["README.md", "CONTRIBUTING.md", "docs/*.md", "oracle/README.md", "oracle/audit/README.md",
          "reference/README.md", "reference/proofs.md", "suite/README.md"]
 
-# Options of the subcommands that take long; one that the page gives itself stays, but for --count.
+# Options of the subcommands that take long; one that the page gives itself stays, but
+# for --count and --disturbances, which become small.
 SHORTER = {
     "report": {"--pair": "cylinder-plane", "--class": "lying", "--count": "1",
                "--candidates": "reference,bullet"},
@@ -97,6 +98,8 @@ def shortened(arguments):
             arguments = [*arguments, option, value]
         elif option == "--count":
             arguments[arguments.index(option) + 1] = value
+    if "--disturbances" in arguments:
+        arguments[arguments.index("--disturbances") + 1] = "4"
     return arguments
 
 

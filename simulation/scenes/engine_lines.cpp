@@ -139,8 +139,9 @@ std::string mujoco_lines(const EngineShape& shape, const Cylinder& c) {
       return lines;
     }
     case Kind::hull: {
+      const RoundedPolytope prism = placed(inscribed_prism(shape.count, r, h)).front();
       std::string vertices;
-      for (const Vec3& v : placed(inscribed_prism(shape.count, r, h)).front().vertices()) {
+      for (const Vec3& v : prism.vertices()) {
         vertices += fmt::format("{}{} {} {}", vertices.empty() ? "" : "  ", v.x(), v.y(), v.z());
       }
       // Another name for each size, for a model may have several.
