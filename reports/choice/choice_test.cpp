@@ -259,5 +259,28 @@ TEST_F(WarehousePairs, NameTheConfigurationOfWhatDoesNotServe) {
   EXPECT_THAT(pairs_text(choice, "my out"), HasSubstr("./touchstone replay 'my out/warehouse-"));
 }
 
+// MuJoCo's masks and exclusions: of four cans only the first two and the last two may touch.
+TEST(Pairs, AreNotThoseThatAFileKeepsApart) {
+  RobotFile file;
+  file.name = "cans";
+  const CollisionMask others{2, 2};
+  for (int i = 0; i < 4; ++i) {
+    const std::string name = fmt::format("can-{}", i);
+    const LinkShape can{
+        name, Cylinder(0.1 * (i + 1), 0.2), {}, {}, i < 3 ? CollisionMask{} : others};
+    file.links.push_back({.name = name, .shapes = {can}});
+  }
+  file.links[2].shapes[0].mask = {3, 3};
+  file.apart = {{2, 1}, {0, 2}};
+  PairNeeds needs;
+  needs.count = 2;
+  std::vector<std::string> names;
+  for (const PairChoice& pair :
+       choose_for_pairs(file, needs, find_candidates({"capsule"}), {}).pairs) {
+    names.push_back(pair.example);
+  }
+  EXPECT_THAT(names, testing::UnorderedElementsAre("can-0 and can-1", "can-2 and can-3"));
+}
+
 }  // namespace
 }  // namespace touchstone

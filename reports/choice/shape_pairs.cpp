@@ -31,10 +31,15 @@ struct Part {
 
 bool can_touch(const RobotFile& file, const Part& x, const Part& y) {
   if (x.link == y.link || (file.links[x.link].fixed && file.links[y.link].fixed)) return false;
-  return std::ranges::none_of(file.joints, [&](const LinkJoint& joint) {
-    return (joint.child == x.link && joint.parent == y.link) ||
-           (joint.child == y.link && joint.parent == x.link);
-  });
+  const auto are_these = [&](int link, int other) {
+    return (link == x.link && other == y.link) || (link == y.link && other == x.link);
+  };
+  return x.shape->mask.touches(y.shape->mask) &&
+         std::ranges::none_of(file.apart,
+                              [&](const auto& a) { return are_these(a.first, a.second); }) &&
+         std::ranges::none_of(file.joints, [&](const LinkJoint& joint) {
+           return are_these(joint.child, joint.parent);
+         });
 }
 
 std::vector<ShapePair> shape_pairs(const RobotFile& file) {

@@ -11,7 +11,7 @@ OPTIONS are those of `choose`, such as --drive. With --engine all seeds try ever
 
   simulation/scenes/seed_check.py ./touchstone simulation/scenes/three-logs.json --engine ode
 
-Exit code: 0 the same answer for all seeds; 1 not; 2 `choose` failed.
+Exit code: 0 the same answer for all seeds; 1 not; 2 `choose` failed or cannot be run.
 """
 import argparse
 import json
@@ -19,17 +19,25 @@ import pathlib
 import subprocess
 import sys
 import tempfile
+import time
 
 
 MODELS = {"capsule", "capsule-circumscribed", "spheres", "prism", "box-spheres", "box-capsules"}
 
 
+def give_up(reason):
+    print(reason, file=sys.stderr)
+    sys.exit(2)
+
+
 def choose(program, scene, seed, options, folder):
     command = [program, "choose", scene, "--seed", str(seed), "--out", folder, *options]
-    done = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    try:
+        done = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    except OSError as error:
+        give_up(f"{program} cannot be run: {error.strerror}")
     if done.returncode not in (0, 1):
-        print(done.stderr, file=sys.stderr, end="")
-        sys.exit(2)
+        give_up(done.stderr.strip())
     return json.loads((pathlib.Path(folder) / "choose.json").read_text())
 
 
@@ -80,9 +88,11 @@ def main():
     answers = []
     with tempfile.TemporaryDirectory() as folder:
         for seed in range(1, arguments.seeds + 1):
+            start = time.monotonic()
             choice = choose(arguments.program, arguments.scene, seed, options, folder)
             answers.append(answer(choice))
-            print(f"{choice['scene']['name']}, seed {seed}: {answers[-1]} ({cost(choice)})", flush=True)
+            print(f"{choice['scene']['name']}, seed {seed}: {answers[-1]} ({cost(choice)}; tried in "
+                  f"{time.monotonic() - start:.0f} s)", flush=True)
             if seed == 1 and not is_of_engine(choice):
                 options += ["--candidates", candidates_that_may_serve(choice)]
     return 0 if len(set(answers)) == 1 else 1

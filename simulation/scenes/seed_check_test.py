@@ -80,7 +80,8 @@ class SeedCheck(unittest.TestCase):
     def test_the_same_answer_for_all_seeds(self):
         done = self.check([1, 1, 1])
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("made-up, seed 3: can on table: capsule (10.0% of a step)", done.stdout)
+        self.assertRegex(done.stdout,
+                         r"made-up, seed 3: can on table: capsule \(10.0% of a step; tried in \d+ s\)")
 
     def test_another_answer_for_one_seed(self):
         self.assertEqual(self.check([1, 1, 0]).returncode, 1)
@@ -89,6 +90,11 @@ class SeedCheck(unittest.TestCase):
         done = self.check([1, "refused"])
         self.assertEqual(done.returncode, 2)
         self.assertIn("error: refused", done.stderr)
+
+    def test_a_program_that_is_not_there(self):
+        done = self.run_check(self.folder / "none", "made-up.json")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("cannot be run: No such file", done.stderr)
 
     def test_later_seeds_try_what_may_serve(self):
         self.check([0, 0, 0], "--drive", "wheel=1")
@@ -102,7 +108,7 @@ class SeedCheck(unittest.TestCase):
     def test_the_same_setting_of_an_engine_for_all_seeds(self):
         done = self.check_in_engine([2, 2, 2])
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("made-up, seed 3: capsule; box (in ode, 8.2 µs a step)", done.stdout)
+        self.assertIn("made-up, seed 3: capsule; box (in ode, 8.2 µs a step; ", done.stdout)
         for asked in self.asked():
             self.assertEqual(asked["--engine"], "ode")
             self.assertNotIn("--candidates", asked)
@@ -113,7 +119,7 @@ class SeedCheck(unittest.TestCase):
     def test_no_setting_of_an_engine(self):
         done = self.check_in_engine([None, None])
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("made-up, seed 1: none (in ode)", done.stdout)
+        self.assertIn("made-up, seed 1: none (in ode; ", done.stdout)
         self.assertEqual(self.check_in_engine([0, None]).returncode, 1)
 
     def test_a_scene_of_ours_in_an_engine(self):
