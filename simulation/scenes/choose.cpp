@@ -395,6 +395,12 @@ std::vector<const Candidate*> exact_first(const std::vector<const Candidate*>& c
   for (const Candidate* c : candidates) {
     if (c != result[0]) result.push_back(c);
   }
+  const std::vector<const Candidate*> all = all_candidates();
+  const auto place = [&](const Candidate* c) {
+    const auto at = std::ranges::find(all, c->family, &Candidate::family);
+    return std::tuple(at - all.begin(), c->value);
+  };
+  std::ranges::stable_sort(result.begin() + 1, result.end(), {}, place);
   return result;
 }
 

@@ -135,7 +135,8 @@ std::optional<BoxParts> box_parts(const Candidate& candidate, const Shape& shape
 /// 128 sides, boxes as spheres and capsules.
 std::vector<const Candidate*> swept_candidates();
 
-/// The exact candidate (`reference`), then the others.
+/// The exact candidate (`reference`), then the others in the order of all_candidates, members of a
+/// family by their parameter.
 std::vector<const Candidate*> exact_first(const std::vector<const Candidate*>& candidates);
 
 /// The cheapest models that meet the needs of a scene, and all that was tried to find them.

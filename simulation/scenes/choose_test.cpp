@@ -138,6 +138,21 @@ TEST(Choose, TheAnswerHoldsAndNothingCheaperThatWasRunDoes) {
   }
 }
 
+// Among models that take much the same the first one is the answer, whatever the order of
+// --candidates.
+TEST(ExactFirst, TheOthersAreInTheirOwnOrder) {
+  const auto names = [](const std::vector<std::string>& given) {
+    std::vector<std::string> result;
+    for (const Candidate* c : exact_first(find_candidates(given))) result.push_back(c->name);
+    return result;
+  };
+  const std::vector<std::string> ordered = {"reference", "ode",       "capsule",
+                                            "spheres:1", "spheres:2", "box-capsules:1"};
+  EXPECT_EQ(names({"ode", "capsule", "spheres:1", "spheres:2", "box-capsules:1"}), ordered);
+  EXPECT_EQ(names({"box-capsules:1", "spheres:2", "spheres:1", "reference", "capsule", "ode"}),
+            ordered);
+}
+
 TEST(Choose, RunsDoNotDependOnTheNumberOfWorkers) {
   const SceneFile file = standing_can(stands);
   const Choice one = chosen(file, 1), two = chosen(file, 2);
