@@ -245,6 +245,8 @@ class Registry {
       }
       try {
         add_plugin(file, {});
+      } catch (const NoHost&) {
+        throw;
       } catch (const InvalidInput& e) {
         skipped_.push_back({name, e.what()});
       }

@@ -485,7 +485,7 @@ expect_part() {
 expect_part fcl-distance '"fcl-distance": is unavailable; fcl: skipped; was not built; install .*libfcl-dev'
 expect_part flc 'must be one of reference, '
 mv "$folder/part/candidates/touchstone-host" "$folder/part/"
-expect_part bullet 'bullet: .*needs .*/candidates/touchstone-host: No such file or directory'
+expect_part bullet '^error: touchstone-host is ".*/candidates/touchstone-host": .*"No such file or directory"; build or install Touchstone again$'
 mv "$folder/part/touchstone-host" "$folder/part/candidates/"
 
 line=$("$program" replay cylinder-box/general-deep/3/4 | grep '^{' | tail -n 1)

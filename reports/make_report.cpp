@@ -243,8 +243,8 @@ void rank(std::span<ResultRow> rows, const std::function<bool(const ResultRow&)>
 Report make_report(const Campaign& campaign, const std::string& command) {
   const auto start = std::chrono::steady_clock::now();
   const std::vector<Cell> all = cells(campaign);
-  // Started before samples fill the memory: a session is a fork of a fork of this process, and
-  // costs the more the larger that was.
+  // Started before samples fill the memory: to start a plug-in's process costs the more the larger
+  // this one is.
   auto candidates = campaign.given ? std::vector<CandidateProcess>()
                                    : touchstone::start(campaign.candidates, campaign.bar.threshold,
                                                        campaign.limits);

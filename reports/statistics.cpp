@@ -55,7 +55,8 @@ LogHistogram log_histogram(const std::vector<double>& values) {
 }
 
 double Statistics::weight_squares() const {
-  // One of a sample stands for a block, but for the first, which may stand for less of one.
+  // One of a sample stands for a block, but for the first and the last of a unit, which may stand
+  // for less of one.
   constexpr double block = sample_block;
   const double sampled = static_cast<double>(of(Outcome::not_asked)) / (block - 1);
   return static_cast<double>(asked()) + sampled * (block * block - 1);

@@ -84,8 +84,8 @@ struct Statistics {
   /// Configurations that the candidate has a routine for, and those of them that it was asked.
   std::uint64_t supported() const { return count - of(Outcome::unsupported); }
   std::uint64_t asked() const { return supported() - of(Outcome::not_asked); }
-  /// The sum of the squares of how many configurations each one that was asked stands for; at most
-  /// a little too large.
+  /// An upper bound on the sum of the squares of how many configurations each one that was asked
+  /// stands for.
   double weight_squares() const;
   /// On how many of those supported it agrees; those not asked count as what represents them.
   std::uint64_t agreeing() const {

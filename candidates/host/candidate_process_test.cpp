@@ -3,16 +3,21 @@
 #include "candidates/host/candidate_process.hpp"
 
 #include <chrono>
+#include <fcntl.h>
 #include <filesystem>
 #include <functional>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sched.h>
 #include <signal.h>
+#include <string>
+#include <sys/mman.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #include <vector>
 
+#include "candidates/host/exchange.hpp"
 #include "candidates/host/watch.hpp"
 #include "candidates/testing/plain_contacts.hpp"
 #include "reference/invalid_input.hpp"
@@ -465,6 +470,34 @@ TEST(Watch, DoesNotTakeAProcessThatGetsNoProcessorForOneThatWaits) {
   const Watch::TimeUse spent = watch.spent();
   EXPECT_LT(spent.computing, 0.7 * spent.by_the_clock);
   EXPECT_LT(spent.waiting.value_or(0), 0.05 * spent.by_the_clock);
+}
+
+// Its messages may be others.
+TEST(PluginHost, OfAnotherBuildIsRefused) {
+  int ends[2];
+  ASSERT_EQ(socketpair(AF_UNIX, SOCK_SEQPACKET, 0, ends), 0);
+  const int questions = memfd_create("questions", 0), exchange = memfd_create("exchange", 0);
+  ASSERT_EQ(ftruncate(questions, sizeof(Questions) + 8), 0);
+  ASSERT_EQ(ftruncate(exchange, sizeof(Exchange)), 0);
+  const std::string host = standard_folder() / "touchstone-host";
+  const pid_t pid = fork();
+  if (pid == 0) {
+    const int given[] = {ends[1], questions, exchange};
+    int moved[3];
+    for (int i = 0; i < 3; ++i) moved[i] = fcntl(given[i], F_DUPFD, 20);
+    for (int i = 0; i < 3; ++i) dup2(moved[i], host_socket + i);
+    execl(host.c_str(), host.c_str(), "any.so", static_cast<char*>(nullptr));
+    _exit(100);
+  }
+  close(ends[1]);
+  Reply reply{};
+  EXPECT_EQ(recv(ends[0], &reply, sizeof reply, 0), static_cast<ssize_t>(sizeof reply));
+  EXPECT_EQ(reply.kind, Reply::refused);
+  EXPECT_THAT(reply.text, HasSubstr("of another build"));
+  int status = 0;
+  EXPECT_EQ(waitpid(pid, &status, 0), pid);
+  EXPECT_EQ(WEXITSTATUS(status), 2);
+  for (const int file : {ends[0], questions, exchange}) close(file);
 }
 
 }  // namespace

@@ -22,7 +22,6 @@
 #include "candidates/host/exchange.hpp"
 #include "candidates/host/guard.hpp"
 #include "candidates/readable.hpp"
-#include "reference/invalid_input.hpp"
 
 namespace touchstone {
 namespace {
@@ -55,6 +54,12 @@ int poll_through(pollfd& polled, std::chrono::milliseconds time) {
   return ready;
 }
 
+/// Found once: while a folder is built anew, its files come and go.
+const std::filesystem::path& host_program() {
+  static const std::filesystem::path program = standard_folder() / "touchstone-host";
+  return program;
+}
+
 }  // namespace
 
 void fail(const char* call) { throw std::system_error(errno, std::generic_category(), call); }
@@ -65,8 +70,7 @@ std::string how_it_ended(int status) {
   return "ended with exit code " + std::to_string(WEXITSTATUS(status));
 }
 
-PluginProcess::State::State(const std::filesystem::path& f)
-    : file(f), host(standard_folder() / "touchstone-host") {
+PluginProcess::State::State(const std::filesystem::path& f) : file(f), host(host_program()) {
   text = memfd_create("candidate", MFD_CLOEXEC);
   if (text < 0 || fcntl(text, F_SETFL, O_APPEND) < 0) fail("memfd_create");
   questions_file = shared_file(sizeof(Questions));
@@ -156,8 +160,7 @@ void PluginProcess::State::serve(int other_end) const {
   fork_guarded(host_socket);
   setenv(bind_now, "1", 1);
   execl(host.c_str(), host.c_str(), file.c_str(), static_cast<char*>(nullptr));
-  reply(host_socket, Reply::refused, 0, 0,
-        ("needs " + host.string() + ": " + std::strerror(errno)).c_str());
+  reply(host_socket, Reply::no_host, 0, errno);
   _exit(1);
 }
 
@@ -179,7 +182,8 @@ void PluginProcess::State::start(std::chrono::milliseconds loading) {
                        "must be a plug-in made with candidate.h, but " + why);
   };
   const auto told = [](const Reply& r) {
-    return r.kind == Reply::described || r.kind == Reply::refused || r.kind == Reply::gone;
+    return r.kind == Reply::described || r.kind == Reply::refused || r.kind == Reply::no_host ||
+           r.kind == Reply::gone;
   };
   Reply reply;
   const auto end = Clock::now() + loading;
@@ -190,6 +194,12 @@ void PluginProcess::State::start(std::chrono::milliseconds loading) {
   if (!heard && Clock::now() < end) refuse("its process was not there after loading");
   if (!heard) {
     refuse("nothing was heard of it within " + std::to_string(loading.count()) + " ms of loading");
+  }
+  if (reply.kind == Reply::no_host) {  // no fault of the plug-in
+    stop();
+    throw NoHost("touchstone-host", '"' + host.string() + '"',
+                 std::string("must be a program that can be started, but that says \"") +
+                     std::strerror(reply.value) + "\"; build or install Touchstone again");
   }
   if (reply.kind == Reply::gone) {
     refuse("its process was not there after loading: " + how_it_ended(reply.value));

@@ -10,6 +10,7 @@
 
 #include "candidates/candidates.hpp"
 #include "candidates/host/exchange.hpp"
+#include "reference/invalid_input.hpp"
 
 namespace touchstone {
 
@@ -32,6 +33,11 @@ class PluginProcess {
   friend class PluginSessions;
   struct State;
   std::unique_ptr<State> state_;
+};
+
+/// What loads plug-ins cannot be started: no fault of a plug-in, none of which can be asked.
+struct NoHost : InvalidInput {
+  using InvalidInput::InvalidInput;
 };
 
 /// A plug-in's process and the communication with it. After any failure it is stopped, with all

@@ -104,6 +104,8 @@ std::optional<PluginSessions::SessionFailure> PluginSessions::begin() {
   for (int attempt = 0; attempt < 2; ++attempt) {
     try {
       if (!s.runs()) s.start(PluginProcess::loading_time);
+    } catch (const NoHost&) {
+      throw;
     } catch (const InvalidInput& e) {
       return SessionFailure{TS_CRASHED, e.what(), true};
     }

@@ -1,8 +1,5 @@
 // One session of a candidate: prepares its shapes, asks it, and times it.
 #include <algorithm>
-#include <array>
-#include <bit>
-#include <cerrno>
 #include <cfenv>
 #include <chrono>
 #include <cstdint>
@@ -14,7 +11,6 @@
 #include <optional>
 #include <sys/ioctl.h>
 #include <sys/mman.h>
-#include <sys/socket.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 #include <utility>

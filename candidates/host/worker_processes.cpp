@@ -208,7 +208,7 @@ bool stream_from_processes(std::uint64_t count, unsigned workers,
     char chunk[1 << 16];
     const ssize_t size = read(w.fd, chunk, sizeof chunk);
     if (size > 0) w.buffer.append(chunk, static_cast<std::size_t>(size));
-    return size != 0;
+    return size != 0;  // also after an interruption
   };
   const auto run = [&] {
     while (open > 0) {
@@ -236,19 +236,34 @@ bool stream_from_processes(std::uint64_t count, unsigned workers,
     }
     return true;
   };
-  try {
-    if (!run()) return false;
-  } catch (const TaskFailure&) {
-    // What the other workers have finished is not lost.
+  // What was finished before the end is not lost, nor what lies behind another failure.
+  const auto take_finished = [&] {
     pool.end();
     for (Worker& w : pool.all()) {
-      for (pollfd polled{w.fd, POLLIN, 0}; w.fd >= 0 && poll(&polled, 1, 0) > 0 && read_from(w);) {
+      for (int ready = 1; w.fd >= 0 && ready > 0;) {
+        pollfd polled{w.fd, POLLIN, 0};
+        ready = poll(&polled, 1, 0);
+        if (ready < 0 && errno == EINTR)
+          ready = 1;
+        else if (ready > 0 && !read_from(w))
+          break;
       }
-      try {
-        take_records(w.buffer);
-      } catch (const TaskFailure&) {  // the first one is told
+      for (bool is_more = true; is_more;) {
+        try {
+          take_records(w.buffer);
+          is_more = false;
+        } catch (const TaskFailure&) {  // the first one is told
+        }
       }
     }
+  };
+  try {
+    if (!run()) {
+      take_finished();
+      return false;
+    }
+  } catch (const TaskFailure&) {
+    take_finished();
     throw;
   }
   if (taken != count) {  // a worker died between taking a task and noting that it has

@@ -23,9 +23,9 @@ std::vector<std::string> run_in_processes(std::size_t count, unsigned workers,
 /// Like run_in_processes, for runs whose results do not fit into memory: passes each result to
 /// `take` as it arrives, in any order, and keeps none. Ends early, dropping unfinished tasks, when
 /// `go_on` (called at least every 100 ms) returns false. Returns whether all tasks were done. Where
-/// a task fails, those that other workers had finished are passed first. `forget` is called first
-/// in each worker: it frees what tasks do not need, of which every process that a worker begins,
-/// sessions of candidates included, would copy the page tables.
+/// it ends early or a task fails, what workers have finished is passed first. `forget` is called
+/// first in each worker: it frees what tasks do not need, of which every process that a worker
+/// forks would copy the page tables.
 bool stream_from_processes(
     std::uint64_t count, unsigned workers, const std::function<std::string(std::uint64_t)>& task,
     const std::function<std::string(std::uint64_t)>& name,

@@ -94,6 +94,38 @@ TEST(WorkerProcesses, AFailureLosesNothingThatOthersHaveFinished) {
   EXPECT_EQ(taken, count - 1);
 }
 
+TEST(WorkerProcesses, ASecondFailureLosesNothingBehindIt) {
+  constexpr std::uint64_t failing = 3;
+  const auto first_fail = [](std::uint64_t i) -> std::string {
+    if (i < failing) throw std::runtime_error("no truth");
+    return "done";
+  };
+  std::vector<std::uint64_t> taken;
+  const auto run = [&] {
+    stream_from_processes(
+        5, 1, first_fail, name, [&](std::uint64_t i, const std::string&) { taken.push_back(i); },
+        [] {
+          usleep(300'000);  // until all is in one pipe
+          return true;
+        });
+  };
+  EXPECT_THAT(run, testing::ThrowsMessage<std::runtime_error>(HasSubstr("task 0: no truth")));
+  EXPECT_THAT(taken, testing::ElementsAre(3, 4));
+}
+
+TEST(WorkerProcesses, AnEarlyEndLosesNothingThatIsFinished) {
+  std::size_t taken = 0;
+  const bool all = stream_from_processes(
+      4, 2, [](std::uint64_t) { return std::string("done"); }, name,
+      [&](std::uint64_t, const std::string&) { ++taken; },
+      [] {
+        usleep(300'000);  // until all have ended
+        return false;
+      });
+  EXPECT_FALSE(all);
+  EXPECT_EQ(taken, 4U);
+}
+
 TEST(WorkerProcesses, ATaskThatIsLostEndsTheRun) {
   // As if the worker were killed between taking a task and noting that it has: the note, behind the
   // number of the next task, is wiped.

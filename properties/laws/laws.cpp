@@ -541,6 +541,11 @@ struct Inquiry {
     for (; asked > 0; --asked) answers.push_back(std::move(*next++));
   }
 
+  bool has_failure() const {
+    return std::ranges::any_of(answers, [](const Answer& a) {
+      return a.status == TS_CRASHED || a.status == TS_TIMED_OUT;
+    });
+  }
   std::optional<Violation> verdict() const {
     if (law.judge != judge_answers) {
       for (const Answer& a : answers) {
@@ -615,7 +620,14 @@ std::vector<Violations> broken_in_session(std::span<const Law* const> laws,
     inquiry.put_questions(questions);
   });
   ask_last_questions(inquiries, candidate);
-  for (std::size_t i = 0; i < inquiries.size(); ++i) *places[i] = inquiries[i].verdict();
+  // A command is not asked on after failures in a row, which may be of another configuration.
+  const bool is_command = !candidate.candidate().command.empty();
+  for (std::size_t i = 0; i < inquiries.size(); ++i) {
+    const Inquiry& inquiry = inquiries[i];
+    const bool is_lost = is_command && inquiry.has_failure();
+    *places[i] =
+        is_lost ? broken(inquiry.law, inquiry.configuration, candidate, given) : inquiry.verdict();
+  }
   return result;
 }
 

@@ -1,6 +1,7 @@
 // The laws themselves: what they accept, and that each finds its fault. Causes of failures: which
 // features meet, what is known, with what to start.
 #include <cmath>
+#include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -385,6 +386,47 @@ TEST(Check, ACrashEndsTheQuestionsAboutAConfiguration) {
   for (std::size_t i = 0; i < laws.size(); ++i) {
     EXPECT_EQ(violations[i].has_value(), laws[i]->name == "answers") << laws[i]->name;
   }
+}
+
+// After five failures in a row a command is asked no more, but what a law asks about one
+// configuration must not hide another one's violation.
+TEST(Check, ACommandIsAskedAboutEveryConfigurationThatALawIsTriedOn) {
+  const std::string script = R"(
+import os, sys
+sys.path.insert(0, ')" TOUCHSTONE_CLIENTS R"(')
+from touchstone_candidate import Candidate, run
+class Far(Candidate):
+    name, version, settings = "dies-far-away", "1", "answers none, and ends beyond x = 150"
+    pairs = ("cylinder-sphere",)
+    def prepare(self, a, b, threshold, parameter):
+        return True
+    def query(self, prepared, pose_a, pose_b, hint):
+        if pose_a.position[0] > 150:
+            os._exit(1)
+        return None
+run(Far)
+)";
+  const std::string file = testing::TempDir() + "dies_far_away.py";
+  std::ofstream(file) << script;
+  add_command("/usr/bin/python3 -B " + file);
+  CandidateProcess candidate(find_candidate("dies-far-away"), 0);
+  Law moved{"moved", "", [](const Configuration&) { return true; }, {}, {}};
+  moved.questions = [](const Configuration& c, const Bar&) {
+    const Pose far(c.pose_a.position() + Vec3(100, 0, 0));
+    return std::vector<Configuration>{{c.a, far, c.b, c.pose_b}};
+  };
+  moved.judge = [](const Configuration&, std::span<const Answer>, const Bar&) {
+    return std::optional(Violation{"not-invariant", 1, ""});
+  };
+  const Law* law = &moved;
+  constexpr std::size_t dying = 6, count = 10;
+  std::vector<Configuration> configurations;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double x = i < dying ? 100 : 10;
+    configurations.push_back({Cylinder(1, 1), Pose(Vec3(x, 0, 0)), Sphere(1), Pose()});
+  }
+  const auto found = broken_in_session({&law, 1}, configurations, candidate, {});
+  for (std::size_t i = 0; i < count; ++i) EXPECT_EQ(found[i][0].has_value(), i >= dying) << i;
 }
 
 TEST(Moves, LeaveTheGeometryAsTheySay) {
