@@ -89,6 +89,17 @@ SessionCommand answer_command(std::uint32_t first, std::uint32_t count, bool rel
 
 }  // namespace
 
+Question question_of(const Configuration& c, double threshold, const Vec3* previous_normal) {
+  const Vec3 hint = previous_normal ? *previous_normal : Vec3(Vec3::Zero());
+  return {to_ts_shape(c.a),
+          to_ts_shape(c.b),
+          to_ts_pose(c.pose_a),
+          to_ts_pose(c.pose_b),
+          threshold,
+          previous_normal != nullptr,
+          {hint.x(), hint.y(), hint.z()}};
+}
+
 PluginSessions::PluginSessions(const Candidate& candidate, double threshold, const Limits& limits)
     : candidate_(candidate),
       threshold_(threshold),
@@ -168,14 +179,7 @@ void PluginSessions::ask_within(double threshold) {
 
 void PluginSessions::put(std::uint32_t slot, const Configuration& c, double threshold,
                          const Vec3* previous_normal) {
-  const Vec3 hint = previous_normal ? *previous_normal : Vec3(Vec3::Zero());
-  plugin_.state_->questions->slots[slot] = {to_ts_shape(c.a),
-                                            to_ts_shape(c.b),
-                                            to_ts_pose(c.pose_a),
-                                            to_ts_pose(c.pose_b),
-                                            threshold,
-                                            previous_normal != nullptr,
-                                            {hint.x(), hint.y(), hint.z()}};
+  plugin_.state_->questions->slots[slot] = question_of(c, threshold, previous_normal);
 }
 
 std::optional<PluginSessions::SessionFailure> PluginSessions::obey(SessionCommand command,

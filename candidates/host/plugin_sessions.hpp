@@ -10,6 +10,10 @@ namespace touchstone {
 struct SessionCommand;
 class Watch;
 
+/// As it is asked of a plug-in. `previous_normal` is null if there was no contact before.
+Question question_of(const Configuration& configuration, double threshold,
+                     const Vec3* previous_normal);
+
 /// A candidate of a plug-in, which answers in sessions: forks of its plug-in's process, which has
 /// loaded the plug-in and done nothing else. A configuration that ends its session is answered with
 /// TS_CRASHED or TS_TIMED_OUT, and the next one gets a new session. An end that the configuration

@@ -1,6 +1,5 @@
 // One session of a candidate: prepares its shapes, asks it, and times it.
 #include <algorithm>
-#include <cfenv>
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
@@ -17,6 +16,7 @@
 #include <vector>
 
 #include "candidates/host/exchange.hpp"
+#include "candidates/host/routine.hpp"
 
 namespace touchstone {
 namespace {
@@ -76,10 +76,6 @@ constexpr std::chrono::microseconds max_round_time(500);
 constexpr std::size_t min_timed = 10;
 /// Lower limit of a round of timing, so that the caches' former content does not count.
 constexpr std::chrono::microseconds min_round_time(200);
-
-/// Number of pairs of shapes kept prepared for the next pose of the same bodies, as in a world:
-/// more than most scenes have, few enough for the largest meshes.
-constexpr std::size_t max_ready = 8;
 
 /// Processor time that this process has used, seconds.
 double processor_seconds() {
@@ -148,16 +144,6 @@ class Session {
   [[noreturn]] void serve();
 
  private:
-  /// Two prepared shapes, for one pose after another.
-  struct PreparedPair {
-    ts_shape a, b;
-    double threshold;
-    ts_prepared* prepared;  ///< null if the pair is not supported
-
-    bool is_for(const Question& q) const {
-      return same(a, q.a) && same(b, q.b) && threshold == q.threshold;
-    }
-  };
   /// Prepared shapes and poses for timing.
   struct TimedQuery {
     ts_prepared* prepared;
@@ -166,25 +152,19 @@ class Session {
   };
 
   void obey(const SessionCommand& command);
-  ts_prepared* prepare(const Question& question);
-  ts_prepared* ready(const Question& question);
   void answer(const SessionCommand& command);
   void answer(std::uint32_t slot);
-  void release_all_but_of(const SessionCommand& command, std::uint32_t first);
   void forget_timed();
   void warm_up();
   void query_all();  ///< queries everything kept for timing once
   void time();
   double tail();  ///< times each of them singly, for Exchange::tail_nanoseconds
 
-  const ts_candidate& candidate_;
-  double parameter_;
+  Routine routine_;
   int socket_;
   const Questions& asked_;
   Exchange& exchange_;
-  std::fenv_t environment_;  ///< floating-point environment after loading the plug-in
   ts_answer* answer_;
-  std::vector<PreparedPair> ready_;  ///< the last pairs of shapes queried, oldest first
   std::vector<Question> questions_;
   std::vector<TimedQuery> kept_;
   std::size_t passes_ = 1;                     ///< passes over kept_ in one timed round
@@ -193,13 +173,11 @@ class Session {
 
 Session::Session(const ts_candidate& candidate, const SessionCommand& begin, int socket,
                  const Questions& questions, Exchange& exchange)
-    : candidate_(candidate),
-      parameter_(begin.parameter),
+    : routine_(candidate, begin.parameter),
       socket_(socket),
       asked_(questions),
       exchange_(exchange),
       answer_(make_answer()) {
-  std::fegetenv(&environment_);
   reply(socket_, Reply::began, begin.ticket, 0);
 }
 
@@ -241,44 +219,12 @@ void Session::obey(const SessionCommand& command) {
   }
 }
 
-ts_prepared* Session::prepare(const Question& q) {
-  if (!candidate_.supports(candidate_.context, q.b.kind)) return nullptr;
-  return candidate_.prepare(candidate_.context, &q.a, &q.b, q.threshold, parameter_);
-}
-
-/// Prepares the shapes, or returns them if an earlier question had the same ones.
-ts_prepared* Session::ready(const Question& q) {
-  const auto found = std::find_if(ready_.begin(), ready_.end(),
-                                  [&](const PreparedPair& r) { return r.is_for(q); });
-  if (found != ready_.end()) {
-    std::rotate(found, found + 1, ready_.end());
-    return ready_.back().prepared;
-  }
-  if (ready_.size() == max_ready) {
-    if (ready_.front().prepared) candidate_.release(ready_.front().prepared);
-    ready_.erase(ready_.begin());
-  }
-  ready_.push_back({q.a, q.b, q.threshold, prepare(q)});
-  return ready_.back().prepared;
-}
-
-/// Releases the shapes that no question of this command from `first` on needs: at once, so that a
-/// crash in release falls into the time of its own configuration.
-void Session::release_all_but_of(const SessionCommand& command, std::uint32_t first) {
-  std::erase_if(ready_, [&](const PreparedPair& r) {
-    for (std::uint32_t i = first; i < command.count; ++i) {
-      if (r.is_for(asked_.slots[i])) return false;
-    }
-    if (r.prepared) candidate_.release(r.prepared);
-    return true;
-  });
-}
-
 void Session::answer(const SessionCommand& command) {
   LapClock clock;
   for (std::uint32_t i = command.first; i < command.count; ++i) {
     answer(i);
-    if (command.release) release_all_but_of(command, i + 1);
+    // At once, so that a crash in release falls into the time of its own configuration.
+    if (command.release) routine_.release_all_but_of({asked_.slots + i + 1, command.count - i - 1});
     exchange_.slots[i].seconds = clock.lap();
     exchange_.slots[i].seal = seal_of(exchange_.slots[i], command.ticket);
     exchange_.progress = progress_of(command.ticket, i + 1);
@@ -288,22 +234,12 @@ void Session::answer(const SessionCommand& command) {
 void Session::answer(std::uint32_t i) {
   Slot& slot = exchange_.slots[i];
   const Question question = asked_.slots[i];
-  slot.model_distance = std::numeric_limits<double>::quiet_NaN();
-  *answer_ = {};
-  answer_->status = TS_UNSUPPORTED;
-  std::fesetenv(&environment_);  // a rounding mode left by a query would affect the next one
-  if (ts_prepared* const prepared = ready(question)) {
-    const double* const hint = question.has_previous_normal ? question.previous_normal : nullptr;
-    candidate_.query(prepared, &question.pose_a, &question.pose_b, hint, answer_);
-    if (candidate_.model_distance) {
-      slot.model_distance = candidate_.model_distance(prepared, &question.pose_a, &question.pose_b);
-    }
-  }
+  routine_.ask(question, *answer_, slot.model_distance);
   slot.answer = *answer_;
 }
 
 void Session::forget_timed() {
-  for (const TimedQuery& k : kept_) candidate_.release(k.prepared);
+  for (const TimedQuery& k : kept_) routine_.candidate().release(k.prepared);
   kept_.clear();
   questions_.clear();
 }
@@ -312,10 +248,10 @@ void Session::warm_up() {
   std::chrono::steady_clock::duration used{};
   for (const Question& q : questions_) {
     if (kept_.size() >= min_timed && used > max_round_time) break;
-    ts_prepared* const prepared = prepare(q);
+    ts_prepared* const prepared = routine_.prepare(q);
     if (!prepared) continue;
     const auto start = std::chrono::steady_clock::now();
-    candidate_.query(prepared, &q.pose_a, &q.pose_b, nullptr, answer_);
+    routine_.candidate().query(prepared, &q.pose_a, &q.pose_b, nullptr, answer_);
     used += std::chrono::steady_clock::now() - start;
     kept_.push_back({prepared, q.pose_a, q.pose_b});
   }
@@ -328,7 +264,8 @@ void Session::warm_up() {
 
 void Session::query_all() {
   // The call goes through a function pointer, so that the optimiser cannot remove it.
-  for (const TimedQuery& k : kept_) candidate_.query(k.prepared, &k.a, &k.b, nullptr, answer_);
+  for (const TimedQuery& k : kept_)
+    routine_.candidate().query(k.prepared, &k.a, &k.b, nullptr, answer_);
 }
 
 void Session::time() {
@@ -351,7 +288,7 @@ double Session::tail() {
   std::vector<double> times;
   for (TimedQuery& k : kept_) {
     const auto start = std::chrono::steady_clock::now();
-    candidate_.query(k.prepared, &k.a, &k.b, nullptr, answer_);
+    routine_.candidate().query(k.prepared, &k.a, &k.b, nullptr, answer_);
     k.least = std::min(k.least, nanoseconds_since(start) - clock);
     times.push_back(std::max(k.least, 0.0));
   }

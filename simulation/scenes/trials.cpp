@@ -9,6 +9,7 @@
 #include <type_traits>
 
 #include "candidates/candidates.hpp"
+#include "candidates/host/own_respondent.hpp"
 #include "candidates/host/progress.hpp"
 #include "candidates/host/worker_processes.hpp"
 #include "oracle/judge/score.hpp"
@@ -276,7 +277,13 @@ std::vector<std::vector<ReplayScore>> replay(const Scene& scene, const Trajector
 CandidateProcess& Processes::of(const Candidate& candidate) {
   const auto found = processes_.find(&candidate);
   if (found != processes_.end()) return found->second;
-  return processes_.emplace(&candidate, CandidateProcess(candidate, simulation_threshold, limits_))
+  Candidate asked = candidate;
+  if (is_own(candidate)) {
+    asked.respondent = [candidate](double threshold, const Limits&) {
+      return own_respondent(candidate, threshold);
+    };
+  }
+  return processes_.emplace(&candidate, CandidateProcess(asked, simulation_threshold, limits_))
       .first->second;
 }
 

@@ -1,0 +1,66 @@
+#include "candidates/host/routine.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace touchstone {
+namespace {
+
+/// Number of pairs of shapes kept: more than most scenes have, few enough for the largest meshes.
+constexpr std::size_t max_ready = 8;
+
+}  // namespace
+
+Routine::Routine(const ts_candidate& candidate, double parameter)
+    : candidate_(candidate), parameter_(parameter) {
+  std::fegetenv(&environment_);
+}
+
+bool Routine::PreparedPair::is_for(const Question& q) const {
+  return same(a, q.a) && same(b, q.b) && threshold == q.threshold;
+}
+
+ts_prepared* Routine::prepare(const Question& q) const {
+  if (!candidate_.supports(candidate_.context, q.b.kind)) return nullptr;
+  return candidate_.prepare(candidate_.context, &q.a, &q.b, q.threshold, parameter_);
+}
+
+ts_prepared* Routine::ready(const Question& q) {
+  const auto found = std::find_if(ready_.begin(), ready_.end(),
+                                  [&](const PreparedPair& r) { return r.is_for(q); });
+  if (found != ready_.end()) {
+    std::rotate(found, found + 1, ready_.end());
+    return ready_.back().prepared;
+  }
+  if (ready_.size() == max_ready) {
+    if (ready_.front().prepared) candidate_.release(ready_.front().prepared);
+    ready_.erase(ready_.begin());
+  }
+  ready_.push_back({q.a, q.b, q.threshold, prepare(q)});
+  return ready_.back().prepared;
+}
+
+void Routine::ask(const Question& q, ts_answer& answer, double& model_distance) {
+  model_distance = std::numeric_limits<double>::quiet_NaN();
+  answer = {};
+  answer.status = TS_UNSUPPORTED;
+  std::fesetenv(&environment_);  // a rounding mode left by a query would affect the next one
+  ts_prepared* const prepared = ready(q);
+  if (!prepared) return;
+  const double* const hint = q.has_previous_normal ? q.previous_normal : nullptr;
+  candidate_.query(prepared, &q.pose_a, &q.pose_b, hint, &answer);
+  if (candidate_.model_distance) {
+    model_distance = candidate_.model_distance(prepared, &q.pose_a, &q.pose_b);
+  }
+}
+
+void Routine::release_all_but_of(std::span<const Question> questions) {
+  std::erase_if(ready_, [&](const PreparedPair& r) {
+    const auto is_its = [&](const Question& q) { return r.is_for(q); };
+    if (std::ranges::any_of(questions, is_its)) return false;
+    if (r.prepared) candidate_.release(r.prepared);
+    return true;
+  });
+}
+
+}  // namespace touchstone

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cfenv>
+#include <span>
+#include <vector>
+
+#include "candidates/host/exchange.hpp"
+
+namespace touchstone {
+
+/// The functions of one candidate, called in this process. Keeps the shapes of the last questions
+/// prepared for the next pose of the same bodies, as a world does.
+class Routine {
+ public:
+  /// Every question begins with the floating-point environment of now.
+  Routine(const ts_candidate& candidate, double parameter);
+
+  const ts_candidate& candidate() const { return candidate_; }
+  /// Null if the candidate does not support the pair. To be released by its caller.
+  ts_prepared* prepare(const Question& question) const;
+  /// Fills the answer; TS_UNSUPPORTED where there is no routine for the pair. `model_distance` is
+  /// NaN if unknown.
+  void ask(const Question& question, ts_answer& answer, double& model_distance);
+  /// Releases the shapes that none of these questions needs.
+  void release_all_but_of(std::span<const Question> questions);
+
+ private:
+  /// Two prepared shapes, for one pose after another.
+  struct PreparedPair {
+    ts_shape a, b;
+    double threshold;
+    ts_prepared* prepared;  ///< null if the pair is not supported
+
+    bool is_for(const Question& question) const;
+  };
+
+  /// Prepares the shapes, or returns them if an earlier question had the same ones.
+  ts_prepared* ready(const Question& question);
+
+  const ts_candidate& candidate_;
+  double parameter_;
+  std::fenv_t environment_;
+  std::vector<PreparedPair> ready_;  ///< the last pairs of shapes queried, oldest first
+};
+
+}  // namespace touchstone
