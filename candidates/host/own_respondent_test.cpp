@@ -1,0 +1,74 @@
+#include "candidates/host/own_respondent.hpp"
+
+#include <cstring>
+#include <gtest/gtest.h>
+
+#include "candidates/candidates.hpp"
+#include "properties/identity.hpp"
+
+namespace touchstone {
+namespace {
+
+bool are_same(const Answer& x, const Answer& y) {
+  return std::memcmp(static_cast<const ts_answer*>(&x), static_cast<const ts_answer*>(&y),
+                     sizeof(ts_answer)) == 0 &&
+         x.model_distance == y.model_distance && x.reason == y.reason;
+}
+
+TEST(OwnRespondent, AnswersAsASessionDoes) {
+  std::size_t own = 0, contacts = 0;
+  for (const Candidate* candidate : all_candidates()) {
+    if (!is_own(*candidate)) continue;
+    ++own;
+    CandidateProcess process(*candidate, 0.01);
+    const auto respondent = own_respondent(*candidate, 0.01);
+    for (const Pair pair : all_pairs) {
+      std::vector<Configuration> asked;
+      for (const char* pose_class : {"general+shallow", "touching", "general+deep"}) {
+        for (std::uint64_t i = 0; i < 10; ++i) {
+          asked.push_back(make_configuration({pair, pose_class, 7, i}));
+        }
+      }
+      const auto expected = process.answers(asked), given = respondent->answers(asked);
+      ASSERT_EQ(given.size(), expected.size());
+      for (std::size_t i = 0; i < asked.size(); ++i) {
+        EXPECT_TRUE(are_same(given[i], expected[i])) << candidate->name << ' ' << i;
+        contacts += given[i].status == TS_CONTACT;
+      }
+    }
+  }
+  EXPECT_EQ(own, 7U);
+  EXPECT_GT(contacts, 500U);
+}
+
+TEST(OwnRespondent, TakesHintsAndThresholdsAsASessionDoes) {
+  const Candidate& reference = find_candidate("reference");
+  CandidateProcess process(reference, 0);
+  const auto respondent = own_respondent(reference, 0);
+  const Vec3 up = Vec3::UnitZ(), down = -up;
+  std::vector<Configuration> asked;
+  std::vector<const Vec3*> hints;
+  std::vector<double> thresholds;
+  for (std::uint64_t i = 0; i < 30; ++i) {
+    asked.push_back(make_configuration({Pair::cylinder, "parallel", 3, i}));
+    hints.push_back(i % 3 == 0 ? nullptr : i % 3 == 1 ? &up : &down);
+    thresholds.push_back(0.1 * static_cast<double>(i % 4));
+  }
+  const auto expected = process.answer(asked, hints, thresholds);
+  const auto given = respondent->answer(asked, hints, thresholds);
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    EXPECT_TRUE(are_same(given[i], expected[i])) << i;
+  }
+}
+
+TEST(OwnRespondent, IsNotForEngines) {
+  for (const char* name : {"bullet", "ode", "fcl", "mujoco", "bullet-hull:16"}) {
+    EXPECT_FALSE(is_own(find_candidate(name))) << name;
+  }
+  Candidate added = find_candidate("reference");
+  added.added = Added{"--load", "touchstone-reference.so"};
+  EXPECT_FALSE(is_own(added));
+}
+
+}  // namespace
+}  // namespace touchstone
