@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "candidates/candidates.hpp"
+#include "candidates/host/own_respondent.hpp"
 #include "reference/invalid_input.hpp"
 #include "simulation/assembly.hpp"
 
@@ -136,9 +137,11 @@ class Search {
     return result;
   }
 
-  /// Is this what the answer can be? Engines' routines are run and judged, but are no models.
+  /// Is this what the answer can be? Engines' routines are run and judged, but are no models, not
+  /// even those for a hull in place of the cylinder; a model that was added is one.
   bool is_model(const Candidate* candidate) const {
-    return candidate == &exact_ || !candidate->models.empty();
+    const bool can_be = is_own(*candidate) || candidate->added;
+    return candidate == &exact_ || (can_be && !candidate->models.empty());
   }
 
   /// The model whose query is the next cheaper than another's.

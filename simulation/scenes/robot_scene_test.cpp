@@ -373,9 +373,14 @@ TEST(LoadingBay, GetsAdviceForTheCartsWheelsAndTheBarrel) {
   for (const char* wheel : {"front_left", "front_right", "rear_left", "rear_right"}) {
     motion.rates.emplace_back(std::string("cart_1::") + wheel + "_wheel_axle", 4);
   }
-  const Choice choice = choice_of("loading-bay.sdf", motion, {"capsule", "prism:16"});
+  const Choice choice =
+      choice_of("loading-bay.sdf", motion, {"bullet-hull:16", "capsule", "prism:16"});
   EXPECT_FALSE(choice.impossible);
   EXPECT_NE(chosen_for(choice, "_wheel and ground_plane"), "nothing");
+  for (const Candidate* model : choice.runs[choice.answer].models) {
+    EXPECT_NE(model->name,
+              "bullet-hull:16");  // the prism is the model, not Bullet's routine for it
+  }
   EXPECT_NE(chosen_for(choice, "barrel::link and ground"), "nothing");
   // 4 rad/s on wheels of 80 mm: it runs into the barrel.
   EXPECT_NE(chosen_for(choice, "barrel::link and cart_1::tray"), "nothing");
