@@ -1,6 +1,6 @@
 #include "candidates/host/own_respondent.hpp"
 
-#include <cstring>
+#include <algorithm>
 #include <gtest/gtest.h>
 
 #include "candidates/candidates.hpp"
@@ -9,9 +9,17 @@
 namespace touchstone {
 namespace {
 
+bool are_same(const ts_point& x, const ts_point& y) {
+  return std::ranges::equal(x.position, y.position) && std::ranges::equal(x.normal, y.normal) &&
+         x.depth == y.depth;
+}
+
 bool are_same(const Answer& x, const Answer& y) {
-  return std::memcmp(static_cast<const ts_answer*>(&x), static_cast<const ts_answer*>(&y),
-                     sizeof(ts_answer)) == 0 &&
+  if (x.status != y.status || x.point_count != y.point_count) return false;
+  for (int i = 0; i < x.point_count; ++i) {
+    if (!are_same(x.points[i], y.points[i])) return false;
+  }
+  return x.signed_distance == y.signed_distance && std::ranges::equal(x.normal, y.normal) &&
          x.model_distance == y.model_distance && x.reason == y.reason;
 }
 

@@ -313,8 +313,8 @@ def shelf_push():
                  + [{"need": "rests", "bodies": cans, "speed": 0.01, "by": 1.8},
                     {"need": "penetration", "metres": 0.002}]
                  + [{"need": "stays-in", "body": c, "from": 1.8,
-                     "lower": [-0.065 + 0.066 * i, -0.03, half - 0.005],
-                     "upper": [-0.02 + 0.066 * i, 0.03, half + 0.005]}
+                     "lower": [-0.085 + 0.066 * i, -0.05, half - 0.005],
+                     "upper": [0.066 * i, 0.05, half + 0.005]}
                     for i, c in enumerate(cans)],
         "camera": {"position": [0.35, -0.7, 0.45], "look_at": [-0.08, 0, 0.04]},
     }
