@@ -110,7 +110,7 @@ struct Reply {
   enum Kind : std::uint32_t {
     described,  ///< the plug-in has `value` candidates; a Description of each follows
     refused,    ///< the plug-in cannot be used; `text` says why
-    no_host,    ///< what loads plug-ins could not be started, with the errno `value`
+    no_host,    ///< what loads plug-ins could not be started: errno `value`; if that is 0, `text`
     began,      ///< sent by the session itself; `value` is negative if none could be forked
     finished,   ///< the session has done its command
     ended,      ///< the session has ended with the wait status `value`

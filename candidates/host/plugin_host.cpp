@@ -23,8 +23,7 @@ int main(int count, char** arguments) {
   void* const questions = map(host_questions, sizeof(Questions), PROT_READ);
   void* const exchange = map(host_exchange, sizeof(Exchange), PROT_READ | PROT_WRITE);
   if (count == 2 && (!questions || !exchange)) {
-    reply(host_socket, Reply::refused, 0, 0,
-          "found a touchstone-host of another build; build or install Touchstone again");
+    reply(host_socket, Reply::no_host, 0, 0, "it is of another build");
     return 2;
   }
   if (count != 2 || questions == MAP_FAILED || exchange == MAP_FAILED) {

@@ -199,7 +199,8 @@ void PluginProcess::State::start(std::chrono::milliseconds loading) {
     stop();
     throw NoHost("touchstone-host", '"' + host.string() + '"',
                  std::string("must be a program that can be started, but that says \"") +
-                     std::strerror(reply.value) + "\"; build or install Touchstone again");
+                     (reply.value != 0 ? std::strerror(reply.value) : reply.text) +
+                     "\"; build or install Touchstone again");
   }
   if (reply.kind == Reply::gone) {
     refuse("its process was not there after loading: " + how_it_ended(reply.value));
