@@ -117,6 +117,12 @@ TEST(CandidateProcess, ATimeOutLowersTheLimitForTheRestOfTheCall) {
   }
 }
 
+// As on a machine that is so busy that making a process takes longer than an answer may.
+TEST(CandidateProcess, ATimeOutCountsOnlyIfAnotherSessionTimesOutAsWell) {
+  CandidateProcess process(sabotage("hiccuping"), 0, {0.02, 256});
+  EXPECT_EQ(process.answers({&standing, 1}).at(0).status, TS_CONTACT);
+}
+
 TEST(CandidateProcess, SlowAnswersCountUnlessAnAnswerHasTimedOut) {
   CandidateProcess process(sabotage("stalling"), 0, {0.02, 256});
   std::vector<double> at(20, answered);

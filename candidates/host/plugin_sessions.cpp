@@ -210,6 +210,7 @@ std::optional<PluginSessions::SessionFailure> PluginSessions::obey(SessionComman
   auto next_check = Clock::now() + check_interval, next_judgement = next_check;
   for (;;) {
     std::string too_long;
+    bool has_waited = false;
     if (const auto time = Clock::now(); time >= next_check) {
       next_check = time + check_interval;
       const std::uint64_t now = s.exchange->progress;
@@ -226,6 +227,7 @@ std::optional<PluginSessions::SessionFailure> PluginSessions::obey(SessionComman
         next_judgement = time + wait_interval;
         if (watch) {
           too_long = judge(*watch, configurations);
+          has_waited = !too_long.empty();
         } else {
           watch.emplace(session_);
         }
@@ -256,7 +258,10 @@ std::optional<PluginSessions::SessionFailure> PluginSessions::obey(SessionComman
     }
     if (!too_long.empty()) {
       kill_session();
-      return SessionFailure{TS_TIMED_OUT, too_long, false};
+      // Processor time alone is no verdict: a busy machine may charge a process that it has just
+      // made for much more than it has computed.
+      const bool is_alone = fresh && static_cast<std::uint32_t>(progress) == command.first;
+      return SessionFailure{TS_TIMED_OUT, too_long, has_waited && is_alone};
     }
   }
 }
@@ -397,7 +402,6 @@ void PluginSessions::answer_batch(std::uint32_t count, Manner manner,
                                   std::vector<Answer>& answers) {
   std::vector<std::optional<Answer>> given(count);
   for (std::uint32_t first = 0; first < count;) {
-    const bool fresh = session_ < 0;
     const auto failure = obey(answer_command(first, count, manner.release));
     for (std::uint32_t i = first; i < count; ++i) {
       if ((given[i] = answer_in(i))) learn(i);
@@ -406,9 +410,8 @@ void PluginSessions::answer_batch(std::uint32_t count, Manner manner,
     const auto in_hand = static_cast<std::uint32_t>(none - given.begin());
     if (in_hand == count) break;
     if (failure && plugin_.state_->exchange->progress == progress_of(ticket_, in_hand)) {
-      const bool certain = failure->certain || (fresh && in_hand == first);
-      if (certain) learn(*failure);
-      given[in_hand] = certain ? answer_of(*failure) : answer_alone(in_hand);
+      if (failure->certain) learn(*failure);
+      given[in_hand] = failure->certain ? answer_of(*failure) : answer_alone(in_hand);
       first = in_hand + 1;
       if (manner.until_timeout && given[in_hand]->status == TS_TIMED_OUT) {
         given.resize(first);

@@ -18,7 +18,7 @@ Question question_of(const Configuration& configuration, double threshold,
 /// loaded the plug-in and done nothing else. A configuration that ends its session is answered with
 /// TS_CRASHED or TS_TIMED_OUT, and the next one gets a new session. An end that the configuration
 /// may not have caused (a signal that others may have sent, a timeout) counts only if it happens
-/// again in a session with that configuration alone.
+/// again in another session with that configuration alone.
 class PluginSessions : public Respondent {
  public:
   PluginSessions(const Candidate& candidate, double threshold, const Limits& limits);

@@ -5,7 +5,8 @@
 // it is given. declining answers planes, with a relative error of 1e-6 in the depth if the axis
 // lies in the plane; TOUCHSTONE_DECLINE, a number in the environment, multiplies that error, and
 // slows down all queries if it is negative. stalling never answers where A's x is negative, and
-// takes ten milliseconds where it is above 1. counting answers with the number of pairs prepared
+// takes ten milliseconds where it is above 1. hiccuping is endless in the first question of its first
+// session, whatever it is. counting answers with the number of pairs prepared
 // and the number not yet released.
 #include <cmath>
 #include <cstdint>
@@ -14,6 +15,7 @@
 #include <ctime>
 #include <limits>
 #include <stdexcept>
+#include <sys/mman.h>
 #include <unistd.h>
 #include <vector>
 
@@ -178,6 +180,20 @@ void query_stalling(ts_prepared*, const ts_pose* a, const ts_pose*, const double
   (x < 0 ? loop : x > 1 ? dawdle : behave)(*answer);
 }
 
+// hiccuping
+
+/// Of all sessions.
+int& hiccups() {
+  static int* const shared =
+      static_cast<int*>(mmap(nullptr, sizeof(int), PROT_READ | PROT_WRITE,
+                             MAP_SHARED | MAP_ANONYMOUS, -1, 0));
+  return *shared;
+}
+void query_hiccuping(ts_prepared*, const ts_pose*, const ts_pose*, const double*,
+                     ts_answer* answer) {
+  (hiccups()++ == 0 ? loop : behave)(*answer);
+}
+
 // counting
 
 int prepared_pairs = 0, released_pairs = 0;
@@ -209,9 +225,14 @@ const ts_candidate candidates[] = {
     {"counting", "1", "answers how many pairs it has prepared", nullptr, nullptr, supports,
      prepare_counted, query_counted, release_counted, nullptr, nullptr},
     {"stalling", "1", "is slow or endless in places", nullptr, nullptr, supports, prepare,
-     query_stalling, release, nullptr, nullptr}};
-const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 7, candidates, nullptr, 0};
+     query_stalling, release, nullptr, nullptr},
+    {"hiccuping", "1", "is endless once", nullptr, nullptr, supports, prepare, query_hiccuping,
+     release, nullptr, nullptr}};
+const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 8, candidates, nullptr, 0};
 
 }  // namespace
 
-const ts_plugin* touchstone_plugin() { return &plugin; }
+const ts_plugin* touchstone_plugin() {
+  hiccups() = 0;  // made before any session
+  return &plugin;
+}
