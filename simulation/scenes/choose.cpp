@@ -264,16 +264,34 @@ class Search {
     return result;
   }
 
-  /// Finds the answer and tries the next cheaper model of each kind, until none of these is a
-  /// better one.
+  /// The simplest model of a kind that serves while the others are exact and by that run makes a
+  /// step no dearer than noise does; the exact one if nothing saves more. Otherwise noise would
+  /// decide which of several such models is combined with those of other kinds.
+  const Candidate* simplest_alike(std::size_t kind) const {
+    std::vector<std::pair<const Candidate*, double>> serving;  // the simplest first
+    double least = infinity;
+    for (const Candidate* c : choice_.candidates) {
+      const auto run = find(changed(all_exact(), kind, *c).models);
+      if (!run || !can_be_answer(choice_.runs[*run])) continue;
+      serving.emplace_back(c, estimate(choice_.runs[*run]));
+      least = std::min(least, serving.back().second);
+    }
+    const double noise = (1 / cheaper_share - 1) * estimate(choice_.runs[choice_.answer]);
+    return std::ranges::find_if(serving, [&](const auto& s) { return s.second <= least + noise; })
+        ->first;
+  }
+
+  /// Finds the answer, and tries for each kind the next cheaper model and the simplest of those
+  /// that cost much the same, until none of these is a better one.
   void settle() {
     do {
       choice_.answer = best();
       const Models models = choice_.runs[choice_.answer].models;
       std::vector<SceneRun> next;
       for (std::size_t k = 0; k < models.size(); ++k) {
-        if (const Candidate* c = next_cheaper(k, *models[k]))
-          next.push_back(changed(models, k, *c));
+        for (const Candidate* c : {next_cheaper(k, *models[k]), simplest_alike(k)}) {
+          if (c) next.push_back(changed(models, k, *c));
+        }
       }
       judge_new(next);
       choice_.cheaper.assign(models.size(), std::nullopt);
