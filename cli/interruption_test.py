@@ -146,7 +146,7 @@ def closed_terminal(program, folder):
 
 def ctrl_c_after_timing(program, folder):
     run = Run(program, folder, "--count", "1")
-    run.wait_for(r"of \d+ perturbed poses")  # of the study of small steps, which comes after timing
+    run.wait_for(r"of \d+ poses")  # of the study of stability, which comes after timing
     run.ctrl_c()
     status = run.end()
     assert os.WEXITSTATUS(status) == 130, status

@@ -40,7 +40,7 @@ const std::vector<Part>& parts() {
   static const std::vector<Part> all = {
       {"scores", {{"configurations", 45}}},
       {"timing", {{"pose classes timed", 20}}},
-      {"stability", {{"perturbed poses", 8}, {"pixels", 6}, {"steps", 4}}},
+      {"stability", {{"poses", 18}}},
       {"experiments", {{"experiments", 14}}},
       {"engines", {{"experiments in engines", 6}}},
   };

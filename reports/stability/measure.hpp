@@ -2,6 +2,9 @@
 
 #include <functional>
 #include <set>
+#include <span>
+#include <string>
+#include <vector>
 
 #include "properties/motions/motion.hpp"
 #include "reports/campaign.hpp"
@@ -27,7 +30,30 @@ struct Ladder {
 /// Every class of these pairs whose degeneracy is exact.
 std::vector<Cell> degenerate_cells(const std::vector<Pair>& pairs);
 
-Amplification amplification(const Ladder& ladder, const Study& study);
+/// Work in tasks for worker processes, in which each candidate has a process of its own.
+struct Work {
+  std::size_t count;           ///< tasks
+  std::size_t poses_per_task;  ///< about; what progress counts
+  std::function<std::string(std::size_t task)> name;  ///< of a task, for errors
+  std::function<std::string(std::size_t task, std::vector<CandidateProcess>&)> run;
+};
+/// Work, and what comes out of what its tasks have returned, in their order; an empty string for one
+/// that was interrupted.
+template <class Result>
+struct Measure {
+  Work work;
+  std::function<Result(std::span<const std::string>)> result;
+};
+/// Runs the tasks of all works in the study's workers, and returns what they returned, one work's
+/// after the other's.
+std::vector<std::string> run_in_workers(const Study& study, std::span<const Work> works);
+
+template <class Result>
+Result run(const Measure<Result>& measure, const Study& study) {
+  return measure.result(run_in_workers(study, {&measure.work, 1}));
+}
+
+Measure<Amplification> amplification(const Ladder& ladder, const Study& study);
 /// Around one configuration: `count` steps at each amplitude.
 Amplification amplification(const Subject& base, std::uint64_t seed, std::uint64_t count,
                             const Study& study);
@@ -42,11 +68,12 @@ struct MapGrid {
 inline constexpr double min_coverage = 0.3;
 char map_letter(const Score& score);  ///< precondition: the candidate supports the pair
 
-FailureMaps maps(const std::vector<const CriticalPose*>& poses, const MapGrid& grid,
-                 const Study& study);
+Measure<FailureMaps> maps(const std::vector<const CriticalPose*>& poses, const MapGrid& grid,
+                          const Study& study);
 
 /// Each of these motions in so many steps.
-Sequences sequences(const std::vector<const Motion*>& motions, int steps, const Study& study);
+Measure<Sequences> sequences(const std::vector<const Motion*>& motions, int steps,
+                             const Study& study);
 
 enum class StabilityPart { amplification, maps, sequences };
 /// Throws InvalidInput (field "--part") unless it is "amplification", "maps" or "sequences".
@@ -71,20 +98,5 @@ StabilityOptions brief(const Study& study, const std::vector<Pair>& pairs, std::
 /// Measures the parts that are asked for. The same options give the same result. Progress goes to
 /// standard error.
 Stability measure(const StabilityOptions& options);
-
-// For the three parts: work that is shared out among worker processes.
-
-/// One piece of a part's work.
-struct Work {
-  std::size_t count;                                  ///< tasks
-  const char* unit;                                   ///< what progress counts …
-  std::size_t units_per_task;                         ///< … and how many of it a task has
-  std::function<std::string(std::size_t task)> name;  ///< of a task, for errors
-};
-/// Runs every task in one of the study's workers, in which each candidate has a process of its own.
-/// Returns what the tasks returned, in their order; an empty string for one that was interrupted.
-std::vector<std::string> run_in_workers(
-    const Study& study, const Work& work,
-    const std::function<std::string(std::size_t task, std::vector<CandidateProcess>&)>& run);
 
 }  // namespace touchstone

@@ -103,19 +103,21 @@ Sequences::Course collected(const Motion& motion, const std::string& bytes,
 
 }  // namespace
 
-Sequences sequences(const std::vector<const Motion*>& motions, int steps, const Study& study) {
-  const Work work{motions.size(), "steps", static_cast<std::size_t>(steps) + 1,
-                  [&](std::size_t i) { return "sequence/" + motions[i]->name; }};
-  const auto results =
-      run_in_workers(study, work, [&](std::size_t i, std::vector<CandidateProcess>& candidates) {
-        return follow(*motions[i], steps, candidates, study.bar);
-      });
-  Sequences sequences{steps, {}};
-  for (std::size_t i = 0; i < results.size(); ++i) {
-    if (results[i].empty()) continue;  // interrupted before
-    sequences.motions.push_back(collected(*motions[i], results[i], study.candidates));
-  }
-  return sequences;
+Measure<Sequences> sequences(const std::vector<const Motion*>& motions, int steps,
+                             const Study& study) {
+  return {{motions.size(), static_cast<std::size_t>(steps) + 1,
+           [=](std::size_t i) { return "sequence/" + motions[i]->name; },
+           [=, bar = study.bar](std::size_t i, std::vector<CandidateProcess>& candidates) {
+             return follow(*motions[i], steps, candidates, bar);
+           }},
+          [=, candidates = study.candidates](std::span<const std::string> texts) {
+            Sequences sequences{steps, {}};
+            for (std::size_t i = 0; i < texts.size(); ++i) {
+              if (texts[i].empty()) continue;  // interrupted before
+              sequences.motions.push_back(collected(*motions[i], texts[i], candidates));
+            }
+            return sequences;
+          }};
 }
 
 }  // namespace touchstone

@@ -53,32 +53,61 @@ Stability measure(const StabilityOptions& options) {
   const Study& study = options.study;
   Stability result{{}, study.bar.tolerance, study.bar.threshold, {}, {}, {}};
   for (const Candidate* c : study.candidates) result.candidates.push_back(c->name);
+  // All works are run together: to start the candidates takes a second.
+  std::vector<Work> works;
+  std::vector<std::function<void(std::span<const std::string>)>> takers;
+  const auto add = [&](auto measure, auto& place) {
+    works.push_back(std::move(measure.work));
+    takers.push_back([&place, of = std::move(measure.result)](std::span<const std::string> texts) {
+      place = of(texts);
+    });
+  };
   if (options.parts.contains(StabilityPart::amplification)) {
-    result.amplification = options.base ? amplification(*options.base, options.ladder.seed,
-                                                        options.ladder.count, study)
-                                        : amplification(options.ladder, study);
+    if (options.base) {
+      result.amplification =
+          amplification(*options.base, options.ladder.seed, options.ladder.count, study);
+    } else {
+      add(amplification(options.ladder, study), result.amplification);
+    }
   }
   if (options.parts.contains(StabilityPart::maps)) {
     const auto poses = of_pairs(critical_poses(), options.pairs,
                                 [](const CriticalPose& pose) { return pose.configuration; });
-    result.maps = maps(poses, options.grid, study);
+    add(maps(poses, options.grid, study), result.maps);
   }
   if (options.parts.contains(StabilityPart::sequences)) {
     const auto chosen = of_pairs(motions(), options.pairs,
                                  [](const Motion& motion) { return pose_at(motion, 0, 1); });
-    result.sequences = sequences(chosen, options.steps, study);
+    add(sequences(chosen, options.steps, study), result.sequences);
+  }
+  const std::vector<std::string> texts = run_in_workers(study, works);
+  std::span<const std::string> left = texts;
+  for (std::size_t i = 0; i < works.size(); ++i) {
+    takers[i](left.first(works[i].count));
+    left = left.subspan(works[i].count);
   }
   return result;
 }
 
-std::vector<std::string> run_in_workers(
-    const Study& study, const Work& work,
-    const std::function<std::string(std::size_t, std::vector<CandidateProcess>&)>& run) {
-  Progress progress(work.unit, work.count * work.units_per_task);
+std::vector<std::string> run_in_workers(const Study& study, std::span<const Work> works) {
+  struct Task {
+    const Work* work;
+    std::size_t number;
+  };
+  std::vector<Task> tasks;
+  std::size_t poses = 0;
+  for (const Work& work : works) {
+    for (std::size_t i = 0; i < work.count; ++i) tasks.push_back({&work, i});
+    poses += work.count * work.poses_per_task;
+  }
+  if (tasks.empty()) return {};
+  Progress progress("poses", poses);
   WorkerCandidates candidates(study.candidates, study.bar.threshold, study.limits);
   return run_in_processes(
-      work.count, study.workers, [&](std::size_t task) { return run(task, candidates.get()); },
-      work.name, [&](std::size_t done) { progress.update(done * work.units_per_task); });
+      tasks.size(), study.workers,
+      [&](std::size_t i) { return tasks[i].work->run(tasks[i].number, candidates.get()); },
+      [&](std::size_t i) { return tasks[i].work->name(tasks[i].number); },
+      [&](std::size_t done) { progress.update(poses * done / tasks.size()); });
 }
 
 }  // namespace touchstone

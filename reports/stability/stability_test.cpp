@@ -61,7 +61,8 @@ TEST(Stability, SmallStepsStartInEveryClassThatTouchesOrIsAlignedExactly) {
 /// every degenerate class.
 TEST(Stability, OurDepthIsAmplifiedByNoMoreThanTheStepAllows) {
   Ladder ladder{degenerate_cells({std::begin(all_pairs), std::end(all_pairs)}), 5, 3};
-  const Amplification result = amplification(ladder, study({"reference"}));
+  const Amplification result =
+      run(amplification(ladder, study({"reference"})), study({"reference"}));
   EXPECT_EQ(result.results.size(), ladder.cells.size());
   for (const Amplification::Row& row : result.results) {
     EXPECT_THAT(row.unanswered, testing::Each(0));
@@ -80,7 +81,8 @@ TEST(Stability, OurMapsAreOfOneColour) {
   for (const CriticalPose& pose : critical_poses()) poses.push_back(&pose);
   MapGrid grid{{}, 4};
   for (const int exponent : {-15, -12, -8, -4, -2}) grid.zooms.emplace_back(exponent);
-  const FailureMaps result = maps(poses, grid, study({"reference"}));
+  const FailureMaps result =
+      run(maps(poses, grid, study({"reference"})), study({"reference"}));
   EXPECT_EQ(result.poses.size(), poses.size());
   for (const FailureMaps::Pose& pose : result.poses) {
     ASSERT_EQ(pose.pictures.size(), 1u);
@@ -93,7 +95,8 @@ TEST(Stability, OurMapsAreOfOneColour) {
 TEST(Stability, OurMotionsAreAsSmoothAsTheTruth) {
   std::vector<const Motion*> all;
   for (const Motion& motion : motions()) all.push_back(&motion);
-  const Sequences result = sequences(all, 40, study({"reference"}));
+  const Sequences result =
+      run(sequences(all, 40, study({"reference"})), study({"reference"}));
   EXPECT_EQ(result.motions.size(), all.size());
   for (const Sequences::Course& course : result.motions) {
     const Sequences::Row& ours = course.results.at(0);
@@ -117,8 +120,9 @@ const Row& row_of(const std::vector<Row>& rows, const std::string& candidate) {
 TEST(Stability, ColoursALineHeldByOnePoint) {
   // ODE has two points under a lying cylinder, one between parallel sides.
   const FailureMaps result =
-      maps({&find_critical_pose("lying"), &find_critical_pose("parallel-sides")},
-           {{Decade(-12)}, 8}, study({"ode"}));
+      run(maps({&find_critical_pose("lying"), &find_critical_pose("parallel-sides")},
+               {{Decade(-12)}, 8}, study({"ode"})),
+          study({"ode"}));
   const auto middle = [&](std::size_t pose) {
     return result.poses.at(pose).pictures.at(0).letters.at(0).at(12);
   };

@@ -204,9 +204,8 @@ Bases bases_of(const Cell& cell, const Ladder& ladder) {
   return bases;
 }
 
-/// The truth first, then the candidates in their order.
-std::vector<Climb> climb(const Bases& bases, std::uint64_t seed,
-                         std::vector<CandidateProcess>& candidates, const Bar& bar) {
+/// Each base, and after it what its steps lead to.
+std::vector<Configuration> steps_from(const Bases& bases, std::uint64_t seed) {
   std::vector<Configuration> asked;
   for (std::size_t i = 0; i < bases.subjects.size(); ++i) {
     const Configuration& c = bases.subjects[i].configuration;
@@ -215,18 +214,23 @@ std::vector<Climb> climb(const Bases& bases, std::uint64_t seed,
       asked.push_back(perturbed(c, {amplitude(rung), seed, i}));
     }
   }
-  const std::vector<ExaminedPose> poses = examine_poses(asked, candidates, bar);
-  std::vector<Climb> climbs(1 + candidates.size());
-  for (std::size_t k = 0; k < candidates.size(); ++k) {
+  return asked;
+}
+
+/// The truth first, then the candidates in their order. `poses`: those of steps_from, examined.
+std::vector<Climb> climbs_over(std::span<const ExaminedPose> poses, std::size_t candidates,
+                               const Bar& bar) {
+  std::vector<Climb> climbs(1 + candidates);
+  for (std::size_t k = 0; k < candidates; ++k) {
     climbs[1 + k].is_supported = poses[0].answers[k].score.outcome != Outcome::unsupported;
   }
-  for (std::size_t i = 0; i < bases.subjects.size(); ++i) {
+  for (std::size_t i = 0; i < poses.size() / (1 + amplitude_count); ++i) {
     const ExaminedPose* const from = &poses[i * (1 + amplitude_count)];
     for (std::size_t rung = 0; rung < amplitude_count; ++rung) {
       const ExaminedPose& to = from[1 + rung];
       Step step(*from, to, bar);
       raise(climbs[0].amplification[rung], step.true_amplification());
-      for (std::size_t k = 0; k < candidates.size(); ++k) {
+      for (std::size_t k = 0; k < candidates; ++k) {
         climbs[1 + k].add(to.answers[k].score, step.change(k), i, rung);
       }
     }
@@ -291,24 +295,48 @@ std::vector<Cell> degenerate_cells(const std::vector<Pair>& pairs) {
   return cells;
 }
 
-Amplification amplification(const Ladder& ladder, const Study& study) {
-  const Work work{ladder.cells.size(), "perturbed poses", ladder.count * (1 + amplitude_count),
-                  [&](std::size_t i) {
-                    const Cell& cell = ladder.cells[i];
-                    return fmt::format("{}/{}", pair_name(cell.pair), cell.pose_class);
-                  }};
-  const auto results =
-      run_in_workers(study, work, [&](std::size_t i, std::vector<CandidateProcess>& candidates) {
-        ByteWriter bytes;
-        bytes.put(climb(bases_of(ladder.cells[i], ladder), ladder.seed, candidates, study.bar));
-        return bytes.take();
-      });
-  Collector collector(study, ladder.seed, ladder.count);
-  for (std::size_t i = 0; i < results.size(); ++i) {
-    if (results[i].empty()) continue;  // interrupted before
-    collector.add(bases_of(ladder.cells[i], ladder), ByteReader(results[i]).get_all<Climb>());
-  }
-  return std::move(collector).result();
+Measure<Amplification> amplification(const Ladder& ladder, const Study& study) {
+  const std::size_t of_cell = ladder.count * (1 + amplitude_count);
+  // A session costs a candidate as much as hundreds of answers, so that cells share one.
+  constexpr std::size_t wanted_poses = 256;
+  const std::size_t cells = std::max<std::size_t>(1, wanted_poses / of_cell);  // of a task
+  const auto of_task = [=](std::size_t task) {
+    return std::span(ladder.cells).subspan(task * cells).first(
+        std::min(cells, ladder.cells.size() - task * cells));
+  };
+  return {{(ladder.cells.size() + cells - 1) / cells, cells * of_cell,
+           [=](std::size_t task) {
+             const auto all = of_task(task);
+             return fmt::format("{}/{} to {}/{}", pair_name(all.front().pair),
+                                all.front().pose_class, pair_name(all.back().pair),
+                                all.back().pose_class);
+           },
+           [=, bar = study.bar](std::size_t task, std::vector<CandidateProcess>& candidates) {
+             std::vector<Configuration> asked;
+             for (const Cell& cell : of_task(task)) {
+               for (Configuration& c : steps_from(bases_of(cell, ladder), ladder.seed)) {
+                 asked.push_back(std::move(c));
+               }
+             }
+             const std::vector<ExaminedPose> poses = examine_poses(asked, candidates, bar);
+             ByteWriter bytes;
+             for (std::size_t at = 0; at < poses.size(); at += of_cell) {
+               bytes.put(
+                   climbs_over(std::span(poses).subspan(at, of_cell), candidates.size(), bar));
+             }
+             return bytes.take();
+           }},
+          [=](std::span<const std::string> texts) {
+            Collector collector(study, ladder.seed, ladder.count);
+            for (std::size_t task = 0; task < texts.size(); ++task) {
+              if (texts[task].empty()) continue;  // interrupted before
+              ByteReader bytes(texts[task]);
+              for (const Cell& cell : of_task(task)) {
+                collector.add(bases_of(cell, ladder), bytes.get_all<Climb>());
+              }
+            }
+            return std::move(collector).result();
+          }};
 }
 
 Amplification amplification(const Subject& base, std::uint64_t seed, std::uint64_t count,
@@ -316,8 +344,9 @@ Amplification amplification(const Subject& base, std::uint64_t seed, std::uint64
   const Bases bases{pair_name(pair_of(base.configuration)), base.name,
                     std::vector<Subject>(count, base)};
   auto candidates = start(study.candidates, study.bar.threshold, study.limits);
+  const auto poses = examine_poses(steps_from(bases, seed), candidates, study.bar);
   Collector collector(study, seed, count);
-  collector.add(bases, climb(bases, seed, candidates, study.bar));
+  collector.add(bases, climbs_over(poses, candidates.size(), study.bar));
   return std::move(collector).result();
 }
 
