@@ -119,7 +119,7 @@ TEST(CandidateProcess, ATimeOutLowersTheLimitForTheRestOfTheCall) {
 
 // As on a machine that is so busy that making a process takes longer than an answer may.
 TEST(CandidateProcess, ATimeOutCountsOnlyIfAnotherSessionTimesOutAsWell) {
-  CandidateProcess process(sabotage("hiccuping"), 0, {0.02, 256});
+  CandidateProcess process(sabotage("hiccuping"), 0, {0.1, 256});
   EXPECT_EQ(process.answers({&standing, 1}).at(0).status, TS_CONTACT);
 }
 

@@ -5,9 +5,9 @@
 // it is given. declining answers planes, with a relative error of 1e-6 in the depth if the axis
 // lies in the plane; TOUCHSTONE_DECLINE, a number in the environment, multiplies that error, and
 // slows down all queries if it is negative. stalling never answers where A's x is negative, and
-// takes ten milliseconds where it is above 1. hiccuping is endless in the first question of its first
-// session, whatever it is. counting answers with the number of pairs prepared
-// and the number not yet released.
+// takes ten milliseconds where it is above 1. hiccuping never answers the first question of all its
+// sessions, whatever that is. counting answers with the number of pairs prepared and the number not
+// yet released.
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -184,9 +184,8 @@ void query_stalling(ts_prepared*, const ts_pose* a, const ts_pose*, const double
 
 /// Of all sessions.
 int& hiccups() {
-  static int* const shared =
-      static_cast<int*>(mmap(nullptr, sizeof(int), PROT_READ | PROT_WRITE,
-                             MAP_SHARED | MAP_ANONYMOUS, -1, 0));
+  static int* const shared = static_cast<int*>(
+      mmap(nullptr, sizeof(int), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0));
   return *shared;
 }
 void query_hiccuping(ts_prepared*, const ts_pose*, const ts_pose*, const double*,

@@ -32,13 +32,13 @@ std::vector<Cell> degenerate_cells(const std::vector<Pair>& pairs);
 
 /// Work in tasks for worker processes, in which each candidate has a process of its own.
 struct Work {
-  std::size_t count;           ///< tasks
-  std::size_t poses_per_task;  ///< about; what progress counts
+  std::size_t count;                                  ///< tasks
+  std::size_t poses_per_task;                         ///< about; what progress counts
   std::function<std::string(std::size_t task)> name;  ///< of a task, for errors
   std::function<std::string(std::size_t task, std::vector<CandidateProcess>&)> run;
 };
-/// Work, and what comes out of what its tasks have returned, in their order; an empty string for one
-/// that was interrupted.
+/// Work, and what comes out of what its tasks have returned, in their order; an empty string for
+/// one that was interrupted.
 template <class Result>
 struct Measure {
   Work work;

@@ -81,8 +81,7 @@ TEST(Stability, OurMapsAreOfOneColour) {
   for (const CriticalPose& pose : critical_poses()) poses.push_back(&pose);
   MapGrid grid{{}, 4};
   for (const int exponent : {-15, -12, -8, -4, -2}) grid.zooms.emplace_back(exponent);
-  const FailureMaps result =
-      run(maps(poses, grid, study({"reference"})), study({"reference"}));
+  const FailureMaps result = run(maps(poses, grid, study({"reference"})), study({"reference"}));
   EXPECT_EQ(result.poses.size(), poses.size());
   for (const FailureMaps::Pose& pose : result.poses) {
     ASSERT_EQ(pose.pictures.size(), 1u);
@@ -95,8 +94,7 @@ TEST(Stability, OurMapsAreOfOneColour) {
 TEST(Stability, OurMotionsAreAsSmoothAsTheTruth) {
   std::vector<const Motion*> all;
   for (const Motion& motion : motions()) all.push_back(&motion);
-  const Sequences result =
-      run(sequences(all, 40, study({"reference"})), study({"reference"}));
+  const Sequences result = run(sequences(all, 40, study({"reference"})), study({"reference"}));
   EXPECT_EQ(result.motions.size(), all.size());
   for (const Sequences::Course& course : result.motions) {
     const Sequences::Row& ours = course.results.at(0);

@@ -301,42 +301,42 @@ Measure<Amplification> amplification(const Ladder& ladder, const Study& study) {
   constexpr std::size_t wanted_poses = 256;
   const std::size_t cells = std::max<std::size_t>(1, wanted_poses / of_cell);  // of a task
   const auto of_task = [=](std::size_t task) {
-    return std::span(ladder.cells).subspan(task * cells).first(
-        std::min(cells, ladder.cells.size() - task * cells));
+    return std::span(ladder.cells)
+        .subspan(task * cells)
+        .first(std::min(cells, ladder.cells.size() - task * cells));
   };
-  return {{(ladder.cells.size() + cells - 1) / cells, cells * of_cell,
-           [=](std::size_t task) {
-             const auto all = of_task(task);
-             return fmt::format("{}/{} to {}/{}", pair_name(all.front().pair),
-                                all.front().pose_class, pair_name(all.back().pair),
-                                all.back().pose_class);
-           },
-           [=, bar = study.bar](std::size_t task, std::vector<CandidateProcess>& candidates) {
-             std::vector<Configuration> asked;
-             for (const Cell& cell : of_task(task)) {
-               for (Configuration& c : steps_from(bases_of(cell, ladder), ladder.seed)) {
-                 asked.push_back(std::move(c));
-               }
-             }
-             const std::vector<ExaminedPose> poses = examine_poses(asked, candidates, bar);
-             ByteWriter bytes;
-             for (std::size_t at = 0; at < poses.size(); at += of_cell) {
-               bytes.put(
-                   climbs_over(std::span(poses).subspan(at, of_cell), candidates.size(), bar));
-             }
-             return bytes.take();
-           }},
-          [=](std::span<const std::string> texts) {
-            Collector collector(study, ladder.seed, ladder.count);
-            for (std::size_t task = 0; task < texts.size(); ++task) {
-              if (texts[task].empty()) continue;  // interrupted before
-              ByteReader bytes(texts[task]);
-              for (const Cell& cell : of_task(task)) {
-                collector.add(bases_of(cell, ladder), bytes.get_all<Climb>());
-              }
-            }
-            return std::move(collector).result();
-          }};
+  return {
+      {(ladder.cells.size() + cells - 1) / cells, cells * of_cell,
+       [=](std::size_t task) {
+         const auto all = of_task(task);
+         return fmt::format("{}/{} to {}/{}", pair_name(all.front().pair), all.front().pose_class,
+                            pair_name(all.back().pair), all.back().pose_class);
+       },
+       [=, bar = study.bar](std::size_t task, std::vector<CandidateProcess>& candidates) {
+         std::vector<Configuration> asked;
+         for (const Cell& cell : of_task(task)) {
+           for (Configuration& c : steps_from(bases_of(cell, ladder), ladder.seed)) {
+             asked.push_back(std::move(c));
+           }
+         }
+         const std::vector<ExaminedPose> poses = examine_poses(asked, candidates, bar);
+         ByteWriter bytes;
+         for (std::size_t at = 0; at < poses.size(); at += of_cell) {
+           bytes.put(climbs_over(std::span(poses).subspan(at, of_cell), candidates.size(), bar));
+         }
+         return bytes.take();
+       }},
+      [=](std::span<const std::string> texts) {
+        Collector collector(study, ladder.seed, ladder.count);
+        for (std::size_t task = 0; task < texts.size(); ++task) {
+          if (texts[task].empty()) continue;  // interrupted before
+          ByteReader bytes(texts[task]);
+          for (const Cell& cell : of_task(task)) {
+            collector.add(bases_of(cell, ladder), bytes.get_all<Climb>());
+          }
+        }
+        return std::move(collector).result();
+      }};
 }
 
 Amplification amplification(const Subject& base, std::uint64_t seed, std::uint64_t count,
