@@ -205,7 +205,7 @@ std::optional<PluginSessions::SessionFailure> PluginSessions::obey(SessionComman
   std::uint64_t progress = s.exchange->progress;
   const auto limit_now = [&] {
     const auto current = std::min(static_cast<std::uint32_t>(progress), command.count);
-    return time_limit(command, current, fresh && current == command.first);
+    return time_limit(command, current, fresh && command.count == command.first + 1);
   };
   auto next_check = Clock::now() + check_interval, next_judgement = next_check;
   for (;;) {
@@ -242,8 +242,12 @@ std::optional<PluginSessions::SessionFailure> PluginSessions::obey(SessionComman
       if (reply.kind == Reply::finished && reply.ticket == ticket_) return std::nullopt;
       if (reply.kind == Reply::ended && reply.ticket == session_ticket_) {
         session_ = -1;
-        if (reply.left_behind) s.stop();
-        return end_of_session(reply.value);
+        SessionFailure failure = end_of_session(reply.value);
+        if (reply.left_behind) {
+          s.stop();
+          failure.certain = false;  // what was left may have answered on
+        }
+        return failure;
       }
       if (reply.kind == Reply::gone && s.unforked) {
         s.stop();

@@ -70,8 +70,8 @@ class PluginSessions : public Respondent {
     double seconds;
     std::string exceeded;
   };
-  /// Of slot `current` of a command. `alone`: the session has answered nothing before it, so that
-  /// exceeding the limit is its verdict, and no mere reason to ask it again alone.
+  /// Of slot `current` of a command. `alone`: nothing else is asked in the session, so that
+  /// exceeding the limit may be its verdict, and no mere reason to ask it again alone.
   TimeLimit time_limit(const SessionCommand& command, std::uint32_t current, bool alone) const;
   /// Notes what limits of time are learnt from.
   void learn(std::uint32_t slot);
