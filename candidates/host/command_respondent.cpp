@@ -410,6 +410,8 @@ std::optional<QueryCost::Measured> CommandRespondent::compare_clocks() {
       computing += sign * spent.computing;
     }
   }
+  ours = std::max(ours, 0.0);  // a busy machine may make the longer round the faster one
+  computing = std::max(computing, 0.0);
   told = std::max({told, ours / max_ratio, 1e-12});  // of a child that tells nothing
   return QueryCost::Measured{0, ours / told, computing / told};
 }

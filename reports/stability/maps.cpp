@@ -42,9 +42,20 @@ std::string pictures(const CriticalPose& pose, const MapGrid& grid,
   return fmt::format("{}", fmt::join(lines, ""));
 }
 
-FailureMaps::Pose named(const CriticalPose& pose) {
+/// Takes apart what pictures() gives.
+FailureMaps::Pose collected(const CriticalPose& pose, const std::string& lines, std::size_t zooms,
+                            const std::vector<const Candidate*>& candidates) {
+  std::vector<FailureMaps::Picture> pictures;
+  for (const Candidate* c : candidates) pictures.push_back({c->name, {}});
+  std::istringstream in(lines);
+  for (std::size_t zoom = 0; zoom < zooms; ++zoom) {
+    for (FailureMaps::Picture& picture : pictures) {
+      std::getline(in, picture.letters.emplace_back());
+    }
+  }
+  std::erase_if(pictures, [](const auto& picture) { return picture.letters[0].empty(); });
   return {pose.name,        pose.description, pair_name(pair_of(pose.configuration)),
-          pose.across.what, pose.up.what,     {}};
+          pose.across.what, pose.up.what,     std::move(pictures)};
 }
 
 }  // namespace
@@ -62,7 +73,8 @@ char map_letter(const Score& score) {
 
 Measure<FailureMaps> maps(const std::vector<const CriticalPose*>& poses, const MapGrid& grid,
                           const Study& study) {
-  const auto side = static_cast<std::size_t>(2 * map_reach / grid.stride + 1);
+  const int across = 2 * map_reach / grid.stride + 1;
+  const auto side = static_cast<std::size_t>(across);
   return {{poses.size(), grid.zooms.size() * side * side,
            [=](std::size_t i) { return "map/" + poses[i]->name; },
            [=, bar = study.bar](std::size_t i, std::vector<CandidateProcess>& candidates) {
@@ -72,19 +84,7 @@ Measure<FailureMaps> maps(const std::vector<const CriticalPose*>& poses, const M
             FailureMaps maps{grid.stride, grid.zooms, {}};
             for (std::size_t p = 0; p < texts.size(); ++p) {
               if (texts[p].empty()) continue;  // interrupted before
-              FailureMaps::Pose pose = named(*poses[p]);
-              std::vector<FailureMaps::Picture> of_candidates;
-              for (const Candidate* c : candidates) of_candidates.push_back({c->name, {}});
-              std::istringstream in(texts[p]);
-              for (std::size_t zoom = 0; zoom < grid.zooms.size(); ++zoom) {
-                for (FailureMaps::Picture& picture : of_candidates) {
-                  std::getline(in, picture.letters.emplace_back());
-                }
-              }
-              for (FailureMaps::Picture& picture : of_candidates) {
-                if (!picture.letters[0].empty()) pose.pictures.push_back(std::move(picture));
-              }
-              maps.poses.push_back(std::move(pose));
+              maps.poses.push_back(collected(*poses[p], texts[p], grid.zooms.size(), candidates));
             }
             return maps;
           }};
