@@ -92,7 +92,7 @@ struct StabilityOptions {
 
 /// All pairs, all degenerate classes, the finest maps.
 StabilityOptions thorough(const Study& study, std::uint64_t seed);
-/// A sample of them that takes about half a minute on two cores, for the report.
+/// A sample of them that takes about ten seconds on two cores, for the report.
 StabilityOptions brief(const Study& study, const std::vector<Pair>& pairs, std::uint64_t seed);
 
 /// Measures the parts that are asked for. The same options give the same result. Progress goes to
