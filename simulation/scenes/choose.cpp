@@ -264,9 +264,9 @@ class Search {
     return result;
   }
 
-  /// The simplest model of a kind that serves while the others are exact and by that run makes a
-  /// step no dearer than noise does; the exact one if nothing saves more. Otherwise noise would
-  /// decide which of several such models is combined with those of other kinds.
+  /// The simplest model of a kind that serves while the others are exact and costs no more than the
+  /// cheapest of these, within noise; the exact one if none saves more than that. Otherwise noise
+  /// would decide which of several such models is combined with those of other kinds.
   const Candidate* simplest_alike(std::size_t kind) const {
     std::vector<std::pair<const Candidate*, double>> serving;  // the simplest first
     double least = infinity;
