@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdint>
 #include <fmt/format.h>
-#include <iterator>
 #include <map>
 #include <set>
 #include <tuple>
@@ -132,10 +131,10 @@ FailureRate rate_without(const Table& table, const ClassOfPair& c, const std::st
   Modifiers rest = c.modifiers;
   rest.erase(modifier);
   const auto difference = [&](const ClassOfPair& other) {
-    std::vector<std::string> only_in_one;
-    std::set_symmetric_difference(rest.begin(), rest.end(), other.modifiers.begin(),
-                                  other.modifiers.end(), std::back_inserter(only_in_one));
-    return only_in_one.size();
+    const auto common = std::count_if(rest.begin(), rest.end(), [&](const std::string& each) {
+      return other.modifiers.contains(each);
+    });
+    return rest.size() + other.modifiers.size() - 2 * static_cast<std::size_t>(common);
   };
   const auto is_without = [&](const ClassOfPair& other) {
     return other.description->arrangement == c.description->arrangement &&

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <fmt/format.h>
+#include <future>
 #include <string>
 #include <utility>
 
@@ -265,8 +266,9 @@ Report read_report(const std::filesystem::path& file) {
 
 void write_report(const Report& report, const std::filesystem::path& folder) {
   check_writable(folder);
+  auto page = std::async(std::launch::async, [&] { return report_page(report); });
   write_file(folder / "report.json", text_by_lines(to_json(report)), "--out");
-  write_file(folder / "report.html", report_page(report), "--out");
+  write_file(folder / "report.html", page.get(), "--out");
 }
 
 }  // namespace touchstone

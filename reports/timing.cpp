@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <random>
+#include <sched.h>
 
 #include "candidates/host/interruption.hpp"
 #include "candidates/host/progress.hpp"
@@ -24,6 +25,28 @@ std::vector<Configuration> survived(const Sample& sample, std::size_t candidate)
   }
   return result;
 }
+
+/// Keeps this process on one processor while it lives, and so the sessions in which it times. A
+/// message to a processor that sleeps takes as long as hundreds of queries.
+class OnOneProcessor {
+ public:
+  OnOneProcessor() : is_set_(sched_getaffinity(0, sizeof before_, &before_) == 0) {
+    if (!is_set_) return;
+    cpu_set_t one;
+    CPU_ZERO(&one);
+    CPU_SET(sched_getcpu(), &one);
+    sched_setaffinity(0, sizeof one, &one);
+  }
+  ~OnOneProcessor() {
+    if (is_set_) sched_setaffinity(0, sizeof before_, &before_);
+  }
+  OnOneProcessor(const OnOneProcessor&) = delete;
+  OnOneProcessor& operator=(const OnOneProcessor&) = delete;
+
+ private:
+  cpu_set_t before_;
+  bool is_set_;
+};
 
 std::vector<Repetitions> time_cell(const Sample& sample, std::vector<CandidateProcess>& candidates,
                                    std::mt19937_64& random) {
@@ -105,6 +128,7 @@ Times time_queries(const Campaign& campaign, const std::vector<Cell>& cells,
     const bool wanted = !campaign.classes.empty() || is_timed(cells[i]);
     if (samples[i] && wanted) timed.push_back(i);
   }
+  const OnOneProcessor alone;
   Progress progress("pose classes timed", timed.size());
   std::mt19937_64 random(campaign.seed);
   for (std::size_t done = 0; done < timed.size() && !interrupted(); ++done) {

@@ -29,11 +29,13 @@ std::vector<Trial> trials(const ExperimentOptions& options) {
   return result;
 }
 
-/// Another model, with a sample of the configurations in contact, evenly spread over the run.
+/// One candidate for the scenes of an experiment, all in one session: to begin a session takes
+/// longer than a hundred steps. Keeps a sample of the configurations in contact, evenly spread over
+/// the scenes.
 class SamplingModel : public ContactModel {
  public:
-  explicit SamplingModel(ContactModel& model) : model_(model) {}
-  void begin() override { model_.begin(); }
+  explicit SamplingModel(CandidateProcess& process) : process_(process), model_(process) {}
+  void begin() override { process_.release_shapes(); }
   std::vector<Answer> answers(std::span<const PairQuestion> questions) override {
     auto result = model_.answers(questions);
     for (std::size_t i = 0; i < questions.size(); ++i) {
@@ -50,7 +52,8 @@ class SamplingModel : public ContactModel {
 
  private:
   static constexpr std::size_t min_size = 50;  // of the sample of a long run
-  ContactModel& model_;
+  CandidateProcess& process_;
+  CandidateModel model_;
   std::vector<Configuration> sample_;
   std::size_t seen_ = 0, stride_ = 1;
 };
@@ -73,8 +76,7 @@ std::optional<double> query_time(CandidateProcess& process,
 
 ExperimentResult run(const Trial& trial, CandidateProcess& process) {
   process.ask_within(simulation_threshold);  // as if it had been asked nothing before
-  CandidateModel model(process);
-  SamplingModel sampling(model);
+  SamplingModel sampling(process);
   const Measurement measured = trial.experiment->run(in_our_world(sampling), trial.step);
   ExperimentResult r = result_of(*trial.experiment, trial.candidate->name, trial.step, measured);
   if (r.outcome != ExperimentResult::Outcome::unsupported) {

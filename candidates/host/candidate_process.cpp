@@ -44,6 +44,8 @@ std::vector<Answer> CandidateProcess::answer(std::span<const Configuration> conf
 
 void CandidateProcess::restart() { respondent_->restart(); }
 
+void CandidateProcess::release_shapes() { respondent_->release_shapes(); }
+
 bool CandidateProcess::prepare_timing(std::span<const Configuration> configurations) {
   return respondent_->prepare_timing(configurations);
 }

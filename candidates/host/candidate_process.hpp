@@ -82,6 +82,9 @@ class CandidateProcess {
                              std::span<const double> thresholds = {});
   /// Ends the session. The next call begins a new one.
   void restart();
+  /// Before the next call of `answer`, releases the shapes that are kept ready for it, in the same
+  /// session: a candidate without other memory answers as if it had been asked nothing before.
+  void release_shapes();
 
   /// Prepares shapes for timing in a session in which nothing is answered and queries them once,
   /// untimed. Keeps as many as take about half a millisecond together, at least ten. False if the

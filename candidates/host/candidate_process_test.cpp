@@ -276,6 +276,35 @@ TEST(CandidateProcess, AnotherThresholdPreparesShapesAnewInTheSameSession) {
   EXPECT_EQ(process.answer(standing).signed_distance, -1);
 }
 
+TEST(CandidateProcess, ReleasesShapesWithinASession) {
+  CandidateProcess process(sabotage("counting"), 0);
+  const auto ask = [&] { return process.answer(standing); };
+  process.release_shapes();  // of no session
+  EXPECT_EQ(ask().signed_distance, -1);
+  EXPECT_EQ(ask().signed_distance, -1);
+  process.release_shapes();
+  const Answer anew = ask();
+  EXPECT_EQ(anew.signed_distance, -2);  // counted in the session
+  EXPECT_EQ(anew.points[0].depth, 1);   // of those not released
+  EXPECT_EQ(ask().signed_distance, -2);
+}
+
+TEST(CandidateProcess, IsTimedWhereTheHarnessMayRun) {
+  CandidateProcess process(sabotage("counting"), 0);
+  const auto processors = [&] {
+    EXPECT_TRUE(process.prepare_timing({&standing, 1}));
+    return process.answer(standing).points[0].position[0];
+  };
+  cpu_set_t all, one;
+  ASSERT_EQ(sched_getaffinity(0, sizeof all, &all), 0);
+  EXPECT_EQ(processors(), CPU_COUNT(&all));
+  CPU_ZERO(&one);
+  CPU_SET(sched_getcpu(), &one);
+  ASSERT_EQ(sched_setaffinity(0, sizeof one, &one), 0);
+  EXPECT_EQ(processors(), 1);
+  ASSERT_EQ(sched_setaffinity(0, sizeof all, &all), 0);
+}
+
 TEST(CandidateProcess, LeavesNoFileOpen) {
   const auto open_files = [] {
     int count = 0;
@@ -486,13 +515,14 @@ TEST(PluginHost, OfAnotherBuildIsRefused) {
   ASSERT_EQ(ftruncate(questions, sizeof(Questions) + 8), 0);
   ASSERT_EQ(ftruncate(exchange, sizeof(Exchange)), 0);
   const std::string host = standard_folder() / "touchstone-host";
+  const std::string parent = std::to_string(getpid());
   const pid_t pid = fork();
   if (pid == 0) {
     const int given[] = {ends[1], questions, exchange};
     int moved[3];
     for (int i = 0; i < 3; ++i) moved[i] = fcntl(given[i], F_DUPFD, 20);
     for (int i = 0; i < 3; ++i) dup2(moved[i], host_socket + i);
-    execl(host.c_str(), host.c_str(), "any.so", static_cast<char*>(nullptr));
+    execl(host.c_str(), host.c_str(), "any.so", parent.c_str(), static_cast<char*>(nullptr));
     _exit(100);
   }
   close(ends[1]);

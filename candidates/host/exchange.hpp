@@ -99,6 +99,8 @@ struct SessionCommand {
   std::uint32_t first, count;
   std::uint64_t ticket;  ///< unique to the command
   bool release;  ///< `answer`: keep no shapes ready for later commands; `keep`: none kept before
+  bool forget;   ///< `answer`: at first, release the shapes kept ready for it
+  std::int32_t processor;  ///< `keep`: the only one to run on from now on; -1: any
   std::int32_t index;
   double parameter;
   std::uint64_t memory;  ///< growth in bytes that a session is allowed
@@ -110,7 +112,7 @@ struct Reply {
   enum Kind : std::uint32_t {
     described,  ///< the plug-in has `value` candidates; a Description of each follows
     refused,    ///< the plug-in cannot be used; `text` says why
-    no_host,    ///< what loads plug-ins could not be started: errno `value`; if that is 0, `text`
+    no_host,    ///< what loads plug-ins cannot do so; `text` says why
     began,      ///< sent by the session itself; `value` is negative if none could be forked
     finished,   ///< the session has done its command
     ended,      ///< the session has ended with the wait status `value`

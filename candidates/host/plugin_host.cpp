@@ -1,17 +1,22 @@
-// touchstone-host FILE: the program that loads a plug-in and answers for it. A session is a fork of
-// this process, and a fork of a small program copies little; Touchstone itself reads files with the
-// libraries of half a dozen projects. It is started by plugin_process.cpp, with the descriptors of
-// exchange.hpp.
+// touchstone-host FILE PARENT: the program that loads a plug-in and answers for it. A session is a
+// fork of this process, and a fork of a small program copies little; Touchstone itself reads files
+// with the libraries of half a dozen projects. It is started by plugin_process.cpp, whose process
+// is PARENT, with the descriptors of exchange.hpp.
 #include <cstdio>
 #include <cstdlib>
+#include <signal.h>
+#include <string>
 #include <sys/mman.h>
+#include <sys/prctl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "candidates/host/exchange.hpp"
+#include "candidates/host/guard.hpp"
 
 int main(int count, char** arguments) {
   using namespace touchstone;
+  prctl(PR_SET_PDEATHSIG, SIGTERM);
   // Null for a file of another size: of a Touchstone from another build.
   const auto map = [](int file, std::size_t size, int protection) -> void* {
     struct stat status;
@@ -22,14 +27,19 @@ int main(int count, char** arguments) {
   };
   void* const questions = map(host_questions, sizeof(Questions), PROT_READ);
   void* const exchange = map(host_exchange, sizeof(Exchange), PROT_READ | PROT_WRITE);
-  if (count == 2 && (!questions || !exchange)) {
+  if (count == 3 && (!questions || !exchange)) {
     reply(host_socket, Reply::no_host, 0, 0, "it is of another build");
     return 2;
   }
-  if (count != 2 || questions == MAP_FAILED || exchange == MAP_FAILED) {
+  if (count != 3 || questions == MAP_FAILED || exchange == MAP_FAILED) {
     std::fputs("touchstone-host is started by touchstone, once for each plug-in\n", stderr);
     return 2;
   }
+  if (std::to_string(getppid()) != arguments[2]) return 0;  // it died before prctl
+  // The namespace begins with the next process. Its first process must not run the plug-in, because
+  // the kernel spares it fatal signals.
+  if (begin_pid_namespace()) fork_guarded(-1);
+  fork_guarded(host_socket);
   unsetenv(bind_now);  // was for this process, not for those that the plug-in may start
   serve_plugin(arguments[1], host_socket, *static_cast<const Questions*>(questions),
                *static_cast<Exchange*>(exchange));

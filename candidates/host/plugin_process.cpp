@@ -10,6 +10,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
+#include <spawn.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/socket.h>
@@ -141,27 +142,47 @@ bool PluginProcess::State::send(const SessionCommand& command) const {
 
 std::string PluginProcess::State::last_line() const { return touchstone::last_line(text); }
 
-/// Main function of the first process forked for the plug-in.
-void PluginProcess::State::serve(int other_end) const {
-  prctl(PR_SET_PDEATHSIG, SIGTERM);
-  if (getppid() != owner) _exit(0);  // the parent died before prctl
-  const std::array given = {
-      open("/dev/null", O_RDONLY), text, text, other_end, questions_file, exchange_file};
+pid_t PluginProcess::State::spawn_host(int other_end) const {
+  const std::array given = {text, text, other_end, questions_file, exchange_file};
   // First out of each other's way.
   std::array<int, given.size()> moved;
-  constexpr int behind = given.size();
-  for (std::size_t i = 0; i < given.size(); ++i) moved[i] = fcntl(given[i], F_DUPFD, behind);
-  for (std::size_t i = 0; i < given.size(); ++i) dup2(moved[i], static_cast<int>(i));
-  close_range(behind, ~0u, 0);
-  setpgid(0, 0);
-  // The namespace begins with the next process. Its first process must not run the plug-in, because
-  // the kernel spares it fatal signals.
-  if (begin_pid_namespace()) fork_guarded(-1);
-  fork_guarded(host_socket);
-  setenv(bind_now, "1", 1);
-  execl(host.c_str(), host.c_str(), file.c_str(), static_cast<char*>(nullptr));
-  reply(host_socket, Reply::no_host, 0, errno);
-  _exit(1);
+  constexpr int first = STDOUT_FILENO, behind = first + static_cast<int>(given.size());
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    moved[i] = fcntl(given[i], F_DUPFD_CLOEXEC, behind);
+    if (moved[i] < 0) fail("fcntl");
+  }
+  posix_spawn_file_actions_t files;
+  posix_spawn_file_actions_init(&files);
+  posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    posix_spawn_file_actions_adddup2(&files, moved[i], first + static_cast<int>(i));
+  }
+  posix_spawn_file_actions_addclosefrom_np(&files, behind);
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setpgroup(&attributes, 0);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+
+  std::string program = host, plugin = file, parent = std::to_string(getpid()),
+              setting = std::string(bind_now) + "=1";
+  std::array<char*, 4> arguments = {program.data(), plugin.data(), parent.data(), nullptr};
+  std::vector<char*> environment = {setting.data()};
+  for (char** each = environ; *each; ++each) environment.push_back(*each);
+  environment.push_back(nullptr);
+  pid_t pid = -1;
+  const int error =
+      posix_spawn(&pid, program.c_str(), &files, &attributes, arguments.data(), environment.data());
+  posix_spawnattr_destroy(&attributes);
+  posix_spawn_file_actions_destroy(&files);
+  for (const int each : moved) close(each);
+  if (error != 0) throw no_host(std::strerror(error));
+  return pid;
+}
+
+NoHost PluginProcess::State::no_host(const std::string& why) const {
+  return NoHost("touchstone-host", '"' + host.string() + '"',
+                "must be a program that can be started, but that says \"" + why +
+                    "\"; build or install Touchstone again");
 }
 
 void PluginProcess::State::start(std::chrono::milliseconds loading) {
@@ -171,10 +192,14 @@ void PluginProcess::State::start(std::chrono::milliseconds loading) {
   // Messages carry their sender's id as seen in our own PID namespace.
   const int yes = 1;
   setsockopt(socket, SOL_SOCKET, SO_PASSCRED, &yes, sizeof yes);
-  guard = fork();
-  if (guard == 0) serve(ends[1]);
+  try {
+    guard = spawn_host(ends[1]);
+  } catch (...) {
+    close(ends[1]);
+    stop();
+    throw;
+  }
   close(ends[1]);
-  if (guard < 0) fail("fork");
 
   const auto refuse = [&](const std::string& why) {
     stop();
@@ -197,10 +222,7 @@ void PluginProcess::State::start(std::chrono::milliseconds loading) {
   }
   if (reply.kind == Reply::no_host) {  // no fault of the plug-in
     stop();
-    throw NoHost("touchstone-host", '"' + host.string() + '"',
-                 std::string("must be a program that can be started, but that says \"") +
-                     (reply.value != 0 ? std::strerror(reply.value) : reply.text) +
-                     "\"; build or install Touchstone again");
+    throw no_host(reply.text);
   }
   if (reply.kind == Reply::gone) {
     refuse("its process was not there after loading: " + how_it_ended(reply.value));

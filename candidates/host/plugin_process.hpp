@@ -53,7 +53,7 @@ struct PluginProcess::State {
   /// The process that made this. A candidate that calls exit runs our destructors in its own
   /// process, where they must do nothing.
   const pid_t owner = getpid();
-  pid_t guard = -1;  ///< guard of the plug-in's process (exchange.hpp); -1: there is none
+  pid_t guard = -1;  ///< guard of the plug-in's process (guard.hpp); -1: there is none
   int socket = -1;
   int text = -1;  ///< file with the plug-in's output
   int questions_file = -1, exchange_file = -1;
@@ -80,7 +80,9 @@ struct PluginProcess::State {
  private:
   /// Receives one message, ignoring noise.
   bool wait_for(void* message, std::size_t size, std::chrono::milliseconds time) const;
-  [[noreturn]] void serve(int other_end) const;
+  /// Starts the program that loads the plug-in; returns its first process, which becomes a guard.
+  pid_t spawn_host(int other_end) const;
+  NoHost no_host(const std::string& why) const;
 };
 
 /// "Segmentation fault", "ended with exit code 3".

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <sched.h>
 #include <signal.h>
 #include <stdexcept>
 #include <sys/wait.h>
@@ -85,6 +86,12 @@ SessionCommand answer_command(std::uint32_t first, std::uint32_t count, bool rel
   command.count = count;
   command.release = release;
   return command;
+}
+
+/// The only processor that this process may run on, or -1 if there are more.
+int only_processor() {
+  cpu_set_t set;
+  return sched_getaffinity(0, sizeof set, &set) == 0 && CPU_COUNT(&set) == 1 ? sched_getcpu() : -1;
 }
 
 }  // namespace
@@ -406,7 +413,9 @@ void PluginSessions::answer_batch(std::uint32_t count, Manner manner,
                                   std::vector<Answer>& answers) {
   std::vector<std::optional<Answer>> given(count);
   for (std::uint32_t first = 0; first < count;) {
-    const auto failure = obey(answer_command(first, count, manner.release));
+    SessionCommand command = answer_command(first, count, manner.release);
+    command.forget = std::exchange(forgets_, false);
+    const auto failure = obey(command);
     for (std::uint32_t i = first; i < count; ++i) {
       if ((given[i] = answer_in(i))) learn(i);
     }
@@ -494,6 +503,7 @@ bool PluginSessions::keep_for_timing(std::span<const Configuration> configuratio
     SessionCommand keep = plain_command(SessionCommand::keep);
     keep.count = static_cast<std::uint32_t>(batch.size());
     keep.release = at == 0;
+    keep.processor = only_processor();
     if (obey(keep)) return false;
   }
   return !configurations.empty() &&

@@ -31,6 +31,7 @@ class PluginSessions : public Respondent {
                              std::span<const Vec3* const> previous_normals,
                              std::span<const double> thresholds) override;
   void restart() override { end(); }
+  void release_shapes() override { forgets_ = true; }
   bool prepare_timing(std::span<const Configuration> configurations) override;
   std::optional<QueryCost> cost_per_query() override;
 
@@ -90,6 +91,7 @@ class PluginSessions : public Respondent {
   Limits limits_;
   PluginProcess plugin_;
   int session_ = -1;                    ///< process, or -1
+  bool forgets_ = false;                ///< shapes kept ready, at the next batch
   std::uint64_t ticket_ = 0;            ///< ticket of the last command
   std::uint64_t session_ticket_ = 0;    ///< ticket of the command that began the session
   double max_wait_;                     ///< seconds that a query may wait

@@ -18,6 +18,7 @@ class Respondent {
                                      std::span<const Vec3* const> previous_normals,
                                      std::span<const double> thresholds) = 0;
   virtual void restart() = 0;
+  virtual void release_shapes() { restart(); }
   virtual bool prepare_timing(std::span<const Configuration> configurations) = 0;
   virtual std::optional<QueryCost> cost_per_query() = 0;
 };

@@ -8,6 +8,7 @@
 #include <limits>
 #include <linux/perf_event.h>
 #include <optional>
+#include <sched.h>
 #include <sys/ioctl.h>
 #include <sys/mman.h>
 #include <sys/syscall.h>
@@ -84,6 +85,15 @@ double processor_seconds() {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
+/// Keeps this process on one processor, unless it is -1.
+void run_on(int processor) {
+  if (processor < 0) return;
+  cpu_set_t only;
+  CPU_ZERO(&only);
+  CPU_SET(processor, &only);
+  sched_setaffinity(0, sizeof only, &only);
+}
+
 /// Tells what one answer after another took. Reading the clock of processor time takes a system
 /// call, as long as many an answer; the steady clock takes none. A brief interval by the steady
 /// clock has no room for waiting and counts as it is.
@@ -158,7 +168,8 @@ class Session {
   void warm_up();
   void query_all();  ///< queries everything kept for timing once
   void time();
-  double tail();  ///< times each of them singly, for Exchange::tail_nanoseconds
+  double query_each();  ///< likewise, timing each of them singly; nanoseconds of all
+  double tail() const;  ///< for Exchange::tail_nanoseconds
 
   Routine routine_;
   int socket_;
@@ -169,6 +180,7 @@ class Session {
   std::vector<TimedQuery> kept_;
   std::size_t passes_ = 1;                     ///< passes over kept_ in one timed round
   std::optional<InstructionCounter> counter_;  ///< once something is timed
+  double clock_ = 0;  ///< nanoseconds that reading the clock takes, likewise
 };
 
 Session::Session(const ts_candidate& candidate, const SessionCommand& begin, int socket,
@@ -204,6 +216,7 @@ void Session::obey(const SessionCommand& command) {
     case SessionCommand::answer:
       return answer(command);
     case SessionCommand::keep:
+      run_on(command.processor);
       if (command.release) forget_timed();
       for (std::uint32_t i = 0; i < command.count; ++i) {
         questions_.push_back(asked_.slots[i]);
@@ -220,6 +233,7 @@ void Session::obey(const SessionCommand& command) {
 }
 
 void Session::answer(const SessionCommand& command) {
+  if (command.forget) routine_.release_all_but_of({});
   LapClock clock;
   for (std::uint32_t i = command.first; i < command.count; ++i) {
     answer(i);
@@ -269,30 +283,42 @@ void Session::query_all() {
 }
 
 void Session::time() {
-  if (!counter_) counter_.emplace();
+  if (!counter_) {
+    counter_.emplace();
+    clock_ = clock_nanoseconds();
+  }
   query_all();  // warms the caches, as the process has slept since the last round
+  const bool is_long = passes_ == 1;  // reading the clock after every query adds a hundredth
   counter_->start();
   const auto start = std::chrono::steady_clock::now();
-  for (std::size_t pass = 0; pass < passes_; ++pass) query_all();
-  const auto end = std::chrono::steady_clock::now();
+  for (std::size_t pass = 0; pass < passes_ && !is_long; ++pass) query_all();
+  const double together = nanoseconds_since(start);
+  const double singly = is_long ? query_each() : 0;
   const auto instructions = counter_->stop();
+  if (!is_long) query_each();
   const auto queries = static_cast<double>(passes_ * kept_.size());
-  exchange_.nanoseconds = std::chrono::duration<double, std::nano>(end - start).count() / queries;
+  exchange_.nanoseconds = (is_long ? singly : together) / queries;
   exchange_.instructions = instructions ? static_cast<double>(*instructions) / queries
                                         : std::numeric_limits<double>::quiet_NaN();
   exchange_.tail_nanoseconds = tail();
 }
 
-double Session::tail() {
-  static const double clock = clock_nanoseconds();
-  std::vector<double> times;
+double Session::query_each() {
+  double sum = 0;
   for (TimedQuery& k : kept_) {
     const auto start = std::chrono::steady_clock::now();
     routine_.candidate().query(k.prepared, &k.a, &k.b, nullptr, answer_);
-    k.least = std::min(k.least, nanoseconds_since(start) - clock);
-    times.push_back(std::max(k.least, 0.0));
+    const double nanoseconds = std::max(nanoseconds_since(start) - clock_, 0.0);
+    k.least = std::min(k.least, nanoseconds);
+    sum += nanoseconds;
   }
-  if (times.empty()) return std::numeric_limits<double>::quiet_NaN();
+  return sum;
+}
+
+double Session::tail() const {
+  if (kept_.empty()) return std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> times;
+  for (const TimedQuery& k : kept_) times.push_back(k.least);
   // The least one that at least 95% do not exceed.
   const std::size_t rank = (95 * times.size() + 99) / 100 - 1;
   std::nth_element(times.begin(), times.begin() + static_cast<std::ptrdiff_t>(rank), times.end());

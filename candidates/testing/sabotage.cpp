@@ -14,6 +14,7 @@
 #include <cstring>
 #include <ctime>
 #include <limits>
+#include <sched.h>
 #include <stdexcept>
 #include <sys/mman.h>
 #include <unistd.h>
@@ -204,6 +205,9 @@ void query_counted(ts_prepared*, const ts_pose*, const ts_pose*, const double*, 
   behave(*answer);
   answer->signed_distance = -prepared_pairs;
   answer->points[0].depth = prepared_pairs - released_pairs;
+  cpu_set_t allowed;
+  sched_getaffinity(0, sizeof allowed, &allowed);
+  answer->points[0].position[0] = CPU_COUNT(&allowed);
 }
 void release_counted(ts_prepared* prepared) {
   ++released_pairs;
@@ -221,7 +225,7 @@ const ts_candidate candidates[] = {
      supports_planes, prepare_declining, query_declining, release_declining, nullptr, nullptr},
     {"tiring", "1", "wrong from the fortieth question on", nullptr, nullptr, supports_planes,
      prepare_declining, query_tiring, release_declining, nullptr, nullptr},
-    {"counting", "1", "answers how many pairs it has prepared", nullptr, nullptr, supports,
+    {"counting", "1", "answers what it has prepared and where it runs", nullptr, nullptr, supports,
      prepare_counted, query_counted, release_counted, nullptr, nullptr},
     {"stalling", "1", "is slow or endless in places", nullptr, nullptr, supports, prepare,
      query_stalling, release, nullptr, nullptr},
