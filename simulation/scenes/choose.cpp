@@ -246,11 +246,29 @@ class Search {
   /// Times what has to be timed and returns the run that is the answer.
   std::size_t best() {
     const std::vector<std::size_t> last = finalists();
-    if (!std::ranges::all_of(last, [&](std::size_t i) { return choice_.runs[i].timed; })) {
-      std::vector<SceneRun*> timed = {&choice_.runs[0]};
-      for (const std::size_t i : last) timed.push_back(&choice_.runs[i]);
-      judge_.time(timed);
+    const auto is_timed = [&](std::size_t i) { return choice_.runs[i].timed; };
+    if (!std::ranges::all_of(last, is_timed)) time(last);
+    std::size_t result = cheapest(last);
+    // A busy machine's noise exceeds `noise_of_step` at times: what saves little must do so twice.
+    const double max_seconds = (1 - 2 * noise_of_step) * choice_.runs[0].seconds();
+    if (result != 0 && result != timed_twice_ && choice_.runs[result].seconds() > max_seconds) {
+      timed_twice_ = result;
+      time(last);
+      result = cheapest(last);
     }
+    return result;
+  }
+
+  /// Times these runs and the exact one, which is that of index 0, together.
+  void time(const std::vector<std::size_t>& runs) {
+    std::vector<SceneRun*> timed = {&choice_.runs[0]};
+    for (const std::size_t i : runs) timed.push_back(&choice_.runs[i]);
+    judge_.time(timed);
+  }
+
+  /// The simplest of these runs that cost much the same as the cheapest; 0, the exact one, if none
+  /// saves more than noise.
+  std::size_t cheapest(const std::vector<std::size_t>& last) const {
     double limit = (1 - noise_of_step) * choice_.runs[0].seconds();
     std::size_t result = 0;
     for (const std::size_t i : last) {
@@ -316,6 +334,7 @@ class Search {
   Choice& choice_;
   const Candidate& exact_;
   SceneJudge judge_;
+  std::size_t timed_twice_ = 0;  ///< the run that saved little when all were last timed again
 };
 
 }  // namespace

@@ -117,7 +117,8 @@ class SceneJudge {
   /// the same disturbances. Nothing depends on the number of worker processes.
   void judge(std::vector<SceneRun>& runs, std::size_t last);
 
-  /// Times the solver in runs of the scene as it is written, in turns: of each step the least.
+  /// Times the solver in runs of the scene as it is written, in turns: of each step the least. The
+  /// least of all calls counts.
   void time(const std::vector<SceneRun*>& runs) const;
 
  private:
