@@ -100,7 +100,7 @@ struct SessionCommand {
   std::uint64_t ticket;  ///< unique to the command
   bool release;  ///< `answer`: keep no shapes ready for later commands; `keep`: none kept before
   bool forget;   ///< `answer`: at first, release the shapes kept ready for it
-  std::int32_t processor;  ///< `keep`: the only one to run on from now on; -1: any
+  std::int32_t processor;  ///< `keep`: the only one to run on from now on; -1: as before
   std::int32_t index;
   double parameter;
   std::uint64_t memory;  ///< growth in bytes that a session is allowed
