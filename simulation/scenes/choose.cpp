@@ -269,17 +269,12 @@ class Search {
   /// The simplest of these runs that cost much the same as the cheapest; 0, the exact one, if none
   /// saves more than noise.
   std::size_t cheapest(const std::vector<std::size_t>& last) const {
-    double limit = (1 - noise_of_step) * choice_.runs[0].seconds();
-    std::size_t result = 0;
+    std::vector<Finalist> costs;
     for (const std::size_t i : last) {
-      limit = std::min(limit, choice_.runs[i].seconds() / cheaper_share);
+      costs.push_back({i, choice_.runs[i].seconds(), rank(choice_.runs[i].models)});
     }
-    for (const std::size_t i : last) {
-      const SceneRun& run = choice_.runs[i];
-      const bool is_simpler = result == 0 || rank(run.models) < rank(choice_.runs[result].models);
-      if (run.seconds() <= limit && is_simpler) result = i;
-    }
-    return result;
+    const double limit = (1 - noise_of_step) * choice_.runs[0].seconds();
+    return simplest_of_cheapest(costs, limit).value_or(0);
   }
 
   /// The simplest model of a kind that serves while the others are exact and costs no more than the

@@ -11,6 +11,7 @@
 #include "candidates/model.hpp"
 #include "simulation/scenes/disturbed_scene.hpp"
 #include "simulation/scenes/scene_file.hpp"
+#include "simulation/scenes/simplest.hpp"
 
 // How candidates do in a scene: query by query on the configurations of a run, and in whole runs.
 
@@ -185,10 +186,6 @@ struct Choice {
 /// Share of a step's time below which a saving cannot be told from noise: the advice then is the
 /// exact cylinder.
 inline constexpr double noise_of_step = 0.05;
-
-/// Share of another's time below which a candidate or a run counts as cheaper: smaller differences
-/// are noise of the machine, and the simpler one is preferred.
-inline constexpr double cheaper_share = 0.9;
 
 /// Runs the scene exactly, replays what occurred with every candidate, runs the whole scene with
 /// each of them under all disturbances, then searches by kind of pairs: the model of each kind with

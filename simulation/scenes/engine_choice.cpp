@@ -343,13 +343,9 @@ class Search {
       return std::ranges::find(timed_together_, i) != timed_together_.end();
     };
     if (!std::ranges::all_of(timed, is_timed)) time(timed);
-    double limit = infinity;
-    for (const std::size_t i : last) limit = std::min(limit, seconds(i) / cheaper_share);
-    std::optional<std::size_t> result;
-    for (const std::size_t i : last) {
-      if (seconds(i) <= limit && (!result || rank(i) < rank(*result))) result = i;
-    }
-    return result;
+    std::vector<Finalist> costs;
+    for (const std::size_t i : last) costs.push_back({i, seconds(i), rank(i)});
+    return simplest_of_cheapest(costs, infinity);
   }
 
   /// Does the answer hold under the further disturbances of an answer?

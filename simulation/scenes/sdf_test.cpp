@@ -1,0 +1,223 @@
+// SDF: what is read and where, the models that it includes, and which files are refused.
+#include <cstdlib>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fstream>
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include "simulation/scenes/robot_files_fixture.hpp"
+
+namespace touchstone {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+
+TEST(Sdf, GivesShapesWhereTheyAreInTheWorld) {
+  const RobotFile file = read_robot(scenes / "warehouse.sdf");
+  EXPECT_EQ(file.name, "warehouse");
+  EXPECT_EQ(shape_count(file), 9U);
+  const LinkShape& roller = named(file, "roller_conveyor::frame/roller_2");
+  EXPECT_TRUE(by_name(file.links, "roller_conveyor::frame").fixed);
+  EXPECT_NEAR((roller.pose.position() - Vec3(-0.6, 0, 0.42)).norm(), 0, 1e-12);
+  EXPECT_NEAR((roller.pose.axis() - Vec3(0, -1, 0)).norm(), 0, 1e-5);
+  const auto& bumper = std::get<Capsule>(named(file, "cart::tray/bumper").shape);
+  EXPECT_EQ(bumper.half_length(), 0.2);
+  EXPECT_TRUE(std::holds_alternative<Plane>(named(file, "ground_plane::link/collision").shape));
+  const LinkJoint& axle = by_name(file.joints, "cart::wheel_axle");
+  EXPECT_EQ(file.links[axle.parent].name, "cart::tray");
+  EXPECT_EQ(file.links[axle.child].name, "cart::wheel");
+  EXPECT_NEAR((axle.axis - Vec3(0, -1, 0)).norm(), 0, 1e-5);
+  EXPECT_NEAR((axle.anchor - Vec3(0.3, 1.8, 0.12)).norm(), 0, 1e-12);
+}
+
+TEST(Sdf, SaysWhatItIgnores) {
+  const auto ignored = read_robot(scenes / "warehouse.sdf").ignored;
+  EXPECT_THAT(ignored, Contains(HasSubstr("collision cart::tray/hull: a mesh")));
+  EXPECT_THAT(ignored, Contains("plugin ignition::gazebo::systems::Physics: not read"));
+  EXPECT_THAT(ignored, Contains("sensor touch: not read"));
+}
+
+std::string sdf_refusal(const std::string& geometry, const std::string& version = "1.7") {
+  return refusal_of("part.sdf", "<sdf version='" + version + R"('><world name='w'><model name='m'>
+    <link name='mid'><collision name='broken'>)" +
+                                    geometry + "</collision></link></model></world></sdf>");
+}
+
+TEST(Sdf, RefusesAShapeThatItsReaderWouldReplaceByADefault) {
+  const auto of = [](const std::string& shape) {
+    return sdf_refusal("<geometry>" + shape + "</geometry>");
+  };
+  const std::string length = "<length>1</length>";
+  EXPECT_EQ(of("<cylinder><radius> 0.2 </radius>" + length + "</cylinder>"),
+            "accepted with 1 shapes");
+  EXPECT_EQ(of("<plane><normal>0 0 1</normal></plane>"), "accepted with 1 shapes");
+  EXPECT_THAT(
+      of("<cylinder><radiu>0.2</radiu>" + length + "</cylinder>"),
+      HasSubstr("collision m::mid/broken.cylinder.radiu is unknown: must be one of radius"));
+  EXPECT_THAT(of("<cylinder>" + length + "</cylinder>"),
+              HasSubstr("collision m::mid/broken.cylinder.radius is missing"));
+  EXPECT_THAT(of("<cylinder><radius>0.2m</radius>" + length + "</cylinder>"),
+              HasSubstr("cylinder.radius is \"0.2m\": must be a number"));
+  EXPECT_THAT(of("<sphere><radius>1</radius><radius>2</radius></sphere>"),
+              HasSubstr("sphere.radius is there more than once"));
+  EXPECT_THAT(of("<box><size>1 2 3 4</size></box>"), HasSubstr("box.size is \"1 2 3 4\""));
+  EXPECT_THAT(of("<cilinder/>"), HasSubstr("m::mid/broken.geometry is \"cilinder\""));
+  EXPECT_THAT(of(""), HasSubstr("m::mid/broken.geometry is empty"));
+}
+
+TEST(Sdf, ChecksTheModelsThatItIncludes) {
+  const auto folder = std::filesystem::temp_directory_path() / (std::to_string(getpid()) + "-can");
+  std::filesystem::create_directory(folder);
+  std::ofstream(folder / "model.config")
+      << "<model><name>can</name><sdf version='1.7'>model.sdf</sdf></model>";
+  const Written world("world.sdf", "<sdf version='1.7'><world name='w'><include><uri>" +
+                                       folder.string() + "</uri></include></world></sdf>");
+  const auto read_with = [&](const std::string& radius) -> std::string {
+    std::ofstream(folder / "model.sdf")
+        << "<sdf version='1.7'><model name='can'><link name='l'><collision name='c'><geometry>"
+           "<sphere>" +
+               radius + "</sphere></geometry></collision></link></model></sdf>";
+    try {
+      return fmt::format("{} shapes", shape_count(read_robot(world.path)));
+    } catch (const InvalidInput& e) {
+      return e.what();
+    }
+  };
+  EXPECT_EQ(read_with("<radius>0.2</radius>"), "1 shapes");
+  EXPECT_THAT(read_with("<radiu>0.2</radiu>"),
+              HasSubstr((folder / "model.sdf").string() +
+                        ": collision can::l/c.sphere.radiu is unknown: must be one of radius"));
+  std::filesystem::remove_all(folder);
+}
+
+TEST(Sdf, RefusesAPoseOfWhichItsReaderWouldIgnoreAUnit) {
+  const std::string ball = "<geometry><sphere><radius>1</radius></sphere></geometry>";
+  EXPECT_EQ(sdf_refusal("<pose>0 0 1 0 0 0</pose>" + ball), "accepted with 1 shapes");
+  EXPECT_THAT(sdf_refusal("<pose>0 0 1m 0 0 0</pose>" + ball),
+              HasSubstr("collision m::mid/broken.pose is \"0 0 1m 0 0 0\": must be numbers"));
+}
+
+TEST(Sdf, RefusesAVersionThatItsReaderDoesNotKnow) {
+  const std::string ball = "<geometry><sphere><radius>1</radius></sphere></geometry>";
+  EXPECT_EQ(sdf_refusal(ball, "1.6"), "accepted with 1 shapes");
+  for (const char* version : {"9.9", "1.99", "1.x", "1", ""}) {
+    EXPECT_THAT(sdf_refusal(ball, version), testing::Not(HasSubstr("accepted"))) << version;
+  }
+  EXPECT_THAT(sdf_refusal(ball, "9.9"), HasSubstr("sdf.version is \"9.9\": must be 1.0 to 1."));
+}
+
+/// A folder of this test's own.
+struct Folder {
+  explicit Folder(const std::string& name)
+      : path(std::filesystem::temp_directory_path() / (std::to_string(getpid()) + '-' + name)) {
+    std::filesystem::create_directory(path);
+  }
+  ~Folder() { std::filesystem::remove_all(path); }
+  /// Writes a model with this content; its first link is "l".
+  void model(const std::string& name, const std::string& content) const {
+    std::filesystem::create_directory(path / name);
+    std::ofstream(path / name / "model.config")
+        << "<model><name>" << name << "</name><sdf version='1.7'>model.sdf</sdf></model>";
+    std::ofstream(path / name / "model.sdf")
+        << "<sdf version='1.7'><model name='" << name << "'>" << content << "</model></sdf>";
+  }
+  std::filesystem::path path;
+};
+
+struct IncludedModels : testing::Test {
+  const std::string ball =
+      "<link name='l'><collision name='c'><geometry><sphere><radius>0.2</radius></sphere>"
+      "</geometry></collision></link>";
+  Folder models{"models"};
+
+  /// What becomes of a world that includes this URI.
+  static std::string with(const std::string& uri,
+                          const std::vector<std::filesystem::path>& folders = {}) {
+    const Written world("world.sdf", "<sdf version='1.7'><world name='w'><include><uri>" + uri +
+                                         "</uri></include></world></sdf>");
+    try {
+      return fmt::format("{} shapes", shape_count(read_robot(world.path, folders)));
+    } catch (const InvalidInput& e) {
+      return e.what();
+    }
+  }
+};
+
+TEST_F(IncludedModels, AreFoundByOptionAndByTheEnvironment) {
+  models.model("ball", ball);
+  EXPECT_THAT(with("model://ball"), HasSubstr("include.uri is \"model://ball\": must name a model "
+                                              "in a folder of --model-path, SDF_PATH"));
+  EXPECT_EQ(with("model://ball", {models.path}), "1 shapes");
+  EXPECT_EQ(with("package://ball", {models.path}), "1 shapes");
+  EXPECT_EQ(with(" model://ball/model.sdf\n", {models.path}), "1 shapes");
+  for (const char* variable : {"SDF_PATH", "GZ_SIM_RESOURCE_PATH", "GAZEBO_MODEL_PATH"}) {
+    setenv(variable, ("/nowhere:" + models.path.string()).c_str(), 1);
+    EXPECT_EQ(with("model://ball"), "1 shapes") << variable;
+    unsetenv(variable);
+  }
+}
+
+TEST_F(IncludedModels, ThatIncludeThemselvesOrAreNotHereAreRefused) {
+  models.model("a", ball + "<include><uri>model://b</uri></include>");
+  models.model("b", ball + "<include><uri>model://a</uri></include>");
+  EXPECT_THAT(with("model://a", {models.path}), HasSubstr("must not include itself"));
+  EXPECT_THAT(with("https://fuel.gazebosim.org/1.0/model"), HasSubstr("must be on this machine"));
+  std::filesystem::create_directory(models.path / "empty");
+  EXPECT_THAT(with("model://empty", {models.path}), HasSubstr("model.config"));
+  EXPECT_THAT(with(""), HasSubstr("include.uri is \"\""));
+}
+
+TEST(Sdf, GivesMassFrictionAndGravity) {
+  const RobotFile world = read_robot(scenes / "loading-bay.sdf");
+  EXPECT_TRUE(world.is_world);
+  EXPECT_EQ(world.gravity.z(), -9.8);
+  EXPECT_EQ(by_name(world.links, "cart_1::tray").mass, 6);
+  EXPECT_EQ(named(world, "cart_1::front_left_wheel/tyre").friction, 0.9);
+  EXPECT_FALSE(named(world, "barrel::link/body").friction);
+  EXPECT_TRUE(by_name(world.links, "post::link").fixed);
+  EXPECT_EQ(world.left_out.shapes, 1U);
+  EXPECT_THAT(world.ignored, Contains("light sun: not read"));
+}
+
+TEST(Sdf, SaysWhatItDoesInsteadOfOtherJoints) {
+  const std::string link =
+      "<collision name='c'><geometry><sphere><radius>1</radius></sphere>"
+      "</geometry></collision></link>";
+  const Written file("ball.sdf", "<sdf version='1.7'><model name='m'><link name='a'>" + link +
+                                     "<link name='b'>" + link +
+                                     "<joint name='j' type='ball'><parent>a</parent>"
+                                     "<child>b</child></joint></model></sdf>");
+  const RobotFile robot = read_robot(file.path);
+  EXPECT_THAT(robot.ignored, Contains("joint m::j: ball; taken as fixed"));
+  EXPECT_EQ(by_name(robot.joints, "m::j").kind, JointKind::fixed);
+}
+
+TEST(Sdf, SaysWhatOfAWorldAndItsJointsItIgnores) {
+  const std::string link =
+      "<collision name='c'><geometry><sphere><radius>1</radius></sphere>"
+      "</geometry></collision></link>";
+  const auto ignored = [&](const std::string& of_world, const std::string& of_axis) {
+    const Written file("axis.sdf",
+                       "<sdf version='1.7'><world name='w'>" + of_world +
+                           "<model name='m'><link name='a'>" + link + "<link name='b'>" + link +
+                           "<joint name='j' type='revolute'><parent>a</parent><child>b</child>"
+                           "<axis><xyz>0 0 1</xyz>" +
+                           of_axis + "</axis></joint></model></world></sdf>");
+    return read_robot(file.path).ignored;
+  };
+  EXPECT_THAT(
+      ignored("<physics name='fast' type='ode'><max_step_size>0.002</max_step_size></physics>"
+              "<state world_name='w'/>",
+              "<limit><velocity>3</velocity></limit><dynamics><damping>1</damping>"
+              "<friction>2</friction><spring_stiffness>4</spring_stiffness></dynamics>"),
+      testing::UnorderedElementsAre(
+          "physics fast: not read", "state w: not read", "damping of joint m::j: not read",
+          "friction of joint m::j: not read", "the spring of joint m::j: not read",
+          "the largest speed of joint m::j: not read"));
+  EXPECT_THAT(ignored("", "<limit><velocity>-1</velocity></limit>"), testing::IsEmpty());
+}
+
+}  // namespace
+}  // namespace touchstone
