@@ -327,6 +327,7 @@ std::string shard_text(const Shard& shard) {
                      {"seed", 1},
                      {"count", 600},
                      {"unit_size", Unit::max_size},
+                     {"run_size", run_size},
                      {"tolerance", 1e-4},
                      {"threshold", 0},
                      {"classes",

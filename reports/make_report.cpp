@@ -57,10 +57,6 @@ PoseClassDescription description_of(const Cell& cell) {
 
 namespace {
 
-/// Configurations that candidates answer in one session: a new one costs a candidate as much as
-/// hundreds of answers.
-constexpr std::uint64_t run_size = 1024;
-
 /// What is known of each cell; absent where the run was interrupted before all of it was scored.
 std::vector<std::optional<Sample>> sample_cells(const Campaign& campaign,
                                                 const std::vector<Cell>& cells) {

@@ -14,7 +14,7 @@ namespace touchstone {
 
 /// Consecutive configurations of one cell (pair × class): indices first … last − 1.
 struct Unit {
-  /// Few enough that a checkpoint loses little, enough that new sessions cost little.
+  /// Few enough that a checkpoint loses little.
   static constexpr std::uint64_t max_size = 512;
 
   std::size_t cell;
@@ -25,6 +25,10 @@ struct Unit {
 /// Runs are fixed by whoever plans them, so that answers, even of a candidate with a memory, do not
 /// depend on the number of workers.
 using UnitRun = std::vector<Unit>;
+
+/// Configurations of a run, and so of a session: a new one costs a candidate as much as hundreds of
+/// answers.
+inline constexpr std::uint64_t run_size = 1024;
 
 /// Joins successive units to runs of up to `max_size` configurations, or of one larger unit.
 std::vector<UnitRun> runs_of(const std::vector<Unit>& units, std::uint64_t max_size);

@@ -15,10 +15,10 @@ fail() {
   failures=$((failures + 1))
 }
 
-# Two cheap pose classes, in ten units; three candidates, one of them with failures.
+# Two cheap pose classes, in 22 units, eleven runs; three candidates, one of them with failures.
 settings=(campaign --pair cylinder-sphere --class general-deep,cap
   --candidates reference,bullet,capsule)
-campaign() { "$program" "${settings[@]}" --count 2500 "$@"; }
+campaign() { "$program" "${settings[@]}" --count 5500 "$@"; }
 # The same for as long as it is let, whatever the machine's load.
 endless() { "$program" "${settings[@]}" --count 1e9 --checkpoint 0.1 "$@"; }
 
@@ -56,7 +56,7 @@ END
 
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 for ranks in 2 3 5; do
-  mpirun --oversubscribe -n "$ranks" "$program" "${settings[@]}" --count 2500 --out "mpi$ranks" \
+  mpirun --oversubscribe -n "$ranks" "$program" "${settings[@]}" --count 5500 --out "mpi$ranks" \
     >/dev/null 2>mpi.log ||
     fail "mpirun -n $ranks: $(head -n 5 mpi.log)"
   same "mpi$ranks" "mpirun -n $ranks"
@@ -93,7 +93,7 @@ same partial "a partial merge that was finished"
 
 # Killed twenty times at random moments, with the checkpoints of a tenth of a second.
 for _ in $(seq 20); do
-  "$program" "${settings[@]}" --count 2500 --out killed --resume --checkpoint 0.1 >/dev/null 2>&1 &
+  "$program" "${settings[@]}" --count 5500 --out killed --resume --checkpoint 0.1 >/dev/null 2>&1 &
   victim=$!
   sleep "0.$((RANDOM % 35 + 10))"
   kill -KILL "$victim" 2>/dev/null

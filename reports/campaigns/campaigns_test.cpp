@@ -39,19 +39,69 @@ TEST(Units, HoldEveryConfigurationOnce) {
   }));
 }
 
+TEST(Units, OfAllRunsAreAllUnitsOnce) {
+  EXPECT_TRUE(rc::check([] {
+    const Cut cut = arbitrary_cut();
+    std::uint64_t first = 0;
+    for (std::uint64_t run = 0; run < cut.runs(); ++run) {
+      const UnitRun units = cut.run(first);
+      RC_ASSERT(!units.empty());
+      std::uint64_t size = 0;
+      for (const Unit& unit : units) {
+        const Unit expected = cut.unit(first);
+        RC_ASSERT(unit.cell == expected.cell && unit.first == expected.first &&
+                  unit.last == expected.last);
+        size += unit.last - unit.first;
+        ++first;
+      }
+      RC_ASSERT(size <= run_size);
+      RC_ASSERT(first == cut.units() || units.size() == cut.run_length());
+    }
+    RC_ASSERT(first == cut.units());
+  }));
+}
+
+TEST(Units, OfManySmallCellsAreScoredTogether) {
+  EXPECT_EQ((Cut{300, 1}.runs()), 1u);
+  EXPECT_EQ((Cut{300, 10}.run_length()), 102u);
+  EXPECT_EQ((Cut{300, 10}.runs()), 3u);
+  EXPECT_EQ((Cut{300, 512}.run_length()), 2u);
+  EXPECT_EQ((Cut{300, 1000000}.run_length()), 2u);
+}
+
+TEST(Units, AreWholeRunsOrNot) {
+  const Cut cut{5, 100};  // ten units of a cell each would make a run
+  const Cut pairs{5, 512};
+  const auto units = [](std::uint64_t first, std::uint64_t last) {
+    UnitSet set;
+    set += UnitSet::interval_type(first, last);
+    return set;
+  };
+  EXPECT_TRUE(are_whole_runs(cut, {}));
+  EXPECT_TRUE(are_whole_runs(cut, units(0, 5)));
+  EXPECT_FALSE(are_whole_runs(cut, units(0, 4)));
+  EXPECT_TRUE(are_whole_runs(pairs, units(2, 4)));
+  EXPECT_TRUE(are_whole_runs(pairs, units(4, 5)));
+  EXPECT_FALSE(are_whole_runs(pairs, units(1, 4)));
+  EXPECT_FALSE(are_whole_runs(pairs, units(2, 3)));
+}
+
 TEST(Units, OfAllShardsAreAllUnitsOnce) {
   EXPECT_TRUE(rc::check([] {
     const Cut cut = arbitrary_cut();
     const auto of = *rc::gen::inRange<std::uint64_t>(1, 30);
     UnitSet all;
-    std::uint64_t sum = 0, min = cut.units(), max = 0;
+    const std::uint64_t length = cut.run_length();
+    std::uint64_t sum = 0, min = cut.runs(), max = 0;
     for (std::uint64_t number = 1; number <= of; ++number) {
       const UnitSet part = Shard{number, of}.units(cut);
       RC_ASSERT(!boost::icl::intersects(all, part));
+      RC_ASSERT(are_whole_runs(cut, part));
       all += part;
       sum += configurations(cut, part);
-      min = std::min<std::uint64_t>(min, boost::icl::cardinality(part));
-      max = std::max<std::uint64_t>(max, boost::icl::cardinality(part));
+      const std::uint64_t runs = (boost::icl::cardinality(part) + length - 1) / length;
+      min = std::min(min, runs);
+      max = std::max(max, runs);
     }
     RC_ASSERT(all == Shard{}.units(cut));
     RC_ASSERT(sum == cut.cells * cut.count);
@@ -199,6 +249,7 @@ json plan(std::uint64_t seed = 1) {
           {"seed", seed},
           {"count", 1000},
           {"unit_size", Unit::max_size},
+          {"run_size", run_size},
           {"tolerance", 1e-4},
           {"threshold", 0},
           {"classes",
@@ -208,8 +259,8 @@ json plan(std::uint64_t seed = 1) {
 }
 
 /// Units first … last − 1 of it, with scores that follow from their indices.
-ShardState part(std::uint64_t first, std::uint64_t last, std::uint64_t seed = 1) {
-  ShardState p(plan_from_json(plan(seed)), Shard{});
+ShardState part_of(const json& plan, std::uint64_t first, std::uint64_t last) {
+  ShardState p(plan_from_json(plan), Shard{});
   for (std::uint64_t number = first; number < last; ++number) {
     const Unit unit = p.plan.cut.unit(number);
     std::vector<ScoreTally> tallies(p.tallies.size(), ScoreTally(Precision::binned));
@@ -227,6 +278,10 @@ ShardState part(std::uint64_t first, std::uint64_t last, std::uint64_t seed = 1)
     p.add(done, tallies);
   }
   return p;
+}
+
+ShardState part(std::uint64_t first, std::uint64_t last, std::uint64_t seed = 1) {
+  return part_of(plan(seed), first, last);
 }
 
 std::string merged(const std::vector<ShardState>& parts) {
@@ -335,6 +390,10 @@ TEST(Merge, RefusesPartsThatAreCutIntoUnitsOfAnotherSize) {
   other["unit_size"] = 2 * Unit::max_size;
   EXPECT_THAT([&] { plan_from_json(other); },
               ThrowsMessage<InvalidInput>(HasSubstr("campaign.unit_size is 1024")));
+  other = plan();
+  other.erase("run_size");  // one of before units were joined to runs
+  EXPECT_THAT([&] { plan_from_json(other); },
+              ThrowsMessage<InvalidInput>(HasSubstr("campaign.run_size")));
 }
 
 TEST(Merge, MarksWhatDoesNotRunAsNativeCode) {
@@ -353,7 +412,7 @@ TEST(Merge, MarksWhatIsPartial) {
 }
 
 TEST(ShardFile, IsReadBackToTheLastBit) {
-  const std::string text = to_text(part(0, 3));
+  const std::string text = to_text(part(0, 2));
   EXPECT_EQ(to_text(shard_from_text(text, "file")), text);
 }
 
@@ -373,14 +432,24 @@ TEST(ShardFile, IsWrittenAgainFromTheLinesThatHaveChanged) {
 }
 
 TEST(ShardFile, IsRefusedWhenCountsBelongToAnotherClass) {
-  ShardState state = part(0, 3);  // 1000 of the first class, 512 of the second
+  json three = plan();
+  three["classes"].push_back({{"pair", "cylinder-plane"}, {"class", "lying"}});
+  // Two runs: 1000 of the first class, 512 of the others.
+  ShardState state = part_of(three, 0, 4);
+  EXPECT_EQ(to_text(shard_from_text(to_text(state), "file")), to_text(state));
   for (std::size_t k = 0; k < 2; ++k) std::swap(state.tally(0, k), state.tally(1, k));
   EXPECT_THAT([&] { shard_from_text(to_text(state), "file"); },
               ThrowsMessage<InvalidInput>(HasSubstr("counts of less than what is done")));
 }
 
+// Answers of its units would come from another session than in a campaign that was never stopped.
+TEST(ShardFile, IsRefusedWhenItHasAPartOfARun) {
+  EXPECT_THAT([] { shard_from_text(to_text(part(0, 3)), "file"); },
+              ThrowsMessage<InvalidInput>(HasSubstr("a run done in part")));
+}
+
 TEST(ShardFile, IsRefusedWhenAnythingInItHasChanged) {
-  const std::string text = to_text(part(0, 3));
+  const std::string text = to_text(part(0, 2));
   const auto refused = [](const std::string& damaged) {
     EXPECT_THAT([&] { shard_from_text(damaged, "file"); },
                 ThrowsMessage<InvalidInput>(HasSubstr("\"file\" is damaged")));

@@ -24,9 +24,10 @@ namespace {
 using nlohmann::json;
 using Range = UnitSet::interval_type;
 
-/// Where part `number` of `of` begins; without overflow.
-std::uint64_t start_of(std::uint64_t units, std::uint64_t number, std::uint64_t of) {
-  return units / of * number + std::min(number, units % of);
+/// The unit at which part `number` of `of` begins; without overflow.
+std::uint64_t start_of(const Cut& cut, std::uint64_t number, std::uint64_t of) {
+  const std::uint64_t run = cut.runs() / of * number + std::min(number, cut.runs() % of);
+  return std::min(cut.units(), run * cut.run_length());
 }
 
 /// Checksum of a file of any size.
@@ -70,6 +71,20 @@ std::string difference(const std::string& name, const json& expected, const json
 Unit Cut::unit(std::uint64_t number) const {
   const std::uint64_t first = number / cells * Unit::max_size;
   return {number % cells, first, std::min(count, first + Unit::max_size)};
+}
+
+UnitRun Cut::run(std::uint64_t first_unit) const {
+  UnitRun result;
+  const std::uint64_t last = std::min(units(), first_unit + run_length());
+  for (std::uint64_t number = first_unit; number < last; ++number) result.push_back(unit(number));
+  return result;
+}
+
+bool are_whole_runs(const Cut& cut, const UnitSet& set) {
+  return std::ranges::all_of(set, [&](const Range& range) {
+    const bool ends = range.upper() % cut.run_length() == 0 || range.upper() == cut.units();
+    return range.lower() % cut.run_length() == 0 && ends;
+  });
 }
 
 std::uint64_t nth(const UnitSet& set, std::uint64_t position) {
@@ -121,7 +136,7 @@ std::vector<std::uint64_t> configurations_by_cell(const Cut& cut, const UnitSet&
 
 UnitSet Shard::units(const Cut& cut) const {
   UnitSet result;
-  result.add(Range(start_of(cut.units(), number - 1, of), start_of(cut.units(), number, of)));
+  result.add(Range(start_of(cut, number - 1, of), start_of(cut, number, of)));
   return result;
 }
 
@@ -168,6 +183,7 @@ Plan make_plan(const Campaign& campaign, const std::string& command) {
                          {"seed", campaign.seed},
                          {"count", campaign.count},
                          {"unit_size", Unit::max_size},
+                         {"run_size", run_size},
                          {"tolerance", campaign.bar.tolerance},
                          {"threshold", campaign.bar.threshold},
                          {"time_limit", campaign.limits.seconds},
@@ -185,10 +201,12 @@ Plan plan_from_json(const json& j) {
   };
   Plan plan;
   plan.cut.count = whole_number(member(j, "count", "campaign"), "campaign.count", Plan::max_count);
-  const json& unit_size = member(j, "unit_size", "campaign");
-  if (unit_size != Unit::max_size) {
-    throw InvalidInput("campaign.unit_size", shown(unit_size),
-                       fmt::format("must be {}, the units of this version", Unit::max_size));
+  for (const auto& [name, size] :
+       {std::pair("unit_size", Unit::max_size), std::pair("run_size", run_size)}) {
+    const json& found = member(j, name, "campaign");
+    if (found == size) continue;
+    throw InvalidInput(std::string("campaign.") + name, shown(found),
+                       fmt::format("must be {}, as this version has it", size));
   }
   plan.seed = whole_number(member(j, "seed", "campaign"), "campaign.seed");
   plan.version = text_of("version");

@@ -122,19 +122,22 @@ bool run_shard(const Campaign& campaign, ShardState& state, const std::filesyste
 
   bool all = false;
   try {
+    const std::uint64_t length = cut.run_length();
+    const auto first_unit = [&](std::uint64_t run) { return nth(left, run * length); };
     all = sample(
-        campaign, Purpose::campaign, boost::icl::cardinality(left),
-        [&](std::uint64_t task) { return UnitRun{cut.unit(nth(left, task))}; },
-        [&](std::uint64_t task, const std::vector<Sample>& samples) {
-          const Sample& unit_sample = samples.front();
-          const std::uint64_t number = nth(left, task);
-          const auto [cell, first, last] = cut.unit(number);
-          for (std::size_t k = 0; k < unit_sample.tallies.size(); ++k) {
-            state.tally(cell, k).add(unit_sample.tallies[k]);
+        campaign, Purpose::campaign, (boost::icl::cardinality(left) + length - 1) / length,
+        [&](std::uint64_t run) { return cut.run(first_unit(run)); },
+        [&](std::uint64_t run, const std::vector<Sample>& samples) {
+          const std::uint64_t first = first_unit(run);
+          for (std::size_t i = 0; i < samples.size(); ++i) {
+            const Unit unit = cut.unit(first + i);
+            for (std::size_t k = 0; k < samples[i].tallies.size(); ++k) {
+              state.tally(unit.cell, k).add(samples[i].tallies[k]);
+            }
+            lines.renew(unit.cell);
+            scored += unit.last - unit.first;
           }
-          lines.renew(cell);
-          state.done += UnitSet::interval_type(number, number + 1);
-          scored += last - first;
+          state.done += UnitSet::interval_type(first, first + samples.size());
           if (progress) progress->update(scored);
           if (Clock::now() - written > std::chrono::duration<double>(options.interval)) {
             checkpoint();

@@ -262,6 +262,7 @@ ShardState parsed(std::string_view text, const std::string& file) {
   if (!boost::icl::within(result.done, result.shard.units(result.plan.cut))) {
     refuse(file, "with work done that is not its own");
   }
+  if (!are_whole_runs(result.plan.cut, result.done)) refuse(file, "with a run done in part");
   for (std::size_t i = 0; i < result.tallies.size(); ++i) {
     const std::string_view line = take_line(text);
     const std::string name = fmt::format("line {}", i + 2);

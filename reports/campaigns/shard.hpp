@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <boost/icl/interval_set.hpp>
 #include <cstdint>
 #include <filesystem>
@@ -27,11 +28,21 @@ struct Cut {
 
   std::uint64_t units() const { return cells * ((count + Unit::max_size - 1) / Unit::max_size); }
   Unit unit(std::uint64_t number) const;
+
+  /// Units of a run (UnitRun): as many as have up to `run_size` configurations together. Runs are
+  /// the same for all shards; the last one may be shorter.
+  std::uint64_t run_length() const { return run_size / std::min(count, Unit::max_size); }
+  std::uint64_t runs() const { return (units() + run_length() - 1) / run_length(); }
+  /// The run that begins with this unit.
+  UnitRun run(std::uint64_t first_unit) const;
 };
 
 /// Numbers of units, as ranges [first, last).
 using UnitSet = boost::icl::interval_set<std::uint64_t, std::less,
                                          boost::icl::right_open_interval<std::uint64_t>>;
+
+/// Is it what some runs consist of?
+bool are_whole_runs(const Cut& cut, const UnitSet& set);
 
 /// The number at a position among those of the set, in order.
 std::uint64_t nth(const UnitSet& set, std::uint64_t position);
@@ -44,7 +55,7 @@ struct Shard {
   std::uint64_t number = 1, of = 1;
 
   bool operator==(const Shard&) const = default;
-  /// A run of consecutive units; those of all shards together are all units, each once.
+  /// Units of consecutive runs; those of all shards together are all units, each once.
   UnitSet units(const Cut& cut) const;
 };
 /// "3/7".
