@@ -247,23 +247,29 @@ class Search {
   std::size_t best() {
     const std::vector<std::size_t> last = finalists();
     const auto is_timed = [&](std::size_t i) { return choice_.runs[i].timed; };
-    if (!std::ranges::all_of(last, is_timed)) time(last);
+    if (!std::ranges::all_of(last, is_timed)) time(last, 5);
     std::size_t result = cheapest(last);
-    // A busy machine's noise exceeds `noise_of_step` at times: what saves little must do so twice.
+    // A busy machine's noise exceeds `noise_of_step` at times: what saves little must do so again,
+    // in more rounds.
     const double max_seconds = (1 - 2 * noise_of_step) * choice_.runs[0].seconds();
     if (result != 0 && result != timed_twice_ && choice_.runs[result].seconds() > max_seconds) {
       timed_twice_ = result;
-      time(last);
+      time(last, 10);
       result = cheapest(last);
     }
     return result;
   }
 
-  /// Times these runs and the exact one, which is that of index 0, together.
-  void time(const std::vector<std::size_t>& runs) {
-    std::vector<SceneRun*> timed = {&choice_.runs[0]};
-    for (const std::size_t i : runs) timed.push_back(&choice_.runs[i]);
-    judge_.time(timed);
+  /// Times these runs together with the exact one, which is that of index 0, and with all that were
+  /// timed before and hold: times compare only if they were taken in turns.
+  void time(const std::vector<std::size_t>& runs, std::size_t rounds) {
+    for (const std::size_t i : runs) choice_.runs[i].timed = true;
+    std::vector<SceneRun*> together = {&choice_.runs[0]};
+    for (std::size_t i = 1; i < choice_.runs.size(); ++i) {
+      SceneRun& run = choice_.runs[i];
+      if (run.timed && run.holds()) together.push_back(&run);
+    }
+    judge_.time(together, rounds);
   }
 
   /// The simplest of these runs that cost much the same as the cheapest; 0, the exact one, if none
@@ -329,7 +335,7 @@ class Search {
   Choice& choice_;
   const Candidate& exact_;
   SceneJudge judge_;
-  std::size_t timed_twice_ = 0;  ///< the run that saved little when all were last timed again
+  std::size_t timed_twice_ = 0;  ///< the run that saved little when all were last timed so
 };
 
 }  // namespace

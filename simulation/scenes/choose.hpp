@@ -118,9 +118,9 @@ class SceneJudge {
   /// the same disturbances. Nothing depends on the number of worker processes.
   void judge(std::vector<SceneRun>& runs, std::size_t last);
 
-  /// Times the solver in runs of the scene as it is written, in turns: of each step the least. The
-  /// least of all calls counts.
-  void time(const std::vector<SceneRun*>& runs) const;
+  /// Times the solver in runs of the scene as it is written, in turns: of each step the least of so
+  /// many rounds. Times of several calls do not compare: the machine's speed may have changed.
+  void time(const std::vector<SceneRun*>& runs, std::size_t rounds = 5) const;
 
  private:
   const SceneFile& file_;

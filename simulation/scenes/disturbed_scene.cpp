@@ -307,8 +307,8 @@ void repeat(const std::vector<RepeatedRun*>& runs, std::size_t last, unsigned wo
 }
 
 std::vector<std::vector<double>> least_step_seconds(
-    std::size_t runs, const std::function<std::vector<double>(std::size_t run)>& step_seconds) {
-  constexpr std::size_t rounds = 5;
+    std::size_t runs, const std::function<std::vector<double>(std::size_t run)>& step_seconds,
+    std::size_t rounds) {
   Progress progress("rounds of timing", rounds);
   std::vector<std::vector<double>> least(runs);
   for (std::size_t round = 0; round < rounds; ++round) {

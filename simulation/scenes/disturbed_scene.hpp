@@ -101,9 +101,10 @@ void repeat(const std::vector<RepeatedRun*>& runs, std::size_t last, unsigned wo
             const std::function<std::string(std::size_t run)>& name);
 
 /// Runs made in turns, so that what else the machine does meets all alike: of each of them the
-/// least time of every step. `step_seconds` makes a run, by its index.
+/// least time of every step in so many rounds. `step_seconds` makes a run, by its index.
 std::vector<std::vector<double>> least_step_seconds(
-    std::size_t runs, const std::function<std::vector<double>(std::size_t run)>& step_seconds);
+    std::size_t runs, const std::function<std::vector<double>(std::size_t run)>& step_seconds,
+    std::size_t rounds = 5);
 
 /// Adds the first and last frames of runs, turned back, by disturbance, until those under `last`
 /// are there: what relative needs are measured against. `run` makes one, in one of the worker
