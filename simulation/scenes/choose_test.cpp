@@ -308,6 +308,14 @@ TEST(LeastStepSeconds, AreThoseOfEachStepInAllRounds) {
   });
   EXPECT_THAT(order, testing::ElementsAre(0, 1, 1, 0, 0, 1, 1, 0, 0, 1));
   EXPECT_THAT(least, testing::ElementsAre(std::vector{1.0, 11.0}, std::vector{5.0}));
+
+  order.clear();
+  const auto note = [&](std::size_t run) {
+    order.push_back(run);
+    return std::vector{1.0};
+  };
+  least_step_seconds(3, note, 2);
+  EXPECT_THAT(order, testing::ElementsAre(0, 1, 2, 1, 2, 0));
 }
 
 // An ending that is compared with the exact run is compared with the same disturbance of it.
