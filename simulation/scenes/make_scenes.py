@@ -383,7 +383,7 @@ def drum():
     return {
         "description": "Sixteen rods, dropped at random, tumble in an open drum that leans and turns.",
         "step": 0.002,
-        "duration": 3,
+        "duration": 2.5,
         "materials": {"steel": {"friction": 0.5}, "rod": {"friction": 0.4, "density": 1200}},
         "bodies": bodies,
         "drops": [{"name": "rod", "shape": cylinder(0.008, 0.016), "material": "rod",
