@@ -335,7 +335,7 @@ class Search {
   Choice& choice_;
   const Candidate& exact_;
   SceneJudge judge_;
-  std::size_t timed_twice_ = 0;  ///< the run that saved little when all were last timed so
+  std::size_t timed_twice_ = 0;  ///< the run that saved little before ten rounds were last made
 };
 
 }  // namespace
