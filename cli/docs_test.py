@@ -48,7 +48,7 @@ ELSEWHERE = {
     "python3 oracle/check_certificate_test.py": "check_certificate",
     "python3 oracle/forge_certificates.py": "forge_certificates",
     "apt-get install": "nothing: it needs the network",
-    "cd out/render": "simulation/scenes/scene_formats_test.cpp, which writes what POV-Ray reads",
+    "cd out/render": "simulation/scenes/povray_test.cpp, which writes what POV-Ray reads",
 }
 
 # Commands that may find what they look for, or have to.
@@ -94,6 +94,8 @@ def shortened(arguments):
     if command is None or "--help" in arguments or "--engine" in arguments:
         return arguments
     for option, value in SHORTER[command].items():
+        if option == "--class" and "--group" in arguments:
+            continue  # the group may have no such class
         if option not in arguments:
             arguments = [*arguments, option, value]
         elif option == "--count":
