@@ -95,8 +95,9 @@ void score_answers(std::span<const Configuration> configurations,
 // `max_timeouts` of its answers in a unit have timed out (each confirmed alone: Limits), it is
 // asked only the last one of every `sample_block` configurations there, and the last of the unit:
 // each stands for itself and for those before it that were not asked. Which are asked is decided
-// before they are, and by this unit alone, so that shares in which they count so often are not
-// biased, and the result depends neither on workers nor on shards.
+// before they are, by the time-outs in this unit, so that shares in which they count so often are
+// not biased. The limit of time follows from answers of the same run alone, so that the result
+// depends neither on workers nor on shards.
 inline constexpr int max_timeouts = 3;
 inline constexpr std::size_t sample_block = 16;
 

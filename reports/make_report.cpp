@@ -63,11 +63,9 @@ std::vector<std::optional<Sample>> sample_cells(const Campaign& campaign,
   std::vector<Unit> units;
   std::uint64_t configurations = 0;
   for (std::size_t cell = 0; cell < cells.size(); ++cell) {
-    const std::uint64_t count = count_of(campaign, cells[cell]);
-    for (std::uint64_t first = 0; first < count; first += Unit::max_size) {
-      units.push_back({cell, first, std::min(count, first + Unit::max_size)});
-    }
-    configurations += count;
+    const EqualUnits cut{count_of(campaign, cells[cell])};
+    for (std::uint64_t n = 0; n < cut.units(); ++n) units.push_back(cut.unit(cell, n));
+    configurations += cut.count;
   }
   std::vector<std::optional<Sample>> parts(units.size());
   Progress progress("configurations", configurations);

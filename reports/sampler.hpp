@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -19,6 +20,21 @@ struct Unit {
 
   std::size_t cell;
   std::uint64_t first, last;
+};
+
+/// Units that each cell of so many configurations is cut into, which differ by at most one
+/// configuration: were they full but for the last one, this could need a session for itself.
+struct EqualUnits {
+  std::uint64_t count;
+
+  std::uint64_t units() const { return (count + Unit::max_size - 1) / Unit::max_size; }
+  /// Configurations of every unit; the first `larger()` ones have one more.
+  std::uint64_t size() const { return count / units(); }
+  std::uint64_t larger() const { return count % units(); }
+  Unit unit(std::size_t cell, std::uint64_t number) const {
+    const auto first = [&](std::uint64_t n) { return n * size() + std::min(n, larger()); };
+    return {cell, first(number), first(number + 1)};
+  }
 };
 
 /// Units that one worker scores in turn, in one session of each candidate as long as it survives.

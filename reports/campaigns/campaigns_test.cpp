@@ -31,7 +31,9 @@ TEST(Units, HoldEveryConfigurationOnce) {
     for (std::uint64_t number = 0; number < cut.units(); ++number) {
       const Unit unit = cut.unit(number);
       RC_ASSERT(unit.first == reached[unit.cell]);
-      RC_ASSERT(unit.last > unit.first);
+      const std::uint64_t size = unit.last - unit.first;
+      RC_ASSERT(size >= 1u && size <= Unit::max_size);
+      RC_ASSERT(size == cut.count / cut.of_cell().units() + (number < cut.first_smaller()));
       reached[unit.cell] = unit.last;
     }
     RC_ASSERT(reached.size() == cut.cells);
@@ -66,6 +68,7 @@ TEST(Units, OfManySmallCellsAreScoredTogether) {
   EXPECT_EQ((Cut{300, 10}.run_length()), 102u);
   EXPECT_EQ((Cut{300, 10}.runs()), 3u);
   EXPECT_EQ((Cut{300, 512}.run_length()), 2u);
+  EXPECT_EQ((Cut{300, 520}.run_length()), 3u);  // of 260, not one of 512 and one of 8
   EXPECT_EQ((Cut{300, 1000000}.run_length()), 2u);
 }
 
@@ -92,13 +95,15 @@ TEST(Units, OfAllShardsAreAllUnitsOnce) {
     const auto of = *rc::gen::inRange<std::uint64_t>(1, 30);
     UnitSet all;
     const std::uint64_t length = cut.run_length();
-    std::uint64_t sum = 0, min = cut.runs(), max = 0;
+    std::uint64_t sum = 0, min = cut.runs(), max = 0, smallest = cut.cells * cut.count, largest = 0;
     for (std::uint64_t number = 1; number <= of; ++number) {
       const UnitSet part = Shard{number, of}.units(cut);
       RC_ASSERT(!boost::icl::intersects(all, part));
       RC_ASSERT(are_whole_runs(cut, part));
       all += part;
       sum += configurations(cut, part);
+      smallest = std::min(smallest, configurations(cut, part));
+      largest = std::max(largest, configurations(cut, part));
       const std::uint64_t runs = (boost::icl::cardinality(part) + length - 1) / length;
       min = std::min(min, runs);
       max = std::max(max, runs);
@@ -106,15 +111,16 @@ TEST(Units, OfAllShardsAreAllUnitsOnce) {
     RC_ASSERT(all == Shard{}.units(cut));
     RC_ASSERT(sum == cut.cells * cut.count);
     RC_ASSERT(max - min <= 1u);
+    RC_ASSERT(largest - smallest <= 2 * run_size + largest / 257);  // the last run may be short
   }));
 }
 
 TEST(Units, AreCountedAndNumberedInSets) {
-  const Cut cut{2, 600};  // units of 512, 512, 88, 88
+  const Cut cut{2, 601};  // units of 301, 301, 300, 300
   UnitSet set;
   set += UnitSet::interval_type(0, 1);
   set += UnitSet::interval_type(2, 4);
-  EXPECT_EQ(configurations(cut, set), 512u + 88 + 88);
+  EXPECT_EQ(configurations(cut, set), 301u + 300 + 300);
   EXPECT_EQ(nth(set, 0), 0u);
   EXPECT_EQ(nth(set, 1), 2u);
   EXPECT_EQ(nth(set, 2), 3u);
@@ -323,7 +329,7 @@ TEST(Merge, OfACandidateThatHangsIsTheSameForEverySplit) {
   EXPECT_EQ(split(3, 1), whole);
   for (const json& row : json::parse(whole)["results"]) {
     if (row["candidate"] == "reference") continue;
-    // Of 512: three, the last of each of 32 sixteens. Of 20: three, the last of 16, the last.
+    // Of each of two units of 266: three, the last of each of 16 sixteens, and the last.
     EXPECT_EQ(row["outcomes"], json({{"timed-out", 40}, {"not-asked", 492}}));
     EXPECT_EQ(row["represented"], json({{"timed-out", 492}}));
   }
@@ -370,12 +376,12 @@ TEST(Merge, RefusesWhatOverlapsWhatIsMissingAndWhatIsForeign) {
         merged({part(0, 3), part(2, 4)});
       },
       ThrowsMessage<InvalidInput>(
-          HasSubstr("cylinder-sphere/general-shallow, configurations 512 to 999")));
+          HasSubstr("cylinder-sphere/general-shallow, configurations 500 to 999")));
   EXPECT_THAT(
       [] {
         merged({part(0, 1), part(2, 4)});
       },
-      ThrowsMessage<InvalidInput>(HasSubstr("512 of 2000 configurations are missing, the "
+      ThrowsMessage<InvalidInput>(HasSubstr("500 of 2000 configurations are missing, the "
                                             "first of them cylinder-box/rim-face")));
   EXPECT_THAT(
       [] {
@@ -408,7 +414,7 @@ TEST(Merge, MarksWhatIsPartial) {
   merge.add(part(1, 3), "part");
   const json result = json::parse(campaign_json(merge.whole(true)));
   EXPECT_EQ(result["complete"], false);
-  EXPECT_EQ(result["configurations"], 512 + 488);
+  EXPECT_EQ(result["configurations"], 500 + 500);
 }
 
 TEST(ShardFile, IsReadBackToTheLastBit) {
@@ -434,7 +440,7 @@ TEST(ShardFile, IsWrittenAgainFromTheLinesThatHaveChanged) {
 TEST(ShardFile, IsRefusedWhenCountsBelongToAnotherClass) {
   json three = plan();
   three["classes"].push_back({{"pair", "cylinder-plane"}, {"class", "lying"}});
-  // Two runs: 1000 of the first class, 512 of the others.
+  // Two runs: both units of the first class, one of the others.
   ShardState state = part_of(three, 0, 4);
   EXPECT_EQ(to_text(shard_from_text(to_text(state), "file")), to_text(state));
   for (std::size_t k = 0; k < 2; ++k) std::swap(state.tally(0, k), state.tally(1, k));
@@ -474,7 +480,7 @@ TEST(ShardFile, IsRefusedWhenItIsIntactButSomethingElse) {
   };
   for (const std::string body :
        {"{\"schema\":\"touchstone-shard-9\"}\n", "{}\n", "[]\n", "no JSON\n",
-        "{\"schema\":\"touchstone-shard-1\",\"shard\":[1,1],\"done\":[],\"campaign\":{}}\n"}) {
+        "{\"schema\":\"touchstone-shard-2\",\"shard\":[1,1],\"done\":[],\"campaign\":{}}\n"}) {
     EXPECT_THROW(shard_from_text(with_checksum(body), "file"), InvalidInput) << body;
   }
 }

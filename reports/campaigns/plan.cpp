@@ -68,11 +68,6 @@ std::string difference(const std::string& name, const json& expected, const json
 
 }  // namespace
 
-Unit Cut::unit(std::uint64_t number) const {
-  const std::uint64_t first = number / cells * Unit::max_size;
-  return {number % cells, first, std::min(count, first + Unit::max_size)};
-}
-
 UnitRun Cut::run(std::uint64_t first_unit) const {
   UnitRun result;
   const std::uint64_t last = std::min(units(), first_unit + run_length());
@@ -97,14 +92,11 @@ std::uint64_t nth(const UnitSet& set, std::uint64_t position) {
 }
 
 std::uint64_t configurations(const Cut& cut, const UnitSet& set) {
-  // All units have the same size but the last of each cell.
   std::uint64_t count = 0;
-  const std::uint64_t last_row = cut.units() - cut.cells;
-  const std::uint64_t last_size = cut.count - last_row / cut.cells * Unit::max_size;
+  const std::uint64_t smaller = cut.first_smaller();
   for (const Range& range : set) {
-    const std::uint64_t full =
-        std::min(range.upper(), last_row) - std::min(range.lower(), last_row);
-    count += full * Unit::max_size + (range.upper() - range.lower() - full) * last_size;
+    count += (range.upper() - range.lower()) * cut.of_cell().size();
+    count += std::min(range.upper(), smaller) - std::min(range.lower(), smaller);
   }
   return count;
 }
@@ -117,17 +109,17 @@ std::vector<std::uint64_t> configurations_by_cell(const Cut& cut, const UnitSet&
     result[first] += size;
     result[last] -= size;
   };
-  const std::uint64_t last_row = cut.units() - cut.cells;
-  const std::uint64_t last_size = cut.count - last_row / cut.cells * Unit::max_size;
+  const auto add_units = [&](std::uint64_t begin, std::uint64_t end, std::uint64_t size) {
+    const std::uint64_t length = end - begin, rest = length % cut.cells;
+    const std::uint64_t first = begin % cut.cells, last = first + rest;
+    add(0, cut.cells, length / cut.cells * size);
+    add(first, std::min(last, cut.cells), size);
+    add(0, std::max(last, cut.cells) - cut.cells, size);
+  };
+  const std::uint64_t smaller = cut.first_smaller();
   for (const Range& range : set) {
-    const std::uint64_t length = range.upper() - range.lower(), rest = length % cut.cells;
-    const std::uint64_t first = range.lower() % cut.cells, last = first + rest;
-    add(0, cut.cells, length / cut.cells * Unit::max_size);
-    add(first, std::min(last, cut.cells), Unit::max_size);
-    add(0, std::max(last, cut.cells) - cut.cells, Unit::max_size);
-    // Units of the last row have fewer configurations.
-    add(std::max(range.lower(), last_row) - last_row, std::max(range.upper(), last_row) - last_row,
-        last_size - Unit::max_size);
+    add_units(range.lower(), range.upper(), cut.of_cell().size());
+    add_units(std::min(range.lower(), smaller), std::min(range.upper(), smaller), 1);
   }
   result.pop_back();
   std::partial_sum(result.begin(), result.end(), result.begin());

@@ -182,7 +182,7 @@ ScoreTally tally_from_json(const json& j, std::size_t cell) {
 
 namespace {
 
-constexpr const char* schema = "touchstone-shard-1";
+constexpr const char* schema = "touchstone-shard-2";
 
 std::string checksum_line(const std::string& checksum) {
   return json{{"crc32", checksum}}.dump() + '\n';
@@ -250,7 +250,9 @@ std::string_view take_line(std::string_view& text) {
 
 ShardState parsed(std::string_view text, const std::string& file) {
   const json head = parse_json(take_line(text), "line 1");
-  if (member(head, "schema", "") != schema) refuse(file, "of schema " + shown(head["schema"]));
+  if (member(head, "schema", "") != schema) {
+    refuse(file, fmt::format("of schema {} and not \"{}\"", shown(head["schema"]), schema));
+  }
   const Plan plan = plan_from_json(member(head, "campaign", ""));
   const auto tally_lines = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
   if (plan.candidates.empty() || tally_lines % plan.candidates.size() != 0 ||

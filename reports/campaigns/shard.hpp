@@ -26,12 +26,15 @@ struct Cut {
   std::uint64_t cells;
   std::uint64_t count;  ///< of configurations of each cell
 
-  std::uint64_t units() const { return cells * ((count + Unit::max_size - 1) / Unit::max_size); }
-  Unit unit(std::uint64_t number) const;
+  EqualUnits of_cell() const { return {count}; }
+  std::uint64_t units() const { return cells * of_cell().units(); }
+  Unit unit(std::uint64_t number) const { return of_cell().unit(number % cells, number / cells); }
+  /// The units before this one are larger than the others, by one configuration.
+  std::uint64_t first_smaller() const { return cells * of_cell().larger(); }
 
   /// Units of a run (UnitRun): as many as have up to `run_size` configurations together. Runs are
   /// the same for all shards; the last one may be shorter.
-  std::uint64_t run_length() const { return run_size / std::min(count, Unit::max_size); }
+  std::uint64_t run_length() const { return run_size / (unit(0).last - unit(0).first); }
   std::uint64_t runs() const { return (units() + run_length() - 1) / run_length(); }
   /// The run that begins with this unit.
   UnitRun run(std::uint64_t first_unit) const;
@@ -50,7 +53,7 @@ std::uint64_t configurations(const Cut& cut, const UnitSet& set);
 /// Of each cell.
 std::vector<std::uint64_t> configurations_by_cell(const Cut& cut, const UnitSet& set);
 
-/// One of `of` equal parts, numbered from 1.
+/// One of `of` parts, numbered from 1, which differ by at most a run and one configuration in 257.
 struct Shard {
   std::uint64_t number = 1, of = 1;
 
