@@ -40,7 +40,7 @@ json run_json(const Choice& choice, std::size_t index, const std::string& folder
                  {"holds", run.holds()},
                  {"points_per_step", run.points},
                  {"solver_microseconds_per_step", run.solver_seconds * 1e6 / steps},
-                 {"timed", run.timed},
+                 {"timed", run.timing > 0},
                  {"overlap", run.straying.overlap},
                  {"strayed", run.straying.distance},
                  {"strayed_body", run.straying.body},

@@ -81,7 +81,12 @@ std::string next_cheaper(const Choice& choice, std::size_t kind, const std::stri
   const Candidate& cheaper = *run.models[kind];
   std::string lines = fmt::format("    next cheaper: {}, {:.0f} ns, ", cheaper.name,
                                   choice.nanoseconds(kind, cheaper));
-  if (run.holds()) return lines + "holds, but makes no step cheaper\n";
+  if (run.holds()) {
+    const auto microseconds = [&](const SceneRun& r) { return 1e6 * r.seconds() / choice.steps(); };
+    return lines + fmt::format("holds: {}{:.3g} µs a step, and the answer {:.3g}\n",
+                               run.timing > 0 ? "" : "about ", microseconds(run),
+                               microseconds(choice.runs[choice.answer]));
+  }
   lines += fmt::format("breaks\n      {}\n      {}\n", failure(choice, run),
                        render_command(choice, run));
   if (const auto& e = run.evidence) {

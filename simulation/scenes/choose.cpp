@@ -224,8 +224,8 @@ class Search {
     return sum;
   }
 
-  /// The runs among which the answer is: the one that holds and is roughly the cheapest, and the
-  /// simplest of those that cost much the same.
+  /// The runs that promise to be the answer: the one that holds and is roughly the cheapest, and
+  /// the simplest of those that cost much the same.
   std::vector<std::size_t> finalists() const {
     constexpr std::size_t max_count = 6;
     std::vector<std::size_t> result;
@@ -245,39 +245,41 @@ class Search {
 
   /// Times what has to be timed and returns the run that is the answer.
   std::size_t best() {
+    constexpr std::size_t few = 5, many = 10;
     const std::vector<std::size_t> last = finalists();
-    const auto is_timed = [&](std::size_t i) { return choice_.runs[i].timed; };
-    if (!std::ranges::all_of(last, is_timed)) time(last, 5);
-    std::size_t result = cheapest(last);
+    const auto is_timed = [&](std::size_t i) { return choice_.runs[i].timing > 0; };
+    if (!std::ranges::all_of(last, is_timed)) time(last, few);
+    const std::size_t result = cheapest();
     // A busy machine's noise exceeds `noise_of_step` at times: what saves little must do so again,
     // in more rounds.
     const double max_seconds = (1 - 2 * noise_of_step) * choice_.runs[0].seconds();
-    if (result != 0 && result != timed_twice_ && choice_.runs[result].seconds() > max_seconds) {
-      timed_twice_ = result;
-      time(last, 10);
-      result = cheapest(last);
-    }
-    return result;
+    const bool saves_little = result != 0 && choice_.runs[result].seconds() > max_seconds;
+    if (!saves_little || rounds_ == many) return result;
+    time(last, many);
+    return cheapest();
   }
 
   /// Times these runs together with the exact one, which is that of index 0, and with all that were
   /// timed before and hold: times compare only if they were taken in turns.
   void time(const std::vector<std::size_t>& runs, std::size_t rounds) {
-    for (const std::size_t i : runs) choice_.runs[i].timed = true;
     std::vector<SceneRun*> together = {&choice_.runs[0]};
     for (std::size_t i = 1; i < choice_.runs.size(); ++i) {
       SceneRun& run = choice_.runs[i];
-      if (run.timed && run.holds()) together.push_back(&run);
+      const bool is_new = std::ranges::find(runs, i) != runs.end();
+      if (is_new || (run.timing > 0 && run.holds())) together.push_back(&run);
     }
     judge_.time(together, rounds);
+    rounds_ = rounds;
   }
 
-  /// The simplest of these runs that cost much the same as the cheapest; 0, the exact one, if none
-  /// saves more than noise.
-  std::size_t cheapest(const std::vector<std::size_t>& last) const {
+  /// The simplest of the timed runs that cost much the same as the cheapest of them; 0, the exact
+  /// one, if none saves more than noise.
+  std::size_t cheapest() const {
     std::vector<Finalist> costs;
-    for (const std::size_t i : last) {
-      costs.push_back({i, choice_.runs[i].seconds(), rank(choice_.runs[i].models)});
+    for (std::size_t i = 1; i < choice_.runs.size(); ++i) {
+      const SceneRun& run = choice_.runs[i];
+      if (run.timing == 0 || !can_be_answer(run)) continue;
+      costs.push_back({i, run.seconds(), rank(run.models)});
     }
     const double limit = (1 - noise_of_step) * choice_.runs[0].seconds();
     return simplest_of_cheapest(costs, limit).value_or(0);
@@ -335,7 +337,7 @@ class Search {
   Choice& choice_;
   const Candidate& exact_;
   SceneJudge judge_;
-  std::size_t timed_twice_ = 0;  ///< the run that saved little before ten rounds were last made
+  std::size_t rounds_ = 0;  ///< of the last timing
 };
 
 }  // namespace
@@ -373,7 +375,7 @@ double Choice::nanoseconds(std::size_t kind, const Candidate& candidate) const {
 double Choice::step_saved() const {
   double least = runs[answer].seconds();
   for (const SceneRun& run : runs) {
-    if (answer == 0 && run.timed && run.holds()) least = std::min(least, run.seconds());
+    if (answer == 0 && run.timing > 0 && run.holds()) least = std::min(least, run.seconds());
   }
   return 1 - least / runs[0].seconds();
 }

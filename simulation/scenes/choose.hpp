@@ -54,8 +54,9 @@ struct SceneRun : RepeatedRun {
   std::string name;                      ///< of its models: "capsule", "combination", …
   std::vector<const Candidate*> models;  ///< by kind
   double nanoseconds = 0;                ///< cost of its models for all questions of the exact run
-  /// Was its solver timed in turns with that of others? Otherwise in its first run alone.
-  bool timed = false;
+  /// Which timing its solver's time is of (SceneJudge::time), from 1; 0: of its first run alone.
+  /// Times of two timings do not compare: the machine's speed may have changed.
+  std::size_t timing = 0;
 
   /// Cost of the whole run: contacts and solver.
   double seconds() const { return 1e-9 * nanoseconds + solver_seconds; }
@@ -119,8 +120,8 @@ class SceneJudge {
   void judge(std::vector<SceneRun>& runs, std::size_t last);
 
   /// Times the solver in runs of the scene as it is written, in turns: of each step the least of so
-  /// many rounds. Times of several calls do not compare: the machine's speed may have changed.
-  void time(const std::vector<SceneRun*>& runs, std::size_t rounds = 5) const;
+  /// many rounds.
+  void time(const std::vector<SceneRun*>& runs, std::size_t rounds = 5);
 
  private:
   const SceneFile& file_;
@@ -128,6 +129,7 @@ class SceneJudge {
   const Candidate& exact_;
   const ChooseOptions& options_;
   std::vector<Trajectory> exact_runs_ = {};  ///< by disturbance: first and last frames alone
+  std::size_t timings_ = 0;
 };
 
 /// What stands for a box in a model of boxes; absent with other candidates and for other shapes.
@@ -161,8 +163,8 @@ struct Choice {
   std::size_t answer = 0;
   bool impossible = false;  ///< exact contacts do not meet the needs either
   /// By kind: index of the run in which only this kind's model is the one with the next cheaper
-  /// query; it breaks a need, or saves nothing of a step. Absent where nothing cheaper supports the
-  /// kind.
+  /// query; it breaks a need, or saves too little of a step. Absent where nothing cheaper supports
+  /// the kind.
   std::vector<std::optional<std::size_t>> cheaper = {};
   /// What read_contacts makes the contacts of a run of: one name if that says the same.
   std::vector<std::string> contacts_of(const SceneRun& run) const;
@@ -191,10 +193,10 @@ inline constexpr double noise_of_step = 0.05;
 /// each of them under all disturbances, then searches by kind of pairs: the model of each kind with
 /// which a step is the cheapest while the others are exact, all of these together, and step by step
 /// back where they do not serve together. The runs among which the answer is are timed in turns. Of
-/// those that take much the same the simplest is taken: for as few kinds as possible, in the order
-/// of the candidates. Ends when no single kind can take its next cheaper model. Engines' routines
-/// are run and judged for all kinds, but are no answer. Progress goes to standard error. Throws
-/// InvalidInput if the scene has no needs or no cylinder touches anything.
+/// those that take much the same the simplest is taken: whose models come first in the order of the
+/// candidates, summed over the kinds. Ends when no single kind can take its next cheaper model.
+/// Engines' routines are run and judged for all kinds, but are no answer. Progress goes to standard
+/// error. Throws InvalidInput if the scene has no needs or no cylinder touches anything.
 Choice choose(const SceneFile& file, const ChooseOptions& options);
 
 }  // namespace touchstone

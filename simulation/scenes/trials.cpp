@@ -408,16 +408,17 @@ void SceneJudge::judge(std::vector<SceneRun>& runs, std::size_t last) {
          [&](std::size_t run) { return file_.name + " with " + runs[run].name; });
 }
 
-void SceneJudge::time(const std::vector<SceneRun*>& runs, std::size_t rounds) const {
+void SceneJudge::time(const std::vector<SceneRun*>& runs, std::size_t rounds) {
   Processes processes(options_.limits);
   const DisturbedScene as_written(file_.scene, options_.trials.seed, 0);
   const auto run = [&](std::size_t i) {
     return run_with(as_written, kinds_, runs[i]->models, exact_, processes).step_seconds;
   };
   const auto least = least_step_seconds(runs.size(), run, rounds);
+  ++timings_;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     runs[i]->solver_seconds = std::accumulate(least[i].begin(), least[i].end(), 0.0);
-    runs[i]->timed = true;
+    runs[i]->timing = timings_;
   }
 }
 
