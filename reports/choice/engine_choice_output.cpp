@@ -68,8 +68,8 @@ std::string headline(const EngineChoice& choice) {
   std::string lines;
   if (*choice.answer == 0) {
     lines = fmt::format(
-        "{}'s default cylinder, {} µs a step: nothing that meets all needs takes "
-        "less than nine tenths of that.\n",
+        "{}'s default cylinder, {} µs a step: no other of its shapes that meets all needs "
+        "takes less than nine tenths of that.\n",
         choice.engine.name, microseconds(usual));
   } else {
     lines =

@@ -136,7 +136,7 @@ function drawEngineChoice() {
   byId('title').textContent = `Which shape does the scene ${data.scene.name} need in ${engine.name}?`;
   byId('description').textContent = data.scene.description;
   byId('headline').textContent = best === null ? `No shape in ${engine.name} meets the needs, not even with our routines installed.`
-      : data.answer === 0 ? `${engine.name}’s default cylinder: nothing that meets all needs takes less than nine tenths of its ${microseconds(best)} µs a step.`
+      : data.answer === 0 ? `${engine.name}’s default cylinder: no other of its shapes that meets all needs takes less than nine tenths of its ${microseconds(best)} µs a step.`
       : `${best.name}: ${microseconds(best)} µs a step instead of ${microseconds(usual)} µs` +
         (usual.holds ? '; the default cylinder meets all needs, too.' : `. The default cylinder breaks: ${usual.failure}.`);
   byId('provenance').textContent = `${engine.name} ${engine.version}: ${engine.settings}. ${data.machine.cpu}, ${data.machine.compiler}. ` +
@@ -153,7 +153,7 @@ function drawEngineChoice() {
   byId('chart').remove();
   byId('failures').remove();
   byId('runs-title').textContent = 'All settings that were run';
-  byId('runs-note').textContent = 'Times of a step of the engine: its contacts, its solver, its integration. What broke a need was not timed, but for the default.';
+  byId('runs-note').textContent = 'Times of a step of the engine: its contacts, its solver, its integration. What broke a need was not timed, but for the default and our routines.';
   byId('run-table').append(table([textColumn('setting'), 'µs a step', 'contact points', 'error / limit', 'held', textColumn('breaks first')],
       settings.map(s => [s.name, microseconds(s), s.points.toFixed(1),
           element('td', {class: s.holds ? 'good' : 'bad'}, s.error === null ? 'absurd' : exponent(s.error)), `${s.held} of ${s.trials}`,

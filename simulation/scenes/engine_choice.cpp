@@ -279,19 +279,36 @@ class Search {
     return json::parse(ran.text).get<std::vector<double>>();
   }
 
-  /// Times settings together, by their indices.
-  void time(const std::vector<std::size_t>& settings) {
+  /// Times settings together, by their indices, and the default and our routines with them. By
+  /// these two the times of all other settings follow the machine's speed, which changes.
+  void time(std::vector<std::size_t> settings) {
     if (settings.empty()) return;
+    for (const std::size_t yardstick : {std::size_t{0}, std::size_t{1}}) {
+      if (!has(settings, yardstick)) settings.push_back(yardstick);
+    }
     const auto least = least_step_seconds(settings.size(), [&](std::size_t i) {
       return step_seconds(choice_.settings[settings[i]]);
     });
+    std::optional<double> change;  // of the time that the same takes
     for (std::size_t i = 0; i < settings.size(); ++i) {
+      auto& seconds = choice_.settings[settings[i]].step_seconds;
+      const std::optional<double> before = seconds;
+      seconds.reset();  // what was measured at another time does not compare
       if (least[i].empty()) continue;
-      choice_.settings[settings[i]].step_seconds =
-          std::accumulate(least[i].begin(), least[i].end(), 0.0) /
-          static_cast<double>(least[i].size());
+      seconds = std::accumulate(least[i].begin(), least[i].end(), 0.0) /
+                static_cast<double>(least[i].size());
+      const bool is_first = settings[i] == 0 || !change;
+      if (settings[i] < 2 && before && is_first) change = *seconds / *before;
+    }
+    for (std::size_t i = 0; change && i < choice_.settings.size(); ++i) {
+      auto& seconds = choice_.settings[i].step_seconds;
+      if (seconds && !has(settings, i)) *seconds *= *change;
     }
     timed_together_ = settings;
+  }
+
+  static bool has(const std::vector<std::size_t>& all, std::size_t i) {
+    return std::ranges::find(all, i) != all.end();
   }
 
   /// Order of preference of settings that take much the same: in the order of the engine's shapes,
@@ -330,19 +347,20 @@ class Search {
     return result;
   }
 
-  /// Times the finalists together, and with them the default and our routines, which the answer is
-  /// compared with. Returns the simplest of those that take much the same as the cheapest.
+  /// Times the finalists together, and what are finalists by these times, too. Returns the simplest
+  /// of those that take much the same as the cheapest.
   std::optional<std::size_t> best() {
-    const std::vector<std::size_t> last = finalists();
-    if (last.empty()) return std::nullopt;
-    std::vector<std::size_t> timed = last;
-    for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) {
-      if (std::ranges::find(timed, i) == timed.end()) timed.push_back(i);
+    std::vector<std::size_t> last, compared;
+    for (;;) {
+      last = finalists();
+      if (last.empty()) return std::nullopt;
+      for (const std::size_t i : last) {
+        if (!has(compared, i)) compared.push_back(i);
+      }
+      const auto is_timed = [&](std::size_t i) { return has(timed_together_, i); };
+      if (std::ranges::all_of(compared, is_timed)) break;
+      time(compared);
     }
-    const auto is_timed = [&](std::size_t i) {
-      return std::ranges::find(timed_together_, i) != timed_together_.end();
-    };
-    if (!std::ranges::all_of(timed, is_timed)) time(timed);
     std::vector<Finalist> costs;
     for (const std::size_t i : last) costs.push_back({i, seconds(i), rank(i)});
     return simplest_of_cheapest(costs, infinity);

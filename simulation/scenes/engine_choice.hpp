@@ -67,11 +67,11 @@ struct EngineChoice {
 /// Runs the scene in an engine's own world with each shape that it offers for all cylinders, under
 /// disturbances, each run in a process of its own; times those that hold; then searches by size,
 /// from the best settings that fail if none holds. Relative needs compare with the engine with our
-/// routines; where it ends such a run, they are not judged. The finalists are timed together. The
-/// answer is the simplest of the engine's own settings that take much the same as the cheapest, the
-/// default first; our routines where nothing else holds. Throws InvalidInput if the engine is not
-/// there or cannot do what the scene asks for, if no need can be judged or no cylinder moves or
-/// touches.
+/// routines; where it ends such a run, they are not judged. The finalists are timed together, and
+/// times of other batches follow those of the default and our routines in each. The answer is the
+/// simplest of the engine's own settings that take much the same as the cheapest, the default
+/// first; our routines where nothing else holds. Throws InvalidInput if the engine is not there or
+/// cannot do what the scene asks for, if no need can be judged or no cylinder moves or touches.
 EngineChoice choose_in_engine(const SceneFile& file, const std::string& engine,
                               const EngineChoiceOptions& options);
 
