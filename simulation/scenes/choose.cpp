@@ -106,13 +106,14 @@ class Search {
     return run.nanoseconds < exact.nanoseconds || run.points < exact.points;
   }
 
-  /// What a run takes, roughly, in seconds: one and the same time for every point, as the solver's
-  /// own has the noise of a single run.
+  /// What a run takes, roughly, in seconds: what the exact one does, but with one and the same time
+  /// for every point that it has less, as the solver's own has the noise of a single run.
   double estimate(const SceneRun& run) const {
     const SceneRun& exact = choice_.runs[0];
     const double point = choice_.point_seconds().value_or(exact.solver_seconds / choice_.steps() /
                                                           std::max(1.0, exact.points));
-    return 1e-9 * run.nanoseconds + choice_.steps() * point * run.points;
+    const double less = choice_.steps() * point * (exact.points - run.points);
+    return 1e-9 * run.nanoseconds + exact.solver_seconds - less;
   }
 
   bool holds(const Models& models, const std::string& name) {
@@ -225,7 +226,8 @@ class Search {
   }
 
   /// The runs that promise to be the answer: the one that holds and is roughly the cheapest, and
-  /// the simplest of those that cost much the same.
+  /// the simplest of those that may cost much the same, twice the noise apart: what is within a
+  /// tenth by its times must not be left out by an estimate.
   std::vector<std::size_t> finalists() const {
     constexpr std::size_t max_count = 6;
     std::vector<std::size_t> result;
@@ -235,7 +237,8 @@ class Search {
     if (result.empty()) return result;
     const auto cost = [&](std::size_t i) { return estimate(choice_.runs[i]); };
     const std::size_t cheapest = *std::ranges::min_element(result, {}, cost);
-    std::erase_if(result, [&](std::size_t i) { return cost(i) > cost(cheapest) / cheaper_share; });
+    const double limit = cost(cheapest) / (cheaper_share * cheaper_share);
+    std::erase_if(result, [&](std::size_t i) { return cost(i) > limit; });
     std::ranges::sort(result, {}, [&](std::size_t i) {
       return std::tuple(i != cheapest, rank(choice_.runs[i].models), i);
     });
