@@ -110,8 +110,8 @@ class Search {
   /// for every point that it has less, as the solver's own has the noise of a single run.
   double estimate(const SceneRun& run) const {
     const SceneRun& exact = choice_.runs[0];
-    const double point = choice_.point_seconds().value_or(exact.solver_seconds / choice_.steps() /
-                                                          std::max(1.0, exact.points));
+    const double most = exact.solver_seconds / choice_.steps() / std::max(1.0, exact.points);
+    const double point = std::min(most, choice_.point_seconds().value_or(most));
     const double less = choice_.steps() * point * (exact.points - run.points);
     return 1e-9 * run.nanoseconds + exact.solver_seconds - less;
   }
