@@ -1,6 +1,7 @@
 #include "simulation/assembly.hpp"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <utility>
 
@@ -9,27 +10,33 @@
 namespace touchstone {
 namespace {
 
-/// By body: the first body of its assembly, or the number of bodies if that holds the world.
-std::vector<int> first_of_assembly(const Scene& scene) {
-  const int world = static_cast<int>(scene.bodies.size());
-  std::vector<int> group(scene.bodies.size() + 1);
+/// By body: the first of those that fixed joints between bodies make one rigid body.
+std::vector<int> first_of_rigid(const Scene& scene) {
+  std::vector<int> group(scene.bodies.size());
   std::iota(group.begin(), group.end(), 0);
   const auto root = [&](int i) {
     while (group[i] != i) i = group[i];
     return i;
   };
   for (const Joint& joint : scene.joints) {
-    if (joint.kind != JointKind::fixed) continue;
-    const int a = root(joint.a), b = root(joint.b == world_body ? world : joint.b);
-    if (a == world || b == world) {
-      group[a] = group[b] = world;
-    } else {
-      group[std::max(a, b)] = std::min(a, b);
-    }
+    if (joint.kind != JointKind::fixed || joint.b == world_body) continue;
+    const int a = root(joint.a), b = root(joint.b);
+    group[std::max(a, b)] = std::min(a, b);
   }
   for (int& g : group) g = root(g);
-  group.pop_back();
   return group;
+}
+
+/// By first body of what is rigid: is it fixed, or joined rigidly to the world?
+std::vector<bool> is_held(const Scene& scene, const std::vector<int>& first) {
+  std::vector<bool> held(scene.bodies.size());
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    if (scene.bodies[b].fixed) held[first[b]] = true;
+  }
+  for (const Joint& joint : scene.joints) {
+    if (joint.kind == JointKind::fixed && joint.b == world_body) held[first[joint.a]] = true;
+  }
+  return held;
 }
 
 /// Centre of mass and principal axes of bodies that are rigidly joined; the moment of a point mass
@@ -69,20 +76,21 @@ Pose relative(const Pose& X_WA, const Pose& X_WB) {
 }
 
 std::vector<Assembly> assemblies(const Scene& scene) {
-  const std::vector<int> first = first_of_assembly(scene);
-  const int world = static_cast<int>(scene.bodies.size());
-  std::vector<int> place(scene.bodies.size() + 1, -1);
+  const std::vector<int> first = first_of_rigid(scene);
+  const std::vector<bool> held = is_held(scene, first);
+  const int count = static_cast<int>(scene.bodies.size());
+  std::vector<int> place(scene.bodies.size(), -1);
   std::vector<Assembly> result;
-  for (int b = 0; b < world; ++b) {
-    // What holds the world is one rigid body, too, but each of its bodies can stand for itself.
-    int& index = first[b] == world ? place[b] : place[first[b]];
+  for (int b = 0; b < count; ++b) {
+    // Of what does not move each body can stand for itself.
+    int& index = held[first[b]] ? place[b] : place[first[b]];
     if (index < 0) {
       index = static_cast<int>(result.size());
       result.emplace_back();
     }
     Assembly& assembly = result[index];
     assembly.bodies.push_back(b);
-    assembly.fixed = assembly.fixed || first[b] == world || scene.bodies[b].fixed;
+    assembly.fixed = held[first[b]];
     if (scene.bodies[b].drive) assembly.driven = b;
   }
   for (Assembly& assembly : result) {
@@ -153,10 +161,13 @@ Touching::Touching(const Scene& scene)
   for (const auto& [a, b] : scene.apart) {
     allowed_[a * count_ + b] = allowed_[b * count_ + a] = false;
   }
+  const std::vector<int> first = first_of_rigid(scene);
+  std::map<int, std::vector<std::size_t>> rigid;
+  for (std::size_t b = 0; b < count_; ++b) rigid[first[b]].push_back(b);
   for (const Joint& joint : scene.joints) {
     if (joint.b == world_body) continue;
-    for (const int a : all[of[joint.a]].bodies) {
-      for (const int b : all[of[joint.b]].bodies) {
+    for (const std::size_t a : rigid[first[joint.a]]) {
+      for (const std::size_t b : rigid[first[joint.b]]) {
         allowed_[a * count_ + b] = allowed_[b * count_ + a] = false;
       }
     }

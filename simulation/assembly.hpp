@@ -7,10 +7,10 @@
 
 namespace touchstone {
 
-/// Bodies that fixed joints make one rigid body; most often a single body. Its frame F has its
-/// origin in the centre of mass and its axes along the principal ones: of a single body, its own
-/// unless its inertia is given. Of bodies that forces do not move it is that of the driven or the
-/// first one.
+/// Bodies that fixed joints make one rigid body; most often a single body, and always where the
+/// world holds it. Its frame F has its origin in the centre of mass and its axes along the
+/// principal ones: of a single body, its own unless its inertia is given. Of bodies that forces do
+/// not move it is that of the driven or the first one.
 struct Assembly {
   std::vector<int> bodies;              ///< ascending indices
   bool fixed = false;                   ///< to the world
@@ -42,7 +42,8 @@ BodyState state_within(const BodyState& state, const Pose& X_FB);
 BodyState driven_state(const Drive& drive, const Pose& start, double time, double step);
 
 /// May the two bodies touch? Not if neither is moved by forces, if one of them does not collide, if
-/// the scene keeps them apart, or if they are of one assembly or of two with a joint between them.
+/// the scene keeps them apart, if fixed joints make them one, or if these make each of them one
+/// with one of two bodies that a joint connects.
 class Touching {
  public:
   explicit Touching(const Scene& scene);

@@ -184,6 +184,22 @@ TEST(TouchingTest, JoinedUnmovedAndUncollidingBodiesDoNot) {
   EXPECT_TRUE(may(can, mast));
 }
 
+TEST(TouchingTest, WhatAFixedJointMakesOneIsOneWhereTheWorldHoldsItToo) {
+  enum { tower, block, rod };
+  for (const bool is_fixed : {false, true}) {
+    Scene scene;
+    for (const char* name : {"tower", "block", "rod"}) {
+      scene.bodies.push_back(box(name, Vec3::Constant(0.1), at(0, 0, 0)));
+    }
+    scene.bodies[tower].fixed = is_fixed;
+    scene.joints = {hinge(rod, tower, Vec3::Zero(), Vec3::UnitY()), rigid(block, tower)};
+    if (!is_fixed) scene.joints.push_back(rigid(tower, world_body));
+    const Touching may(scene);
+    EXPECT_FALSE(may(rod, tower));
+    EXPECT_FALSE(may(rod, block));
+  }
+}
+
 using MechanismTest = WorldFixture;
 
 TEST_F(MechanismTest, AJoinedPairTumblesAsTheBoxThatItIs) {
