@@ -85,6 +85,7 @@ void check_inertia(const std::string& field, const PosedInertia& given) {
 
 struct CheckDrive {
   const std::string& field;
+  const Pose& start;
 
   void operator()(const SteadyMotion& m) const {
     check_vector(field + ".velocity", m.velocity);
@@ -97,6 +98,7 @@ struct CheckDrive {
   }
   void operator()(const Waypoints& waypoints) const {
     double before = 0;
+    Eigen::Quaterniond turn = start.unit_orientation();
     for (std::size_t i = 0; i < waypoints.size(); ++i) {
       const std::string at = fmt::format("{}.waypoints[{}]", field, i);
       const double time = waypoints[i].time;
@@ -107,6 +109,13 @@ struct CheckDrive {
       }
       before = time;
       check_pose(at + ".pose", waypoints[i].pose);
+      const Eigen::Quaterniond next = waypoints[i].pose.unit_orientation();
+      constexpr double rounding = 1e-6;
+      if (std::abs(turn.dot(next)) < rounding) {
+        throw InvalidInput(at + ".pose.orientation", "half a turn from the one before",
+                           "must be another one: there are two ways there; put a waypoint between");
+      }
+      turn = next;
     }
   }
 };
@@ -137,7 +146,7 @@ void check_body(const std::string& field, const Body& body) {
   check_at_rest(field, body);
   if (body.drive) {
     if (body.fixed) throw InvalidInput(field + ".fixed", "true", "must be false, for it is driven");
-    std::visit(CheckDrive{field + ".drive"}, *body.drive);
+    std::visit(CheckDrive{field + ".drive", body.pose}, *body.drive);
   }
   check_shape(field + ".shape", body);
   if (!body.fixed && inertia(body.shape, 1).mass == 0) {

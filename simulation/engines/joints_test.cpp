@@ -327,6 +327,20 @@ TEST_P(Joints, WhatIsKeptApartOrDoesNotCollidePassesThrough) {
   EXPECT_NEAR(end(scene, x), through, 1e-5);
 }
 
+TEST_P(Joints, AGrainThatIsTooLightForMujocoIsRefusedThere) {
+  const auto grain = [](double radius) {
+    Scene scene;
+    scene.bodies = {ground(),
+                    {.name = "grain", .shape = Cylinder(radius, radius), .pose = at(0, 0, radius)}};
+    return scene;
+  };
+  check_engine_scene(GetParam(), grain(1e-3));
+  if (!is_mujoco()) return check_engine_scene(GetParam(), grain(1e-4));
+  EXPECT_THAT([&] { check_engine_scene(GetParam(), grain(1e-4)); },
+              testing::ThrowsMessage<InvalidInput>(testing::HasSubstr(
+                  "bodies[1] is of 6.3e-09 kg and 3.1e-17 kg m²: must not be there")));
+}
+
 TEST_P(Joints, ABeltCarriesWhatLiesOnItWhicheverBodyComesFirst) {
   Body belt = fixed(
       box("belt", Vec3(5, 5, 0.1), Pose(Vec3(0, 0, -0.1), Eigen::Quaterniond(0.9, 0, 0, 0.4))));

@@ -16,6 +16,7 @@
 #include "candidates/host/progress.hpp"
 #include "candidates/host/worker_processes.hpp"
 #include "reference/invalid_input.hpp"
+#include "simulation/assembly.hpp"
 #include "simulation/engines/engine_world.hpp"
 #include "simulation/experiment.hpp"
 #include "simulation/kinematic_tree.hpp"
@@ -136,6 +137,14 @@ void check_engine_scene(const std::string& engine, const Scene& scene) {
   if (const auto loop = loop_closing_joint(scene)) {
     refuse(fmt::format("joints[{}]", *loop), '"' + scene.joints[*loop].name + '"',
            "trees of joints, and this one closes a loop");
+  }
+  for (const Assembly& assembly : assemblies(scene)) {
+    constexpr double smallest = 1e-15;  // mjMINVAL
+    const double moment = assembly.inertia.principal.minCoeff();
+    if (!assembly.is_free() || std::min(assembly.inertia.mass, moment) >= smallest) continue;
+    refuse(fmt::format("bodies[{}]", assembly.bodies.front()),
+           fmt::format("of {:.2g} kg and {:.2g} kg m²", assembly.inertia.mass, moment),
+           "masses and moments of inertia from 1e-15 on");
   }
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const Body& body = scene.bodies[i];

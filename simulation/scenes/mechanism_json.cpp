@@ -179,10 +179,15 @@ bool is_above(const Body& body, const Body& plane) {
 }  // namespace
 
 void add_drop(const json& value, const std::string& path, Body like, Scene& scene) {
-  constexpr std::uint64_t max_count = 1000;
   constexpr int max_tries = 1000;  // for each body
   const std::uint64_t count =
-      whole_number(member(value, "count", path), path + ".count", max_count);
+      whole_number(member(value, "count", path), path + ".count", max_bodies);
+  if (scene.bodies.size() + count > max_bodies) {
+    throw InvalidInput(
+        path + ".count", fmt::format("{}", count),
+        fmt::format("must be less: a scene has at most {} bodies, of which {} are there",
+                    max_bodies, scene.bodies.size()));
+  }
   const std::uint64_t seed =
       value.contains("seed") ? whole_number(value["seed"], path + ".seed") : 1;
   const Vec3 lower = vector(member(value, "lower", path), path + ".lower");

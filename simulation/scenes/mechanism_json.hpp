@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <string>
 
@@ -11,6 +12,9 @@
 // the path of the field. Angles are in degrees there.
 
 namespace touchstone {
+
+/// Bound on the bodies of a scene, of which each step tests all pairs.
+inline constexpr std::size_t max_bodies = 1000;
 
 /// Reads {"velocity", "angular_velocity"}, {"oscillation"} or {"waypoints"}.
 Drive drive_from_json(const nlohmann::json& value, const std::string& path);

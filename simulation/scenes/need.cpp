@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "reference/invalid_input.hpp"
+#include "simulation/assembly.hpp"
 
 namespace touchstone {
 namespace {
@@ -88,6 +89,16 @@ void require_angle(double degrees, double below) {
   if (degrees < below) return;
   throw InvalidInput("degrees", fmt::format("{:g}", degrees),
                      fmt::format("must be less than {:g}: no angle here is larger", below));
+}
+
+/// Between bodies that never touch nothing could be wrong.
+void require_touch(const Scene& scene, const std::vector<int>& bodies) {
+  if (bodies.size() < 2 || Touching(scene)(bodies[0], bodies[1])) return;
+  throw InvalidInput(
+      "bodies",
+      fmt::format("{} and {}", scene.bodies[bodies[0]].name, scene.bodies[bodies[1]].name),
+      "must be able to touch: these never do, for a joint connects them, or neither is moved by "
+      "forces, or one of them does not collide");
 }
 
 std::string names(const Scene& scene, const std::vector<int>& bodies) {
@@ -243,6 +254,14 @@ struct Penetration : Need {
     members.number("metres", metres);
     members.time_or_default("from", from);
   }
+  void check(const Scene& scene) const override {
+    require_touch(scene, bodies);
+    // Contacts are asked for at the beginning of a step.
+    if (from < scene.duration - scene.step / 2) return;
+    throw InvalidInput(
+        "from", fmt::format("{:g}", from),
+        fmt::format("must be at least a step before the end, which is {:g}", scene.duration));
+  }
   std::string text(const Scene& scene) const override {
     return fmt::format("{} overlap{} by less than {:g} m{}",
                        bodies.empty() ? "bodies" : names(scene, bodies),
@@ -266,7 +285,10 @@ struct Normals : Need {
     members.pair(bodies);
     members.number("degrees", degrees);
   }
-  void check(const Scene&) const override { require_angle(degrees, 180); }
+  void check(const Scene& scene) const override {
+    require_touch(scene, bodies);
+    require_angle(degrees, 180);
+  }
   std::string text(const Scene& scene) const override {
     return fmt::format("normals of {} within {:g}°", names(scene, bodies), degrees);
   }

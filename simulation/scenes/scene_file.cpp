@@ -387,7 +387,6 @@ SceneFile scene_from_text(std::string_view text, const std::filesystem::path& pa
       scene.pushes.push_back(push_from_json(value, field, scene));
     });
   }
-  constexpr std::size_t max_bodies = 1000;  // each step tests all pairs
   if (scene.bodies.size() > max_bodies) {
     throw InvalidInput("bodies", fmt::format("{} bodies", scene.bodies.size()),
                        fmt::format("must be at most {}", max_bodies));
@@ -395,7 +394,7 @@ SceneFile scene_from_text(std::string_view text, const std::filesystem::path& pa
   check_scene(scene);
   constexpr double max_steps = 1e6, max_states = 4e6;  // a state of a body takes 200 bytes
   const double steps = scene.duration / scene.step;
-  if (std::round(steps) < 1) {
+  if (steps < 1 - 1e-9) {
     throw InvalidInput("duration", shown(file["duration"]),
                        fmt::format("must be at least one step, which is {:g} s", scene.step));
   }

@@ -356,6 +356,58 @@ TEST(SceneFile, AnglesOfNeedsAreSmallerThanTheLargestThereIs) {
   }
 }
 
+TEST(SceneFile, NeedsOfContactsAreOfWhatMayTouchBeforeTheEnd) {
+  const auto with = [](const json& need, bool is_joined) {
+    return refusal([&](json& s) {
+      s["bodies"].push_back(s["bodies"][1]);
+      s["bodies"][2]["name"] = "lid";
+      if (is_joined) {
+        s["joints"] = {{{"joint", "hinge"},
+                        {"bodies", {"lid", "can"}},
+                        {"anchor", {0, 0, 0}},
+                        {"axis", {0, 0, 1}}}};
+      }
+      s["needs"][0] = need;
+    });
+  };
+  const json depth = {{"need", "penetration"}, {"bodies", {"can", "lid"}}, {"metres", 1e-3}};
+  const json angle = {{"need", "normals"}, {"bodies", {"can", "lid"}}, {"degrees", 1}};
+  for (const json& need : {depth, angle}) {
+    EXPECT_EQ(with(need, false), "accepted");
+    EXPECT_THAT(with(need, true),
+                HasSubstr("needs[0].bodies is can and lid: must be able to touch"));
+  }
+  json late = depth;
+  late["from"] = 2;
+  EXPECT_THAT(with(late, false),
+              HasSubstr("needs[0].from is 2: must be at least a step before the end"));
+  late["from"] = 2 - 1.0 / 240;
+  EXPECT_EQ(with(late, false), "accepted");
+}
+
+TEST(SceneFile, ADriveDoesNotTurnByHalfATurnBetweenTwoWaypoints) {
+  const auto turned_to = [](const json& orientation) {
+    return refusal([&](json& s) {
+      s["bodies"][1].erase("velocity");
+      s["bodies"][1]["drive"] = {
+          {"waypoints",
+           {{{"time", 1}, {"pose", {{"position", {0, 0, 1}}, {"orientation", orientation}}}}}}};
+      s["needs"] = json::array();
+    });
+  };
+  EXPECT_THAT(turned_to({0, 0, 0, 1}),
+              HasSubstr("bodies[1].drive.waypoints[0].pose.orientation is half a turn from"));
+  EXPECT_EQ(turned_to({0.01, 0, 0, 1}), "accepted");
+}
+
+TEST(SceneFile, ADropOfTooManyBodiesIsRefusedBeforeTheyAreDrawn) {
+  json scene = gripper_scene();
+  scene["drops"][0]["count"] = 999;
+  EXPECT_THAT([&] { scene_from_text(scene.dump(), "drop.json"); },
+              testing::ThrowsMessage<InvalidInput>(
+                  HasSubstr("drops[0].count is 999: must be less: a scene has at most 1000")));
+}
+
 TEST(SceneFile, ThatIsXmlIsRefusedWithTheEndingsOfRobots) {
   for (const char* text : {"<?xml version=\"1.0\"?><robot/>", "\xef\xbb\xbf <sdf/>"}) {
     EXPECT_THAT([&] { scene_from_text(text, "G.URDF"); },
@@ -372,6 +424,11 @@ TEST(SceneFile, IsAtLeastAStepLong) {
                 HasSubstr("duration is " + json(duration).dump() + ": must be at least one step"));
   }
   EXPECT_THAT(refusal([](json& s) { s["duration"] = -1; }), HasSubstr("duration is -1"));
+  EXPECT_THAT(refusal([](json& s) {
+                s["duration"] = 0.25;
+                s["step"] = 0.5;
+              }),
+              HasSubstr("duration is 0.25: must be at least one step"));
 }
 
 TEST(SceneFile, NamesAreWithoutControlCharacters) {
