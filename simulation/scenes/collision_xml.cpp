@@ -19,6 +19,16 @@ namespace {
 
 using boost::property_tree::ptree;
 
+/// Where the tag that begins there ends, whatever stands in quotes.
+std::size_t end_of_tag(std::string_view xml, std::size_t at) {
+  at = xml.find_first_of(">\"'", at);
+  while (at != xml.npos && xml[at] != '>') {
+    at = xml.find(xml[at], at + 1);
+    if (at != xml.npos) at = xml.find_first_of(">\"'", at + 1);
+  }
+  return at;
+}
+
 /// Depth of nesting of the elements; an element that is never closed counts as open.
 std::size_t depth_of(std::string_view xml) {
   std::size_t depth = 0, max_depth = 0;
@@ -30,7 +40,7 @@ std::size_t depth_of(std::string_view xml) {
       depth -= depth > 0 ? 1 : 0;
     } else if (!tag.starts_with("<!") && !tag.starts_with("<?")) {
       max_depth = std::max(max_depth, ++depth);
-      const std::size_t end = xml.find('>', at);
+      const std::size_t end = end_of_tag(xml, at);
       if (end != xml.npos && xml[end - 1] == '/') --depth;
     }
   }
@@ -183,13 +193,34 @@ void check_sdf_inertial(const ptree& link, const std::string& where) {
   }
 }
 
-/// Checks the inertials and collisions of all links, at any depth; `path` names the models around
-/// them.
+/// Checks a number at a path of elements, if it is there.
+void check_sdf_number(const ptree& element, const char* path, const std::string& where) {
+  const auto text = element.get_optional<std::string>(path);
+  const bool is_limitless = text && (*text == "inf" || *text == "+inf" || *text == "-inf");
+  if (text && !is_limitless) check_numbers(*text, 1, where + '.' + path);
+}
+
+/// Checks what is read of a joint.
+void check_sdf_joint(const ptree& joint, const std::string& where) {
+  check_sdf_pose(joint, where);
+  for (const char* number : {"axis.limit.lower", "axis.limit.upper", "axis.limit.effort"}) {
+    check_sdf_number(joint, number, where);
+  }
+}
+
+/// Checks the inertials, collisions and joints, at any depth; `path` names the models around them.
+/// Where it is not a shape's, libsdformat takes a number up to its unit.
 void check_sdf_links(const ptree& element, const std::string& path) {
   for (const auto& [tag, content] : element) {
     const std::string name = path + name_of(content);
-    if (tag == "world") check_sdf_links(content, path);
-    if (tag == "model" || tag == "link") check_sdf_pose(content, tag + ' ' + name);
+    if (tag == "world") {
+      const auto gravity = content.get_optional<std::string>("gravity");
+      if (gravity) check_numbers(*gravity, 3, "world " + name + ".gravity");
+      check_sdf_links(content, path);
+    }
+    const bool has_pose = tag == "model" || tag == "link" || tag == "frame" || tag == "include";
+    if (has_pose) check_sdf_pose(content, tag + ' ' + name);
+    if (tag == "joint") check_sdf_joint(content, "joint " + name);
     if (tag == "model") check_sdf_links(content, name + "::");
     if (tag != "link") continue;
     check_sdf_inertial(content, "link " + name + ".inertial");
@@ -198,6 +229,7 @@ void check_sdf_links(const ptree& element, const std::string& path) {
       const std::string where = "collision " + name + '/' + name_of(collision);
       check_sdf_pose(collision, where);
       check_collision(collision, sdf_shapes, false, where);
+      check_sdf_number(collision, "surface.friction.ode.mu", where);
     }
   }
 }

@@ -164,7 +164,10 @@ class Reading {
     const std::string name = m_.names;
     result_.name = name.empty() ? "model" : name;
     result_.is_world = true;
-    result_.gravity = to_vector(m_.opt.gravity);
+    if (!is_disabled(mjDSBL_GRAVITY))
+      result_.gravity = to_vector(m_.opt.gravity);
+    else
+      result_.gravity = Vec3::Zero();
     result_.step = m_.opt.timestep;
     for (int b = 0; b < m_.nbody; ++b) add_body(b);
     for (int b = 1; b < m_.nbody; ++b) add_joints(b);
@@ -175,6 +178,8 @@ class Reading {
   }
 
  private:
+  bool is_disabled(int flag) const { return (m_.opt.disableflags & flag) != 0; }
+
   std::string body_name(int b) const { return model_.name(mjOBJ_BODY, "body", b); }
 
   Pose pose_of(int b) const {
@@ -194,6 +199,7 @@ class Reading {
         leave_out(model_, g, name, result_);
         continue;
       }
+      frictionless_ += m_.geom_condim[g] == 1 ? 1 : 0;
       const Pose X_WG = within(link.pose, m_.geom_pos + 3 * static_cast<std::ptrdiff_t>(g),
                                m_.geom_quat + 4 * static_cast<std::ptrdiff_t>(g));
       link.shapes.push_back({name,
@@ -218,7 +224,7 @@ class Reading {
   void limit(int j, LinkJoint& joint) const {
     const double at = m_.qpos0[m_.jnt_qposadr[j]];
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    const bool is_limited = m_.jnt_limited[j] != 0;
+    const bool is_limited = m_.jnt_limited[j] != 0 && !is_disabled(mjDSBL_LIMIT);
     joint.lower = is_limited ? m_.jnt_range[2 * static_cast<std::ptrdiff_t>(j)] - at : -infinity;
     joint.upper = is_limited ? m_.jnt_range[2 * static_cast<std::ptrdiff_t>(j) + 1] - at : infinity;
   }
@@ -295,8 +301,11 @@ class Reading {
         continue;
       }
       LinkJoint& held = result_.joints[joint_of_[joint]];
+      // What several actuators exert adds up; one without a bound has none with others.
+      const auto own = strength(a);
+      const bool adds = held.holds && held.effort && own;
+      held.effort = adds ? *held.effort + *own : held.holds ? std::nullopt : own;
       held.holds = true;
-      held.effort = strength(a);
     }
   }
 
@@ -339,9 +348,18 @@ class Reading {
     note(m_.nsite, m_.nsite == 1 ? "site" : "sites");
     note(m_.nsensor, m_.nsensor == 1 ? "sensor" : "sensors");
     note(m_.nkey, m_.nkey == 1 ? "keyframe" : "keyframes");
-    if (m_.opt.disableflags & mjDSBL_FILTERPARENT) {
-      result_.ignored.emplace_back(
-          "flag filterparent: not read; a body does not touch its parent here");
+    for (const auto& [flag, text] :
+         {std::pair{mjDSBL_FILTERPARENT,
+                    "filterparent: not read; a body does not touch its parent"},
+          {mjDSBL_CONTACT, "contact: not read; bodies touch each other"},
+          {mjDSBL_CONSTRAINT, "constraint: not read; bodies touch, and joints hold"},
+          {mjDSBL_ACTUATION, "actuation: not read; actuators hold their joints"}}) {
+      if (is_disabled(flag)) result_.ignored.push_back(fmt::format("flag {} here", text));
+    }
+    if (frictionless_ > 0) {
+      result_.ignored.push_back(
+          fmt::format("condim 1 of {}: not read; contacts have friction here",
+                      frictionless_ == 1 ? "a geom" : fmt::format("{} geoms", frictionless_)));
     }
   }
 
@@ -349,6 +367,7 @@ class Reading {
   const mjModel& m_;
   const mjData& d_;
   RobotFile result_;
+  int frictionless_ = 0;                 ///< geoms
   std::map<int, std::size_t> joint_of_;  ///< by MuJoCo's joint: index among the result's
 };
 

@@ -1,4 +1,5 @@
 // MJCF: what is read and where, what may touch, and which files are refused.
+#include <cmath>
 #include <gmock/gmock.h>
 
 #include "simulation/assembly.hpp"
@@ -115,6 +116,56 @@ TEST(Mjcf, ARootWithAFreejointIsABaseThatCanBeHeld) {
   EXPECT_FALSE(by_name(scene.bodies, "arm").fixed);
 }
 
+TEST(Mjcf, ObeysFlagsOrSaysThatItDoesNot) {
+  const auto read = [](const std::string& flag) {
+    const Written file("flag.xml", "<mujoco><option><flag " + flag + R"(/></option><worldbody><body>
+      <joint name="j" limited="true" range="-1 1"/><geom size="0.1"/></body></worldbody></mujoco>)");
+    return read_robot(file.path);
+  };
+  EXPECT_EQ(read("sensor='disable'").gravity.z(), -9.81);
+  EXPECT_THAT(read("sensor='disable'").ignored, testing::IsEmpty());
+  EXPECT_EQ(read("gravity='disable'").gravity, Vec3(Vec3::Zero()));
+  EXPECT_TRUE(std::isinf(read("limit='disable'").joints[0].upper));
+  EXPECT_THAT(read("contact='disable'").ignored,
+              Contains("flag contact: not read; bodies touch each other here"));
+  EXPECT_THAT(read("actuation='disable'").ignored, Contains(HasSubstr("flag actuation: not read")));
+}
+
+TEST(Mjcf, ActuatorsOfOneJointAddTheirStrengths) {
+  const auto effort = [](const std::string& second) {
+    const Written file("two.xml", R"(<mujoco><worldbody><body><joint name="j"/><geom size="0.1"/>
+      </body></worldbody><actuator><motor joint="j" ctrllimited="true" ctrlrange="-1 1" gear="2"/>)" +
+                                      second + "</actuator></mujoco>");
+    return read_robot(file.path).joints.at(0).effort;
+  };
+  EXPECT_EQ(effort(""), 2);
+  EXPECT_EQ(effort("<motor joint='j' ctrllimited='true' ctrlrange='-3 3'/>"), 5);
+  EXPECT_EQ(effort("<motor joint='j'/>"), std::nullopt);
+}
+
+TEST(Mjcf, SaysThatGeomsWithoutFrictionHaveIt) {
+  const Written file("ice.xml", R"(<mujoco><worldbody><geom type="plane" size="1 1 1" condim="1"/>
+    <body><freejoint/><geom size="0.1" condim="1"/></body></worldbody></mujoco>)");
+  EXPECT_THAT(read_robot(file.path).ignored,
+              testing::ElementsAre("condim 1 of 2 geoms: not read; contacts have friction here"));
+}
+
+TEST(Mjcf, IsToldByItsRootElement) {
+  const std::string robot =
+      "<robot name='r'><mujoco><compiler/></mujoco><link name='l'><collision>"
+      "<geometry><sphere radius='1'/></geometry></collision></link></robot>";
+  const auto links = [](const std::string& text) {
+    return read_robot(Written("root.xml", text).path).links.size();
+  };
+  EXPECT_EQ(links("<?xml version='1.0'?>\n<!-- <mujoco> -->\n" + robot), 1U) << "a URDF";
+  EXPECT_EQ(links("<mujoco model='of a <robot'><worldbody/></mujoco>"), 1U) << "the world";
+  EXPECT_EQ(links("<sdf version='1.7'><model name='m'><plugin name='p' filename='f'>"
+                  "<robotNamespace>a</robotNamespace></plugin><link name='l'><collision name='c'>"
+                  "<geometry><sphere><radius>1</radius></sphere></geometry></collision></link>"
+                  "</model></sdf>"),
+            1U);
+}
+
 TEST(Mjcf, ThatAsksForAllMemoryIsRefused) {
   EXPECT_THAT(refusal_of("part.xml",
                          "<mujoco><size nstack='2000000000'/><worldbody><geom "
@@ -130,7 +181,7 @@ TEST(Mjcf, WhatIsNoMjcfIsRefusedInMujocosWords) {
   EXPECT_THAT(refusal("<geom tipe='box' size='1 1 1'/>"),
               HasSubstr("unrecognized attribute: 'tipe'"));
   EXPECT_THAT(refusal_of("part.xml", "<html/>"),
-              HasSubstr("it has no element mujoco, robot or sdf"));
+              HasSubstr("its root element is not mujoco, robot or sdf"));
 }
 
 }  // namespace

@@ -246,6 +246,24 @@ void bound_memory() {
 
 enum class Format { urdf, sdf, mjcf };
 
+/// Name of the first element of an XML file; empty if there is none.
+std::string_view root_element(std::string_view text) {
+  const auto skip = [&](std::string_view open, std::string_view close) {
+    if (!text.starts_with(open)) return false;
+    const std::size_t end = text.find(close, open.size());
+    text.remove_prefix(end == text.npos ? text.size() : end + close.size());
+    return true;
+  };
+  for (;;) {
+    const std::size_t start = text.find('<');
+    if (start == text.npos) return {};
+    text.remove_prefix(start);
+    if (skip("<!--", "-->") || skip("<?", "?>") || skip("<!", ">")) continue;
+    text.remove_prefix(1);
+    return text.substr(0, text.find_first_of(" \t\r\n/>"));
+  }
+}
+
 /// Format of a file by its ending, of .xml by its root element.
 Format format_of(const std::filesystem::path& file, const std::string& text) {
   const auto ending = file.extension();
@@ -256,14 +274,13 @@ Format format_of(const std::filesystem::path& file, const std::string& text) {
   }
   if (ending == ".urdf") return Format::urdf;
   if (ending == ".sdf" || ending == ".world") return Format::sdf;
-  const auto root_is = [&](const char* name) {
-    return text.find(std::string("<") + name) != text.npos;
-  };
+  const std::string_view root = root_element(text);
+  const auto root_is = [&](const char* name) { return root == name; };
   if (ending == ".mjcf" || root_is("mujoco")) return Format::mjcf;
   if (root_is("robot")) return Format::urdf;
   if (root_is("sdf")) return Format::sdf;
   throw InvalidInput("scene", '"' + file.string() + '"',
-                     "must be MJCF, URDF or SDF: it has no element mujoco, robot or sdf");
+                     "must be MJCF, URDF or SDF: its root element is not mujoco, robot or sdf");
 }
 
 RobotFile read_format(Format format, const std::filesystem::path& file,

@@ -121,6 +121,26 @@ TEST(Urdf, RefusesALinkOfWhichItsReaderDropsACollision) {
               HasSubstr("link mid is read with 0 of 1 collisions"));
 }
 
+TEST(Urdf, MayHaveAnyNumberOfClosingBracketsInQuotes) {
+  std::string links;
+  for (int i = 0; i < 120; ++i) links += fmt::format("<gazebo reference='a->{}'/>", i);
+  EXPECT_EQ(refusal_of("arrows.urdf",
+                       "<robot name='r'><link name='l'><collision><geometry>"
+                       "<sphere radius='1'/></geometry></collision></link>" +
+                           links + "</robot>"),
+            "accepted with 1 shapes");
+}
+
+TEST(Urdf, ARootNamedWorldIsTheWorldWithOrWithoutShapes) {
+  const auto is_fixed = [](const std::string& collision) {
+    const Written file("world.urdf",
+                       "<robot name='r'><link name='world'>" + collision + "</link></robot>");
+    return read_robot(file.path).links.front().fixed;
+  };
+  EXPECT_TRUE(is_fixed(""));
+  EXPECT_TRUE(is_fixed("<collision><geometry><box size='1 1 0.8'/></geometry></collision>"));
+}
+
 /// A URDF of a box on a wheel, with a joint of this kind between them.
 std::string wheeled(const std::string& joint) {
   return R"(<robot name='r'>
@@ -260,8 +280,8 @@ TEST(RobotFiles, NothingThatALibraryPrintsReachesTheTerminal) {
   EXPECT_THAT(refusal_of("part.sdf", "<sdf version='1.7'><model name='m'/></sdf>"),
               HasSubstr("must be SDF: A model must have at least one link."));
   EXPECT_THAT(refusal_of("part.sdf",
-                         "<sdf version='1.7'><world name='w'><gravity>0 0 down"
-                         "</gravity></world></sdf>"),
+                         "<sdf version='1.7'><world name='w'><magnetic_field>0 0 down"
+                         "</magnetic_field></world></sdf>"),
               HasSubstr("its reader says: Unknown error. Unable to set value [0 0 down"));
   EXPECT_THAT(refusal_of("part.xml", "<mujoco><worldbody><geom size='x'/></worldbody></mujoco>"),
               HasSubstr("must be MJCF: "));

@@ -32,8 +32,13 @@ void add_robot_needs(SceneFile& file, const Trajectory& exact) {
       depth = std::max(depth, answer.depth);
     }
   }
-  std::set<int> held;  // bodies that a joint holds to another one
-  for (const Joint& joint : file.scene.joints) held.insert(joint.a);
+  std::set<int> held;             // bodies that a joint holds to another one
+  std::map<int, double> carried;  // by body: largest half width of those that joints hold to it
+  for (const Joint& joint : file.scene.joints) {
+    held.insert(joint.a);
+    double& largest = carried[joint.b];
+    largest = std::max(largest, largest_half_extent(bodies[joint.a].shape));
+  }
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const Body& body = bodies[i];
     if (body.fixed) continue;
@@ -45,14 +50,17 @@ void add_robot_needs(SceneFile& file, const Trajectory& exact) {
       file.needs.push_back(
           penetration_need(index, rounded_up(of_exact * depth + share_of_width * width)));
     }
-    if (held.contains(index) || !body.collides) continue;
-    // Without contacts nothing could be wrong with the end of a flight.
+    if (held.contains(index)) continue;
+    // A base whose shapes are not read, say, is where its wheels carry it; without those nothing
+    // could be wrong with the end of a flight.
+    if (!body.collides && !carried.contains(index)) continue;
     constexpr double share_of_way = 0.02, share_of_size = 0.05;
     double way = 0;
     for (std::size_t f = 1; f < exact.frames.size(); ++f) {
       way += (exact.frames[f][i].pose.position() - exact.frames[f - 1][i].pose.position()).norm();
     }
-    const double size = 2 * largest_half_extent(body.shape);
+    const double half_width = body.collides ? largest_half_extent(body.shape) : carried.at(index);
+    const double size = 2 * half_width;
     file.needs.push_back(
         ends_near_need(index, rounded_up(share_of_way * way + share_of_size * size)));
   }

@@ -25,7 +25,7 @@ constexpr double water = 1000;  // kg/m³, of links whose mass the file does not
 /// Mass of a link without shapes or a mass of its own, as a share of its robot's; a much lighter
 /// one between two joints would need many more iterations of the solver.
 constexpr double share_of_robot = 0.01;
-constexpr double min_ghost_mass = 1e-3;  // kg
+constexpr double ghost_mass = 1e-3;  // kg, of one in a robot without any mass
 
 constexpr double max_friction = 1e6, max_effort = 1e9;  // beyond these more makes no difference
 constexpr double start_up = 0.2;                        // s, until a driven joint has its rate
@@ -159,19 +159,27 @@ class SceneMaker {
                           names.size(), fmt::join(names, ", ")));
   }
 
-  /// Numbers the robots: links that joints connect, other than through the world.
-  void find_robots() {
-    robot_of_.resize(links_.size());
-    std::iota(robot_of_.begin(), robot_of_.end(), 0);
+  /// By link: the first of those that joints connect for which `counts` is true.
+  template <class F>
+  std::vector<int> connected(F counts) const {
+    std::vector<int> first(links_.size());
+    std::iota(first.begin(), first.end(), 0);
     for (bool changed = true; changed;) {
       changed = false;
       for (const LinkJoint& joint : robot_.joints) {
-        if (!is_moving(joint.child) || !is_moving(joint.parent)) continue;
-        int &a = robot_of_[joint.child], &b = robot_of_[joint.parent];
+        if (!counts(joint)) continue;
+        int &a = first[joint.child], &b = first[joint.parent];
         changed = changed || a != b;
         a = b = std::min(a, b);
       }
     }
+    return first;
+  }
+
+  /// Numbers the robots: links that joints connect, other than through the world.
+  void find_robots() {
+    robot_of_ = connected(
+        [&](const LinkJoint& joint) { return is_moving(joint.child) && is_moving(joint.parent); });
     masses_.assign(links_.size(), 0);
     for (std::size_t l = 0; l < links_.size(); ++l) masses_[robot_of_[l]] += mass_of(links_[l]);
   }
@@ -191,7 +199,7 @@ class SceneMaker {
     kept_.assign(links_.size(), true);
     for (bool changed = true; changed;) {
       changed = false;
-      for (std::size_t l = 0; l < links_.size(); ++l) {
+      for (std::size_t l = links_.size(); l-- > 0;) {  // children come last, as a rule
         if (!kept_[l] || !links_[l].shapes.empty()) continue;
         int joints = 0, moving = 0;
         for (const LinkJoint& joint : robot_.joints) {
@@ -208,12 +216,14 @@ class SceneMaker {
       }
     }
   }
-  bool is_kept(int link) const { return link == world_body || kept_[link]; }
+  /// Is there something that a joint to this link holds to?
+  bool is_kept(int link) const { return !is_moving(link) || kept_[link]; }
 
   std::vector<std::string> movable_joints() const {
     std::vector<std::string> names;
     for (const LinkJoint& joint : robot_.joints) {
-      if (joint.kind != JointKind::fixed) names.push_back(joint.name);
+      const bool moves = is_moving(joint.child) || is_moving(joint.parent);
+      if (joint.kind != JointKind::fixed && moves) names.push_back(joint.name);
     }
     return names;
   }
@@ -248,7 +258,7 @@ class SceneMaker {
     body.fixed = links_[link].fixed;
     auto& bodies = bodies_of_[link];
     const int index = static_cast<int>(file_.scene.bodies.size());
-    if (!bodies.empty() && !body.fixed) {
+    if (!bodies.empty()) {
       Joint joint;
       joint.name = fmt::format("{} in {}", body.name, links_[link].name);
       joint.a = index;
@@ -302,7 +312,8 @@ class SceneMaker {
   /// A small ball that touches nothing, with the mass of the link.
   void add_ghost(std::size_t l) {
     double mass = links_[l].mass.value_or(0);
-    if (!(mass > 0)) mass = std::max(min_ghost_mass, share_of_robot * masses_[robot_of_[l]]);
+    if (!(mass > 0)) mass = share_of_robot * masses_[robot_of_[l]];
+    if (!(mass > 0)) mass = ghost_mass;
     Body body{links_[l].name, Sphere(std::cbrt(3 * mass / (4 * std::numbers::pi * water)))};
     body.density = water;
     body.pose = links_[l].pose;
@@ -416,10 +427,14 @@ class SceneMaker {
   void keep_apart() {
     for (const auto& [link, other] : robot_.apart) keep_apart(link, other);
     const std::vector<Body>& bodies = file_.scene.bodies;
+    // As the file has them, whatever holds a base.
+    const std::vector<int> robot_of = connected([](const LinkJoint& joint) {
+      return joint.child != world_body && joint.parent != world_body;
+    });
     for (std::size_t l = 0; l < links_.size(); ++l) {
       for (std::size_t k = l + 1; k < links_.size(); ++k) {
         keep_masks(l, k);
-        if (robot_of_[l] != robot_of_[k]) continue;
+        if (robot_of[l] != robot_of[k]) continue;
         const bool is_one = std::ranges::any_of(bodies_of_[l], [&](int a) {
           return std::ranges::any_of(bodies_of_[k], [&](int b) {
             return bodies[a].collides && bodies[b].collides && overlap(bodies[a], bodies[b]);
@@ -443,6 +458,10 @@ class SceneMaker {
     constexpr double max_states = 4e6;  // a state of a body takes 200 bytes
     const Scene& scene = file_.scene;
     const double steps = scene.duration / scene.step;
+    if (steps < 1 - 1e-9) {
+      throw InvalidInput("--duration", fmt::format("{:g}", scene.duration),
+                         fmt::format("must be at least one step, which is {:g} s", scene.step));
+    }
     if (steps * static_cast<double>(scene.bodies.size()) > max_states) {
       throw InvalidInput("--duration", fmt::format("{:g}", scene.duration),
                          fmt::format("must be shorter: {:.0f} steps of {} bodies are too many",
@@ -452,10 +471,10 @@ class SceneMaker {
       check_scene(scene);
     } catch (const InvalidInput& e) {
       const std::string& field = e.field();
+      const bool is_body = field.starts_with("bodies[");
+      if (!is_body && !field.starts_with("joints[")) throw;
       const std::size_t open = field.find('['), close = field.find(']');
-      if (open == field.npos || close == field.npos) throw;
       const auto index = static_cast<std::size_t>(std::stoul(field.substr(open + 1)));
-      const bool is_body = field.starts_with("bodies");
       const std::string& name = is_body ? scene.bodies.at(index).name : scene.joints.at(index).name;
       const char* const units =
           field.ends_with(".density")

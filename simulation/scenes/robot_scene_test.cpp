@@ -6,6 +6,7 @@
 
 #include "candidates/candidates.hpp"
 #include "reference/invalid_input.hpp"
+#include "simulation/assembly.hpp"
 #include "simulation/scenes/choose.hpp"
 #include "simulation/scenes/robot_file.hpp"
 
@@ -242,6 +243,74 @@ TEST(RobotScene, FramesHaveNoBodies) {
   EXPECT_EQ(scene.joints.size(), 1U);
 }
 
+/// A hinge without its motion.
+LinkJoint weld(const std::string& name, int parent, int child) {
+  LinkJoint made;
+  made.name = name;
+  made.parent = parent;
+  made.child = child;
+  return made;
+}
+
+TEST(RobotScene, TheWorldHoldsARobotThroughFrames) {
+  // world - base_link - base - a, as arms are described; or the first of them is held by option.
+  RobotFile robot = two_balls();
+  robot.links.push_back({"world"});
+  robot.links.push_back({"base_link"});
+  robot.links.push_back({"base"});
+  robot.joints.push_back(weld("bolt", 2, 3));
+  robot.joints.push_back(weld("mount", 3, 4));
+  robot.joints.push_back(weld("foot", 4, 0));
+  EXPECT_TRUE(moved_by_forces(robot_scene(robot, {}).scene)[0]);
+  RobotMotion held;
+  held.has_fixed_base = true;
+  const Scene by_option = robot_scene(robot, held).scene;
+  EXPECT_FALSE(moved_by_forces(by_option)[index(by_option, "a")]);
+  EXPECT_TRUE(moved_by_forces(by_option)[index(by_option, "b")]);
+  robot.links[2].fixed = true;
+  const Scene bolted = robot_scene(robot, {}).scene;
+  EXPECT_FALSE(moved_by_forces(bolted)[index(bolted, "a")]);
+  EXPECT_TRUE(moved_by_forces(bolted)[index(bolted, "b")]);
+}
+
+TEST(RobotScene, AJointOfTheWorldAndAFrameTurnsWhatStandsOnTheFrame) {
+  RobotFile robot = two_balls();
+  robot.links.push_back({"world"});
+  robot.links.back().fixed = true;
+  robot.links.push_back({"plate"});
+  robot.joints.push_back(hinge("turntable", 2, 3));
+  robot.joints.push_back(weld("foot", 3, 0));
+  const Scene scene = robot_scene(robot, {}).scene;
+  EXPECT_EQ(joint(scene, "turntable").b, world_body);
+  EXPECT_EQ(joint(scene, "foot").a, index(scene, "a"));
+}
+
+TEST(RobotScene, LinksThatAJointConnectsDoNotTouchWithAnyShapeAlsoIfOneIsFixed) {
+  RobotFile robot = two_balls();
+  robot.links[0].shapes.push_back({"bracket", Sphere(0.1), Pose(Vec3(0, 5, 1))});
+  for (const bool is_fixed : {false, true}) {
+    RobotMotion motion;
+    motion.has_fixed_base = is_fixed;
+    const Scene scene = robot_scene(robot, motion).scene;
+    const Touching may(scene);
+    EXPECT_FALSE(may(index(scene, "b"), index(scene, "a")));
+    EXPECT_FALSE(may(index(scene, "b"), index(scene, "bracket")));
+  }
+}
+
+TEST(RobotScene, WhatOverlapsAtTheStartNeverTouchesWhateverHoldsTheBase) {
+  // Two arms on a base, built into each other.
+  RobotFile robot = two_balls();
+  robot.links.push_back(ball("c", Vec3(0.6, 0, 1.2)));
+  robot.joints.push_back(hinge("other_elbow", 0, 2));
+  for (const bool is_fixed : {false, true}) {
+    RobotMotion motion;
+    motion.has_fixed_base = is_fixed;
+    const Scene scene = robot_scene(robot, motion).scene;
+    EXPECT_FALSE(Touching(scene)(index(scene, "b"), index(scene, "c"))) << is_fixed;
+  }
+}
+
 TEST(RobotScene, WhatOverlapsAtTheStartNeverTouches) {
   RobotFile robot = two_balls();
   robot.links.push_back(ball("built_in", Vec3(0.15, 0, 1)));
@@ -264,6 +333,56 @@ TEST(RobotScene, ARobotOfMeshesAloneIsRefused) {
   } catch (const InvalidInput& e) {
     EXPECT_THAT(e.what(), HasSubstr("not only meshes: add cylinders"));
   }
+}
+
+TEST(RobotScene, ALengthOfNoStepIsRefused) {
+  RobotMotion motion;
+  motion.duration = 1e-3;
+  EXPECT_THAT([&] { robot_scene(two_balls(), motion); },
+              testing::ThrowsMessage<InvalidInput>(
+                  HasSubstr("--duration is 0.001: must be at least one step")));
+}
+
+TEST(RobotScene, AnErrorOfNoLinkOrJointHasItsOwnName) {
+  RobotFile robot = two_balls();
+  robot.gravity = Vec3(0, 0, -1e9);
+  EXPECT_THAT([&] { robot_scene(robot, {}); },
+              testing::ThrowsMessage<InvalidInput>(HasSubstr("gravity[2] is -1000000000")));
+}
+
+TEST(RobotScene, AJointOfWhatIsFixedCannotBeDriven) {
+  RobotFile robot = two_balls();
+  for (Link& link : robot.links) link.fixed = true;
+  RobotMotion motion;
+  motion.rates = {{"elbow", 1}};
+  EXPECT_THAT([&] { robot_scene(robot, motion); },
+              testing::ThrowsMessage<InvalidInput>(HasSubstr("there is none")));
+}
+
+TEST(RobotScene, ABallForALinkIsLightInALightRobotToo) {
+  RobotFile robot = two_balls();
+  for (Link& link : robot.links) link.mass = 1e-6;
+  robot.links.push_back({"knuckle", Pose(Vec3(0.2, 0, 1))});
+  robot.joints = {hinge("steer", 0, 2), hinge("roll", 2, 1)};
+  const Body ghost = body(robot_scene(robot, {}).scene, "knuckle");
+  EXPECT_NEAR(inertia(ghost.shape, ghost.density).mass, 2e-8, 1e-16);
+}
+
+TEST(RobotNeeds, ABaseWhoseShapesAreNotReadEndsWhereItsWheelsCarryIt) {
+  RobotFile robot = two_balls();
+  robot.links[1] = ball("b", Vec3(0.5, 0, 1.2), 0.125);
+  robot.links.push_back({"base", Pose(Vec3(0.2, 0, 1))});
+  robot.links.back().mass = 5;
+  robot.joints = {hinge("left", 2, 0), hinge("right", 2, 1)};
+  SceneFile file = robot_scene(robot, {});
+  Trajectory run;
+  std::vector<BodyState> states;
+  for (const Body& b : file.scene.bodies) states.push_back({b.pose, Vec3::Zero(), Vec3::Zero()});
+  run.frames = {states, states};
+  add_robot_needs(file, run);
+  ASSERT_EQ(file.needs.size(), 1U);
+  // 5% of the width of the larger wheel, 0.25 m.
+  EXPECT_EQ(file.needs[0]->text(file.scene), "base ends within 0.013 m of the exact place");
 }
 
 TEST(RobotScene, ErrorsNameTheLink) {

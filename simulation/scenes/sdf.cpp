@@ -86,6 +86,48 @@ void leave_out(const sdf::Geometry& geometry, const std::string& name, RobotFile
   ++result.left_out.unknown;
 }
 
+/// Is the element at a path below this one in the file, and not false or zero?
+bool is_set(const sdf::ElementPtr& element, std::initializer_list<const char*> path) {
+  const sdf::ElementPtr found = descendant(element, path);
+  if (!found) return false;
+  const std::string text = found->GetValue() ? found->GetValue()->GetAsString() : "";
+  return text != "false" && parse_double(text) != 0;
+}
+
+/// Reads what a collision says of its surface; adds what of that is not read.
+void add_surface(const sdf::ElementPtr& collision, LinkShape& shape, RobotFile& result) {
+  if (const auto mu = descendant(collision, {"surface", "friction", "ode", "mu"})) {
+    shape.friction = mu->Get<double>();
+  }
+  constexpr int all_bits = 0xffff;  // Gazebo's default
+  shape.mask = {all_bits, all_bits};
+  if (const auto bits = descendant(collision, {"surface", "contact", "collide_bitmask"})) {
+    const int given = static_cast<int>(bits->Get<unsigned int>());
+    shape.mask = {given, given};
+  }
+  const auto unread = [&](const char* what) {
+    result.ignored.push_back(fmt::format("collision {}: {}", shape.name, what));
+  };
+  if (is_set(collision, {"surface", "contact", "collide_without_contact"})) {
+    unread("collide_without_contact is not read; it touches others");
+  }
+  if (is_set(collision, {"surface", "bounce", "restitution_coefficient"})) {
+    unread("bounce is not read");
+  }
+}
+
+void note_unread(const sdf::Link& link, const std::string& name, RobotFile& result) {
+  const sdf::ElementPtr element = link.Element();
+  const auto unread = [&](const char* what) {
+    result.ignored.push_back(fmt::format("link {}: {}", name, what));
+  };
+  if (descendant(element, {"gravity"}) && !is_set(element, {"gravity"})) {
+    unread("gravity is not read; it falls");
+  }
+  if (is_set(element, {"kinematic"})) unread("kinematic is not read; forces move it");
+  if (is_set(element, {"enable_wind"})) unread("enable_wind is not read");
+}
+
 void add_link(const sdf::Link& link, const std::string& link_name, const Pose3d& X_WL,
               bool is_static, RobotFile& result) {
   Link made{link_name, to_pose(X_WL)};
@@ -103,9 +145,7 @@ void add_link(const sdf::Link& link, const std::string& link_name, const Pose3d&
       }
       const Pose3d X_WC = X_WL * resolved(collision.SemanticPose(), name);
       made.shapes.push_back({name, *shape, to_pose(X_WC)});
-      if (const auto mu = descendant(collision.Element(), {"surface", "friction", "ode", "mu"})) {
-        made.shapes.back().friction = mu->Get<double>();
-      }
+      add_surface(collision.Element(), made.shapes.back(), result);
       // Gazebo's planes do not move, whatever the model.
       made.fixed = made.fixed || std::holds_alternative<Plane>(*shape);
     } catch (const InvalidInput& e) {
@@ -123,6 +163,7 @@ void add_link(const sdf::Link& link, const std::string& link_name, const Pose3d&
   } else if (*made.mass > 0 && descendant(link.Element(), {"inertial", "pose"})) {
     made.inertia = {to_pose(X_WL * given.Pose())};
   }
+  if (!made.fixed) note_unread(link, link_name, result);
   result.links.push_back(std::move(made));
 }
 
@@ -163,8 +204,9 @@ void add_axis(const sdf::Joint& joint, const Pose3d& X_WJ, LinkJoint& made) {
   made.anchor = to_vector(X_WJ.Pos());
   made.axis = to_vector(X_WJ.Rot() * direction);
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  made.lower = axis->Lower() <= -no_limit ? -infinity : axis->Lower();
-  made.upper = axis->Upper() >= no_limit ? infinity : axis->Upper();
+  const bool is_limited = joint.Type() != sdf::JointType::CONTINUOUS;
+  made.lower = !is_limited || axis->Lower() <= -no_limit ? -infinity : axis->Lower();
+  made.upper = !is_limited || axis->Upper() >= no_limit ? infinity : axis->Upper();
   if (axis->Effort() > 0 && axis->Effort() < no_limit) made.effort = axis->Effort();
 }
 
@@ -214,6 +256,10 @@ void add_model(const sdf::Model& model, const std::string& outer, const Pose3d& 
   const std::string path = outer + model.Name();
   const Pose3d X_WM = X_WO * resolved(model.SemanticPose(), path);
   is_static = is_static || model.Static();
+  if (descendant(model.Element(), {"self_collide"}) && !model.SelfCollide()) {
+    result.ignored.push_back(
+        fmt::format("model {}: self_collide is not read; its links touch each other", path));
+  }
   for (std::uint64_t i = 0; i < model.LinkCount(); ++i) {
     const sdf::Link& link = *model.LinkByIndex(i);
     const std::string name = path + "::" + link.Name();
@@ -229,8 +275,8 @@ void add_model(const sdf::Model& model, const std::string& outer, const Pose3d& 
 
 /// Adds elements that have no part in contacts.
 void note_ignored_elements(const sdf::ElementPtr& element, RobotFile& result) {
-  static const std::set<std::string> ignored = {"plugin", "sensor", "actor",  "wind",
-                                                "light",  "state",  "physics"};
+  static const std::set<std::string> ignored = {"plugin", "sensor", "actor",   "wind",
+                                                "light",  "state",  "physics", "population"};
   for (auto child = element->GetFirstElement(); child; child = child->GetNextElement()) {
     const bool is_default = child->GetName() == "physics" && !child->GetExplicitlySetInFile();
     if (ignored.contains(child->GetName()) && !is_default) {
@@ -383,6 +429,7 @@ RobotFile read_sdf(const std::filesystem::path& file, const Folders& given) {
                                "IGN_GAZEBO_RESOURCE_PATH", "ROS_PACKAGE_PATH"}) {
     add_folders(variable, folders);
   }
+  for (std::filesystem::path& folder : folders) folder = std::filesystem::absolute(folder);
   // By a relative name libsdformat finds its own description first, which has one of world.sdf and
   // model.sdf.
   const std::filesystem::path here = std::filesystem::absolute(file);
@@ -391,6 +438,10 @@ RobotFile read_sdf(const std::filesystem::path& file, const Folders& given) {
   folders.push_back(here.parent_path().parent_path());
   IncludedFiles(folders).check(here);
 
+  // libsdformat looks there before it asks, also for files that were not checked. This process is
+  // for this file alone.
+  unsetenv("SDF_PATH");
+  std::filesystem::current_path("/");
   sdf::ParserConfig config;
   config.SetFindCallback(
       [&](const std::string& uri) { return resolved_uri(uri, folders).string(); });
@@ -409,14 +460,18 @@ RobotFile read_sdf(const std::filesystem::path& file, const Folders& given) {
     result.name = model->Name();
     add_model(*model, "", Pose3d::Zero, false, result);
   }
-  for (std::uint64_t w = 0; w < root.WorldCount(); ++w) {
-    const sdf::World& world = *root.WorldByIndex(w);
+  if (root.WorldCount() > 0) {
+    const sdf::World& world = *root.WorldByIndex(0);
     result.name = world.Name();
     result.is_world = true;
     result.gravity = to_vector(world.Gravity());
     for (std::uint64_t i = 0; i < world.ModelCount(); ++i) {
       add_model(*world.ModelByIndex(i), "", Pose3d::Zero, false, result);
     }
+  }
+  for (std::uint64_t w = 1; w < root.WorldCount(); ++w) {
+    result.ignored.push_back(
+        fmt::format("world {}: not read, only the first is", root.WorldByIndex(w)->Name()));
   }
   note_ignored_elements(root.Element(), result);
   note_unread_of_joints(root, result);

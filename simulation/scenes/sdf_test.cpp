@@ -1,4 +1,5 @@
 // SDF: what is read and where, the models that it includes, and which files are refused.
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fmt/format.h>
@@ -167,6 +168,127 @@ TEST_F(IncludedModels, ThatIncludeThemselvesOrAreNotHereAreRefused) {
   std::filesystem::create_directory(models.path / "empty");
   EXPECT_THAT(with("model://empty", {models.path}), HasSubstr("model.config"));
   EXPECT_THAT(with(""), HasSubstr("include.uri is \"\""));
+}
+
+TEST_F(IncludedModels, AreThoseThatWereCheckedWhateverIsInTheWorkingFolder) {
+  const Folder working("working");
+  working.model("ball", ball + ball);  // two links of one name: libsdformat would refuse it
+  models.model("ball", ball);
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(working.path);
+  EXPECT_EQ(with("ball", {models.path}), "1 shapes");
+  std::filesystem::current_path(before);
+}
+
+TEST(Sdf, RefusesUnitsWhereItsReaderWouldPassOverThem) {
+  const std::string link =
+      "<collision name='c'><geometry><sphere><radius>1</radius></sphere></geometry><surface>"
+      "<friction><ode><mu>MU</mu></ode></friction></surface></collision></link>";
+  const auto refusal = [&](const std::string& place, const std::string& value) {
+    std::string text =
+        "<sdf version='1.9'><world name='w'><gravity>0 0 GRAVITY</gravity>"
+        "<model name='m'><frame name='f'><pose>0 0 FRAME 0 0 0</pose></frame>"
+        "<link name='a'>" +
+        link + "<link name='b'>" + link +
+        "<joint name='j' type='prismatic'><pose>0 JOINT 0 0 0 0</pose>"
+        "<parent>a</parent><child>b</child><axis><xyz>0 0 1</xyz><limit>"
+        "<lower>LOWER</lower><upper>UPPER</upper><effort>EFFORT</effort></limit>"
+        "</axis></joint></model></world></sdf>";
+    for (const auto& [name, usual] : {std::pair{"GRAVITY", "-9.8"},
+                                      {"MU", "0.5"},
+                                      {"FRAME", "0"},
+                                      {"JOINT", "0"},
+                                      {"LOWER", "-inf"},
+                                      {"UPPER", "1e16"},
+                                      {"EFFORT", "-1"}}) {
+      for (std::size_t at = text.find(name); at != text.npos; at = text.find(name)) {
+        text.replace(at, std::string(name).size(), place == name ? value : usual);
+      }
+    }
+    return refusal_of("units.sdf", text);
+  };
+  EXPECT_EQ(refusal("NONE", ""), "accepted with 2 shapes");
+  EXPECT_THAT(refusal("GRAVITY", "-9.8m/s2"), HasSubstr("world w.gravity is \"0 0 -9.8m/s2\""));
+  EXPECT_THAT(refusal("MU", "50%"), HasSubstr("collision m::a/c.surface.friction.ode.mu is"));
+  EXPECT_THAT(refusal("FRAME", "2m"), HasSubstr("frame m::f.pose is"));
+  EXPECT_THAT(refusal("JOINT", "0,5"), HasSubstr("joint m::j.pose is"));
+  EXPECT_THAT(refusal("LOWER", "-100mm"), HasSubstr("joint m::j.axis.limit.lower is \"-100mm\""));
+  EXPECT_THAT(refusal("UPPER", "5.7 deg"), HasSubstr("joint m::j.axis.limit.upper is"));
+  EXPECT_THAT(refusal("EFFORT", "3N"), HasSubstr("joint m::j.axis.limit.effort is"));
+}
+
+TEST(Sdf, AContinuousJointHasNoLimits) {
+  const std::string link =
+      "<collision name='c'><geometry><sphere><radius>1</radius></sphere></geometry></collision>"
+      "</link>";
+  const Written file(
+      "turns.sdf", "<sdf version='1.9'><model name='m'><link name='a'>" + link + "<link name='b'>" +
+                       link +
+                       "<joint name='j' type='continuous'><parent>a</parent><child>b</child>"
+                       "<axis><xyz>0 0 1</xyz><limit><lower>-0.1</lower><upper>0.1</upper>"
+                       "</limit></axis></joint></model></sdf>");
+  const LinkJoint joint = by_name(read_robot(file.path).joints, "m::j");
+  EXPECT_TRUE(std::isinf(joint.lower));
+  EXPECT_TRUE(std::isinf(joint.upper));
+}
+
+TEST(Sdf, ReadsTheFirstOfSeveralWorlds) {
+  const auto world = [](const std::string& name) {
+    return "<world name='" + name + "'><model name='of_" + name +
+           "'><link name='l'><collision name='c'><geometry><sphere><radius>1</radius></sphere>"
+           "</geometry></collision></link></model></world>";
+  };
+  const Written file("two.sdf", "<sdf version='1.9'>" + world("earth") + world("moon") + "</sdf>");
+  const RobotFile robot = read_robot(file.path);
+  EXPECT_EQ(robot.name, "earth");
+  EXPECT_EQ(shape_count(robot), 1U);
+  EXPECT_THAT(robot.ignored, testing::ElementsAre("world moon: not read, only the first is"));
+}
+
+TEST(Sdf, ShapesTouchByTheirBitmasks) {
+  const auto model = [](const std::string& name, const std::string& bits) {
+    return "<model name='" + name +
+           "'><link name='l'><collision name='c'><geometry><sphere><radius>1</radius></sphere>"
+           "</geometry>" +
+           (bits.empty() ? bits
+                         : "<surface><contact><collide_bitmask>" + bits +
+                               "</collide_bitmask></contact></surface>") +
+           "</collision></link></model>";
+  };
+  const Written file("bits.sdf", "<sdf version='1.9'><world name='w'>" + model("low", "0x01") +
+                                     model("high", "2") + model("any", "") + "</world></sdf>");
+  const RobotFile robot = read_robot(file.path);
+  const auto mask = [&](const std::string& name) { return named(robot, name + "::l/c").mask; };
+  EXPECT_FALSE(mask("low").touches(mask("high")));
+  EXPECT_TRUE(mask("low").touches(mask("any")));
+  EXPECT_TRUE(mask("any").touches(mask("high")));
+}
+
+TEST(Sdf, SaysWhatOfLinksAndSurfacesItIgnores) {
+  const auto ignored = [](const std::string& model, const std::string& link,
+                          const std::string& surface) {
+    const Written file("link.sdf",
+                       "<sdf version='1.9'><model name='m'>" + model + "<link name='l'>" + link +
+                           "<collision name='c'><geometry><sphere><radius>1</radius></sphere>"
+                           "</geometry><surface>" +
+                           surface + "</surface></collision></link></model></sdf>");
+    return read_robot(file.path).ignored;
+  };
+  EXPECT_THAT(ignored("<self_collide>false</self_collide>",
+                      "<gravity>false</gravity><kinematic>true</kinematic>",
+                      "<contact><collide_without_contact>1</collide_without_contact></contact>"
+                      "<bounce><restitution_coefficient>0.5</restitution_coefficient></bounce>"),
+              testing::UnorderedElementsAre(
+                  "model m: self_collide is not read; its links touch each other",
+                  "link m::l: gravity is not read; it falls",
+                  "link m::l: kinematic is not read; forces move it",
+                  "collision m::l/c: collide_without_contact is not read; it touches others",
+                  "collision m::l/c: bounce is not read"));
+  EXPECT_THAT(ignored("<self_collide>true</self_collide>",
+                      "<gravity>true</gravity><kinematic>false</kinematic>",
+                      "<contact><collide_without_contact>0</collide_without_contact></contact>"
+                      "<bounce><restitution_coefficient>0</restitution_coefficient></bounce>"),
+              testing::IsEmpty());
 }
 
 TEST(Sdf, GivesMassFrictionAndGravity) {

@@ -261,9 +261,9 @@ RobotFile read_urdf(const std::filesystem::path& file) {
     if (joint->type != urdf::Joint::FIXED) note_unread(*joint, unread);
   }
   unread.note(result);
-  // A root named so and without a shape holds the robot to the world, as Gazebo and MoveIt read it.
+  // A root named so is the world, which holds the robot, as Gazebo and MoveIt read it.
   Link& root = result.links.front();
-  root.fixed = root.name == "world" && root.shapes.empty();
+  root.fixed = root.name == "world";
   read_other_elements(text, result);
   return result;
 }
