@@ -137,7 +137,7 @@ int run(const Options& options) {
   for (const Option& option : is_robot ? options.of_motions : options.of_samples) {
     if (!option.is_given() || (is_robot && !options.is_sampled())) continue;
     throw InvalidInput(option.name(), "given with \"" + options.scene + '"',
-                       is_robot ? "must be left out: sampled poses have no motion to disturb"
+                       is_robot ? "must be left out: sampled poses have no motion"
                                 : "must be left out: a scene's needs stand in its file");
   }
   const OutputFolder out(options.out);
@@ -167,6 +167,7 @@ void add_choose(Program& program) {
                 "mujoco")
           .value("ENGINE")
           .excludes(options->candidates.option())};
+  for (const Option& option : options->robot.of_motion()) options->of_motions.push_back(option);
   const char* sampled = "Of a robot or world, at random poses";
   PairNeeds& pairs = options->pairs;
   options->of_samples = {

@@ -438,7 +438,13 @@ simulated=$("$program" simulate "$folder/pedestal.json" --disturbance 0)
 [ "$(tail -n 1 <<<"$simulated")" = "$("$program" simulate "$folder/pedestal.json" | tail -n 1)" ] ||
   { echo "FAILED: disturbance 0 is not the scene as it is written"; failures=$((failures + 1)); }
 expect 0 '^pedestal, capsule, disturbance 2 of seed 3$' simulate "$folder/pedestal.json" --candidates capsule --disturbance 2 --seed 3
-expect 2 '^error: --disturbance is 2: must be with scene files, robots or worlds' simulate rolling --disturbance 2
+expect 2 '^error: --disturbance is given: must be with scene files, robots or worlds' simulate rolling --disturbance 2
+expect 2 '^error: --drive is given: must be with scene files, robots or worlds' simulate rolling --drive wheel=1
+expect 2 '^error: --step is given: must be with experiments, not with scene files' simulate "$folder/pedestal.json" --step 0.01
+expect 2 '^error: --count is given: must be with --record' simulate "$folder/pedestal.json" --count 5
+expect 2 '^error: --seed is given: must be with --record or --disturbance' simulate "$folder/pedestal.json" --seed 5
+expect 2 '^error: --drive is given with .*cart.urdf": must be left out: sampled poses have no motion' \
+  choose "$folder/cart.urdf" --count 1 --drive left_wheel=3
 expect 2 '--contacts is "no-such-engine": must be one of reference' render "$folder/can.json" --contacts no-such-engine
 expect 0 '4 frames' render "$folder/can.json" --every 0.1 --out "$folder/frames"
 [ -s "$folder/frames/frame-00004.inc" ] || { echo "FAILED: no frame"; failures=$((failures + 1)); }

@@ -104,6 +104,9 @@ struct RobotOption {
   SceneFile scene(const std::string& file) const;
   /// These options as text, to be repeated.
   std::string command_line() const;
+  const std::vector<Option>& all() const { return options_; }
+  /// Those that say how it moves.
+  std::vector<Option> of_motion() const { return {options_.begin(), options_.end() - 1}; }
 
  private:
   RobotMotion motion() const;
@@ -111,7 +114,7 @@ struct RobotOption {
   std::vector<std::string> drives_, folders_;
   bool has_fixed_base_ = false;
   double seconds_;
-  std::vector<Option> options_;
+  std::vector<Option> options_;  // --model-path last
 };
 
 /// What is scored, by whom, and how strictly.

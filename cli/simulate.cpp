@@ -57,6 +57,8 @@ struct Options {
   std::vector<double> steps = default_steps;
   std::vector<std::string> engines;
   std::string out, record;
+  std::vector<Option> of_files, of_experiments;  // that have no meaning for the other
+  std::optional<Option> count, seed;
   RecordingOptions recording;
   bool json = false;
 
@@ -150,10 +152,6 @@ bool has_files(const Options& options) {
 
 /// Runs the scenes and prints where their bodies end.
 int simulate_scenes(const Options& options) {
-  if (options.json || !options.out.empty()) {
-    throw InvalidInput(options.json ? "--json" : "--out", "given",
-                       "must be with experiments, not with scene files");
-  }
   const std::vector<const Candidate*> candidates =
       options.candidates.is_given() ? options.candidates.get() : exact_first({});
   Processes processes(options.candidates.limits());
@@ -194,14 +192,29 @@ int simulate_in_engines(const Options& options) {
   return 0;
 }
 
+/// Refuses options that would have no effect.
+void refuse_others(const Options& options) {
+  const bool files = has_files(options) || !options.record.empty();
+  for (const Option& option : files ? options.of_experiments : options.of_files) {
+    if (!option.is_given()) continue;
+    throw InvalidInput(option.name(), "given",
+                       files ? "must be with experiments, not with scene files"
+                             : "must be with scene files, robots or worlds");
+  }
+  const bool records = !options.record.empty();
+  if (options.count->is_given() && !records) {
+    throw InvalidInput("--count", "given", "must be with --record");
+  }
+  if (options.seed->is_given() && !records && !options.disturbance.option.is_given()) {
+    throw InvalidInput("--seed", "given", "must be with --record or --disturbance");
+  }
+}
+
 int run(const Options& options) {
+  refuse_others(options);
   if (!options.record.empty()) return record(options);
   if (!options.engines.empty()) return simulate_in_engines(options);
   if (has_files(options)) return simulate_scenes(options);
-  if (options.disturbance.option.is_given()) {
-    throw InvalidInput("--disturbance", std::to_string(options.disturbance.number),
-                       "must be with scene files, robots or worlds");
-  }
   const ExperimentOptions experiments = options.experiments();
   std::optional<OutputFolder> out;
   if (!options.out.empty()) out.emplace(options.out);
@@ -236,9 +249,10 @@ void add_simulate(Program& program) {
                 "Run in these engines' own worlds, with their contacts and with ours: bullet, "
                 "bullet-float, ode, mujoco (docs/inside-the-engines.md)")
           .value("ENGINE");
-  command.numbers("--step", options->steps, {1e-5, 0.1},
-                  "Steps of time, seconds, separated by commas (default: 1/60, 1/240, 1/960; with "
-                  "--engine 1/240)");
+  const Option step = command.numbers(
+      "--step", options->steps, {1e-5, 0.1},
+      "Steps of time, seconds, separated by commas (default: 1/60, 1/240, 1/960; with "
+      "--engine 1/240)");
   const Option out =
       command
           .text("--out", options->out,
@@ -256,14 +270,17 @@ void add_simulate(Program& program) {
       .excludes(options->disturbance.option)
       .group(recording);
   options->disturbance.option.excludes(engine);
-  command
-      .count("--count", options->recording.count, {1, 1000000},
-             "Configurations of each scene and pair of shapes")
-      .group(recording);
-  command
-      .count("--seed", options->recording.seed, all_counts,
-             "Same seed, same configurations; or same disturbances")
-      .group(recording);
+  options->of_experiments = {step, out, json};
+  options->of_files = options->robot.all();
+  options->of_files.push_back(options->disturbance.option);
+  options->count = command
+                       .count("--count", options->recording.count, {1, 1000000},
+                              "Configurations of each scene and pair of shapes")
+                       .group(recording);
+  options->seed = command
+                      .count("--seed", options->recording.seed, all_counts,
+                             "Same seed, same configurations; or same disturbances")
+                      .group(recording);
   command.footer(
       "Examples:\n"
       "  touchstone simulate rolling\n"
