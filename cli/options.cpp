@@ -219,7 +219,7 @@ SceneFile RobotOption::scene(const std::string& file) const {
     try {
       return robot_scene(read, motion());
     } catch (const InvalidInput& e) {
-      const bool is_in_file = e.field().starts_with("link ") || e.field().starts_with("joint ");
+      const bool is_in_file = e.field() != "scene" && !e.field().starts_with("--");
       throw InvalidInput((is_in_file ? file + ": " : "") + e.field(), e.value(), e.remedy());
     }
   }
