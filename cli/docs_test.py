@@ -37,6 +37,8 @@ SHORTER = {
     "render": {"--every": "1"},
 }
 
+SCENES = (".json", ".urdf", ".sdf", ".xml")
+
 # Beginnings of commands that do not run here, with what does run them.
 ELSEWHERE = {
     "./touchstone test": "touchstone_script_test.sh",
@@ -96,6 +98,8 @@ def shortened(arguments):
     for option, value in SHORTER[command].items():
         if option == "--class" and "--group" in arguments:
             continue  # the group may have no such class
+        if option == "--step" and any(a.endswith(SCENES) for a in arguments):
+            continue  # a scene has its own
         if option not in arguments:
             arguments = [*arguments, option, value]
         elif option == "--count":
