@@ -164,10 +164,8 @@ class Reading {
     const std::string name = m_.names;
     result_.name = name.empty() ? "model" : name;
     result_.is_world = true;
-    if (!is_disabled(mjDSBL_GRAVITY))
-      result_.gravity = to_vector(m_.opt.gravity);
-    else
-      result_.gravity = Vec3::Zero();
+    result_.gravity = to_vector(m_.opt.gravity);
+    if (is_disabled(mjDSBL_GRAVITY)) result_.gravity.setZero();
     result_.step = m_.opt.timestep;
     for (int b = 0; b < m_.nbody; ++b) add_body(b);
     for (int b = 1; b < m_.nbody; ++b) add_joints(b);

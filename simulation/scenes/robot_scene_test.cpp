@@ -243,7 +243,7 @@ TEST(RobotScene, FramesHaveNoBodies) {
   EXPECT_EQ(scene.joints.size(), 1U);
 }
 
-/// A hinge without its motion.
+/// A fixed joint.
 LinkJoint weld(const std::string& name, int parent, int child) {
   LinkJoint made;
   made.name = name;
