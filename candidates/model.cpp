@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "reference/pose.hpp"
+
 namespace touchstone {
 namespace {
 
@@ -358,10 +360,8 @@ BoxParts parts_in_box(const Vec3& box, int count, bool as_capsules) {
   std::sort(axis.begin(), axis.end(), [&](int i, int j) { return box[i] < box[j]; });
   const double radius = box[axis[0]];
   const double middle = box[axis[1]] - radius, longest = box[axis[2]] - radius;
-  BoxParts parts{{},
-                 radius,
-                 as_capsules ? longest : 0,
-                 Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), Vec3::Unit(axis[2]))};
+  BoxParts parts{
+      {}, radius, as_capsules ? longest : 0, turn_between(Vec3::UnitZ(), Vec3::Unit(axis[2]))};
   const int in_row = as_capsules ? 1 : count;
   int rows = count;
   if (!as_capsules) {

@@ -469,9 +469,7 @@ Configuration deep_coins(std::uint64_t index) {
   const double depth = r2 * across2.norm() * (1 - power_of_ten(-7, -2));
   const Vec3 rims = r1 * across1.normalized() + r2 * across2.normalized() - depth * n;
   const Vec3 d = rims + std::copysign(h1, n.dot(u1)) * u1 + std::copysign(h2, n.dot(u2)) * u2;
-  const auto along = [](const Vec3& axis) {
-    return Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), axis);
-  };
+  const auto along = [](const Vec3& axis) { return turn_between(Vec3::UnitZ(), axis); };
   const Eigen::Quaterniond turn =
       Eigen::Quaterniond(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1), uniform(-1, 1))
           .normalized();

@@ -131,7 +131,7 @@ TEST(Touch, ThatRoundingDecidesIsDecidedAlike) {
     return Vec3(normal(random), normal(random), normal(random)).normalized();
   };
   const auto pose = [](const Vec3& position, const Vec3& axis) {
-    return Pose(position, Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), axis));
+    return Pose(position, turn_between(Vec3::UnitZ(), axis));
   };
   int touching = 0, apart = 0;
   for (int i = 0; i < 10000; ++i) {

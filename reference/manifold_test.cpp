@@ -135,7 +135,7 @@ TEST(Manifold, SideEndingWithinTheCapHasItsEndAndTheRim) {
 
 TEST(Manifold, StandsOnAPlaneOfAnyNormal) {
   for (const Vec3& n : {Vec3(1, 0, 0), Vec3(0, -1, 0), Vec3(0.6, 0, -0.8), Vec3(2, 3, 6)}) {
-    const Quaternion turn = Quaternion::FromTwoVectors(Vec3::UnitZ(), n);
+    const Quaternion turn = turn_between(Vec3::UnitZ(), n);
     const Contact answer =
         contact({Cylinder(1, 2), Pose(1.9 * n.normalized(), turn), Plane(n, 0), Pose()}, 0);
     ASSERT_EQ(answer.points().size(), 3u);
@@ -155,7 +155,7 @@ TEST(Manifold, StandsOnThreePointsWhereverTheThresholdAdmitsThem) {
             3u);
   // The very distance of a can that has sunk in, on a plane that rounding tilts.
   for (const Vec3& n : {Vec3(0.6, 0, -0.8), Vec3(2, 3, 6), Vec3(-1, 5, 0.3)}) {
-    const Quaternion turn = Quaternion::FromTwoVectors(Vec3::UnitZ(), n);
+    const Quaternion turn = turn_between(Vec3::UnitZ(), n);
     const Configuration sunk{can, Pose(-4 * n.normalized(), turn), Plane(n, 0), Pose()};
     EXPECT_EQ(contact(sunk, signed_distance(sunk).value).points().size(), 3u);
   }

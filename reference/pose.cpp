@@ -50,4 +50,20 @@ Eigen::Quaterniond Pose::unit_orientation() const {
   return (squares_in_range ? orientation_ : in_range(orientation_)).normalized();
 }
 
+Eigen::Quaterniond turn_between(const Vec3& from, const Vec3& to) {
+  constexpr double opposite = -1 + 1e-12;  // Below it, s has lost half of its digits.
+  const Vec3 u = from.normalized(), v = to.normalized();
+  const double c = u.dot(v);
+  Eigen::Quaterniond turn;
+  if (c < opposite) {
+    turn.w() = 0;
+    turn.vec() = u.unitOrthogonal();
+    return turn;
+  }
+  const double s = std::sqrt((1 + c) * 2);
+  turn.w() = s * 0.5;
+  turn.vec() = u.cross(v) * (1 / s);
+  return turn;
+}
+
 }  // namespace touchstone

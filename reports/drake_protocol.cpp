@@ -69,7 +69,7 @@ std::vector<World> worlds() {
 
 /// The second body, in the frame of the first: site on site, `depth` deep, normals opposite.
 Pose placed(const Site& first, const Site& second) {
-  const auto r = Eigen::Quaterniond::FromTwoVectors(second.normal, -first.normal);
+  const auto r = turn_between(second.normal, -first.normal);
   return Pose(first.point - depth * first.normal - r * second.point, r);
 }
 

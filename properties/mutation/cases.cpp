@@ -235,9 +235,7 @@ class MeetingRims : Random {
     const double gap = uniform(0, 1) < 0.1 ? r1 * log_uniform(-9, 0) : -part * max_depth;
     const Vec3 d = gap * n + r1 * across1.normalized() + r2 * across2.normalized() +
                    std::copysign(h1, n.dot(u1)) * u1 + std::copysign(h2, n.dot(u2)) * u2;
-    const auto along = [](const Vec3& axis) {
-      return Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), axis);
-    };
+    const auto along = [](const Vec3& axis) { return turn_between(Vec3::UnitZ(), axis); };
     const Eigen::Quaterniond turned = turn();
     return {Cylinder(r1, h1), Pose(turned * d, turned * along(u1)), Cylinder(r2, h2),
             Pose(Vec3::Zero(), turned * along(u2))};

@@ -30,7 +30,7 @@ Pose pose_in_mujoco(const Shape& shape, const Pose& pose) {
   if (!plane) return pose;
   const Vec3 normal = pose.rotation() * plane->unit_normal();
   return Pose(pose.position() + plane->unit_displacement() * normal,
-              Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), normal));
+              turn_between(Vec3::UnitZ(), normal));
 }
 
 /// Attributes of a geom.

@@ -250,8 +250,7 @@ class BulletWorld : public EngineWorld {
         joint.b == world_body ? btTypedConstraint::getFixedBody() : *bodies_[assembly_of(joint.b)];
     const bool turns = joint.kind == JointKind::hinge;
     const Vec3 anchor = turns ? joint.anchor : from_vector(a.getWorldTransform().getOrigin());
-    const btTransform frame =
-        to_transform(Pose(anchor, Eigen::Quaterniond::FromTwoVectors(Vec3::UnitX(), joint.axis)));
+    const btTransform frame = to_transform(Pose(anchor, turn_between(Vec3::UnitX(), joint.axis)));
     auto made = std::make_unique<Constraint>(a, b, a.getWorldTransform().inverse() * frame,
                                              b.getWorldTransform().inverse() * frame);
     for (int axis = 0; axis < 6; ++axis) made->setLimit(axis, 0, 0);
