@@ -14,9 +14,9 @@
 namespace touchstone {
 namespace {
 
-struct Options {
+struct CampaignArguments {
   /// Ranks share a machine as mpirun says.
-  explicit Options(Command& command)
+  explicit CampaignArguments(Command& command)
       : scored(command, 1000, Plan::max_count),
         workers(command, under_mpirun() ? 1 : std::max(1U, std::thread::hardware_concurrency()),
                 "one a core or rank") {}
@@ -52,7 +52,7 @@ struct Options {
   }
 };
 
-void print_plan(const Options& options, const ShardState& state) {
+void print_plan(const CampaignArguments& options, const ShardState& state) {
   const Plan& plan = state.plan;
   const Shard& shard = state.shard;
   const UnitSet all = shard.units(plan.cut), done = state.done;
@@ -67,7 +67,7 @@ void print_plan(const Options& options, const ShardState& state) {
   complain(fmt::format("{}; workers: {}", text, options.workers.get()));
 }
 
-int run(const Options& options) {
+int run_campaign(const CampaignArguments& options) {
   const Shard shard = options.shard();
   const Campaign campaign = options.campaign();
   const ShardPlace place(options.out, shard);
@@ -112,7 +112,7 @@ int run(const Options& options) {
 void add_campaign(Program& program) {
   Command command =
       program.command("campaign", "Score any number of configurations, on many machines");
-  const auto options = std::make_shared<Options>(command);
+  const auto options = std::make_shared<CampaignArguments>(command);
   command.text("--out", options->out, "Folder for the checkpoints and campaign.json")
       .value("FOLDER");
   command.text("--shard", options->shard_text,
@@ -128,7 +128,7 @@ void add_campaign(Program& program) {
       "  touchstone campaign --count 1e6 --shard 3/7 --out run   then merge\n"
       "Exit codes: 130, 143, 129 when stopped by Ctrl-C, SIGTERM, SIGHUP; what was\n"
       "done is saved.");
-  command.runs([options] { return run(*options); });
+  command.runs([options] { return run_campaign(*options); });
 }
 
 namespace {

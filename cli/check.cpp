@@ -46,7 +46,7 @@ std::string answer_text(const std::optional<ts_answer>& answer) {
 }
 
 /// The middle, rounded to nearest: -2 where bounds of 1e-30 lie about it.
-double nearest(const oracle::Enclosure& e) {
+double rounded_middle(const oracle::Enclosure& e) {
   const mpq_class middle = (e.lo + e.hi) / 2;
   const double inside = middle.get_d();  // towards zero
   const double outside = std::nextafter(inside, middle < 0 ? -INFINITY : INFINITY);
@@ -63,7 +63,7 @@ std::string failure_text(const Failure& f, const Terminal& terminal) {
   text += terminal.below(fmt::format("first met as {}; simplified:", f.identity));
   text += fmt::format("  {}\n  {}\n", to_json(f.configuration).dump(),
                       to_hex_json(f.configuration).dump());
-  text += terminal.below(fmt::format("truth: signed distance {} m", nearest(truth)));
+  text += terminal.below(fmt::format("truth: signed distance {} m", rounded_middle(truth)));
   text += terminal.below("answer: " + answer_text(f.answer));
   text += fmt::format("  echo '{}' | {} replay - --candidates {} --threshold {}\n",
                       to_hex_json(f.configuration).dump(), program_name({f.candidate}), f.candidate,
@@ -251,14 +251,12 @@ std::string check_json(const std::string& candidate, const CheckOptions& options
   return result.dump(2) + '\n';
 }
 
-constexpr int something_failed = 1;
-
 /// About as much work: there is one hostile class, and of others some two hundred to a pair.
-constexpr std::uint64_t usual_count = 20, usual_count_of_hostile = 5000;
+constexpr std::uint64_t usual_count_of_class = 20, usual_count_of_hostile = 5000;
 
-struct Options {
-  explicit Options(Command& command)
-      : sample(command, usual_count, 1000000000), bar(command), workers(command) {}
+struct CheckArguments {
+  explicit CheckArguments(Command& command)
+      : sample(command, usual_count_of_class, 1000000000), bar(command), workers(command) {}
   SampleOption sample;
   BarOption bar;
   WorkersOption workers;
@@ -379,7 +377,7 @@ std::vector<LawResult> check_laws(const Candidate* candidate, const CheckOptions
   return results;
 }
 
-int run(const Options& options) {
+int run_check(const CheckArguments& options) {
   if (options.candidate.empty() && options.corpus.empty() && options.known.empty()) {
     throw InvalidInput("--candidate", "missing",
                        "must be given: a name, as bullet (touchstone candidates lists them), or "
@@ -418,7 +416,7 @@ std::string law_list() {
 
 void add_check(Program& program) {
   Command command = program.command("check", "Hold one candidate to the laws of contacts");
-  const auto options = std::make_shared<Options>(command);
+  const auto options = std::make_shared<CheckArguments>(command);
   command.text("--candidate", options->candidate, "Its name, or a plug-in's file")
       .value("CANDIDATE");
   command
@@ -452,7 +450,7 @@ void add_check(Program& program) {
       law_list() +
       "Exit code 1: a law was broken, or a saved failure has changed; with --known: a\n"
       "law was broken in a new way, or a known failure has changed or cannot be asked.");
-  command.runs([options] { return run(*options); });
+  command.runs([options] { return run_check(*options); });
 }
 
 }  // namespace touchstone

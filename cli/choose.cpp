@@ -19,8 +19,9 @@ namespace {
 
 constexpr int not_served = 1;
 
-struct Options {
-  explicit Options(Command& command) : candidates(command), workers(command), robot(command) {}
+struct ChooseArguments {
+  explicit ChooseArguments(Command& command)
+      : candidates(command), workers(command), robot(command) {}
   CandidateOption candidates;
   WorkersOption workers;
   RobotOption robot;
@@ -47,7 +48,7 @@ struct Options {
 
 /// The scene, with needs from its runs with exact contacts if it is a robot's; of these none is
 /// made if an engine that is named cannot do what the scene asks for.
-SceneFile scene_of(const Options& options) {
+SceneFile scene_of(const ChooseArguments& options) {
   SceneFile file = options.robot.scene(options.scene);
   if (!is_robot_file(options.scene)) return file;
   if (!options.engine.empty()) {
@@ -66,7 +67,7 @@ SceneFile scene_of(const Options& options) {
   return file;
 }
 
-int choose_scene(const Options& options) {
+int choose_scene(const ChooseArguments& options) {
   const std::string command =
       options.command_line() +
       fmt::format(" --disturbances {} --seed {}", options.disturbances, options.seed);
@@ -90,7 +91,7 @@ int choose_scene(const Options& options) {
   return choice.impossible ? not_served : 0;
 }
 
-int choose_for_engine(const Options& options) {
+int choose_for_engine(const ChooseArguments& options) {
   const std::string command =
       fmt::format("{} choose {}{} --engine {} --disturbances {} --seed {}", program_name(),
                   shell_quoted(options.scene), options.robot.command_line(), options.engine,
@@ -110,7 +111,7 @@ int choose_for_engine(const Options& options) {
   return choice.answer ? 0 : not_served;
 }
 
-int choose_pairs(const Options& options) {
+int choose_pairs(const ChooseArguments& options) {
   PairNeeds needs = options.pairs;
   needs.seed = options.seed;
   const std::string command =
@@ -132,7 +133,7 @@ int choose_pairs(const Options& options) {
   return choice.all_served() ? 0 : not_served;
 }
 
-int run(const Options& options) {
+int run_choose(const ChooseArguments& options) {
   const bool is_robot = is_robot_file(options.scene);
   for (const Option& option : is_robot ? options.of_motions : options.of_samples) {
     if (!option.is_given() || (is_robot && !options.is_sampled())) continue;
@@ -149,7 +150,7 @@ int run(const Options& options) {
 
 void add_choose(Program& program) {
   Command command = program.command("choose", "The cheapest contact models that a scene needs");
-  const auto options = std::make_shared<Options>(command);
+  const auto options = std::make_shared<ChooseArguments>(command);
   command
       .text("scene", options->scene,
             "A scene file (docs/scenes.md), or a robot or world (.urdf, .sdf, MJCF)")
@@ -185,7 +186,7 @@ void add_choose(Program& program) {
       "  touchstone choose simulation/scenes/log-pile.json --engine bullet\n"
       "  touchstone choose simulation/scenes/gripper.urdf --depth 0.002 --angle 10\n"
       "Exit code 1: not even exact contacts meet the needs.");
-  command.runs([options] { return run(*options); });
+  command.runs([options] { return run_choose(*options); });
 }
 
 }  // namespace touchstone

@@ -92,14 +92,12 @@ std::vector<const CLI::Option*> options_of(const CLI::App& command) {
   return options;
 }
 
-std::string quoted(const std::string& text) { return '"' + text + '"'; }
-
 /// CLI11 would only say that a subcommand is required.
 void refuse_unknown_command(const CLI::App& program, int argc, char** argv) {
   if (argc < 2 || argv[1][0] == '-') return;
   const Names names = command_names(program);
   if (std::find(names.begin(), names.end(), argv[1]) != names.end()) return;
-  throw InvalidInput("subcommand", quoted(argv[1]),
+  throw InvalidInput("subcommand", in_quotes(argv[1]),
                      fmt::format("must be one of {}; {} --help says what they do",
                                  fmt::join(names, ", "), program.get_name()));
 }
@@ -132,7 +130,7 @@ class UsageError {
     for (const CLI::Option* option : options_of(*command_)) {
       for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
     }
-    return {"option", quoted(word),
+    return {"option", in_quotes(word),
             fmt::format("must be an option of {}, as {}; {} --help lists them", name_,
                         nearest(word.substr(0, word.find('=')), known), name_)};
   }
@@ -144,16 +142,16 @@ class UsageError {
     }
     const CLI::Option* const json = command_->get_option_no_throw("--json");
     if (json && json->count() > 0) {
-      return {"argument", quoted(word),
+      return {"argument", in_quotes(word),
               "must be left out; --json prints on standard output, which goes into a file by > " +
                   word};
     }
     for (const char* const option : {"--candidate", "--candidates"}) {
       if (!taken.empty() || command_->get_option_no_throw(option) == nullptr) continue;
-      return {"argument", quoted(word),
+      return {"argument", in_quotes(word),
               fmt::format("must follow an option, as {} {}", option, word)};
     }
-    return {"argument", quoted(word),
+    return {"argument", in_quotes(word),
             fmt::format("must be left out: {} takes {} and options", name_,
                         taken.empty() ? "no more than its name"
                                       : fmt::format("{}", fmt::join(taken, ", ")))};
@@ -197,7 +195,7 @@ class UsageError {
               fmt::format("must be followed by {}: {}", option->get_type_name(),
                           option->get_description())};
     }
-    return {"command line", quoted(text), "must be as " + name_ + " --help says"};
+    return {"command line", in_quotes(text), "must be as " + name_ + " --help says"};
   }
 
   const CLI::App& program_;
@@ -234,7 +232,7 @@ Option Command::text(const std::string& name, std::string& variable,
                      const std::string& description) {
   // Empty means not given, and a shell's variable that is not set must not mean that.
   const auto read = [&variable, name](const std::string& text) {
-    if (text.empty()) throw InvalidInput(name, quoted(text), "must be left out or have a value");
+    if (text.empty()) throw InvalidInput(name, in_quotes(text), "must be left out or have a value");
     variable = text;
   };
   CLI::Option* option = app_->add_option_function<std::string>(name, read, description);

@@ -19,6 +19,9 @@ namespace touchstone {
 // costs seconds a file. Variables are set when the program runs; what stands in them before is the
 // default that --help shows.
 
+/// Exit codes: something failed its bar; bad input or usage.
+inline constexpr int something_failed = 1, bad_input = 2;
+
 /// An option or an argument of a command.
 class Option {
  public:

@@ -11,7 +11,7 @@
 namespace touchstone {
 namespace {
 
-struct Options {
+struct CompareArguments {
   std::string before, after, html;
   CompareLimits limits;
   std::vector<std::string> fail_on;
@@ -31,7 +31,7 @@ struct Options {
   }
 };
 
-int run(const Options& options) {
+int run_compare(const CompareArguments& options) {
   const Report before = read_report(options.before), after = read_report(options.after);
   const Comparison comparison = compare(before, after, options.chosen());
   const auto write = [&] {
@@ -48,7 +48,7 @@ int run(const Options& options) {
 void add_compare(Program& program) {
   Command command =
       program.command("compare", "What is better, worse or slower than in another report");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<CompareArguments>();
   command.text("OLD", options->before, "report.json to compare with").value("FILE").required();
   command.text("NEW", options->after, "report.json that may be worse").value("FILE").required();
   constexpr NumberRange factors{1, 1e300}, shares{0, 1};
@@ -77,7 +77,7 @@ void add_compare(Program& program) {
       "  touchstone compare old.json new.json --min-agree 0.99 --max-time-factor 1.2\n"
       "Exit code 1: something is worse beyond the limits, or, with --fail-on time,\n"
       "slower.");
-  command.runs([options] { return run(*options); });
+  command.runs([options] { return run_compare(*options); });
 }
 
 }  // namespace touchstone

@@ -179,7 +179,7 @@ std::string command_names(const CLI::App& program, const char* separator) {
 }
 
 /// For zsh, within single quotes and where brackets and colons mean something.
-std::string quoted(const std::string& text) {
+std::string zsh_quoted(const std::string& text) {
   std::string result;
   for (const char c : text) {
     if (c == '\'') {
@@ -196,8 +196,8 @@ std::string quoted(const std::string& text) {
 /// What zsh offers for a value: words, several of them separated by commas, or files.
 std::string zsh_value(const std::string& name) {
   const Words words = words_for(name);
-  if (words.empty()) return fmt::format(":{}:_files", quoted(name));
-  return fmt::format(":{}:_sequence compadd - {}", quoted(name), fmt::join(words, " "));
+  if (words.empty()) return fmt::format(":{}:_files", zsh_quoted(name));
+  return fmt::format(":{}:_sequence compadd - {}", zsh_quoted(name), fmt::join(words, " "));
 }
 
 /// `_arguments` of zsh: '--count[how many]:UINT:_files' for each spelling.
@@ -212,8 +212,8 @@ std::string zsh_options(const CLI::App& app) {
         spelling += c;
         continue;
       }
-      text +=
-          fmt::format(" \\\n      '{}[{}]{}'", spelling, quoted(option->get_description()), value);
+      text += fmt::format(" \\\n      '{}[{}]{}'", spelling, zsh_quoted(option->get_description()),
+                          value);
       spelling.clear();
     }
   }
@@ -297,7 +297,7 @@ std::string zsh_completion(const CLI::App& program) {
   std::string commands, cases;
   for (const CLI::App* command : program.get_subcommands({})) {
     commands +=
-        fmt::format("    '{}:{}'\n", command->get_name(), quoted(command->get_description()));
+        fmt::format("    '{}:{}'\n", command->get_name(), zsh_quoted(command->get_description()));
     std::string positional = ":file:_files";
     for (const CLI::Option* option : command->get_options()) {
       if (option->get_positional()) positional = zsh_value(option->get_type_name());

@@ -14,8 +14,8 @@
 namespace touchstone {
 namespace {
 
-struct Options {
-  explicit Options(Command& command)
+struct ExportArguments {
+  explicit ExportArguments(Command& command)
       : sample(command, 20, 1000000000), bar(command), workers(command) {}
   SampleOption sample;
   BarOption bar;
@@ -50,7 +50,7 @@ struct Options {
 };
 
 /// A file is written as a whole or not at all, standard output as it comes.
-int run(const Options& options) {
+int run_export(const ExportArguments& options) {
   const Campaign campaign = options.campaign();
   const auto writer =
       test_data_writer(options.format(), options.suite ? CsvColumns::suite : CsvColumns::all);
@@ -89,7 +89,7 @@ int run(const Options& options) {
 
 void add_export(Program& program) {
   Command command = program.command("export", "Write configurations with their truths");
-  const auto options = std::make_shared<Options>(command);
+  const auto options = std::make_shared<ExportArguments>(command);
   command
       .text("--out", options->out,
             "File: .jsonl (JSON Lines), .csv or .npz (NumPy); - is standard output")
@@ -104,7 +104,7 @@ void add_export(Program& program) {
       "  touchstone export --pair cylinder-box --count 100 --out truth.npz\n"
       "  touchstone export --suite | gzip -9n > touchstone-suite-1.csv.gz\n"
       "What the files hold: docs/suite.md.");
-  command.runs([options] { return run(*options); });
+  command.runs([options] { return run_export(*options); });
 }
 
 }  // namespace touchstone

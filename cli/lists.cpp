@@ -73,7 +73,7 @@ void add_candidates(Program& program) {
 
 namespace {
 
-constexpr std::size_t name_width = 24;
+constexpr std::size_t name_column = 24;
 
 /// Modifiers that some arrangement of these pairs can have; of the tilts the first, for all.
 std::string modifier_list(const std::vector<Pair>& pairs) {
@@ -87,10 +87,10 @@ std::string modifier_list(const std::vector<Pair>& pairs) {
     };
     if (std::none_of(pairs.begin(), pairs.end(), fits)) continue;
     if (m.kind != Kind::tilt) {
-      text += list_entry(m.name, name_width, m.description);
+      text += list_entry(m.name, name_column, m.description);
     } else if (!has_tilt) {
       has_tilt = true;
-      text += list_entry("tilted-1e-K", name_width,
+      text += list_entry("tilted-1e-K", name_column,
                          "A is tilted by 1e-1 to 1e-15 rad about its centre.");
     }
   }
@@ -100,25 +100,25 @@ std::string modifier_list(const std::vector<Pair>& pairs) {
 std::string arrangement_list(Pair pair) {
   std::string text = fmt::format("Arrangements of {}:\n", pair_name(pair));
   for (const Arrangement& a : arrangements(pair)) {
-    text += list_entry(a.name, name_width, a.description);
+    text += list_entry(a.name, name_column, a.description);
   }
   return text;
 }
 
 std::string group_list() {
   return "Groups:\n" +
-         list_entry("everyday", name_width,
+         list_entry("everyday", name_column,
                     "Sizes within 1:20, turned at random, shallow, resting or apart: what scenes "
                     "produce.") +
-         list_entry("degenerate", name_width,
+         list_entry("degenerate", name_column,
                     "Exact, nearly exact (tilted, touching) or symmetric.") +
-         list_entry("extreme", name_width,
+         list_entry("extreme", name_column,
                     "Needles, coins, plates, uneven sizes, tiny, huge, far away, or deep.") +
-         list_entry("recorded", name_width,
+         list_entry("recorded", name_column,
                     "As it occurred in the scenes that come with Touchstone.");
 }
 
-int run(const std::string& pair) {
+int list_classes(const std::string& pair) {
   std::vector<Pair> pairs(std::begin(all_pairs), std::end(all_pairs));
   if (!pair.empty()) pairs = {parse_pair(pair, "pair")};
   for (const Pair each : pairs) print(fmt::format("{}\n", arrangement_list(each)));
@@ -143,7 +143,7 @@ void add_classes(Program& program) {
       "  touchstone classes\n"
       "  touchstone classes cylinder-box\n"
       "  touchstone report --class side-on-face,side-on-face+turned --pair cylinder-box");
-  command.runs([pair] { return run(*pair); });
+  command.runs([pair] { return list_classes(*pair); });
 }
 
 }  // namespace touchstone

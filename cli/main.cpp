@@ -15,7 +15,6 @@
 namespace touchstone {
 namespace {
 
-constexpr int bad_input = 2;
 constexpr int unwritten_output = 2;
 constexpr int contradiction = 3;
 
@@ -41,7 +40,7 @@ std::string version_text() {
 }
 
 /// Parses, runs what was asked for, and tells failures.
-int run(int argc, char** argv) {
+int run_program(int argc, char** argv) {
   Program program("touchstone",
                   "Touchstone: verification and validation of cylinder contacts.\n"
                   "Scores contact routines against an exact oracle.");
@@ -114,7 +113,7 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   touchstone::open_closed_streams();
   touchstone::say_when_interrupted();
-  const int code = touchstone::run(argc, argv);
+  const int code = touchstone::run_program(argc, argv);
   if (touchstone::standard_output_is_written()) return code;
   return code == touchstone::contradiction ? code : touchstone::unwritten_output;
 }

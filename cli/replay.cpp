@@ -12,8 +12,8 @@
 namespace touchstone {
 namespace {
 
-struct Options {
-  explicit Options(Command& command) : candidates(command), bar(command) {}
+struct ReplayArguments {
+  explicit ReplayArguments(Command& command) : candidates(command), bar(command) {}
   CandidateOption candidates;
   BarOption bar;
   std::string input, engine, language;
@@ -21,7 +21,7 @@ struct Options {
   std::string html;
 };
 
-int run(const Options& options, bool emits) {
+int run_replay(const ReplayArguments& options, bool emits) {
   if (!emits && !options.language.empty()) {
     throw InvalidInput("--language", options.language, "must stand beside --emit");
   }
@@ -47,7 +47,7 @@ int run(const Options& options, bool emits) {
 
 void add_replay(Program& program) {
   Command command = program.command("replay", "Show one configuration again: truth and answers");
-  const auto options = std::make_shared<Options>(command);
+  const auto options = std::make_shared<ReplayArguments>(command);
   command.text("input", options->input, given_help).value("IDENTITY").required();
   const Option json = command.flag("--json", options->json, "Print one JSON object");
   Option emit =
@@ -74,7 +74,7 @@ void add_replay(Program& program) {
       "  touchstone replay cylinder-box/rim-face/1/0 --emit jolt > reproducer.mjs\n"
       "  touchstone replay cylinder-box/rim-face/1/0 --html page.html\n"
       "  touchstone replay failures/ode-cylinder-box-agreement-missed.json --emit ode");
-  command.runs([options, emit] { return run(*options, emit.is_given()); });
+  command.runs([options, emit] { return run_replay(*options, emit.is_given()); });
 }
 
 }  // namespace touchstone

@@ -47,8 +47,8 @@ const std::vector<Part>& parts() {
   return all;
 }
 
-struct Options {
-  explicit Options(Command& command)
+struct ReportArguments {
+  explicit ReportArguments(Command& command)
       : scored(command, usual_count, max_answers), workers(command) {}
   CampaignOption scored;
   WorkersOption workers;
@@ -127,7 +127,7 @@ struct Options {
   }
 };
 
-int run(const Options& options) {
+int run_report(const ReportArguments& options) {
   const Campaign campaign = options.campaign();
   const OutputFolder out(options.out);
   std::optional<OutputFolder> figures;
@@ -178,7 +178,7 @@ int run(const Options& options) {
 
 void add_report(Program& program) {
   Command command = program.command("report", "Score all candidates; write out/report.html");
-  const auto options = std::make_shared<Options>(command);
+  const auto options = std::make_shared<ReportArguments>(command);
   command
       .list("--only", options->only,
             "Only these parts of scores (always made), timing, stability, experiments, engines")
@@ -200,7 +200,7 @@ void add_report(Program& program) {
       "that --class does not name, five times as many configurations are scored.\n"
       "Ctrl-C, SIGTERM or SIGHUP ends with a report of what is done, marked partial.\n"
       "Exit codes: 130, 143, 129 when stopped by Ctrl-C, SIGTERM, SIGHUP.");
-  command.runs([options] { return run(*options); });
+  command.runs([options] { return run_report(*options); });
 }
 
 }  // namespace touchstone

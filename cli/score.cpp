@@ -19,10 +19,8 @@
 namespace touchstone {
 namespace {
 
-constexpr int bad_input = 2;
-
-struct Options {
-  explicit Options(Command& command) : bar(command), workers(command) {}
+struct ScoreArguments {
+  explicit ScoreArguments(Command& command) : bar(command), workers(command) {}
   BarOption bar;
   WorkersOption workers;
   std::string file, configurations, out = "out", name, version, settings;
@@ -49,7 +47,7 @@ std::ifstream opened(const std::string& file, const char* field) {
   return in;
 }
 
-ReadAnswers read(const Options& options) {
+ReadAnswers read(const ScoreArguments& options) {
   const auto given = [](const std::string& text) {
     return text.empty() ? std::nullopt : std::optional(text);
   };
@@ -79,7 +77,7 @@ void tell(const std::vector<AnswerError>& errors) {
 }
 
 /// Bad lines make exit code 2, after all others are scored.
-int run(const Options& options) {
+int run_score(const ScoreArguments& options) {
   const OutputFolder out(options.out);
   const ReadAnswers read_ones = read(options);
   tell(read_ones.errors);
@@ -115,7 +113,7 @@ int run(const Options& options) {
 
 void add_score(Program& program) {
   Command command = program.command("score", "Score answers that were computed elsewhere");
-  const auto options = std::make_shared<Options>(command);
+  const auto options = std::make_shared<ScoreArguments>(command);
   command.text("file", options->file, "JSON Lines; - is standard input").value("FILE").required();
   command
       .text("--configurations", options->configurations,
@@ -136,7 +134,7 @@ void add_score(Program& program) {
       "\"points\": [{\"position\": [0, 0, 0], \"depth\": 0.1}]}, or\n"
       "{\"id\": …, \"status\": \"none\"}; docs/suite.md says more.\n"
       "Exit code 2: a line was bad, or an answer is missing; the others are scored.");
-  command.runs([options] { return run(*options); });
+  command.runs([options] { return run_score(*options); });
 }
 
 }  // namespace touchstone

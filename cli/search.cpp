@@ -18,10 +18,8 @@
 namespace touchstone {
 namespace {
 
-constexpr int something_failed = 1;
-
-struct Options {
-  explicit Options(Command& command) : sample(command, 250, 1000000), bar(command) {}
+struct SearchArguments {
+  explicit SearchArguments(Command& command) : sample(command, 250, 1000000), bar(command) {}
   SampleOption sample;
   BarOption bar;
   std::string candidate, save;
@@ -42,7 +40,7 @@ TextTable table_of(const std::vector<Cell>& all, const Terminal& terminal) {
           terminal};
 }
 
-int run(const Options& options) {
+int run_search(const SearchArguments& options) {
   if (!options.save.empty()) check_writable(options.save, "--save");
   const std::vector<Cell> all = cells(options.sample.campaign());
   const Bar bar = options.bar.get();
@@ -95,7 +93,7 @@ int run(const Options& options) {
 
 void add_search(Program& program) {
   Command command = program.command("search", "Look for one candidate's worst configurations");
-  const auto options = std::make_shared<Options>(command);
+  const auto options = std::make_shared<SearchArguments>(command);
   command.text("--candidate", options->candidate, "Its name, or a plug-in's file")
       .value("CANDIDATE")
       .required();
@@ -110,7 +108,7 @@ void add_search(Program& program) {
       "  touchstone search --candidate reference --tolerance 1e-12 --count 1e5\n"
       "  touchstone replay failures/bullet-cylinder-box-agreement-shallow.json\n"
       "Exit code 1: something was beyond the tolerance.");
-  command.runs([options] { return run(*options); });
+  command.runs([options] { return run_search(*options); });
 }
 
 }  // namespace touchstone

@@ -46,8 +46,8 @@ struct DisturbanceOption {
 
 const std::vector<double> default_steps = {1.0 / 60, 1.0 / 240, 1.0 / 960};
 
-struct Options {
-  explicit Options(Command& command)
+struct SimulateArguments {
+  explicit SimulateArguments(Command& command)
       : candidates(command), workers(command), robot(command), disturbance(command) {}
   CandidateOption candidates;
   WorkersOption workers;
@@ -119,7 +119,7 @@ struct Options {
 };
 
 /// Runs the scenes with exact contacts and writes what occurred near contact.
-int record(const Options& options) {
+int record(const SimulateArguments& options) {
   if (options.names.empty()) {
     throw InvalidInput("--record", options.record,
                        "needs scene files, as simulation/scenes/conveyor.json");
@@ -144,14 +144,14 @@ int record(const Options& options) {
 }
 
 /// Is one of the names that of a file rather than of an experiment?
-bool has_files(const Options& options) {
+bool has_files(const SimulateArguments& options) {
   return std::ranges::any_of(options.names, [](const std::string& name) {
     return is_robot_file(name) || std::filesystem::path(name).extension() == ".json";
   });
 }
 
 /// Runs the scenes and prints where their bodies end.
-int simulate_scenes(const Options& options) {
+int simulate_scenes(const SimulateArguments& options) {
   const std::vector<const Candidate*> candidates =
       options.candidates.is_given() ? options.candidates.get() : exact_first({});
   Processes processes(options.candidates.limits());
@@ -174,7 +174,7 @@ int simulate_scenes(const Options& options) {
   return 0;
 }
 
-int simulate_in_engines(const Options& options) {
+int simulate_in_engines(const SimulateArguments& options) {
   const EngineOptions chosen = options.in_engines();
   std::optional<OutputFolder> out;
   if (!options.out.empty()) out.emplace(options.out);
@@ -193,7 +193,7 @@ int simulate_in_engines(const Options& options) {
 }
 
 /// Refuses options that would have no effect.
-void refuse_others(const Options& options) {
+void refuse_others(const SimulateArguments& options) {
   const bool files = has_files(options) || !options.record.empty();
   for (const Option& option : files ? options.of_experiments : options.of_files) {
     if (!option.is_given()) continue;
@@ -210,7 +210,7 @@ void refuse_others(const Options& options) {
   }
 }
 
-int run(const Options& options) {
+int run_simulate(const SimulateArguments& options) {
   refuse_others(options);
   if (!options.record.empty()) return record(options);
   if (!options.engines.empty()) return simulate_in_engines(options);
@@ -237,7 +237,7 @@ std::string experiment_list() {
 
 void add_simulate(Program& program) {
   Command command = program.command("simulate", "Rigid-body experiments with an answer on paper");
-  const auto options = std::make_shared<Options>(command);
+  const auto options = std::make_shared<SimulateArguments>(command);
   command
       .arguments(
           "experiments", options->names,
@@ -291,7 +291,7 @@ void add_simulate(Program& program) {
       "  touchstone simulate simulation/scenes/three-logs.json --disturbance 3\n"
       "  touchstone simulate simulation/scenes/conveyor.json --record recorded.jsonl\n" +
       experiment_list());
-  command.runs([options] { return run(*options); });
+  command.runs([options] { return run_simulate(*options); });
 }
 
 namespace {

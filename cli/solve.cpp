@@ -16,8 +16,8 @@
 namespace touchstone {
 namespace {
 
-struct Options {
-  explicit Options(Command& command) : candidates(command), bar(command) {}
+struct SolveArguments {
+  explicit SolveArguments(Command& command) : candidates(command), bar(command) {}
   CandidateOption candidates;
   BarOption bar;
   std::string file = "-";
@@ -26,7 +26,7 @@ struct Options {
 };
 
 /// Bad lines make exit code 2, after all of them are answered; a contradiction ends all.
-int run(const Options& options) {
+int run_solve(const SolveArguments& options) {
   const SolveOptions solving{options.candidates.get(), options.width, options.bar.get(),
                              options.audit, options.candidates.limits()};
   if (options.file == "-") return solve(std::cin, std::cout, solving) ? 0 : 2;
@@ -41,7 +41,7 @@ int run(const Options& options) {
 void add_solve(Program& program) {
   Command command =
       program.command("solve", "Truth, answers and scores for your own configurations");
-  const auto options = std::make_shared<Options>(command);
+  const auto options = std::make_shared<SolveArguments>(command);
   command.text("file", options->file, "JSON Lines; - is standard input").value("FILE");
   command.number("--width", options->width, {1e-300, 1e30},
                  "Width of the truth, relative to the larger size");
@@ -55,7 +55,7 @@ void add_solve(Program& program) {
       "Shapes: cylinder and capsule (radius, half_length), sphere (radius),\n"
       "box (half_extents), plane (normal, displacement).\n"
       "A pose has position and orientation (w, x, y, z).");
-  command.runs([options] { return run(*options); });
+  command.runs([options] { return run_solve(*options); });
 }
 
 namespace {

@@ -15,8 +15,8 @@
 namespace touchstone {
 namespace {
 
-struct Options {
-  explicit Options(Command& command)
+struct StabilityArguments {
+  explicit StabilityArguments(Command& command)
       : sample(command, 6, 100000), candidates(command), bar(command), workers(command) {}
   SampleOption sample;
   CandidateOption candidates;
@@ -63,7 +63,7 @@ struct Options {
   }
 };
 
-int run(const Options& options) {
+int run_stability(const StabilityArguments& options) {
   const StabilityOptions chosen = options.stability();
   const OutputFolder out(options.out);
   const Stability result = measure(chosen);
@@ -82,7 +82,7 @@ int run(const Options& options) {
 void add_stability(Program& program) {
   Command command =
       program.command("stability", "How answers change at tiny steps and along motions");
-  const auto options = std::make_shared<Options>(command);
+  const auto options = std::make_shared<StabilityArguments>(command);
   command
       .text("input", options->input,
             std::string("Small steps around this configuration alone: ") + given_help)
@@ -102,7 +102,7 @@ void add_stability(Program& program) {
       "  touchstone replay cylinder-box/side-on-face/1/0@1e-8/1/4\n"
       "  touchstone replay map/standing/1e-12/-3/16\n"
       "  touchstone replay sequence/roll-over-edge/113/400");
-  command.runs([options] { return run(*options); });
+  command.runs([options] { return run_stability(*options); });
 }
 
 }  // namespace touchstone

@@ -7,6 +7,11 @@
 
 namespace touchstone::oracle {
 
+/// Length of an integer in binary digits, its sign aside.
+inline long bits_of(const mpz_class& x) {
+  return static_cast<long>(mpz_sizeinbase(x.get_mpz_t(), 2));
+}
+
 /// Three coordinates over any ring: exact integers, rationals, balls or double intervals. (Eigen's
 /// expression templates and those of GMP's C++ classes do not mix.)
 template <class T>

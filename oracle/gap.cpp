@@ -12,8 +12,8 @@
 namespace touchstone::oracle {
 namespace {
 
-constexpr long first_bits = 128;
-constexpr long last_bits = 1L << 16;
+constexpr long first_gap_bits = 128;
+constexpr long last_gap_bits = 1L << 16;
 
 /// The gap against the column of the half-space beneath the cylinder's circumsphere (see
 /// oracle::certified_gap). With α between n and the plane's normal, D the centre's height and ρ the
@@ -51,11 +51,11 @@ class Gaps {
       throw InvalidInput("n", "not a direction", "must be finite and not zero");
     }
     const IntegerVector direction = in_frame_of_a(difference_, n);
-    for (long bits = first_bits; bits <= last_bits; bits *= 2) {
+    for (long bits = first_gap_bits; bits <= last_gap_bits; bits *= 2) {
       const WorkingPrecision precision(bits);
-      if (bits == first_bits && !first_) first_.emplace(difference_);
-      const Ball value = bits == first_bits ? gap(*first_, direction)
-                                            : gap(BallDifference(difference_), direction);
+      if (bits == first_gap_bits && !first_) first_.emplace(difference_);
+      const Ball value = bits == first_gap_bits ? gap(*first_, direction)
+                                                : gap(BallDifference(difference_), direction);
       if (!value.is_finite()) continue;
       Ends ends{value.lower_end(), value.upper_end()};
       if (!(wanted_ < ends.hi - ends.lo)) return ends;

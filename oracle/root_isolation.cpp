@@ -30,9 +30,7 @@ struct FlintPolynomial {
   fmpz_poly_t value;
 };
 
-long bits_of(const mpz_class& x) { return static_cast<long>(mpz_sizeinbase(x.get_mpz_t(), 2)); }
-
-long bits_of(const Polynomial& p) {
+long coefficient_bits(const Polynomial& p) {
   long bits = 0;
   for (const auto& c : p) bits = std::max(bits, bits_of(c));
   return bits;
@@ -120,7 +118,7 @@ bool decided_by_balls(long exact_bits, const Ask& ask) {
 
 /// Length in bits of the exact p(x) m^k.
 long bits_of_value(const Polynomial& p, long denominator_bits) {
-  return bits_of(p) + static_cast<long>(p.size()) * denominator_bits;
+  return coefficient_bits(p) + static_cast<long>(p.size()) * denominator_bits;
 }
 
 /// Upper bound of −log2(x) for x > 0.

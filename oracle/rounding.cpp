@@ -118,8 +118,6 @@ RoundedConfiguration rounded_configuration(const Configuration& c, int bits) {
 
 namespace {
 
-long bits_of(const Integer& x) { return static_cast<long>(mpz_sizeinbase(x.get_mpz_t(), 2)); }
-
 Integer sum_of_sizes(const Difference& difference) {
   Integer sum = difference.inflation;
   for (const auto& s : difference.segments) sum += s.half_length;

@@ -39,7 +39,7 @@ Float tie_tolerance(double width) {
 }
 
 /// Initial working precision: a little more than ties at this width need.
-long first_bits(double width) {
+long initial_bits(double width) {
   return 128 + std::max(0L, static_cast<long>(-std::log2(width)) - 53);
 }
 
@@ -276,7 +276,7 @@ std::optional<Truth> truth_of(const RoundedConfiguration& question, const Reques
 
   std::vector<Survivor> survivors = all_directions(difference, slack * size);
   std::optional<Enclosure> signed_distance;
-  for (long bits = first_bits(wanted.width); bits <= last_bits; bits *= 2) {
+  for (long bits = initial_bits(wanted.width); bits <= last_bits; bits *= 2) {
     const WorkingPrecision precision(bits);
     const BallDifference balls(difference);
     for (auto& survivor : survivors) {

@@ -47,34 +47,34 @@ double draw_small_or_zero(Draw& draw) {
   return sign * draw_small(draw);
 }
 
-// Sizes
+// SizeKind
 
-enum class Sizes { moderate, dyadic, extreme_aspect, any_exponent };
+enum class SizeKind { moderate, dyadic, extreme_aspect, any_exponent };
 
-Sizes draw_kind_of_sizes(Draw& draw) {
+SizeKind draw_kind_of_sizes(Draw& draw) {
   const std::int64_t kind = draw.integer(0, 31);
-  return kind < 22   ? Sizes::moderate
-         : kind < 27 ? Sizes::dyadic
-         : kind < 31 ? Sizes::extreme_aspect
-                     : Sizes::any_exponent;
+  return kind < 22   ? SizeKind::moderate
+         : kind < 27 ? SizeKind::dyadic
+         : kind < 31 ? SizeKind::extreme_aspect
+                     : SizeKind::any_exponent;
 }
 
-double draw_size(Draw& draw, Sizes kind) {
+double draw_size(Draw& draw, SizeKind kind) {
   switch (kind) {
-    case Sizes::moderate:
+    case SizeKind::moderate:
       return draw.log_uniform(0.05, 2);
-    case Sizes::dyadic:
+    case SizeKind::dyadic:
       return static_cast<double>(draw.integer(1, 16)) / 4;
-    case Sizes::extreme_aspect:
+    case SizeKind::extreme_aspect:
       return draw.log_uniform(1e-8, 1);
-    case Sizes::any_exponent:
+    case SizeKind::any_exponent:
       break;
   }
   return draw.coin() ? draw_magnitude(draw) : 1;
 }
 
 std::vector<double> draw_sizes(Draw& draw, Pair pair) {
-  const Sizes kind = draw_kind_of_sizes(draw);
+  const SizeKind kind = draw_kind_of_sizes(draw);
   std::vector<double> sizes(size_count(pair));
   for (double& size : sizes) size = draw_size(draw, kind);
   // Make some sizes equal or of a simple ratio: tangent rims, congruent caps, a capsule as long as

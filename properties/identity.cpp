@@ -21,8 +21,6 @@ std::uint64_t stable_hash(std::string_view text) {
   return hash;
 }
 
-std::string quoted(std::string_view text) { return '"' + std::string(text) + '"'; }
-
 template <class Range>
 std::string joined(const Range& names) {
   std::string all;
@@ -50,7 +48,7 @@ Pair parse_pair(std::string_view name, const char* field) {
     if (name == pair_name(pair)) return pair;
     names.emplace_back(pair_name(pair));
   }
-  throw InvalidInput(field, quoted(name), "must be one of " + joined(names));
+  throw InvalidInput(field, in_quotes(name), "must be one of " + joined(names));
 }
 
 std::string to_string(const Identity& identity) {
@@ -64,7 +62,7 @@ Identity parse_identity(std::string_view text) {
   for (std::size_t i = 0; i < 4; ++i) {
     const std::size_t slash = i < 3 ? rest.find('/') : rest.size();
     if (slash == std::string_view::npos) {
-      throw InvalidInput("identity", quoted(text),
+      throw InvalidInput("identity", in_quotes(text),
                          "must read pair/class/seed/index, as in "
                          "cylinder-box/side-on-face+turned/42/137");
     }
@@ -96,7 +94,7 @@ Group parse_group(std::string_view name, const char* field) {
     if (name == group_name(group)) return group;
     names.emplace_back(group_name(group));
   }
-  throw InvalidInput(field, quoted(name), "must be one of " + joined(names));
+  throw InvalidInput(field, in_quotes(name), "must be one of " + joined(names));
 }
 
 const std::vector<std::string>& pose_classes(Pair pair, Coverage coverage) {
@@ -152,7 +150,7 @@ void check_pose_classes(const std::vector<Pair>& pairs, const std::vector<std::s
     const auto begins = std::find_if(pairs.begin(), pairs.end(),
                                      [&](Pair pair) { return has_arrangement(pair, name); });
     if (begins == pairs.end()) {
-      throw InvalidInput("--class", quoted(name),
+      throw InvalidInput("--class", in_quotes(name),
                          "must begin with an arrangement, as " +
                              nearest_arrangements(pairs, name.substr(0, name.find('+'))) +
                              "; touchstone classes lists all");
@@ -182,7 +180,7 @@ void check_groups(const std::vector<Pair>& pairs, const ClassSelection& selectio
     return joined(result);
   };
   if (of_classes.empty()) return;  // no class of that name: check_pose_classes says what is near
-  throw InvalidInput("--group", quoted(names(selection.groups)),
+  throw InvalidInput("--group", in_quotes(names(selection.groups)),
                      "must be of these pose classes, which are " + names(of_classes));
 }
 
@@ -214,7 +212,7 @@ std::uint64_t parse_number(const char* field, std::string_view text) {
   std::uint64_t value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size()) {
-    throw InvalidInput(field, quoted(text), "must be a whole number from 0 to 2^64 - 1");
+    throw InvalidInput(field, in_quotes(text), "must be a whole number from 0 to 2^64 - 1");
   }
   return value;
 }

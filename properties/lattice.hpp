@@ -2,6 +2,7 @@
 
 #include "properties/draw.hpp"
 #include "properties/modifiers.hpp"
+#include "properties/moves.hpp"
 
 namespace touchstone {
 
@@ -35,10 +36,6 @@ class Lattice {
 
 using Steps = std::int64_t;
 using Quaternion = Eigen::Quaterniond;
-
-// Rotations within the lattice, not of unit length; the oracle reads them exactly as R(q)/|q|².
-inline const Quaternion upright(1, 0, 0, 0);
-inline const Quaternion along_x(1, 0, 1, 0);  ///< local z to the lattice's x, local x to its -z
 
 /// Sizes in steps. For a box radius_b, other_b and half_b are the half extents; for a sphere only
 /// radius_b counts; a plane has none.

@@ -213,7 +213,7 @@ NearestArrangement on_sphere(const View& v) {
 }
 
 /// "parallel" or "perpendicular" if the axes nearly are; otherwise the features.
-NearestArrangement askew(double parallel, double perpendicular, std::string_view features) {
+NearestArrangement nearest_askew(double parallel, double perpendicular, std::string_view features) {
   if (parallel <= max_chance) return tilted("parallel", parallel);
   if (perpendicular <= max_chance) return tilted("perpendicular", perpendicular);
   return of_features(features);
@@ -254,9 +254,9 @@ NearestArrangement on_axis(const View& v, const Vec3& axis_B, bool is_capsule) {
     if (perpendicular <= max_tilt) return tilted("perpendicular-x", perpendicular);
   }
   const Facing exact_B = facing(axis_B, v.normal, rounding);
-  return askew(parallel, perpendicular,
-               is_capsule ? capsule_features(v.exact_A, exact_B == Facing::side)
-                          : cylinder_features(v.exact_A, exact_B));
+  return nearest_askew(parallel, perpendicular,
+                       is_capsule ? capsule_features(v.exact_A, exact_B == Facing::side)
+                                  : cylinder_features(v.exact_A, exact_B));
 }
 
 /// `components`: how many of the normal's in the box's frame are not zero: one on a face, two on an
@@ -295,7 +295,7 @@ NearestArrangement on_box(const View& v, const Eigen::Matrix3d& axes_B) {
   const Eigen::Index components = (local.array() > rounding).count();
   const std::string_view features = box_features(v.exact_A, components);
   if (components != 2) return of_features(features);
-  return askew(from_parallel(v.axis_A, edge), from_perpendicular(v.axis_A, edge), features);
+  return nearest_askew(from_parallel(v.axis_A, edge), from_perpendicular(v.axis_A, edge), features);
 }
 
 }  // namespace

@@ -80,9 +80,9 @@ std::vector<Eigen::Quaterniond> simpler_orientations(const Eigen::Quaterniond& q
   return result;
 }
 
-class Steps {
+class Simplifier {
  public:
-  explicit Steps(const Configuration& c) : start_(numbers_of(c)), complexity_(complexity(c)) {}
+  explicit Simplifier(const Configuration& c) : start_(numbers_of(c)), complexity_(complexity(c)) {}
 
   /// A step that changes the numbers in place.
   template <class Change>
@@ -106,7 +106,7 @@ class Steps {
   std::vector<Configuration> result_;
 };
 
-void move_to_the_origin(Steps& steps) {
+void move_to_the_origin(Simplifier& steps) {
   steps.add([](Numbers& n) {
     // Both bodies in B's frame.
     const auto unit = [](const Eigen::Quaterniond& q) {
@@ -137,7 +137,7 @@ int complexity(const Configuration& c) {
 }
 
 std::vector<Configuration> simpler(const Configuration& configuration) {
-  Steps steps(configuration);
+  Simplifier steps(configuration);
   const Numbers& start = steps.start();
   move_to_the_origin(steps);
   steps.add([](Numbers& n) { n.sizes.assign(n.sizes.size(), 1); });

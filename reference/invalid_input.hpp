@@ -2,9 +2,13 @@
 
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace touchstone {
+
+/// A text as the value of InvalidInput.
+inline std::string in_quotes(std::string_view text) { return '"' + std::string(text) + '"'; }
 
 /// What a person gave cannot be used. Thrown at the border only (construction of shapes and poses,
 /// files, command line); `what()` reads "radius is -1: must be positive and finite".

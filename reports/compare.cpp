@@ -16,7 +16,7 @@ namespace touchstone {
 namespace {
 
 using Verdict = Change::Verdict;
-using Names = std::set<std::string>;
+using NameSet = std::set<std::string>;
 using Groups = std::set<std::pair<std::string, std::string>>;  // pair or "all", group
 
 /// The common ground of two reports, and everything else that a person must know before reading
@@ -29,14 +29,14 @@ struct Basis {
   std::vector<std::string> remarks;
 };
 
-Names candidate_names(const Report& report) {
-  Names result;
+NameSet candidate_names(const Report& report) {
+  NameSet result;
   for (const CandidateDescription& c : report.candidates) result.insert(c.name);
   return result;
 }
 
-Names class_names(const Report& report) {
-  Names result;
+NameSet class_names(const Report& report) {
+  NameSet result;
   for (const ResultRow& row : report.results) result.insert(row.pair + '/' + row.pose_class);
   return result;
 }
@@ -50,8 +50,8 @@ std::vector<Group> possible_groups(const std::string& pair, const std::string& p
   }
 }
 
-Groups split_groups(const Names& old_classes, const Names& new_classes) {
-  Names uncommon;
+Groups split_groups(const NameSet& old_classes, const NameSet& new_classes) {
+  NameSet uncommon;
   std::set_symmetric_difference(old_classes.begin(), old_classes.end(), new_classes.begin(),
                                 new_classes.end(), std::inserter(uncommon, uncommon.end()));
   Groups result;
@@ -67,9 +67,10 @@ Groups split_groups(const Names& old_classes, const Names& new_classes) {
 }
 
 /// "Only in the old report, not compared: …", and likewise of the new one.
-void remark_only(Basis& basis, const char* what, const Names& old_names, const Names& new_names) {
-  const auto remark = [&](const Names& all, const Names& others, const char* where) {
-    Names only;
+void remark_only(Basis& basis, const char* what, const NameSet& old_names,
+                 const NameSet& new_names) {
+  const auto remark = [&](const NameSet& all, const NameSet& others, const char* where) {
+    NameSet only;
     std::set_difference(all.begin(), all.end(), others.begin(), others.end(),
                         std::inserter(only, only.end()));
     if (only.empty()) return;
@@ -135,8 +136,8 @@ void remark_another(Basis& basis, const char* what, const std::string& before,
 
 Basis basis_of(const Report& before, const Report& after, const std::string& baseline) {
   Basis basis;
-  const Names old_names = candidate_names(before), new_names = candidate_names(after);
-  const Names old_classes = class_names(before), new_classes = class_names(after);
+  const NameSet old_names = candidate_names(before), new_names = candidate_names(after);
+  const NameSet old_classes = class_names(before), new_classes = class_names(after);
   remark_only(basis, "candidates", old_names, new_names);
   remark_only(basis, "classes", old_classes, new_classes);
   basis.split = split_groups(old_classes, new_classes);

@@ -11,24 +11,24 @@
 namespace touchstone {
 namespace {
 
-using Outcome = ExperimentResult::Outcome;
-
-std::string number(double value, const char* format) {
+std::string formatted(double value, const char* format) {
   return std::isfinite(value) ? fmt::format(fmt::runtime(format), value) : "-";
 }
 
 /// With a mark that stands in a column of its own.
 std::string value_text(const ExperimentResult& r) {
-  return fmt::format("{}{:>9}", r.exact ? '=' : ' ', number(r.value, "{:.3g}"));
+  return fmt::format("{}{:>9}", r.exact ? '=' : ' ', formatted(r.value, "{:.3g}"));
 }
 
 std::string error_text(const ExperimentResult& r) {
-  return r.outcome == Outcome::unsound ? "unsound" : number(r.error, "{:.1e}");
+  return r.outcome == ExperimentResult::Outcome::unsound ? "unsound" : formatted(r.error, "{:.1e}");
 }
 
 std::string row(const ExperimentResult& r, const TextTable& table, const Terminal& terminal) {
-  if (r.outcome == Outcome::unsupported) return terminal.below(r.candidate + " unsupported");
-  if (r.outcome == Outcome::crashed || r.outcome == Outcome::timed_out) {
+  if (r.outcome == ExperimentResult::Outcome::unsupported)
+    return terminal.below(r.candidate + " unsupported");
+  if (r.outcome == ExperimentResult::Outcome::crashed ||
+      r.outcome == ExperimentResult::Outcome::timed_out) {
     return terminal.below(r.candidate + ' ' + r.reason);
   }
   return table.row("  " + r.candidate,
@@ -36,7 +36,7 @@ std::string row(const ExperimentResult& r, const TextTable& table, const Termina
                     {error_text(r)},
                     {fmt::format("{:.1f}", r.points)},
                     {fmt::format("{:.1f}", 100 * r.flicker)},
-                    {number(r.energy_gained, "{:.0e}")},
+                    {formatted(r.energy_gained, "{:.0e}")},
                     {r.nanoseconds ? fmt::format("{:.0f}", *r.nanoseconds) : "-"},
                     {fmt::format("{:.0f}", r.microseconds_per_step)}});
 }
@@ -117,14 +117,15 @@ class EngineRows {
  private:
   std::string of(const std::string& name, const ExperimentResult& r,
                  const std::string& cure) const {
-    if (r.outcome == Outcome::crashed || r.outcome == Outcome::timed_out) {
+    if (r.outcome == ExperimentResult::Outcome::crashed ||
+        r.outcome == ExperimentResult::Outcome::timed_out) {
       return terminal_.below(name + ' ' + r.reason);
     }
     return table_.row("  " + name, {{value_text(r)},
                                     {error_text(r)},
                                     {fmt::format("{:.1f}", r.points)},
                                     {time_to_rest(r, experiment_)},
-                                    {number(r.energy_gained, "{:.0e}")},
+                                    {formatted(r.energy_gained, "{:.0e}")},
                                     {fmt::format("{:.1f}", r.microseconds_per_step)},
                                     {cure}});
   }
@@ -203,7 +204,8 @@ std::string engines_summary(const EngineResults& all, const Terminal& terminal) 
     name_width = std::max(name_width, e.name.size());
   }
   const auto brief = [](const ExperimentResult& r) {
-    return r.outcome == Outcome::measured ? number(r.error, "{:.1e}") : std::string("lost");
+    return r.outcome == ExperimentResult::Outcome::measured ? formatted(r.error, "{:.1e}")
+                                                            : std::string("lost");
   };
   const auto mark = [](Cure cure) {
     return cure == Cure::held ? '=' : cure == Cure::nearer ? '+' : cure == Cure::solver ? '*' : ' ';

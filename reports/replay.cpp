@@ -33,7 +33,7 @@ std::string vector_line(const std::string& label, const Vec3& v, const Terminal&
          '\n';
 }
 
-std::string number(double x) { return std::isfinite(x) ? fmt::format("{:.17g}", x) : "-"; }
+std::string number_or_dash(double x) { return std::isfinite(x) ? fmt::format("{:.17g}", x) : "-"; }
 
 std::string rounded(const std::optional<double>& x) {
   return x && std::isfinite(*x) ? fmt::format("{:.3g}", *x) : "-";
@@ -105,7 +105,7 @@ std::string answer_text(const ScoredAnswer& scored, const Terminal& terminal) {
       "{}: {}, {}", candidate, status_name(answer.status), outcome_name(score.outcome)));
   if (!answer.reason.empty()) text += terminal.below(answer.reason);
   if (answer.status != TS_CONTACT) return text;
-  text += terminal.below("signed distance " + number(answer.signed_distance)) +
+  text += terminal.below("signed distance " + number_or_dash(answer.signed_distance)) +
           vector_line("  normal ", Vec3(answer.normal), terminal);
   text += terminal.below(fmt::format("depth error {}, normal regret {}, angle {} deg",
                                      rounded(score.depth_error), rounded(score.normal_regret),
@@ -117,7 +117,7 @@ std::string answer_text(const ScoredAnswer& scored, const Terminal& terminal) {
   for (int i = 0; i < answer.point_count; ++i) {
     const ts_point& p = answer.points[i];
     text += vector_line("  point ", Vec3(p.position), terminal) +
-            fmt::format("    depth {}\n", number(p.depth));
+            fmt::format("    depth {}\n", number_or_dash(p.depth));
   }
   return text;
 }

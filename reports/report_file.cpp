@@ -100,14 +100,14 @@ class Reader {
   std::string path_;
 };
 
-std::optional<Quantiles> quantiles(const Reader& q) {
+std::optional<Quantiles> read_quantiles(const Reader& q) {
   if (q.is_null()) return std::nullopt;
   return Quantiles{q.at("median").not_negative(), q.at("p99").not_negative(),
                    q.at("max").not_negative()};
 }
 /// Older reports are without some of them.
 std::optional<Quantiles> quantiles_if_any(const Reader& row, const char* name) {
-  return row.has(name) ? quantiles(row.at(name)) : std::nullopt;
+  return row.has(name) ? read_quantiles(row.at(name)) : std::nullopt;
 }
 
 /// Numbers by outcome that add up to `sum`.
@@ -172,9 +172,9 @@ ResultRow result_row(const Reader& row) {
   result.candidate = row.at("candidate").text();
   Statistics& s = result.statistics;
   read_outcomes(row, s);
-  s.depth_error = quantiles(row.at("depth_error"));
-  s.normal_regret = quantiles(row.at("normal_regret"));
-  s.point_error = quantiles(row.at("point_error"));
+  s.depth_error = read_quantiles(row.at("depth_error"));
+  s.normal_regret = read_quantiles(row.at("normal_regret"));
+  s.point_error = read_quantiles(row.at("point_error"));
   s.deepest_error = quantiles_if_any(row, "deepest_error");
   if (row.has("bias") && !row.at("bias").is_null()) {
     s.bias = SignedMedian{row.at("bias").at("median").number()};

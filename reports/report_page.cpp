@@ -232,7 +232,7 @@ json camera_of(const Scene& scene) {
     reach = std::max(reach, (b.pose.position() - middle).norm() + largest_half_extent(b.shape));
   }
   const Vec3 from = middle + 6 * reach * Vec3(0.5, -0.8, 0.33);
-  return {{"position", to_json(from)}, {"look_at", to_json(middle)}};
+  return {{"position", touchstone::to_json(from)}, {"look_at", touchstone::to_json(middle)}};
 }
 
 json motion_json(const EngineResult& result, double step) {

@@ -106,7 +106,7 @@ bool is_starred(const Report& report, const std::string& candidate) {
 }
 
 /// A column of the table.
-struct Measure {
+struct TableMeasure {
   TextTable::Column column;
   bool is_of_time;
   std::function<std::string(const ResultRow&)> text;
@@ -117,7 +117,7 @@ bool has_wrong_answers(const ResultRow& row) {
 }
 
 /// In the order of the table.
-std::vector<Measure> all_measures() {
+std::vector<TableMeasure> all_measures() {
   const auto of = [](auto text, auto member) {
     return [=](const ResultRow& row) { return text(row.statistics.*member); };
   };
@@ -137,27 +137,28 @@ std::vector<Measure> all_measures() {
   };
 }
 
-std::vector<Measure> measures_of(const Report& report) {
-  std::vector<Measure> measures = all_measures();
-  if (!is_timed(report)) std::erase_if(measures, [](const Measure& m) { return m.is_of_time; });
+std::vector<TableMeasure> measures_of(const Report& report) {
+  std::vector<TableMeasure> measures = all_measures();
+  if (!is_timed(report))
+    std::erase_if(measures, [](const TableMeasure& m) { return m.is_of_time; });
   return measures;
 }
 
-TextTable table_of(const Report& report, const std::vector<Measure>& measures,
+TextTable table_of(const Report& report, const std::vector<TableMeasure>& measures,
                    const Terminal& terminal) {
   std::size_t name_width = 0;
   for (const CandidateDescription& c : report.candidates) {
     name_width = std::max(name_width, c.name.size() + (c.runs == "native" ? 0 : 1));
   }
   std::vector<TextTable::Column> columns;
-  for (const Measure& m : measures) columns.push_back(m.column);
+  for (const TableMeasure& m : measures) columns.push_back(m.column);
   return {"candidate", name_width, columns, terminal};
 }
 
 std::string row_text(const Report& report, const ResultRow& row,
-                     const std::vector<Measure>& measures, const TextTable& table) {
+                     const std::vector<TableMeasure>& measures, const TextTable& table) {
   std::vector<TextTable::Cell> cells;
-  for (const Measure& m : measures) {
+  for (const TableMeasure& m : measures) {
     cells.push_back({m.text(row), m.column.heading == "yes/no" && has_wrong_answers(row)});
   }
   const std::string name = row.candidate + (is_starred(report, row.candidate) ? "*" : "");
@@ -166,7 +167,7 @@ std::string row_text(const Report& report, const ResultRow& row,
 
 /// One table for each pair of the first group that was scored, then one for all pairs; of the other
 /// groups, one for all pairs, or of the only one.
-std::string summary_text(const Report& report, const std::vector<Measure>& measures,
+std::string summary_text(const Report& report, const std::vector<TableMeasure>& measures,
                          const TextTable& table, const Terminal& terminal) {
   std::string text, first_group, last;
   const auto has_all = [&](const std::string& group) {
@@ -346,7 +347,7 @@ std::string sampled_text(const Report& report, const Terminal& terminal) {
 
 std::string terminal_table(const Report& report, const Terminal& terminal) {
   const bool timed = is_timed(report);
-  const std::vector<Measure> measures = measures_of(report);
+  const std::vector<TableMeasure> measures = measures_of(report);
   const TextTable table = table_of(report, measures, terminal);
   std::string text = partial_text(report, terminal) + table.headings() +
                      summary_text(report, measures, table, terminal) +

@@ -99,7 +99,7 @@ json solved(const json& line, const SolveOptions& options,
   if (options.audit) {
     const audit::Enclosure enclosure = audit::enclose(c);
     check_agreement(c, truth.signed_distance, enclosure);
-    result["audit"] = to_json(enclosure);
+    result["audit"] = touchstone::to_json(enclosure);
   }
   result["answers"] = json::object();
   for (CandidateProcess& process : candidates) {

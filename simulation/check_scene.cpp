@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <limits>
 #include <set>
 #include <utility>
 
@@ -11,8 +10,6 @@
 
 namespace touchstone {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Bounds for moving bodies, metres and kg/m³, within which masses and moments of inertia keep all
 /// their digits.

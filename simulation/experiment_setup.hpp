@@ -14,6 +14,7 @@ namespace touchstone {
 inline constexpr double gravity = 9.81;     ///< m/s², along -z
 inline constexpr double can_radius = 0.25;  ///< m
 inline constexpr double can_half_length = 0.5;
+inline const Cylinder can(can_radius, can_half_length);
 inline constexpr double steel = 7800;  ///< kg/m³
 
 inline double radians(double degrees) { return degrees * std::numbers::pi / 180; }

@@ -51,8 +51,6 @@ Scene resting(double step) {
   return scene;
 }
 
-const Cylinder can(can_radius, can_half_length);
-
 Measurement standing(const Simulator& simulator, double step) {
   Scene scene = resting(step);
   const Vec3 centre(0.1, -0.2, can_half_length - touching);

@@ -8,8 +8,6 @@
 namespace touchstone {
 namespace {
 
-const Cylinder can(can_radius, can_half_length);
-
 constexpr int halvings = 12;
 
 /// Bisects the interval from `holds` to `fails` for the value at which `test` turns from true to

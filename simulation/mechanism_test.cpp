@@ -17,8 +17,6 @@ namespace {
 using std::numbers::pi;
 using testing::HasSubstr;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 Eigen::Quaterniond about_z(double angle) {
   return Eigen::Quaterniond(Eigen::AngleAxisd(angle, Vec3::UnitZ()));
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,6 +13,8 @@
 #include "simulation/mechanism.hpp"
 
 namespace touchstone {
+
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Surface of a body. A contact takes the geometric mean of both bodies' friction and the larger
 /// restitution.

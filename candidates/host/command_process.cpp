@@ -27,10 +27,10 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 /// Interval at which a child's use of time is checked.
-constexpr std::chrono::milliseconds check_interval(10);
+constexpr std::chrono::milliseconds request_check_interval(10);
 /// Waiting by the clock where the kernel does not distinguish it from waiting for a processor, as a
 /// multiple of what is allowed.
-constexpr double clock_factor = 10;
+constexpr double waiting_clock_factor = 10;
 /// A line longer than this is no answer.
 constexpr std::size_t max_line = std::size_t{1} << 26;
 /// What a child may write to one file, its standard error included.
@@ -146,7 +146,7 @@ std::variant<std::string, CommandProcess::Failure> CommandProcess::ask(const std
                                                                        const Allowance& allowance) {
   // Most answers come before the first check; the watch starts with that.
   std::optional<Watch> watching;
-  auto next_check = Clock::now() + check_interval;
+  auto next_check = Clock::now() + request_check_interval;
   std::size_t sent = 0;
   received_.clear();
   bool is_closed = false;
@@ -198,13 +198,14 @@ std::variant<std::string, CommandProcess::Failure> CommandProcess::ask(const std
       return ended();
     }
     if (Clock::now() < next_check) continue;
-    next_check = Clock::now() + check_interval;
+    next_check = Clock::now() + request_check_interval;
     if (!watching) watching.emplace(watch());
     const Watch::TimeUse spent = watching->spent();
     if (spent.computing > allowance.processor_seconds) {
       return failure(TS_TIMED_OUT, "no answer within " + seconds_text(allowance.processor_seconds));
     }
-    if (spent.waiting.value_or(spent.by_the_clock / clock_factor) > allowance.waiting_seconds) {
+    if (spent.waiting.value_or(spent.by_the_clock / waiting_clock_factor) >
+        allowance.waiting_seconds) {
       return failure(TS_TIMED_OUT,
                      "no answer, having waited for " + seconds_text(allowance.waiting_seconds));
     }

@@ -21,8 +21,6 @@ constexpr double wait_factor = 10;
 constexpr double first_request = 10;
 /// Failures in a row after which the rest of the questions is not asked.
 constexpr int max_failures = 5;
-/// Pairs of shapes kept prepared for the next poses of the same bodies, as in a world.
-constexpr std::size_t max_ready = 8;
 
 // Timing
 constexpr double min_round = 2e-3;          ///< seconds

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "candidates/host/command_process.hpp"
+#include "candidates/host/exchange.hpp"
 #include "candidates/host/respondent.hpp"
 
 namespace touchstone {

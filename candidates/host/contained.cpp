@@ -13,6 +13,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "candidates/host/guard.hpp"
 #include "candidates/host/plugin_process.hpp"
 
 namespace touchstone {

@@ -16,6 +16,10 @@ namespace touchstone {
 // The messages between the harness and a candidate's process: plain bytes in shared memory and on a
 // socket that preserves message boundaries.
 
+/// Pairs of shapes kept prepared for the next poses of the same bodies, as in a world: more than
+/// most scenes have, few enough for the largest meshes.
+inline constexpr std::size_t max_ready = 8;
+
 /// Shapes and poses of one configuration, up to which distance contacts are wanted, and the hint.
 struct Question {
   ts_shape a, b;

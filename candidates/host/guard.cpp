@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <chrono>
 #include <cstdio>
+#include <cstring>
 #include <fcntl.h>
 #include <optional>
 #include <poll.h>
@@ -121,6 +122,12 @@ std::string last_line(int file) {
   std::string line(buffer, static_cast<std::size_t>(std::max<ssize_t>(0, got)));
   while (!line.empty() && line.back() == '\n') line.pop_back();
   return line.substr(line.rfind('\n') + 1);
+}
+
+std::string how_it_ended(int status) {
+  if (WIFSIGNALED(status)) return strsignal(WTERMSIG(status));
+  if (WIFSTOPPED(status)) return "was stopped";
+  return "ended with exit code " + std::to_string(WEXITSTATUS(status));
 }
 
 void end_guard(pid_t guard) {

@@ -29,6 +29,9 @@ void become_plain_process(unsigned long max_file);
 /// The last line of what such a process has printed to a file, without its end.
 std::string last_line(int file);
 
+/// "Segmentation fault", "ended with exit code 3": how a process of this wait status ended.
+std::string how_it_ended(int wait_status);
+
 /// Ends a guard that this process has forked, with all that it guards, and waits for its end.
 void end_guard(pid_t guard);
 

@@ -65,12 +65,6 @@ const std::filesystem::path& host_program() {
 
 void fail(const char* call) { throw std::system_error(errno, std::generic_category(), call); }
 
-std::string how_it_ended(int status) {
-  if (WIFSIGNALED(status)) return strsignal(WTERMSIG(status));
-  if (WIFSTOPPED(status)) return "was stopped";
-  return "ended with exit code " + std::to_string(WEXITSTATUS(status));
-}
-
 PluginProcess::State::State(const std::filesystem::path& f) : file(f), host(host_program()) {
   text = memfd_create("candidate", MFD_CLOEXEC);
   if (text < 0 || fcntl(text, F_SETFL, O_APPEND) < 0) fail("memfd_create");

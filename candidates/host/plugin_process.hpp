@@ -85,8 +85,6 @@ struct PluginProcess::State {
   NoHost no_host(const std::string& why) const;
 };
 
-/// "Segmentation fault", "ended with exit code 3".
-std::string how_it_ended(int wait_status);
 /// Throws std::system_error of errno.
 [[noreturn]] void fail(const char* call);
 

@@ -16,6 +16,7 @@
 
 #include "candidates/candidates.hpp"
 #include "candidates/host/exchange.hpp"
+#include "candidates/host/guard.hpp"
 #include "candidates/host/watch.hpp"
 #include "candidates/readable.hpp"
 #include "reference/invalid_input.hpp"

@@ -4,13 +4,6 @@
 #include <limits>
 
 namespace touchstone {
-namespace {
-
-/// Number of pairs of shapes kept: more than most scenes have, few enough for the largest meshes.
-constexpr std::size_t max_ready = 8;
-
-}  // namespace
-
 Routine::Routine(const ts_candidate& candidate, double parameter)
     : candidate_(candidate), parameter_(parameter) {
   std::fegetenv(&environment_);

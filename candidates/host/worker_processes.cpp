@@ -18,6 +18,7 @@
 #include <unistd.h>
 #include <utility>
 
+#include "candidates/host/guard.hpp"
 #include "candidates/host/interruption.hpp"
 
 namespace touchstone {
@@ -110,11 +111,6 @@ struct Worker {
 struct TaskFailure : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
-
-std::string how_it_ended(int status) {
-  if (WIFSIGNALED(status)) return std::string("died of ") + strsignal(WTERMSIG(status));
-  return "ended with exit code " + std::to_string(WEXITSTATUS(status));
-}
 
 /// All workers of a run. The destructor kills those that are still running.
 class Workers {
@@ -231,7 +227,8 @@ bool stream_from_processes(std::uint64_t count, unsigned workers,
         int status = 0;
         waitpid(std::exchange(w.pid, -1), &status, 0);
         const std::uint64_t at = shared.current(i);
-        if (at != 0) throw TaskFailure(name(at - 1) + ": the worker " + how_it_ended(status));
+        if (at != 0)
+          throw TaskFailure(name(at - 1) + ": the worker's process: " + how_it_ended(status));
       }
     }
     return true;

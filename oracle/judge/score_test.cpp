@@ -395,9 +395,9 @@ TEST(PointExcess, MeasuresFromTheFartherSurface) {
   EXPECT_NEAR(excess({0, 0, 0.7}, -0.2), 0.7, 1e-15);  // points apart have negative depths
 }
 
+using oracle::BoundaryPiece;
 using oracle::ContactPatch;
 using oracle::ConvexSet;
-using oracle::Side;
 using oracle::Vec2;
 
 constexpr double pi = std::numbers::pi;
@@ -409,7 +409,7 @@ const ContactPatch::Plane plane{Vec3(1, 2, 3), Vec3(0, 1, 0), Vec3(0, 0, 1)};
 ContactPatch patch(const ConvexSet& shape) { return {plane, shape}; }
 
 ContactPatch disc(double radius) {
-  return patch(ConvexSet::region({Side::arc(Vec2::Zero(), radius, 0, 2 * pi)}));
+  return patch(ConvexSet::region({BoundaryPiece::arc(Vec2::Zero(), radius, 0, 2 * pi)}));
 }
 
 std::vector<Vec3> on_circle(int count, double radius, const Vec2& centre = Vec2::Zero()) {

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <gtest/gtest.h>
-#include <numbers>
 
 #include "properties/moves.hpp"
 
@@ -11,7 +10,6 @@ namespace {
 
 // Closed forms. B's top is at z = 0 and A touches it from above, so that patches lie at z = 0.
 
-constexpr double pi = std::numbers::pi;
 constexpr double rounding = 1e-14;
 constexpr auto oblique = Alignment::oblique;
 constexpr auto parallel = Alignment::parallel;

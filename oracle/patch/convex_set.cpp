@@ -6,12 +6,9 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <numbers>
 
 namespace touchstone::oracle {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 Vec2 polar(double angle) { return {std::cos(angle), std::sin(angle)}; }
@@ -24,29 +21,31 @@ double minus_sine(double x) {
 }
 
 /// Area between an arc and its chord.
-double segment_area(const Side& s) { return s.radius * s.radius * minus_sine(s.sweep) / 2; }
+double segment_area(const BoundaryPiece& s) {
+  return s.radius * s.radius * minus_sine(s.sweep) / 2;
+}
 
 /// ∫ (x − centre) over the area between an arc and its chord: (2/3) r³ sin³(sweep/2) towards the
 /// arc's middle.
-Vec2 segment_moment(const Side& s) {
+Vec2 segment_moment(const BoundaryPiece& s) {
   const double sine = s.radius * std::sin(s.sweep / 2);
   return 2.0 / 3 * sine * sine * sine * polar(s.start + s.sweep / 2);
 }
 
-bool arc_sees(const Side& s, const Vec2& direction) {
+bool arc_sees(const BoundaryPiece& s, const Vec2& direction) {
   double turn = std::atan2(direction.y(), direction.x()) - s.start;
   turn -= 2 * pi * std::floor(turn / (2 * pi));
   return turn <= s.sweep;
 }
 
-double distance_to_line(const Side& s, const Vec2& p) {
+double distance_to_line(const BoundaryPiece& s, const Vec2& p) {
   const Vec2 along = s.to - s.from;
   const double length2 = along.squaredNorm();
   const double t = length2 > 0 ? std::clamp((p - s.from).dot(along) / length2, 0.0, 1.0) : 0;
   return (p - s.from - t * along).norm();
 }
 
-double distance_to_side(const Side& s, const Vec2& p) {
+double distance_to_side(const BoundaryPiece& s, const Vec2& p) {
   if (s.is_line()) return distance_to_line(s, p);
   if (arc_sees(s, p - s.centre)) return std::abs((p - s.centre).norm() - s.radius);
   return std::min((p - s.from).norm(), (p - s.to).norm());
@@ -54,7 +53,7 @@ double distance_to_side(const Side& s, const Vec2& p) {
 
 }  // namespace
 
-Side Side::arc(const Vec2& centre, double radius, double start, double sweep) {
+BoundaryPiece BoundaryPiece::arc(const Vec2& centre, double radius, double start, double sweep) {
   return {centre + radius * polar(start),
           centre + radius * polar(start + sweep),
           centre,
@@ -63,26 +62,28 @@ Side Side::arc(const Vec2& centre, double radius, double start, double sweep) {
           sweep};
 }
 
-ConvexSet ConvexSet::point(const Vec2& p) { return {Kind::point, {Side::line(p, p)}}; }
+ConvexSet ConvexSet::point(const Vec2& p) { return {Kind::point, {BoundaryPiece::line(p, p)}}; }
 ConvexSet ConvexSet::segment(const Vec2& from, const Vec2& to) {
-  return {Kind::segment, {Side::line(from, to)}};
+  return {Kind::segment, {BoundaryPiece::line(from, to)}};
 }
-ConvexSet ConvexSet::region(std::vector<Side> sides) { return {Kind::region, std::move(sides)}; }
+ConvexSet ConvexSet::region(std::vector<BoundaryPiece> sides) {
+  return {Kind::region, std::move(sides)};
+}
 
 ConvexSet ConvexSet::polygon(const std::vector<Vec2>& vertices) {
   if (vertices.size() == 1) return point(vertices[0]);
   if (vertices.size() == 2) return segment(vertices[0], vertices[1]);
-  std::vector<Side> sides;
+  std::vector<BoundaryPiece> sides;
   for (std::size_t i = 0; i < vertices.size(); ++i) {
-    sides.push_back(Side::line(vertices[i], vertices[(i + 1) % vertices.size()]));
+    sides.push_back(BoundaryPiece::line(vertices[i], vertices[(i + 1) % vertices.size()]));
   }
   return region(std::move(sides));
 }
 
 ConvexSet ConvexSet::scaled(int exponent) const {
   const auto times = [&](double x) { return std::scalbn(x, exponent); };
-  std::vector<Side> sides = sides_;
-  for (Side& s : sides) {
+  std::vector<BoundaryPiece> sides = sides_;
+  for (BoundaryPiece& s : sides) {
     s.from = s.from.unaryExpr(times), s.to = s.to.unaryExpr(times);
     s.centre = s.centre.unaryExpr(times), s.radius = times(s.radius);
   }
@@ -94,7 +95,7 @@ double ConvexSet::area() const {
   // Relative to a corner of the set, so that its distance from the origin costs no digits.
   const Vec2 corner = sides_[0].from;
   double sum = 0;
-  for (const Side& s : sides_) {
+  for (const BoundaryPiece& s : sides_) {
     sum += cross(s.from - corner, s.to - corner) / 2 + segment_area(s);
   }
   return sum;
@@ -102,7 +103,8 @@ double ConvexSet::area() const {
 
 double ConvexSet::perimeter() const {
   double sum = 0;
-  for (const Side& s : sides_) sum += s.is_line() ? (s.to - s.from).norm() : s.radius * s.sweep;
+  for (const BoundaryPiece& s : sides_)
+    sum += s.is_line() ? (s.to - s.from).norm() : s.radius * s.sweep;
   return sum;
 }
 
@@ -111,7 +113,7 @@ Vec2 ConvexSet::centroid() const {
   const Vec2 corner = sides_[0].from;
   double area = 0;
   Vec2 moment = Vec2::Zero(), mean = Vec2::Zero();
-  for (const Side& s : sides_) {
+  for (const BoundaryPiece& s : sides_) {
     const Vec2 a = s.from - corner, b = s.to - corner;
     const double triangle = cross(a, b) / 2, segment = segment_area(s);
     area += triangle + segment;
@@ -124,7 +126,7 @@ Vec2 ConvexSet::centroid() const {
 
 double ConvexSet::support(const Vec2& direction) const {
   double max = -std::numeric_limits<double>::infinity();
-  for (const Side& s : sides_) {
+  for (const BoundaryPiece& s : sides_) {
     max = std::max({max, s.from.dot(direction), s.to.dot(direction)});
     if (!s.is_line() && arc_sees(s, direction)) {
       max = std::max(max, s.centre.dot(direction) + s.radius * direction.norm());
@@ -134,7 +136,8 @@ double ConvexSet::support(const Vec2& direction) const {
 }
 
 bool ConvexSet::contains(const Vec2& p) const {
-  return kind_ == Kind::region && std::all_of(sides_.begin(), sides_.end(), [&](const Side& s) {
+  return kind_ == Kind::region &&
+         std::all_of(sides_.begin(), sides_.end(), [&](const BoundaryPiece& s) {
            return s.is_line() ? cross(s.to - s.from, p - s.from) >= 0
                               : (p - s.centre).norm() <= s.radius;
          });
@@ -143,7 +146,7 @@ bool ConvexSet::contains(const Vec2& p) const {
 double ConvexSet::distance(const Vec2& p) const {
   if (contains(p)) return 0;
   double min = std::numeric_limits<double>::infinity();
-  for (const Side& s : sides_) min = std::min(min, distance_to_side(s, p));
+  for (const BoundaryPiece& s : sides_) min = std::min(min, distance_to_side(s, p));
   return min;
 }
 
@@ -151,7 +154,7 @@ std::vector<Vec2> ConvexSet::outline(int per_quarter) const {
   if (kind_ == Kind::point) return {sides_[0].from};
   if (kind_ == Kind::segment) return {sides_[0].from, sides_[0].to};
   std::vector<Vec2> points;
-  for (const Side& s : sides_) {
+  for (const BoundaryPiece& s : sides_) {
     points.push_back(s.from);
     const int chords = static_cast<int>(std::ceil(s.sweep / (pi / 2) * per_quarter));
     for (int i = 1; i < chords; ++i) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <numbers>
 #include <vector>
 
 #include <Eigen/Core>
@@ -8,17 +9,19 @@ namespace touchstone::oracle {
 
 using Vec2 = Eigen::Vector2d;
 
+inline constexpr double pi = std::numbers::pi;
+
 /// A piece of a convex boundary with the set on its left: a line, or a counterclockwise arc about a
 /// centre.
-struct Side {
+struct BoundaryPiece {
   Vec2 from, to;
   Vec2 centre = Vec2::Zero();
   double radius = 0;  ///< zero: a line
   double start = 0;   ///< polar angle of `from` about the centre, radians
   double sweep = 0;   ///< in (0, 2π]; 2π is the whole circle
 
-  static Side line(const Vec2& from, const Vec2& to) { return {from, to}; }
-  static Side arc(const Vec2& centre, double radius, double start, double sweep);
+  static BoundaryPiece line(const Vec2& from, const Vec2& to) { return {from, to}; }
+  static BoundaryPiece arc(const Vec2& centre, double radius, double start, double sweep);
   bool is_line() const { return radius == 0; }
 };
 
@@ -32,14 +35,14 @@ class ConvexSet {
   static ConvexSet segment(const Vec2& from, const Vec2& to);
   /// Takes a closed counterclockwise boundary. Precondition: the region is the intersection of the
   /// half-planes left of its lines and the discs of its arcs.
-  static ConvexSet region(std::vector<Side> sides);
+  static ConvexSet region(std::vector<BoundaryPiece> sides);
   /// Takes counterclockwise vertices without repetition: three or more make a region, fewer a
   /// segment or a point.
   static ConvexSet polygon(const std::vector<Vec2>& vertices);
 
   Kind kind() const { return kind_; }
   /// The sides of a region in order; for a segment or a point one line, the set itself.
-  const std::vector<Side>& sides() const { return sides_; }
+  const std::vector<BoundaryPiece>& sides() const { return sides_; }
 
   double area() const;
   double perimeter() const;                     ///< for a segment its length, counted once
@@ -52,10 +55,10 @@ class ConvexSet {
   ConvexSet scaled(int exponent) const;
 
  private:
-  ConvexSet(Kind kind, std::vector<Side> sides) : kind_(kind), sides_(std::move(sides)) {}
+  ConvexSet(Kind kind, std::vector<BoundaryPiece> sides) : kind_(kind), sides_(std::move(sides)) {}
   bool contains(const Vec2& p) const;
   Kind kind_;
-  std::vector<Side> sides_;
+  std::vector<BoundaryPiece> sides_;
 };
 
 // Convex polygons as their vertices, counterclockwise. Two vertices are a segment, one is a point.

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <iterator>
-#include <numbers>
 #include <random>
 #include <vector>
 
@@ -15,17 +14,16 @@
 namespace touchstone::oracle {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr double rounding = 1e-14;
 
 /// The part of the unit disc with x >= cos(half_angle).
 ConvexSet disc_segment(double half_angle) {
-  const Side arc = Side::arc(Vec2::Zero(), 1, -half_angle, 2 * half_angle);
-  return ConvexSet::region({arc, Side::line(arc.to, arc.from)});
+  const BoundaryPiece arc = BoundaryPiece::arc(Vec2::Zero(), 1, -half_angle, 2 * half_angle);
+  return ConvexSet::region({arc, BoundaryPiece::line(arc.to, arc.from)});
 }
 
 TEST(ConvexSet, WholeDisc) {
-  const ConvexSet disc = ConvexSet::region({Side::arc({3, 4}, 2, 1, 2 * pi)});
+  const ConvexSet disc = ConvexSet::region({BoundaryPiece::arc({3, 4}, 2, 1, 2 * pi)});
   EXPECT_NEAR(disc.area(), 4 * pi, rounding * 100);
   EXPECT_NEAR(disc.perimeter(), 4 * pi, rounding * 100);
   EXPECT_NEAR((disc.centroid() - Vec2(3, 4)).norm(), 0, rounding * 100);
@@ -182,7 +180,7 @@ void expect_same(const ConvexSet& ours, const Region& theirs) {
   }
   ASSERT_EQ(ours.kind(), ConvexSet::Kind::region);
   int lines = 0;
-  for (const Side& s : ours.sides()) lines += s.is_line() ? 1 : 0;
+  for (const BoundaryPiece& s : ours.sides()) lines += s.is_line() ? 1 : 0;
   EXPECT_EQ(lines, theirs.lines);
   EXPECT_EQ(static_cast<int>(ours.sides().size()) - lines, theirs.arcs);
   EXPECT_NEAR(ours.area(), theirs.area, 1e-12 * (1 + theirs.area));
@@ -216,12 +214,12 @@ TEST(FeatureOverlap, DiscAndRectangleAreAsCgalHasThem) {
 /// Every side starts where the previous one ends, and lies on the right disc or line.
 void expect_closed(const ConvexSet& set) {
   for (std::size_t i = 0; i < set.sides().size(); ++i) {
-    const Side& s = set.sides()[i];
+    const BoundaryPiece& s = set.sides()[i];
     EXPECT_LE((s.to - set.sides()[(i + 1) % set.sides().size()].from).norm(), 1e-14 * 10);
     if (s.is_line()) continue;
     EXPECT_NEAR((s.from - s.centre).norm(), s.radius, 1e-14 * 10);
     EXPECT_NEAR((s.to - s.centre).norm(), s.radius, 1e-14 * 10);
-    const Side again = Side::arc(s.centre, s.radius, s.start, s.sweep);
+    const BoundaryPiece again = BoundaryPiece::arc(s.centre, s.radius, s.start, s.sweep);
     EXPECT_LE((again.from - s.from).norm() + (again.to - s.to).norm(), 1e-14 * 20);
   }
 }

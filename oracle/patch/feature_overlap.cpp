@@ -3,13 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 namespace touchstone::oracle {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 mpq_class square(const mpq_class& q) { return q * q; }
 double root(const mpq_class& q) { return std::sqrt(q.get_d()); }
@@ -29,7 +26,7 @@ ConvexSet on_axis(const mpq_class& lo, const mpq_class& hi) {
 }
 
 ConvexSet whole_disc(const Vec2& centre, double radius) {
-  return ConvexSet::region({Side::arc(centre, radius, 0, 2 * pi)});
+  return ConvexSet::region({BoundaryPiece::arc(centre, radius, 0, 2 * pi)});
 }
 
 /// The part of a rectangle's edge within a disc, of positive length. Coordinates have the origin in
@@ -81,8 +78,9 @@ ConvexSet overlap_of_discs(const mpq_class& r, const mpq_class& s, const mpq_cla
   const double y = root(4 * distance2 * square(r) - square(from_first));
   const double angle = std::atan2(y, from_first.get_d());
   const double other_angle = std::atan2(y, from_other.get_d());
-  Side first = Side::arc(Vec2::Zero(), radius, -angle, 2 * angle);
-  Side second = Side::arc({distance, 0}, other, pi - other_angle, 2 * other_angle);
+  BoundaryPiece first = BoundaryPiece::arc(Vec2::Zero(), radius, -angle, 2 * angle);
+  BoundaryPiece second =
+      BoundaryPiece::arc({distance, 0}, other, pi - other_angle, 2 * other_angle);
   // Both arcs get the same ends, so that the boundary of a thin lens does not intersect itself.
   first.to = second.from = Vec2(from_first.get_d(), y) / (2 * distance);
   first.from = second.to = Vec2(from_first.get_d(), -y) / (2 * distance);
@@ -117,11 +115,11 @@ ConvexSet overlap_of_disc_and_rectangle(const mpq_class& x, const mpq_class& y, 
         return {-width, -along};
     }
   };
-  std::vector<Side> sides;
+  std::vector<BoundaryPiece> sides;
   for (std::size_t i = 0; i < chords.size(); ++i) {
     const Chord& c = chords[i];
     const Chord& next = chords[(i + 1) % chords.size()];
-    sides.push_back(Side::line(in_frame(c.edge, c.from), in_frame(c.edge, c.to)));
+    sides.push_back(BoundaryPiece::line(in_frame(c.edge, c.from), in_frame(c.edge, c.to)));
     const bool share_a_corner = c.to_corner && next.from_corner && next.edge == (c.edge + 1) % 4;
     if (share_a_corner) continue;
     double sweep = next.start_angle - c.end_angle;
@@ -129,7 +127,7 @@ ConvexSet overlap_of_disc_and_rectangle(const mpq_class& x, const mpq_class& y, 
     // A full turn is possible with a single edge only; between two edges it is a rounded zero.
     constexpr double rounding = 1e-9;
     if (chords.size() > 1 && sweep > 2 * pi - rounding) sweep = 0;
-    Side arc = Side::arc(centre, radius, c.end_angle, sweep);
+    BoundaryPiece arc = BoundaryPiece::arc(centre, radius, c.end_angle, sweep);
     arc.from = in_frame(c.edge, c.to);
     arc.to = in_frame(next.edge, next.from);
     sides.push_back(arc);

@@ -1,6 +1,5 @@
 #include <cmath>
 #include <gtest/gtest.h>
-#include <numbers>
 #include <random>
 #include <vector>
 
@@ -12,7 +11,6 @@
 namespace touchstone::oracle {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 /// Relative width by which inscribed polygons may be too narrow, as contact_patch.hpp promises.
 constexpr double inscribed = 5e-3;
 using Kind = ContactPatch::Kind;

@@ -40,8 +40,6 @@ std::optional<double> parse_double(std::string_view text) {
 
 namespace {
 
-std::string quoted(const std::string& text) { return '"' + text + '"'; }
-
 /// "12" or "1.2e1". Doubles know every whole number up to 2^53 only.
 std::optional<std::uint64_t> whole_number(const std::string& text) {
   const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
@@ -63,14 +61,14 @@ std::optional<std::uint64_t> whole_number(const std::string& text) {
 double read_number(const std::string& option, const std::string& text, NumberRange range) {
   const auto value = parse_double(text);
   if (value && *value >= range.min && *value <= range.max) return *value;
-  throw InvalidInput(option, quoted(text),
+  throw InvalidInput(option, in_quotes(text),
                      fmt::format("must be a number from {} to {}", range.min, range.max));
 }
 
 std::uint64_t read_count(const std::string& option, const std::string& text, CountRange range) {
   const auto value = whole_number(text);
   if (value && *value >= range.min && *value <= range.max) return *value;
-  throw InvalidInput(option, quoted(text),
+  throw InvalidInput(option, in_quotes(text),
                      fmt::format("must be a whole number from {} to {}", range.min, range.max));
 }
 

@@ -23,15 +23,13 @@ constexpr std::array<double, 17> powers = {1,     1e-1,  1e-2,  1e-3,  1e-4,  1e
 /// Separates these draws from those of identities.
 constexpr std::uint64_t stream = 0x706572747572622eU;
 
-std::string quoted(std::string_view text) { return '"' + std::string(text) + '"'; }
-
 }  // namespace
 
 Decade Decade::parse(const char* field, std::string_view text) {
   for (int exponent = max; exponent >= min; --exponent) {
     if (text == Decade(exponent).name()) return Decade(exponent);
   }
-  throw InvalidInput(field, quoted(text), "must be one of 1e-1, 1e-2, … 1e-16");
+  throw InvalidInput(field, in_quotes(text), "must be one of 1e-1, 1e-2, … 1e-16");
 }
 
 double Decade::value() const { return powers[static_cast<std::size_t>(-exponent_)]; }
@@ -44,7 +42,7 @@ Perturbation parse_perturbation(std::string_view text) {
   const std::size_t first = text.find('/');
   const std::size_t second = first == text.npos ? first : text.find('/', first + 1);
   if (second == text.npos) {
-    throw InvalidInput("perturbation", quoted(text),
+    throw InvalidInput("perturbation", in_quotes(text),
                        "must read amplitude/seed/number, as in 1e-8/1/4");
   }
   return {Decade::parse("perturbation.amplitude", text.substr(0, first)),

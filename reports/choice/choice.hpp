@@ -17,6 +17,9 @@
 
 namespace touchstone {
 
+/// What a run's verdict on a need measured, with its unit: "12.3°".
+std::string measured(const Verdict& verdict, const Need& need);
+
 /// Limits on the errors of contacts between the shapes of a robot or world.
 struct PairNeeds {
   double depth = 1e-3;                  ///< error of the depth, metres; a missed contact counts

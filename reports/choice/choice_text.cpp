@@ -12,12 +12,12 @@
 #include "reports/terminal.hpp"
 
 namespace touchstone {
-namespace {
-
 std::string measured(const Verdict& verdict, const Need& need) {
   if (!std::isfinite(verdict.value)) return "the motion becomes absurd";
   return fmt::format("{:.3g}{}", verdict.value, need.unit);
 }
+
+namespace {
 
 /// "can stands within 0.5°: 12.3° at 0.71 s"
 std::string failure(const Choice& choice, const SceneRun& run) {

@@ -32,11 +32,6 @@ std::string microseconds(const EngineSetting& setting) {
   return setting.step_seconds ? fmt::format("{:.2g}", *setting.step_seconds * 1e6) : "";
 }
 
-std::string measured(const Verdict& verdict, const Need& need) {
-  if (!std::isfinite(verdict.value)) return "the motion becomes absurd";
-  return fmt::format("{:.3g}{}", verdict.value, need.unit);
-}
-
 /// "can stands within 0.5°: 12.3° at 0.71 s, disturbance 3"
 std::string failure(const EngineChoice& choice, const EngineSetting& setting) {
   if (!setting.end.empty()) return setting.end + in_disturbance(setting);

@@ -130,7 +130,7 @@ std::string figure_title(const std::string& pair, const std::string& group) {
 
 /// Text within single quotes, for gnuplot, which would run what stands between backquotes within
 /// double ones.
-std::string quoted(const std::string& text) {
+std::string gnuplot_quoted(const std::string& text) {
   std::string result = "'";
   for (const char c : text) result += c == '\'' ? "''" : std::string(1, c);
   return result + '\'';
@@ -170,12 +170,12 @@ std::string in_both_forms(const std::string& name, int width, int height,
       "background '#ffffff'\nset output {2}\n{3}{4}"
       "set terminal pngcairo size {5},{6} noenhanced font 'DejaVu Sans,11' "
       "fontscale 2 linewidth 2 pointscale 1.6\nset output {7}\n{3}{4}",
-      width, height, quoted(name + ".svg"), commands, reset, 2 * width, 2 * height,
-      quoted(name + ".png"));
+      width, height, gnuplot_quoted(name + ".svg"), commands, reset, 2 * width, 2 * height,
+      gnuplot_quoted(name + ".png"));
 }
 
 /// Share of the configurations with a routine on which the candidate agrees.
-double agreement(const Statistics& s) {
+double agreeing_share(const Statistics& s) {
   return static_cast<double>(s.agreeing()) / static_cast<double>(s.supported());
 }
 
@@ -194,7 +194,7 @@ std::vector<Point> points_of(const Report& report, const std::string& group,
     const Statistics& s = row.statistics;
     if (row.pair != pair || row.pose_class != group || !row.time || !s.depth_error) continue;
     result.push_back({row.candidate, row.time->nanoseconds.median,
-                      std::max(s.depth_error->p99, min_error), agreement(s),
+                      std::max(s.depth_error->p99, min_error), agreeing_share(s),
                       row.pareto.value_or(false)});
   }
   return result;
@@ -224,7 +224,7 @@ std::string speed_panel(const std::string& title, const std::vector<Point>& poin
       "set ytics ({})\nset xlabel 'time per query'\n"
       "set ylabel 'depth error, p99 (relative to size)'\nunset label\nunset mxtics\nunset "
       "mytics\nset style textbox opaque noborder fillcolor '#ffffff' margins 0.3,0.1\n",
-      quoted(title), x.low, x.high, y.low, y.high,
+      gnuplot_quoted(title), x.low, x.high, y.low, y.high,
       power_tics(y.low, y.high, std::max(1, static_cast<int>(std::ceil((y.high - y.low) / 6)))));
   std::vector<Point> front;
   for (const Point& p : points) {
@@ -251,12 +251,12 @@ std::string speed_panel(const std::string& title, const std::vector<Point>& poin
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Point& p = points[i];
     marks += fmt::format("{}'-' with points title {} pointsize 1 {}",
-                         i ? ", " : fmt::format("plot '-' {}, ", front_style), quoted(p.candidate),
-                         style_of(p.candidate));
+                         i ? ", " : fmt::format("plot '-' {}, ", front_style),
+                         gnuplot_quoted(p.candidate), style_of(p.candidate));
     if (!places[i]) continue;
     text += fmt::format(
         "set label {} at {:.6g},{:.6g} {} offset character {:.2f},{:.2f} front boxed{}\n",
-        quoted(p.candidate), p.time, p.error, places[i]->rightwards ? "left" : "right",
+        gnuplot_quoted(p.candidate), p.time, p.error, places[i]->rightwards ? "left" : "right",
         places[i]->dx, places[i]->dy, p.front ? "" : " textcolor '#5a6472'");
   }
   text += marks + '\n';
@@ -275,7 +275,8 @@ std::string key_panel(const std::vector<std::string>& candidates, double share) 
       share);
   text += fmt::format("plot 1/0 {}", front_style);
   for (const std::string& name : candidates) {
-    text += fmt::format(", 1/0 with points title {} pointsize 1 {}", quoted(name), style_of(name));
+    text += fmt::format(", 1/0 with points title {} pointsize 1 {}", gnuplot_quoted(name),
+                        style_of(name));
   }
   return text + '\n';
 }
@@ -351,7 +352,7 @@ std::string error_figure(const Report& report, const std::string& group, const s
       owed += static_cast<double>(s.of(lost));
     }
     plot += fmt::format("{}'-' with linespoints title {} pointsize 0.7 {}",
-                        plot.empty() ? "plot " : ", ", quoted(row.candidate),
+                        plot.empty() ? "plot " : ", ", gnuplot_quoted(row.candidate),
                         style_of(row.candidate, true));
     int bin = histogram.first;
     const auto add = [&](double error) {
@@ -375,7 +376,7 @@ std::string error_figure(const Report& report, const std::string& group, const s
                   "set tics nomirror\nset xlabel 'depth error (relative to size)'\n"
                   "set ylabel 'share of contacts with at most this error'\n"
                   "set key outside right top maxcols 1 Left reverse samplen 5 font ',9'\n",
-                  quoted(figure_title(pair, group)), power_tics(-16, 16, 4)) +
+                  gnuplot_quoted(figure_title(pair, group)), power_tics(-16, 16, 4)) +
           plot + '\n' + points);
 }
 
@@ -398,7 +399,7 @@ std::string class_figure(const Report& report, const std::string& group, const s
     const Statistics& s = row.statistics;
     if (row.pair != pair || !of_group.contains(row.pose_class)) continue;
     if (s.supported() == 0) continue;
-    const double share = 1 - agreement(s);
+    const double share = 1 - agreeing_share(s);
     data += fmt::format("{},{},{:.6g}\n", row.pose_class, csv_cell(row.candidate), share);
     const auto y = place(classes, row.pose_class), x = place(candidates, row.candidate);
     cells += fmt::format("{} {} {:.6g}\n", x, y, share);
@@ -409,7 +410,7 @@ std::string class_figure(const Report& report, const std::string& group, const s
   const auto tics = [](const std::vector<std::string>& names) {
     std::string text;
     for (std::size_t i = 0; i < names.size(); ++i) {
-      text += fmt::format("{}{} {}", i ? ", " : "", quoted(names[i]), i);
+      text += fmt::format("{}{} {}", i ? ", " : "", gnuplot_quoted(names[i]), i);
     }
     return text;
   };
@@ -429,14 +430,15 @@ std::string class_figure(const Report& report, const std::string& group, const s
                   "set bmargin at screen {:.4f}\nset tmargin at screen {:.4f}\n",
                   1.0 * left / width, 1 - 1.0 * scale / width, 1.0 * bottom / height,
                   1 - 1.0 * title / height) +
-          fmt::format(
-              "set title {}\nset palette defined (0 '#ffffff', 1 '#b3321f')\n"
-              "set cbrange [0:1]\nset cblabel 'share that disagrees'\n"
-              "set xrange [-0.5:{}]\nset yrange [{}:-0.5]\nset tics scale 0\n"
-              "set xtics rotate by 90 right ({})\nset ytics ({})\n"
-              "plot '-' using 1:2:3 with image pixels notitle\n{}e\n",
-              quoted(figure_title(pair, group)), static_cast<double>(candidates.size()) - 0.5,
-              static_cast<double>(classes.size()) - 0.5, tics(candidates), tics(classes), cells));
+          fmt::format("set title {}\nset palette defined (0 '#ffffff', 1 '#b3321f')\n"
+                      "set cbrange [0:1]\nset cblabel 'share that disagrees'\n"
+                      "set xrange [-0.5:{}]\nset yrange [{}:-0.5]\nset tics scale 0\n"
+                      "set xtics rotate by 90 right ({})\nset ytics ({})\n"
+                      "plot '-' using 1:2:3 with image pixels notitle\n{}e\n",
+                      gnuplot_quoted(figure_title(pair, group)),
+                      static_cast<double>(candidates.size()) - 0.5,
+                      static_cast<double>(classes.size()) - 0.5, tics(candidates), tics(classes),
+                      cells));
 }
 
 }  // namespace

@@ -19,12 +19,12 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-std::string number(double value) { return value == 0 ? "0" : fmt::format("{:.1e}", value); }
-std::string short_text(double value) { return number(short_number(value)); }
+std::string rounded_number(double value) { return value == 0 ? "0" : fmt::format("{:.1e}", value); }
+std::string short_text(double value) { return rounded_number(short_number(value)); }
 
 std::string amplification_text(double ratio) {
   const double shown = rounded_up(ratio);
-  return shown < 10 ? fmt::format("{:.2f}", shown) : number(shown);
+  return shown < 10 ? fmt::format("{:.2f}", shown) : rounded_number(shown);
 }
 
 /// Cut downwards, so that only the whole shows 100.
@@ -200,9 +200,9 @@ std::string sequences_table(const Sequences& sequences, const Names& candidates,
       }
     }
     if (!any) continue;
-    text += table.row("  " + candidate, {{number(jump.value)},
+    text += table.row("  " + candidate, {{rounded_number(jump.value)},
                                          {jump.motion},
-                                         {number(hull.value)},
+                                         {rounded_number(hull.value)},
                                          {hull.motion},
                                          {std::to_string(missed)}});
   }
@@ -229,7 +229,7 @@ std::string worst_steps(const std::vector<Amplification::WorstStep>& worst, cons
     }
     if (!max || max->value <= 1 + 1e-9) continue;
     text +=
-        fmt::format("  {}: depth x {}\n    {}\n    {}\n", candidate, number(max->value),
+        fmt::format("  {}: depth x {}\n    {}\n    {}\n", candidate, rounded_number(max->value),
                     replay_command(max->from, {candidate}), replay_command(max->to, {candidate}));
   }
   return text.empty() ? text

@@ -273,7 +273,7 @@ TEST(Movement, OfAShiftIsItsLength) {
 }
 
 TEST(Movement, OfAnUnchangedSetIsZero) {
-  const ConvexSet disc = ConvexSet::region({oracle::Side::arc({1, 2}, 0.5, 0, 2 * M_PI)});
+  const ConvexSet disc = ConvexSet::region({oracle::BoundaryPiece::arc({1, 2}, 0.5, 0, 2 * M_PI)});
   EXPECT_NEAR(movement(level(1, disc), level(1, disc)), 0, rounding);
 }
 

@@ -20,14 +20,14 @@ namespace {
 using oracle::ContactPatch;
 using oracle::Vec2;
 
-double depth(double signed_distance, const Bar& bar) {
+double depth_within(double signed_distance, const Bar& bar) {
   return std::max(0.0, bar.threshold - signed_distance);
 }
 double true_depth(const ExaminedPose& pose, const Bar& bar) {
-  return depth(pose.truth.signed_distance.midpoint(), bar);
+  return depth_within(pose.truth.signed_distance.midpoint(), bar);
 }
 double answered_depth(const Answer& answer, const Bar& bar) {
-  return answer.status == TS_CONTACT ? depth(answer.signed_distance, bar) : 0;
+  return answer.status == TS_CONTACT ? depth_within(answer.signed_distance, bar) : 0;
 }
 
 ContactPatch patch_along(const Configuration& c, const Vec3& n) {

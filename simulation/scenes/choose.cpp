@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <limits>
 #include <tuple>
 #include <utility>
 
@@ -17,16 +16,14 @@ namespace {
 /// Seconds that the queries of a run may take; dearer candidates are not run.
 constexpr double max_run_time = 3;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 /// Largest number of parts of a model that gives the solver few points.
 constexpr double max_simple = 2;
 
 using Models = std::vector<const Candidate*>;
 
-class Search {
+class ModelSearch {
  public:
-  Search(const ChooseOptions& options, Choice& choice)
+  ModelSearch(const ChooseOptions& options, Choice& choice)
       : choice_(choice),
         exact_(*choice.candidates[0]),
         judge_(choice.file, choice.kinds, exact_, options) {}
@@ -466,7 +463,7 @@ Choice choose(const SceneFile& file, const ChooseOptions& options) {
   auto replayed = replay(file.scene, exact_run, kinds.all(), candidates, options.limits);
   Choice choice{file, std::move(exact_run), std::move(kinds), candidates, std::move(replayed)};
   choice.trials = options.trials;
-  Search(options, choice).run();
+  ModelSearch(options, choice).run();
   return choice;
 }
 

@@ -75,8 +75,10 @@ const std::vector<ShapeForm> sdf_shapes = {{"sphere", {{"radius", 1}}},
                                            {"polyline", {}, false},
                                            {"empty", {}, false}};
 
-constexpr std::size_t max_shown = 60;
-std::string shown(std::string_view text) { return '"' + printable(text, max_shown) + '"'; }
+constexpr std::size_t max_shown_bytes = 60;
+std::string shown_text(std::string_view text) {
+  return '"' + printable(text, max_shown_bytes) + '"';
+}
 
 template <class List>
 std::string names_of(const List& list) {
@@ -102,7 +104,7 @@ std::optional<int> count_of_numbers(const std::string& text) {
 /// Throws InvalidInput unless the text is so many numbers.
 void check_numbers(const std::string& text, int count, const std::string& field) {
   if (count_of_numbers(text) == count) return;
-  throw InvalidInput(field, shown(text),
+  throw InvalidInput(field, shown_text(text),
                      count == 1 ? "must be a number, with a decimal point and without a unit"
                                 : fmt::format("must be {} numbers between spaces", count));
 }
@@ -123,7 +125,7 @@ void check_fields(const ptree& fields, const ShapeForm& form, const std::string&
     const bool is_foreign = name.find(':') != name.npos;  // of a name space, an extension
     const auto is_it = [&](const Field& f) { return f.name == name; };
     if (is_meta(name) || is_foreign || std::ranges::any_of(form.fields, is_it)) continue;
-    throw InvalidInput(where + '.' + printable(name, max_shown), "unknown",
+    throw InvalidInput(where + '.' + printable(name, max_shown_bytes), "unknown",
                        "must be one of " + names_of(form.fields));
   }
   for (const Field& field : form.fields) {
@@ -154,7 +156,8 @@ void check_collision(const ptree& collision, const std::vector<ShapeForm>& forms
     const auto is_it = [&](const ShapeForm& f) { return f.name == name; };
     const auto form = std::ranges::find_if(forms, is_it);
     if (form == forms.end()) {
-      throw InvalidInput(where + ".geometry", shown(name), "must hold one of " + names_of(forms));
+      throw InvalidInput(where + ".geometry", shown_text(name),
+                         "must hold one of " + names_of(forms));
     }
     if (!form->is_read) continue;
     const ptree none;
@@ -168,14 +171,15 @@ void check_collision(const ptree& collision, const std::vector<ShapeForm>& forms
 }
 
 std::string name_of(const ptree& element) {
-  return printable(element.get<std::string>("<xmlattr>.name", ""), max_shown);
+  return printable(element.get<std::string>("<xmlattr>.name", ""), max_shown_bytes);
 }
 
 /// Checks a pose as far as its reader does not, which knows how many numbers it must have.
 void check_sdf_pose(const ptree& element, const std::string& where) {
   const std::string text = element.get<std::string>("pose", "");
   if (count_of_numbers(text)) return;
-  throw InvalidInput(where + ".pose", shown(text), "must be numbers between spaces, without units");
+  throw InvalidInput(where + ".pose", shown_text(text),
+                     "must be numbers between spaces, without units");
 }
 
 /// Checks the numbers of the inertials, in which libsdformat passes over a unit.
@@ -246,7 +250,7 @@ std::map<std::string, std::size_t> check_urdf_collisions(const std::string& text
     for (const auto& [child, collision] : link) {
       if (child != "collision") continue;
       const std::string own = name_of(collision);
-      const std::string where = "collision " + printable(name, max_shown) + '/' +
+      const std::string where = "collision " + printable(name, max_shown_bytes) + '/' +
                                 (own.empty() ? std::to_string(count + 1) : own);
       check_collision(collision, urdf_shapes, true, where);
       ++count;
@@ -267,7 +271,7 @@ void check_sdf_collisions(const std::string& text, std::string_view newest_versi
   const auto [major, minor] = major_and_minor(version);
   const auto [newest_major, newest_minor] = major_and_minor(newest_version);
   if (major != newest_major || !minor || minor > newest_minor) {
-    throw InvalidInput("sdf.version", shown(version),
+    throw InvalidInput("sdf.version", shown_text(version),
                        fmt::format("must be 1.0 to {}", newest_version));
   }
   check_sdf_links(sdf, "");

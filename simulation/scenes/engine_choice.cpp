@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <limits>
 #include <numeric>
 #include <stdexcept>
 #include <tuple>
@@ -21,8 +20,6 @@ namespace {
 
 using nlohmann::json;
 using Kind = EngineShape::Kind;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 bool is_bullet(const std::string& engine) { return engine.starts_with("bullet"); }
 
@@ -89,9 +86,9 @@ bool is_relative(const Need& need, const Scene& scene) {
   return near != value(Pose(Vec3(3, 5, 8), Eigen::Quaterniond(0.6, 0.2, 0.7, 0.3)));
 }
 
-class Search {
+class SettingSearch {
  public:
-  Search(const EngineChoiceOptions& options, EngineChoice& choice)
+  SettingSearch(const EngineChoiceOptions& options, EngineChoice& choice)
       : options_(options), choice_(choice), shapes_(own_shapes(choice.engine.name)) {
     for (const auto& need : choice.file.needs) {
       with_depths_ = with_depths_ || std::string(need->name) == "penetration";
@@ -416,7 +413,7 @@ EngineChoice choose_in_engine(const SceneFile& file, const std::string& engine,
     throw InvalidInput("needs", "none that an engine's run can be judged by",
                        "must say what has to come out right");
   }
-  Search(options, choice).run();
+  SettingSearch(options, choice).run();
   return choice;
 }
 

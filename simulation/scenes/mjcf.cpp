@@ -221,7 +221,6 @@ class Reading {
   /// Position of the joint's limit relative to its default position; MuJoCo counts from `ref`.
   void limit(int j, LinkJoint& joint) const {
     const double at = m_.qpos0[m_.jnt_qposadr[j]];
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     const bool is_limited = m_.jnt_limited[j] != 0 && !is_disabled(mjDSBL_LIMIT);
     joint.lower = is_limited ? m_.jnt_range[2 * static_cast<std::ptrdiff_t>(j)] - at : -infinity;
     joint.upper = is_limited ? m_.jnt_range[2 * static_cast<std::ptrdiff_t>(j) + 1] - at : infinity;

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <limits>
 #include <numbers>
 
 #include "reference/invalid_input.hpp"
@@ -12,8 +11,6 @@
 
 namespace touchstone {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// The largest of a series of values, and the time at which the limit was first exceeded. Values
 /// are added in the order of their times.

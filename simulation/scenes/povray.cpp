@@ -11,7 +11,7 @@
 namespace touchstone {
 namespace {
 
-std::string vector(const Vec3& v) {
+std::string povray_vector(const Vec3& v) {
   return fmt::format("<{:.9g},{:.9g},{:.9g}>", v.x(), v.y(), v.z());
 }
 
@@ -39,8 +39,8 @@ std::string view(const Camera& camera) {
       "  texture {{ pigment {{ rgb Colour }} finish {{ ambient 0.12 diffuse 0.7 }} }}\n"
       "#end\n"
       "#include concat(\"frame-\", str(max(1, frame_number), -5, 0), \".inc\")\n",
-      vector(camera.position), vector(camera.look_at), vector(lamp), reach / 4, reach / 4,
-      vector(camera.position));
+      povray_vector(camera.position), povray_vector(camera.look_at), povray_vector(lamp), reach / 4,
+      reach / 4, povray_vector(camera.position));
 }
 
 /// POV-Ray object of a shape in the body's frame, with its texture, without the closing brace.
@@ -61,11 +61,12 @@ struct Object {
     return fmt::format("sphere {{ 0, {:.9g} Striped(<0.35,0.2,0.5>)", s.radius());
   }
   std::string operator()(const Box& s) const {
-    return fmt::format("box {{ {}, {} Plain({})", vector(-s.half_extents()),
-                       vector(s.half_extents()), fixed ? "<0.5,0.52,0.55>" : "<0.7,0.55,0.3>");
+    return fmt::format("box {{ {}, {} Plain({})", povray_vector(-s.half_extents()),
+                       povray_vector(s.half_extents()),
+                       fixed ? "<0.5,0.52,0.55>" : "<0.7,0.55,0.3>");
   }
   std::string operator()(const Plane& s) const {
-    return fmt::format("plane {{ {}, {:.9g} Plain(<0.62,0.64,0.6>)", vector(s.unit_normal()),
+    return fmt::format("plane {{ {}, {:.9g} Plain(<0.62,0.64,0.6>)", povray_vector(s.unit_normal()),
                        s.unit_displacement());
   }
 };

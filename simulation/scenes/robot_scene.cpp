@@ -3,7 +3,6 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <limits>
 #include <map>
 #include <numbers>
 #include <numeric>
@@ -17,8 +16,6 @@
 
 namespace touchstone {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 constexpr double water = 1000;  // kg/m³, of links whose mass the file does not give
 

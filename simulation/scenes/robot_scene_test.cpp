@@ -16,8 +16,6 @@ namespace {
 using testing::HasSubstr;
 
 const std::filesystem::path scenes = TOUCHSTONE_SCENES;
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 const Body& body(const Scene& scene, const std::string& name) {
   for (const Body& b : scene.bodies) {
     if (b.name == name) return b;

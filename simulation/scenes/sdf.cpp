@@ -5,7 +5,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fmt/format.h>
-#include <limits>
 #include <numbers>
 #include <sdf/sdf.hh>
 #include <set>
@@ -203,7 +202,6 @@ void add_axis(const sdf::Joint& joint, const Pose3d& X_WJ, LinkJoint& made) {
   refuse(axis->ResolveXyz(direction), "joint " + made.name + ".axis");
   made.anchor = to_vector(X_WJ.Pos());
   made.axis = to_vector(X_WJ.Rot() * direction);
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   const bool is_limited = joint.Type() != sdf::JointType::CONTINUOUS;
   made.lower = !is_limited || axis->Lower() <= -no_limit ? -infinity : axis->Lower();
   made.upper = !is_limited || axis->Upper() >= no_limit ? infinity : axis->Upper();

@@ -1,6 +1,5 @@
 #include <boost/property_tree/xml_parser.hpp>
 #include <fmt/format.h>
-#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -89,7 +88,6 @@ void note_unread(const urdf::Joint& joint, UnreadOfJoints& unread) {
 /// Adds the joint between two links that have been added; X_RJ is its frame.
 void add_joint(const urdf::Joint& joint, int parent, int child, const Eigen::Isometry3d& X_RJ,
                RobotFile& result) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   LinkJoint made;
   made.name = joint.name;
   made.child = child;
