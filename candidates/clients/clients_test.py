@@ -6,7 +6,6 @@ import math
 import random
 import struct
 import sys
-import time
 import unittest
 from pathlib import Path
 
@@ -60,7 +59,7 @@ class Clients(unittest.TestCase):
         child.process.stdin.flush()
         child.process.stdin.close()
         self.assertEqual(child.process.stdout.read(), b"")
-        child.process.wait(timeout=10)
+        child.process.wait()
 
     @every_client
     def test_an_answer_has_the_numbers_of_the_question(self, child):
@@ -91,7 +90,7 @@ class Clients(unittest.TestCase):
                          ["failed", "contact", "unsupported"])
         self.assertIn("no capsules today", child.messages())
         questions = [(handle, pose(0), pose(0), None) for handle in range(3)]
-        self.assertGreaterEqual(child.time(2, questions), 0)
+        self.assertEqual(child.time(2, questions), 2)  # for the first alone
         child.release([2, 1, 0])
         self.assertEqual(child.messages().count("released"), 1)
 
@@ -130,26 +129,12 @@ class Clients(unittest.TestCase):
         self.assertEqual(child.query([(9, pose(0), pose(0), None)])[0].points[2][6], 0.6)
 
     @every_client
-    def test_time_counts_passes_and_lies_within_ours(self, child):
+    def test_time_is_that_of_the_queries_alone(self, child):
+        """By the clock of echo.py, which moves with queries and with whatever is read."""
         child.prepare([(0, CYLINDER, BOX, 0, 0)])
         questions = [(0, pose(x % 2), pose(0), None) for x in range(512)]  # half of them fail
-        child.time(4, questions)
-        begin = time.perf_counter_ns()
-        few, many = child.time(1, questions), child.time(64, questions)
-        ours = time.perf_counter_ns() - begin
-        self.assertGreater(few, 0)
-        self.assertGreater(many, 8 * few)
-        self.assertLess(few + many, ours)
-
-    @every_client
-    def test_time_leaves_reading_and_writing_out(self, child):
-        child.prepare([(0, CYLINDER, BOX, 0, 0)])
-        # None of them asks for more than a comparison; as a line, each takes far longer to read.
-        questions = [(0, pose(3), pose(0), None)] * 4096
-        least = min(child.time(1, questions) for _ in range(5))
-        begin = time.perf_counter_ns()
-        child.time(1, questions)
-        self.assertLess(4 * least, time.perf_counter_ns() - begin)
+        for passes in (1, 8):
+            self.assertEqual(child.time(passes, questions), passes * len(questions))
 
     def test_another_protocol_is_refused(self):
         for command in CLIENTS.values():

@@ -61,7 +61,7 @@ class Child:
         self.process.stdin.close()
         rest = self.process.stdout.read()
         assert rest == b"", rest
-        return self.process.wait(timeout=10)
+        return self.process.wait()
 
     def messages(self) -> str:
         self.log.seek(0)
