@@ -5,6 +5,8 @@ Every pose is one where faces or generators meet, whose contact no margin change
 it is and with both bodies moved by one rotation and translation. A wrong sign, frame, axis or body
 order of an adapter cannot pass."""
 
+import contextlib
+import functools
 import math
 import os
 import sys
@@ -121,12 +123,24 @@ def dot(u, v):
     return sum(x * y for x, y in zip(u, v))
 
 
+# Starting an engine takes longer than all that it is asked here: each is started once.
+running = contextlib.ExitStack()
+
+
+@functools.cache
+def child_of(name):
+    script, *arguments = ENGINES[name].arguments
+    return running.enter_context(Child(["node", str(HERE / script), *arguments]))
+
+
+def tearDownModule():
+    running.close()
+
+
 class Npm(unittest.TestCase):
     def engines(self):
         for name, engine in ENGINES.items():
-            script, *arguments = engine.arguments
-            with Child(["node", str(HERE / script), *arguments]) as child:
-                yield name, engine, child
+            yield name, engine, child_of(name)
 
     def ask(self, child, cases, threshold, moved, retreat=0.0):
         """The answers to CASES, all bodies moved alike, A first drawn back along the normal."""
@@ -157,6 +171,7 @@ class Npm(unittest.TestCase):
                 supported = child.prepare([(i, CYLINDER, b, 0, 0.01) for i, b in enumerate(
                     (PLANE, SPHERE, CAPSULE, CYLINDER, BOX))])
                 self.assertEqual(supported, [kind in engine.kinds for kind in ALL])
+                child.release(list(range(len(ALL))))
 
     def test_contacts_are_as_on_paper(self):
         for name, engine, child in self.engines():
@@ -210,12 +225,13 @@ class KnownFailures(unittest.TestCase):
     def ask(self, name, b, position, orientation, other=(UPRIGHT, (0, 0, 0))):
         """The answer to a cylinder there and B upright in the origin, or as `other` says."""
         length = math.hypot(*orientation)
-        script, *arguments = ENGINES[name].arguments
-        with Child(["node", str(HERE / script), *arguments]) as child:
-            child.prepare([(0, CYLINDER, b, 0, 0)])
-            return child.query([(
-                0, {"position": list(position), "orientation": [x / length for x in orientation]},
-                {"position": list(other[1]), "orientation": list(other[0])}, None)])[0]
+        child = child_of(name)
+        child.prepare([(0, CYLINDER, b, 0, 0)])
+        (answer,) = child.query([(
+            0, {"position": list(position), "orientation": [x / length for x in orientation]},
+            {"position": list(other[1]), "orientation": list(other[0])}, None)])
+        child.release([0])
+        return answer
 
     def test_multiple_contacts_of_mujoco_reverse_normals(self):
         drum = {"shape": "cylinder", "radius": 1, "half_length": 1}
