@@ -1,5 +1,6 @@
 #!/usr/bin/python3
 """Opens the pages in Chromium as a reader does: browser_test.py PROGRAM. Fails without a browser to drive."""
+import functools
 import json
 import re
 import shutil
@@ -17,6 +18,7 @@ try:
     from selenium.webdriver.common.by import By
     from selenium.webdriver.common.keys import Keys
     from selenium.webdriver.support.select import Select
+    from selenium.webdriver.support.wait import WebDriverWait
 except ImportError:
     sys.exit("python3-selenium is missing (packages-test.txt)")
 missing = [tool for tool in ("chromium", "chromedriver") if shutil.which(tool) is None]
@@ -24,21 +26,35 @@ if missing:
     sys.exit(f"{' and '.join(missing)} missing (packages-test.txt)")
 
 program = sys.argv.pop(1)
-max_bytes = 5_000_000
+max_bytes = 4_900_000  # and 100,000 of experiments make 5 MB
+longest = 600  # seconds to wait for the browser, which only a hang takes
 min_contrast = 4.5  # of small text (WCAG 2.2, 1.4.3)
 scene = Path(__file__).parents[2] / "simulation/scenes/wheel-on-road.json"
 
 
-def browser(width, height):
+@functools.cache
+def browser():
+    """That of all tests."""
     options = webdriver.ChromeOptions()
     for argument in ("--headless=new", "--no-sandbox", "--disable-gpu", "--hide-scrollbars"):
         options.add_argument(argument)
     options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
     driver = webdriver.Chrome(service=Service(shutil.which("chromedriver")), options=options)
-    driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {
-        "width": width, "height": height, "deviceScaleFactor": 1, "mobile": width < 600})
+    driver.set_page_load_timeout(longest)
+    driver.set_script_timeout(longest)
     return driver
 
+
+def tearDownModule():
+    browser().quit()
+
+
+# Ends when every chart is drawn, and what that changes in the layout has been seen by the page's observers.
+settled = """
+const done = arguments[0];
+Promise.all([...document.querySelectorAll('.chart')].map(e => e.chart.runAsync()))
+    .then(() => requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done))));
+"""
 
 # Contrast of all text with what is behind it, as WCAG defines it, as [contrast, text]: the colours of an element's
 # ancestors lie on each other. A canvas tells what a colour is.
@@ -107,16 +123,21 @@ return [
 
 
 class PageTest(unittest.TestCase):
-    """A browser and a folder for pages."""
+    """The browser, on a desktop, and a folder for pages."""
     @classmethod
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
-        cls.driver = browser(1280, 900)
+        cls.driver = browser()
+        cls.sit_at_a_desktop()
 
     @classmethod
     def tearDownClass(cls):
-        cls.driver.quit()
         cls.folder.cleanup()
+
+    @classmethod
+    def sit_at_a_desktop(cls):
+        cls.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {
+            "width": 1280, "height": 900, "deviceScaleFactor": 1, "mobile": False})
 
     @classmethod
     def run_program(cls, *arguments):
@@ -127,11 +148,18 @@ class PageTest(unittest.TestCase):
         """The addresses that loading the page asks for, itself excepted."""
         cls.driver.get_log("performance")  # of pages before
         cls.driver.get(page.as_uri())
-        time.sleep(0.5)
+        cls.settle()
         events = [json.loads(e["message"])["message"] for e in cls.driver.get_log("performance")]
         urls = [e["params"]["request"]["url"] for e in events
                 if e["method"] == "Network.requestWillBeSent"]
         return [url for url in urls if url != page.as_uri()]
+
+    @classmethod
+    def settle(cls):
+        cls.driver.execute_async_script(settled)
+
+    def wait_until(self, condition):
+        WebDriverWait(self.driver, longest, poll_frequency=0.05).until(lambda _: condition())
 
     def find(self, selector):
         return self.driver.find_element(By.CSS_SELECTOR, selector)
@@ -188,21 +216,13 @@ class Report(PageTest):
     def setUpClass(cls):
         super().setUpClass()
         # Every candidate and class, so that the page is as large as it gets.
-        start = time.monotonic()
-        cls.run_program("report", "--count", "1", "--out", cls.folder.name)
-        cls.seconds = time.monotonic() - start
+        cls.run_program("report", "--count", "1", "--only", "timing,stability,engines", "--out", cls.folder.name)
         cls.page = Path(cls.folder.name) / "report.html"
         cls.requested = cls.load(cls.page)
 
     def test_1_loads_without_error_or_request(self):
         self.assertEqual(self.console(), [])
         self.assertEqual(self.requested, [])
-
-    def test_the_report_says_how_long_all_of_it_took(self):
-        report = json.loads(self.page.with_suffix(".json").read_text())
-        self.assertTrue(report["stability"] and report["experiments"])
-        self.assertGreater(report["wall_seconds"], 0.8 * self.seconds)
-        self.assertLess(report["wall_seconds"], self.seconds)
 
     def test_2_is_small(self):
         self.assertLess(self.page.stat().st_size, max_bytes)
@@ -264,7 +284,8 @@ class Report(PageTest):
     def test_the_contents_stay_in_sight(self):
         for section in ("summary", "outcomes"):
             self.press(self.find(f"#contents a[href='#{section}']"))
-            time.sleep(0.3)
+            self.wait_until(lambda: [a.get_attribute("hash") for a in self.all("#contents [aria-current]")] ==
+                            [f"#{section}"])
             bar = self.find("#bar").rect
             top = self.driver.execute_script(
                 "return [document.getElementById('bar'), document.getElementById(arguments[0])]"
@@ -272,14 +293,13 @@ class Report(PageTest):
             self.assertAlmostEqual(top[0][0], 0, delta=1)
             self.assertLess(bar["height"], 110)
             self.assertGreaterEqual(top[1][0], top[0][1])  # the section begins below the bar
-            self.assertEqual([a.get_attribute("hash") for a in self.all("#contents [aria-current]")],
-                             [f"#{section}"])
 
     def test_tables_sort_by_mouse_and_keyboard(self):
         self.choose("#summary-pair", "all")
         def values():
-            return [row.find_elements(By.CSS_SELECTOR, "th, td")[9].text.replace(",", "")
-                    for row in self.all("#summary-table tbody tr")]
+            return self.driver.execute_script("""
+                return [...document.querySelectorAll('#summary-table tbody tr')]
+                    .map(row => row.cells[9].innerText.replaceAll(',', ''))""")
         def head():
             return self.all("#summary-table thead th")[9]
         before = values()
@@ -378,7 +398,7 @@ class Report(PageTest):
                       ("#trend-variable", "distance"))
         for control, value in everything:
             self.choose(control, value)
-        time.sleep(0.3)
+        self.settle()
         self.assertEqual(self.driver.execute_script(hidden_text), [])
         self.choose("#class-candidate", "bullet")
 
@@ -454,7 +474,6 @@ class Report(PageTest):
                 ("#distribution-pair", "cylinder-box", "#distribution-cumulative"),
                 ("#trend-variable", "depth", "#trend-chart"),
                 ("#class-candidate", "fcl", "#class-table"),
-                ("#experiment-name", "rolling", "#experiment-table"),
                 ("#class-quantity", "worst", "#class-table"),
                 ("#manifold-candidate", "ode", "#manifold-table"),
                 ("#outcome-pair", "cylinder-box", "#outcome-bars")):
@@ -470,7 +489,7 @@ class Report(PageTest):
                   "#distribution-cumulative", "#trend-chart", "#class-table", "#outcome-bars",
                   "#worst-cases")
         def shown():
-            time.sleep(0.3)  # charts are drawn when they are ready
+            self.settle()
             return [self.find(place).get_attribute("innerHTML") for place in places]
         before = shown()
         self.press(self.find("#groups button[value=extreme]"))
@@ -494,13 +513,12 @@ class Report(PageTest):
     def test_a_worst_case_is_drawn_and_turns(self):
         canvas = self.find("#worst-cases canvas")
         self.driver.execute_script("arguments[0].scrollIntoView({block: 'center'})", canvas)
-        time.sleep(0.3)
         picture = "return arguments[0].toDataURL()"
+        blank = """const c = document.createElement('canvas'); c.width = arguments[0].width;
+                   c.height = arguments[0].height; return c.toDataURL()"""
+        self.wait_until(lambda: self.driver.execute_script(picture, canvas) !=
+                        self.driver.execute_script(blank, canvas))  # drawn once it is in sight
         before = self.driver.execute_script(picture, canvas)
-        blank = self.driver.execute_script(
-            "const c = document.createElement('canvas'); c.width = arguments[0].width; "
-            "c.height = arguments[0].height; return c.toDataURL()", canvas)
-        self.assertNotEqual(before, blank)
         ActionChains(self.driver).drag_and_drop_by_offset(canvas, 40, 10).perform()
         self.assertNotEqual(self.driver.execute_script(picture, canvas), before)
 
@@ -549,14 +567,13 @@ class Report(PageTest):
 
 class OtherPages(PageTest):
     def setUp(self):
-        self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {
-            "width": 1280, "height": 900, "deviceScaleFactor": 1, "mobile": False})
+        self.sit_at_a_desktop()
 
-    def open(self, page):
+    def open(self, page, max_stops=50):
         self.assertEqual(self.load(page), [])
         self.assertEqual(self.console(), [])
         self.assertEqual(self.driver.execute_script(hidden_text), [])
-        self.assert_pictures_and_keys(50)
+        self.assert_pictures_and_keys(max_stops)
         contrasts = self.driver.execute_script(contrasts_of_text)
         self.assertEqual([c for c in contrasts if c[0] < min_contrast], [])
 
@@ -593,6 +610,26 @@ class OtherPages(PageTest):
         self.find("#view-contact").click()
         self.assertNotEqual(self.picture("#view"), before)
         self.assert_no_sideways_scrolling_on_a_phone(page)
+
+    def test_a_report_of_experiments(self):
+        folder = Path(self.folder.name) / "experiments"
+        start = time.monotonic()
+        self.run_program("report", "--count", "1", "--pair", "cylinder-plane", "--class", "standing", "--only",
+                         "experiments", "--candidates", "reference,bullet", "--workers", "1", "--out", folder)
+        seconds = time.monotonic() - start
+        report = json.loads((folder / "report.json").read_text())
+        results = report["experiments"]["results"]
+        self.assertGreater(len(results), 10)
+        # The time that it tells is that of all parts, not of the scores alone.
+        of_experiments = sum(1e-6 * r["microseconds_per_step"] * r["steps"] for r in results
+                             if r["outcome"] == "measured")
+        self.assertLess(of_experiments, report["wall_seconds"])
+        self.assertLess(report["wall_seconds"], seconds)
+        self.open(folder / "report.html", 150)
+        before = self.find("#experiment-table").get_attribute("innerHTML")
+        self.choose("#experiment-name", "rolling")
+        self.assertNotEqual(self.find("#experiment-table").get_attribute("innerHTML"), before)
+        self.assert_no_sideways_scrolling_on_a_phone(folder / "report.html")
 
     def test_needles_and_coins_are_seen(self):
         page = Path(self.folder.name) / "thin.html"
