@@ -108,8 +108,9 @@ while [ $# -gt 0 ]; do
     grep -F "\"id\":\"${configuration##*:}\"" "${configuration%:*}" >"$folder/line.json"
     configuration=$folder/line.json
   fi
+  # No engine fails for the time that a slow machine takes.
   # shellcheck disable=SC2086 # several words
-  if ! eval "\"$program\" $options replay \"$configuration\" --emit \"$engine\" --language $language" \
+  if ! eval "\"$program\" $options replay \"$configuration\" --emit \"$engine\" --language $language --time-limit 60" \
     >"$folder/reproducer"; then
     fail "nothing was written"
     continue
