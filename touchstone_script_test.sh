@@ -26,7 +26,7 @@ new_machine() {
   cp "$source_folder/touchstone" "$source_folder"/packages*.txt "$folder/a b/"
   local tool
   for tool in $machine_tools; do ln -s "$(command -v "$tool")" "$tools/$tool"; done
-  export CALLS=$calls MISSING=none USER_ID=0 APT_CODE=0 BUILD_CODE=0
+  export CALLS=$calls MISSING=none USER_ID=0 APT_CODE=0 BUILD_CODE=0 SECONDS_OF_WORK=0
   stand_in id <<<'echo "$USER_ID"'
   stand_in dpkg-query <<'BODY'
 shift 3 # -W -f FORMAT
@@ -35,7 +35,7 @@ BODY
   stand_in apt-get <<'BODY'
 echo "apt-get $*" >>"$CALLS"
 mkdir "$CALLS.apt" || echo "two apt-get at once" >>"$CALLS"
-sleep 0.1
+sleep "$SECONDS_OF_WORK"
 rmdir "$CALLS.apt"
 exit "$APT_CODE"
 BODY
@@ -52,7 +52,7 @@ if [ "$3" = -n ]; then
 fi
 echo "ninja ${*: -1}" >>"$CALLS"
 mkdir "$CALLS.ninja" || echo "two ninja at once" >>"$CALLS"
-sleep 0.2
+sleep "$SECONDS_OF_WORK"
 rmdir "$CALLS.ninja"
 if [ "$BUILD_CODE" -ne 0 ]; then echo "a.cpp:1: error: nonsense"; exit "$BUILD_CODE"; fi
 echo "[1/1] Linking"
@@ -166,6 +166,7 @@ has "$folder/err" "build.log"
 
 fact="two calls at once install and build one after the other"
 new_machine
+SECONDS_OF_WORK=0.2 # in which calls that did not wait would meet
 (cd "$folder" && MISSING="libode-dev" PATH=$tools "$folder/a b/touchstone" one >/dev/null 2>&1) &
 MISSING="libode-dev" call 7 two
 wait $!
