@@ -44,7 +44,7 @@ ELSEWHERE = {
     "./touchstone test": "touchstone_script_test.sh",
     "cmake --preset": ".ci/run and candidates/example/example_test.sh",
     "cpack ": "cmake/package_test.sh",
-    "touchstone --version": "cli/cli_test.sh",
+    "touchstone --version": "cli/tests/usage_test.sh",
     "cmake -S reference": "ReferenceAlone.BuildsAndInstalls",
     "parallel ": "reports/campaigns/campaign_test.sh, one shard after the other",
     "python3 oracle/check_certificate_test.py": "check_certificate",

@@ -1,0 +1,35 @@
+#!/usr/bin/env bash
+# Installed without an engine, or without node: a line says so, and the rest is there.
+. "$(dirname "$0")/prelude.sh"
+
+built=$(dirname "$program")
+mkdir "$folder/part" "$folder/part/candidates"
+cp "$program" "$folder/part/"
+cp "$built"/candidates/touchstone-{*.so,host} "$folder/part/candidates/"
+rm -f "$folder/part/candidates/touchstone-fcl.so"
+program=$folder/part/touchstone
+expect 0 '^fcl: skipped; .*libfcl-dev' candidates
+also '^bullet 3'
+expect 2 '"fcl-distance": is unavailable; fcl: skipped; was not built; install .*libfcl-dev' \
+  replay $rim --candidates fcl-distance
+expect 2 'must be one of reference, ' replay $rim --candidates flc
+mv "$folder/part/candidates/touchstone-host" "$folder/part/"
+expect 2 '^error: touchstone-host is ".*/candidates/touchstone-host": .*"No such file or directory"; build or install Touchstone again$' \
+  replay $rim --candidates bullet
+mv "$folder/part/touchstone-host" "$folder/part/candidates/"
+
+# There no ./touchstone installs what an engine from npm needs.
+there=$folder/there
+mkdir -p "$there/bin" "$there/lib" "$there/share/touchstone/candidates"
+mv "$program" "$there/bin/"
+mv "$folder/part/candidates" "$there/lib/touchstone"
+cp -r "$source_folder/candidates/npm" "$there/share/touchstone/candidates/"
+program=$there/bin/touchstone
+without() { PATH=$1 "$program" replay $rim --candidates jolt 2>&1; }
+grep -q 'is unavailable: node is not installed; install Debian.s packages nodejs and npm' <<<"$(without /nowhere)" ||
+  failed "no remedy without node"
+printf '#!/bin/sh\n' >"$there/bin/node" && chmod +x "$there/bin/node"
+grep -q "jolt-physics is not in .*; copy package.json and package-lock.json from .*/share/touchstone/candidates/npm into" \
+  <<<"$(without "$there/bin")" || failed "no remedy for an engine from npm"
+
+finish

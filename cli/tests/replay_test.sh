@@ -1,0 +1,59 @@
+#!/usr/bin/env bash
+# One configuration again: what is printed, its page, and programs that show it to an engine's maintainers.
+. "$(dirname "$0")/prelude.sh"
+
+# One line for each candidate comes first; lines of JSON alone, which come last, are longer than a terminal.
+expect 0 '^reference  *contact  *agree ' replay $rim
+also 'reference: contact, agree'
+[ "$(sed -n 4p <<<"$printed" | cut -c 1-9)" = candidate ] || failed "replay begins with $printed"
+grep -v '^{' <<<"$printed" | awk 'length($0) > 80 { exit 1 }' || failed "replay is wider than 80 columns"
+expect 0 "\"id\":\"$rim\"" replay $rim --json
+expect 0 'reference: contact' replay <(echo "$printed") --candidates reference
+expect 0 'reference: contact' replay $rim --candidates reference --html "$folder/page.html"
+grep -q "$rim" "$folder/page.html" || failed "no page"
+expect 2 '--html.*must be a folder that can be written' replay $rim --html /proc/none/page.html
+expect 2 '--html.*must be a file, not a folder' replay $rim --html "$folder"
+expect 2 '--tolerance' replay $rim --tolerance=-1
+
+# Identities, of small steps, of maps and of motions too.
+expect 2 'identity.pair' replay cylinder-cone/rim/1/2
+expect 2 'identity.class' replay cylinder-box/none/1/2
+expect 2 'nosuch.json.*no such file' replay nosuch.json
+expect 2 '^error: input is ".*": must be a file, not a folder' replay "$folder"
+expect 2 'perturbation.amplitude' replay $rim@1e-99/1/1
+expect 2 'map.pose.*standing' replay map/none/1e-8/0/0
+expect 2 'sequence.motion.*roll-over-edge' replay sequence/none/0/1
+echo '{"configuration":{"a":{"shape":"cylinder","radius":1,"half_length":1},"b":{"shape":"sphere","radius":1}}}' \
+  >"$folder/saved.json"
+for identity in map/standing/1e-12/-3/16 sequence/roll-over-edge/113/200 cylinder-box/side-on-face/1/0@1e-8/1/4; do
+  expect 0 'reference: contact, agree' replay $identity --candidates reference
+done
+expect 0 'reference: contact' replay "$folder/saved.json@1e-2/1/0" --candidates reference
+
+# Programs.
+expect 0 '#include <BulletCollision' replay $rim --emit bullet
+expect 0 'btSphereShape shape_b' replay "$folder/saved.json" --emit bullet
+expect 0 'touchstone-bullet.so' replay $rim --emit bullet-margin-0
+expect 0 'npm install jolt-physics@' replay $rim --emit jolt
+expect 0 'TEST_CASE("TestCollideCylinderVsBox")' replay $rim --emit jolt-margin:0.01 --language c++
+expect 2 '--emit.*no-such-engine.*must be one of bullet, ode, fcl, libccd, mujoco' replay $rim --emit no-such-engine
+expect 2 '--emit.*libccd.*half-space' replay cylinder-plane/general-deep/1/2 --emit libccd
+expect 2 '--emit.*havok.*half-space' replay cylinder-plane/general-deep/1/2 --emit havok
+expect 2 '--emit.*bullet:3.*takes no number' replay $rim --emit bullet:3
+expect 2 '--language.*must be c++ for bullet' replay $rim --emit bullet --language python
+expect 2 '--language.*must be javascript or c++ for jolt' replay $rim --emit jolt --language c
+expect 2 '--language.*must stand beside --emit' replay $rim --language c++
+expect 2 'identity.class' replay cylinder-box/none/1/2 --emit bullet
+expect 2 'standard input is no JSON' replay - --emit bullet
+expect 2 '^error: --.* is given with --.*: must stand without it' replay $rim --emit bullet --json
+
+# A file's name cannot become a line of a program, or of what is printed.
+lines="$folder/$(printf 'x\n#error\n').json"
+cp "$folder/saved.json" "$lines"
+for way in "" "--emit bullet"; do
+  # shellcheck disable=SC2086
+  expect 0 . replay "$lines" --candidates bullet $way
+  ! grep -q '^#error' <<<"$printed" || failed "a file's name is a line of its own with replay $way"
+done
+
+finish

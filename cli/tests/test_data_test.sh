@@ -1,0 +1,29 @@
+#!/usr/bin/env bash
+# Test data for others, and the answers of others.
+# shellcheck disable=SC2086 # pair and class
+. "$(dirname "$0")/prelude.sh"
+
+expect 0 '^1 configuration: ' export $lying --count 1 --out "$folder/one.csv"
+expect 0 '^2 configurations: ' export $lying --count 2 --out "$folder/truth.csv"
+[ "$(grep -c '^cylinder-plane/lying/1/[01],degenerate,' "$folder/truth.csv")" = 2 ] ||
+  failed "export writes other configurations"
+expect 0 '"id":"cylinder-plane/lying/1/1"' export $lying --count 2
+expect 2 '--out is ".*/truth.txt": must end in .jsonl, .csv or .npz' export --out "$folder/truth.txt"
+expect 2 '--format is "xml": must be one of' export --format xml
+expect 2 '--suite' export --suite --count 3
+expect 2 '--out.*No space left' export $lying --count 1 --format csv --out /dev/full
+
+printf '{"id":"cylinder-plane/lying/1/0","status":"none"}\nno JSON\n' >"$folder/given.jsonl"
+expect 2 'line 2: line is no JSON' score "$folder/given.jsonl" --name mine --out "$folder/given"
+grep -q '"configurations": 1,' "$folder/given/report.json" ||
+  failed "score loses what is good beside a bad line"
+sed -i 2d "$folder/given.jsonl"
+expect 0 'cylinder-plane, degenerate poses' score "$folder/given.jsonl" --name mine --out "$folder/given"
+expect 2 '--name is missing' score "$folder/given.jsonl" --out "$folder/given"
+expect 2 'missing for 5105 configurations' score "$folder/given.jsonl" --name mine --suite --out "$folder/given"
+expect 2 'could not be opened' score "$folder/none.jsonl" --out "$folder/given"
+: >"$folder/none.jsonl"
+expect 2 'none.jsonl": must have a line that is an answer, as {"id"' score "$folder/none.jsonl" --name mine \
+  --out "$folder/given"
+
+finish
