@@ -1,0 +1,56 @@
+#!/usr/bin/env python3
+"""What the pages name is there: names_test.py SOURCE-FOLDER PROGRAM PAGE…
+
+Links, names of source files and options must exist; what is said to run elsewhere must be on a page.
+"""
+import pathlib
+import re
+import subprocess
+import sys
+
+sys.dont_write_bytecode = True
+from pages import ELSEWHERE, blocks_of, elsewhere_of, job_files_of  # noqa: E402
+
+
+def missing_files(page, files):
+    """Targets of links, and names of source files, that do not exist."""
+    text = page.read_text()
+    for link in re.findall(r"\]\(([^)#:]+)(?:#[^)]*)?\)", text):
+        if not (page.parent / link).exists():
+            yield link
+    for name in re.findall(r"`([\w./-]+\.(?:cpp|hpp|h|c|py|sh|cmake|js|urdf|sdf|in))`", text):
+        made_up = "NAME" in name or name in ("my_engine.c", "reproducer.cpp")
+        if not made_up and not any(("/" + f).endswith("/" + name) for f in files):
+            yield name
+
+
+def known_options(program):
+    """Those of all subcommands, and one of Open MPI's."""
+    completion = subprocess.run([program, "--completion", "bash"], stdout=subprocess.PIPE,
+                                text=True, check=True)
+    return {"--oversubscribe", *re.findall(r"--[a-z-]+", completion.stdout)}
+
+
+def main(source, program, *pages):
+    files = [str(f.relative_to(source)) for f in source.rglob("*")
+             if f.relative_to(source).parts[0] != "build"]
+    files += [str(f) for f in program.parent.glob("include/**/*.h")]
+    options = known_options(program)
+    faults, commands, job_files = [], [], 0
+    for page in pages:
+        name, text = page.relative_to(source), page.read_text()
+        faults += [f"{name}: there is no {missing}" for missing in missing_files(page, files)]
+        faults += [f"{name}: there is no {option}"
+                   for option in sorted(set(re.findall(r"`(--[a-z-]+)", text)) - options)]
+        commands += [c for block, _ in blocks_of(text) for c in block]
+        job_files += len(job_files_of(text))
+    faults += [f"no page has \"{start}\"" for start in ELSEWHERE.keys() - set(map(elsewhere_of, commands))]
+    if job_files != 2:
+        faults.append(f"the pages have {job_files} job files: one of Slurm and one of Kubernetes")
+    for fault in faults:
+        print("FAILED:", fault)
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(*(pathlib.Path(argument).resolve() for argument in sys.argv[1:])))
