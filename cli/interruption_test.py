@@ -10,7 +10,7 @@ import sys
 import tempfile
 import time
 
-PATIENCE = 60  # seconds, for a busy machine
+PATIENCE = 1200  # seconds: ends a hang, on a machine however slow and busy
 
 
 def listed_classes(program):
@@ -38,16 +38,24 @@ def planned_count(row, of_class):
     return usual * (everyday_times if is_everyday else 1)
 
 
+def on_terminal(command):
+    """Its process and terminal."""
+    pid, terminal = pty.fork()
+    if pid == 0:
+        # Which a shell's job in the background ignores, and all that it starts.
+        signal.signal(signal.SIGINT, signal.SIG_DFL)
+        os.execv(command[0], command)
+    return pid, terminal
+
+
 class Run:
     """`touchstone report` on a terminal of its own."""
 
     def __init__(self, program, folder, *options):
         self.folder = folder
         self.printed = ""
-        self.pid, self.terminal = pty.fork()
-        if self.pid == 0:
-            os.execv(program, [program, "report", "--out", folder, "--candidates",
-                               "reference,bullet", *options])
+        self.pid, self.terminal = on_terminal(
+            [program, "report", "--out", folder, "--candidates", "reference,bullet", *options])
 
     def read(self):
         try:
@@ -172,9 +180,8 @@ def ctrl_c_twice(program, folder):
 def ctrl_c_where_nothing_is_kept(program, _):
     run = Run.__new__(Run)
     run.printed = ""
-    run.pid, run.terminal = pty.fork()
-    if run.pid == 0:
-        os.execv(program, [program, "check", "--candidate", "reference", "--count", "5000"])
+    run.pid, run.terminal = on_terminal(
+        [program, "check", "--candidate", "reference", "--count", "5000"])
     run.wait_for(r"of \d{7,} configurations")
     run.ctrl_c()
     status = run.end()
@@ -203,4 +210,4 @@ for case in (ctrl_c_where_nothing_is_kept, ctrl_c_while_scoring, termination_whi
              ctrl_c_twice, closed_terminal, killed_while_it_has_a_folder):
     with tempfile.TemporaryDirectory() as folder:
         case(sys.argv[1], folder)
-        print("passed:", case.__name__)
+        print("passed:", case.__name__, flush=True)
