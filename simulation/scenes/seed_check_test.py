@@ -2,6 +2,7 @@
 """seed_check.py against a made-up `choose`, and the real one: seed_check_test.py PROGRAM"""
 import json
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -129,9 +130,13 @@ class SeedCheck(unittest.TestCase):
         self.assertIn(" (in bullet, ", done.stdout)
 
     def test_a_scene_of_ours(self):
-        done = self.run_check(PROGRAM, HERE / "rod-on-table.json", "--seeds", "2")
-        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-        self.assertIn("rod-on-table, seed 2: exact", done.stdout)
+        done = self.run_check(PROGRAM, HERE / "rod-on-table.json", "--seeds", "2",
+                              "--disturbances", "1")
+        # Among models that hold, the answer is a matter of the machine's times.
+        answers = re.findall(r"^rod-on-table, seed [12]: (exact|.*: \S+) \([-0-9.]+% of a step; ",
+                             done.stdout, re.MULTILINE)
+        self.assertEqual(len(answers), 2, done.stdout + done.stderr)
+        self.assertEqual(done.returncode, len(set(answers)) - 1)
 
 
 if __name__ == "__main__":
