@@ -238,18 +238,29 @@ class Numbers(CheckerTest):
         for spelled in ("4/2", "2/1", "+2", "2.0", "02", " 2", "2 ", "1e0", "0x2"):
             self.assert_rejected(changed(apart(), ("exact", "b", "radius"), spelled), "two forms")
 
+    def run_program(self, command, *spelled):
+        """With a line for each of these."""
+        lines = [json.dumps(self.moved(s)["configuration"]) + "\n" for s in spelled]
+        return subprocess.run([PROGRAM, *command], input="".join(lines).encode(),
+                              capture_output=True, check=False)
+
     @unittest.skipUnless(len(sys.argv) > 1, "needs the program")
-    def test_solve_reads_the_same(self):
-        for spelled in (*self.READ, *self.REFUSED):
+    def test_certify_reads_the_same(self):
+        for spelled in self.READ:
             with self.subTest(spelled[:60]):
-                line = json.dumps(self.moved(spelled)["configuration"])
-                run = subprocess.run([PROGRAM, "certify", "-"], input=line.encode(),
-                                     capture_output=True, check=False)
-                self.assertEqual(run.returncode, 0 if spelled in self.READ else 2, run.stderr)
-                if run.returncode == 0:
-                    read = json.loads(run.stdout)["configuration"]["pose_b"]["position"][2]
-                    self.assertEqual(float.fromhex(read), self.READ[spelled])
-                    self.assert_accepted(run.stdout)
+                run = self.run_program(["certify", "-"], spelled)
+                self.assertEqual(run.returncode, 0, run.stderr)
+                read = json.loads(run.stdout)["configuration"]["pose_b"]["position"][2]
+                self.assertEqual(float.fromhex(read), self.READ[spelled])
+                self.assert_accepted(run.stdout)
+
+    @unittest.skipUnless(len(sys.argv) > 1, "needs the program")
+    def test_solve_refuses_the_same(self):
+        run = self.run_program(["solve", "--candidates", "reference"], *self.REFUSED)
+        self.assertEqual(run.returncode, 2, run.stderr)
+        answers = run.stdout.decode().splitlines()
+        self.assertEqual([json.loads(answer).get("field") for answer in answers],
+                         ["pose_b.position[2]"] * len(self.REFUSED))
 
     def test_of_the_proof_are_fractions_of_bounded_length(self):
         long = "1" + "0" * 4000
