@@ -44,16 +44,20 @@ for command in candidates --help --version --manual "--completion bash" "replay 
   "$program" $command >/dev/full 2>"$folder/lost.log" </dev/null
   lost $? "touchstone $command > /dev/full"
 done
+# A pipe whose reader has ended.
+exec 9> >(true)
+wait $!
 for command in candidates "solve $folder/line.jsonl --candidates reference"; do
   "$program" $command >&- 2>"$folder/lost.log" </dev/null
   lost $? "touchstone $command >&-"
-  (trap '' PIPE; "$program" $command 2>"$folder/lost.log" </dev/null; echo $? >"$folder/code") | true
-  lost "$(cat "$folder/code")" "touchstone $command | true, without SIGPIPE"
+  (trap '' PIPE; exec "$program" $command >&9 2>"$folder/lost.log" </dev/null)
+  lost $? "touchstone $command | true, without SIGPIPE"
 done
-# A reader that has had enough ends the program quietly, as it does others.
-"$program" --manual 2>"$folder/lost.log" | true
-case ${PIPESTATUS[0]} in 0 | 141) ;; *) failed "| true" ;; esac
+# It ends the program quietly, as it does others.
+env --default-signal=PIPE "$program" --manual >&9 2>"$folder/lost.log"
+[ $? -eq 141 ] || failed "| true"
 [ ! -s "$folder/lost.log" ] || failed "| true is not quiet"
+exec 9>&-
 
 # Results that took long to find are printed even where their file cannot be written.
 mkdir -p "$folder/blocked"/{choose,report,stability}.json
