@@ -303,8 +303,8 @@ class Configurations(unittest.TestCase):
     def test_ctrl_c_ends_a_long_drawing(self):
         alarm = signal.signal(signal.SIGALRM, signal.default_int_handler)
         try:
-            signal.setitimer(signal.ITIMER_REAL, 0.05)
             with self.assertRaises(KeyboardInterrupt):
+                signal.setitimer(signal.ITIMER_REAL, 0.05)
                 touchstone.configurations("cylinder-sphere", ["general-shallow"], count=10**7)
         finally:
             signal.setitimer(signal.ITIMER_REAL, 0)

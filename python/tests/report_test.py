@@ -48,14 +48,18 @@ class Reports(unittest.TestCase):
         self.assertGreater(found["results"][0]["nanoseconds"]["median"], 100)
 
     def test_the_time_is_that_of_the_function(self):
+        taken = []  # in nanoseconds, as the function itself measures them
+
         def slow(*question):
-            end = time.perf_counter() + 2e-4
-            while time.perf_counter() < end:
+            start = time.perf_counter_ns()
+            while time.perf_counter_ns() < start + 2_000_000:
                 pass
-            return ours(*question)
+            answer = ours(*question)
+            taken.append(time.perf_counter_ns() - start)
+            return answer
 
         nanoseconds = report(slow)["results"][0]["nanoseconds"]["median"]
-        self.assertTrue(2e5 < nanoseconds < 2e6, nanoseconds)
+        self.assertTrue(min(taken) / 2 < nanoseconds < 2 * max(taken), nanoseconds)
 
     def test_the_number_of_workers_does_not_change_the_scores(self):
         few, many = (report(ours, classes=["lying", "standing"], workers=n) for n in (1, 3))
@@ -223,8 +227,8 @@ class Calls(unittest.TestCase):
 
         start = time.monotonic()
         with self.assertRaises(KeyboardInterrupt):
-            report(slow_here, workers=1)
-        self.assertLess(time.monotonic() - start, 4)  # less than the limit of one call
+            report(slow_here, workers=1, seconds=1e6)
+        self.assertLess(time.monotonic() - start, 900)  # it neither slept to its end nor to its limit
         with self.assertRaises(KeyboardInterrupt):  # Python's own handler is back
             os.kill(this, signal.SIGINT)
             time.sleep(10)
