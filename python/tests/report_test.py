@@ -235,4 +235,5 @@ class Calls(unittest.TestCase):
 
 
 if __name__ == "__main__":
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # which a shell's job in the background ignores
     unittest.main()
