@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A folder that looks like a clone after its build: its ./touchstone does what it is asked for, in small.
+"""A folder that looks like a clone after its build: its ./touchstone does what it is asked, in small.
 
 clone.py PROGRAM ARGUMENTS… is that ./touchstone.
 """

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """What the pages name is there: names_test.py SOURCE-FOLDER PROGRAM PAGE…
 
-Links, names of source files and options must exist; what is said to run elsewhere must be on a page.
+Links, names of source files and options must exist; what runs elsewhere must be on a page.
 """
 import pathlib
 import re
@@ -44,7 +44,8 @@ def main(source, program, *pages):
                    for option in sorted(set(re.findall(r"`(--[a-z-]+)", text)) - options)]
         commands += [c for block, _ in blocks_of(text) for c in block]
         job_files += len(job_files_of(text))
-    faults += [f"no page has \"{start}\"" for start in ELSEWHERE.keys() - set(map(elsewhere_of, commands))]
+    faults += [f"no page has \"{start}\""
+               for start in ELSEWHERE.keys() - set(map(elsewhere_of, commands))]
     if job_files != 2:
         faults.append(f"the pages have {job_files} job files: one of Slurm and one of Kubernetes")
     for fault in faults:
