@@ -14,7 +14,7 @@
 namespace touchstone {
 namespace {
 
-constexpr std::uint64_t samples = 20000;
+constexpr std::uint64_t hostile_samples = 20000;
 
 Configuration hostile(Pair pair, std::uint64_t index) {
   return make_configuration({pair, "hostile", 1, index});
@@ -22,7 +22,7 @@ Configuration hostile(Pair pair, std::uint64_t index) {
 
 int count(Pair pair, const std::function<bool(const Configuration&)>& holds) {
   int result = 0;
-  for (std::uint64_t i = 0; i < samples; ++i) result += holds(hostile(pair, i));
+  for (std::uint64_t i = 0; i < hostile_samples; ++i) result += holds(hostile(pair, i));
   return result;
 }
 
@@ -42,11 +42,12 @@ bool is_within(double x, double lo, double hi) { return std::abs(x) > lo && std:
 // Shapes and poses reject numbers that are not finite, so that constructing them is the test.
 TEST(HostileClass, MakesValidConfigurationsOfItsPair) {
   for (const Pair pair : all_pairs) {
-    EXPECT_EQ(count(pair, [&](const Configuration& c) { return pair_of(c) == pair; }), samples);
+    EXPECT_EQ(count(pair, [&](const Configuration& c) { return pair_of(c) == pair; }),
+              hostile_samples);
   }
 }
 
-/// Histogram of `samples` tilts by powers of ten: counts[k] starts at 1e-(k+1).
+/// Histogram of `hostile_samples` tilts by powers of ten: counts[k] starts at 1e-(k+1).
 struct Decades {
   std::array<int, 16> counts{};
   void add(double tilt) {
@@ -61,7 +62,7 @@ struct Decades {
 TEST(HostileClass, TiltsAxesByEveryPowerOfTenFromParallelAndPerpendicular) {
   for (const Pair pair : {Pair::capsule, Pair::cylinder, Pair::box}) {
     Decades parallel, perpendicular;
-    for (std::uint64_t i = 0; i < samples; ++i) {
+    for (std::uint64_t i = 0; i < hostile_samples; ++i) {
       const Angle angle = between_axes(hostile(pair, i));
       parallel.add(angle.sine);
       perpendicular.add(angle.cosine);

@@ -22,6 +22,17 @@ const auto& named(const Range& all, std::string_view name, const char* field) {
   throw InvalidInput(field, '"' + std::string(name) + '"', "must be one of " + names);
 }
 
+/// The parts of a name between separators; of a text without any, the text itself.
+inline std::vector<std::string_view> split(std::string_view text, char separator) {
+  std::vector<std::string_view> parts;
+  for (std::size_t start = 0; start <= text.size();) {
+    const std::size_t end = std::min(text.find(separator, start), text.size());
+    parts.push_back(text.substr(start, end - start));
+    start = end + 1;
+  }
+  return parts;
+}
+
 /// Levenshtein's distance: how many letters are to be added, left out or replaced.
 inline std::size_t letters_between(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);

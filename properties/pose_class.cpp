@@ -106,17 +106,6 @@ std::string_view todays_name(std::string_view name) {
   return name;
 }
 
-/// The arrangement's name, then the modifiers'.
-std::vector<std::string_view> parts_of(std::string_view name) {
-  std::vector<std::string_view> parts;
-  for (;;) {
-    const std::size_t plus = name.find('+');
-    parts.push_back(name.substr(0, plus));
-    if (plus == std::string_view::npos) return parts;
-    name.remove_prefix(plus + 1);
-  }
-}
-
 [[noreturn]] void refuse(Pair pair, std::string_view name, const std::string& why) {
   throw InvalidInput("identity.class", '"' + std::string(name) + '"',
                      fmt::format("{}; touchstone classes {} lists all", why, pair_name(pair)));
@@ -228,7 +217,7 @@ std::optional<std::string_view> nonsense(Pair pair, const Arrangement& a, const 
 }
 
 bool has_arrangement(Pair pair, std::string_view pose_class) {
-  return find_arrangement(pair, parts_of(todays_name(pose_class)).front()) != nullptr;
+  return find_arrangement(pair, split(todays_name(pose_class), '+').front()) != nullptr;
 }
 
 std::string nearest_arrangements(const std::vector<Pair>& pairs, std::string_view name) {
@@ -243,7 +232,7 @@ std::string nearest_arrangements(const std::vector<Pair>& pairs, std::string_vie
 }
 
 PoseClass find_pose_class(Pair pair, std::string_view name) {
-  const std::vector<std::string_view> parts = parts_of(todays_name(name));
+  const std::vector<std::string_view> parts = split(todays_name(name), '+');
   const Arrangement* arrangement = find_arrangement(pair, parts.front());
   if (!arrangement) {
     refuse(pair, name,

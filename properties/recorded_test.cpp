@@ -21,7 +21,6 @@ namespace touchstone {
 namespace {
 
 /// Every number to the last bit.
-std::string shown(const Configuration& c) { return rc::toString(c); }
 
 std::string named(const NearestArrangement& n) {
   return std::string(n.name) + (n.tilt ? " 1e-" + std::to_string(*n.tilt) : "");
@@ -155,7 +154,7 @@ TEST(Recorded, IsTheFileThatSimulateWrote) {
     const Configuration c = configuration_from_json(line["configuration"]).configuration;
     ASSERT_LT(at[pair_of(c)], recorded(pair_of(c)).size());
     const Recorded& r = recorded(pair_of(c))[at[pair_of(c)]++];
-    EXPECT_EQ(shown(r.configuration), shown(c)) << line["id"];
+    EXPECT_EQ(rc::toString(r.configuration), rc::toString(c)) << line["id"];
     EXPECT_EQ(r.scene, line["scene"]);
     EXPECT_EQ(r.weight, line["weight"]);
   }
@@ -168,13 +167,13 @@ TEST(Recorded, IdentitiesReplayEntriesAsOftenAsTheyWeigh) {
     double total = 0;
     std::map<std::string, double> weights, drawn;
     for (const Recorded& r : recorded(pair)) {
-      weights[shown(r.configuration)] += static_cast<double>(r.weight);
+      weights[rc::toString(r.configuration)] += static_cast<double>(r.weight);
       total += static_cast<double>(r.weight);
     }
     constexpr int count = 20000;
     for (std::uint64_t i = 0; i < count; ++i) {
       const Identity id{pair, "recorded", 1, i};
-      const std::string text = shown(make_configuration(id));
+      const std::string text = rc::toString(make_configuration(id));
       ASSERT_TRUE(weights.contains(text)) << to_string(id);
       drawn[text] += 1;
     }

@@ -26,7 +26,7 @@ std::vector<Identity> some_identities(Pair pair) {
   return identities;
 }
 
-double position_rounding(const Configuration& c) {
+double law_rounding(const Configuration& c) {
   return 1e-15 * (c.pose_a.position().norm() + c.pose_b.position().norm());
 }
 
@@ -38,7 +38,7 @@ TEST_P(BoundedLaw, SignedDistanceIsTheGapAlongTheNormal) {
   for (const Identity& id : some_identities(GetParam())) {
     const Configuration c = make_configuration(id);
     const SignedDistance answer = signed_distance(c);
-    EXPECT_NEAR(gap(c, answer.normal), answer.value, 1e-14 * larger_size(c) + position_rounding(c))
+    EXPECT_NEAR(gap(c, answer.normal), answer.value, 1e-14 * larger_size(c) + law_rounding(c))
         << to_string(id);
   }
 }
@@ -49,7 +49,7 @@ TEST_P(BoundedLaw, NoSampledDirectionHasALargerGap) {
   for (const Identity& id : some_identities(GetParam())) {
     const Configuration c = make_configuration(id);
     const SignedDistance answer = signed_distance(c);
-    const double most = answer.value + 1e-13 * larger_size(c) + position_rounding(c);
+    const double most = answer.value + 1e-13 * larger_size(c) + law_rounding(c);
     for (int i = 0; i < 300; ++i) {
       const Vec3 offset(coordinate(random), coordinate(random), coordinate(random));
       // Everywhere, and ever closer to the answer.
@@ -69,7 +69,7 @@ TEST_P(Law, MovingBothBodiesMovesTheAnswer) {
     };
     const Configuration other{c.a, moved(c.pose_a), c.b, moved(c.pose_b)};
     EXPECT_NEAR(signed_distance(other).value, signed_distance(c).value,
-                1e-13 * larger_size(c) + 10 * position_rounding(c))
+                1e-13 * larger_size(c) + 10 * law_rounding(c))
         << to_string(id);
   }
 }
@@ -102,7 +102,7 @@ void expect_agreement(const Configuration& c, double threshold) {
   EXPECT_EQ(answer.points().empty(), distance > threshold);
   if (answer.points().empty()) {
     EXPECT_GT(answer.signed_distance, threshold);
-    EXPECT_LE(answer.signed_distance, distance + 1e-13 * larger_size(c) + position_rounding(c));
+    EXPECT_LE(answer.signed_distance, distance + 1e-13 * larger_size(c) + law_rounding(c));
   } else {
     EXPECT_EQ(answer.signed_distance, distance);
   }
@@ -247,7 +247,7 @@ TEST(Aabb, OfBodiesThatTouchOverlap) {
 // TOUCHSTONE_COUNT sets how many configurations of each class are tried (default 25); of hostile
 // ones it is 200 times as many.
 
-std::uint64_t count_per_class() {
+std::uint64_t laws_per_class() {
   const char* text = std::getenv("TOUCHSTONE_COUNT");
   return text ? std::strtoull(text, nullptr, 10) : 25;
 }
@@ -270,7 +270,7 @@ TEST_P(Certified, BoundsHoldAndAreRounding) {
   std::string worst_id;
   for (const std::string& name : classes) {
     const bool hostile = name == "hostile";
-    const std::uint64_t count = count_per_class() * (hostile ? 200 : 1);
+    const std::uint64_t count = laws_per_class() * (hostile ? 200 : 1);
     std::uint64_t proven = 0;
     for (std::uint64_t i = 0; i < count; ++i) {
       const Identity id{GetParam(), name, 13, i};

@@ -198,7 +198,7 @@ std::vector<Vec2> layout(const Vec2& slope) {
   const int count = spread_disc(radius, slope, Vec2(0.6, 0.8), slack, clear_rise, arms);
   return {arms.begin(), arms.begin() + count};
 }
-Vec2 direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
+Vec2 unit_at(double angle) { return {std::cos(angle), std::sin(angle)}; }
 
 /// How far above its lowest place the disc is there, metres.
 double rise(const Vec2& arm, const Vec2& slope) { return slope.dot(arm) + radius * slope.norm(); }
@@ -211,7 +211,7 @@ TEST(DiscLayout, LevelDiscHasThreePointsWhicheverWayRoundingTiltsIt) {
   EXPECT_NEAR((level[2] - level[1]).norm(), radius * std::sqrt(3.0), 1e-15);
   for (double angle = 0; angle < 6.3; angle += 0.1) {
     for (double steepness = 1e-18; steepness < 4e-7; steepness *= 10) {
-      EXPECT_EQ(layout(steepness * direction(angle)), level);
+      EXPECT_EQ(layout(steepness * unit_at(angle)), level);
     }
   }
 }
@@ -219,7 +219,7 @@ TEST(DiscLayout, LevelDiscHasThreePointsWhicheverWayRoundingTiltsIt) {
 TEST(DiscLayout, HasTheLowestPointOfADiscThatClearlyLeans) {
   for (double angle = 0; angle < 6.3; angle += 0.1) {
     for (double steepness = 1.01e-6; steepness < 0.01; steepness *= 1.3) {
-      const Vec2 slope = steepness * direction(angle);
+      const Vec2 slope = steepness * unit_at(angle);
       double lowest = slack;
       for (const Vec2& arm : layout(slope)) {
         lowest = std::min(lowest, rise(arm, slope));

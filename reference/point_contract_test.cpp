@@ -17,7 +17,7 @@
 namespace touchstone {
 namespace {
 
-std::uint64_t count_per_class() {
+std::uint64_t contacts_per_class() {
   const char* text = std::getenv("TOUCHSTONE_COUNT");
   return text ? std::strtoull(text, nullptr, 10) : 100;
 }
@@ -62,7 +62,7 @@ TEST_P(PointContract, HoldsInEveryPoseClassAtEveryThreshold) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> uniform(0, 1);
   for (const auto& name : pose_classes(GetParam())) {
-    for (std::uint64_t i = 0; i < count_per_class(); ++i) {
+    for (std::uint64_t i = 0; i < contacts_per_class(); ++i) {
       const Identity id{GetParam(), name, 13, i};
       const Configuration c = make_configuration(id);
       const double distance = signed_distance(c).value, size = smaller_size(c);
@@ -108,7 +108,7 @@ TEST_P(PointContract, LiesOnBothBodiesInEveryPoseClass) {
 TEST_P(PointContract, HoldsOfAllPointsWithinTheThreshold) {
   constexpr double leans_most = 0.1;
   for (const auto& name : pose_classes(GetParam())) {
-    for (std::uint64_t i = 0; i < count_per_class(); ++i) {
+    for (std::uint64_t i = 0; i < contacts_per_class(); ++i) {
       const Identity id{GetParam(), name, 14, i};
       const Configuration c = make_configuration(id);
       const double distance = signed_distance(c).value, size = smaller_size(c);

@@ -19,7 +19,7 @@ namespace touchstone {
 namespace {
 
 /// Boxes at their worst: tied normals, families of them, every status.
-Campaign small_campaign() {
+Campaign sampled_campaign() {
   Campaign c;
   c.pairs = {Pair::box, Pair::sphere};
   c.classes = {"touching", "concentric", "general-deep"};
@@ -66,7 +66,7 @@ std::string text(const Sample& sample, Purpose purpose) {
 }
 
 TEST(Sample, IsReadBackToTheLastBit) {
-  const Campaign campaign = small_campaign();
+  const Campaign campaign = sampled_campaign();
   for (const Purpose purpose : {Purpose::report, Purpose::campaign}) {
     for (std::size_t cell = 0; cell < cells(campaign).size(); ++cell) {
       const Sample sample = sample_of(campaign, purpose, cell, 0, 6);
@@ -78,7 +78,7 @@ TEST(Sample, IsReadBackToTheLastBit) {
 }
 
 TEST(Sample, OfUnitsAddedUpIsThatOfTheWhole) {
-  const Campaign campaign = small_campaign();
+  const Campaign campaign = sampled_campaign();
   for (const Purpose purpose : {Purpose::report, Purpose::campaign}) {
     Sample sum = sample_of(campaign, purpose, 1, 0, 2);
     sum.add(sample_of(campaign, purpose, 1, 2, 6));
@@ -87,7 +87,7 @@ TEST(Sample, OfUnitsAddedUpIsThatOfTheWhole) {
 }
 
 TEST(Sample, KeepsTruthAndAnswersOfEveryWorstCase) {
-  const Campaign campaign = small_campaign();
+  const Campaign campaign = sampled_campaign();
   for (std::size_t cell = 0; cell < cells(campaign).size(); ++cell) {
     const Sample sample = sample_of(campaign, Purpose::report, cell, 0, 6);
     for (std::size_t k = 0; k < 3; ++k) {
@@ -110,7 +110,7 @@ TEST(Sample, KeepsTruthAndAnswersOfEveryWorstCase) {
 }
 
 TEST(Sampler, HandsOverEveryUnitOnceWhateverTheNumberOfWorkers) {
-  Campaign campaign = small_campaign();
+  Campaign campaign = sampled_campaign();
   const auto sampled = [&](unsigned workers) {
     campaign.workers = workers;
     std::vector<std::string> units(6);
@@ -133,7 +133,7 @@ TEST(Sampler, HandsOverEveryUnitOnceWhateverTheNumberOfWorkers) {
 }
 
 TEST(Sampler, EndsWhenItIsTold) {
-  const Campaign campaign = small_campaign();
+  const Campaign campaign = sampled_campaign();
   EXPECT_FALSE(sample(
       campaign, Purpose::campaign, 1000000,
       [](std::uint64_t) {
@@ -143,7 +143,7 @@ TEST(Sampler, EndsWhenItIsTold) {
 }
 
 TEST(Sampler, OfUnitsInOneSessionGivesWhatEachGivesInItsOwn) {
-  const Campaign campaign = small_campaign();
+  const Campaign campaign = sampled_campaign();
   auto processes = start(campaign.candidates, 0);
   const UnitRun run = {{0, 0, 4}, {1, 0, 6}, {2, 2, 6}, {4, 0, 1}};
   for (const Purpose purpose : {Purpose::report, Purpose::campaign}) {

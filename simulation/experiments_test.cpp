@@ -19,10 +19,10 @@ namespace {
 using Outcome = ExperimentResult::Outcome;
 using testing::HasSubstr;
 
-constexpr double usual_step = 1.0 / 240;
+constexpr double experiment_step = 1.0 / 240;
 
 ExperimentResult run_one(const std::string& experiment, const std::string& candidate,
-                         double step = usual_step) {
+                         double step = experiment_step) {
   ExperimentOptions options;
   options.experiments = {&find_experiment(experiment)};
   options.candidates = {&find_candidate(candidate)};
@@ -33,7 +33,7 @@ ExperimentResult run_one(const std::string& experiment, const std::string& candi
 class EveryExperiment : public testing::TestWithParam<std::string> {};
 
 TEST_P(EveryExperiment, IsPassedByOurContacts) {
-  for (const double step : {1.0 / 60, usual_step}) {
+  for (const double step : {1.0 / 60, experiment_step}) {
     const ExperimentResult result = run_one(GetParam(), "reference", step);
     EXPECT_TRUE(result.exact) << to_text(result);
     EXPECT_EQ(result.failures, 0U);
@@ -96,8 +96,8 @@ TEST(Experiments, DoNotJudgeWhereInTheOverlapPointsLie) {
     const Experiment& experiment = find_experiment(name);
     for (const double share : {-0.5, 0.5}) {
       ChangedModel model(moved(share));
-      EXPECT_LT(experiment.run(in_our_world(model), usual_step).error,
-                experiment.resolution(usual_step))
+      EXPECT_LT(experiment.run(in_our_world(model), experiment_step).error,
+                experiment.resolution(experiment_step))
           << name << ' ' << share;
     }
   }
@@ -110,8 +110,8 @@ TEST(Experiments, DoNotJudgeDepthsWithinTheSurfaceLayer) {
     wrong = -wrong;
     for (int i = 0; i < answer.point_count; ++i) answer.points[i].depth += wrong;
   });
-  EXPECT_LT(experiment.run(in_our_world(model), usual_step).error,
-            experiment.resolution(usual_step));
+  EXPECT_LT(experiment.run(in_our_world(model), experiment_step).error,
+            experiment.resolution(experiment_step));
 }
 
 // The solver has converged and nothing slips: only CFM and the layer leave an error.
@@ -132,7 +132,7 @@ TEST(Experiments, JudgeALeverThatIsWrong) {
     }
   });
   // Shorter by 4e-6 radii, of which two thirds are seen.
-  EXPECT_NEAR(experiment.run(in_our_world(model), usual_step).error, 2.67e-6, 1e-8);
+  EXPECT_NEAR(experiment.run(in_our_world(model), experiment_step).error, 2.67e-6, 1e-8);
 }
 
 TEST(Experiments, SeeAPrismThatDoesNotRoll) {

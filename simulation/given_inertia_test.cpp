@@ -17,7 +17,7 @@ namespace {
 
 using std::numbers::pi;
 using testing::HasSubstr;
-constexpr double gravity = 9.81;
+constexpr double gravity_on_earth = 9.81;
 
 Eigen::Quaterniond about(const Vec3& axis, double angle) {
   return Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis));
@@ -162,7 +162,7 @@ TEST_P(GivenInertiaIn, MakesThePeriodOfAPendulumThatHangsAtItsShapesCentre) {
     for (Body& b : scene.bodies) b.pose = Pose(turn * b.pose.position(), turn);
     scene.joints = {hinge(0, world_body, Vec3::Zero(), Vec3::UnitY()), rigid(1, 0)};
     if (!has_case) scene.bodies.pop_back(), scene.joints.pop_back();
-    const double omega = std::sqrt(2 * gravity * 0.4 / weight_about_hinge);
+    const double omega = std::sqrt(2 * gravity_on_earth * 0.4 / weight_about_hinge);
     const double quarter =
         zero_crossing(scene, [](const States& s) { return angle_about_y(s[0]); });
     EXPECT_NEAR(quarter, pi / 2 / omega, 3e-3) << has_case;
@@ -253,7 +253,7 @@ TEST_P(GivenInertiaIn, RocksARollerAboutTheLowestPlaceOfItsMass) {
   using R = EccentricRoller;
   const double below = R::radius - R::off;
   const double omega =
-      std::sqrt(R::mass * gravity * R::off / (R::moment + R::mass * below * below));
+      std::sqrt(R::mass * gravity_on_earth * R::off / (R::moment + R::mass * below * below));
   // The mass is on the side of −x, and rolls back to below the axis.
   const double quarter =
       zero_crossing(R::scene(0.05), [](const States& s) { return -R::aside(s); });
@@ -267,7 +267,7 @@ struct SlopingCan {
   static Scene scene(double height_of_mass, double slope) {
     Scene scene;
     scene.duration = 2;
-    scene.gravity = gravity * Vec3(std::sin(slope), 0, -std::cos(slope));
+    scene.gravity = gravity_on_earth * Vec3(std::sin(slope), 0, -std::cos(slope));
     scene.bodies = {fixed({.name = "slope", .shape = Plane(Vec3::UnitZ(), 0)}),
                     {.name = "can", .shape = Cylinder(radius, half), .pose = at(0, 0, half)}};
     scene.bodies[1].inertia = {{1, Vec3(0.003, 0.003, 0.001)}, at(0, 0, height_of_mass - half)};
@@ -301,7 +301,7 @@ TEST_F(GivenInertiaInOurWorld, EnergyAndMomentumAreThoseOfTheMass) {
   const World world(scene, model);
   const Vec3 v(-3 * 0.4, 1, 0);
   EXPECT_NEAR(world.kinetic_energy(), (2 * v.squaredNorm() + 0.02 * 9) / 2, 1e-12);
-  EXPECT_NEAR(world.potential_energy(), -2 * gravity * 0.4, 1e-12);
+  EXPECT_NEAR(world.potential_energy(), -2 * gravity_on_earth * 0.4, 1e-12);
   EXPECT_LT((world.momentum() - 2 * v).norm(), 1e-12);
   const Vec3 about_origin = Vec3(0, 0, -0.4).cross(2 * v) + Vec3(0, 0.02 * 3, 0);
   EXPECT_LT((world.angular_momentum() - about_origin).norm(), 1e-12);

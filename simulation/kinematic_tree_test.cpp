@@ -5,7 +5,7 @@
 namespace touchstone {
 namespace {
 
-Joint hinge(int a, int b) { return {"hinge", JointKind::hinge, a, b}; }
+Joint bare_hinge(int a, int b) { return {"hinge", JointKind::hinge, a, b}; }
 
 Scene boxes(int count) {
   Scene scene;
@@ -21,7 +21,7 @@ std::vector<Hanging> tree_of(const Scene& scene) {
 
 TEST(KinematicTree, WheelsHangOnTheChassisWhereverItStands) {
   Scene scene = boxes(3);
-  scene.joints = {hinge(0, 1), hinge(2, 1)};
+  scene.joints = {bare_hinge(0, 1), bare_hinge(2, 1)};
   const auto tree = tree_of(scene);
   EXPECT_EQ(tree[1].joint, -1);
   EXPECT_EQ(tree[0].parent, 1);
@@ -36,7 +36,7 @@ TEST(KinematicTree, AChainHangsOnWhatHoldsIt) {
     Scene scene = boxes(3);
     scene.bodies[0].fixed = !is_driven;
     if (is_driven) scene.bodies[0].drive = SteadyMotion{};
-    scene.joints = {hinge(1, 2), hinge(0, 1)};
+    scene.joints = {bare_hinge(1, 2), bare_hinge(0, 1)};
     const auto tree = tree_of(scene);
     EXPECT_EQ(tree[0].joint, -1);
     EXPECT_EQ(tree[1].joint, 1);
@@ -47,27 +47,27 @@ TEST(KinematicTree, AChainHangsOnWhatHoldsIt) {
 
 TEST(KinematicTree, APairThatHangsOnEachOtherTwiceClosesALoop) {
   Scene scene = boxes(3);
-  scene.joints = {hinge(0, 1), hinge(1, 2), hinge(2, 0)};
+  scene.joints = {bare_hinge(0, 1), bare_hinge(1, 2), bare_hinge(2, 0)};
   EXPECT_EQ(loop_closing_joint(scene), 2);
-  scene.joints = {hinge(0, 1), hinge(1, 0)};
+  scene.joints = {bare_hinge(0, 1), bare_hinge(1, 0)};
   EXPECT_EQ(loop_closing_joint(scene), 1);
 }
 
 TEST(KinematicTree, WhatIsFixedOrDrivenClosesALoopToo) {
   Scene scene = boxes(3);
   scene.bodies[1].fixed = true;
-  scene.joints = {hinge(0, world_body), hinge(0, 1)};
+  scene.joints = {bare_hinge(0, world_body), bare_hinge(0, 1)};
   EXPECT_EQ(loop_closing_joint(scene), 1);
   scene.bodies[2].drive = SteadyMotion{};
-  scene.joints = {hinge(0, 2), hinge(0, 1)};
+  scene.joints = {bare_hinge(0, 2), bare_hinge(0, 1)};
   EXPECT_EQ(loop_closing_joint(scene), 1);
-  scene.joints = {hinge(1, world_body), hinge(2, 1), hinge(2, world_body)};
+  scene.joints = {bare_hinge(1, world_body), bare_hinge(2, 1), bare_hinge(2, world_body)};
   EXPECT_FALSE(loop_closing_joint(scene)) << "none of these joints moves anything";
 }
 
 TEST(KinematicTree, RigidlyJoinedBodiesAreOne) {
   Scene scene = boxes(3);
-  scene.joints = {{"rigid", JointKind::fixed, 0, 1}, hinge(2, 0), hinge(2, 1)};
+  scene.joints = {{"rigid", JointKind::fixed, 0, 1}, bare_hinge(2, 0), bare_hinge(2, 1)};
   EXPECT_EQ(tree_of(scene).size(), 2);
   EXPECT_EQ(loop_closing_joint(scene), 2);
 }

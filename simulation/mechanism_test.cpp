@@ -433,7 +433,7 @@ TEST_F(MechanismTest, ADrumThatTurnsByMoreThanHalfATurnInAStepDragsTheRightWay) 
 }
 
 /// Two fingers on a driven hand squeeze a can, and the hand rises by 0.2 m.
-Scene gripper(double squeeze) {
+Scene squeezing_gripper(double squeeze) {
   Body hand = box("hand", Vec3(0.1, 0.02, 0.02), at(0, 0, 0.3));
   hand.drive = Waypoints{{0.3, at(0, 0, 0.3)}, {1, at(0, 0, 0.5)}};
   Body left = box("left", Vec3(0.01, 0.02, 0.05), at(-0.05, 0, 0.15));
@@ -453,8 +453,8 @@ TEST_F(MechanismTest, AGripperHoldsACanByFrictionIfItSqueezesHardEnough) {
   // Friction 0.5 at two fingers must carry the weight.
   const double weight = 9.81 * inertia(Cylinder(0.03, 0.06), 500).mass;
   constexpr int can = 3;
-  EXPECT_NEAR(run(gripper(2 * weight)).states()[can].pose.position().z(), 0.35, 2e-3);
-  EXPECT_NEAR(run(gripper(0.5 * weight)).states()[can].pose.position().z(), 0.15, 1e-2);
+  EXPECT_NEAR(run(squeezing_gripper(2 * weight)).states()[can].pose.position().z(), 0.35, 2e-3);
+  EXPECT_NEAR(run(squeezing_gripper(0.5 * weight)).states()[can].pose.position().z(), 0.15, 1e-2);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace {
 using testing::HasSubstr;
 
 Pose at(double x, double y, double z) { return {Vec3(x, y, z), Eigen::Quaterniond::Identity()}; }
-Body ground() { return {"ground", Plane(Vec3::UnitZ(), 0), 1000, {}, {}, {}, {}, true}; }
+Body world_ground() { return {"ground", Plane(Vec3::UnitZ(), 0), 1000, {}, {}, {}, {}, true}; }
 
 using WorldTest = WorldFixture;
 
@@ -74,7 +74,7 @@ TEST_F(WorldTest, SphereBouncesWithItsRestitution) {
   Scene scene;
   scene.step = 1e-3;
   Body ball{"ball", Sphere(0.1), 1000, {0.5, 0.8}, at(0, 0, 0.6)};
-  scene.bodies = {ground(), ball};
+  scene.bodies = {world_ground(), ball};
   World world(scene, model);
   double before = 0;
   while (world.states()[1].velocity.z() <= 0) {
@@ -88,7 +88,7 @@ TEST_F(WorldTest, SphereBouncesWithItsRestitution) {
 TEST_F(WorldTest, StandingCylinderStays) {
   Scene scene;
   scene.duration = 10;
-  scene.bodies = {ground(), {"can", Cylinder(0.3, 0.5), 1000, {}, at(0, 0, 0.49995)}};
+  scene.bodies = {world_ground(), {"can", Cylinder(0.3, 0.5), 1000, {}, at(0, 0, 0.49995)}};
   const BodyState end = run(scene).states()[1];
   EXPECT_LT((end.pose.position() - scene.bodies[1].pose.position()).norm(), 1e-6);
   EXPECT_LT((end.pose.axis() - Vec3::UnitZ()).norm(), 1e-6);
@@ -96,7 +96,7 @@ TEST_F(WorldTest, StandingCylinderStays) {
 
 TEST_F(WorldTest, ContactsNameTheCylinderFirst) {
   Scene scene;
-  scene.bodies = {ground(), {"can", Cylinder(0.3, 0.5), 1000, {}, at(0, 0, 0.4999)}};
+  scene.bodies = {world_ground(), {"can", Cylinder(0.3, 0.5), 1000, {}, at(0, 0, 0.4999)}};
   World world(scene, model);
   world.step();
   ASSERT_EQ(world.contacts().size(), 1U);
@@ -108,7 +108,7 @@ TEST_F(WorldTest, ContactsNameTheCylinderFirst) {
 TEST_F(WorldTest, SameSceneGivesTheSameBits) {
   Scene scene;
   scene.duration = 1;
-  scene.bodies = {ground(),
+  scene.bodies = {world_ground(),
                   {"can", Cylinder(0.2, 0.3), 1000, {}, at(0, 0, 0.7)},
                   {"box", Box(Vec3(0.2, 0.1, 0.1)), 1000, {}, at(0.1, 0.05, 0.2)}};
   const World first = run(scene), second = run(scene);
@@ -121,7 +121,7 @@ TEST_F(WorldTest, SameSceneGivesTheSameBits) {
 TEST_F(WorldTest, BadScenesAreRefusedByTheirField) {
   const auto refusal = [&](auto spoil) {
     Scene scene;
-    scene.bodies = {ground(), {"can", Cylinder(0.2, 0.3)}};
+    scene.bodies = {world_ground(), {"can", Cylinder(0.2, 0.3)}};
     spoil(scene);
     try {
       const World world(scene, model);
@@ -153,7 +153,7 @@ TEST_F(WorldTest, BadScenesAreRefusedByTheirField) {
 TEST_F(WorldTest, RefusesNumbersThatNoWorldHas) {
   const auto refusal = [&](auto spoil) {
     Scene scene;
-    scene.bodies = {ground(), {"can", Cylinder(0.2, 0.3)}};
+    scene.bodies = {world_ground(), {"can", Cylinder(0.2, 0.3)}};
     spoil(scene);
     try {
       World world(scene, model);
@@ -200,7 +200,7 @@ TEST_F(WorldTest, RefusesNumbersThatNoWorldHas) {
 
 Scene two_cans_on_the_ground() {
   Scene scene;
-  scene.bodies = {ground(),
+  scene.bodies = {world_ground(),
                   {"left", Cylinder(0.2, 0.3), 1000, {}, at(-1, 0, 0.29995)},
                   {"right", Cylinder(0.2, 0.3), 1000, {}, at(1, 0, 0.29995)}};
   return scene;

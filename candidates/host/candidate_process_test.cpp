@@ -99,11 +99,11 @@ std::vector<Answer> after_stalling(CandidateProcess& process, const std::vector<
   return process.answers(standing_at(at));
 }
 
-constexpr double answered = 0, endless = -1, slow = 2;
+constexpr double at_once = 0, endless = -1, slow = 2;
 
 TEST(CandidateProcess, ATimeOutLowersTheLimitForTheRestOfTheCall) {
   CandidateProcess process(sabotage("stalling"), 0, {0.2, 256});
-  std::vector<double> at(30, answered);
+  std::vector<double> at(30, at_once);
   at[1] = at[20] = at[21] = at[25] = endless;
   for (int call = 0; call < 2; ++call) {
     const auto answers = after_stalling(process, at);
@@ -125,7 +125,7 @@ TEST(CandidateProcess, ATimeOutCountsOnlyIfAnotherSessionTimesOutAsWell) {
 
 TEST(CandidateProcess, SlowAnswersCountUnlessAnAnswerHasTimedOut) {
   CandidateProcess process(sabotage("stalling"), 0, {0.02, 256});
-  std::vector<double> at(20, answered);
+  std::vector<double> at(20, at_once);
   at.push_back(slow);
   EXPECT_EQ(after_stalling(process, at).back().status, TS_CONTACT);
   at[19] = endless;
@@ -147,7 +147,7 @@ TEST(CandidateProcess, ThreeTimeOutsLowerTheLimitOfACandidateThatHardlyEverAnswe
 
 TEST(CandidateProcess, AnswersUntilOneTimesOutAndGoesOnInTheSameSession) {
   CandidateProcess process(sabotage("stalling"), 0, {0.05, 256});
-  std::vector<double> at(150, answered);  // more than one message
+  std::vector<double> at(150, at_once);  // more than one message
   at[2] = at[100] = endless;
   const std::vector<Configuration> asked = standing_at(at);
   const std::span all(asked);
@@ -350,7 +350,7 @@ TEST(CandidateProcess, TimesWhatIsSlowButWithinTheLimit) {
 
 TEST(CandidateProcess, ATailLeavesOutOneQueryInTwentyAndNoMore) {
   const auto tail = [](std::size_t slow_one) {
-    std::vector<double> at(20, answered);
+    std::vector<double> at(20, at_once);
     at[slow_one] = slow;
     CandidateProcess process(sabotage("stalling"), 0);
     EXPECT_TRUE(process.prepare_timing(standing_at(at)));
@@ -365,7 +365,7 @@ TEST(CandidateProcess, TimesOnlyWhatItWasLastPreparedFor) {
   // More often than one session serves.
   CandidateProcess process(sabotage("stalling"), 0);
   for (int i = 0; i < 18; ++i) {
-    const double at = i % 9 == 0 ? slow : answered;
+    const double at = i % 9 == 0 ? slow : at_once;
     ASSERT_TRUE(process.prepare_timing(standing_at({at, at})));
     const QueryCost cost = process.cost_per_query().value();
     EXPECT_EQ(cost.nanoseconds > 9e6, at == slow) << i;
@@ -375,10 +375,10 @@ TEST(CandidateProcess, TimesOnlyWhatItWasLastPreparedFor) {
 
 TEST(CandidateProcess, ATimingThatEndedItsSessionDoesNotHarmTheNext) {
   CandidateProcess process(sabotage("stalling"), 0, {0.02, 256});
-  ASSERT_TRUE(process.prepare_timing(standing_at({answered})));
-  EXPECT_FALSE(process.prepare_timing(standing_at({answered, endless})));
+  ASSERT_TRUE(process.prepare_timing(standing_at({at_once})));
+  EXPECT_FALSE(process.prepare_timing(standing_at({at_once, endless})));
   EXPECT_FALSE(process.cost_per_query());
-  ASSERT_TRUE(process.prepare_timing(standing_at({answered})));
+  ASSERT_TRUE(process.prepare_timing(standing_at({at_once})));
   EXPECT_TRUE(process.cost_per_query());
 }
 

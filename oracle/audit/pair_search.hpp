@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include <Eigen/QR>
+#include <Eigen/Core>
 
 #include "oracle/audit/certain_bounds.hpp"
 
@@ -130,17 +130,48 @@ class ClosestPairSearch {
     return sum;
   }
 
-  /// Weights (with sum one) of the point of the vertices' affine hull nearest to the origin.
+  /// Weights (with sum one) of the point of the vertices' affine hull nearest to the origin: least
+  /// squares over the edges from the first vertex, by Gram and Schmidt's method, which is stable if
+  /// the right-hand side is reduced with the columns (Björck, BIT 7, 1967). The longest edge comes
+  /// first; edges within rounding of the span of those before get no weight. (Eigen's solvers do
+  /// the same and take the compiler 17 s for these number types.)
   std::array<R, 4> affine_minimum() const {
+    using std::sqrt;
+    const int count = count_ - 1;
+    std::array<Vector<R>, 3> edges;
+    for (int i = 0; i < count; ++i) edges[i] = vertices_[i + 1].w - vertices_[0].w;
+    Vector<R> rest = -vertices_[0].w;
+    std::array<int, 3> order{0, 1, 2};
+    Matrix<R> along = Matrix<R>::Zero();  // (k, i): the i-th edge along the k-th direction
+    Vector<R> steps = Vector<R>::Zero();
+    R longest(0);
+    int rank = 0;
+    for (; rank < count; ++rank) {
+      for (int i = rank + 1; i < count; ++i) {
+        if (edges[order[i]].squaredNorm() > edges[order[rank]].squaredNorm()) {
+          std::swap(order[i], order[rank]);
+          along.col(i).swap(along.col(rank));
+        }
+      }
+      const Vector<R>& edge = edges[order[rank]];
+      const R length = sqrt(R(edge.squaredNorm()));
+      if (rank == 0) longest = length;
+      if (length <= 3 * std::numeric_limits<R>::epsilon() * longest) break;
+      const Vector<R> direction = edge / length;
+      along(rank, rank) = length;
+      for (int i = rank + 1; i < count; ++i) {
+        along(rank, i) = direction.dot(edges[order[i]]);
+        edges[order[i]] -= along(rank, i) * direction;
+      }
+      steps[rank] = direction.dot(rest);
+      rest -= steps[rank] * direction;
+    }
     std::array<R, 4> weights{R(1), R(0), R(0), R(0)};
-    if (count_ == 1) return weights;
-    Eigen::Matrix<R, 3, Eigen::Dynamic, 0, 3, 3> edges(3, count_ - 1);
-    for (int i = 1; i < count_; ++i) edges.col(i - 1) = vertices_[i].w - vertices_[0].w;
-    const Eigen::Matrix<R, Eigen::Dynamic, 1, 0, 3, 1> steps =
-        edges.colPivHouseholderQr().solve(-vertices_[0].w);
-    for (int i = 1; i < count_; ++i) {
-      weights[i] = steps[i - 1];
-      weights[0] -= steps[i - 1];
+    for (int i = rank - 1; i >= 0; --i) {
+      for (int k = i + 1; k < rank; ++k) steps[i] -= along(i, k) * steps[k];
+      steps[i] /= along(i, i);
+      weights[order[i] + 1] = steps[i];
+      weights[0] -= steps[i];
     }
     return weights;
   }

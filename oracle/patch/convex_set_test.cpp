@@ -14,7 +14,7 @@
 namespace touchstone::oracle {
 namespace {
 
-constexpr double rounding = 1e-14;
+constexpr double set_rounding = 1e-14;
 
 /// The part of the unit disc with x >= cos(half_angle).
 ConvexSet disc_segment(double half_angle) {
@@ -24,24 +24,24 @@ ConvexSet disc_segment(double half_angle) {
 
 TEST(ConvexSet, WholeDisc) {
   const ConvexSet disc = ConvexSet::region({BoundaryPiece::arc({3, 4}, 2, 1, 2 * pi)});
-  EXPECT_NEAR(disc.area(), 4 * pi, rounding * 100);
-  EXPECT_NEAR(disc.perimeter(), 4 * pi, rounding * 100);
-  EXPECT_NEAR((disc.centroid() - Vec2(3, 4)).norm(), 0, rounding * 100);
-  EXPECT_NEAR(disc.support({0, 1}), 6, rounding * 100);
+  EXPECT_NEAR(disc.area(), 4 * pi, set_rounding * 100);
+  EXPECT_NEAR(disc.perimeter(), 4 * pi, set_rounding * 100);
+  EXPECT_NEAR((disc.centroid() - Vec2(3, 4)).norm(), 0, set_rounding * 100);
+  EXPECT_NEAR(disc.support({0, 1}), 6, set_rounding * 100);
   EXPECT_EQ(disc.distance({3, 4}), 0);
-  EXPECT_NEAR(disc.distance({3, 7}), 1, rounding * 100);
+  EXPECT_NEAR(disc.distance({3, 7}), 1, set_rounding * 100);
   EXPECT_EQ(disc.outline(8).size(), 32u);
 }
 
 TEST(ConvexSet, HalfDiscHasItsCentroidAtFourThirdsOverPi) {
   const ConvexSet half = disc_segment(pi / 2);
-  EXPECT_NEAR(half.area(), pi / 2, rounding);
-  EXPECT_NEAR(half.perimeter(), pi + 2, rounding);
-  EXPECT_NEAR(half.centroid().x(), 4 / (3 * pi), rounding);
-  EXPECT_NEAR(half.centroid().y(), 0, rounding);
-  EXPECT_NEAR(half.support({-1, 0}), 0, rounding);
-  EXPECT_NEAR(half.distance({-1, 0}), 1, rounding);
-  EXPECT_NEAR(half.distance({-3, 5}), std::hypot(3, 4), 10 * rounding);
+  EXPECT_NEAR(half.area(), pi / 2, set_rounding);
+  EXPECT_NEAR(half.perimeter(), pi + 2, set_rounding);
+  EXPECT_NEAR(half.centroid().x(), 4 / (3 * pi), set_rounding);
+  EXPECT_NEAR(half.centroid().y(), 0, set_rounding);
+  EXPECT_NEAR(half.support({-1, 0}), 0, set_rounding);
+  EXPECT_NEAR(half.distance({-1, 0}), 1, set_rounding);
+  EXPECT_NEAR(half.distance({-3, 5}), std::hypot(3, 4), 10 * set_rounding);
 }
 
 TEST(ConvexSet, ThinDiscSegmentsKeepTheirDigits) {
@@ -68,7 +68,7 @@ TEST(ConvexSet, SegmentAndPoint) {
   EXPECT_EQ(s.perimeter(), 5);
   EXPECT_EQ(s.centroid(), Vec2(1.5, 2));
   EXPECT_EQ(s.distance({1.5, 2}), 0);
-  EXPECT_NEAR(s.distance({-3, -4}), 5, rounding);
+  EXPECT_NEAR(s.distance({-3, -4}), 5, set_rounding);
   const ConvexSet p = ConvexSet::polygon({Vec2(1, 2)});
   EXPECT_EQ(p.kind(), ConvexSet::Kind::point);
   EXPECT_EQ(p.support({1, 1}), 3);

@@ -15,14 +15,15 @@ namespace {
 constexpr double inscribed = 5e-3;
 using Kind = ContactPatch::Kind;
 
-const Vec3 up(0, 0, 1);
+const Vec3 upward(0, 0, 1);
 
 Eigen::Quaterniond leaning(double angle) {
   return Eigen::Quaterniond(std::cos(angle / 2), 0, std::sin(angle / 2), 0);
 }
 
 ContactPatch over_plane(const Cylinder& cylinder, const Eigen::Quaterniond& q, double epsilon) {
-  return contact_patch({cylinder, Pose(Vec3(0, 0, 3), q), Plane(up, 0), Pose()}, up, epsilon);
+  return contact_patch({cylinder, Pose(Vec3(0, 0, 3), q), Plane(upward, 0), Pose()}, upward,
+                       epsilon);
 }
 
 TEST(TiltedPatch, OfATiltedCapIsADiscSegment) {
@@ -55,15 +56,15 @@ TEST(TiltedPatch, OfASideIsABand) {
 // Where the squares of lengths overflow or vanish.
 TEST(TiltedPatch, OfATinyCylinderAndAPlaneFarFromItsOriginExists) {
   const Configuration c{Cylinder(0x1p-600, 0x1p-600), Pose(Vec3(0, 0, 1e300), along_x),
-                        Plane(up, 1e300), Pose()};
-  EXPECT_FALSE(contact_patch(c, up, 0x1p-640).outline().empty());
+                        Plane(upward, 1e300), Pose()};
+  EXPECT_FALSE(contact_patch(c, upward, 0x1p-640).outline().empty());
 }
 
 TEST(TiltedPatch, OfLengthsNearTheEndsOfTheDoublesIsThatOfOrdinaryOnesScaled) {
   const auto outline = [](double unit) {
     const Configuration c{Cylinder(unit, unit / 4), Pose(unit * Vec3(0.25, 0, 3.2), along_x),
                           Sphere(3 * unit), Pose()};
-    return contact_patch(c, up, unit / 128).outline();
+    return contact_patch(c, upward, unit / 128).outline();
   };
   const std::vector<Vec3> expected = outline(1);
   for (const double unit : {0x1p1022, 0x1p-1000}) {
@@ -76,7 +77,8 @@ TEST(TiltedPatch, OfLengthsNearTheEndsOfTheDoublesIsThatOfOrdinaryOnesScaled) {
 TEST(TiltedPatch, OfASphereIsADisc) {
   const double epsilon = 1e-4;
   const ContactPatch p = contact_patch(
-      {Cylinder(1, 1), Pose(up, upright), Sphere(0.5), Pose(-0.5 * up, upright)}, up, epsilon);
+      {Cylinder(1, 1), Pose(upward, upright), Sphere(0.5), Pose(-0.5 * upward, upright)}, upward,
+      epsilon);
   const double radius = std::sqrt(epsilon * (1 - epsilon));
   EXPECT_NEAR(p.area() / (pi * radius * radius), 1, 2e-3);
 }
@@ -84,7 +86,8 @@ TEST(TiltedPatch, OfASphereIsADisc) {
 TEST(TiltedPatch, HoldsAsLongAsEpsilonDoesEvenBeyondTheBody) {
   // The whole of both bodies: the projection of the smaller one.
   const ContactPatch p = contact_patch(
-      {Cylinder(0.5, 1), Pose(up, along_x), Box(Vec3(5, 5, 5)), Pose(-5 * up, upright)}, up, 100);
+      {Cylinder(0.5, 1), Pose(upward, along_x), Box(Vec3(5, 5, 5)), Pose(-5 * upward, upright)},
+      upward, 100);
   EXPECT_NEAR(p.area(), 2, 1e-9);
 }
 
@@ -164,9 +167,9 @@ TEST(TiltedPatch, OverlapIsWhatIsInBothParts) {
   std::mt19937 random(4);
   std::uniform_real_distribution<double> symmetric(-1, 1);
   for (int i = 0; i < 30; ++i) {
-    const Vec3 n = (up + 0.02 * Vec3(symmetric(random), symmetric(random), 0)).normalized();
+    const Vec3 n = (upward + 0.02 * Vec3(symmetric(random), symmetric(random), 0)).normalized();
     const Configuration c{Cylinder(0.5, 1), Pose(Vec3(0.3 * symmetric(random), 0, 1), upright),
-                          Box(Vec3(0.4, 0.6, 1)), Pose(-up, upright)};
+                          Box(Vec3(0.4, 0.6, 1)), Pose(-upward, upright)};
     const double epsilon = 0.01;
     const ContactPatch p = contact_patch(c, n, epsilon);
     const Vec3 e1 = n.unitOrthogonal(), e2 = n.cross(e1);
@@ -194,7 +197,7 @@ TEST(TiltedPatch, OverlapIsWhatIsInBothParts) {
 
 constexpr auto flat = Alignment::parallel;
 constexpr auto across = Alignment::perpendicular;
-constexpr auto oblique = Alignment::oblique;
+constexpr auto slanting = Alignment::oblique;
 
 /// Exactly degenerate contacts along z, in units of `s` metres.
 struct Exact {
@@ -207,15 +210,15 @@ std::vector<Exact> exact_contacts(double s) {
   };
   const Cylinder can(0.5 * s, s), other(0.75 * s, s);
   const Box box(s * Vec3(1, 1, 1));
-  const std::array<Alignment, 3> of_cap{oblique, oblique, flat}, of_face{across, across, flat};
+  const std::array<Alignment, 3> of_cap{slanting, slanting, flat}, of_face{across, across, flat};
   return {
-      {{can, upright_at(0.75, 0.25, 1), other, upright_at(0, 0, -1)}, {up, flat, of_cap}},
-      {{can, upright_at(0.75, 0.9, 1), box, upright_at(0, 0, -1)}, {up, flat, of_face}},
-      {{can, upright_at(0.25, 0.25, 1), box, upright_at(0, 0, -1)}, {up, flat, of_face}},
+      {{can, upright_at(0.75, 0.25, 1), other, upright_at(0, 0, -1)}, {upward, flat, of_cap}},
+      {{can, upright_at(0.75, 0.9, 1), box, upright_at(0, 0, -1)}, {upward, flat, of_face}},
+      {{can, upright_at(0.25, 0.25, 1), box, upright_at(0, 0, -1)}, {upward, flat, of_face}},
       {{can, Pose(s * Vec3(0.75, 0.25, 0.5), along_x), box, upright_at(0, 0, -1)},
-       {up, across, of_face}},
+       {upward, across, of_face}},
       {{can, Pose(s * Vec3(0.75, 0.25, 0.5), along_x), other, upright_at(0, 0, -1)},
-       {up, across, of_cap}},
+       {upward, across, of_cap}},
   };
 }
 
@@ -224,7 +227,7 @@ TEST(TiltedPatch, TendsToTheExactPatchWithEpsilonAtAnyScale) {
     for (const auto& [c, n] : exact_contacts(s)) {
       const ContactPatch exact = contact_patch(c, n);
       for (const double epsilon : {1e-4, 1e-8, 1e-12}) {
-        const ContactPatch wider = contact_patch(c, up, epsilon * s);
+        const ContactPatch wider = contact_patch(c, upward, epsilon * s);
         // A side's band is 2 √(2 ε r) wide; a disc is inscribed.
         const double band = 2 * std::sqrt(epsilon) * s;
         for (const double angle : {0.0, 0.5, 1.0, 1.5, 2.0, 2.5}) {
@@ -249,11 +252,11 @@ TEST(TiltedPatch, AnyNormalAndEpsilonGiveAFinitePatch) {
                 Eigen::Quaterniond(1, lean * symmetric(random), lean * symmetric(random), 0));
   };
   for (int i = 0; i < 4000; ++i) {
-    const Shape others[] = {Cylinder(length(), length()), Plane(up, length()), Sphere(length()),
+    const Shape others[] = {Cylinder(length(), length()), Plane(upward, length()), Sphere(length()),
                             Capsule(length(), length()), Box(Vec3(length(), length(), length()))};
     const Configuration c{Cylinder(length(), length()), pose(), others[i % 5], pose()};
     const double tilt = std::pow(10, exponent(random));
-    const Vec3 n = (up + tilt * Vec3(symmetric(random), symmetric(random), 0)).normalized();
+    const Vec3 n = (upward + tilt * Vec3(symmetric(random), symmetric(random), 0)).normalized();
     const ContactPatch p = contact_patch(c, n, std::pow(10, exponent(random)));
     EXPECT_TRUE(p.centroid().allFinite());
     EXPECT_GE(p.area(), -1e-12 * p.perimeter() * p.perimeter());
@@ -263,15 +266,15 @@ TEST(TiltedPatch, AnyNormalAndEpsilonGiveAFinitePatch) {
 
 TEST(TiltedPatch, PartsThatDoNotMeetGiveThePointBetweenThem) {
   const ContactPatch p = contact_patch(
-      {Cylinder(1, 1), Pose(Vec3(4, 0, 1), upright), Box(Vec3(1, 1, 1)), Pose(-up, upright)}, up,
-      1e-3);
+      {Cylinder(1, 1), Pose(Vec3(4, 0, 1), upright), Box(Vec3(1, 1, 1)), Pose(-upward, upright)},
+      upward, 1e-3);
   EXPECT_EQ(p.kind(), Kind::point);
   EXPECT_NEAR(p.centroid().x(), 2, 1e-12);
 }
 
 constexpr double e = 1e-6;
 WidthFromEpsilon width(const Shape& shape, const Eigen::Quaterniond& q) {
-  return width_from_epsilon(shape, Pose(Vec3::Zero(), q), up, e);
+  return width_from_epsilon(shape, Pose(Vec3::Zero(), q), upward, e);
 }
 
 TEST(WidthFromEpsilon, IsThatOfWhatIsNotFlat) {

@@ -306,16 +306,6 @@ namespace {
 
 constexpr int max_steps = 1 << 20;
 
-std::vector<std::string_view> parts_of(std::string_view text) {
-  std::vector<std::string_view> parts;
-  for (std::size_t start = 0; start <= text.size();) {
-    const std::size_t end = std::min(text.find('/', start), text.size());
-    parts.push_back(text.substr(start, end - start));
-    start = end + 1;
-  }
-  return parts;
-}
-
 int number(const char* field, std::string_view text, int min, int max) {
   int value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -347,7 +337,7 @@ std::string perturbed_name(const std::string& base, const Perturbation& perturba
 }
 
 std::optional<Subject> named_configuration(const std::string& text) {
-  const auto parts = parts_of(text);
+  const auto parts = split(text, '/');
   if (parts[0] == "map") {
     require_count("map", text, parts, 5,
                   "must read map/pose/zoom/column/row, as in map/standing/1e-12/-3/16");

@@ -14,7 +14,7 @@ namespace touchstone {
 namespace {
 
 using std::numbers::pi;
-constexpr double gravity = 9.81;
+constexpr double earth_gravity = 9.81;
 /// Of a hinge from its limit or its place on paper, rad: MuJoCo's limits are soft.
 constexpr double near_limit = 0.05;
 
@@ -63,7 +63,7 @@ TEST_P(Joints, AHingedBoxSwingsWithThePeriodOfAPhysicalPendulum) {
     const std::vector<double> x =
         run(scene, [](const States& s) { return s[0].pose.position().x(); });
     const Inertia i = inertia(scene.bodies[0].shape, 1000);
-    const double omega = std::sqrt(i.mass * gravity * l / (i.principal.y() + i.mass * l * l));
+    const double omega = std::sqrt(i.mass * earth_gravity * l / (i.principal.y() + i.mass * l * l));
     const auto crossed = std::find_if(x.begin(), x.end(), [](double value) { return value <= 0; });
     EXPECT_NEAR(static_cast<double>(crossed - x.begin() + 1) * scene.step, pi / 2 / omega, 3e-3);
     // Back at the end that it came from after a whole period, and not farther.
@@ -197,8 +197,8 @@ TEST_P(Joints, CountsThePointsThatTheSolverGets) {
 
 TEST_P(Joints, ALoadedMotorKeepsItsRate) {
   Scene scene = MotorScene{JointKind::slider, "b"}.scene();
-  scene.gravity = Vec3(0, 0, -gravity);
-  scene.joints[0].motor = rate(0.2, 2 * gravity * mass_of(scene.bodies[0]));
+  scene.gravity = Vec3(0, 0, -earth_gravity);
+  scene.joints[0].motor = rate(0.2, 2 * earth_gravity * mass_of(scene.bodies[0]));
   const std::vector<double> z =
       run(scene, [](const States& s) { return s[0].pose.position().z(); });
   const std::size_t half = z.size() / 2;
@@ -212,12 +212,12 @@ TEST_P(Joints, ABlockedMotorPressesWithItsMaxForce) {
     scene.duration = 2;
     scene.bodies = {box("lift", Vec3(0.2, 0.2, 0.02), at(0, 0, 1)),
                     {.name = "can", .shape = Cylinder(0.05, 0.1), .pose = at(0, 0, 1.12)}};
-    const double weight = gravity * (mass_of(scene.bodies[0]) + mass_of(scene.bodies[1]));
+    const double weight = earth_gravity * (mass_of(scene.bodies[0]) + mass_of(scene.bodies[1]));
     scene.joints = {slider(0, world_body, Vec3::UnitZ())};
     scene.joints[0].motor = rate(0, share * weight);
     const double height = end(scene, [](const States& s) { return s[1].pose.position().z(); });
     // s = a t² / 2 with a = g / 10 downwards; at rest otherwise.
-    const double expected = share < 1 ? 1.12 - gravity / 10 * 2 : 1.12;
+    const double expected = share < 1 ? 1.12 - earth_gravity / 10 * 2 : 1.12;
     EXPECT_NEAR(height, expected, share < 1 ? 0.2 : 0.02) << share;
   }
 }
@@ -268,7 +268,7 @@ TEST_P(Joints, AJoinedPairTumblesAsTheBoxThatItIs) {
 TEST_P(Joints, AWheelsetRollsAsOneBody) {
   constexpr double slope = 0.1, radius = 0.1;
   Scene scene;
-  scene.gravity = gravity * Vec3(std::sin(slope), 0, -std::cos(slope));
+  scene.gravity = earth_gravity * Vec3(std::sin(slope), 0, -std::cos(slope));
   const Eigen::Quaterniond lying(Eigen::AngleAxisd(-pi / 2, Vec3::UnitX()));
   scene.bodies = {ground()};
   double mass = 0, moment = 0;
@@ -281,7 +281,8 @@ TEST_P(Joints, AWheelsetRollsAsOneBody) {
     mass += i.mass, moment += i.principal.z();
   }
   scene.joints = {rigid(1, 2), rigid(3, 2)};
-  const double acceleration = gravity * std::sin(slope) / (1 + moment / (mass * radius * radius));
+  const double acceleration =
+      earth_gravity * std::sin(slope) / (1 + moment / (mass * radius * radius));
   const double x = end(scene, [](const States& s) { return s[2].pose.position().x(); });
   EXPECT_NEAR(x, acceleration / 2, 0.01 * acceleration / 2);
 }
@@ -364,7 +365,7 @@ TEST_P(Joints, ABeltCarriesWhatLiesOnItWhicheverBodyComesFirst) {
     scene.duration = 0.25;
     const double speed =
         end(scene, [&](const States& s) { return s[belt_is_first ? 1 : 0].velocity.norm(); });
-    EXPECT_NEAR(speed, 0.5 * gravity * 0.25, 0.03);
+    EXPECT_NEAR(speed, 0.5 * earth_gravity * 0.25, 0.03);
   }
 }
 
@@ -380,7 +381,7 @@ TEST_P(Joints, ADrumThatTurnsByMoreThanHalfATurnInAStepDragsTheRightWayOrIsRefus
   if (is_mujoco()) {
     EXPECT_GT(speed, 0) << "its pyramid of friction presses harder, the faster a surface slips";
   } else {
-    EXPECT_NEAR(speed, 0.5 * gravity * 0.1, 0.1);
+    EXPECT_NEAR(speed, 0.5 * earth_gravity * 0.1, 0.1);
   }
 }
 
@@ -403,7 +404,7 @@ Scene gripper(double squeeze) {
 
 TEST_P(Joints, AGripperHoldsACanByFrictionIfItSqueezesHardEnough) {
   // Friction 0.5 at two fingers must carry the weight.
-  const double weight = gravity * inertia(Cylinder(0.03, 0.06), 500).mass;
+  const double weight = earth_gravity * inertia(Cylinder(0.03, 0.06), 500).mass;
   const auto height = [](const States& s) { return s[3].pose.position().z(); };
   // Bullet's ten iterations let the can slip through fingers that are lighter than it.
   const bool slips = GetParam().starts_with("bullet");

@@ -21,7 +21,7 @@ using testing::Contains;
 using testing::HasSubstr;
 using testing::Not;
 
-const std::filesystem::path scenes = TOUCHSTONE_SCENES;
+const std::filesystem::path inertia_scenes = TOUCHSTONE_SCENES;
 
 /// What a file of this text is read as.
 RobotFile read(const std::string& name, const std::string& text) {

@@ -1,4 +1,5 @@
-// Robots and worlds as scenes: their bodies, joints, motors and ground, and the advice for them.
+// Robots and worlds as scenes: their bodies, joints, motors and ground, and the advice for
+// them.
 #include <cmath>
 #include <filesystem>
 #include <gmock/gmock.h>
@@ -15,7 +16,7 @@ namespace {
 
 using testing::HasSubstr;
 
-const std::filesystem::path scenes = TOUCHSTONE_SCENES;
+const std::filesystem::path robot_scenes = TOUCHSTONE_SCENES;
 const Body& body(const Scene& scene, const std::string& name) {
   for (const Body& b : scene.bodies) {
     if (b.name == name) return b;
@@ -401,7 +402,7 @@ struct ExactRun {
   Trajectory run;
 
   explicit ExactRun(const std::string& name, const RobotMotion& motion = {})
-      : file(robot_scene(read_robot(scenes / name), motion)) {
+      : file(robot_scene(read_robot(robot_scenes / name), motion)) {
     Processes processes{Limits()};
     CandidateModel exact(processes.of(find_candidate("reference")));
     run = run_scene(file.scene, exact);
@@ -442,7 +443,7 @@ Choice choice_of(const std::string& name, const RobotMotion& motion,
   ChooseOptions options;
   options.candidates = find_candidates(candidates);
   options.trials.disturbances = 2;
-  SceneFile file = robot_scene(read_robot(scenes / name), motion);
+  SceneFile file = robot_scene(read_robot(robot_scenes / name), motion);
   add_robot_needs(file,
                   run_exactly(file.scene, options.trials, options.workers, options.limits, name));
   return choose(file, options);
@@ -465,7 +466,7 @@ bool has_need(const Choice& choice, const std::string& text) {
 }
 
 TEST(RobotScene, SaysWhatOfTheFileWasNotRead) {
-  const RobotFile robot = read_robot(scenes / "gripper.urdf");
+  const RobotFile robot = read_robot(robot_scenes / "gripper.urdf");
   ASSERT_FALSE(robot.ignored.empty());
   EXPECT_EQ(robot_scene(robot, {}).ignored, robot.ignored);
 }

@@ -21,7 +21,7 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-const std::filesystem::path scenes = TOUCHSTONE_SCENES;
+const std::filesystem::path scene_folder = TOUCHSTONE_SCENES;
 
 std::string contents(const std::filesystem::path& file) {
   std::ifstream in(file);
@@ -41,7 +41,7 @@ json small_scene() {
 }
 
 template <class Spoil>
-std::string refusal(Spoil spoil) {
+std::string refusal_of_spoilt(Spoil spoil) {
   json scene = small_scene();
   spoil(scene);
   try {
@@ -72,30 +72,31 @@ TEST(SceneFile, ErrorsNameThePathOfTheField) {
   const auto on_can = [](const char* field, const json& value) {
     return [=](json& s) { s["bodies"][1][field] = value; };
   };
-  EXPECT_THAT(refusal([](json& s) { s["bodies"][1]["shape"]["radius"] = -1; }),
+  EXPECT_THAT(refusal_of_spoilt([](json& s) { s["bodies"][1]["shape"]["radius"] = -1; }),
               HasSubstr("bodies[1].shape.radius is -1"));
-  EXPECT_THAT(refusal(on_can("materiel", "steel")), HasSubstr("bodies[1].materiel"));
-  EXPECT_THAT(refusal(on_can("material", "wood")),
+  EXPECT_THAT(refusal_of_spoilt(on_can("materiel", "steel")), HasSubstr("bodies[1].materiel"));
+  EXPECT_THAT(refusal_of_spoilt(on_can("material", "wood")),
               HasSubstr("bodies[1].material is \"wood\": must be one of the materials: steel"));
-  EXPECT_THAT(refusal(on_can("velocity", {1, 2})), HasSubstr("bodies[1].velocity"));
-  EXPECT_THAT(refusal(on_can("fixed", 1)), HasSubstr("bodies[1].fixed is 1"));
-  EXPECT_THAT(refusal(on_can("name", "ground")), HasSubstr("bodies[1].name"));
-  EXPECT_THAT(refusal([](json& s) {
+  EXPECT_THAT(refusal_of_spoilt(on_can("velocity", {1, 2})), HasSubstr("bodies[1].velocity"));
+  EXPECT_THAT(refusal_of_spoilt(on_can("fixed", 1)), HasSubstr("bodies[1].fixed is 1"));
+  EXPECT_THAT(refusal_of_spoilt(on_can("name", "ground")), HasSubstr("bodies[1].name"));
+  EXPECT_THAT(refusal_of_spoilt([](json& s) {
                 s["bodies"][1]["pose"]["orientation"] = {0, 0, 0, 0};
               }),
               HasSubstr("bodies[1].pose.orientation"));
-  EXPECT_THAT(refusal([](json& s) { s["bodies"] = 3; }), HasSubstr("bodies is 3"));
-  EXPECT_THAT(refusal([](json& s) { s["materials"]["steel"]["restitution"] = 2; }),
+  EXPECT_THAT(refusal_of_spoilt([](json& s) { s["bodies"] = 3; }), HasSubstr("bodies is 3"));
+  EXPECT_THAT(refusal_of_spoilt([](json& s) { s["materials"]["steel"]["restitution"] = 2; }),
               HasSubstr("materials.steel.restitution is 2: must lie between 0 and 1"));
-  EXPECT_THAT(refusal([](json& s) { s["materials"]["steel"]["friction"] = -1; }),
+  EXPECT_THAT(refusal_of_spoilt([](json& s) { s["materials"]["steel"]["friction"] = -1; }),
               HasSubstr("steel.friction is -1: must be finite and not negative"));
-  EXPECT_THAT(refusal([](json& s) { s.erase("duration"); }), HasSubstr("duration is missing"));
-  EXPECT_THAT(refusal([](json& s) { s["step"] = 1e-6; }), HasSubstr("a million steps"));
-  EXPECT_THAT(refusal([](json& s) {
+  EXPECT_THAT(refusal_of_spoilt([](json& s) { s.erase("duration"); }),
+              HasSubstr("duration is missing"));
+  EXPECT_THAT(refusal_of_spoilt([](json& s) { s["step"] = 1e-6; }), HasSubstr("a million steps"));
+  EXPECT_THAT(refusal_of_spoilt([](json& s) {
                 s["camera"] = {{"position", {0, 0, 0}}, {"look_at", {0, 0, 0}}};
               }),
               HasSubstr("camera.position"));
-  EXPECT_THAT(refusal([](json& s) { s["gravitation"] = 1; }), HasSubstr("gravitation"));
+  EXPECT_THAT(refusal_of_spoilt([](json& s) { s["gravitation"] = 1; }), HasSubstr("gravitation"));
 }
 
 TEST(SceneFile, GivesABodyItsInertia) {
@@ -110,7 +111,7 @@ TEST(SceneFile, GivesABodyItsInertia) {
   EXPECT_EQ(read.X_BC.position(), Vec3(0, 0, -0.15));
   EXPECT_EQ(read.X_BC.orientation().x(), 1);
   const auto with = [&](const char* field, const json& value) {
-    return refusal([&](json& s) {
+    return refusal_of_spoilt([&](json& s) {
       s["bodies"][1]["inertia"] = inertia;
       s["bodies"][1]["inertia"][field] = value;
     });
@@ -120,12 +121,12 @@ TEST(SceneFile, GivesABodyItsInertia) {
   EXPECT_THAT(with("moments", {1, 1, 3}), HasSubstr("bodies[1].inertia.moments is [1, 1, 3]"));
   EXPECT_THAT(with("moments", 1), HasSubstr("bodies[1].inertia.moments is 1"));
   EXPECT_THAT(with("centre", {0, 0, 0}), HasSubstr("bodies[1].inertia.centre"));
-  EXPECT_THAT(refusal([](json& s) { s["bodies"][1]["inertia"] = json::object(); }),
+  EXPECT_THAT(refusal_of_spoilt([](json& s) { s["bodies"][1]["inertia"] = json::object(); }),
               HasSubstr("bodies[1].inertia.mass is missing"));
 }
 
 TEST(SceneFile, WithMoreBodiesThanCanBeHeldAgainstEachOtherIsRefused) {
-  EXPECT_THAT(refusal([](json& s) {
+  EXPECT_THAT(refusal_of_spoilt([](json& s) {
                 for (int i = 0; i < 1000; ++i) {
                   s["bodies"].push_back(s["bodies"][1]);
                   s["bodies"].back()["name"] = std::to_string(i);
@@ -136,23 +137,24 @@ TEST(SceneFile, WithMoreBodiesThanCanBeHeldAgainstEachOtherIsRefused) {
 
 TEST(SceneFile, ErrorsOfNeedsNameThePathOfTheField) {
   const auto need = [](const json& value) { return [=](json& s) { s["needs"][0] = value; }; };
-  EXPECT_THAT(refusal(need({{"need", "flies"}})),
+  EXPECT_THAT(refusal_of_spoilt(need({{"need", "flies"}})),
               HasSubstr("needs[0].need is \"flies\": must be one of ends-near, ends-tilted"));
-  EXPECT_THAT(refusal(need({{"need", "stands"}, {"body", "pot"}, {"degrees", 1}})),
+  EXPECT_THAT(refusal_of_spoilt(need({{"need", "stands"}, {"body", "pot"}, {"degrees", 1}})),
               HasSubstr("needs[0].body is \"pot\""));
-  EXPECT_THAT(refusal(need({{"need", "stands"}, {"body", "can"}, {"degrees", -1}})),
+  EXPECT_THAT(refusal_of_spoilt(need({{"need", "stands"}, {"body", "can"}, {"degrees", -1}})),
               HasSubstr("needs[0].degrees is -1"));
-  EXPECT_THAT(refusal(need({{"need", "rests"}, {"speed", 1}, {"by", 9}})),
+  EXPECT_THAT(refusal_of_spoilt(need({{"need", "rests"}, {"speed", 1}, {"by", 9}})),
               HasSubstr("needs[0].by is 9: must lie within the scene's duration"));
-  EXPECT_THAT(refusal(need({{"need", "normals"}, {"bodies", {"can"}}, {"degrees", 9}})),
+  EXPECT_THAT(refusal_of_spoilt(need({{"need", "normals"}, {"bodies", {"can"}}, {"degrees", 9}})),
               HasSubstr("needs[0].bodies"));
+  EXPECT_THAT(refusal_of_spoilt(
+                  need({{"need", "penetration"}, {"bodies", {"ground", "ground"}}, {"metres", 1}})),
+              HasSubstr("needs[0].bodies is [\"ground\",\"ground\"]: one of them"));
   EXPECT_THAT(
-      refusal(need({{"need", "penetration"}, {"bodies", {"ground", "ground"}}, {"metres", 1}})),
-      HasSubstr("needs[0].bodies is [\"ground\",\"ground\"]: one of them"));
-  EXPECT_THAT(refusal(need({{"need", "rolls"}, {"body", "can"}, {"distance", 0}, {"share", 1}})),
-              HasSubstr("needs[0].distance is 0"));
+      refusal_of_spoilt(need({{"need", "rolls"}, {"body", "can"}, {"distance", 0}, {"share", 1}})),
+      HasSubstr("needs[0].distance is 0"));
   EXPECT_THAT(
-      refusal(need(
+      refusal_of_spoilt(need(
           {{"need", "stays-in"}, {"body", "can"}, {"lower", {0, 0, 1}}, {"upper", {1, 1, 0}}})),
       HasSubstr("needs[0].upper"));
 }
@@ -160,11 +162,12 @@ TEST(SceneFile, ErrorsOfNeedsNameThePathOfTheField) {
 TEST(SceneFile, RefusesNeedsThatWouldHoldOrBreakWhateverMoves) {
   const auto need = [](const json& value) { return [=](json& s) { s["needs"][0] = value; }; };
   EXPECT_THAT(
-      refusal(
+      refusal_of_spoilt(
           need({{"need", "stands"}, {"body", "can"}, {"degrees", 1}, {"from", 1}, {"until", 0.5}})),
       HasSubstr("needs[0].until is 0.5: must not lie before from, which is 1"));
-  EXPECT_THAT(refusal(need({{"need", "penetration"}, {"bodies", {"can", "can"}}, {"metres", 1}})),
-              HasSubstr("needs[0].bodies is [\"can\",\"can\"]: must be two bodies"));
+  EXPECT_THAT(
+      refusal_of_spoilt(need({{"need", "penetration"}, {"bodies", {"can", "can"}}, {"metres", 1}})),
+      HasSubstr("needs[0].bodies is [\"can\",\"can\"]: must be two bodies"));
   for (const json& of_ground :
        {json{{"need", "stands"}, {"body", "ground"}, {"degrees", 1}},
         json{{"need", "rolls"}, {"body", "ground"}, {"share", 0.1}},
@@ -172,7 +175,8 @@ TEST(SceneFile, RefusesNeedsThatWouldHoldOrBreakWhateverMoves) {
         json{{"need", "ends-near"}, {"body", "ground"}, {"metres", 1}},
         json{{"need", "ends-tilted"}, {"body", "ground"}, {"degrees", 1}},
         json{{"need", "falls-in-order"}, {"bodies", {"ground"}}}}) {
-    EXPECT_THAT(refusal(need(of_ground)), HasSubstr("must be moved by forces: ground is fixed"))
+    EXPECT_THAT(refusal_of_spoilt(need(of_ground)),
+                HasSubstr("must be moved by forces: ground is fixed"))
         << of_ground;
   }
 }
@@ -343,14 +347,15 @@ TEST(SceneFile, ErrorsOfWhatMovesItsBodiesNameThePathOfTheField) {
 
 TEST(SceneFile, AnglesOfNeedsAreSmallerThanTheLargestThereIs) {
   const auto need = [](const json& value) { return [=](json& s) { s["needs"][0] = value; }; };
-  EXPECT_THAT(refusal(need({{"need", "stands"}, {"body", "can"}, {"degrees", 90}})),
+  EXPECT_THAT(refusal_of_spoilt(need({{"need", "stands"}, {"body", "can"}, {"degrees", 90}})),
               HasSubstr("needs[0].degrees is 90: must be less than 90"));
-  EXPECT_EQ(refusal(need({{"need", "stands"}, {"body", "can"}, {"degrees", 89.9}})), "accepted");
+  EXPECT_EQ(refusal_of_spoilt(need({{"need", "stands"}, {"body", "can"}, {"degrees", 89.9}})),
+            "accepted");
   for (const json& of_turns :
        {json{{"need", "falls-in-order"}, {"bodies", {"can"}}, {"degrees", 180}},
         json{{"need", "normals"}, {"bodies", {"can", "ground"}}, {"degrees", 180}},
         json{{"need", "ends-tilted"}, {"body", "can"}, {"degrees", 180}}}) {
-    EXPECT_THAT(refusal(need(of_turns)),
+    EXPECT_THAT(refusal_of_spoilt(need(of_turns)),
                 HasSubstr("needs[0].degrees is 180: must be less than 180"))
         << of_turns;
   }
@@ -358,7 +363,7 @@ TEST(SceneFile, AnglesOfNeedsAreSmallerThanTheLargestThereIs) {
 
 TEST(SceneFile, NeedsOfContactsAreOfWhatMayTouchBeforeTheEnd) {
   const auto with = [](const json& need, bool is_joined) {
-    return refusal([&](json& s) {
+    return refusal_of_spoilt([&](json& s) {
       s["bodies"].push_back(s["bodies"][1]);
       s["bodies"][2]["name"] = "lid";
       if (is_joined) {
@@ -387,7 +392,7 @@ TEST(SceneFile, NeedsOfContactsAreOfWhatMayTouchBeforeTheEnd) {
 
 TEST(SceneFile, ADriveDoesNotTurnByHalfATurnBetweenTwoWaypoints) {
   const auto turned_to = [](const json& orientation) {
-    return refusal([&](json& s) {
+    return refusal_of_spoilt([&](json& s) {
       s["bodies"][1].erase("velocity");
       s["bodies"][1]["drive"] = {
           {"waypoints",
@@ -417,14 +422,14 @@ TEST(SceneFile, ThatIsXmlIsRefusedWithTheEndingsOfRobots) {
 
 TEST(SceneFile, IsAtLeastAStepLong) {
   for (const double duration : {0.0, 0.001}) {
-    EXPECT_THAT(refusal([&](json& s) {
+    EXPECT_THAT(refusal_of_spoilt([&](json& s) {
                   s["duration"] = duration;
                   s["needs"] = json::array();
                 }),
                 HasSubstr("duration is " + json(duration).dump() + ": must be at least one step"));
   }
-  EXPECT_THAT(refusal([](json& s) { s["duration"] = -1; }), HasSubstr("duration is -1"));
-  EXPECT_THAT(refusal([](json& s) {
+  EXPECT_THAT(refusal_of_spoilt([](json& s) { s["duration"] = -1; }), HasSubstr("duration is -1"));
+  EXPECT_THAT(refusal_of_spoilt([](json& s) {
                 s["duration"] = 0.25;
                 s["step"] = 0.5;
               }),
@@ -433,12 +438,12 @@ TEST(SceneFile, IsAtLeastAStepLong) {
 
 TEST(SceneFile, NamesAreWithoutControlCharacters) {
   for (const char* name : {"can\n", "\x1b[2J", "\u009b2J"}) {
-    EXPECT_THAT(refusal([&](json& s) { s["bodies"][1]["name"] = name; }),
+    EXPECT_THAT(refusal_of_spoilt([&](json& s) { s["bodies"][1]["name"] = name; }),
                 HasSubstr("bodies[1].name is "))
         << name;
   }
   for (const char* name : {"", " "}) {
-    EXPECT_THAT(refusal([&](json& s) { s["bodies"][1]["name"] = name; }),
+    EXPECT_THAT(refusal_of_spoilt([&](json& s) { s["bodies"][1]["name"] = name; }),
                 HasSubstr("must have a letter"));
   }
   // A file's name may be of any bytes; what is shown of it is text.
@@ -454,7 +459,7 @@ TEST(SceneFile, ThatIsNoneIsRefused) {
 
 TEST(SceneFile, ShippedScenesAreReadAndSayWhatTheyNeed) {
   int count = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(scenes)) {
+  for (const auto& entry : std::filesystem::directory_iterator(scene_folder)) {
     if (entry.path().extension() != ".json") continue;
     SCOPED_TRACE(entry.path());
     const SceneFile file = read_scene(entry.path());
