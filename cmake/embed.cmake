@@ -10,6 +10,8 @@ if(NOT CMAKE_SCRIPT_MODE_FILE)
       WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}
       DEPENDS ${ARGN} ${EMBED_SCRIPT}
       VERBATIM)
+    set_source_files_properties(${out} PROPERTIES
+      SKIP_UNITY_BUILD_INCLUSION ON SKIP_PRECOMPILE_HEADERS ON)
   endfunction()
   return()
 endif()

@@ -1,7 +1,7 @@
 # Headers of other projects that most sources include, parsed once for all of them: for libraries and
-# the program, and for tests. A precompiled header serves sources with the same flags as its own only,
-# so those with flags of their own go without. Sources include what they need all the same: clang-tidy
-# reads them without (preset lint).
+# the program, and for tests. A precompiled header serves those who see the same definitions.
+# Sources include what they need all the same: clang-tidy reads them without (preset lint).
+add_compile_definitions($<TARGET_PROPERTY:fmt::fmt,INTERFACE_COMPILE_DEFINITIONS>)
 
 # precompiled(TARGET LIBRARIES … HEADERS …): a target whose precompiled header others can reuse.
 function(precompiled target)

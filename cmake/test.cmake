@@ -7,7 +7,7 @@ function(touchstone_test)
   cmake_parse_arguments(PARSE_ARGV 0 TEST "" "NAME" "SOURCES;LIBRARIES")
   add_executable(${TEST_NAME} ${TEST_SOURCES})
   target_link_libraries(${TEST_NAME} PRIVATE ${TEST_LIBRARIES} GTest::gmock GTest::gtest_main
-                                             fmt::fmt touchstone_warnings)
+                                             touchstone_warnings)
   target_precompile_headers(${TEST_NAME} REUSE_FROM touchstone_test_headers)
   gtest_discover_tests(${TEST_NAME} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60)
 endfunction()

@@ -164,7 +164,7 @@ void raise(Worst& worst, const std::optional<double>& value, std::size_t base, s
 
 /// All steps of a cell, as one candidate answered them, or as the truth has it: amplification
 /// alone.
-struct Climb {
+struct CandidateClimb {
   bool is_supported = true;
   ByAmplitude<std::optional<double>> amplification, hull_excess, regret;
   std::optional<double> jump;
@@ -218,9 +218,9 @@ std::vector<Configuration> steps_from(const Bases& bases, std::uint64_t seed) {
 }
 
 /// The truth first, then the candidates in their order. `poses`: those of steps_from, examined.
-std::vector<Climb> climbs_over(std::span<const ExaminedPose> poses, std::size_t candidates,
-                               const Bar& bar) {
-  std::vector<Climb> climbs(1 + candidates);
+std::vector<CandidateClimb> climbs_over(std::span<const ExaminedPose> poses, std::size_t candidates,
+                                        const Bar& bar) {
+  std::vector<CandidateClimb> climbs(1 + candidates);
   for (std::size_t k = 0; k < candidates; ++k) {
     climbs[1 + k].is_supported = poses[0].answers[k].score.outcome != Outcome::unsupported;
   }
@@ -247,10 +247,10 @@ class Collector {
     result_.count = count;
   }
 
-  void add(const Bases& bases, const std::vector<Climb>& climbs) {
+  void add(const Bases& bases, const std::vector<CandidateClimb>& climbs) {
     result_.truth.push_back({bases.pair, bases.pose_class, climbs[0].amplification});
     for (std::size_t k = 0; k < study_.candidates.size(); ++k) {
-      const Climb& c = climbs[1 + k];
+      const CandidateClimb& c = climbs[1 + k];
       if (!c.is_supported) continue;
       const std::string& candidate = study_.candidates[k]->name;
       result_.results.push_back({bases.pair, bases.pose_class, candidate, c.amplification,
@@ -332,7 +332,7 @@ Measure<Amplification> amplification(const Ladder& ladder, const Study& study) {
           if (texts[task].empty()) continue;  // interrupted before
           ByteReader bytes(texts[task]);
           for (const Cell& cell : of_task(task)) {
-            collector.add(bases_of(cell, ladder), bytes.get_all<Climb>());
+            collector.add(bases_of(cell, ladder), bytes.get_all<CandidateClimb>());
           }
         }
         return std::move(collector).result();
