@@ -31,6 +31,16 @@ bool is_within_side(double along, double r, double h, double gap) {
   return std::abs(along) <= h - depth(gap) && depth(gap) <= r;
 }
 
+/// Does the point of a rim at which it meets a side lie its depth away from the side's ends, and no
+/// further from the axis than the gap says? Along a normal that is also the rim's own axis, but for
+/// rounding, the rim's furthest point is any of it, and the one that the formula takes may be
+/// another one than that which faces the side.
+bool is_proven_at_rim(const FoldedCylinders& p, const FoldedCylinders::FromAxis& point, double r,
+                      double h, double gap) {
+  const double reach = r + gap + p.proof_rounding();
+  return is_within_side(point.along, r, h, gap) && point.squared <= reach * reach;
+}
+
 /// Has a cap the largest gap? The other's centre lies at `offset` across the cap's axis, towards
 /// which the middle of the other's rim lies at ±H s from there, and the rim's point at ∓R c.
 bool is_proven_at_cap(const FoldedAxes& f, double gap, double offset, double side,
@@ -170,7 +180,7 @@ StageResult side1_and_rim2(const FoldedCylinders& p, double best) {
   const Vec3 n = across_axis1(p.axes, *way);
   const double gap = p.gap(n);
   if (!(gap > best)) return {};
-  return {gap, n.x(), n.y(), n.z(), is_within_side(p.along_axis1(n), p.r1, p.h1, gap)};
+  return {gap, n.x(), n.y(), n.z(), is_proven_at_rim(p, p.from_axis1(n), p.r1, p.h1, gap)};
 }
 StageResult side2_and_rim1(const FoldedCylinders& p, double best) {
   const auto way = rim1_beside_side2(p).normal(best);
@@ -178,7 +188,7 @@ StageResult side2_and_rim1(const FoldedCylinders& p, double best) {
   const Vec3 n = across_axis2(p.axes, *way);
   const double gap = p.gap(n);
   if (!(gap > best)) return {};
-  return {gap, n.x(), n.y(), n.z(), is_within_side(p.along_axis2(n), p.r2, p.h2, gap)};
+  return {gap, n.x(), n.y(), n.z(), is_proven_at_rim(p, p.from_axis2(n), p.r2, p.h2, gap)};
 }
 
 /// The largest gap but where rims meet.
@@ -226,15 +236,18 @@ struct FacingCap {
     if (axes.sine <= flat) {
       return x * x + y * y + z * z <= (reach + other.radius) * (reach + other.radius);
     }
-    // Across the own axis that point lies from the other's centre as the other axis does, by so
-    // much: at the end of the axis, and at the rim on the other side.
+    // Across the own axis that point lies from the other's centre as the other axis does, at the
+    // end of that axis and at the rim on the other side. What rounding leaves of the other axis
+    // there has neither the direction nor the length of the product of the axes; it is scaled by
+    // its own length, so that the point lies on the rim whatever its direction.
     const auto u = own.axis(), v = other.axis();
-    const double scale = std::copysign(1, along) * axes.side *
-                         (other.half_length - other.radius * axes.cosine / axes.sine);
     const double along_u = axes.side * axes.cosine;
-    const double px = scale * (v.x() - along_u * u.x()) - x;
-    const double py = scale * (v.y() - along_u * u.y()) - y;
-    const double pz = scale * (v.z() - along_u * u.z()) - z;
+    const double vx = v.x() - along_u * u.x(), vy = v.y() - along_u * u.y();
+    const double vz = v.z() - along_u * u.z();
+    const double length = std::sqrt(vx * vx + vy * vy + vz * vz);
+    const double scale = std::copysign(1, along) * axes.side *
+                         (other.half_length - other.radius * axes.cosine / length);
+    const double px = scale * vx - x, py = scale * vy - y, pz = scale * vz - z;
     return px * px + py * py + pz * pz <= reach * reach;
   }
   LargestGap largest_gap() const {

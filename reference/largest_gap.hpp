@@ -22,6 +22,9 @@ inline constexpr double no_early_exit = std::numeric_limits<double>::infinity();
 /// together: each of its terms is rounded by a few units in the last place.
 inline constexpr double rounding_part = 16 * std::numeric_limits<double>::epsilon();
 
+/// Rounding moves a point of a body, and with it a proof, by less than this part of them.
+inline constexpr double proof_part = rounding_part / 4;
+
 /// What rounding leaves of a clearance is far less than this part of all lengths together. No
 /// answer may hang on what it makes of a touch, so a normal that is not always tried must part the
 /// bodies by more than that.

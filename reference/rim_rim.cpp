@@ -119,9 +119,9 @@ Ends likely_ends(const FoldedCylinders& pair, const Vec3& n) {
     const auto [t1, t2] = f.crossing();
     ends = {std::copysign(1, t1), std::copysign(1, t2)};
   } else if (std::abs(along1) <= across) {
-    ends.one = -std::copysign(1, pair.along_axis1(n));
+    ends.one = -std::copysign(1, pair.from_axis1(n).along);
   } else if (std::abs(along2) <= across) {
-    ends.two = std::copysign(1, pair.along_axis2(n));
+    ends.two = std::copysign(1, pair.from_axis2(n).along);
   }
   return ends;
 }

@@ -25,21 +25,31 @@ struct FoldedCylinders {
   }
   /// A clearance that is more than rounding.
   double clear_gap() const { return clear_part * lengths(); }
+  /// What a proof leaves for the rounding of a point's place.
+  double proof_rounding() const { return proof_part * lengths(); }
   /// All lengths together.
   double lengths() const {
     return axes.d3 + std::abs(axes.d2) + std::abs(axes.d1) + r1 + h1 + r2 + h2;
   }
-  /// For n across axis 1: coordinate along axis 1 of B's support point, from A's centre.
-  double along_axis1(const Vec3& n) const {
-    const double nu = axes.along_u2(n), m = axes.along_k2(n);
-    const double rim = -r2 * nu * axes.c / std::sqrt(m * m + n.z() * n.z());
-    return std::copysign(h2, nu) * axes.c + rim - axes.d1;
+  /// Where a point lies from a body's centre: along its axis, and the squared distance from that.
+  struct FromAxis {
+    double along, squared;
+  };
+  /// For n across axis 1: where B's support point lies from axis 1.
+  FromAxis from_axis1(const Vec3& n) const {
+    const double nu = axes.along_u2(n), m = axes.along_k2(n), end = std::copysign(h2, nu);
+    const double rim = r2 / std::sqrt(m * m + n.z() * n.z());
+    const double across = end * axes.s + rim * m * axes.c - axes.d2, off = rim * n.z() - axes.d3;
+    return {end * axes.c - rim * nu * axes.c - axes.d1, across * across + off * off};
   }
-  /// For n across axis 2: coordinate along axis 2 of A's support point, from B's centre.
-  double along_axis2(const Vec3& n) const {
-    const double nu = n.x();
-    const double rim = -r1 * nu * axes.c / std::sqrt(n.y() * n.y() + n.z() * n.z());
-    return axes.along_u2(axes.d()) - std::copysign(h1, nu) * axes.c - rim;
+  /// For n across axis 2: where A's support point lies from axis 2.
+  FromAxis from_axis2(const Vec3& n) const {
+    const Vec3 d = axes.d();
+    const double end = std::copysign(h1, n.x());
+    const double rim = r1 / std::sqrt(n.y() * n.y() + n.z() * n.z());
+    const double across = axes.along_k2(d) + end * axes.s - rim * n.y() * axes.c;
+    const double off = axes.d3 - rim * n.z();
+    return {axes.along_u2(d) - end * axes.c + rim * n.x() * axes.c, across * across + off * off};
   }
   /// The largest gap between their shadows in the plane of the axes, which are rectangles.
   double gap_of_shadows() const {
@@ -201,7 +211,7 @@ class Rims {
       const double left = 3 * (k1 * inverse1 + k2 * inverse2) * length * length;
       const bool is_there = !too_long && left * (a + e) * inverse <= rounding * max_length;
       converged = is_there || length <= small_part * max_length;
-      if (is_there) slope = std::min(slope, left + noise());
+      if (!too_long) slope = std::min(slope, left + noise());
       if (converged || (length >= previous / 2 && gain <= noise())) break;
       previous = too_long ? std::numeric_limits<double>::infinity() : length;
     }
