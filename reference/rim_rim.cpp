@@ -202,7 +202,10 @@ class RimScan {
  private:
   static constexpr double min_half_width = 1e-8;  // rad
   static constexpr double small_step = 1e-9;      // rad; its square is below rounding
+  // What is left after so many samples is divided only so far that on each arc rim 1, and rim 2's
+  // nearest point about axis 2, go on by no more than this.
   static constexpr int max_samples = 20000;
+  static constexpr double coarse_way = 2e-3, coarse_turn = 0.05;  // rad
 
   /// With its cosine and sine: those of a bisected arc cost less than new ones.
   struct Angle {
@@ -285,10 +288,40 @@ class RimScan {
         return true;
       }
       if (rims_.has_only_maxima_beside_axis(middle, half_width, passage)) return true;
-      if (half_width > min_half_width && samples_ <= max_samples) return false;
+      if (half_width > min_half_width &&
+          (samples_ <= max_samples || !is_coarse(half_width, passage)))
+        return false;
+      offer_lowest(middle, half_width);
     }
     leave(middle, reach, half_width);
     return true;
+  }
+
+  static bool is_coarse(double half_width, const Passage& passage) {
+    return 2 * half_width <= coarse_way && passage.min_radial > 0 &&
+           2 * half_width * passage.turn <= coarse_turn;
+  }
+
+  /// The stationary distance between two angles, of which the lower one has a negative slope and
+  /// the higher one a positive one, by Newton's method in a bracket; an end where that is not so.
+  RimSample stationary_between(RimSample x, double& lo, double& hi) {
+    double previous = 2 * (hi - lo);
+    constexpr int max_steps = 60;
+    for (int i = 0; i < max_steps; ++i) {
+      (x.slope < 0 ? lo : hi) = x.angle;
+      double next = std::clamp(x.angle - x.slope / x.curvature, lo, hi);
+      if (!(std::abs(next - x.angle) <= previous / 2)) next = (lo + hi) / 2;
+      previous = std::abs(next - x.angle);
+      x = at({next});
+      if (previous <= small_step) break;
+    }
+    return x;
+  }
+
+  /// Of an arc that no bound decides: the minimum between ends towards which the distance rises.
+  void offer_lowest(const RimSample& middle, double half_width) {
+    double lo = middle.angle - half_width, hi = middle.angle + half_width;
+    if (at({lo}).slope < 0 && at({hi}).slope > 0) offer(stationary_between(middle, lo, hi));
   }
 
   /// The distance is convex on the arc: Newton's method finds the one minimum or leaves the arc.
@@ -297,17 +330,7 @@ class RimScan {
     const double squared = middle.distance * middle.distance - fall;
     if (squared > 0 && !matters(std::sqrt(squared), middle.distance)) return;
     double lo = middle.angle - half_width, hi = middle.angle + half_width;
-    RimSample x = middle;
-    double previous = 4 * half_width;
-    constexpr int max_steps = 60;
-    for (int i = 0; i < max_steps; ++i) {
-      (x.slope < 0 ? lo : hi) = x.angle;
-      double next = std::clamp(x.angle - x.slope / x.curvature, lo, hi);
-      if (std::abs(next - x.angle) > previous / 2) next = (lo + hi) / 2;
-      previous = std::abs(next - x.angle);
-      x = at({next});
-      if (previous <= small_step) break;
-    }
+    const RimSample x = stationary_between(middle, lo, hi);
     // Beyond an end of the arc the minimum is the neighbouring arc's.
     if (!(lo < hi) && std::abs(x.slope) > noise_) return;
     // The minimum is as near as the least curvature between it and x tells.

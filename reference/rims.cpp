@@ -9,12 +9,17 @@ double sine_of(double cosine) { return std::sqrt(std::max(0.0, (1 - cosine) * (1
 struct Quarter {
   Range cosine, sine;
 
-  explicit Quarter(const Range& c) : cosine(c), sine{sine_of(c.hi), sine_of(c.lo)} {}
+  /// Next to 1 the sines of different cosines are rounded alike, and either way.
+  explicit Quarter(const Range& c)
+      : cosine(c), sine{sine_of(c.hi) - rounding, sine_of(c.lo) + rounding} {}
   /// Keeps the part whose sine is within these bounds.
   void keep(double min_sine, double max_sine) {
     if (sine.hi > max_sine) sine.hi = std::max(max_sine, 0.0), cosine.lo = sine_of(sine.hi);
     if (sine.lo < min_sine) sine.lo = std::min(min_sine, 1.0), cosine.hi = sine_of(sine.lo);
   }
+
+ private:
+  static constexpr double rounding = 1e-15;
 };
 
 /// Range of G x for a gap G between `lowest` and `highest` and positive x.
