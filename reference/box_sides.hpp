@@ -30,6 +30,8 @@ struct CylinderInBoxFrame {
       s[i] = std::sqrt(y * y + z * z);
     }
   }
+  /// All lengths together.
+  double lengths() const { return d.cwiseAbs().sum() + e.sum() + r + h; }
   double gap(const Vec3& n) const {
     return d.dot(n) - e.dot(n.cwiseAbs()) - h * std::abs(u.dot(n)) - r * u.cross(n).norm();
   }
@@ -194,7 +196,7 @@ struct BoxSides {
   /// rounding only it is as good.
   StageResult best(const CylinderInBoxFrame& p, double stop_above) const {
     StageResult found = best_of_kind(p, stop_above);
-    const double lengths = p.d.cwiseAbs().sum() + p.e.sum() + p.r + p.h;
+    const double lengths = p.lengths();
     if (!found.is_proven && found.gap <= stop_above && kind() != Kind::face &&
         found.gap - face.gap <= rounding_part / 16 * lengths) {
       found.is_proven = is_proven(face, p);

@@ -96,17 +96,19 @@ struct SeenAlong {
   }
 };
 
-/// The proofs of `bends_away` for a normal at which a rim and an edge meet; near the axis with the
-/// thickest cylinder in the box that stands on the face there. `nu` is n·u, `squared` 1 − nu².
+/// Proofs for a normal at which a rim and an edge meet: of `bends_away`, near the axis with the
+/// thickest cylinder in the box that stands on the face there. `nu` is n·u, `squared` 1 − nu²,
+/// `slope` the gap's derivative across the edge.
 bool is_proven_at_rim(const Frame& p, const EdgeAndRim& at, const Vec3& n, double nu,
-                      double squared, double gap) {
+                      double squared, double gap, double slope) {
   const int i = at.i, j = (i + 1) % 3, k = (i + 2) % 3;
   const double where = p.d[i] - at.end * p.h * p.u[i] + p.r * nu * p.u[i] / std::sqrt(squared);
   const double beyond = p.e[i] - std::abs(where);
   if (!(beyond > 0)) return false;
+  if (is_met_by_points(gap, slope, proof_part * p.lengths())) return true;
   const double squared_sine = p.u[i] * p.u[i] / squared;
   const Rim rim{p.r, p.h}, edge{2 * beyond, std::min(p.e[j], p.e[k])};
-  if (bends_away(rim, edge, squared_sine, depth(gap), 0)) return true;
+  if (bends_away(rim, edge, squared_sine, depth(gap), slope)) return true;
   const int axis = std::abs(n[j]) > std::abs(n[k]) ? j : k, other = 3 - i - axis;
   const double radius = std::min(p.e[i], p.e[other]);
   Vec3 arm = p.d;
@@ -115,7 +117,7 @@ bool is_proven_at_rim(const Frame& p, const EdgeAndRim& at, const Vec3& n, doubl
   }
   const double along = arm.dot(p.u), lean = std::max(std::sqrt(squared), std::abs(n[other]));
   return along * nu >= 0 &&
-         bends_away_near_axis(rim, edge, lean, squared_sine, depth(gap), 0,
+         bends_away_near_axis(rim, edge, lean, squared_sine, depth(gap), slope,
                               {p.r, p.h, radius, p.e[axis], std::abs(p.u[axis]), p.s[axis],
                                std::abs(along), (arm - along * p.u).norm()});
 }
@@ -124,22 +126,27 @@ bool is_proven_at_rim(const Frame& p, const EdgeAndRim& at, const Vec3& n, doubl
 StageResult rim_and_edge(const Frame& p, const EdgeAndRim& at, const Vec2& axis, const Vec2& q,
                          double best) {
   const int i = at.i, j = (i + 1) % 3, k = (i + 2) % 3;
-  const double b = p.r * std::abs(p.u[i]), aside = cross2(axis, q);
-  const auto foot = ellipse_normal(p.r, b, std::abs(aside), at.end * axis.dot(q));
+  const double b = p.r * std::abs(p.u[i]), aside = cross2(axis, q), ahead = at.end * axis.dot(q);
+  const auto foot = ellipse_normal(p.r, b, std::abs(aside), ahead);
   if (!foot) return {};
   const double x = foot->x(), y = foot->y(), across = std::copysign(x, aside);
   const double along = at.end * y;
   const double nj = along * axis.x() - across * axis.y();
   const double nk = along * axis.y() + across * axis.x();
+  const double reach = std::sqrt(p.r * p.r * x * x + b * b * y * y);
   const double gap = p.d[j] * nj + p.d[k] * nk - p.e[j] * std::abs(nj) - p.e[k] * std::abs(nk) -
-                     p.h * p.s[i] * y - std::sqrt(p.r * p.r * x * x + b * b * y * y);
+                     p.h * p.s[i] * y - reach;
   if (!(gap > best)) return {};
   Vec3 n;
   n[i] = 0, n[j] = nj, n[k] = nk;
-  return {
-      gap, n.x(), n.y(), n.z(),
-      nj * at.sign_j >= 0 && nk * at.sign_k >= 0 &&
-          is_proven_at_rim(p, at, n, at.end * p.s[i] * y, x * x + p.u[i] * p.u[i] * y * y, gap)};
+  StageResult found{gap, n.x(), n.y(), n.z()};
+  if (nj * at.sign_j >= 0 && nk * at.sign_k >= 0) {
+    const double slope =
+        std::abs(x * ahead - y * std::abs(aside) + (p.r - b) * (p.r + b) * x * y / reach);
+    found.is_proven = is_proven_at_rim(p, at, n, at.end * p.s[i] * y,
+                                       x * x + p.u[i] * p.u[i] * y * y, gap, slope);
+  }
+  return found;
 }
 
 /// Two chords of the ellipse's quadrant meet at (r, b)/√2: is the point (x, y) further behind both

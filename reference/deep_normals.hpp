@@ -7,10 +7,17 @@
 
 namespace touchstone {
 
-// Proofs that no way out is shorter than a given one, for bodies that overlap so deeply that no
-// ball of that depth fits into one of them: bounds from below of F(n) = −g(n) for every unit n
-// (proofs.md, "Deep normals"; deep_normals_test.cpp holds each against random normals). A false
-// answer says nothing.
+// Proofs that no normal has a larger gap than a given one where no ball of that depth behind the
+// place where the bodies meet says so. Of bodies that overlap they are bounds from below of
+// F(n) = −g(n) for every unit n (proofs.md, "Deep normals"; deep_normals_test.cpp holds each
+// against random normals). A false answer says nothing.
+
+/// Proves of bodies that are apart that no normal has more than this gap, but for rounding: of a
+/// normal at which a point of each faces the other but for a slope, which are √(gap² + slope²)
+/// apart.
+inline bool is_met_by_points(double gap, double slope, double rounding) {
+  return gap > 0 && slope * slope <= rounding * (2 * gap + rounding);
+}
 
 /// A body's lengths and where it is seen from the other's axis.
 struct AboutAxis {

@@ -60,19 +60,15 @@ void offer_parallel_rim_normal(const FoldedCylinders& pair, LargestGap& best) {
   best.offer(pair.gap(n), n);
 }
 
-/// Whether a local maximum of the gap is the largest gap.
+/// Whether a maximum of bodies that overlap, stationary to rounding, is the largest gap.
 ///
-/// Apart, the gap is concave as far as it is positive. At depth δ, g + δ |n| is concave as a
-/// function of the ray along n where the sum of the bodies is rounder than a ball of that radius:
-/// at n3 >= κ (the Hessian at `Rims::polished`; ρ1 ρ2 is at most (ρ1² + ρ2²) / 2). So no other
-/// normal there has more. With a smaller n3 the gap is at most that of the bodies' shadows in the
-/// plane of the axes, which are rectangles, and n3 d3.
+/// At depth δ, g + δ |n| is concave as a function of the ray along n where the sum of the bodies is
+/// rounder than a ball of that radius: at n3 >= κ (the Hessian at `Rims::polished`; ρ1 ρ2 is at
+/// most (ρ1² + ρ2²) / 2). So no other normal there has more, but for what the slope leaves. With a
+/// smaller n3 the gap is at most that of the bodies' shadows in the plane of the axes, which are
+/// rectangles, and n3 d3.
 bool is_largest_where_round(const FoldedCylinders& pair, const LargestGap& maximum) {
   const FoldedAxes& f = pair.axes;
-  // Along nearly parallel axes the gap is flat, and Newton's last step small anywhere.
-  constexpr double parallel = 1e-2;
-  if (f.s < parallel) return false;
-  if (maximum.gap > 0) return true;
   const double delta = -maximum.gap, r1 = pair.r1, r2 = pair.r2;
   const double round = (1 - delta / r1) * (1 - delta / r2);
   if (!(delta < r1)) return false;
@@ -99,8 +95,12 @@ bool is_largest_at_shallow_depth(const FoldedCylinders& pair, const Stationary& 
                                std::sqrt(across * across + d.z() * d.z())});
 }
 
+/// Whether the maximum at which two rims meet is the largest gap, but for rounding.
 bool is_largest(const FoldedCylinders& pair, const Stationary& found, const LargestGap& there) {
-  return is_largest_at_shallow_depth(pair, found, there.gap) || is_largest_where_round(pair, there);
+  const double rounding = pair.proof_rounding();
+  return is_met_by_points(there.gap, found.slope, rounding) ||
+         is_largest_at_shallow_depth(pair, found, there.gap) ||
+         (there.gap <= 0 && found.slope <= rounding && is_largest_where_round(pair, there));
 }
 
 /// Ends whose rims meet: +1 or −1 along each axis, as the normal points.
