@@ -24,10 +24,17 @@ class Outline {
     for (const ContactPoint& p : contact.points()) middle += p.position / count_;
     std::array<Vec3, capacity> arm;
     std::array<double, capacity> angle;
+    double longest = 0;
     for (int i = 0; i < count_; ++i) {
       arm[i] = contact.points()[i].position - middle;
       angle[i] = std::atan2(side * arm[i][y], arm[i][x]);
+      longest = std::max(longest, arm[i].cwiseAbs().maxCoeff());
     }
+    // No product may overflow or vanish; a power of two rounds nothing.
+    constexpr int max_exponent = 1000;
+    const int exponent = std::ilogb(longest);  // INT_MIN of zero
+    unit_ = std::ldexp(1, std::clamp(exponent, -max_exponent, max_exponent));
+    for (int i = 0; i < count_; ++i) arm[i] *= 1 / unit_;
     std::iota(around_.begin(), around_.begin() + count_, 0);
     std::sort(around_.begin(), around_.begin() + count_,
               [&](int i, int j) { return angle[i] < angle[j]; });
@@ -45,7 +52,8 @@ class Outline {
 
   /// The contact's point at this place.
   int point(int place) const { return around_[place]; }
-  double length() const { return std::sqrt(max_squared_); }
+  /// The longest distance of two points, metres.
+  double length() const { return unit_ * std::sqrt(max_squared_); }
   double squared_distance(unsigned pair) const {
     return squared_[std::countr_zero(pair)][std::countr_zero(pair & (pair - 1))];
   }
@@ -65,6 +73,7 @@ class Outline {
 
  private:
   int count_;
+  double unit_;  ///< of the lengths whose areas and squares follow, metres
   std::array<int, capacity> around_;
   double area_[capacity][capacity];     ///< twice that of the triangle of the middle and two points
   double squared_[capacity][capacity];  ///< of two points' distance

@@ -104,6 +104,29 @@ TEST(ReducePoints, KeepsTheOrder) {
   }
 }
 
+// Areas of lengths above 1e154 overflow, those below 1e-162 vanish.
+TEST(ReducePoints, KeepsTheSameAtEveryScale) {
+  for (const double level : {0.0, 1e-9}) {
+    for (int limit = 1; limit < 8; ++limit) {
+      Contact exact = corners(8, 0.2);
+      reduce_points(exact, limit, level);
+      for (const int exponent : {-900, -600, -500, 250, 500, 600, 900}) {
+        const double by = std::ldexp(1, exponent);
+        Contact scaled;
+        scaled.normal = Vec3::UnitZ();
+        const Contact all = corners(8, 0.2);
+        for (const ContactPoint& p : all.points()) scaled.add_point(by * p.position, by * p.depth);
+        reduce_points(scaled, limit, level);
+        ASSERT_EQ(scaled.points().size(), exact.points().size()) << exponent;
+        for (int k = 0; k < limit; ++k) {
+          EXPECT_EQ(scaled.points()[k].position, by * exact.points()[k].position) << exponent;
+          EXPECT_EQ(scaled.points()[k].depth, by * exact.points()[k].depth) << exponent;
+        }
+      }
+    }
+  }
+}
+
 TEST(ReducePoints, KeepsTheEndsOfALineAndTheDeepestAlone) {
   Contact line;
   line.normal = Vec3::UnitY();
