@@ -94,9 +94,6 @@ struct Arc {
   }
 };
 
-/// A part of a circle that is no farther than this from its end is not cut off, in radii.
-constexpr double sliver = 1e-12;
-
 }  // namespace
 
 ArcPolygon::ArcPolygon(const Lens& lens) : circles_{lens.circle1, lens.circle2}, circle_count_(2) {
@@ -107,7 +104,8 @@ ArcPolygon::ArcPolygon(const Lens& lens) : circles_{lens.circle1, lens.circle2},
 // Without branches on what is unpredictable: which edges cut the disc, and which corners lie in it.
 // Where rounding puts one end of an edge in the disc and the other, no farther out, off it, the
 // edge still ends where it ends.
-ArcPolygon::ArcPolygon(const Circle& circle, const Strip& first, const Strip& second) {
+ArcPolygon::ArcPolygon(const Circle& circle, const Strip& first, const Strip& second,
+                       double uncut) {
   circles_[0] = circle;
   const double r = circle.radius, x1 = first.across.x(), y1 = first.across.y();
   const double turn = cross2(first.across, second.across), side = std::copysign(1, turn);
@@ -131,28 +129,52 @@ ArcPolygon::ArcPolygon(const Circle& circle, const Strip& first, const Strip& se
   // Where an edge begins and ends, along itself from the foot of the perpendicular.
   double begin[4], end[4];
   bool end_is_inside[4];
+  double nearest_to_rim = std::numeric_limits<double>::infinity();  // of corners, in squares
   for (int i = 0; i < 4; ++i) {
     const double d = distance[i], before = distance[(i + 3) % 4], after = distance[(i + 1) % 4];
     const double slant = i % 2 == 0 ? cosine : -cosine;
     begin[i] = -(before + d * slant) * inverse_sine;
     end[i] = (after - d * slant) * inverse_sine;
-    end_is_inside[i] = d * d + end[i] * end[i] < r * r;
+    const double within = r * r - (d * d + end[i] * end[i]);
+    end_is_inside[i] = within > 0;
+    nearest_to_rim = std::min(nearest_to_rim, std::abs(within));
   }
   for (int i = 0; i < 4; ++i) {
     const double d = distance[i], half = std::sqrt(std::max(0.0, (r - d) * (r + d)));
     const bool begins_inside = end_is_inside[(i + 3) % 4], ends_inside = end_is_inside[i];
     const bool is_cut = begins_inside | ends_inside |
-                        ((std::abs(d) < (1 - sliver) * r) & (begin[i] <= 0) & (end[i] >= 0));
+                        ((std::abs(d) < (1 - uncut) * r) & (begin[i] <= 0) & (end[i] >= 0));
     const auto add_if = [&](bool is_there, double along, int edge) {
       vertices_[count_] = {Vec2(circle.centre.x() + d * nx[i] - along * ny[i],
                                 circle.centre.y() + d * ny[i] + along * nx[i]),
                            edge};
       count_ += is_there;
     };
-    add_if(is_cut, begins_inside ? begin[i] : std::max(begin[i], -half), straight);
-    add_if(is_cut & !ends_inside, std::min(end[i], half), 0);
+    // Of an edge that touches the rim from a corner on, only the corner is left.
+    const bool touches = (std::abs(d) >= (1 - uncut) * r) & (begins_inside != ends_inside);
+    add_if(is_cut & (begins_inside | !touches),
+           begins_inside ? begin[i] : std::max(begin[i], -half), touches ? 0 : straight);
+    add_if(is_cut & !ends_inside & !touches, std::min(end[i], half), 0);
   }
   is_disc_ = count_ == 0 && *std::min_element(distance, distance + 4) >= 0;
+  // Where a corner lies on the rim, rounding decides whether an arc is left beside it.
+  if (nearest_to_rim <= 4 * uncut * r * r) merge_closer_than(uncut * r);
+}
+
+void ArcPolygon::merge_closer_than(double distance) {
+  const auto are_close = [&](const Vertex& p, const Vertex& q) {
+    return (p.at - q.at).squaredNorm() <= distance * distance;
+  };
+  int kept = 0;
+  for (int i = 0; i < count_; ++i) {
+    if (kept > 0 && are_close(vertices_[kept - 1], vertices_[i])) {
+      vertices_[kept - 1].circle = vertices_[i].circle;
+    } else {
+      vertices_[kept++] = vertices_[i];
+    }
+  }
+  while (kept > 1 && are_close(vertices_[kept - 1], vertices_[0])) --kept;
+  count_ = kept;
 }
 
 void ArcPolygon::clip(const Vec2& normal, double bound) {

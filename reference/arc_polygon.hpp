@@ -33,12 +33,14 @@ struct Strip {
 class ArcPolygon {
  public:
   static constexpr int max_vertices = 16;
+  /// A part of a circle that is no farther than this from its end is not cut off, in radii.
+  static constexpr double sliver = 1e-12;
 
   /// The disc within `circle`.
   explicit ArcPolygon(const Circle& circle) : is_disc_(true) { circles_[0] = circle; }
-  /// What the disc shares with two strips that cross, whose `across` are unit vectors. A sliver is
-  /// not cut off (`clip`).
-  ArcPolygon(const Circle& circle, const Strip& first, const Strip& second);
+  /// What the disc shares with two strips that cross, whose `across` are unit vectors. A sliver
+  /// thinner than `uncut`, in radii, is not cut off by one edge alone.
+  ArcPolygon(const Circle& circle, const Strip& first, const Strip& second, double uncut = sliver);
   /// Two corners and an arc of each circle.
   explicit ArcPolygon(const Lens& lens);
   ArcPolygon(const ArcPolygon&) = delete;
@@ -73,6 +75,9 @@ class ArcPolygon {
     Vec2 at;
     int circle;  ///< of the edge that leaves it, or `straight`
   };
+
+  /// Leaves out edges of this length and less.
+  void merge_closer_than(double distance);
 
   int next(int i) const { return i + 1 < count_ ? i + 1 : 0; }
   void add(const Vec2& at, int circle) { vertices_[count_++] = {at, circle}; }

@@ -81,6 +81,28 @@ Circle largest_shared(const Circle& c1, const Circle& c2, double apart, const Ve
           (c1.radius + c2.radius - apart) / 2};
 }
 
+/// How far a disc's centre lies from the middle between two opposite edges, and how far from there
+/// on the disc is beyond them.
+struct Edges : Strip {
+  double offset, beyond;
+
+  /// What of a coordinate is outside them.
+  double excess(double from_middle) const {
+    return from_middle - std::clamp(from_middle, -half_width, half_width);
+  }
+};
+
+/// A disc within one that reaches beyond edges by a hair, and within these.
+Circle narrowed(Circle disc, const Edges (&sides)[2]) {
+  const double radius = disc.radius;
+  for (const Edges& e : sides) {
+    const double ahead = e.excess(e.offset + radius), behind = e.excess(e.offset - radius);
+    disc.centre -= (ahead + behind) / 2 * e.across;
+    disc.radius -= (ahead - behind) / 2;
+  }
+  return disc;
+}
+
 }  // namespace
 
 void disc_on_rectangle(const Manifold& to, const FacingFeature& cap, const FacingFeature& face) {
@@ -88,11 +110,6 @@ void disc_on_rectangle(const Manifold& to, const FacingFeature& cap, const Facin
   const ContactPlane::Face seen = plane.face(face);
   const Surfaces s{plane.incline(cap), seen.surface};
   const Circle disc{plane.to_plane(cap.middle), cap.radius};
-  // How far the disc's centre lies from the middle between two opposite edges, and how far from
-  // there on the disc is beyond them.
-  struct Edges : Strip {
-    double offset, beyond;
-  };
   const auto edges = [&](const Strip& strip) -> Edges {
     const double x = strip.across.x(), y = strip.across.y(), inverse = 1 / std::sqrt(x * x + y * y);
     const double middle = inverse * strip.middle, half_width = inverse * strip.half_width;
@@ -101,12 +118,16 @@ void disc_on_rectangle(const Manifold& to, const FacingFeature& cap, const Facin
             half_width - disc.radius};
   };
   const Edges sides[] = {edges(seen.strips[0]), edges(seen.strips[1])};
-  const auto lies_between = [](const Edges& e) { return std::abs(e.offset) <= e.beyond; };
+  const double unseen = unseen_part * disc.radius;
+  const auto lies_between = [&](const Edges& e) { return std::abs(e.offset) <= e.beyond + unseen; };
   if (lies_between(sides[0]) && lies_between(sides[1])) {
-    return add_disc(plane, disc, sides[0].across, s);
+    return add_disc(plane, narrowed(disc, sides), sides[0].across, s);
   }
 
-  ArcPolygon region(disc, sides[0], sides[1]);
+  const Vec2 slope = s.slope();
+  const double max_rise = 2 * disc.radius * slope.norm();
+  const bool leans = max_rise > plane.margins().slack;
+  ArcPolygon region(disc, sides[0], sides[1], leans ? ArcPolygon::sliver : unseen_part);
   if (region.empty()) {
     // The rim only touches the face's edge: the face's point that is nearest to the cap's middle.
     const auto way = [](const Edges& e) {
@@ -121,12 +142,17 @@ void disc_on_rectangle(const Manifold& to, const FacingFeature& cap, const Facin
                                : Vec2(way0 * across0 + way1 * across1);
     return plane.add(disc.centre + arm, s);
   }
-  const Vec2 slope = s.slope();
-  const double max_rise = 2 * disc.radius * slope.norm();
-  if (max_rise > plane.margins().slack && add_leaning(plane, region, s)) return;
+  if (leans && add_leaning(plane, region, s)) return;
   std::array<Vec2, 8> points;
   // No two corners of a symmetric patch are equally far along this direction.
   const int count = region.spread(sides[0].across + 0.37 * sides[1].across, points);
+  for (const Edges& e : sides) {  // an arc that is not cut ends within the face, too
+    const double over = std::abs(e.offset) - e.beyond;
+    if (!(over > 0 && over <= unseen)) continue;
+    for (int i = 0; i < count; ++i) {
+      points[i] -= e.excess(e.across.dot(points[i]) - e.middle) * e.across;
+    }
+  }
   const double part = deepest_point_weight(max_rise, plane.margins().clear_rise());
   add_layout(plane, points, count, part, part > 0 ? region.farthest(-slope) : Vec2(0, 0), s);
 }

@@ -88,8 +88,12 @@ void segment_on_flat(const Manifold& to, const FacingFeature& segment, const Fac
     const Vec2 arm = l.middle - disc.centre;
     const double foot = -arm.dot(l.along) / squared;
     const double offset = cross2(l.along, arm) / std::sqrt(squared);
+    // A line that touches the rim has one point of it, whichever side of it rounding puts it on. As
+    // the normal leans about the rim by a hair, the line moves by that part of its body's radius.
+    const double hair = unseen_part * (disc.radius + l.radius);
+    const bool touches = disc.radius - std::abs(offset) <= hair;
     const double half =
-        std::sqrt(std::max(0.0, (disc.radius - offset) * (disc.radius + offset)) / squared);
+        touches ? 0 : std::sqrt((disc.radius - offset) * (disc.radius + offset) / squared);
     range = {std::max(range.lo, foot - half), std::min(range.hi, foot + half)};
   } else {  // a rectangle
     // The edges that the line crosses first. One that runs along the others, but for a hair, does
@@ -131,8 +135,12 @@ void segment_on_flat(const Manifold& to, const FacingFeature& segment, const Fac
     const double on_line = l.height + t * l.rise, on_flat = surface.at(p);
     segment_is_a ? plane.add(p, on_line, on_flat) : plane.add(p, on_flat, on_line);
   };
+  // Ends that hardly overlap are one point, whichever side rounding puts them on.
+  if (range.hi - range.lo <= 2 * unseen_part * l.half_length) {
+    return add_at((range.lo + range.hi) / 2);
+  }
   add_at(range.lo);
-  if (range.hi > range.lo) add_at(range.hi);
+  add_at(range.hi);
 }
 
 void segment_on_segment(const Manifold& to, const FacingFeature& f, const FacingFeature& g) {

@@ -59,6 +59,10 @@ struct Margins {
   double unseen_depth() const { return clear_rise() / 2 + rounding; }
 };
 
+/// What a cap's rim or a side's end reaches over an edge, or a rim, by less than this part of its
+/// size is not seen: of sizes and places that are equal rounding decides which is the longer.
+inline constexpr double unseen_part = 2e-6;
+
 /// Adds to `contact`, whose normal and signed distance are set, the points where the bodies face
 /// each other across the normal; `origin` is where their frame lies in the world. Bodies:
 /// cylinders, capsules, boxes.
