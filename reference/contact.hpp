@@ -22,7 +22,7 @@ enum class PointRange {
   near_deepest,
   /// All, while caps, sides and faces lean by at most 0.1: for engines whose bodies sink into one
   /// another, or whose steps are so long that a body rocks from edge to edge. Of round bodies that
-  /// lean by θ, points are off the surface by θ²/2 of the size, and up to 1% deeper than the depth.
+  /// lean by θ, points are off the surface by θ²/2 of the size.
   within_threshold
 };
 

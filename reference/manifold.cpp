@@ -72,14 +72,38 @@ void add_deepest(Contact& contact, const PosedCylinder& a, const Body& b, const 
   }
 }
 
-/// Sees to a point of the whole depth.
+double deepest_point(const Contact& contact) {
+  double depth = -std::numeric_limits<double>::infinity();
+  for (const ContactPoint& p : contact.points()) depth = std::max(depth, p.depth);
+  return depth;
+}
+
+/// Leaves no point that is deeper than the bodies are. What features that lean are carried off by
+/// is taken from a point's depth; more than that is no point of both bodies: along a normal that
+/// only ties, or where rims are tangent, the features need not reach each other.
+[[gnu::noinline, gnu::cold]] void leave_no_deeper(Contact& contact, double depth,
+                                                  const Margins& margins) {
+  const double most =
+      margins.is_near ? depth + margins.unseen_depth() : std::numeric_limits<double>::infinity();
+  const Contact before = contact;
+  contact.clear_points();
+  for (const ContactPoint& p : before.points()) {
+    if (p.depth <= most) contact.add_point(p.position, std::min(p.depth, depth));
+  }
+}
+
+/// Sees to a point of the whole depth, and to none that is deeper.
 template <class Body>
 void hold_depth(Contact& contact, const PosedCylinder& a, const Body& b, const Vec3& origin,
                 const Margins& margins) {
-  double depth = -std::numeric_limits<double>::infinity();
-  for (const ContactPoint& p : contact.points()) depth = std::max(depth, p.depth);
-  if (!(-contact.signed_distance - depth <= margins.unseen_depth())) {
-    add_deepest(contact, a, b, origin, margins, depth);
+  const double depth = -contact.signed_distance;
+  double deepest = deepest_point(contact);
+  if (deepest > depth + margins.rounding) {
+    leave_no_deeper(contact, depth, margins);
+    deepest = deepest_point(contact);
+  }
+  if (!(depth - deepest <= margins.unseen_depth())) {
+    add_deepest(contact, a, b, origin, margins, deepest);
   }
 }
 

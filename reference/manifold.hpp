@@ -33,6 +33,7 @@ struct Margins {
   double flat;
   double rounding;  ///< of what is known of the bodies' surfaces
   double smallest;  ///< half extent of both bodies
+  bool is_near;     ///< only points near the deepest one are asked for
 
   /// `offset` is how far the bodies' centres are apart, or somewhat more.
   Margins(const Extents& a, const Extents& b, double offset, double signed_distance,
@@ -42,7 +43,7 @@ struct Margins {
     rounding = 16 * epsilon * (std::max(a.largest, b.largest) + offset);
     const double smaller = std::min(a.largest, b.largest);
     const double room = contact_threshold - signed_distance;
-    const bool is_near = range == PointRange::near_deepest;
+    is_near = range == PointRange::near_deepest;
     slack = std::max(rounding, is_near ? std::min(hair * smaller, room) : room);
     flat = std::max(slack, invisible * smaller);
     smallest = std::min(a.smallest, b.smallest);
