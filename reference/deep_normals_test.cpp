@@ -70,6 +70,24 @@ TEST(EllipseNormal, NextToTheCuspOfTheEvoluteHasTheLargestGapOfItsQuadrant) {
   }
 }
 
+// Of an ellipse that is flat but for rounding, the normal at a point beside its end turns from
+// along it to across it within 1e-8 of a quadrant.
+TEST(EllipseNormal, BesideTheEndOfAFlatEllipseHasTheLargestGapOfItsQuadrant) {
+  for (double b = 1e-13; b < 1e-7; b *= 3) {
+    for (double y = 1e-14; y < 1e-7; y *= 3) {
+      for (const double beyond : {0.0, 1e-16, -1e-16, 1e-15, -1e-15, 1e-12, -1e-12}) {
+        const double x = 1 + beyond;
+        const auto n = ellipse_normal(1, b, x, y);
+        ASSERT_TRUE(n);
+        for (double t = 1e-9; t < 1; t *= 1.1) {
+          ASSERT_LE(gap(1, b, x, y, {std::sin(t), std::cos(t)}), gap(1, b, x, y, *n) + 1e-15)
+              << b << " " << beyond << " " << y;
+        }
+      }
+    }
+  }
+}
+
 TEST(EllipseNormal, OnTheMajorAxisBetweenTheCentresOfCurvatureLeansToTheFlatSide) {
   const auto n = ellipse_normal(2, 1, 0.75, 0);
   ASSERT_TRUE(n);
