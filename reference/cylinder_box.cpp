@@ -328,10 +328,10 @@ CertifiedDistance find_largest(const PosedCylinder& a, const PosedBox& b, EarlyE
   return {{best.gap, b.axes * best.normal()}, 0};
 }
 
-using Routine = SearchRoutine<PosedBox, find_largest>;
+using BoxRoutine = SearchRoutine<PosedBox, find_largest>;
 
 }  // namespace
 
-TOUCHSTONE_DEFINE_QUESTIONS(Box)
+TOUCHSTONE_DEFINE_QUESTIONS(Box, BoxRoutine)
 
 }  // namespace touchstone

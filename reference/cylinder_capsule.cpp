@@ -160,10 +160,10 @@ CertifiedDistance find_largest(const PosedCylinder& a, const PosedCapsule& b, Ea
   return {{best.gap - b.radius, p.axes.to_world(best.normal())}, 0};
 }
 
-using Routine = SearchRoutine<PosedCapsule, find_largest>;
+using CapsuleRoutine = SearchRoutine<PosedCapsule, find_largest>;
 
 }  // namespace
 
-TOUCHSTONE_DEFINE_QUESTIONS(Capsule)
+TOUCHSTONE_DEFINE_QUESTIONS(Capsule, CapsuleRoutine)
 
 }  // namespace touchstone

@@ -292,10 +292,10 @@ CertifiedDistance find_largest(const PosedCylinder& a, const PosedCylinder& b, E
   return {{best.gap, p.axes.to_world(best.normal)}, unproven};
 }
 
-using Routine = SearchRoutine<PosedCylinder, find_largest>;
+using CylinderRoutine = SearchRoutine<PosedCylinder, find_largest>;
 
 }  // namespace
 
-TOUCHSTONE_DEFINE_QUESTIONS(Cylinder)
+TOUCHSTONE_DEFINE_QUESTIONS(Cylinder, CylinderRoutine)
 
 }  // namespace touchstone

@@ -18,9 +18,9 @@
 namespace touchstone {
 namespace {
 
-class Routine {
+class PlaneRoutine {
  public:
-  Routine(const PosedCylinder& a, const PosedPlane& b)
+  PlaneRoutine(const PosedCylinder& a, const PosedPlane& b)
       : a_(a),
         normal_(b.normal),
         x_(a.axes.col(0).dot(b.normal)),
@@ -98,6 +98,6 @@ class Routine {
 
 }  // namespace
 
-TOUCHSTONE_DEFINE_QUESTIONS(Plane)
+TOUCHSTONE_DEFINE_QUESTIONS(Plane, PlaneRoutine)
 
 }  // namespace touchstone

@@ -54,9 +54,9 @@ constexpr double vanishing = 1e-140;
           (-beyond_cap / distance * outwards) * a.axis() - (beyond_side / distance) * radial};
 }
 
-class Routine {
+class SphereRoutine {
  public:
-  Routine(const PosedCylinder& a, const PosedSphere& b) : a_(a), b_(b) {}
+  SphereRoutine(const PosedCylinder& a, const PosedSphere& b) : a_(a), b_(b) {}
 
   [[gnu::always_inline]] SignedDistance find(double stop_above) const {
     SignedDistance found = to_point(a_, b_.centre, stop_above + b_.radius);
@@ -78,6 +78,6 @@ class Routine {
 
 }  // namespace
 
-TOUCHSTONE_DEFINE_QUESTIONS(Sphere)
+TOUCHSTONE_DEFINE_QUESTIONS(Sphere, SphereRoutine)
 
 }  // namespace touchstone

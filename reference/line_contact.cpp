@@ -11,13 +11,13 @@ namespace {
 
 using Kind = FacingFeature::Kind;
 
-struct Range {
+struct Interval {
   double lo, hi;
   bool empty() const { return !(lo <= hi); }
 };
 
 /// Keeps of `range` where |a + b t| <= bound.
-void keep_within(Range& range, double a, double b, double bound) {
+void keep_within(Interval& range, double a, double b, double bound) {
   if (b == 0) {
     if (std::abs(a) > bound) range.hi = -std::numeric_limits<double>::infinity();
     return;
@@ -81,7 +81,7 @@ void segment_on_flat(const Manifold& to, const FacingFeature& segment, const Fac
   const ContactPlane plane(to, flat.axis);
   const Line l = plane.line(segment);
   const Incline surface = plane.incline(flat);
-  Range range{-l.half_length, l.half_length};
+  Interval range{-l.half_length, l.half_length};
   if (flat.kind == Kind::disc) {
     const Circle disc{plane.to_plane(flat.middle), flat.radius};
     const double squared = l.along.squaredNorm();
@@ -105,7 +105,7 @@ void segment_on_flat(const Manifold& to, const FacingFeature& segment, const Fac
       const double hair = 4e3 * plane.margins().rounding;
       if (std::abs(along[i]) * (range.hi - range.lo) <= hair) continue;
       const double offset = strips[i].across.dot(l.middle) - strips[i].middle;
-      Range within = range;
+      Interval within = range;
       keep_within(within, offset, along[i], strips[i].half_width);
       if (within.empty()) {  // they only touch, at the nearer end
         const double middle = offset + along[i] * (range.lo + range.hi) / 2;
@@ -161,7 +161,7 @@ void segment_on_segment(const Manifold& to, const FacingFeature& f, const Facing
               b.height + s * b.rise - b.radius * fall);
   };
 
-  Range range{-a.half_length, a.half_length};
+  Interval range{-a.half_length, a.half_length};
   keep_within(range, s0, s1, b.half_length);
   if (range.empty()) {  // end to end
     const double t = std::clamp(range.lo, -a.half_length, a.half_length);

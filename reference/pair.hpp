@@ -316,8 +316,8 @@ Contact find_contact(const Cylinder& a, const Pose& pose_a, const Other& b, cons
   return contact_in_range<Routine>(pair, contact_threshold, previous_normal, range);
 }
 
-/// Defines the functions that a pair's header declares; below its `Routine`.
-#define TOUCHSTONE_DEFINE_QUESTIONS(Other)                                                         \
+/// Defines the functions that a pair's header declares, by its routine.
+#define TOUCHSTONE_DEFINE_QUESTIONS(Other, Routine)                                                \
   SignedDistance signed_distance(const Cylinder& a, const Pose& pose_a, const Other& b,            \
                                  const Pose& pose_b) {                                             \
     return find_signed_distance<Routine>(a, pose_a, b, pose_b);                                    \

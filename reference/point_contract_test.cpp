@@ -90,7 +90,7 @@ TEST_P(PointContract, HoldsOfDepthsWithAnyPreviousNormal) {
   std::mt19937_64 random(2);
   std::uniform_real_distribution<double> uniform(-1, 1);
   for (const auto& name : pose_classes(GetParam())) {
-    for (std::uint64_t i = 0; i < count_per_class(); ++i) {
+    for (std::uint64_t i = 0; i < contacts_per_class(); ++i) {
       const Identity id{GetParam(), name, 15, i};
       const Configuration c = make_configuration(id);
       const double distance = signed_distance(c).value, size = smaller_size(c);
