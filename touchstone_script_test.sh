@@ -198,7 +198,14 @@ new_machine
 call 0 test -R "near parallel"
 times 1 "ninja all"
 has "$calls" "-R near parallel"
+has "$calls" "-LE ^long$ -R"
 [ "$(tail -n 1 "$folder/out")" = "100% tests passed" ] || fail "CTest's line is not the last"
+
+fact="test --all leaves no test out"
+new_machine
+call 0 test --all -R "near parallel"
+grep -q "^ctest .*-R near parallel" "$calls" || fail "not CTest's arguments: $(cat "$calls")"
+! grep -qe "-LE\|--all" "$calls" || fail "tests are left out: $(cat "$calls")"
 
 fact="python builds the module and hands its arguments to a Python that finds it"
 new_machine
