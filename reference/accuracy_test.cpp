@@ -20,6 +20,7 @@
 
 #include "oracle/truth.hpp"
 #include "properties/identity.hpp"
+#include "properties/moves.hpp"
 #include "reference/contact_of.hpp"
 #include "reference/invalid_input.hpp"
 #include "reference/points_on_both.hpp"
@@ -323,22 +324,6 @@ TEST(AccuracyOfTheHostile, IsWithinRoundingOfTheLargerSize) {
     EXPECT_LE(errors.distance, 1e-13) << row.name;
     EXPECT_LE(errors.regret, 1e-13) << row.name;
   }
-}
-
-Shape scaled(const Shape& shape, double by) {
-  if (const auto* s = std::get_if<Plane>(&shape)) return Plane(s->normal(), by * s->displacement());
-  if (const auto* s = std::get_if<Sphere>(&shape)) return Sphere(by * s->radius());
-  if (const auto* s = std::get_if<Box>(&shape)) return Box(by * s->half_extents());
-  if (const auto* s = std::get_if<Capsule>(&shape)) {
-    return Capsule(by * s->radius(), by * s->half_length());
-  }
-  const auto& s = std::get<Cylinder>(shape);
-  return Cylinder(by * s.radius(), by * s.half_length());
-}
-Configuration scaled(const Configuration& c, double by) {
-  const auto posed = [by](const Pose& p) { return Pose(by * p.position(), p.orientation()); };
-  return {std::get<Cylinder>(scaled(Shape(c.a), by)), posed(c.pose_a), scaled(c.b, by),
-          posed(c.pose_b)};
 }
 
 // No power of a length may overflow or vanish, of any length that a double holds.

@@ -253,7 +253,7 @@ std::uint64_t laws_per_class() {
 }
 
 /// The larger size, or how far the bodies are apart.
-double scale(const Configuration& c) {
+double law_scale(const Configuration& c) {
   const auto* plane = std::get_if<Plane>(&c.b);
   return std::max({larger_size(c), (c.pose_a.position() - c.pose_b.position()).stableNorm(),
                    plane ? std::abs(plane->unit_displacement()) : 0});
@@ -282,7 +282,7 @@ TEST_P(Certified, BoundsHoldAndAreRounding) {
       EXPECT_LE(std::abs(signed_distance(c).value - certified.value), 2 * certified.error_bound)
           << to_string(id);
       EXPECT_NEAR(certified.normal.norm(), 1, 4e-15) << to_string(id);
-      proven += certified.error_bound <= proven_part * scale(c);
+      proven += certified.error_bound <= proven_part * law_scale(c);
       const double part = error / certified.error_bound;
       if (part > worst) worst = part, worst_id = to_string(id);
     }

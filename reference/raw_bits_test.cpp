@@ -165,7 +165,7 @@ Configuration ordinary(std::uint64_t seed, Pair pair) {
   return c;
 }
 
-Shape scaled(const Shape& shape, double factor) {
+Shape raw_scaled(const Shape& shape, double factor) {
   if (const auto* s = std::get_if<Plane>(&shape)) {
     return Plane(s->unit_normal(), factor * s->unit_displacement());
   }
@@ -183,8 +183,8 @@ void expect_same_but_for_scale(const Configuration& c, double factor) {
   const auto moved = [&](const Pose& pose) {
     return Pose(factor * pose.position(), pose.orientation());
   };
-  const Configuration other{std::get<Cylinder>(scaled(c.a, factor)), moved(c.pose_a),
-                            scaled(c.b, factor), moved(c.pose_b)};
+  const Configuration other{std::get<Cylinder>(raw_scaled(c.a, factor)), moved(c.pose_a),
+                            raw_scaled(c.b, factor), moved(c.pose_b)};
   const SignedDistance one = signed_distance(c), two = signed_distance(other);
   ASSERT_EQ(two.value, factor * one.value);
   ASSERT_EQ(two.normal, one.normal);
