@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 
+#include "properties/moves.hpp"
 #include "reference/configuration.hpp"
 #include "reference/contact.hpp"
 
@@ -14,9 +15,6 @@ namespace touchstone {
 
 using Quaternion = Eigen::Quaterniond;
 
-inline const Quaternion upright(1, 0, 0, 0);
-inline const Quaternion along_x(1, 0, 1, 0);
-inline const Quaternion along_y(1, -1, 0, 0);
 inline const Quaternion aslant(0.9, 0.3, 0.2, 0.1);
 
 /// How far the point lies beyond A's surface (positive outside), and B's.
