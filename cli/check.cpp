@@ -71,7 +71,7 @@ std::string failure_text(const Failure& f, const Terminal& terminal) {
   return text;
 }
 
-std::string escaped(const std::string& text) {
+std::string xml_escaped(const std::string& text) {
   std::string result;
   for (const char c : text) {
     switch (c) {
@@ -184,7 +184,7 @@ std::string junit_xml(const std::string& candidate, const std::vector<LawResult>
   for (const LawResult& r : results) {
     seconds += r.seconds;
     cases += fmt::format("    <testcase classname=\"{}.{}\" name=\"{}\" time=\"{:.3f}\">",
-                         escaped(candidate), pair_name(r.pair), r.law->name, r.seconds);
+                         xml_escaped(candidate), pair_name(r.pair), r.law->name, r.seconds);
     if (r.tried == 0) {
       ++skipped;
       cases += "<skipped message=\"no routine for the pair\"/>";
@@ -192,21 +192,22 @@ std::string junit_xml(const std::string& candidate, const std::vector<LawResult>
     if (r.broken > 0) {
       ++failures;
       cases += fmt::format("<failure type=\"{}\" message=\"{}\">{}</failure>",
-                           escaped(r.failures.front().violation.failure), escaped(counts_text(r)),
-                           escaped(failure_text(r.failures.front(), unbounded)));
+                           xml_escaped(r.failures.front().violation.failure),
+                           xml_escaped(counts_text(r)),
+                           xml_escaped(failure_text(r.failures.front(), unbounded)));
     }
     cases += "</testcase>\n";
   }
   for (const ReplayedFailure& r : corpus) {
     cases += fmt::format("    <testcase classname=\"{}.corpus\" name=\"{}\">",
-                         escaped(r.expected.candidate), escaped(corpus_name(r.expected)));
+                         xml_escaped(r.expected.candidate), xml_escaped(corpus_name(r.expected)));
     if (r.result == ReplayedFailure::Result::skipped) {
       ++skipped;
       cases += "<skipped/>";
     } else if (r.result != ReplayedFailure::Result::as_expected) {
       ++failures;
-      cases +=
-          fmt::format("<failure type=\"{}\">{}</failure>", result_name(r.result), escaped(r.now));
+      cases += fmt::format("<failure type=\"{}\">{}</failure>", result_name(r.result),
+                           xml_escaped(r.now));
     }
     cases += "</testcase>\n";
   }

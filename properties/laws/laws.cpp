@@ -46,7 +46,7 @@ double distance(const Answer& answer, const Bar& bar) {
                                      : bar.threshold;
 }
 
-double signed_distance(const Configuration& c) { return truth_of(c).signed_distance.midpoint(); }
+double true_distance(const Configuration& c) { return truth_of(c).signed_distance.midpoint(); }
 
 // answers
 
@@ -245,7 +245,7 @@ std::optional<Violation> judge_way_out(const Configuration& c, Answers answers, 
   if (surely_leads_out(c, a, bar)) return std::nullopt;
   const double size = error_size(c, bar);
   const double left =
-      signed_distance(with_a_moved(c, -a.signed_distance * vector(a.normal))) / size;
+      true_distance(with_a_moved(c, -a.signed_distance * vector(a.normal))) / size;
   if (std::abs(left) <= bar.tolerance) return std::nullopt;
   return Violation{left < 0 ? "shallow" : "overdeep", std::abs(left),
                    fmt::format("after the way out the distance is {:.3g} of the smaller size, not "
@@ -269,7 +269,7 @@ std::optional<Violation> judge_apart(const Configuration& c, Answers answers, co
   for (std::size_t i = 0; i < answers.size(); ++i) {
     const Configuration& asked = i == 0 ? c : questions[i - 1];
     if (answers[i].status != TS_CONTACT || distance(answers[i], bar) >= bar.threshold) continue;
-    const double apart = (signed_distance(asked) - bar.threshold) / size;
+    const double apart = (true_distance(asked) - bar.threshold) / size;
     if (apart <= bar.tolerance) continue;
     return Violation{
         "phantom", apart,

@@ -20,7 +20,7 @@ namespace {
 
 using nlohmann::json;
 
-json finite(double x) { return std::isfinite(x) ? json(x) : json(nullptr); }
+json finite_json(double x) { return std::isfinite(x) ? json(x) : json(nullptr); }
 
 json run_json(const Choice& choice, std::size_t index, const std::string& folder) {
   const SceneRun& run = choice.runs[index];
@@ -29,14 +29,16 @@ json run_json(const Choice& choice, std::size_t index, const std::string& folder
   for (const Candidate* m : run.models) models.push_back(m->name);
   json verdicts = json::array();
   for (const Verdict& v : run.verdicts) {
-    verdicts.push_back(
-        {{"value", finite(v.value)}, {"limit", v.limit}, {"time", v.time}, {"holds", v.holds()}});
+    verdicts.push_back({{"value", finite_json(v.value)},
+                        {"limit", v.limit},
+                        {"time", v.time},
+                        {"holds", v.holds()}});
   }
   json result = {{"name", run.name},
                  {"models", models},
                  {"microseconds_per_step", run.nanoseconds / 1000 / steps},
                  {"step_microseconds", run.seconds() * 1e6 / steps},
-                 {"error", finite(run.error())},
+                 {"error", finite_json(run.error())},
                  {"holds", run.holds()},
                  {"points_per_step", run.points},
                  {"solver_microseconds_per_step", run.solver_seconds * 1e6 / steps},
@@ -69,7 +71,7 @@ json score_json(const std::string& candidate, const ReplayScore& s) {
           {"nanoseconds", s.nanoseconds ? json(*s.nanoseconds) : json(nullptr)},
           {"count", s.count},
           {"agree", s.agree},
-          {"depth_error", finite(s.depth_error)},
+          {"depth_error", finite_json(s.depth_error)},
           {"normal_angle", s.normal_angle}};
 }
 
