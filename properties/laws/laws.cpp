@@ -244,8 +244,7 @@ std::optional<Violation> judge_way_out(const Configuration& c, Answers answers, 
   if (a.status != TS_CONTACT || a.signed_distance >= 0) return std::nullopt;
   if (surely_leads_out(c, a, bar)) return std::nullopt;
   const double size = error_size(c, bar);
-  const double left =
-      true_distance(with_a_moved(c, -a.signed_distance * vector(a.normal))) / size;
+  const double left = true_distance(with_a_moved(c, -a.signed_distance * vector(a.normal))) / size;
   if (std::abs(left) <= bar.tolerance) return std::nullopt;
   return Violation{left < 0 ? "shallow" : "overdeep", std::abs(left),
                    fmt::format("after the way out the distance is {:.3g} of the smaller size, not "
