@@ -191,7 +191,7 @@ class Registry {
     if (const auto* const failure = std::get_if<CommandProcess::Failure>(&hello)) {
       throw InvalidInput(
           subject.option, '"' + subject.value + '"',
-          "must be a command that speaks as docs/process-candidates.md says, but it " +
+          "must be a command that speaks as docs/process-candidates.md says, not as this one: " +
               failure->reason);
     }
     const auto& [said, format] = std::get<messages::Hello>(hello);

@@ -6,6 +6,9 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <optional>
+#include <set>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -48,8 +51,36 @@ std::optional<ts_shape_kind> kind_of_pair(const std::string& pair) {
   return std::nullopt;
 }
 
+/// Levels of a message, as of other JSON (docs/solve.md); printing deeper ones would take the
+/// stack.
+constexpr int max_depth = 64;
+
 Json parsed(const std::string& line) {
-  Json json = Json::parse(line, nullptr, false);
+  bool is_deeper = false;
+  std::vector<std::set<std::string>>
+      members;  // of the objects around what is read, outermost first
+  std::optional<std::string> twice;
+  const auto watch = [&](int depth, Json::parse_event_t event, Json& value) {
+    const bool begins =
+        event == Json::parse_event_t::object_start || event == Json::parse_event_t::array_start;
+    is_deeper = is_deeper || (begins && depth >= max_depth);
+    if (is_deeper) return false;
+    const auto level = static_cast<std::size_t>(depth);
+    if (event == Json::parse_event_t::object_start) {
+      members.resize(level + 1);
+      members.emplace_back();
+    } else if (event == Json::parse_event_t::key) {
+      auto name = value.get<std::string>();
+      if (!members[level].insert(name).second) twice = std::move(name);
+    }
+    return true;
+  };
+  Json json = Json::parse(line, watch, false);
+  if (is_deeper) {
+    refuse("it wrote " + quoted(line) + ", which is more than " + std::to_string(max_depth) +
+           " levels deep");
+  }
+  if (twice) refuse("it wrote the member " + messages::quoted(*twice) + " twice");
   if (!json.is_object()) refuse("it wrote " + quoted(line) + ", which is no JSON object");
   return json;
 }

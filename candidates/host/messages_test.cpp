@@ -50,6 +50,7 @@ TEST(Hello, IsRefusedWithTheMemberTheValueAndTheRemedy) {
       {"[\"cylinder-box\"]", "[]", "must be a list of"},
       {"\"later\": []", "\"parameter\": {\"meaning\": \"m\", \"min\": 2, \"max\": 1, \"usual\": 1}",
        "with min <= usual <= max"},
+      {"\"mine\"", "\"mine\", \"name\": \"other\"", "wrote the member \"name\" twice"},
       {"{\"touch", "Welcome!{\"touch", "no JSON object"}};
   for (const auto& c : cases) {
     EXPECT_THAT([&] { read_hello(hello_with(c.from, c.to)); },
@@ -120,6 +121,22 @@ TEST(Lines, HoldDoublesExactly) {
   EXPECT_TRUE(std::isnan(read.normal[0]));
   EXPECT_EQ(read.normal[2], -std::numeric_limits<double>::infinity());
   EXPECT_EQ(read.points[0].depth, 5e-324);
+}
+
+TEST(Lines, NestedTooDeeplyAreRefused) {
+  const auto nested = [](std::size_t levels) {
+    return R"({"ticket": 4, "answers": )" + std::string(levels, '[') + std::string(levels, ']') +
+           '}';
+  };
+  for (const std::size_t levels :
+       {std::size_t{64}, std::size_t{100'000}, std::size_t{10'000'000}}) {
+    EXPECT_THAT([&] { read_answers(Format::lines, 4, 1, nested(levels)); },
+                ThrowsMessage<Garbage>(HasSubstr("more than 64 levels deep")))
+        << levels;
+  }
+  // One less is within the limit, and no answer.
+  EXPECT_THAT([&] { read_answers(Format::lines, 4, 1, nested(63)); },
+              ThrowsMessage<Garbage>(testing::Not(HasSubstr("levels"))));
 }
 
 // Whatever a child writes is refused or read; bytes that are cut, doubled, swapped or changed do no
