@@ -9,7 +9,6 @@ function(touchstone_test)
   target_link_libraries(${TEST_NAME} PRIVATE ${TEST_LIBRARIES} GTest::gmock GTest::gtest_main
                                              touchstone_warnings)
   target_precompile_headers(${TEST_NAME} REUSE_FROM touchstone_test_headers)
-  # Tests ask more than they compute.
-  target_compile_options(${TEST_NAME} PRIVATE $<$<CONFIG:Release>:-O1>)
+  target_compile_options(${TEST_NAME} PRIVATE ${OF_TESTS})
   gtest_discover_tests(${TEST_NAME} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 600)
 endfunction()
