@@ -25,13 +25,8 @@ set(COMMON_LIBRARIES Eigen3::Eigen fmt::fmt nlohmann_json::nlohmann_json)
 precompiled(touchstone_headers
   LIBRARIES ${COMMON_LIBRARIES} touchstone_warnings
   HEADERS ${COMMON_HEADERS})
-
-# Tests ask more than they compute, and are compiled in two thirds of the time without optimization.
-# A precompiled header serves those only that are optimized as it is, or not.
-set(OF_TESTS $<$<CONFIG:Release>:-O0>)
 if(TOUCHSTONE_TESTS)
   precompiled(touchstone_test_headers
     LIBRARIES ${COMMON_LIBRARIES} touchstone_warnings GTest::gmock
     HEADERS ${COMMON_HEADERS} <gmock/gmock.h> <gtest/gtest.h>)
-  target_compile_options(touchstone_test_headers PRIVATE ${OF_TESTS})
 endif()

@@ -9,6 +9,7 @@ function(touchstone_test)
   target_link_libraries(${TEST_NAME} PRIVATE ${TEST_LIBRARIES} GTest::gmock GTest::gtest_main
                                              touchstone_warnings)
   target_precompile_headers(${TEST_NAME} REUSE_FROM touchstone_test_headers)
-  target_compile_options(${TEST_NAME} PRIVATE ${OF_TESTS})
+  # Tests ask more than they compute. Not -O0: what a library does not inline would be the test's then.
+  target_compile_options(${TEST_NAME} PRIVATE $<$<CONFIG:Release>:-O1>)
   gtest_discover_tests(${TEST_NAME} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 600)
 endfunction()
