@@ -2,7 +2,6 @@
 // happens.
 #include "candidates/host/candidate_process.hpp"
 
-#include <chrono>
 #include <fcntl.h>
 #include <filesystem>
 #include <functional>
@@ -68,11 +67,9 @@ TEST(CandidateProcess, WhatACandidateSaysIsMadeReadable) {
 }
 
 TEST(CandidateProcess, EndsALoopAfterItsProcessorTime) {
-  const auto start = std::chrono::steady_clock::now();
   const Answer a = after_misdeed(5, {0.1, 256});
   EXPECT_EQ(a.status, TS_TIMED_OUT);
   EXPECT_EQ(a.reason, "no answer within 0.1 s");
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(30));
 }
 
 TEST(CandidateProcess, EndsASleepByTheClock) {

@@ -36,6 +36,25 @@ void each_shared_mapping(F f) {
   }
 }
 
+bool is_running(const std::string& pid) {
+  std::ifstream file("/proc/" + pid + "/stat");
+  std::string number, program, state;
+  return file >> number >> program >> state && state != "Z";
+}
+
+/// Waits for this thread's children to end, however slow the machine is; what they wrote is in
+/// their pipes then.
+void await_the_end_of_all_workers() {
+  const auto is_any_running = [] {
+    std::ifstream children("/proc/thread-self/children");
+    for (std::string pid; children >> pid;) {
+      if (is_running(pid)) return true;
+    }
+    return false;
+  };
+  while (is_any_running()) usleep(1000);
+}
+
 TEST(WorkerProcesses, ReturnResultsInOrderWhateverTheirNumber) {
   const auto square = [](std::size_t i) {
     return std::string(i * 1000, 'x') + std::to_string(i * i);
@@ -86,7 +105,7 @@ TEST(WorkerProcesses, AFailureLosesNothingThatOthersHaveFinished) {
     stream_from_processes(
         count, count, first_fails, name, [&](std::uint64_t, const std::string&) { ++taken; },
         [] {
-          usleep(300'000);  // until all of them have ended
+          await_the_end_of_all_workers();
           return true;
         });
   };
@@ -105,7 +124,7 @@ TEST(WorkerProcesses, ASecondFailureLosesNothingBehindIt) {
     stream_from_processes(
         5, 1, first_fail, name, [&](std::uint64_t i, const std::string&) { taken.push_back(i); },
         [] {
-          usleep(300'000);  // until all is in one pipe
+          await_the_end_of_all_workers();
           return true;
         });
   };
@@ -119,7 +138,7 @@ TEST(WorkerProcesses, AnEarlyEndLosesNothingThatIsFinished) {
       4, 2, [](std::uint64_t) { return std::string("done"); }, name,
       [&](std::uint64_t, const std::string&) { ++taken; },
       [] {
-        usleep(300'000);  // until all have ended
+        await_the_end_of_all_workers();
         return false;
       });
   EXPECT_FALSE(all);
