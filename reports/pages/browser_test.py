@@ -667,6 +667,32 @@ class OtherPages(PageTest):
             self.assertTrue(any(m.startswith(name + ",") for m in marks), name)
         self.assert_no_sideways_scrolling_on_a_phone(page)
 
+    def test_comparison_where_nothing_moved_and_where_one_candidate_did(self):
+        folder = Path(self.folder.name) / "unmoved"
+        self.run_program("report", "--count", "1", "--pair", "cylinder-plane,cylinder-sphere", "--class",
+                         "lying+turned,cap", "--candidates", "reference,bullet,ode", "--only", "scores,timing",
+                         "--out", folder)
+        before, after, page = (folder / name for name in ("report.json", "after.json", "compare.html"))
+        for moved in ("none", "ode"):
+            report = json.loads(before.read_text())
+            for row in report["summary"]:
+                if (row["pair"], row["candidate"]) != ("cylinder-sphere", moved):
+                    continue
+                for member in ("median", "low", "high", "ratio_to_bullet", "ratio_low", "ratio_high"):
+                    row["nanoseconds"][member] *= 10
+            after.write_text(json.dumps(report))
+            self.run_program("compare", before, after, "--html", page)
+            self.open(page)
+            charts = {f.find_element(By.CSS_SELECTOR, "figcaption").text: f for f in self.all("#chart-panels figure")}
+            self.assertEqual(set(charts), {"all pairs", "cylinder–plane", "cylinder–sphere"})
+            for pair, chart in charts.items():
+                marks = [m.get_attribute("aria-label").split(",")[0]
+                         for m in chart.find_elements(By.CSS_SELECTOR, ".mark-symbol path")]
+                has_moved = pair == "cylinder–sphere" and moved == "ode"
+                self.assertEqual(sorted(marks), ["bullet"] + ["ode"] * (2 if has_moved else 1) + ["reference"],
+                                 (moved, pair))
+                self.assertGreater(self.assert_labels_apart(chart), 0, (moved, pair))
+
     def test_stability(self):
         folder = Path(self.folder.name) / "stability"
         self.run_program("stability", "--count", "1", "--candidates", "reference,bullet",

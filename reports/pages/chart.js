@@ -129,9 +129,10 @@ function drawLines(host, label, {height = 280, x, y, points, limit}, onClick) {
 
 // A chart of points {x, y, symbol, fill, stroke, size, tip, label, weight, order} and of lines {rows, by, dash, colour,
 // width} beneath them. Only labels that find room are shown, near the mark or somewhat farther off; labels of a lower order
-// are placed first.
+// are placed first. A line without rows is left out: labels cannot avoid a mark that has no items.
 const labelPlaces = ['right', 'left', 'top-right', 'bottom-right', 'top-left', 'bottom-left', 'top', 'bottom'];
-function drawScatter(host, label, {height = 300, x, y, points, lines, limit}, onClick) {
+function drawScatter(host, label, {height = 300, x, y, points, lines: given, limit}, onClick) {
+  const lines = given.filter(({rows}) => rows.length > 0);
   drawChart(host, label, {height, data: [{name: 'points', values: points}, ...lines.map(({rows}, i) => ({name: `line-${i}`, values: rows}))],
     ...axes(x, y), marks: [
       ...(limit ? [limitMark(limit)] : []),

@@ -12,7 +12,7 @@ function words() {
   byId('baseline').textContent = limits.baseline;
   byId('limits').textContent = `${comparison.compared} rows of pair, class and candidate were compared. ` +
       `An error may grow ${limits.error_factor} times, a time ${limits.time_factor} times (as a multiple of ` +
-      `${limits.baseline}'s, by the nearest ends of the spreads), and ${limits.agreement} of the agreement must be kept. ` +
+      `${limits.baseline}'s, by the nearest ends of the spreads), and ${percent(limits.agreement)} of the agreement must be kept. ` +
       `${comparison.changes.length - beyond.length} smaller changes are not listed.`;
 }
 function value(c, which) {
