@@ -1,5 +1,6 @@
 #!/usr/bin/python3
 """Opens the pages in Chromium as a reader does: browser_test.py PROGRAM. Fails without a browser to drive."""
+import collections
 import functools
 import json
 import re
@@ -465,8 +466,33 @@ class Report(PageTest):
         self.choose("#finding-candidate", "bullet")
         failures = self.find("#finding-failures")
         self.assertIn("pose classes, most in", failures.text)
-        self.press(failures.find_element(By.CSS_SELECTOR, "li:last-child button"))
+        self.press([b for b in failures.find_elements(By.TAG_NAME, "button") if b.text == "See its worst cases"][-1])
         self.assertEqual(self.find("#worst-candidate").get_attribute("value"), "bullet")
+
+    def test_the_findings_tell_of_failures_in_other_groups(self):
+        report = json.loads((Path(self.folder.name) / "report.json").read_text())
+        group_of = {(c["pair"], c["class"]): c["group"] for c in report["classes"]}
+        names = [c["name"] for c in report["candidates"]]
+        failing, supported = ({name: collections.Counter() for name in names} for _ in range(2))
+        for row in report["results"]:
+            count = row["count"] - row["outcomes"].get("unsupported", 0)
+            agreeing = row["outcomes"].get("agree", 0) + row.get("represented", {}).get("agree", 0)
+            group = group_of[row["pair"], row["class"]]
+            supported[row["candidate"]][group] += count > 0
+            failing[row["candidate"]][group] += agreeing < count
+        right = [name for name in names if not failing[name].total()]
+        self.assertIn("reference", right)
+        self.assertRegex(self.find("#headline").text, rf"\. {len(right)} of them agrees? in every pose class\.$")
+        for name in ("reference", "bullet-margin-0", "ode"):
+            self.choose("#finding-candidate", name)
+            text = self.find("#finding-failures").text
+            self.assertEqual("elsewhere" in text, name not in right, name)
+            for group in failing[name] - collections.Counter(everyday=failing[name]["everyday"]):
+                self.assertIn(f"{failing[name][group]} of {supported[name][group]} {group} pose classes", text)
+        self.press(next(b for b in self.all("#finding-failures .link") if "degenerate pose" in b.text))
+        self.assertEqual(self.find("#groups [aria-pressed=true]").text, "degenerate")
+        self.assertIn("everyday pose classes", self.find("#finding-failures").text)
+        self.press(self.find("#groups button[value=everyday]"))
 
     def test_the_controls_change_what_is_shown(self):
         for control, value, place in (

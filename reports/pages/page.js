@@ -160,6 +160,7 @@ function groupControl(host, groups) {
   host.append(element('span', {}, 'Poses: '), choice, meaning);
   choose(group);
 }
+const showGroup = name => byId('groups').querySelector(`button[value="${name}"]`).click();
 const onThemeChange = act => matchMedia('(prefers-color-scheme: dark)').addEventListener('change', act);
 
 // The tooltip, one for the page.

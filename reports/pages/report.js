@@ -52,6 +52,9 @@ const agreeing = r => ((r.outcomes.agree || 0) + r.represented) / supported(r);
 const withoutAnswer = ['not-finite', 'failed', 'crashed', 'timed-out'];
 const lost = r => withoutAnswer.reduce((sum, o) => sum + (r.outcomes[o] || 0), 0);
 const vector = v => v === null ? '–' : `(${v.map(c => c === null ? 'nan' : plainNumber(c, 6)).join(', ')})`;
+// The pose classes of any group in which a candidate disagrees.
+const isFailing = r => supported(r) > 0 && agreeing(r) < 1;
+const failingOf = candidate => report.results.filter(r => r.candidate === candidate && isFailing(r));
 const outcomesText = r => Object.entries(r.outcomes).map(([name, n]) => `${name} ${n}`).join(', ');
 
 // Fills a select box of the page and listens to it.
@@ -70,10 +73,13 @@ function findings() {
     byId('partial').textContent = `Partial: interrupted when ${report.completed.classes} of ` +
         `${report.planned.classes} pose classes were scored and ${report.completed.timed_classes} timed.`;
   }
-  const rows = report.summary.filter(supported);
+  const routines = candidates.filter(name => report.summary.some(r => r.candidate === name && supported(r)));
+  const isOne = routines.length === 1, right = routines.filter(name => failingOf(name).length === 0).length;
   byId('headline').textContent = `${whole(report.configurations)} configurations of ${pairs.length} ` +
-      `${pairs.length === 1 ? 'pair' : 'pairs'} of shapes, ${new Set(rows.map(r => r.candidate)).size} contact routines, ` +
-      `each answer held against a truth certified to 1e-30 of the larger size.`;
+      `${pairs.length === 1 ? 'pair' : 'pairs'} of shapes, ${routines.length} contact ${isOne ? 'routine' : 'routines'}, ` +
+      `each answer held against a truth certified to 1e-30 of the larger size. ` +
+      (isOne ? right ? 'It agrees in every pose class.' : `It disagrees in ${failingOf(routines[0]).length} of ${report.results.filter(supported).length} pose classes.`
+             : `${right} of them ${right === 1 ? 'agrees' : 'agree'} in every pose class.`);
   byId('provenance').append(`Touchstone ${report.version}, seed ${report.seed}, ${report.machine.cpu}.`);
   choices('finding-candidate', candidates, failuresOf, candidates.find(c => c !== 'reference'));
   keepGrouped(() => {
@@ -93,7 +99,12 @@ function ranked(pair) {
   return summary().filter(r => r.pair === pair && supported(r))
       .sort((a, b) => agreeing(b) - agreeing(a) || worst(a) - worst(b) || slow(a) - slow(b));
 }
-const brief = r => `agrees on ${percent(agreeing(r))}, worst error ${exponent(quantile(r.severity, 'max'))}`;
+// What is right here may fail in another group of poses.
+const brief = r => {
+  const others = failingOf(r.candidate).filter(f => f.pair === r.pair && !inGroup(f)).length;
+  return `agrees on ${percent(agreeing(r))}, worst error ${exponent(quantile(r.severity, 'max'))}` +
+      (agreeing(r) === 1 && others ? `; elsewhere ${others} pose ${others === 1 ? 'class fails' : 'classes fail'}` : '');
+};
 function link(text, act) {
   const button = element('button', {type: 'button', class: 'link'}, text);
   button.addEventListener('click', act);
@@ -122,7 +133,7 @@ function costOf(pair) {
 
 function failuresOf() {
   const candidate = byId('finding-candidate').value;
-  const failing = report.results.filter(r => r.candidate === candidate && inGroup(r) && supported(r) && agreeing(r) < 1)
+  const failing = failingOf(candidate).filter(inGroup)
       .sort((a, b) => agreeing(a) - agreeing(b) || quantile(b.severity, 'max') - quantile(a.severity, 'max'));
   byId('finding-failures').replaceChildren(...(failing.length === 0
       ? [element('li', {}, `${candidate} agrees with the truth on every ${group} configuration that it has a routine for.`)]
@@ -133,7 +144,17 @@ function failuresOf() {
         return element('li', {}, element('b', {}, dashed(pair)), `: disagrees in ${here.length} of ${classesOf(pair).length} ${group} pose classes, most in `,
             ...here.slice(0, 3).flatMap((r, i) => [i ? ', ' : '', `${r.class} (${percent(1 - agreeing(r))}, ${main(r)})`]),
             '. ', link('See its worst cases', () => showWorst(pair, candidate)));
-      }).filter(Boolean)), ...slowTailsOf(candidate));
+      }).filter(Boolean)), ...failuresElsewhere(candidate), ...slowTailsOf(candidate));
+}
+
+// How many pose classes of the other groups fail, each a link to its group.
+function failuresElsewhere(candidate) {
+  const groupOf = r => classGroup.get(`${r.pair}/${r.class}`), count = (rows, g) => rows.filter(r => groupOf(r) === g).length;
+  const all = report.results.filter(r => r.candidate === candidate && supported(r)), failing = failingOf(candidate);
+  const others = Object.keys(groupMeanings).filter(g => g !== group && count(failing, g) > 0);
+  if (others.length === 0) return [];
+  return [element('li', {}, element('b', {}, 'elsewhere'), ': disagrees in ', ...others.flatMap((g, i) => [i ? ', ' : '',
+      link(`${count(failing, g)} of ${count(all, g)} ${g} pose classes`, () => showGroup(g))]), '.')];
 }
 
 // The pose classes in which 5% of a candidate's queries take more than four medians.
