@@ -23,12 +23,18 @@ namespace {
 
 using nlohmann::json;
 
+/// "3 missed, 1 shallow; known: 12 missed".
 std::string counts_text(const LawResult& result) {
-  std::string text;
-  for (const auto& [name, count] : result.counts) {
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, name);
-  }
-  return text;
+  const auto listed = [](const std::map<std::string, std::uint64_t>& counts) {
+    std::string text;
+    for (const auto& [name, count] : counts) {
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, name);
+    }
+    return text;
+  };
+  const std::string text = listed(result.counts);
+  if (result.known.empty()) return text;
+  return text + (text.empty() ? "" : "; ") + "known: " + listed(result.known);
 }
 
 /// As in the answer's JSON, which has no word for what is not finite.
@@ -60,7 +66,10 @@ std::string failure_text(const Failure& f, const Terminal& terminal) {
       terminal.folded(fmt::format("{} {}, {}: {}", pair_name(pair_of(f.configuration)), f.law,
                                   f.violation.failure, f.violation.detail));
   text += terminal.below(find_law(f.law).statement);
-  text += terminal.below(fmt::format("first met as {}; simplified:", f.identity));
+  const auto group = group_met(f);
+  text += terminal.below(fmt::format("first met{} as {}; simplified:",
+                                     group ? fmt::format(" in {} poses", group_name(*group)) : "",
+                                     f.identity));
   text += fmt::format("  {}\n  {}\n", to_json(f.configuration).dump(),
                       to_hex_json(f.configuration).dump());
   text += terminal.below(fmt::format("truth: signed distance {} m", rounded_middle(truth)));
@@ -108,6 +117,12 @@ const char* result_name(ReplayedFailure::Result result) {
   return "";
 }
 
+/// Whether it fails a run. A failure that is known may be fixed, but has to be asked.
+bool is_failing(const ReplayedFailure& r, bool is_known) {
+  using Result = ReplayedFailure::Result;
+  return r.result == Result::changed || r.result == (is_known ? Result::skipped : Result::fixed);
+}
+
 std::string corpus_name(const Failure& f) {
   return fmt::format("{}, {}, {}, {}{}{}", f.candidate, pair_name(pair_of(f.configuration)), f.law,
                      f.violation.failure, f.features.empty() ? "" : ", ", f.features);
@@ -116,9 +131,12 @@ std::string corpus_name(const Failure& f) {
 /// What came of a law, beside its name or, on a narrow terminal, below it.
 std::string law_text(const LawResult& r, const Terminal& terminal) {
   constexpr std::size_t verdict_at = 29, counts_at = 46, min_room = 24;
-  const std::string verdict = r.broken == 0 ? "passed" : fmt::format("broken by {}", r.broken);
+  const std::string verdict = r.broken > 0      ? fmt::format("broken by {}", r.broken)
+                              : r.known.empty() ? "passed"
+                                                : "nothing new";
   const auto coloured = [&](const std::string& text) {
-    return r.broken == 0 ? terminal.good(text) : terminal.bad(text);
+    if (r.broken > 0) return terminal.bad(text);
+    return r.known.empty() ? terminal.good(text) : text;
   };
   const std::string name = fmt::format("  {:<13}{:>6} tried", r.law->name, r.tried);
   const std::string counts = counts_text(r);
@@ -134,8 +152,8 @@ std::string law_text(const LawResult& r, const Terminal& terminal) {
                         : text + "    " + wrapped(counts, terminal.columns - 4, "\n    ") + '\n';
 }
 
-/// A line for each law and pair, and the simplest failure of each law with what is needed to see it
-/// again.
+/// A line for each law and pair, and the first failure of each with what is needed to see it again,
+/// in the order of their groups.
 std::string check_text(const std::vector<LawResult>& results, const Terminal& terminal) {
   std::string text;
   const char* last = "";
@@ -154,10 +172,14 @@ std::string check_text(const std::vector<LawResult>& results, const Terminal& te
     last = pair;
     text += law_text(r, terminal);
   }
+  std::vector<const Failure*> firsts;
   for (const LawResult& r : results) {
-    if (r.failures.empty()) continue;
-    text += '\n' + failure_text(r.failures.front(), terminal);
+    if (!r.failures.empty()) firsts.push_back(&r.failures.front());
   }
+  std::stable_sort(firsts.begin(), firsts.end(), [](const Failure* a, const Failure* b) {
+    return order_of(group_met(*a)) < order_of(group_met(*b));
+  });
+  for (const Failure* f : firsts) text += '\n' + failure_text(*f, terminal);
   return text;
 }
 
@@ -174,21 +196,25 @@ std::string corpus_text(const std::vector<ReplayedFailure>& corpus, const Termin
 }
 
 /// For continuous integration: a test suite per candidate, a test case per law and pair, and one
-/// per saved failure.
+/// per saved failure. What is known is skipped and says so, as pytest writes failures that are
+/// expected, for JUnit has no word of its own.
 std::string junit_xml(const std::string& candidate, const std::vector<LawResult>& results,
-                      const std::vector<ReplayedFailure>& corpus) {
+                      const std::vector<ReplayedFailure>& corpus,
+                      const std::vector<ReplayedFailure>& known) {
   const Terminal unbounded{.columns = 1000000};
   std::string cases;
   int failures = 0, skipped = 0;
+  const auto skip = [&](const std::string& message) {
+    ++skipped;
+    cases += fmt::format("<skipped message=\"{}\"/>", xml_escaped(message));
+  };
   double seconds = 0;
   for (const LawResult& r : results) {
     seconds += r.seconds;
     cases += fmt::format("    <testcase classname=\"{}.{}\" name=\"{}\" time=\"{:.3f}\">",
                          xml_escaped(candidate), pair_name(r.pair), r.law->name, r.seconds);
-    if (r.tried == 0) {
-      ++skipped;
-      cases += "<skipped message=\"no routine for the pair\"/>";
-    }
+    if (r.tried == 0) skip("no routine for the pair");
+    if (r.broken == 0 && !r.known.empty()) skip(counts_text(r));
     if (r.broken > 0) {
       ++failures;
       cases += fmt::format("<failure type=\"{}\" message=\"{}\">{}</failure>",
@@ -198,32 +224,39 @@ std::string junit_xml(const std::string& candidate, const std::vector<LawResult>
     }
     cases += "</testcase>\n";
   }
-  for (const ReplayedFailure& r : corpus) {
-    cases += fmt::format("    <testcase classname=\"{}.corpus\" name=\"{}\">",
-                         xml_escaped(r.expected.candidate), xml_escaped(corpus_name(r.expected)));
-    if (r.result == ReplayedFailure::Result::skipped) {
-      ++skipped;
-      cases += "<skipped/>";
-    } else if (r.result != ReplayedFailure::Result::as_expected) {
+  using Result = ReplayedFailure::Result;
+  const auto add_saved = [&](const ReplayedFailure& r, const char* kind, bool is_known) {
+    cases +=
+        fmt::format("    <testcase classname=\"{}.{}\" name=\"{}\">",
+                    xml_escaped(r.expected.candidate), kind, xml_escaped(corpus_name(r.expected)));
+    if (is_failing(r, is_known)) {
       ++failures;
       cases += fmt::format("<failure type=\"{}\">{}</failure>", result_name(r.result),
                            xml_escaped(r.now));
+    } else if (r.result == Result::skipped) {
+      skip(r.now);
+    } else if (is_known && r.result == Result::as_expected) {
+      skip("known: " + r.now);
     }
     cases += "</testcase>\n";
-  }
+  };
+  for (const ReplayedFailure& r : corpus) add_saved(r, "corpus", false);
+  for (const ReplayedFailure& r : known) add_saved(r, "known", true);
   return fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n"
       "  <testsuite name=\"touchstone check\" tests=\"{}\" failures=\"{}\" skipped=\"{}\" "
       "time=\"{:.3f}\">\n{}"
       "  </testsuite>\n</testsuites>\n",
-      results.size() + corpus.size(), failures, skipped, seconds, cases);
+      results.size() + corpus.size() + known.size(), failures, skipped, seconds, cases);
 }
 
 /// One JSON object (docs/check.md).
 std::string check_json(const std::string& candidate, const CheckOptions& options,
                        const std::vector<LawResult>& results,
-                       const std::vector<ReplayedFailure>& corpus) {
-  json laws = json::array(), saved = json::array();
+                       const std::vector<ReplayedFailure>& corpus,
+                       const std::vector<ReplayedFailure>& known) {
+  json laws = json::array(), groups = json::array();
+  for (const Group group : options.groups) groups.push_back(group_name(group));
   for (const LawResult& r : results) {
     json failures = json::array();
     for (const Failure& f : r.failures) failures.push_back(to_json(f));
@@ -233,18 +266,23 @@ std::string check_json(const std::string& candidate, const CheckOptions& options
                     {"unsupported", r.unsupported},
                     {"broken", r.broken},
                     {"outcomes", r.counts},
+                    {"known", r.known},
                     {"failures", failures}});
   }
-  for (const ReplayedFailure& r : corpus) {
-    json entry = to_json(r.expected);
-    entry["result"] = result_name(r.result);
-    entry["now"] = r.now;
-    saved.push_back(entry);
+  json saved = json::array();
+  for (const auto* all : {&corpus, &known}) {
+    for (const ReplayedFailure& r : *all) {
+      json& entry = saved.emplace_back(to_json(r.expected));
+      entry["result"] = result_name(r.result);
+      entry["now"] = r.now;
+      entry["known"] = all == &known;
+    }
   }
   const json result = {{"schema", "touchstone-check-1"},
                        {"candidate", candidate},
                        {"seed", options.seed},
                        {"count", options.count},
+                       {"groups", groups},
                        {"tolerance", options.bar.tolerance},
                        {"threshold", options.bar.threshold},
                        {"laws", laws},
@@ -254,6 +292,8 @@ std::string check_json(const std::string& candidate, const CheckOptions& options
 
 /// About as much work: there is one hostile class, and of others some two hundred to a pair.
 constexpr std::uint64_t usual_count_of_class = 20, usual_count_of_hostile = 5000;
+/// What an engine should hold; few are built for extreme poses.
+constexpr Group usual_groups[] = {Group::everyday, Group::degenerate, Group::recorded};
 
 struct CheckArguments {
   explicit CheckArguments(Command& command)
@@ -275,6 +315,9 @@ struct CheckArguments {
     c.pairs = sample.pairs();
     c.classes = hostile ? std::vector<std::string>{"hostile"} : sample.classes();
     c.groups = sample.groups();
+    if (!hostile && !sample.has_some_classes()) {
+      c.groups.assign(std::begin(usual_groups), std::end(usual_groups));
+    }
     c.count = hostile && !sample.count_is_given() ? usual_count_of_hostile : sample.count();
     c.seed = sample.seed();
     c.bar = bar.get();
@@ -318,15 +361,9 @@ void save_all(const std::vector<LawResult>& results, const std::string& folder,
   }
 }
 
-bool has(const std::vector<ReplayedFailure>& failures, ReplayedFailure::Result result) {
+bool fails(const std::vector<ReplayedFailure>& failures, bool are_known) {
   return std::any_of(failures.begin(), failures.end(),
-                     [&](const ReplayedFailure& r) { return r.result == result; });
-}
-
-std::vector<ReplayedFailure> joined(std::vector<ReplayedFailure> first,
-                                    const std::vector<ReplayedFailure>& second) {
-  first.insert(first.end(), second.begin(), second.end());
-  return first;
+                     [&](const ReplayedFailure& r) { return is_failing(r, are_known); });
 }
 
 /// Known failures that still fail: one that is fixed excuses no other.
@@ -338,26 +375,23 @@ std::vector<Failure> still_failing(const std::vector<ReplayedFailure>& known) {
   return result;
 }
 
-/// As they count in a run that knows them: what is fixed is welcome, what cannot be asked is not.
-std::vector<ReplayedFailure> judged_as_known(std::vector<ReplayedFailure> known) {
-  using Result = ReplayedFailure::Result;
-  for (ReplayedFailure& r : known) {
-    if (r.result == Result::fixed) r.result = Result::as_expected;
-    if (r.result == Result::skipped) r.result = Result::changed;
-  }
-  return known;
+/// " of everyday, degenerate, recorded poses"; empty where all are meant.
+std::string groups_text(const std::vector<Group>& groups) {
+  std::vector<std::string> names;
+  for (const Group group : groups) names.emplace_back(group_name(group));
+  return names.empty() ? "" : fmt::format(" of {} poses", fmt::join(names, ", "));
 }
 
-/// Without the failures that are known.
+/// Failures that are known are counted apart.
 std::vector<LawResult> check_laws(const Candidate* candidate, const CheckOptions& checks,
                                   const std::vector<Failure>& known, const Teller& teller) {
   if (!candidate) return {};
   CandidateProcess process(*candidate, checks.bar.threshold);
   const Terminal terminal = standard_output();
-  teller.tell(terminal.folded(
-      fmt::format("{} {}, seed {}, {} of each pair and pose class, tolerance {}",
-                  process.candidate().name, process.candidate().version, checks.seed,
-                  counted(checks.count, "configuration"), checks.bar.tolerance)));
+  teller.tell(terminal.folded(fmt::format(
+      "{} {}, seed {}, {} of each pair and pose class{}, tolerance {}", process.candidate().name,
+      process.candidate().version, checks.seed, counted(checks.count, "configuration"),
+      groups_text(checks.groups), checks.bar.tolerance)));
   std::unique_ptr<Progress> progress;
   auto results = check(process, checks, [&](std::uint64_t done, std::uint64_t all) {
     if (!progress) progress = std::make_unique<Progress>("configurations", all);
@@ -393,18 +427,15 @@ int run_check(const CheckArguments& options) {
   const Teller teller{options.json};
   const auto corpus = replay_all(options.corpus, "--corpus", candidate, teller);
   const auto known = replay_all(options.known, "--known", candidate, teller);
-  const auto judged = joined(corpus, judged_as_known(known));
   const auto results = check_laws(candidate, checks, still_failing(known), teller);
   if (!options.save.empty()) save_all(results, options.save, teller);
   if (!options.junit.empty()) {
-    write_file(options.junit, junit_xml(name, results, judged), "--junit");
+    write_file(options.junit, junit_xml(name, results, corpus, known), "--junit");
   }
-  if (options.json) print(check_json(name, checks, results, joined(corpus, known)));
+  if (options.json) print(check_json(name, checks, results, corpus, known));
   const bool broken =
       std::any_of(results.begin(), results.end(), [](const LawResult& r) { return r.broken > 0; });
-  const bool changed =
-      has(judged, ReplayedFailure::Result::fixed) || has(judged, ReplayedFailure::Result::changed);
-  return broken || changed ? something_failed : 0;
+  return broken || fails(corpus, false) || fails(known, true) ? something_failed : 0;
 }
 
 std::string law_list() {
@@ -447,7 +478,8 @@ void add_check(Program& program) {
       "  touchstone check --candidate ./my_engine.so --save failures\n"
       "  touchstone check --candidate ./my_engine.so --hostile\n"
       "  touchstone check --candidate ./my_engine.so --known failures\n"
-      "  touchstone check --corpus failures\n" +
+      "  touchstone check --corpus failures\n"
+      "Without --group, --class and --hostile it draws everyday, degenerate and recorded poses.\n" +
       law_list() +
       "Exit code 1: a law was broken, or a saved failure has changed; with --known: a\n"
       "law was broken in a new way, or a known failure has changed or cannot be asked.");

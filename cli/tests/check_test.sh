@@ -48,14 +48,36 @@ expect 1 'changed' check --corpus "$folder/corpus"
 echo '{' >"$folder/corpus/broken.json"
 expect 2 'broken.json' check --corpus "$folder/corpus"
 
+# What engines are not built for has to be asked for.
+tried() { # OPTIONS…: of one law
+  "$program" check --candidate reference --pair cylinder-plane --count 1 --law answers --json "$@" |
+    python3 -c 'import json, sys; c = json.load(sys.stdin); print(c["laws"][0]["tried"], *c["groups"])'
+}
+usual=$(tried)
+[ "$usual" = "$(tried --group everyday,degenerate,recorded)" ] || failed "check takes other groups: $usual"
+[ "${usual%% *}" -lt "$(tried --group everyday,degenerate,recorded,extreme | cut -d ' ' -f 1)" ] ||
+  failed "check takes extreme poses unasked"
+expect 0 '^everyday, degenerate, recorded poses, tolerance' \
+  check --candidate reference --pair cylinder-plane --count 1 --law answers
+# What is met every day comes first, whatever the pair.
+expect 1 'first met in extreme poses' check --candidate capsule --pair cylinder-plane,cylinder-box --count 3 \
+  --class general+coin,edge-cap --law agreement
+[ "$(grep -o 'first met in [a-z]*' <<<"$printed" | head -n 1)" = "first met in everyday" ] ||
+  failed "$ran: an extreme pose comes first"
+
 # Known failures are expected, new ones are not; a fixed one is told; what cannot be asked fails the run.
 edges=(check --candidate bullet --pair cylinder-box --class edge-cap,edge-side --count 3 --law agreement)
 expect 1 'start with the first' "${edges[@]}" --save "$folder/known"
-expect 0 'causes of failures are known' "${edges[@]}" --known "$folder/known"
+expect 0 'causes of failures are known' "${edges[@]}" --known "$folder/known" --junit "$folder/known.xml"
+also 'agreement .* nothing new  *known: '
+grep -q 'failures="0"' "$folder/known.xml" || failed "JUnit XML of known failures"
+[ "$(grep -c '<skipped message="known: ' "$folder/known.xml")" = "$(($(ls "$folder/known" | wc -l) + 1))" ] ||
+  failed "known failures look like successes in JUnit XML"
 expect 0 'as expected' check --known "$folder/known"
 cp -r "$folder/known" "$folder/less" && rm "$(ls "$folder"/less/*.json | head -n 1)"
 expect 1 'broken by' "${edges[@]}" --known "$folder/less" --junit "$folder/less.xml"
 grep -q 'failures="1"' "$folder/less.xml" || failed "JUnit XML of a new failure"
+grep -q '<failure .*message="[^"]*; known: ' "$folder/less.xml" || failed "JUnit XML of new and known failures"
 cp -r "$folder/known" "$folder/other" && sed -i 's/"candidate": "bullet"/"candidate": "reference"/' "$folder"/other/*.json
 expect 0 'fixed  *reference' check --known "$folder/other" --junit "$folder/fixed.xml"
 grep -q 'failures="0"' "$folder/fixed.xml" || failed "JUnit XML of a fixed failure"

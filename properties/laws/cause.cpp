@@ -1,6 +1,7 @@
 // Causes of failures: what tells them apart, and their order.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -8,6 +9,7 @@
 #include "oracle/truth.hpp"
 #include "properties/laws/check.hpp"
 #include "properties/simplify.hpp"
+#include "reference/invalid_input.hpp"
 
 namespace touchstone {
 namespace {
@@ -65,13 +67,29 @@ std::string to_string(const Cause& cause) {
   return cause.law + ", " + pair_name(cause.pair) + ", " + cause.features + ", " + cause.failure;
 }
 
+std::optional<Group> group_met(const Failure& f) {
+  try {
+    const Identity identity = parse_identity(f.identity);
+    return group_of(identity.pair, identity.pose_class);
+  } catch (const InvalidInput&) {
+    return std::nullopt;
+  }
+}
+
+int order_of(std::optional<Group> group) {
+  constexpr Group order[] = {Group::everyday, Group::degenerate, Group::recorded, Group::extreme};
+  const auto at = group ? std::find(std::begin(order), std::end(order), *group) : std::end(order);
+  return static_cast<int>(at - std::begin(order));
+}
+
 std::vector<Failure> in_order(const std::vector<LawResult>& results) {
   std::vector<Failure> all;
   for (const LawResult& result : results) {
     all.insert(all.end(), result.failures.begin(), result.failures.end());
   }
   const auto rank = [](const Failure& f) {
-    return std::tuple(&find_law(f.law), ~f.met, complexity(f.configuration));
+    return std::tuple(&find_law(f.law), order_of(group_met(f)), ~f.met,
+                      complexity(f.configuration));
   };
   std::stable_sort(all.begin(), all.end(),
                    [&](const Failure& a, const Failure& b) { return rank(a) < rank(b); });
@@ -84,7 +102,11 @@ std::vector<LawResult> new_ones(std::vector<LawResult> results, const std::vecto
   for (LawResult& result : results) {
     result.broken = 0;
     result.counts.clear();
-    std::erase_if(result.failures, [&](const Failure& f) { return causes.contains(cause_of(f)); });
+    std::erase_if(result.failures, [&](const Failure& f) {
+      const bool is_known = causes.contains(cause_of(f));
+      if (is_known) result.known[f.violation.failure] += f.met;
+      return is_known;
+    });
     for (const Failure& f : result.failures) {
       result.broken += f.met;
       result.counts[f.violation.failure] += f.met;

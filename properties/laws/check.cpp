@@ -35,7 +35,11 @@ std::vector<Chunk> chunks(const CheckOptions& options) {
   std::vector<Chunk> result;
   std::vector<Identity> all;
   for (const Pair pair : options.pairs) {
-    for (const std::string& name : selected_classes(pair, {options.classes, options.groups})) {
+    std::vector<std::string> names = selected_classes(pair, {options.classes, options.groups});
+    std::stable_sort(names.begin(), names.end(), [&](const std::string& a, const std::string& b) {
+      return order_of(group_of(pair, a)) < order_of(group_of(pair, b));
+    });
+    for (const std::string& name : names) {
       for (std::uint64_t i = 0; i < options.count; ++i) {
         all.push_back({pair, name, options.seed, i});
       }
@@ -426,9 +430,11 @@ std::vector<LawResult> check(CandidateProcess& candidate, const CheckOptions& op
   }
   std::erase_if(results, [](const LawResult& r) { return r.tried + r.unsupported == 0; });
   for (LawResult& result : results) {
-    std::sort(result.failures.begin(), result.failures.end(), [](const auto& a, const auto& b) {
-      return complexity(a.configuration) < complexity(b.configuration);
-    });
+    const auto rank = [](const Failure& f) {
+      return std::pair(order_of(group_met(f)), complexity(f.configuration));
+    };
+    std::sort(result.failures.begin(), result.failures.end(),
+              [&](const Failure& a, const Failure& b) { return rank(a) < rank(b); });
   }
   return results;
 }

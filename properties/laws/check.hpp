@@ -38,6 +38,11 @@ struct Failure {
   std::uint64_t met = 1;            ///< configurations that failed alike
 };
 
+/// The group of the pose class in which it was met first; absent where that is none of today's.
+std::optional<Group> group_met(const Failure& failure);
+/// Groups by how much they matter to a user: everyday, degenerate, recorded, extreme; then none.
+int order_of(std::optional<Group> group);
+
 /// One law on one pair.
 struct LawResult {
   const Law* law;
@@ -45,17 +50,20 @@ struct LawResult {
   std::uint64_t tried = 0, broken = 0;
   std::uint64_t unsupported = 0;  ///< configurations that the candidate has no routine for
   std::map<std::string, std::uint64_t> counts;  ///< of configurations, by the failure's name
-  std::vector<Failure> failures;  ///< one of each name (and features), the simplest first
+  /// One of each name (and features), in the order of their groups, of a group the simplest first.
+  std::vector<Failure> failures;
   /// An equal part of what the pair's configurations took, which all laws are asked about together.
   double seconds = 0;
+  /// Like `counts`, of the configurations that new_ones has taken from there.
+  std::map<std::string, std::uint64_t> known = {};
 };
 
 /// Tries every law on every configuration and simplifies the first failure of each name, or of each
-/// name and features, keeping both. The configurations of a chunk are asked in one session of
-/// `candidate`, or of a worker's own process. What is shown fails in a session of its own, too, and
-/// so does a sample of what is counted; all of it where the sample or the law "memory" says that
-/// answers depend on earlier questions. `progress` is told how many configurations are done, of how
-/// many.
+/// name and features, keeping both; classes come in the order of their groups. The configurations
+/// of a chunk are asked in one session of `candidate`, or of a worker's own process. What is shown
+/// fails in a session of its own, too, and so does a sample of what is counted; all of it where the
+/// sample or the law "memory" says that answers depend on earlier questions. `progress` is told how
+/// many configurations are done, of how many.
 std::vector<LawResult> check(CandidateProcess& candidate, const CheckOptions& options,
                              const std::function<void(std::uint64_t, std::uint64_t)>& progress);
 
@@ -79,10 +87,12 @@ Cause cause_of(const Failure& failure);
 std::string to_string(const Cause& cause);
 
 /// Those of all laws, the one to start with first: in the order of the laws, for a routine that
-/// breaks one often breaks later ones by it; of a law the most frequent first, then the simplest.
+/// breaks one often breaks later ones by it; of a law in the order of the groups, then the most
+/// frequent first, then the simplest.
 std::vector<Failure> in_order(const std::vector<LawResult>& results);
 
-/// The results without failures whose cause is that of a known one; what is left is new.
+/// The results without failures whose cause is that of a known one, which are counted as known;
+/// what is left is new.
 std::vector<LawResult> new_ones(std::vector<LawResult> results, const std::vector<Failure>& known);
 
 }  // namespace touchstone

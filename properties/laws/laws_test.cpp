@@ -234,6 +234,30 @@ TEST(Check, SimplifiesAFailureToOneThatFailsAlike) {
   }
 }
 
+// What a user meets every day comes first, however small the numbers of an extreme pose are.
+TEST(Check, TellsFailuresInEverydayPosesFirst) {
+  CandidateProcess capsule(find_candidate("capsule"), 0);
+  CheckOptions options;
+  options.laws = {&find_law("agreement")};
+  options.pairs = {Pair::plane, Pair::box};
+  options.classes = {"general+coin", "general+deep", "edge-cap", "general+shallow"};
+  options.count = 3;
+  options.by_features = true;
+  const auto results = check(capsule, options, [](auto, auto) {});
+  std::set<Group> groups;
+  const auto expect_ordered = [&](const std::vector<Failure>& failures) {
+    for (std::size_t i = 0; i < failures.size(); ++i) {
+      groups.insert(group_met(failures[i]).value());
+      if (i == 0 || failures[i].law != failures[i - 1].law) continue;
+      EXPECT_LE(order_of(group_met(failures[i - 1])), order_of(group_met(failures[i])))
+          << failures[i].identity;
+    }
+  };
+  for (const LawResult& result : results) expect_ordered(result.failures);
+  expect_ordered(in_order(results));
+  EXPECT_TRUE(groups.contains(Group::everyday) && groups.contains(Group::extreme));
+}
+
 /// All that a run of `check` tells, as text.
 std::string told(const std::vector<LawResult>& results) {
   std::string text;
@@ -505,6 +529,7 @@ TEST(Causes, KnownOnesAreNotNew) {
   std::vector<Failure> known = in_order(results);
   EXPECT_EQ(new_ones(results, known).at(0).broken, 0u);
   EXPECT_TRUE(new_ones(results, known).at(0).failures.empty());
+  EXPECT_EQ(new_ones(results, known).at(0).known, results[0].counts);
   const Failure missing = known.back();
   known.pop_back();
   const LawResult left = new_ones(results, known).at(0);
@@ -512,6 +537,9 @@ TEST(Causes, KnownOnesAreNotNew) {
   EXPECT_EQ(cause_of(left.failures[0]), cause_of(missing));
   EXPECT_EQ(left.broken, missing.met);
   EXPECT_EQ(left.counts.at(missing.violation.failure), missing.met);
+  std::uint64_t of_known = 0;
+  for (const auto& [failure, count] : left.known) of_known += count;
+  EXPECT_EQ(of_known, results[0].broken - missing.met);
   // Of another law it is another cause.
   for (Failure& f : known) f.law = "points";
   EXPECT_EQ(new_ones(results, known).at(0).broken, results[0].broken);
