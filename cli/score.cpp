@@ -26,6 +26,8 @@ struct ScoreArguments {
   std::string file, configurations, out = "out", name, version, settings;
   bool suite = false;
 
+  std::string file_name() const { return file == "-" ? "standard input" : file; }
+
   std::string command_line() const {
     std::string line = program_name() + " score " + shell_quoted(file);
     if (!configurations.empty()) line += " --configurations " + shell_quoted(configurations);
@@ -47,6 +49,17 @@ std::ifstream opened(const std::string& file, const char* field) {
   return in;
 }
 
+/// What `read` makes of a file, whose name its errors have.
+template <class Read>
+auto named_in_errors(const std::string& file, Read read) {
+  try {
+    return read();
+  } catch (const InvalidInput& e) {
+    const bool is_in_file = !e.field().starts_with("--");
+    throw InvalidInput((is_in_file ? file + ": " : "") + e.field(), e.value(), e.remedy());
+  }
+}
+
 ReadAnswers read(const ScoreArguments& options) {
   const auto given = [](const std::string& text) {
     return text.empty() ? std::nullopt : std::optional(text);
@@ -57,21 +70,25 @@ ReadAnswers read(const ScoreArguments& options) {
   Wanted wanted;
   if (!options.configurations.empty()) {
     std::ifstream in = opened(options.configurations, "--configurations");
-    configurations = ConfigurationFile(in);
+    configurations = named_in_errors(options.configurations, [&] { return ConfigurationFile(in); });
     wanted.file = &configurations;
   }
   if (options.suite) wanted.identities = identities(suite_1());
-  if (options.file == "-") return read_answers(std::cin, description, wanted);
+  const auto answers = [&](std::istream& in) {
+    return named_in_errors(options.file_name(),
+                           [&] { return read_answers(in, description, wanted); });
+  };
+  if (options.file == "-") return answers(std::cin);
   std::ifstream in = opened(options.file, "file");
-  return read_answers(in, description, wanted);
+  return answers(in);
 }
 
-void tell(const std::vector<AnswerError>& errors) {
+void tell(const std::vector<AnswerError>& errors, const std::string& file) {
   constexpr std::size_t max_told = 20;
   for (std::size_t i = 0; i < std::min(errors.size(), max_told); ++i) {
     const std::string where =
         errors[i].line > 0 ? fmt::format("line {}: ", errors[i].line) : std::string();
-    complain("error: " + where + errors[i].error);
+    complain("error: " + file + ": " + where + errors[i].error);
   }
   if (errors.size() > max_told) complain(fmt::format("and {} more", errors.size() - max_told));
 }
@@ -80,7 +97,7 @@ void tell(const std::vector<AnswerError>& errors) {
 int run_score(const ScoreArguments& options) {
   const OutputFolder out(options.out);
   const ReadAnswers read_ones = read(options);
-  tell(read_ones.errors);
+  tell(read_ones.errors, options.file_name());
   if (read_ones.count == 0) {
     throw InvalidInput("file", '"' + options.file + '"',
                        "must have a line that is an answer, as {\"id\": "

@@ -84,6 +84,8 @@ const char* group_name(Group group) {
       return "extreme";
     case Group::recorded:
       return "recorded";
+    case Group::given:
+      return "given";
   }
   return "";
 }
@@ -91,6 +93,7 @@ const char* group_name(Group group) {
 Group parse_group(std::string_view name, const char* field) {
   std::vector<std::string> names;
   for (const Group group : all_groups) {
+    if (group == Group::given) continue;  // it has no class that can be drawn
     if (name == group_name(group)) return group;
     names.emplace_back(group_name(group));
   }
@@ -190,7 +193,7 @@ std::string describe_pose_class(Pair pair, std::string_view pose_class) {
 }
 
 Group group_of(Pair pair, std::string_view pose_class) {
-  if (pose_class == given_class) return Group::recorded;
+  if (pose_class == given_class) return Group::given;
   return find_pose_class(pair, pose_class).group();
 }
 

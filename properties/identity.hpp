@@ -33,12 +33,14 @@ enum class Group {
   everyday,    ///< sizes within 1:20, turned at random, shallow, resting or apart
   degenerate,  ///< exact, near-exact and symmetric
   extreme,     ///< aspect, scale, distance from the origin, depth of the order of the size
-  recorded     ///< as simulated scenes produced it, as often as they did
+  recorded,    ///< as simulated scenes produced it, as often as they did
+  given        ///< of the class given_class alone
 };
 inline constexpr Group all_groups[] = {Group::everyday, Group::degenerate, Group::extreme,
-                                       Group::recorded};
+                                       Group::recorded, Group::given};
 const char* group_name(Group group);
-/// Throws InvalidInput with this field that lists the groups.
+/// Reads the name of a group whose classes can be drawn. Throws InvalidInput with this field that
+/// lists them.
 Group parse_group(std::string_view name, const char* field = "--group");
 
 /// How many of an arrangement and its modifiers occur together in every sensible combination.
@@ -64,7 +66,7 @@ void check_pose_classes(const std::vector<Pair>& pairs, const std::vector<std::s
 void check_groups(const std::vector<Pair>& pairs, const ClassSelection& selection);
 
 /// The class in a report of configurations that came in a file. It has no arrangement and no
-/// identities, and belongs to the group recorded.
+/// identities, and is the only one of the group given.
 inline constexpr std::string_view given_class = "given";
 
 /// Sentences: the geometry that the class makes, why it is hard, and how it is modified.

@@ -14,12 +14,23 @@ expect 2 '--suite' export --suite --count 3
 expect 2 '--out.*No space left' export $lying --count 1 --format csv --out /dev/full
 
 printf '{"id":"cylinder-plane/lying/1/0","status":"none"}\nno JSON\n' >"$folder/given.jsonl"
-expect 2 'line 2: line is no JSON' score "$folder/given.jsonl" --name mine --out "$folder/given"
+expect 2 "^error: $folder/given.jsonl: line 2: line is no JSON" score "$folder/given.jsonl" --name mine --out "$folder/given"
 grep -q '"configurations": 1,' "$folder/given/report.json" ||
   failed "score loses what is good beside a bad line"
 sed -i 2d "$folder/given.jsonl"
 expect 0 'cylinder-plane, degenerate poses' score "$folder/given.jsonl" --name mine --out "$folder/given"
-expect 2 '--name is missing' score "$folder/given.jsonl" --out "$folder/given"
+expect 2 '^error: --name is missing' score "$folder/given.jsonl" --out "$folder/given"
+# Ids are as `solve` takes them; what cannot be used is told with its file.
+echo '{"id":0,"a":{"shape":"cylinder","radius":1,"half_length":1},"b":{"shape":"sphere","radius":1}}' >"$folder/poses.jsonl"
+echo '{"id":0,"status":"none"}' >"$folder/own.jsonl"
+own=(score "$folder/own.jsonl" --configurations "$folder/poses.jsonl" --name mine --out "$folder/given")
+expect 0 '^cylinder-sphere, given poses' "${own[@]}"
+expect 0 '"id":0' solve "$folder/poses.jsonl" --candidates reference
+sed -i 's/0,/null,/' "$folder/poses.jsonl"
+expect 2 "^error: $folder/poses.jsonl: line 1.id is null: must be a string or a number" "${own[@]}"
+echo '{"candidate":"a b"}' | cat - "$folder/given.jsonl" >"$folder/named.jsonl"
+expect 2 "^error: $folder/named.jsonl: line 1.candidate is \"a b\": must be printable" score "$folder/named.jsonl" \
+  --out "$folder/given"
 expect 2 'missing for 5105 configurations' score "$folder/given.jsonl" --name mine --suite --out "$folder/given"
 expect 2 'could not be opened' score "$folder/none.jsonl" --out "$folder/given"
 : >"$folder/none.jsonl"

@@ -137,6 +137,7 @@ const groupMeanings = {
   degenerate: 'exact, near-exact and symmetric',
   extreme: 'extreme proportions, scales, distances and depths',
   recorded: 'as scenes have produced them',
+  given: 'your own, from a file',
 };
 let group = null;
 const grouped = [];

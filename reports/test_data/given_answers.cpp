@@ -25,6 +25,14 @@ constexpr std::size_t max_shown_id = 100;
 
 std::string shown_id(const std::string& id) { return '"' + printable(id, max_shown_id) + '"'; }
 
+/// The id of a line: a string, or a number as it is written; 0 and "0" are one id.
+std::string id_of(const json& line) {
+  const json& id = member(line, "id", "");
+  if (id.is_number()) return id.dump();
+  if (id.is_string()) return string(id, "id");
+  throw InvalidInput("id", shown(id), "must be a string or a number");
+}
+
 }  // namespace
 
 ConfigurationFile::ConfigurationFile(std::istream& in) {
@@ -33,7 +41,7 @@ ConfigurationFile::ConfigurationFile(std::istream& in) {
     try {
       const json line = lines.parse();
       require_object(line, "line");
-      const std::string id = string(member(line, "id", ""), "id");
+      const std::string id = id_of(line);
       GivenConfiguration given =
           configuration_from_json(line.contains("configuration") ? line["configuration"] : line);
       if (!entries_.try_emplace(id, Entry{entries_.size(), std::move(given)}).second) {
@@ -86,7 +94,7 @@ class AnswerReader {
   }
 
   void take(const json& line, std::uint64_t number) {
-    const std::string id = string(member(line, "id", ""), "id");
+    const std::string id = id_of(line);
     GivenAnswer answer = answer_of(line, id);
     const Cell cell = place(answer);
     const std::string name =

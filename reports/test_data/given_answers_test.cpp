@@ -102,9 +102,12 @@ TEST(GivenAnswers, EveryBadLineIsToldAndTheOthersCount) {
       {R"({"status":"none"})"
        "\n",
        "id is missing"},
+      {R"({"id":[7],"status":"none"})"
+       "\n",
+       "id is [7]: must be a string or a number"},
       {R"({"id":7,"status":"none"})"
        "\n",
-       "id is 7: must be a string"},
+       "id is \"7\": identity is \"7\": must read pair/class/seed/index"},
       {none("c1"), "must read pair/class/seed/index"},
       {none("cylinder-box/rim-fase/1/0"), "rim-face"},
       {none("cylinder-box/rim-face/2/0"), "must have the seed 1"},
@@ -189,6 +192,8 @@ TEST(GivenConfigurations, AreScoredWithEitherBodyFirst) {
   const Report report = report_of(r);
   ASSERT_EQ(report.results.size(), 1u);
   EXPECT_EQ(report.results[0].pose_class, "given");
+  ASSERT_EQ(report.summary.size(), 1u);
+  EXPECT_EQ(report.summary[0].pose_class, "given");  // nobody has recorded them
   EXPECT_EQ(report.results[0].statistics.of(Outcome::agree), 2u);
 }
 
@@ -199,6 +204,7 @@ TEST(GivenConfigurations, AreNamedInTheReportByTheirIdAndReplayedByTheirNumbers)
   const Report report = report_of(r);
   const Examination& worst = report.worst.at(0).examination;
   EXPECT_EQ(worst.id, "p2");
+  EXPECT_EQ(report.worst[0].group, "given");
   EXPECT_THAT(worst.replay, HasSubstr("replay -"));
   const auto start = worst.replay.find('{'), end = worst.replay.rfind('}');
   EXPECT_EQ(to_hex_json(configuration_from_text(worst.replay.substr(start, end - start + 1), "it")),
@@ -216,6 +222,26 @@ TEST(GivenConfigurations, HaveIdsThatDifferAndAnswersToAll) {
   ASSERT_EQ(r.errors.size(), 2u);
   EXPECT_THAT(r.errors[0].error, HasSubstr("an id of the configurations' file"));
   EXPECT_THAT(r.errors[1].error, HasSubstr("as p2"));
+}
+
+// Whatever `solve` takes and gives back names a configuration here, too.
+TEST(GivenConfigurations, MayHaveNumbersAsIds) {
+  const auto named = [](std::string lines, const std::string& id) {
+    const std::string first = R"("id":"p1")";
+    return lines.replace(lines.find(first), first.size(), R"("id":)" + id);
+  };
+  for (const char* id : {"0", "-7", "1.5", "18446744073709551615", "\"0\""}) {
+    std::istringstream in(named(can_on_box, id));
+    const ConfigurationFile file(in);
+    const ReadAnswers r =
+        read(named(depth_0_1("p1", "[0,0,1]"), id) + depth_0_1("p2", "[0,0,-1]"), {&file, {}});
+    EXPECT_TRUE(r.errors.empty()) << id << ": " << r.errors[0].error;
+    EXPECT_EQ(r.count, 2u) << id;
+  }
+  std::istringstream in(named(can_on_box, "[0]"));
+  EXPECT_THAT(
+      [&] { ConfigurationFile file(in); },
+      ThrowsMessage<InvalidInput>(HasSubstr("line 1.id is [0]: must be a string or a number")));
 }
 
 /// Without what is said of times, which differ.
