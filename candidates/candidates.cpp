@@ -69,6 +69,11 @@ std::filesystem::path standard_folder() {
   return own;
 }
 
+bool is_in_clone() {
+  std::error_code none;
+  return std::filesystem::is_regular_file(standard_folder() / "../../../touchstone", none);
+}
+
 namespace {
 
 std::filesystem::path standard_file(std::string_view name) {

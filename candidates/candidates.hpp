@@ -110,6 +110,8 @@ const std::vector<Skipped>& skipped_plugins();
 /// The folder of the standard plug-ins, and of what else this program loads: in the build tree
 /// above the program, or under the prefix of an installed one.
 std::filesystem::path standard_folder();
+/// Whether that lies in the build folder of a clone, whose ./touchstone starts this program.
+bool is_in_clone();
 
 /// Convert a shape or a pose to the C interface; quaternions and plane normals are normalised in
 /// double.

@@ -5,6 +5,8 @@
 #include <sstream>
 #include <unistd.h>
 
+#include "candidates/candidates.hpp"
+
 namespace touchstone {
 namespace {
 
@@ -60,16 +62,15 @@ std::filesystem::path npm_folder() {
 }
 
 std::string npm_obstacle(const NpmEngine& engine) {
-  const bool is_source_tree = std::filesystem::exists(npm_folder() / "../../touchstone");
   if (!is_on_path("node")) {
     return std::string("node is not installed; ") +
-           (is_source_tree ? "./touchstone installs it when it can"
+           (is_in_clone() ? "./touchstone installs it when it can"
                            : "install Debian's packages nodejs and npm");
   }
   const auto package = packages() / "node_modules" / engine.package / "package.json";
   if (std::filesystem::exists(package)) return "";
   const std::string missing = "npm's package " + std::string(engine.package) + " is not in ";
-  if (is_source_tree) {
+  if (is_in_clone()) {
     return missing + packages().lexically_normal().string() +
            "; ./touchstone installs it there, or name a folder in TOUCHSTONE_NPM that has it";
   }

@@ -42,6 +42,19 @@ touchstone=$prefix/bin/touchstone
 "$touchstone" certify cylinder-box/rim-face/1/0 >"$folder/proof.json"
 python3 "$prefix/share/touchstone/check_certificate.py" "$folder/proof.json" >/dev/null
 
+# What it prints can be run there, and the pages that it names can be read, with those they link to.
+! grep -qF ./touchstone "$folder/table" "$folder/out/report.html" || fail "there is no ./touchstone to run"
+pages=$prefix/share/doc/touchstone
+for page in $(grep -rahoE '\b(docs|oracle|suite|reference)/[a-zA-Z/-]+\.md' "$prefix"/{bin,lib,share/man,include} | sort -u); do
+  [ -s "$pages/$page" ] || fail "$page is named and not installed"
+done
+[ -s "$pages/docs/check.md" ] || fail "no pages are installed"
+while read -r page; do
+  for link in $(grep -oE '\]\([^)#: ]+\.md' "$page" | cut -c 3-); do
+    [ -s "$(dirname "$page")/$link" ] || fail "$page links to $link, which is not installed"
+  done
+done < <(find "$pages" -name '*.md')
+
 # The library is the one that reference/CMakeLists.txt builds examples with.
 cmake --install "$1/reference" --prefix "$folder/installed" --component touchstone_reference >/dev/null
 [ -s "$folder/installed/lib/libtouchstone_reference.a" ] || fail "no library is installed"

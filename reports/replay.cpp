@@ -212,6 +212,8 @@ std::string dollar_quoted(const std::string& text) {
   return result + "'";
 }
 
+const char* started_as() { return is_in_clone() ? "./touchstone" : "touchstone"; }
+
 }  // namespace
 
 std::string shell_quoted(const std::string& text) {
@@ -224,7 +226,7 @@ std::string shell_quoted(const std::string& text) {
 }
 
 std::string program_name() {
-  std::string name = "./touchstone";
+  std::string name = started_as();
   for (const Added& added : added_candidates()) name += option_text(added);
   return name;
 }
@@ -239,7 +241,7 @@ std::string program_name(const std::vector<std::string>& candidates) {
       options.push_back(option);
     }
   }
-  return std::accumulate(options.begin(), options.end(), std::string("./touchstone"));
+  return std::accumulate(options.begin(), options.end(), std::string(started_as()));
 }
 
 std::string replay_command(const std::string& name, const std::vector<std::string>& candidates) {

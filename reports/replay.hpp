@@ -59,9 +59,9 @@ std::string reproducer(std::string_view engine, std::string_view language,
 /// Quotes a word for a shell; left alone where it needs no quotes.
 std::string shell_quoted(const std::string& text);
 
-/// "./touchstone", with all options that added candidates.
+/// "./touchstone" in a clone, otherwise "touchstone", with all options that added candidates.
 std::string program_name();
-/// "./touchstone", with those that added these.
+/// The same with those that added these.
 std::string program_name(const std::vector<std::string>& candidates);
 
 /// "./touchstone replay cylinder-box/rim-face/1/17", which these candidates have to answer.

@@ -205,11 +205,12 @@ std::string report_page(const Report& report) {
   std::vector<std::string> names;
   for (const CandidateDescription& c : report.candidates) names.push_back(c.name);
   data["marks"] = marks(names);
+  data["program"] = program_name({});
   for (const CandidateDescription& c : report.candidates) {
     if (c.runs != "native") data["runs"][c.name] = c.runs;
     // Needs an option before it is known.
     const std::string program = program_name({c.name});
-    if (program != program_name({})) data["programs"][c.name] = program;
+    if (program != data["program"]) data["programs"][c.name] = program;
   }
   json& outcomes = data["outcomes"] = json::array();
   for (const Outcome outcome : all_outcomes) outcomes.push_back(outcome_name(outcome));
@@ -285,6 +286,7 @@ std::string engines_page(const EngineResults& results, const std::string& comman
     if (!ended(r->own) && !ended(r->cured)) motions.push_back(motion_json(*r, results.step));
   }
   return render_page(Page::engines, {{"command", command},
+                                     {"program", program_name({})},
                                      {"marks", json::object()},
                                      {"engines", to_json(results)},
                                      {"motions", motions}});

@@ -73,7 +73,8 @@ std::string Terminal::folded(const std::string& text) const {
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {
     const std::size_t indent = std::min(line.find_first_not_of(' '), line.size());
-    const bool is_command = line.compare(indent, 2, "./") == 0;
+    const std::string_view words = std::string_view(line).substr(indent);
+    const bool is_command = words.starts_with("./") || words.starts_with("touchstone ");
     if (letters(line) > columns && !is_command) {
       const std::size_t further = indent == 0 ? 0 : indent + 2;
       line = line.substr(0, indent) +

@@ -23,7 +23,7 @@ struct Terminal {
 
   /// The text with its lines that are wider broken between words, and a line's end. What follows a
   /// break is as far in as the line, or by two blanks more where that is indented. Commands
-  /// ("./touchstone …") stay whole, to be pasted.
+  /// ("./touchstone …", or "touchstone …") stay whole, to be pasted.
   std::string folded(const std::string& text) const;
   /// One line likewise, indented by two blanks.
   std::string below(const std::string& text) const;

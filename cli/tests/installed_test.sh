@@ -18,6 +18,13 @@ expect 2 '^error: touchstone-host is ".*/candidates/touchstone-host": .*"No such
   replay $rim --candidates bullet
 mv "$folder/part/touchstone-host" "$folder/part/candidates/"
 
+# It is on the PATH, and what it prints is run so.
+expect 1 "^  echo '{.*}' | touchstone replay - --candidates bullet" check --candidate bullet --pair cylinder-box \
+  --class edge-cap --count 1 --law agreement
+expect 0 '^    touchstone replay cylinder-' report --pair cylinder-plane --class general-shallow --count 3 \
+  --candidates bullet,capsule --out "$folder/report"
+! grep -qF ./touchstone - "$folder"/report/report.* <<<"$printed" || failed "there is no ./touchstone to run"
+
 # There no ./touchstone installs what an engine from npm needs.
 there=$folder/there
 mkdir -p "$there/bin" "$there/lib" "$there/share/touchstone/candidates"

@@ -52,7 +52,7 @@ function drawEngines({engines, experiments, results, step}) {
         `Error in ${e.unit}; resolved to ${exponent(e.resolution[0])}.`;
     one.replaceChildren(table([textColumn('engine'), 'value', 'error', e.rests ? 'rests after' : 'rests', 'energy gained', 'points', 'flicker',
         'one point', 'µs per step'], engines.flatMap(engine => of(e, engine) ? engineRows(of(e, engine), e) : []), 'One experiment in each engine'));
-    where.replaceChildren(command(`./touchstone simulate ${e.name} --engine ${engines.map(x => x.name).join()} --step ${step}`));
+    where.replaceChildren(command(`${program} simulate ${e.name} --engine ${engines.map(x => x.name).join()} --step ${step}`));
   };
   const rows = experiments.map(e => [rowHead(e.name), exponent(e.resolution[0]), ...engines.map(engine => {
     const cell = cureCell(of(e, engine), e);

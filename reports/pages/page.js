@@ -1,7 +1,7 @@
 'use strict';
 // What all pages share: builders of elements, marks of candidates, outcomes, numbers, the contents, the tooltip, keys.
 const byId = id => document.getElementById(id);
-const data = JSON.parse(byId('data').textContent), {marks, runs = {}, programs = {}} = data;
+const data = JSON.parse(byId('data').textContent), {marks, runs = {}, program, programs = {}} = data;
 
 // Builders of elements. Strings become text, never markup.
 function fillElement(e, attributes, children) {
@@ -50,8 +50,8 @@ function symbolPath(kind, x, y, s) {
     default: return `M${x - s},${y}a${s},${s} 0 1,0 ${2 * s},0a${s},${s} 0 1,0 ${-2 * s},0`;
   }
 }
-// How Touchstone is started so that it knows a candidate.
-const programOf = name => programs[name] || './touchstone';
+// How Touchstone is started, so that it knows a candidate.
+const programOf = name => programs[name] || program;
 const symbolSign = ({colour, symbol}) => shape('svg', {class: 'sign', viewBox: '-8 -8 16 16', 'aria-hidden': 'true'},
     shape('path', {fill: `var(${colour})`, d: symbolPath(symbol, 0, 0, 5.5)}));
 const sign = name => symbolSign(markOf(name));

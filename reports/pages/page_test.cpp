@@ -58,7 +58,9 @@ TEST(ReportPage, CarriesTheReport) {
     data.erase(list);
   }
   EXPECT_EQ(data["outcomes"][1], "missed");
+  EXPECT_EQ(data["program"], "./touchstone");
   data.erase("outcomes");
+  data.erase("program");
   data.erase("marks");
   data.erase("strings");
   EXPECT_EQ(data, expected);

@@ -279,7 +279,7 @@ function experimentTables({experiments, results, steps}) {
           element('td', {class: r.exact ? 'good' : '', 'data-value': r.error ?? ''}, r.exact ? `held (${exponent(r.error)})` : experimentCell.text(r)),
           r.points.toFixed(1), percent(r.flicker), percent(r.single), exponent(r.energy_gained),
           whole(r.nanoseconds), whole(r.microseconds_per_step)]), 'One experiment'));
-    byId('experiment-command').replaceChildren(command(`./touchstone simulate ${e.name} --step ${steps[0]}`));
+    byId('experiment-command').replaceChildren(command(`${program} simulate ${e.name} --step ${steps[0]}`));
   }
   choices('experiment-name', experiments.map(e => e.name), one);
   one();

@@ -403,11 +403,12 @@ void write_stability(const Stability& stability, const std::string& command,
   write_file(folder / "stability.json", whole.dump() + "\n", "--out");
   const std::vector<std::string> names = whole["candidates"];
   whole["marks"] = marks(names);
+  whole["program"] = program_name({});
   for (const std::string& name : names) {
     const std::string runs = runs_as(name);
     if (runs != "native") whole["runs"][name] = runs;
     const std::string program = program_name({name});
-    if (program != program_name({})) whole["programs"][name] = program;
+    if (program != whole["program"]) whole["programs"][name] = program;
   }
   write_file(folder / "stability.html", render_page(Page::stability, whole), "--out");
 }
