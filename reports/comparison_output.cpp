@@ -6,6 +6,7 @@
 
 #include "properties/files/given_text.hpp"
 #include "reports/compare.hpp"
+#include "reports/covered_pairs.hpp"
 #include "reports/pages/page.hpp"
 #include "reports/report_json.hpp"
 #include "reports/terminal.hpp"
@@ -113,6 +114,7 @@ json places(const Report& report) {
       place["nanoseconds"] = {{"median", row.time->nanoseconds.median},
                               {"ratio_to_bullet", ratio ? json(ratio->median) : json(nullptr)}};
     }
+    place["covers"] = covered_text(report, row);
     if (row.statistics.depth_error) {
       place["depth_error"] = {{"p99", row.statistics.depth_error->p99}};
     }

@@ -13,6 +13,7 @@
 #include "candidates/host/interruption.hpp"
 #include "candidates/host/progress.hpp"
 #include "properties/identity.hpp"
+#include "reports/covered_pairs.hpp"
 #include "reports/factors.hpp"
 #include "reports/replay.hpp"
 #include "reports/sampler.hpp"
@@ -213,7 +214,9 @@ SpeedAccuracy place_of(const ResultRow& row) {
 }
 
 /// Finds which rows under one heading are on the front of speed and accuracy, and whose times tie.
-void rank(std::span<ResultRow> rows, const std::function<bool(const ResultRow&)>& is_native) {
+/// `is_whole`: over all pairs of the heading; others are in no order with those.
+void rank(std::span<ResultRow> rows, const std::function<bool(const ResultRow&)>& is_native,
+          const std::function<bool(const ResultRow&)>& is_whole) {
   std::vector<ResultRow*> placed;
   std::vector<SpeedAccuracy> places;
   for (ResultRow& row : rows) {
@@ -223,7 +226,7 @@ void rank(std::span<ResultRow> rows, const std::function<bool(const ResultRow&)>
       row.tied_with.push_back(other.candidate);
     }
     // Without a contact there is no error, and no place in the chart.
-    if (!row.statistics.depth_error) continue;
+    if (!row.statistics.depth_error || !is_whole(row)) continue;
     placed.push_back(&row);
     places.push_back(place_of(row));
     places.back().is_native = is_native(row);
@@ -284,10 +287,14 @@ Report make_report(const Campaign& campaign, const std::string& command) {
     const auto is = [&](const CandidateDescription& c) { return c.name == row.candidate; };
     return std::find_if(report.candidates.begin(), report.candidates.end(), is)->runs == "native";
   };
+  const auto is_whole = [&](const ResultRow& row) {
+    return row.pair != "all" ||
+           covered_pairs(report, row.pose_class, row.candidate).are_all();  // which stand before it
+  };
   for (const Heading& heading : of_groups) {
     auto rows =
         rows_of(campaign, samples, times, heading.cells, heading.pair, group_name(heading.group));
-    rank(rows, is_native);
+    rank(rows, is_native, is_whole);
     report.summary.insert(report.summary.end(), rows.begin(), rows.end());
   }
   report.factors = factors(report);

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "properties/files/given_text.hpp"
+#include "reports/covered_pairs.hpp"
 #include "reports/factors.hpp"
 #include "reports/replay.hpp"
 #include "reports/report.hpp"
@@ -98,6 +99,13 @@ std::string signed_median(const std::optional<SignedMedian>& bias) {
   return is_zero(bias->value) ? "0" : fmt::format("{:+.1e}", bias->value);
 }
 
+/// "4/5" beside a name: a row over all pairs is over these alone. Empty where it is over all.
+std::string covered_mark(const Report& report, const std::string& group,
+                         const std::string& candidate) {
+  const CoveredPairs pairs = covered_pairs(report, group, candidate);
+  return pairs.are_all() ? "" : fmt::format(" {}/{}", pairs.covered, pairs.all);
+}
+
 /// Candidates that do not run as native code have a star.
 bool is_starred(const Report& report, const std::string& candidate) {
   return std::any_of(
@@ -150,6 +158,12 @@ TextTable table_of(const Report& report, const std::vector<TableMeasure>& measur
   for (const CandidateDescription& c : report.candidates) {
     name_width = std::max(name_width, c.name.size() + (c.runs == "native" ? 0 : 1));
   }
+  for (const ResultRow& row : report.summary) {
+    if (row.pair != "all" || row.statistics.supported() == 0) continue;
+    name_width =
+        std::max(name_width, row.candidate.size() + (is_starred(report, row.candidate)) +
+                                 covered_mark(report, row.pose_class, row.candidate).size());
+  }
   std::vector<TextTable::Column> columns;
   for (const TableMeasure& m : measures) columns.push_back(m.column);
   return {"candidate", name_width, columns, terminal};
@@ -161,7 +175,9 @@ std::string row_text(const Report& report, const ResultRow& row,
   for (const TableMeasure& m : measures) {
     cells.push_back({m.text(row), m.column.heading == "yes/no" && has_wrong_answers(row)});
   }
-  const std::string name = row.candidate + (is_starred(report, row.candidate) ? "*" : "");
+  const std::string name =
+      row.candidate + (is_starred(report, row.candidate) ? "*" : "") +
+      (row.pair == "all" ? covered_mark(report, row.pose_class, row.candidate) : "");
   return table.row(name, cells, agreement(row.statistics) == "100.0");
 }
 
@@ -210,6 +226,15 @@ std::string columns_text(const Report& report, const TextTable& table, const Ter
   explain("times", fmt::format("the median as a multiple of Bullet's, ~ where the spreads of {} to "
                                "{} repetitions overlap: a tie",
                                min_repetitions, max_repetitions));
+  const auto is_partial = [&](const ResultRow& row) {
+    return row.pair == "all" && row.statistics.supported() > 0 &&
+           !covered_mark(report, row.pose_class, row.candidate).empty();
+  };
+  if (std::any_of(report.summary.begin(), report.summary.end(), is_partial)) {
+    text += indented("4/5: over four of five pairs, for the candidate has no routine for the other",
+                     terminal) +
+            '\n';
+  }
   return text + table.what_is_left_out();
 }
 

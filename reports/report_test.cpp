@@ -16,6 +16,7 @@
 #include "oracle/truth.hpp"
 #include "properties/files/disk.hpp"
 #include "reference/invalid_input.hpp"
+#include "reports/covered_pairs.hpp"
 #include "reports/make_report.hpp"
 #include "reports/replay.hpp"
 #include "reports/report_json.hpp"
@@ -26,6 +27,7 @@ namespace touchstone {
 namespace {
 
 using nlohmann::json;
+using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -184,6 +186,31 @@ TEST(Report, RanksNobodyWithinTheSpreads) {
       EXPECT_EQ(row["pareto"], true);
     }
   }
+}
+
+// Over all pairs it is over another number of them than the others', and in no order with those.
+TEST(Report, MarksWhoHasNoRoutineForSomePairs) {
+  Campaign c;
+  c.pairs = {Pair::plane, Pair::sphere, Pair::box};
+  c.classes = {"general-shallow", "lying"};
+  c.candidates = find_candidates({"reference", "bullet", "libccd-gjk"});  // without planes
+  c.count = 1;
+  const Report report = make_report(c, "x");
+  for (const ResultRow& row : report.summary) {
+    const bool is_partial = row.pair == "all" && row.candidate == "libccd-gjk";
+    if (row.pose_class != "everyday") continue;
+    EXPECT_EQ(covered_text(report, row), is_partial ? " (2 of 3 pairs)" : "") << row.pair;
+    EXPECT_EQ(row.pareto.has_value(), row.statistics.depth_error.has_value() && !is_partial)
+        << row.pair << ' ' << row.candidate;
+  }
+  for (const std::size_t columns : {40, 80}) {
+    const std::string table = terminal_table(report, {columns});
+    EXPECT_THAT(table, ContainsRegex("all pairs, everyday poses\n.*\n.*\nlibccd-gjk 2/3 +[0-9]"));
+    EXPECT_THAT(table, ContainsRegex("\n4/5: over four of five pairs"));
+    EXPECT_THAT(table, Not(ContainsRegex("(reference|bullet) ./")));
+  }
+  c.candidates.pop_back();
+  EXPECT_THAT(terminal_table(make_report(c, "x")), Not(HasSubstr("4/5")));
 }
 
 TEST(Report, InterruptedBeforeTheEndIsOfWhatIsDone) {

@@ -14,6 +14,7 @@
 
 #include "properties/files/disk.hpp"
 #include "reference/invalid_input.hpp"
+#include "reports/covered_pairs.hpp"
 #include "reports/pages/page.hpp"
 
 namespace touchstone {
@@ -92,21 +93,42 @@ std::vector<std::optional<LabelPlace>> label_places(const std::vector<Label>& la
   return result;
 }
 
-namespace {
-
-/// "pointtype 7 linecolor '#0072b2'": a candidate's mark, coloured as on the report's page; of its
-/// engine's variants each has a symbol, and where there are lines a dash of its own.
-std::string style_of(const std::string& candidate, bool with_lines = false) {
+std::map<std::string, std::string> figure_styles(const std::vector<std::string>& candidates) {
   constexpr const char* colours[] = {
       "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#a67c00", "#3a9bdc", "#7a5195", "#555555",
       "#8f5a1e", "#4b3f9e", "#b0477f", "#b3123c", "#5d7d00", "#00808a", "#a020a0", "#1f3a8a"};
-  constexpr int symbols[] = {7, 5, 9, 13, 1, 11};  // gnuplot's circle, square, triangle, …
-  constexpr const char* dashes[] = {"solid",     "(9,3)",  "(4,4)",
-                                    "(9,3,2,3)", "(16,4)", "(9,3,2,3,2,3)"};
-  const Mark mark = mark_of(candidate);
-  return fmt::format("pointtype {} linecolor '{}'{}", symbols[mark.symbol], colours[mark.colour],
-                     with_lines ? fmt::format(" dashtype {}", dashes[mark.symbol]) : "");
+  // The pages' symbols (gnuplot's circle, square, triangle, …), then each as an outline, then
+  // others.
+  constexpr std::size_t symbols = 6;
+  constexpr struct {
+    int symbol;
+    const char* dash;
+  } looks[] = {{7, "solid"},      {5, "(9,3)"},          {9, "(4,4)"}, {13, "(9,3,2,3)"},
+               {1, "(16,4)"},     {11, "(9,3,2,3,2,3)"}, {6, "(2,2)"}, {4, "(14,3,3,3)"},
+               {8, "(6,2)"},      {12, "(20,3,2,3)"},    {2, "(3,6)"}, {10, "(12,6)"},
+               {15, "(9,2,9,6)"}, {14, "(5,2,2,2,2,2)"}, {3, "(1,3)"}};
+  std::map<std::string, std::string> result;
+  std::map<std::size_t, std::set<std::size_t>> taken;  // places in `looks`, by colour
+  for (const std::string& name : candidates) {
+    if (result.contains(name)) continue;
+    const Mark mark = mark_of(name);
+    std::set<std::size_t>& of_colour = taken[mark.colour];
+    // Its symbol, or that as an outline, or one that is no other's, or another one's.
+    std::vector<std::size_t> wanted = {mark.symbol, mark.symbol + symbols};
+    for (std::size_t i = std::size(looks); i-- > 0;) wanted.push_back(i);
+    const auto free = std::find_if(wanted.begin(), wanted.end(),
+                                   [&](std::size_t i) { return !of_colour.contains(i); });
+    const std::size_t look = free == wanted.end() ? mark.symbol : *free;
+    of_colour.insert(look);
+    result[name] = fmt::format("pointtype {} linecolor '{}' dashtype {}", looks[look].symbol,
+                               colours[mark.colour], looks[look].dash);
+  }
+  return result;
 }
+
+namespace {
+
+using Styles = std::map<std::string, std::string>;
 
 /// Tics at every `step`-th power of ten, as the pages write them: "'1e-4' 1e-4, …".
 std::string power_tics(double low, double high, int step) {
@@ -180,7 +202,7 @@ double agreeing_share(const Statistics& s) {
 }
 
 struct Point {
-  std::string candidate;
+  std::string candidate, label;
   double time, error, agreement;
   bool front = false;
 };
@@ -193,9 +215,9 @@ std::vector<Point> points_of(const Report& report, const std::string& group,
   for (const ResultRow& row : report.summary) {
     const Statistics& s = row.statistics;
     if (row.pair != pair || row.pose_class != group || !row.time || !s.depth_error) continue;
-    result.push_back({row.candidate, row.time->nanoseconds.median,
-                      std::max(s.depth_error->p99, min_error), agreeing_share(s),
-                      row.pareto.value_or(false)});
+    result.push_back({row.candidate, row.candidate + covered_text(report, row),
+                      row.time->nanoseconds.median, std::max(s.depth_error->p99, min_error),
+                      agreeing_share(s), row.pareto.value_or(false)});
   }
   return result;
 }
@@ -214,8 +236,9 @@ constexpr const char* front_style =
     "with lines title 'Pareto front' dashtype 2 linecolor '#5a6472'";
 
 /// The panel's commands; `width` and `height` are of its axes, in characters of its labels.
-std::string speed_panel(const std::string& title, const std::vector<Point>& points, const Range& x,
-                        const Range& y, double width, double height) {
+std::string speed_panel(const std::string& title, const std::vector<Point>& points,
+                        const Styles& styles, const Range& x, const Range& y, double width,
+                        double height) {
   std::string text = fmt::format(
       "set title {} noenhanced\nset logscale xy\nset xrange [0.999e{}:1.001e{}]\nset yrange "
       "[1e{}:1e{}]\n"
@@ -240,7 +263,7 @@ std::string speed_panel(const std::string& title, const std::vector<Point>& poin
   };
   std::vector<Label> labels;
   for (const Point& p : points) {
-    labels.push_back({across(p), up(p), static_cast<double>(p.candidate.size()), p.front});
+    labels.push_back({across(p), up(p), static_cast<double>(p.label.size()), p.front});
   }
   std::vector<Segment> lines;
   for (std::size_t i = 1; i < front.size(); ++i) {
@@ -252,11 +275,11 @@ std::string speed_panel(const std::string& title, const std::vector<Point>& poin
     const Point& p = points[i];
     marks += fmt::format("{}'-' with points title {} pointsize 1 {}",
                          i ? ", " : fmt::format("plot '-' {}, ", front_style),
-                         gnuplot_quoted(p.candidate), style_of(p.candidate));
+                         gnuplot_quoted(p.label), styles.at(p.candidate));
     if (!places[i]) continue;
     text += fmt::format(
         "set label {} at {:.6g},{:.6g} {} offset character {:.2f},{:.2f} front boxed{}\n",
-        gnuplot_quoted(p.candidate), p.time, p.error, places[i]->rightwards ? "left" : "right",
+        gnuplot_quoted(p.label), p.time, p.error, places[i]->rightwards ? "left" : "right",
         places[i]->dx, places[i]->dy, p.front ? "" : " textcolor '#5a6472'");
   }
   text += marks + '\n';
@@ -267,7 +290,8 @@ std::string speed_panel(const std::string& title, const std::vector<Point>& poin
 }
 
 /// All marks with their names, at the bottom of a page of panels.
-std::string key_panel(const std::vector<std::string>& candidates, double share) {
+std::string key_panel(const std::vector<std::string>& candidates, const Styles& styles,
+                      double share) {
   std::string text = fmt::format(
       "set size 1,{}\nset origin 0,0\nunset title\nunset label\nunset border\nunset tics\n"
       "unset xlabel\nunset ylabel\nunset grid\nset key center center horizontal Left reverse "
@@ -276,14 +300,14 @@ std::string key_panel(const std::vector<std::string>& candidates, double share) 
   text += fmt::format("plot 1/0 {}", front_style);
   for (const std::string& name : candidates) {
     text += fmt::format(", 1/0 with points title {} pointsize 1 {}", gnuplot_quoted(name),
-                        style_of(name));
+                        styles.at(name));
   }
   return text + '\n';
 }
 
 /// The charts of speed and accuracy in one group, together and of each pair. Writes their data as
 /// CSV and returns their commands, none where there is nothing to show.
-std::string speed_figures(const Report& report, const std::string& group,
+std::string speed_figures(const Report& report, const Styles& styles, const std::string& group,
                           const std::vector<std::string>& pairs,
                           const std::filesystem::path& folder) {
   std::vector<double> times, errors;
@@ -318,11 +342,11 @@ std::string speed_figures(const Report& report, const std::string& group,
     const std::string title = figure_title(pair, group);
     const std::string name = figure_name("speed-accuracy-" + pair, group);
     const auto points = points_of(report, group, pair);
-    script += in_both_forms(name, 860, 440, key + speed_panel(title, points, x, y, 64, 18));
+    script += in_both_forms(name, 860, 440, key + speed_panel(title, points, styles, x, y, 64, 18));
     const int row = panel / columns;
     panels += fmt::format("set size {},{}\nset origin {},{}\n", 1.0 / columns, (1 - share) / rows,
                           1.0 / columns * (panel % columns), 1 - (1 - share) / rows * (row + 1)) +
-              "set key off\n" + speed_panel(title, points, x, y, 50, 13);
+              "set key off\n" + speed_panel(title, points, styles, x, y, 50, 13);
     ++panel;
     std::string data = "candidate,nanoseconds,depth_error_p99,agreement,on_front\n";
     for (const Point& p : points) {
@@ -332,13 +356,13 @@ std::string speed_figures(const Report& report, const std::string& group,
     write_file(folder / (name + ".csv"), data, "--figures");
   }
   return script + in_both_forms(figure_name("speed-accuracy", group), 1080, 340 * rows + key_height,
-                                "set multiplot\n" + panels + key_panel(candidates, share) +
+                                "set multiplot\n" + panels + key_panel(candidates, styles, share) +
                                     "unset multiplot\n");
 }
 
 /// Cumulative distribution of the depth error, a line for each candidate.
-std::string error_figure(const Report& report, const std::string& group, const std::string& pair,
-                         const path& folder) {
+std::string error_figure(const Report& report, const Styles& styles, const std::string& group,
+                         const std::string& pair, const path& folder) {
   std::string data = "candidate,depth_error,share_at_most\n", plot, points;
   for (const ResultRow& row : report.summary) {
     const Statistics& s = row.statistics;
@@ -351,9 +375,9 @@ std::string error_figure(const Report& report, const std::string& group, const s
                                Outcome::crashed, Outcome::timed_out}) {
       owed += static_cast<double>(s.of(lost));
     }
-    plot += fmt::format("{}'-' with linespoints title {} pointsize 0.7 {}",
-                        plot.empty() ? "plot " : ", ", gnuplot_quoted(row.candidate),
-                        style_of(row.candidate, true));
+    plot += fmt::format(
+        "{}'-' with linespoints title {} pointsize 0.7 {}", plot.empty() ? "plot " : ", ",
+        gnuplot_quoted(row.candidate + covered_text(report, row)), styles.at(row.candidate));
     int bin = histogram.first;
     const auto add = [&](double error) {
       data += fmt::format("{},{:.4g},{:.6g}\n", csv_cell(row.candidate), error, sum / owed);
@@ -456,6 +480,10 @@ void write_figures(const Report& report, const path& folder) {
   for (const char* const name : {"speed-accuracy", "errors-", "classes-"}) {
     for (const char* const form : {".csv", ".svg", ".png"}) remove_older(folder, name, form);
   }
+  std::vector<std::string> names;
+  for (const CandidateDescription& c : report.candidates) names.push_back(c.name);
+  for (const ResultRow& row : report.summary) names.push_back(row.candidate);
+  const Styles styles = figure_styles(names);
   std::string script;
   for (const Group group : all_groups) {
     const std::string name = group_name(group);
@@ -464,9 +492,10 @@ void write_figures(const Report& report, const path& folder) {
       if (row.pose_class != name) continue;
       if (pairs.empty() || pairs.back() != row.pair) pairs.push_back(row.pair);
     }
-    script += speed_figures(report, name, pairs, folder);
+    script += speed_figures(report, styles, name, pairs, folder);
     for (const auto& pair : pairs) {
-      script += error_figure(report, name, pair, folder) + class_figure(report, name, pair, folder);
+      script += error_figure(report, styles, name, pair, folder) +
+                class_figure(report, name, pair, folder);
     }
   }
   run_gnuplot(script, folder);

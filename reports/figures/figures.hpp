@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,6 +18,11 @@ void check_figures(const std::filesystem::path& folder);
 /// (share that disagrees, by pose class and candidate). Throws std::runtime_error with gnuplot's
 /// words if it fails.
 void write_figures(const Report& report, const std::filesystem::path& folder);
+
+/// gnuplot's mark and line of each candidate, as in "pointtype 7 linecolor '#0072b2' dashtype
+/// solid": in its engine's colour, of which each has a symbol and a dash of its own, for a figure
+/// may stand alone. Beyond fifteen of one colour they come again.
+std::map<std::string, std::string> figure_styles(const std::vector<std::string>& candidates);
 
 /// A mark of a chart that wants a label beside it. Lengths are in characters: one across, one line
 /// up.

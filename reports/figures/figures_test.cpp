@@ -1,9 +1,11 @@
 #include "reports/figures/figures.hpp"
 
 #include <cstdlib>
+#include <fmt/format.h>
 #include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <map>
 
 #include "candidates/candidates.hpp"
 #include "reference/invalid_input.hpp"
@@ -62,6 +64,26 @@ TEST(Figures, EachComesAsPictureTwiceAndAsData) {
   EXPECT_FALSE(std::filesystem::exists(folder / "run"));
   EXPECT_FALSE(std::filesystem::exists(folder / "figures.gnuplot"));
   std::filesystem::remove_all(folder);
+}
+
+// A figure may stand alone: its key tells the candidates apart by colour, symbol and dash.
+TEST(Figures, EveryCandidateHasAStyleOfItsOwn) {
+  std::vector<std::string> names;
+  for (const Candidate* c : all_candidates()) names.push_back(c->name);
+  for (const char* const family : {"prism", "spheres"}) {
+    for (const int n : {4, 8, 16, 32, 64}) names.push_back(fmt::format("{}:{}", family, n));
+  }
+  for (const char* const own : {"my-engine", "his-engine", "her-engine", "b", "h", "n"}) {
+    names.emplace_back(own);  // by their names' letters some have the same symbol
+  }
+  std::map<std::string, std::string> seen;
+  for (const auto& [name, style] : figure_styles(names)) {
+    EXPECT_TRUE(seen.emplace(style, name).second) << name << " looks like " << seen[style];
+    // Where there are no lines, and where nothing but lines is seen.
+    EXPECT_TRUE(seen.emplace(style.substr(0, style.find(" dash")), name).second) << name;
+    EXPECT_TRUE(seen.emplace(style.substr(style.find("linecolor")), name).second) << name;
+  }
+  EXPECT_EQ(figure_styles(names).at("bullet"), figure_styles({"bullet"}).at("bullet"));
 }
 
 TEST(Figures, RefuseAFolderThatIsAFile) {

@@ -526,6 +526,28 @@ class Report(PageTest):
         self.press(self.find("#groups button[value=everyday]"))
         self.assertEqual(self.find("#summary-table").get_attribute("innerHTML"), before[3])
 
+    def test_a_decade_is_as_wide_as_every_other(self):
+        self.choose("#trend-pair", "cylinder-cylinder")
+        places = {}
+        for mark in self.all("#trend-chart .mark-symbol path"):
+            decade = re.search(r"tilt 1e(-?\d+) to", mark.get_attribute("aria-label"))
+            if decade:  # zero has its place beside the least
+                places[int(decade[1])] = mark.rect["x"] + mark.rect["width"] / 2
+        decades = sorted(places)
+        steps = [b - a for a, b in zip(decades, decades[1:])]
+        self.assertGreater(max(steps), 1, "no decade is without a value: nothing is seen here")
+        width = (places[decades[-1]] - places[decades[0]]) / (decades[-1] - decades[0])
+        for a, b in zip(decades, decades[1:]):
+            self.assertAlmostEqual((places[b] - places[a]) / (b - a), width, delta=1, msg=(a, b))
+
+    def test_a_row_over_some_pairs_alone_says_so(self):
+        self.choose("#summary-pair", "all")
+        rows = [r.text for r in self.all("#summary-table tbody tr")]
+        self.assertTrue(any(r.startswith("libccd-gjk\n(4 of 5 pairs)") for r in rows), rows)
+        self.assertTrue(any(r.startswith("reference 100%") for r in rows), rows)
+        labels = [m.get_attribute("aria-label") for m in self.all("#chart-panels .whole .mark-symbol path")]
+        self.assertTrue(any(t.startswith("libccd-gjk, all (4 of 5 pairs)") for t in labels), labels)
+
     def test_an_arrangement_alone_stands_beside_itself_turned(self):
         self.choose("#contrast-pair", "cylinder-cylinder")
         row = next(r for r in self.all("#contrast-table tbody tr") if r.text.startswith("perpendicular-t"))

@@ -36,7 +36,7 @@ function placesOf(rows) {
     if (!r.nanoseconds || !r.depth_error || !base || !base.nanoseconds) return [];
     const time = limits.baseline === 'bullet' && r.nanoseconds.ratio_to_bullet ||
         r.nanoseconds.median / base.nanoseconds.median;
-    return [{pair: r.pair, candidate: r.candidate, x: time, y: Math.max(r.depth_error.p99, 1e-17), front: r.pareto}];
+    return [{pair: r.pair, candidate: r.candidate, covers: r.covers, x: time, y: Math.max(r.depth_error.p99, 1e-17), front: r.pareto}];
   });
 }
 const legend = element('div', {class: 'legend'});
@@ -64,7 +64,7 @@ function changeChart(place, pair, was, is, x, y) {
     if (!latest) return [];
     const way = moved(old, now), mark = markData(name), where = p => p ? `depth error p99 ${exponent(p.y)}, × ${exponent(p.x, 3)}` : 'not measured';
     const tip = `${name}, ${dashed(pair)}\nbefore: ${where(old)}\nnow: ${where(now)}`;
-    const label = {label: name, weight: latest.front ? 'bold' : 'normal', order: latest.front ? i : way > 0.05 ? 100 + i : 1000 + i};
+    const label = {label: name + latest.covers, weight: latest.front ? 'bold' : 'normal', order: latest.front ? i : way > 0.05 ? 100 + i : 1000 + i};
     return [...(old && way > 0.01 ? [{...mark, ...old, tip, label: '', order: 2000 + i, ...(!now && label), fill: 'var(--panel)', stroke: colour(name), size: 55}] : []),
             ...(now ? [{...mark, ...now, tip, ...label, size: 55}] : [])];
   });

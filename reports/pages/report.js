@@ -37,6 +37,13 @@ const inGroup = r => classGroup.get(`${r.pair}/${r.class}`) === group;
 const summary = () => report.summary.filter(r => r.class === group);
 const summaryOf = (pair, candidate) => summary().find(r => r.pair === pair && r.candidate === candidate);
 const classesOf = pair => report.classes.filter(c => c.pair === pair && c.group === group);
+// " (4 of 5 pairs)" beside a candidate in a row over all pairs that is over these alone.
+function coveredText(r) {
+  if (!r || r.pair !== 'all') return '';
+  const ofPairs = report.summary.filter(s => s.class === r.class && s.candidate === r.candidate && s.pair !== 'all');
+  const covered = ofPairs.filter(supported).length;
+  return covered === ofPairs.length ? '' : ` (${covered} of ${ofPairs.length} pairs)`;
+}
 // "box" for "cylinder-box".
 const otherShape = pair => pair.replace('cylinder-', '');
 

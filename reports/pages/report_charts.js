@@ -32,8 +32,8 @@ function speedChart(place, pair, rows, x, y) {
   const charted = chartedTime(), front = charted === time ? rows.filter(r => r.pareto).sort((a, b) => time(a) - time(b)) : [];
   const at = r => ({x: charted(r), y: chartedError(r)});
   const points = rows.map((r, i) => ({...markData(r.candidate), ...at(r), order: front.includes(r) ? i : 1000 + i,
-      label: `${r.candidate}${runsText(r.candidate)} ${percent(agreeing(r))}`, weight: front.includes(r) ? 'bold' : 'normal',
-      tip: `${r.candidate}, ${dashed(r.pair)}\nagrees on ${percent(agreeing(r))}, missed ${r.outcomes.missed || 0}\n` +
+      label: `${r.candidate}${runsText(r.candidate)}${coveredText(r)} ${percent(agreeing(r))}`, weight: front.includes(r) ? 'bold' : 'normal',
+      tip: `${r.candidate}, ${dashed(r.pair)}${coveredText(r)}\nagrees on ${percent(agreeing(r))}, missed ${r.outcomes.missed || 0}\n` +
            `depth error p99 ${exponent(r.depth_error.p99)}, worst ${exponent(r.depth_error.max)}\n` +
            `${whole(time(r))} ns per query (quartiles ${whole(r.nanoseconds.low)} to ${whole(r.nanoseconds.high)})` +
            (tail(r) === null ? '' : `\n95% of the queries in each pose class at most ${whole(tail(r))} ns`) +
@@ -69,7 +69,7 @@ function distribution() {
     for (const [, upper, n] of binsOf(q)) {
       sum += n;
       points.push({...markData(name), x: upper, y: sum / owed(r),
-          tip: `${name}\n${percent(sum / owed(r))} of contacts within ${exponent(upper)}\n${whole(owed(r) - reportedOf(r.depth_error))} of ${whole(owed(r))} not reported`});
+          tip: `${name}${coveredText(r)}\n${percent(sum / owed(r))} of contacts within ${exponent(upper)}\n${whole(owed(r) - reportedOf(r.depth_error))} of ${whole(owed(r))} not reported`});
     }
   }
   cumulative(points);
@@ -122,7 +122,9 @@ function trends() {
   const host = byId('trend-chart');
   byId('trend-caption').textContent = `${variable}: ${variables[variable]}`;
   if (points.length === 0) return host.replaceChildren(`${dashed(pair)} has no ${variable}, or no candidate is chosen.`);
-  const xs = [...new Set(points.map(p => p.x))].sort((a, b) => a - b), hasZero = entries.some(t => t.bins.some(b => b.decade === null));
+  // Every decade has its place, whether it holds a value or not.
+  const places = points.map(p => p.x), first = Math.min(...places);
+  const xs = Array.from({length: Math.max(...places) - first + 1}, (_, i) => first + i), hasZero = entries.some(t => t.bins.some(b => b.decade === null));
   const what = share ? 'share of configurations missed' : `error, ${quantity === 'max' ? 'worst' : 'median'} (sizes)`;
   const label = `datum.value == ${hasZero ? xs[0] : 1e9} ? '0' : '1e' + datum.value`;
   drawLines(host, `${what} against ${variable}, ${dashed(pair)}`, {height: 320, points,

@@ -48,6 +48,9 @@ function drakeCell(pair, r) {
 keepGrouped(worstErrors);
 drakeProtocol();
 
+// A candidate's name, with the pairs that its row over all of them is over.
+const namedOver = r => [named(r.candidate), coveredText(r) ? element('small', {class: 'quiet'}, coveredText(r)) : null];
+
 // Agreement, errors and speed of one pair at a time; and the errors of simplified models.
 function summaryTable() {
   const pair = byId('summary-pair').value;
@@ -56,7 +59,7 @@ function summaryTable() {
                  'points, p99', wide('coverage'), 'ns', wide('ns, p95'), wide('× Bullet')];
   const rows = summary().filter(r => r.pair === pair && supported(r)).map(r => {
     const share = agreeing(r), ratio = r.nanoseconds && r.nanoseconds.ratio_to_bullet;
-    return [rowHead(named(r.candidate)), element('td', {class: share === 1 ? 'good' : ''}, percent(share)),
+    return [rowHead(...namedOver(r)), element('td', {class: share === 1 ? 'good' : ''}, percent(share)),
             element('td', {class: r.outcomes.missed || r.outcomes.phantom ? 'bad' : '', 'data-value': (r.outcomes.phantom || 0) + (r.outcomes.missed || 0)},
                 `${whole(r.outcomes.phantom || 0)} / ${whole(r.outcomes.missed || 0)}`),
             exponent(quantile(r.depth_error, 'p99')), element('td', {class: 'wide'}, exponent(quantile(r.depth_error, 'max'))),
@@ -81,7 +84,7 @@ const biasText = r => r.bias === null ? '–' : `${r.bias.median > 0 ? '+' : ''}
 const modelled = report.summary.filter(r => r.model_error !== null && report.candidates.some(c => c.name === r.candidate && c.models));
 function modelTable() {
   const rows = modelled.filter(r => r.class === group && r.pair === byId('model-pair').value).map(r => {
-    const name = rowHead(named(r.candidate));
+    const name = rowHead(...namedOver(r));
     explain(name, report.candidates.find(c => c.name === r.candidate).models);
     return [name, ...[r.model_error, r.solver_error].flatMap(q => ['median', 'p99'].map(which => exponent(quantile(q, which))))];
   });
