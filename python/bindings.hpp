@@ -53,6 +53,14 @@ Shape shape_from_python(const char* name, py::handle value);
 /// Anything else is a failure with its reason.
 Answer answer_from_python(py::handle value);
 
+/// The configurations that a cylinder, a shape and their poses make: one of two Poses, otherwise
+/// one for each row of a batch.
+struct PosedBodies {
+  bool is_batch;
+  std::vector<Configuration> configurations;
+};
+PosedBodies posed_bodies(const Cylinder& a, py::handle pose_a, py::handle b, py::handle pose_b);
+
 /// Throws InvalidInput unless it is finite and not negative.
 void check_threshold(double threshold);
 

@@ -3,7 +3,7 @@
 #include <pybind11/stl.h>
 
 #include "properties/identity.hpp"
-#include "python/bindings.hpp"
+#include "python/parameters.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone::python {
@@ -63,14 +63,17 @@ Two shapes with their poses in the world. Body A is a cylinder, body B any shape
 >>> touchstone.Configuration.of("cylinder-plane/lying/1/0").b
 Plane(normal=(0.0, 0.0, 1.0), displacement=0.0)
 )");
-  configuration.def(py::init(&own), py::arg("a"), py::arg("pose_a"), py::arg("b"),
-                    py::arg("pose_b"));
+  define_constructor(configuration, &own, py::arg("a"), py::arg("pose_a"), py::arg("b"),
+                     py::arg("pose_b"));
   configuration.def_static(
       "of", [](const std::string& identity) { return subject(parse_identity(identity)); },
       py::arg("identity"), R"(Configuration.of(identity)
 
 The configuration of an identity, "pair/class/seed/index", as reports name it: always the same bits.
 )");
+  configuration.def_static(
+      "of", refusal("Configuration.of", {parameter_of<std::string>(py::arg("identity"))}),
+      first_may_lack());
   configuration.def_readonly("identity", &NamedConfiguration::name,
                              "\"pair/class/seed/index\"; empty for one of your own.");
   configuration.def_readonly("description", &NamedConfiguration::description,
@@ -109,16 +112,16 @@ The configuration of an identity, "pair/class/seed/index", as reports name it: a
     for (const Pair pair : all_pairs) names.append(pair_name(pair));
     return py::tuple(names);
   }();
-  m.def("classes", &classes_of, py::arg("pair"), R"(classes(pair)
+  define(m, "classes", &classes_of, R"(classes(pair)
 
 Returns the pose classes of a pair that a report scores: a dict of names and descriptions.
 
 >>> touchstone.classes("cylinder-plane")["lying"]
 'A generator lies exactly on the plane: a line of equally deep points.'
-)");
-  m.def("configurations", &configurations_of, py::arg("pair"), py::arg("classes") = py::none(),
-        py::arg("seed") = 1, py::arg("count") = 10,
-        R"(configurations(pair, classes=None, seed=1, count=10)
+)",
+         py::arg("pair"));
+  define(m, "configurations", &configurations_of,
+         R"(configurations(pair, classes=None, seed=1, count=10)
 
 Returns a list with `count` configurations of each pose class; None: of all that `classes` lists.
 
@@ -127,7 +130,9 @@ give the same bits on every machine.
 
 >>> [c.identity for c in touchstone.configurations("cylinder-box", ["rim-face"], count=2)]
 ['cylinder-box/rim-face/1/0', 'cylinder-box/rim-face/1/1']
-)");
+)",
+         py::arg("pair"), py::arg("classes") = py::none(), py::arg("seed") = 1,
+         py::arg("count") = 10);
 }
 
 }  // namespace touchstone::python

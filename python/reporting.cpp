@@ -12,8 +12,8 @@
 #include "candidates/host/interruption.hpp"
 #include "properties/files/disk.hpp"
 #include "properties/files/given_text.hpp"
-#include "python/bindings.hpp"
 #include "python/function_respondent.hpp"
+#include "python/parameters.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/make_report.hpp"
 #include "reports/report_json.hpp"
@@ -147,7 +147,7 @@ Printed, it is a table with a row for each pair and candidate.
   type.def("to_dict", &dict_of, "The members of report.json (docs/report-schema.md), as a dict.");
   type.def(
       "save",
-      [](const Report& report, const std::string& folder) {
+      [](const Report& report, const std::filesystem::path& folder) {
         check_writable(folder);
         write_report(report, folder);
       },
@@ -155,6 +155,13 @@ Printed, it is a table with a row for each pair and candidate.
 
 Writes report.json and report.html, which needs no network, into a folder; makes the folder.
 )");
+  type.def(
+      "save",
+      [refused = refusal("Report.save", {parameter_of<std::filesystem::path>(py::arg("folder"))})](
+          const Report&, const AnyFirst& first, const py::args& others, const py::kwargs& named) {
+        return refused(first, others, named);
+      },
+      first_may_lack());
   type.def("__str__", [](const Report& report) { return terminal_table(report); });
   type.def("__repr__", [](const Report& report) {
     return fmt::format("<touchstone.Report: {}, {}>",
@@ -162,22 +169,16 @@ Writes report.json and report.html, which needs no network, into a folder; makes
                        counted(report.candidates.size(), "candidate"));
   });
 
-  m.def(
-      "report",
-      [](py::function function, const std::string& name, const Names& pairs, const Names& classes,
-         const Names& groups, std::uint64_t count, std::uint64_t seed,
-         const std::vector<std::string>& candidates, double tolerance, double threshold,
-         double seconds, unsigned workers, const std::string& version,
-         const std::string& settings) {
+  define(
+      m, "report",
+      +[](py::function function, const std::string& name, const Names& pairs, const Names& classes,
+          const Names& groups, std::uint64_t count, std::uint64_t seed,
+          const std::vector<std::string>& candidates, double tolerance, double threshold,
+          double seconds, unsigned workers, const std::string& version,
+          const std::string& settings) {
         return report_of({std::move(function), name, version, settings, pairs, classes, groups,
                           count, seed, tolerance, threshold, candidates, seconds, workers});
       },
-      py::arg("function"), py::arg("name") = "function", py::arg("pairs") = py::none(),
-      py::arg("classes") = py::none(), py::arg("groups") = py::none(), py::arg("count") = 20,
-      py::arg("seed") = 1, py::arg("candidates") = std::vector<std::string>{"reference"},
-      py::arg("tolerance") = Bar{}.tolerance, py::arg("threshold") = Bar{}.threshold,
-      py::arg("seconds") = 5.0, py::arg("workers") = 0, py::arg("version") = "",
-      py::arg("settings") = "a Python function",
       R"(report(function, name="function", pairs=None, classes=None, groups=None, count=20, seed=1,
        candidates=("reference",), tolerance=1e-4, threshold=0.0, seconds=5.0, workers=0,
        version="", settings="a Python function")
@@ -202,7 +203,13 @@ cannot end compiled code, and what crashes ends the report. For such engines the
 >>> r = touchstone.report(nothing, "nothing", ["cylinder-plane"], ["lying"], count=2, candidates=[])
 >>> [row["outcomes"] for row in r.to_dict()["results"]]
 [{'agree': 1, 'missed': 1}]
-)");
+)",
+      py::arg("function"), py::arg("name") = "function", py::arg("pairs") = py::none(),
+      py::arg("classes") = py::none(), py::arg("groups") = py::none(), py::arg("count") = 20,
+      py::arg("seed") = 1, py::arg("candidates") = std::vector<std::string>{"reference"},
+      py::arg("tolerance") = Bar{}.tolerance, py::arg("threshold") = Bar{}.threshold,
+      py::arg("seconds") = 5.0, py::arg("workers") = 0, py::arg("version") = "",
+      py::arg("settings") = "a Python function");
 }
 
 }  // namespace touchstone::python

@@ -4,7 +4,7 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
-#include "python/bindings.hpp"
+#include "python/parameters.hpp"
 #include "reference/invalid_input.hpp"
 #include "reference/touchstone.hpp"
 
@@ -195,6 +195,16 @@ py::object contact_of(const Cylinder& a, py::handle pose_a, py::handle b, py::ha
 
 }  // namespace
 
+PosedBodies posed_bodies(const Cylinder& a, py::handle pose_a, py::handle b, py::handle pose_b) {
+  const Bodies bodies(a, pose_a, b, pose_b);
+  PosedBodies result{bodies.is_batch(), {}};
+  const std::size_t rows = result.is_batch ? bodies.count() : 1;
+  for (std::size_t i = 0; i < rows; ++i) {
+    result.configurations.push_back({a, bodies.pose_a[i], bodies.b, bodies.pose_b[i]});
+  }
+  return result;
+}
+
 void bind_routines(py::module_& m) {
   py::class_<Contacts> contacts(m, "Contacts",
                                 R"(The contacts of a batch of n pairs of poses, as arrays.
@@ -208,8 +218,7 @@ What lies beyond a row's count of points is NaN. Metres, world frame, normals fr
   contacts.def_readonly("depths", &Contacts::depths, "float64, shape (n, 8); positive inside.");
   contacts.def("__len__", [](const Contacts& c) { return c.counts.size(); });
 
-  m.def("overlaps", &overlaps_of, py::arg("a"), py::arg("pose_a"), py::arg("b"), py::arg("pose_b"),
-        R"(overlaps(a, pose_a, b, pose_b)
+  define(m, "overlaps", &overlaps_of, R"(overlaps(a, pose_a, b, pose_b)
 
 Returns whether the bodies share a point; those that touch do, as far as rounding can tell.
 
@@ -221,9 +230,9 @@ Poses the result is a bool, else an array of n. Python's lock is released during
 >>> poses = numpy.array([[0, 0, 1.9, 1, 0, 0, 0], [0, 0, 2.1, 1, 0, 0, 0]])
 >>> touchstone.overlaps(can, poses, ball, touchstone.Pose())
 array([ True, False])
-)");
-  m.def("signed_distance", &signed_distance_of, py::arg("a"), py::arg("pose_a"), py::arg("b"),
-        py::arg("pose_b"), R"(signed_distance(a, pose_a, b, pose_b)
+)",
+         py::arg("a"), py::arg("pose_a"), py::arg("b"), py::arg("pose_b"));
+  define(m, "signed_distance", &signed_distance_of, R"(signed_distance(a, pose_a, b, pose_b)
 
 Returns signed distance (metres; negative inside) and unit normal (from B to A, world frame).
 
@@ -233,9 +242,9 @@ shapes (n,) and (n, 3). Within 1e-13 of the larger size of the truth.
 >>> touchstone.signed_distance(touchstone.Cylinder(0.5, 1), touchstone.Pose((0, 0, 3)),
 ...                            touchstone.Sphere(1), touchstone.Pose())
 (1.0, array([0., 0., 1.]))
-)");
-  m.def("contact", &contact_of, py::arg("a"), py::arg("pose_a"), py::arg("b"), py::arg("pose_b"),
-        py::arg("threshold") = 0.0, R"(contact(a, pose_a, b, pose_b, threshold=0.0)
+)",
+         py::arg("a"), py::arg("pose_a"), py::arg("b"), py::arg("pose_b"));
+  define(m, "contact", &contact_of, R"(contact(a, pose_a, b, pose_b, threshold=0.0)
 
 Returns signed distance, normal and contact points where the distance is at most `threshold` metres.
 
@@ -246,7 +255,9 @@ is the clearance along its normal, which may be less than the distance.
 >>> touchstone.contact(touchstone.Cylinder(0.5, 1), touchstone.Pose((0, 0, 1.75)),
 ...                    touchstone.Sphere(1), touchstone.Pose()).points
 (Point(position=(0.0, 0.0, 0.875), normal=(0.0, 0.0, 1.0), depth=0.25),)
-)");
+)",
+         py::arg("a"), py::arg("pose_a"), py::arg("b"), py::arg("pose_b"),
+         py::arg("threshold") = 0.0);
 }
 
 }  // namespace touchstone::python

@@ -3,7 +3,7 @@
 
 #include "oracle/judge/score.hpp"
 #include "oracle/truth.hpp"
-#include "python/bindings.hpp"
+#include "python/parameters.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/campaign.hpp"
 
@@ -38,8 +38,9 @@ py::list scores_of(const py::sequence& configurations, const py::sequence& answe
   py::list result;
   for (std::size_t i = 0; i < answers.size(); ++i) {
     const py::object configuration = configurations[i], answer = answers[i];
-    result.append(
-        score_of(configuration.cast<const NamedConfiguration&>(), answer, tolerance, threshold));
+    const auto& named = element<NamedConfiguration>("configurations", i, configuration,
+                                                    must_be<NamedConfiguration>);
+    result.append(score_of(named, answer, tolerance, threshold));
   }
   return result;
 }
@@ -75,9 +76,7 @@ What the answer does not define is None.
            (s.reason.empty() ? "" : ", " + s.reason) + ">";
   });
 
-  m.def("score", &score_of, py::arg("configuration"), py::arg("answer"),
-        py::arg("tolerance") = Bar{}.tolerance, py::arg("threshold") = Bar{}.threshold,
-        R"(score(configuration, answer, tolerance=1e-4, threshold=0.0)
+  define(m, "score", &score_of, R"(score(configuration, answer, tolerance=1e-4, threshold=0.0)
 
 Returns the Score of an answer: a Contact, None (no contact), or NotImplemented (no routine).
 
@@ -89,13 +88,15 @@ reported up to `threshold` metres apart.
 'agree'
 >>> touchstone.score(c, None).outcome
 'missed'
-)");
-  m.def("scores", &scores_of, py::arg("configurations"), py::arg("answers"),
-        py::arg("tolerance") = Bar{}.tolerance, py::arg("threshold") = Bar{}.threshold,
-        R"(scores(configurations, answers, tolerance=1e-4, threshold=0.0)
+)",
+         py::arg("configuration"), py::arg("answer"), py::arg("tolerance") = Bar{}.tolerance,
+         py::arg("threshold") = Bar{}.threshold);
+  define(m, "scores", &scores_of, R"(scores(configurations, answers, tolerance=1e-4, threshold=0.0)
 
 Returns a list with the Score of each answer to the configuration of the same place.
-)");
+)",
+         py::arg("configurations"), py::arg("answers"), py::arg("tolerance") = Bar{}.tolerance,
+         py::arg("threshold") = Bar{}.threshold);
 }
 
 }  // namespace touchstone::python

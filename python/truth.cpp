@@ -6,7 +6,7 @@
 
 #include "oracle/patch/contact_patch.hpp"
 #include "properties/files/answer_json.hpp"
-#include "python/bindings.hpp"
+#include "python/parameters.hpp"
 
 namespace touchstone::python {
 namespace {
@@ -33,10 +33,15 @@ py::object middle(const oracle::Enclosure& enclosure) {
   return fraction(sum / 2).attr("__float__")();
 }
 
-KnownTruth truth_of(const Cylinder& a, const Pose& pose_a, py::handle b, const Pose& pose_b,
+py::object truth_of(const Cylinder& a, py::handle pose_a, py::handle b, py::handle pose_b,
                     double width) {
-  const Configuration c{a, pose_a, shape_from_python("b", b), pose_b};
-  return {c, oracle::truth(c, width)};
+  const auto [is_batch, configurations] = posed_bodies(a, pose_a, b, pose_b);
+  py::list all;
+  for (const Configuration& c : configurations) {
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();  // as by Ctrl-C
+    all.append(KnownTruth{c, oracle::truth(c, width)});
+  }
+  return is_batch ? py::object(all) : py::object(all[0]);
 }
 
 py::array normals_of(const KnownTruth& t) {
@@ -102,20 +107,21 @@ Metres, world frame, normals from B to A.
            ties_name(t.truth.ties) + ">";
   });
 
-  m.def("truth", &truth_of, py::arg("a"), py::arg("pose_a"), py::arg("b"), py::arg("pose_b"),
-        py::arg("width") = 1e-15, R"(truth(a, pose_a, b, pose_b, width=1e-15)
+  define(m, "truth", &truth_of, R"(truth(a, pose_a, b, pose_b, width=1e-15)
 
 Returns the exact truth of two bodies: a proven enclosure of the signed distance, and the normals.
 
-`a` is a Cylinder, `b` any shape; both poses are a Pose, and all numbers are taken as they are, a
-quaternion divided by its exact length. The enclosure is no wider than `width` times the largest
-half extent, and zero lies within it only if the bodies touch. It takes about a millisecond.
+Bodies and poses as in `overlaps`: with two Poses a Truth, else a list with one for each row. All
+numbers are taken as they are, a quaternion divided by its exact length. The enclosure is no wider than `width` times the largest
+half extent, and zero lies within it only if the bodies touch. Each takes about a millisecond.
 
 >>> t = touchstone.truth(touchstone.Cylinder(0.5, 1), touchstone.Pose((0, 0, 3)),
 ...                      touchstone.Sphere(1), touchstone.Pose(), width=1e-30)
 >>> t.lower <= 1 <= t.upper, t.signed_distance, t.ties
 (True, 1.0, 'unique')
-)");
+)",
+         py::arg("a"), py::arg("pose_a"), py::arg("b"), py::arg("pose_b"),
+         py::arg("width") = 1e-15);
 }
 
 }  // namespace touchstone::python

@@ -4,7 +4,7 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
-#include "python/bindings.hpp"
+#include "python/parameters.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone::python {
@@ -41,7 +41,9 @@ Traceback (most recent call last):
     ...
 ValueError: radius is -1: must be positive and finite
 )");
-  cylinder.def(py::init<double, double>(), py::arg("radius"), py::arg("half_length"));
+  define_constructor(
+      cylinder, +[](double radius, double half_length) { return Cylinder(radius, half_length); },
+      py::arg("radius"), py::arg("half_length"));
   cylinder.def_property_readonly("radius", &Cylinder::radius, "Metres.");
   cylinder.def_property_readonly("half_length", &Cylinder::half_length, "Metres.");
   define_value<Cylinder>(cylinder, {"radius", "half_length"}, [](const Cylinder& s) {
@@ -53,7 +55,9 @@ ValueError: radius is -1: must be positive and finite
 The half-space normal·x <= displacement of its own frame, which is solid. The normal needs no unit
 length, but must not be zero; the displacement is in metres if it has.
 )");
-  plane.def(py::init<const Vec3&, double>(), py::arg("normal"), py::arg("displacement"));
+  define_constructor(
+      plane, +[](const Vec3& normal, double displacement) { return Plane(normal, displacement); },
+      py::arg("normal"), py::arg("displacement"));
   plane.def_property_readonly(
       "normal", [](const Plane& s) { return vector_to_python(s.normal()); }, "As given.");
   plane.def_property_readonly("displacement", &Plane::displacement, "As given.");
@@ -62,7 +66,8 @@ length, but must not be zero; the displacement is in metres if it has.
   });
 
   py::class_<Sphere> sphere(m, "Sphere", "Sphere(radius)\n\nA ball about its origin. Metres.\n");
-  sphere.def(py::init<double>(), py::arg("radius"));
+  define_constructor(
+      sphere, +[](double radius) { return Sphere(radius); }, py::arg("radius"));
   sphere.def_property_readonly("radius", &Sphere::radius, "Metres.");
   define_value<Sphere>(sphere, {"radius"},
                        [](const Sphere& s) { return py::make_tuple(s.radius()); });
@@ -72,7 +77,9 @@ length, but must not be zero; the displacement is in metres if it has.
 All points within `radius` of the segment from -half_length to +half_length on the local z axis:
 its ends reach half_length + radius. Metres.
 )");
-  capsule.def(py::init<double, double>(), py::arg("radius"), py::arg("half_length"));
+  define_constructor(
+      capsule, +[](double radius, double half_length) { return Capsule(radius, half_length); },
+      py::arg("radius"), py::arg("half_length"));
   capsule.def_property_readonly("radius", &Capsule::radius, "Metres.");
   capsule.def_property_readonly("half_length", &Capsule::half_length, "Of the segment, metres.");
   define_value<Capsule>(capsule, {"radius", "half_length"}, [](const Capsule& s) {
@@ -80,7 +87,8 @@ its ends reach half_length + radius. Metres.
   });
 
   py::class_<Box> box(m, "Box", "Box(half_extents)\n\nA box about its origin. Metres.\n");
-  box.def(py::init<const Vec3&>(), py::arg("half_extents"));
+  define_constructor(
+      box, +[](const Vec3& half_extents) { return Box(half_extents); }, py::arg("half_extents"));
   box.def_property_readonly(
       "half_extents", [](const Box& s) { return vector_to_python(s.half_extents()); },
       "Along the local x, y, z axes, metres; an array of three.");
@@ -99,11 +107,12 @@ Pose(position=(0.0, 0.0, 1.0), orientation=(1.0, 0.0, 0.0, 0.0))
 >>> touchstone.Pose(orientation=(0, 0, 0, 2)).rotation @ (1, 0, 0)
 array([-1.,  0.,  0.])
 )");
-  pose.def(py::init([](const Vec3& position, const Eigen::Vector4d& q) {
-             return Pose(position, Eigen::Quaterniond(q[0], q[1], q[2], q[3]));
-           }),
-           py::arg("position") = Vec3(0, 0, 0),
-           py::arg("orientation") = Eigen::Vector4d(1, 0, 0, 0));
+  define_constructor(
+      pose,
+      +[](const Vec3& position, const Eigen::Vector4d& q) {
+        return Pose(position, Eigen::Quaterniond(q[0], q[1], q[2], q[3]));
+      },
+      py::arg("position") = Vec3(0, 0, 0), py::arg("orientation") = Eigen::Vector4d(1, 0, 0, 0));
   pose.def_property_readonly(
       "position", [](const Pose& p) { return vector_to_python(p.position()); },
       "Metres, world frame; an array of three.");
@@ -128,10 +137,12 @@ void bind_contact(py::module_& m) {
 One contact point in the world frame: a position (metres; Touchstone's are halfway between the two
 surfaces), the unit normal from B to A there, and the depth (metres; negative where they are apart).
 )");
-  point.def(py::init([](const Vec3& position, const Vec3& normal, double depth) {
-              return PointValue{position, normal, depth};
-            }),
-            py::arg("position"), py::arg("normal"), py::arg("depth"));
+  define_constructor(
+      point,
+      +[](const Vec3& position, const Vec3& normal, double depth) {
+        return PointValue{position, normal, depth};
+      },
+      py::arg("position"), py::arg("normal"), py::arg("depth"));
   point.def_property_readonly(
       "position", [](const PointValue& p) { return vector_to_python(p.position); }, "Metres.");
   point.def_property_readonly(
@@ -145,15 +156,20 @@ surfaces), the unit normal from B to A there, and the depth (metres; negative wh
 A routine's answer: the signed distance (metres; negative inside), the unit normal from B to A in
 the world frame, along which A moves to come free, and up to 16 contact points.
 )");
-  contact.def(py::init([](double signed_distance, const Vec3& normal, const py::iterable& points) {
-                auto all = points.cast<std::vector<PointValue>>();
-                if (all.size() > TOUCHSTONE_MAX_POINTS) {
-                  throw InvalidInput("points", "a sequence of " + std::to_string(all.size()),
-                                     "must be at most " + std::to_string(TOUCHSTONE_MAX_POINTS));
-                }
-                return ContactValue{signed_distance, normal, std::move(all)};
-              }),
-              py::arg("signed_distance"), py::arg("normal"), py::arg("points") = py::tuple());
+  define_constructor(
+      contact,
+      +[](double signed_distance, const Vec3& normal, const py::iterable& points) {
+        std::vector<PointValue> all;
+        for (const py::handle each : points) {
+          all.push_back(element<PointValue>("points", all.size(), each, "a Point of touchstone"));
+        }
+        if (all.size() > TOUCHSTONE_MAX_POINTS) {
+          throw InvalidInput("points", "a sequence of " + std::to_string(all.size()),
+                             "must be at most " + std::to_string(TOUCHSTONE_MAX_POINTS));
+        }
+        return ContactValue{signed_distance, normal, std::move(all)};
+      },
+      py::arg("signed_distance"), py::arg("normal"), py::arg("points") = py::tuple());
   contact.def_property_readonly(
       "signed_distance", [](const ContactValue& c) { return c.signed_distance; },
       "Metres; positive apart, negative inside.");
@@ -188,7 +204,7 @@ Shape shape_from_python(const char* name, py::handle value) {
   if (py::isinstance<Sphere>(value)) return value.cast<Sphere>();
   if (py::isinstance<Capsule>(value)) return value.cast<Capsule>();
   if (py::isinstance<Box>(value)) return value.cast<Box>();
-  throw py::type_error(std::string(name) + " is " + py::repr(value).cast<std::string>() +
+  throw py::type_error(std::string(name) + " is " + shown(value) +
                        ": must be a Cylinder, Plane, Sphere, Capsule or Box of touchstone");
 }
 

@@ -4,6 +4,7 @@ import math
 import pathlib
 import pickle
 import signal
+import subprocess
 import sys
 import threading
 import time
@@ -278,6 +279,25 @@ class TheTruth(unittest.TestCase):
         [point] = touchstone.truth(CAN, Pose((0, 0, 2)), Sphere(1), Pose()).patches
         self.assertEqual(point.kind, "point")
 
+    def test_a_batch_has_the_truth_of_each_row(self):
+        of_a, of_b = random_poses(6, 10), random_poses(6, 11)
+
+        def row(poses, i):
+            return poses if isinstance(poses, Pose) else pose_of(poses[i])
+
+        for b in OTHERS:
+            for pose_a, pose_b in [(of_a, of_b), (of_a, Pose()), (Pose(), of_b)]:
+                truths = touchstone.truth(CAN, pose_a, b, pose_b, width=1e-20)
+                self.assertEqual(len(truths), 6)
+                for i, truth in enumerate(truths):
+                    alone = touchstone.truth(CAN, row(pose_a, i), b, row(pose_b, i), width=1e-20)
+                    for member in ("lower", "upper", "ties"):
+                        self.assertEqual(getattr(truth, member), getattr(alone, member))
+                    numpy.testing.assert_array_equal(truth.normals, alone.normals)
+        self.assertEqual(touchstone.truth(CAN, numpy.empty((0, 7)), FLOOR, Pose()), [])
+        with self.assertRaisesRegex(TypeError, "pose_a is an array of float32: must be a Pose, or"):
+            touchstone.truth(CAN, of_a.astype(numpy.float32), FLOOR, Pose())
+
     def test_a_width_that_is_not_positive_is_refused(self):
         with self.assertRaisesRegex(ValueError, "width is 0"):
             touchstone.truth(CAN, Pose(), FLOOR, Pose(), 0)
@@ -365,10 +385,85 @@ class Scores(unittest.TestCase):
             touchstone.scores([self.deep] * 2, [None])
 
 
+STUB = ast.parse(pathlib.Path(touchstone.__file__).with_suffix(".pyi").read_text())
+
+
+class Arguments(unittest.TestCase):
+    """What is wrong is named, with what would be right, whatever is called."""
+
+    good = {"radius": 1, "half_length": 1, "normal": (0, 0, 1), "displacement": 0,
+            "half_extents": (1, 1, 1), "position": (0, 0, 0), "orientation": (1, 0, 0, 0),
+            "depth": 0, "signed_distance": 0, "points": (), "a": CAN, "pose_a": Pose(), "b": FLOOR,
+            "pose_b": Pose(), "threshold": 0, "width": 1e-3, "pair": "cylinder-plane",
+            "classes": ["lying"], "seed": 1, "count": 1, "tolerance": 1e-4,
+            "configuration": Configuration(CAN, Pose(), FLOOR, Pose()), "answer": None,
+            "configurations": [], "answers": [], "identity": "cylinder-plane/lying/1/0",
+            "function": touchstone.contact, "name": "f", "pairs": ["cylinder-plane"],
+            "groups": None, "candidates": [], "seconds": 1, "workers": 1, "version": "",
+            "settings": ""}
+
+    @classmethod
+    def calls(cls):
+        """Functions and constructors, their names, and good arguments by their names."""
+        def named(function, skipped=0):
+            return {a.arg: cls.good[a.arg] for a in function.args.args[skipped:]}
+
+        yield Configuration.of, "Configuration.of", {"identity": cls.good["identity"]}
+        for node in STUB.body:
+            if isinstance(node, ast.FunctionDef):
+                yield getattr(touchstone, node.name), node.name, named(node)
+            for member in node.body if isinstance(node, ast.ClassDef) else []:
+                if getattr(member, "name", "") == "__init__":
+                    yield getattr(touchstone, node.name), node.name, named(member, 1)
+
+    def error_of(self, call, *given, **named):
+        with self.assertRaises(TypeError, msg=(call, given, named)) as raised:
+            call(*given, **named)
+        return str(raised.exception)
+
+    def test_an_argument_of_another_type_is_named(self):
+        count = 0
+        for call, name, arguments in self.calls():
+            for parameter, value in arguments.items():
+                if parameter == "answer":
+                    continue  # whatever a function returns can be scored
+                bad = [object()]
+                if parameter not in ("configurations", "answers"):  # as many of which are asked for
+                    bad += [[object()]] + ([] if isinstance(value, str) else ["x" * 10000])
+                for other in bad:
+                    told = self.error_of(call, **{**arguments, parameter: other})
+                    self.assertRegex(told, rf"^{parameter}(\[0\])? is .*: must be .", name)
+                    self.assertLess(len(told), 400, name)
+                    count += 1
+        self.assertGreater(count, 150)
+
+    def test_missing_unknown_and_too_many_arguments_are_named(self):
+        for call, name, arguments in self.calls():
+            names, first = ", ".join(arguments), next(iter(arguments))
+            self.assertEqual(self.error_of(call, **arguments, colour=1),
+                             f"colour is no argument of {name}: must be one of {names}")
+            most = f"must be at most {len(arguments)}: {names}"
+            self.assertEqual(self.error_of(call, *[0] * 20), f"{name} is given 20 arguments: {most}")
+            self.assertEqual(self.error_of(call, arguments[first], **arguments),
+                             f"{first} is given twice: must be given once")
+            if name != "Pose":  # which has defaults for all
+                self.assertEqual(self.error_of(call), f"{first} is missing: {name} takes {names}")
+
+    def test_elements_of_sequences_are_named(self):
+        own, point = self.good["configuration"], Point((0, 0, 0), (0, 0, 1), 0)
+        self.assertEqual(self.error_of(touchstone.scores, [own, 7], [None, None]),
+                         "configurations[1] is 7: must be a Configuration of touchstone")
+        self.assertEqual(self.error_of(Contact, 0, (0, 0, 1), [point, None]),
+                         "points[1] is None: must be a Point of touchstone")
+
+    def test_without_numpy_the_module_says_that_it_needs_it(self):
+        code = "import sys; sys.modules['numpy'] = None; import touchstone"
+        told = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True).stderr
+        self.assertIn("ImportError: touchstone needs numpy (Debian: python3-numpy)", told)
+
+
 class Stubs(unittest.TestCase):
     """The stubs say what the module has; of functions, what the first line of a docstring says."""
-
-    stub = ast.parse(pathlib.Path(touchstone.__file__).with_suffix(".pyi").read_text())
 
     @staticmethod
     def parameters(function):
@@ -377,8 +472,8 @@ class Stubs(unittest.TestCase):
         return names, [ast.unparse(default) for default in function.args.defaults]
 
     def test_names_and_members_are_the_modules(self):
-        classes = {node.name: node for node in self.stub.body if isinstance(node, ast.ClassDef)}
-        functions = {n.name for n in self.stub.body if isinstance(n, ast.FunctionDef)}
+        classes = {node.name: node for node in STUB.body if isinstance(node, ast.ClassDef)}
+        functions = {n.name for n in STUB.body if isinstance(n, ast.FunctionDef)}
         self.assertEqual(functions | classes.keys() | {"PAIRS"}, set(touchstone.__all__))
         for name, node in classes.items():
             members = {member.name for member in node.body if not member.name.startswith("_")}
@@ -386,7 +481,7 @@ class Stubs(unittest.TestCase):
             self.assertEqual(members, actual, name)
 
     def test_parameters_are_those_of_the_docstrings(self):
-        for node in self.stub.body:
+        for node in STUB.body:
             if isinstance(node, ast.FunctionDef):
                 signature = getattr(touchstone, node.name).__doc__.split("\n\n")[0]
                 [documented] = ast.parse(f"def {signature}: ...").body

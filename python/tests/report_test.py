@@ -71,6 +71,9 @@ class Reports(unittest.TestCase):
         result = touchstone.report(ours, "mine", **ONE_CLASS)
         with tempfile.TemporaryDirectory() as folder:
             result.save(folder + "/new")
+            result.save(pathlib.Path(folder, "new"))
+            with self.assertRaisesRegex(TypeError, "^folder is 7: must be a str or a path$"):
+                result.save(7)
             saved = json.loads(pathlib.Path(folder, "new", "report.json").read_text())
             self.assertIn("<html", pathlib.Path(folder, "new", "report.html").read_text())
         self.assertEqual(saved, result.to_dict())

@@ -13,6 +13,12 @@ along which A moves to come free; signed distances are positive apart and negati
 `print(r)` shows a table, `r.save("out")` writes out/report.html. docs/python.md explains it.
 """
 
+try:
+    import numpy
+except ImportError as reason:
+    raise ImportError("touchstone needs numpy (Debian: python3-numpy)") from reason
+del numpy
+
 from ._touchstone import (PAIRS, Box, Capsule, Configuration, Contact, Contacts, Cylinder, Patch,
                           Plane, Point, Pose, Report, Score, Sphere, Truth, __version__, classes,
                           configurations, contact, overlaps, report, score, scores,

@@ -1,5 +1,6 @@
 from collections.abc import Callable, Iterable, Sequence
 from fractions import Fraction
+from os import PathLike
 from typing import Any, Literal, TypeAlias, overload
 
 import numpy
@@ -127,7 +128,11 @@ class Truth:
     @property
     def patches(self) -> tuple[Patch, ...]: ...
 
+@overload
 def truth(a: Cylinder, pose_a: Pose, b: Shape, pose_b: Pose, width: float = 1e-15) -> Truth: ...
+@overload
+def truth(a: Cylinder, pose_a: Pose | Floats, b: Shape, pose_b: Pose | Floats,
+          width: float = 1e-15) -> list[Truth]: ...
 
 class Configuration:
     def __init__(self, a: Cylinder, pose_a: Pose, b: Shape, pose_b: Pose) -> None: ...
@@ -179,7 +184,7 @@ def scores(configurations: Sequence[Configuration], answers: Sequence[Contact | 
 
 class Report:
     def to_dict(self) -> dict[str, Any]: ...
-    def save(self, folder: str) -> None: ...
+    def save(self, folder: str | PathLike[str]) -> None: ...
 
 def report(function: Callable[[Cylinder, Pose, Shape, Pose, float], Contact | None],
            name: str = "function", pairs: Sequence[str] | None = None,
