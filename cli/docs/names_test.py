@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """What the pages name is there: names_test.py SOURCE-FOLDER PROGRAM PAGE…
 
-Links, names of source files and options must exist; what runs elsewhere must be on a page.
+Links, names of source files, options and commands must exist, and numbers of configurations must be
+the defaults; what runs elsewhere must be on a page.
 """
 import pathlib
 import re
@@ -31,6 +32,29 @@ def known_options(program):
     return {"--oversubscribe", *re.findall(r"--[a-z-]+", completion.stdout)}
 
 
+def wrong_counts(text, program):
+    """Of configurations, where a page says how many a command takes of each class."""
+    paragraphs = " ".join(p for p in re.split(r"\n\n", text) if "of each class" in p)
+    said = re.findall(r"`(report|check|search|campaign)` (?:takes |scores )?([\d,]*\d)\b",
+                      " ".join(paragraphs.split()))
+    for command, number in said:
+        told = subprocess.run([program, command, "--help"], stdout=subprocess.PIPE, text=True,
+                              check=True).stdout
+        usual = re.search(r"--count UINT=(\d+)", told)[1]
+        if number.replace(",", "") != usual:
+            yield f"`{command}` takes {usual} configurations of each class, not {number}"
+
+
+def commands_without_help(text, program):
+    """Of the commands in a table of them, unless the page says that they are the clone's alone."""
+    rows = re.findall(r"^\| ((?:`[a-z]+`(?:, )?)+) \|", text, re.MULTILINE)
+    for command in re.findall(r"`([a-z]+)`", " ".join(rows)):
+        if re.search(rf"`{command}` is of a clone's `./touchstone` alone", " ".join(text.split())):
+            continue
+        if subprocess.run([program, command, "--help"], capture_output=True).returncode != 0:
+            yield f"`{command} --help` is refused"
+
+
 def main(source, program, *pages):
     files = [str(f.relative_to(source)) for f in source.rglob("*")
              if f.relative_to(source).parts[0] != "build"]
@@ -42,6 +66,9 @@ def main(source, program, *pages):
         faults += [f"{name}: there is no {missing}" for missing in missing_files(page, files)]
         faults += [f"{name}: there is no {option}"
                    for option in sorted(set(re.findall(r"`(--[a-z-]+)", text)) - options)]
+        faults += [f"{name}: {fault}" for fault in wrong_counts(text, program)]
+        if "| command | does |" in text:
+            faults += [f"{name}: {fault}" for fault in commands_without_help(text, program)]
         commands += [c for block, _ in blocks_of(text) for c in block]
         job_files += len(job_files_of(text))
     faults += [f"no page has \"{start}\""

@@ -394,6 +394,12 @@ class Report(PageTest):
     def test_pictures_have_a_role_and_a_name(self):
         self.assertEqual(self.driver.execute_script(nameless_pictures), [])
 
+    def test_the_words_say_what_agreeing_takes(self):
+        words = dict(zip((e.get_attribute("textContent") for e in self.all("#words dt")),
+                         (e.get_attribute("textContent") for e in self.all("#words dd"))))
+        for part in ("Depth", "normal regret", "deepest contact point"):
+            self.assertIn(part, words["agree"])
+
     def test_nothing_is_clipped_on_a_desktop(self):
         everything = (("#class-candidate", "all"), ("#contrast-pair", "cylinder-cylinder"),
                       ("#trend-variable", "distance"))

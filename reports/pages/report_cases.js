@@ -110,7 +110,7 @@ function method() {
     ['bias', 'The median of the depth error with its sign: negative where the routine is too deep, positive where it is too shallow.'],
     ['points', 'By how much a contact’s worst point is off both surfaces in excess of its own depth.'],
     ['coverage', 'The largest factor by which the contact patch (where the bodies\u2019 flat and straight parts meet) may be shrunk about its centroid to lie within the hull of the contact points: 0.5 for three points evenly on a disc\u2019s rim, 0.7 for four. Of a point contact 1. Means are over contacts with a normal within the bar.'],
-    ['agree', `Depth and normal regret within ${bar} of the size; contacts shallower than that may be missed.`],
+    ['agree', `Depth, normal regret and the depth of the deepest contact point within ${bar} of the size; contacts shallower than that may be missed.`],
     ['missed', `No contact, though the bodies overlap by more than ${bar} of the size.`],
     ['phantom', `A contact, though they are more than ${bar} of the size further apart than was asked for.`],
     ['shallow, overdeep', 'The depth is too small, too large.'],
