@@ -340,6 +340,11 @@ std::vector<ReplayedFailure> replay_all(const std::string& path, const char* fie
                                         const Candidate* candidate, const Teller& teller) {
   if (path.empty()) return {};
   std::vector<Failure> failures = read_corpus(path, field);
+  // What has no failures would succeed for ever; where they are known, it is what one hopes for.
+  if (failures.empty() && field == std::string_view("--corpus")) {
+    throw InvalidInput(field, '"' + path + '"',
+                       "must have a saved failure, a .json or .jsonl file");
+  }
   if (candidate) {
     std::erase_if(failures, [&](const Failure& f) { return f.candidate != candidate->name; });
   }

@@ -122,6 +122,31 @@ std::optional<std::pair<std::uint64_t, std::uint64_t>> other_counts(const Report
   return std::nullopt;
 }
 
+/// The rows that `other` lacks, though it has their class and their candidate.
+NameSet rows_without(const Report& report, const Report& other) {
+  const NameSet names = candidate_names(other), classes = class_names(other);
+  const Rows theirs = rows_of(other.results);
+  NameSet result;
+  for (const auto& [key, row] : rows_of(report.results)) {
+    const std::string of_class = row->pair + '/' + row->pose_class;
+    if (theirs.contains(key) || !names.contains(row->candidate) || !classes.contains(of_class)) {
+      continue;
+    }
+    result.insert(of_class + " of " + row->candidate);
+  }
+  return result;
+}
+
+/// Configurations that came in a file have no seed.
+void remark_given(Basis& basis, const NameSet& old_classes, const NameSet& new_classes) {
+  for (const std::string& name : old_classes) {
+    if (!name.ends_with('/' + std::string(given_class)) || !new_classes.contains(name)) continue;
+    basis.remarks.push_back(
+        "Configurations of your own are compared as if both reports had the same file.");
+    return;
+  }
+}
+
 /// A number as report.json has it: "0.0001", "0.0".
 std::string number(double value) {
   const bool is_whole = value == std::floor(value) && std::abs(value) < 1e15;
@@ -140,6 +165,8 @@ Basis basis_of(const Report& before, const Report& after, const std::string& bas
   const NameSet old_classes = class_names(before), new_classes = class_names(after);
   remark_only(basis, "candidates", old_names, new_names);
   remark_only(basis, "classes", old_classes, new_classes);
+  remark_only(basis, "rows", rows_without(before, after), rows_without(after, before));
+  remark_given(basis, old_classes, new_classes);
   basis.split = split_groups(old_classes, new_classes);
   const auto counts = other_counts(before, after);
   basis.same_configurations = before.seed == after.seed && !counts;

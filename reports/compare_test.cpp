@@ -234,11 +234,30 @@ TEST(Compare, SaysWhatIsOnlyInOne) {
   json now = small_report();
   now["candidates"][1]["name"] = "yours";
   now["results"] = {row("rim-face", "bullet", 90, 1e-3, 100), row("lying", "yours", 1, 1, 1)};
+  now["summary"][1]["candidate"] = "yours";
   const std::string said = remarks(compare(small_report(), now, {}));
   EXPECT_THAT(said, HasSubstr("old report, not compared: candidates mine."));
   EXPECT_THAT(said, HasSubstr("new report, not compared: candidates yours."));
   EXPECT_THAT(said, HasSubstr("old report, not compared: classes cylinder-box/touching."));
   EXPECT_THAT(said, HasSubstr("new report, not compared: classes cylinder-box/lying."));
+}
+
+TEST(Compare, NamesTheRowsThatOneOfThemLacks) {
+  json now = small_report();
+  now["results"].erase(3);
+  EXPECT_THAT(
+      remarks(compare(small_report(), now, {})),
+      HasSubstr("Only in the old report, not compared: rows cylinder-box/touching of mine."));
+  EXPECT_THAT(
+      remarks(compare(now, small_report(), {})),
+      HasSubstr("Only in the new report, not compared: rows cylinder-box/touching of mine."));
+}
+
+TEST(Compare, SaysThatItTakesYourOwnConfigurationsForTheSame) {
+  json report = small_report();
+  for (const int i : {2, 3}) report["results"][i]["class"] = "given";
+  EXPECT_THAT(remarks(compare(report, report, {})),
+              HasSubstr("as if both reports had the same file"));
 }
 
 TEST(Compare, SaysWhatElseDiffers) {
@@ -339,6 +358,10 @@ TEST(Compare, TextFitsIntoEightyColumns) {
   now["summary"][1] = row("perpendicular+tilted-1e-15", "capsule-circumscribed", 10, 1, 500);
   now["summary"][1]["pair"] = "cylinder-cylinder";
   json old = small_report();
+  for (json* report : {&now, &old}) {
+    (*report)["candidates"][1]["name"] = "capsule-circumscribed";
+    for (const int i : {1, 3}) (*report)["results"][i]["candidate"] = "capsule-circumscribed";
+  }
   old["summary"][1] = row("perpendicular+tilted-1e-15", "capsule-circumscribed", 80, 1e-9, 200);
   old["summary"][1]["pair"] = "cylinder-cylinder";
   std::istringstream text(comparison_text(compare(old, now, {})));

@@ -2,7 +2,9 @@
 #include <cstdint>
 #include <fmt/format.h>
 #include <future>
+#include <set>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -192,6 +194,27 @@ ResultRow summary_row(const Reader& row) {
   return result;
 }
 
+/// Takes the rows of a list one by one. Of two that are of the same, only one would be compared.
+class RowsOfOnce {
+ public:
+  explicit RowsOfOnce(const Report& report) {
+    for (const CandidateDescription& c : report.candidates) candidates_.insert(c.name);
+  }
+  void take(const Reader& row, const ResultRow& read) {
+    if (!candidates_.contains(read.candidate)) {
+      row.at("candidate").refuse("must be one of the candidates of the report");
+    }
+    if (!seen_.emplace(read.pair, read.pose_class, read.candidate).second) {
+      row.at("candidate")
+          .refuse(fmt::format("must have one row for {}/{}", read.pair, read.pose_class));
+    }
+  }
+
+ private:
+  std::set<std::string> candidates_;
+  std::set<std::tuple<std::string, std::string, std::string>> seen_;
+};
+
 /// The name of today of a class that may have had another one; an unknown name stays.
 std::string class_name(const std::string& pair, const std::string& name) {
   try {
@@ -234,14 +257,19 @@ Report report(const Reader& r) {
     candidate.settings = c.at("settings").text();
     if (c.has("runs")) candidate.runs = c.at("runs").text();  // older ones are all native
   });
+  RowsOfOnce results(result), summary(result);
   r.at("results").each([&](const Reader& row) {
     result.results.push_back(result_row(row));
+    results.take(row, result.results.back());
     std::string& name = result.results.back().pose_class;
     if (result.is_old) name = class_name(result.results.back().pair, name);
   });
   // An old summary is over all groups, which no summary is any more.
   if (result.is_old) return result;
-  r.at("summary").each([&](const Reader& row) { result.summary.push_back(summary_row(row)); });
+  r.at("summary").each([&](const Reader& row) {
+    result.summary.push_back(summary_row(row));
+    summary.take(row, result.summary.back());
+  });
   return result;
 }
 

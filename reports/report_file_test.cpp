@@ -43,7 +43,13 @@ class ReportFile : public testing::Test {
 
 TEST_F(ReportFile, NoNameMakesALineOfItsOwnOrTurnsAround) {
   json report = good();
-  report["candidates"][0]["name"] = "ode\nreference  100.0 \u202e";
+  const json name = "ode\nreference  100.0 \u202e";
+  report["candidates"][0]["name"] = name;
+  for (const char* const list : {"results", "summary"}) {
+    for (json& row : report[list]) {
+      if (row["candidate"] == "reference") row["candidate"] = name;
+    }
+  }
   write(report.dump());
   EXPECT_EQ(read_report(file).candidates[0].name, "ode reference  100.0    ");
 }
@@ -99,6 +105,22 @@ TEST_F(ReportFile, NamesTheFileThatIsNone) {
   expect_refusal("file", "is no JSON");
   write("[]");
   expect_refusal("file", "an object");
+}
+
+// Of two rows about the same one would be lost, and with it what it tells.
+TEST_F(ReportFile, HasOneRowOfEachOfItsCandidates) {
+  for (const char* const list : {"results", "summary"}) {
+    json report = good();
+    report[list].push_back(report[list][0]);
+    write(report.dump());
+    expect_refusal(list + std::string("[3].candidate is \"reference\""),
+                   "must have one row for cylinder-plane/");
+    report = good();
+    report[list][1]["candidate"] = "another";
+    write(report.dump());
+    expect_refusal(list + std::string("[1].candidate is \"another\""),
+                   "must be one of the candidates");
+  }
 }
 
 TEST_F(ReportFile, NamesTheFieldAndTheRemedy) {

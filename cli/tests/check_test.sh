@@ -9,6 +9,8 @@ edge=(check --candidate bullet --pair cylinder-box --class edge-cap --count 1 --
 expect 2 '--law.*agreement' check --candidate bullet --law gravity
 expect 2 '--class' check --candidate bullet --class nowhere
 expect 2 '--corpus.*must be a folder' check --corpus "$folder/none"
+mkdir "$folder/empty"
+expect 2 '--corpus is ".*/empty": must have a saved failure' check --corpus "$folder/empty"
 expect 2 '--known.*must be a folder' check --known "$folder/none"
 expect 2 '--junit.*must be a folder that can be written' \
   check --candidate reference --count 1000000 --junit /proc/none/x.xml
