@@ -1,8 +1,8 @@
 // ODE 0.16.2's own world.
 //
-// World     A hash space, dSpaceCollide, a contact joint for every point, dWorldQuickStep with
-// ODE's
-//           default 20 iterations, ERP 0.2 and CFM 1e-10 (double precision); bodies do not fall
+// World     A sweep-and-prune space, for a hash space loses pairs (ode_space_test.cpp),
+//           dSpaceCollide, a contact joint for every point, dWorldQuickStep with ODE's default 20
+//           iterations, ERP 0.2 and CFM 1e-10 (double precision); bodies do not fall
 //           asleep, as by default. At its best: dWorldStep, which solves directly, and CFM 1e-12.
 // Contacts  dCollide is asked for 8 points, as in ODE's examples. Friction is Coulomb's as a
 //           pyramid (dContactApprox1), for without that flag a coefficient is a force; its
@@ -34,7 +34,7 @@ class OdeWorld : public EngineWorld {
       : EngineWorld(scene, setup),
         is_direct_(setup.best_solver),
         world_(dWorldCreate()),
-        space_(dHashSpaceCreate(nullptr)),
+        space_(dSweepAndPruneSpaceCreate(nullptr, dSAP_AXES_XYZ)),
         contacts_(dJointGroupCreate(0)) {
     if (is_direct_) dWorldSetCFM(world_, 1e-12);
     dRandSetSeed(0);  // of the order in which QuickStep takes its rows

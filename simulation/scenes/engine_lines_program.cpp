@@ -204,7 +204,7 @@ std::string cpp_program(const std::string& engine) {
   return std::string(comparison) + (engine == "bullet" ? in_bullet : in_ode) + includes +
          "int main() {\n" +
          (engine == "ode" ? "dInitODE2(0);\ndWorldID world = dWorldCreate();\n"
-                            "dSpaceID space = dHashSpaceCreate(nullptr);\n"
+                            "dSpaceID space = dSimpleSpaceCreate(nullptr);\n"
                           : "") +
          calls + "return failures != 0;\n}\n";
 }
