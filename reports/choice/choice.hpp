@@ -20,6 +20,13 @@ namespace touchstone {
 /// What a run's verdict on a need measured, with its unit: "12.3°".
 std::string measured(const Verdict& verdict, const Need& need);
 
+/// What a run's verdict on a need came to, by the need's index: "holds  can stands within 1°:
+/// 0.2°", with what exact runs differ by if it compares with these.
+std::string need_line(const SceneFile& file, const Spreads& spreads, std::size_t need,
+                      const Verdict& verdict);
+/// A sentence for each need that exact runs do not decide.
+std::string undecidable_text(const Spreads& spreads);
+
 /// Limits on the errors of contacts between the shapes of a robot or world.
 struct PairNeeds {
   double depth = 1e-3;                  ///< error of the depth, metres; a missed contact counts
@@ -84,7 +91,7 @@ std::string narrow_row(const std::string& name, const std::vector<std::string>& 
 inline constexpr std::size_t columns_of_tables = 80;
 
 /// What choose.json says of a scene.
-nlohmann::json scene_json(const SceneFile& file, const Trials& trials);
+nlohmann::json scene_json(const SceneFile& file, const Trials& trials, const Spreads& spreads);
 
 /// choose.json (docs/scenes.md); on one line, or indented.
 std::string choice_json(const Choice& choice, const std::string& command, const std::string& folder,

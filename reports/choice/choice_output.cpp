@@ -156,10 +156,19 @@ void write_configuration(const std::string& file, const Configuration& configura
 
 }  // namespace
 
-json scene_json(const SceneFile& file, const Trials& trials) {
-  json needs = json::array();
-  for (const auto& need : file.needs) {
-    needs.push_back({{"text", need->text(file.scene)}, {"unit", need->unit}});
+json scene_json(const SceneFile& file, const Trials& trials, const Spreads& spreads) {
+  json needs = json::array(), undecidable = json::array();
+  for (std::size_t i = 0; i < file.needs.size(); ++i) {
+    const Need& need = *file.needs[i];
+    needs.push_back({{"text", need.text(file.scene)}, {"unit", need.unit}, {"spread", nullptr}});
+    const bool is_compared = i < spreads.of_needs.size() && spreads.of_needs[i].has_value();
+    if (is_compared) needs.back()["spread"] = *spreads.of_needs[i];
+  }
+  for (const Undecidable& u : spreads.undecidable) {
+    undecidable.push_back({{"text", u.text},
+                           {"unit", u.unit},
+                           {"limit", u.limit},
+                           {"spread", finite_json(u.spread)}});
   }
   return {{"name", file.name},
           {"description", file.description},
@@ -169,7 +178,8 @@ json scene_json(const SceneFile& file, const Trials& trials) {
           {"duration", file.scene.duration},
           {"disturbances", trials.disturbances},
           {"seed", trials.seed},
-          {"needs", needs}};
+          {"needs", needs},
+          {"undecidable", undecidable}};
 }
 
 std::string choice_json(const Choice& choice, const std::string& command, const std::string& folder,
@@ -184,7 +194,7 @@ std::string choice_json(const Choice& choice, const std::string& command, const 
       {"schema", "touchstone-choice-1"},
       {"command", command},
       {"machine", to_json(describe_machine())},
-      {"scene", scene_json(choice.file, choice.trials)},
+      {"scene", scene_json(choice.file, choice.trials, choice.spreads)},
       {"possible", !choice.impossible},
       {"step_saved", choice.impossible ? 0 : choice.step_saved()},
       {"worthwhile", choice.answer != 0},

@@ -159,6 +159,27 @@ TEST(ChoiceText, AndJsonNameTheCommandThatMakesAFailureAgain) {
   }
 }
 
+// Exact runs of a can that stands end where they were put; a limit below what that is off by asks
+// for more than exact contacts decide.
+TEST(ChoiceText, AndJsonSayWhichNeedsExactRunsDoNotDecide) {
+  const std::string near = R"(, {"need": "ends-near", "body": "can", "metres": 1e-9})";
+  const std::string far = R"(, {"need": "ends-near", "body": "can", "metres": 1})";
+  const Choice choice = choice_of(stands + near + far);
+  const std::string text = choice_text(choice, "out", 200);
+  EXPECT_THAT(text, testing::ContainsRegex(
+                        "\nUndecidable, for exact runs that are hardly disturbed differ by "
+                        "[0-9.e-]+ m: can ends within 1e-09 m of the exact place\n"));
+  EXPECT_THAT(text, testing::ContainsRegex("\n  2. holds  can ends within 1 m of the exact place: "
+                                           "[0-9.e-]+ m \\(exact runs differ by [0-9.e-]+ m\\)\n"));
+  const json scene = json::parse(choice_json(choice, "", "out"))["scene"];
+  ASSERT_EQ(scene["undecidable"].size(), 1U);
+  EXPECT_EQ(scene["undecidable"][0]["limit"], 1e-9);
+  EXPECT_GT(scene["undecidable"][0]["spread"], 1e-9);
+  EXPECT_EQ(scene["undecidable"][0]["unit"], " m");
+  EXPECT_EQ(scene["needs"][0]["spread"], nullptr);
+  EXPECT_EQ(scene["needs"][1]["spread"], scene["undecidable"][0]["spread"]);
+}
+
 TEST(ChoiceText, SaysWhenExactContactsDoNotServe) {
   EXPECT_THAT(choice_text(choice_of(elsewhere), "out"), HasSubstr("Not even exact contacts"));
 }

@@ -17,6 +17,28 @@ std::string measured(const Verdict& verdict, const Need& need) {
   return fmt::format("{:.3g}{}", verdict.value, need.unit);
 }
 
+std::string need_line(const SceneFile& file, const Spreads& spreads, std::size_t need,
+                      const Verdict& verdict) {
+  const Need& n = *file.needs[need];
+  std::string line =
+      fmt::format("{:>3}. {:<6} {}: {}", need + 1, verdict.holds() ? "holds" : "BROKEN",
+                  n.text(file.scene), measured(verdict, n));
+  if (need < spreads.of_needs.size() && spreads.of_needs[need]) {
+    line += fmt::format(" (exact runs differ by {:.2g}{})", *spreads.of_needs[need], n.unit);
+  }
+  return line + '\n';
+}
+
+std::string undecidable_text(const Spreads& spreads) {
+  std::string text;
+  for (const Undecidable& u : spreads.undecidable) {
+    text += fmt::format(
+        "Undecidable, for exact runs that are hardly disturbed differ by {:.2g}{}: {}\n", u.spread,
+        u.unit, u.text);
+  }
+  return text;
+}
+
 namespace {
 
 /// "can stands within 0.5°: 12.3° at 0.71 s"
@@ -65,10 +87,7 @@ std::string needs_of(const Choice& choice, const SceneRun& run) {
   }
   std::string lines;
   for (const std::size_t i : order) {
-    const Need& need = *choice.file.needs[i];
-    const Verdict& verdict = run.verdicts[i];
-    lines += fmt::format("{:>3}. {:<6} {}: {}\n", i + 1, verdict.holds() ? "holds" : "BROKEN",
-                         need.text(choice.file.scene), measured(verdict, need));
+    lines += need_line(choice.file, choice.spreads, i, run.verdicts[i]);
   }
   return lines + left_out;
 }
@@ -222,7 +241,7 @@ std::string choice_text(const Choice& choice, const std::string& folder, std::si
     lines += fmt::format("Each run as written, then under {}, the answer under {} (seed {})\n",
                          counted(t.disturbances, "disturbance"), t.of_answer(), t.seed);
   }
-  lines += '\n' + headline(choice);
+  lines += undecidable_text(choice.spreads) + '\n' + headline(choice);
   lines += needs_of(choice, answer);
   if (choice.impossible) {
     return Terminal{columns}.folded(lines + "  " + render_command(choice, answer) + '\n');

@@ -165,14 +165,11 @@ std::string engine_choice_text(const EngineChoice& choice, std::size_t columns) 
     text += fmt::format("Not judged, for {} ended a run with our routines ({}): {}\n",
                         choice.engine.name, choice.exact_end, need);
   }
-  text += '\n' + headline(choice);
+  text += undecidable_text(choice.spreads) + '\n' + headline(choice);
   const EngineSetting& shown =
       choice.answer ? choice.settings[*choice.answer] : choice.exact_setting();
   for (std::size_t i = 0; i < shown.verdicts.size(); ++i) {
-    const Need& need = *file.needs[i];
-    const Verdict& verdict = shown.verdicts[i];
-    text += fmt::format("{:>3}. {:<6} {}: {}\n", i + 1, verdict.holds() ? "holds" : "BROKEN",
-                        need.text(file.scene), measured(verdict, need));
+    text += need_line(file, choice.spreads, i, shown.verdicts[i]);
   }
   text = Terminal{columns}.folded(text);
   if (choice.answer) text += lines_to_paste(choice);
@@ -181,7 +178,7 @@ std::string engine_choice_text(const EngineChoice& choice, std::size_t columns) 
 
 std::string engine_choice_json(const EngineChoice& choice, const std::string& command, int indent) {
   json sizes = json::array(), settings = json::array();
-  json scene = scene_json(choice.file, choice.trials);
+  json scene = scene_json(choice.file, choice.trials, choice.spreads);
   scene["left_out"] = choice.left_out;
   scene["not_judged"] = choice.not_judged;
   scene["exact_end"] = choice.exact_end.empty() ? json(nullptr) : json(choice.exact_end);

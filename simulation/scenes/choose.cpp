@@ -29,6 +29,7 @@ class ModelSearch {
         judge_(choice.file, choice.kinds, exact_, options) {}
 
   void run() {
+    choice_.spreads = take_undecidable(choice_.file, judge_.exact_runs());
     judge_new({named("exact", all_exact())});
     if (!choice_.runs[0].holds()) {
       choice_.impossible = true;

@@ -12,6 +12,7 @@
 #include "simulation/scenes/disturbed_scene.hpp"
 #include "simulation/scenes/scene_file.hpp"
 #include "simulation/scenes/simplest.hpp"
+#include "simulation/scenes/spread.hpp"
 
 // How candidates do in a scene: query by query on the configurations of a run, and in whole runs.
 
@@ -114,6 +115,9 @@ class SceneJudge {
   SceneJudge(const SceneFile& file, const PairKinds& kinds, const Candidate& exact,
              const ChooseOptions& options);
 
+  /// Ends of the exact runs under all disturbances that an answer has to bear, in their order.
+  const std::vector<Trajectory>& exact_runs();
+
   /// Adds what the runs with their models come to under the disturbances up to `last` that they
   /// have not had; those that broke a need get no more. Needs are measured against exact runs under
   /// the same disturbances. Nothing depends on the number of worker processes.
@@ -145,7 +149,7 @@ std::vector<const Candidate*> exact_first(const std::vector<const Candidate*>& c
 
 /// The cheapest models that meet the needs of a scene, and all that was tried to find them.
 struct Choice {
-  SceneFile file;
+  SceneFile file;  ///< with the needs that are judged
   Trajectory exact_run;
   PairKinds kinds;
   std::vector<const Candidate*> candidates;        ///< the exact one first
@@ -156,6 +160,7 @@ struct Choice {
   /// Candidates whose run of the scene would take too long.
   std::vector<const Candidate*> too_slow = {};
   Trials trials = {};
+  Spreads spreads = {};
   /// What names the scene on a command line, with the options of a robot's motion.
   std::string arguments = {};
   /// Index of the cheapest run that meets all needs; 0 if `impossible`, or where no other saves
@@ -196,7 +201,8 @@ inline constexpr double noise_of_step = 0.05;
 /// those that take much the same the simplest is taken: whose models come first in the order of the
 /// candidates, summed over the kinds. Ends when no single kind can take its next cheaper model.
 /// Engines' routines are run and judged for all kinds, but are no answer. Progress goes to standard
-/// error. Throws InvalidInput if the scene has no needs or no cylinder touches anything.
+/// error. Needs within the spread of exact runs are not judged. Throws InvalidInput if the scene
+/// has no needs, or none that is judged, or no cylinder touches anything.
 Choice choose(const SceneFile& file, const ChooseOptions& options);
 
 }  // namespace touchstone

@@ -325,21 +325,22 @@ std::vector<std::vector<double>> least_step_seconds(
   return least;
 }
 
-void add_ends_of_runs(const Scene& scene, const Trials& trials, std::size_t last, unsigned workers,
-                      const std::function<Trajectory(const DisturbedScene&)>& run,
-                      const std::string& name, std::vector<Trajectory>& ends) {
-  const std::size_t first = ends.size();
-  if (first > last) return;
-  Progress progress("exact runs, disturbed", last + 1 - first);
+std::vector<Trajectory> ends_of_runs(const Scene& scene, const Trials& trials, unsigned workers,
+                                     const std::function<Trajectory(const DisturbedScene&)>& run,
+                                     const std::string& name) {
+  const std::size_t count = trials.of_answer() + 1;
+  Progress progress("exact runs, disturbed", count);
   const auto texts = run_in_processes(
-      last + 1 - first, workers,
+      count, workers,
       [&](std::size_t i) {
-        const DisturbedScene disturbed(scene, trials.seed, first + i);
+        const DisturbedScene disturbed(scene, trials.seed, i);
         return ends_text(disturbed.turned_back(run(disturbed)));
       },
-      [&](std::size_t i) { return fmt::format("{}, disturbance {}", name, first + i); },
+      [&](std::size_t i) { return fmt::format("{}, disturbance {}", name, i); },
       [&](std::size_t done) { progress.update(done); });
+  std::vector<Trajectory> ends;
   for (const std::string& text : texts) ends.push_back(run_of_ends(text, scene.step));
+  return ends;
 }
 
 }  // namespace touchstone

@@ -106,11 +106,10 @@ std::vector<std::vector<double>> least_step_seconds(
     std::size_t runs, const std::function<std::vector<double>(std::size_t run)>& step_seconds,
     std::size_t rounds = 5);
 
-/// Adds the first and last frames of runs, turned back, by disturbance, until those under `last`
-/// are there: what relative needs are measured against. `run` makes one, in one of the worker
-/// processes.
-void add_ends_of_runs(const Scene& scene, const Trials& trials, std::size_t last, unsigned workers,
-                      const std::function<Trajectory(const DisturbedScene&)>& run,
-                      const std::string& name, std::vector<Trajectory>& ends);
+/// The first and last frames of runs, turned back, by disturbance, of all that an answer has to
+/// bear: what relative needs are measured against. `run` makes one, in one of the worker processes.
+std::vector<Trajectory> ends_of_runs(const Scene& scene, const Trials& trials, unsigned workers,
+                                     const std::function<Trajectory(const DisturbedScene&)>& run,
+                                     const std::string& name);
 
 }  // namespace touchstone

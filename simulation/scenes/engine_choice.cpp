@@ -63,29 +63,6 @@ std::vector<EngineShape> shapes_by_body(const EngineChoice& choice, const Engine
   return shapes;
 }
 
-/// Does a need ask how a run with exact contacts ends? It does if another end of that gives another
-/// value.
-bool is_relative(const Need& need, const Scene& scene) {
-  const auto still = [&](const Pose& moved_by) {
-    Trajectory run;
-    run.step = scene.duration;
-    run.frames.resize(2);
-    for (const Body& b : scene.bodies) {
-      run.frames[0].push_back({b.pose, Vec3::Zero(), Vec3::Zero()});
-      run.frames[1].push_back({Pose(b.pose.position() + moved_by.position(),
-                                    moved_by.unit_orientation() * b.pose.unit_orientation()),
-                               Vec3::Zero(), Vec3::Zero()});
-    }
-    return run;
-  };
-  const Trajectory run = still(Pose(Vec3(0.5, 0, 0)));
-  const auto value = [&](const Pose& moved_by) {
-    return need.judge({scene, run, still(moved_by)}).value;
-  };
-  const double near = value(Pose(Vec3(1, 2, 3), Eigen::Quaterniond(0.9, 0.3, 0.2, 0.1)));
-  return near != value(Pose(Vec3(3, 5, 8), Eigen::Quaterniond(0.6, 0.2, 0.7, 0.3)));
-}
-
 class SettingSearch {
  public:
   SettingSearch(const EngineChoiceOptions& options, EngineChoice& choice)
@@ -171,7 +148,7 @@ class SettingSearch {
   void run_exactly() {
     auto& needs = choice_.file.needs;
     const Scene& scene = choice_.file.scene;
-    const auto asks = [&](const auto& need) { return is_relative(*need, scene); };
+    const auto asks = [](const auto& need) { return need->is_relative(); };
     if (std::ranges::none_of(needs, asks)) return;
     const EngineSetting exact = uniform({Kind::exact});
     const std::size_t count = options_.trials.of_answer() + 1;
@@ -195,7 +172,10 @@ class SettingSearch {
         exact_runs_.push_back(run_of_ends(texts[i], scene.step));
       }
     }
-    if (choice_.exact_end.empty()) return;
+    if (choice_.exact_end.empty()) {
+      choice_.spreads = take_undecidable(choice_.file, exact_runs_);
+      return;
+    }
     exact_runs_.clear();
     for (const auto& need : needs) {
       if (asks(need)) choice_.not_judged.push_back(need->text(scene));

@@ -8,6 +8,7 @@
 #include "simulation/engines/run_engines.hpp"
 #include "simulation/scenes/disturbed_scene.hpp"
 #include "simulation/scenes/scene_file.hpp"
+#include "simulation/scenes/spread.hpp"
 
 // Which shape stands best for a cylinder inside one engine.
 
@@ -56,6 +57,7 @@ struct EngineChoice {
   /// is nothing to compare with, and needs relative to exact contacts are not judged.
   std::string exact_end = {};
   std::vector<std::string> not_judged = {};  ///< texts of these
+  Spreads spreads = {};  ///< of runs with our routines, unless the engine ended one
   std::vector<EngineSetting> settings = {};  ///< the engine's default first, then with our routines
   Trials trials = {};
   std::optional<std::size_t> answer = {};  ///< index of a setting; absent: none holds

@@ -105,8 +105,8 @@ def wheel_on_road():
         "materials": {"road": {"friction": 0.9}, "rubber": {"friction": 0.9, "density": 300}},
         "bodies": bodies,
         "needs": [
-            {"need": "rolls", "body": "wheel", "share": 0.03},
-            {"need": "ends-tilted", "body": "wheel", "degrees": 3},
+            {"need": "rolls", "body": "wheel", "share": 0.1},
+            {"need": "ends-tilted", "body": "wheel", "degrees": 20},
             {"need": "stays-in", "body": "wheel", "lower": [-1, -0.25, 0.2], "upper": [9, 0.25, 0.6]},
             {"need": "penetration", "metres": 0.01},
         ],
@@ -162,7 +162,7 @@ def log_pile():
                       "wood": {"friction": 0.5, "density": 700}},
         "bodies": bodies,
         "needs": [{"need": "rests", "bodies": logs, "speed": 0.1, "by": 1.5}]
-                 + [{"need": "ends-near", "body": b, "metres": 0.01} for b in logs]
+                 + [{"need": "ends-near", "body": b, "metres": 0.03} for b in logs]
                  + [{"need": "ends-tilted", "body": "log-3a", "degrees": 1},
                     {"need": "penetration", "metres": 0.006}],
         "camera": {"position": [1.6, -3.0, 1.3], "look_at": [0, 0, 0.3]},
@@ -225,7 +225,7 @@ def conveyor():
         "needs": [{"need": "stands", "body": c, "degrees": 3} for c in cans]
                  + [{"need": "rests", "bodies": cans, "speed": 0.05, "by": 1.9},
                     {"need": "penetration", "metres": 0.004}]
-                 + [{"need": "ends-near", "body": c, "metres": 0.003} for c in cans],
+                 + [{"need": "ends-near", "body": c, "metres": 0.02} for c in cans],
         "camera": {"position": [0.75, -1.1, 0.6], "look_at": [0.15, 0, 0.03]},
     }
 
@@ -459,7 +459,7 @@ def rod_on_table():
         "materials": {"wood": {"friction": 0.5}},
         "bodies": [fixed("table", box(0.5, 0.5, 0.05), "wood", (0, 0, -0.05)),
                    body("rod", cylinder(r, 4 * r), "wood", (0, 0, r), ALONG_Y)],
-        "needs": [{"need": "ends-near", "body": "rod", "metres": 0.001},
+        "needs": [{"need": "ends-near", "body": "rod", "metres": 0.005},
                   {"need": "penetration", "metres": 0.0004}],
     }
 

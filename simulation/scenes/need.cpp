@@ -154,6 +154,7 @@ struct Rolls : Need {
     members.number("share", share);
   }
   void check(const Scene& scene) const override { require_vertical(scene, name); }
+  bool is_relative() const override { return !distance; }
   std::string text(const Scene& scene) const override {
     return fmt::format("{} rolls {} within {:g}%", names(scene, bodies),
                        distance ? fmt::format("{:g} m", *distance) : "as far as exactly",
@@ -308,6 +309,7 @@ struct EndsNear : Need {
     members.body(bodies);
     members.number("metres", metres);
   }
+  bool is_relative() const override { return true; }
   std::string text(const Scene& scene) const override {
     return fmt::format("{} ends within {:g} m of the exact place", names(scene, bodies), metres);
   }
@@ -328,6 +330,7 @@ struct EndsTilted : Need {
     members.number("degrees", degrees);
   }
   void check(const Scene&) const override { require_angle(degrees, 180); }
+  bool is_relative() const override { return true; }
   std::string text(const Scene& scene) const override {
     return fmt::format("{} ends within {:g}° of the exact tilt", names(scene, bodies), degrees);
   }

@@ -61,6 +61,9 @@ class Need {
   virtual void check(const Scene&) const {}
   /// "can-1 stands within 0.5°"
   virtual std::string text(const Scene& scene) const = 0;
+  /// Does it compare how a run ends with how one with exact contacts does? Two of these may be
+  /// compared, too (spread.hpp).
+  virtual bool is_relative() const { return false; }
 
   /// Broken whatever it requires if the run is not sound.
   Verdict judge(const ComparedRuns& runs) const;

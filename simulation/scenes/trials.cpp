@@ -370,15 +370,22 @@ SceneJudge::SceneJudge(const SceneFile& file, const PairKinds& kinds, const Cand
                        const ChooseOptions& options)
     : file_(file), kinds_(kinds), exact_(exact), options_(options) {}
 
-void SceneJudge::judge(std::vector<SceneRun>& runs, std::size_t last) {
-  Processes processes(options_.limits);  // each worker process starts its own candidates
-  add_ends_of_runs(
-      file_.scene, options_.trials, last, options_.workers,
+const std::vector<Trajectory>& SceneJudge::exact_runs() {
+  if (!exact_runs_.empty()) return exact_runs_;
+  Processes processes(options_.limits);  // each worker process starts its own
+  exact_runs_ = ends_of_runs(
+      file_.scene, options_.trials, options_.workers,
       [&](const DisturbedScene& scene) {
         CandidateModel model(processes.of(exact_));
         return run_scene(scene.scene, model);
       },
-      file_.name, exact_runs_);
+      file_.name);
+  return exact_runs_;
+}
+
+void SceneJudge::judge(std::vector<SceneRun>& runs, std::size_t last) {
+  const std::vector<Trajectory>& exact_runs = this->exact_runs();
+  Processes processes(options_.limits);  // each worker process starts its own candidates
   const auto trial_of = [&](std::size_t index, std::size_t disturbance) {
     const SceneRun& run = runs[index];
     const DisturbedScene scene(file_.scene, options_.trials.seed, disturbance);
@@ -388,9 +395,9 @@ void SceneJudge::judge(std::vector<SceneRun>& runs, std::size_t last) {
     trial.points = trajectory.points;
     trial.solver_seconds =
         std::accumulate(trajectory.step_seconds.begin(), trajectory.step_seconds.end(), 0.0);
-    trial.straying = straying(file_.scene, as_written, exact_runs_[disturbance]);
+    trial.straying = straying(file_.scene, as_written, exact_runs[disturbance]);
     for (const auto& need : file_.needs) {
-      trial.verdicts.push_back(need->judge({file_.scene, as_written, exact_runs_[disturbance]}));
+      trial.verdicts.push_back(need->judge({file_.scene, as_written, exact_runs[disturbance]}));
     }
     const int broken = first_broken(trial.verdicts);
     if (broken < 0) return trial;

@@ -1,0 +1,48 @@
+#include "simulation/scenes/spread.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+#include "reference/invalid_input.hpp"
+
+namespace touchstone {
+
+double spread(const Need& need, const Scene& scene, const std::vector<Trajectory>& exact_runs) {
+  double largest = 0;
+  for (const Trajectory& run : exact_runs) {
+    for (const Trajectory& other : exact_runs) {
+      if (&run != &other) largest = std::max(largest, need.judge({scene, run, other}).value);
+    }
+  }
+  return largest;
+}
+
+Spreads take_undecidable(SceneFile& file, const std::vector<Trajectory>& exact_runs) {
+  Spreads result;
+  std::erase_if(file.needs, [&](const auto& need) {
+    if (!need->is_relative()) {
+      result.of_needs.emplace_back();
+      return false;
+    }
+    const double limit = need->judge({file.scene, exact_runs[0], exact_runs[0]}).limit;
+    const double apart = spread(*need, file.scene, exact_runs);
+    if (apart <= limit) {
+      result.of_needs.emplace_back(apart);
+      return false;
+    }
+    result.undecidable.push_back({need->text(file.scene), need->unit, limit, apart});
+    return true;
+  });
+  if (file.needs.empty() && !result.undecidable.empty()) {
+    const Undecidable& first = result.undecidable.front();
+    throw InvalidInput(
+        "needs", fmt::format("\"{}\"", first.text),
+        fmt::format("must allow more than {:.2g}{}, by which exact runs differ that are hardly "
+                    "disturbed, or stand beside a need of another kind: nothing else is left to "
+                    "choose by",
+                    first.spread, first.unit));
+  }
+  return result;
+}
+
+}  // namespace touchstone
