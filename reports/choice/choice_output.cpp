@@ -36,6 +36,7 @@ json run_json(const Choice& choice, std::size_t index, const std::string& folder
   }
   json result = {{"name", run.name},
                  {"models", models},
+                 {"models_alone", choice.has_models_alone(run)},
                  {"microseconds_per_step", run.nanoseconds / 1000 / steps},
                  {"step_microseconds", run.seconds() * 1e6 / steps},
                  {"error", finite_json(run.error())},

@@ -146,6 +146,31 @@ TEST(ChoiceText, SaysInHowManyRunsAModelHeld) {
               testing::ContainsRegex("\n  capsule: breaks need 1, [^:]*held in[ \n]+" + held));
 }
 
+// An engine's routine answers for the cylinder itself: it stands for nothing, and is no answer,
+// however little it takes.
+TEST(ChoiceText, SetsEnginesRoutinesApartFromModels) {
+  Choice choice = choice_of(stands, {"capsule", "ode", "prism:64"});
+  choice.answer = 0;
+  for (SceneRun& run : choice.runs) {
+    if (run.name != "ode") continue;
+    ASSERT_TRUE(run.holds());
+    EXPECT_FALSE(choice.has_models_alone(run));
+    run.nanoseconds = run.solver_seconds = 0;
+  }
+  const std::string text = choice_text(choice, "out", 200);
+  const auto at = [&](const char* part) { return text.find(part); };
+  EXPECT_THAT(text, HasSubstr("(Beside models: the routines of ode for the cylinder itself met all "
+                              "needs in the first runs, and took less.)\n"));
+  ASSERT_NE(at("\nRoutines, not models "), text.npos);
+  EXPECT_LT(at("\n  capsule "), at("\nRoutines, not models "));
+  EXPECT_LT(at("\n  prism:64 "), at("\nRoutines, not models "));
+  EXPECT_GT(at("\n  ode "), at("\nRoutines, not models "));
+  for (const json& run : json::parse(choice_json(choice, "", "out"))["runs"]) {
+    EXPECT_EQ(run["models_alone"], run["name"] != "ode");
+  }
+  EXPECT_THAT(choice_text(choice_of(stands), "out"), testing::Not(HasSubstr("outines")));
+}
+
 TEST(ChoiceText, AndJsonNameTheCommandThatMakesAFailureAgain) {
   Choice choice = choice_of(stands);
   choice.arguments = "can.json";

@@ -183,32 +183,68 @@ std::string headline(const Choice& choice) {
       std::ceil(10 * percent) / 10);
 }
 
-/// One row for each candidate that was run for all pairs.
-std::string candidates_table(const Choice& choice, std::size_t columns) {
-  const bool is_narrow = columns < columns_of_tables;
-  std::string lines = is_narrow
-                          ? "\nOne model for all pairs\n"
-                          : "\nOne model for all pairs µs/step of limit  held  breaks first\n";
+/// The runs with one candidate for all pairs: of models, or of others.
+std::vector<const SceneRun*> uniform_runs(const Choice& choice, bool are_models) {
+  std::vector<const SceneRun*> result;
   for (const SceneRun& run : choice.runs) {
     const bool of_search = run.name.find(' ') != std::string::npos || run.name == "combination";
-    if (of_search) continue;
-    const std::string step =
-        run.holds() ? fmt::format("{:.1f}", step_microseconds(choice, run)) : "";
-    const std::string error =
-        std::isfinite(run.error()) ? fmt::format("{:.3g}", run.error()) : "absurd";
-    const std::string failed = run.holds() ? "" : first_failure(run);
-    lines += is_narrow
-                 ? narrow_row(run.name, {run.holds() ? step + " µs a step" : "breaks " + failed,
-                                         error + " of the limit", "held in " + share_held(run)})
-                 : fmt::format("  {:<21} {:>7} {:>8} {:>5}  {}\n", run.name, step, error,
-                               share_held(run), failed);
+    if (!of_search && choice.has_models_alone(run) == are_models) result.push_back(&run);
   }
+  return result;
+}
+
+/// What meets all needs in less than an exact step, but is no model and no answer.
+std::string cheaper_routines(const Choice& choice) {
+  std::vector<std::string> names;
+  for (const SceneRun* run : uniform_runs(choice, false)) {
+    const bool is_cheaper = run->seconds() < choice.runs[choice.answer].seconds();
+    if (run->holds() && is_cheaper) names.push_back(run->name);
+  }
+  if (names.empty()) return "";
+  return fmt::format(
+      "(Beside models: the routines of {} for the cylinder itself met all needs in the first runs, "
+      "and took less.)\n",
+      fmt::join(names, ", "));
+}
+
+/// What a step takes; "~" marks a time of a single run, which was not timed in turns with others.
+std::string step_of(const Choice& choice, const SceneRun& run) {
+  return fmt::format("{}{:.1f}", run.timing > 0 ? "" : "~", step_microseconds(choice, run));
+}
+
+/// One row for each candidate that was run for all pairs.
+std::string candidates_table(const Choice& choice, std::size_t columns, bool of_models) {
+  const bool is_narrow = columns < columns_of_tables;
+  const std::vector<const SceneRun*> runs = uniform_runs(choice, of_models);
+  if (runs.empty()) return "";
+  const char* const title = of_models ? "One model for all pairs" : "Routines, not models";
+  std::string lines = is_narrow ? fmt::format("\n{}\n", title)
+                                : fmt::format("\n{:<23} {:>7} {:>8} {:>5}  {}\n", title, "µs/step",
+                                              "of limit", "held", "breaks first");
+  for (const SceneRun* run : runs) {
+    const std::string step = run->holds() ? step_of(choice, *run) : "";
+    const std::string error =
+        std::isfinite(run->error()) ? fmt::format("{:.3g}", run->error()) : "absurd";
+    const std::string failed = run->holds() ? "" : first_failure(*run);
+    lines += is_narrow
+                 ? narrow_row(run->name, {run->holds() ? step + " µs a step" : "breaks " + failed,
+                                          error + " of the limit", "held in " + share_held(*run)})
+                 : fmt::format("  {:<21} {:>7} {:>8} {:>5}  {}\n", run->name, step, error,
+                               share_held(*run), failed);
+  }
+  return lines;
+}
+
+std::string candidates_tables(const Choice& choice, std::size_t columns) {
+  std::string lines = candidates_table(choice, columns, true);
+  lines += candidates_table(choice, columns, false);
   for (const Candidate* c : choice.too_slow) {
     lines += fmt::format("  {:<21} takes too long to run\n", c->name);
   }
   return lines +
-         "  (held: of the runs as written and disturbed; choose.json has the command that "
-         "draws each)\n";
+         "  (~: of one run; held: of the runs as written and disturbed; choose.json has the "
+         "command "
+         "that draws each)\n";
 }
 
 std::string errors(const ReplayScore& s) {
@@ -242,12 +278,13 @@ std::string choice_text(const Choice& choice, const std::string& folder, std::si
                          counted(t.disturbances, "disturbance"), t.of_answer(), t.seed);
   }
   lines += undecidable_text(choice.spreads) + '\n' + headline(choice);
+  if (!choice.impossible) lines += cheaper_routines(choice);
   lines += needs_of(choice, answer);
   if (choice.impossible) {
     return Terminal{columns}.folded(lines + "  " + render_command(choice, answer) + '\n');
   }
   return Terminal{columns}.folded(lines + times_of(choice) + '\n' + kinds_of(choice, folder) +
-                                  candidates_table(choice, columns));
+                                  candidates_tables(choice, columns));
 }
 
 std::string pairs_text(const PairsChoice& choice, const std::string& folder, std::size_t columns) {

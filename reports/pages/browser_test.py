@@ -768,6 +768,9 @@ class OtherPages(PageTest):
         self.assertGreater(len(self.all("#front .mark-symbol path")), 2)
         self.assertGreater(self.assert_labels_apart(self.find("#front")), 3)
         self.assertEqual(self.find("#left-caption").text, "With exact")
+        routines = self.all("#run-table h3 + table tbody td:first-child")  # apart from models
+        self.assertEqual([cell.text for cell in routines], ["ode"])
+        self.assertIn("exact runs differ by", self.find("#need-table").text)
         self.choose("#other", self.driver.execute_script(
             "return String(data.motion.runs.findIndex(r => r.name === 'capsule'))"))
         self.assertIn("parts from the run beside it at", self.find("#other-note").text)

@@ -33,6 +33,10 @@ function headline() {
       : data.worthwhile ? `The cheapest models that meet all needs save ${Math.round(percent)}% of a step: ${microseconds('step_microseconds', '.')}`
       : percent > 0 ? `Exact: nothing cheaper that meets all needs saves more than ${(Math.ceil(10 * percent) / 10).toFixed(1)}% of a step.`
       : 'Exact: no model that meets all needs takes less of a step.';
+  const cheaper = data.runs.filter(r => isUniform(r) && !r.models_alone && r.holds && r.step_microseconds < answer.step_microseconds);
+  if (data.possible && cheaper.length) {
+    byId('headline').textContent += ` Beside models: the routines of ${cheaper.map(r => r.name).join(', ')} met all needs in the first runs, and took less.`;
+  }
   byId('provenance').textContent = `${data.machine.cpu}, ${data.machine.compiler}. ` +
       `Contacts take ${microseconds('microseconds_per_step', ' of a step, ')}ODE's solver ${microseconds('solver_microseconds_per_step', '; ')}` +
       `a frame of 1/60 s takes ${exponent(data.frame_microseconds)} µs` +
@@ -47,11 +51,16 @@ function headline() {
 }
 
 // What compares with exact runs is decided as far as these agree with each other.
-const needTable = verdicts => table(['', 'need', 'measured', 'at', 'exact runs differ by'].map(textColumn), [
-    ...verdicts.map((v, i) => [
+function needTable(verdicts) {
+  const {undecidable} = data.scene, compares = undecidable.length > 0 || needs.some(n => n.spread !== null);
+  const row = (cells, spread) => compares ? [...cells, spread] : cells;
+  return table(row(['', 'need', 'measured', 'at'], 'exact runs differ by').map(textColumn), [
+    ...verdicts.map((v, i) => row([
       element('td', {class: v.holds ? 'good text' : 'bad text'}, v.holds ? 'holds' : 'broken'), wide(needs[i].text),
-      measured(v.value, needs[i]), `${v.time.toFixed(2)} s`, needs[i].spread === null ? '' : measured(needs[i].spread, needs[i])]),
-    ...data.scene.undecidable.map(u => ['undecidable', wide(u.text), '', '', measured(u.spread, u)])], 'What was measured of each need, and when');
+      measured(v.value, needs[i]), `${v.time.toFixed(2)} s`], needs[i].spread === null ? '' : measured(needs[i].spread, needs[i]))),
+    ...undecidable.map(u => row([element('td', {class: 'text'}, 'undecidable'), wide(u.text), '', ''], measured(u.spread, u)))],
+  'What was measured of each need, and when');
+}
 
 function answerTables() {
   byId('kind-table').append(table([textColumn('pairs'), textColumn('model'), 'bytes a shape', 'ns a query', 'ns exactly', column('queries', {class: 'wide'}), textColumn('next cheaper one')],
@@ -75,10 +84,13 @@ function failures() {
 // Whether a run has one candidate for all pairs; runs of the search have longer names.
 const isUniform = run => !run.name.includes(' ') && run.name !== 'combination';
 function runTable() {
-  byId('run-table').append(table([textColumn('model'), 'a step, µs', 'contacts, µs', 'points', 'error / limit', 'held', textColumn('breaks first'), textColumn('worst answer before')],
-      data.runs.filter(isUniform).map(r => [r.name, exponent(r.step_microseconds, 3), exponent(r.microseconds_per_step, 3), r.points_per_step.toFixed(1),
+  const rows = models => data.runs.filter(r => isUniform(r) && r.models_alone === models);
+  const drawn = (runs, title) => table([textColumn('model'), 'a step, µs', 'contacts, µs', 'points', 'error / limit', 'held', textColumn('breaks first'), textColumn('worst answer before')],
+      runs.map(r => [r.name, exponent(r.step_microseconds, 3), exponent(r.microseconds_per_step, 3), r.points_per_step.toFixed(1),
           element('td', {class: r.holds ? 'good' : 'bad'}, r.error === null ? 'absurd' : exponent(r.error)),
-          `${r.held} of ${r.trials}`, wide(r.holds ? '' : failure(r)), wide(r.evidence ? `${r.evidence.bodies}: ${r.evidence.wrong}` : '')]), 'Each run with one model'));
+          `${r.held} of ${r.trials}`, wide(r.holds ? '' : failure(r)), wide(r.evidence ? `${r.evidence.bodies}: ${r.evidence.wrong}` : '')]), title);
+  byId('run-table').append(drawn(rows(true), 'Each run with one model'));
+  if (rows(false).length) byId('run-table').append(element('h3', {}, 'Routines, which are no models'), drawn(rows(false), 'Each run with one routine'));
   if (data.too_slow.length) byId('too-slow').textContent = `Not run, because their queries alone would take more than 3 s: ${data.too_slow.join(', ')}.`;
 }
 
@@ -95,7 +107,7 @@ function costChart() {
   const points = data.runs.map((run, i) => {
     const uniform = isUniform(run), isAnswer = i === data.answer;
     return {...at(i), fill: `var(${run.holds ? '--good' : '--bad'})`, stroke: null, size: uniform ? 60 : 30,
-            symbol: symbolPath(uniform ? 'circle' : 'diamond', 0, 0, 1),
+            symbol: symbolPath(!run.models_alone ? 'square' : uniform ? 'circle' : 'diamond', 0, 0, 1),
             label: isAnswer ? (i === 0 ? 'exact, the answer' : 'the answer') : uniform && isNamed(run, i) ? run.name : '',
             weight: isAnswer ? 'bold' : 'normal', order: isAnswer ? -2 : data.front.includes(i) ? -1 : i,
             tip: `${run.name}\n${exponent(cost[i])} µs, ${run.holds ? 'all needs hold' : failure(run)}`};

@@ -21,6 +21,11 @@ constexpr double max_simple = 2;
 
 using Models = std::vector<const Candidate*>;
 
+/// As Choice::has_models_alone has it, the exact candidate apart.
+bool is_model(const Candidate& candidate) {
+  return (is_own(candidate) || candidate.added) && !candidate.models.empty();
+}
+
 class ModelSearch {
  public:
   ModelSearch(const ChooseOptions& options, Choice& choice)
@@ -94,8 +99,7 @@ class ModelSearch {
   }
 
   bool can_be_answer(const SceneRun& run) const {
-    return run.holds() &&
-           std::ranges::all_of(run.models, [&](const Candidate* c) { return is_model(c); });
+    return run.holds() && choice_.has_models_alone(run);
   }
 
   /// Can the run be cheaper than the exact one?
@@ -136,13 +140,6 @@ class ModelSearch {
     return result;
   }
 
-  /// Is this what the answer can be? Engines' routines are run and judged, but are no models, not
-  /// even those for a hull in place of the cylinder; a model that was added is one.
-  bool is_model(const Candidate* candidate) const {
-    const bool can_be = is_own(*candidate) || candidate->added;
-    return candidate == &exact_ || (can_be && !candidate->models.empty());
-  }
-
   /// The model whose query is the next cheaper than another's.
   const Candidate* next_cheaper(std::size_t kind, const Candidate& model) const {
     const Candidate* result = nullptr;
@@ -150,7 +147,7 @@ class ModelSearch {
     const double max_time = cheaper_share * choice_.nanoseconds(kind, model);
     for (const Candidate* c : choice_.candidates) {
       const double time = choice_.nanoseconds(kind, *c);
-      const bool is_next = is_model(c) && c != &exact_ && time < max_time && time > most;
+      const bool is_next = is_model(*c) && time < max_time && time > most;
       if (is_next) most = time, result = c;
     }
     return result;
@@ -171,7 +168,7 @@ class ModelSearch {
       for (const Candidate* c : choice_.candidates) {
         const double time = choice_.nanoseconds(k, *c);
         const bool is_simple = c->value <= max_simple && time < infinity;
-        if (is_model(c) && (time < max_time || is_simple)) result.push_back(changed(exact, k, *c));
+        if (is_model(*c) && (time < max_time || is_simple)) result.push_back(changed(exact, k, *c));
       }
     }
     std::erase_if(result, [](const SceneRun& r) { return r.nanoseconds > max_run_time * 1e9; });
@@ -342,6 +339,11 @@ class ModelSearch {
 };
 
 }  // namespace
+
+bool Choice::has_models_alone(const SceneRun& run) const {
+  return std::ranges::all_of(
+      run.models, [&](const Candidate* c) { return c == candidates[0] || is_model(*c); });
+}
 
 std::vector<std::string> Choice::contacts_of(const SceneRun& run) const {
   const Candidate& exact = *candidates[0];

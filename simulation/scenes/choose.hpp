@@ -171,6 +171,10 @@ struct Choice {
   /// query; it breaks a need, or saves too little of a step. Absent where nothing cheaper supports
   /// the kind.
   std::vector<std::optional<std::size_t>> cheaper = {};
+  /// Can these be an answer: the exact cylinder, or models in its place? Engines' routines for the
+  /// cylinder are run and judged, but are no models, nor are those for a hull in its place; a model
+  /// that was added is one.
+  bool has_models_alone(const SceneRun& run) const;
   /// What read_contacts makes the contacts of a run of: one name if that says the same.
   std::vector<std::string> contacts_of(const SceneRun& run) const;
   /// Time of a query of this kind; infinite where the candidate has no routine.
