@@ -13,6 +13,7 @@
 #include "reports/replay.hpp"
 #include "reports/terminal.hpp"
 #include "simulation/scenes/engine_choice.hpp"
+#include "simulation/scenes/exact_motion.hpp"
 
 namespace touchstone {
 namespace {
@@ -46,8 +47,8 @@ struct ChooseArguments {
   }
 };
 
-/// The scene, with needs from its runs with exact contacts if it is a robot's; of these none is
-/// made if an engine that is named cannot do what the scene asks for.
+/// The scene, with needs from its runs with exact contacts if it is a robot's, in the engine's
+/// world if one is named; none is made if that cannot do what the scene asks for.
 SceneFile scene_of(const ChooseArguments& options) {
   SceneFile file = options.robot.scene(options.scene);
   if (!is_robot_file(options.scene)) return file;
@@ -55,11 +56,14 @@ SceneFile scene_of(const ChooseArguments& options) {
     describe_engine(options.engine);  // which has to be there
     check_engine_scene(options.engine, file.scene);
   }
-  const Trajectory exact_run =
-      run_exactly(file.scene, {options.disturbances, options.seed}, options.workers.get(),
-                  options.candidates.limits(), file.name);
-  add_robot_needs(file, exact_run);
-  if (exact_run.answers.empty() || file.needs.empty()) {
+  const Trials trials{options.disturbances, options.seed};
+  const unsigned workers = options.workers.get();
+  const ExactMotion exact =
+      options.engine.empty()
+          ? exact_motion(file.scene, trials, workers, options.candidates.limits(), file.name)
+          : exact_motion_in(options.engine, file.scene, trials, workers, file.name);
+  add_robot_needs(file, exact);
+  if (!exact.has_contacts() || file.needs.empty()) {
     throw InvalidInput("scene", '"' + options.scene + '"',
                        "must have a cylinder that moves and touches something: see --drive; "
                        "--depth scores poses at random instead");

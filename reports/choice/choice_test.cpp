@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
+#include <numbers>
 #include <sstream>
 
 #include <nlohmann/json.hpp>
@@ -249,6 +250,49 @@ TEST(ChoiceText, FitsIntoTheTerminalButForCommandsToPaste) {
   }
   EXPECT_THAT(choice_text(choice, "out"),
               HasSubstr("under 16 disturbances, the answer under 80 (seed 1)\n"));
+}
+
+/// Of an engine: in a run a can leans by this with some shapes, and by more with the others.
+Trajectory leaning(const std::vector<EngineShape>& shapes, const Scene& scene) {
+  using Kind = EngineShape::Kind;
+  const Kind kind = std::ranges::max_element(shapes, {}, &EngineShape::kind)->kind;
+  const double degrees = kind == Kind::exact ? 4 : kind == Kind::box ? 3 : 30;
+  Trajectory run;
+  run.step = scene.duration;
+  run.step_seconds = {1e-5};
+  for (const double lean : {0.0, degrees}) {
+    run.frames.emplace_back();
+    for (const Body& b : scene.bodies) {
+      const Eigen::AngleAxisd by(b.fixed ? 0 : lean * std::numbers::pi / 180, Vec3::UnitX());
+      run.frames.back().push_back(
+          {Pose(b.pose.position(), Eigen::Quaterniond(by)), Vec3::Zero(), Vec3::Zero()});
+    }
+  }
+  return run;
+}
+
+// No shape keeps the can within two degrees; a box leaves it nearer than the default, which a user
+// would otherwise keep.
+TEST(EngineChoiceText, SaysWhatComesNearestWhereNothingHolds) {
+  SceneFile file = can_with(stands);
+  file.scene.bodies[1].pose = Pose(Vec3(0, 0, 0.2));
+  const auto run = [](const std::string&, const std::vector<EngineShape>& shapes,
+                      const Scene& scene, bool) { return leaning(shapes, scene); };
+  const EngineChoice choice =
+      choose_in_engine(file, "ode", {.trials = {.disturbances = 0}, .run = run});
+  ASSERT_FALSE(choice.answer);
+  const std::string text = engine_choice_text(choice, 200);
+  EXPECT_THAT(text,
+              HasSubstr("No shape in ode meets all needs, not even with our routines installed. "
+                        "box comes nearest, and breaks 1 of 1:\n"
+                        "  1. BROKEN can stands within 2°: 3°\n"
+                        "     with cylinder: 30°\n"
+                        "     with cylinder + touchstone: 4°\n"));
+  EXPECT_THAT(text, HasSubstr("dCreateBox(space, 0.2, 0.2, 0.4)"));
+  const json data = json::parse(engine_choice_json(choice, ""));
+  EXPECT_EQ(data["answer"], nullptr);
+  EXPECT_EQ(data["settings"][data["nearest"].get<std::size_t>()]["name"], "box");
+  EXPECT_EQ(data["sizes"][0]["shape"], "box");
 }
 
 struct WarehousePairs : testing::Test {

@@ -50,12 +50,33 @@ std::string first_failure(const EngineSetting& setting) {
                      in_disturbance(setting));
 }
 
+std::size_t broken_of(const EngineSetting& setting) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(setting.verdicts, [](const Verdict& v) { return !v.holds(); }));
+}
+
+/// Where no setting is the answer: what a need came to with the default and with our routines.
+std::string compared(const EngineChoice& choice, std::size_t need) {
+  std::string text;
+  for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) {
+    const EngineSetting& setting = choice.settings[i];
+    if (i == choice.nearest()) continue;
+    text +=
+        fmt::format("     with {}: {}\n", setting_name(setting),
+                    setting.end.empty() ? measured(setting.verdicts[need], *choice.file.needs[need])
+                                        : setting.end);
+  }
+  return text;
+}
+
 std::string headline(const EngineChoice& choice) {
   const EngineSetting& usual = choice.default_setting();
   if (!choice.answer) {
+    const EngineSetting& nearest = choice.settings[choice.nearest()];
     return fmt::format(
-        "No shape in {} meets the needs, not even with our routines installed:\n  {}\n",
-        choice.engine.name, failure(choice, choice.exact_setting()));
+        "No shape in {} meets all needs, not even with our routines installed. {} comes nearest, "
+        "and breaks {} of {}:\n",
+        choice.engine.name, setting_name(nearest), broken_of(nearest), nearest.verdicts.size());
   }
   const EngineSetting& answer = choice.settings[*choice.answer];
   const std::string took =
@@ -82,12 +103,11 @@ std::string headline(const EngineChoice& choice) {
   return lines;
 }
 
-/// The answer's shape of each size, and the lines that make it.
-std::string lines_to_paste(const EngineChoice& choice) {
+/// A setting's shape of each size, and the lines that make it.
+std::string lines_to_paste(const EngineChoice& choice, const EngineSetting& setting) {
   std::string text;
-  const EngineSetting& answer = choice.settings[*choice.answer];
   for (std::size_t i = 0; i < choice.sizes.size(); ++i) {
-    const EngineShape& shape = answer.shapes[i];
+    const EngineShape& shape = setting.shapes[i];
     text += fmt::format("\n{} ({}): {}\n", choice.sizes[i].name, bodies_of(choice, choice.sizes[i]),
                         engine_shape_name(shape));
     std::istringstream lines(engine_lines(choice.engine.name, shape, cylinder_of(choice, i)));
@@ -166,13 +186,12 @@ std::string engine_choice_text(const EngineChoice& choice, std::size_t columns) 
                         choice.engine.name, choice.exact_end, need);
   }
   text += undecidable_text(choice.spreads) + '\n' + headline(choice);
-  const EngineSetting& shown =
-      choice.answer ? choice.settings[*choice.answer] : choice.exact_setting();
+  const EngineSetting& shown = choice.settings[choice.answer.value_or(choice.nearest())];
   for (std::size_t i = 0; i < shown.verdicts.size(); ++i) {
     text += need_line(file, choice.spreads, i, shown.verdicts[i]);
+    if (!choice.answer) text += compared(choice, i);
   }
-  text = Terminal{columns}.folded(text);
-  if (choice.answer) text += lines_to_paste(choice);
+  text = Terminal{columns}.folded(text) + lines_to_paste(choice, shown);
   return text + settings_table(choice, columns);
 }
 
@@ -182,15 +201,13 @@ std::string engine_choice_json(const EngineChoice& choice, const std::string& co
   scene["left_out"] = choice.left_out;
   scene["not_judged"] = choice.not_judged;
   scene["exact_end"] = choice.exact_end.empty() ? json(nullptr) : json(choice.exact_end);
+  const EngineSetting& shown = choice.settings[choice.answer.value_or(choice.nearest())];
   for (std::size_t i = 0; i < choice.sizes.size(); ++i) {
+    const EngineShape& shape = shown.shapes[i];
     sizes.push_back({{"name", choice.sizes[i].name},
                      {"bodies", bodies_of(choice, choice.sizes[i])},
-                     {"shape", nullptr},
-                     {"lines", nullptr}});
-    if (!choice.answer) continue;
-    const EngineShape& shape = choice.settings[*choice.answer].shapes[i];
-    sizes.back()["shape"] = engine_shape_name(shape);
-    sizes.back()["lines"] = engine_lines(choice.engine.name, shape, cylinder_of(choice, i));
+                     {"shape", engine_shape_name(shape)},
+                     {"lines", engine_lines(choice.engine.name, shape, cylinder_of(choice, i))}});
   }
   for (const EngineSetting& s : choice.settings) settings.push_back(setting_json(choice, s));
   const json result = {{"schema", "touchstone-engine-choice-1"},
@@ -203,6 +220,7 @@ std::string engine_choice_json(const EngineChoice& choice, const std::string& co
                        {"scene", scene},
                        {"sizes", sizes},
                        {"answer", choice.answer ? json(*choice.answer) : json(nullptr)},
+                       {"nearest", choice.nearest()},
                        {"settings", settings}};
   return result.dump(indent, ' ', false, json::error_handler_t::replace);
 }

@@ -147,10 +147,11 @@ function startMotion(motion) {
 // The page of `touchstone choose --engine`.
 function drawEngineChoice() {
   const {engine, settings, sizes} = data, usual = settings[0], best = data.answer === null ? null : settings[data.answer];
+  const shown = best ?? settings[data.nearest], broken = shown.verdicts.filter(v => !v.holds).length;
   const microseconds = s => s.step_microseconds === null ? '' : exponent(s.step_microseconds);
   byId('title').textContent = `Which shape does the scene ${data.scene.name} need in ${engine.name}?`;
   byId('description').textContent = data.scene.description;
-  byId('headline').textContent = best === null ? `No shape in ${engine.name} meets the needs, not even with our routines installed.`
+  byId('headline').textContent = best === null ? `No shape in ${engine.name} meets all needs, not even with our routines installed. ${shown.name} comes nearest, and breaks ${broken} of ${shown.verdicts.length}.`
       : data.answer === 0 ? `${engine.name}’s default cylinder: no other of its shapes that meets all needs takes less than nine tenths of its ${microseconds(best)} µs a step.`
       : `${best.name}: ${microseconds(best)} µs a step instead of ${microseconds(usual)} µs` +
         (usual.holds ? '; the default cylinder meets all needs, too.' : `. The default cylinder breaks: ${usual.failure}.`);
@@ -159,11 +160,11 @@ function drawEngineChoice() {
       (data.scene.not_judged.length ? ` Not judged, for ${engine.name} ended a run with our routines (${data.scene.exact_end}): ${data.scene.not_judged.join(', ')}.` : '') +
       (data.scene.left_out.length ? ` Left out, for an engine’s normals are not judged: ${data.scene.left_out.join(', ')}.` : '');
   origin();
-  byId('answer-note').textContent = 'The cheapest shape of each size of cylinder with which a whole run in the engine’s own world meets all needs, and the lines that make it.';
-  for (const size of sizes.filter(s => s.lines !== null)) {
+  byId('answer-note').textContent = best === null ? 'The shape of each size of cylinder that comes nearest, and the lines that make it.'
+      : 'The cheapest shape of each size of cylinder with which a whole run in the engine’s own world meets all needs, and the lines that make it.';
+  for (const size of sizes) {
     byId('kind-table').append(element('h3', {}, `${size.name} (${size.bodies}): ${size.shape}`), element('pre', {}, size.lines));
   }
-  const shown = best ?? settings[1];
   byId('need-table').append(needTable(shown.verdicts));
   byId('chart').remove();
   byId('failures').remove();

@@ -94,12 +94,6 @@ NamedContacts read_contacts(const std::vector<std::string>& names, const Scene& 
 Trajectory run_with(const DisturbedScene& scene, const NamedContacts& contacts,
                     const Candidate& exact, Processes& processes);
 
-/// Runs a scene with exact contacts as it is written, and under the disturbances in the worker
-/// processes: frames of the one, answers of all, whatever the number of these. `name` is that of
-/// the scene in errors.
-Trajectory run_exactly(const Scene& scene, const Trials& trials, unsigned workers,
-                       const Limits& limits, const std::string& name);
-
 /// Which models to try in a scene.
 struct ChooseOptions {
   std::vector<const Candidate*> candidates;  ///< beside the exact one

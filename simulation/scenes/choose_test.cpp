@@ -389,35 +389,6 @@ TEST(Choose, ExactContactsThatFailUnderAFurtherDisturbanceDoNotServe) {
   EXPECT_EQ(distances[choice.runs[0].disturbance] > (early + late) / 2, true);
 }
 
-TEST(RunExactly, HasTheSameBitsAsOneRunAfterAnotherWhateverTheWorkers) {
-  const Scene scene = two_cans(20, 5e-5);
-  Processes processes({});
-  CandidateModel exact(processes.of(find_candidate("reference")));
-  const Trials trials{3, 7};
-  Trajectory expected = run_scene(scene, exact);
-  for (std::size_t d = 1; d <= trials.disturbances; ++d) {
-    const DisturbedScene disturbed(scene, trials.seed, d);
-    const auto answers = disturbed.turned_back(run_scene(disturbed.scene, exact)).answers;
-    expected.answers.insert(expected.answers.end(), answers.begin(), answers.end());
-  }
-  for (const unsigned workers : {1U, 3U}) {
-    const Trajectory run = run_exactly(scene, trials, workers, {}, "two");
-    ASSERT_EQ(run.answers.size(), expected.answers.size());
-    for (std::size_t i = 0; i < run.answers.size(); ++i) {
-      const JudgedAnswer &a = run.answers[i], &b = expected.answers[i];
-      EXPECT_EQ(std::tie(a.frame, a.a, a.b, a.depth, a.status, a.signed_distance, a.normal_angle,
-                         a.points),
-                std::tie(b.frame, b.a, b.b, b.depth, b.status, b.signed_distance, b.normal_angle,
-                         b.points));
-    }
-    ASSERT_EQ(run.frames.size(), expected.frames.size());
-    for (std::size_t i = 0; i < 3; ++i) {
-      EXPECT_EQ(run.frames.back()[i].pose.position(), expected.frames.back()[i].pose.position());
-    }
-    EXPECT_EQ(run.step, expected.step);
-  }
-}
-
 TEST(Choose, AModelsBytesAreThoseOfAllItsParts) {
   SceneFile file = standing_can(stands);
   file.scene.duration = 0.01;

@@ -63,6 +63,14 @@ std::vector<EngineShape> shapes_by_body(const EngineChoice& choice, const Engine
   return shapes;
 }
 
+/// What is less of the setting that comes nearer to holding.
+std::tuple<bool, std::ptrdiff_t, std::ptrdiff_t, double> failing(const EngineSetting& setting) {
+  const auto broken = std::ranges::count_if(
+      setting.verdicts, [](const Verdict& verdict) { return !verdict.holds(); });
+  return {!setting.end.empty(), -static_cast<std::ptrdiff_t>(setting.held), broken,
+          setting.error()};
+}
+
 class SettingSearch {
  public:
   SettingSearch(const EngineChoiceOptions& options, EngineChoice& choice)
@@ -127,15 +135,9 @@ class SettingSearch {
     while (!has_own_that_holds() && choice_.settings.size() < max_settings) {
       tried.resize(choice_.settings.size());
       std::optional<std::size_t> next;
-      const auto failing = [&](std::size_t i) {
-        const EngineSetting& s = choice_.settings[i];
-        const auto broken = std::ranges::count_if(
-            s.verdicts, [](const Verdict& verdict) { return !verdict.holds(); });
-        return std::tuple(!s.end.empty(), broken, s.error());
-      };
       for (std::size_t i = 0; i < choice_.settings.size(); ++i) {
         if (tried[i] || !is_own(choice_.settings[i])) continue;
-        if (!next || failing(i) < failing(*next)) next = i;
+        if (!next || failing(choice_.settings[i]) < failing(choice_.settings[*next])) next = i;
       }
       if (!next || choice_.sizes.size() < 2) return;
       tried[*next] = true;
@@ -360,6 +362,11 @@ class SettingSearch {
 };
 
 }  // namespace
+
+std::size_t EngineChoice::nearest() const {
+  const auto least = std::ranges::min_element(settings, {}, failing);
+  return static_cast<std::size_t>(least - settings.begin());
+}
 
 bool EngineSetting::has(Kind kind) const {
   return std::any_of(shapes.begin(), shapes.end(),

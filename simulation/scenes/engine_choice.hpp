@@ -62,6 +62,9 @@ struct EngineChoice {
   Trials trials = {};
   std::optional<std::size_t> answer = {};  ///< index of a setting; absent: none holds
 
+  /// Index of the setting that comes nearest to what the needs ask for: which held in the most
+  /// runs, and of these breaks the fewest needs, by least.
+  std::size_t nearest() const;
   const EngineSetting& default_setting() const { return settings[0]; }
   const EngineSetting& exact_setting() const { return settings[1]; }
 };

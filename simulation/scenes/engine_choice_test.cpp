@@ -19,6 +19,7 @@
 #include "candidates/host/contained.hpp"
 #include "reference/invalid_input.hpp"
 #include "simulation/scenes/choose.hpp"
+#include "simulation/scenes/exact_motion.hpp"
 #include "simulation/scenes/robot_file.hpp"
 
 namespace touchstone {
@@ -207,7 +208,7 @@ TEST(EngineChoices, AreMadeForRobotsAndWorldsToo) {
     motion.duration = 0.1;
     const std::filesystem::path scenes = TOUCHSTONE_SCENES;
     SceneFile file = robot_scene(read_robot(scenes / name), motion);
-    add_robot_needs(file, run_exactly(file.scene, {1, 1}, 2, {}, file.name));
+    add_robot_needs(file, exact_motion_in(engine, file.scene, {1, 1}, 2, file.name));
     const EngineChoice choice = choose_in_engine(
         file, engine, {.workers = 2, .trials = {.disturbances = 0}, .run = with_cylinders_alone});
     EXPECT_EQ(choice.default_setting().end, "") << name;

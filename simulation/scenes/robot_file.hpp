@@ -16,6 +16,8 @@
 
 namespace touchstone {
 
+struct ExactMotion;
+
 /// Bits that say what a shape may touch: what has one of its `meets` among its `types`, or the
 /// other way round. MuJoCo's contype and conaffinity.
 struct CollisionMask {
@@ -111,10 +113,10 @@ struct RobotMotion {
 /// there is one base that it could hold.
 SceneFile robot_scene(const RobotFile& robot, const RobotMotion& motion);
 
-/// Gives the scene of a robot needs derived from its run with exact contacts, whose answers may
-/// include those of disturbed runs (run_exactly): every moving body that touches something
-/// overlaps little more than it does there, and what no joint holds ends near where it does there.
-void add_robot_needs(SceneFile& file, const Trajectory& exact);
+/// Gives the scene of a robot needs derived from its runs with exact contacts, in the world that it
+/// is chosen for: every moving body that touches something overlaps little more than it does there,
+/// and what no joint holds ends near where it does there.
+void add_robot_needs(SceneFile& file, const ExactMotion& exact);
 
 /// "left out: 1 of 8 collision shapes (volume unknown)"; empty if nothing was.
 std::string left_out_text(const RobotFile& robot);

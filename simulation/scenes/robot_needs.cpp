@@ -5,6 +5,7 @@
 #include <string>
 
 #include "reference/support.hpp"
+#include "simulation/scenes/exact_motion.hpp"
 #include "simulation/scenes/robot_file.hpp"
 
 namespace touchstone {
@@ -19,18 +20,13 @@ double rounded_up(double x) {
 
 }  // namespace
 
-void add_robot_needs(SceneFile& file, const Trajectory& exact) {
+void add_robot_needs(SceneFile& file, const ExactMotion& exact) {
   const std::vector<Body>& bodies = file.scene.bodies;
   // Which of four equal wheels carries more is left to chance.
   std::map<std::string, double> depth_of_shape;
-  std::set<int> touching;
-  for (const JudgedAnswer& answer : exact.answers) {
-    if (!(answer.depth > 0)) continue;
-    for (const int b : {answer.a, answer.b}) {
-      touching.insert(b);
-      double& depth = depth_of_shape[shape_text(bodies[b].shape)];
-      depth = std::max(depth, answer.depth);
-    }
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    double& depth = depth_of_shape[shape_text(bodies[i].shape)];
+    depth = std::max(depth, exact.depths[i]);
   }
   std::set<int> held;             // bodies that a joint holds to another one
   std::map<int, double> carried;  // by body: largest half width of those that joints hold to it
@@ -44,7 +40,7 @@ void add_robot_needs(SceneFile& file, const Trajectory& exact) {
     if (body.fixed) continue;
     const int index = static_cast<int>(i);
     constexpr double share_of_width = 0.01, of_exact = 2;
-    if (touching.contains(index)) {
+    if (exact.depths[i] > 0) {
       const double depth = depth_of_shape.at(shape_text(body.shape));
       const double width = 2 * smallest_half_extent(body.shape);
       file.needs.push_back(
@@ -55,14 +51,10 @@ void add_robot_needs(SceneFile& file, const Trajectory& exact) {
     // could be wrong with the end of a flight.
     if (!body.collides && !carried.contains(index)) continue;
     constexpr double share_of_way = 0.02, share_of_size = 0.05;
-    double way = 0;
-    for (std::size_t f = 1; f < exact.frames.size(); ++f) {
-      way += (exact.frames[f][i].pose.position() - exact.frames[f - 1][i].pose.position()).norm();
-    }
     const double half_width = body.collides ? largest_half_extent(body.shape) : carried.at(index);
     const double size = 2 * half_width;
     file.needs.push_back(
-        ends_near_need(index, rounded_up(share_of_way * way + share_of_size * size)));
+        ends_near_need(index, rounded_up(share_of_way * exact.ways[i] + share_of_size * size)));
   }
 }
 

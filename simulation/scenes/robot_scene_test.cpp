@@ -9,6 +9,7 @@
 #include "reference/invalid_input.hpp"
 #include "simulation/assembly.hpp"
 #include "simulation/scenes/choose.hpp"
+#include "simulation/scenes/exact_motion.hpp"
 #include "simulation/scenes/robot_file.hpp"
 
 namespace touchstone {
@@ -374,11 +375,8 @@ TEST(RobotNeeds, ABaseWhoseShapesAreNotReadEndsWhereItsWheelsCarryIt) {
   robot.links.back().mass = 5;
   robot.joints = {hinge("left", 2, 0), hinge("right", 2, 1)};
   SceneFile file = robot_scene(robot, {});
-  Trajectory run;
-  std::vector<BodyState> states;
-  for (const Body& b : file.scene.bodies) states.push_back({b.pose, Vec3::Zero(), Vec3::Zero()});
-  run.frames = {states, states};
-  add_robot_needs(file, run);
+  const std::vector<double> nothing(file.scene.bodies.size());
+  add_robot_needs(file, {nothing, nothing});
   ASSERT_EQ(file.needs.size(), 1U);
   // 5% of the width of the larger wheel, 0.25 m.
   EXPECT_EQ(file.needs[0]->text(file.scene), "base ends within 0.013 m of the exact place");
@@ -445,7 +443,7 @@ Choice choice_of(const std::string& name, const RobotMotion& motion,
   options.trials.disturbances = 2;
   SceneFile file = robot_scene(read_robot(robot_scenes / name), motion);
   add_robot_needs(file,
-                  run_exactly(file.scene, options.trials, options.workers, options.limits, name));
+                  exact_motion(file.scene, options.trials, options.workers, options.limits, name));
   return choose(file, options);
 }
 

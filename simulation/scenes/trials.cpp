@@ -1,17 +1,14 @@
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <fmt/format.h>
 #include <functional>
 #include <limits>
 #include <numeric>
 #include <set>
-#include <type_traits>
 
 #include "candidates/candidates.hpp"
 #include "candidates/host/own_respondent.hpp"
 #include "candidates/host/progress.hpp"
-#include "candidates/host/worker_processes.hpp"
 #include "oracle/judge/score.hpp"
 #include "oracle/truth.hpp"
 #include "reference/invalid_input.hpp"
@@ -218,19 +215,6 @@ std::string kind_name(const Body& a, const Body& b) {
   return shape_text(a.shape) + " on " + shape_text(b.shape);
 }
 
-// Answers on their way from one process of this program to another.
-static_assert(std::is_trivially_copyable_v<JudgedAnswer>);
-
-std::string bytes_of(const std::vector<JudgedAnswer>& answers) {
-  return {reinterpret_cast<const char*>(answers.data()), answers.size() * sizeof(JudgedAnswer)};
-}
-
-void append_answers(const std::string& bytes, std::vector<JudgedAnswer>& answers) {
-  const std::size_t before = answers.size();
-  answers.resize(before + bytes.size() / sizeof(JudgedAnswer));
-  std::memcpy(answers.data() + before, bytes.data(), bytes.size());
-}
-
 }  // namespace
 
 std::vector<ReplayScore> replay(const std::vector<Configuration>& configurations,
@@ -343,27 +327,6 @@ Trajectory run_with(const DisturbedScene& scene, const NamedContacts& contacts,
     return processes.of(exact);
   });
   return run_scene(scene.scene, model);
-}
-
-Trajectory run_exactly(const Scene& scene, const Trials& trials, unsigned workers,
-                       const Limits& limits, const std::string& name) {
-  Processes processes(limits);  // each worker process starts its own
-  const auto run = [&](const Scene& of) {
-    CandidateModel model(processes.of(*exact_first({}).front()));
-    return run_scene(of, model);
-  };
-  Progress progress("exact runs, disturbed", trials.disturbances);
-  const auto answers = run_in_processes(
-      trials.disturbances, workers,
-      [&](std::size_t i) {
-        const DisturbedScene disturbed(scene, trials.seed, i + 1);
-        return bytes_of(disturbed.turned_back(run(disturbed.scene)).answers);
-      },
-      [&](std::size_t i) { return fmt::format("{}, disturbance {}", name, i + 1); },
-      [&](std::size_t done) { progress.update(done); });
-  Trajectory result = run(scene);
-  for (const std::string& bytes : answers) append_answers(bytes, result.answers);
-  return result;
 }
 
 SceneJudge::SceneJudge(const SceneFile& file, const PairKinds& kinds, const Candidate& exact,
