@@ -49,8 +49,8 @@ struct ChooseArguments {
 
 /// The scene, with needs from its runs with exact contacts if it is a robot's, in the engine's
 /// world if one is named; none is made if that cannot do what the scene asks for.
-SceneFile scene_of(const ChooseArguments& options) {
-  SceneFile file = options.robot.scene(options.scene);
+SceneFile scene_of(ChooseArguments& options) {
+  SceneFile file = options.robot.scene_with_rolling_wheels(options.scene);
   if (!is_robot_file(options.scene)) return file;
   if (!options.engine.empty()) {
     describe_engine(options.engine);  // which has to be there
@@ -71,12 +71,12 @@ SceneFile scene_of(const ChooseArguments& options) {
   return file;
 }
 
-int choose_scene(const ChooseArguments& options) {
+int choose_scene(ChooseArguments& options) {
+  const SceneFile file = scene_of(options);
   const std::string command =
       options.command_line() +
       fmt::format(" --disturbances {} --seed {}", options.disturbances, options.seed);
   const Limits limits = options.candidates.limits();
-  const SceneFile file = scene_of(options);
   Choice choice = choose(
       file,
       {options.contestants(), options.workers.get(), limits, {options.disturbances, options.seed}});
@@ -95,14 +95,14 @@ int choose_scene(const ChooseArguments& options) {
   return choice.impossible ? not_served : 0;
 }
 
-int choose_for_engine(const ChooseArguments& options) {
+int choose_for_engine(ChooseArguments& options) {
+  const SceneFile file = scene_of(options);
   const std::string command =
       fmt::format("{} choose {}{} --engine {} --disturbances {} --seed {}", program_name(),
                   shell_quoted(options.scene), options.robot.command_line(), options.engine,
                   options.disturbances, options.seed);
-  const EngineChoice choice =
-      choose_in_engine(scene_of(options), options.engine,
-                       {options.workers.get(), {options.disturbances, options.seed}});
+  const EngineChoice choice = choose_in_engine(
+      file, options.engine, {options.workers.get(), {options.disturbances, options.seed}});
   const auto write = [&] {
     write_file(options.out + "/choose.json", engine_choice_json(choice, command, 1) + '\n',
                "--out");
@@ -137,7 +137,7 @@ int choose_pairs(const ChooseArguments& options) {
   return choice.all_served() ? 0 : not_served;
 }
 
-int run_choose(const ChooseArguments& options) {
+int run_choose(ChooseArguments& options) {
   const bool is_robot = is_robot_file(options.scene);
   for (const Option& option : is_robot ? options.of_motions : options.of_samples) {
     if (!option.is_given() || (is_robot && !options.is_sampled())) continue;
@@ -186,7 +186,8 @@ void add_choose(Program& program) {
       "Examples:\n"
       "  touchstone choose simulation/scenes/log-pile.json\n"
       "  touchstone choose simulation/scenes/conveyor.json --candidates spheres:1..16\n"
-      "  touchstone choose simulation/scenes/rover.urdf --drive left_finger_joint=0.05\n"
+      "  touchstone choose simulation/scenes/rover.urdf\n"
+      "  touchstone choose simulation/scenes/gripper.urdf --drive left_finger_joint=0.05\n"
       "  touchstone choose simulation/scenes/log-pile.json --engine bullet\n"
       "  touchstone choose simulation/scenes/gripper.urdf --depth 0.002 --angle 10\n"
       "Exit code 1: not even exact contacts meet the needs.");

@@ -213,16 +213,26 @@ RobotFile RobotOption::robot(const std::string& file) const {
   return robot;
 }
 
-SceneFile RobotOption::scene(const std::string& file) const {
-  if (is_robot_file(file)) {
-    const RobotFile read = robot(file);
-    try {
-      return robot_scene(read, motion());
-    } catch (const InvalidInput& e) {
-      const bool is_in_file = e.field() != "scene" && !e.field().starts_with("--");
-      throw InvalidInput((is_in_file ? file + ": " : "") + e.field(), e.value(), e.remedy());
-    }
+SceneFile RobotOption::scene_of(const RobotFile& robot, const std::string& file) const {
+  try {
+    return robot_scene(robot, motion());
+  } catch (const InvalidInput& e) {
+    const bool is_in_file = e.field() != "scene" && !e.field().starts_with("--");
+    throw InvalidInput((is_in_file ? file + ": " : "") + e.field(), e.value(), e.remedy());
   }
+}
+
+SceneFile RobotOption::scene_with_rolling_wheels(const std::string& file) {
+  if (!is_robot_file(file) || !drives_.empty()) return scene(file);
+  const RobotFile read = robot(file);
+  for (const auto& [joint, rate] : rolling_rates(read)) {
+    drives_.push_back(fmt::format("{}={:.3g}", joint, rate));
+  }
+  return scene_of(read, file);
+}
+
+SceneFile RobotOption::scene(const std::string& file) const {
+  if (is_robot_file(file)) return scene_of(robot(file), file);
   for (const Option& option : options_) {
     if (!option.is_given()) continue;
     throw InvalidInput("scene", '"' + file + '"',

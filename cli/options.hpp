@@ -102,6 +102,9 @@ struct RobotOption {
   /// A scene file as it is written, or the scene of a robot or world. Throws InvalidInput, also for
   /// one of these options with a scene file.
   SceneFile scene(const std::string& file) const;
+  /// Likewise; wheels of a robot or world roll if --drive is not given, and these options then say
+  /// so.
+  SceneFile scene_with_rolling_wheels(const std::string& file);
   /// These options as text, to be repeated.
   std::string command_line() const;
   const std::vector<Option>& all() const { return options_; }
@@ -110,6 +113,7 @@ struct RobotOption {
 
  private:
   RobotMotion motion() const;
+  SceneFile scene_of(const RobotFile& robot, const std::string& file) const;
 
   std::vector<std::string> drives_, folders_;
   bool has_fixed_base_ = false;

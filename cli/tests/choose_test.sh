@@ -64,6 +64,16 @@ left=$(cd "$folder/choice" && ls -1 choose.* choose/*99* choose/mine.json 2>/dev
 
 # Robots: in motion, and by sampled poses.
 expect 0 'left and ground' choose "$cart" --duration 0.1 "${brief[@]}" --out "$folder/cart"
+# Its wheels roll, also in the command that makes a run again; of a robot without wheels the joints are named.
+also '; driven: left_wheel=3.14, right_wheel=3.14$'
+expect 0 "render [^ ]*cart.urdf --drive 'left_wheel=3.14,right_wheel=3.14' --duration 0.1 --contacts" \
+  choose "$cart" --duration 0.1 "${brief[@]}" --json --out "$folder/cart"
+expect 0 '; driven: left_wheel=0$' choose "$cart" --drive left_wheel=0 --duration 0.1 "${brief[@]}" --out "$folder/cart"
+sed 's/type="continuous"/type="revolute"/; s/<axis xyz="0 0 1"\/>/&<limit lower="-1" upper="1" effort="9" velocity="9"\/>/' \
+  "$cart" >"$folder/legs.urdf"
+expect 0 '; no joint is driven (--drive), of$' \
+  choose "$folder/legs.urdf" --duration 0.1 "${brief[@]}" --out "$folder/cart"
+also '^left_wheel, right_wheel$'
 expect 0 'cylinder .* on cylinder ' choose "$cart" --count 5 --candidates reference --out "$folder/cart"
 also "^Data: $folder/cart/choose.json"
 driven=(choose "$cart" --engine bullet --duration 0.1 --disturbances 1 --drive left_wheel=3 --out "$folder/cart")

@@ -273,6 +273,7 @@ std::string choice_text(const Choice& choice, const std::string& folder, std::si
   std::string lines =
       fmt::format("{}: {}, {:g} s in steps of {:.2g} s\n", file.name,
                   counted(file.scene.bodies.size(), "body"), file.scene.duration, file.scene.step);
+  if (!file.description.empty()) lines += file.description + '\n';
   if (const Trials& t = choice.trials; t.disturbances > 0) {
     lines += fmt::format("Each run as written, then under {}, the answer under {} (seed {})\n",
                          counted(t.disturbances, "disturbance"), t.of_answer(), t.seed);

@@ -174,6 +174,7 @@ std::string engine_choice_text(const EngineChoice& choice, std::size_t columns) 
       fmt::format("{} in {} {}: {}, {:g} s in steps of {:.2g} s\n", file.name, choice.engine.name,
                   choice.engine.version, counted(file.scene.bodies.size(), "body"),
                   file.scene.duration, file.scene.step);
+  if (!file.description.empty()) text += file.description + '\n';
   if (const Trials& t = choice.trials; t.disturbances > 0) {
     text += fmt::format("Each run as written, then under {}, the answer under {} (seed {})\n",
                         counted(t.disturbances, "disturbance"), t.of_answer(), t.seed);

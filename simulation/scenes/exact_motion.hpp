@@ -14,7 +14,7 @@ namespace touchstone {
 struct ExactMotion {
   std::vector<double> depths = {};  ///< by body, m: the largest of pairs with a cylinder, in all
                                     ///< runs; zero of one that touches nothing
-  std::vector<double> ways = {};  ///< by body, m, in the run as it is written
+  std::vector<double> ways = {};    ///< by body, m, in the run as it is written
 
   bool has_contacts() const;
 };

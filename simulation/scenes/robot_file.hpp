@@ -106,6 +106,11 @@ struct RobotMotion {
   bool has_fixed_base = false;                        ///< the root link of the robot is held
 };
 
+/// Moderate rates that roll a robot's wheels the same way, at the same speed of their rims: of
+/// joints with a motor and without limits whose link is round about their axis, which is not
+/// upright. In the order of the joints; none of a robot without wheels.
+std::vector<std::pair<std::string, double>> rolling_rates(const RobotFile& robot);
+
 /// A scene of the robot, at rest at the start: a body for each shape, fixed joints between those of
 /// a link, motors that hold the other joints or drive them; under a robot a ground plane, which it
 /// touches with its lowest point. What overlaps at the start never touches. Throws InvalidInput

@@ -483,6 +483,22 @@ class SceneMaker {
     }
   }
 
+  /// Which joints move by themselves, or that none does.
+  std::string driven_text() const {
+    constexpr std::size_t max_shown = 6;
+    std::vector<std::string> names;
+    for (const auto& [joint, rate] : motion_.rates) {
+      names.push_back(fmt::format("{}={:g}", joint, rate));
+    }
+    const bool is_driven = !names.empty();
+    if (!is_driven) names = movable_joints();
+    if (names.empty()) return "";
+    const std::size_t more = names.size() - std::min(names.size(), max_shown);
+    names.resize(names.size() - more);
+    return fmt::format("; {} {}{}", is_driven ? "driven:" : "no joint is driven (--drive), of",
+                       fmt::join(names, ", "), more > 0 ? fmt::format(" and {} more", more) : "");
+  }
+
   std::string description() const {
     std::size_t hinges = 0, sliders = 0, moving = 0;
     for (const Joint& joint : file_.scene.joints) {
@@ -490,8 +506,9 @@ class SceneMaker {
       sliders += joint.kind == JointKind::slider ? 1 : 0;
     }
     for (const Body& body : file_.scene.bodies) moving += body.fixed ? 0 : 1;
-    std::string text =
-        fmt::format("{} moving shapes, {} hinges, {} sliders", moving, hinges, sliders);
+    std::string text = fmt::format("{}, {}, {}", counted(moving, "moving shape"),
+                                   counted(hinges, "hinge"), counted(sliders, "slider"));
+    text += driven_text();
     if (const std::string left = left_out_text(robot_); !left.empty()) text += "; " + left;
     return text;
   }

@@ -122,6 +122,72 @@ TEST(RobotScene, AJointIsDrivenOrLooseByOption) {
   EXPECT_FALSE(joint(robot_scene(two_balls(), motion).scene, "elbow").motor);
 }
 
+/// A link with a shape and a hinge without limits about y through its centre, of a robot.
+void add_wheel(RobotFile& robot, const std::string& name, const Shape& shape, const Pose& pose,
+               const Vec3& axis = Vec3::UnitY()) {
+  Link link{name, pose};
+  link.shapes.push_back({name, shape, pose});
+  robot.links.push_back(link);
+  robot.joints.push_back(hinge(name, 0, static_cast<int>(robot.links.size()) - 1));
+  robot.joints.back().anchor = pose.position();
+  robot.joints.back().axis = axis;
+}
+
+/// A base and wheels of 0.1 and 0.05 m about y, of which the second one's joint is the other way
+/// round.
+RobotFile wheeled() {
+  RobotFile robot;
+  robot.name = "wheeled";
+  robot.links = {{"base", Pose(Vec3(0, 0, 0.2))}};
+  robot.links[0].shapes.push_back({"base", Box(Vec3(0.2, 0.1, 0.05)), Pose(Vec3(0, 0, 0.2))});
+  const Eigen::Quaterniond across = turn_between(Vec3::UnitZ(), Vec3::UnitY());
+  add_wheel(robot, "large", Cylinder(0.1, 0.02), Pose(Vec3(0, 0.2, 0.1), across));
+  add_wheel(robot, "small", Sphere(0.05), Pose(Vec3(0.2, 0, 0.05)), -Vec3::UnitY());
+  return robot;
+}
+
+TEST(RollingRates, AreThoseOfWheelsAloneAllTheSameWay) {
+  RobotFile robot = wheeled();
+  const auto rates = rolling_rates(robot);
+  ASSERT_EQ(rates.size(), 2U);
+  EXPECT_EQ(rates[0].first, "large");
+  EXPECT_EQ(rates[1].first, "small");
+  EXPECT_GT(rates[0].second, 0);
+  EXPECT_NEAR(rates[1].second, -2 * rates[0].second, 1e-12);  // the same speed of their rims
+
+  const auto names = [&] {
+    std::vector<std::string> result;
+    for (const auto& [name, rate] : rolling_rates(robot)) result.push_back(name);
+    return result;
+  };
+  // A lidar that spins upright, a crank that is off its axis, a box, an arm with limits.
+  add_wheel(robot, "lidar", Cylinder(0.03, 0.02), Pose(Vec3(0, 0, 0.3)), Vec3::UnitZ());
+  add_wheel(robot, "crank", Sphere(0.02), Pose(Vec3(0, 0, 0.4)));
+  robot.joints.back().anchor = Vec3(0.1, 0, 0.4);
+  add_wheel(robot, "paddle", Box(Vec3(0.1, 0.1, 0.1)), Pose(Vec3(0, 0, 0.4)));
+  add_wheel(robot, "arm", Cylinder(0.02, 0.2), Pose(Vec3(0, 0.4, 0.4)));
+  add_wheel(robot, "limited", Sphere(0.02), Pose(Vec3(0, 0, 0.4)));
+  robot.joints.back().upper = 3;
+  EXPECT_THAT(names(), testing::ElementsAre("large", "small"));
+  robot.joints[0].holds = false;  // what no motor drives, as in MJCF
+  EXPECT_THAT(names(), testing::ElementsAre("small"));
+  EXPECT_TRUE(rolling_rates(read_robot(robot_scenes / "gripper.urdf")).empty());
+}
+
+TEST(RollingRates, RollARobotForwardAndItsDescriptionSaysSo) {
+  const RobotFile robot = read_robot(robot_scenes / "rover.urdf");
+  RobotMotion motion;
+  EXPECT_THAT(robot_scene(robot, motion).description,
+              HasSubstr("; no joint is driven (--drive), of front_left_wheel_joint, "));
+  motion.rates = rolling_rates(robot);
+  EXPECT_EQ(motion.rates.size(), 4U);
+  const SceneFile file = robot_scene(robot, motion);
+  EXPECT_THAT(file.description, HasSubstr("; driven: front_left_wheel_joint=3.14159, "));
+  const ExactMotion exact = exact_motion(file.scene, {0, 1}, 1, {}, file.name);
+  // Two seconds, less two tenths of start-up on the average of half the rate, at a radius of 0.1 m.
+  EXPECT_NEAR(exact.ways[index(file.scene, "chassis")], 3.14159 * 0.1 * 1.9, 0.03);
+}
+
 TEST(RobotScene, TheRootIsHeldByOption) {
   RobotMotion motion;
   EXPECT_FALSE(body(robot_scene(two_balls(), motion).scene, "a").fixed);
