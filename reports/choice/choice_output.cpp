@@ -90,6 +90,7 @@ json kind_json(const Choice& choice, std::size_t k) {
                  {"pair", pair_name(kind.pair)},
                  {"asked", kind.answers.size()},
                  {"chosen", chosen.name},
+                 {"is_sphere", choice.is_sphere(k, chosen)},
                  {"bytes", choice.model_bytes(k, chosen)},
                  {"nanoseconds", choice.nanoseconds(k, chosen)},
                  {"exact_nanoseconds", choice.nanoseconds(k, exact)},

@@ -147,6 +147,17 @@ TEST(ChoiceText, SaysInHowManyRunsAModelHeld) {
               testing::ContainsRegex("\n  capsule: breaks need 1, [^:]*held in[ \n]+" + held));
 }
 
+TEST(ChoiceText, SaysWhereACapsuleIsASphere) {
+  SceneFile file = can_with(stands);
+  file.scene.bodies[1].shape = Cylinder(0.1, 0.1);
+  file.scene.bodies[1].pose = Pose(Vec3(0, 0, 0.1));
+  Choice choice = choose(file, {find_candidates({"capsule"}), 1, {}, {0, 1}});
+  choice.answer = 1;  // whichever is the answer here
+  ASSERT_EQ(choice.runs[1].name, "capsule");
+  EXPECT_THAT(choice_text(choice, "out"), HasSubstr("): capsule (a sphere here)\n"));
+  EXPECT_EQ(json::parse(choice_json(choice, "", "out"))["kinds"][0]["is_sphere"], true);
+}
+
 // An engine's routine answers for the cylinder itself: it stands for nothing, and is no answer,
 // however little it takes.
 TEST(ChoiceText, SetsEnginesRoutinesApartFromModels) {

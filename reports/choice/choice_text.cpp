@@ -92,14 +92,20 @@ std::string needs_of(const Choice& choice, const SceneRun& run) {
   return lines + left_out;
 }
 
+/// A candidate's name, with what it is for this kind where that is no capsule.
+std::string model_name(const Choice& choice, std::size_t kind, const Candidate& model) {
+  return model.name + (choice.is_sphere(kind, model) ? " (a sphere here)" : "");
+}
+
 /// The model of a kind with the next cheaper query, and how it fails.
 std::string next_cheaper(const Choice& choice, std::size_t kind, const std::string& folder) {
   if (choice.cheaper.empty() || !choice.cheaper[kind]) return "    nothing is cheaper\n";
   const std::size_t index = *choice.cheaper[kind];
   const SceneRun& run = choice.runs[index];
   const Candidate& cheaper = *run.models[kind];
-  std::string lines = fmt::format("    next cheaper: {}, {:.0f} ns, ", cheaper.name,
-                                  choice.nanoseconds(kind, cheaper));
+  std::string lines =
+      fmt::format("    next cheaper: {}, {:.0f} ns, ", model_name(choice, kind, cheaper),
+                  choice.nanoseconds(kind, cheaper));
   if (run.holds()) {
     const auto microseconds = [&](const SceneRun& r) { return 1e6 * r.seconds() / choice.steps(); };
     return lines + fmt::format("holds: {}{:.3g} µs a step, and the answer {:.3g}\n",
@@ -123,8 +129,8 @@ std::string kinds_of(const Choice& choice, const std::string& folder) {
     const Candidate& chosen = *choice.runs[choice.answer].models[k];
     const double ns = choice.nanoseconds(k, chosen);
     const bool is_exact = &chosen == &exact;
-    lines +=
-        fmt::format("  {} ({}): {}\n", kind.name, kind.bodies, is_exact ? "exact" : chosen.name);
+    lines += fmt::format("  {} ({}): {}\n", kind.name, kind.bodies,
+                         is_exact ? "exact" : model_name(choice, k, chosen));
     lines +=
         is_exact
             ? fmt::format("    {:.0f} ns a query\n", ns)

@@ -64,7 +64,7 @@ function needTable(verdicts) {
 
 function answerTables() {
   byId('kind-table').append(table([textColumn('pairs'), textColumn('model'), 'bytes a shape', 'ns a query', 'ns exactly', column('queries', {class: 'wide'}), textColumn('next cheaper one')],
-      data.kinds.map(k => [wide(`${k.name} (${k.bodies})`), exactName(k.chosen), whole(k.bytes), whole(k.nanoseconds), whole(k.exact_nanoseconds),
+      data.kinds.map(k => [wide(`${k.name} (${k.bodies})`), exactName(k.chosen) + (k.is_sphere ? ', here a sphere' : ''), whole(k.bytes), whole(k.nanoseconds), whole(k.exact_nanoseconds),
           whole(k.asked), k.next_cheaper === null ? 'there is none' : `${k.next_cheaper.name}, ${whole(k.next_cheaper.nanoseconds)} ns, ` +
             (data.runs[k.next_cheaper.run].holds ? `holds: ${exponent(data.runs[k.next_cheaper.run].step_microseconds, 3)} µs a step` : 'breaks a need')]), 'Times of a query, median'));
   byId('need-table').append(needTable(answer.verdicts));

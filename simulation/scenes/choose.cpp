@@ -1,6 +1,7 @@
 #include "simulation/scenes/choose.hpp"
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <tuple>
 #include <utility>
@@ -20,6 +21,17 @@ constexpr double max_run_time = 3;
 constexpr double max_simple = 2;
 
 using Models = std::vector<const Candidate*>;
+
+/// As Choice::is_sphere has it.
+bool is_sphere_for(const PairKind& kind, const Scene& scene, const Candidate& candidate) {
+  const bool is_capsule = candidate.family == "capsule";
+  if (!is_capsule && !(candidate.family == "spheres" && candidate.value > 1)) return false;
+  const JudgedAnswer& answer = kind.answers.front();
+  return std::ranges::all_of(std::array{answer.a, answer.b}, [&](int body) {
+    const auto* c = std::get_if<Cylinder>(&scene.bodies[body].shape);
+    return !c || is_one_sphere(*c, is_capsule);
+  });
+}
 
 /// As Choice::has_models_alone has it, the exact candidate apart.
 bool is_model(const Candidate& candidate) {
@@ -340,6 +352,10 @@ class ModelSearch {
 
 }  // namespace
 
+bool Choice::is_sphere(std::size_t kind, const Candidate& candidate) const {
+  return is_sphere_for(kinds.all()[kind], file.scene, candidate);
+}
+
 bool Choice::has_models_alone(const SceneRun& run) const {
   return std::ranges::all_of(
       run.models, [&](const Candidate* c) { return c == candidates[0] || is_model(*c); });
@@ -454,7 +470,7 @@ Choice choose(const SceneFile& file, const ChooseOptions& options) {
   if (file.needs.empty()) {
     throw InvalidInput("needs", "missing", "must say what has to come out right");
   }
-  const auto candidates = exact_first(options.candidates);
+  auto candidates = exact_first(options.candidates);
   Processes processes(options.limits);
   CandidateModel exact(processes.of(*candidates[0]));
   Trajectory exact_run = run_scene(file.scene, exact);
@@ -462,6 +478,12 @@ Choice choose(const SceneFile& file, const ChooseOptions& options) {
   if (kinds.all().empty()) {
     throw InvalidInput("bodies", "no cylinder near another body at any time",
                        "must hold a cylinder that touches something");
+  }
+  if (std::ranges::find(candidates, "spheres:1", &Candidate::name) != candidates.end()) {
+    std::erase_if(candidates, [&](const Candidate* c) {
+      return std::ranges::all_of(
+          kinds.all(), [&](const PairKind& kind) { return is_sphere_for(kind, file.scene, *c); });
+    });
   }
   auto replayed = replay(file.scene, exact_run, kinds.all(), candidates, options.limits);
   Choice choice{file, std::move(exact_run), std::move(kinds), candidates, std::move(replayed)};

@@ -130,6 +130,12 @@ class SceneJudge {
   std::size_t timings_ = 0;
 };
 
+/// Is what stands for a cylinder one sphere, as spheres:1: the capsule inside one that is no longer
+/// than wide, or spheres inside one just as long as wide, which all have the same place?
+inline bool is_one_sphere(const Cylinder& c, bool is_capsule) {
+  return is_capsule ? c.half_length() <= c.radius() : c.half_length() == c.radius();
+}
+
 /// What stands for a box in a model of boxes; absent with other candidates and for other shapes.
 std::optional<BoxParts> box_parts(const Candidate& candidate, const Shape& shape);
 
@@ -173,6 +179,9 @@ struct Choice {
   std::vector<std::string> contacts_of(const SceneRun& run) const;
   /// Time of a query of this kind; infinite where the candidate has no routine.
   double nanoseconds(std::size_t kind, const Candidate& candidate) const;
+  /// Is this candidate, by its name a capsule or several spheres, one sphere for this kind's
+  /// cylinders (is_one_sphere)?
+  bool is_sphere(std::size_t kind, const Candidate& candidate) const;
   /// Bytes that what a candidate puts in place of a cylinder, or of a kind's box, takes in double
   /// precision: its corners, its spheres, its capsules, or its sizes.
   std::size_t model_bytes(std::size_t kind, const Candidate& candidate) const;
@@ -199,8 +208,8 @@ inline constexpr double noise_of_step = 0.05;
 /// those that take much the same the simplest is taken: whose models come first in the order of the
 /// candidates, summed over the kinds. Ends when no single kind can take its next cheaper model.
 /// Engines' routines are run and judged for all kinds, but are no answer. Progress goes to standard
-/// error. Needs within the spread of exact runs are not judged. Throws InvalidInput if the scene
-/// has no needs, or none that is judged, or no cylinder touches anything.
+/// error. What is one sphere for all kinds is left out beside `spheres:1`, which is the same. Needs within the spread of exact runs are not judged. Throws InvalidInput if
+/// the scene has no needs, or none that is judged, or no cylinder touches anything.
 Choice choose(const SceneFile& file, const ChooseOptions& options);
 
 }  // namespace touchstone

@@ -389,6 +389,29 @@ TEST(Choose, ExactContactsThatFailUnderAFurtherDisturbanceDoNotServe) {
   EXPECT_EQ(distances[choice.runs[0].disturbance] > (early + late) / 2, true);
 }
 
+// Of a can as wide as high the capsule and several spheres are the sphere inside; of a flatter one
+// spheres lie in a ring.
+TEST(Choose, LeavesOutWhatIsOneSphereByAnotherName) {
+  SceneFile file = standing_can(stays);
+  file.scene.duration = 0.05;
+  const auto names_with = [&](const std::vector<std::string>& names) {
+    std::vector<std::string> result;
+    const Choice choice = choose(file, {find_candidates(names), 1, {}, {0, 1}});
+    for (const Candidate* c : choice.candidates) result.push_back(c->name);
+    return result;
+  };
+  using testing::UnorderedElementsAre;
+  const std::vector<std::string> all = {"capsule", "spheres:1..2"};
+  EXPECT_THAT(names_with(all),
+              UnorderedElementsAre("reference", "capsule", "spheres:1", "spheres:2"));
+  file.scene.bodies[1].shape = Cylinder(0.1, 0.1);
+  file.scene.bodies[1].pose = Pose(Vec3(0, 0, 0.1));
+  EXPECT_THAT(names_with(all), UnorderedElementsAre("reference", "spheres:1"));
+  EXPECT_THAT(names_with({"capsule"}), UnorderedElementsAre("reference", "capsule"));
+  file.scene.bodies[1].shape = Cylinder(0.2, 0.1);
+  EXPECT_THAT(names_with(all), UnorderedElementsAre("reference", "spheres:1", "spheres:2"));
+}
+
 TEST(Choose, AModelsBytesAreThoseOfAllItsParts) {
   SceneFile file = standing_can(stands);
   file.scene.duration = 0.01;

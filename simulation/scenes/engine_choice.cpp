@@ -95,8 +95,19 @@ class SettingSearch {
   }
 
  private:
+  /// A shape as cylinders of a size can have it: some are one sphere by another name.
+  EngineShape shape_for(std::size_t size, const EngineShape& shape) const {
+    const auto body = static_cast<std::size_t>(choice_.sizes[size].bodies[0]);
+    const auto& c = std::get<Cylinder>(choice_.file.scene.bodies[body].shape);
+    const bool is_capsule = shape.kind == Kind::capsule;
+    const bool is_round = is_capsule || shape.kind == Kind::spheres;
+    return is_round && is_one_sphere(c, is_capsule) ? EngineShape{Kind::spheres, 1} : shape;
+  }
+
   EngineSetting uniform(const EngineShape& shape) const {
-    return EngineSetting(std::vector<EngineShape>(choice_.sizes.size(), shape));
+    EngineSetting result(std::vector<EngineShape>(choice_.sizes.size()));
+    for (std::size_t i = 0; i < result.shapes.size(); ++i) result.shapes[i] = shape_for(i, shape);
+    return result;
   }
 
   static bool is_own(const EngineSetting& setting) { return !setting.has(Kind::exact); }
@@ -119,7 +130,7 @@ class SettingSearch {
             (shape.kind == Kind::cylinder && of.shapes[size].kind == Kind::multipoint);
         if (shape.kind == Kind::multipoint || has_no_effect) continue;
         EngineSetting changed(of.shapes);
-        changed.shapes[size] = shape;
+        changed.shapes[size] = shape_for(size, shape);
         result.push_back(std::move(changed));
       }
     }

@@ -262,8 +262,8 @@ SceneFile standing(const std::vector<std::string>& names, const std::string& oth
   for (const std::string& name : names) {
     scene["bodies"].push_back(
         {{"name", name},
-         {"shape", {{"shape", "cylinder"}, {"radius", size}, {"half_length", size}}},
-         {"pose", {{"position", {10 * size, 0, size}}}}});
+         {"shape", {{"shape", "cylinder"}, {"radius", size}, {"half_length", 2 * size}}},
+         {"pose", {{"position", {10 * size, 0, 2 * size}}}}});
     scene["needs"].push_back({{"need", "stands"}, {"body", name}, {"degrees", 5}});
     size *= 2;
   }
@@ -297,6 +297,23 @@ TEST(EngineChoices, FindAShapeForEachSize) {
         standing(names), "ode", {.workers = 2, .trials = {.disturbances = 1}, .run = engine});
     EXPECT_EQ(names_of(choice), expected);
   }
+}
+
+// Of a can as wide as high the capsule and spheres are one sphere, which is tried once, by that
+// name.
+TEST(EngineChoices, TryWhatIsOneSphereInAShortCylinderOnce) {
+  SceneFile file = standing({"can", "pot"});
+  file.scene.bodies[1].shape = Cylinder(0.1, 0.1);
+  const MadeUp engine{.stands = [](const std::string&, const EngineShape& shape) {
+    return shape.kind == Kind::capsule || shape == EngineShape{Kind::spheres, 1};
+  }};
+  const EngineChoice choice =
+      choose_in_engine(file, "ode", {.trials = {.disturbances = 0}, .run = engine});
+  for (const EngineSetting& s : choice.settings) {
+    EXPECT_NE(s.shapes[0].kind, Kind::capsule);
+    EXPECT_TRUE(s.shapes[0].kind != Kind::spheres || s.shapes[0].count == 1);
+  }
+  EXPECT_EQ(names_of(choice), (std::vector<std::string>{"spheres:1", "capsule"}));
 }
 
 TEST(EngineChoices, EndWhereNoShapeServesForASize) {

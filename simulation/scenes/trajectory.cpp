@@ -1,5 +1,6 @@
 #include "simulation/scenes/trajectory.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <fmt/format.h>
@@ -214,13 +215,14 @@ std::string motion_table(const Scene& scene, const Trajectory& run) {
   }
   std::size_t width = 4;
   for (const Body& body : scene.bodies) width = std::max(width, body.name.size());
-  std::string text = fmt::format("  {:<{}}  {:>26}  {:>8}  {:>9}\n", "body", width, "ends at, m",
+  if (std::ranges::all_of(scene.bodies, &Body::fixed)) return "  Nothing moves: all is fixed.\n";
+  std::string text = fmt::format("  {:<{}}  {:>32}  {:>10}  {:>9}\n", "body", width, "ends at, m",
                                  "moved, m", "depth, m");
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     if (scene.bodies[i].fixed) continue;
     const Vec3 from = run.frames.front()[i].pose.position();
     const Vec3 to = run.frames.back()[i].pose.position();
-    text += fmt::format("  {:<{}}  {:>8.4f} {:>8.4f} {:>8.4f}  {:>8.4f}  {:>9}\n",
+    text += fmt::format("  {:<{}}  {:>10.6f} {:>10.6f} {:>10.6f}  {:>10.6f}  {:>9}\n",
                         scene.bodies[i].name, width, to.x(), to.y(), to.z(), (to - from).norm(),
                         depth[i] ? fmt::format("{:.2g}", *depth[i]) : "");
   }
