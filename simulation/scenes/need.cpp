@@ -402,6 +402,13 @@ std::shared_ptr<const Need> ends_near_need(int body, double metres) {
   return need;
 }
 
+std::shared_ptr<const Need> ends_tilted_need(int body, double degrees) {
+  auto need = std::make_shared<EndsTilted>();
+  need->bodies = {body};
+  need->degrees = degrees;
+  return need;
+}
+
 std::vector<std::unique_ptr<Need>> all_needs() {
   return one_of_each<Stands, Rolls, Rests, FallsInOrder, Penetration, Normals, EndsNear, EndsTilted,
                      StaysIn>();

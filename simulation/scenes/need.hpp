@@ -82,5 +82,6 @@ std::vector<std::unique_ptr<Need>> all_needs();
 /// The true depth of the body in any other one, of pairs with a cylinder.
 std::shared_ptr<const Need> penetration_need(int body, double metres);
 std::shared_ptr<const Need> ends_near_need(int body, double metres);
+std::shared_ptr<const Need> ends_tilted_need(int body, double degrees);
 
 }  // namespace touchstone

@@ -120,7 +120,7 @@ SceneFile robot_scene(const RobotFile& robot, const RobotMotion& motion);
 
 /// Gives the scene of a robot needs derived from its runs with exact contacts, in the world that it
 /// is chosen for: every moving body that touches something overlaps little more than it does there,
-/// and what no joint holds ends near where it does there.
+/// and what no joint holds ends near where it does there, and as tilted.
 void add_robot_needs(SceneFile& file, const ExactMotion& exact);
 
 /// "left out: 1 of 8 collision shapes (volume unknown)"; empty if nothing was.

@@ -55,6 +55,9 @@ void add_robot_needs(SceneFile& file, const ExactMotion& exact) {
     const double size = 2 * half_width;
     file.needs.push_back(
         ends_near_need(index, rounded_up(share_of_way * exact.ways[i] + share_of_size * size)));
+    constexpr double max_tilt = 1;  // degrees: a body's ends move by 1% of its size
+    const bool has_tilt = body.collides && !std::holds_alternative<Sphere>(body.shape);
+    if (has_tilt) file.needs.push_back(ends_tilted_need(index, max_tilt));
   }
 }
 

@@ -448,6 +448,24 @@ TEST(RobotNeeds, ABaseWhoseShapesAreNotReadEndsWhereItsWheelsCarryIt) {
   EXPECT_EQ(file.needs[0]->text(file.scene), "base ends within 0.013 m of the exact place");
 }
 
+// A can that comes to stand must not come to lie, on whatever place; a ball has no tilt.
+TEST(RobotNeeds, WhatNoJointHoldsEndsAsTilted) {
+  RobotFile world = two_balls();
+  world.is_world = true;
+  world.joints.clear();
+  world.links[0].shapes[0].shape = Cylinder(0.1, 0.1);
+  SceneFile file = robot_scene(world, {});
+  const std::vector<double> nothing(file.scene.bodies.size());
+  add_robot_needs(file, {nothing, nothing});
+  std::vector<std::string> texts;
+  for (const auto& need : file.needs) texts.push_back(need->text(file.scene));
+  const auto near = [](const char* name) {
+    return testing::AllOf(testing::StartsWith(name), testing::EndsWith(" m of the exact place"));
+  };
+  EXPECT_THAT(texts,
+              testing::ElementsAre(near("a "), "a ends within 1° of the exact tilt", near("b ")));
+}
+
 TEST(RobotScene, ErrorsNameTheLink) {
   RobotFile robot = two_balls();
   robot.links[1].mass = 1e30;
