@@ -2,6 +2,7 @@
 // IEEE Transactions on Software Engineering 23, 1997), but without randomness.
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <set>
 
 #include "properties/pose_class.hpp"
@@ -19,15 +20,17 @@ struct Element {
 /// Elements of which a class may have one each; arrangements come first.
 using Factor = std::vector<Element>;
 
-std::vector<Factor> factors_of(Pair pair) {
+/// Those that the suite with that number may have.
+std::vector<Factor> factors_of(Pair pair, int suite) {
   std::vector<Factor> factors(1 + kinds);
   std::uint32_t number = 0;
   for (const Arrangement& a : arrangements(pair)) {
     using enum Arrangement::Orientations;
-    if (a.orientations == mixed || a.orientations == recorded) continue;
+    if (a.orientations == mixed || a.orientations == recorded || a.suite > suite) continue;
     factors[0].push_back({&a, nullptr, ++number});
   }
   for (const Modifier& m : all_modifiers()) {
+    if (m.suite > suite) continue;
     factors[1 + static_cast<std::size_t>(m.kind)].push_back({nullptr, &m, ++number});
   }
   return factors;
@@ -35,8 +38,8 @@ std::vector<Factor> factors_of(Pair pair) {
 
 class Covering {
  public:
-  Covering(Pair pair, int strength)
-      : pair_(pair), strength_(static_cast<std::size_t>(strength)), factors_(factors_of(pair)) {
+  Covering(Pair pair, std::size_t strength, int suite)
+      : pair_(pair), strength_(strength), factors_(factors_of(pair, suite)) {
     collect({}, 0);
   }
 
@@ -205,20 +208,24 @@ class Covering {
   std::vector<PoseClass> classes_;
 };
 
-}  // namespace
-
-const std::vector<PoseClass>& covering_classes(Pair pair, int strength) {
-  const auto make = [](int with) {
+/// Made when it is first asked for.
+template <std::size_t strength, int suite = std::numeric_limits<int>::max()>
+const std::vector<PoseClass>& covering(Pair pair) {
+  static const auto all = [] {
     std::array<std::vector<PoseClass>, std::size(all_pairs)> result;
     for (const Pair p : all_pairs) {
-      result[static_cast<std::size_t>(p)] = Covering(p, with).classes();
+      result[static_cast<std::size_t>(p)] = Covering(p, strength, suite).classes();
     }
     return result;
-  };
-  static const auto of_two = make(2);
-  if (strength == 2) return of_two[static_cast<std::size_t>(pair)];
-  static const auto of_three = make(3);
-  return of_three[static_cast<std::size_t>(pair)];
+  }();
+  return all[static_cast<std::size_t>(pair)];
+}
+
+}  // namespace
+
+const std::vector<PoseClass>& covering_classes(Pair pair, Coverage coverage) {
+  if (coverage == Coverage::suite_1) return covering<2, 1>(pair);
+  return coverage == Coverage::triples ? covering<3>(pair) : covering<2>(pair);
 }
 
 }  // namespace touchstone

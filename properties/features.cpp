@@ -181,6 +181,17 @@ void reshape(Draw& draw, Proportions proportions, Bodies& bodies) {
       bodies.b = Box(Vec3(extent(0), extent(1), extent(2)));
       return;
     }
+    case Proportions::needles: {
+      bodies.a = Cylinder(small, size);
+      constexpr auto ratio = static_cast<double>(extreme_ratio);
+      if (const auto* s = std::get_if<Capsule>(&bodies.b)) {
+        bodies.b = Capsule(s->radius() / ratio, s->radius());
+      } else {
+        const double length = std::get<Cylinder>(bodies.b).radius();
+        bodies.b = Cylinder(length / ratio, length);
+      }
+      return;
+    }
     case Proportions::uneven: {
       const double factor = 1 / static_cast<double>(draw_uneven_ratio(draw));
       if (draw.coin()) {

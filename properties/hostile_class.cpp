@@ -1,8 +1,9 @@
 // One class that combines all difficulties: each other class has one, while faults of contact
 // routines appear where several coincide. A configuration is made in four steps, each of which
 // often does nothing. (1) Draw bodies near an alignment whose features nearly meet, or a known
-// failure, or a member of another class. (2) Move, turn and scale both bodies as one. (3) Change
-// some of the numbers. (4) Bring numbers that are out of range back into it.
+// failure, or a member of another class, or what rounding makes of one. (2) Move, turn and scale
+// both bodies as one. (3) Change some of the numbers. (4) Bring numbers that are out of range back
+// into it.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -380,6 +381,21 @@ Source draw_source(Draw& draw, Pair pair) {
   return {std::move(n), 0, 4};
 }
 
+/// What rounding makes of an exact arrangement.
+Configuration draw_worn(Draw& draw, Pair pair) {
+  std::vector<PoseClass> exact;
+  constexpr int suite = 2;  // later ones would change what is drawn
+  for (const Arrangement& a : arrangements(pair)) {
+    if (a.is_exact() && a.suite <= suite) exact.push_back({pair, &a, {}});
+  }
+  PoseClass c = draw.any_of(exact);
+  std::vector<Clearance> clearances = c.arrangement->clearances;
+  clearances.push_back(Clearance::usual);
+  c.modifiers[Kind::clearance] = static_cast<int>(draw.any_of(clearances));
+  c.modifiers[Kind::frame] = static_cast<int>(Frame::worn);
+  return c.generate(draw);
+}
+
 Configuration draw_hostile(Draw& draw, Pair pair) {
   auto [n, changes, one_more_in] = draw_source(draw, pair);
   if (draw.one_in(4))
@@ -391,19 +407,21 @@ Configuration draw_hostile(Draw& draw, Pair pair) {
   make_valid(n);
   // Drawn last, so that the numbers of all other configurations stay.
   if (draw.one_in(6)) return configuration_of(draw_entangled(draw, pair));
+  if (draw.one_in(7)) return draw_worn(draw, pair);
   return configuration_of(n);
 }
 
 }  // namespace
 
 Arrangement hostile(Pair pair) {
-  return {"hostile",
-          "Everything at once: tilts and clearances of any size about alignments and meeting "
-          "features, exact coincidences, neighbours of doubles, any exponent, and known failures "
-          "with a few numbers changed.",
-          Arrangement::Orientations::mixed,
-          {},
-          [pair](Draw& draw, const Modifiers&) { return draw_hostile(draw, pair); }};
+  return {
+      "hostile",
+      "Everything at once: tilts and clearances of any size about alignments and meeting "
+      "features, exact coincidences and what rounding makes of them, neighbours of doubles, any "
+      "exponent, and known failures with a few numbers changed.",
+      Arrangement::Orientations::mixed,
+      {},
+      [pair](Draw& draw, const Modifiers&) { return draw_hostile(draw, pair); }};
 }
 
 }  // namespace touchstone

@@ -123,6 +123,17 @@ TEST(HostileClass, PutsBodiesAnywhereWithinEachOtherAtClearTilts) {
   }
 }
 
+// In a frame turned at random, parallel but for what rounding leaves of each body's own motion.
+TEST(HostileClass, RoundsParallelBodiesByThemselves) {
+  EXPECT_GT(count(Pair::cylinder,
+                  [](const Configuration& c) {
+                    const auto q = c.pose_b.orientation().coeffs().array();
+                    const bool is_turned = (q != q.round()).all();
+                    return is_turned && is_within(between_axes(c).sine, 0, 1e-12);
+                  }),
+            1900);
+}
+
 // Between three points of a whole cap and four of a lens.
 TEST(HostileClass, PutsCapsOnCapsThatAreNotQuiteCoaxial) {
   EXPECT_GT(count(Pair::cylinder,

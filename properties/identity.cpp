@@ -100,20 +100,29 @@ Group parse_group(std::string_view name, const char* field) {
   throw InvalidInput(field, in_quotes(name), "must be one of " + joined(names));
 }
 
-const std::vector<std::string>& pose_classes(Pair pair, Coverage coverage) {
-  const auto names = [](int strength) {
+namespace {
+
+/// Made when it is first asked for.
+template <Coverage coverage>
+const std::vector<std::string>& names_covering(Pair pair) {
+  static const auto all = [] {
     std::array<std::vector<std::string>, std::size(all_pairs)> result;
     for (const Pair p : all_pairs) {
-      for (const PoseClass& c : covering_classes(p, strength)) {
+      for (const PoseClass& c : covering_classes(p, coverage)) {
         result[static_cast<std::size_t>(p)].push_back(c.name());
       }
     }
     return result;
-  };
-  static const auto of_pairs = names(2);
-  if (coverage == Coverage::pairs) return of_pairs[static_cast<std::size_t>(pair)];
-  static const auto of_triples = names(3);
-  return of_triples[static_cast<std::size_t>(pair)];
+  }();
+  return all[static_cast<std::size_t>(pair)];
+}
+
+}  // namespace
+
+const std::vector<std::string>& pose_classes(Pair pair, Coverage coverage) {
+  if (coverage == Coverage::suite_1) return names_covering<Coverage::suite_1>(pair);
+  if (coverage == Coverage::triples) return names_covering<Coverage::triples>(pair);
+  return names_covering<Coverage::pairs>(pair);
 }
 
 namespace {

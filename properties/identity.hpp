@@ -44,7 +44,11 @@ const char* group_name(Group group);
 Group parse_group(std::string_view name, const char* field = "--group");
 
 /// How many of an arrangement and its modifiers occur together in every sensible combination.
-enum class Coverage { pairs = 2, triples = 3 };
+enum class Coverage {
+  pairs,
+  triples,
+  suite_1  ///< pairs, of the arrangements and modifiers that touchstone-suite-1 may have
+};
 
 /// Names of the pose classes of a pair that cover so much, in report order: without those that run
 /// only when named ("hostile").

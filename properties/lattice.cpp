@@ -90,6 +90,10 @@ Sizes draw_sizes(Draw& draw, const Lattice& lattice, Proportions proportions) {
       if (is_thin[2]) divide({&s.half_b}, extreme_ratio);
       break;
     }
+    case Proportions::needles:
+      s.half_a = s.radius_a, s.half_b = s.radius_b;
+      divide({&s.radius_a, &s.radius_b}, extreme_ratio);
+      break;
     case Proportions::uneven: {
       const std::int64_t ratio = draw_uneven_ratio(draw);
       if (draw.coin()) {
@@ -118,16 +122,9 @@ Configuration place(Draw& draw, Pair pair, const Lattice& l, const Sizes& s, con
           Pose(l.at(x, y, z), l.orientation(p.turn_b))};
 }
 
-namespace {
-
-Steps smallest(const Sizes& s) {
-  return std::min({s.radius_a, s.half_a, s.radius_b, s.half_b, s.other_b});
-}
-
-/// The overlap in steps: usually 1e-6 to 5% of the smallest size; negative where the bodies are to
-/// be apart.
 Steps draw_depth(Draw& draw, const Sizes& s, Clearance clearance) {
-  const double size = static_cast<double>(smallest(s));
+  const Steps smallest = std::min({s.radius_a, s.half_a, s.radius_b, s.half_b, s.other_b});
+  const auto size = static_cast<double>(smallest);
   const auto steps = [&](double part) {
     return std::max<Steps>(1, static_cast<Steps>(size * part));
   };
@@ -142,6 +139,9 @@ Steps draw_depth(Draw& draw, const Sizes& s, Clearance clearance) {
       return steps(draw.log_uniform(1e-6, 0.05));
   }
 }
+
+namespace {
+
 using Place = Placement (*)(Draw&, Pair, const Sizes&, Steps depth);
 
 Configuration placed(Draw& draw, Pair pair, Clearance clearance, const Modifiers& m,

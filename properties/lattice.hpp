@@ -48,6 +48,10 @@ Sizes draw_sizes(Draw& draw, const Lattice& lattice, Proportions proportions);
 /// A uniform whole number from -max to max.
 Steps draw_offset(Draw& draw, Steps max);
 
+/// The overlap in steps: usually 1e-6 to 5% of the smallest size; negative where the bodies are to
+/// be apart.
+Steps draw_depth(Draw& draw, const Sizes& sizes, Clearance clearance);
+
 /// B's reach along its own z beyond its centre.
 Steps reach_b(Pair pair, const Sizes& sizes);
 

@@ -32,6 +32,38 @@ Configuration tilted(Draw& draw, const Configuration& c, int k, bool across) {
   return {c.a, Pose(c.pose_a.position(), product(c.pose_a.orientation(), tilt)), c.b, c.pose_b};
 }
 
+/// Moves a body there and back in steps of its own, few and large or many and small, of which only
+/// the rounding is left. A round one may also have turned about its axis, which nobody sees.
+Pose moved_there_and_back(Draw& draw, const Pose& pose, bool is_round) {
+  Quaternion q = pose.orientation();
+  Vec3 x = pose.position();
+  if (is_round && draw.coin()) q = normalized(product(q, draw.turn_about_z()));
+  const bool is_small = draw.coin();
+  const int steps =
+      is_small ? static_cast<int>(draw.log_uniform(1, 1000)) : static_cast<int>(draw.integer(1, 4));
+  Quaternion turn = draw.orientation();
+  if (is_small) {
+    constexpr double half_angle = 0.005;
+    turn = normalized(
+        Quaternion(1, half_angle * turn.x(), half_angle * turn.y(), half_angle * turn.z()));
+  }
+  const double way_in_all = draw.uniform(0, 3);
+  const Vec3 step = way_in_all / steps * draw.direction();
+  for (const double side : {1.0, -1.0}) {
+    const Quaternion by(turn.w(), side * turn.x(), side * turn.y(), side * turn.z());
+    for (int i = 0; i < steps; ++i) {
+      q = normalized(product(by, q));
+      x += side * step;
+    }
+  }
+  return {x, q};
+}
+
+Configuration worn(Draw& draw, const Configuration& c) {
+  const Pose a = moved_there_and_back(draw, c.pose_a, is_round(c.a));
+  return {c.a, a, c.b, moved_there_and_back(draw, c.pose_b, is_round(c.b))};
+}
+
 /// Turns and moves both bodies as one; their orientations are of unit length afterwards, as those
 /// of moving bodies are.
 Configuration turned(Draw& draw, const Configuration& c) {
@@ -80,6 +112,10 @@ const std::vector<Modifier>& all_modifiers() {
          "The box is a plate of 1000:1000:1 or a bar of 1000:1:1."},
         {Kind::proportions, value(Proportions::uneven), "uneven",
          "One body is 100 to 1000 times smaller than otherwise."},
+        {Kind::proportions, value(Proportions::needles), "needles",
+         "Both bodies are needles, 1000 times longer than wide: where they cross hangs on the last "
+         "digits of their axes.",
+         2},
     };
     for (int k = 1; k <= smallest_tilt; ++k) {
       m.push_back({Kind::tilt, k, fmt::format("tilted-1e-{}", k),
@@ -90,6 +126,11 @@ const std::vector<Modifier>& all_modifiers() {
     m.push_back({Kind::frame, value(Frame::turned), "turned",
                  "Both bodies are turned and moved as one, by any rotation: what was exact is so "
                  "but for rounding."});
+    m.push_back({Kind::frame, value(Frame::worn), "worn",
+                 "Both bodies are turned as one, and then each is moved there and back in steps of "
+                 "its own, as a simulation leaves it: what was exact is so but for the rounding of "
+                 "both.",
+                 2});
     m.push_back(
         {Kind::scale, value(Scale::tiny), "tiny",
          "All lengths are times 1e-6 (2^-20 where the arrangement is exact): absolute tolerances "
@@ -153,7 +194,9 @@ Configuration modified(Draw& draw, const Configuration& made, const Modifiers& m
                        const Finish& finish) {
   Configuration c = made;
   if (const int k = modifiers[Kind::tilt]) c = tilted(draw, c, k, finish.across);
-  if (modifiers.frame() == Frame::turned) c = turned(draw, c);
+  const bool is_worn = modifiers.frame() == Frame::worn;
+  if (is_worn || modifiers.frame() == Frame::turned) c = turned(draw, c);
+  if (is_worn) c = worn(draw, c);
   if (modifiers.scale() != Scale::usual) {
     const bool tiny = modifiers.scale() == Scale::tiny;
     c = scaled(c, finish.is_exact ? (tiny ? 0x1p-20 : 0x1p20) : (tiny ? 1e-6 : 1e6));

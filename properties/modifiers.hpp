@@ -17,9 +17,9 @@ inline constexpr std::size_t kinds = 7;
 /// How far apart the bodies are; the usual one is the arrangement's own.
 enum class Clearance { usual, shallow, apart, touching, deep };
 /// Ratios of the bodies' sizes.
-enum class Proportions { usual, needle, coin, plate, uneven };
+enum class Proportions { usual, needle, coin, plate, uneven, needles };
 /// The frame in which both bodies lie.
-enum class Frame { usual, aligned, turned };
+enum class Frame { usual, aligned, turned, worn };
 enum class Scale { usual, tiny, huge };
 
 struct Modifier {
@@ -27,6 +27,7 @@ struct Modifier {
   int value;  ///< of the kind's enumeration; of a tilt the k of 10^-k rad; else 1
   std::string name;
   std::string description;  ///< one sentence
+  int suite = 1;            ///< the first touchstone-suite that may have it
 };
 
 /// All modifiers, by kind.

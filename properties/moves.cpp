@@ -3,10 +3,6 @@
 namespace touchstone {
 namespace {
 
-bool is_round(const Shape& shape) {
-  return !std::holds_alternative<Box>(shape) && !std::holds_alternative<Plane>(shape);
-}
-
 Pose turned_in_place(const Pose& pose, const Eigen::Quaterniond& local) {
   return {pose.position(), pose.unit_orientation() * local};
 }
@@ -25,6 +21,10 @@ struct Scaled {
 };
 
 }  // namespace
+
+bool is_round(const Shape& shape) {
+  return !std::holds_alternative<Box>(shape) && !std::holds_alternative<Plane>(shape);
+}
 
 Configuration exchanged(const Configuration& c) {
   return {std::get<Cylinder>(c.b), c.pose_b, c.a, c.pose_a};

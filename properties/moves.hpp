@@ -18,6 +18,9 @@ inline Eigen::Quaterniond about(const Vec3& axis, double angle) {
   return Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis));
 }
 
+/// Whether a body looks the same however it is turned about its local z axis.
+bool is_round(const Shape& shape);
+
 // Changes of a configuration that laws use. They are deterministic; rounding is a few ulp of the
 // coordinates.
 

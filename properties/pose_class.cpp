@@ -16,6 +16,7 @@ std::vector<Arrangement> make_arrangements(Pair pair) {
   std::vector<Arrangement> all = feature_arrangements(pair);
   for (Arrangement& a : lattice_arrangements(pair)) all.push_back(std::move(a));
   all.push_back(touching_tilted(pair));
+  for (Arrangement& a : parallel_arrangements(pair)) all.push_back(std::move(a));
   if (auto recorded = recorded_arrangement(pair)) all.push_back(std::move(*recorded));
   all.push_back(hostile(pair));
   return all;
@@ -85,7 +86,9 @@ std::vector<PoseClass> make_old_classes(Pair pair) {
                                   "cap-on-side-centred", "side-on-face-centred"};
     return std::find(names.begin(), names.end(), a.name) != names.end();
   };
-  add_if([&](const Arrangement& a) { return a.is_exact() && !came_with_modifiers(a); });
+  add_if([&](const Arrangement& a) {
+    return a.is_exact() && a.suite == 1 && !came_with_modifiers(a);
+  });
   for (const Arrangement& a : all) {
     if (!is_aligned(a)) continue;
     for (const Modifier& m : all_modifiers()) {
@@ -159,14 +162,16 @@ std::string PoseClass::description() const {
 
 Group PoseClass::group() const {
   const Orientations o = arrangement->orientations;
-  const Clearance clearance = modifiers.clearance();
+  const Clearance asked = modifiers.clearance();
+  const Clearance clearance = asked == Clearance::usual ? arrangement->own : asked;
   if (o == Orientations::recorded) return Group::recorded;
   if (o == Orientations::mixed || clearance == Clearance::deep ||
       modifiers[Kind::proportions] != 0 || modifiers[Kind::scale] != 0 ||
       modifiers[Kind::distance] != 0) {
     return Group::extreme;
   }
-  const bool exact = arrangement->is_exact() && modifiers.frame() != Frame::turned;
+  const bool is_turned = modifiers.frame() == Frame::turned || modifiers.frame() == Frame::worn;
+  const bool exact = arrangement->is_exact() && !is_turned;
   if (exact || arrangement->is_symmetric || arrangement->touches ||
       clearance == Clearance::touching || modifiers[Kind::tilt] != 0) {
     return Group::degenerate;
@@ -191,6 +196,7 @@ std::optional<std::string_view> nonsense(Pair pair, const Arrangement& a, const 
       if (a.touches) return "its bodies touch already";
       if (a.is_symmetric) return "its centres or axes say how deep it is";
       if (static_cast<Clearance>(m.value) == a.own) return "it is so already";
+      if (a.own == Clearance::deep) return "its bodies lie within each other";
       if (static_cast<Clearance>(m.value) == Clearance::touching) return "it cannot be exact";
       return "another feature than its own would be nearer, as in general+deep";
     case Kind::proportions:
@@ -199,6 +205,10 @@ std::optional<std::string_view> nonsense(Pair pair, const Arrangement& a, const 
       }
       if (static_cast<Proportions>(m.value) == Proportions::uneven && pair == Pair::plane) {
         return "a plane has no size";
+      }
+      if (static_cast<Proportions>(m.value) == Proportions::needles && pair != Pair::capsule &&
+          pair != Pair::cylinder) {
+        return "the other body is no cylinder or capsule";
       }
       return std::nullopt;
     case Kind::tilt:

@@ -31,6 +31,7 @@ struct Arrangement {
   bool across = false;               ///< B's axis lies along A's x, at a right angle to A's
   bool is_symmetric = false;         ///< centres or axes coincide
   bool touches = false;              ///< whatever clearance is asked for
+  int suite = 1;                     ///< the first touchstone-suite that may have it
 
   /// Whether nothing in it is rounded.
   bool is_exact() const {
@@ -50,6 +51,8 @@ std::vector<Arrangement> lattice_arrangements(Pair pair);
 /// Bodies turned by 3-4-5 angles against each other that touch in a point or along an edge: signed
 /// distance zero to the last bit, no cap, side or face aligned with another.
 Arrangement touching_tilted(Pair pair);
+/// Exactly parallel bodies on a Lattice, diagonally beyond each other or within each other.
+std::vector<Arrangement> parallel_arrangements(Pair pair);
 /// What the shipped scenes produced (recorded.hpp); absent where they produced nothing.
 std::optional<Arrangement> recorded_arrangement(Pair pair);
 /// Combinations of all difficulties.
@@ -91,7 +94,8 @@ const std::vector<PoseClass>& old_classes(Pair pair);
 
 /// A covering array: every sensible combination of `strength` (2 or 3) of an arrangement and
 /// modifiers occurs in at least one class. It begins with the old classes, then has every
-/// arrangement alone and, where it makes sense, aligned and turned; "recorded" is the last.
-const std::vector<PoseClass>& covering_classes(Pair pair, int strength);
+/// arrangement alone and, where it makes sense, aligned, turned and worn; "recorded" is the last.
+/// `Coverage::suite_1` is of what there was then.
+const std::vector<PoseClass>& covering_classes(Pair pair, Coverage coverage);
 
 }  // namespace touchstone

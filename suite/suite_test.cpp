@@ -101,7 +101,7 @@ TEST(Suite1, HasEveryPoseClassAndEveryKindOfAnswer) {
     ties.insert(ties_name(d.truth.ties));
   }
   std::size_t count = 0;
-  for (const Pair pair : all_pairs) count += pose_classes(pair).size();
+  for (const Pair pair : all_pairs) count += pose_classes(pair, Coverage::suite_1).size();
   EXPECT_EQ(classes.size(), count);
   EXPECT_EQ(groups.size(), std::size(all_groups));
   EXPECT_EQ(contacts.size(), 3u);

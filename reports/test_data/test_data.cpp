@@ -47,6 +47,7 @@ double midpoint_error(const oracle::Enclosure& e) {
 Campaign suite_1() {
   Campaign c;
   c.pairs.assign(std::begin(all_pairs), std::end(all_pairs));
+  c.coverage = Coverage::suite_1;
   c.count = 3;
   c.everyday_times = 5;
   c.seed = 1;
