@@ -40,6 +40,9 @@ struct ContactValue {
   std::vector<PointValue> points;
 };
 
+/// Whether it is one of numpy's masked arrays, whose numbers alone say less than it does.
+bool is_masked_array(py::handle value);
+
 /// A numpy array of three doubles that cannot be written to.
 py::array vector_to_python(const Vec3& v);
 /// n × 3.

@@ -22,6 +22,13 @@ struct AnyFirst {
   py::object value = py::ellipsis();
 };
 
+/// A vector of Eigen. None of numpy's masked arrays is one, whose mask would be lost.
+template <class Vector>
+struct Numbers {
+  Vector vector;
+  operator const Vector&() const { return vector; }
+};
+
 }  // namespace touchstone::python
 
 /// pybind11 asks all overloads without conversions, then all with them. This one is for the latter
@@ -38,6 +45,17 @@ struct pybind11::detail::type_caster<touchstone::python::AnyFirst> {
   }
 };
 
+template <class Vector>
+struct pybind11::detail::type_caster<touchstone::python::Numbers<Vector>> {
+  PYBIND11_TYPE_CASTER(touchstone::python::Numbers<Vector>, make_caster<Vector>::name);
+  bool load(handle source, bool convert) {
+    make_caster<Vector> numbers;
+    if (touchstone::python::is_masked_array(source) || !numbers.load(source, convert)) return false;
+    value.vector = cast_op<const Vector&>(numbers);
+    return true;
+  }
+};
+
 namespace touchstone::python {
 
 // Functions whose arguments pybind11 refuses with a list of C++ types. Each gets a second overload,
@@ -49,9 +67,10 @@ inline constexpr const char* must_be = nullptr;
 template <>
 inline constexpr const char* must_be<double> = "a number";
 template <>
-inline constexpr const char* must_be<Vec3> = "three numbers";
+inline constexpr const char* must_be<Numbers<Vec3>> = "three numbers, none of them masked";
 template <>
-inline constexpr const char* must_be<Eigen::Vector4d> = "four numbers";
+inline constexpr const char* must_be<Numbers<Eigen::Vector4d>> =
+    "four numbers, none of them masked";
 template <>
 inline constexpr const char* must_be<std::uint64_t> = "a whole number that is not negative";
 template <>

@@ -23,6 +23,7 @@ class Poses {
     if (!py::isinstance<py::array>(value)) {
       refuse("a " + py::type::handle_of(value).attr("__name__").cast<std::string>());
     }
+    if (is_masked_array(value)) refuse("a masked array, whose mask would be lost");
     array_ = py::reinterpret_borrow<py::array>(value);
     if (!array_.dtype().equal(py::dtype::of<double>())) {
       refuse("an array of " + py::str(array_.dtype()).cast<std::string>());

@@ -56,7 +56,8 @@ The half-space normal·x <= displacement of its own frame, which is solid. The n
 length, but must not be zero; the displacement is in metres if it has.
 )");
   define_constructor(
-      plane, +[](const Vec3& normal, double displacement) { return Plane(normal, displacement); },
+      plane,
+      +[](const Numbers<Vec3>& normal, double displacement) { return Plane(normal, displacement); },
       py::arg("normal"), py::arg("displacement"));
   plane.def_property_readonly(
       "normal", [](const Plane& s) { return vector_to_python(s.normal()); }, "As given.");
@@ -88,7 +89,8 @@ its ends reach half_length + radius. Metres.
 
   py::class_<Box> box(m, "Box", "Box(half_extents)\n\nA box about its origin. Metres.\n");
   define_constructor(
-      box, +[](const Vec3& half_extents) { return Box(half_extents); }, py::arg("half_extents"));
+      box, +[](const Numbers<Vec3>& half_extents) { return Box(half_extents); },
+      py::arg("half_extents"));
   box.def_property_readonly(
       "half_extents", [](const Box& s) { return vector_to_python(s.half_extents()); },
       "Along the local x, y, z axes, metres; an array of three.");
@@ -109,7 +111,8 @@ array([-1.,  0.,  0.])
 )");
   define_constructor(
       pose,
-      +[](const Vec3& position, const Eigen::Vector4d& q) {
+      +[](const Numbers<Vec3>& position, const Numbers<Eigen::Vector4d>& orientation) {
+        const Eigen::Vector4d& q = orientation;
         return Pose(position, Eigen::Quaterniond(q[0], q[1], q[2], q[3]));
       },
       py::arg("position") = Vec3(0, 0, 0), py::arg("orientation") = Eigen::Vector4d(1, 0, 0, 0));
@@ -139,7 +142,7 @@ surfaces), the unit normal from B to A there, and the depth (metres; negative wh
 )");
   define_constructor(
       point,
-      +[](const Vec3& position, const Vec3& normal, double depth) {
+      +[](const Numbers<Vec3>& position, const Numbers<Vec3>& normal, double depth) {
         return PointValue{position, normal, depth};
       },
       py::arg("position"), py::arg("normal"), py::arg("depth"));
@@ -158,7 +161,7 @@ the world frame, along which A moves to come free, and up to 16 contact points.
 )");
   define_constructor(
       contact,
-      +[](double signed_distance, const Vec3& normal, const py::iterable& points) {
+      +[](double signed_distance, const Numbers<Vec3>& normal, const py::iterable& points) {
         std::vector<PointValue> all;
         for (const py::handle each : points) {
           all.push_back(element<PointValue>("points", all.size(), each, "a Point of touchstone"));
@@ -183,6 +186,11 @@ the world frame, along which A moves to come free, and up to 16 contact points.
 }
 
 }  // namespace
+
+bool is_masked_array(py::handle value) {
+  return py::isinstance<py::array>(value) &&
+         py::isinstance(value, py::module_::import("numpy.ma").attr("MaskedArray"));
+}
 
 py::array vector_to_python(const Vec3& v) { return frozen(py::cast(v)); }
 

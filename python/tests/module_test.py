@@ -84,10 +84,28 @@ class Values(unittest.TestCase):
             Contact(0, (0, 0, 1), [point] * 17)
 
     def test_other_types_are_refused(self):
-        with self.assertRaises(TypeError):
-            Pose((0, 0))
         with self.assertRaisesRegex(TypeError, "b is 'ball': must be a Cylinder, Plane, Sphere"):
             touchstone.overlaps(CAN, Pose(), "ball", Pose())
+
+    def test_masked_arrays_are_refused_by_name(self):
+        three, four = numpy.ma.zeros(3), numpy.ma.zeros(4)
+        three[1] = numpy.ma.masked
+        for make, name in [(lambda: Pose(three), "position"),
+                           (lambda: Pose((0, 0, 0), four), "orientation"),
+                           (lambda: Plane(three, 1), "normal"),
+                           (lambda: Box(numpy.ma.ones(3)), "half_extents"),
+                           (lambda: Point(three, (0, 0, 1), 0), "position"),
+                           (lambda: Point((0, 0, 0), three, 0), "normal"),
+                           (lambda: Contact(0, three), "normal")]:
+            with self.assertRaisesRegex(TypeError, f"(?s){name} is masked_array.*must be .* numbers, none of them"):
+                make()
+
+    def test_vectors_of_other_lengths_are_refused_by_name(self):
+        for make, text in [(lambda: Pose((0, 0)), r"position is \(0, 0\): must be three numbers"),
+                           (lambda: Box("abc"), "half_extents is 'abc': must be three numbers"),
+                           (lambda: Pose((0, 0, 0), None), "orientation is None: must be four")]:
+            with self.assertRaisesRegex(TypeError, text):
+                make()
 
 
 class OnePairOfPoses(unittest.TestCase):
@@ -197,6 +215,7 @@ class Batches(unittest.TestCase):
                           (poses[0], r"pose_a is an array of shape \(7,\): must be"),
                           (numpy.asfortranarray(poses), "use numpy.ascontiguousarray: must be"),
                           (poses[::2], "use numpy.ascontiguousarray: must be"),
+                          (numpy.ma.masked_array(poses), "pose_a is a masked array, whose mask"),
                           (poses.tolist(), "pose_a is a list: must be")]:
             for question in (touchstone.overlaps, touchstone.signed_distance, touchstone.contact):
                 with self.assertRaisesRegex(TypeError, text):
