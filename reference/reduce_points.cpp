@@ -82,7 +82,7 @@ class Outline {
 
 }  // namespace
 
-void reduce_points(Contact& contact, int max_points, double level) {
+void reduce_points(Contact& contact, int max_points, double level, double max_lack) {
   const int count = static_cast<int>(contact.points().size());
   if (count <= max_points) return;
   const Contact all = contact;
@@ -91,7 +91,8 @@ void reduce_points(Contact& contact, int max_points, double level) {
   for (const ContactPoint& p : all.points()) depth = std::max(depth, p.depth);
   unsigned deepest = 0;
   for (int k = 0; k < count; ++k) {
-    const bool is_deep = all.points()[outline.point(k)].depth >= depth - level * outline.length();
+    const double lack = depth - all.points()[outline.point(k)].depth;
+    const bool is_deep = lack <= std::min(level * outline.length(), max_lack);
     deepest |= static_cast<unsigned>(is_deep) << k;
   }
   constexpr double clearly_more = 1.001;

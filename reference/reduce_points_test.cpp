@@ -127,6 +127,18 @@ TEST(ReducePoints, KeepsTheSameAtEveryScale) {
   }
 }
 
+// A lean that counts as level may be much of a thin body's depth.
+TEST(ReducePoints, KeepsAPointThatLacksNoMoreThanIsSaid) {
+  constexpr double lower = 0.1 + 3e-10;
+  for (int limit = 1; limit < 8; ++limit) {
+    Contact contact = corners(8, lower);
+    reduce_points(contact, limit, 1e-9, 1e-11);
+    double deepest = 0;
+    for (const ContactPoint& p : contact.points()) deepest = std::max(deepest, p.depth);
+    EXPECT_EQ(deepest, lower) << limit;
+  }
+}
+
 TEST(ReducePoints, KeepsTheEndsOfALineAndTheDeepestAlone) {
   Contact line;
   line.normal = Vec3::UnitY();

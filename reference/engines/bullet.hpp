@@ -60,13 +60,20 @@ inline std::pair<Shape, int> to_shape(const btCollisionShape* shape) {
   return {Plane(to_vec3(s.getPlaneNormal()), s.getPlaneConstant()), 2};
 }
 
-/// Contact of a cylinder A with another shape B, with all points up to `threshold` apart.
+/// Contact of a cylinder A with another shape B, with points up to `threshold` apart, no more than
+/// a manifold holds.
 inline Contact contact_of(const Wrapper& a, const Wrapper& b, double threshold) try {
   const auto [shape_a, up_a] = to_shape(a.getCollisionShape());
   const auto [shape_b, up_b] = to_shape(b.getCollisionShape());
-  return contact({std::get<Cylinder>(shape_a), pose_of(a.getWorldTransform(), up_a), shape_b,
-                  pose_of(b.getWorldTransform(), up_b)},
-                 threshold, nullptr, PointRange::within_threshold);
+  const Configuration bodies{std::get<Cylinder>(shape_a), pose_of(a.getWorldTransform(), up_a),
+                             shape_b, pose_of(b.getWorldTransform(), up_b)};
+  Contact c = contact(bodies, threshold, nullptr, PointRange::within_threshold);
+  if constexpr (sizeof(btScalar) == 4) {
+    reduce_points(c, MANIFOLD_CACHE_SIZE, 1e-6);
+  } else {
+    reduce_points(c, MANIFOLD_CACHE_SIZE, 1e-9, unseen_lack(bodies));
+  }
+  return c;
 } catch (const InvalidInput&) {
   return {};
 }
@@ -111,7 +118,6 @@ class Algorithm : public btEmptyAlgorithm {  // which names no time of impact
     const bool is_a = first->getCollisionShape()->getShapeType() == CYLINDER_SHAPE_PROXYTYPE;
     Contact c = contact_of(is_a ? *first : *second, is_a ? *second : *first,
                            breaking + result->m_closestPointDistanceThreshold);
-    reduce_points(c, MANIFOLD_CACHE_SIZE, sizeof(btScalar) == 4 ? 1e-6 : 1e-9);
     if ((manifold_->getBody0() == object) != is_a) c.normal = -c.normal;
     add_points(c, *result);
     result->refreshContactPoints();

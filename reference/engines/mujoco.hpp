@@ -23,6 +23,7 @@
 #include <cstddef>
 #include <mujoco/mujoco.h>
 
+#include "../contact_of.hpp"
 #include "../reduce_points.hpp"
 #include "../touchstone.hpp"
 
@@ -103,10 +104,11 @@ int collide(const mjModel* m, Data* d, Written* contacts, int g1, int g2, mjtNum
   if (!has_interior<Cylinder>(size_a) || !has_interior<Other>(size_b)) {
     return own<Other>(m, d, contacts, g1, g2, margin);
   }
-  Contact c = contact(shape_of<Cylinder>(size_a), pose_of(d, a), shape_of<Other>(size_b),
-                      pose_of(d, b), margin, nullptr, PointRange::within_threshold);
+  const Configuration bodies{shape_of<Cylinder>(size_a), pose_of(d, a), shape_of<Other>(size_b),
+                             pose_of(d, b)};
+  Contact c = contact(bodies, margin, nullptr, PointRange::within_threshold);
   if (c.points().empty()) return 0;
-  reduce_points(c, room(m, g1, g2, margin));
+  reduce_points(c, room(m, g1, g2, margin), 1e-9, unseen_lack(bodies));
   const Vec3 normal = cylinder_is_first ? Vec3(-c.normal) : c.normal;
   for (const ContactPoint& p : c.points()) {
     Written& out = *contacts++;

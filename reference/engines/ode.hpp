@@ -136,10 +136,10 @@ inline int collide(dGeomID a, dGeomID b, int flags, dContactGeom* contacts, int 
   const std::optional<Shape> shape_a = shape_of(a), shape_b = shape_of(b);
   if (!shape_a || !shape_b) return collide_flat(a, b, flags, contacts, skip);
   const Pose pose_b = dGeomGetClass(b) == dPlaneClass ? Pose() : pose_of(b);  // a plane has none
-  Contact c = contact({std::get<Cylinder>(*shape_a), pose_of(a), *shape_b, pose_b}, 0, nullptr,
-                      PointRange::within_threshold);
+  const Configuration bodies{std::get<Cylinder>(*shape_a), pose_of(a), *shape_b, pose_b};
+  Contact c = contact(bodies, 0, nullptr, PointRange::within_threshold);
   constexpr int count_mask = 0xffff;
-  reduce_points(c, std::max(1, flags & count_mask));
+  reduce_points(c, std::max(1, flags & count_mask), 1e-9, unseen_lack(bodies));
   char* at = reinterpret_cast<char*>(contacts);
   for (const ContactPoint& p : c.points()) {
     dContactGeom& out = *reinterpret_cast<dContactGeom*>(at);

@@ -104,6 +104,21 @@ TEST_F(OdeDropIn, GivesAsManyPointsAsAreAskedForAndWritesNoMore) {
   }
 }
 
+// A needle that leans by a hair rises by part of its width: which end is the lower one shows.
+TEST_F(OdeDropIn, GivesTheDeepestPointOfANeedleThatLeansByAHair) {
+  constexpr double radius = 1e-5, promised = 1e-6;  // of the smaller size
+  const double c = std::sqrt(0.5);
+  for (const double lean : {-3e-10, 3e-10}) {
+    const Configuration lying{Cylinder(radius, 1),
+                              Pose(Vec3(0, 0, 0.9 * radius), {c, c * (1 + lean / 2), 0, 0}),
+                              Plane(Vec3(0, 0, 1), 0), Pose()};
+    const Geoms geoms(lying);
+    const auto points = collide(geoms.a, geoms.b, 1);
+    ASSERT_EQ(points.size(), 1u);
+    EXPECT_NEAR(points[0].depth, -signed_distance(lying).value, promised * radius) << lean;
+  }
+}
+
 TEST_F(OdeDropIn, AnswersGeomsWithOffsetsAndInSpaces) {
   const dWorldID world = dWorldCreate();
   const dBodyID body = dBodyCreate(world);
