@@ -23,6 +23,7 @@ std::string need_line(const SceneFile& file, const Spreads& spreads, std::size_t
   std::string line =
       fmt::format("{:>3}. {:<6} {}: {}", need + 1, verdict.holds() ? "holds" : "BROKEN",
                   n.text(file.scene), measured(verdict, n));
+  if (!verdict.holds()) line += fmt::format(" at {:.2f} s", verdict.time);
   if (need < spreads.of_needs.size() && spreads.of_needs[need]) {
     line += fmt::format(" (exact runs differ by {:.2g}{})", *spreads.of_needs[need], n.unit);
   }
@@ -180,8 +181,13 @@ std::string headline(const Choice& choice) {
   }
   const double percent = 100 * choice.step_saved();
   if (choice.answer != 0) {
-    return fmt::format("The cheapest models that meet all needs save {:.0f}% of a step:\n",
-                       percent);
+    const double seconds = choice.runs[choice.answer].seconds();
+    const bool is_cheapest = std::ranges::none_of(choice.runs, [&](const SceneRun& run) {
+      return run.timing > 0 && run.holds() && choice.has_models_alone(run) &&
+             run.seconds() < seconds;
+    });
+    return fmt::format("The {} models that meet all needs save {:.0f}% of a step:\n",
+                       is_cheapest ? "cheapest" : "simplest of the cheapest", percent);
   }
   if (!(percent > 0)) return "Exact: no model that meets all needs takes less of a step:\n";
   return fmt::format(

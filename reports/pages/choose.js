@@ -28,9 +28,10 @@ function headline() {
   byId('description').textContent = data.scene.description;
   const exact = data.runs[0], percent = 100 * data.step_saved;
   const instead = (text, of) => text(answer) + (data.answer === 0 ? '' : ` instead of ${text(exact)}`) + of;
+  const isCheapest = !data.runs.some(r => r.timed && r.holds && r.models_alone && r.step_microseconds < answer.step_microseconds);
   const microseconds = (member, of) => instead(run => `${exponent(run[member], 3)} µs`, of);
   byId('headline').textContent = !data.possible ? `Not even exact contacts meet the needs of this scene: ${failure(exact)}.`
-      : data.worthwhile ? `The cheapest models that meet all needs save ${Math.round(percent)}% of a step: ${microseconds('step_microseconds', '.')}`
+      : data.worthwhile ? `The ${isCheapest ? 'cheapest' : 'simplest of the cheapest'} models that meet all needs save ${Math.round(percent)}% of a step: ${microseconds('step_microseconds', '.')}`
       : percent > 0 ? `Exact: nothing cheaper that meets all needs saves more than ${(Math.ceil(10 * percent) / 10).toFixed(1)}% of a step.`
       : 'Exact: no model that meets all needs takes less of a step.';
   const cheaper = data.runs.filter(r => isUniform(r) && !r.models_alone && r.holds && r.step_microseconds < answer.step_microseconds);
