@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "oracle/judge/hull.hpp"
 #include "reports/bytes.hpp"
 #include "reports/stability/measure.hpp"
 #include "reports/stability/step_change.hpp"

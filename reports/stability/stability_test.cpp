@@ -14,6 +14,7 @@
 
 #include "candidates/candidates.hpp"
 #include "candidates/testing/plain_contacts.hpp"
+#include "oracle/judge/hull.hpp"
 #include "oracle/patch/convex_set.hpp"
 #include "properties/files/configuration_json.hpp"
 #include "properties/motions/motion.hpp"

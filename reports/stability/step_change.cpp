@@ -7,7 +7,7 @@
 #include <map>
 #include <tuple>
 
-#include "oracle/patch/convex_set.hpp"
+#include "oracle/judge/hull.hpp"
 #include "properties/motions/motion.hpp"
 #include "properties/pose_class.hpp"
 #include "reports/bytes.hpp"
@@ -18,7 +18,6 @@ namespace touchstone {
 namespace {
 
 using oracle::ContactPatch;
-using oracle::Vec2;
 
 double depth_within(double signed_distance, const Bar& bar) {
   return std::max(0.0, bar.threshold - signed_distance);
@@ -46,17 +45,6 @@ double rounding_of(const Configuration& c) {
 /// The largest change of the true depth at a step, metres.
 double allowance(const Configuration& from, const Configuration& to) {
   return largest_displacement(from, to) + std::max(rounding_of(from), rounding_of(to));
-}
-
-double distance_in_space(const Vec3& point, const ContactPatch& patch) {
-  const double beside = patch.distance(point);
-  return std::hypot(beside, (point - patch.in_world(patch.in_plane(point))).norm());
-}
-
-double farthest(const ContactPatch& from, const ContactPatch& to) {
-  double max = 0;
-  for (const Vec3& point : from.outline()) max = std::max(max, distance_in_space(point, to));
-  return max;
 }
 
 }  // namespace
@@ -125,25 +113,6 @@ double Step::true_amplification() const { return std::abs(true_change_) / allowa
 
 ContactPatch true_patch(const ExaminedPose& pose) {
   return patch_along(pose.configuration, pose.truth.normals.front().n);
-}
-
-double movement(const ContactPatch& from, const ContactPatch& to) {
-  return std::max(farthest(from, to), farthest(to, from));
-}
-
-ContactPatch hull_of_points(const ts_answer& answer) {
-  Vec3 mean = Vec3::Zero();
-  for (int i = 0; i < answer.point_count; ++i) mean += Vec3(answer.points[i].position);
-  mean /= answer.point_count;
-  const Vec3 n = Vec3(answer.normal).normalized();
-  const Vec3 e1 = n.unitOrthogonal();
-  const ContactPatch::Plane plane{mean, e1, n.cross(e1)};
-  std::vector<Vec2> flat;
-  for (int i = 0; i < answer.point_count; ++i) {
-    const Vec3 from_mean = Vec3(answer.points[i].position) - mean;
-    flat.emplace_back(from_mean.dot(plane.e1), from_mean.dot(plane.e2));
-  }
-  return {plane, oracle::ConvexSet::polygon(oracle::convex_hull(flat))};
 }
 
 namespace {
