@@ -50,8 +50,16 @@ struct Law {
 /// All laws, the law "answers" first.
 const std::vector<Law>& all_laws();
 
-/// The law "hint" (hint_law.cpp), one of all_laws.
+/// The laws "hint" (hint_law.cpp) and "hull" (hull_law.cpp), two of all_laws.
 Law hint_law(bool (*applies)(const Configuration& configuration));
+Law hull_law(bool (*applies)(const Configuration& configuration));
+
+/// How far the hull of the contact points moves at the steps of the law "hull", beyond what the
+/// normal's turn carries it, relative to the larger size. A step does not count that chooses
+/// another normal or leaves no overlap. `answers`: to the configuration, then to the law's
+/// questions.
+double hull_jump(const Configuration& configuration, std::span<const Answer> answers,
+                 const Bar& bar);
 
 /// Throws InvalidInput (field "--law") that lists the existing laws.
 const Law& find_law(std::string_view name);

@@ -392,6 +392,7 @@ const std::vector<Law>& all_laws() {
        always, nothing_else, judge_points},
       {"manifold", "Of exactly aligned bodies the points cover at least 0.3 of the contact patch.",
        always, nothing_else, judge_manifold},
+      hull_law(can_be_moved),
       hint_law(can_be_moved),
       {"memory", "The answer does not depend on what was asked before, to the last bit.",
        can_be_moved, ask_again, judge_again},

@@ -109,6 +109,13 @@ TEST(Laws, SeeWhatTheyAreThereFor) {
   EXPECT_EQ(failure("manifold", {good}), "");
   EXPECT_EQ(failure("manifold", {contact(-0.1, {0, 0, 1}, {{0, 0, 0.95}})}), "few-points");
 
+  std::vector<Answer> unseen(7, good);
+  EXPECT_EQ(failure("hull", unseen), "");
+  unseen[5] = contact(-0.1, {0, 0, 1}, {{-1, 0, 0.95}, {0.5, 0.8, 0.95}, {0.5, -0.8, 0.95}});
+  EXPECT_EQ(failure("hull", unseen), "jump");
+  unseen[5] = contact(-0.1, {0, 0.6, 0.8}, {{-1, 0, 0.95}});  // another of several normals
+  EXPECT_EQ(failure("hull", unseen), "");
+
   EXPECT_EQ(failure("memory", {good, good, good, good, good}), "");
   EXPECT_EQ(failure("memory", {good, good, good, good, contact(std::nextafter(-0.1, 0))}),
             "not-invariant");
