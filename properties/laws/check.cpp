@@ -306,49 +306,8 @@ void drop_unconfirmed(std::vector<Found>& all, const CheckOptions& options,
   all = std::move(confirmed);
 }
 
-/// How hard a failure is simplified: the first of its name, which is shown; and one of other
-/// features, of which there may be a hundred.
-constexpr int trials_of_first = 500, trials_of_others = 100;
-
-Configuration simplest(const Found& f, int max_trials, CandidateProcess& candidate,
-                       const Bar& bar) {
-  const auto fails_alike = [&](const std::optional<Violation>& v, const Configuration& c) {
-    return v && v->failure == f.violation.failure &&
-           (f.features.empty() || meeting_features(c) == f.features);
-  };
-  // All trials in one session; what it finds has to fail alone.
-  candidate.ask_within(bar.threshold);
-  const Configuration met = make_configuration(f.identity);
-  const Law* const law[] = {f.law};
-  Configuration simple = simplified(
-      met,
-      [&](const Configuration& c) {
-        const auto violations = broken_in_session(law, c, candidate, bar);
-        return !violations.empty() && fails_alike(violations.front(), c);
-      },
-      max_trials);
-  if (fails_alike(broken(*f.law, simple, candidate, bar), simple)) return simple;
-  return simplified(
-      met,
-      [&](const Configuration& c) { return fails_alike(broken(*f.law, c, candidate, bar), c); },
-      max_trials);
-}
-
-Failure failure(const Found& f, const Configuration& simple, CandidateProcess& candidate,
-                const Bar& bar) {
-  const Violation violation = broken(*f.law, simple, candidate, bar).value_or(f.violation);
-  candidate.ask_within(bar.threshold);
-  const Answer answer = candidate.answers({&simple, 1}).front();
-  return {f.law->name,
-          candidate.candidate().name,
-          candidate.candidate().version,
-          to_string(f.identity),
-          simple,
-          violation,
-          bar,
-          answer,
-          score(simple, oracle::truth(simple), answer, bar),
-          f.features};
+MetFailure met(const Found& f) {
+  return {f.law, to_string(f.identity), make_configuration(f.identity), f.violation, f.features};
 }
 
 /// Simplifies the first of each kind, and counts the others.
@@ -366,21 +325,61 @@ std::vector<Failure> simplified(const std::vector<Found>& all, const CheckOption
   const auto texts = run(
       first.size(), options, candidate,
       [&](std::size_t i, CandidateProcess& asked) {
-        return to_text(simplest(*first[i].first, first[i].second, asked, options.bar));
+        return to_text(simplest(met(*first[i].first), first[i].second, asked, options.bar));
       },
       [&](std::size_t i) { return to_string(first[i].first->identity); });
   const auto places = by_kind(all);
   std::vector<Failure> result;
   for (std::size_t i = 0; i < texts.size(); ++i) {
-    const Found& f = *first[i].first;
-    result.push_back(failure(f, configuration(texts[i], make_configuration(f.identity)), candidate,
-                             options.bar));
-    result.back().met = places.at(f.kind()).size();
+    const MetFailure f = met(*first[i].first);
+    result.push_back(
+        failure_of(f, configuration(texts[i], f.configuration), candidate, options.bar));
+    result.back().met = places.at(first[i].first->kind()).size();
   }
   return result;
 }
 
 }  // namespace
+
+Configuration simplest(const MetFailure& f, int max_trials, CandidateProcess& candidate,
+                       const Bar& bar) {
+  const auto fails_alike = [&](const std::optional<Violation>& v, const Configuration& c) {
+    return v && v->failure == f.violation.failure &&
+           (f.features.empty() || meeting_features(c) == f.features);
+  };
+  // All trials in one session; what it finds has to fail alone.
+  candidate.ask_within(bar.threshold);
+  const Law* const law[] = {f.law};
+  Configuration simple = simplified(
+      f.configuration,
+      [&](const Configuration& c) {
+        const auto violations = broken_in_session(law, c, candidate, bar);
+        return !violations.empty() && fails_alike(violations.front(), c);
+      },
+      max_trials);
+  if (fails_alike(broken(*f.law, simple, candidate, bar), simple)) return simple;
+  return simplified(
+      f.configuration,
+      [&](const Configuration& c) { return fails_alike(broken(*f.law, c, candidate, bar), c); },
+      max_trials);
+}
+
+Failure failure_of(const MetFailure& f, const Configuration& simple, CandidateProcess& candidate,
+                   const Bar& bar) {
+  const Violation violation = broken(*f.law, simple, candidate, bar).value_or(f.violation);
+  candidate.ask_within(bar.threshold);
+  const Answer answer = candidate.answers({&simple, 1}).front();
+  return {f.law->name,
+          candidate.candidate().name,
+          candidate.candidate().version,
+          f.identity,
+          simple,
+          violation,
+          bar,
+          answer,
+          score(simple, oracle::truth(simple), answer, bar),
+          f.features};
+}
 
 std::vector<LawResult> check(CandidateProcess& candidate, const CheckOptions& options,
                              const std::function<void(std::uint64_t, std::uint64_t)>& progress) {

@@ -67,6 +67,27 @@ struct LawResult {
 std::vector<LawResult> check(CandidateProcess& candidate, const CheckOptions& options,
                              const std::function<void(std::uint64_t, std::uint64_t)>& progress);
 
+/// A configuration that breaks a law, as it was met.
+struct MetFailure {
+  const Law* law;
+  std::string identity;  ///< its own, or that of what it grew from
+  Configuration configuration;
+  Violation violation;
+  std::string features = {};  ///< that meet; empty where nobody has looked
+};
+
+/// Simplifies it, with at most `max_trials`, for as long as it fails by the same name, and the same
+/// features meet where they are known.
+Configuration simplest(const MetFailure& met, int max_trials, CandidateProcess& candidate,
+                       const Bar& bar);
+/// What is kept of it: `simple` is what it was simplified to.
+Failure failure_of(const MetFailure& met, const Configuration& simple, CandidateProcess& candidate,
+                   const Bar& bar);
+
+/// How hard a failure is simplified: the first of its name, which is shown; and one of other
+/// features, of which there may be a hundred.
+inline constexpr int trials_of_first = 500, trials_of_others = 100;
+
 /// The features of both bodies that meet along the optimal normal, A's first, as in "rim-face": of
 /// a cylinder cap, side or rim, of a capsule side or end, of a box face, edge or vertex. A normal
 /// within 1e-6 rad of an axis counts as along it, since no engine tells them apart. "tied" where
