@@ -141,6 +141,7 @@ Words words_for(const std::string& value) {
   if (value == "REPORT-PART") return {"scores", "timing", "stability", "experiments", "engines"};
   if (value == "ENGINE") return {"bullet", "bullet-float", "ode", "mujoco"};
   if (value == "PART") return {"amplification", "maps", "sequences"};
+  if (value == "GOAL") return {"distance", "normal", "points", "hull", "time"};
   if (value == "LANGUAGE") return {"c++", "javascript", "python"};
   if (value == "FAILURE") return {"accuracy", "time"};
   if (value == "FORMAT") return {"jsonl", "csv", "npz"};

@@ -85,7 +85,8 @@ std::string BarOption::command_line() const {
   return fmt::format(" --tolerance {} --threshold {}", bar_.tolerance, bar_.threshold);
 }
 
-SampleOption::SampleOption(Command& command, std::uint64_t count, std::uint64_t max_count)
+SampleOption::SampleOption(Command& command, std::uint64_t count, std::uint64_t max_count,
+                           const std::string& counted)
     : count_(count),
       pair_option_(
           command.list("--pair", pairs_, "Only these pairs, as in cylinder-box").value("PAIR")),
@@ -93,9 +94,8 @@ SampleOption::SampleOption(Command& command, std::uint64_t count, std::uint64_t 
           command
               .list("--class", classes_, "Only these pose classes; touchstone classes lists them")
               .value("CLASS")),
-      count_option_(command.count("--count", count_, {1, max_count},
-                                  "Configurations of each pair and pose class; 1e6 is understood "
-                                  "too")),
+      count_option_(
+          command.count("--count", count_, {1, max_count}, counted + "; 1e6 is understood too")),
       group_option_(command
                         .list("--group", groups_,
                               "Only everyday, degenerate, extreme or recorded pose classes")

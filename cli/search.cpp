@@ -1,113 +1,157 @@
 #include "reports/search.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
-#include <map>
 #include <memory>
-#include <utility>
+#include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
 #include "candidates/host/progress.hpp"
 #include "cli/command.hpp"
+#include "cli/failure_text.hpp"
 #include "cli/options.hpp"
 #include "properties/files/disk.hpp"
 #include "properties/laws/failure_file.hpp"
+#include "reference/invalid_input.hpp"
+#include "reports/replay.hpp"
 #include "reports/terminal.hpp"
 
 namespace touchstone {
 namespace {
 
+constexpr std::uint64_t usual_budget = 10000, max_budget = 1000000000;
+
 struct SearchArguments {
-  explicit SearchArguments(Command& command) : sample(command, 250, 1000000), bar(command) {}
+  explicit SearchArguments(Command& command)
+      : sample(command, usual_budget, max_budget, "Evaluations for each pair and goal"),
+        bar(command),
+        workers(command) {}
   SampleOption sample;
   BarOption bar;
+  WorkersOption workers;
   std::string candidate, save;
+  std::vector<std::string> goals;
   bool json = false;
+
+  Search search() const {
+    Search s;
+    s.pairs = sample.pairs();
+    for (const std::string& name : goals) add_once(s.goals, parse_goal(name));
+    if (goals.empty()) s.goals.assign(usual_goals.begin(), usual_goals.end());
+    s.starts = {sample.classes(), sample.groups()};
+    s.seed = sample.seed();
+    s.budget = sample.count();
+    s.bar = bar.get();
+    s.workers = workers.get();
+    return s;
+  }
 };
 
-std::string name_of(const Cell& cell) {
-  return std::string(pair_name(cell.pair)) + '/' + cell.pose_class;
+std::string value_text(double value) {
+  return std::isinf(value) ? "no answer" : fmt::format("{:.1e}", value);
 }
 
-TextTable table_of(const std::vector<Cell>& all, const Terminal& terminal) {
-  constexpr std::size_t numbers_width = 36;
-  std::size_t name_width = 0;
-  for (const Cell& cell : all) name_width = std::max(name_width, name_of(cell).size());
-  return {"class",
-          std::min(name_width, terminal.columns - numbers_width),
-          {{"outcome", 15, 0}, {"severity", 9, 1}, {"sampled", 9, 2}},
-          terminal};
+std::string goals_table(const std::vector<GoalResult>& goals, const Terminal& terminal) {
+  constexpr std::size_t name_width = 26, numbers_width = 36;
+  const TextTable table("pair and goal", std::min(name_width, terminal.columns - numbers_width),
+                        {{"found", 9, 0}, {"sampled", 9, 1}, {"broken", 8, 0}, {"climbs", 8, 2}},
+                        terminal);
+  std::string text = table.headings();
+  for (const GoalResult& r : goals) {
+    if (!r.summit) continue;
+    text += table.row(fmt::format("{} {}", pair_name(r.pair), goal_name(r.goal)),
+                      {{value_text(r.summit->value)},
+                       {value_text(r.summit->sampled)},
+                       {fmt::format("{}", r.broken), r.broken > 0},
+                       {fmt::format("{}", r.climbs)}});
+  }
+  Legend legend(table, terminal);
+  return text + '\n' +
+         legend
+             .of("found",
+                 "the largest, relative to the smaller size; of time, to the median of "
+                 "what is sampled")
+             .of("sampled", "the largest of the starts, which are drawn and not changed")
+             .of("broken", "climbs that end where a law is broken")
+             .text();
+}
+
+/// How to see the slowest configurations again; those of other goals that matter are failures.
+std::string slowest_text(const std::vector<GoalResult>& goals, const std::string& candidate) {
+  std::string text;
+  for (const GoalResult& r : goals) {
+    if (r.goal != Goal::time || !r.summit) continue;
+    text += fmt::format("\n{}, slowest:\n  {}\n", pair_name(r.pair),
+                        replay_command(r.summit->configuration, {candidate}));
+  }
+  return text;
 }
 
 int run_search(const SearchArguments& options) {
   if (!options.save.empty()) check_writable(options.save, "--save");
-  const std::vector<Cell> all = cells(options.sample.campaign());
-  const Bar bar = options.bar.get();
-  const std::uint64_t budget = options.sample.count();
-  CandidateProcess process(named_candidate(options.candidate), bar.threshold);
-
-  std::map<std::pair<Pair, std::string>, std::pair<double, Failure>> failures;  // the worst alike
-  nlohmann::json found_json = nlohmann::json::array();
-  const Terminal terminal = standard_output();
-  const TextTable table = table_of(all, terminal);
-  std::string text = table.headings();
+  const Search wanted = options.search();
+  const Candidate& candidate = named_candidate(options.candidate);
+  SearchResult result;
   {
-    Progress progress("configurations", all.size() * budget);
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      const SearchResult found =
-          search(process, {all[i], options.sample.seed(), budget, bar},
-                 [&](std::uint64_t asked) { progress.update(i * budget + asked); });
-      found_json.push_back(to_json(found, all[i]));
-      text += table.row(name_of(all[i]), {{outcome_name(found.score.outcome)},
-                                          {fmt::format("{:.1e}", found.score.severity)},
-                                          {fmt::format("{:.1e}", found.sampled.severity)}});
-      const auto failure = failure_of(found, process, bar);
-      if (!failure) continue;
-      const auto [at, is_new] = failures.try_emplace({all[i].pair, failure->violation.failure},
-                                                     found.score.severity, *failure);
-      if (!is_new && at->second.first < found.score.severity) {
-        at->second = {found.score.severity, *failure};
-      }
-    }
+    std::unique_ptr<Progress> progress;
+    result = search(candidate, wanted, [&](std::uint64_t done, std::uint64_t all) {
+      if (!progress) progress = std::make_unique<Progress>("evaluations", all);
+      progress->update(done);
+    });
   }
-  text += '\n' + terminal.folded("severity: the worst found, relative to the smaller size");
-  if (table.has("sampled")) {
-    text += terminal.folded(
-        "sampled: the worst of the first quarter, which were drawn and not changed");
+  if (result.goals.empty()) {
+    throw InvalidInput("--candidate", candidate.name,
+                       "must have a routine for a pair that is asked");
   }
-  text += table.what_is_left_out();
+  const Terminal terminal = standard_output();
+  std::string text = goals_table(result.goals, terminal);
+  for (const Failure& f : result.failures) text += '\n' + failure_text(f, terminal);
+  text += slowest_text(result.goals, candidate.name);
   std::string saved;
   const auto write = [&] {
-    for (const auto& [name, failure] : failures) {
-      if (options.save.empty()) break;
-      saved += "saved " + save(failure.second, options.save).string() + '\n';
+    if (options.save.empty()) return;
+    for (const Failure& f : result.failures) {
+      saved += "saved " + save(f, options.save).string() + '\n';
     }
   };
-  write_then_print(write, options.json ? found_json.dump(1) + '\n' : text);
+  write_then_print(write, options.json ? to_json(result).dump(1) + '\n' : text);
   if (!options.json) print(saved);
-  return failures.empty() ? 0 : something_failed;
+  return result.failures.empty() ? 0 : something_failed;
+}
+
+std::string goal_list() {
+  return "Goals, each what is made as large as can be:\n" +
+         list_entry("distance", 9, "the error of the signed distance") +
+         list_entry("normal", 9, "the normal regret") +
+         list_entry("points", 9, "the error of the deepest point's depth") +
+         list_entry("hull", 9,
+                    "how far the hull of the points moves at a step that cannot be seen") +
+         list_entry("time", 9, "what a query takes; only where it is named");
 }
 
 }  // namespace
 
 void add_search(Program& program) {
-  Command command = program.command("search", "Look for one candidate's worst configurations");
+  Command command = program.command("search", "Climb to one candidate's worst configurations");
   const auto options = std::make_shared<SearchArguments>(command);
   command.text("--candidate", options->candidate, "Its name, or a plug-in's file")
       .value("CANDIDATE")
       .required();
-  command
-      .text("--save", options->save,
-            "Save the worst failure of each kind and pair into this folder")
+  command.list("--goal", options->goals, "Only these goals (default: distance,normal,points,hull)")
+      .value("GOAL");
+  command.text("--save", options->save, "Save failures into this folder, one of each cause")
       .value("FOLDER");
   command.flag("--json", options->json, "Print all that was found as JSON instead of text");
   command.footer(
       "Examples:\n"
       "  touchstone search --candidate bullet --pair cylinder-box --save failures\n"
-      "  touchstone search --candidate reference --tolerance 1e-12 --count 1e5\n"
-      "  touchstone replay failures/bullet-cylinder-box-agreement-shallow.json\n"
-      "Exit code 1: something was beyond the tolerance.");
+      "  touchstone search --candidate reference --tolerance 1e-13 --count 1e6\n"
+      "  touchstone search --candidate reference --goal time --pair cylinder-cylinder\n"
+      "  touchstone replay failures/bullet-cylinder-box-agreement-shallow.json\n" +
+      goal_list() + "Exit code 1: a law was broken.");
   command.runs([options] { return run_search(*options); });
 }
 

@@ -4,7 +4,9 @@
 // of them, or none, chosen by the bits of A's position. obedient returns the previous normal that
 // it is given. declining answers planes, with a relative error of 1e-6 in the depth if the axis
 // lies in the plane; TOUCHSTONE_DECLINE, a number in the environment, multiplies that error, and
-// slows down all queries if it is negative. stalling never answers where A's x is negative, and
+// slows down all queries if it is negative. ridged answers planes, too, and errs by up to a
+// thousandth of the radius where the axis rises by 0.6, by half of that a billionth beside it: so
+// narrow a ridge is not met by chance. stalling never answers where A's x is negative, and
 // takes ten milliseconds where it is above 1. hiccuping never answers the first question of all its
 // sessions, whatever that is. counting answers with the number of pairs prepared and the number not
 // yet released.
@@ -146,9 +148,8 @@ ts_prepared* prepare_declining(void*, const ts_shape* a, const ts_shape* b, doub
   const char* const factor = std::getenv("TOUCHSTONE_DECLINE");
   return reinterpret_cast<ts_prepared*>(new Declining{*a, *b, factor ? std::atof(factor) : 1});
 }
-void query_declining(ts_prepared* prepared, const ts_pose* a, const ts_pose* b, const double*,
-                     ts_answer* answer) {
-  const auto& d = *reinterpret_cast<const Declining*>(prepared);
+/// Answers with the exact distance; returns |n·u|, zero where the cylinder lies.
+double query_planes(const Declining& d, const ts_pose* a, const ts_pose* b, ts_answer* answer) {
   const double z[3] = {0, 0, 1};
   double n[3], u[3], from_plane[3];
   for (int repeated = 0; repeated < (d.factor < 0 ? 500 : 1); ++repeated) {
@@ -159,19 +160,32 @@ void query_declining(ts_prepared* prepared, const ts_pose* a, const ts_pose* b, 
   for (int i = 0; i < 3; ++i) from_plane[i] = a->position[i] - b->position[i];
   const double along = std::fabs(dot(n, u));
   const double across = std::sqrt(std::fmax(0, 1 - along * along));
-  double distance =
+  const double distance =
       dot(n, from_plane) - d.plane.size[3] - d.a.size[1] * along - d.a.size[0] * across;
   answer->status = distance > 0 ? TS_NONE : TS_CONTACT;
-  if (along < 1e-9) distance *= 1 + 1e-6 * std::fabs(d.factor);
   answer->signed_distance = distance;
   answer->point_count = 0;
   std::memcpy(answer->normal, n, sizeof n);
+  return along;
+}
+void query_declining(ts_prepared* prepared, const ts_pose* a, const ts_pose* b, const double*,
+                     ts_answer* answer) {
+  const auto& d = *reinterpret_cast<const Declining*>(prepared);
+  const double along = query_planes(d, a, b, answer);
+  if (along < 1e-9) answer->signed_distance *= 1 + 1e-6 * std::fabs(d.factor);
 }
 void query_tiring(ts_prepared* prepared, const ts_pose* a, const ts_pose* b, const double* hint,
                   ts_answer* answer) {
   static int asked = 0;
   query_declining(prepared, a, b, hint, answer);
   if (++asked >= 40) answer->signed_distance -= 0.1;
+}
+void query_ridged(ts_prepared* prepared, const ts_pose* a, const ts_pose* b, const double*,
+                  ts_answer* answer) {
+  constexpr double height = 1e-3, width = 1e-9;
+  const auto& d = *reinterpret_cast<const Declining*>(prepared);
+  const double beside = std::fabs(query_planes(d, a, b, answer) - 0.6);
+  answer->signed_distance += height * d.a.size[0] * width / (width + beside);
 }
 void release_declining(ts_prepared* p) { delete reinterpret_cast<Declining*>(p); }
 
@@ -225,13 +239,15 @@ const ts_candidate candidates[] = {
      supports_planes, prepare_declining, query_declining, release_declining, nullptr, nullptr},
     {"tiring", "1", "wrong from the fortieth question on", nullptr, nullptr, supports_planes,
      prepare_declining, query_tiring, release_declining, nullptr, nullptr},
+    {"ridged", "1", "wrong on a narrow ridge", nullptr, nullptr, supports_planes, prepare_declining,
+     query_ridged, release_declining, nullptr, nullptr},
     {"counting", "1", "answers what it has prepared and where it runs", nullptr, nullptr, supports,
      prepare_counted, query_counted, release_counted, nullptr, nullptr},
     {"stalling", "1", "is slow or endless in places", nullptr, nullptr, supports, prepare,
      query_stalling, release, nullptr, nullptr},
     {"hiccuping", "1", "is endless once", nullptr, nullptr, supports, prepare, query_hiccuping,
      release, nullptr, nullptr}};
-const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 8, candidates, nullptr, 0};
+const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 9, candidates, nullptr, 0};
 
 }  // namespace
 

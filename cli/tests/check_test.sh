@@ -119,6 +119,7 @@ END
 # What a search finds is saved alike.
 deep=(search --candidate capsule --pair cylinder-sphere --class general-deep)
 expect 1 'shallow\|overdeep\|missed' "${deep[@]}" --count 40 --save "$folder/found"
+also "replay - --candidates capsule" '^cylinder-sphere points .* 1 *1$'
 expect 0 'as expected' check --corpus "$folder/found"
 expect 0 'capsule: contact, \|capsule: none, ' replay "$(ls "$folder"/found/*.json | head -n 1)" --candidates capsule
 "$program" "${deep[@]}" --count 4 --json | python3 -m json.tool >"$folder/found.json" ||

@@ -78,7 +78,7 @@ blocked 'depth x' stability $rim $one --out "$folder/blocked"
 expect 0 . report $lying $one --only scores --out "$folder/r"
 blocked 'compared' compare "$folder"/r/report.json "$folder"/r/report.json --html /dev/full
 for saved in "$folder"/found/*.json; do mkdir -p "$folder/taken/$(basename "$saved")"; done
-expect 2 '^severity: ' $deep --save "$folder/taken"
+expect 2 '^found: ' $deep --save "$folder/taken"
 also '^error: --save is ".*/taken/capsule-'
 # Standard error is where errors go; without it the exit code still tells.
 "$program" replay nonsense 2>&-

@@ -56,6 +56,10 @@ expect 2 '^error: --load is ".*empty.txt": must list a command' --load "$folder/
 expect 2 '^error: --candidate is ".*empty.txt": must list a command' check --candidate "$folder/empty.txt"
 expect 2 '^error: --candidate is "bullet,ode": must be one name, not a list' check --candidate bullet,ode
 expect 2 '^error: --candidate is "bulet": must be one of reference, ' search --candidate bulet
+expect 2 '^error: --goal is "depth": must be one of distance, normal, points, hull, time$' \
+  search --candidate bullet --goal distance,depth
+expect 2 '^error: --candidate is libccd-gjk: must have a routine for a pair' \
+  search --candidate libccd-gjk --pair cylinder-plane --count 1
 for name in ./nope.so nope.so; do
   expect 2 "^error: --candidate is \"$name\": must be a file that is there, or a name that" check --candidate $name
   expect 2 "^error: --candidates is \"$name\": must be a name; a plug-in's file is given by --load" solve --candidates $name
