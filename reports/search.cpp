@@ -236,9 +236,11 @@ std::string climb_from(const Summit& summit) { return "a climb from " + summit.s
 
 std::optional<MetFailure> failure_at(const Summit& summit, Goal goal, CandidateProcess& candidate,
                                      const Bar& bar) {
+  // Points are judged where depth and normal are right.
   std::vector<const char*> laws = {"answers"};
   if (goal == Goal::hull) laws.push_back("hull");
-  if (goal != Goal::hull && goal != Goal::time) laws.insert(laws.end(), {"agreement", "points"});
+  if (goal != Goal::hull && goal != Goal::time) laws.push_back("agreement");
+  if (goal == Goal::points) laws.push_back("points");
   for (const char* name : laws) {
     const Law& law = find_law(name);
     const auto violation = broken(law, summit.configuration, candidate, bar);
