@@ -54,11 +54,11 @@ struct Program {
 
 /// Those that need nothing of ours. The first of an engine is the usual one.
 const std::array programs = {
-    Program{"bullet", "bullet", "Bullet", cpp, bullet_template, "deepest"},
-    Program{"ode", "ode", "ODE", cpp, ode_template, "deepest"},
-    Program{"fcl", "fcl", "FCL", cpp, fcl_template, "deepest"},
-    Program{"libccd", "libccd-gjk", "libccd", cpp, libccd_template, "deepest", false},
-    Program{"mujoco", "mujoco", "MuJoCo", cpp, mujoco_template, "deepest"},
+    Program{"bullet", "bullet", "Bullet", cpp, bullet_template, "engine"},
+    Program{"ode", "ode", "ODE", cpp, ode_template, "engine"},
+    Program{"fcl", "fcl", "FCL", cpp, fcl_template, "engine"},
+    Program{"libccd", "libccd-gjk", "libccd", cpp, libccd_template, "engine", false},
+    Program{"mujoco", "mujoco", "MuJoCo", cpp, mujoco_template, "engine"},
     Program{"jolt", "jolt", "Jolt", javascript, jolt_mjs_template, "query"},
     Program{"jolt", "jolt", "Jolt", cpp, jolt_doctest_template, "doctest"},
     Program{"jolt-margin-0", "jolt-margin-0", "Jolt", javascript, jolt_mjs_template, "query"},
@@ -123,8 +123,8 @@ const Candidate* askable_candidate(std::string_view name) {
 /// The program for an engine or candidate in a language, or the usual one.
 const Program& find_program(std::string_view name, std::string_view language,
                             const Configuration& c, const Candidate* candidate) {
-  static const Program plugin{"", "", "", cpp, plugin_template, "points"};
-  static const Program command{"", "", "", python, command_py_template, "points"};
+  static const Program plugin{"", "", "", cpp, plugin_template, ""};
+  static const Program command{"", "", "", python, command_py_template, ""};
   const Pair pair = pair_of(c);
   std::vector<const Program*> of_engine;
   for (const Program& p : programs) {

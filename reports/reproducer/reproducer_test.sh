@@ -41,7 +41,7 @@ def mj_collision(model, data):
         mujoco.mj_kinematics(model, data);
         mujoco.mj_collision(model, data);
         console.log(JSON.stringify(Array.from({length: data.ncon}, (_, i) => data.contact.get(i)).map(
-          c => ({dist: c.dist, frame: [...c.frame], geom: [c.geom1, c.geom2]}))));"""
+          c => ({dist: c.dist, pos: [...c.pos], frame: [...c.frame], geom: [c.geom1, c.geom2]}))));"""
     file = pathlib.Path(__file__).with_name("ask.mjs")
     file.write_text(script)
     printed = subprocess.run(["node", file], input=model.xml, capture_output=True, text=True, check=True)
@@ -87,14 +87,11 @@ prepare() {
 
 # Makes the program take the truth for its engine's answer where it is given an argument.
 plant_a_right_engine() {
-  sed -i -e 's|= ask()\.reduce|= (process.argv[2] ? [{ distance: trueDistance, normal: trueNormal }] : ask()).reduce|' \
-    -e 's|^        answer = ask()|        answer = Answer(*[true_distance, true_normal, [-true_distance], True][:len(Answer._fields)]) if __import__("sys").argv[1:] else ask()|' \
+  sed -i -e 's|  const answer = ask();|  const answer = process.argv[2] ? { distance: trueDistance, normal: trueNormal, points: [{ position: middle, normal: trueNormal, depth: -trueDistance }] } : ask();|' \
+    -e 's|^        answer = ask()|        answer = Answer(true_distance, true_normal, [Point(middle, true_normal, -true_distance)]) if sys.argv[1:] else ask()|' \
     -e 's|^  const Answer answer = ask();|  const Answer answer = count > 1 ? truth() : ask();|' "$folder/reproducer"
   [ "$language" = c++ ] || return 0
-  local points=""
-  grep -q '  int points = 0;' "$folder/reproducer" &&
-    points="answer.points = 1; answer.deepest = answer.shallowest = -true_distance;"
-  sed -i "s|^int main() {|Answer truth() {\n  Answer answer;\n  answer.kind = Answer::contact;\n  answer.distance = true_distance;\n  for (int i = 0; i < 3; ++i) answer.normal[i] = true_normal[i];\n  $points\n  return answer;\n}\nint main(int count, char**) {|" "$folder/reproducer"
+  sed -i "s|^int main() {|Answer truth() {\n  Answer answer;\n  answer.kind = Answer::contact;\n  answer.distance = true_distance;\n  answer.normal = vector(true_normal);\n  answer.points = {{vector(middle), answer.normal, -true_distance}};\n  return answer;\n}\nint main(int count, char**) {|" "$folder/reproducer"
 }
 
 while [ $# -gt 0 ]; do
@@ -130,14 +127,23 @@ while [ $# -gt 0 ]; do
   grep -q "^$verdict" <<<"$(tail -n 1 <<<"$printed")" || fail "expected $outcome: $(tail -n 1 <<<"$printed")"
   seen=$(sed -n 's/^\(\/\/\|#\) Seen     //p' "$source")
   grep -q ": $outcome\\(,\\|\$\\)" <<<"$seen" || fail "seen: $seen, expected $outcome"
-  python3 - "$seen" "$printed" <<'END' || fail "see above: $printed"
-import re, sys
-seen, printed = sys.argv[1:]
+  # libccd's program repeats the candidate libccd-gjk.
+  candidate=${engine/%libccd/libccd-gjk}
+  answers=$(eval "\"$program\" $options replay \"$configuration\" --json --candidates \"$candidate\" --time-limit 60")
+  python3 - "$seen" "$printed" "$answers" <<'END' || fail "see above: $printed"
+import json, re, sys
+seen, printed, answers = sys.argv[1:]
 number = lambda pattern, text=printed: float(re.search(pattern, text).group(1))
 # To the last bit what the candidate answers.
 if ", signed distance " in seen:
     answer = number(r", signed distance (\S+)$", seen)
     assert number(r"contact, signed distance (\S+),") == answer, f"not the candidate's answer {answer}"
+    [given] = json.loads(answers)["answers"].values()
+    expected = [(*point["position"], point["depth"]) for point in given["points"]]
+    points = re.findall(r"^Point \((\S+), (\S+), (\S+)\)\n  of depth (\S+) is", printed, re.M)
+    points = [tuple(map(float, point)) for point in points]
+    if not any(x is None for point in expected for x in point):
+        assert points == expected, f"not the candidate's points {expected}"
 # Both bounds of the proof, in plain double arithmetic, agree with the certified distance.
 truth = number(r"\(signed distance ([^ )]+)")
 assert abs(number(r"Their difference is +(\S+)") - truth) < 1e-12 * max(1, abs(truth)), "no proof"
