@@ -1,0 +1,445 @@
+// Every number and every sentence that a reproducer prints, against the oracle, for wrong answers of
+// every engine. What it prints is a matter of the question, the answer and the program's own
+// judgement; so the answers are those of the candidates, planted where a program asks its engine,
+// which reproducer_test.sh runs. TOUCHSTONE_COUNT sets how many answers of each engine are tried.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fstream>
+#include <functional>
+#include <gtest/gtest.h>
+#include <limits>
+#include <regex>
+#include <sstream>
+#include <unistd.h>
+
+#include <nlohmann/json.hpp>
+
+#include "candidates/candidates.hpp"
+#include "candidates/npm_engines.hpp"
+#include "oracle/judge/score.hpp"
+#include "oracle/truth.hpp"
+#include "properties/identity.hpp"
+#include "properties/moves.hpp"
+#include "reference/invalid_input.hpp"
+#include "reference/support.hpp"
+#include "reports/replay.hpp"
+
+namespace touchstone {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A program is written for an engine in a language, and repeats a candidate.
+struct Engine {
+  std::string name, candidate, language;
+};
+
+/// One of each language, for the first set of tests; then the others.
+const std::vector<Engine> engines = {
+    {"bullet", "bullet", "c++"},
+    {"rapier", "rapier", "javascript"},
+    {"mujoco3", "mujoco3", "python"},
+    {"ode", "ode", "c++"},
+    {"fcl", "fcl", "c++"},
+    {"libccd", "libccd-gjk", "c++"},
+    {"mujoco", "mujoco", "c++"},
+    {"prism:16", "prism:16", "c++"},
+    {"jolt", "jolt", "javascript"},
+    {"jolt-world", "jolt-world", "javascript"},
+    {"rapier-world", "rapier-world", "javascript"},
+    {"physx", "physx", "javascript"},
+    {"physx-world", "physx-world", "javascript"},
+    {"havok", "havok", "javascript"},
+    {"mujoco3", "mujoco3", "javascript"}};
+constexpr std::size_t usual_engines = 3, usual_answers = 12;
+
+struct Wrong {
+  std::string id;
+  Configuration configuration;
+  Answer answer;
+  Outcome outcome;
+};
+
+/// The candidate's wrong answers: by turns of all pairs and classes, so many.
+std::vector<Wrong> wrong_answers(const std::string& candidate, std::size_t wanted) {
+  std::vector<Identity> all;
+  for (std::uint64_t i = 0; i <= wanted / 10; ++i) {
+    for (const Pair pair : all_pairs) {
+      for (const std::string& name : pose_classes(pair)) all.push_back({pair, name, 41, i});
+    }
+  }
+  CandidateProcess process(find_candidate(candidate), 0);
+  std::vector<Wrong> result;
+  constexpr std::size_t stride = 397;  // prime: spreads over pairs and classes
+  for (std::size_t i = 0; i < all.size() && result.size() < wanted; ++i) {
+    const Identity& id = all[i * stride % all.size()];
+    if (!process.candidate().has_routine_for(id.pair)) continue;
+    const Configuration c = make_configuration(id);
+    const Answer answer = process.answer(c);
+    const Outcome outcome = score(c, oracle::truth(c), answer, Bar{}).outcome;
+    if (outcome == Outcome::agree || outcome == Outcome::crashed || outcome == Outcome::timed_out) {
+      continue;
+    }
+    result.push_back({to_string(id), c, answer, outcome});
+  }
+  return result;
+}
+
+/// Without its packages no program is asked of an engine of npm while programs are written.
+class WithoutPackages {
+ public:
+  WithoutPackages() : folder_(std::getenv("TOUCHSTONE_NPM") ? std::getenv("TOUCHSTONE_NPM") : "") {
+    setenv("TOUCHSTONE_NPM", "/nowhere", 1);
+  }
+  ~WithoutPackages() {
+    folder_.empty() ? unsetenv("TOUCHSTONE_NPM") : setenv("TOUCHSTONE_NPM", folder_.c_str(), 1);
+  }
+  WithoutPackages(const WithoutPackages&) = delete;
+  WithoutPackages& operator=(const WithoutPackages&) = delete;
+
+ private:
+  std::string folder_;
+};
+
+// The answer in place of the engine.
+
+/// In hexadecimal, or as the language calls what is no number.
+std::string number(double x, const std::string& language) {
+  const bool is_cpp = language == "c++", is_js = language == "javascript";
+  if (std::isfinite(x)) {
+    return is_cpp ? fmt::format("{:a}", x) : fmt::format("{:#.17g}", x);
+  }
+  if (std::isnan(x)) return is_cpp ? "NAN" : is_js ? "NaN" : "math.nan";
+  return (x < 0 ? "-" : "") + std::string(is_cpp ? "INFINITY" : is_js ? "Infinity" : "math.inf");
+}
+
+std::string numbers(const double (&v)[3], const std::string& language) {
+  return fmt::format("{}, {}, {}", number(v[0], language), number(v[1], language),
+                     number(v[2], language));
+}
+
+/// The program's part that asks, for the answer alone.
+std::string asking(const Answer& a, const std::string& language) {
+  const auto n = [&](double x) { return number(x, language); };
+  const auto v = [&](const double(&x)[3]) { return numbers(x, language); };
+  const bool is_contact = a.status == TS_CONTACT;
+  std::string points;
+  const char* const point = language == "c++" ? "{{{{{}}}, {{{}}}, {}}}, "
+                            : language == "javascript"
+                                ? "{{ position: [{}], normal: [{}], depth: {} }}, "
+                                : "Point([{}], [{}], {}), ";
+  for (int i = 0; is_contact && i < a.point_count; ++i) {
+    const ts_point& p = a.points[i];
+    points += fmt::format(fmt::runtime(point), v(p.position), v(p.normal), n(p.depth));
+  }
+  if (language == "c++") {
+    const char* const kind = is_contact ? "contact" : a.status == TS_NONE ? "none" : "failed";
+    return fmt::format("Answer ask() {{ return {{Answer::{}, {}, {{{}}}, {{{}}}}}; }}\n", kind,
+                       is_contact ? n(a.signed_distance) : "0", is_contact ? v(a.normal) : "",
+                       points);
+  }
+  if (language == "javascript") {
+    if (a.status == TS_NONE) return "function ask() { return null; }\n";
+    if (!is_contact) return "function ask() { throw new Error('planted'); }\n";
+    return fmt::format("function ask() {{ return {{ distance: {}, normal: [{}], points: [{}] }}; }}\n",
+                       n(a.signed_distance), v(a.normal), points);
+  }
+  if (a.status == TS_NONE) return "def ask():\n    return None\n\n\n";
+  if (!is_contact) return "def ask():\n    raise Failure('planted')\n\n\n";
+  return fmt::format("def ask():\n    return Answer({}, [{}], [{}])\n\n\n", n(a.signed_distance),
+                     v(a.normal), points);
+}
+
+/// The program, with the answer in place of what asks the engine.
+std::string planted(const Wrong& w, const Engine& engine) {
+  const std::string& language = engine.language;
+  const std::string program =
+      reproducer(engine.name, language, w.configuration, w.id, Bar{});
+  const std::string remark = language == "python" ? "# " : "// ";
+  // What of the question comes last, and how that ends.
+  const auto [last, end] = language == "c++" ? std::pair("struct Answer {", "\n};\n")
+                           : language == "javascript" ? std::pair("function answerOf(", "\n}\n")
+                                                      : std::pair("class Failure(", "pass\n");
+  const std::size_t question = program.find(remark + "The question"),
+                    ask = program.find(end, program.find(last)) + std::strlen(end),
+                    judgement = program.find(remark + "From here on");
+  EXPECT_LT(question, ask);
+  EXPECT_LT(ask, judgement);
+  EXPECT_NE(judgement, program.npos);
+  return program.substr(question, ask - question) + '\n' + asking(w.answer, language) +
+         program.substr(judgement);
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, text.npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+/// One program of all of them, which prints "=== " and a line's end before each one's text.
+std::string together(const std::vector<std::string>& programs, const std::string& language) {
+  std::string text, calls;
+  if (language == "c++") text = "#include <cmath>\n#include <cstdio>\n#include <vector>\n";
+  if (language == "python") text = "import math, sys\nfrom typing import NamedTuple\n";
+  for (std::size_t i = 0; i < programs.size(); ++i) {
+    if (language == "c++") {
+      text += fmt::format("namespace of_{} {{\n{}}}\n", i,
+                          replaced(programs[i], "int main() {", "int run() {"));
+      calls += fmt::format("  std::puts(\"=== \");\n  of_{}::run();\n", i);
+    } else if (language == "javascript") {
+      text += "console.log('=== ');\n(() => {\n" +
+              replaced(programs[i], "process.exit(wrong ? 1 : 0);", "") + "\n})();\n";
+    } else {
+      text += "print('=== ')\nexec(" + nlohmann::json(replaced(programs[i], "sys.exit(main())", "main()")).dump() +
+              ", dict(globals()))\n";
+    }
+  }
+  return language == "c++" ? text + "int main() {\n" + calls + "}\n" : text;
+}
+
+/// What each of the programs prints.
+std::vector<std::string> printed_by(const std::vector<std::string>& programs,
+                                    const std::string& language) {
+  const fs::path folder = fs::temp_directory_path() / fmt::format("printed_test.{}", getpid());
+  fs::create_directory(folder);
+  const fs::path file = folder / (language == "c++"          ? "all.cpp"
+                                  : language == "javascript" ? "all.mjs"
+                                                             : "all.py");
+  std::ofstream(file) << together(programs, language);
+  const std::string run =
+      language == "c++" ? fmt::format("g++ -w {0} -o {1}/all && {1}/all", file.string(), folder.string())
+      : language == "javascript" ? "node " + file.string()
+                                 : "python3 -B " + file.string();
+  FILE* const pipe = popen(run.c_str(), "r");
+  std::string text, block(1 << 16, '\0');
+  for (std::size_t n; (n = std::fread(block.data(), 1, block.size(), pipe)) > 0;) {
+    text.append(block, 0, n);
+  }
+  EXPECT_EQ(pclose(pipe), 0) << run;
+  fs::remove_all(folder);
+  std::vector<std::string> result;
+  for (std::size_t at = text.find("=== \n"); at != text.npos;) {
+    const std::size_t next = text.find("=== \n", at + 5);
+    result.push_back(text.substr(at + 5, next - at - 5));
+    at = next;
+  }
+  return result;
+}
+
+// What is printed, against the oracle.
+
+/// One answer's numbers, as far as they are known from elsewhere.
+struct Known {
+  explicit Known(const Wrong& wrong)
+      : w(wrong), c(wrong.configuration), truth(oracle::truth(c)), n(wrong.answer.normal) {
+    // Sixteen roundings of the largest coordinate or size.
+    const double largest = std::max({c.pose_a.position().norm(), c.pose_b.position().norm(),
+                                     larger_size(c), error_size(c, Bar{})});
+    rounding = 16 * std::numeric_limits<double>::epsilon() * largest;
+  }
+  double distance() const { return truth.signed_distance.midpoint(); }
+  Vec3 best() const { return truth.normals.front().n; }
+  double gap(const Vec3& along) const { return oracle::certified_gap(c, along).midpoint(); }
+  double least_of_a(const Vec3& along) const { return -support(c.a, c.pose_a, -along); }
+
+  const Wrong& w;
+  const Configuration& c;
+  oracle::Truth truth;
+  Vec3 n;
+  double rounding;
+};
+
+using Numbers = std::vector<double>;
+
+/// A sentence that a program may print, and what has to hold of its numbers.
+struct Sentence {
+  const char* pattern;
+  std::function<void(const Known& known, const Numbers& said)> check;
+};
+
+Vec3 vector_at(const Numbers& said, std::size_t from) {
+  return {said[from], said[from + 1], said[from + 2]};
+}
+
+void expect_off(const Known& k, const ts_point& p, double from_a, double from_b) {
+  const Vec3 at(p.position);
+  const double rounding = k.rounding + 16 * std::numeric_limits<double>::epsilon() * at.norm();
+  EXPECT_NEAR(from_a, std::abs(point_distance(k.c.a, k.c.pose_a, at)), rounding);
+  EXPECT_NEAR(from_b, std::abs(point_distance(k.c.b, k.c.pose_b, at)), rounding);
+}
+
+/// The words after "WRONG: ".
+std::string verdict_of(Outcome outcome) {
+  if (outcome == Outcome::not_finite) return "not a finite number";
+  if (outcome == Outcome::failed) return "the engine ";
+  std::string name = outcome_name(outcome);
+  std::replace(name.begin(), name.end(), '-', ' ');
+  return name + ": ";
+}
+
+#define N "([^\\s,()]+)"
+#define VECTOR "\\(" N ", " N ", " N "\\)"
+
+/// In order; `k` is what is known, `x` what is said.
+const std::vector<Sentence>& sentences() {
+  static const std::vector<Sentence> all = {
+      {".*: contact, signed distance " N ", normal " VECTOR,
+       [](const Known& k, const Numbers& x) {
+         EXPECT_EQ(k.w.answer.status, TS_CONTACT);
+         for (int i = 0; i < 4; ++i) {
+           const double given = i == 0 ? k.w.answer.signed_distance : k.n[i - 1];
+           EXPECT_TRUE(x[i] == given || (std::isnan(x[i]) && std::isnan(given)));
+         }
+       }},
+      {".*: no contact",
+       [](const Known& k, const Numbers&) { EXPECT_EQ(k.w.answer.status, TS_NONE); }},
+      {".*: failed",
+       [](const Known& k, const Numbers&) { EXPECT_EQ(k.w.answer.status, TS_FAILED); }},
+      {"True: the bodies overlap by " N " \\(signed distance " N "(?: = \\S+)?\\)",
+       [](const Known& k, const Numbers& x) {
+         EXPECT_LT(k.truth.signed_distance.hi, 0);
+         EXPECT_EQ(x, (Numbers{-k.distance(), k.distance()}));
+       }},
+      {"True: the bodies are apart by " N " \\(signed distance " N "(?: = \\S+)?\\)",
+       [](const Known& k, const Numbers& x) {
+         EXPECT_GE(k.truth.signed_distance.hi, 0);
+         EXPECT_EQ(x, (Numbers{k.distance(), k.distance()}));
+       }},
+      {"Proof: take n = " VECTOR "\\.",
+       [](const Known& k, const Numbers& x) { EXPECT_EQ(vector_at(x, 0), k.best()); }},
+      {"  The least a\\.n over A is    " N ": its centre's, less its support",
+       [](const Known& k, const Numbers& x) {
+         EXPECT_NEAR(x[0], k.least_of_a(k.best()), k.rounding);
+       }},
+      {"  The largest b\\.n over B is  " N ": its centre's, and its support",
+       [](const Known& k, const Numbers& x) {
+         EXPECT_NEAR(x[0], k.least_of_a(k.best()) - k.distance(), k.rounding);
+       }},
+      {"  Their difference is        " N,
+       [](const Known& k, const Numbers& x) { EXPECT_NEAR(x[0], k.distance(), k.rounding); }},
+      {"  A plane across n has A on one side and B on the other, so far apart\\.",
+       [](const Known& k, const Numbers&) { EXPECT_GE(k.truth.signed_distance.hi, 0); }},
+      {"  Moved by so much along n, A is clear of B: the depth is no more than that\\.",
+       [](const Known& k, const Numbers&) {
+         const Configuration moved = with_a_moved(k.c, -k.distance() * k.best());
+         EXPECT_GE(oracle::truth(moved).signed_distance.midpoint(), -k.rounding);
+       }},
+      {"  The point " VECTOR, [](const Known&, const Numbers&) {}},
+      {"  is within A by " N " and within B by " N ":",
+       [](const Known&, const Numbers& x) { EXPECT_TRUE(x[0] >= 0 && x[1] >= 0); }},
+      {"  the bodies overlap, and the depth is no less than " N "\\.",
+       [](const Known& k, const Numbers& x) { EXPECT_LE(x[0], -k.distance() + k.rounding); }},
+      {"  The depth to 30 digits is what touchstone certify proves\\.",
+       [](const Known&, const Numbers&) {}},
+      {"Along the engine's normal the same difference is " N ", along n it is " N "\\.",
+       [](const Known& k, const Numbers& x) {
+         EXPECT_NEAR(x[0], k.gap(k.n), 2 * k.rounding);
+         EXPECT_NEAR(x[1], k.distance(), k.rounding);
+       }},
+      {"  Of B the column beneath A counts \\(see \\w+\\)\\.",
+       [](const Known& k, const Numbers&) { EXPECT_EQ(pair_of(k.c), Pair::plane); }},
+      {"Moved by the engine's depth, whichever way, A still overlaps B by " N " or more\\.",
+       [](const Known& k, const Numbers& x) {
+         for (const Vec3& way : {k.n, k.best(), Vec3(-k.best()), Vec3(0, 0.6, 0.8)}) {
+           if (way.isZero(0) || !way.allFinite()) continue;
+           const Vec3 by = -k.w.answer.signed_distance * way.normalized();
+           const auto moved = oracle::truth(with_a_moved(k.c, by)).signed_distance;
+           EXPECT_LE(moved.midpoint(), -x[0] + k.rounding);
+         }
+       }},
+      {"WRONG: .*|Right within the tolerance", [](const Known&, const Numbers&) {}},
+  };
+  return all;
+}
+
+double number_in(const std::string& text) { return std::strtod(text.c_str(), nullptr); }
+
+/// Finds the sentence of a line, and checks its numbers.
+void expect_true(const std::string& line, const Known& known) {
+  static const std::vector<std::regex> patterns = [] {
+    std::vector<std::regex> result;
+    for (const Sentence& s : sentences()) result.emplace_back(s.pattern);
+    return result;
+  }();
+  for (std::size_t i = 0; i < patterns.size(); ++i) {
+    std::smatch found;
+    if (!std::regex_match(line, found, patterns[i])) continue;
+    Numbers said;
+    for (std::size_t k = 1; k < found.size(); ++k) said.push_back(number_in(found[k]));
+    SCOPED_TRACE(line);
+    sentences()[i].check(known, said);
+    return;
+  }
+  ADD_FAILURE() << "no such sentence is known to be true: " << line;
+}
+
+/// The two lines of each contact point, which are taken out.
+void expect_points(std::string& text, const Known& known) {
+  static const std::regex pattern("Point " VECTOR "\n  of depth " N " is " N
+                                  " from A's surface and " N " from B's\n");
+  const Answer& answer = known.w.answer;
+  int count = 0;
+  for (std::smatch found; std::regex_search(text, found, pattern); ++count) {
+    ASSERT_LT(count, answer.point_count);
+    const ts_point& p = answer.points[count];
+    const double given[] = {p.position[0], p.position[1], p.position[2], p.depth};
+    for (int i = 0; i < 4; ++i) {
+      const double said = number_in(found[i + 1]);
+      EXPECT_TRUE(said == given[i] || (std::isnan(said) && std::isnan(given[i]))) << found[0];
+    }
+    if (Vec3(p.position).allFinite()) {
+      expect_off(known, p, number_in(found[5]), number_in(found[6]));
+    }
+    text = std::string(found.prefix()) + std::string(found.suffix());
+  }
+  EXPECT_EQ(count, answer.status == TS_CONTACT ? answer.point_count : 0);
+}
+
+void expect_true_of(const Engine& engine, std::size_t count) {
+  const std::vector<Wrong> wrong = wrong_answers(engine.candidate, count);
+  EXPECT_EQ(wrong.size(), count);
+  std::vector<std::string> programs;
+  {
+    const WithoutPackages none;
+    for (const Wrong& w : wrong) programs.push_back(planted(w, engine));
+  }
+  const std::vector<std::string> printed = printed_by(programs, engine.language);
+  ASSERT_EQ(printed.size(), wrong.size());
+  for (std::size_t i = 0; i < wrong.size(); ++i) {
+    SCOPED_TRACE(fmt::format("{} in {}, {}\n{}", engine.name, engine.language, wrong[i].id, printed[i]));
+    const Known known(wrong[i]);
+    std::string text = printed[i];
+    expect_points(text, known);
+    std::istringstream lines(text);
+    std::string line;
+    while (std::getline(lines, line)) expect_true(line, known);
+    EXPECT_TRUE(line.starts_with("WRONG: " + verdict_of(wrong[i].outcome))) << line;
+  }
+}
+
+bool is_here(const std::string& candidate) {
+  const NpmEngine* const engine = find_npm_engine(candidate);
+  if (engine) return npm_obstacle(*engine).empty();
+  try {
+    find_candidate(candidate);
+    return true;
+  } catch (const InvalidInput&) {
+    return false;
+  }
+}
+
+TEST(Reproducers, PrintNothingThatTheOracleRefutes) {
+  const char* const asked = std::getenv("TOUCHSTONE_COUNT");
+  const std::size_t count = asked ? std::strtoul(asked, nullptr, 10) : usual_answers;
+  for (std::size_t i = 0; i < (asked ? engines.size() : usual_engines); ++i) {
+    if (is_here(engines[i].candidate)) expect_true_of(engines[i], count);
+  }
+}
+
+}  // namespace
+}  // namespace touchstone
