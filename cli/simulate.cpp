@@ -158,7 +158,7 @@ int simulate_scenes(const SimulateArguments& options) {
   for (const std::string& name : options.names) {
     const SceneFile file = options.robot.scene(name);
     for (const Candidate* candidate : candidates) {
-      CandidateModel model(processes.of(*candidate));
+      CandidateModel model(processes.of(*candidate), Unsupported::refused);
       const Trajectory run = options.disturbance.run_of(
           file.scene, options.recording.seed,
           [&](const DisturbedScene& scene) { return run_scene(scene.scene, model); });

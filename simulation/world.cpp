@@ -351,7 +351,15 @@ std::vector<Answer> CandidateModel::answers(std::span<const PairQuestion> questi
     configurations.push_back(q.configuration);
     previous_normals.push_back(q.previous_normal ? &*q.previous_normal : nullptr);
   }
-  return process_.answer(configurations, previous_normals);
+  auto result = process_.answer(configurations, previous_normals);
+  for (std::size_t i = 0; i < result.size() && unsupported_ == Unsupported::refused; ++i) {
+    if (result[i].status != TS_UNSUPPORTED) continue;
+    throw InvalidInput("candidate", '"' + process_.candidate().name + '"',
+                       std::string("must have a routine for ") +
+                           pair_name(pair_of(configurations[i])) +
+                           ", such bodies come near each other in the scene");
+  }
+  return result;
 }
 
 World::World(const Scene& scene, ContactModel& model)

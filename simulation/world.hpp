@@ -33,16 +33,25 @@ class ContactModel {
 /// every contact that it is given.
 inline constexpr double simulation_threshold = 0;
 
+/// What a model makes of a pair that its candidate has no routine for.
+enum class Unsupported {
+  answered,  ///< the answer says so: who asks has to look at it
+  refused    ///< InvalidInput (field "candidate"): bodies would pass through each other
+};
+
 /// One candidate for all pairs. Its process must outlive the model, serve nobody else while a scene
 /// runs, and have the contact threshold `simulation_threshold`.
 class CandidateModel : public ContactModel {
  public:
-  explicit CandidateModel(CandidateProcess& process) : process_(process) {}
+  explicit CandidateModel(CandidateProcess& process,
+                          Unsupported unsupported = Unsupported::answered)
+      : process_(process), unsupported_(unsupported) {}
   void begin() override { process_.restart(); }
   std::vector<Answer> answers(std::span<const PairQuestion> questions) override;
 
  private:
   CandidateProcess& process_;
+  Unsupported unsupported_;
 };
 
 /// Answer of the contact model for one pair of bodies, named as in PairQuestion.

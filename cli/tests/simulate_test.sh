@@ -42,6 +42,12 @@ expect 0 . simulate "$pedestal" --disturbance 0
 [ "$(tail -n 1 <<<"$printed")" = "$as_written" ] || failed "disturbance 0 is not the scene as it is written"
 expect 0 '^pedestal, capsule, disturbance 2 of seed 3$' \
   simulate "$pedestal" --candidates capsule --disturbance 2 --seed 3
+# Who has no routine for a pair does not let its bodies fall through each other.
+for name in fcl-distance libccd-gjk; do
+  expect 2 "^error: candidate is \"$name\": must have a routine for cylinder-plane" simulate "$can" --candidates $name
+  expect 2 "^error: candidate is \"$name\": must have a routine for cylinder-plane" \
+    render "$can" --contacts $name --out "$folder/render"
+done
 expect 0 'can: 3 of 72 configurations' simulate "$can" --count 3 --record "$folder/recorded.jsonl"
 expect 0 '"id":"can/can and ground/' solve --candidates reference "$folder/recorded.jsonl"
 expect 0 'truth: signed distance' replay "$folder/recorded.jsonl" --candidates reference

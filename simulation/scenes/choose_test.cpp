@@ -21,6 +21,7 @@ namespace {
 
 using nlohmann::json;
 using testing::HasSubstr;
+using testing::Not;
 
 /// A can that stands, a little askew, and a ball far from it on the same ground.
 SceneFile standing_can(const json& need) {
@@ -83,6 +84,41 @@ TEST(RunScene, CountsThePointsOfAllPairsThatTheSolverGets) {
   Processes processes({});
   CandidateModel model(processes.of(find_candidate("reference")));
   EXPECT_EQ(run_scene(scene, model).points, 3 + 3 + 4);
+}
+
+TEST(RunScene, RefusesACandidateWithoutARoutineForAPairThatComesUp) {
+  const Scene scene = two_cans(1, 5e-5);
+  const Candidate& none = find_candidate("libccd-gjk");  // no half-space
+  Processes processes({});
+  CandidateModel model(processes.of(none), Unsupported::refused);
+  try {
+    run_scene(scene, model);
+    FAIL() << "the cans fall through the ground";
+  } catch (const InvalidInput& e) {
+    EXPECT_EQ(e.value(), "\"libccd-gjk\"");
+    EXPECT_THAT(e.remedy(), HasSubstr("cylinder-plane"));
+  }
+}
+
+/// A model that dies with every question.
+class Deadly : public ContactModel {
+ public:
+  void begin() override {}
+  std::vector<Answer> answers(std::span<const PairQuestion> questions) override {
+    Answer crashed{};
+    crashed.status = TS_CRASHED;
+    return std::vector<Answer>(questions.size(), crashed);
+  }
+};
+
+TEST(MotionTable, SaysHowManyQuestionsHadNoAnswer) {
+  const Scene scene = two_cans(2, 5e-5);
+  Deadly deadly;
+  EXPECT_THAT(motion_table(scene, run_scene(scene, deadly)),
+              HasSubstr("4 of 4 questions had no answer"));
+  Processes processes({});
+  CandidateModel exact(processes.of(find_candidate("reference")));
+  EXPECT_THAT(motion_table(scene, run_scene(scene, exact)), Not(HasSubstr("no answer")));
 }
 
 // The kinds are those of the scene as it is written, whatever the order of the disturbed bodies.

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <set>
 
+#include "properties/files/given_text.hpp"
 #include "reference/contact_of.hpp"
 #include "reference/support.hpp"
 #include "simulation/assembly.hpp"
@@ -225,6 +226,13 @@ std::string motion_table(const Scene& scene, const Trajectory& run) {
     text += fmt::format("  {:<{}}  {:>10.6f} {:>10.6f} {:>10.6f}  {:>10.6f}  {:>9}\n",
                         scene.bodies[i].name, width, to.x(), to.y(), to.z(), (to - from).norm(),
                         depth[i] ? fmt::format("{:.2g}", *depth[i]) : "");
+  }
+  const auto is_lost = [](const JudgedAnswer& a) {
+    return a.status != TS_CONTACT && a.status != TS_NONE;
+  };
+  if (const auto lost = std::ranges::count_if(run.answers, is_lost); lost > 0) {
+    text += fmt::format("  {} of {} had no answer, and those bodies no contact.\n", lost,
+                        counted(run.answers.size(), "question"));
   }
   if (!run.sound) text += fmt::format("  The motion becomes absurd at {:.3f} s.\n", run.end());
   return text;

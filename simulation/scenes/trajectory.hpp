@@ -50,7 +50,8 @@ struct Trajectory {
 Trajectory run_scene(const Scene& scene, ContactModel& model);
 
 /// A line for each body that moves: where it ends, to a micrometre, how far that is from its start,
-/// and the largest true depth of its contacts with or as a cylinder; or that nothing moves.
+/// and the largest true depth of its contacts with or as a cylinder; or that nothing moves. Says
+/// how many questions had no answer.
 std::string motion_table(const Scene& scene, const Trajectory& run);
 
 /// Runs the scene in another world, such as an engine's, which finds its own contacts. The answers,

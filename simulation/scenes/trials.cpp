@@ -74,7 +74,7 @@ class PairwiseModel : public ContactModel {
         if (chosen[i] == process) batch.push_back(questions[i]);
       }
       if (batch.empty()) continue;
-      auto answers = CandidateModel(*process).answers(batch);
+      auto answers = CandidateModel(*process, Unsupported::refused).answers(batch);
       auto next = answers.begin();
       for (std::size_t i = 0; i < questions.size(); ++i) {
         if (chosen[i] == process) result[i] = std::move(*next++);
