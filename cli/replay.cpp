@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <memory>
+#include <optional>
 
 #include "cli/command.hpp"
 #include "cli/options.hpp"
@@ -16,7 +17,7 @@ struct ReplayArguments {
   explicit ReplayArguments(Command& command) : candidates(command), bar(command) {}
   CandidateOption candidates;
   BarOption bar;
-  std::string input, engine, language;
+  std::string input, id, engine, language;
   bool json = false;
   std::string html;
 };
@@ -26,9 +27,11 @@ int run_replay(const ReplayArguments& options, bool emits) {
     throw InvalidInput("--language", options.language, "must stand beside --emit");
   }
   const Bar bar = options.bar.get();
-  const Subject given = given_configuration(options.input);
+  const Subject given = given_configuration(
+      options.input, options.id.empty() ? std::nullopt : std::optional(options.id));
   if (emits) {
-    print(reproducer(options.engine, options.language, given.configuration, given.name, bar,
+    const std::string asked = given.name + (given.id.empty() ? "" : ", id " + given.id);
+    print(reproducer(options.engine, options.language, given.configuration, asked, bar,
                      options.candidates.limits()));
     return 0;
   }
@@ -49,6 +52,8 @@ void add_replay(Program& program) {
   Command command = program.command("replay", "Show one configuration again: truth and answers");
   const auto options = std::make_shared<ReplayArguments>(command);
   command.text("input", options->input, given_help).value("IDENTITY").required();
+  command.text("--id", options->id, "The configuration of this id, of a file with several lines")
+      .value("ID");
   const Option json = command.flag("--json", options->json, "Print one JSON object");
   Option emit =
       command
@@ -73,6 +78,7 @@ void add_replay(Program& program) {
       "  touchstone replay cylinder-box/rim-face/1/0 --emit bullet > reproducer.cpp\n"
       "  touchstone replay cylinder-box/rim-face/1/0 --emit jolt > reproducer.mjs\n"
       "  touchstone replay cylinder-box/rim-face/1/0 --html page.html\n"
+      "  touchstone replay poses.jsonl --id c1\n"
       "  touchstone replay failures/ode-cylinder-box-agreement-missed.json --emit ode");
   command.runs([options, emit] { return run_replay(*options, emit.is_given()); });
 }

@@ -100,6 +100,7 @@ struct Subject {
   std::string name;         ///< an identity, or a file
   std::string description;  ///< of its pose class; empty without one
   Configuration configuration;
+  std::string id = {};  ///< that the line in the file gives itself; empty for one without
 };
 Subject subject(const Identity& identity);
 

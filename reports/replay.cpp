@@ -185,8 +185,11 @@ Examination examine(const Subject& subject, std::span<CandidateProcess* const> c
                     const Bar& bar, double width) {
   std::vector<std::string> names;
   for (const CandidateProcess* c : candidates) names.push_back(c->candidate().name);
-  Examination result{
-      subject.name, subject.configuration, {}, {}, replay_command(subject.name, names)};
+  Examination result{subject.id.empty() ? subject.name : subject.id,
+                     subject.configuration,
+                     {},
+                     {},
+                     replay_command(subject, names)};
   const auto take = [&](const ScoredConfiguration& scored) {
     result.truth = scored.truth;
     for (std::size_t k = 0; k < candidates.size(); ++k) {
@@ -246,6 +249,14 @@ std::string program_name(const std::vector<std::string>& candidates) {
 
 std::string replay_command(const std::string& name, const std::vector<std::string>& candidates) {
   return program_name(candidates) + " replay " + shell_quoted(name) + choice_of(candidates);
+}
+
+std::string replay_command(const Subject& subject, const std::vector<std::string>& candidates) {
+  if (subject.name == standard_input_name) {
+    return replay_command(subject.configuration, candidates);
+  }
+  return replay_command(subject.name, candidates) +
+         (subject.id.empty() ? "" : " --id " + shell_quoted(subject.id));
 }
 
 std::string replay_command(const Configuration& configuration,

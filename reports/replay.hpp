@@ -66,6 +66,8 @@ std::string program_name(const std::vector<std::string>& candidates);
 
 /// "./touchstone replay cylinder-box/rim-face/1/17", which these candidates have to answer.
 std::string replay_command(const std::string& name, const std::vector<std::string>& candidates);
+/// Likewise for one of a file, by its id there if it has one.
+std::string replay_command(const Subject& subject, const std::vector<std::string>& candidates);
 /// The command for a configuration that has no identity: "echo '{…}' | ./touchstone replay -".
 std::string replay_command(const Configuration& configuration,
                            const std::vector<std::string>& candidates);

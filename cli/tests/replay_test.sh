@@ -30,6 +30,27 @@ for identity in map/standing/1e-12/-3/16 sequence/roll-over-edge/113/200 cylinde
 done
 expect 0 'reference: contact' replay "$folder/saved.json@1e-2/1/0" --candidates reference
 
+# Lines of a file have ids, which are kept; which of several is meant has to be said.
+printf '%s\n' '{"id":"one","a":{"shape":"cylinder","radius":1,"half_length":1},"b":{"shape":"sphere","radius":1}}' \
+  '{"id":2,"configuration":{"a":{"shape":"cylinder","radius":1,"half_length":1},"b":{"shape":"sphere","radius":2}}}' \
+  >"$folder/lines.jsonl"
+expect 2 '^error: input is ".*/lines.jsonl": must hold one configuration, not 2; .*--id of one, 2$' \
+  replay "$folder/lines.jsonl"
+expect 2 'must hold one configuration, not 2' replay "$folder/lines.jsonl@1e-2/1/0"
+expect 2 'must hold one configuration, not 2' stability "$folder/lines.jsonl"
+expect 2 'must hold one configuration, not 2' certify "$folder/lines.jsonl"
+expect 2 '^error: --id is "three": must be one of one, 2$' replay "$folder/lines.jsonl" --id three
+expect 2 '^error: --id is "one": must be of a line of a file$' replay $rim --id one
+expect 0 '^one$' replay "$folder/lines.jsonl" --id one --candidates reference
+also '"id":"one"'
+expect 0 '"radius":2' replay "$folder/lines.jsonl" --id 2 --candidates reference --json
+also '"id":"2"' "replay $folder/lines.jsonl --id 2"
+expect 0 '^// Asked .*lines.jsonl, id 2$' replay "$folder/lines.jsonl" --id 2 --emit bullet
+head -n 1 "$folder/lines.jsonl" >"$folder/line.jsonl"
+expect 0 '^one$' replay "$folder/line.jsonl" --candidates reference
+cat "$folder/line.jsonl" "$folder/line.jsonl" >"$folder/twice.jsonl"
+expect 2 '^error: --id is "one": must be of one line, not of 2$' replay "$folder/twice.jsonl" --id one
+
 # Programs.
 expect 0 '#include <BulletCollision' replay $rim --emit bullet
 expect 0 'btSphereShape shape_b' replay "$folder/saved.json" --emit bullet

@@ -50,7 +50,8 @@ for name in fcl-distance libccd-gjk; do
 done
 expect 0 'can: 3 of 72 configurations' simulate "$can" --count 3 --record "$folder/recorded.jsonl"
 expect 0 '"id":"can/can and ground/' solve --candidates reference "$folder/recorded.jsonl"
-expect 0 'truth: signed distance' replay "$folder/recorded.jsonl" --candidates reference
+id=$(sed -n 's/.*"id":"\([^"]*\)".*/\1/p' "$folder/recorded.jsonl" | head -n 1)
+expect 0 'truth: signed distance' replay "$folder/recorded.jsonl" --id "$id" --candidates reference
 # One thing is no plural.
 sed 's/"duration":0.3/"duration":0.0042/' "$can" >"$folder/brief.json"
 expect 0 ': 1 of 1 configuration near' simulate "$folder/brief.json" --count 1 --record "$folder/brief.jsonl"

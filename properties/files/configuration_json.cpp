@@ -2,14 +2,18 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <functional>
 #include <gmpxx.h>
 #include <iostream>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
 #include "properties/files/disk.hpp"
+#include "properties/files/given_text.hpp"
 #include "properties/files/strict_json.hpp"
 #include "properties/identity.hpp"
 #include "properties/motions/motion.hpp"
@@ -132,11 +136,62 @@ GivenConfiguration configuration_from_json(const json& value) {
                      "one of the two bodies must be a cylinder");
 }
 
+namespace {
+
+/// The id that a line gives itself, as text; empty for one without.
+std::string id_of(const json& line) {
+  if (!line.is_object() || !line.contains("id")) return "";
+  const json& id = line["id"];
+  return id.is_string() ? id.get<std::string>() : id.dump();
+}
+
+/// "c1, c2 and 7 more"
+std::string ids_of(const std::vector<json>& lines) {
+  constexpr std::size_t max_named = 20, max_length = 60;
+  std::vector<std::string> ids;
+  for (const json& line : lines) {
+    if (const std::string id = id_of(line); !id.empty()) ids.push_back(printable(id, max_length));
+  }
+  const std::size_t unnamed = ids.size() - std::min(ids.size(), max_named);
+  ids.resize(ids.size() - unnamed);
+  return fmt::format("{}{}", fmt::join(ids, ", "),
+                     unnamed ? fmt::format(" and {} more", unnamed) : "");
+}
+
+/// The line of that id, or without an id the only one.
+const json& chosen(const std::vector<json>& lines, const std::string& source,
+                   const std::optional<std::string>& id) {
+  const std::string ids = ids_of(lines);
+  if (!id) {
+    if (lines.size() == 1) return lines.front();
+    throw InvalidInput("input", '"' + source + '"',
+                       fmt::format("must hold one configuration, not {}", lines.size()) +
+                           (ids.empty() ? "" : "; touchstone replay takes --id of " + ids));
+  }
+  const auto has_id = [&](const json& line) { return id_of(line) == *id; };
+  const auto count = std::count_if(lines.begin(), lines.end(), has_id);
+  if (count == 1) return *std::find_if(lines.begin(), lines.end(), has_id);
+  throw InvalidInput("--id", '"' + *id + '"',
+                     count > 1     ? fmt::format("must be of one line, not of {}", count)
+                     : ids.empty() ? "must not be given, for no line has an id"
+                                   : "must be one of " + ids);
+}
+
+Subject subject_of(const std::string& text, const std::string& source,
+                   const std::optional<std::string>& id) {
+  const std::vector<json> lines = parse_json_lines(text, source);
+  const json& line = chosen(lines, source, id);
+  require_object(line, source);
+  const bool is_wrapped = line.contains("configuration");
+  return {source, "",
+          configuration_from_json(is_wrapped ? line["configuration"] : line).configuration,
+          id_of(line)};
+}
+
+}  // namespace
+
 Configuration configuration_from_text(const std::string& text, const std::string& source) {
-  const json object = parse_json_lines(text, source).front();
-  require_object(object, source);
-  const bool is_wrapped = object.contains("configuration");
-  return configuration_from_json(is_wrapped ? object["configuration"] : object).configuration;
+  return subject_of(text, source, std::nullopt).configuration;
 }
 
 json to_json(const Configuration& c) {
@@ -168,7 +223,7 @@ bool is_meant_as_file(const std::string& name) {
 }
 
 /// An identity, a name of the stability room, or either and a perturbation.
-Subject named(const std::string& name) {
+Subject named(const std::string& name, const std::optional<std::string>& id) {
   constexpr std::size_t max_name = 1000;  // perturbations of perturbations stand one within another
   if (name.size() > max_name) {
     throw InvalidInput("input", '"' + name + '"',
@@ -176,9 +231,10 @@ Subject named(const std::string& name) {
   }
   if (const auto at = name.rfind('@'); at != std::string::npos) {
     const Perturbation perturbation = parse_perturbation(name.substr(at + 1));
-    const Subject base = given_configuration(name.substr(0, at));
-    return {name, base.description, perturbed(base.configuration, perturbation)};
+    const Subject base = given_configuration(name.substr(0, at), id);
+    return {name, base.description, perturbed(base.configuration, perturbation), base.id};
   }
+  if (id) throw InvalidInput("--id", '"' + *id + '"', "must be of a line of a file");
   if (const auto stability = named_configuration(name)) return *stability;
   if (is_meant_as_file(name)) {
     throw InvalidInput(
@@ -191,13 +247,11 @@ Subject named(const std::string& name) {
 
 }  // namespace
 
-Subject given_configuration(const std::string& input) {
+Subject given_configuration(const std::string& input, const std::optional<std::string>& id) {
   if (input == "-") {
-    const std::string name = "standard input";
-    return {name, "", configuration_from_text(read_stream(std::cin, name, "input"), name)};
+    return subject_of(read_stream(std::cin, standard_input_name, "input"), standard_input_name, id);
   }
-  if (!is_file(input)) return named(input);
-  return {input, "", configuration_from_text(read_file(input, "input"), input)};
+  return is_file(input) ? subject_of(read_file(input, "input"), input, id) : named(input, id);
 }
 
 }  // namespace touchstone

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include <nlohmann/json_fwd.hpp>
@@ -21,10 +22,9 @@ struct GivenConfiguration {
 /// is the identity. Throws InvalidInput with the full path of the field ("b.half_extents[1]").
 GivenConfiguration configuration_from_json(const nlohmann::json& json);
 
-/// The configuration of a file: one JSON object, or JSON Lines, of which the first that is not
-/// blank counts. The object is a configuration, or has one as its member "configuration", as saved
-/// failures, certificates and a report's worst cases have. `source` is what errors call the file.
-/// Throws InvalidInput.
+/// The configuration of a file: one JSON object, which is a configuration, or has one as its member
+/// "configuration", as saved failures, certificates and a report's worst cases have. `source` is
+/// what errors call the file. Throws InvalidInput, also for several lines.
 Configuration configuration_from_text(const std::string& text, const std::string& source);
 
 /// {"shape": "cylinder", "radius": …}. `path` names the object in errors, which are InvalidInput.
@@ -48,10 +48,14 @@ inline constexpr const char* given_help =
     "pair/class/seed/index, a file with a line as for solve or with a saved failure, or - for "
     "standard input";
 
+/// What a configuration of standard input has for a name.
+inline constexpr const char* standard_input_name = "standard input";
+
 /// Reads an identity, or where there is such a file, the file; "-" is standard input. A file holds
-/// one JSON object, or JSON Lines, of which the first that is not blank counts: a configuration as
+/// one JSON object, or JSON Lines, of which `id` names one by its member "id": a configuration as
 /// for `solve`, or an object with one as its member "configuration", as saved failures,
-/// certificates and a report's worst cases have. Throws InvalidInput.
-Subject given_configuration(const std::string& input);
+/// certificates and a report's worst cases have. Throws InvalidInput, also for several lines
+/// without an `id`, which lists theirs.
+Subject given_configuration(const std::string& input, const std::optional<std::string>& id = {});
 
 }  // namespace touchstone
