@@ -6,10 +6,10 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <vector>
 
+#include "oracle/judge/normals.hpp"
 #include "oracle/patch/support_feature.hpp"
 
 namespace touchstone {
@@ -65,14 +65,11 @@ constexpr double unit_slack = 1e-6;
 
 Vec3 vector(const double (&v)[3]) { return Vec3(v[0], v[1], v[2]); }
 
-double angle(const Vec3& n, const Vec3& m) {
-  return std::atan2(n.cross(m).norm(), n.dot(m)) * 180 / std::numbers::pi;
-}
-
 Vec3 nearest(const Vec3& n, const std::vector<oracle::OptimalNormal>& normals) {
-  return std::min_element(
-             normals.begin(), normals.end(),
-             [&](const auto& l, const auto& r) { return angle(n, l.n) < angle(n, r.n); })
+  return std::min_element(normals.begin(), normals.end(),
+                          [&](const auto& l, const auto& r) {
+                            return angle_between(n, l.n) < angle_between(n, r.n);
+                          })
       ->n;
 }
 
@@ -134,7 +131,7 @@ Score without_contact(double distance, const Bar& bar) {
 Vec3 patch_normal(const oracle::Truth& truth, const Vec3& n) {
   constexpr double far = 1;  // degrees
   const Vec3 listed = nearest(n, truth.normals);
-  return truth.ties == oracle::Ties::continuum && angle(n, listed) > far ? n.normalized() : listed;
+  return truth.ties == oracle::Ties::continuum && angle_between(n, listed) > far ? n.normalized() : listed;
 }
 
 bool is_finite(const ts_answer& answer) {
@@ -329,7 +326,7 @@ Score Judge::State::of_contact(const ts_answer& answer) {
   }
   if (!n.isZero(0)) {
     s.normal_regret = regret(n);
-    s.normal_angle = angle(n, nearest(n, truth.normals));
+    s.normal_angle = angle_to_optimal(c, truth, n, *s.normal_regret * size);
     s.severity = std::max(s.severity, *s.normal_regret);
   }
   if (distance > bar.threshold / size + bar.tolerance) {

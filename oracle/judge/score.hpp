@@ -84,7 +84,8 @@ struct Score {
   Outcome outcome = Outcome::agree;
   std::optional<double> depth_error;  ///< answer's signed distance − true: positive is too shallow
   std::optional<double> normal_regret;  ///< σ − g(n)
-  std::optional<double> normal_angle;   ///< degrees to the nearest optimal normal
+  /// Degrees to the nearest optimal normal, of families too (angle_to_optimal).
+  std::optional<double> normal_angle;
   /// Largest depth of a point − true depth: negative if a solver sees too little overlap.
   std::optional<double> deepest_error;
   /// Largest point_excess of a contact point, or zero. It does not decide the outcome.

@@ -52,6 +52,57 @@ TEST(Score, TheRightAnswerAgreesWithNoError) {
   EXPECT_EQ(s.points, 1);
 }
 
+/// Answered with that normal, and the true depth.
+Score along(const Configuration& c, const Vec3& n) {
+  const oracle::Truth truth = oracle::truth(c);
+  return score(c, truth, contact(truth.signed_distance.midpoint(), n), {});
+}
+
+/// A normal turned by `degrees` about an axis.
+Vec3 turned(const Vec3& n, const Vec3& axis, double degrees) {
+  return Eigen::AngleAxisd(degrees * std::numbers::pi / 180, axis.normalized()) * n;
+}
+
+constexpr double angle_rounding = 1e-12;
+
+TEST(NormalAngle, IsNoneForAnyMemberOfACircleAndElseTheAngleToIt) {
+  // All directions across the axis tie.
+  const Configuration c{Cylinder(1, 0.5), Pose(), Capsule(0.25, 2), Pose()};
+  for (const double turn : {0.0, 30.0, 45.0, 81.9, 90.0, 200.0}) {
+    const Vec3 member = turned(Vec3(1, 0, 0), Vec3(0, 0, 1), turn);
+    EXPECT_NEAR(*along(c, member).normal_angle, 0, angle_rounding) << turn;
+    const Vec3 off = turned(member, Vec3(0, 0, 1).cross(member), 0.5);
+    EXPECT_NEAR(*along(c, off).normal_angle, 0.5, angle_rounding) << turn;
+  }
+}
+
+TEST(NormalAngle, OfConcentricBodiesIsNoneForAPerfectAnswer) {
+  const Configuration c{Cylinder(1, 0.5), Pose(), Capsule(1, 0.5), Pose()};
+  for (const oracle::OptimalNormal& optimal : oracle::truth(c).normals) {
+    EXPECT_EQ(*along(c, optimal.n).normal_angle, 0);
+  }
+  for (const Vec3& radial : {Vec3(0.6, 0.8, 0), Vec3(0, -1, 0), Vec3(-0.8, 0.6, 0)}) {
+    EXPECT_NEAR(*along(c, radial).normal_regret, 0, 1e-15);
+    EXPECT_EQ(*along(c, radial).normal_angle, 0);
+  }
+}
+
+TEST(NormalAngle, IsNoneWithinAnArcAndBeyondItsEndsTheAngleToTheNearerOne) {
+  // A rim that touches a box's edge exactly: all directions between those of the cap and the face.
+  const Configuration c{Cylinder(1, 1), Pose(Vec3(0, 0, 2), {1, 0, 0, 0}),
+                        Box(Vec3(1, 1, 1)),
+                        Pose(Vec3(2, 0, 0), {1, 0, 0, 0})};
+  const oracle::Truth truth = oracle::truth(c);
+  ASSERT_EQ(truth.ties, oracle::Ties::continuum);
+  ASSERT_EQ(truth.families.size(), 1u);
+  const oracle::NormalFamily& arc = truth.families[0];
+  ASSERT_EQ(arc.kind, oracle::NormalFamily::Kind::arc);
+  const Vec3 middle = (arc.ends[0] + arc.ends[1]).normalized();
+  EXPECT_NEAR(*along(c, middle).normal_angle, 0, angle_rounding);
+  EXPECT_NEAR(*along(c, turned(middle, middle.cross(arc.axis), 2)).normal_angle, 2, 1e-6);
+  EXPECT_NEAR(*along(c, turned(arc.ends[1], arc.axis, 3)).normal_angle, 3, 1e-9);
+}
+
 TEST(Score, SaysHowFarPointsAreOffTheBodies) {
   EXPECT_EQ(*scored(standing, contact(-1e-3, up)).point_error, 0);
   ts_answer off = contact(-1e-3, up);
