@@ -24,6 +24,7 @@ using Groups = std::set<std::pair<std::string, std::string>>;  // pair or "all",
 struct Basis {
   bool same_configurations = true;  ///< seed, and count of each class that both have
   bool same_bar = true;             ///< tolerance and threshold
+  bool same_judge = true;           ///< outcomes and regrets mean the same
   Groups split;                     ///< those with a class that only one of the reports has
   bool times = true;                ///< both have the baseline that times are related to
   std::vector<std::string> remarks;
@@ -198,6 +199,13 @@ Basis basis_of(const Report& before, const Report& after, const std::string& bas
         number(before.tolerance), number(after.tolerance), number(before.threshold),
         number(after.threshold)));
   }
+  basis.same_judge = before.is_of_old_judge == after.is_of_old_judge;
+  if (!basis.same_judge) {
+    basis.remarks.push_back(fmt::format(
+        "The {} report is of a schema before 3, where points off the bodies agreed and a normal's "
+        "regret grew with a floor: agreement, normal regret and coverage are not compared.",
+        before.is_of_old_judge ? "old" : "new"));
+  }
   for (const auto& [report, which] : {std::pair(&before, "old"), std::pair(&after, "new")}) {
     if (!report->partial) continue;
     basis.remarks.push_back(
@@ -301,10 +309,11 @@ void compare_errors(Changes& changes, const Statistics& before, const Statistics
   for (const auto& m : measures) {
     const auto &old = before.*m.member, &now = after.*m.member;
     if (!old || !now || !(m.of_any_sample || same_configurations)) continue;
+    if (m.member == &Statistics::normal_regret && !basis.same_judge) continue;
     changes.smaller_is_better(m.measure, (*old).*m.which, (*now).*m.which, negligible_error,
                               limits.error_factor);
   }
-  if (!basis.same_bar || !before.coverage || !after.coverage) return;
+  if (!basis.same_bar || !basis.same_judge || !before.coverage || !after.coverage) return;
   constexpr double min_share = 0.01;
   changes.smaller_is_better("patch not covered, mean", 1 - before.coverage->mean,
                             1 - after.coverage->mean, min_share, limits.error_factor);
@@ -365,7 +374,7 @@ void compare_rows(Comparison& comparison, const std::vector<ResultRow>& before,
       continue;
     }
     if (with_errors) {
-      if (basis.same_bar) {
+      if (basis.same_bar && basis.same_judge) {
         compare_agreement(changes, old.statistics, now.statistics, same_configurations, limits);
       }
       compare_errors(changes, old.statistics, now.statistics, basis, same_configurations, limits);

@@ -44,7 +44,7 @@ json row(const char* pose_class, const char* candidate, int agree, double error,
 }
 
 json small_report() {
-  return {{"schema", 2},
+  return {{"schema", report_schema},
           {"version", "0.1.0"},
           {"seed", 1},
           {"tolerance", 1e-4},
@@ -319,13 +319,33 @@ TEST(Compare, AReportOfTheOldSchemaIsComparedByClassesUnderTheirNamesOfToday) {
   now["results"][0]["class"] = now["results"][1]["class"] = "parallel+tilted-1e-6";
   old["summary"][0]["class"] = old["summary"][1]["class"] = "all";
   EXPECT_TRUE(compare(old, now, {}).changes.empty());
-  now["results"][1]["outcomes"] = {{"agree", 70}, {"shallow", 30}};
+  now["results"][1]["depth_error"]["p99"] = 1e-4;
   const Comparison c = compare(old, now, {});
-  EXPECT_THAT(changes(c), testing::ElementsAre("worse parallel+tilted-1e-6 mine agreement"));
+  EXPECT_THAT(changes(c), testing::ElementsAre("worse parallel+tilted-1e-6 mine depth error, p99"));
   EXPECT_THAT(remarks(c), HasSubstr("old report is of schema 1, which knows no groups"));
   now["seed"] = 2;
   EXPECT_THAT([&] { compare(old, now, {}); },
               testing::ThrowsMessage<InvalidInput>(HasSubstr("OLD is of schema 1")));
+}
+
+TEST(Compare, AReportOfTheOldJudgeIsComparedByWhatMeansTheSame) {
+  json old = small_report(), now = small_report();
+  for (json* report : {&old, &now}) {
+    (*report)["results"][1]["normal_regret"] = {{"median", 0}, {"p99", 1e-3}, {"max", 1e-3}};
+  }
+  now["results"][1]["outcomes"] = {{"agree", 70}, {"shallow", 30}};
+  now["results"][1]["normal_regret"]["p99"] = 1e-6;
+  now["results"][1]["coverage"]["mean"] = 0.9;
+  EXPECT_EQ(changes(compare(old, now, {})).size(), 3u);
+  old["schema"] = 2;
+  const Comparison c = compare(old, now, {});
+  EXPECT_TRUE(c.changes.empty());
+  EXPECT_THAT(remarks(c), HasSubstr("old report is of a schema before 3"));
+  now["results"][1]["depth_error"]["p99"] = 1e-4;
+  EXPECT_THAT(changes(compare(old, now, {})),
+              testing::ElementsAre("worse rim-face mine depth error, p99"));
+  now["schema"] = 2;
+  EXPECT_EQ(changes(compare(old, now, {})).size(), 4u);
 }
 
 TEST(Compare, AClassOfAnotherCountIsOfOtherConfigurations) {

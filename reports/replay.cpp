@@ -49,12 +49,13 @@ std::string outcome_text(Outcome outcome, int width, const Terminal& terminal) {
 /// One line for each candidate: what it makes of the configuration, and how far it is off. On a
 /// terminal that is too narrow for the line, three.
 std::string overview(const std::vector<ScoredAnswer>& answers, const Terminal& terminal) {
-  constexpr std::size_t table_width = 77;
+  constexpr std::size_t table_width = 79;
   const bool has_room = terminal.columns >= table_width;
   std::string text;
   if (has_room) {
-    text = terminal.heading(fmt::format("{:<25} {:<10} {:<12} {:>9} {:>9} {:>7}", "candidate",
-                                        "answer", "outcome", "depth err", "regret", "points")) +
+    text = terminal.heading(fmt::format("{:<23} {:<7} {:<15} {:>9} {:>8} {:>3} {:>8}", "candidate",
+                                        "answer", "outcome", "depth err", "regret", "pts",
+                                        "off by")) +
            '\n';
   }
   for (const auto& [candidate, answer, score] : answers) {
@@ -64,18 +65,23 @@ std::string overview(const std::vector<ScoredAnswer>& answers, const Terminal& t
     const std::string status = has_answered ? status_name(answer.status) : "-";
     const std::string depth_error = rounded(score.depth_error),
                       regret = rounded(score.normal_regret),
-                      points = has_contact ? fmt::format("{}", answer.point_count) : "-";
+                      points = has_contact ? fmt::format("{}", answer.point_count) : "-",
+                      off = rounded(score.point_error);
     if (has_room) {
-      text += fmt::format("{:<25} {:<10} {} {:>9} {:>9} {:>7}\n", candidate, status,
-                          outcome_text(score.outcome, 12, terminal), depth_error, regret, points);
+      text += fmt::format("{:<23} {:<7} {} {:>9} {:>8} {:>3} {:>8}\n", candidate, status,
+                          outcome_text(score.outcome, 15, terminal), depth_error, regret, points,
+                          off);
     } else {
       text += fmt::format("{}\n  answer {}, outcome {}\n", candidate, status,
                           outcome_text(score.outcome, 0, terminal));
       text += terminal.below(
-          fmt::format("depth err {}, regret {}, points {}", depth_error, regret, points));
+          fmt::format("depth err {}, regret {}, points {}, off by {}", depth_error, regret,
+                      points, off));
     }
   }
-  return text + terminal.folded("Errors are relative to the smaller size.");
+  return text + terminal.folded(
+                    "Errors are relative to the smaller size; \"off by\" is how much farther a point "
+                    "is from a body than its depth.");
 }
 
 std::string patch_text(const oracle::ContactPatch& patch, const Terminal& terminal) {
@@ -107,9 +113,10 @@ std::string answer_text(const ScoredAnswer& scored, const Terminal& terminal) {
   if (answer.status != TS_CONTACT) return text;
   text += terminal.below("signed distance " + number_or_dash(answer.signed_distance)) +
           vector_line("  normal ", Vec3(answer.normal), terminal);
-  text += terminal.below(fmt::format("depth error {}, normal regret {}, angle {} deg",
-                                     rounded(score.depth_error), rounded(score.normal_regret),
-                                     rounded(score.normal_angle)));
+  text += terminal.below(fmt::format(
+      "depth error {}, normal regret {} (of the whole bodies {}), angle {} deg",
+      rounded(score.depth_error), rounded(score.normal_regret), rounded(score.whole_regret),
+      rounded(score.normal_angle)));
   text +=
       terminal.below(fmt::format("coverage {} of the contact patch, points off the bodies by {}",
                                  rounded(score.coverage), rounded(score.point_error)));

@@ -237,11 +237,13 @@ Report report(const Reader& r) {
   const Reader schema = r.at("schema");
   // Other files of ours name what they are.
   if (schema.value().is_string()) r.refuse_file("has schema " + shown(schema.value()));
-  constexpr int old_schema = 1;
+  constexpr int old_schema = 1, schema_of_old_judge = 2;
   Report result;
   result.is_old = schema.value() == old_schema;
-  if (!result.is_old && schema.value() != report_schema) {
-    schema.refuse(fmt::format("must be {} or {}", old_schema, report_schema));
+  result.is_of_old_judge = result.is_old || schema.value() == schema_of_old_judge;
+  if (!result.is_of_old_judge && schema.value() != report_schema) {
+    schema.refuse(
+        fmt::format("must be {}, {} or {}", old_schema, schema_of_old_judge, report_schema));
   }
   result.version = r.at("version").text();
   result.seed = r.at("seed").whole();

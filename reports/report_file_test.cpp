@@ -127,7 +127,7 @@ TEST_F(ReportFile, NamesTheFieldAndTheRemedy) {
   json report = good();
   report["schema"] = 99;
   write(report.dump());
-  expect_refusal("schema is 99", "must be 1 or 2; make the report again");
+  expect_refusal("schema is 99", "must be 1, 2 or 3; make the report again");
   report = good();
   report["results"][1]["depth_error"]["p99"] = "small";
   write(report.dump());

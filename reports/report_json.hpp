@@ -13,7 +13,7 @@ namespace touchstone {
 // The format of report.json (docs/report-schema.md). What was not measured is null.
 
 /// Version of the format: member "schema".
-inline constexpr int report_schema = 2;
+inline constexpr int report_schema = 3;
 
 nlohmann::json to_json(const Report& report);
 

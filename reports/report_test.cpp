@@ -415,7 +415,7 @@ TEST(Report, IsWrittenAsAWhole) {
   const std::filesystem::path folder = testing::TempDir() + "touchstone report test";
   write_report(make_report(small_campaign(), "x"), folder);
   std::ifstream file(folder / "report.json");
-  EXPECT_EQ(json::parse(file)["schema"], 2);
+  EXPECT_EQ(json::parse(file)["schema"], report_schema);
   EXPECT_TRUE(std::filesystem::exists(folder / "report.html"));
   EXPECT_FALSE(std::filesystem::exists(folder / "report.json.partial"));
   std::filesystem::remove_all(folder);

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <variant>
 
 namespace touchstone {
 namespace {
@@ -31,6 +33,43 @@ std::optional<Vec3> nearest_within(const NormalFamily& family, const Vec3& n) {
   // Arcs are shorter than half a turn.
   const bool is_within = beyond(first, member) >= 0 && beyond(member, last) >= 0;
   return is_within ? std::optional(member) : std::nullopt;
+}
+
+/// Half the extent along a direction, which is given in the body's frame.
+struct HalfExtent {
+  Vec3 n;
+
+  double operator()(const Cylinder& s) const {
+    return s.radius() * std::hypot(n.x(), n.y()) + s.half_length() * std::abs(n.z());
+  }
+  double operator()(const Capsule& s) const {
+    return s.radius() * n.norm() + s.half_length() * std::abs(n.z());
+  }
+  double operator()(const Sphere& s) const { return s.radius() * n.norm(); }
+  double operator()(const Box& s) const { return s.half_extents().dot(n.cwiseAbs()); }
+  double operator()(const Plane&) const { return std::numeric_limits<double>::infinity(); }
+};
+
+struct Circumradius {
+  double operator()(const Cylinder& s) const { return std::hypot(s.radius(), s.half_length()); }
+  double operator()(const Capsule& s) const { return s.radius() + s.half_length(); }
+  double operator()(const Sphere& s) const { return s.radius(); }
+  double operator()(const Box& s) const { return s.half_extents().norm(); }
+  double operator()(const Plane&) const { return std::numeric_limits<double>::infinity(); }
+};
+
+/// Regret of n for a body on a half-space with the normal m, at this signed distance; infinite for
+/// a plane, which is on none. With α between them and the half extent h, (σ + h(m)) cos α − h(n) −
+/// ρ sin α − 2ρ max(0, −cos α) is the gap along n.
+double regret_on_half_space(const Shape& shape, const Pose& pose, double distance, const Vec3& n,
+                            const Vec3& m) {
+  const auto half_extent = [&](const Vec3& v) {
+    return std::visit(HalfExtent{pose.rotation().transpose() * v}, shape);
+  };
+  if (std::holds_alternative<Plane>(shape)) return std::numeric_limits<double>::infinity();
+  const double cosine = n.dot(m), radius = std::visit(Circumradius{}, shape);
+  return distance * (n - m).squaredNorm() / 2 + half_extent(n) - cosine * half_extent(m) +
+         radius * (n.cross(m).norm() + 2 * std::max(0.0, -cosine));
 }
 
 }  // namespace
@@ -62,6 +101,15 @@ std::optional<double> angle_to_optimal(const Configuration& c, const oracle::Tru
       truth.families.begin(), truth.families.end(),
       [](const NormalFamily& f) { return f.kind == NormalFamily::Kind::curve; });
   return has_curve && angle > near ? std::nullopt : std::optional(angle);
+}
+
+double felt_regret(const Configuration& c, const oracle::Truth& truth, const Vec3& n,
+                   double whole_regret) {
+  const Vec3 m = nearest_normal(truth, n);
+  const double distance = truth.signed_distance.midpoint();
+  const double felt = std::min(regret_on_half_space(c.a, c.pose_a, distance, n, m),
+                               regret_on_half_space(c.b, c.pose_b, distance, n, m));
+  return std::clamp(felt, 0.0, whole_regret);
 }
 
 }  // namespace touchstone

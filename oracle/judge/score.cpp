@@ -53,9 +53,10 @@ double point_distance(const Shape& shape, const Pose& pose, const Vec3& point) {
 
 double point_excess(const Configuration& c, const ts_point& point) {
   const Vec3 p(point.position[0], point.position[1], point.position[2]);
+  const double rounding = 1e-15 * p.cwiseAbs().maxCoeff();
   return std::max(std::abs(point_distance(c.a, c.pose_a, p)),
                   std::abs(point_distance(c.b, c.pose_b, p))) -
-         std::abs(point.depth);
+         std::abs(point.depth) - rounding;
 }
 
 namespace {
@@ -101,7 +102,8 @@ Outcome outcome_of_points(const Score& s, double distance, double beyond, const 
   }
   if (*s.deepest_error < -bar.tolerance) return Outcome::shallow_points;
   if (*s.deepest_error > bar.tolerance) return Outcome::overdeep_points;
-  return beyond > bar.tolerance ? Outcome::phantom_points : Outcome::agree;
+  if (beyond > bar.tolerance) return Outcome::phantom_points;
+  return *s.point_error > bar.tolerance ? Outcome::off_body : Outcome::agree;
 }
 
 Score only(Outcome outcome) {
@@ -173,6 +175,8 @@ const char* outcome_name(Outcome outcome) {
       return "phantom-points";
     case Outcome::not_asked:
       return "not-asked";
+    case Outcome::off_body:
+      return "off-body";
   }
   return "";
 }
@@ -185,7 +189,7 @@ std::optional<Outcome> find_outcome(std::string_view name) {
 
 bool is_of_points(Outcome outcome) {
   return outcome == Outcome::shallow_points || outcome == Outcome::overdeep_points ||
-         outcome == Outcome::phantom_points;
+         outcome == Outcome::phantom_points || outcome == Outcome::off_body;
 }
 
 bool is_judged(Outcome outcome) {
@@ -274,9 +278,10 @@ struct Judge::State {
   std::optional<oracle::Regrets> regrets;
   std::vector<NormalPatch> patches;
 
-  double regret(const Vec3& n) {
+  /// Against the whole bodies, metres.
+  double whole_regret(const Vec3& n) {
     if (!regrets) regrets.emplace(c, truth);
-    return relative(regrets->of(n), size);
+    return regrets->of(n);
   }
 
   const NormalPatch& patch(const Vec3& n) {
@@ -325,8 +330,10 @@ Score Judge::State::of_contact(const ts_answer& answer) {
     beyond = relative(-depths.min - bar.threshold, size);
   }
   if (!n.isZero(0)) {
-    s.normal_regret = regret(n);
-    s.normal_angle = angle_to_optimal(c, truth, n, *s.normal_regret * size);
+    const double whole = whole_regret(n);
+    s.whole_regret = relative(whole, size);
+    s.normal_regret = relative(felt_regret(c, truth, n.normalized(), whole), size);
+    s.normal_angle = angle_to_optimal(c, truth, n, whole);
     s.severity = std::max(s.severity, *s.normal_regret);
   }
   if (distance > bar.threshold / size + bar.tolerance) {
@@ -341,6 +348,7 @@ Score Judge::State::of_contact(const ts_answer& answer) {
     s.outcome = outcome_of_points(s, distance, beyond, bar);
     if (s.points == 0) s.severity = std::max(s.severity, -distance);
     if (s.outcome == Outcome::phantom_points) s.severity = std::max(s.severity, beyond);
+    if (s.outcome == Outcome::off_body) s.severity = std::max(s.severity, *s.point_error);
   }
   const bool right_normal = unit && s.normal_regret && *s.normal_regret <= bar.tolerance;
   if (s.outcome != Outcome::phantom && right_normal) s.coverage = coverage_by(answer);

@@ -18,8 +18,9 @@ namespace touchstone {
 /// few ulp of the coordinates. Ericson, "Real-Time Collision Detection", 2004, ch. 5.
 double point_distance(const Shape& shape, const Pose& pose, const Vec3& point);
 
-/// Largest distance of a contact point from the surfaces of the two bodies, minus its own depth,
-/// metres. Not positive for an acceptable point: one between the surfaces or on one of them.
+/// Largest distance of a contact point from the surfaces of the two bodies, minus its own depth, and
+/// minus what doubles place a point to (1e-15 of its coordinates); metres. Not positive for an
+/// acceptable point: one between the surfaces or on one of them.
 double point_excess(const Configuration& configuration, const ts_point& point);
 
 /// Judgement of one answer, named after the symptom.
@@ -39,8 +40,9 @@ enum class Outcome {
   shallow_points,   ///< no point is as deep as the bodies
   overdeep_points,  ///< a point is deeper than the bodies
   phantom_points,   ///< a point is beyond the threshold
-  not_asked         ///< the candidate times out in this class: it was asked a sample
+  not_asked,        ///< the candidate times out in this class: it was asked a sample
                     ///< (reports/campaign.hpp)
+  off_body          ///< of points, too: one is farther from a body than its depth
 };
 // Saved files refer to outcomes by name; even so, add new ones at the end.
 inline constexpr std::array all_outcomes = {
@@ -48,7 +50,8 @@ inline constexpr std::array all_outcomes = {
     Outcome::shallow,         Outcome::overdeep,       Outcome::wrong_normal,
     Outcome::not_finite,      Outcome::failed,         Outcome::crashed,
     Outcome::timed_out,       Outcome::unsupported,    Outcome::shallow_points,
-    Outcome::overdeep_points, Outcome::phantom_points, Outcome::not_asked};
+    Outcome::overdeep_points, Outcome::phantom_points, Outcome::not_asked,
+    Outcome::off_body};
 /// "agree", "missed", "wrong-normal", …
 const char* outcome_name(Outcome outcome);
 /// The outcome of that name, if there is one.
@@ -83,12 +86,13 @@ double error_size(const Configuration& configuration, const Bar& bar);
 struct Score {
   Outcome outcome = Outcome::agree;
   std::optional<double> depth_error;  ///< answer's signed distance − true: positive is too shallow
-  std::optional<double> normal_regret;  ///< σ − g(n)
+  /// What the answered normal costs (felt_regret), and against the whole bodies: σ − g(n).
+  std::optional<double> normal_regret, whole_regret;
   /// Degrees to the nearest optimal normal, of families too (angle_to_optimal).
   std::optional<double> normal_angle;
   /// Largest depth of a point − true depth: negative if a solver sees too little overlap.
   std::optional<double> deepest_error;
-  /// Largest point_excess of a contact point, or zero. It does not decide the outcome.
+  /// Largest point_excess of a contact point, or zero.
   std::optional<double> point_error;
   /// Coverage of the contact patch , if the bodies are in contact and the normal is
   /// within the bar.

@@ -110,7 +110,6 @@ TEST(Score, SaysHowFarPointsAreOffTheBodies) {
   off.points[1] = {{0, 0, 1.1}, {0, 0, 1}, 1e-3};  // 0.101 from the cap, 1e-3 of it allowed
   const Score s = scored(standing, off);
   EXPECT_NEAR(*s.point_error, 0.1 / 0.5, 1e-12);
-  EXPECT_EQ(s.outcome, Outcome::agree);
   off.point_count = 0;
   EXPECT_FALSE(scored(standing, off).point_error);
   EXPECT_FALSE(scored(standing, none()).point_error);
@@ -186,6 +185,64 @@ TEST(DeepestPoint, IsNotSoughtWhereDepthOrNormalAreWrong) {
   ts_answer sideways = with_depths({0});
   sideways.normal[0] = 1, sideways.normal[2] = 0;
   EXPECT_EQ(scored(standing, sideways).outcome, Outcome::wrong_normal);
+}
+
+TEST(Points, OffTheBodiesByMoreThanTheBarAreAnOutcomeBySoMuch) {
+  ts_answer a = contact(-1e-3, up);
+  a.point_count = 2;
+  a.points[1] = {{0.2, 0, 1 + 4e-5}, {0, 0, 1}, 0};  // 1.04e-3 from the cap, which is below it
+  EXPECT_EQ(scored(standing, a).outcome, Outcome::off_body);
+  a.points[1].depth = 1e-3;
+  EXPECT_EQ(scored(standing, a).outcome, Outcome::agree);
+  a.points[1] = {{12.6, 0, 1}, {0, 0, 1}, 1e-3};
+  const Score far = scored(standing, a);
+  EXPECT_EQ(far.outcome, Outcome::off_body);
+  EXPECT_NEAR(far.severity, (12.6 - 0.5) / 0.5, 0.01);
+  EXPECT_EQ(scored(standing, a, {.tolerance = 100, .threshold = 0}).outcome, Outcome::agree);
+  // Where depth or normal are wrong, these come first.
+  a.signed_distance = -2e-3;
+  EXPECT_EQ(scored(standing, a).outcome, Outcome::overdeep);
+}
+
+/// The pose of an outside user: a cylinder that stands 0.1 mm deep on a floor of 200 m.
+const Configuration on_floor{Cylinder(1, 1), Pose(Vec3(3, -2, 0.9999), {1, 0, 0, 0}),
+                             Box(Vec3(100, 100, 1)), Pose(Vec3(0, 0, -1), {1, 0, 0, 0})};
+
+TEST(FeltRegret, OfANormalOnAFloorIsThatOnAPlane) {
+  const Configuration on_plane{on_floor.a, on_floor.pose_a, Plane(up, 0), Pose()};
+  for (const double degrees : {4e-4, 0.01, 1.0, 30.0, 90.0}) {
+    const Vec3 n = turned(up, Vec3(0.6, 0.8, 0), degrees);
+    const Score floor = along(on_floor, n), plane = along(on_plane, n);
+    EXPECT_NEAR(*floor.normal_regret, *plane.normal_regret, 1e-12) << degrees;
+    EXPECT_EQ(plane.normal_regret, plane.whole_regret);
+    EXPECT_GT(*floor.whole_regret, 40 * *floor.normal_regret) << degrees;
+  }
+}
+
+TEST(FeltRegret, JudgesTheSmallerBodyWhicheverItIs) {
+  // A die on a table that is a cylinder.
+  const Configuration table{Cylinder(100, 1), Pose(Vec3(0, 0, -1)), Box(Vec3(0.01, 0.01, 0.01)),
+                            Pose(Vec3(40, 5, 0.00999), {1, 0, 0, 0})};
+  const Score s = along(table, turned(-up, Vec3(1, 0, 0), 0.001));
+  EXPECT_EQ(s.outcome, Outcome::wrong_normal);
+  EXPECT_LT(*s.normal_regret, 1e-4 * *s.whole_regret);
+}
+
+TEST(FeltRegret, OfBodiesOfOneSizeIsThatOfTheWholeBodies) {
+  const Configuration cans{Cylinder(0.5, 1), Pose(Vec3(0, 0, 1.999)), Cylinder(0.5, 1), Pose()};
+  for (const double degrees : {1e-3, 0.1, 10.0, 90.0}) {
+    const Score s = along(cans, turned(up, Vec3(1, 0, 0), degrees));
+    EXPECT_EQ(s.normal_regret, s.whole_regret) << degrees;
+  }
+}
+
+TEST(FeltRegret, OfANormalDoesNotGrowWithAFloor) {
+  // 0.0004 degrees off are nothing to a can, a degree is much, on 20 m as on 20 km.
+  for (const double half : {10.0, 100.0, 1e4}) {
+    const Configuration c{on_floor.a, on_floor.pose_a, Box(Vec3(half, half, 1)), on_floor.pose_b};
+    EXPECT_LT(*along(c, turned(up, Vec3(0, 1, 0), 4e-4)).normal_regret, 2e-5) << half;
+    EXPECT_EQ(along(c, turned(up, Vec3(0, 1, 0), 1)).outcome, Outcome::wrong_normal) << half;
+  }
 }
 
 TEST(Points, BeyondTheThresholdArePhantomPointsByTheGap) {
@@ -406,13 +463,14 @@ TEST(Judge, SaysOfEachOfManyAnswersWhatItSaysOfThatAlone) {
       const Score together = judge.score(answer), alone = score(c, truth, answer, Bar{});
       EXPECT_EQ(together.outcome, alone.outcome);
       EXPECT_EQ(together.normal_regret, alone.normal_regret);
+      EXPECT_EQ(together.whole_regret, alone.whole_regret);
       EXPECT_EQ(together.coverage, alone.coverage);
       EXPECT_EQ(together.severity, alone.severity);
     }
   }
 }
 
-TEST(Judge, MeasuresRegretByTheCertifiedGap) {
+TEST(Judge, MeasuresTheWholeRegretByTheCertifiedGap) {
   for (const Configuration& c : {standing, crossed, coaxial}) {
     const oracle::Truth truth = oracle::truth(c);
     Judge judge(c, truth, {});
@@ -421,7 +479,7 @@ TEST(Judge, MeasuresRegretByTheCertifiedGap) {
           truth.signed_distance.midpoint() - oracle::certified_gap(c, n).midpoint();
       const double relative = std::max(0.0, regret) / error_size(c, {});
       // Doubles, each rounded towards zero.
-      EXPECT_NEAR(*judge.score(contact(-0.1, n)).normal_regret, relative, 1e-15 * (1 + relative));
+      EXPECT_NEAR(*judge.score(contact(-0.1, n)).whole_regret, relative, 1e-15 * (1 + relative));
     }
   }
 }
@@ -435,15 +493,22 @@ double excess(const Vec3& p, double depth) {
 }
 
 TEST(PointExcess, IsNoneBetweenTheSurfacesWhereverInTheDepth) {
-  for (const double z : {-0.2, -0.1, 0.0}) EXPECT_LE(excess({0.5, 0, z}, 0.2), 1e-15) << z;
+  for (const double z : {-0.2, -0.1, 0.0}) EXPECT_LE(excess({0.5, 0, z}, 0.2), 0) << z;
   EXPECT_LT(excess({0.5, 0, -0.1}, 0.2), 0);
 }
 
 TEST(PointExcess, MeasuresFromTheFartherSurface) {
-  EXPECT_NEAR(excess({3, 0, 0}, 0.2), std::hypot(2, 0.0) - 0.2, 1e-15);
+  constexpr double rounding = 1e-14;
+  EXPECT_NEAR(excess({3, 0, 0}, 0.2), std::hypot(2, 0.0) - 0.2, rounding);
   // 0.7 above the half-space, 0.9 from the cap below it.
-  EXPECT_NEAR(excess({0, 0, 0.7}, 0.2), 0.7, 1e-15);
-  EXPECT_NEAR(excess({0, 0, 0.7}, -0.2), 0.7, 1e-15);  // points apart have negative depths
+  EXPECT_NEAR(excess({0, 0, 0.7}, 0.2), 0.7, rounding);
+  EXPECT_NEAR(excess({0, 0, 0.7}, -0.2), 0.7, rounding);  // points apart have negative depths
+}
+
+TEST(PointExcess, LeavesAPointWhatItsCoordinatesRoundTo) {
+  const Configuration far{Cylinder(1, 1), Pose(Vec3(1e12, 0, 0)), Sphere(1),
+                          Pose(Vec3(1e12, 0, 1.75), {1, 0, 0, 0})};
+  EXPECT_LE(point_excess(far, {{1e12, 0, 1.001}, {0, 0, 1}, 0.25}), 0);
 }
 
 using oracle::BoundaryPiece;

@@ -72,6 +72,7 @@ template <class AnyScore>
 auto numbers_of(AnyScore& score) {
   return std::array{std::pair("depth_error", &score.depth_error),
                     std::pair("normal_regret", &score.normal_regret),
+                    std::pair("whole_regret", &score.whole_regret),
                     std::pair("normal_angle", &score.normal_angle),
                     std::pair("point_error", &score.point_error),
                     std::pair("deepest_error", &score.deepest_error),

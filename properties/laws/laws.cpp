@@ -6,6 +6,7 @@
 #include <iterator>
 #include <limits>
 
+#include "oracle/judge/normals.hpp"
 #include "oracle/judge/score.hpp"
 #include "oracle/patch/contact_patch.hpp"
 #include "oracle/truth.hpp"
@@ -121,13 +122,16 @@ std::optional<Violation> differs(const Configuration& c, const Answer& answer,
                      bar.tolerance * size)) {
     return std::nullopt;
   }
-  const double gap = oracle::certified_gap(c, vector(answer.normal)).midpoint();
-  const double other_gap = oracle::certified_gap(other, vector(other_answer.normal)).midpoint();
-  const double regret = std::abs(other_gap / unit - gap) / size;
+  const auto felt = [](const Configuration& asked, const Answer& a) {
+    const Vec3 n = vector(a.normal);
+    const oracle::Truth& truth = truth_of(asked);
+    return felt_regret(asked, truth, n.normalized(), oracle::normal_regret(asked, truth, n));
+  };
+  const double regret = std::abs(felt(other, other_answer) / unit - felt(c, answer)) / size;
   if (regret <= bar.tolerance) return std::nullopt;
   return Violation{
       "not-invariant", regret,
-      fmt::format("the gap along the normal changes by {:.3g} of the smaller size", regret)};
+      fmt::format("the normal's regret changes by {:.3g} of the smaller size", regret)};
 }
 
 /// Judges a law all of whose questions are the same geometry in another form.
@@ -279,9 +283,6 @@ std::optional<Violation> judge_apart(const Configuration& c, Answers answers, co
 
 // Points
 
-/// Rounding error of a point's position in double, metres.
-double rounding_of(const ts_point& p) { return 1e-15 * vector(p.position).cwiseAbs().maxCoeff(); }
-
 std::string points_text(const Score& s) {
   if (s.points == 0) return "a contact of overlapping bodies has no points";
   if (s.outcome == Outcome::phantom_points) {
@@ -294,12 +295,12 @@ std::string points_text(const Score& s) {
 std::optional<Violation> judge_points(const Configuration& c, Answers answers, const Bar& bar) {
   const Answer& a = answers[0];
   const Score& s = score_of(c, a, bar);
-  if (is_of_points(s.outcome)) {
+  if (is_of_points(s.outcome) && s.outcome != Outcome::off_body) {
     return Violation{outcome_name(s.outcome), s.severity, points_text(s)};
   }
   const double size = error_size(c, bar);
   for (int i = 0; a.status == TS_CONTACT && i < a.point_count; ++i) {
-    const double excess = (point_excess(c, a.points[i]) - rounding_of(a.points[i])) / size;
+    const double excess = point_excess(c, a.points[i]) / size;
     if (excess <= bar.tolerance) continue;
     return Violation{"off-body", excess,
                      fmt::format("point {} is {:.3g} of the smaller size farther from a surface "

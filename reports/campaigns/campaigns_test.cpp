@@ -480,7 +480,7 @@ TEST(ShardFile, IsRefusedWhenItIsIntactButSomethingElse) {
   };
   for (const std::string body :
        {"{\"schema\":\"touchstone-shard-9\"}\n", "{}\n", "[]\n", "no JSON\n",
-        "{\"schema\":\"touchstone-shard-2\",\"shard\":[1,1],\"done\":[],\"campaign\":{}}\n"}) {
+        "{\"schema\":\"touchstone-shard-3\",\"shard\":[1,1],\"done\":[],\"campaign\":{}}\n"}) {
     EXPECT_THROW(shard_from_text(with_checksum(body), "file"), InvalidInput) << body;
   }
 }

@@ -252,7 +252,7 @@ std::string campaign_json(const ShardState& whole) {
   for (const Factor& f : report.factors) factors.push_back(to_json(f));
   for (const Contrast& c : report.contrasts) contrasts.push_back(to_json(c));
   for (const PoseClassDescription& c : report.classes) classes.push_back(to_json(c));
-  json result = {{"schema", "touchstone-campaign-2"},
+  json result = {{"schema", "touchstone-campaign-3"},
                  {"configurations", report.configurations},
                  {"complete", report.completed.configurations == report.planned.configurations},
                  {"results", results},

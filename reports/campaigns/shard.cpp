@@ -182,7 +182,7 @@ ScoreTally tally_from_json(const json& j, std::size_t cell) {
 
 namespace {
 
-constexpr const char* schema = "touchstone-shard-2";
+constexpr const char* schema = "touchstone-shard-3";
 
 std::string checksum_line(const std::string& checksum) {
   return json{{"crc32", checksum}}.dump() + '\n';

@@ -136,10 +136,11 @@ function truthValues() {
 }
 function answerTables() {
   byId('answer-table').append(table([textColumn('candidate'), textColumn('outcome'), 'signed distance', 'depth error',
-      'normal regret', 'angle, °', 'coverage', 'points', textColumn('normal')],
+      'normal regret', 'of the whole bodies', 'angle, °', 'coverage', 'points', 'off by', textColumn('normal')],
       answers.map(([n, a]) => [named(n), outcomeCell(a.score.outcome), a.status === 'contact' ? shortest(a.signed_distance) : a.status,
-          exponent(a.score.depth_error), exponent(a.score.normal_regret), exponent(a.score.normal_angle),
-          cutShare(a.score.coverage), String(a.points.length), vectorCell(a.normal)]), 'Answers and their scores'));
+          exponent(a.score.depth_error), exponent(a.score.normal_regret), exponent(a.score.whole_regret),
+          exponent(a.score.normal_angle), cutShare(a.score.coverage), String(a.points.length), exponent(a.score.point_error),
+          vectorCell(a.normal)]), 'Answers and their scores'));
   byId('reasons').append(...answers.filter(([, a]) => a.reason)
       .map(([n, a]) => element('p', {class: 'quiet'}, `${n}: ${a.reason}`)));
   byId('point-table').append(table([textColumn('candidate'), textColumn('position'), 'depth', textColumn('normal')],

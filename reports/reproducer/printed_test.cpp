@@ -341,8 +341,11 @@ const std::vector<Sentence>& sentences() {
          EXPECT_NEAR(x[0], k.gap(k.n), 2 * k.rounding);
          EXPECT_NEAR(x[1], k.distance(), k.rounding);
        }},
-      {"  Of B the column beneath A counts \\(see \\w+\\)\\.",
-       [](const Known& k, const Numbers&) { EXPECT_EQ(pair_of(k.c), Pair::plane); }},
+      {"  It costs " N " of depth, a large body being a half-space to a small one\\.",
+       [](const Known& k, const Numbers& x) {
+         const Score s = score(k.c, k.truth, k.w.answer, Bar{});
+         EXPECT_NEAR(x[0], *s.normal_regret * error_size(k.c, Bar{}), 2 * k.rounding);
+       }},
       {"Moved by the engine's depth, whichever way, A still overlaps B by " N " or more\\.",
        [](const Known& k, const Numbers& x) {
          for (const Vec3& way : {k.n, k.best(), Vec3(-k.best()), Vec3(0, 0.6, 0.8)}) {

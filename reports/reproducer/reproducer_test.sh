@@ -87,11 +87,11 @@ prepare() {
 
 # Makes the program take the truth for its engine's answer where it is given an argument.
 plant_a_right_engine() {
-  sed -i -e 's|  const answer = ask();|  const answer = process.argv[2] ? { distance: trueDistance, normal: trueNormal, points: [{ position: middle, normal: trueNormal, depth: -trueDistance }] } : ask();|' \
-    -e 's|^        answer = ask()|        answer = Answer(true_distance, true_normal, [Point(middle, true_normal, -true_distance)]) if sys.argv[1:] else ask()|' \
+  sed -i -e 's|  const answer = ask();|  const answer = process.argv[2] ? { distance: trueDistance, normal: trueNormals[0], points: [{ position: middle, normal: trueNormals[0], depth: -trueDistance }] } : ask();|' \
+    -e 's|^        answer = ask()|        answer = Answer(true_distance, true_normals[0], [Point(middle, true_normals[0], -true_distance)]) if sys.argv[1:] else ask()|' \
     -e 's|^  const Answer answer = ask();|  const Answer answer = count > 1 ? truth() : ask();|' "$folder/reproducer"
   [ "$language" = c++ ] || return 0
-  sed -i "s|^int main() {|Answer truth() {\n  Answer answer;\n  answer.kind = Answer::contact;\n  answer.distance = true_distance;\n  answer.normal = vector(true_normal);\n  answer.points = {{vector(middle), answer.normal, -true_distance}};\n  return answer;\n}\nint main(int count, char**) {|" "$folder/reproducer"
+  sed -i "s|^int main() {|Answer truth() {\n  Answer answer;\n  answer.kind = Answer::contact;\n  answer.distance = true_distance;\n  answer.normal = vector(true_normals[0]);\n  answer.points = {{vector(middle), answer.normal, -true_distance}};\n  return answer;\n}\nint main(int count, char**) {|" "$folder/reproducer"
 }
 
 while [ $# -gt 0 ]; do

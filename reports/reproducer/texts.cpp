@@ -140,7 +140,13 @@ Texts truth_texts(const Configuration& c, const oracle::Truth& truth, const Bar&
   Writer writer(numbers);
   writer.put("true_distance", distance);
   writer.put("true_depth", -distance);
-  writer.put("true_normal", std::span(n.data(), 3));
+  std::vector<std::string> normals;
+  for (const oracle::OptimalNormal& optimal : truth.normals) {
+    writer.put("true_normal", std::span(optimal.n.data(), 3));
+    const std::string& text = writer.texts["true_normal"];
+    normals.push_back(numbers == NumberStyle::hexadecimal ? '{' + text + '}' : '[' + text + ']');
+  }
+  writer.texts["true_normals"] = fmt::format("{}", fmt::join(normals, ", "));
   writer.put("true_axis", std::array{-n.x(), -n.y(), -n.z()});
   writer.put("middle", std::span(middle.data(), 3));
   writer.put("allowed", bar.tolerance * error_size(c, bar));

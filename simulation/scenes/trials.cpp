@@ -160,6 +160,7 @@ std::string in_words(const Score& s, const Configuration& c) {
     case Outcome::shallow_points:
     case Outcome::overdeep_points:
     case Outcome::phantom_points:
+    case Outcome::off_body:
       return text + fmt::format(" by {:.2g} m", s.severity * size);
     default:
       return text;
