@@ -293,6 +293,9 @@ std::string verdict_of(const TestDatum& d, const ts_answer& a) {
   const Score s = score(d.configuration, d.truth, a, bar);
   const bool is_by_points = s.outcome == Outcome::agree || is_of_points(s.outcome);
   if (is_by_points && s.whole_regret.value_or(0) > bar.tolerance) return "wrong-normal";
+  if (s.outcome == Outcome::no_points) {
+    return d.limits.contact == AnswerLimits::Contact::required ? "shallow-points" : "agree";
+  }
   return outcome_name(s.outcome == Outcome::off_body ? Outcome::agree : s.outcome);
 }
 

@@ -98,7 +98,7 @@ Depths depths_of(const ts_answer& answer) {
 /// no point.
 Outcome outcome_of_points(const Score& s, double distance, double beyond, const Bar& bar) {
   if (s.points == 0) {
-    return distance < -bar.tolerance ? Outcome::shallow_points : Outcome::agree;
+    return distance <= bar.tolerance ? Outcome::no_points : Outcome::agree;
   }
   if (*s.deepest_error < -bar.tolerance) return Outcome::shallow_points;
   if (*s.deepest_error > bar.tolerance) return Outcome::overdeep_points;
@@ -177,6 +177,8 @@ const char* outcome_name(Outcome outcome) {
       return "not-asked";
     case Outcome::off_body:
       return "off-body";
+    case Outcome::no_points:
+      return "no-points";
   }
   return "";
 }
@@ -189,7 +191,8 @@ std::optional<Outcome> find_outcome(std::string_view name) {
 
 bool is_of_points(Outcome outcome) {
   return outcome == Outcome::shallow_points || outcome == Outcome::overdeep_points ||
-         outcome == Outcome::phantom_points || outcome == Outcome::off_body;
+         outcome == Outcome::phantom_points || outcome == Outcome::off_body ||
+         outcome == Outcome::no_points;
 }
 
 bool is_judged(Outcome outcome) {

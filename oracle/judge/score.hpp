@@ -42,7 +42,8 @@ enum class Outcome {
   phantom_points,   ///< a point is beyond the threshold
   not_asked,        ///< the candidate times out in this class: it was asked a sample
                     ///< (reports/campaign.hpp)
-  off_body          ///< of points, too: one is farther from a body than its depth
+  off_body,         ///< of points, too: one is farther from a body than its depth
+  no_points         ///< likewise: a contact of bodies that are not apart has no point
 };
 // Saved files refer to outcomes by name; even so, add new ones at the end.
 inline constexpr std::array all_outcomes = {
@@ -51,7 +52,7 @@ inline constexpr std::array all_outcomes = {
     Outcome::not_finite,      Outcome::failed,         Outcome::crashed,
     Outcome::timed_out,       Outcome::unsupported,    Outcome::shallow_points,
     Outcome::overdeep_points, Outcome::phantom_points, Outcome::not_asked,
-    Outcome::off_body};
+    Outcome::off_body,        Outcome::no_points};
 /// "agree", "missed", "wrong-normal", …
 const char* outcome_name(Outcome outcome);
 /// The outcome of that name, if there is one.

@@ -169,9 +169,13 @@ TEST(DeepestPoint, IsJudgedAtTheBar) {
 
 TEST(DeepestPoint, OfAContactWithoutPointsIsLackingAltogether) {
   const Score s = scored(standing, with_depths({}));
-  EXPECT_EQ(s.outcome, Outcome::shallow_points);
+  EXPECT_EQ(s.outcome, Outcome::no_points);
   EXPECT_FALSE(s.deepest_error);
   EXPECT_NEAR(s.severity, 1e-3 / 0.5, 1e-12);
+  // Nor do bodies rest on nothing where they only touch.
+  ts_answer touching = with_depths({});
+  touching.signed_distance = 0;
+  EXPECT_EQ(scored(lifted(1e-3), touching).outcome, Outcome::no_points);
   ts_answer apart = with_depths({});
   apart.signed_distance = 0.01;
   EXPECT_EQ(scored(lifted(0.011), apart, {.tolerance = 1e-4, .threshold = 0.02}).outcome,

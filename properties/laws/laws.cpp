@@ -408,7 +408,7 @@ const std::vector<std::string>& all_failures() {
       "missed",        "phantom",        "shallow",         "overdeep",
       "wrong-normal",  "off-body",       "few-points",      "jump",
       "not-invariant", "not-finite",     "failed",          "crashed",
-      "timed-out",     "shallow-points", "overdeep-points", "phantom-points"};
+      "timed-out",     "shallow-points", "overdeep-points", "phantom-points", "no-points"};
   return failures;
 }
 

@@ -99,7 +99,7 @@ TEST(Laws, SeeWhatTheyAreThereFor) {
 
   EXPECT_EQ(failure("points", {good}), "");
   EXPECT_EQ(failure("points", {contact(-0.1, {0, 0, 1}, {{3, 0, 0.95}})}), "off-body");
-  EXPECT_EQ(failure("points", {contact(-0.1, {0, 0, 1}, {})}), "shallow-points");
+  EXPECT_EQ(failure("points", {contact(-0.1, {0, 0, 1}, {})}), "no-points");
   EXPECT_EQ(failure("points", {with_depths(good, {0, 0.05, 0})}), "shallow-points");
   EXPECT_EQ(failure("points", {with_depths(good, {0.1, 0.05, 0.11})}), "overdeep-points");
   EXPECT_EQ(failure("points", {with_depths(good, {0.1, -0.05, 0.1})}), "phantom-points");

@@ -61,7 +61,7 @@ const named = (name, ...rest) => element('span', {class: 'named'}, sign(name), n
 
 // Outcomes, in the order of legends; each has one colour everywhere, a variable of the style sheet.
 const outcomes = ['agree', 'few-points', 'missed', 'phantom', 'shallow', 'overdeep', 'wrong-normal', 'shallow-points', 'overdeep-points',
-  'phantom-points', 'off-body', 'not-finite', 'failed', 'crashed', 'timed-out', 'not-asked', 'unsupported'];
+  'phantom-points', 'off-body', 'no-points', 'not-finite', 'failed', 'crashed', 'timed-out', 'not-asked', 'unsupported'];
 const outcomeColour = outcome => `--outcome-${outcome}`;
 const isFailure = outcome => !['agree', 'unsupported', 'not-asked'].includes(outcome);
 const swatch = outcome => element('span', {class: 'swatch', style: `background:var(${outcomeColour(outcome)})`, 'aria-hidden': 'true'});

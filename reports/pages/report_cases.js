@@ -115,7 +115,7 @@ function method() {
     ['phantom', `A contact, though they are more than ${bar} of the size further apart than was asked for.`],
     ['shallow, overdeep', 'The depth is too small, too large.'],
     ['wrong-normal', 'The depth is right; the normal is of no unit length or its regret is beyond the bar.'],
-    ['shallow-points, overdeep-points, phantom-points, off-body', 'Depth and normal are right, but no contact point is as deep as the bodies are (a solver feels too little, or nothing); one is deeper; one is further apart than was asked for; one is farther from a body than its depth.'],
+    ['no-points, shallow-points, overdeep-points, phantom-points, off-body', 'Depth and normal are right, but there is no contact point (a solver feels nothing); none is as deep as the bodies are (it feels too little); one is deeper; one is further apart than was asked for; one is farther from a body than its depth.'],
     ['not-finite, failed, unsupported', 'A NaN or infinity in the answer; the candidate says that it could not answer; it has no routine for the pair, which does not count against it.'],
     ['crashed, timed-out', 'The candidate ended its process (a signal, an exception, too much memory), or took longer than 50 ms of processor time, unless asked otherwise; after a first time-out among up to 1,024 configurations, a hundred times its median there, at least a tenth of that. Each candidate has a process of its own.'],
     ['not-asked', 'In a pose class where the candidate had timed out three times (among up to 512 configurations), it was asked only the last of every 16 further ones. In shares each of these stands for those before it that were not asked; errors are of what was asked.'],

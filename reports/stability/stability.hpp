@@ -80,7 +80,8 @@ inline constexpr MapLetter map_letters[] = {
     {'.', "agree"},           {'m', "missed"},        {'p', "phantom"},    {'s', "shallow"},
     {'o', "overdeep"},        {'n', "wrong-normal"},  {'f', "few-points"}, {'i', "not-finite"},
     {'x', "failed"},          {'c', "crashed"},       {'t', "timed-out"},  {'S', "shallow-points"},
-    {'O', "overdeep-points"}, {'P', "phantom-points"}, {'B', "off-body"}};
+    {'O', "overdeep-points"}, {'P', "phantom-points"}, {'B', "off-body"},
+    {'N', "no-points"}};
 
 /// Slow motions through degenerate poses.
 struct Sequences {

@@ -161,6 +161,7 @@ std::string in_words(const Score& s, const Configuration& c) {
     case Outcome::overdeep_points:
     case Outcome::phantom_points:
     case Outcome::off_body:
+    case Outcome::no_points:
       return text + fmt::format(" by {:.2g} m", s.severity * size);
     default:
       return text;
