@@ -62,13 +62,15 @@ What the answer does not define is None.
         name, [member](const JudgedAnswer& s) { return s.score.*member; }, text);
   };
   error("depth_error", &Score::depth_error, "Answered − true signed distance; positive: shallow.");
-  error("normal_regret", &Score::normal_regret,
-        "How much deeper the bodies are along the answered normal than along the best one; a large\n"
-        "body counts as a half-space, as far as the small one reaches.");
+  error(
+      "normal_regret", &Score::normal_regret,
+      "How much deeper the bodies are along the answered normal than along the best one; a large\n"
+      "body counts as a half-space, as far as the small one reaches.");
   error("whole_regret", &Score::whole_regret, "The same against the whole bodies.");
   error("normal_angle", &Score::normal_angle, "Degrees to the nearest optimal normal.");
   error("deepest_error", &Score::deepest_error, "Depth of the deepest point − true depth.");
-  error("point_error", &Score::point_error, "How far the worst point is off both surfaces.");
+  error("point_error", &Score::point_error,
+        "How far the worst point is outside a body, beyond its own depth.");
   error("coverage", &Score::coverage, "Share of the contact patch that the points span, 0 to 1.");
   type.def_property_readonly(
       "severity", [](const JudgedAnswer& s) { return s.score.severity; },

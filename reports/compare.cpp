@@ -203,7 +203,8 @@ Basis basis_of(const Report& before, const Report& after, const std::string& bas
   if (!basis.same_judge) {
     basis.remarks.push_back(fmt::format(
         "The {} report is of a schema before 3, where points off the bodies agreed and a normal's "
-        "regret grew with a floor: agreement, normal regret and coverage are not compared.",
+        "regret grew with a floor: agreement, normal regret, point error and coverage are not "
+        "compared.",
         before.is_of_old_judge ? "old" : "new"));
   }
   for (const auto& [report, which] : {std::pair(&before, "old"), std::pair(&after, "new")}) {
@@ -309,7 +310,9 @@ void compare_errors(Changes& changes, const Statistics& before, const Statistics
   for (const auto& m : measures) {
     const auto &old = before.*m.member, &now = after.*m.member;
     if (!old || !now || !(m.of_any_sample || same_configurations)) continue;
-    if (m.member == &Statistics::normal_regret && !basis.same_judge) continue;
+    const bool is_judged_anew =
+        m.member == &Statistics::normal_regret || m.member == &Statistics::point_error;
+    if (is_judged_anew && !basis.same_judge) continue;
     changes.smaller_is_better(m.measure, (*old).*m.which, (*now).*m.which, negligible_error,
                               limits.error_factor);
   }

@@ -43,7 +43,8 @@ std::string rounded(const std::optional<double>& x) {
 std::string outcome_text(Outcome outcome, int width, const Terminal& terminal) {
   const std::string text = fmt::format("{:<{}}", outcome_name(outcome), width);
   if (outcome == Outcome::agree) return terminal.good(text);
-  return outcome == Outcome::unsupported ? text : terminal.bad(text);
+  const bool is_neither = outcome == Outcome::unsupported || outcome == Outcome::unseen;
+  return is_neither ? text : terminal.bad(text);
 }
 
 /// One line for each candidate: what it makes of the configuration, and how far it is off. On a
@@ -53,10 +54,10 @@ std::string overview(const std::vector<ScoredAnswer>& answers, const Terminal& t
   const bool has_room = terminal.columns >= table_width;
   std::string text;
   if (has_room) {
-    text = terminal.heading(fmt::format("{:<23} {:<7} {:<15} {:>9} {:>8} {:>3} {:>8}", "candidate",
-                                        "answer", "outcome", "depth err", "regret", "pts",
-                                        "off by")) +
-           '\n';
+    text =
+        terminal.heading(fmt::format("{:<23} {:<7} {:<15} {:>9} {:>8} {:>3} {:>8}", "candidate",
+                                     "answer", "outcome", "depth err", "regret", "pts", "off by")) +
+        '\n';
   }
   for (const auto& [candidate, answer, score] : answers) {
     const bool has_contact = answer.status == TS_CONTACT;
@@ -68,20 +69,20 @@ std::string overview(const std::vector<ScoredAnswer>& answers, const Terminal& t
                       points = has_contact ? fmt::format("{}", answer.point_count) : "-",
                       off = rounded(score.point_error);
     if (has_room) {
-      text += fmt::format("{:<23} {:<7} {} {:>9} {:>8} {:>3} {:>8}\n", candidate, status,
-                          outcome_text(score.outcome, 15, terminal), depth_error, regret, points,
-                          off);
+      text +=
+          fmt::format("{:<23} {:<7} {} {:>9} {:>8} {:>3} {:>8}\n", candidate, status,
+                      outcome_text(score.outcome, 15, terminal), depth_error, regret, points, off);
     } else {
       text += fmt::format("{}\n  answer {}, outcome {}\n", candidate, status,
                           outcome_text(score.outcome, 0, terminal));
-      text += terminal.below(
-          fmt::format("depth err {}, regret {}, points {}, off by {}", depth_error, regret,
-                      points, off));
+      text += terminal.below(fmt::format("depth err {}, regret {}, points {}, off by {}",
+                                         depth_error, regret, points, off));
     }
   }
-  return text + terminal.folded(
-                    "Errors are relative to the smaller size; \"off by\" is how much farther a point "
-                    "is from a body than its depth.");
+  return text +
+         terminal.folded(
+             "Errors are relative to the smaller size; \"off by\" is how much farther outside "
+             "a body a point is than its depth.");
 }
 
 std::string patch_text(const oracle::ContactPatch& patch, const Terminal& terminal) {
@@ -113,12 +114,12 @@ std::string answer_text(const ScoredAnswer& scored, const Terminal& terminal) {
   if (answer.status != TS_CONTACT) return text;
   text += terminal.below("signed distance " + number_or_dash(answer.signed_distance)) +
           vector_line("  normal ", Vec3(answer.normal), terminal);
-  text += terminal.below(fmt::format(
-      "depth error {}, normal regret {} (of the whole bodies {}), angle {} deg",
-      rounded(score.depth_error), rounded(score.normal_regret), rounded(score.whole_regret),
-      rounded(score.normal_angle)));
+  text += terminal.below(
+      fmt::format("depth error {}, normal regret {} (of the whole bodies {}), angle {} deg",
+                  rounded(score.depth_error), rounded(score.normal_regret),
+                  rounded(score.whole_regret), rounded(score.normal_angle)));
   text +=
-      terminal.below(fmt::format("coverage {} of the contact patch, points off the bodies by {}",
+      terminal.below(fmt::format("coverage {} of the contact patch, points outside a body by {}",
                                  rounded(score.coverage), rounded(score.point_error)));
   text += terminal.below("deepest point's error " + rounded(score.deepest_error));
   for (int i = 0; i < answer.point_count; ++i) {

@@ -173,8 +173,8 @@ struct Report {
   };
 
   bool is_old = false;  ///< read from a file of schema 1, without what knows of groups
-  /// Read from a file before schema 3: contact points off the bodies agreed, and normals were judged
-  /// against the whole bodies, however large.
+  /// Read from a file before schema 3: contact points off the bodies agreed, and normals were
+  /// judged against the whole bodies, however large.
   bool is_of_old_judge = false;
   std::string version, command;
   std::uint64_t seed = 0;

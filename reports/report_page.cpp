@@ -94,7 +94,12 @@ class Packer {
 
 /// How many that were not asked count as agreeing, which is what the page's shares need.
 json agreeing_unasked(const json& row) {
-  return row.contains("represented") ? row["represented"].value("agree", 0) : 0;
+  std::uint64_t sum = 0;
+  for (const Outcome outcome : all_outcomes) {
+    if (!agrees(outcome) || !row.contains("represented")) continue;
+    sum += row["represented"].value(outcome_name(outcome), std::uint64_t{0});
+  }
+  return sum;
 }
 
 /// Of the rows of classes, of which there are twenty thousand, what the page shows of a class, with

@@ -218,7 +218,7 @@ std::string columns_text(const Report& report, const TextTable& table, const Ter
   explain("err", "99th percentile of the reported contacts' depth error, in that size");
   explain("bias", "its median with its sign: negative is too deep");
   explain("pts",
-          "99th percentile of how far a contact's worst point is off both surfaces and its "
+          "99th percentile of how far a contact's worst point is outside a body, beyond its "
           "depth");
   explain("cover", "mean share of the contact patch that the contact points span");
   explain("ns", "median time of a query");
@@ -291,7 +291,7 @@ std::string commands_text(const Report& report, bool timed, const Terminal& term
 const WorstCase* worst_failure(const Report& report, const std::string& candidate) {
   const WorstCase* worst = nullptr;
   for (const WorstCase& w : report.worst) {  // group by group
-    if (w.candidate != candidate || w.score.outcome == Outcome::agree) continue;
+    if (w.candidate != candidate || agrees(w.score.outcome)) continue;
     if (worst && worst->group != w.group) break;
     if (!worst || is_worse(w.score, worst->score)) worst = &w;
   }

@@ -89,7 +89,11 @@ struct Statistics {
   double weight_squares() const;
   /// On how many of those supported it agrees; those not asked count as what represents them.
   std::uint64_t agreeing() const {
-    return of(Outcome::agree) + represented[static_cast<std::size_t>(Outcome::agree)];
+    std::uint64_t sum = 0;
+    for (const Outcome outcome : all_outcomes) {
+      if (agrees(outcome)) sum += of(outcome) + represented[static_cast<std::size_t>(outcome)];
+    }
+    return sum;
   }
 };
 

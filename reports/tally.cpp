@@ -19,7 +19,7 @@ auto rank(const Score& s) {
   const Outcome o = s.outcome;
   const bool answered = o != Outcome::crashed && o != Outcome::timed_out && o != Outcome::failed &&
                         o != Outcome::not_finite;
-  return std::tuple(o == Outcome::agree, answered, -s.severity);
+  return std::tuple(agrees(o), answered, -s.severity);
 }
 
 }  // namespace
@@ -189,7 +189,7 @@ std::optional<SignedMedian> SignedTally::median() const {
 
 std::optional<std::uint64_t> worst_failure(const ScoreTally& tally) {
   // Worst first: if this one agrees, all do.
-  if (tally.worst.empty() || tally.worst.front().score.outcome == Outcome::agree) return {};
+  if (tally.worst.empty() || agrees(tally.worst.front().score.outcome)) return {};
   return tally.worst.front().index;
 }
 

@@ -54,10 +54,15 @@ expect 2 '^error: --id is "one": must be of one line, not of 2$' replay "$folder
 # Programs.
 expect 0 '#include <BulletCollision' replay $rim --emit bullet
 expect 0 'btSphereShape shape_b' replay "$folder/saved.json" --emit bullet
-expect 0 'touchstone-bullet.so' replay $rim --emit bullet-margin-0
+# Every setting of an engine of Debian has a program of the engine alone, but for those that are models or motions.
+for variant in bullet-margin-0 bullet-float bullet-float-margin-0 fcl-indep fcl-distance libccd-mpr; do
+  expect 0 '^#include <\(Bullet\|fcl\|ccd\)' replay $rim --emit $variant
+  ! grep -q 'touchstone-.*so' <<<"$printed" || failed "$ran loads a plug-in"
+done
+expect 0 'touchstone-bullet.so' replay $rim --emit bullet-persistent
 expect 0 'npm install jolt-physics@' replay $rim --emit jolt
 expect 0 'TEST_CASE("TestCollideCylinderVsBox")' replay $rim --emit jolt-margin:0.01 --language c++
-expect 2 '--emit.*no-such-engine.*must be one of bullet, ode, fcl, libccd, mujoco' replay $rim --emit no-such-engine
+expect 2 '--emit.*no-such-engine.*must be one of bullet, .*ode, fcl, .*libccd, .*mujoco' replay $rim --emit no-such-engine
 expect 2 '--emit.*libccd.*half-space' replay cylinder-plane/general-deep/1/2 --emit libccd
 expect 2 '--emit.*havok.*half-space' replay cylinder-plane/general-deep/1/2 --emit havok
 expect 2 '--emit.*bullet:3.*takes no number' replay $rim --emit bullet:3

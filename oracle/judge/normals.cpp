@@ -58,17 +58,17 @@ struct Circumradius {
   double operator()(const Plane&) const { return std::numeric_limits<double>::infinity(); }
 };
 
-/// Regret of n for a body on a half-space with the normal m, at this signed distance; infinite for
-/// a plane, which is on none. With α between them and the half extent h, (σ + h(m)) cos α − h(n) −
-/// ρ sin α − 2ρ max(0, −cos α) is the gap along n.
-double regret_on_half_space(const Shape& shape, const Pose& pose, double distance, const Vec3& n,
-                            const Vec3& m) {
+/// Regret of n for a body that touches a half-space with the normal m; infinite for a plane, which
+/// touches none. With α between them and the half extent h it is h(n) − h(m) cos α + ρ sin α + 2ρ
+/// max(0, −cos α): of the half-space the column beneath the body's circumsphere counts, two radii
+/// deep.
+double regret_on_half_space(const Shape& shape, const Pose& pose, const Vec3& n, const Vec3& m) {
   const auto half_extent = [&](const Vec3& v) {
     return std::visit(HalfExtent{pose.rotation().transpose() * v}, shape);
   };
   if (std::holds_alternative<Plane>(shape)) return std::numeric_limits<double>::infinity();
   const double cosine = n.dot(m), radius = std::visit(Circumradius{}, shape);
-  return distance * (n - m).squaredNorm() / 2 + half_extent(n) - cosine * half_extent(m) +
+  return half_extent(n) - cosine * half_extent(m) +
          radius * (n.cross(m).norm() + 2 * std::max(0.0, -cosine));
 }
 
@@ -97,19 +97,20 @@ std::optional<double> angle_to_optimal(const Configuration& c, const oracle::Tru
   const double angle = angle_between(n, nearest_normal(truth, n));
   if (truth.ties != oracle::Ties::continuum || angle == 0) return angle;
   if (regret <= no_regret * larger_size(c)) return 0;
-  const bool has_curve = std::any_of(
-      truth.families.begin(), truth.families.end(),
-      [](const NormalFamily& f) { return f.kind == NormalFamily::Kind::curve; });
+  const bool has_curve =
+      std::any_of(truth.families.begin(), truth.families.end(),
+                  [](const NormalFamily& f) { return f.kind == NormalFamily::Kind::curve; });
   return has_curve && angle > near ? std::nullopt : std::optional(angle);
 }
 
 double felt_regret(const Configuration& c, const oracle::Truth& truth, const Vec3& n,
                    double whole_regret) {
-  const Vec3 m = nearest_normal(truth, n);
-  const double distance = truth.signed_distance.midpoint();
-  const double felt = std::min(regret_on_half_space(c.a, c.pose_a, distance, n, m),
-                               regret_on_half_space(c.b, c.pose_b, distance, n, m));
-  return std::clamp(felt, 0.0, whole_regret);
+  double felt = whole_regret;
+  for (const oracle::OptimalNormal& optimal : truth.normals) {
+    felt = std::min({felt, regret_on_half_space(c.a, c.pose_a, n, optimal.n),
+                     regret_on_half_space(c.b, c.pose_b, n, optimal.n)});
+  }
+  return std::max(0.0, felt);
 }
 
 }  // namespace touchstone

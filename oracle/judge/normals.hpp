@@ -22,11 +22,11 @@ Vec3 nearest_normal(const oracle::Truth& truth, const Vec3& n);
 std::optional<double> angle_to_optimal(const Configuration& configuration,
                                        const oracle::Truth& truth, const Vec3& n, double regret);
 
-/// What a unit normal costs in depth, metres: σ − g(n), but no more than it would cost on the
-/// half-space that touches one of the bodies along the nearest optimal normal and that the other
-/// one feels as far as its circumsphere reaches (oracle::certified_gap has the formula). So a large
-/// body, as a floor, is to a small one no more than a plane, however far away it ends.
-/// `whole_regret`: σ − g(n). In double, to a few ulp of the smaller body's sizes.
+/// What a unit normal costs in depth, metres: σ − g(n), but no more than it costs either body that
+/// touches a half-space along an optimal normal (of those listed), of which the body feels what its
+/// circumsphere reaches. So a large body, as a floor, is to a small one no more than a plane,
+/// however far away it ends. `whole_regret`: σ − g(n). In double, to a few ulp of the smaller
+/// body's sizes.
 double felt_regret(const Configuration& configuration, const oracle::Truth& truth, const Vec3& n,
                    double whole_regret);
 

@@ -51,12 +51,30 @@ double point_distance(const Shape& shape, const Pose& pose, const Vec3& point) {
   return std::visit(Distance{local}, shape);
 }
 
-double point_excess(const Configuration& c, const ts_point& point) {
+namespace {
+
+struct OfBodies {
+  double a, b;     ///< signed distances from the surfaces
+  double allowed;  ///< the point's depth, and what doubles place it to
+};
+
+OfBodies distances_of(const Configuration& c, const ts_point& point) {
   const Vec3 p(point.position[0], point.position[1], point.position[2]);
   const double rounding = 1e-15 * p.cwiseAbs().maxCoeff();
-  return std::max(std::abs(point_distance(c.a, c.pose_a, p)),
-                  std::abs(point_distance(c.b, c.pose_b, p))) -
-         std::abs(point.depth) - rounding;
+  return {point_distance(c.a, c.pose_a, p), point_distance(c.b, c.pose_b, p),
+          std::abs(point.depth) + rounding};
+}
+
+}  // namespace
+
+double point_excess(const Configuration& c, const ts_point& point) {
+  const OfBodies of = distances_of(c, point);
+  return std::max(std::abs(of.a), std::abs(of.b)) - of.allowed;
+}
+
+double point_outside(const Configuration& c, const ts_point& point) {
+  const OfBodies of = distances_of(c, point);
+  return std::max(of.a, of.b) - of.allowed;
 }
 
 namespace {
@@ -77,7 +95,7 @@ Vec3 nearest(const Vec3& n, const std::vector<oracle::OptimalNormal>& normals) {
 double worst_point_error(const ts_answer& answer, const Configuration& c) {
   double worst = 0;
   for (int i = 0; i < answer.point_count; ++i) {
-    worst = std::max(worst, point_excess(c, answer.points[i]));
+    worst = std::max(worst, point_outside(c, answer.points[i]));
   }
   return worst;
 }
@@ -119,11 +137,14 @@ double relative(double error, double size) {
   return std::clamp(error / size, -max, max);
 }
 
-Score without_contact(double distance, const Bar& bar) {
+/// `resolved`: the overlap that doubles tell from a touch, relative as the distance is.
+Score without_contact(double distance, double resolved, const Bar& bar) {
   Score s;
   if (distance < -bar.tolerance) {
     s.outcome = Outcome::missed;
     s.severity = -distance;
+  } else if (distance < -resolved) {
+    s.outcome = Outcome::unseen;
   }
   return s;
 }
@@ -133,7 +154,8 @@ Score without_contact(double distance, const Bar& bar) {
 Vec3 patch_normal(const oracle::Truth& truth, const Vec3& n) {
   constexpr double far = 1;  // degrees
   const Vec3 listed = nearest(n, truth.normals);
-  return truth.ties == oracle::Ties::continuum && angle_between(n, listed) > far ? n.normalized() : listed;
+  return truth.ties == oracle::Ties::continuum && angle_between(n, listed) > far ? n.normalized()
+                                                                                 : listed;
 }
 
 bool is_finite(const ts_answer& answer) {
@@ -179,6 +201,8 @@ const char* outcome_name(Outcome outcome) {
       return "off-body";
     case Outcome::no_points:
       return "no-points";
+    case Outcome::unseen:
+      return "unseen";
   }
   return "";
 }
@@ -188,6 +212,8 @@ std::optional<Outcome> find_outcome(std::string_view name) {
                                   [&](Outcome o) { return name == outcome_name(o); });
   return found == all_outcomes.end() ? std::nullopt : std::optional(*found);
 }
+
+bool agrees(Outcome outcome) { return outcome == Outcome::agree || outcome == Outcome::unseen; }
 
 bool is_of_points(Outcome outcome) {
   return outcome == Outcome::shallow_points || outcome == Outcome::overdeep_points ||
@@ -227,14 +253,25 @@ const char* status_name(ts_status status) {
   return "failed";
 }
 
-double error_size(const Configuration& c, const Bar& bar) {
-  constexpr double resolved = 1e-13;
-  double larger = larger_size(c);
+namespace {
+
+/// The larger size, or over a plane the distance of the origins if that is more.
+double largest_length(const Configuration& c) {
+  double largest = larger_size(c);
   if (const auto* plane = std::get_if<Plane>(&c.b)) {
     const double aside = (c.pose_a.position() - c.pose_b.position()).cwiseAbs().maxCoeff();
-    larger = std::max({larger, aside, std::abs(plane->unit_displacement())});
+    largest = std::max({largest, aside, std::abs(plane->unit_displacement())});
   }
-  return std::max(smaller_size(c), std::min(1.0, resolved / bar.tolerance) * larger);
+  return largest;
+}
+
+/// What doubles resolve, relative to the largest length.
+constexpr double resolved = 1e-13;
+
+}  // namespace
+
+double error_size(const Configuration& c, const Bar& bar) {
+  return std::max(smaller_size(c), std::min(1.0, resolved / bar.tolerance) * largest_length(c));
 }
 
 namespace {
@@ -361,7 +398,9 @@ Score Judge::State::of_contact(const ts_answer& answer) {
 Score Judge::score(const ts_answer& answer) {
   switch (answer.status) {
     case TS_NONE:
-      return without_contact(state_->distance, state_->bar);
+      return without_contact(state_->distance,
+                             relative(resolved * largest_length(state_->c), state_->size),
+                             state_->bar);
     case TS_CONTACT:
       return is_finite(answer) ? state_->of_contact(answer) : only(Outcome::not_finite);
     case TS_UNSUPPORTED:

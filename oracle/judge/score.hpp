@@ -18,10 +18,14 @@ namespace touchstone {
 /// few ulp of the coordinates. Ericson, "Real-Time Collision Detection", 2004, ch. 5.
 double point_distance(const Shape& shape, const Pose& pose, const Vec3& point);
 
-/// Largest distance of a contact point from the surfaces of the two bodies, minus its own depth, and
-/// minus what doubles place a point to (1e-15 of its coordinates); metres. Not positive for an
+/// Largest distance of a contact point from the surfaces of the two bodies, minus its own depth,
+/// and minus what doubles place a point to (1e-15 of its coordinates); metres. Not positive for an
 /// acceptable point: one between the surfaces or on one of them.
 double point_excess(const Configuration& configuration, const ts_point& point);
+
+/// How much farther a contact point is outside a body than its own depth allows, likewise. A point
+/// within both bodies is on them, wherever between their surfaces.
+double point_outside(const Configuration& configuration, const ts_point& point);
 
 /// Judgement of one answer, named after the symptom.
 enum class Outcome {
@@ -42,8 +46,10 @@ enum class Outcome {
   phantom_points,   ///< a point is beyond the threshold
   not_asked,        ///< the candidate times out in this class: it was asked a sample
                     ///< (reports/campaign.hpp)
-  off_body,         ///< of points, too: one is farther from a body than its depth
-  no_points         ///< likewise: a contact of bodies that are not apart has no point
+  off_body,         ///< of points, too: one is farther outside a body than its depth
+  no_points,        ///< likewise: a contact of bodies that are not apart has no point
+  unseen            ///< no contact where the bodies overlap by less than the bar: within it, but a
+                    ///< solver feels nothing
 };
 // Saved files refer to outcomes by name; even so, add new ones at the end.
 inline constexpr std::array all_outcomes = {
@@ -52,7 +58,7 @@ inline constexpr std::array all_outcomes = {
     Outcome::not_finite,      Outcome::failed,         Outcome::crashed,
     Outcome::timed_out,       Outcome::unsupported,    Outcome::shallow_points,
     Outcome::overdeep_points, Outcome::phantom_points, Outcome::not_asked,
-    Outcome::off_body,        Outcome::no_points};
+    Outcome::off_body,        Outcome::no_points,      Outcome::unseen};
 /// "agree", "missed", "wrong-normal", …
 const char* outcome_name(Outcome outcome);
 /// The outcome of that name, if there is one.
@@ -60,6 +66,9 @@ std::optional<Outcome> find_outcome(std::string_view name);
 const char* status_name(ts_status status);
 /// Does the outcome belong to an answer that could be judged, so that it has a severity?
 bool is_judged(Outcome outcome);
+
+/// Is the answer within the bar in every respect, so that it counts as right in shares?
+bool agrees(Outcome outcome);
 
 /// Are depth and normal right, but the contact points wrong?
 bool is_of_points(Outcome outcome);
@@ -93,7 +102,7 @@ struct Score {
   std::optional<double> normal_angle;
   /// Largest depth of a point − true depth: negative if a solver sees too little overlap.
   std::optional<double> deepest_error;
-  /// Largest point_excess of a contact point, or zero.
+  /// Largest point_outside of a contact point, or zero.
   std::optional<double> point_error;
   /// Coverage of the contact patch , if the bodies are in contact and the normal is
   /// within the bar.

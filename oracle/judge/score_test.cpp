@@ -89,8 +89,7 @@ TEST(NormalAngle, OfConcentricBodiesIsNoneForAPerfectAnswer) {
 
 TEST(NormalAngle, IsNoneWithinAnArcAndBeyondItsEndsTheAngleToTheNearerOne) {
   // A rim that touches a box's edge exactly: all directions between those of the cap and the face.
-  const Configuration c{Cylinder(1, 1), Pose(Vec3(0, 0, 2), {1, 0, 0, 0}),
-                        Box(Vec3(1, 1, 1)),
+  const Configuration c{Cylinder(1, 1), Pose(Vec3(0, 0, 2), {1, 0, 0, 0}), Box(Vec3(1, 1, 1)),
                         Pose(Vec3(2, 0, 0), {1, 0, 0, 0})};
   const oracle::Truth truth = oracle::truth(c);
   ASSERT_EQ(truth.ties, oracle::Ties::continuum);
@@ -107,9 +106,9 @@ TEST(Score, SaysHowFarPointsAreOffTheBodies) {
   EXPECT_EQ(*scored(standing, contact(-1e-3, up)).point_error, 0);
   ts_answer off = contact(-1e-3, up);
   off.point_count = 2;
-  off.points[1] = {{0, 0, 1.1}, {0, 0, 1}, 1e-3};  // 0.101 from the cap, 1e-3 of it allowed
+  off.points[1] = {{0, 0, 1.1}, {0, 0, 1}, 1e-3};  // 0.1 above the box, 1e-3 of it allowed
   const Score s = scored(standing, off);
-  EXPECT_NEAR(*s.point_error, 0.1 / 0.5, 1e-12);
+  EXPECT_NEAR(*s.point_error, (0.1 - 1e-3) / 0.5, 1e-12);
   off.point_count = 0;
   EXPECT_FALSE(scored(standing, off).point_error);
   EXPECT_FALSE(scored(standing, none()).point_error);
@@ -194,9 +193,11 @@ TEST(DeepestPoint, IsNotSoughtWhereDepthOrNormalAreWrong) {
 TEST(Points, OffTheBodiesByMoreThanTheBarAreAnOutcomeBySoMuch) {
   ts_answer a = contact(-1e-3, up);
   a.point_count = 2;
-  a.points[1] = {{0.2, 0, 1 + 4e-5}, {0, 0, 1}, 0};  // 1.04e-3 from the cap, which is below it
+  a.points[1] = {{0.2, 0, 1 + 6e-5}, {0, 0, 1}, 0};  // above the box, by more than 1e-4 of the size
   EXPECT_EQ(scored(standing, a).outcome, Outcome::off_body);
-  a.points[1].depth = 1e-3;
+  a.points[1].depth = 2e-5;
+  EXPECT_EQ(scored(standing, a).outcome, Outcome::agree);
+  a.points[1] = {{0.2, 0, 0.9995}, {0, 0, 1}, 0};  // within both
   EXPECT_EQ(scored(standing, a).outcome, Outcome::agree);
   a.points[1] = {{12.6, 0, 1}, {0, 0, 1}, 1e-3};
   const Score far = scored(standing, a);
@@ -217,8 +218,10 @@ TEST(FeltRegret, OfANormalOnAFloorIsThatOnAPlane) {
   for (const double degrees : {4e-4, 0.01, 1.0, 30.0, 90.0}) {
     const Vec3 n = turned(up, Vec3(0.6, 0.8, 0), degrees);
     const Score floor = along(on_floor, n), plane = along(on_plane, n);
-    EXPECT_NEAR(*floor.normal_regret, *plane.normal_regret, 1e-12) << degrees;
-    EXPECT_EQ(plane.normal_regret, plane.whole_regret);
+    // But for the depth, by which a turned normal comes out of a plane sooner.
+    const double sooner = 1e-4 * (1 - std::cos(degrees * std::numbers::pi / 180));
+    EXPECT_NEAR(*floor.normal_regret, *plane.normal_regret + sooner, 1e-12) << degrees;
+    EXPECT_NEAR(*plane.normal_regret, *plane.whole_regret, 1e-12) << degrees;
     EXPECT_GT(*floor.whole_regret, 40 * *floor.normal_regret) << degrees;
   }
 }
@@ -227,9 +230,11 @@ TEST(FeltRegret, JudgesTheSmallerBodyWhicheverItIs) {
   // A die on a table that is a cylinder.
   const Configuration table{Cylinder(100, 1), Pose(Vec3(0, 0, -1)), Box(Vec3(0.01, 0.01, 0.01)),
                             Pose(Vec3(40, 5, 0.00999), {1, 0, 0, 0})};
-  const Score s = along(table, turned(-up, Vec3(1, 0, 0), 0.001));
-  EXPECT_EQ(s.outcome, Outcome::wrong_normal);
-  EXPECT_LT(*s.normal_regret, 1e-4 * *s.whole_regret);
+  for (const double degrees : {1e-3, 1.0}) {
+    const Score s = along(table, turned(-up, Vec3(1, 0, 0), degrees));
+    EXPECT_EQ(s.outcome == Outcome::wrong_normal, degrees == 1.0);
+    EXPECT_LT(*s.normal_regret, 1e-3 * *s.whole_regret);
+  }
 }
 
 TEST(FeltRegret, OfBodiesOfOneSizeIsThatOfTheWholeBodies) {
@@ -238,6 +243,17 @@ TEST(FeltRegret, OfBodiesOfOneSizeIsThatOfTheWholeBodies) {
     const Score s = along(cans, turned(up, Vec3(1, 0, 0), degrees));
     EXPECT_EQ(s.normal_regret, s.whole_regret) << degrees;
   }
+}
+
+TEST(FeltRegret, OfANormalAcrossIsWrongHoweverDeepTheBodiesAre) {
+  // Deeper than the cylinder is wide: across, the column beneath it would end sooner.
+  const Configuration sunk{Cylinder(0.5, 0.5), Pose(Vec3(0, 0, -4)), Box(Vec3(100, 100, 50)),
+                           Pose(Vec3(0, 0, -50), {1, 0, 0, 0})};
+  EXPECT_EQ(along(sunk, Vec3(1, 0, 0)).outcome, Outcome::wrong_normal);
+  EXPECT_EQ(along(sunk, -up).outcome, Outcome::wrong_normal);
+  // All directions across the axis tie, and the one between them and the axis is none of them.
+  const Configuration concentric{Cylinder(1, 1), Pose(), Sphere(1), Pose()};
+  EXPECT_GT(*along(concentric, Vec3(0, 0.6, 0.8)).normal_regret, 0.3);
 }
 
 TEST(FeltRegret, OfANormalDoesNotGrowWithAFloor) {
@@ -268,6 +284,9 @@ TEST(DeepestPoint, IsLackingWhereOurOwnCapsuleOnceHadPointsAtTheEndsOnly) {
                         Capsule(0x1p-2, 5), Pose(Vec3::Zero(), Eigen::Quaterniond(2, -3, 0, -3))};
   const oracle::Truth truth = oracle::truth(c);
   ts_answer a = contact(truth.signed_distance.midpoint(), truth.normals.front().n);
+  const Vec3 middle = oracle::contact_patch(c, truth.normals.front()).centroid();
+  for (int i = 0; i < 3; ++i) a.points[0].position[i] = middle[i];
+  a.points[1] = a.points[0];
   EXPECT_EQ(score(c, truth, a, {}).outcome, Outcome::agree);
   a.point_count = 2;
   a.points[0].depth = a.points[1].depth = 3e-17;
@@ -334,8 +353,16 @@ TEST(Score, ReversedNormalRegretsTheWholeWayThrough) {
 
 TEST(Score, WhatIsWithinTheBarMayBeMissed) {
   const Configuration touching = lifted(1e-3 - 2e-5);  // 4e-5 of the size deep
-  EXPECT_EQ(scored(touching, none()).outcome, Outcome::agree);
+  EXPECT_EQ(scored(touching, none()).outcome, Outcome::unseen);
+  EXPECT_TRUE(agrees(Outcome::unseen));
+  EXPECT_EQ(scored(touching, none()).severity, 0);
   EXPECT_EQ(scored(touching, none(), {.tolerance = 1e-6, .threshold = 0}).outcome, Outcome::missed);
+}
+
+TEST(Score, WhatDoublesDoNotTellFromATouchNeedsNoContact) {
+  EXPECT_EQ(scored(lifted(1e-3 - 1e-14), none()).outcome, Outcome::agree);
+  EXPECT_EQ(scored(lifted(1e-3 - 1e-12), none()).outcome, Outcome::unseen);
+  EXPECT_EQ(scored(lifted(1e-3), none()).outcome, Outcome::agree);
 }
 
 TEST(Score, ThresholdAllowsContactsThatFarApart) {

@@ -54,10 +54,11 @@ std::optional<Violation> judge_hint(const Configuration& c, std::span<const Answ
   const oracle::Truth& truth = truth_of(next);
 
   Judge judge(next, truth, bar);
-  if (judge.score(plain).outcome == Outcome::agree) {
+  if (agrees(judge.score(plain).outcome)) {
     for (const Answer* answer : {&hinted, &misled}) {
       const Score s = judge.score(*answer);
-      if (s.outcome == Outcome::agree) continue;
+      // Where points lie is for the law "points", which asks for overlaps alone.
+      if (agrees(s.outcome) || s.outcome == Outcome::off_body) continue;
       return Violation{
           outcome_name(s.outcome), s.severity,
           fmt::format("right without a hint, and with the {} as hint the depth error "

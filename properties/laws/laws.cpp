@@ -76,7 +76,7 @@ std::optional<Violation> judge_answers(const Configuration&, Answers answers, co
 
 std::optional<Violation> judge_agreement(const Configuration& c, Answers answers, const Bar& bar) {
   const Score& s = score_of(c, answers[0], bar);
-  if (s.outcome == Outcome::agree || s.outcome == Outcome::unsupported) return std::nullopt;
+  if (agrees(s.outcome) || s.outcome == Outcome::unsupported) return std::nullopt;
   if (is_of_points(s.outcome)) return std::nullopt;  // that is the law "points"
   std::string detail;
   if (s.depth_error) detail += fmt::format("depth error {:.3g}", *s.depth_error);
@@ -405,10 +405,10 @@ const Law& find_law(std::string_view name) { return named(all_laws(), name, "--l
 
 const std::vector<std::string>& all_failures() {
   static const std::vector<std::string> failures = {
-      "missed",        "phantom",        "shallow",         "overdeep",
-      "wrong-normal",  "off-body",       "few-points",      "jump",
-      "not-invariant", "not-finite",     "failed",          "crashed",
-      "timed-out",     "shallow-points", "overdeep-points", "phantom-points", "no-points"};
+      "missed",         "phantom",    "shallow",   "overdeep",       "wrong-normal",
+      "off-body",       "few-points", "jump",      "not-invariant",  "not-finite",
+      "failed",         "crashed",    "timed-out", "shallow-points", "overdeep-points",
+      "phantom-points", "no-points"};
   return failures;
 }
 

@@ -381,7 +381,7 @@ class Scores(unittest.TestCase):
         self.assertEqual(touchstone.score(self.deep, Contact(-0.125, up)).depth_error, 0.25)
         self.assertEqual(self.outcome(Contact(-0.5, up, [point])), "overdeep")
         self.assertEqual(self.outcome(Contact(-0.25, (1, 0, 0), [point])), "wrong-normal")
-        self.assertEqual(self.outcome(Contact(-0.25, up)), "shallow-points")
+        self.assertEqual(self.outcome(Contact(-0.25, up)), "no-points")
         self.assertEqual(self.outcome(None), "missed")
         self.assertEqual(self.outcome(NotImplemented), "unsupported")
 

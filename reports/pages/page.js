@@ -60,10 +60,10 @@ const runsText = name => runs[name] ? ` (${runs[name]})` : '';
 const named = (name, ...rest) => element('span', {class: 'named'}, sign(name), name + runsText(name), ...rest);
 
 // Outcomes, in the order of legends; each has one colour everywhere, a variable of the style sheet.
-const outcomes = ['agree', 'few-points', 'missed', 'phantom', 'shallow', 'overdeep', 'wrong-normal', 'shallow-points', 'overdeep-points',
+const outcomes = ['agree', 'unseen', 'few-points', 'missed', 'phantom', 'shallow', 'overdeep', 'wrong-normal', 'shallow-points', 'overdeep-points',
   'phantom-points', 'off-body', 'no-points', 'not-finite', 'failed', 'crashed', 'timed-out', 'not-asked', 'unsupported'];
 const outcomeColour = outcome => `--outcome-${outcome}`;
-const isFailure = outcome => !['agree', 'unsupported', 'not-asked'].includes(outcome);
+const isFailure = outcome => !['agree', 'unseen', 'unsupported', 'not-asked'].includes(outcome);
 const swatch = outcome => element('span', {class: 'swatch', style: `background:var(${outcomeColour(outcome)})`, 'aria-hidden': 'true'});
 const outcomeLegend = names => element('div', {class: 'legend'}, ...names.map(o => element('span', {}, swatch(o), o)));
 

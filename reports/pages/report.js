@@ -55,7 +55,7 @@ const hasSlowTail = r => tail(r) !== null && tail(r) > 4 * time(r);  // as in ti
 // The number of configurations that a candidate has a routine for.
 const supported = r => r.count - (r.outcomes.unsupported || 0);
 // What was not asked counts as what represents it.
-const agreeing = r => ((r.outcomes.agree || 0) + r.represented) / supported(r);
+const agreeing = r => ((r.outcomes.agree || 0) + (r.outcomes.unseen || 0) + r.represented) / supported(r);
 const withoutAnswer = ['not-finite', 'failed', 'crashed', 'timed-out'];
 const lost = r => withoutAnswer.reduce((sum, o) => sum + (r.outcomes[o] || 0), 0);
 const vector = v => v === null ? '–' : `(${v.map(c => c === null ? 'nan' : plainNumber(c, 6)).join(', ')})`;

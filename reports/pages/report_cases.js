@@ -4,7 +4,7 @@ let galleryCount = atOnce;
 function gallery() {
   const pair = byId('worst-pair').value, candidate = byId('worst-candidate').value;
   const chosen = report.worst.filter(w => w.group === group && (pair === 'all' || w.pair === pair) && (candidate === 'all' || w.candidate === candidate));
-  const rank = w => w.outcome === 'agree' ? 2 : withoutAnswer.includes(w.outcome) ? 0 : 1;  // as is_worse in tally.hpp
+  const rank = w => !isFailure(w.outcome) ? 2 : withoutAnswer.includes(w.outcome) ? 0 : 1;  // as is_worse in tally.hpp
   chosen.sort((a, b) => rank(a) - rank(b) || b.severity - a.severity);
   undrawn = [];
   const more = element('button', {type: 'button'}, `Show more (${chosen.length - galleryCount})`);
@@ -32,7 +32,7 @@ function worstCase(w) {
           ...reasons.map(([name, a]) => element('p', {class: 'quiet'}, `${name}: ${a.reason}`)),
           element('p', {class: 'quiet'}, 'See it again, in numbers; with --html page.html also enlarged and in section:'),
           command(w.replay),
-          ...(isGiven(w.candidate) || w.outcome === 'agree' ? [] : [
+          ...(isGiven(w.candidate) || !isFailure(w.outcome) ? [] : [
             element('p', {class: 'quiet'}, 'A program for its maintainers that shows this alone:'),
             command(`${w.replay} --emit ${w.candidate}`)]),
           element('details', {}, element('summary', {}, 'Configuration'), element('pre', {}, JSON.stringify(w.configuration))))));
@@ -105,17 +105,18 @@ function method() {
   definitions('words', [
     ['size', 'Half of the smallest width of the smaller shape; errors are relative to it (where the bar would be below 1e-13 of the larger shape, to a share of that).'],
     ['normal', 'Unit vector from B to A (the cylinder): the way A moves to come free.'],
-    ['normal regret', 'How much deeper the bodies are along the reported normal than along the best one, but no more than if the larger body were a half-space, of which the smaller one feels what its circumsphere reaches: a normal on a floor costs the same however far the floor extends. It is well defined where several normals tie.'],
+    ['normal regret', 'How much deeper the bodies are along the reported normal than along the best one, but no more than if the larger body were a half-space that touches the smaller one, of which that feels what its circumsphere reaches: a normal on a floor costs the same however far the floor extends. It is well defined where several normals tie.'],
     ['error', 'Without more words: of an answer the larger of its depth error and its regret; of a missed contact its depth. Lost: missed, or no answer at all.'],
     ['bias', 'The median of the depth error with its sign: negative where the routine is too deep, positive where it is too shallow.'],
-    ['points', 'By how much a contact’s worst point is off both surfaces in excess of its own depth.'],
+    ['points', 'By how much a contact’s worst point is outside a body in excess of its own depth.'],
     ['coverage', 'The largest factor by which the contact patch (where the bodies\u2019 flat and straight parts meet) may be shrunk about its centroid to lie within the hull of the contact points: 0.5 for three points evenly on a disc\u2019s rim, 0.7 for four. Of a point contact 1. Means are over contacts with a normal within the bar.'],
-    ['agree', `Depth, normal regret and the depth of the deepest contact point are within ${bar} of the size, and so is every point\u2019s distance from both bodies in excess of its own depth; contacts shallower than that may be missed.`],
+    ['agree', `Depth, normal regret and the depth of the deepest contact point are within ${bar} of the size, and no point is farther outside a body than its own depth by more; contacts shallower than that may be missed.`],
+    ['unseen', 'No contact, though the bodies overlap, by less than the bar: it counts as agreement, but a solver feels nothing.'],
     ['missed', `No contact, though the bodies overlap by more than ${bar} of the size.`],
     ['phantom', `A contact, though they are more than ${bar} of the size further apart than was asked for.`],
     ['shallow, overdeep', 'The depth is too small, too large.'],
     ['wrong-normal', 'The depth is right; the normal is of no unit length or its regret is beyond the bar.'],
-    ['no-points, shallow-points, overdeep-points, phantom-points, off-body', 'Depth and normal are right, but there is no contact point (a solver feels nothing); none is as deep as the bodies are (it feels too little); one is deeper; one is further apart than was asked for; one is farther from a body than its depth.'],
+    ['no-points, shallow-points, overdeep-points, phantom-points, off-body', 'Depth and normal are right, but there is no contact point (a solver feels nothing); none is as deep as the bodies are (it feels too little); one is deeper; one is further apart than was asked for; one is farther outside a body than its depth.'],
     ['not-finite, failed, unsupported', 'A NaN or infinity in the answer; the candidate says that it could not answer; it has no routine for the pair, which does not count against it.'],
     ['crashed, timed-out', 'The candidate ended its process (a signal, an exception, too much memory), or took longer than 50 ms of processor time, unless asked otherwise; after a first time-out among up to 1,024 configurations, a hundred times its median there, at least a tenth of that. Each candidate has a process of its own.'],
     ['not-asked', 'In a pose class where the candidate had timed out three times (among up to 512 configurations), it was asked only the last of every 16 further ones. In shares each of these stands for those before it that were not asked; errors are of what was asked.'],

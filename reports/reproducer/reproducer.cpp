@@ -48,17 +48,24 @@ struct Program {
   std::string_view title;
   const Language& language;
   const std::string_view& source;
-  std::string_view tag;  ///< for its lines
-  bool plane = true;     ///< it has a routine for the half-space
+  std::string_view tags;  ///< for its lines, with commas
+  bool plane = true;      ///< it has a routine for the half-space
 };
 
 /// Those that need nothing of ours. The first of an engine is the usual one.
 const std::array programs = {
-    Program{"bullet", "bullet", "Bullet", cpp, bullet_template, "engine"},
-    Program{"ode", "ode", "ODE", cpp, ode_template, "engine"},
-    Program{"fcl", "fcl", "FCL", cpp, fcl_template, "engine"},
-    Program{"libccd", "libccd-gjk", "libccd", cpp, libccd_template, "engine", false},
-    Program{"mujoco", "mujoco", "MuJoCo", cpp, mujoco_template, "engine"},
+    Program{"bullet", "bullet", "Bullet", cpp, bullet_template, "double,rounded"},
+    Program{"bullet-margin-0", "bullet-margin-0", "Bullet", cpp, bullet_template, "double,sharp"},
+    Program{"bullet-float", "bullet-float", "Bullet", cpp, bullet_template, "float,rounded"},
+    Program{"bullet-float-margin-0", "bullet-float-margin-0", "Bullet", cpp, bullet_template,
+            "float,sharp"},
+    Program{"ode", "ode", "ODE", cpp, ode_template, ""},
+    Program{"fcl", "fcl", "FCL", cpp, fcl_template, "collide"},
+    Program{"fcl-indep", "fcl-indep", "FCL", cpp, fcl_template, "indep"},
+    Program{"fcl-distance", "fcl-distance", "FCL", cpp, fcl_template, "distance", false},
+    Program{"libccd", "libccd-gjk", "libccd", cpp, libccd_template, "gjk", false},
+    Program{"libccd-mpr", "libccd-mpr", "libccd", cpp, libccd_template, "mpr", false},
+    Program{"mujoco", "mujoco", "MuJoCo", cpp, mujoco_template, ""},
     Program{"jolt", "jolt", "Jolt", javascript, jolt_mjs_template, "query"},
     Program{"jolt", "jolt", "Jolt", cpp, jolt_doctest_template, "doctest"},
     Program{"jolt-margin-0", "jolt-margin-0", "Jolt", javascript, jolt_mjs_template, "query"},
@@ -202,7 +209,7 @@ Texts npm_texts(const Program& program, std::string_view name, const Candidate* 
   Texts texts{{"npm", std::string(engine->package)},
               {"version", version},
               {"package", fmt::format("{}@{}", engine->package, version)},
-              {"multiccd", program.tag == "single" ? "off" : "on, as by default"}};
+              {"multiccd", program.tags == "single" ? "off" : "on, as by default"}};
   std::function<double(double)> rule = [](double smallest) { return std::min(0.05, smallest / 2); };
   texts["convex_rule"] = "0.05 m, at most half of the smallest half extent";
   if (program.engine == "jolt-margin-0") {
@@ -240,14 +247,21 @@ Texts candidate_texts(const Candidate* candidate) {
 
 using Tags = std::vector<std::string_view>;
 
-/// Does one of the names in a list with commas stand among the tags?
-bool names_one(std::string_view list, const Tags& tags) {
+/// The names in a list with commas.
+Tags names_in(std::string_view list) {
+  Tags names;
   while (!list.empty()) {
     const auto comma = list.find(',');
-    if (std::find(tags.begin(), tags.end(), list.substr(0, comma)) != tags.end()) return true;
+    names.push_back(list.substr(0, comma));
     list = comma == list.npos ? "" : list.substr(comma + 1);
   }
-  return false;
+  return names;
+}
+
+/// Does one of the names in a list with commas stand among the tags?
+bool names_one(std::string_view list, const Tags& tags) {
+  const Tags names = names_in(list);
+  return std::find_first_of(names.begin(), names.end(), tags.begin(), tags.end()) != names.end();
 }
 
 /// The lines for these tags, without the brackets.
@@ -320,10 +334,12 @@ std::string reproducer(std::string_view name, std::string_view language, const C
   const std::string shape = shape_name(c.b);
   // PhysX's query knows no plane, which its candidate asks a scene about.
   const bool in_scene = program.engine == "physx" && pair_of(c) == Pair::plane;
-  const Tags tags{shape, in_scene ? "world" : program.tag,
-                  tag_of_distance(truth.signed_distance.midpoint(), allowed, bar.threshold),
-                  candidate && candidate->in_frames ? "frames" : "lines",
-                  program.tag == "doctest" ? "" : "program"};
+  Tags tags = names_in(in_scene ? "world" : program.tags);
+  tags.insert(tags.end(),
+              {shape, tag_of_distance(truth.signed_distance.midpoint(), allowed, bar.threshold),
+               candidate && candidate->in_frames ? "frames" : "lines",
+               program.engine.empty() ? "plugin" : "engine",
+               program.tags == "doctest" ? "test" : "program"});
   texts.merge(Texts{{"engine", title},
                     {"asked", escaped(asked, Printed::one_line)},
                     {"remark", std::string(program.language.remark)},

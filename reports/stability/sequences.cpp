@@ -34,7 +34,7 @@ Course course(const std::vector<ExaminedPose>& poses, std::vector<Step>& steps, 
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const PoseAnswer& pose = poses[i].answers[k];
     result.missed += pose.score.outcome == Outcome::missed;
-    result.wrong += pose.score.outcome != Outcome::agree;
+    result.wrong += !agrees(pose.score.outcome);
     result.unanswered += !pose.is_answered();
     if (i == 0) continue;
     const auto change = steps[i - 1].change(k);

@@ -77,11 +77,11 @@ struct MapLetter {
   const char* meaning;
 };
 inline constexpr MapLetter map_letters[] = {
-    {'.', "agree"},           {'m', "missed"},        {'p', "phantom"},    {'s', "shallow"},
-    {'o', "overdeep"},        {'n', "wrong-normal"},  {'f', "few-points"}, {'i', "not-finite"},
-    {'x', "failed"},          {'c', "crashed"},       {'t', "timed-out"},  {'S', "shallow-points"},
-    {'O', "overdeep-points"}, {'P', "phantom-points"}, {'B', "off-body"},
-    {'N', "no-points"}};
+    {'.', "agree"},           {'m', "missed"},         {'p', "phantom"},    {'s', "shallow"},
+    {'o', "overdeep"},        {'n', "wrong-normal"},   {'f', "few-points"}, {'i', "not-finite"},
+    {'x', "failed"},          {'c', "crashed"},        {'t', "timed-out"},  {'S', "shallow-points"},
+    {'O', "overdeep-points"}, {'P', "phantom-points"}, {'B', "off-body"},   {'N', "no-points"},
+    {'u', "unseen"}};
 
 /// Slow motions through degenerate poses.
 struct Sequences {

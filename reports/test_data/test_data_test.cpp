@@ -14,6 +14,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "oracle/patch/contact_patch.hpp"
 #include "properties/files/configuration_json.hpp"
 #include "properties/files/given_text.hpp"
 #include "properties/files/strict_json.hpp"
@@ -74,6 +75,8 @@ ts_answer right_answer(const TestDatum& d) {
   a.signed_distance = d.truth.signed_distance.midpoint();
   for (int i = 0; i < 3; ++i) a.normal[i] = d.truth.normals.front().n[i];
   a.point_count = 1;
+  const Vec3 middle = oracle::contact_patch(d.configuration, d.truth.normals.front()).centroid();
+  for (int i = 0; i < 3; ++i) a.points[0].position[i] = middle[i];
   a.points[0].depth = -a.signed_distance;
   return a;
 }
@@ -98,8 +101,7 @@ TEST(TestData, LimitsAreThoseAtWhichScoresChange) {
       };
       ts_answer none{};
       none.status = TS_NONE;
-      const bool may_miss =
-          score(d.configuration, d.truth, none, campaign.bar).outcome == Outcome::agree;
+      const bool may_miss = agrees(score(d.configuration, d.truth, none, campaign.bar).outcome);
       EXPECT_EQ(may_miss, l.contact != AnswerLimits::Contact::required);
       if (l.contact == AnswerLimits::Contact::forbidden) {
         EXPECT_EQ(outcome(&AnswerLimits::min_distance, step), Outcome::phantom);
@@ -110,7 +112,8 @@ TEST(TestData, LimitsAreThoseAtWhichScoresChange) {
       EXPECT_EQ(outcome(&AnswerLimits::min_distance, -step), Outcome::overdeep) << id;
       EXPECT_EQ(outcome(&AnswerLimits::max_distance, -step), Outcome::agree) << id;
       EXPECT_EQ(outcome(&AnswerLimits::max_distance, step), Outcome::shallow) << id;
-      EXPECT_EQ(outcome(&AnswerLimits::min_point_depth, step), Outcome::agree) << id;
+      // With so little depth of its own the point may be off the bodies.
+      EXPECT_NE(outcome(&AnswerLimits::min_point_depth, step), Outcome::phantom_points) << id;
       EXPECT_EQ(outcome(&AnswerLimits::min_point_depth, -step), Outcome::phantom_points) << id;
     }
   }

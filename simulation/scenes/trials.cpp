@@ -31,7 +31,7 @@ std::vector<Configuration> sample(const Scene& scene, const Trajectory& run, con
 /// Error of the answered depth, metres, as ReplayScore has it.
 double depth_error(const Score& s, double size) {
   if (s.depth_error) return std::abs(*s.depth_error) * size;
-  if (s.outcome == Outcome::agree || s.outcome == Outcome::missed) return s.severity * size;
+  if (agrees(s.outcome) || s.outcome == Outcome::missed) return s.severity * size;
   return std::numeric_limits<double>::infinity();
 }
 
@@ -42,7 +42,7 @@ ReplayScore score_all(const std::vector<Configuration>& configurations,
   for (std::size_t i = 0; i < configurations.size(); ++i) {
     const Score s = score(configurations[i], truths[i], answers[i], Bar{});
     ++result.count;
-    if (s.outcome == Outcome::agree) ++result.agree;
+    if (agrees(s.outcome)) ++result.agree;
     const double error = depth_error(s, error_size(configurations[i], Bar{}));
     if (error > result.depth_error) result.depth_error = error, result.worst_depth = i;
     const double angle =
@@ -146,6 +146,7 @@ std::string in_words(const Score& s, const Configuration& c) {
   std::string text = outcome_name(s.outcome);
   switch (s.outcome) {
     case Outcome::agree:
+    case Outcome::unseen:
       text = "depth and normal are right";
       break;
     case Outcome::missed:
@@ -167,7 +168,7 @@ std::string in_words(const Score& s, const Configuration& c) {
       return text;
   }
   if (s.coverage.value_or(1) >= poor_coverage) {
-    return s.outcome == Outcome::agree ? "even the worst answer looked at is right" : text;
+    return agrees(s.outcome) ? "even the worst answer looked at is right" : text;
   }
   return text + fmt::format(", but {} {:.2f} of the contact patch",
                             s.points == 1 ? "its 1 point spans"
@@ -178,7 +179,7 @@ std::string in_words(const Score& s, const Configuration& c) {
 /// Rank of an answer as evidence: points that span nothing of the patch count as much as an error
 /// of a tenth of the size in depth or normal.
 double badness(const Score& s) {
-  const bool no_answer = s.outcome != Outcome::agree && s.severity == 0;
+  const bool no_answer = !agrees(s.outcome) && s.severity == 0;
   if (no_answer) return std::numeric_limits<double>::infinity();
   return 10 * s.severity + 1 - s.coverage.value_or(1);
 }
