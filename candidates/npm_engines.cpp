@@ -65,7 +65,7 @@ std::string npm_obstacle(const NpmEngine& engine) {
   if (!is_on_path("node")) {
     return std::string("node is not installed; ") +
            (is_in_clone() ? "./touchstone installs it when it can"
-                           : "install Debian's packages nodejs and npm");
+                          : "install Debian's packages nodejs and npm");
   }
   const auto package = packages() / "node_modules" / engine.package / "package.json";
   if (std::filesystem::exists(package)) return "";

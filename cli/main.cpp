@@ -59,7 +59,8 @@ int run_program(int argc, char** argv) {
       "  touchstone compare old.json out/report.json     better, worse, slower\n"
       "In a clone, ./touchstone test builds and runs all tests, and ./touchstone python\n"
       "starts Python with the module touchstone.\n"
-      "docs/, oracle/ and simulation/scenes/ are folders of a clone; what is installed of them lies in "
+      "docs/, oracle/ and simulation/scenes/ are folders of a clone; what is installed of them "
+      "lies in "
       "share/doc/touchstone and share/touchstone.\n"
       "Exit codes:\n" +
       list_entry("0", 3, "done") +

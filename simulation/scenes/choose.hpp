@@ -208,8 +208,9 @@ inline constexpr double noise_of_step = 0.05;
 /// those that take much the same the simplest is taken: whose models come first in the order of the
 /// candidates, summed over the kinds. Ends when no single kind can take its next cheaper model.
 /// Engines' routines are run and judged for all kinds, but are no answer. Progress goes to standard
-/// error. What is one sphere for all kinds is left out beside `spheres:1`, which is the same. Needs within the spread of exact runs are not judged. Throws InvalidInput if
-/// the scene has no needs, or none that is judged, or no cylinder touches anything.
+/// error. What is one sphere for all kinds is left out beside `spheres:1`, which is the same. Needs
+/// within the spread of exact runs are not judged. Throws InvalidInput if the scene has no needs,
+/// or none that is judged, or no cylinder touches anything.
 Choice choose(const SceneFile& file, const ChooseOptions& options);
 
 }  // namespace touchstone
