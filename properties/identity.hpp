@@ -36,11 +36,14 @@ enum class Group {
   recorded,    ///< as simulated scenes produced it, as often as they did
   given        ///< of the class given_class alone
 };
+/// Those whose classes can be drawn.
 inline constexpr Group all_groups[] = {Group::everyday, Group::degenerate, Group::extreme,
-                                       Group::recorded, Group::given};
+                                       Group::recorded};
+/// Those that a report may have, in its order.
+inline constexpr Group reported_groups[] = {Group::everyday, Group::degenerate, Group::extreme,
+                                            Group::recorded, Group::given};
 const char* group_name(Group group);
-/// Reads the name of a group whose classes can be drawn. Throws InvalidInput with this field that
-/// lists them.
+/// Throws InvalidInput with this field that lists the groups whose classes can be drawn.
 Group parse_group(std::string_view name, const char* field = "--group");
 
 /// How many of an arrangement and its modifiers occur together in every sensible combination.

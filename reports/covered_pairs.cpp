@@ -15,10 +15,12 @@ CoveredPairs covered_pairs(const Report& report, const std::string& group,
   return result;
 }
 
+std::string CoveredPairs::text() const {
+  return are_all() ? "" : fmt::format(" ({} of {} pairs)", covered, all);
+}
+
 std::string covered_text(const Report& report, const ResultRow& row) {
-  if (row.pair != "all") return "";
-  const CoveredPairs pairs = covered_pairs(report, row.pose_class, row.candidate);
-  return pairs.are_all() ? "" : fmt::format(" ({} of {} pairs)", pairs.covered, pairs.all);
+  return row.pair == "all" ? covered_pairs(report, row.pose_class, row.candidate).text() : "";
 }
 
 }  // namespace touchstone

@@ -12,11 +12,13 @@ struct CoveredPairs {
   std::size_t covered = 0, all = 0;
 
   bool are_all() const { return covered == all; }
+  /// " (4 of 5 pairs)"; empty where they are all.
+  std::string text() const;
 };
 CoveredPairs covered_pairs(const Report& report, const std::string& group,
                            const std::string& candidate);
 
-/// " (4 of 5 pairs)" beside the name of a row over all pairs; empty for other rows and where it is.
+/// That text of a row over all pairs; empty for other rows.
 std::string covered_text(const Report& report, const ResultRow& row);
 
 }  // namespace touchstone

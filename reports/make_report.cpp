@@ -28,7 +28,7 @@ std::vector<Heading> headings(const std::vector<Cell>& cells,
   std::vector<Group> groups;
   for (const Cell& cell : cells) groups.push_back(group_of(cell.pair, cell.pose_class));
   std::vector<Heading> result;
-  for (const Group group : all_groups) {
+  for (const Group group : reported_groups) {
     Heading all{"all", group, {}};
     std::size_t pairs = 0;
     for (std::size_t i = 0; i < cells.size(); ++i) {

@@ -10,6 +10,7 @@
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "properties/files/disk.hpp"
@@ -106,7 +107,7 @@ std::map<std::string, std::string> figure_styles(const std::vector<std::string>&
   } looks[] = {{7, "solid"},      {5, "(9,3)"},          {9, "(4,4)"}, {13, "(9,3,2,3)"},
                {1, "(16,4)"},     {11, "(9,3,2,3,2,3)"}, {6, "(2,2)"}, {4, "(14,3,3,3)"},
                {8, "(6,2)"},      {12, "(20,3,2,3)"},    {2, "(3,6)"}, {10, "(12,6)"},
-               {15, "(9,2,9,6)"}, {14, "(5,2,2,2,2,2)"}, {3, "(1,3)"}};
+               {15, "(9,2,9,6)"}, {14, "(5,2,2,2,2,2)"}, {3, "(12,2)"}};
   std::map<std::string, std::string> result;
   std::map<std::size_t, std::set<std::size_t>> taken;  // places in `looks`, by colour
   for (const std::string& name : candidates) {
@@ -289,17 +290,17 @@ std::string speed_panel(const std::string& title, const std::vector<Point>& poin
   return text;
 }
 
-/// All marks with their names, at the bottom of a page of panels.
-std::string key_panel(const std::vector<std::string>& candidates, const Styles& styles,
-                      double share) {
+/// All marks with their names, at the bottom of a page of panels. `labels`: by candidate.
+std::string key_panel(const std::vector<std::pair<std::string, std::string>>& labels,
+                      const Styles& styles, double share) {
   std::string text = fmt::format(
       "set size 1,{}\nset origin 0,0\nunset title\nunset label\nunset border\nunset tics\n"
       "unset xlabel\nunset ylabel\nunset grid\nset key center center horizontal Left reverse "
       "samplen 1 width 1 font ',9'\n",
       share);
   text += fmt::format("plot 1/0 {}", front_style);
-  for (const std::string& name : candidates) {
-    text += fmt::format(", 1/0 with points title {} pointsize 1 {}", gnuplot_quoted(name),
+  for (const auto& [name, label] : labels) {
+    text += fmt::format(", 1/0 with points title {} pointsize 1 {}", gnuplot_quoted(label),
                         styles.at(name));
   }
   return text + '\n';
@@ -334,8 +335,10 @@ std::string speed_figures(const Report& report, const Styles& styles, const std:
   const int rows = static_cast<int>(drawn.size() + 1) / 2;
   constexpr int key_height = 90;
   const double share = 1.0 * key_height / (340 * rows + key_height);
-  std::vector<std::string> candidates;
-  for (const CandidateDescription& c : report.candidates) candidates.push_back(c.name);
+  std::vector<std::pair<std::string, std::string>> labels;
+  for (const CandidateDescription& c : report.candidates) {
+    labels.emplace_back(c.name, c.name + covered_pairs(report, group, c.name).text());
+  }
   const std::string key = "set key outside right top maxcols 1 Left reverse samplen 1 font ',9'\n";
   int panel = 0;
   for (const auto& pair : drawn) {
@@ -356,7 +359,7 @@ std::string speed_figures(const Report& report, const Styles& styles, const std:
     write_file(folder / (name + ".csv"), data, "--figures");
   }
   return script + in_both_forms(figure_name("speed-accuracy", group), 1080, 340 * rows + key_height,
-                                "set multiplot\n" + panels + key_panel(candidates, styles, share) +
+                                "set multiplot\n" + panels + key_panel(labels, styles, share) +
                                     "unset multiplot\n");
 }
 
@@ -485,7 +488,7 @@ void write_figures(const Report& report, const path& folder) {
   for (const ResultRow& row : report.summary) names.push_back(row.candidate);
   const Styles styles = figure_styles(names);
   std::string script;
-  for (const Group group : all_groups) {
+  for (const Group group : reported_groups) {
     const std::string name = group_name(group);
     std::vector<std::string> pairs;
     for (const ResultRow& row : report.summary) {

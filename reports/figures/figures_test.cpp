@@ -66,6 +66,25 @@ TEST(Figures, EachComesAsPictureTwiceAndAsData) {
   std::filesystem::remove_all(folder);
 }
 
+TEST(Figures, MarkWhoHasNoRoutineForSomePairs) {
+  if (std::system("command -v gnuplot >/dev/null 2>&1") != 0) GTEST_SKIP() << "no gnuplot here";
+  Campaign c;
+  c.pairs = {Pair::plane, Pair::sphere};
+  c.classes = {"general-shallow"};
+  c.candidates = find_candidates({"reference", "libccd-gjk"});  // without planes
+  c.count = 2;
+  const std::filesystem::path folder = testing::TempDir() + "touchstone_partial_figures";
+  std::filesystem::create_directory(folder);
+  write_figures(make_report(c, "x"), folder);
+  for (const char* const name : {"speed-accuracy", "speed-accuracy-all", "errors-all"}) {
+    const std::string svg = text_of(folder / (std::string(name) + ".svg"));
+    EXPECT_THAT(svg, HasSubstr(">libccd-gjk (1 of 2 pairs)<")) << name;
+    EXPECT_THAT(svg, HasSubstr(">reference<")) << name;
+  }
+  EXPECT_THAT(text_of(folder / "errors-cylinder-sphere.svg"), HasSubstr(">libccd-gjk<"));
+  std::filesystem::remove_all(folder);
+}
+
 // A figure may stand alone: its key tells the candidates apart by colour, symbol and dash.
 TEST(Figures, EveryCandidateHasAStyleOfItsOwn) {
   std::vector<std::string> names;
