@@ -187,7 +187,7 @@ void add_choose(Program& program) {
       "  touchstone choose simulation/scenes/log-pile.json\n"
       "  touchstone choose simulation/scenes/conveyor.json --candidates spheres:1..16\n"
       "  touchstone choose simulation/scenes/rover.urdf\n"
-      "  touchstone choose simulation/scenes/gripper.urdf --drive left_finger_joint=0.05\n"
+      "  touchstone choose simulation/scenes/gripper.urdf --drive left_finger_joint=1\n"
       "  touchstone choose simulation/scenes/log-pile.json --engine bullet\n"
       "  touchstone choose simulation/scenes/gripper.urdf --depth 0.002 --angle 10\n"
       "Exit code 1: not even exact contacts meet the needs.");

@@ -202,7 +202,7 @@ cannot end compiled code, and what crashes ends the report. For such engines the
 ...     return None
 >>> r = touchstone.report(nothing, "nothing", ["cylinder-plane"], ["lying"], count=2, candidates=[])
 >>> [row["outcomes"] for row in r.to_dict()["results"]]
-[{'agree': 1, 'missed': 1}]
+[{'missed': 1, 'unseen': 1}]
 )",
       py::arg("function"), py::arg("name") = "function", py::arg("pairs") = py::none(),
       py::arg("classes") = py::none(), py::arg("groups") = py::none(), py::arg("count") = 20,

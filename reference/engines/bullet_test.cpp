@@ -147,7 +147,8 @@ void expect_all_poses(Pair pair, int up, bool cylinder_is_first) {
     for (EnginePoint& p : points) {
       if (!cylinder_is_first) p.normal = -p.normal;
     }
-    expect_as_ours(c, bodies.manifold().getContactBreakingThreshold(), 4, points, precision);
+    // What is nearer to a point than a thousandth of the threshold is the same to the drop-in.
+    expect_as_ours(c, bodies.manifold().getContactBreakingThreshold(), 4, points, precision, 2e-3);
   }
 }
 

@@ -186,12 +186,13 @@ json scene_json(const SceneFile& file, const Trials& trials, const Spreads& spre
 
 std::string choice_json(const Choice& choice, const std::string& command, const std::string& folder,
                         int indent) {
-  json runs = json::array(), kinds = json::array(), too_slow = json::array();
+  json runs = json::array(), kinds = json::array(), too_slow = json::array(), same = json::array();
   for (std::size_t i = 0; i < choice.runs.size(); ++i) {
     runs.push_back(run_json(choice, i, folder));
   }
   for (std::size_t k = 0; k < choice.kinds.all().size(); ++k) kinds.push_back(kind_json(choice, k));
   for (const Candidate* c : choice.too_slow) too_slow.push_back(c->name);
+  for (const Candidate* c : choice.same_as_sphere) same.push_back(c->name);
   const json result = {
       {"schema", "touchstone-choice-1"},
       {"command", command},
@@ -208,7 +209,8 @@ std::string choice_json(const Choice& choice, const std::string& command, const 
       {"answer", choice.answer},
       {"runs", runs},
       {"front", front(choice)},
-      {"too_slow", too_slow}};
+      {"too_slow", too_slow},
+      {"same_as_sphere", same}};
   return dumped(result, indent);
 }
 

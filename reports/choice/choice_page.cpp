@@ -173,7 +173,9 @@ std::vector<std::size_t> worth_showing(const Choice& choice) {
   }
   for (std::size_t i = 0; i < choice.runs.size(); ++i) {
     const std::string& name = choice.runs[i].name;
-    const bool is_known = name == "capsule" || name == "spheres:8" || name == "prism:16";
+    const bool is_capsule =
+        name == (choice.same_as_sphere.empty() ? "capsule" : "spheres:1");  // as it is called here
+    const bool is_known = is_capsule || name == "spheres:8" || name == "prism:16";
     if (is_known && std::find(result.begin(), result.end(), i) == result.end()) result.push_back(i);
   }
   return result;

@@ -253,6 +253,9 @@ std::string candidates_tables(const Choice& choice, std::size_t columns) {
   for (const Candidate* c : choice.too_slow) {
     lines += fmt::format("  {:<21} takes too long to run\n", c->name);
   }
+  for (const Candidate* c : choice.same_as_sphere) {
+    lines += fmt::format("  {:<21} is spheres:1 here\n", c->name);
+  }
   return lines +
          "  (~: of one run; held: of the runs as written and disturbed; choose.json has the "
          "command "

@@ -482,7 +482,8 @@ class Report(PageTest):
         failing, supported = ({name: collections.Counter() for name in names} for _ in range(2))
         for row in report["results"]:
             count = row["count"] - row["outcomes"].get("unsupported", 0)
-            agreeing = row["outcomes"].get("agree", 0) + row.get("represented", {}).get("agree", 0)
+            agreeing = sum(row.get(part, {}).get(name, 0) for part in ("outcomes", "represented")
+                           for name in ("agree", "unseen"))
             group = group_of[row["pair"], row["class"]]
             supported[row["candidate"]][group] += count > 0
             failing[row["candidate"]][group] += agreeing < count
@@ -772,7 +773,7 @@ class OtherPages(PageTest):
         self.assertEqual([cell.text for cell in routines], ["ode"])
         self.assertIn("exact runs differ by", self.find("#need-table").text)
         self.choose("#other", self.driver.execute_script(
-            "return String(data.motion.runs.findIndex(r => r.name === 'capsule'))"))
+            "return String(data.motion.runs.findIndex(r => r.name === 'spheres:1'))"))
         self.assertIn("parts from the run beside it at", self.find("#other-note").text)
         run = self.driver.execute_script("return data.motion.runs[document.getElementById('other').value]")
         self.assertAlmostEqual(float(self.find("#scrub").get_attribute("value")),
@@ -787,7 +788,8 @@ class OtherPages(PageTest):
         self.assertNotEqual(self.picture("#left"), later)
         self.find("#play").click()
         self.assertEqual(self.find("#play").text, "Pause")
-        for model in ("prism:16", "capsule"):
+        self.assertIn("The same as spheres:1 here: capsule.", self.find("#too-slow").text)  # of a flat wheel
+        for model in ("prism:16", "spheres:1"):
             self.choose("#other", self.driver.execute_script(
                 "return String(data.motion.runs.findIndex(r => r.name === arguments[0]))", model))
             self.driver.execute_script("""const scrub = document.getElementById('scrub'); scrub.value = 1;

@@ -92,7 +92,8 @@ function runTable() {
           `${r.held} of ${r.trials}`, wide(r.holds ? '' : failure(r)), wide(r.evidence ? `${r.evidence.bodies}: ${r.evidence.wrong}` : '')]), title);
   byId('run-table').append(drawn(rows(true), 'Each run with one model'));
   if (rows(false).length) byId('run-table').append(element('h3', {}, 'Routines, which are no models'), drawn(rows(false), 'Each run with one routine'));
-  if (data.too_slow.length) byId('too-slow').textContent = `Not run, because their queries alone would take more than 3 s: ${data.too_slow.join(', ')}.`;
+  if (data.too_slow.length) byId('too-slow').textContent = `Not run, because their queries alone would take more than 3 s: ${data.too_slow.join(', ')}. `;
+  if (data.same_as_sphere.length) byId('too-slow').textContent += `The same as spheres:1 here: ${data.same_as_sphere.join(', ')}.`;
 }
 
 // Names in the chart: of few runs all, of many those that one looks for, so that they do not hide each other.

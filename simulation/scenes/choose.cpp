@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <iterator>
 #include <tuple>
 #include <utility>
 
@@ -479,15 +480,20 @@ Choice choose(const SceneFile& file, const ChooseOptions& options) {
     throw InvalidInput("bodies", "no cylinder near another body at any time",
                        "must hold a cylinder that touches something");
   }
+  std::vector<const Candidate*> same_as_sphere;
   if (std::ranges::find(candidates, "spheres:1", &Candidate::name) != candidates.end()) {
-    std::erase_if(candidates, [&](const Candidate* c) {
+    std::ranges::copy_if(candidates, std::back_inserter(same_as_sphere), [&](const Candidate* c) {
       return std::ranges::all_of(
           kinds.all(), [&](const PairKind& kind) { return is_sphere_for(kind, file.scene, *c); });
     });
   }
+  std::erase_if(candidates, [&](const Candidate* c) {
+    return std::ranges::find(same_as_sphere, c) != same_as_sphere.end();
+  });
   auto replayed = replay(file.scene, exact_run, kinds.all(), candidates, options.limits);
   Choice choice{file, std::move(exact_run), std::move(kinds), candidates, std::move(replayed)};
   choice.trials = options.trials;
+  choice.same_as_sphere = std::move(same_as_sphere);
   ModelSearch(options, choice).run();
   return choice;
 }

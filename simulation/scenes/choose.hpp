@@ -159,6 +159,8 @@ struct Choice {
   std::vector<SceneRun> runs = {};
   /// Candidates whose run of the scene would take too long.
   std::vector<const Candidate*> too_slow = {};
+  /// Candidates that are left out, for they are spheres:1 here by another name.
+  std::vector<const Candidate*> same_as_sphere = {};
   Trials trials = {};
   Spreads spreads = {};
   /// What names the scene on a command line, with the options of a robot's motion.

@@ -79,6 +79,11 @@ double smallest_width(const Scene& scene, const std::vector<int>& mechanism, int
   return width;
 }
 
+/// Largest speed of a kick, of what has this smallest width.
+double kick_of(const Scene& scene, double width) {
+  return max_kick * std::sqrt(2 * scene.gravity.norm() * width);
+}
+
 struct TurnDrive {
   const Eigen::Quaterniond& turn;
 
@@ -153,7 +158,7 @@ DisturbedScene::DisturbedScene(const Scene& written, std::uint64_t seed, std::si
       const double width = smallest_width(written, mechanism, which);
       d.shift = draw_vector(draw, max_shift * width);
       d.turn = draw_turn(draw, max_angle);
-      d.kick = draw_vector(draw, max_kick * std::sqrt(2 * written.gravity.norm() * width));
+      d.kick = draw_vector(draw, kick_of(written, width));
     }
     body.pose =
         Pose(turn * d.moved(from.pose.position()), turn * d.turn * from.pose.unit_orientation());
@@ -176,6 +181,21 @@ DisturbedScene::DisturbedScene(const Scene& written, std::uint64_t seed, std::si
     push.torque = turn * push.torque;
   }
   scene.gravity = turn * written.gravity;
+}
+
+Carrying carrying(const Scene& written, int body, double way) {
+  const std::vector<int> mechanism = mechanisms(written);
+  const int which = mechanism[body];
+  if (held_mechanisms(written, mechanism)[which]) return {};
+  const double width = smallest_width(written, mechanism, which);
+  double reach = way;  // from any body of the mechanism, about which it may be turned
+  for (std::size_t i = 0; i < written.bodies.size(); ++i) {
+    if (mechanism[i] != which) continue;
+    const Vec3 off = written.bodies[body].pose.position() - written.bodies[i].pose.position();
+    reach = std::max(reach, way + off.norm());
+  }
+  return {2 * (max_shift * width + kick_of(written, width) * written.duration + max_angle * reach),
+          2 * max_angle};
 }
 
 Trajectory DisturbedScene::turned_back(const Trajectory& run) const {

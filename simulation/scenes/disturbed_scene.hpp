@@ -29,6 +29,14 @@ struct DisturbedScene {
   Trajectory turned_back(const Trajectory& run) const;
 };
 
+/// How far two disturbances of a body can end it from each other where they only carry on: the
+/// shift stays, the kick lasts, and the way is turned.
+struct Carrying {
+  double metres = 0, radians = 0;
+};
+/// Of a body of the scene as it is written, which goes this way, m; zero of what is not disturbed.
+Carrying carrying(const Scene& written, int body, double way);
+
 /// Repetitions of a run under disturbances: a need holds if it holds in all.
 struct Trials {
   std::size_t disturbances = 16;  ///< beside the scene as it is written

@@ -459,7 +459,7 @@ def rod_on_table():
         "materials": {"wood": {"friction": 0.5}},
         "bodies": [fixed("table", box(0.5, 0.5, 0.05), "wood", (0, 0, -0.05)),
                    body("rod", cylinder(r, 4 * r), "wood", (0, 0, r), ALONG_Y)],
-        "needs": [{"need": "ends-near", "body": "rod", "metres": 0.005},
+        "needs": [{"need": "ends-near", "body": "rod", "metres": 0.001},
                   {"need": "penetration", "metres": 0.0004}],
     }
 

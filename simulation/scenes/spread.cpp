@@ -4,8 +4,27 @@
 #include <fmt/format.h>
 
 #include "reference/invalid_input.hpp"
+#include "simulation/scenes/disturbed_scene.hpp"
 
 namespace touchstone {
+
+namespace {
+
+/// The value of a relative need where all that a body is off by is what two disturbances carry it.
+double value_of_carrying(const Need& need, const Scene& scene, const Trajectory& exact) {
+  const int body = need.bodies[0];
+  const Pose &from = exact.frames.front()[body].pose, &to = exact.frames.back()[body].pose;
+  const Vec3 way = to.position() - from.position();
+  const Vec3 along = way.norm() > 0 ? Vec3(way.normalized()) : scene.gravity.unitOrthogonal();
+  const auto [metres, radians] = carrying(scene, body, way.norm());
+  Trajectory carried = exact;
+  const Eigen::Quaterniond turn(Eigen::AngleAxisd(radians, to.axis().unitOrthogonal()));
+  carried.frames.back()[body].pose =
+      Pose(to.position() + metres * along, turn * to.unit_orientation());
+  return need.judge({scene, carried, exact}).value;
+}
+
+}  // namespace
 
 double spread(const Need& need, const Scene& scene, const std::vector<Trajectory>& exact_runs) {
   double largest = 0;
@@ -26,7 +45,9 @@ Spreads take_undecidable(SceneFile& file, const std::vector<Trajectory>& exact_r
     }
     const double limit = need->judge({file.scene, exact_runs[0], exact_runs[0]}).limit;
     const double apart = spread(*need, file.scene, exact_runs);
-    if (apart <= limit) {
+    const bool is_decided =
+        apart <= limit || apart <= value_of_carrying(*need, file.scene, exact_runs[0]);
+    if (is_decided) {
       result.of_needs.emplace_back(apart);
       return false;
     }

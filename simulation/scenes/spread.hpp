@@ -8,8 +8,10 @@
 #include "simulation/scenes/trajectory.hpp"
 
 // Which needs exact contacts decide. A relative need compares a run with the exact one under the
-// same disturbance, which by itself is always met; but where exact runs end further apart than the
-// limit, for a shift that nobody knows of, what misses it may be as good as exact.
+// same disturbance, which by itself always meets it; but where exact runs end further apart than
+// the limit, for a shift that nobody knows of, what misses it may be as good as exact. Not so where
+// they end no further apart than the disturbances carry them: a kick that a rod rolls on by is none
+// of its contacts' doing.
 
 namespace touchstone {
 
@@ -30,8 +32,9 @@ struct Spreads {
 /// may be the first. Zero of a single run.
 double spread(const Need& need, const Scene& scene, const std::vector<Trajectory>& exact_runs);
 
-/// Takes the relative needs whose limit lies within the spread of the exact runs out of the file.
-/// Throws InvalidInput (field "needs") if no other is left.
+/// Takes out of the file the relative needs whose limit lies within the spread of the exact runs,
+/// if that is more than the disturbances carry the body. Throws InvalidInput (field "needs") if no
+/// other is left.
 Spreads take_undecidable(SceneFile& file, const std::vector<Trajectory>& exact_runs);
 
 }  // namespace touchstone
