@@ -80,7 +80,8 @@ class Changing {
   /// One along which cases are decided, or any.
   Vec3 direction() {
     const Vec3 world[] = {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
-    const Vec3 a = axis_a(), b = axis_b(), way = n_.position_a - n_.position_b;
+    Vec3 a = axis_a(), b = axis_b();
+    const Vec3 way = n_.position_a - n_.position_b;
     switch (draw_.integer(0, 6)) {
       case 0:
         return a;

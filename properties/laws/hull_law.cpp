@@ -54,7 +54,8 @@ double angle_between(const Answer& a, const Answer& b) {
 }
 
 /// The hull of the points, in multiples of the larger size.
-oracle::ContactPatch hull_in_sizes(const Configuration& c, ts_answer a) {
+oracle::ContactPatch hull_in_sizes(const Configuration& c, const ts_answer& answer) {
+  ts_answer a = answer;
   for (int i = 0; i < a.point_count; ++i) {
     Eigen::Map<Vec3> position(a.points[i].position);
     position = (position - c.pose_a.position()).eval() / larger_size(c);
