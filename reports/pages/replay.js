@@ -136,7 +136,7 @@ function truthValues() {
 }
 function answerTables() {
   byId('answer-table').append(table([textColumn('candidate'), textColumn('outcome'), 'signed distance', 'depth error',
-      'normal regret', 'angle, °', 'coverage', 'points', 'off by', textColumn('normal')],
+      'regret', 'angle, °', 'cover', 'points', 'off by', textColumn('normal')],
       answers.map(([n, a]) => [named(n), outcomeCell(a.score.outcome), a.status === 'contact' ? shortest(a.signed_distance) : a.status,
           exponent(a.score.depth_error), exponent(a.score.normal_regret),
           exponent(a.score.normal_angle), cutShare(a.score.coverage), String(a.points.length), exponent(a.score.point_error),
