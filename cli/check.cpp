@@ -29,7 +29,7 @@ std::string counts_text(const LawResult& result) {
     }
     return text;
   };
-  const std::string text = listed(result.counts);
+  std::string text = listed(result.counts);
   if (result.known.empty()) return text;
   return text + (text.empty() ? "" : "; ") + "known: " + listed(result.known);
 }
