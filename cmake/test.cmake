@@ -11,5 +11,7 @@ function(touchstone_test)
   target_precompile_headers(${TEST_NAME} REUSE_FROM touchstone_test_headers)
   # Tests ask more than they compute. Not -O0: what a library does not inline would be the test's then.
   target_compile_options(${TEST_NAME} PRIVATE $<$<CONFIG:Release>:-O1>)
-  gtest_discover_tests(${TEST_NAME} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 600)
+  # The same properties each time; a run by hand without RC_PARAMS draws others.
+  gtest_discover_tests(${TEST_NAME} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 600
+                       PROPERTIES ENVIRONMENT RC_PARAMS=seed=1)
 endfunction()
