@@ -19,7 +19,7 @@ using testing::ThrowsMessage;
 constexpr double mark = 666;
 
 std::string command(const std::string& format, const std::string& deed = "none") {
-  return "python3 " TOUCHSTONE_TEST_COMMAND " " + format + " '" + deed + "'";
+  return TOUCHSTONE_TEST_COMMAND " " + format + " '" + deed + "'";
 }
 
 /// What the command says it is, without being added to the candidates.

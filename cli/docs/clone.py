@@ -86,6 +86,7 @@ class Clone:
         this = pathlib.Path(__file__).resolve()
         script.write_text(f'#!/bin/sh\nexec "{sys.executable}" "{this}" "{program}" "$@"\n')
         script.chmod(0o755)
+        (folder / "python3").symlink_to(sys.executable)
 
     def run(self, command, of_job=None):
         """Exit code and what was printed. `of_job`: more of the environment."""
@@ -102,9 +103,8 @@ class Clone:
 def main(program, *arguments):
     signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # which Python ignores
     if arguments[:1] == ("python",):
-        python = "/usr/bin/python3" if os.access("/usr/bin/python3", os.X_OK) else "python3"
         os.environ["PYTHONPATH"] = str(pathlib.Path(program).parent / "python")
-        os.execvp(python, [python, *arguments[1:]])
+        os.execv(sys.executable, [sys.executable, *arguments[1:]])
     os.execv(program, [program, *shortened(list(arguments))])
 
 
