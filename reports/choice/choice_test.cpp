@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "candidates/candidates.hpp"
+#include "reports/pages/page_data.hpp"
 #include "reports/replay.hpp"
 
 namespace touchstone {
@@ -38,12 +39,6 @@ Choice choice_of(const std::string& need,
 const char* const stands = R"({"need": "stands", "body": "can", "degrees": 2})";
 const char* const elsewhere =
     R"({"need": "stays-in", "body": "can", "lower": [5, 5, 5], "upper": [6, 6, 6]})";
-
-json data_of(const std::string& page) {
-  const std::string begin = R"(<script type="application/json" id="data">)";
-  const std::size_t at = page.find(begin) + begin.size();
-  return json::parse(page.substr(at, page.find("</script>", at) - at));
-}
 
 TEST(ChoicePage, HoldsItsDataAndLoadsNothing) {
   const std::string page = choice_page(choice_of(stands), "touchstone choose can.json", "out", {});

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstring>
 #include <numeric>
 #include <string_view>
 #include <vector>
+#include <zlib.h>
 
 #include <nlohmann/json.hpp>
 
@@ -69,19 +69,15 @@ void fill(std::string& page, std::string_view placeholder, std::string_view text
   page.replace(page.find(placeholder), placeholder.size(), text);
 }
 
-/// JSON for a script element, which no string of it can end: "<" only occurs in strings, where
-/// \u003c says the same. What is not seen in a string becomes text that is, as on a terminal.
-std::string script_safe(const nlohmann::json& json) {
+/// JSON as the page unpacks it. What is not seen in a string becomes text that is, as on a
+/// terminal.
+std::string compressed(const nlohmann::json& json) {
   const std::string dumped = json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-  std::string text;
-  for (const char c : escaped(dumped, Printed::lines, "\\\\")) {
-    if (c == '<') {
-      text += "\\u003c";
-    } else {
-      text += c;
-    }
-  }
-  return text;
+  const std::string text = escaped(dumped, Printed::lines, "\\\\");
+  uLongf size = compressBound(text.size());
+  std::vector<Bytef> bytes(size);
+  compress(bytes.data(), &size, reinterpret_cast<const Bytef*>(text.data()), text.size());
+  return base64(std::span(bytes).first(size));
 }
 
 }  // namespace
@@ -102,7 +98,7 @@ std::string render_page(Page page, const nlohmann::json& data) {
   fill(text, "/* vega.js */", parts.charts ? vega_js : std::string_view());
   fill(text, "/* scripts */", scripts);
   // Last, so that nothing in it is taken for a placeholder.
-  fill(text, "/* data */", script_safe(data));
+  fill(text, "/* data */", compressed(data));
   return text;
 }
 
@@ -169,9 +165,12 @@ nlohmann::json bodies_json(const Scene& scene) {
 }
 
 std::string base64(const std::vector<float>& numbers) {
+  return base64(
+      {reinterpret_cast<const unsigned char*>(numbers.data()), numbers.size() * sizeof(float)});
+}
+
+std::string base64(std::span<const unsigned char> bytes) {
   constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::vector<std::uint8_t> bytes(numbers.size() * sizeof(float));
-  if (!bytes.empty()) std::memcpy(bytes.data(), numbers.data(), bytes.size());
   std::string text;
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
     std::uint32_t three = 0;

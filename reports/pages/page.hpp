@@ -2,6 +2,7 @@
 
 #include <array>
 #include <map>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,8 +16,8 @@ struct Scene;
 enum class Page { report, comparison, replay, stability, choice, engines };
 
 /// One self-contained HTML file: the shell that all pages share (page.html), filled with a page's
-/// own part, its scripts and its data. It loads nothing from elsewhere, and no string of the data
-/// can break out of it.
+/// own part, its scripts and its data, compressed. It loads nothing from elsewhere, and no string
+/// of the data can break out of it.
 std::string render_page(Page page, const nlohmann::json& data);
 
 /// The mark of a candidate on every page and figure: a colour for each engine, a symbol for each of
@@ -35,7 +36,8 @@ std::map<std::string, std::array<std::size_t, 2>> marks(const std::vector<std::s
 /// Names, shapes and initial poses of a scene's bodies.
 nlohmann::json bodies_json(const Scene& scene);
 
-/// The bytes of numbers in base64 (RFC 4648).
+/// Bytes in base64 (RFC 4648).
+std::string base64(std::span<const unsigned char> bytes);
 std::string base64(const std::vector<float>& numbers);
 
 }  // namespace touchstone

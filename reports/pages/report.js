@@ -1,15 +1,8 @@
 // The report's data, what all sections ask of it, and the findings.
 const report = unpackReport(data);
 
-// Unpacks lists of objects with the same members, which come as a schema and rows of values (page_data.cpp).
-function unpackReport(packed) {
-  const unpack = (cell, schema) => {
-    if (schema === 'string') return packed.strings[cell];
-    if (schema === null || cell === null) return cell;
-    return Object.fromEntries(Object.keys(schema).map((key, i) => [key, unpack(cell[i], schema[key])]));
-  };
-  const whole = Object.fromEntries(Object.entries(packed).map(([key, value]) =>
-      [key, value !== null && value.rows ? value.rows.map(row => unpack(row, value.schema)) : value]));
+// Spells out what the page's data only hints at (report_page.cpp).
+function unpackReport(whole) {
   for (const trend of whole.trends) {
     trend.bins = trend.bins.map(([decade, count, missed, median, max]) => ({decade, count, missed, median, max}));
   }
