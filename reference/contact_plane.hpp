@@ -132,7 +132,7 @@ class ContactPlane {
   /// The least factor by which a disc across `axis` shrinks when it is carried to the plane across
   /// `upright`, or somewhat less: a vector v of the disc is carried to v − v·upright / n·upright n,
   /// whose square is at least 1 − 2 |v·upright| |v·n| / |n·upright|. All three directions enclose
-  /// small angles (`lies_flat`).
+  /// small angles (`facing_part`).
   double min_scale(const Vec3& axis, const Vec3& upright) const {
     return std::sqrt(1 - 2 * sine_between(axis, upright) * sine_between(axis, n_) /
                              std::abs(dot(upright, n_)));

@@ -43,10 +43,12 @@ class PlaneRoutine {
       const Vec3 arm = x * a_.axes.col(0) + y * a_.axes.col(1) + z * a_.axes.col(2);
       contact.add_point(origin + (a_.centre + (arm - height / 2 * normal_)), -height);
     };
-    if (lies_flat(a_.radius, sine_, margins.slack)) {
-      cap_on_plane(margins, add);
-    } else if (lies_flat(a_.half_length, cosine_, margins.slack)) {
-      generator_on_plane(margins.slack, add);
+    const double part_of_cap = facing_part(a_.radius, sine_, margins.slack);
+    const double part_of_side = facing_part(a_.half_length, cosine_, margins.slack);
+    if (part_of_cap > 0) {
+      cap_on_plane(margins, part_of_cap, add);
+    } else if (part_of_side > 0) {
+      generator_on_plane(margins.slack, part_of_side, add);
     } else {
       rim_on_plane(contact.signed_distance, add);
     }
@@ -59,20 +61,24 @@ class PlaneRoutine {
   /// The first point is where the cylinder's own x axis meets the rim: the plane looks alike all
   /// around.
   template <class Add>
-  void cap_on_plane(const Margins& margins, Add add) const {
+  void cap_on_plane(const Margins& margins, double part, Add add) const {
     const double z = lower_end();
     std::array<Vec2, 6> arms;
     const int count =
         spread_disc(a_.radius, Vec2(x_, y_), Vec2(1, 0), margins.slack, margins.clear_rise(), arms);
+    if (part < 1) {
+      const Vec2 lowest = lowest_arm();
+      for (int i = 0; i < count; ++i) arms[i] = lowest + part * (arms[i] - lowest);
+    }
     for (int i = 0; i < count; ++i) add(arms[i].x(), arms[i].y(), z, height(arms[i], z));
   }
   /// The ends of the lowest generator in the order of the axis; instead of the higher one, where
   /// the generator rises above the slack, the point where it does.
   template <class Add>
-  void generator_on_plane(double slack, Add add) const {
+  void generator_on_plane(double slack, double part, Add add) const {
     const Vec2 arm = lowest_arm();
     const double low = lower_end(), rise = 2 * a_.half_length * std::abs(cosine_);
-    const double high = rise > slack ? low * (1 - 2 * slack / rise) : -low;
+    const double high = low * (1 - 2 * part * std::min(1.0, slack / rise));
     for (const double z : {std::min(low, high), std::max(low, high)}) {
       add(arm.x(), arm.y(), z, height(arm, z));
     }

@@ -18,25 +18,33 @@ FacingFeature facing(const PosedCylinder& body, const Vec3& outward, double slac
   const double end = std::copysign(body.half_length, along);
   FacingFeature feature;
   feature.sine = std::sqrt(x * x + y * y + z * z);
-  if (lies_flat(body.radius, feature.sine, slack)) {
+  const auto place_middle = [&](double axial, double radial) {
+    feature.middle =
+        Vec3(c.x() + (axial * u.x() + radial * x), c.y() + (axial * u.y() + radial * y),
+             c.z() + (axial * u.z() + radial * z));
+  };
+  if (const double part = facing_part(body.radius, feature.sine, slack); part > 0) {
     feature.kind = Kind::disc;
+    feature.part = part;
     feature.axis = u;
-    feature.middle = Vec3(c.x() + end * u.x(), c.y() + end * u.y(), c.z() + end * u.z());
     feature.mark = body.axes.col(0);
-    feature.radius = body.radius;
+    feature.radius = part * body.radius;
+    // What rounding leaves of the way to the lowest point along the axis counts, where that is far.
+    const double way = part < 1 ? (body.radius - feature.radius) / feature.sine : 0;
+    place_middle(end - way * (x * u.x() + y * u.y() + z * u.z()), way);
     return feature;
   }
   const double arm = body.radius / feature.sine;
-  if (lies_flat(body.half_length, along, slack)) {
+  if (const double part = facing_part(body.half_length, along, slack); part > 0) {
     feature.kind = Kind::segment;
-    feature.middle = Vec3(c.x() + arm * x, c.y() + arm * y, c.z() + arm * z);
+    feature.part = part;
     feature.axis = u;
-    feature.half_length = body.half_length;
+    feature.half_length = part * body.half_length;
     feature.radius = body.radius;
+    place_middle((1 - part) * end, arm);
     return feature;
   }
-  feature.middle = Vec3(c.x() + (end * u.x() + arm * x), c.y() + (end * u.y() + arm * y),
-                        c.z() + (end * u.z() + arm * z));
+  place_middle(end, arm);
   return feature;
 }
 
@@ -47,14 +55,17 @@ FacingFeature facing(const PosedCapsule& body, const Vec3& outward, double slack
   const double along = body.axis().dot(outward);
   // Seen at a slant of θ, balls of its segment lie below its surface by up to θ²/2 of the radius.
   constexpr double slant = 0.01;
-  if (lies_flat(body.half_length, along, slack, slant)) {
+  const double part = facing_part(body.half_length, along, slack, slant);
+  if (part > 0) {
     feature.kind = Kind::segment;
+    feature.part = part;
     feature.axis = body.axis();
-    feature.half_length = body.half_length;
+    feature.half_length = part * body.half_length;
     feature.radius = body.radius;
-    return feature;
   }
-  feature.middle += std::copysign(body.half_length, along) * body.axis();
+  if (part < 1) {
+    feature.middle += std::copysign((1 - part) * body.half_length, along) * body.axis();
+  }
   return feature;
 }
 
@@ -63,17 +74,23 @@ FacingFeature facing(const PosedBox& body, const Vec3& outward, double slack) {
   feature.sine = 1;
   feature.middle = body.centre;
   int free = 0;
+  double most = 0;
   for (int i = 0; i < 3; ++i) {
     const Vec3 axis = body.axes.col(i);
     const double along = axis.dot(outward);
-    if (free < 2 && lies_flat(body.half_extents[i], along, slack)) {
-      feature.side[free] = axis;
-      feature.half_side[free++] = body.half_extents[i];
-      continue;
+    const double part = free < 2 ? facing_part(body.half_extents[i], along, slack) : 0;
+    if (part < 1) {
+      feature.middle += std::copysign((1 - part) * body.half_extents[i], along) * axis;
     }
-    feature.middle += std::copysign(body.half_extents[i], along) * axis;
-    feature.axis = axis;  // of a rectangle there is one that is no side
+    if (part > 0) {
+      most = std::max(most, part);
+      feature.side[free] = axis;
+      feature.half_side[free++] = part * body.half_extents[i];
+    } else {
+      feature.axis = axis;  // of a rectangle there is one that is no side
+    }
   }
+  if (free > 0) feature.part = most;
   if (free == 1) {
     feature.kind = Kind::segment;
     feature.axis = feature.side[0];

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -19,6 +20,7 @@ struct FacingFeature {
   Vec3 middle;  ///< The point itself; on the surface.
   /// Of a point on a rim, the sine of the angle between normal and axis; otherwise 1.
   double sine;
+  double part = 1;  ///< Its `facing_part`; of a rectangle that of the side which leans less.
   // Members that the kind does not name stay unset.
   Vec3 axis;
   Vec3 mark;  ///< of a disc, across its axis: a direction that turns with the body
@@ -27,14 +29,24 @@ struct FacingFeature {
   std::array<double, 2> half_side;
 };
 
-/// Returns whether a tenth of a feature of this half length, leaning by `sine`, rises by no more
-/// than `slack`. Features smaller than the slack may lean by `max_sine`.
-inline bool lies_flat(double half_length, double sine, double slack, double max_sine = 0.1) {
-  return 0.2 * half_length * std::abs(sine) <= slack && std::abs(sine) <= max_sine;
+/// How large a part of a feature of this half length, which leans by `sine`, faces the other body,
+/// from its end that is nearest to it on: all of it while a fifth lies within `slack` of that end,
+/// less and less as it leans further, and none (0) where only a tenth does. Features smaller than
+/// the slack may lean by `max_sine`. Continuous, but for parts of a millionth, so that no feature
+/// ends to face the other body all at once.
+inline double facing_part(double half_length, double sine, double slack, double max_sine = 0.1) {
+  const double lean = std::abs(sine), rise = 0.2 * half_length * lean;
+  constexpr double all_but_steepest = 0.9;
+  if (2 * rise <= slack && lean <= all_but_steepest * max_sine) return 1;
+  if (!(rise < slack && lean < max_sine)) return 0;
+  const double part =
+      std::min({slack / rise - 1, (1 - lean / max_sine) / (1 - all_but_steepest), 1.0});
+  constexpr double same = 1e-6;
+  return part > same ? part : 0;
 }
 
-/// The feature of the body that is farthest along `outward`. A cap, generator, edge or face counts
-/// as facing when at least a tenth of it lies within `slack` metres of its farthest point.
+/// The feature of the body that is farthest along `outward`: of a cap, generator, edge or face that
+/// leans, its `facing_part`.
 FacingFeature facing(const PosedCylinder& body, const Vec3& outward, double slack);
 FacingFeature facing(const PosedCapsule& body, const Vec3& outward, double slack);
 FacingFeature facing(const PosedBox& body, const Vec3& outward, double slack);

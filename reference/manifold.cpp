@@ -21,7 +21,7 @@ bool is_flat(const FacingFeature& f) { return f.kind == Kind::disc || f.kind == 
 ///   disc, rectangle  the corners of what they share (flat_contact.cpp)
 ///   disc, disc       the same, in the plane of the smaller one (flat_contact.cpp)
 void add_points_of_features(Contact& contact, const FacingFeature& a, const FacingFeature& b,
-                            const Vec3& origin, const Margins& margins) {
+                            const Vec3& origin, Margins& margins) {
   const bool a_is_point = a.kind == Kind::point, b_is_point = b.kind == Kind::point;
   if (a_is_point || b_is_point) {
     const bool take_a = a_is_point && (!b_is_point || a.sine >= b.sine);
@@ -30,6 +30,8 @@ void add_points_of_features(Contact& contact, const FacingFeature& a, const Faci
                       -contact.signed_distance);
     return;
   }
+  // What has drawn together has all its lengths from that part of it.
+  margins.slack *= a.part * b.part;
   const Manifold to{contact, origin, margins};
   if (!is_flat(a) && !is_flat(b)) {
     if (!segments_crossing(to, a, b)) segment_on_segment(to, a, b);
@@ -113,8 +115,8 @@ template <class Body>
 void add_facing_points(Contact& contact, const PosedCylinder& a, const Body& b, const Vec3& origin,
                        double contact_threshold, PointRange range) {
   const Vec3 &n = contact.normal, between = a.centre - b.centre;
-  const Margins margins(extents(a), extents(b), between.cwiseAbs().sum(), contact.signed_distance,
-                        contact_threshold, range);
+  Margins margins(extents(a), extents(b), between.cwiseAbs().sum(), contact.signed_distance,
+                  contact_threshold, range);
   // A well-known point is all there is to say, whatever the other body turns towards it. Asked
   // first is the body that has one more often.
   const auto is_known = [](const FacingFeature& x) {
