@@ -168,7 +168,7 @@ TEST(CylinderCylinder, GeneratorsThatCrossBeyondAnEndMeetBetweenThatEndAndTheCro
         const Contact answer =
             contact({Cylinder(radius, 1), Pose({side * (1 + beyond), 0, radius - 0.01}, along_x),
                      Cylinder(1 - radius, half_length), Pose({0, 0, radius - 1}, along_y)},
-                    1e-3, &vertical);
+                    beyond, &vertical);
         EXPECT_NEAR((answer.normal - vertical).norm(), 0, 1e-15);
         EXPECT_NEAR(answer.signed_distance, -0.01, 1e-15);
         ASSERT_EQ(answer.points().size(), 1u);

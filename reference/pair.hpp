@@ -209,25 +209,28 @@ void offer_normals(const PosedBox& s, const Vec3&, Offer offer) {
   for (int i = 0; i < 3; ++i) offer(s.axes.col(i));
 }
 
+/// The gap along a unit vector.
+template <class Body>
+SignedDistance gap_along(const PosedCylinder& a, const Body& b, const Vec3& n) {
+  return {(a.centre - b.centre).dot(n) - reach(a, n) - reach(b, n), n};
+}
+
 /// Of the normals whose gap is within `threshold` of the largest, the one nearest to the previous
 /// one: an axis or face of a body, radially off one, or the one found; and where all of these are
 /// more than 5 degrees away, the previous one itself. Nearer ones are taken for its own motion.
-/// `previous_normal` may have any length; zero or not finite, it decides nothing.
+/// `previous` is a unit vector.
 template <class Body>
 SignedDistance nearest_tie(const PosedCylinder& a, const Body& b, const SignedDistance& found,
-                           double threshold, const Vec3& previous_normal) {
-  const double largest = previous_normal.cwiseAbs().maxCoeff();
-  if (!(largest > 0 && previous_normal.allFinite())) return found;
-  const Vec3 previous = (previous_normal / largest).normalized();
+                           double threshold, const Vec3& previous) {
   const Vec3 d = a.centre - b.centre;
   SignedDistance chosen = found;
   double nearest = found.normal.dot(previous);
   const auto offer = [&](const Vec3& axis) {
     const Vec3 n = axis.dot(previous) < 0 ? Vec3(-axis) : axis;
     if (!(n.dot(previous) > nearest)) return;
-    const double gap = d.dot(n) - reach(a, n) - reach(b, n);
-    if (!(gap >= found.value - threshold)) return;
-    chosen = {gap, n};
+    const SignedDistance along = gap_along(a, b, n);
+    if (!(along.value >= found.value - threshold)) return;
+    chosen = along;
     nearest = n.dot(previous);
   };
   for (const Vec3& v : {d, previous}) {
@@ -237,11 +240,6 @@ SignedDistance nearest_tie(const PosedCylinder& a, const Body& b, const SignedDi
   constexpr double cosine_of_5_degrees = 0.9962;
   if (nearest < cosine_of_5_degrees) offer(previous);
   return chosen;
-}
-/// A plane has one normal.
-inline SignedDistance nearest_tie(const PosedCylinder&, const PosedPlane&,
-                                  const SignedDistance& found, double, const Vec3&) {
-  return found;
 }
 
 // The four questions. Where the bodies are out of range, each is asked again of scaled ones.
@@ -283,21 +281,73 @@ bool find_overlap(const Cylinder& a, const Pose& pose_a, const Other& b, const P
   return Routine(pair.a, pair.b).find(0).value <= 0;
 }
 
-template <class Routine, class Other>
-Contact contact_in_range(const PosedPair<Other>& pair, double contact_threshold,
-                         const Vec3* previous_normal, PointRange range) {
-  const Routine routine(pair.a, pair.b);
-  SignedDistance found = routine.find(contact_threshold);
-  if (previous_normal && found.value <= contact_threshold) {
-    Vec3 previous = *previous_normal;
-    pair.turn_as_given(previous);
-    found = nearest_tie(pair.a, pair.b, found, contact_threshold, previous);
-  }
+/// The contact along a normal that the bodies' frame knows, with points if it is within the
+/// threshold.
+template <class Routine>
+Contact contact_along(const SignedDistance& found, const Routine& routine, const Vec3& origin,
+                      double contact_threshold, PointRange range) {
   Contact result;
   result.normal = found.normal;
   result.signed_distance = found.value;
   if (found.value <= contact_threshold) {
-    routine.add_points(result, pair.origin, contact_threshold, range);
+    routine.add_points(result, origin, contact_threshold, range);
+  }
+  return result;
+}
+
+/// Is each point of a contact, moved to either surface, outside no body by more than the tolerance?
+template <class Body>
+bool meet_at_points(const PosedCylinder& a, const Body& b, const Contact& contact,
+                    const Vec3& origin, double tolerance) {
+  for (const ContactPoint& p : contact.points()) {
+    const Vec3 x = p.position - origin, half = p.depth / 2 * contact.normal;
+    if (!(std::max(outside(a, x - half), outside(b, x + half)) <= tolerance)) return false;
+  }
+  return true;
+}
+
+/// The contact along the normal that `nearest_tie` chooses; where the bodies do not meet along that
+/// to within the threshold, as features need not whose clearances tie, along the previous one
+/// itself; and where that is no better, along the one found. `previous_normal` may have any length;
+/// zero or not finite, it decides nothing.
+template <class Routine, class Other>
+Contact hinted_contact(const SignedDistance& found, const Routine& routine,
+                       const PosedPair<Other>& pair, double contact_threshold, Vec3 previous_normal,
+                       PointRange range) {
+  const double largest = previous_normal.cwiseAbs().maxCoeff();
+  if (largest > 0 && previous_normal.allFinite()) {
+    pair.turn_as_given(previous_normal);
+    const Vec3 previous = (previous_normal / largest).normalized();
+    // Points are as exact as their coordinates in the world.
+    constexpr double epsilon = std::numeric_limits<double>::epsilon();
+    const double tolerance =
+        contact_threshold + rounding_part * pair.lengths() + epsilon * pair.origin.cwiseAbs().sum();
+    for (const SignedDistance& tie :
+         {nearest_tie(pair.a, pair.b, found, contact_threshold, previous),
+          gap_along(pair.a, pair.b, previous)}) {
+      if (tie.normal == found.normal) break;
+      if (!(tie.value >= found.value - contact_threshold)) continue;
+      const Contact tied = contact_along(tie, routine, pair.origin, contact_threshold, range);
+      if (meet_at_points(pair.a, pair.b, tied, pair.origin, tolerance)) return tied;
+    }
+  }
+  return contact_along(found, routine, pair.origin, contact_threshold, range);
+}
+
+template <class Routine, class Other>
+Contact contact_in_range(const PosedPair<Other>& pair, double contact_threshold,
+                         const Vec3* previous_normal, PointRange range) {
+  const Routine routine(pair.a, pair.b);
+  const SignedDistance found = routine.find(contact_threshold);
+  Contact result;
+  // A plane has one normal.
+  constexpr bool may_tie = !std::is_same_v<Other, Plane>;
+  if (may_tie && previous_normal && found.value <= contact_threshold) {
+    if constexpr (may_tie) {
+      result = hinted_contact(found, routine, pair, contact_threshold, *previous_normal, range);
+    }
+  } else {
+    result = contact_along(found, routine, pair.origin, contact_threshold, range);
   }
   pair.turn_as_given(result.normal);
   return result;

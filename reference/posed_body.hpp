@@ -73,6 +73,24 @@ inline double reach(const PosedBox& s, const Vec3& n) {
   return s.half_extents.dot((s.axes.transpose() * n).cwiseAbs());
 }
 
+/// How far a point lies outside a body, metres; less than zero or zero inside.
+inline double outside(const PosedCylinder& s, const Vec3& x) {
+  const Vec3 arm = x - s.centre;
+  const double z = arm.dot(s.axis());
+  return std::max((arm - z * s.axis()).norm() - s.radius, std::abs(z) - s.half_length);
+}
+inline double outside(const PosedSphere& s, const Vec3& x) {
+  return (x - s.centre).norm() - s.radius;
+}
+inline double outside(const PosedCapsule& s, const Vec3& x) {
+  const Vec3 arm = x - s.centre;
+  const double z = std::clamp(arm.dot(s.axis()), -s.half_length, s.half_length);
+  return (arm - z * s.axis()).norm() - s.radius;
+}
+inline double outside(const PosedBox& s, const Vec3& x) {
+  return ((s.axes.transpose() * (x - s.centre)).cwiseAbs() - s.half_extents).maxCoeff();
+}
+
 /// The smallest of a body's lengths, and all of them together.
 struct Lengths {
   double smallest, sum;

@@ -57,8 +57,7 @@ std::optional<Violation> judge_hint(const Configuration& c, std::span<const Answ
   if (agrees(judge.score(plain).outcome)) {
     for (const Answer* answer : {&hinted, &misled}) {
       const Score s = judge.score(*answer);
-      // Where points lie is for the law "points", which asks for overlaps alone.
-      if (agrees(s.outcome) || s.outcome == Outcome::off_body) continue;
+      if (agrees(s.outcome)) continue;
       return Violation{
           outcome_name(s.outcome), s.severity,
           fmt::format("right without a hint, and with the {} as hint the depth error "

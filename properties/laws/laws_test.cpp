@@ -179,6 +179,7 @@ TEST(Laws, HintSeesAFlickerAndAHintThatMisleads) {
   EXPECT_EQ(judged(standing(), {good, good, good, good}), "");
   EXPECT_EQ(judged(standing(), {good, good, good, wrong}), "wrong-normal");
   EXPECT_EQ(judged(standing(), {good, good, wrong, good}), "wrong-normal");
+  EXPECT_EQ(judged(standing(), {good, good, contact(-0.1, z, {{3, 0, 0.95}}), good}), "off-body");
   EXPECT_EQ(judged(standing(), {wrong, good, good, good}), "");
 }
 
