@@ -202,20 +202,40 @@ TEST(CylinderCylinder, GeneratorsEndToEndMeetBetweenTheirEnds) {
   }
 }
 
-TEST(SupportPoint, IsAsSharpAsTheBodysOtherPointsLieBehindIt) {
+TEST(FacingPart, IsAllWhileAFifthLiesWithinTheSlackAndNoneFromATenthOn) {
+  constexpr double slack = 1e-3;  // of a length of 2
+  EXPECT_EQ(facing_part(1, 0, slack), 1);
+  EXPECT_EQ(facing_part(1, -0.0025, slack), 1);
+  EXPECT_NEAR(facing_part(1, 0.004, slack), 0.25, 1e-15);
+  EXPECT_EQ(facing_part(1, 0.0050001, slack), 0);
+  // However small it is, it leans by at most 0.1.
+  EXPECT_EQ(facing_part(1e-4, 0.09, slack), 1);
+  EXPECT_NEAR(facing_part(1e-4, 0.095, slack), 0.5, 1e-12);
+  EXPECT_EQ(facing_part(1e-4, 0.1, slack), 0);
+}
+
+// Of a cap, generator or face that leans the end that is nearest to the other body stays.
+TEST(FacingFeature, ShrinksToItsNearestEnd) {
+  constexpr double slack = 1e-3, sine = 0.004;
   const Pose pose({1, 2, 3}, upright);
-  const Vec3 leaning(0.6, 0, 0.8);
-  const SupportPoint on_cylinder =
-      support_point(posed(Cylinder(1, 2), pose, Vec3::Zero()), leaning);
-  EXPECT_NEAR((on_cylinder.position - Vec3(1, 0, 2)).norm(), 0, 1e-15);
-  EXPECT_NEAR(on_cylinder.sharpness, 0.6, 1e-15);  // of 1.6 along the axis, 0.6 across
-  const SupportPoint on_capsule = support_point(posed(Capsule(1, 2), pose, Vec3::Zero()), -leaning);
-  EXPECT_NEAR((on_capsule.position - Vec3(-0.6, 0, -2.8)).norm(), 0, 1e-15);
-  EXPECT_NEAR(on_capsule.sharpness, 1.6, 1e-15);
-  const SupportPoint on_box =
-      support_point(posed(Box({1, 2, 3}), pose, Vec3::Zero()), Vec3(0.48, -0.6, 0.64));
-  EXPECT_EQ(on_box.position, Vec3(1, -2, 3));
-  EXPECT_NEAR(on_box.sharpness, 0.48, 1e-15);
+  const auto outward = [](double x) { return Vec3(x, 0, std::sqrt((1 - x) * (1 + x))); };
+  const auto expect_near = [](const Vec3& x, const Vec3& y) {
+    EXPECT_NEAR((x - y).norm(), 0, 1e-15);
+  };
+  const FacingFeature cap = facing(posed(Cylinder(1, 2), pose, Vec3::Zero()), outward(sine), slack);
+  ASSERT_EQ(cap.kind, FacingFeature::Kind::disc);
+  EXPECT_NEAR(cap.radius, 0.25, 1e-12);
+  expect_near(cap.middle + cap.radius * Vec3::UnitX(), Vec3(1, 0, 2));
+  const Vec3 aside = outward(sine).cross(Vec3::UnitY());
+  const FacingFeature side = facing(posed(Capsule(2, 1), pose, Vec3::Zero()), aside, 10 * slack);
+  ASSERT_EQ(side.kind, FacingFeature::Kind::segment);
+  EXPECT_EQ(side.half_length, 1);
+  const FacingFeature face =
+      facing(posed(Box({1, 2, 3}), pose, Vec3::Zero()), -outward(sine), slack);
+  ASSERT_EQ(face.kind, FacingFeature::Kind::rectangle);
+  EXPECT_NEAR(face.half_side[0], 0.25, 1e-12);
+  EXPECT_EQ(face.half_side[1], 2);
+  expect_near(face.middle - face.half_side[0] * Vec3::UnitX(), Vec3(-1, 0, -3));
 }
 
 TEST(Support, OfAHalfSpaceIsInfiniteButAlongItsNormal) {

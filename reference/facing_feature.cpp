@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace touchstone {
 
@@ -100,33 +99,6 @@ FacingFeature facing(const PosedBox& body, const Vec3& outward, double slack) {
     feature.kind = Kind::rectangle;
   }
   return feature;
-}
-
-SupportPoint support_point(const PosedCylinder& body, const Vec3& outward) {
-  const double along = body.axis().dot(outward);
-  const Vec3 across = outward - along * body.axis();
-  const double sine = across.norm();
-  Vec3 arm = std::copysign(body.half_length, along) * body.axis();
-  if (sine > 0) arm += (body.radius / sine) * across;
-  return {body.centre + arm, std::min(body.half_length * std::abs(along), body.radius * sine)};
-}
-
-SupportPoint support_point(const PosedCapsule& body, const Vec3& outward) {
-  const double along = body.axis().dot(outward);
-  return {
-      body.centre + body.radius * outward + std::copysign(body.half_length, along) * body.axis(),
-      body.half_length * std::abs(along)};
-}
-
-SupportPoint support_point(const PosedBox& body, const Vec3& outward) {
-  SupportPoint point{body.centre, std::numeric_limits<double>::infinity()};
-  for (int i = 0; i < 3; ++i) {
-    const Vec3 axis = body.axes.col(i);
-    const double along = axis.dot(outward);
-    point.position += std::copysign(body.half_extents[i], along) * axis;
-    point.sharpness = std::min(point.sharpness, body.half_extents[i] * std::abs(along));
-  }
-  return point;
 }
 
 }  // namespace touchstone

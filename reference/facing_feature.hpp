@@ -51,13 +51,4 @@ FacingFeature facing(const PosedCylinder& body, const Vec3& outward, double slac
 FacingFeature facing(const PosedCapsule& body, const Vec3& outward, double slack);
 FacingFeature facing(const PosedBox& body, const Vec3& outward, double slack);
 
-/// The single farthest point of a body along `outward`, however rounding chooses among several.
-struct SupportPoint {
-  Vec3 position;
-  double sharpness;  ///< how far along `outward` it lies beyond the body's other points, metres
-};
-SupportPoint support_point(const PosedCylinder& body, const Vec3& outward);
-SupportPoint support_point(const PosedCapsule& body, const Vec3& outward);
-SupportPoint support_point(const PosedBox& body, const Vec3& outward);
-
 }  // namespace touchstone

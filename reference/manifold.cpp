@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <type_traits>
+#include <utility>
 
 #include "contact_plane.hpp"
 #include "facing_feature.hpp"
@@ -45,30 +46,36 @@ void add_points_of_features(Contact& contact, const FacingFeature& a, const Faci
   a_is_first ? disc_on_disc(to, a, b, true) : disc_on_disc(to, b, a, false);
 }
 
-/// Adds a point of the whole depth to a contact whose points are no deeper than `deepest`: features
-/// that lean are carried to each other with an error of the second order, which may part them. If
-/// it is their lean, one body has one deepest point; else rounding, in whose frame the deepest
-/// point that there is will do.
+/// Adds a point of the whole depth, where those features meet that face each other but for
+/// rounding: others, which lean, are carried to each other with an error of the second order, which
+/// may part them. Points that this has put off a body are left out.
 template <class Body>
-void add_deepest(Contact& contact, const PosedCylinder& a, const Body& b, const Vec3& origin,
-                 const Margins& margins, double deepest) {
-  const double depth = -contact.signed_distance;
-  const SupportPoint on_a = support_point(a, -contact.normal);
-  const SupportPoint on_b = support_point(b, contact.normal);
-  const Vec3 half = depth / 2 * contact.normal;
-  Vec3 position = origin + (on_a.sharpness >= on_b.sharpness ? Vec3(on_a.position + half)
-                                                             : Vec3(on_b.position - half));
-  if (!(std::max(on_a.sharpness, on_b.sharpness) > depth - deepest)) {
-    for (const ContactPoint& p : contact.points()) {
-      if (p.depth == deepest) position = p.position;
-    }
-  }
+[[gnu::noinline, gnu::cold]] void add_deepest(Contact& contact, const PosedCylinder& a,
+                                              const Body& b, const Vec3& origin,
+                                              const Margins& margins) {
+  const Vec3& n = contact.normal;
+  Margins sharp = margins;
+  sharp.slack = sharp.flat = margins.rounding;
+  const FacingFeature on_a = facing(a, -n, sharp.flat), on_b = facing(b, n, sharp.flat);
   const Contact before = contact;
   contact.clear_points();
-  contact.add_point(position, depth);
+  add_points_of_features(contact, on_a, on_b, origin, sharp);
+  ContactPoint deepest{origin + (on_a.middle - contact.signed_distance / 2 * n),
+                       -std::numeric_limits<double>::infinity()};
+  for (const Contact* c : {&std::as_const(contact), &before}) {
+    for (const ContactPoint& p : c->points()) {
+      if (p.depth > deepest.depth) deepest = p;
+    }
+  }
+  const double depth = -contact.signed_distance, least = depth - margins.slack - margins.rounding;
+  contact.clear_points();
+  contact.add_point(deepest.position, depth);
   for (const ContactPoint& p : before.points()) {
-    const bool is_near = p.depth >= depth - margins.slack - margins.rounding;
-    if (is_near && p.position != position && contact.points().size() < Contact::max_points) {
+    const Vec3 x = p.position - origin, half = p.depth / 2 * n;
+    const bool is_on_both =
+        std::max(outside(a, x - half), outside(b, x + half)) <= margins.unseen_depth();
+    if (p.depth >= least && is_on_both && p.position != deepest.position &&
+        contact.points().size() < Contact::max_points) {
       contact.add_point(p.position, p.depth);
     }
   }
@@ -105,7 +112,7 @@ void hold_depth(Contact& contact, const PosedCylinder& a, const Body& b, const V
     deepest = deepest_point(contact);
   }
   if (!(depth - deepest <= margins.unseen_depth())) {
-    add_deepest(contact, a, b, origin, margins, deepest);
+    add_deepest(contact, a, b, origin, margins);
   }
 }
 

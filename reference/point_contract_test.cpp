@@ -142,6 +142,42 @@ TEST(PointsWhereACornerTouchesARim, LieOnBothBodies) {
   expect_contract(c, 1e-6 * smaller_size(c), 3e-8 * larger_size(c));
 }
 
+// The cap of a needle that leans by 0.09 over a larger cap's rim is seen from it as an ellipse, of
+// which the circle within does not reach as far as the rims do.
+TEST(PointsWhereRimsTouch, LieOnBothBodies) {
+  for (const char* identity : {"cylinder-cylinder/general+needle/21/800",
+                               "cylinder-cylinder/rim-rim+shallow+needle+huge/21/22207"}) {
+    SCOPED_TRACE(identity);
+    const Configuration c = make_configuration(parse_identity(identity));
+    expect_contract(c, 0, 3e-8 * larger_size(c));
+  }
+}
+
+// A side that crosses an edge next to which a face leans by less than would be seen, but by more
+// than the overlap leaves: the bodies are deepest where side and edge cross, and nowhere else.
+TEST(PointsWhereASideCrossesAnEdge, LieOnBothBodies) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  const auto between = [&](double lo, double hi) {
+    return lo * std::pow(hi / lo, (1 + uniform(random)) / 2);
+  };
+  for (int i = 0; i < 100000; ++i) {
+    const Cylinder a(between(1e-4, 0.3), between(0.3, 1));
+    const Box b({between(0.3, 1), between(1e-4, 0.3), between(1e-4, 0.3)});
+    const double lean = between(1e-7, 1e-3), turn = between(1e-6, 0.1);
+    const Quaternion crossing = Quaternion(1, lean, turn, uniform(random)).normalized();
+    Vec3 place(uniform(random), uniform(random) / 10, 1);
+    const auto posed = [&] {
+      return Configuration{a, Pose(place, crossing * along_y.normalized()), b, Pose()};
+    };
+    const double depth = between(1e-9, 1e-5);
+    for (int k = 0; k < 3; ++k) place.z() -= signed_distance(posed()).value + depth;
+    SCOPED_TRACE(i);
+    expect_contract(posed(), 0, 3e-8 * larger_size(posed()));
+    if (HasFailure()) return;
+  }
+}
+
 // For engines: features that lean by up to 0.1 have all their points, off round surfaces by half
 // its square.
 TEST_P(PointContract, LiesOnBothBodiesInEveryPoseClass) {
