@@ -312,6 +312,20 @@ std::optional<Violation> judge_points(const Configuration& c, Answers answers, c
 
 // Manifold
 
+/// Coverage of the exact patch of the optimal normal nearest to the answer's. All of it lies within
+/// the bodies' overlap, so that a point may lie anywhere on it; the patch within a depth that the
+/// score refers to reaches further where a face leans, up to where no point may lie.
+double coverage_of_exact_patch(const Configuration& c, const oracle::Truth& truth,
+                               const Answer& a) {
+  const auto nearest = std::max_element(
+      truth.normals.begin(), truth.normals.end(), [&](const auto& n, const auto& m) {
+        return n.n.dot(vector(a.normal)) < m.n.dot(vector(a.normal));
+      });
+  std::vector<Vec3> points;
+  for (int i = 0; i < a.point_count; ++i) points.push_back(vector(a.points[i].position));
+  return coverage(oracle::contact_patch(c, *nearest), points, patch_resolution * smaller_size(c));
+}
+
 std::optional<Violation> judge_manifold(const Configuration& c, Answers answers, const Bar& bar) {
   constexpr double min_coverage = 0.3;
   // Only for exact alignments: near one the right number of points is a matter of degree.
@@ -325,6 +339,7 @@ std::optional<Violation> judge_manifold(const Configuration& c, Answers answers,
   if (!is_aligned) return std::nullopt;
   const Score& s = score_of(c, answers[0], bar);
   if (!s.coverage || *s.coverage >= min_coverage) return std::nullopt;
+  if (coverage_of_exact_patch(c, truth, answers[0]) >= min_coverage) return std::nullopt;
   return Violation{"few-points", min_coverage - *s.coverage,
                    fmt::format("{} {} {:.2f} of the contact patch", counted(s.points, "point"),
                                s.points == 1 ? "covers" : "cover", *s.coverage)};

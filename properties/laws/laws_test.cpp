@@ -121,6 +121,25 @@ TEST(Laws, SeeWhatTheyAreThereFor) {
             "not-invariant");
 }
 
+// A face that leans by a hair over a cap overlaps it in part: no point may lie on the rest, however
+// little that rises. Those along the edge that is deepest hold all that there is.
+TEST(Laws, ManifoldAsksForNoPointsWhereTheBodiesAreApart) {
+  const Configuration c{Cylinder(1, 0x1.eb76e8p-2),
+                        Pose({0, 0, 0x1.da30be68p-1}, {0x1p+24, 1, 0, 0}),
+                        Box({1, 0x1p-2, 0x1.c8ea956p-2}), Pose()};
+  const Vec3 normal = c.pose_a.rotation().col(2);
+  const double depth = 3.818e-8, edge = -0.25, along = 0.96;
+  const auto failure_with = [&](const std::vector<Vec3>& points) {
+    const Answer a = contact(-depth, normal, points);
+    const auto v = find_law("manifold").judge(c, {&a, 1}, {});
+    return v ? v->failure : "";
+  };
+  const double z = 0x1.c8ea956p-2;
+  EXPECT_EQ(
+      failure_with({{-along, edge, z}, {along, edge, z}, {along, 0.07, z}, {-along, 0.07, z}}), "");
+  EXPECT_EQ(failure_with({{-along, edge, z}}), "few-points");
+}
+
 // Scores are remembered, each for its own answer and bar.
 TEST(Laws, TellAnswersAndBarsApart) {
   const Answer deep = contact(-0.1, {0, 0, 1}, triangle), shallow = contact(-0.09);
