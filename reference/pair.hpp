@@ -281,18 +281,16 @@ bool find_overlap(const Cylinder& a, const Pose& pose_a, const Other& b, const P
   return Routine(pair.a, pair.b).find(0).value <= 0;
 }
 
-/// The contact along a normal that the bodies' frame knows, with points if it is within the
-/// threshold.
+/// Makes a contact, without points yet, that along a normal: with points if it is within the
+/// threshold. (In its place: a contact is long.)
 template <class Routine>
-Contact contact_along(const SignedDistance& found, const Routine& routine, const Vec3& origin,
-                      double contact_threshold, PointRange range) {
-  Contact result;
-  result.normal = found.normal;
-  result.signed_distance = found.value;
-  if (found.value <= contact_threshold) {
+void make_contact(Contact& result, const SignedDistance& along, const Routine& routine,
+                  const Vec3& origin, double contact_threshold, PointRange range) {
+  result.normal = along.normal;
+  result.signed_distance = along.value;
+  if (along.value <= contact_threshold) {
     routine.add_points(result, origin, contact_threshold, range);
   }
-  return result;
 }
 
 /// Is each point of a contact, moved to either surface, outside no body by more than the tolerance?
@@ -306,32 +304,38 @@ bool meet_at_points(const PosedCylinder& a, const Body& b, const Contact& contac
   return true;
 }
 
-/// The contact along the normal that `nearest_tie` chooses; where the bodies do not meet along that
-/// to within the threshold, as features need not whose clearances tie, along the previous one
-/// itself; and where that is no better, along the one found. `previous_normal` may have any length;
-/// zero or not finite, it decides nothing.
+/// Makes a contact that along the normal that `nearest_tie` chooses; where the bodies do not meet
+/// along that to within the threshold, as features need not whose clearances tie, along the
+/// previous one itself. False, where that is no better or no other than the one found.
+/// `previous_normal` may have any length; zero or not finite, it decides nothing.
 template <class Routine, class Other>
-Contact hinted_contact(const SignedDistance& found, const Routine& routine,
-                       const PosedPair<Other>& pair, double contact_threshold, Vec3 previous_normal,
-                       PointRange range) {
+bool make_hinted_contact(Contact& result, const SignedDistance& found, const Routine& routine,
+                         const PosedPair<Other>& pair, double contact_threshold,
+                         Vec3 previous_normal, PointRange range) {
   const double largest = previous_normal.cwiseAbs().maxCoeff();
-  if (largest > 0 && previous_normal.allFinite()) {
-    pair.turn_as_given(previous_normal);
-    const Vec3 previous = (previous_normal / largest).normalized();
-    // Points are as exact as their coordinates in the world.
-    constexpr double epsilon = std::numeric_limits<double>::epsilon();
-    const double tolerance =
-        contact_threshold + rounding_part * pair.lengths() + epsilon * pair.origin.cwiseAbs().sum();
-    for (const SignedDistance& tie :
-         {nearest_tie(pair.a, pair.b, found, contact_threshold, previous),
-          gap_along(pair.a, pair.b, previous)}) {
-      if (tie.normal == found.normal) break;
-      if (!(tie.value >= found.value - contact_threshold)) continue;
-      const Contact tied = contact_along(tie, routine, pair.origin, contact_threshold, range);
-      if (meet_at_points(pair.a, pair.b, tied, pair.origin, tolerance)) return tied;
-    }
+  if (!(largest > 0 && previous_normal.allFinite())) return false;
+  pair.turn_as_given(previous_normal);
+  const Vec3 previous = (previous_normal / largest).normalized();
+  // Points are as exact as their coordinates in the world.
+  constexpr double epsilon = std::numeric_limits<double>::epsilon();
+  const double tolerance =
+      contact_threshold + rounding_part * pair.lengths() + epsilon * pair.origin.cwiseAbs().sum();
+  for (const SignedDistance& tie : {nearest_tie(pair.a, pair.b, found, contact_threshold, previous),
+                                    gap_along(pair.a, pair.b, previous)}) {
+    if (tie.normal == found.normal) break;
+    if (!(tie.value >= found.value - contact_threshold)) continue;
+    result.clear_points();
+    make_contact(result, tie, routine, pair.origin, contact_threshold, range);
+    if (meet_at_points(pair.a, pair.b, result, pair.origin, tolerance)) return true;
   }
-  return contact_along(found, routine, pair.origin, contact_threshold, range);
+  result.clear_points();
+  return false;
+}
+/// A plane has one normal.
+template <class Routine>
+bool make_hinted_contact(Contact&, const SignedDistance&, const Routine&, const PosedPair<Plane>&,
+                         double, const Vec3&, PointRange) {
+  return false;
 }
 
 template <class Routine, class Other>
@@ -340,14 +344,10 @@ Contact contact_in_range(const PosedPair<Other>& pair, double contact_threshold,
   const Routine routine(pair.a, pair.b);
   const SignedDistance found = routine.find(contact_threshold);
   Contact result;
-  // A plane has one normal.
-  constexpr bool may_tie = !std::is_same_v<Other, Plane>;
-  if (may_tie && previous_normal && found.value <= contact_threshold) {
-    if constexpr (may_tie) {
-      result = hinted_contact(found, routine, pair, contact_threshold, *previous_normal, range);
-    }
-  } else {
-    result = contact_along(found, routine, pair.origin, contact_threshold, range);
+  if (!(previous_normal && found.value <= contact_threshold &&
+        make_hinted_contact(result, found, routine, pair, contact_threshold, *previous_normal,
+                            range))) {
+    make_contact(result, found, routine, pair.origin, contact_threshold, range);
   }
   pair.turn_as_given(result.normal);
   return result;
