@@ -96,17 +96,11 @@ struct Arc {
 
 }  // namespace
 
-ArcPolygon::ArcPolygon(const Lens& lens) : circles_{lens.circle1, lens.circle2}, circle_count_(2) {
-  add(lens.right, 0);
-  add(lens.left, 1);
-}
-
 // Without branches on what is unpredictable: which edges cut the disc, and which corners lie in it.
 // Where rounding puts one end of an edge in the disc and the other, no farther out, off it, the
 // edge still ends where it ends.
-ArcPolygon::ArcPolygon(const Circle& circle, const Strip& first, const Strip& second,
-                       double uncut) {
-  circles_[0] = circle;
+ArcPolygon::ArcPolygon(const Circle& circle, const Strip& first, const Strip& second, double uncut)
+    : circle_(circle) {
   const double r = circle.radius, x1 = first.across.x(), y1 = first.across.y();
   const double turn = cross2(first.across, second.across), side = std::copysign(1, turn);
   constexpr double min_turn = 0.1;
@@ -144,7 +138,7 @@ ArcPolygon::ArcPolygon(const Circle& circle, const Strip& first, const Strip& se
     const bool begins_inside = end_is_inside[(i + 3) % 4], ends_inside = end_is_inside[i];
     const bool is_cut = begins_inside | ends_inside |
                         ((std::abs(d) < (1 - uncut) * r) & (begin[i] <= 0) & (end[i] >= 0));
-    const auto add_if = [&](bool is_there, double along, int edge) {
+    const auto add_if = [&](bool is_there, double along, Side edge) {
       vertices_[count_] = {Vec2(circle.centre.x() + d * nx[i] - along * ny[i],
                                 circle.centre.y() + d * ny[i] + along * nx[i]),
                            edge};
@@ -153,8 +147,8 @@ ArcPolygon::ArcPolygon(const Circle& circle, const Strip& first, const Strip& se
     // Of an edge that touches the rim from a corner on, only the corner is left.
     const bool touches = (std::abs(d) >= (1 - uncut) * r) & (begins_inside != ends_inside);
     add_if(is_cut & (begins_inside | !touches),
-           begins_inside ? begin[i] : std::max(begin[i], -half), touches ? 0 : straight);
-    add_if(is_cut & !ends_inside & !touches, std::min(end[i], half), 0);
+           begins_inside ? begin[i] : std::max(begin[i], -half), touches ? round : straight);
+    add_if(is_cut & !ends_inside & !touches, std::min(end[i], half), round);
   }
   is_disc_ = count_ == 0 && *std::min_element(distance, distance + 4) >= 0;
   // Where a corner lies on the rim, rounding decides whether an arc is left beside it.
@@ -168,7 +162,7 @@ void ArcPolygon::merge_closer_than(double distance) {
   int kept = 0;
   for (int i = 0; i < count_; ++i) {
     if (kept > 0 && are_close(vertices_[kept - 1], vertices_[i])) {
-      vertices_[kept - 1].circle = vertices_[i].circle;
+      vertices_[kept - 1].side = vertices_[i].side;
     } else {
       vertices_[kept++] = vertices_[i];
     }
@@ -180,30 +174,20 @@ void ArcPolygon::merge_closer_than(double distance) {
 void ArcPolygon::clip(const Vec2& normal, double bound) {
   // Component by component: Eigen would load in pairs what was just stored singly, which stalls.
   const double nx = normal.x(), ny = normal.y();
-  // How far along the normal the line passes a circle's centre, in radii; the circle leaves the
+  // How far along the normal the line passes the circle's centre, in radii; the circle leaves the
   // half plane and returns to it at these places, as seen from the centre.
-  struct Crossing {
-    double cosine;
-    Vec2 leaves, returns;
-  };
-  const auto crossing = [&](const Circle& circle) -> Crossing {
-    const double r = circle.radius;
-    const double at = (bound - (nx * circle.centre.x() + ny * circle.centre.y())) / r;
-    const double sine = std::sqrt(std::max(0.0, (1 - at) * (1 + at)));
-    return {at,
-            {r * (at * nx + sine * ny), r * (at * ny - sine * nx)},
-            {r * (at * nx - sine * ny), r * (at * ny + sine * nx)}};
-  };
-  std::array<Crossing, 2> crossings;
-  for (int i = 0; i < circle_count_; ++i) crossings[i] = crossing(circles_[i]);
+  const double r = circle_.radius;
+  const double at = (bound - (nx * circle_.centre.x() + ny * circle_.centre.y())) / r;
+  const double sine = std::sqrt(std::max(0.0, (1 - at) * (1 + at)));
+  const Vec2 leaves(r * (at * nx + sine * ny), r * (at * ny - sine * nx));
+  const Vec2 returns(r * (at * nx - sine * ny), r * (at * ny + sine * nx));
 
   if (is_disc_) {
-    const Crossing& c = crossings[0];
-    if (c.cosine >= 1 - sliver) return;
+    if (at >= 1 - sliver) return;
     is_disc_ = false;
-    if (c.cosine <= -1) return;
-    add(circles_[0].centre + c.leaves, straight);
-    add(circles_[0].centre + c.returns, 0);
+    if (at <= -1) return;
+    add(circle_.centre + leaves, straight);
+    add(circle_.centre + returns, round);
     return;
   }
   const int count = count_;
@@ -220,15 +204,14 @@ void ArcPolygon::clip(const Vec2& normal, double bound) {
     q_beyond = beyond(q);
     const bool p_stays = p_beyond <= 0, q_stays = q_beyond <= 0;
     if (count_ + 3 > max_vertices) return;  // cannot happen for the cuts of a patch
-    if (p_stays) add(p, vertex.circle);
-    if (vertex.circle == straight) {
+    if (p_stays) add(p, vertex.side);
+    if (vertex.side == straight) {
       if (p_stays != q_stays) add(p + p_beyond / (p_beyond - q_beyond) * (q - p), straight);
       continue;
     }
-    const Vec2& centre = circles_[vertex.circle].centre;
-    const auto& [at, leaves, returns] = crossings[vertex.circle];
+    const Vec2& centre = circle_.centre;
     if (at >= 1 - sliver) {
-      if (!p_stays) add(p, vertex.circle);
+      if (!p_stays) add(p, vertex.side);
       continue;
     }
     if (at <= -1) continue;
@@ -237,7 +220,7 @@ void ArcPolygon::clip(const Vec2& normal, double bound) {
       continue;
     }
     if (!p_stays && q_stays) {
-      add(centre + returns, vertex.circle);
+      add(centre + returns, vertex.side);
       continue;
     }
     const Arc arc(centre, p, q);
@@ -247,9 +230,9 @@ void ArcPolygon::clip(const Vec2& normal, double bound) {
     const bool holds_out = arc.holds(leaves), holds_back = arc.holds(returns);
     if (p_stays) {
       add(holds_out ? Vec2(centre + leaves) : p, straight);
-      add(holds_back ? Vec2(centre + returns) : q, vertex.circle);
+      add(holds_back ? Vec2(centre + returns) : q, vertex.side);
     } else {
-      add(holds_back ? Vec2(centre + returns) : p, vertex.circle);
+      add(holds_back ? Vec2(centre + returns) : p, vertex.side);
       add(holds_out ? Vec2(centre + leaves) : q, straight);
     }
   }
@@ -257,7 +240,7 @@ void ArcPolygon::clip(const Vec2& normal, double bound) {
 
 ArcPolygon::Extremes ArcPolygon::extremes(const Vec2& unit) const {
   if (is_disc_) {
-    const auto& [centre, radius] = circles_[0];
+    const auto& [centre, radius] = circle_;
     return {centre + radius * unit, centre - radius * unit};
   }
   Extremes found{vertices_[0].at, vertices_[0].at};
@@ -272,29 +255,14 @@ ArcPolygon::Extremes ArcPolygon::extremes(const Vec2& unit) const {
     const Vertex& vertex = vertices_[i];
     offer_top(vertex.at);
     offer_bottom(vertex.at);
-    if (vertex.circle == straight) continue;
-    const auto& [centre, radius] = circles_[vertex.circle];
+    if (vertex.side == straight) continue;
+    const auto& [centre, radius] = circle_;
     const Arc arc(centre, vertex.at, vertices_[next(i)].at);
     const double after_p = cross2(arc.to_p, unit), before_q = cross2(unit, arc.to_q);
     if (arc.holds(after_p, before_q)) offer_top(centre + radius * unit);
     if (arc.holds(-after_p, -before_q)) offer_bottom(centre - radius * unit);
   }
   return found;
-}
-
-void ArcPolygon::mark_farthest(const Vec2& direction) {
-  const Vec2 unit = direction.normalized();
-  for (int i = 0; i < count_ && count_ < max_vertices; ++i) {
-    const Vertex& vertex = vertices_[i];
-    if (vertex.circle == straight) continue;
-    const auto& [centre, radius] = circles_[vertex.circle];
-    if (!Arc(centre, vertex.at, vertices_[next(i)].at).holds(unit)) continue;
-    std::copy_backward(vertices_.begin() + i + 1, vertices_.begin() + count_,
-                       vertices_.begin() + count_ + 1);
-    vertices_[i + 1] = {centre + radius * unit, vertices_[i].circle};
-    ++count_;
-    return;
-  }
 }
 
 // Points whose hull covers the region well.
@@ -320,7 +288,7 @@ double twice_area(const Vec2& p, const Vec2& q, const Vec2& r) {
 
 int ArcPolygon::spread(const Vec2& first, std::array<Vec2, 8>& points) const {
   if (is_disc_) {
-    const auto& [centre, radius] = circles_[0];
+    const auto& [centre, radius] = circle_;
     int count = 0;
     for (const Vec2& arm : three_arms(radius, first.normalized())) points[count++] = centre + arm;
     return count;
@@ -328,7 +296,7 @@ int ArcPolygon::spread(const Vec2& first, std::array<Vec2, 8>& points) const {
 
   struct Edge {
     Vec2 from, to;
-    int circle;
+    Side side;
     bool beyond_half_a_turn;
     double chord_squared;
     int inside;           // points on it, ends not counted
@@ -344,18 +312,18 @@ int ArcPolygon::spread(const Vec2& first, std::array<Vec2, 8>& points) const {
     most = std::max(most, along);
   }
   const auto angle = [&](const Edge& e) {
-    const Vec2& centre = circles_[e.circle].centre;
+    const Vec2& centre = circle_.centre;
     return angle_between(e.from - centre, e.to - centre);
   };
   for (int i = 0; i < count_; ++i) {
-    const auto& [from, circle] = vertices_[corner];
+    const auto& [from, side] = vertices_[corner];
     corner = next(corner);
-    Edge& e = edges[i] = {from, vertices_[corner].at, circle, false, 0, 0, 0};
+    Edge& e = edges[i] = {from, vertices_[corner].at, side, false, 0, 0, 0};
     ++total;
-    if (circle == straight) continue;
+    if (side == straight) continue;
     e.chord_squared = (e.to - from).squaredNorm();
-    e.beyond_half_a_turn = Arc(circles_[circle].centre, from, e.to).beyond_half_a_turn();
-    const double squared = circles_[circle].radius * circles_[circle].radius;
+    e.beyond_half_a_turn = Arc(circle_.centre, from, e.to).beyond_half_a_turn();
+    const double squared = circle_.radius * circle_.radius;
     if (e.beyond_half_a_turn || e.chord_squared > chord_of_two * squared) {
       e.inside = std::max(0, static_cast<int>(std::ceil(angle(e) / long_arc - 1e-9)) - 1);
     } else {
@@ -365,13 +333,13 @@ int ArcPolygon::spread(const Vec2& first, std::array<Vec2, 8>& points) const {
   }
   // How far an arc stands out above its chord: 1 - cos = sin² / (1 + cos) of half its angle.
   const auto whole_rise = [&](const Edge& e) {
-    const double radius = circles_[e.circle].radius;
+    const double radius = circle_.radius;
     const double sine2 = std::min(e.chord_squared / (4 * radius * radius), 1.0);
     const double cosine = std::sqrt(1 - sine2);
     return radius * (e.beyond_half_a_turn ? 1 + cosine : sine2 / (1 + cosine));
   };
   const auto rise_of_piece = [&](const Edge& e, double whole) {
-    const double radius = circles_[e.circle].radius;
+    const double radius = circle_.radius;
     if (e.inside == 0) return whole;
     if (e.inside > 1) return radius * (1 - std::cos(angle(e) / (2 * (e.inside + 1))));
     const double sine2 = whole / (2 * radius);  // 1 - cos = 2 sin² of the half
@@ -379,7 +347,7 @@ int ArcPolygon::spread(const Vec2& first, std::array<Vec2, 8>& points) const {
   };
   const auto measure = [&](int i) {
     Edge& e = edges[i];
-    if (e.circle == straight) return;
+    if (e.side == straight) return;
     const Vec2 chord = e.to - e.from;
     double width = 0;
     for (int k = 0; k < count_; ++k) {
@@ -407,7 +375,7 @@ int ArcPolygon::spread(const Vec2& first, std::array<Vec2, 8>& points) const {
     const Edge& e = edges[i];
     all[count++] = e.from;
     if (e.inside == 0) continue;
-    const auto& [centre, radius] = circles_[e.circle];
+    const auto& [centre, radius] = circle_;
     Vec2 arm = e.from - centre;
     if (e.inside == 1) {
       // Of a short arc the ends' sum keeps more digits than their difference.

@@ -28,8 +28,8 @@ struct Strip {
   double middle, half_width;
 };
 
-/// A convex region of a plane, bounded counter-clockwise by straight edges and by arcs of at most
-/// two circles: a contact patch. Fixed size, no allocation.
+/// A convex region of a plane, bounded counter-clockwise by straight edges and by arcs of a
+/// circle: a contact patch. Fixed size, no allocation.
 class ArcPolygon {
  public:
   static constexpr int max_vertices = 16;
@@ -37,12 +37,10 @@ class ArcPolygon {
   static constexpr double sliver = 1e-12;
 
   /// The disc within `circle`.
-  explicit ArcPolygon(const Circle& circle) : is_disc_(true) { circles_[0] = circle; }
+  explicit ArcPolygon(const Circle& circle) : circle_(circle), is_disc_(true) {}
   /// What the disc shares with two strips that cross, whose `across` are unit vectors. A sliver
   /// thinner than `uncut`, in radii, is not cut off by one edge alone.
   ArcPolygon(const Circle& circle, const Strip& first, const Strip& second, double uncut = sliver);
-  /// Two corners and an arc of each circle.
-  explicit ArcPolygon(const Lens& lens);
   ArcPolygon(const ArcPolygon&) = delete;
   ArcPolygon& operator=(const ArcPolygon&) = delete;
 
@@ -59,10 +57,6 @@ class ArcPolygon {
   /// The point that is farthest along a direction (of any length, not zero).
   Vec2 farthest(const Vec2& direction) const { return extremes(direction.normalized()).top; }
 
-  /// Makes the point that is farthest along a direction a corner, so that `spread` keeps it; not of
-  /// a whole disc, of which it is the first one anyway.
-  void mark_farthest(const Vec2& direction);
-
   /// Points whose hull covers the region well: the corners, and on arcs as many more as leave no
   /// piece above 72° and, while there are fewer than six, none that stands out by more than a
   /// seventh of the region's width. A full disc gives three, 120° apart. The first is the farthest
@@ -70,20 +64,19 @@ class ArcPolygon {
   int spread(const Vec2& first, std::array<Vec2, 8>& points) const;
 
  private:
-  static constexpr int straight = -1;
+  enum Side { straight, round };
   struct Vertex {
     Vec2 at;
-    int circle;  ///< of the edge that leaves it, or `straight`
+    Side side;  ///< the one that leaves it
   };
 
   /// Leaves out edges of this length and less.
   void merge_closer_than(double distance);
 
   int next(int i) const { return i + 1 < count_ ? i + 1 : 0; }
-  void add(const Vec2& at, int circle) { vertices_[count_++] = {at, circle}; }
+  void add(const Vec2& at, Side side) { vertices_[count_++] = {at, side}; }
 
-  std::array<Circle, 2> circles_ = {Circle{Vec2::Zero(), 0}, Circle{Vec2::Zero(), 0}};
-  int circle_count_ = 1;
+  Circle circle_;
   std::array<Vertex, max_vertices> vertices_;
   int count_ = 0;
   bool is_disc_ = false;  ///< then it has no vertices

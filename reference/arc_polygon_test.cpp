@@ -88,11 +88,8 @@ TEST(ArcPolygon, CutThatLeavesASliverHasItsTop) {
   ArcPolygon region(unit);
   region.clip(Vec2(1, 0), -0.99);
   EXPECT_NEAR((region.farthest(Vec2(-1, 0)) - Vec2(-1, 0)).norm(), 0, 1e-15);
-  region.mark_farthest(Vec2(-1, 0));
   std::array<Vec2, 8> points;
-  const int count = region.spread(Vec2(-1, 0), points);
-  EXPECT_GE(count, 3);
-  EXPECT_NEAR((points[0] - Vec2(-1, 0)).norm(), 0, 1e-15);
+  EXPECT_GE(region.spread(Vec2(-1, 0), points), 3);
 }
 
 TEST(ArcPolygon, DiscThatNothingIsCutOffHasThreePoints) {
@@ -158,11 +155,11 @@ TEST(ArcPolygon, CutBeyondTheDiscLeavesNothing) {
   EXPECT_TRUE(region.empty());
 }
 
-TEST(ArcPolygon, LensEndsWhereTheCirclesCross) {
-  const ArcPolygon region(Lens(unit, {Vec2(1, 0), 1}, 1, Vec2(1, 0)));
-  EXPECT_NEAR((region.farthest(Vec2(0, 1)) - Vec2(0.5, std::sqrt(0.75))).norm(), 0, 1e-15);
-  EXPECT_NEAR((region.farthest(Vec2(1, 0)) - Vec2(1, 0)).norm(), 0, 1e-15);
-  EXPECT_NEAR((region.farthest(Vec2(-1, 0)) - Vec2(0, 0)).norm(), 0, 1e-15);
+TEST(Lens, EndsWhereTheCirclesCross) {
+  const Lens lens(unit, {Vec2(1, 0), 1}, 1, Vec2(1, 0));
+  EXPECT_NEAR((lens.farthest(Vec2(0, 1)) - Vec2(0.5, std::sqrt(0.75))).norm(), 0, 1e-15);
+  EXPECT_NEAR((lens.farthest(Vec2(1, 0)) - Vec2(1, 0)).norm(), 0, 1e-15);
+  EXPECT_NEAR((lens.farthest(Vec2(-1, 0)) - Vec2(0, 0)).norm(), 0, 1e-15);
 }
 
 TEST(ArcPolygon, PointsOfADiscInARectangleLieInBothAndCoverHalfOfIt) {

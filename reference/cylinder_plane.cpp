@@ -43,15 +43,13 @@ class PlaneRoutine {
       const Vec3 arm = x * a_.axes.col(0) + y * a_.axes.col(1) + z * a_.axes.col(2);
       contact.add_point(origin + (a_.centre + (arm - height / 2 * normal_)), -height);
     };
-    const double part_of_cap = facing_part(a_.radius, sine_, margins.slack);
-    const double part_of_side = facing_part(a_.half_length, cosine_, margins.slack);
-    if (part_of_cap > 0) {
-      cap_on_plane(margins, part_of_cap, add);
-    } else if (part_of_side > 0) {
-      generator_on_plane(margins.slack, part_of_side, add);
-    } else {
-      rim_on_plane(contact.signed_distance, add);
+    if (const double part = facing_part(a_.radius, sine_, margins.slack); part > 0) {
+      return cap_on_plane(margins, part, add);
     }
+    if (const double part = facing_part(a_.half_length, cosine_, margins.slack); part > 0) {
+      return generator_on_plane(margins.slack, part, add);
+    }
+    rim_on_plane(contact.signed_distance, add);
   }
 
  private:
@@ -78,7 +76,7 @@ class PlaneRoutine {
   void generator_on_plane(double slack, double part, Add add) const {
     const Vec2 arm = lowest_arm();
     const double low = lower_end(), rise = 2 * a_.half_length * std::abs(cosine_);
-    const double high = low * (1 - 2 * part * std::min(1.0, slack / rise));
+    const double high = rise > slack ? low * (1 - 2 * part * slack / rise) : -low;
     for (const double z : {std::min(low, high), std::max(low, high)}) {
       add(arm.x(), arm.y(), z, height(arm, z));
     }

@@ -27,16 +27,13 @@ FacingFeature facing(const PosedCylinder& body, const Vec3& outward, double slac
     feature.part = part;
     feature.axis = u;
     feature.mark = body.axes.col(0);
-    feature.radius = part * body.radius;
-    // What rounding leaves of the way to the lowest point along the axis counts, where that is far.
-    const double way = part < 1 ? (body.radius - feature.radius) / feature.sine : 0;
-    place_middle(end - way * (x * u.x() + y * u.y() + z * u.z()), way);
+    feature.radius = body.radius;
+    place_middle(end, 0);
     return feature;
   }
   const double arm = body.radius / feature.sine;
   if (const double part = facing_part(body.half_length, along, slack); part > 0) {
     feature.kind = Kind::segment;
-    feature.part = part;
     feature.axis = u;
     feature.half_length = part * body.half_length;
     feature.radius = body.radius;
@@ -57,7 +54,6 @@ FacingFeature facing(const PosedCapsule& body, const Vec3& outward, double slack
   const double part = facing_part(body.half_length, along, slack, slant);
   if (part > 0) {
     feature.kind = Kind::segment;
-    feature.part = part;
     feature.axis = body.axis();
     feature.half_length = part * body.half_length;
     feature.radius = body.radius;
@@ -73,23 +69,20 @@ FacingFeature facing(const PosedBox& body, const Vec3& outward, double slack) {
   feature.sine = 1;
   feature.middle = body.centre;
   int free = 0;
-  double most = 0;
   for (int i = 0; i < 3; ++i) {
     const Vec3 axis = body.axes.col(i);
     const double along = axis.dot(outward);
     const double part = free < 2 ? facing_part(body.half_extents[i], along, slack) : 0;
-    if (part < 1) {
-      feature.middle += std::copysign((1 - part) * body.half_extents[i], along) * axis;
-    }
+    const double left_out = (1 - part) * body.half_extents[i];
+    if (left_out > 0) feature.middle += std::copysign(left_out, along) * axis;
     if (part > 0) {
-      most = std::max(most, part);
       feature.side[free] = axis;
-      feature.half_side[free++] = part * body.half_extents[i];
+      feature.left_out[free] = left_out > 0 ? -std::copysign(2 * left_out, along) : 0;
+      feature.half_side[free++] = body.half_extents[i] - left_out;
     } else {
       feature.axis = axis;  // of a rectangle there is one that is no side
     }
   }
-  if (free > 0) feature.part = most;
   if (free == 1) {
     feature.kind = Kind::segment;
     feature.axis = feature.side[0];

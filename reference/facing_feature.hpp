@@ -20,13 +20,14 @@ struct FacingFeature {
   Vec3 middle;  ///< The point itself; on the surface.
   /// Of a point on a rim, the sine of the angle between normal and axis; otherwise 1.
   double sine;
-  double part = 1;  ///< Its `facing_part`; of a rectangle that of the side which leans less.
+  double part = 1;  ///< Of a disc its `facing_part`: whole itself, its points are to draw together.
   // Members that the kind does not name stay unset.
   Vec3 axis;
   Vec3 mark;  ///< of a disc, across its axis: a direction that turns with the body
   double half_length, radius;
   std::array<Vec3, 2> side;
   std::array<double, 2> half_side;
+  std::array<double, 2> left_out;  ///< how far each side goes on along itself, at its far end
 };
 
 /// How large a part of a feature of this half length, which leans by `sine`, faces the other body,
@@ -36,16 +37,16 @@ struct FacingFeature {
 /// ends to face the other body all at once.
 inline double facing_part(double half_length, double sine, double slack, double max_sine = 0.1) {
   const double lean = std::abs(sine), rise = 0.2 * half_length * lean;
-  constexpr double all_but_steepest = 0.9;
-  if (2 * rise <= slack && lean <= all_but_steepest * max_sine) return 1;
+  constexpr double all_but_steepest = 0.9, same = 1e-6;
+  if (2 * rise <= slack && lean <= all_but_steepest * max_sine) [[likely]]
+    return 1;
   if (!(rise < slack && lean < max_sine)) return 0;
-  const double part =
-      std::min({slack / rise - 1, (1 - lean / max_sine) / (1 - all_but_steepest), 1.0});
-  constexpr double same = 1e-6;
+  const double steep = (1 - lean / max_sine) / (1 - all_but_steepest);
+  const double part = std::min({slack / rise - 1, steep, 1.0});
   return part > same ? part : 0;
 }
 
-/// The feature of the body that is farthest along `outward`: of a cap, generator, edge or face that
+/// The feature of the body that is farthest along `outward`: of a generator, edge or face that
 /// leans, its `facing_part`.
 FacingFeature facing(const PosedCylinder& body, const Vec3& outward, double slack);
 FacingFeature facing(const PosedCapsule& body, const Vec3& outward, double slack);

@@ -1,75 +1,58 @@
 // A cap on a cap or on a face.
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
 
 #include "contact_plane.hpp"
 #include "disc_layout.hpp"
+#include "patch_layout.hpp"
 
 namespace touchstone {
 namespace {
 
-/// Adds points of a whole disc, at rest the first along `anchor` (disc_layout.hpp).
-void add_disc(const ContactPlane& plane, const Circle& disc, const Vec2& anchor,
-              const Surfaces& s) {
+/// Points of a whole disc as arms from its centre, at rest the first along `anchor`
+/// (disc_layout.hpp), and how many; none where all of it is above the slack.
+int spread_arms(const ContactPlane& plane, const Circle& disc, const Vec2& anchor,
+                const Surfaces& s, std::array<Vec2, 6>& arms) {
   const Vec2 slope = s.slope();
   const double steepness = slope.norm(), rise = 2 * disc.radius * steepness;
   const double room = plane.room_above(s.clearance(disc.centre) - rise / 2);
-  if (!(room > 0)) return;
-  if (is_one_point(room, rise)) return plane.add(disc.centre - disc.radius / steepness * slope, s);
+  if (!(room > 0)) return 0;
+  if (is_one_point(room, rise)) {
+    arms[0] = -disc.radius / steepness * slope;
+    return 1;
+  }
+  return spread_disc(disc.radius, slope, anchor, room,
+                     std::min(plane.margins().clear_rise(), room / 8), arms);
+}
+
+void add_disc(const ContactPlane& plane, const Circle& disc, const Vec2& anchor,
+              const Surfaces& s) {
   std::array<Vec2, 6> arms;
-  const int count = spread_disc(disc.radius, slope, anchor, room,
-                                std::min(plane.margins().clear_rise(), room / 8), arms);
+  const int count = spread_arms(plane, disc, anchor, s, arms);
   for (int i = 0; i < count; ++i) plane.add(disc.centre + arms[i], s);
 }
 
-/// Adds a layout of so many points, and the deepest point with that weight against their middle.
-void add_layout(const ContactPlane& plane, std::array<Vec2, 8>& layout, int count, double part,
-                const Vec2& deepest, const Surfaces& s) {
-  if (part > 0) {
-    Vec2 sum = Vec2::Zero();
-    int nearest = 0;
-    double nearest_squared = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < count; ++i) {
-      sum += layout[i];
-      const double squared = (layout[i] - deepest).squaredNorm();
-      if (squared < nearest_squared) nearest_squared = squared, nearest = i;
-    }
-    const Vec2 middle = sum / count;
-    // The same point twice would tell a solver that the body stands more firmly there.
-    constexpr double same = 1e-6;
-    if (nearest_squared > same * same * (middle - deepest).squaredNorm()) {
-      if (count < Contact::max_points) {
-        layout[count++] = middle + part * (deepest - middle);
-      } else {
-        layout[nearest] += part * (deepest - layout[nearest]);
-      }
-    }
+/// Adds to a layout over which the clearance rises by at most so much, where that is clear, the
+/// patch's deepest point, which is asked for, and leaves none above the slack.
+template <class Deepest>
+void follow_slope(PatchLayout& layout, const ContactPlane& plane, double max_rise,
+                  const Surfaces& s, Deepest deepest_point) {
+  const double weight = deepest_point_weight(max_rise, plane.margins().clear_rise());
+  if (weight == 0) return;
+  const Vec2 deepest = deepest_point();
+  const double room = plane.room_above(s.clearance(deepest));
+  if (!(room > 0)) {
+    layout.count = 0;
+    return layout.add(deepest);
   }
-  for (int i = 0; i < count; ++i) plane.add(layout[i], s);
+  layout.add_deepest(deepest, weight);
+  if (max_rise > room) layout.cut_off(s.slope(), s.slope().dot(deepest) + room);
 }
 
-/// Adds, of a region over which the clearance has a slope, points of the part that does not rise
-/// above the slack, the deepest among them; to that it is clipped. False, and no points, where all
-/// of it is within.
-bool add_leaning(const ContactPlane& plane, ArcPolygon& region, const Surfaces& s) {
-  const Vec2 slope = s.slope();
-  const double steepness = slope.norm();
-  const Vec2 lowest = -slope / steepness;
-  const auto [deepest, highest] = region.extremes(lowest);
-  const double bottom = -lowest.dot(deepest), top = -lowest.dot(highest);
-  const double room = plane.room_above(s.clearance(deepest));
-  if (steepness * (top - bottom) <= room) return false;
-  if (is_one_point(room, steepness * (top - bottom))) {
-    plane.add(deepest, s);
-    return true;
-  }
-  region.clip(-lowest, bottom + room / steepness);
-  region.mark_farthest(lowest);
-  std::array<Vec2, 8> points;
-  const int count = region.spread(lowest, points);
-  for (int i = 0; i < count; ++i) plane.add(points[i], s);
-  return true;
+void add_points(const ContactPlane& plane, PatchLayout& layout, const Surfaces& s) {
+  layout.reduce();
+  for (int i = 0; i < layout.count; ++i) plane.add(layout.points[i], s);
 }
 
 /// The largest disc within what two discs share, `apart` metres apart along the unit vector
@@ -110,24 +93,23 @@ void disc_on_rectangle(const Manifold& to, const FacingFeature& cap, const Facin
   const ContactPlane::Face seen = plane.face(face);
   const Surfaces s{plane.incline(cap), seen.surface};
   const Circle disc{plane.to_plane(cap.middle), cap.radius};
-  const auto edges = [&](const Strip& strip) -> Edges {
+  const auto edges = [&](int i) -> Edges {
+    const Strip& strip = seen.strips[i];
     const double x = strip.across.x(), y = strip.across.y(), inverse = 1 / std::sqrt(x * x + y * y);
-    const double middle = inverse * strip.middle, half_width = inverse * strip.half_width;
+    const double middle = inverse * (strip.middle + face.left_out[i] / 2);
+    const double half_width = inverse * (strip.half_width + std::abs(face.left_out[i]) / 2);
     return {{Vec2(inverse * x, inverse * y), middle, half_width},
             inverse * (x * disc.centre.x() + y * disc.centre.y()) - middle,
             half_width - disc.radius};
   };
-  const Edges sides[] = {edges(seen.strips[0]), edges(seen.strips[1])};
+  const Edges sides[] = {edges(0), edges(1)};
   const double unseen = unseen_part * disc.radius;
   const auto lies_between = [&](const Edges& e) { return std::abs(e.offset) <= e.beyond + unseen; };
   if (lies_between(sides[0]) && lies_between(sides[1])) {
     return add_disc(plane, narrowed(disc, sides), sides[0].across, s);
   }
 
-  const Vec2 slope = s.slope();
-  const double max_rise = 2 * disc.radius * slope.norm();
-  const bool leans = max_rise > plane.margins().slack;
-  ArcPolygon region(disc, sides[0], sides[1], leans ? ArcPolygon::sliver : unseen_part);
+  const ArcPolygon region(disc, sides[0], sides[1], unseen_part);
   if (region.empty()) {
     // The rim only touches the face's edge: the face's point that is nearest to the cap's middle.
     const auto way = [](const Edges& e) {
@@ -142,19 +124,34 @@ void disc_on_rectangle(const Manifold& to, const FacingFeature& cap, const Facin
                                : Vec2(way0 * across0 + way1 * across1);
     return plane.add(disc.centre + arm, s);
   }
-  if (leans && add_leaning(plane, region, s)) return;
-  std::array<Vec2, 8> points;
+  PatchLayout layout(disc.radius);
   // No two corners of a symmetric patch are equally far along this direction.
+  std::array<Vec2, Contact::max_points> points;
   const int count = region.spread(sides[0].across + 0.37 * sides[1].across, points);
-  for (const Edges& e : sides) {  // an arc that is not cut ends within the face, too
-    const double over = std::abs(e.offset) - e.beyond;
-    if (!(over > 0 && over <= unseen)) continue;
-    for (int i = 0; i < count; ++i) {
-      points[i] -= e.excess(e.across.dot(points[i]) - e.middle) * e.across;
+  // An arc that is not cut ends within the face, too.
+  const auto keep_within = [&](Vec2& p) {
+    for (const Edges& e : sides) {
+      const double over = std::abs(e.offset) - e.beyond;
+      if (over > 0 && over <= unseen) p -= e.excess(e.across.dot(p) - e.middle) * e.across;
     }
+  };
+  for (int i = 0; i < count; ++i) {
+    keep_within(points[i]);
+    layout.add(points[i]);
   }
-  const double part = deepest_point_weight(max_rise, plane.margins().clear_rise());
-  add_layout(plane, points, count, part, part > 0 ? region.farthest(-slope) : Vec2(0, 0), s);
+  const Vec2 slope = s.slope();
+  follow_slope(layout, plane, 2 * disc.radius * slope.norm(), s, [&] {
+    Vec2 deepest = region.farthest(-slope);
+    keep_within(deepest);
+    return deepest;
+  });
+  for (int i = 0; i < 2; ++i) {  // of a face that leans, the part that faces the cap
+    if (face.left_out[i] == 0) continue;
+    const double side = std::copysign(1, face.left_out[i]);
+    const Strip& strip = seen.strips[i];
+    layout.cut_off(side * strip.across, side * strip.middle + strip.half_width);
+  }
+  add_points(plane, layout, s);
 }
 
 void disc_on_disc(const Manifold& to, const FacingFeature& first, const FacingFeature& second,
@@ -178,29 +175,25 @@ void disc_on_disc(const Manifold& to, const FacingFeature& first, const FacingFe
   constexpr double clear = 1e-6, handed_over = 0.005;
   const double missing = (apart - std::abs(c1.radius - c2.radius)) / smaller;
   const HandOver over{(missing - clear) / handed_over};
-  if (!over.has_begun()) return add_disc(plane, disc, plane.to_plane(first.mark).normalized(), s);
+  const Vec2 anchor = plane.to_plane(first.mark).normalized();
+  if (!over.has_begun()) return add_disc(plane, disc, anchor, s);
 
-  const Vec2 slope = s.slope();
-  const double steepness = slope.norm(), max_rise = 2 * smaller * steepness;
   const Lens lens(c1, c2, apart, towards);
-  if (max_rise > plane.margins().slack) {
-    ArcPolygon region(lens);
-    if (add_leaning(plane, region, s)) return;
-  }
-  std::array<Vec2, 8> points;
-  int count = 0;
+  PatchLayout layout(smaller);
   for (const Vec2& p : lens.spread()) {
-    points[count++] = disc.centre + over.new_size() * (p - disc.centre);
+    layout.add(disc.centre + over.new_size() * (p - disc.centre));
   }
   if (!over.is_over()) {
-    for (const Vec2& arm :
-         three_arms(over.old_size() * disc.radius, plane.to_plane(first.mark).normalized())) {
-      points[count++] = disc.centre + arm;
-    }
+    std::array<Vec2, 6> arms;
+    const Circle old{disc.centre, over.old_size() * disc.radius};
+    const int count = spread_arms(plane, old, anchor, s, arms);
+    for (int i = 0; i < count; ++i) layout.add(disc.centre + arms[i]);
   }
-  const double part = deepest_point_weight(max_rise, plane.margins().clear_rise());
-  add_layout(plane, points, count, part, part > 0 ? lens.farthest(-slope / steepness) : Vec2(0, 0),
-             s);
+  const Vec2 slope = s.slope();
+  const double steepness = slope.norm();
+  follow_slope(layout, plane, 2 * smaller * steepness, s,
+               [&] { return lens.farthest(-slope / steepness); });
+  add_points(plane, layout, s);
 }
 
 }  // namespace touchstone

@@ -1,8 +1,9 @@
 #include "manifold.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <type_traits>
-#include <utility>
 
 #include "contact_plane.hpp"
 #include "facing_feature.hpp"
@@ -21,8 +22,8 @@ bool is_flat(const FacingFeature& f) { return f.kind == Kind::disc || f.kind == 
 ///   segment, flat    the ends of what lies on it (line_contact.cpp)
 ///   disc, rectangle  the corners of what they share (flat_contact.cpp)
 ///   disc, disc       the same, in the plane of the smaller one (flat_contact.cpp)
-void add_points_of_features(Contact& contact, const FacingFeature& a, const FacingFeature& b,
-                            const Vec3& origin, Margins& margins) {
+void add_points_of_whole(Contact& contact, const FacingFeature& a, const FacingFeature& b,
+                         const Vec3& origin, const Margins& margins) {
   const bool a_is_point = a.kind == Kind::point, b_is_point = b.kind == Kind::point;
   if (a_is_point || b_is_point) {
     const bool take_a = a_is_point && (!b_is_point || a.sine >= b.sine);
@@ -31,8 +32,6 @@ void add_points_of_features(Contact& contact, const FacingFeature& a, const Faci
                       -contact.signed_distance);
     return;
   }
-  // What has drawn together has all its lengths from that part of it.
-  margins.slack *= a.part * b.part;
   const Manifold to{contact, origin, margins};
   if (!is_flat(a) && !is_flat(b)) {
     if (!segments_crossing(to, a, b)) segment_on_segment(to, a, b);
@@ -44,6 +43,39 @@ void add_points_of_features(Contact& contact, const FacingFeature& a, const Faci
   const bool a_is_first =
       a.radius != b.radius ? a.radius < b.radius : points_onward(contact.normal);
   a_is_first ? disc_on_disc(to, a, b, true) : disc_on_disc(to, b, a, false);
+}
+
+/// The deepest point, the first of several.
+const ContactPoint* deepest_point(const Contact& contact) {
+  const auto is_less_deep = [](const auto& p, const auto& q) { return p.depth < q.depth; };
+  const auto points = contact.points();
+  return points.empty() ? nullptr : &*std::max_element(points.begin(), points.end(), is_less_deep);
+}
+
+/// The largest depth of a point.
+double max_depth(const Contact& contact) {
+  double depth = -std::numeric_limits<double>::infinity();
+  for (const ContactPoint& p : contact.points()) depth = std::max(depth, p.depth);
+  return depth;
+}
+
+/// Draws the points together to that part of their way from the deepest one. What leans so is flat,
+/// so that points between two of both bodies are of both bodies.
+[[gnu::noinline, gnu::cold]] void draw_together(Contact& contact, double part) {
+  const Contact whole = contact;
+  const ContactPoint* to = deepest_point(whole);
+  contact.clear_points();
+  for (const ContactPoint& p : whole.points()) {
+    contact.add_point(to->position + part * (p.position - to->position),
+                      to->depth + part * (p.depth - to->depth));
+  }
+}
+
+/// Adds the points where two features face each other.
+void add_points_of_features(Contact& contact, const FacingFeature& a, const FacingFeature& b,
+                            const Vec3& origin, const Margins& margins) {
+  add_points_of_whole(contact, a, b, origin, margins);
+  if (const double part = a.part * b.part; part < 1) draw_together(contact, part);
 }
 
 /// Adds a point of the whole depth, where those features meet that face each other but for
@@ -60,31 +92,22 @@ template <class Body>
   const Contact before = contact;
   contact.clear_points();
   add_points_of_features(contact, on_a, on_b, origin, sharp);
-  ContactPoint deepest{origin + (on_a.middle - contact.signed_distance / 2 * n),
-                       -std::numeric_limits<double>::infinity()};
-  for (const Contact* c : {&std::as_const(contact), &before}) {
-    for (const ContactPoint& p : c->points()) {
-      if (p.depth > deepest.depth) deepest = p;
-    }
-  }
+  const Contact& fuller = max_depth(contact) >= max_depth(before) ? contact : before;
+  const ContactPoint* found = deepest_point(fuller);
+  const Vec3 position =
+      found ? found->position : origin + (on_a.middle - contact.signed_distance / 2 * n);
   const double depth = -contact.signed_distance, least = depth - margins.slack - margins.rounding;
   contact.clear_points();
-  contact.add_point(deepest.position, depth);
+  contact.add_point(position, depth);
   for (const ContactPoint& p : before.points()) {
     const Vec3 x = p.position - origin, half = p.depth / 2 * n;
     const bool is_on_both =
         std::max(outside(a, x - half), outside(b, x + half)) <= margins.unseen_depth();
-    if (p.depth >= least && is_on_both && p.position != deepest.position &&
+    if (p.depth >= least && is_on_both && p.position != position &&
         contact.points().size() < Contact::max_points) {
       contact.add_point(p.position, p.depth);
     }
   }
-}
-
-double deepest_point(const Contact& contact) {
-  double depth = -std::numeric_limits<double>::infinity();
-  for (const ContactPoint& p : contact.points()) depth = std::max(depth, p.depth);
-  return depth;
 }
 
 /// Leaves no point that is deeper than the bodies are. What features that lean are carried off by
@@ -106,10 +129,10 @@ template <class Body>
 void hold_depth(Contact& contact, const PosedCylinder& a, const Body& b, const Vec3& origin,
                 const Margins& margins) {
   const double depth = -contact.signed_distance;
-  double deepest = deepest_point(contact);
+  double deepest = max_depth(contact);
   if (deepest > depth + margins.rounding) {
     leave_no_deeper(contact, depth, margins);
-    deepest = deepest_point(contact);
+    deepest = max_depth(contact);
   }
   if (!(depth - deepest <= margins.unseen_depth())) {
     add_deepest(contact, a, b, origin, margins);
@@ -122,8 +145,8 @@ template <class Body>
 void add_facing_points(Contact& contact, const PosedCylinder& a, const Body& b, const Vec3& origin,
                        double contact_threshold, PointRange range) {
   const Vec3 &n = contact.normal, between = a.centre - b.centre;
-  Margins margins(extents(a), extents(b), between.cwiseAbs().sum(), contact.signed_distance,
-                  contact_threshold, range);
+  const Margins margins(extents(a), extents(b), between.cwiseAbs().sum(), contact.signed_distance,
+                        contact_threshold, range);
   // A well-known point is all there is to say, whatever the other body turns towards it. Asked
   // first is the body that has one more often.
   const auto is_known = [](const FacingFeature& x) {
