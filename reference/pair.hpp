@@ -161,8 +161,13 @@ class ScaledBodies {
   }
   bool back(bool answer) const { return answer; }
   SignedDistance back(const SignedDistance& x) const { return {back(x.value), x.normal}; }
+  /// A value that overflows is not proven; one that underflows is rounded by less than the least
+  /// double, as its bound is.
   CertifiedDistance back(const CertifiedDistance& x) const {
-    return {{back(x.value), x.normal}, back(x.error_bound)};
+    const double value = back(x.value), bound = std::scalbn(x.error_bound, exponent_);
+    constexpr double least = std::numeric_limits<double>::denorm_min();
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    return {{value, x.normal}, std::abs(value) < max_length ? bound + 2 * least : infinite};
   }
   Contact back(const Contact& x) const {
     Contact result;
