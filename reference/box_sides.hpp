@@ -198,7 +198,7 @@ struct BoxSides {
     StageResult found = best_of_kind(p, stop_above);
     const double lengths = p.lengths();
     if (!found.is_proven && found.gap <= stop_above && kind() != Kind::face &&
-        found.gap - face.gap <= rounding_part / 16 * lengths) {
+        found.gap - face.gap <= tie_part * lengths) {
       found.is_proven = is_proven(face, p);
     }
     return found;

@@ -34,9 +34,10 @@ struct SignedDistance {
 
 /// A signed distance that says how certain it is.
 struct CertifiedDistance : SignedDistance {
-  /// Metres: the true signed distance of the shapes and poses as they are stored in double
-  /// precision lies within `value` ± `error_bound`. It is rounding, some 1e-15 of all lengths,
-  /// where the search is proven complete, and larger where it is not.
+  /// Metres: the true signed distance of the shapes and poses as they are given, each quaternion
+  /// divided by its exact length, lies within `value` ± `error_bound`. Where the search is proven
+  /// complete that is rounding, some 1e-14 of all lengths; where it is not, as much larger as the
+  /// distance may be, and infinite where the distance overflows.
   double error_bound;
 };
 

@@ -37,4 +37,24 @@ struct Circle {
 /// worst, so that the maximum itself, which is flat there, is accurate to rounding.
 std::optional<Vec2> ellipse_normal(double a, double b, double x, double y);
 
+/// Whether the point lies across the major axis and beyond the chord of the ellipse's evolute: then
+/// what `ellipse_normal` maximises falls all the way from (1, 0) to (0, 1).
+inline bool is_beyond_evolute(double a, double b, double x, double y) {
+  return y <= 0 && a * x - b * y >= (a - b) * (a + b);
+}
+
+/// Unit normals of the first quadrant from `first` on, by their angle from (1, 0), to `last`, or
+/// without it to (0, 1).
+struct NormalArc {
+  Vec2 first = Vec2(1, 0);
+  std::optional<Vec2> last;
+};
+
+/// By how much x m_x + y m_y − √(a² m_x² + b² m_y²), x >= 0, may exceed −depth for a unit m on an
+/// arc, rounding included. It must not do so for n nor the arc's first and last, if they lie on it.
+/// Where n is the foot's normal or none, as `ellipse_normal` says, that is all but nothing
+/// (proofs.md, "Rounding of a certified distance").
+double ellipse_excess(double a, double b, double x, double y, const std::optional<Vec2>& n,
+                      double depth, const NormalArc& arc = {});
+
 }  // namespace touchstone

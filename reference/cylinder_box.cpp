@@ -122,12 +122,41 @@ bool is_proven_at_rim(const Frame& p, const EdgeAndRim& at, const Vec3& n, doubl
                                std::abs(along), (arm - along * p.u).norm()});
 }
 
-/// The corner lies at q from the middle of the rim.
+/// By how much another normal along which this corner and this rim face each other may be better
+/// than the best of all that were tried. The corner's normals, between those of two faces, are an
+/// arc of the rim's.
+double missed_beside_corner(const Frame& p, const EdgeAndRim& at, const Vec2& axis, double aside,
+                            double ahead, const std::optional<Vec2>& foot, double best) {
+  const double b = p.r * std::abs(p.u[at.i]);
+  if (is_beyond_evolute(p.r, b, std::abs(aside), ahead)) return 0;
+  const double side = std::copysign(1, aside);
+  // How far a normal (x, y) of the rim's quadrant points outward along j, and along k: its product
+  // with these.
+  const Vec2 out_j = at.sign_j * Vec2(-side * axis.y(), at.end * axis.x());
+  const Vec2 out_k = at.sign_k * Vec2(side * axis.x(), at.end * axis.y());
+  NormalArc arc;
+  for (const Vec2& out : {out_j, out_k}) {
+    if (out.x() >= 0 && out.y() >= 0) continue;
+    if (!(out.x() > 0 || out.y() > 0)) return 0;
+    const Vec2 end(std::abs(out.y()), std::abs(out.x()));
+    if (out.y() > 0 && cross2(arc.first, end) > 0) arc.first = end;
+    if (out.x() > 0 && !(arc.last && cross2(*arc.last, end) > 0)) arc.last = end;
+  }
+  if (arc.last && cross2(arc.first, *arc.last) < 0) return 0;
+  return ellipse_excess(p.r, b, std::abs(aside), ahead, foot, -best, arc);
+}
+
+/// The corner lies at q from the middle of the rim. `highest`, where it is asked for, is raised to
+/// a bound of the gaps of all normals along which both face each other.
 StageResult rim_and_edge(const Frame& p, const EdgeAndRim& at, const Vec2& axis, const Vec2& q,
-                         double best) {
+                         double best, double* highest = nullptr) {
   const int i = at.i, j = (i + 1) % 3, k = (i + 2) % 3;
   const double b = p.r * std::abs(p.u[i]), aside = cross2(axis, q), ahead = at.end * axis.dot(q);
   const auto foot = ellipse_normal(p.r, b, std::abs(aside), ahead);
+  if (highest && !foot) {
+    *highest =
+        std::max(*highest, best + missed_beside_corner(p, at, axis, aside, ahead, foot, best));
+  }
   if (!foot) return {};
   const double x = foot->x(), y = foot->y(), across = std::copysign(x, aside);
   const double along = at.end * y;
@@ -136,11 +165,16 @@ StageResult rim_and_edge(const Frame& p, const EdgeAndRim& at, const Vec2& axis,
   const double reach = std::sqrt(p.r * p.r * x * x + b * b * y * y);
   const double gap = p.d[j] * nj + p.d[k] * nk - p.e[j] * std::abs(nj) - p.e[k] * std::abs(nk) -
                      p.h * p.s[i] * y - reach;
+  if (highest) {
+    const double tried = std::max(gap, best);
+    *highest =
+        std::max(*highest, tried + missed_beside_corner(p, at, axis, aside, ahead, foot, tried));
+  }
   if (!(gap > best)) return {};
   Vec3 n;
   n[i] = 0, n[j] = nj, n[k] = nk;
   StageResult found{gap, n.x(), n.y(), n.z()};
-  if (nj * at.sign_j >= 0 && nk * at.sign_k >= 0) {
+  if (!highest && nj * at.sign_j >= 0 && nk * at.sign_k >= 0) {
     const double slope =
         std::abs(x * ahead - y * std::abs(aside) + (p.r - b) * (p.r + b) * x * y / reach);
     found.is_proven = is_proven_at_rim(p, at, n, at.end * p.s[i] * y,
@@ -161,7 +195,7 @@ bool is_behind_chords(double r, double b, double x, double y, double best) {
 
 /// Seen along the edge, the sum of box and axis is a polygon; on each of its corners sits the cap's
 /// ellipse, with half axes r across the axis and r |u_i| along it.
-StageResult rim_and_edge_along(const Frame& p, int i, double best) {
+StageResult rim_and_edge_along(const Frame& p, int i, double best, double* highest) {
   if (!(p.s[i] > 0)) return {};
   const int j = (i + 1) % 3, k = (i + 2) % 3;
   const SeenAlong seen(p, i);
@@ -188,7 +222,7 @@ StageResult rim_and_edge_along(const Frame& p, int i, double best) {
       const double aside = across.dot(q);
       if (!((std::copysign(1, aside) * across + end * axis).dot(sign) > 0)) continue;
       if (is_behind_chords(p.r, b, std::abs(aside), end * axis.dot(q), least)) continue;
-      found.improve(rim_and_edge(p, {i, sign.x(), sign.y(), end}, axis, q, least));
+      found.improve(rim_and_edge(p, {i, sign.x(), sign.y(), end}, axis, q, least, highest));
     }
   }
   return found;
@@ -251,28 +285,9 @@ StageResult near_points(const Frame& p, const Vec3& between) {
   return {p.gap(n), n.x(), n.y(), n.z()};
 }
 
-/// The nearest vertex that is off the rim.
-StageResult rim_and_vertex(const Frame& p) {
-  // Across the axis and along it, from the vertices to A's centre: the centre's part less that of
-  // each half extent. (Squares that cancel would hide a thin body's radius.)
-  const double along = p.d.dot(p.u);
-  const Vec3 across = p.d - along * p.u;
-  std::array<Vec3, 3> side;
-  for (int i = 0; i < 3; ++i) side[i] = p.e[i] * (Vec3::Unit(i) - p.u[i] * p.u);
-  double nearest = std::numeric_limits<double>::infinity();
-  int best = -1;
-  for (int i = 0; i < 8; ++i) {  // branch-free: the winner is unpredictable
-    const double x = (i & 1) ? 1 : -1, y = (i & 2) ? 1 : -1, z = (i & 4) ? 1 : -1;
-    const double height = along - x * p.e[0] * p.u[0] - y * p.e[1] * p.u[1] - z * p.e[2] * p.u[2];
-    const double radial = (across - x * side[0] - y * side[1] - z * side[2]).norm();
-    const double above = std::abs(height) - p.h, beside = radial - p.r;
-    const double distance = above * above + beside * beside;
-    const bool better = (above > 0) & (beside > 0) & (distance < nearest);
-    nearest = better ? distance : nearest;
-    best = better ? i : best;
-  }
-  if (best < 0) return {};
-  const Vec3 arm = p.d - vertex(p, best);
+/// A vertex off the rim.
+StageResult rim_and_this_vertex(const Frame& p, const Vec3& v) {
+  const Vec3 arm = p.d - v;
   const double height = arm.dot(p.u);
   const Vec3 off_axis = arm - height * p.u;
   const double radial = off_axis.norm();
@@ -286,8 +301,42 @@ StageResult rim_and_vertex(const Frame& p) {
   if (!LargestGap::is_unit(n)) return {};
   return {p.gap(n), n.x(), n.y(), n.z()};
 }
+/// The nearest vertex that is off the rim, or all that are as near but for rounding.
+StageResult rim_and_vertex(const Frame& p, bool all_nearest) {
+  // Across the axis and along it, from the vertices to A's centre: the centre's part less that of
+  // each half extent. (Squares that cancel would hide a thin body's radius.)
+  const double along = p.d.dot(p.u);
+  const Vec3 across = p.d - along * p.u;
+  std::array<Vec3, 3> side;
+  for (int i = 0; i < 3; ++i) side[i] = p.e[i] * (Vec3::Unit(i) - p.u[i] * p.u);
+  constexpr double none = std::numeric_limits<double>::infinity();
+  std::array<double, 8> squared;
+  double nearest = none;
+  int best = -1;
+  for (int i = 0; i < 8; ++i) {  // branch-free: the winner is unpredictable
+    const double x = (i & 1) ? 1 : -1, y = (i & 2) ? 1 : -1, z = (i & 4) ? 1 : -1;
+    const double height = along - x * p.e[0] * p.u[0] - y * p.e[1] * p.u[1] - z * p.e[2] * p.u[2];
+    const double radial = (across - x * side[0] - y * side[1] - z * side[2]).norm();
+    const double above = std::abs(height) - p.h, beside = radial - p.r;
+    const double distance = above * above + beside * beside;
+    const bool is_off = (above > 0) & (beside > 0), better = is_off & (distance < nearest);
+    squared[static_cast<std::size_t>(i)] = is_off ? distance : none;
+    nearest = better ? distance : nearest;
+    best = better ? i : best;
+  }
+  if (best < 0) return {};
+  StageResult found = rim_and_this_vertex(p, vertex(p, best));
+  if (!all_nearest) return found;
+  const double as_near = std::sqrt(nearest) + rounding_part * p.lengths();
+  for (int i = 0; i < 8; ++i) {
+    if (i != best && squared[static_cast<std::size_t>(i)] <= as_near * as_near) {
+      found.improve(rim_and_this_vertex(p, vertex(p, i)));
+    }
+  }
+  return found;
+}
 
-StageResult largest_gap(const Frame& p, EarlyExit exit) {
+StageResult largest_gap(const Frame& p, EarlyExit exit, double* highest) {
   const BoxSides sides(p);
   StageResult best = sides.best(p, exit.stop_above);
   if (exit.ends_with(best)) return best;
@@ -295,7 +344,9 @@ StageResult largest_gap(const Frame& p, EarlyExit exit) {
   constexpr double deep = 0.3;
   const auto try_likely = [&] {
     if (depth(best.gap) < deep * (std::min(p.r, p.h) + p.e.minCoeff())) {
-      best.improve(likely_rim_and_edge(p, sides, best.gap));
+      StageResult likely = likely_rim_and_edge(p, sides, best.gap);
+      likely.is_proven = likely.is_proven && exit.trusts_proofs;  // its slope is rounded
+      best.improve(likely);
     }
   };
   // A body that stands over an edge of a face comes free there sooner than at a vertex.
@@ -314,9 +365,10 @@ StageResult largest_gap(const Frame& p, EarlyExit exit) {
   const Vec3 between = between_near_points(p);
   best.improve(near_points(p, between));
   if (exit.ends_with(best)) return best;
-  if (!exit.trusts_proofs || !between.isZero(0)) best.improve(rim_and_vertex(p));
+  if (!exit.trusts_proofs || !between.isZero(0))
+    best.improve(rim_and_vertex(p, highest != nullptr));
   for (int i = 0; i < 3 && !exit.ends_with(best); ++i) {
-    best.improve(rim_and_edge_along(p, i, best.gap));
+    best.improve(rim_and_edge_along(p, i, best.gap, best.is_proven ? nullptr : highest));
   }
   return best;
 }
@@ -324,8 +376,12 @@ StageResult largest_gap(const Frame& p, EarlyExit exit) {
 CertifiedDistance find_largest(const PosedCylinder& a, const PosedBox& b, EarlyExit exit) {
   const Frame p(a.radius, a.half_length, b.half_extents, b.axes.transpose() * (a.centre - b.centre),
                 b.axes.transpose() * a.axis());
-  const StageResult best = largest_gap(p, exit);
-  return {{best.gap, b.axes * best.normal()}, 0};
+  double highest = -std::numeric_limits<double>::infinity();
+  const StageResult best = largest_gap(p, exit, exit.trusts_proofs ? nullptr : &highest);
+  // The axis as seen by the box is not of unit length.
+  const double missed = std::max(0.0, highest - best.gap) +
+                        (exit.trusts_proofs ? 0 : std::abs(p.u.squaredNorm() - 1) * p.lengths());
+  return {{best.gap, b.axes * best.normal()}, missed};
 }
 
 using BoxRoutine = SearchRoutine<PosedBox, find_largest>;

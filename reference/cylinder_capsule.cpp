@@ -71,8 +71,9 @@ StageResult side_and_end(const Folded& p, double best) {
           is_within_side(p, f.d1 - std::copysign(p.h2, f.d2) * f.c, gap)};
 }
 
-/// Seen along the segment the cap is an ellipse about the end of A's axis.
-StageResult rim_and_segment(const Folded& p, double best) {
+/// Seen along the segment the cap is an ellipse about the end of A's axis. `missed`, where it is
+/// asked for, is by how much a normal across the segment may be better than the best one so far.
+StageResult rim_and_segment(const Folded& p, double best, double* missed) {
   const FoldedAxes& f = p.axes;
   const double along_k2 = f.along_k2(f.d());
   const double y = std::abs(along_k2) - p.h1 * f.s, b = p.r1 * f.c;
@@ -81,11 +82,15 @@ StageResult rim_and_segment(const Folded& p, double best) {
   // A point inside may be too far behind the chord of the ellipse's quadrant.
   if (p.r1 * b - b * f.d3 - p.r1 * y >= depth(best) * (p.r1 + b)) return {};
   const auto n = ellipse_normal(p.r1, b, f.d3, y);
-  if (!n) return {};
-  const double side = std::copysign(n->y(), along_k2);
-  const double gap = n->x() * f.d3 + n->y() * y -
-                     std::sqrt(p.r1 * p.r1 * n->x() * n->x() + b * b * n->y() * n->y());
-  return {gap, -f.s * side, f.c * side, n->x()};
+  StageResult found;
+  if (n) {
+    const double side = std::copysign(n->y(), along_k2);
+    const double gap = n->x() * f.d3 + n->y() * y -
+                       std::sqrt(p.r1 * p.r1 * n->x() * n->x() + b * b * n->y() * n->y());
+    found = {gap, -f.s * side, f.c * side, n->x()};
+  }
+  if (missed) *missed = ellipse_excess(p.r1, b, f.d3, y, n, -std::max(best, found.gap));
+  return found;
 }
 
 /// The end that is nearest to the cylinder, beyond both a cap and the side.
@@ -109,14 +114,14 @@ StageResult rim_and_end(const Folded& p, double best) {
   return found;
 }
 
-StageResult largest_gap(const Folded& p, EarlyExit exit) {
+StageResult largest_gap(const Folded& p, EarlyExit exit, double* missed) {
   StageResult best = cap_and_end(p);
   if (exit.ends_with(best)) return best;
   best.improve(side_and_segment(p, best.gap));
   if (exit.ends_with(best)) return best;
   best.improve(side_and_end(p, best.gap));
   if (exit.ends_with(best)) return best;
-  best.improve(rim_and_segment(p, best.gap));
+  best.improve(rim_and_segment(p, best.gap, best.is_proven ? nullptr : missed));
   best.improve(rim_and_end(p, best.gap));
   return best;
 }
@@ -156,8 +161,10 @@ CertifiedDistance find_largest(const PosedCylinder& a, const PosedCapsule& b, Ea
     if (const auto apart = separation(a, b, d, exit.stop_above)) return {*apart, 0};
   }
   const Folded p{FoldedAxes(a.axis(), b.axis(), d), a.radius, a.half_length, b.half_length};
-  const StageResult best = largest_gap(p, {exit.stop_above + b.radius, exit.trusts_proofs});
-  return {{best.gap - b.radius, p.axes.to_world(best.normal())}, 0};
+  const EarlyExit of_segment{exit.stop_above + b.radius, exit.trusts_proofs};
+  double missed = 0;
+  const StageResult best = largest_gap(p, of_segment, exit.trusts_proofs ? nullptr : &missed);
+  return {{best.gap - b.radius, p.axes.to_world(best.normal())}, missed};
 }
 
 using CapsuleRoutine = SearchRoutine<PosedCapsule, find_largest>;

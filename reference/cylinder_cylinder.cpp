@@ -127,17 +127,26 @@ struct RimBesideSide {
     const Vec2 n((b * b + tau) * d3, (rim_radius * rim_radius + tau) * y);
     return (1 / n.norm()) * n;
   }
-  /// The normal at the nearest point, unless its gap cannot be above `best`.
-  std::optional<Vec2> normal(double best) const {
+  /// Is no gap of a normal that reaches the rim here above `best`?
+  bool is_no_better_than(double best) const {
     // No direction is better than the distance from the ellipse's inscribed disc.
     const double b = inscribed(), bound = best + side_radius + b;
-    if (bound > 0 && squared() <= bound * bound) return std::nullopt;
+    if (bound > 0 && squared() <= bound * bound) return true;
     // A point inside may be too far behind the chord of the ellipse's quadrant.
-    if (rim_radius * b - b * d3 - rim_radius * y >=
-        std::max(0.0, -best - side_radius) * (rim_radius + b)) {
-      return std::nullopt;
-    }
-    return ellipse_normal(rim_radius, b, d3, y);
+    return rim_radius * b - b * d3 - rim_radius * y >=
+           std::max(0.0, -best - side_radius) * (rim_radius + b);
+  }
+  /// The normal at the nearest point, unless its gap cannot be above `best`.
+  std::optional<Vec2> normal(double best) const {
+    if (is_no_better_than(best)) return std::nullopt;
+    return ellipse_normal(rim_radius, inscribed(), d3, y);
+  }
+  /// By how much another normal may be better than the best of all that were tried.
+  double missed(double best) const {
+    if (is_no_better_than(best)) return 0;
+    const double b = inscribed();
+    return ellipse_excess(rim_radius, b, d3, y, ellipse_normal(rim_radius, b, d3, y),
+                          -best - side_radius);
   }
 };
 RimBesideSide rim2_beside_side1(const FoldedCylinders& p) {
@@ -270,6 +279,13 @@ std::optional<LargestGap> standing(const PosedCylinder& a, const PosedCylinder& 
   return best.largest_gap();
 }
 
+/// Rounding makes the proofs of a cap, of crossing sides and of a side beside a rim wrong by at
+/// most this (proofs.md, "Rounding of a certified distance").
+double what_proofs_round(const FoldedCylinders& p) {
+  constexpr double part = 40 * unit_roundoff;
+  return (part + p.axes.unit_error()) * p.lengths();
+}
+
 /// `a` has the smaller radius or the same.
 CertifiedDistance find_largest(const PosedCylinder& a, const PosedCylinder& b, EarlyExit exit) {
   const FoldedAxes::Product axes(a.axis(), b.axis());
@@ -283,13 +299,20 @@ CertifiedDistance find_largest(const PosedCylinder& a, const PosedCylinder& b, E
   const StageResult found = largest_gap_beside_rims(p, exit);
   if (exit.ends_with(found)) return {{found.gap, p.axes.to_world(found.normal())}, 0};
   LargestGap best{found.gap, found.normal()};
-  double unproven = 0;
   if (exit.trusts_proofs) {
     offer_rim_rim_normals(p, exit.stop_above, best);
-  } else {
-    unproven = search_all_rims(p, best);
+    return {{best.gap, p.axes.to_world(best.normal)}, 0};
   }
-  return {{best.gap, p.axes.to_world(best.normal)}, unproven};
+  const double in_proofs = what_proofs_round(p);
+  double missed = search_all_rims(p, best);
+  if (!found.is_proven) {
+    missed = std::max(
+        {missed, rim2_beside_side1(p).missed(best.gap), rim1_beside_side2(p).missed(best.gap)});
+  }
+  if (missed > in_proofs && (found.is_proven || is_proven_where_rims_meet(p, best))) {
+    missed = in_proofs;
+  }
+  return {{best.gap, p.axes.to_world(best.normal)}, missed + p.axes.unit_error() * p.lengths()};
 }
 
 using CylinderRoutine = SearchRoutine<PosedCylinder, find_largest>;

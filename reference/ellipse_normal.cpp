@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "curves.hpp"
+#include "largest_gap.hpp"
 
 // The foot of the normal through a point is found by Newton's method, which converges from wherever
 // it starts (proofs.md, "A point against an ellipse"). It starts where six steps are enough, but
@@ -81,12 +82,13 @@ struct ScaledPoint {
   }
 };
 
+/// A half axis that is so small a part of the other is none: their products would vanish.
+constexpr double flat = 1e-60;
+
 }  // namespace
 
 std::optional<Vec2> ellipse_normal(double a, double b, double x, double y) {
   if (!(x >= 0)) return std::nullopt;
-  // A half axis whose products with the other would vanish is none.
-  constexpr double flat = 1e-60;
   if (b < flat * a) b = 0;
   if (y > 0 && !(b * y > 0)) {
     // Seen edge on, the ellipse is its major axis: its inside, or its end.
@@ -104,6 +106,59 @@ std::optional<Vec2> ellipse_normal(double a, double b, double x, double y) {
   // The normal at (a c, b s) is along (b c, a s).
   const Anomaly n = towards(b * foot->c, a * foot->s);
   return Vec2(n.c, n.s);
+}
+
+// W(θ) = x cos θ + y sin θ − √(…) + depth has W'' + W = depth − ρ with the ellipse's radius of
+// curvature ρ = a² b² / h³, which grows with θ; h is the root. Where ρ >= depth, W is at most the
+// sinusoid with its value and slope at any m; where ρ <= depth, at most its values at both ends.
+double ellipse_excess(double a, double b, double x, double y, const std::optional<Vec2>& n,
+                      double depth, const NormalArc& arc) {
+  const double rounding = 16 * unit_roundoff * (x + std::abs(y) + a + std::abs(depth));
+  if (is_beyond_evolute(a, b, x, y)) return rounding;
+  const auto is_before = [](const Vec2& m, const Vec2& other) { return cross2(m, other) > 0; };
+  if (b < flat * a) {  // a segment, whose end counts: a sinusoid of the angle
+    const Vec2 top(x - a, y);
+    const bool is_on_arc = top.x() > 0 && top.y() > 0 && !is_before(top, arc.first) &&
+                           !(arc.last && is_before(*arc.last, top));
+    const double gap = is_on_arc ? top.norm() : arc.last ? -depth : y;
+    return std::max(0.0, gap + depth) + rounding;
+  }
+  const double focal = (a - b) * (a + b), squared = a * b * (a * b);
+  const auto reach = [&](const Vec2& m) {
+    return std::sqrt(a * m.x() * (a * m.x()) + b * m.y() * (b * m.y()));
+  };
+  const auto slope = [&](const Vec2& m, double h) {
+    return y * m.x() - x * m.y() + focal * m.x() * m.y() / h;
+  };
+  if (n) {
+    const bool is_early = is_before(*n, arc.first), is_late = arc.last && is_before(*arc.last, *n);
+    const Vec2& m = is_early ? arc.first : is_late ? *arc.last : *n;
+    const double h = reach(m), cube = h * h * h, room = squared - depth * cube;  // (ρ − depth) h³
+    if (room > 0) {
+      const double up = slope(m, h);
+      if (is_early || is_late) return std::max(0.0, is_early ? up : -up) + rounding;
+      if (std::abs(up) <= rounding) return 2 * rounding;
+      // On an arc before m at least half of ρ − depth is left: ρ falls by no more than the part
+      // 3 (a² − b²) m_y / h² of itself per radian.
+      const double steepest = std::abs(up) + rounding, rest = room / (2 * squared);  // of ρ
+      const double fall = 3 * focal * m.y(), needed = steepest * cube * fall;
+      constexpr double wide = 1.5, chord = 0.45;  // sin(w / 2) >= 0.45 w
+      const bool is_held = chord * squared * rest * std::min(wide * fall, rest * h * h) > needed;
+      return (is_held ? steepest * steepest * cube / room : steepest) + rounding;
+    }
+  }
+  // Where W falls so steeply at the first normal, it stays below zero whatever ρ is.
+  const double h_first = reach(arc.first), up = slope(arc.first, h_first);
+  if (up + std::max(0.0, depth - squared / (h_first * h_first * h_first)) <= 0) return rounding;
+  // Where ρ is the depth but for rounding, or the end of the arc that is next to there.
+  const double h = depth > 0 ? std::min(a, std::cbrt(squared / depth)) : a;
+  const double cosine = h > b ? std::sqrt((h - b) * (h + b) / focal) : 0;
+  const Vec2 even(cosine, std::sqrt(std::max(0.0, (1 - cosine) * (1 + cosine))));
+  const double all_rounding = rounding + 24 * unit_roundoff * std::abs(depth);
+  if (arc.last && is_before(*arc.last, even)) return all_rounding;
+  const Vec2& m = is_before(even, arc.first) ? arc.first : even;
+  const double h_there = reach(m), gap = x * m.x() + y * m.y() - h_there;
+  return std::max(0.0, gap + depth) + std::max(0.0, slope(m, h_there)) + all_rounding;
 }
 
 }  // namespace touchstone

@@ -52,6 +52,8 @@ struct FoldedAxes {
 
   Vec3 to_world(const Vec3& n) const { return n.x() * e1 + n.y() * e2 + n.z() * e3; }
   Vec3 d() const { return {d1, d2, d3}; }
+  /// How far c² + s² is from one: the axes' lengths are rounded.
+  double unit_error() const { return std::abs(c * c + s * s - 1); }
   /// Along u2, and across it within the plane of the axes (k2 = −s e1 + c e2).
   double along_u2(const Vec3& v) const { return c * v.x() + s * v.y(); }
   double along_k2(const Vec3& v) const { return c * v.y() - s * v.x(); }

@@ -18,12 +18,18 @@ inline double without_vanishing(double offset) {
 /// A `stop_above` for the largest clearance, and no other.
 inline constexpr double no_early_exit = std::numeric_limits<double>::infinity();
 
-/// Rounding moves a clearance, of bodies as they are stored, by less than this part of all lengths
-/// together: each of its terms is rounded by a few units in the last place.
-inline constexpr double rounding_part = 16 * std::numeric_limits<double>::epsilon();
+/// A sum, product, quotient or square root is rounded by at most this part of itself.
+inline constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
 
-/// Rounding moves a point of a body, and with it a proof, by less than this part of them.
-inline constexpr double proof_part = rounding_part / 4;
+/// Rounding moves a clearance, of bodies as they are given, by at most this part of all lengths
+/// together (proofs.md, "Rounding of a certified distance").
+inline constexpr double rounding_part = 64 * unit_roundoff;
+
+/// Gaps that differ by this part of all lengths together may be one.
+inline constexpr double tie_part = 2 * unit_roundoff;
+
+/// What early exits leave for the rounding of a point of a body: this part of all lengths together.
+inline constexpr double proof_part = 8 * unit_roundoff;
 
 /// What rounding leaves of a clearance is far less than this part of all lengths together. No
 /// answer may hang on what it makes of a touch, so a normal that is not always tried must part the

@@ -13,9 +13,9 @@ struct Size {
   double r, h;
 };
 
-/// Vector from B's to A's point of two that are near each other, by alternating projections, in the
-/// folded frame.
-Vec3 facing_points(const FoldedAxes& f, const Size& a, const Size& b) {
+/// Vector from B's to A's point of two that are near each other, by so many rounds of alternating
+/// projections, in the folded frame.
+Vec3 facing_points(const FoldedAxes& f, const Size& a, const Size& b, int rounds = 2) {
   const auto nearest = [](const Size& s, const Vec3& x) -> Vec3 {
     const double squared = x.y() * x.y() + x.z() * x.z();
     const double scale = squared > s.r * s.r ? s.r / std::sqrt(squared) : 1;
@@ -27,7 +27,6 @@ Vec3 facing_points(const FoldedAxes& f, const Size& a, const Size& b) {
   };
   const Vec3 d = f.d();
   Vec3 on_a = d, on_b = Vec3::Zero();
-  constexpr int rounds = 2;
   for (int i = 0; i < rounds; ++i) {
     on_b = from_b(nearest(b, to_b(on_a)));
     on_a = d + nearest(a, on_b - d);
@@ -160,7 +159,7 @@ bool offer_where_likely(const FoldedCylinders& pair, const Rims& rims, double st
   best.offer(there.gap, there.normal);
   // Along axes that are parallel but for rounding the best one may be as good.
   return best.gap > stop_above ||
-         (found.maximum && there.gap >= before - rounding_part / 16 * pair.lengths() &&
+         (found.maximum && there.gap >= before - tie_part * pair.lengths() &&
           is_largest(pair, found, there));
 }
 
@@ -172,17 +171,19 @@ bool offer_where_likely(const FoldedCylinders& pair, const Rims& rims, double st
 /// search of rims"). An arc for which all bounds fail down to `min_half_width` counts as unproven.
 ///
 /// `limit` is an upper bound of the bodies' distance, and is lowered on the way; `least_depth` a
-/// lower bound of their depth, not positive where nothing is known.
+/// lower bound of their depth, not positive where nothing is known. A depth that is less than the
+/// best one by no more than what is `negligible` is not looked for.
 class RimScan {
  public:
   RimScan(const FoldedCylinders& pair, const Rims& rims, double& limit, double least_depth,
-          LargestGap& best)
+          double negligible, LargestGap& best)
       : pair_(pair),
         rims_(rims),
         limit_(limit),
         least_depth_(least_depth),
         best_(best),
-        noise_(rims.margin()) {}
+        noise_(rims.margin() + clearance_part * pair.lengths()),
+        negligible_(std::max(noise_, negligible)) {}
 
   void scan(const Range& cosines) {
     // The ends of the range are rounded, and a minimum may lie at one of them.
@@ -195,16 +196,21 @@ class RimScan {
     for (double i = 0.5; i < pieces; ++i) search(arc({from + i * 2 * half.radians}, half));
   }
 
-  /// By how much the largest gap where these rims meet may exceed the best one, but for rounding;
-  /// zero where the search is proven complete.
-  double unproven() const { return unproven_; }
+  /// No gap of bodies that overlap and meet at these rims is larger than this or than the best one.
+  double highest() const { return highest_ + rims_.distance_rounding(); }
+  /// Whether these rims may be where bodies meet that are apart.
+  bool may_be_apart() const { return may_be_apart_; }
 
  private:
   static constexpr double min_half_width = 1e-8;  // rad
-  static constexpr double small_step = 1e-9;      // rad; its square is below rounding
+  // The bounds hold on a little more than each arc: angles are rounded as they are bisected.
+  static constexpr double overlap = 1 + 1e-5;
+  // Of all lengths: what `limit_`, gaps and the place of rim 2's centre are rounded.
+  static constexpr double clearance_part = 24 * unit_roundoff;
+  static constexpr double small_step = 1e-9;  // rad; its square is below rounding
   // What is left after so many samples is divided only so far that on each arc rim 1, and rim 2's
   // nearest point about axis 2, go on by no more than this.
-  static constexpr int max_samples = 20000;
+  static constexpr int max_samples = 20000, last_sample = 3 * max_samples;
   static constexpr double coarse_way = 2e-3, coarse_turn = 0.05;  // rad
 
   /// With its cosine and sine: those of a bisected arc cost less than new ones.
@@ -217,9 +223,11 @@ class RimScan {
       const double c = std::sqrt((1 + cosine) / 2);
       return {radians / 2, c, sine / (2 * c)};
     }
+    /// The cosine and sine are of a unit vector again, to rounding.
     Angle operator+(const Angle& x) const {
-      return {radians + x.radians, cosine * x.cosine - sine * x.sine,
-              sine * x.cosine + cosine * x.sine};
+      const double c = cosine * x.cosine - sine * x.sine, s = sine * x.cosine + cosine * x.sine;
+      const double scale = 1.5 - 0.5 * (c * c + s * s);
+      return {radians + x.radians, scale * c, scale * s};
     }
     Angle operator-() const { return {-radians, cosine, -sine}; }
   };
@@ -232,10 +240,13 @@ class RimScan {
   }
 
   /// Whether a largest gap can have such a distance: the bodies overlap by less than the best depth
-  /// or are no further apart than `limit_`, and overlap by no less than `least_depth_`.
-  bool matters(double min_distance, double max_distance) const {
-    return (min_distance - noise_ <= limit_ || min_distance + noise_ < -best_.gap) &&
-           max_distance + noise_ >= least_depth_;
+  /// or are no further apart than `limit_`, and overlap by no less than `least_depth_`. A depth
+  /// that is less than the best one by rounding does not matter, but counts.
+  bool matters(double min_distance, double max_distance) {
+    if (!(max_distance + noise_ >= least_depth_)) return false;
+    if (min_distance - noise_ <= limit_ || min_distance + negligible_ < -best_.gap) return true;
+    highest_ = std::max(highest_, -min_distance);
+    return false;
   }
 
   /// Whether the rims may meet on the arc, overlapping or, where the bodies may be apart, apart.
@@ -244,26 +255,35 @@ class RimScan {
            (least_depth_ <= 0 && rims_.may_meet(middle, 1, half_width, passage));
   }
 
-  /// An arc up to `half` from its middle, with bounds on all of it.
+  /// An arc up to `half` from its middle, with bounds on all of it and a little more.
   struct Arc {
     Angle angle, half;
+    double half_width;
     RimSample middle;
     Passage passage;
     double bend, change;
   };
   Arc arc(const Angle& angle, const Angle& half) {
     const RimSample middle = at(angle);
-    const Passage passage = rims_.passage(middle, half.radians);
-    const double bend = rims_.max_bend(middle, half.radians, passage);
-    return {angle,   half, middle,
-            passage, bend, (std::abs(middle.curvature) + bend / 2) * half.radians};
+    const double half_width = overlap * half.radians;
+    const Passage passage = rims_.passage(middle, half_width);
+    const double bend = rims_.max_bend(middle, half_width, passage);
+    const double bends = (bend + passage.rounding_of_curvature) / 2;
+    return {angle,
+            half,
+            half_width,
+            middle,
+            passage,
+            bend,
+            (std::abs(middle.curvature) + bends) * half_width};
   }
 
   void search(const Arc& x) {
-    const double reach = rims_.radius1() * x.half.radians;
+    const double reach = rims_.radius1() * x.half_width;
     if (!matters(x.middle.distance - reach, x.middle.distance + reach)) return;
-    if (std::abs(x.middle.slope) > x.change + noise_) return;  // no stationary distance
-    if (is_decided(x.middle, x.half.radians, x.passage, x.bend, x.change)) return;
+    // No stationary distance? Next to axis 2 the change is infinite.
+    if (std::abs(x.middle.slope) > x.change + x.passage.rounding) return;
+    if (is_decided(x.middle, x.half_width, x.passage, x.bend, x.change)) return;
     // Both before either is searched: the processor computes them at once.
     const Angle quarter = x.half.half();
     const Arc left = arc(x.angle + -quarter, quarter), right = arc(x.angle + quarter, quarter);
@@ -278,17 +298,18 @@ class RimScan {
     if (least_depth_ > 0 && rims_.points_inward(middle, half_width, passage)) return true;
     if (!may_meet(middle, half_width, passage)) return true;
     const double slope = std::abs(middle.slope), way = rims_.radius1() * half_width;
-    const double reach =
-        std::min(way, reach_of_squares(middle.distance, (slope + change / 2) * way));
+    const double reach = std::min(
+        way, reach_of_squares(middle.distance, (slope + passage.rounding + change / 2) * way));
     if (!matters(middle.distance - reach, middle.distance + reach)) return true;
-    const bool has_one_distance = slope + change <= noise_ && reach <= noise_;
+    const bool has_one_distance =
+        reach <= noise_ && (slope + change <= noise_ || !(passage.min_radial > 0));
     if (!has_one_distance) {
       if (middle.curvature > bend) {
-        converge(middle, half_width, middle.curvature - bend);
+        converge(middle, half_width, middle.curvature - bend, passage.rounding);
         return true;
       }
       if (rims_.has_only_maxima_beside_axis(middle, half_width, passage)) return true;
-      if (half_width > min_half_width &&
+      if (half_width > min_half_width && samples_ <= last_sample &&
           (samples_ <= max_samples || !is_coarse(half_width, passage)))
         return false;
       offer_lowest(middle, half_width);
@@ -325,16 +346,18 @@ class RimScan {
   }
 
   /// The distance is convex on the arc: Newton's method finds the one minimum or leaves the arc.
-  void converge(const RimSample& middle, double half_width, double min_curvature) {
-    const double fall = rims_.radius1() * middle.slope * middle.slope / min_curvature;
+  /// Slopes on it are rounded by at most `rounding`.
+  void converge(const RimSample& middle, double half_width, double min_curvature, double rounding) {
+    const double steepest = std::abs(middle.slope) + rounding;
+    const double fall = rims_.radius1() * steepest * steepest / min_curvature;
     const double squared = middle.distance * middle.distance - fall;
     if (squared > 0 && !matters(std::sqrt(squared), middle.distance)) return;
     double lo = middle.angle - half_width, hi = middle.angle + half_width;
     const RimSample x = stationary_between(middle, lo, hi);
     // Beyond an end of the arc the minimum is the neighbouring arc's.
-    if (!(lo < hi) && std::abs(x.slope) > noise_) return;
+    if (!(lo < hi) && std::abs(x.slope) > rounding) return;
     // The minimum is as near as the least curvature between it and x tells.
-    const double slope = std::abs(x.slope) + noise_;
+    const double slope = std::abs(x.slope) + rounding;
     double curvature = min_curvature;
     if (const double width = slope / min_curvature; width < half_width) {
       curvature =
@@ -350,10 +373,9 @@ class RimScan {
     const double nearest = std::max({x.distance - reach, least_depth_, 0.0});
     offer(x);
     const Passage passage = rims_.passage(x, turn);
-    if (rims_.may_meet(x, -1, turn, passage)) count_unproven(-nearest);
-    if (least_depth_ <= 0 && rims_.may_meet(x, 1, turn, passage)) count_unproven(limit_);
+    if (rims_.may_meet(x, -1, turn, passage)) highest_ = std::max(highest_, -nearest);
+    if (least_depth_ <= 0 && rims_.may_meet(x, 1, turn, passage)) may_be_apart_ = true;
   }
-  void count_unproven(double gap) { unproven_ = std::max(unproven_, gap - best_.gap - noise_); }
   /// How far a distance can be from this one when half their squares differ by at most `change`.
   static double reach_of_squares(double distance, double change) {
     const double least = std::max(0.0, distance * distance - 2 * change);
@@ -387,24 +409,28 @@ class RimScan {
   double& limit_;
   double least_depth_;
   LargestGap& best_;
-  double noise_;
+  double noise_, negligible_;
   int samples_ = 0;
-  double unproven_ = 0;
+  double highest_ = -std::numeric_limits<double>::infinity();
+  bool may_be_apart_ = false;
 };
 
 /// What is known of the bodies' distance before their rims are searched.
 struct DistanceBounds {
   double rounding;
   double least_depth;  ///< They overlap by no less; not positive where nothing is known.
-  double limit;        ///< They are no further apart.
+  double limit;        ///< They are no further apart, but for rounding.
 
   explicit DistanceBounds(const FoldedCylinders& pair)
-      : rounding(2e-16 * (pair.axes.d().norm() + pair.h1 + pair.h2 + pair.r1 + pair.r2)),
+      : rounding((points_part + pair.axes.unit_error()) * pair.lengths()),
         least_depth(overlap_of_balls(pair) - rounding),
         limit(least_depth > 0
                   ? 0
                   : facing_points(pair.axes, {pair.r1, pair.h1}, {pair.r2, pair.h2}).norm()) {}
   double highest_gap() const { return least_depth > 0 ? -least_depth : limit; }
+
+ private:
+  static constexpr double points_part = 20 * unit_roundoff;  // proofs.md
 };
 
 // Tilts that only rounding makes cost no more than rounding.
@@ -426,28 +452,59 @@ void offer_rim_rim_normals(const FoldedCylinders& pair, double stop_above, Large
       const Rims rims(pair, end1, end2);
       const Range useful = rims.useful_cosines(best.gap, bounds.highest_gap());
       if (useful.empty()) continue;
-      RimScan(pair, rims, bounds.limit, bounds.least_depth, best).scan(useful);
+      RimScan(pair, rims, bounds.limit, bounds.least_depth, 0, best).scan(useful);
       // Apart by the gap, with points no further apart: nothing is better.
-      if (best.gap > stop_above || best.gap >= bounds.limit - bounds.rounding) return;
+      if (best.gap > stop_above || best.gap >= bounds.limit - tie_part * pair.lengths()) return;
     }
   }
+}
+
+/// Whether the bodies overlap for certain: two points that are well within them by more than
+/// rounding are no further apart than that.
+bool overlap_for_certain(const FoldedCylinders& pair, double rounding) {
+  const double within = 4 * rounding;
+  if (!(std::min({pair.r1, pair.h1, pair.r2, pair.h2}) > within)) return false;
+  const Size a{pair.r1 - within, pair.h1 - within}, b{pair.r2 - within, pair.h2 - within};
+  for (const int rounds : {2, 20}) {
+    if (facing_points(pair.axes, a, b, rounds).norm() <= within) return true;
+  }
+  return false;
 }
 
 double search_all_rims(const FoldedCylinders& pair, LargestGap& best) {
   offer_parallel_rim_normal(pair, best);
   if (pair.axes.s <= parallel) return 0;
   DistanceBounds bounds(pair);
-  double unproven = 0;
+  const double negligible = rounding_part * pair.lengths();
+  double highest = best.gap;
+  bool may_be_apart = false;
   for (const double end1 : {1.0, -1.0}) {
     for (const double end2 : {1.0, -1.0}) {
       const Rims rims(pair, end1, end2);
       offer_where_likely(pair, rims, no_early_exit, best);
-      RimScan scan(pair, rims, bounds.limit, bounds.least_depth, best);
+      RimScan scan(pair, rims, bounds.limit, bounds.least_depth, negligible, best);
       scan.scan({-1, 1});
-      unproven = std::max(unproven, scan.unproven());
+      highest = std::max(highest, scan.highest());
+      may_be_apart = may_be_apart || scan.may_be_apart();
     }
   }
-  return unproven;
+  if (may_be_apart && !(best.gap < 0 && overlap_for_certain(pair, bounds.rounding))) {
+    highest = std::max(highest, bounds.limit + bounds.rounding);
+  }
+  return std::max(0.0, highest - best.gap);
+}
+
+bool is_proven_where_rims_meet(const FoldedCylinders& pair, const LargestGap& best) {
+  const double end1 = std::copysign(1, best.normal.x());
+  const Rims rims(pair, end1, std::copysign(1, pair.axes.along_u2(best.normal)));
+  for (const Vec3& n : {best.normal, rims.polished(best.normal).normal}) {
+    const LargestGap there{pair.gap(n), n};
+    if (there.gap >= best.gap - tie_part * pair.lengths() &&
+        is_largest(pair, {n, true, rims.slope_at(n)}, there)) {
+      return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace touchstone

@@ -102,6 +102,8 @@ struct Passage {
   // Valid where min_radial is positive:
   double inverse_radial;  ///< 1 / min_radial
   double turn;            ///< bound of the speed of turning about axis 2
+  double rounding;        ///< of a slope or a difference of points, at most
+  double rounding_of_curvature;
   double wave;        ///< the same for the squared distance from axis 2 of nearly concentric rims
   double max_rate;    ///< bound of the distance's first derivative
   double max_second;  ///< bound of its second derivative
@@ -128,6 +130,7 @@ class Rims {
     const FoldedAxes& f = pair.axes;
     q_ = f.d() - end1 * pair.h1 * Vec3(1, 0, 0) - end2 * pair.h2 * Vec3(f.c, f.s, 0);
     size_ = pair.r1 + pair.r2 + q_.norm();
+    margin_ = (margin_part + 2.5 * f.unit_error()) * size_;
     const double k = f.along_k2(q_), lean = f.s * pair.r1;
     amplitude_ = 2 * pair.r1 * std::sqrt(k * k + q_.z() * q_.z()) + 4 * lean * lean;
     inverse_r1_ = 1 / pair.r1;
@@ -220,6 +223,12 @@ class Rims {
     return {n, converged && outward, slope};
   }
 
+  /// Bound of the gap's derivative along the sphere at a unit n, rounding included.
+  double slope_at(const Vec3& n) const {
+    const Vec3 residual = between_points(n);
+    return (residual - residual.dot(n) * n).norm() + margin_;
+  }
+
   /// Whether G has a maximum at the axis that n leans away from, the first or the second: there the
   /// own rim holds its place against the slope of all else, which is as long as its radius at most.
   bool is_maximum_at_axis(const Vec3& n, bool first) const {
@@ -233,13 +242,7 @@ class Rims {
   }
 
   /// Distance of the rims' points at a normal: the bodies are no further apart.
-  double distance_at(const Vec3& n) const {
-    const double c = pair_.axes.c, s = pair_.axes.s, m = c * n.y() - s * n.x();
-    const double k1 = pair_.r1 / std::sqrt(n.y() * n.y() + n.z() * n.z());
-    const double k2 = pair_.r2 / std::sqrt(m * m + n.z() * n.z());
-    return Vec3(q_.x() + k2 * s * m, q_.y() - k1 * n.y() - k2 * c * m, q_.z() - (k1 + k2) * n.z())
-        .norm();
-  }
+  double distance_at(const Vec3& n) const { return between_points(n).norm(); }
 
   /// Normal, of any length, across both rims' tangents where each of these rims crosses the other's
   /// cap. The rims meet there but for parts of the order of the gap.
@@ -256,10 +259,10 @@ class Rims {
     if (!(p.min_radial > 0)) return true;
     const double c = pair_.axes.c, moved = p.max_rate * half_width;
     const double turn = half_width * p.turn;  // of rim 2's point, at most
-    const double slack = half_width + turn + margin() * p.inverse_radial;
+    const double slack = half_width + turn + margin_ * p.inverse_radial;
     const double error = pair_.axes.s * pair_.r1 * half_width + moved +
                          (std::abs(x.radial - pair_.r2) + moved) * turn + x.distance * half_width +
-                         margin();
+                         p.rounding;
     const double along1 = c * x.cos1 * x.sin2 - x.sin1 * x.cos2;
     const double along2 = x.cos1 * x.sin2 - c * x.sin1 * x.cos2;
     const double outward1 = x.apart.y() * x.cos1 + x.apart.z() * x.sin1;
@@ -285,9 +288,11 @@ class Rims {
     Passage p;
     p.min_speed = r1 * (std::max(one, two) - half_width);
     p.max_speed = r1 * std::min(1.0, one + two + half_width);
-    p.min_radial = x.radial - p.max_speed * half_width;
-    p.max_radial = x.radial + p.max_speed * half_width;
+    p.min_radial = x.radial - p.max_speed * half_width - margin_;
+    p.max_radial = x.radial + p.max_speed * half_width + margin_;
     p.inverse_radial = 1 / p.min_radial;
+    p.rounding = margin_ * (1 + 0.27 * pair_.r2 * p.inverse_radial);
+    p.rounding_of_curvature = p.rounding * (1.12 + 2.8 * r1 * p.inverse_radial);
     p.turn = p.max_speed * p.inverse_radial;
     p.wave = amplitude_ * p.inverse_radial * p.inverse_radial;
     const double rate = r1 * std::abs(c * x.cos2 * x.sin1 - x.sin2 * x.cos1);
@@ -313,18 +318,16 @@ class Rims {
   /// where the arc may cross axis 2.
   double max_bend(const RimSample& x, double half_width, const Passage& p) const {
     if (!(p.min_radial > 0)) return std::numeric_limits<double>::infinity();
-    const double part = pair_.r1 * p.inverse_radial;
-    const double conditioning = 1 + part + part * pair_.r2 * p.inverse_radial;
-    return max_third_derivative(x, half_width, p) * half_width + margin() * conditioning;
+    return max_third_derivative(x, half_width, p) * half_width + p.rounding_of_curvature;
   }
 
   /// Whether every stationary distance on the arc is a maximum, because rim 1 passes so close to
   /// axis 2 that rim 2's nearest point turns about it.
   bool has_only_maxima_beside_axis(const RimSample& x, double half_width, const Passage& p) const {
     const double s = pair_.axes.s, r1 = pair_.r1, r2 = pair_.r2;
-    const double max_radial = p.max_radial + margin(), inside = r2 - max_radial;
+    const double max_radial = p.max_radial, inside = r2 - max_radial;
     if (!(inside > 0 && p.min_speed > 0)) return false;
-    const double max_height = std::abs(x.height) + s * r1 * half_width + margin();
+    const double max_height = std::abs(x.height) + s * r1 * half_width + margin_;
     const double max_rise = s * r1 * std::min(1.0, std::abs(x.sin1) + half_width);
     const double along = max_height * max_rise / inside;
     const double across_squared = p.min_speed * p.min_speed - along * along;
@@ -336,15 +339,27 @@ class Rims {
   /// There `apart` is −δ n, and along axis 1 only rim 2's point moves, by s r2 dβ.
   bool points_inward(const RimSample& middle, double half_width, const Passage& p) const {
     const double change = pair_.axes.s * pair_.r2 * p.turn * half_width;
-    return p.min_radial > 0 && end1_ * middle.apart.x() > change + 4 * noise();
+    return p.min_radial > 0 && end1_ * middle.apart.x() > change + p.rounding;
   }
 
-  /// Rounding of a slope, also of a length.
+  /// What rounding mostly leaves of a slope, or of a length.
   double noise() const { return 2e-16 * size_; }
-  /// Margin that proofs leave for it.
-  double margin() const { return 8 * noise(); }
+  /// Bound of what `at` rounds a slope, a curvature and a difference of points, where the rim is
+  /// not next to axis 2: `Passage::rounding` is it where it is (proofs.md, "Rounding of a certified
+  /// distance").
+  double margin() const { return margin_; }
+  /// Bound of what it rounds a distance.
+  double distance_rounding() const { return margin_ / 2; }
 
  private:
+  /// From rim 2's point at a normal to rim 1's.
+  Vec3 between_points(const Vec3& n) const {
+    const double c = pair_.axes.c, s = pair_.axes.s, m = c * n.y() - s * n.x();
+    const double k1 = pair_.r1 / std::sqrt(n.y() * n.y() + n.z() * n.z());
+    const double k2 = pair_.r2 / std::sqrt(m * m + n.z() * n.z());
+    return {q_.x() + k2 * s * m, q_.y() - k1 * n.y() - k2 * c * m, q_.z() - (k1 + k2) * n.z()};
+  }
+
   /// `crossing_normal` of nearly parallel axes, where the rims cross as seen along the axes.
   std::optional<Vec3> crossing_along_axes() const;
 
@@ -355,9 +370,11 @@ class Rims {
   Range cosines_at_height(double depth, double limit) const;
 
   const FoldedCylinders& pair_;
+  static constexpr double margin_part = 34 * unit_roundoff;  // proofs.md
+
   double end1_, end2_;
   Vec3 q_;
-  double size_;
+  double size_, margin_;
   double amplitude_;  ///< bound of each derivative of the squared distance of rim 1 from axis 2
   double inverse_r1_;
 };
@@ -373,8 +390,11 @@ class Rims {
 void offer_rim_rim_normals(const FoldedCylinders& pair, double stop_above, LargestGap& best);
 
 /// Searches the rims of all four pairs of ends, whatever is known of them. Returns by how much the
-/// largest gap where rims meet may exceed the best one, but for rounding: zero where the search is
-/// proven complete.
+/// largest gap where rims meet may exceed the best one at most, rounding of the search included.
 double search_all_rims(const FoldedCylinders& pair, LargestGap& best);
+
+/// Whether rims meet at the best normal in a way that proves it the largest gap of all, but for
+/// rounding.
+bool is_proven_where_rims_meet(const FoldedCylinders& pair, const LargestGap& best);
 
 }  // namespace touchstone

@@ -108,7 +108,7 @@ void judge_derivation(const RawArc& x, Real angle, Real half_width,
   const Real sine = std::min<Real>(0.5L, std::abs(std::sin(angle)) + half_width);
   const Real derivative =
       s * (max_height + 3 * s * r1 * sine) + (beside * third + 3 * rate * second) / r1;
-  const Real noise = 1.6e-15L * size * (1 + r1 / radial + r1 * r2 / (radial * radial));
+  const Real noise = 3.77e-15L * size * (1 + 0.27L * r2 / radial) * (1.12L + 2.8L * r1 / radial);
   expect(x.turn >= digits * turn && x.max_second >= digits * second - 1e-15L * size &&
              x.max_rate >= digits * rate - 1e-15L * size,
          ArcCheck::derivatives);
