@@ -209,7 +209,10 @@ Trajectory DisturbedScene::turned_back(const Trajectory& run) const {
           back * s.angular_velocity};
     }
   }
-  for (JudgedAnswer& a : result.answers) a.a = origin[a.a], a.b = origin[a.b];
+  for (JudgedAnswer& a : result.answers) {
+    a.a = origin[a.a], a.b = origin[a.b];
+    if (a.wrong_normal) a.wrong_normal = back * *a.wrong_normal;
+  }
   return result;
 }
 

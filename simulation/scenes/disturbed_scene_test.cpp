@@ -45,13 +45,14 @@ TEST(DisturbedScenes, TurnedBackAreTheSceneButForASmallShiftTurnAndKickOfWhatMov
     EXPECT_NEAR(disturbed.scene.gravity.norm(), 9.81, 1e-12);
     Trajectory start;
     start.frames.emplace_back();
-    start.answers = {{0, 1, 2, 0.01, TS_CONTACT, -0.01, 3.0, 1}};
+    start.answers = {{0, 1, 2, 0.01, TS_CONTACT, -0.01, disturbed.scene.gravity, 1}};
     for (const Body& b : disturbed.scene.bodies) {
       start.frames[0].push_back({b.pose, b.velocity, b.angular_velocity});
     }
     const Trajectory back = disturbed.turned_back(start);
     EXPECT_EQ(back.answers[0].a, disturbed.origin[1]);
     EXPECT_EQ(back.answers[0].b, disturbed.origin[2]);
+    EXPECT_LT((*back.answers[0].wrong_normal - scene.gravity).norm(), 1e-12);
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
       const BodyState& s = back.frames[0][i];
       const Pose& written = scene.bodies[i].pose;

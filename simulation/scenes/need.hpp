@@ -9,6 +9,8 @@
 
 namespace touchstone {
 
+double degrees_between(const Vec3& u, const Vec3& v);
+
 /// Outcome of a need in one run.
 struct Verdict {
   double value;  ///< measured, in the unit of the limit; not finite if the run is not sound

@@ -47,6 +47,9 @@ BodyState tilted(double degrees, const Vec3& position = Vec3::Zero()) {
           Vec3::Zero()};
 }
 
+/// A direction that leans from the vertical.
+Vec3 upright(double degrees) { return {0, std::sin(degrees * degree), std::cos(degrees * degree)}; }
+
 Verdict judged(const std::string& need, const Trajectory& run, const Trajectory& exact) {
   const SceneFile file = scene_with(need);
   return file.needs[0]->judge({file.scene, run, exact});
@@ -128,9 +131,9 @@ TEST(Needs, FallsInOrderCountsThoseOutOfPlace) {
 
 TEST(Needs, PenetrationAndNormalsAreOfThePairThatTheyName) {
   Trajectory run = still;
-  run.answers = {{2, 1, 0, 0.01, TS_CONTACT, -0.01, 3.0, 1},
+  run.answers = {{2, 1, 0, 0.01, TS_CONTACT, -0.01, upright(3), 1},
                  {4, 1, 2, 0.02, TS_NONE, 0, std::nullopt, 0},
-                 {6, 1, 0, 0.03, TS_CONTACT, -0.01, 7.0, 1}};
+                 {6, 1, 0, 0.03, TS_CONTACT, -0.01, upright(7), 1}};
   EXPECT_EQ(judged(R"("need":"penetration","metres":0.005)", run).value, 0.03);
   EXPECT_NEAR(judged(R"("need":"penetration","metres":0.005)", run).time, 0.2, 1e-9);
   EXPECT_EQ(judged(R"("need":"penetration","bodies":["pot","can"],"metres":0.005)", run).value,
@@ -138,8 +141,20 @@ TEST(Needs, PenetrationAndNormalsAreOfThePairThatTheyName) {
   EXPECT_EQ(
       judged(R"("need":"penetration","bodies":["can","pot"],"metres":0.005,"from":0.5)", run).value,
       0);
-  EXPECT_EQ(judged(R"("need":"normals","bodies":["ground","can"],"degrees":5)", run).value, 7);
+  EXPECT_NEAR(judged(R"("need":"normals","bodies":["ground","can"],"degrees":5)", run).value, 7,
+              1e-9);
   EXPECT_EQ(judged(R"("need":"normals","bodies":["can","pot"],"degrees":5)", run).value, 0);
+}
+
+// Out of a cylinder around the same axis every way across it is as short as any other.
+TEST(Needs, AnglesOfNormalsAreToTheNearestOfAFamily) {
+  for (int turn = 0; turn < 360; turn += 45) {
+    Trajectory run = still;
+    const Vec3 off(Eigen::AngleAxisd(turn * degree, Vec3::UnitZ()) * upright(87));
+    run.answers = {{2, 1, 2, 0.2, TS_CONTACT, -0.2, off, 1}};
+    const Verdict verdict = judged(R"("need":"normals","bodies":["can","pot"],"degrees":5)", run);
+    EXPECT_NEAR(verdict.value, 3, 1e-9) << turn;
+  }
 }
 
 TEST(Needs, EndsAreHeldAgainstTheExactRun) {

@@ -59,10 +59,7 @@ class JudgedModel : public ContactModel {
     judged.points = answer.point_count;
     const Vec3 normal(answer.normal);
     const double regret = truth.value - gap(c, normal);
-    const double sine = normal.cross(truth.normal).norm(), cosine = normal.dot(truth.normal);
-    judged.normal_angle = regret < equal_regret * smaller_size(c)
-                              ? 0
-                              : std::atan2(sine, cosine) * 180 / std::numbers::pi;
+    if (!(regret < equal_regret * smaller_size(c))) judged.wrong_normal = normal;
     return judged;
   }
 

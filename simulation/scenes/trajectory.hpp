@@ -12,7 +12,7 @@
 namespace touchstone {
 
 /// Normal regret, as a share of the smaller size, below which a normal separates the bodies as well
-/// as the true one, and its angle does not count.
+/// as the true one, and is none that is wrong.
 inline constexpr double equal_regret = 1e-6;
 
 /// One answer of a contact model during a run, with its errors.
@@ -22,9 +22,8 @@ struct JudgedAnswer {
   double depth;  ///< true depth, metres; negative apart
   ts_status status;
   double signed_distance;  ///< as answered, metres; zero without a contact
-  /// Angle between the answered and the true normal, degrees; zero where the answered one separates
-  /// the bodies as well. Absent without a contact.
-  std::optional<double> normal_angle;
+  /// The answered normal, where it separates the bodies less than the true one does.
+  std::optional<Vec3> wrong_normal;
   int points;
 
   /// Error of the answered depth, metres; zero for bodies rightly found apart.
