@@ -25,7 +25,9 @@ std::string need_line(const SceneFile& file, const Spreads& spreads, std::size_t
                   n.text(file.scene), measured(verdict, n));
   if (!verdict.holds()) line += fmt::format(" at {:.2f} s", verdict.time);
   if (need < spreads.of_needs.size() && spreads.of_needs[need]) {
-    line += fmt::format(" (exact runs differ by {:.2g}{})", *spreads.of_needs[need], n.unit);
+    const double spread = *spreads.of_needs[need];
+    line += fmt::format(" (exact runs differ by {:.2g}{}{})", spread, n.unit,
+                        spread > verdict.limit ? ", as the disturbances carry them" : "");
   }
   return line + '\n';
 }

@@ -88,6 +88,13 @@ void require_angle(double degrees, double below) {
                      fmt::format("must be less than {:g}: no angle here is larger", below));
 }
 
+/// Only an exact run itself ends to the last bit where it does: it would be judged by itself.
+void require_positive(const char* member, double limit) {
+  if (limit > 0) return;
+  throw InvalidInput(member, "0",
+                     "must be positive: exact contacts alone end exactly where these do");
+}
+
 /// Between bodies that never touch nothing could be wrong.
 void require_touch(const Scene& scene, const std::vector<int>& bodies) {
   if (bodies.size() < 2 || Touching(scene)(bodies[0], bodies[1])) return;
@@ -153,7 +160,10 @@ struct Rolls : Need {
     members.positive("distance", distance);
     members.number("share", share);
   }
-  void check(const Scene& scene) const override { require_vertical(scene, name); }
+  void check(const Scene& scene) const override {
+    require_vertical(scene, name);
+    if (is_relative()) require_positive("share", share);
+  }
   bool is_relative() const override { return !distance; }
   std::string text(const Scene& scene) const override {
     return fmt::format("{} rolls {} within {:g}%", names(scene, bodies),
@@ -320,6 +330,7 @@ struct EndsNear : Need {
     members.body(bodies);
     members.number("metres", metres);
   }
+  void check(const Scene&) const override { require_positive("metres", metres); }
   bool is_relative() const override { return true; }
   std::string text(const Scene& scene) const override {
     return fmt::format("{} ends within {:g} m of the exact place", names(scene, bodies), metres);
@@ -340,7 +351,10 @@ struct EndsTilted : Need {
     members.body(bodies);
     members.number("degrees", degrees);
   }
-  void check(const Scene&) const override { require_angle(degrees, 180); }
+  void check(const Scene&) const override {
+    require_angle(degrees, 180);
+    require_positive("degrees", degrees);
+  }
   bool is_relative() const override { return true; }
   std::string text(const Scene& scene) const override {
     return fmt::format("{} ends within {:g}° of the exact tilt", names(scene, bodies), degrees);

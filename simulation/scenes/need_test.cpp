@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
+#include "reference/invalid_input.hpp"
 #include "simulation/scenes/scene_file.hpp"
 
 namespace touchstone {
@@ -155,6 +156,16 @@ TEST(Needs, AnglesOfNormalsAreToTheNearestOfAFamily) {
     const Verdict verdict = judged(R"("need":"normals","bodies":["can","pot"],"degrees":5)", run);
     EXPECT_NEAR(verdict.value, 3, 1e-9) << turn;
   }
+}
+
+// An exact run compared with itself meets any limit, and nothing else meets none.
+TEST(Needs, RelativeOnesAllowSomething) {
+  for (const char* need : {R"("need":"ends-near","body":"can","metres":0)",
+                           R"("need":"ends-tilted","body":"can","degrees":0)",
+                           R"("need":"rolls","body":"can","share":0)"}) {
+    EXPECT_THROW(scene_with(need), InvalidInput) << need;
+  }
+  EXPECT_NO_THROW(scene_with(R"("need":"rolls","body":"can","distance":1,"share":0)"));
 }
 
 TEST(Needs, EndsAreHeldAgainstTheExactRun) {
