@@ -225,6 +225,7 @@ SceneFile RobotOption::scene_of(const RobotFile& robot, const std::string& file)
 SceneFile RobotOption::scene_with_rolling_wheels(const std::string& file) {
   if (!is_robot_file(file) || !drives_.empty()) return scene(file);
   const RobotFile read = robot(file);
+  scene_of(read, file);  // sizes that are refused give no rate
   for (const auto& [joint, rate] : rolling_rates(read)) {
     drives_.push_back(fmt::format("{}={:.3g}", joint, rate));
   }

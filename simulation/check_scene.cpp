@@ -13,14 +13,13 @@ namespace {
 
 /// Bounds for moving bodies, metres and kg/m³, within which masses and moments of inertia keep all
 /// their digits.
-constexpr double min_half_width = 1e-6, min_density = 1e-6, max_density = 1e9;
+constexpr double min_half_width = 1e-6;
 /// Bound on the ratio of the smallest to the largest moment of inertia: that of a rod a million
 /// times as long as wide.
 constexpr double min_inertia_ratio = 1e-12;
 /// Bounds on the mass of a body whose inertia is given, kg, and on its largest moment, kg m²: about
 /// those of the smallest and the largest shapes.
 constexpr double min_mass = 1e-24, max_mass = 1e24, min_moment = 1e-36, max_moment = 1e36;
-constexpr double max_friction = 1e6;
 /// Seconds.
 constexpr double min_step = 1e-6, max_step = 1;
 /// Bounds on a quaternion's entries, whose squares must not overflow or vanish.

@@ -77,6 +77,9 @@ struct Scene {
 /// Bound on positions, speeds, angular speeds and gravity (m, m/s, rad/s, m/s²); a motion beyond it
 /// is no longer simulated.
 inline constexpr double max_in_world = 1e6;
+/// Densities of bodies that forces move, kg/m³.
+inline constexpr double min_density = 1e-6, max_density = 1e9;
+inline constexpr double max_friction = 1e6;  ///< Coulomb's coefficient
 
 /// Throws InvalidInput with the path of the field ("bodies[2].density") unless the scene can be
 /// simulated: ODE ends the process where a product of its inputs overflows or vanishes.

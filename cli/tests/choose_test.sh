@@ -28,6 +28,9 @@ for engine in "" "--engine bullet"; do
   # shellcheck disable=SC2086
   expect 2 'must be a robot or world .* with --drive' choose "$folder/bad.json" $engine --drive left_wheel=3
 done
+# Of a wheel that is refused there is no rate, which nobody gave.
+sed 's/radius="0.1"/radius="1e300"/' "$cart" >"$folder/huge.urdf"
+expect 2 'huge.urdf: link left\.' choose "$folder/huge.urdf"
 cp "$cart" "$folder/G.URDF"
 for command in choose render; do
   expect 2 "^error: scene is \".*G.URDF\": is XML: the name of a robot must end in .urdf" $command "$folder/G.URDF"

@@ -39,20 +39,18 @@ std::map<std::string, NamedMaterial> read_materials(const json& file) {
     require_object(value, path);
     refuse_others(value, {"density", "friction", "restitution"}, path);
     const Body defaults{"", Sphere(1)};
-    const auto get = [&](const char* field, double otherwise, double max) {
+    const auto get = [&](const char* field, double otherwise, double min, double max) {
       if (!value.contains(field)) return otherwise;
       const double x = number(value[field], path + '.' + field);
-      if (!(std::isfinite(x) && x >= 0 && x <= max)) {
-        throw InvalidInput(
-            path + '.' + field, shown(value[field]),
-            max == 1 ? "must lie between 0 and 1" : "must be finite and not negative");
+      if (!(x >= min && x <= max)) {
+        throw InvalidInput(path + '.' + field, shown(value[field]),
+                           fmt::format("must lie between {:g} and {:g}", min, max));
       }
       return x;
     };
-    constexpr double any = std::numeric_limits<double>::max();
-    result[name] = {{get("friction", defaults.material.friction, any),
-                     get("restitution", defaults.material.restitution, 1)},
-                    get("density", defaults.density, any)};
+    result[name] = {{get("friction", defaults.material.friction, 0, max_friction),
+                     get("restitution", defaults.material.restitution, 0, 1)},
+                    get("density", defaults.density, min_density, max_density)};
   }
   return result;
 }

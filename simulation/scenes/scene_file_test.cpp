@@ -88,7 +88,10 @@ TEST(SceneFile, ErrorsNameThePathOfTheField) {
   EXPECT_THAT(refusal_of_spoilt([](json& s) { s["materials"]["steel"]["restitution"] = 2; }),
               HasSubstr("materials.steel.restitution is 2: must lie between 0 and 1"));
   EXPECT_THAT(refusal_of_spoilt([](json& s) { s["materials"]["steel"]["friction"] = -1; }),
-              HasSubstr("steel.friction is -1: must be finite and not negative"));
+              HasSubstr("steel.friction is -1: must lie between 0 and 1e+06"));
+  // By the member that is in the file, not by that of the body which gets it.
+  EXPECT_THAT(refusal_of_spoilt([](json& s) { s["materials"]["steel"]["density"] = 0; }),
+              HasSubstr("materials.steel.density is 0: must lie between 1e-06 and 1e+09"));
   EXPECT_THAT(refusal_of_spoilt([](json& s) { s.erase("duration"); }),
               HasSubstr("duration is missing"));
   EXPECT_THAT(refusal_of_spoilt([](json& s) { s["step"] = 1e-6; }), HasSubstr("a million steps"));
