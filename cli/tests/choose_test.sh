@@ -74,9 +74,9 @@ expect 0 "render [^ ]*cart.urdf --drive 'left_wheel=3.14,right_wheel=3.14' --dur
 expect 0 '; driven: left_wheel=0$' choose "$cart" --drive left_wheel=0 --duration 0.1 "${brief[@]}" --out "$folder/cart"
 sed 's/type="continuous"/type="revolute"/; s/<axis xyz="0 0 1"\/>/&<limit lower="-1" upper="1" effort="9" velocity="9"\/>/' \
   "$cart" >"$folder/legs.urdf"
-expect 0 '; no joint is driven (--drive), of$' \
+expect 0 '; no joint is driven, and what rests needs$' \
   choose "$folder/legs.urdf" --duration 0.1 "${brief[@]}" --out "$folder/cart"
-also '^left_wheel, right_wheel$'
+also '^little: see --drive, of left_wheel, right_wheel$'
 expect 0 'cylinder .* on cylinder ' choose "$cart" --count 5 --candidates reference --out "$folder/cart"
 also "^Data: $folder/cart/choose.json"
 driven=(choose "$cart" --engine bullet --duration 0.1 --disturbances 1 --drive left_wheel=3 --out "$folder/cart")

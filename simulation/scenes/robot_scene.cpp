@@ -495,8 +495,10 @@ class SceneMaker {
     if (names.empty()) return "";
     const std::size_t more = names.size() - std::min(names.size(), max_shown);
     names.resize(names.size() - more);
-    return fmt::format("; {} {}{}", is_driven ? "driven:" : "no joint is driven (--drive), of",
-                       fmt::join(names, ", "), more > 0 ? fmt::format(" and {} more", more) : "");
+    return fmt::format(
+        "; {} {}{}",
+        is_driven ? "driven:" : "no joint is driven, and what rests needs little: see --drive, of",
+        fmt::join(names, ", "), more > 0 ? fmt::format(" and {} more", more) : "");
   }
 
   std::string description() const {

@@ -178,7 +178,8 @@ TEST(RollingRates, RollARobotForwardAndItsDescriptionSaysSo) {
   const RobotFile robot = read_robot(robot_scenes / "rover.urdf");
   RobotMotion motion;
   EXPECT_THAT(robot_scene(robot, motion).description,
-              HasSubstr("; no joint is driven (--drive), of front_left_wheel_joint, "));
+              HasSubstr("; no joint is driven, and what rests needs little: see --drive, of "
+                        "front_left_wheel_joint, "));
   motion.rates = rolling_rates(robot);
   EXPECT_EQ(motion.rates.size(), 4U);
   const SceneFile file = robot_scene(robot, motion);
