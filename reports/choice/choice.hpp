@@ -27,6 +27,13 @@ std::string need_line(const SceneFile& file, const Spreads& spreads, std::size_t
 /// A sentence for each need that exact runs do not decide.
 std::string undecidable_text(const Spreads& spreads);
 
+/// What the answer does that nobody asked for: the largest overlap, and how far bodies end from
+/// where they do with exact contacts.
+std::string unasked_text(const Choice& choice);
+/// Names the engines' routines that meet all needs in less of a step than the answer, if any: they
+/// are no models, and so no answer.
+std::string cheaper_routines(const Choice& choice);
+
 /// Limits on the errors of contacts between the shapes of a robot or world.
 struct PairNeeds {
   double depth = 1e-3;                  ///< error of the depth, metres; a missed contact counts

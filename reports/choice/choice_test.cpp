@@ -190,6 +190,10 @@ TEST(ChoiceText, SetsEnginesRoutinesApartFromModels) {
     ASSERT_TRUE(run.holds());
     EXPECT_FALSE(choice.has_models_alone(run));
     run.nanoseconds = run.solver_seconds = 0;
+    // Times of a run by itself are no others' times.
+    run.timing = 0;
+    EXPECT_EQ(cheaper_routines(choice), "");
+    run.timing = choice.runs[0].timing;
   }
   const std::string text = choice_text(choice, "out", 200);
   const auto at = [&](const char* part) { return text.find(part); };
@@ -203,6 +207,21 @@ TEST(ChoiceText, SetsEnginesRoutinesApartFromModels) {
     EXPECT_EQ(run["models_alone"], run["name"] != "ode");
   }
   EXPECT_THAT(choice_text(choice_of(stands), "out"), testing::Not(HasSubstr("outines")));
+}
+
+TEST(ChoiceText, OfTheUnaskedIsOfAllRunsOfTheAnswer) {
+  Choice choice = choice_of(stands);
+  choice.answer = 1;
+  choice.runs[1].straying = {0.25, 0.5, "can", 12, "can"};
+  choice.exact_spread = {0, 0.75, "", 8, ""};
+  const std::string unasked = unasked_text(choice);
+  EXPECT_THAT(unasked, HasSubstr("bodies overlap by up to 0.25 m (exact: "));
+  EXPECT_THAT(unasked,
+              HasSubstr("can ends up to 0.5 m from where it does with exact contacts under "
+                        "the same disturbance (exact runs differ by 0.75 m); can ends up "
+                        "to 12° from its tilt there (exact runs differ by 8°)."));
+  EXPECT_THAT(choice_text(choice, "out", 400), HasSubstr(unasked));
+  EXPECT_EQ(json::parse(choice_json(choice, "", "out"))["unasked"], unasked);
 }
 
 TEST(ChoiceText, AndJsonNameTheCommandThatMakesAFailureAgain) {

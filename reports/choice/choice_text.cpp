@@ -42,6 +42,52 @@ std::string undecidable_text(const Spreads& spreads) {
   return text;
 }
 
+std::string unasked_text(const Choice& choice) {
+  const Straying &s = choice.runs[choice.answer].straying, &apart = choice.exact_spread;
+  std::string text = fmt::format(
+      "Asked for or not, in all its runs: bodies overlap by up to {:.2g} m (exact: {:.2g} m)",
+      s.overlap, choice.runs[0].straying.overlap);
+  if (s.distance > 0) {
+    text += fmt::format(
+        "; {} ends up to {:.2g} m from where it does with exact contacts under the same "
+        "disturbance (exact runs differ by {:.2g} m)",
+        s.body, s.distance, apart.distance);
+  }
+  if (s.tilt > 0) {
+    text +=
+        fmt::format("; {} ends up to {:.2g}° from its tilt there (exact runs differ by {:.2g}°)",
+                    s.tilted_body, s.tilt, apart.tilt);
+  }
+  return text + '.';
+}
+
+namespace {
+
+/// The runs with one candidate for all pairs: of models, or of others.
+std::vector<const SceneRun*> uniform_runs(const Choice& choice, bool are_models) {
+  std::vector<const SceneRun*> result;
+  for (const SceneRun& run : choice.runs) {
+    const bool of_search = run.name.find(' ') != std::string::npos || run.name == "combination";
+    if (!of_search && choice.has_models_alone(run) == are_models) result.push_back(&run);
+  }
+  return result;
+}
+
+}  // namespace
+
+std::string cheaper_routines(const Choice& choice) {
+  const double limit = (1 - noise_of_step) * choice.runs[choice.answer].seconds();
+  std::vector<std::string> names;
+  for (const SceneRun* run : uniform_runs(choice, false)) {
+    if (run->timing > 0 && run->holds() && run->seconds() < limit) names.push_back(run->name);
+  }
+  if (names.empty()) return "";
+  return fmt::format(
+      "(Beside models: the routines of {} for the cylinder itself met all needs in the first runs, "
+      "and took less.)",
+      fmt::join(names, ", "));
+}
+
 namespace {
 
 /// "can stands within 0.5°: 12.3° at 0.71 s"
@@ -164,15 +210,7 @@ std::string times_of(const Choice& choice) {
       point ? fmt::format("; one costs it about {:.2g} µs", 1e6 * *point) : "",
       1e6 * choice.frame_seconds(answer),
       instead(" instead of {:.0f} µs", 1e6 * choice.frame_seconds(exact)));
-  if (!differs) return text;
-  const Straying& s = answer.straying;
-  text += fmt::format(
-      "Asked for or not: bodies overlap by up to {:.2g} m (exact: {:.2g} m){}.\n", s.overlap,
-      exact.straying.overlap,
-      s.distance > 0 ? fmt::format(", and {} ends {:.2g} m from where it does with exact contacts",
-                                   s.body, s.distance)
-                     : "");
-  return text;
+  return text + (differs ? unasked_text(choice) + '\n' : "");
 }
 
 std::string headline(const Choice& choice) {
@@ -195,30 +233,6 @@ std::string headline(const Choice& choice) {
   return fmt::format(
       "Exact: nothing cheaper that meets all needs saves more than {:.1f}% of a step:\n",
       std::ceil(10 * percent) / 10);
-}
-
-/// The runs with one candidate for all pairs: of models, or of others.
-std::vector<const SceneRun*> uniform_runs(const Choice& choice, bool are_models) {
-  std::vector<const SceneRun*> result;
-  for (const SceneRun& run : choice.runs) {
-    const bool of_search = run.name.find(' ') != std::string::npos || run.name == "combination";
-    if (!of_search && choice.has_models_alone(run) == are_models) result.push_back(&run);
-  }
-  return result;
-}
-
-/// What meets all needs in less than an exact step, but is no model and no answer.
-std::string cheaper_routines(const Choice& choice) {
-  std::vector<std::string> names;
-  for (const SceneRun* run : uniform_runs(choice, false)) {
-    const bool is_cheaper = run->seconds() < choice.runs[choice.answer].seconds();
-    if (run->holds() && is_cheaper) names.push_back(run->name);
-  }
-  if (names.empty()) return "";
-  return fmt::format(
-      "(Beside models: the routines of {} for the cylinder itself met all needs in the first runs, "
-      "and took less.)\n",
-      fmt::join(names, ", "));
 }
 
 /// What a step takes; "~" marks a time of a single run, which was not timed in turns with others.
@@ -296,7 +310,9 @@ std::string choice_text(const Choice& choice, const std::string& folder, std::si
                          counted(t.disturbances, "disturbance"), t.of_answer(), t.seed);
   }
   lines += undecidable_text(choice.spreads) + '\n' + headline(choice);
-  if (!choice.impossible) lines += cheaper_routines(choice);
+  if (const auto text = cheaper_routines(choice); !choice.impossible && !text.empty()) {
+    lines += text + '\n';
+  }
   lines += needs_of(choice, answer);
   if (choice.impossible) {
     return Terminal{columns}.folded(lines + "  " + render_command(choice, answer) + '\n');

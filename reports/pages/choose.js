@@ -34,18 +34,14 @@ function headline() {
       : data.worthwhile ? `The ${isCheapest ? 'cheapest' : 'simplest of the cheapest'} models that meet all needs save ${Math.round(percent)}% of a step: ${microseconds('step_microseconds', '.')}`
       : percent > 0 ? `Exact: nothing cheaper that meets all needs saves more than ${(Math.ceil(10 * percent) / 10).toFixed(1)}% of a step.`
       : 'Exact: no model that meets all needs takes less of a step.';
-  const cheaper = data.runs.filter(r => isUniform(r) && !r.models_alone && r.holds && r.step_microseconds < answer.step_microseconds);
-  if (data.possible && cheaper.length) {
-    byId('headline').textContent += ` Beside models: the routines of ${cheaper.map(r => r.name).join(', ')} met all needs in the first runs, and took less.`;
-  }
+  if (data.cheaper_routines) byId('headline').textContent += ` ${data.cheaper_routines}`;
   byId('provenance').textContent = `${data.machine.cpu}, ${data.machine.compiler}. ` +
       `Contacts take ${microseconds('microseconds_per_step', ' of a step, ')}ODE's solver ${microseconds('solver_microseconds_per_step', '; ')}` +
       `a frame of 1/60 s takes ${exponent(data.frame_microseconds)} µs` +
       (data.answer === 0 ? '. ' : ` instead of ${exponent(data.exact_frame_microseconds)} µs with exact contacts. `) +
       `The solver gets ${instead(run => run.points_per_step.toFixed(1), ' contact points a step')}` +
       (data.point_microseconds === null ? '.' : `; a point costs it about ${exponent(data.point_microseconds)} µs.`) +
-      (data.answer === 0 ? '' : ` Asked for or not: bodies overlap by up to ${exponent(answer.overlap)} m (exact: ${exponent(exact.overlap)} m)` +
-        (answer.strayed > 0 ? `, and ${answer.strayed_body} ends ${exponent(answer.strayed)} m from where it does with exact contacts.` : '.')) + (data.scene.disturbances
+      ` ${data.unasked}` + (data.scene.disturbances
       ? ` Every run is repeated under ${disturbances(data.scene.disturbances)} (seed ${data.scene.seed}), the answer under five times as many; ` +
         'a need holds if it holds in all, and what breaks one is not run further.' : '');
   origin();

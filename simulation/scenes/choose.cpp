@@ -57,6 +57,16 @@ class ModelSearch {
     judge_promising(one_kind_changed());
     combine();
     settle();
+    const Straying& s = choice_.runs[choice_.answer].straying;
+    const auto spread_of = [&](const std::string& body, auto make_need) {
+      const auto& bodies = choice_.file.scene.bodies;
+      const auto at = std::ranges::find(bodies, body, &Body::name);
+      if (at == bodies.end()) return 0.0;
+      const auto need = make_need(static_cast<int>(at - bodies.begin()), 0);
+      return spread(*need, choice_.file.scene, judge_.exact_runs());
+    };
+    choice_.exact_spread.distance = spread_of(s.body, ends_near_need);
+    choice_.exact_spread.tilt = spread_of(s.tilted_body, ends_tilted_need);
   }
 
  private:
@@ -254,10 +264,27 @@ class ModelSearch {
     return result;
   }
 
+  /// The engines' routines that hold and seem cheaper than every finalist, or than the exact run if
+  /// there is none: what is said of them beside the answer is timed as that is.
+  std::vector<std::size_t> rivals(const std::vector<std::size_t>& finalists) const {
+    constexpr std::size_t max_count = 3;
+    const auto cost = [&](std::size_t i) { return estimate(choice_.runs[i]); };
+    const double limit = cost(finalists.empty() ? 0 : finalists.front());
+    std::vector<std::size_t> result;
+    for (std::size_t i = 1; i < choice_.runs.size(); ++i) {
+      const SceneRun& run = choice_.runs[i];
+      if (run.holds() && !can_be_answer(run) && cost(i) < limit) result.push_back(i);
+    }
+    std::ranges::stable_sort(result, {}, cost);
+    if (result.size() > max_count) result.resize(max_count);
+    return result;
+  }
+
   /// Times what has to be timed and returns the run that is the answer.
   std::size_t best() {
     constexpr std::size_t few = 5, many = 10;
-    const std::vector<std::size_t> last = finalists();
+    std::vector<std::size_t> last = finalists();
+    std::ranges::copy(rivals(last), std::back_inserter(last));
     const auto is_timed = [&](std::size_t i) { return choice_.runs[i].timing > 0; };
     if (!std::ranges::all_of(last, is_timed)) time(last, few);
     const std::size_t result = cheapest();
@@ -395,7 +422,8 @@ double Choice::nanoseconds(std::size_t kind, const Candidate& candidate) const {
 double Choice::step_saved() const {
   double least = runs[answer].seconds();
   for (const SceneRun& run : runs) {
-    if (answer == 0 && run.timing > 0 && run.holds()) least = std::min(least, run.seconds());
+    const bool is_other = answer == 0 && run.timing > 0 && run.holds() && has_models_alone(run);
+    if (is_other) least = std::min(least, run.seconds());
   }
   return 1 - least / runs[0].seconds();
 }

@@ -163,6 +163,9 @@ struct Choice {
   std::vector<const Candidate*> same_as_sphere = {};
   Trials trials = {};
   Spreads spreads = {};
+  /// Distance and tilt by which exact runs differ from each other at their ends, of the bodies that
+  /// stray the most with the answer.
+  Straying exact_spread = {};
   /// What names the scene on a command line, with the options of a robot's motion.
   std::string arguments = {};
   /// Index of the cheapest run that meets all needs; 0 if `impossible`, or where no other saves
@@ -190,7 +193,7 @@ struct Choice {
   /// Number of steps of a run.
   double steps() const { return static_cast<double>(exact_run.frames.size() - 1); }
   /// Share of the time of a whole step with exact contacts that the answer saves, or if that is
-  /// exact, the cheapest other run that meets all needs; 0 where none saves anything.
+  /// exact, the cheapest other run of models that meets all needs; 0 where none saves anything.
   double step_saved() const;
   /// Seconds that a frame of 1/60 s takes with the models of a run: contacts and solver.
   double frame_seconds(const SceneRun& run) const;

@@ -362,6 +362,33 @@ TEST(Choose, SaysHowFarARunStraysFromTheExactOne) {
   EXPECT_EQ(through.straying.body.substr(0, 4), "can-");
 }
 
+// As written a can stands on a capsule's pole; a shift of a hair throws it over. The needs allow
+// both.
+TEST(Choose, SaysHowFarTheWorstOfARunsTrialsStrays) {
+  const SceneFile file = scene_from_text(R"({
+    "duration": 1.2,
+    "bodies": [
+      {"name": "ground", "shape": {"shape": "plane", "normal": [0, 0, 1], "displacement": 0},
+       "fixed": true},
+      {"name": "can", "shape": {"shape": "cylinder", "radius": 0.03, "half_length": 0.06},
+       "pose": {"position": [0, 0, 0.06]}}],
+    "needs": [{"need": "penetration", "metres": 1}]})",
+                                         "can.json");
+  const Choice choice =
+      choose(file, {find_candidates({"capsule"}), 1, {}, {.disturbances = 2, .seed = 1}});
+  const SceneRun& on_pole = run_of(choice, "capsule");
+  ASSERT_GT(on_pole.trials, 1U);
+  EXPECT_GT(on_pole.straying.tilt, 60);
+  EXPECT_EQ(on_pole.straying.tilted_body, "can");
+  EXPECT_GT(on_pole.straying.distance, 0.03);
+  EXPECT_EQ(choice.runs[0].straying.tilt, 0);
+  // Exact runs end where they began, but for the disturbances.
+  ASSERT_NE(choice.answer, 0U);
+  EXPECT_GT(choice.exact_spread.distance, 0);
+  EXPECT_LT(choice.exact_spread.distance, 0.003);
+  EXPECT_LT(choice.exact_spread.tilt, 0.2);
+}
+
 TEST(LeastStepSeconds, AreThoseOfEachStepInAllRounds) {
   std::vector<std::size_t> order;
   const auto least = least_step_seconds(2, [&](std::size_t run) {

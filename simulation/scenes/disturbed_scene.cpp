@@ -118,8 +118,8 @@ void add(const Trial& trial, std::size_t disturbance, RepeatedRun& run) {
   if (disturbance == 0) {
     run.points = trial.points;
     run.solver_seconds = trial.solver_seconds;
-    run.straying = trial.straying;
   }
+  run.straying.add(trial.straying);
   ++run.trials;
   run.held += holds;
   if (!is_worse) return;
@@ -216,6 +216,12 @@ Trajectory DisturbedScene::turned_back(const Trajectory& run) const {
   return result;
 }
 
+void Straying::add(const Straying& other) {
+  overlap = std::max(overlap, other.overlap);
+  if (other.distance > distance) distance = other.distance, body = other.body;
+  if (other.tilt > tilt) tilt = other.tilt, tilted_body = other.tilted_body;
+}
+
 std::string trial_text(const Trial& trial) {
   json verdicts = json::array();
   for (const Verdict& v : trial.verdicts) {
@@ -227,7 +233,9 @@ std::string trial_text(const Trial& trial) {
                  {"solver_seconds", trial.solver_seconds},
                  {"overlap", trial.straying.overlap},
                  {"strayed", trial.straying.distance},
-                 {"strayed_body", trial.straying.body}};
+                 {"strayed_body", trial.straying.body},
+                 {"tilted", trial.straying.tilt},
+                 {"tilted_body", trial.straying.tilted_body}};
   if (const auto& e = trial.evidence) {
     result["evidence"] = {{"configuration", to_json(e->configuration)},
                           {"bodies", e->bodies},
@@ -250,7 +258,8 @@ Trial trial_from(const std::string& text) {
   trial.points = parsed["points"].get<double>();
   trial.solver_seconds = parsed["solver_seconds"].get<double>();
   trial.straying = {parsed["overlap"].get<double>(), parsed["strayed"].get<double>(),
-                    parsed["strayed_body"].get<std::string>()};
+                    parsed["strayed_body"].get<std::string>(), parsed["tilted"].get<double>(),
+                    parsed["tilted_body"].get<std::string>()};
   if (!parsed.contains("evidence")) return trial;
   const json& e = parsed["evidence"];
   trial.evidence = {configuration_from_json(e["configuration"]).configuration,

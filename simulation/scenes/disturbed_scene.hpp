@@ -61,6 +61,11 @@ struct Straying {
   double overlap = 0;     ///< largest true depth, metres
   double distance = 0;    ///< metres, largest of a body's end from its end in the exact run
   std::string body = {};  ///< the one with that distance
+  double tilt = 0;  ///< degrees, largest of a body's local z at the end likewise; not of spheres
+  std::string tilted_body = {};  ///< the one with that tilt
+
+  /// Keeps the larger of each, and its body.
+  void add(const Straying& other);
 };
 
 /// What one run came to.
@@ -89,7 +94,7 @@ struct RepeatedRun {
   std::string end = {};  ///< why it ended early: "Segmentation fault"
   double points = 0;     ///< contact points given to the solver, mean of a step, as it is written
   double solver_seconds = 0;  ///< of the run as it is written
-  Straying straying = {};     ///< likewise
+  Straying straying = {};     ///< largest of all trials
 
   bool holds() const { return first_broken() < 0; }
   /// Largest share of its limit that a need takes; above one: broken.

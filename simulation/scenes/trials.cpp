@@ -94,12 +94,11 @@ Straying straying(const Scene& scene, const Trajectory& run, const Trajectory& e
     result.overlap = std::max(result.overlap, answer.depth);
   }
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    const auto end = [&](const Trajectory& t) { return t.frames.back()[i].pose.position(); };
-    const double distance = (end(run) - end(exact)).norm();
-    if (distance > result.distance) {
-      result.distance = distance;
-      result.body = scene.bodies[i].name;
-    }
+    const auto end = [&](const Trajectory& t) -> const Pose& { return t.frames.back()[i].pose; };
+    const bool has_tilt = !std::holds_alternative<Sphere>(scene.bodies[i].shape);
+    const std::string& name = scene.bodies[i].name;
+    result.add({0, (end(run).position() - end(exact).position()).norm(), name,
+                has_tilt ? degrees_between(end(run).axis(), end(exact).axis()) : 0, name});
   }
   return result;
 }
