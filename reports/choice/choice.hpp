@@ -30,6 +30,9 @@ std::string undecidable_text(const Spreads& spreads);
 /// What the answer does that nobody asked for: the largest overlap, and how far bodies end from
 /// where they do with exact contacts.
 std::string unasked_text(const Choice& choice);
+/// Where exact contacts fail: the body that may move furthest in a step, as a share of its width,
+/// if that is so far that contacts come late, or further than a broken need lets bodies overlap.
+std::string long_step_text(const Choice& choice);
 /// Names the engines' routines that meet all needs in less of a step than the answer, if any: they
 /// are no models, and so no answer.
 std::string cheaper_routines(const Choice& choice);

@@ -209,6 +209,7 @@ std::string choice_json(const Choice& choice, const std::string& command, const 
        choice.point_seconds() ? json(*choice.point_seconds() * 1e6) : json(nullptr)},
       {"unasked", choice.answer == 0 ? "" : unasked_text(choice)},
       {"cheaper_routines", choice.impossible ? "" : cheaper_routines(choice)},
+      {"long_step", long_step_text(choice)},
       {"kinds", kinds},
       {"answer", choice.answer},
       {"runs", runs},

@@ -224,6 +224,22 @@ TEST(ChoiceText, OfTheUnaskedIsOfAllRunsOfTheAnswer) {
   EXPECT_EQ(json::parse(choice_json(choice, "", "out"))["unasked"], unasked);
 }
 
+// What falls by its own width in a step is deep in the ground before a contact is found.
+TEST(ChoiceText, SaysThatStepsAreLongWhereExactContactsFail) {
+  const auto text = [](const char* needs, double step) {
+    SceneFile file = can_with(needs);
+    file.scene.step = step;
+    return choice_text(choose(file, {find_candidates({"capsule"}), 1, {}, {0, 1}}), "out", 200);
+  };
+  EXPECT_THAT(
+      text(elsewhere, 0.2),
+      HasSubstr("In a step of 0.2 s can may move by 0.39 m, 2 of its smallest width, before "
+                "its contacts are found again: a shorter step may do.\n"));
+  EXPECT_THAT(text(elsewhere, 1.0 / 240), testing::Not(HasSubstr("shorter step")));
+  const char* overlaps = R"({"need": "penetration", "metres": 1e-9})";
+  EXPECT_THAT(text(overlaps, 1.0 / 240), HasSubstr("shorter step"));
+}
+
 TEST(ChoiceText, AndJsonNameTheCommandThatMakesAFailureAgain) {
   Choice choice = choice_of(stands);
   choice.arguments = "can.json";

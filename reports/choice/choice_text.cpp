@@ -75,6 +75,37 @@ std::vector<const SceneRun*> uniform_runs(const Choice& choice, bool are_models)
 
 }  // namespace
 
+std::string long_step_text(const Choice& choice) {
+  if (!choice.impossible) return "";
+  const Scene& scene = choice.file.scene;
+  const auto& frames = choice.exact_run.frames;
+  double share = 0, way = 0;
+  std::string name;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const Body& body = scene.bodies[i];
+    if (!body.is_free() || !body.collides) continue;
+    double moved = scene.gravity.norm() * scene.step * scene.step;
+    for (std::size_t f = 1; f < frames.size(); ++f) {
+      const auto& [before, after] = std::pair(frames[f - 1][i], frames[f][i]);
+      moved = std::max(moved, (after.pose.position() - before.pose.position()).norm());
+    }
+    const double of_width = moved / (2 * smallest_half_extent(body.shape));
+    if (of_width > share) share = of_width, way = moved, name = body.name;
+  }
+  constexpr double late = 0.1;
+  bool is_late = share > late;
+  const std::vector<Verdict>& verdicts = choice.runs[0].verdicts;
+  for (std::size_t i = 0; i < verdicts.size(); ++i) {
+    const bool is_overlap = choice.file.needs[i]->name == std::string("penetration");
+    is_late = is_late || (is_overlap && !verdicts[i].holds() && verdicts[i].limit < way);
+  }
+  if (!is_late) return "";
+  return fmt::format(
+      "In a step of {:.2g} s {} may move by {:.2g} m, {:.2g} of its smallest width, before its "
+      "contacts are found again: a shorter step may do.",
+      scene.step, name, way, share);
+}
+
 std::string cheaper_routines(const Choice& choice) {
   const double limit = (1 - noise_of_step) * choice.runs[choice.answer].seconds();
   std::vector<std::string> names;
@@ -315,7 +346,9 @@ std::string choice_text(const Choice& choice, const std::string& folder, std::si
   }
   lines += needs_of(choice, answer);
   if (choice.impossible) {
-    return Terminal{columns}.folded(lines + "  " + render_command(choice, answer) + '\n');
+    lines += "  " + render_command(choice, answer) + '\n';
+    if (const auto text = long_step_text(choice); !text.empty()) lines += text + '\n';
+    return Terminal{columns}.folded(lines);
   }
   return Terminal{columns}.folded(lines + times_of(choice) + '\n' + kinds_of(choice, folder) +
                                   candidates_tables(choice, columns));

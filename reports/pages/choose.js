@@ -34,7 +34,9 @@ function headline() {
       : data.worthwhile ? `The ${isCheapest ? 'cheapest' : 'simplest of the cheapest'} models that meet all needs save ${Math.round(percent)}% of a step: ${microseconds('step_microseconds', '.')}`
       : percent > 0 ? `Exact: nothing cheaper that meets all needs saves more than ${(Math.ceil(10 * percent) / 10).toFixed(1)}% of a step.`
       : 'Exact: no model that meets all needs takes less of a step.';
-  if (data.cheaper_routines) byId('headline').textContent += ` ${data.cheaper_routines}`;
+  for (const text of [data.cheaper_routines, data.long_step]) {
+    if (text) byId('headline').textContent += ` ${text}`;
+  }
   byId('provenance').textContent = `${data.machine.cpu}, ${data.machine.compiler}. ` +
       `Contacts take ${microseconds('microseconds_per_step', ' of a step, ')}ODE's solver ${microseconds('solver_microseconds_per_step', '; ')}` +
       `a frame of 1/60 s takes ${exponent(data.frame_microseconds)} µs` +
