@@ -118,8 +118,11 @@ std::string lines_to_paste(const EngineChoice& choice, const EngineSetting& sett
 
 std::string settings_table(const EngineChoice& choice, std::size_t columns) {
   const bool is_narrow = columns < columns_of_tables;
+  std::size_t width = 22;  // names of several sizes' shapes are longer
+  for (const EngineSetting& s : choice.settings) width = std::max(width, setting_name(s).size());
   std::string lines = is_narrow ? "\nAll that was run\n"
-                                : "\nAll that was run        µs/step points  held  breaks first\n";
+                                : fmt::format("\n{:<{}}µs/step points  held  breaks first\n",
+                                              "All that was run", width + 2);
   for (const EngineSetting& s : choice.settings) {
     const std::string failed = s.holds() ? "" : first_failure(s);
     const std::string points = fmt::format("{:.1f}", s.points);
@@ -127,8 +130,8 @@ std::string settings_table(const EngineChoice& choice, std::size_t columns) {
                  ? narrow_row(setting_name(s),
                               {s.holds() ? microseconds(s) + " µs a step" : "breaks " + failed,
                                points + " points", "held in " + share_held(s)})
-                 : fmt::format("  {:<22} {:>6} {:>6} {:>5}  {}\n", setting_name(s), microseconds(s),
-                               points, share_held(s), failed);
+                 : fmt::format("  {:<{}} {:>6} {:>6} {:>5}  {}\n", setting_name(s), width,
+                               microseconds(s), points, share_held(s), failed);
   }
   return Terminal{columns}.folded(lines);
 }
