@@ -325,6 +325,7 @@ struct Normals : Need {
 struct EndsNear : Need {
   EndsNear() : Need("ends-near", "It ends near where it does with exact contacts", " m") {}
   double metres = 0;
+  bool is_derived = false;
 
   void visit(NeedMembers& members) override {
     members.body(bodies);
@@ -332,6 +333,10 @@ struct EndsNear : Need {
   }
   void check(const Scene&) const override { require_positive("metres", metres); }
   bool is_relative() const override { return true; }
+  std::shared_ptr<const Need> allowing(double limit) const override {
+    const bool is_wider = is_derived && limit <= max_in_world;
+    return is_wider ? ends_near_need(bodies[0], readable_limit(limit)) : nullptr;
+  }
   std::string text(const Scene& scene) const override {
     return fmt::format("{} ends within {:g} m of the exact place", names(scene, bodies), metres);
   }
@@ -346,6 +351,7 @@ struct EndsTilted : Need {
   EndsTilted()
       : Need("ends-tilted", "Its local z ends near how it does with exact contacts", "°") {}
   double degrees = 0;
+  bool is_derived = false;
 
   void visit(NeedMembers& members) override {
     members.body(bodies);
@@ -356,6 +362,11 @@ struct EndsTilted : Need {
     require_positive("degrees", degrees);
   }
   bool is_relative() const override { return true; }
+  std::shared_ptr<const Need> allowing(double limit) const override {
+    constexpr double nearly_any = 90;
+    const bool is_wider = is_derived && limit < nearly_any;
+    return is_wider ? ends_tilted_need(bodies[0], readable_limit(limit)) : nullptr;
+  }
   std::string text(const Scene& scene) const override {
     return fmt::format("{} ends within {:g}° of the exact tilt", names(scene, bodies), degrees);
   }
@@ -408,6 +419,12 @@ double degrees_between(const Vec3& u, const Vec3& v) {
   return std::atan2(u.cross(v).norm(), u.dot(v)) * 180 / std::numbers::pi;
 }
 
+double readable_limit(double limit) {
+  if (!(limit > 0)) return 0;
+  const double unit = std::pow(10, std::floor(std::log10(limit)) - 1);
+  return std::ceil(limit / unit) * unit;
+}
+
 Verdict Need::judge(const ComparedRuns& runs) const {
   Verdict verdict = measure(runs);
   if (!runs.run.sound) {
@@ -428,6 +445,7 @@ std::shared_ptr<const Need> ends_near_need(int body, double metres) {
   auto need = std::make_shared<EndsNear>();
   need->bodies = {body};
   need->metres = metres;
+  need->is_derived = true;
   return need;
 }
 
@@ -435,6 +453,7 @@ std::shared_ptr<const Need> ends_tilted_need(int body, double degrees) {
   auto need = std::make_shared<EndsTilted>();
   need->bodies = {body};
   need->degrees = degrees;
+  need->is_derived = true;
   return need;
 }
 

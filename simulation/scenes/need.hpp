@@ -67,6 +67,11 @@ class Need {
   /// compared, too (spread.hpp).
   virtual bool is_relative() const { return false; }
 
+  /// The same need with a limit of at least so much, if it is derived from a scene rather than
+  /// read: nobody asked for just its own. Null for others, and where it would allow nearly
+  /// anything.
+  virtual std::shared_ptr<const Need> allowing(double) const { return nullptr; }
+
   /// Broken whatever it requires if the run is not sound.
   Verdict judge(const ComparedRuns& runs) const;
 
@@ -78,6 +83,9 @@ class Need {
 
 /// One need of each kind with its default members, in the order of docs/scenes.md.
 std::vector<std::unique_ptr<Need>> all_needs();
+
+/// To two digits, upwards: a limit that a person can read.
+double readable_limit(double limit);
 
 // Needs that are derived from a scene rather than read:
 

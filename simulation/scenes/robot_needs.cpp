@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <set>
 #include <string>
@@ -9,17 +8,6 @@
 #include "simulation/scenes/robot_file.hpp"
 
 namespace touchstone {
-namespace {
-
-/// To two digits, upwards: a limit that a person can read.
-double rounded_up(double x) {
-  if (!(x > 0)) return 0;
-  const double unit = std::pow(10, std::floor(std::log10(x)) - 1);
-  return std::ceil(x / unit) * unit;
-}
-
-}  // namespace
-
 void add_robot_needs(SceneFile& file, const ExactMotion& exact) {
   const std::vector<Body>& bodies = file.scene.bodies;
   // Which of four equal wheels carries more is left to chance.
@@ -44,7 +32,7 @@ void add_robot_needs(SceneFile& file, const ExactMotion& exact) {
       const double depth = depth_of_shape.at(shape_text(body.shape));
       const double width = 2 * smallest_half_extent(body.shape);
       file.needs.push_back(
-          penetration_need(index, rounded_up(of_exact * depth + share_of_width * width)));
+          penetration_need(index, readable_limit(of_exact * depth + share_of_width * width)));
     }
     if (held.contains(index)) continue;
     // A base whose shapes are not read, say, is where its wheels carry it; without those nothing
@@ -54,7 +42,7 @@ void add_robot_needs(SceneFile& file, const ExactMotion& exact) {
     const double half_width = body.collides ? largest_half_extent(body.shape) : carried.at(index);
     const double size = 2 * half_width;
     file.needs.push_back(
-        ends_near_need(index, rounded_up(share_of_way * exact.ways[i] + share_of_size * size)));
+        ends_near_need(index, readable_limit(share_of_way * exact.ways[i] + share_of_size * size)));
     constexpr double max_tilt = 1;  // degrees: a body's ends move by 1% of its size
     const bool has_tilt = body.collides && !std::holds_alternative<Sphere>(body.shape);
     if (has_tilt) file.needs.push_back(ends_tilted_need(index, max_tilt));

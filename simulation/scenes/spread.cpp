@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <utility>
 
 #include "reference/invalid_input.hpp"
 #include "simulation/scenes/disturbed_scene.hpp"
@@ -38,22 +39,23 @@ double spread(const Need& need, const Scene& scene, const std::vector<Trajectory
 
 Spreads take_undecidable(SceneFile& file, const std::vector<Trajectory>& exact_runs) {
   Spreads result;
-  std::erase_if(file.needs, [&](const auto& need) {
-    if (!need->is_relative()) {
-      result.of_needs.emplace_back();
-      return false;
+  for (auto& need : std::exchange(file.needs, {})) {
+    std::optional<double> apart;
+    if (need->is_relative()) {
+      apart = spread(*need, file.scene, exact_runs);
+      const double limit = need->judge({file.scene, exact_runs[0], exact_runs[0]}).limit;
+      const bool is_decided =
+          *apart <= limit || *apart <= value_of_carrying(*need, file.scene, exact_runs[0]);
+      const auto wider = is_decided ? need : need->allowing(*apart);
+      if (!wider) {
+        result.undecidable.push_back({need->text(file.scene), need->unit, limit, *apart});
+        continue;
+      }
+      need = wider;
     }
-    const double limit = need->judge({file.scene, exact_runs[0], exact_runs[0]}).limit;
-    const double apart = spread(*need, file.scene, exact_runs);
-    const bool is_decided =
-        apart <= limit || apart <= value_of_carrying(*need, file.scene, exact_runs[0]);
-    if (is_decided) {
-      result.of_needs.emplace_back(apart);
-      return false;
-    }
-    result.undecidable.push_back({need->text(file.scene), need->unit, limit, apart});
-    return true;
-  });
+    result.of_needs.push_back(apart);
+    file.needs.push_back(need);
+  }
   if (file.needs.empty() && !result.undecidable.empty()) {
     const Undecidable& first = result.undecidable.front();
     throw InvalidInput(

@@ -33,8 +33,9 @@ struct Spreads {
 double spread(const Need& need, const Scene& scene, const std::vector<Trajectory>& exact_runs);
 
 /// Takes out of the file the relative needs whose limit lies within the spread of the exact runs,
-/// if that is more than the disturbances carry the body. Throws InvalidInput (field "needs") if no
-/// other is left.
+/// if that is more than the disturbances carry the body. Those that nobody asked for, a robot's,
+/// allow the spread instead: its wheels could leave the ground unnoticed. Throws InvalidInput
+/// (field "needs") if no other is left.
 Spreads take_undecidable(SceneFile& file, const std::vector<Trajectory>& exact_runs);
 
 }  // namespace touchstone

@@ -72,6 +72,27 @@ TEST(Spread, DecidesANeedUpToItsLimit) {
   }
 }
 
+// A robot's wheels that touch nothing end where the others do not: what is asked of it, for want of
+// anyone who says, must not be dropped because exact runs differ.
+TEST(Spread, WidensWhatNobodyAskedFor) {
+  SceneFile file = balanced_roller(overlaps);
+  file.needs.push_back(ends_near_need(1, 0.03));
+  const Spreads spreads = take_undecidable(file, {ending_at(1), ending_at(1.0625)});
+  EXPECT_TRUE(spreads.undecidable.empty());
+  ASSERT_EQ(file.needs.size(), 2U);
+  EXPECT_EQ(file.needs[1]->text(file.scene), "upper ends within 0.063 m of the exact place");
+  EXPECT_EQ(spreads.of_needs[1], 0.0625);
+
+  // Within its limit it stays as it is; a tilt of anything is nothing to ask for.
+  take_undecidable(file, {ending_at(1), ending_at(1.01)});
+  EXPECT_EQ(file.needs[1]->text(file.scene), "upper ends within 0.063 m of the exact place");
+  file.needs = {penetration_need(1, 0.01), ends_tilted_need(1, 1)};
+  Trajectory lying = ending_at(1);
+  lying.frames.back()[1].pose =
+      Pose(Vec3::Zero(), Eigen::Quaterniond(Eigen::AngleAxisd(2, Vec3::UnitX())));
+  EXPECT_EQ(take_undecidable(file, {ending_at(1), lying}).undecidable.size(), 1U);
+}
+
 // A rod that a kick rolls on ends where the kick takes it, contacts or none: that it moves no
 // further in a model is worth asking, and decided by the exact run under the same kick.
 TEST(Spread, ThatDisturbancesCarryDecidesAllTheSame) {
