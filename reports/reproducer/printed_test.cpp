@@ -28,6 +28,7 @@
 #include "reference/invalid_input.hpp"
 #include "reference/support.hpp"
 #include "reports/replay.hpp"
+#include "reports/reproducer/texts.hpp"
 
 namespace touchstone {
 namespace {
@@ -39,14 +40,15 @@ struct Engine {
   std::string name, candidate, language;
 };
 
-/// One of each language, for the first set of tests; then the others.
-const std::vector<Engine> engines = {{"bullet", "bullet", "c++"},
+/// One of each language, for the first set of tests, each of which has contacts of bodies that are
+/// apart; then the others.
+const std::vector<Engine> engines = {{"mujoco", "mujoco", "c++"},
                                      {"rapier", "rapier", "javascript"},
                                      {"mujoco3", "mujoco3", "python"},
+                                     {"bullet", "bullet", "c++"},
                                      {"ode", "ode", "c++"},
                                      {"fcl", "fcl", "c++"},
                                      {"libccd", "libccd-gjk", "c++"},
-                                     {"mujoco", "mujoco", "c++"},
                                      {"prism:16", "prism:16", "c++"},
                                      {"jolt", "jolt", "javascript"},
                                      {"jolt-world", "jolt-world", "javascript"},
@@ -57,14 +59,19 @@ const std::vector<Engine> engines = {{"bullet", "bullet", "c++"},
                                      {"mujoco3", "mujoco3", "javascript"}};
 constexpr std::size_t usual_engines = 3, usual_answers = 8;
 
+/// By turns contacts are asked for where bodies touch, and up to half a metre apart.
+constexpr Bar bars[] = {{1e-4, 0}, {1e-4, 0.5}};
+
 struct Wrong {
   std::string id;
   Configuration configuration;
   Answer answer;
   Outcome outcome;
+  Bar bar;
 };
 
-/// The candidate's wrong answers: by turns of all pairs and classes, so many.
+/// The candidate's wrong answers: by turns of all pairs and classes, so many. With a threshold only
+/// those about bodies that are apart.
 std::vector<Wrong> wrong_answers(const std::string& candidate, std::size_t wanted) {
   std::vector<Identity> all;
   for (std::uint64_t i = 0; i <= wanted / 10; ++i) {
@@ -72,19 +79,25 @@ std::vector<Wrong> wrong_answers(const std::string& candidate, std::size_t wante
       for (const std::string& name : pose_classes(pair)) all.push_back({pair, name, 41, i});
     }
   }
-  CandidateProcess process(find_candidate(candidate), 0);
+  std::vector<CandidateProcess> processes;
+  for (const Bar& bar : bars) processes.emplace_back(find_candidate(candidate), bar.threshold);
   std::vector<Wrong> result;
   constexpr std::size_t stride = 397;  // prime: spreads over pairs and classes
   for (std::size_t i = 0; i < all.size() && result.size() < wanted; ++i) {
     const Identity& id = all[i * stride % all.size()];
+    const Bar& bar = bars[result.size() % std::size(bars)];
+    CandidateProcess& process = processes[result.size() % std::size(bars)];
     if (!process.candidate().has_routine_for(id.pair)) continue;
     const Configuration c = make_configuration(id);
+    const oracle::Truth truth = oracle::truth(c);
+    const double allowed = bar.tolerance * error_size(c, bar);
+    if (bar.threshold > 0 && i < all.size() / 2 && truth.signed_distance.lo < allowed) continue;
     const Answer answer = process.answer(c);
-    const Outcome outcome = score(c, oracle::truth(c), answer, Bar{}).outcome;
+    const Outcome outcome = score(c, truth, answer, bar).outcome;
     if (agrees(outcome) || outcome == Outcome::crashed || outcome == Outcome::timed_out) {
       continue;
     }
-    result.push_back({to_string(id), c, answer, outcome});
+    result.push_back({to_string(id), c, answer, outcome, bar});
   }
   return result;
 }
@@ -158,7 +171,7 @@ std::string asking(const Answer& a, const std::string& language) {
 /// The program, with the answer in place of what asks the engine.
 std::string planted(const Wrong& w, const Engine& engine) {
   const std::string& language = engine.language;
-  const std::string program = reproducer(engine.name, language, w.configuration, w.id, Bar{});
+  const std::string program = reproducer(engine.name, language, w.configuration, w.id, w.bar);
   const std::string remark = language == "python" ? "# " : "// ";
   // What of the question comes last, and how that ends.
   const auto [last, end] = language == "c++"          ? std::pair("struct Answer {", "\n};\n")
@@ -236,19 +249,33 @@ std::vector<std::string> printed_by(const std::vector<std::string>& programs,
 /// One answer's numbers, as far as they are known from elsewhere.
 struct Known {
   explicit Known(const Wrong& wrong)
-      : w(wrong), c(wrong.configuration), truth(oracle::truth(c)), n(wrong.answer.normal) {
-    // Sixteen roundings of the largest coordinate or size.
-    const double largest = std::max({c.pose_a.position().norm(), c.pose_b.position().norm(),
-                                     larger_size(c), error_size(c, Bar{})});
+      : w(wrong),
+        c(as_asked(wrong.configuration)),
+        truth(oracle::truth(c)),
+        n(wrong.answer.normal) {
+    // Sixteen roundings of the distance between the centres, or of the largest size.
+    const double largest = std::max(
+        {(c.pose_a.position() - c.pose_b.position()).norm(), larger_size(c), error_size(c, Bar{})});
     rounding = 16 * std::numeric_limits<double>::epsilon() * largest;
   }
   double distance() const { return truth.signed_distance.midpoint(); }
   Vec3 best() const { return truth.normals.front().n; }
   double gap(const Vec3& along) const { return oracle::certified_gap(c, along).midpoint(); }
-  double least_of_a(const Vec3& along) const { return -support(c.a, c.pose_a, -along); }
+  /// Of the deepest point.
+  double depth() const {
+    double deepest = -INFINITY;
+    for (int i = 0; i < w.answer.point_count; ++i) {
+      deepest = std::max(deepest, w.answer.points[i].depth);
+    }
+    return deepest;
+  }
+  double half_of_a() const {
+    return support(c.a, Pose(Vec3::Zero(), c.pose_a.orientation()), best());
+  }
+  Vec3 b_to_a() const { return c.pose_a.position() - c.pose_b.position(); }
 
   const Wrong& w;
-  const Configuration& c;
+  Configuration c;  ///< of the numbers that the program has
   oracle::Truth truth;
   Vec3 n;
   double rounding;
@@ -305,22 +332,32 @@ const std::vector<Sentence>& sentences() {
          EXPECT_LT(k.truth.signed_distance.hi, 0);
          EXPECT_EQ(x, (Numbers{-k.distance(), k.distance()}));
        }},
+      {"True: the bodies touch: they are apart by 0 \\(signed distance 0(?: = \\S+)?\\)",
+       [](const Known& k, const Numbers&) { EXPECT_EQ(k.distance(), 0); }},
       {"True: the bodies are apart by " N " \\(signed distance " N "(?: = \\S+)?\\)",
        [](const Known& k, const Numbers& x) {
-         EXPECT_GE(k.truth.signed_distance.hi, 0);
+         EXPECT_GT(k.truth.signed_distance.hi, 0);
          EXPECT_EQ(x, (Numbers{k.distance(), k.distance()}));
        }},
       {"Proof: take n = " VECTOR "\\.",
        [](const Known& k, const Numbers& x) { EXPECT_EQ(vector_at(x, 0), k.best()); }},
-      {"  The least a\\.n over A is    " N ": its centre's, less its support",
+      {"  A's centre is beyond B's along n by  " N,
        [](const Known& k, const Numbers& x) {
-         EXPECT_NEAR(x[0], k.least_of_a(k.best()), k.rounding);
+         EXPECT_NE(pair_of(k.c), Pair::plane);
+         EXPECT_NEAR(x[0], k.b_to_a().dot(k.best()), k.rounding);
        }},
-      {"  The largest b\\.n over B is  " N ": its centre's, and its support",
+      {"  A's centre is above B's surface by   " N,
        [](const Known& k, const Numbers& x) {
-         EXPECT_NEAR(x[0], k.least_of_a(k.best()) - k.distance(), k.rounding);
+         EXPECT_EQ(pair_of(k.c), Pair::plane);
+         EXPECT_NEAR(x[0], point_distance(k.c.b, k.c.pose_b, k.c.pose_a.position()), k.rounding);
        }},
-      {"  Their difference is        " N,
+      {"  Half of A's extent along n is        " N,
+       [](const Known& k, const Numbers& x) { EXPECT_NEAR(x[0], k.half_of_a(), k.rounding); }},
+      {"  Half of B's extent along n is        " N,
+       [](const Known& k, const Numbers& x) {
+         EXPECT_NEAR(x[0], k.b_to_a().dot(k.best()) - k.distance() - k.half_of_a(), k.rounding);
+       }},
+      {"  The first less the others? is +" N ", up to rounding",
        [](const Known& k, const Numbers& x) { EXPECT_NEAR(x[0], k.distance(), k.rounding); }},
       {"  A plane across n has A on one side and B on the other, so far apart\\.",
        [](const Known& k, const Numbers&) { EXPECT_GE(k.truth.signed_distance.hi, 0); }},
@@ -336,12 +373,20 @@ const std::vector<Sentence>& sentences() {
        [](const Known& k, const Numbers& x) { EXPECT_LE(x[0], -k.distance() + k.rounding); }},
       {"  The depth to 30 digits is what touchstone certify proves\\.",
        [](const Known&, const Numbers&) {}},
-      {"Along the engine's normal the same difference is " N ", along n it is " N "\\.",
+      {"Along the engine's normal the clearance is " N ", along n it is " N "\\.",
        [](const Known& k, const Numbers& x) {
+         EXPECT_NE(pair_of(k.c), Pair::plane);
          EXPECT_NEAR(x[0], k.gap(k.n), 2 * k.rounding);
          EXPECT_NEAR(x[1], k.distance(), k.rounding);
        }},
-      {"  It costs " N " of depth, a large body being a half-space to a small one\\.",
+      {"Along the engine's normal A's clearance from what of B is beneath it is " N ",",
+       [](const Known& k, const Numbers& x) {
+         EXPECT_EQ(pair_of(k.c), Pair::plane);
+         EXPECT_NEAR(x[0], k.gap(k.n), 2 * k.rounding);
+       }},
+      {"  along n it is " N "\\.",
+       [](const Known& k, const Numbers& x) { EXPECT_NEAR(x[0], k.distance(), k.rounding); }},
+      {"  It costs " N " of clearance, a large body being a half-space to a small one\\.",
        [](const Known& k, const Numbers& x) {
          const Score s = score(k.c, k.truth, k.w.answer, Bar{});
          EXPECT_NEAR(x[0], *s.normal_regret * error_size(k.c, Bar{}), 2 * k.rounding);
@@ -355,7 +400,32 @@ const std::vector<Sentence>& sentences() {
            EXPECT_LE(moved.midpoint(), -x[0] + k.rounding);
          }
        }},
-      {"WRONG: .*|Right within the tolerance", [](const Known&, const Numbers&) {}},
+      {"WRONG: missed: no contact where the bodies overlap",
+       [](const Known& k, const Numbers&) { EXPECT_LT(k.truth.signed_distance.hi, 0); }},
+      {"WRONG: phantom: a contact where the bodies are apart",
+       [](const Known& k, const Numbers&) { EXPECT_GT(k.truth.signed_distance.lo, 0); }},
+      {"WRONG: shallow: the signed distance is too large",
+       [](const Known& k, const Numbers&) {
+         EXPECT_GT(k.w.answer.signed_distance, k.truth.signed_distance.hi);
+       }},
+      {"WRONG: overdeep: the signed distance is too small",
+       [](const Known& k, const Numbers&) {
+         EXPECT_LT(k.w.answer.signed_distance, k.truth.signed_distance.lo);
+       }},
+      {"WRONG: wrong normal: along another one the clearance is larger",
+       [](const Known& k, const Numbers&) { EXPECT_LT(k.gap(k.n), k.distance()); }},
+      {"WRONG: wrong normal: not of length one",
+       [](const Known& k, const Numbers&) { EXPECT_GT(std::abs(k.n.norm() - 1), 1e-7); }},
+      {"WRONG: no points: there is none",
+       [](const Known& k, const Numbers&) { EXPECT_EQ(k.w.answer.point_count, 0); }},
+      {"WRONG: shallow points: the largest depth is too small",
+       [](const Known& k, const Numbers&) { EXPECT_LT(k.depth(), -k.distance()); }},
+      {"WRONG: overdeep points: the largest depth is too large",
+       [](const Known& k, const Numbers&) { EXPECT_GT(k.depth(), -k.distance()); }},
+      {"WRONG: (?:phantom points: one is beyond the threshold|"
+       "off body: a point is farther outside a body than its depth|"
+       "not a finite number|the engine .*)",
+       [](const Known&, const Numbers&) {}},
   };
   return all;
 }

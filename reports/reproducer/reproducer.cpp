@@ -180,7 +180,8 @@ std::string seen(std::string_view title, NumberStyle numbers, const Candidate* c
 /// How far the true distance lies from what may be answered.
 std::string_view tag_of_distance(double distance, double allowed, double threshold) {
   if (distance > threshold + allowed) return "apart";
-  return distance < -allowed ? "overlapping" : "touching";
+  if (distance < -allowed) return "overlapping";
+  return distance > allowed ? "near" : "touching";
 }
 
 /// The version of one of npm's packages that candidates/npm is made for.
@@ -324,11 +325,13 @@ std::string reproducer(std::string_view name, std::string_view language, const C
   const Program& program = find_program(name, language, c, candidate);
   const std::string title(program.title.empty() ? "The candidate" : program.title);
 
-  const oracle::Truth truth = oracle::truth(c);
-  const double allowed = bar.tolerance * error_size(c, bar);
+  // Its numbers are those that the engine gets, which are rounded, and so is the truth of them.
+  const Configuration given = as_asked(c);
+  const oracle::Truth truth = oracle::truth(given);
+  const double allowed = bar.tolerance * error_size(given, bar);
   const NumberStyle numbers = program.language.numbers;
   Texts texts = question_texts(c, numbers);
-  texts.merge(truth_texts(c, truth, bar, numbers));
+  texts.merge(truth_texts(given, truth, bar, numbers));
   texts.merge(npm_texts(program, name, candidate, c));
   texts.merge(candidate_texts(candidate));
   const std::string shape = shape_name(c.b);

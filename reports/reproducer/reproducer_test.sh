@@ -147,7 +147,7 @@ if ", signed distance " in seen:
         assert points == expected, f"not the candidate's points {expected}"
 # Both bounds of the proof, in plain double arithmetic, agree with the certified distance.
 truth = number(r"\(signed distance ([^ )]+)")
-assert abs(number(r"Their difference is +(\S+)") - truth) < 1e-12 * max(1, abs(truth)), "no proof"
+assert abs(number(r"The first less the others? is +(\S+), up") - truth) < 1e-12 * max(1, abs(truth)), "no proof"
 if "no less than" in printed:
     assert 0 <= number(r"no less than (\S+)\.\n") <= -truth + 1e-12, "no proof of the depth"
 END

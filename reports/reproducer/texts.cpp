@@ -102,6 +102,17 @@ void put_plane(Writer& writer, const ts_shape& plane, const ts_pose& pose) {
 
 }  // namespace
 
+Configuration as_asked(const Configuration& configuration) {
+  Configuration result = configuration;
+  for (Pose* pose : {&result.pose_a, &result.pose_b}) {
+    *pose = Pose(pose->position(), pose->unit_orientation());
+  }
+  if (const auto* plane = std::get_if<Plane>(&configuration.b)) {
+    result.b = Plane(plane->unit_normal(), plane->unit_displacement());
+  }
+  return result;
+}
+
 Texts question_texts(const Configuration& c, NumberStyle numbers) {
   const ts_shape a = to_ts_shape(c.a), b = to_ts_shape(c.b);
   const ts_pose pose_a = to_ts_pose(c.pose_a), pose_b = to_ts_pose(c.pose_b);

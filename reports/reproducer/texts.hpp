@@ -16,6 +16,9 @@ using Texts = std::map<std::string, std::string, std::less<>>;
 /// How a language writes doubles to the last bit.
 enum class NumberStyle { hexadecimal, decimal };
 
+/// The configuration of exactly the numbers that a candidate is given.
+Configuration as_asked(const Configuration& configuration);
+
 /// The numbers that the candidates are given (unit normals and quaternions in double), and what
 /// engines with other axes get.
 Texts question_texts(const Configuration& c, NumberStyle numbers);
