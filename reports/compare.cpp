@@ -253,7 +253,7 @@ class Changes {
   /// Adds a quantity of which less is better; what lies below `floor` counts as that.
   void smaller_is_better(const char* measure, double before, double after, double floor,
                          double limit) {
-    const double factor = std::max(after, floor) / std::max(before, floor);
+    const double factor = finite(std::max(after, floor) / std::max(before, floor));
     if (factor == 1) return;
     add(measure, before, after, factor, factor > 1 ? Verdict::worse : Verdict::better,
         factor > limit || factor < 1 / limit);

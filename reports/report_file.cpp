@@ -2,9 +2,8 @@
 #include <cstdint>
 #include <fmt/format.h>
 #include <future>
-#include <set>
+#include <initializer_list>
 #include <string>
-#include <tuple>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -14,6 +13,7 @@
 #include "properties/files/strict_json.hpp"
 #include "properties/pose_class.hpp"
 #include "reference/invalid_input.hpp"
+#include "reports/inconsistency.hpp"
 #include "reports/report_json.hpp"
 
 namespace touchstone {
@@ -64,7 +64,8 @@ class Reader {
     }
     return value_;
   }
-  /// A time, a number of instructions, or the factor between two; quotients of two stay finite.
+  /// A tolerance, a time, a number of instructions, or the factor between two; quotients of two
+  /// stay finite.
   double positive() const {
     constexpr double min = 1e-30, max = 1e30;
     if (!value_.is_number() || !(value_.get<double>() >= min && value_.get<double>() <= max)) {
@@ -91,9 +92,11 @@ class Reader {
     throw InvalidInput("file", '"' + file_ + '"',
                        "must be the report.json of touchstone report, but " + why);
   }
-  [[noreturn]] void refuse(const std::string& what) const {
-    throw InvalidInput(file_ + ": " + path_, shown(value_),
-                       what + "; make the report again with this version of touchstone");
+  [[noreturn]] void refuse(const std::string& what) const { refuse({path_, shown(value_), what}); }
+  /// What is found at a place of the whole file.
+  [[noreturn]] void refuse(const Inconsistency& found) const {
+    throw InvalidInput(file_ + ": " + found.place, found.value,
+                       found.remedy + "; make the report again with this version of touchstone");
   }
 
  private:
@@ -102,10 +105,25 @@ class Reader {
   std::string path_;
 };
 
+/// Refuses numbers of an object that do not ascend in this order. An older report is without some.
+void require_ascending(const Reader& of, std::initializer_list<const char*> names) {
+  const char* before = nullptr;
+  for (const char* name : names) {
+    if (!of.has(name)) continue;
+    if (before && of.at(name).number() < of.at(before).number()) {
+      of.at(name).refuse(
+          fmt::format("must not be less than its {}, {}", before, shown(of.at(before).value())));
+    }
+    before = name;
+  }
+}
+
 std::optional<Quantiles> read_quantiles(const Reader& q) {
   if (q.is_null()) return std::nullopt;
-  return Quantiles{q.at("median").not_negative(), q.at("p99").not_negative(),
-                   q.at("max").not_negative()};
+  const Quantiles result{q.at("median").not_negative(), q.at("p99").not_negative(),
+                         q.at("max").not_negative()};
+  require_ascending(q, {"median", "p99", "max"});
+  return result;
 }
 /// Older reports are without some of them.
 std::optional<Quantiles> quantiles_if_any(const Reader& row, const char* name) {
@@ -148,11 +166,15 @@ std::optional<Shares> shares(const Reader& coverage) {
                                     std::pair("p1", &result.p1), std::pair("min", &result.min)}) {
     *value = coverage.has(name) ? coverage.at(name).share() : result.mean;
   }
+  require_ascending(coverage, {"min", "p1", "median"});
   return result;
 }
 
 Spread spread(const Reader& time, const char* median, const char* low, const char* high) {
-  return {time.at(median).positive(), time.at(low).positive(), time.at(high).positive()};
+  const Spread result{time.at(median).positive(), time.at(low).positive(),
+                      time.at(high).positive()};
+  require_ascending(time, {low, median, high});
+  return result;
 }
 
 std::optional<QueryTime> query_time(const Reader& time) {
@@ -194,27 +216,6 @@ ResultRow summary_row(const Reader& row) {
   return result;
 }
 
-/// Takes the rows of a list one by one. Of two that are of the same, only one would be compared.
-class RowsOfOnce {
- public:
-  explicit RowsOfOnce(const Report& report) {
-    for (const CandidateDescription& c : report.candidates) candidates_.insert(c.name);
-  }
-  void take(const Reader& row, const ResultRow& read) {
-    if (!candidates_.contains(read.candidate)) {
-      row.at("candidate").refuse("must be one of the candidates of the report");
-    }
-    if (!seen_.emplace(read.pair, read.pose_class, read.candidate).second) {
-      row.at("candidate")
-          .refuse(fmt::format("must have one row for {}/{}", read.pair, read.pose_class));
-    }
-  }
-
- private:
-  std::set<std::string> candidates_;
-  std::set<std::tuple<std::string, std::string, std::string>> seen_;
-};
-
 /// The name of today of a class that may have had another one; an unknown name stays.
 std::string class_name(const std::string& pair, const std::string& name) {
   try {
@@ -233,6 +234,14 @@ Machine machine(const Reader& m) {
   return result;
 }
 
+PoseClassDescription pose_class(const Reader& c) {
+  PoseClassDescription result;
+  result.pair = c.at("pair").text();
+  result.pose_class = c.at("class").text();
+  if (c.has("group")) result.group = c.at("group").text();  // schema 1 knows none
+  return result;
+}
+
 Report report(const Reader& r) {
   const Reader schema = r.at("schema");
   // Other files of ours name what they are.
@@ -248,8 +257,8 @@ Report report(const Reader& r) {
   result.version = r.at("version").text();
   result.seed = r.at("seed").whole();
   result.configurations = r.at("configurations").whole();
-  result.tolerance = r.at("tolerance").number();
-  result.threshold = r.at("threshold").number();
+  result.tolerance = r.at("tolerance").positive();
+  result.threshold = r.at("threshold").not_negative();
   result.partial = r.at("partial").flag();
   result.machine = machine(r.at("machine"));
   r.at("candidates").each([&](const Reader& c) {
@@ -259,19 +268,19 @@ Report report(const Reader& r) {
     candidate.settings = c.at("settings").text();
     if (c.has("runs")) candidate.runs = c.at("runs").text();  // older ones are all native
   });
-  RowsOfOnce results(result), summary(result);
+  if (r.has("classes")) {
+    r.at("classes").each([&](const Reader& c) { result.classes.push_back(pose_class(c)); });
+  }
   r.at("results").each([&](const Reader& row) {
     result.results.push_back(result_row(row));
-    results.take(row, result.results.back());
     std::string& name = result.results.back().pose_class;
     if (result.is_old) name = class_name(result.results.back().pair, name);
   });
   // An old summary is over all groups, which no summary is any more.
-  if (result.is_old) return result;
-  r.at("summary").each([&](const Reader& row) {
-    result.summary.push_back(summary_row(row));
-    summary.take(row, result.summary.back());
-  });
+  if (!result.is_old) {
+    r.at("summary").each([&](const Reader& row) { result.summary.push_back(summary_row(row)); });
+  }
+  if (const auto found = inconsistency(result)) r.refuse(*found);
   return result;
 }
 

@@ -1,7 +1,9 @@
+#include <fmt/format.h>
 #include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <limits>
+#include <map>
 
 #include <nlohmann/json.hpp>
 
@@ -57,8 +59,10 @@ TEST_F(ReportFile, NoNameMakesALineOfItsOwnOrTurnsAround) {
 TEST_F(ReportFile, SaysWhatRepresentsThoseThatWereNotAsked) {
   json report = good();
   json& row = report["results"][0];
-  row["outcomes"] = {{"agree", 1}, {"not-asked", 1}};
-  row["represented"] = {{"agree", 1}};
+  for (json* const r : {&row, &report["summary"][0]}) {
+    (*r)["outcomes"] = {{"agree", 1}, {"not-asked", 1}};
+    (*r)["represented"] = {{"agree", 1}};
+  }
   write(report.dump());
   const Statistics s = read_report(file).results[0].statistics;
   EXPECT_EQ(s.asked(), 1u);
@@ -170,11 +174,47 @@ TEST_F(ReportFile, RefusesWhatCannotBeCompared) {
   refused("/results/0/outcomes/lost", 0, "results[0].outcomes.lost");
   refused("/results/0/outcomes/missed", std::uint64_t{1} << 63, "results[0].outcomes");
   refused("/results/0/count", 0, "results[0].count");
+  refused("/tolerance", 0, "tolerance is 0");
+  refused("/threshold", -1, "threshold is -1");
   refused("/results/0/coverage/mean", 1.5, "results[0].coverage.mean");
   refused("/results/0/depth_error/max", -1, "results[0].depth_error.max");
   refused("/results/0/nanoseconds/ratio_low", nullptr, "results[0].nanoseconds.ratio_low");
   refused("/results/0/nanoseconds/median", 1e-300, "results[0].nanoseconds.median");
   refused("/results/0/outcomes", json::array(), "results[0].outcomes");
+}
+
+TEST_F(ReportFile, RefusesNumbersThatContradictEachOther) {
+  const auto refused = [&](const std::map<std::string, json>& values, const std::string& why) {
+    json report = good();
+    for (const auto& [pointer, value] : values) report[json::json_pointer(pointer)] = value;
+    write(report.dump());
+    expect_refusal("", why);
+  };
+  const auto ascending = [&](const std::string& object, const std::vector<std::string>& names) {
+    for (std::size_t i = 1; i < names.size(); ++i) {
+      std::map<std::string, json> values;
+      for (const std::string& name : names) values[object + '/' + name] = 0.5;
+      values[object + '/' + names[i]] = 0.25;
+      refused(values,
+              fmt::format("{} is 0.25: must not be less than its {}, 0.5", names[i], names[i - 1]));
+    }
+  };
+  for (const char* const row : {"/results/1", "/summary/1"}) {
+    for (const char* const errors :
+         {"/depth_error", "/normal_regret", "/point_error", "/deepest_error"}) {
+      ascending(std::string(row) + errors, {"median", "p99", "max"});
+    }
+    ascending(std::string(row) + "/coverage", {"min", "p1", "median"});
+    ascending(std::string(row) + "/nanoseconds", {"low", "median", "high"});
+    ascending(std::string(row) + "/nanoseconds", {"ratio_low", "ratio_to_bullet", "ratio_high"});
+  }
+  refused({{"/candidates/1/name", "reference"}},
+          "candidates[1].name is \"reference\": must stand there once");
+  refused({{"/configurations", 3}}, "configurations is 3: must be 2, the sum of all classes");
+  refused({{"/results/1/count", 1}, {"/results/1/outcomes", {{"agree", 1}}}},
+          "results[1].count is 1: must be 2, as in the first row of cylinder-plane/lying");
+  refused({{"/summary/0/outcomes", {{"agree", 1}, {"missed", 1}}}},
+          "summary[0].outcomes.agree is 1: must be 2, the sum of its classes");
 }
 
 TEST_F(ReportFile, RefusesTextThatOnlyBeginsAsAReport) {

@@ -1,0 +1,96 @@
+#include "reports/inconsistency.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <fmt/format.h>
+#include <map>
+#include <set>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace touchstone {
+namespace {
+
+using Key = std::tuple<std::string, std::string, std::string>;  // pair, class or group, candidate
+using CountByClass = std::map<std::pair<std::string, std::string>, std::uint64_t>;
+
+Key key_of(const ResultRow& row) { return {row.pair, row.pose_class, row.candidate}; }
+
+/// Of the rows of one list; `counts` takes how many configurations each of its classes has.
+std::optional<Inconsistency> between_rows(const Report& report, const std::vector<ResultRow>& rows,
+                                          const std::string& list, CountByClass& counts) {
+  std::set<std::string> candidates;
+  for (const CandidateDescription& c : report.candidates) candidates.insert(c.name);
+  std::set<Key> seen;
+  for (const ResultRow& row : rows) {
+    const std::string place = fmt::format("{}[{}]", list, &row - rows.data()),
+                      of_class = row.pair + '/' + row.pose_class;
+    const auto about_candidate = [&](const std::string& remedy) {
+      return Inconsistency{place + ".candidate", '"' + row.candidate + '"', remedy};
+    };
+    if (!candidates.contains(row.candidate)) {
+      return about_candidate("must be one of the candidates of the report");
+    }
+    if (!seen.insert(key_of(row)).second) {
+      return about_candidate("must have one row for " + of_class);
+    }
+    const std::uint64_t count = row.statistics.count;
+    const auto [of_others, is_first] = counts.try_emplace({row.pair, row.pose_class}, count);
+    if (of_others->second != count) {
+      return Inconsistency{
+          place + ".count", std::to_string(count),
+          fmt::format("must be {}, as in the first row of {}", of_others->second, of_class)};
+    }
+  }
+  return std::nullopt;
+}
+
+/// The outcomes of each pair × group × candidate, and of all pairs together, by the results.
+std::map<Key, OutcomeCounts> sums_of_groups(const Report& report) {
+  std::map<std::pair<std::string, std::string>, std::string> groups;
+  for (const PoseClassDescription& c : report.classes) groups[{c.pair, c.pose_class}] = c.group;
+  std::map<Key, OutcomeCounts> sums;
+  for (const ResultRow& row : report.results) {
+    const std::string& group = groups[{row.pair, row.pose_class}];
+    for (const std::string& pair : {row.pair, std::string("all")}) {
+      OutcomeCounts& sum = sums[{pair, group, row.candidate}];
+      for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += row.statistics.outcomes[i];
+    }
+  }
+  return sums;
+}
+
+}  // namespace
+
+std::optional<Inconsistency> inconsistency(const Report& report) {
+  std::set<std::string> names;
+  for (const CandidateDescription& c : report.candidates) {
+    if (names.insert(c.name).second) continue;
+    return Inconsistency{fmt::format("candidates[{}].name", &c - report.candidates.data()),
+                         '"' + c.name + '"', "must stand there once"};
+  }
+  CountByClass of_classes, of_groups;
+  if (auto found = between_rows(report, report.results, "results", of_classes)) return found;
+  if (auto found = between_rows(report, report.summary, "summary", of_groups)) return found;
+  std::uint64_t configurations = 0;
+  for (const auto& [name, count] : of_classes) configurations += count;
+  if (!report.is_old && configurations != report.configurations) {
+    return Inconsistency{"configurations", std::to_string(report.configurations),
+                         fmt::format("must be {}, the sum of all classes", configurations)};
+  }
+  if (report.classes.empty()) return std::nullopt;  // which group a class belongs to is not known
+  auto sums = sums_of_groups(report);
+  for (const ResultRow& row : report.summary) {
+    const OutcomeCounts &sum = sums[key_of(row)], &said = row.statistics.outcomes;
+    const auto [of_sum, other] = std::mismatch(sum.begin(), sum.end(), said.begin());
+    if (of_sum == sum.end()) continue;
+    return Inconsistency{fmt::format("summary[{}].outcomes.{}", &row - report.summary.data(),
+                                     outcome_name(all_outcomes[of_sum - sum.begin()])),
+                         std::to_string(*other),
+                         fmt::format("must be {}, the sum of its classes", *of_sum)};
+  }
+  return std::nullopt;
+}
+
+}  // namespace touchstone
