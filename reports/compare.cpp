@@ -203,8 +203,8 @@ Basis basis_of(const Report& before, const Report& after, const std::string& bas
   if (!basis.same_judge) {
     basis.remarks.push_back(fmt::format(
         "The {} report is of a schema before 3, where points off the bodies agreed and a normal's "
-        "regret grew with a floor: agreement, normal regret, point error and coverage are not "
-        "compared.",
+        "regret grew with a floor: of agreement that in depth alone is compared, normal regret, "
+        "point error and coverage are not.",
         before.is_of_old_judge ? "old" : "new"));
   }
   for (const auto& [report, which] : {std::pair(&before, "old"), std::pair(&after, "new")}) {
@@ -275,19 +275,32 @@ double chance(double p, double n, double q, double m) {
   return 3 * std::sqrt(mean * (1 - mean) * (1 / n + 1 / m));
 }
 
+/// On how many of those supported the answer is right in depth, whatever a judge finds of its
+/// normal and points.
+std::uint64_t right_in_depth(const Statistics& s) {
+  std::uint64_t sum = s.agreeing();
+  for (const Outcome outcome : all_outcomes) {
+    if (outcome != Outcome::wrong_normal && !is_of_points(outcome)) continue;
+    sum += s.of(outcome) + s.represented[static_cast<std::size_t>(outcome)];
+  }
+  return sum;
+}
+
 void compare_agreement(Changes& changes, const Statistics& before, const Statistics& after,
-                       bool same_configurations, const CompareLimits& limits) {
+                       bool same_configurations, const Basis& basis, const CompareLimits& limits) {
   const auto count = [](const Statistics& s) {
     return effective_count(static_cast<double>(s.supported()), s.weight_squares());
   };
   const double n = count(before), m = count(after);
-  const auto share = [](const Statistics& s) {
-    return static_cast<double>(s.agreeing()) / static_cast<double>(s.supported());
+  const auto share = [&](const Statistics& s) {
+    const std::uint64_t right = basis.same_judge ? s.agreeing() : right_in_depth(s);
+    return static_cast<double>(right) / static_cast<double>(s.supported());
   };
   const double p = share(before), q = share(after);
   if (p == q || (!same_configurations && std::abs(p - q) <= chance(p, n, q, m))) return;
-  changes.add("agreement", p, q, p > 0 ? std::optional(q / p) : std::nullopt,
-              q < p ? Verdict::worse : Verdict::better, q > p || q < limits.agreement * p);
+  changes.add(basis.same_judge ? "agreement" : "agreement in depth", p, q,
+              p > 0 ? std::optional(q / p) : std::nullopt, q < p ? Verdict::worse : Verdict::better,
+              q > p || q < limits.agreement * p);
 }
 
 void compare_errors(Changes& changes, const Statistics& before, const Statistics& after,
@@ -377,8 +390,9 @@ void compare_rows(Comparison& comparison, const std::vector<ResultRow>& before,
       continue;
     }
     if (with_errors) {
-      if (basis.same_bar && basis.same_judge) {
-        compare_agreement(changes, old.statistics, now.statistics, same_configurations, limits);
+      if (basis.same_bar) {
+        compare_agreement(changes, old.statistics, now.statistics, same_configurations, basis,
+                          limits);
       }
       compare_errors(changes, old.statistics, now.statistics, basis, same_configurations, limits);
     }

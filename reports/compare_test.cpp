@@ -355,7 +355,7 @@ TEST(Compare, AReportOfTheOldJudgeIsComparedByWhatMeansTheSame) {
   for (json* report : {&old, &now}) {
     (*report)["results"][1]["normal_regret"] = {{"median", 0}, {"p99", 1e-3}, {"max", 1e-3}};
   }
-  now["results"][1]["outcomes"] = {{"agree", 70}, {"shallow", 30}};
+  now["results"][1]["outcomes"] = {{"agree", 70}, {"shallow", 20}, {"wrong-normal", 10}};
   now["results"][1]["normal_regret"]["p99"] = 1e-6;
   now["results"][1]["coverage"]["mean"] = 0.9;
   EXPECT_EQ(changes(compare(old, now, {})).size(), 3u);
@@ -369,6 +369,14 @@ TEST(Compare, AReportOfTheOldJudgeIsComparedByWhatMeansTheSame) {
               testing::ElementsAre("worse rim-face mine depth error, p99"));
   now["schema"] = 2;
   EXPECT_EQ(changes(compare(old, now, {})).size(), 4u);
+  // What no longer finds the contacts has no errors of depth.
+  now["schema"] = 3;
+  now["results"][1]["outcomes"] = {{"missed", 100}};
+  for (const char* errors : {"depth_error", "normal_regret", "coverage"}) {
+    now["results"][1][errors] = nullptr;
+  }
+  EXPECT_THAT(changes(compare(old, now, {})),
+              testing::ElementsAre("worse rim-face mine agreement in depth"));
 }
 
 TEST(Compare, AClassOfAnotherCountIsOfOtherConfigurations) {

@@ -19,7 +19,7 @@ using Verdict = Change::Verdict;
 
 std::string value_text(const Change& change, double value) {
   if (change.measure == "has a routine") return value > 0 ? "yes" : "no";
-  if (change.measure == "agreement") return fmt::format("{:.1f}%", 100 * value);
+  if (change.measure.starts_with("agreement")) return fmt::format("{:.1f}%", 100 * value);
   if (change.measure == "time") return fmt::format("{:.2f}", value);
   if (change.measure == "instructions") return fmt::format("{:.0f}", value);
   return value == 0 ? "0" : fmt::format("{:.1e}", value);

@@ -17,7 +17,7 @@ function words() {
 }
 function value(c, which) {
   if (c.measure === 'has a routine') return c[which] ? 'yes' : 'no';
-  if (c.measure === 'agreement') return (100 * c[which]).toFixed(1) + '%';
+  if (c.measure.startsWith('agreement')) return (100 * c[which]).toFixed(1) + '%';
   return c.measure === 'instructions' ? whole(c[which]) : exponent(c[which]);
 }
 function changeTable() {
