@@ -6,20 +6,11 @@
 #include <optional>
 
 #include "properties/pose_class.hpp"
+#include "properties/stable_hash.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone {
 namespace {
-
-/// FNV-1a, 64 bits: makes a part of the random key from a class name, on all platforms alike.
-std::uint64_t stable_hash(std::string_view text) {
-  std::uint64_t hash = 0xcbf29ce484222325U;
-  for (const char c : text) {
-    hash ^= static_cast<unsigned char>(c);
-    hash *= 0x100000001b3U;
-  }
-  return hash;
-}
 
 template <class Range>
 std::string joined(const Range& names) {

@@ -43,6 +43,13 @@ std::uint64_t count_of(const Campaign& campaign, const Cell& cell) {
   return campaign.count * (everyday || aligned ? campaign.everyday_times : 1);
 }
 
+Configuration answered_configuration(const Campaign& campaign, const Cell& cell,
+                                     const GivenAnswer& answer) {
+  return answer.configuration
+             ? *answer.configuration
+             : make_configuration({cell.pair, cell.pose_class, campaign.seed, answer.index});
+}
+
 const std::vector<GivenAnswer>& answers_in(const GivenAnswers& given, const Cell& cell) {
   const auto found =
       std::find_if(given.cells.begin(), given.cells.end(),

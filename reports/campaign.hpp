@@ -72,6 +72,9 @@ struct Campaign {
 /// Lists the cells in report order. Throws InvalidInput when a class belongs to none of the pairs.
 std::vector<Cell> cells(const Campaign& campaign);
 std::uint64_t count_of(const Campaign& campaign, const Cell& cell);
+/// Precondition: the answer is one of the cell's in `given`.
+Configuration answered_configuration(const Campaign& campaign, const Cell& cell,
+                                     const GivenAnswer& answer);
 
 /// Width of every truth that a score is against, relative to the larger size.
 inline constexpr double truth_width = 1e-30;

@@ -25,7 +25,8 @@ struct Basis {
   bool same_configurations = true;  ///< seed, and count of each class that both have
   bool same_bar = true;             ///< tolerance and threshold
   bool same_judge = true;           ///< outcomes and regrets mean the same
-  Groups split;                     ///< those with a class that only one of the reports has
+  NameSet others;                   ///< classes that have other configurations in each report
+  Groups split;                     ///< those with such a class, or one that only one report has
   bool times = true;                ///< both have the baseline that times are related to
   std::vector<std::string> remarks;
 };
@@ -51,8 +52,7 @@ std::vector<Group> possible_groups(const std::string& pair, const std::string& p
   }
 }
 
-Groups split_groups(const NameSet& old_classes, const NameSet& new_classes) {
-  NameSet uncommon;
+Groups split_groups(const NameSet& old_classes, const NameSet& new_classes, NameSet uncommon) {
   std::set_symmetric_difference(old_classes.begin(), old_classes.end(), new_classes.begin(),
                                 new_classes.end(), std::inserter(uncommon, uncommon.end()));
   Groups result;
@@ -110,13 +110,14 @@ Rows rows_of(const std::vector<ResultRow>& list) {
   return result;
 }
 
-/// The counts of the first class that has another one in each report.
+/// The counts of the first class that has another one in each report; those of `others` aside.
 std::optional<std::pair<std::uint64_t, std::uint64_t>> other_counts(const Report& before,
-                                                                    const Report& after) {
+                                                                    const Report& after,
+                                                                    const NameSet& others) {
   const Rows old_rows = rows_of(before.results);
   for (const ResultRow& row : after.results) {
     const auto old = old_rows.find({row.pair, row.pose_class, row.candidate});
-    if (old == old_rows.end()) continue;
+    if (old == old_rows.end() || others.contains(row.pair + '/' + row.pose_class)) continue;
     const std::uint64_t was = old->second->statistics.count, is = row.statistics.count;
     if (was != is) return std::pair(was, is);
   }
@@ -138,13 +139,38 @@ NameSet rows_without(const Report& report, const Report& other) {
   return result;
 }
 
-/// Configurations that came in a file have no seed.
-void remark_given(Basis& basis, const NameSet& old_classes, const NameSet& new_classes) {
-  for (const std::string& name : old_classes) {
-    if (!name.ends_with('/' + std::string(given_class)) || !new_classes.contains(name)) continue;
+/// The classes of a report by name, with what tells their configurations from others.
+std::map<std::string, std::string> digests_of(const Report& report) {
+  std::map<std::string, std::string> result;
+  for (const PoseClassDescription& c : report.classes) {
+    result[c.pair + '/' + c.pose_class] = c.digest;
+  }
+  return result;
+}
+
+/// Of answers that came in a file neither seed nor count says what the questions were.
+void remark_given(Basis& basis, const Report& before, const Report& after) {
+  auto old_digests = digests_of(before), new_digests = digests_of(after);
+  const NameSet new_classes = class_names(after);
+  bool is_any_unknown = false;
+  for (const std::string& name : class_names(before)) {
+    if (!new_classes.contains(name)) continue;
+    const std::string &was = old_digests[name], &is = new_digests[name];
+    const bool is_own = name.ends_with('/' + std::string(given_class));
+    if (is_own && (was.empty() || is.empty())) {
+      is_any_unknown = true;
+    } else if (was != is) {
+      basis.others.insert(name);
+    }
+  }
+  if (is_any_unknown) {
     basis.remarks.push_back(
-        "Configurations of your own are compared as if both reports had the same file.");
-    return;
+        "Configurations of your own are compared as if both reports had the same file, for one of "
+        "them is from before reports told.");
+  }
+  if (!basis.others.empty()) {
+    basis.remarks.push_back(fmt::format("Answers to other configurations, not compared: {}.",
+                                        fmt::join(basis.others, ", ")));
   }
 }
 
@@ -167,9 +193,9 @@ Basis basis_of(const Report& before, const Report& after, const std::string& bas
   remark_only(basis, "candidates", old_names, new_names);
   remark_only(basis, "classes", old_classes, new_classes);
   remark_only(basis, "rows", rows_without(before, after), rows_without(after, before));
-  remark_given(basis, old_classes, new_classes);
-  basis.split = split_groups(old_classes, new_classes);
-  const auto counts = other_counts(before, after);
+  remark_given(basis, before, after);
+  basis.split = split_groups(old_classes, new_classes, basis.others);
+  const auto counts = other_counts(before, after, basis.others);
   basis.same_configurations = before.seed == after.seed && !counts;
   if (!basis.same_configurations) {
     std::string why;
@@ -375,7 +401,9 @@ void compare_rows(Comparison& comparison, const std::vector<ResultRow>& before,
   const Rows old_rows = rows_of(before), new_rows = rows_of(after);
   for (const auto& [key, old_row] : old_rows) {
     const auto found = new_rows.find(key);
-    if (found == new_rows.end() || basis.split.contains({std::get<0>(key), std::get<1>(key)})) {
+    const auto& [pair, name, candidate] = key;  // the name of a class, or of a group
+    if (found == new_rows.end() || basis.others.contains(pair + '/' + name) ||
+        basis.split.contains({pair, name})) {
       continue;
     }
     const ResultRow &old = *old_row, &now = *found->second;
@@ -450,7 +478,8 @@ Comparison compare(const Report& before, const Report& after, const CompareLimit
   if (result.compared == 0) {
     throw InvalidInput("NEW", "of other things",
                        basis.same_configurations
-                           ? "must have a candidate and a class in common with OLD"
+                           ? "must have a candidate and a class in common with OLD, with the same "
+                             "configurations"
                            : "must have a candidate and all classes of a group of some pair in "
                              "common with OLD, for its seed or count is another");
   }

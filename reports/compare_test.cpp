@@ -390,6 +390,53 @@ TEST(Compare, AClassOfAnotherCountIsOfOtherConfigurations) {
   EXPECT_THAT(remarks(c), HasSubstr("100 and 50 of a class"));
 }
 
+/// A report of answers that came in a file, to configurations with this digest.
+json report_of_given(const char* pose_class, const json& digest, int agree) {
+  json report = small_report();
+  const char* const group = pose_class == given_class ? "given" : "everyday";
+  report["results"] = json::array({row(pose_class, "mine", agree, 1e-6, 200)});
+  report["summary"] = json::array({row(group, "mine", agree, 1e-6, 200)});
+  report["classes"] =
+      json::array({{{"pair", "cylinder-box"}, {"class", pose_class}, {"group", group}}});
+  if (!digest.is_null()) report["classes"][0]["digest"] = digest;
+  return report;
+}
+
+TEST(Compare, AnswersToOtherConfigurationsAreNotCompared) {
+  for (const char* const pose_class : {"given", "rim-face"}) {
+    const json before = report_of_given(pose_class, "00000000000000a1", 80);
+    const Comparison same =
+        compare(before, report_of_given(pose_class, "00000000000000a1", 70), {});
+    EXPECT_THAT(changes(same),
+                testing::ElementsAre(std::string("worse ") + pose_class + " mine agreement"));
+    EXPECT_TRUE(same.remarks.empty()) << remarks(same);
+    const json other = report_of_given(pose_class, "00000000000000b2", 70);
+    EXPECT_THAT([&] { compare(before, other, {}); },
+                testing::ThrowsMessage<InvalidInput>(HasSubstr("with the same configurations")));
+    // Beside them another class has another count, and nothing of it is left to chance.
+    json both = before, both_other = other;
+    for (json* const report : {&both, &both_other}) {
+      (*report)["results"].push_back(row("touching", "mine", 60, 1e-6, 200));
+      (*report)["classes"].push_back(
+          {{"pair", "cylinder-box"}, {"class", "touching"}, {"group", "degenerate"}});
+    }
+    both_other["results"][0]["count"] = 50;
+    both_other["results"][0]["outcomes"] = {{"agree", 50}};
+    both_other["summary"] = json::array();
+    both_other["results"][1]["outcomes"] = {{"agree", 59}, {"shallow", 41}};
+    const Comparison c = compare(both, both_other, {});
+    EXPECT_THAT(changes(c), testing::ElementsAre("worse touching mine agreement"));
+    EXPECT_THAT(remarks(c), HasSubstr(std::string("Answers to other configurations, not compared: "
+                                                  "cylinder-box/") +
+                                      pose_class + ".\n"));
+  }
+  // A report from before there were digests.
+  const Comparison old =
+      compare(report_of_given("given", nullptr, 80), report_of_given("given", "a1", 80), {});
+  EXPECT_TRUE(old.changes.empty());
+  EXPECT_THAT(remarks(old), HasSubstr("as if both reports had the same file"));
+}
+
 TEST(Compare, NamesTheFirstOfManyClasses) {
   json now = small_report();
   for (int i = 0; i < 30; ++i) {

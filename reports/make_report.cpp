@@ -13,6 +13,8 @@
 #include "candidates/host/interruption.hpp"
 #include "candidates/host/progress.hpp"
 #include "properties/identity.hpp"
+#include "properties/numbers.hpp"
+#include "properties/stable_hash.hpp"
 #include "reports/covered_pairs.hpp"
 #include "reports/factors.hpp"
 #include "reports/replay.hpp"
@@ -57,6 +59,30 @@ PoseClassDescription description_of(const Cell& cell) {
 }
 
 namespace {
+
+/// A number made from those of a configuration.
+std::uint64_t hash_of(const Configuration& configuration) {
+  Numbers numbers = numbers_of(configuration);
+  std::string bytes;
+  for (const double* number : every_number(numbers)) {
+    const double x = *number + 0.0;  // zeros of either sign are equal
+    bytes.append(reinterpret_cast<const char*>(&x), sizeof x);
+  }
+  return stable_hash(bytes);
+}
+
+/// What tells the configurations of given answers from others, in whatever order they are; empty
+/// where they are the first of their class, as in a report of candidates that are asked.
+std::string digest_of(const Campaign& campaign, const Cell& cell) {
+  if (!campaign.given) return "";
+  const std::vector<GivenAnswer>& answers = answers_in(*campaign.given, cell);
+  if (cell.pose_class != given_class && answers.back().index == answers.size() - 1) return "";
+  std::uint64_t sum = 0;
+  for (const GivenAnswer& answer : answers) {
+    sum += hash_of(answered_configuration(campaign, cell, answer));
+  }
+  return fmt::format("{:016x}", sum);
+}
 
 /// What is known of each cell; absent where the run was interrupted before all of it was scored.
 std::vector<std::optional<Sample>> sample_cells(const Campaign& campaign,
@@ -274,6 +300,7 @@ Report make_report(const Campaign& campaign, const std::string& command) {
     oracle_times.insert(oracle_times.end(), samples[i]->oracle_microseconds.begin(),
                         samples[i]->oracle_microseconds.end());
     report.classes.push_back(description_of(all[i]));
+    report.classes.back().digest = digest_of(campaign, all[i]);
     const auto rows =
         rows_of(campaign, samples, times, {i}, pair_name(all[i].pair), all[i].pose_class);
     report.results.insert(report.results.end(), rows.begin(), rows.end());

@@ -38,6 +38,9 @@ struct CandidateDescription {
 struct PoseClassDescription {
   std::string pair, pose_class, description, group, arrangement;
   std::vector<std::string> modifiers;
+  /// Of answers that came in a file: tells their configurations from others. Empty: they are the
+  /// first of the class.
+  std::string digest = {};
 };
 
 /// Median and quartiles over repetitions.

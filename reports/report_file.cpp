@@ -239,6 +239,7 @@ PoseClassDescription pose_class(const Reader& c) {
   result.pair = c.at("pair").text();
   result.pose_class = c.at("class").text();
   if (c.has("group")) result.group = c.at("group").text();  // schema 1 knows none
+  if (c.has("digest")) result.digest = c.at("digest").text();
   return result;
 }
 

@@ -185,8 +185,10 @@ json to_json(const Machine& machine) {
 }
 
 json to_json(const PoseClassDescription& c) {
-  return {{"pair", c.pair},   {"class", c.pose_class},        {"description", c.description},
-          {"group", c.group}, {"arrangement", c.arrangement}, {"modifiers", c.modifiers}};
+  json result = {{"pair", c.pair},   {"class", c.pose_class},        {"description", c.description},
+                 {"group", c.group}, {"arrangement", c.arrangement}, {"modifiers", c.modifiers}};
+  if (!c.digest.empty()) result["digest"] = c.digest;
+  return result;
 }
 
 namespace {

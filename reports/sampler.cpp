@@ -198,10 +198,7 @@ Sample sample_given(const Campaign& campaign, Purpose purpose, const Cell& cell,
   const std::span all(answers_in(*campaign.given, cell));
   Sample result(1, purpose);
   for (const GivenAnswer& given : all.subspan(unit.first, unit.last - unit.first)) {
-    const Configuration c =
-        given.configuration
-            ? *given.configuration
-            : make_configuration({cell.pair, cell.pose_class, campaign.seed, given.index});
+    const Configuration c = answered_configuration(campaign, cell, given);
     try {
       score_answers({&c, 1}, {{given.answer()}}, campaign.bar, truth_width,
                     [&](const ScoredConfiguration& s) { result.add(unit.cell, given.index, s); });

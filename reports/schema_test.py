@@ -28,7 +28,7 @@ docs = source / "docs"
 
 # Members that may be absent.
 OPTIONAL = {"reason", "audit", "given", "stability", "experiments", "engines", "amplification", "maps", "sequences",
-            "represented"}
+            "represented", "digest"}
 # Objects whose members are names or numbers.
 MAPS = {"answers", "outcomes", "represented", "points", "details", "letters"}
 
@@ -146,6 +146,13 @@ class Schema(unittest.TestCase):
         report = json.loads((self.path / "small/report.json").read_text())
         self.assertNotIn("experiments", report)
         self.assertTrue(any(r["nanoseconds"] and r["nanoseconds"]["floor"] for r in report["results"]))
+        self.check("report", report)
+
+    def test_a_report_of_answers_from_elsewhere(self):
+        (self.path / "given.jsonl").write_text('{"id": "cylinder-plane/lying/1/3", "status": "none"}\n')
+        self.run_program("score", "given.jsonl", "--name", "mine", "--out", "given")
+        report = json.loads((self.path / "given/report.json").read_text())
+        self.assertIn("digest", report["classes"][0])
         self.check("report", report)
 
     def test_campaigns(self):

@@ -259,6 +259,28 @@ json without_times(json report) {
   return report;
 }
 
+TEST(ReportOfGivenAnswers, TellsItsConfigurationsFromOthers) {
+  const auto digest = [](const std::string& lines, const Wanted& wanted = {}) {
+    return report_of(read(lines, wanted)).classes.at(0).digest;
+  };
+  EXPECT_EQ(digest(none(id + "1") + none(id + "0")), "") << "the first of the class";
+  const std::string others = digest(none(id + "1") + none(id + "2"));
+  EXPECT_EQ(others, digest(none(id + "2") + none(id + "1")));
+  EXPECT_NE(others, digest(none(id + "1") + none(id + "3")));
+  EXPECT_NE(others, digest(none(id + "1")));
+  const auto of_file = [&](const std::string& lines) {
+    std::istringstream in(lines);
+    const ConfigurationFile file(in);
+    return digest(none("p1") + none("p2"), {&file, {}});
+  };
+  std::string moved = can_on_box;
+  const std::size_t digit = moved.find("1.9");
+  ASSERT_NE(digit, moved.npos) << moved;
+  moved.replace(digit, 3, "1.8");
+  EXPECT_EQ(of_file(can_on_box), of_file(can_on_box));
+  EXPECT_NE(of_file(can_on_box), of_file(moved));
+}
+
 TEST(ReportOfGivenAnswers, IsThatOfTheCandidateThatGaveThem) {
   Campaign campaign;
   campaign.pairs = {Pair::capsule, Pair::box};
