@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "cli/command.hpp"
+#include "cli/options.hpp"
 #include "properties/files/disk.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/report_json.hpp"
@@ -32,6 +33,8 @@ struct CompareArguments {
 };
 
 int run_compare(const CompareArguments& options) {
+  refuse_to_replace(options.before, options.html, "--html");
+  refuse_to_replace(options.after, options.html, "--html");
   const Report before = read_report(options.before), after = read_report(options.after);
   const Comparison comparison = compare(before, after, options.chosen());
   const auto write = [&] {

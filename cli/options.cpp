@@ -1,8 +1,10 @@
 #include "cli/options.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <fmt/format.h>
 #include <set>
+#include <system_error>
 #include <thread>
 
 #include "candidates/candidates.hpp"
@@ -268,6 +270,12 @@ Campaign CampaignOption::get() const {
 
 std::string CampaignOption::command_line() const {
   return sample.command_line() + candidates.command_line() + bar.command_line();
+}
+
+void refuse_to_replace(const std::string& input, const std::string& output, const char* option) {
+  std::error_code error;  // one that does not exist is another one
+  if (output.empty() || !std::filesystem::equivalent(input, output, error)) return;
+  throw InvalidInput(option, '"' + output + '"', "must be another file than the input");
 }
 
 }  // namespace touchstone

@@ -135,4 +135,7 @@ struct CampaignOption {
   BarOption bar;
 };
 
+/// Throws InvalidInput (field `option`) if the file to be written is the one that is read.
+void refuse_to_replace(const std::string& input, const std::string& output, const char* option);
+
 }  // namespace touchstone

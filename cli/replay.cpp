@@ -35,6 +35,7 @@ int run_replay(const ReplayArguments& options, bool emits) {
                      options.candidates.limits()));
     return 0;
   }
+  refuse_to_replace(options.input, options.html, "--html");
   if (!options.html.empty()) check_file_writable(options.html, "--html");
   auto candidates = start(options.candidates.get(), bar.threshold, options.candidates.limits());
   const Examination shown = examine(given, pointers(candidates), bar, 1e-30);

@@ -13,6 +13,9 @@ expect 0 'reference: contact' replay $rim --candidates reference --html "$folder
 grep -q "$rim" "$folder/page.html" || failed "no page"
 expect 2 '--html.*must be a folder that can be written' replay $rim --html /proc/none/page.html
 expect 2 '--html.*must be a file, not a folder' replay $rim --html "$folder"
+expect 0 . replay $rim --candidates reference --json
+echo "$printed" >"$folder/rim.json"
+expect 2 '--html is ".*rim.json": must be another file than the input' replay "$folder/rim.json" --html "$folder/rim.json"
 expect 2 '--tolerance' replay $rim --tolerance=-1
 
 # Identities, of small steps, of maps and of motions too.
@@ -41,6 +44,7 @@ expect 2 'must hold one configuration, not 2' stability "$folder/lines.jsonl"
 expect 2 'must hold one configuration, not 2' certify "$folder/lines.jsonl"
 expect 2 '^error: --id is "three": must be one of one, 2$' replay "$folder/lines.jsonl" --id three
 expect 2 '^error: --id is "one": must be of a line of a file$' replay $rim --id one
+expect 2 'nosuch.jsonl.*there is no such file' replay "$folder/nosuch.jsonl" --id one
 expect 0 '^one$' replay "$folder/lines.jsonl" --id one --candidates reference
 also '"id":"one"'
 expect 0 '"radius":2' replay "$folder/lines.jsonl" --id 2 --candidates reference --json

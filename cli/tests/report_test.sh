@@ -41,6 +41,10 @@ expect 0 '"fail_on":\["accuracy","time"\]' compare "$r" "$r" --json --fail-on ti
 expect 2 '--fail-on is "speed": must be accuracy' compare "$r" "$r" --fail-on speed
 expect 2 '--max-error-factor is "0.5"' compare "$r" "$r" --max-error-factor 0.5
 expect 2 '--html' compare "$r" "$r" --html "$folder/none/compare.html"
+cp "$r" "$folder/kept.json"
+expect 2 '--html is ".*kept.json": must be another file than the input' compare "$r" "$folder/kept.json" \
+  --html "$folder/kept.json"
+cmp -s "$r" "$folder/kept.json" || failed "a page replaces the report that it is about"
 # What is no report.
 expect 2 'none.json.*could not be opened' compare "$r" "$folder/none.json"
 echo '<testsuites/>' >"$folder/junit.xml"

@@ -214,8 +214,10 @@ json to_json(const Vec3& v) { return write_vector(v, or_null); }
 
 namespace {
 
-/// Is it a path rather than an identity? Those have four parts, and a number at the end.
+/// Is it a path rather than an identity? Those begin with a pair, and have four parts and a number
+/// at the end.
 bool is_meant_as_file(const std::string& name) {
+  if (name.starts_with('/') || name.starts_with('.')) return true;
   const bool has_parts = std::count(name.begin(), name.end(), '/') == 3;
   if (is_folder(name) && !has_parts) return true;
   const bool ends_with_number = !name.empty() && name.back() >= '0' && name.back() <= '9';
@@ -234,7 +236,9 @@ Subject named(const std::string& name, const std::optional<std::string>& id) {
     const Subject base = given_configuration(name.substr(0, at), id);
     return {name, base.description, perturbed(base.configuration, perturbation), base.id};
   }
-  if (id) throw InvalidInput("--id", '"' + *id + '"', "must be of a line of a file");
+  if (id && !is_meant_as_file(name)) {
+    throw InvalidInput("--id", '"' + *id + '"', "must be of a line of a file");
+  }
   if (const auto stability = named_configuration(name)) return *stability;
   if (is_meant_as_file(name)) {
     throw InvalidInput(
