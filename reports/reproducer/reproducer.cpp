@@ -86,12 +86,13 @@ const std::array programs = {
 
 std::string_view family_of(std::string_view name) { return name.substr(0, name.find(':')); }
 
-/// A string of C, JavaScript and Python.
+/// A string of C and Python.
 std::string string_literal(std::string_view text) {
   std::string result = "\"";
   for (const char c : text) {
-    if (c == '\n') {
-      result += "\\n";
+    const auto code = static_cast<unsigned char>(c);
+    if (code < 0x20 || code == 0x7f) {
+      result += fmt::format("\\{:03o}", code);  // some controls end a line of source
     } else {
       if (c == '"' || c == '\\') result += '\\';
       result += c;
@@ -237,7 +238,7 @@ Texts candidate_texts(const Candidate* candidate) {
           {"index", std::to_string(candidate->index)},
           {"parameter", fmt::format("{}", candidate->value)},
           {"plugin", string_literal(candidate->plugin.string())},
-          {"include", include_folder()},
+          {"include", shell_quoted(include_folder())},
           {"command", string_literal(candidate->command)},
           {"folder", string_literal(candidate->folder.string())}};
 }
