@@ -54,6 +54,11 @@ head -n 1 "$folder/lines.jsonl" >"$folder/line.jsonl"
 expect 0 '^one$' replay "$folder/line.jsonl" --candidates reference
 cat "$folder/line.jsonl" "$folder/line.jsonl" >"$folder/twice.jsonl"
 expect 2 '^error: --id is "one": must be of one line, not of 2$' replay "$folder/twice.jsonl" --id one
+(cat "$folder/line.jsonl" && echo nonsense) >"$folder/bad.jsonl"
+expect 2 '^error: .*/bad.jsonl: line 2 is no JSON' replay "$folder/bad.jsonl" --id one
+# What ends in a backslash does not make the next line of a program a part of its comment.
+sed 's/"one"/"one\\\\"/' "$folder/line.jsonl" >"$folder/backslash.jsonl"
+expect 0 '^// Asked .*, id one\\\.$' replay "$folder/backslash.jsonl" --emit ode
 
 # Programs.
 expect 0 '#include <BulletCollision' replay $rim --emit bullet

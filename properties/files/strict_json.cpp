@@ -229,7 +229,7 @@ std::vector<json> parse_json_lines(const std::string& text, const std::string& s
   for (std::size_t number = 1; std::getline(lines, line); ++number) {
     if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
     try {
-      values.push_back(parse_line(line, number, fmt::format("line {}", number)));
+      values.push_back(parse_line(line, number, fmt::format("{}: line {}", source, number)));
     } catch (const InvalidInput&) {
       if (values.empty()) throw *not_one_value;
       throw;

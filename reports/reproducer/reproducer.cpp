@@ -344,10 +344,12 @@ std::string reproducer(std::string_view name, std::string_view language, const C
                candidate && candidate->in_frames ? "frames" : "lines",
                program.engine.empty() ? "plugin" : "engine",
                program.tags == "doctest" ? "test" : "program"});
-  texts.merge(Texts{{"engine", title},
-                    {"asked", escaped(asked, Printed::one_line)},
-                    {"remark", std::string(program.language.remark)},
-                    {"seen", seen(title, numbers, candidate, c, truth, bar, limits)}});
+  texts.merge(
+      Texts{{"engine", title},
+            // A backslash at a line's end would make the next one a part of the comment.
+            {"asked", escaped(asked, Printed::one_line) + (asked.ends_with('\\') ? "." : "")},
+            {"remark", std::string(program.language.remark)},
+            {"seen", seen(title, numbers, candidate, c, truth, bar, limits)}});
   const auto part = [&](std::string_view source) { return fill_template(source, tags, texts); };
   texts["mjcf"] = part(mjcf_template);
   texts["head"] = part(head_template);
