@@ -28,13 +28,17 @@ inline std::vector<Identity> everyday_poses(Pair pair, std::uint64_t count) {
   return identities;
 }
 
+/// Does an engine take a point of a contact for one that it has kept?
+using IsSame = bool (*)(const Contact& contact, const ContactPoint& point, const ContactPoint& kept,
+                        double threshold);
+
 /// An engine's points are those of our routine: the normal has the same clearance (where several
 /// tie it may be another), as many points as the engine's limit lets through, the deepest as deep.
-/// `precision` is that of the poses as the engine holds them, relative to the larger size; points
-/// that are no farther apart than `same` of the threshold may be one.
+/// `precision` is that of the poses as the engine holds them, relative to the larger size; of the
+/// points before it a point replaces the nearest one where `is_same` says so.
 inline void expect_as_ours(const Configuration& c, double threshold, int max_points,
                            const std::vector<EnginePoint>& points, double precision,
-                           double same = 0) {
+                           IsSame is_same = nullptr) {
   const double rounding =
       precision * (larger_size(c) + c.pose_a.position().norm() + c.pose_b.position().norm());
   Contact ours = contact(c, threshold, nullptr, PointRange::within_threshold);
@@ -46,16 +50,20 @@ inline void expect_as_ours(const Configuration& c, double threshold, int max_poi
     ASSERT_LE(points.size(), ours.points().size());
     // The engine's rounding may drop a point that is as far apart as the threshold.
     const auto is_within = [&](const ContactPoint& p) { return p.depth > rounding - threshold; };
-    std::vector<Vec3> apart;
+    std::vector<ContactPoint> kept;
     for (const ContactPoint& p : ours.points()) {
-      const auto is_same = [&](const Vec3& other) {
-        return (p.position - other).norm() <= same * threshold;
-      };
-      if (is_within(p) && std::none_of(apart.begin(), apart.end(), is_same)) {
-        apart.push_back(p.position);
+      if (!is_within(p)) continue;
+      const auto nearest = std::min_element(
+          kept.begin(), kept.end(), [&](const ContactPoint& l, const ContactPoint& r) {
+            return (l.position - p.position).norm() < (r.position - p.position).norm();
+          });
+      if (is_same && nearest != kept.end() && is_same(ours, p, *nearest, threshold)) {
+        *nearest = p;
+      } else {
+        kept.push_back(p);
       }
     }
-    ASSERT_GE(points.size(), apart.size());
+    ASSERT_GE(points.size(), kept.size());
   }
   if (points.empty()) return;
   double deepest = points[0].depth;
