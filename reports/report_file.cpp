@@ -64,8 +64,7 @@ class Reader {
     }
     return value_;
   }
-  /// A tolerance, a time, a number of instructions, or the factor between two; quotients of two
-  /// stay finite.
+  /// A time, a number of instructions, or the factor between two; quotients of two stay finite.
   double positive() const {
     constexpr double min = 1e-30, max = 1e30;
     if (!value_.is_number() || !(value_.get<double>() >= min && value_.get<double>() <= max)) {
@@ -258,7 +257,7 @@ Report report(const Reader& r) {
   result.version = r.at("version").text();
   result.seed = r.at("seed").whole();
   result.configurations = r.at("configurations").whole();
-  result.tolerance = r.at("tolerance").positive();
+  result.tolerance = r.at("tolerance").not_negative();
   result.threshold = r.at("threshold").not_negative();
   result.partial = r.at("partial").flag();
   result.machine = machine(r.at("machine"));

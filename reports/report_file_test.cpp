@@ -174,7 +174,7 @@ TEST_F(ReportFile, RefusesWhatCannotBeCompared) {
   refused("/results/0/outcomes/lost", 0, "results[0].outcomes.lost");
   refused("/results/0/outcomes/missed", std::uint64_t{1} << 63, "results[0].outcomes");
   refused("/results/0/count", 0, "results[0].count");
-  refused("/tolerance", 0, "tolerance is 0");
+  refused("/tolerance", -1, "tolerance is -1");
   refused("/threshold", -1, "threshold is -1");
   refused("/results/0/coverage/mean", 1.5, "results[0].coverage.mean");
   refused("/results/0/depth_error/max", -1, "results[0].depth_error.max");

@@ -72,6 +72,14 @@ TEST(StrictJson, SaysAtWhichLineAndColumnTheTextIsNoJson) {
   }
 }
 
+// As Python writes it.
+TEST(StrictJson, SaysWhatStandsForWhatIsNoNumber) {
+  for (const char* text : {"{\"a\":NaN}", "[1,-Infinity]", "[Infinity]"}) {
+    EXPECT_THAT(refusal(text).text, HasSubstr("null for what is no number")) << text;
+  }
+  EXPECT_THAT(refusal("[None]").text, testing::Not(HasSubstr("null")));
+}
+
 TEST(StrictJson, NamesTheNumberBeyondAllDoubles) {
   EXPECT_EQ(refusal(R"({"a":{"r":1e400}})").field, "a.r");
   EXPECT_EQ(refusal(R"({"p":[0,-1e999]})").field, "p[1]");

@@ -181,10 +181,15 @@ class Follower {
   constexpr std::size_t shown_before = 12, shown_after = 12;
   const std::size_t start = std::max(line_start, at - std::min(at, shown_before));
   const std::string near(text.substr(start, at - start + shown_after));
+  // What other writers of JSON make of what is no number.
+  const std::string_view here = text.substr(at);
+  const bool is_no_number = here.starts_with("NaN") || here.starts_with("Infinity");
   throw InvalidInput(source,
                      fmt::format("no JSON at {} ({})", where,
                                  at == text.size() ? "its end" : "near " + shown(near)),
-                     "must be one whole JSON value");
+                     is_no_number ? "must be one whole JSON value, which has null for what is no "
+                                    "number, where that is allowed"
+                                  : "must be one whole JSON value");
 }
 
 }  // namespace
