@@ -79,6 +79,10 @@ void reverse(GivenAnswer& answer) {
 GivenAnswer answer_of(const json& line, const std::string& id) {
   refuse_others(line, {"id", "status", "signed_distance", "normal", "points"}, "");
   const ts_answer a = answer_from_json(line, "");
+  for (int i = 0; i < a.point_count; ++i) {
+    refuse_others(line["points"][static_cast<std::size_t>(i)], {"position", "depth", "normal"},
+                  fmt::format("points[{}]", i));
+  }
   return {
       id, 0, {}, a.status, a.signed_distance, Vec3(a.normal), {a.points, a.points + a.point_count}};
 }

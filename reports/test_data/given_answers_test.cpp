@@ -129,6 +129,9 @@ TEST(GivenAnswers, EveryBadLineIsToldAndTheOthersCount) {
       {contact(id + "1", R"("signed_distance":1,"normal":[0,1],"points":[])"), "normal is [0,1]"},
       {contact(id + "1", R"("signed_distance":1,"normal":[0,0,1],"points":[{"depth":1}])"),
        "points[0].position is missing"},
+      {contact(id + "1", R"("signed_distance":1,"normal":[0,0,1],)"
+                         R"("points":[{"position":[0,0,0],"depth":1,"distance":1}])"),
+       "points[0].distance is 1: is not known here"},
   };
   std::string text = none(id + "0");
   for (const Row& row : rows) text += row.line;
