@@ -193,7 +193,7 @@ class Registry {
                            const Added& subject) {
     CommandProcess process(command, folder);
     const auto hello = process.start();
-    if (const auto* const failure = std::get_if<CommandProcess::Failure>(&hello)) {
+    if (const auto* const failure = std::get_if<CommandProcess::NoAnswer>(&hello)) {
       throw InvalidInput(
           subject.option, '"' + subject.value + '"',
           "must be a command that speaks as docs/process-candidates.md says, not as this one: " +

@@ -49,8 +49,8 @@ struct Candidate {
   std::string precision = {};         ///< "double" or "float"
   std::string runs = "native";        ///< "native", "wasm" or "script"
   bool in_frames = false;             ///< its messages are frames; otherwise lines of JSON
-  /// Of a function of this program (python/): makes what answers, with a threshold.
-  std::function<std::unique_ptr<Respondent>(double, const Limits&)> respondent = {};
+  /// Of a function of this program (python/): makes what answers.
+  std::function<std::unique_ptr<Respondent>(const Limits&)> respondent = {};
   std::optional<Added> added = {};  ///< what brought it; absent for those that Touchstone has
 
   bool has_routine_for(Pair pair) const;

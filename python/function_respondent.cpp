@@ -49,8 +49,8 @@ std::string text_of(const py::error_already_set& error) {
 
 }  // namespace
 
-FunctionRespondent::FunctionRespondent(py::function function, double threshold, double seconds)
-    : function_(std::move(function)), threshold_(threshold), seconds_(seconds) {
+FunctionRespondent::FunctionRespondent(py::function function, double seconds)
+    : function_(std::move(function)), seconds_(seconds) {
   const auto ring = py::cpp_function([this](int, const py::object&) {
     if (Clock::now() < end_ && !interrupted()) return;
     PyErr_SetNone(too_long());
@@ -86,16 +86,15 @@ void FunctionRespondent::call_within(double seconds, const Action& action) const
   action();
 }
 
-void FunctionRespondent::ask_within(double threshold) { threshold_ = threshold; }
-
-py::tuple FunctionRespondent::arguments_of(const Configuration& c, double threshold) const {
+py::tuple FunctionRespondent::arguments_of(const Asked& asked) const {
+  const Configuration& c = *asked.configuration;
   // What every candidate is given: unit orientations, a plane's unit normal.
   const auto unit = [](const Pose& p) { return Pose(p.position(), p.unit_orientation()); };
   Shape b = c.b;
   if (const auto* const plane = std::get_if<Plane>(&c.b)) {
     b = Plane(plane->unit_normal(), plane->unit_displacement());
   }
-  return py::make_tuple(c.a, unit(c.pose_a), shape_to_python(b), unit(c.pose_b), threshold);
+  return py::make_tuple(c.a, unit(c.pose_a), shape_to_python(b), unit(c.pose_b), asked.threshold);
 }
 
 Answer FunctionRespondent::answer_to(const py::tuple& arguments) const {
@@ -117,42 +116,30 @@ Answer FunctionRespondent::answer_to(const py::tuple& arguments) const {
   return answer;
 }
 
-std::vector<Answer> FunctionRespondent::answers(std::span<const Configuration> configurations) {
-  return answer(configurations, {}, {});
-}
-
-std::vector<Answer> FunctionRespondent::answers_until_timeout(
-    std::span<const Configuration> configurations, bool /*in_new_session*/) {
-  std::vector<Answer> result;
-  for (const Configuration& c : configurations) {
-    result.push_back(answer_to(arguments_of(c, threshold_)));
-    if (result.back().status == TS_TIMED_OUT) break;
+std::optional<NoAnswer> FunctionRespondent::ask(std::span<const Asked> asked, bool /*release*/,
+                                                std::span<std::optional<Answer>> answers) {
+  std::optional<NoAnswer> timeout;
+  for (std::size_t i = 0; i < asked.size() && !timeout; ++i) {
+    const Answer answer = answer_to(arguments_of(asked[i]));
+    if (answer.status == TS_TIMED_OUT) {
+      timeout = NoAnswer{TS_TIMED_OUT, answer.reason, true, true};
+    } else {
+      answers[i] = answer;
+    }
   }
   flush_output();
-  return result;
+  return timeout;
 }
 
-std::vector<Answer> FunctionRespondent::answer(std::span<const Configuration> configurations,
-                                               std::span<const Vec3* const> /*previous_normals*/,
-                                               std::span<const double> thresholds) {
-  std::vector<Answer> result;
-  for (std::size_t i = 0; i < configurations.size(); ++i) {
-    const double threshold = thresholds.empty() ? threshold_ : thresholds[i];
-    result.push_back(answer_to(arguments_of(configurations[i], threshold)));
-  }
-  flush_output();
-  return result;
-}
-
-bool FunctionRespondent::prepare_timing(std::span<const Configuration> configurations) {
+bool FunctionRespondent::prepare_timing(std::span<const Asked> asked) {
   constexpr std::size_t min_timed = 10;
   constexpr auto max_once = std::chrono::microseconds(500),
                  min_round = std::chrono::microseconds(500);
   timed_.clear();
   Clock::duration once{};
-  for (const Configuration& c : configurations) {
+  for (const Asked& question : asked) {
     if (timed_.size() >= min_timed && once > max_once) break;
-    const py::tuple arguments = arguments_of(c, threshold_);
+    const py::tuple arguments = arguments_of(question);
     const auto start = Clock::now();
     if (answer_to(arguments).status == TS_TIMED_OUT) return false;
     once += Clock::now() - start;

@@ -14,32 +14,27 @@ namespace touchstone::python {
 class FunctionRespondent : public Respondent {
  public:
   /// `seconds` by the clock are allowed for one question, where this is Python's main thread.
-  FunctionRespondent(py::function function, double threshold, double seconds);
+  FunctionRespondent(py::function function, double seconds);
   ~FunctionRespondent() override;
   FunctionRespondent(const FunctionRespondent&) = delete;
   FunctionRespondent& operator=(const FunctionRespondent&) = delete;
 
-  void ask_within(double threshold) override;
-  std::vector<Answer> answers(std::span<const Configuration> configurations) override;
-  std::vector<Answer> answers_until_timeout(std::span<const Configuration> configurations,
-                                            bool in_new_session) override;
   /// A function takes no hints.
-  std::vector<Answer> answer(std::span<const Configuration> configurations,
-                             std::span<const Vec3* const> previous_normals,
-                             std::span<const double> thresholds) override;
-  void restart() override {}
-  bool prepare_timing(std::span<const Configuration> configurations) override;
+  std::optional<NoAnswer> ask(std::span<const Asked> asked, bool release,
+                              std::span<std::optional<Answer>> answers) override;
+  void end_session() override {}
+  bool prepare_timing(std::span<const Asked> asked) override;
   std::optional<QueryCost> cost_per_query() override;
 
  private:
-  py::tuple arguments_of(const Configuration& configuration, double threshold) const;
+  py::tuple arguments_of(const Asked& asked) const;
   Answer answer_to(const py::tuple& arguments) const;
   /// Calls action(), which an exception ends after so many seconds.
   template <class Action>
   void call_within(double seconds, const Action& action) const;
 
   py::function function_;
-  double threshold_, seconds_;
+  double seconds_;
   mutable std::chrono::steady_clock::time_point end_;  ///< of the call under way
   py::object previous_handler_;                        ///< of the alarm; null: there is no limit
   std::vector<py::tuple> timed_;  ///< arguments of the questions that are timed

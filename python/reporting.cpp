@@ -51,11 +51,11 @@ Candidate candidate_of(const Request& request) {
   candidate.supports.fill(true);
   candidate.precision = "double";
   candidate.runs = "script";
-  candidate.respondent = [function = request.function, seconds = request.seconds, owner = getpid()](
-                             double threshold, const Limits&) -> std::unique_ptr<Respondent> {
+  candidate.respondent = [function = request.function, seconds = request.seconds,
+                          owner = getpid()](const Limits&) -> std::unique_ptr<Respondent> {
     // A worker: Python must know that it was forked, as by os.fork.
     if (getpid() != owner) PyOS_AfterFork_Child();
-    return std::make_unique<FunctionRespondent>(function, threshold, seconds);
+    return std::make_unique<FunctionRespondent>(function, seconds);
   };
   return candidate;
 }

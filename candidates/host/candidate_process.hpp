@@ -12,6 +12,8 @@
 namespace touchstone {
 
 class Respondent;
+struct Asked;
+struct NoAnswer;
 
 /// Resources that one configuration may use before the candidate's process is ended.
 struct Limits {
@@ -52,8 +54,13 @@ struct QueryCost {
 };
 
 /// One candidate that is asked in processes of its own: sessions of its plug-in's process
-/// (plugin_sessions.hpp) or a command (command_process.hpp). Alone a function of this program is
+/// (plugin_sessions.hpp) or a command (command_respondent.hpp). Alone a function of this program is
 /// asked in the process that this is used in (Candidate::respondent).
+///
+/// Questions go in batches, and a failure costs one of them. The answers before it count. The
+/// question that was in hand, if that is known, is asked once more, alone in a new session, unless
+/// it is certain that it was the cause; then the failure is its answer. If it is not known, the
+/// questions are asked again in halves, until one stands alone.
 class CandidateProcess {
  public:
   CandidateProcess(const Candidate& candidate, double threshold, const Limits& limits = {});
@@ -80,7 +87,7 @@ class CandidateProcess {
   std::vector<Answer> answer(std::span<const Configuration> configurations,
                              std::span<const Vec3* const> previous_normals = {},
                              std::span<const double> thresholds = {});
-  /// Ends the session. The next call begins a new one.
+  /// Ends the session. The next call begins a new one, which knows of no failures.
   void restart();
   /// Before the next call of `answer`, releases the shapes that are kept ready for it, in the same
   /// session: a candidate without other memory answers as if it had been asked nothing before.
@@ -88,14 +95,26 @@ class CandidateProcess {
 
   /// Prepares shapes for timing in a session in which nothing is answered and queries them once,
   /// untimed. Keeps as many as take about half a millisecond together, at least ten. False if the
-  /// session died.
+  /// session died, or if there is a routine for none of them.
   bool prepare_timing(std::span<const Configuration> configurations);
   /// Times one round over the prepared shapes: the candidate's process reads the clock around a
   /// loop that contains only calls. Absent if the session died.
   std::optional<QueryCost> cost_per_query();
 
  private:
+  struct Manner {
+    bool release;                ///< shapes are released once they are not needed
+    bool until_timeout = false;  ///< nothing is answered after a time-out
+  };
+  std::vector<Answer> ask(std::span<const Configuration> configurations,
+                          std::span<const Vec3* const> previous_normals,
+                          std::span<const double> thresholds, Manner manner);
+  /// Answers in a session of its own; a failure there is the answer.
+  Answer answer_alone(const Asked& asked);
+  Answer answer_of(const NoAnswer& failure);
+
   Candidate candidate_;
+  double threshold_;
   std::unique_ptr<Respondent> respondent_;
 };
 

@@ -106,8 +106,16 @@ void CommandProcess::run(int input, int output, int report) const {
   _exit(127);
 }
 
-std::variant<messages::Hello, CommandProcess::Failure> CommandProcess::start(
+std::variant<messages::Hello, CommandProcess::NoAnswer> CommandProcess::start(
     std::chrono::milliseconds time) {
+  try {
+    return begin(time);
+  } catch (const NoAnswer& failure) {
+    return failure;
+  }
+}
+
+messages::Hello CommandProcess::begin(std::chrono::milliseconds time) {
   stop();
   if (ftruncate(log_, 0) != 0) fail("ftruncate");
   int to_child[2], from_child[2], report[2];
@@ -124,13 +132,12 @@ std::variant<messages::Hello, CommandProcess::Failure> CommandProcess::start(
   fcntl(output_, F_SETFL, O_NONBLOCK);
 
   const double seconds = std::chrono::duration<double>(time).count();
-  const auto answer =
+  const std::string line =
       ask(messages::hello() + '\n', 0, {seconds, seconds, std::numeric_limits<double>::infinity()});
-  if (const Failure* const failure = std::get_if<Failure>(&answer)) return *failure;
   try {
-    return messages::read_hello(std::get<std::string>(answer));
+    return messages::read_hello(line);
   } catch (const messages::Garbage& garbage) {
-    return refuse(garbage.what());
+    refuse(garbage.what());
   }
 }
 
@@ -141,9 +148,8 @@ void CommandProcess::stop() {
   received_.clear();
 }
 
-std::variant<std::string, CommandProcess::Failure> CommandProcess::ask(const std::string& request,
-                                                                       std::size_t size,
-                                                                       const Allowance& allowance) {
+std::string CommandProcess::ask(const std::string& request, std::size_t size,
+                                const Allowance& allowance) {
   // Most answers come before the first check; the watch starts with that.
   std::optional<Watch> watching;
   auto next_check = Clock::now() + request_check_interval;
@@ -168,9 +174,9 @@ std::variant<std::string, CommandProcess::Failure> CommandProcess::ask(const std
       const std::size_t end = size > 0 ? size : received_.find('\n') + 1;
       const bool is_whole = end > 0 && received_.size() >= end;
       if (is_whole && received_.size() > end) {
-        return refuse("it wrote more than its answer: " + messages::quoted(received_));
+        refuse("it wrote more than its answer: " + messages::quoted(received_));
       }
-      if (is_whole && sent < request.size()) return refuse("it answered before it was asked");
+      if (is_whole && sent < request.size()) refuse("it answered before it was asked");
       if (is_whole) {
         received_.resize(size > 0 ? size : end - 1);
         return std::move(received_);
@@ -179,59 +185,58 @@ std::variant<std::string, CommandProcess::Failure> CommandProcess::ask(const std
         std::uint32_t length;
         std::memcpy(&length, received_.data(), sizeof length);
         if (length != size - sizeof length) {
-          return refuse("its frame's length is " + std::to_string(length) + " instead of " +
-                        std::to_string(size - sizeof length));
+          refuse("its frame's length is " + std::to_string(length) + " instead of " +
+                 std::to_string(size - sizeof length));
         }
       }
-      if (received_.size() > max_line) return refuse("its line is too long");
+      if (received_.size() > max_line) refuse("its line is too long");
       if (is_closed && (polled[1].revents == 0)) {
         // Give the guard the time to say how the child ended.
         pollfd end_of_child{report_, POLLIN, 0};
         if (poll(&end_of_child, 1, 100) <= 0) {
-          return failure(TS_CRASHED, received_.empty()
-                                         ? "closed its standard output"
-                                         : "closed its standard output within a message");
+          give_up(TS_CRASHED, received_.empty() ? "closed its standard output"
+                                                : "closed its standard output within a message");
         }
-        return ended();
+        ended();
       }
     } else if (polled[1].revents != 0) {
-      return ended();
+      ended();
     }
     if (Clock::now() < next_check) continue;
     next_check = Clock::now() + request_check_interval;
     if (!watching) watching.emplace(watch());
     const Watch::TimeUse spent = watching->spent();
     if (spent.computing > allowance.processor_seconds) {
-      return failure(TS_TIMED_OUT, "no answer within " + seconds_text(allowance.processor_seconds));
+      give_up(TS_TIMED_OUT, "no answer within " + seconds_text(allowance.processor_seconds));
     }
     if (spent.waiting.value_or(spent.by_the_clock / waiting_clock_factor) >
         allowance.waiting_seconds) {
-      return failure(TS_TIMED_OUT,
-                     "no answer, having waited for " + seconds_text(allowance.waiting_seconds));
+      give_up(TS_TIMED_OUT,
+              "no answer, having waited for " + seconds_text(allowance.waiting_seconds));
     }
     if (watching->resident_mebibytes() > allowance.mebibytes) {
       char text[80];
       std::snprintf(text, sizeof text, "used more than %.0f MiB of memory", allowance.mebibytes);
-      return failure(TS_CRASHED, text);
+      give_up(TS_CRASHED, text);
     }
   }
 }
 
-CommandProcess::Failure CommandProcess::failure(ts_status status, std::string reason) {
+void CommandProcess::give_up(ts_status status, std::string reason) {
   stop();
   const std::string line = last_line(log_);
   if (!line.empty()) reason += "; standard error: " + line;
-  return {status, readable(reason)};
+  throw NoAnswer{status, readable(reason)};
 }
 
-CommandProcess::Failure CommandProcess::refuse(const std::string& why) {
-  return failure(TS_CRASHED, "wrote what is no answer: " + why);
+void CommandProcess::refuse(const std::string& why) {
+  give_up(TS_CRASHED, "wrote what is no answer: " + why);
 }
 
-CommandProcess::Failure CommandProcess::ended() {
+void CommandProcess::ended() {
   Reply reply{};
   const bool told = recv(report_, &reply, sizeof reply, 0) == sizeof reply;
-  return failure(TS_CRASHED, told ? how_it_ended(reply.value) : "ended");
+  give_up(TS_CRASHED, told ? how_it_ended(reply.value) : "ended");
 }
 
 }  // namespace touchstone

@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "candidates/host/messages.hpp"
+#include "candidates/host/respondent.hpp"
 #include "candidates/host/watch.hpp"
 
 namespace touchstone {
@@ -21,11 +22,7 @@ class CommandProcess {
   struct Allowance {
     double processor_seconds, waiting_seconds, mebibytes;
   };
-  /// Why there is no answer.
-  struct Failure {
-    ts_status status;  ///< TS_CRASHED or TS_TIMED_OUT
-    std::string reason;
-  };
+  using NoAnswer = touchstone::NoAnswer;
 
   /// Time for the command to start and to say hello; it may compile itself, or load a model.
   static constexpr std::chrono::seconds starting_time{30};
@@ -37,23 +34,25 @@ class CommandProcess {
   CommandProcess& operator=(const CommandProcess&) = delete;
 
   bool runs() const { return guard_ > 0; }
-  /// Starts it and exchanges the hellos.
-  std::variant<messages::Hello, Failure> start(std::chrono::milliseconds time = starting_time);
+  /// Starts it and exchanges the hellos. Throws NoAnswer.
+  messages::Hello begin(std::chrono::milliseconds time = starting_time);
+  /// The same without a throw.
+  std::variant<messages::Hello, NoAnswer> start(std::chrono::milliseconds time = starting_time);
   void stop();
 
   /// Sends a request and waits for the answer: a frame of `size` bytes, or a line if that is zero.
-  /// Stops the process if there is none. Precondition: it runs.
-  std::variant<std::string, Failure> ask(const std::string& request, std::size_t size,
-                                         const Allowance& allowance);
-  /// Stops the process, whose answer was not what it should be.
-  Failure refuse(const std::string& why);
+  /// Stops the process and throws NoAnswer if there is none. Precondition: it runs.
+  std::string ask(const std::string& request, std::size_t size, const Allowance& allowance);
+  /// Stops the process, whose answer was not what it should be; throws NoAnswer.
+  [[noreturn]] void refuse(const std::string& why);
   /// Begins to measure its use of time and memory. Precondition: it runs.
   Watch watch() const { return Watch(guard_, Watch::Of::descendants_too); }
 
  private:
   [[noreturn]] void run(int input, int output, int report) const;
-  Failure failure(ts_status status, std::string reason);
-  Failure ended();
+  // These stop the process and throw NoAnswer.
+  [[noreturn]] void give_up(ts_status status, std::string reason);
+  [[noreturn]] void ended();
 
   std::string command_;
   std::filesystem::path folder_;

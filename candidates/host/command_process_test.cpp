@@ -209,8 +209,8 @@ TEST(CommandProcess, IsRefusedWithTheReason) {
               ThrowsMessage<InvalidInput>(HasSubstr("not found")));
   CommandProcess silent(command("frames", "silent"), std::filesystem::current_path());
   const auto hello = silent.start(std::chrono::milliseconds(300));
-  ASSERT_TRUE(std::holds_alternative<CommandProcess::Failure>(hello));
-  EXPECT_EQ(std::get<CommandProcess::Failure>(hello).status, TS_TIMED_OUT);
+  ASSERT_TRUE(std::holds_alternative<CommandProcess::NoAnswer>(hello));
+  EXPECT_EQ(std::get<CommandProcess::NoAnswer>(hello).status, TS_TIMED_OUT);
 }
 
 TEST(CommandProcess, IsAddedByCommandAndByList) {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 
 #include "candidates/host/command_process.hpp"
@@ -10,33 +9,23 @@
 namespace touchstone {
 
 /// A candidate that is a command (docs/process-candidates.md). It keeps running from one call to
-/// the next; a session is how long its shapes stay prepared. Questions that it does not survive are
-/// found by bisection of the batch.
+/// the next; a session is how long its shapes stay prepared. It is not known how far it is with
+/// what it was sent, so that a failure is that of one question only where that was sent alone.
 class CommandRespondent : public Respondent {
  public:
-  CommandRespondent(const Candidate& candidate, double threshold, const Limits& limits);
+  CommandRespondent(const Candidate& candidate, const Limits& limits);
 
-  void ask_within(double threshold) override;
-  std::vector<Answer> answers(std::span<const Configuration> configurations) override;
-  std::vector<Answer> answers_until_timeout(std::span<const Configuration> configurations,
-                                            bool in_new_session) override;
-  std::vector<Answer> answer(std::span<const Configuration> configurations,
-                             std::span<const Vec3* const> previous_normals,
-                             std::span<const double> thresholds) override;
-  void restart() override;
-  bool prepare_timing(std::span<const Configuration> configurations) override;
+  /// No more than take a small share of the limit of time.
+  std::size_t batch() const override;
+  std::optional<NoAnswer> ask(std::span<const Asked> asked, bool release,
+                              std::span<std::optional<Answer>> answers) override;
+  void judge(const NoAnswer& failure) override;
+  void forget() override { failures_ = 0; }
+  void end_session() override;
+  bool prepare_timing(std::span<const Asked> asked) override;
   std::optional<QueryCost> cost_per_query() override;
 
  private:
-  using Failure = CommandProcess::Failure;
-  template <class T>
-  using Result = std::variant<T, Failure>;
-
-  struct Question {
-    ts_shape a, b;
-    double threshold;
-    messages::Poses poses;
-  };
   /// Shapes that the child has prepared.
   struct Prepared {
     ts_shape a, b;
@@ -45,34 +34,34 @@ class CommandRespondent : public Respondent {
     bool is_supported;
   };
 
-  Question question_of(const Configuration& configuration, double threshold,
-                       const Vec3* previous_normal) const;
-  std::vector<Answer> answer(std::vector<Question> questions, bool release, bool until_timeout);
-  /// Appends the answers to these questions, after bisection where the child does not survive.
-  void answer_all(std::span<Question> questions, bool release, std::vector<Answer>& answers);
-  /// Asks them at once.
-  Result<std::vector<Answer>> ask(std::span<Question> questions, bool release);
-  /// Starts the command unless it runs; absent on success.
-  std::optional<Failure> start();
+  static constexpr double min_round = 2e-3;  ///< seconds that a round of timing takes at least
+
+  static std::vector<Question> questions_of(std::span<const Asked> asked);
+
+  // All of these throw NoAnswer.
+
+  /// Starts the command unless it runs.
+  void start();
   /// Asks an easy question, so that what begins late begins now. Its answer does not count.
   void warm_up();
-  /// Prepares the shapes that are not yet, and sets the questions' handles.
-  std::optional<Failure> prepare(std::span<Question> questions);
-  std::optional<Failure> release_all_but(std::size_t count);
+  /// Prepares the shapes that are not yet. Returns the poses with their handles; absent where the
+  /// pair is not supported.
+  std::vector<std::optional<messages::Poses>> prepare(std::span<const Question> questions);
+  /// Asks them at once.
+  void query(std::span<const Question> questions, std::span<std::optional<Answer>> answers);
+  void release_all_but(std::size_t count);
   /// One round of timing: nanoseconds in all.
-  Result<double> time(std::span<const messages::Poses> poses, std::uint32_t passes);
+  double time(std::span<const messages::Poses> poses, std::uint32_t passes);
   /// Nanoseconds a query once rounds agree.
-  std::optional<double> warm_cost(std::span<const messages::Poses> poses);
-  /// The child's clock beside ours; absent if it died.
-  std::optional<QueryCost::Measured> compare_clocks();
-  std::size_t batch() const;
+  double warm_cost(std::span<const messages::Poses> poses);
+  /// The child's clock beside ours, and this floor.
+  QueryCost::Measured compare_clocks(double floor);
   /// Sends a request; `read` makes the result of the answer's text, and may throw Garbage.
   template <class Read>
   auto send(messages::Operation operation, const std::string& request, std::size_t count,
-            double seconds, const Read& read) -> Result<decltype(read(std::string()))>;
+            double seconds, const Read& read);
 
   Candidate candidate_;
-  double threshold_;
   Limits limits_;
   double request_seconds_;  ///< processor time that a request may use
   CommandProcess process_;

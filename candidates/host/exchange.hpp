@@ -93,14 +93,14 @@ inline std::uint64_t seal_of(const Slot& slot, std::uint64_t ticket) {
 struct SessionCommand {
   enum Kind : std::uint32_t {
     begin,    ///< fork a session for the candidate `index` with `parameter`
-    answer,   ///< answer slots first … count − 1
+    answer,   ///< answer slots 0 … count − 1
     keep,     ///< keep the questions of slots 0 … count − 1 for timing
     warm_up,  ///< prepare and query once as many of them as fit into the time of one round
     time,     ///< one timed round
     finish    ///< end the session
   };
   Kind kind;
-  std::uint32_t first, count;
+  std::uint32_t count;
   std::uint64_t ticket;  ///< unique to the command
   bool release;  ///< `answer`: keep no shapes ready for later commands; `keep`: none kept before
   bool forget;   ///< `answer`: at first, release the shapes kept ready for it

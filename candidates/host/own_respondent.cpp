@@ -6,8 +6,7 @@
 #include <dlfcn.h>
 #include <stdexcept>
 
-#include "candidates/candidates.hpp"
-#include "candidates/host/plugin_sessions.hpp"
+#include "candidates/host/respondent.hpp"
 #include "candidates/host/routine.hpp"
 
 namespace touchstone {
@@ -22,46 +21,25 @@ const ts_candidate& load(const Candidate& candidate) {
 
 class OwnRespondent : public Respondent {
  public:
-  OwnRespondent(const Candidate& candidate, double threshold)
-      : routine_(load(candidate), candidate.value), threshold_(threshold) {}
+  explicit OwnRespondent(const Candidate& candidate) : routine_(load(candidate), candidate.value) {}
   ~OwnRespondent() override { routine_.release_all_but_of({}); }
   OwnRespondent(const OwnRespondent&) = delete;
   OwnRespondent& operator=(const OwnRespondent&) = delete;
 
-  void ask_within(double threshold) override {
-    restart();
-    threshold_ = threshold;
-  }
-  void restart() override { routine_.release_all_but_of({}); }
-  std::vector<Answer> answers(std::span<const Configuration> configurations) override {
-    restart();
-    return answer(configurations, {}, {});
-  }
-  std::vector<Answer> answers_until_timeout(std::span<const Configuration> configurations,
-                                            bool) override {
-    return answers(configurations);
-  }
-  std::vector<Answer> answer(std::span<const Configuration> configurations,
-                             std::span<const Vec3* const> previous_normals,
-                             std::span<const double> thresholds) override {
-    std::vector<Answer> result;
-    result.reserve(configurations.size());
-    for (std::size_t i = 0; i < configurations.size(); ++i) {
-      const Question question =
-          question_of(configurations[i], thresholds.empty() ? threshold_ : thresholds[i],
-                      previous_normals.empty() ? nullptr : previous_normals[i]);
+  std::optional<NoAnswer> ask(std::span<const Asked> asked, bool /*release*/,
+                              std::span<std::optional<Answer>> answers) override {
+    for (std::size_t i = 0; i < asked.size(); ++i) {
+      Answer& answer = answers[i].emplace();
       double model_distance;
-      routine_.ask(question, result.emplace_back(), model_distance);
-      if (!std::isnan(model_distance)) result.back().model_distance = model_distance;
+      routine_.ask(question_of(asked[i]), answer, model_distance);
+      if (!std::isnan(model_distance)) answer.model_distance = model_distance;
     }
-    return result;
+    return std::nullopt;
   }
-  bool prepare_timing(std::span<const Configuration>) override { return false; }
-  std::optional<QueryCost> cost_per_query() override { return std::nullopt; }
+  void end_session() override { routine_.release_all_but_of({}); }
 
  private:
   Routine routine_;
-  double threshold_;
 };
 
 }  // namespace
@@ -73,8 +51,12 @@ bool is_own(const Candidate& candidate) {
          std::ranges::find(own, candidate.plugin.filename()) != own.end();
 }
 
-std::unique_ptr<Respondent> own_respondent(const Candidate& candidate, double threshold) {
-  return std::make_unique<OwnRespondent>(candidate, threshold);
+Candidate asked_here(const Candidate& candidate) {
+  Candidate here = candidate;
+  here.respondent = [candidate](const Limits&) {
+    return std::make_unique<OwnRespondent>(candidate);
+  };
+  return here;
 }
 
 }  // namespace touchstone

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "candidates/candidates.hpp"
+#include "candidates/host/candidate_process.hpp"
 #include "properties/identity.hpp"
 
 namespace touchstone {
@@ -28,8 +29,7 @@ TEST(OwnRespondent, AnswersAsASessionDoes) {
   for (const Candidate* candidate : all_candidates()) {
     if (!is_own(*candidate)) continue;
     ++own;
-    CandidateProcess process(*candidate, 0.01);
-    const auto respondent = own_respondent(*candidate, 0.01);
+    CandidateProcess process(*candidate, 0.01), here(asked_here(*candidate), 0.01);
     for (const Pair pair : all_pairs) {
       std::vector<Configuration> asked;
       for (const char* pose_class : {"general+shallow", "touching", "general+deep"}) {
@@ -37,7 +37,7 @@ TEST(OwnRespondent, AnswersAsASessionDoes) {
           asked.push_back(make_configuration({pair, pose_class, 7, i}));
         }
       }
-      const auto expected = process.answers(asked), given = respondent->answers(asked);
+      const auto expected = process.answers(asked), given = here.answers(asked);
       ASSERT_EQ(given.size(), expected.size());
       for (std::size_t i = 0; i < asked.size(); ++i) {
         EXPECT_TRUE(are_same(given[i], expected[i])) << candidate->name << ' ' << i;
@@ -51,8 +51,7 @@ TEST(OwnRespondent, AnswersAsASessionDoes) {
 
 TEST(OwnRespondent, TakesHintsAndThresholdsAsASessionDoes) {
   const Candidate& reference = find_candidate("reference");
-  CandidateProcess process(reference, 0);
-  const auto respondent = own_respondent(reference, 0);
+  CandidateProcess process(reference, 0), here(asked_here(reference), 0);
   const Vec3 up = Vec3::UnitZ(), down = -up;
   std::vector<Configuration> asked;
   std::vector<const Vec3*> hints;
@@ -63,7 +62,7 @@ TEST(OwnRespondent, TakesHintsAndThresholdsAsASessionDoes) {
     thresholds.push_back(0.1 * static_cast<double>(i % 4));
   }
   const auto expected = process.answer(asked, hints, thresholds);
-  const auto given = respondent->answer(asked, hints, thresholds);
+  const auto given = here.answer(asked, hints, thresholds);
   for (std::size_t i = 0; i < asked.size(); ++i) {
     EXPECT_TRUE(are_same(given[i], expected[i])) << i;
   }

@@ -119,15 +119,26 @@ PluginProcess::State::Received PluginProcess::State::receive(void* message, std:
   return Received::message;
 }
 
-bool PluginProcess::State::wait_for(void* message, std::size_t size,
-                                    std::chrono::milliseconds time) const {
+bool PluginProcess::State::wait_for(void* message, std::size_t size, std::chrono::milliseconds time,
+                                    pid_t* sender) const {
   const auto end = Clock::now() + time;
   while (Clock::now() <= end) {
-    const Received received = receive(message, size, until(end));
+    const Received received = receive(message, size, until(end), sender);
     if (received == Received::message) return true;
     if (received == Received::end) return false;
   }
   return false;
+}
+
+std::optional<Reply> PluginProcess::State::await(Reply::Kind kind, std::uint64_t ticket,
+                                                 std::chrono::milliseconds time,
+                                                 pid_t* sender) const {
+  Reply reply;
+  const auto end = Clock::now() + time;
+  while (Clock::now() < end && wait_for(&reply, sizeof reply, until(end), sender)) {
+    if (reply.kind == kind && reply.ticket == ticket) return reply;
+  }
+  return std::nullopt;
 }
 
 bool PluginProcess::State::send(const SessionCommand& command) const {

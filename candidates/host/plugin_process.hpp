@@ -3,6 +3,7 @@
 #include <chrono>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <sys/types.h>
 #include <unistd.h>
@@ -73,13 +74,17 @@ struct PluginProcess::State {
   /// Receives one message. `sender`, unless null, is set to the process that sent it.
   Received receive(void* message, std::size_t size, std::chrono::milliseconds time,
                    pid_t* sender = nullptr) const;
+  /// Waits for one reply and ignores others; absent if it does not come.
+  std::optional<Reply> await(Reply::Kind kind, std::uint64_t ticket, std::chrono::milliseconds time,
+                             pid_t* sender = nullptr) const;
   /// False when the other end is closed.
   bool send(const SessionCommand& command) const;
   std::string last_line() const;  ///< the last line that the candidate printed
 
  private:
   /// Receives one message, ignoring noise.
-  bool wait_for(void* message, std::size_t size, std::chrono::milliseconds time) const;
+  bool wait_for(void* message, std::size_t size, std::chrono::milliseconds time,
+                pid_t* sender = nullptr) const;
   /// Starts the program that loads the plug-in; returns its first process, which becomes a guard.
   pid_t spawn_host(int other_end) const;
   NoHost no_host(const std::string& why) const;

@@ -235,7 +235,7 @@ void Session::obey(const SessionCommand& command) {
 void Session::answer(const SessionCommand& command) {
   if (command.forget) routine_.release_all_but_of({});
   LapClock clock;
-  for (std::uint32_t i = command.first; i < command.count; ++i) {
+  for (std::uint32_t i = 0; i < command.count; ++i) {
     answer(i);
     // At once, so that a crash in release falls into the time of its own configuration.
     if (command.release) routine_.release_all_but_of({asked_.slots + i + 1, command.count - i - 1});

@@ -263,12 +263,7 @@ std::vector<std::vector<ReplayScore>> replay(const Scene& scene, const Trajector
 CandidateProcess& Processes::of(const Candidate& candidate) {
   const auto found = processes_.find(&candidate);
   if (found != processes_.end()) return found->second;
-  Candidate asked = candidate;
-  if (is_own(candidate)) {
-    asked.respondent = [candidate](double threshold, const Limits&) {
-      return own_respondent(candidate, threshold);
-    };
-  }
+  const Candidate asked = is_own(candidate) ? asked_here(candidate) : candidate;
   return processes_.emplace(&candidate, CandidateProcess(asked, simulation_threshold, limits_))
       .first->second;
 }
