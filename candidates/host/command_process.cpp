@@ -11,14 +11,12 @@
 #include <poll.h>
 #include <signal.h>
 #include <string_view>
-#include <sys/mman.h>
-#include <sys/prctl.h>
 #include <sys/socket.h>
+#include <unistd.h>
 #include <utility>
 
 #include "candidates/host/exchange.hpp"
 #include "candidates/host/guard.hpp"
-#include "candidates/host/plugin_process.hpp"
 #include "candidates/readable.hpp"
 
 namespace touchstone {
@@ -33,14 +31,6 @@ constexpr std::chrono::milliseconds request_check_interval(10);
 constexpr double waiting_clock_factor = 10;
 /// A line longer than this is no answer.
 constexpr std::size_t max_line = std::size_t{1} << 26;
-/// What a child may write to one file, its standard error included.
-constexpr unsigned long max_file = 1ul << 28;
-
-void close_all(std::initializer_list<int*> files) {
-  for (int* const file : files) {
-    if (*file >= 0) close(std::exchange(*file, -1));
-  }
-}
 
 /// Writes as much as the pipe takes; returns how much. All, if nobody will read it: what that means
 /// is learnt from the child's end or its silence.
@@ -59,52 +49,10 @@ std::size_t write_to_pipe(int file, std::string_view text) {
   return written > 0 ? static_cast<std::size_t>(written) : 0;
 }
 
-/// Is this a program and its arguments alone, so that the shell can become the program?
-bool is_simple(const std::string& command) {
-  const bool has_operator = command.find_first_of(";&|<>(){}\n`") != std::string::npos;
-  const bool has_assignment = command.substr(0, command.find(' ')).find('=') != std::string::npos;
-  return !has_operator && !has_assignment;
-}
-
 }  // namespace
 
 CommandProcess::CommandProcess(std::string command, std::filesystem::path folder)
-    : command_(std::move(command)), folder_(std::move(folder)) {
-  log_ = memfd_create("candidate", MFD_CLOEXEC);
-  if (log_ < 0 || fcntl(log_, F_SETFL, O_APPEND) < 0) fail("memfd_create");
-}
-
-CommandProcess::~CommandProcess() {
-  stop();
-  close(log_);
-}
-
-/// Main function of the process that is forked for the child.
-void CommandProcess::run(int input, int output, int report) const {
-  prctl(PR_SET_PDEATHSIG, SIGTERM);
-  if (getppid() != owner_) _exit(0);  // the parent died before prctl
-  dup2(input, STDIN_FILENO);
-  dup2(output, STDOUT_FILENO);
-  dup2(log_, STDERR_FILENO);
-  constexpr int only = STDERR_FILENO + 1;  // the only descriptor besides the standard three
-  dup2(report, only);
-  fcntl(only, F_SETFD, FD_CLOEXEC);
-  close_range(only + 1, ~0u, 0);
-  setpgid(0, 0);
-  if (begin_pid_namespace()) fork_guarded(-1);
-  fork_guarded(only);
-  become_plain_process(max_file);
-  std::error_code error;
-  std::filesystem::current_path(folder_, error);
-  if (error) {
-    dprintf(STDERR_FILENO, "%s: %s\n", folder_.c_str(), error.message().c_str());
-    _exit(126);
-  }
-  // Without a shell in between the end of the command's output is seen at once.
-  const std::string line = is_simple(command_) ? "exec " + command_ : command_;
-  execl("/bin/sh", "sh", "-c", line.c_str(), static_cast<char*>(nullptr));
-  _exit(127);
-}
+    : command_(std::move(command)), folder_(std::move(folder)) {}
 
 std::variant<messages::Hello, CommandProcess::NoAnswer> CommandProcess::start(
     std::chrono::milliseconds time) {
@@ -117,19 +65,15 @@ std::variant<messages::Hello, CommandProcess::NoAnswer> CommandProcess::start(
 
 messages::Hello CommandProcess::begin(std::chrono::milliseconds time) {
   stop();
-  if (ftruncate(log_, 0) != 0) fail("ftruncate");
-  int to_child[2], from_child[2], report[2];
+  clear_text();
+  int to_child[2], from_child[2];
   if (pipe2(to_child, O_CLOEXEC) != 0 || pipe2(from_child, O_CLOEXEC) != 0) fail("pipe2");
-  if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, report) != 0) fail("socketpair");
-  guard_ = fork();
-  if (guard_ == 0) run(to_child[0], from_child[1], report[1]);
-  for (const int theirs : {to_child[0], from_child[1], report[1]}) close(theirs);
   input_ = to_child[1];
   output_ = from_child[0];
-  report_ = report[0];
-  if (guard_ < 0) fail("fork");
   fcntl(input_, F_SETFL, O_NONBLOCK);
   fcntl(output_, F_SETFL, O_NONBLOCK);
+  start_host({command_, folder_.string()}, {to_child[0], from_child[1], text_});
+  for (const int theirs : {to_child[0], from_child[1]}) close(theirs);
 
   const double seconds = std::chrono::duration<double>(time).count();
   const std::string line =
@@ -142,9 +86,10 @@ messages::Hello CommandProcess::begin(std::chrono::milliseconds time) {
 }
 
 void CommandProcess::stop() {
-  if (owner_ == getpid() && guard_ > 0) end_guard(guard_);
-  guard_ = -1;
-  close_all({&input_, &output_, &report_});
+  HostProcess::stop();
+  for (int* const file : {&input_, &output_}) {
+    if (*file >= 0) close(std::exchange(*file, -1));
+  }
   received_.clear();
 }
 
@@ -158,7 +103,7 @@ std::string CommandProcess::ask(const std::string& request, std::size_t size,
   bool is_closed = false;
   for (;;) {
     std::array<pollfd, 3> polled = {pollfd{is_closed ? -1 : output_, POLLIN, 0},
-                                    pollfd{report_, POLLIN, 0},
+                                    pollfd{socket_, POLLIN, 0},
                                     pollfd{sent < request.size() ? input_ : -1, POLLOUT, 0}};
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(next_check - Clock::now());
     poll(polled.data(), polled.size(), std::max(0, static_cast<int>(left.count())));
@@ -192,7 +137,7 @@ std::string CommandProcess::ask(const std::string& request, std::size_t size,
       if (received_.size() > max_line) refuse("its line is too long");
       if (is_closed && (polled[1].revents == 0)) {
         // Give the guard the time to say how the child ended.
-        pollfd end_of_child{report_, POLLIN, 0};
+        pollfd end_of_child{socket_, POLLIN, 0};
         if (poll(&end_of_child, 1, 100) <= 0) {
           give_up(TS_CRASHED, received_.empty() ? "closed its standard output"
                                                 : "closed its standard output within a message");
@@ -224,7 +169,7 @@ std::string CommandProcess::ask(const std::string& request, std::size_t size,
 
 void CommandProcess::give_up(ts_status status, std::string reason) {
   stop();
-  const std::string line = last_line(log_);
+  const std::string line = last_line();
   if (!line.empty()) reason += "; standard error: " + line;
   throw NoAnswer{status, readable(reason)};
 }
@@ -235,7 +180,7 @@ void CommandProcess::refuse(const std::string& why) {
 
 void CommandProcess::ended() {
   Reply reply{};
-  const bool told = recv(report_, &reply, sizeof reply, 0) == sizeof reply;
+  const bool told = recv(socket_, &reply, sizeof reply, 0) == sizeof reply;
   give_up(TS_CRASHED, told ? how_it_ended(reply.value) : "ended");
 }
 

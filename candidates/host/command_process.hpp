@@ -3,20 +3,18 @@
 #include <chrono>
 #include <filesystem>
 #include <string>
-#include <sys/types.h>
-#include <unistd.h>
 #include <variant>
 
+#include "candidates/host/host_process.hpp"
 #include "candidates/host/messages.hpp"
 #include "candidates/host/respondent.hpp"
 #include "candidates/host/watch.hpp"
 
 namespace touchstone {
 
-/// A command that runs as a child, with pipes to its standard input and output. Its standard error
-/// goes to a file in memory. After any failure it is stopped, with all processes that it has
-/// started.
-class CommandProcess {
+/// A command that runs as a child, with pipes to its standard input and output. After any failure
+/// it is stopped, with all processes that it has started.
+class CommandProcess : public HostProcess {
  public:
   /// What a request may use.
   struct Allowance {
@@ -29,11 +27,10 @@ class CommandProcess {
 
   /// `command` is for /bin/sh -c, run in `folder`.
   CommandProcess(std::string command, std::filesystem::path folder);
-  ~CommandProcess();
+  ~CommandProcess() { stop(); }
   CommandProcess(const CommandProcess&) = delete;
   CommandProcess& operator=(const CommandProcess&) = delete;
 
-  bool runs() const { return guard_ > 0; }
   /// Starts it and exchanges the hellos. Throws NoAnswer.
   messages::Hello begin(std::chrono::milliseconds time = starting_time);
   /// The same without a throw.
@@ -49,18 +46,13 @@ class CommandProcess {
   Watch watch() const { return Watch(guard_, Watch::Of::descendants_too); }
 
  private:
-  [[noreturn]] void run(int input, int output, int report) const;
   // These stop the process and throw NoAnswer.
   [[noreturn]] void give_up(ts_status status, std::string reason);
   [[noreturn]] void ended();
 
   std::string command_;
   std::filesystem::path folder_;
-  const pid_t owner_ = getpid();  ///< a worker forked from this one must not stop the child
-  pid_t guard_ = -1;
   int input_ = -1, output_ = -1;  ///< ends of the child's pipes
-  int report_ = -1;               ///< socket on which the guard reports the end
-  int log_ = -1;                  ///< file with what the child wrote to standard error
   std::string received_;
 };
 

@@ -30,17 +30,17 @@ CommandRespondent::CommandRespondent(const Candidate& candidate, const Limits& l
       request_seconds_(limits.seconds),
       process_(candidate.command, candidate.folder) {}
 
-template <class Read>
-auto CommandRespondent::send(Operation operation, const std::string& request, std::size_t count,
-                             double seconds, const Read& read) {
-  const std::size_t size = format_ == messages::Format::frames
-                               ? messages::frame_size(operation, static_cast<std::uint32_t>(count))
-                               : 0;
-  const std::string text =
-      process_.ask(request, size,
-                   {seconds, std::max(seconds, wait_factor * limits_.seconds), limits_.mebibytes});
+template <class Entry, class Request, class Read>
+auto CommandRespondent::send(Operation operation, const std::vector<Entry>& entries, double seconds,
+                             const Request& request, const Read& read) {
+  const std::uint64_t ticket = ++ticket_;
+  const auto count = static_cast<std::uint32_t>(entries.size());
+  const bool in_frames = format_ == messages::Format::frames;
+  const std::string text = process_.ask(
+      request(format_, ticket, entries), in_frames ? messages::frame_size(operation, count) : 0,
+      {seconds, std::max(seconds, wait_factor * limits_.seconds), limits_.mebibytes});
   try {
-    return read(text);
+    return read(format_, ticket, count, text);
   } catch (const messages::Garbage& garbage) {
     process_.refuse(garbage.what());
   }
@@ -53,8 +53,8 @@ void CommandRespondent::start() {
     const messages::Hello hello = process_.begin();
     format_ = hello.format;
     if (hello.candidate.family != candidate_.family) {
-      process_.refuse("its name is \"" + hello.candidate.family + "\" instead of \"" +
-                      candidate_.family + '"');
+      process_.refuse("its name is " + in_quotes(hello.candidate.family) + " instead of " +
+                      in_quotes(candidate_.family));
     }
   };
   begin();
@@ -104,13 +104,8 @@ std::vector<std::optional<messages::Poses>> CommandRespondent::prepare(
   std::vector<messages::Poses> all;
   for (const Question& q : questions) all.push_back(poses_of(q, handle_of(q)));
   if (!pairs.empty()) {
-    const std::uint64_t ticket = ++ticket_;
-    const auto count = static_cast<std::uint32_t>(pairs.size());
-    const std::vector<bool> supported =
-        send(Operation::prepare, messages::prepare_request(format_, ticket, pairs), count,
-             request_seconds_, [&](const std::string& text) {
-               return messages::read_prepared(format_, ticket, count, text);
-             });
+    const std::vector<bool> supported = send(Operation::prepare, pairs, request_seconds_,
+                                             messages::prepare_request, messages::read_prepared);
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       const auto& [handle, threshold, parameter, a, b] = pairs[i];
       ready_.push_back({a, b, threshold, handle, supported[i]});
@@ -131,11 +126,8 @@ void CommandRespondent::release_all_but(std::size_t count) {
   std::vector<std::uint32_t> handles;
   std::for_each(ready_.begin(), end, [&](const Prepared& p) { handles.push_back(p.handle); });
   ready_.erase(ready_.begin(), end);
-  const std::uint64_t ticket = ++ticket_;
-  const auto released = static_cast<std::uint32_t>(handles.size());
-  send(Operation::release, messages::release_request(format_, ticket, handles), released,
-       request_seconds_,
-       [&](const std::string& text) { messages::read_released(format_, ticket, released, text); });
+  send(Operation::release, handles, request_seconds_, messages::release_request,
+       messages::read_released);
 }
 
 void CommandRespondent::end_session() {
@@ -157,15 +149,11 @@ void CommandRespondent::query(std::span<const Question> questions,
   }
   std::vector<Answer> given;
   if (!poses.empty()) {
-    const std::uint64_t ticket = ++ticket_;
-    const auto count = static_cast<std::uint32_t>(poses.size());
     const auto start = Clock::now();
-    given = send(Operation::query, messages::query_request(format_, ticket, poses), count,
-                 request_seconds_, [&](const std::string& text) {
-                   return messages::read_answers(format_, ticket, count, text);
-                 });
+    given = send(Operation::query, poses, request_seconds_, messages::query_request,
+                 messages::read_answers);
     const std::chrono::duration<double> taken = Clock::now() - start;
-    seconds_per_query_ = taken.count() / count;
+    seconds_per_query_ = taken.count() / static_cast<double>(poses.size());
   }
   for (std::optional<Answer>& answer : answers) answer.emplace().status = TS_UNSUPPORTED;
   for (std::size_t k = 0; k < given.size(); ++k) answers[place[k]] = std::move(given[k]);
@@ -208,14 +196,13 @@ void CommandRespondent::judge(const NoAnswer& failure) {
   if (++failures_ <= max_failures) last_failure_ = failure.reason;
 }
 
-double CommandRespondent::time(std::span<const messages::Poses> poses, std::uint32_t passes) {
-  const std::uint64_t ticket = ++ticket_;
-  const auto count = static_cast<std::uint32_t>(poses.size());
+double CommandRespondent::time(const std::vector<messages::Poses>& poses, std::uint32_t passes) {
   // Every query may take what the limit says; a round has at least one pass.
-  const double seconds = limits_.seconds * count + 10 * min_round;
-  return send(
-      Operation::time, messages::time_request(format_, ticket, passes, poses), count, seconds,
-      [&](const std::string& text) { return messages::read_time(format_, ticket, count, text); });
+  const double seconds = limits_.seconds * static_cast<double>(poses.size()) + 10 * min_round;
+  const auto request = [&](messages::Format format, std::uint64_t ticket, const auto& entries) {
+    return messages::time_request(format, ticket, passes, entries);
+  };
+  return send(Operation::time, poses, seconds, request, messages::read_time);
 }
 
 }  // namespace touchstone

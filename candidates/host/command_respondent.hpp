@@ -51,15 +51,15 @@ class CommandRespondent : public Respondent {
   void query(std::span<const Question> questions, std::span<std::optional<Answer>> answers);
   void release_all_but(std::size_t count);
   /// One round of timing: nanoseconds in all.
-  double time(std::span<const messages::Poses> poses, std::uint32_t passes);
+  double time(const std::vector<messages::Poses>& poses, std::uint32_t passes);
   /// Nanoseconds a query once rounds agree.
-  double warm_cost(std::span<const messages::Poses> poses);
+  double warm_cost(const std::vector<messages::Poses>& poses);
   /// The child's clock beside ours, and this floor.
   QueryCost::Measured compare_clocks(double floor);
-  /// Sends a request; `read` makes the result of the answer's text, and may throw Garbage.
-  template <class Read>
-  auto send(messages::Operation operation, const std::string& request, std::size_t count,
-            double seconds, const Read& read);
+  /// Sends a request and reads its answer, by functions of messages.hpp.
+  template <class Entry, class Request, class Read>
+  auto send(messages::Operation operation, const std::vector<Entry>& entries, double seconds,
+            const Request& request, const Read& read);
 
   Candidate candidate_;
   Limits limits_;

@@ -41,7 +41,7 @@ messages::Poses moved_apart(messages::Poses poses, const ts_shape& a, const ts_s
 
 }  // namespace
 
-double CommandRespondent::warm_cost(std::span<const messages::Poses> poses) {
+double CommandRespondent::warm_cost(const std::vector<messages::Poses>& poses) {
   std::array<double, 3> last{};
   for (int i = 0; i < max_warm_rounds; ++i) {
     std::rotate(last.begin(), last.begin() + 1, last.end());
@@ -74,11 +74,11 @@ bool CommandRespondent::prepare_timing(std::span<const Asked> asked) try {
   if (timed_.empty()) return false;
 
   // As many as take half a millisecond, by the time of the first ones.
-  const auto first =
-      std::span<const messages::Poses>(timed_).first(std::min(min_timed, timed_.size()));
-  const double each = std::max(1e-9 * time(first, 1), 1e-9) / static_cast<double>(first.size());
+  const std::size_t first = std::min(min_timed, timed_.size());
+  const std::vector some(timed_.begin(), timed_.begin() + static_cast<std::ptrdiff_t>(first));
+  const double each = std::max(1e-9 * time(some, 1), 1e-9) / static_cast<double>(first);
   const auto count =
-      std::clamp(static_cast<std::size_t>(max_timed_seconds / each), first.size(), timed_.size());
+      std::clamp(static_cast<std::size_t>(max_timed_seconds / each), first, timed_.size());
   timed_.resize(count);
   apart.resize(count);
 

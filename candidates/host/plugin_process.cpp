@@ -2,23 +2,14 @@
 #include "candidates/host/plugin_process.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <chrono>
-#include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
 #include <poll.h>
-#include <signal.h>
-#include <spawn.h>
 #include <sys/mman.h>
-#include <sys/prctl.h>
 #include <sys/socket.h>
-#include <sys/syscall.h>
-#include <sys/wait.h>
-#include <system_error>
 #include <unistd.h>
-#include <utility>
 
 #include "candidates/host/exchange.hpp"
 #include "candidates/host/guard.hpp"
@@ -55,19 +46,9 @@ int poll_through(pollfd& polled, std::chrono::milliseconds time) {
   return ready;
 }
 
-/// Found once: while a folder is built anew, its files come and go.
-const std::filesystem::path& host_program() {
-  static const std::filesystem::path program = standard_folder() / "touchstone-host";
-  return program;
-}
-
 }  // namespace
 
-void fail(const char* call) { throw std::system_error(errno, std::generic_category(), call); }
-
-PluginProcess::State::State(const std::filesystem::path& f) : file(f), host(host_program()) {
-  text = memfd_create("candidate", MFD_CLOEXEC);
-  if (text < 0 || fcntl(text, F_SETFL, O_APPEND) < 0) fail("memfd_create");
+PluginProcess::State::State(const std::filesystem::path& f) : file(f) {
   questions_file = shared_file(sizeof(Questions));
   exchange_file = shared_file(sizeof(Exchange));
   questions = new (map(questions_file, sizeof(Questions), PROT_READ | PROT_WRITE)) Questions{};
@@ -81,22 +62,16 @@ PluginProcess::State::State(const std::filesystem::path& f) : file(f), host(host
 
 PluginProcess::State::~State() {
   stop();
-  for (const int file_descriptor : {text, questions_file, exchange_file}) close(file_descriptor);
-  if (owner != getpid()) return;
+  for (const int file_descriptor : {questions_file, exchange_file}) close(file_descriptor);
+  if (owner_ != getpid()) return;
   munmap(questions, sizeof(Questions));
   munmap(exchange, sizeof(Exchange));
-}
-
-void PluginProcess::State::stop() {
-  if (guard > 0 && owner == getpid()) end_guard(std::exchange(guard, -1));
-  // Not earlier: a routine that waits for the end of the connection would continue.
-  if (socket >= 0) close(std::exchange(socket, -1));
 }
 
 PluginProcess::State::Received PluginProcess::State::receive(void* message, std::size_t size,
                                                              std::chrono::milliseconds time,
                                                              pid_t* sender) const {
-  pollfd polled{socket, POLLIN, 0};
+  pollfd polled{socket_, POLLIN, 0};
   if (poll_through(polled, time) <= 0) return Received::nothing;
   iovec part{message, size};
   alignas(cmsghdr) char control[CMSG_SPACE(sizeof(ucred))];
@@ -105,7 +80,7 @@ PluginProcess::State::Received PluginProcess::State::receive(void* message, std:
   header.msg_iovlen = 1;
   header.msg_control = control;
   header.msg_controllen = sizeof control;
-  const ssize_t got = recvmsg(socket, &header, MSG_TRUNC | MSG_CMSG_CLOEXEC);
+  const ssize_t got = recvmsg(socket_, &header, MSG_TRUNC | MSG_CMSG_CLOEXEC);
   if (got <= 0 && (got < 0 || (polled.revents & POLLHUP))) {
     return got < 0 && errno == EINTR ? Received::nothing : Received::end;
   }
@@ -142,69 +117,13 @@ std::optional<Reply> PluginProcess::State::await(Reply::Kind kind, std::uint64_t
 }
 
 bool PluginProcess::State::send(const SessionCommand& command) const {
-  return ::send(socket, &command, sizeof command, MSG_NOSIGNAL) == sizeof command;
-}
-
-std::string PluginProcess::State::last_line() const { return touchstone::last_line(text); }
-
-pid_t PluginProcess::State::spawn_host(int other_end) const {
-  const std::array given = {text, text, other_end, questions_file, exchange_file};
-  // First out of each other's way.
-  std::array<int, given.size()> moved;
-  constexpr int first = STDOUT_FILENO, behind = first + static_cast<int>(given.size());
-  for (std::size_t i = 0; i < given.size(); ++i) {
-    moved[i] = fcntl(given[i], F_DUPFD_CLOEXEC, behind);
-    if (moved[i] < 0) fail("fcntl");
-  }
-  posix_spawn_file_actions_t files;
-  posix_spawn_file_actions_init(&files);
-  posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  for (std::size_t i = 0; i < given.size(); ++i) {
-    posix_spawn_file_actions_adddup2(&files, moved[i], first + static_cast<int>(i));
-  }
-  posix_spawn_file_actions_addclosefrom_np(&files, behind);
-  posix_spawnattr_t attributes;
-  posix_spawnattr_init(&attributes);
-  posix_spawnattr_setpgroup(&attributes, 0);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
-
-  std::string program = host, plugin = file, parent = std::to_string(getpid()),
-              setting = std::string(bind_now) + "=1";
-  std::array<char*, 4> arguments = {program.data(), plugin.data(), parent.data(), nullptr};
-  std::vector<char*> environment = {setting.data()};
-  for (char** each = environ; *each; ++each) environment.push_back(*each);
-  environment.push_back(nullptr);
-  pid_t pid = -1;
-  const int error =
-      posix_spawn(&pid, program.c_str(), &files, &attributes, arguments.data(), environment.data());
-  posix_spawnattr_destroy(&attributes);
-  posix_spawn_file_actions_destroy(&files);
-  for (const int each : moved) close(each);
-  if (error != 0) throw no_host(std::strerror(error));
-  return pid;
-}
-
-NoHost PluginProcess::State::no_host(const std::string& why) const {
-  return NoHost("touchstone-host", '"' + host.string() + '"',
-                "must be a program that can be started, but that says \"" + why +
-                    "\"; build or install Touchstone again");
+  return ::send(socket_, &command, sizeof command, MSG_NOSIGNAL) == sizeof command;
 }
 
 void PluginProcess::State::start(std::chrono::milliseconds loading) {
-  int ends[2];
-  if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) fail("socketpair");
-  socket = ends[0];
-  // Messages carry their sender's id as seen in our own PID namespace.
-  const int yes = 1;
-  setsockopt(socket, SOL_SOCKET, SO_PASSCRED, &yes, sizeof yes);
-  try {
-    guard = spawn_host(ends[1]);
-  } catch (...) {
-    close(ends[1]);
-    stop();
-    throw;
-  }
-  close(ends[1]);
+  const int nothing = open("/dev/null", O_RDONLY | O_CLOEXEC);
+  start_host({file.string()}, {nothing, text_, text_, questions_file, exchange_file});
+  close(nothing);
 
   const auto refuse = [&](const std::string& why) {
     stop();

@@ -68,7 +68,7 @@ PluginSessions::PluginSessions(const Candidate& candidate, const Limits& limits)
 
 std::optional<NoAnswer> PluginSessions::begin() {
   PluginProcess::State& s = *plugin_.state_;
-  if (ftruncate(s.text, 0) != 0) fail("ftruncate");
+  s.clear_text();
   const auto failure = [](std::string why) {
     return NoAnswer{TS_CRASHED, std::move(why), true, true};
   };
