@@ -3,9 +3,9 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
+#include "candidates/answer.hpp"
 #include "candidates/candidates.hpp"
 #include "reference/configuration.hpp"
 
@@ -26,14 +26,6 @@ struct Limits {
   /// processor does not count.
   double seconds = 0.05;
   double mebibytes = 1024;  ///< growth of its memory
-};
-
-/// A candidate's answer, or the reason why there is none.
-struct Answer : ts_answer {
-  /// For TS_CRASHED and TS_TIMED_OUT, and where it is known for TS_FAILED: "Segmentation fault".
-  std::string reason;
-  std::optional<double> model_distance;  ///< signed distance of a simplified model's shapes, metres
-  bool was_asked = true;  ///< false: there is no answer, for a sample was asked (sampled_answers)
 };
 
 /// The cost of one query.

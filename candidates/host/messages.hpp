@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "candidates/answer.hpp"
 #include "candidates/candidates.hpp"
-#include "candidates/host/candidate_process.hpp"
 #include "candidates/host/exchange.hpp"
 
 namespace touchstone::messages {

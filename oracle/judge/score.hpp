@@ -6,8 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "candidates/candidate.h"
-#include "candidates/host/candidate_process.hpp"
+#include "candidates/answer.hpp"
 #include "oracle/patch/contact_patch.hpp"
 #include "oracle/truth.hpp"
 #include "reference/configuration.hpp"

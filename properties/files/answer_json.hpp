@@ -5,7 +5,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "candidates/host/candidate_process.hpp"
+#include "candidates/answer.hpp"
 #include "oracle/judge/score.hpp"
 #include "oracle/patch/contact_patch.hpp"
 #include "oracle/truth.hpp"

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "candidates/host/candidate_process.hpp"
 #include "oracle/judge/score.hpp"
 
 namespace touchstone {

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "candidates/host/candidate_process.hpp"
 #include "oracle/judge/score.hpp"
 #include "oracle/patch/contact_patch.hpp"
 

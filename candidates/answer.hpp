@@ -1,0 +1,18 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "candidates/candidate.h"
+
+namespace touchstone {
+
+/// A candidate's answer, or the reason why there is none.
+struct Answer : ts_answer {
+  /// For TS_CRASHED and TS_TIMED_OUT, and where it is known for TS_FAILED: "Segmentation fault".
+  std::string reason;
+  std::optional<double> model_distance;  ///< signed distance of a simplified model's shapes, metres
+  bool was_asked = true;  ///< false: there is no answer, for a sample was asked (sampled_answers)
+};
+
+}  // namespace touchstone
