@@ -14,7 +14,7 @@
 #include <unistd.h>
 
 #include "candidates/host/guard.hpp"
-#include "candidates/host/plugin_process.hpp"
+#include "candidates/host/host_process.hpp"
 
 namespace touchstone {
 namespace {

@@ -48,29 +48,40 @@ int poll_through(pollfd& polled, std::chrono::milliseconds time) {
 
 }  // namespace
 
-PluginProcess::State::State(const std::filesystem::path& f) : file(f) {
-  questions_file = shared_file(sizeof(Questions));
-  exchange_file = shared_file(sizeof(Exchange));
-  questions = new (map(questions_file, sizeof(Questions), PROT_READ | PROT_WRITE)) Questions{};
-  exchange = new (map(exchange_file, sizeof(Exchange), PROT_READ | PROT_WRITE)) Exchange{};
+PluginProcess::PluginProcess(const std::filesystem::path& file, std::chrono::milliseconds loading)
+    : file_(file),
+      questions_file_(shared_file(sizeof(Questions))),
+      exchange_file_(shared_file(sizeof(Exchange))) {
+  questions_ = new (map(questions_file_, sizeof(Questions), PROT_READ | PROT_WRITE)) Questions{};
+  exchange_ = new (map(exchange_file_, sizeof(Exchange), PROT_READ | PROT_WRITE)) Exchange{};
   // Each plug-in's process maps its own memory and does not inherit that of others.
-  madvise(questions, sizeof(Questions), MADV_DONTFORK);
-  madvise(exchange, sizeof(Exchange), MADV_DONTFORK);
+  madvise(questions_, sizeof(Questions), MADV_DONTFORK);
+  madvise(exchange_, sizeof(Exchange), MADV_DONTFORK);
   // From here on no process can map the questions for writing.
-  if (fcntl(questions_file, F_ADD_SEALS, F_SEAL_FUTURE_WRITE) < 0) fail("fcntl");
+  if (fcntl(questions_file_, F_ADD_SEALS, F_SEAL_FUTURE_WRITE) < 0) fail("fcntl");
+  try {
+    start(loading);
+  } catch (...) {
+    release_memory();
+    throw;
+  }
 }
 
-PluginProcess::State::~State() {
+PluginProcess::~PluginProcess() {
   stop();
-  for (const int file_descriptor : {questions_file, exchange_file}) close(file_descriptor);
-  if (owner_ != getpid()) return;
-  munmap(questions, sizeof(Questions));
-  munmap(exchange, sizeof(Exchange));
+  release_memory();
 }
 
-PluginProcess::State::Received PluginProcess::State::receive(void* message, std::size_t size,
-                                                             std::chrono::milliseconds time,
-                                                             pid_t* sender) const {
+void PluginProcess::release_memory() {
+  for (const int file : {questions_file_, exchange_file_}) close(file);
+  if (owner_ != getpid()) return;
+  munmap(questions_, sizeof(Questions));
+  munmap(exchange_, sizeof(Exchange));
+}
+
+PluginProcess::Received PluginProcess::receive(void* message, std::size_t size,
+                                               std::chrono::milliseconds time,
+                                               pid_t* sender) const {
   pollfd polled{socket_, POLLIN, 0};
   if (poll_through(polled, time) <= 0) return Received::nothing;
   iovec part{message, size};
@@ -94,8 +105,8 @@ PluginProcess::State::Received PluginProcess::State::receive(void* message, std:
   return Received::message;
 }
 
-bool PluginProcess::State::wait_for(void* message, std::size_t size, std::chrono::milliseconds time,
-                                    pid_t* sender) const {
+bool PluginProcess::wait_for(void* message, std::size_t size, std::chrono::milliseconds time,
+                             pid_t* sender) const {
   const auto end = Clock::now() + time;
   while (Clock::now() <= end) {
     const Received received = receive(message, size, until(end), sender);
@@ -105,9 +116,8 @@ bool PluginProcess::State::wait_for(void* message, std::size_t size, std::chrono
   return false;
 }
 
-std::optional<Reply> PluginProcess::State::await(Reply::Kind kind, std::uint64_t ticket,
-                                                 std::chrono::milliseconds time,
-                                                 pid_t* sender) const {
+std::optional<Reply> PluginProcess::await(Reply::Kind kind, std::uint64_t ticket,
+                                          std::chrono::milliseconds time, pid_t* sender) const {
   Reply reply;
   const auto end = Clock::now() + time;
   while (Clock::now() < end && wait_for(&reply, sizeof reply, until(end), sender)) {
@@ -116,18 +126,18 @@ std::optional<Reply> PluginProcess::State::await(Reply::Kind kind, std::uint64_t
   return std::nullopt;
 }
 
-bool PluginProcess::State::send(const SessionCommand& command) const {
+bool PluginProcess::send(const SessionCommand& command) const {
   return ::send(socket_, &command, sizeof command, MSG_NOSIGNAL) == sizeof command;
 }
 
-void PluginProcess::State::start(std::chrono::milliseconds loading) {
+void PluginProcess::start(std::chrono::milliseconds loading) {
   const int nothing = open("/dev/null", O_RDONLY | O_CLOEXEC);
-  start_host({file.string()}, {nothing, text_, text_, questions_file, exchange_file});
+  start_host({file_.string()}, {nothing, text_, text_, questions_file_, exchange_file_});
   close(nothing);
 
   const auto refuse = [&](const std::string& why) {
     stop();
-    throw InvalidInput("--load", '"' + file.string() + '"',
+    throw InvalidInput("--load", in_quotes(file_.string()),
                        "must be a plug-in made with candidate.h, but " + why);
   };
   const auto told = [](const Reply& r) {
@@ -152,30 +162,22 @@ void PluginProcess::State::start(std::chrono::milliseconds loading) {
     refuse("its process was not there after loading: " + how_it_ended(reply.value));
   }
   if (reply.kind != Reply::described) refuse("it " + readable(reply.text));
-  candidates.clear();
+  candidates_.clear();
   for (int i = 0; i < reply.value; ++i) {
     Description d;
     if (!wait_for(&d, sizeof d, until(end))) refuse("it could not be described");
-    Candidate c{
-        d.name, d.name, readable(d.version), readable(d.settings), readable(d.models), {}, 0, {},
-        file,   i};
+    Candidate& c = candidates_.emplace_back();
+    c.name = c.family = d.name;
+    c.version = readable(d.version);
+    c.settings = readable(d.settings);
+    c.models = readable(d.models);
+    c.plugin = file_;
+    c.index = i;
     std::copy(std::begin(d.supports), std::end(d.supports), c.supports.begin());
-    unforked = d.unforked;
+    is_unforked_ = d.unforked;
     if (d.has_parameter)
       c.parameter = {readable(d.meaning), d.min, d.max, d.usual, d.whole, d.bare};
-    candidates.push_back(std::move(c));
   }
 }
-
-PluginProcess::PluginProcess(const std::filesystem::path& file, std::chrono::milliseconds loading)
-    : state_(new State(file)) {
-  state_->start(loading);
-}
-
-PluginProcess::~PluginProcess() = default;
-PluginProcess::PluginProcess(PluginProcess&&) noexcept = default;
-PluginProcess& PluginProcess::operator=(PluginProcess&&) noexcept = default;
-
-const std::vector<Candidate>& PluginProcess::candidates() const { return state_->candidates; }
 
 }  // namespace touchstone

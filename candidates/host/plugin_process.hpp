@@ -2,11 +2,8 @@
 
 #include <chrono>
 #include <filesystem>
-#include <memory>
 #include <optional>
-#include <string>
 #include <sys/types.h>
-#include <unistd.h>
 #include <vector>
 
 #include "candidates/candidates.hpp"
@@ -16,45 +13,30 @@
 namespace touchstone {
 
 /// A plug-in, loaded in a process of its own: its symbols, global state and crashes affect neither
-/// other plug-ins nor this process. Throws InvalidInput (field "--load") when it cannot be
-/// loaded.
-class PluginProcess {
+/// other plug-ins nor this process. After any failure it is stopped, and started again for the next
+/// question.
+class PluginProcess : public HostProcess {
  public:
   /// Time allowed for loading it, which may read libraries from a cold disk.
   static constexpr std::chrono::milliseconds loading_time = std::chrono::seconds(30);
+  /// Loads it. Throws InvalidInput (field "--load") when it cannot be loaded.
   explicit PluginProcess(const std::filesystem::path& file,
                          std::chrono::milliseconds loading = loading_time);
   ~PluginProcess();
-  PluginProcess(PluginProcess&&) noexcept;
-  PluginProcess& operator=(PluginProcess&&) noexcept;
+  PluginProcess(const PluginProcess&) = delete;
+  PluginProcess& operator=(const PluginProcess&) = delete;
 
-  const std::vector<Candidate>& candidates() const;
+  const std::vector<Candidate>& candidates() const { return candidates_; }
+  /// A session is the plug-in's process itself.
+  bool is_unforked() const { return is_unforked_; }
+  Questions& questions() const { return *questions_; }
+  Exchange& exchange() const { return *exchange_; }
 
- private:
-  friend class PluginSessions;
-  struct State;
-  std::unique_ptr<State> state_;
-};
+  /// Loads the plug-in and reads its descriptions. Throws as the constructor does.
+  void start(std::chrono::milliseconds loading = loading_time);
 
-/// A plug-in's process and the communication with it. After any failure it is stopped, with all
-/// processes that it has started, and started again for the next question.
-struct PluginProcess::State : HostProcess {
   /// Result of waiting for a message.
   enum class Received { message, noise, nothing, end };
-
-  std::filesystem::path file;
-  std::vector<Candidate> candidates;
-  bool unforked = false;  ///< a session is the plug-in's process itself
-  int questions_file = -1, exchange_file = -1;
-  Questions* questions = nullptr;
-  Exchange* exchange = nullptr;
-
-  State(const std::filesystem::path& file);
-  ~State();
-
-  /// Loads the plug-in and reads its descriptions. Throws InvalidInput (field "--load").
-  void start(std::chrono::milliseconds loading);
-
   /// Receives one message. `sender`, unless null, is set to the process that sent it.
   Received receive(void* message, std::size_t size, std::chrono::milliseconds time,
                    pid_t* sender = nullptr) const;
@@ -68,6 +50,14 @@ struct PluginProcess::State : HostProcess {
   /// Receives one message, ignoring noise.
   bool wait_for(void* message, std::size_t size, std::chrono::milliseconds time,
                 pid_t* sender = nullptr) const;
+  void release_memory();
+
+  std::filesystem::path file_;
+  std::vector<Candidate> candidates_;
+  bool is_unforked_ = false;
+  int questions_file_ = -1, exchange_file_ = -1;
+  Questions* questions_ = nullptr;
+  Exchange* exchange_ = nullptr;
 };
 
 }  // namespace touchstone

@@ -67,21 +67,20 @@ PluginSessions::PluginSessions(const Candidate& candidate, const Limits& limits)
     : candidate_(candidate), limits_(limits), times_(limits.seconds), plugin_(candidate.plugin) {}
 
 std::optional<NoAnswer> PluginSessions::begin() {
-  PluginProcess::State& s = *plugin_.state_;
-  s.clear_text();
+  plugin_.clear_text();
   const auto failure = [](std::string why) {
     return NoAnswer{TS_CRASHED, std::move(why), true, true};
   };
   bool is_refused = false;
   for (int attempt = 0; attempt < 2; ++attempt) {
     try {
-      if (!s.runs()) s.start(PluginProcess::loading_time);
+      if (!plugin_.runs()) plugin_.start();
     } catch (const NoHost&) {
       throw;
     } catch (const InvalidInput& e) {
       return failure(e.what());
     }
-    if (static_cast<std::size_t>(candidate_.index) >= s.candidates.size()) {
+    if (static_cast<std::size_t>(candidate_.index) >= plugin_.candidates().size()) {
       return failure("its plug-in no longer has it");
     }
     SessionCommand command = plain_command(SessionCommand::begin);
@@ -89,16 +88,16 @@ std::optional<NoAnswer> PluginSessions::begin() {
     command.index = candidate_.index;
     command.parameter = candidate_.value;
     command.memory = static_cast<std::uint64_t>(limits_.mebibytes * (1 << 20));
-    const bool is_sent = s.send(command);
+    const bool is_sent = plugin_.send(command);
     pid_t sender = -1;
     const auto reply =
-        is_sent ? s.await(Reply::began, command.ticket, fork_timeout, &sender) : std::nullopt;
+        is_sent ? plugin_.await(Reply::began, command.ticket, fork_timeout, &sender) : std::nullopt;
     is_refused = reply && reply->value < 0;
     if (reply && !is_refused) {
       session_ = sender;
       return std::nullopt;
     }
-    s.stop();
+    plugin_.stop();
   }
   if (is_refused) throw std::runtime_error("no process could be made for " + candidate_.name);
   return failure("its plug-in's process, loaded anew, answers no more");
@@ -106,33 +105,32 @@ std::optional<NoAnswer> PluginSessions::begin() {
 
 void PluginSessions::end(bool gently) {
   if (session_ < 0) return;
-  PluginProcess::State& s = *plugin_.state_;
   const pid_t session = std::exchange(session_, -1);
   const auto told = [&] {
-    return gently ? s.send(plain_command(SessionCommand::finish)) : kill(session, SIGKILL) == 0;
+    return gently ? plugin_.send(plain_command(SessionCommand::finish))
+                  : kill(session, SIGKILL) == 0;
   };
-  if (!s.unforked && told()) {
-    const auto reply = s.await(Reply::ended, session_ticket_, finish_timeout);
+  if (!plugin_.is_unforked() && told()) {
+    const auto reply = plugin_.await(Reply::ended, session_ticket_, finish_timeout);
     if (reply && !reply->left_behind) return;
   }
-  s.stop();
+  plugin_.stop();
 }
 
 std::optional<NoAnswer> PluginSessions::obey(SessionCommand command, std::size_t configurations) {
-  using Received = PluginProcess::State::Received;
-  PluginProcess::State& s = *plugin_.state_;
+  using Received = PluginProcess::Received;
   const bool is_fresh = session_ < 0;
   const std::optional<NoAnswer> begin_failure = is_fresh ? begin() : std::nullopt;
   command.ticket = ++ticket_;
-  s.exchange->progress = progress_of(ticket_, 0);
+  plugin_.exchange().progress = progress_of(ticket_, 0);
   if (begin_failure) return begin_failure;
   const bool is_alone = is_fresh && command.count == 1;
   const auto stopped = [&](std::string reason) {
-    s.stop();
+    plugin_.stop();
     session_ = -1;
     return NoAnswer{TS_CRASHED, std::move(reason)};
   };
-  if (!s.send(command)) return stopped("its plug-in's process ended");
+  if (!plugin_.send(command)) return stopped("its plug-in's process ended");
 
   // Most commands finish before the first check.
   std::optional<double> computed;  // processor time at the last progress
@@ -144,7 +142,7 @@ std::optional<NoAnswer> PluginSessions::obey(SessionCommand command, std::size_t
     bool has_waited = false;
     if (const auto time = Clock::now(); time >= next_check) {
       next_check = time + check_interval;
-      const std::uint64_t now = s.exchange->progress;
+      const std::uint64_t now = plugin_.exchange().progress;
       const auto number = static_cast<double>(configurations);
       if (!computed || (now > progress && now <= progress_of(ticket_, command.count))) {
         progress = now;
@@ -164,8 +162,8 @@ std::optional<NoAnswer> PluginSessions::obey(SessionCommand command, std::size_t
     // Receive at least once after the check, so that an answer that arrived before it counts.
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(next_check - Clock::now());
     Reply reply;
-    const Received received =
-        s.receive(&reply, sizeof reply, std::max(too_long.empty() ? left : left * 0, left * 0));
+    const Received received = plugin_.receive(
+        &reply, sizeof reply, std::max(too_long.empty() ? left : left * 0, left * 0));
     if (received == Received::end) return stopped("closed its connection to Touchstone");
     if (received == Received::message) {
       if (reply.kind == Reply::finished && reply.ticket == ticket_) return std::nullopt;
@@ -181,16 +179,15 @@ std::optional<NoAnswer> PluginSessions::obey(SessionCommand command, std::size_t
 }
 
 std::optional<NoAnswer> PluginSessions::end_told_by(const Reply& reply) {
-  PluginProcess::State& s = *plugin_.state_;
   const bool has_ended = reply.kind == Reply::ended && reply.ticket == session_ticket_;
   if (!has_ended && reply.kind != Reply::gone) return std::nullopt;
   session_ = -1;
   NoAnswer failure = end_of_session(reply.value);
   if (has_ended && !reply.left_behind) return failure;
-  s.stop();
+  plugin_.stop();
   // What was left behind may have answered on.
   if (has_ended) failure.is_certain = false;
-  if (has_ended || s.unforked) return failure;
+  if (has_ended || plugin_.is_unforked()) return failure;
   return NoAnswer{TS_CRASHED, "its plug-in's process: " + how_it_ended(reply.value)};
 }
 
@@ -199,30 +196,29 @@ TimeLimits::Limit PluginSessions::limit_of(const SessionCommand& command, std::u
   if (command.kind != SessionCommand::answer) return times_.full();
   std::vector<double> latest;
   for (std::uint32_t i = 0; progress_of(ticket_, i) < progress; ++i) {
-    latest.push_back(plugin_.state_->exchange->slots[i].seconds);
+    latest.push_back(plugin_.exchange().slots[i].seconds);
   }
   // A session that others rely on (it keeps shapes) is not ended on suspicion.
   return times_.lowered(latest, !alone && command.release);
 }
 
 NoAnswer PluginSessions::end_of_session(int status) const {
-  const PluginProcess::State& s = *plugin_.state_;
   NoAnswer failure{TS_CRASHED, how_it_ended(status), false, true};
   if (WIFEXITED(status) && WEXITSTATUS(status) == exit_thrown) {
-    const char* const text = s.exchange->thrown;
-    failure.reason = "threw " + std::string(text, strnlen(text, sizeof s.exchange->thrown));
+    const char* const text = plugin_.exchange().thrown;
+    failure.reason = "threw " + std::string(text, strnlen(text, sizeof plugin_.exchange().thrown));
   }
   if (WIFSIGNALED(status)) {
     failure.is_certain = !may_come_from_elsewhere(WTERMSIG(status));
-    if (WTERMSIG(status) == SIGABRT && !s.last_line().empty()) {
-      failure.reason += ": " + s.last_line();
+    if (WTERMSIG(status) == SIGABRT && !plugin_.last_line().empty()) {
+      failure.reason += ": " + plugin_.last_line();
     }
   }
   return failure;
 }
 
 std::optional<Answer> PluginSessions::answer_in(std::uint32_t i) const {
-  const Slot slot = plugin_.state_->exchange->slots[i];
+  const Slot slot = plugin_.exchange().slots[i];
   if (slot.seal != seal_of(slot, ticket_)) return std::nullopt;
   Answer answer{slot.answer, {}, {}};
   if (!std::isnan(slot.model_distance)) answer.model_distance = slot.model_distance;
@@ -240,8 +236,8 @@ std::optional<Answer> PluginSessions::answer_in(std::uint32_t i) const {
 
 std::optional<NoAnswer> PluginSessions::ask(std::span<const Asked> asked, bool release,
                                             std::span<std::optional<Answer>> answers) {
-  const PluginProcess::State& s = *plugin_.state_;
-  for (std::size_t i = 0; i < asked.size(); ++i) s.questions->slots[i] = question_of(asked[i]);
+  for (std::size_t i = 0; i < asked.size(); ++i)
+    plugin_.questions().slots[i] = question_of(asked[i]);
   SessionCommand command = plain_command(SessionCommand::answer);
   command.count = static_cast<std::uint32_t>(asked.size());
   command.release = release;
@@ -252,9 +248,9 @@ std::optional<NoAnswer> PluginSessions::ask(std::span<const Asked> asked, bool r
     if (!(answers[i] = answer_in(i))) in_hand = i;
   }
   for (std::uint32_t i = 0; i < command.count; ++i) {
-    if (answers[i]) times_.learn(s.exchange->slots[i].seconds);
+    if (answers[i]) times_.learn(plugin_.exchange().slots[i].seconds);
   }
-  if (failure) failure->is_of_first = s.exchange->progress == progress_of(ticket_, in_hand);
+  if (failure) failure->is_of_first = plugin_.exchange().progress == progress_of(ticket_, in_hand);
   return failure;
 }
 
@@ -281,7 +277,7 @@ bool PluginSessions::keep_for_timing(std::span<const Asked> asked) {
   for (std::size_t at = 0; at < asked.size(); at += batch_size) {
     const auto batch = asked.subspan(at, std::min<std::size_t>(batch_size, asked.size() - at));
     for (std::size_t i = 0; i < batch.size(); ++i) {
-      plugin_.state_->questions->slots[i] = question_of(batch[i]);
+      plugin_.questions().slots[i] = question_of(batch[i]);
     }
     SessionCommand keep = plain_command(SessionCommand::keep);
     keep.count = static_cast<std::uint32_t>(batch.size());
@@ -296,7 +292,7 @@ std::optional<QueryCost> PluginSessions::cost_per_query() {
   if (session_ < 0 || obey(plain_command(SessionCommand::time), queries_per_round * timed_)) {
     return std::nullopt;
   }
-  const Exchange& exchange = *plugin_.state_->exchange;
+  const Exchange& exchange = plugin_.exchange();
   if (!std::isfinite(exchange.nanoseconds)) return std::nullopt;
   QueryCost cost{exchange.nanoseconds, std::nullopt};
   if (std::isfinite(exchange.instructions)) cost.instructions = exchange.instructions;

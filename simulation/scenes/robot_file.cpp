@@ -16,7 +16,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "candidates/host/contained.hpp"
-#include "candidates/host/plugin_process.hpp"
+#include "candidates/host/host_process.hpp"
 #include "candidates/readable.hpp"
 #include "properties/files/given_text.hpp"
 #include "reference/invalid_input.hpp"
