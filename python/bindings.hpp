@@ -1,11 +1,12 @@
 #pragma once
 
+#include <memory>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <string>
 #include <vector>
 
-#include "candidates/host/candidate_process.hpp"
+#include "candidates/host/respondent.hpp"
 #include "properties/identity.hpp"
 #include "reference/configuration.hpp"
 
@@ -55,6 +56,10 @@ Shape shape_from_python(const char* name, py::handle value);
 /// The answer that a function's result is: a Contact; None, no contact; NotImplemented, no routine.
 /// Anything else is a failure with its reason.
 Answer answer_from_python(py::handle value);
+
+/// What asks such a function, in the process that it is made in. `seconds` by the clock are allowed
+/// for one question, where this is Python's main thread.
+std::unique_ptr<Respondent> function_respondent(const py::function& function, double seconds);
 
 /// The configurations that a cylinder, a shape and their poses make: one of two Poses, otherwise
 /// one for each row of a batch.

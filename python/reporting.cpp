@@ -12,7 +12,6 @@
 #include "candidates/host/interruption.hpp"
 #include "properties/files/disk.hpp"
 #include "properties/files/given_text.hpp"
-#include "python/function_respondent.hpp"
 #include "python/parameters.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/make_report.hpp"
@@ -52,10 +51,10 @@ Candidate candidate_of(const Request& request) {
   candidate.precision = "double";
   candidate.runs = "script";
   candidate.respondent = [function = request.function, seconds = request.seconds,
-                          owner = getpid()](const Limits&) -> std::unique_ptr<Respondent> {
+                      owner = getpid()](const Limits&) -> std::unique_ptr<Respondent> {
     // A worker: Python must know that it was forked, as by os.fork.
     if (getpid() != owner) PyOS_AfterFork_Child();
-    return std::make_unique<FunctionRespondent>(function, seconds);
+    return function_respondent(function, seconds);
   };
   return candidate;
 }
