@@ -201,9 +201,7 @@ class Registry {
     }
     const auto& [said, format] = std::get<messages::Hello>(hello);
     Candidate candidate = said;
-    candidate.in_frames = format == messages::Format::frames;
-    candidate.command = command;
-    candidate.folder = folder;
+    candidate.origin = Candidate::Command{command, folder, format == messages::Format::frames};
     return candidate;
   }
 

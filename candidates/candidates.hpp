@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "candidates/candidate.h"
@@ -23,9 +24,23 @@ struct Added {
   std::string value;   ///< a file's absolute path, or the command
 };
 
-/// The description of one candidate: of a plug-in, a command, or a function of this program. What
-/// is not ours is called in other processes only (candidate_process.hpp).
+/// The description of one candidate. What is not ours is called in other processes only
+/// (candidate_process.hpp).
 struct Candidate {
+  /// A shared object (docs/plug-ins.md).
+  struct Plugin {
+    std::filesystem::path file;  ///< absolute
+    int index;                   ///< among the plug-in's candidates
+  };
+  /// A program that speaks as docs/process-candidates.md says.
+  struct Command {
+    std::string line;              ///< for /bin/sh -c
+    std::filesystem::path folder;  ///< in which it runs, absolute
+    bool in_frames;                ///< its messages are frames; otherwise lines of JSON
+  };
+  /// A function of this program (python/): makes what answers.
+  using Function = std::function<std::unique_ptr<Respondent>(const Limits&)>;
+
   struct Parameter {
     std::string meaning;
     double min, max, usual;
@@ -39,20 +54,16 @@ struct Candidate {
   std::string models;  ///< what represents the shapes in a simplified model; empty if they are used
                        ///< as they are
   std::optional<Parameter> parameter;
-  double value = 0;                   ///< of the parameter
-  std::array<bool, 5> supports{};     ///< by ts_shape_kind
-  std::filesystem::path plugin = {};  ///< absolute
-  int index = 0;                      ///< among the plug-in's candidates
-  // Of a command (docs/process-candidates.md), which is no plug-in:
-  std::string command = {};           ///< for /bin/sh -c; empty: a plug-in
-  std::filesystem::path folder = {};  ///< in which it runs, absolute
-  std::string precision = {};         ///< "double" or "float"
-  std::string runs = "native";        ///< "native", "wasm" or "script"
-  bool in_frames = false;             ///< its messages are frames; otherwise lines of JSON
-  /// Of a function of this program (python/): makes what answers.
-  std::function<std::unique_ptr<Respondent>(const Limits&)> respondent = {};
-  std::optional<Added> added = {};  ///< what brought it; absent for those that Touchstone has
+  double value = 0;                ///< of the parameter
+  std::array<bool, 5> supports{};  ///< by ts_shape_kind
+  std::string precision;           ///< of a command or function: "double" or "float"
+  std::string runs = "native";     ///< "native", "wasm" or "script"
+  std::variant<Plugin, Command, Function> origin;
+  std::optional<Added> added;  ///< what brought it; absent for those that Touchstone has
 
+  /// Null if it is something else.
+  const Plugin* plugin() const { return std::get_if<Plugin>(&origin); }
+  const Command* command() const { return std::get_if<Command>(&origin); }
   bool has_routine_for(Pair pair) const;
 };
 

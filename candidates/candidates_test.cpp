@@ -281,7 +281,8 @@ TEST(Models, ManySidesComeToTheCylinder) {
 
 // Touchstone asks for the distance right after the query at the same poses; others need not.
 TEST(Models, TellTheDistanceAtAnyPosesWhateverWasAskedBefore) {
-  void* const library = dlopen(find_candidate("capsule").plugin.c_str(), RTLD_NOW | RTLD_LOCAL);
+  void* const library =
+      dlopen(find_candidate("capsule").plugin()->file.c_str(), RTLD_NOW | RTLD_LOCAL);
   ASSERT_TRUE(library) << dlerror();
   const auto plugin =
       reinterpret_cast<const ts_plugin* (*)()>(dlsym(library, "touchstone_plugin"))();

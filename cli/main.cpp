@@ -20,11 +20,10 @@ constexpr int contradiction = 3;
 
 /// Versions of the engines: of the first candidate of each plug-in that is not our own.
 std::string engines() {
-  std::set<std::filesystem::path> seen;
+  std::set<std::string> seen;
   std::string text;
   for (const Candidate* c : all_candidates()) {
-    const std::filesystem::path from =
-        c->command.empty() ? c->plugin : std::filesystem::path(c->command);
+    const std::string from = c->plugin() ? c->plugin()->file.string() : c->command()->line;
     if (c->version == TOUCHSTONE_VERSION || !seen.insert(from).second) continue;
     text += fmt::format("{}{} {}", text.empty() ? "" : ", ", c->family, c->version);
   }

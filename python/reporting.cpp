@@ -50,7 +50,7 @@ Candidate candidate_of(const Request& request) {
   candidate.supports.fill(true);
   candidate.precision = "double";
   candidate.runs = "script";
-  candidate.respondent = [function = request.function, seconds = request.seconds,
+  candidate.origin = [function = request.function, seconds = request.seconds,
                       owner = getpid()](const Limits&) -> std::unique_ptr<Respondent> {
     // A worker: Python must know that it was forked, as by os.fork.
     if (getpid() != owner) PyOS_AfterFork_Child();

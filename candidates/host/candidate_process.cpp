@@ -26,12 +26,12 @@ Question question_of(const Asked& asked) {
 CandidateProcess::CandidateProcess(const Candidate& candidate, double threshold,
                                    const Limits& limits)
     : candidate_(candidate), threshold_(threshold) {
-  if (candidate.respondent) {
-    respondent_ = candidate.respondent(limits);
-  } else if (candidate.command.empty()) {
+  if (candidate.plugin()) {
     respondent_ = std::make_unique<PluginSessions>(candidate, limits);
-  } else {
+  } else if (candidate.command()) {
     respondent_ = std::make_unique<CommandRespondent>(candidate, limits);
+  } else {
+    respondent_ = std::get<Candidate::Function>(candidate.origin)(limits);
   }
 }
 

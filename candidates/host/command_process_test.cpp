@@ -28,8 +28,8 @@ Candidate told(const std::string& format, const std::string& deed = "none") {
   candidate.name = candidate.family = "told";
   candidate.value = 2;
   candidate.supports[TS_SPHERE] = candidate.supports[TS_BOX] = true;
-  candidate.command = command(format, deed);
-  candidate.folder = std::filesystem::current_path();
+  candidate.origin = Candidate::Command{command(format, deed), std::filesystem::current_path(),
+                                        format == "frames"};
   return candidate;
 }
 
@@ -222,7 +222,7 @@ TEST(CommandProcess, IsAddedByCommandAndByList) {
   add_file(file);
   EXPECT_EQ(find_candidate("by-command:3").value, 3);
   EXPECT_EQ(find_candidate("by-list").runs, "script");
-  EXPECT_EQ(find_candidate("by-list").folder, file.parent_path());
+  EXPECT_EQ(find_candidate("by-list").command()->folder, file.parent_path());
   std::ofstream(file) << "# engines\ntrue\n";
   EXPECT_THAT([&] { add_file(file); }, ThrowsMessage<InvalidInput>(HasSubstr("line 2: \"true\"")));
   std::filesystem::remove(file);

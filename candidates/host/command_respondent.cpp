@@ -28,7 +28,7 @@ CommandRespondent::CommandRespondent(const Candidate& candidate, const Limits& l
     : candidate_(candidate),
       limits_(limits),
       request_seconds_(limits.seconds),
-      process_(candidate.command, candidate.folder) {}
+      process_(candidate.command()->line, candidate.command()->folder) {}
 
 template <class Entry, class Request, class Read>
 auto CommandRespondent::send(Operation operation, const std::vector<Entry>& entries, double seconds,

@@ -13,10 +13,11 @@ namespace touchstone {
 namespace {
 
 const ts_candidate& load(const Candidate& candidate) {
-  void* const library = dlopen(candidate.plugin.c_str(), RTLD_NOW | RTLD_LOCAL);
+  const Candidate::Plugin& plugin = *candidate.plugin();
+  void* const library = dlopen(plugin.file.c_str(), RTLD_NOW | RTLD_LOCAL);
   void* const entry = library ? dlsym(library, "touchstone_plugin") : nullptr;
   if (!entry) throw std::runtime_error(dlerror());
-  return reinterpret_cast<decltype(&touchstone_plugin)>(entry)()->candidates[candidate.index];
+  return reinterpret_cast<decltype(&touchstone_plugin)>(entry)()->candidates[plugin.index];
 }
 
 class OwnRespondent : public Respondent {
@@ -47,13 +48,14 @@ class OwnRespondent : public Respondent {
 bool is_own(const Candidate& candidate) {
   constexpr std::array own = {"touchstone-reference.so", "touchstone-simplified.so",
                               "touchstone-box-parts.so"};
-  return !candidate.added && candidate.plugin.parent_path() == standard_folder() &&
-         std::ranges::find(own, candidate.plugin.filename()) != own.end();
+  const Candidate::Plugin* const plugin = candidate.plugin();
+  return plugin && !candidate.added && plugin->file.parent_path() == standard_folder() &&
+         std::ranges::find(own, plugin->file.filename()) != own.end();
 }
 
 Candidate asked_here(const Candidate& candidate) {
   Candidate here = candidate;
-  here.respondent = [candidate](const Limits&) {
+  here.origin = [candidate](const Limits&) -> std::unique_ptr<Respondent> {
     return std::make_unique<OwnRespondent>(candidate);
   };
   return here;

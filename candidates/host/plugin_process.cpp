@@ -171,8 +171,7 @@ void PluginProcess::start(std::chrono::milliseconds loading) {
     c.version = readable(d.version);
     c.settings = readable(d.settings);
     c.models = readable(d.models);
-    c.plugin = file_;
-    c.index = i;
+    c.origin = Candidate::Plugin{file_, i};
     std::copy(std::begin(d.supports), std::end(d.supports), c.supports.begin());
     is_unforked_ = d.unforked;
     if (d.has_parameter)

@@ -64,7 +64,10 @@ int only_processor() {
 }  // namespace
 
 PluginSessions::PluginSessions(const Candidate& candidate, const Limits& limits)
-    : candidate_(candidate), limits_(limits), times_(limits.seconds), plugin_(candidate.plugin) {}
+    : candidate_(candidate),
+      limits_(limits),
+      times_(limits.seconds),
+      plugin_(candidate.plugin()->file) {}
 
 std::optional<NoAnswer> PluginSessions::begin() {
   plugin_.clear_text();
@@ -80,12 +83,12 @@ std::optional<NoAnswer> PluginSessions::begin() {
     } catch (const InvalidInput& e) {
       return failure(e.what());
     }
-    if (static_cast<std::size_t>(candidate_.index) >= plugin_.candidates().size()) {
+    if (static_cast<std::size_t>(candidate_.plugin()->index) >= plugin_.candidates().size()) {
       return failure("its plug-in no longer has it");
     }
     SessionCommand command = plain_command(SessionCommand::begin);
     command.ticket = session_ticket_ = ++ticket_;
-    command.index = candidate_.index;
+    command.index = candidate_.plugin()->index;
     command.parameter = candidate_.value;
     command.memory = static_cast<std::uint64_t>(limits_.mebibytes * (1 << 20));
     const bool is_sent = plugin_.send(command);

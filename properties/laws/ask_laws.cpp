@@ -148,7 +148,7 @@ std::vector<Violations> broken_in_session(std::span<const Law* const> laws,
   });
   ask_last_questions(inquiries, candidate);
   // A command is not asked on after failures in a row, which may be of another configuration.
-  const bool is_command = !candidate.candidate().command.empty();
+  const bool is_command = candidate.candidate().command() != nullptr;
   for (std::size_t i = 0; i < inquiries.size(); ++i) {
     const Inquiry& inquiry = inquiries[i];
     const bool is_lost = is_command && inquiry.has_failure();

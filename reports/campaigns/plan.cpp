@@ -159,13 +159,14 @@ Plan make_plan(const Campaign& campaign, const std::string& command) {
         to_hex_json(make_configuration({cell.pair, cell.pose_class, campaign.seed, 0})).dump();
   }
   for (const Candidate* c : campaign.candidates) {
-    candidates.push_back({{"name", c->name},
-                          {"family", c->family},
-                          {"version", c->version},
-                          {"settings", c->settings},
-                          {"models", c->models},
-                          {"plugin_checksum", c->command.empty() ? checksum_of_plugin(c->plugin)
-                                                                 : checksum(c->command)}});
+    candidates.push_back(
+        {{"name", c->name},
+         {"family", c->family},
+         {"version", c->version},
+         {"settings", c->settings},
+         {"models", c->models},
+         {"plugin_checksum",
+          c->command() ? checksum(c->command()->line) : checksum_of_plugin(c->plugin()->file)}});
     // Left out where it is usual, as in campaigns that were begun before it was known.
     if (c->runs != "native") candidates.back()["runs"] = c->runs;
   }

@@ -143,10 +143,10 @@ const Program& find_program(std::string_view name, std::string_view language,
     }
   }
   if (of_engine.empty()) {
-    if (!candidate || (candidate->command.empty() && candidate->plugin.empty())) {
+    if (!candidate || (!candidate->command() && !candidate->plugin())) {
       refuse(name, pair == Pair::plane);
     }
-    of_engine.push_back(candidate->command.empty() ? &plugin : &command);
+    of_engine.push_back(candidate->command() ? &command : &plugin);
   }
   if (pair == Pair::plane && !of_engine[0]->plane) refuse(name, true);
   if (candidate && !candidate->has_routine_for(pair)) {
@@ -234,13 +234,18 @@ Texts npm_texts(const Program& program, std::string_view name, const Candidate* 
 /// What stands in the programs that ask a plug-in or a command.
 Texts candidate_texts(const Candidate* candidate) {
   if (!candidate) return {};
-  return {{"name", candidate->name},
-          {"index", std::to_string(candidate->index)},
-          {"parameter", fmt::format("{}", candidate->value)},
-          {"plugin", string_literal(candidate->plugin.string())},
-          {"include", shell_quoted(include_folder())},
-          {"command", string_literal(candidate->command)},
-          {"folder", string_literal(candidate->folder.string())}};
+  Texts texts = {{"name", candidate->name},
+                 {"parameter", fmt::format("{}", candidate->value)},
+                 {"include", shell_quoted(include_folder())}};
+  if (const auto* const plugin = candidate->plugin()) {
+    texts.merge(Texts{{"index", std::to_string(plugin->index)},
+                      {"plugin", string_literal(plugin->file.string())}});
+  }
+  if (const auto* const command = candidate->command()) {
+    texts.merge(Texts{{"command", string_literal(command->line)},
+                      {"folder", string_literal(command->folder.string())}});
+  }
+  return texts;
 }
 
 // Templates are programs with two additions: @name@ stands for a text, and a line that begins with
@@ -339,11 +344,12 @@ std::string reproducer(std::string_view name, std::string_view language, const C
   // PhysX's query knows no plane, which its candidate asks a scene about.
   const bool in_scene = program.engine == "physx" && pair_of(c) == Pair::plane;
   Tags tags = names_in(in_scene ? "world" : program.tags);
-  tags.insert(tags.end(),
-              {shape, tag_of_distance(truth.signed_distance.midpoint(), allowed, bar.threshold),
-               candidate && candidate->in_frames ? "frames" : "lines",
-               program.engine.empty() ? "plugin" : "engine",
-               program.tags == "doctest" ? "test" : "program"});
+  tags.insert(
+      tags.end(),
+      {shape, tag_of_distance(truth.signed_distance.midpoint(), allowed, bar.threshold),
+       candidate && candidate->command() && candidate->command()->in_frames ? "frames" : "lines",
+       program.engine.empty() ? "plugin" : "engine",
+       program.tags == "doctest" ? "test" : "program"});
   texts.merge(
       Texts{{"engine", title},
             // A backslash at a line's end would make the next one a part of the comment.
