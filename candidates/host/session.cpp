@@ -22,55 +22,45 @@
 namespace touchstone {
 namespace {
 
-int open_counter() {
-  perf_event_attr attributes{};
-  attributes.size = sizeof attributes;
-  attributes.type = PERF_TYPE_HARDWARE;
-  attributes.config = PERF_COUNT_HW_INSTRUCTIONS;
-  attributes.disabled = 1;
-  attributes.exclude_kernel = 1;
-  attributes.exclude_hv = 1;
-  constexpr int this_process = 0, any_processor = -1, no_group = -1;
-  return static_cast<int>(syscall(SYS_perf_event_open, &attributes, this_process, any_processor,
-                                  no_group, PERF_FLAG_FD_CLOEXEC));
-}
-
 /// Counts the instructions that this process retires in user space, if machine and kernel allow it
 /// (perf_event_open(2); kernel.perf_event_paranoid up to 2).
 class InstructionCounter {
  public:
-  InstructionCounter();
-  ~InstructionCounter();
+  InstructionCounter() {
+    perf_event_attr attributes{};
+    attributes.size = sizeof attributes;
+    attributes.type = PERF_TYPE_HARDWARE;
+    attributes.config = PERF_COUNT_HW_INSTRUCTIONS;
+    attributes.disabled = 1;
+    attributes.exclude_kernel = 1;
+    attributes.exclude_hv = 1;
+    constexpr int this_process = 0, any_processor = -1, no_group = -1;
+    file_ = static_cast<int>(syscall(SYS_perf_event_open, &attributes, this_process, any_processor,
+                                     no_group, PERF_FLAG_FD_CLOEXEC));
+  }
+  ~InstructionCounter() {
+    if (file_ >= 0) close(file_);
+  }
   InstructionCounter(const InstructionCounter&) = delete;
   InstructionCounter& operator=(const InstructionCounter&) = delete;
 
-  void start() const;
+  void start() const {
+    if (file_ < 0) return;
+    ioctl(file_, PERF_EVENT_IOC_RESET, 0);
+    ioctl(file_, PERF_EVENT_IOC_ENABLE, 0);
+  }
   /// The count since start, within a few dozen; absent if instructions cannot be counted.
-  std::optional<std::uint64_t> stop() const;
+  std::optional<std::uint64_t> stop() const {
+    if (file_ < 0) return std::nullopt;
+    ioctl(file_, PERF_EVENT_IOC_DISABLE, 0);
+    std::uint64_t count = 0;
+    if (read(file_, &count, sizeof count) != sizeof count || count == 0) return std::nullopt;
+    return count;
+  }
 
  private:
-  int file_;  ///< -1: not permitted
+  int file_;  ///< negative: not permitted
 };
-
-InstructionCounter::InstructionCounter() : file_(open_counter()) {}
-
-InstructionCounter::~InstructionCounter() {
-  if (file_ >= 0) close(file_);
-}
-
-void InstructionCounter::start() const {
-  if (file_ < 0) return;
-  ioctl(file_, PERF_EVENT_IOC_RESET, 0);
-  ioctl(file_, PERF_EVENT_IOC_ENABLE, 0);
-}
-
-std::optional<std::uint64_t> InstructionCounter::stop() const {
-  if (file_ < 0) return std::nullopt;
-  ioctl(file_, PERF_EVENT_IOC_DISABLE, 0);
-  std::uint64_t count = 0;
-  if (read(file_, &count, sizeof count) != sizeof count || count == 0) return std::nullopt;
-  return count;
-}
 
 /// Upper limit of a round of timing, approximately, so that slow candidates do not take minutes.
 constexpr std::chrono::microseconds max_round_time(500);
