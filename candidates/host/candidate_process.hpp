@@ -18,12 +18,11 @@ struct NoAnswer;
 /// Resources that one configuration may use before the candidate's process is ended.
 struct Limits {
   /// Processor time: three frames of a simulation, thousands of times that of a query. Once a
-  /// candidate has exceeded it within one call of CandidateProcess::answers, it is lower for the
-  /// rest of the call: a hundred times the candidate's median there, at least a tenth, as soon as
-  /// it has given fifteen answers or exceeded a limit three times. A query may wait for something
-  /// else ten times as long; for a candidate that does so repeatedly within one call of
-  /// CandidateProcess::answers this is halved each time, down to the limit itself. Waiting for a
-  /// processor does not count.
+  /// candidate of a plug-in has exceeded it, it is lower until the candidate is restarted, as by
+  /// CandidateProcess::answers: a hundred times the candidate's median there, at least a tenth, as
+  /// soon as it has given fifteen answers or exceeded a limit three times. A query may wait for
+  /// something else ten times as long; for a candidate of a plug-in that does so repeatedly this is
+  /// halved each time, down to the limit itself. Waiting for a processor does not count.
   double seconds = 0.05;
   double mebibytes = 1024;  ///< growth of its memory
 };

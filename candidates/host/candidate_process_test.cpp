@@ -142,6 +142,15 @@ TEST(CandidateProcess, ThreeTimeOutsLowerTheLimitOfACandidateThatHardlyEverAnswe
   EXPECT_EQ(rarely[4].status, TS_CONTACT);
 }
 
+// So that the runs of an experiment do not depend on which of them the same worker had before.
+TEST(CandidateProcess, ARestartForgetsTimeOuts) {
+  CandidateProcess process(sabotage("stalling"), 0, {0.1, 256});
+  const auto never = standing_at(std::vector<double>(4, endless));
+  EXPECT_EQ(process.answer(never)[3].reason, "no answer within 0.01 s, as others within 0.1 s");
+  process.restart();
+  EXPECT_EQ(process.answer(never)[0].reason, "no answer within 0.1 s");
+}
+
 TEST(CandidateProcess, AnswersUntilOneTimesOutAndGoesOnInTheSameSession) {
   CandidateProcess process(sabotage("stalling"), 0, {0.05, 256});
   std::vector<double> at(150, at_once);  // more than one message
