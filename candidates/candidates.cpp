@@ -161,12 +161,12 @@ class Registry {
       return find(name);
     }
     if (name.find('/') != std::string_view::npos || name.ends_with(".so")) {
-      throw InvalidInput("--candidates", '"' + std::string(name) + '"',
+      throw InvalidInput("--candidates", in_quotes(name),
                          "must be a name; a plug-in's file is given by --load");
     }
     for (const Skipped& s : skipped_) {
       if (family != s.name && !family.starts_with(s.name + '-')) continue;
-      throw InvalidInput("--candidates", '"' + std::string(name) + '"',
+      throw InvalidInput("--candidates", in_quotes(name),
                          "is unavailable; " + s.name + ": skipped; " + s.reason);
     }
     std::string names;
@@ -184,36 +184,34 @@ class Registry {
       // A command of one's own may have taken the name.
       if (!is_listed(engine.family)) names += ", " + std::string(engine.family);
     }
-    throw InvalidInput("--candidates", '"' + std::string(name) + '"', "must be one of " + names);
+    throw InvalidInput("--candidates", in_quotes(name), "must be one of " + names);
   }
 
  private:
   /// The candidate that the command says it is.
   static Candidate told_by(const std::string& command, const std::filesystem::path& folder,
                            const Added& subject) {
-    CommandProcess process(command, folder);
-    const auto hello = process.start();
-    if (const auto* const failure = std::get_if<CommandProcess::NoAnswer>(&hello)) {
+    try {
+      auto [candidate, format] = CommandProcess(command, folder).start();
+      candidate.origin = Candidate::Command{command, folder, format == messages::Format::frames};
+      return candidate;
+    } catch (const NoAnswer& failure) {
       throw InvalidInput(
-          subject.option, '"' + subject.value + '"',
+          subject.option, in_quotes(subject.value),
           "must be a command that speaks as docs/process-candidates.md says, not as this one: " +
-              failure->reason);
+              failure.reason);
     }
-    const auto& [said, format] = std::get<messages::Hello>(hello);
-    Candidate candidate = said;
-    candidate.origin = Candidate::Command{command, folder, format == messages::Format::frames};
-    return candidate;
   }
 
   /// Engines from npm are known once they are named, and in no list before or after.
   void add_npm_engine(const NpmEngine& engine, std::string_view name) {
     const Added subject{"--candidates", std::string(name)};
     if (const std::string obstacle = npm_obstacle(engine); !obstacle.empty()) {
-      throw InvalidInput(subject.option, '"' + subject.value + '"', "is unavailable: " + obstacle);
+      throw InvalidInput(subject.option, in_quotes(subject.value), "is unavailable: " + obstacle);
     }
     const Candidate candidate = told_by(npm_command(engine), npm_folder(), subject);
     if (candidate.family != engine.family) {
-      throw InvalidInput(subject.option, '"' + subject.value + '"',
+      throw InvalidInput(subject.option, in_quotes(subject.value),
                          "is unavailable: its adapter says that it is " + candidate.family);
     }
     add({candidate}, subject, {}, false);
@@ -227,7 +225,7 @@ class Registry {
       if (std::any_of(known_.begin(), known_.end(), same) ||
           std::any_of(candidates.begin(), candidates.begin() + static_cast<std::ptrdiff_t>(i),
                       same)) {
-        throw InvalidInput(subject.option, '"' + subject.value + '"',
+        throw InvalidInput(subject.option, in_quotes(subject.value),
                            "must not bring \"" + c.family + "\", a name that is taken");
       }
     }
@@ -261,12 +259,12 @@ class Registry {
     const auto& p = family.parameter;
     const std::optional<double> value = to_number(parameter);
     if (!p) {
-      throw InvalidInput("--candidates", '"' + std::string(name) + '"',
+      throw InvalidInput("--candidates", in_quotes(name),
                          "must be \"" + family.family + "\", which takes no number");
     }
     if (!value || !(*value >= p->min && *value <= p->max) ||
         (p->whole && *value != std::floor(*value))) {
-      throw InvalidInput("--candidates", '"' + std::string(name) + '"',
+      throw InvalidInput("--candidates", in_quotes(name),
                          "must be \"" + family.family + ":\" and the " + p->meaning + ", " +
                              (p->whole ? "a whole number" : "a number") + " from " +
                              number(p->min) + " to " + number(p->max));
@@ -306,7 +304,7 @@ std::vector<double> sweep(const Candidate& family, std::string_view text) {
   const auto dots = text.find("..");
   const auto first = to_number(text.substr(0, dots)), last = to_number(text.substr(dots + 2));
   if (!first || !last || !(*first > 0) || !(*last >= *first) || !std::isfinite(*last)) {
-    throw InvalidInput("--candidates", '"' + family.family + ':' + std::string(text) + '"',
+    throw InvalidInput("--candidates", in_quotes(family.family + ':' + std::string(text)),
                        "must be two positive numbers in rising order, as in 1..64");
   }
   const double factor = family.parameter && family.parameter->whole ? 2 : 10;
@@ -415,7 +413,7 @@ void add_list(const std::filesystem::path& file) {
   }
   if (lines.bad()) throw InvalidInput("--load", file.string(), "must be a file that can be read");
   if (commands == 0) {
-    throw InvalidInput("--load", '"' + file.string() + '"',
+    throw InvalidInput("--load", in_quotes(file.string()),
                        "must list a command, one a line; lines that begin with # are comments");
   }
 }
@@ -436,13 +434,13 @@ bool is_elf(const std::filesystem::path& file) {
 void add_file(const std::filesystem::path& file) {
   std::error_code error;
   const auto path = std::filesystem::canonical(file, error);
-  if (error) throw InvalidInput("--load", '"' + file.string() + '"', "must be a file");
+  if (error) throw InvalidInput("--load", in_quotes(file.string()), "must be a file");
   if (!std::filesystem::is_regular_file(path)) {  // opening a FIFO would wait for a writer
-    throw InvalidInput("--load", '"' + file.string() + '"', "must be a regular file");
+    throw InvalidInput("--load", in_quotes(file.string()), "must be a regular file");
   }
   const Added added{"--load", path.string()};
   if (path.extension() != ".txt" && !is_elf(path)) {
-    throw InvalidInput("--load", '"' + file.string() + '"',
+    throw InvalidInput("--load", in_quotes(file.string()),
                        "must be a plug-in, which is a shared object (.so), or a list of commands, "
                        "whose name ends in .txt");
   }

@@ -54,16 +54,7 @@ std::size_t write_to_pipe(int file, std::string_view text) {
 CommandProcess::CommandProcess(std::string command, std::filesystem::path folder)
     : command_(std::move(command)), folder_(std::move(folder)) {}
 
-std::variant<messages::Hello, CommandProcess::NoAnswer> CommandProcess::start(
-    std::chrono::milliseconds time) {
-  try {
-    return begin(time);
-  } catch (const NoAnswer& failure) {
-    return failure;
-  }
-}
-
-messages::Hello CommandProcess::begin(std::chrono::milliseconds time) {
+messages::Hello CommandProcess::start(std::chrono::milliseconds time) {
   stop();
   clear_text();
   int to_child[2], from_child[2];

@@ -3,7 +3,6 @@
 #include <chrono>
 #include <filesystem>
 #include <string>
-#include <variant>
 
 #include "candidates/host/host_process.hpp"
 #include "candidates/host/messages.hpp"
@@ -20,7 +19,6 @@ class CommandProcess : public HostProcess {
   struct Allowance {
     double processor_seconds, waiting_seconds, mebibytes;
   };
-  using NoAnswer = touchstone::NoAnswer;
 
   /// Time for the command to start and to say hello; it may compile itself, or load a model.
   static constexpr std::chrono::seconds starting_time{30};
@@ -32,9 +30,7 @@ class CommandProcess : public HostProcess {
   CommandProcess& operator=(const CommandProcess&) = delete;
 
   /// Starts it and exchanges the hellos. Throws NoAnswer.
-  messages::Hello begin(std::chrono::milliseconds time = starting_time);
-  /// The same without a throw.
-  std::variant<messages::Hello, NoAnswer> start(std::chrono::milliseconds time = starting_time);
+  messages::Hello start(std::chrono::milliseconds time = starting_time);
   void stop();
 
   /// Sends a request and waits for the answer: a frame of `size` bytes, or a line if that is zero.

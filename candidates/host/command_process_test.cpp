@@ -8,12 +8,15 @@
 
 #include "candidates/candidates.hpp"
 #include "candidates/host/candidate_process.hpp"
+#include "candidates/host/respondent.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone {
 namespace {
 
+using testing::Field;
 using testing::HasSubstr;
+using testing::Throws;
 using testing::ThrowsMessage;
 
 constexpr double mark = 666;
@@ -208,9 +211,8 @@ TEST(CommandProcess, IsRefusedWithTheReason) {
   EXPECT_THAT([] { add_command("/no/such/program"); },
               ThrowsMessage<InvalidInput>(HasSubstr("not found")));
   CommandProcess silent(command("frames", "silent"), std::filesystem::current_path());
-  const auto hello = silent.start(std::chrono::milliseconds(300));
-  ASSERT_TRUE(std::holds_alternative<CommandProcess::NoAnswer>(hello));
-  EXPECT_EQ(std::get<CommandProcess::NoAnswer>(hello).status, TS_TIMED_OUT);
+  EXPECT_THAT([&] { silent.start(std::chrono::milliseconds(300)); },
+              Throws<NoAnswer>(Field(&NoAnswer::status, TS_TIMED_OUT)));
 }
 
 TEST(CommandProcess, IsAddedByCommandAndByList) {

@@ -50,7 +50,7 @@ void CommandRespondent::start() {
   if (process_.runs()) return;
   const auto begin = [&] {
     ready_.clear();
-    const messages::Hello hello = process_.begin();
+    const messages::Hello hello = process_.start();
     format_ = hello.format;
     if (hello.candidate.family != candidate_.family) {
       process_.refuse("its name is " + in_quotes(hello.candidate.family) + " instead of " +
