@@ -57,36 +57,25 @@ const std::vector<GivenAnswer>& answers_in(const GivenAnswers& given, const Cell
   return found->answers;
 }
 
-std::vector<Answer> sampled_answers(
+std::vector<Answer> answers_until_stopped(
     const std::function<std::vector<Answer>(std::span<const Configuration>, bool in_new_session)>&
         ask,
     std::span<const Configuration> configurations, std::span<const std::size_t> unit_ends) {
   std::vector<Answer> answers;
-  const auto ask_for = [&](std::size_t count) {
+  std::vector<int> timeouts(unit_ends.size());
+  while (answers.size() < configurations.size()) {
+    // A call goes on through units until one of its answers times out.
     const bool in_new_session = answers.empty();
-    auto given = ask(configurations.subspan(answers.size(), count), in_new_session);
+    auto given = ask(configurations.subspan(answers.size()), in_new_session);
     if (answers.empty()) {  // most often all of them: an answer is large
       answers = std::move(given);
     } else {
       std::move(given.begin(), given.end(), std::back_inserter(answers));
     }
-    return answers.back().status == TS_TIMED_OUT;
-  };
-  std::vector<int> timeouts(unit_ends.size());
-  while (answers.size() < configurations.size()) {
-    // A call goes on through units until one of its answers times out.
-    if (ask_for(configurations.size() - answers.size())) {
-      const auto end = std::lower_bound(unit_ends.begin(), unit_ends.end(), answers.size());
-      const auto unit = static_cast<std::size_t>(end - unit_ends.begin());
-      if (++timeouts[unit] < max_timeouts) continue;
-      const std::size_t first = unit == 0 ? 0 : unit_ends[unit - 1];
-      while (answers.size() < *end) {
-        const std::size_t block = (answers.size() - first) / sample_block;
-        const std::size_t asked = std::min(first + (block + 1) * sample_block, *end) - 1;
-        while (answers.size() < asked) answers.emplace_back().was_asked = false;
-        ask_for(1);
-      }
-    }
+    if (answers.back().status != TS_TIMED_OUT) continue;
+    const auto end = std::lower_bound(unit_ends.begin(), unit_ends.end(), answers.size());
+    if (++timeouts[static_cast<std::size_t>(end - unit_ends.begin())] < max_timeouts) continue;
+    while (answers.size() < *end) answers.emplace_back().was_asked = false;
   }
   return answers;
 }

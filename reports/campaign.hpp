@@ -94,20 +94,17 @@ void score_answers(std::span<const Configuration> configurations,
                    std::vector<std::vector<Answer>> answers, const Bar& bar, double width,
                    const std::function<void(const ScoredConfiguration&)>& take);
 
-// A candidate that times out again and again would take nearly all the time of a campaign. Once
-// `max_timeouts` of its answers in a unit have timed out (each confirmed alone: Limits), it is
-// asked only the last one of every `sample_block` configurations there, and the last of the unit:
-// each stands for itself and for those before it that were not asked. Which are asked is decided
-// before they are, by the time-outs in this unit, so that shares in which they count so often are
-// not biased. The limit of time follows from answers of the same run alone, so that the result
-// depends neither on workers nor on shards.
+/// A candidate that times out again and again would take nearly all the time of a campaign. Once so
+/// many of its answers in a unit have timed out (each confirmed alone: Limits), it is stopped
+/// there: the rest of the unit is not asked. Neither workers nor shards change which answers these
+/// are, for a unit is asked in the order of its configurations, and its limit of time follows from
+/// answers of the same run alone.
 inline constexpr int max_timeouts = 3;
-inline constexpr std::size_t sample_block = 16;
 
 /// Answers of one candidate in a new session; Answer::was_asked says to which there is none.
 /// `unit_ends`: where each unit ends, the last one at the end of the configurations. `ask` is
 /// CandidateProcess::answers_until_timeout.
-std::vector<Answer> sampled_answers(
+std::vector<Answer> answers_until_stopped(
     const std::function<std::vector<Answer>(std::span<const Configuration>, bool in_new_session)>&
         ask,
     std::span<const Configuration> configurations, std::span<const std::size_t> unit_ends);

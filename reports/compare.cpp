@@ -253,20 +253,18 @@ Basis basis_of(const Report& before, const Report& after, const std::string& bas
   return basis;
 }
 
-/// Was the candidate asked a sample only? Then rows of the same configurations may tell of others.
-bool is_sampled(const Statistics& s) { return s.of(Outcome::not_asked) > 0; }
-
-void remark_sampled(Basis& basis, const Report& before, const Report& after) {
+/// Where a candidate was stopped, rows of the same configurations may tell of others.
+void remark_stopped(Basis& basis, const Report& before, const Report& after) {
   std::set<std::string> names;
   for (const Report* report : {&before, &after}) {
     for (const ResultRow& row : report->results) {
-      if (is_sampled(row.statistics)) names.insert(row.candidate);
+      if (row.statistics.is_stopped()) names.insert(row.candidate);
     }
   }
   for (const std::string& name : names) {
     basis.remarks.push_back(fmt::format(
-        "{} times out so often that it was asked a sample of some classes: its agreement there "
-        "is compared beyond chance, its errors by median and 99th percentile.",
+        "{} times out so often that it was not asked all of some classes, which counts against it: "
+        "its agreement there is compared beyond chance, its errors by median and 99th percentile.",
         name));
   }
 }
@@ -307,17 +305,15 @@ std::uint64_t right_in_depth(const Statistics& s) {
   std::uint64_t sum = s.agreeing();
   for (const Outcome outcome : all_outcomes) {
     if (outcome != Outcome::wrong_normal && !is_of_points(outcome)) continue;
-    sum += s.of(outcome) + s.represented[static_cast<std::size_t>(outcome)];
+    sum += s.of(outcome);
   }
   return sum;
 }
 
 void compare_agreement(Changes& changes, const Statistics& before, const Statistics& after,
                        bool same_configurations, const Basis& basis, const CompareLimits& limits) {
-  const auto count = [](const Statistics& s) {
-    return effective_count(static_cast<double>(s.supported()), s.weight_squares());
-  };
-  const double n = count(before), m = count(after);
+  const auto n = static_cast<double>(before.supported()),
+             m = static_cast<double>(after.supported());
   const auto share = [&](const Statistics& s) {
     const std::uint64_t right = basis.same_judge ? s.agreeing() : right_in_depth(s);
     return static_cast<double>(right) / static_cast<double>(s.supported());
@@ -409,7 +405,7 @@ void compare_rows(Comparison& comparison, const std::vector<ResultRow>& before,
     const ResultRow &old = *old_row, &now = *found->second;
     const bool had = old.statistics.supported() > 0, has = now.statistics.supported() > 0;
     const bool same_configurations =
-        basis.same_configurations && !is_sampled(old.statistics) && !is_sampled(now.statistics);
+        basis.same_configurations && !old.statistics.is_stopped() && !now.statistics.is_stopped();
     if (!had && !has) continue;
     ++comparison.compared;
     Changes changes(old, comparison.changes);
@@ -466,7 +462,7 @@ bool Comparison::has_regressed() const {
 
 Comparison compare(const Report& before, const Report& after, const CompareLimits& limits) {
   Basis basis = basis_of(before, after, limits.baseline);
-  remark_sampled(basis, before, after);
+  remark_stopped(basis, before, after);
   Comparison result{side(before), side(after), limits, basis.remarks, 0, {}};
   if (basis.same_configurations) compare_rows(result, before.results, after.results, basis, true);
   compare_rows(result, before.summary, after.summary, basis, !basis.same_configurations);

@@ -30,12 +30,10 @@ constexpr const char *turned = "turned", *aligned = "aligned";
 
 bool is_tilt(const std::string& modifier) { return modifier.starts_with("tilted-"); }
 
-FailureRate rate_of(const Statistics& s) {
-  return {s.supported(), s.supported() - s.agreeing(), s.weight_squares()};
-}
+FailureRate rate_of(const Statistics& s) { return {s.asked(), s.asked() - s.agreeing()}; }
 
 FailureRate operator+(const FailureRate& a, const FailureRate& b) {
-  return {a.count + b.count, a.failed + b.failed, a.weight_squares + b.weight_squares};
+  return {a.count + b.count, a.failed + b.failed};
 }
 
 /// The rows of one candidate and pair, by class, of what it has a routine for.
@@ -117,12 +115,11 @@ struct Comparison {
   }
   double without() const { return weighted / static_cast<double>(with.count); }
   /// By how much the rate is higher, less two standard errors of the rate of as many
-  /// configurations (of a sample: of as many as tell as much). Half a failure is added to either
-  /// kind, so that a rate of zero or one has an error, too (Agresti and Coull, "Approximate is
-  /// better than exact", 1998, in spirit).
+  /// configurations. Half a failure is added to either kind, so that a rate of zero or one has an
+  /// error, too (Agresti and Coull, "Approximate is better than exact", 1998, in spirit).
   double surplus() const {
-    const double n = with.effective_count(), part = n / static_cast<double>(with.count);
-    const double p = (part * static_cast<double>(with.failed) + 0.5) / (n + 1);
+    const auto n = static_cast<double>(with.count);
+    const double p = (static_cast<double>(with.failed) + 0.5) / (n + 1);
     return with.share() - without() - 2 * std::sqrt(p * (1 - p) / n);
   }
 };
@@ -256,21 +253,7 @@ void each_table(const Report& report, const Act& act) {
 
 }  // namespace
 
-namespace {
-
-/// Of a sample: that of as many configurations as tell as much.
-FailureRate of_effective_count(const FailureRate& rate) {
-  const double n = rate.effective_count(), failed = rate.share() * n;
-  if (rate.count == 0 || n == static_cast<double>(rate.count)) return rate;
-  return {static_cast<std::uint64_t>(std::llround(n)),
-          static_cast<std::uint64_t>(std::llround(failed))};
-}
-
-}  // namespace
-
-double chance(const FailureRate& rate_without, const FailureRate& rate_with) {
-  const FailureRate without = of_effective_count(rate_without),
-                    with = of_effective_count(rate_with);
+double chance(const FailureRate& without, const FailureRate& with) {
   // Hypergeometric: of n = with.count drawn from N configurations, K of which failed, at least
   // with.failed failed. By logarithms of factorials, which do not overflow.
   const auto log_choose = [](std::uint64_t n, std::uint64_t k) {

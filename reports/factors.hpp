@@ -8,8 +8,7 @@
 namespace touchstone {
 
 /// One-sided p-value of Fisher's exact test: if failing had nothing to do with it, the probability
-/// that at least as many of all failures fall on `with`. Of a sample (sampled_answers), as if it
-/// were as many configurations as tell as much.
+/// that at least as many of all failures fall on `with`.
 double chance(const FailureRate& without, const FailureRate& with);
 
 /// Finds what raises each candidate's failure rate most, of each pair and group: one arrangement

@@ -27,20 +27,13 @@ class Rates {
     if (agree < of) row.worst_index = 3;
     return *this;
   }
-  /// A class of 512 of which three timed out and then the last of every 16 was asked, so many of
-  /// which agree (the first of these stands for 13, each other for 16).
-  Rates& add_sampled(const std::string& pose_class, std::uint64_t agree) {
-    add(pose_class, 0, 512);
-    Statistics& s = report_.results.back().statistics;
-    s.outcomes = {};
-    const auto set = [](OutcomeCounts& counts, Outcome o, std::uint64_t n) {
-      counts[static_cast<std::size_t>(o)] = n;
-    };
-    set(s.outcomes, Outcome::timed_out, 3 + 32 - agree);
-    set(s.outcomes, Outcome::agree, agree);
-    set(s.outcomes, Outcome::not_asked, 512 - 35);
-    set(s.represented, Outcome::timed_out, 12 + 15 * (31 - agree));
-    set(s.represented, Outcome::agree, 15 * agree);
+  /// A class of 512 of which so many agree before the third time-out ends it.
+  Rates& add_stopped(const std::string& pose_class, std::uint64_t agree) {
+    add(pose_class, agree, 512);
+    OutcomeCounts& outcomes = report_.results.back().statistics.outcomes;
+    outcomes[static_cast<std::size_t>(Outcome::shallow)] = 0;
+    outcomes[static_cast<std::size_t>(Outcome::timed_out)] = 3;
+    outcomes[static_cast<std::size_t>(Outcome::not_asked)] = 512 - 3 - agree;
     return *this;
   }
   const Report& get() const { return report_; }
@@ -104,25 +97,13 @@ TEST(Contrasts, PointOutNeitherChanceNorWhatFailsAnyway) {
           .empty());
 }
 
-TEST(Contrasts, OfACandidateThatWasAskedASampleCountWhatItStandsFor) {
-  const auto found =
-      contrasts(Rates().add("perpendicular-t", 87).add_sampled("perpendicular-t+turned", 30).get());
-  ASSERT_EQ(found.size(), 1u);
-  EXPECT_EQ(contrast_text(found[0]),
-            "cylinder-cylinder/perpendicular-t agrees in 87%, turned in 93%");
-  EXPECT_EQ(found[0].modified.count, 512u);
-  EXPECT_EQ(found[0].modified.failed, 512u - 30 * 16);
-}
-
-TEST(Contrasts, OfASampleAreAsLikelyByChanceAsOfFewConfigurations) {
+TEST(Contrasts, OfACandidateThatWasStoppedCountWhatItWasAsked) {
   const auto found = contrasts(
-      Rates().add("perpendicular-t", 100).add_sampled("perpendicular-t+turned", 26).get());
+      Rates().add("perpendicular-t", 100).add_stopped("perpendicular-t+turned", 26).get());
   ASSERT_EQ(found.size(), 1u);
-  // 96 of 512, known as well as from 32.
-  EXPECT_EQ(found[0].modified.failed, 96u);
-  EXPECT_NEAR(found[0].modified.effective_count(), 32, 0.5);
-  EXPECT_EQ(found[0].chance, chance({100, 0}, {32, 6}));
-  EXPECT_GT(found[0].chance, 1e3 * chance({100, 0}, {512, 96}));
+  EXPECT_EQ(found[0].modified.count, 29u);
+  EXPECT_EQ(found[0].modified.failed, 3u);
+  EXPECT_EQ(found[0].chance, chance({100, 0}, {29, 3}));
 }
 
 TEST(Contrasts, TakeTheTiltThatIsWorst) {
@@ -218,10 +199,10 @@ TEST(Factors, AreNotFoundWhereAllIsWell) {
                   .empty());
 }
 
-TEST(Factors, OfASampleMustBeBeyondTheChanceOfFewConfigurations) {
+TEST(Factors, OfACandidateThatWasStoppedMustBeBeyondTheChanceOfFewConfigurations) {
   const auto needles = [](Rates rates) { return factors(rates.add("general", 94).get()).size(); };
   EXPECT_EQ(needles(Rates().add("general+needle", 448, 512)), 1u);
-  EXPECT_EQ(needles(Rates().add_sampled("general+needle", 28)), 0u);  // 448 of 512, too
+  EXPECT_EQ(needles(Rates().add_stopped("general+needle", 21)), 0u);  // 21 of 24, which is as much
 }
 
 TEST(Headings, AreOfOneGroupEach) {

@@ -86,16 +86,11 @@ struct Trend {
   std::vector<TrendBin> bins;
 };
 
-/// How many of the configurations that a candidate has a routine for it does not agree on; those
-/// not asked count as what represents them.
+/// How many of the configurations that a candidate was asked it does not agree on.
 struct FailureRate {
   std::uint64_t count = 0, failed = 0;
-  double weight_squares = static_cast<double>(count);  ///< as in Statistics
 
   double share() const { return static_cast<double>(failed) / static_cast<double>(count); }
-  double effective_count() const {
-    return touchstone::effective_count(static_cast<double>(count), weight_squares);
-  }
 };
 
 /// What raises a candidate's failure rate most (factors.hpp).

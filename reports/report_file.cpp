@@ -145,7 +145,6 @@ OutcomeCounts outcome_counts(const Reader& outcomes, std::uint64_t sum) {
   return result;
 }
 
-/// Every configuration has one outcome, and what was not asked another one's.
 void read_outcomes(const Reader& row, Statistics& statistics) {
   constexpr std::uint64_t max_count = std::uint64_t{1} << 53;  // exact as a double
   const Reader count = row.at("count");
@@ -154,8 +153,6 @@ void read_outcomes(const Reader& row, Statistics& statistics) {
     count.refuse("must be positive and at most 2^53");
   }
   statistics.outcomes = outcome_counts(row.at("outcomes"), statistics.count);
-  const std::uint64_t not_asked = statistics.of(Outcome::not_asked);
-  if (not_asked > 0) statistics.represented = outcome_counts(row.at("represented"), not_asked);
 }
 
 std::optional<Shares> shares(const Reader& coverage) {

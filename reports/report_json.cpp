@@ -69,7 +69,6 @@ json to_json(const Statistics& s) {
                  {"solver_error", to_json(s.solver_error)},
                  {"points", points},
                  {"coverage", to_json(s.coverage)}};
-  if (s.of(Outcome::not_asked) > 0) result["represented"] = to_json(s.represented);
   return result;
 }
 

@@ -33,16 +33,6 @@ json rounded(const json& v, int digits) {
   return result;
 }
 
-/// How many that were not asked count as agreeing, which is what the page's shares need.
-json agreeing_unasked(const json& row) {
-  std::uint64_t sum = 0;
-  for (const Outcome outcome : all_outcomes) {
-    if (!agrees(outcome) || !row.contains("represented")) continue;
-    sum += row["represented"].value(outcome_name(outcome), std::uint64_t{0});
-  }
-  return sum;
-}
-
 /// Of the rows of classes, of which there are twenty thousand, what the page shows of a class, with
 /// as many digits: the class by its index, outcomes as [index in all_outcomes, count, …], of each
 /// error one number.
@@ -68,7 +58,6 @@ json shown_of_classes(const json& results, const json& classes) {
       shown[member] = row[member].is_null() ? json(nullptr) : rounded(row[member][value], digits);
     }
     shown["coverage"] = row["coverage"].is_null() ? json(nullptr) : row["coverage"]["mean"];
-    shown["represented"] = agreeing_unasked(row);
     const json& time = row["nanoseconds"];
     shown["nanoseconds"] = time.is_null() ? time : json{time["median"], time["p95"]};
     // The thesis, beside which they are shown, has no more modifiers.
@@ -135,7 +124,6 @@ std::string report_page(const Report& report) {
   constexpr int digits = 4;
   json data = to_json(report);
   data["results"] = shown_of_classes(data["results"], data["classes"]);
-  for (json& row : data["summary"]) row["represented"] = agreeing_unasked(row);
   data["worst"] = shown_worst(data["worst"]);
   data["trends"] = shown_trends(std::move(data["trends"]));
   for (const char* list : {"results", "summary", "trends", "classes", "factors", "contrasts"}) {

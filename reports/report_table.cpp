@@ -67,12 +67,11 @@ std::string mean_coverage(const std::optional<Shares>& coverage) {
 }
 
 /// Percentage of the configurations that the candidate has a routine for; cut downwards, so that
-/// only a candidate without a failure shows 100%.
+/// only a candidate without a failure shows 100%. ">=27.0" of one that was not asked all.
 std::string agreement(const Statistics& s) {
-  const auto count = static_cast<double>(s.supported());
-  const auto agree = static_cast<double>(s.agreeing());
-  const double percent = std::floor(1000 * agree / count + 1e-6) / 10;
-  return fmt::format("{:.1f}", agree == count ? 100.0 : std::min(percent, 99.9));
+  const double share = s.agreement(), percent = std::floor(1000 * share + 1e-6) / 10;
+  return fmt::format("{}{:.1f}", s.is_stopped() ? ">=" : "",
+                     share == 1 ? 100.0 : std::min(percent, 99.9));
 }
 
 /// A campaign is not timed.
@@ -344,28 +343,31 @@ std::string contrasts_text(const Report& report, const Terminal& terminal) {
   return '\n' + titled("Passed as it is, failed once turned or tilted", terminal) + '\n' + text;
 }
 
-/// Says of which candidates only a sample was asked.
-std::string sampled_text(const Report& report, const Terminal& terminal) {
+/// "ode: 6 time-outs; 40 of 200 asked in 2 pose classes", of the classes where it was stopped.
+std::string stopped_text(const Report& report, const Terminal& terminal) {
   std::string text;
   for (const CandidateDescription& c : report.candidates) {
-    std::uint64_t classes = 0, configurations = 0;
+    std::uint64_t timeouts = 0, asked = 0, supported = 0, classes = 0;
     for (const ResultRow& row : report.results) {
-      if (row.candidate != c.name) continue;
-      configurations += row.statistics.of(Outcome::not_asked);
-      classes += row.statistics.of(Outcome::not_asked) > 0;
+      if (row.candidate != c.name || !row.statistics.is_stopped()) continue;
+      timeouts += row.statistics.of(Outcome::timed_out);
+      asked += row.statistics.asked();
+      supported += row.statistics.supported();
+      ++classes;
     }
     if (classes == 0) continue;
     text +=
-        indented(
-            fmt::format("not-asked: {}, on {} of {}. After {} time-outs among up to {} "
-                        "configurations of a class it is asked every {}th, which counts in "
-                        "agree% for those that are not asked",
-                        c.name, counted(configurations, "configuration"),
-                        counted(classes, "pose class"), max_timeouts, Unit::max_size, sample_block),
-            terminal) +
+        indented(fmt::format("{}: {}; {} of {} asked in {}", c.name, counted(timeouts, "time-out"),
+                             asked, supported, counted(classes, "pose class")),
+                 terminal) +
         '\n';
   }
-  return text;
+  if (text.empty()) return text;
+  return indented(fmt::format(">=: stopped after {} time-outs among up to {} configurations of a "
+                              "class; agree% counts what was not asked as wrong",
+                              max_timeouts, Unit::max_size),
+                  terminal) +
+         '\n' + text;
 }
 
 }  // namespace
@@ -388,7 +390,7 @@ std::string terminal_table(const Report& report, const Terminal& terminal) {
                 terminal) +
             '\n';
   }
-  return text + sampled_text(report, terminal) + commands_text(report, timed, terminal) +
+  return text + stopped_text(report, terminal) + commands_text(report, timed, terminal) +
          tails_text(report, terminal) + contrasts_text(report, terminal) +
          failures_text(report, terminal);
 }

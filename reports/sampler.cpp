@@ -36,7 +36,6 @@ Magnitudes get_magnitudes(ByteReader& in, Precision precision) {
 void put(ByteWriter& out, const ScoreTally& t) {
   out.put(t.count);
   out.put(t.outcomes);
-  out.put(t.represented);
   out.put(t.points.size());
   for (const auto& [number, count] : t.points) {
     out.put(number);
@@ -56,7 +55,6 @@ ScoreTally get_tally(ByteReader& in, Precision precision) {
   ScoreTally t(precision);
   t.count = in.get<std::uint64_t>();
   t.outcomes = in.get<decltype(t.outcomes)>();
-  t.represented = in.get<decltype(t.represented)>();
   for (auto left = in.get<std::size_t>(); left > 0; --left) {
     const auto number = in.get<int>();
     t.points[number] = in.get<std::uint64_t>();
@@ -95,16 +93,10 @@ std::string examined_bytes(const ScoredConfiguration& scored, std::size_t candid
 Sample::Sample(std::size_t candidates, Purpose purpose)
     : tallies(candidates, ScoreTally(precision_for(purpose))),
       timed_outcomes(candidates),
-      purpose_(purpose),
-      waiting_(candidates) {}
+      purpose_(purpose) {}
 
 void Sample::add(std::size_t cell, std::uint64_t index, const ScoredConfiguration& scored) {
-  for (std::size_t k = 0; k < tallies.size(); ++k) {
-    const Score& score = scored.scores[k];
-    const bool was_asked = score.outcome != Outcome::not_asked;
-    tallies[k].add(cell, index, score, was_asked ? waiting_[k] : 0);
-    waiting_[k] = was_asked ? 0 : waiting_[k] + 1;
-  }
+  for (std::size_t k = 0; k < tallies.size(); ++k) tallies[k].add(cell, index, scored.scores[k]);
   if (purpose_ == Purpose::campaign) return;
   oracle_microseconds.push_back(scored.oracle_microseconds);
   trends.add(scored.configuration, scored.truth.signed_distance.midpoint(), scored.scores);
@@ -266,7 +258,7 @@ std::vector<Sample> sample_run(const Campaign& campaign, Purpose purpose,
       const auto ask = [&](std::span<const Configuration> asked, bool in_new_session) {
         return candidate->answers_until_timeout(asked, in_new_session);
       };
-      answers.push_back(sampled_answers(ask, configurations, unit_ends));
+      answers.push_back(answers_until_stopped(ask, configurations, unit_ends));
     }
     score_answers(configurations, std::move(answers), campaign.bar, truth_width,
                   [&](const ScoredConfiguration& scored) {

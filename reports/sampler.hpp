@@ -62,8 +62,7 @@ struct Sample {
   static constexpr std::uint64_t max_timed = 50;
 
   Sample(std::size_t candidates, Purpose purpose);
-  /// Adds the next configuration of a unit: one that was not asked is represented by the next one
-  /// that was.
+  /// Adds the next configuration of a unit.
   void add(std::size_t cell, std::uint64_t index, const ScoredConfiguration& scored);
   /// Adds the next unit of the same cell.
   void add(const Sample& next);
@@ -91,8 +90,6 @@ struct Sample {
   void forget_better_cases();
 
   Purpose purpose_;
-  /// Of each candidate: how many the next one that is asked will stand for, too.
-  std::vector<std::uint64_t> waiting_;
   /// Examined, as bytes, by candidate and index: of the tallies' worst cases and no others.
   std::map<std::pair<std::size_t, std::uint64_t>, std::string> examined_;
 };

@@ -1,11 +1,9 @@
 #include "reports/sampler.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <random>
 
 #include <nlohmann/json.hpp>
 
@@ -216,65 +214,33 @@ std::string asked(const std::vector<double>& xs, const std::vector<std::size_t>&
     return answers;
   };
   std::string letters;
-  for (const Answer& a : sampled_answers(ask, planes_under(xs), unit_ends)) {
+  for (const Answer& a : answers_until_stopped(ask, planes_under(xs), unit_ends)) {
     letters += !a.was_asked ? '.' : a.status == TS_TIMED_OUT ? 't' : 'a';
   }
   return letters;
 }
 
-TEST(SampledAnswers, AreAllWhereFewTimeOut) {
+TEST(AnswersUntilStopped, AreAllWhereFewTimeOut) {
   EXPECT_EQ(asked({1, -1, 1, 1, -1, 1}, {6}), "ataata");
 }
 
-TEST(SampledAnswers, AreTheLastOfEverySixteenAndOfTheUnitOnceThreeHaveTimedOut) {
-  std::vector<double> xs(40, -1);
-  EXPECT_EQ(asked(xs, {40}), "ttt............t...............t.......t");
-  xs[0] = xs[31] = 1;
-  EXPECT_EQ(asked(xs, {40}), "attt...........t...............a.......t");
-  xs[1] = 1;  // the third time-out is the one before a sampled one
-  for (int i = 4; i < 14; ++i) xs[i] = 1;
-  EXPECT_EQ(asked(xs, {40}), "aattaaaaaaaaaatt...............a.......t");
+TEST(AnswersUntilStopped, EndWithTheThirdTimeOut) {
+  std::vector<double> xs(10, -1);
+  EXPECT_EQ(asked(xs, {10}), "ttt.......");
+  xs[0] = xs[2] = 1;
+  EXPECT_EQ(asked(xs, {10}), "atatt.....");
+  EXPECT_EQ(asked({1, -1, -1, -1}, {4}), "attt");
 }
 
-TEST(SampledAnswers, BeginAnewInEveryUnitAndGoOnInOneSession) {
+TEST(AnswersUntilStopped, BeginAnewInEveryUnitAndGoOnInOneSession) {
   int sessions = 0;
   std::vector<double> xs(29, 1);
   for (const int i : {1, 2, 5, 6, 7, 8}) xs[i] = -1;
   EXPECT_EQ(asked(xs, {6, 11, 29}, &sessions),
             "attaat"
-            "ttt.a"
+            "ttt.."
             "aaaaaaaaaaaaaaaaaa");
   EXPECT_EQ(sessions, 1);
-}
-
-TEST(SampledAnswers, GiveSharesWithoutBias) {
-  // Half of the answers time out, by chance; a share over the asked ones alone would be above 0.53.
-  constexpr int trials = 4000, count = 20;
-  std::mt19937_64 random(1);
-  ScoreTally sum(Precision::binned);
-  for (int trial = 0; trial < trials; ++trial) {
-    std::vector<double> xs;
-    for (int i = 0; i < count; ++i) xs.push_back(random() % 2 == 0 ? 1 : -1);
-    Sample unit(1, Purpose::campaign);
-    std::uint64_t index = 0;
-    for (const char letter : asked(xs, {count})) {
-      ScoredConfiguration scored{planes_under({1}).front(), {}, 0, {}, std::vector<Score>(1)};
-      if (letter != 'a') {
-        scored.scores[0].outcome = letter == 't' ? Outcome::timed_out : Outcome::not_asked;
-      }
-      unit.add(0, index++, scored);
-    }
-    sum.add(unit.tallies[0]);
-  }
-  const Statistics s = sum.statistics();
-  EXPECT_EQ(s.count, static_cast<std::uint64_t>(trials * count));
-  EXPECT_GT(s.of(Outcome::not_asked), s.count / 3);
-  std::uint64_t represented = 0;
-  for (const std::uint64_t n : s.represented) represented += n;
-  EXPECT_EQ(represented, s.of(Outcome::not_asked));
-  // Four standard errors: a trial's share has a standard deviation of less than 1/3.
-  const auto share = static_cast<double>(s.agreeing()) / static_cast<double>(s.supported());
-  EXPECT_NEAR(share, 0.5, 4.0 / 3 / std::sqrt(trials));
 }
 
 /// A candidate that never answers where A's x is negative.
@@ -293,7 +259,7 @@ Campaign stalling_campaign() {
   return c;
 }
 
-TEST(Sampler, AsksACandidateThatHangsASampleWhateverTheNumberOfWorkers) {
+TEST(Sampler, StopsACandidateThatHangsAtTheSamePlaceWhateverTheNumberOfWorkers) {
   Campaign campaign = stalling_campaign();
   std::vector<double> xs;
   for (std::uint64_t i = 0; i < 40; ++i) {

@@ -28,9 +28,9 @@ docs = source / "docs"
 
 # Members that may be absent.
 OPTIONAL = {"reason", "audit", "given", "stability", "experiments", "engines", "amplification", "maps", "sequences",
-            "represented", "digest"}
+            "digest"}
 # Objects whose members are names or numbers.
-MAPS = {"answers", "outcomes", "represented", "points", "details", "letters"}
+MAPS = {"answers", "outcomes", "points", "details", "letters"}
 
 
 def validator(name):

@@ -6,8 +6,6 @@
 #include <numeric>
 #include <tuple>
 
-#include "reports/campaign.hpp"
-
 namespace touchstone {
 
 double finite(double value) {
@@ -52,14 +50,6 @@ LogHistogram log_histogram(const std::vector<double>& values) {
     result.counts[static_cast<std::size_t>(bin - result.first)] = count;
   }
   return result;
-}
-
-double Statistics::weight_squares() const {
-  // One of a sample stands for a block, but for the first and the last of a unit, which may stand
-  // for less of one.
-  constexpr double block = sample_block;
-  const double sampled = static_cast<double>(of(Outcome::not_asked)) / (block - 1);
-  return static_cast<double>(asked()) + sampled * (block * block - 1);
 }
 
 bool tied_in_time(const SpeedAccuracy& a, const SpeedAccuracy& b) {

@@ -57,19 +57,10 @@ LogHistogram log_histogram(const std::vector<double>& values);
 
 using OutcomeCounts = std::array<std::uint64_t, all_outcomes.size()>;  ///< in the order of these
 
-/// The number of configurations, each of which was asked, that tell a share as well as a sample in
-/// which each stands for some number of them: the square of these numbers' sum over the sum of
-/// their squares (Kish, "Survey Sampling", 1965).
-inline double effective_count(double weights, double weight_squares) {
-  return weights * (weights / weight_squares);
-}
-
 /// Summary of the scores of one candidate on any set of configurations (tally.hpp).
 struct Statistics {
   std::uint64_t count = 0;
   OutcomeCounts outcomes{};
-  /// Of those not asked, how many are represented by one of each outcome (sampled_answers).
-  OutcomeCounts represented{};
   std::map<int, std::uint64_t> points;  ///< contacts by their number of points
   std::optional<Quantiles> depth_error, normal_regret, normal_angle, point_error, deepest_error,
       model_error, solver_error;  ///< of magnitudes
@@ -84,16 +75,20 @@ struct Statistics {
   /// Configurations that the candidate has a routine for, and those of them that it was asked.
   std::uint64_t supported() const { return count - of(Outcome::unsupported); }
   std::uint64_t asked() const { return supported() - of(Outcome::not_asked); }
-  /// An upper bound on the sum of the squares of how many configurations each one that was asked
-  /// stands for.
-  double weight_squares() const;
-  /// On how many of those supported it agrees; those not asked count as what represents them.
+  /// Was the candidate stopped in some class after time-outs (answers_until_stopped)?
+  bool is_stopped() const { return of(Outcome::not_asked) > 0; }
+  /// On how many of those asked it agrees.
   std::uint64_t agreeing() const {
     std::uint64_t sum = 0;
     for (const Outcome outcome : all_outcomes) {
-      if (agrees(outcome)) sum += of(outcome) + represented[static_cast<std::size_t>(outcome)];
+      if (agrees(outcome)) sum += of(outcome);
     }
     return sum;
+  }
+  /// Share of those supported on which it agrees: at least this where it was stopped, for what it
+  /// was not asked counts against it. Precondition: some are supported.
+  double agreement() const {
+    return static_cast<double>(agreeing()) / static_cast<double>(supported());
   }
 };
 

@@ -199,11 +199,9 @@ ScoreTally::ScoreTally(Precision precision)
       severity(precision),
       coverage(precision) {}
 
-void ScoreTally::add(std::size_t cell, std::uint64_t index, const Score& s,
-                     std::uint64_t of_others) {
+void ScoreTally::add(std::size_t cell, std::uint64_t index, const Score& s) {
   ++count;
   ++outcomes[static_cast<std::size_t>(s.outcome)];
-  represented[static_cast<std::size_t>(s.outcome)] += of_others;
   if (s.points > 0) ++points[s.points];
   for (std::size_t i = 0; i < quantities.size(); ++i) {
     if (const auto& error = s.*quantities[i].value) errors[i].add(*error);
@@ -225,10 +223,7 @@ void ScoreTally::add(std::size_t cell, std::uint64_t index, const Score& s,
 
 void ScoreTally::add(const ScoreTally& other) {
   count += other.count;
-  for (std::size_t i = 0; i < outcomes.size(); ++i) {
-    outcomes[i] += other.outcomes[i];
-    represented[i] += other.represented[i];
-  }
+  for (std::size_t i = 0; i < outcomes.size(); ++i) outcomes[i] += other.outcomes[i];
   for (const auto& [number, times] : other.points) points[number] += times;
   for (std::size_t i = 0; i < errors.size(); ++i) errors[i].add(other.errors[i]);
   bias.add(other.bias);
@@ -242,7 +237,6 @@ Statistics ScoreTally::statistics() const {
   Statistics result;
   result.count = count;
   result.outcomes = outcomes;
-  result.represented = represented;
   result.points = points;
   for (std::size_t i = 0; i < errors.size(); ++i) {
     result.*quantities[i].quantiles = errors[i].quantiles();

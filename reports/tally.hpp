@@ -123,10 +123,8 @@ struct SignedTally {
 struct ScoreTally {
   explicit ScoreTally(Precision precision);
 
-  /// Adds the score of a configuration: `index` of its cell. `represented`: for how many others,
-  /// which were not asked, it stands, too.
-  void add(std::size_t cell, std::uint64_t index, const Score& score,
-           std::uint64_t represented = 0);
+  /// Adds the score of a configuration: `index` of its cell.
+  void add(std::size_t cell, std::uint64_t index, const Score& score);
   /// Adds a tally of the same precision.
   void add(const ScoreTally& other);
 
@@ -148,7 +146,7 @@ struct ScoreTally {
        {"solver_error", &Score::solver_error, &Statistics::solver_error}}};
 
   std::uint64_t count = 0;
-  OutcomeCounts outcomes{}, represented{};  ///< as in Statistics
+  OutcomeCounts outcomes{};
   std::map<int, std::uint64_t> points;
   std::vector<Magnitudes> errors;  ///< of each of the quantities
   SignedTally bias;                ///< of depth errors

@@ -43,7 +43,7 @@ enum class Outcome {
   shallow_points,   ///< no point is as deep as the bodies
   overdeep_points,  ///< a point is deeper than the bodies
   phantom_points,   ///< a point is beyond the threshold
-  not_asked,        ///< the candidate times out in this class: it was asked a sample
+  not_asked,        ///< the candidate had been stopped in this class after time-outs
                     ///< (reports/campaign.hpp)
   off_body,         ///< of points, too: one is farther outside a body than its depth
   no_points,        ///< likewise: a contact of bodies that are not apart has no point

@@ -161,15 +161,9 @@ TEST(Shards, AreReadOrRefused) {
   }
 }
 
-/// One that was not asked is represented by the next one that was.
 ScoreTally tally_of(const std::vector<Score>& scores, std::size_t first, std::size_t last) {
   ScoreTally tally(Precision::binned);
-  std::uint64_t waiting = 0;
-  for (std::size_t i = first; i < last; ++i) {
-    const bool was_asked = scores[i].outcome != Outcome::not_asked;
-    tally.add(3, i, scores[i], was_asked ? waiting : 0);
-    waiting = was_asked ? 0 : waiting + 1;
-  }
+  for (std::size_t i = first; i < last; ++i) tally.add(3, i, scores[i]);
   return tally;
 }
 ScoreTally tally_of(const std::vector<Score>& scores) { return tally_of(scores, 0, scores.size()); }
@@ -194,7 +188,6 @@ TEST(TallyJson, IsReadBackToTheLastBitAndAddsUp) {
   std::mt19937_64 random(1);
   std::vector<Score> scores(300);
   for (Score& s : scores) s = some_score(random);
-  for (const std::size_t last : {99, 199, 299}) scores[last].outcome = Outcome::agree;
   ScoreTally sum(Precision::binned);
   for (std::size_t first = 0; first < scores.size(); first += 100) {
     const ScoreTally part = tally_of(scores, first, first + 100);
@@ -203,22 +196,6 @@ TEST(TallyJson, IsReadBackToTheLastBitAndAddsUp) {
   const json whole = to_json(tally_of(scores));
   EXPECT_EQ(to_json(sum).dump(), whole.dump());
   EXPECT_GT(whole["outcomes"]["not-asked"], 0);
-}
-
-TEST(TallyJson, RefusesOthersThanThoseThatWereNotAskedAsRepresented) {
-  Score unasked;
-  unasked.outcome = Outcome::not_asked;
-  const json good = to_json(tally_of({unasked, unasked, Score()}));
-  EXPECT_EQ(good["represented"], json({{"agree", 2}}));
-  EXPECT_EQ(tally_from_json(good, 3).statistics().agreeing(), 3u);
-  json bad = good;
-  bad["represented"] = {{"agree", 1}};
-  EXPECT_THROW(tally_from_json(bad, 3), InvalidInput);
-  bad.erase("represented");
-  EXPECT_THROW(tally_from_json(bad, 3), InvalidInput);
-  json old = to_json(tally_of({Score()}));
-  old.erase("represented");
-  EXPECT_EQ(tally_from_json(old, 3).count, 1u);
 }
 
 TEST(TallyJson, OfAFileWithoutTheDeepestPointHasTheRest) {
@@ -329,9 +306,8 @@ TEST(Merge, OfACandidateThatHangsIsTheSameForEverySplit) {
   EXPECT_EQ(split(3, 1), whole);
   for (const json& row : json::parse(whole)["results"]) {
     if (row["candidate"] == "reference") continue;
-    // Of each of two units of 266: three, the last of each of 16 sixteens, and the last.
-    EXPECT_EQ(row["outcomes"], json({{"timed-out", 40}, {"not-asked", 492}}));
-    EXPECT_EQ(row["represented"], json({{"timed-out", 492}}));
+    // Three in each of two units.
+    EXPECT_EQ(row["outcomes"], json({{"timed-out", 6}, {"not-asked", 526}}));
   }
 }
 

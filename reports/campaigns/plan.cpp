@@ -181,7 +181,7 @@ Plan make_plan(const Campaign& campaign, const std::string& command) {
                          {"threshold", campaign.bar.threshold},
                          {"time_limit", campaign.limits.seconds},
                          {"memory_limit", campaign.limits.mebibytes},
-                         {"sampled", {{"timeouts", max_timeouts}, {"block", sample_block}}},
+                         {"max_timeouts", max_timeouts},
                          {"classes", classes},
                          {"first_configurations_checksum", checksum(first_configurations)},
                          {"candidates", candidates}});

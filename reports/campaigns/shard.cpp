@@ -108,20 +108,15 @@ UnitSet unit_set_from_json(const json& value) {
 }
 
 json to_json(const ScoreTally& tally) {
-  json outcomes = json::object(), represented = json::object();
+  json outcomes = json::object();
   json points = json::array(), worst = json::array();
   for (const Outcome outcome : all_outcomes) {
     outcomes[outcome_name(outcome)] = tally.outcomes[static_cast<std::size_t>(outcome)];
   }
   for (const auto& [number, count] : tally.points) points.push_back({number, count});
   for (const Case& c : tally.worst) worst.push_back(to_json(c));
-  for (const Outcome outcome : all_outcomes) {
-    const std::uint64_t others = tally.represented[static_cast<std::size_t>(outcome)];
-    if (others > 0) represented[outcome_name(outcome)] = others;
-  }
   json result = {{"count", tally.count},
                  {"outcomes", outcomes},
-                 {"represented", represented},
                  {"points", points},
                  {"too_deep", to_json(tally.bias.negative)},
                  {"too_shallow", to_json(tally.bias.positive)},
@@ -138,13 +133,7 @@ json to_json(const ScoreTally& tally) {
 ScoreTally tally_from_json(const json& j, std::size_t cell) {
   ScoreTally t(Precision::binned);
   t.count = whole_number(member(j, "count", ""), "count", Magnitudes::max_count);
-  // Every configuration has one outcome, and what was not asked another one's.
   t.outcomes = outcome_counts(member(j, "outcomes", ""), "outcomes", t.count);
-  const std::uint64_t not_asked = t.outcomes[static_cast<std::size_t>(Outcome::not_asked)];
-  // Files of before samples were asked do without it.
-  if (j.contains("represented") || not_asked > 0) {
-    t.represented = outcome_counts(member(j, "represented", ""), "represented", not_asked);
-  }
   for (const json& entry : array(member(j, "points", ""), "points")) {
     if (!entry.is_array() || entry.size() != 2) {
       throw InvalidInput("points", shown(entry), "must be an array of pairs");

@@ -197,11 +197,6 @@ std::string in_both_forms(const std::string& name, int width, int height,
       gnuplot_quoted(name + ".png"));
 }
 
-/// Share of the configurations with a routine on which the candidate agrees.
-double agreeing_share(const Statistics& s) {
-  return static_cast<double>(s.agreeing()) / static_cast<double>(s.supported());
-}
-
 struct Point {
   std::string candidate, label;
   double time, error, agreement;
@@ -218,7 +213,7 @@ std::vector<Point> points_of(const Report& report, const std::string& group,
     if (row.pair != pair || row.pose_class != group || !row.time || !s.depth_error) continue;
     result.push_back({row.candidate, row.candidate + covered_text(report, row),
                       row.time->nanoseconds.median, std::max(s.depth_error->p99, min_error),
-                      agreeing_share(s), row.pareto.value_or(false)});
+                      s.agreement(), row.pareto.value_or(false)});
   }
   return result;
 }
@@ -426,7 +421,7 @@ std::string class_figure(const Report& report, const std::string& group, const s
     const Statistics& s = row.statistics;
     if (row.pair != pair || !of_group.contains(row.pose_class)) continue;
     if (s.supported() == 0) continue;
-    const double share = 1 - agreeing_share(s);
+    const double share = 1 - s.agreement();
     data += fmt::format("{},{},{:.6g}\n", row.pose_class, csv_cell(row.candidate), share);
     const auto y = place(classes, row.pose_class), x = place(candidates, row.candidate);
     cells += fmt::format("{} {} {:.6g}\n", x, y, share);

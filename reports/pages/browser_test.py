@@ -482,8 +482,7 @@ class Report(PageTest):
         failing, supported = ({name: collections.Counter() for name in names} for _ in range(2))
         for row in report["results"]:
             count = row["count"] - row["outcomes"].get("unsupported", 0)
-            agreeing = sum(row.get(part, {}).get(name, 0) for part in ("outcomes", "represented")
-                           for name in ("agree", "unseen"))
+            agreeing = sum(row["outcomes"].get(name, 0) for name in ("agree", "unseen"))
             group = group_of[row["pair"], row["class"]]
             supported[row["candidate"]][group] += count > 0
             failing[row["candidate"]][group] += agreeing < count

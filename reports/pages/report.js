@@ -47,15 +47,18 @@ const tail = r => r.nanoseconds === null ? null : r.nanoseconds.p95;
 const hasSlowTail = r => tail(r) !== null && tail(r) > 4 * time(r);  // as in timing.hpp
 // The number of configurations that a candidate has a routine for.
 const supported = r => r.count - (r.outcomes.unsupported || 0);
-// What was not asked counts as what represents it.
-const agreeing = r => ((r.outcomes.agree || 0) + (r.outcomes.unseen || 0) + r.represented) / supported(r);
+// Where a candidate was stopped after time-outs, what it was not asked counts against it: it agrees on at least so many.
+const unasked = r => r.outcomes['not-asked'] || 0;
+const agreeing = r => ((r.outcomes.agree || 0) + (r.outcomes.unseen || 0)) / supported(r);
+const agreement = r => (unasked(r) ? '≥ ' : '') + percent(agreeing(r));
 const withoutAnswer = ['not-finite', 'failed', 'crashed', 'timed-out'];
 const lost = r => withoutAnswer.reduce((sum, o) => sum + (r.outcomes[o] || 0), 0);
 const vector = v => v === null ? '–' : `(${v.map(c => c === null ? 'nan' : plainNumber(c, 6)).join(', ')})`;
 // The pose classes of any group in which a candidate disagrees.
 const isFailing = r => supported(r) > 0 && agreeing(r) < 1;
 const failingOf = candidate => report.results.filter(r => r.candidate === candidate && isFailing(r));
-const outcomesText = r => Object.entries(r.outcomes).map(([name, n]) => `${name} ${n}`).join(', ');
+const outcomesText = r => Object.entries(r.outcomes).map(([name, n]) => `${name} ${n}`).join(', ') +
+    (unasked(r) ? `\n${whole(r.outcomes['timed-out'])} time-outs; ${whole(supported(r) - unasked(r))} of ${whole(supported(r))} asked` : '');
 
 // Fills a select box of the page and listens to it.
 function choices(id, values, change, selected) {
@@ -102,7 +105,7 @@ function ranked(pair) {
 // What is right here may fail in another group of poses.
 const brief = r => {
   const others = failingOf(r.candidate).filter(f => f.pair === r.pair && !inGroup(f)).length;
-  return `agrees on ${percent(agreeing(r))}, worst error ${exponent(quantile(r.severity, 'max'))}` +
+  return `agrees on ${agreement(r)}, worst error ${exponent(quantile(r.severity, 'max'))}` +
       (agreeing(r) === 1 && others ? `; elsewhere ${others} pose ${others === 1 ? 'class fails' : 'classes fail'}` : '');
 };
 function link(text, act) {
@@ -124,7 +127,7 @@ function costOf(pair) {
   const fastest = [...timed].sort((a, b) => time(a) - time(b))[0];
   const asFast = r => r === fastest || fastest.tied_with.includes(r.candidate);  // within the spreads
   const against = (words, r) => [`; ${words}, `, named(r.candidate), `, ${whole(time(r))} ns (${exponent(time(r) / time(first))} times that, ` +
-      `agrees on ${percent(agreeing(r))})`];
+      `agrees on ${agreement(r)})`];
   return [element('b', {}, dashed(pair)), ': ', named(first.candidate), ` takes ${whole(time(first))} ns`,
           tail(first) === null ? '' : `, 95% of the queries in each pose class at most ${whole(tail(first))} ns`,
           ...(second ? against('the next most accurate', second) : []),
@@ -142,7 +145,7 @@ function failuresOf() {
         if (here.length === 0) return null;
         const main = r => Object.entries(r.outcomes).filter(([o]) => isFailure(o)).sort((a, b) => b[1] - a[1])[0][0];
         return element('li', {}, element('b', {}, dashed(pair)), `: disagrees in ${here.length} of ${classesOf(pair).length} ${group} pose classes, most in `,
-            ...here.slice(0, 3).flatMap((r, i) => [i ? ', ' : '', `${r.class} (${percent(1 - agreeing(r))}, ${main(r)})`]),
+            ...here.slice(0, 3).flatMap((r, i) => [i ? ', ' : '', `${r.class} (${unasked(r) ? '≤ ' : ''}${percent(1 - agreeing(r))}, ${main(r)})`]),
             '. ', link('See its worst cases', () => showWorst(pair, candidate)));
       }).filter(Boolean)), ...failuresElsewhere(candidate), ...slowTailsOf(candidate));
 }

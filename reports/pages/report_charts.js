@@ -32,8 +32,8 @@ function speedChart(place, pair, rows, x, y) {
   const charted = chartedTime(), front = charted === time ? rows.filter(r => r.pareto).sort((a, b) => time(a) - time(b)) : [];
   const at = r => ({x: charted(r), y: chartedError(r)});
   const points = rows.map((r, i) => ({...markData(r.candidate), ...at(r), order: front.includes(r) ? i : 1000 + i,
-      label: `${r.candidate}${runsText(r.candidate)}${coveredText(r)} ${percent(agreeing(r))}`, weight: front.includes(r) ? 'bold' : 'normal',
-      tip: `${r.candidate}, ${dashed(r.pair)}${coveredText(r)}\nagrees on ${percent(agreeing(r))}, missed ${r.outcomes.missed || 0}\n` +
+      label: `${r.candidate}${runsText(r.candidate)}${coveredText(r)} ${agreement(r)}`, weight: front.includes(r) ? 'bold' : 'normal',
+      tip: `${r.candidate}, ${dashed(r.pair)}${coveredText(r)}\nagrees on ${agreement(r)}, missed ${r.outcomes.missed || 0}\n` +
            `depth error p99 ${exponent(r.depth_error.p99)}, worst ${exponent(r.depth_error.max)}\n` +
            `${whole(time(r))} ns per query (quartiles ${whole(r.nanoseconds.low)} to ${whole(r.nanoseconds.high)})` +
            (tail(r) === null ? '' : `\n95% of the queries in each pose class at most ${whole(tail(r))} ns`) +

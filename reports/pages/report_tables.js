@@ -59,7 +59,7 @@ function summaryTable() {
                  'points, p99', wide('coverage'), 'ns', wide('ns, p95'), wide('× Bullet')];
   const rows = summary().filter(r => r.pair === pair && supported(r)).map(r => {
     const share = agreeing(r), ratio = r.nanoseconds && r.nanoseconds.ratio_to_bullet;
-    return [rowHead(...namedOver(r)), element('td', {class: share === 1 ? 'good' : ''}, percent(share)),
+    return [rowHead(...namedOver(r)), element('td', {class: share === 1 ? 'good' : '', 'data-value': share}, agreement(r)),
             element('td', {class: r.outcomes.missed || r.outcomes.phantom ? 'bad' : '', 'data-value': (r.outcomes.phantom || 0) + (r.outcomes.missed || 0)},
                 `${whole(r.outcomes.phantom || 0)} / ${whole(r.outcomes.missed || 0)}`),
             exponent(quantile(r.depth_error, 'p99')), element('td', {class: 'wide'}, exponent(quantile(r.depth_error, 'max'))),
@@ -103,7 +103,7 @@ if (modelled.length) {
 // Pose classes: a table whose cells are coloured by one quantity, of all candidates on one pair or of
 // one candidate on all pairs.
 const quantities = {
-  fail: {value: r => 1 - agreeing(r), text: r => agreeing(r) === 1 ? '0' : (100 * (1 - agreeing(r))).toFixed(1) + '%',
+  fail: {value: r => 1 - agreeing(r), text: r => agreeing(r) === 1 ? '0' : (unasked(r) ? '≤ ' : '') + (100 * (1 - agreeing(r))).toFixed(1) + '%',
          level: v => v === 0 ? 0 : 0.12 + 0.88 * v},
   worst: {value: r => quantile(r.severity, 'max'), text: r => exponent(quantile(r.severity, 'max')), level: decade},
   depth: {value: r => quantile(r.depth_error, 'p99'), text: r => exponent(quantile(r.depth_error, 'p99')), level: decade},
