@@ -204,7 +204,7 @@ TEST(HostileInput, FilesOfAnswers) {
     Campaign campaign;
     campaign.given = &read_ones.answers;
     std::uint64_t count = 0;
-    for (const Cell& cell : cells(campaign)) count += count_of(campaign, cell);
+    for (const PoseClass& cell : cells(campaign)) count += count_of(campaign, cell);
     if (count != read_ones.count) throw std::runtime_error("not one answer a good line");
     if (!read_ones.errors.empty()) throw InvalidInput("line", "bad", "was told");
   });

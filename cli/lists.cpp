@@ -86,7 +86,7 @@ std::string modifier_list(const std::vector<Pair>& pairs) {
                          [&](const Arrangement& a) { return !nonsense(pair, a, m); });
     };
     if (std::none_of(pairs.begin(), pairs.end(), fits)) continue;
-    if (m.kind != Kind::tilt) {
+    if (m.kind != ModifierKind::tilt) {
       text += list_entry(m.name, name_column, m.description);
     } else if (!has_tilt) {
       has_tilt = true;

@@ -38,7 +38,7 @@ struct ShownShape {
 }  // namespace
 
 rc::Gen<Configuration> configurations(Pair pair, std::string_view pose_class) {
-  const PoseClass c = find_pose_class(pair, pose_class);
+  const PoseClass c(pair, pose_class);
   return rc::Gen<Configuration>([c](const rc::Random& random, int) {
     Draw draw(random);
     return rc::shrinkable::shrinkRecur(c.generate(draw), [](const Configuration& configuration) {

@@ -22,7 +22,7 @@ using Factor = std::vector<Element>;
 
 /// Those that the suite with that number may have.
 std::vector<Factor> factors_of(Pair pair, int suite) {
-  std::vector<Factor> factors(1 + kinds);
+  std::vector<Factor> factors(1 + modifier_kinds);
   std::uint32_t number = 0;
   for (const Arrangement& a : arrangements(pair)) {
     using enum Arrangement::Orientations;
@@ -47,7 +47,7 @@ class Covering {
     for (const PoseClass& c : old_classes(pair_)) add(c);
     for (const Element& e : factors_[0]) add({pair_, e.arrangement, {}});
     for (const Element& e : factors_[0]) {
-      for (const Element& frame : factors_[1 + static_cast<std::size_t>(Kind::frame)]) {
+      for (const Element& frame : factors_[1 + static_cast<std::size_t>(ModifierKind::frame)]) {
         if (makes_sense({&e, &frame})) add(class_of({&e, &frame}));
       }
     }

@@ -118,7 +118,7 @@ Arrangement rim_end() {
   result.generate = [make = result.generate](Draw& draw, const Modifiers& m) {
     Modifiers modified = m;
     if (m.clearance() == Clearance::usual) {
-      modified[Kind::clearance] = static_cast<int>(Clearance::apart);
+      modified[ModifierKind::clearance] = static_cast<int>(Clearance::apart);
     }
     return make(draw, modified);
   };

@@ -391,8 +391,8 @@ Configuration draw_worn(Draw& draw, Pair pair) {
   PoseClass c = draw.any_of(exact);
   std::vector<Clearance> clearances = c.arrangement->clearances;
   clearances.push_back(Clearance::usual);
-  c.modifiers[Kind::clearance] = static_cast<int>(draw.any_of(clearances));
-  c.modifiers[Kind::frame] = static_cast<int>(Frame::worn);
+  c.modifiers[ModifierKind::clearance] = static_cast<int>(draw.any_of(clearances));
+  c.modifiers[ModifierKind::frame] = static_cast<int>(Frame::worn);
   return c.generate(draw);
 }
 

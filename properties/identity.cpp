@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <optional>
+#include <variant>
 
 #include "properties/pose_class.hpp"
 #include "properties/stable_hash.hpp"
@@ -19,16 +19,16 @@ std::string joined(const Range& names) {
   return all;
 }
 
-Draw draw_of(const Identity& identity, const PoseClass& pose_class, Tape* tape) {
-  const std::string name = std::string(pair_name(identity.pair)) + "/" + stream_name(pose_class);
+Draw draw_of(const Identity& identity, Tape* tape) {
+  const PoseClass& c = identity.pose_class;
+  const std::string name = std::string(pair_name(c.pair)) + "/" + stream_name(c);
   const rc::Random random(rc::Random::Key{identity.seed, identity.index, stable_hash(name), 0});
   return tape ? Draw(random, *tape) : Draw(random);
 }
 
 Configuration made(const Identity& identity, Tape* tape) {
-  const PoseClass pose_class = find_pose_class(identity.pair, identity.pose_class);
-  Draw draw = draw_of(identity, pose_class, tape);
-  return pose_class.generate(draw);
+  Draw draw = draw_of(identity, tape);
+  return identity.pose_class.generate(draw);
 }
 
 }  // namespace
@@ -43,8 +43,9 @@ Pair parse_pair(std::string_view name, const char* field) {
 }
 
 std::string to_string(const Identity& identity) {
-  return std::string(pair_name(identity.pair)) + "/" + identity.pose_class + "/" +
-         std::to_string(identity.seed) + "/" + std::to_string(identity.index);
+  const PoseClass& c = identity.pose_class;
+  return std::string(pair_name(c.pair)) + "/" + c.name() + "/" + std::to_string(identity.seed) +
+         "/" + std::to_string(identity.index);
 }
 
 Identity parse_identity(std::string_view text) {
@@ -61,7 +62,8 @@ Identity parse_identity(std::string_view text) {
     rest = i < 3 ? rest.substr(slash + 1) : rest;
   }
   const Pair pair = parse_pair(parts[0]);
-  return {pair, find_pose_class(pair, parts[1]).name(), parse_number("identity.seed", parts[2]),
+  const PoseClass pose_class(pair, parts[1]);
+  return {pose_class, parse_number("identity.seed", parts[2]),
           parse_number("identity.index", parts[3])};
 }
 
@@ -115,39 +117,45 @@ const std::vector<std::string>& pose_classes(Pair pair, Coverage coverage) {
   return names_covering<Coverage::pairs>(pair);
 }
 
-namespace {
-
-/// The class's name of today; absent if the pair has no such class.
-std::optional<std::string> known_name(Pair pair, std::string_view name) {
-  try {
-    return find_pose_class(pair, name).name();
-  } catch (const InvalidInput&) {
-    return std::nullopt;
-  }
+std::optional<PoseClass> find_pose_class(Pair pair, std::string_view name) {
+  const auto parsed = parse_pose_class(pair, name);
+  const auto* found = std::get_if<PoseClass>(&parsed);
+  return found ? std::optional(*found) : std::nullopt;
 }
 
-}  // namespace
+std::optional<PoseClass> find_pose_class(std::string_view pair, std::string_view name) {
+  for (const Pair each : all_pairs) {
+    if (pair == pair_name(each)) {
+      const PoseClass given = given_class(each);
+      return name == given.name() ? given : find_pose_class(each, name);
+    }
+  }
+  return std::nullopt;
+}
+
+std::vector<PoseClass> selected(Pair pair, const ClassSelection& selection) {
+  std::vector<PoseClass> result;
+  if (selection.names.empty()) result = covering_classes(pair, selection.coverage);
+  for (const std::string& name : selection.names) {
+    const auto c = find_pose_class(pair, name);
+    if (c && std::find(result.begin(), result.end(), *c) == result.end()) result.push_back(*c);
+  }
+  const std::vector<Group>& groups = selection.groups;
+  std::erase_if(result, [&](const PoseClass& c) {
+    return !groups.empty() && std::find(groups.begin(), groups.end(), c.group()) == groups.end();
+  });
+  return result;
+}
 
 std::vector<std::string> selected_classes(Pair pair, const ClassSelection& selection) {
   std::vector<std::string> names;
-  if (selection.names.empty()) names = pose_classes(pair, selection.coverage);
-  for (const std::string& each : selection.names) {
-    const auto name = known_name(pair, each);
-    if (name && std::find(names.begin(), names.end(), *name) == names.end()) {
-      names.push_back(*name);
-    }
-  }
-  const std::vector<Group>& groups = selection.groups;
-  std::erase_if(names, [&](const std::string& name) {
-    return !groups.empty() &&
-           std::find(groups.begin(), groups.end(), group_of(pair, name)) == groups.end();
-  });
+  for (const PoseClass& c : selected(pair, selection)) names.push_back(c.name());
   return names;
 }
 
 void check_pose_classes(const std::vector<Pair>& pairs, const std::vector<std::string>& classes) {
   for (const auto& name : classes) {
-    const auto has = [&](Pair pair) { return known_name(pair, name).has_value(); };
+    const auto has = [&](Pair pair) { return find_pose_class(pair, name).has_value(); };
     if (std::any_of(pairs.begin(), pairs.end(), has)) continue;
     const auto begins = std::find_if(pairs.begin(), pairs.end(),
                                      [&](Pair pair) { return has_arrangement(pair, name); });
@@ -157,20 +165,18 @@ void check_pose_classes(const std::vector<Pair>& pairs, const std::vector<std::s
                              nearest_arrangements(pairs, name.substr(0, name.find('+'))) +
                              "; touchstone classes lists all");
     }
-    try {
-      find_pose_class(*begins, name);  // says what is wrong with its modifiers
-    } catch (const InvalidInput& e) {
-      throw InvalidInput("--class", e.value(), e.remedy());
-    }
+    // What is wrong with its modifiers.
+    throw InvalidInput("--class", in_quotes(name),
+                       std::get<std::string>(parse_pose_class(*begins, name)));
   }
 }
 
 void check_groups(const std::vector<Pair>& pairs, const ClassSelection& selection) {
   std::vector<Group> of_classes;
   for (const Pair pair : pairs) {
-    if (!selected_classes(pair, selection).empty()) return;
-    for (const auto& name : selected_classes(pair, {selection.names, {}, selection.coverage})) {
-      const Group group = group_of(pair, name);
+    if (!selected(pair, selection).empty()) return;
+    for (const PoseClass& c : selected(pair, {selection.names, {}, selection.coverage})) {
+      const Group group = c.group();
       if (std::find(of_classes.begin(), of_classes.end(), group) == of_classes.end()) {
         of_classes.push_back(group);
       }
@@ -186,22 +192,8 @@ void check_groups(const std::vector<Pair>& pairs, const ClassSelection& selectio
                      "must be of these pose classes, which are " + names(of_classes));
 }
 
-std::string describe_pose_class(Pair pair, std::string_view pose_class) {
-  if (pose_class == given_class) return "Configurations that came in a file.";
-  return find_pose_class(pair, pose_class).description();
-}
-
-Group group_of(Pair pair, std::string_view pose_class) {
-  if (pose_class == given_class) return Group::given;
-  return find_pose_class(pair, pose_class).group();
-}
-
 ClassParts parts_of(Pair pair, std::string_view pose_class) {
-  if (pose_class == given_class) return {std::string(given_class), {}};
-  const PoseClass c = find_pose_class(pair, pose_class);
-  ClassParts result{c.arrangement->name, {}};
-  for (const Modifier* m : c.modifiers.list()) result.modifiers.push_back(m->name);
-  return result;
+  return PoseClass(pair, pose_class).parts();
 }
 
 Configuration make_configuration(const Identity& identity) { return made(identity, nullptr); }
@@ -220,8 +212,7 @@ std::uint64_t parse_number(const char* field, std::string_view text) {
 }
 
 Subject subject(const Identity& identity) {
-  return {to_string(identity), describe_pose_class(identity.pair, identity.pose_class),
-          make_configuration(identity)};
+  return {to_string(identity), identity.pose_class.description(), make_configuration(identity)};
 }
 
 }  // namespace touchstone

@@ -98,7 +98,7 @@ TEST(Identity, HostileIsKnownByNameButNotAmongAllClasses) {
     EXPECT_THAT(selected_classes(pair, {.names = {"hostile", "general-deep", "no-such"}}),
                 testing::ElementsAre("hostile", "general+deep"));
     const Identity id{pair, "hostile", 42, 137};
-    EXPECT_EQ(describe_pose_class(pair, "hostile").back(), '.');
+    EXPECT_EQ(PoseClass(pair, "hostile").description().back(), '.');
     EXPECT_EQ(parse_identity(to_string(id)), id);
   }
   EXPECT_NO_THROW(check_pose_classes({Pair::box}, {"hostile"}));
@@ -108,7 +108,7 @@ TEST(Identity, ReadsModifiersInAnyOrderAndWritesThemInOne) {
   for (const char* name :
        {"parallel-side+deep+tilted-1e-3+turned+far", "parallel-side+far+turned+deep+tilted-1e-3"}) {
     const Identity id = parse_identity("cylinder-box/" + std::string(name) + "/1/2");
-    EXPECT_EQ(id.pose_class, "parallel-side+deep+tilted-1e-3+turned+far");
+    EXPECT_EQ(id.pose_class.name(), "parallel-side+deep+tilted-1e-3+turned+far");
   }
 }
 

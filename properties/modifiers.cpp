@@ -93,56 +93,56 @@ const std::vector<Modifier>& all_modifiers() {
   static const std::vector<Modifier> all = [] {
     const auto value = [](auto v) { return static_cast<int>(v); };
     std::vector<Modifier> m = {
-        {Kind::clearance, value(Clearance::shallow), "shallow",
+        {ModifierKind::clearance, value(Clearance::shallow), "shallow",
          "The overlap is 1e-6 to 5% of the smaller size, as of resting contacts."},
-        {Kind::clearance, value(Clearance::apart), "apart",
+        {ModifierKind::clearance, value(Clearance::apart), "apart",
          "The clearance is 1e-6 to 1 of the smaller size: a contact query must say no, a distance "
          "query how far."},
-        {Kind::clearance, value(Clearance::touching), "touching",
+        {ModifierKind::clearance, value(Clearance::touching), "touching",
          "The clearance is zero: to the last bit where the arrangement is exact, else as nearly as "
          "doubles can say."},
-        {Kind::clearance, value(Clearance::deep), "deep",
+        {ModifierKind::clearance, value(Clearance::deep), "deep",
          "The overlap is of the order of the smaller size: many directions compete to be the way "
          "out."},
-        {Kind::proportions, value(Proportions::needle), "needle",
+        {ModifierKind::proportions, value(Proportions::needle), "needle",
          "A is a needle, 1000 times longer than wide."},
-        {Kind::proportions, value(Proportions::coin), "coin",
+        {ModifierKind::proportions, value(Proportions::coin), "coin",
          "A is a coin, 1000 times wider than thick."},
-        {Kind::proportions, value(Proportions::plate), "plate",
+        {ModifierKind::proportions, value(Proportions::plate), "plate",
          "The box is a plate of 1000:1000:1 or a bar of 1000:1:1."},
-        {Kind::proportions, value(Proportions::uneven), "uneven",
+        {ModifierKind::proportions, value(Proportions::uneven), "uneven",
          "One body is 100 to 1000 times smaller than otherwise."},
-        {Kind::proportions, value(Proportions::needles), "needles",
+        {ModifierKind::proportions, value(Proportions::needles), "needles",
          "Both bodies are needles, 1000 times longer than wide: where they cross hangs on the last "
          "digits of their axes.",
          2},
     };
     for (int k = 1; k <= smallest_tilt; ++k) {
-      m.push_back({Kind::tilt, k, fmt::format("tilted-1e-{}", k),
+      m.push_back({ModifierKind::tilt, k, fmt::format("tilted-1e-{}", k),
                    fmt::format("A is tilted by 1e-{} rad about its centre.", k)});
     }
-    m.push_back({Kind::frame, value(Frame::aligned), "aligned",
+    m.push_back({ModifierKind::frame, value(Frame::aligned), "aligned",
                  "The arrangement lies along the world's own axes."});
-    m.push_back({Kind::frame, value(Frame::turned), "turned",
+    m.push_back({ModifierKind::frame, value(Frame::turned), "turned",
                  "Both bodies are turned and moved as one, by any rotation: what was exact is so "
                  "but for rounding."});
-    m.push_back({Kind::frame, value(Frame::worn), "worn",
+    m.push_back({ModifierKind::frame, value(Frame::worn), "worn",
                  "Both bodies are turned as one, and then each is moved there and back in steps of "
                  "its own, as a simulation leaves it: what was exact is so but for the rounding of "
                  "both.",
                  2});
     m.push_back(
-        {Kind::scale, value(Scale::tiny), "tiny",
+        {ModifierKind::scale, value(Scale::tiny), "tiny",
          "All lengths are times 1e-6 (2^-20 where the arrangement is exact): absolute tolerances "
          "show."});
     m.push_back(
-        {Kind::scale, value(Scale::huge), "huge",
+        {ModifierKind::scale, value(Scale::huge), "huge",
          "All lengths are times 1e6 (2^20 where the arrangement is exact): absolute tolerances "
          "show."});
     m.push_back(
-        {Kind::unit, 1, "not-quite-unit",
+        {ModifierKind::unit, 1, "not-quite-unit",
          "The quaternions' lengths are off by 1e-16 to 1e-7, as an integrator leaves them."});
-    m.push_back({Kind::distance, 1, "far",
+    m.push_back({ModifierKind::distance, 1, "far",
                  "Both bodies are a million metres away: positions must be subtracted before "
                  "anything else."});
     return m;
@@ -193,7 +193,7 @@ std::int64_t draw_uneven_ratio(Draw& draw) { return draw.integer(100, 1000); }
 Configuration modified(Draw& draw, const Configuration& made, const Modifiers& modifiers,
                        const Finish& finish) {
   Configuration c = made;
-  if (const int k = modifiers[Kind::tilt]) c = tilted(draw, c, k, finish.across);
+  if (const int k = modifiers[ModifierKind::tilt]) c = tilted(draw, c, k, finish.across);
   const bool is_worn = modifiers.frame() == Frame::worn;
   if (is_worn || modifiers.frame() == Frame::turned) c = turned(draw, c);
   if (is_worn) c = worn(draw, c);
@@ -201,8 +201,8 @@ Configuration modified(Draw& draw, const Configuration& made, const Modifiers& m
     const bool tiny = modifiers.scale() == Scale::tiny;
     c = scaled(c, finish.is_exact ? (tiny ? 0x1p-20 : 0x1p20) : (tiny ? 1e-6 : 1e6));
   }
-  if (modifiers[Kind::unit]) c = not_quite_unit(draw, c);
-  if (modifiers[Kind::distance]) c = translated(c, 1e6 * draw.direction());
+  if (modifiers[ModifierKind::unit]) c = not_quite_unit(draw, c);
+  if (modifiers[ModifierKind::distance]) c = translated(c, 1e6 * draw.direction());
   return c;
 }
 

@@ -5,14 +5,16 @@
 #include <string_view>
 #include <vector>
 
-#include "properties/draw.hpp"
+#include "reference/configuration.hpp"
 
 namespace touchstone {
 
+class Draw;
+
 /// A modifier is something that is done to an arrangement of two bodies. Those of one kind exclude
 /// each other; a name and an identity list them in this order, in which they are also applied.
-enum class Kind { clearance, proportions, tilt, frame, scale, unit, distance };
-inline constexpr std::size_t kinds = 7;
+enum class ModifierKind { clearance, proportions, tilt, frame, scale, unit, distance };
+inline constexpr std::size_t modifier_kinds = 7;
 
 /// How far apart the bodies are; the usual one is the arrangement's own.
 enum class Clearance { usual, shallow, apart, touching, deep };
@@ -23,7 +25,7 @@ enum class Frame { usual, aligned, turned, worn };
 enum class Scale { usual, tiny, huge };
 
 struct Modifier {
-  Kind kind;
+  ModifierKind kind;
   int value;  ///< of the kind's enumeration; of a tilt the k of 10^-k rad; else 1
   std::string name;
   std::string description;  ///< one sentence
@@ -36,12 +38,14 @@ const std::vector<Modifier>& all_modifiers();
 /// The value of each kind; zero: not modified.
 class Modifiers {
  public:
-  int operator[](Kind kind) const { return values_[static_cast<std::size_t>(kind)]; }
-  int& operator[](Kind kind) { return values_[static_cast<std::size_t>(kind)]; }
-  Clearance clearance() const { return static_cast<Clearance>((*this)[Kind::clearance]); }
-  Proportions proportions() const { return static_cast<Proportions>((*this)[Kind::proportions]); }
-  Frame frame() const { return static_cast<Frame>((*this)[Kind::frame]); }
-  Scale scale() const { return static_cast<Scale>((*this)[Kind::scale]); }
+  int operator[](ModifierKind kind) const { return values_[static_cast<std::size_t>(kind)]; }
+  int& operator[](ModifierKind kind) { return values_[static_cast<std::size_t>(kind)]; }
+  Clearance clearance() const { return static_cast<Clearance>((*this)[ModifierKind::clearance]); }
+  Proportions proportions() const {
+    return static_cast<Proportions>((*this)[ModifierKind::proportions]);
+  }
+  Frame frame() const { return static_cast<Frame>((*this)[ModifierKind::frame]); }
+  Scale scale() const { return static_cast<Scale>((*this)[ModifierKind::scale]); }
   bool has(const Modifier& m) const { return (*this)[m.kind] == m.value; }
 
   /// Those that are set, in order.
@@ -50,7 +54,7 @@ class Modifiers {
   bool operator==(const Modifiers&) const = default;
 
  private:
-  std::array<int, kinds> values_{};
+  std::array<int, modifier_kinds> values_{};
 };
 
 /// Draws a clearance of bodies of this size: an overlap of 1e-6 to 5% of it, log-uniform.

@@ -47,7 +47,7 @@ std::vector<OldName> make_old_names() {
                                 {"scale-huge", "general+huge"},
                                 {"far-from-origin", "general+far"}};
   for (const Modifier& m : all_modifiers()) {
-    if (m.kind != Kind::tilt) continue;
+    if (m.kind != ModifierKind::tilt) continue;
     const std::string size = fmt::format("1e-{}", m.value);
     names.push_back({"near-parallel-" + size, "parallel+" + m.name});
     names.push_back({"near-perpendicular-" + size, "perpendicular+" + m.name});
@@ -62,7 +62,7 @@ const std::vector<OldName>& old_names() {
 
 std::vector<PoseClass> make_old_classes(Pair pair) {
   std::vector<PoseClass> result;
-  const auto add = [&](std::string_view name) { result.push_back(find_pose_class(pair, name)); };
+  const auto add = [&](std::string_view name) { result.emplace_back(pair, name); };
   const auto& all = arrangements(pair);
   for (const char* name : {"general+apart", "general+shallow", "general+deep"}) add(name);
   const auto add_if = [&](const auto& condition) {
@@ -92,7 +92,7 @@ std::vector<PoseClass> make_old_classes(Pair pair) {
   for (const Arrangement& a : all) {
     if (!is_aligned(a)) continue;
     for (const Modifier& m : all_modifiers()) {
-      if (m.kind == Kind::tilt) add(a.name + "+" + m.name);
+      if (m.kind == ModifierKind::tilt) add(a.name + "+" + m.name);
     }
   }
   for (const char* name : {"general+needle", "general+coin", "general+deep+needle",
@@ -109,11 +109,6 @@ std::string_view todays_name(std::string_view name) {
   return name;
 }
 
-[[noreturn]] void refuse(Pair pair, std::string_view name, const std::string& why) {
-  throw InvalidInput("identity.class", '"' + std::string(name) + '"',
-                     fmt::format("{}; touchstone classes {} lists all", why, pair_name(pair)));
-}
-
 const Arrangement* find_arrangement(Pair pair, std::string_view name) {
   for (const Arrangement& a : arrangements(pair)) {
     if (a.name == name) return &a;
@@ -121,7 +116,8 @@ const Arrangement* find_arrangement(Pair pair, std::string_view name) {
   return nullptr;
 }
 
-void set_modifier(PoseClass& c, std::string_view part, std::string_view name) {
+/// Sets the modifier of that name, or says why it cannot be.
+std::optional<std::string> set_modifier(PoseClass& c, std::string_view part) {
   std::vector<std::string> known;
   for (const Modifier& m : all_modifiers()) {
     known.push_back(m.name);
@@ -130,15 +126,15 @@ void set_modifier(PoseClass& c, std::string_view part, std::string_view name) {
       const auto set = c.modifiers.list();
       const auto same_kind = [&](const Modifier* other) { return other->kind == m.kind; };
       const Modifier* other = *std::find_if(set.begin(), set.end(), same_kind);
-      refuse(c.pair, name, fmt::format("must not have both {} and {}", other->name, m.name));
+      return fmt::format("must not have both {} and {}", other->name, m.name);
     }
     if (const auto why = nonsense(c.pair, *c.arrangement, m)) {
-      refuse(c.pair, name, fmt::format("must not have {}: {}", m.name, *why));
+      return fmt::format("must not have {}: {}", m.name, *why);
     }
     c.modifiers[m.kind] = m.value;
-    return;
+    return std::nullopt;
   }
-  refuse(c.pair, name, fmt::format("must have modifiers such as {}", nearest(part, known)));
+  return fmt::format("must have modifiers such as {}", nearest(part, known));
 }
 
 }  // namespace
@@ -146,6 +142,14 @@ void set_modifier(PoseClass& c, std::string_view part, std::string_view name) {
 const std::vector<Arrangement>& arrangements(Pair pair) {
   static const auto all = of_each_pair<std::vector<Arrangement>>(make_arrangements);
   return all[static_cast<std::size_t>(pair)];
+}
+
+PoseClass::PoseClass(Pair of, std::string_view name) : PoseClass(of, nullptr, {}) {
+  const auto parsed = parse_pose_class(of, name);
+  if (const auto* why = std::get_if<std::string>(&parsed)) {
+    throw InvalidInput("identity.class", in_quotes(name), *why);
+  }
+  *this = std::get<PoseClass>(parsed);
 }
 
 std::string PoseClass::name() const {
@@ -165,18 +169,25 @@ Group PoseClass::group() const {
   const Clearance asked = modifiers.clearance();
   const Clearance clearance = asked == Clearance::usual ? arrangement->own : asked;
   if (o == Orientations::recorded) return Group::recorded;
+  if (o == Orientations::given) return Group::given;
   if (o == Orientations::mixed || clearance == Clearance::deep ||
-      modifiers[Kind::proportions] != 0 || modifiers[Kind::scale] != 0 ||
-      modifiers[Kind::distance] != 0) {
+      modifiers[ModifierKind::proportions] != 0 || modifiers[ModifierKind::scale] != 0 ||
+      modifiers[ModifierKind::distance] != 0) {
     return Group::extreme;
   }
   const bool is_turned = modifiers.frame() == Frame::turned || modifiers.frame() == Frame::worn;
   const bool exact = arrangement->is_exact() && !is_turned;
   if (exact || arrangement->is_symmetric || arrangement->touches ||
-      clearance == Clearance::touching || modifiers[Kind::tilt] != 0) {
+      clearance == Clearance::touching || modifiers[ModifierKind::tilt] != 0) {
     return Group::degenerate;
   }
   return Group::everyday;
+}
+
+ClassParts PoseClass::parts() const {
+  ClassParts result{arrangement->name, {}};
+  for (const Modifier* m : modifiers.list()) result.modifiers.push_back(m->name);
+  return result;
 }
 
 Configuration PoseClass::generate(Draw& draw) const {
@@ -188,7 +199,7 @@ std::optional<std::string_view> nonsense(Pair pair, const Arrangement& a, const 
   if (a.orientations == Orientations::mixed) return "it has everything already";
   if (a.orientations == Orientations::recorded) return "it is as it occurred";
   switch (m.kind) {
-    case Kind::clearance:
+    case ModifierKind::clearance:
       if (std::find(a.clearances.begin(), a.clearances.end(), static_cast<Clearance>(m.value)) !=
           a.clearances.end()) {
         return std::nullopt;
@@ -199,7 +210,7 @@ std::optional<std::string_view> nonsense(Pair pair, const Arrangement& a, const 
       if (a.own == Clearance::deep) return "its bodies lie within each other";
       if (static_cast<Clearance>(m.value) == Clearance::touching) return "it cannot be exact";
       return "another feature than its own would be nearer, as in general+deep";
-    case Kind::proportions:
+    case ModifierKind::proportions:
       if (static_cast<Proportions>(m.value) == Proportions::plate && pair != Pair::box) {
         return "neither body is a box";
       }
@@ -211,16 +222,16 @@ std::optional<std::string_view> nonsense(Pair pair, const Arrangement& a, const 
         return "the other body is no cylinder or capsule";
       }
       return std::nullopt;
-    case Kind::tilt:
+    case ModifierKind::tilt:
       if (a.orientations == Orientations::random) return "its axes are at a random angle already";
       if (a.orientations == Orientations::pitched) return "it is tilted already";
       return std::nullopt;
-    case Kind::frame:
+    case ModifierKind::frame:
       if (!a.is_exact()) return "its bodies are turned at random already";
       return std::nullopt;
-    case Kind::scale:
-    case Kind::unit:
-    case Kind::distance:
+    case ModifierKind::scale:
+    case ModifierKind::unit:
+    case ModifierKind::distance:
       break;
   }
   return std::nullopt;
@@ -241,17 +252,26 @@ std::string nearest_arrangements(const std::vector<Pair>& pairs, std::string_vie
   return nearest(name, known);
 }
 
-PoseClass find_pose_class(Pair pair, std::string_view name) {
+std::variant<PoseClass, std::string> parse_pose_class(Pair pair, std::string_view name) {
+  const auto because = [&](const std::string& why) {
+    return fmt::format("{}; touchstone classes {} lists all", why, pair_name(pair));
+  };
   const std::vector<std::string_view> parts = split(todays_name(name), '+');
-  const Arrangement* arrangement = find_arrangement(pair, parts.front());
-  if (!arrangement) {
-    refuse(pair, name,
-           fmt::format("must begin with an arrangement of {}, as {}", pair_name(pair),
-                       nearest_arrangements({pair}, parts.front())));
+  PoseClass result(pair, find_arrangement(pair, parts.front()), {});
+  if (!result.arrangement) {
+    return because(fmt::format("must begin with an arrangement of {}, as {}", pair_name(pair),
+                               nearest_arrangements({pair}, parts.front())));
   }
-  PoseClass result{pair, arrangement, {}};
-  for (std::size_t i = 1; i < parts.size(); ++i) set_modifier(result, parts[i], name);
+  for (std::size_t i = 1; i < parts.size(); ++i) {
+    if (const auto why = set_modifier(result, parts[i])) return because(*why);
+  }
   return result;
+}
+
+PoseClass given_class(Pair pair) {
+  static const Arrangement given{
+      "given", "Configurations that came in a file.", Orientations::given, {}, {}};
+  return {pair, &given, {}};
 }
 
 std::string stream_name(const PoseClass& pose_class) {

@@ -4,10 +4,11 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
+#include "properties/draw.hpp"
 #include "properties/identity.hpp"
-#include "properties/modifiers.hpp"
 
 namespace touchstone {
 
@@ -19,7 +20,8 @@ struct Arrangement {
     exact,     ///< parallel or perpendicular, in the frame of a Lattice
     pitched,   ///< at 3-4-5 angles, in the frame of a Lattice
     recorded,  ///< as it was: nothing may be changed
-    mixed      ///< everything at once: no modifier adds to it
+    mixed,     ///< everything at once: no modifier adds to it
+    given      ///< in a file: nothing is known of it
   };
 
   std::string name;
@@ -58,27 +60,12 @@ std::optional<Arrangement> recorded_arrangement(Pair pair);
 /// Combinations of all difficulties.
 Arrangement hostile(Pair pair);
 
-/// A named family of configurations of one pair: an arrangement and modifiers that make sense of
-/// it.
-struct PoseClass {
-  Pair pair;
-  const Arrangement* arrangement;
-  Modifiers modifiers;
-
-  std::string name() const;  ///< "perpendicular-t+turned"
-  std::string description() const;
-  Group group() const;
-  Configuration generate(Draw& draw) const;
-};
-
 /// Why a modifier makes no sense of an arrangement of that pair; absent where it does.
 std::optional<std::string_view> nonsense(Pair pair, const Arrangement& arrangement,
                                          const Modifier& modifier);
 
-/// Reads a name: modifiers in any order, or a name from before there were modifiers
-/// ("near-parallel-1e-6"). Throws InvalidInput (field "identity.class") that says what is nearest
-/// to an unknown name, or why a modifier makes no sense.
-PoseClass find_pose_class(Pair pair, std::string_view name);
+/// The class of that name, or why the pair has none.
+std::variant<PoseClass, std::string> parse_pose_class(Pair pair, std::string_view name);
 
 /// Whether the class begins with one of the pair's arrangements.
 bool has_arrangement(Pair pair, std::string_view pose_class);

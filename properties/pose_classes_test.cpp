@@ -19,7 +19,7 @@ TEST(PoseClasses, AreNamedOnceAndDescribedInASentence) {
     std::set<std::string> names;
     for (const auto& name : pose_classes(pair)) {
       EXPECT_TRUE(names.insert(name).second) << name;
-      const auto text = describe_pose_class(pair, name);
+      const auto text = PoseClass(pair, name).description();
       EXPECT_GT(text.size(), 20u);
       EXPECT_EQ(text.back(), '.') << name;
     }
@@ -159,7 +159,7 @@ TEST(PoseClasses, AllHaveATest) {
   for (const Range& range : ranges) tested.insert(range.name);
   for (const Pair pair : all_pairs) {
     for (const PoseClass& c : old_classes(pair)) {
-      const bool tilt = c.modifiers[Kind::tilt] != 0;
+      const bool tilt = c.modifiers[ModifierKind::tilt] != 0;
       EXPECT_TRUE(tilt || tested.contains(c.name())) << pair_name(pair) << " " << c.name();
     }
   }
@@ -695,7 +695,7 @@ TEST(Groups, AreWhatAUserMeets) {
                {"coaxial+far", Group::extreme},
                {"hostile", Group::extreme}};
   for (const auto& [name, group] : table) {
-    EXPECT_EQ(group_of(Pair::cylinder, name), group) << name;
+    EXPECT_EQ(PoseClass(Pair::cylinder, name).group(), group) << name;
   }
   for (const Group group : all_groups) EXPECT_EQ(parse_group(group_name(group)), group);
   EXPECT_THROW(parse_group("weekday"), InvalidInput);

@@ -190,11 +190,11 @@ TEST(Recorded, IsAClassAndGroupOfItsOwnThatNothingModifies) {
     EXPECT_EQ(std::count(names.begin(), names.end(), "recorded"), recorded(pair).empty() ? 0 : 1);
     if (recorded(pair).empty()) continue;
     EXPECT_EQ(names.back(), "recorded");
-    EXPECT_EQ(group_of(pair, "recorded"), Group::recorded);
+    EXPECT_EQ(PoseClass(pair, "recorded").group(), Group::recorded);
     EXPECT_THROW(parse_identity(std::string(pair_name(pair)) + "/recorded+turned/1/2"),
                  InvalidInput);
     for (const std::string& name : names) {
-      EXPECT_EQ(group_of(pair, name) == Group::recorded, name == "recorded") << name;
+      EXPECT_EQ(PoseClass(pair, name).group() == Group::recorded, name == "recorded") << name;
     }
   }
 }
@@ -203,7 +203,7 @@ TEST(RecordedShares, AddUpToOneForEachPairAndNameItsArrangements) {
   std::map<Pair, double> sums;
   for (const RecordedShare& s : recorded_shares()) {
     sums[s.pair] += s.share;
-    EXPECT_NO_THROW(describe_pose_class(s.pair, s.arrangement.name)) << s.arrangement.name;
+    EXPECT_TRUE(find_pose_class(s.pair, s.arrangement.name)) << s.arrangement.name;
   }
   for (const Pair pair : all_pairs) {
     EXPECT_EQ(sums.contains(pair), !recorded(pair).empty());

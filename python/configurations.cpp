@@ -22,8 +22,8 @@ py::tuple bodies(const NamedConfiguration& named) {
 py::dict classes_of(const std::string& name) {
   const Pair pair = parse_pair(name, "pair");
   py::dict result;
-  for (const std::string& each : pose_classes(pair)) {
-    result[py::str(each)] = describe_pose_class(pair, each);
+  for (const PoseClass& each : selected(pair, {})) {
+    result[py::str(each.name())] = each.description();
   }
   return result;
 }

@@ -17,40 +17,37 @@ Answer GivenAnswer::answer() const {
   return result;
 }
 
-std::vector<Cell> cells(const Campaign& campaign) {
-  std::vector<Cell> result;
+std::vector<PoseClass> cells(const Campaign& campaign) {
+  std::vector<PoseClass> result;
   if (campaign.given) {
     for (const auto& of_cell : campaign.given->cells) result.push_back(of_cell.cell);
     return result;
   }
+  const ClassSelection wanted{campaign.classes, campaign.groups, campaign.coverage};
   check_pose_classes(campaign.pairs, campaign.classes);
-  check_groups(campaign.pairs, {campaign.classes, campaign.groups, campaign.coverage});
+  check_groups(campaign.pairs, wanted);
   for (const Pair pair : campaign.pairs) {
-    for (const auto& name :
-         selected_classes(pair, {campaign.classes, campaign.groups, campaign.coverage})) {
-      result.push_back({pair, name});
-    }
+    const std::vector<PoseClass> of_pair = selected(pair, wanted);
+    result.insert(result.end(), of_pair.begin(), of_pair.end());
   }
   return result;
 }
 
-std::uint64_t count_of(const Campaign& campaign, const Cell& cell) {
+std::uint64_t count_of(const Campaign& campaign, const PoseClass& cell) {
   if (campaign.given) return answers_in(*campaign.given, cell).size();
-  const Group group = group_of(cell.pair, cell.pose_class);
+  const Group group = cell.group();
   const bool everyday = group == Group::everyday || group == Group::recorded;
-  const auto modifiers = parts_of(cell.pair, cell.pose_class).modifiers;
-  const bool aligned = modifiers == std::vector<std::string>{"aligned"};
+  const bool aligned = cell.modifiers.count() == 1 && cell.modifiers.frame() == Frame::aligned;
   return campaign.count * (everyday || aligned ? campaign.everyday_times : 1);
 }
 
-Configuration answered_configuration(const Campaign& campaign, const Cell& cell,
+Configuration answered_configuration(const Campaign& campaign, const PoseClass& cell,
                                      const GivenAnswer& answer) {
-  return answer.configuration
-             ? *answer.configuration
-             : make_configuration({cell.pair, cell.pose_class, campaign.seed, answer.index});
+  return answer.configuration ? *answer.configuration
+                              : make_configuration({cell, campaign.seed, answer.index});
 }
 
-const std::vector<GivenAnswer>& answers_in(const GivenAnswers& given, const Cell& cell) {
+const std::vector<GivenAnswer>& answers_in(const GivenAnswers& given, const PoseClass& cell) {
   const auto found =
       std::find_if(given.cells.begin(), given.cells.end(),
                    [&](const GivenAnswers::OfCell& of_cell) { return of_cell.cell == cell; });

@@ -14,14 +14,6 @@
 
 namespace touchstone {
 
-/// One pair × class.
-struct Cell {
-  Pair pair;
-  std::string pose_class;
-
-  bool operator==(const Cell&) const = default;
-};
-
 /// An answer that was computed elsewhere; smaller than an Answer, for there may be a million.
 struct GivenAnswer {
   std::string id;
@@ -38,7 +30,7 @@ struct GivenAnswer {
 /// Answers that were computed elsewhere, to be scored like those of a candidate that is asked.
 struct GivenAnswers {
   struct OfCell {
-    Cell cell;
+    PoseClass cell;
     std::vector<GivenAnswer> answers;  ///< no two with the same index
   };
   Candidate candidate;  ///< what is said of it: name, version, settings
@@ -46,7 +38,7 @@ struct GivenAnswers {
 };
 
 /// Precondition: the cell is one of theirs.
-const std::vector<GivenAnswer>& answers_in(const GivenAnswers& given, const Cell& cell);
+const std::vector<GivenAnswer>& answers_in(const GivenAnswers& given, const PoseClass& cell);
 
 /// Which configurations are scored, by whom, and how strictly.
 struct Campaign {
@@ -69,11 +61,12 @@ struct Campaign {
   const GivenAnswers* given = nullptr;
 };
 
-/// Lists the cells in report order. Throws InvalidInput when a class belongs to none of the pairs.
-std::vector<Cell> cells(const Campaign& campaign);
-std::uint64_t count_of(const Campaign& campaign, const Cell& cell);
+/// Lists the classes of all pairs in report order: the campaign's cells. Throws InvalidInput when a
+/// class belongs to none of the pairs.
+std::vector<PoseClass> cells(const Campaign& campaign);
+std::uint64_t count_of(const Campaign& campaign, const PoseClass& cell);
 /// Precondition: the answer is one of the cell's in `given`.
-Configuration answered_configuration(const Campaign& campaign, const Cell& cell,
+Configuration answered_configuration(const Campaign& campaign, const PoseClass& cell,
                                      const GivenAnswer& answer);
 
 /// Width of every truth that a score is against, relative to the larger size.

@@ -45,11 +45,8 @@ NameSet class_names(const Report& report) {
 
 /// The group of a class; all where this version does not know it, for it may be of any.
 std::vector<Group> possible_groups(const std::string& pair, const std::string& pose_class) {
-  try {
-    return {group_of(parse_pair(pair), pose_class)};
-  } catch (const InvalidInput&) {
-    return {std::begin(all_groups), std::end(all_groups)};
-  }
+  if (const auto known = find_pose_class(pair, pose_class)) return {known->group()};
+  return {std::begin(all_groups), std::end(all_groups)};
 }
 
 Groups split_groups(const NameSet& old_classes, const NameSet& new_classes, NameSet uncommon) {
@@ -156,7 +153,7 @@ void remark_given(Basis& basis, const Report& before, const Report& after) {
   for (const std::string& name : class_names(before)) {
     if (!new_classes.contains(name)) continue;
     const std::string &was = old_digests[name], &is = new_digests[name];
-    const bool is_own = name.ends_with('/' + std::string(given_class));
+    const bool is_own = name.ends_with('/' + std::string(group_name(Group::given)));
     if (is_own && (was.empty() || is.empty())) {
       is_any_unknown = true;
     } else if (was != is) {

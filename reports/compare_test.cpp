@@ -398,7 +398,7 @@ TEST(Compare, AClassOfAnotherCountIsOfOtherConfigurations) {
 /// A report of answers that came in a file, to configurations with this digest.
 json report_of_given(const char* pose_class, const json& digest, int agree) {
   json report = small_report();
-  const char* const group = pose_class == given_class ? "given" : "everyday";
+  const char* const group = pose_class == std::string("given") ? "given" : "everyday";
   report["results"] = json::array({row(pose_class, "mine", agree, 1e-6, 200)});
   report["summary"] = json::array({row(group, "mine", agree, 1e-6, 200)});
   report["classes"] =

@@ -15,12 +15,12 @@
 namespace touchstone {
 namespace {
 
-using Modifiers = std::set<std::string>;
+using ModifierNames = std::set<std::string>;
 
 /// A class of one pair, taken apart.
 struct ClassOfPair {
   const PoseClassDescription* description;
-  Modifiers modifiers;
+  ModifierNames modifiers;
   /// The modifiers, and "turned" where the arrangement's orientations are random anyway.
   std::string conditions;
   const ResultRow* row = nullptr;  ///< of the candidate in hand, if it has a routine
@@ -41,7 +41,7 @@ class Table {
  public:
   Table(const Report& report, const std::string& pair) : report_(report), pair_(pair) {
     for (const PoseClassDescription& c : report.classes) {
-      if (c.pair == pair && c.pose_class != given_class) classes_.push_back(taken_apart(c));
+      if (c.pair == pair && c.group != group_name(Group::given)) classes_.push_back(taken_apart(c));
     }
   }
 
@@ -85,9 +85,8 @@ class Table {
  private:
   static ClassOfPair taken_apart(const PoseClassDescription& c) {
     ClassOfPair result{&c, {c.modifiers.begin(), c.modifiers.end()}, {}};
-    Modifiers conditions = result.modifiers;
-    const auto orientations =
-        find_pose_class(parse_pair(c.pair), c.pose_class).arrangement->orientations;
+    ModifierNames conditions = result.modifiers;
+    const auto orientations = PoseClass(parse_pair(c.pair), c.pose_class).arrangement->orientations;
     if (orientations == Arrangement::Orientations::random ||
         orientations == Arrangement::Orientations::nearly) {
       conditions.insert(turned);
@@ -125,7 +124,7 @@ struct Comparison {
 };
 
 FailureRate rate_without(const Table& table, const ClassOfPair& c, const std::string& modifier) {
-  Modifiers rest = c.modifiers;
+  ModifierNames rest = c.modifiers;
   rest.erase(modifier);
   const auto difference = [&](const ClassOfPair& other) {
     const auto common = std::count_if(rest.begin(), rest.end(), [&](const std::string& each) {
@@ -201,7 +200,7 @@ void add_contrast(std::vector<Contrast>& result, const Table& table, const Class
 /// Turned ones are compared with those along the world's axes, where there are such: a frame of
 /// integers is as good as turned to many engines.
 void add_contrasts(std::vector<Contrast>& result, const Table& table) {
-  const auto find = [&](const std::string& arrangement, const Modifiers& modifiers) {
+  const auto find = [&](const std::string& arrangement, const ModifierNames& modifiers) {
     const auto& all = table.classes();
     const auto found = std::find_if(all.begin(), all.end(), [&](const ClassOfPair& c) {
       return c.row && c.description->arrangement == arrangement && c.modifiers == modifiers;
@@ -231,7 +230,7 @@ void add_contrasts(std::vector<Contrast>& result, const Table& table) {
 /// Every moving body is turned, few are exactly symmetric, and few are tilted by just so much.
 int rarity(const Contrast& c) {
   if (c.modifier != turned) return 2;
-  const Group group = group_of(parse_pair(c.pair), c.arrangement + '+' + c.modifier);
+  const Group group = PoseClass(parse_pair(c.pair), c.arrangement + '+' + c.modifier).group();
   return group == Group::everyday ? 0 : 1;
 }
 

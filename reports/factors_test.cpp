@@ -206,15 +206,15 @@ TEST(Factors, OfACandidateThatWasStoppedMustBeBeyondTheChanceOfFewConfigurations
 }
 
 TEST(Headings, AreOfOneGroupEach) {
-  const std::vector<Cell> cells = {{Pair::plane, "touching"},
-                                   {Pair::plane, "general+shallow"},
-                                   {Pair::box, "general+deep"},
-                                   {Pair::box, "general+shallow"}};
+  const std::vector<PoseClass> cells = {{Pair::plane, "touching"},
+                                        {Pair::plane, "general+shallow"},
+                                        {Pair::box, "general+deep"},
+                                        {Pair::box, "general+shallow"}};
   std::vector<std::string> found;
   for (const Heading& h : headings(cells, [](std::size_t) { return true; })) {
     found.push_back(h.pair + ' ' + group_name(h.group));
     for (const std::size_t cell : h.cells) {
-      EXPECT_EQ(group_of(cells[cell].pair, cells[cell].pose_class), h.group);
+      EXPECT_EQ(cells[cell].group(), h.group);
     }
   }
   EXPECT_THAT(found, testing::ElementsAre("cylinder-plane everyday", "cylinder-box everyday",

@@ -25,10 +25,10 @@
 
 namespace touchstone {
 
-std::vector<Heading> headings(const std::vector<Cell>& cells,
+std::vector<Heading> headings(const std::vector<PoseClass>& cells,
                               const std::function<bool(std::size_t)>& is_scored) {
   std::vector<Group> groups;
-  for (const Cell& cell : cells) groups.push_back(group_of(cell.pair, cell.pose_class));
+  for (const PoseClass& cell : cells) groups.push_back(cell.group());
   std::vector<Heading> result;
   for (const Group group : reported_groups) {
     Heading all{"all", group, {}};
@@ -48,14 +48,10 @@ std::vector<Heading> headings(const std::vector<Cell>& cells,
   return result;
 }
 
-PoseClassDescription description_of(const Cell& cell) {
-  auto [arrangement, modifiers] = parts_of(cell.pair, cell.pose_class);
-  return {pair_name(cell.pair),
-          cell.pose_class,
-          describe_pose_class(cell.pair, cell.pose_class),
-          group_name(group_of(cell.pair, cell.pose_class)),
-          std::move(arrangement),
-          std::move(modifiers)};
+PoseClassDescription description_of(const PoseClass& cell) {
+  auto [arrangement, modifiers] = cell.parts();
+  return {pair_name(cell.pair),   cell.name(),         cell.description(), group_name(cell.group()),
+          std::move(arrangement), std::move(modifiers)};
 }
 
 namespace {
@@ -73,10 +69,10 @@ std::uint64_t hash_of(const Configuration& configuration) {
 
 /// What tells the configurations of given answers from others, in whatever order they are; empty
 /// where they are the first of their class, as in a report of candidates that are asked.
-std::string digest_of(const Campaign& campaign, const Cell& cell) {
+std::string digest_of(const Campaign& campaign, const PoseClass& cell) {
   if (!campaign.given) return "";
   const std::vector<GivenAnswer>& answers = answers_in(*campaign.given, cell);
-  if (cell.pose_class != given_class && answers.back().index == answers.size() - 1) return "";
+  if (cell.group() != Group::given && answers.back().index == answers.size() - 1) return "";
   std::uint64_t sum = 0;
   for (const GivenAnswer& answer : answers) {
     sum += hash_of(answered_configuration(campaign, cell, answer));
@@ -86,7 +82,7 @@ std::string digest_of(const Campaign& campaign, const Cell& cell) {
 
 /// What is known of each cell; absent where the run was interrupted before all of it was scored.
 std::vector<std::optional<Sample>> sample_cells(const Campaign& campaign,
-                                                const std::vector<Cell>& cells) {
+                                                const std::vector<PoseClass>& cells) {
   std::vector<Unit> units;
   std::uint64_t configurations = 0;
   for (std::size_t cell = 0; cell < cells.size(); ++cell) {
@@ -155,7 +151,6 @@ std::vector<ResultRow> rows_of(const Campaign& campaign,
     row.candidate = campaign.candidates[k]->name;
     row.statistics = tally.statistics();
     row.time = time_of(campaign, times, cells, k);
-    if (cells.size() == 1 && pose_class != given_class) row.worst_index = worst_failure(tally);
   }
   return rows;
 }
@@ -178,8 +173,8 @@ std::vector<Trend> trends_of(const Campaign& campaign,
 
 /// The id of a configuration that came in a file with others; otherwise its identity.
 std::string name_of(const Campaign& campaign, const Identity& identity) {
-  if (identity.pose_class != given_class) return to_string(identity);
-  const auto& answers = answers_in(*campaign.given, {identity.pair, identity.pose_class});
+  if (identity.pose_class.group() != Group::given) return to_string(identity);
+  const auto& answers = answers_in(*campaign.given, identity.pose_class);
   return std::find_if(answers.begin(), answers.end(),
                       [&](const GivenAnswer& a) { return a.index == identity.index; })
       ->id;
@@ -191,13 +186,15 @@ WorstCase worst_case(const Campaign& campaign, const Sample& sample, const Ident
   const std::string id = name_of(campaign, identity);
   std::vector<std::string> names = {campaign.candidates[candidate]->name};
   if (answers.size() > 1) names.insert(names.begin(), campaign.candidates.front()->name);
-  const std::string replay = identity.pose_class == given_class
-                                 ? replay_command(configuration, names)
-                                 : replay_command(id, names);
-  WorstCase result{
-      pair_name(identity.pair), group_name(group_of(identity.pair, identity.pose_class)),
-      identity.pose_class,      campaign.candidates[candidate]->name,
-      answers.front().second,   {id, configuration, std::move(truth), {}, replay}};
+  const PoseClass& c = identity.pose_class;
+  const std::string replay =
+      c.group() == Group::given ? replay_command(configuration, names) : replay_command(id, names);
+  WorstCase result{pair_name(c.pair),
+                   group_name(c.group()),
+                   c.name(),
+                   campaign.candidates[candidate]->name,
+                   answers.front().second,
+                   {id, configuration, std::move(truth), {}, replay}};
   std::size_t shown = candidate;
   for (auto& [answer, score] : answers) {
     result.examination.answers.push_back(
@@ -209,7 +206,7 @@ WorstCase worst_case(const Campaign& campaign, const Sample& sample, const Ident
 
 /// The worst configurations of every pair × group × candidate, each with the candidate's answer and
 /// that of the campaign's first.
-std::vector<WorstCase> worst_of(const Campaign& campaign, const std::vector<Cell>& cells,
+std::vector<WorstCase> worst_of(const Campaign& campaign, const std::vector<PoseClass>& cells,
                                 const std::vector<std::optional<Sample>>& samples,
                                 const std::vector<Heading>& all) {
   std::vector<WorstCase> result;
@@ -222,8 +219,7 @@ std::vector<WorstCase> worst_of(const Campaign& campaign, const std::vector<Cell
         found.insert(found.end(), worst.begin(), worst.end());
       }
       for (const Case& c : worst_of_heading(std::move(found))) {
-        const Identity identity{cells[c.cell].pair, cells[c.cell].pose_class, campaign.seed,
-                                c.index};
+        const Identity identity{cells[c.cell], campaign.seed, c.index};
         result.push_back(worst_case(campaign, *samples[c.cell], identity, k));
       }
     }
@@ -265,7 +261,7 @@ void rank(std::span<ResultRow> rows, const std::function<bool(const ResultRow&)>
 
 Report make_report(const Campaign& campaign, const std::string& command) {
   const auto start = std::chrono::steady_clock::now();
-  const std::vector<Cell> all = cells(campaign);
+  const std::vector<PoseClass> all = cells(campaign);
   // Started before samples fill the memory: to start a plug-in's process costs the more the larger
   // this one is.
   auto candidates = campaign.given ? std::vector<CandidateProcess>()
@@ -301,8 +297,10 @@ Report make_report(const Campaign& campaign, const std::string& command) {
                         samples[i]->oracle_microseconds.end());
     report.classes.push_back(description_of(all[i]));
     report.classes.back().digest = digest_of(campaign, all[i]);
-    const auto rows =
-        rows_of(campaign, samples, times, {i}, pair_name(all[i].pair), all[i].pose_class);
+    auto rows = rows_of(campaign, samples, times, {i}, pair_name(all[i].pair), all[i].name());
+    for (std::size_t k = 0; k < rows.size() && all[i].group() != Group::given; ++k) {
+      rows[k].worst_index = worst_failure(samples[i]->tallies[k]);
+    }
     report.results.insert(report.results.end(), rows.begin(), rows.end());
   }
   report.configurations = report.completed.configurations;

@@ -29,10 +29,10 @@ struct Heading {
 
 /// Lists the headings of these cells: group by group, the pairs of each, then all pairs if there
 /// are several. `is_scored`: of a cell; the others are left out.
-std::vector<Heading> headings(const std::vector<Cell>& cells,
+std::vector<Heading> headings(const std::vector<PoseClass>& cells,
                               const std::function<bool(std::size_t)>& is_scored);
 
-PoseClassDescription description_of(const Cell& cell);
+PoseClassDescription description_of(const PoseClass& cell);
 
 // Drake's protocol (drake_protocol.cpp):
 

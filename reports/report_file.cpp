@@ -11,7 +11,7 @@
 #include "candidates/readable.hpp"
 #include "properties/files/disk.hpp"
 #include "properties/files/strict_json.hpp"
-#include "properties/pose_class.hpp"
+#include "properties/identity.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/inconsistency.hpp"
 #include "reports/report_json.hpp"
@@ -212,15 +212,6 @@ ResultRow summary_row(const Reader& row) {
   return result;
 }
 
-/// The name of today of a class that may have had another one; an unknown name stays.
-std::string class_name(const std::string& pair, const std::string& name) {
-  try {
-    return find_pose_class(parse_pair(pair), name).name();
-  } catch (const InvalidInput&) {
-    return name;
-  }
-}
-
 Machine machine(const Reader& m) {
   Machine result;
   result.cpu = m.at("cpu").text();
@@ -270,8 +261,9 @@ Report report(const Reader& r) {
   }
   r.at("results").each([&](const Reader& row) {
     result.results.push_back(result_row(row));
-    std::string& name = result.results.back().pose_class;
-    if (result.is_old) name = class_name(result.results.back().pair, name);
+    ResultRow& added = result.results.back();
+    const auto today = find_pose_class(added.pair, added.pose_class);
+    if (result.is_old && today) added.pose_class = today->name();
   });
   // An old summary is over all groups, which no summary is any more.
   if (!result.is_old) {

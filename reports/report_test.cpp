@@ -123,8 +123,8 @@ TEST(Report, ARowsWorstIndexLeadsToItsWorstFailure) {
                        row["count"].get<int>();
     EXPECT_EQ(row["worst_index"].is_null(), !fails);
     if (!fails || ++failing > 3) continue;
-    const Identity id{parse_pair(row["pair"].get<std::string>()), row["class"], 5,
-                      row["worst_index"]};
+    const Identity id{parse_pair(row["pair"].get<std::string>()), row["class"].get<std::string>(),
+                      5, row["worst_index"]};
     const json again = to_json(examine(subject(id), pointers(candidates), Bar()));
     EXPECT_NE(again["answers"][row["candidate"].get<std::string>()]["score"]["outcome"], "agree");
   }

@@ -186,7 +186,8 @@ Sample Sample::from_bytes(const std::string& bytes, std::size_t candidates, Purp
 namespace {
 
 /// Scores a unit of answers that came in a file.
-Sample sample_given(const Campaign& campaign, Purpose purpose, const Cell& cell, const Unit& unit) {
+Sample sample_given(const Campaign& campaign, Purpose purpose, const PoseClass& cell,
+                    const Unit& unit) {
   const std::span all(answers_in(*campaign.given, cell));
   Sample result(1, purpose);
   for (const GivenAnswer& given : all.subspan(unit.first, unit.last - unit.first)) {
@@ -203,7 +204,7 @@ Sample sample_given(const Campaign& campaign, Purpose purpose, const Cell& cell,
 
 /// Scores a run of them. Returns a sample of each unit.
 std::vector<Sample> sample_given(const Campaign& campaign, Purpose purpose,
-                                 const std::vector<Cell>& cells, const UnitRun& run) {
+                                 const std::vector<PoseClass>& cells, const UnitRun& run) {
   std::vector<Sample> result;
   for (const Unit& unit : run) {
     result.push_back(sample_given(campaign, purpose, cells[unit.cell], unit));
@@ -230,7 +231,7 @@ std::vector<UnitRun> runs_of(const std::vector<Unit>& units, std::uint64_t max_s
 
 std::vector<Sample> sample_run(const Campaign& campaign, Purpose purpose,
                                std::span<CandidateProcess* const> candidates,
-                               const std::vector<Cell>& cells, const UnitRun& run) {
+                               const std::vector<PoseClass>& cells, const UnitRun& run) {
   /// Where a configuration belongs.
   struct Place {
     std::size_t unit;
@@ -240,8 +241,7 @@ std::vector<Sample> sample_run(const Campaign& campaign, Purpose purpose,
   std::vector<Place> places;
   std::vector<std::size_t> unit_ends;
   const auto identity = [&](const Place& place) {
-    const Cell& cell = cells[run[place.unit].cell];
-    return Identity{cell.pair, cell.pose_class, campaign.seed, place.index};
+    return Identity{cells[run[place.unit].cell], campaign.seed, place.index};
   };
   for (std::size_t unit = 0; unit < run.size(); ++unit) {
     for (std::uint64_t i = run[unit].first; i < run[unit].last; ++i) {
@@ -276,7 +276,7 @@ bool sample(const Campaign& campaign, Purpose purpose, std::uint64_t count,
             const std::function<UnitRun(std::uint64_t)>& run,
             const std::function<void(std::uint64_t, std::vector<Sample>)>& take,
             const std::function<bool()>& go_on, const std::function<void()>& forget) {
-  const std::vector<Cell> all = cells(campaign);
+  const std::vector<PoseClass> all = cells(campaign);
   WorkerCandidates candidates(campaign.candidates, campaign.bar.threshold, campaign.limits);
   return stream_from_processes(
       count, campaign.workers,
@@ -292,7 +292,7 @@ bool sample(const Campaign& campaign, Purpose purpose, std::uint64_t count,
       [&](std::uint64_t task) {
         const auto [cell, first, last] = run(task).front();
         if (campaign.given) return answers_in(*campaign.given, all[cell])[first].id;
-        return to_string(Identity{all[cell].pair, all[cell].pose_class, campaign.seed, first});
+        return to_string(Identity{all[cell], campaign.seed, first});
       },
       [&](std::uint64_t task, const std::string& bytes) {
         ByteReader in(bytes);

@@ -112,6 +112,6 @@ bool sample(
 /// unit.
 std::vector<Sample> sample_run(const Campaign& campaign, Purpose purpose,
                                std::span<CandidateProcess* const> candidates,
-                               const std::vector<Cell>& cells, const UnitRun& run);
+                               const std::vector<PoseClass>& cells, const UnitRun& run);
 
 }  // namespace touchstone

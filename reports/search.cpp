@@ -140,7 +140,7 @@ class Climb {
   Climb(const ClimbTask& task, const Search& search, CandidateProcess& candidate)
       : task_(task),
         search_(search),
-        classes_(selected_classes(task.pair, search.starts)),
+        classes_(selected(task.pair, search.starts)),
         heights_(candidate, task.goal, search.bar),
         draw_(rc::Random(rc::Random::Key{
             search.seed, task.number,
@@ -175,9 +175,9 @@ class Climb {
     std::vector<Identity> names;
     std::vector<Configuration> all;
     for (std::uint64_t i = std::min(left(), starts_of_climb); i > 0; --i) {
-      const std::string& pose_class = draw_.any_of(classes_);
+      const PoseClass& pose_class = draw_.any_of(classes_);
       const auto index = static_cast<std::uint64_t>(draw_.integer(0, max_index));
-      names.push_back({task_.pair, pose_class, search_.seed, index});
+      names.push_back({pose_class, search_.seed, index});
       all.push_back(make_configuration(names.back()));
     }
     const std::vector<double> found = heights(all);
@@ -218,7 +218,7 @@ class Climb {
 
   const ClimbTask& task_;
   const Search& search_;
-  std::vector<std::string> classes_;
+  std::vector<PoseClass> classes_;
   Heights heights_;
   Draw draw_;
   std::uint64_t done_ = 0;

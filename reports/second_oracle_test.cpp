@@ -205,12 +205,13 @@ TEST_P(Certificates, AreAcceptedAndEveryChangeIsRejected) {
     const oracle::Enclosure truth = oracle::truth(c).signed_distance;
     EXPECT_LE(proof.lo, truth.hi);
     EXPECT_GE(proof.hi, truth.lo);
-    if (id.pose_class == "general+shallow" || id.pose_class == "general+apart" ||
-        id.pose_class == "general+deep") {
+    const std::string pose_class = id.pose_class.name();
+    if (pose_class == "general+shallow" || pose_class == "general+apart" ||
+        pose_class == "general+deep") {
       EXPECT_LE(proof.hi - proof.lo, mpq_class(width) * mpq_class(larger_size(c)));
     }
     const json certificate = json::parse(certificate_json(proof, c));
-    const std::string name = id.pose_class + "-" + std::to_string(id.index);
+    const std::string name = pose_class + "-" + std::to_string(id.index);
     good.write(name, certificate.dump());
     bad.write(name + " pose", with_changed_pose_digit(certificate, number).dump());
     bad.write(name + " lower", with_narrowed_end(certificate, 0).dump());

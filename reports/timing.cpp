@@ -71,9 +71,9 @@ std::vector<Repetitions> time_cell(const Sample& sample, std::vector<CandidatePr
   return result;
 }
 
-bool is_timed(const Cell& cell) {
-  const Group group = group_of(cell.pair, cell.pose_class);
-  const auto [arrangement, modifiers] = parts_of(cell.pair, cell.pose_class);
+bool is_timed(const PoseClass& cell) {
+  const Group group = cell.group();
+  const auto [arrangement, modifiers] = cell.parts();
   if (group == Group::everyday || group == Group::recorded || modifiers.empty()) return true;
   constexpr std::array of_all = {"general", "parallel", "perpendicular"};
   if (modifiers.size() > 1 ||
@@ -118,7 +118,7 @@ double nanoseconds(const QueryCost& cost) { return cost.nanoseconds; }
 
 }  // namespace
 
-Times time_queries(const Campaign& campaign, const std::vector<Cell>& cells,
+Times time_queries(const Campaign& campaign, const std::vector<PoseClass>& cells,
                    const std::vector<std::optional<Sample>>& samples,
                    std::vector<CandidateProcess>& candidates) {
   Times times(samples.size(), std::vector<Repetitions>(campaign.candidates.size()));

@@ -27,7 +27,7 @@ bool is_settled(const Repetitions& repetitions);
 /// cells say, are left out. Timed are everyday and recorded classes, all arrangements alone, and
 /// those of general, parallel and perpendicular with one modifier, of the tilts three; and all
 /// classes of a campaign that names them. `candidates` are the campaign's.
-Times time_queries(const Campaign& campaign, const std::vector<Cell>& cells,
+Times time_queries(const Campaign& campaign, const std::vector<PoseClass>& cells,
                    const std::vector<std::optional<Sample>>& samples,
                    std::vector<CandidateProcess>& candidates);
 

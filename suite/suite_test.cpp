@@ -95,8 +95,9 @@ TEST(Suite1, HasEveryPoseClassAndEveryKindOfAnswer) {
   std::set<std::pair<Pair, std::string>> classes;
   std::set<std::string> groups, contacts, ties;
   for (const TestDatum& d : data()) {
-    classes.insert({d.identity.pair, d.identity.pose_class});
-    groups.insert(group_name(group_of(d.identity.pair, d.identity.pose_class)));
+    const PoseClass& c = d.identity.pose_class;
+    classes.insert({c.pair, c.name()});
+    groups.insert(group_name(c.group()));
     contacts.insert(contact_name(d.limits.contact));
     ties.insert(ties_name(d.truth.ties));
   }
@@ -449,7 +450,8 @@ TEST(Verdicts, OfTouchstoneScoreAreThoseOfTheScore) {
   std::map<std::string, Counts> expected, reported;
   for (std::size_t i = 0; i < data().size(); ++i) {
     const Identity& id = data()[i].identity;
-    ++expected[std::string(pair_name(id.pair)) + id.pose_class][answers().outcomes[i]];
+    ++expected[std::string(pair_name(id.pose_class.pair)) + id.pose_class.name()]
+              [answers().outcomes[i]];
   }
   for (const ResultRow& row : report.results) {
     EXPECT_EQ(row.candidate, "planted");

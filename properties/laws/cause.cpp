@@ -69,8 +69,7 @@ std::string to_string(const Cause& cause) {
 
 std::optional<Group> group_met(const Failure& f) {
   try {
-    const Identity identity = parse_identity(f.identity);
-    return group_of(identity.pair, identity.pose_class);
+    return parse_identity(f.identity).pose_class.group();
   } catch (const InvalidInput&) {
     return std::nullopt;
   }

@@ -35,22 +35,21 @@ std::vector<Chunk> chunks(const CheckOptions& options) {
   std::vector<Chunk> result;
   std::vector<Identity> all;
   for (const Pair pair : options.pairs) {
-    std::vector<std::string> names = selected_classes(pair, {options.classes, options.groups});
-    std::stable_sort(names.begin(), names.end(), [&](const std::string& a, const std::string& b) {
-      return order_of(group_of(pair, a)) < order_of(group_of(pair, b));
+    std::vector<PoseClass> classes = selected(pair, {options.classes, options.groups});
+    std::stable_sort(classes.begin(), classes.end(), [&](const PoseClass& a, const PoseClass& b) {
+      return order_of(a.group()) < order_of(b.group());
     });
-    for (const std::string& name : names) {
-      for (std::uint64_t i = 0; i < options.count; ++i) {
-        all.push_back({pair, name, options.seed, i});
-      }
+    for (const PoseClass& c : classes) {
+      for (std::uint64_t i = 0; i < options.count; ++i) all.push_back({c, options.seed, i});
     }
   }
   const std::size_t size = chunk_size(all.size());
-  for (Identity& identity : all) {
-    const bool fits = !result.empty() && result.back().pair == identity.pair &&
-                      result.back().identities.size() < size;
-    if (!fits) result.push_back({identity.pair, {}});
-    result.back().identities.push_back(std::move(identity));
+  for (const Identity& identity : all) {
+    const Pair pair = identity.pose_class.pair;
+    const bool fits =
+        !result.empty() && result.back().pair == pair && result.back().identities.size() < size;
+    if (!fits) result.push_back({pair, {}});
+    result.back().identities.push_back(identity);
   }
   return result;
 }
@@ -201,7 +200,9 @@ struct Found {
   std::string features;
   bool is_doubtful;  ///< the law "memory" is broken in its chunk, or a failure of its kind is none
 
-  auto kind() const { return std::tuple(identity.pair, law, violation.failure, features); }
+  auto kind() const {
+    return std::tuple(identity.pose_class.pair, law, violation.failure, features);
+  }
 };
 using Kind = decltype(std::declval<Found>().kind());
 
@@ -319,7 +320,7 @@ std::vector<Failure> simplified(const std::vector<Found>& all, const CheckOption
   for (const Found& f : all) {
     if (!kinds.insert(f.kind()).second) continue;
     const bool is_first_of_name =
-        names.insert({f.identity.pair, f.law, f.violation.failure}).second;
+        names.insert({f.identity.pose_class.pair, f.law, f.violation.failure}).second;
     first.emplace_back(&f, is_first_of_name ? trials_of_first : trials_of_others);
   }
   const auto texts = run(
@@ -420,7 +421,7 @@ std::vector<LawResult> check(CandidateProcess& candidate, const CheckOptions& op
     }
   }
   for (const Found& f : failures) {
-    LawResult& result = result_of(f.identity.pair, f.law);
+    LawResult& result = result_of(f.identity.pose_class.pair, f.law);
     ++result.broken;
     ++result.counts[f.violation.failure];
   }

@@ -352,7 +352,7 @@ TEST(Merge, RefusesWhatOverlapsWhatIsMissingAndWhatIsForeign) {
         merged({part(0, 3), part(2, 4)});
       },
       ThrowsMessage<InvalidInput>(
-          HasSubstr("cylinder-sphere/general-shallow, configurations 500 to 999")));
+          HasSubstr("cylinder-sphere/general+shallow, configurations 500 to 999")));
   EXPECT_THAT(
       [] {
         merged({part(0, 1), part(2, 4)});

@@ -28,7 +28,7 @@ using nlohmann::json;
 std::string describe(const Plan& plan, std::uint64_t number) {
   const Unit unit = plan.cut.unit(number);
   return fmt::format("{}/{}, configurations {} to {}", pair_name(plan.cells[unit.cell].pair),
-                     plan.cells[unit.cell].pose_class, unit.first, unit.last - 1);
+                     plan.cells[unit.cell].name(), unit.first, unit.last - 1);
 }
 
 constexpr const char* size_variable = "OMPI_COMM_WORLD_SIZE";
@@ -94,13 +94,13 @@ ResultRow row(const ScoreTally& tally, const std::string& pair, const std::strin
 }
 
 WorstCase worst_case(const ShardState& whole, const Case& c, const std::string& candidate) {
-  const Cell& cell = whole.plan.cells[c.cell];
-  const Identity identity{cell.pair, cell.pose_class, whole.plan.seed, c.index};
+  const PoseClass& cell = whole.plan.cells[c.cell];
+  const Identity identity{cell, whole.plan.seed, c.index};
   const std::string id = to_string(identity);
   const std::string replay = whole.plan.program + " replay " + id;
   return {pair_name(cell.pair),
-          group_name(group_of(cell.pair, cell.pose_class)),
-          cell.pose_class,
+          group_name(cell.group()),
+          cell.name(),
           candidate,
           c.score,
           {id, make_configuration(identity), std::nullopt, {}, replay}};
@@ -221,15 +221,15 @@ Report campaign_result(const ShardState& whole) {
     candidate.name = plan.candidates[k];
     candidate.runs = plan.runs[k];
   }
-  for (const Cell& cell : plan.cells) {
+  for (const PoseClass& cell : plan.cells) {
     report.classes.push_back(description_of(cell));
   }
 
   for (std::size_t cell = 0; cell < plan.cells.size(); ++cell) {
     for (std::size_t k = 0; k < candidates; ++k) {
       const ScoreTally& tally = whole.tally(cell, k);
-      report.results.push_back(row(tally, pair_name(plan.cells[cell].pair),
-                                   plan.cells[cell].pose_class, plan.candidates[k]));
+      report.results.push_back(row(tally, pair_name(plan.cells[cell].pair), plan.cells[cell].name(),
+                                   plan.candidates[k]));
       report.results.back().worst_index = worst_failure(tally);
     }
   }

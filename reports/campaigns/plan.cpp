@@ -151,12 +151,11 @@ Shard parse_shard(const std::string& text) {
 Plan make_plan(const Campaign& campaign, const std::string& command) {
   json classes = json::array(), candidates = json::array();
   std::string first_configurations;
-  for (const Cell& cell : cells(campaign)) {
+  for (const PoseClass& cell : cells(campaign)) {
     classes.push_back({{"pair", pair_name(cell.pair)},
-                       {"class", cell.pose_class},
-                       {"description", describe_pose_class(cell.pair, cell.pose_class)}});
-    first_configurations +=
-        to_hex_json(make_configuration({cell.pair, cell.pose_class, campaign.seed, 0})).dump();
+                       {"class", cell.name()},
+                       {"description", cell.description()}});
+    first_configurations += to_hex_json(make_configuration({cell, campaign.seed, 0})).dump();
   }
   for (const Candidate* c : campaign.candidates) {
     candidates.push_back(
@@ -211,11 +210,9 @@ Plan plan_from_json(const json& j) {
     const auto text = [&](const char* name) {
       return string(member(c, name, path), path + '.' + name);
     };
-    const Pair pair = parse_pair(text("pair"));
-    const Cell cell{pair, text("class")};
-    describe_pose_class(pair, cell.pose_class);  // throws where there is no such class
-    for (const Cell& other : plan.cells) {
-      if (other.pair == cell.pair && other.pose_class == cell.pose_class) {
+    const PoseClass cell(parse_pair(text("pair")), text("class"));
+    for (const PoseClass& other : plan.cells) {
+      if (other == cell) {
         throw InvalidInput(path, shown(c), "must be another class: it is given twice");
       }
     }

@@ -306,7 +306,7 @@ std::string head_line(const ShardState& p) {
 
 std::string tally_line(const ShardState& p, std::size_t cell, std::size_t candidate) {
   return json{{"pair", pair_name(p.plan.cells[cell].pair)},
-              {"class", p.plan.cells[cell].pose_class},
+              {"class", p.plan.cells[cell].name()},
               {"candidate", p.plan.candidates[candidate]},
               {"tally", to_json(p.tally(cell, candidate))}}
              .dump() +

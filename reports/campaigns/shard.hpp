@@ -77,7 +77,7 @@ struct Plan {
   std::string program;  ///< of the command
   std::uint64_t seed = 0;
   double tolerance = 0, threshold = 0;
-  std::vector<Cell> cells;
+  std::vector<PoseClass> cells;
   std::vector<std::string> candidates;
   std::vector<std::string> runs;  ///< how each candidate does: "native", "wasm" or "script"
   Cut cut{};

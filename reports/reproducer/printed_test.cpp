@@ -87,7 +87,7 @@ std::vector<Wrong> wrong_answers(const std::string& candidate, std::size_t wante
     const Identity& id = all[i * stride % all.size()];
     const Bar& bar = bars[result.size() % std::size(bars)];
     CandidateProcess& process = processes[result.size() % std::size(bars)];
-    if (!process.candidate().has_routine_for(id.pair)) continue;
+    if (!process.candidate().has_routine_for(id.pose_class.pair)) continue;
     const Configuration c = make_configuration(id);
     const oracle::Truth truth = oracle::truth(c);
     const double allowed = bar.tolerance * error_size(c, bar);

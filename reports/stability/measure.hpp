@@ -23,12 +23,12 @@ struct Study {
 /// Around which configurations steps are made: `count` of each cell, and at each of the sixteen
 /// amplitudes one step from each of them.
 struct Ladder {
-  std::vector<Cell> cells;
+  std::vector<PoseClass> cells;
   std::uint64_t seed = 1, count = 6;
 };
 
 /// Every class of these pairs whose degeneracy is exact.
-std::vector<Cell> degenerate_cells(const std::vector<Pair>& pairs);
+std::vector<PoseClass> degenerate_cells(const std::vector<Pair>& pairs);
 
 /// Work in tasks for worker processes, in which each candidate has a process of its own.
 struct Work {

@@ -52,7 +52,7 @@ TEST(Stability, DoesNotDependOnTheNumberOfWorkers) {
 
 TEST(Stability, SmallStepsStartInEveryClassThatTouchesOrIsAlignedExactly) {
   std::set<std::string> names;
-  for (const Cell& cell : degenerate_cells({Pair::box})) names.insert(cell.pose_class);
+  for (const PoseClass& cell : degenerate_cells({Pair::box})) names.insert(cell.name());
   for (const char* name : {"parallel-side", "touching", "touching-tilted"}) {
     EXPECT_EQ(names.count(name), 1u) << name;
   }

@@ -165,10 +165,10 @@ struct Bases {
   std::vector<Subject> subjects;
 };
 
-Bases bases_of(const Cell& cell, const Ladder& ladder) {
-  Bases bases{pair_name(cell.pair), cell.pose_class, {}};
+Bases bases_of(const PoseClass& cell, const Ladder& ladder) {
+  Bases bases{pair_name(cell.pair), cell.name(), {}};
   for (std::uint64_t i = 0; i < ladder.count; ++i) {
-    bases.subjects.push_back(subject(Identity{cell.pair, cell.pose_class, ladder.seed, i}));
+    bases.subjects.push_back(subject(Identity{cell, ladder.seed, i}));
   }
   return bases;
 }
@@ -254,11 +254,11 @@ class Collector {
 
 }  // namespace
 
-std::vector<Cell> degenerate_cells(const std::vector<Pair>& pairs) {
-  std::vector<Cell> cells;
+std::vector<PoseClass> degenerate_cells(const std::vector<Pair>& pairs) {
+  std::vector<PoseClass> cells;
   for (const Pair pair : pairs) {
     for (const Arrangement& a : arrangements(pair)) {
-      if (a.is_exact()) cells.push_back({pair, a.name});
+      if (a.is_exact()) cells.push_back({pair, &a, {}});
     }
   }
   return cells;
@@ -278,12 +278,12 @@ Measure<Amplification> amplification(const Ladder& ladder, const Study& study) {
       {(ladder.cells.size() + cells - 1) / cells, cells * of_cell,
        [=](std::size_t task) {
          const auto all = of_task(task);
-         return fmt::format("{}/{} to {}/{}", pair_name(all.front().pair), all.front().pose_class,
-                            pair_name(all.back().pair), all.back().pose_class);
+         return fmt::format("{}/{} to {}/{}", pair_name(all.front().pair), all.front().name(),
+                            pair_name(all.back().pair), all.back().name());
        },
        [=, bar = study.bar](std::size_t task, std::vector<CandidateProcess>& candidates) {
          std::vector<Configuration> asked;
-         for (const Cell& cell : of_task(task)) {
+         for (const PoseClass& cell : of_task(task)) {
            for (Configuration& c : steps_from(bases_of(cell, ladder), ladder.seed)) {
              asked.push_back(std::move(c));
            }
@@ -300,7 +300,7 @@ Measure<Amplification> amplification(const Ladder& ladder, const Study& study) {
         for (std::size_t task = 0; task < texts.size(); ++task) {
           if (texts[task].empty()) continue;  // interrupted before
           ByteReader bytes(texts[task]);
-          for (const Cell& cell : of_task(task)) {
+          for (const PoseClass& cell : of_task(task)) {
             collector.add(bases_of(cell, ladder), bytes.get_all<CandidateClimb>());
           }
         }

@@ -100,9 +100,9 @@ class AnswerReader {
   void take(const json& line, std::uint64_t number) {
     const std::string id = id_of(line);
     GivenAnswer answer = answer_of(line, id);
-    const Cell cell = place(answer);
+    const PoseClass cell = place(answer);
     const std::string name =
-        answer.configuration ? id : to_string({cell.pair, cell.pose_class, *seed_, answer.index});
+        answer.configuration ? id : to_string(Identity{cell, *seed_, answer.index});
     if (const auto [first, is_new] = lines_.try_emplace(name, number); !is_new) {
       throw InvalidInput("id", shown_id(id),
                          fmt::format("must be answered once; line {} did", first->second));
@@ -112,7 +112,9 @@ class AnswerReader {
                          fmt::format("must be among the first {}", max_answers));
     }
     missing_.erase(name);
-    cells_[{cell.pair, cell.pose_class}].push_back(std::move(answer));
+    const auto key = std::pair(cell.pair, cell.name());
+    auto& of_cell = cells_.try_emplace(key, GivenAnswers::OfCell{cell, {}}).first->second;
+    of_cell.answers.push_back(std::move(answer));
   }
 
   std::uint64_t count() const { return lines_.size(); }
@@ -123,35 +125,32 @@ class AnswerReader {
   /// file.
   std::vector<GivenAnswers::OfCell> cells() {
     std::vector<GivenAnswers::OfCell> result;
-    const auto add = [&](Pair pair, const std::string& name) {
-      const auto found = cells_.find({pair, name});
-      if (found == cells_.end()) return;
-      auto& answers = found->second;
+    const auto add = [&](auto found) {
+      auto& answers = found->second.answers;
       std::sort(answers.begin(), answers.end(),
                 [](const GivenAnswer& a, const GivenAnswer& b) { return a.index < b.index; });
-      result.push_back({{pair, name}, std::move(answers)});
-      cells_.erase(found);
+      result.push_back(std::move(found->second));
+      return cells_.erase(found);
     };
     for (const Pair pair : all_pairs) {
-      for (const std::string& name : pose_classes(pair)) add(pair, name);
-      std::vector<std::string> others;
-      for (const auto& [key, answers] : cells_) {
-        if (key.first == pair && key.second != given_class) others.push_back(key.second);
+      for (const std::string& name : pose_classes(pair)) {
+        if (const auto found = cells_.find({pair, name}); found != cells_.end()) add(found);
       }
-      for (const std::string& name : others) add(pair, name);
-      add(pair, std::string(given_class));
+      auto given = cells_.extract({pair, given_class(pair).name()});
+      for (auto at = cells_.begin(); at != cells_.end() && at->first.first == pair;) at = add(at);
+      if (given) add(cells_.insert(std::move(given)).position);
     }
     return result;
   }
 
  private:
   /// Sets the answer's index and configuration; returns its cell.
-  Cell place(GivenAnswer& answer) {
+  PoseClass place(GivenAnswer& answer) {
     if (const auto* entry = file_ ? file_->find(answer.id) : nullptr) {
       answer.index = entry->number;
       answer.configuration = entry->given.configuration;
       if (entry->given.swapped) reverse(answer);
-      return {pair_of(*answer.configuration), std::string(given_class)};
+      return given_class(pair_of(*answer.configuration));
     }
     const Identity identity = identity_of(answer.id);
     if (!seed_) seed_ = identity.seed;
@@ -161,7 +160,7 @@ class AnswerReader {
           fmt::format("must have the seed {}, as the first: a report has one", *seed_));
     }
     answer.index = identity.index;
-    return {identity.pair, identity.pose_class};
+    return identity.pose_class;
   }
 
   Identity identity_of(const std::string& id) const {
@@ -184,7 +183,7 @@ class AnswerReader {
   std::set<std::string> missing_;  ///< ids that are wanted and not answered yet
   std::optional<std::uint64_t> seed_;
   std::map<std::string, std::uint64_t> lines_;  ///< of what is answered, by name
-  std::map<std::pair<Pair, std::string>, std::vector<GivenAnswer>> cells_;
+  std::map<std::pair<Pair, std::string>, GivenAnswers::OfCell> cells_;  ///< by pair and class
 };
 
 Candidate described(const GivenDescription& description, const json& header) {

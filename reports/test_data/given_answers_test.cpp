@@ -293,9 +293,9 @@ TEST(ReportOfGivenAnswers, IsThatOfTheCandidateThatGaveThem) {
   campaign.seed = 4;
   std::string lines;
   auto processes = start(campaign.candidates, 0);
-  for (const Cell& cell : cells(campaign)) {
+  for (const PoseClass& cell : cells(campaign)) {
     for (std::uint64_t i = campaign.count; i-- > 0;) {
-      const Identity identity{cell.pair, cell.pose_class, 4, i};
+      const Identity identity{cell, 4, i};
       const Answer a = processes[0].answer(make_configuration(identity));
       json line = to_json(a, Score());
       line.erase("score");

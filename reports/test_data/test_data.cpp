@@ -56,9 +56,9 @@ Campaign suite_1() {
 
 std::vector<Identity> identities(const Campaign& campaign) {
   std::vector<Identity> result;
-  for (const Cell& cell : cells(campaign)) {
+  for (const PoseClass& cell : cells(campaign)) {
     for (std::uint64_t i = 0; i < count_of(campaign, cell); ++i) {
-      result.push_back({cell.pair, cell.pose_class, campaign.seed, i});
+      result.push_back({cell, campaign.seed, i});
     }
   }
   return result;

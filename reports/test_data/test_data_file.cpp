@@ -162,7 +162,7 @@ class JsonLinesWriter : public TestDataWriter {
  public:
   std::string add(const TestDatum& d) override {
     const json line = {{"id", to_string(d.identity)},
-                       {"group", group_name(group_of(d.identity.pair, d.identity.pose_class))},
+                       {"group", group_name(d.identity.pose_class.group())},
                        {"configuration", to_json(d.configuration)},
                        {"signed_distance", d.truth.signed_distance.midpoint()},
                        {"signed_distance_error", midpoint_error(d.truth.signed_distance)},
@@ -232,11 +232,11 @@ void put_fields(const TestDatum& d, CsvColumns columns, Fields& fields) {
   const Configuration& c = d.configuration;
   const auto number = [&](const char* name, double value) { fields.numbers(name, "", {value}); };
   fields.text("id", to_string(d.identity));
-  fields.text("group", group_name(group_of(d.identity.pair, d.identity.pose_class)));
+  fields.text("group", group_name(d.identity.pose_class.group()));
   number("radius_a", c.a.radius());
   number("half_length_a", c.a.half_length());
   put_pose("a", c.pose_a, fields);
-  fields.text("shape_b", shape_of_b(d.identity.pair));
+  fields.text("shape_b", shape_of_b(d.identity.pose_class.pair));
   const auto sizes = std::visit(SizesOfB{}, c.b);
   fields.numbers("size_b", "1234", {sizes.begin(), sizes.end()});
   put_pose("b", c.pose_b, fields);

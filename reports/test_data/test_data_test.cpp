@@ -212,8 +212,8 @@ for i in range(len(d["id"])):
 )";
   const fs::path script_file = file.string() + ".py";
   std::ofstream(script_file) << script;
-  FILE* const pipe = popen(
-      (TOUCHSTONE_PYTHON " " + script_file.string() + " " + file.string()).c_str(), "r");
+  FILE* const pipe =
+      popen((TOUCHSTONE_PYTHON " " + script_file.string() + " " + file.string()).c_str(), "r");
   std::string printed, block(1 << 16, '\0');
   for (std::size_t n; (n = std::fread(block.data(), 1, block.size(), pipe)) > 0;) {
     printed.append(block, 0, n);
