@@ -5,87 +5,13 @@
 #include <stdexcept>
 
 #include "candidates/host/worker_processes.hpp"
+#include "properties/files/bytes.hpp"
 
 namespace touchstone {
 namespace {
 
-void put(ByteWriter& out, const Magnitudes& m) {
-  if (m.precision() == Precision::exact) {
-    out.put(m.values());
-    return;
-  }
-  out.put(m.max());
-  out.put(m.bins().size());
-  for (const auto& [bin, count] : m.bins()) {
-    out.put(bin);
-    out.put(count);
-  }
-}
-
-Magnitudes get_magnitudes(ByteReader& in, Precision precision) {
-  if (precision == Precision::exact) return Magnitudes(in.get_all<double>());
-  const auto max = in.get<double>();
-  Magnitudes::Bins bins;
-  for (auto left = in.get<std::size_t>(); left > 0; --left) {
-    const auto bin = in.get<std::uint16_t>();
-    bins[bin] = in.get<std::uint64_t>();
-  }
-  return Magnitudes(std::move(bins), max);
-}
-
-void put(ByteWriter& out, const ScoreTally& t) {
-  out.put(t.count);
-  out.put(t.outcomes);
-  out.put(t.points.size());
-  for (const auto& [number, count] : t.points) {
-    out.put(number);
-    out.put(count);
-  }
-  for (const Magnitudes& m : t.errors) put(out, m);
-  put(out, t.bias.negative);
-  put(out, t.bias.positive);
-  put(out, t.severity);
-  put(out, t.coverage.uncovered);
-  out.put(t.coverage.sum);
-  out.put(t.coverage.values);
-  out.put(t.worst);
-}
-
-ScoreTally get_tally(ByteReader& in, Precision precision) {
-  ScoreTally t(precision);
-  t.count = in.get<std::uint64_t>();
-  t.outcomes = in.get<decltype(t.outcomes)>();
-  for (auto left = in.get<std::size_t>(); left > 0; --left) {
-    const auto number = in.get<int>();
-    t.points[number] = in.get<std::uint64_t>();
-  }
-  for (Magnitudes& m : t.errors) m = get_magnitudes(in, precision);
-  t.bias.negative = get_magnitudes(in, precision);
-  t.bias.positive = get_magnitudes(in, precision);
-  t.severity = get_magnitudes(in, precision);
-  t.coverage.uncovered = get_magnitudes(in, precision);
-  t.coverage.sum = in.get<std::uint64_t>();
-  t.coverage.values = in.get_all<double>();
-  t.worst = in.get_all<Case>();
-  return t;
-}
-
 Precision precision_for(Purpose purpose) {
   return purpose == Purpose::report ? Precision::exact : Precision::binned;
-}
-
-std::string examined_bytes(const ScoredConfiguration& scored, std::size_t candidate) {
-  ByteWriter out;
-  out.put(scored.configuration);
-  out.put(scored.truth);
-  std::vector<std::size_t> shown = {candidate};
-  if (candidate > 0 && scored.answers[0].was_asked) shown.push_back(0);
-  out.put(shown.size());
-  for (const std::size_t k : shown) {
-    out.put(scored.answers[k]);
-    out.put(scored.scores[k]);
-  }
-  return out.take();
 }
 
 }  // namespace
@@ -108,7 +34,11 @@ void Sample::add(std::size_t cell, std::uint64_t index, const ScoredConfiguratio
     if (std::none_of(worst.begin(), worst.end(), [&](const Case& c) { return c.index == index; })) {
       continue;
     }
-    examined_[{k, index}] = examined_bytes(scored, k);
+    Examined examined{scored.configuration, scored.truth, {{scored.answers[k], scored.scores[k]}}};
+    if (k > 0 && scored.answers[0].was_asked) {
+      examined.answers.emplace_back(scored.answers[0], scored.scores[0]);
+    }
+    examined_[{k, index}] = to_bytes(examined);
     is_among_worst = true;
   }
   if (is_among_worst) forget_better_cases();
@@ -137,49 +67,8 @@ void Sample::forget_better_cases() {
 }
 
 Sample::Examined Sample::examined(std::size_t candidate, std::uint64_t index) const {
-  ByteReader in(examined_.at({candidate, index}));
-  Examined result{in.get_configuration(), in.get_truth(), {}};
-  for (auto left = in.get<std::size_t>(); left > 0; --left) {
-    Answer answer = in.get_answer();
-    result.answers.push_back({std::move(answer), in.get<Score>()});
-  }
-  return result;
-}
-
-std::string Sample::bytes() const {
-  ByteWriter out;
-  for (const ScoreTally& tally : tallies) put(out, tally);
-  if (purpose_ == Purpose::campaign) return out.take();
-  out.put(oracle_microseconds);
-  trends.write(out);
-  out.put(timed.size());
-  for (const Configuration& c : timed) out.put(c);
-  for (const auto& outcomes : timed_outcomes) out.put(outcomes);
-  out.put(examined_.size());
-  for (const auto& [key, bytes] : examined_) {
-    out.put(key.first);
-    out.put(key.second);
-    out.put(bytes);
-  }
-  return out.take();
-}
-
-Sample Sample::from_bytes(const std::string& bytes, std::size_t candidates, Purpose purpose) {
-  Sample result(candidates, purpose);
-  ByteReader in(bytes);
-  for (ScoreTally& tally : result.tallies) tally = get_tally(in, precision_for(purpose));
-  if (purpose == Purpose::campaign) return result;
-  result.oracle_microseconds = in.get_all<double>();
-  result.trends = TrendTally::read(in);
-  for (auto left = in.get<std::size_t>(); left > 0; --left) {
-    result.timed.push_back(in.get_configuration());
-  }
-  for (auto& outcomes : result.timed_outcomes) outcomes = in.get_all<Outcome>();
-  for (auto left = in.get<std::size_t>(); left > 0; --left) {
-    const auto candidate = in.get<std::size_t>();
-    const auto index = in.get<std::uint64_t>();
-    result.examined_[{candidate, index}] = in.get_text();
-  }
+  Examined result{blank<Configuration>(), {}, {}};
+  BytesIn{examined_.at({candidate, index})}(result);
   return result;
 }
 
@@ -285,8 +174,8 @@ bool sample(const Campaign& campaign, Purpose purpose, std::uint64_t count,
             campaign.given
                 ? sample_given(campaign, purpose, all, run(task))
                 : sample_run(campaign, purpose, pointers(candidates.get()), all, run(task));
-        ByteWriter out;
-        for (const Sample& of_unit : samples) out.put(of_unit.bytes());
+        BytesOut out;
+        for (const Sample& of_unit : samples) out(of_unit);
         return out.take();
       },
       [&](std::uint64_t task) {
@@ -295,11 +184,9 @@ bool sample(const Campaign& campaign, Purpose purpose, std::uint64_t count,
         return to_string(Identity{all[cell], campaign.seed, first});
       },
       [&](std::uint64_t task, const std::string& bytes) {
-        ByteReader in(bytes);
-        std::vector<Sample> samples;
-        for (auto left = run(task).size(); left > 0; --left) {
-          samples.push_back(Sample::from_bytes(in.get_text(), campaign.candidates.size(), purpose));
-        }
+        BytesIn in(bytes);
+        std::vector<Sample> samples(run(task).size(), Sample(campaign.candidates.size(), purpose));
+        for (Sample& of_unit : samples) in(of_unit);
         take(task, std::move(samples));
       },
       go_on, forget);

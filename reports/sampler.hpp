@@ -67,9 +67,6 @@ struct Sample {
   /// Adds the next unit of the same cell.
   void add(const Sample& next);
 
-  std::string bytes() const;
-  static Sample from_bytes(const std::string& bytes, std::size_t candidates, Purpose purpose);
-
   std::vector<ScoreTally> tallies;  ///< of each candidate
   // For a report:
   std::vector<double> oracle_microseconds;
@@ -83,8 +80,18 @@ struct Sample {
     Configuration configuration;
     oracle::Truth truth;
     std::vector<std::pair<Answer, Score>> answers;
+
+    template <class Archive>
+    friend void members(Archive& a, Examined& x) {
+      a(x.configuration, x.truth, x.answers);
+    }
   };
   Examined examined(std::size_t candidate, std::uint64_t index) const;
+
+  template <class Archive>
+  friend void members(Archive& a, Sample& s) {
+    a(s.tallies, s.oracle_microseconds, s.trends, s.timed, s.timed_outcomes, s.examined_);
+  }
 
  private:
   void forget_better_cases();

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "candidates/candidates.hpp"
+#include "properties/files/bytes.hpp"
 #include "properties/files/configuration_json.hpp"
 #include "reports/report_json.hpp"
 #include "reports/timing.hpp"
@@ -67,7 +68,8 @@ TEST(Sample, IsReadBackToTheLastBit) {
   for (const Purpose purpose : {Purpose::report, Purpose::campaign}) {
     for (std::size_t cell = 0; cell < cells(campaign).size(); ++cell) {
       const Sample sample = sample_of(campaign, purpose, cell, 0, 6);
-      const Sample read = Sample::from_bytes(sample.bytes(), 3, purpose);
+      Sample read(3, purpose);
+      BytesIn(to_bytes(sample))(read);
       EXPECT_EQ(text(read, purpose), text(sample, purpose));
       EXPECT_EQ(read.oracle_microseconds, sample.oracle_microseconds);
     }
@@ -177,15 +179,11 @@ TEST(Sampler, MakesConfigurationsOfEveryShapeAgainToTheLastBit) {
   for (const Pair pair : all_pairs) {
     for (const std::string& name : pose_classes(pair)) {
       const Configuration c = make_configuration({pair, name, 7, 1});
-      ByteWriter out;
-      out.put(c);
-      const std::string bytes = out.take();
-      const Configuration read = ByteReader(bytes).get_configuration();
+      const std::string bytes = to_bytes(c);
+      const auto read = from_bytes<Configuration>(bytes);
       EXPECT_EQ(pair_of(read), pair);
       EXPECT_EQ(read.pose_b.rotation(), c.pose_b.rotation());
-      ByteWriter again;
-      again.put(read);
-      EXPECT_EQ(again.take(), bytes) << name;
+      EXPECT_EQ(to_bytes(read), bytes) << name;
     }
   }
 }

@@ -12,13 +12,19 @@
 
 #include "candidates/host/worker_processes.hpp"
 #include "oracle/truth.hpp"
+#include "properties/files/bytes.hpp"
 #include "properties/files/configuration_json.hpp"
 #include "properties/laws/failure_file.hpp"
 #include "properties/random_step.hpp"
 #include "reference/invalid_input.hpp"
-#include "reports/bytes.hpp"
 
 namespace touchstone {
+
+template <>
+MetFailure blank<MetFailure>() {
+  return {nullptr, "", blank<Configuration>(), {}};
+}
+
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
@@ -227,9 +233,14 @@ class Climb {
 
 /// What a climb came to, and the law that is broken there.
 struct ClimbResult {
-  Summit summit;
+  Summit summit{blank<Configuration>(), {}};
   std::uint64_t evaluations = 0;
   std::optional<MetFailure> failure;
+
+  template <class Archive>
+  friend void members(Archive& a, ClimbResult& r) {
+    a(r.summit, r.evaluations, r.failure);
+  }
 };
 
 std::string climb_from(const Summit& summit) { return "a climb from " + summit.start; }
@@ -249,40 +260,6 @@ std::optional<MetFailure> failure_at(const Summit& summit, Goal goal, CandidateP
                       meeting_features(summit.configuration)};
   }
   return std::nullopt;
-}
-
-std::string to_bytes(const ClimbResult& r) {
-  ByteWriter out;
-  out.put(r.summit.configuration);
-  out.put(r.summit.start);
-  out.put(r.summit.value);
-  out.put(r.summit.sampled);
-  out.put(r.evaluations);
-  out.put(r.failure.has_value());
-  if (r.failure) {
-    out.put(r.failure->law->name);
-    out.put(r.failure->violation.failure);
-    out.put(r.failure->violation.amount);
-    out.put(r.failure->violation.detail);
-    out.put(r.failure->features);
-  }
-  return out.take();
-}
-
-ClimbResult climb_result(const std::string& bytes) {
-  ByteReader in(bytes);
-  const Configuration configuration = in.get_configuration();
-  ClimbResult r{{configuration, in.get_text()}, 0, {}};
-  r.summit.value = in.get<double>();
-  r.summit.sampled = in.get<double>();
-  r.evaluations = in.get<std::uint64_t>();
-  if (!in.get<bool>()) return r;
-  const Law& law = find_law(in.get_text());
-  Violation violation{in.get_text(), 0, ""};
-  violation.amount = in.get<double>();
-  violation.detail = in.get_text();
-  r.failure = MetFailure{&law, climb_from(r.summit), configuration, violation, in.get_text()};
-  return r;
 }
 
 std::vector<ClimbTask> climbs_of(const Search& s, const std::vector<GoalResult>& goals) {
@@ -319,9 +296,7 @@ std::vector<Failure> simplified_cases(const Cases& cases, const Candidate& candi
   const auto texts = run_in_processes(
       all.size(), s.workers,
       [&](std::size_t i) {
-        ByteWriter out;
-        out.put(simplest(all[i]->first, trials_of_first, own.get().front(), s.bar));
-        return out.take();
+        return to_bytes(simplest(all[i]->first, trials_of_first, own.get().front(), s.bar));
       },
       [&](std::size_t i) { return all[i]->first.identity; }, [](std::size_t) {});
   CandidateProcess process(candidate, s.bar.threshold);
@@ -329,7 +304,7 @@ std::vector<Failure> simplified_cases(const Cases& cases, const Candidate& candi
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (texts[i].empty()) continue;  // interrupted before
     failures.push_back(
-        failure_of(all[i]->first, ByteReader(texts[i]).get_configuration(), process, s.bar));
+        failure_of(all[i]->first, from_bytes<Configuration>(texts[i]), process, s.bar));
     failures.back().met = all[i]->second;
   }
   return failures;
@@ -387,7 +362,7 @@ SearchResult search(const Candidate& candidate, const Search& s,
   Cases cases;
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     if (texts[i].empty()) continue;  // interrupted before
-    const ClimbResult found = climb_result(texts[i]);
+    const auto found = from_bytes<ClimbResult>(texts[i]);
     GoalResult& of_goal = result.goals[tasks[i].of_goal];
     ++of_goal.climbs;
     of_goal.evaluations += found.evaluations;

@@ -90,11 +90,6 @@ Magnitudes::Magnitudes(Bins bins, double max)
   for (const auto& [bin, count] : bins_) count_ += count;
 }
 
-Magnitudes::Magnitudes(std::vector<double> values)
-    : precision_(Precision::exact), values_(std::move(values)), count_(values_.size()) {
-  for (const double value : values_) max_ = std::max(max_, value);
-}
-
 void Magnitudes::add(double value) {
   const double magnitude = std::abs(finite(value));
   if (precision_ == Precision::exact) {
@@ -352,25 +347,6 @@ std::vector<Trend> TrendTally::trends(const std::string& pair, const std::string
     last = &key;
   }
   return result;
-}
-
-void TrendTally::write(ByteWriter& out) const {
-  out.put(bins_.size());
-  for (const auto& [key, bin] : bins_) {
-    out.put(key);
-    out.put(bin.severity);
-    out.put(bin.missed);
-  }
-}
-
-TrendTally TrendTally::read(ByteReader& in) {
-  TrendTally tally;
-  for (auto left = in.get<std::size_t>(); left > 0; --left) {
-    Bin& bin = tally.bins_[in.get<Key>()];
-    bin.severity = in.get_all<double>();
-    bin.missed = in.get<std::uint64_t>();
-  }
-  return tally;
 }
 
 }  // namespace touchstone

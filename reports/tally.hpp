@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "oracle/judge/score.hpp"
-#include "reports/bytes.hpp"
 #include "reports/report.hpp"
 #include "reports/statistics.hpp"
 
@@ -57,11 +56,9 @@ class Magnitudes {
   using Bins = boost::container::flat_map<std::uint16_t, std::uint64_t>;
   static std::uint16_t bin_of(double magnitude);
 
-  explicit Magnitudes(Precision precision) : precision_(precision) {}
+  explicit Magnitudes(Precision precision = Precision::binned) : precision_(precision) {}
   /// Binned ones that were kept elsewhere.
   Magnitudes(Bins bins, double max);
-  /// Exact ones that were kept elsewhere.
-  explicit Magnitudes(std::vector<double> values);
 
   /// What is not finite counts as the largest double.
   void add(double value);
@@ -81,6 +78,11 @@ class Magnitudes {
   /// Bounds of the rank-th smallest value: equal ones where values are exact. Precondition: rank is
   /// from 1 to count().
   Bounds ranked(std::uint64_t rank) const;
+
+  template <class Archive>
+  friend void members(Archive& a, Magnitudes& m) {
+    a(m.precision_, m.bins_, m.values_, m.count_, m.max_);
+  }
 
  private:
   Precision precision_;
@@ -121,7 +123,7 @@ struct SignedTally {
 /// parts, added in any order, are the tally of the whole to the last bit. Exact, only the mean
 /// coverage depends on the order of adding, in its last bits.
 struct ScoreTally {
-  explicit ScoreTally(Precision precision);
+  explicit ScoreTally(Precision precision = Precision::binned);
 
   /// Adds the score of a configuration: `index` of its cell.
   void add(std::size_t cell, std::uint64_t index, const Score& score);
@@ -155,6 +157,19 @@ struct ScoreTally {
   std::vector<Case> worst;  ///< of a tally of one cell: its worst_of_class
 };
 
+template <class Archive>
+void members(Archive& a, SignedTally& t) {
+  a(t.negative, t.positive);
+}
+template <class Archive>
+void members(Archive& a, CoverageTally& t) {
+  a(t.uncovered, t.sum, t.values);
+}
+template <class Archive>
+void members(Archive& a, ScoreTally& t) {
+  a(t.count, t.outcomes, t.points, t.errors, t.bias, t.severity, t.coverage, t.worst);
+}
+
 /// Index of the worst configuration in a tally of one cell on which the candidate disagrees.
 std::optional<std::uint64_t> worst_failure(const ScoreTally& tally);
 
@@ -187,8 +202,10 @@ class TrendTally {
   std::vector<Trend> trends(const std::string& pair, const std::string& group,
                             const std::vector<std::string>& candidates) const;
 
-  void write(ByteWriter& out) const;
-  static TrendTally read(ByteReader& in);
+  template <class Archive>
+  friend void members(Archive& a, TrendTally& t) {
+    a(t.bins_);
+  }
 
  private:
   struct Key {
@@ -200,6 +217,11 @@ class TrendTally {
   struct Bin {
     std::vector<double> severity;
     std::uint64_t missed = 0;
+
+    template <class Archive>
+    friend void members(Archive& a, Bin& b) {
+      a(b.severity, b.missed);
+    }
   };
   std::map<Key, Bin> bins_;
 };

@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 #include <iterator>
 #include <limits>
+#include <map>
+#include <optional>
 #include <sstream>
+#include <stdexcept>
 #include <streambuf>
 #include <string>
 #include <sys/stat.h>
@@ -12,6 +15,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "properties/files/bytes.hpp"
 #include "properties/files/configuration_json.hpp"
 #include "properties/files/disk.hpp"
 #include "properties/files/given_text.hpp"
@@ -437,6 +441,57 @@ TEST(ConfigurationJson, AsksForACylinder) {
   EXPECT_THROW(configuration_from_json(line), InvalidInput);
   EXPECT_THROW(configuration_from_json(json::parse("{}")), InvalidInput);
   EXPECT_THROW(configuration_from_json(json::parse("[1]")), InvalidInput);
+}
+
+/// A type with a member of every kind that bytes know.
+struct Parcel {
+  int number = 0;
+  double unknown = 0;
+  std::string text;
+  std::optional<std::string> there, absent;
+  std::vector<std::pair<std::string, int>> pairs;
+  std::map<std::string, std::vector<double>> map;
+  std::vector<Shape> shapes;
+  Pose pose;
+
+  template <class Archive>
+  friend void members(Archive& a, Parcel& p) {
+    a(p.number, p.unknown, p.text, p.there, p.absent, p.pairs, p.map, p.shapes, p.pose);
+  }
+};
+
+const Parcel& parcel() {
+  static const Parcel p{
+      7,
+      std::numeric_limits<double>::infinity(),
+      std::string("a\0b", 3),
+      "",
+      std::nullopt,
+      {{"one", 1}, {"two", 2}},
+      {{"none", {}}, {"some", {0.1, -0.0}}},
+      {Sphere(1), Box(Vec3(1, 2, 3)), Plane(Vec3(0, 3, 0), -1), Capsule(1, 2), Cylinder(3, 4)},
+      Pose(Vec3(1, 2, 3), {0.5, 0, 0.5, 0})};
+  return p;
+}
+
+TEST(Bytes, AreReadBackAsTheyWere) {
+  const auto read = from_bytes<Parcel>(to_bytes(parcel()));
+  EXPECT_EQ(to_bytes(read), to_bytes(parcel()));
+  EXPECT_EQ(read.unknown, parcel().unknown);
+  EXPECT_EQ(read.text, parcel().text);
+  EXPECT_EQ(read.there, parcel().there);
+  EXPECT_FALSE(read.absent);
+  EXPECT_EQ(read.pairs, parcel().pairs);
+  EXPECT_EQ(read.map, parcel().map);
+  ASSERT_EQ(read.shapes.size(), 5u);
+  EXPECT_EQ(std::get<Plane>(read.shapes[2]).displacement(), -1);
+  EXPECT_EQ(read.pose.rotation(), parcel().pose.rotation());
+}
+
+TEST(Bytes, ThatEndTooEarlyAreRefused) {
+  const std::string bytes = to_bytes(parcel());
+  EXPECT_THROW(from_bytes<Parcel>(bytes.substr(0, bytes.size() - 1)), std::logic_error);
+  EXPECT_THROW(from_bytes<Parcel>(""), std::logic_error);
 }
 
 }  // namespace

@@ -2,16 +2,13 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdlib>
-#include <fmt/format.h>
 #include <set>
-#include <sstream>
 #include <tuple>
 #include <utility>
 
 #include "candidates/host/worker_processes.hpp"
 #include "oracle/truth.hpp"
-#include "properties/numbers.hpp"
+#include "properties/files/bytes.hpp"
 #include "properties/simplify.hpp"
 
 namespace touchstone {
@@ -60,6 +57,10 @@ struct Suspect {
   Violation violation;
   std::string features;
 };
+template <class Archive>
+void members(Archive& a, Suspect& s) {
+  a(s.configuration, s.law, s.violation, s.features);
+}
 
 /// What the configurations of a chunk seem to break, in their order.
 struct ChunkResult {
@@ -69,6 +70,10 @@ struct ChunkResult {
   std::vector<Suspect> suspects;
   double seconds = 0;  ///< that all of it took
 };
+template <class Archive>
+void members(Archive& a, ChunkResult& r) {
+  a(r.tried, r.unsupported, r.suspects, r.seconds);
+}
 
 ChunkResult tried(const Chunk& chunk, const CheckOptions& options, CandidateProcess& candidate) {
   const auto start = std::chrono::steady_clock::now();
@@ -97,78 +102,6 @@ ChunkResult tried(const Chunk& chunk, const CheckOptions& options, CandidateProc
   const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
   result.seconds = passed.count();
   return result;
-}
-
-// A worker's result as text: numbers, and strings after their length.
-
-void put(std::ostream& out, const std::string& text) { out << text.size() << ' ' << text << ' '; }
-std::string get_string(std::istream& in) {
-  std::size_t size = 0;
-  in >> size;
-  std::string text(size, ' ');
-  in.get();
-  in.read(text.data(), static_cast<std::streamsize>(size));
-  return text;
-}
-
-void put(std::ostream& out, double x) { put(out, fmt::format("{:a}", x)); }
-double get_double(std::istream& in) { return std::strtod(get_string(in).c_str(), nullptr); }
-
-void put(std::ostream& out, const Violation& v) {
-  put(out, v.failure);
-  put(out, v.amount);
-  put(out, v.detail);
-}
-Violation get_violation(std::istream& in) {
-  Violation v;
-  v.failure = get_string(in);
-  v.amount = get_double(in);
-  v.detail = get_string(in);
-  return v;
-}
-
-std::string to_text(const ChunkResult& result) {
-  std::ostringstream out;
-  for (const std::uint64_t count : result.tried) out << count << ' ';
-  out << result.unsupported << ' ' << result.seconds << ' ' << result.suspects.size() << ' ';
-  for (const Suspect& s : result.suspects) {
-    out << s.configuration << ' ' << s.law << ' ';
-    put(out, s.violation);
-    put(out, s.features);
-  }
-  return out.str();
-}
-
-ChunkResult chunk_result(const std::string& text, std::size_t laws) {
-  ChunkResult result;
-  result.tried.resize(laws);
-  std::istringstream in(text);
-  for (std::uint64_t& count : result.tried) in >> count;
-  std::size_t count = 0;
-  in >> result.unsupported >> result.seconds >> count;
-  for (std::size_t i = 0; i < count; ++i) {
-    Suspect s{};
-    in >> s.configuration >> s.law;
-    s.violation = get_violation(in);
-    s.features = get_string(in);
-    result.suspects.push_back(std::move(s));
-  }
-  return result;
-}
-
-std::string to_text(const Configuration& c) {
-  Numbers numbers = numbers_of(c);
-  std::ostringstream out;
-  for (const double* x : every_number(numbers)) put(out, *x);
-  return out.str();
-}
-
-/// `alike`: a configuration of the same pair.
-Configuration configuration(const std::string& text, const Configuration& alike) {
-  Numbers numbers = numbers_of(alike);
-  std::istringstream in(text);
-  for (double* x : every_number(numbers)) *x = get_double(in);
-  return configuration_of(numbers);
 }
 
 /// Runs task(i, candidate) for every i < count, in processes with a candidate of their own if there
@@ -250,16 +183,12 @@ std::vector<std::optional<Violation>> asked_again(const std::vector<Found>& all,
       places.size(), options, candidate,
       [&](std::size_t i, CandidateProcess& asked) {
         const Found& f = all[places[i]];
-        const auto v = broken(*f.law, make_configuration(f.identity), asked, options.bar);
-        std::ostringstream out;
-        if (v) put(out, *v);
-        return out.str();
+        return to_bytes(broken(*f.law, make_configuration(f.identity), asked, options.bar));
       },
       [&](std::size_t i) { return to_string(all[places[i]].identity); });
   std::vector<std::optional<Violation>> result;
   for (const std::string& text : texts) {
-    std::istringstream in(text);
-    result.push_back(text.empty() ? std::nullopt : std::optional(get_violation(in)));
+    result.push_back(text.empty() ? std::nullopt : from_bytes<std::optional<Violation>>(text));
   }
   return result;
 }
@@ -326,15 +255,15 @@ std::vector<Failure> simplified(const std::vector<Found>& all, const CheckOption
   const auto texts = run(
       first.size(), options, candidate,
       [&](std::size_t i, CandidateProcess& asked) {
-        return to_text(simplest(met(*first[i].first), first[i].second, asked, options.bar));
+        return to_bytes(simplest(met(*first[i].first), first[i].second, asked, options.bar));
       },
       [&](std::size_t i) { return to_string(first[i].first->identity); });
   const auto places = by_kind(all);
   std::vector<Failure> result;
   for (std::size_t i = 0; i < texts.size(); ++i) {
+    if (texts[i].empty()) continue;  // interrupted before
     const MetFailure f = met(*first[i].first);
-    result.push_back(
-        failure_of(f, configuration(texts[i], f.configuration), candidate, options.bar));
+    result.push_back(failure_of(f, from_bytes<Configuration>(texts[i]), candidate, options.bar));
     result.back().met = places.at(first[i].first->kind()).size();
   }
   return result;
@@ -393,13 +322,15 @@ std::vector<LawResult> check(CandidateProcess& candidate, const CheckOptions& op
   const auto texts = run(
       all.size(), options, candidate,
       [&](std::size_t i, CandidateProcess& asked) {
-        return to_text(tried(all[i], options, asked));
+        return to_bytes(tried(all[i], options, asked));
       },
       [&](std::size_t i) { return to_string(all[i].identities.front()); },
       [&](std::size_t done) { progress(std::min<std::uint64_t>(done * largest, count), count); });
   std::vector<ChunkResult> of_chunks;
   for (const std::string& text : texts) {
-    of_chunks.push_back(chunk_result(text, options.laws.size()));
+    of_chunks.push_back(text.empty()  // interrupted before
+                            ? ChunkResult{std::vector<std::uint64_t>(options.laws.size()), 0, {}, 0}
+                            : from_bytes<ChunkResult>(text));
   }
   std::vector<Found> failures = found(all, of_chunks, options);
   drop_unconfirmed(failures, options, candidate);

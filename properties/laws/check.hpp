@@ -75,6 +75,12 @@ struct MetFailure {
   Violation violation;
   std::string features = {};  ///< that meet; empty where nobody has looked
 };
+template <class Archive>
+void members(Archive& a, MetFailure& f) {
+  std::string law = f.law ? f.law->name : "";
+  a(law, f.identity, f.configuration, f.violation, f.features);
+  if constexpr (Archive::reads) f.law = &find_law(law);
+}
 
 /// Simplifies it, with at most `max_trials`, for as long as it fails by the same name, and the same
 /// features meet where they are known.

@@ -1,8 +1,7 @@
 #include <algorithm>
-#include <fmt/format.h>
-#include <sstream>
 #include <stdexcept>
 
+#include "properties/files/bytes.hpp"
 #include "reports/stability/measure.hpp"
 
 namespace touchstone {
@@ -18,9 +17,11 @@ std::vector<Configuration> pixels(const CriticalPose& pose, Decade zoom, int str
   return result;
 }
 
-/// A line of letters for each zoom and candidate, empty where it has no routine for the pair.
-std::string pictures(const CriticalPose& pose, const MapGrid& grid,
-                     std::vector<CandidateProcess>& candidates, const Bar& bar) {
+/// Letters of each zoom and candidate, none where it has no routine for the pair.
+using Letters = std::vector<std::vector<std::string>>;
+
+Letters pictures(const CriticalPose& pose, const MapGrid& grid,
+                 std::vector<CandidateProcess>& candidates, const Bar& bar) {
   std::vector<Configuration> asked;
   for (const Decade zoom : grid.zooms) {
     for (Configuration& c : pixels(pose, zoom, grid.stride)) asked.push_back(std::move(c));
@@ -30,28 +31,23 @@ std::string pictures(const CriticalPose& pose, const MapGrid& grid,
   for (const Configuration& c : asked) truths.push_back(oracle::truth(c));
   std::vector<Judge> judges;
   for (std::size_t i = 0; i < asked.size(); ++i) judges.emplace_back(asked[i], truths[i], bar);
-  std::vector<std::string> lines(grid.zooms.size());
+  Letters letters;
   for (CandidateProcess& candidate : candidates) {
+    std::vector<std::string>& of_zooms = letters.emplace_back(grid.zooms.size());
     const std::vector<Answer> answers = candidate.answers(asked);
     for (std::size_t i = 0; i < asked.size(); ++i) {
       const Score s = judges[i].score(answers[i]);
-      if (s.outcome != Outcome::unsupported) lines[i / of_zoom] += map_letter(s);
+      if (s.outcome != Outcome::unsupported) of_zooms[i / of_zoom] += map_letter(s);
     }
-    for (std::string& line : lines) line += '\n';
   }
-  return fmt::format("{}", fmt::join(lines, ""));
+  return letters;
 }
 
-/// Takes apart what pictures() gives.
-FailureMaps::Pose collected(const CriticalPose& pose, const std::string& lines, std::size_t zooms,
+FailureMaps::Pose collected(const CriticalPose& pose, const Letters& letters,
                             const std::vector<const Candidate*>& candidates) {
   std::vector<FailureMaps::Picture> pictures;
-  for (const Candidate* c : candidates) pictures.push_back({c->name, {}});
-  std::istringstream in(lines);
-  for (std::size_t zoom = 0; zoom < zooms; ++zoom) {
-    for (FailureMaps::Picture& picture : pictures) {
-      std::getline(in, picture.letters.emplace_back());
-    }
+  for (std::size_t k = 0; k < candidates.size(); ++k) {
+    pictures.push_back({candidates[k]->name, letters[k]});
   }
   std::erase_if(pictures, [](const auto& picture) { return picture.letters[0].empty(); });
   return {pose.name,        pose.description, pair_name(pair_of(pose.configuration)),
@@ -78,13 +74,13 @@ Measure<FailureMaps> maps(const std::vector<const CriticalPose*>& poses, const M
   return {{poses.size(), grid.zooms.size() * side * side,
            [=](std::size_t i) { return "map/" + poses[i]->name; },
            [=, bar = study.bar](std::size_t i, std::vector<CandidateProcess>& candidates) {
-             return pictures(*poses[i], grid, candidates, bar);
+             return to_bytes(pictures(*poses[i], grid, candidates, bar));
            }},
           [=, candidates = study.candidates](std::span<const std::string> texts) {
             FailureMaps maps{grid.stride, grid.zooms, {}};
             for (std::size_t p = 0; p < texts.size(); ++p) {
               if (texts[p].empty()) continue;  // interrupted before
-              maps.poses.push_back(collected(*poses[p], texts[p], grid.zooms.size(), candidates));
+              maps.poses.push_back(collected(*poses[p], from_bytes<Letters>(texts[p]), candidates));
             }
             return maps;
           }};

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "oracle/judge/hull.hpp"
-#include "reports/bytes.hpp"
+#include "properties/files/bytes.hpp"
 #include "reports/stability/measure.hpp"
 #include "reports/stability/step_change.hpp"
 
@@ -75,17 +75,14 @@ std::string follow(const Motion& motion, int steps, std::vector<CandidateProcess
   for (std::size_t i = 1; i < poses.size(); ++i) between.emplace_back(poses[i - 1], poses[i], bar);
   std::vector<Course> courses;
   for (std::size_t k = 0; k < candidates.size(); ++k) courses.push_back(course(poses, between, k));
-  ByteWriter bytes;
-  bytes.put(true_course(poses));
-  bytes.put(courses);
-  return bytes.take();
+  return to_bytes(true_course(poses), courses);
 }
 
 Sequences::Course collected(const Motion& motion, const std::string& bytes,
                             const std::vector<const Candidate*>& candidates) {
-  ByteReader reader(bytes);
-  const auto truth = reader.get<TrueCourse>();
-  const auto courses = reader.get_all<Course>();
+  BytesIn in(bytes);
+  const auto truth = in.next<TrueCourse>();
+  const auto courses = in.next<std::vector<Course>>();
   Sequences::Course result{motion.name,
                            motion.description,
                            pair_name(pair_of(pose_at(motion, 0, 1))),

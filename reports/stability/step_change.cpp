@@ -8,9 +8,9 @@
 #include <tuple>
 
 #include "oracle/judge/hull.hpp"
+#include "properties/files/bytes.hpp"
 #include "properties/motions/motion.hpp"
 #include "properties/pose_class.hpp"
-#include "reports/bytes.hpp"
 #include "reports/campaign.hpp"
 #include "reports/stability/measure.hpp"
 
@@ -274,38 +274,37 @@ Measure<Amplification> amplification(const Ladder& ladder, const Study& study) {
         .subspan(task * cells)
         .first(std::min(cells, ladder.cells.size() - task * cells));
   };
-  return {
-      {(ladder.cells.size() + cells - 1) / cells, cells * of_cell,
-       [=](std::size_t task) {
-         const auto all = of_task(task);
-         return fmt::format("{}/{} to {}/{}", pair_name(all.front().pair), all.front().name(),
-                            pair_name(all.back().pair), all.back().name());
-       },
-       [=, bar = study.bar](std::size_t task, std::vector<CandidateProcess>& candidates) {
-         std::vector<Configuration> asked;
-         for (const PoseClass& cell : of_task(task)) {
-           for (Configuration& c : steps_from(bases_of(cell, ladder), ladder.seed)) {
-             asked.push_back(std::move(c));
-           }
-         }
-         const std::vector<ExaminedPose> poses = examine_poses(asked, candidates, bar);
-         ByteWriter bytes;
-         for (std::size_t at = 0; at < poses.size(); at += of_cell) {
-           bytes.put(climbs_over(std::span(poses).subspan(at, of_cell), candidates.size(), bar));
-         }
-         return bytes.take();
-       }},
-      [=](std::span<const std::string> texts) {
-        Collector collector(study, ladder.seed, ladder.count);
-        for (std::size_t task = 0; task < texts.size(); ++task) {
-          if (texts[task].empty()) continue;  // interrupted before
-          ByteReader bytes(texts[task]);
-          for (const PoseClass& cell : of_task(task)) {
-            collector.add(bases_of(cell, ladder), bytes.get_all<CandidateClimb>());
-          }
-        }
-        return std::move(collector).result();
-      }};
+  return {{(ladder.cells.size() + cells - 1) / cells, cells * of_cell,
+           [=](std::size_t task) {
+             const auto all = of_task(task);
+             return fmt::format("{}/{} to {}/{}", pair_name(all.front().pair), all.front().name(),
+                                pair_name(all.back().pair), all.back().name());
+           },
+           [=, bar = study.bar](std::size_t task, std::vector<CandidateProcess>& candidates) {
+             std::vector<Configuration> asked;
+             for (const PoseClass& cell : of_task(task)) {
+               for (Configuration& c : steps_from(bases_of(cell, ladder), ladder.seed)) {
+                 asked.push_back(std::move(c));
+               }
+             }
+             const std::vector<ExaminedPose> poses = examine_poses(asked, candidates, bar);
+             BytesOut bytes;
+             for (std::size_t at = 0; at < poses.size(); at += of_cell) {
+               bytes(climbs_over(std::span(poses).subspan(at, of_cell), candidates.size(), bar));
+             }
+             return bytes.take();
+           }},
+          [=](std::span<const std::string> texts) {
+            Collector collector(study, ladder.seed, ladder.count);
+            for (std::size_t task = 0; task < texts.size(); ++task) {
+              if (texts[task].empty()) continue;  // interrupted before
+              BytesIn bytes(texts[task]);
+              for (const PoseClass& cell : of_task(task)) {
+                collector.add(bases_of(cell, ladder), bytes.next<std::vector<CandidateClimb>>());
+              }
+            }
+            return std::move(collector).result();
+          }};
 }
 
 Amplification amplification(const Subject& base, std::uint64_t seed, std::uint64_t count,

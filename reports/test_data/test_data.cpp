@@ -10,7 +10,7 @@
 #include "candidates/host/interruption.hpp"
 #include "candidates/host/progress.hpp"
 #include "candidates/host/worker_processes.hpp"
-#include "reports/bytes.hpp"
+#include "properties/files/bytes.hpp"
 
 namespace touchstone {
 
@@ -66,16 +66,12 @@ std::vector<Identity> identities(const Campaign& campaign) {
 
 namespace {
 
-std::string datum_bytes(const Identity& identity) {
-  const Configuration c = make_configuration(identity);
-  ByteWriter out;
-  out.put(c);
+oracle::Truth truth_of(const Identity& identity, const Configuration& c) {
   try {
-    out.put(oracle::truth(c, truth_width));
+    return oracle::truth(c, truth_width);
   } catch (const std::exception& e) {
     throw std::runtime_error(to_string(identity) + ": " + e.what());
   }
-  return out.take();
 }
 
 }  // namespace
@@ -90,21 +86,22 @@ void make_test_data(const Campaign& campaign, const std::function<void(const Tes
     return std::min<std::uint64_t>(first + unit, all.size());
   };
   const auto take_unit = [&](const std::string& bytes) {
-    ByteReader in(bytes);
+    BytesIn in(bytes);
     for (const std::uint64_t last = last_of(next); next < last; ++next) {
-      const Configuration c = in.get_configuration();
-      const oracle::Truth truth = in.get_truth();
+      const auto c = in.next<Configuration>();
+      const auto truth = in.next<oracle::Truth>();
       take({all[next], c, truth, answer_limits(c, truth, campaign.bar)});
     }
     progress.update(next);
   };
   stream_from_processes((all.size() + unit - 1) / unit, campaign.workers,
                         [&](std::uint64_t number) {
-                          std::string bytes;
+                          BytesOut out;
                           for (std::uint64_t i = number * unit; i < last_of(number * unit); ++i) {
-                            bytes += datum_bytes(all[i]);
+                            const Configuration c = make_configuration(all[i]);
+                            out(c, truth_of(all[i], c));
                           }
-                          return bytes;
+                          return out.take();
                         },
                         [&](std::uint64_t number) { return to_string(all[number * unit]); },
                         [&](std::uint64_t number, std::string bytes) {

@@ -1,0 +1,270 @@
+#pragma once
+
+#include <array>
+#include <concepts>
+#include <cstddef>
+#include <cstring>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "candidates/host/candidate_process.hpp"
+#include "oracle/truth.hpp"
+#include "reference/configuration.hpp"
+
+namespace touchstone {
+
+// Values as bytes, on their way between two processes of the same program: as they lie in memory,
+// without a version. What a type consists of is said once, for both ways, in its own namespace:
+//
+//   template <class Archive>
+//   void members(Archive& a, Verdict& v) { a(v.value, v.limit, v.time); }
+//
+// A type that is trivially copyable needs none; it must not point to anything.
+
+class BytesOut {
+ public:
+  static constexpr bool reads = false;
+
+  template <class... T>
+  void operator()(const T&... values) {
+    (put(values), ...);
+  }
+  /// Of what comes next.
+  template <class Container>
+  void size(const Container& x) {
+    put(x.size());
+  }
+  void raw(const void* bytes, std::size_t size) {
+    bytes_.append(static_cast<const char*>(bytes), size);
+  }
+  std::string take() { return std::move(bytes_); }
+
+ private:
+  template <class T>
+  void put(const T& x) {
+    if constexpr (std::is_trivially_copyable_v<T>) {
+      static_assert(!std::is_pointer_v<T> && !std::is_same_v<T, std::string_view>);
+      raw(&x, sizeof x);
+    } else {
+      members(*this, const_cast<T&>(x));  // which reads it alone, as `reads` says
+    }
+  }
+
+  std::string bytes_;
+};
+
+/// A value to read another one into.
+template <class T>
+T blank() {
+  return T();
+}
+template <>
+inline Plane blank<Plane>() {
+  return {Vec3(0, 0, 1), 0};
+}
+template <>
+inline Box blank<Box>() {
+  return Box(Vec3(1, 1, 1));
+}
+template <>
+inline Sphere blank<Sphere>() {
+  return Sphere(1);
+}
+template <>
+inline Capsule blank<Capsule>() {
+  return {1, 1};
+}
+template <>
+inline Cylinder blank<Cylinder>() {
+  return {1, 1};
+}
+template <>
+inline Shape blank<Shape>() {
+  return blank<Sphere>();
+}
+template <>
+inline Configuration blank<Configuration>() {
+  return {{1, 1}, Pose(), Sphere(1), Pose()};
+}
+
+/// Reads what a BytesOut was given, in the same order.
+class BytesIn {
+ public:
+  static constexpr bool reads = true;
+
+  explicit BytesIn(std::string_view bytes) : rest_(bytes) {}
+
+  template <class... T>
+  void operator()(T&... values) {
+    (get(values), ...);
+  }
+  template <class T>
+  T next() {
+    T x = blank<T>();
+    get(x);
+    return x;
+  }
+  template <class Container>
+  void size(Container& x) {
+    const auto size = next<std::size_t>();
+    if constexpr (std::default_initializable<typename Container::value_type>) {
+      x.resize(size);
+    } else {
+      x.resize(size, blank<typename Container::value_type>());
+    }
+  }
+  void raw(void* to, std::size_t size) {
+    if (size > rest_.size()) throw std::logic_error("bytes of a worker end too early");
+    if (size > 0) std::memcpy(to, rest_.data(), size);
+    rest_.remove_prefix(size);
+  }
+
+ private:
+  template <class T>
+  void get(T& x) {
+    if constexpr (std::is_trivially_copyable_v<T>) {
+      raw(&x, sizeof x);
+    } else {
+      members(*this, x);
+    }
+  }
+
+  std::string_view rest_;
+};
+
+template <class... T>
+std::string to_bytes(const T&... values) {
+  BytesOut out;
+  out(values...);
+  return out.take();
+}
+template <class T>
+T from_bytes(std::string_view bytes) {
+  return BytesIn(bytes).next<T>();
+}
+
+// The library's types.
+
+template <class Archive>
+void members(Archive& a, std::string& x) {
+  a.size(x);
+  a.raw(x.data(), x.size());
+}
+template <class Archive, class T>
+void members(Archive& a, std::vector<T>& x) {
+  a.size(x);
+  if constexpr (std::is_trivially_copyable_v<T>) {
+    a.raw(x.data(), x.size() * sizeof(T));
+  } else {
+    for (T& each : x) a(each);
+  }
+}
+template <class Archive, class T, std::size_t n>
+void members(Archive& a, std::array<T, n>& x) {
+  for (T& each : x) a(each);
+}
+template <class Archive, class A, class B>
+void members(Archive& a, std::pair<A, B>& x) {
+  a(x.first, x.second);
+}
+template <class Archive, class T>
+void members(Archive& a, std::optional<T>& x) {
+  bool has_value = x.has_value();
+  a(has_value);
+  if constexpr (Archive::reads) x = has_value ? std::optional<T>(blank<T>()) : std::nullopt;
+  if (x) a(*x);
+}
+template <class Archive, class... T>
+void members(Archive& a, std::variant<T...>& x) {
+  std::size_t index = x.index(), at = 0;
+  a(index);
+  if constexpr (Archive::reads) ((at++ == index ? void(x = blank<T>()) : void()), ...);
+  std::visit([&](auto& each) { a(each); }, x);
+}
+/// A map, of the standard library or of Boost.
+template <class Archive, class Map>
+requires requires { typename Map::mapped_type; }
+void members(Archive& a, Map& x) {
+  if constexpr (Archive::reads) {
+    for (auto left = a.template next<std::size_t>(); left > 0; --left) {
+      auto key = a.template next<typename Map::key_type>();
+      x.emplace_hint(x.end(), std::move(key), a.template next<typename Map::mapped_type>());
+    }
+  } else {
+    a.size(x);
+    for (auto& [key, value] : x) a(key, value);
+  }
+}
+
+// The vocabulary's.
+
+template <class Archive>
+void members(Archive& a, Vec3& x) {
+  a(x.x(), x.y(), x.z());
+}
+template <class Archive>
+void members(Archive& a, Eigen::Quaterniond& x) {
+  a(x.w(), x.x(), x.y(), x.z());
+}
+template <class Archive>
+void members(Archive& a, Pose& x) {
+  Vec3 position = x.position();
+  Eigen::Quaterniond orientation = x.orientation();
+  a(position, orientation);
+  if constexpr (Archive::reads) x = Pose(position, orientation);
+}
+template <class Archive>
+void members(Archive& a, Plane& x) {
+  Vec3 normal = x.normal();
+  double displacement = x.displacement();
+  a(normal, displacement);
+  if constexpr (Archive::reads) x = Plane(normal, displacement);
+}
+template <class Archive>
+void members(Archive& a, Box& x) {
+  Vec3 half_extents = x.half_extents();
+  a(half_extents);
+  if constexpr (Archive::reads) x = Box(half_extents);
+}
+template <class Archive>
+void members(Archive& a, Configuration& x) {
+  a(x.a, x.pose_a, x.b, x.pose_b);
+}
+template <class Archive>
+void members(Archive& a, Answer& x) {
+  a(static_cast<ts_answer&>(x), x.reason, x.model_distance, x.was_asked);
+}
+
+namespace oracle {
+
+/// Exact numbers, in the most compact base of GMP.
+template <class Archive>
+void members(Archive& a, Enclosure& x) {
+  constexpr int base = 62;
+  for (mpq_class* end : {&x.lo, &x.hi}) {
+    std::string text = end->get_str(base);
+    a(text);
+    if constexpr (Archive::reads) *end = mpq_class(text, base);
+  }
+}
+template <class Archive>
+void members(Archive& a, OptimalNormal& x) {
+  a(x.n, x.to_a, x.to_b);
+}
+template <class Archive>
+void members(Archive& a, NormalFamily& x) {
+  a(x.kind, x.axis, x.ends);
+}
+template <class Archive>
+void members(Archive& a, Truth& x) {
+  a(x.signed_distance, x.ties, x.normals, x.families);
+}
+
+}  // namespace oracle
+}  // namespace touchstone
