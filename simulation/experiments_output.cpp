@@ -1,8 +1,4 @@
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <fmt/format.h>
-#include <limits>
 
 #include <nlohmann/json.hpp>
 
@@ -71,51 +67,11 @@ json to_json(const ExperimentDescription& e) {
           {"rests", e.rests}};
 }
 
-namespace {
-
-double number(const json& value) {
-  return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
-}
-
-}  // namespace
-
 json to_json(const ExperimentResults& r) {
   json experiments = json::array(), results = json::array();
   for (const ExperimentDescription& e : r.experiments) experiments.push_back(to_json(e));
   for (const ExperimentResult& each : r.results) results.push_back(to_json(each));
   return {{"steps", r.steps}, {"experiments", experiments}, {"results", results}};
-}
-
-std::string to_text(const ExperimentResult& result) { return to_json(result).dump(); }
-
-ExperimentResult result_from_text(const std::string& text) {
-  const json value = json::parse(text);
-  ExperimentResult r;
-  r.experiment = value["experiment"];
-  r.candidate = value["candidate"];
-  r.step = value["step"];
-  for (const Outcome outcome : {Outcome::measured, Outcome::unsupported, Outcome::unsound,
-                                Outcome::crashed, Outcome::timed_out}) {
-    if (value["outcome"] == name_of(outcome)) r.outcome = outcome;
-  }
-  if (value.contains("reason")) r.reason = value["reason"];
-  if (!value.contains("value")) return r;
-  r.value = number(value["value"]);
-  r.error = number(value["error"]);
-  r.exact = value["exact"];
-  r.energy_gained = number(value["energy_gained"]);
-  r.points = value["points"];
-  r.flicker = value["flicker"];
-  r.single = value["single"];
-  r.without = value["without"];
-  r.failures = value["failures"];
-  for (const auto& [name, detail] : value["details"].items()) r.details[name] = number(detail);
-  r.steps = value["steps"];
-  if (!value["nanoseconds"].is_null()) r.nanoseconds = value["nanoseconds"].get<double>();
-  r.microseconds_per_step = value["microseconds_per_step"];
-  r.last_motion = value["last_motion"];
-  r.last_time = value["last_time"];
-  return r;
 }
 
 nlohmann::json to_json(const EngineResults& all) {

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "candidates/candidates.hpp"
+#include "properties/files/bytes.hpp"
 #include "reference/invalid_input.hpp"
 #include "simulation/experiment.hpp"
 #include "simulation/experiment_setup.hpp"
@@ -35,7 +36,7 @@ class EveryExperiment : public testing::TestWithParam<std::string> {};
 TEST_P(EveryExperiment, IsPassedByOurContacts) {
   for (const double step : {1.0 / 60, experiment_step}) {
     const ExperimentResult result = run_one(GetParam(), "reference", step);
-    EXPECT_TRUE(result.exact) << to_text(result);
+    EXPECT_TRUE(result.exact) << to_json(result);
     EXPECT_EQ(result.failures, 0U);
   }
 }
@@ -150,7 +151,7 @@ TEST(Experiments, SeeACapsuleThatDoesNotStand) {
 
 TEST(Experiments, SeeACoinThatFallsFlatThoughItGoesRoundAsFast) {
   const ExperimentResult result = run_one("coin", "spheres:8", 1.0 / 60);
-  EXPECT_FALSE(result.exact) << to_text(result);
+  EXPECT_FALSE(result.exact) << to_json(result);
 }
 
 TEST(Experiments, SeeOneContactUnderALyingCylinder) {
@@ -196,10 +197,10 @@ TEST(ExperimentResults, SurviveTheWayBetweenProcesses) {
   result.value = std::numeric_limits<double>::infinity();
   result.details = {{"lean", 0.1}};
   result.nanoseconds = 1.0 / 3;
-  const ExperimentResult copy = result_from_text(to_text(result));
+  const ExperimentResult copy = from_bytes<ExperimentResult>(to_bytes(result));
   EXPECT_EQ(copy.outcome, Outcome::unsound);
-  EXPECT_FALSE(std::isfinite(copy.value));
-  EXPECT_EQ(to_text(copy), to_text(result));
+  EXPECT_EQ(copy.value, result.value);
+  EXPECT_EQ(to_json(copy), to_json(result));
 }
 
 TEST(ExperimentResults, OfAnUnsupportedPairHaveNoFigures) {

@@ -5,6 +5,7 @@
 
 #include "candidates/host/progress.hpp"
 #include "candidates/host/worker_processes.hpp"
+#include "properties/files/bytes.hpp"
 #include "simulation/experiment.hpp"
 #include "simulation/experiment_setup.hpp"
 #include "simulation/world.hpp"
@@ -143,7 +144,7 @@ ExperimentResults run_experiments(const ExperimentOptions& options) {
       all.size(), options.workers,
       [&](std::size_t i) {
         const std::size_t candidate = i % options.candidates.size();  // the order of the trials
-        return to_text(run(all[i], processes.get()[candidate]));
+        return to_bytes(run(all[i], processes.get()[candidate]));
       },
       [&](std::size_t i) { return all[i].experiment->name + " with " + all[i].candidate->name; },
       [&](std::size_t done) { progress.update(done); });
@@ -152,7 +153,7 @@ ExperimentResults run_experiments(const ExperimentOptions& options) {
     results.experiments.push_back(describe(*e, options.steps));
   }
   for (const std::string& text : texts) {
-    if (!text.empty()) results.results.push_back(result_from_text(text));
+    if (!text.empty()) results.results.push_back(from_bytes<ExperimentResult>(text));
   }
   return results;
 }

@@ -54,6 +54,12 @@ struct ExperimentResult {
   /// Whether nothing moved in the last half second of the last run.
   bool comes_to_rest() const;
 };
+template <class Archive>
+void members(Archive& a, ExperimentResult& r) {
+  a(r.experiment, r.candidate, r.step, r.outcome, r.value, r.error, r.exact, r.energy_gained,
+    r.points, r.flicker, r.single, r.without, r.failures, r.details, r.steps, r.nanoseconds,
+    r.microseconds_per_step, r.last_motion, r.last_time, r.reason);
+}
 
 struct ExperimentDescription {
   std::string name, statement, quantity, unit;  ///< as in Experiment
@@ -84,10 +90,5 @@ ExperimentDescription describe(const Experiment& experiment, const std::vector<d
 nlohmann::json to_json(const ExperimentResults& results);
 nlohmann::json to_json(const ExperimentDescription& experiment);
 nlohmann::json to_json(const ExperimentResult& result);
-
-// One result as text, on its way from the process that measured it. What is not finite comes back
-// as NaN.
-std::string to_text(const ExperimentResult& result);
-ExperimentResult result_from_text(const std::string& text);
 
 }  // namespace touchstone

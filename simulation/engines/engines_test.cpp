@@ -74,20 +74,20 @@ TEST_P(InsideTheEngines, AThrownCylinderFliesAsOnPaper) {
 
 TEST_P(InsideTheEngines, ASmallLogLiesStillWithOurContacts) {
   const EngineResult result = run_one(find_experiment("small-log"), GetParam());
-  EXPECT_TRUE(result.cured.exact) << to_text(result.cured);
+  EXPECT_TRUE(result.cured.exact) << to_json(result.cured);
   EXPECT_TRUE(result.cured.comes_to_rest());
   EXPECT_EQ(result.cured.points, 2);
 }
 
 TEST_P(InsideTheEngines, ADiscAcrossALogLiesStillWithOurContacts) {
   const EngineResult result = run_one(find_experiment("disc-on-log"), GetParam());
-  EXPECT_FALSE(result.own.exact) << to_text(result.own);
-  EXPECT_TRUE(result.cured.exact) << to_text(result.cured);
+  EXPECT_FALSE(result.own.exact) << to_json(result.own);
+  EXPECT_TRUE(result.cured.exact) << to_json(result.cured);
 }
 
 TEST_P(InsideTheEngines, ACanSlidesAsFarAsOnPaperWithOurContacts) {
   const EngineResult result = run_one(find_experiment("sliding"), GetParam());
-  EXPECT_EQ(result.cure, Cure::held) << to_text(result.cured);
+  EXPECT_EQ(result.cure, Cure::held) << to_json(result.cured);
 }
 
 INSTANTIATE_TEST_SUITE_P(, InsideTheEngines,

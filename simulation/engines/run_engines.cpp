@@ -2,19 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <dlfcn.h>
 #include <filesystem>
 #include <fmt/format.h>
 #include <numbers>
 #include <stdexcept>
 
-#include <nlohmann/json.hpp>
-
 #include "candidates/candidates.hpp"
 #include "candidates/host/contained.hpp"
 #include "candidates/host/progress.hpp"
 #include "candidates/host/worker_processes.hpp"
+#include "properties/files/bytes.hpp"
 #include "reference/invalid_input.hpp"
 #include "simulation/assembly.hpp"
 #include "simulation/engines/engine_world.hpp"
@@ -42,10 +40,10 @@ ExperimentResult run(const Experiment& experiment, const std::string& engine,
   const Contained ran = run_contained(
       [&] {
         const Measurement measured = experiment.run(in_engine(engine, setup), step);
-        return to_text(result_of(experiment, name, step, measured));
+        return to_bytes(result_of(experiment, name, step, measured));
       },
       max_engine_seconds);
-  if (ran.end == Contained::End::returned) return result_from_text(ran.text);
+  if (ran.end == Contained::End::returned) return from_bytes<ExperimentResult>(ran.text);
   ExperimentResult failed;
   failed.experiment = experiment.name;
   failed.candidate = name;
@@ -71,13 +69,6 @@ EngineResult run(const Experiment& experiment, const std::string& engine, double
   }
   r.cure = cure_of(r.own, r.cured, r.best);
   return r;
-}
-
-/// The runs as text, on their way from the process that made them.
-std::string to_text(const EngineResult& r) {
-  nlohmann::json runs = {to_text(r.own), to_text(r.cured)};
-  if (r.best) runs.push_back(to_text(*r.best));
-  return runs.dump();
 }
 
 /// Largest angle that a drive turns a body by in a step. Between waypoints it is half a turn at
@@ -174,15 +165,17 @@ EngineDescription describe_engine(const std::string& engine) {
   const Contained told = run_contained(
       [&] {
         const EngineModule& module = load(engine);
-        return nlohmann::json{module.version, module.settings, module.best_settings}.dump();
+        return to_bytes(std::string(module.version), std::string(module.settings),
+                        std::string(module.best_settings));
       },
       max_engine_seconds);
   if (told.end != Contained::End::returned) {
     throw InvalidInput("--engine", '"' + engine + '"',
                        "must be an engine that can be loaded: " + told.text);
   }
-  const auto text = nlohmann::json::parse(told.text);
-  return {engine, text[0], text[1], text[2]};
+  EngineDescription result{engine, {}, {}, {}};
+  BytesIn{told.text}(result.version, result.settings, result.best_settings);
+  return result;
 }
 
 namespace {
@@ -294,21 +287,11 @@ EngineResults run_engines(const EngineOptions& options) {
   Progress progress("experiments in engines", options.experiments.size() * engines);
   const auto texts = run_in_processes(
       options.experiments.size() * engines, options.workers,
-      [&](std::size_t i) { return to_text(run(*experiment_of(i), engine_of(i), options.step)); },
+      [&](std::size_t i) { return to_bytes(run(*experiment_of(i), engine_of(i), options.step)); },
       [&](std::size_t i) { return experiment_of(i)->name + " in " + engine_of(i); },
       [&](std::size_t done) { progress.update(done); });
-  for (std::size_t i = 0; i < texts.size(); ++i) {
-    if (texts[i].empty()) continue;
-    const auto runs = nlohmann::json::parse(texts[i]);
-    EngineResult r{experiment_of(i)->name,
-                   engine_of(i),
-                   Cure::open,
-                   result_from_text(runs[0]),
-                   result_from_text(runs[1]),
-                   {}};
-    if (runs.size() > 2) r.best = result_from_text(runs[2]);
-    r.cure = cure_of(r.own, r.cured, r.best);
-    results.results.push_back(std::move(r));
+  for (const std::string& text : texts) {
+    if (!text.empty()) results.results.push_back(from_bytes<EngineResult>(text));
   }
   return results;
 }
@@ -345,15 +328,13 @@ EngineMotion record_motion(const Experiment& experiment, const std::string& engi
               return std::make_unique<Recorded>(scene, simulator(scene), every, poses);
             },
             step);
-        return std::string(reinterpret_cast<const char*>(poses.data()),
-                           poses.size() * sizeof(float));
+        return to_bytes(poses);
       },
       max_engine_seconds);
   if (ran.end != Contained::End::returned) {
     throw std::runtime_error(experiment.name + " in " + engine + ": " + ran.text);
   }
-  motion.poses.resize(ran.text.size() / sizeof(float));
-  std::memcpy(motion.poses.data(), ran.text.data(), ran.text.size());
+  motion.poses = from_bytes<std::vector<float>>(ran.text);
   return motion;
 }
 

@@ -83,6 +83,10 @@ struct EngineResult {
   /// where the usual solver already holds the experiment or is ten times nearer.
   std::optional<ExperimentResult> best;
 };
+template <class Archive>
+void members(Archive& a, EngineResult& r) {
+  a(r.experiment, r.engine, r.cure, r.own, r.cured, r.best);
+}
 
 struct EngineResults {
   double step = 0;  ///< s

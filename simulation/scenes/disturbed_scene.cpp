@@ -9,17 +9,12 @@
 #include <rapidcheck.h>
 #include <utility>
 
-#include <nlohmann/json.hpp>
-
 #include "candidates/host/progress.hpp"
 #include "candidates/host/worker_processes.hpp"
 #include "properties/draw.hpp"
-#include "properties/files/configuration_json.hpp"
 
 namespace touchstone {
 namespace {
-
-using nlohmann::json;
 
 constexpr double max_shift = 1e-4;  // of the smallest width
 constexpr double max_angle = 1e-3;  // radians
@@ -222,79 +217,13 @@ void Straying::add(const Straying& other) {
   if (other.tilt > tilt) tilt = other.tilt, tilted_body = other.tilted_body;
 }
 
-std::string trial_text(const Trial& trial) {
-  json verdicts = json::array();
-  for (const Verdict& v : trial.verdicts) {
-    verdicts.push_back({std::isfinite(v.value) ? json(v.value) : json(nullptr), v.limit, v.time});
-  }
-  json result = {{"verdicts", verdicts},
-                 {"end", trial.end},
-                 {"points", trial.points},
-                 {"solver_seconds", trial.solver_seconds},
-                 {"overlap", trial.straying.overlap},
-                 {"strayed", trial.straying.distance},
-                 {"strayed_body", trial.straying.body},
-                 {"tilted", trial.straying.tilt},
-                 {"tilted_body", trial.straying.tilted_body}};
-  if (const auto& e = trial.evidence) {
-    result["evidence"] = {{"configuration", to_json(e->configuration)},
-                          {"bodies", e->bodies},
-                          {"candidate", e->candidate},
-                          {"wrong", e->wrong},
-                          {"time", e->time}};
-  }
-  return result.dump();
+template <>
+Evidence blank<Evidence>() {
+  return {blank<Configuration>(), {}, {}, {}, 0};
 }
 
-Trial trial_from(const std::string& text) {
-  const json parsed = json::parse(text);
-  Trial trial;
-  for (const json& v : parsed["verdicts"]) {
-    trial.verdicts.push_back(
-        {v[0].is_null() ? std::numeric_limits<double>::infinity() : v[0].get<double>(),
-         v[1].get<double>(), v[2].get<double>()});
-  }
-  trial.end = parsed["end"].get<std::string>();
-  trial.points = parsed["points"].get<double>();
-  trial.solver_seconds = parsed["solver_seconds"].get<double>();
-  trial.straying = {parsed["overlap"].get<double>(), parsed["strayed"].get<double>(),
-                    parsed["strayed_body"].get<std::string>(), parsed["tilted"].get<double>(),
-                    parsed["tilted_body"].get<std::string>()};
-  if (!parsed.contains("evidence")) return trial;
-  const json& e = parsed["evidence"];
-  trial.evidence = {configuration_from_json(e["configuration"]).configuration,
-                    e["bodies"].get<std::string>(), e["candidate"].get<std::string>(),
-                    e["wrong"].get<std::string>(), e["time"].get<double>()};
-  return trial;
-}
-
-std::string ends_text(const Trajectory& run) {
-  json result = json::array();
-  for (const auto* frame : {&run.frames.front(), &run.frames.back()}) {
-    json poses = json::array();
-    for (const BodyState& s : *frame) {
-      const Vec3& p = s.pose.position();
-      const Eigen::Quaterniond& q = s.pose.orientation();
-      poses.push_back({p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z()});
-    }
-    result.push_back(poses);
-  }
-  return result.dump();
-}
-
-Trajectory run_of_ends(const std::string& text, double step) {
-  Trajectory run;
-  run.step = step;
-  for (const json& frame : json::parse(text)) {
-    run.frames.emplace_back();
-    for (const json& p : frame) {
-      const auto at = [&](int i) { return p[static_cast<std::size_t>(i)].get<double>(); };
-      run.frames.back().push_back(
-          {Pose(Vec3(at(0), at(1), at(2)), Eigen::Quaterniond(at(3), at(4), at(5), at(6))),
-           Vec3::Zero(), Vec3::Zero()});
-    }
-  }
-  return run;
+Trajectory ends_of(const Trajectory& run) {
+  return {run.step, {run.frames.front(), run.frames.back()}, {}};
 }
 
 double RepeatedRun::error() const { return largest_share(verdicts); }
@@ -327,13 +256,13 @@ void repeat(const std::vector<RepeatedRun*>& runs, std::size_t last, unsigned wo
     Progress progress(from == 0 ? "runs of the scene" : "disturbed runs", tasks.size());
     const auto results = run_in_processes(
         tasks.size(), workers,
-        [&](std::size_t i) { return trial_text(trial(tasks[i].run, tasks[i].disturbance)); },
+        [&](std::size_t i) { return to_bytes(trial(tasks[i].run, tasks[i].disturbance)); },
         [&](std::size_t i) {
           return fmt::format("{}, disturbance {}", name(tasks[i].run), tasks[i].disturbance);
         },
         [&](std::size_t done) { progress.update(done); });
     for (std::size_t i = 0; i < tasks.size(); ++i) {
-      add(trial_from(results[i]), tasks[i].disturbance, *runs[tasks[i].run]);
+      add(from_bytes<Trial>(results[i]), tasks[i].disturbance, *runs[tasks[i].run]);
     }
   }
 }
@@ -366,12 +295,12 @@ std::vector<Trajectory> ends_of_runs(const Scene& scene, const Trials& trials, u
       count, workers,
       [&](std::size_t i) {
         const DisturbedScene disturbed(scene, trials.seed, i);
-        return ends_text(disturbed.turned_back(run(disturbed)));
+        return to_bytes(ends_of(disturbed.turned_back(run(disturbed))));
       },
       [&](std::size_t i) { return fmt::format("{}, disturbance {}", name, i); },
       [&](std::size_t done) { progress.update(done); });
   std::vector<Trajectory> ends;
-  for (const std::string& text : texts) ends.push_back(run_of_ends(text, scene.step));
+  for (const std::string& text : texts) ends.push_back(from_bytes<Trajectory>(text));
   return ends;
 }
 

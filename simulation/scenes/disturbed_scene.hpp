@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "properties/files/bytes.hpp"
 #include "simulation/scenes/need.hpp"
 #include "simulation/scenes/trajectory.hpp"
 
@@ -54,6 +55,10 @@ struct Evidence {
   std::string wrong;  ///< in words: "missed, 0.0012 m deep"
   double time;        ///< s
 };
+template <class Archive>
+void members(Archive& a, Evidence& e) {
+  a(e.configuration, e.bodies, e.candidate, e.wrong, e.time);
+}
 
 /// How a run differs from the one with exact contacts, asked for or not: a body that falls through
 /// the floor upright still stands.
@@ -67,6 +72,10 @@ struct Straying {
   /// Keeps the larger of each, and its body.
   void add(const Straying& other);
 };
+template <class Archive>
+void members(Archive& a, Straying& s) {
+  a(s.overlap, s.distance, s.body, s.tilt, s.tilted_body);
+}
 
 /// What one run came to.
 struct Trial {
@@ -77,13 +86,15 @@ struct Trial {
   double solver_seconds = 0;
   Straying straying = {};
 };
+template <class Archive>
+void members(Archive& a, Trial& t) {
+  a(t.verdicts, t.evidence, t.end, t.points, t.solver_seconds, t.straying);
+}
+template <>
+Evidence blank<Evidence>();
 
-// What a run came to as text, on its way from the process that made it, and back.
-std::string trial_text(const Trial& trial);
-Trial trial_from(const std::string& text);
-/// The poses at the start and at the end of a run.
-std::string ends_text(const Trajectory& run);
-Trajectory run_of_ends(const std::string& text, double step);
+/// The start and the end of a run alone.
+Trajectory ends_of(const Trajectory& run);
 
 /// Runs of a scene with the same models under several disturbances.
 struct RepeatedRun {

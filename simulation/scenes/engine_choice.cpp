@@ -7,8 +7,6 @@
 #include <stdexcept>
 #include <tuple>
 
-#include <nlohmann/json.hpp>
-
 #include "candidates/host/contained.hpp"
 #include "candidates/host/progress.hpp"
 #include "candidates/host/worker_processes.hpp"
@@ -18,7 +16,6 @@
 namespace touchstone {
 namespace {
 
-using nlohmann::json;
 using Kind = EngineShape::Kind;
 
 bool is_bullet(const std::string& engine) { return engine.starts_with("bullet"); }
@@ -165,24 +162,28 @@ class SettingSearch {
     if (std::ranges::none_of(needs, asks)) return;
     const EngineSetting exact = uniform({Kind::exact});
     const std::size_t count = options_.trials.of_answer() + 1;
-    constexpr char ended = '!';  // before the reason, where there are no poses
     Progress progress("exact runs, disturbed", count);
     const auto texts = run_in_processes(
         count, options_.workers,
         [&](std::size_t disturbance) {
           const DisturbedScene disturbed(scene, options_.trials.seed, disturbance);
           const Contained ran = run_contained(
-              [&] { return ends_text(disturbed.turned_back(run_of(exact, disturbed, false))); },
+              [&] {
+                return to_bytes(ends_of(disturbed.turned_back(run_of(exact, disturbed, false))));
+              },
               max_engine_seconds);
-          return ran.end == Contained::End::returned ? ran.text : ended + ran.text;
+          return to_bytes(ran.end, ran.text);
         },
         [&](std::size_t i) { return fmt::format("{}, disturbance {}", name(), i); },
         [&](std::size_t done) { progress.update(done); });
     for (std::size_t i = 0; i < texts.size() && choice_.exact_end.empty(); ++i) {
-      if (texts[i].front() == ended) {
-        choice_.exact_end = texts[i].substr(1) + (i == 0 ? "" : fmt::format(", disturbance {}", i));
+      BytesIn in(texts[i]);
+      const auto end = in.next<Contained::End>();
+      const auto text = in.next<std::string>();
+      if (end == Contained::End::returned) {
+        exact_runs_.push_back(from_bytes<Trajectory>(text));
       } else {
-        exact_runs_.push_back(run_of_ends(texts[i], scene.step));
+        choice_.exact_end = text + (i == 0 ? "" : fmt::format(", disturbance {}", i));
       }
     }
     if (choice_.exact_end.empty()) {
@@ -219,10 +220,10 @@ class SettingSearch {
           for (const auto& need : choice_.file.needs) {
             trial.verdicts.push_back(need->judge({choice_.file.scene, run, exact}));
           }
-          return trial_text(trial);
+          return to_bytes(trial);
         },
         max_engine_seconds);
-    if (ran.end == Contained::End::returned) return trial_from(ran.text);
+    if (ran.end == Contained::End::returned) return from_bytes<Trial>(ran.text);
     Trial trial;
     trial.end = ran.text;
     trial.verdicts.assign(choice_.file.needs.size(), {infinity, 0, 0});
@@ -262,11 +263,10 @@ class SettingSearch {
   /// Times of all steps of one run; none if the engine ended it.
   std::vector<double> step_seconds(const EngineSetting& setting) const {
     const DisturbedScene scene(choice_.file.scene, options_.trials.seed, 0);
-    const Contained ran =
-        run_contained([&] { return json(run_of(setting, scene, false).step_seconds).dump(); },
-                      max_engine_seconds);
+    const Contained ran = run_contained(
+        [&] { return to_bytes(run_of(setting, scene, false).step_seconds); }, max_engine_seconds);
     if (ran.end != Contained::End::returned) return {};
-    return json::parse(ran.text).get<std::vector<double>>();
+    return from_bytes<std::vector<double>>(ran.text);
   }
 
   /// Times settings together, by their indices, and the default and our routines with them. By

@@ -5,8 +5,6 @@
 #include <functional>
 #include <stdexcept>
 
-#include <nlohmann/json.hpp>
-
 #include "candidates/host/contained.hpp"
 #include "candidates/host/progress.hpp"
 #include "candidates/host/worker_processes.hpp"
@@ -16,17 +14,6 @@
 namespace touchstone {
 namespace {
 
-using nlohmann::json;
-
-std::string text_of(const ExactMotion& motion) {
-  return json{{"depths", motion.depths}, {"ways", motion.ways}}.dump();
-}
-
-ExactMotion motion_from(const std::string& text) {
-  const json parsed = json::parse(text);
-  return {parsed["depths"].get<std::vector<double>>(), parsed["ways"].get<std::vector<double>>()};
-}
-
 /// Of all runs; `run` makes one, in one of the worker processes.
 ExactMotion motion_of_all(const Scene& scene, const Trials& trials, unsigned workers,
                           const std::string& name,
@@ -35,12 +22,12 @@ ExactMotion motion_of_all(const Scene& scene, const Trials& trials, unsigned wor
   Progress progress("exact runs, disturbed", count);
   const auto texts = run_in_processes(
       count, workers,
-      [&](std::size_t i) { return text_of(run(DisturbedScene(scene, trials.seed, i))); },
+      [&](std::size_t i) { return to_bytes(run(DisturbedScene(scene, trials.seed, i))); },
       [&](std::size_t i) { return fmt::format("{}, disturbance {}", name, i); },
       [&](std::size_t done) { progress.update(done); });
-  ExactMotion all = motion_from(texts.front());
+  auto all = from_bytes<ExactMotion>(texts.front());
   for (const std::string& text : texts) {
-    const ExactMotion one = motion_from(text);
+    const auto one = from_bytes<ExactMotion>(text);
     for (std::size_t i = 0; i < all.depths.size(); ++i) {
       all.depths[i] = std::max(all.depths[i], one.depths[i]);
     }
@@ -87,10 +74,10 @@ ExactMotion exact_motion_in(const std::string& engine, const Scene& scene, const
     const Contained ran = run_contained(
         [&] {
           const Trajectory run = run_in_world(engine, ours, disturbed.scene, true);
-          return text_of(motion_of(scene, disturbed.turned_back(run)));
+          return to_bytes(motion_of(scene, disturbed.turned_back(run)));
         },
         max_engine_seconds);
-    if (ran.end == Contained::End::returned) return motion_from(ran.text);
+    if (ran.end == Contained::End::returned) return from_bytes<ExactMotion>(ran.text);
     throw std::runtime_error("the engine ended a run with our routines: " + ran.text);
   });
 }

@@ -3,14 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <exception>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <sstream>
 #include <sys/mman.h>
 #include <sys/resource.h>
-#include <type_traits>
 #include <unistd.h>
 
 #include <Eigen/Eigenvalues>
@@ -18,158 +16,38 @@
 #include "candidates/host/contained.hpp"
 #include "candidates/host/host_process.hpp"
 #include "candidates/readable.hpp"
+#include "properties/files/bytes.hpp"
 #include "properties/files/given_text.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone {
-namespace {
 
-// The members of each type, once for writing and reading.
-template <class Archive, class T>
-void members(Archive& a, T& x) requires std::is_same_v<std::remove_const_t<T>, LinkShape> {
-  a(x.name, x.shape, x.pose, x.friction, x.mask.types, x.mask.meets);
+template <>
+LinkShape blank<LinkShape>() {
+  return {"", Sphere(1), Pose()};
 }
-template <class Archive, class T>
-void members(Archive& a, T& x) requires std::is_same_v<std::remove_const_t<T>, LinkInertia> {
+template <class Archive>
+void members(Archive& a, LinkShape& x) {
+  a(x.name, x.shape, x.pose, x.friction, x.mask);
+}
+template <class Archive>
+void members(Archive& a, LinkInertia& x) {
   a(x.pose, x.moments);
 }
-template <class Archive, class T>
-void members(Archive& a, T& x) requires std::is_same_v<std::remove_const_t<T>, Link> {
+template <class Archive>
+void members(Archive& a, Link& x) {
   a(x.name, x.pose, x.shapes, x.mass, x.inertia, x.fixed);
 }
-template <class Archive, class T>
-void members(Archive& a, T& x) requires std::is_same_v<std::remove_const_t<T>, LinkJoint> {
+template <class Archive>
+void members(Archive& a, LinkJoint& x) {
   a(x.name, x.kind, x.child, x.parent, x.anchor, x.axis, x.lower, x.upper, x.effort, x.holds);
 }
-template <class Archive, class T>
-void members(Archive& a, T& x) requires std::is_same_v<std::remove_const_t<T>, LeftOut> {
-  a(x.shapes, x.unknown, x.volume);
-}
-template <class Archive, class T>
-void members(Archive& a, T& x) requires std::is_same_v<std::remove_const_t<T>, RobotFile> {
+template <class Archive>
+void members(Archive& a, RobotFile& x) {
   a(x.name, x.links, x.joints, x.apart, x.is_world, x.gravity, x.step, x.left_out, x.ignored);
 }
 
-template <class T>
-concept Plain = std::is_arithmetic_v<T> || std::is_enum_v<T> || std::is_same_v<T, ts_shape>;
-
-/// Values as bytes, for a process of the same program.
-struct Writer {
-  std::string bytes;
-
-  template <class... T>
-  void operator()(const T&... values) {
-    (write(values), ...);
-  }
-  template <Plain T>
-  void write(const T& x) {
-    bytes.append(reinterpret_cast<const char*>(&x), sizeof x);
-  }
-  void write(const std::string& x) {
-    write(x.size());
-    bytes += x;
-  }
-  void write(const Shape& x) { write(to_ts_shape(x)); }
-  void write(const Vec3& x) { (*this)(x.x(), x.y(), x.z()); }
-  void write(const Pose& x) {
-    const Eigen::Quaterniond& q = x.orientation();
-    (*this)(x.position(), q.w(), q.x(), q.y(), q.z());
-  }
-  template <class A, class B>
-  void write(const std::pair<A, B>& x) {
-    (*this)(x.first, x.second);
-  }
-  template <class T>
-  void write(const std::optional<T>& x) {
-    write(x.has_value());
-    if (x) write(*x);
-  }
-  template <class T>
-  void write(const std::vector<T>& x) {
-    write(x.size());
-    for (const T& each : x) write(each);
-  }
-  template <class T>
-  requires(std::is_class_v<T> && !Plain<T>) void write(const T& x) { members(*this, x); }
-};
-
-/// What a Writer wrote, in its order.
-struct Reader {
-  std::string_view bytes;
-
-  template <class... T>
-  void operator()(T&... values) {
-    (read(values), ...);
-  }
-  std::string_view take(std::size_t size) {
-    const std::string_view taken = bytes.substr(0, size);
-    bytes.remove_prefix(taken.size());
-    return taken;
-  }
-  template <Plain T>
-  void read(T& x) {
-    std::memcpy(&x, take(sizeof x).data(), sizeof x);
-  }
-  std::size_t read_size() {
-    std::size_t size = 0;
-    read(size);
-    return size;
-  }
-  void read(std::string& x) { x = take(read_size()); }
-  void read(Shape& x) {
-    ts_shape s{};
-    read(s);
-    const double* size = s.size;
-    switch (s.kind) {
-      case TS_CYLINDER:
-        x = Cylinder(size[0], size[1]);
-        break;
-      case TS_PLANE:
-        x = Plane(Vec3(size[0], size[1], size[2]), size[3]);
-        break;
-      case TS_SPHERE:
-        x = Sphere(size[0]);
-        break;
-      case TS_CAPSULE:
-        x = Capsule(size[0], size[1]);
-        break;
-      case TS_BOX:
-        x = Box(Vec3(size[0], size[1], size[2]));
-        break;
-    }
-  }
-  void read(Vec3& x) { (*this)(x.x(), x.y(), x.z()); }
-  void read(Pose& x) {
-    Vec3 p;
-    Eigen::Quaterniond q;
-    (*this)(p, q.w(), q.x(), q.y(), q.z());
-    x = Pose(p, q);
-  }
-  template <class A, class B>
-  void read(std::pair<A, B>& x) {
-    (*this)(x.first, x.second);
-  }
-  template <class T>
-  void read(std::optional<T>& x) {
-    bool is_there = false;
-    read(is_there);
-    if (is_there) read(x.emplace());
-  }
-  template <class T>
-  void read(std::vector<T>& x) {
-    const std::size_t size = read_size();
-    for (std::size_t i = 0; i < size; ++i) {
-      if constexpr (std::is_same_v<T, LinkShape>) {
-        x.push_back({"", Sphere(1), Pose()});
-      } else {
-        x.emplace_back();
-      }
-      read(x.back());
-    }
-  }
-  template <class T>
-  requires(std::is_class_v<T> && !Plain<T>) void read(T& x) { members(*this, x); }
-};
+namespace {
 
 /// File in memory that standard error of a reading process goes to; −1 outside of one.
 int library_log = -1;
@@ -302,21 +180,18 @@ std::string read_as_bytes(Format format, const std::filesystem::path& file,
   library_log = log;
   bound_memory();
   for (const int standard : {STDOUT_FILENO, STDERR_FILENO}) dup2(log, standard);
-  Writer result;
   try {
     RobotFile robot = read_format(format, file, folders);
     check_robot(robot, file);
-    result(true, robot);
+    return to_bytes(true, robot);
   } catch (const InvalidInput& e) {
-    result = {};
-    result(false, e.field(), e.value(), e.remedy());
+    return to_bytes(false, e.field(), e.value(), e.remedy());
   } catch (const std::exception& e) {  // thrown by the libraries
     constexpr std::size_t max_reason = 200;
-    result = {};
-    result(false, std::string("scene"), '"' + file.string() + '"',
-           "must be a URDF, SDF or MJCF file; its reader says: " + printable(e.what(), max_reason));
+    return to_bytes(
+        false, std::string("scene"), '"' + file.string() + '"',
+        "must be a URDF, SDF or MJCF file; its reader says: " + printable(e.what(), max_reason));
   }
-  return result.bytes;
 }
 
 std::string text_of_log(int log) {
@@ -448,19 +323,15 @@ RobotFile read_robot(const std::filesystem::path& file,
                        "must be a file that its reader survives: " + read.text +
                            (complaint.empty() ? "" : "; it says: " + complaint));
   }
-  Reader reader{read.text};
-  bool is_read = false;
-  reader(is_read);
-  if (!is_read) {
+  BytesIn in(read.text);
+  if (!in.next<bool>()) {
     std::string field, value, remedy;
-    reader(field, value, remedy);
+    in(field, value, remedy);
     if (field != "scene" && !field.starts_with(file.string()))
       field.insert(0, file.string() + ": ");
     throw InvalidInput(field, value, remedy);
   }
-  RobotFile robot;
-  reader(robot);
-  return robot;
+  return in.next<RobotFile>();
 }
 
 std::string left_out_text(const RobotFile& robot) {
