@@ -12,6 +12,7 @@
 
 #include "oracle/patch/contact_patch.hpp"
 #include "oracle/truth.hpp"
+#include "properties/files/bytes.hpp"
 #include "properties/identity.hpp"
 #include "properties/numbers.hpp"
 #include "reference/support.hpp"
@@ -88,66 +89,15 @@ Case make_case(const Identity& id) {
   return result;
 }
 
-// A flat row of doubles: numbers of all kinds, a string as its length and characters.
-class Writer {
- public:
-  explicit Writer(std::FILE* file) : file_(file) {}
-  void add(double x) { std::fwrite(&x, sizeof x, 1, file_); }
-  template <std::size_t n>
-  void add(const std::array<double, n>& all) {
-    for (const double x : all) add(x);
-  }
-  template <class Range>
-  void add_all(const Range& range) {
-    add(static_cast<double>(range.size()));
-    for (const auto& x : range) add(x);
-  }
-
- private:
-  std::FILE* file_;
-};
-
-class Reader {
- public:
-  explicit Reader(std::FILE* file) : file_(file) {}
-  bool read(double& x) { return std::fread(&x, sizeof x, 1, file_) == 1; }
-  double number() {
-    double x = 0;
-    if (!read(x)) throw std::runtime_error("the file of truths ends early: make it again");
-    return x;
-  }
-  template <std::size_t n>
-  void read(std::array<double, n>& all) {
-    for (double& x : all) x = number();
-  }
-  std::vector<Numbers3> vectors() {
-    std::vector<Numbers3> all(static_cast<std::size_t>(number()));
-    for (Numbers3& v : all) read(v);
-    return all;
-  }
-
- private:
-  std::FILE* file_;
-};
-
 std::FILE* opened(const std::string& file, const char* mode) {
   std::FILE* f = std::fopen(file.c_str(), mode);
   if (!f) throw std::runtime_error("cannot open " + file);
   return f;
 }
 
-void write(Writer& out, const Case& c) {
-  out.add_all(c.identity);
-  const RawConfiguration& r = c.raw;
-  out.add(r.pair), out.add(r.sizes), out.add(r.position_a), out.add(r.position_b);
-  out.add(r.orientation_a), out.add(r.orientation_b), out.add(r.normal), out.add(r.displacement);
-  const auto high = static_cast<double>(c.signed_distance);
-  out.add(high), out.add(static_cast<double>(c.signed_distance - high));
-  out.add_all(c.normals);
-  out.add(static_cast<double>(c.patches.size()));
-  for (const KnownPatch& p : c.patches) {
-    out.add(p.normal), out.add(p.leans), out.add_all(p.outline);
-  }
+void write(std::FILE* file, const Case& c) {
+  const std::string bytes = to_bytes(to_bytes(c));  // with their number before them
+  std::fwrite(bytes.data(), bytes.size(), 1, file);
 }
 
 constexpr std::uint64_t seed = case_seed;
@@ -156,16 +106,15 @@ constexpr std::uint64_t seed = case_seed;
 
 void write_cases(const std::string& file, const std::string& net, std::uint64_t count) {
   std::FILE* f = opened(file, "wb");
-  Writer out(f);
   for (std::uint64_t i = 0; i < count; ++i) {
     for (const Pair pair : all_pairs) {
       if (net == "hostile") {
         const bool has_search = pair != Pair::plane && pair != Pair::sphere;
-        if (has_search || i % 8 == 0) write(out, make_case({pair, "hostile", seed, i}));
+        if (has_search || i % 8 == 0) write(f, make_case({pair, "hostile", seed, i}));
         continue;
       }
       for (const std::string& name : pose_classes(pair)) {
-        write(out, make_case({pair, name, seed, i}));
+        write(f, make_case({pair, name, seed, i}));
       }
     }
   }
@@ -175,23 +124,13 @@ void write_cases(const std::string& file, const std::string& net, std::uint64_t 
 CaseReader::CaseReader(const std::string& file) : file_(opened(file, "rb")) {}
 
 bool CaseReader::next(Case& c) {
-  Reader in(file_);
-  double length = 0;
-  if (!in.read(length)) return false;
-  c = Case{};
-  for (int i = 0; i < length; ++i) c.identity += static_cast<char>(in.number());
-  RawConfiguration& r = c.raw;
-  r.pair = in.number();
-  in.read(r.sizes), in.read(r.position_a), in.read(r.position_b);
-  in.read(r.orientation_a), in.read(r.orientation_b), in.read(r.normal);
-  r.displacement = in.number();
-  const long double high = in.number();
-  c.signed_distance = high + in.number();
-  c.normals = in.vectors();
-  c.patches.resize(static_cast<std::size_t>(in.number()));
-  for (KnownPatch& p : c.patches) {
-    in.read(p.normal), p.leans = in.number(), p.outline = in.vectors();
+  std::size_t size = 0;
+  if (std::fread(&size, sizeof size, 1, file_) != 1) return false;
+  std::string bytes(size, '\0');
+  if (std::fread(bytes.data(), size, 1, file_) != 1) {
+    throw std::runtime_error("the file of truths ends early: make it again");
   }
+  c = from_bytes<Case>(bytes);
   return true;
 }
 

@@ -18,6 +18,10 @@ struct KnownPatch {
   double leans;                   ///< 1 or 0
   std::vector<Numbers3> outline;  ///< corners in order, arcs as chords
 };
+template <class Archive>
+void members(Archive& a, KnownPatch& p) {
+  a(p.normal, p.leans, p.outline);
+}
 
 /// A configuration, and what the oracle knows of it.
 struct Case {
@@ -27,6 +31,10 @@ struct Case {
   std::vector<Numbers3> normals;  ///< optimal ones
   std::vector<KnownPatch> patches;
 };
+template <class Archive>
+void members(Archive& a, Case& c) {
+  a(c.identity, c.raw, c.signed_distance, c.normals, c.patches);
+}
 
 constexpr double leaning_threshold = 0.01;
 
