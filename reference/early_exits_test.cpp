@@ -97,8 +97,8 @@ TEST(CertifiedDistance, BoundsHoldOfWhatAttacksProofs) {
     double min_proven_part;
   } generators[] = {{"arrangement", &RoundingMade::arrangement, 1},
                     {"diagonal", &RoundingMade::diagonal, 1},
-                    {"post_along_rim", &RoundingMade::post_along_rim, 0.4},
-                    {"equal_coins", &RoundingMade::equal_coins, 0.3},
+                    {"post_along_rim", &RoundingMade::post_along_rim, 0.7},
+                    {"equal_coins", &RoundingMade::equal_coins, 0.7},
                     {"needle_over_rim", &RoundingMade::needle_over_rim, 1}};
   for (const auto& generator : generators) {
     double largest_bound = 0;

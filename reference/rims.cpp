@@ -35,6 +35,27 @@ Range cosines(double offset, double end, const Range& x, double sign) {
 
 }  // namespace
 
+// φ is a constant less r1 (q2 cos α + q3 sin α) and r2 R (proofs.md, "On short arcs").
+double Rims::max_third_derivative_of_short(const RimSample& x, double half_width,
+                                           const Passage& p) const {
+  const double c = pair_.axes.c, r1 = pair_.r1, r2 = pair_.r2, v = p.max_speed;
+  // Derivatives of rim 1's point as seen along axis 2, over r1; and of R.
+  const double k1 = c * x.sin1, z1 = -x.cos1, k2 = c * x.cos1, z2 = x.sin1;
+  const double across = r1 * (x.cos2 * z1 - x.sin2 * k1), inverse = 1 / x.radial;
+  const double rate = r1 * (x.cos2 * k1 + x.sin2 * z1);
+  const double second = r1 * (x.cos2 * k2 + x.sin2 * z2) + across * across * inverse;
+  const double third = 3 * (r1 * r1 * (k1 * k2 + z1 * z2) - rate * second) * inverse - rate;
+  const double middle = q_.y() * x.sin1 - q_.z() * x.cos1 + r2 * inverse_r1_ * third;
+  const double max_fourth_of_radial =
+      r1 + (3 * r1 * r1 + 4 * v * v + 4 * p.max_rate * max_third_of_radial(p) +
+            3 * p.max_second * p.max_second) *
+               p.inverse_radial;
+  const double max_fourth =
+      std::sqrt(q_.y() * q_.y() + q_.z() * q_.z()) + r2 * inverse_r1_ * max_fourth_of_radial;
+  const double rounding = 8 * p.rounding_of_curvature * (1 + r1 * p.inverse_radial);
+  return std::abs(middle) + rounding + max_fourth * half_width;
+}
+
 Range Rims::cosines_at_height(double depth, double limit) const {
   const double lean = pair_.axes.s * pair_.r1, height = pair_.axes.along_u2(q_);
   const double lowest = end2_ > 0 ? -depth : -limit, highest = end2_ > 0 ? limit : depth;

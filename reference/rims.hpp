@@ -305,20 +305,22 @@ class Rims {
   /// Bound of the slope's second derivative on an arc that stays off axis 2.
   double max_third_derivative(const RimSample& x, double half_width, const Passage& p) const {
     const double s = pair_.axes.s, r1 = pair_.r1;
-    const double third = std::min(p.max_speed * (1 + 1.155 * p.turn * p.turn) + 3 * r1 * p.turn,
-                                  p.min_radial * p.wave * (0.5 + p.wave * (0.75 + 0.375 * p.wave)));
     const double sine = std::min(0.5, std::abs(x.sin1) + half_width);
     const double height = std::abs(x.height) + s * r1 * half_width;
     const double beside = std::abs(x.radial - pair_.r2) + p.max_rate * half_width;
     return s * (height + 3 * s * r1 * sine) +
-           (beside * third + 3 * p.max_rate * p.max_second) * inverse_r1_;
+           (beside * max_third_of_radial(p) + 3 * p.max_rate * p.max_second) * inverse_r1_;
   }
-
   /// Bound of how far curvatures on the arc are from the middle's, rounding included; infinite
   /// where the arc may cross axis 2.
   double max_bend(const RimSample& x, double half_width, const Passage& p) const {
     if (!(p.min_radial > 0)) return std::numeric_limits<double>::infinity();
-    return max_third_derivative(x, half_width, p) * half_width + p.rounding_of_curvature;
+    double third = max_third_derivative(x, half_width, p);
+    constexpr double is_short = 0.004;
+    if (half_width < is_short) {
+      third = std::min(third, max_third_derivative_of_short(x, half_width, p));
+    }
+    return third * half_width + p.rounding_of_curvature;
   }
 
   /// Whether every stationary distance on the arc is a maximum, because rim 1 passes so close to
@@ -368,6 +370,16 @@ class Rims {
   /// at most the distance of the rims, on the far side of the plane where the bodies are apart, on
   /// the near side where they overlap.
   Range cosines_at_height(double depth, double limit) const;
+
+  /// `max_third_derivative` by what the third derivative is in the middle and how far it changes:
+  /// its terms cancel where the distance hardly varies. It pays on short arcs only.
+  double max_third_derivative_of_short(const RimSample& x, double half_width,
+                                       const Passage& p) const;
+  /// Bound of the third derivative of rim 1's point's distance from axis 2.
+  double max_third_of_radial(const Passage& p) const {
+    return std::min(p.max_speed * (1 + 1.155 * p.turn * p.turn) + 3 * pair_.r1 * p.turn,
+                    p.min_radial * p.wave * (0.5 + p.wave * (0.75 + 0.375 * p.wave)));
+  }
 
   const FoldedCylinders& pair_;
   static constexpr double margin_part = 34 * unit_roundoff;  // proofs.md
