@@ -279,8 +279,8 @@ std::optional<LargestGap> standing(const PosedCylinder& a, const PosedCylinder& 
   return best.largest_gap();
 }
 
-/// Rounding makes the proofs of a cap, of crossing sides and of a side beside a rim wrong by at
-/// most this (proofs.md, "Rounding of a certified distance").
+/// Rounding makes what a proof says wrong by at most this (proofs.md, "Rounding of a certified
+/// distance").
 double what_proofs_round(const FoldedCylinders& p) {
   constexpr double part = 40 * unit_roundoff;
   return (part + p.axes.unit_error()) * p.lengths();
