@@ -142,10 +142,23 @@ Texts question_texts(const Configuration& c, NumberStyle numbers) {
   return writer.texts;
 }
 
+namespace {
+
+/// The double nearest to the middle of an enclosure.
+double nearest_to_middle(const oracle::Enclosure& e) {
+  const mpq_class middle = (e.lo + e.hi) / 2;
+  const double inner = middle.get_d();  // towards zero
+  const double outer = std::nextafter(inner, middle < 0 ? -INFINITY : INFINITY);
+  const mpq_class from_inner = abs(middle - inner), from_outer = abs(middle - outer);
+  return from_inner <= from_outer ? inner : outer;
+}
+
+}  // namespace
+
 Texts truth_texts(const Configuration& c, const oracle::Truth& truth, const Bar& bar,
                   NumberStyle numbers) {
   const auto [low, high] = decimals(truth.signed_distance);
-  const double distance = truth.signed_distance.midpoint();
+  const double distance = nearest_to_middle(truth.signed_distance);
   const Vec3 n = truth.normals.front().n;
   const Vec3 middle = oracle::contact_patch(c, truth.normals.front()).centroid();
   Writer writer(numbers);
