@@ -266,7 +266,7 @@ TEST(Report, PrintsCommandsWithTheOptionsOfTheirOwnCandidatesAlone) {
     return "./touchstone --load " +
            (std::filesystem::canonical(TOUCHSTONE_TEST_PLUGINS) / name).string();
   };
-  EXPECT_EQ(replay_command("a/b/1/2", {"reference", "prism:8"}), "./touchstone replay a/b/1/2");
+  EXPECT_EQ(replay_command("a/b/1/2", {"reference", "bullet"}), "./touchstone replay a/b/1/2");
   EXPECT_EQ(replay_command("a/b/1/2", {"reference", "sabotage", "obedient"}),
             added("touchstone-sabotage.so") + " replay a/b/1/2");
   EXPECT_EQ(program_name({"hostile:2"}), added("touchstone-hostile.so"));
