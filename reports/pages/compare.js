@@ -26,7 +26,9 @@ function changeTable() {
       verdicts.flatMap(v => beyond.filter(c => c.verdict === v)).map(c => [
         element('td', {class: 'text ' + (c.verdict === 'worse' || c.verdict === 'slower' ? 'bad' : 'good')}, c.verdict),
         c.pair, c.class, named(c.candidate), c.measure, value(c, 'before'), value(c, 'after'),
-        c.factor === null ? '–' : '× ' + exponent(c.factor, 3)]), `${beyond.length} changes; a factor is what is now, divided by what was`));
+        c.factor === null ? '–' : '× ' + exponent(c.factor, 3)]),
+      `${beyond.length} changes; a factor is what is now, divided by what was, where an error below 1e-14 counts as that, ` +
+      'and of the patch not covered a share below 0.01'));
 }
 
 // A chart of each pair, on the same axes.
