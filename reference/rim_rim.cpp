@@ -211,6 +211,7 @@ class RimScan {
   // What is left after so many samples is divided only so far that on each arc rim 1, and rim 2's
   // nearest point about axis 2, go on by no more than this.
   static constexpr int max_samples = 20000, last_sample = 3 * max_samples;
+  static constexpr int many_samples = 2000;  // are taken only where the distance hardly varies
   static constexpr double coarse_way = 2e-3, coarse_turn = 0.05;  // rad
 
   /// With its cosine and sine: those of a bisected arc cost less than new ones.
@@ -267,7 +268,7 @@ class RimScan {
     const RimSample middle = at(angle);
     const double half_width = overlap * half.radians;
     const Passage passage = rims_.passage(middle, half_width);
-    const double bend = rims_.max_bend(middle, half_width, passage);
+    const double bend = rims_.max_bend(middle, half_width, passage, samples_ > many_samples);
     const double bends = (bend + passage.rounding_of_curvature) / 2;
     return {angle,
             half,

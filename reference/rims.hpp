@@ -312,14 +312,12 @@ class Rims {
            (beside * max_third_of_radial(p) + 3 * p.max_rate * p.max_second) * inverse_r1_;
   }
   /// Bound of how far curvatures on the arc are from the middle's, rounding included; infinite
-  /// where the arc may cross axis 2.
-  double max_bend(const RimSample& x, double half_width, const Passage& p) const {
+  /// where the arc may cross axis 2. It is closer, and takes longer, where distances hardly vary.
+  double max_bend(const RimSample& x, double half_width, const Passage& p,
+                  bool hardly_varies = false) const {
     if (!(p.min_radial > 0)) return std::numeric_limits<double>::infinity();
     double third = max_third_derivative(x, half_width, p);
-    constexpr double is_short = 0.004;
-    if (half_width < is_short) {
-      third = std::min(third, max_third_derivative_of_short(x, half_width, p));
-    }
+    if (hardly_varies) third = std::min(third, max_third_derivative_of_short(x, half_width, p));
     return third * half_width + p.rounding_of_curvature;
   }
 

@@ -112,10 +112,7 @@ void judge_derivation(const RawArc& x, Real angle, Real half_width,
   expect(x.turn >= digits * turn && x.max_second >= digits * second - 1e-15L * size &&
              x.max_rate >= digits * rate - 1e-15L * size,
          ArcCheck::derivatives);
-  // Of shorter arcs it may know a better bound.
-  constexpr Real shortest = 0.004L;
-  expect(half_width < shortest || x.max_bend >= digits * (derivative * half_width + noise),
-         ArcCheck::derivatives);
+  expect(x.max_bend >= digits * (derivative * half_width + noise), ArcCheck::derivatives);
   if (x.points_inward) {
     expect(std::abs(middle.apart.x()) >= digits * s * r2 * turn * half_width, ArcCheck::directions);
   }
