@@ -12,7 +12,7 @@ struct Answer : ts_answer {
   /// For TS_CRASHED and TS_TIMED_OUT, and where it is known for TS_FAILED: "Segmentation fault".
   std::string reason;
   std::optional<double> model_distance;  ///< signed distance of a simplified model's shapes, metres
-  bool was_asked = true;  ///< false: there is no answer, for a sample was asked (sampled_answers)
+  bool was_asked = true;  ///< false: the candidate had been stopped (answers_until_stopped)
 };
 
 }  // namespace touchstone

@@ -31,18 +31,19 @@ struct FacingFeature {
 };
 
 /// How large a part of a feature of this half length, which leans by `sine`, faces the other body,
-/// from its end that is nearest to it on: all of it while a fifth lies within `slack` of that end,
-/// less and less as it leans further, and none (0) where only a tenth does. Features smaller than
-/// the slack may lean by `max_sine`. Continuous, but for parts of a millionth, so that no feature
-/// ends to face the other body all at once.
+/// from its end that is nearest to it on: all of it while an eighth lies within `slack` of that
+/// end, less and less as it leans further, and none (0) where only a tenth does: a can on a slope
+/// has to stand as long as it does on paper. Features smaller than the slack may lean by
+/// `max_sine`. Continuous, but for parts of a millionth, so that no feature ends to face the other
+/// body all at once.
 inline double facing_part(double half_length, double sine, double slack, double max_sine = 0.1) {
   const double lean = std::abs(sine), rise = 0.2 * half_length * lean;
-  constexpr double all_but_steepest = 0.9, same = 1e-6;
-  if (2 * rise <= slack && lean <= all_but_steepest * max_sine) [[likely]]
+  constexpr double all_but_highest = 1.25, all_but_steepest = 0.9, same = 1e-6;
+  if (all_but_highest * rise <= slack && lean <= all_but_steepest * max_sine) [[likely]]
     return 1;
   if (!(rise < slack && lean < max_sine)) return 0;
   const double steep = (1 - lean / max_sine) / (1 - all_but_steepest);
-  const double part = std::min({slack / rise - 1, steep, 1.0});
+  const double part = std::min({(slack / rise - 1) / (all_but_highest - 1), steep, 1.0});
   return part > same ? part : 0;
 }
 

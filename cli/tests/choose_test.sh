@@ -94,6 +94,7 @@ expect 2 'must have a cylinder that moves and touches something: see --drive' \
 # the one that was measured. As it is written the can balances on the pole of its capsule.
 expect 0 'render .*pedestal.json --contacts capsule --disturbance [0-9]* --seed 3$' \
   choose "$folder/pedestal.json" --candidates capsule --seed 3 --out "$folder/again"
+page_data "$folder/again/choose.html" >"$folder/again/page.json"
 python3 - "$program" "$folder/again" <<'END' || failed "a run that breaks a need is not made again"
 import json, math, pathlib, re, shlex, subprocess, sys
 program, folder = sys.argv[1], pathlib.Path(sys.argv[2])
@@ -101,7 +102,7 @@ choice = json.loads((folder / "choose.json").read_text())
 run = next(r for r in choice["runs"] if r["name"] == "capsule")
 assert not run["holds"] and run["disturbance"] > 0, run
 command = shlex.split(run["render"])
-assert command[0] == "./touchstone" and run["render"] in (folder / "choose.html").read_text()
+assert command[0] == "./touchstone" and run["render"] in (folder / "page.json").read_text()
 subprocess.run([program, *command[1:], "--every", str(choice["scene"]["step"]), "--out", folder / "frames"],
                check=True, stdout=subprocess.DEVNULL)
 verdict, largest, first = run["verdicts"][0], 0, None

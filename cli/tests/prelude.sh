@@ -39,4 +39,7 @@ also() {
   done
 }
 
+# page_data PAGE: prints what the page's script reads.
+page_data() { python3 "$source_folder/cli/tests/page_data.py" "$1"; }
+
 finish() { exit $((failures > 0)); }

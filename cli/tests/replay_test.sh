@@ -10,7 +10,7 @@ grep -v '^{' <<<"$printed" | awk 'length($0) > 80 { exit 1 }' || failed "replay 
 expect 0 "\"id\":\"$rim\"" replay $rim --json
 expect 0 'reference: contact' replay <(echo "$printed") --candidates reference
 expect 0 'reference: contact' replay $rim --candidates reference --html "$folder/page.html"
-grep -q "$rim" "$folder/page.html" || failed "no page"
+page_data "$folder/page.html" | grep -q "$rim" || failed "no page"
 expect 2 '--html.*must be a folder that can be written' replay $rim --html /proc/none/page.html
 expect 2 '--html.*must be a file, not a folder' replay $rim --html "$folder"
 expect 0 . replay $rim --candidates reference --json

@@ -25,7 +25,7 @@ expect 0 'report.html' report $lying --count 1 --candidates reference,bullet --o
 r="$folder/a b/report.json"
 expect 0 'No change' compare "$r" "$r" --html "$folder/compare.html"
 also '100% of what agreed must agree still'
-grep -q 'cylinder-plane' "$folder/compare.html" || failed "no page of compare"
+page_data "$folder/compare.html" | grep -q 'cylinder-plane' || failed "no page of compare"
 expect 0 '"changes":\[\]' compare "$r" "$r" --json
 python3 - "$r" "$folder/worse.json" <<'END'
 import json, sys
