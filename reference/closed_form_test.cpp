@@ -202,42 +202,42 @@ TEST(CylinderCylinder, GeneratorsEndToEndMeetBetweenTheirEnds) {
   }
 }
 
-TEST(FacingPart, IsAllWhileAnEighthLiesWithinTheSlackAndNoneFromATenthOn) {
+TEST(FacingPart, GoesFromAllToNoneWhereATenthLiesWithinTheSlack) {
   constexpr double slack = 1e-3;  // of a length of 2
   EXPECT_EQ(facing_part(1, 0, slack), 1);
-  EXPECT_EQ(facing_part(1, -0.004, slack), 1);
-  EXPECT_NEAR(facing_part(1, 0.0045, slack), 4 / 9.0, 1e-14);
-  EXPECT_EQ(facing_part(1, 0.0050001, slack), 0);
+  EXPECT_EQ(facing_part(1, -0.0049, slack), 1);
+  EXPECT_NEAR(facing_part(1, 0.00525, slack), 0.5, 1e-12);
+  EXPECT_NEAR(facing_part(1, 0.004, slack, 0.1, 0.5), 0.5, 1e-12);
+  EXPECT_EQ(facing_part(1, 0.0055001, slack), 0);
   // However small it is, it leans by at most 0.1.
-  EXPECT_EQ(facing_part(1e-4, 0.09, slack), 1);
-  EXPECT_NEAR(facing_part(1e-4, 0.095, slack), 0.5, 1e-12);
+  EXPECT_EQ(facing_part(1e-4, 0.0909, slack), 1);
+  EXPECT_NEAR(facing_part(1e-4, 0.105 / 1.1, slack), 0.5, 1e-12);
   EXPECT_EQ(facing_part(1e-4, 0.1, slack), 0);
 }
 
-// Of a generator or face that leans the end that is nearest to the other body stays; a cap, whose
-// points do so in the end, stays whole.
-TEST(FacingFeature, ShrinksToItsNearestEnd) {
-  constexpr double slack = 1e-3, sine = 0.0045, part = 4 / 9.0;
+// Of a face that leans the side that is nearest to the other body stays; caps, generators and
+// edges, whose points draw together in the end, stay whole.
+TEST(FacingFeature, OfAFaceShrinksToItsNearestSide) {
+  constexpr double slack = 1e-3, sine = 0.004;
   const Pose pose({1, 2, 3}, upright);
-  const auto outward = [](double x) { return Vec3(x, 0, std::sqrt((1 - x) * (1 + x))); };
+  const Vec3 outward(sine, 0, std::sqrt((1 - sine) * (1 + sine)));
   const auto expect_near = [](const Vec3& x, const Vec3& y) {
     EXPECT_NEAR((x - y).norm(), 0, 1e-15);
   };
-  const FacingFeature cap = facing(posed(Cylinder(1, 2), pose, Vec3::Zero()), outward(sine), slack);
-  ASSERT_EQ(cap.kind, FacingFeature::Kind::disc);
-  EXPECT_NEAR(cap.part, part, 1e-12);
-  EXPECT_EQ(cap.radius, 1);
-  const Vec3 aside(outward(sine).z(), 0, sine);
-  const FacingFeature side = facing(posed(Cylinder(2, 1), pose, Vec3::Zero()), aside, slack);
-  ASSERT_EQ(side.kind, FacingFeature::Kind::segment);
-  EXPECT_NEAR(side.half_length, part, 1e-12);
-  expect_near(side.middle + side.half_length * Vec3::UnitZ(), Vec3(2, 0, 1));
-  const FacingFeature face =
-      facing(posed(Box({1, 2, 3}), pose, Vec3::Zero()), -outward(sine), slack);
+  const FacingFeature face = facing(posed(Box({1, 2, 3}), pose, Vec3::Zero()), -outward, slack);
   ASSERT_EQ(face.kind, FacingFeature::Kind::rectangle);
-  EXPECT_NEAR(face.half_side[0], part, 1e-12);
+  EXPECT_NEAR(face.half_side[0], 0.5, 1e-12);
+  EXPECT_NEAR(face.left_out[0], 1, 1e-12);
   EXPECT_EQ(face.half_side[1], 2);
   expect_near(face.middle - face.half_side[0] * Vec3::UnitX(), Vec3(-1, 0, -3));
+  constexpr double steeper = 0.00525;
+  const Vec3 aside(std::sqrt((1 - steeper) * (1 + steeper)), 0, steeper);
+  const FacingFeature side = facing(posed(Cylinder(2, 1), pose, Vec3::Zero()), aside, slack);
+  ASSERT_EQ(side.kind, FacingFeature::Kind::segment);
+  EXPECT_LT(side.part, 1);
+  EXPECT_EQ(side.half_length, 1);
+  EXPECT_NEAR(side.left_out[0], -2 * (1 - side.part), 1e-15);
+  expect_near(side.middle, Vec3(2, 0, 0));
 }
 
 TEST(Support, OfAHalfSpaceIsInfiniteButAlongItsNormal) {

@@ -34,10 +34,12 @@ FacingFeature facing(const PosedCylinder& body, const Vec3& outward, double slac
   const double arm = body.radius / feature.sine;
   if (const double part = facing_part(body.half_length, along, slack); part > 0) {
     feature.kind = Kind::segment;
+    feature.part = part;
+    feature.left_out[0] = -std::copysign(2 * (1 - part) * body.half_length, along);
     feature.axis = u;
-    feature.half_length = part * body.half_length;
+    feature.half_length = body.half_length;
     feature.radius = body.radius;
-    place_middle((1 - part) * end, arm);
+    place_middle(0, arm);
     return feature;
   }
   place_middle(end, arm);
@@ -54,13 +56,14 @@ FacingFeature facing(const PosedCapsule& body, const Vec3& outward, double slack
   const double part = facing_part(body.half_length, along, slack, slant);
   if (part > 0) {
     feature.kind = Kind::segment;
+    feature.part = part;
+    feature.left_out[0] = -std::copysign(2 * (1 - part) * body.half_length, along);
     feature.axis = body.axis();
-    feature.half_length = part * body.half_length;
+    feature.half_length = body.half_length;
     feature.radius = body.radius;
+    return feature;
   }
-  if (part < 1) {
-    feature.middle += std::copysign((1 - part) * body.half_length, along) * body.axis();
-  }
+  feature.middle += std::copysign(body.half_length, along) * body.axis();
   return feature;
 }
 
@@ -72,7 +75,10 @@ FacingFeature facing(const PosedBox& body, const Vec3& outward, double slack) {
   for (int i = 0; i < 3; ++i) {
     const Vec3 axis = body.axes.col(i);
     const double along = axis.dot(outward);
-    const double part = free < 2 ? facing_part(body.half_extents[i], along, slack) : 0;
+    // A face may be far longer than what it shares with the other body, over which it is drawn.
+    constexpr double max_sine = 0.1, all_up_to = 0.5;
+    const double part =
+        free < 2 ? facing_part(body.half_extents[i], along, slack, max_sine, all_up_to) : 0;
     const double left_out = (1 - part) * body.half_extents[i];
     if (left_out > 0) feature.middle += std::copysign(left_out, along) * axis;
     if (part > 0) {
@@ -86,7 +92,9 @@ FacingFeature facing(const PosedBox& body, const Vec3& outward, double slack) {
   if (free == 1) {
     feature.kind = Kind::segment;
     feature.axis = feature.side[0];
-    feature.half_length = feature.half_side[0];
+    feature.half_length = feature.half_side[0] + std::abs(feature.left_out[0]) / 2;
+    feature.middle += feature.left_out[0] / 2 * feature.axis;
+    feature.part = feature.half_side[0] / feature.half_length;
     feature.radius = 0;
   } else if (free == 2) {
     feature.kind = Kind::rectangle;

@@ -20,30 +20,33 @@ struct FacingFeature {
   Vec3 middle;  ///< The point itself; on the surface.
   /// Of a point on a rim, the sine of the angle between normal and axis; otherwise 1.
   double sine;
-  double part = 1;  ///< Of a disc its `facing_part`: whole itself, its points are to draw together.
+  double part = 1;  ///< Of a disc or segment its `facing_part`; the feature itself is whole.
   // Members that the kind does not name stay unset.
   Vec3 axis;
   Vec3 mark;  ///< of a disc, across its axis: a direction that turns with the body
   double half_length, radius;
   std::array<Vec3, 2> side;
   std::array<double, 2> half_side;
-  std::array<double, 2> left_out;  ///< how far each side goes on along itself, at its far end
+  /// How far each side goes on along itself, at its far end; the first one how much of a segment
+  /// does not face the other body.
+  std::array<double, 2> left_out;
 };
 
 /// How large a part of a feature of this half length, which leans by `sine`, faces the other body,
-/// from its end that is nearest to it on: all of it while an eighth lies within `slack` of that
-/// end, less and less as it leans further, and none (0) where only a tenth does: a can on a slope
-/// has to stand as long as it does on paper. Features smaller than the slack may lean by
-/// `max_sine`. Continuous, but for parts of a millionth, so that no feature ends to face the other
-/// body all at once.
-inline double facing_part(double half_length, double sine, double slack, double max_sine = 0.1) {
-  const double lean = std::abs(sine), rise = 0.2 * half_length * lean;
-  constexpr double all_but_highest = 1.25, all_but_steepest = 0.9, same = 1e-6;
-  if (all_but_highest * rise <= slack && lean <= all_but_steepest * max_sine) [[likely]]
+/// from its end that is nearest to it on: all while a tenth of it lies within `slack` of that end
+/// (of faces, to which `all_up_to` is 0.5, a fifth), less and less as it leans further, and none
+/// (0) where a twelfth does; the same up to `max_sine`, which small features reach first.
+/// Continuous, but for parts of a millionth, so that no feature ends to face the other body all at
+/// once.
+inline double facing_part(double half_length, double sine, double slack, double max_sine = 0.1,
+                          double all_up_to = 1) {
+  constexpr double none_from = 1.1, same = 1e-6;
+  const double lean = std::abs(sine), rise = 0.2 * half_length * lean / slack;
+  const double steep = none_from * lean / max_sine;
+  const double most = std::max(rise, steep);
+  if (most <= all_up_to) [[likely]]
     return 1;
-  if (!(rise < slack && lean < max_sine)) return 0;
-  const double steep = (1 - lean / max_sine) / (1 - all_but_steepest);
-  const double part = std::min({(slack / rise - 1) / (all_but_highest - 1), steep, 1.0});
+  const double part = (none_from - most) / (none_from - all_up_to);
   return part > same ? part : 0;
 }
 

@@ -59,8 +59,8 @@ double max_depth(const Contact& contact) {
   return depth;
 }
 
-/// Draws the points together to that part of their way from the deepest one. What leans so is flat,
-/// so that points between two of both bodies are of both bodies.
+/// Draws the points together to that part of their way from the deepest one. One of the features is
+/// flat, so that points between two of both bodies are of both bodies.
 [[gnu::noinline, gnu::cold]] void draw_together(Contact& contact, double part) {
   const Contact whole = contact;
   const ContactPoint* to = deepest_point(whole);
@@ -75,7 +75,9 @@ double max_depth(const Contact& contact) {
 void add_points_of_features(Contact& contact, const FacingFeature& a, const FacingFeature& b,
                             const Vec3& origin, const Margins& margins) {
   add_points_of_whole(contact, a, b, origin, margins);
-  if (const double part = a.part * b.part; part < 1) draw_together(contact, part);
+  // Two segments draw together by themselves (line_contact.cpp).
+  const bool has_flat = is_flat(a) || is_flat(b);
+  if (const double part = a.part * b.part; part < 1 && has_flat) draw_together(contact, part);
 }
 
 /// Adds a point of the whole depth, where those features meet that face each other but for

@@ -253,8 +253,8 @@ TEST(ManifoldMotion, PointsStayWhereSizesAreEqualOrTangent) {
   EXPECT_GE(rests, all / 2);
 }
 
-// From level to a tilt of which a tenth of the cap lies within the slack, where one point is left,
-// and all around at each: no jump.
+// From level to a tilt of which a tenth of the cap lies within the slack, and all around at each:
+// no jump. Where an eleventh does, one point is left.
 TEST(ManifoldMotion, HullOfAWholeCapNeverJumpsAsTheTiltGrowsOrTurns) {
   for (const Rest& rest : rests()) {
     // Of equal caps a tilt makes a lens.
@@ -270,13 +270,13 @@ TEST(ManifoldMotion, HullOfAWholeCapNeverJumpsAsTheTiltGrowsOrTurns) {
                           {0, 0, 0});
       };
       Contact before = leaning(0, 0);
-      for (double tilt = 1e-8; tilt < 0.0102; tilt *= 1.02) {
+      for (double tilt = 1e-8; tilt < 0.0098; tilt *= 1.02) {
         const Contact after = leaning(tilt, 0);
         EXPECT_LE(hull_movement(before, after), 0.08) << tilt;
         EXPECT_LE(hull_movement(after, leaning(tilt, 0.01)), 0.04) << tilt;
         before = after;
       }
-      EXPECT_EQ(leaning(0.0102, 0).points().size(), 1u);
+      EXPECT_EQ(leaning(0.0112, 0).points().size(), 1u);
     }
   }
 }
