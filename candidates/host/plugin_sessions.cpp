@@ -123,7 +123,7 @@ void PluginSessions::end(bool gently) {
 std::optional<NoAnswer> PluginSessions::obey(SessionCommand command, std::size_t configurations) {
   using Received = PluginProcess::Received;
   const bool is_fresh = session_ < 0;
-  const std::optional<NoAnswer> begin_failure = is_fresh ? begin() : std::nullopt;
+  std::optional<NoAnswer> begin_failure = is_fresh ? begin() : std::nullopt;
   command.ticket = ++ticket_;
   plugin_.exchange().progress = progress_of(ticket_, 0);
   if (begin_failure) return begin_failure;

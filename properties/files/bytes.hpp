@@ -214,23 +214,29 @@ void members(Archive& a, Eigen::Quaterniond& x) {
 }
 template <class Archive>
 void members(Archive& a, Pose& x) {
-  Vec3 position = x.position();
-  Eigen::Quaterniond orientation = x.orientation();
-  a(position, orientation);
-  if constexpr (Archive::reads) x = Pose(position, orientation);
+  if constexpr (Archive::reads) {
+    const auto position = a.template next<Vec3>();
+    x = Pose(position, a.template next<Eigen::Quaterniond>());
+  } else {
+    a(x.position(), x.orientation());
+  }
 }
 template <class Archive>
 void members(Archive& a, Plane& x) {
-  Vec3 normal = x.normal();
-  double displacement = x.displacement();
-  a(normal, displacement);
-  if constexpr (Archive::reads) x = Plane(normal, displacement);
+  if constexpr (Archive::reads) {
+    const auto normal = a.template next<Vec3>();
+    x = Plane(normal, a.template next<double>());
+  } else {
+    a(x.normal(), x.displacement());
+  }
 }
 template <class Archive>
 void members(Archive& a, Box& x) {
-  Vec3 half_extents = x.half_extents();
-  a(half_extents);
-  if constexpr (Archive::reads) x = Box(half_extents);
+  if constexpr (Archive::reads) {
+    x = Box(a.template next<Vec3>());
+  } else {
+    a(x.half_extents());
+  }
 }
 template <class Archive>
 void members(Archive& a, Configuration& x) {
