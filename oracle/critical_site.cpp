@@ -65,7 +65,7 @@ class Search {
 Search::Search(const Difference& difference, double slack)
     : exact_(difference),
       difference_(difference),
-      threshold_((Interval(slack) * difference_.metre).sup()) {}
+      threshold_(Interval(slack) * difference_.metre) {}
 
 /// d minus the ends of the segments that `signs` selects.
 IntervalVector Search::vertex(unsigned signs) const {

@@ -79,18 +79,19 @@ struct IntervalDifference {
 /// The largest proven gap so far, minus a slack: directions with a smaller gap do not matter.
 class GapThreshold {
  public:
-  explicit GapThreshold(double slack) : slack_(slack) {}
+  explicit GapThreshold(const Interval& slack) : slack_(slack) {}
 
   /// Raises the threshold to a gap that is proven for some direction.
   void raise(const Interval& gap) {
-    best_ = std::max(best_, gap.inf());
-    threshold_ = (Interval(best_) - Interval(slack_)).inf();
+    if (!(gap.inf() > best_)) return;  // of lengths next to the least double nothing may be proven
+    best_ = gap.inf();
+    threshold_ = (Interval(best_) - slack_).inf();
   }
   /// Is every number of the interval below the threshold? False for NaN.
   bool is_above(const Interval& gap) const { return gap.sup() < threshold_; }
 
  private:
-  double slack_;
+  Interval slack_;  // may reach infinity
   double best_ = -std::numeric_limits<double>::infinity();
   double threshold_ = best_;
 };
