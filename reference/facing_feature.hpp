@@ -35,7 +35,7 @@ struct FacingFeature {
 /// How large a part of a feature of this half length, which leans by `sine`, faces the other body,
 /// from its end that is nearest to it on: all while a tenth of it lies within `slack` of that end
 /// (of faces, to which `all_up_to` is 0.5, a fifth), less and less as it leans further, and none
-/// (0) where a twelfth does; the same up to `max_sine`, which small features reach first.
+/// (0) where an eleventh does; the same up to `max_sine`, which small features reach first.
 /// Continuous, but for parts of a millionth, so that no feature ends to face the other body all at
 /// once.
 inline double facing_part(double half_length, double sine, double slack, double max_sine = 0.1,
