@@ -147,8 +147,9 @@ std::optional<NoAnswer> PluginSessions::obey(SessionCommand command, std::size_t
       next_check = time + check_interval;
       const std::uint64_t now = plugin_.exchange().progress;
       const auto number = static_cast<double>(configurations);
-      if (!computed || (now > progress && now <= progress_of(ticket_, command.count))) {
-        progress = now;
+      const bool has_advanced = now > progress && now <= progress_of(ticket_, command.count);
+      if (has_advanced) progress = now;  // or else it may have been overwritten
+      if (!computed || has_advanced) {
         computed = processor_seconds(session_);
         watch.reset();
         next_judgement = time + wait_interval;

@@ -277,7 +277,7 @@ void overwrite_and_crash() {
   crash();
 }
 void overwrite_and_wait() {
-  overwrite_shared(0);
+  overwrite_shared(0xff);
   wait_for_ever();
 }
 void unmap_shared() {
